@@ -1,0 +1,48 @@
+//! What can be wrong with a file: every error names the file, the place in it, what was expected and what was found.
+
+use std::path::{Path, PathBuf};
+use thiserror::Error;
+
+/// Why something could not be read or written.
+#[derive(Debug, Error)]
+pub enum DataError {
+    /// The system refused.
+    #[error("{}: {error}", file.display())]
+    Io {
+        /// The file or folder.
+        file: PathBuf,
+        /// What the system said.
+        error: std::io::Error,
+    },
+    /// The file holds something else than it should.
+    #[error("{}: {place}: expected {expected}, found {found}", file.display())]
+    Content {
+        /// The file or folder.
+        file: PathBuf,
+        /// Line, byte, key or column.
+        place: String,
+        /// What the format asks for.
+        expected: String,
+        /// What is there.
+        found: String,
+    },
+}
+
+impl DataError {
+    /// For `map_err`: the system refused to read or write `file`.
+    pub fn io(file: impl Into<PathBuf>) -> impl FnOnce(std::io::Error) -> Self {
+        let file = file.into();
+        move |error| Self::Io { file, error }
+    }
+
+    /// The file holds something else than it should.
+    pub fn content(
+        file: &Path,
+        place: impl Into<String>,
+        expected: impl Into<String>,
+        found: impl Into<String>,
+    ) -> Self {
+        let (place, expected, found) = (place.into(), expected.into(), found.into());
+        Self::Content { file: file.to_owned(), place, expected, found }
+    }
+}

@@ -1,0 +1,38 @@
+//! Images, as a camera and as a depth network deliver them.
+
+use serde::{Deserialize, Serialize};
+
+/// An 8-bit colour image.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct CameraImage {
+    /// px.
+    pub width: usize,
+    /// px.
+    pub height: usize,
+    /// Red, green, blue, row by row from the top.
+    pub rgb: Vec<[u8; 3]>,
+}
+
+/// What a depth network gave for one view.
+#[derive(Debug, Clone, PartialEq)]
+pub struct DepthImage {
+    /// px.
+    pub width: usize,
+    /// px.
+    pub height: usize,
+    /// Row by row from the top; NaN and values of 0 or below mean no depth.
+    pub values: Vec<f32>,
+}
+
+/// The meaning of a depth image's values.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum DepthOutput {
+    /// Relative depth: larger is farther.
+    #[default]
+    Depth,
+    /// Relative disparity: larger is nearer.
+    Disparity,
+    /// Depth in metres.
+    Metric,
+}

@@ -1,0 +1,26 @@
+//! Cameras: how they see, and the depth of what they see (METHOD 5).
+
+mod image;
+pub mod intrinsics;
+
+pub use image::{CameraImage, DepthImage, DepthOutput};
+pub use intrinsics::{Intrinsics, View};
+
+use crate::geometry::Transform;
+
+/// A camera: its mounting, its lens, and the straight views that are cut out of its image.
+#[derive(Debug, Clone)]
+pub struct Camera {
+    /// Unique in its rig.
+    pub name: String,
+    /// Extrinsics, of the optical frame (x right, y down, z forward).
+    pub vehicle_from_camera: Transform,
+    /// Image width, px.
+    pub width: usize,
+    /// Image height, px.
+    pub height: usize,
+    /// How directions become pixels.
+    pub intrinsics: Intrinsics,
+    /// The straight views, as configured. Empty: one view along the axis, of the image's size.
+    pub views: Vec<View>,
+}

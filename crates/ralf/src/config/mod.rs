@@ -1,0 +1,268 @@
+//! Every setting of the labeler (METHOD 12). `config/default.toml` says what each one means, with its unit and range.
+
+mod sensors;
+mod validate;
+
+pub use sensors::SensorOverride;
+pub use validate::ConfigError;
+
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+
+/// All settings. Every key of the file is optional, and unknown keys are refused.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Config {
+    /// Of every random choice.
+    pub seed: u64,
+    /// Which measurements belong together.
+    pub sync: SyncConfig,
+    /// The ground, and what lies on it.
+    pub ground: GroundConfig,
+    /// LiDAR matching.
+    pub lidar: LidarConfig,
+    /// Camera matching.
+    pub camera: CameraConfig,
+    /// Tracking.
+    pub tracking: TrackingConfig,
+    /// Fusion and label.
+    pub fusion: FusionConfig,
+    /// By sensor name: what replaces the recording's own values.
+    pub sensors: BTreeMap<String, SensorOverride>,
+}
+
+/// `sync`: which measurements belong together.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct SyncConfig {
+    /// Largest time between a radar scan (or an image) and the LiDAR scan used with it, ms.
+    pub lidar_tolerance_ms: f64,
+    /// Largest time between a radar scan and an image, ms.
+    pub camera_tolerance_ms: f64,
+}
+
+/// Which ground the recording has.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum GroundModel {
+    /// No ground: nothing is removed.
+    None,
+    /// z = 0 of the vehicle frame.
+    Flat,
+    /// One plane by RANSAC (the paper's).
+    Plane,
+    /// A plane per concentric sector.
+    Polar,
+}
+
+/// `ground`: the ground, and what lies on it.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct GroundConfig {
+    /// Which ground.
+    pub model: GroundModel,
+    /// Largest tilt of the plane, degrees.
+    pub max_tilt_deg: f64,
+    /// Largest distance of the plane from the vehicle's origin, m.
+    pub max_offset: f64,
+    /// A point this close to the plane belongs to it, m.
+    pub inlier_distance: f64,
+    /// LiDAR points lower than this above the ground are ground, m.
+    pub lidar_margin: f64,
+    /// Camera points lower than this above the ground are ground, m.
+    pub camera_margin: f64,
+    /// Detections lower than this above the ground are floor detections, m.
+    pub radar_clearance: f64,
+    /// Standard deviations of its own height that a floor detection must lie below the clearance; 0 is the paper's.
+    pub radar_sigmas: f64,
+}
+
+/// `lidar`: LiDAR matching.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct LidarConfig {
+    /// Whether the branch is used.
+    pub enabled: bool,
+    /// `beta_lm`.
+    pub beta: f64,
+    /// `K`.
+    pub neighbours: usize,
+}
+
+/// How relative depth becomes metric.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum DepthScaling {
+    /// Each pixel by its nearest LiDAR points (the paper's).
+    Local,
+    /// One scale per view, by RANSAC.
+    Ransac,
+    /// One scale per view, by Huber's M-estimator.
+    Huber,
+    /// Metric depth as it is.
+    None,
+}
+
+/// `camera`: camera matching.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct CameraConfig {
+    /// Whether the branch is used.
+    pub enabled: bool,
+    /// `beta_cm`.
+    pub beta: f64,
+    /// Nearest calibrated points per detection.
+    pub neighbours: usize,
+    /// Every stride-th pixel of every stride-th row is calibrated.
+    pub stride: usize,
+    /// How relative depth becomes metric.
+    pub scaling: DepthScaling,
+    /// Projected LiDAR points that calibrate a pixel.
+    pub scale_neighbours: usize,
+    /// A LiDAR point behind a nearer one within this window is hidden, px.
+    pub occlusion_window: f64,
+    /// Relative standard deviation of calibrated depth.
+    pub depth_sigma: f64,
+    /// Calibrated points farther than this are left out, m.
+    pub max_depth: f64,
+    /// Median relative residual above which a view has failed.
+    pub max_residual: f64,
+    /// Projected LiDAR points below which a view has failed.
+    pub min_samples: usize,
+    /// Mean 8-bit luminance below which a view has failed.
+    pub min_luminance: f64,
+}
+
+/// Whose scans a radar's detections are sought in.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum TrackingSources {
+    /// The same radar's (the paper's).
+    Same,
+    /// Every radar's.
+    All,
+}
+
+/// `tracking`: the neighbouring radar scans.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct TrackingConfig {
+    /// Whether the branch is used.
+    pub enabled: bool,
+    /// `beta_tr`.
+    pub beta: f64,
+    /// `n_b`: scans before and after.
+    pub scans: usize,
+    /// Nearest detections in each scan.
+    pub neighbours: usize,
+    /// Bounds every `d_j`; the value of an empty scan.
+    pub max_mismatch: f64,
+    /// Whose scans.
+    pub sources: TrackingSources,
+    /// Also try each detection where its Doppler velocity takes it.
+    pub dynamic: bool,
+    /// Two scans in a row farther apart than this end the batch, ms.
+    pub max_gap_ms: f64,
+}
+
+/// `fusion`: fusion and label.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct FusionConfig {
+    /// `alpha`: the share of `w_opt`.
+    pub alpha: f64,
+    /// `w0`.
+    pub threshold: f64,
+}
+
+impl Default for SyncConfig {
+    fn default() -> Self {
+        Self { lidar_tolerance_ms: 60.0, camera_tolerance_ms: 60.0 }
+    }
+}
+
+impl Default for GroundConfig {
+    fn default() -> Self {
+        Self {
+            model: GroundModel::Plane,
+            max_tilt_deg: 10.0,
+            max_offset: 0.5,
+            inlier_distance: 0.15,
+            lidar_margin: 0.20,
+            camera_margin: 0.30,
+            radar_clearance: 0.10,
+            radar_sigmas: 0.0,
+        }
+    }
+}
+
+impl Default for LidarConfig {
+    fn default() -> Self {
+        Self { enabled: true, beta: 0.2, neighbours: 3 }
+    }
+}
+
+impl Default for CameraConfig {
+    fn default() -> Self {
+        Self {
+            enabled: true,
+            beta: 0.2,
+            neighbours: 3,
+            stride: 8,
+            scaling: DepthScaling::Local,
+            scale_neighbours: 3,
+            occlusion_window: 6.0,
+            depth_sigma: 0.10,
+            max_depth: 40.0,
+            max_residual: 0.30,
+            min_samples: 50,
+            min_luminance: 10.0,
+        }
+    }
+}
+
+impl Default for TrackingConfig {
+    fn default() -> Self {
+        Self {
+            enabled: true,
+            beta: 0.2,
+            scans: 5,
+            neighbours: 1,
+            max_mismatch: 20.0,
+            sources: TrackingSources::Same,
+            dynamic: false,
+            max_gap_ms: 500.0,
+        }
+    }
+}
+
+impl Default for FusionConfig {
+    fn default() -> Self {
+        Self { alpha: 0.5, threshold: 0.5 }
+    }
+}
+
+/// A duration in the unit of timestamps.
+pub(crate) fn nanoseconds(ms: f64) -> i64 {
+    // Saturates: a tolerance of a million years means "any".
+    (ms * 1e6).round() as i64
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn default_toml_is_the_default() {
+        let text = include_str!("../../../../config/default.toml");
+        assert_eq!(Config::from_toml(text, &[]).unwrap(), Config::default());
+        // Each key stands there, so that the page is complete.
+        let table: toml::Table = text.parse().unwrap();
+        let written = toml::Table::try_from(Config::default()).unwrap();
+        for (section, keys) in written.iter().filter_map(|(name, value)| Some((name, value.as_table()?))) {
+            for key in keys.keys() {
+                assert!(table[section].get(key).is_some(), "config/default.toml lacks {section}.{key}");
+            }
+        }
+    }
+}

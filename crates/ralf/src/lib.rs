@@ -1,0 +1,8 @@
+//! RALF, the Radar Artifact Labeling Framework.
+pub mod camera;
+pub mod config;
+pub mod geometry;
+pub mod measurement;
+pub mod motion;
+pub mod rig;
+pub mod source;
