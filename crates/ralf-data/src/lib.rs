@@ -1,6 +1,7 @@
 //! Recordings in and labels out: readers and writers of the formats that RALF knows.
 
 mod error;
+mod files;
 mod recording;
 
 pub use error::DataError;

@@ -1,0 +1,81 @@
+//! Bytes on disk: reading whole files, rows of float32, and writing so that a file appears whole or not at all.
+
+use crate::DataError;
+use std::fs;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+/// The whole file.
+pub(crate) fn read(file: &Path) -> Result<Vec<u8>, DataError> {
+    fs::read(file).map_err(DataError::io(file))
+}
+
+/// The whole file as UTF-8 text.
+pub(crate) fn read_text(file: &Path) -> Result<String, DataError> {
+    String::from_utf8(read(file)?).map_err(|error| {
+        DataError::content(
+            file,
+            format!("byte {}", error.utf8_error().valid_up_to()),
+            "UTF-8 text",
+            "other bytes",
+        )
+    })
+}
+
+/// A file of packed little-endian float32 rows, as one vector per column.
+pub(crate) fn read_f32_columns(file: &Path, columns: usize) -> Result<Vec<Vec<f32>>, DataError> {
+    let bytes = read(file)?;
+    let row_bytes = columns * size_of::<f32>();
+    if bytes.len() % row_bytes != 0 {
+        let whole = bytes.len() / row_bytes * row_bytes;
+        return Err(DataError::content(
+            file,
+            format!("byte {whole}"),
+            format!("rows of {columns} float32 ({row_bytes} bytes)"),
+            format!("{} bytes left over at the end", bytes.len() - whole),
+        ));
+    }
+    let values = bytes.as_chunks::<4>().0;
+    let column = |first| values.iter().skip(first).step_by(columns).map(|b| f32::from_le_bytes(*b)).collect();
+    Ok((0..columns).map(column).collect())
+}
+
+/// Writes a file whole or not at all: beside its place first, then renamed. Folders are made as needed.
+pub(crate) fn write_whole(file: &Path, bytes: &[u8]) -> Result<(), DataError> {
+    if let Some(folder) = file.parent() {
+        fs::create_dir_all(folder).map_err(DataError::io(folder))?;
+    }
+    let beside = beside(file);
+    let written = fs::File::create(&beside).and_then(|mut open| open.write_all(bytes));
+    if let Err(error) = written.and_then(|()| fs::rename(&beside, file)) {
+        // The half-written file is of no use to anyone; the error that matters is the first one.
+        let _ = fs::remove_file(&beside);
+        return Err(DataError::Io { file: file.to_owned(), error });
+    }
+    Ok(())
+}
+
+/// Where a file is written before it is renamed.
+pub(crate) fn beside(file: &Path) -> PathBuf {
+    let mut name = file.file_name().unwrap_or_default().to_owned();
+    name.push(".part");
+    file.with_file_name(name)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rows_become_columns_and_a_cut_row_is_named() {
+        let folder = tempfile::tempdir().unwrap();
+        let file = folder.path().join("a/000000.bin");
+        let bytes: Vec<u8> = [1.0f32, 2.0, 3.0, 4.0].iter().flat_map(|v| v.to_le_bytes()).collect();
+        write_whole(&file, &bytes).unwrap();
+        assert_eq!(read_f32_columns(&file, 2).unwrap(), [[1.0, 3.0], [2.0, 4.0]]);
+        write_whole(&file, &bytes[..15]).unwrap();
+        let error = read_f32_columns(&file, 2).unwrap_err().to_string();
+        assert!(error.contains("000000.bin: byte 8: expected rows of 2 float32"), "{error}");
+        assert!(!beside(&file).exists());
+    }
+}
