@@ -1,0 +1,3 @@
+//! SemanticKITTI ids.
+/// 0.
+pub const UNLABELED: u16 = 0;
