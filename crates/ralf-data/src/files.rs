@@ -2,7 +2,7 @@
 
 use crate::DataError;
 use std::fs;
-use std::io::Write;
+use std::io::{ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
 /// The whole file.
@@ -38,6 +38,31 @@ pub(crate) fn read_f32_columns(file: &Path, columns: usize) -> Result<Vec<Vec<f3
     let values = bytes.as_chunks::<4>().0;
     let column = |first| values.iter().skip(first).step_by(columns).map(|b| f32::from_le_bytes(*b)).collect();
     Ok((0..columns).map(column).collect())
+}
+
+/// The names of all that lies in a folder, sorted, hidden ones left out; empty where there is no such folder.
+pub(crate) fn names(folder: &Path) -> Result<Vec<String>, DataError> {
+    let entries = match fs::read_dir(folder) {
+        Err(error) if error.kind() == ErrorKind::NotFound => return Ok(Vec::new()),
+        entries => entries.map_err(DataError::io(folder))?,
+    };
+    let mut names = Vec::new();
+    for entry in entries {
+        let name = entry.map_err(DataError::io(folder))?.file_name().into_string().map_err(|name| {
+            DataError::content(folder, "file names", "UTF-8 text", format!("`{}`", name.display()))
+        })?;
+        names.push(name);
+    }
+    names.retain(|name| !name.starts_with('.'));
+    names.sort_unstable();
+    Ok(names)
+}
+
+/// The names of the folders in a folder, sorted, hidden ones left out; empty where there is no such folder.
+pub(crate) fn folders(folder: &Path) -> Result<Vec<String>, DataError> {
+    let mut names = names(folder)?;
+    names.retain(|name| folder.join(name).is_dir());
+    Ok(names)
 }
 
 /// Writes a file whole or not at all: beside its place first, then renamed. Folders are made as needed.

@@ -1,8 +1,14 @@
 //! Recordings in and labels out: readers and writers of the formats that RALF knows.
 
 mod error;
+mod evaluation;
 mod files;
+mod ground_truth;
+mod label_file;
 mod recording;
 
 pub use error::DataError;
+pub use evaluation::Comparison;
+pub use ground_truth::{GroundTruth, ScanId};
+pub use label_file::{Label, read_labels, write_labels};
 pub use recording::{Recording, SequenceReader};

@@ -25,6 +25,7 @@ pub mod label;
 pub mod labeler;
 pub mod lidar;
 pub mod measurement;
+pub mod metrics;
 pub mod mismatch;
 pub mod motion;
 pub mod neighbors;
