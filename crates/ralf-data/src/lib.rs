@@ -5,7 +5,9 @@ mod evaluation;
 mod files;
 mod ground_truth;
 mod label_file;
+pub mod output;
 mod recording;
+pub mod run;
 
 pub use error::DataError;
 pub use evaluation::Comparison;
