@@ -66,12 +66,11 @@ fn street(dice: &mut Dice, count: usize, spread: f64) -> Vec<[f64; 2]> {
 fn scan() -> Result<Vec<u8>, ralf_plot::PlotError> {
     let mut dice = Dice(7);
     let mut lidar = street(&mut dice, 26_000, 0.15);
-    for ring in 0..14 {
-        let radius = 3.4 * 1.17f64.powi(ring);
-        lidar.extend((0..900).map(|step| {
-            let angle = f64::from(step) * 0.006_981;
-            [radius * angle.cos(), (radius * angle.sin()).clamp(-10.4, 10.9)]
-        }));
+    for ring in 0..9 {
+        let radius = 4.2 * 1.24f64.powi(ring);
+        let turn = (0..500).map(|step| f64::from(step) * 0.012_566);
+        let ground = turn.map(|angle| dice.near([radius * angle.cos(), radius * angle.sin()], 0.06));
+        lidar.extend(ground.filter(|[_, y]| (-10.0..10.5).contains(y)));
     }
     let mark = |label: MarkLabel| move |[x, y]: [f64; 2]| Mark { x, y, label };
     let mut marks: Vec<Mark> =
@@ -113,7 +112,7 @@ fn overview() -> Result<Vec<u8>, ralf_plot::PlotError> {
         let side = |offset: f64| [x - ahead[1] * offset, y + ahead[0] * offset];
         let broken = (x / 35.0).sin() > -0.6;
         for offset in [left, -left + 1.5].into_iter().filter(|_| broken) {
-            lidar.extend((0..40).map(|_| dice.near(side(offset), 0.4)));
+            lidar.extend((0..40).map(|_| dice.near(side(offset * 1.1), 1.6)));
             let solid: Vec<[f64; 2]> = (0..35).map(|_| dice.near(side(offset), 0.9)).collect();
             marks.extend(solid.into_iter().map(|[x, y]| Mark { x, y, label: MarkLabel::Plausible }));
         }

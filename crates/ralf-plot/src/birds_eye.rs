@@ -94,7 +94,7 @@ fn ground(picture: &ScanPicture<'_>, typeface: &Typeface, width: f32, unit: f32)
     let mut panel = Panel::new(&window, width, HEIGHTS, unit)?;
     let ranges = panel.rings();
     panel.lidar(picture.lidar);
-    panel.ring_labels(&ranges, typeface);
+    panel.ring_labels(&ranges, picture.marks, typeface);
     panel.path(picture.path);
     for radar in picture.radars {
         radar.draw(&mut panel.canvas, &panel.viewport, 16.0 * unit);
@@ -166,6 +166,82 @@ fn entries(picture: &ScanPicture<'_>, counts: &Counts) -> Vec<Entry> {
     add(!picture.radars.is_empty(), Symbol::Wedge, "Radar".to_owned());
     add(!picture.path.is_empty(), Symbol::Line(PATH), "Path".to_owned());
     add(counts.outside > 0, Symbol::Nothing, format!("{} outside the view", count(counts.outside)));
-    add(counts.nowhere > 0, Symbol::Nothing, format!("{} without a place", count(counts.nowhere)));
+    add(counts.nowhere > 0, Symbol::Nothing, format!("{} without a position", count(counts.nowhere)));
     entries
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::palette::{ARTIFACT, PLAUSIBLE};
+
+    const AHEAD: Mark = Mark { x: 10.0, y: 0.0, label: MarkLabel::Plausible };
+    const LEFT: Mark = Mark { x: 0.0, y: 10.0, label: MarkLabel::Artifact };
+
+    /// Middle of all pixels of one colour: column and row.
+    fn middle(canvas: &Canvas, colour: [u8; 3], rows: std::ops::Range<u32>) -> [f64; 2] {
+        let [width, _] = canvas.size();
+        let pixels = rows.flat_map(|row| (0..width).map(move |column| [column, row]));
+        let hits: Vec<[u32; 2]> = pixels.filter(|pixel| canvas.rgb(*pixel) == colour).collect();
+        assert!(!hits.is_empty(), "{colour:?} is nowhere");
+        [0, 1].map(|axis| hits.iter().map(|hit| f64::from(hit[axis]) + 0.5).sum::<f64>() / hits.len() as f64)
+    }
+
+    #[test]
+    fn ahead_is_above_the_vehicle_and_left_is_left() {
+        let marks = [AHEAD, LEFT];
+        let picture = ScanPicture { extent: Extent::Radius(20.0), marks: &marks, ..ScanPicture::default() };
+        let canvas = draw(&picture).unwrap();
+        // Margins of 48, a square panel of 1504: the origin in its middle, 37.6 pixels per metre.
+        let origin = [800.0, 800.0];
+        let [column, row] = middle(&canvas, PLAUSIBLE.rgb, 0..1540);
+        assert!((column - origin[0]).abs() < 1.0 && (row - (origin[1] - 376.0)).abs() < 1.0);
+        let [column, row] = middle(&canvas, ARTIFACT.rgb, 0..1540);
+        assert!((column - (origin[0] - 376.0)).abs() < 1.0 && (row - origin[1]).abs() < 1.0);
+    }
+
+    #[test]
+    fn labels_differ_in_shape() {
+        let marks = [AHEAD, Mark { label: MarkLabel::Artifact, ..LEFT }];
+        let picture = ScanPicture { extent: Extent::Radius(20.0), marks: &marks, ..ScanPicture::default() };
+        let canvas = draw(&picture).unwrap();
+        // Beside its middle a disc is inked and a cross is not.
+        assert_eq!(canvas.rgb([800 + 5, 424]), PLAUSIBLE.rgb);
+        assert_ne!(canvas.rgb([424 + 5, 800]), ARTIFACT.rgb);
+        assert_eq!(canvas.rgb([424 + 3, 800 + 3]), ARTIFACT.rgb);
+    }
+
+    #[test]
+    fn the_legend_counts_everything() {
+        let nowhere = Mark { x: f64::NAN, y: 1.0, label: MarkLabel::Unlabelled };
+        let far = Mark { x: 4000.0, ..AHEAD };
+        let marks = [AHEAD, LEFT, nowhere, far];
+        let picture = ScanPicture { extent: Extent::Radius(20.0), marks: &marks, ..ScanPicture::default() };
+        let typeface = Typeface::load().unwrap();
+        let panel = ground(&picture, &typeface, 400.0, 0.25).unwrap();
+        let entries = entries(&picture, &Counts::of(&marks, &panel.viewport));
+        let texts: Vec<&str> = entries.iter().map(|entry| entry.text.as_str()).collect();
+        assert_eq!(
+            texts,
+            [
+                "Plausible 2 (50 %)",
+                "Artifact 1 (25 %)",
+                "Unlabelled 1 (25 %)",
+                "1 outside the view",
+                "1 without a position"
+            ]
+        );
+    }
+
+    #[test]
+    fn where_there_is_no_detection_the_lidar_is_shown() {
+        let lidar = [[-200.0, 300.0], [200.0, -300.0]];
+        let picture = ScanPicture { lidar: &lidar, ..ScanPicture::default() };
+        let panel = ground(&picture, &Typeface::load().unwrap(), 400.0, 0.25).unwrap();
+        assert!(
+            lidar
+                .iter()
+                .all(|place| { panel.viewport.contains(panel.viewport.pixel_from_world(*place), 0.0) })
+        );
+    }
 }

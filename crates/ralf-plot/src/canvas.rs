@@ -1,7 +1,8 @@
 //! A picture in the making, and the shapes that figures are made of. All lengths are pixels.
 
 use tiny_skia::{
-    FillRule, LineCap, LineJoin, Paint, Path, PathBuilder, Pixmap, PixmapPaint, Rect, Stroke, Transform,
+    FillRule, LineCap, LineJoin, Paint, Path, PathBuilder, Pixmap, PixmapPaint, Rect, Stroke, StrokeDash,
+    Transform,
 };
 
 use crate::error::PlotError;
@@ -60,6 +61,14 @@ impl Canvas {
         self.stroke(PathBuilder::from_circle(x, y, radius), width, ink);
     }
 
+    /// A circle's line in dashes, as long as the gaps between them.
+    pub(crate) fn dashed_circle(&mut self, [x, y]: [f32; 2], radius: f32, width: f32, dash: f32, ink: Ink) {
+        let stroke = Stroke { width, dash: StrokeDash::new(vec![dash, dash], 0.0), ..Stroke::default() };
+        if let Some(path) = PathBuilder::from_circle(x, y, radius) {
+            self.pixmap.stroke_path(&path, &paint(ink), &stroke, Transform::identity(), None);
+        }
+    }
+
     /// A saltire, its arms `radius` long along each axis.
     pub(crate) fn cross(&mut self, [x, y]: [f32; 2], radius: f32, width: f32, ink: Ink) {
         let mut path = PathBuilder::new();
@@ -83,6 +92,16 @@ impl Canvas {
     /// A polygon's line.
     pub(crate) fn polygon_line(&mut self, corners: &[[f32; 2]], width: f32, ink: Ink) {
         self.stroke(through(corners, true), width, ink);
+    }
+
+    /// A filled closed curve that is drawn towards each corner in turn and meets the polygon halfway between two.
+    pub(crate) fn curve(&mut self, corners: &[[f32; 2]], ink: Ink) {
+        self.fill(rounded(corners), ink);
+    }
+
+    /// The line of a closed curve.
+    pub(crate) fn curve_line(&mut self, corners: &[[f32; 2]], width: f32, ink: Ink) {
+        self.stroke(rounded(corners), width, ink);
     }
 
     /// A filled rectangle from its upper left corner.
@@ -126,6 +145,19 @@ fn through(points: &[[f32; 2]], closed: bool) -> Option<Path> {
     if closed {
         path.close();
     }
+    path.finish()
+}
+
+fn rounded(corners: &[[f32; 2]]) -> Option<Path> {
+    let halfway = |a: [f32; 2], b: [f32; 2]| [(a[0] + b[0]) / 2.0, (a[1] + b[1]) / 2.0];
+    let start = halfway(*corners.last()?, *corners.first()?);
+    let mut path = PathBuilder::new();
+    path.move_to(start[0], start[1]);
+    for (corner, next) in corners.iter().zip(corners.iter().cycle().skip(1)) {
+        let end = halfway(*corner, *next);
+        path.quad_to(corner[0], corner[1], end[0], end[1]);
+    }
+    path.close();
     path.finish()
 }
 

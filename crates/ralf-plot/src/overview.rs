@@ -136,6 +136,10 @@ fn numbers_along_x(canvas: &mut Canvas, typeface: &Typeface, panel: &Panel, [lef
     let right = left - 14.0 * unit;
     for x in multiples(panel.grid_step(), low, high) {
         let row = panel.viewport.pixel_from_world([x, y])[1];
+        // The name of x stands above the corner.
+        if row < 12.0 * unit {
+            continue;
+        }
         typeface.write(canvas, [right, top + row + 0.36 * style.size], Align::Right, &number(x), style);
     }
     typeface.write(canvas, [right, top - 20.0 * unit], Align::Right, "x (m)", style);
@@ -147,12 +151,12 @@ fn numbers_along_y(canvas: &mut Canvas, typeface: &Typeface, panel: &Panel, [lef
     let [[x, _], [low, high]] = panel.viewport.limits();
     let [width, height] = panel.viewport.size().map(|pixels| pixels as f32);
     let baseline = top + height + 32.0 * unit;
-    let mut free_until = left + width + 40.0 * unit;
+    let mut free_until = left + width + 18.0 * unit;
     for y in multiples(panel.grid_step(), low, high) {
         let text = number(y);
         let half = typeface.width(&text, style) / 2.0;
         let column = left + panel.viewport.pixel_from_world([x, y])[0];
-        if column + half <= free_until {
+        if column + half <= free_until && column - half >= left - 18.0 * unit {
             typeface.write(canvas, [column, baseline], Align::Middle, &text, style);
             free_until = column - half - 12.0 * unit;
         }
@@ -177,6 +181,41 @@ fn entries(picture: &OverviewPicture<'_>, counts: &Counts) -> Vec<Entry> {
     add(!picture.path.is_empty(), Symbol::Start, "Start".to_owned());
     add(picture.path.len() > 1, Symbol::End, "End".to_owned());
     add(counts.outside > 0, Symbol::Nothing, format!("{} outside the view", count(counts.outside)));
-    add(counts.nowhere > 0, Symbol::Nothing, format!("{} without a place", count(counts.nowhere)));
+    add(counts.nowhere > 0, Symbol::Nothing, format!("{} without a position", count(counts.nowhere)));
     entries
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::palette::PAPER;
+
+    #[test]
+    fn artifacts_are_on_the_left_alone() {
+        let mark = |x, label| Mark { x, y: 0.0, label };
+        let marks = [mark(10.0, MarkLabel::Plausible), mark(-10.0, MarkLabel::Artifact)];
+        let picture =
+            OverviewPicture { marks: &marks, extent: Extent::Radius(20.0), ..OverviewPicture::default() };
+        let window = picture.extent.window(marks.iter().map(Mark::place), &[]);
+        let [raw, plausible] = panels(&picture, &window, 400.0, 1.0).unwrap();
+        let at = |panel: &Panel, x: f64| {
+            let pixel = panel.viewport.pixel_from_world([x, 0.0]).map(|edge| edge as u32);
+            panel.canvas.rgb(pixel)
+        };
+        assert_eq!([at(&raw, 10.0), at(&raw, -10.0)], [RAW.rgb; 2]);
+        assert_eq!(at(&plausible, 10.0), PLAUSIBLE.rgb);
+        assert_ne!(at(&plausible, -10.0), RAW.rgb);
+        assert_eq!(plausible.canvas.rgb([50, 50]), PAPER.rgb);
+    }
+
+    #[test]
+    fn the_legend_gives_the_share_of_all() {
+        let mark = |label| Mark { x: 1.0, y: 2.0, label };
+        let marks =
+            [MarkLabel::Plausible, MarkLabel::Artifact, MarkLabel::Artifact, MarkLabel::Unlabelled].map(mark);
+        let picture = OverviewPicture { marks: &marks, ..OverviewPicture::default() };
+        let counts = Counts { plausible: 1, artifact: 2, unlabelled: 1, ..Counts::default() };
+        let texts: Vec<String> = entries(&picture, &counts).into_iter().map(|entry| entry.text).collect();
+        assert_eq!(texts, ["All detections 4", "Labelled plausible 1 (25 %)"]);
+    }
 }

@@ -5,11 +5,18 @@ use crate::dots::DotField;
 use crate::error::PlotError;
 use crate::extent::{Window, is_place};
 use crate::legend;
+use crate::marks::Mark;
 use crate::palette::{FAINT_TEXT, FRAME, GRID, LIDAR, PAPER, PATH, RING};
 use crate::scale::{metres, multiples, nice_at_most};
 use crate::text::{Align, Style, Typeface};
 use crate::vehicle::arrowhead;
 use crate::viewport::Viewport;
+
+/// Where the range may be written on a ring, degrees from ahead to the left, the preferred first.
+const LABEL_DIRECTIONS: [f64; 16] = [
+    -45.0, 45.0, -30.0, 30.0, -60.0, 60.0, -15.0, 15.0, -75.0, 75.0, -105.0, 105.0, -135.0, 135.0, 165.0,
+    -165.0,
+];
 
 /// A rectangle of ground in the making.
 pub(crate) struct Panel {
@@ -60,26 +67,36 @@ impl Panel {
         let ranges: Vec<f64> = multiples(step, step, farthest * std::f64::consts::SQRT_2).collect();
         let origin = self.viewport.pixel_from_world([0.0, 0.0]);
         for range in &ranges {
-            self.canvas.circle(origin, (range * self.viewport.scale()) as f32, 1.8 * self.unit, RING);
+            let radius = (range * self.viewport.scale()) as f32;
+            self.canvas.dashed_circle(origin, radius, 1.8 * self.unit, 7.0 * self.unit, RING);
         }
         ranges
     }
 
-    /// Writes each range onto its ring, ahead to the right or else where it can be seen.
-    pub(crate) fn ring_labels(&mut self, ranges: &[f64], typeface: &Typeface) {
-        let style = Style { size: 21.0 * self.unit, bold: false, ink: FAINT_TEXT };
+    /// Writes each range onto its ring, where it can be seen and hides the fewest of `marks`.
+    pub(crate) fn ring_labels(&mut self, ranges: &[f64], marks: &[Mark], typeface: &Typeface) {
+        let style = Style { size: 22.0 * self.unit, bold: false, ink: FAINT_TEXT };
+        let pixels: Vec<[f32; 2]> =
+            marks.iter().map(|mark| self.viewport.pixel_from_world(mark.place())).collect();
         for range in ranges {
             let text = metres(*range);
-            let half = [typeface.width(&text, style) / 2.0 + 6.0 * self.unit, 14.0 * self.unit];
-            let places = [-45f64, 45.0, -135.0, 135.0, 0.0, 180.0].map(|degrees| {
+            let half = [typeface.width(&text, style) / 2.0 + 6.0 * self.unit, 15.0 * self.unit];
+            let hidden = |[x, y]: &[f32; 2]| {
+                let near = |pixel: &&[f32; 2]| {
+                    (pixel[0] - x).abs() < half[0] + 8.0 * self.unit
+                        && (pixel[1] - y).abs() < half[1] + 8.0 * self.unit
+                };
+                pixels.iter().filter(near).count()
+            };
+            let places = LABEL_DIRECTIONS.map(|degrees| {
                 let (sin, cos) = degrees.to_radians().sin_cos();
                 self.viewport.pixel_from_world([range * cos, range * sin])
             });
-            if let Some([x, y]) =
-                places.into_iter().find(|at| self.viewport.contains(*at, half[0] + 4.0 * self.unit))
-            {
+            let visible =
+                places.into_iter().filter(|at| self.viewport.contains(*at, half[0] + 4.0 * self.unit));
+            if let Some([x, y]) = visible.min_by_key(hidden) {
                 let corner = [x - half[0], y - half[1]];
-                self.canvas.rectangle(corner, half.map(|length| 2.0 * length), PAPER.with_alpha(215));
+                self.canvas.rectangle(corner, half.map(|length| 2.0 * length), PAPER.with_alpha(225));
                 typeface.write(&mut self.canvas, [x, y + 0.36 * style.size], Align::Middle, &text, style);
             }
         }
@@ -91,16 +108,19 @@ impl Panel {
         field.paint(&mut self.canvas, LIDAR, field.full());
     }
 
-    /// The vehicle's way (x, y in m) as a thin line.
+    /// The vehicle's way (x, y in m) as a thin line with white edges.
     pub(crate) fn path(&mut self, path: &[[f64; 2]]) {
         let pixels: Vec<[f32; 2]> = path_pixels(path, &self.viewport, self.unit);
         let [columns, rows] = self.viewport.size().map(|pixels| pixels as f32);
-        for pair in pixels.windows(2) {
+        let seen = |pair: &&[[f32; 2]]| {
             let beyond = |axis: usize, size: f32| {
                 pair.iter().all(|pixel| pixel[axis] < 0.0) || pair.iter().all(|pixel| pixel[axis] > size)
             };
-            if !beyond(0, columns) && !beyond(1, rows) {
-                self.canvas.line(pair, 3.0 * self.unit, PATH);
+            !beyond(0, columns) && !beyond(1, rows)
+        };
+        for (width, ink) in [(8.0, PAPER), (3.4, PATH)] {
+            for pair in pixels.windows(2).filter(seen) {
+                self.canvas.line(pair, width * self.unit, ink);
             }
         }
     }

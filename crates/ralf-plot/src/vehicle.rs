@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use crate::canvas::Canvas;
-use crate::palette::{RADAR, VEHICLE, VEHICLE_EDGE, VEHICLE_GLASS};
+use crate::palette::{PAPER, RADAR, VEHICLE, VEHICLE_EDGE, VEHICLE_GLASS};
 use crate::viewport::Viewport;
 
 /// The vehicle's size. Its origin is the rear axle's centre.
@@ -61,26 +61,23 @@ impl VehicleOutline {
 fn body(canvas: &mut Canvas, [left, front]: [f32; 2], [width, length]: [f32; 2], line: f32) {
     let at = |across: f32, along: f32| [left + width * across, front + length * along];
     let outline = [
-        (0.0, 0.12),
-        (0.05, 0.05),
-        (0.18, 0.012),
-        (0.5, 0.0),
-        (0.82, 0.012),
-        (0.95, 0.05),
-        (1.0, 0.12),
-        (1.0, 0.92),
-        (0.95, 0.975),
-        (0.82, 1.0),
-        (0.18, 1.0),
-        (0.05, 0.975),
-        (0.0, 0.92),
+        (0.03, 0.0),
+        (0.5, -0.015),
+        (0.97, 0.0),
+        (1.005, 0.2),
+        (1.005, 0.8),
+        (0.97, 1.0),
+        (0.5, 1.01),
+        (0.03, 1.0),
+        (-0.005, 0.8),
+        (-0.005, 0.2),
     ]
     .map(|(across, along)| at(across, along));
-    let windscreen = [(0.1, 0.34), (0.5, 0.28), (0.9, 0.34), (0.8, 0.44), (0.2, 0.44)]
+    let windscreen = [(0.1, 0.35), (0.5, 0.25), (0.9, 0.35), (0.83, 0.45), (0.5, 0.41), (0.17, 0.45)]
         .map(|(across, along)| at(across, along));
-    canvas.polygon(&outline, VEHICLE);
-    canvas.polygon(&windscreen, VEHICLE_GLASS);
-    canvas.polygon_line(&outline, line, VEHICLE_EDGE);
+    canvas.curve(&outline, VEHICLE);
+    canvas.curve(&windscreen, VEHICLE_GLASS);
+    canvas.curve_line(&outline, line, VEHICLE_EDGE);
     canvas.line(&[at(0.5, 0.86), at(0.5, 0.56)], line, VEHICLE_EDGE);
     canvas.line(&[at(0.32, 0.66), at(0.5, 0.55), at(0.68, 0.66)], line, VEHICLE_EDGE);
 }
@@ -92,7 +89,7 @@ pub(crate) fn arrowhead(canvas: &mut Canvas, at: [f32; 2], direction: [f32; 2], 
         [at[0] + length * (along * ahead - across * down), at[1] + length * (along * down + across * ahead)]
     };
     let corners = [corner(0.5, 0.0), corner(-0.5, 0.38), corner(-0.28, 0.0), corner(-0.5, -0.38)];
-    canvas.polygon_line(&corners, 4.0 * unit, crate::palette::PAPER);
+    canvas.polygon_line(&corners, 4.0 * unit, PAPER);
     canvas.polygon(&corners, VEHICLE_EDGE);
 }
 

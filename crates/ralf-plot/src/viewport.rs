@@ -87,7 +87,7 @@ mod tests {
     proptest! {
         #[test]
         fn world_to_pixel_and_back(
-            cx in -1e6..1e6, cy in -1e6..1e6, dx in -50.0..50.0, dy in -25.0..25.0,
+            cx in -1e6..1e6f64, cy in -1e6..1e6f64, dx in -50.0..50.0f64, dy in -25.0..25.0f64,
         ) {
             let view = view([cx, cy]);
             let pixel = view.pixel_from_world([cx + dx, cy + dy]);
