@@ -1,4 +1,4 @@
-//! Text on a canvas, in Noto Sans.
+//! Text on a canvas, in Noto Sans (SIL Open Font License 1.1).
 
 use ab_glyph::{Font, FontRef, Glyph, PxScale, ScaleFont};
 
