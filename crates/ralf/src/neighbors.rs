@@ -14,6 +14,8 @@ const CELL: f32 = 1.0;
 const REACH: f32 = 256.0;
 /// Rounding may put a point that lies on a cell's border into the next one; bounds are loosened by this, m.
 const SLACK: f32 = 1e-3;
+/// Cells to each side of the query's column that are searched first in a row.
+const MIDDLE: usize = 2;
 /// Distances are computed for this many points at a time.
 const LANES: usize = 16;
 
@@ -34,6 +36,8 @@ pub struct NeighborIndex {
     rows: usize,
     /// Where each cell's points begin, row by row, and the end.
     starts: Vec<u32>,
+    /// How many points lie in the cells before each one, column by column: tells at once that a stretch of a column is empty.
+    before: Vec<u32>,
     xs: Vec<f32>,
     ys: Vec<f32>,
     zs: Vec<f32>,
@@ -49,11 +53,8 @@ impl NeighborIndex {
         for &cell in &cells {
             index.starts[cell as usize + 1] += 1;
         }
-        let mut total = 0;
-        for start in &mut index.starts {
-            total += *start;
-            *start = total;
-        }
+        running_sum(&mut index.starts);
+        index.count_columns();
         let mut next = index.starts.clone();
         for ((point, id), cell) in points.iter().zip(ids).zip(cells) {
             let place = next[cell as usize] as usize;
@@ -77,11 +78,21 @@ impl NeighborIndex {
             columns,
             rows,
             starts: vec![0; columns * rows + 1],
+            before: vec![0; columns * rows + 1],
             xs: vec![0.0; n],
             ys: vec![0.0; n],
             zs: vec![0.0; n],
             ids: vec![0; n],
         }
+    }
+
+    fn count_columns(&mut self) {
+        for row in 0..self.rows {
+            for column in 0..self.columns {
+                self.before[column * self.rows + row + 1] = self.run(row, column, column).len() as u32;
+            }
+        }
+        running_sum(&mut self.before);
     }
 
     /// How many points.
@@ -97,39 +108,82 @@ impl NeighborIndex {
     /// The `k` points nearest to the query, nearest first, fewer when the cloud has fewer. Of equal distances the
     /// smaller identity is the nearer. `found` is overwritten, so that many searches share one allocation.
     pub fn nearest(&self, query: [f32; 3], k: usize, found: &mut Vec<Neighbor>) {
+        self.nearest_within(query, k, f32::INFINITY, found);
+    }
+
+    /// As [`Self::nearest`], but finds nothing where it can tell that no point lies within `reach`, m.
+    pub fn nearest_within(&self, query: [f32; 3], k: usize, reach: f32, found: &mut Vec<Neighbor>) {
         found.clear();
         if self.is_empty() || k == 0 {
             return;
         }
+        let at = self.place_of(query[0], query[1]);
         let mut search = Search { query, k: k.min(self.len()), worst: f32::INFINITY, found };
-        let ([gx, gy], [cx, cy]) = self.place_of(query[0], query[1]);
         for ring in 0..self.columns.max(self.rows) {
-            if search.is_done(self.bound([gx, gy], [cx, cy], ring)) {
+            let bound = self.bound(&at, ring);
+            if search.is_done(bound) || (bound > reach && search.found.is_empty()) {
                 break;
             }
-            self.search_ring(&mut search, [cx, cy], ring);
+            self.search_ring(&mut search, &at, ring);
         }
     }
 
-    fn search_ring(&self, search: &mut Search, [cx, cy]: [usize; 2], ring: usize) {
-        let (left, right) = (cx.saturating_sub(ring), (cx + ring).min(self.columns - 1));
-        // The cells of a row lie side by side, so that the ring's upper and lower edge are one run of points each.
+    fn search_ring(&self, search: &mut Search, at: &Place, ring: usize) {
+        let [cx, cy] = at.cell;
+        // The cells of a row lie side by side, so that the ring's lower and upper edge are one run of points each.
         if ring <= cy {
-            search.scan(self, self.run(cy - ring, left, right));
+            self.search_row(search, at, ring, cy - ring);
         }
         if ring > 0 && cy + ring < self.rows {
-            search.scan(self, self.run(cy + ring, left, right));
+            self.search_row(search, at, ring, cy + ring);
         }
-        if ring == 0 {
+        if ring > 0 && ring <= cx {
+            self.search_column(search, at, ring, cx - ring);
+        }
+        if ring > 0 && cx + ring < self.columns {
+            self.search_column(search, at, ring, cx + ring);
+        }
+    }
+
+    /// The ring's cells in a row, as far as they can hold a point that is near enough: the middle ones first, for what they
+    /// hold leaves less of the others.
+    fn search_row(&self, search: &mut Search, at: &Place, ring: usize, row: usize) {
+        let away = distance_to_cell(at.y, row);
+        let column = at.cell[0];
+        let (first, last) = stretch(at.x, column, ring.min(MIDDLE), search.reach_beside(away), self.columns);
+        if first <= last {
+            search.scan(self, self.run(row, first, last));
+        }
+        if ring <= MIDDLE {
             return;
         }
-        let (low, high) = ((cy + 1).saturating_sub(ring), (cy + ring).min(self.rows));
-        for row in low..high {
-            if ring <= cx {
-                search.scan(self, self.run(row, cx - ring, cx - ring));
+        let (left, right) = stretch(at.x, column, ring, search.reach_beside(away), self.columns);
+        if left + MIDDLE < column {
+            search.scan(self, self.run(row, left, column - MIDDLE - 1));
+        }
+        if column + MIDDLE < right {
+            search.scan(self, self.run(row, column + MIDDLE + 1, right));
+        }
+    }
+
+    /// The ring's cells in a column, its corners apart, from the middle outward.
+    fn search_column(&self, search: &mut Search, at: &Place, ring: usize, column: usize) {
+        let away = distance_to_cell(at.x, column);
+        let (low, high) = stretch(at.y, at.cell[1], ring - 1, search.reach_beside(away), self.rows);
+        let first = column * self.rows;
+        if low > high || self.before[first + low] == self.before[first + high + 1] {
+            return;
+        }
+        for step in 0..ring {
+            if step as f32 > search.reach_beside(away) + 1.0 {
+                break;
             }
-            if cx + ring < self.columns {
-                search.scan(self, self.run(row, cx + ring, cx + ring));
+            let row = at.cell[1];
+            if step <= row {
+                search.scan(self, self.run(row - step, column, column));
+            }
+            if step > 0 && row + step < self.rows {
+                search.scan(self, self.run(row + step, column, column));
             }
         }
     }
@@ -141,34 +195,57 @@ impl NeighborIndex {
     }
 
     /// No point of this ring or a later one lies nearer than this, m. Sides beyond the grid hold no points.
-    fn bound(&self, [gx, gy]: [f32; 2], [cx, cy]: [usize; 2], ring: usize) -> f32 {
-        let mut bound = f32::INFINITY;
-        let mut side = |exists: bool, distance: f32| {
-            if exists {
-                bound = bound.min(distance);
-            }
+    fn bound(&self, at: &Place, ring: usize) -> f32 {
+        let side = |place: f32, cell: usize, cells: usize| {
+            let below = if cell >= ring { place - (cell + 1) as f32 + ring as f32 } else { f32::INFINITY };
+            let above = if cell + ring < cells { (cell + ring) as f32 - place } else { f32::INFINITY };
+            below.min(above)
         };
-        side(cx >= ring, gx - (cx + 1) as f32 + ring as f32);
-        side(cx + ring < self.columns, (cx + ring) as f32 - gx);
-        side(cy >= ring, gy - (cy + 1) as f32 + ring as f32);
-        side(cy + ring < self.rows, (cy + ring) as f32 - gy);
-        (bound * CELL - SLACK).max(0.0)
+        let nearest = side(at.x, at.cell[0], self.columns).min(side(at.y, at.cell[1], self.rows));
+        (nearest * CELL - SLACK).max(0.0)
     }
 
-    /// Where a point lies in the grid, in cells, and in which cell; points outside are clamped.
-    fn place_of(&self, x: f32, y: f32) -> ([f32; 2], [usize; 2]) {
+    fn place_of(&self, x: f32, y: f32) -> Place {
         let place = |value: f32, origin: f32, cells: usize| {
             let place = ((value - origin) / CELL).clamp(0.0, cells as f32);
             (place, (place as usize).min(cells - 1))
         };
-        let ((gx, cx), (gy, cy)) =
+        let ((x, column), (y, row)) =
             (place(x, self.origin[0], self.columns), place(y, self.origin[1], self.rows));
-        ([gx, gy], [cx, cy])
+        Place { x, y, cell: [column, row] }
     }
 
     fn cell_of(&self, x: f32, y: f32) -> u32 {
-        let (_, [cx, cy]) = self.place_of(x, y);
-        (cy * self.columns + cx) as u32
+        let [column, row] = self.place_of(x, y).cell;
+        (row * self.columns + column) as u32
+    }
+}
+
+/// Where a point lies in the grid, in cells; points outside are clamped to its border.
+struct Place {
+    x: f32,
+    y: f32,
+    /// Column and row.
+    cell: [usize; 2],
+}
+
+/// From a place to a row or column of cells, across, in cells.
+fn distance_to_cell(place: f32, cell: usize) -> f32 {
+    (cell as f32 - place).max(place - (cell + 1) as f32).max(0.0)
+}
+
+/// The cells of a ring's edge that lie within a distance of a place, first and last; none if the first is the larger.
+fn stretch(place: f32, cell: usize, ring: usize, within: f32, cells: usize) -> (usize, usize) {
+    let first = (place - within).max(0.0) as usize;
+    let last = (place + within).min((cells - 1) as f32) as usize;
+    (first.max(cell.saturating_sub(ring)), last.min(cell + ring))
+}
+
+fn running_sum(counts: &mut [u32]) {
+    let mut total = 0;
+    for count in counts {
+        total += *count;
+        *count = total;
     }
 }
 
@@ -184,6 +261,13 @@ struct Search<'a> {
 impl Search<'_> {
     fn is_done(&self, bound: f32) -> bool {
         self.found.len() == self.k && bound * bound > self.worst
+    }
+
+    /// How far to the side, in cells, a point can still be near enough whose cell lies this many cells away.
+    fn reach_beside(&self, cells_away: f32) -> f32 {
+        let away = (cells_away * CELL - SLACK).max(0.0);
+        let left = self.worst - away * away;
+        if left < 0.0 { -1.0 } else { (left.sqrt() + SLACK) / CELL }
     }
 
     fn scan(&mut self, index: &NeighborIndex, run: Range<usize>) {
@@ -204,8 +288,8 @@ impl Search<'_> {
             let [dx, dy, dz] = [x - qx, y - qy, z - qz];
             *distance = dx * dx + dy * dy + dz * dz;
         }
-        let nearest = distances.iter().fold(f32::INFINITY, |nearest, d| nearest.min(*d));
-        if nearest > self.worst {
+        let hits = distances.iter().fold(0, |hits, distance| hits | u32::from(*distance <= self.worst));
+        if hits == 0 {
             return;
         }
         for (distance_squared, id) in distances.into_iter().zip(&index.ids[run]) {
