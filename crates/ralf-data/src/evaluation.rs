@@ -77,6 +77,7 @@ fn count(labels: &[Label], truths: &[Label]) -> Result<Confusion, usize> {
 mod tests {
     use super::*;
     use crate::label_file::write_labels;
+    use serde_json::{Value, json};
     use std::fs;
 
     /// A run in `out` and a dataset in `dataset`, made of single label files.
@@ -170,6 +171,39 @@ mod tests {
         folders.put("dataset/sequences/00/ground_truth/front/000000.label", &[99]);
         let error = folders.refusal();
         assert!(error.ends_with("expected labels of scans that have truth, found none"), "{error}");
+    }
+
+    /// By hand: 01 has one detection in each cell, 00 no artifacts.
+    #[test]
+    fn the_json_has_exactly_the_names_of_the_format() {
+        let folders = Folders::new();
+        folders.pair("00", "front/000000.label", &[99, 99, 99, 1], &[99; 4]);
+        folders.pair("01", "front/000000.label", &[99, 99, 1, 1], &[99, 1, 1, 99]);
+        let text = serde_json::to_string(&folders.compare().unwrap().evaluation()).unwrap();
+        let found: Value = serde_json::from_str(&text).unwrap();
+        let keys = |value: &Value| value.as_object().unwrap().keys().cloned().collect::<Vec<_>>();
+        assert_eq!(keys(&found), ["overall", "sequences"]);
+        assert_eq!(keys(&found["overall"]), ["pooled", "scan_mean"]);
+        assert_eq!(keys(&found["sequences"]), ["00", "01"]);
+        assert_eq!(keys(&found["sequences"]["01"]), ["pooled", "scan_mean", "scans"]);
+        let third = 1.0 / 3.0;
+        let balanced = json!({
+            "accuracy": 0.5, "precision": 0.5, "recall": 0.5, "f1_plausible": 0.5, "f1_artifact": 0.5,
+            "iou_plausible": third, "iou_artifact": third, "mean_iou": third,
+            "precision_plausible": 0.5, "recall_plausible": 0.5, "mcc": 0.0,
+            "tp": 1, "fp": 1, "tn": 1, "fn": 1
+        });
+        assert_eq!(found["sequences"]["01"]["pooled"], balanced);
+        assert_eq!(found["sequences"]["01"]["scans"], json!(1));
+        let one_class = json!({
+            "accuracy": 0.75, "precision": 1.0, "recall": 0.75, "f1_plausible": 6.0 / 7.0, "f1_artifact": null,
+            "iou_plausible": 0.75, "iou_artifact": null, "mean_iou": 0.75,
+            "precision_plausible": 1.0, "recall_plausible": 0.75, "mcc": null,
+            "tp": 3.0, "fp": 0.0, "tn": 0.0, "fn": 1.0
+        });
+        assert_eq!(found["sequences"]["00"]["scan_mean"], one_class);
+        assert_eq!(found["overall"]["scan_mean"]["tp"], json!(2.0));
+        assert_eq!(found["overall"]["scan_mean"]["iou_artifact"], json!(third));
     }
 
     /// The paper's tab. conf_mat as label files, split unevenly over scans: 87.05 % accuracy (METHOD 9).
