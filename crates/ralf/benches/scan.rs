@@ -46,7 +46,11 @@ fn street(seed: u64) -> Vec<[f32; 3]> {
                 let tree = |n: i32| ((n * 37) % 120 - 60) as f32;
                 let n = random.random_range(0..60);
                 let (x, y) = (tree(n), tree(n * n + 7));
-                [x + random.random_range(-1.5..1.5), y + random.random_range(-1.5..1.5), random.random_range(0.3..5.0)]
+                [
+                    x + random.random_range(-1.5..1.5),
+                    y + random.random_range(-1.5..1.5),
+                    random.random_range(0.3..5.0),
+                ]
             }
             6..8 => [along, if along > 0.0 { 9.0 } else { -9.0 }, random.random_range(0.0..6.0)],
             8 => [
