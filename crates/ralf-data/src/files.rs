@@ -1,8 +1,10 @@
 //! Bytes on disk: reading whole files, rows of float32, and writing so that a file appears whole or not at all.
 
 use crate::DataError;
+use std::collections::{HashMap, HashSet};
+use std::ffi::OsString;
 use std::fs;
-use std::io::Write;
+use std::io::{ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
 /// The whole file.
@@ -38,6 +40,33 @@ pub(crate) fn read_f32_columns(file: &Path, columns: usize) -> Result<Vec<Vec<f3
     let values = bytes.as_chunks::<4>().0;
     let column = |first| values.iter().skip(first).step_by(columns).map(|b| f32::from_le_bytes(*b)).collect();
     Ok((0..columns).map(column).collect())
+}
+
+/// Which files are on disk, with one look into each folder rather than at each of millions of files.
+#[derive(Debug, Default)]
+pub(crate) struct Folders {
+    known: HashMap<PathBuf, HashSet<OsString>>,
+}
+
+impl Folders {
+    /// Whether the file is there. A folder that is missing holds nothing.
+    pub(crate) fn hold(&mut self, file: &Path) -> Result<bool, DataError> {
+        let (Some(folder), Some(name)) = (file.parent(), file.file_name()) else { return Ok(false) };
+        if !self.known.contains_key(folder) {
+            self.known.insert(folder.to_owned(), names(folder)?);
+        }
+        Ok(self.known.get(folder).is_some_and(|names| names.contains(name)))
+    }
+}
+
+fn names(folder: &Path) -> Result<HashSet<OsString>, DataError> {
+    match fs::read_dir(folder) {
+        Ok(entries) => entries
+            .map(|entry| Ok(entry.map_err(DataError::io(folder))?.file_name()))
+            .collect(),
+        Err(error) if error.kind() == ErrorKind::NotFound => Ok(HashSet::new()),
+        Err(error) => Err(DataError::Io { file: folder.to_owned(), error }),
+    }
 }
 
 /// Writes a file whole or not at all: beside its place first, then renamed. Folders are made as needed.

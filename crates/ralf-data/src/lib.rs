@@ -2,7 +2,11 @@
 
 mod error;
 mod files;
+mod images;
+mod models;
+pub mod nuscenes;
 mod recording;
+pub mod view_of_delft;
 
 pub use error::DataError;
 pub use recording::{Recording, SequenceReader};
