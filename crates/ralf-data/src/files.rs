@@ -61,9 +61,7 @@ impl Folders {
 
 fn names(folder: &Path) -> Result<HashSet<OsString>, DataError> {
     match fs::read_dir(folder) {
-        Ok(entries) => entries
-            .map(|entry| Ok(entry.map_err(DataError::io(folder))?.file_name()))
-            .collect(),
+        Ok(entries) => entries.map(|entry| Ok(entry.map_err(DataError::io(folder))?.file_name())).collect(),
         Err(error) if error.kind() == ErrorKind::NotFound => Ok(HashSet::new()),
         Err(error) => Err(DataError::Io { file: folder.to_owned(), error }),
     }

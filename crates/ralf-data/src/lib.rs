@@ -6,6 +6,8 @@ mod images;
 mod models;
 pub mod nuscenes;
 mod recording;
+#[cfg(test)]
+mod testing;
 pub mod view_of_delft;
 
 pub use error::DataError;

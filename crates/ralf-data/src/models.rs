@@ -56,11 +56,11 @@ pub(crate) const ARS_408_21: RadarModel = RadarModel {
 
 /// ZF FRGen21, the radar of View-of-Delft. The data set's paper (Palffy et al., RA-L 2022) gives the resolutions
 /// 0.2 m in range and 1.5 deg in azimuth and elevation, of which half are taken. The fields of view are those that
-/// the published scans fill.
+/// the published scans fill: 90 deg to either side, 17 deg up and down.
 pub(crate) const ZF_FRGEN21: RadarModel = RadarModel {
     elevation: Elevation::Measured,
-    fov_azimuth_deg: 120.0,
-    fov_elevation_deg: 40.0,
+    fov_azimuth_deg: 180.0,
+    fov_elevation_deg: 34.0,
     sigma_range_m: 0.10,
     sigma_azimuth_deg: 0.75,
     sigma_elevation_deg: 0.75,

@@ -85,7 +85,12 @@ pub(super) fn read_scenes(version: &Path) -> Result<Vec<SceneRecord>, DataError>
         scene.sort();
         if scene.poses.is_empty() {
             let place = format!("scene `{}`", scene.name);
-            return Err(DataError::content(&file, place, "at least one measurement with its ego pose", "none"));
+            return Err(DataError::content(
+                &file,
+                place,
+                "at least one measurement with its ego pose",
+                "none",
+            ));
         }
     }
     scenes.sort_by(|a, b| a.name.cmp(&b.name));
@@ -104,7 +109,10 @@ impl SceneRecord {
         };
         let channel = &mut self.channels[channel];
         if channel.calibration != *calibration {
-            return Err(format!("a calibrated_sensor of {} that changes inside {}", calibration.name, self.name));
+            return Err(format!(
+                "a calibrated_sensor of {} that changes inside {}",
+                calibration.name, self.name
+            ));
         }
         channel.measurements.push(Measurement { t_ns: row.t_ns, file: row.filename });
         Ok(())
@@ -152,7 +160,8 @@ fn read_calibrations(version: &Path) -> Result<HashMap<Token, Calibration>, Data
     for_each_row(&version.join("calibrated_sensor.json"), |row: CalibratedSensorRow| {
         let (name, modality) = lookup(&sensors, row.sensor_token, "sensor.json")?.clone();
         let vehicle_from_sensor = transform(row.translation, row.rotation)?;
-        let calibration = Calibration { name, modality, vehicle_from_sensor, intrinsic: row.camera_intrinsic };
+        let calibration =
+            Calibration { name, modality, vehicle_from_sensor, intrinsic: row.camera_intrinsic };
         calibrations.insert(row.token, calibration);
         Ok(())
     })?;

@@ -43,7 +43,8 @@ pub fn open(path: &Path) -> Result<Recording, DataError> {
 
 /// Whether a folder looks like nuScenes.
 pub fn recognise(path: &Path) -> bool {
-    version_folders(path).is_ok_and(|found| found.iter().any(|folder| folder.join("sample_data.json").is_file()))
+    version_folders(path)
+        .is_ok_and(|found| found.iter().any(|folder| folder.join("sample_data.json").is_file()))
 }
 
 /// The only folder `v1.0-*`.
@@ -52,8 +53,10 @@ fn version_folder(path: &Path) -> Result<PathBuf, DataError> {
     if let (1, Some(only)) = (found.len(), found.pop()) {
         return Ok(only);
     }
-    let names: Vec<_> =
-        version_folders(path)?.iter().filter_map(|f| Some(f.file_name()?.to_string_lossy().into_owned())).collect();
+    let names: Vec<_> = version_folders(path)?
+        .iter()
+        .filter_map(|f| Some(f.file_name()?.to_string_lossy().into_owned()))
+        .collect();
     let found = if names.is_empty() { "none".to_owned() } else { names.join(", ") };
     Err(DataError::content(path, "folders", "exactly one version folder `v1.0-*`", found))
 }

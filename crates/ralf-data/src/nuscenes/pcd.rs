@@ -58,7 +58,8 @@ impl<'a> Pcd<'a> {
             let found: Vec<_> = self.fields.iter().map(|field| field.name.as_str()).collect();
             DataError::content(self.file, "FIELDS", format!("a field `{name}`"), found.join(" "))
         })?;
-        let value = |record| field.number.value(&self.body[record * self.record_bytes..][field.bytes.clone()]);
+        let value =
+            |record| field.number.value(&self.body[record * self.record_bytes..][field.bytes.clone()]);
         Ok((0..self.records).map(value).collect())
     }
 }
@@ -117,7 +118,12 @@ impl<'a> Header<'a> {
             }
             entries.push((key, words));
         }
-        Err(DataError::content(file, format!("byte {length}"), "a PCD header up to `DATA binary`", "the end of the file"))
+        Err(DataError::content(
+            file,
+            format!("byte {length}"),
+            "a PCD header up to `DATA binary`",
+            "the end of the file",
+        ))
     }
 
     fn words(&self, key: &str) -> Result<&[String], DataError> {
@@ -157,7 +163,8 @@ impl<'a> Header<'a> {
     fn records(&self) -> Result<usize, DataError> {
         let number = |key| {
             let words = self.words(key)?;
-            let value = words.first().filter(|_| words.len() == 1).and_then(|word| word.parse::<usize>().ok());
+            let value =
+                words.first().filter(|_| words.len() == 1).and_then(|word| word.parse::<usize>().ok());
             value.ok_or_else(|| DataError::content(self.file, key, "a whole number", words.join(" ")))
         };
         let [width, height, points] = [number("WIDTH")?, number("HEIGHT")?, number("POINTS")?];

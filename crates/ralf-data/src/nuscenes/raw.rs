@@ -26,7 +26,8 @@ impl<'de> Deserialize<'de> for Token {
 
             fn visit_str<E: Error>(self, text: &str) -> Result<Token, E> {
                 let mut bytes = [0; 32];
-                let place = bytes.get_mut(..text.len()).ok_or_else(|| E::invalid_length(text.len(), &self))?;
+                let place =
+                    bytes.get_mut(..text.len()).ok_or_else(|| E::invalid_length(text.len(), &self))?;
                 place.copy_from_slice(text.as_bytes());
                 Ok(Token(bytes))
             }
@@ -137,7 +138,9 @@ pub(super) struct CanPoseRow {
 /// Microseconds on disk.
 fn nanoseconds<'de, D: Deserializer<'de>>(deserializer: D) -> Result<i64, D::Error> {
     let microseconds = i64::deserialize(deserializer)?;
-    microseconds.checked_mul(1000).ok_or_else(|| D::Error::custom(format!("time of {microseconds} us out of range")))
+    microseconds
+        .checked_mul(1000)
+        .ok_or_else(|| D::Error::custom(format!("time of {microseconds} us out of range")))
 }
 
 /// Hands the rows of a table over, one by one. What `take` refuses becomes an error at the row's place in the file.
@@ -148,7 +151,9 @@ pub(super) fn for_each_row<T: DeserializeOwned>(
     let open = File::open(file).map_err(DataError::io(file))?;
     let mut deserializer = serde_json::Deserializer::from_reader(BufReader::with_capacity(1 << 16, open));
     let rows = Rows { take, row: PhantomData };
-    rows.deserialize(&mut deserializer).and_then(|()| deserializer.end()).map_err(|error| unreadable(file, error))
+    rows.deserialize(&mut deserializer)
+        .and_then(|()| deserializer.end())
+        .map_err(|error| unreadable(file, error))
 }
 
 fn unreadable(file: &Path, error: serde_json::Error) -> DataError {

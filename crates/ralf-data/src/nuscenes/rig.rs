@@ -10,8 +10,24 @@ use std::path::Path;
 
 /// What a radar record holds, under the names of the file.
 pub(super) const PCD_FIELDS: [&str; 18] = [
-    "x", "y", "z", "dyn_prop", "id", "rcs", "vx", "vy", "vx_comp", "vy_comp", "is_quality_valid", "ambig_state",
-    "x_rms", "y_rms", "invalid_state", "pdh0", "vx_rms", "vy_rms",
+    "x",
+    "y",
+    "z",
+    "dyn_prop",
+    "id",
+    "rcs",
+    "vx",
+    "vy",
+    "vx_comp",
+    "vy_comp",
+    "is_quality_valid",
+    "ambig_state",
+    "x_rms",
+    "y_rms",
+    "invalid_state",
+    "pdh0",
+    "vx_rms",
+    "vy_rms",
 ];
 
 /// What is derived from them: the radial parts of the two velocities, m/s.

@@ -72,7 +72,8 @@ impl Scene {
         }
         if files.len() < listed {
             let (name, missing) = (&channel.calibration.name, listed - files.len());
-            self.warnings.push(format!("{missing} of {listed} files of {name} are not there and were left out"));
+            self.warnings
+                .push(format!("{missing} of {listed} files of {name} are not there and were left out"));
         }
         let timelines = &mut self.sequence.times;
         let (timeline, place) = match channel.calibration.modality {
@@ -103,7 +104,8 @@ impl Source for Scene {
         // The fifth column is the ring.
         let mut columns = files::read_f32_columns(&self.lidars[lidar][scan], 5)?;
         let intensity = columns.swap_remove(3);
-        let points = (0..intensity.len()).map(|row| [columns[0][row], columns[1][row], columns[2][row]]).collect();
+        let points =
+            (0..intensity.len()).map(|row| [columns[0][row], columns[1][row], columns[2][row]]).collect();
         Ok(LidarScan { t_ns: self.sequence.times.lidars[lidar][scan], points, intensity, classes: None })
     }
 
