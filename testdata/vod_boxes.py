@@ -22,7 +22,7 @@ GROWN_BY = 0.3  # m
 NEAR = 40.0  # m
 FAR_FROM_LIDAR = 2.0  # m
 ARTIFACT = 1
-IGNORED_CLASSES = {"DontCare", "human_depiction"}
+IGNORED_CLASSES = {"DontCare"}
 
 
 def rows(file, columns):
