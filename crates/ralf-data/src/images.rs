@@ -5,20 +5,22 @@ use image::{ImageError, ImageReader};
 use ralf::camera::CameraImage;
 use std::path::Path;
 
-/// The image, with three channels of 8 bits. Refused unless it is `[width, height]` pixels large.
-pub(crate) fn read(file: &Path, [width, height]: [usize; 2]) -> Result<CameraImage, DataError> {
+/// An image file as 8-bit colour.
+pub(crate) fn read(file: &Path) -> Result<CameraImage, DataError> {
     let decoded = open(file)?.decode().map_err(|error| undecodable(file, error))?.into_rgb8();
-    let found = [decoded.width() as usize, decoded.height() as usize];
-    if found != [width, height] {
-        let [found_width, found_height] = found;
-        return Err(DataError::content(
-            file,
-            "image size",
-            format!("{width} x {height} px, as the camera has"),
-            format!("{found_width} x {found_height} px"),
-        ));
+    let [width, height] = [decoded.width(), decoded.height()].map(|pixels| pixels as usize);
+    Ok(CameraImage { width, height, rgb: decoded.into_raw().as_chunks::<3>().0.to_vec() })
+}
+
+/// The same, refused unless it has the camera's size in pixels.
+pub(crate) fn read_of_size(file: &Path, width: usize, height: usize) -> Result<CameraImage, DataError> {
+    let image = read(file)?;
+    if (image.width, image.height) == (width, height) {
+        return Ok(image);
     }
-    Ok(CameraImage { width, height, rgb: decoded.pixels().map(|pixel| pixel.0).collect() })
+    let expected = format!("{width} x {height} px, as the camera has");
+    let found = format!("{} x {} px", image.width, image.height);
+    Err(DataError::content(file, "image size", expected, found))
 }
 
 /// Width and height in pixels, without decoding.

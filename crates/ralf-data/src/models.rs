@@ -106,3 +106,18 @@ impl LidarModel {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_model_is_a_sensor() {
+        for model in [ARS_408_21, ZF_FRGEN21] {
+            assert_eq!(model.mounted("radar", &["x", "y", "z"], Transform::identity()).check(), Ok(()));
+        }
+        for model in [HDL_32E, HDL_64E_S3] {
+            assert_eq!(model.mounted("lidar", Transform::identity()).check(), Ok(()));
+        }
+    }
+}

@@ -24,7 +24,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The format's name.
-pub const FORMAT: &str = "nuscenes";
+pub const NAME: &str = "nuscenes";
 
 /// Opens the data set at the folder that holds `v1.0-*`, `samples` and `sweeps`.
 ///
@@ -38,7 +38,7 @@ pub fn open(path: &Path) -> Result<Recording, DataError> {
     for scene in join::read_scenes(&version)? {
         sequences.push(Box::new(source::Scene::new(path, &tables, scene, &mut folders)?));
     }
-    Ok(Recording { format: FORMAT, sequences })
+    Ok(Recording { format: NAME, sequences })
 }
 
 /// Whether a folder looks like nuScenes.

@@ -204,7 +204,7 @@ impl Source for Training {
 
     fn image(&self, camera: usize, image: usize) -> Result<CameraImage, SourceError> {
         let model = &self.sequence.rig.cameras[camera];
-        Ok(images::read(&self.camera[image], [model.width, model.height])?)
+        Ok(images::read_of_size(&self.camera[image], model.width, model.height)?)
     }
 
     fn depth(&self, _camera: usize, _image: usize) -> Result<Option<Vec<DepthImage>>, SourceError> {
