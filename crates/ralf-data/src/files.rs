@@ -23,22 +23,50 @@ pub(crate) fn read_text(file: &Path) -> Result<String, DataError> {
     })
 }
 
-/// A file of packed little-endian float32 rows, as one vector per column.
+/// A file of packed little-endian float32 rows, as one vector per column; there is at least one.
 pub(crate) fn read_f32_columns(file: &Path, columns: usize) -> Result<Vec<Vec<f32>>, DataError> {
     let bytes = read(file)?;
-    let row_bytes = columns * size_of::<f32>();
-    if bytes.len() % row_bytes != 0 {
-        let whole = bytes.len() / row_bytes * row_bytes;
-        return Err(DataError::content(
-            file,
-            format!("byte {whole}"),
-            format!("rows of {columns} float32 ({row_bytes} bytes)"),
-            format!("{} bytes left over at the end", bytes.len() - whole),
-        ));
-    }
+    check_rows(file, bytes.len(), columns)?;
     let values = bytes.as_chunks::<4>().0;
     let column = |first| values.iter().skip(first).step_by(columns).map(|b| f32::from_le_bytes(*b)).collect();
     Ok((0..columns).map(column).collect())
+}
+
+/// A file of packed little-endian float32 rows of `N`.
+pub(crate) fn read_f32_rows<const N: usize>(file: &Path) -> Result<Vec<[f32; N]>, DataError> {
+    let bytes = read(file)?;
+    check_rows(file, bytes.len(), N)?;
+    let rows = bytes.as_chunks::<4>().0.as_chunks::<N>().0;
+    Ok(rows.iter().map(|row| row.map(f32::from_le_bytes)).collect())
+}
+
+/// The bytes of packed little-endian float32.
+pub(crate) fn f32_bytes(values: impl Iterator<Item = f32>) -> Vec<u8> {
+    values.flat_map(f32::to_le_bytes).collect()
+}
+
+/// A file of `points` little-endian uint32, as SemanticKITTI's `.label`: the class in the low 16 bits.
+pub(crate) fn read_labels(file: &Path, points: usize) -> Result<Vec<u32>, DataError> {
+    let bytes = read(file)?;
+    if bytes.len() != points * size_of::<u32>() {
+        let expected = format!("{points} uint32, one per point ({} bytes)", points * size_of::<u32>());
+        return Err(DataError::content(file, "size", expected, format!("{} bytes", bytes.len())));
+    }
+    Ok(bytes.as_chunks::<4>().0.iter().map(|b| u32::from_le_bytes(*b)).collect())
+}
+
+fn check_rows(file: &Path, size: usize, columns: usize) -> Result<(), DataError> {
+    let row_bytes = columns * size_of::<f32>();
+    let left_over = size % row_bytes;
+    if left_over == 0 {
+        return Ok(());
+    }
+    Err(DataError::content(
+        file,
+        format!("byte {}", size - left_over),
+        format!("rows of {columns} float32 ({row_bytes} bytes)"),
+        format!("{left_over} bytes left over at the end"),
+    ))
 }
 
 /// The names of all that lies in a folder, sorted, hidden ones left out; empty where there is no such folder.
@@ -121,6 +149,7 @@ mod tests {
         let bytes: Vec<u8> = [1.0f32, 2.0, 3.0, 4.0].iter().flat_map(|v| v.to_le_bytes()).collect();
         write_whole(&file, &bytes).unwrap();
         assert_eq!(read_f32_columns(&file, 2).unwrap(), [[1.0, 3.0], [2.0, 4.0]]);
+        assert_eq!(read_f32_rows::<2>(&file).unwrap(), [[1.0, 2.0], [3.0, 4.0]]);
         write_whole(&file, &bytes[..15]).unwrap();
         let error = read_f32_columns(&file, 2).unwrap_err().to_string();
         assert!(error.contains("000000.bin: byte 8: expected rows of 2 float32"), "{error}");

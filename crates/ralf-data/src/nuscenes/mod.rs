@@ -24,13 +24,13 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The format's name.
-pub const NAME: &str = "nuscenes";
+pub(crate) const NAME: &str = "nuscenes";
 
 /// Opens the data set at the folder that holds `v1.0-*`, `samples` and `sweeps`.
 ///
 /// Errors: no version folder or several, tables that are damaged or contradict each other, a sensor whose calibration
 /// changes inside a scene, a scene without ego poses.
-pub fn open(path: &Path) -> Result<Recording, DataError> {
+pub(crate) fn open(path: &Path) -> Result<Recording, DataError> {
     let version = version_folder(path)?;
     let tables: Vec<PathBuf> = join::TABLES.iter().map(|name| version.join(name)).collect();
     let mut folders = Folders::default();
@@ -38,11 +38,11 @@ pub fn open(path: &Path) -> Result<Recording, DataError> {
     for scene in join::read_scenes(&version)? {
         sequences.push(Box::new(source::Scene::new(path, &tables, scene, &mut folders)?));
     }
-    Ok(Recording { format: NAME, sequences })
+    Ok(Recording { path: path.to_owned(), format: NAME, sequences })
 }
 
 /// Whether a folder looks like nuScenes.
-pub fn recognise(path: &Path) -> bool {
+pub(crate) fn recognises(path: &Path) -> bool {
     version_folders(path)
         .is_ok_and(|found| found.iter().any(|folder| folder.join("sample_data.json").is_file()))
 }

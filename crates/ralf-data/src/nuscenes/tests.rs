@@ -305,7 +305,7 @@ fn clouds_and_images_that_are_damaged_name_the_file() {
     );
     set.write("samples/CAM_FRONT/a.png", b"no image");
     let error = set.open().unwrap().image(0, 0).unwrap_err().to_string();
-    assert!(error.contains("a.png: image data"), "{error}");
+    assert!(error.contains("a.png: content"), "{error}");
 }
 
 #[test]
@@ -375,18 +375,19 @@ fn cut_and_missing_tables_are_named() {
 #[test]
 fn exactly_one_version_folder() {
     let set = DataSet::new();
-    assert!(recognise(set.0.path()));
+    assert!(recognises(set.0.path()));
     set.folder("v1.0-mini");
     set.refused(&["exactly one version folder", "found v1.0-mini, v1.0-test"]);
     let empty = tempfile::tempdir().unwrap();
     assert!(open(empty.path()).map(drop).unwrap_err().to_string().contains("found none"));
-    assert!(!recognise(empty.path()));
+    assert!(!recognises(empty.path()));
 }
 
 #[test]
 fn the_genuine_scene() {
     let Some(folder) = testing::data("nuscenes") else { return };
-    let recording = open(&folder).unwrap();
+    let recording = crate::open(&folder, None).unwrap();
+    assert_eq!(recording.format, "nuscenes");
     assert_eq!(recording.sequences.len(), 1);
     let scene = &recording.sequences[0];
     let sequence = scene.sequence();
@@ -425,7 +426,8 @@ fn the_genuine_scene() {
 #[test]
 fn the_genuine_velocities_agree_with_the_motion() {
     let Some(folder) = testing::data("nuscenes") else { return };
-    let recording = open(&folder).unwrap();
+    let recording = crate::open(&folder, None).unwrap();
+    assert_eq!(recording.format, "nuscenes");
     let scene = &recording.sequences[0];
     let radar = &scene.sequence().rig.radars[0];
     let scan = scene.radar_scan(0, 20).unwrap();

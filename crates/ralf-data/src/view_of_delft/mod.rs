@@ -20,17 +20,21 @@ use crate::{DataError, Recording};
 use std::path::Path;
 
 /// The format's name.
-pub const NAME: &str = "view-of-delft";
+pub(crate) const NAME: &str = "view-of-delft";
 
 /// Opens the data set at the folder that holds `radar/training` and `lidar/training`.
 ///
 /// Errors: no frames, file names that are no numbers, calibrations or poses that are missing or no rigid transforms.
-pub fn open(path: &Path) -> Result<Recording, DataError> {
-    Ok(Recording { format: NAME, sequences: vec![Box::new(source::Training::new(path)?)] })
+pub(crate) fn open(path: &Path) -> Result<Recording, DataError> {
+    Ok(Recording {
+        path: path.to_owned(),
+        format: NAME,
+        sequences: vec![Box::new(source::Training::new(path)?)],
+    })
 }
 
 /// Whether a folder looks like View-of-Delft.
-pub fn recognise(path: &Path) -> bool {
+pub(crate) fn recognises(path: &Path) -> bool {
     ["radar/training/velodyne", "radar/training/calib"].iter().all(|folder| path.join(folder).is_dir())
 }
 

@@ -79,7 +79,7 @@ impl DataSet {
 #[test]
 fn frames_become_a_sequence() {
     let set = DataSet::new();
-    assert!(recognise(set.0.path()));
+    assert!(recognises(set.0.path()));
     let training = set.open().unwrap();
     let sequence = training.sequence();
     assert_eq!(sequence.name, "training");
@@ -212,7 +212,7 @@ fn damaged_measurements_and_names_are_refused() {
     set.write("radar/training/velodyne/first.bin", b"");
     set.refused(&["first.bin: file name: expected a frame's number"]);
     let empty = tempfile::tempdir().unwrap();
-    assert!(open(empty.path()).is_err() && !recognise(empty.path()));
+    assert!(open(empty.path()).is_err() && !recognises(empty.path()));
     fs::create_dir_all(empty.path().join("radar/training/velodyne")).unwrap();
     assert!(
         open(empty.path())
@@ -226,7 +226,8 @@ fn damaged_measurements_and_names_are_refused() {
 #[test]
 fn the_genuine_frame() {
     let Some(folder) = testing::data("view-of-delft") else { return };
-    let recording = open(&folder).unwrap();
+    let recording = crate::open(&folder, None).unwrap();
+    assert_eq!(recording.format, "view-of-delft");
     let training = &recording.sequences[0];
     assert!(training.warnings().is_empty(), "{:?}", training.warnings());
     let sequence = training.sequence();
