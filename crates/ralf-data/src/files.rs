@@ -1,6 +1,7 @@
 //! Bytes on disk: reading whole files, rows of float32, and writing so that a file appears whole or not at all.
 
 use crate::DataError;
+use std::collections::HashMap;
 use std::fs;
 use std::io::{ErrorKind, Write};
 use std::path::{Path, PathBuf};
@@ -31,31 +32,6 @@ pub(crate) fn read_f32_columns(file: &Path, columns: usize) -> Result<Vec<Vec<f3
     Ok((0..columns).map(column).collect())
 }
 
-/// The names of all that lies in a folder, sorted, hidden ones left out; empty where there is no such folder.
-pub(crate) fn names(folder: &Path) -> Result<Vec<String>, DataError> {
-    let entries = match fs::read_dir(folder) {
-        Err(error) if error.kind() == ErrorKind::NotFound => return Ok(Vec::new()),
-        entries => entries.map_err(DataError::io(folder))?,
-    };
-    let mut names = Vec::new();
-    for entry in entries {
-        let name = entry.map_err(DataError::io(folder))?.file_name().into_string().map_err(|name| {
-            DataError::content(folder, "file names", "UTF-8 text", format!("`{}`", name.display()))
-        })?;
-        names.push(name);
-    }
-    names.retain(|name| !name.starts_with('.'));
-    names.sort_unstable();
-    Ok(names)
-}
-
-/// The names of the folders in a folder, sorted, hidden ones left out; empty where there is no such folder.
-pub(crate) fn folders(folder: &Path) -> Result<Vec<String>, DataError> {
-    let mut names = names(folder)?;
-    names.retain(|name| folder.join(name).is_dir());
-    Ok(names)
-}
-
 /// A file of packed little-endian float32 rows of `N`.
 pub(crate) fn read_f32_rows<const N: usize>(file: &Path) -> Result<Vec<[f32; N]>, DataError> {
     let bytes = read(file)?;
@@ -81,6 +57,53 @@ fn check_rows(file: &Path, size: usize, columns: usize) -> Result<(), DataError>
         format!("rows of {columns} float32 ({row_bytes} bytes)"),
         format!("{left_over} bytes left over at the end"),
     ))
+}
+
+/// The names of all that lies in a folder, sorted, hidden ones left out; empty where there is no such folder.
+pub(crate) fn names(folder: &Path) -> Result<Vec<String>, DataError> {
+    let entries = match fs::read_dir(folder) {
+        Err(error) if error.kind() == ErrorKind::NotFound => return Ok(Vec::new()),
+        entries => entries.map_err(DataError::io(folder))?,
+    };
+    let mut names = Vec::new();
+    for entry in entries {
+        let name = entry.map_err(DataError::io(folder))?.file_name().into_string().map_err(|name| {
+            DataError::content(folder, "file names", "UTF-8 text", format!("`{}`", name.display()))
+        })?;
+        names.push(name);
+    }
+    names.retain(|name| !name.starts_with('.'));
+    names.sort_unstable();
+    Ok(names)
+}
+
+/// The names of the folders in a folder, sorted, hidden ones left out; empty where there is no such folder.
+pub(crate) fn folders(folder: &Path) -> Result<Vec<String>, DataError> {
+    let mut names = names(folder)?;
+    names.retain(|name| folder.join(name).is_dir());
+    Ok(names)
+}
+
+/// Which files are on disk, with one look into each folder rather than at each of millions of files.
+#[derive(Debug, Default)]
+pub(crate) struct Folders {
+    /// Sorted names per folder.
+    known: HashMap<PathBuf, Vec<String>>,
+}
+
+impl Folders {
+    /// Whether the file is there. A folder that is missing holds nothing.
+    pub(crate) fn hold(&mut self, file: &Path) -> Result<bool, DataError> {
+        let (Some(folder), Some(name)) = (file.parent(), file.file_name()) else { return Ok(false) };
+        let name = name.to_string_lossy();
+        if !self.known.contains_key(folder) {
+            self.known.insert(folder.to_owned(), names(folder)?);
+        }
+        Ok(self
+            .known
+            .get(folder)
+            .is_some_and(|names| names.binary_search_by(|found| found.as_str().cmp(&name)).is_ok()))
+    }
 }
 
 /// Writes a file whole or not at all: beside its place first, then renamed. Folders are made as needed.

@@ -25,10 +25,15 @@ mod ground_truth;
 mod images;
 mod label_file;
 mod layout;
+mod models;
+mod nuscenes;
 mod open;
 pub mod output;
 mod recording;
 pub mod run;
+#[cfg(test)]
+mod testing;
+mod view_of_delft;
 
 pub use error::DataError;
 pub use evaluation::Comparison;
