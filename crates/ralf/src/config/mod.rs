@@ -191,7 +191,7 @@ impl Default for GroundConfig {
             lidar_margin: 0.20,
             camera_margin: 0.30,
             radar_clearance: 0.10,
-            radar_sigmas: 0.0,
+            radar_sigmas: 2.0,
         }
     }
 }
