@@ -83,13 +83,20 @@ fn list(folder: &Path, rig: &Rig, warnings: &mut Vec<String>) -> Result<[Vec<Sen
 
 /// How the vehicle moved, and the files that say so.
 fn motion(folder: &Path) -> Result<(EgoMotion, Vec<PathBuf>), DataError> {
-    let [odometry_file, poses_file] = ["odometry.csv", "poses.csv"].map(|name| folder.join(name));
-    let odometry = if odometry_file.exists() { tables::read_odometry(&odometry_file)? } else { vec![] };
-    let poses = if poses_file.exists() { tables::read_poses(&poses_file)? } else { vec![] };
+    let odometry_file = existing(folder.join("odometry.csv"))?;
+    let poses_file = existing(folder.join("poses.csv"))?;
+    let odometry = odometry_file.as_deref().map_or(Ok(vec![]), tables::read_odometry)?;
+    let poses = poses_file.as_deref().map_or(Ok(vec![]), tables::read_poses)?;
     let motion = EgoMotion::new(odometry, poses).ok_or_else(|| {
         DataError::content(folder, "motion", "rows in odometry.csv, poses.csv or both", "none")
     })?;
-    Ok((motion, [odometry_file, poses_file].into_iter().filter(|file| file.exists()).collect()))
+    Ok((motion, [odometry_file, poses_file].into_iter().flatten().collect()))
+}
+
+/// The file, if there is one.
+fn existing(file: PathBuf) -> Result<Option<PathBuf>, DataError> {
+    let exists = file.try_exists().map_err(DataError::io(&file))?;
+    Ok(exists.then_some(file))
 }
 
 impl Source for LayoutSequence {
