@@ -27,6 +27,16 @@ pub enum DataError {
         /// What is there.
         found: String,
     },
+    /// The file is as it should be, but doesn't go with what is asked for.
+    #[error("{}: {place}: {reason}", file.display())]
+    Unsuitable {
+        /// The file or folder.
+        file: PathBuf,
+        /// Part of it.
+        place: String,
+        /// Why not.
+        reason: String,
+    },
     /// A sequence was asked for that the recording doesn't hold.
     #[error("no sequence `{name}` in the recording, which holds {known}")]
     UnknownSequence {

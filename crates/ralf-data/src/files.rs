@@ -1,8 +1,9 @@
 //! Bytes on disk: reading whole files, rows of float32, and writing so that a file appears whole or not at all.
 
 use crate::DataError;
+use std::collections::HashMap;
 use std::fs;
-use std::io::Write;
+use std::io::{ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
 /// The whole file.
@@ -44,16 +45,6 @@ pub(crate) fn f32_bytes(values: impl Iterator<Item = f32>) -> Vec<u8> {
     values.flat_map(f32::to_le_bytes).collect()
 }
 
-/// A file of `points` little-endian uint32, as SemanticKITTI's `.label`: the class in the low 16 bits.
-pub(crate) fn read_labels(file: &Path, points: usize) -> Result<Vec<u32>, DataError> {
-    let bytes = read(file)?;
-    if bytes.len() != points * size_of::<u32>() {
-        let expected = format!("{points} uint32, one per point ({} bytes)", points * size_of::<u32>());
-        return Err(DataError::content(file, "size", expected, format!("{} bytes", bytes.len())));
-    }
-    Ok(bytes.as_chunks::<4>().0.iter().map(|b| u32::from_le_bytes(*b)).collect())
-}
-
 fn check_rows(file: &Path, size: usize, columns: usize) -> Result<(), DataError> {
     let row_bytes = columns * size_of::<f32>();
     let left_over = size % row_bytes;
@@ -66,6 +57,53 @@ fn check_rows(file: &Path, size: usize, columns: usize) -> Result<(), DataError>
         format!("rows of {columns} float32 ({row_bytes} bytes)"),
         format!("{left_over} bytes left over at the end"),
     ))
+}
+
+/// The names of all that lies in a folder, sorted, hidden ones left out; empty where there is no such folder.
+pub(crate) fn names(folder: &Path) -> Result<Vec<String>, DataError> {
+    let entries = match fs::read_dir(folder) {
+        Err(error) if error.kind() == ErrorKind::NotFound => return Ok(Vec::new()),
+        entries => entries.map_err(DataError::io(folder))?,
+    };
+    let mut names = Vec::new();
+    for entry in entries {
+        let name = entry.map_err(DataError::io(folder))?.file_name().into_string().map_err(|name| {
+            DataError::content(folder, "file names", "UTF-8 text", format!("`{}`", name.display()))
+        })?;
+        names.push(name);
+    }
+    names.retain(|name| !name.starts_with('.'));
+    names.sort_unstable();
+    Ok(names)
+}
+
+/// The names of the folders in a folder, sorted, hidden ones left out; empty where there is no such folder.
+pub(crate) fn folders(folder: &Path) -> Result<Vec<String>, DataError> {
+    let mut names = names(folder)?;
+    names.retain(|name| folder.join(name).is_dir());
+    Ok(names)
+}
+
+/// Which files are on disk, with one look into each folder rather than at each of millions of files.
+#[derive(Debug, Default)]
+pub(crate) struct Folders {
+    /// Sorted names per folder.
+    known: HashMap<PathBuf, Vec<String>>,
+}
+
+impl Folders {
+    /// Whether the file is there. A folder that is missing holds nothing.
+    pub(crate) fn hold(&mut self, file: &Path) -> Result<bool, DataError> {
+        let (Some(folder), Some(name)) = (file.parent(), file.file_name()) else { return Ok(false) };
+        let name = name.to_string_lossy();
+        if !self.known.contains_key(folder) {
+            self.known.insert(folder.to_owned(), names(folder)?);
+        }
+        Ok(self
+            .known
+            .get(folder)
+            .is_some_and(|names| names.binary_search_by(|found| found.as_str().cmp(&name)).is_ok()))
+    }
 }
 
 /// Writes a file whole or not at all: beside its place first, then renamed. Folders are made as needed.

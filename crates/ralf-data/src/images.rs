@@ -11,8 +11,30 @@ pub(crate) const EXTENSIONS: [&str; 3] = ["jpg", "jpeg", "png"];
 
 /// An image file as 8-bit colour.
 pub(crate) fn read(file: &Path) -> Result<CameraImage, DataError> {
-    decode(&files::read(file)?)
-        .map_err(|found| DataError::content(file, "content", "a whole JPEG or PNG image", found))
+    decode(&files::read(file)?).map_err(|found| unreadable(file, found))
+}
+
+/// The same, refused unless it has the camera's size in pixels.
+pub(crate) fn read_of_size(file: &Path, width: usize, height: usize) -> Result<CameraImage, DataError> {
+    let image = read(file)?;
+    if (image.width, image.height) == (width, height) {
+        return Ok(image);
+    }
+    let expected = format!("{width} x {height} px, as the camera has");
+    let found = format!("{} x {} px", image.width, image.height);
+    Err(DataError::content(file, "image size", expected, found))
+}
+
+/// Width and height in pixels, without decoding.
+pub(crate) fn size(file: &Path) -> Result<[usize; 2], DataError> {
+    let reader =
+        ImageReader::open(file).and_then(ImageReader::with_guessed_format).map_err(DataError::io(file))?;
+    let (width, height) = reader.into_dimensions().map_err(|error| unreadable(file, error.to_string()))?;
+    Ok([width as usize, height as usize])
+}
+
+fn unreadable(file: &Path, found: String) -> DataError {
+    DataError::content(file, "content", "a whole JPEG or PNG image", found)
 }
 
 /// Pixels from the bytes of a JPEG or PNG; the error says what is wrong with them.

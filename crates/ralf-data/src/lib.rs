@@ -19,13 +19,26 @@
 //! ```
 
 mod error;
+mod evaluation;
 mod files;
+mod ground_truth;
 mod images;
+mod label_file;
 mod layout;
+mod models;
+mod nuscenes;
 mod open;
+pub mod output;
 mod recording;
+pub mod run;
+#[cfg(test)]
+mod testing;
+mod view_of_delft;
 
 pub use error::DataError;
+pub use evaluation::Comparison;
+pub use ground_truth::{GroundTruth, ScanId};
+pub use label_file::{Label, read_labels, write_labels};
 pub use layout::{LayoutSequence, write_sequence};
 pub use open::{formats, open};
 pub use recording::{Recording, SequenceReader};

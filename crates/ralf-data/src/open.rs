@@ -1,6 +1,6 @@
 //! A folder becomes a recording: which format it is, by what it holds.
 
-use crate::{DataError, Recording, layout};
+use crate::{DataError, Recording, layout, nuscenes, view_of_delft};
 use std::fs;
 use std::path::Path;
 
@@ -17,12 +17,26 @@ struct Format {
 }
 
 /// In the order in which they are tried.
-const FORMATS: [Format; 1] = [Format {
-    name: layout::NAME,
-    holds: "the folder `sequences`",
-    recognises: |path| path.join(layout::SEQUENCES).is_dir(),
-    open: layout::open,
-}];
+const FORMATS: [Format; 3] = [
+    Format {
+        name: layout::NAME,
+        holds: "the folder `sequences`",
+        recognises: |path| path.join(layout::SEQUENCES).is_dir(),
+        open: layout::open,
+    },
+    Format {
+        name: nuscenes::NAME,
+        holds: "a folder `v1.0-*` with `sample_data.json`",
+        recognises: nuscenes::recognises,
+        open: nuscenes::open,
+    },
+    Format {
+        name: view_of_delft::NAME,
+        holds: "the folders `radar/training/velodyne` and `radar/training/calib`",
+        recognises: view_of_delft::recognises,
+        open: view_of_delft::open,
+    },
+];
 
 /// The names of the formats that can be read.
 pub fn formats() -> &'static [&'static str] {

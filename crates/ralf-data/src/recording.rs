@@ -28,6 +28,8 @@ pub trait SequenceReader: Source {
 
 /// A recording, opened: cheap, for measurements are read on demand.
 pub struct Recording {
+    /// The folder or file that was opened.
+    pub path: PathBuf,
     /// The format's name, as `--format` takes it.
     pub format: &'static str,
     /// In the order of their names.

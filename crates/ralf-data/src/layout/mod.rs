@@ -34,7 +34,7 @@ pub(crate) fn open(dataset: &Path) -> Result<Recording, DataError> {
     if sequences.is_empty() {
         return Err(DataError::content(&folder, "folder", "a folder per sequence", "none"));
     }
-    Ok(Recording { format: NAME, sequences })
+    Ok(Recording { path: dataset.to_owned(), format: NAME, sequences })
 }
 
 /// The folders in a folder by name, hidden ones left out: a conversion under way is one.

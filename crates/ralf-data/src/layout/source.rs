@@ -3,7 +3,7 @@
 use super::listing::{Partner, SensorFiles};
 use super::raw::SequenceToml;
 use super::{GROUND_TRUTH, npy, rig, tables};
-use crate::{DataError, SequenceReader, files, images};
+use crate::{DataError, SequenceReader, files, images, read_labels};
 use ralf::camera::{Camera, CameraImage, DepthImage};
 use ralf::measurement::{LidarScan, RadarScan};
 use ralf::motion::EgoMotion;
@@ -117,10 +117,7 @@ impl Source for LayoutSequence {
         let points = rows.iter().map(|[x, y, z, _]| [*x, *y, *z]).collect();
         let intensity = rows.iter().map(|row| row[3]).collect();
         let classes = match &sensor.partners[scan] {
-            // The low 16 bits hold the class, the high ones an instance.
-            Some(file) => {
-                Some(files::read_labels(file, rows.len())?.into_iter().map(|id| id as u16).collect())
-            }
+            Some(file) => Some(classes(file, rows.len())?),
             None => None,
         };
         Ok(LidarScan { t_ns: sensor.times[scan], points, intensity, classes })
@@ -166,4 +163,13 @@ impl SequenceReader for LayoutSequence {
     fn truth_file(&self, radar: usize, scan: usize) -> Option<PathBuf> {
         self.radars.get(radar)?.partners.get(scan)?.clone()
     }
+}
+
+/// The class of each of so many points, from a `.label` file.
+fn classes(file: &Path, points: usize) -> Result<Vec<u16>, DataError> {
+    let labels = read_labels(file)?;
+    if labels.len() == points {
+        return Ok(labels.into_iter().map(|label| label.id).collect());
+    }
+    Err(DataError::content(file, "size", format!("{points} uint32, one per point"), labels.len().to_string()))
 }
