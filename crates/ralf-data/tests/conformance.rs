@@ -43,6 +43,57 @@ fn the_recording_of_the_demonstration() {
     check(&recording);
 }
 
+#[test]
+fn nuscenes() {
+    check_real("nuscenes");
+}
+
+#[test]
+fn view_of_delft() {
+    check_real("view-of-delft");
+}
+
+/// A real recording, and the same in the own layout.
+fn check_real(format: &str) {
+    let Some(root) = std::env::var_os("RALF_TEST_DATA") else {
+        println!("skipped: RALF_TEST_DATA is not set");
+        return;
+    };
+    let recording = ralf_data::open(&Path::new(&root).join(format), None).unwrap();
+    assert_eq!(recording.format, format);
+    check(&recording);
+    let out = tempfile::tempdir().unwrap();
+    for sequence in &recording.sequences {
+        ralf_data::write_sequence(sequence.as_ref(), out.path(), &|_| ()).unwrap();
+    }
+    let converted = ralf_data::open(out.path(), None).unwrap();
+    check(&converted);
+    for (before, after) in recording.sequences.iter().zip(&converted.sequences) {
+        check_same(before.as_ref(), after.as_ref());
+    }
+}
+
+/// A conversion keeps times, sensors, motion, and every value of every radar and LiDAR.
+fn check_same(before: &dyn SequenceReader, after: &dyn SequenceReader) {
+    assert_eq!(format!("{:?}", before.sequence().rig), format!("{:?}", after.sequence().rig));
+    assert_eq!(before.sequence().times, after.sequence().times);
+    assert_eq!(before.sequence().motion.odometry(), after.sequence().motion.odometry());
+    assert_eq!(before.sequence().motion.poses().len(), after.sequence().motion.poses().len());
+    let text = |scan: &dyn Debug| format!("{scan:?}");
+    for (r, times) in before.sequence().times.radars.iter().enumerate() {
+        for s in 0..times.len() {
+            let [before, after] = [before, after].map(|reader| reader.radar_scan(r, s).unwrap().columns);
+            assert_eq!(text(&before), text(&after), "radar {r}, scan {s}");
+        }
+    }
+    for (l, times) in before.sequence().times.lidars.iter().enumerate() {
+        for s in 0..times.len() {
+            let [before, after] = [before, after].map(|reader| reader.lidar_scan(l, s).unwrap());
+            assert_eq!(text(&before), text(&after), "LiDAR {l}, scan {s}");
+        }
+    }
+}
+
 /// All checks, on all sequences.
 fn check(recording: &Recording) {
     assert!(ralf_data::formats().contains(&recording.format));
