@@ -23,6 +23,7 @@ mod evaluation;
 mod files;
 mod ground_truth;
 mod images;
+pub mod inspection;
 mod label_file;
 mod layout;
 mod models;

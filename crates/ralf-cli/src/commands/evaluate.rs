@@ -2,10 +2,11 @@
 
 mod table;
 
-use super::Outcome;
+use crate::Outcome;
+use crate::progress::say;
+use crate::text::print;
 use anyhow::Context;
 use ralf_data::{Comparison, GroundTruth};
-use std::io::{self, Write};
 use std::path::PathBuf;
 
 /// What `ralf evaluate` takes.
@@ -29,30 +30,25 @@ pub(crate) fn run(args: &EvaluateArgs) -> anyhow::Result<Outcome> {
     let dataset =
         args.truth.as_ref().context("expected --truth DATASET, the folder with corrected labels")?;
     let comparison = Comparison::new(&args.out, &GroundTruth::open(dataset)?)?;
-    name_what_is_left_out(&comparison, args)?;
+    name_what_is_left_out(&comparison, args);
     let text = if args.json {
-        serde_json::to_string_pretty(&comparison.evaluation())? + "\n"
+        serde_json::to_string_pretty(&comparison.evaluation())?
     } else {
         let scans = if args.scans { table::of_scans(&comparison) + "\n" } else { String::new() };
         scans + &table::table(&comparison.evaluation())
     };
-    io::stdout().write_all(text.as_bytes())?;
+    print(&text)?;
     Ok(if comparison.missing.is_empty() { Outcome::Done } else { Outcome::Partial })
 }
 
-fn name_what_is_left_out(comparison: &Comparison, args: &EvaluateArgs) -> io::Result<()> {
-    let mut stderr = io::stderr().lock();
+fn name_what_is_left_out(comparison: &Comparison, args: &EvaluateArgs) {
     for sequence in &comparison.without_truth {
-        writeln!(stderr, "sequence {sequence} has no truth: left out")?;
+        say(&format!("sequence {sequence} has no truth: left out"));
     }
     for scan in &comparison.missing {
-        writeln!(
-            stderr,
-            "{}: no such file: left out, though it has truth",
-            scan.label_file(&args.out).display()
-        )?;
+        let file = scan.label_file(&args.out);
+        say(&format!("{}: no such file: left out, though it has truth", file.display()));
     }
-    Ok(())
 }
 
 #[cfg(test)]
