@@ -1,10 +1,16 @@
 //! Cameras: how they see, and the depth of what they see (METHOD 5).
+//!
+//! Each [`Camera`] is cut into [`StraightView`]s, and an [`UndistortMap`] straightens its images for a depth network.
 
 mod image;
 pub mod intrinsics;
+mod undistort;
+mod view;
 
 pub use image::{CameraImage, DepthImage, DepthOutput};
-pub use intrinsics::{Intrinsics, View};
+pub use intrinsics::Intrinsics;
+pub use undistort::UndistortMap;
+pub use view::{StraightView, View, ViewPoint};
 
 use crate::geometry::Transform;
 
