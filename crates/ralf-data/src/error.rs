@@ -1,5 +1,6 @@
 //! What can be wrong with a file: every error names the file, the place in it, what was expected and what was found.
 
+use ralf::source::SourceError;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
@@ -25,6 +26,34 @@ pub enum DataError {
         expected: String,
         /// What is there.
         found: String,
+    },
+    /// The file is as it should be, but doesn't go with what is asked for.
+    #[error("{}: {place}: {reason}", file.display())]
+    Unsuitable {
+        /// The file or folder.
+        file: PathBuf,
+        /// Part of it.
+        place: String,
+        /// Why not.
+        reason: String,
+    },
+    /// A sequence was asked for that the recording doesn't hold.
+    #[error("no sequence `{name}` in the recording, which holds {known}")]
+    UnknownSequence {
+        /// The name asked for.
+        name: String,
+        /// Those that exist.
+        known: String,
+    },
+    /// A measurement could not be read.
+    #[error("{sensor}, measurement {index}: {error}")]
+    Measurement {
+        /// The sensor's name.
+        sensor: String,
+        /// Its place in the sensor's timeline, from 0.
+        index: usize,
+        /// Why.
+        error: SourceError,
     },
 }
 

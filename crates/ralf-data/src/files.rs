@@ -1,8 +1,9 @@
 //! Bytes on disk: reading whole files, rows of float32, and writing so that a file appears whole or not at all.
 
 use crate::DataError;
+use std::collections::HashMap;
 use std::fs;
-use std::io::Write;
+use std::io::{ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
 /// The whole file.
@@ -22,22 +23,87 @@ pub(crate) fn read_text(file: &Path) -> Result<String, DataError> {
     })
 }
 
-/// A file of packed little-endian float32 rows, as one vector per column.
+/// A file of packed little-endian float32 rows, as one vector per column; there is at least one.
 pub(crate) fn read_f32_columns(file: &Path, columns: usize) -> Result<Vec<Vec<f32>>, DataError> {
     let bytes = read(file)?;
-    let row_bytes = columns * size_of::<f32>();
-    if bytes.len() % row_bytes != 0 {
-        let whole = bytes.len() / row_bytes * row_bytes;
-        return Err(DataError::content(
-            file,
-            format!("byte {whole}"),
-            format!("rows of {columns} float32 ({row_bytes} bytes)"),
-            format!("{} bytes left over at the end", bytes.len() - whole),
-        ));
-    }
+    check_rows(file, bytes.len(), columns)?;
     let values = bytes.as_chunks::<4>().0;
     let column = |first| values.iter().skip(first).step_by(columns).map(|b| f32::from_le_bytes(*b)).collect();
     Ok((0..columns).map(column).collect())
+}
+
+/// A file of packed little-endian float32 rows of `N`.
+pub(crate) fn read_f32_rows<const N: usize>(file: &Path) -> Result<Vec<[f32; N]>, DataError> {
+    let bytes = read(file)?;
+    check_rows(file, bytes.len(), N)?;
+    let rows = bytes.as_chunks::<4>().0.as_chunks::<N>().0;
+    Ok(rows.iter().map(|row| row.map(f32::from_le_bytes)).collect())
+}
+
+/// The bytes of packed little-endian float32.
+pub(crate) fn f32_bytes(values: impl Iterator<Item = f32>) -> Vec<u8> {
+    values.flat_map(f32::to_le_bytes).collect()
+}
+
+fn check_rows(file: &Path, size: usize, columns: usize) -> Result<(), DataError> {
+    let row_bytes = columns * size_of::<f32>();
+    let left_over = size % row_bytes;
+    if left_over == 0 {
+        return Ok(());
+    }
+    Err(DataError::content(
+        file,
+        format!("byte {}", size - left_over),
+        format!("rows of {columns} float32 ({row_bytes} bytes)"),
+        format!("{left_over} bytes left over at the end"),
+    ))
+}
+
+/// The names of all that lies in a folder, sorted, hidden ones left out; empty where there is no such folder.
+pub(crate) fn names(folder: &Path) -> Result<Vec<String>, DataError> {
+    let entries = match fs::read_dir(folder) {
+        Err(error) if error.kind() == ErrorKind::NotFound => return Ok(Vec::new()),
+        entries => entries.map_err(DataError::io(folder))?,
+    };
+    let mut names = Vec::new();
+    for entry in entries {
+        let name = entry.map_err(DataError::io(folder))?.file_name().into_string().map_err(|name| {
+            DataError::content(folder, "file names", "UTF-8 text", format!("`{}`", name.display()))
+        })?;
+        names.push(name);
+    }
+    names.retain(|name| !name.starts_with('.'));
+    names.sort_unstable();
+    Ok(names)
+}
+
+/// The names of the folders in a folder, sorted, hidden ones left out; empty where there is no such folder.
+pub(crate) fn folders(folder: &Path) -> Result<Vec<String>, DataError> {
+    let mut names = names(folder)?;
+    names.retain(|name| folder.join(name).is_dir());
+    Ok(names)
+}
+
+/// Which files are on disk, with one look into each folder rather than at each of millions of files.
+#[derive(Debug, Default)]
+pub(crate) struct Folders {
+    /// Sorted names per folder.
+    known: HashMap<PathBuf, Vec<String>>,
+}
+
+impl Folders {
+    /// Whether the file is there. A folder that is missing holds nothing.
+    pub(crate) fn hold(&mut self, file: &Path) -> Result<bool, DataError> {
+        let (Some(folder), Some(name)) = (file.parent(), file.file_name()) else { return Ok(false) };
+        let name = name.to_string_lossy();
+        if !self.known.contains_key(folder) {
+            self.known.insert(folder.to_owned(), names(folder)?);
+        }
+        Ok(self
+            .known
+            .get(folder)
+            .is_some_and(|names| names.binary_search_by(|found| found.as_str().cmp(&name)).is_ok()))
+    }
 }
 
 /// Writes a file whole or not at all: beside its place first, then renamed. Folders are made as needed.
@@ -73,6 +139,7 @@ mod tests {
         let bytes: Vec<u8> = [1.0f32, 2.0, 3.0, 4.0].iter().flat_map(|v| v.to_le_bytes()).collect();
         write_whole(&file, &bytes).unwrap();
         assert_eq!(read_f32_columns(&file, 2).unwrap(), [[1.0, 3.0], [2.0, 4.0]]);
+        assert_eq!(read_f32_rows::<2>(&file).unwrap(), [[1.0, 2.0], [3.0, 4.0]]);
         write_whole(&file, &bytes[..15]).unwrap();
         let error = read_f32_columns(&file, 2).unwrap_err().to_string();
         assert!(error.contains("000000.bin: byte 8: expected rows of 2 float32"), "{error}");

@@ -1,8 +1,45 @@
 //! Recordings in and labels out: readers and writers of the formats that RALF knows.
+//!
+//! [`open`] recognises what a folder holds and gives a [`Recording`]: its sequences, each a [`SequenceReader`], which is a
+//! [`ralf::source::Source`] that also knows its files. Opening checks all metadata; measurements are read when they are
+//! asked for. [`write_sequence`] writes any of them in the project's own layout, without loss.
+//!
+//! Whatever is wrong with a file is a [`DataError`] that names the file, the place in it, what was expected and what was
+//! found. Keys of no meaning and files that belong to nothing are [warnings](SequenceReader::warnings).
+//!
+//! ```no_run
+//! # fn main() -> Result<(), Box<dyn std::error::Error + Send + Sync>> {
+//! let recording = ralf_data::open("recordings/town".as_ref(), None)?;
+//! for sequence in &recording.sequences {
+//!     let scan = sequence.radar_scan(0, 0)?;
+//!     assert_eq!(scan.t_ns, sequence.sequence().times.radars[0][0]);
+//! }
+//! # Ok(())
+//! # }
+//! ```
 
 mod error;
+mod evaluation;
 mod files;
+mod ground_truth;
+mod images;
+pub mod inspection;
+mod label_file;
+mod layout;
+mod models;
+mod nuscenes;
+mod open;
+pub mod output;
 mod recording;
+pub mod run;
+#[cfg(test)]
+mod testing;
+mod view_of_delft;
 
 pub use error::DataError;
+pub use evaluation::Comparison;
+pub use ground_truth::{GroundTruth, ScanId};
+pub use label_file::{Label, read_labels, write_labels};
+pub use layout::{LayoutSequence, write_sequence};
+pub use open::{formats, open};
 pub use recording::{Recording, SequenceReader};

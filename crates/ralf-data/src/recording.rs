@@ -1,5 +1,6 @@
 //! A recording of any format, seen as its sequences.
 
+use crate::DataError;
 use ralf::source::Source;
 use std::path::PathBuf;
 
@@ -13,12 +14,44 @@ pub trait SequenceReader: Source {
 
     /// The file of a camera's image, to be copied as it is.
     fn image_file(&self, camera: usize, image: usize) -> Option<PathBuf>;
+
+    /// The `.label` file of a LiDAR's scan, to be copied as it is: it also numbers instances.
+    fn lidar_label_file(&self, _lidar: usize, _scan: usize) -> Option<PathBuf> {
+        None
+    }
+
+    /// The `.label` file with the corrected labels of a radar's scan.
+    fn truth_file(&self, _radar: usize, _scan: usize) -> Option<PathBuf> {
+        None
+    }
 }
 
 /// A recording, opened: cheap, for measurements are read on demand.
 pub struct Recording {
+    /// The folder or file that was opened.
+    pub path: PathBuf,
     /// The format's name, as `--format` takes it.
     pub format: &'static str,
     /// In the order of their names.
     pub sequences: Vec<Box<dyn SequenceReader>>,
+}
+
+impl Recording {
+    /// Keeps the sequences of these names, in the recording's order; all of them where no name is given.
+    pub fn select(mut self, names: &[String]) -> Result<Self, DataError> {
+        let holds = |name: &String| self.sequences.iter().any(|sequence| sequence.sequence().name == *name);
+        if let Some(unknown) = names.iter().find(|name| !holds(name)) {
+            let known: Vec<&str> = self.sequences.iter().map(|s| s.sequence().name.as_str()).collect();
+            return Err(DataError::UnknownSequence { name: unknown.clone(), known: known.join(", ") });
+        }
+        self.sequences.retain(|sequence| names.is_empty() || names.contains(&sequence.sequence().name));
+        Ok(self)
+    }
+}
+
+impl std::fmt::Debug for Recording {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let names: Vec<&str> = self.sequences.iter().map(|s| s.sequence().name.as_str()).collect();
+        f.debug_struct("Recording").field("format", &self.format).field("sequences", &names).finish()
+    }
 }

@@ -1,0 +1,76 @@
+//! What can be typed.
+
+use crate::commands::{convert, evaluate, inspect, label, plot};
+use clap::{Args, Parser, Subcommand};
+use std::path::PathBuf;
+
+/// Trustworthy labels for radar data: which detections are real, and which are artifacts?
+#[derive(Debug, Parser)]
+#[command(
+    name = "ralf",
+    version,
+    max_term_width = 110,
+    after_help = "\
+Examples:
+  ralf inspect recordings/city              what is in there, and what is missing
+  ralf label recordings/city -o out         a plausibility and a label for every detection
+  ralf plot recordings/city out --sequence 00 --scan 17 -o scan.png
+  ralf evaluate out --truth recordings/city
+
+Exit status: 0 done; 1 failed; 2 wrong usage; 3 done, but some scans are left out (each is named)."
+)]
+pub(crate) struct Cli {
+    #[command(subcommand)]
+    pub(crate) command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum Command {
+    /// Sensors, rates, gaps, offsets between sensors, what is missing
+    Inspect(inspect::InspectArgs),
+    /// Label every radar detection of a recording
+    Label(label::LabelArgs),
+    /// Compare labels with corrected ones
+    Evaluate(evaluate::EvaluateArgs),
+    /// Draw labelled scans from above
+    Plot(plot::PlotArgs),
+    /// Write a recording of another format in RALF's own layout
+    Convert(convert::ConvertArgs),
+    /// Print a completion script for a shell
+    #[command(after_help = "Example:\n  ralf completions bash > /etc/bash_completion.d/ralf")]
+    Completions {
+        /// Which shell
+        shell: clap_complete::Shell,
+    },
+}
+
+/// The recording that a command works on.
+#[derive(Debug, Args)]
+pub(crate) struct DatasetArgs {
+    /// The recording's folder; its format is recognised by what it holds
+    #[arg(value_name = "DATASET")]
+    pub(crate) dataset: PathBuf,
+    /// Take the recording for this format
+    #[arg(long, value_name = "FORMAT", value_parser = clap::builder::PossibleValuesParser::new(ralf_data::formats()))]
+    pub(crate) format: Option<String>,
+    /// Only this sequence; may be given several times
+    #[arg(long = "sequence", value_name = "NAME")]
+    pub(crate) sequences: Vec<String>,
+}
+
+impl DatasetArgs {
+    /// Opens the recording, and says what its reader warns of.
+    pub(crate) fn open(&self) -> anyhow::Result<ralf_data::Recording> {
+        let recording = ralf_data::open(&self.dataset, self.format.as_deref())?;
+        let recording =
+            if self.sequences.is_empty() { recording } else { recording.select(&self.sequences)? };
+        for reader in &recording.sequences {
+            let name = &reader.sequence().name;
+            reader
+                .warnings()
+                .iter()
+                .for_each(|warning| crate::progress::say(&format!("warning: {name}: {warning}")));
+        }
+        Ok(recording)
+    }
+}

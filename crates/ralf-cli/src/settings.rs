@@ -1,0 +1,34 @@
+//! Settings from a file and from the command line.
+
+use crate::UsageError;
+use anyhow::Context;
+use clap::Args;
+use ralf::config::Config;
+use std::path::PathBuf;
+
+/// How the labeler is set.
+#[derive(Debug, Args)]
+pub(crate) struct SettingsArgs {
+    /// Settings file (TOML); every key is optional
+    #[arg(long, value_name = "FILE")]
+    config: Option<PathBuf>,
+    /// One setting, such as lidar.beta=0.5; wins over the file, may be given several times
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    assignments: Vec<String>,
+}
+
+impl SettingsArgs {
+    /// The settings, resolved.
+    pub(crate) fn resolve(&self) -> anyhow::Result<Config> {
+        let text = match &self.config {
+            Some(file) => std::fs::read_to_string(file).with_context(|| file.display().to_string())?,
+            None => String::new(),
+        };
+        // The file by itself first, so that what is wrong with it is said of the file.
+        if let Some(file) = &self.config {
+            Config::from_toml(&text, &[]).with_context(|| file.display().to_string())?;
+        }
+        let assignments: Vec<&str> = self.assignments.iter().map(String::as_str).collect();
+        Config::from_toml(&text, &assignments).map_err(|error| UsageError(format!("--set: {error}")).into())
+    }
+}

@@ -1,0 +1,176 @@
+//! What a recording holds, how regularly, and what is missing: from its times alone, without reading a measurement.
+
+use ralf::config::Config;
+use ralf::source::Sequence;
+use ralf::sync;
+use serde::Serialize;
+
+/// A time between two measurements that is this many times the usual one is a gap.
+const GAP: i64 = 3;
+
+/// What one sequence holds.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Inspection {
+    /// The sequence's name.
+    pub name: String,
+    /// Its title, for people.
+    pub title: String,
+    /// From the first radar scan to the last, s.
+    pub seconds: f64,
+    /// Length of the vehicle's path between these, m.
+    pub path_m: f64,
+    /// Samples of wheel odometry.
+    pub odometry_samples: usize,
+    /// 6-DoF poses; where there are some, they are used.
+    pub poses: usize,
+    /// Radars, LiDARs, cameras.
+    pub sensors: Vec<SensorInspection>,
+    /// What the labeler will miss, a sentence each.
+    pub missing: Vec<String>,
+}
+
+/// What one sensor delivers.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct SensorInspection {
+    /// `radar`, `lidar` or `camera`.
+    pub kind: &'static str,
+    /// Its name.
+    pub name: String,
+    /// Scans or images.
+    pub count: usize,
+    /// Of the median time between two of them, Hz.
+    pub rate_hz: Option<f64>,
+    /// How far the middle half of these times lies apart, ms.
+    pub jitter_ms: Option<f64>,
+    /// Times without any that are at least three times the usual.
+    pub gaps: Vec<Gap>,
+    /// Time to the nearest LiDAR scan: median, ms. Of radars and cameras.
+    pub lidar_offset_ms: Option<f64>,
+    /// Scans or images with a LiDAR scan within the tolerance.
+    pub with_lidar: usize,
+}
+
+/// A time without measurements.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Gap {
+    /// Number of the measurement before.
+    pub after: usize,
+    /// Its length, ms.
+    pub ms: f64,
+}
+
+impl Inspection {
+    /// Looks at a sequence; tolerances are those of the settings.
+    pub fn of(sequence: &Sequence, config: &Config) -> Self {
+        let all_scans = sequence.times.radars.iter().flatten();
+        let span = all_scans.clone().min().zip(all_scans.max());
+        let (first, last) = span.map_or((0, 0), |(first, last)| (*first, *last));
+        Self {
+            name: sequence.name.clone(),
+            title: sequence.title.clone(),
+            seconds: last.abs_diff(first) as f64 * 1e-9,
+            path_m: path_length(sequence, first, last),
+            odometry_samples: sequence.motion.odometry().len(),
+            poses: sequence.motion.poses().len(),
+            sensors: sensors(sequence, config),
+            missing: missing(sequence, config),
+        }
+    }
+}
+
+fn sensors(sequence: &Sequence, config: &Config) -> Vec<SensorInspection> {
+    let times = &sequence.times;
+    let look = |kind, name: &String, own: &Vec<i64>| sensor(kind, name, own, &times.lidars, config);
+    let radars =
+        sequence.rig.radars.iter().zip(&times.radars).map(|(radar, own)| look("radar", &radar.name, own));
+    let lidars =
+        sequence.rig.lidars.iter().zip(&times.lidars).map(|(lidar, own)| look("lidar", &lidar.name, own));
+    let cameras = sequence
+        .rig
+        .cameras
+        .iter()
+        .zip(&times.cameras)
+        .map(|(camera, own)| look("camera", &camera.name, own));
+    radars.chain(lidars).chain(cameras).collect()
+}
+
+fn sensor(
+    kind: &'static str,
+    name: &str,
+    times: &[i64],
+    lidars: &[Vec<i64>],
+    config: &Config,
+) -> SensorInspection {
+    let steps: Vec<i64> = times.windows(2).map(|pair| pair[1].saturating_sub(pair[0])).collect();
+    let usual = quantile(&steps, 0.5);
+    let is_gap = |step: i64| usual.is_some_and(|usual| step > usual.max(1).saturating_mul(GAP));
+    let gaps = steps.iter().enumerate().filter(|(_, step)| is_gap(**step));
+    let others = lidars.iter().filter(|_| kind != "lidar");
+    let offset = |t: &i64| others.clone().filter_map(|lidar| offset_to_nearest(lidar, *t)).min();
+    let offsets: Vec<i64> = times.iter().filter_map(offset).collect();
+    let tolerance = (config.sync.lidar_tolerance_ms * 1e6) as i64;
+    SensorInspection {
+        kind,
+        name: name.to_owned(),
+        count: times.len(),
+        rate_hz: usual.filter(|usual| *usual > 0).map(|usual| 1e9 / usual as f64),
+        jitter_ms: quantile(&steps, 0.75).zip(quantile(&steps, 0.25)).map(|(high, low)| ms(high - low)),
+        gaps: gaps.map(|(after, step)| Gap { after, ms: ms(*step) }).collect(),
+        lidar_offset_ms: quantile(&offsets, 0.5).map(ms),
+        with_lidar: offsets.iter().filter(|offset| **offset <= tolerance).count(),
+    }
+}
+
+fn missing(sequence: &Sequence, config: &Config) -> Vec<String> {
+    let mut missing = Vec::new();
+    let mut say = |applies: bool, text: String| {
+        if applies {
+            missing.push(text);
+        }
+    };
+    let (rig, times) = (&sequence.rig, &sequence.times);
+    say(rig.lidars.is_empty(), "no LiDAR: no LiDAR matching, and no scale for depth images".into());
+    say(rig.cameras.is_empty(), "no camera: nothing looks into the LiDAR's blind spot".into());
+    say(
+        sequence.motion.poses().is_empty(),
+        "no 6-DoF poses: the motion is integrated from wheel odometry".into(),
+    );
+    for (radar, own) in rig.radars.iter().zip(&times.radars) {
+        let without = own.len() - sensor("radar", &radar.name, own, &times.lidars, config).with_lidar;
+        let tolerance = config.sync.lidar_tolerance_ms;
+        let scans = own.len();
+        say(
+            without > 0 && !rig.lidars.is_empty(),
+            format!("{}: {without} of {scans} scans have no LiDAR scan within {tolerance} ms", radar.name),
+        );
+    }
+    let names = rig.lidars.iter().map(|lidar| &lidar.name).zip(&times.lidars);
+    let names = names.chain(rig.cameras.iter().map(|camera| &camera.name).zip(&times.cameras));
+    for (name, own) in names.chain(rig.radars.iter().map(|radar| &radar.name).zip(&times.radars)) {
+        say(own.is_empty(), format!("{name}: nothing recorded"));
+    }
+    missing
+}
+
+fn offset_to_nearest(times: &[i64], t_ns: i64) -> Option<i64> {
+    let nearest = sync::nearest(times, t_ns, i64::MAX)?;
+    i64::try_from(times[nearest].abs_diff(t_ns)).ok()
+}
+
+/// The path in steps of 0.1 s, m.
+fn path_length(sequence: &Sequence, first: i64, last: i64) -> f64 {
+    const STEP: usize = 100_000_000;
+    let places = (first..last).step_by(STEP).chain([last]);
+    let places: Vec<_> = places.map(|t| sequence.motion.odom_from_vehicle(t).translation.vector).collect();
+    places.windows(2).map(|pair| (pair[1] - pair[0]).norm()).sum()
+}
+
+fn quantile(values: &[i64], share: f64) -> Option<i64> {
+    let mut sorted = values.to_vec();
+    sorted.sort_unstable();
+    sorted.get(((sorted.len() as f64 - 1.0).max(0.0) * share).round() as usize).copied()
+}
+
+fn ms(ns: i64) -> f64 {
+    ns as f64 * 1e-6
+}

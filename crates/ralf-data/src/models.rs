@@ -1,0 +1,123 @@
+//! Sensors of public recordings that carry no measurement uncertainties: what their makers and papers say of them.
+//!
+//! Radar makers state an accuracy or a resolution, not a standard deviation. An accuracy is taken as one standard
+//! deviation, a resolution as two. Whoever knows better says so in the table `sensors` of the settings.
+
+use ralf::geometry::Transform;
+use ralf::rig::{Elevation, Lidar, Radar, Reliability};
+
+/// What is known of a type of radar.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct RadarModel {
+    /// Whether theta is measured.
+    pub(crate) elevation: Elevation,
+    /// Full horizontal field of view, degrees.
+    pub(crate) fov_azimuth_deg: f64,
+    /// Full vertical field of view, degrees.
+    pub(crate) fov_elevation_deg: f64,
+    /// `s_r`, m.
+    pub(crate) sigma_range_m: f64,
+    /// `s_phi`, degrees.
+    pub(crate) sigma_azimuth_deg: f64,
+    /// `s_theta`, degrees; 0 where elevation isn't measured.
+    pub(crate) sigma_elevation_deg: f64,
+}
+
+/// What is known of a type of LiDAR.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct LidarModel {
+    /// `s_r,lidar`, m.
+    pub(crate) sigma_range_m: f64,
+    /// `alpha_l`: depression of the lowest beam, degrees.
+    pub(crate) lowest_beam_deg: f64,
+    /// Farthest return, m.
+    pub(crate) max_range_m: f64,
+}
+
+/// Continental ARS 408-21, all five radars of nuScenes. Its data sheet has a near and a far scan:
+///
+/// | | far | near |
+/// | --- | --- | --- |
+/// | range accuracy | 0.40 m | 0.10 m |
+/// | azimuth accuracy | 0.1 deg | 0.3 deg at 0, 1 deg at 45, 5 deg at 60 deg |
+/// | azimuth field of view | 18 deg | 120 deg |
+/// | elevation field of view | 14 deg | 20 deg |
+///
+/// The recording doesn't say which scan a detection is from: the wider field and the worse range accuracy hold
+/// for both, and 1 deg for all but the outermost azimuths.
+pub(crate) const ARS_408_21: RadarModel = RadarModel {
+    elevation: Elevation::None,
+    fov_azimuth_deg: 120.0,
+    fov_elevation_deg: 20.0,
+    sigma_range_m: 0.40,
+    sigma_azimuth_deg: 1.0,
+    sigma_elevation_deg: 0.0,
+};
+
+/// ZF FRGen21, the radar of View-of-Delft. The data set's paper (Palffy et al., RA-L 2022) gives the resolutions
+/// 0.2 m in range and 1.5 deg in azimuth and elevation, of which half are taken. The fields of view are those that
+/// the published scans fill: 90 deg to either side, 17 deg up and down.
+pub(crate) const ZF_FRGEN21: RadarModel = RadarModel {
+    elevation: Elevation::Measured,
+    fov_azimuth_deg: 180.0,
+    fov_elevation_deg: 34.0,
+    sigma_range_m: 0.10,
+    sigma_azimuth_deg: 0.75,
+    sigma_elevation_deg: 0.75,
+};
+
+/// Velodyne HDL-32E, the LiDAR of nuScenes. Data sheet: 2 cm accuracy (one standard deviation at 25 m), beams from
+/// +10.67 to -30.67 deg, usable returns up to 100 m.
+pub(crate) const HDL_32E: LidarModel =
+    LidarModel { sigma_range_m: 0.02, lowest_beam_deg: 30.67, max_range_m: 100.0 };
+
+/// Velodyne HDL-64E S3, the LiDAR of View-of-Delft. Data sheet: accuracy better than 2 cm (one standard deviation),
+/// beams from +2 to -24.9 deg, 120 m.
+pub(crate) const HDL_64E_S3: LidarModel =
+    LidarModel { sigma_range_m: 0.02, lowest_beam_deg: 24.9, max_range_m: 120.0 };
+
+impl RadarModel {
+    /// A radar of this type.
+    pub(crate) fn mounted(self, name: &str, fields: &[&str], vehicle_from_radar: Transform) -> Radar {
+        Radar {
+            name: name.to_owned(),
+            fields: fields.iter().map(|field| (*field).to_owned()).collect(),
+            vehicle_from_radar,
+            elevation: self.elevation,
+            fov_azimuth: self.fov_azimuth_deg.to_radians(),
+            fov_elevation: self.fov_elevation_deg.to_radians(),
+            sigma_range: self.sigma_range_m,
+            sigma_azimuth: self.sigma_azimuth_deg.to_radians(),
+            sigma_elevation: self.sigma_elevation_deg.to_radians(),
+            reliability: Reliability::default(),
+        }
+    }
+}
+
+impl LidarModel {
+    /// A LiDAR of this type.
+    pub(crate) fn mounted(self, name: &str, vehicle_from_lidar: Transform) -> Lidar {
+        Lidar {
+            name: name.to_owned(),
+            vehicle_from_lidar,
+            sigma_range: self.sigma_range_m,
+            lowest_beam: self.lowest_beam_deg.to_radians(),
+            max_range: Some(self.max_range_m),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_model_is_a_sensor() {
+        for model in [ARS_408_21, ZF_FRGEN21] {
+            assert_eq!(model.mounted("radar", &["x", "y", "z"], Transform::identity()).check(), Ok(()));
+        }
+        for model in [HDL_32E, HDL_64E_S3] {
+            assert_eq!(model.mounted("lidar", Transform::identity()).check(), Ok(()));
+        }
+    }
+}

@@ -1,0 +1,14 @@
+//! What a labelling run writes: `plausibility.parquet`, `.label` files and `run.json`.
+
+mod columns;
+mod parquet_file;
+mod rows_file;
+mod rows_read;
+mod table;
+
+pub use columns::Columns;
+pub use parquet_file::PlausibilityWriter;
+pub use rows_read::{LabelledRows, read_labelled_rows};
+pub use table::ScanTable;
+
+pub(crate) use rows_file::{read_rows, write_rows};

@@ -1,0 +1,135 @@
+//! Which part of the ground a picture shows.
+
+use crate::error::PlotError;
+
+/// Which part of the ground a picture shows.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub enum Extent {
+    /// All detections but the farthest 0.5 % to each side, the vehicle and its path. How many lie outside is written
+    /// into the picture.
+    #[default]
+    Fit,
+    /// At least this far around the vehicle, or around the middle of the path in an overview, m.
+    Radius(f64),
+}
+
+/// A rectangle on the ground.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Window {
+    /// x and y, m.
+    pub(crate) centre: [f64; 2],
+    /// Half its lengths along x and y, m, above 0.
+    pub(crate) half: [f64; 2],
+}
+
+/// No recording is wider than this, nor lies farther from the origin of its frame, m.
+const FARTHEST: f64 = 1e8;
+/// Part of the places left out at each end of each axis.
+const TAIL: f64 = 0.005;
+/// Part of the window's half length kept free around its content.
+const MARGIN: f64 = 0.05;
+/// The smallest half length, m.
+const LEAST_HALF: f64 = 5.0;
+/// Half length where there is nothing to show, m.
+const EMPTY_HALF: f64 = 20.0;
+
+/// Whether x and y are a place that can be drawn: finite, and on earth.
+pub(crate) fn is_place(place: &[f64; 2]) -> bool {
+    place.iter().all(|value| value.abs() <= FARTHEST)
+}
+
+impl Extent {
+    /// Refuses a radius that is no length.
+    pub(crate) fn check(&self) -> Result<(), PlotError> {
+        match *self {
+            Self::Radius(found) if !(found > 0.0 && found <= FARTHEST) => {
+                Err(PlotError::Radius { most: FARTHEST, found })
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// The window to show. `scattered` lose their farthest, `kept` are shown in any case; a radius is taken around
+    /// `kept`'s middle or, without any, the middle of `scattered`.
+    pub(crate) fn window(self, scattered: impl Iterator<Item = [f64; 2]>, kept: &[[f64; 2]]) -> Window {
+        let kept = bounds(kept.iter().copied(), 0.0);
+        match self {
+            Self::Fit => around(union(bounds(scattered, TAIL), kept)),
+            Self::Radius(radius) => {
+                let middle = around(kept.or_else(|| bounds(scattered, TAIL)));
+                Window { centre: middle.centre, half: [radius; 2] }
+            }
+        }
+    }
+}
+
+/// Lowest and highest value of x and of y.
+type Bounds = [[f64; 2]; 2];
+
+fn bounds(places: impl Iterator<Item = [f64; 2]>, tail: f64) -> Option<Bounds> {
+    let (mut xs, mut ys): (Vec<f64>, Vec<f64>) = places.filter(is_place).map(|[x, y]| (x, y)).unzip();
+    Some([without_tails(&mut xs, tail)?, without_tails(&mut ys, tail)?])
+}
+
+fn without_tails(values: &mut [f64], tail: f64) -> Option<[f64; 2]> {
+    let last = values.len().checked_sub(1)?;
+    let dropped = (last as f64 * tail) as usize;
+    let (_, low, _) = values.select_nth_unstable_by(dropped, f64::total_cmp);
+    let low = *low;
+    let (_, high, _) = values.select_nth_unstable_by(last - dropped, f64::total_cmp);
+    Some([low, *high])
+}
+
+fn union(a: Option<Bounds>, b: Option<Bounds>) -> Option<Bounds> {
+    let join = |[a_low, a_high]: [f64; 2], [b_low, b_high]: [f64; 2]| [a_low.min(b_low), a_high.max(b_high)];
+    match (a, b) {
+        (Some([ax, ay]), Some([bx, by])) => Some([join(ax, bx), join(ay, by)]),
+        (one, other) => one.or(other),
+    }
+}
+
+fn around(bounds: Option<Bounds>) -> Window {
+    let Some(bounds) = bounds else {
+        return Window { centre: [0.0; 2], half: [EMPTY_HALF; 2] };
+    };
+    let half = bounds.map(|[low, high]| ((high - low) / 2.0 * (1.0 + MARGIN)).max(LEAST_HALF));
+    Window { centre: bounds.map(|[low, high]| low + (high - low) / 2.0), half }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn grid() -> impl Iterator<Item = [f64; 2]> {
+        (0..=1000).map(|i| [f64::from(i), -f64::from(i) / 10.0])
+    }
+
+    #[test]
+    fn the_farthest_are_left_out_and_what_is_kept_is_shown() {
+        let window = Extent::Fit.window(grid(), &[]);
+        assert_eq!(window.centre, [500.0, -50.0]);
+        assert!((window.half[0] - 495.0 * 1.05).abs() < 1e-9);
+        let window = Extent::Fit.window(grid(), &[[-505.0, 0.0]]);
+        assert_eq!(window.centre[0], 245.0);
+        assert!((window.half[0] - 750.0 * 1.05).abs() < 1e-9);
+    }
+
+    #[test]
+    fn nothing_one_and_no_places_at_all() {
+        assert_eq!(Extent::Fit.window(std::iter::empty(), &[]).half, [EMPTY_HALF; 2]);
+        let hollow = [[f64::NAN, 0.0], [0.0, f64::INFINITY], [1e300, 0.0]];
+        assert_eq!(Extent::Fit.window(hollow.into_iter(), &hollow).half, [EMPTY_HALF; 2]);
+        let one = Extent::Fit.window([[7.0, 8.0]].into_iter(), &[]);
+        assert_eq!(one, Window { centre: [7.0, 8.0], half: [LEAST_HALF; 2] });
+    }
+
+    #[test]
+    fn a_radius_is_around_what_is_kept() {
+        let window = Extent::Radius(30.0).window(grid(), &[[10.0, 0.0], [20.0, 4.0]]);
+        assert_eq!(window, Window { centre: [15.0, 2.0], half: [30.0; 2] });
+        assert_eq!(Extent::Radius(30.0).window(grid(), &[]).centre, [500.0, -50.0]);
+        for bad in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+            assert!(Extent::Radius(bad).check().is_err(), "{bad}");
+        }
+    }
+}

@@ -1,0 +1,113 @@
+//! Detections: what they are labelled, how they look, how many there are.
+
+use crate::canvas::Canvas;
+use crate::extent::is_place;
+use crate::palette::{ARTIFACT, PAPER, PLAUSIBLE, UNLABELLED};
+use crate::viewport::Viewport;
+
+/// What a detection is labelled.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum MarkLabel {
+    /// Belongs to an object.
+    Plausible,
+    /// Caused by no object at its place.
+    Artifact,
+    /// Neither, for want of evidence or of a decision.
+    Unlabelled,
+}
+
+/// A detection, in the frame of its picture. One that is not finite is counted and not drawn.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Mark {
+    /// Forward in the vehicle frame, m.
+    pub x: f64,
+    /// To the left in the vehicle frame, m.
+    pub y: f64,
+    /// What it is labelled.
+    pub label: MarkLabel,
+}
+
+impl Mark {
+    /// x and y, m.
+    pub(crate) fn place(&self) -> [f64; 2] {
+        [self.x, self.y]
+    }
+}
+
+/// How many detections there are of each kind, and how many of them are not seen.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(crate) struct Counts {
+    pub(crate) plausible: usize,
+    pub(crate) artifact: usize,
+    pub(crate) unlabelled: usize,
+    /// Without a place.
+    pub(crate) nowhere: usize,
+    /// Outside the view.
+    pub(crate) outside: usize,
+}
+
+impl Counts {
+    /// Counts the detections of a picture.
+    pub(crate) fn of(marks: &[Mark], viewport: &Viewport) -> Self {
+        let mut counts = Self::default();
+        for mark in marks {
+            match mark.label {
+                MarkLabel::Plausible => counts.plausible += 1,
+                MarkLabel::Artifact => counts.artifact += 1,
+                MarkLabel::Unlabelled => counts.unlabelled += 1,
+            }
+            if !is_place(&mark.place()) {
+                counts.nowhere += 1;
+            } else if !viewport.contains(viewport.pixel_from_world(mark.place()), 0.0) {
+                counts.outside += 1;
+            }
+        }
+        counts
+    }
+
+    /// All of them.
+    pub(crate) fn all(&self) -> usize {
+        self.plausible + self.artifact + self.unlabelled
+    }
+}
+
+/// Draws one detection: plausible a disc, artifact a cross, unlabelled a ring, each with a thin white edge.
+pub(crate) fn draw(canvas: &mut Canvas, at: [f32; 2], radius: f32, label: MarkLabel) {
+    let edge = radius * 0.22;
+    let halo = PAPER.with_alpha(190);
+    match label {
+        MarkLabel::Plausible => {
+            canvas.disc(at, radius + edge, halo);
+            canvas.disc(at, radius, PLAUSIBLE);
+        }
+        MarkLabel::Artifact => {
+            let (arm, line) = (radius * 0.78, radius * 0.5);
+            canvas.cross(at, arm, line + edge * 1.5, halo);
+            canvas.cross(at, arm, line, ARTIFACT);
+        }
+        MarkLabel::Unlabelled => {
+            canvas.circle(at, radius * 0.75, radius * 0.4, UNLABELLED);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::extent::Window;
+
+    #[test]
+    fn every_detection_is_counted_seen_or_not() {
+        let viewport = Viewport::showing(&Window { centre: [0.0; 2], half: [10.0; 2] }, [40, 40]);
+        let mark = |x, label| Mark { x, y: 0.0, label };
+        let marks = [
+            mark(1.0, MarkLabel::Plausible),
+            mark(11.0, MarkLabel::Plausible),
+            mark(f64::NAN, MarkLabel::Artifact),
+            mark(-9.0, MarkLabel::Unlabelled),
+        ];
+        let counts = Counts::of(&marks, &viewport);
+        assert_eq!(counts, Counts { plausible: 2, artifact: 1, unlabelled: 1, nowhere: 1, outside: 1 });
+        assert_eq!(counts.all(), 4);
+    }
+}

@@ -1,0 +1,227 @@
+//! What a radar scan costs, stage by stage, on a street like the paper's: 72k LiDAR points, 1,216 detections of which four in
+//! five are artifacts, K = 5, n_b = 5. Run with `cargo bench -p ralf --bench scan`; one thread.
+
+use divan::{Bencher, black_box};
+use ralf::camera::{CameraImage, DepthImage, DepthOutput};
+use ralf::config::Config;
+use ralf::frame::{Frame, FrameWindow};
+use ralf::geometry::{Point, Spherical, Transform};
+use ralf::labeler::Labeler;
+use ralf::lidar::ground::Ground;
+use ralf::lidar::{self, LidarMoment};
+use ralf::measurement::{LidarScan, RadarScan};
+use ralf::motion::{EgoMotion, OdometrySample};
+use ralf::neighbors::NeighborIndex;
+use ralf::rig::{Elevation, Lidar, Radar, Reliability, Rig};
+use ralf::source::{Sequence, Source, SourceError, Timelines};
+use ralf::tracking;
+use rand::{RngExt, SeedableRng};
+use rand_pcg::Pcg64Mcg;
+use std::sync::{Arc, LazyLock};
+
+const POINTS: usize = 72_000;
+const DETECTIONS: usize = 1216;
+const SCANS: usize = 11;
+const SCAN_NS: i64 = 60_000_000;
+
+fn main() {
+    divan::main();
+}
+
+/// A street of 120 m with walls on both sides, parked cars and poles, and gardens with trees behind openings in the walls.
+fn street(seed: u64) -> Vec<[f32; 3]> {
+    let mut random = Pcg64Mcg::seed_from_u64(seed);
+    let mut point = |i: usize| {
+        let along = random.random_range(-60.0f32..60.0);
+        match i % 10 {
+            // Returns from the ground grow rarer with the distance.
+            0..5 => {
+                let (r, phi) = (
+                    3.0 + 45.0 * random.random_range(0.0f32..1.0).powi(3),
+                    random.random_range(-3.14f32..3.14),
+                );
+                [r * phi.cos(), (r * phi.sin()).clamp(-9.0, 9.0), random.random_range(-0.03..0.03)]
+            }
+            5 => {
+                let tree = |n: i32| ((n * 37) % 120 - 60) as f32;
+                let n = random.random_range(0..60);
+                let (x, y) = (tree(n), tree(n * n + 7));
+                [
+                    x + random.random_range(-1.5..1.5),
+                    y + random.random_range(-1.5..1.5),
+                    random.random_range(0.3..5.0),
+                ]
+            }
+            6..8 => [along, if along > 0.0 { 9.0 } else { -9.0 }, random.random_range(0.0..6.0)],
+            8 => [
+                (along / 6.0).round() * 6.0 + random.random_range(-2.0..2.0),
+                6.0,
+                random.random_range(0.2..1.5),
+            ],
+            _ => [(along / 15.0).round() * 15.0, -7.0, random.random_range(0.0..5.0)],
+        }
+    };
+    (0..POINTS).map(|i| point(i)).collect()
+}
+
+/// One in five detections on the street's surfaces, the others anywhere.
+fn detections(radar: &Radar, scan: usize) -> RadarScan {
+    let mut random = Pcg64Mcg::seed_from_u64(99);
+    let surfaces = street(7);
+    let mut columns = vec![Vec::with_capacity(DETECTIONS); 3];
+    for i in 0..DETECTIONS {
+        let [x, y, z] = match i % 5 {
+            0 => surfaces[random.random_range(0..POINTS as u32) as usize],
+            _ => {
+                let mut noise = Pcg64Mcg::seed_from_u64((i * SCANS + scan) as u64);
+                [
+                    noise.random_range(-60.0..60.0),
+                    noise.random_range(-60.0..60.0),
+                    noise.random_range(0.0..3.0),
+                ]
+            }
+        };
+        let s = Spherical::from_cartesian(&Point::new(x.into(), y.into(), z.into()));
+        [s.range, s.azimuth, s.elevation]
+            .iter()
+            .zip(&mut columns)
+            .for_each(|(value, column)| column.push(*value as f32));
+    }
+    RadarScan::new(radar, scan as i64 * SCAN_NS, columns).expect("columns fit the radar")
+}
+
+struct Street {
+    sequence: Sequence,
+    lidar: LidarScan,
+    scans: Vec<RadarScan>,
+}
+
+impl Street {
+    fn new() -> Self {
+        let radar = Radar {
+            name: "radar".into(),
+            fields: ["range", "azimuth", "elevation"].map(str::to_owned).to_vec(),
+            vehicle_from_radar: Transform::translation(0.0, 0.0, 0.0),
+            elevation: Elevation::Measured,
+            fov_azimuth: 2.8,
+            fov_elevation: 0.35,
+            sigma_range: 0.1,
+            sigma_azimuth: 0.01,
+            sigma_elevation: 0.02,
+            reliability: Reliability::default(),
+        };
+        let lidar = Lidar {
+            name: "lidar".into(),
+            vehicle_from_lidar: Transform::translation(0.0, 0.0, 0.0),
+            sigma_range: 0.03,
+            lowest_beam: 0.43,
+            max_range: None,
+        };
+        let scans: Vec<_> = (0..SCANS).map(|scan| detections(&radar, scan)).collect();
+        let points = street(7);
+        let standing = OdometrySample { t_ns: 0, velocity: 0.0, yaw_rate: 0.0 };
+        let times = scans.iter().map(|scan| scan.t_ns).collect();
+        let middle = SCANS as i64 / 2 * SCAN_NS;
+        let sequence = Sequence {
+            name: "street".into(),
+            title: String::new(),
+            rig: Rig { radars: vec![radar], lidars: vec![lidar], cameras: vec![] },
+            times: Timelines { radars: vec![times], lidars: vec![vec![middle]], cameras: vec![] },
+            motion: EgoMotion::new(vec![standing], vec![]).expect("there is odometry"),
+            depth_output: DepthOutput::Depth,
+        };
+        let lidar = LidarScan { t_ns: middle, intensity: vec![0.0; points.len()], points, classes: None };
+        Self { sequence, lidar, scans }
+    }
+}
+
+impl Source for Street {
+    fn sequence(&self) -> &Sequence {
+        &self.sequence
+    }
+    fn radar_scan(&self, _: usize, scan: usize) -> Result<RadarScan, SourceError> {
+        Ok(self.scans[scan].clone())
+    }
+    fn lidar_scan(&self, _: usize, _: usize) -> Result<LidarScan, SourceError> {
+        Ok(self.lidar.clone())
+    }
+    fn image(&self, _: usize, _: usize) -> Result<CameraImage, SourceError> {
+        Err("no camera".into())
+    }
+    fn depth(&self, _: usize, _: usize) -> Result<Option<Vec<DepthImage>>, SourceError> {
+        Ok(None)
+    }
+}
+
+static STREET: LazyLock<Street> = LazyLock::new(Street::new);
+static CONFIG: LazyLock<Config> =
+    LazyLock::new(|| Config::from_toml("", &["lidar.neighbours=5", "tracking.scans=5"]).expect("settings"));
+
+fn frame() -> Frame<'static> {
+    let mut window = FrameWindow::new(&*STREET, &STREET.sequence.rig, &CONFIG);
+    window.frame(0, SCANS / 2).expect("the street can be read")
+}
+
+/// RANSAC over all points.
+#[divan::bench]
+fn ground_plane(bencher: Bencher) {
+    let points = &STREET.lidar.points;
+    bencher.bench(|| Ground::fit(black_box(points), &CONFIG.ground, 0));
+}
+
+/// The grid over all points.
+#[divan::bench]
+fn index_build(bencher: Bencher) {
+    let points = &STREET.lidar.points;
+    let ids: Vec<u32> = (0..points.len() as u32).collect();
+    bencher.bench(|| NeighborIndex::new(black_box(points), &ids));
+}
+
+/// 1,216 searches for 5 neighbours.
+#[divan::bench]
+fn index_query(bencher: Bencher) {
+    let points = &STREET.lidar.points;
+    let ids: Vec<u32> = (0..points.len() as u32).collect();
+    let index = NeighborIndex::new(points, &ids);
+    let queries: Vec<_> =
+        STREET.scans[0].positions.iter().map(|p| [p.x as f32, p.y as f32, p.z as f32]).collect();
+    let mut found = Vec::new();
+    bencher.bench_local(|| {
+        for query in &queries {
+            index.nearest(black_box(*query), 5, &mut found);
+        }
+    });
+}
+
+/// Search and mismatch; ground and index are there.
+#[divan::bench]
+fn lidar_matching(bencher: Bencher) {
+    let frame = frame();
+    let view = frame.lidar.as_ref().expect("a LiDAR scan");
+    bencher.bench(|| lidar::match_detections(frame.radar, &frame.detections, black_box(view), 5));
+}
+
+/// Ten neighbouring scans.
+#[divan::bench]
+fn tracking_matching(bencher: Bencher) {
+    let frame = frame();
+    let detections = &frame.detections;
+    bencher.bench(|| {
+        tracking::match_detections(frame.radar, detections, black_box(&frame.steps), None, &CONFIG.tracking)
+    });
+}
+
+/// Ground, index, LiDAR matching, tracking, fusion; measurements are in memory.
+#[divan::bench]
+fn whole_scan(bencher: Bencher) {
+    let scan = Arc::new(STREET.lidar.clone());
+    let frame = frame();
+    let lidar = &STREET.sequence.rig.lidars[0];
+    bencher.bench(|| {
+        let mut frame = frame.clone();
+        let parts = vec![(lidar, scan.clone(), Transform::identity())];
+        let moment = LidarMoment::new(scan.t_ns, parts, &CONFIG.ground, CONFIG.seed);
+        frame.lidar.as_mut().expect("a LiDAR scan").moment = Arc::new(moment);
+        Labeler::new(&CONFIG).label(&frame)
+    });
+}

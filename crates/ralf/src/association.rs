@@ -1,0 +1,57 @@
+//! The association of a detection with its nearest reference points (METHOD 3).
+
+use crate::detections::Located;
+use crate::geometry::Point;
+use crate::mismatch::{Reference, mismatch};
+use crate::neighbors::{Neighbor, NeighborIndex};
+use crate::rig::Elevation;
+
+/// Associates detections of one radar with the points of one cloud.
+pub(crate) struct Association<'a> {
+    index: &'a NeighborIndex,
+    elevation: Elevation,
+    neighbours: usize,
+    found: Vec<Neighbor>,
+}
+
+impl<'a> Association<'a> {
+    /// For detections of a radar that measures elevation or not; in the second case the index must be horizontal.
+    pub(crate) fn new(index: &'a NeighborIndex, elevation: Elevation, neighbours: usize) -> Self {
+        Self { index, elevation, neighbours, found: Vec::with_capacity(neighbours) }
+    }
+
+    /// The mean mismatch with the nearest points; `None` where the cloud is empty.
+    ///
+    /// `place` is where the detection lies in the frame of the index; `reference` gives a point in the detection's frame.
+    pub(crate) fn mean_mismatch(
+        &mut self,
+        detection: &Located,
+        place: &Point,
+        reference: impl Fn(u32) -> Reference,
+    ) -> Option<f64> {
+        let z = if self.elevation == Elevation::None { 0.0 } else { place.z };
+        self.index.nearest([place.x as f32, place.y as f32, z as f32], self.neighbours, &mut self.found);
+        if self.found.is_empty() {
+            return None;
+        }
+        let spread = detection.spread();
+        let sum: f64 = self
+            .found
+            .iter()
+            .map(|neighbor| {
+                let reference = reference(neighbor.id);
+                let mut h = detection.position - reference.position;
+                if self.elevation == Elevation::None {
+                    h.z = 0.0;
+                }
+                mismatch(&h, &spread, &reference.spread)
+            })
+            .sum();
+        Some(sum / self.found.len() as f64)
+    }
+
+    /// The points of the last association.
+    pub(crate) fn found(&self) -> &[Neighbor] {
+        &self.found
+    }
+}

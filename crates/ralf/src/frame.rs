@@ -1,0 +1,169 @@
+//! Everything the method needs for one radar scan, gathered in bounded memory.
+
+use crate::config::{Config, GroundModel, TrackingSources, nanoseconds};
+use crate::detections::Detections;
+use crate::lidar::{Floor, LidarMoment, LidarView};
+use crate::measurement::LidarScan;
+use crate::recent::Recent;
+use crate::rig::{Radar, Rig};
+use crate::source::{Source, SourceError};
+use crate::sync;
+use crate::tracking::{TrackingStep, compensated_doppler};
+use std::sync::Arc;
+
+/// One radar scan with what the other sensors and the neighbouring scans saw.
+#[derive(Debug, Clone)]
+pub struct Frame<'a> {
+    /// All sensors.
+    pub rig: &'a Rig,
+    /// The radar that made the scan.
+    pub radar: &'a Radar,
+    /// The scan, in the vehicle frame at its time: the frame in which everything is compared.
+    pub detections: Arc<Detections>,
+    /// The LiDAR scans nearest in time; `None` where there is none within the tolerance.
+    pub lidar: Option<LidarView>,
+    /// The ground that makes floor detections of this scan; `None` without a ground, and for a radar without elevation.
+    pub ground: Option<Floor>,
+    /// The neighbouring radar scans, in time order.
+    pub steps: Vec<TrackingStep>,
+    /// Ego-compensated range rates of the detections, m/s, where `tracking.dynamic` wants them and the radar measures them.
+    pub doppler: Option<Vec<f64>>,
+}
+
+/// Names a measurement: sensor and number.
+type Key = (usize, usize);
+
+/// Gathers frames of one sequence. It remembers the last measurements, so that frames asked for in time order read each
+/// one once, and no more than these, so that its memory doesn't grow with the length of the recording.
+pub struct FrameWindow<'a> {
+    source: &'a dyn Source,
+    config: &'a Config,
+    rig: &'a Rig,
+    radar_scans: Recent<Key, Option<Arc<Detections>>>,
+    lidar_scans: Recent<Key, Arc<LidarScan>>,
+    moments: Recent<(i64, Vec<Key>), Arc<LidarMoment>>,
+}
+
+impl<'a> FrameWindow<'a> {
+    /// A window over a sequence. `rig` is the sequence's, with the user's overrides in it.
+    pub fn new(source: &'a dyn Source, rig: &'a Rig, config: &'a Config) -> Self {
+        let batch = config.tracking.scans.saturating_mul(2).saturating_add(2);
+        // A batch can't be longer than the sequence.
+        let longest = source.sequence().times.radars.iter().map(Vec::len).max().unwrap_or(0);
+        Self {
+            source,
+            config,
+            rig,
+            radar_scans: Recent::new(batch.min(longest) * rig.radars.len()),
+            lidar_scans: Recent::new(2 * rig.lidars.len()),
+            moments: Recent::new(2),
+        }
+    }
+
+    /// All that belongs to one scan of one radar. Fails where that scan, or a LiDAR scan that belongs to it, can't be read;
+    /// neighbouring radar scans that can't be read are left out of the batch.
+    pub fn frame(&mut self, radar: usize, scan: usize) -> Result<Frame<'a>, SourceError> {
+        let detections = Arc::new(self.locate(radar, scan)?);
+        self.radar_scans.insert((radar, scan), Some(detections.clone()));
+        let t_ns = detections.t_ns();
+        let tracking = &self.config.tracking;
+        let motion = &self.source.sequence().motion;
+        let doppler = (tracking.enabled && tracking.dynamic)
+            .then(|| compensated_doppler(&self.rig.radars[radar], &detections.scan, motion));
+        let lidar = self.lidar_view(t_ns)?;
+        Ok(Frame {
+            rig: self.rig,
+            radar: &self.rig.radars[radar],
+            ground: Floor::below(&self.rig.radars[radar], lidar.as_ref(), &self.config.ground),
+            lidar,
+            steps: if tracking.enabled { self.steps(radar, scan, t_ns) } else { Vec::new() },
+            doppler: doppler.flatten(),
+            detections,
+        })
+    }
+
+    fn locate(&self, radar: usize, scan: usize) -> Result<Detections, SourceError> {
+        Ok(Detections::locate(&self.rig.radars[radar], self.source.radar_scan(radar, scan)?))
+    }
+
+    /// A neighbouring scan; `None` where it can't be read.
+    fn neighbouring_scan(&mut self, radar: usize, scan: usize) -> Option<Arc<Detections>> {
+        if let Some(known) = self.radar_scans.get(&(radar, scan)) {
+            return known;
+        }
+        let read = self.locate(radar, scan).ok().map(Arc::new);
+        self.radar_scans.insert((radar, scan), read.clone());
+        read
+    }
+
+    /// The batch of METHOD 7.1 and 7.4.
+    fn steps(&mut self, radar: usize, scan: usize, t_ns: i64) -> Vec<TrackingStep> {
+        let max_gap = nanoseconds(self.config.tracking.max_gap_ms);
+        let times = &self.source.sequence().times.radars;
+        let batch = sync::batch(&times[radar], scan, self.config.tracking.scans, max_gap);
+        let step = |j: usize| {
+            let step_time = times[radar][j];
+            let own = self.neighbouring_scan(radar, j)?;
+            let others = (0..times.len())
+                .filter(|other| *other != radar && self.config.tracking.sources == TrackingSources::All);
+            let others: Vec<Key> = others
+                .filter_map(|other| Some((other, sync::nearest(&times[other], step_time, max_gap)?)))
+                .collect();
+            let mut scans = vec![own];
+            scans.extend(
+                others.into_iter().filter_map(|(other, nearest)| self.neighbouring_scan(other, nearest)),
+            );
+            let motion = &self.source.sequence().motion;
+            let with_transform = |scan: Arc<Detections>| {
+                let vehicle_from_scan = motion.between(t_ns, scan.t_ns());
+                (scan, vehicle_from_scan)
+            };
+            Some(TrackingStep { t_ns: step_time, clouds: scans.into_iter().map(with_transform).collect() })
+        };
+        batch.into_iter().filter_map(step).collect()
+    }
+
+    /// The LiDAR scans nearest to a time, with their ground.
+    fn lidar_view(&mut self, t_ns: i64) -> Result<Option<LidarView>, SourceError> {
+        let tolerance = nanoseconds(self.config.sync.lidar_tolerance_ms);
+        let times = &self.source.sequence().times.lidars;
+        let nearest = times.iter().enumerate();
+        let keys: Vec<Key> = nearest
+            .filter_map(|(lidar, times)| Some((lidar, sync::nearest(times, t_ns, tolerance)?)))
+            .collect();
+        let Some(&(first_lidar, first_scan)) = keys.first() else { return Ok(None) };
+        // `flat` is z = 0 of the vehicle frame at the radar scan's time; any other ground belongs to the LiDAR scan.
+        let moment_time = match self.config.ground.model {
+            GroundModel::Flat => t_ns,
+            _ => times[first_lidar][first_scan],
+        };
+        let moment = self.moment(moment_time, keys)?;
+        let vehicle_from_moment = self.source.sequence().motion.between(t_ns, moment_time);
+        Ok(Some(LidarView { moment, vehicle_from_moment }))
+    }
+
+    fn moment(&mut self, t_ns: i64, keys: Vec<Key>) -> Result<Arc<LidarMoment>, SourceError> {
+        let name = (t_ns, keys);
+        if let Some(known) = self.moments.get(&name) {
+            return Ok(known);
+        }
+        let mut scans = Vec::with_capacity(name.1.len());
+        for &(lidar, scan) in &name.1 {
+            let scan = self.lidar_scan(lidar, scan)?;
+            let moment_from_vehicle = self.source.sequence().motion.between(t_ns, scan.t_ns);
+            scans.push((&self.rig.lidars[lidar], scan, moment_from_vehicle));
+        }
+        let moment = Arc::new(LidarMoment::new(t_ns, scans, &self.config.ground, self.config.seed));
+        self.moments.insert(name, moment.clone());
+        Ok(moment)
+    }
+
+    fn lidar_scan(&mut self, lidar: usize, scan: usize) -> Result<Arc<LidarScan>, SourceError> {
+        if let Some(known) = self.lidar_scans.get(&(lidar, scan)) {
+            return Ok(known);
+        }
+        let read = Arc::new(self.source.lidar_scan(lidar, scan)?);
+        self.lidar_scans.insert((lidar, scan), read.clone());
+        Ok(read)
+    }
+}

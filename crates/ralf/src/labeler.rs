@@ -1,0 +1,149 @@
+//! The whole method, for one radar scan.
+
+use crate::config::Config;
+use crate::detections::Located;
+use crate::frame::Frame;
+use crate::fusion::{optical, prioritize};
+use crate::lidar::{self, LidarMatch};
+use crate::mismatch::plausibility;
+use crate::tracking;
+
+/// Why a detection got what it got, as bits.
+pub mod flag {
+    /// A floor detection.
+    pub const GROUND: u16 = 1;
+    /// In the LiDAR's blind spot.
+    pub const BLIND_SPOT: u16 = 2;
+    /// A failed camera view would have seen it.
+    pub const CAMERA_FAILED: u16 = 4;
+    /// No LiDAR scan near in time.
+    pub const NO_LIDAR: u16 = 8;
+    /// No neighbouring radar scan.
+    pub const NO_NEIGHBOURS: u16 = 16;
+    /// No branch could say anything.
+    pub const UNOBSERVED: u16 = 32;
+
+    pub(super) fn when(applies: bool, flag: u16) -> u16 {
+        if applies { flag } else { 0 }
+    }
+}
+
+/// What the method says of one detection. `None` is *not observed*, which is something else than implausible.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct DetectionLabel {
+    /// Mean mismatch with the LiDAR's points.
+    pub d_lm: Option<f64>,
+    /// Mean mismatch with the cameras' points.
+    pub d_cm: Option<f64>,
+    /// Weighted mismatch with the neighbouring scans.
+    pub d_tr: Option<f64>,
+    /// `exp(-beta_lm d_lm)`.
+    pub w_lm: Option<f64>,
+    /// `exp(-beta_cm d_cm)`.
+    pub w_cm: Option<f64>,
+    /// `exp(-beta_tr d_tr)`.
+    pub w_tr: Option<f64>,
+    /// Of LiDAR and cameras together.
+    pub w_opt: Option<f64>,
+    /// The plausibility.
+    pub w: f64,
+    /// Whether the detection is plausible.
+    pub plausible: bool,
+    /// Bits of [`flag`].
+    pub flags: u16,
+    /// SemanticKITTI id of the LiDAR points around, where they carry one.
+    pub semantic: Option<u16>,
+}
+
+/// Labels radar scans with one set of settings.
+#[derive(Debug, Clone)]
+pub struct Labeler<'a> {
+    config: &'a Config,
+}
+
+impl<'a> Labeler<'a> {
+    /// A labeler with these settings.
+    pub fn new(config: &'a Config) -> Self {
+        Self { config }
+    }
+
+    /// The plausibility and label of every detection of a frame, in the scan's order.
+    pub fn label(&self, frame: &Frame) -> Vec<DetectionLabel> {
+        let evidence = Evidence {
+            lidar: self.ask_lidar(frame),
+            tracking: self.ask_tracking(frame),
+            absent: self.absent_branches(frame),
+        };
+        let located = frame.detections.located.iter().enumerate();
+        let label = |(i, detection): (usize, &Option<Located>)| match detection {
+            Some(detection) => self.fuse(frame, i, detection, &evidence),
+            None => DetectionLabel { flags: flag::UNOBSERVED, ..Default::default() },
+        };
+        located.map(label).collect()
+    }
+
+    /// The label of one detection from what the branches say of it.
+    fn fuse(&self, frame: &Frame, i: usize, detection: &Located, evidence: &Evidence) -> DetectionLabel {
+        let Config { ground, lidar, tracking, fusion, .. } = self.config;
+        let on_floor = frame.ground.as_ref().is_some_and(|floor| floor.holds(detection, ground));
+        let lidar_match = evidence.lidar[i].filter(|_| !on_floor);
+
+        // w = exp(-beta d): alg. lidar_matching, and so for the other branches.
+        let d_lm = lidar_match.map(|found| found.d);
+        let d_tr = evidence.tracking[i];
+        let w_lm = if on_floor { Some(0.0) } else { d_lm.map(|d| plausibility(lidar.beta, d)) };
+        let w_cm = if on_floor { Some(0.0) } else { None };
+        let w_tr = d_tr.map(|d| plausibility(tracking.beta, d));
+
+        // Eq. lidar_blindspot, then eq. priorization.
+        let in_blind_spot = lidar::in_blind_spot(&frame.rig.lidars, &detection.position);
+        let w_opt = optical(in_blind_spot, w_lm, w_cm);
+        let gamma_s = frame.radar.reliability.at(frame.detections.scan.spherical[i].azimuth);
+        let w = prioritize(fusion, w_opt, w_tr, gamma_s);
+
+        DetectionLabel {
+            d_lm,
+            d_cm: None,
+            d_tr,
+            w_lm,
+            w_cm,
+            w_tr,
+            w_opt,
+            w: w.unwrap_or(0.0),
+            plausible: !on_floor && w.is_some_and(|w| w >= fusion.threshold),
+            flags: evidence.absent
+                | flag::when(on_floor, flag::GROUND)
+                | flag::when(in_blind_spot, flag::BLIND_SPOT)
+                | flag::when(w.is_none(), flag::UNOBSERVED),
+            semantic: lidar_match.and_then(|found| found.semantic),
+        }
+    }
+
+    fn ask_lidar(&self, frame: &Frame) -> Vec<Option<LidarMatch>> {
+        match &frame.lidar {
+            Some(view) if self.config.lidar.enabled => {
+                lidar::match_detections(frame.radar, &frame.detections, view, self.config.lidar.neighbours)
+            }
+            _ => vec![None; frame.detections.located.len()],
+        }
+    }
+
+    fn ask_tracking(&self, frame: &Frame) -> Vec<Option<f64>> {
+        let Frame { radar, detections, steps, doppler, .. } = frame;
+        tracking::match_detections(radar, detections, steps, doppler.as_deref(), &self.config.tracking)
+    }
+
+    /// Flags of enabled branches that have nothing to say on the whole scan.
+    fn absent_branches(&self, frame: &Frame) -> u16 {
+        flag::when(self.config.lidar.enabled && frame.lidar.is_none(), flag::NO_LIDAR)
+            | flag::when(self.config.tracking.enabled && frame.steps.is_empty(), flag::NO_NEIGHBOURS)
+    }
+}
+
+/// What each branch says of a scan: one entry per detection.
+struct Evidence {
+    lidar: Vec<Option<LidarMatch>>,
+    tracking: Vec<Option<f64>>,
+    /// Flags of the branches that say nothing of the whole scan.
+    absent: u16,
+}

@@ -1,0 +1,14 @@
+//! How good labels are (METHOD 9 and 13, paper appendix): counts, metrics of one scan, and of many.
+//!
+//! "Positive" is plausible. A class that the truth of a scan holds none of has no value there: its precision, recall, F1
+//! and IoU are `None` and leave the mean over the classes and the mean over the scans.
+
+mod confusion;
+mod evaluation;
+mod rates;
+mod separation;
+
+pub use confusion::Confusion;
+pub use evaluation::{Evaluation, Metrics, Scores, SequenceScores};
+pub use rates::Rates;
+pub use separation::Separation;

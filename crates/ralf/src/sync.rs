@@ -1,0 +1,57 @@
+//! Which measurements belong together (METHOD 4.1, 5, 7.1, 7.4, 13 "Time and motion").
+
+/// The measurement nearest in time, if within the tolerance (inclusive, ns). A tie takes the earlier. `times` ascend.
+pub fn nearest(times: &[i64], t_ns: i64, tolerance_ns: i64) -> Option<usize> {
+    let after = times.partition_point(|time| *time < t_ns);
+    let distance = |i: usize| times[i].abs_diff(t_ns);
+    let before = after.checked_sub(1).map(|i| times.partition_point(|time| *time < times[i]));
+    let candidates = [before, (after < times.len()).then_some(after)];
+    let best = candidates.into_iter().flatten().min_by_key(|i| distance(*i))?;
+    (i128::from(distance(best)) <= i128::from(tolerance_ns)).then_some(best)
+}
+
+/// The scans `k - n_b ..= k + n_b` without `k` itself, in order, as far as they exist and no two scans in a row between
+/// them and `k` are more than `max_gap_ns` apart.
+pub fn batch(times: &[i64], k: usize, n_b: usize, max_gap_ns: i64) -> Vec<usize> {
+    let connected = |earlier: usize| {
+        i128::from(times[earlier + 1]) - i128::from(times[earlier]) <= i128::from(max_gap_ns)
+    };
+    let earliest = (k.saturating_sub(n_b)..k).rev().take_while(|i| connected(*i)).last().unwrap_or(k);
+    let end = k.saturating_add(n_b).saturating_add(1).min(times.len());
+    let latest = (k + 1..end).take_while(|i| connected(*i - 1)).last().unwrap_or(k);
+    (earliest..=latest).filter(|i| *i != k).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn nearest_takes_the_earlier_of_a_tie_within_an_inclusive_tolerance() {
+        let times = [10, 20, 20, 40];
+        for (t, tolerance, expected) in [
+            (15, 5, Some(0)),
+            (15, 4, None),
+            (16, 9, Some(1)),
+            (30, 10, Some(1)),
+            (31, 10, Some(3)),
+            (0, 10, Some(0)),
+            (50, 9, None),
+            (50, 10, Some(3)),
+        ] {
+            assert_eq!(nearest(&times, t, tolerance), expected, "t {t}, tolerance {tolerance}");
+        }
+        assert_eq!(nearest(&[], 0, i64::MAX), None);
+        assert_eq!(nearest(&[i64::MIN], i64::MAX, i64::MAX), None);
+    }
+
+    #[test]
+    fn a_batch_ends_at_the_sequences_ends_and_beside_a_gap() {
+        let times = [0, 10, 20, 31, 41, 51];
+        assert_eq!(batch(&times, 1, 2, 20), [0, 2, 3]);
+        assert_eq!(batch(&times, 2, 5, 10), [0, 1], "11 is strictly more than 10");
+        assert_eq!(batch(&times, 3, 1, 10), [4]);
+        assert_eq!(batch(&times, 5, usize::MAX, 100), [0, 1, 2, 3, 4]);
+        assert!(batch(&[7], 0, 5, 10).is_empty());
+    }
+}

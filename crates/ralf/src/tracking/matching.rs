@@ -1,0 +1,110 @@
+//! The mismatch of each detection with the neighbouring radar scans (METHOD 7; eq. pose_trafo).
+
+use crate::association::Association;
+use crate::config::TrackingConfig;
+use crate::detections::{Detections, Located};
+use crate::geometry::{Point, Transform};
+use crate::mismatch::Reference;
+use crate::neighbors::NeighborIndex;
+use crate::rig::{Elevation, Radar};
+use std::sync::Arc;
+
+/// What the radars saw at one neighbouring scan's time.
+#[derive(Debug, Clone)]
+pub struct TrackingStep {
+    /// Time of the same radar's scan, ns.
+    pub t_ns: i64,
+    /// That scan, and with `tracking.sources = "all"` the other radars' nearest in time; each with the transform into the
+    /// vehicle frame at the reference scan's time.
+    pub clouds: Vec<(Arc<Detections>, Transform)>,
+}
+
+/// The mismatch `d` of each detection with its neighbouring scans, sorted and weighted; `None` for all where there is no
+/// such scan, and for detections without a place.
+///
+/// `doppler` are the ego-compensated range rates (m/s) of `tracking.dynamic`, where they are wanted and known.
+pub fn match_detections(
+    radar: &Radar,
+    detections: &Detections,
+    steps: &[TrackingStep],
+    doppler: Option<&[f64]>,
+    config: &TrackingConfig,
+) -> Vec<Option<f64>> {
+    let mut mismatches: Vec<Vec<f64>> = vec![Vec::with_capacity(steps.len()); detections.located.len()];
+    for step in steps {
+        let cloud = MovedCloud::new(step, radar.elevation);
+        let mut association = Association::new(&cloud.index, radar.elevation, config.neighbours);
+        let dt = (step.t_ns - detections.t_ns()) as f64 * 1e-9;
+        for (i, detection) in detections.located.iter().enumerate() {
+            let Some(detection) = detection else { continue };
+            let mut d = cloud.mismatch(&mut association, detection);
+            let velocity = doppler.map(|values| values[i]).filter(|velocity| velocity.is_finite());
+            if let Some(velocity) = velocity {
+                let moved = along_ray(radar, detection, velocity * dt);
+                d = d.min(cloud.mismatch(&mut association, &moved));
+            }
+            mismatches[i].push(d.min(config.max_mismatch));
+        }
+    }
+    mismatches.into_iter().map(|mut of_detection| sorted_mean(&mut of_detection)).collect()
+}
+
+/// `sum c_k d_(k) / sum c_k` over the ascending `d_(k)`, with `c_k = n - k + 1`. `None` of nothing.
+fn sorted_mean(mismatches: &mut [f64]) -> Option<f64> {
+    mismatches.sort_by(f64::total_cmp);
+    let n = mismatches.len();
+    let weighted: f64 = mismatches.iter().enumerate().map(|(k, d)| (n - k) as f64 * d).sum();
+    (n > 0).then(|| weighted / (n * (n + 1) / 2) as f64)
+}
+
+/// The detection moved away from the radar by a distance, m, its uncertainty with it.
+fn along_ray(radar: &Radar, detection: &Located, distance: f64) -> Located {
+    let from_radar = detection.position.coords - radar.vehicle_from_radar.translation.vector;
+    let ray = from_radar.try_normalize(0.0).unwrap_or_default();
+    Located { position: detection.position + ray * distance, axes: detection.axes }
+}
+
+/// The detections of a step in the vehicle frame at the reference scan's time.
+///
+/// Moving some hundred points and sorting them costs less than it saves to ask each scan in its own frame, and horizontal
+/// distances are exact only here.
+struct MovedCloud {
+    points: Vec<Located>,
+    index: NeighborIndex,
+}
+
+impl MovedCloud {
+    fn new(step: &TrackingStep, elevation: Elevation) -> Self {
+        let mut points = Vec::new();
+        for (cloud, vehicle_from_cloud) in &step.clouds {
+            points.extend(cloud.located.iter().flatten().map(|located| located.moved(vehicle_from_cloud)));
+        }
+        let flatten = |z: f64| if elevation == Elevation::None { 0.0 } else { z as f32 };
+        let place = |p: &Point| [p.x as f32, p.y as f32, flatten(p.z)];
+        let places: Vec<_> = points.iter().map(|point| place(&point.position)).collect();
+        let ids: Vec<u32> = (0..points.len() as u32).collect();
+        Self { points, index: NeighborIndex::new(&places, &ids) }
+    }
+
+    /// Infinite where the step saw nothing, so that the cap takes its place.
+    fn mismatch(&self, association: &mut Association, detection: &Located) -> f64 {
+        let reference = |id: u32| {
+            let point = &self.points[id as usize];
+            Reference { position: point.position, spread: point.spread() }
+        };
+        association.mean_mismatch(detection, &detection.position, reference).unwrap_or(f64::INFINITY)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn small_mismatches_count_most() {
+        // (3 * 1 + 2 * 2 + 1 * 6) / 6
+        assert_eq!(sorted_mean(&mut [6.0, 1.0, 2.0]), Some(13.0 / 6.0));
+        assert_eq!(sorted_mean(&mut [4.0]), Some(4.0));
+        assert_eq!(sorted_mean(&mut []), None);
+    }
+}
