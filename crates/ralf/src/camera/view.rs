@@ -4,7 +4,7 @@ use super::Camera;
 use crate::geometry::{Point, Vector};
 use nalgebra::UnitQuaternion;
 
-/// A straight (pinhole) view, as configured.
+/// A straight (pinhole) view, as configured: finite angles, a field of view below pi, at least one pixel.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct View {
     /// Turned by this about the camera's vertical, rad, positive to the left; applied first.
@@ -17,23 +17,6 @@ pub struct View {
     pub width: usize,
     /// px.
     pub height: usize,
-}
-
-impl View {
-    /// Refuses, with what was expected and found, values that no straight view has.
-    pub fn check(&self) -> Result<(), String> {
-        if self.width == 0 || self.height == 0 {
-            return Err(format!("a view of at least 1 x 1 px, found {} x {}", self.width, self.height));
-        }
-        if !(self.yaw.is_finite() && self.pitch.is_finite()) {
-            return Err(format!("finite view angles, found yaw {} and pitch {}", self.yaw, self.pitch));
-        }
-        let fov = self.horizontal_fov.to_degrees();
-        if !(fov > 0.0 && fov < 180.0) {
-            return Err(format!("a horizontal_fov_deg above 0 and below 180, found {fov}"));
-        }
-        Ok(())
-    }
 }
 
 /// A straight view ready for use: square pixels, `u = f x / z + c_u`, `v = f y / z + c_v` in its own optical frame.
@@ -185,15 +168,6 @@ mod tests {
         assert_eq!((only.width, only.height, only.focal, only.center), (1280, 800, 330.0, [639.5, 399.5]));
         camera.views = vec![View { yaw: 0.5, pitch: 0.0, horizontal_fov: 1.0, width: 64, height: 48 }; 2];
         assert_eq!(camera.straight_views().len(), 2);
-    }
-
-    #[test]
-    fn impossible_views_are_named() {
-        let view = View { yaw: 0.0, pitch: 0.0, horizontal_fov: 1.0, width: 64, height: 48 };
-        assert_eq!(view.check(), Ok(()));
-        assert!(View { horizontal_fov: 3.2, ..view }.check().unwrap_err().contains("below 180"));
-        assert!(View { height: 0, ..view }.check().unwrap_err().contains("64 x 0"));
-        assert!(View { yaw: f64::NAN, ..view }.check().unwrap_err().contains("NaN"));
     }
 
     #[test]
