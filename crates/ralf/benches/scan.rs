@@ -1,6 +1,8 @@
 //! What a radar scan costs, stage by stage, on a street like the paper's: 72k LiDAR points, 1,216 detections of which four in
 //! five are artifacts, K = 5, n_b = 5. Run with `cargo bench -p ralf --bench scan`; one thread.
 
+#![allow(clippy::expect_used, reason = "a bench that can't be set up should say so")]
+
 use divan::{Bencher, black_box};
 use ralf::camera::{CameraImage, DepthImage, DepthOutput};
 use ralf::config::Config;
@@ -17,6 +19,7 @@ use ralf::source::{Sequence, Source, SourceError, Timelines};
 use ralf::tracking;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
+use std::f32::consts::PI;
 use std::sync::{Arc, LazyLock};
 
 const POINTS: usize = 72_000;
@@ -36,10 +39,8 @@ fn street(seed: u64) -> Vec<[f32; 3]> {
         match i % 10 {
             // Returns from the ground grow rarer with the distance.
             0..5 => {
-                let (r, phi) = (
-                    3.0 + 45.0 * random.random_range(0.0f32..1.0).powi(3),
-                    random.random_range(-3.14f32..3.14),
-                );
+                let (r, phi) =
+                    (3.0 + 45.0 * random.random_range(0.0f32..1.0).powi(3), random.random_range(-PI..PI));
                 [r * phi.cos(), (r * phi.sin()).clamp(-9.0, 9.0), random.random_range(-0.03..0.03)]
             }
             5 => {
@@ -61,14 +62,14 @@ fn street(seed: u64) -> Vec<[f32; 3]> {
             _ => [(along / 15.0).round() * 15.0, -7.0, random.random_range(0.0..5.0)],
         }
     };
-    (0..POINTS).map(|i| point(i)).collect()
+    (0..POINTS).map(&mut point).collect()
 }
 
 /// One in five detections on the street's surfaces, the others anywhere.
 fn detections(radar: &Radar, scan: usize) -> RadarScan {
     let mut random = Pcg64Mcg::seed_from_u64(99);
     let surfaces = street(7);
-    let mut columns = vec![Vec::with_capacity(DETECTIONS); 3];
+    let mut columns = vec![Vec::new(); 3];
     for i in 0..DETECTIONS {
         let [x, y, z] = match i % 5 {
             0 => surfaces[random.random_range(0..POINTS as u32) as usize],

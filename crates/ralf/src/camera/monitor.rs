@@ -30,6 +30,8 @@ pub enum ViewState {
 /// Why a view is left out. Where several reasons hold, it is the first of them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Failure {
+    /// Image or depth can't be read, or aren't those of the camera.
+    Unusable,
     /// No LiDAR scan was near enough in time.
     NoScan,
     /// The raw image is darker than `camera.min_luminance`.
