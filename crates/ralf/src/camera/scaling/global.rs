@@ -35,16 +35,19 @@ pub(super) fn ransac(samples: &[ScaleSample]) -> Option<f64> {
     Some(sums.0 / sums.1)
 }
 
-/// Huber's M-estimate of the scale with delta = 10 %: where iteratively reweighted least squares of the relative residual
-/// `s x - 1`, `x = depth_relative / Z_lidar`, comes to rest from the median ratio on. `None` without samples.
+/// Huber's M-estimate of the scale with delta = 10 %: where the least squares `sum w (s d - Z)^2`, iteratively reweighted by
+/// `w = min(1, delta / |r|)` of the relative residual `r = (s d - Z) / Z`, come to rest. `None` without samples.
 ///
-/// Its weights `min(1, delta / |s x - 1|)` rest where `sum(clamp(s x - 1, -delta, delta) x)` is 0. That sum grows with `s`,
-/// so halving finds the place; reweighting itself would take thousands of rounds where few samples agree.
+/// They rest where `sum(Z d clamp(r, -delta, delta))` is 0. That sum grows with `s`, so halving finds the place;
+/// reweighting itself would take thousands of rounds where few samples agree.
 pub(super) fn huber(samples: &[ScaleSample]) -> Option<f64> {
     let ratios: Vec<f64> = samples.iter().map(ScaleSample::ratio).collect();
-    let inverse: Vec<f64> = ratios.iter().map(|ratio| 1.0 / ratio).collect();
     let pull = |scale: f64| -> f64 {
-        inverse.iter().map(|x| (scale * x - 1.0).clamp(-TOLERANCE, TOLERANCE) * x).sum()
+        let of_sample = |sample: &ScaleSample| {
+            let residual = scale / sample.ratio() - 1.0;
+            sample.depth * sample.relative * residual.clamp(-TOLERANCE, TOLERANCE)
+        };
+        samples.iter().map(of_sample).sum()
     };
     let (least, greatest) =
         (ratios.iter().copied().reduce(f64::min)?, ratios.iter().copied().reduce(f64::max)?);
@@ -101,10 +104,10 @@ mod tests {
 
     #[test]
     fn huber_by_hand() {
-        // x = 1, 1, 1, 0.5: with the outlier's weight w = 0.1 / (1 - 0.5 s) the fixed point of
-        // s (3 + 0.25 w) = 3 + 0.5 w is s = 3.05 / 3: the outlier pulls with 0.1 * 0.5.
-        let scale = huber(&samples(&[(10.0, 10.0), (4.0, 4.0), (7.0, 7.0), (20.0, 10.0)])).unwrap();
-        assert!((scale - 3.05 / 3.0).abs() < 1e-10, "{scale}");
+        // Three of ratio 1 with Z d = 100, 16, 49, and an outlier of ratio 2 with Z d = 32 that pulls with delta:
+        // (100 + 16 + 49) (s - 1) = 0.1 * 32.
+        let scale = huber(&samples(&[(10.0, 10.0), (4.0, 4.0), (7.0, 7.0), (8.0, 4.0)])).unwrap();
+        assert!((scale - (1.0 + 3.2 / 165.0)).abs() < 1e-10, "{scale}");
         assert_eq!(huber(&samples(&[(30.0, 10.0)])), Some(3.0));
         assert_eq!(huber(&[]), None);
     }
@@ -146,9 +149,10 @@ mod tests {
             let given = samples(&values);
             let scale = huber(&given).unwrap();
             // One round of reweighting stays where it is, as far as the sums are exact.
-            let (sum, squares) = given.iter().map(|s| s.relative / s.depth).fold((0.0, 0.0), |(sum, squares), x| {
-                let weight = (TOLERANCE / (scale * x - 1.0).abs()).min(1.0);
-                (sum + weight * x, squares + weight * x * x)
+            let (sum, squares) = given.iter().fold((0.0, 0.0), |(sum, squares), sample| {
+                let residual = (scale * sample.relative - sample.depth) / sample.depth;
+                let weight = (TOLERANCE / residual.abs()).min(1.0) * sample.relative;
+                (sum + weight * sample.depth, squares + weight * sample.relative)
             });
             prop_assert!((sum / squares / scale - 1.0).abs() < 1e-9, "{} {}", scale, sum / squares);
         }
