@@ -3,7 +3,7 @@
 //! `OUT/.ralf-run/FINGERPRINT/SEQUENCE/RADAR/000000.rows` hold labelled scans, `SEQUENCE.json` a finished sequence. Results of
 //! other runs are of no use once the fingerprint differs, and are removed. `run.json` comes last: a folder that has it is complete.
 
-use super::record::{RunRecord, SequenceRecord};
+use super::record::{ImageRecord, RunRecord, SequenceRecord};
 use crate::files::{read, write_whole};
 use crate::label_file::write_labels;
 use crate::output::{ScanTable, write_rows};
@@ -92,6 +92,27 @@ impl Workspace {
         write_rows(&self.rows_file(sequence, radar, scan), table)
     }
 
+    /// Keeps what the monitor found about an image.
+    pub(super) fn keep_image(
+        &self,
+        sequence: &str,
+        camera: &str,
+        record: &ImageRecord,
+    ) -> Result<(), DataError> {
+        let file = self.image_file(sequence, camera, record.image);
+        if file.exists() { Ok(()) } else { write_json(&file, record) }
+    }
+
+    /// What the monitor found about an image; `None` if it was not asked.
+    pub(super) fn image(
+        &self,
+        sequence: &str,
+        camera: &str,
+        image: usize,
+    ) -> Result<Option<ImageRecord>, DataError> {
+        read_json(&self.image_file(sequence, camera, image))
+    }
+
     /// Removes the `.label` file that an earlier run with other settings made of a scan that can't be labelled now.
     pub(super) fn forget(&self, sequence: &str, radar: &str, scan: usize) -> Result<(), DataError> {
         remove_file(&self.label_file(sequence, radar, scan))
@@ -107,6 +128,10 @@ impl Workspace {
     pub(super) fn finish(&self, record: &RunRecord) -> Result<(), DataError> {
         write_json(&self.out.join(RECORD), record)?;
         remove_folder(&self.out.join(UNFINISHED))
+    }
+
+    fn image_file(&self, sequence: &str, camera: &str, image: usize) -> PathBuf {
+        self.unfinished.join(sequence).join(camera).join(format!("{image:06}.json"))
     }
 
     fn sequence_folder(&self, sequence: &str) -> PathBuf {
