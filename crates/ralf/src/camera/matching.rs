@@ -1,11 +1,11 @@
 //! Camera matching: the mismatch of each detection with its nearest calibrated camera points (METHOD 5.5 and 5.7).
 
 use super::moment::Seen;
-use super::{ImageView, ViewState};
+use super::{ImageMoment, ImageView, ViewState};
 use crate::association::Association;
 use crate::config::CameraConfig;
 use crate::detections::{Detections, Located};
-use crate::geometry::Point;
+use crate::geometry::{Point, Transform};
 use crate::lidar::sees_height_of;
 use crate::mismatch::{Reference, Spread};
 use crate::neighbors::NeighborIndex;
@@ -30,8 +30,10 @@ pub fn match_detections(
     let points = points_of_views(radar, images, config.depth_sigma);
     let index = index_of(&points, radar.elevation);
     let mut association = Association::new(&index, radar.elevation, config.neighbours);
+    let images_from_vehicle: Vec<_> =
+        images.iter().map(|view| (view.moment.as_ref(), view.vehicle_from_image.inverse())).collect();
     let mut answer = |detection: &Located| {
-        let seen = seen_by(images, &detection.position);
+        let seen = seen_by(&images_from_vehicle, &detection.position);
         let reference = |id: u32| points[id as usize];
         let d = seen.calibrated.then(|| association.mean_mismatch(detection, &detection.position, reference));
         CameraMatch { d: d.flatten(), in_failed_view: seen.failed }
@@ -70,9 +72,9 @@ fn index_of(points: &[Reference], elevation: Elevation) -> NeighborIndex {
 }
 
 /// In which kinds of views of all images a point (vehicle frame at the radar scan's time) lies.
-fn seen_by(images: &[ImageView], p: &Point) -> Seen {
-    images.iter().fold(Seen::default(), |seen, view| {
-        let here = view.moment.sees(&(view.vehicle_from_image.inverse() * p));
+fn seen_by(images_from_vehicle: &[(&ImageMoment, Transform)], p: &Point) -> Seen {
+    images_from_vehicle.iter().fold(Seen::default(), |seen, (moment, image_from_vehicle)| {
+        let here = moment.sees(&(image_from_vehicle * p));
         Seen { calibrated: seen.calibrated || here.calibrated, failed: seen.failed || here.failed }
     })
 }
