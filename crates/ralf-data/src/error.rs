@@ -45,6 +45,16 @@ pub enum DataError {
         /// Those that exist.
         known: String,
     },
+    /// A measurement was asked for that the sequence doesn't hold.
+    #[error("{kind} {sensor} has no measurement {index}")]
+    NoMeasurement {
+        /// `radar`, `lidar` or `camera`.
+        kind: &'static str,
+        /// The sensor's place in the rig.
+        sensor: usize,
+        /// The measurement's place in the sensor's timeline.
+        index: usize,
+    },
     /// A measurement could not be read.
     #[error("{sensor}, measurement {index}: {error}")]
     Measurement {

@@ -26,6 +26,17 @@ pub trait SequenceReader: Source {
     }
 }
 
+/// What `sensors` holds of a measurement: one list per sensor of this kind, one entry per measurement.
+pub(crate) fn measurement<'a, T>(
+    kind: &'static str,
+    sensors: &'a [Vec<T>],
+    sensor: usize,
+    index: usize,
+) -> Result<&'a T, DataError> {
+    let found = sensors.get(sensor).and_then(|measurements| measurements.get(index));
+    found.ok_or(DataError::NoMeasurement { kind, sensor, index })
+}
+
 /// A recording, opened: cheap, for measurements are read on demand.
 pub struct Recording {
     /// The folder or file that was opened.

@@ -1,7 +1,7 @@
 //! Sensors as `sequence.toml` has them, checked and turned into those of the method, and back: degrees there, radians here.
 
 use super::camera::{camera, camera_toml};
-use super::raw::{ElevationToml, LidarToml, RadarToml, SequenceToml};
+use super::raw::{CameraToml, ElevationToml, LidarToml, RadarToml, SequenceToml};
 use super::{GROUND_TRUTH, is_folder_name};
 use crate::DataError;
 use nalgebra::UnitQuaternion;
@@ -35,7 +35,7 @@ pub(super) fn rig(file: &Path, toml: &SequenceToml) -> Result<Rig, DataError> {
 }
 
 /// A `sequence.toml`'s sensors: `radar`, `lidar` and `camera`.
-pub(super) fn rig_toml(rig: &Rig) -> (Vec<RadarToml>, Vec<LidarToml>, Vec<super::raw::CameraToml>) {
+pub(super) fn rig_toml(rig: &Rig) -> (Vec<RadarToml>, Vec<LidarToml>, Vec<CameraToml>) {
     (
         rig.radars.iter().map(radar_toml).collect(),
         rig.lidars.iter().map(lidar_toml).collect(),

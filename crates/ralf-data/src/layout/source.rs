@@ -14,7 +14,6 @@ use std::path::{Path, PathBuf};
 /// A sequence's folder, opened: `sequence.toml`, times and motion are read, measurements are listed.
 #[derive(Debug)]
 pub struct LayoutSequence {
-    folder: PathBuf,
     sequence: Sequence,
     radars: Vec<SensorFiles>,
     lidars: Vec<SensorFiles>,
@@ -33,6 +32,7 @@ impl LayoutSequence {
         let toml_file = folder.join("sequence.toml");
         let (toml, mut warnings) = SequenceToml::read(&toml_file)?;
         let rig = rig::rig(&toml_file, &toml)?;
+        warnings.extend(odd_lenses(&toml_file, &rig));
         let [radars, lidars, cameras] = list(folder, &rig, &mut warnings)?;
         let (motion, motion_files) = motion(folder)?;
         let times = |sensors: &[SensorFiles]| sensors.iter().map(|sensor| sensor.times.clone()).collect();
@@ -46,23 +46,28 @@ impl LayoutSequence {
             depth_output: toml.depth.output,
         };
         let metadata = [vec![toml_file], motion_files].concat();
-        Ok(Self { folder: folder.to_owned(), sequence, radars, lidars, cameras, metadata, warnings })
+        Ok(Self { sequence, radars, lidars, cameras, metadata, warnings })
     }
+}
 
-    /// The files of a sensor and the index of the measurement, if it exists.
-    fn measurement<'a>(
-        &self,
-        kind: &str,
-        sensors: &'a [SensorFiles],
-        sensor: usize,
-        index: usize,
-    ) -> Result<(&'a SensorFiles, &'a Path), DataError> {
-        let found = sensors.get(sensor).and_then(|files| Some((files, files.files.get(index)?.as_path())));
-        found.ok_or_else(|| {
-            let place = format!("{kind} {sensor}, measurement {index}");
-            DataError::content(&self.folder, place, "a measurement of the sequence", "none")
-        })
-    }
+/// Lenses that can't be straightened. Depth that is there already needs no lens, so these are no errors.
+fn odd_lenses(file: &Path, rig: &Rig) -> Vec<String> {
+    let check = |camera: &Camera| {
+        let expected = camera.intrinsics.check(camera.width, camera.height).err()?;
+        Some(format!("{}: {}: expected {expected}", file.display(), camera.name))
+    };
+    rig.cameras.iter().filter_map(check).collect()
+}
+
+/// A sensor's files, and that of one measurement, if it exists.
+fn measurement<'a>(
+    kind: &'static str,
+    sensors: &'a [SensorFiles],
+    sensor: usize,
+    index: usize,
+) -> Result<(&'a SensorFiles, &'a Path), DataError> {
+    let found = sensors.get(sensor).and_then(|files| Some((files, files.files.get(index)?.as_path())));
+    found.ok_or(DataError::NoMeasurement { kind, sensor, index })
 }
 
 /// The files of all radars, LiDARs and cameras.
@@ -83,13 +88,20 @@ fn list(folder: &Path, rig: &Rig, warnings: &mut Vec<String>) -> Result<[Vec<Sen
 
 /// How the vehicle moved, and the files that say so.
 fn motion(folder: &Path) -> Result<(EgoMotion, Vec<PathBuf>), DataError> {
-    let [odometry_file, poses_file] = ["odometry.csv", "poses.csv"].map(|name| folder.join(name));
-    let odometry = if odometry_file.exists() { tables::read_odometry(&odometry_file)? } else { vec![] };
-    let poses = if poses_file.exists() { tables::read_poses(&poses_file)? } else { vec![] };
+    let odometry_file = existing(folder.join("odometry.csv"))?;
+    let poses_file = existing(folder.join("poses.csv"))?;
+    let odometry = odometry_file.as_deref().map_or(Ok(vec![]), tables::read_odometry)?;
+    let poses = poses_file.as_deref().map_or(Ok(vec![]), tables::read_poses)?;
     let motion = EgoMotion::new(odometry, poses).ok_or_else(|| {
         DataError::content(folder, "motion", "rows in odometry.csv, poses.csv or both", "none")
     })?;
-    Ok((motion, [odometry_file, poses_file].into_iter().filter(|file| file.exists()).collect()))
+    Ok((motion, [odometry_file, poses_file].into_iter().flatten().collect()))
+}
+
+/// The file, if there is one.
+fn existing(file: PathBuf) -> Result<Option<PathBuf>, DataError> {
+    let exists = file.try_exists().map_err(DataError::io(&file))?;
+    Ok(exists.then_some(file))
 }
 
 impl Source for LayoutSequence {
@@ -98,14 +110,14 @@ impl Source for LayoutSequence {
     }
 
     fn radar_scan(&self, radar: usize, scan: usize) -> Result<RadarScan, SourceError> {
-        let (sensor, file) = self.measurement("radar", &self.radars, radar, scan)?;
+        let (sensor, file) = measurement("radar", &self.radars, radar, scan)?;
         let radar = &self.sequence.rig.radars[radar];
         let columns = files::read_f32_columns(file, radar.fields.len())?;
         Ok(RadarScan::new(radar, sensor.times[scan], columns)?)
     }
 
     fn lidar_scan(&self, lidar: usize, scan: usize) -> Result<LidarScan, SourceError> {
-        let (sensor, file) = self.measurement("lidar", &self.lidars, lidar, scan)?;
+        let (sensor, file) = measurement("lidar", &self.lidars, lidar, scan)?;
         let rows = files::read_f32_rows::<4>(file)?;
         let points = rows.iter().map(|[x, y, z, _]| [*x, *y, *z]).collect();
         let intensity = rows.iter().map(|row| row[3]).collect();
@@ -117,12 +129,12 @@ impl Source for LayoutSequence {
     }
 
     fn image(&self, camera: usize, image: usize) -> Result<CameraImage, SourceError> {
-        let (_, file) = self.measurement("camera", &self.cameras, camera, image)?;
+        let (_, file) = measurement("camera", &self.cameras, camera, image)?;
         Ok(images::read(file)?)
     }
 
     fn depth(&self, camera: usize, image: usize) -> Result<Option<Vec<DepthImage>>, SourceError> {
-        let (sensor, _) = self.measurement("camera", &self.cameras, camera, image)?;
+        let (sensor, _) = measurement("camera", &self.cameras, camera, image)?;
         let Some(file) = &sensor.partners[image] else { return Ok(None) };
         let depth = npy::read_depth(file)?;
         let views = self.sequence.rig.cameras[camera].views.len().max(1);

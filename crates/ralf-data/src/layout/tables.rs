@@ -18,7 +18,7 @@ const LATEST_NS: i64 = i64::MAX / 2;
 pub(super) fn read_timestamps(file: &Path) -> Result<Vec<i64>, DataError> {
     let mut order = Order { file, latest: None };
     let text = files::read_text(file)?;
-    text.lines().enumerate().map(|(line, text)| order.next(line + 1, text)).collect()
+    (1..).zip(text.lines()).map(|(line, text)| order.next(line, text)).collect()
 }
 
 /// The bytes of a `timestamps.txt`.
@@ -70,14 +70,16 @@ pub(super) fn poses_text(samples: &[PoseSample]) -> String {
 
 /// A row of a table whose first column is the time.
 struct Row<const N: usize> {
-    line: usize,
+    line: u64,
     t_ns: i64,
     values: [f64; N],
 }
 
+/// The rows below the header. Lines are split here, for the csv crate miscounts them where they end in CR LF.
 fn read_rows<const N: usize>(file: &Path, names: &[&str]) -> Result<Vec<Row<N>>, DataError> {
     let text = files::read_text(file)?;
-    let mut lines = text.trim_start_matches('\u{feff}').lines().zip(1..).map(|(text, line)| (line, text));
+    // Spreadsheets put a byte order mark before the first name.
+    let mut lines = (1..).zip(text.trim_start_matches('\u{feff}').lines());
     let header = lines.next().map_or("", |(_, text)| text);
     if !header.split(',').map(str::trim).eq(names.iter().copied()) {
         return Err(DataError::content(
@@ -88,23 +90,29 @@ fn read_rows<const N: usize>(file: &Path, names: &[&str]) -> Result<Vec<Row<N>>,
         ));
     }
     let mut order = Order { file, latest: None };
-    let row = |(line, text): (usize, &str)| {
-        let cells: Vec<&str> = text.split(',').map(str::trim).collect();
-        if cells.len() != names.len() {
-            let expected = format!("{} values", names.len());
-            return Err(DataError::content(file, format!("line {line}"), expected, cells.len().to_string()));
-        }
-        let t_ns = order.next(line, cells[0])?;
-        let mut values = [0.0; N];
-        for ((value, cell), name) in values.iter_mut().zip(&cells[1..]).zip(&names[1..]) {
-            *value = number(cell).ok_or_else(|| {
-                let place = format!("line {line}, {name}");
-                DataError::content(file, place, "a finite number", format!("`{cell}`"))
-            })?;
-        }
-        Ok(Row { line, t_ns, values })
-    };
-    lines.map(row).collect()
+    lines.map(|(line, text)| row(&mut order, names, line, text)).collect()
+}
+
+fn row<const N: usize>(
+    order: &mut Order<'_>,
+    names: &[&str],
+    line: u64,
+    text: &str,
+) -> Result<Row<N>, DataError> {
+    let file = order.file;
+    let cells: Vec<&str> = text.split(',').map(str::trim).collect();
+    if cells.len() != names.len() {
+        let expected = format!("{} values", names.len());
+        return Err(DataError::content(file, format!("line {line}"), expected, cells.len().to_string()));
+    }
+    let t_ns = order.next(line, cells[0])?;
+    let mut values = [0.0; N];
+    for ((value, cell), name) in values.iter_mut().zip(&cells[1..]).zip(&names[1..]) {
+        *value = number(cell).ok_or_else(|| {
+            DataError::content(file, format!("line {line}, {name}"), "a finite number", format!("`{cell}`"))
+        })?;
+    }
+    Ok(Row { line, t_ns, values })
 }
 
 fn number(cell: &str) -> Option<f64> {
@@ -128,7 +136,7 @@ struct Order<'a> {
 }
 
 impl Order<'_> {
-    fn next(&mut self, line: usize, text: &str) -> Result<i64, DataError> {
+    fn next(&mut self, line: u64, text: &str) -> Result<i64, DataError> {
         let wrong = |expected: String| {
             Err(DataError::content(self.file, format!("line {line}"), expected, format!("`{text}`")))
         };
@@ -190,6 +198,7 @@ mod tests {
             (odometry("1,2,inf\n"), "line 2, yaw_rate_radps"),
             (odometry("1,2\n"), "line 2: expected 3 values, found 2"),
             (odometry("2,0,0\n1,0,0\n"), "line 3: expected a time of 2 or later"),
+            (odometry("2,0,0\r\n3,0,0\r\n1,0,0"), "line 4: expected a time of 3 or later"),
             (poses("1,0,0,0,0,0,0,0\n"), "line 2: expected qx, qy, qz, qw of length 1, found 0, 0, 0, 0"),
             (read_poses(file("t,x\n").path()).map(drop), "line 1: expected `t_ns,x,y,z,qx,qy,qz,qw`"),
             (read_odometry(file("").path()).map(drop), "line 1: expected `t_ns,v_mps,yaw_rate_radps`"),

@@ -6,6 +6,7 @@ use super::raw::Modality;
 use super::rig::{PCD_FIELDS, rig};
 use super::{can, join};
 use crate::files::{self, Folders};
+use crate::recording::measurement;
 use crate::{DataError, SequenceReader, images};
 use ralf::camera::{CameraImage, DepthImage, DepthOutput};
 use ralf::measurement::{LidarScan, RadarScan};
@@ -93,7 +94,7 @@ impl Source for Scene {
     }
 
     fn radar_scan(&self, radar: usize, scan: usize) -> Result<RadarScan, SourceError> {
-        let file = &self.radars[radar][scan];
+        let file = measurement("radar", &self.radars, radar, scan)?;
         let columns = radar_columns(&Pcd::read(file)?)?;
         let t_ns = self.sequence.times.radars[radar][scan];
         let scan = RadarScan::new(&self.sequence.rig.radars[radar], t_ns, columns);
@@ -102,7 +103,7 @@ impl Source for Scene {
 
     fn lidar_scan(&self, lidar: usize, scan: usize) -> Result<LidarScan, SourceError> {
         // The fifth column is the ring.
-        let mut columns = files::read_f32_columns(&self.lidars[lidar][scan], 5)?;
+        let mut columns = files::read_f32_columns(measurement("lidar", &self.lidars, lidar, scan)?, 5)?;
         let intensity = columns.swap_remove(3);
         let points =
             (0..intensity.len()).map(|row| [columns[0][row], columns[1][row], columns[2][row]]).collect();
@@ -110,11 +111,13 @@ impl Source for Scene {
     }
 
     fn image(&self, camera: usize, image: usize) -> Result<CameraImage, SourceError> {
+        let file = measurement("camera", &self.cameras, camera, image)?;
         let model = &self.sequence.rig.cameras[camera];
-        Ok(images::read_of_size(&self.cameras[camera][image], model.width, model.height)?)
+        Ok(images::read_of_size(file, model.width, model.height)?)
     }
 
-    fn depth(&self, _camera: usize, _image: usize) -> Result<Option<Vec<DepthImage>>, SourceError> {
+    fn depth(&self, camera: usize, image: usize) -> Result<Option<Vec<DepthImage>>, SourceError> {
+        measurement("camera", &self.cameras, camera, image)?;
         Ok(None)
     }
 }

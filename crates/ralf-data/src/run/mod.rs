@@ -11,7 +11,7 @@ mod results;
 mod workers;
 mod workspace;
 
-pub use record::{NotLabelled, RadarRecord, RunRecord, SequenceRecord};
+pub use record::{CameraRecord, ImageRecord, NotLabelled, RadarRecord, RunRecord, SequenceRecord};
 
 use crate::output::Columns;
 use crate::{DataError, Recording, SequenceReader, layout};

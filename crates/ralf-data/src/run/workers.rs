@@ -1,6 +1,6 @@
 //! Scans side by side: each worker takes a stretch of time and labels it with a window of its own.
 
-use super::record::NotLabelled;
+use super::record::{ImageRecord, NotLabelled};
 use super::workspace::Workspace;
 use super::{Observer, Stage, Task};
 use crate::DataError;
@@ -102,6 +102,10 @@ impl Shared<'_> {
                 return self.workspace.forget(sequence, name, scan).map(|()| 0);
             }
         };
+        for view in &frame.images {
+            let camera = &rig.cameras[view.moment.camera].name;
+            self.workspace.keep_image(sequence, camera, &ImageRecord::of(&view.moment))?;
+        }
         let labels = Labeler::new(self.config).label(&frame);
         let table = ScanTable::new(columns, &rig.radars[radar], &frame.detections, &labels);
         self.workspace.keep(sequence, name, scan, &table)?;

@@ -4,7 +4,7 @@
 //! other runs are of no use once the fingerprint differs, and are removed, finished or not. `run.json` comes last: a folder that
 //! has it is complete.
 
-use super::record::{RunRecord, SequenceRecord};
+use super::record::{ImageRecord, RunRecord, SequenceRecord};
 use super::results::{Results, remove_file};
 use crate::files::{self, read, write_whole};
 use crate::label_file::write_labels;
@@ -15,6 +15,7 @@ use serde::de::DeserializeOwned;
 use std::fs;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
 
 /// Where runs keep what is not finished.
 const UNFINISHED: &str = ".ralf-run";
@@ -27,6 +28,8 @@ pub(super) struct Workspace {
     results: Results,
     unfinished: PathBuf,
     fingerprint: String,
+    /// Held while an image's record is written: several workers may ask about one image at the same time.
+    image_records: Mutex<()>,
 }
 
 impl Workspace {
@@ -34,7 +37,13 @@ impl Workspace {
     pub(super) fn open(out: &Path, record: &RunRecord) -> Result<Self, DataError> {
         let fingerprint = record.fingerprint.clone();
         let unfinished = out.join(UNFINISHED).join(&fingerprint);
-        let workspace = Self { out: out.to_owned(), results: Results::of(out), unfinished, fingerprint };
+        let workspace = Self {
+            out: out.to_owned(),
+            results: Results::of(out),
+            unfinished,
+            fingerprint,
+            image_records: Mutex::default(),
+        };
         if workspace.finished().is_none() {
             workspace.remove_other_runs()?;
             fs::create_dir_all(&workspace.unfinished).map_err(DataError::io(&workspace.unfinished))?;
@@ -117,6 +126,28 @@ impl Workspace {
         label.is_ok_and(|label| label.len() == 4 * table.len() as u64)
     }
 
+    /// Keeps what the monitor found about an image.
+    pub(super) fn keep_image(
+        &self,
+        sequence: &str,
+        camera: &str,
+        record: &ImageRecord,
+    ) -> Result<(), DataError> {
+        let file = self.image_file(sequence, camera, record.image);
+        let _only_one = self.image_records.lock().unwrap_or_else(PoisonError::into_inner);
+        if file.exists() { Ok(()) } else { write_json(&file, record) }
+    }
+
+    /// What the monitor found about an image; `None` if it was not asked.
+    pub(super) fn image(
+        &self,
+        sequence: &str,
+        camera: &str,
+        image: usize,
+    ) -> Result<Option<ImageRecord>, DataError> {
+        read_json(&self.image_file(sequence, camera, image))
+    }
+
     /// Removes the `.label` file that an earlier run with other settings made of a scan that can't be labelled now.
     pub(super) fn forget(&self, sequence: &str, radar: &str, scan: usize) -> Result<(), DataError> {
         self.results.remove_label(sequence, radar, scan)
@@ -132,6 +163,10 @@ impl Workspace {
     pub(super) fn finish(&self, record: &RunRecord) -> Result<(), DataError> {
         write_json(&self.out.join(RECORD), record)?;
         remove_folder(&self.out.join(UNFINISHED))
+    }
+
+    fn image_file(&self, sequence: &str, camera: &str, image: usize) -> PathBuf {
+        self.unfinished.join(sequence).join(camera).join(format!("{image:06}.json"))
     }
 
     fn sequence_record(&self, sequence: &str) -> PathBuf {

@@ -4,6 +4,7 @@ use super::calibration::{Mounting, camera, camera_from_sensor, odom_from_vehicle
 use super::raw::{Calib, Frame, frames};
 use crate::files::{self, Folders};
 use crate::models::{HDL_64E_S3, ZF_FRGEN21};
+use crate::recording::measurement;
 use crate::{DataError, SequenceReader, images};
 use ralf::camera::{CameraImage, DepthImage, DepthOutput};
 use ralf::measurement::{LidarScan, RadarScan};
@@ -24,9 +25,9 @@ const LARGEST_STEP: f64 = 5.0;
 /// The sequence `training`.
 pub(super) struct Training {
     sequence: Sequence,
-    radar: Vec<PathBuf>,
-    lidar: Vec<PathBuf>,
-    camera: Vec<PathBuf>,
+    radars: [Vec<PathBuf>; 1],
+    lidars: [Vec<PathBuf>; 1],
+    cameras: [Vec<PathBuf>; 1],
     /// Calibrations and poses.
     further: Vec<PathBuf>,
     warnings: Vec<String>,
@@ -70,7 +71,8 @@ impl Training {
             motion,
             depth_output: DepthOutput::default(),
         };
-        Ok(Self { sequence, radar: radar_files, lidar: lidar_files, camera: camera_files, further, warnings })
+        let [radars, lidars, cameras] = [[radar_files], [lidar_files], [camera_files]];
+        Ok(Self { sequence, radars, lidars, cameras, further, warnings })
     }
 }
 
@@ -187,7 +189,7 @@ impl Source for Training {
     }
 
     fn radar_scan(&self, radar: usize, scan: usize) -> Result<RadarScan, SourceError> {
-        let file = &self.radar[scan];
+        let file = measurement("radar", &self.radars, radar, scan)?;
         let columns = files::read_f32_columns(file, RADAR_FIELDS.len())?;
         let t_ns = self.sequence.times.radars[radar][scan];
         let scan = RadarScan::new(&self.sequence.rig.radars[radar], t_ns, columns);
@@ -195,7 +197,7 @@ impl Source for Training {
     }
 
     fn lidar_scan(&self, lidar: usize, scan: usize) -> Result<LidarScan, SourceError> {
-        let mut columns = files::read_f32_columns(&self.lidar[scan], 4)?;
+        let mut columns = files::read_f32_columns(measurement("lidar", &self.lidars, lidar, scan)?, 4)?;
         let intensity = columns.pop().unwrap_or_default();
         let points =
             (0..intensity.len()).map(|row| [columns[0][row], columns[1][row], columns[2][row]]).collect();
@@ -203,25 +205,28 @@ impl Source for Training {
     }
 
     fn image(&self, camera: usize, image: usize) -> Result<CameraImage, SourceError> {
+        let file = measurement("camera", &self.cameras, camera, image)?;
         let model = &self.sequence.rig.cameras[camera];
-        Ok(images::read_of_size(&self.camera[image], model.width, model.height)?)
+        Ok(images::read_of_size(file, model.width, model.height)?)
     }
 
-    fn depth(&self, _camera: usize, _image: usize) -> Result<Option<Vec<DepthImage>>, SourceError> {
+    fn depth(&self, camera: usize, image: usize) -> Result<Option<Vec<DepthImage>>, SourceError> {
+        measurement("camera", &self.cameras, camera, image)?;
         Ok(None)
     }
 }
 
 impl SequenceReader for Training {
     fn inputs(&self) -> Vec<PathBuf> {
-        [&self.further, &self.radar, &self.lidar, &self.camera].into_iter().flatten().cloned().collect()
+        let measured = [&self.radars, &self.lidars, &self.cameras].into_iter().flatten().flatten();
+        self.further.iter().chain(measured).cloned().collect()
     }
 
     fn warnings(&self) -> &[String] {
         &self.warnings
     }
 
-    fn image_file(&self, _camera: usize, image: usize) -> Option<PathBuf> {
-        self.camera.get(image).cloned()
+    fn image_file(&self, camera: usize, image: usize) -> Option<PathBuf> {
+        self.cameras.get(camera)?.get(image).cloned()
     }
 }
