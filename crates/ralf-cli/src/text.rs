@@ -1,15 +1,14 @@
 //! Printing results, and numbers as people read them.
 
+use anyhow::Context;
 use std::io::{self, Write};
 
 /// Prints a result to standard output.
 pub(crate) fn print(text: &str) -> anyhow::Result<()> {
+    let end = if text.ends_with('\n') { "" } else { "\n" };
     let mut stdout = io::stdout().lock();
-    stdout.write_all(text.as_bytes())?;
-    if !text.ends_with('\n') {
-        stdout.write_all(b"\n")?;
-    }
-    Ok(stdout.flush()?)
+    let printed = stdout.write_all(text.as_bytes()).and_then(|()| stdout.write_all(end.as_bytes()));
+    printed.and_then(|()| stdout.flush()).context("standard output")
 }
 
 /// Whether an error is that nobody reads our standard output any more.

@@ -12,7 +12,9 @@ mod bad_files;
 mod bad_recordings;
 mod determinism;
 mod evaluation;
+#[cfg(unix)]
 mod full_disk;
+#[cfg(unix)]
 mod inputs;
 mod other_commands;
 mod real_data;

@@ -128,6 +128,15 @@ fn a_reader_who_has_enough_is_no_failure() {
     }
 }
 
+#[cfg(target_os = "linux")]
+#[test]
+fn a_result_that_can_not_be_printed_is_a_failure() {
+    let dataset = Dataset::of(&Shape { scans: 1, ..Shape::default() });
+    let full = fs::File::options().write(true).open("/dev/full").unwrap();
+    let inspect = program().args(["inspect", &dataset.path]).stdout(full).output().unwrap();
+    Ran::of(&inspect).exits(1).says(["standard output", "No space left on device"]);
+}
+
 #[test]
 fn nobody_has_to_listen_to_warnings() {
     let dataset = Dataset::of(&Shape { scans: 2, ..Shape::default() });
