@@ -91,7 +91,7 @@ impl Shared<'_> {
     fn label_scan(&self, window: &mut FrameWindow, radar: usize, scan: usize) -> Result<u64, DataError> {
         let Task { reader, rig, columns } = self.task;
         let (sequence, name) = (&reader.sequence().name, &rig.radars[radar].name);
-        if self.workspace.rows_file(sequence, name, scan).exists() {
+        if self.workspace.has_kept(sequence, name, scan, columns) {
             return Ok(0);
         }
         let frame = match window.frame(radar, scan) {
