@@ -1,5 +1,7 @@
 //! The whole method on recordings of a few points, with numbers worked out by hand.
 
+#![allow(clippy::unwrap_used, clippy::expect_used, reason = "of tests alone")]
+
 mod support;
 
 use ralf::config::Config;
