@@ -33,16 +33,18 @@ pub(crate) fn require_library() -> Result<(), DepthError> {
 fn environment() -> Result<&'static Environment, String> {
     let loaded = ENVIRONMENT.get_or_init(|| {
         let named = std::env::var_os("ORT_DYLIB_PATH").filter(|path| !path.is_empty()).map(PathBuf::from);
-        let library = named.unwrap_or_else(|| {
+        load_library(named.unwrap_or_else(|| {
             let (prefix, suffix) = (std::env::consts::DLL_PREFIX, std::env::consts::DLL_SUFFIX);
             PathBuf::from(format!("{prefix}onnxruntime{suffix}"))
-        });
-        let advice =
-            "set the environment variable ORT_DYLIB_PATH to the library of ONNX Runtime 1.17 or newer";
-        let builder = ort::init_from(library).map_err(|error| format!("{error}; {advice}"))?;
-        builder.build().map_err(|error| error.to_string())
+        }))
     });
     loaded.as_ref().map_err(String::clone)
+}
+
+fn load_library(library: PathBuf) -> Result<Environment, String> {
+    let advice = "set the environment variable ORT_DYLIB_PATH to the library of ONNX Runtime 1.17 or newer";
+    let builder = ort::init_from(library).map_err(|error| format!("{error}; {advice}"))?;
+    builder.build().map_err(|error| error.to_string())
 }
 
 impl OrtNetwork {
@@ -104,4 +106,15 @@ fn port(outlet: &Outlet) -> Port {
         _ => (false, None),
     };
     Port { name: outlet.name().to_owned(), shape, float }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_missing_library_is_named_with_the_way_to_give_one() {
+        let error = load_library(PathBuf::from("/nowhere/libonnxruntime.so")).err().unwrap();
+        assert!(error.contains("/nowhere/libonnxruntime.so") && error.contains("ORT_DYLIB_PATH"), "{error}");
+    }
 }

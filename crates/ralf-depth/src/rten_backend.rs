@@ -74,7 +74,7 @@ impl Network for RtenNetwork {
     }
 }
 
-/// A panic as an error: rten asserts some of what a damaged file can break.
+/// A panic as an error: rten returns an error for nearly all that can be wrong with a file, but not for all.
 fn guarded<T>(work: impl FnOnce() -> Result<T, String>) -> Result<T, String> {
     catch_unwind(AssertUnwindSafe(work)).unwrap_or_else(|_| Err("it panicked".to_owned()))
 }

@@ -7,7 +7,8 @@ use crate::plane::Plane;
 pub(crate) fn places(width: usize, height: usize) -> Vec<usize> {
     let rest = width.saturating_sub(height);
     let steps = rest.div_ceil((height / 2).max(1));
-    (0..=steps).map(|step| if steps == 0 { 0 } else { step * rest / steps }).collect()
+    // Without a rest there is one step only, the first.
+    (0..=steps).map(|step| step * rest / steps.max(1)).collect()
 }
 
 /// What to multiply each square by, that all have the scale of the middle one: medians of the ratios between neighbours.

@@ -272,3 +272,28 @@ fn outputs_that_are_no_depth_are_errors() {
     let half: &[(&str, &[u64])] = &[("kernel_shape", &[2, 2]), ("strides", &[2, 2])];
     close(&estimate(&then("MaxPool", half, 1.0), PLAIN, &view), &[5.0, 5.5, 6.5, 7.0].repeat(2));
 }
+
+#[test]
+fn absurd_attributes_are_errors_even_where_the_runtime_panics() {
+    let view = view(4, 2, |x, _| [x as u8, 0, 0]);
+    for (kernel, strides, pads) in [
+        ([1, 1], [0, 0], [0; 4]),
+        ([0, 0], [1, 1], [0; 4]),
+        ([9, 9], [1, 1], [0; 4]),
+        ([u64::MAX; 2], [1, 1], [0; 4]),
+        // rten adds these up without a look at the sum.
+        ([1, 1], [1, 1], [u64::MAX / 4; 4]),
+    ] {
+        let attributes: &[(&str, &[u64])] =
+            &[("kernel_shape", &kernel), ("strides", &strides), ("pads", &pads)];
+        let network = onnx(
+            &[conv("sum", 0), node("MaxPool", &["sum"], "depth", attributes)],
+            &[weights("w", &[1, 3, 1, 1], &[1.0; 3])],
+            &[("image", FLOAT, &[1, 3, 0, 0])],
+            &[("depth", FLOAT, &[0, 0, 0, 0])],
+        );
+        let estimate = load(&network, PLAIN)
+            .and_then(|model| model.estimate(&view, 1.0).map_err(|error| error.to_string()));
+        assert!(estimate.unwrap_err().contains("net.onnx: rten "), "{attributes:?}");
+    }
+}
