@@ -30,7 +30,7 @@ pub(crate) enum Command {
     Inspect(inspect::InspectArgs),
     /// Label every radar detection of a recording
     Label(label::LabelArgs),
-    /// Compare labels with corrected ones
+    /// Compare labels with corrected ones, or tell what they say by themselves
     Evaluate(evaluate::EvaluateArgs),
     /// Draw labelled scans from above
     Plot(plot::PlotArgs),

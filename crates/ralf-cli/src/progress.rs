@@ -2,13 +2,13 @@
 
 use indicatif::{ProgressBar, ProgressStyle};
 use ralf_data::run::{Observer, Stage};
+use std::io::Write;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// Says something to people, on standard error.
-#[allow(clippy::print_stderr, reason = "the one place that talks to people")]
+/// Says something to people, on standard error. Nobody has to listen.
 pub(crate) fn say(message: &str) {
-    eprintln!("{message}");
+    let _ = writeln!(std::io::stderr(), "{message}");
 }
 
 /// Shows a run's stages as bars.

@@ -107,7 +107,7 @@ impl Folders {
 }
 
 /// Writes a file whole or not at all: beside its place first, then renamed. Folders are made as needed.
-pub(crate) fn write_whole(file: &Path, bytes: &[u8]) -> Result<(), DataError> {
+pub fn write_whole(file: &Path, bytes: &[u8]) -> Result<(), DataError> {
     if let Some(folder) = file.parent() {
         fs::create_dir_all(folder).map_err(DataError::io(folder))?;
     }

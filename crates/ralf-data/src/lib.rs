@@ -18,6 +18,7 @@
 //! # }
 //! ```
 
+mod balance;
 mod error;
 mod evaluation;
 mod files;
@@ -36,8 +37,10 @@ pub mod run;
 mod testing;
 mod view_of_delft;
 
+pub use balance::{Balance, Balances};
 pub use error::DataError;
 pub use evaluation::Comparison;
+pub use files::write_whole;
 pub use ground_truth::{GroundTruth, ScanId};
 pub use label_file::{Label, read_labels, write_labels};
 pub use layout::{LayoutSequence, write_sequence};

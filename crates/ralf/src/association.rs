@@ -11,13 +11,19 @@ pub(crate) struct Association<'a> {
     index: &'a NeighborIndex,
     elevation: Elevation,
     neighbours: usize,
+    reach: f32,
     found: Vec<Neighbor>,
 }
 
 impl<'a> Association<'a> {
     /// For detections of a radar that measures elevation or not; in the second case the index must be horizontal.
     pub(crate) fn new(index: &'a NeighborIndex, elevation: Elevation, neighbours: usize) -> Self {
-        Self { index, elevation, neighbours, found: Vec::with_capacity(neighbours) }
+        Self { index, elevation, neighbours, reach: f32::INFINITY, found: Vec::with_capacity(neighbours) }
+    }
+
+    /// From now on a cloud all of whose points are farther than this, m, may be taken for empty.
+    pub(crate) fn set_reach(&mut self, reach: f64) {
+        self.reach = reach as f32;
     }
 
     /// The mean mismatch with the nearest points; `None` where the cloud is empty.
@@ -30,7 +36,8 @@ impl<'a> Association<'a> {
         reference: impl Fn(u32) -> Reference,
     ) -> Option<f64> {
         let z = if self.elevation == Elevation::None { 0.0 } else { place.z };
-        self.index.nearest([place.x as f32, place.y as f32, z as f32], self.neighbours, &mut self.found);
+        let query = [place.x as f32, place.y as f32, z as f32];
+        self.index.nearest_within(query, self.neighbours, self.reach, &mut self.found);
         if self.found.is_empty() {
             return None;
         }

@@ -27,6 +27,11 @@ impl Located {
         Spread::Axes(self.axes)
     }
 
+    /// The trace of `Sigma_i`, m^2: the variance in no direction is larger.
+    pub fn total_variance(&self) -> f64 {
+        self.axes.norm_squared()
+    }
+
     /// The standard deviation along a direction of unit length, m.
     pub fn sigma_along(&self, direction: &Vector) -> f64 {
         self.axes.tr_mul(direction).norm()

@@ -1,8 +1,9 @@
 //! Everything the method needs for one radar scan, gathered in bounded memory.
 
+use crate::camera::{Calibration, ImageMoment, ImageView};
 use crate::config::{Config, GroundModel, TrackingSources, nanoseconds};
 use crate::detections::Detections;
-use crate::lidar::{Floor, LidarMoment, LidarView};
+use crate::lidar::{LidarMoment, LidarView, LocalGround};
 use crate::measurement::LidarScan;
 use crate::recent::Recent;
 use crate::rig::{Radar, Rig};
@@ -22,8 +23,10 @@ pub struct Frame<'a> {
     pub detections: Arc<Detections>,
     /// The LiDAR scans nearest in time; `None` where there is none within the tolerance.
     pub lidar: Option<LidarView>,
-    /// The ground that makes floor detections of this scan; `None` without a ground, and for a radar without elevation.
-    pub ground: Option<Floor>,
+    /// The ground in the vehicle frame at the scan's time; `None` where there is none.
+    pub ground: Option<LocalGround>,
+    /// The cameras' images nearest in time for which there is depth.
+    pub images: Vec<ImageView>,
     /// The neighbouring radar scans, in time order.
     pub steps: Vec<TrackingStep>,
     /// Ego-compensated range rates of the detections, m/s, where `tracking.dynamic` wants them and the radar measures them.
@@ -42,6 +45,7 @@ pub struct FrameWindow<'a> {
     radar_scans: Recent<Key, Option<Arc<Detections>>>,
     lidar_scans: Recent<Key, Arc<LidarScan>>,
     moments: Recent<(i64, Vec<Key>), Arc<LidarMoment>>,
+    images: Recent<Key, Option<Arc<ImageMoment>>>,
 }
 
 impl<'a> FrameWindow<'a> {
@@ -56,7 +60,9 @@ impl<'a> FrameWindow<'a> {
             rig,
             radar_scans: Recent::new(batch.min(longest) * rig.radars.len()),
             lidar_scans: Recent::new(2 * rig.lidars.len()),
-            moments: Recent::new(2),
+            // The images around a radar scan may have other LiDAR scans nearest to them.
+            moments: Recent::new(2 + rig.cameras.len()),
+            images: Recent::new(2 * rig.cameras.len()),
         }
     }
 
@@ -74,8 +80,9 @@ impl<'a> FrameWindow<'a> {
         Ok(Frame {
             rig: self.rig,
             radar: &self.rig.radars[radar],
-            ground: Floor::below(&self.rig.radars[radar], lidar.as_ref(), &self.config.ground),
+            ground: LocalGround::around(lidar.as_ref(), &self.config.ground),
             lidar,
+            images: if self.config.camera.enabled { self.images(t_ns)? } else { Vec::new() },
             steps: if tracking.enabled { self.steps(radar, scan, t_ns) } else { Vec::new() },
             doppler: doppler.flatten(),
             detections,
@@ -156,6 +163,57 @@ impl<'a> FrameWindow<'a> {
         let moment = Arc::new(LidarMoment::new(t_ns, scans, &self.config.ground, self.config.seed));
         self.moments.insert(name, moment.clone());
         Ok(moment)
+    }
+
+    /// The images nearest to a time, calibrated; those without depth are absent.
+    fn images(&mut self, t_ns: i64) -> Result<Vec<ImageView>, SourceError> {
+        let tolerance = nanoseconds(self.config.sync.camera_tolerance_ms);
+        let times = &self.source.sequence().times.cameras;
+        let mut images = Vec::new();
+        for (camera, times) in times.iter().enumerate() {
+            let Some(image) = sync::nearest(times, t_ns, tolerance) else { continue };
+            if let Some(moment) = self.image_moment(camera, image, times[image])? {
+                let vehicle_from_image = self.source.sequence().motion.between(t_ns, moment.t_ns);
+                images.push(ImageView { moment, vehicle_from_image });
+            }
+        }
+        Ok(images)
+    }
+
+    /// An image with its views calibrated by the LiDAR scans nearest to it; `None` where there is no depth.
+    fn image_moment(
+        &mut self,
+        camera: usize,
+        image: usize,
+        t_ns: i64,
+    ) -> Result<Option<Arc<ImageMoment>>, SourceError> {
+        if let Some(known) = self.images.get(&(camera, image)) {
+            return Ok(known);
+        }
+        let content = match self.source.depth(camera, image) {
+            Ok(None) => {
+                self.images.insert((camera, image), None);
+                return Ok(None);
+            }
+            Ok(Some(depth)) => self.source.image(camera, image).map(|pixels| (pixels, depth)),
+            Err(error) => Err(error),
+        };
+        let lidar = self.lidar_view(t_ns)?;
+        let points = lidar.as_ref().map(LidarView::all_points);
+        let ground = LocalGround::around(lidar.as_ref(), &self.config.ground);
+        let calibration = Calibration {
+            lidar: points.as_deref(),
+            height: &|p| ground.as_ref().map(|ground| ground.height(p)),
+            output: self.source.sequence().depth_output,
+            camera: &self.config.camera,
+            ground: &self.config.ground,
+        };
+        let content = content.map_err(|error| error.to_string());
+        let moment =
+            ImageMoment::new((camera, &self.rig.cameras[camera]), (image, t_ns), content, &calibration);
+        let moment = Arc::new(moment);
+        self.images.insert((camera, image), Some(moment.clone()));
+        Ok(Some(moment))
     }
 
     fn lidar_scan(&mut self, lidar: usize, scan: usize) -> Result<Arc<LidarScan>, SourceError> {

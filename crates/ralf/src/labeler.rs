@@ -1,10 +1,11 @@
 //! The whole method, for one radar scan.
 
+use crate::camera::{self, CameraMatch};
 use crate::config::Config;
 use crate::detections::Located;
 use crate::frame::Frame;
 use crate::fusion::{optical, prioritize};
-use crate::lidar::{self, LidarMatch};
+use crate::lidar::{self, LidarMatch, LocalGround};
 use crate::mismatch::plausibility;
 use crate::tracking;
 
@@ -71,6 +72,7 @@ impl<'a> Labeler<'a> {
     pub fn label(&self, frame: &Frame) -> Vec<DetectionLabel> {
         let evidence = Evidence {
             lidar: self.ask_lidar(frame),
+            camera: self.ask_cameras(frame),
             tracking: self.ask_tracking(frame),
             absent: self.absent_branches(frame),
         };
@@ -84,15 +86,17 @@ impl<'a> Labeler<'a> {
 
     /// The label of one detection from what the branches say of it.
     fn fuse(&self, frame: &Frame, i: usize, detection: &Located, evidence: &Evidence) -> DetectionLabel {
-        let Config { ground, lidar, tracking, fusion, .. } = self.config;
-        let on_floor = frame.ground.as_ref().is_some_and(|floor| floor.holds(detection, ground));
+        let Config { ground, lidar, camera, tracking, fusion, .. } = self.config;
+        let is_on = |local: &LocalGround| local.is_floor_detection(frame.radar, detection, ground);
+        let on_floor = frame.ground.as_ref().is_some_and(is_on);
         let lidar_match = evidence.lidar[i].filter(|_| !on_floor);
 
         // w = exp(-beta d): alg. lidar_matching, and so for the other branches.
         let d_lm = lidar_match.map(|found| found.d);
+        let d_cm = evidence.camera[i].d.filter(|_| !on_floor);
         let d_tr = evidence.tracking[i];
         let w_lm = if on_floor { Some(0.0) } else { d_lm.map(|d| plausibility(lidar.beta, d)) };
-        let w_cm = if on_floor { Some(0.0) } else { None };
+        let w_cm = if on_floor { Some(0.0) } else { d_cm.map(|d| plausibility(camera.beta, d)) };
         let w_tr = d_tr.map(|d| plausibility(tracking.beta, d));
 
         // Eq. lidar_blindspot, then eq. priorization.
@@ -103,7 +107,7 @@ impl<'a> Labeler<'a> {
 
         DetectionLabel {
             d_lm,
-            d_cm: None,
+            d_cm,
             d_tr,
             w_lm,
             w_cm,
@@ -114,6 +118,7 @@ impl<'a> Labeler<'a> {
             flags: evidence.absent
                 | flag::when(on_floor, flag::GROUND)
                 | flag::when(in_blind_spot, flag::BLIND_SPOT)
+                | flag::when(evidence.camera[i].in_failed_view, flag::CAMERA_FAILED)
                 | flag::when(w.is_none(), flag::UNOBSERVED),
             semantic: lidar_match.and_then(|found| found.semantic),
         }
@@ -126,6 +131,10 @@ impl<'a> Labeler<'a> {
             }
             _ => vec![None; frame.detections.located.len()],
         }
+    }
+
+    fn ask_cameras(&self, frame: &Frame) -> Vec<CameraMatch> {
+        camera::match_detections(frame.radar, &frame.detections, &frame.images, &self.config.camera)
     }
 
     fn ask_tracking(&self, frame: &Frame) -> Vec<Option<f64>> {
@@ -143,6 +152,7 @@ impl<'a> Labeler<'a> {
 /// What each branch says of a scan: one entry per detection.
 struct Evidence {
     lidar: Vec<Option<LidarMatch>>,
+    camera: Vec<CameraMatch>,
     tracking: Vec<Option<f64>>,
     /// Flags of the branches that say nothing of the whole scan.
     absent: u16,

@@ -60,6 +60,11 @@ pub fn mismatch(h: &Vector, detection: &Spread, reference: &Spread) -> f64 {
     (distance_squared / (variance + EPSILON)).sqrt()
 }
 
+/// `|h| / m` is at most this, m, where no variance is larger than the given one, m^2.
+pub(crate) fn distance_per_mismatch(variance: f64) -> f64 {
+    (variance + EPSILON).sqrt()
+}
+
 /// `w = exp(-beta d)`.
 pub fn plausibility(beta: f64, d: f64) -> f64 {
     (-beta * d).exp()

@@ -73,16 +73,23 @@ impl EgoMotion {
         if self.poses.is_empty() { self.integrated(t_ns) } else { self.interpolated(t_ns) }
     }
 
-    /// The vehicle's velocity (m/s, vehicle frame, at its origin) and turn rate (rad/s) at a time.
+    /// The vehicle's velocity (m/s, vehicle frame, at its origin) and turn rate (rad/s) at a time: measured by the wheels
+    /// where there is odometry, else from the poses around.
     pub fn twist(&self, t_ns: i64) -> (Vector3<f64>, Vector3<f64>) {
-        if self.poses.len() < 2 {
-            let sample = self.odometry.get(self.sample_at(t_ns));
-            let (v, yaw_rate) = sample.map_or((0.0, 0.0), |sample| (sample.velocity, sample.yaw_rate));
-            return (Vector3::new(v, 0.0, 0.0), Vector3::new(0.0, 0.0, yaw_rate));
+        match self.odometry.get(self.sample_at(t_ns)) {
+            Some(sample) => {
+                (Vector3::new(sample.velocity, 0.0, 0.0), Vector3::new(0.0, 0.0, sample.yaw_rate))
+            }
+            None => self.twist_of_poses(t_ns),
         }
+    }
+
+    fn twist_of_poses(&self, t_ns: i64) -> (Vector3<f64>, Vector3<f64>) {
         const HALF_STEP_NS: i64 = 25_000_000;
-        let first = self.poses[0].t_ns.max(t_ns - HALF_STEP_NS);
-        let last = self.poses[self.poses.len() - 1].t_ns.min(t_ns + HALF_STEP_NS);
+        let span = self.poses.first().zip(self.poses.last());
+        let (first, last) = span.map_or((t_ns, t_ns), |(first, last)| {
+            (first.t_ns.max(t_ns - HALF_STEP_NS), last.t_ns.min(t_ns + HALF_STEP_NS))
+        });
         if last <= first {
             return (Vector3::zeros(), Vector3::zeros());
         }
@@ -201,7 +208,8 @@ mod tests {
         assert!((halfway.rotation.euler_angles().2 - 0.5).abs() < 1e-12);
         assert_eq!(motion.odom_from_vehicle(-SECOND).translation.x, 0.0);
         assert_eq!(motion.odom_from_vehicle(9 * SECOND).translation.x, 4.0);
-        let (velocity, turn) = motion.twist(SECOND);
+        assert_eq!(motion.twist(SECOND).0.x, 99.0, "the wheels measure it");
+        let (velocity, turn) = EgoMotion::new(vec![], motion.poses().to_vec()).unwrap().twist(SECOND);
         assert!((velocity.norm() - 2.0).abs() < 1e-3 && (turn.z - 0.5).abs() < 1e-9);
     }
 

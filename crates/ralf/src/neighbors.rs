@@ -8,8 +8,10 @@
 
 use std::ops::Range;
 
-/// Edge of a cell, m.
+/// Edge of a cell, m, where there are enough points for cells so small.
 const CELL: f32 = 1.0;
+/// Cells per point at most: more would cost more to make than they save.
+const CELLS_PER_POINT: usize = 1;
 /// The grid covers at most this far from the frame's origin in x and in y, m.
 const REACH: f32 = 256.0;
 /// Rounding may put a point that lies on a cell's border into the next one; bounds are loosened by this, m.
@@ -18,6 +20,8 @@ const SLACK: f32 = 1e-3;
 const MIDDLE: usize = 2;
 /// Distances are computed for this many points at a time.
 const LANES: usize = 16;
+/// Runs shorter than this are looked through one by one.
+const FEW: usize = 8;
 
 /// A point found by a search.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -32,6 +36,8 @@ pub struct Neighbor {
 #[derive(Debug, Clone)]
 pub struct NeighborIndex {
     origin: [f32; 2],
+    /// Edge of a cell, m.
+    cell: f32,
     columns: usize,
     rows: usize,
     /// Where each cell's points begin, row by row, and the end.
@@ -66,15 +72,13 @@ impl NeighborIndex {
     }
 
     fn empty_grid(points: &[[f32; 3]]) -> Self {
-        let span = |axis: usize| {
-            let values = points.iter().map(|point| point[axis].clamp(-REACH, REACH));
-            let (low, high) = values.fold((REACH, -REACH), |(low, high), v| (v.min(low), v.max(high)));
-            (low.min(high), ((high - low).max(0.0) / CELL) as usize + 1)
-        };
-        let ((x, columns), (y, rows)) = (span(0), span(1));
         let n = points.len();
+        let [(x, width), (y, height)] = [0, 1].map(|axis| span(points, axis));
+        let cell = (width * height / (CELLS_PER_POINT * n).max(1) as f32).sqrt().max(CELL);
+        let [columns, rows] = [width, height].map(|size| (size / cell) as usize + 1);
         Self {
             origin: [x, y],
+            cell,
             columns,
             rows,
             starts: vec![0; columns * rows + 1],
@@ -118,7 +122,7 @@ impl NeighborIndex {
             return;
         }
         let at = self.place_of(query[0], query[1]);
-        let mut search = Search { query, k: k.min(self.len()), worst: f32::INFINITY, found };
+        let mut search = Search { query, k: k.min(self.len()), cell: self.cell, worst: f32::INFINITY, found };
         for ring in 0..self.columns.max(self.rows) {
             let bound = self.bound(&at, ring);
             if search.is_done(bound) || (bound > reach && search.found.is_empty()) {
@@ -202,12 +206,12 @@ impl NeighborIndex {
             below.min(above)
         };
         let nearest = side(at.x, at.cell[0], self.columns).min(side(at.y, at.cell[1], self.rows));
-        (nearest * CELL - SLACK).max(0.0)
+        (nearest * self.cell - SLACK).max(0.0)
     }
 
     fn place_of(&self, x: f32, y: f32) -> Place {
         let place = |value: f32, origin: f32, cells: usize| {
-            let place = ((value - origin) / CELL).clamp(0.0, cells as f32);
+            let place = ((value - origin) / self.cell).clamp(0.0, cells as f32);
             (place, (place as usize).min(cells - 1))
         };
         let ((x, column), (y, row)) =
@@ -219,6 +223,13 @@ impl NeighborIndex {
         let [column, row] = self.place_of(x, y).cell;
         (row * self.columns + column) as u32
     }
+}
+
+/// The least coordinate of the points along an axis, and how far they reach from there, m; clamped to [`REACH`].
+fn span(points: &[[f32; 3]], axis: usize) -> (f32, f32) {
+    let values = points.iter().map(|point| point[axis].clamp(-REACH, REACH));
+    let (low, high) = values.fold((REACH, -REACH), |(low, high), v| (v.min(low), v.max(high)));
+    (low.min(high), (high - low).max(0.0))
 }
 
 /// Where a point lies in the grid, in cells; points outside are clamped to its border.
@@ -253,6 +264,8 @@ fn running_sum(counts: &mut [u32]) {
 struct Search<'a> {
     query: [f32; 3],
     k: usize,
+    /// Edge of a cell, m.
+    cell: f32,
     /// Only points at most this far can still enter, m^2.
     worst: f32,
     found: &'a mut Vec<Neighbor>,
@@ -265,12 +278,15 @@ impl Search<'_> {
 
     /// How far to the side, in cells, a point can still be near enough whose cell lies this many cells away.
     fn reach_beside(&self, cells_away: f32) -> f32 {
-        let away = (cells_away * CELL - SLACK).max(0.0);
+        let away = (cells_away * self.cell - SLACK).max(0.0);
         let left = self.worst - away * away;
-        if left < 0.0 { -1.0 } else { (left.sqrt() + SLACK) / CELL }
+        if left < 0.0 { -1.0 } else { (left.sqrt() + SLACK) / self.cell }
     }
 
     fn scan(&mut self, index: &NeighborIndex, run: Range<usize>) {
+        if run.len() < FEW {
+            return self.scan_few(index, run);
+        }
         let mut begin = run.start;
         while begin < run.end {
             let end = (begin + LANES).min(run.end);
@@ -279,14 +295,27 @@ impl Search<'_> {
         }
     }
 
+    /// One point after the other: for runs too short for vector instructions.
+    fn scan_few(&mut self, index: &NeighborIndex, run: Range<usize>) {
+        for place in run {
+            let distance_squared = self.distance_squared(index.xs[place], index.ys[place], index.zs[place]);
+            if distance_squared <= self.worst {
+                self.enter(Neighbor { id: index.ids[place], distance_squared });
+            }
+        }
+    }
+
+    fn distance_squared(&self, x: f32, y: f32, z: f32) -> f32 {
+        let [dx, dy, dz] = [x - self.query[0], y - self.query[1], z - self.query[2]];
+        dx * dx + dy * dy + dz * dz
+    }
+
     /// At most [`LANES`] points: all distances first, which the compiler turns into vector instructions.
     fn scan_some(&mut self, index: &NeighborIndex, run: Range<usize>) {
-        let [qx, qy, qz] = self.query;
         let mut distances = [f32::INFINITY; LANES];
         let points = index.xs[run.clone()].iter().zip(&index.ys[run.clone()]).zip(&index.zs[run.clone()]);
         for (distance, ((x, y), z)) in distances.iter_mut().zip(points) {
-            let [dx, dy, dz] = [x - qx, y - qy, z - qz];
-            *distance = dx * dx + dy * dy + dz * dz;
+            *distance = self.distance_squared(*x, *y, *z);
         }
         let hits = distances.iter().fold(0, |hits, distance| hits | u32::from(*distance <= self.worst));
         if hits == 0 {

@@ -1,34 +1,47 @@
-//! `ralf evaluate`: the labels of a run against corrected ones.
+//! `ralf evaluate`: the labels of a run against corrected ones, or what they say by themselves.
 
+mod balance;
 mod table;
 
 use crate::Outcome;
 use crate::progress::say;
 use crate::text::print;
-use anyhow::Context;
-use ralf_data::{Comparison, GroundTruth};
-use std::path::PathBuf;
+use ralf_data::{Balances, Comparison, GroundTruth};
+use std::path::{Path, PathBuf};
 
 /// What `ralf evaluate` takes.
 #[derive(Debug, Clone, clap::Args)]
+#[command(after_help = "\
+Without --truth it tells how far apart the two classes are (mean plausibility of one minus that of the other), and how balanced.
+
+Examples:
+  ralf evaluate out --truth recordings/city
+  ralf evaluate out --truth recordings/city --json
+  ralf evaluate out")]
 pub(crate) struct EvaluateArgs {
-    /// What `ralf label` wrote.
+    /// What `ralf label` wrote
     out: PathBuf,
-    /// The dataset that holds the corrected labels.
+    /// The dataset that holds the corrected labels
     #[arg(long, value_name = "DATASET")]
     truth: Option<PathBuf>,
-    /// Print one JSON object in place of tables.
+    /// Print one JSON object in place of tables
     #[arg(long)]
     json: bool,
-    /// Add a row for every scan to the tables.
-    #[arg(long, conflicts_with = "json")]
+    /// Add a row for every scan to the tables
+    #[arg(long, conflicts_with = "json", requires = "truth")]
     scans: bool,
 }
 
-/// Prints how good the labels are. Scans without labels are named on standard error and left out.
+/// Prints how good the labels are.
 pub(crate) fn run(args: &EvaluateArgs) -> anyhow::Result<Outcome> {
-    let dataset =
-        args.truth.as_ref().context("expected --truth DATASET, the folder with corrected labels")?;
+    match &args.truth {
+        Some(dataset) => compare(args, dataset),
+        None => balance(args),
+    }
+}
+
+/// Against the truth. Scans without labels are named on standard error and left out.
+fn compare(args: &EvaluateArgs, dataset: &Path) -> anyhow::Result<Outcome> {
     let comparison = Comparison::new(&args.out, &GroundTruth::open(dataset)?)?;
     name_what_is_left_out(&comparison, args);
     let text = if args.json {
@@ -39,6 +52,13 @@ pub(crate) fn run(args: &EvaluateArgs) -> anyhow::Result<Outcome> {
     };
     print(&text)?;
     Ok(if comparison.missing.is_empty() { Outcome::Done } else { Outcome::Partial })
+}
+
+/// Without the truth.
+fn balance(args: &EvaluateArgs) -> anyhow::Result<Outcome> {
+    let balances = Balances::of_run(&args.out)?;
+    print(&if args.json { serde_json::to_string_pretty(&balances)? } else { balance::table(&balances) })?;
+    Ok(Outcome::Done)
 }
 
 fn name_what_is_left_out(comparison: &Comparison, args: &EvaluateArgs) {
@@ -55,7 +75,6 @@ fn name_what_is_left_out(comparison: &Comparison, args: &EvaluateArgs) {
 mod tests {
     use super::*;
     use ralf_data::{Label, write_labels};
-    use std::path::Path;
 
     fn put(folder: &Path, name: &str, ids: &[u16]) {
         let labels: Vec<Label> = ids.iter().copied().map(Label::of_class).collect();
@@ -73,7 +92,7 @@ mod tests {
         put(&dataset, "sequences/00/ground_truth/front/000001.label", &[1]);
         assert_eq!(run(&args).unwrap(), Outcome::Partial);
         args.truth = None;
-        assert!(run(&args).unwrap_err().to_string().contains("expected --truth DATASET"));
+        assert!(run(&args).unwrap_err().to_string().contains("plausibility.parquet"));
         args.truth = Some(folder.path().join("elsewhere"));
         assert!(run(&args).unwrap_err().to_string().contains("elsewhere"));
     }

@@ -15,7 +15,7 @@ use std::path::PathBuf;
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Writes OUT/run.json, OUT/sequences/NAME/plausibility.parquet and a .label file per scan. Killed and started again with the same
-arguments it goes on where it stopped.
+arguments it goes on where it stopped. OUT holds the results of one run: those of another are replaced.
 
 Examples:
   ralf label recordings/city -o out

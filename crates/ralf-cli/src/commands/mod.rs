@@ -8,6 +8,7 @@ pub(crate) mod plot;
 
 use crate::Outcome;
 use crate::cli::{Cli, Command};
+use crate::text::print;
 use clap::CommandFactory;
 
 /// Runs what was typed.
@@ -19,8 +20,9 @@ pub(crate) fn dispatch(arguments: Cli) -> anyhow::Result<Outcome> {
         Command::Plot(arguments) => plot::run(&arguments),
         Command::Convert(arguments) => convert::run(&arguments),
         Command::Completions { shell } => {
-            clap_complete::generate(shell, &mut Cli::command(), "ralf", &mut std::io::stdout());
-            Ok(Outcome::Done)
+            let mut script = Vec::new();
+            clap_complete::generate(shell, &mut Cli::command(), "ralf", &mut script);
+            print(&String::from_utf8_lossy(&script)).map(|()| Outcome::Done)
         }
     }
 }

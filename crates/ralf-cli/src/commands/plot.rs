@@ -67,7 +67,7 @@ pub(crate) fn run(arguments: &PlotArgs) -> anyhow::Result<Outcome> {
         Some(scan) => plot.scan(scan)?,
         None => plot.overview()?,
     };
-    std::fs::write(&arguments.output, png).with_context(|| arguments.output.display().to_string())?;
+    ralf_data::write_whole(&arguments.output, &png)?;
     say(&format!("wrote {}", arguments.output.display()));
     Ok(Outcome::Done)
 }
@@ -144,6 +144,7 @@ impl Plot<'_> {
     }
 
     fn overview(&self) -> anyhow::Result<Vec<u8>> {
+        self.radar()?;
         let sequence = self.sequence();
         let times = &sequence.times.radars;
         let marks: Vec<_> = (0..self.rows.scan.len())

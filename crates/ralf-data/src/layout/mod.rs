@@ -52,7 +52,7 @@ fn folders(parent: &Path) -> Result<Vec<PathBuf>, DataError> {
 }
 
 /// Whether a name can be a folder's on every system, and leads nowhere else.
-fn is_folder_name(name: &str) -> bool {
+pub(crate) fn is_folder_name(name: &str) -> bool {
     let usual = |c: char| !c.is_control() && !"/\\:*?\"<>|".contains(c);
     !name.is_empty() && !name.starts_with('.') && name.chars().all(usual)
 }

@@ -32,6 +32,7 @@ impl LayoutSequence {
         let toml_file = folder.join("sequence.toml");
         let (toml, mut warnings) = SequenceToml::read(&toml_file)?;
         let rig = rig::rig(&toml_file, &toml)?;
+        warnings.extend(odd_lenses(&toml_file, &rig));
         let [radars, lidars, cameras] = list(folder, &rig, &mut warnings)?;
         let (motion, motion_files) = motion(folder)?;
         let times = |sensors: &[SensorFiles]| sensors.iter().map(|sensor| sensor.times.clone()).collect();
@@ -47,6 +48,15 @@ impl LayoutSequence {
         let metadata = [vec![toml_file], motion_files].concat();
         Ok(Self { sequence, radars, lidars, cameras, metadata, warnings })
     }
+}
+
+/// Lenses that can't be straightened. Depth that is there already needs no lens, so these are no errors.
+fn odd_lenses(file: &Path, rig: &Rig) -> Vec<String> {
+    let check = |camera: &Camera| {
+        let expected = camera.intrinsics.check(camera.width, camera.height).err()?;
+        Some(format!("{}: {}: expected {expected}", file.display(), camera.name))
+    };
+    rig.cameras.iter().filter_map(check).collect()
 }
 
 /// A sensor's files, and that of one measurement, if it exists.

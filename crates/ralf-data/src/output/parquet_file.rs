@@ -78,6 +78,13 @@ impl PlausibilityWriter {
     }
 }
 
+impl Drop for PlausibilityWriter {
+    /// A half-written file is of no use to anyone. Of a finished one nothing is left beside its place.
+    fn drop(&mut self) {
+        let _ = std::fs::remove_file(beside(&self.file));
+    }
+}
+
 fn written(file: &Path, error: ParquetError) -> DataError {
     DataError::Io { file: file.to_owned(), error: std::io::Error::other(error) }
 }

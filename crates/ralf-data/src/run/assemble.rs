@@ -1,10 +1,11 @@
 //! Putting a sequence's labelled scans together, in the order of the rig.
 
-use super::record::{NotLabelled, RadarRecord, SequenceRecord};
+use super::record::{CameraRecord, NotLabelled, RadarRecord, SequenceRecord};
 use super::workspace::Workspace;
 use super::{Observer, Stage, Task};
 use crate::DataError;
 use crate::output::{PlausibilityWriter, ScanTable, read_rows};
+use ralf::camera::Camera;
 use std::collections::BTreeSet;
 
 /// Writes `plausibility.parquet` of a sequence from its scans' tables.
@@ -35,5 +36,17 @@ pub(super) fn assemble(
     }
     writer.finish()?;
     observer.end();
-    Ok(SequenceRecord { name: sequence.name.clone(), radars, not_labelled, seconds: 0.0 })
+    let cameras = cameras(task, workspace)?;
+    Ok(SequenceRecord { name: sequence.name.clone(), radars, cameras, not_labelled, seconds: 0.0 })
+}
+
+/// What the monitor found about the images that were asked.
+fn cameras(task: &Task, workspace: &Workspace) -> Result<Vec<CameraRecord>, DataError> {
+    let sequence = task.reader.sequence();
+    let record = |(camera, times): (&Camera, &Vec<i64>)| {
+        let images = (0..times.len())
+            .filter_map(|image| workspace.image(&sequence.name, &camera.name, image).transpose());
+        Ok(CameraRecord { name: camera.name.clone(), images: images.collect::<Result<_, DataError>>()? })
+    };
+    task.rig.cameras.iter().zip(&sequence.times.cameras).map(record).collect()
 }

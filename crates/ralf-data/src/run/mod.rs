@@ -7,16 +7,17 @@
 mod assemble;
 mod inputs;
 mod record;
+mod results;
 mod workers;
 mod workspace;
 
-pub use record::{NotLabelled, RadarRecord, RunRecord, SequenceRecord};
+pub use record::{CameraRecord, ImageRecord, NotLabelled, RadarRecord, RunRecord, SequenceRecord};
 
 use crate::output::Columns;
-use crate::{DataError, Recording, SequenceReader};
+use crate::{DataError, Recording, SequenceReader, layout};
 use ralf::config::Config;
 use ralf::rig::Rig;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 use workspace::Workspace;
 
@@ -80,11 +81,11 @@ impl LabelRun<'_> {
         let inputs = inputs::hash_inputs(self.recording, self.jobs, observer)?;
         let mut record = RunRecord::new(self.recording, self.config, inputs);
         let workspace = Workspace::open(self.out, &record)?;
-        if let Some(done) = workspace.finished()? {
+        if let Some(done) = workspace.finished() {
             return Ok(Outcome::Unchanged(done));
         }
         for task in &tasks {
-            let sequence = match workspace.finished_sequence(task.reader)? {
+            let sequence = match workspace.finished_sequence(task.reader) {
                 Some(done) => done,
                 None => self.label_sequence(task, &workspace, observer)?,
             };
@@ -124,18 +125,27 @@ impl LabelRun<'_> {
 
     /// Inputs are only read: results beside them would be taken for a part of the recording.
     fn refuse_to_write_into_the_recording(&self) -> Result<(), DataError> {
-        let same = match (self.out.canonicalize(), self.recording.path.canonicalize()) {
-            (Ok(out), Ok(recording)) => out == recording,
-            _ => false,
-        };
-        if !same {
+        let (out, recording) = (real_path(self.out), real_path(&self.recording.path));
+        if out != recording && !out.starts_with(recording.join(layout::SEQUENCES)) {
             return Ok(());
         }
         Err(DataError::content(
             self.out,
             "output folder",
-            "another folder than the recording",
-            "the recording itself",
+            "another folder than the recording's own",
+            "a part of the recording",
         ))
+    }
+}
+
+/// Where a path leads that need not exist yet: links in the part that does exist are resolved.
+fn real_path(path: &Path) -> PathBuf {
+    match (path.canonicalize(), path.parent(), path.file_name()) {
+        (Ok(real), _, _) => real,
+        (Err(_), Some(parent), Some(name)) if parent.as_os_str().is_empty() => {
+            real_path(Path::new(".")).join(name)
+        }
+        (Err(_), Some(parent), Some(name)) => real_path(parent).join(name),
+        _ => path.to_owned(),
     }
 }

@@ -2,6 +2,7 @@
 
 use crate::Recording;
 use crate::output::ScanTable;
+use ralf::camera::{ImageMoment, ViewReport, ViewState};
 use ralf::config::Config;
 use serde::{Deserialize, Serialize};
 
@@ -42,6 +43,8 @@ pub struct SequenceRecord {
     pub name: String,
     /// In the rig's order.
     pub radars: Vec<RadarRecord>,
+    /// In the rig's order.
+    pub cameras: Vec<CameraRecord>,
     /// Scans that could not be labelled.
     pub not_labelled: Vec<NotLabelled>,
     /// Wall time; not part of what is compared.
@@ -60,6 +63,27 @@ pub struct RadarRecord {
     pub plausible: Vec<u32>,
     /// Flags that any detection of the scan has.
     pub flags: Vec<u16>,
+}
+
+/// The images of one camera that were asked about a radar scan and have depth.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub struct CameraRecord {
+    /// The camera's name.
+    pub name: String,
+    /// In their order.
+    pub images: Vec<ImageRecord>,
+}
+
+/// What the monitor found about an image.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct ImageRecord {
+    /// Number of the image.
+    pub image: usize,
+    /// One per straight view.
+    pub views: Vec<ViewReport>,
+    /// Why all views have failed, where image or depth can't be used at all.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub problem: Option<String>,
 }
 
 /// A scan that could not be labelled.
@@ -106,6 +130,11 @@ impl RunRecord {
             .flat_map(|sequence| sequence.not_labelled.iter().map(|scan| (sequence.name.as_str(), scan)))
     }
 
+    /// All cameras of all sequences.
+    pub fn cameras(&self) -> impl Iterator<Item = &CameraRecord> {
+        self.sequences.iter().flat_map(|sequence| &sequence.cameras)
+    }
+
     /// All radars of all sequences.
     pub fn radars(&self) -> impl Iterator<Item = &RadarRecord> {
         self.sequences.iter().flat_map(|sequence| &sequence.radars)
@@ -129,6 +158,22 @@ fn fingerprint(record: &RunRecord, recording: &Recording) -> String {
         add(&input.blake3);
     });
     hasher.finalize().to_hex()[..32].to_owned()
+}
+
+impl ImageRecord {
+    pub(super) fn of(moment: &ImageMoment) -> Self {
+        let views = moment.views.iter().map(|view| view.report).collect();
+        Self { image: moment.image, views, problem: moment.problem.clone() }
+    }
+}
+
+impl CameraRecord {
+    /// Views, and how many of them have failed.
+    pub fn views(&self) -> (usize, usize) {
+        let all = self.images.iter().flat_map(|image| &image.views);
+        let failed = all.clone().filter(|view| view.state != ViewState::Calibrated).count();
+        (all.count(), failed)
+    }
 }
 
 impl RadarRecord {

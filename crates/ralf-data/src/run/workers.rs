@@ -1,6 +1,6 @@
 //! Scans side by side: each worker takes a stretch of time and labels it with a window of its own.
 
-use super::record::NotLabelled;
+use super::record::{ImageRecord, NotLabelled};
 use super::workspace::Workspace;
 use super::{Observer, Stage, Task};
 use crate::DataError;
@@ -91,7 +91,7 @@ impl Shared<'_> {
     fn label_scan(&self, window: &mut FrameWindow, radar: usize, scan: usize) -> Result<u64, DataError> {
         let Task { reader, rig, columns } = self.task;
         let (sequence, name) = (&reader.sequence().name, &rig.radars[radar].name);
-        if self.workspace.rows_file(sequence, name, scan).exists() {
+        if self.workspace.has_kept(sequence, name, scan, columns) {
             return Ok(0);
         }
         let frame = match window.frame(radar, scan) {
@@ -102,6 +102,10 @@ impl Shared<'_> {
                 return self.workspace.forget(sequence, name, scan).map(|()| 0);
             }
         };
+        for view in &frame.images {
+            let camera = &rig.cameras[view.moment.camera].name;
+            self.workspace.keep_image(sequence, camera, &ImageRecord::of(&view.moment))?;
+        }
         let labels = Labeler::new(self.config).label(&frame);
         let table = ScanTable::new(columns, &rig.radars[radar], &frame.detections, &labels);
         self.workspace.keep(sequence, name, scan, &table)?;

@@ -5,7 +5,7 @@ use super::monitor::{ViewReport, ViewState};
 use super::projection::project_points;
 use super::scaling::{ScaleSample, Scaling};
 use super::{Camera, DepthImage, DepthOutput, StraightView};
-use crate::config::{CameraConfig, DepthScaling, GroundConfig};
+use crate::config::{CameraConfig, GroundConfig};
 use crate::geometry::{Point, Vector};
 
 /// A pixel whose depth is known.
@@ -41,8 +41,8 @@ pub struct Surroundings<'a> {
 
 /// Calibrates the depth images of one camera image, one per straight view.
 ///
-/// The error says what was expected and found where the depth images aren't those of the views, or where depth that isn't
-/// metric is to be taken as it is; then all views of the image have failed.
+/// The error says what was expected and found where the depth images aren't those of the views; then all views of the image
+/// have failed.
 pub fn calibrate(
     camera: &Camera,
     views: &[StraightView],
@@ -51,7 +51,7 @@ pub fn calibrate(
     surroundings: &Surroundings<'_>,
     (config, ground): (&CameraConfig, &GroundConfig),
 ) -> Result<Vec<CalibratedView>, String> {
-    check(views, depth, output, config)?;
+    check(views, depth)?;
     let calibrated = views.iter().zip(depth).map(|(view, image)| {
         let relative = RelativeDepth::new(image, output);
         let samples = surroundings.lidar.map(|points| {
@@ -102,12 +102,7 @@ fn metric_points(
     points.collect()
 }
 
-fn check(
-    views: &[StraightView],
-    depth: &[DepthImage],
-    output: DepthOutput,
-    config: &CameraConfig,
-) -> Result<(), String> {
+fn check(views: &[StraightView], depth: &[DepthImage]) -> Result<(), String> {
     if views.len() != depth.len() {
         return Err(format!("{} depth images, one per view, found {}", views.len(), depth.len()));
     }
@@ -120,9 +115,6 @@ fn check(
                 "a depth image of {expected:?} px for view {index}, found {found:?} with {values} values"
             ));
         }
-    }
-    if config.scaling == DepthScaling::None && output != DepthOutput::Metric {
-        return Err(format!("metric depth for camera.scaling = \"none\", found {output:?}").to_lowercase());
     }
     Ok(())
 }

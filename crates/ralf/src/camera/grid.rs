@@ -82,7 +82,8 @@ impl PixelGrid {
         (((u - self.origin[0]) / self.cell) as usize).min(self.columns - 1)
     }
 
-    fn bucket(&self, [u, v]: [f64; 2]) -> usize {
+    /// The bucket of a place.
+    pub(super) fn bucket(&self, [u, v]: [f64; 2]) -> usize {
         self.row(v) * self.columns + self.column(u)
     }
 

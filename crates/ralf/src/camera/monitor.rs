@@ -3,9 +3,10 @@
 use super::scaling::{ScaleSample, Scaling, median};
 use super::{CameraImage, grid::PixelGrid};
 use crate::config::CameraConfig;
+use serde::{Deserialize, Serialize};
 
 /// What was found about a view's depth.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct ViewReport {
     /// Whether the view is used.
     pub state: ViewState,
@@ -19,7 +20,8 @@ pub struct ViewReport {
 }
 
 /// Whether a view is used.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum ViewState {
     /// Its depth is metric.
     Calibrated,
@@ -28,8 +30,11 @@ pub enum ViewState {
 }
 
 /// Why a view is left out. Where several reasons hold, it is the first of them.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Failure {
+    /// Image or depth can't be read, or aren't those of the camera.
+    Unusable,
     /// No LiDAR scan was near enough in time.
     NoScan,
     /// The raw image is darker than `camera.min_luminance`.

@@ -29,36 +29,74 @@ pub fn project_points(
 /// Those of the points in a view that no other occludes.
 fn visible(seen: Vec<ViewPoint>, window: f64) -> Vec<ViewPoint> {
     let pixels: Vec<[f64; 2]> = seen.iter().map(|point| point.pixel).collect();
-    // Most windows are settled by the least depth of their buckets, which should not be much wider than the window.
-    let grid = PixelGrid::new(&pixels, (window / 2.0).max(1.0));
-    let nearest: Vec<f64> = (0..grid.len())
-        .map(|bucket| {
-            let depths = grid.places(bucket..bucket + 1).iter().map(|place| seen[place.index].depth);
-            depths.fold(f64::INFINITY, f64::min)
-        })
-        .collect();
-    let occluded = |point: &ViewPoint| is_occluded(point, &seen, &grid, &nearest, window);
+    let grid = PixelGrid::new(&pixels, (window / 3.001).max(1.0));
+    let nearest = NearestAround::new(&seen, &grid, window);
+    let occluded = |point: &ViewPoint| {
+        let limit = NEARER * point.depth;
+        let bucket = grid.bucket(point.pixel);
+        nearest.possibly[bucket] < limit
+            && (nearest.surely[bucket] < limit || is_occluded(point.pixel, limit, &seen, &grid, window))
+    };
     seen.iter().filter(|point| !occluded(point)).copied().collect()
 }
 
-fn is_occluded(
-    point: &ViewPoint,
-    seen: &[ViewPoint],
-    grid: &PixelGrid,
-    nearest: &[f64],
-    window: f64,
-) -> bool {
-    let [u, v] = point.pixel;
-    let limit = NEARER * point.depth;
+/// The least depth around each bucket: settles most points without looking at their neighbours one by one.
+struct NearestAround {
+    /// Of the buckets that lie within the window of every place of the bucket.
+    surely: Vec<f64>,
+    /// Of those that lie within the window of any.
+    possibly: Vec<f64>,
+}
+
+impl NearestAround {
+    fn new(seen: &[ViewPoint], grid: &PixelGrid, window: f64) -> Self {
+        let least = |bucket: usize| {
+            let depths = grid.places(bucket..bucket + 1).iter().map(|place| seen[place.index].depth);
+            depths.fold(f64::INFINITY, f64::min)
+        };
+        let own: Vec<f64> = (0..grid.len()).map(least).collect();
+        // Places that are n buckets apart lie more than n - 1 and less than n + 1 widths apart, but for rounding.
+        let widths = window / grid.cell();
+        let surely = match (widths - 1e-6) as usize {
+            0 => vec![f64::INFINITY; own.len()],
+            inside => least_around(&own, grid.rows(), inside - 1),
+        };
+        Self { surely, possibly: least_around(&own, grid.rows(), (widths + 1e-6) as usize + 1) }
+    }
+}
+
+/// The least value within so many rows and columns of each place of a grid: along the rows first, then across.
+fn least_around(values: &[f64], rows: usize, reach: usize) -> Vec<f64> {
+    let columns = values.len() / rows;
+    let reduce = |target: &mut [f64], source: &[f64]| {
+        target
+            .iter_mut()
+            .zip(source)
+            .for_each(|(least, value)| *least = if *value < *least { *value } else { *least });
+    };
+    let mut along = values.to_vec();
+    for (target, row) in along.chunks_exact_mut(columns).zip(values.chunks_exact(columns)) {
+        for shift in 1..=reach.min(columns - 1) {
+            reduce(&mut target[shift..], &row[..columns - shift]);
+            reduce(&mut target[..columns - shift], &row[shift..]);
+        }
+    }
+    let mut around = along.clone();
+    for shift in 1..=reach.min(rows - 1) {
+        reduce(&mut around[shift * columns..], &along[..(rows - shift) * columns]);
+        reduce(&mut around[..(rows - shift) * columns], &along[shift * columns..]);
+    }
+    around
+}
+
+/// Whether a place within the window of a pixel has a depth below the limit.
+fn is_occluded([u, v]: [f64; 2], limit: f64, seen: &[ViewPoint], grid: &PixelGrid, window: f64) -> bool {
     // Wide enough that rounding of the window's ends loses no bucket; the places themselves are compared exactly.
     let reach = window * (1.0 + 1e-9) + 1e-9;
     (grid.row(v - reach)..=grid.row(v + reach)).any(|row| {
-        grid.buckets(row, u - reach, u + reach).any(|bucket| {
-            nearest[bucket] < limit
-                && grid.places(bucket..bucket + 1).iter().any(|place| {
-                    let inside = (place.pixel[0] - u).abs() <= window && (place.pixel[1] - v).abs() <= window;
-                    inside && seen[place.index].depth < limit
-                })
+        grid.places(grid.buckets(row, u - reach, u + reach)).iter().any(|place| {
+            let inside = (place.pixel[0] - u).abs() <= window && (place.pixel[1] - v).abs() <= window;
+            inside && seen[place.index].depth < limit
         })
     })
 }

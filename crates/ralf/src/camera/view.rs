@@ -79,8 +79,12 @@ impl StraightView {
 
     /// [`Self::project`] for a point of the view's own optical frame.
     pub(super) fn project_own(&self, p: &Point) -> Option<ViewPoint> {
+        // Most points lie behind the view: they are sorted out first.
+        if p.z.is_nan() || p.z <= 0.0 {
+            return None;
+        }
         let pixel = [self.focal * p.x / p.z + self.center[0], self.focal * p.y / p.z + self.center[1]];
-        (p.z > 0.0 && self.pixel_index(pixel).is_some()).then_some(ViewPoint { pixel, depth: p.z })
+        self.pixel_index(pixel).is_some().then_some(ViewPoint { pixel, depth: p.z })
     }
 
     /// The place of the nearest pixel, row by row; `None` outside. Halfway between two it is the right or lower one.

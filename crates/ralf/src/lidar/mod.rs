@@ -7,6 +7,7 @@ mod matching;
 mod moment;
 
 pub use blind_spot::in_blind_spot;
-pub use floor::Floor;
+pub use floor::LocalGround;
 pub use matching::{LidarMatch, match_detections};
+pub(crate) use moment::sees_height_of;
 pub use moment::{LidarMoment, LidarView};

@@ -29,6 +29,15 @@ pub struct LidarView {
     pub vehicle_from_moment: Transform,
 }
 
+impl LidarView {
+    /// All points, the ground's too, in the vehicle frame at hand, m; not finite where there was no return.
+    pub fn all_points(&self) -> Vec<Point> {
+        let rotation = self.vehicle_from_moment.rotation.to_rotation_matrix();
+        let offset = self.vehicle_from_moment.translation.vector;
+        self.moment.points.iter().map(|p| rotation * Point::from(p.map(f64::from)) + offset).collect()
+    }
+}
+
 /// The scans that all LiDARs made around one moment, in the vehicle frame at that moment.
 #[derive(Debug)]
 pub struct LidarMoment {
@@ -68,11 +77,6 @@ impl LidarMoment {
     /// The ground, in the vehicle frame at the moment.
     pub fn ground(&self) -> Option<&Ground> {
         self.ground.as_ref()
-    }
-
-    /// All points, the ground's too, m, vehicle frame at the moment; not finite where there was no return.
-    pub fn points(&self) -> &[[f32; 3]] {
-        &self.points
     }
 
     /// Points above the ground for a radar that measures elevation, in the moment's frame.

@@ -4,7 +4,7 @@ use crate::association::Association;
 use crate::config::TrackingConfig;
 use crate::detections::{Detections, Located};
 use crate::geometry::{Point, Transform};
-use crate::mismatch::Reference;
+use crate::mismatch::{Reference, distance_per_mismatch};
 use crate::neighbors::NeighborIndex;
 use crate::rig::{Elevation, Radar};
 use std::sync::Arc;
@@ -37,6 +37,7 @@ pub fn match_detections(
         let dt = (step.t_ns - detections.t_ns()) as f64 * 1e-9;
         for (i, detection) in detections.located.iter().enumerate() {
             let Some(detection) = detection else { continue };
+            association.set_reach(cloud.reach(detection, config.max_mismatch));
             let mut d = cloud.mismatch(&mut association, detection);
             let velocity = doppler.map(|values| values[i]).filter(|velocity| velocity.is_finite());
             if let Some(velocity) = velocity {
@@ -71,6 +72,8 @@ fn along_ray(radar: &Radar, detection: &Located, distance: f64) -> Located {
 struct MovedCloud {
     points: Vec<Located>,
     index: NeighborIndex,
+    /// No point's variance in any direction is larger, m^2.
+    max_variance: f64,
 }
 
 impl MovedCloud {
@@ -83,7 +86,14 @@ impl MovedCloud {
         let place = |p: &Point| [p.x as f32, p.y as f32, flatten(p.z)];
         let places: Vec<_> = points.iter().map(|point| place(&point.position)).collect();
         let ids: Vec<u32> = (0..points.len() as u32).collect();
-        Self { points, index: NeighborIndex::new(&places, &ids) }
+        let max_variance = points.iter().map(Located::total_variance).fold(0.0, f64::max);
+        Self { points, index: NeighborIndex::new(&places, &ids), max_variance }
+    }
+
+    /// Farther than this, m, every mismatch with the detection is above the cap.
+    fn reach(&self, detection: &Located, cap: f64) -> f64 {
+        const ROUNDING: f64 = 1.001;
+        cap * distance_per_mismatch(detection.total_variance() + self.max_variance) * ROUNDING
     }
 
     /// Infinite where the step saw nothing, so that the cap takes its place.

@@ -1,8 +1,8 @@
 //! An evaluation as text: the paper's table (tab. data_set) and its confusion matrix (tab. conf_mat).
 
+use crate::text::aligned;
 use ralf::metrics::{Confusion, Evaluation, Rates, Scores};
 use ralf_data::Comparison;
-use std::fmt::Write;
 
 /// The paper's columns, after the row's name and its number of scans or detections.
 const COLUMNS: [&str; 7] =
@@ -78,28 +78,8 @@ fn confusion(counts: &Confusion) -> String {
 }
 
 /// An absent value is a dash.
-fn decimal(value: Option<f64>) -> String {
+pub(super) fn decimal(value: Option<f64>) -> String {
     value.map_or("-".to_owned(), |value| format!("{value:.3}"))
-}
-
-/// Columns two blanks apart: the first to the left, the others to the right.
-fn aligned(rows: &[Vec<String>]) -> String {
-    let columns = rows.iter().map(Vec::len).max().unwrap_or(0);
-    let length = |row: &Vec<String>, column: usize| row.get(column).map_or(0, |cell| cell.chars().count());
-    let width = |column| rows.iter().map(|row| length(row, column)).max().unwrap_or(0);
-    let widths: Vec<usize> = (0..columns).map(width).collect();
-    let mut text = String::new();
-    for row in rows {
-        for (column, (cell, &width)) in row.iter().zip(&widths).enumerate() {
-            // Writing to a String can't fail.
-            let _ = match column {
-                0 => write!(text, "{cell:<width$}"),
-                _ => write!(text, "  {cell:>width$}"),
-            };
-        }
-        text.push('\n');
-    }
-    text
 }
 
 #[cfg(test)]

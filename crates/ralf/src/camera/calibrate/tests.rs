@@ -1,5 +1,6 @@
 use super::*;
 use crate::camera::{Failure, Intrinsics, View};
+use crate::config::DepthScaling;
 use crate::geometry::transform_from_parts;
 
 const WIDTH: usize = 96;
@@ -148,15 +149,13 @@ fn without_a_scan_all_views_have_failed() {
 fn depth_images_of_other_views_are_refused() {
     let Scene { camera, views, mut depth, .. } = scene(|z| z);
     let surroundings = Surroundings { lidar: None, height: &|_| None, luminance: 90.0 };
-    let refusal = |depth: &[DepthImage], scaling| {
-        let settings = (&config(scaling), &GroundConfig::default());
+    let refusal = |depth: &[DepthImage]| {
+        let settings = (&config(DepthScaling::Local), &GroundConfig::default());
         calibrate(&camera, &views, depth, DepthOutput::Depth, &surroundings, settings).unwrap_err()
     };
-    let error = refusal(&depth[..1], DepthScaling::Local);
+    let error = refusal(&depth[..1]);
     assert!(error.contains("2 depth images") && error.contains("found 1"), "{error}");
-    let error = refusal(&depth, DepthScaling::None);
-    assert!(error.contains("found depth"), "{error}");
     depth[1].width = 64;
-    let error = refusal(&depth, DepthScaling::Local);
+    let error = refusal(&depth);
     assert!(error.contains("[96, 64] px for view 1, found [64, 64]"), "{error}");
 }

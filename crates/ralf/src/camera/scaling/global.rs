@@ -35,26 +35,37 @@ pub(super) fn ransac(samples: &[ScaleSample]) -> Option<f64> {
     Some(sums.0 / sums.1)
 }
 
-/// Huber's M-estimate of the scale with delta = 10 %, by iteratively reweighted least squares of the relative residual
-/// `s x - 1`, `x = depth_relative / Z_lidar`: weights `min(1, delta / |s x - 1|)`, `s = sum(w x) / sum(w x^2)`, from the median
-/// ratio on until it no longer changes. `None` without samples.
+/// Huber's M-estimate of the scale with delta = 10 %: where the least squares `sum w (s d - Z)^2`, iteratively reweighted by
+/// `w = min(1, delta / |r|)` of the relative residual `r = (s d - Z) / Z`, come to rest. `None` without samples.
+///
+/// They rest where `sum(Z d clamp(r, -delta, delta))` is 0. That sum grows with `s`, so halving finds the place;
+/// reweighting itself would take thousands of rounds where few samples agree.
 pub(super) fn huber(samples: &[ScaleSample]) -> Option<f64> {
     let ratios: Vec<f64> = samples.iter().map(ScaleSample::ratio).collect();
-    let mut scale = median(ratios.clone())?;
-    for _ in 0..1000 {
-        let (sum, squares) = ratios.iter().fold((0.0, 0.0), |(sum, squares), ratio| {
-            let x = 1.0 / ratio;
-            let weight = (TOLERANCE / (scale * x - 1.0).abs()).min(1.0);
-            (sum + weight * x, squares + weight * x * x)
-        });
-        let next = sum / squares;
-        let done = (next - scale).abs() <= 1e-12 * scale;
-        scale = next;
-        if done {
+    let pull = |scale: f64| -> f64 {
+        let of_sample = |sample: &ScaleSample| {
+            let residual = scale / sample.ratio() - 1.0;
+            sample.depth * sample.relative * residual.clamp(-TOLERANCE, TOLERANCE)
+        };
+        samples.iter().map(of_sample).sum()
+    };
+    let (least, greatest) =
+        (ratios.iter().copied().reduce(f64::min)?, ratios.iter().copied().reduce(f64::max)?);
+    let start = median(ratios)?;
+    let (mut low, mut high) = if pull(start) > 0.0 { (least, start) } else { (start, greatest) };
+    for _ in 0..100 {
+        let middle = 0.5 * (low + high);
+        // Nothing lies between any more.
+        if !(low < middle && middle < high) {
             break;
         }
+        if pull(middle) > 0.0 {
+            high = middle;
+        } else {
+            low = middle;
+        }
     }
-    Some(scale)
+    Some(low)
 }
 
 /// The middle value, or the mean of the two middle ones; `None` of nothing.
@@ -93,10 +104,10 @@ mod tests {
 
     #[test]
     fn huber_by_hand() {
-        // x = 1, 1, 1, 0.5: with the outlier's weight w = 0.1 / (1 - 0.5 s) the fixed point of
-        // s (3 + 0.25 w) = 3 + 0.5 w is s = 3.05 / 3: the outlier pulls with 0.1 * 0.5.
-        let scale = huber(&samples(&[(10.0, 10.0), (4.0, 4.0), (7.0, 7.0), (20.0, 10.0)])).unwrap();
-        assert!((scale - 3.05 / 3.0).abs() < 1e-10, "{scale}");
+        // Three of ratio 1 with Z d = 100, 16, 49, and an outlier of ratio 2 with Z d = 32 that pulls with delta:
+        // (100 + 16 + 49) (s - 1) = 0.1 * 32.
+        let scale = huber(&samples(&[(10.0, 10.0), (4.0, 4.0), (7.0, 7.0), (8.0, 4.0)])).unwrap();
+        assert!((scale - (1.0 + 3.2 / 165.0)).abs() < 1e-10, "{scale}");
         assert_eq!(huber(&samples(&[(30.0, 10.0)])), Some(3.0));
         assert_eq!(huber(&[]), None);
     }
@@ -137,13 +148,13 @@ mod tests {
         fn huber_solves_its_equation(values in prop::collection::vec((1.0..30.0, 1.0..30.0), 1..60)) {
             let given = samples(&values);
             let scale = huber(&given).unwrap();
-            // The influence of all samples, each bounded by delta, cancels.
-            let pull: f64 = given
-                .iter()
-                .map(|s| s.relative / s.depth)
-                .map(|x| (scale * x - 1.0).clamp(-TOLERANCE, TOLERANCE) * x)
-                .sum();
-            prop_assert!(pull.abs() < 1e-4, "{}", pull);
+            // One round of reweighting stays where it is, as far as the sums are exact.
+            let (sum, squares) = given.iter().fold((0.0, 0.0), |(sum, squares), sample| {
+                let residual = (scale * sample.relative - sample.depth) / sample.depth;
+                let weight = (TOLERANCE / residual.abs()).min(1.0) * sample.relative;
+                (sum + weight * sample.depth, squares + weight * sample.relative)
+            });
+            prop_assert!((sum / squares / scale - 1.0).abs() < 1e-9, "{} {}", scale, sum / squares);
         }
     }
 }

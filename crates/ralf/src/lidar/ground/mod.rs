@@ -7,7 +7,7 @@ mod ransac;
 pub use plane::Plane;
 
 use crate::config::{GroundConfig, GroundModel};
-use crate::geometry::{Point, Transform};
+use crate::geometry::Point;
 use polar::PolarGround;
 use ransac::Candidates;
 
@@ -54,10 +54,5 @@ impl Ground {
     /// Height above the ground along its normal, m.
     pub fn height(&self, p: &Point) -> f64 {
         self.plane_at(p).height(p)
-    }
-
-    /// The same ground seen from another frame: for heights of points given there.
-    pub fn height_from<'a>(&'a self, ground_from_there: &'a Transform) -> impl Fn(&Point) -> f64 + 'a {
-        move |p| self.height(&(ground_from_there * p))
     }
 }

@@ -8,13 +8,13 @@ use rand::SeedableRng;
 use rand_pcg::Pcg64Mcg;
 
 /// Hypotheses that are scored.
-const HYPOTHESES: usize = 400;
+const HYPOTHESES: usize = 300;
 /// Triples drawn at most: most are too steep or too far away to be scored.
 const DRAWS: usize = 8 * HYPOTHESES;
 /// Points that a hypothesis is scored on at first.
-const FIRST_LOOK: usize = 2048;
+const FIRST_LOOK: usize = 1024;
 /// Hypotheses that are scored on all points.
-const FINALISTS: usize = 12;
+const FINALISTS: usize = 8;
 
 /// The points that can lie on an admissible plane, each coordinate apart.
 pub(super) struct Candidates {
@@ -30,7 +30,8 @@ impl Candidates {
         let tilt = config.max_tilt_deg.to_radians();
         let reach = ((config.max_offset + config.inlier_distance) / tilt.cos()) as f32;
         let slope = tilt.tan() as f32;
-        let mut kept = Self { xs: Vec::new(), ys: Vec::new(), zs: Vec::new() };
+        let room = || Vec::with_capacity(points.len());
+        let mut kept = Self { xs: room(), ys: room(), zs: room() };
         for &[x, y, z] in points {
             let rho = (x * x + y * y).sqrt();
             if z.abs() <= reach + slope * rho {

@@ -1,0 +1,127 @@
+//! What is wrong with a recording as a whole is said before anything is labelled: file, place, expected, found.
+
+use crate::support::{Dataset, Ran, ralf};
+use std::fs;
+
+/// Labelling fails, and says this.
+#[track_caller]
+fn refused<const N: usize>(dataset: &Dataset, parts: [&str; N]) {
+    let label = ["label", &dataset.path, "-o", &dataset.out];
+    ralf(label).exits(1).prints_nothing().says(parts).says([&dataset.path]);
+    assert!(!fs::exists(&dataset.out).unwrap(), "results of nothing");
+}
+
+#[test]
+fn times_of_another_number_than_scans() {
+    let dataset = Dataset::new();
+    let times = fs::read_to_string(dataset.file("radar_left/timestamps.txt")).unwrap();
+    dataset.put("radar_left/timestamps.txt", times.lines().take(5).collect::<Vec<_>>().join("\n"));
+    refused(
+        &dataset,
+        ["radar_left/timestamps.txt: end: expected a line for each of the 8 files", "found 5 lines"],
+    );
+}
+
+#[test]
+fn times_that_go_back() {
+    let dataset = Dataset::new();
+    let times = fs::read_to_string(dataset.file("lidar_top/timestamps.txt")).unwrap();
+    let mut lines: Vec<_> = times.lines().collect();
+    lines.swap(3, 4);
+    dataset.put("lidar_top/timestamps.txt", lines.join("\n"));
+    refused(&dataset, ["lidar_top/timestamps.txt: line 5: expected a time of 1700000000420000000 or later"]);
+}
+
+#[test]
+fn times_that_are_no_number() {
+    let dataset = Dataset::new();
+    dataset.edit("radar_front/timestamps.txt", "1700000000300000000", "later");
+    refused(&dataset, ["radar_front/timestamps.txt: line 4: expected a time", "found `later`"]);
+}
+
+#[test]
+fn a_sensor_without_extrinsics() {
+    let dataset = Dataset::new();
+    dataset.edit("sequence.toml", "translation = [1.2, 0.0, 1.9]\n", "");
+    refused(&dataset, ["sequence.toml: line", "[[lidar]]: expected the key `translation`, found none"]);
+}
+
+#[test]
+fn a_quaternion_of_length_0() {
+    let dataset = Dataset::new();
+    let (from, to) = ("[0.0, 0.0, 0.7071067811865476, 0.7071067811865476]", "[0, 0, 0, 0]");
+    dataset.edit("sequence.toml", from, to);
+    refused(&dataset, ["sequence.toml: [[radar]] radar_left: quaternion_xyzw: expected a length of 1"]);
+}
+
+#[test]
+fn a_deviation_below_0() {
+    let dataset = Dataset::new();
+    dataset.edit("sequence.toml", "sigma_range_m = 0.10", "sigma_range_m = -0.1");
+    refused(&dataset, ["sequence.toml: [[radar]] radar_front: ", "found"]);
+}
+
+#[test]
+fn a_name_that_leads_elsewhere() {
+    let dataset = Dataset::new();
+    dataset.edit("sequence.toml", "\"radar_left\"", "\"../00/radar_left\"");
+    refused(&dataset, ["sequence.toml: [[radar]] ../00/radar_left: name"]);
+}
+
+#[test]
+fn a_sensor_without_its_folder() {
+    let dataset = Dataset::new();
+    fs::rename(dataset.file("lidar_top"), dataset.file("lidar")).unwrap();
+    refused(&dataset, ["00/lidar_top: No such file"]);
+}
+
+#[test]
+fn no_motion() {
+    let dataset = Dataset::new();
+    fs::remove_file(dataset.file("odometry.csv")).unwrap();
+    refused(&dataset, ["sequences/00: motion: expected rows in odometry.csv, poses.csv or both, found none"]);
+}
+
+#[test]
+fn a_motion_that_is_not_finite() {
+    let dataset = Dataset::new();
+    let rows = "t_ns,v_mps,yaw_rate_radps\n1,2,0\n2,NaN,0\n";
+    dataset.put("odometry.csv", rows);
+    refused(&dataset, ["odometry.csv: line 3, v_mps: expected a finite number, found `NaN`"]);
+}
+
+#[test]
+fn a_camera_without_images() {
+    let dataset = Dataset::new();
+    let text = fs::read_to_string(dataset.file("sequence.toml")).unwrap();
+    let camera = "[[camera]]\nname = \"camera_front\"\ntranslation = [2, 0, 1]\nquaternion_xyzw = [-0.5, 0.5, -0.5, 0.5]\n\
+        width = 64\nheight = 48\nmodel = \"pinhole\"\nfx = 50\nfy = 50\ncx = 32\ncy = 24\n";
+    dataset.put("sequence.toml", text + camera);
+    refused(&dataset, ["00/camera_front: No such file"]);
+}
+
+#[test]
+fn a_folder_that_is_no_recording() {
+    let dataset = Dataset::new();
+    fs::rename(format!("{}/sequences", dataset.path), format!("{}/sequence", dataset.path)).unwrap();
+    refused(&dataset, ["the folder `sequences` (ralf)", "none of them"]);
+}
+
+#[test]
+fn results_in_the_place_of_a_file() {
+    let dataset = Dataset::new();
+    fs::write(&dataset.out, "mine").unwrap();
+    let label = |out: &str| -> Ran { ralf(["label", &dataset.path, "-o", out]) };
+    label(&dataset.out).exits(1).prints_nothing().says([&dataset.out, "Not a directory"]);
+    let below = format!("{}/out", dataset.out);
+    label(&below).exits(1).prints_nothing().says([&below, "Not a directory"]);
+    assert_eq!(fs::read(&dataset.out).unwrap(), b"mine");
+}
+
+#[test]
+fn unknown_keys_are_but_a_warning() {
+    let dataset = Dataset::new();
+    dataset.edit("sequence.toml", "max_range_m = 120.0", "max_range_m = 120.0\ncolour = 3");
+    let ran = ralf(["label", &dataset.path, "-o", &dataset.out]).exits(0);
+    ran.says(["warning: 00: ", "sequence.toml: unknown key `lidar.0.colour` ignored"]);
+}

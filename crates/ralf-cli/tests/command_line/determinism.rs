@@ -1,0 +1,51 @@
+//! The same recording and settings give the same bytes.
+
+use crate::support::{Dataset, Shape, ralf, tree, without_timings};
+use std::fs;
+
+#[test]
+fn the_number_of_jobs_changes_no_byte() {
+    // Three stretches of 64 scans, so that several threads have work.
+    let dataset = Dataset::of(&Shape { scans: 70, ..Shape::default() });
+    let other = dataset.beside("other");
+    ralf(["label", &dataset.path, "-o", &dataset.out, "--jobs", "1"]).exits(0);
+    ralf(["label", &dataset.path, "-o", &other, "--jobs", "4"]).exits(0);
+    assert!(without_timings(&dataset.out) == without_timings(&other));
+}
+
+#[test]
+fn the_same_command_again_has_nothing_to_do() {
+    let dataset = Dataset::new();
+    let label = || ralf(["label", &dataset.path, "-o", &dataset.out]).exits(0);
+    let first = label().says_nothing();
+    let before = tree(&dataset.out);
+    let second = label().says(["nothing to do"]);
+    assert!(tree(&dataset.out) == before);
+    assert_eq!(first.stdout, second.stdout);
+}
+
+#[test]
+fn a_result_that_was_deleted_is_made_again() {
+    let dataset = Dataset::new();
+    let label = || ralf(["label", &dataset.path, "-o", &dataset.out]).exits(0).says_nothing();
+    label();
+    let before = without_timings(&dataset.out);
+    for lost in ["plausibility.parquet", "radar_left/000004.label"] {
+        fs::remove_file(dataset.result(lost)).unwrap();
+        label();
+        assert!(without_timings(&dataset.out) == before, "{lost}");
+    }
+}
+
+#[test]
+fn a_recording_that_changed_is_labelled_again() {
+    let dataset = Dataset::new();
+    ralf(["label", &dataset.path, "-o", &dataset.out]).exits(0);
+    let before = tree(&dataset.out);
+    dataset.edit("sequence.toml", "sigma_azimuth_deg = 0.6", "sigma_azimuth_deg = 0.7");
+    ralf(["label", &dataset.path, "-o", &dataset.out]).exits(0).says_nothing();
+    assert!(
+        tree(&dataset.out)["sequences/00/plausibility.parquet"]
+            != before["sequences/00/plausibility.parquet"]
+    );
+}

@@ -1,0 +1,132 @@
+//! `ralf evaluate`, with ground truth and without.
+
+use crate::support::{Dataset, Shape, ralf, rows};
+use serde_json::{Value, json};
+
+fn labelled(shape: &Shape) -> Dataset {
+    let dataset = Dataset::of(shape);
+    ralf(["label", &dataset.path, "-o", &dataset.out]).exits(0);
+    dataset
+}
+
+fn keys(value: &Value) -> Vec<&str> {
+    value.as_object().unwrap().keys().map(String::as_str).collect()
+}
+
+#[test]
+fn json_has_exactly_the_keys_of_the_contract() {
+    let dataset = labelled(&Shape { sequences: &["00", "01"], ..Shape::default() });
+    let found = ralf(["evaluate", &dataset.out, "--truth", &dataset.path, "--json"]).exits(0).json();
+    assert_eq!(keys(&found), ["overall", "sequences"]);
+    assert_eq!(keys(&found["overall"]), ["pooled", "scan_mean"]);
+    assert_eq!(keys(&found["sequences"]), ["00", "01"]);
+    assert_eq!(keys(&found["sequences"]["01"]), ["pooled", "scan_mean", "scans"]);
+    assert_eq!(found["sequences"]["01"]["scans"], json!(16));
+    let metrics = [
+        "accuracy",
+        "f1_artifact",
+        "f1_plausible",
+        "fn",
+        "fp",
+        "iou_artifact",
+        "iou_plausible",
+        "mcc",
+        "mean_iou",
+        "precision",
+        "precision_plausible",
+        "recall",
+        "recall_plausible",
+        "tn",
+        "tp",
+    ];
+    for scores in [&found["overall"], &found["sequences"]["00"]] {
+        assert_eq!([keys(&scores["pooled"]), keys(&scores["scan_mean"])], [metrics, metrics]);
+    }
+}
+
+#[test]
+fn people_see_the_papers_table() {
+    let dataset = labelled(&Shape::default());
+    let ran = ralf(["evaluate", &dataset.out, "--truth", &dataset.path, "--scans"]).exits(0).says_nothing();
+    ran.prints([
+        "Mean over scans",
+        "mean IoU",
+        "truly plausible",
+        "labelled artifact",
+        "00/radar_left/000007",
+    ]);
+}
+
+#[test]
+fn a_scan_without_labels_is_named() {
+    let dataset = Dataset::new();
+    dataset.cut("radar_front/000003.bin", 1);
+    ralf(["label", &dataset.path, "-o", &dataset.out]).exits(3);
+    let ran = ralf(["evaluate", &dataset.out, "--truth", &dataset.path, "--json"]).exits(3);
+    let ran = ran.says(["radar_front/000003.label"]);
+    assert_eq!(ran.json()["sequences"]["00"]["scans"], json!(15));
+}
+
+#[test]
+fn truth_of_another_size_is_refused() {
+    let dataset = labelled(&Shape::default());
+    dataset.cut("ground_truth/radar_front/000003.label", 4);
+    let ran = ralf(["evaluate", &dataset.out, "--truth", &dataset.path]).exits(1).prints_nothing();
+    ran.says(["radar_front/000003.label", "25", "26"]);
+}
+
+#[test]
+fn truth_that_is_not_there_is_named() {
+    let dataset = labelled(&Shape { scans: 1, ..Shape::default() });
+    let nowhere = dataset.beside("nowhere");
+    ralf(["evaluate", &dataset.out, "--truth", &nowhere]).exits(1).prints_nothing().says([&nowhere]);
+    ralf(["evaluate", &nowhere, "--truth", &dataset.path]).exits(1).prints_nothing().says([&nowhere]);
+    ralf(["evaluate", &nowhere]).exits(1).prints_nothing().says([&nowhere, "plausibility.parquet"]);
+}
+
+/// Worked out anew from the table.
+#[test]
+fn without_truth_it_tells_how_far_apart_the_classes_are() {
+    let dataset = labelled(&Shape { sequences: &["00", "01"], ..Shape::default() });
+    let found = ralf(["evaluate", &dataset.out, "--json"]).exits(0).says_nothing().json();
+    assert_eq!(keys(&found), ["overall", "radars", "sequences"]);
+    assert_eq!(keys(&found["radars"]), ["radar_front", "radar_left"]);
+    assert_eq!(keys(&found["sequences"]), ["00", "01"]);
+    let rows = rows(dataset.result("plausibility.parquet"));
+    let of = |radar: &str, label: i64| -> Vec<f64> {
+        let of_class = rows.iter().filter(|row| row.radar() == radar && row.whole("label") == Some(label));
+        of_class.map(|row| row.decimal("w").unwrap()).collect()
+    };
+    for radar in ["radar_front", "radar_left"] {
+        let [artifact, plausible] = [0, 1].map(|label| of(radar, label));
+        let mean = |w: &[f64]| w.iter().sum::<f64>() / w.len() as f64;
+        let values = &found["radars"][radar];
+        // Both sequences are the same.
+        assert_eq!(values["plausible"], json!(2 * plausible.len()));
+        assert_eq!(values["artifact"], json!(2 * artifact.len()));
+        assert_eq!(values["detections"], json!(2 * (plausible.len() + artifact.len())));
+        let near = |key: &str, expected: f64| (values[key].as_f64().unwrap() - expected).abs() < 1e-9;
+        assert!(near("distinctiveness", mean(&plausible) - mean(&artifact)), "{values}");
+        assert!(near("plausible_share", plausible.len() as f64 / (plausible.len() + artifact.len()) as f64));
+    }
+    assert_eq!(found["overall"]["detections"], json!(2 * 8 * (26 + 20)));
+    assert_eq!(found["sequences"]["00"], found["sequences"]["01"]);
+    let text = ralf(["evaluate", &dataset.out]).exits(0).says_nothing();
+    text.prints(["distinctiveness", "plausible", "radar_left", "sequence 01", "overall"]);
+}
+
+#[test]
+fn a_class_that_is_empty_has_no_distinctiveness() {
+    let dataset = Dataset::of(&Shape { scans: 2, ..Shape::default() });
+    ralf(["label", &dataset.path, "-o", &dataset.out, "--set", "fusion.threshold=1"]).exits(0);
+    let found = ralf(["evaluate", &dataset.out, "--json"]).exits(0).json();
+    assert_eq!(found["overall"]["distinctiveness"], Value::Null);
+    assert_eq!(found["overall"]["plausible_share"], json!(0.0));
+    ralf(["evaluate", &dataset.out]).exits(0).prints(["-"]);
+}
+
+#[test]
+fn rows_per_scan_need_truth() {
+    let dataset = labelled(&Shape { scans: 1, ..Shape::default() });
+    ralf(["evaluate", &dataset.out, "--scans"]).exits(2).prints_nothing().says(["--truth"]);
+}

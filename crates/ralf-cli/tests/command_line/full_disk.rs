@@ -1,0 +1,53 @@
+//! A disk that is full: nothing half-written takes a result's place, and with space the run goes on.
+
+use crate::support::{Dataset, Ran, program, ralf, tree, without_timings};
+use std::process::Command;
+
+/// Runs `ralf` where no file may grow beyond so many KiB, which fails as on a full disk.
+fn with_files_up_to(kib: u32, arguments: &[&str]) -> Ran {
+    let script = format!("trap '' XFSZ; ulimit -f {kib}; exec \"$0\" \"$@\"");
+    let mut bash = Command::new("bash");
+    Ran::of(&bash.args(["-c", &script]).arg(program().get_program()).args(arguments).output().unwrap())
+}
+
+#[test]
+fn a_run_says_where_it_stopped_and_goes_on_later() {
+    let dataset = Dataset::new();
+    let whole = dataset.beside("whole");
+    ralf(["label", &dataset.path, "-o", &whole]).exits(0);
+    let expected = without_timings(&whole);
+    // Nothing fits, then no scan's table, then not the sequence's.
+    for (kib, named) in [(0, ".rows"), (1, ".rows"), (7, "plausibility.parquet")] {
+        let ran = with_files_up_to(kib, &["label", &dataset.path, "-o", &dataset.out]);
+        ran.exits(1).prints_nothing().says([named, "File too large"]);
+        for (name, content) in tree(&dataset.out) {
+            assert!(!name.ends_with(".part") && name != "run.json", "{name}");
+            if let Some(whole) = expected.get(&name) {
+                assert!(content == *whole, "{name}");
+            }
+        }
+    }
+    ralf(["label", &dataset.path, "-o", &dataset.out]).exits(0).says_nothing();
+    assert!(without_timings(&dataset.out) == expected);
+}
+
+#[test]
+fn a_conversion_leaves_nothing_half_done() {
+    let dataset = Dataset::new();
+    let copy = dataset.beside("copy");
+    with_files_up_to(4, &["convert", &dataset.path, "-o", &copy])
+        .exits(1)
+        .says(["lidar_top", "File too large"]);
+    assert_eq!(tree(&copy).into_keys().collect::<Vec<_>>(), ["sequences"]);
+    ralf(["convert", &dataset.path, "-o", &copy]).exits(0);
+}
+
+#[test]
+fn a_picture_appears_whole_or_not_at_all() {
+    let dataset = Dataset::new();
+    ralf(["label", &dataset.path, "-o", &dataset.out]).exits(0);
+    let picture = dataset.beside("scan.png");
+    let plot = ["plot", &dataset.path, &dataset.out, "--scan", "0", "-o", &picture];
+    with_files_up_to(1, &plot).exits(1).says([&picture, "File too large"]);
+    assert!(!std::fs::exists(&picture).unwrap());
+}

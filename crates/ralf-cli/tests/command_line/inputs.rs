@@ -1,0 +1,91 @@
+//! Inputs are only read.
+
+use crate::support::{Dataset, Ran, program, ralf, tree};
+use std::fs;
+use std::os::unix::fs::PermissionsExt;
+use std::path::Path;
+use std::process::Command;
+
+/// Somebody without any rights of their own.
+const NOBODY: &str = "65534";
+
+#[test]
+fn no_command_touches_the_recording() {
+    let dataset = Dataset::new();
+    let before = tree(&dataset.path);
+    let picture = dataset.beside("scan.png");
+    ralf(["inspect", &dataset.path]).exits(0);
+    ralf(["label", &dataset.path, "-o", &dataset.out]).exits(0);
+    ralf(["evaluate", &dataset.out, "--truth", &dataset.path]).exits(0);
+    ralf(["plot", &dataset.path, &dataset.out, "--scan", "0", "-o", &picture]).exits(0);
+    ralf(["convert", &dataset.path, "-o", &dataset.beside("copy")]).exits(0);
+    assert!(tree(&dataset.path) == before);
+}
+
+#[test]
+fn results_do_not_go_into_the_recording() {
+    let dataset = Dataset::new();
+    let before = tree(&dataset.path);
+    for inside in ["", "/sequences", "/sequences/00", "/sequences/new", "/sequences/../sequences/new/folder"]
+    {
+        let out = format!("{}{inside}", dataset.path);
+        ralf(["label", &dataset.path, "-o", &out]).exits(1).prints_nothing().says(["output folder", &out]);
+        assert!(tree(&dataset.path) == before, "{inside}");
+    }
+}
+
+#[test]
+fn a_recording_that_can_not_be_written_is_labelled() {
+    let dataset = Dataset::new();
+    let all = tree(&dataset.path);
+    let each = || all.iter().map(|(name, file)| (Path::new(&dataset.path).join(name), file.is_some()));
+    let allow = |folder: u32, file: u32| {
+        for (path, is_file) in each() {
+            fs::set_permissions(path, fs::Permissions::from_mode(if is_file { file } else { folder }))
+                .unwrap();
+        }
+    };
+    allow(0o555, 0o444);
+    let Some(mut label) = as_nobody(&dataset) else { return println!("skipped: neither root nor setpriv") };
+    let ran = label.args(["label", &dataset.path, "-o", &dataset.out]).output().unwrap();
+    allow(0o755, 0o644);
+    Ran::of(&ran).exits(0).says_nothing();
+}
+
+#[test]
+fn a_file_without_permission_is_named() {
+    let dataset = Dataset::new();
+    let secret = dataset.file("radar_front/000002.bin");
+    fs::set_permissions(&secret, fs::Permissions::from_mode(0o000)).unwrap();
+    let Some(mut label) = as_nobody(&dataset) else { return println!("skipped: neither root nor setpriv") };
+    let ran = label.args(["label", &dataset.path, "-o", &dataset.out]).output().unwrap();
+    Ran::of(&ran).exits(1).says(["radar_front/000002.bin", "Permission denied"]);
+}
+
+#[test]
+fn a_results_folder_without_permission_is_named() {
+    let dataset = Dataset::new();
+    let Some(mut label) = as_nobody(&dataset) else { return println!("skipped: neither root nor setpriv") };
+    fs::create_dir(dataset.beside("locked")).unwrap();
+    fs::set_permissions(dataset.beside("locked"), fs::Permissions::from_mode(0o555)).unwrap();
+    let out = dataset.beside("locked/out");
+    let ran = label.args(["label", &dataset.path, "-o", &out]).output().unwrap();
+    Ran::of(&ran).exits(1).says(["locked/out", "Permission denied"]);
+}
+
+/// The program as somebody without rights, who may write beside the recording.
+fn as_nobody(dataset: &Dataset) -> Option<Command> {
+    let everyone = |path: &Path, mode| fs::set_permissions(path, fs::Permissions::from_mode(mode)).unwrap();
+    let folder = Path::new(&dataset.path).parent()?;
+    everyone(folder, 0o777);
+    // A copy, for nobody may look into the folder where it was built.
+    let copy = folder.join("ralf");
+    fs::copy(program().get_program(), &copy).unwrap();
+    everyone(&copy, 0o755);
+    let mut command = Command::new("setpriv");
+    command.args(["--reuid", NOBODY, "--clear-groups"]).arg(&copy);
+    let works = command.arg("--version").output().is_ok_and(|output| output.status.success());
+    let mut command = Command::new("setpriv");
+    command.args(["--reuid", NOBODY, "--clear-groups"]).arg(&copy);
+    works.then_some(command)
+}

@@ -1,0 +1,22 @@
+//! The command line from outside: the built program on tiny recordings whose truth is known, on bad ones, and on real ones.
+
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::panic,
+    clippy::print_stdout,
+    reason = "these are tests"
+)]
+
+mod bad_files;
+mod bad_recordings;
+mod determinism;
+mod evaluation;
+mod full_disk;
+mod inputs;
+mod other_commands;
+mod real_data;
+mod resume;
+mod streams;
+mod support;
+mod whole_run;

@@ -1,0 +1,114 @@
+//! `ralf inspect`, `ralf plot` and `ralf convert`.
+
+use crate::support::{Dataset, Shape, ralf, tree};
+use std::fs;
+
+fn labelled() -> Dataset {
+    let dataset = Dataset::of(&Shape { scans: 3, ..Shape::default() });
+    ralf(["label", &dataset.path, "-o", &dataset.out]).exits(0);
+    dataset
+}
+
+/// Width and height of a picture, which must be a PNG.
+fn size(file: &str) -> [u32; 2] {
+    let bytes = fs::read(file).unwrap();
+    assert_eq!(bytes[..8], *b"\x89PNG\r\n\x1a\n");
+    assert_eq!(bytes[12..16], *b"IHDR");
+    assert!(bytes.ends_with(b"IEND\xaeB`\x82"));
+    [16, 20].map(|at| u32::from_be_bytes(bytes[at..at + 4].try_into().unwrap()))
+}
+
+#[test]
+fn inspect_tells_what_is_there_and_what_is_missing() {
+    let dataset = Dataset::new();
+    let ran = ralf(["inspect", &dataset.path]).exits(0).says_nothing();
+    ran.prints([
+        "radar_front",
+        "radar_left",
+        "lidar_top",
+        "10.0 Hz",
+        "no camera",
+        "no 6-DoF poses",
+        "a street",
+    ]);
+}
+
+#[test]
+fn a_scan_a_radar_and_a_sequence_are_drawn() {
+    let dataset = labelled();
+    let picture = dataset.beside("picture.png");
+    let plot = |what: &[&str]| {
+        let run = crate::support::program()
+            .args(["plot", &dataset.path, &dataset.out, "-o", &picture])
+            .args(what)
+            .output()
+            .unwrap();
+        crate::support::Ran::of(&run).exits(0).prints_nothing().says([&picture]);
+        fs::read(&picture).unwrap()
+    };
+    let all = plot(&["--scan", "1"]);
+    assert!(size(&picture).iter().all(|pixels| (300..5000).contains(pixels)));
+    let one = plot(&["--scan", "1", "--radar", "radar_left", "--radius", "30"]);
+    let sequence = plot(&["--all"]);
+    assert!(size(&picture).iter().all(|pixels| (300..5000).contains(pixels)));
+    assert!(all != one && one != sequence);
+    assert!(plot(&["--all"]) == sequence, "the same picture twice");
+}
+
+#[test]
+fn what_can_not_be_drawn_is_refused() {
+    let dataset = labelled();
+    let picture = dataset.beside("picture.png");
+    let (path, out) = (dataset.path.as_str(), dataset.out.as_str());
+    ralf(["plot", path, out, "--scan", "3", "-o", &picture]).exits(1).says(["from 0 to 2, found 3"]);
+    let radar = ["plot", path, out, "--scan", "0", "--radar", "radar_back", "-o", &picture];
+    ralf(radar).exits(1).says(["radar_front, radar_left", "radar_back"]);
+    let nothing = dataset.beside("nothing");
+    ralf(["plot", path, &nothing, "--scan", "0", "-o", &picture])
+        .exits(1)
+        .says([&nothing, "plausibility.parquet"]);
+    assert!(!fs::exists(&picture).unwrap());
+    let nowhere = dataset.beside("nowhere/picture.png");
+    let parent_is_made = ralf(["plot", path, out, "--scan", "0", "-o", &nowhere]).exits(0);
+    parent_is_made.says([&nowhere]);
+}
+
+#[test]
+fn an_unknown_radar_is_refused_for_a_whole_sequence_too() {
+    let dataset = labelled();
+    let picture = dataset.beside("picture.png");
+    let all = ["plot", &dataset.path, &dataset.out, "--all", "--radar", "radar_back", "-o", &picture];
+    ralf(all).exits(1).says(["radar_front, radar_left", "radar_back"]);
+}
+
+#[test]
+fn converting_the_own_layout_changes_no_measurement() {
+    let dataset = Dataset::of(&Shape { scans: 3, classes: true, ..Shape::default() });
+    let copy = dataset.beside("copy");
+    ralf(["convert", &dataset.path, "-o", &copy]).exits(0).prints_nothing().says(["sequences/00"]);
+    let (mut before, mut after) = (tree(&dataset.path), tree(&copy));
+    for rewritten in ["sequences/00/sequence.toml", "sequences/00/odometry.csv"] {
+        assert!(before.remove(rewritten).is_some() && after.remove(rewritten).is_some());
+    }
+    assert!(before == after);
+    // And it means the same.
+    let [one, other] = [&dataset.path, &copy].map(|path| {
+        let out = format!("{path}-out");
+        ralf(["label", path, "-o", &out]).exits(0);
+        fs::read(format!("{out}/sequences/00/plausibility.parquet")).unwrap()
+    });
+    assert!(one == other);
+}
+
+#[test]
+fn a_conversion_overwrites_nothing() {
+    let dataset = Dataset::of(&Shape { scans: 1, ..Shape::default() });
+    let copy = dataset.beside("copy");
+    ralf(["convert", &dataset.path, "-o", &copy]).exits(0);
+    let before = tree(&copy);
+    ralf(["convert", &dataset.path, "-o", &copy])
+        .exits(1)
+        .says(["sequences/00", "expected none of this name yet"]);
+    ralf(["convert", &dataset.path, "-o", &dataset.path]).exits(1).says(["sequences/00"]);
+    assert!(tree(&copy) == before);
+}

@@ -1,0 +1,48 @@
+//! Whole runs on real recordings.
+
+use crate::support::ralf;
+use std::path::Path;
+use std::process::Command;
+
+/// A folder of the real recordings, where the environment names them; else the test says that it is skipped.
+fn data(name: &str) -> Option<String> {
+    let folder = std::env::var_os("RALF_TEST_DATA").map(|root| Path::new(&root).join(name));
+    if folder.is_none() {
+        println!("skipped: RALF_TEST_DATA is not set");
+    }
+    Some(folder?.to_str().unwrap().to_owned())
+}
+
+#[test]
+fn a_scene_of_nuscenes() {
+    let Some(data) = data("nuscenes") else { return };
+    let out = tempfile::tempdir().unwrap();
+    let record = ralf(["label", &data, "-o", out.path().to_str().unwrap(), "--json"]).exits(0).json();
+    let lists = |key: &str| -> Vec<u64> {
+        let radars = record["sequences"][0]["radars"].as_array().unwrap().iter();
+        radars.flat_map(|radar| radar[key].as_array().unwrap()).map(|value| value.as_u64().unwrap()).collect()
+    };
+    assert_eq!(lists("detections").len(), 1263);
+    assert_eq!(lists("detections").iter().sum::<u64>(), 126_749);
+    // There is but one LiDAR revolution: flag 8 everywhere else.
+    assert_eq!(lists("flags").iter().filter(|flags| *flags & 8 == 0).count(), 6);
+}
+
+#[test]
+fn a_frame_of_view_of_delft() {
+    let Some(data) = data("view-of-delft") else { return };
+    let out = tempfile::tempdir().unwrap();
+    let out = out.path().to_str().unwrap();
+    ralf(["label", &data, "-o", out]).exits(0);
+    let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../testdata/vod_boxes.py");
+    let Ok(compared) = Command::new("python3").arg(script).args([&data, out]).output() else {
+        return println!("skipped: python3 is not there");
+    };
+    let text = String::from_utf8(compared.stdout).unwrap();
+    let share = |line: &str| -> f64 {
+        let line = text.lines().find_map(|text| text.strip_prefix(line)).unwrap();
+        line.rsplit(": ").next().unwrap().split(' ').next().unwrap().parse().unwrap()
+    };
+    assert!(share("plausible inside boxes") >= 0.95, "{text}");
+    assert!(share("plausible below") <= 0.05, "{text}");
+}

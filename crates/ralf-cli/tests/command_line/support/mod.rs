@@ -1,0 +1,13 @@
+//! What all tests share: recordings, the program, and what it leaves on disk.
+
+mod dataset;
+mod program;
+mod table;
+mod tree;
+mod world;
+
+pub(crate) use dataset::{Dataset, Shape};
+pub(crate) use program::{Ran, program, ralf};
+pub(crate) use table::{Row, rows, schema};
+pub(crate) use tree::{tree, without_timings};
+pub(crate) use world::{ARTIFACT, CAR, WALL};

@@ -1,0 +1,105 @@
+//! Where a run's results lie, and how they go once they belong to another run.
+
+use super::record::SequenceRecord;
+use crate::layout::is_folder_name;
+use crate::{DataError, files};
+use std::collections::BTreeSet;
+use std::fs;
+use std::io::ErrorKind;
+use std::path::{Path, PathBuf};
+
+/// The folder `OUT/sequences`.
+#[derive(Debug)]
+pub(super) struct Results {
+    sequences: PathBuf,
+}
+
+impl Results {
+    /// The results in an output folder.
+    pub(super) fn of(out: &Path) -> Self {
+        Self { sequences: out.join("sequences") }
+    }
+
+    /// The table of a sequence.
+    pub(super) fn plausibility_file(&self, sequence: &str) -> PathBuf {
+        self.sequences.join(sequence).join("plausibility.parquet")
+    }
+
+    /// The labels of a scan.
+    pub(super) fn label_file(&self, sequence: &str, radar: &str, scan: usize) -> PathBuf {
+        self.sequences.join(sequence).join(radar).join(format!("{scan:06}.label"))
+    }
+
+    /// Whether every result that a record tells of is there.
+    pub(super) fn hold(&self, record: &SequenceRecord) -> bool {
+        let not_labelled: BTreeSet<_> =
+            record.not_labelled.iter().map(|scan| (scan.radar.as_str(), scan.scan)).collect();
+        let labelled = scans(record).filter(|scan| !not_labelled.contains(scan));
+        let mut labels = labelled.map(|(radar, scan)| self.label_file(&record.name, radar, scan));
+        self.plausibility_file(&record.name).is_file() && labels.all(|file| file.is_file())
+    }
+
+    /// Removes the results that a record tells of, and nothing else that people may have put beside them.
+    pub(super) fn remove(&self, record: &SequenceRecord) -> Result<(), DataError> {
+        for (radar, scan) in scans(record) {
+            self.remove_label(&record.name, radar, scan)?;
+        }
+        self.remove_folders(&record.name, record.radars.iter().map(|radar| radar.name.as_str()))
+    }
+
+    /// Removes what a run left that was killed, by the scans that it kept as `SEQUENCE/RADAR/000000.rows`.
+    pub(super) fn remove_unfinished(&self, kept: &Path, sequence: &str) -> Result<(), DataError> {
+        let radars = files::folders(kept)?;
+        for radar in &radars {
+            let names = files::names(&kept.join(radar))?;
+            for scan in names.iter().filter_map(|name| name.strip_suffix(".rows")?.parse().ok()) {
+                self.remove_label(sequence, radar, scan)?;
+            }
+        }
+        self.remove_folders(sequence, radars.iter().map(String::as_str))
+    }
+
+    /// Removes a scan's labels, if there are some.
+    pub(super) fn remove_label(&self, sequence: &str, radar: &str, scan: usize) -> Result<(), DataError> {
+        // A record that somebody has edited leads nowhere else.
+        if !is_folder_name(sequence) || !is_folder_name(radar) {
+            return Ok(());
+        }
+        remove_file(&self.label_file(sequence, radar, scan))
+    }
+
+    /// Removes the table, and the folders that are empty now.
+    fn remove_folders<'a>(
+        &self,
+        sequence: &str,
+        radars: impl Iterator<Item = &'a str>,
+    ) -> Result<(), DataError> {
+        if !is_folder_name(sequence) {
+            return Ok(());
+        }
+        remove_file(&self.plausibility_file(sequence))?;
+        let folder = self.sequences.join(sequence);
+        // A folder that still holds something stays: that is no failure.
+        for radar in radars.filter(|radar| is_folder_name(radar)) {
+            let _ = fs::remove_dir(folder.join(radar));
+        }
+        let _ = fs::remove_dir(folder);
+        Ok(())
+    }
+}
+
+/// All scans that a record tells of: radar, number.
+fn scans(record: &SequenceRecord) -> impl Iterator<Item = (&str, usize)> {
+    record.radars.iter().flat_map(|radar| (0..radar.detections.len()).map(|scan| (radar.name.as_str(), scan)))
+}
+
+/// Removes a file, if it is there, and what a kill while it was written left beside it.
+pub(super) fn remove_file(file: &Path) -> Result<(), DataError> {
+    for file in [files::beside(file), file.to_owned()] {
+        match fs::remove_file(&file) {
+            Err(error) if error.kind() != ErrorKind::NotFound => return Err(DataError::Io { file, error }),
+            _ => {}
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,117 @@
+//! A sequence in memory.
+
+#![allow(clippy::unwrap_used, reason = "of tests alone")]
+
+use ralf::camera::{CameraImage, DepthImage, DepthOutput};
+use ralf::config::Config;
+use ralf::frame::FrameWindow;
+use ralf::geometry::Transform;
+use ralf::labeler::{DetectionLabel, Labeler};
+use ralf::measurement::{LidarScan, RadarScan};
+use ralf::motion::{EgoMotion, OdometrySample};
+use ralf::rig::{Elevation, Lidar, Radar, Reliability, Rig};
+use ralf::source::{Sequence, Source, SourceError, Timelines};
+
+pub(crate) const MS: i64 = 1_000_000;
+
+/// Scans of radars and LiDARs at given times, in the sensors' frames.
+pub(crate) struct Memory {
+    pub(crate) sequence: Sequence,
+    /// Per radar and scan: x, y, z; none where the scan can't be read.
+    pub(crate) radar_scans: Vec<Vec<Option<Vec<[f32; 3]>>>>,
+    /// Per LiDAR and scan.
+    pub(crate) lidar_scans: Vec<Vec<Vec<[f32; 3]>>>,
+}
+
+/// A radar at the vehicle's origin: 0.3 m, 0.01 rad, 0.02 rad.
+pub(crate) fn radar(elevation: Elevation) -> Radar {
+    Radar {
+        name: "radar".into(),
+        fields: ["x", "y", "z"].map(str::to_owned).to_vec(),
+        vehicle_from_radar: Transform::identity(),
+        elevation,
+        fov_azimuth: 2.5,
+        fov_elevation: 0.4,
+        sigma_range: 0.3,
+        sigma_azimuth: 0.01,
+        sigma_elevation: 0.02,
+        reliability: Reliability::default(),
+    }
+}
+
+/// A LiDAR 2 m above the vehicle's origin: 0.04 m, lowest beam at 45 degrees.
+pub(crate) fn lidar() -> Lidar {
+    Lidar {
+        name: "lidar".into(),
+        vehicle_from_lidar: Transform::translation(0.0, 0.0, 2.0),
+        sigma_range: 0.04,
+        lowest_beam: std::f64::consts::FRAC_PI_4,
+        max_range: None,
+    }
+}
+
+impl Memory {
+    /// A vehicle that drives straight ahead at a constant velocity.
+    pub(crate) fn new(velocity: f64) -> Self {
+        let odometry = vec![OdometrySample { t_ns: 0, velocity, yaw_rate: 0.0 }];
+        let sequence = Sequence {
+            name: "memory".into(),
+            title: String::new(),
+            rig: Rig::default(),
+            times: Timelines::default(),
+            motion: EgoMotion::new(odometry, vec![]).unwrap(),
+            depth_output: DepthOutput::Depth,
+        };
+        Self { sequence, radar_scans: vec![], lidar_scans: vec![] }
+    }
+
+    /// With another radar and its scans.
+    pub(crate) fn radar(mut self, radar: Radar, scans: Vec<(i64, Option<Vec<[f32; 3]>>)>) -> Self {
+        self.sequence.rig.radars.push(radar);
+        self.sequence.times.radars.push(scans.iter().map(|(t_ns, _)| *t_ns).collect());
+        self.radar_scans.push(scans.into_iter().map(|(_, points)| points).collect());
+        self
+    }
+
+    /// With another LiDAR and its scans.
+    pub(crate) fn lidar(mut self, lidar: Lidar, scans: Vec<(i64, Vec<[f32; 3]>)>) -> Self {
+        self.sequence.rig.lidars.push(lidar);
+        self.sequence.times.lidars.push(scans.iter().map(|(t_ns, _)| *t_ns).collect());
+        self.lidar_scans.push(scans.into_iter().map(|(_, points)| points).collect());
+        self
+    }
+
+    /// The labels of one scan.
+    pub(crate) fn label(&self, config: &Config, radar: usize, scan: usize) -> Vec<DetectionLabel> {
+        let mut window = FrameWindow::new(self, &self.sequence.rig, config);
+        let frame = window.frame(radar, scan).unwrap();
+        Labeler::new(config).label(&frame)
+    }
+}
+
+impl Source for Memory {
+    fn sequence(&self) -> &Sequence {
+        &self.sequence
+    }
+
+    fn radar_scan(&self, radar: usize, scan: usize) -> Result<RadarScan, SourceError> {
+        let points = self.radar_scans[radar][scan].as_ref().ok_or("cut short")?;
+        let columns = (0..3).map(|axis| points.iter().map(|p| p[axis]).collect()).collect();
+        let t_ns = self.sequence.times.radars[radar][scan];
+        Ok(RadarScan::new(&self.sequence.rig.radars[radar], t_ns, columns)?)
+    }
+
+    fn lidar_scan(&self, lidar: usize, scan: usize) -> Result<LidarScan, SourceError> {
+        let points = self.lidar_scans[lidar][scan].clone();
+        let intensity = vec![0.0; points.len()];
+        Ok(LidarScan { t_ns: self.sequence.times.lidars[lidar][scan], points, intensity, classes: None })
+    }
+
+    fn image(&self, _: usize, _: usize) -> Result<CameraImage, SourceError> {
+        Err("no camera".into())
+    }
+
+    fn depth(&self, _: usize, _: usize) -> Result<Option<Vec<DepthImage>>, SourceError> {
+        Ok(None)
+    }
+}
