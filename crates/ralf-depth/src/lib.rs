@@ -1,0 +1,48 @@
+//! Monocular depth networks: one view of a camera in, one depth image of the same size out (METHOD 5.2).
+//!
+//! An [`OnnxModel`] is an `.onnx` file with a [`Card`] beside it: a small TOML file that says how the network is fed and
+//! what comes out. [`Card`] lists its keys; [`presets`] are cards of public networks, to build on. Nothing is guessed: a
+//! card that doesn't go with its network is refused when the two are loaded.
+//!
+//! An image takes this way: view -> [`Fit`] -> resize (antialiased) -> normalise -> network, and once more mirrored if
+//! `flip` is set -> resize back -> [`DepthImage`](ralf::camera::DepthImage).
+//!
+//! A single estimate uses one thread and gives the same bytes however many run side by side, so callers parallelise over
+//! images.
+//!
+//! ```no_run
+//! use ralf_depth::{DepthEstimator, OnnxModel};
+//!
+//! # fn main() -> Result<(), ralf_depth::DepthError> {
+//! # let view = ralf::camera::CameraImage { width: 0, height: 0, rgb: vec![] };
+//! // Reads the card models/midas.toml.
+//! let model = OnnxModel::load("models/midas.onnx".as_ref(), None)?;
+//! let depth = model.estimate(&view, 1266.4)?;
+//! assert_eq!(depth.values.len(), view.rgb.len());
+//! # Ok(())
+//! # }
+//! ```
+
+mod card;
+mod colour;
+mod error;
+mod estimator;
+mod fit;
+mod model;
+mod network;
+#[cfg(feature = "ort")]
+mod ort_backend;
+mod plane;
+mod rten_backend;
+mod runner;
+mod spares;
+mod squares;
+#[cfg(test)]
+mod testing;
+#[cfg(test)]
+mod tests;
+
+pub use card::{Card, Channels, Fit, InputSize, Side, presets};
+pub use error::DepthError;
+pub use estimator::DepthEstimator;
+pub use model::{OnnxModel, Runtime};
