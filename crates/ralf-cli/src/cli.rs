@@ -1,6 +1,6 @@
 //! What can be typed.
 
-use crate::commands::{convert, evaluate, inspect, label, plot};
+use crate::commands::{convert, depth, evaluate, inspect, label, plot};
 use clap::{Args, Parser, Subcommand};
 use std::path::PathBuf;
 
@@ -30,6 +30,8 @@ pub(crate) enum Command {
     Inspect(inspect::InspectArgs),
     /// Label every radar detection of a recording
     Label(label::LabelArgs),
+    /// Compute the depth of every camera image once for all, or check it against the LiDAR
+    Depth(depth::DepthArgs),
     /// Compare labels with corrected ones, or tell what they say by themselves
     Evaluate(evaluate::EvaluateArgs),
     /// Draw labelled scans from above

@@ -3,6 +3,7 @@
 
 mod cli;
 mod commands;
+mod depth_model;
 mod progress;
 mod settings;
 mod text;

@@ -19,6 +19,7 @@
 //! ```
 
 mod balance;
+pub mod depth;
 mod error;
 mod evaluation;
 mod files;
@@ -28,6 +29,7 @@ pub mod inspection;
 mod label_file;
 mod layout;
 mod models;
+mod npy;
 mod nuscenes;
 mod open;
 pub mod output;

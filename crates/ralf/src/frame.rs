@@ -172,7 +172,7 @@ impl<'a> FrameWindow<'a> {
         let mut images = Vec::new();
         for (camera, times) in times.iter().enumerate() {
             let Some(image) = sync::nearest(times, t_ns, tolerance) else { continue };
-            if let Some(moment) = self.image_moment(camera, image, times[image])? {
+            if let Some(moment) = self.image(camera, image)? {
                 let vehicle_from_image = self.source.sequence().motion.between(t_ns, moment.t_ns);
                 images.push(ImageView { moment, vehicle_from_image });
             }
@@ -181,15 +181,11 @@ impl<'a> FrameWindow<'a> {
     }
 
     /// An image with its views calibrated by the LiDAR scans nearest to it; `None` where there is no depth.
-    fn image_moment(
-        &mut self,
-        camera: usize,
-        image: usize,
-        t_ns: i64,
-    ) -> Result<Option<Arc<ImageMoment>>, SourceError> {
+    pub fn image(&mut self, camera: usize, image: usize) -> Result<Option<Arc<ImageMoment>>, SourceError> {
         if let Some(known) = self.images.get(&(camera, image)) {
             return Ok(known);
         }
+        let t_ns = self.source.sequence().times.cameras[camera][image];
         let content = match self.source.depth(camera, image) {
             Ok(None) => {
                 self.images.insert((camera, image), None);

@@ -2,12 +2,17 @@
 
 use crate::Outcome;
 use crate::cli::DatasetArgs;
+use crate::depth_model::{DepthModelArgs, fill, images_of_scans};
 use crate::progress::{Bars, say};
 use crate::settings::SettingsArgs;
 use crate::text::{aligned, grouped, percent, print};
 use clap::Args;
+use ralf::config::Config;
 use ralf::labeler::flag;
+use ralf_data::Recording;
+use ralf_data::depth::DepthStore;
 use ralf_data::run::{LabelRun, Outcome as RunOutcome, RadarRecord, RunRecord};
+use ralf_depth::DepthEstimator;
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
@@ -20,7 +25,8 @@ arguments it goes on where it stopped. OUT holds the results of one run: those o
 Examples:
   ralf label recordings/city -o out
   ralf label nuscenes -o out --sequence scene-0061 --set tracking.sources=all
-  ralf label recordings/city -o out --config ralf.toml --set fusion.alpha=0.7 --jobs 4")]
+  ralf label recordings/city -o out --config ralf.toml --set fusion.alpha=0.7 --jobs 4
+  ralf label nuscenes -o out --depth-model midas.onnx      cameras, too: depth is stored in OUT/depth")]
 pub(crate) struct LabelArgs {
     #[command(flatten)]
     dataset: DatasetArgs,
@@ -29,6 +35,11 @@ pub(crate) struct LabelArgs {
     output: PathBuf,
     #[command(flatten)]
     settings: SettingsArgs,
+    #[command(flatten)]
+    model: DepthModelArgs,
+    /// Take depth images from this folder, as `ralf depth -o` wrote them
+    #[arg(long, value_name = "FOLDER", conflicts_with = "depth_model")]
+    depth: Option<PathBuf>,
     /// Scans side by side; as many as there are processors if not given
     #[arg(long, value_name = "N")]
     jobs: Option<NonZeroUsize>,
@@ -43,9 +54,9 @@ pub(crate) struct LabelArgs {
 /// Labels a recording.
 pub(crate) fn run(arguments: &LabelArgs) -> anyhow::Result<Outcome> {
     let config = arguments.settings.resolve()?;
-    let recording = arguments.dataset.open()?;
     let jobs =
         arguments.jobs.or_else(|| std::thread::available_parallelism().ok()).map_or(1, NonZeroUsize::get);
+    let recording = arguments.with_depth(arguments.dataset.open()?, &config, jobs)?;
     let run = LabelRun { recording: &recording, config: &config, out: &arguments.output, jobs };
     let record = match run.execute(&Bars::new(arguments.quiet))? {
         RunOutcome::Labelled(record) => record,
@@ -63,6 +74,25 @@ pub(crate) fn run(arguments: &LabelArgs) -> anyhow::Result<Outcome> {
     Ok(outcome)
 }
 
+impl LabelArgs {
+    /// The recording with the depth that was asked for: of a network, computed now as far as labelling needs it, or stored.
+    fn with_depth(&self, recording: Recording, config: &Config, jobs: usize) -> anyhow::Result<Recording> {
+        let store = match (self.model.load()?, &self.depth) {
+            (Some(model), _) => {
+                let network = model.fingerprint();
+                let folder = self.output.join("depth").join(&network[..network.len().min(12)]);
+                let store = DepthStore::create(&folder, model.output(), network)?;
+                let tolerance = config.sync.camera_tolerance_ms;
+                fill(&store, &recording, &model, |sequence| images_of_scans(sequence, tolerance), jobs)?;
+                store
+            }
+            (None, Some(folder)) => DepthStore::open(folder)?,
+            (None, None) => return Ok(recording),
+        };
+        Ok(store.attach(recording))
+    }
+}
+
 /// A table with a row per radar, and what was missing.
 fn summary(record: &RunRecord) -> String {
     let head =
@@ -76,14 +106,38 @@ fn summary(record: &RunRecord) -> String {
     let seconds = record.timings.seconds;
     let rate = |count: f64| if seconds > 0.0 { count / seconds } else { 0.0 };
     format!(
-        "{}\n{} scans, {} detections in {seconds:.1} s ({:.0} scans/s, {:.0}k detections/s, {} jobs)\n",
+        "{}{}\n{} scans, {} detections in {seconds:.1} s ({:.0} scans/s, {:.0}k detections/s, {} jobs)\n",
         aligned(&rows),
+        camera_summary(record),
         grouped(scans as u64),
         grouped(detections),
         rate(scans as f64),
         rate(detections as f64) / 1e3,
         record.timings.jobs,
     )
+}
+
+/// A table with a row per camera whose images have depth; nothing without one.
+fn camera_summary(record: &RunRecord) -> String {
+    let asked = record.cameras().filter(|camera| !camera.images.is_empty());
+    let mut rows: Vec<Vec<String>> = asked
+        .map(|camera| {
+            let (views, failed) = camera.views();
+            let share = percent(failed as u64, views as u64);
+            vec![
+                camera.name.clone(),
+                grouped(camera.images.len() as u64),
+                grouped(views as u64),
+                grouped(failed as u64),
+                share,
+            ]
+        })
+        .collect();
+    if rows.is_empty() {
+        return String::new();
+    }
+    rows.insert(0, ["camera", "images", "views", "failed", ""].map(str::to_owned).to_vec());
+    format!("\n{}", aligned(&rows))
 }
 
 fn summary_row(sequence: &str, radar: &RadarRecord) -> Vec<String> {

@@ -1,6 +1,7 @@
 //! One module per verb: thin, for what they do is done by the libraries.
 
 pub(crate) mod convert;
+pub(crate) mod depth;
 pub(crate) mod evaluate;
 pub(crate) mod inspect;
 pub(crate) mod label;
@@ -19,6 +20,7 @@ pub(crate) fn dispatch(arguments: Cli) -> anyhow::Result<Outcome> {
         Command::Evaluate(arguments) => evaluate::run(&arguments),
         Command::Plot(arguments) => plot::run(&arguments),
         Command::Convert(arguments) => convert::run(&arguments),
+        Command::Depth(arguments) => depth::run(&arguments),
         Command::Completions { shell } => {
             let mut script = Vec::new();
             clap_complete::generate(shell, &mut Cli::command(), "ralf", &mut script);

@@ -5,7 +5,6 @@
 
 mod camera;
 mod listing;
-mod npy;
 mod raw;
 mod rig;
 mod source;

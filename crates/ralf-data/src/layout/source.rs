@@ -2,8 +2,8 @@
 
 use super::listing::{Partner, SensorFiles};
 use super::raw::SequenceToml;
-use super::{GROUND_TRUTH, npy, rig, tables};
-use crate::{DataError, SequenceReader, files, images, read_labels};
+use super::{GROUND_TRUTH, rig, tables};
+use crate::{DataError, SequenceReader, files, images, npy, read_labels};
 use ralf::camera::{Camera, CameraImage, DepthImage};
 use ralf::measurement::{LidarScan, RadarScan};
 use ralf::motion::EgoMotion;

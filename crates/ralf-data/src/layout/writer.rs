@@ -1,8 +1,8 @@
 //! Writing any sequence in the own layout, without loss.
 
 use super::raw::{DepthToml, SequenceToml};
-use super::{GROUND_TRUTH, SEQUENCES, is_folder_name, npy, rig, tables};
-use crate::{DataError, SequenceReader, files, images};
+use super::{GROUND_TRUTH, SEQUENCES, is_folder_name, rig, tables};
+use crate::{DataError, SequenceReader, files, images, npy};
 use ralf::source::{Sequence, SourceError};
 use std::cell::Cell;
 use std::fs;

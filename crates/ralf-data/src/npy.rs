@@ -10,7 +10,7 @@ use std::path::Path;
 const MAGIC: &[u8] = b"\x93NUMPY";
 
 /// The depth images in a file.
-pub(super) fn read_depth(file: &Path) -> Result<Vec<DepthImage>, DataError> {
+pub(crate) fn read_depth(file: &Path) -> Result<Vec<DepthImage>, DataError> {
     let bytes = files::read(file)?;
     let (header, data) = split(&bytes).ok_or_else(|| {
         DataError::content(file, "byte 0", "a NumPy file with its header", "something else")
@@ -40,7 +40,7 @@ pub(super) fn read_depth(file: &Path) -> Result<Vec<DepthImage>, DataError> {
 
 /// The bytes of a file that holds these images: (H, W) of one, (views, H, W) of several. `None` if there is none, or if
 /// they differ in size, which such a file can't hold.
-pub(super) fn depth_bytes(images: &[DepthImage]) -> Option<Vec<u8>> {
+pub(crate) fn depth_bytes(images: &[DepthImage]) -> Option<Vec<u8>> {
     let DepthImage { width, height, .. } = images.first()?;
     if images.iter().any(|image| (image.width, image.height) != (*width, *height)) {
         return None;

@@ -1,0 +1,134 @@
+//! `ralf depth`: the depth of every image, once for all; and how well it fits the LiDAR.
+
+use crate::cli::DatasetArgs;
+use crate::depth_model::{DepthModelArgs, all_images, fill};
+use crate::settings::SettingsArgs;
+use crate::text::{aligned, grouped, print};
+use crate::{Outcome, UsageError};
+use anyhow::{Context, ensure};
+use clap::Args;
+use ralf_data::Recording;
+use ralf_data::depth::{CameraCheck, DepthStore, check_scalings};
+use ralf_depth::{DepthEstimator, OnnxModel};
+use std::num::NonZeroUsize;
+use std::path::PathBuf;
+
+/// Arguments of `ralf depth`.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Depth is stored as CAMERA/depth/000000.npy: in the dataset itself where it has RALF's own layout, else in the same tree below
+the folder given with -o, where `ralf label --depth FOLDER` finds it. What is stored already is not computed again.
+
+Examples:
+  ralf depth recordings/city --depth-model midas.onnx
+  ralf depth nuscenes --depth-model midas.onnx -o depth-of-nuscenes
+  ralf depth recordings/city --check            which scaling fits the LiDAR best?")]
+pub(crate) struct DepthArgs {
+    #[command(flatten)]
+    dataset: DatasetArgs,
+    #[command(flatten)]
+    model: DepthModelArgs,
+    /// Folder for the depth images
+    #[arg(short, long, value_name = "FOLDER")]
+    output: Option<PathBuf>,
+    /// Print how far depth lies from LiDAR points that it was not scaled with: local, RANSAC and Huber scaling
+    #[arg(long)]
+    check: bool,
+    #[command(flatten)]
+    settings: SettingsArgs,
+    /// Images side by side; as many as there are processors if not given
+    #[arg(long, value_name = "N")]
+    jobs: Option<NonZeroUsize>,
+    /// With --check: as JSON
+    #[arg(long, requires = "check")]
+    json: bool,
+}
+
+/// Computes depth, or checks it.
+pub(crate) fn run(arguments: &DepthArgs) -> anyhow::Result<Outcome> {
+    let config = arguments.settings.resolve()?;
+    let mut recording = arguments.dataset.open()?;
+    let model = arguments.model.load()?;
+    ensure!(
+        model.is_some() || arguments.check,
+        UsageError("expected --depth-model FILE, --check or both".into())
+    );
+    let mut outcome = Outcome::Done;
+    if let Some(model) = model {
+        let store = arguments.store(&recording, &model)?;
+        let jobs =
+            arguments.jobs.or_else(|| std::thread::available_parallelism().ok()).map_or(1, NonZeroUsize::get);
+        if fill(&store, &recording, &model, all_images, jobs)? > 0 {
+            outcome = Outcome::Partial;
+        }
+        recording = store.attach(recording);
+    }
+    if arguments.check {
+        let mut checks = Vec::new();
+        for reader in &recording.sequences {
+            let found = check_scalings(reader.as_ref(), &config).map_err(anyhow::Error::from_boxed)?;
+            checks.push((reader.sequence().name.clone(), found));
+        }
+        print(&if arguments.json { json(&checks)? } else { table(&checks) })?;
+    }
+    Ok(outcome)
+}
+
+impl DepthArgs {
+    /// Where depth goes. A dataset of the own layout says what its depth images hold, which the network must give.
+    fn store(&self, recording: &Recording, model: &OnnxModel) -> anyhow::Result<DepthStore> {
+        let output = model.output();
+        if let Some(folder) = &self.output {
+            return Ok(DepthStore::create(folder, output, model.fingerprint())?);
+        }
+        ensure!(
+            recording.format == "ralf",
+            UsageError(format!(
+                "expected -o FOLDER, for a recording of the format {} is only read",
+                recording.format
+            ))
+        );
+        for reader in &recording.sequences {
+            let declared = reader.sequence().depth_output;
+            let file = recording.path.join("sequences").join(&reader.sequence().name).join("sequence.toml");
+            ensure!(
+                declared == output,
+                "{}: [depth] output: expected {output:?} as the network's card says, found {declared:?}",
+                file.display()
+            );
+        }
+        Ok(DepthStore::create(&recording.path, output, model.fingerprint())?)
+    }
+}
+
+fn table(checks: &[(String, Vec<CameraCheck>)]) -> String {
+    let head = ["sequence", "camera", "views", "LiDAR points", "local", "RANSAC", "Huber"];
+    let mut rows = vec![head.map(str::to_owned).to_vec()];
+    for (sequence, cameras) in checks {
+        rows.extend(cameras.iter().map(|check| {
+            let residual =
+                |value: Option<f64>| value.map_or("-".to_owned(), |value| format!("{:.1} %", 100.0 * value));
+            let mut row = vec![sequence.clone(), check.camera.clone(), grouped(check.views as u64)];
+            row.push(grouped(check.samples as u64));
+            row.extend(check.residuals.map(residual));
+            row
+        }));
+    }
+    format!(
+        "median |Z - Z_lidar| / Z_lidar, each scaling fitted to every other LiDAR point and measured on the rest\n{}",
+        aligned(&rows)
+    )
+}
+
+fn json(checks: &[(String, Vec<CameraCheck>)]) -> anyhow::Result<String> {
+    let camera = |check: &CameraCheck| {
+        let [local, ransac, huber] = check.residuals;
+        serde_json::json!({
+            "camera": check.camera, "views": check.views, "samples": check.samples,
+            "local": local, "ransac": ransac, "huber": huber,
+        })
+    };
+    let sequences: serde_json::Map<String, serde_json::Value> =
+        checks.iter().map(|(name, cameras)| (name.clone(), cameras.iter().map(camera).collect())).collect();
+    serde_json::to_string_pretty(&sequences).context("residuals as JSON")
+}

@@ -1,0 +1,94 @@
+//! Running a depth network over the straight views of a sequence's images.
+
+use super::DepthStore;
+use crate::{DataError, SequenceReader};
+use ralf::camera::{Camera, CameraImage, DepthImage, StraightView, UndistortMap};
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Mutex, OnceLock, PoisonError};
+
+/// A depth network: the depth of a view with a focal length, px; or why there is none.
+pub type Estimate<'a> = dyn Fn(&CameraImage, f64) -> Result<DepthImage, String> + Sync + 'a;
+
+/// Is told how the computation gets on, from several threads.
+pub type DepthObserver<'a> = dyn Fn() + Sync + 'a;
+
+/// A camera's views with the maps that straighten its images, made when they are first needed.
+struct Straightening<'a> {
+    camera: &'a Camera,
+    views: OnceLock<Vec<(StraightView, UndistortMap)>>,
+}
+
+/// Computes and stores the depth of the images (camera, number) that the store doesn't hold yet, several at a time.
+///
+/// Returns the images that have no depth for a reason of their own, which is named, in their order. Depth that can't be
+/// stored is an error.
+pub fn compute_depth(
+    reader: &dyn SequenceReader,
+    images: &[(usize, usize)],
+    store: &DepthStore,
+    estimate: &Estimate,
+    jobs: usize,
+    observer: &DepthObserver,
+) -> Result<Vec<DataError>, DataError> {
+    let cameras = reader.sequence().rig.cameras.iter();
+    let cameras: Vec<_> = cameras.map(|camera| Straightening { camera, views: OnceLock::new() }).collect();
+    let next = AtomicUsize::new(0);
+    let without = Mutex::new(Vec::new());
+    let work = || -> Result<(), DataError> {
+        while let Some(&(camera, image)) = images.get(next.fetch_add(1, Ordering::Relaxed)) {
+            let name = (reader.sequence().name.as_str(), cameras[camera].camera.name.as_str(), image);
+            if !store.file(name.0, name.1, image).exists() {
+                match cameras[camera].depth(reader, (camera, image), estimate) {
+                    Ok(views) => store.write(name, &views)?,
+                    Err(error) => {
+                        let sensor = name.1.to_owned();
+                        let failed = DataError::Measurement { sensor, index: image, error };
+                        without
+                            .lock()
+                            .unwrap_or_else(PoisonError::into_inner)
+                            .push(((camera, image), failed));
+                    }
+                }
+            }
+            observer();
+        }
+        Ok(())
+    };
+    std::thread::scope(|scope| {
+        let workers: Vec<_> = (0..jobs.max(1)).map(|_| scope.spawn(work)).collect();
+        let join = |worker: std::thread::ScopedJoinHandle<'_, Result<(), DataError>>| {
+            worker.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))
+        };
+        workers.into_iter().try_for_each(join)
+    })?;
+    let mut without = without.into_inner().unwrap_or_else(PoisonError::into_inner);
+    without.sort_by_key(|(image, _)| *image);
+    Ok(without.into_iter().map(|(_, error)| error).collect())
+}
+
+impl Straightening<'_> {
+    fn depth(
+        &self,
+        reader: &dyn SequenceReader,
+        (camera, image): (usize, usize),
+        estimate: &Estimate,
+    ) -> Result<Vec<DepthImage>, ralf::source::SourceError> {
+        let Camera { intrinsics, width, height, .. } = self.camera;
+        intrinsics.check(*width, *height).map_err(|expected| format!("expected {expected}"))?;
+        let raw = reader.image(camera, image)?;
+        let mut depth = Vec::new();
+        for (view, map) in self.views() {
+            let straight = map.apply(&raw)?;
+            depth.push(estimate(&straight, view.focal)?);
+        }
+        Ok(depth)
+    }
+
+    fn views(&self) -> &[(StraightView, UndistortMap)] {
+        self.views.get_or_init(|| {
+            let Camera { intrinsics, width, height, .. } = self.camera;
+            let straighten = |view| (view, UndistortMap::new(intrinsics, *width, *height, &view));
+            self.camera.straight_views().into_iter().map(straighten).collect()
+        })
+    }
+}
