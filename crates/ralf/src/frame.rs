@@ -69,7 +69,10 @@ impl<'a> FrameWindow<'a> {
     /// All that belongs to one scan of one radar. Fails where that scan, or a LiDAR scan that belongs to it, can't be read;
     /// neighbouring radar scans that can't be read are left out of the batch.
     pub fn frame(&mut self, radar: usize, scan: usize) -> Result<Frame<'a>, SourceError> {
-        let detections = Arc::new(self.locate(radar, scan)?);
+        let detections = match self.radar_scans.get(&(radar, scan)) {
+            Some(Some(known)) => known,
+            _ => Arc::new(self.locate(radar, scan)?),
+        };
         self.radar_scans.insert((radar, scan), Some(detections.clone()));
         let t_ns = detections.t_ns();
         let tracking = &self.config.tracking;
