@@ -21,6 +21,7 @@
 mod balance;
 mod error;
 mod evaluation;
+mod evidence;
 mod files;
 mod ground_truth;
 mod images;
@@ -40,6 +41,7 @@ mod view_of_delft;
 pub use balance::{Balance, Balances};
 pub use error::DataError;
 pub use evaluation::Comparison;
+pub use evidence::{SequenceEvidence, gather_evidence};
 pub use files::write_whole;
 pub use ground_truth::{GroundTruth, ScanId};
 pub use label_file::{Label, read_labels, write_labels};

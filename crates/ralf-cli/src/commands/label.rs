@@ -3,7 +3,7 @@
 use crate::Outcome;
 use crate::cli::DatasetArgs;
 use crate::progress::{Bars, say};
-use crate::settings::SettingsArgs;
+use crate::settings::{SettingsArgs, threads};
 use crate::text::{aligned, grouped, percent, print};
 use clap::Args;
 use ralf::labeler::flag;
@@ -44,8 +44,7 @@ pub(crate) struct LabelArgs {
 pub(crate) fn run(arguments: &LabelArgs) -> anyhow::Result<Outcome> {
     let config = arguments.settings.resolve()?;
     let recording = arguments.dataset.open()?;
-    let jobs =
-        arguments.jobs.or_else(|| std::thread::available_parallelism().ok()).map_or(1, NonZeroUsize::get);
+    let jobs = threads(arguments.jobs);
     let run = LabelRun { recording: &recording, config: &config, out: &arguments.output, jobs };
     let record = match run.execute(&Bars::new(arguments.quiet))? {
         RunOutcome::Labelled(record) => record,
