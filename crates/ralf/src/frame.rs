@@ -33,6 +33,15 @@ pub struct Frame<'a> {
     pub doppler: Option<Vec<f64>>,
 }
 
+impl Frame<'_> {
+    /// The steps of a batch of `n_b` scans before and after, of which the frame may hold more.
+    pub fn steps_within(&self, n_b: usize) -> &[TrackingStep] {
+        let begin = self.steps.partition_point(|step| step.j < 0 && step.j.unsigned_abs() > n_b);
+        let end = self.steps.partition_point(|step| step.j < 0 || step.j.unsigned_abs() <= n_b);
+        &self.steps[begin..end]
+    }
+}
+
 /// Names a measurement: sensor and number.
 type Key = (usize, usize);
 
@@ -128,7 +137,8 @@ impl<'a> FrameWindow<'a> {
                 let vehicle_from_scan = motion.between(t_ns, scan.t_ns());
                 (scan, vehicle_from_scan)
             };
-            Some(TrackingStep { t_ns: step_time, clouds: scans.into_iter().map(with_transform).collect() })
+            let clouds = scans.into_iter().map(with_transform).collect();
+            Some(TrackingStep { j: j as isize - scan as isize, t_ns: step_time, clouds })
         };
         batch.into_iter().filter_map(step).collect()
     }

@@ -21,4 +21,5 @@ mod real_data;
 mod resume;
 mod streams;
 mod support;
+mod tuning;
 mod whole_run;
