@@ -1,6 +1,6 @@
 //! What can be typed.
 
-use crate::commands::{convert, evaluate, inspect, label, plot};
+use crate::commands::{convert, evaluate, inspect, label, plot, report};
 use clap::{Args, Parser, Subcommand};
 use std::path::PathBuf;
 
@@ -16,6 +16,7 @@ Examples:
   ralf label recordings/city -o out         a plausibility and a label for every detection
   ralf plot recordings/city out --sequence 00 --scan 17 -o scan.png
   ralf evaluate out --truth recordings/city
+  ralf report recordings/city out -o report.html
 
 Exit status: 0 done; 1 failed; 2 wrong usage; 3 done, but some scans are left out (each is named)."
 )]
@@ -34,6 +35,8 @@ pub(crate) enum Command {
     Evaluate(evaluate::EvaluateArgs),
     /// Draw labelled scans from above
     Plot(plot::PlotArgs),
+    /// Write one page about a labelled recording: figures, curves, pictures
+    Report(report::ReportArgs),
     /// Write a recording of another format in RALF's own layout
     Convert(convert::ConvertArgs),
     /// Print a completion script for a shell

@@ -19,6 +19,7 @@
 //! ```
 
 mod balance;
+mod causes;
 mod error;
 mod evaluation;
 mod files;
@@ -38,6 +39,7 @@ mod testing;
 mod view_of_delft;
 
 pub use balance::{Balance, Balances};
+pub use causes::Causes;
 pub use error::DataError;
 pub use evaluation::Comparison;
 pub use files::write_whole;

@@ -5,6 +5,7 @@ pub(crate) mod evaluate;
 pub(crate) mod inspect;
 pub(crate) mod label;
 pub(crate) mod plot;
+pub(crate) mod report;
 
 use crate::Outcome;
 use crate::cli::{Cli, Command};
@@ -18,6 +19,7 @@ pub(crate) fn dispatch(arguments: Cli) -> anyhow::Result<Outcome> {
         Command::Label(arguments) => label::run(&arguments),
         Command::Evaluate(arguments) => evaluate::run(&arguments),
         Command::Plot(arguments) => plot::run(&arguments),
+        Command::Report(arguments) => report::run(&arguments),
         Command::Convert(arguments) => convert::run(&arguments),
         Command::Completions { shell } => {
             let mut script = Vec::new();
