@@ -1,6 +1,6 @@
 //! What the page is about, and its main figures.
 
-use super::number::{decimal, grouped, percent};
+use super::number::{counted, decimal, grouped, percent};
 use crate::content::Content;
 use maud::{Markup, html};
 
@@ -15,11 +15,11 @@ pub(super) fn header(content: &Content) -> Markup {
             h1 { "Labels of " em { (content.dataset) } }
             p.lead {
                 "Every radar detection is rated by LiDAR, cameras and tracking, and labelled plausible or artifact. "
-                @if scores.is_some() { "Here is how well that agrees with labels corrected by hand." }
-                @else { "There are no labels corrected by hand to compare with; here is what the labels say by themselves." }
+                @if scores.is_some() { "Here is how well that agrees with the corrected labels." }
+                @else { "There are no corrected labels to compare with: here is what the labels say by themselves." }
             }
             dl.tiles {
-                (tile("Detections", &grouped(balance.detections), &format!("{} scans, {} sequences", grouped(scans as u64), content.sequences.len())))
+                (tile("Detections", &grouped(balance.detections), &format!("{}, {}", counted(scans, "scan"), counted(content.sequences.len(), "sequence"))))
                 (tile("Plausible", &percent(balance.plausible, balance.detections), &format!("{} detections", grouped(balance.plausible))))
                 (tile("Distinctiveness", &decimal(balance.distinctiveness), "mean w, plausible minus artifact"))
                 @if let Some(rates) = scores {

@@ -13,6 +13,12 @@ pub(super) fn grouped(number: u64) -> String {
     text
 }
 
+/// So many of something: 1 scan, 2 scans.
+pub(super) fn counted(number: usize, what: &str) -> String {
+    let plural = if number == 1 { "" } else { "s" };
+    format!("{} {what}{plural}", grouped(number as u64))
+}
+
 /// Three decimals, as `ralf evaluate` prints them; a dash where there is no value.
 pub(super) fn decimal(value: Option<f64>) -> String {
     value.map_or("–".to_owned(), |value| format!("{value:.3}"))
@@ -39,6 +45,7 @@ mod tests {
     #[test]
     fn numbers_read_well() {
         assert_eq!([0, 999, 1000, 3_288_803].map(grouped), ["0", "999", "1,000", "3,288,803"]);
+        assert_eq!([1, 2].map(|number| counted(number, "scan")), ["1 scan", "2 scans"]);
         assert_eq!((decimal(None), decimal(Some(0.12345))), ("–".to_owned(), "0.123".to_owned()));
         assert_eq!((percent(1, 8), percent(0, 0)), ("12.5 %".to_owned(), "–".to_owned()));
         assert_eq!(ranges(&[0, 1, 2, 7, 9, 10]), "0–2, 7, 9–10");

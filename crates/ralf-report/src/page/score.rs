@@ -16,11 +16,10 @@ const CURVE_POINTS: usize = 500;
 pub(super) fn score(content: &Content, with_truth: &[(&Scored, bool)]) -> Result<Markup, ReportError> {
     let figures = match with_truth {
         [] => html! { p.absent { (NO_TRUTH) } },
-        _ => html! { div.figures {
-            (curve(with_truth)?)
-            (reliability(content, with_truth)?)
-            (settings(content, with_truth)?)
-        } },
+        _ => html! {
+            div.figures { (curve(with_truth)?) (reliability(content, with_truth)?) }
+            div.beside { (settings(content, with_truth)?) }
+        },
     };
     Ok(html! { section #score { h2 { "The plausibility as a score" } (figures) } })
 }
