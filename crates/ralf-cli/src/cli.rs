@@ -1,6 +1,6 @@
 //! What can be typed.
 
-use crate::commands::{convert, depth, evaluate, inspect, label, plot, tune};
+use crate::commands::{convert, depth, evaluate, inspect, label, plot, report, tune};
 use clap::{Args, Parser, Subcommand};
 use std::path::PathBuf;
 
@@ -17,6 +17,7 @@ Examples:
   ralf plot recordings/city out --sequence 00 --scan 17 -o scan.png
   ralf evaluate out --truth recordings/city
   ralf tune recordings/city -o ralf.toml --train 00,01 --test 02
+  ralf report recordings/city out -o report.html
 
 Exit status: 0 done; 1 failed; 2 wrong usage; 3 done, but some scans are left out (each is named)."
 )]
@@ -39,6 +40,8 @@ pub(crate) enum Command {
     Tune(tune::TuneArgs),
     /// Draw labelled scans from above
     Plot(plot::PlotArgs),
+    /// Write one page about a labelled recording: figures, curves, pictures
+    Report(report::ReportArgs),
     /// Write a recording of another format in RALF's own layout
     Convert(convert::ConvertArgs),
     /// Print a completion script for a shell

@@ -51,6 +51,14 @@ pub struct GroundTruth {
 impl GroundTruth {
     /// Finds all scans with truth below a dataset's folder; none at all is an error. Only label files are needed.
     pub fn open(dataset: &Path) -> Result<Self, DataError> {
+        let place = format!("*/ground_truth/*/NNNNNN.{EXTENSION}");
+        let none =
+            || DataError::content(&dataset.join("sequences"), place, "files of corrected labels", "none");
+        Self::find(dataset)?.ok_or_else(none)
+    }
+
+    /// Finds all scans with truth below a dataset's folder; `None` where there are none.
+    pub fn find(dataset: &Path) -> Result<Option<Self>, DataError> {
         let sequences = dataset.join("sequences");
         let mut scans = Vec::new();
         for sequence in files::folders(&sequences)? {
@@ -61,12 +69,14 @@ impl GroundTruth {
                 scans.extend(numbers.into_iter().map(id));
             }
         }
-        if scans.is_empty() {
-            let place = format!("*/ground_truth/*/NNNNNN.{EXTENSION}");
-            return Err(DataError::content(&sequences, place, "files of corrected labels", "none"));
-        }
         scans.sort_unstable();
-        Ok(Self { dataset: dataset.to_owned(), scans })
+        Ok((!scans.is_empty()).then(|| Self { dataset: dataset.to_owned(), scans }))
+    }
+
+    /// The same truth of these sequences alone; `None` where that leaves no scan.
+    pub fn of_sequences(mut self, names: &[&str]) -> Option<Self> {
+        self.scans.retain(|scan| names.contains(&scan.sequence.as_str()));
+        (!self.scans.is_empty()).then_some(self)
     }
 
     /// The scans with truth, in order.
@@ -136,6 +146,18 @@ mod tests {
         assert!(refusal().ends_with(expected), "{}", refusal());
         fs::create_dir_all(folder.path().join("sequences/00/ground_truth/radar_front")).unwrap();
         assert!(refusal().ends_with(expected), "{}", refusal());
+    }
+
+    #[test]
+    fn truth_may_be_looked_for_and_narrowed() {
+        let folder = tempfile::tempdir().unwrap();
+        assert!(GroundTruth::find(folder.path()).unwrap().is_none());
+        put(folder.path(), "00/ground_truth/a/000000.label");
+        put(folder.path(), "01/ground_truth/a/000000.label");
+        let truth = GroundTruth::find(folder.path()).unwrap().unwrap();
+        let narrowed = truth.clone().of_sequences(&["01", "02"]).unwrap();
+        assert_eq!(narrowed.scans(), &truth.scans()[1..]);
+        assert!(truth.of_sequences(&["02"]).is_none());
     }
 
     #[test]

@@ -19,6 +19,7 @@
 //! ```
 
 mod balance;
+mod causes;
 pub mod depth;
 mod error;
 mod evaluation;
@@ -41,6 +42,7 @@ mod testing;
 mod view_of_delft;
 
 pub use balance::{Balance, Balances};
+pub use causes::Causes;
 pub use error::DataError;
 pub use evaluation::Comparison;
 pub use evidence::{SequenceEvidence, gather_evidence};

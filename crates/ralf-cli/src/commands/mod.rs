@@ -6,6 +6,7 @@ pub(crate) mod evaluate;
 pub(crate) mod inspect;
 pub(crate) mod label;
 pub(crate) mod plot;
+pub(crate) mod report;
 pub(crate) mod tune;
 
 use crate::Outcome;
@@ -20,6 +21,7 @@ pub(crate) fn dispatch(arguments: Cli) -> anyhow::Result<Outcome> {
         Command::Label(arguments) => label::run(&arguments),
         Command::Evaluate(arguments) => evaluate::run(&arguments),
         Command::Plot(arguments) => plot::run(&arguments),
+        Command::Report(arguments) => report::run(&arguments),
         Command::Convert(arguments) => convert::run(&arguments),
         Command::Depth(arguments) => depth::run(&arguments),
         Command::Tune(arguments) => tune::run(&arguments),

@@ -21,6 +21,14 @@ pub struct LabelledRows {
     pub x: Vec<f32>,
     /// Vehicle frame at the scan's time, m; NaN where absent.
     pub y: Vec<f32>,
+    /// As measured, m; NaN where absent.
+    pub range: Vec<f32>,
+    /// As measured, rad; NaN where absent.
+    pub azimuth: Vec<f32>,
+    /// Plausibility by LiDAR or camera; NaN where absent.
+    pub w_opt: Vec<f32>,
+    /// Plausibility by tracking; NaN where absent.
+    pub w_tr: Vec<f32>,
     /// Plausibility.
     pub w: Vec<f32>,
     /// 1 plausible, 0 artifact.
@@ -61,6 +69,10 @@ fn append_group(rows: &mut LabelledRows, group: &dyn RowGroupReader) -> Result<(
     rows.scan.extend(integers("scan")?.map(|scan| scan.cast_unsigned() as usize));
     rows.x.extend(decimals("x")?);
     rows.y.extend(decimals("y")?);
+    rows.range.extend(decimals("range")?);
+    rows.azimuth.extend(decimals("azimuth")?);
+    rows.w_opt.extend(decimals("w_opt")?);
+    rows.w_tr.extend(decimals("w_tr")?);
     rows.w.extend(decimals("w")?);
     rows.label.extend(integers("label")?.map(|label| label as u8));
     rows.flags.extend(integers("flags")?.map(|flags| flags as u16));

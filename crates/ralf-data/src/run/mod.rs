@@ -12,6 +12,7 @@ mod workers;
 mod workspace;
 
 pub use record::{CameraRecord, ImageRecord, NotLabelled, RadarRecord, RunRecord, SequenceRecord};
+pub use workspace::read_record;
 
 use crate::output::Columns;
 use crate::{DataError, Recording, SequenceReader, layout};

@@ -174,6 +174,16 @@ impl Workspace {
     }
 }
 
+/// The record of a finished run in the folder `out`.
+///
+/// # Errors
+/// No `run.json`, or one that this version of the program can't read.
+pub fn read_record(out: &Path) -> Result<RunRecord, DataError> {
+    let file = out.join(RECORD);
+    let missing = || DataError::content(out, RECORD, "the record of a finished `ralf label`", "no such file");
+    read_json(&file)?.ok_or_else(missing)
+}
+
 fn read_json<T: DeserializeOwned>(file: &Path) -> Result<Option<T>, DataError> {
     if !file.exists() {
         return Ok(None);

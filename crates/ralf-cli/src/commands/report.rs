@@ -1,0 +1,45 @@
+//! `ralf report`: one page about a labelled recording.
+
+use crate::Outcome;
+use crate::cli::DatasetArgs;
+use crate::progress::say;
+use clap::Args;
+use ralf_report::Report;
+use std::path::PathBuf;
+
+/// What `ralf report` takes.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+The page is one file that needs nothing else. It compares the labels with the recording's corrected ones where there are
+some, and tells what the labels say by themselves where there are none.
+
+Examples:
+  ralf report recordings/city out -o report.html
+  ralf report recordings/city out --sequence 00 --sequence 03 --scans-per-sequence 12 -o report.html")]
+pub(crate) struct ReportArgs {
+    #[command(flatten)]
+    dataset: DatasetArgs,
+    /// What `ralf label` wrote
+    #[arg(value_name = "OUT")]
+    labels: PathBuf,
+    /// The page (HTML)
+    #[arg(short, long, value_name = "FILE")]
+    output: PathBuf,
+    /// Scans of each sequence that are drawn: a third of them the most uncertain, the others evenly spread
+    #[arg(long, value_name = "N", default_value_t = 6)]
+    scans_per_sequence: usize,
+}
+
+/// Writes the page.
+pub(crate) fn run(arguments: &ReportArgs) -> anyhow::Result<Outcome> {
+    let recording = arguments.dataset.open()?;
+    let report = Report {
+        recording: &recording,
+        out: &arguments.labels,
+        scans_per_sequence: arguments.scans_per_sequence,
+    };
+    let html = report.html(&|step| say(step))?;
+    ralf_data::write_whole(&arguments.output, html.as_bytes())?;
+    say(&format!("wrote {}", arguments.output.display()));
+    Ok(Outcome::Done)
+}

@@ -1,0 +1,121 @@
+//! What the plausibility `w` is worth beyond the label: precision and recall over the threshold, and reliability.
+
+use crate::scored::Scored;
+
+/// Bins of the reliability curve and the histogram.
+pub(crate) const BINS: usize = 20;
+
+/// Precision and recall of plausible detections at one threshold.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Point {
+    /// Share of what is plausible that passes.
+    pub(crate) recall: f64,
+    /// Share of what passes that is plausible.
+    pub(crate) precision: f64,
+}
+
+/// One bin of `w`.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub(crate) struct Bin {
+    /// Detections in it.
+    pub(crate) count: usize,
+    /// Of these truly plausible, or labelled so.
+    pub(crate) plausible: usize,
+}
+
+impl Bin {
+    /// The plausible share; `None` of an empty bin.
+    pub(crate) fn share(&self) -> Option<f64> {
+        (self.count > 0).then(|| self.plausible as f64 / self.count as f64)
+    }
+}
+
+/// Precision over recall for every threshold that makes a difference, by rising recall. Floor detections and unobserved ones
+/// never pass, as in the method.
+pub(crate) fn precision_recall(detections: &[(&Scored, bool)]) -> Vec<Point> {
+    let positives = detections.iter().filter(|(_, truth)| *truth).count();
+    let may_pass = detections.iter().filter(|(scored, _)| scored.may_be_plausible());
+    let mut ranked: Vec<(f32, bool)> = may_pass.map(|(scored, truth)| (scored.w, *truth)).collect();
+    ranked.sort_unstable_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
+    let (mut points, mut tp, mut passed) = (Vec::new(), 0_usize, 0_usize);
+    if positives == 0 {
+        return points;
+    }
+    for tie in ranked.chunk_by(|a, b| a.0 == b.0) {
+        tp += tie.iter().filter(|(_, truth)| *truth).count();
+        passed += tie.len();
+        let (recall, precision) = (tp as f64 / positives as f64, tp as f64 / passed as f64);
+        points.push(Point { recall, precision });
+    }
+    points
+}
+
+/// The area under the curve: average precision, the sum of precision times the step in recall.
+pub(crate) fn average_precision(points: &[Point]) -> f64 {
+    let mut before = 0.0;
+    let step = |point: &Point| {
+        let area = (point.recall - before) * point.precision;
+        before = point.recall;
+        area
+    };
+    points.iter().map(step).sum()
+}
+
+/// Of so many points about as many as a chart can show, the last one among them.
+pub(crate) fn thinned(points: &[Point], wanted: usize) -> Vec<Point> {
+    let every = points.len().div_ceil(wanted.max(1)).max(1);
+    let last = points.len().checked_sub(1).filter(|last| last % every != 0);
+    points.iter().step_by(every).chain(last.map(|last| &points[last])).copied().collect()
+}
+
+/// Detections by `w`, from 0 to 1.
+pub(crate) fn by_plausibility(detections: impl IntoIterator<Item = (f32, bool)>) -> [Bin; BINS] {
+    let mut bins = [Bin::default(); BINS];
+    for (w, plausible) in detections {
+        let bin = &mut bins[((f64::from(w) * BINS as f64) as usize).min(BINS - 1)];
+        bin.count += 1;
+        bin.plausible += usize::from(plausible);
+    }
+    bins
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn scored(w: f32, flags: u16) -> Scored {
+        let (range, azimuth, w_opt, w_tr, gamma) = (1.0, 0.0, w, w, 1.0);
+        Scored { range, azimuth, w_opt, w_tr, w, gamma, plausible: false, flags, truth: None, cause: None }
+    }
+
+    /// By hand: 0.9 plausible, then two at 0.5 of which one is, a floor detection that never passes.
+    #[test]
+    fn ties_pass_together_and_floor_detections_never() {
+        let seen =
+            [(scored(0.9, 0), true), (scored(0.5, 0), false), (scored(0.5, 0), true), (scored(0.0, 1), true)];
+        let seen: Vec<_> = seen.iter().map(|(scored, truth)| (scored, *truth)).collect();
+        let found = precision_recall(&seen);
+        let third = 1.0 / 3.0;
+        let expected = [(third, 1.0), (2.0 * third, 2.0 * third)];
+        assert_eq!(found.iter().map(|p| (p.recall, p.precision)).collect::<Vec<_>>(), expected);
+        assert!((average_precision(&found) - (third + third * 2.0 * third)).abs() < 1e-12);
+        assert!(precision_recall(&[(&scored(0.9, 0), false)]).is_empty());
+    }
+
+    #[test]
+    fn thinning_keeps_both_ends() {
+        let points: Vec<_> = (0..1000).map(|i| Point { recall: f64::from(i), precision: 1.0 }).collect();
+        let found = thinned(&points, 100);
+        assert!(found.len() <= 101);
+        assert_eq!((found[0].recall, found[found.len() - 1].recall), (0.0, 999.0));
+        assert!(thinned(&[], 10).is_empty());
+    }
+
+    #[test]
+    fn both_ends_of_w_have_their_bin() {
+        let bins = by_plausibility([(0.0, false), (1.0, true), (0.974, false), (0.976, false)]);
+        assert_eq!((bins[0].count, bins[BINS - 1].count), (1, 3));
+        assert_eq!(bins[BINS - 1].share(), Some(1.0 / 3.0));
+        assert_eq!(bins[5].share(), None);
+    }
+}

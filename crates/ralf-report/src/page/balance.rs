@@ -1,0 +1,46 @@
+//! What the labels say by themselves: class balance and distinctiveness.
+
+use super::number::{decimal, grouped, percent};
+use super::{figure, swatch};
+use crate::content::Content;
+use crate::curves::by_plausibility;
+use crate::{ReportError, chart};
+use maud::{Markup, html};
+use ralf_data::Balance;
+
+pub(super) fn balance(content: &Content) -> Result<Markup, ReportError> {
+    let bins = by_plausibility(content.detections.all.iter().map(|scored| (scored.w, scored.plausible)));
+    let histogram = chart::histogram(&bins)?;
+    let caption =
+        html! { (swatch("plausible")) "labelled plausible " (swatch("artifact")) "labelled artifact" };
+    Ok(html! {
+        section #balance {
+            h2 { "Class balance and distinctiveness" }
+            p { "These need no corrected labels. Distinctiveness is the mean plausibility w of what is labelled plausible minus that of "
+                "what is labelled artifact: 1 where the method is certain of everything." }
+            div.scroll { table.bars {
+                thead { tr { th scope="col" { "Sequence" } th scope="col" { "Detections" } th scope="col" { "Plausible" } th {} th scope="col" { "Distinctiveness" } } }
+                tbody {
+                    (row("Overall", &content.balance, "total"))
+                    @if content.sequences.len() > 1 {
+                        @for sequence in &content.sequences { (row(&sequence.name, &sequence.balance, "")) }
+                    }
+                }
+            } }
+            (figure("Plausibility of all detections", histogram, caption))
+        }
+    })
+}
+
+fn row(name: &str, balance: &Balance, class: &str) -> Markup {
+    let width = 100.0 * balance.plausible_share.unwrap_or(0.0);
+    html! {
+        tr class=(class) {
+            th scope="row" { (name) }
+            td { (grouped(balance.detections)) }
+            td { (percent(balance.plausible, balance.detections)) }
+            td.bar.whole { span.plausible style={ "width:" (format!("{width:.1}")) "%" } {} }
+            td { (decimal(balance.distinctiveness)) }
+        }
+    }
+}

@@ -1,0 +1,129 @@
+//! What was missing while the labels were made: flags, failed cameras, scans without labels.
+
+use super::number::{grouped, percent, ranges};
+use crate::content::Content;
+use maud::{Markup, html};
+use ralf::camera::{Failure, ViewState};
+use ralf::labeler::flag;
+use ralf_data::run::{CameraRecord, RadarRecord};
+
+/// Flags that tell of something missing in a whole scan, then those that are everyday.
+const FLAGS: [(u16, &str); 6] = [
+    (flag::NO_LIDAR, "no LiDAR scan near in time"),
+    (flag::NO_NEIGHBOURS, "no neighbouring radar scan"),
+    (flag::CAMERA_FAILED, "in a failed camera view"),
+    (flag::UNOBSERVED, "seen by no branch"),
+    (flag::BLIND_SPOT, "in the LiDAR’s blind spot"),
+    (flag::GROUND, "on the ground"),
+];
+const FAILURES: [(Failure, &str); 5] = [
+    (Failure::Unusable, "unusable"),
+    (Failure::NoScan, "no LiDAR scan"),
+    (Failure::Dark, "too dark"),
+    (Failure::FewSamples, "too few samples"),
+    (Failure::Residual, "depth too far off"),
+];
+
+pub(super) fn health(content: &Content) -> Markup {
+    html! {
+        section #health {
+            h2 { "Flagged scans and failed cameras" }
+            (flags(content))
+            (scans_to_look_at(content))
+            (cameras(content))
+            (not_labelled(content))
+        }
+    }
+}
+
+fn flags(content: &Content) -> Markup {
+    let all = content.detections.all.len() as u64;
+    html! {
+        table.bars {
+            thead { tr { th scope="col" { "Detections" } th scope="col" { "Number" } th scope="col" { "Share" } th {} } }
+            tbody { @for (bit, name) in FLAGS {
+                @let count = content.detections.all.iter().filter(|scored| scored.flags & bit != 0).count() as u64;
+                @let width = 100.0 * count as f64 / all.max(1) as f64;
+                tr {
+                    th scope="row" { (name) }
+                    td { (grouped(count)) }
+                    td { (percent(count, all)) }
+                    td.bar { span.neutral style={ "width:" (format!("{width:.1}")) "%" } {} }
+                }
+            } }
+        }
+    }
+}
+
+/// Scans of a radar that have a flag of a whole scan.
+fn flagged(radar: &RadarRecord, bit: u16) -> Vec<usize> {
+    (0..radar.flags.len()).filter(|scan| radar.flags[*scan] & bit != 0).collect()
+}
+
+fn scans_to_look_at(content: &Content) -> Markup {
+    let sequences = content.record.sequences.iter();
+    let radars =
+        sequences.flat_map(|sequence| sequence.radars.iter().map(|radar| (sequence.name.as_str(), radar)));
+    let found: Vec<_> = radars
+        .flat_map(|(sequence, radar)| {
+            FLAGS[..2]
+                .iter()
+                .map(move |(bit, why)| (sequence, radar.name.as_str(), flagged(radar, *bit), *why))
+        })
+        .filter(|(_, _, scans, _)| !scans.is_empty())
+        .collect();
+    html! {
+        h3 { "Scans for which a sensor was missing" }
+        @if found.is_empty() { p.absent { "None." } }
+        @else {
+            div.scroll { table.plain {
+                thead { tr { th scope="col" { "Sequence" } th scope="col" { "Radar" } th scope="col" { "Missing" } th scope="col" { "Scans" } } }
+                tbody { @for (sequence, radar, scans, why) in found {
+                    tr { td { (sequence) } td { (radar) } td { (why) } td { (ranges(&scans)) } }
+                } }
+            } }
+        }
+    }
+}
+
+fn cameras(content: &Content) -> Markup {
+    let sequences = content.record.sequences.iter();
+    let found: Vec<_> = sequences
+        .flat_map(|sequence| sequence.cameras.iter().map(|camera| (sequence.name.as_str(), camera)))
+        .filter(|(_, camera)| !camera.images.is_empty())
+        .collect();
+    html! {
+        h3 { "Cameras" }
+        @if found.is_empty() { p.absent { "No camera was asked." } }
+        @else {
+            div.scroll { table.plain {
+                thead { tr { th scope="col" { "Sequence" } th scope="col" { "Camera" } th scope="col" { "Images" } th scope="col" { "Views" }
+                    @for (_, name) in FAILURES { th scope="col" { (name) } } } }
+                tbody { @for (sequence, camera) in found {
+                    tr {
+                        td { (sequence) } td { (camera.name) } td { (camera.images.len()) } td { (states(camera).count()) }
+                        @for (failure, _) in FAILURES {
+                            td { (states(camera).filter(|state| *state == ViewState::Failed(failure)).count()) }
+                        }
+                    }
+                } }
+            } }
+        }
+    }
+}
+
+fn states(camera: &CameraRecord) -> impl Iterator<Item = ViewState> {
+    camera.images.iter().flat_map(|image| &image.views).map(|view| view.state)
+}
+
+fn not_labelled(content: &Content) -> Markup {
+    let found: Vec<_> = content.record.not_labelled().collect();
+    html! {
+        @if !found.is_empty() {
+            h3 { "Scans without labels" }
+            ul { @for (sequence, scan) in found {
+                li { (sequence) "/" (scan.radar) "/" (scan.scan) ": " (scan.reason) }
+            } }
+        }
+    }
+}

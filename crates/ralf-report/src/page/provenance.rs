@@ -1,0 +1,26 @@
+//! What the labels were made with, so that they can be made again.
+
+use super::number::grouped;
+use crate::content::Content;
+use maud::{Markup, html};
+
+pub(super) fn provenance(content: &Content) -> Markup {
+    let record = &content.record;
+    let bytes: u64 = record.inputs.iter().map(|input| input.bytes).sum();
+    html! {
+        section #provenance {
+            h2 { "Provenance" }
+            dl.facts {
+                dt { "Program" } dd { "ralf " (record.version) }
+                dt { "Format" } dd { (record.format) }
+                dt { "Inputs" } dd { (grouped(record.inputs.len() as u64)) " files, " (grouped(bytes)) " bytes" }
+                dt { "Fingerprint" } dd { code { (record.fingerprint) } }
+            }
+            details {
+                summary { "All settings" }
+                pre { (format!("{:#?}", record.settings)) }
+            }
+            footer { p { "Method: S. T. Isele et al., Radar Artifact Labeling Framework (RALF), VEHITS 2021." } }
+        }
+    }
+}

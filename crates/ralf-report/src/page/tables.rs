@@ -1,0 +1,93 @@
+//! Labels against corrected ones: the paper's table (tab. data_set) and its confusion matrix (tab. conf_mat).
+
+use super::NO_TRUTH;
+use super::number::{decimal, grouped, percent};
+use crate::content::Content;
+use maud::{Markup, html};
+use ralf::metrics::{Confusion, Evaluation, Rates, Scores};
+use ralf_data::Comparison;
+
+const COLUMNS: [&str; 7] =
+    ["Accuracy", "Precision", "Recall", "F1 plausible", "Mean IoU", "IoU plausible", "IoU artifact"];
+/// The first row of the paper's tab. data_set: the mean of 2,704 scans.
+const PAPER: [f64; 7] = [0.873, 0.826, 0.779, 0.675, 0.682, 0.510, 0.854];
+const PAPER_SCANS: u64 = 2704;
+
+pub(super) fn agreement(content: &Content) -> Markup {
+    html! {
+        section #agreement {
+            h2 { "Agreement with corrected labels" }
+            @match &content.comparison {
+                None => p.absent { (NO_TRUTH) }
+                Some(comparison) => (compared(comparison))
+            }
+        }
+    }
+}
+
+fn compared(comparison: &Comparison) -> Markup {
+    let evaluation = comparison.evaluation();
+    let Scores { scan_mean, pooled } = &evaluation.overall;
+    html! {
+        p { "Precision, recall and mean IoU are means over the two classes. The paper's row is the mean over its own test data, "
+            "recorded with other sensors in other places: a yardstick, not a contest." }
+        (table(&evaluation, "Mean over scans", true, |scores| scores.scan_mean.rates))
+        (table(&evaluation, "All detections together", false, |scores| scores.pooled.rates))
+        h3 { "Confusion matrix" }
+        (confusion(&pooled.counts))
+        p.note { "Matthews’ correlation: " (decimal(pooled.rates.mcc)) " over all detections together, "
+            (decimal(scan_mean.rates.mcc)) " as the mean over scans." }
+        @if !comparison.without_truth.is_empty() {
+            p.note { "Left out for want of corrected labels: sequences " (comparison.without_truth.join(", ")) "." }
+        }
+        @if !comparison.missing.is_empty() {
+            p.note { "Left out for want of labels: " (comparison.missing.len()) " scans that have corrected ones." }
+        }
+    }
+}
+
+fn table(evaluation: &Evaluation, title: &str, with_paper: bool, rates: fn(&Scores) -> Rates) -> Markup {
+    html! {
+        div.scroll { table.metrics {
+            caption { (title) }
+            thead { tr { th scope="col" { "Sequence" } th scope="col" { "Scans" } @for name in COLUMNS { th scope="col" { (name) } } } }
+            tbody {
+                tr.total { th scope="row" { "Overall" } td { (grouped(evaluation.scans() as u64)) } (cells(rates(&evaluation.overall))) }
+                @if with_paper {
+                    tr.paper {
+                        th scope="row" { "Paper, on other data" } td { (grouped(PAPER_SCANS)) }
+                        @for value in PAPER { td { (decimal(Some(value))) } }
+                    }
+                }
+                @for (name, sequence) in &evaluation.sequences {
+                    tr { th scope="row" { (name) } td { (grouped(sequence.scans as u64)) } (cells(rates(&sequence.scores))) }
+                }
+            }
+        } }
+    }
+}
+
+fn cells(rates: Rates) -> Markup {
+    let Rates { accuracy, precision, recall, f1_plausible, mean_iou, iou_plausible, iou_artifact, .. } =
+        rates;
+    html! {
+        @for value in [accuracy, precision, recall, f1_plausible, mean_iou, iou_plausible, iou_artifact] {
+            td { (decimal(value)) }
+        }
+    }
+}
+
+fn confusion(counts: &Confusion) -> Markup {
+    let cell = |count: u64, class: &str| {
+        html! { td class=(class) { strong { (grouped(count)) } span { (percent(count, counts.total())) } } }
+    };
+    html! {
+        div.scroll { table.confusion {
+            thead { tr { td {} th scope="col" { "truly plausible" } th scope="col" { "truly artifact" } } }
+            tbody {
+                tr { th scope="row" { "labelled plausible" } (cell(counts.tp, "right")) (cell(counts.fp, "wrong")) }
+                tr { th scope="row" { "labelled artifact" } (cell(counts.r#fn, "wrong")) (cell(counts.tn, "right")) }
+            }
+        } }
+    }
+}

@@ -1,0 +1,200 @@
+//! Pictures of a labelled sequence from above, with everything that belongs on them gathered: detections of all radars,
+//! LiDAR returns, the vehicle's path.
+
+use crate::ReportError;
+use ralf::geometry::{Point, Transform, Vector};
+use ralf::measurement::is_return;
+use ralf::rig::Radar;
+use ralf::source::Sequence;
+use ralf::sync;
+use ralf_data::SequenceReader;
+use ralf_data::output::LabelledRows;
+use ralf_plot::{
+    Extent, Mark, MarkLabel, OverviewPicture, RadarMount, ScanPicture, overview_picture, scan_picture,
+};
+
+/// A LiDAR scan farther from the radar scan than this is not drawn with it, ns.
+const LIDAR_TOLERANCE_NS: i64 = 60_000_000;
+/// Scans of a LiDAR that an overview draws at most, and points of each.
+const OVERVIEW_LIDAR: (usize, usize) = (40, 20_000);
+
+/// What a picture of a scan tells of its detections.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Detections {
+    /// Where they are.
+    Raw,
+    /// Where they are, and which are plausible.
+    Labelled,
+}
+
+/// Draws one labelled sequence.
+pub struct Pictures<'a> {
+    /// The sequence.
+    pub reader: &'a dyn SequenceReader,
+    /// Its labels.
+    pub rows: &'a LabelledRows,
+    /// Only this radar; all of them if `None`.
+    pub radar: Option<&'a str>,
+    /// Which part of the ground is shown.
+    pub extent: Extent,
+}
+
+impl Pictures<'_> {
+    fn sequence(&self) -> &Sequence {
+        self.reader.sequence()
+    }
+
+    /// Index of the radar asked for, or of the first.
+    fn first_radar(&self) -> Result<usize, ReportError> {
+        let radars = &self.sequence().rig.radars;
+        radars.iter().position(|radar| self.shows(&radar.name)).ok_or_else(|| {
+            let names: Vec<_> = radars.iter().map(|radar| radar.name.as_str()).collect();
+            let expected = format!("a radar of {}", names.join(", "));
+            ReportError::Unknown { expected, found: format!("{:?}", self.radar.unwrap_or_default()) }
+        })
+    }
+
+    fn shows(&self, radar: &str) -> bool {
+        self.radar.is_none_or(|wanted| wanted == radar)
+    }
+
+    /// One scan of the radar asked for, or of the first, with the other radars' scans nearest to it in time; PNG.
+    ///
+    /// # Errors
+    /// No such radar or scan, a LiDAR scan that can't be read, or a width outside its range.
+    pub fn scan(&self, scan: usize, shown: Detections, width: u32) -> Result<Vec<u8>, ReportError> {
+        let (sequence, radar) = (self.sequence(), self.first_radar()?);
+        let times = &sequence.times.radars;
+        let t_ns = *times[radar].get(scan).ok_or_else(|| {
+            let (name, count) = (&sequence.rig.radars[radar].name, times[radar].len());
+            let expected = format!("a scan of {name} from 0 to {}", count.saturating_sub(1));
+            ReportError::Unknown { expected, found: scan.to_string() }
+        })?;
+        let marks = self.marks_at(t_ns, shown);
+        let radars: Vec<_> =
+            sequence.rig.radars.iter().filter(|radar| self.shows(&radar.name)).map(mount).collect();
+        let who = self.radar.unwrap_or("all radars");
+        Ok(scan_picture(&ScanPicture {
+            title: &format!("{}, scan {scan}", sequence.name),
+            subtitle: &format!("{who}, {:.2} s into the sequence", self.seconds_into(t_ns)),
+            width,
+            extent: self.extent,
+            lidar: &self.lidar_at(t_ns)?,
+            marks: &marks,
+            radars: &radars,
+            ..ScanPicture::default()
+        })?)
+    }
+
+    /// All scans, raw beside those labelled plausible; PNG.
+    ///
+    /// # Errors
+    /// No such radar, a LiDAR scan that can't be read, or a width outside its range.
+    pub fn overview(&self, half_width: u32) -> Result<Vec<u8>, ReportError> {
+        self.first_radar()?;
+        let sequence = self.sequence();
+        let times = &sequence.times.radars;
+        let marks: Vec<_> = (0..self.rows.scan.len())
+            .filter_map(|row| {
+                let t_ns = *times[self.radar_of(row)?].get(self.rows.scan[row])?;
+                Some(self.mark(row, &sequence.motion.odom_from_vehicle(t_ns), Detections::Labelled))
+            })
+            .collect();
+        let mut moments: Vec<_> = times.iter().flatten().copied().collect();
+        moments.sort_unstable();
+        let place = |t_ns: &i64| sequence.motion.odom_from_vehicle(*t_ns).translation.vector;
+        let path: Vec<_> = moments.iter().map(place).map(|place| [place.x, place.y]).collect();
+        Ok(overview_picture(&OverviewPicture {
+            title: &format!("{}: {}", sequence.name, sequence.title),
+            subtitle: &format!("{} scans accumulated", moments.len()),
+            half_width,
+            extent: self.extent,
+            lidar: &self.lidar_over_time()?,
+            marks: &marks,
+            path: &path,
+        })?)
+    }
+
+    /// The detections of each radar's scan nearest to a time, in the vehicle frame there.
+    fn marks_at(&self, t_ns: i64, shown: Detections) -> Vec<Mark> {
+        let Sequence { times, motion, .. } = self.sequence();
+        let nearest: Vec<_> = times.radars.iter().map(|times| sync::nearest(times, t_ns, i64::MAX)).collect();
+        let mark = |row: usize| {
+            let radar = self.radar_of(row)?;
+            let scan = nearest[radar].filter(|scan| *scan == self.rows.scan[row])?;
+            Some(self.mark(row, &motion.between(t_ns, times.radars[radar][scan]), shown))
+        };
+        (0..self.rows.scan.len()).filter_map(mark).collect()
+    }
+
+    /// Index of a row's radar in the rig; `None` of one that isn't drawn.
+    fn radar_of(&self, row: usize) -> Option<usize> {
+        let name = &self.rows.radars[self.rows.radar[row]];
+        self.sequence().rig.radars.iter().position(|radar| radar.name == *name && self.shows(name))
+    }
+
+    fn mark(&self, row: usize, to_from_vehicle: &Transform, shown: Detections) -> Mark {
+        let p = to_from_vehicle * Point::new(self.rows.x[row].into(), self.rows.y[row].into(), 0.0);
+        let label = match (shown, self.rows.label[row]) {
+            (Detections::Raw, _) => MarkLabel::Unlabelled,
+            (Detections::Labelled, 1) => MarkLabel::Plausible,
+            (Detections::Labelled, _) => MarkLabel::Artifact,
+        };
+        Mark { x: p.x, y: p.y, label }
+    }
+
+    fn seconds_into(&self, t_ns: i64) -> f64 {
+        let first = self.sequence().times.radars.iter().flatten().min();
+        first.map_or(0.0, |first| t_ns.abs_diff(*first) as f64 * 1e-9)
+    }
+
+    /// The LiDAR scans nearest to a time, in the vehicle frame there.
+    fn lidar_at(&self, t_ns: i64) -> Result<Vec<[f64; 2]>, ReportError> {
+        let mut points = Vec::new();
+        for (lidar, times) in self.sequence().times.lidars.iter().enumerate() {
+            if let Some(scan) = sync::nearest(times, t_ns, LIDAR_TOLERANCE_NS) {
+                let to_from_vehicle = self.sequence().motion.between(t_ns, times[scan]);
+                self.add_lidar_scan(&mut points, lidar, scan, &to_from_vehicle, usize::MAX)?;
+            }
+        }
+        Ok(points)
+    }
+
+    /// Some scans of each LiDAR, thinned, in the odom frame.
+    fn lidar_over_time(&self) -> Result<Vec<[f64; 2]>, ReportError> {
+        let mut points = Vec::new();
+        let (scans, limit) = OVERVIEW_LIDAR;
+        for (lidar, times) in self.sequence().times.lidars.iter().enumerate() {
+            for scan in (0..times.len()).step_by(times.len().div_ceil(scans).max(1)) {
+                let odom_from_vehicle = self.sequence().motion.odom_from_vehicle(times[scan]);
+                self.add_lidar_scan(&mut points, lidar, scan, &odom_from_vehicle, limit)?;
+            }
+        }
+        Ok(points)
+    }
+
+    fn add_lidar_scan(
+        &self,
+        points: &mut Vec<[f64; 2]>,
+        lidar: usize,
+        scan: usize,
+        to_from_vehicle: &Transform,
+        limit: usize,
+    ) -> Result<(), ReportError> {
+        let to_from_lidar = to_from_vehicle * self.sequence().rig.lidars[lidar].vehicle_from_lidar;
+        let scan = self.reader.lidar_scan(lidar, scan)?;
+        let every = scan.points.len().div_ceil(limit).max(1);
+        let returns = scan.points.iter().step_by(every).filter(|point| is_return(point));
+        points.extend(returns.map(|point| {
+            let p = to_from_lidar * Point::from(point.map(f64::from));
+            [p.x, p.y]
+        }));
+        Ok(())
+    }
+}
+
+fn mount(radar: &Radar) -> RadarMount {
+    let place = radar.vehicle_from_radar.translation.vector;
+    let boresight = radar.vehicle_from_radar.rotation * Vector::x();
+    RadarMount { x: place.x, y: place.y, azimuth: boresight.y.atan2(boresight.x), fov: radar.fov_azimuth }
+}

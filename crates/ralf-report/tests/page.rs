@@ -1,0 +1,190 @@
+//! The page of small recordings, labelled for the test.
+#![allow(clippy::unwrap_used, clippy::print_stdout)]
+
+use ralf::config::Config;
+use ralf_data::run::{LabelRun, Observer, Stage};
+use ralf_data::{Comparison, GroundTruth};
+use ralf_report::Report;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// Says nothing of how a run gets on.
+struct Silent;
+
+impl Observer for Silent {
+    fn begin(&self, _: Stage, _: u64) {}
+    fn advance(&self, _: u64, _: u64) {}
+    fn end(&self) {}
+}
+
+/// One radar without LiDAR: three scans of a wall that stays, and of one detection that is somewhere else each time.
+struct Tiny(tempfile::TempDir);
+
+const TITLE: &str = "<script>alert('mine')</script> & \"more\"";
+
+impl Tiny {
+    fn new() -> Self {
+        let tiny = Self(tempfile::tempdir().unwrap());
+        let title = TITLE.replace('"', "\\\"");
+        tiny.put(
+            "sequence.toml",
+            format!(
+                "format = 1\nname = \"{title}\"\n[[radar]]\nname = \"front\"\nfields = [\"x\", \"y\", \"z\"]\n\
+                 translation = [0.0, 0.0, 1.0]\nquaternion_xyzw = [0.0, 0.0, 0.0, 1.0]\nelevation = \"measured\"\n\
+                 fov_azimuth_deg = 160.0\nfov_elevation_deg = 20.0\nsigma_range_m = 0.1\nsigma_azimuth_deg = 0.5\n\
+                 sigma_elevation_deg = 1.0\n"
+            )
+            .as_bytes(),
+        );
+        tiny.put("odometry.csv", b"t_ns,v_mps,yaw_rate_radps\n0,0.0,0.0\n200000000,0.0,0.0\n");
+        tiny.put("front/timestamps.txt", b"0\n100000000\n200000000\n");
+        for scan in 0..3_u8 {
+            let stray = [8.0, 5.0 * f32::from(scan) - 5.0, 0.0];
+            let points = [[10.0, 1.0, 0.0], [10.0, 1.5, 0.0], stray];
+            let bytes: Vec<u8> = points.iter().flatten().flat_map(|value| value.to_le_bytes()).collect();
+            tiny.put(&format!("front/{scan:06}.bin"), &bytes);
+        }
+        tiny
+    }
+
+    fn dataset(&self) -> PathBuf {
+        self.0.path().join("town")
+    }
+
+    fn out(&self) -> PathBuf {
+        self.0.path().join("out")
+    }
+
+    fn put(&self, name: &str, bytes: &[u8]) {
+        ralf_data::write_whole(&self.dataset().join("sequences/00").join(name), bytes).unwrap();
+    }
+
+    /// The wall is a building, in the last scan unlabeled; strays are artifacts.
+    fn add_truth(&self) {
+        for (scan, ids) in [[50_u32, 50, 1], [50, 50, 1], [0, 50, 1]].iter().enumerate() {
+            let bytes: Vec<u8> = ids.iter().flat_map(|id| id.to_le_bytes()).collect();
+            self.put(&format!("ground_truth/front/{scan:06}.label"), &bytes);
+        }
+    }
+
+    fn page(&self) -> String {
+        page(&self.dataset(), &self.out(), 2)
+    }
+}
+
+fn page(dataset: &Path, out: &Path, scans_per_sequence: usize) -> String {
+    let recording = ralf_data::open(dataset, None).unwrap();
+    let run = LabelRun { recording: &recording, config: &Config::default(), out, jobs: 1 };
+    run.execute(&Silent).unwrap();
+    Report { recording: &recording, out, scans_per_sequence }.html(&|_| ()).unwrap()
+}
+
+#[test]
+fn the_page_tells_what_evaluate_prints() {
+    let tiny = Tiny::new();
+    tiny.add_truth();
+    let page = tiny.page();
+    let truth = GroundTruth::open(&tiny.dataset()).unwrap();
+    let overall = Comparison::new(&tiny.out(), &truth).unwrap().evaluation().overall;
+    for rates in [overall.scan_mean.rates, overall.pooled.rates] {
+        for value in [rates.accuracy, rates.precision, rates.recall, rates.f1_plausible, rates.iou_artifact] {
+            assert!(page.contains(&format!("<td>{:.3}</td>", value.unwrap())), "{value:?}");
+        }
+    }
+    let counts = overall.pooled.counts;
+    assert_eq!(counts.total(), 8);
+    for count in [counts.tp, counts.fp, counts.tn, counts.r#fn] {
+        assert!(page.contains(&format!("<strong>{count}</strong>")), "{count}");
+    }
+    assert!(page.contains("Paper, on other data") && page.contains("<td>0.873</td>"));
+    assert!(page.contains("building") && page.contains("outlier"));
+    assert!(!page.contains("This recording has no corrected labels"));
+}
+
+#[test]
+fn false_positives_have_their_causes() {
+    let tiny = Tiny::new();
+    tiny.add_truth();
+    assert!(tiny.page().contains("The causes of artifacts are not known"));
+    tiny.put("ground_truth/causes.txt", b"none\nclutter & co\n");
+    for scan in 0..3 {
+        tiny.put(&format!("ground_truth/front/{scan:06}.cause"), &[0, 0, 1]);
+    }
+    let page = tiny.page();
+    assert!(page.contains("clutter &amp; co") && !page.contains("clutter & co"));
+}
+
+#[test]
+fn without_truth_the_rest_stands() {
+    let page = Tiny::new().page();
+    assert_eq!(page.matches("This recording has no corrected labels").count(), 3);
+    for part in
+        ["Distinctiveness", "Class balance", "Flagged scans", "no LiDAR scan near in time", "From above"]
+    {
+        assert!(page.contains(part), "{part}");
+    }
+    assert!(!page.contains("Paper, on other data"));
+}
+
+#[test]
+fn what_comes_from_data_is_escaped_and_nothing_is_loaded() {
+    let tiny = Tiny::new();
+    tiny.add_truth();
+    let page = tiny.page();
+    assert!(!page.contains("<script>alert"));
+    assert!(page.contains("&lt;script&gt;alert"));
+    for attribute in ["src=\"", "href=\"", "url(", "@import"] {
+        for (at, _) in page.match_indices(attribute) {
+            let value = &page[at + attribute.len()..][..20];
+            assert!(value.starts_with("data:image/png") || value.starts_with('#'), "{attribute}{value}");
+        }
+    }
+    assert!(page.contains("default-src 'none'"));
+    let folder = tiny.0.path().to_str().unwrap();
+    assert!(!page.contains(folder), "the page tells nothing of the machine");
+}
+
+#[test]
+fn the_same_data_give_the_same_bytes() {
+    let tiny = Tiny::new();
+    tiny.add_truth();
+    let first = tiny.page();
+    fs::remove_dir_all(tiny.out()).unwrap();
+    assert!(tiny.page() == first);
+}
+
+#[test]
+fn as_many_scans_are_drawn_as_asked_for() {
+    let tiny = Tiny::new();
+    for (wanted, drawn) in [(0, 0), (2, 2), (9, 3)] {
+        let page = page(&tiny.dataset(), &tiny.out(), wanted);
+        assert_eq!(page.matches("<figure class=\"scan\"").count(), drawn);
+        // Raw beside labelled, and the overview.
+        assert_eq!(page.matches("data:image/png").count(), 2 * drawn + 1);
+    }
+}
+
+#[test]
+fn results_that_are_missing_are_named() {
+    let tiny = Tiny::new();
+    let recording = ralf_data::open(&tiny.dataset(), None).unwrap();
+    let report = Report { recording: &recording, out: &tiny.out(), scans_per_sequence: 1 };
+    let error = report.html(&|_| ()).unwrap_err().to_string();
+    assert!(error.contains("run.json: expected the record of a finished `ralf label`"), "{error}");
+}
+
+#[test]
+fn a_recording_of_another_format_without_truth() {
+    let Some(root) = std::env::var_os("RALF_TEST_DATA") else {
+        return println!("skipped: RALF_TEST_DATA is not set");
+    };
+    let recording = ralf_data::open(&Path::new(&root).join("nuscenes"), None).unwrap();
+    let first = recording.sequences[0].sequence().name.clone();
+    let recording = recording.select(&[first]).unwrap();
+    let out = tempfile::tempdir().unwrap();
+    let out = out.path().join("out");
+    let run = LabelRun { recording: &recording, config: &Config::default(), out: &out, jobs: 2 };
+    run.execute(&Silent).unwrap();
+    let page = Report { recording: &recording, out: &out, scans_per_sequence: 1 }.html(&|_| ()).unwrap();
+    assert!(page.contains("This recording has no corrected labels") && page.contains("RADAR_FRONT"));
+}
