@@ -31,7 +31,7 @@ pub(super) fn identify(
     observer: &dyn Observer,
 ) -> Result<Vec<Identity>, DataError> {
     let hashes = hash_inputs(recording, jobs, observer)?;
-    let identity = |reader: &Box<dyn SequenceReader>| {
+    let identity = |reader: &dyn SequenceReader| {
         let name = reader.sequence().name.clone();
         // Sorted, and each but once.
         let files: BTreeSet<PathBuf> = reader.inputs().into_iter().collect();
@@ -40,7 +40,7 @@ pub(super) fn identify(
         let fingerprint = fingerprint::of_sequence(run, &name, &inputs);
         Identity { name, fingerprint, inputs }
     };
-    Ok(recording.sequences.iter().map(identity).collect())
+    Ok(recording.sequences.iter().map(|reader| identity(reader.as_ref())).collect())
 }
 
 /// Hashes every input of the recording's sequences: each file once, for sequences may share some.
