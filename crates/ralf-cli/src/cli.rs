@@ -1,6 +1,6 @@
 //! What can be typed.
 
-use crate::commands::{convert, depth, evaluate, inspect, label, plot};
+use crate::commands::{convert, depth, evaluate, inspect, label, plot, tune};
 use clap::{Args, Parser, Subcommand};
 use std::path::PathBuf;
 
@@ -16,6 +16,7 @@ Examples:
   ralf label recordings/city -o out         a plausibility and a label for every detection
   ralf plot recordings/city out --sequence 00 --scan 17 -o scan.png
   ralf evaluate out --truth recordings/city
+  ralf tune recordings/city -o ralf.toml --train 00,01 --test 02
 
 Exit status: 0 done; 1 failed; 2 wrong usage; 3 done, but some scans are left out (each is named)."
 )]
@@ -34,6 +35,8 @@ pub(crate) enum Command {
     Depth(depth::DepthArgs),
     /// Compare labels with corrected ones, or tell what they say by themselves
     Evaluate(evaluate::EvaluateArgs),
+    /// Find the settings that come nearest to corrected labels
+    Tune(tune::TuneArgs),
     /// Draw labelled scans from above
     Plot(plot::PlotArgs),
     /// Write a recording of another format in RALF's own layout

@@ -51,6 +51,7 @@ impl Observer for Bars {
         }
         let bar = match stage {
             Stage::Inputs => bar(steps, BYTES, "hashing inputs".into()),
+            Stage::Matching(sequence) => bar(steps, STEPS, format!("matching {sequence}")),
             Stage::Labelling(sequence) => bar(steps, STEPS, format!("labelling {sequence}")),
             Stage::Writing(sequence) => bar(steps, STEPS, format!("writing {sequence}")),
         };

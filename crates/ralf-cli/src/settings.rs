@@ -4,7 +4,13 @@ use crate::UsageError;
 use anyhow::Context;
 use clap::Args;
 use ralf::config::Config;
+use std::num::NonZeroUsize;
 use std::path::PathBuf;
+
+/// As many threads as asked for, or as there are processors.
+pub(crate) fn threads(jobs: Option<NonZeroUsize>) -> usize {
+    jobs.or_else(|| std::thread::available_parallelism().ok()).map_or(1, NonZeroUsize::get)
+}
 
 /// How the labeler is set.
 #[derive(Debug, Args)]

@@ -76,7 +76,12 @@ impl GroundTruth {
 
     /// The corrected labels of a scan, one per detection.
     pub fn labels(&self, scan: &ScanId) -> Result<Vec<Label>, DataError> {
-        read_labels(&scan.truth_file(&self.dataset))
+        read_labels(&self.file(scan))
+    }
+
+    /// Where they are read from.
+    pub(crate) fn file(&self, scan: &ScanId) -> PathBuf {
+        scan.truth_file(&self.dataset)
     }
 }
 

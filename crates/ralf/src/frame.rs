@@ -33,6 +33,15 @@ pub struct Frame<'a> {
     pub doppler: Option<Vec<f64>>,
 }
 
+impl Frame<'_> {
+    /// The steps of a batch of `n_b` scans before and after, of which the frame may hold more.
+    pub fn steps_within(&self, n_b: usize) -> &[TrackingStep] {
+        let begin = self.steps.partition_point(|step| step.j < 0 && step.j.unsigned_abs() > n_b);
+        let end = self.steps.partition_point(|step| step.j < 0 || step.j.unsigned_abs() <= n_b);
+        &self.steps[begin..end]
+    }
+}
+
 /// Names a measurement: sensor and number.
 type Key = (usize, usize);
 
@@ -69,7 +78,10 @@ impl<'a> FrameWindow<'a> {
     /// All that belongs to one scan of one radar. Fails where that scan, or a LiDAR scan that belongs to it, can't be read;
     /// neighbouring radar scans that can't be read are left out of the batch.
     pub fn frame(&mut self, radar: usize, scan: usize) -> Result<Frame<'a>, SourceError> {
-        let detections = Arc::new(self.locate(radar, scan)?);
+        let detections = match self.radar_scans.get(&(radar, scan)) {
+            Some(Some(known)) => known,
+            _ => Arc::new(self.locate(radar, scan)?),
+        };
         self.radar_scans.insert((radar, scan), Some(detections.clone()));
         let t_ns = detections.t_ns();
         let tracking = &self.config.tracking;
@@ -125,7 +137,8 @@ impl<'a> FrameWindow<'a> {
                 let vehicle_from_scan = motion.between(t_ns, scan.t_ns());
                 (scan, vehicle_from_scan)
             };
-            Some(TrackingStep { t_ns: step_time, clouds: scans.into_iter().map(with_transform).collect() })
+            let clouds = scans.into_iter().map(with_transform).collect();
+            Some(TrackingStep { j: j as isize - scan as isize, t_ns: step_time, clouds })
         };
         batch.into_iter().filter_map(step).collect()
     }

@@ -3,10 +3,9 @@
 use crate::camera::{self, CameraMatch};
 use crate::config::Config;
 use crate::detections::Located;
+use crate::evidence::{Evidence, Verdict, Weights};
 use crate::frame::Frame;
-use crate::fusion::{optical, prioritize};
 use crate::lidar::{self, LidarMatch, LocalGround};
-use crate::mismatch::plausibility;
 use crate::tracking;
 
 /// Why a detection got what it got, as bits.
@@ -70,61 +69,53 @@ impl<'a> Labeler<'a> {
 
     /// The plausibility and label of every detection of a frame, in the scan's order.
     pub fn label(&self, frame: &Frame) -> Vec<DetectionLabel> {
-        let evidence = Evidence {
-            lidar: self.ask_lidar(frame),
-            camera: self.ask_cameras(frame),
-            tracking: self.ask_tracking(frame),
-            absent: self.absent_branches(frame),
-        };
+        let answers = self.ask(frame);
+        let weights = Weights::of(self.config);
         let located = frame.detections.located.iter().enumerate();
         let label = |(i, detection): (usize, &Option<Located>)| match detection {
-            Some(detection) => self.fuse(frame, i, detection, &evidence),
+            Some(detection) => {
+                let evidence = self.evidence_of(frame, i, detection, &answers);
+                answers.label(i, &evidence, &evidence.weigh(&weights))
+            }
             None => DetectionLabel { flags: flag::UNOBSERVED, ..Default::default() },
         };
         located.map(label).collect()
     }
 
-    /// The label of one detection from what the branches say of it.
-    fn fuse(&self, frame: &Frame, i: usize, detection: &Located, evidence: &Evidence) -> DetectionLabel {
-        let Config { ground, lidar, camera, tracking, fusion, .. } = self.config;
-        let is_on = |local: &LocalGround| local.is_floor_detection(frame.radar, detection, ground);
-        let on_floor = frame.ground.as_ref().is_some_and(is_on);
-        let lidar_match = evidence.lidar[i].filter(|_| !on_floor);
+    /// What is known of every detection of a frame before `alpha`, the `beta` and `w0` come in, in the scan's order. `None`
+    /// for a detection whose coordinates are not finite: whatever the weights, it is not plausible.
+    pub fn evidence(&self, frame: &Frame) -> Vec<Option<Evidence>> {
+        let answers = self.ask(frame);
+        let located = frame.detections.located.iter().enumerate();
+        located.map(|(i, found)| Some(self.evidence_of(frame, i, found.as_ref()?, &answers))).collect()
+    }
 
-        // w = exp(-beta d): alg. lidar_matching, and so for the other branches.
-        let d_lm = lidar_match.map(|found| found.d);
-        let d_cm = evidence.camera[i].d.filter(|_| !on_floor);
-        let d_tr = evidence.tracking[i];
-        let w_lm = if on_floor { Some(0.0) } else { d_lm.map(|d| plausibility(lidar.beta, d)) };
-        let w_cm = if on_floor { Some(0.0) } else { d_cm.map(|d| plausibility(camera.beta, d)) };
-        let w_tr = d_tr.map(|d| plausibility(tracking.beta, d));
-
-        // Eq. lidar_blindspot, then eq. priorization.
-        let in_blind_spot = lidar::in_blind_spot(&frame.rig.lidars, &detection.position);
-        let w_opt = optical(in_blind_spot, w_lm, w_cm);
-        let gamma_s = frame.radar.reliability.at(frame.detections.scan.spherical[i].azimuth);
-        let w = prioritize(fusion, w_opt, w_tr, gamma_s);
-
-        DetectionLabel {
-            d_lm,
-            d_cm,
-            d_tr,
-            w_lm,
-            w_cm,
-            w_tr,
-            w_opt,
-            w: w.unwrap_or(0.0),
-            plausible: !on_floor && w.is_some_and(|w| w >= fusion.threshold),
-            flags: evidence.absent
-                | flag::when(on_floor, flag::GROUND)
-                | flag::when(in_blind_spot, flag::BLIND_SPOT)
-                | flag::when(evidence.camera[i].in_failed_view, flag::CAMERA_FAILED)
-                | flag::when(w.is_none(), flag::UNOBSERVED),
-            semantic: lidar_match.and_then(|found| found.semantic),
+    /// Asks all branches.
+    fn ask(&self, frame: &Frame) -> Answers {
+        Answers {
+            lidar: self.ask_lidar(frame),
+            camera: self.ask_cameras(frame),
+            tracking: self.ask_tracking(frame),
+            absent: self.absent_branches(frame),
         }
     }
 
-    fn ask_lidar(&self, frame: &Frame) -> Vec<Option<LidarMatch>> {
+    /// What is known of one detection.
+    fn evidence_of(&self, frame: &Frame, i: usize, detection: &Located, answers: &Answers) -> Evidence {
+        let is_on =
+            |local: &LocalGround| local.is_floor_detection(frame.radar, detection, &self.config.ground);
+        let on_floor = frame.ground.as_ref().is_some_and(is_on);
+        Evidence {
+            d_lm: answers.lidar[i].map(|found| found.d).filter(|_| !on_floor),
+            d_cm: answers.camera[i].d.filter(|_| !on_floor),
+            d_tr: answers.tracking[i],
+            on_floor,
+            in_blind_spot: lidar::in_blind_spot(&frame.rig.lidars, &detection.position),
+            gamma_s: frame.radar.reliability.at(frame.detections.scan.spherical[i].azimuth),
+        }
+    }
+
+    pub(crate) fn ask_lidar(&self, frame: &Frame) -> Vec<Option<LidarMatch>> {
         match &frame.lidar {
             Some(view) if self.config.lidar.enabled => {
                 lidar::match_detections(frame.radar, &frame.detections, view, self.config.lidar.neighbours)
@@ -137,8 +128,9 @@ impl<'a> Labeler<'a> {
         camera::match_detections(frame.radar, &frame.detections, &frame.images, &self.config.camera)
     }
 
-    fn ask_tracking(&self, frame: &Frame) -> Vec<Option<f64>> {
-        let Frame { radar, detections, steps, doppler, .. } = frame;
+    pub(crate) fn ask_tracking(&self, frame: &Frame) -> Vec<Option<f64>> {
+        let Frame { radar, detections, doppler, .. } = frame;
+        let steps = frame.steps_within(self.config.tracking.scans);
         tracking::match_detections(radar, detections, steps, doppler.as_deref(), &self.config.tracking)
     }
 
@@ -150,10 +142,35 @@ impl<'a> Labeler<'a> {
 }
 
 /// What each branch says of a scan: one entry per detection.
-struct Evidence {
+struct Answers {
     lidar: Vec<Option<LidarMatch>>,
     camera: Vec<CameraMatch>,
     tracking: Vec<Option<f64>>,
     /// Flags of the branches that say nothing of the whole scan.
     absent: u16,
+}
+
+impl Answers {
+    /// All that is told of one detection.
+    fn label(&self, i: usize, evidence: &Evidence, verdict: &Verdict) -> DetectionLabel {
+        let Evidence { d_lm, d_cm, d_tr, on_floor, in_blind_spot, .. } = *evidence;
+        let Verdict { w_lm, w_cm, w_tr, w_opt, w, plausible } = *verdict;
+        DetectionLabel {
+            d_lm,
+            d_cm,
+            d_tr,
+            w_lm,
+            w_cm,
+            w_tr,
+            w_opt,
+            w: w.unwrap_or(0.0),
+            plausible,
+            flags: self.absent
+                | flag::when(on_floor, flag::GROUND)
+                | flag::when(in_blind_spot, flag::BLIND_SPOT)
+                | flag::when(self.camera[i].in_failed_view, flag::CAMERA_FAILED)
+                | flag::when(w.is_none(), flag::UNOBSERVED),
+            semantic: self.lidar[i].filter(|_| !on_floor).and_then(|found| found.semantic),
+        }
+    }
 }

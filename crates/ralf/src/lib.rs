@@ -11,13 +11,15 @@
 //! 2. [`sync`] says which belong together, and [`frame::FrameWindow`] gathers them into a [`frame::Frame`], in bounded memory.
 //! 3. [`labeler::Labeler::label`] is the whole method. It asks [`lidar`] (is there a surface?), [`camera`] (is there an object
 //!    in the scaled depth image?) and [`tracking`] (is it there in the neighbouring scans, too?). All of them measure with the
-//!    same [`mismatch`]. [`fusion`] makes one plausibility of the answers.
-//! 4. [`label`] and [`metrics`] compare the result with a truth.
+//!    same [`mismatch`]. [`fusion`] makes one plausibility of the answers, the
+//!    [`evidence`].
+//! 4. [`label`] and [`metrics`] compare the result with a truth, and [`tune`] seeks the settings that come nearest to it.
 
 mod association;
 pub mod camera;
 pub mod config;
 pub mod detections;
+pub mod evidence;
 pub mod frame;
 pub mod fusion;
 pub mod geometry;
@@ -34,3 +36,4 @@ pub mod rig;
 pub mod source;
 pub mod sync;
 pub mod tracking;
+pub mod tune;

@@ -2,7 +2,7 @@
 
 use crate::cli::DatasetArgs;
 use crate::depth_model::{DepthModelArgs, all_images, fill};
-use crate::settings::SettingsArgs;
+use crate::settings::{SettingsArgs, threads};
 use crate::text::{aligned, grouped, print};
 use crate::{Outcome, UsageError};
 use anyhow::{Context, ensure};
@@ -56,8 +56,7 @@ pub(crate) fn run(arguments: &DepthArgs) -> anyhow::Result<Outcome> {
     let mut outcome = Outcome::Done;
     if let Some(model) = model {
         let store = arguments.store(&recording, &model)?;
-        let jobs =
-            arguments.jobs.or_else(|| std::thread::available_parallelism().ok()).map_or(1, NonZeroUsize::get);
+        let jobs = threads(arguments.jobs);
         if fill(&store, &recording, &model, all_images, jobs)? > 0 {
             outcome = Outcome::Partial;
         }

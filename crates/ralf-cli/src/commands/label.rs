@@ -4,7 +4,7 @@ use crate::Outcome;
 use crate::cli::DatasetArgs;
 use crate::depth_model::{DepthModelArgs, fill, images_of_scans};
 use crate::progress::{Bars, say};
-use crate::settings::SettingsArgs;
+use crate::settings::{SettingsArgs, threads};
 use crate::text::{aligned, grouped, percent, print};
 use clap::Args;
 use ralf::config::Config;
@@ -55,8 +55,7 @@ pub(crate) struct LabelArgs {
 /// Labels a recording.
 pub(crate) fn run(arguments: &LabelArgs) -> anyhow::Result<Outcome> {
     let config = arguments.settings.resolve()?;
-    let jobs =
-        arguments.jobs.or_else(|| std::thread::available_parallelism().ok()).map_or(1, NonZeroUsize::get);
+    let jobs = threads(arguments.jobs);
     let recording = arguments.with_depth(arguments.dataset.open()?, &config, jobs)?;
     let run = LabelRun { recording: &recording, config: &config, out: &arguments.output, jobs };
     let done = run.execute(&Bars::new(arguments.quiet))?;

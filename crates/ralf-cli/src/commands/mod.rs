@@ -6,6 +6,7 @@ pub(crate) mod evaluate;
 pub(crate) mod inspect;
 pub(crate) mod label;
 pub(crate) mod plot;
+pub(crate) mod tune;
 
 use crate::Outcome;
 use crate::cli::{Cli, Command};
@@ -21,6 +22,7 @@ pub(crate) fn dispatch(arguments: Cli) -> anyhow::Result<Outcome> {
         Command::Plot(arguments) => plot::run(&arguments),
         Command::Convert(arguments) => convert::run(&arguments),
         Command::Depth(arguments) => depth::run(&arguments),
+        Command::Tune(arguments) => tune::run(&arguments),
         Command::Completions { shell } => {
             let mut script = Vec::new();
             clap_complete::generate(shell, &mut Cli::command(), "ralf", &mut script);

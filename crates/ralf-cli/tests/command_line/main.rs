@@ -22,4 +22,5 @@ mod resume;
 mod sequences;
 mod streams;
 mod support;
+mod tuning;
 mod whole_run;

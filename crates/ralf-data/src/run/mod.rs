@@ -41,11 +41,13 @@ pub struct LabelRun<'a> {
     pub jobs: usize,
 }
 
-/// Part of a run, for a progress display.
+/// Part of the work, for a progress display.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Stage<'a> {
     /// Hashing the input files; counted in bytes.
     Inputs,
+    /// Matching a sequence's scans for tuning; counted in scans.
+    Matching(&'a str),
     /// Labelling a sequence; counted in scans.
     Labelling(&'a str),
     /// Writing a sequence's result; counted in scans.
@@ -107,14 +109,8 @@ impl LabelRun<'_> {
     }
 
     fn task<'a>(&self, reader: &'a dyn SequenceReader) -> Result<Task<'a>, DataError> {
-        let sequence = reader.sequence();
-        let refused = |expected: String| {
-            let place = format!("sequence {}", sequence.name);
-            DataError::Unsuitable { file: self.recording.path.clone(), place, reason: expected }
-        };
-        let mut rig = sequence.rig.clone();
-        self.config.apply_to(&mut rig).map_err(|error| refused(error.to_string()))?;
-        let columns = Columns::of(&rig).map_err(refused)?;
+        let rig = rig_of(self.recording, reader, self.config)?;
+        let columns = Columns::of(&rig).map_err(|reason| unsuitable(self.recording, reader, reason))?;
         Ok(Task { reader, rig, columns })
     }
 
@@ -143,6 +139,22 @@ impl LabelRun<'_> {
             "a part of the recording",
         ))
     }
+}
+
+/// The sensors of a sequence as the settings have them.
+pub(crate) fn rig_of(
+    recording: &Recording,
+    reader: &dyn SequenceReader,
+    config: &Config,
+) -> Result<Rig, DataError> {
+    let mut rig = reader.sequence().rig.clone();
+    config.apply_to(&mut rig).map_err(|error| unsuitable(recording, reader, error.to_string()))?;
+    Ok(rig)
+}
+
+fn unsuitable(recording: &Recording, reader: &dyn SequenceReader, reason: String) -> DataError {
+    let place = format!("sequence {}", reader.sequence().name);
+    DataError::Unsuitable { file: recording.path.clone(), place, reason }
 }
 
 /// Where a path leads that need not exist yet: links in the part that does exist are resolved.

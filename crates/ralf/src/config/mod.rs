@@ -166,7 +166,7 @@ pub struct TrackingConfig {
 }
 
 /// `fusion`: fusion and label.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct FusionConfig {
     /// `alpha`: the share of `w_opt`.

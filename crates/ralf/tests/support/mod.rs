@@ -15,6 +15,7 @@ use ralf::source::{Sequence, Source, SourceError, Timelines};
 pub(crate) const MS: i64 = 1_000_000;
 
 /// Scans of radars and LiDARs at given times, in the sensors' frames.
+#[derive(Debug)]
 pub(crate) struct Memory {
     pub(crate) sequence: Sequence,
     /// Per radar and scan: x, y, z; none where the scan can't be read.

@@ -1,7 +1,6 @@
 //! Distinctiveness and class balance as text.
 
-use super::table::decimal;
-use crate::text::{aligned, grouped};
+use crate::text::{aligned, decimal, grouped};
 use ralf_data::{Balance, Balances};
 
 /// A row for everything, for each sequence, for each radar.

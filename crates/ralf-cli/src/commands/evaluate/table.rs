@@ -1,6 +1,6 @@
 //! An evaluation as text: the paper's table (tab. data_set) and its confusion matrix (tab. conf_mat).
 
-use crate::text::aligned;
+use crate::text::{aligned, decimal};
 use ralf::metrics::{Confusion, Evaluation, Rates, Scores};
 use ralf_data::Comparison;
 
@@ -75,11 +75,6 @@ fn confusion(counts: &Confusion) -> String {
         of_label("labelled plausible", counts.tp, counts.fp),
         of_label("labelled artifact", counts.r#fn, counts.tn),
     ])
-}
-
-/// An absent value is a dash.
-pub(super) fn decimal(value: Option<f64>) -> String {
-    value.map_or("-".to_owned(), |value| format!("{value:.3}"))
 }
 
 #[cfg(test)]

@@ -1,0 +1,188 @@
+//! The only nearest-neighbour search: exact, over a bird's-eye grid that is cheap to build.
+//!
+//! A LiDAR scan is asked some thousand questions and thrown away, so the build decides. Points are sorted by counting into
+//! square cells of the ground plane; a search looks at rings of cells around the query's until no nearer point can follow.
+//!
+//! Points beyond the grid are clamped into its border cells. Clamping to a box never lengthens a distance, so the bound that
+//! ends a search holds for them too, and a few points far away cannot blow up the grid.
+
+mod search;
+
+use search::Search;
+use std::ops::Range;
+
+/// Edge of a cell, m, where there are enough points for cells so small.
+const CELL: f32 = 1.0;
+/// Cells per point at most: more would cost more to make than they save.
+const CELLS_PER_POINT: usize = 1;
+/// The grid covers at most this far from the frame's origin in x and in y, m.
+const REACH: f32 = 256.0;
+/// Rounding may put a point that lies on a cell's border into the next one; bounds are loosened by this, m.
+const SLACK: f32 = 1e-3;
+
+/// A point found by a search.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Neighbor {
+    /// The point's identity, as given to [`NeighborIndex::new`].
+    pub id: u32,
+    /// From the query, m^2.
+    pub distance_squared: f32,
+}
+
+/// Points sorted for nearest-neighbour searches.
+#[derive(Debug, Clone)]
+pub struct NeighborIndex {
+    origin: [f32; 2],
+    /// Edge of a cell, m.
+    cell: f32,
+    columns: usize,
+    rows: usize,
+    /// Where each cell's points begin, row by row, and the end.
+    starts: Vec<u32>,
+    /// How many points lie in the cells before each one, column by column: tells at once that a stretch of a column is empty.
+    before: Vec<u32>,
+    xs: Vec<f32>,
+    ys: Vec<f32>,
+    zs: Vec<f32>,
+    ids: Vec<u32>,
+}
+
+impl NeighborIndex {
+    /// An index over finite points, each with an identity. For a horizontal search give all points, and queries, z = 0.
+    pub fn new(points: &[[f32; 3]], ids: &[u32]) -> Self {
+        debug_assert_eq!(points.len(), ids.len());
+        let mut index = Self::empty_grid(points);
+        let cells: Vec<u32> = points.iter().map(|[x, y, _]| index.cell_of(*x, *y)).collect();
+        for &cell in &cells {
+            index.starts[cell as usize + 1] += 1;
+        }
+        running_sum(&mut index.starts);
+        index.count_columns();
+        let mut next = index.starts.clone();
+        for ((point, id), cell) in points.iter().zip(ids).zip(cells) {
+            let place = next[cell as usize] as usize;
+            next[cell as usize] += 1;
+            [index.xs[place], index.ys[place], index.zs[place]] = *point;
+            index.ids[place] = *id;
+        }
+        index
+    }
+
+    fn empty_grid(points: &[[f32; 3]]) -> Self {
+        let n = points.len();
+        let [(x, width), (y, height)] = [0, 1].map(|axis| span(points, axis));
+        let cell = (width * height / (CELLS_PER_POINT * n).max(1) as f32).sqrt().max(CELL);
+        let [columns, rows] = [width, height].map(|size| (size / cell) as usize + 1);
+        Self {
+            origin: [x, y],
+            cell,
+            columns,
+            rows,
+            starts: vec![0; columns * rows + 1],
+            before: vec![0; columns * rows + 1],
+            xs: vec![0.0; n],
+            ys: vec![0.0; n],
+            zs: vec![0.0; n],
+            ids: vec![0; n],
+        }
+    }
+
+    fn count_columns(&mut self) {
+        for row in 0..self.rows {
+            for column in 0..self.columns {
+                self.before[column * self.rows + row + 1] = self.run(row, column, column).len() as u32;
+            }
+        }
+        running_sum(&mut self.before);
+    }
+
+    /// How many points.
+    pub fn len(&self) -> usize {
+        self.ids.len()
+    }
+
+    /// Whether there is nothing to find.
+    pub fn is_empty(&self) -> bool {
+        self.ids.is_empty()
+    }
+
+    /// The `k` points nearest to the query, nearest first, fewer when the cloud has fewer. Of equal distances the
+    /// smaller identity is the nearer. `found` is overwritten, so that many searches share one allocation.
+    pub fn nearest(&self, query: [f32; 3], k: usize, found: &mut Vec<Neighbor>) {
+        self.nearest_within(query, k, f32::INFINITY, found);
+    }
+
+    /// As [`Self::nearest`], but finds nothing where it can tell that no point lies within `reach`, m.
+    pub fn nearest_within(&self, query: [f32; 3], k: usize, reach: f32, found: &mut Vec<Neighbor>) {
+        found.clear();
+        if self.is_empty() || k == 0 {
+            return;
+        }
+        let at = self.place_of(query[0], query[1]);
+        let mut search = Search::new(self, query, k, found);
+        for ring in 0..self.columns.max(self.rows) {
+            if search.is_done(self.bound(&at, ring), reach) {
+                break;
+            }
+            search.ring(self, &at, ring);
+        }
+    }
+
+    /// Points of the cells `left..=right` of a row.
+    fn run(&self, row: usize, left: usize, right: usize) -> Range<usize> {
+        let first = row * self.columns;
+        self.starts[first + left] as usize..self.starts[first + right + 1] as usize
+    }
+
+    /// No point of this ring or a later one lies nearer than this, m. Sides beyond the grid hold no points.
+    fn bound(&self, at: &Place, ring: usize) -> f32 {
+        let side = |place: f32, cell: usize, cells: usize| {
+            let below = if cell >= ring { place - (cell + 1) as f32 + ring as f32 } else { f32::INFINITY };
+            let above = if cell + ring < cells { (cell + ring) as f32 - place } else { f32::INFINITY };
+            below.min(above)
+        };
+        let nearest = side(at.x, at.cell[0], self.columns).min(side(at.y, at.cell[1], self.rows));
+        (nearest * self.cell - SLACK).max(0.0)
+    }
+
+    fn place_of(&self, x: f32, y: f32) -> Place {
+        let place = |value: f32, origin: f32, cells: usize| {
+            let place = ((value - origin) / self.cell).clamp(0.0, cells as f32);
+            (place, (place as usize).min(cells - 1))
+        };
+        let ((x, column), (y, row)) =
+            (place(x, self.origin[0], self.columns), place(y, self.origin[1], self.rows));
+        Place { x, y, cell: [column, row] }
+    }
+
+    fn cell_of(&self, x: f32, y: f32) -> u32 {
+        let [column, row] = self.place_of(x, y).cell;
+        (row * self.columns + column) as u32
+    }
+}
+
+/// The least coordinate of the points along an axis, and how far they reach from there, m; clamped to [`REACH`].
+fn span(points: &[[f32; 3]], axis: usize) -> (f32, f32) {
+    let values = points.iter().map(|point| point[axis].clamp(-REACH, REACH));
+    let (low, high) = values.fold((REACH, -REACH), |(low, high), v| (v.min(low), v.max(high)));
+    (low.min(high), (high - low).max(0.0))
+}
+
+/// Where a point lies in the grid, in cells; points outside are clamped to its border.
+struct Place {
+    x: f32,
+    y: f32,
+    /// Column and row.
+    cell: [usize; 2],
+}
+
+fn running_sum(counts: &mut [u32]) {
+    let mut total = 0;
+    for count in counts {
+        total += *count;
+        *count = total;
+    }
+}
+
+#[cfg(test)]
+mod tests;

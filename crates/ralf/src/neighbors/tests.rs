@@ -1,0 +1,84 @@
+use super::*;
+use proptest::prelude::*;
+
+fn brute_force(points: &[[f32; 3]], query: [f32; 3], k: usize) -> Vec<Neighbor> {
+    let distance = |p: &[f32; 3]| {
+        let [dx, dy, dz] = [p[0] - query[0], p[1] - query[1], p[2] - query[2]];
+        dx * dx + dy * dy + dz * dz
+    };
+    let all = points.iter().enumerate();
+    let mut all: Vec<_> =
+        all.map(|(id, p)| Neighbor { id: id as u32, distance_squared: distance(p) }).collect();
+    all.sort_by(|a, b| a.distance_squared.total_cmp(&b.distance_squared).then(a.id.cmp(&b.id)));
+    all.truncate(k);
+    all
+}
+
+fn check(points: &[[f32; 3]], queries: &[[f32; 3]]) {
+    let ids: Vec<u32> = (0..points.len() as u32).collect();
+    let index = NeighborIndex::new(points, &ids);
+    let mut found = Vec::new();
+    for &query in queries {
+        for k in [1, 3, 10] {
+            index.nearest(query, k, &mut found);
+            assert_eq!(found, brute_force(points, query, k), "query {query:?}, k {k}");
+        }
+    }
+}
+
+const QUERIES: [[f32; 3]; 7] = [
+    [0.0, 0.0, 0.0],
+    [10.0, -3.5, 1.0],
+    [-80.2, 40.0, 0.3],
+    [300.0, 300.0, 5.0],
+    [-1e6, 0.0, 0.0],
+    [255.99, -256.0, 0.0],
+    [7.0, 7.0, -30.0],
+];
+
+#[test]
+fn a_wall_with_many_points_in_one_plane() {
+    let wall: Vec<_> = (0..4000).map(|i| [10.0, (i / 80) as f32 * 0.1, (i % 80) as f32 * 0.05]).collect();
+    check(&wall, &QUERIES);
+}
+
+#[test]
+fn every_point_twice_and_all_equal() {
+    let twice: Vec<_> = (0..500).map(|i| [(i / 2) as f32 * 0.37 - 40.0, (i / 2 % 13) as f32, 0.5]).collect();
+    check(&twice, &QUERIES);
+    check(&[[3.0, 4.0, 1.0]; 100], &QUERIES);
+}
+
+#[test]
+fn one_point_and_none() {
+    check(&[[1.0, 2.0, 3.0]], &QUERIES);
+    check(&[], &QUERIES);
+}
+
+#[test]
+fn far_away() {
+    check(
+        &[[5e3, 0.0, 0.0], [5e3, 1.0, 0.0], [-7e4, 2e5, 3.0], [0.0, 1.0, 0.0], [300.0, 300.0, 4.0]],
+        &QUERIES,
+    );
+    let far: Vec<_> = (0..100).map(|i| [1e4 + i as f32, -1e4, 0.0]).collect();
+    check(&far, &QUERIES);
+}
+
+proptest! {
+    #[test]
+    fn as_brute_force(
+        points in prop::collection::vec(prop::array::uniform3(-60f32..60.0), 0..400),
+        queries in prop::collection::vec(prop::array::uniform3(-90f32..90.0), 5),
+    ) {
+        check(&points, &queries);
+    }
+
+    #[test]
+    fn as_brute_force_on_a_lattice(
+        points in prop::collection::vec(prop::array::uniform3((-9i8..9).prop_map(|v| f32::from(v) * 0.5)), 0..300),
+        query in prop::array::uniform3((-12i8..12).prop_map(|v| f32::from(v) * 0.5)),
+    ) {
+        check(&points, &[query]);
+    }
+}

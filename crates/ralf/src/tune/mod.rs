@@ -1,0 +1,49 @@
+//! Tuning: which settings come nearest to corrected labels (METHOD 10; paper sec. param_selection)?
+//!
+//! No mismatch `d` depends on `alpha`, the three `beta` or `w0`. An [`EvidenceTable`] therefore keeps the mismatches of every
+//! detection that has a truth, `d_lm` for each `K` and `d_tr` for each `n_b` of a [`Space`], and a trial of a [`Search`] never
+//! touches a point cloud: it weighs the evidence anew, with the very function that the labeler uses.
+//!
+//! `w0` is not searched but solved for: given all `w`, only the values between two neighbouring ones differ in their labels,
+//! so that one pass over the sorted `w` finds the best threshold there is.
+
+mod cross_validation;
+mod file;
+mod gather;
+mod objective;
+mod search;
+mod settings;
+mod table;
+mod threshold;
+
+pub use cross_validation::{Fold, leave_one_out};
+pub use file::settings_file;
+pub use gather::Gatherer;
+pub use objective::{Objective, ObjectiveError};
+pub use search::{Found, Search};
+pub use settings::{Settings, Space};
+pub use table::EvidenceTable;
+
+use thiserror::Error;
+
+/// Why settings can't be tuned.
+#[derive(Debug, Error, PartialEq)]
+pub enum TuneError {
+    /// Every setting would do on labels of one class alone.
+    #[error("expected plausible detections and artifacts to train on, found no {0}")]
+    OneClass(&'static str),
+    /// Leaving one sequence out must leave another to train on.
+    #[error("cross-validation: expected two training sequences or more, found {0}")]
+    TooFewSequences(usize),
+    /// The table holds no mismatches for this setting.
+    #[error("no evidence was gathered for {key} = {value}")]
+    NotGathered {
+        /// Dotted name.
+        key: &'static str,
+        /// The value asked for.
+        value: usize,
+    },
+    /// The optimiser refused.
+    #[error("optimiser: {0}")]
+    Optimiser(String),
+}

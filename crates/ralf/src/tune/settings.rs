@@ -1,0 +1,114 @@
+//! What is tuned, and among which values.
+
+use crate::config::Config;
+use crate::evidence::Weights;
+use std::collections::BTreeSet;
+
+/// Values of `K` and of `n_b` worth a try.
+const COUNTS: [usize; 5] = [1, 2, 3, 5, 8];
+
+/// The tuned settings.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Settings {
+    /// `alpha`, the three `beta` and `w0`.
+    pub weights: Weights,
+    /// `K`.
+    pub neighbours: usize,
+    /// `n_b`.
+    pub scans: usize,
+}
+
+impl Settings {
+    /// How many there are.
+    pub const COUNT: usize = 7;
+
+    /// Those of all settings.
+    pub fn of(config: &Config) -> Self {
+        Self {
+            weights: Weights::of(config),
+            neighbours: config.lidar.neighbours,
+            scans: config.tracking.scans,
+        }
+    }
+
+    /// All settings with these among them.
+    pub fn applied_to(&self, config: &Config) -> Config {
+        let mut config = config.clone();
+        config.lidar.beta = self.weights.beta_lm;
+        config.camera.beta = self.weights.beta_cm;
+        config.tracking.beta = self.weights.beta_tr;
+        config.fusion = self.weights.fusion;
+        config.lidar.neighbours = self.neighbours;
+        config.tracking.scans = self.scans;
+        config
+    }
+
+    /// Dotted names and values.
+    pub fn entries(&self) -> [(&'static str, f64); Self::COUNT] {
+        let Weights { beta_lm, beta_cm, beta_tr, fusion } = self.weights;
+        [
+            ("fusion.alpha", fusion.alpha),
+            ("fusion.threshold", fusion.threshold),
+            ("lidar.beta", beta_lm),
+            ("lidar.neighbours", self.neighbours as f64),
+            ("camera.beta", beta_cm),
+            ("tracking.beta", beta_tr),
+            ("tracking.scans", self.scans as f64),
+        ]
+    }
+}
+
+/// For which `K` and `n_b` evidence is gathered: each list ascends and holds one value at least.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Space {
+    /// Values of `K`.
+    pub neighbours: Vec<usize>,
+    /// Values of `n_b`.
+    pub scans: Vec<usize>,
+}
+
+impl Space {
+    /// The settings' own values and some usual ones. A branch that is off has nothing to choose.
+    pub fn around(config: &Config) -> Self {
+        let values = |own: usize, enabled: bool| {
+            let usual = COUNTS.into_iter().filter(|_| enabled);
+            usual.chain([own]).collect::<BTreeSet<_>>().into_iter().collect()
+        };
+        Self {
+            neighbours: values(config.lidar.neighbours, config.lidar.enabled),
+            scans: values(config.tracking.scans, config.tracking.enabled),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_settings_own_values_are_among_the_usual_ones() {
+        let config = Config::from_toml("", &["lidar.neighbours=4", "tracking.enabled=false"]).unwrap();
+        let space = Space::around(&config);
+        assert_eq!((space.neighbours, space.scans), (vec![1, 2, 3, 4, 5, 8], vec![5]));
+    }
+
+    #[test]
+    fn what_is_applied_is_found_again_and_nothing_else_changes() {
+        let base = Config::from_toml("seed = 3", &["ground.model=flat"]).unwrap();
+        let other = Config::from_toml(
+            "seed = 3",
+            &[
+                "ground.model=flat",
+                "fusion.alpha=0.1",
+                "fusion.threshold=0.2",
+                "lidar.beta=0.3",
+                "lidar.neighbours=4",
+                "camera.beta=0.5",
+                "tracking.beta=0.6",
+                "tracking.scans=7",
+            ],
+        )
+        .unwrap();
+        assert_eq!(Settings::of(&other).applied_to(&base), other);
+    }
+}
