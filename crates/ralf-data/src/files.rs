@@ -128,6 +128,17 @@ pub(crate) fn beside(file: &Path) -> PathBuf {
     file.with_file_name(name)
 }
 
+/// Removes a file, if it is there, and what a kill while it was written left beside it.
+pub(crate) fn remove(file: &Path) -> Result<(), DataError> {
+    for file in [beside(file), file.to_owned()] {
+        match fs::remove_file(&file) {
+            Err(error) if error.kind() != ErrorKind::NotFound => return Err(DataError::Io { file, error }),
+            _ => {}
+        }
+    }
+    Ok(())
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

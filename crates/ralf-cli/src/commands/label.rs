@@ -11,7 +11,7 @@ use ralf::config::Config;
 use ralf::labeler::flag;
 use ralf_data::Recording;
 use ralf_data::depth::DepthStore;
-use ralf_data::run::{LabelRun, Outcome as RunOutcome, RadarRecord, RunRecord};
+use ralf_data::run::{LabelRun, Outcome as RunOutcome, RadarRecord, SequenceRecord};
 use ralf_depth::DepthEstimator;
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
@@ -20,7 +20,8 @@ use std::path::PathBuf;
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Writes OUT/run.json, OUT/sequences/NAME/plausibility.parquet and a .label file per scan. Killed and started again with the same
-arguments it goes on where it stopped. OUT holds the results of one run: those of another are replaced.
+arguments it goes on where it stopped. Sequences may be labelled into the same OUT one after the other; those that were labelled
+before are left as they are. All results in OUT have the same settings: those of other settings are removed, and this is said.
 
 Examples:
   ralf label recordings/city -o out
@@ -43,7 +44,7 @@ pub(crate) struct LabelArgs {
     /// Scans side by side; as many as there are processors if not given
     #[arg(long, value_name = "N")]
     jobs: Option<NonZeroUsize>,
-    /// Print the record of the run as JSON
+    /// Print the record of these sequences as JSON
     #[arg(long)]
     json: bool,
     /// No progress
@@ -57,14 +58,16 @@ pub(crate) fn run(arguments: &LabelArgs) -> anyhow::Result<Outcome> {
     let jobs = threads(arguments.jobs);
     let recording = arguments.with_depth(arguments.dataset.open()?, &config, jobs)?;
     let run = LabelRun { recording: &recording, config: &config, out: &arguments.output, jobs };
-    let record = match run.execute(&Bars::new(arguments.quiet))? {
-        RunOutcome::Labelled(record) => record,
-        RunOutcome::Unchanged(record) => {
-            say("nothing to do: labelled before with the same program, settings and inputs");
-            record
-        }
-    };
-    print(&if arguments.json { serde_json::to_string_pretty(&record)? } else { summary(&record) })?;
+    let done = run.execute(&Bars::new(arguments.quiet))?;
+    if !done.removed.is_empty() {
+        let names = done.removed.join(", ");
+        say(&format!("removed, for they were made by another version or with other settings: {names}"));
+    }
+    if done.labelled.is_empty() {
+        say("nothing to do: labelled before with the same program, settings and inputs");
+    }
+    let record = &done.record;
+    print(&if arguments.json { serde_json::to_string_pretty(record)? } else { summary(&done) })?;
     let mut outcome = Outcome::Done;
     for (sequence, scan) in record.not_labelled() {
         say(&format!("not labelled: {sequence} {} scan {}: {}", scan.radar, scan.scan, scan.reason));
@@ -92,51 +95,35 @@ impl LabelArgs {
     }
 }
 
-/// A table with a row per radar, and what was missing.
-fn summary(record: &RunRecord) -> String {
+/// A table with a row per radar, and how fast those were that are new.
+fn summary(done: &RunOutcome) -> String {
     let head =
         ["sequence", "radar", "scans", "detections", "plausible", "", "no LiDAR scan", "no neighbours"];
     let mut rows = vec![head.map(str::to_owned).to_vec()];
-    for sequence in &record.sequences {
+    for sequence in &done.record.sequences {
         rows.extend(sequence.radars.iter().map(|radar| summary_row(&sequence.name, radar)));
     }
-    let detections: u64 = record.radars().flat_map(|radar| &radar.detections).copied().map(u64::from).sum();
-    let scans: usize = record.radars().map(|radar| radar.detections.len()).sum();
-    let seconds = record.timings.seconds;
-    let rate = |count: f64| if seconds > 0.0 { count / seconds } else { 0.0 };
-    format!(
-        "{}{}\n{} scans, {} detections in {seconds:.1} s ({:.0} scans/s, {:.0}k detections/s, {} jobs)\n",
-        aligned(&rows),
-        camera_summary(record),
-        grouped(scans as u64),
-        grouped(detections),
-        rate(scans as f64),
-        rate(detections as f64) / 1e3,
-        record.timings.jobs,
-    )
+    aligned(&rows) + &if done.labelled.is_empty() { String::new() } else { speed(done) }
 }
 
-/// A table with a row per camera whose images have depth; nothing without one.
-fn camera_summary(record: &RunRecord) -> String {
-    let asked = record.cameras().filter(|camera| !camera.images.is_empty());
-    let mut rows: Vec<Vec<String>> = asked
-        .map(|camera| {
-            let (views, failed) = camera.views();
-            let share = percent(failed as u64, views as u64);
-            vec![
-                camera.name.clone(),
-                grouped(camera.images.len() as u64),
-                grouped(views as u64),
-                grouped(failed as u64),
-                share,
-            ]
-        })
+fn speed(done: &RunOutcome) -> String {
+    let is_new = |sequence: &&SequenceRecord| done.labelled.contains(&sequence.name);
+    let new = done.record.sequences.iter().filter(is_new);
+    let counts: Vec<u64> = new
+        .flat_map(|sequence| &sequence.radars)
+        .flat_map(|radar| radar.detections.iter().copied().map(u64::from))
         .collect();
-    if rows.is_empty() {
-        return String::new();
-    }
-    rows.insert(0, ["camera", "images", "views", "failed", ""].map(str::to_owned).to_vec());
-    format!("\n{}", aligned(&rows))
+    let (scans, detections) = (counts.len() as u64, counts.iter().sum());
+    let seconds = done.record.timings.seconds;
+    let rate = |count: u64| if seconds > 0.0 { count as f64 / seconds } else { 0.0 };
+    format!(
+        "\n{} scans, {} detections in {seconds:.1} s ({:.0} scans/s, {:.0}k detections/s, {} jobs)\n",
+        grouped(scans),
+        grouped(detections),
+        rate(scans),
+        rate(detections) / 1e3,
+        done.record.timings.jobs,
+    )
 }
 
 fn summary_row(sequence: &str, radar: &RadarRecord) -> Vec<String> {

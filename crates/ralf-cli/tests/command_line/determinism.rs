@@ -21,7 +21,8 @@ fn the_same_command_again_has_nothing_to_do() {
     let before = tree(&dataset.out);
     let second = label().says(["nothing to do"]);
     assert!(tree(&dataset.out) == before);
-    assert_eq!(first.stdout, second.stdout);
+    // The table is the same; how fast it was made is told once.
+    assert!(first.stdout.starts_with(&second.stdout) && first.stdout.contains("detections in"), "{first:?}");
 }
 
 #[test]

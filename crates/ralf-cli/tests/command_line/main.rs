@@ -19,6 +19,7 @@ mod inputs;
 mod other_commands;
 mod real_data;
 mod resume;
+mod sequences;
 mod streams;
 mod support;
 mod tuning;

@@ -1,4 +1,4 @@
-//! A run that was killed goes on where it stopped; another run replaces all of it.
+//! A run that was killed goes on where it stopped; one with other settings replaces all of it.
 
 use crate::support::{Dataset, Shape, program, ralf, tree, without_timings};
 use std::fs;
@@ -36,6 +36,16 @@ fn kill_midway(dataset: &Dataset) {
     assert!(!Path::new(&dataset.out).join("run.json").exists());
 }
 
+/// The folder where runs with the usual settings keep what is not finished, by its name.
+fn run_folder(dataset: &Dataset) -> String {
+    let stopped = dataset.beside("stopped");
+    // A folder in the place of the table lets the run fail when all scans are labelled.
+    fs::create_dir_all(format!("{stopped}/sequences/00/plausibility.parquet/in-the-way")).unwrap();
+    ralf(["label", &dataset.path, "-o", &stopped]).exits(1);
+    let name = fs::read_dir(format!("{stopped}/.ralf-run")).unwrap().next().unwrap().unwrap().file_name();
+    name.into_string().unwrap()
+}
+
 #[test]
 fn a_run_that_was_killed_goes_on_and_ends_the_same() {
     let dataset = Dataset::of(&Shape { scans: 60, ..Shape::default() });
@@ -58,10 +68,12 @@ fn what_a_power_cut_spoiled_is_made_again() {
     let unfinished = Path::new(&dataset.out).join(".ralf-run");
     let kept: Vec<_> = tree(&unfinished).into_keys().filter(|name| name.ends_with(".rows")).collect();
     fs::write(unfinished.join(&kept[0]), "").unwrap();
-    // FINGERPRINT/00/radar_front/000001.rows
-    let label = kept[1].split_once('/').unwrap().1.replace(".rows", ".label");
+    // RUN/FINGERPRINT/00/radar_front/000001.rows
+    let label = kept[1].splitn(3, '/').nth(2).unwrap().replace(".rows", ".label");
     fs::write(Path::new(&dataset.out).join("sequences").join(label), "").unwrap();
-    fs::write(unfinished.join(&kept[0]).ancestors().nth(2).unwrap().with_extension("json"), "{").unwrap();
+    // What the monitor found about the images of a scan, and the record of a finished sequence.
+    fs::write(unfinished.join(&kept[2]).with_extension("json"), "").unwrap();
+    fs::write(unfinished.join(&kept[0]).ancestors().nth(3).unwrap().with_extension("json"), "{").unwrap();
     ralf(["label", &dataset.path, "-o", &dataset.out]).exits(0).says_nothing();
     assert!(without_timings(&dataset.out) == without_timings(&whole));
     fs::write(format!("{}/run.json", dataset.out), "{").unwrap();
@@ -77,16 +89,22 @@ fn a_sequence_that_was_finished_before_the_kill_is_kept() {
     // What is on disk between the last sequence and the record.
     let record: serde_json::Value =
         serde_json::from_slice(&fs::read(format!("{}/run.json", dataset.out)).unwrap()).unwrap();
-    let unfinished = format!("{}/.ralf-run/{}", dataset.out, record["fingerprint"].as_str().unwrap());
+    let unfinished = format!("{}/.ralf-run/{}", dataset.out, run_folder(&dataset));
     fs::create_dir_all(&unfinished).unwrap();
     for sequence in record["sequences"].as_array().unwrap() {
-        let file = format!("{unfinished}/{}.json", sequence["name"].as_str().unwrap());
-        fs::write(file, sequence.to_string()).unwrap();
+        let inputs: Vec<_> = record["inputs"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .filter(|input| input["sequence"] == sequence["name"])
+            .collect();
+        let file = format!("{unfinished}/{}.json", sequence["fingerprint"].as_str().unwrap());
+        fs::write(file, serde_json::json!([sequence, inputs]).to_string()).unwrap();
     }
     fs::remove_file(format!("{}/run.json", dataset.out)).unwrap();
     let table = dataset.result("plausibility.parquet");
     let written = fs::metadata(&table).unwrap().modified().unwrap();
-    ralf(["label", &dataset.path, "-o", &dataset.out]).exits(0).says_nothing();
+    ralf(["label", &dataset.path, "-o", &dataset.out]).exits(0).says(["nothing to do"]);
     assert_eq!(fs::metadata(&table).unwrap().modified().unwrap(), written);
     assert!(without_timings(&dataset.out) == whole);
 }
@@ -122,7 +140,10 @@ fn other_settings_replace_what_a_killed_run_left() {
     fs::write(dataset.result("plausibility.parquet.part"), "half").unwrap();
     let fresh = dataset.beside("fresh");
     for out in [&dataset.out, &fresh] {
-        ralf(["label", &dataset.path, "-o", out, "--sequence", "01"]).exits(0).says_nothing();
+        let other = ["--sequence", "01", "--set", "fusion.threshold=0.9"];
+        ralf(["label", &dataset.path, "-o", out, other[0], other[1], other[2], other[3]])
+            .exits(0)
+            .says_nothing();
     }
     assert!(without_timings(&dataset.out) == without_timings(&fresh));
 }
@@ -135,25 +156,4 @@ fn a_scan_that_can_not_be_labelled_any_more_keeps_no_label() {
     ralf(["label", &dataset.path, "-o", &dataset.out]).exits(3);
     assert!(!dataset.result("radar_front/000003.label").exists());
     assert!(dataset.result("radar_front/000002.label").exists());
-}
-
-#[test]
-fn a_sequence_that_is_not_asked_for_any_more_leaves_nothing() {
-    let dataset = Dataset::of(&Shape { scans: 2, sequences: &["00", "01"], ..Shape::default() });
-    ralf(["label", &dataset.path, "-o", &dataset.out]).exits(0);
-    let notes = dataset.result("notes.txt");
-    fs::write(&notes, "mine").unwrap();
-    ralf(["label", &dataset.path, "-o", &dataset.out, "--sequence", "01"]).exits(0);
-    let left: Vec<_> = tree(&dataset.out).into_keys().filter(|name| name.contains("/00")).collect();
-    // What people put there stays.
-    let of_one = ["000000.label", "000001.label"];
-    let expected: Vec<String> = ["sequences/00".to_owned(), "sequences/00/notes.txt".to_owned()]
-        .into_iter()
-        .chain(
-            ["radar_front", "radar_left"]
-                .iter()
-                .flat_map(|r| of_one.map(|f| format!("sequences/01/{r}/{f}"))),
-        )
-        .collect();
-    assert_eq!(left, expected);
 }

@@ -1,16 +1,20 @@
 //! Putting a sequence's labelled scans together, in the order of the rig.
 
-use super::record::{CameraRecord, NotLabelled, RadarRecord, SequenceRecord};
+use super::sequence_record::{CameraRecord, ImageRecord, NotLabelled, RadarRecord, SequenceRecord};
 use super::workspace::Workspace;
 use super::{Observer, Stage, Task};
 use crate::DataError;
-use crate::output::{PlausibilityWriter, ScanTable, read_rows};
+use crate::output::{PlausibilityWriter, ScanTable};
 use ralf::camera::Camera;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Images by camera and number; several scans may have asked about one.
+type Images = BTreeMap<String, BTreeMap<usize, ImageRecord>>;
 
 /// Writes `plausibility.parquet` of a sequence from its scans' tables.
 pub(super) fn assemble(
     task: &Task,
+    fingerprint: &str,
     workspace: &Workspace,
     not_labelled: Vec<NotLabelled>,
     observer: &dyn Observer,
@@ -19,15 +23,19 @@ pub(super) fn assemble(
     let missing: BTreeSet<_> = not_labelled.iter().map(|scan| (scan.radar.as_str(), scan.scan)).collect();
     let scans = sequence.times.radars.iter().map(Vec::len).sum::<usize>();
     observer.begin(Stage::Writing(&sequence.name), scans as u64);
-    let mut writer = PlausibilityWriter::create(&workspace.plausibility_file(&sequence.name), &task.columns)?;
+    let mut writer = PlausibilityWriter::create(&workspace.plausibility_file(), &task.columns)?;
     let mut radars = Vec::with_capacity(task.rig.radars.len());
+    let mut images = Images::new();
     for (radar, times) in task.rig.radars.iter().zip(&sequence.times.radars) {
         let mut record = RadarRecord { name: radar.name.clone(), ..RadarRecord::default() };
         for scan in 0..times.len() {
-            let table = match missing.contains(&(radar.name.as_str(), scan)) {
-                true => ScanTable::default(),
-                false => read_rows(&workspace.rows_file(&sequence.name, &radar.name, scan), &task.columns)?,
-            };
+            let mut table = ScanTable::default();
+            if !missing.contains(&(radar.name.as_str(), scan)) {
+                table = workspace.table(&radar.name, scan, &task.columns)?;
+                for (camera, image) in workspace.images(&radar.name, scan)? {
+                    images.entry(camera).or_default().insert(image.image, image);
+                }
+            }
             writer.append(&radar.name, scan, &table)?;
             record.push(&table);
             observer.advance(1, table.len() as u64);
@@ -36,17 +44,16 @@ pub(super) fn assemble(
     }
     writer.finish()?;
     observer.end();
-    let cameras = cameras(task, workspace)?;
-    Ok(SequenceRecord { name: sequence.name.clone(), radars, cameras, not_labelled, seconds: 0.0 })
+    let cameras = cameras(&task.rig.cameras, images);
+    let fingerprint = fingerprint.to_owned();
+    Ok(SequenceRecord { name: sequence.name.clone(), fingerprint, radars, cameras, not_labelled })
 }
 
 /// What the monitor found about the images that were asked.
-fn cameras(task: &Task, workspace: &Workspace) -> Result<Vec<CameraRecord>, DataError> {
-    let sequence = task.reader.sequence();
-    let record = |(camera, times): (&Camera, &Vec<i64>)| {
-        let images = (0..times.len())
-            .filter_map(|image| workspace.image(&sequence.name, &camera.name, image).transpose());
-        Ok(CameraRecord { name: camera.name.clone(), images: images.collect::<Result<_, DataError>>()? })
+fn cameras(rig: &[Camera], mut images: Images) -> Vec<CameraRecord> {
+    let record = |camera: &Camera| {
+        let images = images.remove(&camera.name).unwrap_or_default();
+        CameraRecord { name: camera.name.clone(), images: images.into_values().collect() }
     };
-    task.rig.cameras.iter().zip(&sequence.times.cameras).map(record).collect()
+    rig.iter().map(record).collect()
 }

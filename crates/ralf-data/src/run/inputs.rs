@@ -1,9 +1,9 @@
-//! Sizes and hashes of everything that a run reads.
+//! Sizes and hashes of everything that a run reads, and what they make of its sequences.
 
 use super::record::Input;
-use super::{Observer, Stage};
-use crate::{DataError, Recording};
-use std::collections::BTreeSet;
+use super::{Observer, Stage, fingerprint};
+use crate::{DataError, Recording, SequenceReader};
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs::File;
 use std::io::Read;
 use std::path::{Path, PathBuf};
@@ -13,12 +13,42 @@ use std::sync::{Mutex, PoisonError};
 /// Bytes that are read at a time.
 const CHUNK: usize = 1 << 20;
 
-/// Hashes every input of the recording's sequences, each file once, in the order of their paths.
-pub(super) fn hash_inputs(
+/// What makes a sequence's results what they are.
+pub(super) struct Identity {
+    /// Its name.
+    pub(super) name: String,
+    /// Equal where the results are equal.
+    pub(super) fingerprint: String,
+    /// By name.
+    pub(super) inputs: Vec<Input>,
+}
+
+/// The recording's sequences in a run of this fingerprint.
+pub(super) fn identify(
+    recording: &Recording,
+    run: &str,
+    jobs: usize,
+    observer: &dyn Observer,
+) -> Result<Vec<Identity>, DataError> {
+    let hashes = hash_inputs(recording, jobs, observer)?;
+    let identity = |reader: &dyn SequenceReader| {
+        let name = reader.sequence().name.clone();
+        // Sorted, and each but once.
+        let files: BTreeSet<PathBuf> = reader.inputs().into_iter().collect();
+        let hashes = files.iter().filter_map(|file| hashes.get(file));
+        let inputs: Vec<_> = hashes.map(|input| Input { sequence: name.clone(), ..input.clone() }).collect();
+        let fingerprint = fingerprint::of_sequence(run, &name, &inputs);
+        Identity { name, fingerprint, inputs }
+    };
+    Ok(recording.sequences.iter().map(|reader| identity(reader.as_ref())).collect())
+}
+
+/// Hashes every input of the recording's sequences: each file once, for sequences may share some.
+fn hash_inputs(
     recording: &Recording,
     jobs: usize,
     observer: &dyn Observer,
-) -> Result<Vec<Input>, DataError> {
+) -> Result<BTreeMap<PathBuf, Input>, DataError> {
     let files: BTreeSet<PathBuf> = recording.sequences.iter().flat_map(|reader| reader.inputs()).collect();
     let files: Vec<PathBuf> = files.into_iter().collect();
     let sizes =
@@ -31,17 +61,14 @@ pub(super) fn hash_inputs(
         for _ in 0..jobs.max(1) {
             scope.spawn(|| {
                 while let Some(file) = files.get(next.fetch_add(1, Ordering::Relaxed)) {
-                    let input = hash(file, &recording.path, observer);
+                    let input = hash(file, &recording.path, observer).map(|input| (file.clone(), input));
                     hashed.lock().unwrap_or_else(PoisonError::into_inner).push(input);
                 }
             });
         }
     });
     observer.end();
-    let hashed = hashed.into_inner().unwrap_or_else(PoisonError::into_inner);
-    let mut inputs = hashed.into_iter().collect::<Result<Vec<_>, _>>()?;
-    inputs.sort_by(|a, b| a.file.cmp(&b.file));
-    Ok(inputs)
+    hashed.into_inner().unwrap_or_else(PoisonError::into_inner).into_iter().collect()
 }
 
 fn hash(file: &Path, root: &Path, observer: &dyn Observer) -> Result<Input, DataError> {
@@ -59,5 +86,5 @@ fn hash(file: &Path, root: &Path, observer: &dyn Observer) -> Result<Input, Data
         observer.advance(read as u64, 0);
     }
     let name = file.strip_prefix(root).unwrap_or(file).to_string_lossy().into_owned();
-    Ok(Input { file: name, bytes, blake3: hasher.finalize().to_hex().to_string() })
+    Ok(Input { sequence: String::new(), file: name, bytes, blake3: hasher.finalize().to_hex().to_string() })
 }

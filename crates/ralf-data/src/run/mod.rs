@@ -2,25 +2,32 @@
 //!
 //! Every scan's label depends on the recording and the settings alone, so that scans may be labelled in any order. Their
 //! tables are kept as files of their own until a sequence is complete, and then put together in the order of the rig. A run
-//! that was killed finds them again by a fingerprint of program, settings and inputs.
+//! that was killed finds them again by a fingerprint of program, settings and the sequence's inputs, and a sequence that was
+//! labelled before is left as it is.
 
 mod assemble;
+mod fingerprint;
 mod inputs;
+mod json;
+mod output_folder;
 mod record;
 mod results;
+mod sequence_record;
+mod unfinished;
 mod workers;
 mod workspace;
 
-pub use record::{CameraRecord, ImageRecord, NotLabelled, RadarRecord, RunRecord, SequenceRecord};
-pub use workspace::read_record;
+pub use record::{Input, RunRecord, Timings, read_record};
+pub use sequence_record::{CameraRecord, ImageRecord, NotLabelled, RadarRecord, SequenceRecord};
 
 use crate::output::Columns;
 use crate::{DataError, Recording, SequenceReader, layout};
+use inputs::Identity;
+use output_folder::OutputFolder;
 use ralf::config::Config;
 use ralf::rig::Rig;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
-use workspace::Workspace;
 
 /// A labelling run.
 pub struct LabelRun<'a> {
@@ -59,11 +66,14 @@ pub trait Observer: Sync {
 
 /// How a run ended.
 #[derive(Debug)]
-pub enum Outcome {
-    /// It was done before, with the same program, settings and inputs.
-    Unchanged(RunRecord),
-    /// It is done now.
-    Labelled(RunRecord),
+pub struct Outcome {
+    /// Of the sequences that were asked for: this part of `run.json`.
+    pub record: RunRecord,
+    /// Names of those that this run has labelled; the others were labelled before, with the same program, settings and inputs.
+    pub labelled: Vec<String>,
+    /// Names of sequences that were not asked for and whose results are gone, for they were made by another version of the
+    /// program or with other settings.
+    pub removed: Vec<String>,
 }
 
 /// One sequence with the sensors as the settings have them.
@@ -74,30 +84,28 @@ struct Task<'a> {
 }
 
 impl LabelRun<'_> {
-    /// Labels every scan of every radar. Scans that can't be labelled are named in the record, and the run goes on; settings
-    /// that don't fit the recording, and results that can't be written, end it.
+    /// Labels every scan of every radar of the sequences that were not labelled before. Scans that can't be labelled are named
+    /// in the record, and the run goes on; settings that don't fit the recording, and results that can't be written, end it.
     pub fn execute(&self, observer: &dyn Observer) -> Result<Outcome, DataError> {
         let begun = Instant::now();
         self.refuse_to_write_into_the_recording()?;
         let tasks = self.recording.sequences.iter().map(|reader| self.task(reader.as_ref()));
         let tasks = tasks.collect::<Result<Vec<_>, _>>()?;
-        let inputs = inputs::hash_inputs(self.recording, self.jobs, observer)?;
-        let mut record = RunRecord::new(self.recording, self.config, inputs);
-        let workspace = Workspace::open(self.out, &record)?;
-        if let Some(done) = workspace.finished() {
-            return Ok(Outcome::Unchanged(done));
+        let run = RunRecord::new(self.recording, self.config);
+        let asked = inputs::identify(self.recording, &fingerprint::of_run(&run), self.jobs, observer)?;
+        let folder = OutputFolder::open(self.out, run, &asked)?;
+        let mut finished = Vec::new();
+        for (task, identity) in tasks.iter().zip(&asked).filter(|(_, asked)| !folder.holds(&asked.name)) {
+            let sequence = self.label_sequence(task, identity, &folder, observer)?;
+            let sequence = (sequence, identity.inputs.clone());
+            folder.finish_sequence(&sequence)?;
+            finished.push(sequence);
         }
-        for task in &tasks {
-            let sequence = match workspace.finished_sequence(task.reader) {
-                Some(done) => done,
-                None => self.label_sequence(task, &workspace, observer)?,
-            };
-            record.sequences.push(sequence);
-        }
-        record.timings.seconds = begun.elapsed().as_secs_f64();
-        record.timings.jobs = self.jobs;
-        workspace.finish(&record)?;
-        Ok(Outcome::Labelled(record))
+        let labelled = finished.iter().map(|(sequence, _)| sequence.name.clone()).collect();
+        let timings = Timings { seconds: begun.elapsed().as_secs_f64(), jobs: self.jobs };
+        let (mut record, removed) = folder.finish(finished, timings)?;
+        record.retain(|sequence| asked.iter().any(|asked| asked.name == sequence.name));
+        Ok(Outcome { record, labelled, removed })
     }
 
     fn task<'a>(&self, reader: &'a dyn SequenceReader) -> Result<Task<'a>, DataError> {
@@ -109,15 +117,13 @@ impl LabelRun<'_> {
     fn label_sequence(
         &self,
         task: &Task,
-        workspace: &Workspace,
+        identity: &Identity,
+        folder: &OutputFolder,
         observer: &dyn Observer,
     ) -> Result<SequenceRecord, DataError> {
-        let begun = Instant::now();
-        let not_labelled = workers::label_scans(task, self.config, workspace, self.jobs, observer)?;
-        let mut record = assemble::assemble(task, workspace, not_labelled, observer)?;
-        record.seconds = begun.elapsed().as_secs_f64();
-        workspace.finish_sequence(&record)?;
-        Ok(record)
+        let workspace = folder.workspace(identity);
+        let not_labelled = workers::label_scans(task, self.config, &workspace, self.jobs, observer)?;
+        assemble::assemble(task, &identity.fingerprint, &workspace, not_labelled, observer)
     }
 
     /// Inputs are only read: results beside them would be taken for a part of the recording.

@@ -1,11 +1,10 @@
-//! Where a run's results lie, and how they go once they belong to another run.
+//! Where a run's results lie, and how they go once others take their places.
 
-use super::record::SequenceRecord;
+use super::sequence_record::SequenceRecord;
 use crate::layout::is_folder_name;
 use crate::{DataError, files};
 use std::collections::BTreeSet;
 use std::fs;
-use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 /// The folder `OUT/sequences`.
@@ -47,16 +46,19 @@ impl Results {
         self.remove_folders(&record.name, record.radars.iter().map(|radar| radar.name.as_str()))
     }
 
-    /// Removes what a run left that was killed, by the scans that it kept as `SEQUENCE/RADAR/000000.rows`.
-    pub(super) fn remove_unfinished(&self, kept: &Path, sequence: &str) -> Result<(), DataError> {
-        let radars = files::folders(kept)?;
-        for radar in &radars {
-            let names = files::names(&kept.join(radar))?;
-            for scan in names.iter().filter_map(|name| name.strip_suffix(".rows")?.parse().ok()) {
-                self.remove_label(sequence, radar, scan)?;
+    /// Removes what was labelled of sequences, by the scans that are kept as `SEQUENCE/RADAR/000000.rows`.
+    pub(super) fn remove_unfinished(&self, kept: &Path) -> Result<(), DataError> {
+        for sequence in files::folders(kept)? {
+            let radars = files::folders(&kept.join(&sequence))?;
+            for radar in &radars {
+                let names = files::names(&kept.join(&sequence).join(radar))?;
+                for scan in names.iter().filter_map(|name| name.strip_suffix(".rows")?.parse().ok()) {
+                    self.remove_label(&sequence, radar, scan)?;
+                }
             }
+            self.remove_folders(&sequence, radars.iter().map(String::as_str))?;
         }
-        self.remove_folders(sequence, radars.iter().map(String::as_str))
+        Ok(())
     }
 
     /// Removes a scan's labels, if there are some.
@@ -65,7 +67,7 @@ impl Results {
         if !is_folder_name(sequence) || !is_folder_name(radar) {
             return Ok(());
         }
-        remove_file(&self.label_file(sequence, radar, scan))
+        files::remove(&self.label_file(sequence, radar, scan))
     }
 
     /// Removes the table, and the folders that are empty now.
@@ -77,7 +79,7 @@ impl Results {
         if !is_folder_name(sequence) {
             return Ok(());
         }
-        remove_file(&self.plausibility_file(sequence))?;
+        files::remove(&self.plausibility_file(sequence))?;
         let folder = self.sequences.join(sequence);
         // A folder that still holds something stays: that is no failure.
         for radar in radars.filter(|radar| is_folder_name(radar)) {
@@ -91,15 +93,4 @@ impl Results {
 /// All scans that a record tells of: radar, number.
 fn scans(record: &SequenceRecord) -> impl Iterator<Item = (&str, usize)> {
     record.radars.iter().flat_map(|radar| (0..radar.detections.len()).map(|scan| (radar.name.as_str(), scan)))
-}
-
-/// Removes a file, if it is there, and what a kill while it was written left beside it.
-pub(super) fn remove_file(file: &Path) -> Result<(), DataError> {
-    for file in [files::beside(file), file.to_owned()] {
-        match fs::remove_file(&file) {
-            Err(error) if error.kind() != ErrorKind::NotFound => return Err(DataError::Io { file, error }),
-            _ => {}
-        }
-    }
-    Ok(())
 }

@@ -1,7 +1,7 @@
 //! Scans side by side: each worker takes a stretch of time and labels it with a window of its own.
 
-use super::record::{ImageRecord, NotLabelled};
-use super::workspace::Workspace;
+use super::sequence_record::{ImageRecord, NotLabelled};
+use super::workspace::{Images, Workspace};
 use super::{Observer, Stage, Task};
 use crate::DataError;
 use crate::output::ScanTable;
@@ -65,7 +65,7 @@ fn in_time_order(task: &Task) -> Vec<(usize, usize)> {
 struct Shared<'a> {
     task: &'a Task<'a>,
     config: &'a Config,
-    workspace: &'a Workspace,
+    workspace: &'a Workspace<'a>,
     observer: &'a dyn Observer,
     failed: Mutex<Vec<NotLabelled>>,
     /// A result could not be written, so that more work would be lost, too.
@@ -89,9 +89,9 @@ impl Shared<'_> {
 
     /// Labels one scan, unless that was done before. Returns how many detections it has.
     fn label_scan(&self, window: &mut FrameWindow, radar: usize, scan: usize) -> Result<u64, DataError> {
-        let Task { reader, rig, columns } = self.task;
-        let (sequence, name) = (&reader.sequence().name, &rig.radars[radar].name);
-        if self.workspace.has_kept(sequence, name, scan, columns) {
+        let Task { rig, columns, .. } = self.task;
+        let name = &rig.radars[radar].name;
+        if self.workspace.has_kept(name, scan, columns) {
             return Ok(0);
         }
         let frame = match window.frame(radar, scan) {
@@ -99,16 +99,15 @@ impl Shared<'_> {
             Err(error) => {
                 let failed = NotLabelled { radar: name.clone(), scan, reason: error.to_string() };
                 self.failed.lock().unwrap_or_else(PoisonError::into_inner).push(failed);
-                return self.workspace.forget(sequence, name, scan).map(|()| 0);
+                return self.workspace.forget(name, scan).map(|()| 0);
             }
         };
-        for view in &frame.images {
-            let camera = &rig.cameras[view.moment.camera].name;
-            self.workspace.keep_image(sequence, camera, &ImageRecord::of(&view.moment))?;
-        }
+        let views = frame.images.iter().map(|view| &view.moment);
+        let images: Images =
+            views.map(|moment| (rig.cameras[moment.camera].name.clone(), ImageRecord::of(moment))).collect();
         let labels = Labeler::new(self.config).label(&frame);
         let table = ScanTable::new(columns, &rig.radars[radar], &frame.detections, &labels);
-        self.workspace.keep(sequence, name, scan, &table)?;
+        self.workspace.keep(name, scan, &images, &table)?;
         Ok(labels.len() as u64)
     }
 }

@@ -14,7 +14,9 @@ pub(super) fn provenance(content: &Content) -> Markup {
                 dt { "Program" } dd { "ralf " (record.version) }
                 dt { "Format" } dd { (record.format) }
                 dt { "Inputs" } dd { (grouped(record.inputs.len() as u64)) " files, " (grouped(bytes)) " bytes" }
-                dt { "Fingerprint" } dd { code { (record.fingerprint) } }
+                @for sequence in &record.sequences {
+                    dt { "Fingerprint of " (sequence.name) } dd { code { (sequence.fingerprint) } }
+                }
             }
             details {
                 summary { "All settings" }

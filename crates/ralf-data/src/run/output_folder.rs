@@ -1,0 +1,117 @@
+//! The output folder: results belong to sequences, and those of one program and the same settings lie side by side.
+//!
+//! Results go before the records that tell of them, and come before them, so that a kill in between leaves none that nobody
+//! knows of. `run.json` comes last: the sequences that it tells of are complete.
+
+use super::inputs::Identity;
+use super::json::write_json;
+use super::record::{RECORD, RunRecord, Timings, read_record};
+use super::results::Results;
+use super::sequence_record::SequenceRecord;
+use super::unfinished::{Finished, Unfinished};
+use super::workspace::Workspace;
+use crate::{DataError, files};
+use std::path::{Path, PathBuf};
+
+/// The output folder of a run.
+pub(super) struct OutputFolder {
+    record_file: PathBuf,
+    results: Results,
+    unfinished: Unfinished,
+    /// The sequences that are complete.
+    record: RunRecord,
+    /// Sequences that are not asked for and were made by another version or with other settings.
+    removed: Vec<String>,
+}
+
+impl OutputFolder {
+    /// Makes the folder ready for a run, whose record is still empty. What has the same version and settings stays, unless it
+    /// is asked for and was read from other inputs or is not whole; all other results are removed.
+    pub(super) fn open(out: &Path, run: RunRecord, asked: &[Identity]) -> Result<Self, DataError> {
+        let mut folder = Self {
+            record_file: out.join(RECORD),
+            results: Results::of(out),
+            unfinished: Unfinished::of(out, &run),
+            record: run,
+            removed: Vec::new(),
+        };
+        // Of a record that this version can't read, nothing is known.
+        match read_record(out) {
+            Ok(found) if found.is_like(&folder.record) => folder.record = found,
+            Ok(other) => folder.remove_all(&other, asked)?,
+            Err(_) => {}
+        }
+        folder.settle(asked)?;
+        folder.unfinished.remove_outdated(asked, &folder.results)?;
+        Ok(folder)
+    }
+
+    /// Removes the results of other settings.
+    fn remove_all(&mut self, other: &RunRecord, asked: &[Identity]) -> Result<(), DataError> {
+        other.sequences.iter().try_for_each(|sequence| self.results.remove(sequence))?;
+        let names = other.sequences.iter().map(|sequence| &sequence.name);
+        self.removed = names.filter(|name| asked.iter().all(|asked| asked.name != **name)).cloned().collect();
+        files::remove(&self.record_file)
+    }
+
+    /// Adds what killed runs have finished to the record, and takes out of it what is to be labelled again.
+    fn settle(&mut self, asked: &[Identity]) -> Result<(), DataError> {
+        let finished = self.unfinished.finished()?;
+        let fingerprints: Vec<_> =
+            finished.iter().map(|(sequence, _)| sequence.fingerprint.clone()).collect();
+        let known = |finished: &Finished| self.record.sequence(&finished.0.name).is_some();
+        let new: Vec<_> = finished.into_iter().filter(|finished| !known(finished)).collect();
+        self.record.add(new);
+        let stays = |sequence: &SequenceRecord| match asked.iter().find(|asked| asked.name == sequence.name) {
+            Some(asked) => asked.fingerprint == sequence.fingerprint && self.results.hold(sequence),
+            None => true,
+        };
+        let outdated: Vec<_> = self.record.sequences.iter().filter(|s| !stays(s)).cloned().collect();
+        if fingerprints.is_empty() && outdated.is_empty() {
+            return Ok(());
+        }
+        outdated.iter().try_for_each(|sequence| self.results.remove(sequence))?;
+        self.record.retain(|sequence| outdated.iter().all(|other| other.name != sequence.name));
+        self.write_record()?;
+        self.unfinished.forget(fingerprints.iter().map(String::as_str))
+    }
+
+    fn write_record(&self) -> Result<(), DataError> {
+        match self.record.sequences.is_empty() {
+            true => files::remove(&self.record_file),
+            false => write_json(&self.record_file, &self.record),
+        }
+    }
+
+    /// Whether a sequence was labelled before.
+    pub(super) fn holds(&self, name: &str) -> bool {
+        self.record.sequence(name).is_some()
+    }
+
+    /// Where a sequence is labelled.
+    pub(super) fn workspace<'a>(&'a self, sequence: &'a Identity) -> Workspace<'a> {
+        Workspace::of(&sequence.name, self.unfinished.scans(sequence), &self.results)
+    }
+
+    /// A sequence's results are in their places.
+    pub(super) fn finish_sequence(&self, finished: &Finished) -> Result<(), DataError> {
+        self.unfinished.finish(finished)
+    }
+
+    /// All sequences are finished. Returns the record of the folder, and the names of the sequences that are gone.
+    pub(super) fn finish(
+        mut self,
+        finished: Vec<Finished>,
+        timings: Timings,
+    ) -> Result<(RunRecord, Vec<String>), DataError> {
+        if !finished.is_empty() {
+            let fingerprints: Vec<_> =
+                finished.iter().map(|(sequence, _)| sequence.fingerprint.clone()).collect();
+            self.record.add(finished);
+            self.record.timings = timings;
+            self.write_record()?;
+            self.unfinished.forget(fingerprints.iter().map(String::as_str))?;
+        }
+        Ok((self.record, self.removed))
+    }
+}
