@@ -21,6 +21,8 @@ pub struct LabelledRows {
     pub x: Vec<f32>,
     /// Vehicle frame at the scan's time, m; NaN where absent.
     pub y: Vec<f32>,
+    /// Vehicle frame at the scan's time, m; NaN where absent.
+    pub z: Vec<f32>,
     /// Plausibility.
     pub w: Vec<f32>,
     /// 1 plausible, 0 artifact.
@@ -61,6 +63,7 @@ fn append_group(rows: &mut LabelledRows, group: &dyn RowGroupReader) -> Result<(
     rows.scan.extend(integers("scan")?.map(|scan| scan.cast_unsigned() as usize));
     rows.x.extend(decimals("x")?);
     rows.y.extend(decimals("y")?);
+    rows.z.extend(decimals("z")?);
     rows.w.extend(decimals("w")?);
     rows.label.extend(integers("label")?.map(|label| label as u8));
     rows.flags.extend(integers("flags")?.map(|flags| flags as u16));

@@ -19,7 +19,12 @@ use ralf::config::Config;
 use ralf::rig::Rig;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
-use workspace::Workspace;
+use workspace::{RECORD, Workspace, read_json};
+
+/// The record of the run whose results lie in a folder; `None` where it holds none.
+pub fn read_record(out: &Path) -> Result<Option<RunRecord>, DataError> {
+    read_json(&out.join(RECORD))
+}
 
 /// A labelling run.
 pub struct LabelRun<'a> {

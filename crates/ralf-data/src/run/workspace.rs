@@ -174,7 +174,7 @@ impl Workspace {
     }
 }
 
-fn read_json<T: DeserializeOwned>(file: &Path) -> Result<Option<T>, DataError> {
+pub(super) fn read_json<T: DeserializeOwned>(file: &Path) -> Result<Option<T>, DataError> {
     if !file.exists() {
         return Ok(None);
     }
