@@ -1,8 +1,8 @@
 //! A picture in the making, and the shapes that figures are made of. All lengths are pixels.
 
 use tiny_skia::{
-    FillRule, LineCap, LineJoin, Paint, Path, PathBuilder, Pixmap, PixmapPaint, Rect, Stroke, StrokeDash,
-    Transform,
+    FillRule, FilterQuality, LineCap, LineJoin, Paint, Path, PathBuilder, Pixmap, PixmapPaint, Rect, Stroke,
+    StrokeDash, Transform,
 };
 
 use crate::error::PlotError;
@@ -35,6 +35,24 @@ impl Canvas {
     pub(crate) fn paste(&mut self, other: &Self, [left, top]: [i32; 2]) {
         let paint = PixmapPaint::default();
         self.pixmap.draw_pixmap(left, top, other.pixmap.as_ref(), &paint, Transform::identity(), None);
+    }
+
+    /// A picture of `rgb` pixels, row by row, `scale` times as large; what lies outside this one is cut.
+    pub(crate) fn photograph(
+        &mut self,
+        [left, top]: [f32; 2],
+        [width, height]: [u32; 2],
+        rgb: impl Iterator<Item = [u8; 3]>,
+        scale: f32,
+    ) -> Result<(), PlotError> {
+        let mut image = Pixmap::new(width, height).ok_or(PlotError::Size { width, height })?;
+        for (pixel, [red, green, blue]) in image.data_mut().as_chunks_mut::<4>().0.iter_mut().zip(rgb) {
+            *pixel = [red, green, blue, 255];
+        }
+        let paint = PixmapPaint { quality: FilterQuality::Bilinear, ..PixmapPaint::default() };
+        let place = Transform::from_row(scale, 0.0, 0.0, scale, left, top);
+        self.pixmap.draw_pixmap(0, 0, image.as_ref(), &paint, place, None);
+        Ok(())
     }
 
     /// Covers part (0..1) of one pixel with ink; pixels outside the picture are left alone.

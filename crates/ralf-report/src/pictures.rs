@@ -54,6 +54,25 @@ impl Pictures<'_> {
         })
     }
 
+    /// Time of a scan of the radar asked for, or of the first, ns.
+    ///
+    /// # Errors
+    /// No such radar or scan.
+    pub fn time_of(&self, scan: usize) -> Result<i64, ReportError> {
+        let radar = self.first_radar()?;
+        let times = &self.sequence().times.radars[radar];
+        times.get(scan).copied().ok_or_else(|| {
+            let name = &self.sequence().rig.radars[radar].name;
+            let expected = format!("a scan of {name} from 0 to {}", times.len().saturating_sub(1));
+            ReportError::Unknown { expected, found: scan.to_string() }
+        })
+    }
+
+    /// The radars that are drawn, for people.
+    pub fn who(&self) -> &str {
+        self.radar.unwrap_or("all radars")
+    }
+
     fn shows(&self, radar: &str) -> bool {
         self.radar.is_none_or(|wanted| wanted == radar)
     }
@@ -63,17 +82,12 @@ impl Pictures<'_> {
     /// # Errors
     /// No such radar or scan, a LiDAR scan that can't be read, or a width outside its range.
     pub fn scan(&self, scan: usize, shown: Detections, width: u32) -> Result<Vec<u8>, ReportError> {
-        let (sequence, radar) = (self.sequence(), self.first_radar()?);
-        let times = &sequence.times.radars;
-        let t_ns = *times[radar].get(scan).ok_or_else(|| {
-            let (name, count) = (&sequence.rig.radars[radar].name, times[radar].len());
-            let expected = format!("a scan of {name} from 0 to {}", count.saturating_sub(1));
-            ReportError::Unknown { expected, found: scan.to_string() }
-        })?;
+        let sequence = self.sequence();
+        let t_ns = self.time_of(scan)?;
         let marks = self.marks_at(t_ns, shown);
         let radars: Vec<_> =
             sequence.rig.radars.iter().filter(|radar| self.shows(&radar.name)).map(mount).collect();
-        let who = self.radar.unwrap_or("all radars");
+        let who = self.who();
         Ok(scan_picture(&ScanPicture {
             title: &format!("{}, scan {scan}", sequence.name),
             subtitle: &format!("{who}, {:.2} s into the sequence", self.seconds_into(t_ns)),
@@ -115,16 +129,23 @@ impl Pictures<'_> {
         })?)
     }
 
-    /// The detections of each radar's scan nearest to a time, in the vehicle frame there.
-    fn marks_at(&self, t_ns: i64, shown: Detections) -> Vec<Mark> {
-        let Sequence { times, motion, .. } = self.sequence();
-        let nearest: Vec<_> = times.radars.iter().map(|times| sync::nearest(times, t_ns, i64::MAX)).collect();
-        let mark = |row: usize| {
+    /// The detections of each drawn radar's scan nearest to a time: row, and time of its scan, ns.
+    pub fn rows_near(&self, t_ns: i64) -> impl Iterator<Item = (usize, i64)> {
+        let times = &self.sequence().times.radars;
+        let nearest: Vec<_> = times.iter().map(|times| sync::nearest(times, t_ns, i64::MAX)).collect();
+        let near = move |row: usize| {
             let radar = self.radar_of(row)?;
             let scan = nearest[radar].filter(|scan| *scan == self.rows.scan[row])?;
-            Some(self.mark(row, &motion.between(t_ns, times.radars[radar][scan]), shown))
+            Some((row, times[radar][scan]))
         };
-        (0..self.rows.scan.len()).filter_map(mark).collect()
+        (0..self.rows.scan.len()).filter_map(near)
+    }
+
+    /// These detections in the vehicle frame at that time.
+    fn marks_at(&self, t_ns: i64, shown: Detections) -> Vec<Mark> {
+        let motion = &self.sequence().motion;
+        let mark = |(row, scan_ns)| self.mark(row, &motion.between(t_ns, scan_ns), shown);
+        self.rows_near(t_ns).map(mark).collect()
     }
 
     /// Index of a row's radar in the rig; `None` of one that isn't drawn.
@@ -135,12 +156,16 @@ impl Pictures<'_> {
 
     fn mark(&self, row: usize, to_from_vehicle: &Transform, shown: Detections) -> Mark {
         let p = to_from_vehicle * Point::new(self.rows.x[row].into(), self.rows.y[row].into(), 0.0);
-        let label = match (shown, self.rows.label[row]) {
-            (Detections::Raw, _) => MarkLabel::Unlabelled,
-            (Detections::Labelled, 1) => MarkLabel::Plausible,
-            (Detections::Labelled, _) => MarkLabel::Artifact,
+        let label = match shown {
+            Detections::Raw => MarkLabel::Unlabelled,
+            Detections::Labelled => self.label(row),
         };
         Mark { x: p.x, y: p.y, label }
+    }
+
+    /// What a detection is labelled.
+    pub fn label(&self, row: usize) -> MarkLabel {
+        if self.rows.label[row] == 1 { MarkLabel::Plausible } else { MarkLabel::Artifact }
     }
 
     fn seconds_into(&self, t_ns: i64) -> f64 {

@@ -143,8 +143,8 @@ impl<'a> FrameWindow<'a> {
         batch.into_iter().filter_map(step).collect()
     }
 
-    /// The LiDAR scans nearest to a time, with their ground.
-    fn lidar_view(&mut self, t_ns: i64) -> Result<Option<LidarView>, SourceError> {
+    /// The LiDAR scans nearest to a time, with their ground; `None` where there is none within the tolerance.
+    pub fn lidar_view(&mut self, t_ns: i64) -> Result<Option<LidarView>, SourceError> {
         let tolerance = nanoseconds(self.config.sync.lidar_tolerance_ms);
         let times = &self.source.sequence().times.lidars;
         let nearest = times.iter().enumerate();

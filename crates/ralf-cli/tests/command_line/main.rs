@@ -10,6 +10,7 @@
 
 mod bad_files;
 mod bad_recordings;
+mod camera_plot;
 mod determinism;
 mod evaluation;
 #[cfg(unix)]

@@ -29,6 +29,8 @@ pub struct LabelledRows {
     pub w_opt: Vec<f32>,
     /// Plausibility by tracking; NaN where absent.
     pub w_tr: Vec<f32>,
+    /// Vehicle frame at the scan's time, m; NaN where absent.
+    pub z: Vec<f32>,
     /// Plausibility.
     pub w: Vec<f32>,
     /// 1 plausible, 0 artifact.
@@ -73,6 +75,7 @@ fn append_group(rows: &mut LabelledRows, group: &dyn RowGroupReader) -> Result<(
     rows.azimuth.extend(decimals("azimuth")?);
     rows.w_opt.extend(decimals("w_opt")?);
     rows.w_tr.extend(decimals("w_tr")?);
+    rows.z.extend(decimals("z")?);
     rows.w.extend(decimals("w")?);
     rows.label.extend(integers("label")?.map(|label| label as u8));
     rows.flags.extend(integers("flags")?.map(|flags| flags as u16));

@@ -188,3 +188,47 @@ fn write(file: &Path, bytes: impl AsRef<[u8]>) {
     fs::create_dir_all(file.parent().unwrap()).unwrap();
     fs::write(file, bytes).unwrap();
 }
+
+const CAMERA_TOML: &str = r#"
+[[camera]]
+name = "camera_front"
+translation = [2.0, 0.0, 1.2]
+quaternion_xyzw = [-0.5, 0.5, -0.5, 0.5]
+width = 160
+height = 120
+model = "pinhole"
+fx = 80.0
+fy = 80.0
+cx = 79.5
+cy = 59.5
+distortion = [0.0, 0.0, 0.0, 0.0, 0.0]
+"#;
+
+impl Dataset {
+    /// Adds a camera to sequence 00 that looks ahead: grey images, and depth images which say that all is equally far.
+    pub(crate) fn with_camera(self, images: usize) -> Self {
+        let toml = fs::read_to_string(self.file("sequence.toml")).unwrap();
+        self.put("sequence.toml", toml + CAMERA_TOML);
+        let mut pixels = tiny_skia::Pixmap::new(160, 120).unwrap();
+        pixels.fill(tiny_skia::Color::from_rgba8(120, 120, 120, 255));
+        let image = pixels.encode_png().unwrap();
+        let times = (0..images as i64).map(|i| format!("{}\n", BEGIN_NS + 10_000_000 + i * PERIOD_NS));
+        let camera = self.file("camera_front");
+        write(&camera.join("timestamps.txt"), times.collect::<String>());
+        for number in 0..images {
+            write(&camera.join(format!("{number:06}.png")), &image);
+            write(&camera.join(format!("depth/{number:06}.npy")), npy(120, 160));
+        }
+        self
+    }
+}
+
+/// A NumPy file of float32 ones.
+fn npy(rows: usize, columns: usize) -> Vec<u8> {
+    let header = format!("{{'descr': '<f4', 'fortran_order': False, 'shape': ({rows}, {columns}), }}");
+    // Magic, version and length take 10 bytes; the values begin at a multiple of 64.
+    let header = format!("{header:<117}\n");
+    let length = u16::try_from(header.len()).unwrap().to_le_bytes();
+    let ones = floats(std::iter::repeat_n(1.0, rows * columns));
+    [b"\x93NUMPY\x01\x00".as_slice(), &length, header.as_bytes(), &ones].concat()
+}

@@ -1,4 +1,6 @@
-//! `ralf plot`: labelled scans from above.
+//! `ralf plot`: labelled scans from above, and as a camera sees them.
+
+mod camera;
 
 use crate::Outcome;
 use crate::cli::DatasetArgs;
@@ -16,12 +18,14 @@ const WIDTHS: [u32; 2] = [1600, 1400];
 /// Arguments of `ralf plot`.
 #[derive(Debug, Args)]
 #[command(after_help = "\
-Without --radar all radars are drawn: the first one's scan, and the others' nearest to it in time.
+Without --radar all radars are drawn: the first one's scan, and the others' nearest to it in time. With --camera the picture
+shows the straight views of the image nearest to the scan, each beside its depth as the LiDAR calibrates it.
 
 Examples:
   ralf plot recordings/city out --sequence 00 --scan 17 -o scan.png
   ralf plot recordings/city out --sequence 00 --scan 17 --radar radar_front --radius 40 -o front.png
-  ralf plot recordings/city out --sequence 00 --all -o overview.png")]
+  ralf plot recordings/city out --sequence 00 --all -o overview.png
+  ralf plot recordings/city out --sequence 00 --scan 17 --camera front -o camera.png")]
 pub(crate) struct PlotArgs {
     #[command(flatten)]
     dataset: DatasetArgs,
@@ -38,8 +42,17 @@ pub(crate) struct PlotArgs {
     #[arg(long, value_name = "NAME")]
     radar: Option<String>,
     /// Draw this far around the vehicle, m; fitted to the detections if not given
-    #[arg(long, value_name = "M")]
+    #[arg(long, value_name = "M", conflicts_with = "camera")]
     radius: Option<f64>,
+    /// What this camera sees, beside its depth, with LiDAR and radar in it
+    #[arg(long, value_name = "NAME", requires = "scan")]
+    camera: Option<String>,
+    /// Only this view of the camera, from 0
+    #[arg(long, value_name = "V", requires = "camera")]
+    view: Option<usize>,
+    /// Take depth images from this folder; OUT/depth if not given, or the recording's own
+    #[arg(long, value_name = "FOLDER", requires = "camera")]
+    depth: Option<PathBuf>,
     /// The picture (PNG)
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
@@ -48,6 +61,10 @@ pub(crate) struct PlotArgs {
 /// Draws a picture.
 pub(crate) fn run(arguments: &PlotArgs) -> anyhow::Result<Outcome> {
     let recording = arguments.dataset.open()?;
+    let recording = match camera::depth_store(arguments)? {
+        Some(store) => store.attach(recording),
+        None => recording,
+    };
     let [reader] = recording.sequences.as_slice() else {
         let names: Vec<_> =
             recording.sequences.iter().map(|reader| reader.sequence().name.as_str()).collect();
@@ -56,11 +73,12 @@ pub(crate) fn run(arguments: &PlotArgs) -> anyhow::Result<Outcome> {
     let file = arguments.labels.join("sequences").join(&reader.sequence().name).join("plausibility.parquet");
     let rows = read_labelled_rows(&file)?;
     let extent = arguments.radius.map_or(Extent::Fit, Extent::Radius);
-    let radar = arguments.radar.as_deref();
-    let pictures = Pictures { reader: reader.as_ref(), rows: &rows, radar, extent };
-    let png = match arguments.scan {
-        Some(scan) => pictures.scan(scan, Detections::Labelled, WIDTHS[0])?,
-        None => pictures.overview(WIDTHS[1])?,
+    let pictures =
+        Pictures { reader: reader.as_ref(), rows: &rows, radar: arguments.radar.as_deref(), extent };
+    let png = match (arguments.scan, &arguments.camera) {
+        (Some(scan), Some(name)) => camera::Plot { pictures, arguments }.camera(scan, name)?,
+        (Some(scan), None) => pictures.scan(scan, Detections::Labelled, WIDTHS[0])?,
+        (None, _) => pictures.overview(WIDTHS[1])?,
     };
     ralf_data::write_whole(&arguments.output, &png)?;
     say(&format!("wrote {}", arguments.output.display()));
