@@ -1,6 +1,6 @@
 //! What can be typed.
 
-use crate::commands::{convert, evaluate, inspect, label, plot};
+use crate::commands::{convert, evaluate, inspect, label, plot, simulate};
 use clap::{Args, Parser, Subcommand};
 use std::path::PathBuf;
 
@@ -36,6 +36,8 @@ pub(crate) enum Command {
     Plot(plot::PlotArgs),
     /// Write a recording of another format in RALF's own layout
     Convert(convert::ConvertArgs),
+    /// Make a recording whose truth is known
+    Simulate(simulate::SimulateArgs),
     /// Print a completion script for a shell
     #[command(after_help = "Example:\n  ralf completions bash > /etc/bash_completion.d/ralf")]
     Completions {

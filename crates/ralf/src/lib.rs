@@ -13,6 +13,8 @@
 //!    in the scaled depth image?) and [`tracking`] (is it there in the neighbouring scans, too?). All of them measure with the
 //!    same [`mismatch`]. [`fusion`] makes one plausibility of the answers.
 //! 4. [`label`] and [`metrics`] compare the result with a truth.
+//!
+//! [`sim`] makes recordings whose truth is known.
 
 mod association;
 pub mod camera;
@@ -31,6 +33,7 @@ pub mod motion;
 pub mod neighbors;
 mod recent;
 pub mod rig;
+pub mod sim;
 pub mod source;
 pub mod sync;
 pub mod tracking;

@@ -5,6 +5,7 @@ pub(crate) mod evaluate;
 pub(crate) mod inspect;
 pub(crate) mod label;
 pub(crate) mod plot;
+pub(crate) mod simulate;
 
 use crate::Outcome;
 use crate::cli::{Cli, Command};
@@ -18,6 +19,7 @@ pub(crate) fn dispatch(arguments: Cli) -> anyhow::Result<Outcome> {
         Command::Evaluate(arguments) => evaluate::run(&arguments),
         Command::Plot(arguments) => plot::run(&arguments),
         Command::Convert(arguments) => convert::run(&arguments),
+        Command::Simulate(arguments) => simulate::run(&arguments),
         Command::Completions { shell } => {
             clap_complete::generate(shell, &mut Cli::command(), "ralf", &mut std::io::stdout());
             Ok(Outcome::Done)
