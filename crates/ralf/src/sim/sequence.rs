@@ -103,6 +103,11 @@ impl SimulatedSequence {
         self.pose(START_NS).inv_mul(&self.pose(t_ns))
     }
 
+    /// The true depth of each straight view of an image along its axis, m; the sky is 80 m away.
+    pub fn true_depth(&self, camera: usize, image: usize) -> Result<Vec<DepthImage>, SourceError> {
+        Ok(camera::true_depth(&self.moment(camera, image)?.1))
+    }
+
     fn detections(&self, radar: usize, scan: usize) -> Result<Vec<Detection>, SourceError> {
         let t_ns = time("radar", &self.sequence.times.radars, radar, scan)?;
         let sensor = &self.sequence.rig.radars[radar];
@@ -185,5 +190,65 @@ impl Source for SimulatedSequence {
         let (_, moment, t_ns) = self.moment(camera, image)?;
         let random = &mut Random::new(self.seed, Purpose::Depth, camera, image);
         Ok(Some(camera::depth(&moment, self.failure(camera, t_ns), random)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::{Point, Spherical};
+    use crate::sim::shape::Ray;
+    use crate::sim::{Cause, Kind, presets};
+
+    fn tiny() -> SimulatedSequence {
+        presets::find("tiny").unwrap().sequences[0].simulate(5, 6).unwrap()
+    }
+
+    #[test]
+    fn plausible_detections_lie_on_objects_within_the_noise() {
+        let sequence = tiny();
+        for radar in 0..4 {
+            let sensor = &sequence.sequence.rig.radars[radar];
+            let scan = sequence.radar_scan(radar, 5).unwrap();
+            let site_from_radar = sequence.pose(scan.t_ns) * sensor.vehicle_from_radar;
+            for (detection, found) in sequence.detections(radar, 5).unwrap().iter().zip(&scan.spherical) {
+                let origin = Spherical::from_cartesian(&detection.origin);
+                assert!((found.range - origin.range).abs() < 6.0 * sensor.sigma_range);
+                assert!((found.azimuth - origin.azimuth).abs() < 6.0 * sensor.sigma_azimuth);
+                assert!((found.elevation - origin.elevation).abs() < 6.0 * sensor.sigma_elevation);
+                let p = site_from_radar * detection.origin;
+                let on = |object: &crate::sim::site::Object| {
+                    let own = object.pose(seconds(scan.t_ns)).inverse_transform_point(&p);
+                    let half = object.size / 2.0;
+                    own.x.abs() < half.x + 0.2 && own.y.abs() < half.y + 0.2 && own.z < object.size.z + 0.3
+                };
+                let real = detection.truth.cause == Cause::Plausible;
+                assert!(!real || sequence.site.objects.iter().any(on), "{:?} at {p}", detection.truth);
+            }
+        }
+    }
+
+    #[test]
+    fn lidar_points_lie_on_surfaces() {
+        let sequence = tiny();
+        let scan = sequence.lidar_scan(0, 1).unwrap();
+        let scene = Scene::new(&sequence.site, seconds(scan.t_ns));
+        let sensor = &sequence.sequence.rig.lidars[0];
+        let site_from_lidar = sequence.pose(scan.t_ns) * sensor.vehicle_from_lidar;
+        assert!(scan.points.len() > 20_000, "{}", scan.points.len());
+        let (mut solid, mut off) = (0, 0);
+        for point in &scan.points {
+            let own = Vector::new(point[0].into(), point[1].into(), point[2].into());
+            let origin = Point::from(site_from_lidar.translation.vector);
+            let ray = Ray { origin, direction: site_from_lidar.rotation * own.normalize() };
+            let hit = scene.cast(&ray, 130.0);
+            if hit.is_none_or(|hit| matches!(hit.kind(), Kind::Tree | Kind::Hedge | Kind::Fence)) {
+                continue;
+            }
+            solid += 1;
+            off += usize::from(hit.is_none_or(|hit| (hit.distance - own.norm()).abs() > 0.15));
+        }
+        // A rounded ray may just miss an edge.
+        assert!(solid > 15_000 && off * 1000 < solid, "{off} of {solid}");
     }
 }

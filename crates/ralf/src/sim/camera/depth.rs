@@ -32,6 +32,16 @@ pub(in crate::sim) fn depth(
     views.iter().map(|view| estimated(&exact(moment, view), view, failure, random)).collect()
 }
 
+/// The true depth of each view, m.
+pub(in crate::sim) fn true_depth(moment: &Moment<'_>) -> Vec<DepthImage> {
+    let metric = |view: &StraightView| DepthImage {
+        width: view.width,
+        height: view.height,
+        values: exact(moment, view).into_iter().map(|value| value as f32).collect(),
+    };
+    moment.camera.straight_views().iter().map(metric).collect()
+}
+
 /// The true depth along the view's axis, m, row by row.
 fn exact(moment: &Moment<'_>, view: &StraightView) -> Vec<f64> {
     let origin = Point::from(moment.site_from_camera.translation.vector);

@@ -4,7 +4,7 @@ mod depth;
 mod paint;
 mod render;
 
-pub(super) use depth::depth;
+pub(super) use depth::{depth, true_depth};
 pub(super) use render::{Rays, image, rays};
 
 use super::scene::Scene;
