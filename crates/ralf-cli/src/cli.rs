@@ -1,6 +1,6 @@
 //! What can be typed.
 
-use crate::commands::{convert, depth, evaluate, inspect, label, plot, report, tune};
+use crate::commands::{convert, depth, evaluate, inspect, label, plot, report, simulate, tune};
 use clap::{Args, Parser, Subcommand};
 use std::path::PathBuf;
 
@@ -44,6 +44,8 @@ pub(crate) enum Command {
     Report(report::ReportArgs),
     /// Write a recording of another format in RALF's own layout
     Convert(convert::ConvertArgs),
+    /// Make a recording whose truth is known
+    Simulate(simulate::SimulateArgs),
     /// Print a completion script for a shell
     #[command(after_help = "Example:\n  ralf completions bash > /etc/bash_completion.d/ralf")]
     Completions {

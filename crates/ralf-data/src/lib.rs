@@ -37,6 +37,7 @@ mod open;
 pub mod output;
 mod recording;
 pub mod run;
+mod simulated;
 #[cfg(test)]
 mod testing;
 mod view_of_delft;
@@ -51,4 +52,4 @@ pub use ground_truth::{GroundTruth, ScanId};
 pub use label_file::{Label, read_labels, write_labels};
 pub use layout::{LayoutSequence, write_sequence};
 pub use open::{formats, open};
-pub use recording::{Recording, SequenceReader};
+pub use recording::{Recording, SequenceReader, TruthLabels};

@@ -1,7 +1,7 @@
 //! A recording of any format, seen as its sequences.
 
-use crate::DataError;
-use ralf::source::Source;
+use crate::{DataError, Label};
+use ralf::source::{Source, SourceError};
 use std::path::PathBuf;
 
 /// One sequence of a recording, and the files it is read from.
@@ -24,6 +24,20 @@ pub trait SequenceReader: Source {
     fn truth_file(&self, _radar: usize, _scan: usize) -> Option<PathBuf> {
         None
     }
+
+    /// The truth of a radar's scan where it is known without a file.
+    fn truth(&self, _radar: usize, _scan: usize) -> Result<Option<TruthLabels>, SourceError> {
+        Ok(None)
+    }
+}
+
+/// What is true of each detection of a scan, in its order.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct TruthLabels {
+    /// As they stand in a `.label` file.
+    pub labels: Vec<Label>,
+    /// Why each is an artifact: [`ralf::sim::Cause`] as a number, 0 of what is plausible. No file that labelling reads.
+    pub causes: Vec<u8>,
 }
 
 /// What `sensors` holds of a measurement: one list per sensor of this kind, one entry per measurement.

@@ -14,6 +14,8 @@
 //!    same [`mismatch`]. [`fusion`] makes one plausibility of the answers, the
 //!    [`evidence`].
 //! 4. [`label`] and [`metrics`] compare the result with a truth, and [`tune`] seeks the settings that come nearest to it.
+//!
+//! [`sim`] makes recordings whose truth is known.
 
 mod association;
 pub mod camera;
@@ -33,6 +35,7 @@ pub mod motion;
 pub mod neighbors;
 mod recent;
 pub mod rig;
+pub mod sim;
 pub mod source;
 pub mod sync;
 pub mod tracking;

@@ -35,7 +35,8 @@ pub(crate) fn run(arguments: &ConvertArgs) -> anyhow::Result<Outcome> {
     Ok(Outcome::Done)
 }
 
-fn measurements(times: &Timelines) -> u64 {
+/// How many measurements all sensors delivered.
+pub(crate) fn measurements(times: &Timelines) -> u64 {
     let Timelines { radars, lidars, cameras } = times;
     radars.iter().chain(lidars).chain(cameras).map(|times| times.len() as u64).sum()
 }

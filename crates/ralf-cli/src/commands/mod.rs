@@ -7,6 +7,7 @@ pub(crate) mod inspect;
 pub(crate) mod label;
 pub(crate) mod plot;
 pub(crate) mod report;
+pub(crate) mod simulate;
 pub(crate) mod tune;
 
 use crate::Outcome;
@@ -25,6 +26,7 @@ pub(crate) fn dispatch(arguments: Cli) -> anyhow::Result<Outcome> {
         Command::Convert(arguments) => convert::run(&arguments),
         Command::Depth(arguments) => depth::run(&arguments),
         Command::Tune(arguments) => tune::run(&arguments),
+        Command::Simulate(arguments) => simulate::run(&arguments),
         Command::Completions { shell } => {
             let mut script = Vec::new();
             clap_complete::generate(shell, &mut Cli::command(), "ralf", &mut script);

@@ -2,7 +2,7 @@
 
 use super::raw::{DepthToml, SequenceToml};
 use super::{GROUND_TRUTH, SEQUENCES, is_folder_name, rig, tables};
-use crate::{DataError, SequenceReader, files, images, npy};
+use crate::{DataError, SequenceReader, files, images, npy, write_labels};
 use ralf::source::{Sequence, SourceError};
 use std::cell::Cell;
 use std::fs;
@@ -109,10 +109,13 @@ impl Writer<'_> {
         let rows = columns.first().map_or(0, Vec::len);
         let values = (0..rows).flat_map(|row| columns.iter().map(move |column| column[row]));
         files::write_whole(&file.with_extension("bin"), &files::f32_bytes(values))?;
+        let name = &self.reader.sequence().rig.radars[radar].name;
+        let truth_file = self.folder.join(GROUND_TRUTH).join(name).join(format!("{scan:06}.label"));
         if let Some(truth) = self.reader.truth_file(radar, scan) {
-            let name = &self.reader.sequence().rig.radars[radar].name;
-            let copy = self.folder.join(GROUND_TRUTH).join(name).join(format!("{scan:06}.label"));
-            files::write_whole(&copy, &files::read(&truth)?)?;
+            files::write_whole(&truth_file, &files::read(&truth)?)?;
+        } else if let Some(truth) = self.reader.truth(radar, scan)? {
+            write_labels(&truth_file, &truth.labels)?;
+            files::write_whole(&truth_file.with_extension("cause"), &truth.causes)?;
         }
         Ok(())
     }

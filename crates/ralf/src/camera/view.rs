@@ -97,7 +97,7 @@ impl StraightView {
     }
 
     /// The ray of a pixel in the view's own optical frame, with z = 1.
-    pub(super) fn ray(&self, [u, v]: [f64; 2]) -> Vector {
+    pub(crate) fn ray(&self, [u, v]: [f64; 2]) -> Vector {
         Vector::new((u - self.center[0]) / self.focal, (v - self.center[1]) / self.focal, 1.0)
     }
 }

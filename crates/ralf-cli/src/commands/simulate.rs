@@ -1,0 +1,131 @@
+//! `ralf simulate`: a recording whose truth is known.
+
+use super::convert::measurements;
+use crate::progress::{STEPS, bar, say};
+use crate::{Outcome, UsageError};
+use anyhow::Context;
+use clap::Args;
+use clap::builder::PossibleValuesParser;
+use ralf::sim::presets::{self, Preset};
+use ralf::sim::{Scenario, SimulatedSequence};
+use ralf::source::Source;
+use std::path::{Path, PathBuf};
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
+
+/// Scans of a scenario of one's own, where no number is given.
+const USUAL_SCANS: usize = 100;
+
+/// Arguments of `ralf simulate`.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Writes LiDAR, four radars, four fisheye cameras with depth, wheel odometry, and the truth of every detection, in RALF's own layout.
+A sequence that is there already is never overwritten. The same preset, numbers and seed give the same bytes.
+
+Examples:
+  ralf simulate -o recordings/sim --scans 300         the paper's eleven sequences, each shorter
+  ralf simulate -o recordings/sim                     all 2,704 scans of each radar: minutes, and some 4 GB
+  ralf simulate -o recordings/tiny --preset tiny      in a second
+  ralf simulate -o recordings/mine --scenario yard.toml --scans 200 --seed 3")]
+pub(crate) struct SimulateArgs {
+    /// Folder of the dataset that is written
+    #[arg(short, long, value_name = "DATASET")]
+    output: PathBuf,
+    /// Which sequences
+    #[arg(long, default_value = "paper", conflicts_with = "scenario",
+        value_parser = PossibleValuesParser::new(presets::ALL.iter().map(|preset| preset.name)))]
+    preset: String,
+    /// A scenario of your own (TOML), as sequence 00
+    #[arg(long, value_name = "FILE")]
+    scenario: Option<PathBuf>,
+    /// Only this sequence; may be given several times
+    #[arg(long = "sequence", value_name = "NAME", conflicts_with = "scenario")]
+    sequences: Vec<String>,
+    /// Scans of each radar, over all sequences of the preset; all of them if not given
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    scans: Option<u32>,
+    /// Of every random choice
+    #[arg(long, default_value_t = 0, value_name = "S")]
+    seed: u64,
+    /// No progress
+    #[arg(short, long)]
+    quiet: bool,
+}
+
+/// Makes a recording.
+pub(crate) fn run(arguments: &SimulateArgs) -> anyhow::Result<Outcome> {
+    let sequences = match &arguments.scenario {
+        Some(file) => vec![own(file, arguments)?],
+        None => preset(arguments)?,
+    };
+    let steps: u64 = sequences.iter().map(|sequence| measurements(&sequence.sequence().times)).sum();
+    let bar = bar(steps, STEPS, "simulating".into());
+    if arguments.quiet {
+        bar.set_draw_target(indicatif::ProgressDrawTarget::hidden());
+    }
+    let done: Vec<AtomicU64> = sequences.iter().map(|_| AtomicU64::new(0)).collect();
+    write_all(&sequences, &arguments.output, &|sequence, measurements| {
+        done[sequence].store(measurements as u64, Ordering::Relaxed);
+        bar.set_position(done.iter().map(|count| count.load(Ordering::Relaxed)).sum());
+    })?;
+    bar.finish_and_clear();
+    for sequence in &sequences {
+        let folder = arguments.output.join("sequences").join(&sequence.sequence().name);
+        say(&format!("wrote {}", folder.display()));
+    }
+    Ok(Outcome::Done)
+}
+
+/// Writes the sequences side by side; the first error in their order ends it.
+fn write_all(
+    sequences: &[SimulatedSequence],
+    output: &Path,
+    progress: &(dyn Fn(usize, usize) + Sync),
+) -> anyhow::Result<()> {
+    let jobs = std::thread::available_parallelism().map_or(1, std::num::NonZeroUsize::get);
+    let next = AtomicUsize::new(0);
+    let failed = Mutex::new(None::<(usize, ralf_data::DataError)>);
+    std::thread::scope(|scope| {
+        for _ in 0..jobs.min(sequences.len()) {
+            scope.spawn(|| {
+                while let Some((index, sequence)) = Some(next.fetch_add(1, Ordering::Relaxed))
+                    .and_then(|index| Some((index, sequences.get(index)?)))
+                {
+                    let written = ralf_data::write_sequence(sequence, output, &|done| progress(index, done));
+                    let Err(error) = written else { continue };
+                    let mut failed = failed.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+                    if failed.as_ref().is_none_or(|(first, _)| index < *first) {
+                        *failed = Some((index, error));
+                    }
+                }
+            });
+        }
+    });
+    match failed.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner) {
+        Some((_, error)) => Err(error.into()),
+        None => Ok(()),
+    }
+}
+
+/// The user's scenario.
+fn own(file: &Path, arguments: &SimulateArgs) -> anyhow::Result<SimulatedSequence> {
+    let name = || file.display().to_string();
+    let text = std::fs::read_to_string(file).with_context(name)?;
+    let scenario = Scenario::from_toml(&text).with_context(name)?;
+    let scans = arguments.scans.map_or(USUAL_SCANS, |scans| scans as usize);
+    SimulatedSequence::new("00", &scenario, arguments.seed, scans).with_context(name)
+}
+
+/// The sequences of the preset that are asked for. Each has a seed of its own.
+fn preset(arguments: &SimulateArgs) -> anyhow::Result<Vec<SimulatedSequence>> {
+    let preset: &Preset = presets::find(&arguments.preset).context("no such preset")?;
+    let names: Vec<&str> = preset.sequences.iter().map(|sequence| sequence.name).collect();
+    if let Some(unknown) = arguments.sequences.iter().find(|name| !names.contains(&name.as_str())) {
+        let known = names.join(", ");
+        return Err(UsageError(format!("--sequence: expected one of {known}, found {unknown}")).into());
+    }
+    let spread = preset.spread(arguments.scans.map_or(preset.scans(), |scans| scans as usize));
+    let wanted = |name: &str| arguments.sequences.is_empty() || arguments.sequences.iter().any(|n| n == name);
+    let chosen = preset.sequences.iter().zip(spread).filter(|(sequence, _)| wanted(sequence.name));
+    chosen.map(|(sequence, scans)| Ok(sequence.simulate(arguments.seed, scans)?)).collect()
+}
