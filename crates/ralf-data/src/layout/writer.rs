@@ -3,6 +3,7 @@
 use super::raw::{DepthToml, SequenceToml};
 use super::{GROUND_TRUTH, SEQUENCES, is_folder_name, rig, tables};
 use crate::{DataError, SequenceReader, files, images, npy, write_labels};
+use ralf::sim::Cause;
 use ralf::source::{Sequence, SourceError};
 use std::cell::Cell;
 use std::fs;
@@ -116,8 +117,19 @@ impl Writer<'_> {
         } else if let Some(truth) = self.reader.truth(radar, scan)? {
             write_labels(&truth_file, &truth.labels)?;
             files::write_whole(&truth_file.with_extension("cause"), &truth.causes)?;
+            self.names_of_causes()?;
         }
         Ok(())
+    }
+
+    /// `ground_truth/causes.txt`: line n names the cause n.
+    fn names_of_causes(&self) -> Result<(), DataError> {
+        let file = self.folder.join(GROUND_TRUTH).join("causes.txt");
+        if file.exists() {
+            return Ok(());
+        }
+        let names: String = Cause::ALL.iter().map(|cause| format!("{}\n", cause.name())).collect();
+        files::write_whole(&file, names.as_bytes())
     }
 
     fn lidar_scan(&self, lidar: usize, scan: usize, file: &Path) -> Result<(), SourceError> {

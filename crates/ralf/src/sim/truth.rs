@@ -35,7 +35,7 @@ impl Cause {
     /// For tables.
     pub fn name(self) -> &'static str {
         match self {
-            Self::Plausible => "plausible",
+            Self::Plausible => "none",
             Self::Road => "road",
             Self::Mirror => "mirror",
             Self::DoubleBounce => "double bounce",
