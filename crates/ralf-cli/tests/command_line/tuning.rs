@@ -33,7 +33,7 @@ fn tune(dataset: &Dataset, file: &str, jobs: &str) -> Value {
 
 /// What `ralf evaluate` finds in the labels of one sequence.
 fn labelled(dataset: &Dataset, sequence: &str, settings: &[&str]) -> Value {
-    let out = dataset.beside(&format!("out{}", settings.len()));
+    let out = dataset.beside(&format!("out-{sequence}-{}", settings.len()));
     let arguments = ["label", &dataset.path, "-o", &out, "--sequence", sequence];
     let label = crate::support::program().args(arguments).args(settings).output().unwrap();
     assert!(label.status.success());
