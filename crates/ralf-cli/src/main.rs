@@ -5,6 +5,7 @@ mod cli;
 mod commands;
 mod depth_model;
 mod progress;
+mod run_summary;
 mod settings;
 mod text;
 

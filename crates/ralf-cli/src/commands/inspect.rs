@@ -1,15 +1,23 @@
-//! `ralf inspect`: what a recording holds, and what is missing.
+//! `ralf inspect`: what a recording holds, and what is missing; or what a run of `ralf label` made.
 
 use crate::Outcome;
 use crate::cli::DatasetArgs;
+use crate::run_summary::run_summary;
 use crate::settings::SettingsArgs;
 use crate::text::{aligned, grouped, print};
 use clap::Args;
 use ralf_data::inspection::{Inspection, SensorInspection};
+use ralf_data::run::{RunRecord, read_record};
+use std::path::Path;
 
 /// Arguments of `ralf inspect`.
 #[derive(Debug, Args)]
-#[command(after_help = "Example:\n  ralf inspect recordings/city --sequence 00")]
+#[command(after_help = "\
+Of a folder that `ralf label` wrote it tells what was labelled, and which cameras failed, and why.
+
+Examples:
+  ralf inspect recordings/city --sequence 00
+  ralf inspect out")]
 pub(crate) struct InspectArgs {
     #[command(flatten)]
     dataset: DatasetArgs,
@@ -22,6 +30,10 @@ pub(crate) struct InspectArgs {
 
 /// Looks into a recording.
 pub(crate) fn run(arguments: &InspectArgs) -> anyhow::Result<Outcome> {
+    let folder = &arguments.dataset.dataset;
+    if folder.join("run.json").is_file() {
+        return inspect_run(folder, arguments.json);
+    }
     let config = arguments.settings.resolve()?;
     let recording = arguments.dataset.open()?;
     let looks: Vec<_> =
@@ -34,6 +46,22 @@ pub(crate) fn run(arguments: &InspectArgs) -> anyhow::Result<Outcome> {
         let head =
             format!("{} ({}), {} sequence(s)\n", recording.path.display(), recording.format, looks.len());
         print(&looks.iter().fold(head, |text, look| text + "\n" + &page(look)))?;
+    }
+    Ok(Outcome::Done)
+}
+
+fn inspect_run(out: &Path, json: bool) -> anyhow::Result<Outcome> {
+    let record = read_record(out)?;
+    if json {
+        print(&serde_json::to_string_pretty(&record)?)?;
+    } else {
+        let RunRecord { version, format, inputs, .. } = &record;
+        let files = grouped(inputs.len() as u64);
+        let head = format!(
+            "{}: labels of a recording ({format}, {files} files) by ralf {version}\n\n",
+            out.display()
+        );
+        print(&(head + &run_summary(&record)))?;
     }
     Ok(Outcome::Done)
 }

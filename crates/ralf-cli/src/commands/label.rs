@@ -4,14 +4,14 @@ use crate::Outcome;
 use crate::cli::DatasetArgs;
 use crate::depth_model::{DepthModelArgs, fill, images_of_scans};
 use crate::progress::{Bars, say};
+use crate::run_summary::run_summary;
 use crate::settings::{SettingsArgs, threads};
-use crate::text::{aligned, grouped, percent, print};
+use crate::text::{grouped, print};
 use clap::Args;
 use ralf::config::Config;
-use ralf::labeler::flag;
 use ralf_data::Recording;
 use ralf_data::depth::DepthStore;
-use ralf_data::run::{LabelRun, Outcome as RunOutcome, RadarRecord, SequenceRecord};
+use ralf_data::run::{LabelRun, Outcome as RunOutcome, SequenceRecord};
 use ralf_depth::DepthEstimator;
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
@@ -95,15 +95,9 @@ impl LabelArgs {
     }
 }
 
-/// A table with a row per radar, and how fast those were that are new.
+/// What was labelled, and how fast those scans were that are new.
 fn summary(done: &RunOutcome) -> String {
-    let head =
-        ["sequence", "radar", "scans", "detections", "plausible", "", "no LiDAR scan", "no neighbours"];
-    let mut rows = vec![head.map(str::to_owned).to_vec()];
-    for sequence in &done.record.sequences {
-        rows.extend(sequence.radars.iter().map(|radar| summary_row(&sequence.name, radar)));
-    }
-    aligned(&rows) + &if done.labelled.is_empty() { String::new() } else { speed(done) }
+    run_summary(&done.record) + &if done.labelled.is_empty() { String::new() } else { speed(done) }
 }
 
 fn speed(done: &RunOutcome) -> String {
@@ -124,24 +118,4 @@ fn speed(done: &RunOutcome) -> String {
         rate(detections) / 1e3,
         done.record.timings.jobs,
     )
-}
-
-fn summary_row(sequence: &str, radar: &RadarRecord) -> Vec<String> {
-    let total = |counts: &[u32]| counts.iter().copied().map(u64::from).sum::<u64>();
-    let (detections, plausible) = (total(&radar.detections), total(&radar.plausible));
-    let flagged = |flag: u16| radar.flags.iter().filter(|flags| **flags & flag != 0).count() as u64;
-    let flagged = |flag: u16| match flagged(flag) {
-        0 => "-".to_owned(),
-        count => format!("{} scans", grouped(count)),
-    };
-    vec![
-        sequence.to_owned(),
-        radar.name.clone(),
-        grouped(radar.detections.len() as u64),
-        grouped(detections),
-        grouped(plausible),
-        percent(plausible, detections),
-        flagged(flag::NO_LIDAR),
-        flagged(flag::NO_NEIGHBOURS),
-    ]
 }

@@ -9,6 +9,7 @@
 )]
 
 mod bad_files;
+mod bad_images;
 mod bad_recordings;
 mod camera_plot;
 mod determinism;

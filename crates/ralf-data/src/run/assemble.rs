@@ -53,7 +53,7 @@ pub(super) fn assemble(
 fn cameras(rig: &[Camera], mut images: Images) -> Vec<CameraRecord> {
     let record = |camera: &Camera| {
         let images = images.remove(&camera.name).unwrap_or_default();
-        CameraRecord { name: camera.name.clone(), images: images.into_values().collect() }
+        CameraRecord::new(&camera.name, images.into_values().collect())
     };
     rig.iter().map(record).collect()
 }

@@ -37,6 +37,10 @@ pub struct RadarRecord {
 pub struct CameraRecord {
     /// The camera's name.
     pub name: String,
+    /// Views of all images.
+    pub views: usize,
+    /// How many of these have failed.
+    pub failed: usize,
     /// In their order.
     pub images: Vec<ImageRecord>,
 }
@@ -72,11 +76,11 @@ impl ImageRecord {
 }
 
 impl CameraRecord {
-    /// Views, and how many of them have failed.
-    pub fn views(&self) -> (usize, usize) {
-        let all = self.images.iter().flat_map(|image| &image.views);
-        let failed = all.clone().filter(|view| view.state != ViewState::Calibrated).count();
-        (all.count(), failed)
+    /// The images of a camera, summed up.
+    pub(super) fn new(name: &str, images: Vec<ImageRecord>) -> Self {
+        let views = images.iter().flat_map(|image| &image.views);
+        let failed = views.clone().filter(|view| view.state != ViewState::Calibrated).count();
+        Self { name: name.to_owned(), views: views.count(), failed, images }
     }
 }
 
