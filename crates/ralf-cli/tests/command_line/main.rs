@@ -22,6 +22,7 @@ mod other_commands;
 mod real_data;
 mod resume;
 mod sequences;
+mod simulation;
 mod streams;
 mod support;
 mod tuning;
