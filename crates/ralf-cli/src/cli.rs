@@ -1,6 +1,6 @@
 //! What can be typed.
 
-use crate::commands::{convert, depth, evaluate, inspect, label, plot, report, simulate, tune};
+use crate::commands::{convert, demo, depth, evaluate, inspect, label, plot, report, simulate, tune};
 use clap::{Args, Parser, Subcommand};
 use std::path::PathBuf;
 
@@ -12,6 +12,7 @@ use std::path::PathBuf;
     max_term_width = 110,
     after_help = "\
 Examples:
+  ralf demo                                 see it work
   ralf inspect recordings/city              what is in there, and what is missing
   ralf label recordings/city -o out         a plausibility and a label for every detection
   ralf plot recordings/city out --sequence 00 --scan 17 -o scan.png
@@ -28,6 +29,8 @@ pub(crate) struct Cli {
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
+    /// The method in one command: simulate, label, evaluate, write a report
+    Demo(demo::DemoArgs),
     /// Sensors, rates, gaps, offsets between sensors, what is missing
     Inspect(inspect::InspectArgs),
     /// Label every radar detection of a recording

@@ -1,6 +1,7 @@
 //! One module per verb: thin, for what they do is done by the libraries.
 
 pub(crate) mod convert;
+pub(crate) mod demo;
 pub(crate) mod depth;
 pub(crate) mod evaluate;
 pub(crate) mod inspect;
@@ -18,6 +19,7 @@ use clap::CommandFactory;
 /// Runs what was typed.
 pub(crate) fn dispatch(arguments: Cli) -> anyhow::Result<Outcome> {
     match arguments.command {
+        Command::Demo(arguments) => demo::run(&arguments),
         Command::Inspect(arguments) => inspect::run(&arguments),
         Command::Label(arguments) => label::run(&arguments),
         Command::Evaluate(arguments) => evaluate::run(&arguments),

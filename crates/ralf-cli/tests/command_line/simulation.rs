@@ -1,7 +1,16 @@
-//! The README's first command, step by step: `ralf simulate`, `label`, `evaluate`, and the report about it.
+//! `ralf demo`, and its steps: `ralf simulate`, `label`, `evaluate`, and the report about it.
 
 use crate::support::{Dataset, ralf, tree};
 use std::fs;
+
+#[test]
+fn the_demonstration_shows_its_commands_a_table_and_a_page() {
+    let folder = Dataset::new().beside("demo");
+    let first = ralf(["demo", &folder]).exits(0).says(["$ ralf simulate", "$ ralf label", "$ ralf report"]);
+    first.prints(["F1 plausible", "report.html in a browser"]);
+    assert!(fs::read_to_string(format!("{folder}/report.html")).unwrap().contains("Labels of"));
+    ralf(["demo", &folder]).exits(0).says(["is there already", "nothing to do"]);
+}
 
 #[test]
 fn a_simulated_recording_is_labelled_evaluated_and_reported() {

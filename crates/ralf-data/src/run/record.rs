@@ -53,7 +53,11 @@ pub struct Timings {
 
 /// What an output folder holds: its `run.json`.
 pub fn read_record(out: &Path) -> Result<RunRecord, DataError> {
-    read_json(&out.join(RECORD))
+    let file = out.join(RECORD);
+    if !file.exists() {
+        return Err(DataError::content(out, RECORD, "the record of a finished `ralf label`", "no such file"));
+    }
+    read_json(&file)
 }
 
 impl RunRecord {
