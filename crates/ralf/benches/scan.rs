@@ -217,6 +217,13 @@ fn tracking_matching(bencher: Bencher) {
     });
 }
 
+/// An image of 320 x 240 with its depth.
+static IMAGE: LazyLock<(CameraImage, Vec<DepthImage>)> = LazyLock::new(|| {
+    let image = CameraImage { width: 320, height: 240, rgb: vec![[90; 3]; 320 * 240] };
+    let values = (0..320 * 240).map(|i| 3.0 + (i % 320) as f32 * 0.05).collect();
+    (image, vec![DepthImage { width: 320, height: 240, values }])
+});
+
 /// A camera ahead, to the left, back and to the right, each with one view of 320 x 240 and depth.
 fn images(points: &[Point]) -> Vec<ImageView> {
     let views = [0.0, FRAC_PI_2, PI64, -FRAC_PI_2].map(|yaw| {
@@ -234,9 +241,6 @@ fn images(points: &[Point]) -> Vec<ImageView> {
             },
             views: vec![],
         };
-        let image = CameraImage { width: 320, height: 240, rgb: vec![[90; 3]; 320 * 240] };
-        let values = (0..320 * 240).map(|i| 3.0 + (i % 320) as f32 * 0.05).collect();
-        let depth = vec![DepthImage { width: 320, height: 240, values }];
         let calibration = Calibration {
             lidar: Some(points),
             height: &|p| Some(p.z),
@@ -244,7 +248,7 @@ fn images(points: &[Point]) -> Vec<ImageView> {
             camera: &CONFIG.camera,
             ground: &CONFIG.ground,
         };
-        let moment = ImageMoment::new((0, &camera), (0, 0), Ok((image, depth)), &calibration);
+        let moment = ImageMoment::new((0, &camera), (0, 0), Ok(IMAGE.clone()), &calibration);
         ImageView { moment: Arc::new(moment), vehicle_from_image: Transform::identity() }
     });
     views.to_vec()

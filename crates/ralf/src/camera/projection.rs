@@ -21,9 +21,17 @@ pub fn project_points(
     let view_from_points = view.camera_from_view.inverse() * camera_from_points;
     let matrix = view_from_points.rotation.to_rotation_matrix();
     let offset = view_from_points.translation.vector;
-    let seen: Vec<ViewPoint> =
-        points.iter().filter_map(|p| view.project_own(&(matrix * p + offset))).collect();
-    visible(seen, window)
+    let [right, down, forward] = [0, 1, 2].map(|axis| matrix.matrix().row(axis).transpose());
+    let project = |p: &Point| {
+        let depth = forward.dot(&p.coords) + offset.z;
+        // Half of the points lie behind the view: for them the rest need not be computed.
+        if depth.is_nan() || depth <= 0.0 {
+            return None;
+        }
+        let across = [right.dot(&p.coords) + offset.x, down.dot(&p.coords) + offset.y];
+        view.project_own(&Point::new(across[0], across[1], depth))
+    };
+    visible(points.iter().filter_map(project).collect(), window)
 }
 
 /// Those of the points in a view that no other occludes.
@@ -35,13 +43,15 @@ fn visible(seen: Vec<ViewPoint>, window: f64) -> Vec<ViewPoint> {
         let limit = NEARER * point.depth;
         let bucket = grid.bucket(point.pixel);
         nearest.possibly[bucket] < limit
-            && (nearest.surely[bucket] < limit || is_occluded(point.pixel, limit, &seen, &grid, window))
+            && (nearest.surely[bucket] < limit || nearest.is_below(limit, point.pixel, &seen, &grid, window))
     };
     seen.iter().filter(|point| !occluded(point)).copied().collect()
 }
 
 /// The least depth around each bucket: settles most points without looking at their neighbours one by one.
 struct NearestAround {
+    /// Of the bucket itself.
+    own: Vec<f64>,
     /// Of the buckets that lie within the window of every place of the bucket.
     surely: Vec<f64>,
     /// Of those that lie within the window of any.
@@ -61,7 +71,31 @@ impl NearestAround {
             0 => vec![f64::INFINITY; own.len()],
             inside => least_around(&own, grid.rows(), inside - 1),
         };
-        Self { surely, possibly: least_around(&own, grid.rows(), (widths + 1e-6) as usize + 1) }
+        let possibly = least_around(&own, grid.rows(), (widths + 1e-6) as usize + 1);
+        Self { own, surely, possibly }
+    }
+
+    /// Whether a place within the window of a pixel has a depth below the limit.
+    fn is_below(
+        &self,
+        limit: f64,
+        [u, v]: [f64; 2],
+        seen: &[ViewPoint],
+        grid: &PixelGrid,
+        window: f64,
+    ) -> bool {
+        // Wide enough that rounding of the window's ends loses no bucket; the places themselves are compared exactly.
+        let reach = window * (1.0 + 1e-9) + 1e-9;
+        let is_hidden_by = |bucket: usize| {
+            grid.places(bucket..bucket + 1).iter().any(|place| {
+                let inside = (place.pixel[0] - u).abs() <= window && (place.pixel[1] - v).abs() <= window;
+                inside && seen[place.index].depth < limit
+            })
+        };
+        (grid.row(v - reach)..=grid.row(v + reach)).any(|row| {
+            let mut buckets = grid.buckets(row, u - reach, u + reach);
+            buckets.any(|bucket| self.own[bucket] < limit && is_hidden_by(bucket))
+        })
     }
 }
 
@@ -87,18 +121,6 @@ fn least_around(values: &[f64], rows: usize, reach: usize) -> Vec<f64> {
         reduce(&mut around[..(rows - shift) * columns], &along[shift * columns..]);
     }
     around
-}
-
-/// Whether a place within the window of a pixel has a depth below the limit.
-fn is_occluded([u, v]: [f64; 2], limit: f64, seen: &[ViewPoint], grid: &PixelGrid, window: f64) -> bool {
-    // Wide enough that rounding of the window's ends loses no bucket; the places themselves are compared exactly.
-    let reach = window * (1.0 + 1e-9) + 1e-9;
-    (grid.row(v - reach)..=grid.row(v + reach)).any(|row| {
-        grid.places(grid.buckets(row, u - reach, u + reach)).iter().any(|place| {
-            let inside = (place.pixel[0] - u).abs() <= window && (place.pixel[1] - v).abs() <= window;
-            inside && seen[place.index].depth < limit
-        })
-    })
 }
 
 #[cfg(test)]

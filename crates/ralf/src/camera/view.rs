@@ -79,7 +79,6 @@ impl StraightView {
 
     /// [`Self::project`] for a point of the view's own optical frame.
     pub(super) fn project_own(&self, p: &Point) -> Option<ViewPoint> {
-        // Most points lie behind the view: they are sorted out first.
         if p.z.is_nan() || p.z <= 0.0 {
             return None;
         }

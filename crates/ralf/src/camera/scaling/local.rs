@@ -81,8 +81,13 @@ impl LocalScale {
         }
         let reach = rest.sqrt() + slack;
         let buckets = self.grid.buckets(row, place[0] - reach, place[0] + reach);
+        let mut worst = worst;
         for candidate in self.grid.places(buckets) {
-            insert(nearest, Neighbor { square: squared(candidate.pixel, place), index: candidate.index });
+            let square = squared(candidate.pixel, place);
+            if square <= worst {
+                insert(nearest, Neighbor { square, index: candidate.index });
+                worst = nearest[nearest.len() - 1].square;
+            }
         }
         true
     }
