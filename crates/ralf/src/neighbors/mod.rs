@@ -120,7 +120,8 @@ impl NeighborIndex {
         }
         let at = self.place_of(query[0], query[1]);
         let mut search = Search::new(self, query, k, found);
-        for ring in 0..self.columns.max(self.rows) {
+        search.middle(self, &at);
+        for ring in 2..self.columns.max(self.rows) {
             if search.is_done(self.bound(&at, ring), reach) {
                 break;
             }

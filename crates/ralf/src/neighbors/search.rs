@@ -42,20 +42,29 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Looks through the cells at so many cells from the query's own.
+    /// Looks through the query's own cell and those around it, as three runs of points.
+    pub(super) fn middle(&mut self, index: &NeighborIndex, at: &Place) {
+        let [column, row] = at.cell;
+        let (left, right) = (column.saturating_sub(1), (column + 1).min(index.columns - 1));
+        for row in row.saturating_sub(1)..=(row + 1).min(index.rows - 1) {
+            self.scan(index, index.run(row, left, right));
+        }
+    }
+
+    /// Looks through the cells at so many cells, at least one, from the query's own.
     pub(super) fn ring(&mut self, index: &NeighborIndex, at: &Place, ring: usize) {
         let [cx, cy] = at.cell;
         // The cells of a row lie side by side, so that the ring's lower and upper edge are one run of points each.
         if ring <= cy {
             self.row(index, at, ring, cy - ring);
         }
-        if ring > 0 && cy + ring < index.rows {
+        if cy + ring < index.rows {
             self.row(index, at, ring, cy + ring);
         }
-        if ring > 0 && ring <= cx {
+        if ring <= cx {
             self.column(index, at, ring, cx - ring);
         }
-        if ring > 0 && cx + ring < index.columns {
+        if cx + ring < index.columns {
             self.column(index, at, ring, cx + ring);
         }
     }
