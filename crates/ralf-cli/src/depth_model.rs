@@ -3,6 +3,7 @@
 use crate::progress::{STEPS, bar, say};
 use anyhow::Context;
 use clap::Args;
+use ralf::config::nanoseconds;
 use ralf::source::Sequence;
 use ralf::sync;
 use ralf_data::depth::{DepthStore, compute_depth};
@@ -55,7 +56,7 @@ pub(crate) fn all_images(sequence: &Sequence) -> Images {
 
 /// The images that are nearest to some radar scan, within a tolerance in ms: those that labelling asks for.
 pub(crate) fn images_of_scans(sequence: &Sequence, tolerance_ms: f64) -> Images {
-    let tolerance = (tolerance_ms * 1e6).round() as i64;
+    let tolerance = nanoseconds(tolerance_ms);
     let cameras = sequence.times.cameras.iter().enumerate();
     let of_camera = |(camera, times): (usize, &Vec<i64>)| {
         let scans = sequence.times.radars.iter().flatten();

@@ -1,6 +1,6 @@
 //! What a recording holds, how regularly, and what is missing: from its times alone, without reading a measurement.
 
-use ralf::config::Config;
+use ralf::config::{Config, nanoseconds};
 use ralf::source::Sequence;
 use ralf::sync;
 use serde::Serialize;
@@ -64,6 +64,7 @@ impl Inspection {
     pub fn of(sequence: &Sequence, config: &Config) -> Self {
         let all_scans = sequence.times.radars.iter().flatten();
         let span = all_scans.clone().min().zip(all_scans.max());
+        let sensors = sensors(sequence, config);
         let (first, last) = span.map_or((0, 0), |(first, last)| (*first, *last));
         Self {
             name: sequence.name.clone(),
@@ -72,8 +73,8 @@ impl Inspection {
             path_m: path_length(sequence, first, last),
             odometry_samples: sequence.motion.odometry().len(),
             poses: sequence.motion.poses().len(),
-            sensors: sensors(sequence, config),
-            missing: missing(sequence, config),
+            missing: missing(sequence, &sensors, config),
+            sensors,
         }
     }
 }
@@ -108,7 +109,7 @@ fn sensor(
     let others = lidars.iter().filter(|_| kind != "lidar");
     let offset = |t: &i64| others.clone().filter_map(|lidar| offset_to_nearest(lidar, *t)).min();
     let offsets: Vec<i64> = times.iter().filter_map(offset).collect();
-    let tolerance = (config.sync.lidar_tolerance_ms * 1e6) as i64;
+    let tolerance = nanoseconds(config.sync.lidar_tolerance_ms);
     SensorInspection {
         kind,
         name: name.to_owned(),
@@ -121,7 +122,7 @@ fn sensor(
     }
 }
 
-fn missing(sequence: &Sequence, config: &Config) -> Vec<String> {
+fn missing(sequence: &Sequence, sensors: &[SensorInspection], config: &Config) -> Vec<String> {
     let mut missing = Vec::new();
     let mut say = |applies: bool, text: String| {
         if applies {
@@ -135,13 +136,14 @@ fn missing(sequence: &Sequence, config: &Config) -> Vec<String> {
         sequence.motion.poses().is_empty(),
         "no 6-DoF poses: the motion is integrated from wheel odometry".into(),
     );
-    for (radar, own) in rig.radars.iter().zip(&times.radars) {
-        let without = own.len() - sensor("radar", &radar.name, own, &times.lidars, config).with_lidar;
+    for SensorInspection { name, count, with_lidar, .. } in
+        sensors.iter().filter(|sensor| sensor.kind == "radar")
+    {
+        let without = count - with_lidar;
         let tolerance = config.sync.lidar_tolerance_ms;
-        let scans = own.len();
         say(
             without > 0 && !rig.lidars.is_empty(),
-            format!("{}: {without} of {scans} scans have no LiDAR scan within {tolerance} ms", radar.name),
+            format!("{name}: {without} of {count} scans have no LiDAR scan within {tolerance} ms"),
         );
     }
     let names = rig.lidars.iter().map(|lidar| &lidar.name).zip(&times.lidars);

@@ -6,6 +6,19 @@ use crate::mismatch::{Reference, mismatch};
 use crate::neighbors::{Neighbor, NeighborIndex};
 use crate::rig::Elevation;
 
+/// Where a point is searched: of a radar without elevation in the horizontal plane.
+fn searched_at(p: &Point, elevation: Elevation) -> [f32; 3] {
+    let z = if elevation == Elevation::None { 0.0 } else { p.z };
+    [p.x as f32, p.y as f32, z as f32]
+}
+
+/// An index over a cloud for detections of a radar that measures elevation or not; a point's place in it is its identity.
+pub(crate) fn index_of<'a>(points: impl Iterator<Item = &'a Point>, elevation: Elevation) -> NeighborIndex {
+    let places: Vec<_> = points.map(|p| searched_at(p, elevation)).collect();
+    let ids: Vec<u32> = (0..places.len() as u32).collect();
+    NeighborIndex::new(&places, &ids)
+}
+
 /// Associates detections of one radar with the points of one cloud.
 pub(crate) struct Association<'a> {
     index: &'a NeighborIndex,
@@ -35,8 +48,7 @@ impl<'a> Association<'a> {
         place: &Point,
         reference: impl Fn(u32) -> Reference,
     ) -> Option<f64> {
-        let z = if self.elevation == Elevation::None { 0.0 } else { place.z };
-        let query = [place.x as f32, place.y as f32, z as f32];
+        let query = searched_at(place, self.elevation);
         self.index.nearest_within(query, self.neighbours, self.reach, &mut self.found);
         if self.found.is_empty() {
             return None;

@@ -1,6 +1,7 @@
 //! Which scaling of relative depth fits best? Measured on LiDAR points that had no part in it.
 
 use crate::SequenceReader;
+use ralf::camera::median;
 use ralf::config::{Config, DepthScaling};
 use ralf::frame::FrameWindow;
 use ralf::source::SourceError;
@@ -53,12 +54,4 @@ pub fn check_scalings(reader: &dyn SequenceReader, config: &Config) -> Result<Ve
         checks.push(check);
     }
     Ok(checks)
-}
-
-fn median(mut values: Vec<f64>) -> Option<f64> {
-    values.sort_by(f64::total_cmp);
-    let middle = values.len() / 2;
-    let upper = *values.get(middle)?;
-    let lower = if values.len().is_multiple_of(2) { values[middle - 1] } else { upper };
-    Some(0.5 * (lower + upper))
 }

@@ -2,13 +2,12 @@
 
 use super::moment::Seen;
 use super::{ImageMoment, ImageView, ViewState};
-use crate::association::Association;
+use crate::association::{Association, index_of};
 use crate::config::CameraConfig;
 use crate::detections::{Detections, Located};
 use crate::geometry::{Point, Transform};
 use crate::lidar::sees_height_of;
 use crate::mismatch::{Reference, Spread};
-use crate::neighbors::NeighborIndex;
 use crate::rig::{Elevation, Radar};
 
 /// What the cameras say of one detection.
@@ -28,7 +27,7 @@ pub fn match_detections(
     config: &CameraConfig,
 ) -> Vec<CameraMatch> {
     let points = points_of_views(radar, images, config.depth_sigma);
-    let index = index_of(&points, radar.elevation);
+    let index = index_of(points.iter().map(|point| &point.position), radar.elevation);
     let mut association = Association::new(&index, radar.elevation, config.neighbours);
     let images_from_vehicle: Vec<_> =
         images.iter().map(|view| (view.moment.as_ref(), view.vehicle_from_image.inverse())).collect();
@@ -59,16 +58,6 @@ fn points_of_views(radar: &Radar, images: &[ImageView], depth_sigma: f64) -> Vec
         points.retain(|point| sees_height_of(radar, &(radar_from_vehicle * point.position)));
     }
     points
-}
-
-fn index_of(points: &[Reference], elevation: Elevation) -> NeighborIndex {
-    let place = |p: &Point| match elevation {
-        Elevation::Measured => [p.x as f32, p.y as f32, p.z as f32],
-        Elevation::None => [p.x as f32, p.y as f32, 0.0],
-    };
-    let places: Vec<_> = points.iter().map(|point| place(&point.position)).collect();
-    let ids: Vec<u32> = (0..points.len() as u32).collect();
-    NeighborIndex::new(&places, &ids)
 }
 
 /// In which kinds of views of all images a point (vehicle frame at the radar scan's time) lies.

@@ -25,6 +25,7 @@ pub use matching::{CameraMatch, match_detections};
 pub use moment::{Calibration, ImageMoment, ImageView, ImageWithDepth};
 pub use monitor::{Failure, ViewReport, ViewState, luminance};
 pub use projection::project_points;
+pub use scaling::median;
 pub use undistort::UndistortMap;
 pub use view::{StraightView, View, ViewPoint};
 

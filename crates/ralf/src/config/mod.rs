@@ -243,7 +243,7 @@ impl Default for FusionConfig {
 }
 
 /// A duration in the unit of timestamps.
-pub(crate) fn nanoseconds(ms: f64) -> i64 {
+pub fn nanoseconds(ms: f64) -> i64 {
     // Saturates: a tolerance of a million years means "any".
     (ms * 1e6).round() as i64
 }

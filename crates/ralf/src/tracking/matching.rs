@@ -1,9 +1,9 @@
 //! The mismatch of each detection with the neighbouring radar scans (METHOD 7; eq. pose_trafo).
 
-use crate::association::Association;
+use crate::association::{Association, index_of};
 use crate::config::TrackingConfig;
 use crate::detections::{Detections, Located};
-use crate::geometry::{Point, Transform};
+use crate::geometry::Transform;
 use crate::mismatch::{Reference, distance_per_mismatch};
 use crate::neighbors::NeighborIndex;
 use crate::rig::{Elevation, Radar};
@@ -84,12 +84,9 @@ impl MovedCloud {
         for (cloud, vehicle_from_cloud) in &step.clouds {
             points.extend(cloud.located.iter().flatten().map(|located| located.moved(vehicle_from_cloud)));
         }
-        let flatten = |z: f64| if elevation == Elevation::None { 0.0 } else { z as f32 };
-        let place = |p: &Point| [p.x as f32, p.y as f32, flatten(p.z)];
-        let places: Vec<_> = points.iter().map(|point| place(&point.position)).collect();
-        let ids: Vec<u32> = (0..points.len() as u32).collect();
+        let index = index_of(points.iter().map(|point| &point.position), elevation);
         let max_variance = points.iter().map(Located::total_variance).fold(0.0, f64::max);
-        Self { points, index: NeighborIndex::new(&places, &ids), max_variance }
+        Self { points, index, max_variance }
     }
 
     /// Farther than this, m, every mismatch with the detection is above the cap.

@@ -6,7 +6,7 @@ use ralf::camera::{
     CalibratedView, Camera, CameraImage, Failure, ImageMoment, StraightView, UndistortMap, ViewReport,
     ViewState, project_points,
 };
-use ralf::config::Config;
+use ralf::config::{Config, nanoseconds};
 use ralf::frame::FrameWindow;
 use ralf::geometry::Point;
 use ralf::source::Sequence;
@@ -72,7 +72,7 @@ impl Plot<'_> {
         let config = self.settings()?;
         let (t_ns, camera) = (self.pictures.time_of(scan)?, self.camera_named(name)?);
         let (times, tolerance) = (&self.sequence().times.cameras[camera], config.sync.camera_tolerance_ms);
-        let image = sync::nearest(times, t_ns, (tolerance * 1e6).round() as i64).with_context(|| {
+        let image = sync::nearest(times, t_ns, nanoseconds(tolerance)).with_context(|| {
             format!("expected an image of {name} within {tolerance} ms of scan {scan}, found none")
         })?;
         let shot = self.shot(camera, image, &config)?;

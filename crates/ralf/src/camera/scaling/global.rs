@@ -69,7 +69,7 @@ pub(super) fn huber(samples: &[ScaleSample]) -> Option<f64> {
 }
 
 /// The middle value, or the mean of the two middle ones; `None` of nothing.
-pub(in crate::camera) fn median(mut values: Vec<f64>) -> Option<f64> {
+pub fn median(mut values: Vec<f64>) -> Option<f64> {
     let middle = values.len() / 2;
     if values.is_empty() {
         return None;

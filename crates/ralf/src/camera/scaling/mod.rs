@@ -6,7 +6,7 @@ mod local;
 use super::depth::RelativeDepth;
 use super::view::{StraightView, ViewPoint};
 use crate::config::DepthScaling;
-pub(super) use global::median;
+pub use global::median;
 use local::LocalScale;
 
 /// A projected LiDAR point on a pixel that has a relative depth.
