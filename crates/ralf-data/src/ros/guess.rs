@@ -152,7 +152,7 @@ fn cloud_entry(messages: &Messages, topic: &Topic, place: usize) -> Result<Topic
     let Some(first) = first else { return Ok(entry(TopicKind::Lidar)) };
     let columns = cloud::radar_columns(messages, first)?;
     let has = |name: &&str| columns.names.iter().any(|known| known == name);
-    let is_radar = topic.name.contains("radar") || !has(&"x") || RADAR_FIELDS.iter().any(|name| has(name));
+    let is_radar = topic.name.contains("radar") || !has(&"x") || RADAR_FIELDS.iter().any(has);
     if !is_radar {
         return Ok(entry(TopicKind::Lidar));
     }
