@@ -139,6 +139,24 @@ fn files_of_others_that_are_cut_are_read_up_to_the_cut() {
     }
 }
 
+/// A type is described once: where the second of its topics begins, many chunks later, only its number stands.
+#[test]
+fn types_are_known_in_files_without_their_end() {
+    let mut writer = MessageWriter::mcap(Cursor::new(Vec::new()), Compression::None).unwrap();
+    let first = writer.topic::<RadarScan>("/first", Delivery::Live).unwrap();
+    (0..20_000).for_each(|k| writer.write(&first, k, &scan(k)).unwrap());
+    let second = writer.topic::<RadarScan>("/second", Delivery::Live).unwrap();
+    (0..5_000).for_each(|k| writer.write(&second, k, &scan(k)).unwrap());
+    let bytes = writer.finish().unwrap().into_inner();
+    // The last chunk begins in what is left; the second topic begins in the one before it.
+    let container = Place::new().open(&bytes[..bytes.len() * 9 / 10]).unwrap();
+    let topics: Vec<_> =
+        container.topics().iter().map(|topic| (topic.name.as_str(), topic.type_name.as_str())).collect();
+    assert_eq!(topics, [("/first", "radar_msgs/msg/RadarScan"), ("/second", "radar_msgs/msg/RadarScan")]);
+    assert_eq!(container.topics()[0].count, 20_000);
+    assert!(container.topics()[1].count > 0);
+}
+
 #[test]
 fn a_database_that_is_cut_is_refused_or_told() {
     let bytes = fixture("db3/db3.db3");
