@@ -1,0 +1,174 @@
+//! What every writer gets: labelled sequences, and scans with their results and effective labels.
+
+use super::{Export, ExportOptions, Exported};
+use crate::output::{Columns, ScanTable, ScanTables};
+use crate::run::SequenceRecord;
+use crate::{DataError, Label, ScanId, SequenceReader};
+use ralf::detections::Detections;
+use ralf::label::truth_of;
+use ralf::measurement::RadarScan;
+use std::collections::BTreeSet;
+use std::path::Path;
+
+/// A sequence with its results.
+pub(super) struct LabelledSequence<'a> {
+    /// The sequence as recorded.
+    pub(super) reader: &'a dyn SequenceReader,
+    /// What is asked for.
+    pub(super) options: ExportOptions,
+    /// The decimal columns of its tables.
+    pub(super) columns: Columns,
+    out: &'a Path,
+    record: &'a SequenceRecord,
+    tables: ScanTables,
+    not_labelled: BTreeSet<(&'a str, usize)>,
+    exported: &'a mut Exported,
+    progress: &'a dyn Fn(usize),
+}
+
+/// One scan of one radar with its results: a row per detection, in the order of the recording.
+pub(super) struct LabelledScan {
+    /// The radar's place in the rig.
+    pub(super) radar: usize,
+    /// Its number.
+    pub(super) scan: usize,
+    /// What `ralf label` found; all answers are absent where it could not label the scan.
+    pub(super) table: ScanTable,
+    /// The effective labels.
+    pub(super) labels: Vec<Label>,
+    /// The detections of the split, ascending.
+    pub(super) kept: Vec<usize>,
+}
+
+impl<'a> LabelledSequence<'a> {
+    /// Opens the results of a sequence.
+    pub(super) fn open(
+        export: &Export<'a>,
+        reader: &'a dyn SequenceReader,
+        record: &'a SequenceRecord,
+        exported: &'a mut Exported,
+        progress: &'a dyn Fn(usize),
+    ) -> Result<Self, DataError> {
+        let (out, name) = (export.out, &reader.sequence().name);
+        let file = out.join("sequences").join(name).join("plausibility.parquet");
+        let rig = &reader.sequence().rig;
+        let unlike = |found| DataError::content(&file, "columns", "those of the recording's radars", found);
+        let columns = Columns::of(rig).map_err(unlike)?;
+        check_radars(out, reader, record)?;
+        let detections = record.radars.iter().map(|radar| (radar.name.as_str(), radar.detections.as_slice()));
+        let tables = ScanTables::open(&file, columns.clone(), detections)?;
+        let not_labelled: BTreeSet<_> =
+            record.not_labelled.iter().map(|missing| (missing.radar.as_str(), missing.scan)).collect();
+        let options = export.options;
+        Ok(Self { reader, options, columns, out, record, tables, not_labelled, exported, progress })
+    }
+
+    /// The sequence's name.
+    pub(super) fn name(&self) -> &'a str {
+        &self.record.name
+    }
+
+    /// How many scans each radar has.
+    pub(super) fn scans(&self, radar: usize) -> usize {
+        self.reader.sequence().times.radars[radar].len()
+    }
+
+    /// A scan, which counts as exported.
+    pub(super) fn scan(&mut self, radar: usize, scan: usize) -> Result<LabelledScan, DataError> {
+        let sequence = self.reader.sequence();
+        let name = &sequence.rig.radars[radar].name;
+        let id = ScanId { sequence: sequence.name.clone(), radar: name.clone(), scan: scan as u32 };
+        let (table, machine) = match self.tables.table(name, scan)? {
+            Some(table) => {
+                let labels = table.labels();
+                (table, labels)
+            }
+            None => {
+                let detections = Detections::locate(&sequence.rig.radars[radar], self.measured(radar, scan)?);
+                let table = ScanTable::not_labelled(&self.columns, &sequence.rig.radars[radar], &detections);
+                self.check_not_labelled(&id, table.len())?;
+                let labels = vec![Label::default(); table.len()];
+                (table, labels)
+            }
+        };
+        let t_ns = sequence.times.radars[radar][scan];
+        if table.t_ns != t_ns {
+            let expected = format!("a scan at {t_ns} ns, as in the recording");
+            return Err(self.unlike(&id, expected, table.t_ns.to_string()));
+        }
+        let labels = effective_labels(self.out, &id, machine)?;
+        let kept: Vec<usize> =
+            (0..labels.len()).filter(|row| self.options.split.takes(truth_of(labels[*row].id))).collect();
+        self.exported.scans += 1;
+        self.exported.detections += kept.len();
+        (self.progress)(self.exported.scans);
+        Ok(LabelledScan { radar, scan, table, labels, kept })
+    }
+
+    /// What a radar measured, which has to be as many detections as were labelled.
+    pub(super) fn measured_of(&self, labelled: &LabelledScan) -> Result<RadarScan, DataError> {
+        let measured = self.measured(labelled.radar, labelled.scan)?;
+        if measured.len() == labelled.labels.len() {
+            return Ok(measured);
+        }
+        let sequence = self.reader.sequence();
+        let radar = sequence.rig.radars[labelled.radar].name.clone();
+        let id = ScanId { sequence: sequence.name.clone(), radar, scan: labelled.scan as u32 };
+        let expected = format!("{} detections, as in the recording", measured.len());
+        Err(self.unlike(&id, expected, labelled.labels.len().to_string()))
+    }
+
+    fn measured(&self, radar: usize, index: usize) -> Result<RadarScan, DataError> {
+        let sensor = || self.reader.sequence().rig.radars[radar].name.clone();
+        self.reader.radar_scan(radar, index).map_err(|error| DataError::Measurement {
+            sensor: sensor(),
+            index,
+            error,
+        })
+    }
+
+    /// A scan without rows saw nothing, or could not be labelled, which the record tells.
+    fn check_not_labelled(&mut self, id: &ScanId, detections: usize) -> Result<(), DataError> {
+        if self.not_labelled.contains(&(id.radar.as_str(), id.scan as usize)) {
+            self.exported.not_labelled.push(id.to_string());
+        } else if detections > 0 {
+            let expected = format!("{detections} detections, as in the recording");
+            return Err(self.unlike(id, expected, "none".to_owned()));
+        }
+        Ok(())
+    }
+
+    fn unlike(&self, id: &ScanId, expected: String, found: String) -> DataError {
+        DataError::content(self.out, id.to_string(), expected, found)
+    }
+}
+
+/// Refuses results of other radars, or of another number of scans.
+fn check_radars(out: &Path, reader: &dyn SequenceReader, record: &SequenceRecord) -> Result<(), DataError> {
+    let sequence = reader.sequence();
+    let text = |radars: &mut dyn Iterator<Item = (&str, usize)>| {
+        radars.map(|(name, scans)| format!("{name} ({scans})")).collect::<Vec<_>>().join(", ")
+    };
+    let names = sequence.rig.radars.iter().map(|radar| radar.name.as_str());
+    let recorded = text(&mut names.zip(sequence.times.radars.iter().map(Vec::len)));
+    let labelled = text(&mut record.radars.iter().map(|radar| (radar.name.as_str(), radar.detections.len())));
+    if recorded == labelled {
+        return Ok(());
+    }
+    let place = format!("run.json, sequence {}", record.name);
+    Err(DataError::content(out, place, format!("the recording's radars and scans: {recorded}"), labelled))
+}
+
+/// The labels that count.
+fn effective_labels(_out: &Path, _scan: &ScanId, machine: Vec<Label>) -> Result<Vec<Label>, DataError> {
+    Ok(machine)
+}
+
+impl LabelledScan {
+    /// The effective labels where their order is the only key to clouds elsewhere: what the split leaves out is unlabeled.
+    pub(super) fn labels_in_place(&self) -> Vec<Label> {
+        let mut labels = vec![Label::default(); self.labels.len()];
+        self.kept.iter().for_each(|row| labels[*row] = self.labels[*row]);
+        labels
+    }
+}
