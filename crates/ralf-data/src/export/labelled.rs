@@ -3,7 +3,7 @@
 use super::{Export, ExportOptions, Exported};
 use crate::output::{Columns, ScanTable, ScanTables};
 use crate::run::SequenceRecord;
-use crate::{DataError, Label, ScanId, SequenceReader};
+use crate::{Corrections, DataError, Label, ScanId, SequenceReader};
 use ralf::detections::Detections;
 use ralf::label::truth_of;
 use ralf::measurement::RadarScan;
@@ -19,6 +19,7 @@ pub(super) struct LabelledSequence<'a> {
     /// The decimal columns of its tables.
     pub(super) columns: Columns,
     out: &'a Path,
+    corrections: &'a Corrections,
     record: &'a SequenceRecord,
     tables: ScanTables,
     not_labelled: BTreeSet<(&'a str, usize)>,
@@ -96,7 +97,7 @@ impl<'a> LabelledSequence<'a> {
             let expected = format!("a scan at {t_ns} ns, as in the recording");
             return Err(self.unlike(&id, expected, table.t_ns.to_string()));
         }
-        let labels = effective_labels(self.out, &id, machine)?;
+        let labels = self.corrections.effective_labels(&id, machine)?;
         let kept: Vec<usize> =
             (0..labels.len()).filter(|row| self.options.split.takes(truth_of(labels[*row].id))).collect();
         self.exported.scans += 1;
@@ -157,11 +158,6 @@ fn check_radars(out: &Path, reader: &dyn SequenceReader, record: &SequenceRecord
     }
     let place = format!("run.json, sequence {}", record.name);
     Err(DataError::content(out, place, format!("the recording's radars and scans: {recorded}"), labelled))
-}
-
-/// The labels that count.
-fn effective_labels(_out: &Path, _scan: &ScanId, machine: Vec<Label>) -> Result<Vec<Label>, DataError> {
-    Ok(machine)
 }
 
 impl LabelledScan {

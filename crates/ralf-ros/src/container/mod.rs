@@ -1,0 +1,3 @@
+//! Finding and reading the messages of a recording.
+
+pub(crate) mod bag_format;
