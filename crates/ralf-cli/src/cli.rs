@@ -48,7 +48,7 @@ pub(crate) enum Command {
     Report(report::ReportArgs),
     /// Write labels in the formats of other tools
     Export(export::ExportArgs),
-    /// Write a recording of another format in RALF's own layout
+    /// Write a recording of another format in RALF's own layout, or as MCAP or bag
     Convert(convert::ConvertArgs),
     /// Make a recording whose truth is known
     Simulate(simulate::SimulateArgs),
@@ -89,4 +89,17 @@ impl DatasetArgs {
         }
         Ok(recording)
     }
+}
+
+/// The only sequence of a recording.
+pub(crate) fn the_only(recording: &ralf_data::Recording) -> anyhow::Result<&dyn ralf_data::SequenceReader> {
+    if let [reader] = recording.sequences.as_slice() {
+        return Ok(reader.as_ref());
+    }
+    let names: Vec<_> = recording.sequences.iter().map(|reader| reader.sequence().name.as_str()).collect();
+    anyhow::bail!(
+        "expected one sequence, found {}: choose with --sequence ({})",
+        names.len(),
+        names.join(", ")
+    )
 }

@@ -13,10 +13,12 @@ use std::path::PathBuf;
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Labels are the ones that count: a person's correction, else what a person has accepted, else the machine's. They come alone
-unless --sensors asks for what the sensors measured; clouds (pcd) always hold the radar's detections.
+unless --sensors asks for what the sensors measured; clouds (mcap, rosbag1, pcd) always hold the radars' detections.
 An export appears whole or not at all. Formats and fields: docs/export.md
 
 Examples:
+  ralf export recordings/city out --to mcap --sequence 00 -o city-00.mcap
+  ralf export recordings/city out --to mcap --sensors=radar,lidar -o mcap
   ralf export recordings/city out --to semantickitti --sensors -o kitti
   ralf export recordings/city out --to parquet -o labels --sequence 00 --sequence 03
   ralf export recordings/city out --to npz --sensors --split plausible -o clean
@@ -30,7 +32,7 @@ pub(crate) struct ExportArgs {
     /// The format
     #[arg(long, value_name = "FORMAT", value_parser = PossibleValuesParser::new(ExportFormat::ALL.map(ExportFormat::name)))]
     to: String,
-    /// Where it goes: a folder that is empty or not there yet
+    /// Where it goes: a folder that is empty or not there yet; of one sequence also an .mcap or .bag file
     #[arg(short, long, value_name = "PATH")]
     output: PathBuf,
     /// Only detections of this kind
@@ -90,10 +92,11 @@ fn options(arguments: &ExportArgs) -> anyhow::Result<ExportOptions> {
 
 fn name_what_is_missing(exported: &Exported) -> Outcome {
     for scan in &exported.not_labelled {
-        say(&format!("not labelled: {scan}: its detections are exported as unlabeled"));
+        say(&format!("not labelled: {scan}: exported without labels"));
     }
     for sequence in &exported.without_labels {
         say(&format!("sequence {sequence} has no labels: left out"));
     }
-    if exported.without_labels.is_empty() { Outcome::Done } else { Outcome::Partial }
+    let all = exported.not_labelled.is_empty() && exported.without_labels.is_empty();
+    if all { Outcome::Done } else { Outcome::Partial }
 }

@@ -7,8 +7,8 @@ use ralf::label::truth_of;
 use ralf::measurement::RadarScan;
 use ralf::rig::Radar;
 
-/// Names of what a labelled cloud has beside the radar's own fields.
-const ADDED: [&str; 7] = ["plausibility", "label", "flags", "w_lm", "w_cm", "w_tr", "w_opt"];
+/// Names of what a labelled cloud has beside the radar's own fields. The one of 2 bytes is last, so that all lie aligned.
+const ADDED: [&str; 7] = ["plausibility", "label", "w_lm", "w_cm", "w_tr", "w_opt", "flags"];
 
 /// One column, a value per detection of the split.
 pub(super) struct Column {
@@ -36,6 +36,27 @@ impl Values {
             Self::U32(values) => values.len(),
             Self::I64(values) => values.len(),
             Self::Truth(values) => values.len(),
+        }
+    }
+
+    /// Bytes of a value.
+    pub(super) fn size(&self) -> usize {
+        match self {
+            Self::Truth(_) => 1,
+            Self::U16(_) => 2,
+            Self::F32(_) | Self::U32(_) => 4,
+            Self::I64(_) => 8,
+        }
+    }
+
+    /// Adds the little-endian bytes of a value: of what is true 1, of what is false 0, of what nobody knows -1.
+    pub(super) fn append_bytes(&self, row: usize, bytes: &mut Vec<u8>) {
+        match self {
+            Self::F32(values) => bytes.extend(values[row].to_le_bytes()),
+            Self::U16(values) => bytes.extend(values[row].to_le_bytes()),
+            Self::U32(values) => bytes.extend(values[row].to_le_bytes()),
+            Self::I64(values) => bytes.extend(values[row].to_le_bytes()),
+            Self::Truth(values) => bytes.extend(values[row].map_or(-1, i8::from).to_le_bytes()),
         }
     }
 
@@ -77,15 +98,15 @@ pub(super) fn table_columns(sequence: &LabelledSequence, scan: &LabelledScan) ->
 pub(super) fn cloud_columns(
     sequence: &LabelledSequence,
     scan: &LabelledScan,
+    measured: &RadarScan,
 ) -> Result<Vec<Column>, DataError> {
-    let measured = sequence.measured_of(scan)?;
     let radar = &sequence.reader.sequence().rig.radars[scan.radar];
     if let Some(name) = radar.fields.iter().find(|name| ADDED.contains(&name.as_str())) {
         let reason = format!("field `{name}` of the radar has the name of one that the export adds");
         let (file, place) = (sequence.name().into(), radar.name.clone());
         return Err(DataError::Unsuitable { file, place, reason });
     }
-    let mut columns = place(radar, &measured);
+    let mut columns = place(radar, measured);
     let fields = radar.fields.iter().zip(&measured.columns);
     let further = fields.filter(|(name, _)| !["x", "y", "z"].contains(&name.as_str()));
     columns.extend(further.map(|(name, values)| (name.clone(), values.clone())));

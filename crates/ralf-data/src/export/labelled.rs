@@ -11,7 +11,7 @@ use std::collections::BTreeSet;
 use std::path::Path;
 
 /// A sequence with its results.
-pub(super) struct LabelledSequence<'a> {
+pub(super) struct LabelledSequence<'a, 'p> {
     /// The sequence as recorded.
     pub(super) reader: &'a dyn SequenceReader,
     /// What is asked for.
@@ -23,8 +23,13 @@ pub(super) struct LabelledSequence<'a> {
     record: &'a SequenceRecord,
     tables: ScanTables,
     not_labelled: BTreeSet<(&'a str, usize)>,
-    exported: &'a mut Exported,
-    progress: &'a dyn Fn(usize),
+    tally: &'a mut Tally<'p>,
+}
+
+/// What is exported so far, and who is told.
+pub(super) struct Tally<'p> {
+    pub(super) exported: Exported,
+    pub(super) progress: &'p dyn Fn(usize),
 }
 
 /// One scan of one radar with its results: a row per detection, in the order of the recording.
@@ -41,14 +46,13 @@ pub(super) struct LabelledScan {
     pub(super) kept: Vec<usize>,
 }
 
-impl<'a> LabelledSequence<'a> {
+impl<'a, 'p> LabelledSequence<'a, 'p> {
     /// Opens the results of a sequence.
     pub(super) fn open(
         export: &Export<'a>,
-        reader: &'a dyn SequenceReader,
-        record: &'a SequenceRecord,
-        exported: &'a mut Exported,
-        progress: &'a dyn Fn(usize),
+        corrections: &'a Corrections,
+        (reader, record): (&'a dyn SequenceReader, &'a SequenceRecord),
+        tally: &'a mut Tally<'p>,
     ) -> Result<Self, DataError> {
         let (out, name) = (export.out, &reader.sequence().name);
         let file = out.join("sequences").join(name).join("plausibility.parquet");
@@ -61,7 +65,7 @@ impl<'a> LabelledSequence<'a> {
         let not_labelled: BTreeSet<_> =
             record.not_labelled.iter().map(|missing| (missing.radar.as_str(), missing.scan)).collect();
         let options = export.options;
-        Ok(Self { reader, options, columns, out, record, tables, not_labelled, exported, progress })
+        Ok(Self { reader, options, columns, out, corrections, record, tables, not_labelled, tally })
     }
 
     /// The sequence's name.
@@ -78,19 +82,13 @@ impl<'a> LabelledSequence<'a> {
     pub(super) fn scan(&mut self, radar: usize, scan: usize) -> Result<LabelledScan, DataError> {
         let sequence = self.reader.sequence();
         let name = &sequence.rig.radars[radar].name;
-        let id = ScanId { sequence: sequence.name.clone(), radar: name.clone(), scan: scan as u32 };
+        let id = self.id(radar, scan);
         let (table, machine) = match self.tables.table(name, scan)? {
             Some(table) => {
                 let labels = table.labels();
                 (table, labels)
             }
-            None => {
-                let detections = Detections::locate(&sequence.rig.radars[radar], self.measured(radar, scan)?);
-                let table = ScanTable::not_labelled(&self.columns, &sequence.rig.radars[radar], &detections);
-                self.check_not_labelled(&id, table.len())?;
-                let labels = vec![Label::default(); table.len()];
-                (table, labels)
-            }
+            None => self.without_rows(&id, radar)?,
         };
         let t_ns = sequence.times.radars[radar][scan];
         if table.t_ns != t_ns {
@@ -100,9 +98,9 @@ impl<'a> LabelledSequence<'a> {
         let labels = self.corrections.effective_labels(&id, machine)?;
         let kept: Vec<usize> =
             (0..labels.len()).filter(|row| self.options.split.takes(truth_of(labels[*row].id))).collect();
-        self.exported.scans += 1;
-        self.exported.detections += kept.len();
-        (self.progress)(self.exported.scans);
+        self.tally.exported.scans += 1;
+        self.tally.exported.detections += kept.len();
+        (self.tally.progress)(self.tally.exported.scans);
         Ok(LabelledScan { radar, scan, table, labels, kept })
     }
 
@@ -112,31 +110,43 @@ impl<'a> LabelledSequence<'a> {
         if measured.len() == labelled.labels.len() {
             return Ok(measured);
         }
-        let sequence = self.reader.sequence();
-        let radar = sequence.rig.radars[labelled.radar].name.clone();
-        let id = ScanId { sequence: sequence.name.clone(), radar, scan: labelled.scan as u32 };
         let expected = format!("{} detections, as in the recording", measured.len());
+        let id = self.id(labelled.radar, labelled.scan);
         Err(self.unlike(&id, expected, labelled.labels.len().to_string()))
     }
 
+    /// What a radar measured. Of a scan that could not be labelled because it can't be read there is nothing to export.
     fn measured(&self, radar: usize, index: usize) -> Result<RadarScan, DataError> {
-        let sensor = || self.reader.sequence().rig.radars[radar].name.clone();
-        self.reader.radar_scan(radar, index).map_err(|error| DataError::Measurement {
-            sensor: sensor(),
-            index,
-            error,
+        let sequence = self.reader.sequence();
+        let (sensor, t_ns) = (&sequence.rig.radars[radar], sequence.times.radars[radar][index]);
+        self.reader.radar_scan(radar, index).or_else(|error| {
+            if self.not_labelled.contains(&(sensor.name.as_str(), index)) {
+                let columns = vec![Vec::new(); sensor.fields.len()];
+                return Ok(RadarScan { t_ns, columns, positions: Vec::new(), spherical: Vec::new() });
+            }
+            Err(DataError::Measurement { sensor: sensor.name.clone(), index, error })
         })
     }
 
     /// A scan without rows saw nothing, or could not be labelled, which the record tells.
-    fn check_not_labelled(&mut self, id: &ScanId, detections: usize) -> Result<(), DataError> {
-        if self.not_labelled.contains(&(id.radar.as_str(), id.scan as usize)) {
-            self.exported.not_labelled.push(id.to_string());
-        } else if detections > 0 {
-            let expected = format!("{detections} detections, as in the recording");
+    fn without_rows(&mut self, id: &ScanId, radar: usize) -> Result<(ScanTable, Vec<Label>), DataError> {
+        let sensor = &self.reader.sequence().rig.radars[radar];
+        let detections = Detections::locate(sensor, self.measured(radar, id.scan as usize)?);
+        let found = detections.located.len();
+        if self.not_labelled.contains(&(sensor.name.as_str(), id.scan as usize)) {
+            self.tally.exported.not_labelled.push(id.to_string());
+        } else if found > 0 {
+            let expected = format!("{found} detections, as in the recording");
             return Err(self.unlike(id, expected, "none".to_owned()));
         }
-        Ok(())
+        let table = ScanTable::not_labelled(&self.columns, sensor, &detections);
+        Ok((table, vec![Label::default(); found]))
+    }
+
+    fn id(&self, radar: usize, scan: usize) -> ScanId {
+        let sequence = self.reader.sequence();
+        let radar = sequence.rig.radars[radar].name.clone();
+        ScanId { sequence: sequence.name.clone(), radar, scan: scan as u32 }
     }
 
     fn unlike(&self, id: &ScanId, expected: String, found: String) -> DataError {

@@ -19,13 +19,15 @@ mod options;
 mod parquet;
 mod pcd;
 mod place;
+mod ros;
 mod semantic_kitti;
 
 pub use options::{ExportFormat, ExportOptions, Sensors, Split};
+pub use ros::{RosFormat, write_ros};
 
 use crate::run::read_record;
-use crate::{DataError, Recording};
-use labelled::LabelledSequence;
+use crate::{Corrections, DataError, Recording};
+use labelled::{LabelledSequence, Tally};
 use place::Place;
 use std::path::Path;
 
@@ -77,6 +79,7 @@ impl Export<'_> {
     /// that are not those of the recording, or of none of its sequences; what the system refuses. Nothing half-written stays.
     pub fn write(&self, path: &Path, progress: &dyn Fn(usize)) -> Result<Exported, DataError> {
         let record = read_record(self.out)?;
+        let corrections = Corrections::open(self.out)?;
         let mut exported = Exported::default();
         let mut sequences = Vec::new();
         for reader in &self.recording.sequences {
@@ -99,12 +102,13 @@ impl Export<'_> {
         let names = sequences.iter().map(|(_, record)| record.name.clone()).collect();
         let place = Place::prepare(path, &self.options, names)?;
         let mut writer = self.options.format.writer(&sequences);
-        for (reader, record) in sequences {
-            let mut sequence = LabelledSequence::open(self, reader, record, &mut exported, progress)?;
+        let mut tally = Tally { exported, progress };
+        for found in sequences {
+            let mut sequence = LabelledSequence::open(self, &corrections, found, &mut tally)?;
             writer.sequence(place.folder(), &mut sequence)?;
         }
         writer.finish(place.folder())?;
         place.finish()?;
-        Ok(exported)
+        Ok(tally.exported)
     }
 }

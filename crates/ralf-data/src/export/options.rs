@@ -1,5 +1,6 @@
 //! What can be asked of an export.
 
+use super::ros::{Ros, RosFormat};
 use super::{Writer, npz, nuscenes, parquet, pcd, semantic_kitti};
 use crate::SequenceReader;
 use crate::run::SequenceRecord;
@@ -17,6 +18,10 @@ pub enum ExportFormat {
     Npz,
     /// A Parquet data set, partitioned by sequence.
     Parquet,
+    /// MCAP files, with the labels in the radars' clouds.
+    Mcap,
+    /// ROS 1 bags, with the labels in the radars' clouds.
+    Rosbag1,
     /// Sidecars keyed by `sample_data` token, as nuScenes-lidarseg has them.
     NuScenes,
 }
@@ -61,11 +66,14 @@ pub struct ExportOptions {
 
 impl ExportFormat {
     /// All of them.
-    pub const ALL: [Self; 5] = [Self::SemanticKitti, Self::Pcd, Self::Npz, Self::Parquet, Self::NuScenes];
+    pub const ALL: [Self; 7] =
+        [Self::Mcap, Self::Rosbag1, Self::SemanticKitti, Self::Pcd, Self::Npz, Self::Parquet, Self::NuScenes];
 
     /// The name, as `--to` takes it.
     pub fn name(self) -> &'static str {
         match self {
+            Self::Mcap => "mcap",
+            Self::Rosbag1 => "rosbag1",
             Self::SemanticKitti => "semantickitti",
             Self::Pcd => "pcd",
             Self::Npz => "npz",
@@ -74,15 +82,36 @@ impl ExportFormat {
         }
     }
 
+    /// The kind of recording that an export in this format is.
+    pub(super) fn recording(self) -> Option<RosFormat> {
+        match self {
+            Self::Mcap => Some(RosFormat::Mcap),
+            Self::Rosbag1 => Some(RosFormat::Bag),
+            _ => None,
+        }
+    }
+
     /// What writes it, for these sequences.
     pub(super) fn writer(self, sequences: &[(&dyn SequenceReader, &SequenceRecord)]) -> Box<dyn Writer> {
         match self {
+            Self::Mcap => Box::new(Ros(RosFormat::Mcap)),
+            Self::Rosbag1 => Box::new(Ros(RosFormat::Bag)),
             Self::SemanticKitti => Box::new(semantic_kitti::SemanticKitti::new(sequences)),
             Self::Pcd => Box::new(pcd::Pcd),
             Self::Npz => Box::new(npz::Npz),
             Self::Parquet => Box::new(parquet::Parquet),
             Self::NuScenes => Box::new(nuscenes::NuScenes::default()),
         }
+    }
+}
+
+impl Sensors {
+    /// All there are.
+    pub const ALL: Self = Self { radar: true, lidar: true, camera: true };
+
+    /// Whether any is asked for.
+    pub(super) fn any(self) -> bool {
+        self.radar || self.lidar || self.camera
     }
 }
 

@@ -19,7 +19,7 @@ impl Writer for Pcd {
         for (radar, sensor) in sequence.reader.sequence().rig.radars.iter().enumerate() {
             for scan in 0..sequence.scans(radar) {
                 let labelled = sequence.scan(radar, scan)?;
-                let columns = cloud_columns(sequence, &labelled)?;
+                let columns = cloud_columns(sequence, &labelled, &sequence.measured_of(&labelled)?)?;
                 let file = folder.join(&sensor.name).join(format!("{scan:06}.pcd"));
                 files::write_whole(&file, &cloud(&columns, labelled.kept.len(), &sensor.vehicle_from_radar))?;
             }
@@ -32,38 +32,27 @@ impl Writer for Pcd {
 fn cloud(columns: &[Column], points: usize, vehicle_from_radar: &Transform) -> Vec<u8> {
     let of = |text: fn(&Column) -> String| columns.iter().map(text).collect::<Vec<_>>().join(" ");
     let fields = of(|column| column.name.replace(char::is_whitespace, "_"));
-    let (kinds, sizes) = (of(|column| kind(column).0.into()), of(|column| kind(column).1.to_string()));
+    let (letters, sizes) =
+        (of(|column| letter(column).into()), of(|column| column.values.size().to_string()));
     let counts = of(|_| "1".into());
     let viewpoint = viewpoint(vehicle_from_radar);
     let header = format!(
-        "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\nFIELDS {fields}\nSIZE {sizes}\nTYPE {kinds}\n\
+        "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\nFIELDS {fields}\nSIZE {sizes}\nTYPE {letters}\n\
          COUNT {counts}\nWIDTH {points}\nHEIGHT 1\nVIEWPOINT {viewpoint}\nPOINTS {points}\nDATA binary\n"
     );
     let mut bytes = header.into_bytes();
     for row in 0..points {
-        columns.iter().for_each(|column| append(&mut bytes, column, row));
+        columns.iter().for_each(|column| column.values.append_bytes(row, &mut bytes));
     }
     bytes
 }
 
-/// PCD's letter and the bytes of a value.
-fn kind(column: &Column) -> (&'static str, usize) {
+/// PCD's letter for the kind of a column.
+fn letter(column: &Column) -> &'static str {
     match column.values {
-        Values::F32(_) => ("F", 4),
-        Values::U16(_) => ("U", 2),
-        Values::U32(_) => ("U", 4),
-        Values::I64(_) => ("I", 8),
-        Values::Truth(_) => ("I", 1),
-    }
-}
-
-fn append(bytes: &mut Vec<u8>, column: &Column, row: usize) {
-    match &column.values {
-        Values::F32(values) => bytes.extend(values[row].to_le_bytes()),
-        Values::U16(values) => bytes.extend(values[row].to_le_bytes()),
-        Values::U32(values) => bytes.extend(values[row].to_le_bytes()),
-        Values::I64(values) => bytes.extend(values[row].to_le_bytes()),
-        Values::Truth(values) => bytes.extend(values[row].map_or(-1, i8::from).to_le_bytes()),
+        Values::F32(_) => "F",
+        Values::U16(_) | Values::U32(_) => "U",
+        Values::I64(_) | Values::Truth(_) => "I",
     }
 }
 

@@ -1,6 +1,7 @@
 //! Where an export goes: it appears whole or not at all, and never takes the place of anything else.
 
 use super::ExportOptions;
+use super::ros::{self, RosFormat};
 use crate::{DataError, files};
 use serde::{Deserialize, Serialize};
 use std::fs;
@@ -20,12 +21,14 @@ struct Record {
     sequences: Vec<String>,
 }
 
-/// The folder of an export, which is written beside its place.
+/// The folder of an export, or its only file; it is written beside its place.
 pub(super) struct Place {
     path: PathBuf,
     part: PathBuf,
     /// An earlier export, while the new one takes its place.
     earlier: PathBuf,
+    /// The name that the only file has in the folder that is written.
+    file: Option<String>,
 }
 
 impl Place {
@@ -35,12 +38,21 @@ impl Place {
         options: &ExportOptions,
         sequences: Vec<String>,
     ) -> Result<Self, DataError> {
-        check(path, options)?;
+        let file = match options.format.recording() {
+            Some(kind) if RosFormat::of_file(path) == Some(kind) && !path.is_dir() => {
+                check_file(path, options, &sequences)?;
+                sequences.first().map(|name| format!("{name}.{}", kind.extension()))
+            }
+            _ => {
+                check_folder(path, options)?;
+                None
+            }
+        };
         let (Some(name), Some(parent)) = (path.file_name(), path.parent()) else {
-            return Err(DataError::content(path, "path", "one that ends in a folder's name", "none"));
+            return Err(DataError::content(path, "path", "one that ends in a name", "none"));
         };
         let hidden = |end: &str| parent.join(format!(".{}.{end}", name.to_string_lossy()));
-        let place = Self { path: path.to_owned(), part: hidden("part"), earlier: hidden("earlier") };
+        let place = Self { path: path.to_owned(), part: hidden("part"), earlier: hidden("earlier"), file };
         // What a killed export left.
         remove_folder(&place.part)?;
         let record = Record { version: env!("CARGO_PKG_VERSION").to_owned(), options: *options, sequences };
@@ -57,11 +69,15 @@ impl Place {
 
     /// Puts the export in its place.
     pub(super) fn finish(self) -> Result<(), DataError> {
+        let refused = || DataError::io(&self.path);
+        if let Some(file) = &self.file {
+            return fs::rename(self.part.join(file), &self.path).map_err(refused());
+        }
         remove_folder(&self.earlier)?;
         if self.path.exists() {
-            fs::rename(&self.path, &self.earlier).map_err(DataError::io(&self.path))?;
+            fs::rename(&self.path, &self.earlier).map_err(refused())?;
         }
-        fs::rename(&self.part, &self.path).map_err(DataError::io(&self.path))?;
+        fs::rename(&self.part, &self.path).map_err(refused())?;
         remove_folder(&self.earlier)
     }
 }
@@ -73,8 +89,27 @@ impl Drop for Place {
     }
 }
 
+/// Refuses a file that can't hold the sequences, or must not be replaced.
+fn check_file(path: &Path, options: &ExportOptions, sequences: &[String]) -> Result<(), DataError> {
+    if sequences.len() != 1 {
+        let expected = "one sequence for one file; more of them go into a folder";
+        return Err(DataError::content(path, "sequences", expected, sequences.join(", ")));
+    }
+    if !path.exists() {
+        return Ok(());
+    }
+    if !ros::is_labelled(path)? {
+        let expected = "no file yet, or an earlier export";
+        return Err(DataError::content(path, "file", expected, "one without labelled clouds"));
+    }
+    if options.replace {
+        return Ok(());
+    }
+    Err(DataError::content(path, "file", "none yet", "an earlier export, which only --force replaces"))
+}
+
 /// Refuses a path where there is something that must not be replaced.
-fn check(path: &Path, options: &ExportOptions) -> Result<(), DataError> {
+fn check_folder(path: &Path, options: &ExportOptions) -> Result<(), DataError> {
     if !path.exists() {
         return Ok(());
     }

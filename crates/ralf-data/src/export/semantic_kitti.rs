@@ -4,6 +4,7 @@
 //! A sequence of this tree is one radar of one sequence of the recording: frame n is scan n, point i its detection i, and
 //! nothing is moved in time. `sequences.csv` tells which is which.
 
+use super::columns::Values;
 use super::labelled::{LabelledScan, LabelledSequence};
 use super::{Split, Writer, npy_array};
 use crate::run::SequenceRecord;
@@ -87,8 +88,8 @@ fn write_scan(folder: &Path, sequence: &LabelledSequence, scan: &LabelledScan) -
     let labels: Vec<_> = scan.kept.iter().map(|row| scan.labels[*row]).collect();
     write_labels(&file("labels", "label"), &labels)?;
     if sequence.options.split != Split::All {
-        let points: Vec<u32> = scan.kept.iter().map(|row| *row as u32).collect();
-        files::write_whole(&file("points", "npy"), &npy_array::of_u32(&points))?;
+        let points = Values::U32(scan.kept.iter().map(|row| *row as u32).collect());
+        files::write_whole(&file("points", "npy"), &npy_array::of_column(&points))?;
     }
     Ok(())
 }
