@@ -37,7 +37,9 @@ mod npy;
 mod nuscenes;
 mod open;
 pub mod output;
+mod radial;
 mod recording;
+pub mod ros;
 pub mod run;
 mod simulated;
 #[cfg(test)]
@@ -54,5 +56,5 @@ pub use files::write_whole;
 pub use ground_truth::{GroundTruth, ScanId};
 pub use label_file::{Label, read_labels, write_labels};
 pub use layout::{LayoutSequence, write_sequence};
-pub use open::{formats, open};
+pub use open::{formats, open, open_with};
 pub use recording::{NuScenesKey, Recording, SequenceReader, TruthLabels};

@@ -22,4 +22,6 @@
 pub mod container;
 pub mod encoding;
 pub mod message;
+pub mod point_cloud;
+pub mod tf;
 pub mod writer;

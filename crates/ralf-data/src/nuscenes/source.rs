@@ -7,7 +7,7 @@ use super::rig::{PCD_FIELDS, rig};
 use super::{can, join};
 use crate::files::{self, Folders};
 use crate::recording::measurement;
-use crate::{DataError, NuScenesKey, SequenceReader, images};
+use crate::{DataError, NuScenesKey, SequenceReader, images, radial::radial};
 use ralf::camera::{CameraImage, DepthImage, DepthOutput};
 use ralf::measurement::{LidarScan, RadarScan};
 use ralf::motion::EgoMotion;
@@ -169,13 +169,4 @@ fn radar_columns(pcd: &Pcd) -> Result<Vec<Vec<f32>>, DataError> {
         columns.push(radial(&columns[0], &columns[1], &columns[vx], &columns[vy]));
     }
     Ok(columns)
-}
-
-/// `(vx x + vy y) / sqrt(x^2 + y^2)`: the part of a velocity along the ray, positive when receding.
-fn radial(x: &[f32], y: &[f32], vx: &[f32], vy: &[f32]) -> Vec<f32> {
-    let along = |row: usize| {
-        let [x, y, vx, vy] = [x[row], y[row], vx[row], vy[row]].map(f64::from);
-        ((vx * x + vy * y) / x.hypot(y)) as f32
-    };
-    (0..x.len()).map(along).collect()
 }

@@ -36,6 +36,11 @@ impl<'a> Decoder<'a> {
         self.position
     }
 
+    /// Whether nothing is left.
+    pub(crate) fn is_at_end(&self) -> bool {
+        self.position >= self.bytes.len()
+    }
+
     /// Refuses what follows the last value: the message is of another type. CDR may be filled up to a multiple of 4.
     pub fn finish(&self) -> Result<(), EncodingError> {
         let left = self.bytes.len().saturating_sub(self.position);
@@ -69,6 +74,11 @@ impl<'a> Decoder<'a> {
     /// A number of 4 bytes with a sign.
     pub fn i32(&mut self) -> Result<i32, EncodingError> {
         self.number().map(i32::from_le_bytes)
+    }
+
+    /// A number of 8 bytes.
+    pub fn u64(&mut self) -> Result<u64, EncodingError> {
+        self.number().map(u64::from_le_bytes)
     }
 
     /// A float of 4 bytes.
@@ -147,7 +157,8 @@ impl<'a> Decoder<'a> {
         Ok(array)
     }
 
-    fn slice(&mut self, length: usize) -> Result<&'a [u8], EncodingError> {
+    /// As many bytes, not copied.
+    pub(crate) fn slice(&mut self, length: usize) -> Result<&'a [u8], EncodingError> {
         let left = self.bytes.get(self.position..).unwrap_or_default();
         let slice = left.get(..length).ok_or_else(|| {
             EncodingError::new(self.position, format!("{length} more bytes"), format!("{}", left.len()))

@@ -71,13 +71,13 @@ pub struct MessageWriter<W: Write + Seek> {
 
 enum Container<W: Write + Seek> {
     Bag(BagWriter<W>),
-    Mcap(McapWriter<W>),
+    Mcap(Box<McapWriter<W>>),
 }
 
 impl<W: Write + Seek> MessageWriter<W> {
     /// An MCAP file of the profile `ros2`.
     pub fn mcap(file: W, compression: Compression) -> Result<Self, WriteError> {
-        Ok(Self { container: Container::Mcap(McapWriter::new(file, compression)?) })
+        Ok(Self { container: Container::Mcap(Box::new(McapWriter::new(file, compression)?)) })
     }
 
     /// A ROS 1 bag, version 2.0, its chunks uncompressed.
