@@ -1,6 +1,8 @@
 //! What can be typed.
 
-use crate::commands::{convert, demo, depth, evaluate, export, inspect, label, plot, report, simulate, tune};
+use crate::commands::{
+    convert, demo, depth, evaluate, export, inspect, label, plot, report, review, simulate, tune,
+};
 use clap::{Args, Parser, Subcommand};
 use std::path::PathBuf;
 
@@ -19,6 +21,7 @@ Examples:
   ralf evaluate out --truth recordings/city
   ralf tune recordings/city -o ralf.toml --train 00,01 --test 02
   ralf report recordings/city out -o report.html
+  ralf review recordings/city out           correct labels in the browser
   ralf export recordings/city out --to semantickitti --sensors -o kitti
 
 Exit status: 0 done; 1 failed; 2 wrong usage; 3 done, but some scans are left out (each is named)."
@@ -46,6 +49,8 @@ pub(crate) enum Command {
     Plot(plot::PlotArgs),
     /// Write one page about a labelled recording: figures, curves, pictures
     Report(report::ReportArgs),
+    /// Correct labels by hand, on a page in the browser
+    Review(review::ReviewArgs),
     /// Write labels in the formats of other tools
     Export(export::ExportArgs),
     /// Write a recording of another format in RALF's own layout, or as MCAP or bag

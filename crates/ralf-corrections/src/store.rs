@@ -45,6 +45,23 @@ impl Store {
         scan_state(&self.connection, key).map_err(told(&self.file))
     }
 
+    /// The same of a scan that has so many detections.
+    ///
+    /// # Errors
+    /// A scan that had another number of them when it was first edited; see [`StoreError`].
+    pub fn scan_of_size(&self, key: &ScanKey, detections: usize) -> Result<ScanState, StoreError> {
+        let known = self
+            .connection
+            .prepare_cached("SELECT detections FROM scan WHERE sequence = ? AND radar = ? AND scan = ?")
+            .and_then(|mut query| {
+                query.query_row(params![key.sequence, key.radar, key.scan], |row| row.get(0)).optional()
+            });
+        match known.map_err(told(&self.file))? {
+            Some(known) if known != detections => Err(another_size(&self.file, key, known, detections)),
+            _ => self.scan(key),
+        }
+    }
+
     /// What an author can undo and redo in a sequence.
     pub fn history(&self, sequence: &str, author: &str) -> Result<History, StoreError> {
         history(&self.connection, sequence, author).map_err(told(&self.file))
@@ -104,9 +121,12 @@ pub(crate) fn scan_id(
     if expected == detections {
         return Ok(id);
     }
-    let (place, expected) =
-        (format!("scan {key}"), format!("{expected} detections as when it was first edited"));
-    Err(StoreError::content(file, place, expected, detections.to_string()))
+    Err(another_size(file, key, expected as usize, detections as usize))
+}
+
+fn another_size(file: &Path, key: &ScanKey, known: usize, found: usize) -> StoreError {
+    let expected = format!("{known} detections as when it was first edited");
+    StoreError::content(file, format!("scan {key}"), expected, found.to_string())
 }
 
 /// What is said of a scan.

@@ -81,7 +81,7 @@ pub(super) fn table_columns(sequence: &LabelledSequence, scan: &LabelledScan) ->
         column("point", Values::U32(scan.kept.iter().copied().map(whole).collect())),
         column("t_ns", Values::I64(vec![scan.table.t_ns; scan.kept.len()])),
     ];
-    for (name, values) in sequence.columns.names().zip(&scan.table.decimals) {
+    for (name, values) in sequence.columns().names().zip(&scan.table.decimals) {
         if sequence.options.sensors.radar || ANSWERS.contains(&name) {
             columns.push(column(name, Values::F32(kept(scan, values))));
         }
@@ -134,7 +134,7 @@ fn added(sequence: &LabelledSequence, scan: &LabelledScan, name: &str) -> Values
         "flags" => Values::U16(kept(scan, &scan.table.flags)),
         _ => {
             let name = if name == "plausibility" { "w" } else { name };
-            let found = sequence.columns.names().position(|known| known == name);
+            let found = sequence.columns().names().position(|known| known == name);
             let values = found.and_then(|at| scan.table.decimals.get(at)).map(|values| kept(scan, values));
             Values::F32(values.unwrap_or_default())
         }

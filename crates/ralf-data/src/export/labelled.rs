@@ -1,13 +1,13 @@
 //! What every writer gets: labelled sequences, and scans with their results and effective labels.
 
 use super::{Export, ExportOptions, Exported};
-use crate::output::{Columns, ScanTable, ScanTables};
+use crate::output::{Columns, PlausibilityReader, ScanTable, ScanTables};
 use crate::run::SequenceRecord;
 use crate::{Corrections, DataError, Label, ScanId, SequenceReader};
 use ralf::detections::Detections;
 use ralf::label::truth_of;
 use ralf::measurement::RadarScan;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 /// A sequence with its results.
@@ -16,14 +16,32 @@ pub(super) struct LabelledSequence<'a, 'p> {
     pub(super) reader: &'a dyn SequenceReader,
     /// What is asked for.
     pub(super) options: ExportOptions,
-    /// The decimal columns of its tables.
-    pub(super) columns: Columns,
     out: &'a Path,
     corrections: &'a Corrections,
     record: &'a SequenceRecord,
-    tables: ScanTables,
+    tables: Tables,
     not_labelled: BTreeSet<(&'a str, usize)>,
     tally: &'a mut Tally<'p>,
+}
+
+/// The results of a sequence. One row group per radar is held in memory, so that going through each radar's scans in order,
+/// all radars side by side, reads every group once per radar in it.
+struct Tables {
+    reader: PlausibilityReader,
+    /// Per radar the row group that was read last, and its number.
+    held: BTreeMap<String, (usize, ScanTables)>,
+}
+
+impl Tables {
+    /// The table of a scan; `None` where there are no rows of it.
+    fn table(&mut self, radar: &str, scan: usize) -> Result<Option<ScanTable>, DataError> {
+        let Some(group) = self.reader.group_of(radar, scan) else { return Ok(None) };
+        if self.held.get(radar).is_none_or(|(held, _)| *held != group) {
+            self.held.insert(radar.to_owned(), (group, self.reader.tables(group)?));
+        }
+        let held = self.held.get(radar).and_then(|(_, tables)| tables.get(&(radar.to_owned(), scan)));
+        Ok(held.cloned())
+    }
 }
 
 /// What is exported so far, and who is told.
@@ -60,12 +78,11 @@ impl<'a, 'p> LabelledSequence<'a, 'p> {
         let unlike = |found| DataError::content(&file, "columns", "those of the recording's radars", found);
         let columns = Columns::of(rig).map_err(unlike)?;
         check_radars(out, reader, record)?;
-        let detections = record.radars.iter().map(|radar| (radar.name.as_str(), radar.detections.as_slice()));
-        let tables = ScanTables::open(&file, columns.clone(), detections)?;
+        let tables = Tables { reader: PlausibilityReader::open(&file, columns)?, held: BTreeMap::new() };
         let not_labelled: BTreeSet<_> =
             record.not_labelled.iter().map(|missing| (missing.radar.as_str(), missing.scan)).collect();
         let options = export.options;
-        Ok(Self { reader, options, columns, out, corrections, record, tables, not_labelled, tally })
+        Ok(Self { reader, options, out, corrections, record, tables, not_labelled, tally })
     }
 
     /// The sequence's name.
@@ -83,6 +100,7 @@ impl<'a, 'p> LabelledSequence<'a, 'p> {
         let sequence = self.reader.sequence();
         let name = &sequence.rig.radars[radar].name;
         let id = self.id(radar, scan);
+        self.check_recorded(&id, radar)?;
         let (table, machine) = match self.tables.table(name, scan)? {
             Some(table) => {
                 let labels = table.labels();
@@ -139,8 +157,23 @@ impl<'a, 'p> LabelledSequence<'a, 'p> {
             let expected = format!("{found} detections, as in the recording");
             return Err(self.unlike(id, expected, "none".to_owned()));
         }
-        let table = ScanTable::not_labelled(&self.columns, sensor, &detections);
+        let table = ScanTable::not_labelled(self.columns(), sensor, &detections);
         Ok((table, vec![Label::default(); found]))
+    }
+
+    /// The table has as many rows of a scan as the record tells.
+    fn check_recorded(&self, id: &ScanId, radar: usize) -> Result<(), DataError> {
+        let recorded = self.record.radars[radar].detections[id.scan as usize] as usize;
+        let found = self.tables.reader.detections(&id.radar, id.scan as usize);
+        if found == recorded {
+            return Ok(());
+        }
+        Err(self.unlike(id, format!("{recorded} detections, as run.json says"), found.to_string()))
+    }
+
+    /// The decimal columns of the tables.
+    pub(super) fn columns(&self) -> &Columns {
+        self.tables.reader.columns()
     }
 
     fn id(&self, radar: usize, scan: usize) -> ScanId {

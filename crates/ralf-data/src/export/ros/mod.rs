@@ -111,8 +111,12 @@ pub fn write_ros(
 /// The file could not be written: with all reasons, for libraries hide the system's behind their own.
 fn written(file: &Path) -> impl Fn(WriteError) -> DataError {
     move |error| {
-        let reasons = std::iter::successors(Some(&error as &dyn Error), |error| error.source());
-        let mut texts: Vec<String> = reasons.map(ToString::to_string).collect();
+        let mut texts = vec![error.to_string()];
+        let mut reason = error.source();
+        while let Some(error) = reason {
+            texts.push(error.to_string());
+            reason = error.source();
+        }
         // Some tell the reason's text as their own.
         texts.dedup();
         DataError::io(file)(std::io::Error::other(texts.join(": ")))
