@@ -74,6 +74,7 @@ function build(page: Page): void {
     seenCamera: () => cameras.seen,
   });
   listenToKeys(table, page.store);
+  keepFocus(viewport.element);
   const stage = h("div", { class: "stage" }, viewport.element, centreCamera.element, legendPanel(page), scanTitle(page), notice(page), conflictDialog(page));
   document.body.append(
     h("div", { class: "layout" },
@@ -82,6 +83,18 @@ function build(page: Page): void {
       h("aside", { class: "right" }, cameras.element, detailsPanel(page)),
       statusBar(page)),
     helpDialog(page, table), classesDialog(page));
+}
+
+/** After a press on a button or a choice in a list, keys are for the picture again. */
+function keepFocus(picture: HTMLElement): void {
+  const back = (target: EventTarget | null): void => {
+    const control = target instanceof Element ? target.closest("button, select") : null;
+    if (control !== null && control.closest("dialog, .conflict") === null) picture.focus({ preventScroll: true });
+  };
+  document.addEventListener("click", (event) => {
+    if (event.detail > 0 && !(event.target instanceof HTMLSelectElement)) back(event.target);
+  });
+  document.addEventListener("change", (event) => back(event.target));
 }
 
 start().catch((error: unknown) => {

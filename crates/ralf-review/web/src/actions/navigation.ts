@@ -1,6 +1,7 @@
 /** Going from scan to scan and from sequence to sequence. */
 
 import type { ScanId } from "../api/types.js";
+import { sameScan } from "../data/scan.js";
 import { listed, neighbour, nextNeedy, type QueueView } from "../queue/queue.js";
 import { type Address, addressText } from "./address.js";
 import type { Moment } from "./moment.js";
@@ -55,6 +56,14 @@ export class Navigation {
     const { scans, current } = this.world.store.state;
     const next = current === null ? null : neighbour(scans, current, by);
     if (next !== null) await this.goTo(next);
+  }
+
+  /** Along the list as it's shown. */
+  async stepInList(by: number): Promise<void> {
+    const { scans, current, queueView } = this.world.store.state;
+    const rows = listed(scans, queueView);
+    const next = rows[rows.findIndex((entry) => sameScan(entry, current)) + by];
+    if (next !== undefined) await this.goTo(next);
   }
 
   /** To the same moment of the next radar. */

@@ -73,6 +73,7 @@ function openWith({ store, actions }: Page, dialog: HTMLDialogElement, name: Dia
   const close = (): void => {
     if (store.state.dialog === name) actions.view.dialog("none");
   };
+  dialog.addEventListener("cancel", close);
   dialog.addEventListener("close", close);
   dialog.addEventListener("click", (event) => {
     if (event.target === dialog) close();

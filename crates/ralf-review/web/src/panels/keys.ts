@@ -73,6 +73,8 @@ function go({ actions }: KeyContext): readonly Key[] {
     key(["enter"], "Mark as reviewed and go to the next needy scan", () => void correcting.reviewAndGoOn()),
     key(["arrowright"], "To the radar's next scan", () => void going.step(1)),
     key(["arrowleft"], "To the radar's previous scan", () => void going.step(-1)),
+    key(["arrowdown"], "To the next scan of the list", () => void going.stepInList(1)),
+    key(["arrowup"], "To the previous scan of the list", () => void going.stepInList(-1)),
     key(["s"], "To the next radar at this moment", () => void going.nextRadar()),
   ];
 }
@@ -117,7 +119,7 @@ export function keyName(event: Pick<KeyboardEvent, "key" | "ctrlKey" | "metaKey"
 }
 
 const SHOWN: Readonly<Record<string, string>> = {
-  arrowleft: "←", arrowright: "→", escape: "Esc", enter: "Enter", backspace: "⌫", " ": "Space", "-": "−",
+  arrowleft: "←", arrowright: "→", arrowup: "↑", arrowdown: "↓", escape: "Esc", enter: "Enter", backspace: "⌫", " ": "Space", "-": "−",
 };
 
 /** The parts of a key as they are printed on it. */

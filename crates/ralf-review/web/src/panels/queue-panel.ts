@@ -96,7 +96,7 @@ function head({ store, actions }: Page): HTMLElement {
 }
 
 function order({ store, actions }: Page): HTMLElement {
-  const orders: readonly (readonly [QueueOrder, string])[] = [["need", "Most needy"], ["time", "In time"]];
+  const orders: readonly (readonly [QueueOrder, string])[] = [["need", "Need"], ["time", "Time"]];
   const buttons = orders.map(([name, text]) =>
     h("button", { class: "segment", type: "button", on: { click: () => actions.go.viewQueue({ order: name }) } }, text));
   const open = h("button", { class: "segment", type: "button", title: "Hide what is reviewed", on: {

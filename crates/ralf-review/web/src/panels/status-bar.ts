@@ -6,13 +6,14 @@ import type { Page } from "../page.js";
 import { countOf } from "../selection/mask.js";
 import type { State } from "../state.js";
 
-export function statusBar({ store }: Page): HTMLElement {
+export function statusBar({ store, actions }: Page): HTMLElement {
   const saved = h("span", { class: "saved", role: "status", "aria-live": "polite" });
   const work = h("span", { class: "work" });
   const history = h("span", { class: "number" });
   const cursor = h("span", { class: "number cursor" });
   const frame = h("span", { class: "number faint", title: "JavaScript time of the last drawn frame" });
   const author = h("span", { title: "Author of corrections" });
+  const help = h("button", { class: "link", type: "button", on: { click: () => actions.view.dialog("help") } }, "All keys ", h("kbd", {}, "?"));
   store.watch(({ recording }) => [recording], (recording) => say(author, recording.author));
   store.watch(({ outbox, waiting, busy, history: past, connected }) => [outbox, waiting, busy, past, connected], () => {
     const [text, look] = savedState(store.state);
@@ -24,7 +25,7 @@ export function statusBar({ store }: Page): HTMLElement {
   store.watch(({ cursor: place }) => [place], (place) =>
     say(cursor, place === null ? "" : `x ${decimal(place[0], 1)} m  y ${decimal(place[1], 1)} m`));
   store.watch(({ frameTime }) => [frameTime], (time) => say(frame, `${decimal(time, 1)} ms`));
-  return h("footer", { class: "status-bar" }, saved, author, history, work, cursor, frame);
+  return h("footer", { class: "status-bar" }, saved, author, history, work, cursor, frame, help);
 }
 
 /** What the state of saving is, in a word; "saved" only when nothing waits. */

@@ -12,7 +12,7 @@ const TOOL_NAMES: Readonly<Record<Tool, string>> = {
 
 export function toolbar(page: Page): HTMLElement {
   return h("div", { class: "toolbar", role: "toolbar", "aria-label": "Tools" },
-    toolGroup(page), labelGroup(page), selectionGroup(page), historyGroup(page), helpGroup(page));
+    toolGroup(page), labelGroup(page), selectionGroup(page), historyGroup(page));
 }
 
 function iconButton(name: IconName, title: string, run: () => void): HTMLButtonElement {
@@ -76,9 +76,4 @@ function historyGroup({ store, actions }: Page): HTMLElement {
     redo.title = `Redo (Ctrl+Shift+Z)${told(history.redo)}`;
   });
   return group("History", undo, redo);
-}
-
-function helpGroup({ actions }: Page): HTMLElement {
-  const help = iconButton("help", "Every key (?)", () => actions.view.dialog("help"));
-  return h("div", { class: "group last", role: "group", "aria-label": "Help" }, help);
 }

@@ -2,24 +2,27 @@
 
 import { BufferAttribute, BufferGeometry, Points, ShaderMaterial } from "three";
 import { Mark, type Marks } from "./marks.js";
-import { CORRECTED_RGB, type Rgb, SELECTED_RGB, UNCERTAIN_RGB } from "./palette.js";
+import { CORRECTED_RGB, type Rgb, SELECTED_RGB, UNCERTAIN_RGB, WAITING_RGB } from "./palette.js";
 
 const VERTEX = `
 attribute vec3 tint;
 attribute float mark;
 uniform float size;
+uniform float reference;
 varying vec3 vTint;
 varying float vMark;
 varying float vSize;
 
 void main() {
+  vec4 place = modelViewMatrix * vec4(position, 1.0);
+  float nearness = reference > 0.0 ? clamp(pow(reference / max(-place.z, 0.1), 0.6), 0.55, 1.7) : 1.0;
   vTint = tint;
   vMark = mark;
   bool selected = mark == ${Mark.selected}.0;
   bool context = mark == ${Mark.context}.0;
-  vSize = size * (selected ? 1.45 : context ? 0.75 : 1.0);
+  vSize = size * nearness * (selected ? 1.3 : context ? 0.72 : 1.0);
   gl_PointSize = vSize;
-  gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
+  gl_Position = projectionMatrix * place;
   if (mark == ${Mark.hidden}.0) gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
 }`;
 
@@ -36,7 +39,8 @@ void main() {
   vec3 edge = vTint * 0.25;
   if (vMark == ${Mark.uncertain}.0) edge = ${glsl(UNCERTAIN_RGB)};
   if (vMark == ${Mark.corrected}.0) edge = ${glsl(CORRECTED_RGB)};
-  if (vMark == ${Mark.selected}.0) { edge = ${glsl(SELECTED_RGB)}; rim *= 1.4; }
+  if (vMark == ${Mark.selected}.0) { edge = ${glsl(SELECTED_RGB)}; rim *= 1.3; }
+  if (vMark == ${Mark.waiting}.0) { edge = ${glsl(WAITING_RGB)}; rim *= 1.6; }
   vec3 colour = mix(vTint, edge, smoothstep(outer - rim - 0.6, outer - rim + 0.4, radius));
   float alpha = clamp(outer + 0.5 - radius, 0.0, 1.0) * (vMark == ${Mark.context}.0 ? 0.42 : 1.0);
   gl_FragColor = vec4(colour, alpha);
@@ -49,7 +53,7 @@ export class RadarCloud {
     const material = new ShaderMaterial({
       vertexShader: VERTEX,
       fragmentShader: FRAGMENT,
-      uniforms: { size: { value: 8 } },
+      uniforms: { size: { value: 8 }, reference: { value: 0 } },
       transparent: true,
     });
     this.points = new Points(new BufferGeometry(), material);
@@ -76,10 +80,18 @@ export class RadarCloud {
     this.replace("mark", marks);
   }
 
-  /** Diameter in device pixels; from above, nothing hides a detection. */
-  setLook(size: number, above: boolean): void {
+  /** Diameter in device pixels. */
+  setSize(size: number): void {
     this.points.material.uniforms["size"].value = size;
-    this.points.material.depthTest = !above;
+  }
+
+  /**
+   * In the free view dots shrink with their distance; at `reference` metres they have their size. 0: seen from above,
+   * where all have the same size and nothing hides them.
+   */
+  setReference(reference: number): void {
+    this.points.material.uniforms["reference"].value = reference;
+    this.points.material.depthTest = reference > 0;
   }
 
   private replace(name: string, values: Uint8Array): void {

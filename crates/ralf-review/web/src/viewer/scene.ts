@@ -97,6 +97,7 @@ export class SceneView {
 
   private aim(): void {
     const [x, y, z] = this.currentRig.target;
+    this.radar.setReference(this.bird ? 0 : eyeDistance(this.currentRig));
     if (this.bird) this.aimAbove(x, y);
     else this.aimFree(x, y, z);
     this.camera.updateMatrixWorld();

@@ -1,5 +1,6 @@
 /** The centre of the page: the WebGL picture, what is drawn over it, and the pointer on it. */
 
+import { maskOf } from "../data/cloud.js";
 import { h } from "../dom.js";
 import type { Page } from "../page.js";
 import type { Point } from "../selection/geometry.js";
@@ -64,10 +65,11 @@ export class Viewport {
       this.changed();
     });
     store.watch(
-      ({ cloud, shown, eligible, selection }) => [cloud, shown, eligible, selection],
-      (cloud, shown, eligible, selection) => {
+      ({ cloud, shown, eligible, selection, waiting: strokes }) => [cloud, shown, eligible, selection, strokes],
+      (cloud, shown, eligible, selection, strokes) => {
         if (shown.length !== cloud.count || selection.length !== cloud.count) return;
-        view.radar.setMarks(marksOf(cloud, { shown, eligible, selection }, store.state.recording.threshold));
+        const waiting = maskOf(cloud, strokes.flatMap(({ stroke }) => stroke.points));
+        view.radar.setMarks(marksOf(cloud, { shown, eligible, selection, waiting }, store.state.recording.threshold));
         this.changed();
       },
     );
@@ -75,7 +77,7 @@ export class Viewport {
       ({ lidarShown, groundHidden, dotSize, mode, lidar }) => [lidarShown, groundHidden, dotSize, mode, lidar],
       (lidarShown, groundHidden, dotSize) => {
         view.lidar.setLook(lidarShown, groundHidden, view.pixelRatio);
-        view.radar.setLook(dotSize * view.pixelRatio, this.above);
+        view.radar.setSize(dotSize * view.pixelRatio);
         view.setBird(this.above);
         this.changed();
       },
