@@ -1,6 +1,6 @@
 //! What can be typed.
 
-use crate::commands::{convert, demo, depth, evaluate, inspect, label, plot, report, simulate, tune};
+use crate::commands::{convert, demo, depth, evaluate, inspect, label, plot, report, review, simulate, tune};
 use clap::{Args, Parser, Subcommand};
 use std::path::PathBuf;
 
@@ -19,6 +19,7 @@ Examples:
   ralf evaluate out --truth recordings/city
   ralf tune recordings/city -o ralf.toml --train 00,01 --test 02
   ralf report recordings/city out -o report.html
+  ralf review recordings/city out           correct labels in the browser
 
 Exit status: 0 done; 1 failed; 2 wrong usage; 3 done, but some scans are left out (each is named)."
 )]
@@ -45,6 +46,8 @@ pub(crate) enum Command {
     Plot(plot::PlotArgs),
     /// Write one page about a labelled recording: figures, curves, pictures
     Report(report::ReportArgs),
+    /// Correct labels by hand, on a page in the browser
+    Review(review::ReviewArgs),
     /// Write a recording of another format in RALF's own layout
     Convert(convert::ConvertArgs),
     /// Make a recording whose truth is known

@@ -20,6 +20,7 @@
 
 mod balance;
 mod causes;
+mod corrections;
 pub mod depth;
 mod error;
 mod evaluation;
@@ -44,6 +45,7 @@ mod view_of_delft;
 
 pub use balance::{Balance, Balances};
 pub use causes::Causes;
+pub use corrections::Corrections;
 pub use error::DataError;
 pub use evaluation::Comparison;
 pub use evidence::{SequenceEvidence, gather_evidence};

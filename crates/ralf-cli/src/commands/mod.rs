@@ -8,6 +8,7 @@ pub(crate) mod inspect;
 pub(crate) mod label;
 pub(crate) mod plot;
 pub(crate) mod report;
+pub(crate) mod review;
 pub(crate) mod simulate;
 pub(crate) mod tune;
 
@@ -25,6 +26,7 @@ pub(crate) fn dispatch(arguments: Cli) -> anyhow::Result<Outcome> {
         Command::Evaluate(arguments) => evaluate::run(&arguments),
         Command::Plot(arguments) => plot::run(&arguments),
         Command::Report(arguments) => report::run(&arguments),
+        Command::Review(arguments) => review::run(&arguments),
         Command::Convert(arguments) => convert::run(&arguments),
         Command::Depth(arguments) => depth::run(&arguments),
         Command::Tune(arguments) => tune::run(&arguments),

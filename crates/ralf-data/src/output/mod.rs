@@ -4,11 +4,13 @@ mod columns;
 mod parquet_file;
 mod rows_file;
 mod rows_read;
+mod scan_tables;
 mod table;
 
 pub use columns::Columns;
 pub use parquet_file::PlausibilityWriter;
 pub use rows_read::{LabelledRows, read_labelled_rows};
+pub use scan_tables::{PlausibilityReader, ScanTables};
 pub use table::ScanTable;
 
 pub(crate) use rows_file::{read_rows, write_rows};
