@@ -22,6 +22,7 @@ import { legendPanel } from "./panels/legend.js";
 import { QueuePanel } from "./panels/queue-panel.js";
 import { scanBar, scanTitle } from "./panels/scan-bar.js";
 import { statusBar } from "./panels/status-bar.js";
+import { Timeline } from "./panels/timeline.js";
 import { toolbar } from "./panels/toolbar.js";
 import { initialState } from "./state.js";
 import { Store } from "./store.js";
@@ -79,7 +80,7 @@ function build(page: Page): void {
   document.body.append(
     h("div", { class: "layout" },
       h("aside", { class: "left" }, new QueuePanel(page).element, filterPanel(page)),
-      h("main", { class: "centre-column" }, banner(page), toolbar(page), scanBar(page), stage),
+      h("main", { class: "centre-column" }, banner(page), toolbar(page), scanBar(page), stage, new Timeline(page).element),
       h("aside", { class: "right" }, cameras.element, detailsPanel(page)),
       statusBar(page)),
     helpDialog(page, table), classesDialog(page));

@@ -143,6 +143,7 @@ export class Correcting {
 
   private saved({ sequence, stroke }: Pending, answer: StrokeAnswer): void {
     const { store } = this.world;
+    store.set({ connected: true });
     if (sequence === store.state.sequence) store.set({ history: answer.history });
     this.adopt(sequence, answer.scans).catch((error: unknown) => complain(this.world, error));
     const asked = stroke.points.reduce((sum, { points }) => sum + points.length, 0);

@@ -27,7 +27,7 @@ export class Hearing {
   }
 
   private async run(sequence: string, signal: AbortSignal): Promise<void> {
-    let since = 0;
+    let since: number | null = null;
     while (!signal.aborted) {
       try {
         const changes = await this.world.api.changes(sequence, since, { signal });
@@ -36,7 +36,7 @@ export class Hearing {
         await this.take(sequence, changes);
       } catch (error) {
         if (!(error instanceof ServerGone)) throw error;
-        since = 0;
+        since = null;
         this.world.store.set({ connected: false });
         await new Promise((resolve) => setTimeout(resolve, PATIENCE_MS));
       }
@@ -49,22 +49,19 @@ export class Hearing {
     if (store.state.connected) return;
     const [queue, history] = await Promise.all([api.queue(sequence), api.history(sequence)]);
     store.set({ connected: true, scans: queue.scans, progress: queue.progress, history });
+    await this.correcting.reread(sequence, store.state.cloud.scans);
     await this.correcting.retry();
   }
 
   private async take(sequence: string, { scans }: Changes): Promise<void> {
     const { store, api } = this.world;
+    if (scans.length === 0) return;
     const { cloud, current } = store.state;
-    const news = scans.filter((change) => {
-      const known = cloud.scans.find((scan) => sameScan(scan, change));
-      return known === undefined || known.revision < change.revision;
-    });
-    if (news.length === 0) return;
-    for (const change of news) this.world.loader.forget(sequence, change);
-    await this.correcting.reread(sequence, cloud.scans.filter((scan) => news.some((change) => sameScan(change, scan))));
+    for (const change of scans) this.world.loader.forget(sequence, change);
+    await this.correcting.reread(sequence, cloud.scans.filter((scan) => scans.some((change) => sameScan(change, scan))));
     const queue = await api.queue(sequence);
     store.set({ scans: queue.scans, progress: queue.progress });
-    const here = news.find((change) => sameScan(change, current));
+    const here = scans.find((change) => sameScan(change, current));
     if (here !== undefined) tell(this.world, `${here.author} changed this scan in another window; you see the newer state.`);
   }
 }

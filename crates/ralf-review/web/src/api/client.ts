@@ -68,8 +68,9 @@ export class Api {
     return this.json("PUT", path, undefined, { reviewed, revision });
   }
 
-  changes(sequence: string, since: number, call?: Call): Promise<Changes> {
-    return this.json("GET", `${inSequence(sequence)}/changes?since=${since}`, call);
+  /** What others change after `since`; `null`: at once, only how far the count is. */
+  changes(sequence: string, since: number | null, call?: Call): Promise<Changes> {
+    return this.json("GET", `${inSequence(sequence)}/changes${since === null ? "" : `?since=${since}`}`, call);
   }
 
   private async table<Header>(path: string, call?: Call): Promise<Table<Header>> {

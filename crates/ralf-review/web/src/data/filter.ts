@@ -11,7 +11,7 @@ export interface Filter {
   readonly artifact: boolean;
   readonly unlabelled: boolean;
   readonly origin: Origin;
-  /** Only those so near the threshold that the machine isn't sure, or without any score. */
+  /** Only those so near the threshold that the machine isn't sure. */
   readonly uncertain: boolean;
   /** Plausibility; detections without one pass only the whole range. */
   readonly score: Span;
@@ -35,11 +35,11 @@ export const everything: Filter = {
   hiddenRadars: new Set(),
 };
 
-/** Scores closer to the threshold than this are uncertain. */
-export const UNCERTAIN_WITHIN = 0.15;
+/** Scores no farther from the threshold than this are uncertain, as in the queue. */
+export const UNCERTAIN_WITHIN = 0.1;
 
 export function isUncertain(score: number, threshold: number): boolean {
-  return Number.isNaN(score) || Math.abs(score - threshold) < UNCERTAIN_WITHIN;
+  return Math.abs(score - threshold) <= UNCERTAIN_WITHIN;
 }
 
 /** 1 for each detection that passes. */

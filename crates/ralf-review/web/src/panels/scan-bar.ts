@@ -26,7 +26,8 @@ export function scanTitle({ store }: Page): HTMLElement {
       const first = recording.sequences.find((other) => other.name === sequence)?.radars[0]?.scans[0];
       if (loading || scan === undefined || first === undefined) return say(facts, loading ? "loading…" : "");
       const { t_ns: time } = scan.table.header;
-      return say(facts, `${decimal(secondsBetween(first, time), 2)} s · ${counted(scan.table.rows, "detection")}`);
+      const blurred = cloud.compensated ? "" : "no odometry: scans are not moved together · ";
+      return say(facts, `${blurred}${decimal(secondsBetween(first, time), 2)} s · ${counted(scan.table.rows, "detection")}`);
     });
   return h("div", { class: "scan-title", "aria-live": "polite" }, name, facts);
 }

@@ -11,7 +11,7 @@ export function statusBar({ store, actions }: Page): HTMLElement {
   const work = h("span", { class: "work" });
   const history = h("span", { class: "number" });
   const cursor = h("span", { class: "number cursor" });
-  const frame = h("span", { class: "number faint", title: "JavaScript time of the last drawn frame" });
+  const frame = h("span", { class: "number faint frame", title: "JavaScript time of the last drawn frame" });
   const author = h("span", { title: "Author of corrections" });
   const help = h("button", { class: "link", type: "button", on: { click: () => actions.view.dialog("help") } }, "All keys ", h("kbd", {}, "?"));
   store.watch(({ recording }) => [recording], (recording) => say(author, recording.author));
@@ -24,7 +24,7 @@ export function statusBar({ store, actions }: Page): HTMLElement {
   store.watch(({ selection, armed, tool }) => [selection, armed, tool], () => say(work, workText(store.state)));
   store.watch(({ cursor: place }) => [place], (place) =>
     say(cursor, place === null ? "" : `x ${decimal(place[0], 1)} m  y ${decimal(place[1], 1)} m`));
-  store.watch(({ frameTime }) => [frameTime], (time) => say(frame, `${decimal(time, 1)} ms`));
+  store.watch(({ frameTime }) => [frameTime], (time) => say(frame, `${decimal(time, 1)} ms/frame`));
   return h("footer", { class: "status-bar" }, saved, author, history, work, cursor, frame, help);
 }
 

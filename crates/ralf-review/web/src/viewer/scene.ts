@@ -25,10 +25,11 @@ export class SceneView {
   private height = 1;
   private asked = 0;
 
-  /** `drawn` hears of every frame, with the milliseconds of JavaScript that it took. */
+  /** `drawOver` draws what lies over the picture; `timed` hears how many milliseconds of JavaScript both took. */
   constructor(
-    readonly canvas: HTMLCanvasElement,
-    private readonly drawn: (milliseconds: number) => void,
+    canvas: HTMLCanvasElement,
+    private readonly drawOver: () => void,
+    private readonly timed: (milliseconds: number) => void,
   ) {
     this.renderer = new WebGLRenderer({ canvas, antialias: true, powerPreference: "high-performance" });
     this.renderer.setPixelRatio(this.pixelRatio);
@@ -73,7 +74,8 @@ export class SceneView {
       this.asked = 0;
       const began = performance.now();
       this.renderer.render(this.scene, this.camera);
-      this.drawn(performance.now() - began);
+      this.drawOver();
+      this.timed(performance.now() - began);
     });
   }
 

@@ -25,10 +25,7 @@ export class Viewport {
   constructor(private readonly page: Page) {
     const canvas = h("canvas", { class: "scene", "aria-label": "Radar detections over LiDAR" });
     this.element = h("div", { class: "viewport", tabindex: "0", "aria-label": "Bird's eye and free view" }, canvas, this.overlay);
-    this.view = new SceneView(canvas, (milliseconds) => {
-      page.actions.view.drawn(milliseconds);
-      this.drawOverlay();
-    });
+    this.view = new SceneView(canvas, () => this.drawOverlay(), (milliseconds) => page.actions.view.drawn(milliseconds));
     this.surface = new Surface(page.store, page.actions, {
       element: this.element,
       places: () => this.placed(),

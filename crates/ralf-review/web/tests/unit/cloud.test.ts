@@ -70,7 +70,7 @@ test("every filter lets through what it says", () => {
   assert.deepEqual(shown({ artifact: false }), [1, 0, 1]);
   assert.deepEqual(shown({ origin: "corrected" }), [1, 0, 0]);
   assert.deepEqual(shown({ origin: "machine" }), [0, 1, 1]);
-  assert.deepEqual(shown({ uncertain: true }), [0, 1, 1]);
+  assert.deepEqual(shown({ uncertain: true }), [0, 1, 0]);
   assert.deepEqual(shown({ score: [0.5, 1] }), [1, 1, 0]);
   assert.deepEqual(shown({ range: [0, 30] }), [1, 1, 0]);
   assert.deepEqual(shown({ height: [1, 2] }), [0, 0, 0]);
