@@ -24,3 +24,8 @@ export function clock(at: string): string {
 export function counted(count: number, one: string, many = `${one}s`): string {
   return `${count.toLocaleString("en")} ${count === 1 ? one : many}`;
 }
+
+/** `radar_front` is just "front" among radars. */
+export function shortName(radar: string): string {
+  return radar.replace(/^radar[_-]?/i, "") || radar;
+}

@@ -12,7 +12,7 @@ import { Loader } from "./data/loader.js";
 import { deriveAlways } from "./derive.js";
 import { h } from "./dom.js";
 import type { Page } from "./page.js";
-import { banner, notice } from "./panels/banner.js";
+import { banner, notice, painting } from "./panels/banner.js";
 import { conflictDialog } from "./panels/conflict-dialog.js";
 import { detailsPanel } from "./panels/details-panel.js";
 import { classesDialog, helpDialog } from "./panels/dialogs.js";
@@ -76,7 +76,7 @@ function build(page: Page): void {
   });
   listenToKeys(table, page.store);
   keepFocus(viewport.element);
-  const stage = h("div", { class: "stage" }, viewport.element, centreCamera.element, legendPanel(page), scanTitle(page), notice(page), conflictDialog(page));
+  const stage = h("div", { class: "stage" }, viewport.element, centreCamera.element, legendPanel(page), scanTitle(page), painting(page), notice(page), conflictDialog(page));
   document.body.append(
     h("div", { class: "layout" },
       h("aside", { class: "left" }, new QueuePanel(page).element, filterPanel(page)),

@@ -4,7 +4,7 @@ import type { Choice } from "../data/labels.js";
 import { combine, type Combination, countOf, inverted } from "../selection/mask.js";
 import type { Tool } from "../selection/tools.js";
 import type { Correcting } from "./correcting.js";
-import { complain, type World } from "./world.js";
+import { complain, tell, type World } from "./world.js";
 
 const BRUSHES = [6, 9, 13, 18, 26, 38, 54, 80] as const;
 
@@ -27,6 +27,7 @@ export class Selecting {
     const { armed, selection, outbox } = store.state;
     if (outbox.kind === "conflict") return;
     this.lastTool = tool;
+    if (countOf(mask) === 0 && tool !== "click") this.explainNothing();
     if (armed !== undefined && how === "replace") {
       store.set({ selection: mask });
       this.begin(this.correcting.apply(armed, tool));
@@ -91,6 +92,12 @@ export class Selecting {
   toggleProtect(): void {
     const { store } = this.world;
     store.set({ protect: !store.state.protect });
+  }
+
+  private explainNothing(): void {
+    const { scope, cloud } = this.world.store.state;
+    const others = scope === "scan" && cloud.scans.length > 1;
+    tell(this.world, others ? "Nothing of this scan there. E lets strokes change everything shown." : "Nothing there to select.");
   }
 
   private begin(work: Promise<void>): void {

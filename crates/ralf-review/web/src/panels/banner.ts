@@ -27,6 +27,18 @@ function trouble({ outbox, waiting, connected }: Readonly<State>): string | null
   return `The server does not answer. ${kept} Is ralf review still running?`;
 }
 
+/** Over the picture, while every stroke sets a label at once. */
+export function painting({ store, actions }: Page): HTMLElement {
+  const pill = h("button", { class: "painting", type: "button", title: "End painting (Esc)", on: { click: () => actions.select.disarm() } });
+  store.watch(({ armed, labels }) => [armed, labels], (armed, labels) => {
+    pill.hidden = armed === undefined;
+    if (armed === undefined) return;
+    const truth = armed === null ? "machine" : labels.truth(armed);
+    pill.replaceChildren(h("span", { class: truth }, h("span", { class: "dot" })), `Painting ${labels.choiceName(armed)}: every stroke sets it`, h("kbd", {}, "Esc"));
+  });
+  return h("div", { class: "painting-place" }, pill);
+}
+
 const NOTICE_MS = 6000;
 
 /** A message that goes by itself, or when it's clicked. */

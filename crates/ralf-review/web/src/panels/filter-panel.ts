@@ -2,6 +2,7 @@
 
 import { everything, type Filter, hides, type Origin, type Span } from "../data/filter.js";
 import { h, pressed, say, select } from "../dom.js";
+import { shortName } from "../format.js";
 import type { Page } from "../page.js";
 
 export function filterPanel(page: Page): HTMLElement {
@@ -41,11 +42,6 @@ function origin({ store, actions }: Page): HTMLElement {
     pressed(uncertain, filter.uncertain);
   });
   return h("div", { class: "row" }, list, uncertain);
-}
-
-/** `radar_front` is just "front" among radars. */
-function shortName(name: string): string {
-  return name.replace(/^radar[_-]?/i, "") || name;
 }
 
 type SpanName = "score" | "range" | "height";

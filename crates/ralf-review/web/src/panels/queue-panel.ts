@@ -3,7 +3,7 @@
 import type { QueueScan } from "../api/types.js";
 import { sameScan } from "../data/scan.js";
 import { h, pressed, say, select, setOptions } from "../dom.js";
-import { counted } from "../format.js";
+import { counted, shortName } from "../format.js";
 import type { Page } from "../page.js";
 import { listed, type QueueOrder, reasons } from "../queue/queue.js";
 
@@ -54,7 +54,7 @@ export class QueuePanel {
       class: entry.reviewed === null ? "queue-row" : "queue-row done", role: "option", "aria-selected": String(current),
       title: tooltip(entry), on: { click: () => void this.page.actions.go.goTo(entry) },
     },
-    h("span", { class: "queue-name" }, entry.radar, h("b", { class: "number" }, String(entry.scan))),
+    h("span", { class: "queue-name" }, h("span", {}, shortName(entry.radar)), h("b", { class: "number" }, String(entry.scan))),
     h("span", { class: "queue-need" }, bar, h("b", { class: "number" }, entry.need.toFixed(2))),
     h("span", { class: "queue-reasons" }, ...said(entry)));
     row.style.setProperty("top", `${place * ROW}px`);
@@ -81,7 +81,10 @@ function head({ store, actions }: Page): HTMLElement {
   const bar = h("span", { class: "progress-bar", role: "progressbar", "aria-label": "Reviewed scans", "aria-valuemin": "0" }, h("span"));
   const text = h("span", { class: "faint number" });
   store.watch(({ recording, sequence }) => [recording, sequence], (recording, sequence) => {
-    setOptions(sequences, recording.sequences.map(({ name, title }) => ({ value: name, text: title === "" ? name : `${name} · ${title}` })));
+    setOptions(sequences, recording.sequences.map(({ name, title, labelled }) => {
+      const text = title === "" ? name : `${name} · ${title}`;
+      return { value: name, text: labelled ? text : `${text} (not labelled)` };
+    }));
     sequences.value = sequence;
   });
   store.watch(({ progress }) => [progress], ({ scans, reviewed, corrected_detections: corrected }) => {

@@ -23,7 +23,8 @@ export function scanTitle({ store }: Page): HTMLElement {
     (cloud, loading, current, recording, sequence) => {
       say(name, current === null ? "No scans" : `${current.radar} · ${current.scan}`);
       const scan = cloud.scans[0];
-      const first = recording.sequences.find((other) => other.name === sequence)?.radars[0]?.scans[0];
+      const radars = recording.sequences.find((other) => other.name === sequence)?.radars ?? [];
+      const [first] = radars.flatMap(({ scans }) => scans.slice(0, 1)).sort((a, b) => Number(BigInt(a) - BigInt(b)));
       if (loading || scan === undefined || first === undefined) return say(facts, loading ? "loading…" : "");
       const { t_ns: time } = scan.table.header;
       const blurred = cloud.compensated ? "" : "no odometry: scans are not moved together · ";

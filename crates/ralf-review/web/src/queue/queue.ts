@@ -39,7 +39,7 @@ export function reasons({ uncertain, disagreeing, cameras_failed: failed }: Queu
   const said: string[] = [];
   if (failed > 0) said.push(failed === 1 ? "1 camera failed" : `${failed} cameras failed`);
   if (uncertain > 0) said.push(`${uncertain} uncertain`);
-  if (disagreeing > 0) said.push(`${disagreeing} disagreeing`);
+  if (disagreeing > 0) said.push(`${disagreeing} disagree`);
   return said;
 }
 
