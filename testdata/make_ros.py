@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Writes testdata/ros: the same few messages as bags, MCAP files and ROS 2 folders, by other programs than ours.
 
-    pip install rosbags==0.11.9 mcap==1.6.0 lz4 zstandard numpy
+    pip install -r testdata/requirements.txt
     python3 testdata/make_ros.py
 
 crates/ralf-ros/tests/fixtures.rs knows what is in there. Clouds have padding of 0xEE, mixed types, fields out of order; the

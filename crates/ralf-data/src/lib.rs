@@ -20,10 +20,12 @@
 
 mod balance;
 mod causes;
+mod corrections;
 pub mod depth;
 mod error;
 mod evaluation;
 mod evidence;
+pub mod export;
 mod files;
 mod ground_truth;
 mod images;
@@ -46,6 +48,7 @@ mod view_of_delft;
 
 pub use balance::{Balance, Balances};
 pub use causes::Causes;
+pub use corrections::Corrections;
 pub use error::DataError;
 pub use evaluation::Comparison;
 pub use evidence::{SequenceEvidence, gather_evidence};
@@ -54,4 +57,4 @@ pub use ground_truth::{GroundTruth, ScanId};
 pub use label_file::{Label, read_labels, write_labels};
 pub use layout::{LayoutSequence, write_sequence};
 pub use open::{formats, open, open_with};
-pub use recording::{Recording, SequenceReader, TruthLabels};
+pub use recording::{NuScenesKey, Recording, SequenceReader, TruthLabels};
