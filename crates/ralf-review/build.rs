@@ -15,12 +15,13 @@ fn main() -> io::Result<()> {
     let from = |name| std::env::var_os(name).map(PathBuf::from).ok_or_else(|| io::Error::other(name));
     let (web, out) = (from("CARGO_MANIFEST_DIR")?.join("web"), from("OUT_DIR")?);
     println!("cargo::rerun-if-changed=build.rs");
-    println!("cargo::rerun-if-env-changed=PATH");
     watch(&web)?;
     let files = match build(&web, &out.join("web")) {
         Ok(folder) => files_below(&folder)?,
         Err(missing) => {
             println!("cargo::warning=the review page is not built: {missing}");
+            // A file that is never there has cargo try again next time, when what is missing may be installed.
+            println!("cargo::rerun-if-changed={}", out.join("never").display());
             vec![("/index.html".to_owned(), message(&out, &missing)?)]
         }
     };

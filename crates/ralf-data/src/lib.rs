@@ -54,6 +54,7 @@ pub use evaluation::Comparison;
 pub use evidence::{SequenceEvidence, gather_evidence};
 pub use files::write_whole;
 pub use ground_truth::{GroundTruth, ScanId};
+pub use images::png;
 pub use label_file::{Label, read_labels, write_labels};
 pub use layout::{LayoutSequence, write_sequence};
 pub use open::{formats, open, open_with};

@@ -13,7 +13,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use tokio::sync::watch;
 
 /// Sequences whose labels are kept open.
-const SEQUENCES_KEPT: usize = 4;
+const SEQUENCES_KEPT: usize = 2;
 /// LiDAR scans that are kept as they are sent: some 2 MB each.
 const CLOUDS_KEPT: usize = 24;
 

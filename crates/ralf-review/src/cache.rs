@@ -6,37 +6,44 @@ use std::sync::{Arc, Mutex, PoisonError};
 pub(crate) struct Cache<K, V> {
     capacity: usize,
     /// The last one is the most recent.
-    entries: Mutex<Vec<(K, Arc<V>)>>,
+    entries: Mutex<Vec<(K, Slot<V>)>>,
 }
+
+/// A value, or its place while it is made.
+type Slot<V> = Arc<Mutex<Option<Arc<V>>>>;
 
 impl<K: PartialEq, V> Cache<K, V> {
     pub(crate) fn new(capacity: usize) -> Self {
         Self { capacity, entries: Mutex::new(Vec::new()) }
     }
 
-    /// The value of a key, made if it isn't kept or no longer good. Others may ask meanwhile; two may make the same.
+    /// The value of a key, made if it isn't kept or no longer good. Who asks for it meanwhile waits; for another one nobody
+    /// does.
     pub(crate) fn get<E>(
         &self,
         key: K,
         good: impl FnOnce(&V) -> bool,
         make: impl FnOnce() -> Result<V, E>,
     ) -> Result<Arc<V>, E> {
-        let known = self.take(&key).filter(|value| good(value));
-        let value = match known {
-            Some(value) => value,
-            None => Arc::new(make()?),
-        };
-        let mut entries = self.entries.lock().unwrap_or_else(PoisonError::into_inner);
-        entries.retain(|(kept, _)| *kept != key);
-        entries.push((key, value.clone()));
-        let surplus = entries.len().saturating_sub(self.capacity);
-        entries.drain(..surplus);
-        Ok(value)
+        let slot = self.slot(key);
+        let mut held = slot.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(known) = held.as_ref().filter(|value| good(value)) {
+            return Ok(known.clone());
+        }
+        let made = Arc::new(make()?);
+        *held = Some(made.clone());
+        Ok(made)
     }
 
-    fn take(&self, key: &K) -> Option<Arc<V>> {
-        let entries = self.entries.lock().unwrap_or_else(PoisonError::into_inner);
-        entries.iter().find(|(kept, _)| kept == key).map(|(_, value)| value.clone())
+    /// The slot of a key, which thereby becomes the most recent.
+    fn slot(&self, key: K) -> Slot<V> {
+        let mut entries = self.entries.lock().unwrap_or_else(PoisonError::into_inner);
+        let known = entries.iter().position(|(kept, _)| *kept == key).map(|at| entries.remove(at).1);
+        let slot = known.unwrap_or_default();
+        entries.push((key, slot.clone()));
+        let surplus = entries.len().saturating_sub(self.capacity);
+        entries.drain(..surplus);
+        slot
     }
 }
 

@@ -16,8 +16,8 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, OnceLock};
 use std::time::SystemTime;
 
-/// Row groups that are kept: some 15 MB each.
-const GROUPS_KEPT: usize = 4;
+/// Row groups that are kept: some 15 MB each, and several radars may be looked at together.
+const GROUPS_KEPT: usize = 12;
 
 /// The labels of one sequence, and the settings that they were made with.
 pub(crate) struct SequenceLabels {
@@ -29,6 +29,8 @@ pub(crate) struct SequenceLabels {
     groups: Cache<usize, ScanTables>,
     /// By camera of the rig: images that were asked, and whether one of their views has failed.
     images: Vec<BTreeMap<usize, bool>>,
+    /// Why scans could not be labelled, by radar and number.
+    not_labelled: BTreeMap<(String, usize), String>,
     needs: OnceLock<Arc<Vec<ScanNeed>>>,
 }
 
@@ -64,8 +66,11 @@ impl SequenceLabels {
         let mut rig = sequence.rig.clone();
         record.settings.apply_to(&mut rig).map_err(|error| ApiError::Broken(error.to_string()))?;
         let columns = Columns::of(&rig).map_err(ApiError::Broken)?;
-        let cameras = record.sequences.iter().find(|known| known.name == sequence.name);
-        let cameras = cameras.map_or(&[][..], |known| known.cameras.as_slice());
+        let known = record.sequences.iter().find(|known| known.name == sequence.name);
+        let cameras = known.map_or(&[][..], |known| known.cameras.as_slice());
+        let not_labelled = known.map_or(&[][..], |known| known.not_labelled.as_slice());
+        let not_labelled =
+            not_labelled.iter().map(|scan| ((scan.radar.clone(), scan.scan), scan.reason.clone())).collect();
         let images = rig.cameras.iter().map(|camera| asked_images(cameras, &camera.name)).collect();
         Ok(Self {
             stamp,
@@ -73,21 +78,32 @@ impl SequenceLabels {
             reader: PlausibilityReader::open(&labels_file(out, &sequence.name), columns)?,
             groups: Cache::new(GROUPS_KEPT),
             images,
+            not_labelled,
             needs: OnceLock::new(),
             rig,
         })
     }
 
-    /// The labelled detections of a scan; none of one that could not be labelled.
+    /// The labelled detections of a scan; 404 of one that could not be labelled.
     pub(crate) fn table(&self, radar: &str, scan: usize, t_ns: i64) -> Result<ScanTable, ApiError> {
-        let none = || ScanTable {
+        if let Some(reason) = self.reason(radar, scan) {
+            return Err(ApiError::Unknown(format!(
+                "{radar} scan {scan}: expected labels, found none: {reason}"
+            )));
+        }
+        let nothing = || ScanTable {
             t_ns,
             decimals: vec![Vec::new(); self.reader.columns().count()],
             ..ScanTable::default()
         };
-        let Some(group) = self.reader.group_of(radar, scan) else { return Ok(none()) };
+        let Some(group) = self.reader.group_of(radar, scan) else { return Ok(nothing()) };
         let tables = self.groups.get(group, |_| true, || self.reader.tables(group))?;
-        Ok(tables.get(&(radar.to_owned(), scan)).cloned().unwrap_or_else(none))
+        Ok(tables.get(&(radar.to_owned(), scan)).cloned().unwrap_or_else(nothing))
+    }
+
+    /// Why a scan could not be labelled.
+    pub(crate) fn reason(&self, radar: &str, scan: usize) -> Option<&str> {
+        self.not_labelled.get(&(radar.to_owned(), scan)).map(String::as_str)
     }
 
     /// The cameras (by their place in the rig) whose image nearest to a time was asked, and those of them with a failed view.

@@ -55,7 +55,7 @@ impl ScanNeed {
     }
 }
 
-/// The need of every scan of a sequence, in the order of the rig.
+/// The need of every labelled scan of a sequence, in the order of the rig.
 pub(crate) fn of_scans(labels: &SequenceLabels, sequence: &Sequence) -> Result<Vec<ScanNeed>, ApiError> {
     let mut needs = Vec::new();
     // One row group at a time; no more than these are in memory.
@@ -72,6 +72,9 @@ pub(crate) fn of_scans(labels: &SequenceLabels, sequence: &Sequence) -> Result<V
     for (radar, times) in sequence.times.radars.iter().enumerate() {
         for (scan, t_ns) in times.iter().enumerate() {
             let name = (sequence.rig.radars[radar].name.clone(), scan);
+            if labels.reason(&name.0, scan).is_some() {
+                continue;
+            }
             let Doubts { detections, uncertain, disagreeing } = doubts.remove(&name).unwrap_or_default();
             let (asked, failed) = labels.cameras_at(&sequence.times.cameras, *t_ns);
             let (cameras_asked, cameras_failed) = (asked.len(), failed.len());

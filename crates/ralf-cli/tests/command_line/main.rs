@@ -12,6 +12,7 @@ mod bad_files;
 mod bad_images;
 mod bad_recordings;
 mod camera_plot;
+mod corrections;
 mod determinism;
 mod evaluation;
 mod export;
@@ -22,6 +23,8 @@ mod inputs;
 mod other_commands;
 mod real_data;
 mod resume;
+#[cfg(unix)]
+mod review;
 mod sequences;
 mod simulation;
 mod streams;

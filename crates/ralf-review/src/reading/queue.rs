@@ -5,11 +5,10 @@ use crate::app::App;
 use crate::http::{Answer, ApiError, json};
 use crate::need::ScanNeed;
 use ralf_corrections::ScanSummary;
-use ralf_data::SequenceReader;
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 
-/// Every radar scan of a sequence: those that nobody has reviewed first, and of these the most needy.
+/// Every labelled radar scan of a sequence: those that nobody has reviewed first, and of these the most needy.
 pub(crate) fn queue(app: &App, sequence: &str) -> Answer {
     let (index, reader) = app.sequence(sequence)?;
     let needs = app.labels(index)?.needs(reader)?;
@@ -26,7 +25,7 @@ pub(crate) fn queue(app: &App, sequence: &str) -> Answer {
         reviewed(a).cmp(&reviewed(b)).then(by_need).then_with(by_place)
     });
     let scans: Vec<Value> = order.into_iter().map(|need| row(name(need), need, said(need))).collect();
-    json(&json!({ "scans": scans, "progress": count(reader, &summaries) }))
+    json(&json!({ "scans": scans, "progress": count(needs.len(), &summaries) }))
 }
 
 fn row(radar: &str, need: &ScanNeed, said: Option<&ScanSummary>) -> Value {
@@ -47,13 +46,14 @@ fn row(radar: &str, need: &ScanNeed, said: Option<&ScanSummary>) -> Value {
 
 /// How far a sequence is.
 pub(crate) fn progress(app: &App, sequence: &str) -> Result<Value, ApiError> {
-    let (_, reader) = app.sequence(sequence)?;
-    Ok(count(reader, &app.store().summaries(sequence)?))
+    let (index, reader) = app.sequence(sequence)?;
+    let scans = app.labels(index)?.needs(reader)?.len();
+    Ok(count(scans, &app.store().summaries(sequence)?))
 }
 
-fn count(reader: &dyn SequenceReader, summaries: &[ScanSummary]) -> Value {
+fn count(scans: usize, summaries: &[ScanSummary]) -> Value {
     json!({
-        "scans": reader.sequence().times.radars.iter().map(Vec::len).sum::<usize>(),
+        "scans": scans,
         "reviewed": summaries.iter().filter(|said| said.reviewed.is_some()).count(),
         "corrected_detections": summaries.iter().map(|said| said.corrected).sum::<u64>(),
     })
