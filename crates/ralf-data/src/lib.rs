@@ -57,4 +57,4 @@ pub use ground_truth::{GroundTruth, ScanId};
 pub use label_file::{Label, read_labels, write_labels};
 pub use layout::{LayoutSequence, write_sequence};
 pub use open::{formats, open, open_with};
-pub use recording::{NuScenesKey, Recording, SequenceReader, TruthLabels};
+pub use recording::{NuScenesKey, Recording, RosSource, SequenceReader, TruthLabels};

@@ -1,5 +1,6 @@
 //! What a file holds, as far as it was read: channels, messages, chunks.
 
+use super::Schema;
 use super::chunks::ChunkPlace;
 use std::collections::BTreeMap;
 
@@ -30,6 +31,8 @@ pub(super) struct Channel {
     pub(super) type_name: String,
     /// `ros1`, `cdr`, or what this program can't read.
     pub(super) encoding: String,
+    /// What its type is made of.
+    pub(super) schema: Schema,
 }
 
 #[derive(Debug, Default)]

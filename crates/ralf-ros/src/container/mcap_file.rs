@@ -1,6 +1,7 @@
 //! MCAP: <https://mcap.dev/spec>. Channels and the index are read where they stand, so that a file that was cut short needs
 //! no other way.
 
+use super::Schema;
 use super::catalogue::{Catalogue, Channel, Place};
 use super::chunked::Format;
 use super::chunks::ChunkPlace;
@@ -122,7 +123,7 @@ fn time_ns(time: u64) -> Result<i64, EncodingError> {
 fn record(
     op: u8,
     body: &[u8],
-    schemas: &mut BTreeMap<u16, String>,
+    schemas: &mut BTreeMap<u16, (String, Schema)>,
     catalogue: &mut Catalogue,
 ) -> Result<(), EncodingError> {
     if ![op::SCHEMA, op::CHANNEL, op::MESSAGE_INDEX].contains(&op) {
@@ -131,19 +132,27 @@ fn record(
     let record = mcap::parse_record(op, body)
         .map_err(|error| EncodingError::new(0, "a record of MCAP", error.to_string()))?;
     match record {
-        Record::Schema { header, .. } => {
-            schemas.insert(header.id, header.name);
+        Record::Schema { header, data } => {
+            let schema = Schema { encoding: header.encoding, text: data.into_owned(), ..Schema::default() };
+            schemas.insert(header.id, (header.name, schema));
         }
         Record::Channel(channel) => {
-            let type_name = schemas.get(&channel.schema_id).cloned().unwrap_or_default();
+            let (type_name, mut schema) = schemas.get(&channel.schema_id).cloned().unwrap_or_default();
+            let quality_of_service = channel.metadata.get("offered_qos_profiles");
+            schema.latched = quality_of_service.is_some_and(|text| {
+                ["durability: 1\n", "durability: transient_local\n"]
+                    .iter()
+                    .any(|latched| text.contains(latched))
+            });
             let (topic, encoding) = (channel.topic, channel.message_encoding);
             let known = catalogue.channels.entry(u32::from(channel.id)).or_insert_with(|| Channel {
                 topic,
                 type_name: String::new(),
+                schema: Schema::default(),
                 encoding,
             });
             if known.type_name.is_empty() {
-                known.type_name = type_name;
+                (known.type_name, known.schema) = (type_name, schema);
             }
         }
         Record::MessageIndex(index) => {

@@ -3,8 +3,9 @@
 mod bag;
 mod mcap_file;
 
+use crate::container::{self, Schema};
 use crate::encoding::{Encoding, EncodingError};
-use crate::message::Message;
+use crate::message::{DEFINITIONS, Definition, Message};
 use bag::BagWriter;
 use mcap_file::McapWriter;
 use std::io::{Seek, Write};
@@ -64,6 +65,50 @@ pub struct Topic<M> {
     of: PhantomData<fn(M)>,
 }
 
+/// A topic whose messages are copied from another recording.
+#[derive(Debug)]
+pub struct RawTopic {
+    id: u32,
+}
+
+/// What a file writes down of the messages of a topic.
+struct Described {
+    type_name: String,
+    /// Of the messages.
+    encoding: String,
+    schema: Schema,
+}
+
+impl Described {
+    fn known(definition: &Definition, encoding: Encoding) -> Self {
+        let (name, language) = match encoding {
+            Encoding::Ros1 => ("ros1", "ros1msg"),
+            Encoding::Cdr => ("cdr", "ros2msg"),
+        };
+        let text = definition.text(encoding).into_bytes();
+        let (md5, latched) = (definition.md5.to_owned(), false);
+        let schema = Schema { encoding: language.to_owned(), text, md5, latched };
+        Self { type_name: definition.type_name(encoding), encoding: name.to_owned(), schema }
+    }
+}
+
+impl From<&container::Topic> for Described {
+    /// Where the recording doesn't tell what a type is made of, but this program knows, it does.
+    fn from(topic: &container::Topic) -> Self {
+        let known = DEFINITIONS.into_iter().find(|definition| definition.is(&topic.type_name));
+        match (known, topic.known_encoding()) {
+            (Some(definition), Some(encoding)) if topic.schema.text.is_empty() => {
+                Self::known(definition, encoding)
+            }
+            _ => Self {
+                type_name: topic.type_name.clone(),
+                encoding: topic.encoding.clone(),
+                schema: topic.schema.clone(),
+            },
+        }
+    }
+}
+
 /// A recording in the making. Without [`Self::finish`] it is one that was cut short.
 pub struct MessageWriter<W: Write + Seek> {
     container: Container<W>,
@@ -88,10 +133,35 @@ impl<W: Write + Seek> MessageWriter<W> {
     /// Adds a topic. A name is added once.
     pub fn topic<M: Message>(&mut self, name: &str, delivery: Delivery) -> Result<Topic<M>, WriteError> {
         let id = match &mut self.container {
-            Container::Bag(bag) => bag.add_topic(name, M::DEFINITION, delivery),
-            Container::Mcap(mcap) => mcap.add_topic(name, M::DEFINITION, delivery)?,
+            Container::Bag(bag) => {
+                bag.add_topic(name, &Described::known(M::DEFINITION, Encoding::Ros1), delivery)
+            }
+            Container::Mcap(mcap) => {
+                mcap.add_topic(name, &Described::known(M::DEFINITION, Encoding::Cdr), delivery)?
+            }
         };
         Ok(Topic { id, name: name.to_owned(), of: PhantomData })
+    }
+
+    /// Adds a topic of another recording, whose messages are written as they are. `None` where they can't be, for a bag
+    /// holds the encoding of ROS 1 alone, and a file of the profile `ros2` everything else.
+    pub fn raw_topic(&mut self, topic: &container::Topic) -> Result<Option<RawTopic>, WriteError> {
+        let delivery = if topic.schema.latched { Delivery::Latched } else { Delivery::Live };
+        let is_ros1 = topic.known_encoding() == Some(Encoding::Ros1);
+        let id = match &mut self.container {
+            Container::Bag(bag) if is_ros1 => bag.add_topic(&topic.name, &topic.into(), delivery),
+            Container::Mcap(mcap) if !is_ros1 => mcap.add_topic(&topic.name, &topic.into(), delivery)?,
+            _ => return Ok(None),
+        };
+        Ok(Some(RawTopic { id }))
+    }
+
+    /// Adds a message of another recording, as it is.
+    pub fn write_raw(&mut self, topic: &RawTopic, log_ns: i64, message: &[u8]) -> Result<(), WriteError> {
+        match &mut self.container {
+            Container::Bag(bag) => bag.write(topic.id, log_ns, message),
+            Container::Mcap(mcap) => mcap.write(topic.id, log_ns, message),
+        }
     }
 
     /// Adds a message, recorded at this time (ns since 1970). Messages should come in the order of these times.
