@@ -8,6 +8,7 @@ use crate::export::columns::cloud_columns;
 use crate::export::labelled::LabelledSequence;
 use crate::export::options::Sensors;
 use crate::{DataError, SequenceReader};
+use ralf::motion::EgoMotion;
 use ralf::source::{Sequence, SourceError};
 use ralf_ros::message::{
     CameraInfo, CompressedImage, Message, Odometry, PointCloud2, TfMessage, TwistStamped,
@@ -39,8 +40,8 @@ struct Topics {
 
 /// The topics of the vehicle's motion.
 struct Motion {
-    odometry: Topic<Odometry>,
-    twist: Topic<TwistStamped>,
+    odometry: Option<Topic<Odometry>>,
+    twist: Option<Topic<TwistStamped>>,
     tf: Topic<TfMessage>,
 }
 
@@ -71,7 +72,8 @@ impl<'a> Recorder<'a> {
             false => None,
         };
         let sensors = if originals.is_some() { None } else { Some(sensors) };
-        let topics = Topics::add(&mut writer, &names, sensors, labelled).map_err(written(file))?;
+        let motion = &reader.sequence().motion;
+        let topics = Topics::add(&mut writer, &names, motion, sensors, labelled).map_err(written(file))?;
         Ok(Self { writer, file, reader, names, topics, originals })
     }
 
@@ -154,16 +156,17 @@ impl<'a> Recorder<'a> {
     fn motion(&mut self, t_ns: i64, event: Event) -> Result<(), DataError> {
         let Some(topics) = &self.topics.motion else { return Ok(()) };
         let motion = &self.reader.sequence().motion;
-        let written = written(self.file);
-        match event {
-            Event::Wheels(at) => self.writer.write(&topics.twist, t_ns, &twist(&motion.odometry()[at])),
-            Event::Pose(at) => {
-                self.writer.write(&topics.odometry, t_ns, &odometry(&motion.poses()[at], motion))
+        let refused = written(self.file);
+        match (event, &topics.twist, &topics.odometry) {
+            (Event::Wheels(at), Some(topic), _) => {
+                self.writer.write(topic, t_ns, &twist(&motion.odometry()[at])).map_err(&refused)?;
             }
-            _ => Ok(()),
+            (Event::Pose(at), _, Some(topic)) => {
+                self.writer.write(topic, t_ns, &odometry(&motion.poses()[at], motion)).map_err(&refused)?;
+            }
+            _ => {}
         }
-        .map_err(&written)?;
-        self.writer.write(&topics.tf, t_ns, &vehicle(t_ns, motion)).map_err(&written)
+        self.writer.write(&topics.tf, t_ns, &vehicle(t_ns, motion)).map_err(&refused)
     }
 
     fn radar(
@@ -217,6 +220,7 @@ impl Topics {
     fn add(
         writer: &mut FileWriter,
         names: &Names,
+        motion: &EgoMotion,
         sensors: Option<Sensors>,
         labelled: bool,
     ) -> Result<Self, WriteError> {
@@ -235,14 +239,22 @@ impl Topics {
         });
         let cameras = cameras.collect::<Result<_, WriteError>>()?;
         let motion = match sensors.any() {
-            true => Some(Motion {
-                odometry: live(writer, names::ODOMETRY)?,
-                twist: live(writer, names::TWIST)?,
-                tf: live(writer, names::TF)?,
-            }),
+            true => Some(Motion::add(writer, motion)?),
             false => None,
         };
         Ok(Self { tf_static, motion, labelled, radars, lidars, cameras })
+    }
+}
+
+impl Motion {
+    /// The topics of what is known of a motion.
+    fn add(writer: &mut FileWriter, motion: &EgoMotion) -> Result<Self, WriteError> {
+        let (wheels, poses) = (!motion.odometry().is_empty(), !motion.poses().is_empty());
+        Ok(Self {
+            odometry: poses.then(|| live(writer, names::ODOMETRY)).transpose()?,
+            twist: wheels.then(|| live(writer, names::TWIST)).transpose()?,
+            tf: live(writer, names::TF)?,
+        })
     }
 }
 
