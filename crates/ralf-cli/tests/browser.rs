@@ -127,9 +127,8 @@ fn all_tables(reader: &PlausibilityReader) -> ScanTables {
 fn lonely(table: &ScanTable) -> Vec<usize> {
     let (x, y) = (&table.decimals[0], &table.decimals[1]);
     let alone = |point: usize| {
-        (0..table.len()).all(|other| {
-            other == point || (x[point] - x[other]).hypot(y[point] - y[other]) > ALONE
-        })
+        (0..table.len())
+            .all(|other| other == point || (x[point] - x[other]).hypot(y[point] - y[other]) > ALONE)
     };
     (0..table.len())
         .filter(|point| x[*point].abs() < SEEN && y[*point].abs() < SEEN && alone(*point))

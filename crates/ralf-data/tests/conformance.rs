@@ -49,21 +49,27 @@ fn the_recording_of_the_demonstration() {
 
 #[test]
 fn nuscenes() {
-    check_real("nuscenes");
+    check_real("nuscenes", "nuscenes");
 }
 
 #[test]
 fn view_of_delft() {
-    check_real("view-of-delft");
+    check_real("view-of-delft", "view-of-delft");
+}
+
+#[test]
+fn ros() {
+    check_real("ros/nuscenes-0061-zstd.mcap", "ros");
+    check_real("ros/nuscenes-0061-lz4.bag", "ros");
 }
 
 /// A real recording, and the same in the own layout.
-fn check_real(format: &str) {
+fn check_real(path: &str, format: &str) {
     let Some(root) = std::env::var_os("RALF_TEST_DATA") else {
         println!("skipped: RALF_TEST_DATA is not set");
         return;
     };
-    let recording = ralf_data::open(&Path::new(&root).join(format), None).unwrap();
+    let recording = ralf_data::open(&Path::new(&root).join(path), None).unwrap();
     assert_eq!(recording.format, format);
     check(&recording);
     let out = tempfile::tempdir().unwrap();

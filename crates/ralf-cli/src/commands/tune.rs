@@ -107,8 +107,9 @@ impl TuneArgs {
     /// Matches all scans of the sequences to train on and of those to judge by.
     fn gather(&self, base: &Config) -> anyhow::Result<Vec<SequenceEvidence>> {
         let sequences = [self.train.as_slice(), &self.test].concat();
-        let dataset = DatasetArgs { dataset: self.dataset.clone(), format: self.format.clone(), sequences };
-        let recording = dataset.open()?;
+        let (dataset, format) = (self.dataset.clone(), self.format.clone());
+        let dataset = DatasetArgs { dataset, format, sequences, topics: None };
+        let recording = dataset.open_with(&mut base.clone())?;
         let truth = GroundTruth::open(&self.dataset)?;
         Ok(gather_evidence(&recording, &truth, base, threads(self.jobs), &Bars::new(self.quiet))?)
     }
