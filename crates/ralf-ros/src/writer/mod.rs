@@ -96,16 +96,14 @@ impl From<&container::Topic> for Described {
     /// Where the recording doesn't tell what a type is made of, but this program knows, it does.
     fn from(topic: &container::Topic) -> Self {
         let known = DEFINITIONS.into_iter().find(|definition| definition.is(&topic.type_name));
-        match (known, topic.known_encoding()) {
-            (Some(definition), Some(encoding)) if topic.schema.text.is_empty() => {
-                Self::known(definition, encoding)
-            }
-            _ => Self {
-                type_name: topic.type_name.clone(),
-                encoding: topic.encoding.clone(),
-                schema: topic.schema.clone(),
-            },
-        }
+        let known = known.zip(topic.known_encoding()).map(|(known, encoding)| Self::known(known, encoding));
+        let (type_name, encoding) = (topic.type_name.clone(), topic.encoding.clone());
+        let schema = match (known, topic.schema.clone()) {
+            (Some(known), schema) if schema.text.is_empty() => known.schema,
+            (Some(known), schema) if schema.md5.is_empty() => Schema { md5: known.schema.md5, ..schema },
+            (_, schema) => schema,
+        };
+        Self { type_name, encoding, schema }
     }
 }
 
@@ -143,17 +141,24 @@ impl<W: Write + Seek> MessageWriter<W> {
         Ok(Topic { id, name: name.to_owned(), of: PhantomData })
     }
 
-    /// Adds a topic of another recording, whose messages are written as they are. `None` where they can't be, for a bag
-    /// holds the encoding of ROS 1 alone, and a file of the profile `ros2` everything else.
-    pub fn raw_topic(&mut self, topic: &container::Topic) -> Result<Option<RawTopic>, WriteError> {
-        let delivery = if topic.schema.latched { Delivery::Latched } else { Delivery::Live };
+    /// Whether the messages of another recording's topic can be written as they are: a bag holds the encoding of ROS 1 alone,
+    /// with a checksum, and a file of the profile `ros2` everything else.
+    pub fn can_copy(&self, topic: &container::Topic) -> bool {
         let is_ros1 = topic.known_encoding() == Some(Encoding::Ros1);
+        match &self.container {
+            Container::Bag(_) => is_ros1 && !Described::from(topic).schema.md5.is_empty(),
+            Container::Mcap(_) => !is_ros1,
+        }
+    }
+
+    /// Adds a topic of another recording, one that [can be copied](Self::can_copy).
+    pub fn raw_topic(&mut self, topic: &container::Topic) -> Result<RawTopic, WriteError> {
+        let delivery = if topic.schema.latched { Delivery::Latched } else { Delivery::Live };
         let id = match &mut self.container {
-            Container::Bag(bag) if is_ros1 => bag.add_topic(&topic.name, &topic.into(), delivery),
-            Container::Mcap(mcap) if !is_ros1 => mcap.add_topic(&topic.name, &topic.into(), delivery)?,
-            _ => return Ok(None),
+            Container::Bag(bag) => bag.add_topic(&topic.name, &topic.into(), delivery),
+            Container::Mcap(mcap) => mcap.add_topic(&topic.name, &topic.into(), delivery)?,
         };
-        Ok(Some(RawTopic { id }))
+        Ok(RawTopic { id })
     }
 
     /// Adds a message of another recording, as it is.

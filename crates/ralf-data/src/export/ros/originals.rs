@@ -3,7 +3,7 @@
 use super::{FileWriter, written};
 use crate::ros::LABELLED;
 use crate::{DataError, RosSource, SequenceReader};
-use ralf_ros::container::{Container, MessageRef};
+use ralf_ros::container::{Container, MessageRef, Topic};
 use ralf_ros::writer::{RawTopic, WriteError};
 use std::path::Path;
 
@@ -23,15 +23,12 @@ impl<'a> Originals<'a> {
         writer: &mut FileWriter,
     ) -> Result<Option<Self>, WriteError> {
         let Some(RosSource { container, radar_frames }) = reader.ros() else { return Ok(None) };
-        let mut topics = Vec::new();
-        for topic in container.topics() {
-            if topic.name.ends_with(LABELLED) {
-                topics.push(None);
-                continue;
-            }
-            let Some(copy) = writer.raw_topic(topic)? else { return Ok(None) };
-            topics.push(Some(copy));
+        let is_copied = |topic: &&Topic| !topic.name.ends_with(LABELLED);
+        if !container.topics().iter().filter(is_copied).all(|topic| writer.can_copy(topic)) {
+            return Ok(None);
         }
+        let copy = |topic| is_copied(&topic).then(|| writer.raw_topic(topic)).transpose();
+        let topics = container.topics().iter().map(copy).collect::<Result<_, _>>()?;
         Ok(Some(Self { radar_frames, container, topics }))
     }
 
