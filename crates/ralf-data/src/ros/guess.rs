@@ -1,7 +1,7 @@
 //! A first guess of which topic is which sensor, from types, names and first messages.
 
 use super::messages::Messages;
-use super::{cloud, survey};
+use super::{LABELLED, cloud, survey};
 use crate::DataError;
 use crate::models::GENERIC;
 use ralf::config::{TopicConfig, TopicKind, Topics};
@@ -63,7 +63,9 @@ pub(super) fn of(messages: &Messages) -> Result<Guess, DataError> {
     let topics = messages.container().topics();
     let usable = |topic: &Topic| topic.count > 0 && topic.known_encoding().is_some();
     for (place, topic) in topics.iter().enumerate().filter(|(_, topic)| usable(topic)) {
-        if PointCloud2::DEFINITION.is(&topic.type_name) || RadarScan::DEFINITION.is(&topic.type_name) {
+        if topic.name.ends_with(LABELLED) {
+            guess.unused.push(format!("{} is not used: it holds what `ralf label` found", topic.name));
+        } else if PointCloud2::DEFINITION.is(&topic.type_name) || RadarScan::DEFINITION.is(&topic.type_name) {
             let entry = cloud_entry(messages, topic, place)?;
             guess.add(entry);
         } else if survey::types(TopicKind::Camera).iter().any(|known| known.is(&topic.type_name)) {

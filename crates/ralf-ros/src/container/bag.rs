@@ -1,5 +1,6 @@
 //! ROS 1 bags. Connections and the index are read where they stand, so that a bag that was cut short needs no other way.
 
+use super::Schema;
 use super::bag_format::{MAGIC, ParsedFields, op, time_ns};
 use super::catalogue::{Catalogue, Channel, Place};
 use super::chunked::Format;
@@ -155,6 +156,12 @@ fn add_connection(
         topic: header.text("topic")?.to_owned(),
         type_name: connection.text("type")?.to_owned(),
         encoding: "ros1".to_owned(),
+        schema: Schema {
+            encoding: "ros1msg".to_owned(),
+            text: connection.text("message_definition").unwrap_or_default().into(),
+            md5: connection.text("md5sum").unwrap_or_default().to_owned(),
+            latched: connection.text("latching").is_ok_and(|latching| latching == "1"),
+        },
     };
     catalogue.channels.insert(header.u32("conn")?, channel);
     Ok(())

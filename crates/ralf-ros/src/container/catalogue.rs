@@ -1,5 +1,6 @@
 //! What a file holds, as far as it was read: channels, messages, chunks.
 
+use super::Schema;
 use super::chunks::ChunkPlace;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -30,13 +31,15 @@ pub(super) struct Channel {
     pub(super) type_name: String,
     /// `ros1`, `cdr`, or what this program can't read.
     pub(super) encoding: String,
+    /// What its type is made of.
+    pub(super) schema: Schema,
 }
 
 #[derive(Debug, Default)]
 pub(super) struct Catalogue {
     pub(super) channels: BTreeMap<u32, Channel>,
     /// Names of types, by the numbers that channels of MCAP have for them.
-    pub(super) schemas: BTreeMap<u16, String>,
+    pub(super) schemas: BTreeMap<u16, (String, Schema)>,
     /// In these the topic is still the number of the channel.
     pub(super) messages: Vec<MessageRef>,
     /// The same of those that lie in no chunk.

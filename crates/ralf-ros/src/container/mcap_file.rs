@@ -1,6 +1,7 @@
 //! MCAP: <https://mcap.dev/spec>. Channels and the index are read where they stand, so that a file that was cut short needs
 //! no other way.
 
+use super::Schema;
 use super::catalogue::{Catalogue, Channel, Place};
 use super::chunked::Format;
 use super::chunks::ChunkPlace;
@@ -13,6 +14,9 @@ use mcap::records::{Record, op};
 
 /// The kind of a record and its length.
 const PREFIX_BYTES: usize = 9;
+
+/// What the quality of service says of topics that are also for those who come later: as ROS 2 writes it, and wrote it.
+const LATCHED: [&str; 2] = ["durability: transient_local\n", "durability: 1\n"];
 
 #[derive(Debug, Default)]
 pub(super) struct Mcap;
@@ -121,15 +125,23 @@ fn record(op: u8, body: &[u8], catalogue: &mut Catalogue) -> Result<(), Encoding
     let record = mcap::parse_record(op, body)
         .map_err(|error| EncodingError::new(0, "a record of MCAP", error.to_string()))?;
     match record {
-        Record::Schema { header, .. } => {
-            catalogue.schemas.insert(header.id, header.name);
+        Record::Schema { header, data } => {
+            let schema = Schema { encoding: header.encoding, text: data.into_owned(), ..Schema::default() };
+            catalogue.schemas.insert(header.id, (header.name, schema));
         }
         Record::Channel(channel) => {
             // 0 is no schema. Of any other one that isn't known yet an earlier chunk tells, and this channel is met again.
             let schema = catalogue.schemas.get(&channel.schema_id).cloned();
-            if let Some(type_name) = schema.or_else(|| (channel.schema_id == 0).then(String::new)) {
+            if let Some((type_name, mut schema)) =
+                schema.or_else(|| (channel.schema_id == 0).then(Default::default))
+            {
+                let quality_of_service = channel.metadata.get("offered_qos_profiles");
+                schema.latched = quality_of_service
+                    .is_some_and(|text| LATCHED.iter().any(|latched| text.contains(latched)));
                 let (topic, encoding) = (channel.topic, channel.message_encoding);
-                catalogue.channels.insert(u32::from(channel.id), Channel { topic, type_name, encoding });
+                catalogue
+                    .channels
+                    .insert(u32::from(channel.id), Channel { topic, type_name, encoding, schema });
             }
         }
         Record::MessageIndex(index) => {
