@@ -76,11 +76,11 @@ function build(page: Page): void {
   });
   listenToKeys(table, page.store);
   keepFocus(viewport.element);
-  const stage = h("div", { class: "stage" }, viewport.element, centreCamera.element, legendPanel(page), scanTitle(page), painting(page), notice(page), conflictDialog(page));
+  const stage = h("div", { class: "stage" }, viewport.element, centreCamera.element, legendPanel(page), scanTitle(page), painting(page), notice(page), banner(page), conflictDialog(page));
   document.body.append(
     h("div", { class: "layout" },
       h("aside", { class: "left" }, new QueuePanel(page).element, filterPanel(page)),
-      h("main", { class: "centre-column" }, banner(page), toolbar(page), scanBar(page), stage, new Timeline(page).element),
+      h("main", { class: "centre-column" }, toolbar(page), scanBar(page), stage, new Timeline(page).element),
       h("aside", { class: "right" }, cameras.element, detailsPanel(page)),
       statusBar(page)),
     helpDialog(page, table), classesDialog(page));
