@@ -3,7 +3,7 @@
 import { Conflict } from "../api/errors.js";
 import { randomName } from "../api/session.js";
 import type { ScanCorrections, StrokeAnswer, StrokeRequest } from "../api/types.js";
-import { maskOf, pointsByScan, withScans } from "../data/cloud.js";
+import { findScan, maskOf, pointsByScan, withScans } from "../data/cloud.js";
 import { ARTIFACT, type Choice, PLAUSIBLE } from "../data/labels.js";
 import { sameScan, type Scan, withCorrections } from "../data/scan.js";
 import { keepStrokes, keptStrokes } from "../history/keep.js";
@@ -167,7 +167,10 @@ export class Correcting {
       if (pending.sequence === store.state.sequence) store.set({ history: await api.history(pending.sequence) });
       return;
     }
-    if (pending.sequence === store.state.sequence) store.set({ selection: maskOf(store.state.cloud, pending.stroke.points) });
+    if (pending.sequence !== store.state.sequence) return;
+    const { base, points } = pending.stroke;
+    if (!base.some((scan) => findScan(store.state.cloud, scan) >= 0)) await this.navigation.goTo(base[0]);
+    store.set({ selection: maskOf(store.state.cloud, points) });
   }
 
   /** Undo and redo wait for each other, so that a key may be pressed quickly. */

@@ -21,9 +21,7 @@ export class Hearing {
     this.listening?.abort();
     const listening = new AbortController();
     this.listening = listening;
-    this.run(sequence, listening.signal).catch((error: unknown) => {
-      if (!listening.signal.aborted) complain(this.world, error);
-    });
+    void this.run(sequence, listening.signal);
   }
 
   private async run(sequence: string, signal: AbortSignal): Promise<void> {
@@ -35,9 +33,10 @@ export class Hearing {
         await this.reconnected(sequence);
         await this.take(sequence, changes);
       } catch (error) {
-        if (!(error instanceof ServerGone)) throw error;
+        if (signal.aborted) return;
         since = null;
-        this.world.store.set({ connected: false });
+        if (error instanceof ServerGone) this.world.store.set({ connected: false });
+        else complain(this.world, error);
         await new Promise((resolve) => setTimeout(resolve, PATIENCE_MS));
       }
     }

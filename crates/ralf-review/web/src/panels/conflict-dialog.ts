@@ -5,6 +5,7 @@ import { h } from "../dom.js";
 import { clock, counted } from "../format.js";
 import type { OutboxStatus } from "../history/outbox.js";
 import type { Page } from "../page.js";
+import type { State } from "../state.js";
 
 type Met = Extract<OutboxStatus, { kind: "conflict" }>;
 
@@ -22,13 +23,14 @@ export function conflictDialog({ store, actions }: Page): HTMLElement {
     box.hidden = met === null;
     if (met === null) return;
     spare.checked = met.pending.stroke.protect;
-    body.replaceChildren(...told(met, store.state.labels.choiceName(met.pending.stroke.label)));
-    apply.focus();
+    body.replaceChildren(...told(met, store.state));
+    // Not a button: a key that was on its way must not decide.
+    box.focus();
   });
   return box;
 }
 
-function told({ body, pending }: Met, label: string): HTMLElement[] {
+function told({ body, pending }: Met, { labels, recording }: Readonly<State>): HTMLElement[] {
   const { stroke } = pending;
   const count = stroke.points.reduce((sum, { points }) => sum + points.length, 0);
   const touched = stroke.points.reduce((sum, { radar, scan, points }) => {
@@ -36,10 +38,12 @@ function told({ body, pending }: Met, label: string): HTMLElement[] {
     return sum + points.filter((point) => now.has(point)).length;
   }, 0);
   const { conflict } = body;
-  const who = conflict === null ? body.error : `${conflict.author} changed ${conflict.radar} ${conflict.scan} with ${conflict.tool}, ${clock(conflict.at)}.`;
+  const elsewhere = conflict?.author === recording.author ? " (in another window)" : "";
+  const who = conflict === null ? body.error
+    : `${conflict.author}${elsewhere} changed ${conflict.radar} ${conflict.scan} with ${conflict.tool}, ${clock(conflict.at)}.`;
   return [
     h("p", {}, who),
-    h("p", {}, `Your ${stroke.tool} sets ${counted(count, "detection")} to ${label}. Nothing of it is saved yet.`),
+    h("p", {}, `Your ${stroke.tool} sets ${counted(count, "detection")} to ${labels.choiceName(stroke.label)}. Nothing of it is saved yet.`),
     h("p", { class: "faint" }, `The picture shows the newer state, with your detections selected; ${touched === 0 ? "none" : touched} of them ${touched === 1 ? "is" : "are"} corrected there.`),
   ];
 }

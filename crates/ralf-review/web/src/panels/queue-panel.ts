@@ -64,7 +64,7 @@ export class QueuePanel {
 
 function said(entry: QueueScan): HTMLElement[] {
   const parts = reasons(entry).map((reason) => h("span", { class: reason.includes("failed") ? "reason alarm" : "reason" }, reason));
-  if (entry.corrected > 0) parts.push(h("span", { class: "reason corrected" }, `${entry.corrected} corrected`));
+  if (entry.corrected > 0) parts.unshift(h("span", { class: "reason corrected" }, `${entry.corrected} corrected`));
   if (entry.reviewed !== null) parts.unshift(h("span", { class: "reason reviewed" }, "✓ reviewed"));
   return parts;
 }
@@ -91,7 +91,7 @@ function head({ store, actions }: Page): HTMLElement {
     (bar.firstElementChild as HTMLElement).style.setProperty("width", `${scans === 0 ? 0 : (100 * reviewed) / scans}%`);
     bar.setAttribute("aria-valuemax", String(scans));
     bar.setAttribute("aria-valuenow", String(reviewed));
-    say(text, `${reviewed} of ${counted(scans, "scan")} reviewed · ${corrected.toLocaleString("en")} corrected`);
+    say(text, `${reviewed} of ${scans.toLocaleString("en")} reviewed · ${corrected.toLocaleString("en")} corrected`);
   });
   const { dataset, out } = store.state.recording;
   const brand = h("div", { class: "brand", title: `${dataset}, labels in ${out}` }, h("strong", {}, "RALF"), h("span", {}, "review"), h("span", { class: "faint" }, dataset));
