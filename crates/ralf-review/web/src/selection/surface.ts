@@ -104,7 +104,10 @@ export class Surface {
   }
 
   private hover(at: Point): void {
-    this.actions.select.hover(nearest(this.picture.places(), this.store.state.shown, at, REACH));
+    const { eligible, shown } = this.store.state;
+    const places = this.picture.places();
+    const own = nearest(places, eligible, at, REACH);
+    this.actions.select.hover(own >= 0 ? own : nearest(places, shown, at, REACH));
   }
 
   private choose(at: Point, how: Combination): void {
