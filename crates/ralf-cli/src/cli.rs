@@ -1,6 +1,8 @@
 //! What can be typed.
 
-use crate::commands::{convert, demo, depth, evaluate, inspect, label, plot, report, review, simulate, tune};
+use crate::commands::{
+    convert, demo, depth, evaluate, export, inspect, label, plot, report, review, simulate, tune,
+};
 use clap::{Args, Parser, Subcommand};
 use std::path::PathBuf;
 
@@ -20,6 +22,7 @@ Examples:
   ralf tune recordings/city -o ralf.toml --train 00,01 --test 02
   ralf report recordings/city out -o report.html
   ralf review recordings/city out           correct labels in the browser
+  ralf export recordings/city out --to semantickitti --sensors -o kitti
 
 Exit status: 0 done; 1 failed; 2 wrong usage; 3 done, but some scans are left out (each is named)."
 )]
@@ -48,7 +51,9 @@ pub(crate) enum Command {
     Report(report::ReportArgs),
     /// Correct labels by hand, on a page in the browser
     Review(review::ReviewArgs),
-    /// Write a recording of another format in RALF's own layout
+    /// Write labels in the formats of other tools
+    Export(export::ExportArgs),
+    /// Write a recording of another format in RALF's own layout, or as MCAP or bag
     Convert(convert::ConvertArgs),
     /// Make a recording whose truth is known
     Simulate(simulate::SimulateArgs),
@@ -89,4 +94,17 @@ impl DatasetArgs {
         }
         Ok(recording)
     }
+}
+
+/// The only sequence of a recording.
+pub(crate) fn the_only(recording: &ralf_data::Recording) -> anyhow::Result<&dyn ralf_data::SequenceReader> {
+    if let [reader] = recording.sequences.as_slice() {
+        return Ok(reader.as_ref());
+    }
+    let names: Vec<_> = recording.sequences.iter().map(|reader| reader.sequence().name.as_str()).collect();
+    anyhow::bail!(
+        "expected one sequence, found {}: choose with --sequence ({})",
+        names.len(),
+        names.join(", ")
+    )
 }

@@ -25,10 +25,24 @@ pub trait SequenceReader: Source {
         None
     }
 
+    /// What nuScenes calls a radar's scan, of a recording that is read from nuScenes' own tables.
+    fn nuscenes_key(&self, _radar: usize, _scan: usize) -> Option<NuScenesKey> {
+        None
+    }
+
     /// The truth of a radar's scan where it is known without a file.
     fn truth(&self, _radar: usize, _scan: usize) -> Result<Option<TruthLabels>, SourceError> {
         Ok(None)
     }
+}
+
+/// What nuScenes calls one measurement.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
+pub struct NuScenesKey {
+    /// The version folder's name, as `v1.0-mini`.
+    pub version: String,
+    /// Its row in `sample_data.json`.
+    pub sample_data_token: String,
 }
 
 /// What is true of each detection of a scan, in its order.

@@ -14,6 +14,7 @@ mod bad_recordings;
 mod camera_plot;
 mod determinism;
 mod evaluation;
+mod export;
 #[cfg(unix)]
 mod full_disk;
 #[cfg(unix)]
