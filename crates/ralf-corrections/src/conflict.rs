@@ -49,18 +49,22 @@ pub(crate) fn last_edit(on: &Connection, scan: i64) -> rusqlite::Result<Conflict
     found.map_or_else(|| on.query_row(nobody, [scan], conflict), Ok)
 }
 
-/// The last stroke that was set on one of this stroke's detections since it was set or taken back itself. What belongs to
-/// the event at hand is no conflict.
-pub(crate) fn overtaken(on: &Connection, stroke: &Placed, event: i64) -> rusqlite::Result<Option<Conflict>> {
+/// The last stroke that another author set on one of this stroke's detections since it was set or taken back itself. The
+/// author's own later ones are no conflict: they are taken back before it, and set again after it.
+pub(crate) fn overtaken(
+    on: &Connection,
+    stroke: &Placed,
+    author: &str,
+) -> rusqlite::Result<Option<Conflict>> {
     let later = format!(
         "SELECT {NAMED} FROM change AS own
          JOIN change AS other ON other.scan = own.scan AND other.point = own.point AND other.stroke <> own.stroke
          JOIN stroke ON stroke.id = other.stroke JOIN event ON event.id = stroke.applied
          JOIN scan ON scan.id = own.scan
-         WHERE own.stroke = ?1 AND (stroke.applied, stroke.id) > (?2, ?1) AND stroke.applied <> ?3
+         WHERE own.stroke = ?1 AND stroke.applied > ?2 AND stroke.author <> ?3
          ORDER BY stroke.applied DESC, stroke.id DESC LIMIT 1"
     );
-    on.prepare_cached(&later)?.query_row(params![stroke.id, stroke.moved, event], conflict).optional()
+    on.prepare_cached(&later)?.query_row(params![stroke.id, stroke.moved, author], conflict).optional()
 }
 
 fn conflict(row: &Row) -> rusqlite::Result<Conflict> {

@@ -1,7 +1,7 @@
 //! The tables, and opening a file that has them.
 
 use crate::error::{StoreError, WAIT_SECONDS, told};
-use rusqlite::{Connection, OpenFlags};
+use rusqlite::{Connection, ErrorCode, OpenFlags, TransactionBehavior};
 use std::path::Path;
 use std::time::Duration;
 
@@ -74,14 +74,16 @@ CREATE TABLE review (
 ) STRICT;
 ";
 
-/// Opens a store for writing; makes it where there is no file yet.
+/// Opens a store for writing; makes it where there is no file yet. Another program's file is left as it is.
 pub(crate) fn open(file: &Path) -> Result<Connection, StoreError> {
-    let connection = Connection::open(file).map_err(told(file))?;
-    prepare(connection, file).and_then(|mut connection| {
-        create(&mut connection, file)?;
+    let mut connection = Connection::open(file).map_err(told(file))?;
+    connection.busy_timeout(Duration::from_secs(WAIT_SECONDS)).map_err(told(file))?;
+    if !is_empty(&connection).map_err(told(file))? {
         check(&connection, file)?;
-        Ok(connection)
-    })
+    }
+    create(&mut connection).map_err(told(file))?;
+    check(&connection, file)?;
+    Ok(connection)
 }
 
 /// Opens a store that exists, for reading.
@@ -89,36 +91,49 @@ pub(crate) fn open_read_only(file: &Path) -> Result<Connection, StoreError> {
     let flags = OpenFlags::SQLITE_OPEN_READ_ONLY | OpenFlags::SQLITE_OPEN_NO_MUTEX;
     let connection = Connection::open_with_flags(file, flags).map_err(told(file))?;
     connection.busy_timeout(Duration::from_secs(WAIT_SECONDS)).map_err(told(file))?;
-    check(&connection, file)?;
-    Ok(connection)
-}
-
-/// Every commit reaches the disk before it is told.
-fn prepare(connection: Connection, file: &Path) -> Result<Connection, StoreError> {
-    let set = || {
-        connection.busy_timeout(Duration::from_secs(WAIT_SECONDS))?;
-        connection.pragma_update(None, "journal_mode", "WAL")?;
-        connection.pragma_update(None, "synchronous", "FULL")?;
-        connection.pragma_update(None, "foreign_keys", "ON")
-    };
-    set().map_err(told(file))?;
-    Ok(connection)
-}
-
-/// Makes the tables in a database that has none.
-fn create(connection: &mut Connection, file: &Path) -> Result<(), StoreError> {
-    let mut make = || {
-        let transaction = connection.transaction_with_behavior(rusqlite::TransactionBehavior::Immediate)?;
-        let tables: i64 =
-            transaction.query_row("SELECT count(*) FROM sqlite_schema", [], |row| row.get(0))?;
-        if tables == 0 && number(&transaction, "application_id")? == 0 {
-            transaction.execute_batch(TABLES)?;
-            transaction.pragma_update(None, "application_id", APPLICATION)?;
-            transaction.pragma_update(None, "user_version", VERSION)?;
+    match is_empty(&connection) {
+        // SQLite wants to lay a file beside the store, and can't: on a disk that can only be read nobody writes to it, either.
+        Err(error) if error.sqlite_error_code() == Some(ErrorCode::CannotOpen) && !has_journal(file) => {
+            let connection = open_unchanging(file).map_err(told(file))?;
+            check(&connection, file).map(|()| connection)
         }
-        transaction.commit()
-    };
-    make().map_err(told(file))
+        _ => check(&connection, file).map(|()| connection),
+    }
+}
+
+/// Opens a store that nobody writes to.
+fn open_unchanging(file: &Path) -> rusqlite::Result<Connection> {
+    let escaped = file.to_string_lossy().replace('%', "%25").replace('?', "%3f").replace('#', "%23");
+    let flags =
+        OpenFlags::SQLITE_OPEN_READ_ONLY | OpenFlags::SQLITE_OPEN_URI | OpenFlags::SQLITE_OPEN_NO_MUTEX;
+    Connection::open_with_flags(format!("file:{escaped}?immutable=1"), flags)
+}
+
+/// Whether there are edits that were not written back to the file itself.
+fn has_journal(file: &Path) -> bool {
+    let mut name = file.as_os_str().to_owned();
+    name.push("-wal");
+    Path::new(&name).metadata().is_ok_and(|journal| journal.len() > 0)
+}
+
+/// Makes the tables in a database that has none, and sets what belongs to a connection: every commit reaches the disk before
+/// it is told.
+fn create(connection: &mut Connection) -> rusqlite::Result<()> {
+    connection.pragma_update(None, "journal_mode", "WAL")?;
+    connection.pragma_update(None, "synchronous", "FULL")?;
+    connection.pragma_update(None, "foreign_keys", "ON")?;
+    let transaction = connection.transaction_with_behavior(TransactionBehavior::Immediate)?;
+    if is_empty(&transaction)? {
+        transaction.execute_batch(TABLES)?;
+        transaction.pragma_update(None, "application_id", APPLICATION)?;
+        transaction.pragma_update(None, "user_version", VERSION)?;
+    }
+    transaction.commit()
+}
+
+fn is_empty(connection: &Connection) -> rusqlite::Result<bool> {
+    let tables: i64 = connection.query_row("SELECT count(*) FROM sqlite_schema", [], |row| row.get(0))?;
+    Ok(tables == 0 && number(connection, "application_id")? == 0)
 }
 
 /// Refuses other programs' databases, and those of another version.
@@ -138,4 +153,30 @@ fn check(connection: &Connection, file: &Path) -> Result<(), StoreError> {
 
 fn number(connection: &Connection, pragma: &str) -> rusqlite::Result<i32> {
     connection.pragma_query_value(None, pragma, |row| row.get(0))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_store_that_nobody_writes_to_is_read_without_a_file_beside_it() {
+        let folder = tempfile::tempdir().unwrap();
+        let file = folder.path().join("50% #1?.sqlite");
+        drop(open(&file).unwrap());
+        assert!(!has_journal(&file));
+        let connection = open_unchanging(&file).unwrap();
+        check(&connection, &file).unwrap();
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
+    }
+
+    #[test]
+    fn another_programs_file_is_left_as_it_is() {
+        let folder = tempfile::tempdir().unwrap();
+        let file = folder.path().join("corrections.sqlite");
+        Connection::open(&file).unwrap().execute_batch("CREATE TABLE notes (text TEXT)").unwrap();
+        let before = std::fs::read(&file).unwrap();
+        assert!(open(&file).is_err() && open_read_only(&file).is_err());
+        assert_eq!(std::fs::read(&file).unwrap(), before);
+    }
 }

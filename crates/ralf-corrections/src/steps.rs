@@ -58,7 +58,7 @@ fn step(on: &Transaction, way: Way, sequence: &str, who: &Who) -> rusqlite::Resu
     let keys = scans.iter().map(|scan| key(on, *scan)).collect::<Result<BTreeSet<_>, _>>()?;
     let event = log(on, if way == Way::Undo { "undo" } else { "redo" }, sequence, who)?;
     for (stroke, changes) in strokes.iter().zip(&changes) {
-        if let Some(conflict) = move_stroke(on, way, stroke, changes, event)? {
+        if let Some(conflict) = move_stroke(on, way, (stroke, changes), (event, &who.author))? {
             return Ok(Attempt::Refused(Refusal { conflict, keys }));
         }
     }
@@ -77,11 +77,10 @@ fn step(on: &Transaction, way: Way, sequence: &str, who: &Who) -> rusqlite::Resu
 fn move_stroke(
     on: &Connection,
     way: Way,
-    stroke: &Placed,
-    changes: &[Change],
-    event: i64,
+    (stroke, changes): (&Placed, &[Change]),
+    (event, author): (i64, &str),
 ) -> rusqlite::Result<Option<Conflict>> {
-    if let Some(conflict) = overtaken(on, stroke, event)? {
+    if let Some(conflict) = overtaken(on, stroke, author)? {
         return Ok(Some(conflict));
     }
     for change in changes {

@@ -60,22 +60,27 @@ impl GroundTruth {
         Self::find(dataset)?.ok_or_else(|| none(&dataset.join("sequences")))
     }
 
-    /// The same with the corrections of a review above it; the dataset's folder need hold no truth of its own.
-    pub fn merged(dataset: &Path, corrections: Corrections) -> Result<Self, DataError> {
-        let files = scans_with_files(dataset)?;
-        let scans: BTreeSet<ScanId> = files.iter().chain(corrections.scans()).cloned().collect();
-        if scans.is_empty() {
-            return Err(none(&dataset.join("sequences")));
-        }
-        let scans = scans.into_iter().collect();
-        Ok(Self { dataset: dataset.to_owned(), scans, files, corrections: Some(corrections) })
-    }
-
     /// Finds all scans with truth below a dataset's folder; `None` where there are none.
     pub fn find(dataset: &Path) -> Result<Option<Self>, DataError> {
+        Self::gather(dataset, None)
+    }
+
+    /// The same with the corrections of a review above it; the dataset's folder need hold no truth of its own.
+    pub fn merged(dataset: &Path, corrections: Corrections) -> Result<Self, DataError> {
+        Self::find_merged(dataset, corrections)?.ok_or_else(|| none(&dataset.join("sequences")))
+    }
+
+    /// The same; `None` where neither says anything.
+    pub fn find_merged(dataset: &Path, corrections: Corrections) -> Result<Option<Self>, DataError> {
+        Self::gather(dataset, Some(corrections))
+    }
+
+    fn gather(dataset: &Path, corrections: Option<Corrections>) -> Result<Option<Self>, DataError> {
         let files = scans_with_files(dataset)?;
-        let scans: Vec<ScanId> = files.iter().cloned().collect();
-        let found = Self { dataset: dataset.to_owned(), scans, files, corrections: None };
+        let corrected = corrections.iter().flat_map(Corrections::scans);
+        let scans: BTreeSet<ScanId> = files.iter().chain(corrected).cloned().collect();
+        let scans: Vec<ScanId> = scans.into_iter().collect();
+        let found = Self { dataset: dataset.to_owned(), scans, files, corrections };
         Ok((!found.scans.is_empty()).then_some(found))
     }
 

@@ -4,6 +4,7 @@ mod report;
 mod text;
 
 use crate::cli::DatasetArgs;
+use crate::corrections::merged_truth;
 use crate::progress::{Bars, STEPS, bar, say};
 use crate::settings::{SettingsArgs, threads};
 use crate::text::print;
@@ -12,7 +13,7 @@ use clap::Args;
 use indicatif::ProgressBar;
 use ralf::config::Config;
 use ralf::tune::{EvidenceTable, Found, Objective, Search, leave_one_out, settings_file};
-use ralf_data::{GroundTruth, SequenceEvidence, gather_evidence, write_whole};
+use ralf_data::{SequenceEvidence, gather_evidence, write_whole};
 use report::{Part, Report};
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
@@ -26,6 +27,7 @@ judged on sequences that the search did not see.
 Examples:
   ralf tune recordings/city -o ralf.toml --train 00,01 --test 02
   ralf tune recordings/city -o ralf.toml --train 00,01 --test 02 --objective recall@precision=0.8
+  ralf tune recordings/city -o ralf.toml --train 00,01 --test 02 --corrections out
   ralf tune recordings/city -o ralf.toml --train 00,01,02,03 --cross-validate --trials 1000 --seed 7")]
 pub(crate) struct TuneArgs {
     /// The recording's folder, which holds the corrected labels, too
@@ -34,6 +36,9 @@ pub(crate) struct TuneArgs {
     /// Take the recording for this format
     #[arg(long, value_name = "FORMAT", value_parser = clap::builder::PossibleValuesParser::new(ralf_data::formats()))]
     format: Option<String>,
+    /// Take the corrections of a review, too, from what `ralf label` wrote
+    #[arg(long, value_name = "OUT")]
+    corrections: Option<PathBuf>,
     /// Settings file to write
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
@@ -109,7 +114,8 @@ impl TuneArgs {
         let sequences = [self.train.as_slice(), &self.test].concat();
         let dataset = DatasetArgs { dataset: self.dataset.clone(), format: self.format.clone(), sequences };
         let recording = dataset.open()?;
-        let truth = GroundTruth::open(&self.dataset)?;
+        let corrections = self.corrections.as_deref();
+        let truth = merged_truth(&self.dataset, corrections, corrections.is_some())?;
         Ok(gather_evidence(&recording, &truth, base, threads(self.jobs), &Bars::new(self.quiet))?)
     }
 
@@ -164,8 +170,12 @@ impl TuneArgs {
         let test =
             if self.test.is_empty() { String::new() } else { format!(" --test {}", self.test.join(",")) };
         let cross_validate = if self.cross_validate { " --cross-validate" } else { "" };
+        let corrections = self
+            .corrections
+            .as_ref()
+            .map_or(String::new(), |out| format!(" --corrections {}", out.display()));
         format!(
-            "ralf tune {} --train {}{test}{cross_validate} --objective {} --trials {} --seed {}",
+            "ralf tune {} --train {}{test}{corrections}{cross_validate} --objective {} --trials {} --seed {}",
             self.dataset.display(),
             self.train.join(","),
             self.objective,

@@ -105,11 +105,14 @@ fn unreadable(file: &Path, error: ParquetError) -> DataError {
     DataError::content(file, "Parquet", "a result of `ralf label`", error.to_string())
 }
 
-/// The scans of a row group in the order of its rows: radar and number, first row, rows.
-fn scans(group: &dyn RowGroupReader) -> Result<Vec<((String, usize), usize, usize)>, ParquetError> {
+/// A scan's radar and number, its first row in the group, and how many rows it has.
+type Found = ((String, usize), usize, usize);
+
+/// The scans of a row group in the order of its rows.
+fn scans(group: &dyn RowGroupReader) -> Result<Vec<Found>, ParquetError> {
     let radars = column::<ByteArrayType>(group, "radar")?.into_iter().flatten();
     let numbers = column::<Int32Type>(group, "scan")?.into_iter().flatten();
-    let mut scans: Vec<((String, usize), usize, usize)> = Vec::new();
+    let mut scans: Vec<Found> = Vec::new();
     for (row, (radar, number)) in radars.zip(numbers).enumerate() {
         let (radar, number) = (radar.as_utf8()?, number.cast_unsigned() as usize);
         match scans.last_mut() {
@@ -168,7 +171,7 @@ mod tests {
 
     fn table(columns: &Columns, rows: usize, seed: f32) -> ScanTable {
         let value = |column: usize, row: usize| {
-            if (column + row) % 3 == 0 { f32::NAN } else { seed + (column * 100 + row) as f32 }
+            if (column + row).is_multiple_of(3) { f32::NAN } else { seed + (column * 100 + row) as f32 }
         };
         ScanTable {
             t_ns: seed as i64,

@@ -1,11 +1,17 @@
 //! What is taken from a request; whatever is wrong with it is told in a sentence.
 
 use super::ApiError;
+use crate::MAX_BODY;
 use axum::body::Bytes;
 use axum::extract::{FromRequest, FromRequestParts, Path, Query, Request};
 use axum::http::request::Parts;
 use axum::http::{HeaderMap, StatusCode, header};
 use serde::de::DeserializeOwned;
+use std::time::Duration;
+use tokio::time::timeout;
+
+/// How long a body may take to arrive.
+const PATIENCE: Duration = Duration::from_secs(30);
 
 /// The places in the address.
 pub(crate) struct Place<T>(pub(crate) T);
@@ -50,16 +56,25 @@ impl<S: Send + Sync, T: DeserializeOwned> FromRequest<S> for Body<T> {
                 "Content-Type: expected application/json, found `{kind}`"
             )));
         }
-        let bytes = Bytes::from_request(request, state).await.map_err(|error| match error.status() {
-            StatusCode::PAYLOAD_TOO_LARGE => {
-                ApiError::TooLarge(format!("body: expected at most {} bytes, found more", crate::MAX_BODY))
-            }
+        let length = request.headers().get(header::CONTENT_LENGTH).and_then(|length| length.to_str().ok());
+        if length.and_then(|length| length.parse().ok()).is_some_and(|length: usize| length > MAX_BODY) {
+            return Err(too_large());
+        }
+        let read = timeout(PATIENCE, Bytes::from_request(request, state)).await;
+        let slow =
+            |_| ApiError::Malformed(format!("body: expected all of it within {PATIENCE:?}, found less"));
+        let bytes = read.map_err(slow)?.map_err(|error| match error.status() {
+            StatusCode::PAYLOAD_TOO_LARGE => too_large(),
             _ => ApiError::Malformed(format!("body: {}", error.body_text())),
         })?;
         serde_json::from_slice(&bytes)
             .map(Self)
             .map_err(|error| ApiError::Malformed(format!("body: {error}")))
     }
+}
+
+fn too_large() -> ApiError {
+    ApiError::TooLarge(format!("body: expected at most {MAX_BODY} bytes, found more"))
 }
 
 /// The window that asks, where it names itself.
