@@ -82,9 +82,10 @@ export class Correcting {
   /** Marks the scan as reviewed, or takes the mark back. */
   async review(reviewed: boolean): Promise<boolean> {
     const { store, api, loader } = this.world;
-    const { sequence, cloud } = store.state;
+    const { sequence, cloud, loading } = store.state;
     const scan = cloud.scans[0];
-    if (scan === undefined || !this.free("mark")) return false;
+    // While another scan is coming, the one on screen isn't the one that is meant.
+    if (scan === undefined || loading || !this.free("mark")) return false;
     store.set({ busy: true });
     try {
       const answer = await api.reviewed(sequence, scan, reviewed, scan.revision);
@@ -175,7 +176,7 @@ export class Correcting {
 
   /** Undo and redo wait for each other, so that a key may be pressed quickly. */
   private inTurn(what: "undo" | "redo"): Promise<void> {
-    this.turn = this.turn.then(() => this.takeBack(what));
+    this.turn = this.turn.then(() => this.takeBack(what)).catch((error: unknown) => complain(this.world, error));
     return this.turn;
   }
 
@@ -207,7 +208,7 @@ export class Correcting {
   private async refused(done: string, error: unknown): Promise<void> {
     if (error instanceof Conflict) {
       const { sequence } = this.world.store.state;
-      await this.adopt(sequence, error.body.scans);
+      await this.adopt(sequence, error.body.scans).catch((failed: unknown) => complain(this.world, failed));
       const by = error.body.conflict === null ? "" : ` (${error.body.conflict.author}, ${error.body.conflict.tool})`;
       complain(this.world, `Not ${done}${by}: ${error.message}`);
     } else {

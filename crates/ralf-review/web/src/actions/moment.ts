@@ -29,7 +29,9 @@ export class Moment {
       store.set({ cloud, lidar, cameras, selection: new Uint8Array(cloud.count), loading: false });
       await Promise.all(cameras.map((camera) => this.complete(generation, cloud, camera)));
     } catch (error) {
-      if (generation === this.generation) store.set({ loading: false });
+      if (generation !== this.generation) return;
+      const { scans } = store.state.cloud;
+      store.set({ loading: false, current: scans[0] ?? null });
       complain(this.world, error);
     }
   }

@@ -15,7 +15,7 @@ export function banner({ store, actions }: Page): HTMLElement {
     bar.hidden = said === null;
     say(text, said ?? "");
     retry.hidden = store.state.waiting.length === 0;
-    drop.hidden = store.state.outbox.kind !== "refused";
+    drop.hidden = store.state.waiting.length === 0;
   });
   return bar;
 }

@@ -96,6 +96,18 @@ test("a conflict may be dropped; the strokes behind it go on", async () => {
   assert.deepEqual(server.written, [[2]]);
 });
 
+test("halves of one step are dropped together", async () => {
+  const server = new FakeServer();
+  server.revision = 2;
+  const half = (point: number): Pending => {
+    const whole = stroke([point], 1);
+    return { ...whole, stroke: { ...whole.stroke, group: "flip" } };
+  };
+  await server.outbox.add([half(1), half(2), stroke([3], 2)]);
+  await server.outbox.drop();
+  assert.deepEqual(server.written, [[3]]);
+});
+
 test("a refusal says why and keeps the stroke", async () => {
   const server = new FakeServer();
   server.trouble = new Refused(500, "disk full");
