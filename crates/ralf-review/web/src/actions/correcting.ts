@@ -54,7 +54,9 @@ export class Correcting {
       const half = selection.map((chosen, i) => chosen & Number(labels.truth(cloud.label[i]) === wrong));
       return { label, half };
     });
-    const strokes = halves.filter(({ half }) => countOf(half) > 0).map(({ label, half }) => this.strokeOf(half, label, tool, group));
+    const strokes = halves
+      .filter(({ half }) => countOf(half) > 0)
+      .map(({ label, half }) => this.strokeOf(half, label, tool, group));
     store.set({ selection: new Uint8Array(selection.length) });
     await this.outbox.add(strokes);
   }
@@ -92,7 +94,11 @@ export class Correcting {
       const marked: Scan = { ...scan, reviewed: answer.reviewed };
       loader.keep(sequence, marked);
       const { cloud: now, scans } = store.state;
-      store.set({ cloud: withScans(now, [marked]), scans: withReviewed(scans, scan, answer.reviewed), progress: answer.progress });
+      store.set({
+        cloud: withScans(now, [marked]),
+        scans: withReviewed(scans, scan, answer.reviewed),
+        progress: answer.progress,
+      });
       return true;
     } catch (error) {
       await this.refused("marked", error);
@@ -120,7 +126,10 @@ export class Correcting {
     for (const scan of changed) loader.keep(sequence, scan);
     const counted = withCorrectionCounts(scans, answered);
     store.set({ cloud: withScans(cloud, changed), scans: counted, progress: progressOf(counted) });
-    await this.reread(sequence, onScreen.filter(({ now }) => now === null).map(({ scan }) => scan));
+    await this.reread(
+      sequence,
+      onScreen.filter(({ now }) => now === null).map(({ scan }) => scan),
+    );
   }
 
   /** Reads scans on screen anew. */
@@ -150,14 +159,18 @@ export class Correcting {
     const asked = stroke.points.reduce((sum, { points }) => sum + points.length, 0);
     if (answer.changed < asked && stroke.protect) {
       const spared = asked - answer.changed;
-      tell(this.world, `${answer.changed} changed; ${spared} had this label or were corrected already and are protected.`);
+      tell(
+        this.world,
+        `${answer.changed} changed; ${spared} had this label or were corrected already and are protected.`,
+      );
     }
   }
 
   private heed(status: OutboxStatus, waiting: readonly Pending[]): void {
     const { store } = this.world;
     store.set({ outbox: status, waiting, connected: status.kind === "gone" ? false : store.state.connected });
-    if (status.kind === "conflict") this.meetConflict(status.pending, status).catch((error: unknown) => complain(this.world, error));
+    if (status.kind === "conflict")
+      this.meetConflict(status.pending, status).catch((error: unknown) => complain(this.world, error));
   }
 
   private async meetConflict(pending: Pending, { body }: Extract<OutboxStatus, { kind: "conflict" }>): Promise<void> {

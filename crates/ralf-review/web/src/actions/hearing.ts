@@ -63,11 +63,15 @@ export class Hearing {
     if (scans.length === 0) return;
     const { cloud, current } = store.state;
     for (const change of scans) this.world.loader.forget(sequence, change);
-    await this.correcting.reread(sequence, cloud.scans.filter((scan) => scans.some((change) => sameScan(change, scan))));
+    await this.correcting.reread(
+      sequence,
+      cloud.scans.filter((scan) => scans.some((change) => sameScan(change, scan))),
+    );
     const queue = await api.queue(sequence);
     store.set({ scans: queue.scans, progress: queue.progress });
     const here = scans.find((change) => sameScan(change, current));
-    if (here !== undefined) tell(this.world, `${here.author} changed this scan in another window; you see the newer state.`);
+    if (here !== undefined)
+      tell(this.world, `${here.author} changed this scan in another window; you see the newer state.`);
   }
 }
 

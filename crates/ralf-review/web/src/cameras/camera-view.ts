@@ -46,7 +46,10 @@ export class CameraView {
       ({ painting, shown, eligible, selection, dotSize }) => [painting, shown, eligible, selection, dotSize],
       () => this.invalidate(),
     );
-    store.watch(({ hover, tool }) => [hover, tool], () => this.drawOverlay());
+    store.watch(
+      ({ hover, tool }) => [hover, tool],
+      () => this.drawOverlay(),
+    );
   }
 
   show(camera: CameraMoment | null): void {
@@ -112,7 +115,13 @@ export class CameraView {
     const { cloud, painting, shown, eligible, selection, dotSize } = this.page.store.state;
     const radius = dotSize * Math.min(0.5, Math.max(0.28, width / 1400));
     if (shown.length === cloud.count && painting.colours.length === 3 * cloud.count) {
-      drawDetections(context, this.placed(), { cloud, colours: painting.colours, shown, eligible, selection }, radius, width < SMALL ? LAYERS.slice(1) : LAYERS);
+      drawDetections(
+        context,
+        this.placed(),
+        { cloud, colours: painting.colours, shown, eligible, selection },
+        radius,
+        width < SMALL ? LAYERS.slice(1) : LAYERS,
+      );
     }
     this.drawOverlay();
   }

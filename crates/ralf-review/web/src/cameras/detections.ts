@@ -18,7 +18,13 @@ const CORRECTED_RIM = "#ffffff";
 export const LAYERS = [0, 1, 2] as const;
 
 /** Draws those layers of what is shown. */
-export function drawDetections(context: CanvasRenderingContext2D, places: Float32Array, dots: Dots, radius: number, layers: readonly number[]): void {
+export function drawDetections(
+  context: CanvasRenderingContext2D,
+  places: Float32Array,
+  dots: Dots,
+  radius: number,
+  layers: readonly number[],
+): void {
   for (const layer of layers) {
     context.globalAlpha = layer === 0 ? 0.3 : 0.95;
     for (let i = 0; i < dots.cloud.count; i++) {

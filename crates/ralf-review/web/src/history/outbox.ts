@@ -74,7 +74,9 @@ export class Outbox {
   applyAnyway(protect: boolean): Promise<void> {
     if (this.current.kind !== "conflict") return Promise.resolve();
     const newest = rebased(this.waiting, this.current.body.scans);
-    this.waiting = newest.map((pending) => (together(newest[0], pending) ? { ...pending, stroke: { ...pending.stroke, protect } } : pending));
+    this.waiting = newest.map((pending) =>
+      together(newest[0], pending) ? { ...pending, stroke: { ...pending.stroke, protect } } : pending,
+    );
     this.world.keep(this.waiting);
     return this.run();
   }

@@ -37,7 +37,10 @@ export class Surface {
     element.addEventListener("pointerup", (event) => this.release(event));
     element.addEventListener("pointerleave", () => this.leave());
     element.addEventListener("dblclick", (event) => this.closePolygon(combination(event)));
-    store.watch(({ tool, cloud }) => [tool, cloud.count], () => this.cancel());
+    store.watch(
+      ({ tool, cloud }) => [tool, cloud.count],
+      () => this.cancel(),
+    );
   }
 
   /** Gives an unfinished gesture up; false where there is none. */

@@ -8,7 +8,10 @@ const POINTS = 200_000;
 /** A LiDAR scan made up on rings, as the server would send it. */
 function lidarTable() {
   const names = ["x", "y", "z", "intensity"];
-  const columns = [...names.map((name, i) => ({ name, type: "f32", offset: 4 * POINTS * i })), { name: "ground", type: "u8", offset: 16 * POINTS }];
+  const columns = [
+    ...names.map((name, i) => ({ name, type: "f32", offset: 4 * POINTS * i })),
+    { name: "ground", type: "u8", offset: 16 * POINTS },
+  ];
   let header = JSON.stringify({ rows: POINTS, columns, t_ns: "0", odom_from_vehicle: null });
   while ((4 + header.length) % 8 !== 0) header += " ";
   const body = Buffer.alloc(4 + header.length + 17 * POINTS);
@@ -30,9 +33,13 @@ test("200,000 LiDAR points and twenty radar scans are drawn when the view moves,
   const server = await serve(context, await freshOut(context));
   const tab = await open(context, browser, server);
   const { page } = tab;
-  await page.route("**/lidars/*/scans/*", (route) => route.fulfill({ contentType: "application/octet-stream", body: lidarTable() }));
+  await page.route("**/lidars/*/scans/*", (route) =>
+    route.fulfill({ contentType: "application/octet-stream", body: lidarTable() }),
+  );
   await page.reload();
-  await page.waitForFunction(() => / detections?$/.test(document.querySelector(".scan-title .faint")?.textContent ?? ""));
+  await page.waitForFunction(() =>
+    / detections?$/.test(document.querySelector(".scan-title .faint")?.textContent ?? ""),
+  );
   for (let more = 0; more < 2; more += 1) await page.keyboard.press(".");
   await page.waitForTimeout(1500);
   await page.keyboard.press("t");
@@ -62,6 +69,6 @@ test("200,000 LiDAR points and twenty radar scans are drawn when the view moves,
   assert.equal(await asked(), 0, "frames drawn while nothing changed");
   await page.mouse.wheel(0, 120);
   await page.waitForTimeout(300);
-  assert.ok(await asked() > 0, "no frame drawn after zooming");
+  assert.ok((await asked()) > 0, "no frame drawn after zooming");
   clean(tab);
 });

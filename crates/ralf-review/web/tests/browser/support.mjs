@@ -14,8 +14,14 @@ const { RALF_PROGRAM, RALF_DATASET, RALF_OUT, RALF_PLANTED, RALF_CHROMIUM } = pr
 export const planted = JSON.parse(await readFile(RALF_PLANTED, "utf8"));
 
 const CHROMIUM = [
-  "--no-sandbox", "--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-component-update",
-  "--disable-sync", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
+  "--no-sandbox",
+  "--disable-quic",
+  "--no-first-run",
+  "--disable-background-networking",
+  "--disable-component-update",
+  "--disable-sync",
+  "--use-angle=swiftshader",
+  "--enable-unsafe-swiftshader",
 ];
 
 export function launch() {
@@ -32,7 +38,9 @@ export async function freshOut(context) {
 
 /** `ralf review`, until the test ends or `kill` is called. */
 export async function serve(context, out, { author = "ada", port = 0 } = {}) {
-  const child = spawn(RALF_PROGRAM, ["review", RALF_DATASET, out, "--port", String(port), "--author", author], { stdio: ["ignore", "pipe", "inherit"] });
+  const child = spawn(RALF_PROGRAM, ["review", RALF_DATASET, out, "--port", String(port), "--author", author], {
+    stdio: ["ignore", "pipe", "inherit"],
+  });
   const kill = async (signal = "SIGKILL") => {
     if (child.exitCode !== null || child.signalCode !== null) return;
     child.kill(signal);
@@ -66,11 +74,16 @@ export async function open(context, browser, server) {
 
 /** Waits until a scan is on screen. */
 export async function ready(page) {
-  await page.waitForFunction(() => / detections?$/.test(document.querySelector(".scan-title .faint")?.textContent ?? ""));
+  await page.waitForFunction(() =>
+    / detections?$/.test(document.querySelector(".scan-title .faint")?.textContent ?? ""),
+  );
 }
 
 export function clean({ complaints, strangers }, expected = /$^/) {
-  assert.deepEqual(complaints.filter((text) => !expected.test(text)), []);
+  assert.deepEqual(
+    complaints.filter((text) => !expected.test(text)),
+    [],
+  );
   assert.deepEqual(strangers, []);
 }
 
@@ -93,7 +106,10 @@ export async function scanOf(server, { radar, scan }) {
   const buffer = await (await ask(server, `sequences/${sequence}/radars/${radar}/scans/${scan}`)).arrayBuffer();
   const length = new DataView(buffer).getUint32(0, true);
   const header = JSON.parse(new TextDecoder().decode(new Uint8Array(buffer, 4, length)));
-  const columns = header.columns.map(({ name, type, offset }) => [name, new ARRAYS[type](buffer, 4 + length + offset, header.rows)]);
+  const columns = header.columns.map(({ name, type, offset }) => [
+    name,
+    new ARRAYS[type](buffer, 4 + length + offset, header.rows),
+  ]);
   return { header, ...Object.fromEntries(columns) };
 }
 
@@ -114,7 +130,11 @@ export async function current(page) {
 /** Pixels of the window at which the bird's eye shows a place of the vehicle frame, m. */
 export async function pixel(page, x, y) {
   const viewport = page.locator(".viewport");
-  const [box, target, metres] = await Promise.all([viewport.boundingBox(), viewport.getAttribute("data-target"), viewport.getAttribute("data-metres-per-pixel")]);
+  const [box, target, metres] = await Promise.all([
+    viewport.boundingBox(),
+    viewport.getAttribute("data-target"),
+    viewport.getAttribute("data-metres-per-pixel"),
+  ]);
   const [centreX, centreY] = target.split(" ").map(Number);
   return [box.x + box.width / 2 - (y - centreY) / metres, box.y + box.height / 2 - (x - centreX) / metres];
 }
