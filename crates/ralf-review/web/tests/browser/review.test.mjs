@@ -5,6 +5,7 @@ import {
   clean,
   current,
   drag,
+  exported,
   freshOut,
   historyOf,
   lassoAll,
@@ -206,51 +207,51 @@ test("two tabs on one scan: the second is told, sees the newer state, and decide
   clean(late, REFUSED);
 });
 
-test("every planted error is corrected by mouse and keyboard alone", async (context) => {
-  const server = await serve(context, await freshOut(context));
+test("every planted error is corrected by mouse and keyboard alone, and exports hold what is right", async (context) => {
+  const out = await freshOut(context);
+  const server = await serve(context, out);
   const tab = await open(context, browser, server);
   const { page } = tab;
   const { scans } = await queueOf(server);
   const right = new Map();
-  for (const { radar, scan } of scans)
-    right.set(`${radar}/${scan}`, (await scanOf(server, { radar, scan })).machine.slice());
+  for (const id of scans) right.set(`${id.radar}/${id.scan}`, [...(await scanOf(server, id)).machine]);
   for (const { radar, scan, point, label } of planted) right.get(`${radar}/${scan}`)[point] = label;
   assert.ok(planted.length >= 8);
-  for (let seen = 0; seen < scans.length; seen += 1) {
-    const id = await current(page);
-    const table = await scanOf(server, id);
-    for (const { point, label } of planted.filter(({ radar, scan }) => radar === id.radar && scan === id.scan)) {
-      const depth = (await historyOf(server)).undo_depth;
-      await page.mouse.click(...(await pixel(page, table.x[point], table.y[point])));
-      assert.equal(await selected(page), 1);
-      await page.keyboard.press(label === 1 ? "a" : "p");
-      await says(page.locator(".status-bar"), `undo ${depth + 1}`);
-    }
+  for (let seen = 1; seen <= scans.length; seen += 1) {
+    await correctPlanted(server, page);
     const here = page.url();
     await page.keyboard.press("Enter");
-    await says(page.locator(".queue-head"), `${seen + 1} of ${scans.length}`);
-    if (seen + 1 === scans.length) break;
+    await says(page.locator(".queue-head"), `${seen} of ${scans.length}`);
+    if (seen === scans.length) break;
     await page.waitForFunction((address) => location.href !== address, here);
     await ready(page);
   }
+  const labels = await exported(out);
   for (const { radar, scan } of scans) {
     const now = await scanOf(server, { radar, scan });
-    assert.deepEqual([...now.label], [...right.get(`${radar}/${scan}`)], `${radar} ${scan}`);
+    assert.deepEqual([...now.label], right.get(`${radar}/${scan}`), `${radar} ${scan}`);
+    assert.deepEqual(labels.get(`${radar}/${scan}`), right.get(`${radar}/${scan}`), `${radar} ${scan}, exported`);
     assert.equal(now.header.reviewed?.author, "ada");
   }
   clean(tab);
 });
 
-/** Two detections that no other of the scan is near, so that a click means them. */
+/** Clicks each planted error of the scan on screen, and sets it right with a key. */
+async function correctPlanted(server, page) {
+  const id = await current(page);
+  const table = await scanOf(server, id);
+  for (const { point, label } of planted.filter(({ radar, scan }) => radar === id.radar && scan === id.scan)) {
+    const depth = (await historyOf(server)).undo_depth;
+    await page.mouse.click(...(await pixel(page, table.x[point], table.y[point])));
+    assert.equal(await selected(page), 1);
+    await page.keyboard.press(label === 1 ? "a" : "p");
+    await says(page.locator(".status-bar"), `undo ${depth + 1}`);
+  }
+}
+
+/** Two detections that no other of the scan is near, so that a click means them; plausible ones if there are. */
 function isolated({ x, y, range, machine }) {
-  const alone = [];
-  for (let i = 0; i < x.length && alone.length < 2; i += 1) {
-    const near = x.some((_, j) => j !== i && Math.hypot(x[i] - x[j], y[i] - y[j]) < 1.5);
-    if (!near && range[i] < 38 && Math.abs(y[i]) < 38 && machine[i] !== 1) alone.push(i);
-  }
-  for (let i = 0; i < x.length && alone.length < 2; i += 1) {
-    const near = x.some((_, j) => j !== i && Math.hypot(x[i] - x[j], y[i] - y[j]) < 1.5);
-    if (!near && range[i] < 38 && !alone.includes(i)) alone.push(i);
-  }
-  return alone;
+  const alone = (i) => x.every((_, j) => j === i || Math.hypot(x[i] - x[j], y[i] - y[j]) > 1.5);
+  const found = [...x.keys()].filter((i) => range[i] < 38 && Math.abs(x[i]) < 38 && Math.abs(y[i]) < 38 && alone(i));
+  return found.sort((a, b) => (machine[a] === 1) - (machine[b] === 1)).slice(0, 2);
 }

@@ -1,6 +1,6 @@
 // The program, a browser, and what tests ask of them.
 import assert from "node:assert/strict";
-import { spawn } from "node:child_process";
+import { spawn, spawnSync } from "node:child_process";
 import { once } from "node:events";
 import { cp, mkdtemp, readFile, rm } from "node:fs/promises";
 import { tmpdir } from "node:os";
@@ -99,6 +99,27 @@ export async function sequenceOf(server) {
 }
 
 const ARRAYS = { f32: Float32Array, u8: Uint8Array, u16: Uint16Array, i32: Int32Array, u32: Uint32Array };
+
+/** The labels as `ralf export` hands them on: by "radar/scan", SemanticKITTI ids. */
+export async function exported(out) {
+  const folder = join(out, "..", "kitti");
+  const ran = spawnSync(RALF_PROGRAM, ["export", RALF_DATASET, out, "--to", "semantickitti", "-o", folder], {
+    encoding: "utf8",
+  });
+  assert.equal(ran.status, 0, ran.stderr);
+  const [, ...lines] = (await readFile(join(folder, "sequences.csv"), "utf8")).trim().split("\n");
+  const labels = new Map();
+  for (const [number, , radar, scans] of lines.map((line) => line.split(","))) {
+    for (let scan = 0; scan < Number(scans); scan += 1) {
+      const file = await readFile(
+        join(folder, "sequences", number, "labels", `${String(scan).padStart(6, "0")}.label`),
+      );
+      const ids = Array.from({ length: file.length / 4 }, (_, i) => file.readUInt32LE(4 * i) & 0xffff);
+      labels.set(`${radar}/${scan}`, ids);
+    }
+  }
+  return labels;
+}
 
 /** A scan as the server has it: {header, x, y, label, ...}. */
 export async function scanOf(server, { radar, scan }) {
