@@ -1,6 +1,6 @@
 //! What can be typed.
 
-use crate::commands::{convert, demo, depth, evaluate, inspect, label, plot, report, simulate, tune};
+use crate::commands::{ablate, convert, demo, depth, evaluate, inspect, label, plot, report, simulate, tune};
 use clap::{Args, Parser, Subcommand};
 use std::path::PathBuf;
 
@@ -41,6 +41,8 @@ pub(crate) enum Command {
     Evaluate(evaluate::EvaluateArgs),
     /// Find the settings that come nearest to corrected labels
     Tune(tune::TuneArgs),
+    /// Tell what each branch and each extension of the method is good for
+    Ablate(ablate::AblateArgs),
     /// Draw labelled scans from above
     Plot(plot::PlotArgs),
     /// Write one page about a labelled recording: figures, curves, pictures
