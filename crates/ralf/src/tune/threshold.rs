@@ -23,6 +23,11 @@ pub(super) struct Cut {
 }
 
 impl Weighed {
+    /// Room for so many detections.
+    pub(super) fn with_capacity(detections: usize) -> Self {
+        Self { decided: Vec::with_capacity(detections), ..Self::default() }
+    }
+
     /// Takes in one detection.
     pub(super) fn add(&mut self, w: Option<f64>, plausible: bool) {
         match w {

@@ -66,11 +66,10 @@ impl Search<'_> {
         tables: &[&EvidenceTable],
         mut settings: Settings,
     ) -> Result<Found, TuneError> {
-        let mut weighed = Weighed::default();
+        let mut weighed = Weighed::with_capacity(tables.iter().map(|table| table.len()).sum());
         for table in tables {
             for (evidence, plausible) in table.view(&settings)?.rows() {
-                let w = evidence.weigh(&settings.weights).w.filter(|_| !evidence.on_floor);
-                weighed.add(w, plausible);
+                weighed.add(evidence.plausibility(&settings.weights), plausible);
             }
         }
         let Cut { threshold, score, .. } = weighed.best_cut(self.objective);
