@@ -8,6 +8,7 @@
     reason = "these are tests"
 )]
 
+mod ablation;
 mod bad_files;
 mod bad_images;
 mod bad_recordings;

@@ -66,11 +66,10 @@ impl Search<'_> {
         tables: &[&EvidenceTable],
         mut settings: Settings,
     ) -> Result<Found, TuneError> {
-        let mut weighed = Weighed::default();
+        let mut weighed = Weighed::with_capacity(tables.iter().map(|table| table.len()).sum());
         for table in tables {
-            for (evidence, plausible) in table.view(settings.neighbours, settings.scans)?.rows() {
-                let w = evidence.weigh(&settings.weights).w.filter(|_| !evidence.on_floor);
-                weighed.add(w, plausible);
+            for (evidence, plausible) in table.view(&settings)?.rows() {
+                weighed.add(evidence.plausibility(&settings.weights), plausible);
             }
         }
         let Cut { threshold, score, .. } = weighed.best_cut(self.objective);
@@ -92,7 +91,7 @@ impl Observed {
         let mut observed = Self { lidar: false, camera: false, tracking: false };
         let (mut plausible, mut artifact) = (false, false);
         for table in tables {
-            for (evidence, truth) in table.view(base.neighbours, base.scans)?.rows() {
+            for (evidence, truth) in table.view(base)?.rows() {
                 observed.lidar |= evidence.d_lm.is_some();
                 observed.camera |= evidence.d_cm.is_some();
                 observed.tracking |= evidence.d_tr.is_some();
@@ -223,3 +222,6 @@ fn three_digits(value: f64) -> f64 {
 
 #[cfg(test)]
 mod tests;
+
+#[cfg(test)]
+pub(super) use tests::planted;

@@ -6,7 +6,7 @@ use crate::tune::{Space, leave_one_out};
 const SCAN: usize = 20;
 
 /// Detections whose truth follows from planted weights, with `K` = 2 and `n_b` = 3; the other mismatches mean nothing.
-fn planted(seed: u64, scans: usize) -> EvidenceTable {
+pub(crate) fn planted(seed: u64, scans: usize) -> EvidenceTable {
     let config = Config::from_toml(
         "",
         &[
