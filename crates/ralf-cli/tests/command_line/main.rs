@@ -22,6 +22,7 @@ mod inputs;
 mod other_commands;
 mod real_data;
 mod resume;
+mod ros;
 mod sequences;
 mod simulation;
 mod streams;
