@@ -26,6 +26,7 @@ mod real_data;
 mod resume;
 #[cfg(unix)]
 mod review;
+mod ros;
 mod sequences;
 mod simulation;
 mod streams;
