@@ -7,9 +7,10 @@ use crate::corrections::merged_truth;
 use crate::progress::{Bars, STEPS, bar, say};
 use crate::settings::{SettingsArgs, threads};
 use clap::Args;
+use clap::builder::PossibleValuesParser;
 use indicatif::ProgressBar;
 use ralf::config::Config;
-use ralf::tune::{EvidenceTable, Found, Objective, Search};
+use ralf::tune::{EvidenceTable, Found, Objective, Search, Settings};
 use ralf_data::{GroundTruth, Recording, SequenceEvidence, gather_evidence};
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
@@ -21,7 +22,7 @@ pub(super) struct SearchArgs {
     #[arg(value_name = "DATASET")]
     pub(super) dataset: PathBuf,
     /// Take the recording for this format
-    #[arg(long, value_name = "FORMAT", value_parser = clap::builder::PossibleValuesParser::new(ralf_data::formats()))]
+    #[arg(long, value_name = "FORMAT", value_parser = PossibleValuesParser::new(ralf_data::formats()))]
     format: Option<String>,
     /// Take the corrections of a review, too, from what `ralf label` wrote
     #[arg(long, value_name = "OUT")]
@@ -38,6 +39,9 @@ pub(super) struct SearchArgs {
     /// Of the search; the same seed finds the same settings
     #[arg(long, value_name = "S", default_value = "0")]
     pub(super) seed: u64,
+    /// A setting that stays as it is, such as lidar.beta; may be given several times
+    #[arg(long = "hold", value_name = "KEY", value_parser = PossibleValuesParser::new(Settings::KEYS))]
+    held: Vec<String>,
     #[command(flatten)]
     pub(super) settings: SettingsArgs,
     /// Scans to match side by side; as many as there are processors if not given
@@ -99,7 +103,13 @@ impl SearchArgs {
     }
 
     pub(super) fn search<'a>(&self, base: &'a Config) -> Search<'a> {
-        Search { base, objective: self.objective, trials: self.trials.get(), seed: self.seed }
+        Search {
+            base,
+            objective: self.objective,
+            trials: self.trials.get(),
+            seed: self.seed,
+            held: self.held.clone(),
+        }
     }
 
     /// Of a search's trials.
@@ -121,7 +131,11 @@ impl SearchArgs {
     pub(super) fn told(&self) -> String {
         let corrections = self.corrections.as_ref().map(|out| format!("--corrections {} ", out.display()));
         let (objective, trials, seed) = (&self.objective, self.trials, self.seed);
-        format!("{}--objective {objective} --trials {trials} --seed {seed}", corrections.unwrap_or_default())
+        let held: String = self.held.iter().map(|key| format!(" --hold {key}")).collect();
+        format!(
+            "{}--objective {objective} --trials {trials} --seed {seed}{held}",
+            corrections.unwrap_or_default()
+        )
     }
 }
 

@@ -115,7 +115,7 @@ mod tests {
 
     fn judged(config: &Config, name: &str, trials: usize) -> Judged {
         let (train, test) = (planted(1, 40), planted(2, 40));
-        let search = Search { base: config, objective: Objective::F1, trials, seed: 1 };
+        let search = Search { base: config, objective: Objective::F1, trials, seed: 1, held: vec![] };
         let variant = Variant::all(config).into_iter().find(|variant| variant.name == name).unwrap();
         variant.judge(&search, (&[&train], &[&test]), &mut |_, _| {}).unwrap()
     }
@@ -169,7 +169,7 @@ mod tests {
         let without = judged(&config, "without camera", 60);
         let train = planted(1, 40);
         let own = Config::from_toml("", &["camera.enabled=false", "ground.radar_sigmas=0"]).unwrap();
-        let search = Search { base: &own, objective: Objective::F1, trials: 60, seed: 1 };
+        let search = Search { base: &own, objective: Objective::F1, trials: 60, seed: 1, held: vec![] };
         assert_eq!(without.found, search.run(&[&train], &mut |_, _| {}).unwrap());
         assert_eq!(without.found.settings.weights.beta_cm, config.camera.beta);
         assert_eq!(without, judged(&config, "without camera", 60));

@@ -32,8 +32,16 @@ pub struct Settings {
 }
 
 impl Settings {
-    /// How many are tuned.
-    pub const COUNT: usize = 7;
+    /// Dotted names of those that are tuned.
+    pub const KEYS: [&'static str; 7] = [
+        "fusion.alpha",
+        "fusion.threshold",
+        "lidar.beta",
+        "lidar.neighbours",
+        "camera.beta",
+        "tracking.beta",
+        "tracking.scans",
+    ];
 
     /// Those of all settings.
     pub fn of(config: &Config) -> Self {
@@ -65,17 +73,11 @@ impl Settings {
     }
 
     /// Dotted names and values of those that are tuned.
-    pub fn entries(&self) -> [(&'static str, f64); Self::COUNT] {
+    pub fn entries(&self) -> [(&'static str, f64); Self::KEYS.len()] {
         let Weights { beta_lm, beta_cm, beta_tr, fusion } = self.weights;
-        [
-            ("fusion.alpha", fusion.alpha),
-            ("fusion.threshold", fusion.threshold),
-            ("lidar.beta", beta_lm),
-            ("lidar.neighbours", self.neighbours as f64),
-            ("camera.beta", beta_cm),
-            ("tracking.beta", beta_tr),
-            ("tracking.scans", self.scans as f64),
-        ]
+        let (neighbours, scans) = (self.neighbours as f64, self.scans as f64);
+        let values = [fusion.alpha, fusion.threshold, beta_lm, neighbours, beta_cm, beta_tr, scans];
+        std::array::from_fn(|place| (Self::KEYS[place], values[place]))
     }
 }
 

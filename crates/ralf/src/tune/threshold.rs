@@ -36,6 +36,13 @@ impl Weighed {
         }
     }
 
+    /// What a threshold makes of them.
+    pub(super) fn counts_at(&self, threshold: f64) -> Confusion {
+        let mut counts = self.silent;
+        self.decided.iter().for_each(|(w, plausible)| counts.add(*plausible, *w >= threshold));
+        counts
+    }
+
     /// The threshold in [0, 1] with the best score; of equally good ones the one in the widest gap, where new detections are least
     /// likely to fall on the wrong side.
     ///
@@ -152,12 +159,6 @@ mod tests {
         Weighed { decided: decided.to_vec(), silent }
     }
 
-    fn counts_at(of: &Weighed, threshold: f64) -> Confusion {
-        let mut counts = of.silent;
-        of.decided.iter().for_each(|(w, plausible)| counts.add(*plausible, *w >= threshold));
-        counts
-    }
-
     fn objective() -> impl Strategy<Value = Objective> {
         prop_oneof![
             Just(Objective::F1),
@@ -179,9 +180,9 @@ mod tests {
             let of = weighed(&decided, silent);
             let best = of.best_cut(objective);
             prop_assert!((0.0..=1.0).contains(&best.threshold));
-            prop_assert_eq!(objective.score(&counts_at(&of, best.threshold)), best.score);
+            prop_assert_eq!(objective.score(&of.counts_at(best.threshold)), best.score);
             let all = decided.iter().map(|(w, _)| *w).chain([0.0, 1.0]);
-            let brute_force = all.map(|w0| objective.score(&counts_at(&of, w0))).fold(f64::NEG_INFINITY, f64::max);
+            let brute_force = all.map(|w0| objective.score(&of.counts_at(w0))).fold(f64::NEG_INFINITY, f64::max);
             prop_assert_eq!(best.score, brute_force);
         }
     }
