@@ -15,7 +15,7 @@ from pathlib import Path
 import numpy as np
 from mcap.writer import CompressionType, Writer as McapWriter
 from rosbags.rosbag1 import Writer as Rosbag1Writer
-from rosbags.rosbag2 import StoragePlugin, Writer as Rosbag2Writer
+from rosbags.rosbag2 import CompressionFormat, CompressionMode, StoragePlugin, Writer as Rosbag2Writer
 from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 
 OUT = Path(__file__).parent / "ros"
@@ -143,10 +143,13 @@ def mcap(name, compression, ros1=False):
         writer.finish()
 
 
-def folder(name, plugin):
+def folder(name, plugin, compressed=False):
     types = store(Stores.ROS2_HUMBLE)
     shutil.rmtree(OUT / name, ignore_errors=True)
-    with Rosbag2Writer(OUT / name, version=8, storage_plugin=plugin) as writer:
+    writer = Rosbag2Writer(OUT / name, version=8, storage_plugin=plugin)
+    if compressed:
+        writer.set_compression(CompressionMode.MESSAGE, CompressionFormat.ZSTD)
+    with writer:
         connections = {}
         for topic, kind, step, message in Messages(types, False).all():
             if topic not in connections:
@@ -165,3 +168,5 @@ if __name__ == "__main__":
     mcap("zstd.mcap", CompressionType.ZSTD)
     mcap("ros1.mcap", CompressionType.ZSTD, ros1=True)
     folder("db3", StoragePlugin.SQLITE3)
+    folder("db3_zstd", StoragePlugin.SQLITE3, compressed=True)
+    folder("folder", StoragePlugin.MCAP)

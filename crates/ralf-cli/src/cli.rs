@@ -1,7 +1,7 @@
 //! What can be typed.
 
 use crate::commands::{
-    convert, demo, depth, evaluate, export, inspect, label, plot, report, review, simulate, tune,
+    ablate, convert, demo, depth, evaluate, export, inspect, label, plot, report, review, simulate, tune,
 };
 use crate::settings;
 use clap::{Args, Parser, Subcommand};
@@ -47,6 +47,8 @@ pub(crate) enum Command {
     Evaluate(evaluate::EvaluateArgs),
     /// Find the settings that come nearest to corrected labels
     Tune(tune::TuneArgs),
+    /// Tell what each branch and each extension of the method is good for
+    Ablate(ablate::AblateArgs),
     /// Draw labelled scans from above
     Plot(plot::PlotArgs),
     /// Write one page about a labelled recording: figures, curves, pictures

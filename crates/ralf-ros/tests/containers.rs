@@ -1,6 +1,8 @@
 //! What the writers write is read back; what is cut short is read up to the cut and the loss is said; what is damaged is
 //! refused, or told.
 
+#![allow(clippy::unwrap_used, clippy::panic, reason = "a check that fails is a test that fails")]
+
 use ralf_ros::container::{Container, ContainerError};
 use ralf_ros::message::{Header, Message, RadarReturn, RadarScan, TfMessage};
 use ralf_ros::writer::{Compression, Delivery, MessageWriter, WriteError};

@@ -1,12 +1,24 @@
 //! Files that other programs wrote (`testdata/make_ros.py`): every container, compression and encoding gives the same messages.
 
+#![allow(clippy::unwrap_used, clippy::panic, reason = "a check that fails is a test that fails")]
+
 use ralf_ros::container::{Container, recognises};
 use ralf_ros::message::*;
 use ralf_ros::point_cloud::PointTable;
 use std::path::{Path, PathBuf};
 
-const FILES: [&str; 8] =
-    ["plain.bag", "bz2.bag", "lz4.bag", "plain.mcap", "lz4.mcap", "zstd.mcap", "ros1.mcap", "db3"];
+const FILES: [&str; 10] = [
+    "plain.bag",
+    "bz2.bag",
+    "lz4.bag",
+    "plain.mcap",
+    "lz4.mcap",
+    "zstd.mcap",
+    "ros1.mcap",
+    "db3",
+    "db3_zstd",
+    "folder",
+];
 
 const START: i64 = 1_500_000_000_000_000_000;
 const STEP: i64 = 77_000_000;

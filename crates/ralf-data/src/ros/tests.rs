@@ -25,6 +25,7 @@ struct Drive {
     camera_frame: &'static str,
     infos: Vec<f64>,
     mast_moves: bool,
+    vehicle: &'static str,
     radar_fields: [&'static str; 2],
 }
 
@@ -32,7 +33,8 @@ impl Default for Drive {
     fn default() -> Self {
         let (bag, stamped, mast_moves) = (false, true, false);
         let (camera_frame, infos) = ("camera", vec![100.0]);
-        Self { bag, stamped, camera_frame, infos, mast_moves, radar_fields: ["vx", "vx"] }
+        let (vehicle, radar_fields) = ("base", ["vx", "vx"]);
+        Self { bag, stamped, camera_frame, infos, mast_moves, vehicle, radar_fields }
     }
 }
 
@@ -70,7 +72,7 @@ impl Drive {
     fn odometry(&self, ms: i64) -> Odometry {
         let twist = Twist { linear: [8.0, 0.0, 0.0], angular: [0.0, 0.0, 0.1] };
         let pose = Pose { position: [ms as f64 * 0.008, 0.0, 0.0], ..Pose::default() };
-        let child_frame_id = "base".to_owned();
+        let child_frame_id = self.vehicle.to_owned();
         Odometry { header: self.header(ms, "odom"), child_frame_id, pose, twist, ..Odometry::default() }
     }
 
@@ -239,6 +241,15 @@ fn the_imu_turns_what_the_odometry_moves() {
     let drive = open_file(&path, &text).unwrap();
     assert_eq!(drive.sequence().motion.poses(), []);
     assert!(drive.sequence().motion.odometry().iter().all(|sample| sample.yaw_rate == 0.1));
+}
+
+#[test]
+fn odometry_without_a_frame_is_the_vehicles() {
+    let drive = Drive { vehicle: "", ..Drive::default() };
+    assert!(error(&drive, TABLE).contains("`vehicle_frame` with the odometry"));
+    let (_folder, path) = drive.write();
+    let text = TABLE.replace("'odometry' }", "'odometry', vehicle_frame = 'base' }");
+    assert_eq!(open_file(&path, &text).unwrap().sequence().motion.poses().len(), 8);
 }
 
 #[test]
