@@ -4,7 +4,7 @@ use super::definition::{Definition, HEADER};
 use super::{Header, Message};
 use crate::encoding::{Decoder, Encoder, EncodingError};
 
-/// A cloud of points, as published; [`crate::point_cloud::columns`] reads its values.
+/// A cloud of points, as published; [`crate::point_cloud::PointTable`] reads its values.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct PointCloud2 {
     /// When and in which frame.
