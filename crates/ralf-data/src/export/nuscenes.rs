@@ -101,3 +101,29 @@ fn write_table<T: Serialize>(file: &Path, rows: &[T]) -> Result<(), DataError> {
     let json = serde_json::to_string_pretty(rows).map_err(std::io::Error::from);
     files::write_whole(file, (json.map_err(DataError::io(file))? + "\n").as_bytes())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use ralf::label::{ARTIFACT, UNLABELED};
+
+    #[test]
+    fn every_label_has_a_value_that_the_table_explains() {
+        let (ids, table) = (class_ids(), categories());
+        let explained = |id: u16| {
+            let category = &table[usize::from(index(&ids, id))];
+            assert_eq!(category.index, index(&ids, id));
+            category.description.as_str()
+        };
+        assert_eq!(explained(UNLABELED), "unlabeled; SemanticKITTI id 0");
+        assert_eq!(explained(ARTIFACT), "artifact; SemanticKITTI id 1");
+        assert_eq!(explained(PLAUSIBLE), "plausible; SemanticKITTI id 99");
+        assert_eq!(explained(40), "artifact; SemanticKITTI id 40");
+        assert_eq!(explained(259), "plausible; SemanticKITTI id 259");
+        assert_eq!(explained(7), explained(PLAUSIBLE), "an id that SemanticKITTI doesn't have");
+        let mut tokens: Vec<&str> = table.iter().map(|category| category.token.as_str()).collect();
+        tokens.sort_unstable();
+        tokens.dedup();
+        assert!(tokens.len() == table.len() && tokens.iter().all(|token| token.len() == 32));
+    }
+}

@@ -152,3 +152,17 @@ fn write_group(
     }
     group.close().map(drop)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::partition;
+
+    #[test]
+    fn names_are_escaped_as_in_addresses() {
+        for (name, expected) in
+            [("00", "00"), ("scene-0061_a.b", "scene-0061_a.b"), ("a b=c%", "a%20b%3Dc%25"), ("é", "%C3%A9")]
+        {
+            assert_eq!(partition(name), expected);
+        }
+    }
+}

@@ -128,3 +128,26 @@ fn matrix(transform: &Transform) -> String {
     let rows = matrix.fixed_rows::<3>(0).transpose();
     rows.iter().map(|value| format!(" {value:.9e}")).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn cells_are_quoted_where_they_have_to_be() {
+        for (text, expected) in [("00", "00"), ("a b", "a b"), ("a,b", "\"a,b\""), ("a\"b", "\"a\"\"b\"")] {
+            assert_eq!(csv(text), expected);
+        }
+    }
+
+    #[test]
+    fn matrices_are_rows_of_three_by_four() {
+        let turn = nalgebra::UnitQuaternion::from_euler_angles(0.0, 0.0, std::f64::consts::PI);
+        let transform = Transform::from_parts(nalgebra::Translation3::new(1.5, -2.0, 0.25), turn);
+        let values: Vec<f64> =
+            matrix(&transform).split(' ').skip(1).map(|text| text.parse().unwrap()).collect();
+        let expected = [-1.0, 0.0, 0.0, 1.5, 0.0, -1.0, 0.0, -2.0, 0.0, 0.0, 1.0, 0.25];
+        assert_eq!(values.len(), expected.len());
+        assert!(values.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-9), "{values:?}");
+    }
+}
