@@ -144,7 +144,7 @@ class Recording:
 
     def __init__(self):
         self.rows, self.topics, self.types, self.frames, self.mounted = [], {}, {}, {}, {}
-        self.images, self.calibrations, self.odometry = {}, {}, []
+        self.images, self.calibrations, self.twists, self.positions = {}, {}, [], []
         self.latest = None
 
     def add(self, sequence, topic, kind, log_ns, message):
@@ -172,9 +172,10 @@ class Recording:
         elif kind.endswith("CameraInfo"):
             k, d = (message.k, message.d) if hasattr(message, "k") else (message.K, message.D)
             self.calibrations[parts[0]] = [message.distortion_model, message.width, message.height, list(k), list(d)]
+        elif kind.endswith("TwistStamped"):
+            self.twists.append([stamp, message.twist.linear.x, message.twist.angular.z])
         elif kind.endswith("Odometry"):
-            twist = message.twist.twist
-            self.odometry.append([stamp, twist.linear.x, twist.angular.z])
+            self.positions.append([stamp, message.pose.pose.position.x, message.pose.pose.position.y])
 
     def found(self):
         return vars(self)

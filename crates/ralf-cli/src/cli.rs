@@ -1,9 +1,11 @@
 //! What can be typed.
 
 use crate::commands::{
-    convert, demo, depth, evaluate, export, inspect, label, plot, report, review, simulate, tune,
+    ablate, convert, demo, depth, evaluate, export, inspect, label, plot, report, review, simulate, tune,
 };
+use crate::settings;
 use clap::{Args, Parser, Subcommand};
+use ralf::config::Config;
 use std::path::PathBuf;
 
 /// Trustworthy labels for radar data: which detections are real, and which are artifacts?
@@ -45,6 +47,8 @@ pub(crate) enum Command {
     Evaluate(evaluate::EvaluateArgs),
     /// Find the settings that come nearest to corrected labels
     Tune(tune::TuneArgs),
+    /// Tell what each branch and each extension of the method is good for
+    Ablate(ablate::AblateArgs),
     /// Draw labelled scans from above
     Plot(plot::PlotArgs),
     /// Write one page about a labelled recording: figures, curves, pictures
@@ -68,7 +72,7 @@ pub(crate) enum Command {
 /// The recording that a command works on.
 #[derive(Debug, Args)]
 pub(crate) struct DatasetArgs {
-    /// The recording's folder; its format is recognised by what it holds
+    /// The recording: a folder, or a ROS bag or MCAP file; its format is recognised by what it holds
     #[arg(value_name = "DATASET")]
     pub(crate) dataset: PathBuf,
     /// Take the recording for this format
@@ -77,12 +81,23 @@ pub(crate) struct DatasetArgs {
     /// Only this sequence; may be given several times
     #[arg(long = "sequence", value_name = "NAME")]
     pub(crate) sequences: Vec<String>,
+    /// Which ROS topic is which sensor: the table `topics` of this settings file (TOML)
+    #[arg(long, value_name = "FILE")]
+    pub(crate) topics: Option<PathBuf>,
 }
 
 impl DatasetArgs {
     /// Opens the recording, and says what its reader warns of.
     pub(crate) fn open(&self) -> anyhow::Result<ralf_data::Recording> {
-        let recording = ralf_data::open(&self.dataset, self.format.as_deref())?;
+        self.open_with(&mut Config::default())
+    }
+
+    /// The same with the topics of the settings; those of `--topics` win, and are put into the settings.
+    pub(crate) fn open_with(&self, config: &mut Config) -> anyhow::Result<ralf_data::Recording> {
+        if let Some(file) = &self.topics {
+            config.topics = settings::read(file)?.topics;
+        }
+        let recording = ralf_data::open_with(&self.dataset, self.format.as_deref(), &config.topics)?;
         let recording =
             if self.sequences.is_empty() { recording } else { recording.select(&self.sequences)? };
         for reader in &recording.sequences {

@@ -1,4 +1,4 @@
-//! The review page in a real browser: a recording is simulated and labelled, errors are planted into the labels, and
+//! The review page, by its own tests and in a real browser: there, a recording is simulated and labelled, errors are planted into the labels, and
 //! `crates/ralf-review/web/tests/browser` does what a person would do. Needs Node.js, npm and Chromium.
 
 #![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout, reason = "these are tests")]
@@ -9,6 +9,7 @@ use serde_json::{Value, json};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use std::sync::OnceLock;
 
 const PROGRAM: &str = env!("CARGO_BIN_EXE_ralf");
 const WEB: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../ralf-review/web");
@@ -20,12 +21,17 @@ const ALONE: f32 = 1.5;
 const SEEN: f32 = 38.0;
 
 #[test]
+fn the_page_has_types_and_unit_tests_that_hold() {
+    let Some(page) = installed_page() else { return };
+    for script in ["check", "test"] {
+        succeeds(Command::new("npm").args(["run", script]).current_dir(page));
+    }
+}
+
+#[test]
 fn people_correct_labels_in_a_browser() {
     let Some(chromium) = chromium() else { return println!("skipped: no Chromium was found") };
-    if !runs("node") || !runs("npm") {
-        return println!("skipped: Node.js with npm was not found");
-    }
-    let Some(tests) = installed_tests() else { return println!("skipped: `npm ci` failed, see above") };
+    let Some(page) = installed_page() else { return };
     let folder = tempfile::tempdir().unwrap();
     let [dataset, out] = ["recording", "labels"].map(|name| folder.path().join(name));
     let [recording, labels] = [&dataset, &out].map(|path| path.to_str().unwrap());
@@ -33,24 +39,28 @@ fn people_correct_labels_in_a_browser() {
     ralf(&["label", recording, "-o", labels, "--quiet"]);
     let planted = folder.path().join("planted.json");
     fs::write(&planted, Value::from(plant(&dataset, &out)).to_string()).unwrap();
-    let ran = Command::new("node")
+    let mut tests = Command::new("node");
+    tests
         .args(["--test", "--test-concurrency=1", "--test-reporter=tap", "tests/browser"])
-        .current_dir(tests)
+        .current_dir(page)
         .env("RALF_PROGRAM", PROGRAM)
         .env("RALF_DATASET", &dataset)
         .env("RALF_OUT", &out)
         .env("RALF_PLANTED", &planted)
-        .env("RALF_CHROMIUM", chromium)
-        .output()
-        .unwrap();
+        .env("RALF_CHROMIUM", chromium);
+    succeeds(&mut tests);
+}
+
+#[track_caller]
+fn succeeds(command: &mut Command) {
+    let ran = command.output().unwrap();
     let said = String::from_utf8_lossy(&ran.stdout);
     println!("{said}");
     assert!(ran.status.success(), "{said}{}", String::from_utf8_lossy(&ran.stderr));
 }
 
 fn ralf(arguments: &[&str]) {
-    let ran = Command::new(PROGRAM).args(arguments).output().unwrap();
-    assert!(ran.status.success(), "{}", String::from_utf8_lossy(&ran.stderr));
+    succeeds(Command::new(PROGRAM).args(arguments));
 }
 
 fn chromium() -> Option<PathBuf> {
@@ -65,33 +75,56 @@ fn runs(program: &str) -> bool {
     Command::new(program).arg("--version").output().is_ok_and(|ran| ran.status.success())
 }
 
-/// The browser tests with their packages, beside the build's outputs; `None` where they could not be installed.
-fn installed_tests() -> Option<PathBuf> {
+/// The page's sources and tests with their packages, beside the build's outputs. Says why it was skipped where it's `None`.
+fn installed_page() -> Option<&'static Path> {
+    static PAGE: OnceLock<Result<PathBuf, String>> = OnceLock::new();
+    match PAGE.get_or_init(install) {
+        Ok(folder) => Some(folder),
+        Err(missing) => {
+            println!("skipped: {missing}");
+            None
+        }
+    }
+}
+
+fn install() -> Result<PathBuf, String> {
+    if !runs("node") || !runs("npm") {
+        return Err("Node.js with npm was not found".into());
+    }
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("review-page");
-    let tests = folder.join("tests/browser");
-    fs::create_dir_all(&tests).unwrap();
-    let lock = fs::read(Path::new(WEB).join("package-lock.json")).unwrap();
+    for part in ["src", "tests"] {
+        let _absent_at_first = fs::remove_dir_all(folder.join(part));
+    }
+    copy(Path::new(WEB), &folder);
+    let lock = fs::read(folder.join("package-lock.json")).unwrap();
     let done = folder.join("installed-lock.json");
-    for name in ["package.json", "package-lock.json"] {
-        fs::copy(Path::new(WEB).join(name), folder.join(name)).unwrap();
-    }
-    for entry in fs::read_dir(Path::new(WEB).join("tests/browser")).unwrap() {
-        let entry = entry.unwrap();
-        fs::copy(entry.path(), tests.join(entry.file_name())).unwrap();
-    }
     if fs::read(&done).ok().as_ref() == Some(&lock) {
-        return Some(folder);
+        return Ok(folder);
     }
-    let ran = Command::new("npm")
-        .args(["ci", "--no-audit", "--no-fund", "--ignore-scripts"])
-        .current_dir(&folder)
-        .output()
-        .unwrap();
-    println!("{}", String::from_utf8_lossy(&ran.stderr));
-    ran.status.success().then(|| {
-        fs::write(done, lock).unwrap();
-        folder
-    })
+    let npm = ["ci", "--no-audit", "--no-fund", "--ignore-scripts"];
+    let ran = Command::new("npm").args(npm).current_dir(&folder).output().unwrap();
+    if !ran.status.success() {
+        return Err(format!("`npm ci` failed: {}", String::from_utf8_lossy(&ran.stderr)));
+    }
+    fs::write(done, lock).unwrap();
+    Ok(folder)
+}
+
+/// Copies the page without what npm and builds leave there.
+fn copy(from: &Path, to: &Path) {
+    fs::create_dir_all(to).unwrap();
+    for entry in fs::read_dir(from).unwrap() {
+        let entry = entry.unwrap();
+        let name = entry.file_name();
+        if ["node_modules", "dist", "dist-tests"].iter().any(|made| name == *made) {
+            continue;
+        }
+        if entry.path().is_dir() {
+            copy(&entry.path(), &to.join(name));
+        } else {
+            fs::copy(entry.path(), to.join(name)).unwrap();
+        }
+    }
 }
 
 /// Flips labels in OUT, each of a detection that lies alone, and says where, with the right labels.

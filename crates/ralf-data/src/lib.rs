@@ -58,4 +58,4 @@ pub use images::png;
 pub use label_file::{Label, read_labels, write_labels};
 pub use layout::{LayoutSequence, write_sequence};
 pub use open::{formats, open, open_with};
-pub use recording::{NuScenesKey, Recording, SequenceReader, TruthLabels};
+pub use recording::{NuScenesKey, Recording, RosSource, SequenceReader, TruthLabels};

@@ -151,17 +151,23 @@ fn axes(panel: &mut Panel, typeface: &Typeface) {
 
 fn entries(picture: &ScanPicture<'_>, counts: &Counts) -> Vec<Entry> {
     let of = |name: &str, part: usize| format!("{name} {} ({})", count(part), share(part, counts.all()));
-    let mut entries = vec![
-        Entry::new(Symbol::Mark(MarkLabel::Plausible), of("Plausible", counts.plausible)),
-        Entry::new(Symbol::Mark(MarkLabel::Artifact), of("Artifact", counts.artifact)),
-    ];
+    // A scan as the radar gave it has no labels to count.
+    let raw = counts.unlabelled > 0 && counts.unlabelled == counts.all();
+    let mut entries = if raw {
+        vec![Entry::new(Symbol::Mark(MarkLabel::Unlabelled), format!("Detections {}", count(counts.all())))]
+    } else {
+        vec![
+            Entry::new(Symbol::Mark(MarkLabel::Plausible), of("Plausible", counts.plausible)),
+            Entry::new(Symbol::Mark(MarkLabel::Artifact), of("Artifact", counts.artifact)),
+        ]
+    };
     let mut add = |wanted: bool, symbol: Symbol, text: String| {
         if wanted {
             entries.push(Entry::new(symbol, text));
         }
     };
     let unlabelled = of("Unlabelled", counts.unlabelled);
-    add(counts.unlabelled > 0, Symbol::Mark(MarkLabel::Unlabelled), unlabelled);
+    add(counts.unlabelled > 0 && !raw, Symbol::Mark(MarkLabel::Unlabelled), unlabelled);
     add(!picture.lidar.is_empty(), Symbol::Dots(LIDAR), "LiDAR".to_owned());
     add(!picture.radars.is_empty(), Symbol::Wedge, "Radar".to_owned());
     add(!picture.path.is_empty(), Symbol::Line(PATH), "Path".to_owned());
@@ -231,6 +237,16 @@ mod tests {
                 "1 without a position"
             ]
         );
+    }
+
+    #[test]
+    fn a_raw_scan_counts_no_labels() {
+        let raw = |mark: Mark| Mark { label: MarkLabel::Unlabelled, ..mark };
+        let marks = [raw(AHEAD), raw(LEFT)];
+        let picture = ScanPicture { extent: Extent::Radius(20.0), marks: &marks, ..ScanPicture::default() };
+        let panel = ground(&picture, &Typeface::load().unwrap(), 400.0, 0.25).unwrap();
+        let entries = entries(&picture, &Counts::of(&marks, &panel.viewport));
+        assert_eq!(entries, [Entry::new(Symbol::Mark(MarkLabel::Unlabelled), "Detections 2")]);
     }
 
     #[test]

@@ -152,3 +152,121 @@ fn value(datatype: Datatype, big_endian: bool, bytes: &[u8]) -> f32 {
         _ => f32::NAN,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::message::PointField;
+
+    /// Two rows of two points: y and x as f64 and i16 out of order, three bytes per value, padding of 0xEE, rows padded.
+    fn cloud(is_bigendian: bool) -> PointCloud2 {
+        let number = |value: i16| if is_bigendian { value.to_be_bytes() } else { value.to_le_bytes() };
+        let float = |value: f64| if is_bigendian { value.to_be_bytes() } else { value.to_le_bytes() };
+        let mut data = Vec::new();
+        for row in 0..2i16 {
+            for point in 0..2i16 {
+                data.extend(number(-300 - 10 * row - point));
+                data.extend([0xee; 3]);
+                data.extend(float(0.25 + f64::from(10 * row + point)));
+                data.extend([1, 2, 0xee]);
+            }
+            data.extend([0xee; 4]);
+        }
+        let fields = vec![
+            PointField::new("y", 5, Datatype::Float64),
+            PointField::new("x", 0, Datatype::Int16),
+            PointField { count: 2, ..PointField::new("bits", 13, Datatype::Uint8) },
+        ];
+        let (height, width, point_step, row_step) = (2, 2, 16, 36);
+        PointCloud2 {
+            height,
+            width,
+            fields,
+            is_bigendian,
+            point_step,
+            row_step,
+            data,
+            ..PointCloud2::default()
+        }
+    }
+
+    #[test]
+    fn values_are_read_where_their_fields_say() {
+        for is_bigendian in [false, true] {
+            let cloud = cloud(is_bigendian);
+            let table = PointTable::new(&cloud).unwrap();
+            assert_eq!(table.names().collect::<Vec<_>>(), ["y", "x", "bits_0", "bits_1"]);
+            assert_eq!((table.len(), table.is_empty()), (4, false));
+            assert_eq!(table.column("x").unwrap(), [-300.0, -301.0, -310.0, -311.0]);
+            assert_eq!(table.column("y").unwrap(), [0.25, 1.25, 10.25, 11.25]);
+            assert_eq!(table.column("bits_1").unwrap(), [2.0; 4]);
+            assert_eq!(table.column("z"), None);
+        }
+    }
+
+    #[test]
+    fn every_type_in_either_order() {
+        use Datatype::{Float32, Float64, Int8, Int16, Int32, Uint8, Uint16, Uint32};
+        for (datatype, little, expected) in [
+            (Int8, vec![0xfe], -2.0),
+            (Uint8, vec![0xfe], 254.0),
+            (Int16, vec![0xfe, 0xff], -2.0),
+            (Uint16, vec![1, 2], 513.0),
+            (Int32, vec![0xfe, 0xff, 0xff, 0xff], -2.0),
+            (Uint32, vec![0, 0, 0, 0x80], 2_147_483_648.0),
+            (Float32, vec![0, 0, 0xc0, 0x3f], 1.5),
+            (Float64, vec![0, 0, 0, 0, 0, 0, 0xf8, 0x3f], 1.5),
+        ] {
+            let mut big = little.clone();
+            big.reverse();
+            assert_eq!(little.len(), datatype.size());
+            assert_eq!((value(datatype, false, &little), value(datatype, true, &big)), (expected, expected));
+            assert_eq!(Datatype::of(datatype as u8), Some(datatype));
+        }
+        assert_eq!((Datatype::of(0), Datatype::of(9)), (None, None));
+    }
+
+    #[test]
+    fn clouds_without_points_have_columns_without_values() {
+        let empty = PointCloud2 { width: 0, data: Vec::new(), row_step: 0, ..cloud(false) };
+        assert_eq!(PointTable::new(&empty).unwrap().column("x"), Some(Vec::new()));
+    }
+
+    #[test]
+    fn absurd_clouds_are_refused() {
+        let error = |change: &dyn Fn(&mut PointCloud2)| {
+            let mut cloud = cloud(false);
+            change(&mut cloud);
+            PointTable::new(&cloud).unwrap_err().to_string()
+        };
+        assert!(error(&|c| c.point_step = u32::MAX).starts_with("point_step: expected at most 65536 bytes"));
+        assert!(error(&|c| c.point_step = 0).contains("at least 1 byte"));
+        assert!(
+            error(&|c| c.point_step = 19)
+                .starts_with("row_step: expected at least width x point_step = 2 x 19")
+        );
+        assert!(error(&|c| c.row_step = 31).starts_with("row_step"));
+        assert!(error(&|c| c.row_step = u32::MAX).starts_with("data"));
+        assert!(error(&|c| (c.width, c.height) = (u32::MAX, u32::MAX)).starts_with("row_step"));
+        assert!(error(&|c| c.height = u32::MAX).starts_with("data"));
+        assert!(
+            error(&|c| c.data.truncate(67)).contains("expected height x row_step = 2 x 36 bytes, found 67")
+        );
+        assert!(error(&|c| c.data.push(0)).contains("found 73"));
+        assert!(
+            error(&|c| c.fields[0].offset = 9).starts_with("field `y`: expected values inside the 16 bytes")
+        );
+        assert!(error(&|c| c.fields[2].count = u32::MAX).starts_with("field `bits`"));
+        assert!(error(&|c| c.fields[0].offset = u32::MAX).starts_with("field `y`"));
+        assert!(error(&|c| c.fields[0].datatype = 11).contains("a datatype of 1 to 8, found 11"));
+        assert!(error(&|c| c.fields[1].name = "y".to_owned()).contains("unique names, found `y` twice"));
+        assert!(error(&|c| c.fields[1].name = "bits_0".to_owned()).contains("`bits_0` twice"));
+    }
+
+    #[test]
+    fn the_last_row_may_lack_its_padding() {
+        let mut cloud = cloud(false);
+        cloud.data.truncate(68);
+        assert_eq!(PointTable::new(&cloud).unwrap().column("x").unwrap()[3], -311.0);
+    }
+}

@@ -259,3 +259,103 @@ fn interpolate(a: &Isometry3<f64>, b: &Isometry3<f64>, share: f64) -> Isometry3<
     let rotation = a.rotation.try_slerp(&b.rotation, share, 1e-12).unwrap_or(a.rotation);
     Isometry3::from_parts(Translation3::from(position), rotation)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::message::{Header, Pose};
+    use nalgebra::Point3;
+    use std::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_2};
+
+    /// A child in its parent: its origin, and how far it is turned about z.
+    fn stamped(parent: &str, child: &str, t_ns: i64, position: [f64; 3], yaw: f64) -> TransformStamped {
+        let header = Header { stamp_ns: t_ns, frame_id: parent.to_owned(), ..Header::default() };
+        let orientation = [0.0, 0.0, (yaw / 2.0).sin(), (yaw / 2.0).cos()];
+        TransformStamped {
+            header,
+            child_frame_id: child.to_owned(),
+            transform: Pose { position, orientation },
+        }
+    }
+
+    fn tree(transforms: &[(TransformStamped, Kind)]) -> TfTree {
+        let mut tree = TfTree::default();
+        transforms.iter().for_each(|(transform, kind)| tree.add(transform, *kind).unwrap());
+        tree
+    }
+
+    /// odom -> base moves, base -> mast -> radar and base -> lidar stay.
+    fn vehicle() -> TfTree {
+        tree(&[
+            (stamped("odom", "base", 100, [10.0, 0.0, 0.0], 0.0), Kind::Moving),
+            (stamped("odom", "base", 0, [0.0, 0.0, 0.0], 0.0), Kind::Moving),
+            (stamped("odom", "base", 200, [10.0, 10.0, 0.0], FRAC_PI_2), Kind::Moving),
+            (stamped("base", "mast", 0, [1.0, 0.0, 2.0], FRAC_PI_2), Kind::Static),
+            (stamped("/mast", "/radar", 0, [0.5, 0.0, 0.0], 0.0), Kind::Static),
+            (stamped("base", "lidar", 0, [0.0, -1.0, 0.0], 0.0), Kind::Static),
+        ])
+    }
+
+    fn close(transform: &Isometry3<f64>, point: [f64; 3], expected: [f64; 3]) {
+        let found = transform * Point3::from(point);
+        assert!((found - Point3::from(expected)).norm() < 1e-12, "{found} instead of {expected:?}");
+    }
+
+    #[test]
+    fn frames_are_looked_up_both_ways_and_across() {
+        let tree = vehicle();
+        // The mast looks to the left: 0.5 m along its x is 0.5 m to the vehicle's left.
+        close(&tree.lookup("base", "radar", 0).unwrap(), [0.0; 3], [1.0, 0.5, 2.0]);
+        close(&tree.lookup("base", "radar", 0).unwrap(), [1.0, 0.0, 0.0], [1.0, 1.5, 2.0]);
+        close(&tree.lookup("radar", "base", 0).unwrap(), [1.0, 0.5, 2.0], [0.0; 3]);
+        // From branch to branch: the LiDAR's origin is (0, -1, 0), which the radar has at (-1.5, 1, -2).
+        close(&tree.lookup("radar", "lidar", 0).unwrap(), [0.0; 3], [-1.5, 1.0, -2.0]);
+        assert_eq!(tree.lookup("base", "base", 0), Ok(Isometry3::identity()));
+        assert_eq!(tree.frames(), ["base", "lidar", "mast", "odom", "radar"]);
+    }
+
+    #[test]
+    fn moving_frames_are_interpolated() {
+        let tree = vehicle();
+        close(&tree.lookup("odom", "base", 50).unwrap(), [0.0; 3], [5.0, 0.0, 0.0]);
+        close(&tree.lookup("odom", "base", 100).unwrap(), [0.0; 3], [10.0, 0.0, 0.0]);
+        // Halfway into the turn: at (10, 5), looking 45 degrees to the left.
+        let ahead = [10.0 + FRAC_1_SQRT_2, 5.0 + FRAC_1_SQRT_2, 0.0];
+        close(&tree.lookup("odom", "base", 150).unwrap(), [1.0, 0.0, 0.0], ahead);
+        let error = tree.lookup("odom", "radar", 201).unwrap_err();
+        assert_eq!(error.to_string(), "base in odom: known from 0 to 200 ns, asked for at 201 ns");
+        assert!(tree.lookup("odom", "base", -1).is_err() && tree.lookup("base", "radar", -1).is_ok());
+    }
+
+    #[test]
+    fn circles_and_unknown_frames_are_told() {
+        let mut tree = vehicle();
+        let error = tree.lookup("base", "sonar", 0).unwrap_err().to_string();
+        assert_eq!(error, "no frame `sonar`; known are base, lidar, mast, odom, radar");
+        tree.add(&stamped("island", "palm", 0, [0.0; 3], 0.0), Kind::Static).unwrap();
+        let error = tree.lookup("base", "palm", 0).unwrap_err().to_string();
+        assert!(error.contains("nothing connects `base`") && error.contains("`island`"), "{error}");
+        tree.add(&stamped("palm", "island", 0, [0.0; 3], 0.0), Kind::Static).unwrap();
+        assert_eq!(tree.lookup("palm", "island", 0), Err(TfError::Cycle { frame: "palm".to_owned() }));
+        assert!(tree.lookup("base", "island", 0).is_err());
+    }
+
+    #[test]
+    fn contradictions_are_refused() {
+        let mut tree = vehicle();
+        let mut add = |transform, kind| tree.add(&transform, kind).map_err(|error| error.to_string());
+        assert_eq!(add(stamped("base", "lidar", 9, [0.0, -1.0, 0.0], 0.0), Kind::Static), Ok(()));
+        let error = add(stamped("base", "lidar", 9, [0.0, -2.0, 0.0], 0.0), Kind::Static).unwrap_err();
+        assert!(error.contains("lidar in base"), "{error}");
+        assert!(add(stamped("base", "lidar", 9, [0.0, -1.0, 0.0], 0.0), Kind::Moving).is_err());
+        let error = add(stamped("mast", "lidar", 0, [0.0, -1.0, 0.0], 0.0), Kind::Static).unwrap_err();
+        assert_eq!(error, "lidar: expected one parent, found base and mast");
+        assert!(add(stamped("base", "base", 0, [0.0; 3], 0.0), Kind::Static).is_err());
+        assert!(add(stamped("base", "", 0, [0.0; 3], 0.0), Kind::Static).is_err());
+        assert!(add(stamped("base", "new", 0, [f64::NAN, 0.0, 0.0], 0.0), Kind::Static).is_err());
+        let mut unturned = stamped("base", "new", 0, [0.0; 3], 0.0);
+        unturned.transform.orientation = [0.0; 4];
+        assert!(add(unturned, Kind::Static).unwrap_err().contains("unit quaternion"));
+        assert!(!tree.frames().contains(&"new"));
+    }
+}

@@ -1,5 +1,7 @@
 //! What is encoded is decoded as it was, by ROS 1 and by CDR; and what is cut or of another type is refused.
 
+#![allow(clippy::unwrap_used, clippy::panic, reason = "a check that fails is a test that fails")]
+
 use proptest::prelude::*;
 use ralf_ros::encoding::Encoding;
 use ralf_ros::message::*;

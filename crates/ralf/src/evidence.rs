@@ -78,4 +78,42 @@ impl Evidence {
         let plausible = !self.on_floor && w.is_some_and(|w| w >= weights.fusion.threshold);
         Verdict { w_lm, w_cm, w_tr, w_opt, w, plausible }
     }
+
+    /// What a threshold is compared with: the verdict's `w`, and `None` of a floor detection. It asks but the one optical branch
+    /// that has the say, for a search does this for every detection in every trial.
+    pub fn plausibility(&self, weights: &Weights) -> Option<f64> {
+        if self.on_floor {
+            return None;
+        }
+        let w_lm = || self.d_lm.map(|d| plausibility(weights.beta_lm, d));
+        let w_cm = || self.d_cm.map(|d| plausibility(weights.beta_cm, d));
+        let w_opt = if self.in_blind_spot { w_cm().or_else(w_lm) } else { w_lm().or_else(w_cm) };
+        let w_tr = self.d_tr.map(|d| plausibility(weights.beta_tr, d));
+        prioritize(&weights.fusion, w_opt, w_tr, self.gamma_s)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn mismatch() -> impl Strategy<Value = Option<f64>> {
+        prop::option::of(0.0..50.0)
+    }
+
+    proptest! {
+        #[test]
+        fn the_plausibility_is_the_verdicts(
+            [d_lm, d_cm, d_tr] in prop::array::uniform3(mismatch()),
+            on_floor in any::<bool>(), in_blind_spot in any::<bool>(), gamma_s in 1.0..2.0,
+            [beta_lm, beta_cm, beta_tr] in prop::array::uniform3(0.01..3.0), alpha in 0.0..=1.0,
+        ) {
+            let evidence = Evidence { d_lm, d_cm, d_tr, on_floor, in_blind_spot, gamma_s };
+            let fusion = FusionConfig { alpha, threshold: 0.5 };
+            let weights = Weights { beta_lm, beta_cm, beta_tr, fusion };
+            let verdict = evidence.weigh(&weights);
+            prop_assert_eq!(evidence.plausibility(&weights), verdict.w.filter(|_| !on_floor));
+        }
+    }
 }

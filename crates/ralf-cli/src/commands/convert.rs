@@ -13,7 +13,8 @@ use std::path::{Path, PathBuf};
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Each sequence appears whole or not at all, and one that is there already is never overwritten. A name that ends in .mcap (ROS 2)
-or .bag (ROS 1) takes one sequence; what such a file can't hold is in docs/export.md.
+or .bag (ROS 1) takes one sequence; beside it goes a .toml with the settings by which it is read back. What such a file can't
+hold is in docs/export.md.
 
 Examples:
   ralf convert nuscenes -o recordings/nuscenes --sequence scene-0061
@@ -47,9 +48,12 @@ fn as_ros(recording: &Recording, file: &Path, format: RosFormat) -> anyhow::Resu
     let reader = the_only(recording)?;
     let sequence = reader.sequence();
     let bar = bar(measurements(&sequence.times), STEPS, format!("converting {}", sequence.name));
-    write_ros(reader, file, format, &|done| bar.set_position(done as u64))?;
+    let settings = write_ros(reader, file, format, &|done| bar.set_position(done as u64))?;
     bar.finish_and_clear();
     say(&format!("wrote {}", file.display()));
+    if let Some(settings) = settings {
+        say(&format!("wrote {}: the settings by which it is read back", settings.display()));
+    }
     Ok(Outcome::Done)
 }
 

@@ -7,6 +7,7 @@ use crate::{Outcome, UsageError};
 use clap::builder::PossibleValuesParser;
 use clap::{Args, ValueEnum};
 use ralf_data::export::{Export, ExportFormat, ExportOptions, Exported, Sensors, Split};
+use ralf_data::run::read_record;
 use std::path::PathBuf;
 
 /// What `ralf export` takes.
@@ -65,7 +66,8 @@ enum Sensor {
 /// Exports the labels of a recording.
 pub(crate) fn run(arguments: &ExportArgs) -> anyhow::Result<Outcome> {
     let options = options(arguments)?;
-    let recording = arguments.dataset.open()?;
+    // The topics that were labelled are those that are exported.
+    let recording = arguments.dataset.open_with(&mut read_record(&arguments.labels)?.settings)?;
     let export = Export { recording: &recording, out: &arguments.labels, options };
     let bar = bar(export.scans() as u64, STEPS, format!("exporting {}", arguments.to));
     let exported = export.write(&arguments.output, &|scans| bar.set_position(scans as u64));
@@ -82,6 +84,10 @@ fn options(arguments: &ExportArgs) -> anyhow::Result<ExportOptions> {
     let has = |sensor| arguments.sensors.contains(&sensor);
     let sensors =
         Sensors { radar: has(Sensor::Radar), lidar: has(Sensor::Lidar), camera: has(Sensor::Camera) };
+    if sensors.any() && !sensors.and(format.sensors()).any() {
+        let reason = "its files have no place for them; those of mcap and rosbag1 have";
+        return Err(UsageError(format!("--to {}: no data of these sensors: {reason}", arguments.to)).into());
+    }
     let split = match arguments.split {
         Kind::Plausible => Split::Plausible,
         Kind::Artifact => Split::Artifact,

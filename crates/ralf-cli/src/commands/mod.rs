@@ -1,5 +1,6 @@
 //! One module per verb: thin, for what they do is done by the libraries.
 
+pub(crate) mod ablate;
 pub(crate) mod convert;
 pub(crate) mod demo;
 pub(crate) mod depth;
@@ -10,6 +11,7 @@ pub(crate) mod label;
 pub(crate) mod plot;
 pub(crate) mod report;
 pub(crate) mod review;
+mod search;
 pub(crate) mod simulate;
 pub(crate) mod tune;
 
@@ -32,6 +34,7 @@ pub(crate) fn dispatch(arguments: Cli) -> anyhow::Result<Outcome> {
         Command::Convert(arguments) => convert::run(&arguments),
         Command::Depth(arguments) => depth::run(&arguments),
         Command::Tune(arguments) => tune::run(&arguments),
+        Command::Ablate(arguments) => ablate::run(&arguments),
         Command::Simulate(arguments) => simulate::run(&arguments),
         Command::Completions { shell } => {
             let mut script = Vec::new();

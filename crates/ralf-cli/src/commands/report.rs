@@ -4,6 +4,7 @@ use crate::Outcome;
 use crate::cli::DatasetArgs;
 use crate::progress::say;
 use clap::Args;
+use indicatif::ProgressBar;
 use ralf_report::Report;
 use std::path::PathBuf;
 
@@ -38,7 +39,12 @@ pub(crate) fn run(arguments: &ReportArgs) -> anyhow::Result<Outcome> {
         out: &arguments.labels,
         scans_per_sequence: arguments.scans_per_sequence,
     };
-    let html = report.html(&|step| say(step))?;
+    let shown = ProgressBar::new_spinner();
+    let html = report.html(&|step| {
+        shown.set_message(step.to_owned());
+        shown.tick();
+    })?;
+    shown.finish_and_clear();
     ralf_data::write_whole(&arguments.output, html.as_bytes())?;
     say(&format!("wrote {}", arguments.output.display()));
     Ok(Outcome::Done)

@@ -24,7 +24,7 @@ A sequence that is there already is never overwritten. The same preset, numbers 
 
 Examples:
   ralf simulate -o recordings/sim --scans 300         the paper's eleven sequences, each shorter
-  ralf simulate -o recordings/sim                     all 2,704 scans of each radar: minutes, and some 4 GB
+  ralf simulate -o recordings/sim                     all 2,704 scans of each radar: minutes, and some 6 GB
   ralf simulate -o recordings/tiny --preset tiny      in a second
   ralf simulate -o recordings/mine --scenario yard.toml --scans 200 --seed 3")]
 pub(crate) struct SimulateArgs {

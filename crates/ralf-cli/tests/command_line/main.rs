@@ -8,6 +8,7 @@
     reason = "these are tests"
 )]
 
+mod ablation;
 mod bad_files;
 mod bad_images;
 mod bad_recordings;
@@ -25,6 +26,7 @@ mod real_data;
 mod resume;
 #[cfg(unix)]
 mod review;
+mod ros;
 mod sequences;
 mod simulation;
 mod streams;

@@ -82,6 +82,17 @@ impl ExportFormat {
         }
     }
 
+    /// Which sensors' data can go with the labels.
+    pub fn sensors(self) -> Sensors {
+        match self {
+            Self::Mcap | Self::Rosbag1 => Sensors::ALL,
+            Self::NuScenes => Sensors::default(),
+            Self::SemanticKitti | Self::Pcd | Self::Npz | Self::Parquet => {
+                Sensors { radar: true, ..Sensors::default() }
+            }
+        }
+    }
+
     /// The kind of recording that an export in this format is.
     pub(super) fn recording(self) -> Option<RosFormat> {
         match self {
@@ -110,8 +121,17 @@ impl Sensors {
     pub const ALL: Self = Self { radar: true, lidar: true, camera: true };
 
     /// Whether any is asked for.
-    pub(super) fn any(self) -> bool {
+    pub fn any(self) -> bool {
         self.radar || self.lidar || self.camera
+    }
+
+    /// Those of both.
+    pub fn and(self, other: Self) -> Self {
+        Self {
+            radar: self.radar && other.radar,
+            lidar: self.lidar && other.lidar,
+            camera: self.camera && other.camera,
+        }
     }
 }
 

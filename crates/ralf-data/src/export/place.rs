@@ -77,7 +77,11 @@ impl Place {
         if self.path.exists() {
             fs::rename(&self.path, &self.earlier).map_err(refused())?;
         }
-        fs::rename(&self.part, &self.path).map_err(refused())?;
+        if let Err(error) = fs::rename(&self.part, &self.path) {
+            // The earlier one comes back; the error that matters is the first one.
+            let _ = fs::rename(&self.earlier, &self.path);
+            return Err(refused()(error));
+        }
         remove_folder(&self.earlier)
     }
 }

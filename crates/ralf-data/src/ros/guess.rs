@@ -1,12 +1,13 @@
 //! A first guess of which topic is which sensor, from types, names and first messages.
 
 use super::messages::Messages;
-use super::{cloud, survey};
+use super::{LABELLED, cloud, survey};
 use crate::DataError;
 use crate::models::GENERIC;
 use ralf::config::{TopicConfig, TopicKind, Topics};
 use ralf_ros::container::{MessageRef, Topic};
 use ralf_ros::message::{CameraInfo, Message, PointCloud2, RadarScan};
+use serde::Serialize;
 use std::path::Path;
 
 /// A guess, and what it leaves out.
@@ -62,7 +63,9 @@ pub(super) fn of(messages: &Messages) -> Result<Guess, DataError> {
     let topics = messages.container().topics();
     let usable = |topic: &Topic| topic.count > 0 && topic.known_encoding().is_some();
     for (place, topic) in topics.iter().enumerate().filter(|(_, topic)| usable(topic)) {
-        if PointCloud2::DEFINITION.is(&topic.type_name) || RadarScan::DEFINITION.is(&topic.type_name) {
+        if topic.name.ends_with(LABELLED) {
+            guess.unused.push(format!("{} is not used: it holds what `ralf label` found", topic.name));
+        } else if PointCloud2::DEFINITION.is(&topic.type_name) || RadarScan::DEFINITION.is(&topic.type_name) {
             let entry = cloud_entry(messages, topic, place)?;
             guess.add(entry);
         } else if survey::types(TopicKind::Camera).iter().any(|known| known.is(&topic.type_name)) {
@@ -80,10 +83,14 @@ pub(super) fn of(messages: &Messages) -> Result<Guess, DataError> {
 }
 
 impl Guess {
+    /// Under the topic's short name, or where that is taken the whole one, or that with a number.
     fn add(&mut self, entry: TopicConfig) {
-        let short = name(&entry.topic);
         let long = entry.topic.trim_matches('/').replace('/', "_");
-        self.topics.insert(if self.topics.contains_key(&short) { long } else { short }, entry);
+        let numbered = (2..).map(|number| format!("{long}_{number}"));
+        let mut names = [name(&entry.topic), long.clone()].into_iter().chain(numbered);
+        if let Some(free) = names.find(|name| !self.topics.contains_key(name)) {
+            self.topics.insert(free, entry);
+        }
     }
 
     /// One topic of a camera: the first of its names, in which rectified images come before raw ones.
@@ -152,7 +159,7 @@ fn cloud_entry(messages: &Messages, topic: &Topic, place: usize) -> Result<Topic
     let Some(first) = first else { return Ok(entry(TopicKind::Lidar)) };
     let columns = cloud::radar_columns(messages, first)?;
     let has = |name: &&str| columns.names.iter().any(|known| known == name);
-    let is_radar = topic.name.contains("radar") || !has(&"x") || RADAR_FIELDS.iter().any(|name| has(name));
+    let is_radar = topic.name.contains("radar") || !has(&"x") || RADAR_FIELDS.iter().any(has);
     if !is_radar {
         return Ok(entry(TopicKind::Lidar));
     }
@@ -187,19 +194,18 @@ fn name(topic: &str) -> String {
 
 /// The table as it stands in a settings file, with what the guess leaves out as comments.
 pub fn topics_toml(guess: &Guess) -> Result<String, DataError> {
-    let table = toml::Table::from_iter([(
-        "topics".to_owned(),
-        toml::Value::try_from(&guess.topics).map_err(toml_error)?,
-    )]);
-    let text = toml::to_string(&table).map_err(toml_error)?;
+    // Of a struct, for a table would sort its keys.
+    #[derive(Serialize)]
+    struct Settings<'a> {
+        topics: &'a Topics,
+    }
+    let text = toml::to_string(&Settings { topics: &guess.topics }).map_err(|error| {
+        DataError::content(Path::new("topics"), "names", "what TOML can hold", error.to_string())
+    })?;
     let unused: String = guess.unused.iter().map(|sentence| format!("# {sentence}\n")).collect();
     let head = "# Which topic is which sensor: a first guess. Say what the sensors are: `model` gives their uncertainties\n\
                 # and fields of view, and the tables `sensors` replace them one by one.\n";
     Ok(format!("{head}{unused}\n{text}"))
-}
-
-fn toml_error(error: toml::ser::Error) -> DataError {
-    DataError::content(Path::new("topics"), "names", "what TOML can hold", error.to_string())
 }
 
 #[cfg(test)]

@@ -27,6 +27,8 @@ use std::path::Path;
 
 /// As `--format` takes it.
 pub(crate) const NAME: &str = "ros";
+/// How the topics end that `ralf export` adds: clouds with labels, which are no sensor's.
+pub(crate) const LABELLED: &str = "/points_labelled";
 
 /// Opens a file or folder whose topics these are; a first guess is made where there are none.
 pub(crate) fn open(path: &Path, topics: &Topics) -> Result<Recording, DataError> {

@@ -61,6 +61,8 @@ fn part<'a>(
     let Some(track) = survey.motion.get(name) else { return Ok(None) };
     let span = track.samples.first().zip(track.samples.last()).map_or([0; 2], |(a, b)| [a.t_ns, b.t_ns]);
     let frame = sensor_frame(topic, &track.frame);
+    // Odometry whose messages name no frame is the vehicle's, whose frame the settings name then.
+    let frame = if frame.is_empty() { vehicle } else { frame };
     let vehicle_from_child = mounting(messages, survey, vehicle, frame, span)?;
     Ok(Some(Part { track, vehicle_from_child, topic }))
 }

@@ -9,7 +9,7 @@ use super::pixels;
 use super::survey::{Survey, Track, info_topic, survey};
 use crate::models::{LIDARS, RADARS};
 use crate::recording::measurement;
-use crate::{DataError, SequenceReader};
+use crate::{DataError, RosSource, SequenceReader};
 use ralf::camera::{Camera, CameraImage, DepthImage, DepthOutput};
 use ralf::config::{TopicConfig, TopicKind, Topics};
 use ralf::geometry::Transform;
@@ -27,6 +27,7 @@ pub(super) struct Drive {
     sequence: Sequence,
     messages: Messages,
     radars: MessagesPerSensor,
+    radar_frames: Vec<String>,
     lidars: MessagesPerSensor,
     cameras: MessagesPerSensor,
     warnings: Vec<String>,
@@ -48,7 +49,8 @@ impl Drive {
         let (rig, times, depth_output) = (Rig::default(), Timelines::default(), DepthOutput::default());
         let sequence = Sequence { name, title, rig, times, motion, depth_output };
         let [radars, lidars, cameras] = [const { Vec::new() }; 3];
-        let mut drive = Self { sequence, messages, radars, lidars, cameras, warnings };
+        let radar_frames = Vec::new();
+        let mut drive = Self { sequence, messages, radars, radar_frames, lidars, cameras, warnings };
         for (name, topic) in topics {
             if let Some(track) = survey.sensors.get(name) {
                 drive.add(name, topic, track, &survey, &vehicle)?;
@@ -77,6 +79,7 @@ impl Drive {
                 self.add_radar(name, topic, &first.1, vehicle_from_sensor)?;
                 self.sequence.times.radars.push(times);
                 self.radars.push(messages);
+                self.radar_frames.push(frame.to_owned());
             }
             TopicKind::Lidar => {
                 let model = self.model(name, topic, &LIDARS)?;
@@ -211,5 +214,9 @@ impl SequenceReader for Drive {
 
     fn image_file(&self, _camera: usize, _image: usize) -> Option<PathBuf> {
         None
+    }
+
+    fn ros(&self) -> Option<RosSource<'_>> {
+        Some(RosSource { container: self.messages.container(), radar_frames: &self.radar_frames })
     }
 }

@@ -182,21 +182,30 @@ impl Survey {
     fn sort(&mut self, messages: &Messages, topics: &Topics) -> Result<(), DataError> {
         for (name, track) in &mut self.sensors {
             track.measurements.sort_by_key(|(t_ns, _)| *t_ns);
-            if track.measurements.len() > 1 && track.measurements.iter().all(|(t_ns, _)| *t_ns == 0) {
-                return Err(DataError::content(
-                    messages.path(),
-                    format!("{}, header.stamp", topics[name].topic),
-                    format!("times (`topics.{name}.stamps = \"log\"` takes those of the recorder)"),
-                    "0 in every message",
-                ));
-            }
+            check_stamps(messages, name, topics, track.measurements.iter().map(|(t_ns, _)| *t_ns))?;
         }
-        for track in self.motion.values_mut() {
+        for (name, track) in &mut self.motion {
             track.samples.sort_by_key(|sample| sample.t_ns);
+            check_stamps(messages, name, topics, track.samples.iter().map(|sample| sample.t_ns))?;
             track.samples.dedup_by_key(|sample| sample.t_ns);
         }
         Ok(())
     }
+}
+
+/// Refuses a topic whose driver doesn't tell the time.
+fn check_stamps(
+    messages: &Messages,
+    name: &str,
+    topics: &Topics,
+    mut times: impl ExactSizeIterator<Item = i64>,
+) -> Result<(), DataError> {
+    if times.len() < 2 || times.any(|t_ns| t_ns != 0) {
+        return Ok(());
+    }
+    let place = format!("{}, header.stamp", topics[name].topic);
+    let expected = format!("times (`topics.{name}.stamps = \"log\"` takes those of the recorder)");
+    Err(DataError::content(messages.path(), place, expected, "0 in every message"))
 }
 
 fn time(topic: &TopicConfig, stamp_ns: i64, message: &MessageRef) -> i64 {

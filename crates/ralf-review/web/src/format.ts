@@ -18,7 +18,9 @@ export function secondsBetween(first: string, second: string): number {
 /** An ISO 8601 time in the reader's own zone and manner. */
 export function clock(at: string): string {
   const time = new Date(at);
-  return Number.isNaN(time.getTime()) ? at : time.toLocaleString(undefined, { dateStyle: "medium", timeStyle: "medium" });
+  return Number.isNaN(time.getTime())
+    ? at
+    : time.toLocaleString(undefined, { dateStyle: "medium", timeStyle: "medium" });
 }
 
 export function counted(count: number, one: string, many = `${one}s`): string {

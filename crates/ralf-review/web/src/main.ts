@@ -58,11 +58,14 @@ function build(page: Page): void {
   const cameras = new CamerasPanel(page);
   const centreCamera = new CameraView(page);
   centreCamera.element.classList.add("centre");
-  page.store.watch(({ mode, cameras: all, chosenCamera }) => [mode, all, chosenCamera], (mode, all) => {
-    centreCamera.element.hidden = mode !== "camera";
-    viewport.element.classList.toggle("behind", mode === "camera");
-    centreCamera.show(mode === "camera" ? (all.find(({ info }) => info.name === cameras.seen) ?? null) : null);
-  });
+  page.store.watch(
+    ({ mode, cameras: all, chosenCamera }) => [mode, all, chosenCamera],
+    (mode, all) => {
+      centreCamera.element.hidden = mode !== "camera";
+      viewport.element.classList.toggle("behind", mode === "camera");
+      centreCamera.show(mode === "camera" ? (all.find(({ info }) => info.name === cameras.seen) ?? null) : null);
+    },
+  );
   const surfaces = [viewport.surface, centreCamera.surface];
   const table = keyTable({
     ...page,
@@ -76,14 +79,30 @@ function build(page: Page): void {
   });
   listenToKeys(table, page.store);
   keepFocus(viewport.element);
-  const stage = h("div", { class: "stage" }, viewport.element, centreCamera.element, legendPanel(page), scanTitle(page), painting(page), notice(page), conflictDialog(page));
+  const stage = h(
+    "div",
+    { class: "stage" },
+    viewport.element,
+    centreCamera.element,
+    legendPanel(page),
+    scanTitle(page),
+    painting(page),
+    notice(page),
+    banner(page),
+    conflictDialog(page),
+  );
   document.body.append(
-    h("div", { class: "layout" },
+    h(
+      "div",
+      { class: "layout" },
       h("aside", { class: "left" }, new QueuePanel(page).element, filterPanel(page)),
-      h("main", { class: "centre-column" }, banner(page), toolbar(page), scanBar(page), stage, new Timeline(page).element),
+      h("main", { class: "centre-column" }, toolbar(page), scanBar(page), stage, new Timeline(page).element),
       h("aside", { class: "right" }, cameras.element, detailsPanel(page)),
-      statusBar(page)),
-    helpDialog(page, table), classesDialog(page));
+      statusBar(page),
+    ),
+    helpDialog(page, table),
+    classesDialog(page),
+  );
 }
 
 /** After a press on a button or a choice in a list, keys are for the picture again. */

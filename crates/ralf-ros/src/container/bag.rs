@@ -1,5 +1,6 @@
 //! ROS 1 bags. Connections and the index are read where they stand, so that a bag that was cut short needs no other way.
 
+use super::Schema;
 use super::bag_format::{MAGIC, ParsedFields, op, time_ns};
 use super::catalogue::{Catalogue, Channel, Place};
 use super::chunked::Format;
@@ -38,10 +39,11 @@ impl Format for Bag {
         let (index_position, connections) = (header.u64("index_pos")?, header.u32("conn_count")?);
         let chunks = header.u32("chunk_count")?;
         skip_data(file)?;
+        let mut described = 0;
         while !file.is_at_end() {
-            record(file, catalogue)?;
+            described += usize::from(record(file, catalogue)? == op::CHUNK_INFO);
         }
-        let found = [catalogue.channels.len(), catalogue.chunks.len()];
+        let found = [catalogue.channels.len(), described];
         if index_position == 0 {
             return Err(Stop::Damaged(file.error("a bag that was closed", "no index at its end")));
         }
@@ -85,23 +87,26 @@ impl Format for Bag {
     }
 }
 
-fn record(file: &mut RecordFile, catalogue: &mut Catalogue) -> Result<(), Stop> {
+/// Looks at the next record, and tells its kind.
+fn record(file: &mut RecordFile, catalogue: &mut Catalogue) -> Result<u8, Stop> {
     let header = record_header(file)?;
     let header = ParsedFields::parse(&header).map_err(|error| moved(error, file))?;
-    match header.op().map_err(|error| moved(error, file))? {
-        op::CHUNK => chunk(file, &header, catalogue),
-        op::INDEX => index(file, &header, catalogue),
+    let kind = header.op().map_err(|error| moved(error, file))?;
+    match kind {
+        op::CHUNK => chunk(file, &header, catalogue)?,
+        op::INDEX => index(file, &header, catalogue)?,
         op::CONNECTION => {
             let length = data_length(file)?;
             let data = file.bytes(length)?;
-            add_connection(&header, &data, catalogue).map_err(|error| Stop::Damaged(moved(error, file)))
+            add_connection(&header, &data, catalogue).map_err(|error| moved(error, file))?;
         }
-        op::CHUNK_INFO => skip_data(file),
+        op::CHUNK_INFO => skip_data(file)?,
         other => {
             let found = format!("a record of the kind {other}");
-            Err(Stop::Damaged(file.error("a chunk, its index or a connection", found)))
+            return Err(Stop::Damaged(file.error("a chunk, its index or a connection", found)));
         }
     }
+    Ok(kind)
 }
 
 fn chunk(file: &mut RecordFile, header: &ParsedFields<'_>, catalogue: &mut Catalogue) -> Result<(), Stop> {
@@ -151,6 +156,12 @@ fn add_connection(
         topic: header.text("topic")?.to_owned(),
         type_name: connection.text("type")?.to_owned(),
         encoding: "ros1".to_owned(),
+        schema: Schema {
+            encoding: "ros1msg".to_owned(),
+            text: connection.text("message_definition").unwrap_or_default().into(),
+            md5: connection.text("md5sum").unwrap_or_default().to_owned(),
+            latched: connection.text("latching").is_ok_and(|latching| latching == "1"),
+        },
     };
     catalogue.channels.insert(header.u32("conn")?, channel);
     Ok(())

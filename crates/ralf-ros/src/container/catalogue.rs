@@ -1,7 +1,8 @@
 //! What a file holds, as far as it was read: channels, messages, chunks.
 
+use super::Schema;
 use super::chunks::ChunkPlace;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Where a message lies.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -30,11 +31,15 @@ pub(super) struct Channel {
     pub(super) type_name: String,
     /// `ros1`, `cdr`, or what this program can't read.
     pub(super) encoding: String,
+    /// What its type is made of.
+    pub(super) schema: Schema,
 }
 
 #[derive(Debug, Default)]
 pub(super) struct Catalogue {
     pub(super) channels: BTreeMap<u32, Channel>,
+    /// Names of types, by the numbers that channels of MCAP have for them.
+    pub(super) schemas: BTreeMap<u16, (String, Schema)>,
     /// In these the topic is still the number of the channel.
     pub(super) messages: Vec<MessageRef>,
     /// The same of those that lie in no chunk.
@@ -103,8 +108,8 @@ impl Catalogue {
         spans.filter(|(_, (before, after))| *before == after).map(|(chunk, _)| chunk).collect()
     }
 
-    /// Whether every message is of a channel that is known.
-    pub(super) fn knows_all_channels(&self) -> bool {
-        self.messages.iter().chain(&self.outside).all(|message| self.channels.contains_key(&message.topic))
+    /// The channels of all messages.
+    pub(super) fn channels_in_use(&self) -> BTreeSet<u32> {
+        self.messages.iter().chain(&self.outside).map(|message| message.topic).collect()
     }
 }

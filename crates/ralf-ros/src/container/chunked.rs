@@ -64,8 +64,9 @@ impl ChunkedFile {
         for chunk in catalogue.without_index() {
             file.scan(chunk, true, &mut catalogue, losses)?;
         }
+        let in_use = catalogue.channels_in_use();
         for chunk in 0..file.chunks.len() {
-            if catalogue.knows_all_channels() {
+            if in_use.iter().all(|channel| catalogue.channels.contains_key(channel)) {
                 break;
             }
             file.scan(chunk, false, &mut catalogue, losses)?;

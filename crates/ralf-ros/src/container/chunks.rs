@@ -114,6 +114,8 @@ impl Chunks {
 
     fn keep(&self, chunk: usize, bytes: Arc<[u8]>) -> Arc<[u8]> {
         let mut cache = self.cache.lock().unwrap_or_else(PoisonError::into_inner);
+        // Another thread may have been as fast.
+        cache.retain(|(known, _)| *known != chunk);
         cache.push_back((chunk, Arc::clone(&bytes)));
         let mut held: usize = cache.iter().map(|(_, bytes)| bytes.len()).sum();
         while held > CACHE_BYTES && cache.len() > 1 {

@@ -1,5 +1,6 @@
 //! ROS 2's SQLite recordings: the tables `topics` and `messages`.
 
+use super::Schema;
 use super::catalogue::{Catalogue, Channel, MessageRef};
 use super::decompress::{CHUNK_BYTES, Compression};
 use super::error::ContainerError;
@@ -27,7 +28,8 @@ impl Db3File {
         let mut catalogue = Catalogue::default();
         let topics = "SELECT id, name, type, serialization_format FROM topics";
         for_each_row(&connection, topics, |row| {
-            let channel = Channel { topic: row.get(1)?, type_name: row.get(2)?, encoding: row.get(3)? };
+            let (topic, type_name, encoding) = (row.get(1)?, row.get(2)?, row.get(3)?);
+            let channel = Channel { topic, type_name, encoding, schema: Schema::default() };
             catalogue.channels.insert(row.get(0)?, channel);
             Ok(())
         })

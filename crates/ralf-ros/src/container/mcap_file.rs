@@ -1,6 +1,7 @@
 //! MCAP: <https://mcap.dev/spec>. Channels and the index are read where they stand, so that a file that was cut short needs
 //! no other way.
 
+use super::Schema;
 use super::catalogue::{Catalogue, Channel, Place};
 use super::chunked::Format;
 use super::chunks::ChunkPlace;
@@ -10,10 +11,12 @@ use super::records::RecordFile;
 use crate::encoding::{Decoder, Encoding, EncodingError};
 use mcap::MAGIC;
 use mcap::records::{Record, op};
-use std::collections::BTreeMap;
 
 /// The kind of a record and its length.
 const PREFIX_BYTES: usize = 9;
+
+/// What the quality of service says of topics that are also for those who come later: as ROS 2 writes it, and wrote it.
+const LATCHED: [&str; 2] = ["durability: transient_local\n", "durability: 1\n"];
 
 #[derive(Debug, Default)]
 pub(super) struct Mcap;
@@ -29,7 +32,6 @@ impl Format for Mcap {
 
     fn walk(&self, file: &mut RecordFile, catalogue: &mut Catalogue) -> Result<(), Stop> {
         file.skip(MAGIC.len() as u64)?;
-        let mut schemas = BTreeMap::new();
         loop {
             let start = file.position();
             let [op] = file.array()?;
@@ -38,8 +40,7 @@ impl Format for Mcap {
                 op::CHUNK => chunk(file, length, catalogue)?,
                 op::SCHEMA | op::CHANNEL | op::MESSAGE_INDEX => {
                     let body = file.bytes(length)?;
-                    record(op, &body, &mut schemas, catalogue)
-                        .map_err(|error| file.error(error.expected, error.found))?;
+                    record(op, &body, catalogue).map_err(|error| file.error(error.expected, error.found))?;
                 }
                 op::MESSAGE => {
                     let head = file.bytes(length.min(MESSAGE_HEAD_BYTES))?;
@@ -69,16 +70,17 @@ impl Format for Mcap {
         messages: bool,
         catalogue: &mut Catalogue,
     ) -> Result<(), EncodingError> {
-        let mut schemas = BTreeMap::new();
         let mut decoder = Decoder::new(Encoding::Ros1, chunk)?;
         while !decoder.is_at_end() {
             let offset = decoder.position();
             let (op, body) = next_record(&mut decoder)?;
-            if op != op::MESSAGE {
-                record(op, body, &mut schemas, catalogue)?;
-            } else if messages {
-                let (channel, log_ns) = message_head(body)?;
-                catalogue.add_message(channel, log_ns, Place::Chunk(number, offset as u32));
+            match op {
+                op::SCHEMA | op::CHANNEL => record(op, body, catalogue)?,
+                op::MESSAGE if messages => {
+                    let (channel, log_ns) = message_head(body)?;
+                    catalogue.add_message(channel, log_ns, Place::Chunk(number, offset as u32));
+                }
+                _ => {}
             }
         }
         Ok(())
@@ -118,32 +120,28 @@ fn time_ns(time: u64) -> Result<i64, EncodingError> {
         .map_err(|_| EncodingError::new(0, "a time before the year 2262", format!("{time} ns")))
 }
 
-/// What a record says of schemas, channels and messages.
-fn record(
-    op: u8,
-    body: &[u8],
-    schemas: &mut BTreeMap<u16, String>,
-    catalogue: &mut Catalogue,
-) -> Result<(), EncodingError> {
-    if ![op::SCHEMA, op::CHANNEL, op::MESSAGE_INDEX].contains(&op) {
-        return Ok(());
-    }
+/// What a schema, a channel or an index says.
+fn record(op: u8, body: &[u8], catalogue: &mut Catalogue) -> Result<(), EncodingError> {
     let record = mcap::parse_record(op, body)
         .map_err(|error| EncodingError::new(0, "a record of MCAP", error.to_string()))?;
     match record {
-        Record::Schema { header, .. } => {
-            schemas.insert(header.id, header.name);
+        Record::Schema { header, data } => {
+            let schema = Schema { encoding: header.encoding, text: data.into_owned(), ..Schema::default() };
+            catalogue.schemas.insert(header.id, (header.name, schema));
         }
         Record::Channel(channel) => {
-            let type_name = schemas.get(&channel.schema_id).cloned().unwrap_or_default();
-            let (topic, encoding) = (channel.topic, channel.message_encoding);
-            let known = catalogue.channels.entry(u32::from(channel.id)).or_insert_with(|| Channel {
-                topic,
-                type_name: String::new(),
-                encoding,
-            });
-            if known.type_name.is_empty() {
-                known.type_name = type_name;
+            // 0 is no schema. Of any other one that isn't known yet an earlier chunk tells, and this channel is met again.
+            let schema = catalogue.schemas.get(&channel.schema_id).cloned();
+            if let Some((type_name, mut schema)) =
+                schema.or_else(|| (channel.schema_id == 0).then(Default::default))
+            {
+                let quality_of_service = channel.metadata.get("offered_qos_profiles");
+                schema.latched = quality_of_service
+                    .is_some_and(|text| LATCHED.iter().any(|latched| text.contains(latched)));
+                let (topic, encoding) = (channel.topic, channel.message_encoding);
+                catalogue
+                    .channels
+                    .insert(u32::from(channel.id), Channel { topic, type_name, encoding, schema });
             }
         }
         Record::MessageIndex(index) => {

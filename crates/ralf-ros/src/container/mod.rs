@@ -40,8 +40,23 @@ pub struct Topic {
     pub type_name: String,
     /// `ros1`, `cdr`, or what this program can't read.
     pub encoding: String,
+    /// What its type is made of.
+    pub schema: Schema,
     /// How many messages it has.
     pub count: usize,
+}
+
+/// What a message type is made of, as a recording has it written down.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Schema {
+    /// `ros1msg`, `ros2msg` or another language.
+    pub encoding: String,
+    /// In that language; empty where the recording doesn't tell.
+    pub text: Vec<u8>,
+    /// The checksum by which ROS 1 tells versions of a type apart; empty elsewhere.
+    pub md5: String,
+    /// Whether messages are also for those who come later.
+    pub latched: bool,
 }
 
 impl Topic {
@@ -179,8 +194,8 @@ impl Container {
                 == (&channel.topic, &channel.type_name, &channel.encoding)
         };
         let known = self.topics.iter().position(same).unwrap_or_else(|| {
-            let Channel { topic, type_name, encoding } = channel.clone();
-            self.topics.push(Topic { name: topic, type_name, encoding, count: 0 });
+            let Channel { topic, type_name, encoding, schema } = channel.clone();
+            self.topics.push(Topic { name: topic, type_name, encoding, schema, count: 0 });
             self.topics.len() - 1
         });
         known as u32

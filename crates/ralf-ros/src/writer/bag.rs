@@ -1,9 +1,7 @@
 //! ROS 1 bags, version 2.0: <http://wiki.ros.org/Bags/Format/2.0>.
 
-use super::{Delivery, WriteError};
+use super::{Delivery, Described, WriteError};
 use crate::container::bag_format::{Fields, MAGIC, op};
-use crate::encoding::Encoding;
-use crate::message::Definition;
 use std::collections::BTreeMap;
 use std::io::{Seek, SeekFrom, Write};
 
@@ -48,14 +46,14 @@ impl<W: Write + Seek> BagWriter<W> {
         Ok(bag)
     }
 
-    pub(super) fn add_topic(&mut self, name: &str, definition: &Definition, delivery: Delivery) -> u32 {
+    pub(super) fn add_topic(&mut self, name: &str, described: &Described, delivery: Delivery) -> u32 {
         let id = self.connections.len() as u32;
         let header = Fields::default().with("op", &[op::CONNECTION]).with("conn", &id.to_le_bytes());
         let mut data = Fields::default()
             .with("topic", name.as_bytes())
-            .with("type", definition.type_name(Encoding::Ros1).as_bytes())
-            .with("md5sum", definition.md5.as_bytes())
-            .with("message_definition", definition.text(Encoding::Ros1).as_bytes());
+            .with("type", described.type_name.as_bytes())
+            .with("md5sum", described.schema.md5.as_bytes())
+            .with("message_definition", &described.schema.text);
         if delivery == Delivery::Latched {
             data = data.with("latching", b"1");
         }

@@ -1,8 +1,6 @@
 //! MCAP as ROS 2 records it: messages in CDR, definitions as `ros2msg`, quality of service in the metadata.
 
-use super::{Compression, Delivery, WriteError};
-use crate::encoding::Encoding;
-use crate::message::Definition;
+use super::{Compression, Delivery, Described, WriteError};
 use mcap::records::MessageHeader;
 use mcap::{WriteOptions, Writer};
 use std::collections::BTreeMap;
@@ -27,13 +25,13 @@ impl<W: Write + Seek> McapWriter<W> {
     pub(super) fn add_topic(
         &mut self,
         name: &str,
-        definition: &Definition,
+        described: &Described,
         delivery: Delivery,
     ) -> Result<u32, WriteError> {
-        let (type_name, text) = (definition.type_name(Encoding::Cdr), definition.text(Encoding::Cdr));
-        let schema = self.writer.add_schema(&type_name, "ros2msg", text.as_bytes())?;
+        let Described { type_name, encoding, schema } = described;
+        let schema = self.writer.add_schema(type_name, &schema.encoding, &schema.text)?;
         let metadata = BTreeMap::from([("offered_qos_profiles".to_owned(), quality_of_service(delivery))]);
-        Ok(u32::from(self.writer.add_channel(schema, name, "cdr", &metadata)?))
+        Ok(u32::from(self.writer.add_channel(schema, name, encoding, &metadata)?))
     }
 
     pub(super) fn write(&mut self, topic: u32, log_ns: i64, message: &[u8]) -> Result<(), WriteError> {

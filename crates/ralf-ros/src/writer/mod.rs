@@ -3,8 +3,9 @@
 mod bag;
 mod mcap_file;
 
+use crate::container::{self, Schema};
 use crate::encoding::{Encoding, EncodingError};
-use crate::message::Message;
+use crate::message::{DEFINITIONS, Definition, Message};
 use bag::BagWriter;
 use mcap_file::McapWriter;
 use std::io::{Seek, Write};
@@ -64,6 +65,48 @@ pub struct Topic<M> {
     of: PhantomData<fn(M)>,
 }
 
+/// A topic whose messages are copied from another recording.
+#[derive(Debug)]
+pub struct RawTopic {
+    id: u32,
+}
+
+/// What a file writes down of the messages of a topic.
+struct Described {
+    type_name: String,
+    /// Of the messages.
+    encoding: String,
+    schema: Schema,
+}
+
+impl Described {
+    fn known(definition: &Definition, encoding: Encoding) -> Self {
+        let (name, language) = match encoding {
+            Encoding::Ros1 => ("ros1", "ros1msg"),
+            Encoding::Cdr => ("cdr", "ros2msg"),
+        };
+        let text = definition.text(encoding).into_bytes();
+        let (md5, latched) = (definition.md5.to_owned(), false);
+        let schema = Schema { encoding: language.to_owned(), text, md5, latched };
+        Self { type_name: definition.type_name(encoding), encoding: name.to_owned(), schema }
+    }
+}
+
+impl From<&container::Topic> for Described {
+    /// Where the recording doesn't tell what a type is made of, but this program knows, it does.
+    fn from(topic: &container::Topic) -> Self {
+        let known = DEFINITIONS.into_iter().find(|definition| definition.is(&topic.type_name));
+        let known = known.zip(topic.known_encoding()).map(|(known, encoding)| Self::known(known, encoding));
+        let (type_name, encoding) = (topic.type_name.clone(), topic.encoding.clone());
+        let schema = match (known, topic.schema.clone()) {
+            (Some(known), schema) if schema.text.is_empty() => known.schema,
+            (Some(known), schema) if schema.md5.is_empty() => Schema { md5: known.schema.md5, ..schema },
+            (_, schema) => schema,
+        };
+        Self { type_name, encoding, schema }
+    }
+}
+
 /// A recording in the making. Without [`Self::finish`] it is one that was cut short.
 pub struct MessageWriter<W: Write + Seek> {
     container: Container<W>,
@@ -88,10 +131,42 @@ impl<W: Write + Seek> MessageWriter<W> {
     /// Adds a topic. A name is added once.
     pub fn topic<M: Message>(&mut self, name: &str, delivery: Delivery) -> Result<Topic<M>, WriteError> {
         let id = match &mut self.container {
-            Container::Bag(bag) => bag.add_topic(name, M::DEFINITION, delivery),
-            Container::Mcap(mcap) => mcap.add_topic(name, M::DEFINITION, delivery)?,
+            Container::Bag(bag) => {
+                bag.add_topic(name, &Described::known(M::DEFINITION, Encoding::Ros1), delivery)
+            }
+            Container::Mcap(mcap) => {
+                mcap.add_topic(name, &Described::known(M::DEFINITION, Encoding::Cdr), delivery)?
+            }
         };
         Ok(Topic { id, name: name.to_owned(), of: PhantomData })
+    }
+
+    /// Whether the messages of another recording's topic can be written as they are: a bag holds the encoding of ROS 1 alone,
+    /// with a checksum, and a file of the profile `ros2` everything else.
+    pub fn can_copy(&self, topic: &container::Topic) -> bool {
+        let is_ros1 = topic.known_encoding() == Some(Encoding::Ros1);
+        match &self.container {
+            Container::Bag(_) => is_ros1 && !Described::from(topic).schema.md5.is_empty(),
+            Container::Mcap(_) => !is_ros1,
+        }
+    }
+
+    /// Adds a topic of another recording, one that [can be copied](Self::can_copy).
+    pub fn raw_topic(&mut self, topic: &container::Topic) -> Result<RawTopic, WriteError> {
+        let delivery = if topic.schema.latched { Delivery::Latched } else { Delivery::Live };
+        let id = match &mut self.container {
+            Container::Bag(bag) => bag.add_topic(&topic.name, &topic.into(), delivery),
+            Container::Mcap(mcap) => mcap.add_topic(&topic.name, &topic.into(), delivery)?,
+        };
+        Ok(RawTopic { id })
+    }
+
+    /// Adds a message of another recording, as it is.
+    pub fn write_raw(&mut self, topic: &RawTopic, log_ns: i64, message: &[u8]) -> Result<(), WriteError> {
+        match &mut self.container {
+            Container::Bag(bag) => bag.write(topic.id, log_ns, message),
+            Container::Mcap(mcap) => mcap.write(topic.id, log_ns, message),
+        }
     }
 
     /// Adds a message, recorded at this time (ns since 1970). Messages should come in the order of these times.

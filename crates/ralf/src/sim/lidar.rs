@@ -57,6 +57,7 @@ fn penetrates(kind: Kind, crossing: &Crossing, random: &mut Random) -> Option<f6
     let depth = match kind {
         Kind::Tree => random.exponential(0.4),
         Kind::Hedge => random.exponential(0.12),
+        Kind::Grass => random.exponential(0.5),
         Kind::Fence if random.chance(0.55) => return None,
         _ => 0.0,
     };

@@ -41,7 +41,9 @@ pub(super) fn scatterers(kind: Kind, size: Vector, random: &mut Random) -> Vec<S
             outside.into_iter().chain(inside).filter(|scatterer| !scatterer.behind_facade).collect()
         }
         Kind::Pole => {
-            (0..5).map(|i| Scatterer::new([0.0, 0.0, 0.3 + 0.7 * f64::from(i)], 5.0, 3.0)).collect()
+            let count = (height / 0.7).clamp(2.0, 5.0) as usize;
+            let step = (height / count as f64).min(0.7);
+            (0..count).map(|i| Scatterer::new([0.0, 0.0, step * (0.4 + i as f64)], 5.0, 3.0)).collect()
         }
         Kind::Pedestrian => scattered(4, [l, w], [0.3, 0.9 * height], (0.0, 5.0), random),
         Kind::Tree => {
@@ -55,9 +57,11 @@ pub(super) fn scatterers(kind: Kind, size: Vector, random: &mut Random) -> Vec<S
             );
             [trunk, crown].concat()
         }
-        Kind::Hedge => scattered(per(3.0, length), [l, w], [0.2, height], (-3.0, 6.0), random),
-        Kind::Fence => scattered(per(2.5, length), [l, w], [0.15, height], (1.0, 4.0), random),
-        Kind::Grass => scattered(per(0.5, length * width), [l, w], [0.03, 0.22], (-9.0, 6.0), random),
+        Kind::Hedge => scattered(per(7.0, length), [l, w], [0.2, height], (-3.0, 6.0), random),
+        Kind::Fence => scattered(per(6.0, length), [l, w], [0.15, height], (-1.0, 4.0), random),
+        Kind::Grass => {
+            scattered(per(0.5, length * width), [l, w], [0.03, height.max(0.22)], (-9.0, 6.0), random)
+        }
         Kind::Sidewalk => kerb(per(0.6, length), l, w, height, random),
         Kind::Road | Kind::Marking => Vec::new(),
     }
@@ -81,21 +85,29 @@ fn scattered(
 /// Corners and wheels shine, the rest less; waves also find what lies inside.
 fn car(l: f64, w: f64, height: f64, random: &mut Random) -> Vec<Scatterer> {
     let mut found = Vec::new();
-    let mut outside = |x: f64, y: f64, z: f64, strength: f64| {
+    let mut outside = |x: f64, y: f64, z: f64, strength: f64, random: &mut Random| {
         let normal = Vector::new(x / l, y / w, 0.0).try_normalize(1e-6);
         let position = [x, y, z + random.normal(0.08)];
         found.push(Scatterer { normal, ..Scatterer::new(position, strength + random.normal(3.0), 3.0) });
     };
     for (sx, sy) in [(1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)] {
-        outside(sx * l, sy * 0.9 * w, 0.5, 9.0);
-        outside(sx * 0.62 * l, sy * w, 0.3, 6.0);
-        outside(sx * 0.25 * l, sy * w, 0.7, 3.0);
+        outside(sx * l, sy * 0.9 * w, 0.5, 9.0, random);
+        outside(sx * 0.62 * l, sy * w, 0.3, 6.0, random);
+        outside(sx * 0.25 * l, sy * w, 0.7, 3.0, random);
     }
-    outside(l, 0.0, 0.45, 7.0);
-    outside(-l, 0.0, 0.55, 8.0);
-    outside(0.3 * l, w, 0.95, 2.0);
-    outside(0.3 * l, -w, 0.95, 2.0);
-    found.extend(scattered(6, [0.8 * l, 0.7 * w], [0.35, 0.8 * height], (2.0, 4.0), random));
+    outside(l, 0.0, 0.45, 7.0, random);
+    outside(-l, 0.0, 0.55, 8.0, random);
+    outside(0.3 * l, w, 0.95, 2.0, random);
+    outside(0.3 * l, -w, 0.95, 2.0, random);
+    // Near by, doors, sills, mirrors and handles are seen each by itself.
+    for _ in 0..14 {
+        for side in [1.0, -1.0] {
+            outside(random.between(-0.9, 0.9) * l, side * w, random.between(0.25, 0.85), -3.0, random);
+        }
+        let end = if random.chance(0.5) { 1.0 } else { -1.0 };
+        outside(end * l, random.between(-0.85, 0.85) * w, random.between(0.3, 0.75), -2.0, random);
+    }
+    found.extend(scattered(6, [0.8 * l, 0.7 * w], [0.35, 0.8 * height], (-3.0, 4.0), random));
     found
 }
 

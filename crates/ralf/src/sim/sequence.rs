@@ -242,7 +242,8 @@ mod tests {
             let origin = Point::from(site_from_lidar.translation.vector);
             let ray = Ray { origin, direction: site_from_lidar.rotation * own.normalize() };
             let hit = scene.cast(&ray, 130.0);
-            if hit.is_none_or(|hit| matches!(hit.kind(), Kind::Tree | Kind::Hedge | Kind::Fence)) {
+            let lets_rays_in = |kind| matches!(kind, Kind::Tree | Kind::Hedge | Kind::Fence | Kind::Grass);
+            if hit.is_none_or(|hit| lets_rays_in(hit.kind())) {
                 continue;
             }
             solid += 1;

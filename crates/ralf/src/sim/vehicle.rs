@@ -7,7 +7,8 @@ use nalgebra::{Quaternion, Translation3, UnitQuaternion};
 
 /// Width and height of images and straight views, px.
 const IMAGE: (usize, usize) = (400, 260);
-const VIEW: (usize, usize) = (320, 200);
+const VIEW: (usize, usize) = (480, 300);
+const HALF_VIEW: (usize, usize) = (320, 320);
 
 /// The whole rig.
 pub(super) fn rig() -> Rig {
@@ -53,21 +54,33 @@ fn lidar() -> Lidar {
         name: "lidar_top".into(),
         vehicle_from_lidar: turned([1.2, 0.0, 1.9], 0.0, 0.0),
         sigma_range: 0.03,
-        lowest_beam: 25.0_f64.to_radians(),
+        lowest_beam: 16.0_f64.to_radians(),
         max_range: Some(120.0),
     }
 }
 
 fn camera(side: &str, yaw_deg: f64) -> Camera {
-    let (place, pitch_deg) = match side {
-        "front" => ([3.6, 0.0, 0.75], 12.0),
-        "left" => ([1.9, 1.0, 1.0], 18.0),
-        "right" => ([1.9, -1.0, 1.0], 18.0),
-        _ => ([-0.9, 0.0, 0.95], 12.0),
+    // Those in the mirrors look along the flanks, too: two straight views instead of one.
+    let (place, pitch_deg, yaws_deg): (_, f64, &[f64]) = match side {
+        "front" => ([3.6, 0.0, 0.75], 12.0, &[0.0]),
+        "left" => ([1.9, 1.0, 1.1], 18.0, &[40.0, -40.0]),
+        "right" => ([1.9, -1.0, 1.1], 18.0, &[40.0, -40.0]),
+        _ => ([-0.9, 0.0, 1.0], 12.0, &[0.0]),
     };
+    let (size, fov_deg): ((usize, usize), f64) =
+        if yaws_deg.len() == 1 { (VIEW, 110.0) } else { (HALF_VIEW, 84.0) };
     let vehicle_from_level_optical = UnitQuaternion::from_quaternion(Quaternion::new(0.5, -0.5, 0.5, -0.5));
     let pose = turned(place, yaw_deg, pitch_deg);
     let (width, height) = IMAGE;
+    // Turned up again, so that the horizon lies in the middle.
+    let pitch = -pitch_deg.to_radians() * 0.7;
+    let view = |yaw: &f64| View {
+        yaw: yaw.to_radians(),
+        pitch,
+        horizontal_fov: fov_deg.to_radians(),
+        width: size.0,
+        height: size.1,
+    };
     Camera {
         name: format!("camera_{side}"),
         vehicle_from_camera: Transform::from_parts(
@@ -81,21 +94,15 @@ fn camera(side: &str, yaw_deg: f64) -> Camera {
             center: [(width as f64 - 1.0) / 2.0 + 1.5, (height as f64 - 1.0) / 2.0 - 0.75],
             distortion: [0.03, -0.008, 0.0, 0.0],
         },
-        // Turned up again, so that the horizon lies in the middle.
-        views: vec![View {
-            yaw: 0.0,
-            pitch: -pitch_deg.to_radians() * 0.7,
-            horizontal_fov: 110.0_f64.to_radians(),
-            width: VIEW.0,
-            height: VIEW.1,
-        }],
+        views: yaws_deg.iter().map(view).collect(),
     }
 }
 
-/// Elevations of the LiDAR's channels, rad, from the lowest up: 40, denser about the horizon.
+/// Elevations of the LiDAR's channels, rad, from the lowest up: 40, a third of a degree apart about the horizon and a degree
+/// beyond.
 pub(super) fn lidar_channels() -> Vec<f64> {
-    let lowest = (0..12).map(|i| -25.0 + 1.5 * f64::from(i));
-    let middle = (0..24).map(|i| -7.0 + 0.5 * f64::from(i));
-    let top = (0..4).map(|i| 5.5 + 2.5 * f64::from(i));
+    let lowest = (0..10).map(|i| -16.0 + f64::from(i));
+    let middle = (0..25).map(|i| -6.0 + f64::from(i) / 3.0);
+    let top = (0..5).map(|i| 3.0 + f64::from(i));
     lowest.chain(middle).chain(top).map(f64::to_radians).collect()
 }

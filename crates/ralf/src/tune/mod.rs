@@ -5,8 +5,10 @@
 //! touches a point cloud: it weighs the evidence anew, with the very function that the labeler uses.
 //!
 //! `w0` is not searched but solved for: given all `w`, only the values between two neighbouring ones differ in their labels,
-//! so that one pass over the sorted `w` finds the best threshold there is.
+//! so that one pass over them finds the best threshold there is.
 
+mod ablation;
+mod buckets;
 mod cross_validation;
 mod file;
 mod gather;
@@ -16,12 +18,13 @@ mod settings;
 mod table;
 mod threshold;
 
+pub use ablation::{Judged, Variant};
 pub use cross_validation::{Fold, leave_one_out};
 pub use file::settings_file;
 pub use gather::Gatherer;
 pub use objective::{Objective, ObjectiveError};
 pub use search::{Found, Search};
-pub use settings::{Settings, Space};
+pub use settings::{Branches, Settings, Space};
 pub use table::EvidenceTable;
 
 use thiserror::Error;

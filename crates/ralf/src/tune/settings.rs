@@ -7,7 +7,18 @@ use std::collections::BTreeSet;
 /// Values of `K` and of `n_b` worth a try.
 const COUNTS: [usize; 5] = [1, 2, 3, 5, 8];
 
-/// The tuned settings.
+/// Which branches have a say. A table of evidence may hold more than these.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Branches {
+    /// `w_lm`.
+    pub lidar: bool,
+    /// `w_cm`.
+    pub camera: bool,
+    /// `w_tr`.
+    pub tracking: bool,
+}
+
+/// The tuned settings, and the branches that they are meant for.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Settings {
     /// `alpha`, the three `beta` and `w0`.
@@ -16,11 +27,21 @@ pub struct Settings {
     pub neighbours: usize,
     /// `n_b`.
     pub scans: usize,
+    /// Not tuned.
+    pub branches: Branches,
 }
 
 impl Settings {
-    /// How many there are.
-    pub const COUNT: usize = 7;
+    /// Dotted names of those that are tuned.
+    pub const KEYS: [&'static str; 7] = [
+        "fusion.alpha",
+        "fusion.threshold",
+        "lidar.beta",
+        "lidar.neighbours",
+        "camera.beta",
+        "tracking.beta",
+        "tracking.scans",
+    ];
 
     /// Those of all settings.
     pub fn of(config: &Config) -> Self {
@@ -28,6 +49,11 @@ impl Settings {
             weights: Weights::of(config),
             neighbours: config.lidar.neighbours,
             scans: config.tracking.scans,
+            branches: Branches {
+                lidar: config.lidar.enabled,
+                camera: config.camera.enabled,
+                tracking: config.tracking.enabled,
+            },
         }
     }
 
@@ -40,21 +66,18 @@ impl Settings {
         config.fusion = self.weights.fusion;
         config.lidar.neighbours = self.neighbours;
         config.tracking.scans = self.scans;
+        config.lidar.enabled = self.branches.lidar;
+        config.camera.enabled = self.branches.camera;
+        config.tracking.enabled = self.branches.tracking;
         config
     }
 
-    /// Dotted names and values.
-    pub fn entries(&self) -> [(&'static str, f64); Self::COUNT] {
+    /// Dotted names and values of those that are tuned.
+    pub fn entries(&self) -> [(&'static str, f64); Self::KEYS.len()] {
         let Weights { beta_lm, beta_cm, beta_tr, fusion } = self.weights;
-        [
-            ("fusion.alpha", fusion.alpha),
-            ("fusion.threshold", fusion.threshold),
-            ("lidar.beta", beta_lm),
-            ("lidar.neighbours", self.neighbours as f64),
-            ("camera.beta", beta_cm),
-            ("tracking.beta", beta_tr),
-            ("tracking.scans", self.scans as f64),
-        ]
+        let (neighbours, scans) = (self.neighbours as f64, self.scans as f64);
+        let values = [fusion.alpha, fusion.threshold, beta_lm, neighbours, beta_cm, beta_tr, scans];
+        std::array::from_fn(|place| (Self::KEYS[place], values[place]))
     }
 }
 
@@ -106,6 +129,7 @@ mod tests {
                 "camera.beta=0.5",
                 "tracking.beta=0.6",
                 "tracking.scans=7",
+                "camera.enabled=false",
             ],
         )
         .unwrap();

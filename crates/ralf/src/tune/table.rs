@@ -1,6 +1,6 @@
 //! The evidence of many scans, in columns.
 
-use super::{Settings, Space, TuneError};
+use super::{Branches, Settings, Space, TuneError};
 use crate::evidence::Evidence;
 use crate::metrics::Confusion;
 use std::ops::Range;
@@ -97,7 +97,7 @@ impl EvidenceTable {
 
     /// Each scan's confusion matrix with these settings.
     pub fn confusions(&self, settings: &Settings) -> Result<Vec<Confusion>, TuneError> {
-        let view = self.view(settings.neighbours, settings.scans)?;
+        let view = self.view(settings)?;
         let count = |rows: Range<usize>| {
             let mut counts = Confusion::default();
             for row in rows {
@@ -109,35 +109,38 @@ impl EvidenceTable {
         Ok(begins.zip(&self.ends).map(|(begin, end)| count(*begin..*end)).collect())
     }
 
-    /// The evidence for one `K` and one `n_b`.
-    pub(super) fn view(&self, neighbours: usize, scans: usize) -> Result<View<'_>, TuneError> {
+    /// The evidence that some settings look at: one `K`, one `n_b`, and the branches that have a say.
+    pub(super) fn view(&self, settings: &Settings) -> Result<View<'_>, TuneError> {
+        let Settings { neighbours, scans, branches, .. } = *settings;
         let place = |values: &[usize], key, value| {
             let found = values.iter().position(|known| *known == value);
             found.ok_or(TuneError::NotGathered { key, value })
         };
         let lm = place(&self.space.neighbours, "lidar.neighbours", neighbours)?;
         let tr = place(&self.space.scans, "tracking.scans", scans)?;
-        Ok(View { table: self, d_lm: &self.d_lm[lm], d_tr: &self.d_tr[tr] })
+        Ok(View { table: self, d_lm: &self.d_lm[lm], d_tr: &self.d_tr[tr], branches })
     }
 }
 
-/// A table for one `K` and one `n_b`.
+/// A table for some settings.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct View<'a> {
     table: &'a EvidenceTable,
     d_lm: &'a [f64],
     d_tr: &'a [f64],
+    branches: Branches,
 }
 
 impl View<'_> {
     /// What is known of a detection.
     pub(super) fn evidence(&self, row: usize) -> Evidence {
-        let present = |d: f64| (!d.is_nan()).then_some(d);
+        let present = |has_a_say: bool, d: f64| (has_a_say && !d.is_nan()).then_some(d);
+        let Branches { lidar, camera, tracking } = self.branches;
         let marks = self.table.marks[row];
         Evidence {
-            d_lm: present(self.d_lm[row]),
-            d_cm: present(self.table.d_cm[row]),
-            d_tr: present(self.d_tr[row]),
+            d_lm: present(lidar, self.d_lm[row]),
+            d_cm: present(camera, self.table.d_cm[row]),
+            d_tr: present(tracking, self.d_tr[row]),
             on_floor: marks & ON_FLOOR != 0,
             in_blind_spot: marks & IN_BLIND_SPOT != 0,
             gamma_s: self.table.gamma_s[row],

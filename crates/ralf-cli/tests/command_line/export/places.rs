@@ -33,6 +33,21 @@ fn only_an_earlier_export_is_replaced_and_only_if_asked() {
 }
 
 #[test]
+fn a_file_is_replaced_like_a_folder() {
+    let dataset = small();
+    for (format, name) in [("mcap", "labels.mcap"), ("rosbag1", "labels.bag")] {
+        let path = export(&dataset, format, name, &[]);
+        let before = fs::read(&path).unwrap();
+        run(&dataset, format, &path, &[])
+            .exits(1)
+            .says([name, "an earlier export, which only --force replaces"]);
+        assert!(fs::read(&path).unwrap() == before);
+        run(&dataset, format, &path, &["--force", "--split", "artifact"]).exits(0);
+        assert!(fs::read(&path).unwrap() != before);
+    }
+}
+
+#[test]
 fn nothing_else_is_ever_replaced() {
     let dataset = small();
     let recording = tree(&dataset.path);
@@ -47,6 +62,11 @@ fn nothing_else_is_ever_replaced() {
         .says(["notes.mcap: path: expected a folder", "a file"]);
     run(&dataset, "mcap", &file, &["--force"]).exits(1).says(["notes.mcap"]);
     assert_eq!(fs::read(&file).unwrap(), b"mine");
+    let recording = dataset.beside("recording.mcap");
+    ralf(["convert", &dataset.path, "-o", &recording]).exits(0);
+    run(&dataset, "mcap", &recording, &["--force"])
+        .exits(1)
+        .says(["no file yet, or an earlier export", "without labelled"]);
     let below = format!("{file}/labels");
     run(&dataset, "npz", &below, &[]).exits(1).says(["notes.mcap"]);
     let empty = dataset.beside("empty");
@@ -141,4 +161,8 @@ fn what_can_not_be_asked_for_is_wrong_usage() {
     run(&dataset, "csv", &path, &[]).exits(2).says(["invalid value 'csv'", "semantickitti"]);
     run(&dataset, "npz", &path, &["--split", "half"]).exits(2).says(["plausible, artifact, all"]);
     run(&dataset, "npz", &path, &["--sensors=sonar"]).exits(2).says(["radar, lidar, camera"]);
+    run(&dataset, "npz", &path, &["--sensors=lidar"]).exits(2).says(["--to npz: no data of these sensors"]);
+    run(&dataset, "nuscenes", &path, &["--sensors"])
+        .exits(2)
+        .says(["--to nuscenes: no data of these sensors"]);
 }

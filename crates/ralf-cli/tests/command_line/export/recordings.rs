@@ -1,7 +1,7 @@
 //! MCAP files and bags.
 
 use super::{BRANCHES, Found, export, found, labelled, list, recorded};
-use crate::support::{Dataset, Shape, ralf, read_export};
+use crate::support::{Dataset, Row, Shape, ralf, read_export, rows};
 use serde_json::{Value, json};
 
 fn with_camera() -> Dataset {
@@ -103,9 +103,7 @@ fn with_the_sensors_data_it_is_the_whole_recording() {
             [0.0, 0.0, 0.0, 0.0, 0.0]
         ]);
         assert_eq!(read["calibrations"]["camera_front"], calibration);
-        assert!(
-            read["odometry"].as_array().unwrap().iter().all(|sample| sample[1] == 5.0 && sample[2] == 0.0)
-        );
+        assert!(read["twists"].as_array().unwrap().iter().all(|sample| sample[1] == 5.0 && sample[2] == 0.0));
     }
 }
 
@@ -116,8 +114,38 @@ fn a_recording_is_converted_without_labels() {
         let path = dataset.beside(name);
         ralf(["convert", &dataset.path, "-o", &path]).exits(0).prints_nothing().says([&path]);
         ralf(["convert", &dataset.path, "-o", &path]).exits(1).says([name, "none of this name yet"]);
+        assert!(std::fs::exists(dataset.beside("recording.toml")).unwrap());
+        std::fs::remove_file(dataset.beside("recording.toml")).unwrap();
         let Some(read) = read_export(format, &path) else { return };
         assert!(read["topics"].as_object().unwrap().keys().all(|topic| !topic.contains("labelled")));
         assert_eq!(of_topic(&read, "radar_left", "points").len(), of_radar(&dataset, "radar_left").len());
     }
+}
+
+/// The settings beside it make up for what ROS has no place for.
+#[test]
+fn a_converted_recording_is_labelled_the_same_and_copied_beside_its_labels() {
+    let dataset = labelled(&Shape { scans: 3, ..Shape::default() });
+    let [file, settings, out] = ["street.mcap", "street.toml", "street-out"].map(|name| dataset.beside(name));
+    ralf(["convert", &dataset.path, "-o", &file]).exits(0).says([&settings]);
+    ralf(["label", &file, "-o", &out, "--config", &settings]).exits(0);
+    let [found, expected] = [format!("{out}/sequences/street"), format!("{}/sequences/00", dataset.out)]
+        .map(|folder| rows(format!("{folder}/plausibility.parquet")));
+    assert_eq!(found.len(), expected.len());
+    for (found, expected) in found.iter().zip(&expected) {
+        let place =
+            |row: &Row| (row.radar().to_owned(), row.whole("scan"), row.whole("point"), row.whole("t_ns"));
+        assert_eq!(place(found), place(expected));
+        assert_eq!(found.whole("label"), expected.whole("label"));
+        assert!((found.decimal("w").unwrap() - expected.decimal("w").unwrap()).abs() < 1e-5);
+    }
+    let path = dataset.beside("labelled.mcap");
+    ralf(["export", &file, &out, "--to", "mcap", "--sensors", "-o", &path]).exits(0);
+    let [Some(before), Some(after)] = [&file, &path].map(|file| read_export("mcap", file)) else { return };
+    for (topic, kind) in before["topics"].as_object().unwrap() {
+        assert_eq!(after["topics"][topic], *kind, "{topic}");
+    }
+    let of = |read: &Value, topic| of_topic(read, "radar_left", topic).len();
+    assert_eq!(of(&after, "points_labelled"), of(&before, "points"));
+    assert_eq!(after["frames"]["/radar_left/points_labelled"], after["frames"]["/radar_left/points"]);
 }

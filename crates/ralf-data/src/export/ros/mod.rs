@@ -5,29 +5,37 @@
 //! | `/RADAR/points_labelled` | PointCloud2 | labels |
 //! | `/RADAR/points`, `/LIDAR/points` | PointCloud2 | with the sensors' data |
 //! | `/CAMERA/image_raw/compressed`, `/CAMERA/camera_info` | CompressedImage, CameraInfo | with the sensors' data |
-//! | `/odom`, `/tf` | Odometry, TFMessage | with the sensors' data |
+//! | `/odom` | Odometry: the poses | with the sensors' data |
+//! | `/twist` | TwistStamped: what the wheels measured | with the sensors' data |
+//! | `/tf` | TFMessage | with the sensors' data |
 //! | `/tf_static` | TFMessage | always |
 //!
-//! A sensor's frame has the sensor's name, the vehicle's is `base_link`, and it moves in `odom`. A message is recorded at the
+//! Of a sequence that is read from a recording of the same kind, all messages are copied byte for byte where all sensors' data
+//! are asked for, and the labelled clouds are in the frames of the original ones.
+//!
+//! Else a sensor's frame has the sensor's name, the vehicle's is `base_link`, and it moves in `odom`. A message is recorded at the
 //! time of its measurement, so that they lie in order.
 
 mod cloud;
 mod images;
 mod motion;
 mod names;
+mod originals;
 mod recorder;
+mod settings;
 
 use super::Writer;
 use super::labelled::LabelledSequence;
 use super::options::Sensors;
-use crate::files::{beside, remove};
+use crate::files::{self, beside, remove};
 use crate::{DataError, SequenceReader};
+use ralf_ros::container::{Container, recognises};
 use ralf_ros::writer::{Compression, MessageWriter, WriteError};
 use recorder::Recorder;
 use std::error::Error;
 use std::fs::{self, File};
 use std::io::BufWriter;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// The kind of a recording.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -78,8 +86,10 @@ impl Writer for Ros {
     }
 }
 
-/// Writes all that the sensors of a sequence measured as one file, whole or not at all. `progress` is told how many
-/// measurements are done. What is lost is told in `docs/export.md`.
+/// Writes all that the sensors of a sequence measured as one file, and beside it, with the ending `.toml`, the settings by
+/// which it is read back: which topic is which sensor, and the sensors' uncertainties. Each appears whole or not at all.
+/// `progress` is told how many measurements are done. Returns the file of the settings; `None` of a recording that was copied,
+/// for those of the original hold. What is lost is told in `docs/export.md`.
 ///
 /// # Errors
 /// A file that is there already, a measurement that can't be read, times before 1970, what the system refuses.
@@ -88,18 +98,25 @@ pub fn write_ros(
     file: &Path,
     format: RosFormat,
     progress: &dyn Fn(usize),
-) -> Result<(), DataError> {
-    if file.exists() {
-        return Err(DataError::content(file, "file", "none of this name yet", "one"));
+) -> Result<Option<PathBuf>, DataError> {
+    let settings_file = file.with_extension("toml");
+    if let Some(there) = [file, &settings_file].into_iter().find(|file| file.exists()) {
+        return Err(DataError::content(there, "file", "none of this name yet", "one"));
     }
+    let settings = settings::settings(&settings_file, reader)?;
     if let Some(folder) = file.parent() {
         fs::create_dir_all(folder).map_err(DataError::io(folder))?;
     }
     let part = beside(file);
     let written = format.create(&part).and_then(|writer| {
         let recorder = Recorder::new(writer, file, reader, Sensors::ALL, false)?;
+        let copies = recorder.copies();
         recorder.record(None, progress)?;
-        fs::rename(&part, file).map_err(DataError::io(file))
+        if !copies {
+            files::write_whole(&settings_file, settings.as_bytes())?;
+        }
+        fs::rename(&part, file).map_err(DataError::io(file))?;
+        Ok((!copies).then_some(settings_file))
     });
     if written.is_err() {
         // The half-written file is of no use to anyone; the error that matters is the first one.
@@ -123,7 +140,11 @@ fn written(file: &Path) -> impl Fn(WriteError) -> DataError {
     }
 }
 
-/// Whether a file has the topic of a labelled cloud, as every export has.
-pub(super) fn is_labelled(_file: &Path) -> Result<bool, DataError> {
-    Ok(false)
+/// Whether a file has a labelled cloud, as every export has.
+pub(super) fn is_labelled(file: &Path) -> Result<bool, DataError> {
+    if !recognises(file) {
+        return Ok(false);
+    }
+    let container = Container::open(file)?;
+    Ok(container.topics().iter().any(|topic| topic.name.ends_with(names::LABELLED)))
 }

@@ -1,10 +1,11 @@
-//! How sensors are mounted and how the vehicle moved, as `tf2_msgs/TFMessage` and `nav_msgs/Odometry`.
+//! How sensors are mounted and how the vehicle moved, as `tf2_msgs/TFMessage`, `nav_msgs/Odometry` and
+//! `geometry_msgs/TwistStamped`.
 
 use super::names::{Names, ODOM, VEHICLE};
 use ralf::geometry::Transform;
-use ralf::motion::EgoMotion;
+use ralf::motion::{EgoMotion, OdometrySample, PoseSample};
 use ralf::rig::Rig;
-use ralf_ros::message::{Header, Odometry, Pose, TfMessage, TransformStamped, Twist};
+use ralf_ros::message::{Header, Odometry, Pose, TfMessage, TransformStamped, Twist, TwistStamped};
 
 /// Where the sensors are on the vehicle.
 pub(super) fn mountings(t_ns: i64, rig: &Rig, names: &Names) -> TfMessage {
@@ -16,25 +17,22 @@ pub(super) fn mountings(t_ns: i64, rig: &Rig, names: &Names) -> TfMessage {
     TfMessage { transforms }
 }
 
-/// The times at which the motion is known, ascending.
-pub(super) fn times(motion: &EgoMotion) -> Vec<i64> {
-    let poses = motion.poses().iter().map(|sample| sample.t_ns);
-    let mut times: Vec<i64> = motion.odometry().iter().map(|sample| sample.t_ns).chain(poses).collect();
-    times.sort_unstable();
-    times.dedup();
-    times
-}
-
-/// Where the vehicle is, and how fast.
-pub(super) fn odometry(t_ns: i64, motion: &EgoMotion) -> Odometry {
-    let (linear, angular) = motion.twist(t_ns);
+/// A pose as it was recorded, with the velocities that go with it.
+pub(super) fn odometry(sample: &PoseSample, motion: &EgoMotion) -> Odometry {
+    let (linear, angular) = motion.twist(sample.t_ns);
     Odometry {
-        header: header(t_ns, ODOM),
+        header: header(sample.t_ns, ODOM),
         child_frame_id: VEHICLE.to_owned(),
-        pose: pose(&motion.odom_from_vehicle(t_ns)),
+        pose: pose(&sample.odom_from_vehicle),
         twist: Twist { linear: linear.into(), angular: angular.into() },
         ..Odometry::default()
     }
+}
+
+/// What the wheels measured.
+pub(super) fn twist(sample: &OdometrySample) -> TwistStamped {
+    let twist = Twist { linear: [sample.velocity, 0.0, 0.0], angular: [0.0, 0.0, sample.yaw_rate] };
+    TwistStamped { header: header(sample.t_ns, VEHICLE), twist }
 }
 
 /// Where the vehicle is, for those who show frames.

@@ -1,11 +1,38 @@
 //! Names of frames and topics: letters, digits and underscores, as ROS wants them.
 
+pub(super) use crate::ros::LABELLED;
 use ralf::rig::Rig;
 
 /// The vehicle's frame.
 pub(super) const VEHICLE: &str = "base_link";
 /// The frame that the vehicle moves in.
 pub(super) const ODOM: &str = "odom";
+
+/// What follows a radar's or a LiDAR's name in the topic of its clouds.
+pub(super) const POINTS: &str = "/points";
+/// Poses.
+pub(super) const ODOMETRY: &str = "/odom";
+/// What the wheels measured.
+pub(super) const TWIST: &str = "/twist";
+/// Where the vehicle is.
+pub(super) const TF: &str = "/tf";
+/// Where the sensors are on it.
+pub(super) const TF_STATIC: &str = "/tf_static";
+
+/// The topic of a sensor's clouds.
+pub(super) fn cloud(sensor: &str, name: &str) -> String {
+    format!("/{sensor}{name}")
+}
+
+/// The topic of a camera's images.
+pub(super) fn image(camera: &str) -> String {
+    format!("/{camera}/image_raw/compressed")
+}
+
+/// The topic of a camera's calibration.
+pub(super) fn camera_info(camera: &str) -> String {
+    format!("/{camera}/camera_info")
+}
 
 /// The names of a rig's sensors in ROS, each kind in the rig's order.
 pub(super) struct Names {

@@ -1,14 +1,18 @@
 //! One sequence as one file: all its messages in the order of their times.
 
-use super::motion::{header, mountings, odometry, times, vehicle};
-use super::names::Names;
+use super::motion::{header, mountings, odometry, twist, vehicle};
+use super::names::{self, Names};
+use super::originals::Originals;
 use super::{FileWriter, cloud, images, written};
 use crate::export::columns::cloud_columns;
 use crate::export::labelled::LabelledSequence;
 use crate::export::options::Sensors;
 use crate::{DataError, SequenceReader};
+use ralf::motion::EgoMotion;
 use ralf::source::{Sequence, SourceError};
-use ralf_ros::message::{CameraInfo, CompressedImage, Message, Odometry, PointCloud2, TfMessage};
+use ralf_ros::message::{
+    CameraInfo, CompressedImage, Message, Odometry, PointCloud2, TfMessage, TwistStamped,
+};
 use ralf_ros::writer::{Delivery, Topic, WriteError};
 use std::path::Path;
 
@@ -20,22 +24,33 @@ pub(super) struct Recorder<'a> {
     reader: &'a dyn SequenceReader,
     names: Names,
     topics: Topics,
+    /// Where the sequence is read from such a file and all its data are asked for: its messages as they are.
+    originals: Option<Originals<'a>>,
 }
 
 /// The topics; lists are empty where nothing of the kind is recorded.
 struct Topics {
-    tf_static: Topic<TfMessage>,
-    motion: Option<(Topic<Odometry>, Topic<TfMessage>)>,
+    tf_static: Option<Topic<TfMessage>>,
+    motion: Option<Motion>,
     labelled: Vec<Topic<PointCloud2>>,
     radars: Vec<Topic<PointCloud2>>,
     lidars: Vec<Topic<PointCloud2>>,
     cameras: Vec<(Topic<CompressedImage>, Topic<CameraInfo>)>,
 }
 
+/// The topics of the vehicle's motion.
+struct Motion {
+    odometry: Option<Topic<Odometry>>,
+    twist: Option<Topic<TwistStamped>>,
+    tf: Topic<TfMessage>,
+}
+
 /// What a message is about; the order at equal times.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Event {
-    Motion,
+    Original(usize),
+    Wheels(usize),
+    Pose(usize),
     Lidar { lidar: usize, scan: usize },
     Camera { camera: usize, image: usize },
     Radar { radar: usize, scan: usize },
@@ -52,8 +67,19 @@ impl<'a> Recorder<'a> {
     ) -> Result<Self, DataError> {
         let unlike = |found| DataError::content(file, "sensors", "names that differ in ROS, too", found);
         let names = Names::of(&reader.sequence().rig).map_err(unlike)?;
-        let topics = Topics::add(&mut writer, &names, sensors, labelled).map_err(written(file))?;
-        Ok(Self { writer, file, reader, names, topics })
+        let originals = match sensors == Sensors::ALL {
+            true => Originals::of(reader, &mut writer).map_err(written(file))?,
+            false => None,
+        };
+        let sensors = if originals.is_some() { None } else { Some(sensors) };
+        let motion = &reader.sequence().motion;
+        let topics = Topics::add(&mut writer, &names, motion, sensors, labelled).map_err(written(file))?;
+        Ok(Self { writer, file, reader, names, topics, originals })
+    }
+
+    /// Whether the messages of another recording are copied.
+    pub(super) fn copies(&self) -> bool {
+        self.originals.is_some()
     }
 
     /// Writes all messages and ends the file. `progress` is told how many measurements are done.
@@ -65,17 +91,23 @@ impl<'a> Recorder<'a> {
         let sequence = self.reader.sequence();
         let events = self.events(sequence);
         let begin = events.first().map_or(0, |(t_ns, _)| *t_ns);
-        let mountings = mountings(begin, &sequence.rig, &self.names);
-        self.writer.write(&self.topics.tf_static, begin, &mountings).map_err(written(self.file))?;
+        if let Some(topic) = &self.topics.tf_static {
+            let mountings = mountings(begin, &sequence.rig, &self.names);
+            self.writer.write(topic, begin, &mountings).map_err(written(self.file))?;
+        }
         let mut done = 0;
         for (t_ns, event) in events {
             match event {
-                Event::Motion => self.motion(t_ns)?,
+                Event::Original(place) => self.original(place)?,
+                Event::Wheels(_) | Event::Pose(_) => self.motion(t_ns, event)?,
                 Event::Radar { radar, scan } => self.radar(t_ns, radar, scan, labelled.as_deref_mut())?,
                 Event::Lidar { lidar, scan } => self.lidar(t_ns, lidar, scan)?,
                 Event::Camera { camera, image } => self.camera(t_ns, camera, image)?,
             }
-            done += usize::from(event != Event::Motion);
+            done += usize::from(matches!(
+                event,
+                Event::Radar { .. } | Event::Lidar { .. } | Event::Camera { .. }
+            ));
             progress(done);
         }
         self.writer.finish().map_err(written(self.file))?;
@@ -90,8 +122,13 @@ impl<'a> Recorder<'a> {
             };
             sensors.iter().enumerate().flat_map(of)
         }
-        let mut events = Vec::new();
-        events.extend(each(&sequence.times.radars).map(|(t, radar, scan)| (t, Event::Radar { radar, scan })));
+        let mut events: Vec<(i64, Event)> = Vec::new();
+        if let Some(originals) = &self.originals {
+            events.extend(originals.times().map(|(t_ns, place)| (t_ns, Event::Original(place))));
+        }
+        let radars = self.topics.labelled.iter().chain(&self.topics.radars).next();
+        let radars = radars.map_or(&[][..], |_| &sequence.times.radars);
+        events.extend(each(radars).map(|(t, radar, scan)| (t, Event::Radar { radar, scan })));
         if !self.topics.lidars.is_empty() {
             events.extend(
                 each(&sequence.times.lidars).map(|(t, lidar, scan)| (t, Event::Lidar { lidar, scan })),
@@ -102,17 +139,34 @@ impl<'a> Recorder<'a> {
             events.extend(cameras.map(|(t, camera, image)| (t, Event::Camera { camera, image })));
         }
         if self.topics.motion.is_some() {
-            events.extend(times(&sequence.motion).into_iter().map(|t_ns| (t_ns, Event::Motion)));
+            let (wheels, poses) = (sequence.motion.odometry(), sequence.motion.poses());
+            events.extend(wheels.iter().enumerate().map(|(at, sample)| (sample.t_ns, Event::Wheels(at))));
+            events.extend(poses.iter().enumerate().map(|(at, sample)| (sample.t_ns, Event::Pose(at))));
         }
         events.sort_unstable();
         events
     }
 
-    fn motion(&mut self, t_ns: i64) -> Result<(), DataError> {
-        let Some((odom, tf)) = &self.topics.motion else { return Ok(()) };
+    fn original(&mut self, place: usize) -> Result<(), DataError> {
+        let Some(originals) = &self.originals else { return Ok(()) };
+        originals.copy(place, &mut self.writer, self.file)
+    }
+
+    /// A sample as it was recorded, and for those who show frames where the vehicle is.
+    fn motion(&mut self, t_ns: i64, event: Event) -> Result<(), DataError> {
+        let Some(topics) = &self.topics.motion else { return Ok(()) };
         let motion = &self.reader.sequence().motion;
-        self.writer.write(odom, t_ns, &odometry(t_ns, motion)).map_err(written(self.file))?;
-        self.writer.write(tf, t_ns, &vehicle(t_ns, motion)).map_err(written(self.file))
+        let refused = written(self.file);
+        match (event, &topics.twist, &topics.odometry) {
+            (Event::Wheels(at), Some(topic), _) => {
+                self.writer.write(topic, t_ns, &twist(&motion.odometry()[at])).map_err(&refused)?;
+            }
+            (Event::Pose(at), _, Some(topic)) => {
+                self.writer.write(topic, t_ns, &odometry(&motion.poses()[at], motion)).map_err(&refused)?;
+            }
+            _ => {}
+        }
+        self.writer.write(&topics.tf, t_ns, &vehicle(t_ns, motion)).map_err(&refused)
     }
 
     fn radar(
@@ -122,7 +176,8 @@ impl<'a> Recorder<'a> {
         scan: usize,
         labelled: Option<&mut LabelledSequence>,
     ) -> Result<(), DataError> {
-        let header = header(t_ns, &self.names.radars[radar]);
+        let frames = self.originals.as_ref().map_or(&self.names.radars[..], |found| found.radar_frames);
+        let header = header(t_ns, &frames[radar]);
         let sensor = &self.reader.sequence().rig.radars[radar];
         let measured = match labelled {
             Some(sequence) => {
@@ -161,30 +216,45 @@ impl<'a> Recorder<'a> {
 }
 
 impl Topics {
+    /// The topics of these sensors; of a copied recording, which has them already, the labelled clouds alone.
     fn add(
         writer: &mut FileWriter,
         names: &Names,
-        sensors: Sensors,
+        motion: &EgoMotion,
+        sensors: Option<Sensors>,
         labelled: bool,
     ) -> Result<Self, WriteError> {
+        let tf_static = sensors.map(|_| writer.topic(names::TF_STATIC, Delivery::Latched)).transpose()?;
+        let sensors = sensors.unwrap_or_default();
         let mut clouds = |of: bool, names: &[String], name: &str| {
             let names = names.iter().filter(|_| of);
-            names.map(|sensor| live(writer, &format!("/{sensor}/{name}"))).collect::<Result<Vec<_>, _>>()
+            names.map(|sensor| live(writer, &names::cloud(sensor, name))).collect::<Result<Vec<_>, _>>()
         };
-        let labelled = clouds(labelled, &names.radars, "points_labelled")?;
-        let radars = clouds(sensors.radar, &names.radars, "points")?;
-        let lidars = clouds(sensors.lidar, &names.lidars, "points")?;
+        let labelled = clouds(labelled, &names.radars, names::LABELLED)?;
+        let radars = clouds(sensors.radar, &names.radars, names::POINTS)?;
+        let lidars = clouds(sensors.lidar, &names.lidars, names::POINTS)?;
         let cameras = names.cameras.iter().filter(|_| sensors.camera).map(|camera| {
-            let image = live(writer, &format!("/{camera}/image_raw/compressed"))?;
-            Ok((image, live(writer, &format!("/{camera}/camera_info"))?))
+            let image = live(writer, &names::image(camera))?;
+            Ok((image, live(writer, &names::camera_info(camera))?))
         });
         let cameras = cameras.collect::<Result<_, WriteError>>()?;
         let motion = match sensors.any() {
-            true => Some((live(writer, "/odom")?, live(writer, "/tf")?)),
+            true => Some(Motion::add(writer, motion)?),
             false => None,
         };
-        let tf_static = writer.topic("/tf_static", Delivery::Latched)?;
         Ok(Self { tf_static, motion, labelled, radars, lidars, cameras })
+    }
+}
+
+impl Motion {
+    /// The topics of what is known of a motion.
+    fn add(writer: &mut FileWriter, motion: &EgoMotion) -> Result<Self, WriteError> {
+        let (wheels, poses) = (!motion.odometry().is_empty(), !motion.poses().is_empty());
+        Ok(Self {
+            odometry: poses.then(|| live(writer, names::ODOMETRY)).transpose()?,
+            twist: wheels.then(|| live(writer, names::TWIST)).transpose()?,
+            tf: live(writer, names::TF)?,
+        })
     }
 }
 

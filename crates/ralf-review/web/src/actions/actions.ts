@@ -19,5 +19,11 @@ export interface Actions {
 export function actionsOn(world: World): Actions {
   const go = new Navigation(world, new Moment(world));
   const correct = new Correcting(world, go);
-  return { go, correct, select: new Selecting(world, correct), view: new Viewing(world), hear: new Hearing(world, correct) };
+  return {
+    go,
+    correct,
+    select: new Selecting(world, correct),
+    view: new Viewing(world),
+    hear: new Hearing(world, correct),
+  };
 }

@@ -3,7 +3,7 @@
 import { Conflict } from "../api/errors.js";
 import { randomName } from "../api/session.js";
 import type { ScanCorrections, StrokeAnswer, StrokeRequest } from "../api/types.js";
-import { maskOf, pointsByScan, withScans } from "../data/cloud.js";
+import { findScan, maskOf, pointsByScan, withScans } from "../data/cloud.js";
 import { ARTIFACT, type Choice, PLAUSIBLE } from "../data/labels.js";
 import { sameScan, type Scan, withCorrections } from "../data/scan.js";
 import { keepStrokes, keptStrokes } from "../history/keep.js";
@@ -54,7 +54,9 @@ export class Correcting {
       const half = selection.map((chosen, i) => chosen & Number(labels.truth(cloud.label[i]) === wrong));
       return { label, half };
     });
-    const strokes = halves.filter(({ half }) => countOf(half) > 0).map(({ label, half }) => this.strokeOf(half, label, tool, group));
+    const strokes = halves
+      .filter(({ half }) => countOf(half) > 0)
+      .map(({ label, half }) => this.strokeOf(half, label, tool, group));
     store.set({ selection: new Uint8Array(selection.length) });
     await this.outbox.add(strokes);
   }
@@ -82,16 +84,21 @@ export class Correcting {
   /** Marks the scan as reviewed, or takes the mark back. */
   async review(reviewed: boolean): Promise<boolean> {
     const { store, api, loader } = this.world;
-    const { sequence, cloud } = store.state;
+    const { sequence, cloud, loading } = store.state;
     const scan = cloud.scans[0];
-    if (scan === undefined || !this.free("mark")) return false;
+    // While another scan is coming, the one on screen isn't the one that is meant.
+    if (scan === undefined || loading || !this.free("mark")) return false;
     store.set({ busy: true });
     try {
       const answer = await api.reviewed(sequence, scan, reviewed, scan.revision);
       const marked: Scan = { ...scan, reviewed: answer.reviewed };
       loader.keep(sequence, marked);
       const { cloud: now, scans } = store.state;
-      store.set({ cloud: withScans(now, [marked]), scans: withReviewed(scans, scan, answer.reviewed), progress: answer.progress });
+      store.set({
+        cloud: withScans(now, [marked]),
+        scans: withReviewed(scans, scan, answer.reviewed),
+        progress: answer.progress,
+      });
       return true;
     } catch (error) {
       await this.refused("marked", error);
@@ -119,7 +126,10 @@ export class Correcting {
     for (const scan of changed) loader.keep(sequence, scan);
     const counted = withCorrectionCounts(scans, answered);
     store.set({ cloud: withScans(cloud, changed), scans: counted, progress: progressOf(counted) });
-    await this.reread(sequence, onScreen.filter(({ now }) => now === null).map(({ scan }) => scan));
+    await this.reread(
+      sequence,
+      onScreen.filter(({ now }) => now === null).map(({ scan }) => scan),
+    );
   }
 
   /** Reads scans on screen anew. */
@@ -149,14 +159,18 @@ export class Correcting {
     const asked = stroke.points.reduce((sum, { points }) => sum + points.length, 0);
     if (answer.changed < asked && stroke.protect) {
       const spared = asked - answer.changed;
-      tell(this.world, `${answer.changed} changed; ${spared} had this label or were corrected already and are protected.`);
+      tell(
+        this.world,
+        `${answer.changed} changed; ${spared} had this label or were corrected already and are protected.`,
+      );
     }
   }
 
   private heed(status: OutboxStatus, waiting: readonly Pending[]): void {
     const { store } = this.world;
     store.set({ outbox: status, waiting, connected: status.kind === "gone" ? false : store.state.connected });
-    if (status.kind === "conflict") this.meetConflict(status.pending, status).catch((error: unknown) => complain(this.world, error));
+    if (status.kind === "conflict")
+      this.meetConflict(status.pending, status).catch((error: unknown) => complain(this.world, error));
   }
 
   private async meetConflict(pending: Pending, { body }: Extract<OutboxStatus, { kind: "conflict" }>): Promise<void> {
@@ -167,12 +181,15 @@ export class Correcting {
       if (pending.sequence === store.state.sequence) store.set({ history: await api.history(pending.sequence) });
       return;
     }
-    if (pending.sequence === store.state.sequence) store.set({ selection: maskOf(store.state.cloud, pending.stroke.points) });
+    if (pending.sequence !== store.state.sequence) return;
+    const { base, points } = pending.stroke;
+    if (!base.some((scan) => findScan(store.state.cloud, scan) >= 0)) await this.navigation.goTo(base[0]);
+    store.set({ selection: maskOf(store.state.cloud, points) });
   }
 
   /** Undo and redo wait for each other, so that a key may be pressed quickly. */
   private inTurn(what: "undo" | "redo"): Promise<void> {
-    this.turn = this.turn.then(() => this.takeBack(what));
+    this.turn = this.turn.then(() => this.takeBack(what)).catch((error: unknown) => complain(this.world, error));
     return this.turn;
   }
 
@@ -204,7 +221,7 @@ export class Correcting {
   private async refused(done: string, error: unknown): Promise<void> {
     if (error instanceof Conflict) {
       const { sequence } = this.world.store.state;
-      await this.adopt(sequence, error.body.scans);
+      await this.adopt(sequence, error.body.scans).catch((failed: unknown) => complain(this.world, failed));
       const by = error.body.conflict === null ? "" : ` (${error.body.conflict.author}, ${error.body.conflict.tool})`;
       complain(this.world, `Not ${done}${by}: ${error.message}`);
     } else {

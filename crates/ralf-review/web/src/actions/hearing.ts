@@ -19,26 +19,31 @@ export class Hearing {
   /** Listens to a sequence's changes, and to no other's, until told otherwise. */
   listen(sequence: string): void {
     this.listening?.abort();
-    const listening = new AbortController();
-    this.listening = listening;
-    this.run(sequence, listening.signal).catch((error: unknown) => {
-      if (!listening.signal.aborted) complain(this.world, error);
-    });
+    this.listening = new AbortController();
+    void this.run(sequence, this.listening.signal);
   }
 
-  private async run(sequence: string, signal: AbortSignal): Promise<void> {
+  private async run(sequence: string, ended: AbortSignal): Promise<void> {
     let since: number | null = null;
-    while (!signal.aborted) {
+    while (!ended.aborted) {
+      const poll = pollWhileSeen(ended);
       try {
-        const changes = await this.world.api.changes(sequence, since, { signal });
+        await seen();
+        const changes: Changes = await this.world.api.changes(sequence, since, { signal: poll.signal });
         since = changes.counter;
         await this.reconnected(sequence);
         await this.take(sequence, changes);
       } catch (error) {
-        if (!(error instanceof ServerGone)) throw error;
-        since = null;
-        this.world.store.set({ connected: false });
+        if (poll.signal.aborted) continue;
+        if (error instanceof ServerGone) {
+          since = null;
+          this.world.store.set({ connected: false });
+        } else {
+          complain(this.world, error);
+        }
         await new Promise((resolve) => setTimeout(resolve, PATIENCE_MS));
+      } finally {
+        poll.end();
       }
     }
   }
@@ -58,10 +63,37 @@ export class Hearing {
     if (scans.length === 0) return;
     const { cloud, current } = store.state;
     for (const change of scans) this.world.loader.forget(sequence, change);
-    await this.correcting.reread(sequence, cloud.scans.filter((scan) => scans.some((change) => sameScan(change, scan))));
+    await this.correcting.reread(
+      sequence,
+      cloud.scans.filter((scan) => scans.some((change) => sameScan(change, scan))),
+    );
     const queue = await api.queue(sequence);
     store.set({ scans: queue.scans, progress: queue.progress });
     const here = scans.find((change) => sameScan(change, current));
-    if (here !== undefined) tell(this.world, `${here.author} changed this scan in another window; you see the newer state.`);
+    if (here !== undefined)
+      tell(this.world, `${here.author} changed this scan in another window; you see the newer state.`);
   }
+}
+
+/** A browser has few connections to a server for all of its tabs: one that isn't seen must not hold one. */
+function pollWhileSeen(ended: AbortSignal): { readonly signal: AbortSignal; readonly end: () => void } {
+  const poll = new AbortController();
+  const stop = (): void => {
+    if (document.hidden || ended.aborted) poll.abort();
+  };
+  ended.addEventListener("abort", stop);
+  document.addEventListener("visibilitychange", stop);
+  const end = (): void => {
+    ended.removeEventListener("abort", stop);
+    document.removeEventListener("visibilitychange", stop);
+  };
+  return { signal: poll.signal, end };
+}
+
+/** Resolves once the page is seen. */
+function seen(): Promise<void> {
+  if (!document.hidden) return Promise.resolve();
+  return new Promise((resolve) => {
+    document.addEventListener("visibilitychange", () => resolve(), { once: true });
+  });
 }

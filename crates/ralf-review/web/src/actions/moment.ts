@@ -29,7 +29,9 @@ export class Moment {
       store.set({ cloud, lidar, cameras, selection: new Uint8Array(cloud.count), loading: false });
       await Promise.all(cameras.map((camera) => this.complete(generation, cloud, camera)));
     } catch (error) {
-      if (generation === this.generation) store.set({ loading: false });
+      if (generation !== this.generation) return;
+      const { scans } = store.state.cloud;
+      store.set({ loading: false, current: scans[0] ?? null });
       complain(this.world, error);
     }
   }
@@ -60,7 +62,9 @@ export class Moment {
     const name = camera.info.name;
     const update = (patch: Partial<CameraMoment>): void => {
       if (generation !== this.generation) return;
-      store.set({ cameras: store.state.cameras.map((other) => (other.info.name === name ? { ...other, ...patch } : other)) });
+      store.set({
+        cameras: store.state.cameras.map((other) => (other.info.name === name ? { ...other, ...patch } : other)),
+      });
     };
     const picture = loader.image(sequence, name, camera.image).then(
       (image) => update({ picture: image, problem: null }),
@@ -71,7 +75,13 @@ export class Moment {
       placeScan(places, cloud, index, await loader.projections(sequence, name, camera.image, scan));
       if (index === 0) update({ places: places.slice() });
     });
-    await Promise.all([picture, Promise.all(read).then(() => update({ places }), (error: unknown) => update({ problem: messageOf(error) }))]);
+    await Promise.all([
+      picture,
+      Promise.all(read).then(
+        () => update({ places }),
+        (error: unknown) => update({ problem: messageOf(error) }),
+      ),
+    ]);
   }
 
   /** Whether the scan is among those on screen. */

@@ -23,7 +23,15 @@ export class Navigation {
       const { radar } = store.state.queueView;
       const known = queue.scans.some((scan) => scan.radar === radar);
       const queueView = { ...store.state.queueView, radar: known ? radar : null };
-      store.set({ sequence, scans: queue.scans, progress: queue.progress, history, queueView, cameras: [], chosenCamera: null });
+      store.set({
+        sequence,
+        scans: queue.scans,
+        progress: queue.progress,
+        history,
+        queueView,
+        cameras: [],
+        chosenCamera: null,
+      });
       const asked = queue.scans.find((scan) => scan.radar === at?.radar && scan.scan === at.scan);
       const first = asked ?? nextNeedy(queue.scans, null) ?? queue.scans[0];
       if (first === undefined) store.set({ loading: false, current: null });

@@ -97,7 +97,10 @@ export class Selecting {
   private explainNothing(): void {
     const { scope, cloud } = this.world.store.state;
     const others = scope === "scan" && cloud.scans.length > 1;
-    tell(this.world, others ? "Nothing of this scan there. E lets strokes change everything shown." : "Nothing there to select.");
+    tell(
+      this.world,
+      others ? "Nothing of this scan there. E lets strokes change everything shown." : "Nothing there to select.",
+    );
   }
 
   private begin(work: Promise<void>): void {

@@ -4,8 +4,18 @@ import { Conflict, Refused, ServerGone } from "./errors.js";
 import type { Session } from "./session.js";
 import { decodeTable, type Table } from "./table.js";
 import type {
-  Changes, ConflictBody, History, LidarHeader, Queue, Recording, ReviewedAnswer, ScanHeader, ScanId, StrokeAnswer,
-  StrokeRequest, TimedScan,
+  Changes,
+  ConflictBody,
+  History,
+  LidarHeader,
+  Queue,
+  Recording,
+  ReviewedAnswer,
+  ScanHeader,
+  ScanId,
+  StrokeAnswer,
+  StrokeRequest,
+  TimedScan,
 } from "./types.js";
 
 export interface Call {
@@ -40,14 +50,24 @@ export class Api {
     return received(answer.blob());
   }
 
-  projections(sequence: string, camera: string, image: number, { radar, scan }: ScanId, call?: Call): Promise<Table<object>> {
+  projections(
+    sequence: string,
+    camera: string,
+    image: number,
+    { radar, scan }: ScanId,
+    call?: Call,
+  ): Promise<Table<object>> {
     const query = new URLSearchParams({ radar, scan: String(scan) });
     return this.table(`${inSequence(sequence)}/cameras/${part(camera)}/images/${image}/detections?${query}`, call);
   }
 
   async moment(sequence: string, tNs: string, accumulate: number, call?: Call): Promise<readonly TimedScan[]> {
     const query = new URLSearchParams({ t_ns: tNs, accumulate: String(accumulate), radars: "all" });
-    const answer = await this.json<{ scans: readonly TimedScan[] }>("GET", `${inSequence(sequence)}/moment?${query}`, call);
+    const answer = await this.json<{ scans: readonly TimedScan[] }>(
+      "GET",
+      `${inSequence(sequence)}/moment?${query}`,
+      call,
+    );
     return answer.scans;
   }
 

@@ -7,8 +7,11 @@ import type { Point } from "../selection/geometry.js";
 import { Surface } from "../selection/surface.js";
 import type { Gesture } from "../selection/tools.js";
 import { cleared, drawBrushCursor, drawGesture, drawHover } from "../viewer/drawing.js";
-import { drawDetections } from "./detections.js";
+import { drawDetections, LAYERS } from "./detections.js";
 import { fitted, type Frame, movedBy, toScreen, zoomedAt } from "./frame.js";
+
+/** Narrower than this, px, an image would vanish behind the detections of other scans. */
+const SMALL = 260;
 
 export class CameraView {
   readonly element: HTMLElement;
@@ -43,7 +46,10 @@ export class CameraView {
       ({ painting, shown, eligible, selection, dotSize }) => [painting, shown, eligible, selection, dotSize],
       () => this.invalidate(),
     );
-    store.watch(({ hover, tool }) => [hover, tool], () => this.drawOverlay());
+    store.watch(
+      ({ hover, tool }) => [hover, tool],
+      () => this.drawOverlay(),
+    );
   }
 
   show(camera: CameraMoment | null): void {
@@ -109,7 +115,13 @@ export class CameraView {
     const { cloud, painting, shown, eligible, selection, dotSize } = this.page.store.state;
     const radius = dotSize * Math.min(0.5, Math.max(0.28, width / 1400));
     if (shown.length === cloud.count && painting.colours.length === 3 * cloud.count) {
-      drawDetections(context, this.placed(), { cloud, colours: painting.colours, shown, eligible, selection }, radius);
+      drawDetections(
+        context,
+        this.placed(),
+        { cloud, colours: painting.colours, shown, eligible, selection },
+        radius,
+        width < SMALL ? LAYERS.slice(1) : LAYERS,
+      );
     }
     this.drawOverlay();
   }

@@ -16,13 +16,23 @@ export class CamerasPanel {
     const { store, actions } = page;
     this.large = new CameraView(page);
     this.large.element.classList.add("large");
-    const grow = h("button", {
-      class: "tool grow", type: "button", title: "Show in the centre (W)", "aria-label": "Show this camera in the centre",
-      on: { click: () => actions.view.toggleCameraMode() },
-    }, icon("grow"));
+    const grow = h(
+      "button",
+      {
+        class: "tool grow",
+        type: "button",
+        title: "Show in the centre (W)",
+        "aria-label": "Show this camera in the centre",
+        on: { click: () => actions.view.toggleCameraMode() },
+      },
+      icon("grow"),
+    );
     const stage = h("div", { class: "camera-stage" }, this.large.element, grow);
     this.element = h("section", { class: "cameras", "aria-label": "Cameras" }, stage, this.strip);
-    store.watch(({ cameras, chosenCamera }) => [cameras, chosenCamera], () => this.show());
+    store.watch(
+      ({ cameras, chosenCamera }) => [cameras, chosenCamera],
+      () => this.show(),
+    );
   }
 
   /** The camera that is shown large. */
@@ -36,14 +46,16 @@ export class CamerasPanel {
     const { seen } = this;
     this.element.classList.toggle("empty", cameras.length === 0);
     const large = cameras.find(({ info }) => info.name === seen) ?? null;
-    if (large !== null) this.large.element.style.setProperty("aspect-ratio", `${large.info.width} / ${large.info.height}`);
+    if (large !== null)
+      this.large.element.style.setProperty("aspect-ratio", `${large.info.width} / ${large.info.height}`);
     this.large.show(large);
     const others = cameras.filter((camera) => camera !== large);
     while (this.small.length < others.length) this.small.push(this.pickable(this.small.length));
     this.small.forEach(({ thumb, view }, i) => {
       const camera = others[i] ?? null;
       thumb.hidden = camera === null;
-      if (camera !== null) view.element.style.setProperty("aspect-ratio", `${camera.info.width} / ${camera.info.height}`);
+      if (camera !== null)
+        view.element.style.setProperty("aspect-ratio", `${camera.info.width} / ${camera.info.height}`);
       view.show(camera);
     });
   }
@@ -54,9 +66,17 @@ export class CamerasPanel {
       if (camera !== undefined) this.page.actions.view.camera(camera.info.name);
     };
     const view = new CameraView(this.page);
-    const button = h("button", {
-      class: "tool grow", type: "button", title: "Show large (Q: next)", "aria-label": "Show this camera large", on: { click: choose },
-    }, icon("grow"));
+    const button = h(
+      "button",
+      {
+        class: "tool grow",
+        type: "button",
+        title: "Show large (Q: next)",
+        "aria-label": "Show this camera large",
+        on: { click: choose },
+      },
+      icon("grow"),
+    );
     const thumb = h("div", { class: "camera-thumb" }, view.element, button);
     this.strip.append(thumb);
     return { thumb, view };

@@ -14,9 +14,18 @@ export interface Dots {
 const RIM = "rgb(5 8 12 / 80%)";
 const CORRECTED_RIM = "#ffffff";
 
-/** Draws what is shown: first what can't be changed, then the rest, the selected last. */
-export function drawDetections(context: CanvasRenderingContext2D, places: Float32Array, dots: Dots, radius: number): void {
-  for (const layer of [0, 1, 2]) {
+/** What can't be changed, the rest, the selected: drawn in this order. */
+export const LAYERS = [0, 1, 2] as const;
+
+/** Draws those layers of what is shown. */
+export function drawDetections(
+  context: CanvasRenderingContext2D,
+  places: Float32Array,
+  dots: Dots,
+  radius: number,
+  layers: readonly number[],
+): void {
+  for (const layer of layers) {
     context.globalAlpha = layer === 0 ? 0.3 : 0.95;
     for (let i = 0; i < dots.cloud.count; i++) {
       if (dots.shown[i] === 0 || Number.isNaN(places[2 * i])) continue;

@@ -37,6 +37,9 @@ export function busiest(cameras: readonly CameraMoment[], cloud: Cloud): string 
   const rows = cloud.scans[0]?.table.rows ?? 0;
   const seen = ({ places }: CameraMoment): number =>
     places.subarray(0, 2 * rows).reduce((sum, value) => sum + Number(!Number.isNaN(value)), 0);
-  const most = cameras.reduce<CameraMoment | null>((best, one) => (best === null || seen(one) > seen(best) ? one : best), null);
+  const most = cameras.reduce<CameraMoment | null>(
+    (best, one) => (best === null || seen(one) > seen(best) ? one : best),
+    null,
+  );
   return most?.info.name ?? null;
 }

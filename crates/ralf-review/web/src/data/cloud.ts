@@ -38,7 +38,8 @@ export function buildCloud(scans: readonly Scan[]): Cloud {
     const motion = targetFromSource(target, table.header.odom_from_vehicle);
     movePoints(motion, [floats(table, "x"), floats(table, "y"), floats(table, "z")], positions, starts[index]);
   });
-  const compensated = target !== null || scans.every(({ table }) => together(table.header.t_ns, scans[0].table.header.t_ns));
+  const compensated =
+    target !== null || scans.every(({ table }) => together(table.header.t_ns, scans[0].table.header.t_ns));
   return { ...labelsOf(scans, count), scans, count, starts, scanOf, positions, compensated };
 }
 

@@ -34,7 +34,9 @@ export class Loader {
     const first = await this.scan(sequence, id);
     const around = await this.api.moment(sequence, first.table.header.t_ns, accumulate);
     const others = around.filter((other) => !sameScan(other, id));
-    const read = await Promise.all(others.map((other) => this.scan(sequence, { radar: other.radar, scan: other.scan })));
+    const read = await Promise.all(
+      others.map((other) => this.scan(sequence, { radar: other.radar, scan: other.scan })),
+    );
     return buildCloud([first, ...read]);
   }
 

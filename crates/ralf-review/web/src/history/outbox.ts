@@ -61,10 +61,11 @@ export class Outbox {
     return this.current.kind === "gone" || this.current.kind === "refused" ? this.run() : Promise.resolve();
   }
 
-  /** Gives the first waiting stroke up, because a person said so. */
+  /** Gives the first waiting stroke up, with those of its group, because a person said so. */
   drop(): Promise<void> {
-    if (this.current.kind === "saving") return Promise.resolve();
-    this.waiting = this.waiting.slice(1);
+    const [first] = this.waiting;
+    if (first === undefined || this.current.kind === "saving") return Promise.resolve();
+    this.waiting = this.waiting.filter((pending) => !together(first, pending));
     this.world.keep(this.waiting);
     return this.run();
   }
@@ -72,8 +73,10 @@ export class Outbox {
   /** After a conflict: sets the stroke on top of the newer state. */
   applyAnyway(protect: boolean): Promise<void> {
     if (this.current.kind !== "conflict") return Promise.resolve();
-    const [first, ...rest] = rebased(this.waiting, this.current.body.scans);
-    this.waiting = [{ ...first, stroke: { ...first.stroke, protect } }, ...rest];
+    const newest = rebased(this.waiting, this.current.body.scans);
+    this.waiting = newest.map((pending) =>
+      together(newest[0], pending) ? { ...pending, stroke: { ...pending.stroke, protect } } : pending,
+    );
     this.world.keep(this.waiting);
     return this.run();
   }
@@ -85,7 +88,7 @@ export class Outbox {
       try {
         this.finish(pending, await this.world.send(pending));
       } catch (error) {
-        return this.say(await statusAfter(error, pending));
+        return this.say(statusAfter(error, pending));
       }
     }
     this.say({ kind: "idle" });
@@ -103,7 +106,12 @@ export class Outbox {
   }
 }
 
-async function statusAfter(error: unknown, pending: Pending): Promise<OutboxStatus> {
+/** Whether both are one step to the person who made them. */
+function together(first: Pending, other: Pending): boolean {
+  return first === other || (first.stroke.group !== undefined && first.stroke.group === other.stroke.group);
+}
+
+function statusAfter(error: unknown, pending: Pending): OutboxStatus {
   if (error instanceof Conflict) return { kind: "conflict", body: error.body, pending };
   if (error instanceof ServerGone) return { kind: "gone" };
   return { kind: "refused", message: messageOf(error) };

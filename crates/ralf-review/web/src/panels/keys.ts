@@ -34,14 +34,20 @@ function correct({ store, actions, cancelGesture }: KeyContext): readonly Key[] 
   const { select, correct: correcting, view: viewing } = actions;
   const key = (keys: readonly string[], text: string, run: () => void): Key => ({ keys, group: "Correct", text, run });
   return [
-    key(["p", "1"], "Selected are plausible; with none selected: every stroke sets plausible", () => select.choose(PLAUSIBLE)),
+    key(["p", "1"], "Selected are plausible; with none selected: every stroke sets plausible", () =>
+      select.choose(PLAUSIBLE),
+    ),
     key(["a", "2"], "Selected are artifacts", () => select.choose(ARTIFACT)),
     key(["c", "3"], "Choose a class", () => viewing.dialog("classes")),
     key(["m", "4", "backspace"], "Back to the machine's guess", () => select.choose(null)),
     key(["x"], "Flip: plausible becomes artifact and the other way round", () => select.flip()),
     key(["i"], "Invert the selection", () => select.invert()),
     key(["ctrl+a"], "Select everything that may be changed", () => select.all()),
-    key(["escape"], "Give up the gesture, the selection, the painting", () => void (cancelGesture() || select.escape())),
+    key(
+      ["escape"],
+      "Give up the gesture, the selection, the painting",
+      () => void (cancelGesture() || select.escape()),
+    ),
     key(["ctrl+z"], "Undo", () => void correcting.undo()),
     key(["ctrl+shift+z", "ctrl+y"], "Redo", () => void correcting.redo()),
     key(["r"], "Mark the scan as reviewed, or take the mark back", () => {
@@ -97,7 +103,12 @@ function view({ actions, home, seenCamera }: KeyContext): readonly Key[] {
 
 function detections({ store, actions }: KeyContext): readonly Key[] {
   const { view: viewing } = actions;
-  const key = (keys: readonly string[], text: string, run: () => void): Key => ({ keys, group: "Detections", text, run });
+  const key = (keys: readonly string[], text: string, run: () => void): Key => ({
+    keys,
+    group: "Detections",
+    text,
+    run,
+  });
   return [
     key(["y"], "Next way of colouring", () => viewing.nextColour(1)),
     key(["shift+y"], "Previous way of colouring", () => viewing.nextColour(-1)),
@@ -114,18 +125,32 @@ function detections({ store, actions }: KeyContext): readonly Key[] {
 export function keyName(event: Pick<KeyboardEvent, "key" | "ctrlKey" | "metaKey" | "shiftKey" | "altKey">): string {
   const name = event.key.toLowerCase();
   const sign = name.length === 1 && !/[a-z]/.test(name);
-  const modifiers = [event.ctrlKey || event.metaKey ? "ctrl+" : "", event.altKey ? "alt+" : "", event.shiftKey && !sign ? "shift+" : ""];
+  const modifiers = [
+    event.ctrlKey || event.metaKey ? "ctrl+" : "",
+    event.altKey ? "alt+" : "",
+    event.shiftKey && !sign ? "shift+" : "",
+  ];
   return modifiers.join("") + name;
 }
 
 const SHOWN: Readonly<Record<string, string>> = {
-  arrowleft: "←", arrowright: "→", arrowup: "↑", arrowdown: "↓", escape: "Esc", enter: "Enter", backspace: "⌫", " ": "Space", "-": "−",
+  arrowleft: "←",
+  arrowright: "→",
+  arrowup: "↑",
+  arrowdown: "↓",
+  escape: "Esc",
+  enter: "Enter",
+  backspace: "⌫",
+  " ": "Space",
+  "-": "−",
 };
 
 /** The parts of a key as they are printed on it. */
 export function shownKey(name: string): readonly string[] {
   const parts = name === "+" ? ["+"] : name.split("+");
-  return parts.map((part) => SHOWN[part] ?? (part.length === 1 ? part.toUpperCase() : part[0].toUpperCase() + part.slice(1)));
+  return parts.map(
+    (part) => SHOWN[part] ?? (part.length === 1 ? part.toUpperCase() : part[0].toUpperCase() + part.slice(1)),
+  );
 }
 
 export function listenToKeys(table: readonly Key[], store: Store<State>): void {
@@ -143,5 +168,7 @@ export function listenToKeys(table: readonly Key[], store: Store<State>): void {
 }
 
 function typing(target: EventTarget | null): boolean {
-  return target instanceof HTMLInputElement || target instanceof HTMLSelectElement || target instanceof HTMLTextAreaElement;
+  return (
+    target instanceof HTMLInputElement || target instanceof HTMLSelectElement || target instanceof HTMLTextAreaElement
+  );
 }

@@ -6,16 +6,30 @@ import type { Legend } from "../viewer/colours.js";
 import { COLOUR_MODES } from "../viewer/colours.js";
 import { CORRECTED_RGB, cssColour, type Rgb, SELECTED_RGB, UNCERTAIN_RGB, WAITING_RGB } from "../viewer/palette.js";
 
-const RIMS: readonly (readonly [string, Rgb])[] = [["uncertain", UNCERTAIN_RGB], ["corrected", CORRECTED_RGB], ["selected", SELECTED_RGB], ["not saved yet", WAITING_RGB]];
+const RIMS: readonly (readonly [string, Rgb])[] = [
+  ["uncertain", UNCERTAIN_RGB],
+  ["corrected", CORRECTED_RGB],
+  ["selected", SELECTED_RGB],
+  ["not saved yet", WAITING_RGB],
+];
 const STEPS = 24;
 
 export function legendPanel({ store }: Page): HTMLElement {
   const panel = h("div", { class: "legend", "aria-label": "Legend" });
-  store.watch(({ painting, colour, waiting }) => [painting.legend, colour, waiting.length > 0], (legend, colour, unsaved) => {
-    const title = COLOUR_MODES.find(([name]) => name === colour)?.[1] ?? colour;
-    const rims = h("div", { class: "legend-rims" }, ...RIMS.filter(([, rgb]) => unsaved || rgb !== WAITING_RGB).map(([name, rgb]) => entry(name, rgb, "swatch rim")));
-    panel.replaceChildren(h("b", {}, title), legend.kind === "scale" ? scale(legend) : entries(legend), rims);
-  });
+  store.watch(
+    ({ painting, colour, waiting }) => [painting.legend, colour, waiting.length > 0],
+    (legend, colour, unsaved) => {
+      const title = COLOUR_MODES.find(([name]) => name === colour)?.[1] ?? colour;
+      const rims = h(
+        "div",
+        { class: "legend-rims" },
+        ...RIMS.filter(([, rgb]) => unsaved || rgb !== WAITING_RGB).map(([name, rgb]) =>
+          entry(name, rgb, "swatch rim"),
+        ),
+      );
+      panel.replaceChildren(h("b", {}, title), legend.kind === "scale" ? scale(legend) : entries(legend), rims);
+    },
+  );
   return panel;
 }
 

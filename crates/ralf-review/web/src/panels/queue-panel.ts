@@ -23,12 +23,18 @@ export class QueuePanel {
     this.list.addEventListener("scroll", () => this.draw());
     new ResizeObserver(() => this.draw()).observe(this.list);
     const { store } = page;
-    store.watch(({ scans, queueView }) => [scans, queueView], (scans, view) => {
-      this.rows = listed(scans, view);
-      this.room.style.setProperty("height", `${this.rows.length * ROW}px`);
-      this.draw();
-    });
-    store.watch(({ current }) => [current], () => this.reveal());
+    store.watch(
+      ({ scans, queueView }) => [scans, queueView],
+      (scans, view) => {
+        this.rows = listed(scans, view);
+        this.room.style.setProperty("height", `${this.rows.length * ROW}px`);
+        this.draw();
+      },
+    );
+    store.watch(
+      ({ current }) => [current],
+      () => this.reveal(),
+    );
   }
 
   private reveal(): void {
@@ -50,21 +56,34 @@ export class QueuePanel {
     const current = sameScan(entry, this.page.store.state.current);
     const bar = h("span", { class: "need-bar" }, h("span"));
     (bar.firstElementChild as HTMLElement).style.setProperty("width", `${Math.round(100 * entry.need)}%`);
-    const row = h("div", {
-      class: entry.reviewed === null ? "queue-row" : "queue-row done", role: "option", "aria-selected": String(current),
-      title: tooltip(entry), on: { click: () => void this.page.actions.go.goTo(entry) },
-    },
-    h("span", { class: "queue-name" }, h("span", {}, shortName(entry.radar)), h("b", { class: "number" }, String(entry.scan))),
-    h("span", { class: "queue-need" }, bar, h("b", { class: "number" }, entry.need.toFixed(2))),
-    h("span", { class: "queue-reasons" }, ...said(entry)));
+    const row = h(
+      "div",
+      {
+        class: entry.reviewed === null ? "queue-row" : "queue-row done",
+        role: "option",
+        "aria-selected": String(current),
+        title: tooltip(entry),
+        on: { click: () => void this.page.actions.go.goTo(entry) },
+      },
+      h(
+        "span",
+        { class: "queue-name" },
+        h("span", {}, shortName(entry.radar)),
+        h("b", { class: "number" }, String(entry.scan)),
+      ),
+      h("span", { class: "queue-need" }, bar, h("b", { class: "number" }, entry.need.toFixed(2))),
+      h("span", { class: "queue-reasons" }, ...said(entry)),
+    );
     row.style.setProperty("top", `${place * ROW}px`);
     return row;
   }
 }
 
 function said(entry: QueueScan): HTMLElement[] {
-  const parts = reasons(entry).map((reason) => h("span", { class: reason.includes("failed") ? "reason alarm" : "reason" }, reason));
-  if (entry.corrected > 0) parts.push(h("span", { class: "reason corrected" }, `${entry.corrected} corrected`));
+  const parts = reasons(entry).map((reason) =>
+    h("span", { class: reason.includes("failed") ? "reason alarm" : "reason" }, reason),
+  );
+  if (entry.corrected > 0) parts.unshift(h("span", { class: "reason corrected" }, `${entry.corrected} corrected`));
   if (entry.reviewed !== null) parts.unshift(h("span", { class: "reason reviewed" }, "✓ reviewed"));
   return parts;
 }
@@ -78,42 +97,88 @@ function head({ store, actions }: Page): HTMLElement {
   const sequences = select("Sequence", [], (name) => {
     void actions.go.open(name).then(() => actions.hear.listen(name));
   });
-  const bar = h("span", { class: "progress-bar", role: "progressbar", "aria-label": "Reviewed scans", "aria-valuemin": "0" }, h("span"));
+  const bar = h(
+    "span",
+    { class: "progress-bar", role: "progressbar", "aria-label": "Reviewed scans", "aria-valuemin": "0" },
+    h("span"),
+  );
   const text = h("span", { class: "faint number" });
-  store.watch(({ recording, sequence }) => [recording, sequence], (recording, sequence) => {
-    setOptions(sequences, recording.sequences.map(({ name, title, labelled }) => {
-      const text = title === "" ? name : `${name} · ${title}`;
-      return { value: name, text: labelled ? text : `${text} (not labelled)` };
-    }));
-    sequences.value = sequence;
-  });
-  store.watch(({ progress }) => [progress], ({ scans, reviewed, corrected_detections: corrected }) => {
-    (bar.firstElementChild as HTMLElement).style.setProperty("width", `${scans === 0 ? 0 : (100 * reviewed) / scans}%`);
-    bar.setAttribute("aria-valuemax", String(scans));
-    bar.setAttribute("aria-valuenow", String(reviewed));
-    say(text, `${reviewed} of ${counted(scans, "scan")} reviewed · ${corrected.toLocaleString("en")} corrected`);
-  });
+  store.watch(
+    ({ recording, sequence }) => [recording, sequence],
+    (recording, sequence) => {
+      setOptions(
+        sequences,
+        recording.sequences.map(({ name, title, labelled }) => {
+          const text = title === "" ? name : `${name} · ${title}`;
+          return { value: name, text: labelled ? text : `${text} (not labelled)` };
+        }),
+      );
+      sequences.value = sequence;
+    },
+  );
+  store.watch(
+    ({ progress }) => [progress],
+    ({ scans, reviewed, corrected_detections: corrected }) => {
+      (bar.firstElementChild as HTMLElement).style.setProperty(
+        "width",
+        `${scans === 0 ? 0 : (100 * reviewed) / scans}%`,
+      );
+      bar.setAttribute("aria-valuemax", String(scans));
+      bar.setAttribute("aria-valuenow", String(reviewed));
+      say(text, `${reviewed} of ${scans.toLocaleString("en")} reviewed · ${corrected.toLocaleString("en")} corrected`);
+    },
+  );
   const { dataset, out } = store.state.recording;
-  const brand = h("div", { class: "brand", title: `${dataset}, labels in ${out}` }, h("strong", {}, "RALF"), h("span", {}, "review"), h("span", { class: "faint" }, dataset));
+  const brand = h(
+    "div",
+    { class: "brand", title: `${dataset}, labels in ${out}` },
+    h("strong", {}, "RALF"),
+    h("span", {}, "review"),
+    h("span", { class: "faint" }, dataset),
+  );
   return h("header", { class: "queue-head" }, brand, sequences, bar, text);
 }
 
 function order({ store, actions }: Page): HTMLElement {
-  const orders: readonly (readonly [QueueOrder, string])[] = [["need", "Need"], ["time", "Time"]];
+  const orders: readonly (readonly [QueueOrder, string])[] = [
+    ["need", "Need"],
+    ["time", "Time"],
+  ];
   const buttons = orders.map(([name, text]) =>
-    h("button", { class: "segment", type: "button", on: { click: () => actions.go.viewQueue({ order: name }) } }, text));
-  const open = h("button", { class: "segment", type: "button", title: "Hide what is reviewed", on: {
-    click: () => actions.go.viewQueue({ hideReviewed: !store.state.queueView.hideReviewed }),
-  } }, "Open");
+    h("button", { class: "segment", type: "button", on: { click: () => actions.go.viewQueue({ order: name }) } }, text),
+  );
+  const open = h(
+    "button",
+    {
+      class: "segment",
+      type: "button",
+      title: "Hide what is reviewed",
+      on: {
+        click: () => actions.go.viewQueue({ hideReviewed: !store.state.queueView.hideReviewed }),
+      },
+    },
+    "Open",
+  );
   const radars = select("Radar", [], (value) => actions.go.viewQueue({ radar: value === "" ? null : value }));
-  store.watch(({ recording, sequence }) => [recording, sequence], (recording, sequence) => {
-    const names = recording.sequences.find(({ name }) => name === sequence)?.radars.map(({ name }) => name) ?? [];
-    setOptions(radars, [{ value: "", text: "All radars" }, ...names.map((name) => ({ value: name, text: name }))]);
-  });
-  store.watch(({ queueView }) => [queueView], ({ order: now, hideReviewed, radar }) => {
-    orders.forEach(([name], i) => pressed(buttons[i], name === now));
-    pressed(open, hideReviewed);
-    radars.value = radar ?? "";
-  });
-  return h("div", { class: "queue-order" }, h("div", { class: "segments", role: "group", "aria-label": "Order" }, ...buttons, open), radars);
+  store.watch(
+    ({ recording, sequence }) => [recording, sequence],
+    (recording, sequence) => {
+      const names = recording.sequences.find(({ name }) => name === sequence)?.radars.map(({ name }) => name) ?? [];
+      setOptions(radars, [{ value: "", text: "All radars" }, ...names.map((name) => ({ value: name, text: name }))]);
+    },
+  );
+  store.watch(
+    ({ queueView }) => [queueView],
+    ({ order: now, hideReviewed, radar }) => {
+      orders.forEach(([name], i) => pressed(buttons[i], name === now));
+      pressed(open, hideReviewed);
+      radars.value = radar ?? "";
+    },
+  );
+  return h(
+    "div",
+    { class: "queue-order" },
+    h("div", { class: "segments", role: "group", "aria-label": "Order" }, ...buttons, open),
+    radars,
+  );
 }

@@ -22,7 +22,16 @@ export class Timeline {
 
   constructor(private readonly page: Page) {
     const { store, actions } = page;
-    this.element = h("div", { class: "timeline", role: "slider", "aria-label": "Scans of this radar in time (arrow keys)", "aria-valuemin": "0" }, this.canvas);
+    this.element = h(
+      "div",
+      {
+        class: "timeline",
+        role: "slider",
+        "aria-label": "Scans of this radar in time (arrow keys)",
+        "aria-valuemin": "0",
+      },
+      this.canvas,
+    );
     this.element.addEventListener("click", (event) => {
       const row = this.rowAt(event);
       if (row !== undefined) void actions.go.goTo(row);
@@ -31,20 +40,28 @@ export class Timeline {
       this.element.title = this.describe(this.rowAt(event));
     });
     new ResizeObserver(() => this.draw()).observe(this.element);
-    store.watch(({ scans, current }) => [scans, current], (scans, current) => {
-      this.rows = current === null ? [] : listed(scans, { order: "time", hideReviewed: false, radar: current.radar });
-      const at = this.rows.findIndex((row) => sameScan(row, current));
-      this.element.setAttribute("aria-valuemax", String(Math.max(this.rows.length - 1, 0)));
-      this.element.setAttribute("aria-valuenow", String(Math.max(at, 0)));
-      this.element.setAttribute("aria-valuetext", this.describe(this.rows[at]));
-      this.draw();
-    });
+    store.watch(
+      ({ scans, current }) => [scans, current],
+      (scans, current) => {
+        this.rows = current === null ? [] : listed(scans, { order: "time", hideReviewed: false, radar: current.radar });
+        const at = this.rows.findIndex((row) => sameScan(row, current));
+        this.element.setAttribute("aria-valuemax", String(Math.max(this.rows.length - 1, 0)));
+        this.element.setAttribute("aria-valuenow", String(Math.max(at, 0)));
+        this.element.setAttribute("aria-valuetext", this.describe(this.rows[at]));
+        this.draw();
+      },
+    );
   }
 
   private describe(row: QueueScan | undefined): string {
     if (row === undefined) return "";
     const at = decimal(secondsBetween(this.rows[0].t_ns, row.t_ns), 2);
-    return [`${row.radar} ${row.scan}, ${at} s`, `need ${row.need.toFixed(2)}`, ...reasons(row), row.reviewed === null ? "open" : "reviewed"].join(" · ");
+    return [
+      `${row.radar} ${row.scan}, ${at} s`,
+      `need ${row.need.toFixed(2)}`,
+      ...reasons(row),
+      row.reviewed === null ? "open" : "reviewed",
+    ].join(" · ");
   }
 
   private get step(): number {

@@ -43,7 +43,10 @@ export function reasons({ uncertain, disagreeing, cameras_failed: failed }: Queu
   return said;
 }
 
-export function withCorrectionCounts(scans: readonly QueueScan[], answered: readonly ScanCorrections[]): readonly QueueScan[] {
+export function withCorrectionCounts(
+  scans: readonly QueueScan[],
+  answered: readonly ScanCorrections[],
+): readonly QueueScan[] {
   return scans.map((entry) => {
     const answer = answered.find((other) => sameScan(other, entry));
     return answer === undefined ? entry : { ...entry, corrected: answer.corrections.length };

@@ -29,9 +29,12 @@ export function distanceToSegment([x, y]: Point, [ax, ay]: Point, [bx, by]: Poin
 /** Whether a place lies in a shape; its border counts for boxes and strokes. */
 export function contains(shape: Shape, place: Point): boolean {
   switch (shape.kind) {
-    case "box": return between(place[0], shape.from[0], shape.to[0]) && between(place[1], shape.from[1], shape.to[1]);
-    case "polygon": return insidePolygon(shape.corners, place);
-    case "stroke": return nearPath(shape.path, place, shape.radius);
+    case "box":
+      return between(place[0], shape.from[0], shape.to[0]) && between(place[1], shape.from[1], shape.to[1]);
+    case "polygon":
+      return insidePolygon(shape.corners, place);
+    case "stroke":
+      return nearPath(shape.path, place, shape.radius);
   }
 }
 

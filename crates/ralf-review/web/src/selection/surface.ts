@@ -37,7 +37,10 @@ export class Surface {
     element.addEventListener("pointerup", (event) => this.release(event));
     element.addEventListener("pointerleave", () => this.leave());
     element.addEventListener("dblclick", (event) => this.closePolygon(combination(event)));
-    store.watch(({ tool, cloud }) => [tool, cloud.count], () => this.cancel());
+    store.watch(
+      ({ tool, cloud }) => [tool, cloud.count],
+      () => this.cancel(),
+    );
   }
 
   /** Gives an unfinished gesture up; false where there is none. */
@@ -104,7 +107,10 @@ export class Surface {
   }
 
   private hover(at: Point): void {
-    this.actions.select.hover(nearest(this.picture.places(), this.store.state.shown, at, REACH));
+    const { eligible, shown } = this.store.state;
+    const places = this.picture.places();
+    const own = nearest(places, eligible, at, REACH);
+    this.actions.select.hover(own >= 0 ? own : nearest(places, shown, at, REACH));
   }
 
   private choose(at: Point, how: Combination): void {

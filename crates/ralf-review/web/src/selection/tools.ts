@@ -42,10 +42,15 @@ export function pressedAgain(gesture: Gesture, at: Point): { readonly gesture: G
 /** The shape a gesture encloses by now; `null` where it has no extent. */
 export function shapeOf({ tool, path, pointer }: Gesture, brush: number): Shape | null {
   switch (tool) {
-    case "click": return null;
-    case "box": return path.length < 2 ? null : { kind: "box", from: path[0], to: path[1] };
-    case "lasso": return path.length < 3 ? null : { kind: "polygon", corners: path };
-    case "polygon": return path.length < 3 ? null : { kind: "polygon", corners: path };
-    case "brush": return { kind: "stroke", path: path.length > 0 ? path : [pointer], radius: brush };
+    case "click":
+      return null;
+    case "box":
+      return path.length < 2 ? null : { kind: "box", from: path[0], to: path[1] };
+    case "lasso":
+      return path.length < 3 ? null : { kind: "polygon", corners: path };
+    case "polygon":
+      return path.length < 3 ? null : { kind: "polygon", corners: path };
+    case "brush":
+      return { kind: "stroke", path: path.length > 0 ? path : [pointer], radius: brush };
   }
 }

@@ -4,7 +4,14 @@ import type { Recording } from "../api/types.js";
 import { gather, type Cloud } from "../data/cloud.js";
 import type { LabelBook, Truth } from "../data/labels.js";
 import {
-  ABSENT_RGB, ARTIFACT_RGB, CATEGORIES, diverging, PLAUSIBLE_RGB, type Rgb, UNLABELLED_RGB, viridis,
+  ABSENT_RGB,
+  ARTIFACT_RGB,
+  CATEGORIES,
+  diverging,
+  PLAUSIBLE_RGB,
+  type Rgb,
+  UNLABELLED_RGB,
+  viridis,
 } from "./palette.js";
 
 export const COLOUR_MODES = [
@@ -27,7 +34,13 @@ export type ColourMode = (typeof COLOUR_MODES)[number][0];
 
 export type Legend =
   | { readonly kind: "categories"; readonly entries: readonly (readonly [name: string, colour: Rgb])[] }
-  | { readonly kind: "scale"; readonly least: number; readonly most: number; readonly unit: string; readonly map: (share: number) => Rgb };
+  | {
+      readonly kind: "scale";
+      readonly least: number;
+      readonly most: number;
+      readonly unit: string;
+      readonly map: (share: number) => Rgb;
+    };
 
 export interface Painting {
   /** Red, green, blue of each detection. */
@@ -42,7 +55,12 @@ const TRUTH_COLOURS: Readonly<Record<Truth, Rgb>> = {
 };
 
 /** Names under which the strength of the echo comes, and its unit. */
-const POWER_FIELDS: readonly (readonly [name: string, unit: string])[] = [["power", "dB"], ["rcs", "dBsm"], ["snr", "dB"], ["RCS", "dBsm"]];
+const POWER_FIELDS: readonly (readonly [name: string, unit: string])[] = [
+  ["power", "dB"],
+  ["rcs", "dBsm"],
+  ["snr", "dB"],
+  ["RCS", "dBsm"],
+];
 const DOPPLER_FIELDS = ["doppler_compensated", "doppler"] as const;
 /** Doppler velocities beyond this have the map's ends, m/s. */
 const DOPPLER_END = 10;
@@ -53,15 +71,30 @@ export function truthColour(truth: Truth): Rgb {
 
 export function paint(cloud: Cloud, mode: ColourMode, labels: LabelBook, recording: Recording): Painting {
   switch (mode) {
-    case "label": return paintLabels(cloud, labels);
-    case "class": return paintClasses(cloud, labels);
-    case "cause": return paintCauses(cloud, recording.causes ?? []);
-    case "radar": return paintRadars(cloud);
-    case "doppler": return paintScale(firstKnown(cloud, DOPPLER_FIELDS), -DOPPLER_END, DOPPLER_END, "m/s", diverging);
-    case "power": return paintPower(cloud);
-    case "height": return paintScale(cloud.positions.filter((_, i) => i % 3 === 2), -1, 5, "m", viridis);
-    case "age": return paintAge(cloud);
-    default: return paintScale(gather(cloud, mode), 0, 1, "", viridis);
+    case "label":
+      return paintLabels(cloud, labels);
+    case "class":
+      return paintClasses(cloud, labels);
+    case "cause":
+      return paintCauses(cloud, recording.causes ?? []);
+    case "radar":
+      return paintRadars(cloud);
+    case "doppler":
+      return paintScale(firstKnown(cloud, DOPPLER_FIELDS), -DOPPLER_END, DOPPLER_END, "m/s", diverging);
+    case "power":
+      return paintPower(cloud);
+    case "height":
+      return paintScale(
+        cloud.positions.filter((_, i) => i % 3 === 2),
+        -1,
+        5,
+        "m",
+        viridis,
+      );
+    case "age":
+      return paintAge(cloud);
+    default:
+      return paintScale(gather(cloud, mode), 0, 1, "", viridis);
   }
 }
 
@@ -78,10 +111,15 @@ function paintLabels(cloud: Cloud, labels: LabelBook): Painting {
 }
 
 function paintClasses(cloud: Cloud, labels: LabelBook): Painting {
-  const clusters = [...new Set(labels.classes.map(({ cluster }) => cluster))].filter((name) => name !== null && name !== "artifact");
+  const clusters = [...new Set(labels.classes.map(({ cluster }) => cluster))].filter(
+    (name) => name !== null && name !== "artifact",
+  );
   const ofCluster = new Map(clusters.map((name, index) => [name, CATEGORIES[(index + 2) % CATEGORIES.length]]));
   const colour = (id: number): Rgb => ofCluster.get(labels.cluster(id)) ?? TRUTH_COLOURS[labels.truth(id)];
-  const entries: (readonly [string, Rgb])[] = [["plausible", PLAUSIBLE_RGB], ["artifact", ARTIFACT_RGB]];
+  const entries: (readonly [string, Rgb])[] = [
+    ["plausible", PLAUSIBLE_RGB],
+    ["artifact", ARTIFACT_RGB],
+  ];
   for (const [name, rgb] of ofCluster) entries.push([name ?? "", rgb]);
   return { colours: paintEach(cloud.count, (i) => colour(cloud.label[i])), legend: { kind: "categories", entries } };
 }
@@ -102,7 +140,8 @@ function paintRadars(cloud: Cloud): Painting {
 }
 
 function paintPower(cloud: Cloud): Painting {
-  const known = POWER_FIELDS.find(([name]) => cloud.scans.some(({ table }) => table.columns.has(name))) ?? POWER_FIELDS[0];
+  const known =
+    POWER_FIELDS.find(([name]) => cloud.scans.some(({ table }) => table.columns.has(name))) ?? POWER_FIELDS[0];
   const values = gather(cloud, known[0]);
   const sorted = values.filter((value) => !Number.isNaN(value)).sort();
   // Some echoes are far stronger than the rest; the map spans nine tenths of them.
@@ -119,9 +158,18 @@ function paintAge(cloud: Cloud): Painting {
   return paintScale(values, -end, end, "s", diverging);
 }
 
-function paintScale(values: Float32Array, least: number, most: number, unit: string, map: (share: number) => Rgb): Painting {
+function paintScale(
+  values: Float32Array,
+  least: number,
+  most: number,
+  unit: string,
+  map: (share: number) => Rgb,
+): Painting {
   const colour = (value: number): Rgb => (Number.isNaN(value) ? ABSENT_RGB : map((value - least) / (most - least)));
-  return { colours: paintEach(values.length, (i) => colour(values[i])), legend: { kind: "scale", least, most, unit, map } };
+  return {
+    colours: paintEach(values.length, (i) => colour(values[i])),
+    legend: { kind: "scale", least, most, unit, map },
+  };
 }
 
 function firstKnown(cloud: Cloud, names: readonly string[]): Float32Array {

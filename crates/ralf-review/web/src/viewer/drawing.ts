@@ -36,7 +36,10 @@ export function drawBrushCursor(context: CanvasRenderingContext2D, [x, y]: Point
 
 /** The ring around the detection under the pointer. */
 export function drawHover(context: CanvasRenderingContext2D, x: number, y: number, radius: number): void {
-  for (const [width, colour] of [[4, "rgb(0 0 0 / 65%)"], [2, "#ffffff"]] as const) {
+  for (const [width, colour] of [
+    [4, "rgb(0 0 0 / 65%)"],
+    [2, "#ffffff"],
+  ] as const) {
     context.lineWidth = width;
     context.strokeStyle = colour;
     context.beginPath();

@@ -34,17 +34,39 @@ function ring(radius: number): Place[] {
 
 function axes(): Place[] {
   const far = RINGS[RINGS.length - 1];
-  return [[-far, 0, 0], [far, 0, 0], [0, -far, 0], [0, far, 0]];
+  return [
+    [-far, 0, 0],
+    [far, 0, 0],
+    [0, -far, 0],
+    [0, far, 0],
+  ];
 }
 
 /** The vehicle as a box of edges, with an arrow on its roof that shows the heading. */
 function car(): Place[] {
   const { rear, front, halfWidth: side, height } = CAR;
-  const outline: readonly (readonly [number, number])[] = [[front, side], [front, -side], [rear, -side], [rear, side]];
+  const outline: readonly (readonly [number, number])[] = [
+    [front, side],
+    [front, -side],
+    [rear, -side],
+    [rear, side],
+  ];
   const edges = outline.flatMap(([x, y], i): Place[] => {
     const [nextX, nextY] = outline[(i + 1) % outline.length];
-    return [[x, y, 0], [nextX, nextY, 0], [x, y, height], [nextX, nextY, height], [x, y, 0], [x, y, height]];
+    return [
+      [x, y, 0],
+      [nextX, nextY, 0],
+      [x, y, height],
+      [nextX, nextY, height],
+      [x, y, 0],
+      [x, y, height],
+    ];
   });
-  const arrow: Place[] = [[1, 0.5, height], [2.2, 0, height], [2.2, 0, height], [1, -0.5, height]];
+  const arrow: Place[] = [
+    [1, 0.5, height],
+    [2.2, 0, height],
+    [2.2, 0, height],
+    [1, -0.5, height],
+  ];
   return [...edges, ...arrow];
 }

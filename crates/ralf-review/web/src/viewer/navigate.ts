@@ -15,13 +15,19 @@ export function navigate(element: HTMLElement, view: Navigable, above: () => boo
   let last: readonly [number, number] | null = null;
   let turning = false;
   element.addEventListener("contextmenu", (event) => event.preventDefault());
-  element.addEventListener("wheel", (event) => {
-    event.preventDefault();
-    const anchor = view.groundAt(...pixel(element, event));
-    // Over the horizon, or far away, zooming towards the pointer would fling the view away.
-    const near = anchor !== null && Math.hypot(anchor[0] - view.rig.target[0], anchor[1] - view.rig.target[1]) < 2 * view.rig.span;
-    aim(zoomed(view.rig, Math.exp(event.deltaY * 0.0012), near ? anchor : null));
-  }, { passive: false });
+  element.addEventListener(
+    "wheel",
+    (event) => {
+      event.preventDefault();
+      const anchor = view.groundAt(...pixel(element, event));
+      // Over the horizon, or far away, zooming towards the pointer would fling the view away.
+      const near =
+        anchor !== null &&
+        Math.hypot(anchor[0] - view.rig.target[0], anchor[1] - view.rig.target[1]) < 2 * view.rig.span;
+      aim(zoomed(view.rig, Math.exp(event.deltaY * 0.0012), near ? anchor : null));
+    },
+    { passive: false },
+  );
   element.addEventListener("pointerdown", (event) => {
     if (event.button !== MIDDLE && event.button !== RIGHT) return;
     event.preventDefault();

@@ -16,16 +16,37 @@ export const ABSENT_RGB: Rgb = [96, 105, 119];
 
 /** Okabe and Ito's eight without black, for categories. */
 export const CATEGORIES: readonly Rgb[] = [
-  [86, 180, 233], [230, 159, 0], [0, 178, 131], [204, 121, 167], [240, 228, 66], [60, 125, 205], [235, 108, 52], [165, 172, 182],
+  [86, 180, 233],
+  [230, 159, 0],
+  [0, 178, 131],
+  [204, 121, 167],
+  [240, 228, 66],
+  [60, 125, 205],
+  [235, 108, 52],
+  [165, 172, 182],
 ];
 
 /** Viridis (Smith and van der Walt) at nine even steps; as in `ralf plot`. */
 const VIRIDIS: readonly Rgb[] = [
-  [68, 1, 84], [71, 45, 123], [59, 82, 139], [44, 114, 142], [33, 145, 140], [40, 174, 128], [94, 201, 98], [173, 220, 48], [253, 231, 37],
+  [68, 1, 84],
+  [71, 45, 123],
+  [59, 82, 139],
+  [44, 114, 142],
+  [33, 145, 140],
+  [40, 174, 128],
+  [94, 201, 98],
+  [173, 220, 48],
+  [253, 231, 37],
 ];
 
 /** Blue over a light grey to vermilion: coming, still, going. */
-const DIVERGING: readonly Rgb[] = [[48, 136, 230], [128, 182, 232], [214, 216, 218], [240, 164, 112], [232, 96, 28]];
+const DIVERGING: readonly Rgb[] = [
+  [48, 136, 230],
+  [128, 182, 232],
+  [214, 216, 218],
+  [240, 164, 112],
+  [232, 96, 28],
+];
 
 /** Viridis' darkest end vanishes on a dark ground, so quantities begin a little above it. */
 const VIRIDIS_FROM = 0.16;

@@ -40,7 +40,7 @@ void main() {
   if (vMark == ${Mark.uncertain}.0) edge = ${glsl(UNCERTAIN_RGB)};
   if (vMark == ${Mark.corrected}.0) edge = ${glsl(CORRECTED_RGB)};
   if (vMark == ${Mark.selected}.0) { edge = ${glsl(SELECTED_RGB)}; rim *= 1.3; }
-  if (vMark == ${Mark.waiting}.0) { edge = ${glsl(WAITING_RGB)}; rim *= 1.6; }
+  if (vMark == ${Mark.waiting}.0) { edge = ${glsl(WAITING_RGB)}; rim *= 1.2; }
   vec3 colour = mix(vTint, edge, smoothstep(outer - rim - 0.6, outer - rim + 0.4, radius));
   float alpha = clamp(outer + 0.5 - radius, 0.0, 1.0) * (vMark == ${Mark.context}.0 ? 0.42 : 1.0);
   gl_FragColor = vec4(colour, alpha);

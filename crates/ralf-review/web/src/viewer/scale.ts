@@ -12,7 +12,12 @@ export function roundLength(most: number): number {
   return times * power;
 }
 
-export function drawScaleBar(context: CanvasRenderingContext2D, metresPerPixel: number, width: number, height: number): void {
+export function drawScaleBar(
+  context: CanvasRenderingContext2D,
+  metresPerPixel: number,
+  width: number,
+  height: number,
+): void {
   const metres = roundLength(140 * metresPerPixel);
   const length = metres / metresPerPixel;
   const [right, bottom] = [width - 18, height - 18];
@@ -56,7 +61,14 @@ export function drawAxes(context: CanvasRenderingContext2D, height: number): voi
   text(context, "y", x - length - 10, y + 4, "left", FAINT);
 }
 
-function text(context: CanvasRenderingContext2D, words: string, x: number, y: number, align: CanvasTextAlign, colour: string): void {
+function text(
+  context: CanvasRenderingContext2D,
+  words: string,
+  x: number,
+  y: number,
+  align: CanvasTextAlign,
+  colour: string,
+): void {
   context.font = FONT;
   context.textAlign = align;
   context.lineWidth = 3;

@@ -1,6 +1,17 @@
 /** The WebGL picture: bird's eye and free view of the same scene, drawn only when something has changed. */
 
-import { Color, OrthographicCamera, PerspectiveCamera, Plane, Raycaster, Scene, Vector2, Vector3, WebGLRenderer, Matrix4 } from "three";
+import {
+  Color,
+  OrthographicCamera,
+  PerspectiveCamera,
+  Plane,
+  Raycaster,
+  Scene,
+  Vector2,
+  Vector3,
+  WebGLRenderer,
+  Matrix4,
+} from "three";
 import { ground } from "./ground.js";
 import { LidarCloud } from "./lidar-cloud.js";
 import { projectAll } from "./project.js";

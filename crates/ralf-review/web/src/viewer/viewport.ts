@@ -24,8 +24,17 @@ export class Viewport {
 
   constructor(private readonly page: Page) {
     const canvas = h("canvas", { class: "scene", "aria-label": "Radar detections over LiDAR" });
-    this.element = h("div", { class: "viewport", tabindex: "0", "aria-label": "Bird's eye and free view" }, canvas, this.overlay);
-    this.view = new SceneView(canvas, () => this.drawOverlay(), (milliseconds) => page.actions.view.drawn(milliseconds));
+    this.element = h(
+      "div",
+      { class: "viewport", tabindex: "0", "aria-label": "Bird's eye and free view" },
+      canvas,
+      this.overlay,
+    );
+    this.view = new SceneView(
+      canvas,
+      () => this.drawOverlay(),
+      (milliseconds) => page.actions.view.drawn(milliseconds),
+    );
     this.surface = new Surface(page.store, page.actions, {
       element: this.element,
       places: () => this.placed(),
@@ -36,7 +45,12 @@ export class Viewport {
       },
       pan: (right, down) => this.aim(panned(this.view.rig, right, down, this.view.size[1], this.above)),
     });
-    navigate(this.element, this.view, () => this.above, (rig) => this.aim(rig));
+    navigate(
+      this.element,
+      this.view,
+      () => this.above,
+      (rig) => this.aim(rig),
+    );
     new ResizeObserver(() => this.resize()).observe(this.element);
     this.watch();
   }
@@ -52,20 +66,32 @@ export class Viewport {
   private watch(): void {
     const { store } = this.page;
     const { view } = this;
-    store.watch(({ cloud }) => [cloud.positions], (positions) => {
-      view.radar.setPositions(positions);
-      this.changed();
-    });
-    store.watch(({ lidar }) => [lidar], (lidar) => view.lidar.set(lidar));
-    store.watch(({ painting }) => [painting], ({ colours }) => {
-      view.radar.setColours(colours);
-      this.changed();
-    });
+    store.watch(
+      ({ cloud }) => [cloud.positions],
+      (positions) => {
+        view.radar.setPositions(positions);
+        this.changed();
+      },
+    );
+    store.watch(
+      ({ lidar }) => [lidar],
+      (lidar) => view.lidar.set(lidar),
+    );
+    store.watch(
+      ({ painting }) => [painting],
+      ({ colours }) => {
+        view.radar.setColours(colours);
+        this.changed();
+      },
+    );
     store.watch(
       ({ cloud, shown, eligible, selection, waiting: strokes }) => [cloud, shown, eligible, selection, strokes],
       (cloud, shown, eligible, selection, strokes) => {
         if (shown.length !== cloud.count || selection.length !== cloud.count) return;
-        const waiting = maskOf(cloud, strokes.flatMap(({ stroke }) => stroke.points));
+        const waiting = maskOf(
+          cloud,
+          strokes.flatMap(({ stroke }) => stroke.points),
+        );
         view.radar.setMarks(marksOf(cloud, { shown, eligible, selection, waiting }, store.state.recording.threshold));
         this.changed();
       },
@@ -79,7 +105,10 @@ export class Viewport {
         this.changed();
       },
     );
-    store.watch(({ hover, tool }) => [hover, tool], () => this.drawOverlay());
+    store.watch(
+      ({ hover, tool }) => [hover, tool],
+      () => this.drawOverlay(),
+    );
   }
 
   private changed(): void {

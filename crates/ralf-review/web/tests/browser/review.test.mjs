@@ -2,7 +2,24 @@
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
 import {
-  clean, current, drag, freshOut, historyOf, lassoAll, launch, open, pixel, planted, queueOf, ready, says, scanOf, selected, serve, status,
+  clean,
+  current,
+  drag,
+  exported,
+  freshOut,
+  historyOf,
+  lassoAll,
+  launch,
+  open,
+  pixel,
+  planted,
+  queueOf,
+  ready,
+  says,
+  scanOf,
+  selected,
+  serve,
+  status,
 } from "./support.mjs";
 
 /** What Chromium itself logs while nobody answers, or of an answer 409. */
@@ -32,7 +49,7 @@ test("hovering a detection shows its numbers", async (context) => {
   const tab = await open(context, browser, server);
   const scan = await scanOf(server, await current(tab.page));
   const point = scan.range.findIndex((range) => range > 5 && range < 40);
-  await tab.page.mouse.move(...await pixel(tab.page, scan.x[point], scan.y[point]));
+  await tab.page.mouse.move(...(await pixel(tab.page, scan.x[point], scan.y[point])));
   await tab.page.locator(".details .branches").waitFor();
   await says(tab.page.locator(".details"), "doppler");
   clean(tab);
@@ -80,7 +97,7 @@ test("what is corrected is protected until that is turned off; flipping is one s
   await lassoAll(page);
   await page.keyboard.press("x");
   await says(page.locator(".status-bar"), "undo 2");
-  assert.ok(await labels(99) < plausible);
+  assert.ok((await labels(99)) < plausible);
   await page.keyboard.press("Control+z");
   await says(page.locator(".status-bar"), "undo 1");
   assert.equal(await labels(99), plausible);
@@ -94,15 +111,21 @@ test("a box in a camera's image and a brush in the free view select, and a class
   const camera = await page.locator(".camera.large").boundingBox();
   await page.waitForTimeout(500);
   await page.keyboard.press("b");
-  await drag(page, [[camera.x + 4, camera.y + 4], [camera.x + camera.width - 4, camera.y + camera.height - 4]]);
-  assert.ok(await selected(page) > 0, "nothing selected in the camera");
+  await drag(page, [
+    [camera.x + 4, camera.y + 4],
+    [camera.x + camera.width - 4, camera.y + camera.height - 4],
+  ]);
+  assert.ok((await selected(page)) > 0, "nothing selected in the camera");
   await page.keyboard.press("Escape");
   assert.equal(await selected(page), 0);
   await page.keyboard.press("t");
   await page.keyboard.press("u");
   for (let larger = 0; larger < 6; larger += 1) await page.keyboard.press("]");
   const view = await page.locator(".viewport").boundingBox();
-  await drag(page, [[view.x + view.width * 0.2, view.y + view.height * 0.42], [view.x + view.width * 0.8, view.y + view.height * 0.42]]);
+  await drag(page, [
+    [view.x + view.width * 0.2, view.y + view.height * 0.42],
+    [view.x + view.width * 0.8, view.y + view.height * 0.42],
+  ]);
   const count = await selected(page);
   assert.ok(count > 0, "nothing selected in the free view");
   await page.keyboard.press("c");
@@ -123,7 +146,7 @@ test("killed without warning, the server loses nothing: strokes wait in the page
   const [first, second] = isolated(scan);
   const click = async (point, key) => {
     await page.keyboard.press("v");
-    await page.mouse.click(...await pixel(page, scan.x[point], scan.y[point]));
+    await page.mouse.click(...(await pixel(page, scan.x[point], scan.y[point])));
     await page.keyboard.press(key);
   };
   await click(first, "a");
@@ -158,7 +181,7 @@ test("two tabs on one scan: the second is told, sees the newer state, and decide
   const [first, second] = isolated(scan);
   const click = async (page, point, key) => {
     await page.keyboard.press("v");
-    await page.mouse.click(...await pixel(page, scan.x[point], scan.y[point]));
+    await page.mouse.click(...(await pixel(page, scan.x[point], scan.y[point])));
     await page.keyboard.press(key);
   };
   await click(early.page, first, "a");
@@ -184,50 +207,51 @@ test("two tabs on one scan: the second is told, sees the newer state, and decide
   clean(late, REFUSED);
 });
 
-test("every planted error is corrected by mouse and keyboard alone", async (context) => {
-  const server = await serve(context, await freshOut(context));
+test("every planted error is corrected by mouse and keyboard alone, and exports hold what is right", async (context) => {
+  const out = await freshOut(context);
+  const server = await serve(context, out);
   const tab = await open(context, browser, server);
   const { page } = tab;
   const { scans } = await queueOf(server);
   const right = new Map();
-  for (const { radar, scan } of scans) right.set(`${radar}/${scan}`, (await scanOf(server, { radar, scan })).machine.slice());
+  for (const id of scans) right.set(`${id.radar}/${id.scan}`, [...(await scanOf(server, id)).machine]);
   for (const { radar, scan, point, label } of planted) right.get(`${radar}/${scan}`)[point] = label;
   assert.ok(planted.length >= 8);
-  for (let seen = 0; seen < scans.length; seen += 1) {
-    const id = await current(page);
-    const table = await scanOf(server, id);
-    for (const { point, label } of planted.filter(({ radar, scan }) => radar === id.radar && scan === id.scan)) {
-      const depth = (await historyOf(server)).undo_depth;
-      await page.mouse.click(...await pixel(page, table.x[point], table.y[point]));
-      assert.equal(await selected(page), 1);
-      await page.keyboard.press(label === 1 ? "a" : "p");
-      await says(page.locator(".status-bar"), `undo ${depth + 1}`);
-    }
+  for (let seen = 1; seen <= scans.length; seen += 1) {
+    await correctPlanted(server, page);
     const here = page.url();
     await page.keyboard.press("Enter");
-    await says(page.locator(".queue-head"), `${seen + 1} of ${scans.length}`);
-    if (seen + 1 === scans.length) break;
+    await says(page.locator(".queue-head"), `${seen} of ${scans.length}`);
+    if (seen === scans.length) break;
     await page.waitForFunction((address) => location.href !== address, here);
     await ready(page);
   }
+  const labels = await exported(out);
   for (const { radar, scan } of scans) {
     const now = await scanOf(server, { radar, scan });
-    assert.deepEqual([...now.label], [...right.get(`${radar}/${scan}`)], `${radar} ${scan}`);
+    assert.deepEqual([...now.label], right.get(`${radar}/${scan}`), `${radar} ${scan}`);
+    assert.deepEqual(labels.get(`${radar}/${scan}`), right.get(`${radar}/${scan}`), `${radar} ${scan}, exported`);
     assert.equal(now.header.reviewed?.author, "ada");
   }
   clean(tab);
 });
 
-/** Two detections that no other of the scan is near, so that a click means them. */
+/** Clicks each planted error of the scan on screen, and sets it right with a key. */
+async function correctPlanted(server, page) {
+  const id = await current(page);
+  const table = await scanOf(server, id);
+  for (const { point, label } of planted.filter(({ radar, scan }) => radar === id.radar && scan === id.scan)) {
+    const depth = (await historyOf(server)).undo_depth;
+    await page.mouse.click(...(await pixel(page, table.x[point], table.y[point])));
+    assert.equal(await selected(page), 1);
+    await page.keyboard.press(label === 1 ? "a" : "p");
+    await says(page.locator(".status-bar"), `undo ${depth + 1}`);
+  }
+}
+
+/** Two detections that no other of the scan is near, so that a click means them; plausible ones if there are. */
 function isolated({ x, y, range, machine }) {
-  const alone = [];
-  for (let i = 0; i < x.length && alone.length < 2; i += 1) {
-    const near = x.some((_, j) => j !== i && Math.hypot(x[i] - x[j], y[i] - y[j]) < 1.5);
-    if (!near && range[i] < 38 && Math.abs(y[i]) < 38 && machine[i] !== 1) alone.push(i);
-  }
-  for (let i = 0; i < x.length && alone.length < 2; i += 1) {
-    const near = x.some((_, j) => j !== i && Math.hypot(x[i] - x[j], y[i] - y[j]) < 1.5);
-    if (!near && range[i] < 38 && !alone.includes(i)) alone.push(i);
-  }
-  return alone;
+  const alone = (i) => x.every((_, j) => j === i || Math.hypot(x[i] - x[j], y[i] - y[j]) > 1.5);
+  const found = [...x.keys()].filter((i) => range[i] < 38 && Math.abs(x[i]) < 38 && Math.abs(y[i]) < 38 && alone(i));
+  return found.sort((a, b) => (machine[a] === 1) - (machine[b] === 1)).slice(0, 2);
 }

@@ -1,6 +1,6 @@
 // The program, a browser, and what tests ask of them.
 import assert from "node:assert/strict";
-import { spawn } from "node:child_process";
+import { spawn, spawnSync } from "node:child_process";
 import { once } from "node:events";
 import { cp, mkdtemp, readFile, rm } from "node:fs/promises";
 import { tmpdir } from "node:os";
@@ -14,8 +14,14 @@ const { RALF_PROGRAM, RALF_DATASET, RALF_OUT, RALF_PLANTED, RALF_CHROMIUM } = pr
 export const planted = JSON.parse(await readFile(RALF_PLANTED, "utf8"));
 
 const CHROMIUM = [
-  "--no-sandbox", "--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-component-update",
-  "--disable-sync", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
+  "--no-sandbox",
+  "--disable-quic",
+  "--no-first-run",
+  "--disable-background-networking",
+  "--disable-component-update",
+  "--disable-sync",
+  "--use-angle=swiftshader",
+  "--enable-unsafe-swiftshader",
 ];
 
 export function launch() {
@@ -32,7 +38,9 @@ export async function freshOut(context) {
 
 /** `ralf review`, until the test ends or `kill` is called. */
 export async function serve(context, out, { author = "ada", port = 0 } = {}) {
-  const child = spawn(RALF_PROGRAM, ["review", RALF_DATASET, out, "--port", String(port), "--author", author], { stdio: ["ignore", "pipe", "inherit"] });
+  const child = spawn(RALF_PROGRAM, ["review", RALF_DATASET, out, "--port", String(port), "--author", author], {
+    stdio: ["ignore", "pipe", "inherit"],
+  });
   const kill = async (signal = "SIGKILL") => {
     if (child.exitCode !== null || child.signalCode !== null) return;
     child.kill(signal);
@@ -66,11 +74,16 @@ export async function open(context, browser, server) {
 
 /** Waits until a scan is on screen. */
 export async function ready(page) {
-  await page.waitForFunction(() => / detections?$/.test(document.querySelector(".scan-title .faint")?.textContent ?? ""));
+  await page.waitForFunction(() =>
+    / detections?$/.test(document.querySelector(".scan-title .faint")?.textContent ?? ""),
+  );
 }
 
 export function clean({ complaints, strangers }, expected = /$^/) {
-  assert.deepEqual(complaints.filter((text) => !expected.test(text)), []);
+  assert.deepEqual(
+    complaints.filter((text) => !expected.test(text)),
+    [],
+  );
   assert.deepEqual(strangers, []);
 }
 
@@ -87,13 +100,37 @@ export async function sequenceOf(server) {
 
 const ARRAYS = { f32: Float32Array, u8: Uint8Array, u16: Uint16Array, i32: Int32Array, u32: Uint32Array };
 
+/** The labels as `ralf export` hands them on: by "radar/scan", SemanticKITTI ids. */
+export async function exported(out) {
+  const folder = join(out, "..", "kitti");
+  const ran = spawnSync(RALF_PROGRAM, ["export", RALF_DATASET, out, "--to", "semantickitti", "-o", folder], {
+    encoding: "utf8",
+  });
+  assert.equal(ran.status, 0, ran.stderr);
+  const [, ...lines] = (await readFile(join(folder, "sequences.csv"), "utf8")).trim().split("\n");
+  const labels = new Map();
+  for (const [number, , radar, scans] of lines.map((line) => line.split(","))) {
+    for (let scan = 0; scan < Number(scans); scan += 1) {
+      const file = await readFile(
+        join(folder, "sequences", number, "labels", `${String(scan).padStart(6, "0")}.label`),
+      );
+      const ids = Array.from({ length: file.length / 4 }, (_, i) => file.readUInt32LE(4 * i) & 0xffff);
+      labels.set(`${radar}/${scan}`, ids);
+    }
+  }
+  return labels;
+}
+
 /** A scan as the server has it: {header, x, y, label, ...}. */
 export async function scanOf(server, { radar, scan }) {
   const sequence = await sequenceOf(server);
   const buffer = await (await ask(server, `sequences/${sequence}/radars/${radar}/scans/${scan}`)).arrayBuffer();
   const length = new DataView(buffer).getUint32(0, true);
   const header = JSON.parse(new TextDecoder().decode(new Uint8Array(buffer, 4, length)));
-  const columns = header.columns.map(({ name, type, offset }) => [name, new ARRAYS[type](buffer, 4 + length + offset, header.rows)]);
+  const columns = header.columns.map(({ name, type, offset }) => [
+    name,
+    new ARRAYS[type](buffer, 4 + length + offset, header.rows),
+  ]);
   return { header, ...Object.fromEntries(columns) };
 }
 
@@ -114,7 +151,11 @@ export async function current(page) {
 /** Pixels of the window at which the bird's eye shows a place of the vehicle frame, m. */
 export async function pixel(page, x, y) {
   const viewport = page.locator(".viewport");
-  const [box, target, metres] = await Promise.all([viewport.boundingBox(), viewport.getAttribute("data-target"), viewport.getAttribute("data-metres-per-pixel")]);
+  const [box, target, metres] = await Promise.all([
+    viewport.boundingBox(),
+    viewport.getAttribute("data-target"),
+    viewport.getAttribute("data-metres-per-pixel"),
+  ]);
   const [centreX, centreY] = target.split(" ").map(Number);
   return [box.x + box.width / 2 - (y - centreY) / metres, box.y + box.height / 2 - (x - centreX) / metres];
 }

@@ -13,8 +13,12 @@ function pose(x: number, y: number, angle: number): number[] {
   return [c, -s, 0, x, s, c, 0, y, 0, 0, 1, 0, 0, 0, 0, 1];
 }
 
-const labels = new LabelBook([{ id: 1, name: "outlier", cluster: "artifact", plausible: false }, { id: 10, name: "car", cluster: "vehicle", plausible: true }]);
-const close = (a: ArrayLike<number>, b: readonly number[]): void => b.forEach((value, i) => assert.ok(Math.abs(a[i] - value) < 1e-5, `${a[i]} is not ${value}`));
+const labels = new LabelBook([
+  { id: 1, name: "outlier", cluster: "artifact", plausible: false },
+  { id: 10, name: "car", cluster: "vehicle", plausible: true },
+]);
+const close = (a: ArrayLike<number>, b: readonly number[]): void =>
+  b.forEach((value, i) => assert.ok(Math.abs(a[i] - value) < 1e-5, `${a[i]} is not ${value}`));
 
 test("a motion and its inverse leave everything where it is", () => {
   const m = pose(3, -2, 0.7);
@@ -41,7 +45,10 @@ test("detections keep the names under which the server knows them", () => {
   const cloud = buildCloud([made("front", 4, { x: [1, 2, 3] }), made("rear", 9, { x: [7, 8], w: [0.1, 0.2] })]);
   assert.deepEqual([cloud.count, pointOf(cloud, 4).scan.radar, pointOf(cloud, 4).point], [5, "rear", 1]);
   const named = pointsByScan(cloud, new Uint8Array([0, 1, 0, 0, 1]));
-  assert.deepEqual(named, [{ radar: "front", scan: 4, points: [1] }, { radar: "rear", scan: 9, points: [1] }]);
+  assert.deepEqual(named, [
+    { radar: "front", scan: 4, points: [1] },
+    { radar: "rear", scan: 9, points: [1] },
+  ]);
   assert.deepEqual([...maskOf(cloud, named)], [0, 1, 0, 0, 1]);
   close([columnOf(cloud, 4, "w")], [0.2]);
   assert.ok(Number.isNaN(gather(cloud, "rcs")[0]));
@@ -53,7 +60,13 @@ test("a correction sets its detection alone, and its end gives the machine's lab
   assert.ok(after !== null);
   assert.deepEqual([[...after.label], [...after.corrected], after.revision], [[99, 10], [0, 1], 1]);
   const back = withCorrections(after, { radar: "front", scan: 0, revision: 2, corrections: [] });
-  assert.deepEqual([[...(back?.label ?? [])], [...(back?.corrected ?? [])]], [[99, 99], [0, 0]]);
+  assert.deepEqual(
+    [[...(back?.label ?? [])], [...(back?.corrected ?? [])]],
+    [
+      [99, 99],
+      [0, 0],
+    ],
+  );
   const cloud = withScans(buildCloud([scan]), [after]);
   assert.deepEqual([...cloud.label], [99, 10]);
 });
@@ -64,8 +77,12 @@ test("what a scan was accepted with is the server's to say", () => {
 });
 
 test("every filter lets through what it says", () => {
-  const cloud = buildCloud([made("front", 0, { x: [1, 20, 60], w: [0.95, 0.55, Number.NaN], machine: [99, 1, 99], corrected: [1, 0, 0] })]);
-  const shown = (filter: Partial<typeof everything>): number[] => [...visible(cloud, { ...everything, ...filter }, labels, 0.5)];
+  const cloud = buildCloud([
+    made("front", 0, { x: [1, 20, 60], w: [0.95, 0.55, Number.NaN], machine: [99, 1, 99], corrected: [1, 0, 0] }),
+  ]);
+  const shown = (filter: Partial<typeof everything>): number[] => [
+    ...visible(cloud, { ...everything, ...filter }, labels, 0.5),
+  ];
   assert.deepEqual(shown({}), [1, 1, 1]);
   assert.deepEqual(shown({ artifact: false }), [1, 0, 1]);
   assert.deepEqual(shown({ origin: "corrected" }), [1, 0, 0]);
@@ -76,5 +93,9 @@ test("every filter lets through what it says", () => {
   assert.deepEqual(shown({ height: [1, 2] }), [0, 0, 0]);
   assert.deepEqual(shown({ flags: 4 }), [0, 0, 0]);
   assert.deepEqual(shown({ hiddenRadars: new Set(["front"]) }), [0, 0, 0]);
-  assert.ok(!hides(everything) && hides({ ...everything, range: [0, 30] }) && hides({ ...everything, hiddenRadars: new Set(["front"]) }));
+  assert.ok(
+    !hides(everything) &&
+      hides({ ...everything, range: [0, 30] }) &&
+      hides({ ...everything, hiddenRadars: new Set(["front"]) }),
+  );
 });

@@ -1,8 +1,20 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { collect, contains, distanceToSegment, insidePolygon, nearest, type Point } from "../../src/selection/geometry.js";
+import {
+  collect,
+  contains,
+  distanceToSegment,
+  insidePolygon,
+  nearest,
+  type Point,
+} from "../../src/selection/geometry.js";
 
-const SQUARE: readonly Point[] = [[0, 0], [10, 0], [10, 10], [0, 10]];
+const SQUARE: readonly Point[] = [
+  [0, 0],
+  [10, 0],
+  [10, 10],
+  [0, 10],
+];
 
 test("a polygon holds what it encloses, whichever way round it was drawn", () => {
   for (const corners of [SQUARE, [...SQUARE].reverse()]) {
@@ -13,22 +25,43 @@ test("a polygon holds what it encloses, whichever way round it was drawn", () =>
 });
 
 test("a concave polygon leaves its notch out", () => {
-  const notched: readonly Point[] = [[0, 0], [10, 0], [10, 10], [5, 3], [0, 10]];
+  const notched: readonly Point[] = [
+    [0, 0],
+    [10, 0],
+    [10, 10],
+    [5, 3],
+    [0, 10],
+  ];
   assert.ok(!insidePolygon(notched, [5, 8]));
   assert.ok(insidePolygon(notched, [1, 5]));
   assert.ok(insidePolygon(notched, [5, 2]));
 });
 
 test("the loop of a line that crosses itself lies outside where it was gone round twice", () => {
-  const bow: readonly Point[] = [[0, 0], [10, 10], [10, 0], [0, 10]];
+  const bow: readonly Point[] = [
+    [0, 0],
+    [10, 10],
+    [10, 0],
+    [0, 10],
+  ];
   assert.ok(insidePolygon(bow, [1, 5]));
   assert.ok(insidePolygon(bow, [9, 5]));
   assert.ok(!insidePolygon(bow, [5, 1]));
 });
 
 test("every place is in exactly one of the two halves that share an edge", () => {
-  const left: readonly Point[] = [[0, 0], [5, 0], [5, 10], [0, 10]];
-  const right: readonly Point[] = [[5, 0], [10, 0], [10, 10], [5, 10]];
+  const left: readonly Point[] = [
+    [0, 0],
+    [5, 0],
+    [5, 10],
+    [0, 10],
+  ];
+  const right: readonly Point[] = [
+    [5, 0],
+    [10, 0],
+    [10, 10],
+    [5, 10],
+  ];
   for (let x = 0.25; x < 10; x += 0.25) {
     for (let y = 0.25; y < 10; y += 0.25) {
       assert.equal(Number(insidePolygon(left, [x, y])) + Number(insidePolygon(right, [x, y])), 1, `${x} ${y}`);
@@ -46,7 +79,20 @@ test("boxes and brushes count their border", () => {
   assert.ok(contains({ kind: "box", from: [10, 10], to: [0, 0] }, [0, 10]));
   assert.ok(contains({ kind: "stroke", path: [[0, 0]], radius: 5 }, [3, 4]));
   assert.ok(!contains({ kind: "stroke", path: [[0, 0]], radius: 5 }, [3, 4.1]));
-  assert.ok(contains({ kind: "stroke", path: [[0, 0], [10, 0], [10, 10]], radius: 1 }, [10.9, 6]));
+  assert.ok(
+    contains(
+      {
+        kind: "stroke",
+        path: [
+          [0, 0],
+          [10, 0],
+          [10, 10],
+        ],
+        radius: 1,
+      },
+      [10.9, 6],
+    ),
+  );
 });
 
 test("collecting skips what isn't eligible or not in the picture", () => {

@@ -8,7 +8,10 @@ const HISTORY = { undo: null, redo: null, undo_depth: 0, redo_depth: 0 };
 
 function stroke(points: readonly number[], revision: number, label: number | null = 99): Pending {
   const base = [{ radar: "front", scan: 3, revision }];
-  return { sequence: "00", stroke: { tool: "lasso", protect: true, label, base, points: [{ radar: "front", scan: 3, points }] } };
+  return {
+    sequence: "00",
+    stroke: { tool: "lasso", protect: true, label, base, points: [{ radar: "front", scan: 3, points }] },
+  };
 }
 
 /** A server that counts revisions and refuses a stroke on any but the newest. */
@@ -36,11 +39,19 @@ class FakeServer {
     const corrections = points[0].points.map((point) => [point, label ?? 0] as const);
     if (base[0].revision !== this.revision) {
       const scans = [{ radar: "front", scan: 3, revision: this.revision, corrections: [] }];
-      throw new Conflict({ error: "changed", conflict: { author: "grace", at: "", tool: "box", radar: "front", scan: 3 }, scans });
+      throw new Conflict({
+        error: "changed",
+        conflict: { author: "grace", at: "", tool: "box", radar: "front", scan: 3 },
+        scans,
+      });
     }
     this.revision += 1;
     this.written.push([...points[0].points]);
-    return { changed: points[0].points.length, scans: [{ radar: "front", scan: 3, revision: this.revision, corrections }], history: HISTORY };
+    return {
+      changed: points[0].points.length,
+      scans: [{ radar: "front", scan: 3, revision: this.revision, corrections }],
+      history: HISTORY,
+    };
   }
 }
 
@@ -67,7 +78,10 @@ test("while the server is gone strokes are kept, and saved in order on its retur
   await server.outbox.add([stroke([1], 0)]);
   await server.outbox.add([stroke([2], 0)]);
   assert.equal(server.last.kind, "gone");
-  assert.deepEqual(server.kept.at(-1)?.map(({ stroke: { points } }) => points[0].points), [[1], [2]]);
+  assert.deepEqual(
+    server.kept.at(-1)?.map(({ stroke: { points } }) => points[0].points),
+    [[1], [2]],
+  );
   server.trouble = null;
   await server.outbox.retry();
   assert.deepEqual(server.written, [[1], [2]]);
@@ -96,6 +110,18 @@ test("a conflict may be dropped; the strokes behind it go on", async () => {
   assert.deepEqual(server.written, [[2]]);
 });
 
+test("halves of one step are dropped together", async () => {
+  const server = new FakeServer();
+  server.revision = 2;
+  const half = (point: number): Pending => {
+    const whole = stroke([point], 1);
+    return { ...whole, stroke: { ...whole.stroke, group: "flip" } };
+  };
+  await server.outbox.add([half(1), half(2), stroke([3], 2)]);
+  await server.outbox.drop();
+  assert.deepEqual(server.written, [[3]]);
+});
+
 test("a refusal says why and keeps the stroke", async () => {
   const server = new FakeServer();
   server.trouble = new Refused(500, "disk full");
@@ -105,7 +131,17 @@ test("a refusal says why and keeps the stroke", async () => {
 });
 
 test("a stroke whose answer was lost is known by its effect", () => {
-  const scans = [{ radar: "front", scan: 3, revision: 1, corrections: [[1, 99], [2, 99]] as const }];
+  const scans = [
+    {
+      radar: "front",
+      scan: 3,
+      revision: 1,
+      corrections: [
+        [1, 99],
+        [2, 99],
+      ] as const,
+    },
+  ];
   assert.ok(alreadyThere(stroke([1, 2], 0), { error: "", conflict: null, scans }));
   assert.ok(!alreadyThere(stroke([1, 3], 0), { error: "", conflict: null, scans }));
   assert.ok(!alreadyThere(stroke([1], 0, 1), { error: "", conflict: null, scans }));

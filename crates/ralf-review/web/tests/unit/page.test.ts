@@ -17,8 +17,14 @@ const CLASSES = [
 test("watchers hear of what they watch, once, and see the newest", () => {
   const store = new Store({ a: 1, b: 1, sum: 0 });
   const sums: number[] = [];
-  store.watch(({ a, b }) => [a, b], (a, b) => store.set({ sum: a + b }));
-  store.watch(({ sum }) => [sum], (sum) => sums.push(sum));
+  store.watch(
+    ({ a, b }) => [a, b],
+    (a, b) => store.set({ sum: a + b }),
+  );
+  store.watch(
+    ({ sum }) => [sum],
+    (sum) => sums.push(sum),
+  );
   store.set({ a: 2 });
   store.set({ a: 2 });
   assert.deepEqual(sums, [2, 3]);
@@ -27,7 +33,10 @@ test("watchers hear of what they watch, once, and see the newest", () => {
 test("a watcher that was ended hears nothing", () => {
   const store = new Store({ a: 1 });
   let heard = 0;
-  store.watch(({ a }) => [a], () => (heard += 1))();
+  store.watch(
+    ({ a }) => [a],
+    () => (heard += 1),
+  )();
   store.set({ a: 2 });
   assert.equal(heard, 1);
 });
@@ -55,8 +64,14 @@ test("a cache forgets the oldest, and what failed", async () => {
 
 test("labels mean what SemanticKITTI and the paper say", () => {
   const labels = new LabelBook(CLASSES);
-  assert.deepEqual([0, 1, 40, 10, 99, 4711].map((id) => labels.truth(id)), ["unlabelled", "artifact", "artifact", "plausible", "plausible", "plausible"]);
-  assert.deepEqual([1, 99, 10, 4711].map((id) => labels.name(id)), ["artifact", "plausible", "car", "class 4711"]);
+  assert.deepEqual(
+    [0, 1, 40, 10, 99, 4711].map((id) => labels.truth(id)),
+    ["unlabelled", "artifact", "artifact", "plausible", "plausible", "plausible"],
+  );
+  assert.deepEqual(
+    [1, 99, 10, 4711].map((id) => labels.name(id)),
+    ["artifact", "plausible", "car", "class 4711"],
+  );
   assert.equal(labels.choiceName(null), "machine's guess");
 });
 
@@ -80,7 +95,10 @@ test("keys have one name each, with or without their shift", () => {
 });
 
 test("numbers are written as people read them", () => {
-  assert.deepEqual([decimal(1.005, 1), decimal(Number.NaN, 2), counted(1, "scan"), counted(1234, "scan")], ["1.0", "–", "1 scan", "1,234 scans"]);
+  assert.deepEqual(
+    [decimal(1.005, 1), decimal(Number.NaN, 2), counted(1, "scan"), counted(1234, "scan")],
+    ["1.0", "–", "1 scan", "1,234 scans"],
+  );
   assert.equal(secondsBetween("1600000000000000000", "1600000000250000000"), 0.25);
   assert.equal(clock("not a time"), "not a time");
 });

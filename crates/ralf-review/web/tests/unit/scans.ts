@@ -13,17 +13,32 @@ export interface Made {
   readonly time?: string;
 }
 
-export function made(radar: string, scan: number, { x, w, machine, corrected, reviewed, odom = null, time = "0" }: Made): Scan {
+export function made(
+  radar: string,
+  scan: number,
+  { x, w, machine, corrected, reviewed, odom = null, time = "0" }: Made,
+): Scan {
   const zero = new Float32Array(x.length);
   const labels = new Uint16Array(machine ?? x.map(() => 99));
   const columns = new Map<string, Column>([
-    ["x", new Float32Array(x)], ["y", zero], ["z", zero], ["range", new Float32Array(x)],
-    ["w", new Float32Array(w ?? x.map(() => 0.9))], ["flags", new Uint16Array(x.length)],
-    ["machine", labels], ["label", labels.slice()], ["corrected", new Uint8Array(corrected ?? x.map(() => 0))],
+    ["x", new Float32Array(x)],
+    ["y", zero],
+    ["z", zero],
+    ["range", new Float32Array(x)],
+    ["w", new Float32Array(w ?? x.map(() => 0.9))],
+    ["flags", new Uint16Array(x.length)],
+    ["machine", labels],
+    ["label", labels.slice()],
+    ["corrected", new Uint8Array(corrected ?? x.map(() => 0))],
   ]);
   const header = {
-    t_ns: time, revision: 0, reviewed: reviewed === true ? { author: "ada", at: "" } : null, odom_from_vehicle: odom,
-    lidar: null, cameras: [], failed_cameras: [],
+    t_ns: time,
+    revision: 0,
+    reviewed: reviewed === true ? { author: "ada", at: "" } : null,
+    odom_from_vehicle: odom,
+    lidar: null,
+    cameras: [],
+    failed_cameras: [],
   };
   return scanFromTable({ radar, scan }, { rows: x.length, header, columns });
 }

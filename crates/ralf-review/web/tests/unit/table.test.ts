@@ -28,11 +28,17 @@ function encoded(rows: number, parts: readonly Part[], extra: object = {}): Arra
 const bytes = (array: Float32Array | Uint16Array): Uint8Array => new Uint8Array(array.buffer);
 
 test("columns of every width come out as they went in", () => {
-  const table = decodeTable<{ revision: number }>(encoded(3, [
-    { name: "w", type: "f32", bytes: bytes(new Float32Array([0.5, Number.NaN, -1])) },
-    { name: "corrected", type: "u8", bytes: new Uint8Array([1, 0, 1]) },
-    { name: "label", type: "u16", bytes: bytes(new Uint16Array([1, 99, 252])) },
-  ], { revision: 7 }));
+  const table = decodeTable<{ revision: number }>(
+    encoded(
+      3,
+      [
+        { name: "w", type: "f32", bytes: bytes(new Float32Array([0.5, Number.NaN, -1])) },
+        { name: "corrected", type: "u8", bytes: new Uint8Array([1, 0, 1]) },
+        { name: "label", type: "u16", bytes: bytes(new Uint16Array([1, 99, 252])) },
+      ],
+      { revision: 7 },
+    ),
+  );
   assert.equal(table.rows, 3);
   assert.equal(table.header.revision, 7);
   assert.deepEqual([...floats(table, "w")], [0.5, Number.NaN, -1]);

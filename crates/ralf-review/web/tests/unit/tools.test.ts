@@ -16,17 +16,41 @@ test("a box spans from the press to the pointer", () => {
 });
 
 test("a lasso leaves out steps too small to see", () => {
-  const gesture = [[10, 0], [10.5, 0], [10, 10], [0, 10]].reduce((line, [x, y]) => moved(line, [x, y]), begun("lasso", [0, 0]));
-  assert.deepEqual(shapeOf(gesture, 0), { kind: "polygon", corners: [[0, 0], [10, 0], [10, 10], [0, 10]] });
+  const gesture = [
+    [10, 0],
+    [10.5, 0],
+    [10, 10],
+    [0, 10],
+  ].reduce((line, [x, y]) => moved(line, [x, y]), begun("lasso", [0, 0]));
+  assert.deepEqual(shapeOf(gesture, 0), {
+    kind: "polygon",
+    corners: [
+      [0, 0],
+      [10, 0],
+      [10, 10],
+      [0, 10],
+    ],
+  });
 });
 
 test("a polygon closes on its first corner, once it has three", () => {
   let gesture = begun("polygon", [0, 0]);
   assert.equal(pressedAgain(gesture, [2, 2]).closed, false);
-  for (const corner of [[50, 0], [50, 50]] as const) gesture = pressedAgain(gesture, corner).gesture;
+  for (const corner of [
+    [50, 0],
+    [50, 50],
+  ] as const)
+    gesture = pressedAgain(gesture, corner).gesture;
   const closing = pressedAgain(gesture, [3, 3]);
   assert.equal(closing.closed, true);
-  assert.deepEqual(shapeOf(closing.gesture, 0), { kind: "polygon", corners: [[0, 0], [50, 0], [50, 50]] });
+  assert.deepEqual(shapeOf(closing.gesture, 0), {
+    kind: "polygon",
+    corners: [
+      [0, 0],
+      [50, 0],
+      [50, 50],
+    ],
+  });
 });
 
 test("selections combine", () => {

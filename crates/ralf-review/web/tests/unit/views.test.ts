@@ -7,7 +7,8 @@ import { eye, HOME, panned, turned, zoomed } from "../../src/viewer/rig.js";
 import { roundLength } from "../../src/viewer/scale.js";
 
 /** CIE luminance, roughly. */
-const luminance = ([r, g, b]: Rgb): number => 0.2126 * (r / 255) ** 2.2 + 0.7152 * (g / 255) ** 2.2 + 0.0722 * (b / 255) ** 2.2;
+const luminance = ([r, g, b]: Rgb): number =>
+  0.2126 * (r / 255) ** 2.2 + 0.7152 * (g / 255) ** 2.2 + 0.0722 * (b / 255) ** 2.2;
 /** Contrast as WCAG has it. */
 const contrast = (a: Rgb, b: Rgb): number => {
   const [dark, bright] = [luminance(a), luminance(b)].sort((x, y) => x - y);

@@ -16,7 +16,7 @@ const BOUNCE_LOSS_DB: f64 = 10.0;
 const LOBES: [(f64, f64); 6] =
     [(-29.0, 16.0), (-19.0, 14.0), (-11.0, 12.0), (11.0, 12.0), (19.0, 14.0), (29.0, 16.0)];
 /// Scatter of a lobe's azimuth, degrees.
-const LOBE_SIGMA: f64 = 1.2;
+const LOBE_SIGMA: f64 = 0.5;
 
 /// The strongest echoes of real surfaces.
 fn strongest(real: &[Echo]) -> Vec<Echo> {

@@ -87,5 +87,5 @@ impl View<'_> {
 
 /// What the distance takes from an echo, dB. Radars keep their threshold adapted, so it is less than the fourth power of range.
 fn distance_loss_db(range: f64) -> f64 {
-    12.0 * (range.max(3.0) / 10.0).log10()
+    20.0 * (range.max(2.0) / 10.0).log10()
 }

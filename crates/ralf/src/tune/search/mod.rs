@@ -24,6 +24,8 @@ pub struct Search<'a> {
     pub trials: usize,
     /// Of all choices: the same seed finds the same settings.
     pub seed: u64,
+    /// Dotted names of settings that stay as they are.
+    pub held: Vec<String>,
 }
 
 /// The best settings so far.
@@ -45,7 +47,7 @@ impl Search<'_> {
     ) -> Result<Found, TuneError> {
         let base = Settings::of(self.base);
         let observed = Observed::of(tables, &base)?;
-        let mut dials = Dials::new(tables, &base, &observed)?;
+        let mut dials = Dials::new(tables, &base, &observed, &|key| self.is_free(key))?;
         let mut rng = Pcg64Mcg::seed_from_u64(self.seed);
         let mut best = self.with_best_threshold(tables, base)?;
         for trial in 1..=self.trials {
@@ -60,18 +62,25 @@ impl Search<'_> {
         Ok(best)
     }
 
-    /// The settings with the `w0` that suits them best.
+    fn is_free(&self, key: &str) -> bool {
+        !self.held.iter().any(|held| held == key)
+    }
+
+    /// The settings with the `w0` that suits them best, unless it is held.
     fn with_best_threshold(
         &self,
         tables: &[&EvidenceTable],
         mut settings: Settings,
     ) -> Result<Found, TuneError> {
-        let mut weighed = Weighed::default();
+        let mut weighed = Weighed::with_capacity(tables.iter().map(|table| table.len()).sum());
         for table in tables {
-            for (evidence, plausible) in table.view(settings.neighbours, settings.scans)?.rows() {
-                let w = evidence.weigh(&settings.weights).w.filter(|_| !evidence.on_floor);
-                weighed.add(w, plausible);
+            for (evidence, plausible) in table.view(&settings)?.rows() {
+                weighed.add(evidence.plausibility(&settings.weights), plausible);
             }
+        }
+        if !self.is_free("fusion.threshold") {
+            let counts = weighed.counts_at(settings.weights.fusion.threshold);
+            return Ok(Found { settings, score: self.objective.score(&counts) });
         }
         let Cut { threshold, score, .. } = weighed.best_cut(self.objective);
         settings.weights.fusion.threshold = threshold;
@@ -92,7 +101,7 @@ impl Observed {
         let mut observed = Self { lidar: false, camera: false, tracking: false };
         let (mut plausible, mut artifact) = (false, false);
         for table in tables {
-            for (evidence, truth) in table.view(base.neighbours, base.scans)?.rows() {
+            for (evidence, truth) in table.view(base)?.rows() {
                 observed.lidar |= evidence.d_lm.is_some();
                 observed.camera |= evidence.d_cm.is_some();
                 observed.tracking |= evidence.d_tr.is_some();
@@ -120,23 +129,29 @@ struct Dials {
 }
 
 impl Dials {
-    fn new(tables: &[&EvidenceTable], base: &Settings, observed: &Observed) -> Result<Self, TuneError> {
+    fn new(
+        tables: &[&EvidenceTable],
+        base: &Settings,
+        observed: &Observed,
+        is_free: &dyn Fn(&str) -> bool,
+    ) -> Result<Self, TuneError> {
         let Observed { lidar, camera, tracking } = *observed;
-        let number = |applies: bool, range| applies.then(|| Dial::number(range)).transpose();
-        let choice = |applies: bool, values: Vec<usize>| {
-            let applies = applies && values.len() > 1;
+        let number =
+            |key, applies: bool, range| (applies && is_free(key)).then(|| Dial::number(range)).transpose();
+        let choice = |key, applies: bool, values: Vec<usize>| {
+            let applies = applies && is_free(key) && values.len() > 1;
             applies.then(|| Ok((Dial::choice(values.len())?, values))).transpose()
         };
         let space = tables.first().map(|table| table.space());
         let neighbours = space.map_or(vec![base.neighbours], |space| space.neighbours.clone());
         let scans = space.map_or(vec![base.scans], |space| space.scans.clone());
         Ok(Self {
-            alpha: number((lidar || camera) && tracking, (0.0, 1.0))?,
-            beta_lm: number(lidar, LOG_BETA)?,
-            beta_cm: number(camera, LOG_BETA)?,
-            beta_tr: number(tracking, LOG_BETA)?,
-            neighbours: choice(lidar, neighbours)?,
-            scans: choice(tracking, scans)?,
+            alpha: number("fusion.alpha", (lidar || camera) && tracking, (0.0, 1.0))?,
+            beta_lm: number("lidar.beta", lidar, LOG_BETA)?,
+            beta_cm: number("camera.beta", camera, LOG_BETA)?,
+            beta_tr: number("tracking.beta", tracking, LOG_BETA)?,
+            neighbours: choice("lidar.neighbours", lidar, neighbours)?,
+            scans: choice("tracking.scans", tracking, scans)?,
         })
     }
 
@@ -223,3 +238,6 @@ fn three_digits(value: f64) -> f64 {
 
 #[cfg(test)]
 mod tests;
+
+#[cfg(test)]
+pub(super) use tests::planted;

@@ -6,7 +6,7 @@ use crate::tune::{Space, leave_one_out};
 const SCAN: usize = 20;
 
 /// Detections whose truth follows from planted weights, with `K` = 2 and `n_b` = 3; the other mismatches mean nothing.
-fn planted(seed: u64, scans: usize) -> EvidenceTable {
+pub(crate) fn planted(seed: u64, scans: usize) -> EvidenceTable {
     let config = Config::from_toml(
         "",
         &[
@@ -43,7 +43,7 @@ fn row(rng: &mut Pcg64Mcg, weights: &Weights) -> Row {
 }
 
 fn search(base: &Config, trials: usize) -> Search<'_> {
-    Search { base, objective: Objective::F1, trials, seed: 1 }
+    Search { base, objective: Objective::F1, trials, seed: 1, held: vec![] }
 }
 
 #[test]
@@ -110,6 +110,22 @@ fn what_says_nothing_keeps_its_setting() {
     assert_eq!(found.score, 1.0);
     assert_eq!((weights.beta_lm, weights.beta_cm, weights.fusion.alpha), (0.2, 0.2, 0.5));
     assert_eq!((found.settings.neighbours, found.settings.scans), (3, 3));
+}
+
+#[test]
+fn what_is_held_stays_and_the_rest_is_searched() {
+    let (train, base) = (planted(6, 20), Config::default());
+    for key in Settings::KEYS {
+        let found = Search { held: vec![key.to_owned()], ..search(&base, 60) };
+        let found = found.run(&[&train], &mut |_, _| {}).unwrap();
+        let own = Settings::of(&base).entries();
+        for ((name, value), (_, before)) in found.settings.entries().into_iter().zip(own) {
+            assert!(name != key || value == before, "{name}");
+        }
+        assert_ne!(found.settings, Settings::of(&base), "{key}");
+        let counts = train.confusions(&found.settings).unwrap().into_iter().sum();
+        assert_eq!(Objective::F1.score(&counts), found.score, "{key}");
+    }
 }
 
 #[test]

@@ -1,0 +1,136 @@
+//! `ralf ablate`: what each branch and each extension is good for.
+
+use super::search::{SearchArgs, name_what_is_left_out, tables};
+use crate::Outcome;
+use crate::text::{aligned, decimal, print};
+use clap::Args;
+use ralf::metrics::{Rates, Scores};
+use ralf::tune::{Judged, Variant};
+use ralf_data::{GroundTruth, Recording};
+use serde_json::{Map, Value, json};
+
+/// Arguments of `ralf ablate`.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Compares the paper's method with variants that lack a branch, have one branch alone, or have one extension besides. Each variant is
+tuned on the sequences to tune on, as `ralf tune` does it, and judged on the others. All figures are of all detections together.
+
+Examples:
+  ralf ablate recordings/city --train 00,01 --test 02,03
+  ralf ablate recordings/city --train 00,01 --test 02,03 --trials 1000 --seed 7 --json")]
+pub(crate) struct AblateArgs {
+    #[command(flatten)]
+    search: SearchArgs,
+    /// Sequences to judge the variants on
+    #[arg(long, value_name = "NAME,...", value_delimiter = ',', required = true)]
+    test: Vec<String>,
+}
+
+/// Tunes and judges all variants and prints what they reach.
+pub(crate) fn run(arguments: &AblateArgs) -> anyhow::Result<Outcome> {
+    let search = &arguments.search;
+    search.check(&arguments.test)?;
+    let base = search.settings.resolve()?;
+    let variants = Variant::all(&base);
+    let (recording, truth) = search.open(&base, &arguments.test)?;
+    let mut judged = Vec::with_capacity(variants.len());
+    let mut outcome = Outcome::Done;
+    // Those that share their evidence follow each other, so that but one evidence need be remembered.
+    for group in variants.chunk_by(|a, b| a.evidence_config() == b.evidence_config()) {
+        let (of_group, its_outcome) = arguments.judge(group, (&recording, &truth), judged.is_empty())?;
+        judged.extend(of_group);
+        if matches!(its_outcome, Outcome::Partial) {
+            outcome = its_outcome;
+        }
+    }
+    print(&if search.json {
+        serde_json::to_string_pretty(&arguments.json(&judged))?
+    } else {
+        arguments.page(&judged)
+    })?;
+    Ok(outcome)
+}
+
+impl AblateArgs {
+    /// Variants that share their evidence. Scans that can't be matched are the same ones each time: the first group names them.
+    fn judge(
+        &self,
+        variants: &[Variant],
+        recording: (&Recording, &GroundTruth),
+        first: bool,
+    ) -> anyhow::Result<(Vec<Judged>, Outcome)> {
+        let Some(shared) = variants.first() else { return Ok((Vec::new(), Outcome::Done)) };
+        let config = shared.evidence_config();
+        let evidence = self.search.gather(recording, &config)?;
+        let outcome = if first { name_what_is_left_out(&evidence) } else { Outcome::Done };
+        let parts = self.search.parts(evidence);
+        let (train, test) = (tables(&parts.train), tables(&parts.test));
+        let judge = |variant: &Variant| {
+            let shown = self.search.bar(variant.name);
+            let mut show = |trial: usize, best: &_| self.search.show(&shown, trial, best);
+            let judged = variant.judge(&self.search.search(&config), (&train, &test), &mut show);
+            shown.finish_and_clear();
+            Ok(judged?)
+        };
+        Ok((variants.iter().map(judge).collect::<anyhow::Result<_>>()?, outcome))
+    }
+
+    /// For people.
+    fn page(&self, judged: &[Judged]) -> String {
+        let columns = ["Accuracy", "F1 plausible", "to the paper's", "Mean IoU", "MCC", "F1 where tuned"];
+        let mut rows = vec![["Variant"].iter().chain(&columns).map(|&text| text.to_owned()).collect()];
+        for variant in judged {
+            let Rates { accuracy, f1_plausible, mean_iou, mcc, .. } = pooled(&variant.test);
+            let difference = difference(variant, judged).map_or("-".to_owned(), |d| format!("{d:+.3}"));
+            let cells = [
+                decimal(accuracy),
+                decimal(f1_plausible),
+                difference,
+                decimal(mean_iou),
+                decimal(mcc),
+                decimal(pooled(&variant.train).f1_plausible),
+            ];
+            rows.push([variant.name.to_owned()].into_iter().chain(cells).collect());
+        }
+        format!(
+            "Each variant tuned on {} ({}) and judged on {}, all detections together\n\n{}",
+            self.search.train.join(", "),
+            self.search.told(),
+            self.test.join(", "),
+            aligned(&rows)
+        )
+    }
+
+    /// For machines.
+    fn json(&self, judged: &[Judged]) -> Value {
+        let variant = |variant: &Judged| {
+            let settings =
+                variant.found.settings.entries().map(|(key, value)| (key.to_owned(), json!(value)));
+            json!({
+                "name": variant.name,
+                "settings": Value::Object(Map::from_iter(settings)),
+                "train": variant.train.pooled,
+                "test": variant.test.pooled,
+                "f1_plausible_to_paper": difference(variant, judged),
+            })
+        };
+        json!({
+            "objective": self.search.objective.to_string(),
+            "trials": self.search.trials,
+            "seed": self.search.seed,
+            "train": self.search.train,
+            "test": self.test,
+            "variants": judged.iter().map(variant).collect::<Vec<_>>(),
+        })
+    }
+}
+
+fn pooled(scores: &Scores) -> Rates {
+    scores.pooled.rates
+}
+
+/// How much better the F1 of plausible detections is than that of the paper's method, which is the first variant.
+fn difference(variant: &Judged, judged: &[Judged]) -> Option<f64> {
+    let f1 = |variant: &Judged| pooled(&variant.test).f1_plausible;
+    Some(f1(variant)? - f1(judged.first()?)?)
+}

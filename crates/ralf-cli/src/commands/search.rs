@@ -1,0 +1,152 @@
+//! What `ralf tune` and `ralf ablate` share: what is searched for, on which sequences, and how that is shown.
+
+use crate::Outcome;
+use crate::UsageError;
+use crate::cli::DatasetArgs;
+use crate::corrections::merged_truth;
+use crate::progress::{Bars, STEPS, bar, say};
+use crate::settings::{SettingsArgs, threads};
+use clap::Args;
+use clap::builder::PossibleValuesParser;
+use indicatif::ProgressBar;
+use ralf::config::Config;
+use ralf::tune::{EvidenceTable, Found, Objective, Search, Settings};
+use ralf_data::{GroundTruth, Recording, SequenceEvidence, gather_evidence};
+use std::num::NonZeroUsize;
+use std::path::PathBuf;
+
+/// What is searched for, and how long.
+#[derive(Debug, Args)]
+pub(super) struct SearchArgs {
+    /// The recording's folder, which holds the corrected labels, too
+    #[arg(value_name = "DATASET")]
+    pub(super) dataset: PathBuf,
+    /// Take the recording for this format
+    #[arg(long, value_name = "FORMAT", value_parser = PossibleValuesParser::new(ralf_data::formats()))]
+    format: Option<String>,
+    /// Take the corrections of a review, too, from what `ralf label` wrote
+    #[arg(long, value_name = "OUT")]
+    corrections: Option<PathBuf>,
+    /// Sequences to tune on
+    #[arg(long, value_name = "NAME,...", value_delimiter = ',', required = true)]
+    pub(super) train: Vec<String>,
+    /// What to strive for: f1, iou, accuracy, or recall@precision=P
+    #[arg(long, value_name = "OBJECTIVE", default_value = "f1")]
+    pub(super) objective: Objective,
+    /// How many settings to try
+    #[arg(long, value_name = "N", default_value = "400")]
+    pub(super) trials: NonZeroUsize,
+    /// Of the search; the same seed finds the same settings
+    #[arg(long, value_name = "S", default_value = "0")]
+    pub(super) seed: u64,
+    /// A setting that stays as it is, such as lidar.beta; may be given several times
+    #[arg(long = "hold", value_name = "KEY", value_parser = PossibleValuesParser::new(Settings::KEYS))]
+    held: Vec<String>,
+    #[command(flatten)]
+    pub(super) settings: SettingsArgs,
+    /// Scans to match side by side; as many as there are processors if not given
+    #[arg(long, value_name = "N")]
+    jobs: Option<NonZeroUsize>,
+    /// Print the result as JSON
+    #[arg(long)]
+    pub(super) json: bool,
+    /// No progress
+    #[arg(short, long)]
+    quiet: bool,
+}
+
+/// The evidence of the sequences to train on and of those to judge by, each with its name.
+pub(super) struct Parts {
+    pub(super) train: Vec<(String, EvidenceTable)>,
+    pub(super) test: Vec<(String, EvidenceTable)>,
+}
+
+/// The tables of named sequences.
+pub(super) fn tables(sequences: &[(String, EvidenceTable)]) -> Vec<&EvidenceTable> {
+    sequences.iter().map(|(_, table)| table).collect()
+}
+
+impl SearchArgs {
+    /// Sequences can't be trained on and judged by.
+    pub(super) fn check(&self, test: &[String]) -> Result<(), UsageError> {
+        if let Some(both) = self.train.iter().find(|name| test.contains(name)) {
+            let reason = "a result is judged on sequences that the search did not see";
+            return Err(UsageError(format!("--train and --test both name {both}: {reason}")));
+        }
+        Ok(())
+    }
+
+    /// The recording of these sequences alone, and its truth.
+    pub(super) fn open(&self, base: &Config, test: &[String]) -> anyhow::Result<(Recording, GroundTruth)> {
+        let sequences = [self.train.as_slice(), test].concat();
+        let (dataset, format) = (self.dataset.clone(), self.format.clone());
+        let dataset = DatasetArgs { dataset, format, sequences, topics: None };
+        let corrections = self.corrections.as_deref();
+        let truth = merged_truth(&self.dataset, corrections, corrections.is_some())?;
+        Ok((dataset.open_with(&mut base.clone())?, truth))
+    }
+
+    /// Matches all scans of a recording that have truth.
+    pub(super) fn gather(
+        &self,
+        (recording, truth): (&Recording, &GroundTruth),
+        config: &Config,
+    ) -> anyhow::Result<Vec<SequenceEvidence>> {
+        Ok(gather_evidence(recording, truth, config, threads(self.jobs), &Bars::new(self.quiet))?)
+    }
+
+    /// Which evidence is for training, and which for judging.
+    pub(super) fn parts(&self, evidence: Vec<SequenceEvidence>) -> Parts {
+        let tables = evidence.into_iter().map(|sequence| (sequence.name, sequence.table));
+        let (train, test) = tables.partition(|(name, _)| self.train.contains(name));
+        Parts { train, test }
+    }
+
+    pub(super) fn search<'a>(&self, base: &'a Config) -> Search<'a> {
+        Search {
+            base,
+            objective: self.objective,
+            trials: self.trials.get(),
+            seed: self.seed,
+            held: self.held.clone(),
+        }
+    }
+
+    /// Of a search's trials.
+    pub(super) fn bar(&self, name: &str) -> ProgressBar {
+        if self.quiet {
+            return ProgressBar::hidden();
+        }
+        bar(self.trials.get() as u64, STEPS, name.to_owned())
+    }
+
+    /// How far the search has got, and the best so far.
+    pub(super) fn show(&self, shown: &ProgressBar, trial: usize, best: &Found) {
+        shown.set_position(trial as u64);
+        let settings = best.settings.entries().map(|(key, value)| format!("{key}={value}")).join(" ");
+        shown.set_message(format!("best {} {:.3} with {settings}", self.objective, best.score));
+    }
+
+    /// The options that change the result of a search.
+    pub(super) fn told(&self) -> String {
+        let corrections = self.corrections.as_ref().map(|out| format!("--corrections {} ", out.display()));
+        let (objective, trials, seed) = (&self.objective, self.trials, self.seed);
+        let held: String = self.held.iter().map(|key| format!(" --hold {key}")).collect();
+        format!(
+            "{}--objective {objective} --trials {trials} --seed {seed}{held}",
+            corrections.unwrap_or_default()
+        )
+    }
+}
+
+/// Names the scans that could not be matched.
+pub(super) fn name_what_is_left_out(evidence: &[SequenceEvidence]) -> Outcome {
+    let mut outcome = Outcome::Done;
+    for sequence in evidence {
+        for scan in &sequence.left_out {
+            say(&format!("left out: {} {} scan {}: {}", sequence.name, scan.radar, scan.scan, scan.reason));
+            outcome = Outcome::Partial;
+        }
+    }
+    outcome
+}

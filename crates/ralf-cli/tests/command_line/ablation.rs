@@ -1,0 +1,44 @@
+//! `ralf ablate`: its first row is what `ralf tune` reaches with the paper's settings, and every other is told beside it.
+
+use crate::support::{Dataset, Shape, ralf};
+use serde_json::Value;
+
+fn ablate(dataset: &Dataset, jobs: &str) -> Value {
+    let path = &dataset.path;
+    ralf(["ablate", path, "--train", "00", "--test", "01", "--trials", "25", "--jobs", jobs, "--json"])
+        .exits(0)
+        .says_nothing()
+        .json()
+}
+
+#[test]
+fn variants_are_tuned_and_judged_alike() {
+    let dataset = Dataset::of(&Shape { sequences: &["00", "01"], ..Shape::default() });
+    let found = ablate(&dataset, "1");
+    assert_eq!(found, ablate(&dataset, "4"));
+    let variants = found["variants"].as_array().unwrap();
+    let file = dataset.beside("paper.toml");
+    let (path, set) = (&dataset.path, "ground.radar_sigmas=0");
+    let paper = ralf([
+        "tune", path, "-o", &file, "--train", "00", "--test", "01", "--trials", "25", "--set", set, "--json",
+    ]);
+    let paper = paper.exits(0).json();
+    assert_eq!(variants[0]["name"], "paper");
+    assert_eq!(variants[0]["settings"], paper["settings"]["tuned"]);
+    assert_eq!(variants[0]["test"], paper["test"]["tuned"]["pooled"]);
+    let f1 = |variant: &Value| variant["test"]["f1_plausible"].as_f64().unwrap();
+    for variant in variants {
+        let to_paper = variant["f1_plausible_to_paper"].as_f64().unwrap();
+        assert_eq!(to_paper, f1(variant) - f1(&variants[0]), "{}", variant["name"]);
+    }
+    let arguments = ["ablate", &dataset.path, "--train", "00", "--test", "01", "--trials", "2", "--quiet"];
+    ralf(arguments).exits(0).prints([
+        "Variant",
+        "without LiDAR",
+        "tracking alone",
+        "ground.model=polar",
+        "+0.000",
+    ]);
+    ralf(["ablate", &dataset.path, "--train", "00", "--test", "00"]).exits(2).says(["both name 00"]);
+    ralf(["ablate", &dataset.path, "--train", "00"]).exits(2).says(["--test"]);
+}
