@@ -96,3 +96,24 @@ impl StoreError {
         Self::Request { place: place.into(), expected: expected.into(), found: found.into() }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rusqlite::{Connection, OpenFlags};
+
+    #[test]
+    fn a_file_that_can_only_be_read_is_told() {
+        let folder = tempfile::tempdir().unwrap();
+        let file = folder.path().join("corrections.sqlite");
+        Connection::open(&file).unwrap().execute_batch("CREATE TABLE scan (id INTEGER)").unwrap();
+        let connection = Connection::open_with_flags(&file, OpenFlags::SQLITE_OPEN_READ_ONLY).unwrap();
+        let error = connection.execute_batch("DROP TABLE scan").map_err(told(&file)).unwrap_err();
+        assert!(matches!(error, StoreError::ReadOnly { .. }), "{error}");
+        assert!(
+            error
+                .to_string()
+                .ends_with("expected a file that can be written, found one that can only be read")
+        );
+    }
+}

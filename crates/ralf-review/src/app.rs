@@ -2,7 +2,7 @@
 
 use crate::cache::Cache;
 use crate::http::{Answer, ApiError};
-use crate::labelled::SequenceLabels;
+use crate::labelled::{SequenceLabels, Stamp};
 use crate::reading::causes::CauseNames;
 use crate::{Options, ReviewError};
 use ralf_corrections::{FILE, ScanKey, Store, Who};
@@ -22,13 +22,11 @@ pub(crate) struct App {
     pub(crate) recording: Recording,
     pub(crate) out: PathBuf,
     pub(crate) author: String,
-    /// `w0` of the run when the server began.
-    pub(crate) threshold: f64,
     pub(crate) causes: CauseNames,
     store: Mutex<Store>,
     labels: Cache<usize, SequenceLabels>,
-    /// Tables by sequence, LiDAR and scan.
-    pub(crate) clouds: Cache<(usize, usize, usize), Vec<u8>>,
+    /// Tables by sequence, LiDAR and scan, and the labels whose ground is in them.
+    pub(crate) clouds: Cache<(usize, usize, usize), (Stamp, Vec<u8>)>,
     /// Rung when something was written.
     pub(crate) news: watch::Sender<()>,
     /// Rung when the server ends.
@@ -46,11 +44,11 @@ pub(crate) struct ScanPlace<'a> {
 impl App {
     /// Opens all that is needed. Labels must be there; the store is made if it isn't.
     pub(crate) fn open(recording: Recording, out: &Path, options: &Options) -> Result<Self, ReviewError> {
-        let record = read_record(out)?;
+        // Without labels there is nothing to review, and no store is made.
+        read_record(out)?;
         Ok(Self {
             store: Mutex::new(Store::open(&out.join(FILE))?),
             causes: CauseNames::of(&recording)?,
-            threshold: record.settings.fusion.threshold,
             recording,
             out: out.to_owned(),
             author: options.author.clone(),

@@ -21,7 +21,7 @@ const GROUPS_KEPT: usize = 12;
 
 /// The labels of one sequence, and the settings that they were made with.
 pub(crate) struct SequenceLabels {
-    stamp: Stamp,
+    pub(crate) stamp: Stamp,
     /// With the settings' overrides.
     pub(crate) rig: Rig,
     pub(crate) settings: Config,

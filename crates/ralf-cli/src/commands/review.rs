@@ -6,6 +6,7 @@ use crate::progress::say;
 use crate::text::print;
 use clap::Args;
 use ralf_review::{Options, Server};
+use std::net::IpAddr;
 use std::path::PathBuf;
 use std::process::{Command, Stdio};
 
@@ -49,6 +50,9 @@ pub(crate) fn run(arguments: &ReviewArgs) -> anyhow::Result<Outcome> {
     let options = Options { host: arguments.host.clone(), port: arguments.port, author: arguments.author() };
     let server = Server::bind(recording, &arguments.out, &options)?;
     print(server.url())?;
+    if arguments.host.parse().is_ok_and(|address: IpAddr| address.is_unspecified()) {
+        say(&format!("from another machine, type this one's name in place of {}", arguments.host));
+    }
     say("Ctrl-C ends the review; every edit is on disk when the page shows it as saved");
     if arguments.open {
         open_browser(server.url());

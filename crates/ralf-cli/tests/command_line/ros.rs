@@ -38,7 +38,7 @@ fn topics_are_shown_even_where_the_sensors_dont_hang_together() {
             "[topics.radar]",
             "kind = \"radar\"",
         ]);
-        ran.prints(["# /imu is not used: /odom tells the motion", "6.5 Hz"]).says(["no frame `cam`"]);
+        ran.prints(["# /imu is not used: /odom tells the motion", "13.0 Hz"]).says(["no frame `cam`"]);
     }
 }
 

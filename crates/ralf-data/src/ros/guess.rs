@@ -1,11 +1,12 @@
 //! A first guess of which topic is which sensor, from types, names and first messages.
 
+use super::cloud::{self, Columns};
 use super::messages::Messages;
-use super::{LABELLED, cloud, survey};
+use super::{LABELLED, survey};
 use crate::DataError;
 use crate::models::GENERIC;
 use ralf::config::{TopicConfig, TopicKind, Topics};
-use ralf_ros::container::{MessageRef, Topic};
+use ralf_ros::container::Topic;
 use ralf_ros::message::{CameraInfo, Message, PointCloud2, RadarScan};
 use serde::Serialize;
 use std::path::Path;
@@ -53,12 +54,15 @@ const PLAIN_NAMES: [&str; 14] = [
     "compressed",
 ];
 
+/// So many scans of a topic are looked at.
+const FIRST_SCANS: usize = 10;
+
 /// A guess of the table `topics` of a recording.
 pub fn guess(path: &Path) -> Result<Guess, DataError> {
-    of(&Messages::open(path)?)
+    Ok(of(&Messages::open(path)?))
 }
 
-pub(super) fn of(messages: &Messages) -> Result<Guess, DataError> {
+pub(super) fn of(messages: &Messages) -> Guess {
     let mut guess = Guess { topics: Topics::new(), unused: Vec::new() };
     let topics = messages.container().topics();
     let usable = |topic: &Topic| topic.count > 0 && topic.known_encoding().is_some();
@@ -66,8 +70,7 @@ pub(super) fn of(messages: &Messages) -> Result<Guess, DataError> {
         if topic.name.ends_with(LABELLED) {
             guess.unused.push(format!("{} is not used: it holds what `ralf label` found", topic.name));
         } else if PointCloud2::DEFINITION.is(&topic.type_name) || RadarScan::DEFINITION.is(&topic.type_name) {
-            let entry = cloud_entry(messages, topic, place)?;
-            guess.add(entry);
+            guess.add(cloud_entry(messages, topic, place));
         } else if survey::types(TopicKind::Camera).iter().any(|known| known.is(&topic.type_name)) {
             guess.add_camera(topics, topic);
         } else if survey::types(TopicKind::Tf)[0].is(&topic.type_name) {
@@ -79,7 +82,7 @@ pub(super) fn of(messages: &Messages) -> Result<Guess, DataError> {
         }
     }
     guess.add_motion(topics);
-    Ok(guess)
+    guess
 }
 
 impl Guess {
@@ -153,25 +156,23 @@ impl Guess {
 }
 
 /// A radar, if it is one by type, name or fields; else a LiDAR.
-fn cloud_entry(messages: &Messages, topic: &Topic, place: usize) -> Result<TopicConfig, DataError> {
+fn cloud_entry(messages: &Messages, topic: &Topic, place: usize) -> TopicConfig {
     let entry = |kind| TopicConfig { model: Some(GENERIC.to_owned()), ..TopicConfig::new(&topic.name, kind) };
-    let first = messages.container().messages().iter().find(|message| message.topic() == place);
-    let Some(first) = first else { return Ok(entry(TopicKind::Lidar)) };
-    let columns = cloud::radar_columns(messages, first)?;
-    let has = |name: &&str| columns.names.iter().any(|known| known == name);
-    let is_radar = topic.name.contains("radar") || !has(&"x") || RADAR_FIELDS.iter().any(has);
-    if !is_radar {
-        return Ok(entry(TopicKind::Lidar));
+    let of_topic = messages.container().messages().iter().filter(|message| message.topic() == place);
+    let mut heights = Vec::new();
+    for message in of_topic.take(FIRST_SCANS) {
+        // What can't be read is told by whoever reads all of it.
+        let Ok(Columns { names, values }) = cloud::radar_columns(messages, message) else { continue };
+        let has = |name: &&str| names.iter().any(|known| known == name);
+        if !topic.name.contains("radar") && has(&"x") && !RADAR_FIELDS.iter().any(has) {
+            return entry(TopicKind::Lidar);
+        }
+        let third = names.iter().position(|name| ["z", "elevation"].contains(&name.as_str()));
+        heights.extend(third.into_iter().flat_map(|third| values[third].iter().copied()));
     }
-    Ok(TopicConfig { elevation: Some(elevation(messages, first)?), ..entry(TopicKind::Radar) })
-}
-
-/// A radar that measures no elevation has none, or the same for all detections.
-fn elevation(messages: &Messages, first: &MessageRef) -> Result<bool, DataError> {
-    let columns = cloud::radar_columns(messages, first)?;
-    let third = columns.names.iter().position(|name| ["z", "elevation"].contains(&name.as_str()));
-    let values = third.map_or(&[][..], |third| columns.values[third].as_slice());
-    Ok(values.iter().any(|value| *value != values[0]))
+    // One that measures no elevation has none to tell, or the same for all detections.
+    let elevation = heights.iter().any(|height| *height != heights[0]);
+    TopicConfig { elevation: Some(elevation), ..entry(TopicKind::Radar) }
 }
 
 /// The names above a topic's, from the nearest: `/a/b` and `/a` of `/a/b/c`.

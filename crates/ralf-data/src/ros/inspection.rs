@@ -77,7 +77,7 @@ pub fn inspect(path: &Path) -> Result<(RosInspection, Guess), DataError> {
         }
     }
     let topics = topics.iter().zip(seen).map(|(topic, seen)| seen.inspection(topic)).collect();
-    Ok((RosInspection { topics, losses }, guess::of(&messages)?))
+    Ok((RosInspection { topics, losses }, guess::of(&messages)))
 }
 
 /// What was seen of a topic.

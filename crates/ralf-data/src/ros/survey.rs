@@ -103,6 +103,7 @@ pub(super) fn survey(messages: &Messages, topics: &Topics) -> Result<Survey, Dat
             .losses
             .push(format!("{count} messages of {name} can't be read and were left out; the first: {first}"));
     }
+    survey.check_complete(messages, topics)?;
     survey.sort(messages, topics)?;
     Ok(survey)
 }
@@ -177,6 +178,20 @@ impl Survey {
             return Ok(());
         }
         Err(messages.error(message, "values", "the calibration of the messages before", "another one"))
+    }
+
+    /// Refuses a recording of which a sensor is left with nothing.
+    fn check_complete(&self, messages: &Messages, topics: &Topics) -> Result<(), DataError> {
+        let is_read = |name: &String, topic: &TopicConfig| {
+            matches!(topic.kind, TopicKind::Tf | TopicKind::TfStatic)
+                || self.sensors.contains_key(name)
+                || self.motion.contains_key(name)
+        };
+        let Some((_, topic)) = topics.iter().find(|(name, topic)| !is_read(name, topic)) else {
+            return Ok(());
+        };
+        let found = self.losses.join("; ");
+        Err(DataError::content(messages.path(), &topic.topic, "a message that can be read", found))
     }
 
     fn sort(&mut self, messages: &Messages, topics: &Topics) -> Result<(), DataError> {

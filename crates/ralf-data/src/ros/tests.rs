@@ -363,3 +363,37 @@ fn a_file_that_is_cut_is_read_up_to_the_cut_and_the_loss_is_said() {
     assert!(drive.warnings()[0].contains("cut short or damaged"), "{:?}", drive.warnings());
     assert_eq!(drive.sequence().times.radars[0].len(), 3);
 }
+
+#[test]
+fn damaged_chunks_are_left_out_and_counted() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("long.mcap");
+    let mut to = MessageWriter::mcap(File::create(&path).unwrap(), Compression::None).unwrap();
+    let drive = Drive::default();
+    let odometry: Topic<Odometry> = to.topic("/odom", Delivery::Live).unwrap();
+    to.write(&odometry, T0, &drive.odometry(0)).unwrap();
+    let scans: Topic<RadarScan> = to.topic("/scan", Delivery::Live).unwrap();
+    for ms in 0..4000 {
+        let scan = RadarScan { header: drive.header(ms, "base"), returns: vec![RadarReturn::default(); 40] };
+        to.write(&scans, T0 + ms * MS, &scan).unwrap();
+    }
+    to.finish().unwrap();
+    let table = "[topics]\nodom = { topic = '/odom', kind = 'odometry' }\n\
+                 scan = { topic = '/scan', kind = 'radar', model = 'generic' }";
+    assert_eq!(open_file(&path, table).unwrap().sequence().times.radars[0].len(), 4000);
+    let whole = std::fs::read(&path).unwrap();
+    let damaged = |at: usize| {
+        let mut bytes = whole.clone();
+        bytes[at] ^= 0x10;
+        std::fs::write(&path, bytes).unwrap();
+        open_file(&path, table)
+    };
+    let opened = damaged(whole.len() / 2).unwrap();
+    let left = opened.sequence().times.radars[0].len();
+    let [told] = opened.warnings() else { panic!("{:?}", opened.warnings()) };
+    assert!(told.starts_with(&format!("{} messages of /scan can't be read", 4000 - left)), "{told}");
+    assert!(told.contains("expected the checksum") && (1000..4000).contains(&left), "{told}");
+    // The only odometry lies in the first chunk.
+    let refused = damaged(2000).err().unwrap().to_string();
+    assert!(refused.contains("/odom: expected a message that can be read"), "{refused}");
+}

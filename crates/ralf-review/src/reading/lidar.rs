@@ -18,9 +18,9 @@ pub(crate) fn cloud(app: &App, sequence: &str, lidar: &str, scan: usize) -> Answ
     let names = known.rig.lidars.iter().map(|lidar| lidar.name.as_str());
     let (lidar, t_ns) = measurement("lidar", names, &known.times.lidars, lidar, scan)?;
     let labels = app.labels(index)?;
-    let make = || table(reader, &labels, (lidar, scan), t_ns);
-    let bytes = app.clouds.get((index, lidar, scan), |_| true, make)?;
-    Ok(content("application/octet-stream", bytes.as_ref().clone()))
+    let make = || table(reader, &labels, (lidar, scan), t_ns).map(|bytes| (labels.stamp.clone(), bytes));
+    let made = app.clouds.get((index, lidar, scan), |(stamp, _)| labels.is_of(stamp), make)?;
+    Ok(content("application/octet-stream", made.1.clone()))
 }
 
 fn table(

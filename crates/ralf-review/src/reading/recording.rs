@@ -7,6 +7,7 @@ use crate::labelled::is_labelled;
 use ralf::label::{class_name, cluster_of, truth_of};
 use ralf::labeler::flag;
 use ralf_data::SequenceReader;
+use ralf_data::run::read_record;
 use serde_json::{Value, json};
 
 /// The bits of a detection's flags (FORMATS 2).
@@ -33,7 +34,7 @@ pub(crate) fn recording(app: &App) -> Answer {
         "dataset": name(&app.recording.path),
         "out": name(&app.out),
         "author": app.author,
-        "threshold": app.threshold,
+        "threshold": read_record(&app.out)?.settings.fusion.threshold,
         "sequences": sequences,
         "classes": (0..=LAST_CLASS).filter_map(class).collect::<Vec<_>>(),
         "causes": app.causes.names(),

@@ -214,7 +214,7 @@ impl Default for CameraConfig {
     fn default() -> Self {
         Self {
             enabled: true,
-            beta: 0.2,
+            beta: 0.116,
             neighbours: 3,
             stride: 8,
             scaling: DepthScaling::Local,
@@ -233,7 +233,7 @@ impl Default for TrackingConfig {
     fn default() -> Self {
         Self {
             enabled: true,
-            beta: 0.2,
+            beta: 0.682,
             scans: 5,
             neighbours: 1,
             max_mismatch: 20.0,
@@ -246,7 +246,7 @@ impl Default for TrackingConfig {
 
 impl Default for FusionConfig {
     fn default() -> Self {
-        Self { alpha: 0.5, threshold: 0.5 }
+        Self { alpha: 0.554, threshold: 0.441_048 }
     }
 }
 

@@ -187,7 +187,7 @@ test("two tabs on one scan: the second is told, sees the newer state, and decide
   await click(early.page, first, "a");
   await says(early.page.locator(".status-bar"), "undo 1");
   await click(late.page, second, "a");
-  await says(late.page.locator(".conflict"), "ada changed");
+  await says(late.page.locator(".conflict"), "ada (in another window) changed");
   await says(status(late.page), "conflict");
   assert.deepEqual([...(await scanOf(server, id)).corrected].filter(Boolean).length, 1);
   await late.page.getByRole("button", { name: "Apply my stroke to it" }).click();
@@ -199,7 +199,7 @@ test("two tabs on one scan: the second is told, sees the newer state, and decide
   await click(early.page, second, "m");
   await says(early.page.locator(".status-bar"), "undo 3");
   await click(late.page, first, "m");
-  await says(late.page.locator(".conflict"), "ada changed");
+  await says(late.page.locator(".conflict"), "ada (in another window) changed");
   await late.page.getByRole("button", { name: "Drop my stroke" }).click();
   await says(status(late.page), "saved");
   assert.equal((await scanOf(server, id)).label[first], 1);

@@ -108,7 +108,9 @@ fn what_says_nothing_keeps_its_setting() {
     let found = search(&base, 30).run(&[&table], &mut |_, _| {}).unwrap();
     let weights = found.settings.weights;
     assert_eq!(found.score, 1.0);
-    assert_eq!((weights.beta_lm, weights.beta_cm, weights.fusion.alpha), (0.2, 0.2, 0.5));
+    let own = Weights::of(&base);
+    assert_eq!((weights.beta_lm, weights.beta_cm), (own.beta_lm, own.beta_cm));
+    assert_eq!(weights.fusion.alpha, own.fusion.alpha);
     assert_eq!((found.settings.neighbours, found.settings.scans), (3, 3));
 }
 
