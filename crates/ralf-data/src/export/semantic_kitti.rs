@@ -111,12 +111,13 @@ fn write_tables(folder: &Path, sequence: &LabelledSequence, radar: usize) -> Res
     files::write_whole(&folder.join("calib.txt"), calib.as_bytes())?;
     let (mut poses, mut seconds) = (String::new(), String::new());
     let times = &all.times.radars[radar];
+    let first_ns = times.first().copied().unwrap_or_default();
+    let first_from_odom = all.motion.odom_from_vehicle(first_ns).inverse();
     for t_ns in times {
-        let first_from_odom = all.motion.odom_from_vehicle(times[0]).inverse();
         let pose = matrix(&(first_from_odom * all.motion.odom_from_vehicle(*t_ns)));
         // Writing to a string can't fail.
         let _ = writeln!(poses, "{}", pose.trim_start());
-        let _ = writeln!(seconds, "{:.9}", (t_ns - times[0]) as f64 * 1e-9);
+        let _ = writeln!(seconds, "{:.9}", (t_ns - first_ns) as f64 * 1e-9);
     }
     files::write_whole(&folder.join("poses.txt"), poses.as_bytes())?;
     files::write_whole(&folder.join("times.txt"), seconds.as_bytes())
