@@ -27,6 +27,8 @@ export interface State {
   readonly sequence: string;
   readonly scans: readonly QueueScan[];
   readonly progress: Progress;
+  /** Of other sequences, as far as somebody asked. */
+  readonly progressElsewhere: ReadonlyMap<string, Progress>;
   readonly queueView: QueueView;
 
   /** The scan under review. */
@@ -86,6 +88,7 @@ export function initialState(recording: Recording): State {
     sequence: "",
     scans: [],
     progress: { scans: 0, reviewed: 0, corrected_detections: 0 },
+    progressElsewhere: new Map(),
     queueView: { order: "need", hideReviewed: false, radar: null },
     current: null,
     loading: true,

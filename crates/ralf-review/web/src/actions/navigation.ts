@@ -1,6 +1,7 @@
 /** Going from scan to scan and from sequence to sequence. */
 
 import type { ScanId } from "../api/types.js";
+import { buildCloud } from "../data/cloud.js";
 import { sameScan } from "../data/scan.js";
 import { listed, neighbour, nextNeedy, type QueueView } from "../queue/queue.js";
 import { type Address, addressText } from "./address.js";
@@ -20,13 +21,18 @@ export class Navigation {
     const { store, api } = this.world;
     try {
       const [queue, history] = await Promise.all([api.queue(sequence), api.history(sequence)]);
-      const { radar } = store.state.queueView;
+      const before = store.state;
+      const { radar } = before.queueView;
       const known = queue.scans.some((scan) => scan.radar === radar);
-      const queueView = { ...store.state.queueView, radar: known ? radar : null };
+      const queueView = { ...before.queueView, radar: known ? radar : null };
       store.set({
         sequence,
         scans: queue.scans,
         progress: queue.progress,
+        progressElsewhere: new Map(before.progressElsewhere).set(before.sequence, before.progress),
+        // Names of radars and numbers of scans are alike in all sequences: nothing of another may stay on screen.
+        cloud: buildCloud([]),
+        lidar: null,
         history,
         queueView,
         cameras: [],
@@ -38,6 +44,22 @@ export class Navigation {
       else await this.goTo(first);
     } catch (error) {
       store.set({ loading: false });
+      complain(this.world, error);
+    }
+  }
+
+  /** Reads how far the labelled sequences are, one after the other. */
+  async readProgress(): Promise<void> {
+    const { store, api } = this.world;
+    const others = store.state.recording.sequences.filter(
+      ({ name, labelled }) => labelled && name !== store.state.sequence,
+    );
+    try {
+      for (const { name } of others) {
+        const { progress } = await api.queue(name);
+        store.set({ progressElsewhere: new Map(store.state.progressElsewhere).set(name, progress) });
+      }
+    } catch (error) {
       complain(this.world, error);
     }
   }

@@ -93,29 +93,44 @@ function tooltip({ detections, reviewed }: QueueScan): string {
   return `${counted(detections, "detection")}${by}`;
 }
 
-function head({ store, actions }: Page): HTMLElement {
-  const sequences = select("Sequence", [], (name) => {
-    void actions.go.open(name).then(() => actions.hear.listen(name));
+/** The list of sequences; how far each is stands there once somebody looks into it. */
+function sequenceList({ store, actions }: Page): HTMLElement {
+  const list = select("Sequence", [], (name) => {
+    void actions.go.open(name).then(() => {
+      list.value = store.state.sequence;
+      actions.hear.listen(store.state.sequence);
+    });
   });
+  list.addEventListener("focus", () => void actions.go.readProgress());
+  store.watch(
+    ({ recording }) => [recording],
+    ({ sequences }) =>
+      setOptions(
+        list,
+        sequences.map(({ name }) => ({ value: name, text: name })),
+      ),
+  );
+  store.watch(
+    ({ recording, sequence, progress, progressElsewhere }) => [recording, sequence, progress, progressElsewhere],
+    ({ sequences }, sequence, progress, elsewhere) => {
+      sequences.forEach(({ name, title, labelled }, i) => {
+        const known = name === sequence ? progress : elsewhere.get(name);
+        const done = known === undefined ? "" : ` · ${known.reviewed}/${known.scans}`;
+        list.options[i].text = `${name}${title === "" ? "" : ` · ${title}`}${labelled ? done : " (not labelled)"}`;
+      });
+      list.value = sequence;
+    },
+  );
+  return list;
+}
+
+function head({ store, actions }: Page): HTMLElement {
   const bar = h(
     "span",
     { class: "progress-bar", role: "progressbar", "aria-label": "Reviewed scans", "aria-valuemin": "0" },
     h("span"),
   );
   const text = h("span", { class: "faint number" });
-  store.watch(
-    ({ recording, sequence }) => [recording, sequence],
-    (recording, sequence) => {
-      setOptions(
-        sequences,
-        recording.sequences.map(({ name, title, labelled }) => {
-          const text = title === "" ? name : `${name} · ${title}`;
-          return { value: name, text: labelled ? text : `${text} (not labelled)` };
-        }),
-      );
-      sequences.value = sequence;
-    },
-  );
   store.watch(
     ({ progress }) => [progress],
     ({ scans, reviewed, corrected_detections: corrected }) => {
@@ -136,7 +151,7 @@ function head({ store, actions }: Page): HTMLElement {
     h("span", {}, "review"),
     h("span", { class: "faint" }, dataset),
   );
-  return h("header", { class: "queue-head" }, brand, sequences, bar, text);
+  return h("header", { class: "queue-head" }, brand, sequenceList({ store, actions }), bar, text);
 }
 
 function order({ store, actions }: Page): HTMLElement {
