@@ -1,7 +1,11 @@
 //! What can be typed.
 
-use crate::commands::{ablate, convert, demo, depth, evaluate, inspect, label, plot, report, simulate, tune};
+use crate::commands::{
+    ablate, convert, demo, depth, evaluate, export, inspect, label, plot, report, review, simulate, tune,
+};
+use crate::settings;
 use clap::{Args, Parser, Subcommand};
+use ralf::config::Config;
 use std::path::PathBuf;
 
 /// Trustworthy labels for radar data: which detections are real, and which are artifacts?
@@ -19,6 +23,8 @@ Examples:
   ralf evaluate out --truth recordings/city
   ralf tune recordings/city -o ralf.toml --train 00,01 --test 02
   ralf report recordings/city out -o report.html
+  ralf review recordings/city out           correct labels in the browser
+  ralf export recordings/city out --to semantickitti --sensors -o kitti
 
 Exit status: 0 done; 1 failed; 2 wrong usage; 3 done, but some scans are left out (each is named)."
 )]
@@ -47,7 +53,11 @@ pub(crate) enum Command {
     Plot(plot::PlotArgs),
     /// Write one page about a labelled recording: figures, curves, pictures
     Report(report::ReportArgs),
-    /// Write a recording of another format in RALF's own layout
+    /// Correct labels by hand, on a page in the browser
+    Review(review::ReviewArgs),
+    /// Write labels in the formats of other tools
+    Export(export::ExportArgs),
+    /// Write a recording of another format in RALF's own layout, or as MCAP or bag
     Convert(convert::ConvertArgs),
     /// Make a recording whose truth is known
     Simulate(simulate::SimulateArgs),
@@ -62,7 +72,7 @@ pub(crate) enum Command {
 /// The recording that a command works on.
 #[derive(Debug, Args)]
 pub(crate) struct DatasetArgs {
-    /// The recording's folder; its format is recognised by what it holds
+    /// The recording: a folder, or a ROS bag or MCAP file; its format is recognised by what it holds
     #[arg(value_name = "DATASET")]
     pub(crate) dataset: PathBuf,
     /// Take the recording for this format
@@ -71,12 +81,23 @@ pub(crate) struct DatasetArgs {
     /// Only this sequence; may be given several times
     #[arg(long = "sequence", value_name = "NAME")]
     pub(crate) sequences: Vec<String>,
+    /// Which ROS topic is which sensor: the table `topics` of this settings file (TOML)
+    #[arg(long, value_name = "FILE")]
+    pub(crate) topics: Option<PathBuf>,
 }
 
 impl DatasetArgs {
     /// Opens the recording, and says what its reader warns of.
     pub(crate) fn open(&self) -> anyhow::Result<ralf_data::Recording> {
-        let recording = ralf_data::open(&self.dataset, self.format.as_deref())?;
+        self.open_with(&mut Config::default())
+    }
+
+    /// The same with the topics of the settings; those of `--topics` win, and are put into the settings.
+    pub(crate) fn open_with(&self, config: &mut Config) -> anyhow::Result<ralf_data::Recording> {
+        if let Some(file) = &self.topics {
+            config.topics = settings::read(file)?.topics;
+        }
+        let recording = ralf_data::open_with(&self.dataset, self.format.as_deref(), &config.topics)?;
         let recording =
             if self.sequences.is_empty() { recording } else { recording.select(&self.sequences)? };
         for reader in &recording.sequences {
@@ -88,4 +109,17 @@ impl DatasetArgs {
         }
         Ok(recording)
     }
+}
+
+/// The only sequence of a recording.
+pub(crate) fn the_only(recording: &ralf_data::Recording) -> anyhow::Result<&dyn ralf_data::SequenceReader> {
+    if let [reader] = recording.sequences.as_slice() {
+        return Ok(reader.as_ref());
+    }
+    let names: Vec<_> = recording.sequences.iter().map(|reader| reader.sequence().name.as_str()).collect();
+    anyhow::bail!(
+        "expected one sequence, found {}: choose with --sequence ({})",
+        names.len(),
+        names.join(", ")
+    )
 }

@@ -3,6 +3,7 @@
 
 mod cli;
 mod commands;
+mod corrections;
 mod depth_model;
 mod progress;
 mod run_summary;

@@ -5,7 +5,7 @@ use anyhow::Context;
 use clap::Args;
 use ralf::config::Config;
 use std::num::NonZeroUsize;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// As many threads as asked for, or as there are processors.
 pub(crate) fn threads(jobs: Option<NonZeroUsize>) -> usize {
@@ -26,15 +26,19 @@ pub(crate) struct SettingsArgs {
 impl SettingsArgs {
     /// The settings, resolved.
     pub(crate) fn resolve(&self) -> anyhow::Result<Config> {
-        let text = match &self.config {
-            Some(file) => std::fs::read_to_string(file).with_context(|| file.display().to_string())?,
-            None => String::new(),
-        };
         // The file by itself first, so that what is wrong with it is said of the file.
-        if let Some(file) = &self.config {
-            Config::from_toml(&text, &[]).with_context(|| file.display().to_string())?;
-        }
+        self.config.as_deref().map(read).transpose()?;
+        let text = self.config.as_deref().map_or_else(|| Ok(String::new()), text)?;
         let assignments: Vec<&str> = self.assignments.iter().map(String::as_str).collect();
         Config::from_toml(&text, &assignments).map_err(|error| UsageError(format!("--set: {error}")).into())
     }
+}
+
+/// The settings of a file.
+pub(crate) fn read(file: &Path) -> anyhow::Result<Config> {
+    Config::from_toml(&text(file)?, &[]).with_context(|| file.display().to_string())
+}
+
+fn text(file: &Path) -> anyhow::Result<String> {
+    std::fs::read_to_string(file).with_context(|| file.display().to_string())
 }

@@ -1,6 +1,7 @@
 //! What can be wrong with a file: every error names the file, the place in it, what was expected and what was found.
 
 use ralf::source::SourceError;
+use ralf_corrections::StoreError;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
@@ -55,6 +56,9 @@ pub enum DataError {
         /// The measurement's place in the sensor's timeline.
         index: usize,
     },
+    /// The store of corrections.
+    #[error(transparent)]
+    Corrections(#[from] StoreError),
     /// A measurement could not be read.
     #[error("{sensor}, measurement {index}: {error}")]
     Measurement {

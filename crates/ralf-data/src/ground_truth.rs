@@ -1,7 +1,9 @@
-//! The corrected labels of a dataset: `sequences/NAME/ground_truth/RADAR/NNNNNN.label` (FORMATS 1).
+//! The corrected labels of a dataset: `sequences/NAME/ground_truth/RADAR/NNNNNN.label` (FORMATS 1), and above them the
+//! corrections of a review.
 
 use crate::label_file::{Label, read_labels};
-use crate::{DataError, files};
+use crate::{Corrections, DataError, files};
+use std::collections::BTreeSet;
 use std::fmt;
 use std::path::{Path, PathBuf};
 
@@ -41,36 +43,45 @@ fn label_name(scan: u32) -> String {
     format!("{scan:06}.{EXTENSION}")
 }
 
-/// What people say of a dataset's detections. The one place to ask: further layers of corrections are to be merged here.
+/// What people say of a dataset's detections. The one place to ask: the layers of what they said are merged here.
 #[derive(Debug, Clone)]
 pub struct GroundTruth {
     dataset: PathBuf,
+    /// With a file of their own, with corrections, or both.
     scans: Vec<ScanId>,
+    /// With a file of their own.
+    files: BTreeSet<ScanId>,
+    corrections: Option<Corrections>,
 }
 
 impl GroundTruth {
     /// Finds all scans with truth below a dataset's folder; none at all is an error. Only label files are needed.
     pub fn open(dataset: &Path) -> Result<Self, DataError> {
-        let place = format!("*/ground_truth/*/NNNNNN.{EXTENSION}");
-        let none =
-            || DataError::content(&dataset.join("sequences"), place, "files of corrected labels", "none");
-        Self::find(dataset)?.ok_or_else(none)
+        Self::find(dataset)?.ok_or_else(|| none(&dataset.join("sequences")))
     }
 
     /// Finds all scans with truth below a dataset's folder; `None` where there are none.
     pub fn find(dataset: &Path) -> Result<Option<Self>, DataError> {
-        let sequences = dataset.join("sequences");
-        let mut scans = Vec::new();
-        for sequence in files::folders(&sequences)? {
-            let truth = sequences.join(&sequence).join("ground_truth");
-            for radar in files::folders(&truth)? {
-                let numbers = scan_numbers(&truth.join(&radar))?;
-                let id = |scan| ScanId { sequence: sequence.clone(), radar: radar.clone(), scan };
-                scans.extend(numbers.into_iter().map(id));
-            }
-        }
-        scans.sort_unstable();
-        Ok((!scans.is_empty()).then(|| Self { dataset: dataset.to_owned(), scans }))
+        Self::gather(dataset, None)
+    }
+
+    /// The same with the corrections of a review above it; the dataset's folder need hold no truth of its own.
+    pub fn merged(dataset: &Path, corrections: Corrections) -> Result<Self, DataError> {
+        Self::find_merged(dataset, corrections)?.ok_or_else(|| none(&dataset.join("sequences")))
+    }
+
+    /// The same; `None` where neither says anything.
+    pub fn find_merged(dataset: &Path, corrections: Corrections) -> Result<Option<Self>, DataError> {
+        Self::gather(dataset, Some(corrections))
+    }
+
+    fn gather(dataset: &Path, corrections: Option<Corrections>) -> Result<Option<Self>, DataError> {
+        let files = scans_with_files(dataset)?;
+        let corrected = corrections.iter().flat_map(Corrections::scans);
+        let scans: BTreeSet<ScanId> = files.iter().chain(corrected).cloned().collect();
+        let scans: Vec<ScanId> = scans.into_iter().collect();
+        let found = Self { dataset: dataset.to_owned(), scans, files, corrections };
+        Ok((!found.scans.is_empty()).then_some(found))
     }
 
     /// The same truth of these sequences alone; `None` where that leaves no scan.
@@ -84,15 +95,41 @@ impl GroundTruth {
         &self.scans
     }
 
-    /// The corrected labels of a scan, one per detection.
+    /// What people say of a scan, one label per detection: its correction, else what its file says, else what was accepted when
+    /// it was marked as reviewed, else 0 (unlabeled).
     pub fn labels(&self, scan: &ScanId) -> Result<Vec<Label>, DataError> {
-        read_labels(&self.file(scan))
+        let on_file = || read_labels(&scan.truth_file(&self.dataset));
+        let Some(corrections) = &self.corrections else { return on_file() };
+        let file = if self.files.contains(scan) { Some(on_file()?) } else { None };
+        corrections.truth(scan, file)?.map_or_else(on_file, Ok)
     }
 
-    /// Where they are read from.
+    /// Where most of it is read from.
     pub(crate) fn file(&self, scan: &ScanId) -> PathBuf {
-        scan.truth_file(&self.dataset)
+        match &self.corrections {
+            Some(corrections) if !self.files.contains(scan) => corrections.file().to_owned(),
+            _ => scan.truth_file(&self.dataset),
+        }
     }
+}
+
+fn none(looked_in: &Path) -> DataError {
+    let place = format!("*/ground_truth/*/NNNNNN.{EXTENSION}");
+    DataError::content(looked_in, place, "files of corrected labels", "none")
+}
+
+fn scans_with_files(dataset: &Path) -> Result<BTreeSet<ScanId>, DataError> {
+    let sequences = dataset.join("sequences");
+    let mut scans = BTreeSet::new();
+    for sequence in files::folders(&sequences)? {
+        let truth = sequences.join(&sequence).join("ground_truth");
+        for radar in files::folders(&truth)? {
+            let numbers = scan_numbers(&truth.join(&radar))?;
+            let id = |scan| ScanId { sequence: sequence.clone(), radar: radar.clone(), scan };
+            scans.extend(numbers.into_iter().map(id));
+        }
+    }
+    Ok(scans)
 }
 
 /// The numbers of a folder's label files, which must be named as the format says.
@@ -114,6 +151,7 @@ fn scan_numbers(folder: &Path) -> Result<Vec<u32>, DataError> {
 mod tests {
     use super::*;
     use crate::label_file::write_labels;
+    use ralf_corrections::{FILE, ScanEdit, Store, Stroke, Who};
     use std::fs;
 
     fn put(dataset: &Path, name: &str) {
@@ -158,6 +196,28 @@ mod tests {
         let narrowed = truth.clone().of_sequences(&["01", "02"]).unwrap();
         assert_eq!(narrowed.scans(), &truth.scans()[1..]);
         assert!(truth.of_sequences(&["02"]).is_none());
+    }
+
+    #[test]
+    fn corrections_are_merged_and_enough_by_themselves() {
+        let [folder, out] = [(); 2].map(|()| tempfile::tempdir().unwrap());
+        let merged = || GroundTruth::merged(folder.path(), Corrections::open(out.path()).unwrap());
+        assert!(merged().unwrap_err().to_string().contains("found none"));
+        let edit = ScanEdit { radar: "a".into(), scan: 3, detections: 2, base: 0, points: vec![1] };
+        let stroke = Stroke { label: Some(1), scans: vec![edit], ..Stroke::of_sequence("01") };
+        let who = Who { author: "ada".into(), tab: None };
+        Store::open(&out.path().join(FILE)).unwrap().apply(&stroke, &who).unwrap();
+        let truth = merged().unwrap();
+        assert_eq!(truth.labels(&truth.scans()[0]).unwrap(), [0, 1].map(Label::of_class));
+        put(folder.path(), "00/ground_truth/a/000000.label");
+        let names: Vec<String> = merged().unwrap().scans().iter().map(ScanId::to_string).collect();
+        assert_eq!(names, ["00/a/000000", "01/a/000003"]);
+        put(folder.path(), "01/ground_truth/a/000003.label");
+        let error = merged().unwrap().labels(&truth.scans()[0]).unwrap_err().to_string();
+        assert!(
+            error.ends_with("scan 01/a/000003: expected 1 detections, found corrections of 2"),
+            "{error}"
+        );
     }
 
     #[test]

@@ -48,8 +48,8 @@ pub(crate) fn decode(bytes: &[u8]) -> Result<CameraImage, String> {
     Ok(CameraImage { width, height, rgb: image.into_raw().as_chunks::<3>().0.to_vec() })
 }
 
-/// The bytes of a PNG file: what any reader turns back into the same pixels.
-pub(crate) fn png(image: &CameraImage) -> Result<Vec<u8>, String> {
+/// The bytes of a PNG file: what any reader turns back into the same pixels. The error says what is wrong with the image.
+pub fn png(image: &CameraImage) -> Result<Vec<u8>, String> {
     let mut bytes = Cursor::new(Vec::new());
     let size = |pixels: usize| u32::try_from(pixels).map_err(|error| error.to_string());
     let (width, height) = (size(image.width)?, size(image.height)?);

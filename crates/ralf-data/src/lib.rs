@@ -20,10 +20,12 @@
 
 mod balance;
 mod causes;
+mod corrections;
 pub mod depth;
 mod error;
 mod evaluation;
 mod evidence;
+pub mod export;
 mod files;
 mod ground_truth;
 mod images;
@@ -35,7 +37,9 @@ mod npy;
 mod nuscenes;
 mod open;
 pub mod output;
+mod radial;
 mod recording;
+pub mod ros;
 pub mod run;
 mod simulated;
 #[cfg(test)]
@@ -44,12 +48,14 @@ mod view_of_delft;
 
 pub use balance::{Balance, Balances};
 pub use causes::Causes;
+pub use corrections::Corrections;
 pub use error::DataError;
 pub use evaluation::Comparison;
 pub use evidence::{SequenceEvidence, gather_evidence};
 pub use files::write_whole;
 pub use ground_truth::{GroundTruth, ScanId};
+pub use images::png;
 pub use label_file::{Label, read_labels, write_labels};
 pub use layout::{LayoutSequence, write_sequence};
-pub use open::{formats, open};
-pub use recording::{Recording, SequenceReader, TruthLabels};
+pub use open::{formats, open, open_with};
+pub use recording::{NuScenesKey, Recording, RosSource, SequenceReader, TruthLabels};

@@ -30,8 +30,8 @@ pub(crate) struct LidarModel {
     pub(crate) sigma_range_m: f64,
     /// `alpha_l`: depression of the lowest beam, degrees.
     pub(crate) lowest_beam_deg: f64,
-    /// Farthest return, m.
-    pub(crate) max_range_m: f64,
+    /// Farthest return, m, where it is known.
+    pub(crate) max_range_m: Option<f64>,
 }
 
 /// Continental ARS 408-21, all five radars of nuScenes. Its data sheet has a near and a far scan:
@@ -69,19 +69,50 @@ pub(crate) const ZF_FRGEN21: RadarModel = RadarModel {
 /// Velodyne HDL-32E, the LiDAR of nuScenes. Data sheet: 2 cm accuracy (one standard deviation at 25 m), beams from
 /// +10.67 to -30.67 deg, usable returns up to 100 m.
 pub(crate) const HDL_32E: LidarModel =
-    LidarModel { sigma_range_m: 0.02, lowest_beam_deg: 30.67, max_range_m: 100.0 };
+    LidarModel { sigma_range_m: 0.02, lowest_beam_deg: 30.67, max_range_m: Some(100.0) };
 
 /// Velodyne HDL-64E S3, the LiDAR of View-of-Delft. Data sheet: accuracy better than 2 cm (one standard deviation),
 /// beams from +2 to -24.9 deg, 120 m.
 pub(crate) const HDL_64E_S3: LidarModel =
-    LidarModel { sigma_range_m: 0.02, lowest_beam_deg: 24.9, max_range_m: 120.0 };
+    LidarModel { sigma_range_m: 0.02, lowest_beam_deg: 24.9, max_range_m: Some(120.0) };
+
+/// A radar of which nothing is known: what most 77 GHz radars for vehicles have or surpass. Whoever has the data sheet
+/// says better in the settings.
+const GENERIC_RADAR: RadarModel = RadarModel {
+    elevation: Elevation::Measured,
+    fov_azimuth_deg: 120.0,
+    fov_elevation_deg: 30.0,
+    sigma_range_m: 0.20,
+    sigma_azimuth_deg: 1.0,
+    sigma_elevation_deg: 1.0,
+};
+
+/// A LiDAR of which nothing is known: a rotating one on a roof.
+const GENERIC_LIDAR: LidarModel =
+    LidarModel { sigma_range_m: 0.02, lowest_beam_deg: 25.0, max_range_m: None };
+
+/// What stands for a sensor of which nothing is known.
+pub(crate) const GENERIC: &str = "generic";
+
+/// By the names that settings have for them.
+pub(crate) const RADARS: [(&str, RadarModel); 3] =
+    [(GENERIC, GENERIC_RADAR), ("ars408-21", ARS_408_21), ("frgen21", ZF_FRGEN21)];
+
+/// By the names that settings have for them.
+pub(crate) const LIDARS: [(&str, LidarModel); 3] =
+    [(GENERIC, GENERIC_LIDAR), ("hdl-32e", HDL_32E), ("hdl-64e-s3", HDL_64E_S3)];
 
 impl RadarModel {
     /// A radar of this type.
-    pub(crate) fn mounted(self, name: &str, fields: &[&str], vehicle_from_radar: Transform) -> Radar {
+    pub(crate) fn mounted(
+        self,
+        name: &str,
+        fields: &[impl AsRef<str>],
+        vehicle_from_radar: Transform,
+    ) -> Radar {
         Radar {
             name: name.to_owned(),
-            fields: fields.iter().map(|field| (*field).to_owned()).collect(),
+            fields: fields.iter().map(|field| field.as_ref().to_owned()).collect(),
             vehicle_from_radar,
             elevation: self.elevation,
             fov_azimuth: self.fov_azimuth_deg.to_radians(),
@@ -102,7 +133,7 @@ impl LidarModel {
             vehicle_from_lidar,
             sigma_range: self.sigma_range_m,
             lowest_beam: self.lowest_beam_deg.to_radians(),
-            max_range: Some(self.max_range_m),
+            max_range: self.max_range_m,
         }
     }
 }
@@ -113,10 +144,10 @@ mod tests {
 
     #[test]
     fn every_model_is_a_sensor() {
-        for model in [ARS_408_21, ZF_FRGEN21] {
+        for (_, model) in RADARS {
             assert_eq!(model.mounted("radar", &["x", "y", "z"], Transform::identity()).check(), Ok(()));
         }
-        for model in [HDL_32E, HDL_64E_S3] {
+        for (_, model) in LIDARS {
             assert_eq!(model.mounted("lidar", Transform::identity()).check(), Ok(()));
         }
     }

@@ -46,17 +46,20 @@ pub(crate) fn depth_bytes(images: &[DepthImage]) -> Option<Vec<u8>> {
         return None;
     }
     let views = if images.len() > 1 { format!("{}, ", images.len()) } else { String::new() };
-    let mut header =
-        format!("{{'descr': '<f4', 'fortran_order': False, 'shape': ({views}{height}, {width}), }}");
-    // Data starts at a multiple of 64 bytes: magic, version and length take 10, the line end 1.
-    let padded = (header.len() + 11).next_multiple_of(64) - 11;
-    header.extend(std::iter::repeat_n(' ', padded - header.len()));
-    header.push('\n');
-    let length = u16::try_from(header.len()).ok()?;
-    let mut bytes = [MAGIC, &[1, 0], &length.to_le_bytes(), header.as_bytes()].concat();
+    let mut bytes = header("<f4", &format!("{views}{height}, {width}"));
     let values = images.iter().flat_map(|image| &image.values);
     bytes.extend(values.flat_map(|value| value.to_le_bytes()));
     Some(bytes)
+}
+
+/// All that comes before the values of an array in C order: `descr` is NumPy's name of their type, `shape` what stands
+/// between the brackets.
+pub(crate) fn header(descr: &str, shape: &str) -> Vec<u8> {
+    let dict = format!("{{'descr': '{descr}', 'fortran_order': False, 'shape': ({shape}), }}");
+    // Data starts at a multiple of 64 bytes: magic, version and length take 10, the line end 1.
+    let length = (dict.len() + 11).next_multiple_of(64) - 10;
+    let dict = format!("{dict:<width$}\n", width = length - 1);
+    [MAGIC, &[1, 0], &(length as u16).to_le_bytes(), dict.as_bytes()].concat()
 }
 
 /// Header and data. Versions differ in how many bytes the header's length takes.

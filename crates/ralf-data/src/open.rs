@@ -1,6 +1,7 @@
-//! A folder becomes a recording: which format it is, by what it holds.
+//! A folder or file becomes a recording: which format it is, by what it holds.
 
-use crate::{DataError, Recording, layout, nuscenes, view_of_delft};
+use crate::{DataError, Recording, layout, nuscenes, ros, view_of_delft};
+use ralf::config::Topics;
 use std::fs;
 use std::path::Path;
 
@@ -8,33 +9,39 @@ use std::path::Path;
 struct Format {
     /// As `--format` takes it.
     name: &'static str,
-    /// What a folder of this format holds, for people.
+    /// What a folder of this format holds, or which file it is, for people.
     holds: &'static str,
-    /// Whether a folder holds it.
+    /// Whether it is one.
     recognises: fn(&Path) -> bool,
-    /// Reads such a folder.
-    open: fn(&Path) -> Result<Recording, DataError>,
+    /// Reads it. The topics are of those formats that have some.
+    open: fn(&Path, &Topics) -> Result<Recording, DataError>,
 }
 
 /// In the order in which they are tried.
-const FORMATS: [Format; 3] = [
+const FORMATS: [Format; 4] = [
     Format {
         name: layout::NAME,
         holds: "the folder `sequences`",
         recognises: |path| path.join(layout::SEQUENCES).is_dir(),
-        open: layout::open,
+        open: |path, _| layout::open(path),
     },
     Format {
         name: nuscenes::NAME,
         holds: "a folder `v1.0-*` with `sample_data.json`",
         recognises: nuscenes::recognises,
-        open: nuscenes::open,
+        open: |path, _| nuscenes::open(path),
     },
     Format {
         name: view_of_delft::NAME,
         holds: "the folders `radar/training/velodyne` and `radar/training/calib`",
         recognises: view_of_delft::recognises,
-        open: view_of_delft::open,
+        open: |path, _| view_of_delft::open(path),
+    },
+    Format {
+        name: ros::NAME,
+        holds: "a ROS 1 bag, an MCAP file, an SQLite file of ROS 2, or a folder with `metadata.yaml`",
+        recognises: ralf_ros::container::recognises,
+        open: ros::open,
     },
 ];
 
@@ -54,6 +61,11 @@ pub fn formats() -> &'static [&'static str] {
 
 /// Opens a recording: of this format, or else of the one that the folder is recognised as.
 pub fn open(path: &Path, format: Option<&str>) -> Result<Recording, DataError> {
+    open_with(path, format, &Topics::new())
+}
+
+/// The same, where these topics of a ROS recording are its sensors; a first guess is made where there are none.
+pub fn open_with(path: &Path, format: Option<&str>, topics: &Topics) -> Result<Recording, DataError> {
     fs::metadata(path).map_err(DataError::io(path))?;
     let found = match format {
         Some(name) => FORMATS.iter().find(|format| format.name == name).ok_or_else(|| {
@@ -70,7 +82,7 @@ pub fn open(path: &Path, format: Option<&str>) -> Result<Recording, DataError> {
             DataError::content(path, "content", expected, "none of them")
         }),
     }?;
-    (found.open)(path)
+    (found.open)(path, topics)
 }
 
 #[cfg(test)]

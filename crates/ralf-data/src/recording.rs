@@ -2,6 +2,7 @@
 
 use crate::{DataError, Label};
 use ralf::source::{Source, SourceError};
+use ralf_ros::container::Container;
 use std::path::PathBuf;
 
 /// One sequence of a recording, and the files it is read from.
@@ -25,10 +26,38 @@ pub trait SequenceReader: Source {
         None
     }
 
+    /// What nuScenes calls a radar's scan, of a recording that is read from nuScenes' own tables.
+    fn nuscenes_key(&self, _radar: usize, _scan: usize) -> Option<NuScenesKey> {
+        None
+    }
+
+    /// The ROS recording that it is read from: topics that can be copied as they are.
+    fn ros(&self) -> Option<RosSource<'_>> {
+        None
+    }
+
     /// The truth of a radar's scan where it is known without a file.
     fn truth(&self, _radar: usize, _scan: usize) -> Result<Option<TruthLabels>, SourceError> {
         Ok(None)
     }
+}
+
+/// What nuScenes calls one measurement.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
+pub struct NuScenesKey {
+    /// The version folder's name, as `v1.0-mini`.
+    pub version: String,
+    /// Its row in `sample_data.json`.
+    pub sample_data_token: String,
+}
+
+/// The ROS recording behind a sequence.
+#[derive(Debug, Clone, Copy)]
+pub struct RosSource<'a> {
+    /// All its messages.
+    pub container: &'a Container,
+    /// The frame of each radar, in the order of the rig.
+    pub radar_frames: &'a [String],
 }
 
 /// What is true of each detection of a scan, in its order.

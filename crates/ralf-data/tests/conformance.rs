@@ -9,11 +9,13 @@
 mod dataset;
 
 use ralf::source::SourceError;
+use ralf_data::export::{RosFormat, write_ros};
 use ralf_data::{Recording, SequenceReader};
 use std::collections::BTreeSet;
 use std::fmt::Debug;
 use std::path::Path;
 use std::process::Command;
+use tempfile::TempDir;
 
 #[test]
 fn own_layout() {
@@ -33,37 +35,85 @@ fn own_layout_as_converted() {
     check(&ralf_data::open(out.path(), Some("ralf")).unwrap());
 }
 
+/// Written as bags and MCAP files and read again, with a guess of the topics.
+#[test]
+fn the_recording_of_the_demonstration_as_ros_recordings() {
+    let Some(folder) = demonstration() else { return };
+    let out = tempfile::tempdir().unwrap();
+    let recording = ralf_data::open(folder.path(), None).unwrap();
+    for (format, name) in [(RosFormat::Mcap, "drive.mcap"), (RosFormat::Bag, "drive.bag")] {
+        let file = out.path().join(name);
+        write_ros(recording.sequences[0].as_ref(), &file, format, &|_| ()).unwrap();
+        let written = ralf_data::open(&file, None).unwrap();
+        check(&written);
+        check_same_measurements(recording.sequences[0].as_ref(), written.sequences[0].as_ref());
+    }
+}
+
+/// Times, places and values are the same; range rates may have been added to the values.
+fn check_same_measurements(before: &dyn SequenceReader, after: &dyn SequenceReader) {
+    let [a, b] = [before.sequence(), after.sequence()];
+    assert_eq!(a.times, b.times);
+    let text = |value: &dyn Debug| format!("{value:?}");
+    for (r, (a, b)) in a.rig.radars.iter().zip(&b.rig.radars).enumerate() {
+        assert_eq!((&a.name, a.vehicle_from_radar), (&b.name, b.vehicle_from_radar));
+        assert_eq!((a.elevation, &a.fields[..]), (b.elevation, &b.fields[..a.fields.len()]));
+        for s in 0..before.sequence().times.radars[r].len() {
+            let [before, after] = [before, after].map(|reader| reader.radar_scan(r, s).unwrap().columns);
+            assert_eq!(text(&before), text(&&after[..before.len()]));
+        }
+    }
+    for (l, times) in a.times.lidars.iter().enumerate() {
+        for s in 0..times.len() {
+            let [before, after] = [before, after].map(|reader| reader.lidar_scan(l, s).unwrap());
+            assert_eq!(text(&(before.points, before.intensity)), text(&(after.points, after.intensity)));
+        }
+    }
+}
+
 #[test]
 fn the_recording_of_the_demonstration() {
-    let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../testdata/make_tiny.py");
-    let out = tempfile::tempdir().unwrap();
-    let Ok(status) = Command::new("python3").arg(script).arg(out.path()).status() else {
-        println!("skipped: there is no python3");
-        return;
-    };
-    assert!(status.success());
-    let recording = ralf_data::open(out.path(), None).unwrap();
+    let Some(folder) = demonstration() else { return };
+    let recording = ralf_data::open(folder.path(), None).unwrap();
     assert!(recording.sequences[0].warnings().is_empty());
     check(&recording);
 }
 
+/// Made by a script, where there is what it takes.
+fn demonstration() -> Option<TempDir> {
+    let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../testdata/make_tiny.py");
+    let out = tempfile::tempdir().unwrap();
+    let Ok(status) = Command::new("python3").arg(script).arg(out.path()).status() else {
+        println!("skipped: there is no python3");
+        return None;
+    };
+    assert!(status.success());
+    Some(out)
+}
+
 #[test]
 fn nuscenes() {
-    check_real("nuscenes");
+    check_real("nuscenes", "nuscenes");
 }
 
 #[test]
 fn view_of_delft() {
-    check_real("view-of-delft");
+    check_real("view-of-delft", "view-of-delft");
+}
+
+#[test]
+fn ros() {
+    check_real("ros/nuscenes-0061-zstd.mcap", "ros");
+    check_real("ros/nuscenes-0061-lz4.bag", "ros");
 }
 
 /// A real recording, and the same in the own layout.
-fn check_real(format: &str) {
+fn check_real(path: &str, format: &str) {
     let Some(root) = std::env::var_os("RALF_TEST_DATA") else {
         println!("skipped: RALF_TEST_DATA is not set");
         return;
     };
-    let recording = ralf_data::open(&Path::new(&root).join(format), None).unwrap();
+    let recording = ralf_data::open(&Path::new(&root).join(path), None).unwrap();
     assert_eq!(recording.format, format);
     check(&recording);
     let out = tempfile::tempdir().unwrap();

@@ -5,7 +5,7 @@ use crate::{Pictures, Report, ReportError, pictures};
 use ralf::metrics::Separation;
 use ralf_data::output::{LabelledRows, read_labelled_rows};
 use ralf_data::run::{RunRecord, read_record};
-use ralf_data::{Balance, Comparison, GroundTruth, SequenceReader};
+use ralf_data::{Balance, Comparison, Corrections, GroundTruth, SequenceReader};
 use ralf_plot::Extent;
 
 /// Widths of the pictures, pixels: an overview's half, a scan.
@@ -63,7 +63,9 @@ impl Content {
         let names: Vec<&str> =
             report.recording.sequences.iter().map(|reader| reader.sequence().name.as_str()).collect();
         record.sequences.retain(|sequence| names.contains(&sequence.name.as_str()));
-        let truth = GroundTruth::find(dataset)?.and_then(|truth| truth.of_sequences(&names));
+        let corrections = Corrections::open(report.out)?;
+        let truth =
+            GroundTruth::find_merged(dataset, corrections)?.and_then(|truth| truth.of_sequences(&names));
         let comparison = truth.as_ref().map(|truth| Comparison::new(report.out, truth)).transpose()?;
         let mut detections = Detections::default();
         let (mut sequences, mut overall) = (Vec::new(), Separation::default());

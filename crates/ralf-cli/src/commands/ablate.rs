@@ -30,8 +30,9 @@ pub(crate) struct AblateArgs {
 pub(crate) fn run(arguments: &AblateArgs) -> anyhow::Result<Outcome> {
     let search = &arguments.search;
     search.check(&arguments.test)?;
-    let variants = Variant::all(&search.settings.resolve()?);
-    let (recording, truth) = search.open(&arguments.test)?;
+    let base = search.settings.resolve()?;
+    let variants = Variant::all(&base);
+    let (recording, truth) = search.open(&base, &arguments.test)?;
     let mut judged = Vec::with_capacity(variants.len());
     let mut outcome = Outcome::Done;
     // Those that share their evidence follow each other, so that but one evidence need be remembered.

@@ -1,36 +1,58 @@
-//! `ralf convert`: another format into the project's own.
+//! `ralf convert`: another format into the project's own, or into a recording as ROS keeps it.
 
 use crate::Outcome;
-use crate::cli::DatasetArgs;
+use crate::cli::{DatasetArgs, the_only};
 use crate::progress::{STEPS, bar, say};
 use clap::Args;
 use ralf::source::Timelines;
-use std::path::PathBuf;
+use ralf_data::Recording;
+use ralf_data::export::{RosFormat, write_ros};
+use std::path::{Path, PathBuf};
 
 /// Arguments of `ralf convert`.
 #[derive(Debug, Args)]
 #[command(after_help = "\
-Each sequence appears whole or not at all, and one that is there already is never overwritten.
+Each sequence appears whole or not at all, and one that is there already is never overwritten. A name that ends in .mcap (ROS 2)
+or .bag (ROS 1) takes one sequence; beside it goes a .toml with the settings by which it is read back. What such a file can't
+hold is in docs/export.md.
 
-Example:
-  ralf convert nuscenes -o recordings/nuscenes --sequence scene-0061")]
+Examples:
+  ralf convert nuscenes -o recordings/nuscenes --sequence scene-0061
+  ralf convert recordings/city --sequence 00 -o city-00.mcap")]
 pub(crate) struct ConvertArgs {
     #[command(flatten)]
     dataset: DatasetArgs,
-    /// Folder of the dataset that is written
-    #[arg(short, long, value_name = "DATASET")]
+    /// Folder of the dataset that is written, or an .mcap or .bag file
+    #[arg(short, long, value_name = "PATH")]
     output: PathBuf,
 }
 
 /// Converts a recording.
 pub(crate) fn run(arguments: &ConvertArgs) -> anyhow::Result<Outcome> {
     let recording = arguments.dataset.open()?;
+    if let Some(format) = RosFormat::of_file(&arguments.output) {
+        return as_ros(&recording, &arguments.output, format);
+    }
     for reader in &recording.sequences {
         let sequence = reader.sequence();
         let bar = bar(measurements(&sequence.times), STEPS, format!("converting {}", sequence.name));
         ralf_data::write_sequence(reader.as_ref(), &arguments.output, &|done| bar.set_position(done as u64))?;
         bar.finish_and_clear();
         say(&format!("wrote {}", arguments.output.join("sequences").join(&sequence.name).display()));
+    }
+    Ok(Outcome::Done)
+}
+
+/// Converts the only sequence of a recording into one file.
+fn as_ros(recording: &Recording, file: &Path, format: RosFormat) -> anyhow::Result<Outcome> {
+    let reader = the_only(recording)?;
+    let sequence = reader.sequence();
+    let bar = bar(measurements(&sequence.times), STEPS, format!("converting {}", sequence.name));
+    let settings = write_ros(reader, file, format, &|done| bar.set_position(done as u64))?;
+    bar.finish_and_clear();
+    say(&format!("wrote {}", file.display()));
+    if let Some(settings) = settings {
+        say(&format!("wrote {}: the settings by which it is read back", settings.display()));
     }
     Ok(Outcome::Done)
 }

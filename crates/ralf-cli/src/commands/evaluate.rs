@@ -4,19 +4,22 @@ mod balance;
 mod table;
 
 use crate::Outcome;
+use crate::corrections::merged_truth;
 use crate::progress::say;
 use crate::text::print;
-use ralf_data::{Balances, Comparison, GroundTruth};
+use ralf_data::{Balances, Comparison};
 use std::path::{Path, PathBuf};
 
 /// What `ralf evaluate` takes.
 #[derive(Debug, Clone, clap::Args)]
 #[command(after_help = "\
+Corrections of a review in OUT/corrections.sqlite count above the dataset's corrected labels; both or one of them may be there.
 Without --truth it tells how far apart the two classes are (mean plausibility of one minus that of the other), and how balanced.
 
 Examples:
   ralf evaluate out --truth recordings/city
   ralf evaluate out --truth recordings/city --json
+  ralf evaluate other --truth recordings/city --corrections out
   ralf evaluate out")]
 pub(crate) struct EvaluateArgs {
     /// What `ralf label` wrote
@@ -24,6 +27,9 @@ pub(crate) struct EvaluateArgs {
     /// The dataset that holds the corrected labels
     #[arg(long, value_name = "DATASET")]
     truth: Option<PathBuf>,
+    /// Take the corrections of a review from this folder in place of OUT
+    #[arg(long, value_name = "OUT", requires = "truth")]
+    corrections: Option<PathBuf>,
     /// Print one JSON object in place of tables
     #[arg(long)]
     json: bool,
@@ -42,7 +48,9 @@ pub(crate) fn run(args: &EvaluateArgs) -> anyhow::Result<Outcome> {
 
 /// Against the truth. Scans without labels are named on standard error and left out.
 fn compare(args: &EvaluateArgs, dataset: &Path) -> anyhow::Result<Outcome> {
-    let comparison = Comparison::new(&args.out, &GroundTruth::open(dataset)?)?;
+    let corrections = args.corrections.as_deref();
+    let truth = merged_truth(dataset, corrections.or(Some(&args.out)), corrections.is_some())?;
+    let comparison = Comparison::new(&args.out, &truth)?;
     name_what_is_left_out(&comparison, args);
     let text = if args.json {
         serde_json::to_string_pretty(&comparison.evaluation())?
@@ -87,7 +95,8 @@ mod tests {
         let [out, dataset] = ["out", "dataset"].map(|name| folder.path().join(name));
         put(&out, "sequences/00/front/000000.label", &[1, 99]);
         put(&dataset, "sequences/00/ground_truth/front/000000.label", &[1, 10]);
-        let mut args = EvaluateArgs { out, truth: Some(dataset.clone()), json: true, scans: false };
+        let truth = Some(dataset.clone());
+        let mut args = EvaluateArgs { out, truth, corrections: None, json: true, scans: false };
         assert_eq!(run(&args).unwrap(), Outcome::Done);
         put(&dataset, "sequences/00/ground_truth/front/000001.label", &[1]);
         assert_eq!(run(&args).unwrap(), Outcome::Partial);

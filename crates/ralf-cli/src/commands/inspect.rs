@@ -1,14 +1,16 @@
 //! `ralf inspect`: what a recording holds, and what is missing; or what a run of `ralf label` made.
 
-use crate::Outcome;
+mod ros;
+
 use crate::cli::DatasetArgs;
 use crate::run_summary::run_summary;
 use crate::settings::SettingsArgs;
 use crate::text::{aligned, grouped, print};
+use crate::{Outcome, UsageError};
 use clap::Args;
 use ralf_data::inspection::{Inspection, SensorInspection};
 use ralf_data::run::{RunRecord, read_record};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// Arguments of `ralf inspect`.
 #[derive(Debug, Args)]
@@ -17,12 +19,16 @@ Of a folder that `ralf label` wrote it tells what was labelled, and which camera
 
 Examples:
   ralf inspect recordings/city --sequence 00
+  ralf inspect drive.mcap --write-topics ralf.toml
   ralf inspect out")]
 pub(crate) struct InspectArgs {
     #[command(flatten)]
     dataset: DatasetArgs,
     #[command(flatten)]
     settings: SettingsArgs,
+    /// Of a ROS recording: write a first guess of the table `topics` here, to be checked and then given as --config
+    #[arg(long, value_name = "FILE", conflicts_with = "json")]
+    write_topics: Option<PathBuf>,
     /// As JSON
     #[arg(long)]
     json: bool,
@@ -34,17 +40,35 @@ pub(crate) fn run(arguments: &InspectArgs) -> anyhow::Result<Outcome> {
     if folder.join("run.json").is_file() {
         return inspect_run(folder, arguments.json);
     }
-    let config = arguments.settings.resolve()?;
-    let recording = arguments.dataset.open()?;
+    let mut config = arguments.settings.resolve()?;
+    let topics = ros::Look::at(&arguments.dataset)?;
+    if let Some(file) = &arguments.write_topics {
+        return topics
+            .ok_or_else(|| UsageError("--write-topics: expected a ROS recording".into()))?
+            .write(file);
+    }
+    let recording = arguments.dataset.open_with(&mut config);
+    let recording = match (recording, &topics) {
+        (Ok(recording), _) => recording,
+        // The topics are what tells why.
+        (Err(error), Some(topics)) => {
+            print(&topics.page(&config)?)?;
+            return Err(error);
+        }
+        (Err(error), None) => return Err(error),
+    };
     let looks: Vec<_> =
         recording.sequences.iter().map(|reader| Inspection::of(reader.sequence(), &config)).collect();
     if arguments.json {
-        print(&serde_json::to_string_pretty(
-            &serde_json::json!({ "format": recording.format, "sequences": looks }),
-        )?)?;
+        let mut look = serde_json::json!({ "format": recording.format, "sequences": looks });
+        if let Some(topics) = topics {
+            look["ros"] = serde_json::to_value(topics.inspection)?;
+        }
+        print(&serde_json::to_string_pretty(&look)?)?;
     } else {
         let head =
             format!("{} ({}), {} sequence(s)\n", recording.path.display(), recording.format, looks.len());
+        let head = topics.map_or(Ok(String::new()), |topics| topics.page(&config))? + &head;
         print(&looks.iter().fold(head, |text, look| text + "\n" + &page(look)))?;
     }
     Ok(Outcome::Done)

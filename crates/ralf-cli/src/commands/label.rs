@@ -54,9 +54,10 @@ pub(crate) struct LabelArgs {
 
 /// Labels a recording.
 pub(crate) fn run(arguments: &LabelArgs) -> anyhow::Result<Outcome> {
-    let config = arguments.settings.resolve()?;
+    let mut config = arguments.settings.resolve()?;
     let jobs = threads(arguments.jobs);
-    let recording = arguments.with_depth(arguments.dataset.open()?, &config, jobs)?;
+    let recording = arguments.dataset.open_with(&mut config)?;
+    let recording = arguments.with_depth(recording, &config, jobs)?;
     let run = LabelRun { recording: &recording, config: &config, out: &arguments.output, jobs };
     let done = run.execute(&Bars::new(arguments.quiet))?;
     if !done.removed.is_empty() {

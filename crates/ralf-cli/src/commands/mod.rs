@@ -5,10 +5,12 @@ pub(crate) mod convert;
 pub(crate) mod demo;
 pub(crate) mod depth;
 pub(crate) mod evaluate;
+pub(crate) mod export;
 pub(crate) mod inspect;
 pub(crate) mod label;
 pub(crate) mod plot;
 pub(crate) mod report;
+pub(crate) mod review;
 mod search;
 pub(crate) mod simulate;
 pub(crate) mod tune;
@@ -27,6 +29,8 @@ pub(crate) fn dispatch(arguments: Cli) -> anyhow::Result<Outcome> {
         Command::Evaluate(arguments) => evaluate::run(&arguments),
         Command::Plot(arguments) => plot::run(&arguments),
         Command::Report(arguments) => report::run(&arguments),
+        Command::Review(arguments) => review::run(&arguments),
+        Command::Export(arguments) => export::run(&arguments),
         Command::Convert(arguments) => convert::run(&arguments),
         Command::Depth(arguments) => depth::run(&arguments),
         Command::Tune(arguments) => tune::run(&arguments),

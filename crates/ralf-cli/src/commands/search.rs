@@ -3,6 +3,7 @@
 use crate::Outcome;
 use crate::UsageError;
 use crate::cli::DatasetArgs;
+use crate::corrections::merged_truth;
 use crate::progress::{Bars, STEPS, bar, say};
 use crate::settings::{SettingsArgs, threads};
 use clap::Args;
@@ -23,6 +24,9 @@ pub(super) struct SearchArgs {
     /// Take the recording for this format
     #[arg(long, value_name = "FORMAT", value_parser = PossibleValuesParser::new(ralf_data::formats()))]
     format: Option<String>,
+    /// Take the corrections of a review, too, from what `ralf label` wrote
+    #[arg(long, value_name = "OUT")]
+    corrections: Option<PathBuf>,
     /// Sequences to tune on
     #[arg(long, value_name = "NAME,...", value_delimiter = ',', required = true)]
     pub(super) train: Vec<String>,
@@ -73,10 +77,13 @@ impl SearchArgs {
     }
 
     /// The recording of these sequences alone, and its truth.
-    pub(super) fn open(&self, test: &[String]) -> anyhow::Result<(Recording, GroundTruth)> {
+    pub(super) fn open(&self, base: &Config, test: &[String]) -> anyhow::Result<(Recording, GroundTruth)> {
         let sequences = [self.train.as_slice(), test].concat();
-        let dataset = DatasetArgs { dataset: self.dataset.clone(), format: self.format.clone(), sequences };
-        Ok((dataset.open()?, GroundTruth::open(&self.dataset)?))
+        let (dataset, format) = (self.dataset.clone(), self.format.clone());
+        let dataset = DatasetArgs { dataset, format, sequences, topics: None };
+        let corrections = self.corrections.as_deref();
+        let truth = merged_truth(&self.dataset, corrections, corrections.is_some())?;
+        Ok((dataset.open_with(&mut base.clone())?, truth))
     }
 
     /// Matches all scans of a recording that have truth.
@@ -122,8 +129,13 @@ impl SearchArgs {
 
     /// The options that change the result of a search.
     pub(super) fn told(&self) -> String {
+        let corrections = self.corrections.as_ref().map(|out| format!("--corrections {} ", out.display()));
+        let (objective, trials, seed) = (&self.objective, self.trials, self.seed);
         let held: String = self.held.iter().map(|key| format!(" --hold {key}")).collect();
-        format!("--objective {} --trials {} --seed {}{held}", self.objective, self.trials, self.seed)
+        format!(
+            "{}--objective {objective} --trials {trials} --seed {seed}{held}",
+            corrections.unwrap_or_default()
+        )
     }
 }
 

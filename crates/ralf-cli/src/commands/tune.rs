@@ -23,6 +23,7 @@ judged on sequences that the search did not see.
 Examples:
   ralf tune recordings/city -o ralf.toml --train 00,01 --test 02
   ralf tune recordings/city -o ralf.toml --train 00,01 --test 02 --objective recall@precision=0.8
+  ralf tune recordings/city -o ralf.toml --train 00,01 --test 02 --corrections out
   ralf tune recordings/city -o ralf.toml --train 00,01,02,03 --cross-validate --trials 1000 --seed 7")]
 pub(crate) struct TuneArgs {
     #[command(flatten)]
@@ -43,7 +44,7 @@ pub(crate) fn run(arguments: &TuneArgs) -> anyhow::Result<Outcome> {
     arguments.check()?;
     let search = &arguments.search;
     let base = search.settings.resolve()?;
-    let (recording, truth) = search.open(&arguments.test)?;
+    let (recording, truth) = search.open(&base, &arguments.test)?;
     let evidence = search.gather((&recording, &truth), &base)?;
     let outcome = name_what_is_left_out(&evidence);
     let report = arguments.tune(&base, &search.parts(evidence))?;

@@ -4,7 +4,7 @@ use crate::support::{Dataset, Ran, program, ralf, tree, without_timings};
 use std::process::Command;
 
 /// Runs `ralf` where no file may grow beyond so many KiB, which fails as on a full disk.
-fn with_files_up_to(kib: u32, arguments: &[&str]) -> Ran {
+pub(crate) fn with_files_up_to(kib: u32, arguments: &[&str]) -> Ran {
     let script = format!("trap '' XFSZ; ulimit -f {kib}; exec \"$0\" \"$@\"");
     let mut bash = Command::new("bash");
     Ran::of(&bash.args(["-c", &script]).arg(program().get_program()).args(arguments).output().unwrap())

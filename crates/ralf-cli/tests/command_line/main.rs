@@ -13,8 +13,10 @@ mod bad_files;
 mod bad_images;
 mod bad_recordings;
 mod camera_plot;
+mod corrections;
 mod determinism;
 mod evaluation;
+mod export;
 #[cfg(unix)]
 mod full_disk;
 #[cfg(unix)]
@@ -22,6 +24,9 @@ mod inputs;
 mod other_commands;
 mod real_data;
 mod resume;
+#[cfg(unix)]
+mod review;
+mod ros;
 mod sequences;
 mod simulation;
 mod streams;

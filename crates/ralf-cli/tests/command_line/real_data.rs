@@ -1,6 +1,9 @@
 //! Whole runs on real recordings.
 
 use crate::support::ralf;
+use serde_json::Value;
+use std::collections::BTreeMap;
+use std::fs;
 use std::path::Path;
 use std::process::Command;
 
@@ -26,6 +29,37 @@ fn a_scene_of_nuscenes() {
     assert_eq!(lists("detections").iter().sum::<u64>(), 126_749);
     // There is but one LiDAR revolution: flag 8 everywhere else.
     assert_eq!(lists("flags").iter().filter(|flags| *flags & 8 == 0).count(), 6);
+}
+
+/// A sidecar has as many values as the cloud that its token leads to has points, by the data set's own tables.
+#[test]
+fn sidecars_of_a_scene_of_nuscenes() {
+    let Some(data) = data("nuscenes") else { return };
+    let folder = tempfile::tempdir().unwrap();
+    let [out, path] = ["out", "sidecars"].map(|name| folder.path().join(name).to_str().unwrap().to_owned());
+    ralf(["label", &data, "-o", &out, "--quiet"]).exits(0);
+    ralf(["export", &data, &out, "--to", "nuscenes", "-o", &path]).exits(0);
+    let read = |file: String| -> Value { serde_json::from_slice(&fs::read(file).unwrap()).unwrap() };
+    let known = read(format!("{data}/v1.0-mini/sample_data.json"));
+    let files: BTreeMap<&str, &str> = known
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|row| (row["token"].as_str().unwrap(), row["filename"].as_str().unwrap()))
+        .collect();
+    let table = read(format!("{path}/v1.0-mini/radarseg.json"));
+    let mut values = 0;
+    for row in table.as_array().unwrap() {
+        let cloud =
+            fs::read(format!("{data}/{}", files[row["sample_data_token"].as_str().unwrap()])).unwrap();
+        let header = String::from_utf8_lossy(&cloud[..500]);
+        let points: usize =
+            header.lines().find_map(|line| line.strip_prefix("POINTS ")).unwrap().parse().unwrap();
+        let sidecar = fs::read(format!("{path}/{}", row["filename"].as_str().unwrap())).unwrap();
+        assert_eq!(sidecar.len(), points);
+        values += points;
+    }
+    assert_eq!((table.as_array().unwrap().len(), values), (1263, 126_749));
 }
 
 #[test]

@@ -11,6 +11,7 @@ mod source;
 mod tables;
 mod writer;
 
+pub(crate) use rig::degrees;
 pub use source::LayoutSequence;
 pub use writer::write_sequence;
 

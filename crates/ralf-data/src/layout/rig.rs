@@ -207,7 +207,7 @@ pub(super) fn quaternion_xyzw(rotation: &UnitQuaternion<f64>) -> [f64; 4] {
 }
 
 /// The degrees with the fewest decimals that are read as this angle.
-pub(super) fn degrees(radians: f64) -> f64 {
+pub(crate) fn degrees(radians: f64) -> f64 {
     let exact = radians.to_degrees();
     let few = (0..=17).map(|decimals| rounded(exact, decimals));
     // Where rounding there and back misses, a neighbour of the exact value may hit.

@@ -42,6 +42,8 @@ pub(super) struct Channel {
 
 /// One file of one sensor.
 pub(super) struct Measurement {
+    /// Its row in `sample_data.json`.
+    pub(super) token: Token,
     pub(super) t_ns: i64,
     /// Relative to the data set's folder.
     pub(super) file: Box<str>,
@@ -114,7 +116,7 @@ impl SceneRecord {
                 calibration.name, self.name
             ));
         }
-        channel.measurements.push(Measurement { t_ns: row.t_ns, file: row.filename });
+        channel.measurements.push(Measurement { token: row.token, t_ns: row.t_ns, file: row.filename });
         Ok(())
     }
 

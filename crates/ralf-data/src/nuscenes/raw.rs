@@ -99,6 +99,7 @@ pub(super) struct SampleRow {
 /// `sample_data.json`: one measurement of one sensor.
 #[derive(Deserialize)]
 pub(super) struct SampleDataRow {
+    pub(super) token: Token,
     pub(super) sample_token: Token,
     pub(super) ego_pose_token: Token,
     pub(super) calibrated_sensor_token: Token,

@@ -2,12 +2,12 @@
 
 use super::join::{Channel, SceneRecord};
 use super::pcd::Pcd;
-use super::raw::Modality;
+use super::raw::{Modality, Token};
 use super::rig::{PCD_FIELDS, rig};
 use super::{can, join};
 use crate::files::{self, Folders};
 use crate::recording::measurement;
-use crate::{DataError, SequenceReader, images};
+use crate::{DataError, NuScenesKey, SequenceReader, images, radial::radial};
 use ralf::camera::{CameraImage, DepthImage, DepthOutput};
 use ralf::measurement::{LidarScan, RadarScan};
 use ralf::motion::EgoMotion;
@@ -23,6 +23,10 @@ pub(super) struct Scene {
     radars: FilesPerSensor,
     lidars: FilesPerSensor,
     cameras: FilesPerSensor,
+    /// The version folder's name.
+    version: String,
+    /// The rows of the radars' scans in `sample_data.json`.
+    radar_tokens: Vec<Vec<Token>>,
     /// Tables, and the CAN bus where it is there.
     tables: Vec<PathBuf>,
     warnings: Vec<String>,
@@ -37,8 +41,8 @@ impl Scene {
         folders: &mut Folders,
     ) -> Result<Self, DataError> {
         let mut tables = tables.to_vec();
-        let version = tables.first().and_then(|table| table.parent()).unwrap_or(dataset);
-        let rig = rig(version, &record.channels)?;
+        let version = tables.first().and_then(|table| table.parent()).unwrap_or(dataset).to_owned();
+        let rig = rig(&version, &record.channels)?;
         let can = can::file(dataset, &record.name);
         let odometry = can.as_deref().map(can::read).transpose()?.unwrap_or_default();
         tables.extend(can);
@@ -54,7 +58,9 @@ impl Scene {
             depth_output: DepthOutput::default(),
         };
         let [radars, lidars, cameras] = [const { Vec::new() }; 3];
-        let mut scene = Self { sequence, radars, lidars, cameras, tables, warnings: Vec::new() };
+        let version = version.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        let (radar_tokens, warnings) = (Vec::new(), Vec::new());
+        let mut scene = Self { sequence, radars, lidars, cameras, version, radar_tokens, tables, warnings };
         for channel in record.channels {
             scene.add(dataset, channel, folders)?;
         }
@@ -64,12 +70,17 @@ impl Scene {
     fn add(&mut self, dataset: &Path, channel: Channel, folders: &mut Folders) -> Result<(), DataError> {
         let listed = channel.measurements.len();
         let (mut times, mut files) = (Vec::with_capacity(listed), Vec::with_capacity(listed));
-        for join::Measurement { t_ns, file } in channel.measurements {
+        let mut tokens = Vec::new();
+        for join::Measurement { token, t_ns, file } in channel.measurements {
             let file = dataset.join(&*file);
             if folders.hold(&file)? {
                 times.push(t_ns);
                 files.push(file);
+                tokens.push(token);
             }
+        }
+        if channel.calibration.modality == Modality::Radar {
+            self.radar_tokens.push(tokens);
         }
         if files.len() < listed {
             let (name, missing) = (&channel.calibration.name, listed - files.len());
@@ -135,6 +146,11 @@ impl SequenceReader for Scene {
     fn image_file(&self, camera: usize, image: usize) -> Option<PathBuf> {
         self.cameras.get(camera)?.get(image).cloned()
     }
+
+    fn nuscenes_key(&self, radar: usize, scan: usize) -> Option<NuScenesKey> {
+        let token = self.radar_tokens.get(radar)?.get(scan)?;
+        Some(NuScenesKey { version: self.version.clone(), sample_data_token: token.to_string() })
+    }
 }
 
 /// The columns of [`PCD_FIELDS`] and the two derived ones.
@@ -153,13 +169,4 @@ fn radar_columns(pcd: &Pcd) -> Result<Vec<Vec<f32>>, DataError> {
         columns.push(radial(&columns[0], &columns[1], &columns[vx], &columns[vy]));
     }
     Ok(columns)
-}
-
-/// `(vx x + vy y) / sqrt(x^2 + y^2)`: the part of a velocity along the ray, positive when receding.
-fn radial(x: &[f32], y: &[f32], vx: &[f32], vy: &[f32]) -> Vec<f32> {
-    let along = |row: usize| {
-        let [x, y, vx, vy] = [x[row], y[row], vx[row], vy[row]].map(f64::from);
-        ((vx * x + vy * y) / x.hypot(y)) as f32
-    };
-    (0..x.len()).map(along).collect()
 }

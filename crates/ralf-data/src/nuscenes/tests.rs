@@ -238,6 +238,18 @@ fn measurements_are_read_to_the_last_field() {
 }
 
 #[test]
+fn scans_keep_their_names_in_the_tables() {
+    let set = DataSet::new();
+    let scene = set.open().unwrap();
+    let token = |scan| scene.nuscenes_key(0, scan).map(|key| (key.version, key.sample_data_token));
+    // Of the fixture's tables: a token is the file's name.
+    for (scan, file) in [(0, "samples/RADAR_FRONT/a.pcd"), (2, "sweeps/RADAR_FRONT/c.pcd")] {
+        assert_eq!(token(scan), Some((VERSION.to_owned(), file.to_owned())));
+    }
+    assert_eq!((token(3), scene.nuscenes_key(9, 0)), (None, None));
+}
+
+#[test]
 fn a_nan_that_is_not_the_mark_of_an_empty_scan_stays() {
     let set = DataSet::new();
     set.write("sweeps/RADAR_FRONT/b.pcd", &pcd(&[detection(f32::NAN, f32::NAN, 4, [0.0; 4])]));

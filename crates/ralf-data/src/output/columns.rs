@@ -5,7 +5,7 @@ use ralf::rig::Rig;
 /// Decimal columns before the further radar fields.
 pub(super) const PLACE: [&str; 6] = ["x", "y", "z", "range", "azimuth", "elevation"];
 /// Decimal columns after them.
-pub(super) const ANSWERS: [&str; 8] = ["d_lm", "d_cm", "d_tr", "w_lm", "w_cm", "w_tr", "w_opt", "w"];
+pub(crate) const ANSWERS: [&str; 8] = ["d_lm", "d_cm", "d_tr", "w_lm", "w_cm", "w_tr", "w_opt", "w"];
 /// Names that no further radar field may have: those of the columns above have a meaning of their own, too.
 const OTHERS: [&str; 7] = ["radar", "scan", "point", "t_ns", "label", "flags", "semantic"];
 

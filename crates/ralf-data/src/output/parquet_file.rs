@@ -85,7 +85,8 @@ impl Drop for PlausibilityWriter {
     }
 }
 
-fn written(file: &Path, error: ParquetError) -> DataError {
+/// The system or the format refused to write `file`.
+pub(crate) fn written(file: &Path, error: ParquetError) -> DataError {
     DataError::Io { file: file.to_owned(), error: std::io::Error::other(error) }
 }
 
@@ -107,7 +108,8 @@ fn schema(columns: &Columns) -> Result<Type, ParquetError> {
     Type::group_type_builder("plausibility").with_fields(fields).build()
 }
 
-fn field(
+/// A column of a schema.
+pub(crate) fn field(
     name: &str,
     physical: Physical,
     logical: Option<LogicalType>,
@@ -162,7 +164,7 @@ impl Group {
 }
 
 /// Writes the next column of a row group; `levels` say of each row whether it has a value.
-fn write_column<T: DataType>(
+pub(crate) fn write_column<T: DataType>(
     group: &mut SerializedRowGroupWriter<File>,
     values: &[T::T],
     levels: Option<&[i16]>,

@@ -83,7 +83,10 @@ fn append_group(rows: &mut LabelledRows, group: &dyn RowGroupReader) -> Result<(
 }
 
 /// A column of a row group by name, `None` where a value is absent.
-fn column<T: DataType>(group: &dyn RowGroupReader, name: &str) -> Result<Vec<Option<T::T>>, ParquetError> {
+pub(super) fn column<T: DataType>(
+    group: &dyn RowGroupReader,
+    name: &str,
+) -> Result<Vec<Option<T::T>>, ParquetError> {
     let schema = group.metadata().schema_descr();
     let at = schema.columns().iter().position(|column| column.name() == name);
     let at = at.ok_or_else(|| ParquetError::General(format!("no column `{name}`")))?;

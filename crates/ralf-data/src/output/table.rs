@@ -25,11 +25,7 @@ pub struct ScanTable {
 impl ScanTable {
     /// The table of a labelled scan.
     pub fn new(columns: &Columns, radar: &Radar, detections: &Detections, labels: &[DetectionLabel]) -> Self {
-        let mut decimals = place_columns(radar, detections);
-        for name in columns.further() {
-            let column = radar.column(name).map(|column| detections.scan.columns[column].clone());
-            decimals.push(column.unwrap_or_else(|| vec![f32::NAN; labels.len()]));
-        }
+        let mut decimals = measured_columns(columns, radar, detections);
         let answers: [fn(&DetectionLabel) -> Option<f64>; 8] = [
             |label| label.d_lm,
             |label| label.d_cm,
@@ -52,6 +48,15 @@ impl ScanTable {
         }
     }
 
+    /// The table of a scan that was not labelled: all answers are absent.
+    pub(crate) fn not_labelled(columns: &Columns, radar: &Radar, detections: &Detections) -> Self {
+        let rows = detections.located.len();
+        let mut decimals = measured_columns(columns, radar, detections);
+        decimals.resize(columns.count(), vec![f32::NAN; rows]);
+        let (label, flags, semantic) = (vec![0; rows], vec![0; rows], vec![None; rows]);
+        Self { t_ns: detections.t_ns(), decimals, label, flags, semantic }
+    }
+
     /// How many detections.
     pub fn len(&self) -> usize {
         self.label.len()
@@ -72,6 +77,16 @@ impl ScanTable {
         };
         self.label.iter().zip(&self.semantic).map(class).map(Label::of_class).collect()
     }
+}
+
+/// Place and further radar fields.
+fn measured_columns(columns: &Columns, radar: &Radar, detections: &Detections) -> Vec<Vec<f32>> {
+    let mut decimals = place_columns(radar, detections);
+    for name in columns.further() {
+        let column = radar.column(name).map(|column| detections.scan.columns[column].clone());
+        decimals.push(column.unwrap_or_else(|| vec![f32::NAN; detections.located.len()]));
+    }
+    decimals
 }
 
 /// x, y, z (vehicle frame), range, azimuth, elevation (as measured). All absent for a detection without a place.

@@ -79,7 +79,7 @@ impl RunRecord {
     }
 
     /// A sequence of this name.
-    pub(super) fn sequence(&self, name: &str) -> Option<&SequenceRecord> {
+    pub(crate) fn sequence(&self, name: &str) -> Option<&SequenceRecord> {
         self.sequences.iter().find(|sequence| sequence.name == name)
     }
 

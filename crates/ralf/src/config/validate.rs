@@ -54,7 +54,8 @@ impl Config {
     }
 
     fn check(&self) -> Result<(), ConfigError> {
-        let Self { sync, ground, lidar, camera, tracking, fusion, .. } = self;
+        let Self { sync, ground, lidar, camera, tracking, fusion, topics, .. } = self;
+        super::topics::check(topics)?;
         at_least(
             0.0,
             &[

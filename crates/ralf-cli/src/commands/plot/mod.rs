@@ -3,9 +3,8 @@
 mod camera;
 
 use crate::Outcome;
-use crate::cli::DatasetArgs;
+use crate::cli::{DatasetArgs, the_only};
 use crate::progress::say;
-use anyhow::bail;
 use clap::Args;
 use ralf_data::output::read_labelled_rows;
 use ralf_plot::Extent;
@@ -65,16 +64,11 @@ pub(crate) fn run(arguments: &PlotArgs) -> anyhow::Result<Outcome> {
         Some(store) => store.attach(recording),
         None => recording,
     };
-    let [reader] = recording.sequences.as_slice() else {
-        let names: Vec<_> =
-            recording.sequences.iter().map(|reader| reader.sequence().name.as_str()).collect();
-        bail!("expected one sequence, found {}: choose with --sequence ({})", names.len(), names.join(", "));
-    };
+    let reader = the_only(&recording)?;
     let file = arguments.labels.join("sequences").join(&reader.sequence().name).join("plausibility.parquet");
     let rows = read_labelled_rows(&file)?;
     let extent = arguments.radius.map_or(Extent::Fit, Extent::Radius);
-    let pictures =
-        Pictures { reader: reader.as_ref(), rows: &rows, radar: arguments.radar.as_deref(), extent };
+    let pictures = Pictures { reader, rows: &rows, radar: arguments.radar.as_deref(), extent };
     let png = match (arguments.scan, &arguments.camera) {
         (Some(scan), Some(name)) => camera::Plot { pictures, arguments }.camera(scan, name)?,
         (Some(scan), None) => pictures.scan(scan, Detections::Labelled, WIDTHS[0])?,

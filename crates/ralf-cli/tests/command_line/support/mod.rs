@@ -2,12 +2,14 @@
 
 mod dataset;
 mod program;
+mod python;
 mod table;
 mod tree;
 mod world;
 
 pub(crate) use dataset::{Dataset, Shape};
 pub(crate) use program::{Ran, program, ralf};
+pub(crate) use python::read_export;
 pub(crate) use table::{Row, rows, schema};
 pub(crate) use tree::{tree, without_timings};
 pub(crate) use world::{ARTIFACT, CAR, WALL};

@@ -1,0 +1,76 @@
+//! The topics of a ROS recording, and a first guess of which sensor each of them is.
+
+use crate::cli::DatasetArgs;
+use crate::progress::say;
+use crate::text::{aligned, grouped};
+use crate::{Outcome, UsageError};
+use ralf::config::Config;
+use ralf_data::ros::{Guess, RosInspection, TopicInspection, inspect, is_ros, topics_toml};
+use std::fs::File;
+use std::io::{ErrorKind, Write};
+use std::path::Path;
+
+/// What a look at all messages told.
+pub(super) struct Look {
+    pub(super) inspection: RosInspection,
+    guess: Guess,
+}
+
+impl Look {
+    /// `None` of a recording that isn't one of ROS.
+    pub(super) fn at(dataset: &DatasetArgs) -> anyhow::Result<Option<Self>> {
+        let asked = dataset.format.as_deref().is_none_or(|format| format == "ros");
+        if !asked || !is_ros(&dataset.dataset) {
+            return Ok(None);
+        }
+        let (inspection, guess) = inspect(&dataset.dataset)?;
+        Ok(Some(Self { inspection, guess }))
+    }
+
+    /// The topics, and the guess where the settings have no table.
+    pub(super) fn page(&self, config: &Config) -> anyhow::Result<String> {
+        let head = ["topic", "type", "encoding", "count", "rate", "jitter", "delay", "frame"];
+        let mut rows = vec![head.map(str::to_owned).to_vec()];
+        rows.extend(self.inspection.topics.iter().map(row));
+        let mut page = aligned(&rows) + "\n";
+        for loss in &self.inspection.losses {
+            page += &format!("lost: {loss}\n");
+        }
+        if config.topics.is_empty() {
+            page += &format!("{}\n", topics_toml(&self.guess)?);
+        }
+        Ok(page)
+    }
+
+    /// Writes the guess into a file that isn't there yet: it may hold what someone wrote with care.
+    pub(super) fn write(&self, file: &Path) -> anyhow::Result<Outcome> {
+        let text = topics_toml(&self.guess)?;
+        match File::create_new(file) {
+            Ok(mut open) => open.write_all(text.as_bytes())?,
+            Err(error) if error.kind() == ErrorKind::AlreadyExists => {
+                let file = file.display();
+                return Err(
+                    UsageError(format!("--write-topics: {file} is there already, and is kept")).into()
+                );
+            }
+            Err(error) => return Err(anyhow::Error::new(error).context(file.display().to_string())),
+        }
+        say(&format!("wrote {}: check it, then `ralf label --config {0}`", file.display()));
+        Ok(Outcome::Done)
+    }
+}
+
+fn row(topic: &TopicInspection) -> Vec<String> {
+    let value =
+        |value: Option<f64>, unit: &str| value.map_or("-".to_owned(), |value| format!("{value:.1} {unit}"));
+    vec![
+        topic.topic.clone(),
+        topic.type_name.clone(),
+        topic.encoding.clone(),
+        grouped(topic.count as u64),
+        value(topic.rate_hz, "Hz"),
+        value(topic.jitter_ms, "ms"),
+        value(topic.delay_ms, "ms"),
+        topic.frame.clone().unwrap_or_else(|| "-".to_owned()),
+    ]
+}

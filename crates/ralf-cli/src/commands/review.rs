@@ -1,0 +1,82 @@
+//! `ralf review`: the page where people correct labels.
+
+use crate::Outcome;
+use crate::cli::DatasetArgs;
+use crate::progress::say;
+use crate::text::print;
+use clap::Args;
+use ralf_review::{Options, Server};
+use std::net::IpAddr;
+use std::path::PathBuf;
+use std::process::{Command, Stdio};
+
+/// Where the system keeps the user's name.
+const NAMES: [&str; 2] = ["USER", "USERNAME"];
+
+/// Arguments of `ralf review`.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Every edit is in OUT/corrections.sqlite before the page shows it as saved; machine labels stay as they are, and labelling again keeps
+the corrections. `ralf evaluate` and `ralf tune` read them. Only this machine can open the page, unless --host says otherwise: then
+the address holds a token that others need. Ctrl-C ends it.
+
+Examples:
+  ralf review recordings/city out
+  ralf review recordings/city out --sequence 00 --author ada --open
+  ralf review recordings/city out --host 0.0.0.0 --port 9000    for others in a network that you trust: it is not encrypted")]
+pub(crate) struct ReviewArgs {
+    #[command(flatten)]
+    dataset: DatasetArgs,
+    /// What `ralf label` wrote
+    #[arg(value_name = "OUT")]
+    out: PathBuf,
+    /// Port to listen on, 0 for any free one; 8642 if not given, or the next one that is free
+    #[arg(long, value_name = "P")]
+    port: Option<u16>,
+    /// Address to listen on
+    #[arg(long, value_name = "H", default_value = "127.0.0.1")]
+    host: String,
+    /// Who corrects; the user's name if not given
+    #[arg(long, value_name = "NAME", value_parser = clap::builder::NonEmptyStringValueParser::new())]
+    author: Option<String>,
+    /// Open the page in the browser
+    #[arg(long)]
+    open: bool,
+}
+
+/// Serves the page until Ctrl-C.
+pub(crate) fn run(arguments: &ReviewArgs) -> anyhow::Result<Outcome> {
+    let recording = arguments.dataset.open()?;
+    let options = Options { host: arguments.host.clone(), port: arguments.port, author: arguments.author() };
+    let server = Server::bind(recording, &arguments.out, &options)?;
+    print(server.url())?;
+    if arguments.host.parse().is_ok_and(|address: IpAddr| address.is_unspecified()) {
+        say(&format!("from another machine, type this one's name in place of {}", arguments.host));
+    }
+    say("Ctrl-C ends the review; every edit is on disk when the page shows it as saved");
+    if arguments.open {
+        open_browser(server.url());
+    }
+    server.run()?;
+    Ok(Outcome::Done)
+}
+
+impl ReviewArgs {
+    fn author(&self) -> String {
+        let known = || NAMES.iter().find_map(|name| std::env::var(name).ok().filter(|user| !user.is_empty()));
+        self.author.clone().or_else(known).unwrap_or_else(|| "anonymous".to_owned())
+    }
+}
+
+/// Asks the system to open an address. The review goes on where it can't.
+fn open_browser(url: &str) {
+    let mut command = match std::env::consts::OS {
+        "macos" => Command::new("open"),
+        "windows" => Command::new("explorer"),
+        _ => Command::new("xdg-open"),
+    };
+    let command = command.arg(url).stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null());
+    if let Err(error) = command.spawn() {
+        say(&format!("no browser could be opened ({error}): open {url} yourself"));
+    }
+}

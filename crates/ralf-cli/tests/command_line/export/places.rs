@@ -1,0 +1,168 @@
+//! Where exports go, and what they never take the place of; results that are not those of the recording.
+
+use super::{export, labelled, run, small};
+use crate::support::{Shape, ralf, tree};
+use std::fs;
+
+const FORMATS: [&str; 6] = ["mcap", "rosbag1", "semantickitti", "pcd", "npz", "parquet"];
+
+#[test]
+fn the_same_is_exported_every_time() {
+    let dataset = small();
+    for format in FORMATS {
+        let [first, second] =
+            ["a", "b"].map(|name| export(&dataset, format, &format!("{format}-{name}"), &["--sensors"]));
+        assert!(tree(first) == tree(second), "{format}");
+    }
+}
+
+#[test]
+fn only_an_earlier_export_is_replaced_and_only_if_asked() {
+    let dataset = small();
+    let path = export(&dataset, "npz", "labels", &[]);
+    let before = tree(&path);
+    run(&dataset, "npz", &path, &[]).exits(1).says(["labels: folder: expected an empty folder", "--force"]);
+    run(&dataset, "pcd", &path, &["--force"])
+        .exits(1)
+        .says(["an earlier export in the format pcd", "other files"]);
+    assert!(tree(&path) == before);
+    run(&dataset, "npz", &path, &["--force", "--split", "artifact"]).exits(0);
+    assert!(tree(&path) != before);
+    run(&dataset, "npz", &path, &["--force"]).exits(0);
+    assert!(tree(&path) == before);
+}
+
+#[test]
+fn a_file_is_replaced_like_a_folder() {
+    let dataset = small();
+    for (format, name) in [("mcap", "labels.mcap"), ("rosbag1", "labels.bag")] {
+        let path = export(&dataset, format, name, &[]);
+        let before = fs::read(&path).unwrap();
+        run(&dataset, format, &path, &[])
+            .exits(1)
+            .says([name, "an earlier export, which only --force replaces"]);
+        assert!(fs::read(&path).unwrap() == before);
+        run(&dataset, format, &path, &["--force", "--split", "artifact"]).exits(0);
+        assert!(fs::read(&path).unwrap() != before);
+    }
+}
+
+#[test]
+fn nothing_else_is_ever_replaced() {
+    let dataset = small();
+    let recording = tree(&dataset.path);
+    for path in [&dataset.path, &dataset.out] {
+        run(&dataset, "npz", path, &["--force"]).exits(1).says([path, "expected an empty folder"]);
+    }
+    assert!(tree(&dataset.path) == recording);
+    let file = dataset.beside("notes.mcap");
+    fs::write(&file, "mine").unwrap();
+    run(&dataset, "npz", &file, &["--force"])
+        .exits(1)
+        .says(["notes.mcap: path: expected a folder", "a file"]);
+    run(&dataset, "mcap", &file, &["--force"]).exits(1).says(["notes.mcap"]);
+    assert_eq!(fs::read(&file).unwrap(), b"mine");
+    let recording = dataset.beside("recording.mcap");
+    ralf(["convert", &dataset.path, "-o", &recording]).exits(0);
+    run(&dataset, "mcap", &recording, &["--force"])
+        .exits(1)
+        .says(["no file yet, or an earlier export", "without labelled"]);
+    let below = format!("{file}/labels");
+    run(&dataset, "npz", &below, &[]).exits(1).says(["notes.mcap"]);
+    let empty = dataset.beside("empty");
+    fs::create_dir(&empty).unwrap();
+    run(&dataset, "npz", &empty, &[]).exits(0);
+}
+
+#[test]
+fn what_a_killed_export_left_is_gone_after_the_next_one() {
+    let dataset = small();
+    fs::create_dir(dataset.beside(".labels.part")).unwrap();
+    fs::write(dataset.beside(".labels.part/half"), "half").unwrap();
+    let path = export(&dataset, "npz", "labels", &[]);
+    assert!(!fs::exists(dataset.beside(".labels.part")).unwrap());
+    assert!(tree(path).into_keys().all(|name| name != "half"));
+}
+
+#[test]
+fn one_file_takes_one_sequence() {
+    let dataset = labelled(&Shape { scans: 3, sequences: &["00", "01"], ..Shape::default() });
+    let file = dataset.beside("both.mcap");
+    run(&dataset, "mcap", &file, &[]).exits(1).says(["expected one sequence for one file", "found 00, 01"]);
+    run(&dataset, "mcap", &file, &["--sequence", "01"]).exits(0);
+    assert!(fs::metadata(&file).unwrap().is_file());
+    let folder = export(&dataset, "rosbag1", "bags", &[]);
+    assert_eq!(tree(folder).into_keys().collect::<Vec<_>>(), ["00.bag", "01.bag", "_export.json"]);
+}
+
+#[test]
+fn sequences_without_labels_are_named_and_left_out() {
+    let dataset = labelled(&Shape { scans: 3, sequences: &["00", "01"], ..Shape::default() });
+    ralf(["label", &dataset.path, "-o", &dataset.out, "--set", "fusion.threshold=0.9", "--sequence", "00"])
+        .exits(0);
+    let path = dataset.beside("labels");
+    run(&dataset, "npz", &path, &[]).exits(3).says(["sequence 01 has no labels: left out"]);
+    assert!(!fs::exists(format!("{path}/sequences/01")).unwrap());
+    let other = dataset.beside("other");
+    run(&dataset, "npz", &other, &["--sequence", "01"])
+        .exits(1)
+        .says(["run.json, sequences: expected labels of the recording"]);
+    run(&dataset, "npz", &other, &["--sequence", "07"]).exits(1).says(["no sequence `07`"]);
+    assert!(!fs::exists(&other).unwrap());
+}
+
+#[test]
+fn scans_that_could_not_be_labelled_are_named() {
+    let dataset = crate::support::Dataset::of(&Shape { scans: 3, ..Shape::default() });
+    let scan = fs::read(dataset.file("radar_front/000001.bin")).unwrap();
+    dataset.put("radar_front/000001.bin", &scan[..scan.len() - 3]);
+    ralf(["label", &dataset.path, "-o", &dataset.out]).exits(3);
+    for format in FORMATS {
+        let path = dataset.beside(format);
+        run(&dataset, format, &path, &["--sensors"])
+            .exits(3)
+            .says(["not labelled: 00/radar_front/000001: exported without labels"]);
+    }
+    // The numbers of the others stay, and a viewer finds as many clouds as labels.
+    for kind in ["velodyne/000001.bin", "labels/000001.label"] {
+        let file = format!("{}/sequences/00/{kind}", dataset.beside("semantickitti"));
+        assert_eq!(fs::metadata(file).unwrap().len(), 0);
+    }
+}
+
+#[test]
+fn results_of_another_recording_are_refused() {
+    let dataset = small();
+    let path = dataset.beside("labels");
+    let refused = |parts: [&str; 2]| {
+        run(&dataset, "npz", &path, &["--sensors"]).exits(1).prints_nothing().says(parts);
+        assert!(!fs::exists(&path).unwrap());
+    };
+    let times = fs::read_to_string(dataset.file("radar_front/timestamps.txt")).unwrap();
+    dataset.edit("radar_front/timestamps.txt", "1700000000100000000", "1700000000100000001");
+    refused([
+        "00/radar_front/000001: expected a scan at 1700000000100000001 ns",
+        "found 1700000000100000000",
+    ]);
+    dataset.put("radar_front/timestamps.txt", &times);
+    dataset.edit("sequence.toml", "\"doppler\", \"rcs\"", "\"doppler\", \"power\"");
+    refused(["plausibility.parquet: Parquet: expected a result of `ralf label`", "no column `power`"]);
+    dataset.edit("sequence.toml", "name = \"radar_left\"", "name = \"radar_right\"");
+    fs::rename(dataset.file("radar_left"), dataset.file("radar_right")).unwrap();
+    refused(["run.json, sequence 00: expected the recording's radars", "radar_left (3)"]);
+    fs::remove_file(format!("{}/run.json", dataset.out)).unwrap();
+    refused(["run.json: expected the record of a finished `ralf label`", "no such file"]);
+}
+
+#[test]
+fn what_can_not_be_asked_for_is_wrong_usage() {
+    let dataset = small();
+    let path = dataset.beside("labels");
+    run(&dataset, "csv", &path, &[]).exits(2).says(["invalid value 'csv'", "semantickitti"]);
+    run(&dataset, "npz", &path, &["--split", "half"]).exits(2).says(["plausible, artifact, all"]);
+    run(&dataset, "npz", &path, &["--sensors=sonar"]).exits(2).says(["radar, lidar, camera"]);
+    run(&dataset, "npz", &path, &["--sensors=lidar"]).exits(2).says(["--to npz: no data of these sensors"]);
+    run(&dataset, "nuscenes", &path, &["--sensors"])
+        .exits(2)
+        .says(["--to nuscenes: no data of these sensors"]);
+}

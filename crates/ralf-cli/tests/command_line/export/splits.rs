@@ -1,0 +1,62 @@
+//! `--split`: a detection that is left out is in no file; where labels belong to other clouds, it is unlabeled.
+
+use super::{export, found, list, small};
+use crate::support::{read_export, tree};
+use serde_json::Value;
+use std::fs;
+
+/// The detections that an export holds, by place.
+fn places(read: &Value) -> Vec<String> {
+    let place = |row: &Value| format!("{} {} {}", row["radar"], row["scan"], row["point"]);
+    list(read).iter().map(place).collect()
+}
+
+#[test]
+fn the_two_kinds_are_apart_and_together_all() {
+    let dataset = small();
+    for (format, more) in [("npz", None), ("parquet", None), ("semantickitti", Some("--sensors"))] {
+        let read = |split: &str| {
+            let more: Vec<&str> = ["--split", split].into_iter().chain(more).collect();
+            read_export(format, &export(&dataset, format, &format!("{format}-{split}"), &more))
+        };
+        let Some(plausible) = read("plausible") else { return };
+        let [artifact, all] = ["artifact", "all"].map(|split| read(split).unwrap());
+        assert!(list(&plausible).iter().all(|row| row["label"] != 1), "{format}");
+        assert!(list(&artifact).iter().all(|row| row["label"] == 1), "{format}");
+        let mut both = [places(&plausible), places(&artifact)].concat();
+        let mut all = places(&all);
+        both.sort_unstable();
+        all.sort_unstable();
+        assert_eq!(both, all, "{format}");
+    }
+}
+
+#[test]
+fn labels_of_other_clouds_keep_their_order() {
+    let dataset = small();
+    let path = export(&dataset, "semantickitti", "kitti", &["--split", "plausible"]);
+    for found in found(&dataset, "00") {
+        let number = if found.radar == "radar_front" { "00" } else { "01" };
+        let labels = fs::read(format!("{path}/sequences/{number}/labels/{:06}.label", found.scan)).unwrap();
+        let label = labels.as_chunks::<4>().0[found.point as usize];
+        let expected = if found.label == 99 { 99 } else { 0 };
+        assert_eq!(u32::from_le_bytes(label), expected);
+    }
+    assert!(tree(&path).keys().all(|name| !name.contains("points")));
+}
+
+#[test]
+fn clouds_of_one_kind_tell_which_points_they_are() {
+    let dataset = small();
+    let more = ["--sensors", "--split", "artifact"];
+    let path = export(&dataset, "semantickitti", "kitti", &more);
+    let points = fs::read(format!("{path}/sequences/00/points/000001.npy")).unwrap();
+    let expected: Vec<u8> = found(&dataset, "00")
+        .iter()
+        .filter(|found| found.radar == "radar_front" && found.scan == 1 && found.label == 1)
+        .flat_map(|found| (found.point as u32).to_le_bytes())
+        .collect();
+    assert!(points.ends_with(&expected) && !expected.is_empty());
+    let cloud = fs::read(format!("{path}/sequences/00/velodyne/000001.bin")).unwrap();
+    assert_eq!(cloud.len(), expected.len() * 4);
+}

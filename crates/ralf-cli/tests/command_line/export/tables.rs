@@ -1,0 +1,89 @@
+//! NPZ, Parquet, and nuScenes' sidecars.
+
+use super::{BRANCHES, export, found, labelled, list, small};
+use crate::support::{Shape, read_export, tree};
+use serde_json::{Value, json};
+
+/// Rows as read hold what was found, in its order.
+#[track_caller]
+fn hold(read: &Value, dataset: &crate::support::Dataset, truth: fn(bool) -> Value) {
+    let expected: Vec<_> = ["00", "01"].into_iter().flat_map(|sequence| found(dataset, sequence)).collect();
+    assert_eq!(list(read).len(), expected.len());
+    for (row, found) in list(read).iter().zip(expected) {
+        assert_eq!(row["sequence"], found.sequence, "{row}");
+        assert_eq!(row["radar"], found.radar, "{row}");
+        for (name, value) in [
+            ("scan", found.scan),
+            ("point", found.point),
+            ("t_ns", found.t_ns),
+            ("label", found.label),
+            ("flags", found.flags),
+        ] {
+            assert_eq!(row[name].as_i64(), Some(value), "{name}: {row}");
+        }
+        assert_eq!(row["plausible"], truth(found.label != 1), "{row}");
+        assert_eq!(row["w"].as_f64(), found.w, "{row}");
+        assert_eq!(BRANCHES.map(|name| row[name].as_f64()), found.branches, "{row}");
+        // Of what was measured nothing, unless it was asked for.
+        if row.get("range").is_some() {
+            assert_eq!([row["x"].as_f64(), row["range"].as_f64()], [found.x, found.range], "{row}");
+        }
+    }
+}
+
+fn two() -> crate::support::Dataset {
+    labelled(&Shape { scans: 3, sequences: &["00", "01"], ..Shape::default() })
+}
+
+const ANSWERS: [&str; 8] = ["d_lm", "d_cm", "d_tr", "w_lm", "w_cm", "w_tr", "w_opt", "w"];
+
+#[test]
+fn numpy_reads_an_archive_per_scan() {
+    let dataset = two();
+    let path = export(&dataset, "npz", "labels", &[]);
+    assert_eq!(tree(format!("{path}/sequences/01/radar_left")).len(), 3);
+    let Some(read) = read_export("npz", &path) else { return };
+    hold(&read, &dataset, |plausible| json!(i8::from(plausible)));
+    let mut types = json!({"scan": "uint32", "point": "uint32", "t_ns": "int64", "plausible": "int8",
+        "label": "uint16", "flags": "uint16"});
+    ANSWERS.iter().for_each(|name| types[name] = "float32".into());
+    assert_eq!(read["types"], types);
+    let read = read_export("npz", &export(&dataset, "npz", "measured", &["--sensors=radar"])).unwrap();
+    hold(&read, &dataset, |plausible| json!(i8::from(plausible)));
+    for name in ["x", "y", "z", "range", "azimuth", "elevation", "doppler", "rcs"] {
+        types[name] = "float32".into();
+    }
+    assert_eq!(read["types"], types);
+}
+
+#[test]
+fn arrow_reads_a_data_set_partitioned_by_sequence() {
+    let dataset = two();
+    let path = export(&dataset, "parquet", "labels", &[]);
+    let names: Vec<String> = tree(&path).into_keys().filter(|name| name.contains('/')).collect();
+    let file = |sequence, radar| format!("sequence={sequence}/{radar}.parquet");
+    let expected = ["00", "01"].map(|sequence| [file(sequence, "radar_front"), file(sequence, "radar_left")]);
+    assert_eq!(names, expected.concat());
+    let Some(read) = read_export("parquet", &path) else { return };
+    hold(&read, &dataset, Value::from);
+    let mut types = json!({"radar": "string not null", "scan": "uint32 not null", "point": "uint32 not null",
+        "t_ns": "int64 not null", "plausible": "bool", "label": "uint16 not null", "flags": "uint16 not null",
+        "sequence": "string"});
+    ANSWERS.iter().for_each(|name| types[name] = "float".into());
+    assert_eq!(read["types"], types);
+    let path =
+        export(&dataset, "parquet", "measured", &["--sensors", "--sequence", "00", "--sequence", "01"]);
+    let read = read_export("parquet", &path).unwrap();
+    hold(&read, &dataset, Value::from);
+    assert_eq!(list(&read)[0]["rcs"], json!(3.0));
+}
+
+#[test]
+fn sidecars_need_the_tokens_of_nuscenes() {
+    let dataset = small();
+    let path = dataset.beside("sidecars");
+    super::run(&dataset, "nuscenes", &path, &[])
+        .exits(1)
+        .says(["00: sample_data tokens: only a recording that is read from nuScenes' own tables has them"]);
+    assert!(!std::fs::exists(&path).unwrap());
+}

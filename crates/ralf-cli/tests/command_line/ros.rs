@@ -1,0 +1,100 @@
+//! ROS recordings: from a first look to labels. The small files are of other programs (`testdata/make_ros.py`).
+
+use crate::support::ralf;
+use std::fs;
+use std::path::Path;
+
+fn fixture(name: &str) -> String {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../testdata/ros");
+    folder.join(name).to_str().unwrap().to_owned()
+}
+
+/// Only the camera's frame is missing in the files.
+const TABLE: &str = "
+[topics.radar]
+topic = '/radar/points'
+kind = 'radar'
+model = 'ars408-21'
+[topics.odom]
+topic = '/odom'
+kind = 'odometry'
+[topics.tf]
+topic = '/tf_static'
+kind = 'tf_static'
+";
+
+fn beside(folder: &tempfile::TempDir, name: &str) -> String {
+    folder.path().join(name).to_str().unwrap().to_owned()
+}
+
+#[test]
+fn topics_are_shown_even_where_the_sensors_dont_hang_together() {
+    for name in ["plain.bag", "zstd.mcap", "db3"] {
+        let ran = ralf(["inspect", &fixture(name)]).exits(1);
+        let ran = ran.prints([
+            "/radar/points",
+            "sensor_msgs/",
+            "PointCloud2",
+            "[topics.radar]",
+            "kind = \"radar\"",
+        ]);
+        ran.prints(["# /imu is not used: /odom tells the motion", "13.0 Hz"]).says(["no frame `cam`"]);
+    }
+}
+
+#[test]
+fn a_guess_is_written_once_and_never_over_another_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = beside(&folder, "ralf.toml");
+    ralf(["inspect", &fixture("lz4.bag"), "--write-topics", &file]).exits(0).says([file.as_str()]);
+    let written = fs::read_to_string(&file).unwrap();
+    assert!(written.contains("[topics.cam]\ntopic = \"/cam/image_raw\"\nkind = \"camera\""), "{written}");
+    fs::write(&file, "# mine").unwrap();
+    ralf(["inspect", &fixture("lz4.bag"), "--write-topics", &file]).exits(2).says(["is there already"]);
+    assert_eq!(fs::read_to_string(&file).unwrap(), "# mine");
+    let here = folder.path().to_str().unwrap();
+    ralf(["inspect", here, "--write-topics", &beside(&folder, "new.toml")])
+        .exits(2)
+        .says(["a ROS recording"]);
+}
+
+#[test]
+fn every_container_is_labelled_to_the_same_numbers() {
+    let folder = tempfile::tempdir().unwrap();
+    let table = beside(&folder, "ralf.toml");
+    fs::write(&table, TABLE).unwrap();
+    let mut labels = Vec::new();
+    for name in ["plain.bag", "bz2.bag", "lz4.mcap", "ros1.mcap", "db3"] {
+        let out = beside(&folder, name);
+        ralf(["label", &fixture(name), "-o", &out, "--config", &table, "-q"]).exits(0).says_nothing();
+        let run = fs::read_to_string(Path::new(&out).join("run.json")).unwrap();
+        assert!(run.contains("/radar/points"), "the topics are among the settings: {run}");
+        let sequence = name.split('.').next().unwrap();
+        let scans = Path::new(&out).join("sequences").join(sequence).join("radar");
+        labels.push(
+            (0..3).map(|scan| fs::read(scans.join(format!("{scan:06}.label"))).unwrap()).collect::<Vec<_>>(),
+        );
+        // The other commands are told by a file of its own.
+        let picture = beside(&folder, "scan.png");
+        let plot = ["plot", &fixture(name), &out, "--scan", "1", "-o", &picture, "--topics", &table];
+        ralf(plot).exits(0);
+    }
+    assert!(labels.windows(2).all(|pair| pair[0] == pair[1]));
+    assert!(labels[0].iter().all(|scan| scan.len() == 8), "two detections of four bytes each");
+}
+
+#[test]
+fn a_table_that_asks_for_what_is_not_there_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let table = beside(&folder, "ralf.toml");
+    for (text, told) in [
+        (TABLE.replace("/odom", "/nowhere"), "topics.odom: expected one of the topics"),
+        (TABLE.replace("ars408-21", "ars"), "expected one of the models generic"),
+        (TABLE.replace("kind = 'odometry'", "kind = 'odometer'"), "odometer"),
+        (TABLE.replace("model =", "modell ="), "modell"),
+    ] {
+        fs::write(&table, text).unwrap();
+        let out = beside(&folder, "out");
+        ralf(["label", &fixture("plain.mcap"), "-o", &out, "--config", &table]).exits(1).says([told]);
+    }
+}

@@ -1,0 +1,79 @@
+//! Whose edit came first.
+
+use crate::history::Placed;
+use crate::model::{Conflict, ScanKey};
+use crate::store::scan_state;
+use rusqlite::{Connection, OptionalExtension, Row, params};
+use std::collections::BTreeSet;
+
+/// What came of an attempt to write, before anything is committed.
+pub(crate) enum Attempt<T> {
+    Done(T),
+    Refused(Refusal),
+}
+
+/// Nothing is to be written.
+pub(crate) struct Refusal {
+    /// Whose edit came first.
+    pub(crate) conflict: Conflict,
+    /// The scans that were to be edited.
+    pub(crate) keys: BTreeSet<ScanKey>,
+}
+
+impl Refusal {
+    /// The conflict with the scans as they are.
+    pub(crate) fn told(self, on: &Connection) -> rusqlite::Result<Conflict> {
+        let scans = self.keys.iter().map(|key| scan_state(on, key)).collect::<Result<_, _>>()?;
+        Ok(Conflict { scans, ..self.conflict })
+    }
+}
+
+/// What a conflict names: author, time, tool, radar, scan. A stroke has its tool; undo and redo are named as such.
+const NAMED: &str = "event.author, event.at, coalesce((SELECT tool FROM stroke WHERE made = event.id), event.kind), radar, scan.scan";
+
+/// The last edit of a scan, unless its revision is the one that the author saw.
+pub(crate) fn overtaken_base(on: &Connection, scan: i64, base: u64) -> rusqlite::Result<Option<Conflict>> {
+    let revision: u64 =
+        on.prepare_cached("SELECT revision FROM scan WHERE id = ?")?.query_row([scan], |row| row.get(0))?;
+    if revision == base { Ok(None) } else { last_edit(on, scan).map(Some) }
+}
+
+/// The last edit of a scan's corrections; of one that was never edited nobody's.
+pub(crate) fn last_edit(on: &Connection, scan: i64) -> rusqlite::Result<Conflict> {
+    let last = format!(
+        "SELECT {NAMED} FROM event_scan JOIN event ON event.id = event_scan.event JOIN scan ON scan.id = event_scan.scan
+         WHERE event_scan.scan = ? AND kind IN ('stroke', 'undo', 'redo') ORDER BY event.id DESC LIMIT 1"
+    );
+    let found = on.prepare_cached(&last)?.query_row([scan], conflict).optional()?;
+    let nobody = "SELECT '', '', '', radar, scan FROM scan WHERE id = ?";
+    found.map_or_else(|| on.query_row(nobody, [scan], conflict), Ok)
+}
+
+/// The last stroke that another author set on one of this stroke's detections since it was set or taken back itself. The
+/// author's own later ones are no conflict: they are taken back before it, and set again after it.
+pub(crate) fn overtaken(
+    on: &Connection,
+    stroke: &Placed,
+    author: &str,
+) -> rusqlite::Result<Option<Conflict>> {
+    let later = format!(
+        "SELECT {NAMED} FROM change AS own
+         JOIN change AS other ON other.scan = own.scan AND other.point = own.point AND other.stroke <> own.stroke
+         JOIN stroke ON stroke.id = other.stroke JOIN event ON event.id = stroke.applied
+         JOIN scan ON scan.id = own.scan
+         WHERE own.stroke = ?1 AND stroke.applied > ?2 AND stroke.author <> ?3
+         ORDER BY stroke.applied DESC, stroke.id DESC LIMIT 1"
+    );
+    on.prepare_cached(&later)?.query_row(params![stroke.id, stroke.moved, author], conflict).optional()
+}
+
+fn conflict(row: &Row) -> rusqlite::Result<Conflict> {
+    Ok(Conflict {
+        author: row.get(0)?,
+        at: row.get(1)?,
+        tool: row.get(2)?,
+        radar: row.get(3)?,
+        scan: row.get(4)?,
+        scans: Vec::new(),
+    })
+}

@@ -1,0 +1,261 @@
+//! The store against a simple model in memory, on random edits of two people.
+//!
+//! The model keeps the strokes that hold in a list, in the order in which they were set, and finds the corrections by going
+//! through it from the start. The store never does so.
+#![expect(clippy::unwrap_used, reason = "helpers of tests fail as tests do")]
+
+use proptest::prelude::*;
+use ralf_corrections::{Outcome, ScanEdit, ScanKey, Store, Stroke, Who};
+use std::collections::{BTreeMap, BTreeSet};
+
+const SCANS: u32 = 2;
+const POINTS: u32 = 4;
+const SEQUENCE: &str = "00";
+
+type Place = (u32, u32);
+type Values = BTreeMap<Place, u16>;
+
+#[derive(Debug, Clone)]
+enum Op {
+    Stroke { points: BTreeSet<Place>, label: Option<u16>, protect: bool, group: Option<u8>, stale: bool },
+    Undo,
+    Redo,
+    Reopen,
+}
+
+#[derive(Debug, Clone)]
+struct Done {
+    author: u8,
+    group: Option<u8>,
+    /// Correction before and after.
+    changes: BTreeMap<Place, (Option<u16>, Option<u16>)>,
+}
+
+/// A step that was taken back, and how many edits there had been by then.
+type Undone = (Vec<Done>, usize);
+
+#[derive(Debug, Default)]
+struct Model {
+    /// Strokes that hold, with the number of the edit that set them.
+    holding: Vec<(Done, usize)>,
+    undone: BTreeMap<u8, Vec<Undone>>,
+    revisions: [u64; SCANS as usize],
+    edits: usize,
+}
+
+impl Model {
+    fn values(&self) -> Values {
+        let mut values = Values::new();
+        for (stroke, _) in &self.holding {
+            set(&mut values, stroke, |(_, after)| *after);
+        }
+        values
+    }
+
+    fn count(&mut self, strokes: &[Done]) {
+        self.edits += 1;
+        let scans: BTreeSet<u32> =
+            strokes.iter().flat_map(|s| s.changes.keys()).map(|(scan, _)| *scan).collect();
+        scans.into_iter().for_each(|scan| self.revisions[scan as usize] += 1);
+    }
+
+    /// How many corrections changed.
+    fn stroke(
+        &mut self,
+        author: u8,
+        points: &BTreeSet<Place>,
+        (label, protect, group): (Option<u16>, bool, Option<u8>),
+    ) -> usize {
+        let values = self.values();
+        let before = |place: &Place| values.get(place).copied();
+        let free = |place: &&Place| before(place) != label && !(protect && before(place).is_some());
+        let changes: BTreeMap<_, _> =
+            points.iter().filter(free).map(|place| (*place, (before(place), label))).collect();
+        let changed = changes.len();
+        if changed > 0 {
+            let done = Done { author, group, changes };
+            self.count(std::slice::from_ref(&done));
+            self.undone.remove(&author);
+            self.holding.push((done, self.edits));
+        }
+        changed
+    }
+
+    /// How many corrections changed; `None` is a conflict.
+    fn undo(&mut self, author: u8) -> Option<usize> {
+        let mut rest = self.holding.clone();
+        let mut step: Vec<Done> = Vec::new();
+        while let Some(at) = rest.iter().rposition(|(stroke, _)| stroke.author == author) {
+            let goes_on =
+                step.last().is_none_or(|last: &Done| last.group.is_some() && last.group == rest[at].0.group);
+            if !goes_on {
+                break;
+            }
+            let (stroke, _) = rest.remove(at);
+            if rest[at..].iter().any(|(later, _)| meets(later, &stroke)) {
+                return None;
+            }
+            step.push(stroke);
+        }
+        if step.is_empty() {
+            return Some(0);
+        }
+        step.reverse();
+        self.holding = rest;
+        self.count(&step);
+        let changed = step.iter().map(|stroke| stroke.changes.len()).sum();
+        self.undone.entry(author).or_default().push((step, self.edits));
+        Some(changed)
+    }
+
+    /// The same.
+    fn redo(&mut self, author: u8) -> Option<usize> {
+        let Some((step, since)) = self.undone.get(&author).and_then(|steps| steps.last()).cloned() else {
+            return Some(0);
+        };
+        let mut values = self.values();
+        for stroke in &step {
+            let touched = self.holding.iter().any(|(later, set)| *set > since && meets(later, stroke));
+            let moved =
+                stroke.changes.iter().any(|(place, (before, _))| values.get(place).copied() != *before);
+            if touched || moved {
+                return None;
+            }
+            set(&mut values, stroke, |(_, after)| *after);
+        }
+        self.undone.get_mut(&author)?.pop();
+        self.count(&step);
+        let changed = step.iter().map(|stroke| stroke.changes.len()).sum();
+        let edit = self.edits;
+        self.holding.extend(step.into_iter().map(|stroke| (stroke, edit)));
+        Some(changed)
+    }
+}
+
+/// Whether two strokes are of different people and share a detection.
+fn meets(a: &Done, b: &Done) -> bool {
+    a.author != b.author && a.changes.keys().any(|place| b.changes.contains_key(place))
+}
+
+fn set(values: &mut Values, stroke: &Done, to: impl Fn(&(Option<u16>, Option<u16>)) -> Option<u16>) {
+    for (place, change) in &stroke.changes {
+        match to(change) {
+            Some(label) => values.insert(*place, label),
+            None => values.remove(place),
+        };
+    }
+}
+
+fn who(author: u8) -> Who {
+    Who { author: ["ada", "bob"][usize::from(author)].into(), tab: None }
+}
+
+fn key(scan: u32) -> ScanKey {
+    ScanKey { sequence: SEQUENCE.into(), radar: "front".into(), scan }
+}
+
+/// What came of it: how many corrections changed, or nothing of a conflict.
+fn changed(outcome: Outcome) -> Option<usize> {
+    match outcome {
+        Outcome::Done(edit) => Some(edit.changed as usize),
+        Outcome::Conflict(_) => None,
+    }
+}
+
+fn edits(model: &Model, points: &BTreeSet<Place>, stale: bool) -> Vec<ScanEdit> {
+    let scans: BTreeSet<u32> = points.iter().map(|(scan, _)| *scan).collect();
+    let edit = |scan: u32| ScanEdit {
+        radar: "front".into(),
+        scan,
+        detections: POINTS,
+        base: model.revisions[scan as usize] + u64::from(stale),
+        points: points.iter().filter(|(of, _)| *of == scan).map(|(_, point)| *point).collect(),
+    };
+    scans.into_iter().map(edit).collect()
+}
+
+fn step(store: &mut Store, model: &mut Model, author: u8, op: &Op) {
+    match op {
+        Op::Stroke { points, label, protect, group, stale } => {
+            let scans = edits(model, points, *stale);
+            let (label, protect) = (*label, *protect);
+            let group_name = group.map(|group| group.to_string());
+            let tool = "lasso".to_owned();
+            let stroke = Stroke { sequence: SEQUENCE.into(), tool, group: group_name, protect, label, scans };
+            let expected = (!stale).then(|| model.stroke(author, points, (label, protect, *group)));
+            assert_eq!(changed(store.apply(&stroke, &who(author)).unwrap()), expected);
+        }
+        Op::Undo => assert_eq!(changed(store.undo(SEQUENCE, &who(author)).unwrap()), model.undo(author)),
+        Op::Redo => assert_eq!(changed(store.redo(SEQUENCE, &who(author)).unwrap()), model.redo(author)),
+        Op::Reopen => *store = Store::open(store.file()).unwrap(),
+    }
+}
+
+fn compare(store: &Store, model: &Model) {
+    let mut found = Values::new();
+    for scan in 0..SCANS {
+        let state = store.scan(&key(scan)).unwrap();
+        assert_eq!(state.revision, model.revisions[scan as usize]);
+        found.extend(state.corrections.into_iter().map(|(point, label)| ((scan, point), label)));
+    }
+    assert_eq!(found, model.values());
+    for author in 0..2 {
+        let history = store.history(SEQUENCE, &who(author).author).unwrap();
+        let undone = model.undone.get(&author).map_or(0, Vec::len);
+        assert_eq!(history.redo_depth as usize, undone);
+        let own: Vec<Option<u8>> =
+            model.holding.iter().filter(|(s, _)| s.author == author).map(|(s, _)| s.group).collect();
+        let begins = |at: usize| at == 0 || own[at].is_none() || own[at] != own[at - 1];
+        assert_eq!(history.undo_depth as usize, (0..own.len()).filter(|at| begins(*at)).count());
+        assert_eq!((history.undo.is_some(), history.redo.is_some()), (!own.is_empty(), undone > 0));
+    }
+}
+
+fn op() -> impl Strategy<Value = Op> {
+    let points = proptest::collection::btree_set((0..SCANS, 0..POINTS), 1..4);
+    let label = prop_oneof![Just(None), Just(Some(1)), Just(Some(99))];
+    let group = prop_oneof![3 => Just(None), 1 => (0..2u8).prop_map(Some)];
+    let stroke = (points, label, any::<bool>(), group, proptest::bool::weighted(0.1));
+    prop_oneof![
+        5 => stroke.prop_map(|(points, label, protect, group, stale)| Op::Stroke { points, label, protect, group, stale }),
+        4 => Just(Op::Undo),
+        3 => Just(Op::Redo),
+        1 => Just(Op::Reopen),
+    ]
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 64, ..ProptestConfig::default() })]
+
+    #[test]
+    fn the_store_does_what_the_model_does(ops in proptest::collection::vec((0..2u8, op()), 1..40)) {
+        let folder = tempfile::tempdir().unwrap();
+        let mut store = Store::open(&folder.path().join("corrections.sqlite")).unwrap();
+        let mut model = Model::default();
+        for (author, op) in &ops {
+            step(&mut store, &mut model, *author, op);
+            compare(&store, &model);
+        }
+    }
+
+    #[test]
+    fn one_person_can_take_everything_back_and_set_it_again(ops in proptest::collection::vec(op(), 1..25)) {
+        let folder = tempfile::tempdir().unwrap();
+        let mut store = Store::open(&folder.path().join("corrections.sqlite")).unwrap();
+        let mut model = Model::default();
+        ops.iter().for_each(|op| step(&mut store, &mut model, 0, op));
+        let before: Vec<_> = (0..SCANS).map(|scan| store.scan(&key(scan)).unwrap().corrections).collect();
+        let depth = store.history(SEQUENCE, "ada").unwrap().undo_depth;
+        for _ in 0..depth {
+            prop_assert!(changed(store.undo(SEQUENCE, &who(0)).unwrap()).is_some_and(|changed| changed > 0));
+        }
+        for scan in 0..SCANS {
+            prop_assert_eq!(store.scan(&key(scan)).unwrap().corrections, []);
+        }
+        for _ in 0..depth {
+            prop_assert!(changed(store.redo(SEQUENCE, &who(0)).unwrap()).is_some_and(|changed| changed > 0));
+        }
+        let after: Vec<_> = (0..SCANS).map(|scan| store.scan(&key(scan)).unwrap().corrections).collect();
+        prop_assert_eq!(before, after);
+    }
+}

@@ -1,0 +1,113 @@
+//! Cameras from `sensor_msgs/CameraInfo`.
+
+use ralf::camera::Intrinsics;
+use ralf_ros::message::{CameraInfo, RegionOfInterest};
+
+/// The camera model of raw images, or of rectified ones. The error is what was expected and what was found.
+///
+/// | distortion model | becomes |
+/// | --- | --- |
+/// | `plumb_bob` k1 k2 p1 p2 k3 | pinhole with the same |
+/// | `rational_polynomial` k1 k2 p1 p2 k3 k4 k5 k6 | the same, if k4 to k6 are 0; else refused |
+/// | `equidistant` or `fisheye` k1 k2 k3 k4 | Kannala-Brandt with the same |
+/// | none, or all 0 | pinhole without distortion |
+pub(super) fn intrinsics(info: &CameraInfo, rectified: bool) -> Result<Intrinsics, (String, String)> {
+    whole_image(info)?;
+    let [fx, skew, cx, a, fy, cy, b, c, one] = if rectified {
+        let [p0, p1, p2, _, p4, p5, p6, _, p8, p9, p10, _] = info.p;
+        [p0, p1, p2, p4, p5, p6, p8, p9, p10]
+    } else {
+        info.k
+    };
+    let name = if rectified { "P" } else { "K" };
+    let plain = skew == 0.0 && a == 0.0 && b == 0.0 && c == 0.0 && one == 1.0 && fx > 0.0 && fy > 0.0;
+    if !plain || ![fx, fy, cx, cy].iter().all(|value| value.is_finite()) {
+        let expected = format!("{name} = fx, 0, cx; 0, fy, cy; 0, 0, 1 with fx and fy above 0");
+        return Err((expected, format!("{fx}, {skew}, {cx}; {a}, {fy}, {cy}; {b}, {c}, {one}")));
+    }
+    let (focal, center) = ([fx, fy], [cx, cy]);
+    if rectified || info.d.iter().all(|value| *value == 0.0) && !is_fisheye(info) {
+        return Ok(Intrinsics::Pinhole { focal, center, distortion: [0.0; 5] });
+    }
+    let refused =
+        |expected: &str| Err((expected.to_owned(), format!("`{}` with {:?}", info.distortion_model, info.d)));
+    match (info.distortion_model.as_str(), info.d.as_slice()) {
+        ("plumb_bob" | "rational_polynomial", &[k1, k2, p1, p2, k3]) => {
+            Ok(Intrinsics::Pinhole { focal, center, distortion: [k1, k2, p1, p2, k3] })
+        }
+        ("rational_polynomial", &[k1, k2, p1, p2, k3, k4, k5, k6, ..]) => {
+            if [k4, k5, k6] != [0.0; 3] || info.d[8..].iter().any(|value| *value != 0.0) {
+                return refused(
+                    "k4, k5, k6 and all that follows to be 0 (rectified images have no distortion)",
+                );
+            }
+            Ok(Intrinsics::Pinhole { focal, center, distortion: [k1, k2, p1, p2, k3] })
+        }
+        (_, &[k1, k2, k3, k4]) if is_fisheye(info) => {
+            Ok(Intrinsics::KannalaBrandt { focal, center, distortion: [k1, k2, k3, k4] })
+        }
+        _ => refused("plumb_bob with 5, rational_polynomial with 8 or equidistant with 4 coefficients"),
+    }
+}
+
+fn is_fisheye(info: &CameraInfo) -> bool {
+    matches!(info.distortion_model.as_str(), "equidistant" | "fisheye")
+}
+
+/// Refuses calibrations of another image than the one that is published.
+fn whole_image(info: &CameraInfo) -> Result<(), (String, String)> {
+    let RegionOfInterest { x_offset, y_offset, height, width, .. } = info.roi;
+    let whole = (width == 0 || width == info.width) && (height == 0 || height == info.height);
+    if (x_offset, y_offset) == (0, 0) && whole && info.binning_x <= 1 && info.binning_y <= 1 {
+        return Ok(());
+    }
+    let found = format!("binning {} x {} and {:?}", info.binning_x, info.binning_y, info.roi);
+    Err(("the calibration of a whole image without binning".to_owned(), found))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn info(model: &str, d: &[f64]) -> CameraInfo {
+        CameraInfo {
+            width: 640,
+            height: 480,
+            distortion_model: model.to_owned(),
+            d: d.to_vec(),
+            k: [500.0, 0.0, 320.0, 0.0, 510.0, 240.0, 0.0, 0.0, 1.0],
+            p: [400.0, 0.0, 300.0, 0.0, 0.0, 410.0, 200.0, 0.0, 0.0, 0.0, 1.0, 0.0],
+            ..CameraInfo::default()
+        }
+    }
+
+    #[test]
+    fn each_model_becomes_one_of_ours() {
+        let (focal, center) = ([500.0, 510.0], [320.0, 240.0]);
+        let pinhole = |distortion| Ok(Intrinsics::Pinhole { focal, center, distortion });
+        let five = [0.1, 0.2, 0.3, 0.4, 0.5];
+        assert_eq!(intrinsics(&info("plumb_bob", &five), false), pinhole(five));
+        assert_eq!(intrinsics(&info("", &[]), false), pinhole([0.0; 5]));
+        let eight = [0.1, 0.2, 0.3, 0.4, 0.5, 0.0, 0.0, 0.0];
+        assert_eq!(intrinsics(&info("rational_polynomial", &eight), false), pinhole(five));
+        let fisheye = Intrinsics::KannalaBrandt { focal, center, distortion: [0.1, 0.2, 0.3, 0.4] };
+        assert_eq!(intrinsics(&info("equidistant", &[0.1, 0.2, 0.3, 0.4]), false), Ok(fisheye));
+        let straight = Intrinsics::KannalaBrandt { focal, center, distortion: [0.0; 4] };
+        assert_eq!(intrinsics(&info("equidistant", &[0.0; 4]), false), Ok(straight));
+        let rectified =
+            Intrinsics::Pinhole { focal: [400.0, 410.0], center: [300.0, 200.0], distortion: [0.0; 5] };
+        assert_eq!(intrinsics(&info("plumb_bob", &five), true), Ok(rectified));
+    }
+
+    #[test]
+    fn what_no_model_holds_is_refused() {
+        let eight = [0.1, 0.2, 0.3, 0.4, 0.5, 0.0, 0.0, 0.7];
+        let error = |info: &CameraInfo| intrinsics(info, false).unwrap_err().0;
+        assert!(error(&info("rational_polynomial", &eight)).contains("k4, k5, k6"));
+        assert!(error(&info("plumb_bob", &[0.1])).contains("plumb_bob with 5"));
+        let skewed = CameraInfo { k: [500.0, 1.0, 320.0, 0.0, 510.0, 240.0, 0.0, 0.0, 1.0], ..info("", &[]) };
+        assert!(error(&skewed).contains("K = fx, 0, cx"));
+        assert!(error(&CameraInfo { binning_x: 2, ..info("", &[]) }).contains("binning"));
+        assert!(error(&CameraInfo { k: [0.0; 9], ..info("", &[]) }).contains("above 0"));
+    }
+}

@@ -1,0 +1,128 @@
+//! What all requests share.
+
+use crate::cache::Cache;
+use crate::http::{Answer, ApiError};
+use crate::labelled::{SequenceLabels, Stamp};
+use crate::reading::causes::CauseNames;
+use crate::{Options, ReviewError};
+use ralf_corrections::{FILE, ScanKey, Store, Who};
+use ralf_data::run::read_record;
+use ralf_data::{Recording, SequenceReader};
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use tokio::sync::watch;
+
+/// Sequences whose labels are kept open.
+const SEQUENCES_KEPT: usize = 2;
+/// LiDAR scans that are kept as they are sent: some 2 MB each.
+const CLOUDS_KEPT: usize = 24;
+
+/// The recording, its labels and its corrections.
+pub(crate) struct App {
+    pub(crate) recording: Recording,
+    pub(crate) out: PathBuf,
+    pub(crate) author: String,
+    pub(crate) causes: CauseNames,
+    store: Mutex<Store>,
+    labels: Cache<usize, SequenceLabels>,
+    /// Tables by sequence, LiDAR and scan, and the labels whose ground is in them.
+    pub(crate) clouds: Cache<(usize, usize, usize), (Stamp, Vec<u8>)>,
+    /// Rung when something was written.
+    pub(crate) news: watch::Sender<()>,
+    /// Rung when the server ends.
+    pub(crate) closing: watch::Sender<bool>,
+}
+
+/// A radar's scan that exists.
+pub(crate) struct ScanPlace<'a> {
+    pub(crate) sequence: usize,
+    pub(crate) reader: &'a dyn SequenceReader,
+    pub(crate) t_ns: i64,
+    pub(crate) key: ScanKey,
+}
+
+impl App {
+    /// Opens all that is needed. Labels must be there; the store is made if it isn't.
+    pub(crate) fn open(recording: Recording, out: &Path, options: &Options) -> Result<Self, ReviewError> {
+        // Without labels there is nothing to review, and no store is made.
+        read_record(out)?;
+        Ok(Self {
+            store: Mutex::new(Store::open(&out.join(FILE))?),
+            causes: CauseNames::of(&recording)?,
+            recording,
+            out: out.to_owned(),
+            author: options.author.clone(),
+            labels: Cache::new(SEQUENCES_KEPT),
+            clouds: Cache::new(CLOUDS_KEPT),
+            news: watch::Sender::new(()),
+            closing: watch::Sender::new(false),
+        })
+    }
+
+    /// Does work that reads files on a thread of its own.
+    pub(crate) async fn blocking(
+        self: Arc<Self>,
+        work: impl FnOnce(&Self) -> Answer + Send + 'static,
+    ) -> Answer {
+        let broken =
+            |_| Err(ApiError::Broken("this answer could not be made: the program is at fault".into()));
+        tokio::task::spawn_blocking(move || work(&self)).await.unwrap_or_else(broken)
+    }
+
+    /// The corrections; others wait.
+    pub(crate) fn store(&self) -> MutexGuard<'_, Store> {
+        // A stroke that panicked has written nothing: its transaction is rolled back.
+        self.store.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// The author, in this window.
+    pub(crate) fn who(&self, tab: Option<String>) -> Who {
+        Who { author: self.author.clone(), tab }
+    }
+
+    /// A sequence by its name.
+    pub(crate) fn sequence(&self, name: &str) -> Result<(usize, &dyn SequenceReader), ApiError> {
+        let all = self.recording.sequences.iter().enumerate();
+        let found = all.map(|(i, reader)| (i, reader.as_ref())).find(|(_, r)| r.sequence().name == name);
+        found.ok_or_else(|| ApiError::unknown("sequence", format!("`{name}`"), "one of the recording's"))
+    }
+
+    /// A scan by names and number.
+    pub(crate) fn scan(&self, sequence: &str, radar: &str, scan: usize) -> Result<ScanPlace<'_>, ApiError> {
+        let (index, reader) = self.sequence(sequence)?;
+        let names = reader.sequence().rig.radars.iter().map(|radar| radar.name.as_str());
+        let times = &reader.sequence().times.radars;
+        let (_, t_ns) = measurement("radar", names, times, radar, scan)?;
+        let number = u32::try_from(scan).map_err(|error| ApiError::Malformed(error.to_string()))?;
+        let key = ScanKey { sequence: sequence.to_owned(), radar: radar.to_owned(), scan: number };
+        Ok(ScanPlace { sequence: index, reader, t_ns, key })
+    }
+
+    /// A sequence's labels, as they lie there now.
+    pub(crate) fn labels(&self, sequence: usize) -> Result<Arc<SequenceLabels>, ApiError> {
+        let reader = self.recording.sequences[sequence].as_ref();
+        let stamp = SequenceLabels::stamp(&self.out, &reader.sequence().name)?;
+        self.labels.get(
+            sequence,
+            |labels| labels.is_of(&stamp),
+            || SequenceLabels::load(&self.out, reader, stamp.clone()),
+        )
+    }
+}
+
+/// A sensor's place in the rig, and the time of its measurement.
+pub(crate) fn measurement<'a>(
+    kind: &str,
+    mut names: impl Iterator<Item = &'a str>,
+    times: &[Vec<i64>],
+    name: &str,
+    number: usize,
+) -> Result<(usize, i64), ApiError> {
+    let found = names.position(|known| known == name);
+    let sensor =
+        found.ok_or_else(|| ApiError::unknown(kind, format!("`{name}`"), "one of the sequence's"))?;
+    let times = times.get(sensor).map_or(&[][..], Vec::as_slice);
+    let below = format!("a number below {}", times.len());
+    let t_ns = times.get(number).ok_or_else(|| ApiError::unknown(name, number, &below))?;
+    Ok((sensor, *t_ns))
+}

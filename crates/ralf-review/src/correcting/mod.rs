@@ -1,0 +1,10 @@
+//! Edits: from requests to the store, and back.
+
+mod answers;
+mod changes;
+mod reviewed;
+mod strokes;
+
+pub(crate) use changes::{Since, changes};
+pub(crate) use reviewed::{MarkRequest, mark};
+pub(crate) use strokes::{Nothing, StrokeRequest, history, redo, stroke, undo};

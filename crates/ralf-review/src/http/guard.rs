@@ -1,0 +1,144 @@
+//! Who may ask: requests for another host, from another origin or without the token are refused; and the headers of every
+//! answer, which forbid the page to load anything but its own.
+
+use super::{ApiError, Token};
+use axum::extract::{Request, State};
+use axum::http::{HeaderMap, HeaderName, HeaderValue, header};
+use axum::middleware::Next;
+use axum::response::{IntoResponse, Response};
+use std::net::SocketAddr;
+use std::sync::Arc;
+
+/// The headers of every answer.
+const HEADERS: [(HeaderName, &str); 4] = [
+    (
+        header::CONTENT_SECURITY_POLICY,
+        "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' blob:; connect-src 'self'; \
+         font-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'",
+    ),
+    (header::X_CONTENT_TYPE_OPTIONS, "nosniff"),
+    (header::REFERRER_POLICY, "no-referrer"),
+    (HeaderName::from_static("cross-origin-resource-policy"), "same-origin"),
+];
+
+/// What requests are measured by.
+pub(crate) struct Guard {
+    /// Names of this server as `Host` has them; `None` where it listens on all addresses, which have many names.
+    hosts: Option<Vec<String>>,
+    /// Asked for where others than this machine can reach the server.
+    token: Option<Token>,
+}
+
+impl Guard {
+    /// For a server that listens at `address`, which was asked for by the name `host`.
+    pub(crate) fn new(host: &str, address: SocketAddr, token: Option<Token>) -> Self {
+        let ip = address.ip();
+        let names: &[&str] = if ip.is_loopback() { &["localhost", "127.0.0.1", "[::1]"] } else { &[host] };
+        let port = address.port();
+        let mut hosts: Vec<String> = names.iter().map(|name| format!("{name}:{port}")).collect();
+        hosts.push(address.to_string());
+        if port == 80 {
+            // Browsers leave it out.
+            hosts.extend(names.iter().map(|name| (*name).to_owned()));
+        }
+        Self { hosts: (!ip.is_unspecified()).then_some(hosts), token }
+    }
+
+    fn check(&self, path: &str, headers: &HeaderMap) -> Result<(), ApiError> {
+        let text = |name: HeaderName| headers.get(name).map(|value| value.to_str().unwrap_or("not ASCII"));
+        let host = text(header::HOST).unwrap_or("");
+        let known = self
+            .hosts
+            .as_ref()
+            .is_none_or(|hosts| hosts.iter().any(|known| known.eq_ignore_ascii_case(host)));
+        if !known || host.is_empty() {
+            let expected =
+                self.hosts.as_ref().map_or("a name of this machine".into(), |hosts| hosts.join(" or "));
+            return Err(ApiError::Forbidden(format!("Host: expected {expected}, found `{host}`")));
+        }
+        let origin = format!("http://{host}");
+        if let Some(found) = text(header::ORIGIN).filter(|found| !found.eq_ignore_ascii_case(&origin)) {
+            return Err(ApiError::Forbidden(format!("Origin: expected {origin}, found `{found}`")));
+        }
+        if !path.starts_with("/api/") {
+            return Ok(());
+        }
+        let site = text(HeaderName::from_static("sec-fetch-site"));
+        if let Some(found) = site.filter(|found| !["same-origin", "none"].contains(found)) {
+            return Err(ApiError::Forbidden(format!(
+                "Sec-Fetch-Site: expected same-origin, found `{found}`"
+            )));
+        }
+        match &self.token {
+            Some(token) if !token.is_in(text(header::AUTHORIZATION).unwrap_or("")) => Err(ApiError::Forbidden(
+                "Authorization: expected `Bearer` and the token that `ralf review` printed, found another".into(),
+            )),
+            _ => Ok(()),
+        }
+    }
+}
+
+/// Lets a request pass, or answers it.
+pub(crate) async fn guard(State(guard): State<Arc<Guard>>, request: Request, next: Next) -> Response {
+    let mut response = match guard.check(request.uri().path(), request.headers()) {
+        Ok(()) => next.run(request).await,
+        Err(error) => error.into_response(),
+    };
+    let headers = response.headers_mut();
+    for (name, value) in HEADERS {
+        headers.insert(name, HeaderValue::from_static(value));
+    }
+    headers.entry(header::CACHE_CONTROL).or_insert(HeaderValue::from_static("no-store"));
+    response
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn headers(pairs: &[(&'static str, &str)]) -> HeaderMap {
+        let pairs = pairs.iter().map(|(name, value)| (HeaderName::from_static(name), value.parse().unwrap()));
+        pairs.collect()
+    }
+
+    fn passes(guard: &Guard, path: &str, pairs: &[(&'static str, &str)]) -> bool {
+        guard.check(path, &headers(pairs)).is_ok()
+    }
+
+    #[test]
+    fn on_this_machine_the_host_must_be_this_machine() {
+        let guard = Guard::new("127.0.0.1", "127.0.0.1:8642".parse().unwrap(), None);
+        for host in ["127.0.0.1:8642", "localhost:8642", "LOCALHOST:8642", "[::1]:8642"] {
+            assert!(passes(&guard, "/api/recording", &[("host", host)]), "{host}");
+        }
+        for host in ["", "127.0.0.1", "127.0.0.1:8643", "evil.example:8642", "localhost.evil.example:8642"] {
+            assert!(!passes(&guard, "/", &[("host", host)]), "{host}");
+        }
+        assert!(!passes(&guard, "/", &[]));
+    }
+
+    #[test]
+    fn other_origins_and_sites_are_refused() {
+        let guard = Guard::new("127.0.0.1", "127.0.0.1:80".parse().unwrap(), None);
+        let from = |origin| passes(&guard, "/api/recording", &[("host", "localhost"), ("origin", origin)]);
+        assert!(from("http://localhost"));
+        for origin in ["null", "https://localhost", "http://localhost:8000", "http://127.0.0.1"] {
+            assert!(!from(origin), "{origin}");
+        }
+        let site = |path, site| passes(&guard, path, &[("host", "localhost"), ("sec-fetch-site", site)]);
+        assert!(site("/api/recording", "same-origin") && site("/", "cross-site"));
+        assert!(!site("/api/recording", "cross-site") && !site("/api/recording", "same-site"));
+    }
+
+    #[test]
+    fn the_token_guards_all_but_the_page_itself() {
+        let token = Token::new().unwrap();
+        let bearer = format!("Bearer {}", token.digits());
+        let guard = Guard::new("0.0.0.0", "0.0.0.0:8642".parse().unwrap(), Some(token));
+        let host = ("host", "radar-pc:8642");
+        assert!(passes(&guard, "/assets/page.js", &[host]));
+        assert!(!passes(&guard, "/api/recording", &[host]));
+        assert!(!passes(&guard, "/api/recording", &[host, ("authorization", "Bearer 0")]));
+        assert!(passes(&guard, "/api/recording", &[host, ("authorization", &bearer)]));
+    }
+}

@@ -1,0 +1,150 @@
+//! What a run says of a sequence.
+
+use crate::cache::Cache;
+use crate::http::ApiError;
+use crate::need::{ScanNeed, of_scans};
+use ralf::camera::ViewState;
+use ralf::config::{Config, nanoseconds};
+use ralf::rig::Rig;
+use ralf::sync;
+use ralf_data::output::{Columns, PlausibilityReader, ScanTable, ScanTables};
+use ralf_data::run::{CameraRecord, ImageRecord, read_record};
+use ralf_data::{DataError, SequenceReader};
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, OnceLock};
+use std::time::SystemTime;
+
+/// Row groups that are kept: some 15 MB each, and several radars may be looked at together.
+const GROUPS_KEPT: usize = 12;
+
+/// The labels of one sequence, and the settings that they were made with.
+pub(crate) struct SequenceLabels {
+    pub(crate) stamp: Stamp,
+    /// With the settings' overrides.
+    pub(crate) rig: Rig,
+    pub(crate) settings: Config,
+    pub(crate) reader: PlausibilityReader,
+    groups: Cache<usize, ScanTables>,
+    /// By camera of the rig: images that were asked, and whether one of their views has failed.
+    images: Vec<BTreeMap<usize, bool>>,
+    /// Why scans could not be labelled, by radar and number.
+    not_labelled: BTreeMap<(String, usize), String>,
+    needs: OnceLock<Arc<Vec<ScanNeed>>>,
+}
+
+/// What changes when a sequence is labelled again: sizes and times of the files.
+pub(crate) type Stamp = Vec<(PathBuf, u64, SystemTime)>;
+
+impl SequenceLabels {
+    /// Of the labels that lie there now; 404 where there are none.
+    pub(crate) fn stamp(out: &Path, sequence: &str) -> Result<Stamp, ApiError> {
+        let stamp = |file: PathBuf| {
+            let meta = fs::metadata(&file).map_err(|error| match error.kind() {
+                std::io::ErrorKind::NotFound => {
+                    let file = file.display();
+                    ApiError::Unknown(format!(
+                        "{file}: expected a result of `ralf label`, found no such file"
+                    ))
+                }
+                _ => DataError::io(&file)(error).into(),
+            })?;
+            let time = meta.modified().map_err(DataError::io(&file))?;
+            Ok((file, meta.len(), time))
+        };
+        [labels_file(out, sequence), out.join("run.json")].map(stamp).into_iter().collect()
+    }
+
+    pub(crate) fn is_of(&self, stamp: &Stamp) -> bool {
+        self.stamp == *stamp
+    }
+
+    pub(crate) fn load(out: &Path, reader: &dyn SequenceReader, stamp: Stamp) -> Result<Self, ApiError> {
+        let sequence = reader.sequence();
+        let record = read_record(out)?;
+        let mut rig = sequence.rig.clone();
+        record.settings.apply_to(&mut rig).map_err(|error| ApiError::Broken(error.to_string()))?;
+        let columns = Columns::of(&rig).map_err(ApiError::Broken)?;
+        let known = record.sequences.iter().find(|known| known.name == sequence.name);
+        let cameras = known.map_or(&[][..], |known| known.cameras.as_slice());
+        let not_labelled = known.map_or(&[][..], |known| known.not_labelled.as_slice());
+        let not_labelled =
+            not_labelled.iter().map(|scan| ((scan.radar.clone(), scan.scan), scan.reason.clone())).collect();
+        let images = rig.cameras.iter().map(|camera| asked_images(cameras, &camera.name)).collect();
+        Ok(Self {
+            stamp,
+            settings: record.settings,
+            reader: PlausibilityReader::open(&labels_file(out, &sequence.name), columns)?,
+            groups: Cache::new(GROUPS_KEPT),
+            images,
+            not_labelled,
+            needs: OnceLock::new(),
+            rig,
+        })
+    }
+
+    /// The labelled detections of a scan; 404 of one that could not be labelled.
+    pub(crate) fn table(&self, radar: &str, scan: usize, t_ns: i64) -> Result<ScanTable, ApiError> {
+        if let Some(reason) = self.reason(radar, scan) {
+            return Err(ApiError::Unknown(format!(
+                "{radar} scan {scan}: expected labels, found none: {reason}"
+            )));
+        }
+        let nothing = || ScanTable {
+            t_ns,
+            decimals: vec![Vec::new(); self.reader.columns().count()],
+            ..ScanTable::default()
+        };
+        let Some(group) = self.reader.group_of(radar, scan) else { return Ok(nothing()) };
+        let tables = self.groups.get(group, |_| true, || self.reader.tables(group))?;
+        Ok(tables.get(&(radar.to_owned(), scan)).cloned().unwrap_or_else(nothing))
+    }
+
+    /// Why a scan could not be labelled.
+    pub(crate) fn reason(&self, radar: &str, scan: usize) -> Option<&str> {
+        self.not_labelled.get(&(radar.to_owned(), scan)).map(String::as_str)
+    }
+
+    /// The cameras (by their place in the rig) whose image nearest to a time was asked, and those of them with a failed view.
+    pub(crate) fn cameras_at(&self, times: &[Vec<i64>], t_ns: i64) -> (BTreeSet<usize>, BTreeSet<usize>) {
+        let tolerance = nanoseconds(self.settings.sync.camera_tolerance_ms);
+        let (mut asked, mut failed) = (BTreeSet::new(), BTreeSet::new());
+        for (camera, (times, images)) in times.iter().zip(&self.images).enumerate() {
+            let image = sync::nearest(times, t_ns, tolerance);
+            if let Some(has_failed) = image.and_then(|image| images.get(&image)) {
+                asked.insert(camera);
+                if *has_failed {
+                    failed.insert(camera);
+                }
+            }
+        }
+        (asked, failed)
+    }
+
+    /// How much each scan needs a person, in the order of the rig.
+    pub(crate) fn needs(&self, reader: &dyn SequenceReader) -> Result<Arc<Vec<ScanNeed>>, ApiError> {
+        if let Some(known) = self.needs.get() {
+            return Ok(known.clone());
+        }
+        let needs = Arc::new(of_scans(self, reader.sequence())?);
+        Ok(self.needs.get_or_init(|| needs).clone())
+    }
+}
+
+fn labels_file(out: &Path, sequence: &str) -> PathBuf {
+    out.join("sequences").join(sequence).join("plausibility.parquet")
+}
+
+/// Whether a sequence is labelled.
+pub(crate) fn is_labelled(out: &Path, sequence: &str) -> bool {
+    labels_file(out, sequence).is_file()
+}
+
+fn asked_images(cameras: &[CameraRecord], name: &str) -> BTreeMap<usize, bool> {
+    let has_failed = |image: &ImageRecord| {
+        image.problem.is_some() || image.views.iter().any(|view| view.state != ViewState::Calibrated)
+    };
+    let images = cameras.iter().filter(|camera| camera.name == name).flat_map(|camera| &camera.images);
+    images.map(|image| (image.image, has_failed(image))).collect()
+}

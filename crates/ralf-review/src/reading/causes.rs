@@ -1,0 +1,55 @@
+//! Causes of artifacts, numbered alike in all sequences.
+
+use ralf_data::{Causes, DataError, Recording, ScanId};
+
+/// The names of all causes of all sequences, and what each sequence's codes mean.
+pub(crate) struct CauseNames {
+    names: Vec<String>,
+    /// By sequence: its causes, and the number of each of its codes in `names`.
+    sequences: Vec<Option<(Causes, Vec<u8>)>>,
+}
+
+impl CauseNames {
+    /// Reads the names; a recording that knows no causes has none.
+    pub(crate) fn of(recording: &Recording) -> Result<Self, DataError> {
+        // Number 0 is no cause, and the page shows nothing for it.
+        let mut names = vec![String::new()];
+        let mut sequences = Vec::new();
+        for reader in &recording.sequences {
+            let Some(causes) = Causes::find(&recording.path, &reader.sequence().name)? else {
+                sequences.push(None);
+                continue;
+            };
+            let mut numbers = vec![0];
+            for name in &causes.names()[1..] {
+                let known = names.iter().position(|known| known == name).unwrap_or(names.len());
+                if known == names.len() {
+                    names.push(name.clone());
+                }
+                numbers.push(u8::try_from(known).map_err(|_| {
+                    let place = "names of causes of all sequences";
+                    DataError::content(&recording.path, place, "at most 256", "more")
+                })?);
+            }
+            sequences.push(Some((causes, numbers)));
+        }
+        Ok(Self { names, sequences })
+    }
+
+    /// The name of each number; `None` where no sequence knows causes.
+    pub(crate) fn names(&self) -> Option<&[String]> {
+        self.sequences.iter().any(Option::is_some).then_some(self.names.as_slice())
+    }
+
+    /// The numbers of a scan's causes, where they are known.
+    pub(crate) fn of_scan(
+        &self,
+        sequence: usize,
+        scan: &ScanId,
+        detections: usize,
+    ) -> Result<Option<Vec<u8>>, DataError> {
+        let Some(Some((causes, numbers))) = self.sequences.get(sequence) else { return Ok(None) };
+        let codes = causes.of_scan(scan, detections)?;
+        Ok(codes.map(|codes| codes.into_iter().map(|code| numbers[usize::from(code)]).collect()))
+    }
+}

@@ -1,0 +1,98 @@
+//! One radar scan with all that is known of its detections.
+
+use super::{matrix, time};
+use crate::app::{App, ScanPlace};
+use crate::http::{Answer, Table, content};
+use crate::labelled::SequenceLabels;
+use ralf::config::nanoseconds;
+use ralf::source::Sequence;
+use ralf::sync;
+use ralf_corrections::ScanState;
+use ralf_data::output::ScanTable;
+use serde_json::{Map, Value, json};
+
+/// Without a scan within the method's tolerance one this near in time is shown, ns.
+const NEARBY_NS: i64 = 2_000_000_000;
+
+/// The detections of a scan: as measured, as labelled, as corrected.
+pub(crate) fn detections(app: &App, sequence: &str, radar: &str, scan: usize) -> Answer {
+    let place = app.scan(sequence, radar, scan)?;
+    let labels = app.labels(place.sequence)?;
+    let rows = labels.table(radar, scan, place.t_ns)?;
+    let said = app.store().scan_of_size(&place.key, rows.len())?;
+    let causes = app.causes.of_scan(place.sequence, &place.key.clone().into(), rows.len())?;
+    let mut table = Table::new(rows.len());
+    for (name, values) in labels.reader.columns().names().zip(&rows.decimals) {
+        table.f32(name, values.iter().copied());
+    }
+    table.u16("flags", rows.flags.iter().copied());
+    let machine = machine_labels(&rows);
+    table.u16("machine", machine.iter().copied());
+    let (effective, corrected) = effective(machine, &said);
+    table.u16("label", effective);
+    table.u8("corrected", corrected);
+    if let Some(causes) = causes {
+        table.u8("cause", causes);
+    }
+    Ok(content("application/octet-stream", table.finish(header(&place, &labels, &said))))
+}
+
+/// The machine's label ids.
+pub(crate) fn machine_labels(rows: &ScanTable) -> Vec<u16> {
+    rows.labels().into_iter().map(|label| label.id).collect()
+}
+
+/// The label ids that count, and which of them a person has set.
+fn effective(machine: Vec<u16>, said: &ScanState) -> (Vec<u16>, Vec<u8>) {
+    let mut corrected = vec![0; machine.len()];
+    let mut labels = said.review.as_ref().map_or(machine, |review| review.accepted.clone());
+    for (point, label) in &said.corrections {
+        let point = *point as usize;
+        if let (Some(known), Some(flag)) = (labels.get_mut(point), corrected.get_mut(point)) {
+            (*known, *flag) = (*label, 1);
+        }
+    }
+    (labels, corrected)
+}
+
+fn header(place: &ScanPlace, labels: &SequenceLabels, said: &ScanState) -> Map<String, Value> {
+    let sequence = place.reader.sequence();
+    let (_, failed) = labels.cameras_at(&sequence.times.cameras, place.t_ns);
+    let failed: Vec<&str> =
+        failed.into_iter().map(|camera| sequence.rig.cameras[camera].name.as_str()).collect();
+    Map::from_iter([
+        ("t_ns".to_owned(), time(place.t_ns)),
+        ("revision".to_owned(), json!(said.revision)),
+        ("reviewed".to_owned(), reviewed(said)),
+        ("odom_from_vehicle".to_owned(), matrix(&sequence.motion.odom_from_vehicle(place.t_ns))),
+        ("lidar".to_owned(), lidar_at(labels, sequence, place.t_ns)),
+        ("cameras".to_owned(), cameras_at(sequence, place.t_ns)),
+        ("failed_cameras".to_owned(), json!(failed)),
+    ])
+}
+
+/// Who marked a scan, and when.
+pub(crate) fn reviewed(said: &ScanState) -> Value {
+    said.review.as_ref().map_or(Value::Null, |mark| json!({ "author": mark.author, "at": mark.at }))
+}
+
+/// The LiDAR scan that the method takes, else the nearest one nearby; of several LiDARs the first that has one.
+fn lidar_at(labels: &SequenceLabels, sequence: &Sequence, t_ns: i64) -> Value {
+    let found =
+        [nanoseconds(labels.settings.sync.lidar_tolerance_ms), NEARBY_NS].into_iter().find_map(|tolerance| {
+            let nearest = |times: &Vec<i64>| sync::nearest(times, t_ns, tolerance);
+            let mut lidars = sequence.rig.lidars.iter().zip(&sequence.times.lidars);
+            lidars.find_map(|(lidar, times)| Some((&lidar.name, nearest(times)?)))
+        });
+    found.map_or(Value::Null, |(name, scan)| json!({ "name": name, "scan": scan }))
+}
+
+/// The nearest image of each camera.
+fn cameras_at(sequence: &Sequence, t_ns: i64) -> Value {
+    let cameras = sequence.rig.cameras.iter().zip(&sequence.times.cameras);
+    let nearest = cameras.filter_map(|(camera, times)| {
+        let image = sync::nearest(times, t_ns, NEARBY_NS)?;
+        Some(json!({ "name": camera.name, "image": image, "t_ns": time(times[image]) }))
+    });
+    nearest.collect()
+}

@@ -1,0 +1,35 @@
+//! What the page sees of the recording and the run.
+
+mod camera;
+pub(crate) mod causes;
+mod detections;
+mod lidar;
+mod moment;
+mod projection;
+mod queue;
+mod recording;
+
+pub(crate) use camera::image;
+pub(crate) use detections::{detections, machine_labels};
+pub(crate) use lidar::cloud;
+pub(crate) use moment::{Moment, moment};
+pub(crate) use projection::{Projection, projection};
+pub(crate) use queue::{progress, queue};
+pub(crate) use recording::recording;
+
+use ralf::geometry::Transform;
+use serde_json::{Value, json};
+
+/// A time, which may be more than a JavaScript number can hold.
+fn time(t_ns: i64) -> Value {
+    Value::String(t_ns.to_string())
+}
+
+fn times(times: &[i64]) -> Vec<Value> {
+    times.iter().copied().map(time).collect()
+}
+
+/// 16 numbers, row by row.
+fn matrix(transform: &Transform) -> Value {
+    json!(transform.to_homogeneous().transpose().as_slice())
+}

@@ -1,0 +1,70 @@
+//! What there is.
+
+use super::times;
+use crate::app::App;
+use crate::http::{Answer, json};
+use crate::labelled::is_labelled;
+use ralf::label::{class_name, cluster_of, truth_of};
+use ralf::labeler::flag;
+use ralf_data::SequenceReader;
+use ralf_data::run::read_record;
+use serde_json::{Value, json};
+
+/// The bits of a detection's flags (FORMATS 2).
+const FLAGS: [(u16, &str); 6] = [
+    (flag::GROUND, "ground"),
+    (flag::BLIND_SPOT, "blind spot"),
+    (flag::CAMERA_FAILED, "camera failed"),
+    (flag::NO_LIDAR, "no LiDAR scan"),
+    (flag::NO_NEIGHBOURS, "no neighbouring radar scan"),
+    (flag::UNOBSERVED, "unobserved"),
+];
+
+/// SemanticKITTI's ids end here.
+const LAST_CLASS: u16 = 259;
+
+/// The recording's sequences with all that they can be asked for.
+pub(crate) fn recording(app: &App) -> Answer {
+    let name =
+        |path: &std::path::Path| path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned();
+    let sequences: Vec<Value> =
+        app.recording.sequences.iter().map(|reader| sequence(app, reader.as_ref())).collect();
+    let flags: Vec<Value> = FLAGS.iter().map(|(bit, name)| json!({ "bit": bit, "name": name })).collect();
+    json(&json!({
+        "dataset": name(&app.recording.path),
+        "out": name(&app.out),
+        "author": app.author,
+        "threshold": read_record(&app.out)?.settings.fusion.threshold,
+        "sequences": sequences,
+        "classes": (0..=LAST_CLASS).filter_map(class).collect::<Vec<_>>(),
+        "causes": app.causes.names(),
+        "flags": flags,
+    }))
+}
+
+fn sequence(app: &App, reader: &dyn SequenceReader) -> Value {
+    let sequence = reader.sequence();
+    let (rig, all) = (&sequence.rig, &sequence.times);
+    let radars = rig.radars.iter().zip(&all.radars);
+    let lidars = rig.lidars.iter().zip(&all.lidars);
+    let cameras = rig.cameras.iter().zip(&all.cameras);
+    let camera = |(camera, images): (&ralf::camera::Camera, &Vec<i64>)| json!({ "name": camera.name, "width": camera.width, "height": camera.height, "images": times(images) });
+    json!({
+        "name": sequence.name,
+        "title": sequence.title,
+        "labelled": is_labelled(&app.out, &sequence.name),
+        "radars": radars.map(|(radar, scans)| json!({ "name": radar.name, "scans": times(scans) })).collect::<Vec<_>>(),
+        "lidars": lidars.map(|(lidar, scans)| json!({ "name": lidar.name, "scans": times(scans) })).collect::<Vec<_>>(),
+        "cameras": cameras.map(camera).collect::<Vec<_>>(),
+    })
+}
+
+fn class(id: u16) -> Option<Value> {
+    let name = class_name(id)?;
+    Some(json!({
+        "id": id,
+        "name": name,
+        "cluster": cluster_of(id).map(ralf::label::Cluster::name),
+        "plausible": truth_of(id),
+    }))
+}

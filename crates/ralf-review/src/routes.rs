@@ -1,0 +1,141 @@
+//! Which address leads where.
+
+use crate::app::App;
+use crate::correcting::{self, MarkRequest, Nothing, Since, StrokeRequest};
+use crate::http::{Answer, ApiError, Asked, Body, Guard, Place, guard, tab};
+use crate::reading::{self, Moment, Projection};
+use crate::{MAX_BODY, page};
+use axum::Router;
+use axum::extract::{DefaultBodyLimit, State};
+use axum::http::{HeaderMap, Uri};
+use axum::middleware::from_fn_with_state;
+use axum::response::{IntoResponse, Response};
+use axum::routing::{get, post, put};
+use std::sync::Arc;
+
+type Shared = State<Arc<App>>;
+
+/// The interface, the page, and what guards them.
+pub(crate) fn router(app: Arc<App>, guarded_by: Arc<Guard>) -> Router {
+    let sequence = Router::new()
+        .route("/queue", get(queue))
+        .route("/radars/{radar}/scans/{scan}", get(detections))
+        .route("/radars/{radar}/scans/{scan}/reviewed", put(mark))
+        .route("/lidars/{lidar}/scans/{scan}", get(cloud))
+        .route("/cameras/{camera}/images/{image}", get(image))
+        .route("/cameras/{camera}/images/{image}/detections", get(projection))
+        .route("/moment", get(moment))
+        .route("/strokes", post(stroke))
+        .route("/undo", post(undo))
+        .route("/redo", post(redo))
+        .route("/history", get(history))
+        .route("/changes", get(changes));
+    Router::new()
+        .route("/api/recording", get(recording))
+        .nest("/api/sequences/{sequence}", sequence)
+        .fallback(elsewhere)
+        .method_not_allowed_fallback(async || ApiError::Method)
+        .layer(DefaultBodyLimit::max(MAX_BODY))
+        .layer(from_fn_with_state(guarded_by, guard))
+        .with_state(app)
+}
+
+async fn elsewhere(uri: Uri) -> Response {
+    let path = uri.path();
+    if path.starts_with("/api/") {
+        return ApiError::unknown("address", path, "one of docs/review-api.md").into_response();
+    }
+    let unknown = || ApiError::unknown("address", path, "one of the page's files").into_response();
+    page::file(path).unwrap_or_else(unknown)
+}
+
+async fn recording(State(app): Shared) -> Answer {
+    app.blocking(reading::recording).await
+}
+
+async fn queue(State(app): Shared, Place(sequence): Place<String>) -> Answer {
+    app.blocking(move |app| reading::queue(app, &sequence)).await
+}
+
+async fn detections(
+    State(app): Shared,
+    Place((sequence, radar, scan)): Place<(String, String, usize)>,
+) -> Answer {
+    app.blocking(move |app| reading::detections(app, &sequence, &radar, scan)).await
+}
+
+async fn cloud(State(app): Shared, Place((sequence, lidar, scan)): Place<(String, String, usize)>) -> Answer {
+    app.blocking(move |app| reading::cloud(app, &sequence, &lidar, scan)).await
+}
+
+async fn image(
+    State(app): Shared,
+    Place((sequence, camera, image)): Place<(String, String, usize)>,
+) -> Answer {
+    app.blocking(move |app| reading::image(app, &sequence, &camera, image)).await
+}
+
+async fn projection(
+    State(app): Shared,
+    Place((sequence, camera, image)): Place<(String, String, usize)>,
+    Asked(asked): Asked<Projection>,
+) -> Answer {
+    app.blocking(move |app| reading::projection(app, &sequence, &camera, image, &asked)).await
+}
+
+async fn moment(State(app): Shared, Place(sequence): Place<String>, Asked(asked): Asked<Moment>) -> Answer {
+    app.blocking(move |app| reading::moment(app, &sequence, &asked)).await
+}
+
+async fn stroke(
+    State(app): Shared,
+    Place(sequence): Place<String>,
+    headers: HeaderMap,
+    Body(asked): Body<StrokeRequest>,
+) -> Answer {
+    let tab = tab(&headers)?;
+    app.blocking(move |app| correcting::stroke(app, &sequence, asked, tab)).await
+}
+
+async fn undo(
+    State(app): Shared,
+    Place(sequence): Place<String>,
+    headers: HeaderMap,
+    Body(Nothing {}): Body<Nothing>,
+) -> Answer {
+    let tab = tab(&headers)?;
+    app.blocking(move |app| correcting::undo(app, &sequence, tab)).await
+}
+
+async fn redo(
+    State(app): Shared,
+    Place(sequence): Place<String>,
+    headers: HeaderMap,
+    Body(Nothing {}): Body<Nothing>,
+) -> Answer {
+    let tab = tab(&headers)?;
+    app.blocking(move |app| correcting::redo(app, &sequence, tab)).await
+}
+
+async fn history(State(app): Shared, Place(sequence): Place<String>) -> Answer {
+    app.blocking(move |app| correcting::history(app, &sequence)).await
+}
+
+async fn mark(
+    State(app): Shared,
+    Place((sequence, radar, scan)): Place<(String, String, usize)>,
+    headers: HeaderMap,
+    Body(asked): Body<MarkRequest>,
+) -> Answer {
+    let tab = tab(&headers)?;
+    app.blocking(move |app| correcting::mark(app, (&sequence, &radar, scan), &asked, tab)).await
+}
+
+async fn changes(
+    State(app): Shared,
+    Place(sequence): Place<String>,
+    Asked(asked): Asked<Since>,
+    headers: HeaderMap,
+) -> Answer {
+    correcting::changes(app, sequence, asked, tab(&headers)?).await
+}

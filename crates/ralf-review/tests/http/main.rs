@@ -1,0 +1,8 @@
+//! The server over real HTTP, on a small simulated recording.
+#![expect(clippy::unwrap_used, clippy::panic, reason = "helpers of tests fail as tests do")]
+
+mod correcting;
+mod ending;
+mod reading;
+mod safety;
+mod support;

@@ -1,0 +1,209 @@
+//! What the page sees is what the files hold.
+
+use crate::support::{CAMERA, LIDAR, Out, RADAR, SEQUENCE, recording};
+use ralf::geometry::Point;
+use ralf_data::output::read_labelled_rows;
+use ralf_data::{Causes, ScanId, read_labels};
+use serde_json::{Value, json};
+
+fn scan_id(scan: u32) -> ScanId {
+    ScanId { sequence: SEQUENCE.into(), radar: RADAR.into(), scan }
+}
+
+#[test]
+fn the_recording_is_listed() {
+    let out = Out::new();
+    let listed = out.serve().get("/api/recording").json();
+    assert_eq!(
+        (&listed["author"], &listed["threshold"], &listed["dataset"]),
+        (&json!("ada"), &json!(0.5), &json!("recording"))
+    );
+    let sequence = &listed["sequences"][0];
+    assert_eq!((&sequence["name"], &sequence["labelled"]), (&json!(SEQUENCE), &json!(true)));
+    let reader = &recording().sequences[0];
+    let times = &reader.sequence().times;
+    for (kind, name, known) in [
+        ("radars", "scans", &times.radars),
+        ("lidars", "scans", &times.lidars),
+        ("cameras", "images", &times.cameras),
+    ] {
+        let listed = sequence[kind].as_array().unwrap();
+        let found: Vec<Vec<i64>> = listed
+            .iter()
+            .map(|sensor| sensor[name].as_array().unwrap().iter().map(nanoseconds).collect())
+            .collect();
+        assert_eq!(found, *known, "{kind}");
+    }
+    let classes = listed["classes"].as_array().unwrap();
+    let class = |id| classes.iter().find(|class| class["id"] == id).unwrap();
+    assert_eq!(*class(10), json!({ "id": 10, "name": "car", "cluster": "vehicle", "plausible": true }));
+    assert_eq!(*class(40), json!({ "id": 40, "name": "road", "cluster": "artifact", "plausible": false }));
+    assert_eq!(class(259)["name"], "moving-other-vehicle");
+    assert_eq!((&listed["causes"][0], &listed["causes"][1]), (&json!(""), &json!("road")));
+    assert_eq!(listed["flags"][5], json!({ "bit": 32, "name": "unobserved" }));
+}
+
+fn nanoseconds(text: &Value) -> i64 {
+    text.as_str().unwrap().parse().unwrap()
+}
+
+#[test]
+fn detections_are_those_of_the_run() {
+    let out = Out::new();
+    let server = out.serve();
+    let table = server.table(1);
+    let all = read_labelled_rows(&out.parquet()).unwrap();
+    let radar = all.radars.iter().position(|name| name == RADAR).unwrap();
+    let rows: Vec<usize> =
+        (0..all.w.len()).filter(|row| all.radar[*row] == radar && all.scan[*row] == 1).collect();
+    assert!(rows.len() > 50 && table.rows() == rows.len());
+    let same = |name: &str, column: &[f32]| {
+        let expected: Vec<u32> = rows.iter().map(|row| column[*row].to_bits()).collect();
+        let found: Vec<u32> = table.f32(name).into_iter().map(f32::to_bits).collect();
+        assert_eq!(found, expected, "{name}");
+    };
+    for (name, column) in [("x", &all.x), ("y", &all.y), ("z", &all.z), ("w", &all.w), ("w_opt", &all.w_opt)]
+    {
+        same(name, column);
+    }
+    assert_eq!(table.u16("flags"), rows.iter().map(|row| all.flags[*row]).collect::<Vec<_>>());
+    let machine: Vec<u16> =
+        read_labels(&scan_id(1).label_file(out.path())).unwrap().iter().map(|label| label.id).collect();
+    assert_eq!((table.u16("machine"), table.u16("label")), (machine.clone(), machine));
+    assert!(table.u8("corrected").iter().all(|corrected| *corrected == 0));
+    let causes = Causes::find(&recording().path, SEQUENCE).unwrap().unwrap();
+    assert_eq!(Some(table.u8("cause")), causes.of_scan(&scan_id(1), rows.len()).unwrap());
+    assert!(table.names().contains(&"doppler") && table.names().contains(&"rcs"));
+    assert_eq!((&table.header["revision"], &table.header["reviewed"]), (&json!(0), &json!(null)));
+}
+
+#[test]
+fn a_scan_tells_what_belongs_to_it() {
+    let out = Out::new();
+    let header = out.serve().table(2).header;
+    let reader = &recording().sequences[0];
+    let sequence = reader.sequence();
+    let t_ns = sequence.times.radars[0][2];
+    assert_eq!(nanoseconds(&header["t_ns"]), t_ns);
+    let pose = sequence.motion.odom_from_vehicle(t_ns).to_homogeneous();
+    let numbers: Vec<f64> =
+        header["odom_from_vehicle"].as_array().unwrap().iter().map(|n| n.as_f64().unwrap()).collect();
+    for (i, number) in numbers.iter().enumerate() {
+        assert_eq!(*number, pose[(i / 4, i % 4)], "row-major");
+    }
+    let nearest = |times: &[i64]| (0..times.len()).min_by_key(|i| times[*i].abs_diff(t_ns)).unwrap();
+    assert_eq!(header["lidar"], json!({ "name": LIDAR, "scan": nearest(&sequence.times.lidars[0]) }));
+    let image = nearest(&sequence.times.cameras[0]);
+    let time = sequence.times.cameras[0][image].to_string();
+    assert_eq!(header["cameras"][0], json!({ "name": CAMERA, "image": image, "t_ns": time }));
+    assert_eq!(header["cameras"].as_array().unwrap().len(), 4);
+    assert!(header["failed_cameras"].is_array());
+}
+
+#[test]
+fn a_cloud_is_the_lidars_with_its_ground() {
+    let out = Out::new();
+    let table = out.serve().of_sequence(&format!("lidars/{LIDAR}/scans/0")).table();
+    let reader = &recording().sequences[0];
+    let scan = reader.lidar_scan(0, 0).unwrap();
+    assert_eq!((table.rows(), table.f32("intensity")), (scan.points.len(), scan.intensity.clone()));
+    let vehicle_from_lidar = reader.sequence().rig.lidars[0].vehicle_from_lidar;
+    let [x, y, z] = ["x", "y", "z"].map(|name| table.f32(name));
+    let ground = table.u8("ground");
+    for (row, point) in scan.points.iter().enumerate() {
+        let p = vehicle_from_lidar * Point::from(point.map(f64::from));
+        assert_eq!([x[row], y[row], z[row]], [p.x, p.y, p.z].map(|value| value as f32));
+        // The street is flat but for slopes at its rim.
+        assert!(ground[row] == 0 || z[row] < 1.0);
+        assert!(ground[row] == 1 || z[row] > 0.0 || p.coords.norm() > 15.0, "{point:?} at {}", z[row]);
+    }
+    let share = ground.iter().map(|flag| f64::from(*flag)).sum::<f64>() / ground.len() as f64;
+    assert!((0.1..0.95).contains(&share), "{share}");
+}
+
+#[test]
+fn an_image_is_the_file_and_detections_are_where_the_camera_sees_them() {
+    let out = Out::new();
+    let server = out.serve();
+    let image = server.of_sequence(&format!("cameras/{CAMERA}/images/1"));
+    let reader = &recording().sequences[0];
+    assert_eq!(image.body, std::fs::read(reader.image_file(0, 1).unwrap()).unwrap());
+    assert_eq!(image.headers["content-type"], "image/png");
+    let table =
+        server.of_sequence(&format!("cameras/{CAMERA}/images/1/detections?radar={RADAR}&scan=2")).table();
+    let sequence = reader.sequence();
+    let camera = &sequence.rig.cameras[0];
+    let (scan_ns, image_ns) = (sequence.times.radars[0][2], sequence.times.cameras[0][1]);
+    assert_ne!(scan_ns, image_ns);
+    let places = server.table(2);
+    let [x, y, z] = ["x", "y", "z"].map(|name| places.f32(name));
+    let [u, v, depth] = ["u", "v", "depth"].map(|name| table.f32(name));
+    let mut seen = 0;
+    for row in 0..places.rows() {
+        let at_scan = Point::from([x[row], y[row], z[row]].map(f64::from));
+        // By way of the world: the vehicle's pose at either time.
+        let in_world = sequence.motion.odom_from_vehicle(scan_ns) * at_scan;
+        let at_image = sequence.motion.odom_from_vehicle(image_ns).inverse() * in_world;
+        let p = camera.vehicle_from_camera.inverse() * at_image;
+        if u[row].is_nan() {
+            let outside = camera.intrinsics.project(&p).is_none_or(|[u, v]| {
+                !(-0.49..camera.width as f64 - 0.51).contains(&u)
+                    || !(-0.49..camera.height as f64 - 0.51).contains(&v)
+            });
+            assert!(outside && v[row].is_nan() && depth[row].is_nan());
+            continue;
+        }
+        let expected = camera.intrinsics.project(&p).unwrap();
+        assert!(
+            (expected[0] - f64::from(u[row])).abs() < 0.01 && (expected[1] - f64::from(v[row])).abs() < 0.01
+        );
+        assert!((p.z - f64::from(depth[row])).abs() < 1e-3);
+        seen += 1;
+    }
+    assert!(seen > 10, "{seen}");
+}
+
+#[test]
+fn a_moment_has_the_scans_around_it() {
+    let out = Out::new();
+    let server = out.serve();
+    let times = recording().sequences[0].sequence().times.radars.clone();
+    let ask = |query: &str| {
+        let scans = server.of_sequence(&format!("moment?{query}")).json()["scans"].clone();
+        let place =
+            |scan: &Value| (scan["radar"].as_str().unwrap().to_owned(), scan["scan"].as_u64().unwrap());
+        scans.as_array().unwrap().iter().map(place).collect::<Vec<_>>()
+    };
+    let front = |scan| (RADAR.to_owned(), scan);
+    assert_eq!(ask(&format!("t_ns={}&radars={RADAR}", times[0][1] + 1)), [front(1)]);
+    assert_eq!(ask(&format!("t_ns={}&accumulate=1&radars={RADAR}", times[0][2])), [front(1), front(2)]);
+    assert_eq!(ask("t_ns=0&accumulate=100&radars=all").len(), 12);
+    assert!(server.of_sequence("moment?t_ns=soon&radars=all").refused(400).contains("t_ns"));
+    assert!(
+        server.of_sequence("moment?t_ns=0&accumulate=101&radars=all").refused(400).contains("at most 100")
+    );
+    assert!(server.of_sequence("moment?t_ns=0&radars=other").refused(404).contains("`other`"));
+    assert!(server.of_sequence("moment?t_ns=0").refused(400).contains("radars"));
+}
+
+#[test]
+fn the_queue_begins_with_the_most_needy() {
+    let out = Out::new();
+    let server = out.serve();
+    let queue = server.of_sequence("queue").json();
+    let scans = queue["scans"].as_array().unwrap();
+    assert_eq!(queue["progress"], json!({ "scans": 12, "reviewed": 0, "corrected_detections": 0 }));
+    let need = |scan: &Value| scan["need"].as_f64().unwrap();
+    assert!(scans.iter().all(|scan| (0.0..=1.0).contains(&need(scan))));
+    assert!(scans.is_sorted_by(|a, b| need(a) >= need(b)) && need(&scans[0]) > need(&scans[11]));
+    let all = read_labelled_rows(&out.parquet()).unwrap();
+    for scan in scans {
+        let radar = all.radars.iter().position(|name| scan["radar"] == **name).unwrap();
+        let number = scan["scan"].as_u64().unwrap() as usize;
+        let rows: Vec<usize> =
+            (0..all.w.len()).filter(|r| all.radar[*r] == radar && all.scan[*r] == number).collect();
+        let uncertain = rows.iter().filter(|row| (all.w[**row] - 0.5).abs() <= 0.1).count();
+        assert_eq!((&scan["detections"], &scan["uncertain"]), (&json!(rows.len()), &json!(uncertain)));
+    }
+    assert_eq!(server.of_sequence("queue").json(), queue, "asked again");
+}

@@ -1,0 +1,99 @@
+/** Hears of what others change, and of the server's coming and going. */
+
+import { ServerGone } from "../api/errors.js";
+import type { Changes } from "../api/types.js";
+import { sameScan } from "../data/scan.js";
+import type { Correcting } from "./correcting.js";
+import { complain, tell, type World } from "./world.js";
+
+const PATIENCE_MS = 1500;
+
+export class Hearing {
+  private listening: AbortController | null = null;
+
+  constructor(
+    private readonly world: World,
+    private readonly correcting: Correcting,
+  ) {}
+
+  /** Listens to a sequence's changes, and to no other's, until told otherwise. */
+  listen(sequence: string): void {
+    this.listening?.abort();
+    this.listening = new AbortController();
+    void this.run(sequence, this.listening.signal);
+  }
+
+  private async run(sequence: string, ended: AbortSignal): Promise<void> {
+    let since: number | null = null;
+    while (!ended.aborted) {
+      const poll = pollWhileSeen(ended);
+      try {
+        await seen();
+        const changes: Changes = await this.world.api.changes(sequence, since, { signal: poll.signal });
+        since = changes.counter;
+        await this.reconnected(sequence);
+        await this.take(sequence, changes);
+      } catch (error) {
+        if (poll.signal.aborted) continue;
+        if (error instanceof ServerGone) {
+          since = null;
+          this.world.store.set({ connected: false });
+        } else {
+          complain(this.world, error);
+        }
+        await new Promise((resolve) => setTimeout(resolve, PATIENCE_MS));
+      } finally {
+        poll.end();
+      }
+    }
+  }
+
+  /** The server is back: what others did meanwhile is read, and what wasn't saved is tried again. */
+  private async reconnected(sequence: string): Promise<void> {
+    const { store, api } = this.world;
+    if (store.state.connected) return;
+    const [queue, history] = await Promise.all([api.queue(sequence), api.history(sequence)]);
+    store.set({ connected: true, scans: queue.scans, progress: queue.progress, history });
+    await this.correcting.reread(sequence, store.state.cloud.scans);
+    await this.correcting.retry();
+  }
+
+  private async take(sequence: string, { scans }: Changes): Promise<void> {
+    const { store, api } = this.world;
+    if (scans.length === 0) return;
+    const { cloud, current } = store.state;
+    for (const change of scans) this.world.loader.forget(sequence, change);
+    await this.correcting.reread(
+      sequence,
+      cloud.scans.filter((scan) => scans.some((change) => sameScan(change, scan))),
+    );
+    const queue = await api.queue(sequence);
+    store.set({ scans: queue.scans, progress: queue.progress });
+    const here = scans.find((change) => sameScan(change, current));
+    if (here !== undefined)
+      tell(this.world, `${here.author} changed this scan in another window; you see the newer state.`);
+  }
+}
+
+/** A browser has few connections to a server for all of its tabs: one that isn't seen must not hold one. */
+function pollWhileSeen(ended: AbortSignal): { readonly signal: AbortSignal; readonly end: () => void } {
+  const poll = new AbortController();
+  const stop = (): void => {
+    if (document.hidden || ended.aborted) poll.abort();
+  };
+  ended.addEventListener("abort", stop);
+  document.addEventListener("visibilitychange", stop);
+  const end = (): void => {
+    ended.removeEventListener("abort", stop);
+    document.removeEventListener("visibilitychange", stop);
+  };
+  return { signal: poll.signal, end };
+}
+
+/** Resolves once the page is seen. */
+function seen(): Promise<void> {
+  if (!document.hidden) return Promise.resolve();
+  return new Promise((resolve) => {
+    document.addEventListener("visibilitychange", () => resolve(), { once: true });
+  });
+}

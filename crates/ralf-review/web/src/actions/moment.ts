@@ -1,0 +1,97 @@
+/** Puts a scan on screen: its detections and LiDAR first, the cameras as they come. */
+
+import { messageOf } from "../api/errors.js";
+import type { ScanId } from "../api/types.js";
+import { type CameraMoment, placeScan, withoutPlaces } from "../data/camera-moment.js";
+import type { Cloud } from "../data/cloud.js";
+import { sameScan } from "../data/scan.js";
+import { complain, type World } from "./world.js";
+
+export class Moment {
+  private generation = 0;
+
+  constructor(private readonly world: World) {}
+
+  /** Resolves once the scan is on screen, or another one was asked for. */
+  async show(id: ScanId): Promise<void> {
+    const { store, loader } = this.world;
+    const generation = ++this.generation;
+    const { sequence, accumulate } = store.state;
+    store.set({ current: id, loading: true, hover: -1 });
+    try {
+      const [cloud, lidar] = await Promise.all([
+        loader.cloud(sequence, id, accumulate),
+        loader.scan(sequence, id).then((scan) => loader.lidar(sequence, scan)),
+      ]);
+      if (generation !== this.generation) return;
+      const before = store.state.cameras;
+      const cameras = this.camerasOf(cloud).map((camera) => withKnownPicture(camera, before));
+      store.set({ cloud, lidar, cameras, selection: new Uint8Array(cloud.count), loading: false });
+      await Promise.all(cameras.map((camera) => this.complete(generation, cloud, camera)));
+    } catch (error) {
+      if (generation !== this.generation) return;
+      const { scans } = store.state.cloud;
+      store.set({ loading: false, current: scans[0] ?? null });
+      complain(this.world, error);
+    }
+  }
+
+  /** Reads what will probably be looked at next. */
+  async prefetch(id: ScanId): Promise<void> {
+    const { loader, store } = this.world;
+    const { sequence, accumulate } = store.state;
+    const scan = await loader.scan(sequence, id);
+    await Promise.all([loader.cloud(sequence, id, accumulate), loader.lidar(sequence, scan)]);
+  }
+
+  private camerasOf(cloud: Cloud): readonly CameraMoment[] {
+    const { recording, sequence } = this.world.store.state;
+    const { cameras: near, failed_cameras: failed } = cloud.scans[0].table.header;
+    const infos = recording.sequences.find(({ name }) => name === sequence)?.cameras ?? [];
+    return infos.flatMap((info) => {
+      const at = near.find(({ name }) => name === info.name);
+      if (at === undefined) return [];
+      const places = withoutPlaces(cloud.count);
+      return [{ info, image: at.image, failed: failed.includes(info.name), picture: null, problem: null, places }];
+    });
+  }
+
+  private async complete(generation: number, cloud: Cloud, camera: CameraMoment): Promise<void> {
+    const { loader, store } = this.world;
+    const { sequence } = store.state;
+    const name = camera.info.name;
+    const update = (patch: Partial<CameraMoment>): void => {
+      if (generation !== this.generation) return;
+      store.set({
+        cameras: store.state.cameras.map((other) => (other.info.name === name ? { ...other, ...patch } : other)),
+      });
+    };
+    const picture = loader.image(sequence, name, camera.image).then(
+      (image) => update({ picture: image, problem: null }),
+      (error: unknown) => update({ problem: messageOf(error) }),
+    );
+    const places = withoutPlaces(cloud.count);
+    const read = cloud.scans.map(async (scan, index) => {
+      placeScan(places, cloud, index, await loader.projections(sequence, name, camera.image, scan));
+      if (index === 0) update({ places: places.slice() });
+    });
+    await Promise.all([
+      picture,
+      Promise.all(read).then(
+        () => update({ places }),
+        (error: unknown) => update({ problem: messageOf(error) }),
+      ),
+    ]);
+  }
+
+  /** Whether the scan is among those on screen. */
+  shows(id: ScanId): boolean {
+    return this.world.store.state.cloud.scans.some((scan) => sameScan(scan, id));
+  }
+}
+
+/** The picture that is on screen already stays there while its projections are read anew. */
+function withKnownPicture(camera: CameraMoment, before: readonly CameraMoment[]): CameraMoment {
+  const known = before.find(({ info, image }) => info === camera.info && image === camera.image);
+  return { ...camera, picture: known?.picture ?? null };
+}

@@ -1,0 +1,94 @@
+/** How things are shown. */
+
+import { everything, type Filter } from "../data/filter.js";
+import type { Dialog, ViewMode } from "../state.js";
+import { COLOUR_MODES, type ColourMode } from "../viewer/colours.js";
+import type { World } from "./world.js";
+
+const LEAST_DOT = 3;
+const MOST_DOT = 24;
+
+export class Viewing {
+  constructor(private readonly world: World) {}
+
+  mode(mode: ViewMode): void {
+    this.world.store.set({ mode });
+  }
+
+  toggleMode(): void {
+    const { store } = this.world;
+    store.set({ mode: store.state.mode === "bird" ? "free" : "bird" });
+  }
+
+  toggleCameraMode(): void {
+    const { store } = this.world;
+    const { mode, cameras } = store.state;
+    if (cameras.length > 0) store.set({ mode: mode === "camera" ? "bird" : "camera" });
+  }
+
+  camera(name: string): void {
+    this.world.store.set({ chosenCamera: name });
+  }
+
+  nextCamera(seen: string | null): void {
+    const { store } = this.world;
+    const names = store.state.cameras.map(({ info }) => info.name);
+    if (names.length > 0) store.set({ chosenCamera: names[(names.indexOf(seen ?? "") + 1) % names.length] });
+  }
+
+  colour(colour: ColourMode): void {
+    this.world.store.set({ colour });
+  }
+
+  nextColour(step: 1 | -1): void {
+    const names = COLOUR_MODES.map(([name]) => name);
+    const now = names.indexOf(this.world.store.state.colour);
+    this.colour(names[(now + step + names.length) % names.length]);
+  }
+
+  filter(patch: Partial<Filter>): void {
+    const { store } = this.world;
+    store.set({ filter: { ...store.state.filter, ...patch } });
+  }
+
+  showEverything(): void {
+    this.world.store.set({ filter: everything });
+  }
+
+  toggleRadar(name: string): void {
+    const hiddenRadars = new Set(this.world.store.state.filter.hiddenRadars);
+    if (!hiddenRadars.delete(name)) hiddenRadars.add(name);
+    this.filter({ hiddenRadars });
+  }
+
+  toggleLidar(): void {
+    const { store } = this.world;
+    store.set({ lidarShown: !store.state.lidarShown });
+  }
+
+  toggleGround(): void {
+    const { store } = this.world;
+    store.set({ groundHidden: !store.state.groundHidden });
+  }
+
+  dots(step: number): void {
+    const { store } = this.world;
+    store.set({ dotSize: Math.min(Math.max(store.state.dotSize + step, LEAST_DOT), MOST_DOT) });
+  }
+
+  cursor(cursor: readonly [number, number] | null): void {
+    this.world.store.set({ cursor });
+  }
+
+  drawn(milliseconds: number): void {
+    this.world.store.set({ frameTime: milliseconds });
+  }
+
+  dialog(dialog: Dialog): void {
+    this.world.store.set({ dialog });
+  }
+
+  dismissNotice(): void {
+    this.world.store.set({ notice: null });
+  }
+}

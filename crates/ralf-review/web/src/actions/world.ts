@@ -1,0 +1,21 @@
+/** What every action works with. */
+
+import type { Api } from "../api/client.js";
+import { messageOf } from "../api/errors.js";
+import type { Loader } from "../data/loader.js";
+import type { State } from "../state.js";
+import type { Store } from "../store.js";
+
+export interface World {
+  readonly store: Store<State>;
+  readonly api: Api;
+  readonly loader: Loader;
+}
+
+export function tell({ store }: World, text: string): void {
+  store.set({ notice: { text, kind: "told" } });
+}
+
+export function complain({ store }: World, error: unknown): void {
+  store.set({ notice: { text: messageOf(error), kind: "problem" } });
+}

@@ -1,0 +1,138 @@
+/** The server's interface, typed; every failure is one of `errors.ts` or an abort. */
+
+import { Conflict, Refused, ServerGone } from "./errors.js";
+import type { Session } from "./session.js";
+import { decodeTable, type Table } from "./table.js";
+import type {
+  Changes,
+  ConflictBody,
+  History,
+  LidarHeader,
+  Queue,
+  Recording,
+  ReviewedAnswer,
+  ScanHeader,
+  ScanId,
+  StrokeAnswer,
+  StrokeRequest,
+  TimedScan,
+} from "./types.js";
+
+export interface Call {
+  readonly signal?: AbortSignal | undefined;
+}
+
+export class Api {
+  constructor(private readonly session: Session) {}
+
+  recording(): Promise<Recording> {
+    return this.json("GET", "recording");
+  }
+
+  queue(sequence: string): Promise<Queue> {
+    return this.json("GET", `${inSequence(sequence)}/queue`);
+  }
+
+  history(sequence: string): Promise<History> {
+    return this.json("GET", `${inSequence(sequence)}/history`);
+  }
+
+  scan(sequence: string, { radar, scan }: ScanId, call?: Call): Promise<Table<ScanHeader>> {
+    return this.table(`${inSequence(sequence)}/radars/${part(radar)}/scans/${scan}`, call);
+  }
+
+  lidar(sequence: string, name: string, scan: number, call?: Call): Promise<Table<LidarHeader>> {
+    return this.table(`${inSequence(sequence)}/lidars/${part(name)}/scans/${scan}`, call);
+  }
+
+  async image(sequence: string, camera: string, image: number, call?: Call): Promise<Blob> {
+    const answer = await this.send("GET", `${inSequence(sequence)}/cameras/${part(camera)}/images/${image}`, call);
+    return received(answer.blob());
+  }
+
+  projections(
+    sequence: string,
+    camera: string,
+    image: number,
+    { radar, scan }: ScanId,
+    call?: Call,
+  ): Promise<Table<object>> {
+    const query = new URLSearchParams({ radar, scan: String(scan) });
+    return this.table(`${inSequence(sequence)}/cameras/${part(camera)}/images/${image}/detections?${query}`, call);
+  }
+
+  async moment(sequence: string, tNs: string, accumulate: number, call?: Call): Promise<readonly TimedScan[]> {
+    const query = new URLSearchParams({ t_ns: tNs, accumulate: String(accumulate), radars: "all" });
+    const answer = await this.json<{ scans: readonly TimedScan[] }>(
+      "GET",
+      `${inSequence(sequence)}/moment?${query}`,
+      call,
+    );
+    return answer.scans;
+  }
+
+  stroke(sequence: string, stroke: StrokeRequest): Promise<StrokeAnswer> {
+    return this.json("POST", `${inSequence(sequence)}/strokes`, undefined, stroke);
+  }
+
+  undo(sequence: string): Promise<StrokeAnswer> {
+    return this.json("POST", `${inSequence(sequence)}/undo`, undefined, {});
+  }
+
+  redo(sequence: string): Promise<StrokeAnswer> {
+    return this.json("POST", `${inSequence(sequence)}/redo`, undefined, {});
+  }
+
+  reviewed(sequence: string, { radar, scan }: ScanId, reviewed: boolean, revision: number): Promise<ReviewedAnswer> {
+    const path = `${inSequence(sequence)}/radars/${part(radar)}/scans/${scan}/reviewed`;
+    return this.json("PUT", path, undefined, { reviewed, revision });
+  }
+
+  /** What others change after `since`; `null`: at once, only how far the count is. */
+  changes(sequence: string, since: number | null, call?: Call): Promise<Changes> {
+    return this.json("GET", `${inSequence(sequence)}/changes${since === null ? "" : `?since=${since}`}`, call);
+  }
+
+  private async table<Header>(path: string, call?: Call): Promise<Table<Header>> {
+    const answer = await this.send("GET", path, call);
+    return decodeTable<Header>(await received(answer.arrayBuffer()));
+  }
+
+  private async json<T>(method: string, path: string, call?: Call, body?: object): Promise<T> {
+    const answer = await this.send(method, path, call, body);
+    return (await received(answer.json())) as T;
+  }
+
+  private async send(method: string, path: string, call?: Call, body?: object): Promise<Response> {
+    const headers = new Headers({ "X-Ralf-Tab": this.session.tab });
+    if (this.session.token !== null) headers.set("Authorization", `Bearer ${this.session.token}`);
+    if (body !== undefined) headers.set("Content-Type", "application/json");
+    const request: RequestInit = { method, headers, cache: "no-store", signal: call?.signal ?? null };
+    if (body !== undefined) request.body = JSON.stringify(body);
+    const answer = await received(fetch(`/api/${path}`, request));
+    if (!answer.ok) throw await failure(answer);
+    return answer;
+  }
+}
+
+/** Where nothing, or not all of it, came over the wire: the server is gone, unless the page itself gave up. */
+async function received<T>(coming: Promise<T>): Promise<T> {
+  return coming.catch((error: unknown) => {
+    throw error instanceof TypeError ? new ServerGone() : error;
+  });
+}
+
+function part(name: string): string {
+  return encodeURIComponent(name);
+}
+
+function inSequence(sequence: string): string {
+  return `sequences/${part(sequence)}`;
+}
+
+async function failure(answer: Response): Promise<Error> {
+  const body = (await answer.json().catch(() => null)) as Partial<ConflictBody> | null;
+  const message = body?.error ?? `the server answered ${answer.status}`;
+  if (answer.status !== 409) return new Refused(answer.status, message);
+  return new Conflict({ error: message, conflict: body?.conflict ?? null, scans: body?.scans ?? [] });
+}

@@ -1,0 +1,144 @@
+/** One camera's image with the detections in it; can be zoomed, and the tools work on it. */
+
+import type { CameraMoment } from "../data/camera-moment.js";
+import { h, say } from "../dom.js";
+import type { Page } from "../page.js";
+import type { Point } from "../selection/geometry.js";
+import { Surface } from "../selection/surface.js";
+import type { Gesture } from "../selection/tools.js";
+import { cleared, drawBrushCursor, drawGesture, drawHover } from "../viewer/drawing.js";
+import { drawDetections, LAYERS } from "./detections.js";
+import { fitted, type Frame, movedBy, toScreen, zoomedAt } from "./frame.js";
+
+/** Narrower than this, px, an image would vanish behind the detections of other scans. */
+const SMALL = 260;
+
+export class CameraView {
+  readonly element: HTMLElement;
+  readonly surface: Surface;
+  private readonly picture = h("canvas", { class: "scene" });
+  private readonly overlay = h("canvas", { class: "overlay" });
+  private readonly caption = h("span", { class: "caption" });
+  private camera: CameraMoment | null = null;
+  private frame: Frame = { scale: 1, left: 0, top: 0 };
+  private touched = false;
+  private gesture: Gesture | null = null;
+  private pointer: Point | null = null;
+  private places: Float32Array | null = null;
+  private asked = 0;
+
+  constructor(private readonly page: Page) {
+    this.element = h("div", { class: "camera" }, this.picture, this.overlay, this.caption);
+    this.surface = new Surface(page.store, page.actions, {
+      element: this.element,
+      places: () => this.placed(),
+      showGesture: (gesture, pointer) => {
+        [this.gesture, this.pointer] = [gesture, pointer];
+        this.drawOverlay();
+      },
+      pan: (right, down) => this.look(movedBy(this.frame, right, down)),
+    });
+    this.element.addEventListener("contextmenu", (event) => event.preventDefault());
+    this.element.addEventListener("wheel", (event) => this.zoom(event), { passive: false });
+    new ResizeObserver(() => this.fit()).observe(this.element);
+    const { store } = page;
+    store.watch(
+      ({ painting, shown, eligible, selection, dotSize }) => [painting, shown, eligible, selection, dotSize],
+      () => this.invalidate(),
+    );
+    store.watch(
+      ({ hover, tool }) => [hover, tool],
+      () => this.drawOverlay(),
+    );
+  }
+
+  show(camera: CameraMoment | null): void {
+    const other = camera?.info.name !== this.camera?.info.name;
+    this.camera = camera;
+    this.places = null;
+    this.element.setAttribute("aria-label", camera === null ? "No camera" : `Camera ${camera.info.name}`);
+    this.element.classList.toggle("failed", camera?.failed === true);
+    say(this.caption, camera === null ? "" : captionOf(camera));
+    if (other) this.fit();
+    this.invalidate();
+  }
+
+  /** Shows the whole image. */
+  fit(): void {
+    this.touched = false;
+    this.invalidate();
+  }
+
+  private invalidate(): void {
+    this.places = null;
+    if (this.asked !== 0) return;
+    this.asked = requestAnimationFrame(() => {
+      this.asked = 0;
+      this.draw();
+    });
+  }
+
+  private get size(): readonly [number, number] {
+    return [this.element.clientWidth, this.element.clientHeight];
+  }
+
+  private zoom(event: WheelEvent): void {
+    event.preventDefault();
+    const box = this.element.getBoundingClientRect();
+    const at: Point = [event.clientX - box.left, event.clientY - box.top];
+    this.look(zoomedAt(this.frame, Math.exp(-event.deltaY * 0.0015), at));
+  }
+
+  private look(frame: Frame): void {
+    this.frame = frame;
+    this.touched = true;
+    this.invalidate();
+  }
+
+  private placed(): Float32Array {
+    this.places ??= this.camera === null ? new Float32Array(0) : toScreen(this.frame, this.camera.places);
+    return this.places;
+  }
+
+  private draw(): void {
+    const [width, height] = this.size;
+    if (width === 0 || height === 0) return;
+    const context = cleared(this.picture, width, height);
+    const { camera } = this;
+    if (context === null || camera === null) return;
+    if (!this.touched) this.frame = fitted([camera.info.width, camera.info.height], [width, height]);
+    const { left, top, scale } = this.frame;
+    if (camera.picture !== null) {
+      context.imageSmoothingEnabled = scale < 3;
+      context.drawImage(camera.picture, left, top, camera.info.width * scale, camera.info.height * scale);
+    }
+    const { cloud, painting, shown, eligible, selection, dotSize } = this.page.store.state;
+    const radius = dotSize * Math.min(0.5, Math.max(0.28, width / 1400));
+    if (shown.length === cloud.count && painting.colours.length === 3 * cloud.count) {
+      drawDetections(
+        context,
+        this.placed(),
+        { cloud, colours: painting.colours, shown, eligible, selection },
+        radius,
+        width < SMALL ? LAYERS.slice(1) : LAYERS,
+      );
+    }
+    this.drawOverlay();
+  }
+
+  private drawOverlay(): void {
+    const [width, height] = this.size;
+    const context = cleared(this.overlay, width, height);
+    if (context === null) return;
+    const { hover, tool, brush } = this.page.store.state;
+    const places = this.placed();
+    if (hover >= 0 && !Number.isNaN(places[2 * hover])) drawHover(context, places[2 * hover], places[2 * hover + 1], 8);
+    if (this.gesture !== null) drawGesture(context, this.gesture, brush);
+    else if (tool === "brush" && this.pointer !== null) drawBrushCursor(context, this.pointer, brush);
+  }
+}
+
+function captionOf({ info, failed, problem }: CameraMoment): string {
+  if (problem !== null) return `${info.name}: ${problem}`;
+  return failed ? `${info.name} · failed` : info.name;
+}

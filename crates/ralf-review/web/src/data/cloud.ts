@@ -1,0 +1,115 @@
+/** The detections on screen: those of several scans, one after the other, in the vehicle frame of one of them. */
+
+import { floats, type Column } from "../api/table.js";
+import type { ScanId, ScanPoints } from "../api/types.js";
+import { sameScan, type Scan } from "./scan.js";
+import { movePoints, targetFromSource } from "./transform.js";
+
+export interface Cloud {
+  /** The first is the one under review. */
+  readonly scans: readonly Scan[];
+  readonly count: number;
+  /** Where each scan's detections begin. */
+  readonly starts: readonly number[];
+  /** Which of `scans` a detection belongs to. */
+  readonly scanOf: Uint16Array;
+  /** x, y, z of each detection, m, in the vehicle frame at the time of the scan under review. */
+  readonly positions: Float32Array;
+  readonly label: Uint16Array;
+  readonly corrected: Uint8Array;
+  /** False where the scans lie in different places and nothing says how the vehicle moved between them. */
+  readonly compensated: boolean;
+}
+
+const TOGETHER_NS = 1_000n;
+
+export function buildCloud(scans: readonly Scan[]): Cloud {
+  const starts: number[] = [];
+  let count = 0;
+  for (const scan of scans) {
+    starts.push(count);
+    count += scan.table.rows;
+  }
+  const scanOf = new Uint16Array(count);
+  const positions = new Float32Array(3 * count);
+  const target = scans[0]?.table.header.odom_from_vehicle ?? null;
+  scans.forEach(({ table }, index) => {
+    scanOf.fill(index, starts[index], starts[index] + table.rows);
+    const motion = targetFromSource(target, table.header.odom_from_vehicle);
+    movePoints(motion, [floats(table, "x"), floats(table, "y"), floats(table, "z")], positions, starts[index]);
+  });
+  const compensated =
+    target !== null || scans.every(({ table }) => together(table.header.t_ns, scans[0].table.header.t_ns));
+  return { ...labelsOf(scans, count), scans, count, starts, scanOf, positions, compensated };
+}
+
+/** The same cloud where some scans' labels are others. */
+export function withScans(cloud: Cloud, changed: readonly Scan[]): Cloud {
+  const scans = cloud.scans.map((scan) => changed.find((other) => sameScan(scan, other)) ?? scan);
+  return { ...cloud, scans, ...labelsOf(scans, cloud.count) };
+}
+
+/** A column of every scan, one after the other; NaN where a scan doesn't have it. */
+export function gather(cloud: Cloud, name: string): Float32Array {
+  const values = new Float32Array(cloud.count).fill(Number.NaN);
+  cloud.scans.forEach(({ table }, index) => {
+    const column = table.columns.get(name);
+    if (column !== undefined) values.set(column, cloud.starts[index]);
+  });
+  return values;
+}
+
+export function columnOf(cloud: Cloud, index: number, name: string): number {
+  const scan = cloud.scanOf[index];
+  const column: Column | undefined = cloud.scans[scan].table.columns.get(name);
+  return column === undefined ? Number.NaN : column[index - cloud.starts[scan]];
+}
+
+export function pointOf(cloud: Cloud, index: number): { scan: Scan; point: number } {
+  const scan = cloud.scanOf[index];
+  return { scan: cloud.scans[scan], point: index - cloud.starts[scan] };
+}
+
+/** The chosen detections (1 in `mask`), scan by scan, as the server names them. */
+export function pointsByScan(cloud: Cloud, mask: Uint8Array): readonly ScanPoints[] {
+  const chosen: ScanPoints[] = [];
+  cloud.scans.forEach(({ radar, scan, table }, index) => {
+    const points: number[] = [];
+    for (let point = 0; point < table.rows; point++) {
+      if (mask[cloud.starts[index] + point] === 1) points.push(point);
+    }
+    if (points.length > 0) chosen.push({ radar, scan, points });
+  });
+  return chosen;
+}
+
+/** 1 for each of the named detections that is on screen. */
+export function maskOf(cloud: Cloud, named: readonly ScanPoints[]): Uint8Array {
+  const mask = new Uint8Array(cloud.count);
+  for (const { radar, scan, points } of named) {
+    const index = findScan(cloud, { radar, scan });
+    if (index >= 0) for (const point of points) mask[cloud.starts[index] + point] = 1;
+  }
+  return mask;
+}
+
+export function findScan(cloud: Cloud, id: ScanId): number {
+  return cloud.scans.findIndex((scan) => sameScan(scan, id));
+}
+
+function labelsOf(scans: readonly Scan[], count: number): Pick<Cloud, "label" | "corrected"> {
+  const label = new Uint16Array(count);
+  const corrected = new Uint8Array(count);
+  let start = 0;
+  for (const scan of scans) {
+    label.set(scan.label, start);
+    corrected.set(scan.corrected, start);
+    start += scan.table.rows;
+  }
+  return { label, corrected };
+}
+
+function together(a: string, b: string): boolean {
+  const apart = BigInt(a) - BigInt(b);
+  return apart <= TOGETHER_NS && apart >= -TOGETHER_NS;
+}

@@ -1,0 +1,78 @@
+/** Which detections are shown. */
+
+import { gather, type Cloud } from "./cloud.js";
+import type { LabelBook } from "./labels.js";
+
+export type Span = readonly [least: number, most: number];
+export type Origin = "any" | "corrected" | "machine";
+
+export interface Filter {
+  readonly plausible: boolean;
+  readonly artifact: boolean;
+  readonly unlabelled: boolean;
+  readonly origin: Origin;
+  /** Only those so near the threshold that the machine isn't sure. */
+  readonly uncertain: boolean;
+  /** Plausibility; detections without one pass only the whole range. */
+  readonly score: Span;
+  readonly range: Span;
+  readonly height: Span;
+  /** Flags of which a detection must have at least one; 0: whatever they are. */
+  readonly flags: number;
+  readonly hiddenRadars: ReadonlySet<string>;
+}
+
+export const everything: Filter = {
+  plausible: true,
+  artifact: true,
+  unlabelled: true,
+  origin: "any",
+  uncertain: false,
+  score: [0, 1],
+  range: [0, Infinity],
+  height: [-Infinity, Infinity],
+  flags: 0,
+  hiddenRadars: new Set(),
+};
+
+/** Scores no farther from the threshold than this are uncertain, as in the queue. */
+export const UNCERTAIN_WITHIN = 0.1;
+
+export function isUncertain(score: number, threshold: number): boolean {
+  return Math.abs(score - threshold) <= UNCERTAIN_WITHIN;
+}
+
+/** 1 for each detection that passes. */
+export function visible(cloud: Cloud, filter: Filter, labels: LabelBook, threshold: number): Uint8Array {
+  const shown = new Uint8Array(cloud.count);
+  const [score, range, flags] = ["w", "range", "flags"].map((name) => gather(cloud, name));
+  const shownScans = cloud.scans.map(({ radar }) => !filter.hiddenRadars.has(radar));
+  const anyScore = filter.score[0] <= 0 && filter.score[1] >= 1;
+  for (let i = 0; i < cloud.count; i++) {
+    const corrected = cloud.corrected[i] === 1;
+    shown[i] = Number(
+      shownScans[cloud.scanOf[i]] &&
+        filter[labels.truth(cloud.label[i])] &&
+        (filter.origin === "any" || corrected === (filter.origin === "corrected")) &&
+        (!filter.uncertain || (!corrected && isUncertain(score[i], threshold))) &&
+        (anyScore || within(score[i], filter.score)) &&
+        within(range[i], filter.range) &&
+        within(cloud.positions[3 * i + 2], filter.height) &&
+        (filter.flags === 0 || (flags[i] & filter.flags) !== 0),
+    );
+  }
+  return shown;
+}
+
+/** Whether the filter hides anything at all. */
+export function hides(filter: Filter): boolean {
+  return (Object.keys(everything) as (keyof Filter)[]).some((key) => {
+    const [now, whole] = [filter[key], everything[key]];
+    if (now instanceof Set) return now.size > 0;
+    return Array.isArray(now) ? String(now) !== String(whole) : now !== whole;
+  });
+}
+
+function within(value: number, [least, most]: Span): boolean {
+  return value >= least && value <= most;
+}

@@ -1,0 +1,64 @@
+/** Reads what a moment needs, and remembers the last of it. */
+
+import type { Api } from "../api/client.js";
+import type { Table } from "../api/table.js";
+import type { LidarHeader, ScanId } from "../api/types.js";
+import { buildCloud, type Cloud } from "./cloud.js";
+import { Cache } from "./cache.js";
+import { type Lidar, lidarFromTable } from "./lidar.js";
+import { sameScan, type Scan, scanFromTable, scanKey } from "./scan.js";
+
+export class Loader {
+  private readonly scans = new Cache<Scan>(400);
+  private readonly lidars = new Cache<Table<LidarHeader>>(6);
+  private readonly images = new Cache<ImageBitmap>(36);
+  private readonly places = new Cache<Table<object>>(600);
+
+  constructor(private readonly api: Api) {}
+
+  scan(sequence: string, id: ScanId): Promise<Scan> {
+    return this.scans.get(key(sequence, scanKey(id)), async () => scanFromTable(id, await this.api.scan(sequence, id)));
+  }
+
+  /** Keeps a scan whose labels are others now. */
+  keep(sequence: string, scan: Scan): void {
+    this.scans.put(key(sequence, scanKey(scan)), Promise.resolve(scan));
+  }
+
+  forget(sequence: string, id: ScanId): void {
+    this.scans.forget(key(sequence, scanKey(id)));
+  }
+
+  /** The detections around the scan, of every radar, with so many neighbouring scans. */
+  async cloud(sequence: string, id: ScanId, accumulate: number): Promise<Cloud> {
+    const first = await this.scan(sequence, id);
+    const around = await this.api.moment(sequence, first.table.header.t_ns, accumulate);
+    const others = around.filter((other) => !sameScan(other, id));
+    const read = await Promise.all(
+      others.map((other) => this.scan(sequence, { radar: other.radar, scan: other.scan })),
+    );
+    return buildCloud([first, ...read]);
+  }
+
+  async lidar(sequence: string, { table }: Scan): Promise<Lidar | null> {
+    const { lidar } = table.header;
+    if (lidar === null) return null;
+    const { name, scan } = lidar;
+    const read = await this.lidars.get(key(sequence, name, scan), () => this.api.lidar(sequence, name, scan));
+    return lidarFromTable(name, scan, read, table.header);
+  }
+
+  image(sequence: string, camera: string, image: number): Promise<ImageBitmap> {
+    const read = async (): Promise<ImageBitmap> => createImageBitmap(await this.api.image(sequence, camera, image));
+    return this.images.get(key(sequence, camera, image), read);
+  }
+
+  projections(sequence: string, camera: string, image: number, id: ScanId): Promise<Table<object>> {
+    const read = (): Promise<Table<object>> => this.api.projections(sequence, camera, image, id);
+    return this.places.get(key(sequence, camera, image, scanKey(id)), read);
+  }
+}
+
+function key(...parts: readonly (string | number)[]): string {
+  return parts.join("|");
+}

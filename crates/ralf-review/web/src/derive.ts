@@ -1,0 +1,27 @@
+/** What follows from the rest of the state: what is shown, what may be changed, and the colours. */
+
+import { visible } from "./data/filter.js";
+import { intersection } from "./selection/mask.js";
+import type { State } from "./state.js";
+import type { Store } from "./store.js";
+import { paint } from "./viewer/colours.js";
+
+export function deriveAlways(store: Store<State>): void {
+  store.watch(
+    ({ cloud, filter, scope }) => [cloud, filter, scope],
+    (cloud, filter, scope) => {
+      const { labels, recording, selection } = store.state;
+      const shown = visible(cloud, filter, labels, recording.threshold);
+      const eligible = scope === "shown" ? shown : shown.map((value, i) => value & Number(cloud.scanOf[i] === 0));
+      const same = selection.length === cloud.count;
+      store.set({ shown, eligible, selection: same ? intersection(selection, eligible) : new Uint8Array(cloud.count) });
+    },
+  );
+  store.watch(
+    ({ cloud, colour }) => [cloud, colour],
+    (cloud, colour) => {
+      const { labels, recording } = store.state;
+      store.set({ painting: paint(cloud, colour, labels, recording) });
+    },
+  );
+}

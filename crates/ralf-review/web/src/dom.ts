@@ -1,0 +1,57 @@
+/** Elements in one expression. Styles are classes; what must be computed goes through `style.setProperty`. */
+
+type Child = Node | string | null;
+
+export interface Attributes {
+  readonly class?: string;
+  readonly on?: { readonly [Kind in keyof HTMLElementEventMap]?: (event: HTMLElementEventMap[Kind]) => void };
+  readonly [attribute: `aria-${string}` | `data-${string}`]: string;
+  readonly id?: string;
+  readonly role?: string;
+  readonly title?: string;
+  readonly type?: string;
+  readonly value?: string;
+  readonly tabindex?: string;
+  readonly placeholder?: string;
+  readonly step?: string;
+  readonly min?: string;
+  readonly max?: string;
+  readonly for?: string;
+}
+
+export function h<Tag extends keyof HTMLElementTagNameMap>(
+  tag: Tag,
+  { on, ...attributes }: Attributes = {},
+  ...children: readonly Child[]
+): HTMLElementTagNameMap[Tag] {
+  const element = document.createElement(tag);
+  for (const [name, value] of Object.entries(attributes)) element.setAttribute(name, String(value));
+  for (const [kind, listener] of Object.entries(on ?? {})) element.addEventListener(kind, listener as EventListener);
+  for (const child of children) if (child !== null) element.append(child);
+  return element;
+}
+
+/** Puts other children in; leaves the element alone where its text would stay the same. */
+export function say(element: HTMLElement, text: string): void {
+  if (element.textContent !== text) element.textContent = text;
+}
+
+export function pressed(button: HTMLElement, is: boolean): void {
+  button.setAttribute("aria-pressed", String(is));
+}
+
+export interface Option {
+  readonly value: string;
+  readonly text: string;
+}
+
+/** A labelled list to choose from. */
+export function select(label: string, options: readonly Option[], chosen: (value: string) => void): HTMLSelectElement {
+  const list = h("select", { "aria-label": label, on: { change: () => chosen(list.value) } });
+  setOptions(list, options);
+  return list;
+}
+
+export function setOptions(list: HTMLSelectElement, options: readonly Option[]): void {
+  list.replaceChildren(...options.map(({ value, text }) => h("option", { value }, text)));
+}

@@ -1,0 +1,122 @@
+/** Starts the page: reads the recording, builds the views, opens the first scan. */
+
+import { actionsOn } from "./actions/actions.js";
+import { addressFrom } from "./actions/address.js";
+import { Api } from "./api/client.js";
+import { messageOf } from "./api/errors.js";
+import { openSession } from "./api/session.js";
+import type { Recording } from "./api/types.js";
+import { CameraView } from "./cameras/camera-view.js";
+import { CamerasPanel } from "./cameras/cameras-panel.js";
+import { Loader } from "./data/loader.js";
+import { deriveAlways } from "./derive.js";
+import { h } from "./dom.js";
+import type { Page } from "./page.js";
+import { banner, notice, painting } from "./panels/banner.js";
+import { conflictDialog } from "./panels/conflict-dialog.js";
+import { detailsPanel } from "./panels/details-panel.js";
+import { classesDialog, helpDialog } from "./panels/dialogs.js";
+import { filterPanel } from "./panels/filter-panel.js";
+import { keyTable, listenToKeys } from "./panels/keys.js";
+import { legendPanel } from "./panels/legend.js";
+import { QueuePanel } from "./panels/queue-panel.js";
+import { scanBar, scanTitle } from "./panels/scan-bar.js";
+import { statusBar } from "./panels/status-bar.js";
+import { Timeline } from "./panels/timeline.js";
+import { toolbar } from "./panels/toolbar.js";
+import { initialState } from "./state.js";
+import { Store } from "./store.js";
+import { Viewport } from "./viewer/viewport.js";
+
+async function start(): Promise<void> {
+  const api = new Api(openSession());
+  const recording = await api.recording();
+  const store = new Store(initialState(recording));
+  deriveAlways(store);
+  const actions = actionsOn({ store, api, loader: new Loader(api) });
+  build({ store, actions });
+  document.title = `${recording.dataset} · RALF review`;
+  window.addEventListener("beforeunload", (event) => {
+    if (store.state.waiting.length > 0) event.preventDefault();
+  });
+  const first = firstSequence(recording);
+  if (first === null) return store.set({ loading: false });
+  await actions.correct.retry();
+  actions.hear.listen(first.sequence);
+  await actions.go.open(first.sequence, first.scan);
+}
+
+function firstSequence({ sequences }: Recording): ReturnType<typeof addressFrom> {
+  const asked = addressFrom(location.hash);
+  if (asked !== null && sequences.some(({ name }) => name === asked.sequence)) return asked;
+  const first = sequences.find(({ labelled }) => labelled) ?? sequences[0];
+  return first === undefined ? null : { sequence: first.name, scan: null };
+}
+
+function build(page: Page): void {
+  const viewport = new Viewport(page);
+  const cameras = new CamerasPanel(page);
+  const centreCamera = new CameraView(page);
+  centreCamera.element.classList.add("centre");
+  page.store.watch(
+    ({ mode, cameras: all, chosenCamera }) => [mode, all, chosenCamera],
+    (mode, all) => {
+      centreCamera.element.hidden = mode !== "camera";
+      viewport.element.classList.toggle("behind", mode === "camera");
+      centreCamera.show(mode === "camera" ? (all.find(({ info }) => info.name === cameras.seen) ?? null) : null);
+    },
+  );
+  const surfaces = [viewport.surface, centreCamera.surface];
+  const table = keyTable({
+    ...page,
+    cancelGesture: () => surfaces.map((surface) => surface.cancel()).some(Boolean),
+    closePolygon: () => surfaces.map((surface) => surface.closePolygon("replace")).some(Boolean),
+    home: () => {
+      viewport.home();
+      centreCamera.fit();
+    },
+    seenCamera: () => cameras.seen,
+  });
+  listenToKeys(table, page.store);
+  keepFocus(viewport.element);
+  const stage = h(
+    "div",
+    { class: "stage" },
+    viewport.element,
+    centreCamera.element,
+    legendPanel(page),
+    scanTitle(page),
+    painting(page),
+    notice(page),
+    banner(page),
+    conflictDialog(page),
+  );
+  document.body.append(
+    h(
+      "div",
+      { class: "layout" },
+      h("aside", { class: "left" }, new QueuePanel(page).element, filterPanel(page)),
+      h("main", { class: "centre-column" }, toolbar(page), scanBar(page), stage, new Timeline(page).element),
+      h("aside", { class: "right" }, cameras.element, detailsPanel(page)),
+      statusBar(page),
+    ),
+    helpDialog(page, table),
+    classesDialog(page),
+  );
+}
+
+/** After a press on a button or a choice in a list, keys are for the picture again. */
+function keepFocus(picture: HTMLElement): void {
+  const back = (target: EventTarget | null): void => {
+    const control = target instanceof Element ? target.closest("button, select") : null;
+    if (control !== null && control.closest("dialog, .conflict") === null) picture.focus({ preventScroll: true });
+  };
+  document.addEventListener("click", (event) => {
+    if (event.detail > 0 && !(event.target instanceof HTMLSelectElement)) back(event.target);
+  });
+  document.addEventListener("change", (event) => back(event.target));
+}
+
+start().catch((error: unknown) => {
+  document.body.append(h("p", { class: "failure", role: "alert" }, `The page could not start: ${messageOf(error)}`));
+});

@@ -1,0 +1,91 @@
+/** What must not be overlooked: a server that is gone, a refused stroke, a message. */
+
+import { h, say } from "../dom.js";
+import { counted } from "../format.js";
+import type { Page } from "../page.js";
+import type { State } from "../state.js";
+
+export function banner({ store, actions }: Page): HTMLElement {
+  const text = h("span", { class: "banner-text" });
+  const retry = h(
+    "button",
+    { class: "button", type: "button", on: { click: () => void actions.correct.retry() } },
+    "Try again",
+  );
+  const drop = h(
+    "button",
+    { class: "button quiet", type: "button", on: { click: () => void actions.correct.dropWaiting() } },
+    "Drop the stroke",
+  );
+  const bar = h("div", { class: "banner", role: "alert" }, text, retry, drop);
+  store.watch(
+    ({ outbox, waiting, connected }) => [outbox, waiting, connected],
+    () => {
+      const said = trouble(store.state);
+      bar.hidden = said === null;
+      say(text, said ?? "");
+      retry.hidden = store.state.waiting.length === 0;
+      drop.hidden = store.state.waiting.length === 0;
+    },
+  );
+  return bar;
+}
+
+function trouble({ outbox, waiting, connected }: Readonly<State>): string | null {
+  if (outbox.kind === "refused") return `The server refused a stroke: ${outbox.message}`;
+  if (outbox.kind !== "gone" && connected) return null;
+  const kept =
+    waiting.length === 0
+      ? "Nothing is unsaved."
+      : `${counted(waiting.length, "stroke")} not saved; kept in this window and sent when it is back.`;
+  return `The server does not answer. ${kept} Is ralf review still running?`;
+}
+
+/** Over the picture, while every stroke sets a label at once. */
+export function painting({ store, actions }: Page): HTMLElement {
+  const pill = h("button", {
+    class: "painting",
+    type: "button",
+    title: "End painting (Esc)",
+    on: { click: () => actions.select.disarm() },
+  });
+  store.watch(
+    ({ armed, labels }) => [armed, labels],
+    (armed, labels) => {
+      pill.hidden = armed === undefined;
+      if (armed === undefined) return;
+      const truth = armed === null ? "machine" : labels.truth(armed);
+      pill.replaceChildren(
+        h("span", { class: truth }, h("span", { class: "dot" })),
+        `Painting ${labels.choiceName(armed)}: every stroke sets it`,
+        h("kbd", {}, "Esc"),
+      );
+    },
+  );
+  return h("div", { class: "painting-place" }, pill);
+}
+
+const NOTICE_MS = 6000;
+
+/** A message that goes by itself, or when it's clicked. */
+export function notice({ store, actions }: Page): HTMLElement {
+  const box = h("button", {
+    class: "notice",
+    type: "button",
+    title: "Dismiss",
+    on: { click: () => actions.view.dismissNotice() },
+  });
+  const live = h("div", { class: "notice-place", role: "status", "aria-live": "polite" }, box);
+  let timer = 0;
+  store.watch(
+    ({ notice: now }) => [now],
+    (now) => {
+      box.hidden = now === null;
+      say(box, now?.text ?? "");
+      box.classList.toggle("problem", now?.kind === "problem");
+      window.clearTimeout(timer);
+      if (now?.kind === "told") timer = window.setTimeout(() => actions.view.dismissNotice(), NOTICE_MS);
+    },
+  );
+  return live;
+}

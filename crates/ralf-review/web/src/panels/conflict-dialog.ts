@@ -1,0 +1,76 @@
+/** Somebody was faster: who, what and when; the newer state is on screen already, and the stroke waits for a decision. */
+
+import { sameScan } from "../data/scan.js";
+import { h } from "../dom.js";
+import { clock, counted } from "../format.js";
+import type { OutboxStatus } from "../history/outbox.js";
+import type { Page } from "../page.js";
+import type { State } from "../state.js";
+
+type Met = Extract<OutboxStatus, { kind: "conflict" }>;
+
+export function conflictDialog({ store, actions }: Page): HTMLElement {
+  const body = h("div", { class: "conflict-body" });
+  const spare = h("input", { type: "checkbox", id: "spare" });
+  const apply = h(
+    "button",
+    { class: "button", type: "button", on: { click: () => void actions.correct.applyAnyway(spare.checked) } },
+    "Apply my stroke to it",
+  );
+  const drop = h(
+    "button",
+    { class: "button quiet", type: "button", on: { click: () => void actions.correct.dropWaiting() } },
+    "Drop my stroke",
+  );
+  const box = h(
+    "section",
+    { class: "conflict", role: "alertdialog", "aria-label": "Conflict", tabindex: "-1" },
+    h("h2", {}, "Somebody changed this first"),
+    body,
+    h("label", { class: "check", for: "spare" }, spare, "Leave alone what is corrected already"),
+    h("div", { class: "row" }, apply, drop),
+  );
+  store.watch(
+    ({ outbox }) => [outbox],
+    (outbox) => {
+      const met = outbox.kind === "conflict" ? outbox : null;
+      box.hidden = met === null;
+      if (met === null) return;
+      spare.checked = met.pending.stroke.protect;
+      body.replaceChildren(...told(met, store.state));
+      // Not a button: a key that was on its way must not decide.
+      box.focus();
+    },
+  );
+  return box;
+}
+
+function told({ body, pending }: Met, { labels, recording }: Readonly<State>): HTMLElement[] {
+  const { stroke } = pending;
+  const count = stroke.points.reduce((sum, { points }) => sum + points.length, 0);
+  const touched = stroke.points.reduce((sum, { radar, scan, points }) => {
+    const now = new Set(
+      body.scans.find((other) => sameScan(other, { radar, scan }))?.corrections.map(([point]) => point),
+    );
+    return sum + points.filter((point) => now.has(point)).length;
+  }, 0);
+  const { conflict } = body;
+  const elsewhere = conflict?.author === recording.author ? " (in another window)" : "";
+  const who =
+    conflict === null
+      ? body.error
+      : `${conflict.author}${elsewhere} changed ${conflict.radar} ${conflict.scan} with ${conflict.tool}, ${clock(conflict.at)}.`;
+  return [
+    h("p", {}, who),
+    h(
+      "p",
+      {},
+      `Your ${stroke.tool} sets ${counted(count, "detection")} to ${labels.choiceName(stroke.label)}. Nothing of it is saved yet.`,
+    ),
+    h(
+      "p",
+      { class: "faint" },
+      `The picture shows the newer state, with your detections selected; ${touched === 0 ? "none" : touched} of them ${touched === 1 ? "is" : "are"} corrected there.`,
+    ),
+  ];
+}

@@ -1,0 +1,52 @@
+/** What the colours and rims mean. */
+
+import { h } from "../dom.js";
+import type { Page } from "../page.js";
+import type { Legend } from "../viewer/colours.js";
+import { COLOUR_MODES } from "../viewer/colours.js";
+import { CORRECTED_RGB, cssColour, type Rgb, SELECTED_RGB, UNCERTAIN_RGB, WAITING_RGB } from "../viewer/palette.js";
+
+const RIMS: readonly (readonly [string, Rgb])[] = [
+  ["uncertain", UNCERTAIN_RGB],
+  ["corrected", CORRECTED_RGB],
+  ["selected", SELECTED_RGB],
+  ["not saved yet", WAITING_RGB],
+];
+const STEPS = 24;
+
+export function legendPanel({ store }: Page): HTMLElement {
+  const panel = h("div", { class: "legend", "aria-label": "Legend" });
+  store.watch(
+    ({ painting, colour, waiting }) => [painting.legend, colour, waiting.length > 0],
+    (legend, colour, unsaved) => {
+      const title = COLOUR_MODES.find(([name]) => name === colour)?.[1] ?? colour;
+      const rims = h(
+        "div",
+        { class: "legend-rims" },
+        ...RIMS.filter(([, rgb]) => unsaved || rgb !== WAITING_RGB).map(([name, rgb]) =>
+          entry(name, rgb, "swatch rim"),
+        ),
+      );
+      panel.replaceChildren(h("b", {}, title), legend.kind === "scale" ? scale(legend) : entries(legend), rims);
+    },
+  );
+  return panel;
+}
+
+function entries({ entries: list }: Extract<Legend, { kind: "categories" }>): HTMLElement {
+  return h("div", { class: "legend-entries" }, ...list.map(([name, rgb]) => entry(name, rgb, "swatch")));
+}
+
+function entry(name: string, rgb: Rgb, look: string): HTMLElement {
+  const swatch = h("span", { class: look });
+  swatch.style.setProperty("--colour", cssColour(rgb));
+  return h("span", { class: "legend-entry" }, swatch, name);
+}
+
+function scale({ least, most, unit, map }: Extract<Legend, { kind: "scale" }>): HTMLElement {
+  const bar = h("span", { class: "legend-scale" });
+  const stops = Array.from({ length: STEPS + 1 }, (_, step) => cssColour(map(step / STEPS)));
+  bar.style.setProperty("background", `linear-gradient(to right, ${stops.join(", ")})`);
+  const number = (value: number): string => `${Number(value.toFixed(2))}${unit === "" ? "" : ` ${unit}`}`;
+  return h("div", { class: "legend-scale-row number" }, h("span", {}, number(least)), bar, h("span", {}, number(most)));
+}

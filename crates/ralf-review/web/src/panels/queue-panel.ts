@@ -1,0 +1,184 @@
+/** The left panel: sequence, progress, and the scans in the order in which they need a person. */
+
+import type { QueueScan } from "../api/types.js";
+import { sameScan } from "../data/scan.js";
+import { h, pressed, say, select, setOptions } from "../dom.js";
+import { counted, shortName } from "../format.js";
+import type { Page } from "../page.js";
+import { listed, type QueueOrder, reasons } from "../queue/queue.js";
+
+const ROW = 54;
+/** Rows drawn above and below what is seen, so that scrolling shows no gaps. */
+const SPARE = 6;
+
+export class QueuePanel {
+  readonly element: HTMLElement;
+  private readonly list = h("div", { class: "queue-list", role: "listbox", "aria-label": "Scans", tabindex: "0" });
+  private readonly room = h("div", { class: "queue-room" });
+  private rows: readonly QueueScan[] = [];
+
+  constructor(private readonly page: Page) {
+    this.list.append(this.room);
+    this.element = h("section", { class: "queue", "aria-label": "Queue" }, head(page), order(page), this.list);
+    this.list.addEventListener("scroll", () => this.draw());
+    new ResizeObserver(() => this.draw()).observe(this.list);
+    const { store } = page;
+    store.watch(
+      ({ scans, queueView }) => [scans, queueView],
+      (scans, view) => {
+        this.rows = listed(scans, view);
+        this.room.style.setProperty("height", `${this.rows.length * ROW}px`);
+        this.draw();
+      },
+    );
+    store.watch(
+      ({ current }) => [current],
+      () => this.reveal(),
+    );
+  }
+
+  private reveal(): void {
+    const at = this.rows.findIndex((entry) => sameScan(entry, this.page.store.state.current));
+    const [top, height] = [at * ROW, this.list.clientHeight];
+    if (at >= 0 && (top < this.list.scrollTop || top + ROW > this.list.scrollTop + height)) {
+      this.list.scrollTop = Math.max(top - height / 2, 0);
+    }
+    this.draw();
+  }
+
+  private draw(): void {
+    const first = Math.max(Math.floor(this.list.scrollTop / ROW) - SPARE, 0);
+    const last = Math.ceil((this.list.scrollTop + this.list.clientHeight) / ROW) + SPARE;
+    this.room.replaceChildren(...this.rows.slice(first, last).map((entry, i) => this.row(entry, first + i)));
+  }
+
+  private row(entry: QueueScan, place: number): HTMLElement {
+    const current = sameScan(entry, this.page.store.state.current);
+    const bar = h("span", { class: "need-bar" }, h("span"));
+    (bar.firstElementChild as HTMLElement).style.setProperty("width", `${Math.round(100 * entry.need)}%`);
+    const row = h(
+      "div",
+      {
+        class: entry.reviewed === null ? "queue-row" : "queue-row done",
+        role: "option",
+        "aria-selected": String(current),
+        title: tooltip(entry),
+        on: { click: () => void this.page.actions.go.goTo(entry) },
+      },
+      h(
+        "span",
+        { class: "queue-name" },
+        h("span", {}, shortName(entry.radar)),
+        h("b", { class: "number" }, String(entry.scan)),
+      ),
+      h("span", { class: "queue-need" }, bar, h("b", { class: "number" }, entry.need.toFixed(2))),
+      h("span", { class: "queue-reasons" }, ...said(entry)),
+    );
+    row.style.setProperty("top", `${place * ROW}px`);
+    return row;
+  }
+}
+
+function said(entry: QueueScan): HTMLElement[] {
+  const parts = reasons(entry).map((reason) =>
+    h("span", { class: reason.includes("failed") ? "reason alarm" : "reason" }, reason),
+  );
+  if (entry.corrected > 0) parts.unshift(h("span", { class: "reason corrected" }, `${entry.corrected} corrected`));
+  if (entry.reviewed !== null) parts.unshift(h("span", { class: "reason reviewed" }, "✓ reviewed"));
+  return parts;
+}
+
+function tooltip({ detections, reviewed }: QueueScan): string {
+  const by = reviewed === null ? "" : `, reviewed by ${reviewed.author}`;
+  return `${counted(detections, "detection")}${by}`;
+}
+
+function head({ store, actions }: Page): HTMLElement {
+  const sequences = select("Sequence", [], (name) => {
+    void actions.go.open(name).then(() => actions.hear.listen(name));
+  });
+  const bar = h(
+    "span",
+    { class: "progress-bar", role: "progressbar", "aria-label": "Reviewed scans", "aria-valuemin": "0" },
+    h("span"),
+  );
+  const text = h("span", { class: "faint number" });
+  store.watch(
+    ({ recording, sequence }) => [recording, sequence],
+    (recording, sequence) => {
+      setOptions(
+        sequences,
+        recording.sequences.map(({ name, title, labelled }) => {
+          const text = title === "" ? name : `${name} · ${title}`;
+          return { value: name, text: labelled ? text : `${text} (not labelled)` };
+        }),
+      );
+      sequences.value = sequence;
+    },
+  );
+  store.watch(
+    ({ progress }) => [progress],
+    ({ scans, reviewed, corrected_detections: corrected }) => {
+      (bar.firstElementChild as HTMLElement).style.setProperty(
+        "width",
+        `${scans === 0 ? 0 : (100 * reviewed) / scans}%`,
+      );
+      bar.setAttribute("aria-valuemax", String(scans));
+      bar.setAttribute("aria-valuenow", String(reviewed));
+      say(text, `${reviewed} of ${scans.toLocaleString("en")} reviewed · ${corrected.toLocaleString("en")} corrected`);
+    },
+  );
+  const { dataset, out } = store.state.recording;
+  const brand = h(
+    "div",
+    { class: "brand", title: `${dataset}, labels in ${out}` },
+    h("strong", {}, "RALF"),
+    h("span", {}, "review"),
+    h("span", { class: "faint" }, dataset),
+  );
+  return h("header", { class: "queue-head" }, brand, sequences, bar, text);
+}
+
+function order({ store, actions }: Page): HTMLElement {
+  const orders: readonly (readonly [QueueOrder, string])[] = [
+    ["need", "Need"],
+    ["time", "Time"],
+  ];
+  const buttons = orders.map(([name, text]) =>
+    h("button", { class: "segment", type: "button", on: { click: () => actions.go.viewQueue({ order: name }) } }, text),
+  );
+  const open = h(
+    "button",
+    {
+      class: "segment",
+      type: "button",
+      title: "Hide what is reviewed",
+      on: {
+        click: () => actions.go.viewQueue({ hideReviewed: !store.state.queueView.hideReviewed }),
+      },
+    },
+    "Open",
+  );
+  const radars = select("Radar", [], (value) => actions.go.viewQueue({ radar: value === "" ? null : value }));
+  store.watch(
+    ({ recording, sequence }) => [recording, sequence],
+    (recording, sequence) => {
+      const names = recording.sequences.find(({ name }) => name === sequence)?.radars.map(({ name }) => name) ?? [];
+      setOptions(radars, [{ value: "", text: "All radars" }, ...names.map((name) => ({ value: name, text: name }))]);
+    },
+  );
+  store.watch(
+    ({ queueView }) => [queueView],
+    ({ order: now, hideReviewed, radar }) => {
+      orders.forEach(([name], i) => pressed(buttons[i], name === now));
+      pressed(open, hideReviewed);
+      radars.value = radar ?? "";
+    },
+  );
+  return h(
+    "div",
+    { class: "queue-order" },
+    h("div", { class: "segments", role: "group", "aria-label": "Order" }, ...buttons, open),
+    radars,
+  );
+}

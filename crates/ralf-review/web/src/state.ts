@@ -1,0 +1,123 @@
+/** Everything the page knows and shows. */
+
+import type { ScanId, History, Progress, QueueScan, Recording } from "./api/types.js";
+import type { CameraMoment } from "./data/camera-moment.js";
+import { buildCloud, type Cloud } from "./data/cloud.js";
+import { everything, type Filter } from "./data/filter.js";
+import { type Choice, LabelBook } from "./data/labels.js";
+import type { Lidar } from "./data/lidar.js";
+import type { OutboxStatus, Pending } from "./history/outbox.js";
+import type { QueueView } from "./queue/queue.js";
+import type { Tool } from "./selection/tools.js";
+import type { ColourMode, Painting } from "./viewer/colours.js";
+
+export type ViewMode = "bird" | "free" | "camera";
+/** What a stroke may change: the scan under review alone, or everything shown. */
+export type Scope = "scan" | "shown";
+export type Dialog = "none" | "help" | "classes";
+
+export interface Notice {
+  readonly text: string;
+  readonly kind: "told" | "problem";
+}
+
+export interface State {
+  readonly recording: Recording;
+  readonly labels: LabelBook;
+  readonly sequence: string;
+  readonly scans: readonly QueueScan[];
+  readonly progress: Progress;
+  readonly queueView: QueueView;
+
+  /** The scan under review. */
+  readonly current: ScanId | null;
+  readonly loading: boolean;
+  readonly cloud: Cloud;
+  readonly lidar: Lidar | null;
+  readonly cameras: readonly CameraMoment[];
+
+  readonly mode: ViewMode;
+  readonly colour: ColourMode;
+  readonly accumulate: number;
+  readonly lidarShown: boolean;
+  readonly groundHidden: boolean;
+  /** Diameter of a detection, px. */
+  readonly dotSize: number;
+  readonly filter: Filter;
+  /** The camera a person chose to see large; `null`: the one that sees most. */
+  readonly chosenCamera: string | null;
+
+  /** 1 for each detection that the filter lets through, and that a stroke may change. */
+  readonly shown: Uint8Array;
+  readonly eligible: Uint8Array;
+  readonly painting: Painting;
+
+  readonly tool: Tool;
+  /** Radius of the brush, px. */
+  readonly brush: number;
+  readonly scope: Scope;
+  readonly protect: boolean;
+  /** What every stroke sets at once; `undefined`: strokes only select. */
+  readonly armed: Choice | undefined;
+  readonly selection: Uint8Array;
+  readonly hover: number;
+  /** x, y under the pointer, m, vehicle frame. */
+  readonly cursor: readonly [number, number] | null;
+
+  readonly history: History;
+  readonly outbox: OutboxStatus;
+  readonly waiting: readonly Pending[];
+  /** False while nobody answers. */
+  readonly connected: boolean;
+  /** True while an undo, redo or mark is under way. */
+  readonly busy: boolean;
+  readonly notice: Notice | null;
+  readonly dialog: Dialog;
+  /** JavaScript time of the last drawn frame, ms. */
+  readonly frameTime: number;
+}
+
+const NO_HISTORY: History = { undo: null, redo: null, undo_depth: 0, redo_depth: 0 };
+
+export function initialState(recording: Recording): State {
+  return {
+    recording,
+    labels: new LabelBook(recording.classes),
+    sequence: "",
+    scans: [],
+    progress: { scans: 0, reviewed: 0, corrected_detections: 0 },
+    queueView: { order: "need", hideReviewed: false, radar: null },
+    current: null,
+    loading: true,
+    cloud: buildCloud([]),
+    lidar: null,
+    cameras: [],
+    mode: "bird",
+    colour: "label",
+    accumulate: 0,
+    lidarShown: true,
+    groundHidden: true,
+    dotSize: 8,
+    filter: everything,
+    chosenCamera: null,
+    shown: new Uint8Array(0),
+    eligible: new Uint8Array(0),
+    painting: { colours: new Uint8Array(0), legend: { kind: "categories", entries: [] } },
+    tool: "click",
+    brush: 18,
+    scope: "scan",
+    protect: true,
+    armed: undefined,
+    selection: new Uint8Array(0),
+    hover: -1,
+    cursor: null,
+    history: NO_HISTORY,
+    outbox: { kind: "idle" },
+    waiting: [],
+    connected: true,
+    busy: false,
+    notice: null,
+    dialog: "none",
+    frameTime: 0,
+  };
+}

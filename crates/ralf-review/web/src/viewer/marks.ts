@@ -1,0 +1,31 @@
+/** How a detection stands out: the rim of its dot. */
+
+import { type Cloud, gather } from "../data/cloud.js";
+import { isUncertain } from "../data/filter.js";
+
+export type Marks = Uint8Array;
+
+export const Mark = { plain: 0, uncertain: 1, corrected: 2, selected: 3, context: 4, hidden: 5, waiting: 6 } as const;
+
+/** One mark per detection; the strongest that holds. */
+export function marksOf(
+  cloud: Cloud,
+  masks: {
+    readonly shown: Uint8Array;
+    readonly eligible: Uint8Array;
+    readonly selection: Uint8Array;
+    /** Those of strokes that aren't saved yet. */
+    readonly waiting: Uint8Array;
+  },
+  threshold: number,
+): Marks {
+  const score = gather(cloud, "w");
+  return new Uint8Array(cloud.count).map((_, i) => {
+    if (masks.shown[i] === 0) return Mark.hidden;
+    if (masks.selection[i] === 1) return Mark.selected;
+    if (masks.waiting[i] === 1) return Mark.waiting;
+    if (masks.eligible[i] === 0) return Mark.context;
+    if (cloud.corrected[i] === 1) return Mark.corrected;
+    return isUncertain(score[i], threshold) ? Mark.uncertain : Mark.plain;
+  });
+}

@@ -1,0 +1,161 @@
+/** The centre of the page: the WebGL picture, what is drawn over it, and the pointer on it. */
+
+import { maskOf } from "../data/cloud.js";
+import { h } from "../dom.js";
+import type { Page } from "../page.js";
+import type { Point } from "../selection/geometry.js";
+import { Surface } from "../selection/surface.js";
+import type { Gesture } from "../selection/tools.js";
+import { cleared, drawBrushCursor, drawGesture, drawHover } from "./drawing.js";
+import { marksOf } from "./marks.js";
+import { navigate } from "./navigate.js";
+import { HOME, panned, type Rig } from "./rig.js";
+import { drawAxes, drawRingLabels, drawScaleBar } from "./scale.js";
+import { SceneView } from "./scene.js";
+
+export class Viewport {
+  readonly element: HTMLElement;
+  readonly surface: Surface;
+  private readonly view: SceneView;
+  private readonly overlay = h("canvas", { class: "overlay" });
+  private gesture: Gesture | null = null;
+  private pointer: Point | null = null;
+  private places: Float32Array | null = null;
+
+  constructor(private readonly page: Page) {
+    const canvas = h("canvas", { class: "scene", "aria-label": "Radar detections over LiDAR" });
+    this.element = h(
+      "div",
+      { class: "viewport", tabindex: "0", "aria-label": "Bird's eye and free view" },
+      canvas,
+      this.overlay,
+    );
+    this.view = new SceneView(
+      canvas,
+      () => this.drawOverlay(),
+      (milliseconds) => page.actions.view.drawn(milliseconds),
+    );
+    this.surface = new Surface(page.store, page.actions, {
+      element: this.element,
+      places: () => this.placed(),
+      showGesture: (gesture, pointer) => {
+        [this.gesture, this.pointer] = [gesture, pointer];
+        this.tellCursor();
+        this.drawOverlay();
+      },
+      pan: (right, down) => this.aim(panned(this.view.rig, right, down, this.view.size[1], this.above)),
+    });
+    navigate(
+      this.element,
+      this.view,
+      () => this.above,
+      (rig) => this.aim(rig),
+    );
+    new ResizeObserver(() => this.resize()).observe(this.element);
+    this.watch();
+  }
+
+  home(): void {
+    this.aim(HOME);
+  }
+
+  private get above(): boolean {
+    return this.page.store.state.mode !== "free";
+  }
+
+  private watch(): void {
+    const { store } = this.page;
+    const { view } = this;
+    store.watch(
+      ({ cloud }) => [cloud.positions],
+      (positions) => {
+        view.radar.setPositions(positions);
+        this.changed();
+      },
+    );
+    store.watch(
+      ({ lidar }) => [lidar],
+      (lidar) => view.lidar.set(lidar),
+    );
+    store.watch(
+      ({ painting }) => [painting],
+      ({ colours }) => {
+        view.radar.setColours(colours);
+        this.changed();
+      },
+    );
+    store.watch(
+      ({ cloud, shown, eligible, selection, waiting: strokes }) => [cloud, shown, eligible, selection, strokes],
+      (cloud, shown, eligible, selection, strokes) => {
+        if (shown.length !== cloud.count || selection.length !== cloud.count) return;
+        const waiting = maskOf(
+          cloud,
+          strokes.flatMap(({ stroke }) => stroke.points),
+        );
+        view.radar.setMarks(marksOf(cloud, { shown, eligible, selection, waiting }, store.state.recording.threshold));
+        this.changed();
+      },
+    );
+    store.watch(
+      ({ lidarShown, groundHidden, dotSize, mode, lidar }) => [lidarShown, groundHidden, dotSize, mode, lidar],
+      (lidarShown, groundHidden, dotSize) => {
+        view.lidar.setLook(lidarShown, groundHidden, view.pixelRatio);
+        view.radar.setSize(dotSize * view.pixelRatio);
+        view.setBird(this.above);
+        this.changed();
+      },
+    );
+    store.watch(
+      ({ hover, tool }) => [hover, tool],
+      () => this.drawOverlay(),
+    );
+  }
+
+  private changed(): void {
+    this.places = null;
+    this.view.invalidate();
+  }
+
+  private aim(rig: Rig): void {
+    this.view.rig = rig;
+    this.changed();
+    this.tellView();
+  }
+
+  private resize(): void {
+    this.view.resize(this.element.clientWidth, this.element.clientHeight);
+    this.changed();
+    this.tellView();
+  }
+
+  /** Where and how large the bird's eye shows the plane, for whoever works on the page from outside. */
+  private tellView(): void {
+    const { target, span } = this.view.rig;
+    this.element.dataset["target"] = `${target[0]} ${target[1]}`;
+    this.element.dataset["metresPerPixel"] = String(span / this.view.size[1]);
+  }
+
+  private placed(): Float32Array {
+    this.places ??= this.view.project(this.page.store.state.cloud.positions);
+    return this.places;
+  }
+
+  private tellCursor(): void {
+    this.page.actions.view.cursor(this.pointer === null ? null : this.view.groundAt(...this.pointer));
+  }
+
+  private drawOverlay(): void {
+    const [width, height] = this.view.size;
+    const context = cleared(this.overlay, width, height);
+    if (context === null) return;
+    const { hover, dotSize, tool, brush } = this.page.store.state;
+    drawRingLabels(context, (positions) => this.view.project(positions));
+    if (this.above) {
+      drawScaleBar(context, this.view.rig.span / height, width, height);
+      drawAxes(context, height);
+    }
+    if (hover >= 0) drawHover(context, this.placed()[2 * hover], this.placed()[2 * hover + 1], dotSize / 2 + 4);
+    if (this.gesture !== null) drawGesture(context, this.gesture, brush);
+    else if (tool === "brush" && this.pointer !== null) drawBrushCursor(context, this.pointer, brush);
+  }
+}

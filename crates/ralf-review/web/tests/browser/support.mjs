@@ -1,0 +1,191 @@
+// The program, a browser, and what tests ask of them.
+import assert from "node:assert/strict";
+import { spawn, spawnSync } from "node:child_process";
+import { once } from "node:events";
+import { cp, mkdtemp, readFile, rm } from "node:fs/promises";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { createInterface } from "node:readline";
+import { chromium } from "playwright-core";
+
+const { RALF_PROGRAM, RALF_DATASET, RALF_OUT, RALF_PLANTED, RALF_CHROMIUM } = process.env;
+
+/** Detections whose label in OUT is wrong: {radar, scan, point, label} with the right label. */
+export const planted = JSON.parse(await readFile(RALF_PLANTED, "utf8"));
+
+const CHROMIUM = [
+  "--no-sandbox",
+  "--disable-quic",
+  "--no-first-run",
+  "--disable-background-networking",
+  "--disable-component-update",
+  "--disable-sync",
+  "--use-angle=swiftshader",
+  "--enable-unsafe-swiftshader",
+];
+
+export function launch() {
+  return chromium.launch({ executablePath: RALF_CHROMIUM, args: CHROMIUM });
+}
+
+/** A copy of the labels, so that every test begins with none corrected. */
+export async function freshOut(context) {
+  const folder = await mkdtemp(join(tmpdir(), "ralf-review-"));
+  context.after(() => rm(folder, { recursive: true, force: true }));
+  await cp(RALF_OUT, join(folder, "out"), { recursive: true });
+  return join(folder, "out");
+}
+
+/** `ralf review`, until the test ends or `kill` is called. */
+export async function serve(context, out, { author = "ada", port = 0 } = {}) {
+  const child = spawn(RALF_PROGRAM, ["review", RALF_DATASET, out, "--port", String(port), "--author", author], {
+    stdio: ["ignore", "pipe", "inherit"],
+  });
+  const kill = async (signal = "SIGKILL") => {
+    if (child.exitCode !== null || child.signalCode !== null) return;
+    child.kill(signal);
+    await once(child, "exit");
+  };
+  context.after(() => kill());
+  const lines = createInterface({ input: child.stdout });
+  const [line] = await once(lines, "line");
+  const url = line.match(/http:\/\/\S+/)[0];
+  return { url, port: Number(new URL(url).port), kill };
+}
+
+/** A page on the server; `complaints` are console errors, `strangers` are requests to anywhere else. */
+export async function open(context, browser, server) {
+  const page = await (await browser.newContext({ viewport: { width: 1600, height: 1000 } })).newPage();
+  context.after(() => page.context().close());
+  const told = { page, complaints: [], strangers: [] };
+  const { origin } = new URL(server.url);
+  page.on("console", (message) => {
+    if (message.type() === "error" || message.type() === "warning") told.complaints.push(message.text());
+  });
+  page.on("pageerror", (error) => told.complaints.push(String(error)));
+  page.on("request", (request) => {
+    const { protocol, origin: asked } = new URL(request.url());
+    if (protocol !== "blob:" && asked !== origin) told.strangers.push(request.url());
+  });
+  await page.goto(server.url);
+  await ready(page);
+  return told;
+}
+
+/** Waits until a scan is on screen. */
+export async function ready(page) {
+  await page.waitForFunction(() =>
+    / detections?$/.test(document.querySelector(".scan-title .faint")?.textContent ?? ""),
+  );
+}
+
+export function clean({ complaints, strangers }, expected = /$^/) {
+  assert.deepEqual(
+    complaints.filter((text) => !expected.test(text)),
+    [],
+  );
+  assert.deepEqual(strangers, []);
+}
+
+export async function ask(server, path) {
+  const answer = await fetch(new URL(`/api/${path}`, server.url));
+  assert.equal(answer.status, 200, path);
+  return answer;
+}
+
+export async function sequenceOf(server) {
+  const recording = await (await ask(server, "recording")).json();
+  return recording.sequences[0].name;
+}
+
+const ARRAYS = { f32: Float32Array, u8: Uint8Array, u16: Uint16Array, i32: Int32Array, u32: Uint32Array };
+
+/** The labels as `ralf export` hands them on: by "radar/scan", SemanticKITTI ids. */
+export async function exported(out) {
+  const folder = join(out, "..", "kitti");
+  const ran = spawnSync(RALF_PROGRAM, ["export", RALF_DATASET, out, "--to", "semantickitti", "-o", folder], {
+    encoding: "utf8",
+  });
+  assert.equal(ran.status, 0, ran.stderr);
+  const [, ...lines] = (await readFile(join(folder, "sequences.csv"), "utf8")).trim().split("\n");
+  const labels = new Map();
+  for (const [number, , radar, scans] of lines.map((line) => line.split(","))) {
+    for (let scan = 0; scan < Number(scans); scan += 1) {
+      const file = await readFile(
+        join(folder, "sequences", number, "labels", `${String(scan).padStart(6, "0")}.label`),
+      );
+      const ids = Array.from({ length: file.length / 4 }, (_, i) => file.readUInt32LE(4 * i) & 0xffff);
+      labels.set(`${radar}/${scan}`, ids);
+    }
+  }
+  return labels;
+}
+
+/** A scan as the server has it: {header, x, y, label, ...}. */
+export async function scanOf(server, { radar, scan }) {
+  const sequence = await sequenceOf(server);
+  const buffer = await (await ask(server, `sequences/${sequence}/radars/${radar}/scans/${scan}`)).arrayBuffer();
+  const length = new DataView(buffer).getUint32(0, true);
+  const header = JSON.parse(new TextDecoder().decode(new Uint8Array(buffer, 4, length)));
+  const columns = header.columns.map(({ name, type, offset }) => [
+    name,
+    new ARRAYS[type](buffer, 4 + length + offset, header.rows),
+  ]);
+  return { header, ...Object.fromEntries(columns) };
+}
+
+export async function historyOf(server) {
+  return (await ask(server, `sequences/${await sequenceOf(server)}/history`)).json();
+}
+
+export async function queueOf(server) {
+  return (await ask(server, `sequences/${await sequenceOf(server)}/queue`)).json();
+}
+
+/** The scan on screen. */
+export async function current(page) {
+  const parts = decodeURIComponent(new URL(page.url()).hash.slice(1)).split("/");
+  return { radar: parts[1], scan: Number(parts[2]) };
+}
+
+/** Pixels of the window at which the bird's eye shows a place of the vehicle frame, m. */
+export async function pixel(page, x, y) {
+  const viewport = page.locator(".viewport");
+  const [box, target, metres] = await Promise.all([
+    viewport.boundingBox(),
+    viewport.getAttribute("data-target"),
+    viewport.getAttribute("data-metres-per-pixel"),
+  ]);
+  const [centreX, centreY] = target.split(" ").map(Number);
+  return [box.x + box.width / 2 - (y - centreY) / metres, box.y + box.height / 2 - (x - centreX) / metres];
+}
+
+/** Draws with the left button held along places of the window. */
+export async function drag(page, places) {
+  await page.mouse.move(...places[0]);
+  await page.mouse.down();
+  for (const place of places.slice(1)) await page.mouse.move(...place, { steps: 4 });
+  await page.mouse.up();
+}
+
+/** A lasso around everything on screen, leaving the frame's edge alone. */
+export async function lassoAll(page) {
+  const box = await page.locator(".viewport").boundingBox();
+  const at = (x, y) => [box.x + x * box.width, box.y + y * box.height];
+  await page.keyboard.press("l");
+  await drag(page, [at(0.05, 0.05), at(0.95, 0.05), at(0.95, 0.95), at(0.05, 0.95)]);
+}
+
+export function status(page) {
+  return page.locator(".saved");
+}
+
+export async function says(locator, text) {
+  await locator.filter({ hasText: text }).waitFor({ timeout: 15_000 });
+}
+
+/** How many detections the page says are selected. */
+export async function selected(page) {
+  const text = await page.locator(".work").textContent();
+  return Number(text.match(/^([\d,]+) detections? selected/)?.[1].replace(",", "") ?? 0);
+}

@@ -1,0 +1,149 @@
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { Conflict, Refused, ServerGone } from "../../src/api/errors.js";
+import type { StrokeAnswer } from "../../src/api/types.js";
+import { alreadyThere, Outbox, type OutboxStatus, type Pending } from "../../src/history/outbox.js";
+
+const HISTORY = { undo: null, redo: null, undo_depth: 0, redo_depth: 0 };
+
+function stroke(points: readonly number[], revision: number, label: number | null = 99): Pending {
+  const base = [{ radar: "front", scan: 3, revision }];
+  return {
+    sequence: "00",
+    stroke: { tool: "lasso", protect: true, label, base, points: [{ radar: "front", scan: 3, points }] },
+  };
+}
+
+/** A server that counts revisions and refuses a stroke on any but the newest. */
+class FakeServer {
+  revision = 0;
+  trouble: Error | null = null;
+  readonly written: number[][] = [];
+  readonly kept: Pending[][] = [];
+  readonly said: string[] = [];
+  last: OutboxStatus = { kind: "idle" };
+
+  readonly outbox = new Outbox({
+    send: (pending) => this.take(pending),
+    keep: (waiting) => this.kept.push([...waiting]),
+    saved: () => undefined,
+    status: (status) => {
+      this.last = status;
+      this.said.push(status.kind);
+    },
+  });
+
+  private async take({ stroke: { base, points, label } }: Pending): Promise<StrokeAnswer> {
+    await Promise.resolve();
+    if (this.trouble !== null) throw this.trouble;
+    const corrections = points[0].points.map((point) => [point, label ?? 0] as const);
+    if (base[0].revision !== this.revision) {
+      const scans = [{ radar: "front", scan: 3, revision: this.revision, corrections: [] }];
+      throw new Conflict({
+        error: "changed",
+        conflict: { author: "grace", at: "", tool: "box", radar: "front", scan: 3 },
+        scans,
+      });
+    }
+    this.revision += 1;
+    this.written.push([...points[0].points]);
+    return {
+      changed: points[0].points.length,
+      scans: [{ radar: "front", scan: 3, revision: this.revision, corrections }],
+      history: HISTORY,
+    };
+  }
+}
+
+test("strokes made at once are saved in order, each on the revision the one before it made", async () => {
+  const server = new FakeServer();
+  await Promise.all([server.outbox.add([stroke([1], 0)]), server.outbox.add([stroke([2], 0), stroke([3], 0)])]);
+  await new Promise((resolve) => setTimeout(resolve, 5));
+  assert.deepEqual(server.written, [[1], [2], [3]]);
+  assert.equal(server.last.kind, "idle");
+  assert.deepEqual(server.kept.at(-1), []);
+});
+
+test("nothing is called idle before the answer came", async () => {
+  const server = new FakeServer();
+  const saving = server.outbox.add([stroke([1], 0)]);
+  assert.equal(server.last.kind, "saving");
+  await saving;
+  assert.equal(server.last.kind, "idle");
+});
+
+test("while the server is gone strokes are kept, and saved in order on its return", async () => {
+  const server = new FakeServer();
+  server.trouble = new ServerGone();
+  await server.outbox.add([stroke([1], 0)]);
+  await server.outbox.add([stroke([2], 0)]);
+  assert.equal(server.last.kind, "gone");
+  assert.deepEqual(
+    server.kept.at(-1)?.map(({ stroke: { points } }) => points[0].points),
+    [[1], [2]],
+  );
+  server.trouble = null;
+  await server.outbox.retry();
+  assert.deepEqual(server.written, [[1], [2]]);
+});
+
+test("another's change before the retry is a conflict and never overwritten silently", async () => {
+  const server = new FakeServer();
+  server.trouble = new ServerGone();
+  await server.outbox.add([stroke([1], 0)]);
+  server.trouble = null;
+  server.revision = 5;
+  await server.outbox.retry();
+  assert.equal(server.last.kind, "conflict");
+  assert.deepEqual(server.written, []);
+  await server.outbox.applyAnyway(false);
+  assert.deepEqual(server.written, [[1]]);
+  assert.equal(server.last.kind, "idle");
+});
+
+test("a conflict may be dropped; the strokes behind it go on", async () => {
+  const server = new FakeServer();
+  server.revision = 2;
+  await server.outbox.add([stroke([1], 1), stroke([2], 2)]);
+  assert.equal(server.last.kind, "conflict");
+  await server.outbox.drop();
+  assert.deepEqual(server.written, [[2]]);
+});
+
+test("halves of one step are dropped together", async () => {
+  const server = new FakeServer();
+  server.revision = 2;
+  const half = (point: number): Pending => {
+    const whole = stroke([point], 1);
+    return { ...whole, stroke: { ...whole.stroke, group: "flip" } };
+  };
+  await server.outbox.add([half(1), half(2), stroke([3], 2)]);
+  await server.outbox.drop();
+  assert.deepEqual(server.written, [[3]]);
+});
+
+test("a refusal says why and keeps the stroke", async () => {
+  const server = new FakeServer();
+  server.trouble = new Refused(500, "disk full");
+  await server.outbox.add([stroke([1], 0)]);
+  assert.deepEqual(server.last, { kind: "refused", message: "disk full" });
+  assert.equal(server.kept.at(-1)?.length, 1);
+});
+
+test("a stroke whose answer was lost is known by its effect", () => {
+  const scans = [
+    {
+      radar: "front",
+      scan: 3,
+      revision: 1,
+      corrections: [
+        [1, 99],
+        [2, 99],
+      ] as const,
+    },
+  ];
+  assert.ok(alreadyThere(stroke([1, 2], 0), { error: "", conflict: null, scans }));
+  assert.ok(!alreadyThere(stroke([1, 3], 0), { error: "", conflict: null, scans }));
+  assert.ok(!alreadyThere(stroke([1], 0, 1), { error: "", conflict: null, scans }));
+  assert.ok(alreadyThere(stroke([5], 0, null), { error: "", conflict: null, scans }));
+});
