@@ -53,6 +53,29 @@ fn the_paper_has_its_share_of_plausible_detections_and_every_cause() {
     assert!((1000.0..1400.0).contains(&per_moment), "{per_moment}");
 }
 
+/// Cameras have their say there alone.
+#[test]
+fn many_plausible_detections_lie_in_the_lidars_blind_spot() {
+    let paper = presets::find("paper").unwrap();
+    let (mut plausible, mut hidden) = (0, 0);
+    for preset in paper.sequences {
+        let sequence = preset.simulate(0, 3).unwrap();
+        let rig = &sequence.sequence().rig;
+        let lidar = rig.lidars[0].vehicle_from_lidar.translation.vector;
+        for (radar, sensor) in rig.radars.iter().enumerate() {
+            let scan = sequence.radar_scan(radar, 2).unwrap();
+            for (found, truth) in scan.spherical.iter().zip(sequence.truth(radar, 2).unwrap()) {
+                let p = sensor.vehicle_from_radar * found.to_cartesian();
+                let reach = (lidar.z - p.z) / rig.lidars[0].lowest_beam.tan();
+                let is_hidden = p.z >= 0.0 && (p.x - lidar.x).hypot(p.y - lidar.y) <= reach;
+                plausible += usize::from(truth.cause == Cause::Plausible);
+                hidden += usize::from(truth.cause == Cause::Plausible && is_hidden);
+            }
+        }
+    }
+    assert!(hidden * 10 > plausible, "{hidden} of {plausible}");
+}
+
 #[test]
 fn nothing_lies_in_the_lidars_blind_spot() {
     let sequence = tiny(3);

@@ -50,7 +50,10 @@ mod tests {
             "seed=7",
             "ground.model=flat",
             "sensors.front.sigma_range_m=0.2",
+            "fusion.alpha=0.5",
             "fusion.threshold=0.315",
+            "camera.beta=0.2",
+            "tracking.beta=0.2",
             "lidar.enabled=true",
         ];
         let config = Config::from_toml("", &assignments).unwrap();
