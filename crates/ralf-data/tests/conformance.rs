@@ -41,7 +41,7 @@ fn the_recording_of_the_demonstration_as_ros_recordings() {
     let Some(folder) = demonstration() else { return };
     let out = tempfile::tempdir().unwrap();
     let recording = ralf_data::open(folder.path(), None).unwrap();
-    for (format, name) in [(RosFormat::Mcap, "drive.mcap"), (RosFormat::Bag, "drive.bag")] {
+    for (format, name) in [(RosFormat::Mcap, "one.mcap"), (RosFormat::Bag, "two.bag")] {
         let file = out.path().join(name);
         write_ros(recording.sequences[0].as_ref(), &file, format, &|_| ()).unwrap();
         let written = ralf_data::open(&file, None).unwrap();

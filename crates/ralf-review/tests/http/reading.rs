@@ -1,6 +1,7 @@
 //! What the page sees is what the files hold.
 
 use crate::support::{CAMERA, LIDAR, Out, RADAR, SEQUENCE, recording};
+use ralf::config::Config;
 use ralf::geometry::Point;
 use ralf_data::output::read_labelled_rows;
 use ralf_data::{Causes, ScanId, read_labels};
@@ -16,7 +17,7 @@ fn the_recording_is_listed() {
     let listed = out.serve().get("/api/recording").json();
     assert_eq!(
         (&listed["author"], &listed["threshold"], &listed["dataset"]),
-        (&json!("ada"), &json!(0.5), &json!("recording"))
+        (&json!("ada"), &json!(Config::default().fusion.threshold), &json!("recording"))
     );
     let sequence = &listed["sequences"][0];
     assert_eq!((&sequence["name"], &sequence["labelled"]), (&json!(SEQUENCE), &json!(true)));
@@ -197,12 +198,13 @@ fn the_queue_begins_with_the_most_needy() {
     assert!(scans.iter().all(|scan| (0.0..=1.0).contains(&need(scan))));
     assert!(scans.is_sorted_by(|a, b| need(a) >= need(b)) && need(&scans[0]) > need(&scans[11]));
     let all = read_labelled_rows(&out.parquet()).unwrap();
+    let threshold = Config::default().fusion.threshold;
     for scan in scans {
         let radar = all.radars.iter().position(|name| scan["radar"] == **name).unwrap();
         let number = scan["scan"].as_u64().unwrap() as usize;
         let rows: Vec<usize> =
             (0..all.w.len()).filter(|r| all.radar[*r] == radar && all.scan[*r] == number).collect();
-        let uncertain = rows.iter().filter(|row| (all.w[**row] - 0.5).abs() <= 0.1).count();
+        let uncertain = rows.iter().filter(|row| (f64::from(all.w[**row]) - threshold).abs() <= 0.1).count();
         assert_eq!((&scan["detections"], &scan["uncertain"]), (&json!(rows.len()), &json!(uncertain)));
     }
     assert_eq!(server.of_sequence("queue").json(), queue, "asked again");
