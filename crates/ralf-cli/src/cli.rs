@@ -4,9 +4,11 @@ use crate::commands::{
     ablate, convert, demo, depth, evaluate, export, inspect, label, plot, report, review, simulate, tune,
 };
 use crate::settings;
+use anyhow::Context;
 use clap::{Args, Parser, Subcommand};
 use ralf::config::Config;
-use std::path::PathBuf;
+use ralf_data::run::read_record;
+use std::path::{Path, PathBuf};
 
 /// Trustworthy labels for radar data: which detections are real, and which are artifacts?
 #[derive(Debug, Parser)]
@@ -90,6 +92,12 @@ impl DatasetArgs {
     /// Opens the recording, and says what its reader warns of.
     pub(crate) fn open(&self) -> anyhow::Result<ralf_data::Recording> {
         self.open_with(&mut Config::default())
+    }
+
+    /// The same with the topics that `ralf label` used.
+    pub(crate) fn open_labelled(&self, out: &Path) -> anyhow::Result<ralf_data::Recording> {
+        std::fs::metadata(&self.dataset).with_context(|| self.dataset.display().to_string())?;
+        self.open_with(&mut read_record(out)?.settings)
     }
 
     /// The same with the topics of the settings; those of `--topics` win, and are put into the settings.

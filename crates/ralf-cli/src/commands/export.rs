@@ -7,7 +7,6 @@ use crate::{Outcome, UsageError};
 use clap::builder::PossibleValuesParser;
 use clap::{Args, ValueEnum};
 use ralf_data::export::{Export, ExportFormat, ExportOptions, Exported, Sensors, Split};
-use ralf_data::run::read_record;
 use std::path::PathBuf;
 
 /// What `ralf export` takes.
@@ -66,8 +65,7 @@ enum Sensor {
 /// Exports the labels of a recording.
 pub(crate) fn run(arguments: &ExportArgs) -> anyhow::Result<Outcome> {
     let options = options(arguments)?;
-    // The topics that were labelled are those that are exported.
-    let recording = arguments.dataset.open_with(&mut read_record(&arguments.labels)?.settings)?;
+    let recording = arguments.dataset.open_labelled(&arguments.labels)?;
     let export = Export { recording: &recording, out: &arguments.labels, options };
     let bar = bar(export.scans() as u64, STEPS, format!("exporting {}", arguments.to));
     let exported = export.write(&arguments.output, &|scans| bar.set_position(scans as u64));

@@ -33,7 +33,7 @@ pub(crate) struct ReportArgs {
 
 /// Writes the page.
 pub(crate) fn run(arguments: &ReportArgs) -> anyhow::Result<Outcome> {
-    let recording = arguments.dataset.open()?;
+    let recording = arguments.dataset.open_labelled(&arguments.labels)?;
     let report = Report {
         recording: &recording,
         out: &arguments.labels,

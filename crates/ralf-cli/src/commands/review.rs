@@ -46,7 +46,7 @@ pub(crate) struct ReviewArgs {
 
 /// Serves the page until Ctrl-C.
 pub(crate) fn run(arguments: &ReviewArgs) -> anyhow::Result<Outcome> {
-    let recording = arguments.dataset.open()?;
+    let recording = arguments.dataset.open_labelled(&arguments.out)?;
     let options = Options { host: arguments.host.clone(), port: arguments.port, author: arguments.author() };
     let server = Server::bind(recording, &arguments.out, &options)?;
     print(server.url())?;

@@ -64,9 +64,7 @@ fn what_can_not_be_drawn_is_refused() {
     let radar = ["plot", path, out, "--scan", "0", "--radar", "radar_back", "-o", &picture];
     ralf(radar).exits(1).says(["radar_front, radar_left", "radar_back"]);
     let nothing = dataset.beside("nothing");
-    ralf(["plot", path, &nothing, "--scan", "0", "-o", &picture])
-        .exits(1)
-        .says([&nothing, "plausibility.parquet"]);
+    ralf(["plot", path, &nothing, "--scan", "0", "-o", &picture]).exits(1).says([&nothing, "run.json"]);
     assert!(!fs::exists(&picture).unwrap());
     let nowhere = dataset.beside("nowhere/picture.png");
     let parent_is_made = ralf(["plot", path, out, "--scan", "0", "-o", &nowhere]).exits(0);

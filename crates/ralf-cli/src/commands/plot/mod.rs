@@ -59,7 +59,7 @@ pub(crate) struct PlotArgs {
 
 /// Draws a picture.
 pub(crate) fn run(arguments: &PlotArgs) -> anyhow::Result<Outcome> {
-    let recording = arguments.dataset.open()?;
+    let recording = arguments.dataset.open_labelled(&arguments.labels)?;
     let recording = match camera::depth_store(arguments)? {
         Some(store) => store.attach(recording),
         None => recording,
