@@ -32,6 +32,7 @@ mod images;
 pub mod inspection;
 mod label_file;
 mod layout;
+mod measured_files;
 mod models;
 mod npy;
 mod nuscenes;

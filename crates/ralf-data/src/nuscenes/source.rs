@@ -5,24 +5,19 @@ use super::pcd::Pcd;
 use super::raw::{Modality, Token};
 use super::rig::{PCD_FIELDS, rig};
 use super::{can, join};
-use crate::files::{self, Folders};
-use crate::recording::measurement;
-use crate::{DataError, NuScenesKey, SequenceReader, images, radial::radial};
+use crate::files::Folders;
+use crate::measured_files::MeasuredFiles;
+use crate::{DataError, NuScenesKey, SequenceReader, radial::radial};
 use ralf::camera::{CameraImage, DepthImage, DepthOutput};
 use ralf::measurement::{LidarScan, RadarScan};
 use ralf::motion::EgoMotion;
 use ralf::source::{Sequence, Source, SourceError, Timelines};
 use std::path::{Path, PathBuf};
 
-/// The files of each sensor, in the order of its timeline.
-type FilesPerSensor = Vec<Vec<PathBuf>>;
-
 /// One scene.
 pub(super) struct Scene {
     sequence: Sequence,
-    radars: FilesPerSensor,
-    lidars: FilesPerSensor,
-    cameras: FilesPerSensor,
+    files: MeasuredFiles,
     /// The version folder's name.
     version: String,
     /// The rows of the radars' scans in `sample_data.json`.
@@ -57,10 +52,9 @@ impl Scene {
             motion,
             depth_output: DepthOutput::default(),
         };
-        let [radars, lidars, cameras] = [const { Vec::new() }; 3];
         let version = version.file_name().unwrap_or_default().to_string_lossy().into_owned();
-        let (radar_tokens, warnings) = (Vec::new(), Vec::new());
-        let mut scene = Self { sequence, radars, lidars, cameras, version, radar_tokens, tables, warnings };
+        let (files, radar_tokens, warnings) = (MeasuredFiles::default(), Vec::new(), Vec::new());
+        let mut scene = Self { sequence, files, version, radar_tokens, tables, warnings };
         for channel in record.channels {
             scene.add(dataset, channel, folders)?;
         }
@@ -89,9 +83,9 @@ impl Scene {
         }
         let timelines = &mut self.sequence.times;
         let (timeline, place) = match channel.calibration.modality {
-            Modality::Radar => (&mut timelines.radars, &mut self.radars),
-            Modality::Lidar => (&mut timelines.lidars, &mut self.lidars),
-            Modality::Camera => (&mut timelines.cameras, &mut self.cameras),
+            Modality::Radar => (&mut timelines.radars, &mut self.files.radars),
+            Modality::Lidar => (&mut timelines.lidars, &mut self.files.lidars),
+            Modality::Camera => (&mut timelines.cameras, &mut self.files.cameras),
         };
         timeline.push(times);
         place.push(files);
@@ -105,38 +99,27 @@ impl Source for Scene {
     }
 
     fn radar_scan(&self, radar: usize, scan: usize) -> Result<RadarScan, SourceError> {
-        let file = measurement("radar", &self.radars, radar, scan)?;
-        let columns = radar_columns(&Pcd::read(file)?)?;
-        let t_ns = self.sequence.times.radars[radar][scan];
-        let scan = RadarScan::new(&self.sequence.rig.radars[radar], t_ns, columns);
-        Ok(scan.map_err(|found| DataError::content(file, "columns", "those of the radar", found))?)
+        self.files.radar_scan(&self.sequence, [radar, scan], |file| radar_columns(&Pcd::read(file)?))
     }
 
     fn lidar_scan(&self, lidar: usize, scan: usize) -> Result<LidarScan, SourceError> {
         // The fifth column is the ring.
-        let mut columns = files::read_f32_columns(measurement("lidar", &self.lidars, lidar, scan)?, 5)?;
-        let intensity = columns.swap_remove(3);
-        let points =
-            (0..intensity.len()).map(|row| [columns[0][row], columns[1][row], columns[2][row]]).collect();
-        Ok(LidarScan { t_ns: self.sequence.times.lidars[lidar][scan], points, intensity, classes: None })
+        self.files.lidar_scan(&self.sequence, [lidar, scan], 5)
     }
 
     fn image(&self, camera: usize, image: usize) -> Result<CameraImage, SourceError> {
-        let file = measurement("camera", &self.cameras, camera, image)?;
-        let model = &self.sequence.rig.cameras[camera];
-        Ok(images::read_of_size(file, model.width, model.height)?)
+        self.files.image(&self.sequence, [camera, image])
     }
 
     fn depth(&self, camera: usize, image: usize) -> Result<Option<Vec<DepthImage>>, SourceError> {
-        measurement("camera", &self.cameras, camera, image)?;
+        self.files.image_file(camera, image)?;
         Ok(None)
     }
 }
 
 impl SequenceReader for Scene {
     fn inputs(&self) -> Vec<PathBuf> {
-        let measured = [&self.radars, &self.lidars, &self.cameras];
-        self.tables.iter().chain(measured.into_iter().flatten().flatten()).cloned().collect()
+        self.tables.iter().chain(self.files.all()).cloned().collect()
     }
 
     fn warnings(&self) -> &[String] {
@@ -144,7 +127,7 @@ impl SequenceReader for Scene {
     }
 
     fn image_file(&self, camera: usize, image: usize) -> Option<PathBuf> {
-        self.cameras.get(camera)?.get(image).cloned()
+        self.files.image_file(camera, image).ok().cloned()
     }
 
     fn nuscenes_key(&self, radar: usize, scan: usize) -> Option<NuScenesKey> {

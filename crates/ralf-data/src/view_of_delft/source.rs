@@ -3,8 +3,8 @@
 use super::calibration::{Mounting, camera, camera_from_sensor, odom_from_vehicle, vehicle_from_lidar};
 use super::raw::{Calib, Frame, frames};
 use crate::files::{self, Folders};
+use crate::measured_files::MeasuredFiles;
 use crate::models::{HDL_64E_S3, ZF_FRGEN21};
-use crate::recording::measurement;
 use crate::{DataError, SequenceReader, images};
 use ralf::camera::{CameraImage, DepthImage, DepthOutput};
 use ralf::measurement::{LidarScan, RadarScan};
@@ -25,9 +25,7 @@ const LARGEST_STEP: f64 = 5.0;
 /// The sequence `training`.
 pub(super) struct Training {
     sequence: Sequence,
-    radars: [Vec<PathBuf>; 1],
-    lidars: [Vec<PathBuf>; 1],
-    cameras: [Vec<PathBuf>; 1],
+    files: MeasuredFiles,
     /// Calibrations and poses.
     further: Vec<PathBuf>,
     warnings: Vec<String>,
@@ -71,8 +69,9 @@ impl Training {
             motion,
             depth_output: DepthOutput::default(),
         };
-        let [radars, lidars, cameras] = [[radar_files], [lidar_files], [camera_files]];
-        Ok(Self { sequence, radars, lidars, cameras, further, warnings })
+        let [radars, lidars, cameras] = [radar_files, lidar_files, camera_files].map(|files| vec![files]);
+        let files = MeasuredFiles { radars, lidars, cameras };
+        Ok(Self { sequence, files, further, warnings })
     }
 }
 
@@ -189,37 +188,27 @@ impl Source for Training {
     }
 
     fn radar_scan(&self, radar: usize, scan: usize) -> Result<RadarScan, SourceError> {
-        let file = measurement("radar", &self.radars, radar, scan)?;
-        let columns = files::read_f32_columns(file, RADAR_FIELDS.len())?;
-        let t_ns = self.sequence.times.radars[radar][scan];
-        let scan = RadarScan::new(&self.sequence.rig.radars[radar], t_ns, columns);
-        Ok(scan.map_err(|found| DataError::content(file, "columns", "those of the radar", found))?)
+        let read = |file: &Path| files::read_f32_columns(file, RADAR_FIELDS.len());
+        self.files.radar_scan(&self.sequence, [radar, scan], read)
     }
 
     fn lidar_scan(&self, lidar: usize, scan: usize) -> Result<LidarScan, SourceError> {
-        let mut columns = files::read_f32_columns(measurement("lidar", &self.lidars, lidar, scan)?, 4)?;
-        let intensity = columns.pop().unwrap_or_default();
-        let points =
-            (0..intensity.len()).map(|row| [columns[0][row], columns[1][row], columns[2][row]]).collect();
-        Ok(LidarScan { t_ns: self.sequence.times.lidars[lidar][scan], points, intensity, classes: None })
+        self.files.lidar_scan(&self.sequence, [lidar, scan], 4)
     }
 
     fn image(&self, camera: usize, image: usize) -> Result<CameraImage, SourceError> {
-        let file = measurement("camera", &self.cameras, camera, image)?;
-        let model = &self.sequence.rig.cameras[camera];
-        Ok(images::read_of_size(file, model.width, model.height)?)
+        self.files.image(&self.sequence, [camera, image])
     }
 
     fn depth(&self, camera: usize, image: usize) -> Result<Option<Vec<DepthImage>>, SourceError> {
-        measurement("camera", &self.cameras, camera, image)?;
+        self.files.image_file(camera, image)?;
         Ok(None)
     }
 }
 
 impl SequenceReader for Training {
     fn inputs(&self) -> Vec<PathBuf> {
-        let measured = [&self.radars, &self.lidars, &self.cameras].into_iter().flatten().flatten();
-        self.further.iter().chain(measured).cloned().collect()
+        self.further.iter().chain(self.files.all()).cloned().collect()
     }
 
     fn warnings(&self) -> &[String] {
@@ -227,6 +216,6 @@ impl SequenceReader for Training {
     }
 
     fn image_file(&self, camera: usize, image: usize) -> Option<PathBuf> {
-        self.cameras.get(camera)?.get(image).cloned()
+        self.files.image_file(camera, image).ok().cloned()
     }
 }
