@@ -32,6 +32,12 @@ impl SettingsArgs {
         let assignments: Vec<&str> = self.assignments.iter().map(String::as_str).collect();
         Config::from_toml(&text, &assignments).map_err(|error| UsageError(format!("--set: {error}")).into())
     }
+
+    /// As they were typed, each after a space.
+    pub(crate) fn told(&self) -> String {
+        let config = self.config.iter().map(|file| format!(" --config {}", file.display()));
+        config.chain(self.assignments.iter().map(|assignment| format!(" --set {assignment}"))).collect()
+    }
 }
 
 /// The settings of a file.

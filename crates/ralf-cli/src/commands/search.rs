@@ -129,13 +129,11 @@ impl SearchArgs {
 
     /// The options that change the result of a search.
     pub(super) fn told(&self) -> String {
-        let corrections = self.corrections.as_ref().map(|out| format!("--corrections {} ", out.display()));
         let (objective, trials, seed) = (&self.objective, self.trials, self.seed);
         let held: String = self.held.iter().map(|key| format!(" --hold {key}")).collect();
-        format!(
-            "{}--objective {objective} --trials {trials} --seed {seed}{held}",
-            corrections.unwrap_or_default()
-        )
+        let corrections = self.corrections.iter().map(|out| format!(" --corrections {}", out.display()));
+        let given = corrections.collect::<String>() + &self.settings.told();
+        format!("--objective {objective} --trials {trials} --seed {seed}{held}{given}")
     }
 }
 

@@ -172,3 +172,17 @@ fn a_truth_of_another_size_is_named() {
     let ran = ralf(["tune", &dataset.path, "-o", &file, "--train", "00", "--test", "01"]).exits(1);
     ran.says(["000002.label", "number of labels"]);
 }
+
+#[test]
+fn the_comment_repeats_the_settings_that_were_given() {
+    let dataset = two_sequences();
+    let file = dataset.beside("held.toml");
+    let arguments =
+        ["tune", &dataset.path, "-o", &file, "--train", "00", "--test", "01", "--trials", "2", "-q"];
+    let given = ["--hold", "lidar.beta", "--set", "lidar.beta=0.3", "--set", "seed=4"];
+    let tune = crate::support::program().args(arguments).args(given).output().unwrap();
+    assert!(tune.status.success());
+    let text = fs::read_to_string(&file).unwrap();
+    assert!(text.contains("--hold lidar.beta --set lidar.beta=0.3 --set seed=4"), "{text}");
+    assert!(text.contains("beta = 0.3\n"), "{text}");
+}
