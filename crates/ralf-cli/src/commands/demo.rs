@@ -39,6 +39,7 @@ pub(crate) fn run(arguments: &DemoArgs) -> anyhow::Result<Outcome> {
     step(&["report", &recording, &labels, "-o", &report])?;
     print(&format!(
         "\nOpen {report} in a browser. What to try next:\n  \
+         ralf review {recording} {labels}    correct labels in the browser\n  \
          ralf plot {recording} {labels} --scan 6 -o scan.png\n  \
          ralf label {recording} -o {labels} --set fusion.alpha=1.0    LiDAR and cameras alone\n  \
          ralf inspect YOUR_RECORDING"

@@ -37,7 +37,7 @@ export function neighbour(scans: readonly QueueScan[], current: ScanId, step: nu
 /** Why a scan needs a person, most telling first. */
 export function reasons({ uncertain, disagreeing, cameras_failed: failed }: QueueScan): readonly string[] {
   const said: string[] = [];
-  if (failed > 0) said.push(failed === 1 ? "1 camera failed" : `${failed} cameras failed`);
+  if (failed > 0) said.push(failed === 1 ? "camera failed" : `${failed} cameras failed`);
   if (uncertain > 0) said.push(`${uncertain} uncertain`);
   if (disagreeing > 0) said.push(`${disagreeing} disagree`);
   return said;
