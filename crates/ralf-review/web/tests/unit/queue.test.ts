@@ -70,10 +70,7 @@ test("neighbours are of the same radar", () => {
 });
 
 test("reasons name what speaks for a person", () => {
-  assert.deepEqual(reasons(entry("front", 0, { cameras_failed: 1, uncertain: 31 })), [
-    "camera failed",
-    "31 uncertain",
-  ]);
+  assert.deepEqual(reasons(entry("front", 0, { cameras_failed: 1, uncertain: 31 })), ["camera failed", "31 uncertain"]);
   assert.deepEqual(reasons(entry("front", 0, { cameras_failed: 2, disagreeing: 4 })), [
     "2 cameras failed",
     "4 disagree",
