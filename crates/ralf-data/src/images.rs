@@ -2,7 +2,7 @@
 
 use crate::{DataError, files};
 use image::{ColorType, ImageFormat, ImageReader};
-use ralf::camera::CameraImage;
+use ralf::sensors::CameraImage;
 use std::io::Cursor;
 use std::path::Path;
 

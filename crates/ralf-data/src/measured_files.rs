@@ -2,9 +2,7 @@
 
 use crate::recording::measurement;
 use crate::{DataError, files, images};
-use ralf::camera::CameraImage;
-use ralf::measurement::{LidarScan, RadarScan};
-use ralf::source::{Sequence, SourceError};
+use ralf::sensors::{CameraImage, LidarScan, RadarScan, Sequence, SourceError};
 use std::path::{Path, PathBuf};
 
 /// One list per sensor, in the rig's order; one file per measurement, in the order of time.

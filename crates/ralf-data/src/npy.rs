@@ -4,7 +4,7 @@
 //! that isn't the size of the file, before memory is asked for.
 
 use crate::{DataError, files};
-use ralf::camera::DepthImage;
+use ralf::sensors::DepthImage;
 use std::path::Path;
 
 const MAGIC: &[u8] = b"\x93NUMPY";

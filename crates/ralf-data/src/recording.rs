@@ -1,7 +1,7 @@
 //! A recording of any format, seen as its sequences.
 
 use crate::{DataError, Label};
-use ralf::source::{Source, SourceError};
+use ralf::sensors::{Source, SourceError};
 use ralf_ros::container::Container;
 use std::path::PathBuf;
 
@@ -65,7 +65,7 @@ pub struct RosSource<'a> {
 pub struct TruthLabels {
     /// As they stand in a `.label` file.
     pub labels: Vec<Label>,
-    /// Why each is an artifact: [`ralf::sim::Cause`] as a number, 0 of what is plausible. No file that labelling reads.
+    /// Why each is an artifact: [`ralf::label::Cause`] as a number, 0 of what is plausible. No file that labelling reads.
     pub causes: Vec<u8>,
 }
 

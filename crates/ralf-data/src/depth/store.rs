@@ -1,9 +1,9 @@
 //! Where depth images lie, in the tree of the project's own layout: `ROOT/sequences/NAME/CAMERA/depth/000000.npy`.
 
 use crate::{DataError, Recording, SequenceReader, files, npy};
-use ralf::camera::{CameraImage, DepthImage, DepthOutput};
-use ralf::measurement::{LidarScan, RadarScan};
-use ralf::source::{Sequence, Source, SourceError};
+use ralf::sensors::{
+    CameraImage, DepthImage, DepthOutput, LidarScan, RadarScan, Sequence, Source, SourceError,
+};
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 

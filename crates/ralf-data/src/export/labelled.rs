@@ -4,9 +4,9 @@ use super::{Export, ExportOptions, Exported};
 use crate::output::{Columns, PlausibilityReader, ScanTable, ScanTables};
 use crate::run::SequenceRecord;
 use crate::{Corrections, DataError, Label, ScanId, SequenceReader};
-use ralf::detections::Detections;
 use ralf::label::truth_of;
-use ralf::measurement::RadarScan;
+use ralf::scene::Detections;
+use ralf::sensors::RadarScan;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 

@@ -7,7 +7,7 @@ use super::Writer;
 use super::columns::{Column, Values, cloud_columns};
 use super::labelled::LabelledSequence;
 use crate::{DataError, files};
-use ralf::geometry::Transform;
+use ralf::space::Transform;
 use std::path::Path;
 
 /// Writes the clouds.

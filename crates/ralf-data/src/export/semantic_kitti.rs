@@ -9,9 +9,8 @@ use super::labelled::{LabelledScan, LabelledSequence};
 use super::{Split, Writer, npy_array};
 use crate::run::SequenceRecord;
 use crate::{DataError, SequenceReader, files, write_labels};
-use ralf::geometry::Transform;
-use ralf::measurement::RadarScan;
-use ralf::rig::Radar;
+use ralf::sensors::{Radar, RadarScan};
+use ralf::space::Transform;
 use std::fmt::Write;
 use std::path::Path;
 

@@ -1,7 +1,7 @@
 //! `sequence.toml` as the file has it: degrees, plain lists, no checks but the parser's.
 
 use crate::{DataError, files};
-use ralf::camera::DepthOutput;
+use ralf::sensors::DepthOutput;
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 

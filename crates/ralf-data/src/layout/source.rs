@@ -4,11 +4,11 @@ use super::listing::{Partner, SensorFiles};
 use super::raw::SequenceToml;
 use super::{GROUND_TRUTH, rig, tables};
 use crate::{DataError, SequenceReader, files, images, npy, read_labels};
-use ralf::camera::{Camera, CameraImage, DepthImage};
-use ralf::measurement::{LidarScan, RadarScan};
-use ralf::motion::EgoMotion;
-use ralf::rig::{Lidar, Radar, Rig};
-use ralf::source::{Sequence, Source, SourceError, Timelines};
+use ralf::sensors::{
+    Camera, CameraImage, DepthImage, Lidar, LidarScan, Radar, RadarScan, Rig, Sequence, Source, SourceError,
+    Timelines,
+};
+use ralf::space::EgoMotion;
 use std::path::{Path, PathBuf};
 
 /// A sequence's folder, opened: `sequence.toml`, times and motion are read, measurements are listed.

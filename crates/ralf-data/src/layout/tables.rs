@@ -2,8 +2,7 @@
 
 use super::rig::quaternion_xyzw;
 use crate::{DataError, files};
-use ralf::geometry::transform_from_parts;
-use ralf::motion::{OdometrySample, PoseSample};
+use ralf::space::{OdometrySample, PoseSample, transform_from_parts};
 use std::fmt::Write;
 use std::path::Path;
 

@@ -3,8 +3,8 @@
 use super::raw::{DepthToml, SequenceToml};
 use super::{GROUND_TRUTH, SEQUENCES, is_folder_name, rig, tables};
 use crate::{DataError, SequenceReader, files, images, npy, write_labels};
-use ralf::sim::Cause;
-use ralf::source::{Sequence, SourceError};
+use ralf::label::Cause;
+use ralf::sensors::{Sequence, SourceError};
 use std::cell::Cell;
 use std::fs;
 use std::path::{Path, PathBuf};

@@ -8,10 +8,10 @@ use super::{can, join};
 use crate::files::Folders;
 use crate::measured_files::MeasuredFiles;
 use crate::{DataError, NuScenesKey, SequenceReader, radial::radial};
-use ralf::camera::{CameraImage, DepthImage, DepthOutput};
-use ralf::measurement::{LidarScan, RadarScan};
-use ralf::motion::EgoMotion;
-use ralf::source::{Sequence, Source, SourceError, Timelines};
+use ralf::sensors::{
+    CameraImage, DepthImage, DepthOutput, LidarScan, RadarScan, Sequence, Source, SourceError, Timelines,
+};
+use ralf::space::EgoMotion;
 use std::path::{Path, PathBuf};
 
 /// One scene.

@@ -2,7 +2,7 @@
 
 use super::messages::Messages;
 use crate::{DataError, images};
-use ralf::camera::CameraImage;
+use ralf::sensors::CameraImage;
 use ralf_ros::container::MessageRef;
 use ralf_ros::message::{CompressedImage, Image, Message};
 

@@ -2,8 +2,8 @@
 
 use super::*;
 use crate::{SequenceReader, testing};
-use ralf::camera::Intrinsics;
-use ralf::geometry::{Point, Vector};
+use ralf::sensors::Intrinsics;
+use ralf::space::{Point, Vector};
 use std::fs;
 use std::path::PathBuf;
 use tempfile::TempDir;

@@ -1,8 +1,7 @@
 //! Images as `sensor_msgs/CompressedImage`, calibrations as `sensor_msgs/CameraInfo`.
 
 use crate::{SequenceReader, files, images};
-use ralf::camera::{Camera, Intrinsics};
-use ralf::source::SourceError;
+use ralf::sensors::{Camera, Intrinsics, SourceError};
 use ralf_ros::message::{CameraInfo, CompressedImage, Header};
 
 /// A camera's image as its file is, or as PNG where it has none.

@@ -8,8 +8,8 @@ use crate::export::columns::cloud_columns;
 use crate::export::labelled::LabelledSequence;
 use crate::export::options::Sensors;
 use crate::{DataError, SequenceReader};
-use ralf::motion::EgoMotion;
-use ralf::source::{Sequence, SourceError};
+use ralf::sensors::{Sequence, SourceError};
+use ralf::space::EgoMotion;
 use ralf_ros::message::{
     CameraInfo, CompressedImage, Message, Odometry, PointCloud2, TfMessage, TwistStamped,
 };

@@ -5,7 +5,7 @@ use crate::layout::degrees;
 use crate::models::GENERIC;
 use crate::{DataError, SequenceReader};
 use ralf::config::{SensorOverride, TopicConfig, TopicKind, Topics};
-use ralf::rig::{Elevation, Lidar, Radar};
+use ralf::sensors::{Elevation, Lidar, Radar};
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::path::Path;
