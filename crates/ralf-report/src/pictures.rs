@@ -8,7 +8,7 @@ use ralf::rig::Radar;
 use ralf::source::Sequence;
 use ralf::sync;
 use ralf_data::SequenceReader;
-use ralf_data::output::LabelledRows;
+use ralf_data::result::LabelledRows;
 use ralf_plot::{
     Extent, Mark, MarkLabel, OverviewPicture, RadarMount, ScanPicture, overview_picture, scan_picture,
 };

@@ -5,7 +5,7 @@ use ralf::config::Config;
 use ralf::label::truth_of;
 use ralf::labeler::flag;
 use ralf::rig::Rig;
-use ralf_data::output::LabelledRows;
+use ralf_data::result::LabelledRows;
 use ralf_data::{Causes, DataError, GroundTruth, ScanId};
 use std::ops::Range;
 use std::path::Path;

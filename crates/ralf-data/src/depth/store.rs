@@ -1,6 +1,8 @@
 //! Where depth images lie, in the tree of the project's own layout: `ROOT/sequences/NAME/CAMERA/depth/000000.npy`.
 
-use crate::{DataError, Recording, SequenceReader, files, npy};
+use crate::disk::{files, npy};
+use crate::error::DataError;
+use crate::read::{Recording, SequenceReader};
 use ralf::camera::{CameraImage, DepthImage, DepthOutput};
 use ralf::measurement::{LidarScan, RadarScan};
 use ralf::source::{Sequence, Source, SourceError};

@@ -2,7 +2,8 @@
 
 use super::json::read_json;
 use super::sequence_record::{CameraRecord, NotLabelled, RadarRecord, SequenceRecord};
-use crate::{DataError, Recording};
+use crate::error::DataError;
+use crate::read::Recording;
 use ralf::config::Config;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;

@@ -5,7 +5,7 @@ use crate::progress::say;
 use crate::text::{aligned, grouped};
 use crate::{Outcome, UsageError};
 use ralf::config::Config;
-use ralf_data::ros::{Guess, RosInspection, TopicInspection, inspect, is_ros, topics_toml};
+use ralf_data::read::ros::{Guess, RosInspection, TopicInspection, inspect, is_ros, topics_toml};
 use std::fs::File;
 use std::io::{ErrorKind, Write};
 use std::path::Path;
