@@ -6,8 +6,8 @@ use anyhow::bail;
 use ralf_data::{Corrections, GroundTruth};
 use std::path::Path;
 
-/// The dataset's truth with the corrections of an output folder above it, which is said. Where they were asked for there must
-/// be some.
+/// The dataset's truth with the corrections of an output folder above it, which is said. Where they were asked for
+/// there must be some.
 pub(crate) fn merged_truth(dataset: &Path, out: Option<&Path>, asked: bool) -> anyhow::Result<GroundTruth> {
     let corrections = out.map(Corrections::open).transpose()?.filter(|found| asked || !found.is_empty());
     let Some(corrections) = corrections else { return Ok(GroundTruth::open(dataset)?) };

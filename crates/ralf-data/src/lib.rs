@@ -41,4 +41,4 @@ pub use read::{
     LayoutSequence, NuScenesKey, Recording, RosSource, SequenceReader, TruthLabels, formats, open, open_with,
 };
 pub use truth::{Causes, Corrections, GroundTruth, ScanId};
-pub use write::write_sequence;
+pub use write::{write_sequence, write_simulated};

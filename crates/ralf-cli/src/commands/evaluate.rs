@@ -3,8 +3,8 @@
 mod balance;
 mod table;
 
-use crate::Outcome;
 use crate::corrections::merged_truth;
+use crate::outcome::Outcome;
 use crate::progress::say;
 use crate::text::print;
 use ralf_data::{Balances, Comparison};
@@ -13,8 +13,9 @@ use std::path::{Path, PathBuf};
 /// What `ralf evaluate` takes.
 #[derive(Debug, Clone, clap::Args)]
 #[command(after_help = "\
-Corrections of a review in OUT/corrections.sqlite count above the dataset's corrected labels; both or one of them may be there.
-Without --truth it tells how far apart the two classes are (mean plausibility of one minus that of the other), and how balanced.
+Corrections of a review in OUT/corrections.sqlite count above the dataset's corrected labels; both or one of them may \
+be there. Without --truth it tells how far apart the two classes are (mean plausibility of one minus that of the \
+other), and how balanced.
 
 Examples:
   ralf evaluate out --truth recordings/city

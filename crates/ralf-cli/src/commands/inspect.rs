@@ -2,11 +2,10 @@
 
 mod ros;
 
-use crate::cli::DatasetArgs;
+use crate::arguments::{DatasetArgs, SettingsArgs};
+use crate::outcome::{Outcome, UsageError};
 use crate::run_summary::run_summary;
-use crate::settings::SettingsArgs;
 use crate::text::{aligned, grouped, print};
-use crate::{Outcome, UsageError};
 use clap::Args;
 use ralf_data::read::inspection::{Inspection, SensorInspection};
 use ralf_data::run::{RunRecord, read_record};
@@ -40,14 +39,14 @@ pub(crate) fn run(arguments: &InspectArgs) -> anyhow::Result<Outcome> {
     if folder.join("run.json").is_file() {
         return inspect_run(folder, arguments.json);
     }
-    let mut config = arguments.settings.resolve()?;
+    let config = arguments.dataset.with_topics(arguments.settings.resolve()?)?;
     let topics = ros::Look::at(&arguments.dataset)?;
     if let Some(file) = &arguments.write_topics {
         return topics
             .ok_or_else(|| UsageError("--write-topics: expected a ROS recording".into()))?
             .write(file);
     }
-    let recording = arguments.dataset.open_with(&mut config);
+    let recording = arguments.dataset.open_with(&config.topics);
     let recording = match (recording, &topics) {
         (Ok(recording), _) => recording,
         // The topics are what tells why.

@@ -1,7 +1,7 @@
 //! `ralf review`: the page where people correct labels.
 
-use crate::Outcome;
-use crate::cli::DatasetArgs;
+use crate::arguments::DatasetArgs;
+use crate::outcome::Outcome;
 use crate::progress::say;
 use crate::text::print;
 use clap::Args;
@@ -16,14 +16,14 @@ const NAMES: [&str; 2] = ["USER", "USERNAME"];
 /// Arguments of `ralf review`.
 #[derive(Debug, Args)]
 #[command(after_help = "\
-Every edit is in OUT/corrections.sqlite before the page shows it as saved; machine labels stay as they are, and labelling again keeps
-the corrections. `ralf evaluate` and `ralf tune` read them. Only this machine can open the page, unless --host says otherwise: then
-the address holds a token that others need. Ctrl-C ends it.
+Every edit is in OUT/corrections.sqlite before the page shows it as saved; machine labels stay as they are, and \
+labelling again keeps the corrections. `ralf evaluate` and `ralf tune` read them. Only this machine can open the \
+page, unless --host says otherwise: then the address holds a token that others need, and the connection is not encrypted. Ctrl-C ends it.
 
 Examples:
   ralf review recordings/city out
   ralf review recordings/city out --sequence 00 --author ada --open
-  ralf review recordings/city out --host 0.0.0.0 --port 9000    for others in a network that you trust: it is not encrypted")]
+  ralf review recordings/city out --host 0.0.0.0 --port 9000    for others in a network that you trust")]
 pub(crate) struct ReviewArgs {
     #[command(flatten)]
     dataset: DatasetArgs,
