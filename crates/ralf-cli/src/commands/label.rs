@@ -64,6 +64,10 @@ pub(crate) fn run(arguments: &LabelArgs) -> anyhow::Result<Outcome> {
         let names = done.removed.join(", ");
         say(&format!("removed, for they were made by another version or with other settings: {names}"));
     }
+    for (sequence, file) in &done.damaged {
+        let file = file.display();
+        say(&format!("sequence {sequence} is labelled again: {file} is not as it was written"));
+    }
     if done.labelled.is_empty() {
         say("nothing to do: labelled before with the same program, settings and inputs");
     }

@@ -21,6 +21,7 @@ mod export;
 mod full_disk;
 #[cfg(unix)]
 mod inputs;
+mod names;
 mod other_commands;
 mod real_data;
 mod resume;
@@ -33,3 +34,5 @@ mod streams;
 mod support;
 mod tuning;
 mod whole_run;
+#[cfg(unix)]
+mod writers;

@@ -1,18 +1,13 @@
 //! Sizes and hashes of everything that a run reads, and what they make of its sequences.
 
-use super::record::Input;
 use super::{Observer, Stage, fingerprint};
 use crate::error::DataError;
 use crate::read::{Recording, SequenceReader};
+use crate::result::{Input, changed_ns, hash_file};
 use std::collections::{BTreeMap, BTreeSet};
-use std::fs::File;
-use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
-
-/// Bytes that are read at a time.
-const CHUNK: usize = 1 << 20;
 
 /// What makes a sequence's results what they are.
 pub(super) struct Identity {
@@ -73,19 +68,15 @@ fn hash_inputs(
 }
 
 fn hash(file: &Path, root: &Path, observer: &dyn Observer) -> Result<Input, DataError> {
-    let mut open = File::open(file).map_err(DataError::io(file))?;
-    let mut hasher = blake3::Hasher::new();
-    let mut buffer = vec![0; CHUNK];
-    let mut bytes = 0;
-    loop {
-        let read = open.read(&mut buffer).map_err(DataError::io(file))?;
-        if read == 0 {
-            break;
-        }
-        hasher.update(&buffer[..read]);
-        bytes += read as u64;
-        observer.advance(read as u64, 0);
-    }
+    // The time before the content: what is changed meanwhile counts as changed later.
+    let meta = std::fs::metadata(file).map_err(DataError::io(file))?;
+    let found = hash_file(file, &|bytes| observer.advance(bytes, 0))?;
     let name = file.strip_prefix(root).unwrap_or(file).to_string_lossy().into_owned();
-    Ok(Input { sequence: String::new(), file: name, bytes, blake3: hasher.finalize().to_hex().to_string() })
+    Ok(Input {
+        sequence: String::new(),
+        file: name,
+        bytes: found.bytes,
+        mtime_ns: changed_ns(&meta),
+        blake3: found.blake3,
+    })
 }

@@ -4,7 +4,7 @@ use super::{Export, ExportOptions, Exported};
 use crate::disk::label_file::Label;
 use crate::error::DataError;
 use crate::read::SequenceReader;
-use crate::result::{Columns, PlausibilityReader, ScanTable, ScanTables};
+use crate::result::{Columns, PlausibilityReader, ScanTable, ScanTables, SequenceNames};
 use crate::run::SequenceRecord;
 use crate::truth::{Corrections, ScanId};
 use ralf::detections::Detections;
@@ -19,6 +19,8 @@ pub(super) struct LabelledSequence<'a, 'p> {
     pub(super) reader: &'a dyn SequenceReader,
     /// What is asked for.
     pub(super) options: ExportOptions,
+    /// Of the folders and files that it goes to.
+    pub(super) names: SequenceNames,
     out: &'a Path,
     corrections: &'a Corrections,
     record: &'a SequenceRecord,
@@ -73,6 +75,7 @@ impl<'a, 'p> LabelledSequence<'a, 'p> {
         export: &Export<'a>,
         corrections: &'a Corrections,
         (reader, record): (&'a dyn SequenceReader, &'a SequenceRecord),
+        names: SequenceNames,
         tally: &'a mut Tally<'p>,
     ) -> Result<Self, DataError> {
         let (out, name) = (export.out, &reader.sequence().name);
@@ -85,7 +88,7 @@ impl<'a, 'p> LabelledSequence<'a, 'p> {
         let not_labelled: BTreeSet<_> =
             record.not_labelled.iter().map(|missing| (missing.radar.as_str(), missing.scan)).collect();
         let options = export.options;
-        Ok(Self { reader, options, out, corrections, record, tables, not_labelled, tally })
+        Ok(Self { reader, options, names, out, corrections, record, tables, not_labelled, tally })
     }
 
     /// The sequence's name.

@@ -27,6 +27,7 @@ pub use ros::{RosFormat, write_ros};
 
 use crate::error::DataError;
 use crate::read::Recording;
+use crate::result::{OutFolder, SequenceNames};
 use crate::run::read_record;
 use crate::truth::Corrections;
 use labelled::{LabelledSequence, Tally};
@@ -59,10 +60,10 @@ pub struct Exported {
 /// The writer of a format.
 trait Writer {
     /// Writes one sequence below the export's folder.
-    fn sequence(&mut self, folder: &Path, sequence: &mut LabelledSequence) -> Result<(), DataError>;
+    fn sequence(&mut self, folder: &OutFolder, sequence: &mut LabelledSequence) -> Result<(), DataError>;
 
     /// Writes what tells of all sequences.
-    fn finish(&mut self, _folder: &Path) -> Result<(), DataError> {
+    fn finish(&mut self, _folder: &OutFolder) -> Result<(), DataError> {
         Ok(())
     }
 }
@@ -101,12 +102,12 @@ impl Export<'_> {
                 found,
             ));
         }
-        let names = sequences.iter().map(|(_, record)| record.name.clone()).collect();
-        let place = Place::prepare(path, &self.options, names)?;
+        let names = SequenceNames::all(sequences.iter().map(|(reader, _)| *reader))?;
+        let place = Place::prepare(path, &self.options, names.iter().map(|names| &names.sequence))?;
         let mut writer = self.options.format.writer(&sequences);
         let mut tally = Tally { exported, progress };
-        for found in sequences {
-            let mut sequence = LabelledSequence::open(self, &corrections, found, &mut tally)?;
+        for (found, names) in sequences.into_iter().zip(names) {
+            let mut sequence = LabelledSequence::open(self, &corrections, found, names, &mut tally)?;
             writer.sequence(place.folder(), &mut sequence)?;
         }
         writer.finish(place.folder())?;

@@ -1,6 +1,8 @@
 //! What `run.json` tells of a sequence.
 
-use crate::result::ScanTable;
+use super::ScanTable;
+use super::content::hash_of_labels;
+use crate::disk::label_file::label_bytes;
 use ralf::camera::{ImageMoment, ViewReport, ViewState};
 use serde::{Deserialize, Serialize};
 
@@ -11,12 +13,24 @@ pub struct SequenceRecord {
     pub name: String,
     /// Of program, settings, name and inputs together: equal where the results are equal.
     pub fingerprint: String,
+    /// Of `plausibility.parquet`. An older record has none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub table: Option<FileRecord>,
     /// In the rig's order.
     pub radars: Vec<RadarRecord>,
     /// In the rig's order.
     pub cameras: Vec<CameraRecord>,
     /// Scans that could not be labelled.
     pub not_labelled: Vec<NotLabelled>,
+}
+
+/// A file as it was written.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct FileRecord {
+    /// Its size.
+    pub bytes: u64,
+    /// Of its content.
+    pub blake3: String,
 }
 
 /// The scans of one radar: one entry per scan in each list.
@@ -30,6 +44,9 @@ pub struct RadarRecord {
     pub plausible: Vec<u32>,
     /// Flags that any detection of the scan has.
     pub flags: Vec<u16>,
+    /// The first 16 digits of the BLAKE3 of each scan's `.label` file; empty for a scan that has none. An older record has no list.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub labels: Vec<String>,
 }
 
 /// The images of one camera that were asked about a radar scan and have depth.
@@ -69,7 +86,7 @@ pub struct NotLabelled {
 }
 
 impl ImageRecord {
-    pub(super) fn of(moment: &ImageMoment) -> Self {
+    pub(crate) fn of(moment: &ImageMoment) -> Self {
         let views = moment.views.iter().map(|view| view.report).collect();
         Self { image: moment.image, views, problem: moment.problem.clone() }
     }
@@ -77,7 +94,7 @@ impl ImageRecord {
 
 impl CameraRecord {
     /// The images of a camera, summed up.
-    pub(super) fn new(name: &str, images: Vec<ImageRecord>) -> Self {
+    pub(crate) fn new(name: &str, images: Vec<ImageRecord>) -> Self {
         let views = images.iter().flat_map(|image| &image.views);
         let failed = views.clone().filter(|view| view.state != ViewState::Calibrated).count();
         Self { name: name.to_owned(), views: views.count(), failed, images }
@@ -85,8 +102,21 @@ impl CameraRecord {
 }
 
 impl RadarRecord {
-    /// Adds the next scan.
-    pub(super) fn push(&mut self, table: &ScanTable) {
+    /// Whether these are the bytes that were written of a scan's labels. Of an older record this isn't known.
+    pub(crate) fn labels_match(&self, scan: usize, bytes: &[u8]) -> bool {
+        self.labels.get(scan).is_none_or(|written| written.is_empty() || *written == hash_of_labels(bytes))
+    }
+
+    /// Adds the next scan; one that could not be labelled has no table.
+    pub(crate) fn push(&mut self, table: Option<&ScanTable>) {
+        let Some(table) = table else {
+            self.detections.push(0);
+            self.plausible.push(0);
+            self.flags.push(0);
+            self.labels.push(String::new());
+            return;
+        };
+        self.labels.push(hash_of_labels(&label_bytes(&table.labels())));
         self.detections.push(table.len() as u32);
         self.plausible.push(table.label.iter().map(|label| u32::from(*label)).sum());
         self.flags.push(table.flags.iter().fold(0, |all, flags| all | flags));
