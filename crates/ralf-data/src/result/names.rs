@@ -2,7 +2,7 @@
 
 use crate::error::DataError;
 use crate::read::SequenceReader;
-use ralf::source::Sequence;
+use ralf::sensors::Sequence;
 use std::path::{Component as PathPart, Path, PathBuf};
 
 /// Bytes that a name may have: file systems take 255, and endings are added.

@@ -3,7 +3,7 @@
 use super::ScanTable;
 use super::content::hash_of_labels;
 use crate::disk::label_file::label_bytes;
-use ralf::camera::{ImageMoment, ViewReport, ViewState};
+use ralf::scene::{ImageMoment, ViewReport, ViewState};
 use serde::{Deserialize, Serialize};
 
 /// One sequence.

@@ -6,7 +6,7 @@ use crate::error::DataError;
 use crate::result::{
     CameraRecord, ImageRecord, NotLabelled, PlausibilityWriter, RadarRecord, SequenceRecord,
 };
-use ralf::camera::Camera;
+use ralf::sensors::Camera;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Images by camera and number; several scans may have asked about one.

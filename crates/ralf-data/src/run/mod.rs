@@ -25,7 +25,7 @@ use crate::result::{Columns, SequenceNames, WriterLock};
 use inputs::Identity;
 use output_folder::OutputFolder;
 use ralf::config::Config;
-use ralf::rig::Rig;
+use ralf::sensors::Rig;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 

@@ -9,7 +9,7 @@ use super::labelled::LabelledSequence;
 use crate::disk::files;
 use crate::error::DataError;
 use crate::result::{Component, OutFolder};
-use ralf::geometry::Transform;
+use ralf::space::Transform;
 
 /// Writes the clouds.
 pub(super) struct Pcd;

@@ -13,9 +13,8 @@ use crate::error::DataError;
 use crate::read::SequenceReader;
 use crate::result::{Component, OutFolder, checked};
 use crate::run::SequenceRecord;
-use ralf::geometry::Transform;
-use ralf::measurement::RadarScan;
-use ralf::rig::Radar;
+use ralf::sensors::{Radar, RadarScan};
+use ralf::space::Transform;
 use std::fmt::Write;
 
 /// Fields that are taken for the intensity of a return, the first that a radar has.
