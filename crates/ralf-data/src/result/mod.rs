@@ -3,6 +3,7 @@
 mod columns;
 mod content;
 pub(crate) mod json;
+mod labelled_run;
 mod lock;
 mod names;
 mod parquet_file;
@@ -15,6 +16,7 @@ mod sequence_record;
 mod table;
 
 pub use columns::Columns;
+pub use labelled_run::{Change, ChangedInput, LabelledRun, LabelledSequence};
 pub use names::Component;
 pub use parquet_file::PlausibilityWriter;
 pub use record::{Input, RunRecord, Timings, read_record};
@@ -24,9 +26,7 @@ pub use sequence_record::{CameraRecord, FileRecord, ImageRecord, NotLabelled, Ra
 pub use table::ScanTable;
 
 pub(crate) use columns::ANSWERS;
-pub(crate) use content::{
-    changed_ns, damaged_result, hash_file, hash_of_labels, input_is_unchanged, table_is_whole,
-};
+pub(crate) use content::{changed_ns, damaged_result, hash_file};
 pub(crate) use lock::WriterLock;
 pub(crate) use names::{OutFolder, SequenceNames, checked};
 pub(crate) use parquet_file::{field, write_column, written};

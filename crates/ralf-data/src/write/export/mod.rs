@@ -27,8 +27,7 @@ pub use ros::{RosFormat, write_ros};
 
 use crate::error::DataError;
 use crate::read::Recording;
-use crate::result::{OutFolder, SequenceNames};
-use crate::run::read_record;
+use crate::result::{LabelledRun, OutFolder, SequenceNames};
 use crate::truth::Corrections;
 use labelled::{LabelledSequence, Tally};
 use place::Place;
@@ -81,13 +80,13 @@ impl Export<'_> {
     /// Anything at `path` but an empty folder, or an earlier export in this format where replacing it is asked for; results
     /// that are not those of the recording, or of none of its sequences; what the system refuses. Nothing half-written stays.
     pub fn write(&self, path: &Path, progress: &dyn Fn(usize)) -> Result<Exported, DataError> {
-        let record = read_record(self.out)?;
+        let run = LabelledRun::open(self.out)?;
         let corrections = Corrections::open(self.out)?;
         let mut exported = Exported::default();
         let mut sequences = Vec::new();
         for reader in &self.recording.sequences {
             let name = &reader.sequence().name;
-            match record.sequence(name) {
+            match run.record().sequence(name) {
                 Some(found) => sequences.push((reader.as_ref(), found)),
                 None => exported.without_labels.push(name.clone()),
             }
@@ -107,7 +106,7 @@ impl Export<'_> {
         let mut writer = self.options.format.writer(&sequences);
         let mut tally = Tally { exported, progress };
         for (found, names) in sequences.into_iter().zip(names) {
-            let mut sequence = LabelledSequence::open(self, &corrections, found, names, &mut tally)?;
+            let mut sequence = LabelledSequence::open(self, &run, &corrections, found.0, names, &mut tally)?;
             writer.sequence(place.folder(), &mut sequence)?;
         }
         writer.finish(place.folder())?;
