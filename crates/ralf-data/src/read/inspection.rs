@@ -1,8 +1,8 @@
 //! What a recording holds, how regularly, and what is missing: from its times alone, without reading a measurement.
 
 use ralf::config::{Config, nanoseconds};
-use ralf::source::Sequence;
-use ralf::sync;
+use ralf::sensors::Sequence;
+use ralf::space::sync;
 use serde::Serialize;
 
 /// A time between two measurements that is this many times the usual one is a gap.

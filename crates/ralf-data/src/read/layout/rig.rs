@@ -5,9 +5,8 @@ use super::raw::{CameraToml, ElevationToml, LidarToml, RadarToml, SequenceToml};
 use super::{GROUND_TRUTH, is_folder_name};
 use crate::error::DataError;
 use nalgebra::UnitQuaternion;
-use ralf::geometry::{Transform, transform_from_parts};
-use ralf::measurement::check_fields;
-use ralf::rig::{Elevation, Lidar, Radar, Reliability, Rig};
+use ralf::sensors::{Elevation, Lidar, Radar, Reliability, Rig, check_fields};
+use ralf::space::{Transform, transform_from_parts};
 use std::path::Path;
 
 /// Columns of the output: a radar's further fields are kept beside them, and can't be called the same.
