@@ -82,8 +82,9 @@ impl SearchArgs {
         let (dataset, format) = (self.dataset.clone(), self.format.clone());
         let dataset = DatasetArgs { dataset, format, sequences, topics: None };
         let corrections = self.corrections.as_deref();
-        let truth = merged_truth(&self.dataset, corrections, corrections.is_some())?;
-        Ok((dataset.open_with(&mut base.clone())?, truth))
+        let recording = dataset.open_with(&mut base.clone())?;
+        let truth = merged_truth(&self.dataset, Some(&recording), corrections, corrections.is_some())?;
+        Ok((recording, truth))
     }
 
     /// Matches all scans of a recording that have truth.

@@ -23,6 +23,7 @@ mod full_disk;
 mod inputs;
 mod names;
 mod other_commands;
+mod other_data;
 mod real_data;
 mod resume;
 #[cfg(unix)]

@@ -2,6 +2,7 @@
 
 use crate::disk::label_file::Label;
 use crate::error::DataError;
+use crate::read::Recording;
 use crate::truth::ground_truth::ScanId;
 use ralf_corrections::{FILE, ScanContent, ScanKey, ScanLayer, read_layer};
 use std::collections::BTreeMap;
@@ -62,6 +63,14 @@ impl Corrections {
         }
         self.scans = bound;
         Ok(self)
+    }
+
+    /// Those of a recording's sequences alone.
+    pub(super) fn of_sequences(mut self, recording: &Recording) -> Self {
+        let names: Vec<&str> =
+            recording.sequences.iter().map(|reader| reader.sequence().name.as_str()).collect();
+        self.scans.retain(|scan, _| names.contains(&scan.sequence.as_str()));
+        self
     }
 
     /// The scans of which something was said while they held something else: it is kept in the file, and never applied.

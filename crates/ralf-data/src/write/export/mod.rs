@@ -54,6 +54,8 @@ pub struct Exported {
     pub without_labels: Vec<String>,
     /// Scans that `ralf label` could not label, as `sequence/radar/scan`: unlabeled, unless a person has labelled them.
     pub not_labelled: Vec<String>,
+    /// Scans, named like these, of which people said something while they held something else: it is not applied.
+    pub orphaned: Vec<String>,
 }
 
 /// The writer of a format.
@@ -81,8 +83,9 @@ impl Export<'_> {
     /// that are not those of the recording, or of none of its sequences; what the system refuses. Nothing half-written stays.
     pub fn write(&self, path: &Path, progress: &dyn Fn(usize)) -> Result<Exported, DataError> {
         let run = LabelledRun::open(self.out)?;
-        let corrections = Corrections::open(self.out)?;
-        let mut exported = Exported::default();
+        let corrections = Corrections::of_recording(self.out, self.recording)?;
+        let orphaned = corrections.orphaned().iter().map(ToString::to_string).collect();
+        let mut exported = Exported { orphaned, ..Exported::default() };
         let mut sequences = Vec::new();
         for reader in &self.recording.sequences {
             let name = &reader.sequence().name;
