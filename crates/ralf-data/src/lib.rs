@@ -42,6 +42,7 @@ mod radial;
 mod recording;
 pub mod ros;
 pub mod run;
+mod settings;
 mod simulated;
 #[cfg(test)]
 mod testing;
@@ -60,3 +61,4 @@ pub use label_file::{Label, read_labels, write_labels};
 pub use layout::{LayoutSequence, write_sequence};
 pub use open::{formats, open, open_with};
 pub use recording::{NuScenesKey, Recording, RosSource, SequenceReader, TruthLabels};
+pub use settings::Settings;

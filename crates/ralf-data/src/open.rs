@@ -1,7 +1,7 @@
 //! A folder or file becomes a recording: which format it is, by what it holds.
 
+use crate::ros::Topics;
 use crate::{DataError, Recording, layout, nuscenes, ros, view_of_delft};
-use ralf::config::Topics;
 use std::fs;
 use std::path::Path;
 

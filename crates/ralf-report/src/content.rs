@@ -74,11 +74,11 @@ impl Content {
             progress(&format!("sequence {}", sequence.name));
             let folder = report.out.join("sequences").join(&sequence.name);
             let rows = read_labelled_rows(&folder.join("plausibility.parquet"))?;
-            let rig = rig_of_run(dataset, &sequence.name, &sequence.rig, &record.settings)?;
+            let rig = rig_of_run(dataset, &sequence.name, &sequence.rig, &record.settings.method)?;
             let origin = Origin { dataset, sequence: &sequence.name, rig: &rig, truth: truth.as_ref() };
             detections.add(origin, &rows)?;
             answers(&rows).for_each(|(w, plausible)| overall.add(w, plausible));
-            let threshold = record.settings.fusion.threshold;
+            let threshold = record.settings.method.fusion.threshold;
             sequences.push(SequenceContent::draw(
                 reader.as_ref(),
                 &rows,

@@ -21,7 +21,7 @@ pub use record::{Input, RunRecord, Timings, read_record};
 pub use sequence_record::{CameraRecord, ImageRecord, NotLabelled, RadarRecord, SequenceRecord};
 
 use crate::output::Columns;
-use crate::{DataError, Recording, SequenceReader, layout};
+use crate::{DataError, Recording, SequenceReader, Settings, layout};
 use inputs::Identity;
 use output_folder::OutputFolder;
 use ralf::config::Config;
@@ -34,7 +34,7 @@ pub struct LabelRun<'a> {
     /// What is labelled.
     pub recording: &'a Recording,
     /// With these settings.
-    pub config: &'a Config,
+    pub settings: &'a Settings,
     /// Where the results go.
     pub out: &'a Path,
     /// Threads.
@@ -91,7 +91,7 @@ impl LabelRun<'_> {
         self.refuse_to_write_into_the_recording()?;
         let tasks = self.recording.sequences.iter().map(|reader| self.task(reader.as_ref()));
         let tasks = tasks.collect::<Result<Vec<_>, _>>()?;
-        let run = RunRecord::new(self.recording, self.config);
+        let run = RunRecord::new(self.recording, self.settings);
         let asked = inputs::identify(self.recording, &fingerprint::of_run(&run), self.jobs, observer)?;
         let folder = OutputFolder::open(self.out, run, &asked)?;
         let mut finished = Vec::new();
@@ -109,7 +109,7 @@ impl LabelRun<'_> {
     }
 
     fn task<'a>(&self, reader: &'a dyn SequenceReader) -> Result<Task<'a>, DataError> {
-        let rig = rig_of(self.recording, reader, self.config)?;
+        let rig = rig_of(self.recording, reader, &self.settings.method)?;
         let columns = Columns::of(&rig).map_err(|reason| unsuitable(self.recording, reader, reason))?;
         Ok(Task { reader, rig, columns })
     }
@@ -122,7 +122,8 @@ impl LabelRun<'_> {
         observer: &dyn Observer,
     ) -> Result<SequenceRecord, DataError> {
         let workspace = folder.workspace(identity);
-        let not_labelled = workers::label_scans(task, self.config, &workspace, self.jobs, observer)?;
+        let not_labelled =
+            workers::label_scans(task, &self.settings.method, &workspace, self.jobs, observer)?;
         assemble::assemble(task, &identity.fingerprint, &workspace, not_labelled, observer)
     }
 

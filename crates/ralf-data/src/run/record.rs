@@ -2,8 +2,7 @@
 
 use super::json::read_json;
 use super::sequence_record::{CameraRecord, NotLabelled, RadarRecord, SequenceRecord};
-use crate::{DataError, Recording};
-use ralf::config::Config;
+use crate::{DataError, Recording, Settings};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -20,7 +19,7 @@ pub struct RunRecord {
     /// Format of the recording.
     pub format: String,
     /// All settings, resolved.
-    pub settings: Config,
+    pub settings: Settings,
     /// Every file that was read, by sequence and name.
     pub inputs: Vec<Input>,
     /// In the order of their names.
@@ -62,11 +61,11 @@ pub fn read_record(out: &Path) -> Result<RunRecord, DataError> {
 
 impl RunRecord {
     /// The record of a folder that holds no sequence yet.
-    pub(super) fn new(recording: &Recording, config: &Config) -> Self {
+    pub(super) fn new(recording: &Recording, settings: &Settings) -> Self {
         Self {
             version: env!("CARGO_PKG_VERSION").to_owned(),
             format: recording.format.to_owned(),
-            settings: config.clone(),
+            settings: settings.clone(),
             inputs: Vec::new(),
             sequences: Vec::new(),
             timings: Timings::default(),

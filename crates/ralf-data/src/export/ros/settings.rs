@@ -3,8 +3,9 @@
 use super::names::{self, Names};
 use crate::layout::degrees;
 use crate::models::GENERIC;
+use crate::ros::{TopicConfig, TopicKind, Topics};
 use crate::{DataError, SequenceReader};
-use ralf::config::{SensorOverride, TopicConfig, TopicKind, Topics};
+use ralf::config::SensorOverride;
 use ralf::sensors::{Elevation, Lidar, Radar};
 use serde::Serialize;
 use std::collections::BTreeMap;
