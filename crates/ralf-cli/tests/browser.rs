@@ -4,7 +4,7 @@
 #![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout, reason = "these are tests")]
 
 use ralf::label::{ARTIFACT, PLAUSIBLE};
-use ralf_data::output::{Columns, PlausibilityReader, PlausibilityWriter, ScanTable, ScanTables};
+use ralf_data::result::{Columns, PlausibilityReader, PlausibilityWriter, ScanTable, ScanTables};
 use serde_json::{Value, json};
 use std::fs;
 use std::path::{Path, PathBuf};

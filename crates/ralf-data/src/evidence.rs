@@ -1,7 +1,9 @@
 //! The evidence of all scans with truth: what tuning works on (METHOD 10).
 
+use crate::error::DataError;
+use crate::read::{Recording, SequenceReader};
 use crate::run::{NotLabelled, Observer, Stage, rig_of};
-use crate::{DataError, GroundTruth, Recording, ScanId, SequenceReader};
+use crate::truth::{GroundTruth, ScanId};
 use ralf::config::Config;
 use ralf::label::truth_of;
 use ralf::scene::FrameWindow;

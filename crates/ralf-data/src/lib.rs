@@ -18,47 +18,29 @@
 //! # }
 //! ```
 
-mod balance;
-mod causes;
-mod corrections;
 pub mod depth;
+mod disk;
 mod error;
-mod evaluation;
 mod evidence;
-pub mod export;
-mod files;
-mod ground_truth;
-mod images;
-pub mod inspection;
-mod label_file;
-mod layout;
-mod measured_files;
-mod models;
-mod npy;
-mod nuscenes;
-mod open;
-pub mod output;
-mod radial;
-mod recording;
-pub mod ros;
+pub mod judge;
+pub mod read;
+pub mod result;
 pub mod run;
 mod settings;
-mod simulated;
 #[cfg(test)]
 mod testing;
-mod view_of_delft;
+pub mod truth;
+pub mod write;
 
-pub use balance::{Balance, Balances};
-pub use causes::Causes;
-pub use corrections::Corrections;
+pub use disk::files::write_whole;
+pub use disk::images::png;
+pub use disk::label_file::{Label, read_labels, write_labels};
 pub use error::DataError;
-pub use evaluation::Comparison;
 pub use evidence::{SequenceEvidence, gather_evidence};
-pub use files::write_whole;
-pub use ground_truth::{GroundTruth, ScanId};
-pub use images::png;
-pub use label_file::{Label, read_labels, write_labels};
-pub use layout::{LayoutSequence, write_sequence};
-pub use open::{formats, open, open_with};
-pub use recording::{NuScenesKey, Recording, RosSource, SequenceReader, TruthLabels};
+pub use judge::{Balance, Balances, Comparison};
+pub use read::{
+    LayoutSequence, NuScenesKey, Recording, RosSource, SequenceReader, TruthLabels, formats, open, open_with,
+};
 pub use settings::Settings;
+pub use truth::{Causes, Corrections, GroundTruth, ScanId};
+pub use write::write_sequence;

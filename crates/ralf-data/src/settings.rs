@@ -1,6 +1,6 @@
 //! A settings file: the method's settings, and which topic of a ROS recording is which sensor.
 
-use crate::ros::{Topics, check_topics};
+use crate::read::ros::{Topics, check_topics};
 use ralf::config::{Config, ConfigError, read_toml};
 use serde::{Deserialize, Serialize};
 

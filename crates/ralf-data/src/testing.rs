@@ -13,5 +13,5 @@ pub(crate) fn data(name: &str) -> Option<PathBuf> {
 
 /// Writes a file, with its folders.
 pub(crate) fn write(file: &Path, bytes: &[u8]) {
-    crate::files::write_whole(file, bytes).unwrap();
+    crate::disk::files::write_whole(file, bytes).unwrap();
 }

@@ -9,7 +9,7 @@
 mod dataset;
 
 use ralf::sensors::SourceError;
-use ralf_data::export::{RosFormat, write_ros};
+use ralf_data::write::export::{RosFormat, write_ros};
 use ralf_data::{Recording, SequenceReader};
 use std::collections::BTreeSet;
 use std::fmt::Debug;

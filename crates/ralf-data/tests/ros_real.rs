@@ -14,7 +14,7 @@ use ralf::sensors::{
     CameraImage, DepthImage, LidarScan, RadarScan, Sequence, Source, SourceError, Timelines,
 };
 use ralf::space::EgoMotion;
-use ralf_data::ros::Topics;
+use ralf_data::read::ros::Topics;
 use ralf_data::{Recording, SequenceReader, Settings};
 use std::path::{Path, PathBuf};
 

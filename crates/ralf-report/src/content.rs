@@ -3,7 +3,7 @@
 use crate::scored::{Detections, Origin, rig_of_run};
 use crate::{Pictures, Report, ReportError, pictures};
 use ralf::metrics::Separation;
-use ralf_data::output::{LabelledRows, read_labelled_rows};
+use ralf_data::result::{LabelledRows, read_labelled_rows};
 use ralf_data::run::{RunRecord, read_record};
 use ralf_data::{Balance, Comparison, Corrections, GroundTruth, SequenceReader};
 use ralf_plot::Extent;

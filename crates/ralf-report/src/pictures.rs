@@ -6,7 +6,7 @@ use ralf::sensors::{Radar, Sequence, is_return};
 use ralf::space::sync;
 use ralf::space::{Point, Transform, Vector};
 use ralf_data::SequenceReader;
-use ralf_data::output::LabelledRows;
+use ralf_data::result::LabelledRows;
 use ralf_plot::{
     Extent, Mark, MarkLabel, OverviewPicture, RadarMount, ScanPicture, overview_picture, scan_picture,
 };

@@ -4,7 +4,7 @@ use crate::ReportError;
 use ralf::config::Config;
 use ralf::label::{flag, truth_of};
 use ralf::sensors::Rig;
-use ralf_data::output::LabelledRows;
+use ralf_data::result::LabelledRows;
 use ralf_data::{Causes, DataError, GroundTruth, ScanId};
 use std::ops::Range;
 use std::path::Path;

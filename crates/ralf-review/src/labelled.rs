@@ -7,7 +7,7 @@ use ralf::config::{Config, nanoseconds};
 use ralf::scene::ViewState;
 use ralf::sensors::Rig;
 use ralf::space::sync;
-use ralf_data::output::{Columns, PlausibilityReader, ScanTable, ScanTables};
+use ralf_data::result::{Columns, PlausibilityReader, ScanTable, ScanTables};
 use ralf_data::run::{CameraRecord, ImageRecord, read_record};
 use ralf_data::{DataError, SequenceReader};
 use std::collections::{BTreeMap, BTreeSet};

@@ -11,7 +11,7 @@
 use crate::http::ApiError;
 use crate::labelled::SequenceLabels;
 use ralf::sensors::Sequence;
-use ralf_data::output::{Columns, ScanTable};
+use ralf_data::result::{Columns, ScanTable};
 
 /// A plausibility this close to the threshold is uncertain.
 pub const UNCERTAIN: f32 = 0.1;

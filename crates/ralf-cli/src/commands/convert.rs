@@ -6,7 +6,7 @@ use crate::progress::{STEPS, bar, say};
 use clap::Args;
 use ralf::sensors::Timelines;
 use ralf_data::Recording;
-use ralf_data::export::{RosFormat, write_ros};
+use ralf_data::write::export::{RosFormat, write_ros};
 use std::path::{Path, PathBuf};
 
 /// Arguments of `ralf convert`.

@@ -6,7 +6,7 @@ use crate::text::grouped;
 use crate::{Outcome, UsageError};
 use clap::builder::PossibleValuesParser;
 use clap::{Args, ValueEnum};
-use ralf_data::export::{Export, ExportFormat, ExportOptions, Exported, Sensors, Split};
+use ralf_data::write::export::{Export, ExportFormat, ExportOptions, Exported, Sensors, Split};
 use std::path::PathBuf;
 
 /// What `ralf export` takes.

@@ -8,7 +8,7 @@ use crate::settings::SettingsArgs;
 use crate::text::{aligned, grouped, print};
 use crate::{Outcome, UsageError};
 use clap::Args;
-use ralf_data::inspection::{Inspection, SensorInspection};
+use ralf_data::read::inspection::{Inspection, SensorInspection};
 use ralf_data::run::{RunRecord, read_record};
 use std::path::{Path, PathBuf};
 

@@ -1,6 +1,6 @@
 //! Which scaling of relative depth fits best? Measured on LiDAR points that had no part in it.
 
-use crate::SequenceReader;
+use crate::read::SequenceReader;
 use ralf::config::{Config, DepthScaling};
 use ralf::scene::{FrameWindow, median};
 use ralf::sensors::SourceError;

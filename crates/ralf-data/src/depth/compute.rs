@@ -1,7 +1,8 @@
 //! Running a depth network over the straight views of a sequence's images.
 
 use super::DepthStore;
-use crate::{DataError, SequenceReader};
+use crate::error::DataError;
+use crate::read::SequenceReader;
 use ralf::sensors::{Camera, CameraImage, DepthImage, StraightView, UndistortMap};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, OnceLock, PoisonError};

@@ -1,6 +1,8 @@
 //! Where depth images lie, in the tree of the project's own layout: `ROOT/sequences/NAME/CAMERA/depth/000000.npy`.
 
-use crate::{DataError, Recording, SequenceReader, files, npy};
+use crate::disk::{files, npy};
+use crate::error::DataError;
+use crate::read::{Recording, SequenceReader};
 use ralf::sensors::{
     CameraImage, DepthImage, DepthOutput, LidarScan, RadarScan, Sequence, Source, SourceError,
 };

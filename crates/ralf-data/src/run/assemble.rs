@@ -3,8 +3,8 @@
 use super::sequence_record::{CameraRecord, ImageRecord, NotLabelled, RadarRecord, SequenceRecord};
 use super::workspace::Workspace;
 use super::{Observer, Stage, Task};
-use crate::DataError;
-use crate::output::{PlausibilityWriter, ScanTable};
+use crate::error::DataError;
+use crate::result::{PlausibilityWriter, ScanTable};
 use ralf::sensors::Camera;
 use std::collections::{BTreeMap, BTreeSet};
 

@@ -2,7 +2,8 @@
 
 use super::record::Input;
 use super::{Observer, Stage, fingerprint};
-use crate::{DataError, Recording, SequenceReader};
+use crate::error::DataError;
+use crate::read::{Recording, SequenceReader};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs::File;
 use std::io::Read;

@@ -1,7 +1,7 @@
 //! Records as JSON.
 
-use crate::DataError;
-use crate::files::{read, write_whole};
+use crate::disk::files::{read, write_whole};
+use crate::error::DataError;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use std::path::Path;

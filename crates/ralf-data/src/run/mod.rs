@@ -20,8 +20,10 @@ mod workspace;
 pub use record::{Input, RunRecord, Timings, read_record};
 pub use sequence_record::{CameraRecord, ImageRecord, NotLabelled, RadarRecord, SequenceRecord};
 
-use crate::output::Columns;
-use crate::{DataError, Recording, SequenceReader, Settings, layout};
+use crate::error::DataError;
+use crate::read::{Recording, SequenceReader, layout};
+use crate::result::Columns;
+use crate::settings::Settings;
 use inputs::Identity;
 use output_folder::OutputFolder;
 use ralf::config::Config;

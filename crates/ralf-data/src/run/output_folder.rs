@@ -10,7 +10,8 @@ use super::results::Results;
 use super::sequence_record::SequenceRecord;
 use super::unfinished::{Finished, Unfinished};
 use super::workspace::Workspace;
-use crate::{DataError, files};
+use crate::disk::files;
+use crate::error::DataError;
 use std::path::{Path, PathBuf};
 
 /// The output folder of a run.

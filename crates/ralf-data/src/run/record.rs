@@ -2,7 +2,9 @@
 
 use super::json::read_json;
 use super::sequence_record::{CameraRecord, NotLabelled, RadarRecord, SequenceRecord};
-use crate::{DataError, Recording, Settings};
+use crate::error::DataError;
+use crate::read::Recording;
+use crate::settings::Settings;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
 use std::path::Path;

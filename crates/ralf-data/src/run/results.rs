@@ -1,8 +1,9 @@
 //! Where a run's results lie, and how they go once others take their places.
 
 use super::sequence_record::SequenceRecord;
-use crate::layout::is_folder_name;
-use crate::{DataError, files};
+use crate::disk::files;
+use crate::error::DataError;
+use crate::read::layout::is_folder_name;
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};

@@ -1,6 +1,6 @@
 //! What `run.json` tells of a sequence.
 
-use crate::output::ScanTable;
+use crate::result::ScanTable;
 use ralf::scene::{ImageMoment, ViewReport, ViewState};
 use serde::{Deserialize, Serialize};
 

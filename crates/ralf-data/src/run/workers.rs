@@ -3,8 +3,8 @@
 use super::sequence_record::{ImageRecord, NotLabelled};
 use super::workspace::{Images, Workspace};
 use super::{Observer, Stage, Task};
-use crate::DataError;
-use crate::output::ScanTable;
+use crate::error::DataError;
+use crate::result::ScanTable;
 use ralf::config::Config;
 use ralf::paper::Labeler;
 use ralf::scene::FrameWindow;

@@ -5,9 +5,9 @@
 use super::json::{read_json, write_json};
 use super::results::Results;
 use super::sequence_record::ImageRecord;
-use crate::DataError;
-use crate::label_file::write_labels;
-use crate::output::{Columns, ScanTable, read_rows, write_rows};
+use crate::disk::label_file::write_labels;
+use crate::error::DataError;
+use crate::result::{Columns, ScanTable, read_rows, write_rows};
 use std::fs;
 use std::path::PathBuf;
 

@@ -8,7 +8,7 @@ use ralf::config::nanoseconds;
 use ralf::sensors::Sequence;
 use ralf::space::sync;
 use ralf_corrections::ScanState;
-use ralf_data::output::ScanTable;
+use ralf_data::result::ScanTable;
 use serde_json::{Map, Value, json};
 
 /// Without a scan within the method's tolerance one this near in time is shown, ns.

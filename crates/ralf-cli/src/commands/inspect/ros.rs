@@ -4,7 +4,7 @@ use crate::cli::DatasetArgs;
 use crate::progress::say;
 use crate::text::{aligned, grouped};
 use crate::{Outcome, UsageError};
-use ralf_data::ros::{Guess, RosInspection, TopicInspection, Topics, inspect, is_ros, topics_toml};
+use ralf_data::read::ros::{Guess, RosInspection, TopicInspection, Topics, inspect, is_ros, topics_toml};
 use std::fs::File;
 use std::io::{ErrorKind, Write};
 use std::path::Path;

@@ -6,7 +6,7 @@ use crate::Outcome;
 use crate::cli::{DatasetArgs, the_only};
 use crate::progress::say;
 use clap::Args;
-use ralf_data::output::read_labelled_rows;
+use ralf_data::result::read_labelled_rows;
 use ralf_plot::Extent;
 use ralf_report::{Detections, Pictures};
 use std::path::PathBuf;

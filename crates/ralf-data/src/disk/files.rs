@@ -1,0 +1,159 @@
+//! Bytes on disk: reading whole files, rows of float32, and writing so that a file appears whole or not at all.
+
+use crate::error::DataError;
+use std::collections::HashMap;
+use std::fs;
+use std::io::{ErrorKind, Write};
+use std::path::{Path, PathBuf};
+
+/// The whole file.
+pub(crate) fn read(file: &Path) -> Result<Vec<u8>, DataError> {
+    fs::read(file).map_err(DataError::io(file))
+}
+
+/// The whole file as UTF-8 text.
+pub(crate) fn read_text(file: &Path) -> Result<String, DataError> {
+    String::from_utf8(read(file)?).map_err(|error| {
+        DataError::content(
+            file,
+            format!("byte {}", error.utf8_error().valid_up_to()),
+            "UTF-8 text",
+            "other bytes",
+        )
+    })
+}
+
+/// A file of packed little-endian float32 rows, as one vector per column; there is at least one.
+pub(crate) fn read_f32_columns(file: &Path, columns: usize) -> Result<Vec<Vec<f32>>, DataError> {
+    let bytes = read(file)?;
+    check_rows(file, bytes.len(), columns)?;
+    let values = bytes.as_chunks::<4>().0;
+    let column = |first| values.iter().skip(first).step_by(columns).map(|b| f32::from_le_bytes(*b)).collect();
+    Ok((0..columns).map(column).collect())
+}
+
+/// A file of packed little-endian float32 rows of `N`.
+pub(crate) fn read_f32_rows<const N: usize>(file: &Path) -> Result<Vec<[f32; N]>, DataError> {
+    let bytes = read(file)?;
+    check_rows(file, bytes.len(), N)?;
+    let rows = bytes.as_chunks::<4>().0.as_chunks::<N>().0;
+    Ok(rows.iter().map(|row| row.map(f32::from_le_bytes)).collect())
+}
+
+/// The bytes of packed little-endian float32.
+pub(crate) fn f32_bytes(values: impl Iterator<Item = f32>) -> Vec<u8> {
+    values.flat_map(f32::to_le_bytes).collect()
+}
+
+fn check_rows(file: &Path, size: usize, columns: usize) -> Result<(), DataError> {
+    let row_bytes = columns * size_of::<f32>();
+    let left_over = size % row_bytes;
+    if left_over == 0 {
+        return Ok(());
+    }
+    Err(DataError::content(
+        file,
+        format!("byte {}", size - left_over),
+        format!("rows of {columns} float32 ({row_bytes} bytes)"),
+        format!("{left_over} bytes left over at the end"),
+    ))
+}
+
+/// The names of all that lies in a folder, sorted, hidden ones left out; empty where there is no such folder.
+pub(crate) fn names(folder: &Path) -> Result<Vec<String>, DataError> {
+    let entries = match fs::read_dir(folder) {
+        Err(error) if error.kind() == ErrorKind::NotFound => return Ok(Vec::new()),
+        entries => entries.map_err(DataError::io(folder))?,
+    };
+    let mut names = Vec::new();
+    for entry in entries {
+        let name = entry.map_err(DataError::io(folder))?.file_name().into_string().map_err(|name| {
+            DataError::content(folder, "file names", "UTF-8 text", format!("`{}`", name.display()))
+        })?;
+        names.push(name);
+    }
+    names.retain(|name| !name.starts_with('.'));
+    names.sort_unstable();
+    Ok(names)
+}
+
+/// The names of the folders in a folder, sorted, hidden ones left out; empty where there is no such folder.
+pub(crate) fn folders(folder: &Path) -> Result<Vec<String>, DataError> {
+    let mut names = names(folder)?;
+    names.retain(|name| folder.join(name).is_dir());
+    Ok(names)
+}
+
+/// Which files are on disk, with one look into each folder rather than at each of millions of files.
+#[derive(Debug, Default)]
+pub(crate) struct Folders {
+    /// Sorted names per folder.
+    known: HashMap<PathBuf, Vec<String>>,
+}
+
+impl Folders {
+    /// Whether the file is there. A folder that is missing holds nothing.
+    pub(crate) fn hold(&mut self, file: &Path) -> Result<bool, DataError> {
+        let (Some(folder), Some(name)) = (file.parent(), file.file_name()) else { return Ok(false) };
+        let name = name.to_string_lossy();
+        if !self.known.contains_key(folder) {
+            self.known.insert(folder.to_owned(), names(folder)?);
+        }
+        Ok(self
+            .known
+            .get(folder)
+            .is_some_and(|names| names.binary_search_by(|found| found.as_str().cmp(&name)).is_ok()))
+    }
+}
+
+/// Writes a file whole or not at all: beside its place first, then renamed. Folders are made as needed.
+pub fn write_whole(file: &Path, bytes: &[u8]) -> Result<(), DataError> {
+    if let Some(folder) = file.parent() {
+        fs::create_dir_all(folder).map_err(DataError::io(folder))?;
+    }
+    let beside = beside(file);
+    let written = fs::File::create(&beside).and_then(|mut open| open.write_all(bytes));
+    if let Err(error) = written.and_then(|()| fs::rename(&beside, file)) {
+        // The half-written file is of no use to anyone; the error that matters is the first one.
+        let _ = fs::remove_file(&beside);
+        return Err(DataError::Io { file: file.to_owned(), error });
+    }
+    Ok(())
+}
+
+/// Where a file is written before it is renamed.
+pub(crate) fn beside(file: &Path) -> PathBuf {
+    let mut name = file.file_name().unwrap_or_default().to_owned();
+    name.push(".part");
+    file.with_file_name(name)
+}
+
+/// Removes a file, if it is there, and what a kill while it was written left beside it.
+pub(crate) fn remove(file: &Path) -> Result<(), DataError> {
+    for file in [beside(file), file.to_owned()] {
+        match fs::remove_file(&file) {
+            Err(error) if error.kind() != ErrorKind::NotFound => return Err(DataError::Io { file, error }),
+            _ => {}
+        }
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rows_become_columns_and_a_cut_row_is_named() {
+        let folder = tempfile::tempdir().unwrap();
+        let file = folder.path().join("a/000000.bin");
+        let bytes: Vec<u8> = [1.0f32, 2.0, 3.0, 4.0].iter().flat_map(|v| v.to_le_bytes()).collect();
+        write_whole(&file, &bytes).unwrap();
+        assert_eq!(read_f32_columns(&file, 2).unwrap(), [[1.0, 3.0], [2.0, 4.0]]);
+        assert_eq!(read_f32_rows::<2>(&file).unwrap(), [[1.0, 2.0], [3.0, 4.0]]);
+        write_whole(&file, &bytes[..15]).unwrap();
+        let error = read_f32_columns(&file, 2).unwrap_err().to_string();
+        assert!(error.contains("000000.bin: byte 8: expected rows of 2 float32"), "{error}");
+        assert!(!beside(&file).exists());
+    }
+}

@@ -1,0 +1,110 @@
+//! Camera images: JPEG and PNG files to pixels, and pixels to PNG.
+
+use crate::disk::files;
+use crate::error::DataError;
+use image::{ColorType, ImageFormat, ImageReader};
+use ralf::sensors::CameraImage;
+use std::io::Cursor;
+use std::path::Path;
+
+/// Of the files that can be read.
+pub(crate) const EXTENSIONS: [&str; 3] = ["jpg", "jpeg", "png"];
+
+/// An image file as 8-bit colour.
+pub(crate) fn read(file: &Path) -> Result<CameraImage, DataError> {
+    decode(&files::read(file)?).map_err(|found| unreadable(file, found))
+}
+
+/// The same, refused unless it has the camera's size in pixels.
+pub(crate) fn read_of_size(file: &Path, width: usize, height: usize) -> Result<CameraImage, DataError> {
+    let image = read(file)?;
+    if (image.width, image.height) == (width, height) {
+        return Ok(image);
+    }
+    let expected = format!("{width} x {height} px, as the camera has");
+    let found = format!("{} x {} px", image.width, image.height);
+    Err(DataError::content(file, "image size", expected, found))
+}
+
+/// Width and height in pixels, without decoding.
+pub(crate) fn size(file: &Path) -> Result<[usize; 2], DataError> {
+    let reader =
+        ImageReader::open(file).and_then(ImageReader::with_guessed_format).map_err(DataError::io(file))?;
+    let (width, height) = reader.into_dimensions().map_err(|error| unreadable(file, error.to_string()))?;
+    Ok([width as usize, height as usize])
+}
+
+fn unreadable(file: &Path, found: String) -> DataError {
+    DataError::content(file, "content", "a whole JPEG or PNG image", found)
+}
+
+/// Pixels from the bytes of a JPEG or PNG; the error says what is wrong with them.
+pub(crate) fn decode(bytes: &[u8]) -> Result<CameraImage, String> {
+    let reader = ImageReader::new(Cursor::new(bytes)).with_guessed_format().map_err(|e| e.to_string())?;
+    if reader.format() == Some(ImageFormat::Jpeg) && !is_whole_jpeg(bytes) {
+        return Err("a JPEG without its end".to_owned());
+    }
+    let image = reader.decode().map_err(|error| error.to_string())?.into_rgb8();
+    let (width, height) = (image.width() as usize, image.height() as usize);
+    Ok(CameraImage { width, height, rgb: image.into_raw().as_chunks::<3>().0.to_vec() })
+}
+
+/// The bytes of a PNG file: what any reader turns back into the same pixels. The error says what is wrong with the image.
+pub fn png(image: &CameraImage) -> Result<Vec<u8>, String> {
+    let mut bytes = Cursor::new(Vec::new());
+    let size = |pixels: usize| u32::try_from(pixels).map_err(|error| error.to_string());
+    let (width, height) = (size(image.width)?, size(image.height)?);
+    if image.rgb.len() != image.width * image.height {
+        return Err(format!("{} pixels in an image of {width} x {height}", image.rgb.len()));
+    }
+    let pixels = image.rgb.as_flattened();
+    image::write_buffer_with_format(&mut bytes, pixels, width, height, ColorType::Rgb8, ImageFormat::Png)
+        .map_err(|error| error.to_string())?;
+    Ok(bytes.into_inner())
+}
+
+/// Whether an end-of-image marker follows the last start of a scan. Decoders fill what a cut file lacks with grey, and
+/// the thumbnail in a file's header has an end of its own.
+fn is_whole_jpeg(bytes: &[u8]) -> bool {
+    let last = |marker: [u8; 2]| bytes.windows(2).rposition(|pair| pair == marker);
+    last([0xFF, 0xDA]).is_some_and(|scan| last([0xFF, 0xD9]).is_some_and(|end| end > scan))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn image() -> CameraImage {
+        let rgb = (0..64u8 * 2).map(|i| [i, 255 - i, i / 2]).collect();
+        CameraImage { width: 16, height: 8, rgb }
+    }
+
+    fn jpeg() -> Vec<u8> {
+        let mut bytes = Cursor::new(Vec::new());
+        let pixels: Vec<u8> = image().rgb.concat();
+        image::write_buffer_with_format(&mut bytes, &pixels, 16, 8, ColorType::Rgb8, ImageFormat::Jpeg)
+            .unwrap();
+        bytes.into_inner()
+    }
+
+    #[test]
+    fn png_keeps_every_pixel() {
+        assert_eq!(decode(&png(&image()).unwrap()).unwrap(), image());
+        assert!(png(&CameraImage { width: 3, ..image() }).is_err());
+    }
+
+    #[test]
+    fn cut_files_and_other_bytes_are_refused() {
+        let whole = jpeg();
+        assert_eq!(decode(&whole).unwrap().rgb.len(), 128);
+        for length in 0..whole.len() {
+            assert!(decode(&whole[..length]).is_err(), "JPEG cut to {length} of {} bytes", whole.len());
+        }
+        let whole = png(&image()).unwrap();
+        // The last 12 bytes are the end marker, which decoders don't wait for.
+        for length in 0..whole.len() - 12 {
+            assert!(decode(&whole[..length]).is_err(), "PNG cut to {length} of {} bytes", whole.len());
+        }
+        assert!(decode(b"GIF89a").is_err());
+    }
+}

@@ -1,0 +1,57 @@
+//! The project's own layout: `sequences/NN/` as SemanticKITTI has it, with what radar needs.
+//!
+//! Bytes and text as specified lie in [`raw`] and [`tables`]; [`rig`] turns them into sensors and back; [`source`] reads
+//! measurements on demand.
+
+mod camera;
+mod listing;
+pub(crate) mod raw;
+pub(crate) mod rig;
+mod source;
+pub(crate) mod tables;
+
+pub(crate) use rig::degrees;
+pub use source::LayoutSequence;
+
+use crate::error::DataError;
+use crate::read::{Recording, SequenceReader};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// The format's name.
+pub(crate) const NAME: &str = "ralf";
+/// The folder of a dataset that holds its sequences.
+pub(crate) const SEQUENCES: &str = "sequences";
+/// The folder of a sequence that holds corrected labels.
+pub(crate) const GROUND_TRUTH: &str = "ground_truth";
+
+/// Opens a dataset of the own layout: all sequences, with every check that needs no measurement.
+pub(crate) fn open(dataset: &Path) -> Result<Recording, DataError> {
+    let folder = dataset.join(SEQUENCES);
+    let open = |folder: &PathBuf| Ok(Box::new(LayoutSequence::open(folder)?) as Box<dyn SequenceReader>);
+    let sequences = folders(&folder)?.iter().map(open).collect::<Result<Vec<_>, DataError>>()?;
+    if sequences.is_empty() {
+        return Err(DataError::content(&folder, "folder", "a folder per sequence", "none"));
+    }
+    Ok(Recording { path: dataset.to_owned(), format: NAME, sequences })
+}
+
+/// The folders in a folder by name, hidden ones left out: a conversion under way is one.
+fn folders(parent: &Path) -> Result<Vec<PathBuf>, DataError> {
+    let mut found = Vec::new();
+    for entry in fs::read_dir(parent).map_err(DataError::io(parent))? {
+        let entry = entry.map_err(DataError::io(parent))?;
+        let hidden = entry.file_name().as_encoded_bytes().starts_with(b".");
+        if !hidden && entry.path().is_dir() {
+            found.push(entry.path());
+        }
+    }
+    found.sort();
+    Ok(found)
+}
+
+/// Whether a name can be a folder's on every system, and leads nowhere else.
+pub(crate) fn is_folder_name(name: &str) -> bool {
+    let usual = |c: char| !c.is_control() && !"/\\:*?\"<>|".contains(c);
+    !name.is_empty() && !name.starts_with('.') && name.chars().all(usual)
+}

@@ -1,0 +1,183 @@
+//! A sequence of the own layout, read on demand.
+
+use super::listing::{Partner, SensorFiles};
+use super::raw::SequenceToml;
+use super::{GROUND_TRUTH, rig, tables};
+use crate::disk::label_file::read_labels;
+use crate::disk::{files, images, npy};
+use crate::error::DataError;
+use crate::read::SequenceReader;
+use ralf::sensors::{
+    Camera, CameraImage, DepthImage, Lidar, LidarScan, Radar, RadarScan, Rig, Sequence, Source, SourceError,
+    Timelines,
+};
+use ralf::space::EgoMotion;
+use std::path::{Path, PathBuf};
+
+/// A sequence's folder, opened: `sequence.toml`, times and motion are read, measurements are listed.
+#[derive(Debug)]
+pub struct LayoutSequence {
+    sequence: Sequence,
+    radars: Vec<SensorFiles>,
+    lidars: Vec<SensorFiles>,
+    cameras: Vec<SensorFiles>,
+    /// `sequence.toml`, and what is there of `odometry.csv` and `poses.csv`.
+    metadata: Vec<PathBuf>,
+    warnings: Vec<String>,
+}
+
+impl LayoutSequence {
+    /// Opens `DATASET/sequences/NN`. All that needs no measurement is checked: the sensors' settings, that times don't go
+    /// back and that there is one for each file, the motion.
+    pub fn open(folder: &Path) -> Result<Self, DataError> {
+        let name = folder.file_name().and_then(|name| name.to_str());
+        let name = name.ok_or_else(|| DataError::content(folder, "name", "UTF-8 text", "other bytes"))?;
+        let toml_file = folder.join("sequence.toml");
+        let (toml, mut warnings) = SequenceToml::read(&toml_file)?;
+        let rig = rig::rig(&toml_file, &toml)?;
+        warnings.extend(odd_lenses(&toml_file, &rig));
+        let [radars, lidars, cameras] = list(folder, &rig, &mut warnings)?;
+        let (motion, motion_files) = motion(folder)?;
+        let times = |sensors: &[SensorFiles]| sensors.iter().map(|sensor| sensor.times.clone()).collect();
+        let times = Timelines { radars: times(&radars), lidars: times(&lidars), cameras: times(&cameras) };
+        let sequence = Sequence {
+            name: name.to_owned(),
+            title: toml.name,
+            rig,
+            times,
+            motion,
+            depth_output: toml.depth.output,
+        };
+        let metadata = [vec![toml_file], motion_files].concat();
+        Ok(Self { sequence, radars, lidars, cameras, metadata, warnings })
+    }
+}
+
+/// Lenses that can't be straightened. Depth that is there already needs no lens, so these are no errors.
+fn odd_lenses(file: &Path, rig: &Rig) -> Vec<String> {
+    let check = |camera: &Camera| {
+        let expected = camera.intrinsics.check(camera.width, camera.height).err()?;
+        Some(format!("{}: {}: expected {expected}", file.display(), camera.name))
+    };
+    rig.cameras.iter().filter_map(check).collect()
+}
+
+/// A sensor's files, and that of one measurement, if it exists.
+fn measurement<'a>(
+    kind: &'static str,
+    sensors: &'a [SensorFiles],
+    sensor: usize,
+    index: usize,
+) -> Result<(&'a SensorFiles, &'a Path), DataError> {
+    let found = sensors.get(sensor).and_then(|files| Some((files, files.files.get(index)?.as_path())));
+    found.ok_or(DataError::NoMeasurement { kind, sensor, index })
+}
+
+/// The files of all radars, LiDARs and cameras.
+fn list(folder: &Path, rig: &Rig, warnings: &mut Vec<String>) -> Result<[Vec<SensorFiles>; 3], DataError> {
+    let label = |folder: PathBuf| Partner { folder, extension: "label" };
+    let mut list = |name: &str, extensions: &[&str], partner| {
+        SensorFiles::list(&folder.join(name), extensions, partner, warnings)
+    };
+    let truth = |name: &str| label(folder.join(GROUND_TRUTH).join(name));
+    let depth = |name: &str| Partner { folder: folder.join(name).join("depth"), extension: "npy" };
+    let radars = rig.radars.iter().map(|Radar { name, .. }| list(name, &["bin"], truth(name)));
+    let radars = radars.collect::<Result<_, _>>()?;
+    let lidars = rig.lidars.iter().map(|Lidar { name, .. }| list(name, &["bin"], label(folder.join(name))));
+    let lidars = lidars.collect::<Result<_, _>>()?;
+    let cameras = rig.cameras.iter().map(|Camera { name, .. }| list(name, &images::EXTENSIONS, depth(name)));
+    Ok([radars, lidars, cameras.collect::<Result<_, _>>()?])
+}
+
+/// How the vehicle moved, and the files that say so.
+fn motion(folder: &Path) -> Result<(EgoMotion, Vec<PathBuf>), DataError> {
+    let odometry_file = existing(folder.join("odometry.csv"))?;
+    let poses_file = existing(folder.join("poses.csv"))?;
+    let odometry = odometry_file.as_deref().map_or(Ok(vec![]), tables::read_odometry)?;
+    let poses = poses_file.as_deref().map_or(Ok(vec![]), tables::read_poses)?;
+    let motion = EgoMotion::new(odometry, poses).ok_or_else(|| {
+        DataError::content(folder, "motion", "rows in odometry.csv, poses.csv or both", "none")
+    })?;
+    Ok((motion, [odometry_file, poses_file].into_iter().flatten().collect()))
+}
+
+/// The file, if there is one.
+fn existing(file: PathBuf) -> Result<Option<PathBuf>, DataError> {
+    let exists = file.try_exists().map_err(DataError::io(&file))?;
+    Ok(exists.then_some(file))
+}
+
+impl Source for LayoutSequence {
+    fn sequence(&self) -> &Sequence {
+        &self.sequence
+    }
+
+    fn radar_scan(&self, radar: usize, scan: usize) -> Result<RadarScan, SourceError> {
+        let (sensor, file) = measurement("radar", &self.radars, radar, scan)?;
+        let radar = &self.sequence.rig.radars[radar];
+        let columns = files::read_f32_columns(file, radar.fields.len())?;
+        Ok(RadarScan::new(radar, sensor.times[scan], columns)?)
+    }
+
+    fn lidar_scan(&self, lidar: usize, scan: usize) -> Result<LidarScan, SourceError> {
+        let (sensor, file) = measurement("lidar", &self.lidars, lidar, scan)?;
+        let rows = files::read_f32_rows::<4>(file)?;
+        let points = rows.iter().map(|[x, y, z, _]| [*x, *y, *z]).collect();
+        let intensity = rows.iter().map(|row| row[3]).collect();
+        let classes = match &sensor.partners[scan] {
+            Some(file) => Some(classes(file, rows.len())?),
+            None => None,
+        };
+        Ok(LidarScan { t_ns: sensor.times[scan], points, intensity, classes })
+    }
+
+    fn image(&self, camera: usize, image: usize) -> Result<CameraImage, SourceError> {
+        let (_, file) = measurement("camera", &self.cameras, camera, image)?;
+        Ok(images::read(file)?)
+    }
+
+    fn depth(&self, camera: usize, image: usize) -> Result<Option<Vec<DepthImage>>, SourceError> {
+        let (sensor, _) = measurement("camera", &self.cameras, camera, image)?;
+        let Some(file) = &sensor.partners[image] else { return Ok(None) };
+        let depth = npy::read_depth(file)?;
+        let views = self.sequence.rig.cameras[camera].views.len().max(1);
+        if depth.len() != views {
+            let expected = format!("one image for each of the {views} views");
+            return Err(DataError::content(file, "shape", expected, depth.len().to_string()).into());
+        }
+        Ok(Some(depth))
+    }
+}
+
+impl SequenceReader for LayoutSequence {
+    fn inputs(&self) -> Vec<PathBuf> {
+        let radars = self.radars.iter().flat_map(SensorFiles::measured);
+        let others = self.lidars.iter().chain(&self.cameras).flat_map(SensorFiles::all);
+        self.metadata.iter().chain(radars).chain(others).cloned().collect()
+    }
+
+    fn warnings(&self) -> &[String] {
+        &self.warnings
+    }
+
+    fn image_file(&self, camera: usize, image: usize) -> Option<PathBuf> {
+        self.cameras.get(camera)?.files.get(image).cloned()
+    }
+
+    fn lidar_label_file(&self, lidar: usize, scan: usize) -> Option<PathBuf> {
+        self.lidars.get(lidar)?.partners.get(scan)?.clone()
+    }
+
+    fn truth_file(&self, radar: usize, scan: usize) -> Option<PathBuf> {
+        self.radars.get(radar)?.partners.get(scan)?.clone()
+    }
+}
+
+/// The class of each of so many points, from a `.label` file.
+fn classes(file: &Path, points: usize) -> Result<Vec<u16>, DataError> {
+    let labels = read_labels(file)?;
+    if labels.len() == points {
+        return Ok(labels.into_iter().map(|label| label.id).collect());
+    }
+    Err(DataError::content(file, "size", format!("{points} uint32, one per point"), labels.len().to_string()))
+}

@@ -1,0 +1,16 @@
+//! Recordings in: what a folder or file holds, as sequences whose measurements are read on demand. A folder per format.
+
+pub mod inspection;
+pub(crate) mod layout;
+mod measured_files;
+pub(crate) mod models;
+mod nuscenes;
+pub(crate) mod open;
+mod radial;
+pub(crate) mod recording;
+pub mod ros;
+mod view_of_delft;
+
+pub use layout::LayoutSequence;
+pub use open::{formats, open, open_with};
+pub use recording::{NuScenesKey, Recording, RosSource, SequenceReader, TruthLabels};

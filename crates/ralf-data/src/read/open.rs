@@ -1,0 +1,103 @@
+//! A folder or file becomes a recording: which format it is, by what it holds.
+
+use crate::error::DataError;
+use crate::read::ros::Topics;
+use crate::read::{Recording, layout, nuscenes, ros, view_of_delft};
+use std::fs;
+use std::path::Path;
+
+/// A format that can be read.
+struct Format {
+    /// As `--format` takes it.
+    name: &'static str,
+    /// What a folder of this format holds, or which file it is, for people.
+    holds: &'static str,
+    /// Whether it is one.
+    recognises: fn(&Path) -> bool,
+    /// Reads it. The topics are of those formats that have some.
+    open: fn(&Path, &Topics) -> Result<Recording, DataError>,
+}
+
+/// In the order in which they are tried.
+const FORMATS: [Format; 4] = [
+    Format {
+        name: layout::NAME,
+        holds: "the folder `sequences`",
+        recognises: |path| path.join(layout::SEQUENCES).is_dir(),
+        open: |path, _| layout::open(path),
+    },
+    Format {
+        name: nuscenes::NAME,
+        holds: "a folder `v1.0-*` with `sample_data.json`",
+        recognises: nuscenes::recognises,
+        open: |path, _| nuscenes::open(path),
+    },
+    Format {
+        name: view_of_delft::NAME,
+        holds: "the folders `radar/training/velodyne` and `radar/training/calib`",
+        recognises: view_of_delft::recognises,
+        open: |path, _| view_of_delft::open(path),
+    },
+    Format {
+        name: ros::NAME,
+        holds: "a ROS 1 bag, an MCAP file, an SQLite file of ROS 2, or a folder with `metadata.yaml`",
+        recognises: ralf_ros::container::recognises,
+        open: ros::open,
+    },
+];
+
+/// The names of the formats that can be read.
+pub fn formats() -> &'static [&'static str] {
+    const NAMES: [&str; FORMATS.len()] = {
+        let mut names = [""; FORMATS.len()];
+        let mut i = 0;
+        while i < names.len() {
+            names[i] = FORMATS[i].name;
+            i += 1;
+        }
+        names
+    };
+    &NAMES
+}
+
+/// Opens a recording: of this format, or else of the one that the folder is recognised as.
+pub fn open(path: &Path, format: Option<&str>) -> Result<Recording, DataError> {
+    open_with(path, format, &Topics::new())
+}
+
+/// The same, where these topics of a ROS recording are its sensors; a first guess is made where there are none.
+pub fn open_with(path: &Path, format: Option<&str>, topics: &Topics) -> Result<Recording, DataError> {
+    fs::metadata(path).map_err(DataError::io(path))?;
+    let found = match format {
+        Some(name) => FORMATS.iter().find(|format| format.name == name).ok_or_else(|| {
+            DataError::content(
+                path,
+                "format",
+                format!("one of {}", formats().join(", ")),
+                format!("`{name}`"),
+            )
+        }),
+        None => FORMATS.iter().find(|format| (format.recognises)(path)).ok_or_else(|| {
+            let known = FORMATS.iter().map(|format| format!("{} ({})", format.holds, format.name));
+            let expected = known.collect::<Vec<_>>().join(" or ");
+            DataError::content(path, "content", expected, "none of them")
+        }),
+    }?;
+    (found.open)(path, topics)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_no_recording_is_told_what_was_looked_for() {
+        let folder = tempfile::tempdir().unwrap();
+        let error = |format| open(folder.path(), format).unwrap_err().to_string();
+        assert!(error(None).contains("the folder `sequences` (ralf)"), "{}", error(None));
+        assert!(error(Some("kitti")).contains("expected one of ralf"), "{}", error(Some("kitti")));
+        assert!(error(Some("ralf")).contains("sequences"), "{}", error(Some("ralf")));
+        let missing = open(&folder.path().join("nowhere"), None).unwrap_err();
+        assert!(matches!(missing, DataError::Io { .. }) && missing.to_string().contains("nowhere"));
+    }
+}

@@ -1,0 +1,112 @@
+//! A recording of any format, seen as its sequences.
+
+use crate::disk::label_file::Label;
+use crate::error::DataError;
+use ralf::sensors::{Source, SourceError};
+use ralf_ros::container::Container;
+use std::path::PathBuf;
+
+/// One sequence of a recording, and the files it is read from.
+pub trait SequenceReader: Source {
+    /// Every file that labelling reads, in a fixed order: what a run records with sizes and hashes.
+    fn inputs(&self) -> Vec<PathBuf>;
+
+    /// What was ignored or is missing, a sentence each, for people.
+    fn warnings(&self) -> &[String];
+
+    /// The file of a camera's image, to be copied as it is.
+    fn image_file(&self, camera: usize, image: usize) -> Option<PathBuf>;
+
+    /// The `.label` file of a LiDAR's scan, to be copied as it is: it also numbers instances.
+    fn lidar_label_file(&self, _lidar: usize, _scan: usize) -> Option<PathBuf> {
+        None
+    }
+
+    /// The `.label` file with the corrected labels of a radar's scan.
+    fn truth_file(&self, _radar: usize, _scan: usize) -> Option<PathBuf> {
+        None
+    }
+
+    /// What nuScenes calls a radar's scan, of a recording that is read from nuScenes' own tables.
+    fn nuscenes_key(&self, _radar: usize, _scan: usize) -> Option<NuScenesKey> {
+        None
+    }
+
+    /// The ROS recording that it is read from: topics that can be copied as they are.
+    fn ros(&self) -> Option<RosSource<'_>> {
+        None
+    }
+
+    /// The truth of a radar's scan where it is known without a file.
+    fn truth(&self, _radar: usize, _scan: usize) -> Result<Option<TruthLabels>, SourceError> {
+        Ok(None)
+    }
+}
+
+/// What nuScenes calls one measurement.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
+pub struct NuScenesKey {
+    /// The version folder's name, as `v1.0-mini`.
+    pub version: String,
+    /// Its row in `sample_data.json`.
+    pub sample_data_token: String,
+}
+
+/// The ROS recording behind a sequence.
+#[derive(Debug, Clone, Copy)]
+pub struct RosSource<'a> {
+    /// All its messages.
+    pub container: &'a Container,
+    /// The frame of each radar, in the order of the rig.
+    pub radar_frames: &'a [String],
+}
+
+/// What is true of each detection of a scan, in its order.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct TruthLabels {
+    /// As they stand in a `.label` file.
+    pub labels: Vec<Label>,
+    /// Why each is an artifact: [`ralf::label::Cause`] as a number, 0 of what is plausible. No file that labelling reads.
+    pub causes: Vec<u8>,
+}
+
+/// What `sensors` holds of a measurement: one list per sensor of this kind, one entry per measurement.
+pub(crate) fn measurement<'a, T>(
+    kind: &'static str,
+    sensors: &'a [Vec<T>],
+    sensor: usize,
+    index: usize,
+) -> Result<&'a T, DataError> {
+    let found = sensors.get(sensor).and_then(|measurements| measurements.get(index));
+    found.ok_or(DataError::NoMeasurement { kind, sensor, index })
+}
+
+/// A recording, opened: cheap, for measurements are read on demand.
+pub struct Recording {
+    /// The folder or file that was opened.
+    pub path: PathBuf,
+    /// The format's name, as `--format` takes it.
+    pub format: &'static str,
+    /// In the order of their names.
+    pub sequences: Vec<Box<dyn SequenceReader>>,
+}
+
+impl Recording {
+    /// Keeps the sequences of these names, in the recording's order; all of them where no name is given.
+    pub fn select(mut self, names: &[String]) -> Result<Self, DataError> {
+        let holds = |name: &String| self.sequences.iter().any(|sequence| sequence.sequence().name == *name);
+        if let Some(unknown) = names.iter().find(|name| !holds(name)) {
+            let known: Vec<&str> = self.sequences.iter().map(|s| s.sequence().name.as_str()).collect();
+            return Err(DataError::UnknownSequence { name: unknown.clone(), known: known.join(", ") });
+        }
+        self.sequences.retain(|sequence| names.is_empty() || names.contains(&sequence.sequence().name));
+        Ok(self)
+    }
+}
+
+impl std::fmt::Debug for Recording {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let names: Vec<&str> = self.sequences.iter().map(|s| s.sequence().name.as_str()).collect();
+        f.debug_struct("Recording").field("format", &self.format).field("sequences", &names).finish()
+    }
+}

@@ -1,0 +1,89 @@
+//! Radar and LiDAR scans from messages, by the names of their fields.
+
+use super::messages::Messages;
+use crate::error::DataError;
+use crate::read::radial::radial;
+use ralf::sensors::LidarScan;
+use ralf_ros::container::MessageRef;
+use ralf_ros::message::{Message, PointCloud2, RadarReturn, RadarScan};
+use ralf_ros::point_cloud::{PointCloudError, PointTable};
+
+/// Columns of equal length, with their names.
+pub(super) struct Columns {
+    pub(super) names: Vec<String>,
+    pub(super) values: Vec<Vec<f32>>,
+}
+
+/// What is derived where a cloud has the two components of a velocity and no range rate of this name.
+const DERIVED: [(&str, [&str; 2]); 2] =
+    [("doppler", ["vx", "vy"]), ("doppler_compensated", ["vx_comp", "vy_comp"])];
+
+/// Every field of a radar's scan under its own name, and the range rates that derive from them.
+pub(super) fn radar_columns(messages: &Messages, message: &MessageRef) -> Result<Columns, DataError> {
+    if RadarScan::DEFINITION.is(&messages.topic(message).type_name) {
+        return Ok(scan_columns(&messages.decode(message)?));
+    }
+    let cloud: PointCloud2 = messages.decode(message)?;
+    let table = table(messages, message, &cloud)?;
+    let names: Vec<String> = table.names().map(str::to_owned).collect();
+    let values = names.iter().filter_map(|name| table.column(name)).collect();
+    let mut columns = Columns { names, values };
+    for (name, components) in DERIVED {
+        if let (None, [Some(vx), Some(vy)], [Some(x), Some(y)]) =
+            (columns.get(name), columns.pair(components), columns.pair(["x", "y"]))
+        {
+            let derived = radial(x, y, vx, vy);
+            columns.names.push(name.to_owned());
+            columns.values.push(derived);
+        }
+    }
+    Ok(columns)
+}
+
+/// A LiDAR's scan: x, y, z, and the intensity where there is one.
+pub(super) fn lidar_scan(
+    messages: &Messages,
+    message: &MessageRef,
+    t_ns: i64,
+) -> Result<LidarScan, DataError> {
+    let cloud: PointCloud2 = messages.decode(message)?;
+    let table = table(messages, message, &cloud)?;
+    let column = |name: &str| {
+        table.column(name).ok_or_else(|| {
+            let found = table.names().collect::<Vec<_>>().join(", ");
+            messages.error(message, "fields", format!("a field `{name}`"), found)
+        })
+    };
+    let [x, y, z] = [column("x")?, column("y")?, column("z")?];
+    let points: Vec<[f32; 3]> = x.into_iter().zip(y).zip(z).map(|((x, y), z)| [x, y, z]).collect();
+    let intensity = table.column("intensity").unwrap_or_else(|| vec![0.0; points.len()]);
+    Ok(LidarScan { t_ns, points, intensity, classes: None })
+}
+
+impl Columns {
+    fn get(&self, name: &str) -> Option<&[f32]> {
+        let place = self.names.iter().position(|known| known == name)?;
+        self.values.get(place).map(Vec::as_slice)
+    }
+
+    fn pair(&self, names: [&str; 2]) -> [Option<&[f32]>; 2] {
+        names.map(|name| self.get(name))
+    }
+}
+
+/// `doppler_velocity` is what is called `doppler` here.
+fn scan_columns(scan: &RadarScan) -> Columns {
+    let names = RadarReturn::FIELDS.map(|name| if name == "doppler_velocity" { "doppler" } else { name });
+    let column = |field: usize| scan.returns.iter().map(|detection| detection.values()[field]).collect();
+    Columns { names: names.map(str::to_owned).into(), values: (0..names.len()).map(column).collect() }
+}
+
+pub(super) fn table<'a>(
+    messages: &Messages,
+    message: &MessageRef,
+    cloud: &'a PointCloud2,
+) -> Result<PointTable<'a>, DataError> {
+    PointTable::new(cloud).map_err(|PointCloudError { place, expected, found }| {
+        messages.error(message, &place, expected, found)
+    })
+}

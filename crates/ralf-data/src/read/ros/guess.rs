@@ -1,0 +1,228 @@
+//! A first guess of which topic is which sensor, from types, names and first messages.
+
+use super::cloud::{self, Columns};
+use super::messages::Messages;
+use super::topics::{TopicConfig, TopicKind, Topics};
+use super::{LABELLED, survey};
+use crate::error::DataError;
+use crate::read::models::GENERIC;
+use ralf_ros::container::Topic;
+use ralf_ros::message::{CameraInfo, Message, PointCloud2, RadarScan};
+use serde::Serialize;
+use std::path::Path;
+
+/// A guess, and what it leaves out.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Guess {
+    /// By name.
+    pub topics: Topics,
+    /// Topics of types that are known, and why they are not used, a sentence each.
+    pub unused: Vec<String>,
+}
+
+/// Fields that only radars have.
+const RADAR_FIELDS: [&str; 12] = [
+    "doppler",
+    "doppler_compensated",
+    "doppler_velocity",
+    "radial_speed",
+    "radial_velocity",
+    "range_rate",
+    "rcs",
+    "snr",
+    "v_r",
+    "velocity",
+    "vx_comp",
+    "vr",
+];
+
+/// Parts of a topic's name that say what is published and not by whom.
+const PLAIN_NAMES: [&str; 14] = [
+    "points",
+    "points_raw",
+    "point_cloud",
+    "pointcloud",
+    "cloud",
+    "scan",
+    "detections",
+    "targets",
+    "image",
+    "image_raw",
+    "image_color",
+    "image_rect",
+    "image_rect_color",
+    "compressed",
+];
+
+/// So many scans of a topic are looked at.
+const FIRST_SCANS: usize = 10;
+
+/// A guess of the table `topics` of a recording.
+pub fn guess(path: &Path) -> Result<Guess, DataError> {
+    Ok(of(&Messages::open(path)?))
+}
+
+pub(super) fn of(messages: &Messages) -> Guess {
+    let mut guess = Guess { topics: Topics::new(), unused: Vec::new() };
+    let topics = messages.container().topics();
+    let usable = |topic: &Topic| topic.count > 0 && topic.known_encoding().is_some();
+    for (place, topic) in topics.iter().enumerate().filter(|(_, topic)| usable(topic)) {
+        if topic.name.ends_with(LABELLED) {
+            guess.unused.push(format!("{} is not used: it holds what `ralf label` found", topic.name));
+        } else if PointCloud2::DEFINITION.is(&topic.type_name) || RadarScan::DEFINITION.is(&topic.type_name) {
+            guess.add(cloud_entry(messages, topic, place));
+        } else if survey::types(TopicKind::Camera).iter().any(|known| known.is(&topic.type_name)) {
+            guess.add_camera(topics, topic);
+        } else if survey::types(TopicKind::Tf)[0].is(&topic.type_name) {
+            let is_static = topic.name.ends_with("static");
+            guess.add(TopicConfig::new(
+                &topic.name,
+                if is_static { TopicKind::TfStatic } else { TopicKind::Tf },
+            ));
+        }
+    }
+    guess.add_motion(topics);
+    guess
+}
+
+impl Guess {
+    /// Under the topic's short name, or where that is taken the whole one, or that with a number.
+    fn add(&mut self, entry: TopicConfig) {
+        let long = entry.topic.trim_matches('/').replace('/', "_");
+        let numbered = (2..).map(|number| format!("{long}_{number}"));
+        let mut names = [name(&entry.topic), long.clone()].into_iter().chain(numbered);
+        if let Some(free) = names.find(|name| !self.topics.contains_key(name)) {
+            self.topics.insert(free, entry);
+        }
+    }
+
+    /// One topic of a camera: the first of its names, in which rectified images come before raw ones.
+    fn add_camera(&mut self, topics: &[Topic], topic: &Topic) {
+        let refuse =
+            |guess: &mut Self, why: &str| guess.unused.push(format!("{} is not used: {why}", topic.name));
+        let info = namespaces(&topic.name).map(|space| format!("{space}/camera_info")).find(|info| {
+            topics.iter().any(|known| known.name == *info && CameraInfo::DEFINITION.is(&known.type_name))
+        });
+        let Some(info) = info else { return refuse(self, "no camera_info beside it") };
+        if topic.name.contains("depth") {
+            return refuse(self, "it looks like depth");
+        }
+        let rectified = topic.name.contains("rect");
+        let entry = TopicConfig {
+            info: Some(info),
+            rectified: rectified.then_some(true),
+            ..TopicConfig::new(&topic.name, TopicKind::Camera)
+        };
+        match self.topics.values_mut().find(|known| known.info == entry.info) {
+            Some(known) if rectified && known.rectified.is_none() => {
+                let raw = std::mem::replace(known, entry);
+                self.unused
+                    .push(format!("{} is not used: the same camera's rectified images are", raw.topic));
+            }
+            Some(known) => {
+                let why = format!("{} is of the same camera", known.topic);
+                refuse(self, &why);
+            }
+            None => self.add(entry),
+        }
+    }
+
+    /// The odometry with the most messages, or else a twist, with an IMU where that is all there is of turning.
+    fn add_motion(&mut self, topics: &[Topic]) {
+        let most = |kind: TopicKind| {
+            let fits = |topic: &&Topic| topic.count > 0 && survey::types(kind)[0].is(&topic.type_name);
+            // Of equally many the first one.
+            topics.iter().filter(fits).rev().max_by_key(|topic| topic.count)
+        };
+        let chosen = [TopicKind::Odometry, TopicKind::Twist]
+            .into_iter()
+            .find_map(|kind| most(kind).map(|topic| TopicConfig::new(&topic.name, kind)));
+        for kind in [TopicKind::Odometry, TopicKind::Twist, TopicKind::Imu] {
+            let others = topics.iter().filter(|topic| survey::types(kind)[0].is(&topic.type_name));
+            for topic in
+                others.filter(|topic| chosen.as_ref().is_none_or(|chosen| chosen.topic != topic.name))
+            {
+                let why = match &chosen {
+                    Some(chosen) => format!("{} tells the motion", chosen.topic),
+                    None => "it tells no velocity".to_owned(),
+                };
+                self.unused.push(format!("{} is not used: {why}", topic.name));
+            }
+        }
+        if let Some(chosen) = chosen {
+            self.add(chosen);
+        }
+    }
+}
+
+/// A radar, if it is one by type, name or fields; else a LiDAR.
+fn cloud_entry(messages: &Messages, topic: &Topic, place: usize) -> TopicConfig {
+    let entry = |kind| TopicConfig { model: Some(GENERIC.to_owned()), ..TopicConfig::new(&topic.name, kind) };
+    let of_topic = messages.container().messages().iter().filter(|message| message.topic() == place);
+    let mut heights = Vec::new();
+    for message in of_topic.take(FIRST_SCANS) {
+        // What can't be read is told by whoever reads all of it.
+        let Ok(Columns { names, values }) = cloud::radar_columns(messages, message) else { continue };
+        let has = |name: &&str| names.iter().any(|known| known == name);
+        if !topic.name.contains("radar") && has(&"x") && !RADAR_FIELDS.iter().any(has) {
+            return entry(TopicKind::Lidar);
+        }
+        let third = names.iter().position(|name| ["z", "elevation"].contains(&name.as_str()));
+        heights.extend(third.into_iter().flat_map(|third| values[third].iter().copied()));
+    }
+    // One that measures no elevation has none to tell, or the same for all detections.
+    let elevation = heights.iter().any(|height| *height != heights[0]);
+    TopicConfig { elevation: Some(elevation), ..entry(TopicKind::Radar) }
+}
+
+/// The names above a topic's, from the nearest: `/a/b` and `/a` of `/a/b/c`.
+fn namespaces(topic: &str) -> impl Iterator<Item = &str> {
+    std::iter::successors(topic.rsplit_once('/').map(|(above, _)| above), |name| {
+        name.rsplit_once('/').map(|(above, _)| above)
+    })
+    .filter(|name| !name.is_empty())
+}
+
+/// What a sensor is called after its topic: `radar_front` of `/radar_front/points`.
+fn name(topic: &str) -> String {
+    let mut parts: Vec<&str> = topic.split('/').filter(|part| !part.is_empty()).collect();
+    let is_plain = |part: &str| PLAIN_NAMES.contains(&part) || part.starts_with("image_");
+    while parts.len() > 1 && parts.last().is_some_and(|part| is_plain(part)) {
+        parts.pop();
+    }
+    parts.join("_")
+}
+
+/// The table as it stands in a settings file, with what the guess leaves out as comments.
+pub fn topics_toml(guess: &Guess) -> Result<String, DataError> {
+    // Of a struct, for a table would sort its keys.
+    #[derive(Serialize)]
+    struct Settings<'a> {
+        topics: &'a Topics,
+    }
+    let text = toml::to_string(&Settings { topics: &guess.topics }).map_err(|error| {
+        DataError::content(Path::new("topics"), "names", "what TOML can hold", error.to_string())
+    })?;
+    let unused: String = guess.unused.iter().map(|sentence| format!("# {sentence}\n")).collect();
+    let head = "# Which topic is which sensor: a first guess. Say what the sensors are: `model` gives their uncertainties\n\
+                # and fields of view, and the tables `sensors` replace them one by one.\n";
+    Ok(format!("{head}{unused}\n{text}"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sensors_are_named_after_their_topics() {
+        for (topic, expected) in [
+            ("/radar_front/points", "radar_front"),
+            ("/cam/front/image_rect_color/compressed", "cam_front"),
+            ("/odom", "odom"),
+            ("/points", "points"),
+        ] {
+            assert_eq!(name(topic), expected, "{topic}");
+        }
+        assert_eq!(namespaces("/a/b/c").collect::<Vec<_>>(), ["/a/b", "/a"]);
+    }
+}

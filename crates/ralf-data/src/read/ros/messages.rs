@@ -1,0 +1,98 @@
+//! A recording's messages, decoded; errors name the topic and the time at which the message was recorded.
+
+use crate::error::DataError;
+use ralf_ros::container::{Container, MessageRef, Topic};
+use ralf_ros::encoding::{Encoding, EncodingError};
+use ralf_ros::message::{Definition, Header, Message, peek_header};
+use std::path::{Path, PathBuf};
+
+pub(super) struct Messages {
+    path: PathBuf,
+    container: Container,
+}
+
+impl Messages {
+    pub(super) fn open(path: &Path) -> Result<Self, DataError> {
+        Ok(Self { path: path.to_owned(), container: Container::open(path)? })
+    }
+
+    pub(super) fn container(&self) -> &Container {
+        &self.container
+    }
+
+    pub(super) fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// The place of the topic of this name and one of these types; `asked_by` is what an error is said of.
+    pub(super) fn resolve(
+        &self,
+        asked_by: &str,
+        name: &str,
+        types: &[&Definition],
+    ) -> Result<usize, DataError> {
+        let refused =
+            |expected: String, found: String| DataError::content(&self.path, asked_by, expected, found);
+        let topics = self.container.topics();
+        let mut named = topics.iter().enumerate().filter(|(_, topic)| topic.name == name).peekable();
+        if named.peek().is_none() {
+            let known: Vec<&str> = topics.iter().map(|topic| topic.name.as_str()).collect();
+            return Err(refused(format!("one of the topics {}", known.join(", ")), format!("`{name}`")));
+        }
+        let fits = |topic: &Topic| types.iter().any(|definition| definition.is(&topic.type_name));
+        let all: Vec<_> = named.collect();
+        let Some((place, topic)) = all.iter().find(|(_, topic)| fits(topic)) else {
+            let expected: Vec<&str> = types.iter().map(|definition| definition.name).collect();
+            let found: Vec<&str> = all.iter().map(|(_, topic)| topic.type_name.as_str()).collect();
+            return Err(refused(format!("`{name}` of the type {}", expected.join(" or ")), found.join(", ")));
+        };
+        if topic.known_encoding().is_none() {
+            return Err(refused(format!("`{name}` in the encoding ros1 or cdr"), topic.encoding.clone()));
+        }
+        if topic.count == 0 {
+            return Err(refused(format!("messages of `{name}`"), "none".to_owned()));
+        }
+        Ok(*place)
+    }
+
+    pub(super) fn topic(&self, message: &MessageRef) -> &Topic {
+        &self.container.topics()[message.topic()]
+    }
+
+    /// A message of this type.
+    pub(super) fn decode<M: Message>(&self, message: &MessageRef) -> Result<M, DataError> {
+        let bytes = self.container.read(message)?;
+        self.decoded(message, &bytes, M::from_bytes)
+    }
+
+    /// What `decode` makes of the bytes of a message.
+    pub(super) fn decoded<T>(
+        &self,
+        message: &MessageRef,
+        bytes: &[u8],
+        decode: impl FnOnce(Encoding, &[u8]) -> Result<T, EncodingError>,
+    ) -> Result<T, DataError> {
+        let encoding = self.topic(message).known_encoding().ok_or_else(|| {
+            self.error(message, "encoding", "ros1 or cdr", self.topic(message).encoding.clone())
+        })?;
+        decode(encoding, bytes).map_err(|EncodingError { position, expected, found }| {
+            self.error(message, &format!("byte {position}"), expected, found)
+        })
+    }
+
+    pub(super) fn header(&self, message: &MessageRef, bytes: &[u8]) -> Result<Header, DataError> {
+        self.decoded(message, bytes, peek_header)
+    }
+
+    /// Something that is wrong with a message.
+    pub(super) fn error(
+        &self,
+        message: &MessageRef,
+        place: &str,
+        expected: impl Into<String>,
+        found: impl Into<String>,
+    ) -> DataError {
+        let place = format!("{} recorded at {} ns, {place}", self.topic(message).name, message.log_ns);
+        DataError::content(&self.path, place, expected, found)
+    }
+}

@@ -1,0 +1,141 @@
+//! The vehicle's motion, from odometry, twists and IMUs.
+
+use super::messages::Messages;
+use super::mounting::{mounting, sensor_frame};
+use super::survey::{MotionSample, MotionTrack, Survey};
+use super::topics::{TopicConfig, TopicKind, Topics};
+use crate::error::DataError;
+use ralf::space::{EgoMotion, OdometrySample, PoseSample, Transform, Vector, transform_from_parts};
+
+/// A topic of the motion: its settings, what it holds, and `vehicle_from_child` of its frame.
+struct Part<'a> {
+    track: &'a MotionTrack,
+    vehicle_from_child: Transform,
+    topic: &'a TopicConfig,
+}
+
+/// Poses from the odometry; velocity and yaw rate from it or from a twist; the yaw rate from an IMU where there is one.
+pub(super) fn motion(
+    messages: &Messages,
+    topics: &Topics,
+    survey: &Survey,
+    vehicle: &str,
+) -> Result<EgoMotion, DataError> {
+    let odometry = part(messages, topics, survey, vehicle, TopicKind::Odometry)?;
+    let twist = part(messages, topics, survey, vehicle, TopicKind::Twist)?;
+    let imu = part(messages, topics, survey, vehicle, TopicKind::Imu)?;
+    let poses = odometry.as_ref().map_or_else(|| Ok(Vec::new()), |part| part.poses(messages))?;
+    let moving = twist.or(odometry);
+    let mut wheels = moving.map_or_else(Vec::new, |part| part.twists());
+    if let Some(imu) = imu {
+        let rates = imu.twists();
+        for sample in &mut wheels {
+            sample.yaw_rate = yaw_rate(&rates, sample.t_ns);
+        }
+    }
+    EgoMotion::new(wheels, poses).ok_or_else(|| {
+        let expected = "a topic of the kind odometry or twist, which tells how the vehicle moves";
+        DataError::content(messages.path(), "topics", expected, "none")
+    })
+}
+
+fn part<'a>(
+    messages: &Messages,
+    topics: &'a Topics,
+    survey: &'a Survey,
+    vehicle: &str,
+    kind: TopicKind,
+) -> Result<Option<Part<'a>>, DataError> {
+    let mut of_kind = topics.iter().filter(|(_, topic)| topic.kind == kind);
+    let Some((name, topic)) = of_kind.next() else { return Ok(None) };
+    if let Some((second, _)) = of_kind.next() {
+        let found = format!("`{name}` and `{second}`");
+        return Err(DataError::content(
+            messages.path(),
+            "topics",
+            format!("one topic of the kind {kind:?}"),
+            found,
+        ));
+    }
+    let Some(track) = survey.motion.get(name) else { return Ok(None) };
+    let span = track.samples.first().zip(track.samples.last()).map_or([0; 2], |(a, b)| [a.t_ns, b.t_ns]);
+    let frame = sensor_frame(topic, &track.frame);
+    // Odometry whose messages name no frame is the vehicle's, whose frame the settings name then.
+    let frame = if frame.is_empty() { vehicle } else { frame };
+    let vehicle_from_child = mounting(messages, survey, vehicle, frame, span)?;
+    Ok(Some(Part { track, vehicle_from_child, topic }))
+}
+
+impl Part<'_> {
+    fn poses(&self, messages: &Messages) -> Result<Vec<PoseSample>, DataError> {
+        let child_from_vehicle = self.vehicle_from_child.inverse();
+        let pose = |sample: &MotionSample| {
+            let fixed_from_child = transform_from_parts(sample.pose.position, sample.pose.orientation)
+                .ok_or_else(|| {
+                    let place = format!("{} at {} ns", self.topic.topic, sample.t_ns);
+                    let expected =
+                        "a finite position and a unit quaternion (the kind twist takes the velocities alone)";
+                    DataError::content(messages.path(), place, expected, format!("{:?}", sample.pose))
+                })?;
+            Ok(PoseSample { t_ns: sample.t_ns, odom_from_vehicle: fixed_from_child * child_from_vehicle })
+        };
+        self.track.samples.iter().map(pose).collect()
+    }
+
+    /// Along the vehicle's x and about its z: at the vehicle's origin, whatever frame was measured in.
+    fn twists(&self) -> Vec<OdometrySample> {
+        let (rotation, lever) =
+            (self.vehicle_from_child.rotation, self.vehicle_from_child.translation.vector);
+        let twist = |sample: &MotionSample| {
+            let turn = rotation * Vector::from(sample.twist.angular);
+            // A rigid body: the child's origin, at the lever's end, moves as the vehicle's does, and by `turn x lever`.
+            let velocity = rotation * Vector::from(sample.twist.linear) - turn.cross(&lever);
+            OdometrySample { t_ns: sample.t_ns, velocity: velocity.x, yaw_rate: turn.z }
+        };
+        self.track.samples.iter().map(twist).collect()
+    }
+}
+
+/// Linear between two samples, held outside of them.
+fn yaw_rate(rates: &[OdometrySample], t_ns: i64) -> f64 {
+    let after = rates.partition_point(|sample| sample.t_ns <= t_ns);
+    match (after.checked_sub(1).map(|before| rates[before]), rates.get(after)) {
+        (Some(a), Some(b)) => {
+            let share = (t_ns - a.t_ns) as f64 / (b.t_ns - a.t_ns) as f64;
+            a.yaw_rate + (b.yaw_rate - a.yaw_rate) * share
+        }
+        (Some(only), None) => only.yaw_rate,
+        (None, Some(only)) => only.yaw_rate,
+        (None, None) => 0.0,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use ralf_ros::message::{Pose, Twist};
+
+    #[test]
+    fn twists_are_moved_to_the_vehicle() {
+        // An antenna 2 m ahead and turned to the left by a right angle; the vehicle turns left by 0.5 rad/s at 10 m/s.
+        // The antenna's origin moves by (10, 0.5 * 2) in the vehicle's axes, which are (1, -10) in its own.
+        let quarter = nalgebra::UnitQuaternion::from_euler_angles(0.0, 0.0, std::f64::consts::FRAC_PI_2);
+        let vehicle_from_child = Transform::from_parts(nalgebra::Translation3::new(2.0, 0.0, 0.0), quarter);
+        let twist = Twist { linear: [1.0, -10.0, 0.0], angular: [0.0, 0.0, 0.5] };
+        let sample = MotionSample { t_ns: 7, pose: Pose::default(), twist };
+        let track = MotionTrack { samples: vec![sample], ..MotionTrack::default() };
+        let topic = TopicConfig::new("/twist", TopicKind::Twist);
+        let twists = Part { track: &track, vehicle_from_child, topic: &topic }.twists();
+        assert!(
+            (twists[0].velocity - 10.0).abs() < 1e-12 && (twists[0].yaw_rate - 0.5).abs() < 1e-12,
+            "{twists:?}"
+        );
+    }
+
+    #[test]
+    fn yaw_rates_are_interpolated_and_held() {
+        let rate = |t_ns, yaw_rate| OdometrySample { t_ns, velocity: 0.0, yaw_rate };
+        let rates = [rate(0, 1.0), rate(10, 3.0)];
+        assert_eq!([-5, 0, 5, 10, 99].map(|t_ns| yaw_rate(&rates, t_ns)), [1.0, 1.0, 2.0, 3.0, 3.0]);
+    }
+}

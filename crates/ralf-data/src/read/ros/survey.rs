@@ -1,0 +1,268 @@
+//! One look at every message that matters, in the order of the file: times, motion, frames, calibrations.
+
+use super::messages::Messages;
+use super::topics::{Stamps, TopicConfig, TopicKind, Topics};
+use crate::error::DataError;
+use ralf_ros::container::{ContainerError, MessageRef};
+use ralf_ros::message::{
+    CameraInfo, CompressedImage, Definition, Image, Imu, Message, Odometry, PointCloud2, Pose, RadarScan,
+    TfMessage, Twist, TwistStamped,
+};
+use ralf_ros::tf::{Kind, TfTree};
+use std::collections::BTreeMap;
+
+/// What a recording holds of the topics that were asked for.
+#[derive(Default)]
+pub(super) struct Survey {
+    /// Radars, LiDARs and cameras, by name.
+    pub(super) sensors: BTreeMap<String, Track>,
+    /// Odometry, twists and IMUs, by name.
+    pub(super) motion: BTreeMap<String, MotionTrack>,
+    pub(super) frames: TfTree,
+    /// The calibration of each camera, by the place of its topic.
+    pub(super) infos: BTreeMap<usize, (MessageRef, CameraInfo)>,
+    /// Messages that could not be read, a sentence for each topic.
+    pub(super) losses: Vec<String>,
+}
+
+/// When a sensor measured.
+#[derive(Default)]
+pub(super) struct Track {
+    /// Of its messages.
+    pub(super) frame: String,
+    /// Time and message, in time order.
+    pub(super) measurements: Vec<(i64, MessageRef)>,
+}
+
+/// What a topic tells of the vehicle's motion.
+#[derive(Default)]
+pub(super) struct MotionTrack {
+    /// The frame of the poses.
+    pub(super) fixed_frame: String,
+    /// The frame whose poses and twists these are.
+    pub(super) frame: String,
+    /// In time order, one per time.
+    pub(super) samples: Vec<MotionSample>,
+}
+
+/// One message of it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct MotionSample {
+    pub(super) t_ns: i64,
+    pub(super) pose: Pose,
+    pub(super) twist: Twist,
+}
+
+/// What a message is needed for.
+#[derive(Clone, Copy)]
+enum Role<'a> {
+    Sensor(&'a str, &'a TopicConfig),
+    Motion(&'a str, &'a TopicConfig),
+    Frames(Kind),
+    Calibration,
+}
+
+/// The types that a topic of this kind may have.
+pub(super) fn types(kind: TopicKind) -> &'static [&'static Definition] {
+    match kind {
+        TopicKind::Radar => &[PointCloud2::DEFINITION, RadarScan::DEFINITION],
+        TopicKind::Lidar => &[PointCloud2::DEFINITION],
+        TopicKind::Camera => &[CompressedImage::DEFINITION, Image::DEFINITION],
+        TopicKind::Odometry => &[Odometry::DEFINITION],
+        TopicKind::Twist => &[TwistStamped::DEFINITION, Odometry::DEFINITION],
+        TopicKind::Imu => &[Imu::DEFINITION],
+        TopicKind::Tf | TopicKind::TfStatic => &[TfMessage::DEFINITION],
+    }
+}
+
+/// The place of a camera's calibration among the topics.
+pub(super) fn info_topic(messages: &Messages, name: &str, topic: &TopicConfig) -> Result<usize, DataError> {
+    let info = topic.info.as_deref().unwrap_or_default();
+    messages.resolve(&format!("topics.{name}.info"), info, &[CameraInfo::DEFINITION])
+}
+
+/// Looks at all messages of these topics.
+pub(super) fn survey(messages: &Messages, topics: &Topics) -> Result<Survey, DataError> {
+    let roles = roles(messages, topics)?;
+    let mut survey = Survey::default();
+    let mut unreadable: BTreeMap<usize, (usize, String)> = BTreeMap::new();
+    for message in messages.container().messages() {
+        let roles = &roles[message.topic()];
+        if roles.is_empty() {
+            continue;
+        }
+        match messages.container().read(message) {
+            Ok(bytes) => roles.iter().try_for_each(|role| survey.look(messages, message, &bytes, *role))?,
+            Err(error @ ContainerError::Io { .. }) => return Err(error.into()),
+            Err(error) => unreadable.entry(message.topic()).or_insert((0, error.to_string())).0 += 1,
+        }
+    }
+    for (topic, (count, first)) in unreadable {
+        let name = &messages.container().topics()[topic].name;
+        survey
+            .losses
+            .push(format!("{count} messages of {name} can't be read and were left out; the first: {first}"));
+    }
+    survey.check_complete(messages, topics)?;
+    survey.sort(messages, topics)?;
+    Ok(survey)
+}
+
+fn roles<'a>(messages: &Messages, topics: &'a Topics) -> Result<Vec<Vec<Role<'a>>>, DataError> {
+    let mut roles: Vec<Vec<Role<'_>>> = vec![Vec::new(); messages.container().topics().len()];
+    for (name, topic) in topics {
+        let place = messages.resolve(&format!("topics.{name}"), &topic.topic, types(topic.kind))?;
+        roles[place].push(match topic.kind {
+            TopicKind::Radar | TopicKind::Lidar | TopicKind::Camera => Role::Sensor(name, topic),
+            TopicKind::Odometry | TopicKind::Twist | TopicKind::Imu => Role::Motion(name, topic),
+            TopicKind::Tf => Role::Frames(Kind::Moving),
+            TopicKind::TfStatic => Role::Frames(Kind::Static),
+        });
+        if topic.kind == TopicKind::Camera {
+            let info = info_topic(messages, name, topic)?;
+            if roles[info].is_empty() {
+                roles[info].push(Role::Calibration);
+            }
+        }
+    }
+    Ok(roles)
+}
+
+impl Survey {
+    fn look(
+        &mut self,
+        messages: &Messages,
+        message: &MessageRef,
+        bytes: &[u8],
+        role: Role<'_>,
+    ) -> Result<(), DataError> {
+        match role {
+            Role::Sensor(name, topic) => {
+                let header = messages.header(message, bytes)?;
+                let track = self.sensors.entry(name.to_owned()).or_default();
+                same_frame(messages, message, &mut track.frame, &header.frame_id)?;
+                track.measurements.push((time(topic, header.stamp_ns, message), *message));
+            }
+            Role::Motion(name, topic) => {
+                let found = motion(messages, message, bytes)?;
+                let track = self.motion.entry(name.to_owned()).or_default();
+                same_frame(messages, message, &mut track.fixed_frame, &found.fixed_frame)?;
+                same_frame(messages, message, &mut track.frame, &found.frame)?;
+                let samples = found.samples.into_iter();
+                track.samples.extend(
+                    samples.map(|sample| MotionSample { t_ns: time(topic, sample.t_ns, message), ..sample }),
+                );
+            }
+            Role::Frames(kind) => {
+                for transform in messages.decoded(message, bytes, TfMessage::from_bytes)?.transforms {
+                    self.frames.add(&transform, kind).map_err(|error| {
+                        messages.error(message, "transforms", "a tree of frames", error.to_string())
+                    })?;
+                }
+            }
+            Role::Calibration => self.calibrate(messages, message, bytes)?,
+        }
+        Ok(())
+    }
+
+    /// Keeps the first calibration; one that changes is refused, for the rig has one.
+    fn calibrate(
+        &mut self,
+        messages: &Messages,
+        message: &MessageRef,
+        bytes: &[u8],
+    ) -> Result<(), DataError> {
+        let info = messages.decoded(message, bytes, CameraInfo::from_bytes)?;
+        let (_, known) = self.infos.entry(message.topic()).or_insert_with(|| (*message, info.clone()));
+        if (CameraInfo { header: known.header.clone(), ..info }) == *known {
+            return Ok(());
+        }
+        Err(messages.error(message, "values", "the calibration of the messages before", "another one"))
+    }
+
+    /// Refuses a recording of which a sensor is left with nothing.
+    fn check_complete(&self, messages: &Messages, topics: &Topics) -> Result<(), DataError> {
+        let is_read = |name: &String, topic: &TopicConfig| {
+            matches!(topic.kind, TopicKind::Tf | TopicKind::TfStatic)
+                || self.sensors.contains_key(name)
+                || self.motion.contains_key(name)
+        };
+        let Some((_, topic)) = topics.iter().find(|(name, topic)| !is_read(name, topic)) else {
+            return Ok(());
+        };
+        let found = self.losses.join("; ");
+        Err(DataError::content(messages.path(), &topic.topic, "a message that can be read", found))
+    }
+
+    fn sort(&mut self, messages: &Messages, topics: &Topics) -> Result<(), DataError> {
+        for (name, track) in &mut self.sensors {
+            track.measurements.sort_by_key(|(t_ns, _)| *t_ns);
+            check_stamps(messages, name, topics, track.measurements.iter().map(|(t_ns, _)| *t_ns))?;
+        }
+        for (name, track) in &mut self.motion {
+            track.samples.sort_by_key(|sample| sample.t_ns);
+            check_stamps(messages, name, topics, track.samples.iter().map(|sample| sample.t_ns))?;
+            track.samples.dedup_by_key(|sample| sample.t_ns);
+        }
+        Ok(())
+    }
+}
+
+/// Refuses a topic whose driver doesn't tell the time.
+fn check_stamps(
+    messages: &Messages,
+    name: &str,
+    topics: &Topics,
+    mut times: impl ExactSizeIterator<Item = i64>,
+) -> Result<(), DataError> {
+    if times.len() < 2 || times.any(|t_ns| t_ns != 0) {
+        return Ok(());
+    }
+    let place = format!("{}, header.stamp", topics[name].topic);
+    let expected = format!("times (`topics.{name}.stamps = \"log\"` takes those of the recorder)");
+    Err(DataError::content(messages.path(), place, expected, "0 in every message"))
+}
+
+fn time(topic: &TopicConfig, stamp_ns: i64, message: &MessageRef) -> i64 {
+    if topic.stamps == Some(Stamps::Log) { message.log_ns } else { stamp_ns }
+}
+
+/// Refuses a topic whose messages are of several frames.
+fn same_frame(
+    messages: &Messages,
+    message: &MessageRef,
+    known: &mut String,
+    found: &str,
+) -> Result<(), DataError> {
+    if known.is_empty() {
+        found.clone_into(known);
+    }
+    if known == found {
+        return Ok(());
+    }
+    Err(messages.error(
+        message,
+        "frame",
+        format!("`{known}` as in the messages before"),
+        format!("`{found}`"),
+    ))
+}
+
+/// What a message tells of the motion, as a track of one sample.
+fn motion(messages: &Messages, message: &MessageRef, bytes: &[u8]) -> Result<MotionTrack, DataError> {
+    let type_name = &messages.topic(message).type_name;
+    let (header, frame, pose, twist) = if Odometry::DEFINITION.is(type_name) {
+        let found = messages.decoded(message, bytes, Odometry::from_bytes)?;
+        (found.header, found.child_frame_id, found.pose, found.twist)
+    } else if TwistStamped::DEFINITION.is(type_name) {
+        let found = messages.decoded(message, bytes, TwistStamped::from_bytes)?;
+        let frame = found.header.frame_id.clone();
+        (found.header, frame, Pose::default(), found.twist)
+    } else {
+        let found = messages.decoded(message, bytes, Imu::from_bytes)?;
+        let (frame, angular) = (found.header.frame_id.clone(), found.angular_velocity);
+        (found.header, frame, Pose::default(), Twist { angular, ..Twist::default() })
+    };
+    let sample = MotionSample { t_ns: header.stamp_ns, pose, twist };
+    Ok(MotionTrack { fixed_frame: header.frame_id, frame, samples: vec![sample] })
+}

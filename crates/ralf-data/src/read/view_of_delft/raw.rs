@@ -1,0 +1,96 @@
+//! Calibration and pose files, and the numbering of frames, as they lie on disk.
+
+use crate::disk::files;
+use crate::error::DataError;
+use serde::Deserialize;
+use std::fs;
+use std::path::Path;
+
+/// A frame: its number, and that number as the files have it (`00549`).
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) struct Frame {
+    pub(super) number: u32,
+    pub(super) stem: String,
+}
+
+/// The frames of a folder of `.bin` files, ascending; at least one.
+pub(super) fn frames(folder: &Path) -> Result<Vec<Frame>, DataError> {
+    let mut frames = Vec::new();
+    for entry in fs::read_dir(folder).map_err(DataError::io(folder))? {
+        let file = entry.map_err(DataError::io(folder))?.path();
+        if file.extension().is_none_or(|extension| extension != "bin") {
+            continue;
+        }
+        let stem = file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        let number =
+            stem.parse().map_err(|_| DataError::content(&file, "file name", "a frame's number", &stem))?;
+        frames.push(Frame { number, stem });
+    }
+    frames.sort();
+    if let Some(pair) = frames.windows(2).find(|pair| pair[0].number == pair[1].number) {
+        let found = format!("{} and {}", pair[0].stem, pair[1].stem);
+        return Err(DataError::content(folder, "file names", "one file per frame", found));
+    }
+    if frames.is_empty() {
+        return Err(DataError::content(folder, "files", "frames, NNNNN.bin", "none"));
+    }
+    Ok(frames)
+}
+
+/// The numbers of KITTI's calibration file that are needed, row-major.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Calib {
+    /// 3 x 4: camera to pixels.
+    pub(super) p2: [f64; 12],
+    /// 3 x 3: rectification.
+    pub(super) r0_rect: [f64; 9],
+    /// 3 x 4: the folder's sensor to the camera.
+    pub(super) tr_velo_to_cam: [f64; 12],
+}
+
+impl Calib {
+    /// Reads a file of lines `KEY: numbers`. Other keys (the empty `Tr_imu_to_velo:` among them) don't matter.
+    pub(super) fn read(file: &Path) -> Result<Self, DataError> {
+        let text = files::read_text(file)?;
+        Ok(Self {
+            p2: numbers(file, &text, "P2")?,
+            r0_rect: numbers(file, &text, "R0_rect")?,
+            tr_velo_to_cam: numbers(file, &text, "Tr_velo_to_cam")?,
+        })
+    }
+}
+
+fn numbers<const N: usize>(file: &Path, text: &str, key: &str) -> Result<[f64; N], DataError> {
+    let mut lines =
+        text.lines().enumerate().filter_map(|(index, line)| Some((index + 1, line.split_once(':')?)));
+    let bad =
+        |place, found: &str| DataError::content(file, place, format!("`{key}:` and {N} numbers"), found);
+    let Some((line, (_, rest))) = lines.find(|(_, (found, _))| found.trim() == key) else {
+        return Err(bad("lines".to_owned(), "no such line"));
+    };
+    let number = |word: &str| word.parse().ok().filter(|number: &f64| number.is_finite());
+    let parsed: Option<Vec<f64>> = rest.split_whitespace().map(number).collect();
+    parsed.and_then(|values| values.try_into().ok()).ok_or_else(|| bad(format!("line {line}"), rest.trim()))
+}
+
+/// One of the documents of a pose file.
+#[derive(Deserialize)]
+struct PoseDocument {
+    #[serde(rename = "odomToCamera")]
+    odom_from_camera: Option<[f64; 16]>,
+}
+
+/// `odomToCamera` (which maps camera to odom), 4 x 4 row-major, from a file of several JSON documents.
+pub(super) fn read_odom_from_camera(file: &Path) -> Result<[f64; 16], DataError> {
+    let bad = |place, found| {
+        DataError::content(file, place, "JSON documents, one with 16 numbers `odomToCamera`", found)
+    };
+    let text = files::read_text(file)?;
+    for document in serde_json::Deserializer::from_str(&text).into_iter::<PoseDocument>() {
+        let document = document.map_err(|error| bad(format!("line {}", error.line()), error.to_string()))?;
+        if let Some(pose) = document.odom_from_camera {
+            return Ok(pose);
+        }
+    }
+    Err(bad("documents".to_owned(), "none with that key".to_owned()))
+}

@@ -1,0 +1,223 @@
+//! The training frames as a source: measurements typed.
+
+use super::calibration::{Mounting, camera, camera_from_sensor, odom_from_vehicle, vehicle_from_lidar};
+use super::raw::{Calib, Frame, frames};
+use crate::disk::files;
+use crate::disk::files::Folders;
+use crate::disk::images;
+use crate::error::DataError;
+use crate::read::SequenceReader;
+use crate::read::measured_files::MeasuredFiles;
+use crate::read::models::{HDL_64E_S3, ZF_FRGEN21};
+use ralf::sensors::{
+    CameraImage, DepthImage, DepthOutput, LidarScan, RadarScan, Rig, Sequence, Source, SourceError, Timelines,
+};
+use ralf::space::{EgoMotion, PoseSample};
+use std::path::{Path, PathBuf};
+
+/// The columns of a radar file: `v_r` is `doppler`, `v_r_compensated` `doppler_compensated`; `time` counts scans back.
+const RADAR_FIELDS: [&str; 7] = ["x", "y", "z", "rcs", "doppler", "doppler_compensated", "time"];
+/// Frames are taken at 10 Hz.
+const FRAME_NS: i64 = 100_000_000;
+/// Of the published images, for a data set that is copied without them.
+const IMAGE_SIZE: [usize; 2] = [1936, 1216];
+/// A pose this far from the frame before belongs to another drive, m: half of it would be 25 m/s.
+const LARGEST_STEP: f64 = 5.0;
+
+/// The sequence `training`.
+pub(super) struct Training {
+    sequence: Sequence,
+    files: MeasuredFiles,
+    /// Calibrations and poses.
+    further: Vec<PathBuf>,
+    warnings: Vec<String>,
+}
+
+/// The frames and where their files are.
+struct Layout {
+    radar: PathBuf,
+    lidar: PathBuf,
+    frames: Vec<Frame>,
+    folders: Folders,
+}
+
+impl Training {
+    /// Reads the names of all measurements, and all calibrations and poses.
+    pub(super) fn new(dataset: &Path) -> Result<Self, DataError> {
+        let [radar, lidar] = ["radar", "lidar"].map(|sensor| dataset.join(sensor).join("training"));
+        let frames = frames(&radar.join("velodyne"))?;
+        let mut layout = Layout { radar, lidar, frames, folders: Folders::default() };
+        let mut warnings = Vec::new();
+        let mounting = layout.mounting(&layout.frames[0])?;
+        let further = layout.further_files();
+        layout.compare_mountings(&mounting, &mut warnings)?;
+        let poses = layout.poses(&mounting)?;
+        warn_of_jumps(&poses, &mut warnings);
+        let motion = EgoMotion::new(Vec::new(), poses)
+            .ok_or_else(|| DataError::content(&layout.radar, "poses", "one per frame", "none"))?;
+        let (radar_times, radar_files) = layout.present("radar", "velodyne", "bin", &mut warnings)?;
+        let (lidar_times, lidar_files) = layout.present("lidar", "velodyne", "bin", &mut warnings)?;
+        let (camera_times, camera_files) = layout.present("camera", "image_2", "jpg", &mut warnings)?;
+        let image_size = camera_files.first().map_or(Ok(IMAGE_SIZE), |file| images::size(file))?;
+        let sequence = Sequence {
+            name: "training".to_owned(),
+            title: "View-of-Delft, training".to_owned(),
+            rig: layout.rig(&mounting, image_size)?,
+            times: Timelines {
+                radars: vec![radar_times],
+                lidars: vec![lidar_times],
+                cameras: vec![camera_times],
+            },
+            motion,
+            depth_output: DepthOutput::default(),
+        };
+        let [radars, lidars, cameras] = [radar_files, lidar_files, camera_files].map(|files| vec![files]);
+        let files = MeasuredFiles { radars, lidars, cameras };
+        Ok(Self { sequence, files, further, warnings })
+    }
+}
+
+impl Layout {
+    fn calib_files(&self, frame: &Frame) -> [PathBuf; 2] {
+        [&self.radar, &self.lidar].map(|folder| folder.join("calib").join(format!("{}.txt", frame.stem)))
+    }
+
+    fn pose_file(&self, frame: &Frame) -> PathBuf {
+        self.radar.join("pose").join(format!("{}.json", frame.stem))
+    }
+
+    fn further_files(&self) -> Vec<PathBuf> {
+        let files = |frame| self.calib_files(frame).into_iter().chain([self.pose_file(frame)]);
+        self.frames.iter().flat_map(files).collect()
+    }
+
+    fn mounting(&self, frame: &Frame) -> Result<Mounting, DataError> {
+        let [radar, lidar] = self.calib_files(frame);
+        Ok(Mounting {
+            camera_from_radar: camera_from_sensor(&radar, &Calib::read(&radar)?)?,
+            camera_from_lidar: camera_from_sensor(&lidar, &Calib::read(&lidar)?)?,
+        })
+    }
+
+    fn compare_mountings(&self, first: &Mounting, warnings: &mut Vec<String>) -> Result<(), DataError> {
+        let mut different = Vec::new();
+        for frame in &self.frames[1..] {
+            if !self.mounting(frame)?.agrees_with(first) {
+                different.push(frame.stem.as_str());
+            }
+        }
+        if let Some(stem) = different.first() {
+            let (count, used) = (different.len(), &self.frames[0].stem);
+            warnings.push(format!(
+                "the calibration of {count} frames ({stem} first) is not that of frame {used}, which was used"
+            ));
+        }
+        Ok(())
+    }
+
+    fn poses(&self, mounting: &Mounting) -> Result<Vec<PoseSample>, DataError> {
+        let folder = self.radar.join("pose");
+        if !folder.is_dir() {
+            let expected = "a pose per frame, as without them the vehicle's motion is unknown";
+            return Err(DataError::content(&folder, "files", expected, "no such folder"));
+        }
+        let pose = |frame: &Frame| {
+            let odom_from_vehicle = odom_from_vehicle(&self.pose_file(frame), mounting)?;
+            Ok(PoseSample { t_ns: time(frame), odom_from_vehicle })
+        };
+        self.frames.iter().map(pose).collect()
+    }
+
+    /// Times and files of those frames that a sensor has, with a warning of the others.
+    fn present(
+        &mut self,
+        sensor: &str,
+        folder: &str,
+        extension: &str,
+        warnings: &mut Vec<String>,
+    ) -> Result<(Vec<i64>, Vec<PathBuf>), DataError> {
+        let root = if sensor == "lidar" { &self.lidar } else { &self.radar };
+        let (mut times, mut files) = (Vec::new(), Vec::new());
+        for frame in &self.frames {
+            let file = root.join(folder).join(&frame.stem).with_extension(extension);
+            if self.folders.hold(&file)? {
+                times.push(time(frame));
+                files.push(file);
+            }
+        }
+        let (frames, missing) = (self.frames.len(), self.frames.len() - files.len());
+        if missing > 0 {
+            warnings.push(format!("{missing} of {frames} files of {sensor} are not there and were left out"));
+        }
+        Ok((times, files))
+    }
+
+    fn rig(&self, mounting: &Mounting, image_size: [usize; 2]) -> Result<Rig, DataError> {
+        let [calib, _] = self.calib_files(&self.frames[0]);
+        Ok(Rig {
+            radars: vec![ZF_FRGEN21.mounted("radar", &RADAR_FIELDS, mounting.vehicle_from_radar())],
+            lidars: vec![HDL_64E_S3.mounted("lidar", vehicle_from_lidar())],
+            cameras: vec![camera(&calib, &Calib::read(&calib)?, mounting, image_size)?],
+        })
+    }
+}
+
+fn time(frame: &Frame) -> i64 {
+    i64::from(frame.number) * FRAME_NS
+}
+
+/// The data set's drives are numbered through, each with an odom frame of its own.
+fn warn_of_jumps(poses: &[PoseSample], warnings: &mut Vec<String>) {
+    let step = |pair: &[PoseSample]| {
+        let [before, after] = [&pair[0], &pair[1]].map(|pose| pose.odom_from_vehicle.translation.vector);
+        (after - before).norm()
+    };
+    for pair in poses.windows(2).filter(|pair| pair[1].t_ns - pair[0].t_ns == FRAME_NS) {
+        let metres = step(pair);
+        if metres > LARGEST_STEP {
+            let [before, after] = [pair[0].t_ns / FRAME_NS, pair[1].t_ns / FRAME_NS];
+            warnings.push(format!(
+                "the pose jumps by {metres:.1} m between the frames {before} and {after}: tracking across them is not \
+                 to be trusted"
+            ));
+        }
+    }
+}
+
+impl Source for Training {
+    fn sequence(&self) -> &Sequence {
+        &self.sequence
+    }
+
+    fn radar_scan(&self, radar: usize, scan: usize) -> Result<RadarScan, SourceError> {
+        let read = |file: &Path| files::read_f32_columns(file, RADAR_FIELDS.len());
+        self.files.radar_scan(&self.sequence, [radar, scan], read)
+    }
+
+    fn lidar_scan(&self, lidar: usize, scan: usize) -> Result<LidarScan, SourceError> {
+        self.files.lidar_scan(&self.sequence, [lidar, scan], 4)
+    }
+
+    fn image(&self, camera: usize, image: usize) -> Result<CameraImage, SourceError> {
+        self.files.image(&self.sequence, [camera, image])
+    }
+
+    fn depth(&self, camera: usize, image: usize) -> Result<Option<Vec<DepthImage>>, SourceError> {
+        self.files.image_file(camera, image)?;
+        Ok(None)
+    }
+}
+
+impl SequenceReader for Training {
+    fn inputs(&self) -> Vec<PathBuf> {
+        self.further.iter().chain(self.files.all()).cloned().collect()
+    }
+
+    fn warnings(&self) -> &[String] {
+        &self.warnings
+    }
+
+    fn image_file(&self, camera: usize, image: usize) -> Option<PathBuf> {
+        self.files.image_file(camera, image).ok().cloned()
+    }
+}

@@ -1,0 +1,114 @@
+//! What is behind each artifact, where a dataset knows it: a simulator does, people seldom.
+//!
+//! `sequences/NAME/ground_truth/causes.txt` names the causes, one per line: line n (from 0) is code n, and line 0 is `none`.
+//! `sequences/NAME/ground_truth/RADAR/NNNNNN.cause` beside a `.label` file holds one uint8 per detection, the code.
+
+use crate::disk::files;
+use crate::error::DataError;
+use crate::truth::ground_truth::ScanId;
+use std::path::{Path, PathBuf};
+
+const NAMES: &str = "causes.txt";
+/// The name of code 0.
+const NONE: &str = "none";
+
+/// The causes of one sequence's artifacts.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Causes {
+    dataset: PathBuf,
+    names: Vec<String>,
+}
+
+impl Causes {
+    /// Reads the names of a sequence's causes; `None` where it has none.
+    ///
+    /// # Errors
+    /// An empty list or name, more names than codes, or a first name other than `none`.
+    pub fn find(dataset: &Path, sequence: &str) -> Result<Option<Self>, DataError> {
+        let file = dataset.join("sequences").join(sequence).join("ground_truth").join(NAMES);
+        if !file.try_exists().map_err(DataError::io(&file))? {
+            return Ok(None);
+        }
+        let names: Vec<String> =
+            files::read_text(&file)?.lines().map(|name| name.trim().to_owned()).collect();
+        let refuse = |line: usize, expected: &str, found: &str| {
+            Err(DataError::content(&file, format!("line {line}"), expected, format!("`{found}`")))
+        };
+        match names.first() {
+            Some(first) if first == NONE => {}
+            first => return refuse(1, "`none`, the name of code 0", first.map_or("", String::as_str)),
+        }
+        if let Some(empty) = names.iter().position(String::is_empty) {
+            return refuse(empty + 1, "the name of a cause", "");
+        }
+        if let Some(name) = names.get(usize::from(u8::MAX) + 1) {
+            return refuse(257, "at most 256 names", name);
+        }
+        Ok(Some(Self { dataset: dataset.to_owned(), names }))
+    }
+
+    /// The name of each code; that of code 0 is `none`.
+    pub fn names(&self) -> &[String] {
+        &self.names
+    }
+
+    /// The codes of a scan with so many detections; `None` where the scan has no such file.
+    ///
+    /// # Errors
+    /// Another number of codes, or a code without a name.
+    pub fn of_scan(&self, scan: &ScanId, detections: usize) -> Result<Option<Vec<u8>>, DataError> {
+        let file = scan.truth_file(&self.dataset).with_extension("cause");
+        if !file.try_exists().map_err(DataError::io(&file))? {
+            return Ok(None);
+        }
+        let codes = files::read(&file)?;
+        if codes.len() != detections {
+            let expected = format!("{detections} as in its ground truth");
+            return Err(DataError::content(&file, "number of codes", expected, codes.len().to_string()));
+        }
+        if let Some(row) = codes.iter().position(|code| usize::from(*code) >= self.names.len()) {
+            let expected = format!("a code below {}, as in {NAMES}", self.names.len());
+            return Err(DataError::content(&file, format!("byte {row}"), expected, codes[row].to_string()));
+        }
+        Ok(Some(codes))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::testing::write;
+
+    fn find(names: &str) -> Result<Option<Causes>, DataError> {
+        let folder = tempfile::tempdir().unwrap();
+        write(&folder.path().join("sequences/00/ground_truth/causes.txt"), names.as_bytes());
+        Causes::find(folder.path(), "00")
+    }
+
+    #[test]
+    fn codes_have_names() {
+        let folder = tempfile::tempdir().unwrap();
+        assert_eq!(Causes::find(folder.path(), "00").unwrap(), None);
+        let truth = folder.path().join("sequences/00/ground_truth");
+        write(&truth.join("causes.txt"), b"none\nclutter\nmultipath\n");
+        write(&truth.join("front/000003.cause"), &[0, 2, 1]);
+        let causes = Causes::find(folder.path(), "00").unwrap().unwrap();
+        assert_eq!(causes.names(), ["none", "clutter", "multipath"]);
+        let scan = |scan| ScanId { sequence: "00".into(), radar: "front".into(), scan };
+        assert_eq!(causes.of_scan(&scan(3), 3).unwrap(), Some(vec![0, 2, 1]));
+        assert_eq!(causes.of_scan(&scan(4), 3).unwrap(), None);
+        let error = causes.of_scan(&scan(3), 4).unwrap_err().to_string();
+        assert!(error.ends_with("number of codes: expected 4 as in its ground truth, found 3"), "{error}");
+        write(&truth.join("front/000003.cause"), &[0, 3, 1]);
+        let error = causes.of_scan(&scan(3), 3).unwrap_err().to_string();
+        assert!(error.ends_with("byte 1: expected a code below 3, as in causes.txt, found 3"), "{error}");
+    }
+
+    #[test]
+    fn lists_of_names_that_do_not_fit_are_refused() {
+        for names in ["", "clutter\n", "none\n\nclutter\n", &format!("none\n{}", "more\n".repeat(256))] {
+            assert!(find(names).is_err(), "{names}");
+        }
+        assert!(find(&format!("none\n{}", "more\n".repeat(255))).is_ok());
+    }
+}

@@ -1,0 +1,185 @@
+//! What people corrected in the review, beside a run's labels: `OUT/corrections.sqlite`.
+
+use crate::disk::label_file::Label;
+use crate::error::DataError;
+use crate::truth::ground_truth::ScanId;
+use ralf_corrections::{FILE, ScanKey, ScanLayer, read_layer};
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+/// The corrections of one output folder, as they were at one moment.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Corrections {
+    file: PathBuf,
+    scans: BTreeMap<ScanId, ScanLayer>,
+}
+
+impl From<&ScanId> for ScanKey {
+    fn from(id: &ScanId) -> Self {
+        Self { sequence: id.sequence.clone(), radar: id.radar.clone(), scan: id.scan }
+    }
+}
+
+impl From<ScanKey> for ScanId {
+    fn from(key: ScanKey) -> Self {
+        Self { sequence: key.sequence, radar: key.radar, scan: key.scan }
+    }
+}
+
+impl Corrections {
+    /// Reads what is said below an output folder; nothing where it has no such file.
+    ///
+    /// # Errors
+    /// A file that is no store of corrections, or one of another version of the program.
+    pub fn open(out: &Path) -> Result<Self, DataError> {
+        let file = out.join(FILE);
+        let there = file.try_exists().map_err(DataError::io(&file))?;
+        let scans = if there { read_layer(&file)? } else { BTreeMap::new() };
+        Ok(Self { file, scans: scans.into_iter().map(|(key, scan)| (key.into(), scan)).collect() })
+    }
+
+    /// Where they lie.
+    pub fn file(&self) -> &Path {
+        &self.file
+    }
+
+    /// Whether nobody said anything.
+    pub fn is_empty(&self) -> bool {
+        self.scans.is_empty()
+    }
+
+    /// The scans with corrections or a reviewed mark, in order.
+    pub fn scans(&self) -> impl Iterator<Item = &ScanId> {
+        self.scans.keys()
+    }
+
+    /// How many detections a person has labelled.
+    pub fn corrected_detections(&self) -> usize {
+        self.scans.values().map(|scan| scan.corrections.len()).sum()
+    }
+
+    /// How many scans are marked as reviewed.
+    pub fn reviewed_scans(&self) -> usize {
+        self.scans.values().filter(|scan| scan.accepted.is_some()).count()
+    }
+
+    /// The labels of a scan with people's word above the machine's: of each detection its correction, else the label that was
+    /// accepted when the scan was marked as reviewed, else the machine's. A label that stays keeps its instance.
+    ///
+    /// # Errors
+    /// Labels of another number than the scan had when it was edited.
+    pub fn effective_labels(&self, scan: &ScanId, machine: Vec<Label>) -> Result<Vec<Label>, DataError> {
+        let Some(layer) = self.scans.get(scan) else { return Ok(machine) };
+        self.check_size(scan, layer, machine.len())?;
+        let mut labels = machine;
+        for (label, accepted) in labels.iter_mut().zip(layer.accepted.iter().flatten()) {
+            say(label, *accepted);
+        }
+        correct(&mut labels, layer);
+        Ok(labels)
+    }
+
+    /// What people say of a scan's detections: of each its correction, else what the ground truth's file says, else the label
+    /// accepted when the scan was marked as reviewed, else 0 (unlabeled). `None` where neither file nor corrections know the scan.
+    pub(crate) fn truth(
+        &self,
+        scan: &ScanId,
+        file: Option<Vec<Label>>,
+    ) -> Result<Option<Vec<Label>>, DataError> {
+        let Some(layer) = self.scans.get(scan) else { return Ok(file) };
+        let mut labels = file.unwrap_or_else(|| vec![Label::default(); layer.detections]);
+        self.check_size(scan, layer, labels.len())?;
+        for (label, accepted) in labels.iter_mut().zip(layer.accepted.iter().flatten()) {
+            if label.id == Label::default().id {
+                say(label, *accepted);
+            }
+        }
+        correct(&mut labels, layer);
+        Ok(Some(labels))
+    }
+
+    fn check_size(&self, scan: &ScanId, layer: &ScanLayer, labels: usize) -> Result<(), DataError> {
+        if labels == layer.detections {
+            return Ok(());
+        }
+        let (expected, found) =
+            (format!("{labels} detections"), format!("corrections of {}", layer.detections));
+        Err(DataError::content(&self.file, format!("scan {scan}"), expected, found))
+    }
+}
+
+fn correct(labels: &mut [Label], layer: &ScanLayer) {
+    for (point, id) in &layer.corrections {
+        if let Some(label) = labels.get_mut(*point as usize) {
+            say(label, *id);
+        }
+    }
+}
+
+/// Gives a detection this id. One that it has already stays with its instance.
+fn say(label: &mut Label, id: u16) {
+    if label.id != id {
+        *label = Label::of_class(id);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use ralf_corrections::{Mark, ScanEdit, Store, Stroke, Who};
+
+    fn scan() -> ScanId {
+        ScanId { sequence: "00".into(), radar: "front".into(), scan: 3 }
+    }
+
+    fn ids(labels: &[Label]) -> Vec<u16> {
+        labels.iter().map(|label| label.id).collect()
+    }
+
+    /// A scan of four detections: the machine says 99, 1, 99, 1; it is marked as reviewed, and the second is a car.
+    fn store(out: &Path) -> Corrections {
+        let mut store = Store::open(&out.join(FILE)).unwrap();
+        let who = Who { author: "ada".into(), tab: None };
+        let edit = ScanEdit { radar: "front".into(), scan: 3, detections: 4, base: 0, points: vec![1] };
+        let stroke = Stroke { label: Some(10), scans: vec![edit], ..Stroke::of_sequence("00") };
+        store.apply(&stroke, &who).unwrap();
+        let mark = Mark { key: (&scan()).into(), base: 1, machine: vec![99, 1, 99, 1], reviewed: true };
+        store.mark(&mark, &who).unwrap();
+        Corrections::open(out).unwrap()
+    }
+
+    #[test]
+    fn a_persons_word_stands_above_the_machines() {
+        let out = tempfile::tempdir().unwrap();
+        let corrections = store(out.path());
+        assert_eq!((corrections.corrected_detections(), corrections.reviewed_scans()), (1, 1));
+        // Labelled again with other settings: what was accepted stays.
+        let machine =
+            vec![Label::of_class(1), Label::of_class(1), Label { id: 99, instance: 7 }, Label::of_class(99)];
+        let labels = corrections.effective_labels(&scan(), machine.clone()).unwrap();
+        assert_eq!(ids(&labels), [99, 10, 99, 1]);
+        assert_eq!(labels[2].instance, 7);
+        let other = ScanId { scan: 4, ..scan() };
+        assert_eq!(corrections.effective_labels(&other, machine.clone()).unwrap(), machine);
+    }
+
+    #[test]
+    fn truth_takes_the_correction_then_the_file_then_what_was_accepted() {
+        let out = tempfile::tempdir().unwrap();
+        let corrections = store(out.path());
+        let file = [0, 1, 48, 0].map(Label::of_class).to_vec();
+        assert_eq!(ids(&corrections.truth(&scan(), Some(file)).unwrap().unwrap()), [99, 10, 48, 1]);
+        assert_eq!(ids(&corrections.truth(&scan(), None).unwrap().unwrap()), [99, 10, 99, 1]);
+        assert_eq!(corrections.truth(&ScanId { scan: 4, ..scan() }, None).unwrap(), None);
+    }
+
+    #[test]
+    fn another_size_is_refused_and_no_file_is_no_word() {
+        let out = tempfile::tempdir().unwrap();
+        assert!(Corrections::open(out.path()).unwrap().is_empty());
+        let error = store(out.path()).effective_labels(&scan(), vec![Label::default(); 3]).unwrap_err();
+        let expected =
+            "corrections.sqlite: scan 00/front/000003: expected 3 detections, found corrections of 4";
+        assert!(error.to_string().ends_with(expected), "{error}");
+    }
+}

@@ -1,0 +1,234 @@
+//! The corrected labels of a dataset: `sequences/NAME/ground_truth/RADAR/NNNNNN.label` (FORMATS 1), and above them the
+//! corrections of a review.
+
+use crate::disk::files;
+use crate::disk::label_file::{Label, read_labels};
+use crate::error::DataError;
+use crate::truth::Corrections;
+use std::collections::BTreeSet;
+use std::fmt;
+use std::path::{Path, PathBuf};
+
+const EXTENSION: &str = "label";
+
+/// Which scan of which radar of which sequence. Ordered by these.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
+pub struct ScanId {
+    /// The sequence's folder.
+    pub sequence: String,
+    /// The radar's folder.
+    pub radar: String,
+    /// The number in the file's name.
+    pub scan: u32,
+}
+
+impl ScanId {
+    /// Where the labels that a run gave this scan lie below its folder.
+    pub fn label_file(&self, out: &Path) -> PathBuf {
+        out.join("sequences").join(&self.sequence).join(&self.radar).join(label_name(self.scan))
+    }
+
+    /// Where its corrected labels lie below the dataset's folder.
+    pub fn truth_file(&self, dataset: &Path) -> PathBuf {
+        let sequence = dataset.join("sequences").join(&self.sequence);
+        sequence.join("ground_truth").join(&self.radar).join(label_name(self.scan))
+    }
+}
+
+impl fmt::Display for ScanId {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        write!(f, "{}/{}/{:06}", self.sequence, self.radar, self.scan)
+    }
+}
+
+fn label_name(scan: u32) -> String {
+    format!("{scan:06}.{EXTENSION}")
+}
+
+/// What people say of a dataset's detections. The one place to ask: the layers of what they said are merged here.
+#[derive(Debug, Clone)]
+pub struct GroundTruth {
+    dataset: PathBuf,
+    /// With a file of their own, with corrections, or both.
+    scans: Vec<ScanId>,
+    /// With a file of their own.
+    files: BTreeSet<ScanId>,
+    corrections: Option<Corrections>,
+}
+
+impl GroundTruth {
+    /// Finds all scans with truth below a dataset's folder; none at all is an error. Only label files are needed.
+    pub fn open(dataset: &Path) -> Result<Self, DataError> {
+        Self::find(dataset)?.ok_or_else(|| none(&dataset.join("sequences")))
+    }
+
+    /// Finds all scans with truth below a dataset's folder; `None` where there are none.
+    pub fn find(dataset: &Path) -> Result<Option<Self>, DataError> {
+        Self::gather(dataset, None)
+    }
+
+    /// The same with the corrections of a review above it; the dataset's folder need hold no truth of its own.
+    pub fn merged(dataset: &Path, corrections: Corrections) -> Result<Self, DataError> {
+        Self::find_merged(dataset, corrections)?.ok_or_else(|| none(&dataset.join("sequences")))
+    }
+
+    /// The same; `None` where neither says anything.
+    pub fn find_merged(dataset: &Path, corrections: Corrections) -> Result<Option<Self>, DataError> {
+        Self::gather(dataset, Some(corrections))
+    }
+
+    fn gather(dataset: &Path, corrections: Option<Corrections>) -> Result<Option<Self>, DataError> {
+        let files = scans_with_files(dataset)?;
+        let corrected = corrections.iter().flat_map(Corrections::scans);
+        let scans: BTreeSet<ScanId> = files.iter().chain(corrected).cloned().collect();
+        let scans: Vec<ScanId> = scans.into_iter().collect();
+        let found = Self { dataset: dataset.to_owned(), scans, files, corrections };
+        Ok((!found.scans.is_empty()).then_some(found))
+    }
+
+    /// The same truth of these sequences alone; `None` where that leaves no scan.
+    pub fn of_sequences(mut self, names: &[&str]) -> Option<Self> {
+        self.scans.retain(|scan| names.contains(&scan.sequence.as_str()));
+        (!self.scans.is_empty()).then_some(self)
+    }
+
+    /// The scans with truth, in order.
+    pub fn scans(&self) -> &[ScanId] {
+        &self.scans
+    }
+
+    /// What people say of a scan, one label per detection: its correction, else what its file says, else what was accepted when
+    /// it was marked as reviewed, else 0 (unlabeled).
+    pub fn labels(&self, scan: &ScanId) -> Result<Vec<Label>, DataError> {
+        let on_file = || read_labels(&scan.truth_file(&self.dataset));
+        let Some(corrections) = &self.corrections else { return on_file() };
+        let file = if self.files.contains(scan) { Some(on_file()?) } else { None };
+        corrections.truth(scan, file)?.map_or_else(on_file, Ok)
+    }
+
+    /// Where most of it is read from.
+    pub(crate) fn file(&self, scan: &ScanId) -> PathBuf {
+        match &self.corrections {
+            Some(corrections) if !self.files.contains(scan) => corrections.file().to_owned(),
+            _ => scan.truth_file(&self.dataset),
+        }
+    }
+}
+
+fn none(looked_in: &Path) -> DataError {
+    let place = format!("*/ground_truth/*/NNNNNN.{EXTENSION}");
+    DataError::content(looked_in, place, "files of corrected labels", "none")
+}
+
+fn scans_with_files(dataset: &Path) -> Result<BTreeSet<ScanId>, DataError> {
+    let sequences = dataset.join("sequences");
+    let mut scans = BTreeSet::new();
+    for sequence in files::folders(&sequences)? {
+        let truth = sequences.join(&sequence).join("ground_truth");
+        for radar in files::folders(&truth)? {
+            let numbers = scan_numbers(&truth.join(&radar))?;
+            let id = |scan| ScanId { sequence: sequence.clone(), radar: radar.clone(), scan };
+            scans.extend(numbers.into_iter().map(id));
+        }
+    }
+    Ok(scans)
+}
+
+/// The numbers of a folder's label files, which must be named as the format says.
+fn scan_numbers(folder: &Path) -> Result<Vec<u32>, DataError> {
+    let names = files::names(folder)?;
+    let labels =
+        names.iter().filter(|name| Path::new(name).extension().is_some_and(|found| found == EXTENSION));
+    labels
+        .map(|name| {
+            let number = Path::new(name).file_stem().and_then(|stem| stem.to_str()?.parse().ok());
+            number.filter(|number| label_name(*number) == *name).ok_or_else(|| {
+                DataError::content(folder, "file names", format!("NNNNNN.{EXTENSION}"), format!("`{name}`"))
+            })
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::disk::label_file::write_labels;
+    use ralf_corrections::{FILE, ScanEdit, Store, Stroke, Who};
+    use std::fs;
+
+    fn put(dataset: &Path, name: &str) {
+        write_labels(&dataset.join("sequences").join(name), &[Label::of_class(99)]).unwrap();
+    }
+
+    #[test]
+    fn scans_are_found_in_order_and_other_files_let_be() {
+        let folder = tempfile::tempdir().unwrap();
+        for name in ["01/ground_truth/b/000000", "00/ground_truth/b/1000000", "00/ground_truth/b/000010"] {
+            put(folder.path(), &format!("{name}.label"));
+        }
+        put(folder.path(), "00/ground_truth/a/000007.label");
+        put(folder.path(), "00/lidar_top/000000.label");
+        fs::write(folder.path().join("sequences/00/ground_truth/a/notes.txt"), "mine").unwrap();
+        fs::write(folder.path().join("sequences/00/ground_truth/a/.000008.label"), "hidden").unwrap();
+        fs::write(folder.path().join("sequences/README"), "mine").unwrap();
+        let truth = GroundTruth::open(folder.path()).unwrap();
+        let names: Vec<String> = truth.scans().iter().map(ScanId::to_string).collect();
+        assert_eq!(names, ["00/a/000007", "00/b/000010", "00/b/1000000", "01/b/000000"]);
+        assert_eq!(truth.labels(&truth.scans()[0]).unwrap(), [Label::of_class(99)]);
+    }
+
+    #[test]
+    fn no_truth_names_the_folder_looked_in() {
+        let folder = tempfile::tempdir().unwrap();
+        let refusal = || GroundTruth::open(folder.path()).unwrap_err().to_string();
+        let expected =
+            "sequences: */ground_truth/*/NNNNNN.label: expected files of corrected labels, found none";
+        assert!(refusal().ends_with(expected), "{}", refusal());
+        fs::create_dir_all(folder.path().join("sequences/00/ground_truth/radar_front")).unwrap();
+        assert!(refusal().ends_with(expected), "{}", refusal());
+    }
+
+    #[test]
+    fn truth_may_be_looked_for_and_narrowed() {
+        let folder = tempfile::tempdir().unwrap();
+        assert!(GroundTruth::find(folder.path()).unwrap().is_none());
+        put(folder.path(), "00/ground_truth/a/000000.label");
+        put(folder.path(), "01/ground_truth/a/000000.label");
+        let truth = GroundTruth::find(folder.path()).unwrap().unwrap();
+        let narrowed = truth.clone().of_sequences(&["01", "02"]).unwrap();
+        assert_eq!(narrowed.scans(), &truth.scans()[1..]);
+        assert!(truth.of_sequences(&["02"]).is_none());
+    }
+
+    #[test]
+    fn corrections_are_merged_and_enough_by_themselves() {
+        let [folder, out] = [(); 2].map(|()| tempfile::tempdir().unwrap());
+        let merged = || GroundTruth::merged(folder.path(), Corrections::open(out.path()).unwrap());
+        assert!(merged().unwrap_err().to_string().contains("found none"));
+        let edit = ScanEdit { radar: "a".into(), scan: 3, detections: 2, base: 0, points: vec![1] };
+        let stroke = Stroke { label: Some(1), scans: vec![edit], ..Stroke::of_sequence("01") };
+        let who = Who { author: "ada".into(), tab: None };
+        Store::open(&out.path().join(FILE)).unwrap().apply(&stroke, &who).unwrap();
+        let truth = merged().unwrap();
+        assert_eq!(truth.labels(&truth.scans()[0]).unwrap(), [0, 1].map(Label::of_class));
+        put(folder.path(), "00/ground_truth/a/000000.label");
+        let names: Vec<String> = merged().unwrap().scans().iter().map(ScanId::to_string).collect();
+        assert_eq!(names, ["00/a/000000", "01/a/000003"]);
+        put(folder.path(), "01/ground_truth/a/000003.label");
+        let error = merged().unwrap().labels(&truth.scans()[0]).unwrap_err().to_string();
+        assert!(
+            error.ends_with("scan 01/a/000003: expected 1 detections, found corrections of 2"),
+            "{error}"
+        );
+    }
+
+    #[test]
+    fn a_file_with_another_name_is_named() {
+        for name in ["7.label", "0000007.label", "+00007.label", "first.label"] {
+            let folder = tempfile::tempdir().unwrap();
+            put(folder.path(), &format!("00/ground_truth/radar_front/{name}"));
+            let error = GroundTruth::open(folder.path()).unwrap_err().to_string();
+            assert!(error.ends_with(&format!("expected NNNNNN.label, found `{name}`")), "{error}");
+        }
+    }
+}

@@ -1,0 +1,9 @@
+//! What people and simulators say of detections: label files, corrections, causes, and the label that counts.
+
+mod causes;
+mod corrections;
+mod ground_truth;
+
+pub use causes::Causes;
+pub use corrections::Corrections;
+pub use ground_truth::{GroundTruth, ScanId};

@@ -1,0 +1,216 @@
+//! What every writer gets: labelled sequences, and scans with their results and effective labels.
+
+use super::{Export, ExportOptions, Exported};
+use crate::disk::label_file::Label;
+use crate::error::DataError;
+use crate::read::SequenceReader;
+use crate::result::{Columns, PlausibilityReader, ScanTable, ScanTables};
+use crate::run::SequenceRecord;
+use crate::truth::{Corrections, ScanId};
+use ralf::label::truth_of;
+use ralf::scene::Detections;
+use ralf::sensors::RadarScan;
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::Path;
+
+/// A sequence with its results.
+pub(super) struct LabelledSequence<'a, 'p> {
+    /// The sequence as recorded.
+    pub(super) reader: &'a dyn SequenceReader,
+    /// What is asked for.
+    pub(super) options: ExportOptions,
+    out: &'a Path,
+    corrections: &'a Corrections,
+    record: &'a SequenceRecord,
+    tables: Tables,
+    not_labelled: BTreeSet<(&'a str, usize)>,
+    tally: &'a mut Tally<'p>,
+}
+
+/// The results of a sequence. One row group per radar is held in memory, so that going through each radar's scans in order,
+/// all radars side by side, reads every group once per radar in it.
+struct Tables {
+    reader: PlausibilityReader,
+    /// Per radar the row group that was read last, and its number.
+    held: BTreeMap<String, (usize, ScanTables)>,
+}
+
+impl Tables {
+    /// The table of a scan; `None` where there are no rows of it.
+    fn table(&mut self, radar: &str, scan: usize) -> Result<Option<ScanTable>, DataError> {
+        let Some(group) = self.reader.group_of(radar, scan) else { return Ok(None) };
+        if self.held.get(radar).is_none_or(|(held, _)| *held != group) {
+            self.held.insert(radar.to_owned(), (group, self.reader.tables(group)?));
+        }
+        let held = self.held.get(radar).and_then(|(_, tables)| tables.get(&(radar.to_owned(), scan)));
+        Ok(held.cloned())
+    }
+}
+
+/// What is exported so far, and who is told.
+pub(super) struct Tally<'p> {
+    pub(super) exported: Exported,
+    pub(super) progress: &'p dyn Fn(usize),
+}
+
+/// One scan of one radar with its results: a row per detection, in the order of the recording.
+pub(super) struct LabelledScan {
+    /// The radar's place in the rig.
+    pub(super) radar: usize,
+    /// Its number.
+    pub(super) scan: usize,
+    /// What `ralf label` found; all answers are absent where it could not label the scan.
+    pub(super) table: ScanTable,
+    /// The effective labels.
+    pub(super) labels: Vec<Label>,
+    /// The detections of the split, ascending.
+    pub(super) kept: Vec<usize>,
+}
+
+impl<'a, 'p> LabelledSequence<'a, 'p> {
+    /// Opens the results of a sequence.
+    pub(super) fn open(
+        export: &Export<'a>,
+        corrections: &'a Corrections,
+        (reader, record): (&'a dyn SequenceReader, &'a SequenceRecord),
+        tally: &'a mut Tally<'p>,
+    ) -> Result<Self, DataError> {
+        let (out, name) = (export.out, &reader.sequence().name);
+        let file = out.join("sequences").join(name).join("plausibility.parquet");
+        let rig = &reader.sequence().rig;
+        let unlike = |found| DataError::content(&file, "columns", "those of the recording's radars", found);
+        let columns = Columns::of(rig).map_err(unlike)?;
+        check_radars(out, reader, record)?;
+        let tables = Tables { reader: PlausibilityReader::open(&file, columns)?, held: BTreeMap::new() };
+        let not_labelled: BTreeSet<_> =
+            record.not_labelled.iter().map(|missing| (missing.radar.as_str(), missing.scan)).collect();
+        let options = export.options;
+        Ok(Self { reader, options, out, corrections, record, tables, not_labelled, tally })
+    }
+
+    /// The sequence's name.
+    pub(super) fn name(&self) -> &'a str {
+        &self.record.name
+    }
+
+    /// How many scans each radar has.
+    pub(super) fn scans(&self, radar: usize) -> usize {
+        self.reader.sequence().times.radars[radar].len()
+    }
+
+    /// A scan, which counts as exported.
+    pub(super) fn scan(&mut self, radar: usize, scan: usize) -> Result<LabelledScan, DataError> {
+        let sequence = self.reader.sequence();
+        let name = &sequence.rig.radars[radar].name;
+        let id = self.id(radar, scan);
+        self.check_recorded(&id, radar)?;
+        let (table, machine) = match self.tables.table(name, scan)? {
+            Some(table) => {
+                let labels = table.labels();
+                (table, labels)
+            }
+            None => self.without_rows(&id, radar)?,
+        };
+        let t_ns = sequence.times.radars[radar][scan];
+        if table.t_ns != t_ns {
+            let expected = format!("a scan at {t_ns} ns, as in the recording");
+            return Err(self.unlike(&id, expected, table.t_ns.to_string()));
+        }
+        let labels = self.corrections.effective_labels(&id, machine)?;
+        let kept: Vec<usize> =
+            (0..labels.len()).filter(|row| self.options.split.takes(truth_of(labels[*row].id))).collect();
+        self.tally.exported.scans += 1;
+        self.tally.exported.detections += kept.len();
+        (self.tally.progress)(self.tally.exported.scans);
+        Ok(LabelledScan { radar, scan, table, labels, kept })
+    }
+
+    /// What a radar measured, which has to be as many detections as were labelled.
+    pub(super) fn measured_of(&self, labelled: &LabelledScan) -> Result<RadarScan, DataError> {
+        let measured = self.measured(labelled.radar, labelled.scan)?;
+        if measured.len() == labelled.labels.len() {
+            return Ok(measured);
+        }
+        let expected = format!("{} detections, as in the recording", measured.len());
+        let id = self.id(labelled.radar, labelled.scan);
+        Err(self.unlike(&id, expected, labelled.labels.len().to_string()))
+    }
+
+    /// What a radar measured. Of a scan that could not be labelled because it can't be read there is nothing to export.
+    fn measured(&self, radar: usize, index: usize) -> Result<RadarScan, DataError> {
+        let sequence = self.reader.sequence();
+        let (sensor, t_ns) = (&sequence.rig.radars[radar], sequence.times.radars[radar][index]);
+        self.reader.radar_scan(radar, index).or_else(|error| {
+            if self.not_labelled.contains(&(sensor.name.as_str(), index)) {
+                let columns = vec![Vec::new(); sensor.fields.len()];
+                return Ok(RadarScan { t_ns, columns, positions: Vec::new(), spherical: Vec::new() });
+            }
+            Err(DataError::Measurement { sensor: sensor.name.clone(), index, error })
+        })
+    }
+
+    /// A scan without rows saw nothing, or could not be labelled, which the record tells.
+    fn without_rows(&mut self, id: &ScanId, radar: usize) -> Result<(ScanTable, Vec<Label>), DataError> {
+        let sensor = &self.reader.sequence().rig.radars[radar];
+        let detections = Detections::locate(sensor, self.measured(radar, id.scan as usize)?);
+        let found = detections.located.len();
+        if self.not_labelled.contains(&(sensor.name.as_str(), id.scan as usize)) {
+            self.tally.exported.not_labelled.push(id.to_string());
+        } else if found > 0 {
+            let expected = format!("{found} detections, as in the recording");
+            return Err(self.unlike(id, expected, "none".to_owned()));
+        }
+        let table = ScanTable::not_labelled(self.columns(), sensor, &detections);
+        Ok((table, vec![Label::default(); found]))
+    }
+
+    /// The table has as many rows of a scan as the record tells.
+    fn check_recorded(&self, id: &ScanId, radar: usize) -> Result<(), DataError> {
+        let recorded = self.record.radars[radar].detections[id.scan as usize] as usize;
+        let found = self.tables.reader.detections(&id.radar, id.scan as usize);
+        if found == recorded {
+            return Ok(());
+        }
+        Err(self.unlike(id, format!("{recorded} detections, as run.json says"), found.to_string()))
+    }
+
+    /// The decimal columns of the tables.
+    pub(super) fn columns(&self) -> &Columns {
+        self.tables.reader.columns()
+    }
+
+    fn id(&self, radar: usize, scan: usize) -> ScanId {
+        let sequence = self.reader.sequence();
+        let radar = sequence.rig.radars[radar].name.clone();
+        ScanId { sequence: sequence.name.clone(), radar, scan: scan as u32 }
+    }
+
+    fn unlike(&self, id: &ScanId, expected: String, found: String) -> DataError {
+        DataError::content(self.out, id.to_string(), expected, found)
+    }
+}
+
+/// Refuses results of other radars, or of another number of scans.
+fn check_radars(out: &Path, reader: &dyn SequenceReader, record: &SequenceRecord) -> Result<(), DataError> {
+    let sequence = reader.sequence();
+    let text = |radars: &mut dyn Iterator<Item = (&str, usize)>| {
+        radars.map(|(name, scans)| format!("{name} ({scans})")).collect::<Vec<_>>().join(", ")
+    };
+    let names = sequence.rig.radars.iter().map(|radar| radar.name.as_str());
+    let recorded = text(&mut names.zip(sequence.times.radars.iter().map(Vec::len)));
+    let labelled = text(&mut record.radars.iter().map(|radar| (radar.name.as_str(), radar.detections.len())));
+    if recorded == labelled {
+        return Ok(());
+    }
+    let place = format!("run.json, sequence {}", record.name);
+    Err(DataError::content(out, place, format!("the recording's radars and scans: {recorded}"), labelled))
+}
+
+impl LabelledScan {
+    /// The effective labels where their order is the only key to clouds elsewhere: what the split leaves out is unlabeled.
+    pub(super) fn labels_in_place(&self) -> Vec<Label> {
+        let mut labels = vec![Label::default(); self.labels.len()];
+        self.kept.iter().for_each(|row| labels[*row] = self.labels[*row]);
+        labels
+    }
+}

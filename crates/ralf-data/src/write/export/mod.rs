@@ -1,0 +1,116 @@
+//! Labels in the formats of other tools.
+//!
+//! [`Export::write`] goes through the labelled sequences of a recording and hands them to the writer of a format, one file of
+//! this folder each. What the writers get is the same: a `LabelledScan` with the results of `ralf label` and the *effective*
+//! labels (a person's correction, else what a person accepted, else the machine's).
+//!
+//! Labels come alone, unless the sensors' data are asked for too. A detection that [`Split`] leaves out is in no file of the
+//! export; where the labels belong to clouds that are not part of it (their order is the only key), it stays as unlabeled.
+//!
+//! An export appears whole or not at all: it is written beside its place, then renamed. The same recording and results give
+//! the same bytes.
+
+mod columns;
+mod labelled;
+mod npy_array;
+mod npz;
+mod nuscenes;
+mod options;
+mod parquet;
+mod pcd;
+mod place;
+mod ros;
+mod semantic_kitti;
+
+pub use options::{ExportFormat, ExportOptions, Sensors, Split};
+pub use ros::{RosFormat, write_ros};
+
+use crate::error::DataError;
+use crate::read::Recording;
+use crate::run::read_record;
+use crate::truth::Corrections;
+use labelled::{LabelledSequence, Tally};
+use place::Place;
+use std::path::Path;
+
+/// An export: what, from where, and how.
+pub struct Export<'a> {
+    /// The recording.
+    pub recording: &'a Recording,
+    /// What `ralf label` wrote for it.
+    pub out: &'a Path,
+    /// Format and extent.
+    pub options: ExportOptions,
+}
+
+/// What an export holds.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Exported {
+    /// Scans that were written.
+    pub scans: usize,
+    /// Detections that were written.
+    pub detections: usize,
+    /// Sequences of the recording that the results don't hold; they are left out.
+    pub without_labels: Vec<String>,
+    /// Scans that `ralf label` could not label, as `sequence/radar/scan`: unlabeled, unless a person has labelled them.
+    pub not_labelled: Vec<String>,
+}
+
+/// The writer of a format.
+trait Writer {
+    /// Writes one sequence below the export's folder.
+    fn sequence(&mut self, folder: &Path, sequence: &mut LabelledSequence) -> Result<(), DataError>;
+
+    /// Writes what tells of all sequences.
+    fn finish(&mut self, _folder: &Path) -> Result<(), DataError> {
+        Ok(())
+    }
+}
+
+impl Export<'_> {
+    /// How many scans [`Self::write`] goes through, at most.
+    pub fn scans(&self) -> usize {
+        let sequences = self.recording.sequences.iter();
+        sequences.flat_map(|reader| &reader.sequence().times.radars).map(Vec::len).sum()
+    }
+
+    /// Writes the export to `path`. `progress` is told after each scan how many are done.
+    ///
+    /// # Errors
+    /// Anything at `path` but an empty folder, or an earlier export in this format where replacing it is asked for; results
+    /// that are not those of the recording, or of none of its sequences; what the system refuses. Nothing half-written stays.
+    pub fn write(&self, path: &Path, progress: &dyn Fn(usize)) -> Result<Exported, DataError> {
+        let record = read_record(self.out)?;
+        let corrections = Corrections::open(self.out)?;
+        let mut exported = Exported::default();
+        let mut sequences = Vec::new();
+        for reader in &self.recording.sequences {
+            let name = &reader.sequence().name;
+            match record.sequence(name) {
+                Some(found) => sequences.push((reader.as_ref(), found)),
+                None => exported.without_labels.push(name.clone()),
+            }
+        }
+        if sequences.is_empty() {
+            let found = exported.without_labels.join(", ");
+            let found = format!("none of them (the recording holds {found})");
+            return Err(DataError::content(
+                self.out,
+                "run.json, sequences",
+                "labels of the recording",
+                found,
+            ));
+        }
+        let names = sequences.iter().map(|(_, record)| record.name.clone()).collect();
+        let place = Place::prepare(path, &self.options, names)?;
+        let mut writer = self.options.format.writer(&sequences);
+        let mut tally = Tally { exported, progress };
+        for found in sequences {
+            let mut sequence = LabelledSequence::open(self, &corrections, found, &mut tally)?;
+            writer.sequence(place.folder(), &mut sequence)?;
+        }
+        writer.finish(place.folder())?;
+        place.finish()?;
+        Ok(tally.exported)
+    }
+}

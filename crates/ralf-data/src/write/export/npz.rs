@@ -1,0 +1,45 @@
+//! NumPy archives: `sequences/NAME/RADAR/000000.npz`, one per scan, one array per column, in the order of the recording.
+
+use super::Writer;
+use super::columns::{Column, table_columns};
+use super::labelled::LabelledSequence;
+use super::npy_array;
+use crate::disk::files;
+use crate::error::DataError;
+use std::io::{Cursor, Write};
+use std::path::Path;
+use zip::result::ZipError;
+use zip::write::{SimpleFileOptions, ZipWriter};
+use zip::{CompressionMethod, DateTime};
+
+/// Writes the archives.
+pub(super) struct Npz;
+
+impl Writer for Npz {
+    fn sequence(&mut self, folder: &Path, sequence: &mut LabelledSequence) -> Result<(), DataError> {
+        let folder = folder.join("sequences").join(sequence.name());
+        for (radar, sensor) in sequence.reader.sequence().rig.radars.iter().enumerate() {
+            for scan in 0..sequence.scans(radar) {
+                let labelled = sequence.scan(radar, scan)?;
+                let file = folder.join(&sensor.name).join(format!("{scan:06}.npz"));
+                let refused = |error: ZipError| DataError::io(&file)(error.into());
+                let bytes = archive(&table_columns(sequence, &labelled)).map_err(refused)?;
+                files::write_whole(&file, &bytes)?;
+            }
+        }
+        Ok(())
+    }
+}
+
+/// The bytes of an archive, uncompressed as `numpy.savez` leaves them. It is told no time, so that it is always the same.
+fn archive(columns: &[Column]) -> Result<Vec<u8>, ZipError> {
+    let mut zip = ZipWriter::new(Cursor::new(Vec::new()));
+    let options = SimpleFileOptions::default()
+        .compression_method(CompressionMethod::Stored)
+        .last_modified_time(DateTime::default());
+    for Column { name, values } in columns {
+        zip.start_file(format!("{name}.npy"), options)?;
+        zip.write_all(&npy_array::of_column(values))?;
+    }
+    Ok(zip.finish()?.into_inner())
+}

@@ -1,0 +1,147 @@
+//! What can be asked of an export.
+
+use super::ros::{Ros, RosFormat};
+use super::{Writer, npz, nuscenes, parquet, pcd, semantic_kitti};
+use crate::read::SequenceReader;
+use crate::run::SequenceRecord;
+use serde::{Deserialize, Serialize};
+
+/// The formats that labels can be exported in.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum ExportFormat {
+    /// SemanticKITTI's tree of `.bin` and `.label`.
+    SemanticKitti,
+    /// A `.pcd` per scan.
+    Pcd,
+    /// A NumPy archive per scan.
+    Npz,
+    /// A Parquet data set, partitioned by sequence.
+    Parquet,
+    /// MCAP files, with the labels in the radars' clouds.
+    Mcap,
+    /// ROS 1 bags, with the labels in the radars' clouds.
+    Rosbag1,
+    /// Sidecars keyed by `sample_data` token, as nuScenes-lidarseg has them.
+    NuScenes,
+}
+
+/// Which detections are exported, by their effective label.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Split {
+    /// Those that are plausible.
+    Plausible,
+    /// Those that are artifacts.
+    Artifact,
+    /// All of them, unlabeled ones too.
+    #[default]
+    All,
+}
+
+/// Which sensors' data go with the labels.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Sensors {
+    /// What the radars measured.
+    pub radar: bool,
+    /// LiDAR scans, where the format can hold them.
+    pub lidar: bool,
+    /// Images, where the format can hold them.
+    pub camera: bool,
+}
+
+/// Format and extent of an export.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub struct ExportOptions {
+    /// The format.
+    pub format: ExportFormat,
+    /// Which detections.
+    pub split: Split,
+    /// Which sensors' data.
+    pub sensors: Sensors,
+    /// Whether an earlier export in this format may be replaced.
+    #[serde(skip)]
+    pub replace: bool,
+}
+
+impl ExportFormat {
+    /// All of them.
+    pub const ALL: [Self; 7] =
+        [Self::Mcap, Self::Rosbag1, Self::SemanticKitti, Self::Pcd, Self::Npz, Self::Parquet, Self::NuScenes];
+
+    /// The name, as `--to` takes it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Mcap => "mcap",
+            Self::Rosbag1 => "rosbag1",
+            Self::SemanticKitti => "semantickitti",
+            Self::Pcd => "pcd",
+            Self::Npz => "npz",
+            Self::Parquet => "parquet",
+            Self::NuScenes => "nuscenes",
+        }
+    }
+
+    /// Which sensors' data can go with the labels.
+    pub fn sensors(self) -> Sensors {
+        match self {
+            Self::Mcap | Self::Rosbag1 => Sensors::ALL,
+            Self::NuScenes => Sensors::default(),
+            Self::SemanticKitti | Self::Pcd | Self::Npz | Self::Parquet => {
+                Sensors { radar: true, ..Sensors::default() }
+            }
+        }
+    }
+
+    /// The kind of recording that an export in this format is.
+    pub(super) fn recording(self) -> Option<RosFormat> {
+        match self {
+            Self::Mcap => Some(RosFormat::Mcap),
+            Self::Rosbag1 => Some(RosFormat::Bag),
+            _ => None,
+        }
+    }
+
+    /// What writes it, for these sequences.
+    pub(super) fn writer(self, sequences: &[(&dyn SequenceReader, &SequenceRecord)]) -> Box<dyn Writer> {
+        match self {
+            Self::Mcap => Box::new(Ros(RosFormat::Mcap)),
+            Self::Rosbag1 => Box::new(Ros(RosFormat::Bag)),
+            Self::SemanticKitti => Box::new(semantic_kitti::SemanticKitti::new(sequences)),
+            Self::Pcd => Box::new(pcd::Pcd),
+            Self::Npz => Box::new(npz::Npz),
+            Self::Parquet => Box::new(parquet::Parquet),
+            Self::NuScenes => Box::new(nuscenes::NuScenes::default()),
+        }
+    }
+}
+
+impl Sensors {
+    /// All there are.
+    pub const ALL: Self = Self { radar: true, lidar: true, camera: true };
+
+    /// Whether any is asked for.
+    pub fn any(self) -> bool {
+        self.radar || self.lidar || self.camera
+    }
+
+    /// Those of both.
+    pub fn and(self, other: Self) -> Self {
+        Self {
+            radar: self.radar && other.radar,
+            lidar: self.lidar && other.lidar,
+            camera: self.camera && other.camera,
+        }
+    }
+}
+
+impl Split {
+    /// Whether a detection with this truth ([`ralf::label::truth_of`]) is exported.
+    pub(super) fn takes(self, truth: Option<bool>) -> bool {
+        match self {
+            Self::Plausible => truth == Some(true),
+            Self::Artifact => truth == Some(false),
+            Self::All => true,
+        }
+    }
+}

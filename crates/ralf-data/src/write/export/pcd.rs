@@ -1,0 +1,64 @@
+//! Point clouds as PCL has them (PCD 0.7, binary): `sequences/NAME/RADAR/000000.pcd`, one per scan.
+//!
+//! Points are in the radar's frame; `VIEWPOINT` tells how the radar is mounted on the vehicle. Fields are the radar's own,
+//! under their names, and what was found about each detection.
+
+use super::Writer;
+use super::columns::{Column, Values, cloud_columns};
+use super::labelled::LabelledSequence;
+use crate::disk::files;
+use crate::error::DataError;
+use ralf::space::Transform;
+use std::path::Path;
+
+/// Writes the clouds.
+pub(super) struct Pcd;
+
+impl Writer for Pcd {
+    fn sequence(&mut self, folder: &Path, sequence: &mut LabelledSequence) -> Result<(), DataError> {
+        let folder = folder.join("sequences").join(sequence.name());
+        for (radar, sensor) in sequence.reader.sequence().rig.radars.iter().enumerate() {
+            for scan in 0..sequence.scans(radar) {
+                let labelled = sequence.scan(radar, scan)?;
+                let columns = cloud_columns(sequence, &labelled, &sequence.measured_of(&labelled)?)?;
+                let file = folder.join(&sensor.name).join(format!("{scan:06}.pcd"));
+                files::write_whole(&file, &cloud(&columns, labelled.kept.len(), &sensor.vehicle_from_radar))?;
+            }
+        }
+        Ok(())
+    }
+}
+
+/// The bytes of a cloud.
+fn cloud(columns: &[Column], points: usize, vehicle_from_radar: &Transform) -> Vec<u8> {
+    let of = |text: fn(&Column) -> String| columns.iter().map(text).collect::<Vec<_>>().join(" ");
+    let fields = of(|column| column.name.replace(char::is_whitespace, "_"));
+    let (letters, sizes) =
+        (of(|column| letter(column).into()), of(|column| column.values.size().to_string()));
+    let counts = of(|_| "1".into());
+    let viewpoint = viewpoint(vehicle_from_radar);
+    let header = format!(
+        "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\nFIELDS {fields}\nSIZE {sizes}\nTYPE {letters}\n\
+         COUNT {counts}\nWIDTH {points}\nHEIGHT 1\nVIEWPOINT {viewpoint}\nPOINTS {points}\nDATA binary\n"
+    );
+    let mut bytes = header.into_bytes();
+    for row in 0..points {
+        columns.iter().for_each(|column| column.values.append_bytes(row, &mut bytes));
+    }
+    bytes
+}
+
+/// PCD's letter for the kind of a column.
+fn letter(column: &Column) -> &'static str {
+    match column.values {
+        Values::F32(_) => "F",
+        Values::U16(_) | Values::U32(_) => "U",
+        Values::I64(_) | Values::Truth(_) => "I",
+    }
+}
+
+/// x y z (m), then the rotation as qw qx qy qz.
+fn viewpoint(vehicle_from_radar: &Transform) -> String {
+    let (place, turn) = (vehicle_from_radar.translation.vector, vehicle_from_radar.rotation);
+    [place.x, place.y, place.z, turn.w, turn.i, turn.j, turn.k].map(|value| value.to_string()).join(" ")
+}

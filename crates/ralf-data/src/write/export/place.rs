@@ -1,0 +1,150 @@
+//! Where an export goes: it appears whole or not at all, and never takes the place of anything else.
+
+use super::ExportOptions;
+use super::ros::{self, RosFormat};
+use crate::disk::files;
+use crate::error::DataError;
+use serde::{Deserialize, Serialize};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// Tells that a folder is an export, and of what. Tools that search folders for data pass over names with an underscore.
+const RECORD: &str = "_export.json";
+
+/// The content of `_export.json`.
+#[derive(Debug, Serialize, Deserialize)]
+struct Record {
+    /// Version of the program.
+    version: String,
+    #[serde(flatten)]
+    options: ExportOptions,
+    /// Names of the sequences.
+    sequences: Vec<String>,
+}
+
+/// The folder of an export, or its only file; it is written beside its place.
+pub(super) struct Place {
+    path: PathBuf,
+    part: PathBuf,
+    /// An earlier export, while the new one takes its place.
+    earlier: PathBuf,
+    /// The name that the only file has in the folder that is written.
+    file: Option<String>,
+}
+
+impl Place {
+    /// Checks that an export of these sequences may be put at `path`, and begins it.
+    pub(super) fn prepare(
+        path: &Path,
+        options: &ExportOptions,
+        sequences: Vec<String>,
+    ) -> Result<Self, DataError> {
+        let file = match options.format.recording() {
+            Some(kind) if RosFormat::of_file(path) == Some(kind) && !path.is_dir() => {
+                check_file(path, options, &sequences)?;
+                sequences.first().map(|name| format!("{name}.{}", kind.extension()))
+            }
+            _ => {
+                check_folder(path, options)?;
+                None
+            }
+        };
+        let (Some(name), Some(parent)) = (path.file_name(), path.parent()) else {
+            return Err(DataError::content(path, "path", "one that ends in a name", "none"));
+        };
+        let hidden = |end: &str| parent.join(format!(".{}.{end}", name.to_string_lossy()));
+        let place = Self { path: path.to_owned(), part: hidden("part"), earlier: hidden("earlier"), file };
+        // What a killed export left.
+        remove_folder(&place.part)?;
+        let record = Record { version: env!("CARGO_PKG_VERSION").to_owned(), options: *options, sequences };
+        let file = place.part.join(RECORD);
+        let json = serde_json::to_string_pretty(&record).map_err(std::io::Error::from);
+        files::write_whole(&file, (json.map_err(DataError::io(&file))? + "\n").as_bytes())?;
+        Ok(place)
+    }
+
+    /// The folder to write to.
+    pub(super) fn folder(&self) -> &Path {
+        &self.part
+    }
+
+    /// Puts the export in its place.
+    pub(super) fn finish(self) -> Result<(), DataError> {
+        let refused = || DataError::io(&self.path);
+        if let Some(file) = &self.file {
+            return fs::rename(self.part.join(file), &self.path).map_err(refused());
+        }
+        remove_folder(&self.earlier)?;
+        if self.path.exists() {
+            fs::rename(&self.path, &self.earlier).map_err(refused())?;
+        }
+        if let Err(error) = fs::rename(&self.part, &self.path) {
+            // The earlier one comes back; the error that matters is the first one.
+            let _ = fs::rename(&self.earlier, &self.path);
+            return Err(refused()(error));
+        }
+        remove_folder(&self.earlier)
+    }
+}
+
+impl Drop for Place {
+    /// A half-written export is of no use to anyone. Of a finished one nothing is left beside its place.
+    fn drop(&mut self) {
+        let _ = remove_folder(&self.part);
+    }
+}
+
+/// Refuses a file that can't hold the sequences, or must not be replaced.
+fn check_file(path: &Path, options: &ExportOptions, sequences: &[String]) -> Result<(), DataError> {
+    if sequences.len() != 1 {
+        let expected = "one sequence for one file; more of them go into a folder";
+        return Err(DataError::content(path, "sequences", expected, sequences.join(", ")));
+    }
+    if !path.exists() {
+        return Ok(());
+    }
+    if !ros::is_labelled(path)? {
+        let expected = "no file yet, or an earlier export";
+        return Err(DataError::content(path, "file", expected, "one without labelled clouds"));
+    }
+    if options.replace {
+        return Ok(());
+    }
+    Err(DataError::content(path, "file", "none yet", "an earlier export, which only --force replaces"))
+}
+
+/// Refuses a path where there is something that must not be replaced.
+fn check_folder(path: &Path, options: &ExportOptions) -> Result<(), DataError> {
+    if !path.exists() {
+        return Ok(());
+    }
+    if !path.is_dir() {
+        return Err(DataError::content(path, "path", "a folder, or nothing yet", "a file"));
+    }
+    let mut entries = fs::read_dir(path).map_err(DataError::io(path))?;
+    if entries.next().is_none() {
+        return Ok(());
+    }
+    let format = options.format.name();
+    let is_like = |record: &Record| record.options.format == options.format;
+    if !read(path).as_ref().is_some_and(is_like) {
+        let expected = format!("an empty folder, or an earlier export in the format {format}");
+        return Err(DataError::content(path, "folder", expected, "other files"));
+    }
+    if options.replace {
+        return Ok(());
+    }
+    let found = format!("an earlier export in the format {format}, which only --force replaces");
+    Err(DataError::content(path, "folder", "an empty folder", found))
+}
+
+fn read(folder: &Path) -> Option<Record> {
+    serde_json::from_slice(&fs::read(folder.join(RECORD)).ok()?).ok()
+}
+
+fn remove_folder(folder: &Path) -> Result<(), DataError> {
+    match fs::remove_dir_all(folder) {
+        Err(error) if error.kind() != std::io::ErrorKind::NotFound => Err(DataError::io(folder)(error)),
+        _ => Ok(()),
+    }
+}

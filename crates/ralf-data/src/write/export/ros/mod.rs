@@ -1,0 +1,152 @@
+//! Recordings as ROS keeps them: an MCAP file (ROS 2) or a bag (ROS 1) for each sequence.
+//!
+//! | topic | type | when |
+//! | --- | --- | --- |
+//! | `/RADAR/points_labelled` | PointCloud2 | labels |
+//! | `/RADAR/points`, `/LIDAR/points` | PointCloud2 | with the sensors' data |
+//! | `/CAMERA/image_raw/compressed`, `/CAMERA/camera_info` | CompressedImage, CameraInfo | with the sensors' data |
+//! | `/odom` | Odometry: the poses | with the sensors' data |
+//! | `/twist` | TwistStamped: what the wheels measured | with the sensors' data |
+//! | `/tf` | TFMessage | with the sensors' data |
+//! | `/tf_static` | TFMessage | always |
+//!
+//! Of a sequence that is read from a recording of the same kind, all messages are copied byte for byte where all sensors' data
+//! are asked for, and the labelled clouds are in the frames of the original ones.
+//!
+//! Else a sensor's frame has the sensor's name, the vehicle's is `base_link`, and it moves in `odom`. A message is recorded at the
+//! time of its measurement, so that they lie in order.
+
+mod cloud;
+mod images;
+mod motion;
+mod names;
+mod originals;
+mod recorder;
+mod settings;
+
+use super::Writer;
+use super::labelled::LabelledSequence;
+use super::options::Sensors;
+use crate::disk::files;
+use crate::disk::files::{beside, remove};
+use crate::error::DataError;
+use crate::read::SequenceReader;
+use ralf_ros::container::{Container, recognises};
+use ralf_ros::writer::{Compression, MessageWriter, WriteError};
+use recorder::Recorder;
+use std::error::Error;
+use std::fs::{self, File};
+use std::io::BufWriter;
+use std::path::{Path, PathBuf};
+
+/// The kind of a recording.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum RosFormat {
+    /// `.mcap`, of the profile `ros2`, compressed by zstd.
+    Mcap,
+    /// `.bag` 2.0 of ROS 1, not compressed.
+    Bag,
+}
+
+/// A file in the making.
+type FileWriter = MessageWriter<BufWriter<File>>;
+
+impl RosFormat {
+    /// The kind that a file's name tells of.
+    pub fn of_file(file: &Path) -> Option<Self> {
+        let found = file.extension()?.to_str()?;
+        [Self::Mcap, Self::Bag].into_iter().find(|format| format.extension() == found)
+    }
+
+    /// How the names of files end, without the dot.
+    pub fn extension(self) -> &'static str {
+        match self {
+            Self::Mcap => "mcap",
+            Self::Bag => "bag",
+        }
+    }
+
+    fn create(self, file: &Path) -> Result<FileWriter, DataError> {
+        let open = BufWriter::new(File::create(file).map_err(DataError::io(file))?);
+        let writer = match self {
+            Self::Mcap => MessageWriter::mcap(open, Compression::Zstd),
+            Self::Bag => MessageWriter::bag(open),
+        };
+        writer.map_err(written(file))
+    }
+}
+
+/// Writes the labels of sequences.
+pub(super) struct Ros(pub(super) RosFormat);
+
+impl Writer for Ros {
+    fn sequence(&mut self, folder: &Path, sequence: &mut LabelledSequence) -> Result<(), DataError> {
+        let file = folder.join(format!("{}.{}", sequence.name(), self.0.extension()));
+        let (reader, sensors) = (sequence.reader, sequence.options.sensors);
+        let recorder = Recorder::new(self.0.create(&file)?, &file, reader, sensors, true)?;
+        recorder.record(Some(sequence), &|_| {})
+    }
+}
+
+/// Writes all that the sensors of a sequence measured as one file, and beside it, with the ending `.toml`, the settings by
+/// which it is read back: which topic is which sensor, and the sensors' uncertainties. Each appears whole or not at all.
+/// `progress` is told how many measurements are done. Returns the file of the settings; `None` of a recording that was copied,
+/// for those of the original hold. What is lost is told in `docs/export.md`.
+///
+/// # Errors
+/// A file that is there already, a measurement that can't be read, times before 1970, what the system refuses.
+pub fn write_ros(
+    reader: &dyn SequenceReader,
+    file: &Path,
+    format: RosFormat,
+    progress: &dyn Fn(usize),
+) -> Result<Option<PathBuf>, DataError> {
+    let settings_file = file.with_extension("toml");
+    if let Some(there) = [file, &settings_file].into_iter().find(|file| file.exists()) {
+        return Err(DataError::content(there, "file", "none of this name yet", "one"));
+    }
+    let settings = settings::settings(&settings_file, reader)?;
+    if let Some(folder) = file.parent() {
+        fs::create_dir_all(folder).map_err(DataError::io(folder))?;
+    }
+    let part = beside(file);
+    let written = format.create(&part).and_then(|writer| {
+        let recorder = Recorder::new(writer, file, reader, Sensors::ALL, false)?;
+        let copies = recorder.copies();
+        recorder.record(None, progress)?;
+        if !copies {
+            files::write_whole(&settings_file, settings.as_bytes())?;
+        }
+        fs::rename(&part, file).map_err(DataError::io(file))?;
+        Ok((!copies).then_some(settings_file))
+    });
+    if written.is_err() {
+        // The half-written file is of no use to anyone; the error that matters is the first one.
+        let _ = remove(&part);
+    }
+    written
+}
+
+/// The file could not be written: with all reasons, for libraries hide the system's behind their own.
+fn written(file: &Path) -> impl Fn(WriteError) -> DataError {
+    move |error| {
+        let mut texts = vec![error.to_string()];
+        let mut reason = error.source();
+        while let Some(error) = reason {
+            texts.push(error.to_string());
+            reason = error.source();
+        }
+        // Some tell the reason's text as their own.
+        texts.dedup();
+        DataError::io(file)(std::io::Error::other(texts.join(": ")))
+    }
+}
+
+/// Whether a file has a labelled cloud, as every export has.
+pub(super) fn is_labelled(file: &Path) -> Result<bool, DataError> {
+    if !recognises(file) {
+        return Ok(false);
+    }
+    let container = Container::open(file)?;
+    Ok(container.topics().iter().any(|topic| topic.name.ends_with(names::LABELLED)))
+}

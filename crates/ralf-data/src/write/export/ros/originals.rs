@@ -1,0 +1,50 @@
+//! Messages of the recording that a sequence is read from, copied byte for byte.
+
+use super::{FileWriter, written};
+use crate::error::DataError;
+use crate::read::ros::LABELLED;
+use crate::read::{RosSource, SequenceReader};
+use ralf_ros::container::{Container, MessageRef, Topic};
+use ralf_ros::writer::{RawTopic, WriteError};
+use std::path::Path;
+
+/// The recording behind a sequence, and which of its topics are copied.
+pub(super) struct Originals<'a> {
+    /// The frame of each radar.
+    pub(super) radar_frames: &'a [String],
+    container: &'a Container,
+    /// One for each topic of the recording; an earlier export's labels are not copied.
+    topics: Vec<Option<RawTopic>>,
+}
+
+impl<'a> Originals<'a> {
+    /// Adds the recording's topics; `None` where there is none, or one that is encoded otherwise.
+    pub(super) fn of(
+        reader: &'a dyn SequenceReader,
+        writer: &mut FileWriter,
+    ) -> Result<Option<Self>, WriteError> {
+        let Some(RosSource { container, radar_frames }) = reader.ros() else { return Ok(None) };
+        let is_copied = |topic: &&Topic| !topic.name.ends_with(LABELLED);
+        if !container.topics().iter().filter(is_copied).all(|topic| writer.can_copy(topic)) {
+            return Ok(None);
+        }
+        let copy = |topic| is_copied(&topic).then(|| writer.raw_topic(topic)).transpose();
+        let topics = container.topics().iter().map(copy).collect::<Result<_, _>>()?;
+        Ok(Some(Self { radar_frames, container, topics }))
+    }
+
+    /// When each message that is copied was recorded.
+    pub(super) fn times(&self) -> impl Iterator<Item = (i64, usize)> {
+        let copied = |(_, message): &(usize, &MessageRef)| self.topics[message.topic()].is_some();
+        let messages = self.container.messages().iter().enumerate().filter(copied);
+        messages.map(|(place, message)| (message.log_ns, place))
+    }
+
+    /// Copies a message.
+    pub(super) fn copy(&self, place: usize, writer: &mut FileWriter, file: &Path) -> Result<(), DataError> {
+        let message = &self.container.messages()[place];
+        let Some(topic) = &self.topics[message.topic()] else { return Ok(()) };
+        let bytes = self.container.read(message)?;
+        writer.write_raw(topic, message.log_ns, &bytes).map_err(written(file))
+    }
+}

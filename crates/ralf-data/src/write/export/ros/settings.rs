@@ -1,0 +1,93 @@
+//! What a ROS recording can't hold and settings can: which topic is which sensor, and how well each sensor measures.
+
+use super::names::{self, Names};
+use crate::error::DataError;
+use crate::read::SequenceReader;
+use crate::read::layout::degrees;
+use crate::read::models::GENERIC;
+use crate::read::ros::{TopicConfig, TopicKind, Topics};
+use ralf::config::SensorOverride;
+use ralf::sensors::{Elevation, Lidar, Radar};
+use serde::Serialize;
+use std::collections::BTreeMap;
+use std::path::Path;
+
+/// A settings file with these tables alone.
+#[derive(Serialize)]
+struct Settings {
+    topics: Topics,
+    sensors: BTreeMap<String, SensorOverride>,
+}
+
+/// The text of the settings by which a recording of this sequence is read back. `file` is for messages.
+pub(super) fn settings(file: &Path, reader: &dyn SequenceReader) -> Result<String, DataError> {
+    let sequence = reader.sequence();
+    let unlike = |found| DataError::content(file, "sensors", "names that differ in ROS, too", found);
+    let names = Names::of(&sequence.rig).map_err(unlike)?;
+    let mut settings = Settings { topics: motion(reader), sensors: BTreeMap::new() };
+    for (radar, name) in sequence.rig.radars.iter().zip(&names.radars) {
+        let elevation = Some(radar.elevation == Elevation::Measured);
+        settings.add(&radar.name, TopicConfig { elevation, ..cloud(name, TopicKind::Radar) });
+        settings.sensors.insert(radar.name.clone(), of_radar(radar));
+    }
+    for (lidar, name) in sequence.rig.lidars.iter().zip(&names.lidars) {
+        settings.add(&lidar.name, cloud(name, TopicKind::Lidar));
+        settings.sensors.insert(lidar.name.clone(), of_lidar(lidar));
+    }
+    for (camera, name) in sequence.rig.cameras.iter().zip(&names.cameras) {
+        let info = Some(names::camera_info(name));
+        settings.add(
+            &camera.name,
+            TopicConfig { info, ..TopicConfig::new(&names::image(name), TopicKind::Camera) },
+        );
+    }
+    let text = toml::to_string(&settings);
+    text.map_err(|error| DataError::content(file, "settings", "values that TOML can hold", error.to_string()))
+}
+
+impl Settings {
+    fn add(&mut self, name: &str, topic: TopicConfig) {
+        self.topics.insert(name.to_owned(), topic);
+    }
+}
+
+fn cloud(name: &str, kind: TopicKind) -> TopicConfig {
+    let topic = TopicConfig::new(&names::cloud(name, names::POINTS), kind);
+    TopicConfig { model: Some(GENERIC.to_owned()), ..topic }
+}
+
+fn motion(reader: &dyn SequenceReader) -> Topics {
+    let motion = &reader.sequence().motion;
+    let mut topics = Topics::new();
+    let mut add = |name: &str, topic, kind| topics.insert(name.to_owned(), TopicConfig::new(topic, kind));
+    add("tf_static", names::TF_STATIC, TopicKind::TfStatic);
+    if !motion.poses().is_empty() {
+        add("odom", names::ODOMETRY, TopicKind::Odometry);
+    }
+    if !motion.odometry().is_empty() {
+        add("twist", names::TWIST, TopicKind::Twist);
+    }
+    topics
+}
+
+fn of_radar(radar: &Radar) -> SensorOverride {
+    let reliability = radar.reliability.table().iter().map(|(azimuth, value)| [degrees(*azimuth), *value]);
+    SensorOverride {
+        sigma_range_m: Some(radar.sigma_range),
+        sigma_azimuth_deg: Some(degrees(radar.sigma_azimuth)),
+        sigma_elevation_deg: Some(degrees(radar.sigma_elevation)),
+        fov_azimuth_deg: Some(degrees(radar.fov_azimuth)),
+        fov_elevation_deg: Some(degrees(radar.fov_elevation)),
+        reliability: Some(reliability.collect()),
+        ..SensorOverride::default()
+    }
+}
+
+fn of_lidar(lidar: &Lidar) -> SensorOverride {
+    SensorOverride {
+        sigma_range_m: Some(lidar.sigma_range),
+        lowest_beam_deg: Some(degrees(lidar.lowest_beam)),
+        max_range_m: lidar.max_range,
+        ..SensorOverride::default()
+    }
+}

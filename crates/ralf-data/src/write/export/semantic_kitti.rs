@@ -1,0 +1,156 @@
+//! SemanticKITTI's tree: `sequences/NN/labels/000000.label`, and with the radars' data `velodyne/000000.bin`, `calib.txt`,
+//! `poses.txt` and `times.txt`, as semantic-kitti-api reads them.
+//!
+//! A sequence of this tree is one radar of one sequence of the recording: frame n is scan n, point i its detection i, and
+//! nothing is moved in time. `sequences.csv` tells which is which.
+
+use super::columns::Values;
+use super::labelled::{LabelledScan, LabelledSequence};
+use super::{Split, Writer, npy_array};
+use crate::disk::files;
+use crate::disk::label_file::write_labels;
+use crate::error::DataError;
+use crate::read::SequenceReader;
+use crate::run::SequenceRecord;
+use ralf::sensors::{Radar, RadarScan};
+use ralf::space::Transform;
+use std::fmt::Write;
+use std::path::Path;
+
+/// Fields that are taken for the intensity of a return, the first that a radar has.
+const INTENSITIES: [&str; 5] = ["rcs", "power", "snr", "amplitude", "intensity"];
+
+/// Writes the tree.
+pub(super) struct SemanticKitti {
+    /// Whether the recording's sequences are named by numbers and have one radar each, so that they can keep their names.
+    keeps_names: bool,
+    /// Rows of `sequences.csv`.
+    table: Vec<String>,
+}
+
+impl SemanticKitti {
+    pub(super) fn new(sequences: &[(&dyn SequenceReader, &SequenceRecord)]) -> Self {
+        let numbered = |name: &str| name.len() == 2 && name.bytes().all(|byte| byte.is_ascii_digit());
+        let keeps_names =
+            sequences.iter().all(|(_, record)| record.radars.len() == 1 && numbered(&record.name));
+        Self { keeps_names, table: Vec::new() }
+    }
+}
+
+impl Writer for SemanticKitti {
+    fn sequence(&mut self, folder: &Path, sequence: &mut LabelledSequence) -> Result<(), DataError> {
+        let all = sequence.reader.sequence();
+        for (radar, Radar { name, .. }) in all.rig.radars.iter().enumerate() {
+            let number = match self.keeps_names {
+                true => sequence.name().to_owned(),
+                false => format!("{:02}", self.table.len()),
+            };
+            let folder = folder.join("sequences").join(&number);
+            self.table.push(format!(
+                "{number},{},{},{}\n",
+                csv(sequence.name()),
+                csv(name),
+                sequence.scans(radar)
+            ));
+            if sequence.options.sensors.radar {
+                write_tables(&folder, sequence, radar)?;
+            }
+            for scan in 0..sequence.scans(radar) {
+                let labelled = sequence.scan(radar, scan)?;
+                write_scan(&folder, sequence, &labelled)?;
+            }
+        }
+        Ok(())
+    }
+
+    fn finish(&mut self, folder: &Path) -> Result<(), DataError> {
+        let text = "number,sequence,radar,scans\n".to_owned() + &self.table.concat();
+        files::write_whole(&folder.join("sequences.csv"), text.as_bytes())
+    }
+}
+
+/// A cell of a table, quoted where it has to be.
+fn csv(text: &str) -> String {
+    if text.contains([',', '"', '\n']) {
+        format!("\"{}\"", text.replace('"', "\"\""))
+    } else {
+        text.to_owned()
+    }
+}
+
+fn write_scan(folder: &Path, sequence: &LabelledSequence, scan: &LabelledScan) -> Result<(), DataError> {
+    let file = |kind: &str, extension: &str| folder.join(kind).join(format!("{:06}.{extension}", scan.scan));
+    if !sequence.options.sensors.radar {
+        return write_labels(&file("labels", "label"), &scan.labels_in_place());
+    }
+    let measured = sequence.measured_of(scan)?;
+    let radar = &sequence.reader.sequence().rig.radars[scan.radar];
+    let rows = scan.kept.iter().flat_map(|row| point(radar, &measured, *row));
+    files::write_whole(&file("velodyne", "bin"), &files::f32_bytes(rows))?;
+    let labels: Vec<_> = scan.kept.iter().map(|row| scan.labels[*row]).collect();
+    write_labels(&file("labels", "label"), &labels)?;
+    if sequence.options.split != Split::All {
+        let points = Values::U32(scan.kept.iter().map(|row| *row as u32).collect());
+        files::write_whole(&file("points", "npy"), &npy_array::of_column(&points))?;
+    }
+    Ok(())
+}
+
+/// x, y, z (radar frame, m) and intensity. A detection without a place is put at the origin, which stands for no return.
+fn point(radar: &Radar, measured: &RadarScan, row: usize) -> [f32; 4] {
+    let position = measured.positions[row].coords.map(|value| value as f32);
+    let place = if position.iter().all(|value| value.is_finite()) { position } else { Default::default() };
+    let intensity = INTENSITIES.iter().find_map(|name| radar.column(name));
+    let intensity = intensity.map_or(0.0, |column| measured.columns[column][row]);
+    [place.x, place.y, place.z, if intensity.is_finite() { intensity } else { 0.0 }]
+}
+
+/// `calib.txt`, `poses.txt` and `times.txt`. In place of SemanticKITTI's camera stands the vehicle: `Tr` is
+/// vehicle_from_radar, and a pose is that of the vehicle in its frame at the first scan.
+fn write_tables(folder: &Path, sequence: &LabelledSequence, radar: usize) -> Result<(), DataError> {
+    let all = sequence.reader.sequence();
+    let calib = format!("Tr:{}\n", matrix(&all.rig.radars[radar].vehicle_from_radar));
+    files::write_whole(&folder.join("calib.txt"), calib.as_bytes())?;
+    let (mut poses, mut seconds) = (String::new(), String::new());
+    let times = &all.times.radars[radar];
+    let first_ns = times.first().copied().unwrap_or_default();
+    let first_from_odom = all.motion.odom_from_vehicle(first_ns).inverse();
+    for t_ns in times {
+        let pose = matrix(&(first_from_odom * all.motion.odom_from_vehicle(*t_ns)));
+        // Writing to a string can't fail.
+        let _ = writeln!(poses, "{}", pose.trim_start());
+        let _ = writeln!(seconds, "{:.9}", (t_ns - first_ns) as f64 * 1e-9);
+    }
+    files::write_whole(&folder.join("poses.txt"), poses.as_bytes())?;
+    files::write_whole(&folder.join("times.txt"), seconds.as_bytes())
+}
+
+/// The upper three rows of a transform, each number after a space.
+fn matrix(transform: &Transform) -> String {
+    let matrix = transform.to_homogeneous();
+    let rows = matrix.fixed_rows::<3>(0).transpose();
+    rows.iter().map(|value| format!(" {value:.9e}")).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn cells_are_quoted_where_they_have_to_be() {
+        for (text, expected) in [("00", "00"), ("a b", "a b"), ("a,b", "\"a,b\""), ("a\"b", "\"a\"\"b\"")] {
+            assert_eq!(csv(text), expected);
+        }
+    }
+
+    #[test]
+    fn matrices_are_rows_of_three_by_four() {
+        let turn = nalgebra::UnitQuaternion::from_euler_angles(0.0, 0.0, std::f64::consts::PI);
+        let transform = Transform::from_parts(nalgebra::Translation3::new(1.5, -2.0, 0.25), turn);
+        let values: Vec<f64> =
+            matrix(&transform).split(' ').skip(1).map(|text| text.parse().unwrap()).collect();
+        let expected = [-1.0, 0.0, 0.0, 1.5, 0.0, -1.0, 0.0, -2.0, 0.0, 0.0, 1.0, 0.25];
+        assert_eq!(values.len(), expected.len());
+        assert!(values.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-9), "{values:?}");
+    }
+}
