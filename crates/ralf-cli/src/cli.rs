@@ -3,12 +3,10 @@
 use crate::commands::{
     ablate, convert, demo, depth, evaluate, export, inspect, label, plot, report, review, simulate, tune,
 };
-use crate::settings;
 use anyhow::Context;
 use clap::{Args, Parser, Subcommand};
-use ralf::config::Config;
-use ralf_data::Recording;
 use ralf_data::result::{Change, LabelledRun};
+use ralf_data::{Recording, Settings};
 use std::path::{Path, PathBuf};
 
 /// Trustworthy labels for radar data: which detections are real, and which are artifacts?
@@ -92,7 +90,7 @@ pub(crate) struct DatasetArgs {
 impl DatasetArgs {
     /// Opens the recording, and says what its reader warns of.
     pub(crate) fn open(&self) -> anyhow::Result<Recording> {
-        self.open_with(&mut Config::default())
+        self.open_with(&mut Settings::default())
     }
 
     /// The same with the topics that `ralf label` used. It has to be what was labelled.
@@ -105,11 +103,11 @@ impl DatasetArgs {
     }
 
     /// The same with the topics of the settings; those of `--topics` win, and are put into the settings.
-    pub(crate) fn open_with(&self, config: &mut Config) -> anyhow::Result<Recording> {
+    pub(crate) fn open_with(&self, settings: &mut Settings) -> anyhow::Result<Recording> {
         if let Some(file) = &self.topics {
-            config.topics = settings::read(file)?.topics;
+            settings.topics = crate::settings::read(file)?.topics;
         }
-        let recording = ralf_data::open_with(&self.dataset, self.format.as_deref(), &config.topics)?;
+        let recording = ralf_data::open_with(&self.dataset, self.format.as_deref(), &settings.topics)?;
         let recording =
             if self.sequences.is_empty() { recording } else { recording.select(&self.sequences)? };
         for reader in &recording.sequences {

@@ -26,6 +26,7 @@ pub mod judge;
 pub mod read;
 pub mod result;
 pub mod run;
+mod settings;
 #[cfg(test)]
 mod testing;
 pub mod truth;
@@ -41,5 +42,6 @@ pub use ralf_corrections::ContentHash;
 pub use read::{
     LayoutSequence, NuScenesKey, Recording, RosSource, SequenceReader, TruthLabels, formats, open, open_with,
 };
+pub use settings::Settings;
 pub use truth::{Causes, Corrections, GroundTruth, ScanId, scan_content};
 pub use write::write_sequence;

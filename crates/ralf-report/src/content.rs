@@ -79,7 +79,7 @@ impl Content {
             let origin = Origin { dataset, sequence: &sequence.name, rig: &rig, truth: truth.as_ref() };
             detections.add(origin, &rows)?;
             answers(&rows).for_each(|(w, plausible)| overall.add(w, plausible));
-            let threshold = record.settings.fusion.threshold;
+            let threshold = record.settings.method.fusion.threshold;
             sequences.push(SequenceContent::draw(
                 reader.as_ref(),
                 &rows,

@@ -1,7 +1,7 @@
 //! What is each part of the method good for? Variants that lack one part, have one part alone, or have one of our extensions
 //! besides; each is tuned on the same sequences as the paper's method, so that the comparison is fair, and judged on others.
 
-use super::{EvidenceTable, Found, Search, Settings, TuneError};
+use super::{EvidenceTable, Found, Search, TuneError, TunedSettings};
 use ralf::config::{Config, DepthScaling, GroundModel, TrackingSources};
 use ralf::metrics::{Confusion, Scores};
 
@@ -85,7 +85,7 @@ pub struct Judged {
     pub test: Scores,
 }
 
-fn scores(tables: &[&EvidenceTable], settings: &Settings) -> Result<Scores, TuneError> {
+fn scores(tables: &[&EvidenceTable], settings: &TunedSettings) -> Result<Scores, TuneError> {
     let scans = tables.iter().map(|table| table.confusions(settings));
     let scans: Vec<Vec<Confusion>> = scans.collect::<Result<_, _>>()?;
     Ok(Scores::of(&scans.concat()))

@@ -24,7 +24,7 @@ pub use file::settings_file;
 pub use gather::Gatherer;
 pub use objective::{Objective, ObjectiveError};
 pub use search::{Found, Search};
-pub use settings::{Branches, Settings, Space};
+pub use settings::{Branches, Space, TunedSettings};
 pub use table::EvidenceTable;
 
 use thiserror::Error;

@@ -54,11 +54,11 @@ pub(crate) struct LabelArgs {
 
 /// Labels a recording.
 pub(crate) fn run(arguments: &LabelArgs) -> anyhow::Result<Outcome> {
-    let mut config = arguments.settings.resolve()?;
+    let mut settings = arguments.settings.resolve()?;
     let jobs = threads(arguments.jobs);
-    let recording = arguments.dataset.open_with(&mut config)?;
-    let recording = arguments.with_depth(recording, &config, jobs)?;
-    let run = LabelRun { recording: &recording, config: &config, out: &arguments.output, jobs };
+    let recording = arguments.dataset.open_with(&mut settings)?;
+    let recording = arguments.with_depth(recording, &settings.method, jobs)?;
+    let run = LabelRun { recording: &recording, settings: &settings, out: &arguments.output, jobs };
     let done = run.execute(&Bars::new(arguments.quiet))?;
     if !done.removed.is_empty() {
         let names = done.removed.join(", ");

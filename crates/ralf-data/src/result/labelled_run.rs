@@ -8,7 +8,7 @@ use crate::disk::files;
 use crate::disk::label_file::{Label, labels_of_bytes};
 use crate::error::DataError;
 use crate::read::{Recording, SequenceReader};
-use ralf::config::Config;
+use crate::settings::Settings;
 use ralf::sensors::Rig;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -74,7 +74,7 @@ impl LabelledRun {
     }
 
     /// The settings that the labels were made with.
-    pub fn settings(&self) -> &Config {
+    pub fn settings(&self) -> &Settings {
         &self.record.settings
     }
 
@@ -133,7 +133,7 @@ impl LabelledRun {
         };
         check_radars(&self.out, reader, record)?;
         let mut rig = reader.sequence().rig.clone();
-        self.record.settings.apply_to(&mut rig).map_err(|error| DataError::Unsuitable {
+        self.record.settings.method.apply_to(&mut rig).map_err(|error| DataError::Unsuitable {
             file: self.out.clone(),
             place: format!("sequence {name}"),
             reason: error.to_string(),

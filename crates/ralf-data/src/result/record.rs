@@ -4,7 +4,7 @@ use super::json::read_json;
 use super::sequence_record::{CameraRecord, NotLabelled, RadarRecord, SequenceRecord};
 use crate::error::DataError;
 use crate::read::Recording;
-use ralf::config::Config;
+use crate::settings::Settings;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -21,7 +21,7 @@ pub struct RunRecord {
     /// Format of the recording.
     pub format: String,
     /// All settings, resolved.
-    pub settings: Config,
+    pub settings: Settings,
     /// Every file that was read, by sequence and name.
     pub inputs: Vec<Input>,
     /// In the order of their names.
@@ -66,11 +66,11 @@ pub fn read_record(out: &Path) -> Result<RunRecord, DataError> {
 
 impl RunRecord {
     /// The record of a folder that holds no sequence yet.
-    pub(crate) fn new(recording: &Recording, config: &Config) -> Self {
+    pub(crate) fn new(recording: &Recording, settings: &Settings) -> Self {
         Self {
             version: env!("CARGO_PKG_VERSION").to_owned(),
             format: recording.format.to_owned(),
-            settings: config.clone(),
+            settings: settings.clone(),
             inputs: Vec::new(),
             sequences: Vec::new(),
             timings: Timings::default(),

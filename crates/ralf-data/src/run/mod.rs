@@ -22,6 +22,7 @@ pub use crate::result::{
 use crate::error::DataError;
 use crate::read::{Recording, SequenceReader, layout};
 use crate::result::{Columns, SequenceNames, WriterLock};
+use crate::settings::Settings;
 use inputs::Identity;
 use output_folder::OutputFolder;
 use ralf::config::Config;
@@ -37,7 +38,7 @@ pub struct LabelRun<'a> {
     /// What is labelled.
     pub recording: &'a Recording,
     /// With these settings.
-    pub config: &'a Config,
+    pub settings: &'a Settings,
     /// Where the results go.
     pub out: &'a Path,
     /// Threads.
@@ -102,7 +103,7 @@ impl LabelRun<'_> {
         let tasks = tasks.map(|(reader, names)| self.task(reader.as_ref(), names));
         let tasks = tasks.collect::<Result<Vec<_>, _>>()?;
         let _lock = WriterLock::take(self.out.join(LOCK), self.out)?;
-        let run = RunRecord::new(self.recording, self.config);
+        let run = RunRecord::new(self.recording, self.settings);
         let asked = inputs::identify(self.recording, &fingerprint::of_run(&run), self.jobs, observer)?;
         let folder = OutputFolder::open(self.out, run, &asked)?;
         let mut finished = Vec::new();
@@ -121,7 +122,7 @@ impl LabelRun<'_> {
     }
 
     fn task<'a>(&self, reader: &'a dyn SequenceReader, names: SequenceNames) -> Result<Task<'a>, DataError> {
-        let rig = rig_of(self.recording, reader, self.config)?;
+        let rig = rig_of(self.recording, reader, &self.settings.method)?;
         let columns = Columns::of(&rig).map_err(|reason| unsuitable(self.recording, reader, reason))?;
         Ok(Task { reader, names, rig, columns })
     }
@@ -134,7 +135,8 @@ impl LabelRun<'_> {
         observer: &dyn Observer,
     ) -> Result<SequenceRecord, DataError> {
         let workspace = folder.workspace(identity, &task.names)?;
-        let not_labelled = workers::label_scans(task, self.config, &workspace, self.jobs, observer)?;
+        let not_labelled =
+            workers::label_scans(task, &self.settings.method, &workspace, self.jobs, observer)?;
         assemble::assemble(task, &identity.fingerprint, &workspace, not_labelled, observer)
     }
 

@@ -33,7 +33,7 @@ pub(crate) fn recording(app: &App) -> Answer {
         "dataset": name(&app.recording.path),
         "out": name(&app.out),
         "author": app.author,
-        "threshold": read_record(&app.out)?.settings.fusion.threshold,
+        "threshold": read_record(&app.out)?.settings.method.fusion.threshold,
         "sequences": sequences,
         "classes": (0..=LAST_CLASS).filter_map(class).collect::<Vec<_>>(),
         "causes": app.causes.names(),
