@@ -5,8 +5,9 @@ use ralf::config::ConfigError;
 use serde::Serialize;
 use toml::{Table, Value};
 
-/// A settings file: the comment, each line of it behind a `#`, then all tuned settings and whatever else differs from the
-/// built-in defaults. Reading it back gives the same settings: a [`Config`](ralf::config::Config), or one with tables besides.
+/// A settings file: the comment, each line of it behind a `#`, then all tuned settings and whatever else differs from
+/// the built-in defaults. Reading it back gives the same settings: a [`Config`](ralf::config::Config), or one with
+/// tables besides.
 pub fn settings_file<T: Serialize + Default>(comment: &str, settings: &T) -> Result<String, ConfigError> {
     let refused = |error: &dyn std::fmt::Display| ConfigError::Parse(error.to_string());
     let all = Table::try_from(settings).map_err(|error| refused(&error))?;

@@ -10,8 +10,8 @@ const ON_FLOOR: u8 = 1;
 const IN_BLIND_SPOT: u8 = 2;
 const PLAUSIBLE: u8 = 4;
 
-/// Mismatches and truth of all detections with a truth, some hundred bytes each. Full precision is kept, so that a trial gives
-/// the labels that the labeler would give.
+/// Mismatches and truth of all detections with a truth, some hundred bytes each. Full precision is kept, so that a
+/// trial gives the labels that the labeler would give.
 #[derive(Debug, Clone, PartialEq)]
 pub struct EvidenceTable {
     space: Space,

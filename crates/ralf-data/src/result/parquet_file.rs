@@ -114,7 +114,7 @@ pub(crate) fn written(file: &Path, error: ParquetError) -> DataError {
     DataError::Io { file: file.to_owned(), error: std::io::Error::other(error) }
 }
 
-/// The schema of FORMATS 2.
+/// The schema of docs/formats.md, section 2.
 fn schema(columns: &Columns) -> Result<Type, ParquetError> {
     let unsigned = |bit_width| Some(LogicalType::integer(bit_width, false));
     let mut fields = vec![

@@ -9,7 +9,7 @@ use ralf_data::SequenceReader;
 use ralf_data::run::read_record;
 use serde_json::{Value, json};
 
-/// The bits of a detection's flags (FORMATS 2).
+/// The bits of a detection's flags (docs/formats.md, section 2).
 const FLAGS: [(u16, &str); 6] = [
     (flag::GROUND, "ground"),
     (flag::BLIND_SPOT, "blind spot"),

@@ -38,8 +38,8 @@ pub struct Found {
 }
 
 impl Search<'_> {
-    /// The best settings for some tables together; never worse there than the base's. `progress` is told of each trial, counted from
-    /// 1, and of the best so far.
+    /// The best settings for some tables together; never worse there than the base's. `progress` is told of each trial,
+    /// counted from 1, and of the best so far.
     pub fn run(
         &self,
         tables: &[&EvidenceTable],

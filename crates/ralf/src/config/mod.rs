@@ -1,4 +1,5 @@
-//! Every setting of the labeler (METHOD 12). `config/default.toml` says what each one means, with its unit and range.
+//! Every setting of the labeler (docs/method.md, section 12). `config/default.toml` says what each one means, with its
+//! unit and range.
 
 mod read;
 mod sensors;

@@ -23,8 +23,8 @@ pub enum ConfigError {
     },
 }
 
-/// Reads settings from a TOML text and assignments `key=value` that win over it. Tables of the names `left_out` are passed over;
-/// what is wrong with the text is said with its place.
+/// Reads settings from a TOML text and assignments `key=value` that win over it. Tables of the names `left_out` are
+/// passed over; what is wrong with the text is said with its place.
 pub fn read_toml<T: DeserializeOwned>(
     text: &str,
     assignments: &[&str],

@@ -16,7 +16,8 @@ impl Config {
         Self::from_toml_beside(&[], text, assignments)
     }
 
-    /// [`Self::from_toml`] for a file that holds other tables besides: those of these names are left to whom they belong to.
+    /// [`Self::from_toml`] for a file that holds other tables besides: those of these names are left to whom they
+    /// belong to.
     pub fn from_toml_beside(others: &[&str], text: &str, assignments: &[&str]) -> Result<Self, ConfigError> {
         let config: Self = read_toml(text, assignments, others)?;
         config.check()?;

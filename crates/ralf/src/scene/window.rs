@@ -46,8 +46,8 @@ impl<'a> FrameWindow<'a> {
         }
     }
 
-    /// All that belongs to one scan of one radar. Fails where that scan, or a LiDAR scan that belongs to it, can't be read;
-    /// neighbouring radar scans that can't be read are left out of the batch.
+    /// All that belongs to one scan of one radar. Fails where that scan, or a LiDAR scan that belongs to it, can't be
+    /// read; neighbouring radar scans that can't be read are left out of the batch.
     pub fn frame(&mut self, radar: usize, scan: usize) -> Result<Frame<'a>, SourceError> {
         let detections = match self.radar_scans.get(&(radar, scan)) {
             Some(Some(known)) => known,
@@ -86,7 +86,7 @@ impl<'a> FrameWindow<'a> {
         read
     }
 
-    /// The batch of METHOD 7.1 and 7.4.
+    /// The batch of docs/method.md, section 7.
     fn steps(&mut self, radar: usize, scan: usize, t_ns: i64) -> Vec<TrackingStep> {
         let max_gap = nanoseconds(self.config.tracking.max_gap_ms);
         let times = &self.source.sequence().times.radars;
