@@ -37,8 +37,6 @@ pub use disk::label_file::{Label, read_labels, write_labels};
 pub use error::DataError;
 pub use evidence::{SequenceEvidence, gather_evidence};
 pub use judge::{Balance, Balances, Comparison};
-pub use read::{
-    LayoutSequence, NuScenesKey, Recording, RosSource, SequenceReader, TruthLabels, formats, open, open_with,
-};
+pub use read::{LayoutSequence, Recording, SequenceReader, TruthLabels, formats, open, open_with};
 pub use truth::{Causes, Corrections, GroundTruth, ScanId};
 pub use write::write_sequence;

@@ -9,6 +9,7 @@ use clap::builder::PossibleValuesParser;
 use ralf::sim::presets::{self, Preset};
 use ralf::sim::{Scenario, SimulatedSequence};
 use ralf::source::Source;
+use ralf_files::Kind;
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
@@ -110,7 +111,7 @@ fn write_all(
 /// The user's scenario.
 fn own(file: &Path, arguments: &SimulateArgs) -> anyhow::Result<SimulatedSequence> {
     let name = || file.display().to_string();
-    let text = std::fs::read_to_string(file).with_context(name)?;
+    let text = ralf_files::read_text(file, Kind::Settings).with_context(name)?;
     let scenario = Scenario::from_toml(&text).with_context(name)?;
     let scans = arguments.scans.map_or(USUAL_SCANS, |scans| scans as usize);
     SimulatedSequence::new("00", &scenario, arguments.seed, scans).with_context(name)

@@ -93,7 +93,7 @@ impl LabelRun<'_> {
         let tasks = self.recording.sequences.iter().map(|reader| self.task(reader.as_ref()));
         let tasks = tasks.collect::<Result<Vec<_>, _>>()?;
         let run = RunRecord::new(self.recording, self.config);
-        let asked = inputs::identify(self.recording, &fingerprint::of_run(&run), self.jobs, observer)?;
+        let asked = inputs::identify(self.recording, &fingerprint::of_run(&run), self.jobs, observer);
         let folder = OutputFolder::open(self.out, run, &asked)?;
         let mut finished = Vec::new();
         for (task, identity) in tasks.iter().zip(&asked).filter(|(_, asked)| !folder.holds(&asked.name)) {

@@ -39,7 +39,7 @@ pub struct Input {
     pub file: String,
     /// Its size.
     pub bytes: u64,
-    /// Of its content.
+    /// Of its content; empty where it can't be read.
     pub blake3: String,
 }
 

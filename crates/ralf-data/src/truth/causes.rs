@@ -6,6 +6,7 @@
 use crate::disk::files;
 use crate::error::DataError;
 use crate::truth::ground_truth::ScanId;
+use ralf_files::Kind;
 use std::path::{Path, PathBuf};
 
 const NAMES: &str = "causes.txt";
@@ -30,7 +31,7 @@ impl Causes {
             return Ok(None);
         }
         let names: Vec<String> =
-            files::read_text(&file)?.lines().map(|name| name.trim().to_owned()).collect();
+            files::read_text(&file, Kind::Settings)?.lines().map(|name| name.trim().to_owned()).collect();
         let refuse = |line: usize, expected: &str, found: &str| {
             Err(DataError::content(&file, format!("line {line}"), expected, format!("`{found}`")))
         };

@@ -24,6 +24,7 @@ use messages::Messages;
 use ralf::config::Topics;
 use ralf_ros::container::ContainerError;
 use source::Drive;
+pub(crate) use source::RosOrigin;
 use std::path::Path;
 
 /// As `--format` takes it.
