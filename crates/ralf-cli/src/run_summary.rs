@@ -1,8 +1,8 @@
 //! What a run of `ralf label` made, as tables: a row per radar, and a row per camera whose images have depth.
 
 use crate::text::{aligned, grouped, percent};
-use ralf::camera::{Failure, ViewState};
-use ralf::labeler::flag;
+use ralf::label::flag;
+use ralf::scene::{Failure, ViewState};
 use ralf_data::run::{CameraRecord, RadarRecord, RunRecord};
 
 /// So many cameras are named that were not used.

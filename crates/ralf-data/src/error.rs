@@ -1,6 +1,6 @@
 //! What can be wrong with a file: every error names the file, the place in it, what was expected and what was found.
 
-use ralf::source::SourceError;
+use ralf::sensors::SourceError;
 use ralf_corrections::StoreError;
 use std::path::{Path, PathBuf};
 use thiserror::Error;

@@ -5,10 +5,10 @@ use crate::read::{Recording, SequenceReader};
 use crate::run::{NotLabelled, Observer, Stage, rig_of};
 use crate::truth::{GroundTruth, ScanId};
 use ralf::config::Config;
-use ralf::frame::FrameWindow;
 use ralf::label::truth_of;
-use ralf::rig::Rig;
-use ralf::tune::{EvidenceTable, Gatherer, Space};
+use ralf::scene::FrameWindow;
+use ralf::sensors::Rig;
+use ralf_train::{EvidenceTable, Gatherer, Space};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Scans that follow each other in time and are matched by one worker, which reads their neighbours but once.

@@ -8,7 +8,7 @@
 
 mod dataset;
 
-use ralf::source::SourceError;
+use ralf::sensors::SourceError;
 use ralf_data::write::export::{RosFormat, write_ros};
 use ralf_data::{Recording, SequenceReader};
 use std::collections::BTreeSet;

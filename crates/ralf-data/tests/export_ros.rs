@@ -10,9 +10,8 @@ mod dataset;
 
 use dataset::{SEQUENCE_TOML, tiny, write};
 use ralf::config::Config;
-use ralf::geometry::Transform;
-use ralf::rig::Rig;
-use ralf::source::Source;
+use ralf::sensors::{Rig, Source};
+use ralf::space::Transform;
 use ralf_data::run::{LabelRun, Observer, Stage};
 use ralf_data::write::export::{Export, ExportFormat, ExportOptions, RosFormat, Sensors, Split, write_ros};
 use ralf_data::{LayoutSequence, Recording, open, open_with, write_sequence};
@@ -52,7 +51,7 @@ fn same_rig(found: &Rig, expected: &Rig) {
             (&found.name, &found.fields, found.elevation),
             (&expected.name, &expected.fields, expected.elevation)
         );
-        let sigmas = |radar: &ralf::rig::Radar| {
+        let sigmas = |radar: &ralf::sensors::Radar| {
             let [a, b, c] = [radar.sigma_range, radar.sigma_azimuth, radar.sigma_elevation];
             [a, b, c, radar.fov_azimuth, radar.fov_elevation]
         };

@@ -5,8 +5,7 @@
 mod dataset;
 
 use dataset::{floats, tiny, write};
-use ralf::camera::{DepthOutput, Intrinsics};
-use ralf::source::Source;
+use ralf::sensors::{DepthOutput, Intrinsics, Source};
 use ralf_data::{LayoutSequence, SequenceReader, write_sequence};
 use std::cell::RefCell;
 use std::fs;
@@ -227,7 +226,7 @@ fn bad_measurements_are_named_when_they_are_read() {
     let (_folder, path) = tiny();
     let reader = LayoutSequence::open(&path).unwrap();
     let harm = |file: &str, bytes: &[u8]| write(&path.join(file), bytes);
-    let says = |result: Result<(), ralf::source::SourceError>, expected: &str| {
+    let says = |result: Result<(), ralf::sensors::SourceError>, expected: &str| {
         let error = result.unwrap_err().to_string();
         assert!(error.contains(expected), "{error} lacks {expected}");
     };

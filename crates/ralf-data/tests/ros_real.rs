@@ -7,13 +7,13 @@
     reason = "a check that fails is a test that fails, and a skipped one says so"
 )]
 
-use ralf::camera::{CameraImage, DepthImage};
 use ralf::config::{Config, Topics};
-use ralf::frame::FrameWindow;
-use ralf::labeler::{DetectionLabel, Labeler};
-use ralf::measurement::{LidarScan, RadarScan};
-use ralf::motion::EgoMotion;
-use ralf::source::{Sequence, Source, SourceError, Timelines};
+use ralf::paper::{DetectionLabel, Labeler};
+use ralf::scene::FrameWindow;
+use ralf::sensors::{
+    CameraImage, DepthImage, LidarScan, RadarScan, Sequence, Source, SourceError, Timelines,
+};
+use ralf::space::EgoMotion;
 use ralf_data::{Recording, SequenceReader};
 use std::path::{Path, PathBuf};
 

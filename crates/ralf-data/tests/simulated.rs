@@ -1,9 +1,9 @@
 //! Simulated sequences in files.
 #![expect(clippy::unwrap_used, reason = "helpers of tests fail as tests do")]
 
-use ralf::sim::{SimulatedSequence, presets};
-use ralf::source::Source;
+use ralf::sensors::Source;
 use ralf_data::{GroundTruth, Label, open, write_sequence};
+use ralf_sim::{SimulatedSequence, presets};
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};

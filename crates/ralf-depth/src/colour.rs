@@ -2,7 +2,7 @@
 
 use crate::DepthError;
 use crate::plane::Plane;
-use ralf::camera::CameraImage;
+use ralf::sensors::CameraImage;
 use std::array::from_fn;
 use std::ops::Range;
 

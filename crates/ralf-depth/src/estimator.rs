@@ -1,7 +1,7 @@
 //! What the rest of the program knows of a depth network.
 
 use crate::DepthError;
-use ralf::camera::{CameraImage, DepthImage, DepthOutput};
+use ralf::sensors::{CameraImage, DepthImage, DepthOutput};
 
 /// Estimates the depth of a view from its colours alone.
 ///

@@ -5,7 +5,7 @@ use crate::plane::Plane;
 use crate::runner::Runner;
 use crate::squares;
 use crate::{Card, DepthError, Fit};
-use ralf::camera::DepthOutput;
+use ralf::sensors::DepthOutput;
 
 /// The depth of a view, in the view's size.
 pub(crate) fn depth(runner: &Runner<'_>, view: &Colour) -> Result<Plane, DepthError> {

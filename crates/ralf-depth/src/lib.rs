@@ -5,7 +5,7 @@
 //! card that doesn't go with its network is refused when the two are loaded.
 //!
 //! An image takes this way: view -> [`Fit`] -> resize (antialiased) -> normalise -> network, and once more mirrored if
-//! `flip` is set -> resize back -> [`DepthImage`](ralf::camera::DepthImage).
+//! `flip` is set -> resize back -> [`DepthImage`](ralf::sensors::DepthImage).
 //!
 //! A single estimate uses one thread and gives the same bytes however many run side by side, so callers parallelise over
 //! images.
@@ -14,7 +14,7 @@
 //! use ralf_depth::{DepthEstimator, OnnxModel};
 //!
 //! # fn main() -> Result<(), ralf_depth::DepthError> {
-//! # let view = ralf::camera::CameraImage { width: 0, height: 0, rgb: vec![] };
+//! # let view = ralf::sensors::CameraImage { width: 0, height: 0, rgb: vec![] };
 //! // Reads the card models/midas.toml.
 //! let model = OnnxModel::load("models/midas.onnx".as_ref(), None)?;
 //! let depth = model.estimate(&view, 1266.4)?;

@@ -9,7 +9,7 @@ use crate::ort_backend::{self, OrtNetwork};
 use crate::rten_backend::{self, RtenNetwork};
 use crate::runner::Runner;
 use crate::{DepthError, DepthEstimator};
-use ralf::camera::{CameraImage, DepthImage, DepthOutput};
+use ralf::sensors::{CameraImage, DepthImage, DepthOutput};
 use ralf_files::Kind;
 use std::path::{Path, PathBuf};
 

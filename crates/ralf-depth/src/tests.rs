@@ -2,7 +2,7 @@
 
 use crate::testing::{FLOAT, INT64, Value, channel_sum, conv, node, onnx, weights};
 use crate::{DepthEstimator, OnnxModel};
-use ralf::camera::{CameraImage, DepthOutput};
+use ralf::sensors::{CameraImage, DepthOutput};
 use tempfile::TempDir;
 
 /// Fed as they are: value / 1 - 0, / 1.

@@ -6,7 +6,7 @@
     reason = "a test fails where things can't be had, or says that it is skipped"
 )]
 
-use ralf::camera::CameraImage;
+use ralf::sensors::CameraImage;
 use ralf_depth::{DepthError, DepthEstimator, OnnxModel, Runtime};
 use std::path::{Path, PathBuf};
 use std::time::Instant;

@@ -5,9 +5,9 @@
     reason = "a test fails where things can't be had, or says that it is skipped"
 )]
 
-use ralf::camera::{CameraImage, StraightView, UndistortMap, ViewPoint, project_points};
-use ralf::geometry::Point;
-use ralf::measurement::is_return;
+use ralf::scene::project_points;
+use ralf::sensors::{CameraImage, StraightView, UndistortMap, ViewPoint, is_return};
+use ralf::space::Point;
 use ralf_data::{Recording, SequenceReader};
 use ralf_depth::{DepthError, DepthEstimator, OnnxModel};
 use std::path::{Path, PathBuf};

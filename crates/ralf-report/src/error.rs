@@ -1,6 +1,6 @@
 //! Why a report or a picture can't be made.
 
-use ralf::source::SourceError;
+use ralf::sensors::SourceError;
 use ralf_data::DataError;
 use ralf_plot::PlotError;
 use thiserror::Error;

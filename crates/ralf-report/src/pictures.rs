@@ -2,11 +2,9 @@
 //! LiDAR returns, the vehicle's path.
 
 use crate::ReportError;
-use ralf::geometry::{Point, Transform, Vector};
-use ralf::measurement::is_return;
-use ralf::rig::Radar;
-use ralf::source::Sequence;
-use ralf::sync;
+use ralf::sensors::{Radar, Sequence, is_return};
+use ralf::space::sync;
+use ralf::space::{Point, Transform, Vector};
 use ralf_data::SequenceReader;
 use ralf_data::result::LabelledRows;
 use ralf_plot::{

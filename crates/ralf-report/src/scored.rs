@@ -2,9 +2,8 @@
 
 use crate::ReportError;
 use ralf::config::Config;
-use ralf::label::truth_of;
-use ralf::labeler::flag;
-use ralf::rig::Rig;
+use ralf::label::{flag, truth_of};
+use ralf::sensors::Rig;
 use ralf_data::result::LabelledRows;
 use ralf_data::{Causes, DataError, GroundTruth, ScanId};
 use std::ops::Range;

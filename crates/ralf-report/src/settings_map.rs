@@ -3,7 +3,7 @@
 
 use crate::scored::Scored;
 use ralf::config::FusionConfig;
-use ralf::fusion::prioritize;
+use ralf::paper::prioritize;
 
 /// Values of each setting, evenly from 0 to 1.
 pub(crate) const STEPS: usize = 21;

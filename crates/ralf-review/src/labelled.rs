@@ -3,10 +3,10 @@
 use crate::cache::Cache;
 use crate::http::ApiError;
 use crate::need::{ScanNeed, of_scans};
-use ralf::camera::ViewState;
 use ralf::config::{Config, nanoseconds};
-use ralf::rig::Rig;
-use ralf::sync;
+use ralf::scene::ViewState;
+use ralf::sensors::Rig;
+use ralf::space::sync;
 use ralf_data::result::{Columns, PlausibilityReader, ScanTable, ScanTables};
 use ralf_data::run::{CameraRecord, ImageRecord, read_record};
 use ralf_data::{DataError, SequenceReader};

@@ -10,7 +10,7 @@
 
 use crate::http::ApiError;
 use crate::labelled::SequenceLabels;
-use ralf::source::Sequence;
+use ralf::sensors::Sequence;
 use ralf_data::result::{Columns, ScanTable};
 
 /// A plausibility this close to the threshold is uncertain.
@@ -125,7 +125,7 @@ impl Doubts {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use ralf::rig::Rig;
+    use ralf::sensors::Rig;
 
     #[test]
     fn doubts_are_counted_by_hand() {

@@ -1,12 +1,12 @@
 //! The camera branch: straightening images and calibrating depth. One thread.
 
 use divan::{Bencher, black_box};
-use ralf::camera::{
-    Camera, CameraImage, DepthImage, DepthOutput, Intrinsics, StraightView, Surroundings, UndistortMap, View,
-    calibrate, project_points,
-};
 use ralf::config::{CameraConfig, GroundConfig};
-use ralf::geometry::{Point, Transform};
+use ralf::scene::{Surroundings, calibrate, project_points};
+use ralf::sensors::{
+    Camera, CameraImage, DepthImage, DepthOutput, Intrinsics, StraightView, UndistortMap, View,
+};
+use ralf::space::{Point, Transform};
 
 fn main() {
     divan::main();

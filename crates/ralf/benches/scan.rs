@@ -1,25 +1,19 @@
 //! What a radar scan costs, stage by stage, on a street like the paper's: 72k LiDAR points, 1,216 detections of which four in
-//! five are artifacts, K = 5, n_b = 5. Run with `cargo bench -p ralf --bench scan`; one thread.
+//! five are artifacts, K = 5, n_b = 5. Run with `cargo bench -p ralf-radar --bench scan`; one thread.
 
 #![allow(clippy::expect_used, reason = "a bench that can't be set up should say so")]
 
 use divan::{Bencher, black_box};
 use nalgebra::UnitQuaternion;
-use ralf::camera::{
-    Calibration, Camera, CameraImage, DepthImage, DepthOutput, ImageMoment, ImageView, Intrinsics,
-};
 use ralf::config::Config;
-use ralf::frame::{Frame, FrameWindow};
-use ralf::geometry::{Point, Spherical, Transform, Vector};
-use ralf::labeler::Labeler;
-use ralf::lidar::ground::Ground;
-use ralf::lidar::{self, LidarMoment, LidarView};
-use ralf::measurement::{LidarScan, RadarScan};
-use ralf::motion::{EgoMotion, OdometrySample};
-use ralf::neighbors::NeighborIndex;
-use ralf::rig::{Elevation, Lidar, Radar, Reliability, Rig};
-use ralf::source::{Sequence, Source, SourceError, Timelines};
-use ralf::tracking;
+
+use ralf::paper::{Labeler, lidar, tracking};
+use ralf::scene::{Calibration, Frame, FrameWindow, Ground, ImageMoment, ImageView, LidarMoment, LidarView};
+use ralf::sensors::{
+    Camera, CameraImage, DepthImage, DepthOutput, Elevation, Intrinsics, Lidar, LidarScan, Radar, RadarScan,
+    Reliability, Rig, Sequence, Source, SourceError, Timelines,
+};
+use ralf::space::{EgoMotion, NeighborIndex, OdometrySample, Point, Spherical, Transform, Vector};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 use std::f32::consts::PI;

@@ -1,8 +1,8 @@
 //! Camera models against real calibrations: the folder `fisheye` of RALF_TEST_DATA.
 #![expect(clippy::unwrap_used, clippy::panic, reason = "helpers of tests fail as tests do")]
 
-use ralf::camera::Intrinsics;
-use ralf::geometry::{Point, Vector};
+use ralf::sensors::Intrinsics;
+use ralf::space::{Point, Vector};
 use std::path::{Path, PathBuf};
 
 const SKIPPED: &str = "skipped: RALF_TEST_DATA is not set";

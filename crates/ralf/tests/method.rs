@@ -5,8 +5,8 @@
 mod support;
 
 use ralf::config::Config;
-use ralf::labeler::flag;
-use ralf::rig::{Elevation, Reliability};
+use ralf::label::flag;
+use ralf::sensors::{Elevation, Reliability};
 use support::{MS, Memory, lidar, radar};
 
 /// Round weights, which the numbers worked out by hand go by; the defaults are tuned.
@@ -123,7 +123,7 @@ fn a_neighbour_that_cannot_be_read_is_left_out() {
     memory.radar_scans[0][1] = None;
     assert_eq!(memory.label(&config(&[]), 0, 0)[0].flags, flag::NO_NEIGHBOURS);
     let config = config(&[]);
-    let mut window = ralf::frame::FrameWindow::new(&memory, &memory.sequence.rig, &config);
+    let mut window = ralf::scene::FrameWindow::new(&memory, &memory.sequence.rig, &config);
     assert!(window.frame(0, 1).unwrap_err().to_string().contains("cut short"));
 }
 

@@ -5,8 +5,8 @@ use crate::Outcome;
 use crate::text::{aligned, decimal, print};
 use clap::Args;
 use ralf::metrics::{Rates, Scores};
-use ralf::tune::{Judged, Variant};
 use ralf_data::{GroundTruth, Recording};
+use ralf_train::{Judged, Variant};
 use serde_json::{Map, Value, json};
 
 /// Arguments of `ralf ablate`.

@@ -4,7 +4,7 @@ use crate::Outcome;
 use crate::cli::{DatasetArgs, the_only};
 use crate::progress::{STEPS, bar, say};
 use clap::Args;
-use ralf::source::Timelines;
+use ralf::sensors::Timelines;
 use ralf_data::Recording;
 use ralf_data::write::export::{RosFormat, write_ros};
 use std::path::{Path, PathBuf};

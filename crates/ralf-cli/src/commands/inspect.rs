@@ -10,7 +10,7 @@ use crate::text::{aligned, grouped, print};
 use crate::{Outcome, UsageError};
 use clap::Args;
 use ralf::config::Config;
-use ralf::source::Timelines;
+use ralf::sensors::Timelines;
 use ralf_data::SequenceReader;
 use ralf_data::read::inspection::{Inspection, SensorInspection, Unreadable};
 use ralf_data::run::{RunRecord, read_record};

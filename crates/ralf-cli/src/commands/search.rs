@@ -10,8 +10,8 @@ use clap::Args;
 use clap::builder::PossibleValuesParser;
 use indicatif::ProgressBar;
 use ralf::config::Config;
-use ralf::tune::{EvidenceTable, Found, Objective, Search, Settings};
 use ralf_data::{GroundTruth, Recording, SequenceEvidence, gather_evidence};
+use ralf_train::{EvidenceTable, Found, Objective, Search, Settings};
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 

@@ -9,8 +9,8 @@ use crate::text::print;
 use crate::{Outcome, UsageError};
 use clap::Args;
 use ralf::config::Config;
-use ralf::tune::{EvidenceTable, Found, Search, Settings, leave_one_out, settings_file};
 use ralf_data::write_whole;
+use ralf_train::{EvidenceTable, Found, Search, Settings, leave_one_out, settings_file};
 use report::{Part, Report};
 use std::path::PathBuf;
 
@@ -94,7 +94,7 @@ impl TuneArgs {
         &self,
         search: &Search,
         train: &[(String, EvidenceTable)],
-    ) -> anyhow::Result<Vec<ralf::tune::Fold>> {
+    ) -> anyhow::Result<Vec<ralf_train::Fold>> {
         let shown = self.search.bar("cross-validation");
         let mut show = |left_out: &str, trial: usize, best: &Found| {
             shown.set_prefix(format!("cross-validation without {left_out}"));

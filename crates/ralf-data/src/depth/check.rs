@@ -1,10 +1,9 @@
 //! Which scaling of relative depth fits best? Measured on LiDAR points that had no part in it.
 
 use crate::read::SequenceReader;
-use ralf::camera::median;
 use ralf::config::{Config, DepthScaling};
-use ralf::frame::FrameWindow;
-use ralf::source::SourceError;
+use ralf::scene::{FrameWindow, median};
+use ralf::sensors::SourceError;
 
 /// The scalings that are compared.
 pub const SCALINGS: [DepthScaling; 3] = [DepthScaling::Local, DepthScaling::Ransac, DepthScaling::Huber];

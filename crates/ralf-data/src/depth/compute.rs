@@ -3,7 +3,7 @@
 use super::DepthStore;
 use crate::error::DataError;
 use crate::read::SequenceReader;
-use ralf::camera::{Camera, CameraImage, DepthImage, StraightView, UndistortMap};
+use ralf::sensors::{Camera, CameraImage, DepthImage, StraightView, UndistortMap};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, OnceLock, PoisonError};
 
@@ -73,7 +73,7 @@ impl Straightening<'_> {
         reader: &dyn SequenceReader,
         (camera, image): (usize, usize),
         estimate: &Estimate,
-    ) -> Result<Vec<DepthImage>, ralf::source::SourceError> {
+    ) -> Result<Vec<DepthImage>, ralf::sensors::SourceError> {
         let Camera { intrinsics, width, height, .. } = self.camera;
         intrinsics.check(*width, *height).map_err(|expected| format!("expected {expected}"))?;
         let raw = reader.image(camera, image)?;

@@ -3,9 +3,9 @@
 use crate::disk::{files, npy};
 use crate::error::DataError;
 use crate::read::{Recording, SequenceReader, TruthLabels};
-use ralf::camera::{CameraImage, DepthImage, DepthOutput};
-use ralf::measurement::{LidarScan, RadarScan};
-use ralf::source::{Sequence, Source, SourceError};
+use ralf::sensors::{
+    CameraImage, DepthImage, DepthOutput, LidarScan, RadarScan, Sequence, Source, SourceError,
+};
 use ralf_files::Kind;
 use serde::{Deserialize, Serialize};
 use std::any::Any;

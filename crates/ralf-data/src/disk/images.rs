@@ -3,7 +3,7 @@
 use crate::disk::files;
 use crate::error::DataError;
 use image::{ColorType, ImageFormat, ImageReader};
-use ralf::camera::CameraImage;
+use ralf::sensors::CameraImage;
 use std::io::{BufReader, Cursor};
 use std::path::Path;
 

@@ -5,7 +5,7 @@
 
 use crate::disk::files;
 use crate::error::DataError;
-use ralf::camera::DepthImage;
+use ralf::sensors::DepthImage;
 use std::path::Path;
 
 const MAGIC: &[u8] = b"\x93NUMPY";

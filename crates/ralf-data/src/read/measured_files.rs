@@ -3,9 +3,7 @@
 use crate::disk::{files, images};
 use crate::error::DataError;
 use crate::read::recording::measurement;
-use ralf::camera::CameraImage;
-use ralf::measurement::{LidarScan, RadarScan};
-use ralf::source::{Sequence, SourceError};
+use ralf::sensors::{CameraImage, LidarScan, RadarScan, Sequence, SourceError};
 use std::path::{Path, PathBuf};
 
 /// One list per sensor, in the rig's order; one file per measurement, in the order of time.

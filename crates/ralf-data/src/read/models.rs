@@ -3,8 +3,8 @@
 //! Radar makers state an accuracy or a resolution, not a standard deviation. An accuracy is taken as one standard
 //! deviation, a resolution as two. Whoever knows better says so in the table `sensors` of the settings.
 
-use ralf::geometry::Transform;
-use ralf::rig::{Elevation, Lidar, Radar, Reliability};
+use ralf::sensors::{Elevation, Lidar, Radar, Reliability};
+use ralf::space::Transform;
 
 /// What is known of a type of radar.
 #[derive(Debug, Clone, Copy)]

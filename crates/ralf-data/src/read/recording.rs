@@ -2,7 +2,7 @@
 
 use crate::disk::label_file::Label;
 use crate::error::DataError;
-use ralf::source::{Source, SourceError};
+use ralf::sensors::{Source, SourceError};
 use std::any::Any;
 use std::path::PathBuf;
 
@@ -49,7 +49,7 @@ pub trait SequenceReader: Source {
 pub struct TruthLabels {
     /// As they stand in a `.label` file.
     pub labels: Vec<Label>,
-    /// Why each is an artifact: [`ralf::sim::Cause`] as a number, 0 of what is plausible. No file that labelling reads.
+    /// Why each is an artifact: [`ralf::label::Cause`] as a number, 0 of what is plausible. No file that labelling reads.
     pub causes: Vec<u8>,
 }
 

@@ -1,6 +1,6 @@
 //! The columns of `plausibility.parquet`.
 
-use ralf::rig::Rig;
+use ralf::sensors::Rig;
 
 /// Decimal columns before the further radar fields.
 pub(super) const PLACE: [&str; 6] = ["x", "y", "z", "range", "azimuth", "elevation"];

@@ -35,7 +35,7 @@ pub struct LabelledRows {
     pub w: Vec<f32>,
     /// 1 plausible, 0 artifact.
     pub label: Vec<u8>,
-    /// Bits of [`ralf::labeler::flag`].
+    /// Bits of [`ralf::label::flag`].
     pub flags: Vec<u16>,
 }
 

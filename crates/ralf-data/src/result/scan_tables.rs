@@ -168,7 +168,7 @@ impl Rows {
 mod tests {
     use super::super::PlausibilityWriter;
     use super::*;
-    use ralf::rig::Rig;
+    use ralf::sensors::Rig;
 
     fn table(columns: &Columns, rows: usize, seed: f32) -> ScanTable {
         let value = |column: usize, row: usize| {

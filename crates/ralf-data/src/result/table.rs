@@ -2,10 +2,10 @@
 
 use super::Columns;
 use crate::disk::label_file::Label;
-use ralf::detections::Detections;
 use ralf::label::{ARTIFACT, PLAUSIBLE, truth_of};
-use ralf::labeler::DetectionLabel;
-use ralf::rig::{Elevation, Radar};
+use ralf::paper::DetectionLabel;
+use ralf::scene::Detections;
+use ralf::sensors::{Elevation, Radar};
 
 /// One row per detection of one scan.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -16,7 +16,7 @@ pub struct ScanTable {
     pub decimals: Vec<Vec<f32>>,
     /// 1 plausible, 0 artifact.
     pub label: Vec<u8>,
-    /// Bits of [`ralf::labeler::flag`].
+    /// Bits of [`ralf::label::flag`].
     pub flags: Vec<u16>,
     /// SemanticKITTI ids, where known.
     pub semantic: Vec<Option<u16>>,

@@ -5,7 +5,7 @@ use super::workspace::Workspace;
 use super::{Observer, Stage, Task};
 use crate::error::DataError;
 use crate::result::{PlausibilityWriter, ScanTable};
-use ralf::camera::Camera;
+use ralf::sensors::Camera;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Images by camera and number; several scans may have asked about one.

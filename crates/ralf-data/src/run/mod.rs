@@ -26,7 +26,7 @@ use crate::result::Columns;
 use inputs::Identity;
 use output_folder::OutputFolder;
 use ralf::config::Config;
-use ralf::rig::Rig;
+use ralf::sensors::Rig;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 

@@ -1,7 +1,7 @@
 //! What `run.json` tells of a sequence.
 
 use crate::result::ScanTable;
-use ralf::camera::{ImageMoment, ViewReport, ViewState};
+use ralf::scene::{ImageMoment, ViewReport, ViewState};
 use serde::{Deserialize, Serialize};
 
 /// One sequence.

@@ -6,8 +6,8 @@ use super::{Observer, Stage, Task};
 use crate::error::DataError;
 use crate::result::ScanTable;
 use ralf::config::Config;
-use ralf::frame::FrameWindow;
-use ralf::labeler::Labeler;
+use ralf::paper::Labeler;
+use ralf::scene::FrameWindow;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 

@@ -1,12 +1,12 @@
 //! Simulated sequences as part of a recording: they have no files, and their truth is known.
 //!
 //! [`crate::write::write_sequence`] writes the truth as `ground_truth/RADAR/NNNNNN.label`, and beside it `NNNNNN.cause`: one byte per
-//! detection, the number of its [`ralf::sim::Cause`]. Nothing that labels reads either of them.
+//! detection, the number of its [`ralf::label::Cause`]. Nothing that labels reads either of them.
 
 use crate::disk::label_file::Label;
 use crate::read::{SequenceReader, TruthLabels};
-use ralf::sim::SimulatedSequence;
-use ralf::source::SourceError;
+use ralf::sensors::SourceError;
+use ralf_sim::SimulatedSequence;
 use std::path::PathBuf;
 
 impl SequenceReader for SimulatedSequence {

@@ -4,7 +4,7 @@ mod keys;
 pub mod presets;
 mod read;
 
-use ralf::camera::DepthOutput;
+use ralf::sensors::DepthOutput;
 use serde::{Deserialize, Serialize};
 
 /// What an `.onnx` file doesn't say of itself: a TOML file of the same name, ending in `.toml`.

@@ -3,7 +3,7 @@
 use super::keys::Keys;
 use super::{Card, Fit, InputSize, presets};
 use crate::DepthError;
-use ralf::camera::DepthOutput;
+use ralf::sensors::DepthOutput;
 use ralf_files::Kind;
 use std::path::{Path, PathBuf};
 

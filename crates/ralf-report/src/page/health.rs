@@ -3,8 +3,8 @@
 use super::number::{grouped, percent, ranges};
 use crate::content::Content;
 use maud::{Markup, html};
-use ralf::camera::{Failure, ViewState};
-use ralf::labeler::flag;
+use ralf::label::flag;
+use ralf::scene::{Failure, ViewState};
 use ralf_data::run::{CameraRecord, RadarRecord};
 
 /// Flags that tell of something missing in a whole scan, then those that are everyday.

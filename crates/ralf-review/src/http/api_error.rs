@@ -3,7 +3,7 @@
 use super::json;
 use axum::http::StatusCode;
 use axum::response::{IntoResponse, Response};
-use ralf::source::SourceError;
+use ralf::sensors::SourceError;
 use ralf_corrections::StoreError;
 use ralf_data::DataError;
 use serde_json::{Map, Value};

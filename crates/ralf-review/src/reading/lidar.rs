@@ -4,10 +4,9 @@ use super::{matrix, time};
 use crate::app::{App, measurement};
 use crate::http::{Answer, ApiError, Table, content};
 use crate::labelled::SequenceLabels;
-use ralf::frame::FrameWindow;
-use ralf::geometry::Point;
-use ralf::lidar::LidarView;
-use ralf::measurement::is_return;
+use ralf::scene::{FrameWindow, LidarView};
+use ralf::sensors::is_return;
+use ralf::space::Point;
 use ralf_data::SequenceReader;
 use serde_json::Map;
 

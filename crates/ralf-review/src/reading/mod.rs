@@ -17,7 +17,7 @@ pub(crate) use projection::{Projection, projection};
 pub(crate) use queue::{progress, queue};
 pub(crate) use recording::recording;
 
-use ralf::geometry::Transform;
+use ralf::space::Transform;
 use serde_json::{Value, json};
 
 /// A time, which may be more than a JavaScript number can hold.

@@ -3,7 +3,7 @@
 use super::time;
 use crate::app::App;
 use crate::http::{Answer, ApiError, json};
-use ralf::sync;
+use ralf::space::sync;
 use serde::Deserialize;
 use serde_json::{Value, json};
 
@@ -38,7 +38,7 @@ pub(crate) fn moment(app: &App, sequence: &str, asked: &Moment) -> Answer {
     }
     let radars = known.rig.radars.iter().zip(&known.times.radars);
     let radars = radars.filter(|(radar, _)| all || wanted.contains(&radar.name.as_str()));
-    let around = |(radar, times): (&ralf::rig::Radar, &Vec<i64>)| -> Vec<Value> {
+    let around = |(radar, times): (&ralf::sensors::Radar, &Vec<i64>)| -> Vec<Value> {
         let Some(nearest) = sync::nearest(times, t_ns, i64::MAX) else { return Vec::new() };
         let last = (nearest + asked.accumulate).min(times.len() - 1);
         let scans = nearest.saturating_sub(asked.accumulate)..=last;

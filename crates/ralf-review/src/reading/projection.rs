@@ -2,8 +2,8 @@
 
 use crate::app::{App, measurement};
 use crate::http::{Answer, Table, content};
-use ralf::camera::Camera;
-use ralf::geometry::Point;
+use ralf::sensors::Camera;
+use ralf::space::Point;
 use serde::Deserialize;
 use serde_json::Map;
 

@@ -4,8 +4,7 @@ use super::times;
 use crate::app::App;
 use crate::http::{Answer, json};
 use crate::labelled::is_labelled;
-use ralf::label::{class_name, cluster_of, truth_of};
-use ralf::labeler::flag;
+use ralf::label::{class_name, cluster_of, flag, truth_of};
 use ralf_data::SequenceReader;
 use ralf_data::run::read_record;
 use serde_json::{Value, json};
@@ -48,7 +47,7 @@ fn sequence(app: &App, reader: &dyn SequenceReader) -> Value {
     let radars = rig.radars.iter().zip(&all.radars);
     let lidars = rig.lidars.iter().zip(&all.lidars);
     let cameras = rig.cameras.iter().zip(&all.cameras);
-    let camera = |(camera, images): (&ralf::camera::Camera, &Vec<i64>)| json!({ "name": camera.name, "width": camera.width, "height": camera.height, "images": times(images) });
+    let camera = |(camera, images): (&ralf::sensors::Camera, &Vec<i64>)| json!({ "name": camera.name, "width": camera.width, "height": camera.height, "images": times(images) });
     json!({
         "name": sequence.name,
         "title": sequence.title,

@@ -2,7 +2,7 @@
 
 use crate::support::{CAMERA, LIDAR, Out, RADAR, SEQUENCE, recording};
 use ralf::config::Config;
-use ralf::geometry::Point;
+use ralf::space::Point;
 use ralf_data::result::read_labelled_rows;
 use ralf_data::{Causes, ScanId, read_labels};
 use serde_json::{Value, json};

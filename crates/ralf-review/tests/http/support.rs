@@ -1,10 +1,10 @@
 //! A recording with labels, a server on it, and a client.
 
 use ralf::config::Config;
-use ralf::sim::presets;
 use ralf_data::run::{LabelRun, Observer, Stage};
 use ralf_data::{Recording, open, write_sequence};
 use ralf_review::{Options, ReviewError, Server};
+use ralf_sim::presets;
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::fs;

@@ -1,7 +1,7 @@
 //! What a user knows better than the recording.
 
 use super::ConfigError;
-use crate::rig::{Lidar, Radar, Reliability, Rig};
+use crate::sensors::{Lidar, Radar, Reliability, Rig};
 use serde::{Deserialize, Serialize};
 
 /// `sensors.NAME`: values that replace those of the sensor of that name. Keys and units are those of `sequence.toml`.

@@ -2,15 +2,14 @@
 
 #![allow(clippy::unwrap_used, reason = "of tests alone")]
 
-use ralf::camera::{CameraImage, DepthImage, DepthOutput};
 use ralf::config::Config;
-use ralf::frame::FrameWindow;
-use ralf::geometry::Transform;
-use ralf::labeler::{DetectionLabel, Labeler};
-use ralf::measurement::{LidarScan, RadarScan};
-use ralf::motion::{EgoMotion, OdometrySample};
-use ralf::rig::{Elevation, Lidar, Radar, Reliability, Rig};
-use ralf::source::{Sequence, Source, SourceError, Timelines};
+use ralf::paper::{DetectionLabel, Labeler};
+use ralf::scene::FrameWindow;
+use ralf::sensors::{
+    CameraImage, DepthImage, DepthOutput, Elevation, Lidar, LidarScan, Radar, RadarScan, Reliability, Rig,
+    Sequence, Source, SourceError, Timelines,
+};
+use ralf::space::{EgoMotion, OdometrySample, Transform};
 
 pub(crate) const MS: i64 = 1_000_000;
 

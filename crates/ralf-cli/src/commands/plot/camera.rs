@@ -2,15 +2,11 @@
 
 use super::PlotArgs;
 use anyhow::{Context, bail, ensure};
-use ralf::camera::{
-    CalibratedView, Camera, CameraImage, Failure, ImageMoment, StraightView, UndistortMap, ViewReport,
-    ViewState, project_points,
-};
 use ralf::config::{Config, nanoseconds};
-use ralf::frame::FrameWindow;
-use ralf::geometry::Point;
-use ralf::source::Sequence;
-use ralf::sync;
+use ralf::scene::{CalibratedView, Failure, FrameWindow, ImageMoment, ViewReport, ViewState, project_points};
+use ralf::sensors::{Camera, CameraImage, Sequence, StraightView, UndistortMap};
+use ralf::space::Point;
+use ralf::space::sync;
 use ralf_data::depth::DepthStore;
 use ralf_data::run::read_record;
 use ralf_plot::{CameraPicture, PixelDepth, ViewPicture, camera_picture};

@@ -2,7 +2,7 @@
 
 use ralf::config::Config;
 use ralf::metrics::{Confusion, Scores};
-use ralf::tune::{EvidenceTable, Fold, Found, Objective, Settings, TuneError};
+use ralf_train::{EvidenceTable, Fold, Found, Objective, Settings, TuneError};
 use serde::Serialize;
 use serde_json::{Map, Value, json};
 

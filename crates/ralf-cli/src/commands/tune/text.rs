@@ -3,7 +3,7 @@
 use super::report::{Part, Report};
 use crate::text::{aligned, decimal};
 use ralf::metrics::{Rates, Scores};
-use ralf::tune::Fold;
+use ralf_train::Fold;
 
 /// Columns of all tables of scores, after the row's name. Precision and recall are those of plausible detections.
 const COLUMNS: [&str; 6] =

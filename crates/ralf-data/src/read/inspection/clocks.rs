@@ -1,6 +1,6 @@
 //! Sensors whose clock isn't that of the others.
 
-use ralf::source::Sequence;
+use ralf::sensors::Sequence;
 
 /// A sensor whose times lie this far from the motion's has another clock, s: no recorder starts its parts so far apart.
 const FAR_S: f64 = 60.0;

@@ -10,10 +10,10 @@ use path::Path;
 pub use readable::Unreadable;
 use steps::quantile;
 
-use ralf::camera::Camera;
 use ralf::config::{Config, nanoseconds};
-use ralf::source::Sequence;
-use ralf::sync;
+use ralf::sensors::Camera;
+use ralf::sensors::Sequence;
+use ralf::space::sync;
 use serde::Serialize;
 
 /// A time between two measurements that is this many times the usual one is a gap.

@@ -1,6 +1,6 @@
 //! How far the vehicle drove, as far as its motion is known.
 
-use ralf::motion::{EgoMotion, OdometrySample};
+use ralf::space::{EgoMotion, OdometrySample};
 
 /// The path is measured in steps of this length.
 const STEP_NS: i64 = 100_000_000;
@@ -110,8 +110,7 @@ fn seconds(from_ns: i64, to_ns: i64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use ralf::geometry::transform_from_parts;
-    use ralf::motion::PoseSample;
+    use ralf::space::{PoseSample, transform_from_parts};
 
     const SECOND: i64 = 1_000_000_000;
 

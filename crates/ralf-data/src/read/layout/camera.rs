@@ -3,7 +3,7 @@
 use super::raw::{CameraToml, ModelToml, ViewToml};
 use super::values::{Place, degrees, pose_toml};
 use crate::error::DataError;
-use ralf::camera::{Camera, Intrinsics, View};
+use ralf::sensors::{Camera, Intrinsics, View};
 
 /// A camera, checked.
 pub(super) fn camera(place: &Place<'_>, raw: &CameraToml) -> Result<Camera, DataError> {

@@ -2,7 +2,7 @@
 
 use crate::disk::files;
 use crate::error::DataError;
-use ralf::camera::DepthOutput;
+use ralf::sensors::DepthOutput;
 use ralf_files::Kind;
 use serde::{Deserialize, Serialize};
 use std::path::Path;

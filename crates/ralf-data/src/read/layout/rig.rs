@@ -5,8 +5,7 @@ use super::raw::{CameraToml, ElevationToml, LidarToml, RadarToml, SequenceToml};
 use super::values::{Place, degrees, pose_toml};
 use super::{GROUND_TRUTH, is_folder_name};
 use crate::error::DataError;
-use ralf::measurement::check_fields;
-use ralf::rig::{Elevation, Lidar, Radar, Reliability, Rig};
+use ralf::sensors::{Elevation, Lidar, Radar, Reliability, Rig, check_fields};
 use std::path::Path;
 
 /// Columns of the output: a radar's further fields are kept beside them, and can't be called the same.
@@ -154,6 +153,8 @@ fn check_names(file: &Path, rig: &Rig) -> Result<(), DataError> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::read::layout::values::quaternion_xyzw;
+    use ralf::space::transform_from_parts;
 
     #[test]
     fn angles_and_rotations_come_back_as_they_were_written() {

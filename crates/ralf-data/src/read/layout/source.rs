@@ -7,11 +7,11 @@ use crate::disk::label_file::read_labels;
 use crate::disk::{files, images, npy};
 use crate::error::DataError;
 use crate::read::SequenceReader;
-use ralf::camera::{Camera, CameraImage, DepthImage};
-use ralf::measurement::{LidarScan, RadarScan};
-use ralf::motion::{EgoMotion, OdometrySample};
-use ralf::rig::{Lidar, Radar, Rig};
-use ralf::source::{Sequence, Source, SourceError, Timelines};
+use ralf::sensors::{
+    Camera, CameraImage, DepthImage, Lidar, LidarScan, Radar, RadarScan, Rig, Sequence, Source, SourceError,
+    Timelines,
+};
+use ralf::space::{EgoMotion, OdometrySample};
 use std::path::{Path, PathBuf};
 
 /// A sequence's folder, opened: `sequence.toml`, times and motion are read, measurements are listed.

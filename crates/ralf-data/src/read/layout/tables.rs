@@ -3,8 +3,7 @@
 use super::values::quaternion_xyzw;
 use crate::disk::files;
 use crate::error::DataError;
-use ralf::geometry::transform_from_parts;
-use ralf::motion::{OdometrySample, PoseSample};
+use ralf::space::{OdometrySample, PoseSample, transform_from_parts};
 use ralf_files::Kind;
 use std::fmt::Write;
 use std::path::Path;

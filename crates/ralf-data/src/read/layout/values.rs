@@ -3,7 +3,7 @@
 
 use crate::error::DataError;
 use nalgebra::UnitQuaternion;
-use ralf::geometry::{Transform, transform_from_parts};
+use ralf::space::{Transform, transform_from_parts};
 use std::path::Path;
 
 /// A table of the file, to be named in errors.

@@ -2,7 +2,7 @@
 
 use super::raw::{CanPoseRow, for_each_row};
 use crate::error::DataError;
-use ralf::motion::OdometrySample;
+use ralf::space::OdometrySample;
 use std::path::{Path, PathBuf};
 
 /// The scene's file, where the expansion is there.

@@ -5,8 +5,7 @@ use super::raw::{
     for_each_row,
 };
 use crate::error::DataError;
-use ralf::geometry::{Transform, transform_from_parts};
-use ralf::motion::PoseSample;
+use ralf::space::{PoseSample, Transform, transform_from_parts};
 use std::collections::HashMap;
 use std::path::Path;
 

@@ -4,8 +4,7 @@ use super::join::Channel;
 use super::raw::Modality;
 use crate::error::DataError;
 use crate::read::models::{ARS_408_21, HDL_32E};
-use ralf::camera::{Camera, Intrinsics};
-use ralf::rig::Rig;
+use ralf::sensors::{Camera, Intrinsics, Rig};
 use std::path::Path;
 
 /// What a radar record holds, under the names of the file.

@@ -10,10 +10,10 @@ use crate::error::DataError;
 use crate::read::SequenceReader;
 use crate::read::measured_files::MeasuredFiles;
 use crate::read::radial::radial;
-use ralf::camera::{CameraImage, DepthImage, DepthOutput};
-use ralf::measurement::{LidarScan, RadarScan};
-use ralf::motion::EgoMotion;
-use ralf::source::{Sequence, Source, SourceError, Timelines};
+use ralf::sensors::{
+    CameraImage, DepthImage, DepthOutput, LidarScan, RadarScan, Sequence, Source, SourceError, Timelines,
+};
+use ralf::space::EgoMotion;
 use std::any::Any;
 use std::path::{Path, PathBuf};
 

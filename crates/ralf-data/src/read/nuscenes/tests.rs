@@ -2,8 +2,8 @@
 
 use super::*;
 use crate::testing;
-use ralf::camera::Intrinsics;
-use ralf::geometry::Point;
+use ralf::sensors::Intrinsics;
+use ralf::space::Point;
 use serde_json::{Value, json};
 use tempfile::TempDir;
 
@@ -405,7 +405,7 @@ fn the_genuine_scene() {
     let scene = &recording.sequences[0];
     let sequence = scene.sequence();
     let names =
-        |radars: &[ralf::rig::Radar]| radars.iter().map(|radar| radar.name.clone()).collect::<Vec<_>>();
+        |radars: &[ralf::sensors::Radar]| radars.iter().map(|radar| radar.name.clone()).collect::<Vec<_>>();
     let expected =
         ["RADAR_FRONT", "RADAR_FRONT_LEFT", "RADAR_FRONT_RIGHT", "RADAR_BACK_LEFT", "RADAR_BACK_RIGHT"];
     assert_eq!(names(&sequence.rig.radars), expected);

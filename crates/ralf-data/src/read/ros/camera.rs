@@ -1,6 +1,6 @@
 //! Cameras from `sensor_msgs/CameraInfo`.
 
-use ralf::camera::Intrinsics;
+use ralf::sensors::Intrinsics;
 use ralf_ros::message::{CameraInfo, RegionOfInterest};
 
 /// The camera model of raw images, or of rectified ones. The error is what was expected and what was found.

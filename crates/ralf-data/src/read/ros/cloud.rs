@@ -3,7 +3,7 @@
 use super::messages::Messages;
 use crate::error::DataError;
 use crate::read::radial::radial;
-use ralf::measurement::LidarScan;
+use ralf::sensors::LidarScan;
 use ralf_ros::container::MessageRef;
 use ralf_ros::message::{Message, PointCloud2, RadarReturn, RadarScan};
 use ralf_ros::point_cloud::{PointCloudError, PointTable};

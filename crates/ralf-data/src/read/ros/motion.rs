@@ -5,8 +5,7 @@ use super::mounting::{mounting, sensor_frame};
 use super::survey::{MotionSample, MotionTrack, Survey};
 use crate::error::DataError;
 use ralf::config::{TopicConfig, TopicKind, Topics};
-use ralf::geometry::{Transform, Vector, transform_from_parts};
-use ralf::motion::{EgoMotion, OdometrySample, PoseSample};
+use ralf::space::{EgoMotion, OdometrySample, PoseSample, Transform, Vector, transform_from_parts};
 
 /// A topic of the motion: its settings, what it holds, and `vehicle_from_child` of its frame.
 struct Part<'a> {

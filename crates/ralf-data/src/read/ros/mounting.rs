@@ -4,7 +4,7 @@ use super::messages::Messages;
 use super::survey::Survey;
 use crate::error::DataError;
 use ralf::config::{TopicConfig, TopicKind, Topics};
-use ralf::geometry::Transform;
+use ralf::space::Transform;
 
 /// The vehicle's frame: as the settings say, or else that of the odometry, or else that of the twist.
 pub(super) fn vehicle_frame(

@@ -3,7 +3,7 @@
 use super::messages::Messages;
 use crate::disk::images;
 use crate::error::DataError;
-use ralf::camera::CameraImage;
+use ralf::sensors::CameraImage;
 use ralf_ros::container::MessageRef;
 use ralf_ros::message::{CompressedImage, Image, Message};
 

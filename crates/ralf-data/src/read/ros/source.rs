@@ -11,12 +11,12 @@ use crate::error::DataError;
 use crate::read::SequenceReader;
 use crate::read::models::{LIDARS, RADARS};
 use crate::read::recording::measurement;
-use ralf::camera::{Camera, CameraImage, DepthImage, DepthOutput};
 use ralf::config::{TopicConfig, TopicKind, Topics};
-use ralf::geometry::Transform;
-use ralf::measurement::{LidarScan, RadarScan, check_fields};
-use ralf::rig::{Elevation, Rig};
-use ralf::source::{Sequence, Source, SourceError, Timelines};
+use ralf::sensors::{
+    Camera, CameraImage, DepthImage, DepthOutput, Elevation, LidarScan, RadarScan, Rig, Sequence, Source,
+    SourceError, Timelines, check_fields,
+};
+use ralf::space::Transform;
 use ralf_ros::container::{Container, MessageRef};
 use std::any::Any;
 use std::path::PathBuf;

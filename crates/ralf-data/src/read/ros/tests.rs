@@ -2,10 +2,9 @@
 
 use super::*;
 use crate::read::SequenceReader;
-use ralf::camera::Intrinsics;
 use ralf::config::Config;
-use ralf::geometry::Point;
-use ralf::rig::Elevation;
+use ralf::sensors::{Elevation, Intrinsics};
+use ralf::space::Point;
 use ralf_ros::message::{
     CameraInfo, Datatype, Header, Image, Imu, Odometry, PointCloud2, PointField, Pose, RadarReturn,
     RadarScan, TfMessage, TransformStamped, Twist,
@@ -218,7 +217,7 @@ fn sensors_hang_on_the_tree_of_frames() {
     let drive = open_file(&path, TABLE).unwrap();
     let rig = &drive.sequence().rig;
     let origin =
-        |transform: &ralf::geometry::Transform| (transform * Point::origin()).coords.as_slice().to_vec();
+        |transform: &ralf::space::Transform| (transform * Point::origin()).coords.as_slice().to_vec();
     assert_eq!(origin(&rig.radars[0].vehicle_from_radar), [3.5, 0.0, 0.25], "by way of the mast");
     assert_eq!(origin(&rig.lidars[0].vehicle_from_lidar), [0.0, 0.0, 2.0]);
     assert_eq!(origin(&rig.cameras[0].vehicle_from_camera), [1.0, 0.0, 1.5]);

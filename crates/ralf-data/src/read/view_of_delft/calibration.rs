@@ -6,8 +6,8 @@
 use super::raw::{Calib, read_odom_from_camera};
 use crate::error::DataError;
 use nalgebra::{Matrix3, Rotation3, Translation3, UnitQuaternion, Vector3};
-use ralf::camera::{Camera, Intrinsics};
-use ralf::geometry::Transform;
+use ralf::sensors::{Camera, Intrinsics};
+use ralf::space::Transform;
 use std::path::Path;
 
 /// The LiDAR ahead of the rear axle, m: the wheelbase (2.70) and the front overhang (0.93) reach the front bumper with

@@ -9,11 +9,10 @@ use crate::error::DataError;
 use crate::read::SequenceReader;
 use crate::read::measured_files::MeasuredFiles;
 use crate::read::models::{HDL_64E_S3, ZF_FRGEN21};
-use ralf::camera::{CameraImage, DepthImage, DepthOutput};
-use ralf::measurement::{LidarScan, RadarScan};
-use ralf::motion::{EgoMotion, PoseSample};
-use ralf::rig::Rig;
-use ralf::source::{Sequence, Source, SourceError, Timelines};
+use ralf::sensors::{
+    CameraImage, DepthImage, DepthOutput, LidarScan, RadarScan, Rig, Sequence, Source, SourceError, Timelines,
+};
+use ralf::space::{EgoMotion, PoseSample};
 use std::path::{Path, PathBuf};
 
 /// The columns of a radar file: `v_r` is `doppler`, `v_r_compensated` `doppler_compensated`; `time` counts scans back.

@@ -3,8 +3,8 @@
 use super::*;
 use crate::read::SequenceReader;
 use crate::testing;
-use ralf::camera::Intrinsics;
-use ralf::geometry::{Point, Vector};
+use ralf::sensors::Intrinsics;
+use ralf::space::{Point, Vector};
 use std::fs;
 use std::path::PathBuf;
 use tempfile::TempDir;

@@ -4,8 +4,7 @@ use super::labelled::{LabelledScan, LabelledSequence};
 use crate::error::DataError;
 use crate::result::ANSWERS;
 use ralf::label::truth_of;
-use ralf::measurement::RadarScan;
-use ralf::rig::Radar;
+use ralf::sensors::{Radar, RadarScan};
 
 /// Names of what a labelled cloud has beside the radar's own fields. The one of 2 bytes is last, so that all lie aligned.
 const ADDED: [&str; 7] = ["plausibility", "label", "w_lm", "w_cm", "w_tr", "w_opt", "flags"];

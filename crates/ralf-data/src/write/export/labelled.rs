@@ -7,9 +7,9 @@ use crate::read::SequenceReader;
 use crate::result::{Columns, PlausibilityReader, ScanTable, ScanTables};
 use crate::run::SequenceRecord;
 use crate::truth::{Corrections, ScanId};
-use ralf::detections::Detections;
 use ralf::label::truth_of;
-use ralf::measurement::RadarScan;
+use ralf::scene::Detections;
+use ralf::sensors::RadarScan;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 

@@ -8,7 +8,7 @@ use super::columns::{Column, Values, cloud_columns};
 use super::labelled::LabelledSequence;
 use crate::disk::files;
 use crate::error::DataError;
-use ralf::geometry::Transform;
+use ralf::space::Transform;
 use std::path::Path;
 
 /// Writes the clouds.

@@ -12,9 +12,8 @@ use crate::disk::label_file::write_labels;
 use crate::error::DataError;
 use crate::read::SequenceReader;
 use crate::run::SequenceRecord;
-use ralf::geometry::Transform;
-use ralf::measurement::RadarScan;
-use ralf::rig::Radar;
+use ralf::sensors::{Radar, RadarScan};
+use ralf::space::Transform;
 use std::fmt::Write;
 use std::path::Path;
 

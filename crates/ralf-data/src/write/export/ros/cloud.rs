@@ -1,8 +1,7 @@
 //! Scans as `sensor_msgs/PointCloud2`.
 
 use crate::write::export::columns::{Column, Values};
-use ralf::measurement::{LidarScan, RadarScan};
-use ralf::rig::Radar;
+use ralf::sensors::{LidarScan, Radar, RadarScan};
 use ralf_ros::message::{Datatype, Header, PointCloud2, PointField};
 
 /// A cloud with a field for each column.

@@ -2,8 +2,7 @@
 
 use crate::disk::{files, images};
 use crate::read::SequenceReader;
-use ralf::camera::{Camera, Intrinsics};
-use ralf::source::SourceError;
+use ralf::sensors::{Camera, Intrinsics, SourceError};
 use ralf_ros::message::{CameraInfo, CompressedImage, Header};
 
 /// A camera's image as its file is, or as PNG where it has none.

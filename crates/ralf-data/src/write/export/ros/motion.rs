@@ -2,9 +2,8 @@
 //! `geometry_msgs/TwistStamped`.
 
 use super::names::{Names, ODOM, VEHICLE};
-use ralf::geometry::Transform;
-use ralf::motion::{EgoMotion, OdometrySample, PoseSample};
-use ralf::rig::Rig;
+use ralf::sensors::Rig;
+use ralf::space::{EgoMotion, OdometrySample, PoseSample, Transform};
 use ralf_ros::message::{Header, Odometry, Pose, TfMessage, TransformStamped, Twist, TwistStamped};
 
 /// Where the sensors are on the vehicle.

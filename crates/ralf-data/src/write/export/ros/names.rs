@@ -1,7 +1,7 @@
 //! Names of frames and topics: letters, digits and underscores, as ROS wants them.
 
 pub(super) use crate::read::ros::LABELLED;
-use ralf::rig::Rig;
+use ralf::sensors::Rig;
 
 /// The vehicle's frame.
 pub(super) const VEHICLE: &str = "base_link";

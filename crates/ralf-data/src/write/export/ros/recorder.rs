@@ -9,8 +9,8 @@ use crate::read::SequenceReader;
 use crate::write::export::columns::cloud_columns;
 use crate::write::export::labelled::LabelledSequence;
 use crate::write::export::options::Sensors;
-use ralf::motion::EgoMotion;
-use ralf::source::{Sequence, SourceError};
+use ralf::sensors::{Sequence, SourceError};
+use ralf::space::EgoMotion;
 use ralf_ros::message::{
     CameraInfo, CompressedImage, Message, Odometry, PointCloud2, TfMessage, TwistStamped,
 };

@@ -6,7 +6,7 @@ use crate::read::SequenceReader;
 use crate::read::layout::degrees;
 use crate::read::models::GENERIC;
 use ralf::config::{SensorOverride, TopicConfig, TopicKind, Topics};
-use ralf::rig::{Elevation, Lidar, Radar};
+use ralf::sensors::{Elevation, Lidar, Radar};
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::path::Path;

@@ -1,0 +1,101 @@
+//! How the vehicle really moves.
+
+use super::ground::Ground;
+use super::scenario::Drive;
+use ralf::space::Transform;
+use std::f64::consts::TAU;
+
+/// Speed and curvature are constant for so long, s.
+const STEP: f64 = 0.01;
+/// The speed swings by this share about its mean, once in a period of so many seconds.
+const SWING: (f64, f64) = (0.12, 7.0);
+
+/// State of the vehicle: planar pose in the site's frame, speed (m/s) and turn rate (rad/s).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct State {
+    pub(super) x: f64,
+    pub(super) y: f64,
+    pub(super) heading: f64,
+    pub(super) speed: f64,
+    pub(super) yaw_rate: f64,
+}
+
+impl State {
+    /// After `dt` along an arc.
+    fn advanced(self, dt: f64) -> Self {
+        let half_turn = self.yaw_rate * dt / 2.0;
+        let chord = self.speed * dt * if half_turn.abs() < 1e-9 { 1.0 } else { half_turn.sin() / half_turn };
+        let (sin, cos) = (self.heading + half_turn).sin_cos();
+        Self {
+            x: self.x + chord * cos,
+            y: self.y + chord * sin,
+            heading: self.heading + 2.0 * half_turn,
+            ..self
+        }
+    }
+}
+
+/// The states of a drive.
+#[derive(Debug, Clone)]
+pub(super) struct Path {
+    states: Vec<State>,
+}
+
+impl Path {
+    /// A drive of so many seconds.
+    pub(super) fn new(drive: &Drive, seconds: f64) -> Self {
+        let [x, y, heading_deg] = drive.start;
+        let mut state = State { x, y, heading: heading_deg.to_radians(), speed: 0.0, yaw_rate: 0.0 };
+        let mut travelled = 0.0;
+        let steps = (seconds / STEP).ceil() as usize + 1;
+        let states = (0..steps).map(|step| {
+            let phase = TAU * step as f64 * STEP / SWING.1;
+            state.speed = drive.speed_kmh / 3.6 * (1.0 + SWING.0 * phase.sin());
+            state.yaw_rate = state.speed * curvature(drive, travelled);
+            travelled += state.speed * STEP;
+            let now = state;
+            state = state.advanced(STEP);
+            now
+        });
+        Self { states: states.collect() }
+    }
+
+    /// At a time after the start, s.
+    pub(super) fn state(&self, seconds: f64) -> State {
+        let step = ((seconds / STEP + 1e-9).max(0.0) as usize).min(self.states.len() - 1);
+        self.states[step].advanced(seconds - step as f64 * STEP)
+    }
+
+    /// The vehicle's pose in the site's frame.
+    pub(super) fn site_from_vehicle(&self, ground: &Ground, seconds: f64) -> Transform {
+        let State { x, y, heading, .. } = self.state(seconds);
+        ground.pose([x, y, heading])
+    }
+}
+
+/// 1/m, after so many metres.
+fn curvature(drive: &Drive, travelled: f64) -> f64 {
+    let mut end = 0.0;
+    let leg = drive.leg.iter().find(|leg| {
+        end += leg.length;
+        travelled < end
+    });
+    leg.map_or(0.0, |leg| leg.turn_deg.to_radians() / leg.length)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scenario::Leg;
+
+    #[test]
+    fn a_turn_ends_where_its_circle_does() {
+        let turn = Leg { length: 5.0 * std::f64::consts::PI, turn_deg: 90.0 };
+        let drive = Drive { start: [1.0, 2.0, 90.0], speed_kmh: 9.0, leg: vec![turn] };
+        let path = Path::new(&drive, 20.0);
+        let at_the_end = (0..20_000).map(|i| path.state(f64::from(i) * 1e-3)).find(|state| state.y > 11.99);
+        let end = at_the_end.unwrap();
+        assert!((end.x + 9.0).abs() < 0.7 && (end.heading.to_degrees() - 180.0).abs() < 5.0, "{end:?}");
+        assert!(path.states.iter().all(|state| state.speed < 10.1 / 3.6));
+    }
+}

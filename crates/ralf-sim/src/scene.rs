@@ -1,0 +1,160 @@
+//! The site at one moment, as rays see it.
+
+use super::bvh::{Bounds, Tree};
+use super::kind::Kind;
+use super::shape::{Crossing, Ray, Shape};
+use super::site::Site;
+use ralf::space::{Point, Vector};
+
+/// A body in its place.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Solid {
+    pub(super) kind: Kind,
+    pub(super) object: usize,
+    pub(super) shape: Shape,
+    center: Point,
+    /// Of its yaw.
+    sin: f64,
+    cos: f64,
+}
+
+impl Solid {
+    /// A vector of the site's frame in the body's own.
+    fn turned_back(&self, v: Vector) -> Vector {
+        Vector::new(self.cos * v.x + self.sin * v.y, self.cos * v.y - self.sin * v.x, v.z)
+    }
+
+    fn turned(&self, v: Vector) -> Vector {
+        Vector::new(self.cos * v.x - self.sin * v.y, self.cos * v.y + self.sin * v.x, v.z)
+    }
+
+    /// A point of the site's frame in the body's own.
+    pub(super) fn local(&self, p: &Point) -> Point {
+        Point::from(self.turned_back(p - self.center))
+    }
+
+    fn crossing(&self, ray: &Ray) -> Option<Crossing> {
+        let own = Ray { origin: self.local(&ray.origin), direction: self.turned_back(ray.direction) };
+        self.shape.crossing(&own)
+    }
+
+    fn bounds(&self) -> Bounds {
+        let half = self.shape.half_size();
+        let [sin, cos] = [self.sin.abs(), self.cos.abs()];
+        let reach = Vector::new(cos * half.x + sin * half.y, sin * half.x + cos * half.y, half.z);
+        Bounds { low: self.center - reach, high: self.center + reach }
+    }
+}
+
+/// Where a ray ends.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Hit<'a> {
+    /// m.
+    pub(super) distance: f64,
+    /// Outward, in the site's frame.
+    pub(super) normal: Vector,
+    /// `None` is the ground.
+    pub(super) solid: Option<&'a Solid>,
+}
+
+impl Hit<'_> {
+    pub(super) fn kind(&self) -> Kind {
+        self.solid.map_or(Kind::Road, |solid| solid.kind)
+    }
+}
+
+/// The site at one moment.
+#[derive(Debug)]
+pub(super) struct Scene<'a> {
+    pub(super) site: &'a Site,
+    /// Since the start.
+    pub(super) seconds: f64,
+    solids: Vec<Solid>,
+    tree: Tree,
+}
+
+impl<'a> Scene<'a> {
+    /// After so many seconds.
+    pub(super) fn new(site: &'a Site, seconds: f64) -> Self {
+        let solids: Vec<Solid> = site
+            .objects
+            .iter()
+            .enumerate()
+            .flat_map(|(index, object)| {
+                let pose = object.pose(seconds);
+                let (sin, cos) = pose.rotation.euler_angles().2.sin_cos();
+                object.bodies.iter().map(move |(shape, center)| Solid {
+                    kind: object.kind,
+                    object: index,
+                    shape: *shape,
+                    center: pose * Point::from(*center),
+                    sin,
+                    cos,
+                })
+            })
+            .collect();
+        let bounds: Vec<Bounds> = solids.iter().map(Solid::bounds).collect();
+        Self { site, seconds, tree: Tree::new(&bounds), solids }
+    }
+
+    /// The first surface that a ray meets within `limit`.
+    pub(super) fn cast(&self, ray: &Ray, limit: f64) -> Option<Hit<'_>> {
+        self.cast_through(ray, limit, |_, crossing| Some(crossing.enter))
+    }
+
+    /// The same, where `stop` says how far a ray comes that meets a body: `None` passes through.
+    pub(super) fn cast_through(
+        &self,
+        ray: &Ray,
+        limit: f64,
+        mut stop: impl FnMut(Kind, &Crossing) -> Option<f64>,
+    ) -> Option<Hit<'_>> {
+        let mut nearest: Option<(f64, Vector, &Solid)> = None;
+        self.tree.visit(ray, limit, |index, limit| {
+            let solid = &self.solids[index];
+            let Some(crossing) = solid.crossing(ray).filter(|crossing| crossing.enter < limit) else {
+                return limit;
+            };
+            match stop(solid.kind, &crossing).filter(|distance| *distance < limit) {
+                Some(distance) => {
+                    nearest = Some((distance, crossing.normal, solid));
+                    distance
+                }
+                None => limit,
+            }
+        });
+        let limit = nearest.map_or(limit, |(distance, ..)| distance);
+        if let Some(distance) = self.site.ground.hit(ray, limit) {
+            let p = ray.origin + ray.direction * distance;
+            return Some(Hit { distance, normal: self.site.ground.normal(p.x, p.y), solid: None });
+        }
+        nearest.map(|(distance, normal, solid)| Hit {
+            distance,
+            normal: solid.turned(normal),
+            solid: Some(solid),
+        })
+    }
+
+    /// What lies between two points takes from a radar wave, dB; `None` where nothing comes through. The bodies of `own`
+    /// don't count, nor does the ground.
+    pub(super) fn radar_loss_db(&self, from: &Point, to: &Point, own: Option<usize>) -> Option<f64> {
+        let way = to - from;
+        let length = way.norm();
+        if length < 1e-6 {
+            return Some(0.0);
+        }
+        let ray = Ray { origin: *from, direction: way / length };
+        let mut loss = Some(0.0);
+        self.tree.visit(&ray, length, |index, limit| {
+            let solid = &self.solids[index];
+            if own == Some(solid.object) || solid.kind.is_flat() {
+                return limit;
+            }
+            if solid.crossing(&ray).is_some_and(|crossing| crossing.enter < length - 0.05) {
+                loss = loss.zip(solid.kind.radar_loss_db()).map(|(sum, more)| sum + more);
+            }
+            if loss.is_some() { limit } else { 0.0 }
+        });
+        loss
+    }
+}

@@ -1,0 +1,256 @@
+//! A simulated sequence as a source of measurements.
+
+use super::camera::{self, Moment, Rays};
+use super::lidar;
+use super::odometry;
+use super::path::Path;
+use super::radar::{Detection, Mirror, View, radar_scan};
+use super::random::{Purpose, Random};
+use super::scenario::{CameraFailure, FailureKind, Scenario, ScenarioError};
+use super::scene::Scene;
+use super::site::Site;
+use super::truth::Truth;
+use super::vehicle::rig;
+use ralf::sensors::{
+    Camera, CameraImage, DepthImage, DepthOutput, LidarScan, RadarScan, Sequence, Source, SourceError,
+    Timelines,
+};
+use ralf::space::{EgoMotion, Transform, Vector};
+use std::sync::OnceLock;
+
+/// Time of the first radar scan, ns.
+const START_NS: i64 = 1_600_000_000_000_000_000;
+/// Between scans of a radar, ns.
+const RADAR_PERIOD_NS: i64 = 50_000_000;
+/// The radars fire in turn, so as not to blind each other, ns.
+const RADAR_STAGGER_NS: i64 = 5_000_000;
+/// Of the LiDAR and the cameras, ns.
+const OPTICAL_PERIOD_NS: i64 = 100_000_000;
+/// The first image is this much later than the first LiDAR scan, ns.
+const CAMERA_DELAY_NS: i64 = 12_000_000;
+/// Mean number of detections over all radars.
+const DETECTIONS: f64 = 1216.0;
+
+/// A sequence made from a scenario and a seed.
+///
+/// ```
+/// use ralf_sim::{Scenario, SimulatedSequence};
+/// use ralf::sensors::Source;
+/// let scenario = Scenario::from_toml(&ralf_sim::presets::find("tiny").unwrap().sequences[0].text())?;
+/// let sequence = SimulatedSequence::new("00", &scenario, 7, 10)?;
+/// let scan = sequence.radar_scan(0, 3)?;
+/// assert_eq!(sequence.truth(0, 3).unwrap().len(), scan.len());
+/// # Ok::<(), Box<dyn std::error::Error + Send + Sync>>(())
+/// ```
+#[derive(Debug)]
+pub struct SimulatedSequence {
+    sequence: Sequence,
+    scenario: Scenario,
+    site: Site,
+    mirrors: Vec<Mirror>,
+    path: Path,
+    seed: u64,
+    /// Where each pixel of each camera looks, once it is known.
+    rays: Vec<OnceLock<Rays>>,
+}
+
+impl SimulatedSequence {
+    /// A sequence of so many scans of each radar.
+    pub fn new(name: &str, scenario: &Scenario, seed: u64, scans: usize) -> Result<Self, ScenarioError> {
+        scenario.check()?;
+        let rig = rig();
+        let last_ns = scans as i64 * RADAR_PERIOD_NS;
+        // A little longer, for the last LiDAR scan and image come after the last radar scan.
+        let seconds = last_ns as f64 * 1e-9 + 1.0;
+        let path = Path::new(&scenario.ego, seconds);
+        let site = Site::new(scenario, seed);
+        let every = |first: i64, period: i64, end: i64| -> Vec<i64> {
+            (0..).map(|i| START_NS + first + i * period).take_while(|t| *t < START_NS + end).collect()
+        };
+        let optical = |delay| every(delay, OPTICAL_PERIOD_NS, last_ns + OPTICAL_PERIOD_NS / 2);
+        let radar = |i: usize| {
+            let first = i as i64 * RADAR_STAGGER_NS;
+            every(first, RADAR_PERIOD_NS, first + last_ns)
+        };
+        let times = Timelines {
+            radars: (0..rig.radars.len()).map(radar).collect(),
+            lidars: vec![optical(0); rig.lidars.len()],
+            cameras: vec![optical(CAMERA_DELAY_NS); rig.cameras.len()],
+        };
+        let motion = EgoMotion::new(odometry::samples(&path, START_NS, seconds, seed), vec![]).ok_or(
+            ScenarioError::Value { key: "scans", expected: "at least one", found: scans.to_string() },
+        )?;
+        let sequence = Sequence {
+            name: name.to_owned(),
+            title: scenario.title.clone(),
+            rig,
+            times,
+            motion,
+            depth_output: DepthOutput::Depth,
+        };
+        let mirrors = Mirror::all(&site);
+        let rays = sequence.rig.cameras.iter().map(|_| OnceLock::new()).collect();
+        Ok(Self { sequence, scenario: scenario.clone(), site, mirrors, path, seed, rays })
+    }
+
+    /// What is true of each detection of a scan, in its order. The error names a scan that doesn't exist.
+    pub fn truth(&self, radar: usize, scan: usize) -> Result<Vec<Truth>, SourceError> {
+        Ok(self.detections(radar, scan)?.iter().map(|detection| detection.truth).collect())
+    }
+
+    /// The vehicle's true pose, in its frame at the start: what wheel odometry is measured against.
+    pub fn true_pose(&self, t_ns: i64) -> Transform {
+        self.pose(START_NS).inv_mul(&self.pose(t_ns))
+    }
+
+    /// The true depth of each straight view of an image along its axis, m; the sky is 80 m away.
+    pub fn true_depth(&self, camera: usize, image: usize) -> Result<Vec<DepthImage>, SourceError> {
+        Ok(camera::true_depth(&self.moment(camera, image)?.1))
+    }
+
+    fn detections(&self, radar: usize, scan: usize) -> Result<Vec<Detection>, SourceError> {
+        let t_ns = time("radar", &self.sequence.times.radars, radar, scan)?;
+        let sensor = &self.sequence.rig.radars[radar];
+        let vehicle = self.pose(t_ns);
+        let state = self.path.state(seconds(t_ns));
+        let lever = sensor.vehicle_from_radar.translation.vector;
+        let own = Vector::new(state.speed, 0.0, 0.0) + Vector::new(0.0, 0.0, state.yaw_rate).cross(&lever);
+        let view = View {
+            scene: &Scene::new(&self.site, seconds(t_ns)),
+            radar: sensor,
+            site_from_radar: vehicle * sensor.vehicle_from_radar,
+            velocity: vehicle.rotation * own,
+        };
+        let size = DETECTIONS / self.sequence.rig.radars.len() as f64;
+        let random = &mut Random::new(self.seed, Purpose::Radar, radar, scan);
+        Ok(view.scan(&self.mirrors, size, self.scenario.plausible_share, random))
+    }
+
+    /// A camera, and what surrounds it at the time of an image.
+    fn moment(&self, camera: usize, image: usize) -> Result<(&Camera, Moment<'_>, i64), SourceError> {
+        let t_ns = time("camera", &self.sequence.times.cameras, camera, image)?;
+        let sensor = &self.sequence.rig.cameras[camera];
+        let scene = Scene::new(&self.site, seconds(t_ns));
+        let site_from_camera = self.pose(t_ns) * sensor.vehicle_from_camera;
+        Ok((sensor, Moment { scene, camera: sensor, site_from_camera }, t_ns))
+    }
+
+    /// How a camera fails at a time, if it does.
+    fn failure(&self, camera: usize, t_ns: i64) -> Option<FailureKind> {
+        let name = &self.sequence.rig.cameras[camera].name;
+        let holds = |failure: &&CameraFailure| {
+            failure.camera == *name && (failure.from_s..failure.until_s).contains(&seconds(t_ns))
+        };
+        self.scenario.failure.iter().find(holds).map(|failure| failure.kind)
+    }
+
+    fn pose(&self, t_ns: i64) -> Transform {
+        self.path.site_from_vehicle(&self.site.ground, seconds(t_ns))
+    }
+}
+
+/// Since the start.
+fn seconds(t_ns: i64) -> f64 {
+    (t_ns - START_NS) as f64 * 1e-9
+}
+
+/// Time of a measurement, ns.
+fn time(kind: &str, times: &[Vec<i64>], sensor: usize, index: usize) -> Result<i64, SourceError> {
+    let found = times.get(sensor).and_then(|times| times.get(index)).copied();
+    found.ok_or_else(|| format!("{kind} {sensor} has no measurement {index}").into())
+}
+
+impl Source for SimulatedSequence {
+    fn sequence(&self) -> &Sequence {
+        &self.sequence
+    }
+
+    fn radar_scan(&self, radar: usize, scan: usize) -> Result<RadarScan, SourceError> {
+        let detections = self.detections(radar, scan)?;
+        let t_ns = self.sequence.times.radars[radar][scan];
+        Ok(radar_scan(&self.sequence.rig.radars[radar], t_ns, &detections)?)
+    }
+
+    fn lidar_scan(&self, lidar: usize, scan: usize) -> Result<LidarScan, SourceError> {
+        let t_ns = time("lidar", &self.sequence.times.lidars, lidar, scan)?;
+        let sensor = &self.sequence.rig.lidars[lidar];
+        let scene = Scene::new(&self.site, seconds(t_ns));
+        let random = &mut Random::new(self.seed, Purpose::Lidar, lidar, scan);
+        Ok(lidar::scan(&scene, sensor, &(self.pose(t_ns) * sensor.vehicle_from_lidar), t_ns, random))
+    }
+
+    fn image(&self, camera: usize, image: usize) -> Result<CameraImage, SourceError> {
+        let (sensor, moment, t_ns) = self.moment(camera, image)?;
+        let rays = self.rays[camera].get_or_init(|| camera::rays(sensor));
+        let random = &mut Random::new(self.seed, Purpose::Image, camera, image);
+        Ok(camera::image(&moment, rays, self.failure(camera, t_ns), random))
+    }
+
+    fn depth(&self, camera: usize, image: usize) -> Result<Option<Vec<DepthImage>>, SourceError> {
+        let (_, moment, t_ns) = self.moment(camera, image)?;
+        let random = &mut Random::new(self.seed, Purpose::Depth, camera, image);
+        Ok(Some(camera::depth(&moment, self.failure(camera, t_ns), random)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::shape::Ray;
+    use crate::{Kind, presets};
+    use ralf::label::Cause;
+    use ralf::space::{Point, Spherical};
+
+    fn tiny() -> SimulatedSequence {
+        presets::find("tiny").unwrap().sequences[0].simulate(5, 6).unwrap()
+    }
+
+    #[test]
+    fn plausible_detections_lie_on_objects_within_the_noise() {
+        let sequence = tiny();
+        for radar in 0..4 {
+            let sensor = &sequence.sequence.rig.radars[radar];
+            let scan = sequence.radar_scan(radar, 5).unwrap();
+            let site_from_radar = sequence.pose(scan.t_ns) * sensor.vehicle_from_radar;
+            for (detection, found) in sequence.detections(radar, 5).unwrap().iter().zip(&scan.spherical) {
+                let origin = Spherical::from_cartesian(&detection.origin);
+                assert!((found.range - origin.range).abs() < 6.0 * sensor.sigma_range);
+                assert!((found.azimuth - origin.azimuth).abs() < 6.0 * sensor.sigma_azimuth);
+                assert!((found.elevation - origin.elevation).abs() < 6.0 * sensor.sigma_elevation);
+                let p = site_from_radar * detection.origin;
+                let on = |object: &crate::site::Object| {
+                    let own = object.pose(seconds(scan.t_ns)).inverse_transform_point(&p);
+                    let half = object.size / 2.0;
+                    own.x.abs() < half.x + 0.2 && own.y.abs() < half.y + 0.2 && own.z < object.size.z + 0.3
+                };
+                let real = detection.truth.cause == Cause::Plausible;
+                assert!(!real || sequence.site.objects.iter().any(on), "{:?} at {p}", detection.truth);
+            }
+        }
+    }
+
+    #[test]
+    fn lidar_points_lie_on_surfaces() {
+        let sequence = tiny();
+        let scan = sequence.lidar_scan(0, 1).unwrap();
+        let scene = Scene::new(&sequence.site, seconds(scan.t_ns));
+        let sensor = &sequence.sequence.rig.lidars[0];
+        let site_from_lidar = sequence.pose(scan.t_ns) * sensor.vehicle_from_lidar;
+        assert!(scan.points.len() > 20_000, "{}", scan.points.len());
+        let (mut solid, mut off) = (0, 0);
+        for point in &scan.points {
+            let own = Vector::new(point[0].into(), point[1].into(), point[2].into());
+            let origin = Point::from(site_from_lidar.translation.vector);
+            let ray = Ray { origin, direction: site_from_lidar.rotation * own.normalize() };
+            let hit = scene.cast(&ray, 130.0);
+            let lets_rays_in = |kind| matches!(kind, Kind::Tree | Kind::Hedge | Kind::Fence | Kind::Grass);
+            if hit.is_none_or(|hit| lets_rays_in(hit.kind())) {
+                continue;
+            }
+            solid += 1;
+            off += usize::from(hit.is_none_or(|hit| (hit.distance - own.norm()).abs() > 0.15));
+        }
+        // A rounded ray may just miss an edge.
+        assert!(solid > 15_000 && off * 1000 < solid, "{off} of {solid}");
+    }
+}

@@ -1,0 +1,134 @@
+//! A scenario built up: the ground, the objects on it, and the bodies they are made of.
+
+use super::ground::Ground;
+use super::kind::Kind;
+use super::random::{Purpose, Random};
+use super::scatterer::{Scatterer, scatterers};
+use super::scenario::{Scenario, Thing};
+use super::shape::Shape;
+use nalgebra::{Isometry3, Translation3, UnitQuaternion};
+use ralf::space::{Point, Vector};
+
+/// One thing.
+#[derive(Debug, Clone)]
+pub(super) struct Object {
+    pub(super) kind: Kind,
+    /// At the start: x along its length, z up from its foot.
+    pub(super) site_from_object: Isometry3<f64>,
+    /// Length, width, height, m.
+    pub(super) size: Vector,
+    /// In the site's frame, m/s.
+    pub(super) velocity: Vector,
+    /// In its own frame.
+    pub(super) bodies: Vec<(Shape, Vector)>,
+    /// In its own frame.
+    pub(super) scatterers: Vec<Scatterer>,
+}
+
+impl Object {
+    /// Where it is after so many seconds.
+    pub(super) fn pose(&self, seconds: f64) -> Isometry3<f64> {
+        Translation3::from(self.velocity * seconds) * self.site_from_object
+    }
+}
+
+/// All that doesn't depend on time.
+#[derive(Debug)]
+pub(super) struct Site {
+    pub(super) ground: Ground,
+    pub(super) objects: Vec<Object>,
+}
+
+impl Site {
+    /// Builds a scenario; what a scenario leaves open follows from the seed.
+    pub(super) fn new(scenario: &Scenario, seed: u64) -> Self {
+        let ground = Ground::new(&scenario.ramp);
+        let members = scenario.thing.iter().flat_map(|thing| (0..thing.count).map(move |i| (thing, i)));
+        let build = |(number, (thing, member)): (usize, (&Thing, usize))| {
+            let random = &mut Random::new(seed, Purpose::Placement, number, 0);
+            let mut object = object(&ground, thing, member, random);
+            let random = &mut Random::new(seed, Purpose::Scatterers, number, 0);
+            object.scatterers = scatterers(object.kind, object.size, random);
+            object
+        };
+        let objects = members.enumerate().map(build).collect();
+        Self { ground, objects }
+    }
+}
+
+/// A member of a row. Nobody parks or plants exactly in line.
+fn object(ground: &Ground, thing: &Thing, member: usize, random: &mut Random) -> Object {
+    let kind = thing.kind;
+    let (place_sigma, yaw_sigma) = match kind {
+        Kind::Car => (0.15, 0.03),
+        Kind::Tree | Kind::Pole | Kind::Pedestrian => (0.2, 0.5),
+        _ => (0.0, 0.0),
+    };
+    let n = member as f64;
+    let x = thing.at[0] + n * thing.step[0] + random.normal(place_sigma);
+    let y = thing.at[1] + n * thing.step[1] + random.normal(place_sigma);
+    let yaw = thing.yaw_deg.to_radians() + random.normal(yaw_sigma);
+    let size = Vector::from(thing.size.unwrap_or(kind.usual_size()));
+    Object {
+        kind,
+        site_from_object: Isometry3::from_parts(
+            Translation3::new(x, y, ground.height(x, y)),
+            UnitQuaternion::from_axis_angle(&Vector::z_axis(), yaw),
+        ),
+        size,
+        velocity: Vector::new(thing.velocity[0], thing.velocity[1], 0.0),
+        bodies: bodies(kind, size),
+        scatterers: Vec::new(),
+    }
+}
+
+/// The bodies of a thing: shape and centre, in its own frame.
+fn bodies(kind: Kind, size: Vector) -> Vec<(Shape, Vector)> {
+    let [length, width, height] = size.into();
+    let block = |x: [f64; 2], y: [f64; 2], z: [f64; 2]| {
+        let low = Point::new(x[0], y[0], z[0]);
+        let high = Point::new(x[1], y[1], z[1]);
+        (Shape::Box((high - low) / 2.0), nalgebra::center(&low, &high).coords)
+    };
+    let (l, w) = (length / 2.0, width / 2.0);
+    match kind {
+        Kind::Car => car(&block, l, w, height),
+        Kind::Garage => garage(&block, l, w, height),
+        Kind::Tree => vec![
+            (Shape::Cylinder(0.16, 0.25 * height), Vector::new(0.0, 0.0, 0.25 * height)),
+            (Shape::Ellipsoid(Vector::new(l, w, 0.35 * height)), Vector::new(0.0, 0.0, 0.65 * height)),
+        ],
+        Kind::Pole | Kind::Pedestrian => {
+            vec![(Shape::Cylinder(l, height / 2.0), Vector::new(0.0, 0.0, height / 2.0))]
+        }
+        _ if kind.is_flat() => vec![block([-l, l], [-w, w], [-0.3, height])],
+        _ => vec![block([-l, l], [-w, w], [0.0, height])],
+    }
+}
+
+type Block<'a> = dyn Fn([f64; 2], [f64; 2], [f64; 2]) -> (Shape, Vector) + 'a;
+
+/// Body, cabin, four wheels, and a gap below through which radars see.
+fn car(block: &Block<'_>, l: f64, w: f64, height: f64) -> Vec<(Shape, Vector)> {
+    let waist = 0.58 * height;
+    let wheel = |x: f64, y: f64| block([x - 0.3, x + 0.3], [y - 0.1, y + 0.1], [0.0, 0.6]);
+    vec![
+        block([-l, l], [-w, w], [0.22, waist]),
+        block([-0.85 * l, 0.35 * l], [-0.88 * w, 0.88 * w], [waist, height]),
+        wheel(0.62 * l, w - 0.1),
+        wheel(0.62 * l, 0.1 - w),
+        wheel(-0.62 * l, w - 0.1),
+        wheel(-0.62 * l, 0.1 - w),
+    ]
+}
+
+/// Three walls and a roof.
+fn garage(block: &Block<'_>, l: f64, w: f64, height: f64) -> Vec<(Shape, Vector)> {
+    let wall = 0.25;
+    vec![
+        block([-l, l], [w - wall, w], [0.0, height]),
+        block([-l, l], [-w, wall - w], [0.0, height]),
+        block([-l, wall - l], [-w, w], [0.0, height]),
+        block([-l, l], [-w, w], [height - wall, height]),
+    ]
+}

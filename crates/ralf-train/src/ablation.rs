@@ -1,0 +1,177 @@
+//! What is each part of the method good for? Variants that lack one part, have one part alone, or have one of our extensions
+//! besides; each is tuned on the same sequences as the paper's method, so that the comparison is fair, and judged on others.
+
+use super::{EvidenceTable, Found, Search, Settings, TuneError};
+use ralf::config::{Config, DepthScaling, GroundModel, TrackingSources};
+use ralf::metrics::{Confusion, Scores};
+
+/// The extension by the detections' own vertical uncertainty: as many standard deviations as the defaults have.
+const RADAR_SIGMAS: f64 = 2.0;
+
+/// A variant of the method.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Variant {
+    /// For tables, and to tell variants apart.
+    pub name: &'static str,
+    /// Its settings, before tuning.
+    pub config: Config,
+}
+
+type Change = fn(&mut Config);
+
+/// What makes each variant differ from the paper's method; the first one is that.
+const VARIANTS: [(&str, Change); 14] = [
+    ("paper", |_| {}),
+    ("without LiDAR", |config| config.lidar.enabled = false),
+    ("without camera", |config| config.camera.enabled = false),
+    ("without tracking", |config| config.tracking.enabled = false),
+    ("LiDAR alone", |config| (config.camera.enabled, config.tracking.enabled) = (false, false)),
+    ("camera alone", |config| (config.lidar.enabled, config.tracking.enabled) = (false, false)),
+    ("tracking alone", |config| (config.lidar.enabled, config.camera.enabled) = (false, false)),
+    ("tracking.sources=all", |config| config.tracking.sources = TrackingSources::All),
+    ("tracking.dynamic=true", |config| config.tracking.dynamic = true),
+    ("ground.radar_sigmas=2", |config| config.ground.radar_sigmas = RADAR_SIGMAS),
+    ("ground.model=polar", |config| config.ground.model = GroundModel::Polar),
+    ("ground.model=flat", |config| config.ground.model = GroundModel::Flat),
+    ("camera.scaling=ransac", |config| config.camera.scaling = DepthScaling::Ransac),
+    ("camera.scaling=huber", |config| config.camera.scaling = DepthScaling::Huber),
+];
+
+impl Variant {
+    /// The paper's method and all that it is compared with, the paper's first. Of the settings everything stays that no variant is
+    /// about.
+    pub fn all(settings: &Config) -> Vec<Self> {
+        let paper = as_in_the_paper(settings);
+        let variant = |(name, change): (&'static str, Change)| {
+            let mut config = paper.clone();
+            change(&mut config);
+            Self { name, config }
+        };
+        VARIANTS.into_iter().map(variant).collect()
+    }
+
+    /// The settings with which its evidence is gathered. Equal ones need be gathered for once: branches that a variant lacks are
+    /// left out of account afterwards, and what is tuned doesn't change evidence.
+    pub fn evidence_config(&self) -> Config {
+        let mut config = self.config.clone();
+        all_branches(&mut config);
+        config
+    }
+
+    /// Tunes the variant on some tables and judges it on others. `search` says what for, how long and with which seed; its
+    /// base gives way to the variant's settings.
+    pub fn judge(
+        &self,
+        search: &Search,
+        (train, test): (&[&EvidenceTable], &[&EvidenceTable]),
+        progress: &mut dyn FnMut(usize, &Found),
+    ) -> Result<Judged, TuneError> {
+        let found = Search { base: &self.config, ..search.clone() }.run(train, progress)?;
+        let scores = |tables: &[&EvidenceTable]| scores(tables, &found.settings);
+        Ok(Judged { name: self.name, found, train: scores(train)?, test: scores(test)? })
+    }
+}
+
+/// What a variant reaches.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Judged {
+    /// The variant's name.
+    pub name: &'static str,
+    /// The settings found for it.
+    pub found: Found,
+    /// What these reach where they were tuned.
+    pub train: Scores,
+    /// What they reach where they were not.
+    pub test: Scores,
+}
+
+fn scores(tables: &[&EvidenceTable], settings: &Settings) -> Result<Scores, TuneError> {
+    let scans = tables.iter().map(|table| table.confusions(settings));
+    let scans: Vec<Vec<Confusion>> = scans.collect::<Result<_, _>>()?;
+    Ok(Scores::of(&scans.concat()))
+}
+
+/// All three branches, and none of our extensions.
+fn as_in_the_paper(settings: &Config) -> Config {
+    let mut config = settings.clone();
+    all_branches(&mut config);
+    config.tracking.sources = TrackingSources::Same;
+    config.tracking.dynamic = false;
+    config.ground.radar_sigmas = 0.0;
+    config.ground.model = GroundModel::Plane;
+    config.camera.scaling = DepthScaling::Local;
+    config
+}
+
+fn all_branches(config: &mut Config) {
+    (config.lidar.enabled, config.camera.enabled, config.tracking.enabled) = (true, true, true);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Objective;
+    use crate::search::planted;
+
+    fn judged(config: &Config, name: &str, trials: usize) -> Judged {
+        let (train, test) = (planted(1, 40), planted(2, 40));
+        let search = Search { base: config, objective: Objective::F1, trials, seed: 1, held: vec![] };
+        let variant = Variant::all(config).into_iter().find(|variant| variant.name == name).unwrap();
+        variant.judge(&search, (&[&train], &[&test]), &mut |_, _| {}).unwrap()
+    }
+
+    #[test]
+    fn each_variant_differs_from_the_papers_in_what_its_name_says() {
+        let settings = Config::from_toml(
+            "",
+            &["tracking.sources=all", "camera.enabled=false", "ground.radar_sigmas=1", "camera.stride=4"],
+        );
+        let variants = Variant::all(&settings.unwrap());
+        let paper = &variants[0].config;
+        assert_eq!(*paper, Config::from_toml("", &["ground.radar_sigmas=0", "camera.stride=4"]).unwrap());
+        for variant in &variants[1..] {
+            assert_ne!(variant.config, *paper, "{}", variant.name);
+            if variant.name.contains('=') {
+                let assignments = ["ground.radar_sigmas=0", "camera.stride=4", variant.name];
+                assert_eq!(variant.config, Config::from_toml("", &assignments).unwrap());
+            }
+        }
+        let mut names: Vec<_> = variants.iter().map(|variant| variant.name).collect();
+        names.sort_unstable();
+        names.dedup();
+        assert_eq!(names.len(), variants.len());
+    }
+
+    #[test]
+    fn variants_that_lack_a_branch_share_the_papers_evidence_and_no_extension_does() {
+        let variants = Variant::all(&Config::default());
+        let paper = variants[0].evidence_config();
+        for variant in &variants[1..] {
+            assert_eq!(variant.evidence_config() == paper, !variant.name.contains('='), "{}", variant.name);
+        }
+    }
+
+    /// The planted truth needs all branches, and tracking most of all.
+    #[test]
+    fn a_branch_that_the_truth_follows_from_is_missed() {
+        let config = Config::default();
+        let f1 = |name| judged(&config, name, 150).test.pooled.rates.f1_plausible.unwrap();
+        let paper = f1("paper");
+        for name in ["without LiDAR", "without camera", "without tracking"] {
+            assert!(f1(name) < paper - 0.02, "{name}");
+        }
+        assert!(f1("tracking alone") > f1("LiDAR alone"));
+    }
+
+    #[test]
+    fn a_variant_without_a_branch_is_a_search_without_its_evidence() {
+        let config = Config::default();
+        let without = judged(&config, "without camera", 60);
+        let train = planted(1, 40);
+        let own = Config::from_toml("", &["camera.enabled=false", "ground.radar_sigmas=0"]).unwrap();
+        let search = Search { base: &own, objective: Objective::F1, trials: 60, seed: 1, held: vec![] };
+        assert_eq!(without.found, search.run(&[&train], &mut |_, _| {}).unwrap());
+        assert_eq!(without.found.settings.weights.beta_cm, config.camera.beta);
+        assert_eq!(without, judged(&config, "without camera", 60));
+    }
+}

@@ -1,0 +1,47 @@
+//! Why a detection is an artifact.
+
+/// Why a detection is an artifact. Its number is what the cause files hold.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[repr(u8)]
+pub enum Cause {
+    /// It is none: facades, vehicles with their inside, poles, people, vegetation, grass.
+    Plausible = 0,
+    /// The road, and the kerbs beside it.
+    Road = 1,
+    /// The image of a real scatterer in a facade or in a car's side.
+    Mirror = 2,
+    /// An echo that came back to the vehicle and went the same way again, at twice the range.
+    DoubleBounce = 3,
+    /// A real scatterer seen through a side lobe: right range, wrong azimuth.
+    SideLobe = 4,
+    /// Something inside a building: real, but behind its facade.
+    InsideBuilding = 5,
+    /// Nothing at all.
+    Noise = 6,
+}
+
+impl Cause {
+    /// All of them, in the order of their numbers.
+    pub const ALL: [Self; 7] = [
+        Self::Plausible,
+        Self::Road,
+        Self::Mirror,
+        Self::DoubleBounce,
+        Self::SideLobe,
+        Self::InsideBuilding,
+        Self::Noise,
+    ];
+
+    /// For tables.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Plausible => "none",
+            Self::Road => "road",
+            Self::Mirror => "mirror",
+            Self::DoubleBounce => "double bounce",
+            Self::SideLobe => "side lobe",
+            Self::InsideBuilding => "inside building",
+            Self::Noise => "noise",
+        }
+    }
+}

@@ -1,0 +1,18 @@
+//! Why a detection got what it got, as bits.
+
+/// A floor detection.
+pub const GROUND: u16 = 1;
+/// In the LiDAR's blind spot.
+pub const BLIND_SPOT: u16 = 2;
+/// A failed camera view would have seen it.
+pub const CAMERA_FAILED: u16 = 4;
+/// No LiDAR scan near in time.
+pub const NO_LIDAR: u16 = 8;
+/// No neighbouring radar scan.
+pub const NO_NEIGHBOURS: u16 = 16;
+/// No branch could say anything.
+pub const UNOBSERVED: u16 = 32;
+
+pub(crate) fn when(applies: bool, flag: u16) -> u16 {
+    if applies { flag } else { 0 }
+}

@@ -1,0 +1,188 @@
+//! RANSAC for one ground plane, seeded, so that a run repeats itself bit for bit.
+
+use super::plane::{Plane, PlaneSums};
+use crate::config::GroundConfig;
+use crate::space::{Point, Vector};
+use rand::RngExt;
+use rand::SeedableRng;
+use rand_pcg::Pcg64Mcg;
+
+/// Hypotheses that are scored.
+const HYPOTHESES: usize = 300;
+/// Triples drawn at most: most are too steep or too far away to be scored.
+const DRAWS: usize = 8 * HYPOTHESES;
+/// Points that a hypothesis is scored on at first.
+const FIRST_LOOK: usize = 1024;
+/// Hypotheses that are scored on all points.
+const FINALISTS: usize = 8;
+/// Times that the winner may be replaced by a better fit.
+const CLIMBS: usize = 8;
+
+/// The points that can lie on an admissible plane, each coordinate apart.
+pub(super) struct Candidates {
+    xs: Vec<f32>,
+    ys: Vec<f32>,
+    zs: Vec<f32>,
+}
+
+impl Candidates {
+    /// Leaves out what no admissible plane reaches: its height at a horizontal distance `rho` from the vehicle is at most
+    /// `max_offset / cos(max_tilt) + rho tan(max_tilt)`. Points that are not finite fail the comparison and leave, too.
+    pub(super) fn admissible(points: &[[f32; 3]], config: &GroundConfig) -> Self {
+        let tilt = config.max_tilt_deg.to_radians();
+        let reach = ((config.max_offset + config.inlier_distance) / tilt.cos()) as f32;
+        let slope = tilt.tan() as f32;
+        let room = || Vec::with_capacity(points.len());
+        let mut kept = Self { xs: room(), ys: room(), zs: room() };
+        for &[x, y, z] in points {
+            let rho = (x * x + y * y).sqrt();
+            if z.abs() <= reach + slope * rho {
+                kept.push([x, y, z]);
+            }
+        }
+        kept
+    }
+
+    pub(super) fn push(&mut self, [x, y, z]: [f32; 3]) {
+        self.xs.push(x);
+        self.ys.push(y);
+        self.zs.push(z);
+    }
+
+    pub(super) fn len(&self) -> usize {
+        self.xs.len()
+    }
+
+    pub(super) fn point(&self, i: usize) -> Vector {
+        Vector::new(self.xs[i].into(), self.ys[i].into(), self.zs[i].into())
+    }
+
+    /// Every n-th point, so that at most [`FIRST_LOOK`] are left.
+    fn thinned(&self) -> Self {
+        let step = self.len().div_ceil(FIRST_LOOK).max(1);
+        let thin = |values: &[f32]| values.iter().copied().step_by(step).collect();
+        Self { xs: thin(&self.xs), ys: thin(&self.ys), zs: thin(&self.zs) }
+    }
+
+    /// How many points lie within `distance` of the plane.
+    fn count_inliers(&self, plane: &Plane, distance: f64) -> usize {
+        let [nx, ny, nz] = [plane.normal.x as f32, plane.normal.y as f32, plane.normal.z as f32];
+        let (offset, distance) = (plane.offset as f32, distance as f32);
+        let points = self.xs.iter().zip(&self.ys).zip(&self.zs);
+        points
+            .map(|((x, y), z)| u32::from((nx * x + ny * y + nz * z - offset).abs() <= distance))
+            .sum::<u32>() as usize
+    }
+
+    /// The plane of orthogonal least squares through the points within `distance` of a plane.
+    fn refit(&self, plane: &Plane, distance: f64) -> Option<Plane> {
+        let mut sums = PlaneSums::default();
+        let points = (0..self.len()).map(|i| self.point(i));
+        points.filter(|p| plane.height(&Point::from(*p)).abs() <= distance).for_each(|p| sums.add(p));
+        sums.plane()
+    }
+}
+
+/// The admissible plane with the most points within `inlier_distance`, refitted once on these.
+///
+/// Hypotheses are scored on a part of the points, and the best of them on all. The winner climbs: as long as the plane
+/// fitted to its points has more of them, that one takes its place, so that little depends on the seed.
+pub(super) fn fit(candidates: &Candidates, config: &GroundConfig, seed: u64) -> Option<Plane> {
+    let first_look = candidates.thinned();
+    let hypotheses = draw(candidates, config, seed);
+    let mut ranked: Vec<_> = hypotheses
+        .iter()
+        .map(|plane| first_look.count_inliers(plane, config.inlier_distance))
+        .enumerate()
+        .collect();
+    ranked.sort_by_key(|(drawn, inliers)| (std::cmp::Reverse(*inliers), *drawn));
+    let finalists = ranked.iter().take(FINALISTS).map(|(drawn, _)| hypotheses[*drawn]);
+    let score = |plane: &Plane| candidates.count_inliers(plane, config.inlier_distance);
+    let refit = |plane: &Plane| {
+        candidates.refit(plane, config.inlier_distance).filter(|refitted| refitted.is_admissible(config))
+    };
+    // The first of equally good ones, whatever their number.
+    let (mut inliers, mut best) =
+        finalists.rev().map(|plane| (score(&plane), plane)).max_by_key(|(n, _)| *n)?;
+    for _ in 0..CLIMBS {
+        let Some(higher) = refit(&best).map(|plane| (score(&plane), plane)).filter(|(n, _)| *n > inliers)
+        else {
+            break;
+        };
+        (inliers, best) = higher;
+    }
+    Some(refit(&best).unwrap_or(best))
+}
+
+/// Admissible planes through three random points each.
+fn draw(candidates: &Candidates, config: &GroundConfig, seed: u64) -> Vec<Plane> {
+    if candidates.len() < 3 {
+        return Vec::new();
+    }
+    let mut random = Pcg64Mcg::seed_from_u64(seed);
+    let mut triple =
+        || [(); 3].map(|()| candidates.point(random.random_range(0..candidates.len() as u32) as usize));
+    let planes = (0..DRAWS).filter_map(|_| {
+        let [a, b, c] = triple();
+        Plane::through(&Point::from(a), (b - a).cross(&(c - a))).filter(|plane| plane.is_admissible(config))
+    });
+    planes.take(HYPOTHESES).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A street: ground tilted by `slope` along y, two walls, a flat roof above.
+    fn street(slope: f32) -> Vec<[f32; 3]> {
+        let mut points = Vec::new();
+        for i in 0..60 {
+            for j in -30..30 {
+                let (x, y) = (i as f32 - 20.0, j as f32 * 0.5);
+                let ripple = ((i * 7 + j * 13) % 5) as f32 * 0.01;
+                points.push([x, y, slope * y + ripple]);
+                points.push([x, 16.0, (i + j + 30) as f32 * 0.05]);
+                points.push([x, y, 4.0]);
+            }
+        }
+        points.push([f32::NAN, 0.0, 0.0]);
+        points
+    }
+
+    #[test]
+    fn finds_the_tilted_street_below_a_larger_roof() {
+        let config = GroundConfig::default();
+        for seed in 0..20 {
+            let points = street(0.05);
+            let plane = fit(&Candidates::admissible(&points, &config), &config, seed).unwrap();
+            assert!((plane.normal.y + 0.05).abs() < 0.005, "seed {seed}: {plane:?}");
+            assert!(plane.height(&Point::new(10.0, 10.0, 0.5)).abs() < 0.05);
+        }
+    }
+
+    #[test]
+    fn little_depends_on_the_seed() {
+        let config = GroundConfig::default();
+        let candidates = Candidates::admissible(&street(0.03), &config);
+        let planes: Vec<_> = (0..10).map(|seed| fit(&candidates, &config, seed).unwrap()).collect();
+        for plane in &planes {
+            let corner = Point::new(40.0, 15.0, 0.0);
+            assert!((plane.height(&corner) - planes[0].height(&corner)).abs() < 0.01, "{planes:?}");
+        }
+    }
+
+    #[test]
+    fn the_same_seed_gives_the_same_bits() {
+        let config = GroundConfig::default();
+        let candidates = Candidates::admissible(&street(0.02), &config);
+        assert_eq!(fit(&candidates, &config, 3), fit(&candidates, &config, 3));
+    }
+
+    #[test]
+    fn nothing_admissible_is_no_ground() {
+        let config = GroundConfig::default();
+        let roof: Vec<_> = (0..100).map(|i| [(i % 10) as f32, (i / 10) as f32, 4.0]).collect();
+        assert!(fit(&Candidates::admissible(&roof, &config), &config, 0).is_none());
+        assert!(fit(&Candidates::admissible(&[], &config), &config, 0).is_none());
+    }
+}

@@ -1,0 +1,207 @@
+//! Frames of one sequence, gathered in bounded memory.
+
+use super::camera::{Calibration, ImageMoment, ImageView};
+use super::detections::Detections;
+use super::doppler::compensated_doppler;
+use super::floor::LocalGround;
+use super::frame::Frame;
+use super::lidar::{LidarMoment, LidarView};
+use super::neighbouring::TrackingStep;
+use crate::config::{Config, GroundModel, TrackingSources, nanoseconds};
+use crate::sensors::{LidarScan, Rig, Source, SourceError};
+use crate::space::Recent;
+use crate::space::sync;
+use std::sync::Arc;
+
+/// Names a measurement: sensor and number.
+type Key = (usize, usize);
+
+/// Gathers frames of one sequence. It remembers the last measurements, so that frames asked for in time order read each
+/// one once, and no more than these, so that its memory doesn't grow with the length of the recording.
+pub struct FrameWindow<'a> {
+    source: &'a dyn Source,
+    config: &'a Config,
+    rig: &'a Rig,
+    radar_scans: Recent<Key, Option<Arc<Detections>>>,
+    lidar_scans: Recent<Key, Arc<LidarScan>>,
+    moments: Recent<(i64, Vec<Key>), Arc<LidarMoment>>,
+    images: Recent<Key, Option<Arc<ImageMoment>>>,
+}
+
+impl<'a> FrameWindow<'a> {
+    /// A window over a sequence. `rig` is the sequence's, with the user's overrides in it.
+    pub fn new(source: &'a dyn Source, rig: &'a Rig, config: &'a Config) -> Self {
+        let batch = config.tracking.scans.saturating_mul(2).saturating_add(2);
+        // A batch can't be longer than the sequence.
+        let longest = source.sequence().times.radars.iter().map(Vec::len).max().unwrap_or(0);
+        Self {
+            source,
+            config,
+            rig,
+            radar_scans: Recent::new(batch.min(longest) * rig.radars.len()),
+            lidar_scans: Recent::new(2 * rig.lidars.len()),
+            // The images around a radar scan may have other LiDAR scans nearest to them.
+            moments: Recent::new(2 + rig.cameras.len()),
+            images: Recent::new(2 * rig.cameras.len()),
+        }
+    }
+
+    /// All that belongs to one scan of one radar. Fails where that scan, or a LiDAR scan that belongs to it, can't be read;
+    /// neighbouring radar scans that can't be read are left out of the batch.
+    pub fn frame(&mut self, radar: usize, scan: usize) -> Result<Frame<'a>, SourceError> {
+        let detections = match self.radar_scans.get(&(radar, scan)) {
+            Some(Some(known)) => known,
+            _ => Arc::new(self.locate(radar, scan)?),
+        };
+        self.radar_scans.insert((radar, scan), Some(detections.clone()));
+        let t_ns = detections.t_ns();
+        let tracking = &self.config.tracking;
+        let motion = &self.source.sequence().motion;
+        let doppler = (tracking.enabled && tracking.dynamic)
+            .then(|| compensated_doppler(&self.rig.radars[radar], &detections.scan, motion));
+        let lidar = self.lidar_view(t_ns)?;
+        Ok(Frame {
+            rig: self.rig,
+            radar: &self.rig.radars[radar],
+            ground: LocalGround::around(lidar.as_ref(), &self.config.ground),
+            lidar,
+            images: if self.config.camera.enabled { self.images(t_ns)? } else { Vec::new() },
+            steps: if tracking.enabled { self.steps(radar, scan, t_ns) } else { Vec::new() },
+            doppler: doppler.flatten(),
+            detections,
+        })
+    }
+
+    fn locate(&self, radar: usize, scan: usize) -> Result<Detections, SourceError> {
+        Ok(Detections::locate(&self.rig.radars[radar], self.source.radar_scan(radar, scan)?))
+    }
+
+    /// A neighbouring scan; `None` where it can't be read.
+    fn neighbouring_scan(&mut self, radar: usize, scan: usize) -> Option<Arc<Detections>> {
+        if let Some(known) = self.radar_scans.get(&(radar, scan)) {
+            return known;
+        }
+        let read = self.locate(radar, scan).ok().map(Arc::new);
+        self.radar_scans.insert((radar, scan), read.clone());
+        read
+    }
+
+    /// The batch of METHOD 7.1 and 7.4.
+    fn steps(&mut self, radar: usize, scan: usize, t_ns: i64) -> Vec<TrackingStep> {
+        let max_gap = nanoseconds(self.config.tracking.max_gap_ms);
+        let times = &self.source.sequence().times.radars;
+        let batch = sync::batch(&times[radar], scan, self.config.tracking.scans, max_gap);
+        let step = |j: usize| {
+            let step_time = times[radar][j];
+            let own = self.neighbouring_scan(radar, j)?;
+            let others = (0..times.len())
+                .filter(|other| *other != radar && self.config.tracking.sources == TrackingSources::All);
+            let others: Vec<Key> = others
+                .filter_map(|other| Some((other, sync::nearest(&times[other], step_time, max_gap)?)))
+                .collect();
+            let mut scans = vec![own];
+            scans.extend(
+                others.into_iter().filter_map(|(other, nearest)| self.neighbouring_scan(other, nearest)),
+            );
+            let motion = &self.source.sequence().motion;
+            let with_transform = |scan: Arc<Detections>| {
+                let vehicle_from_scan = motion.between(t_ns, scan.t_ns());
+                (scan, vehicle_from_scan)
+            };
+            let clouds = scans.into_iter().map(with_transform).collect();
+            Some(TrackingStep { j: j as isize - scan as isize, t_ns: step_time, clouds })
+        };
+        batch.into_iter().filter_map(step).collect()
+    }
+
+    /// The LiDAR scans nearest to a time, with their ground; `None` where there is none within the tolerance.
+    pub fn lidar_view(&mut self, t_ns: i64) -> Result<Option<LidarView>, SourceError> {
+        let tolerance = nanoseconds(self.config.sync.lidar_tolerance_ms);
+        let times = &self.source.sequence().times.lidars;
+        let nearest = times.iter().enumerate();
+        let keys: Vec<Key> = nearest
+            .filter_map(|(lidar, times)| Some((lidar, sync::nearest(times, t_ns, tolerance)?)))
+            .collect();
+        let Some(&(first_lidar, first_scan)) = keys.first() else { return Ok(None) };
+        // `flat` is z = 0 of the vehicle frame at the radar scan's time; any other ground belongs to the LiDAR scan.
+        let moment_time = match self.config.ground.model {
+            GroundModel::Flat => t_ns,
+            _ => times[first_lidar][first_scan],
+        };
+        let moment = self.moment(moment_time, keys)?;
+        let vehicle_from_moment = self.source.sequence().motion.between(t_ns, moment_time);
+        Ok(Some(LidarView { moment, vehicle_from_moment }))
+    }
+
+    fn moment(&mut self, t_ns: i64, keys: Vec<Key>) -> Result<Arc<LidarMoment>, SourceError> {
+        let name = (t_ns, keys);
+        if let Some(known) = self.moments.get(&name) {
+            return Ok(known);
+        }
+        let mut scans = Vec::with_capacity(name.1.len());
+        for &(lidar, scan) in &name.1 {
+            let scan = self.lidar_scan(lidar, scan)?;
+            let moment_from_vehicle = self.source.sequence().motion.between(t_ns, scan.t_ns);
+            scans.push((&self.rig.lidars[lidar], scan, moment_from_vehicle));
+        }
+        let moment = Arc::new(LidarMoment::new(t_ns, scans, &self.config.ground, self.config.seed));
+        self.moments.insert(name, moment.clone());
+        Ok(moment)
+    }
+
+    /// The images nearest to a time, calibrated; those without depth are absent.
+    fn images(&mut self, t_ns: i64) -> Result<Vec<ImageView>, SourceError> {
+        let tolerance = nanoseconds(self.config.sync.camera_tolerance_ms);
+        let times = &self.source.sequence().times.cameras;
+        let mut images = Vec::new();
+        for (camera, times) in times.iter().enumerate() {
+            let Some(image) = sync::nearest(times, t_ns, tolerance) else { continue };
+            if let Some(moment) = self.image(camera, image)? {
+                let vehicle_from_image = self.source.sequence().motion.between(t_ns, moment.t_ns);
+                images.push(ImageView { moment, vehicle_from_image });
+            }
+        }
+        Ok(images)
+    }
+
+    /// An image with its views calibrated by the LiDAR scans nearest to it; `None` where there is no depth.
+    pub fn image(&mut self, camera: usize, image: usize) -> Result<Option<Arc<ImageMoment>>, SourceError> {
+        if let Some(known) = self.images.get(&(camera, image)) {
+            return Ok(known);
+        }
+        let t_ns = self.source.sequence().times.cameras[camera][image];
+        let content = match self.source.depth(camera, image) {
+            Ok(None) => {
+                self.images.insert((camera, image), None);
+                return Ok(None);
+            }
+            Ok(Some(depth)) => self.source.image(camera, image).map(|pixels| (pixels, depth)),
+            Err(error) => Err(error),
+        };
+        let lidar = self.lidar_view(t_ns)?;
+        let points = lidar.as_ref().map(LidarView::all_points);
+        let ground = LocalGround::around(lidar.as_ref(), &self.config.ground);
+        let calibration = Calibration {
+            lidar: points.as_deref(),
+            height: &|p| ground.as_ref().map(|ground| ground.height(p)),
+            output: self.source.sequence().depth_output,
+            camera: &self.config.camera,
+            ground: &self.config.ground,
+        };
+        let content = content.map_err(|error| error.to_string());
+        let moment =
+            ImageMoment::new((camera, &self.rig.cameras[camera]), (image, t_ns), content, &calibration);
+        let moment = Arc::new(moment);
+        self.images.insert((camera, image), Some(moment.clone()));
+        Ok(Some(moment))
+    }
+
+    fn lidar_scan(&mut self, lidar: usize, scan: usize) -> Result<Arc<LidarScan>, SourceError> {
+        if let Some(known) = self.lidar_scans.get(&(lidar, scan)) {
+            return Ok(known);
+        }
+        let read = Arc::new(self.source.lidar_scan(lidar, scan)?);
+        self.lidar_scans.insert((lidar, scan), read.clone());
+        Ok(read)
+    }
+}

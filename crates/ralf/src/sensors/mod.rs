@@ -1,0 +1,19 @@
+//! The sensors of a vehicle, how they are mounted, what they deliver, and where that comes from.
+
+mod camera;
+mod image;
+mod intrinsics;
+mod measurement;
+mod rig;
+mod source;
+mod undistort;
+mod view;
+
+pub use camera::Camera;
+pub use image::{CameraImage, DepthImage, DepthOutput};
+pub use intrinsics::Intrinsics;
+pub use measurement::{LidarScan, RadarScan, check_fields, is_return};
+pub use rig::{COORDINATE_FIELDS, Elevation, Lidar, Radar, Reliability, Rig};
+pub use source::{Sequence, Source, SourceError, Timelines};
+pub use undistort::UndistortMap;
+pub use view::{StraightView, View, ViewPoint};

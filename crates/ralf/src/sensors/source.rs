@@ -1,0 +1,55 @@
+//! Where measurements come from: one sequence of one recording, read on demand.
+
+use crate::sensors::{CameraImage, DepthImage, DepthOutput, LidarScan, RadarScan, Rig};
+use crate::space::EgoMotion;
+
+/// Why a measurement could not be had. It names the file, the place in it, what was expected and what was found.
+pub type SourceError = Box<dyn std::error::Error + Send + Sync>;
+
+/// What is known of a sequence before any measurement is read.
+#[derive(Debug, Clone)]
+pub struct Sequence {
+    /// The folder's or scene's name, unique in its recording.
+    pub name: String,
+    /// A title for people.
+    pub title: String,
+    /// The sensors.
+    pub rig: Rig,
+    /// When each of them delivered.
+    pub times: Timelines,
+    /// How the vehicle moved.
+    pub motion: EgoMotion,
+    /// What the stored depth images hold.
+    pub depth_output: DepthOutput,
+}
+
+/// Times (ns, ascending) of all measurements: one list per sensor, in the rig's order.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Timelines {
+    /// Of each radar's scans.
+    pub radars: Vec<Vec<i64>>,
+    /// Of each LiDAR's scans.
+    pub lidars: Vec<Vec<i64>>,
+    /// Of each camera's images.
+    pub cameras: Vec<Vec<i64>>,
+}
+
+/// One sequence of a recording. Readers are indexed by the sensor's place in the rig and the measurement's in its timeline.
+///
+/// Any measurement may be asked for at any time and from any thread, and asking twice gives the same.
+pub trait Source: Send + Sync {
+    /// Sensors, times and motion.
+    fn sequence(&self) -> &Sequence;
+
+    /// A radar's scan.
+    fn radar_scan(&self, radar: usize, scan: usize) -> Result<RadarScan, SourceError>;
+
+    /// A LiDAR's scan.
+    fn lidar_scan(&self, lidar: usize, scan: usize) -> Result<LidarScan, SourceError>;
+
+    /// A camera's image, decoded.
+    fn image(&self, camera: usize, image: usize) -> Result<CameraImage, SourceError>;
+
+    /// What a depth network gave for each view of an image; `None` where nothing is stored.
+    fn depth(&self, camera: usize, image: usize) -> Result<Option<Vec<DepthImage>>, SourceError>;
+}

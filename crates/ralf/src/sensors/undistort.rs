@@ -1,0 +1,202 @@
+//! Straightening: a view cut out of a raw image through a map that is computed once per camera and view (METHOD 5.1).
+
+use super::image::CameraImage;
+use super::intrinsics::Intrinsics;
+use super::view::StraightView;
+use crate::space::Point;
+
+/// For every pixel of a view where it lies in the raw image.
+#[derive(Debug, Clone)]
+pub struct UndistortMap {
+    /// Size of the raw image, px.
+    source: [usize; 2],
+    /// Size of the view, px.
+    target: [usize; 2],
+    /// One per pixel of the view, row by row.
+    taps: Vec<Tap>,
+}
+
+/// The four raw pixels around a place, and how much of the right and the lower ones.
+#[derive(Debug, Clone, Copy)]
+struct Tap {
+    /// Place of the upper left one in the raw image, row by row; [`OUTSIDE`] where there is none.
+    place: u32,
+    /// Of [`ONE`].
+    right: u16,
+    /// Of [`ONE`].
+    down: u16,
+}
+
+const OUTSIDE: u32 = u32::MAX;
+/// Weights are fractions of this: a place is kept to 1/256 px.
+const ONE: u16 = 256;
+
+impl UndistortMap {
+    /// The map from a raw image of `width` by `height` px to a straight view.
+    ///
+    /// A place outside the raw image (farther than half a pixel from its outermost pixels' centres), or one that the lens
+    /// doesn't see, becomes black. An image needs two rows and two columns for anything to lie between.
+    pub fn new(intrinsics: &Intrinsics, width: usize, height: usize, view: &StraightView) -> Self {
+        let limit = intrinsics.limit();
+        let pixels = (0..view.height).flat_map(|row| (0..view.width).map(move |column| [column, row]));
+        let taps = pixels.map(|[column, row]| {
+            let ray = view.camera_from_view * view.ray([column as f64, row as f64]);
+            let place = intrinsics.project_within(&Point::from(ray), limit);
+            place.and_then(|[u, v]| Tap::new(u, v, width, height)).unwrap_or(Tap::NOTHING)
+        });
+        let taps = taps.collect();
+        Self { source: [width, height], target: [view.width, view.height], taps }
+    }
+
+    /// The straight view of an image, interpolated between the four nearest pixels and rounded. The error says which size
+    /// of image was expected.
+    pub fn apply(&self, image: &CameraImage) -> Result<CameraImage, String> {
+        let [width, height] = self.source;
+        if [image.width, image.height] != self.source || image.rgb.len() != width * height {
+            let (found, pixels) = ([image.width, image.height], image.rgb.len());
+            return Err(format!("an image of {width} x {height} px, found {found:?} with {pixels} pixels"));
+        }
+        let bytes = image.rgb.as_flattened();
+        let rgb = self.taps.iter().map(|tap| tap.sample(bytes, 3 * width)).collect();
+        Ok(CameraImage { width: self.target[0], height: self.target[1], rgb })
+    }
+}
+
+impl Tap {
+    const NOTHING: Self = Self { place: OUTSIDE, right: 0, down: 0 };
+
+    fn new(u: f64, v: f64, width: usize, height: usize) -> Option<Self> {
+        let (column, right) = split(u, width)?;
+        let (row, down) = split(v, height)?;
+        let place = u32::try_from(row * width + column).ok()?;
+        Some(Self { place, right, down })
+    }
+
+    /// The interpolated pixel of an image whose rows are `row` bytes long; black outside.
+    #[inline]
+    fn sample(self, bytes: &[u8], row: usize) -> [u8; 3] {
+        let place = 3 * self.place as usize;
+        let upper = bytes.get(place..).and_then(<[u8]>::first_chunk);
+        let lower = bytes.get(place + row..).and_then(<[u8]>::first_chunk);
+        let (Some(upper), Some(lower)) = (upper, lower) else { return [0; 3] };
+        let ([a, b], [c, d]) = (lanes(upper), lanes(lower));
+        // The four weights add up to LANE_ONE whatever is rounded, so that even areas stay as they are.
+        let (right, down) = (u64::from(self.right), u64::from(self.down));
+        let both = (right * down + 4) >> 3;
+        let (right, down) = (32 * right - both, 32 * down - both);
+        let sum = a * (LANE_ONE - right - down - both) + b * right + c * down + d * both + HALVES;
+        [(sum >> 13) as u8, (sum >> 34) as u8, (sum >> 55) as u8]
+    }
+}
+
+/// 13 bits of weight and 8 of colour fill a lane of 21 bits, of which a word holds three.
+const LANE_ONE: u64 = 1 << 13;
+/// What rounds each lane to the nearest.
+const HALVES: u64 = (LANE_ONE / 2) * (1 | 1 << 21 | 1 << 42);
+
+/// Two neighbouring pixels, each spread over three lanes.
+#[inline]
+fn lanes(&[r0, g0, b0, r1, g1, b1]: &[u8; 6]) -> [u64; 2] {
+    let spread = |pixel: u32| {
+        let pixel = u64::from(pixel);
+        (pixel & 0xff) | (pixel & 0xff00) << 13 | (pixel & 0x00ff_0000) << 26
+    };
+    [spread(u32::from_le_bytes([r0, g0, b0, r1])), spread(u32::from_le_bytes([b0, r1, g1, b1]) >> 8)]
+}
+
+/// The pixel before a coordinate that has a successor, and the successor's share; `None` outside the image, and where no two
+/// pixels are.
+fn split(coordinate: f64, size: usize) -> Option<(usize, u16)> {
+    let last = size.checked_sub(2)?;
+    if !(coordinate >= -0.5 && coordinate < size as f64 - 0.5) {
+        return None;
+    }
+    let fixed = (coordinate.clamp(0.0, size as f64 - 1.0) * f64::from(ONE)).round() as usize;
+    let whole = (fixed / usize::from(ONE)).min(last);
+    Some((whole, (fixed - whole * usize::from(ONE)) as u16))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sensors::View;
+    use proptest::prelude::*;
+
+    fn straight(width: usize, height: usize, horizontal_fov: f64) -> StraightView {
+        StraightView::from(&View { yaw: 0.2, pitch: -0.1, horizontal_fov, width, height })
+    }
+
+    fn noise(width: usize, height: usize) -> CameraImage {
+        let value = |i: usize| (i.wrapping_mul(2_654_435_761) >> 7) as u8;
+        let rgb = (0..width * height).map(|i| [value(3 * i), value(3 * i + 1), value(3 * i + 2)]).collect();
+        CameraImage { width, height, rgb }
+    }
+
+    /// Interpolation in floating point, at the place to 1/256 px.
+    fn naive(image: &CameraImage, place: Option<[f64; 2]>) -> [f64; 3] {
+        let [width, height] = [image.width as f64, image.height as f64];
+        let inside = |[u, v]: &[f64; 2]| *u >= -0.5 && *v >= -0.5 && *u < width - 0.5 && *v < height - 0.5;
+        let Some([u, v]) = place.filter(inside) else { return [0.0; 3] };
+        let kept = |value: f64, size: f64| (value.clamp(0.0, size - 1.0) * 256.0).round() / 256.0;
+        let [u, v] = [kept(u, width), kept(v, height)];
+        std::array::from_fn(|channel| {
+            let at = |column: f64, row: f64| {
+                let [column, row] = [column.min(width - 1.0) as usize, row.min(height - 1.0) as usize];
+                f64::from(image.rgb[row * image.width + column][channel])
+            };
+            let (x, y) = (u.fract(), v.fract());
+            let row = |row: f64| at(u.floor(), row) * (1.0 - x) + at(u.floor() + 1.0, row) * x;
+            row(v.floor()) * (1.0 - y) + row(v.floor() + 1.0) * y
+        })
+    }
+
+    proptest! {
+        #[test]
+        fn it_is_what_the_naive_way_gives(
+            width in 2_usize..40, height in 2_usize..40, focal in 3.0..60.0, fov in 0.3..3.0, k in -0.05..0.05,
+        ) {
+            let center = [width as f64 / 2.1, height as f64 / 1.9];
+            let lens = Intrinsics::KannalaBrandt { focal: [focal; 2], center, distortion: [k, 0.0, 0.0, 0.0] };
+            let (image, view) = (noise(width, height), straight(30, 20, fov));
+            let found = UndistortMap::new(&lens, width, height, &view).apply(&image).unwrap();
+            prop_assert_eq!((found.width, found.height, found.rgb.len()), (30, 20, 600));
+            for (i, pixel) in found.rgb.iter().enumerate() {
+                let ray = view.camera_from_view * view.ray([(i % 30) as f64, (i / 30) as f64]);
+                let expected = naive(&image, lens.project(&Point::from(ray)));
+                for (a, b) in pixel.iter().zip(expected) {
+                    // Rounded to a whole number, from weights that are rounded to 1/8192.
+                    prop_assert!((f64::from(*a) - b).abs() <= 0.55, "pixel {}: {:?} {:?}", i, pixel, expected);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn an_image_seen_by_its_own_pinhole_stays_as_it_is() {
+        let image = noise(32, 24);
+        let view =
+            StraightView::from(&View { yaw: 0.0, pitch: 0.0, horizontal_fov: 1.2, width: 32, height: 24 });
+        let lens = Intrinsics::Pinhole { focal: [view.focal; 2], center: view.center, distortion: [0.0; 5] };
+        assert_eq!(UndistortMap::new(&lens, 32, 24, &view).apply(&image).unwrap(), image);
+    }
+
+    #[test]
+    fn an_image_of_another_size_is_refused() {
+        let lens = Intrinsics::Pinhole { focal: [20.0; 2], center: [16.0, 12.0], distortion: [0.0; 5] };
+        let map = UndistortMap::new(&lens, 32, 24, &straight(8, 8, 1.0));
+        let error = map.apply(&noise(24, 32)).unwrap_err();
+        assert!(error.contains("32 x 24") && error.contains("[24, 32]"), "{error}");
+        assert!(map.apply(&CameraImage { width: 32, height: 24, rgb: vec![] }).is_err());
+    }
+
+    #[test]
+    fn the_border_is_held_and_ends_half_a_pixel_out() {
+        assert_eq!(split(-0.5, 10), Some((0, 0)));
+        assert_eq!(split(-0.51, 10), None);
+        assert_eq!(split(3.25, 10), Some((3, 64)));
+        assert_eq!(split(9.49, 10), Some((8, 256)));
+        assert_eq!(split(9.5, 10), None);
+        assert_eq!(split(0.2, 1), None);
+        assert_eq!(split(f64::NAN, 10), None);
+    }
+}

@@ -1,0 +1,220 @@
+//! How the vehicle moved (METHOD 2, eq. single_track): where the vehicle was in the odom frame at any time.
+
+use crate::space::Transform;
+use nalgebra::{Translation3, UnitQuaternion, Vector3};
+
+/// A sample of wheel odometry.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct OdometrySample {
+    /// Time, ns.
+    pub t_ns: i64,
+    /// Longitudinal velocity `v`, m/s.
+    pub velocity: f64,
+    /// rad/s, positive to the left.
+    pub yaw_rate: f64,
+}
+
+/// A 6-DoF pose of the vehicle.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PoseSample {
+    /// Time, ns.
+    pub t_ns: i64,
+    /// Pose in the odom frame.
+    pub odom_from_vehicle: Transform,
+}
+
+/// The vehicle's motion over a sequence. Where 6-DoF poses exist they are used, else wheel odometry is integrated.
+#[derive(Debug, Clone)]
+pub struct EgoMotion {
+    odometry: Vec<OdometrySample>,
+    /// The planar pose (x, y, psi) at each odometry sample.
+    planar: Vec<[f64; 3]>,
+    poses: Vec<PoseSample>,
+}
+
+impl EgoMotion {
+    /// From wheel odometry, 6-DoF poses, or both; each in time order. `None` where both are empty.
+    pub fn new(odometry: Vec<OdometrySample>, poses: Vec<PoseSample>) -> Option<Self> {
+        if odometry.is_empty() && poses.is_empty() {
+            return None;
+        }
+        let mut planar = Vec::with_capacity(odometry.len());
+        let mut pose = [0.0; 3];
+        for (i, sample) in odometry.iter().enumerate() {
+            if let Some(previous) = i.checked_sub(1).map(|i| &odometry[i]) {
+                pose = advance(pose, previous, sample.t_ns);
+            }
+            planar.push(pose);
+        }
+        Some(Self { odometry, planar, poses })
+    }
+
+    /// The wheel odometry, as recorded.
+    pub fn odometry(&self) -> &[OdometrySample] {
+        &self.odometry
+    }
+
+    /// The 6-DoF poses, as recorded.
+    pub fn poses(&self) -> &[PoseSample] {
+        &self.poses
+    }
+
+    /// `T(to <- from)`: the vehicle pose at `from_ns` in the vehicle frame at `to_ns`.
+    pub fn between(&self, to_ns: i64, from_ns: i64) -> Transform {
+        if to_ns == from_ns {
+            return Transform::identity();
+        }
+        self.odom_from_vehicle(to_ns).inv_mul(&self.odom_from_vehicle(from_ns))
+    }
+
+    /// The vehicle's pose at a time. Outside the poses' span the pose is held; outside the odometry's the nearest
+    /// velocity and yaw rate go on.
+    pub fn odom_from_vehicle(&self, t_ns: i64) -> Transform {
+        if self.poses.is_empty() { self.integrated(t_ns) } else { self.interpolated(t_ns) }
+    }
+
+    /// The vehicle's velocity (m/s, vehicle frame, at its origin) and turn rate (rad/s) at a time: measured by the wheels
+    /// where there is odometry, else from the poses around.
+    pub fn twist(&self, t_ns: i64) -> (Vector3<f64>, Vector3<f64>) {
+        match self.odometry.get(self.sample_at(t_ns)) {
+            Some(sample) => {
+                (Vector3::new(sample.velocity, 0.0, 0.0), Vector3::new(0.0, 0.0, sample.yaw_rate))
+            }
+            None => self.twist_of_poses(t_ns),
+        }
+    }
+
+    fn twist_of_poses(&self, t_ns: i64) -> (Vector3<f64>, Vector3<f64>) {
+        const HALF_STEP_NS: i64 = 25_000_000;
+        let span = self.poses.first().zip(self.poses.last());
+        let (first, last) = span.map_or((t_ns, t_ns), |(first, last)| {
+            (first.t_ns.max(t_ns - HALF_STEP_NS), last.t_ns.min(t_ns + HALF_STEP_NS))
+        });
+        if last <= first {
+            return (Vector3::zeros(), Vector3::zeros());
+        }
+        let step = self.between(first, last);
+        let dt = seconds(last - first);
+        (step.translation.vector / dt, step.rotation.scaled_axis() / dt)
+    }
+
+    fn sample_at(&self, t_ns: i64) -> usize {
+        self.odometry.partition_point(|sample| sample.t_ns <= t_ns).saturating_sub(1)
+    }
+
+    fn integrated(&self, t_ns: i64) -> Transform {
+        let at = self.sample_at(t_ns);
+        let [x, y, psi] = advance(self.planar[at], &self.odometry[at], t_ns);
+        let rotation = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), psi);
+        Transform::from_parts(Translation3::new(x, y, 0.0), rotation)
+    }
+
+    fn interpolated(&self, t_ns: i64) -> Transform {
+        let after = self.poses.partition_point(|pose| pose.t_ns <= t_ns);
+        match (after.checked_sub(1).map(|before| self.poses[before]), self.poses.get(after)) {
+            (Some(a), Some(b)) => {
+                let share = (t_ns - a.t_ns) as f64 / (b.t_ns - a.t_ns) as f64;
+                interpolate(&a.odom_from_vehicle, &b.odom_from_vehicle, share)
+            }
+            (Some(only), None) => only.odom_from_vehicle,
+            (None, Some(only)) => only.odom_from_vehicle,
+            (None, None) => Transform::identity(),
+        }
+    }
+}
+
+/// The planar pose at `t_ns`, from the pose at `sample`, along the exact arc of constant velocity and yaw rate.
+fn advance([x, y, psi]: [f64; 3], sample: &OdometrySample, t_ns: i64) -> [f64; 3] {
+    let dt = seconds(t_ns - sample.t_ns);
+    let dpsi = sample.yaw_rate * dt;
+    let (along, across) = if dpsi.abs() < 1e-6 {
+        (1.0 - dpsi * dpsi / 6.0, dpsi / 2.0)
+    } else {
+        (dpsi.sin() / dpsi, (1.0 - dpsi.cos()) / dpsi)
+    };
+    let distance = sample.velocity * dt;
+    let (sin, cos) = psi.sin_cos();
+    [x + distance * (cos * along - sin * across), y + distance * (sin * along + cos * across), psi + dpsi]
+}
+
+/// Linear in position, slerp in rotation, the shorter way round.
+fn interpolate(a: &Transform, b: &Transform, share: f64) -> Transform {
+    let position = a.translation.vector.lerp(&b.translation.vector, share);
+    // Opposite rotations have no shortest way; either end is then as good.
+    let rotation = a.rotation.try_slerp(&b.rotation, share, 1e-12).unwrap_or(a.rotation);
+    Transform::from_parts(Translation3::from(position), rotation)
+}
+
+fn seconds(ns: i64) -> f64 {
+    ns as f64 * 1e-9
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::space::Point;
+    use std::f64::consts::FRAC_PI_2;
+
+    const SECOND: i64 = 1_000_000_000;
+
+    fn odometry(rows: &[(i64, f64, f64)]) -> EgoMotion {
+        let sample = |&(t, velocity, yaw_rate)| OdometrySample { t_ns: t * SECOND, velocity, yaw_rate };
+        EgoMotion::new(rows.iter().map(sample).collect(), vec![]).unwrap()
+    }
+
+    #[test]
+    fn a_quarter_circle_is_exact() {
+        // A quarter turn in 1 s on a circle of radius 2: v = 2 * pi / 2.
+        let motion = odometry(&[(0, 2.0 * FRAC_PI_2, FRAC_PI_2), (5, 0.0, 0.0)]);
+        let pose = motion.odom_from_vehicle(SECOND);
+        assert!((pose.translation.vector - Vector3::new(2.0, 2.0, 0.0)).norm() < 1e-12);
+        assert!((pose * Point::new(1.0, 0.0, 0.0) - Point::new(2.0, 3.0, 0.0)).norm() < 1e-12);
+    }
+
+    #[test]
+    fn motion_goes_on_before_the_first_and_after_the_last_sample() {
+        let motion = odometry(&[(0, 3.0, 0.0), (1, 5.0, 0.0)]);
+        assert!((motion.odom_from_vehicle(-2 * SECOND).translation.x + 6.0).abs() < 1e-12);
+        assert!((motion.odom_from_vehicle(3 * SECOND).translation.x - 13.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn the_series_meets_the_arc() {
+        let arc =
+            |yaw_rate: f64| advance([0.0; 3], &OdometrySample { t_ns: 0, velocity: 10.0, yaw_rate }, SECOND);
+        for (below, above) in arc(0.99e-6).into_iter().zip(arc(1.01e-6)) {
+            assert!((below - above).abs() < 1e-6);
+        }
+    }
+
+    #[test]
+    fn between_moves_points_to_the_other_time() {
+        let motion = odometry(&[(0, 2.0, 0.0)]);
+        // A wall 10 m ahead at t = 0 is 6 m ahead two seconds later.
+        let wall = motion.between(2 * SECOND, 0) * Point::new(10.0, 0.0, 0.0);
+        assert!((wall - Point::new(6.0, 0.0, 0.0)).norm() < 1e-12);
+    }
+
+    #[test]
+    fn poses_are_interpolated_and_held() {
+        let pose = |t: i64, x: f64, yaw: f64| PoseSample {
+            t_ns: t * SECOND,
+            odom_from_vehicle: Transform::new(Vector3::new(x, 0.0, 0.0), Vector3::new(0.0, 0.0, yaw)),
+        };
+        let samples = vec![OdometrySample { t_ns: 0, velocity: 99.0, yaw_rate: 9.0 }];
+        let motion = EgoMotion::new(samples, vec![pose(0, 0.0, 0.0), pose(2, 4.0, 1.0)]).unwrap();
+        let halfway = motion.odom_from_vehicle(SECOND);
+        assert!((halfway.translation.x - 2.0).abs() < 1e-12);
+        assert!((halfway.rotation.euler_angles().2 - 0.5).abs() < 1e-12);
+        assert_eq!(motion.odom_from_vehicle(-SECOND).translation.x, 0.0);
+        assert_eq!(motion.odom_from_vehicle(9 * SECOND).translation.x, 4.0);
+        assert_eq!(motion.twist(SECOND).0.x, 99.0, "the wheels measure it");
+        let (velocity, turn) = EgoMotion::new(vec![], motion.poses().to_vec()).unwrap().twist(SECOND);
+        assert!((velocity.norm() - 2.0).abs() < 1e-3 && (turn.z - 0.5).abs() < 1e-9);
+    }
+
+    #[test]
+    fn no_samples_is_no_motion() {
+        assert!(EgoMotion::new(vec![], vec![]).is_none());
+    }
+}
