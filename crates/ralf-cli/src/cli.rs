@@ -6,7 +6,7 @@ use crate::commands::{
 use crate::settings;
 use anyhow::Context;
 use clap::{Args, Parser, Subcommand};
-use ralf::config::Config;
+use ralf::config::Topics;
 use ralf_data::run::read_record;
 use std::path::{Path, PathBuf};
 
@@ -91,21 +91,23 @@ pub(crate) struct DatasetArgs {
 impl DatasetArgs {
     /// Opens the recording, and says what its reader warns of.
     pub(crate) fn open(&self) -> anyhow::Result<ralf_data::Recording> {
-        self.open_with(&mut Config::default())
+        self.open_with(&self.topics_or(&Topics::new())?)
     }
 
     /// The same with the topics that `ralf label` used.
     pub(crate) fn open_labelled(&self, out: &Path) -> anyhow::Result<ralf_data::Recording> {
         std::fs::metadata(&self.dataset).with_context(|| self.dataset.display().to_string())?;
-        self.open_with(&mut read_record(out)?.settings)
+        self.open_with(&self.topics_or(&read_record(out)?.settings.topics)?)
     }
 
-    /// The same with the topics of the settings; those of `--topics` win, and are put into the settings.
-    pub(crate) fn open_with(&self, config: &mut Config) -> anyhow::Result<ralf_data::Recording> {
-        if let Some(file) = &self.topics {
-            config.topics = settings::read(file)?.topics;
-        }
-        let recording = ralf_data::open_with(&self.dataset, self.format.as_deref(), &config.topics)?;
+    /// The topics of `--topics`, or else these.
+    pub(crate) fn topics_or(&self, topics: &Topics) -> anyhow::Result<Topics> {
+        self.topics.as_deref().map_or_else(|| Ok(topics.clone()), |file| Ok(settings::read(file)?.topics))
+    }
+
+    /// The same with these topics.
+    pub(crate) fn open_with(&self, topics: &Topics) -> anyhow::Result<ralf_data::Recording> {
+        let recording = ralf_data::open_with(&self.dataset, self.format.as_deref(), topics)?;
         let recording =
             if self.sequences.is_empty() { recording } else { recording.select(&self.sequences)? };
         for reader in &recording.sequences {

@@ -54,7 +54,8 @@ pub(crate) fn run(arguments: &InspectArgs) -> anyhow::Result<Outcome> {
             .ok_or_else(|| UsageError("--write-topics: expected a ROS recording".into()))?
             .write(file);
     }
-    let recording = arguments.dataset.open_with(&mut config);
+    config.topics = arguments.dataset.topics_or(&config.topics)?;
+    let recording = arguments.dataset.open_with(&config.topics);
     let recording = match (recording, &topics) {
         (Ok(recording), _) => recording,
         // The topics are what tells why.

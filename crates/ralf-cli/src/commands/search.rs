@@ -83,7 +83,7 @@ impl SearchArgs {
         let dataset = DatasetArgs { dataset, format, sequences, topics: None };
         let corrections = self.corrections.as_deref();
         let truth = merged_truth(&self.dataset, corrections, corrections.is_some())?;
-        Ok((dataset.open_with(&mut base.clone())?, truth))
+        Ok((dataset.open_with(&dataset.topics_or(&base.topics)?)?, truth))
     }
 
     /// Matches all scans of a recording that have truth.

@@ -21,6 +21,8 @@ mod export;
 mod full_disk;
 #[cfg(unix)]
 mod inputs;
+#[cfg(unix)]
+mod odd_files;
 mod other_commands;
 mod real_data;
 mod resume;
@@ -32,4 +34,6 @@ mod simulation;
 mod streams;
 mod support;
 mod tuning;
+#[cfg(unix)]
+mod verbs;
 mod whole_run;

@@ -13,6 +13,14 @@ pub(crate) fn read(file: &Path) -> Result<Vec<u8>, DataError> {
     ralf_files::read(file, Kind::Measurement).map_err(DataError::io(file))
 }
 
+/// Whether there is such a file or folder. Nothing lies below a file: a recording may be one.
+pub(crate) fn exists(file: &Path) -> Result<bool, DataError> {
+    match file.try_exists() {
+        Err(error) if is_nowhere(&error) => Ok(false),
+        found => found.map_err(DataError::io(file)),
+    }
+}
+
 /// Opens a file that is read piece by piece, of any size.
 pub(crate) fn open(file: &Path) -> Result<fs::File, DataError> {
     ralf_files::open(file, Kind::Stream).map_err(DataError::io(file))

@@ -53,7 +53,7 @@ impl Balances {
         let mut sums = Sums::default();
         for name in files::folders(&sequences)? {
             let file = sequences.join(&name).join("plausibility.parquet");
-            if file.try_exists().map_err(DataError::io(&file))? {
+            if files::exists(&file)? {
                 sums.add(name, &read_labelled_rows(&file)?);
             }
         }

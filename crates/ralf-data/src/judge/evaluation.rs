@@ -49,7 +49,7 @@ impl Comparison {
 /// The confusion matrix of one scan; `None` where the run has no labels for it.
 fn compare(out: &Path, truth: &GroundTruth, scan: &ScanId) -> Result<Option<Confusion>, DataError> {
     let file = scan.label_file(out);
-    if !file.try_exists().map_err(DataError::io(&file))? {
+    if !files::exists(&file)? {
         return Ok(None);
     }
     let (labels, truths) = (read_labels(&file)?, truth.labels(scan)?);

@@ -26,15 +26,18 @@ pub(super) fn assemble(
     let mut writer = PlausibilityWriter::create(&workspace.plausibility_file(), &task.columns)?;
     let mut radars = Vec::with_capacity(task.rig.radars.len());
     let mut images = Images::new();
+    let mut unreadable = BTreeSet::new();
     for (radar, times) in task.rig.radars.iter().zip(&sequence.times.radars) {
         let mut record = RadarRecord { name: radar.name.clone(), ..RadarRecord::default() };
         for scan in 0..times.len() {
             let mut table = ScanTable::default();
             if !missing.contains(&(radar.name.as_str(), scan)) {
                 table = workspace.table(&radar.name, scan, &task.columns)?;
-                for (camera, image) in workspace.images(&radar.name, scan)? {
+                let notes = workspace.notes(&radar.name, scan)?;
+                for (camera, image) in notes.images {
                     images.entry(camera).or_default().insert(image.image, image);
                 }
+                unreadable.extend(notes.unreadable);
             }
             writer.append(&radar.name, scan, &table)?;
             record.push(&table);
@@ -46,7 +49,8 @@ pub(super) fn assemble(
     observer.end();
     let cameras = cameras(&task.rig.cameras, images);
     let fingerprint = fingerprint.to_owned();
-    Ok(SequenceRecord { name: sequence.name.clone(), fingerprint, radars, cameras, not_labelled })
+    let unreadable = unreadable.into_iter().collect();
+    Ok(SequenceRecord { name: sequence.name.clone(), fingerprint, radars, cameras, not_labelled, unreadable })
 }
 
 /// What the monitor found about the images that were asked.

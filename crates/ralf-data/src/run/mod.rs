@@ -18,7 +18,9 @@ mod workers;
 mod workspace;
 
 pub use record::{Input, RunRecord, Timings, read_record};
-pub use sequence_record::{CameraRecord, ImageRecord, NotLabelled, RadarRecord, SequenceRecord};
+pub use sequence_record::{
+    CameraRecord, ImageRecord, NotLabelled, RadarRecord, SequenceRecord, UnreadableScan,
+};
 
 use crate::error::DataError;
 use crate::read::{Recording, SequenceReader, layout};

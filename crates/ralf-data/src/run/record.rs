@@ -1,7 +1,7 @@
 //! `run.json`: what was done, with what, and how it went.
 
 use super::json::read_json;
-use super::sequence_record::{CameraRecord, NotLabelled, RadarRecord, SequenceRecord};
+use super::sequence_record::{CameraRecord, NotLabelled, RadarRecord, SequenceRecord, UnreadableScan};
 use crate::error::DataError;
 use crate::read::Recording;
 use ralf::config::Config;
@@ -106,6 +106,13 @@ impl RunRecord {
         self.sequences
             .iter()
             .flat_map(|sequence| sequence.not_labelled.iter().map(|scan| (sequence.name.as_str(), scan)))
+    }
+
+    /// LiDAR scans that labelling had to do without, for they can't be read, with their sequence.
+    pub fn unreadable(&self) -> impl Iterator<Item = (&str, &UnreadableScan)> {
+        self.sequences
+            .iter()
+            .flat_map(|sequence| sequence.unreadable.iter().map(|scan| (sequence.name.as_str(), scan)))
     }
 
     /// All cameras of all sequences.

@@ -1,7 +1,7 @@
 //! Scans side by side: each worker takes a stretch of time and labels it with a window of its own.
 
-use super::sequence_record::{ImageRecord, NotLabelled};
-use super::workspace::{Images, Workspace};
+use super::sequence_record::{NotLabelled, ScanNotes};
+use super::workspace::Workspace;
 use super::{Observer, Stage, Task};
 use crate::error::DataError;
 use crate::result::ScanTable;
@@ -102,12 +102,9 @@ impl Shared<'_> {
                 return self.workspace.forget(name, scan).map(|()| 0);
             }
         };
-        let views = frame.images.iter().map(|view| &view.moment);
-        let images: Images =
-            views.map(|moment| (rig.cameras[moment.camera].name.clone(), ImageRecord::of(moment))).collect();
         let labels = Labeler::new(self.config).label(&frame);
         let table = ScanTable::new(columns, &rig.radars[radar], &frame.detections, &labels);
-        self.workspace.keep(name, scan, &images, &table)?;
+        self.workspace.keep(name, scan, &ScanNotes::new(&frame), &table)?;
         Ok(labels.len() as u64)
     }
 }

@@ -27,7 +27,7 @@ impl Causes {
     /// An empty list or name, more names than codes, or a first name other than `none`.
     pub fn find(dataset: &Path, sequence: &str) -> Result<Option<Self>, DataError> {
         let file = dataset.join("sequences").join(sequence).join("ground_truth").join(NAMES);
-        if !file.try_exists().map_err(DataError::io(&file))? {
+        if !files::exists(&file)? {
             return Ok(None);
         }
         let names: Vec<String> =
@@ -59,7 +59,7 @@ impl Causes {
     /// Another number of codes, or a code without a name.
     pub fn of_scan(&self, scan: &ScanId, detections: usize) -> Result<Option<Vec<u8>>, DataError> {
         let file = scan.truth_file(&self.dataset).with_extension("cause");
-        if !file.try_exists().map_err(DataError::io(&file))? {
+        if !files::exists(&file)? {
             return Ok(None);
         }
         let codes = files::read(&file)?;

@@ -1,5 +1,6 @@
 //! What people corrected in the review, beside a run's labels: `OUT/corrections.sqlite`.
 
+use crate::disk::files;
 use crate::disk::label_file::Label;
 use crate::error::DataError;
 use crate::truth::ground_truth::ScanId;
@@ -33,7 +34,7 @@ impl Corrections {
     /// A file that is no store of corrections, or one of another version of the program.
     pub fn open(out: &Path) -> Result<Self, DataError> {
         let file = out.join(FILE);
-        let there = file.try_exists().map_err(DataError::io(&file))?;
+        let there = files::exists(&file)?;
         let scans = if there { read_layer(&file)? } else { BTreeMap::new() };
         Ok(Self { file, scans: scans.into_iter().map(|(key, scan)| (key.into(), scan)).collect() })
     }

@@ -119,7 +119,7 @@ fn motion(
 
 /// The file, if there is one.
 fn existing(file: PathBuf) -> Result<Option<PathBuf>, DataError> {
-    let exists = file.try_exists().map_err(DataError::io(&file))?;
+    let exists = files::exists(&file)?;
     Ok(exists.then_some(file))
 }
 
