@@ -5,8 +5,9 @@ use crate::commands::{
 };
 use anyhow::Context;
 use clap::{Args, Parser, Subcommand};
+use ralf_data::Recording;
+use ralf_data::read::ros::Topics;
 use ralf_data::result::{Change, LabelledRun};
-use ralf_data::{Recording, Settings};
 use std::path::{Path, PathBuf};
 
 /// Trustworthy labels for radar data: which detections are real, and which are artifacts?
@@ -90,24 +91,26 @@ pub(crate) struct DatasetArgs {
 impl DatasetArgs {
     /// Opens the recording, and says what its reader warns of.
     pub(crate) fn open(&self) -> anyhow::Result<Recording> {
-        self.open_with(&mut Settings::default())
+        self.open_with(&self.topics_or(&Topics::new())?)
     }
 
     /// The same with the topics that `ralf label` used. It has to be what was labelled.
     pub(crate) fn open_labelled(&self, out: &Path, changed: &ChangedArgs) -> anyhow::Result<Recording> {
         std::fs::metadata(&self.dataset).with_context(|| self.dataset.display().to_string())?;
         let run = LabelledRun::open(out)?;
-        let recording = self.open_with(&mut run.settings().clone())?;
+        let recording = self.open_with(&self.topics_or(&run.settings().topics)?)?;
         changed.check(&run, &recording)?;
         Ok(recording)
     }
 
-    /// The same with the topics of the settings; those of `--topics` win, and are put into the settings.
-    pub(crate) fn open_with(&self, settings: &mut Settings) -> anyhow::Result<Recording> {
-        if let Some(file) = &self.topics {
-            settings.topics = crate::settings::read(file)?.topics;
-        }
-        let recording = ralf_data::open_with(&self.dataset, self.format.as_deref(), &settings.topics)?;
+    /// The topics of `--topics`, or else these.
+    pub(crate) fn topics_or(&self, topics: &Topics) -> anyhow::Result<Topics> {
+        self.topics.as_deref().map_or_else(|| Ok(topics.clone()), |file| Ok(settings::read(file)?.topics))
+    }
+
+    /// The same with these topics.
+    pub(crate) fn open_with(&self, topics: &Topics) -> anyhow::Result<Recording> {
+        let recording = ralf_data::open_with(&self.dataset, self.format.as_deref(), topics)?;
         let recording =
             if self.sequences.is_empty() { recording } else { recording.select(&self.sequences)? };
         for reader in &recording.sequences {

@@ -4,6 +4,7 @@ use crate::UsageError;
 use anyhow::Context;
 use clap::Args;
 use ralf_data::Settings;
+use ralf_files::Kind;
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
@@ -46,5 +47,5 @@ pub(crate) fn read(file: &Path) -> anyhow::Result<Settings> {
 }
 
 fn text(file: &Path) -> anyhow::Result<String> {
-    std::fs::read_to_string(file).with_context(|| file.display().to_string())
+    ralf_files::read_text(file, Kind::Settings).with_context(|| file.display().to_string())
 }

@@ -46,8 +46,8 @@ pub(crate) struct DepthArgs {
 
 /// Computes depth, or checks it.
 pub(crate) fn run(arguments: &DepthArgs) -> anyhow::Result<Outcome> {
-    let mut settings = arguments.settings.resolve()?;
-    let mut recording = arguments.dataset.open_with(&mut settings)?;
+    let settings = arguments.settings.resolve()?;
+    let mut recording = arguments.dataset.open_with(&arguments.dataset.topics_or(&settings.topics)?)?;
     let model = arguments.model.load()?;
     ensure!(
         model.is_some() || arguments.check,

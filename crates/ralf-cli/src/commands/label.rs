@@ -56,7 +56,8 @@ pub(crate) struct LabelArgs {
 pub(crate) fn run(arguments: &LabelArgs) -> anyhow::Result<Outcome> {
     let mut settings = arguments.settings.resolve()?;
     let jobs = threads(arguments.jobs);
-    let recording = arguments.dataset.open_with(&mut settings)?;
+    settings.topics = arguments.dataset.topics_or(&settings.topics)?;
+    let recording = arguments.dataset.open_with(&settings.topics)?;
     let recording = arguments.with_depth(recording, &settings.method, jobs)?;
     let run = LabelRun { recording: &recording, settings: &settings, out: &arguments.output, jobs };
     let done = run.execute(&Bars::new(arguments.quiet))?;
@@ -73,6 +74,10 @@ pub(crate) fn run(arguments: &LabelArgs) -> anyhow::Result<Outcome> {
     }
     let record = &done.record;
     print(&if arguments.json { serde_json::to_string_pretty(record)? } else { summary(&done) })?;
+    for (sequence, scan) in record.unreadable() {
+        let (sensor, number, reason) = (&scan.sensor, scan.scan, &scan.reason);
+        say(&format!("labelled without: {sequence} {sensor} scan {number}: {reason}"));
+    }
     let mut outcome = Outcome::Done;
     for (sequence, scan) in record.not_labelled() {
         say(&format!("not labelled: {sequence} {} scan {}: {}", scan.radar, scan.scan, scan.reason));

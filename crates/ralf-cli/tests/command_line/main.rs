@@ -22,6 +22,8 @@ mod full_disk;
 #[cfg(unix)]
 mod inputs;
 mod names;
+#[cfg(unix)]
+mod odd_files;
 mod other_commands;
 mod other_data;
 mod real_data;
@@ -34,6 +36,8 @@ mod simulation;
 mod streams;
 mod support;
 mod tuning;
+#[cfg(unix)]
+mod verbs;
 mod whole_run;
 #[cfg(unix)]
 mod writers;

@@ -22,7 +22,10 @@ pub use parquet_file::PlausibilityWriter;
 pub use record::{Input, RunRecord, Timings, read_record};
 pub use rows_read::{LabelledRows, read_labelled_rows};
 pub use scan_tables::{PlausibilityReader, ScanTables};
-pub use sequence_record::{CameraRecord, FileRecord, ImageRecord, NotLabelled, RadarRecord, SequenceRecord};
+pub(crate) use sequence_record::ScanNotes;
+pub use sequence_record::{
+    CameraRecord, FileRecord, ImageRecord, NotLabelled, RadarRecord, SequenceRecord, UnreadableScan,
+};
 pub use table::ScanTable;
 
 pub(crate) use columns::ANSWERS;

@@ -16,7 +16,7 @@ mod workspace;
 
 pub use crate::result::{
     CameraRecord, ImageRecord, Input, NotLabelled, RadarRecord, RunRecord, SequenceRecord, Timings,
-    read_record,
+    UnreadableScan, read_record,
 };
 
 use crate::error::DataError;
@@ -104,7 +104,7 @@ impl LabelRun<'_> {
         let tasks = tasks.collect::<Result<Vec<_>, _>>()?;
         let _lock = WriterLock::take(self.out.join(LOCK), self.out)?;
         let run = RunRecord::new(self.recording, self.settings);
-        let asked = inputs::identify(self.recording, &fingerprint::of_run(&run), self.jobs, observer)?;
+        let asked = inputs::identify(self.recording, &fingerprint::of_run(&run), self.jobs, observer);
         let folder = OutputFolder::open(self.out, run, &asked)?;
         let mut finished = Vec::new();
         for (task, identity) in tasks.iter().zip(&asked).filter(|(_, asked)| !folder.holds(&asked.name)) {

@@ -21,7 +21,7 @@ pub use camera::{
 pub use detections::{Detections, Located};
 pub use doppler::compensated_doppler;
 pub use floor::LocalGround;
-pub use frame::Frame;
+pub use frame::{Frame, Unreadable};
 pub use ground::{Ground, Plane};
 pub use lidar::{LidarMoment, LidarView};
 pub use mismatch::{Reference, Spread, distance_per_mismatch, mismatch, plausibility};

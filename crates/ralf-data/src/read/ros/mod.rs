@@ -24,6 +24,7 @@ pub use inspection::{RosInspection, TopicInspection, inspect, is_ros};
 use messages::Messages;
 use ralf_ros::container::ContainerError;
 use source::Drive;
+pub(crate) use source::RosOrigin;
 use std::path::Path;
 pub(crate) use topics::check as check_topics;
 pub use topics::{Stamps, TopicConfig, TopicKind, Topics};

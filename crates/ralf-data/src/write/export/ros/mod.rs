@@ -111,7 +111,7 @@ pub fn write_ros(
     progress: &dyn Fn(usize),
 ) -> Result<Option<PathBuf>, DataError> {
     let _lock = WriterLock::beside(file)?;
-    let settings_file = file.with_extension("toml");
+    let settings_file = settings_file(file);
     if let Some(there) = [file, &settings_file].into_iter().find(|file| file.exists()) {
         return Err(DataError::content(there, "file", "none of this name yet", "one"));
     }
@@ -135,6 +135,17 @@ pub fn write_ros(
         let _ = remove(&part);
     }
     written
+}
+
+/// Where the settings of a recording go: `t.toml` beside `t.mcap`, and `t.bag.toml` beside `t.bag` where that is another's.
+fn settings_file(file: &Path) -> PathBuf {
+    let usual = file.with_extension("toml");
+    if !usual.exists() {
+        return usual;
+    }
+    let mut name = file.as_os_str().to_owned();
+    name.push(".toml");
+    name.into()
 }
 
 /// The file could not be written: with all reasons, for libraries hide the system's behind their own.
