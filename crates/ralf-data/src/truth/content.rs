@@ -1,6 +1,6 @@
 //! What a radar's scan holds, as one hash: what people say of detections belongs to a scan with this content, and to no other.
 
-use ralf::measurement::RadarScan;
+use ralf::sensors::RadarScan;
 use ralf_corrections::ContentHash;
 
 /// The hash of a scan's detections in their order: every field's values, bit for bit as they were read. The time of the scan
@@ -20,11 +20,11 @@ pub fn scan_content(scan: &RadarScan) -> ContentHash {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use ralf::geometry::Spherical;
+    use ralf::space::{Point, Spherical};
 
     fn scan(columns: &[&[f32]]) -> RadarScan {
         let rows = columns[0].len();
-        let positions = vec![ralf::geometry::Point::origin(); rows];
+        let positions = vec![Point::origin(); rows];
         let spherical = vec![Spherical { range: 0.0, azimuth: 0.0, elevation: 0.0 }; rows];
         RadarScan {
             t_ns: 0,
