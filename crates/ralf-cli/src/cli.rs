@@ -105,7 +105,9 @@ impl DatasetArgs {
 
     /// The topics of `--topics`, or else these.
     pub(crate) fn topics_or(&self, topics: &Topics) -> anyhow::Result<Topics> {
-        self.topics.as_deref().map_or_else(|| Ok(topics.clone()), |file| Ok(settings::read(file)?.topics))
+        self.topics
+            .as_deref()
+            .map_or_else(|| Ok(topics.clone()), |file| Ok(crate::settings::read(file)?.topics))
     }
 
     /// The same with these topics.
