@@ -1,11 +1,12 @@
 //! The recording that a command works on.
 
+use super::changed::ChangedArgs;
 use super::settings;
 use crate::progress::say;
 use anyhow::Context;
 use clap::Args;
-use ralf::config::{Config, Topics};
-use ralf_data::run::read_record;
+use ralf_data::read::ros::Topics;
+use ralf_data::result::LabelledRun;
 use ralf_data::{Recording, SequenceReader};
 use std::path::{Path, PathBuf};
 
@@ -27,15 +28,26 @@ pub(crate) struct DatasetArgs {
 }
 
 impl DatasetArgs {
-    /// Opens the recording, and says what its reader warns of. Topics come from `--topics` alone.
+    /// Opens the recording, and says what its reader warns of.
     pub(crate) fn open(&self) -> anyhow::Result<Recording> {
-        self.open_with(&self.with_topics(Config::default())?.topics)
+        self.open_with(&self.topics_or(&Topics::new())?)
     }
 
-    /// The same with the topics that `ralf label` used, unless `--topics` names others.
-    pub(crate) fn open_labelled(&self, out: &Path) -> anyhow::Result<Recording> {
+    /// The same with the topics that `ralf label` used. It has to be what was labelled.
+    pub(crate) fn open_labelled(&self, out: &Path, changed: &ChangedArgs) -> anyhow::Result<Recording> {
         std::fs::metadata(&self.dataset).with_context(|| self.dataset.display().to_string())?;
-        self.open_with(&self.with_topics(read_record(out)?.settings)?.topics)
+        let run = LabelledRun::open(out)?;
+        let recording = self.open_with(&self.topics_or(&run.settings().topics)?)?;
+        changed.check(&run, &recording)?;
+        Ok(recording)
+    }
+
+    /// The topics of `--topics`, or else these.
+    pub(crate) fn topics_or(&self, topics: &Topics) -> anyhow::Result<Topics> {
+        match &self.topics {
+            Some(file) => Ok(settings::read(file)?.topics),
+            None => Ok(topics.clone()),
+        }
     }
 
     /// The same with these topics.
@@ -49,14 +61,6 @@ impl DatasetArgs {
             }
         }
         Ok(recording)
-    }
-
-    /// The settings with the topics of `--topics`, where that is given.
-    pub(crate) fn with_topics(&self, config: Config) -> anyhow::Result<Config> {
-        match &self.topics {
-            Some(file) => Ok(Config { topics: settings::read(file)?.topics, ..config }),
-            None => Ok(config),
-        }
     }
 }
 

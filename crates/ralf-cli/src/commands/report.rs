@@ -1,6 +1,6 @@
 //! `ralf report`: one page about a labelled recording.
 
-use crate::arguments::DatasetArgs;
+use crate::arguments::{ChangedArgs, DatasetArgs};
 use crate::outcome::Outcome;
 use crate::progress::{Progress, say};
 use clap::Args;
@@ -22,6 +22,8 @@ pub(crate) struct ReportArgs {
     /// What `ralf label` wrote
     #[arg(value_name = "OUT")]
     labels: PathBuf,
+    #[command(flatten)]
+    changed: ChangedArgs,
     /// The page (HTML)
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
@@ -32,7 +34,7 @@ pub(crate) struct ReportArgs {
 
 /// Writes the page.
 pub(crate) fn run(arguments: &ReportArgs) -> anyhow::Result<Outcome> {
-    let recording = arguments.dataset.open_labelled(&arguments.labels)?;
+    let recording = arguments.dataset.open_labelled(&arguments.labels, &arguments.changed)?;
     let report = Report {
         recording: &recording,
         out: &arguments.labels,

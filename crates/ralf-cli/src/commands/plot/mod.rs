@@ -2,7 +2,7 @@
 
 mod camera;
 
-use crate::arguments::{DatasetArgs, the_only};
+use crate::arguments::{ChangedArgs, DatasetArgs, the_only};
 use crate::outcome::Outcome;
 use crate::progress::say;
 use clap::Args;
@@ -31,6 +31,8 @@ pub(crate) struct PlotArgs {
     /// What `ralf label` wrote
     #[arg(value_name = "OUT")]
     labels: PathBuf,
+    #[command(flatten)]
+    changed: ChangedArgs,
     /// Number of the scan
     #[arg(long, value_name = "N", required_unless_present = "all")]
     scan: Option<usize>,
@@ -59,7 +61,7 @@ pub(crate) struct PlotArgs {
 
 /// Draws a picture.
 pub(crate) fn run(arguments: &PlotArgs) -> anyhow::Result<Outcome> {
-    let recording = arguments.dataset.open_labelled(&arguments.labels)?;
+    let recording = arguments.dataset.open_labelled(&arguments.labels, &arguments.changed)?;
     let recording = match camera::depth_store(arguments)? {
         Some(store) => store.attach(recording),
         None => recording,
