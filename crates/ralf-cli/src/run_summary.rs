@@ -22,7 +22,7 @@ pub(crate) fn run_summary(record: &RunRecord) -> String {
 /// Names the cameras that labelling was allowed to ask and that had nothing to say.
 fn unused_cameras(record: &RunRecord) -> String {
     let mut unused = Vec::new();
-    for sequence in record.sequences.iter().filter(|_| record.settings.camera.enabled) {
+    for sequence in record.sequences.iter().filter(|_| record.settings.method.camera.enabled) {
         let silent = sequence.cameras.iter().filter(|camera| camera.images.is_empty());
         unused.extend(silent.map(|camera| format!("{} {}", sequence.name, camera.name)));
     }

@@ -17,7 +17,9 @@ use crate::verbs::{TOPICS, label};
 use ralf::config::Config;
 use ralf::sensors::DepthOutput;
 use ralf_corrections::{Mark, ScanKey, Store, Who};
+use ralf_data::Settings;
 use ralf_data::depth::DepthStore;
+use ralf_data::result::Component;
 use std::fs;
 use std::path::Path;
 
@@ -62,13 +64,13 @@ fn make_run(recording: &Path, place: &Path) {
     copy(recording, &place.join("recording"));
     let opened = ralf_data::open(&place.join("recording"), None).unwrap();
     let out = place.join("out");
-    label(&opened, &Config::default(), &out).unwrap();
+    label(&opened, &Settings::default(), &out).unwrap();
     let labels = fs::read(out.join("sequences/00/radar_front/000000.label")).unwrap();
     let machine = labels.as_chunks::<4>().0.iter().map(|[low, high, ..]| u16::from_le_bytes([*low, *high]));
     let key = ScanKey { sequence: "00".into(), radar: "radar_front".into(), scan: 0 };
-    let mark = Mark { key, base: 0, machine: machine.collect(), reviewed: true };
+    let mark = Mark { key, content: None, base: 0, machine: machine.collect(), reviewed: true };
     let mut store = Store::open(&out.join("corrections.sqlite")).unwrap();
-    store.mark(&mark, &Who { author: "ada".into(), tab: None }).unwrap();
+    store.mark(&mark, &Who::named("ada")).unwrap();
 }
 
 /// A recording with a store of depth images beside it.
@@ -77,7 +79,8 @@ fn make_depth(recording: &Path, place: &Path) {
     let store = DepthStore::create(&place.join("depth"), DepthOutput::Depth, "net").unwrap();
     let depth = place.join("recording/sequences/00/camera_front/depth");
     for image in 0..2 {
-        let to = store.file("00", "camera_front", image);
+        let [sequence, camera] = ["00", "camera_front"].map(|name| Component::new(name).unwrap());
+        let to = store.file(&sequence, &camera, image);
         fs::create_dir_all(to.parent().unwrap()).unwrap();
         fs::copy(depth.join(format!("{image:06}.npy")), to).unwrap();
     }

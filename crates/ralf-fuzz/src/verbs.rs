@@ -1,12 +1,13 @@
 //! What is done with a damaged place: what the commands do. Nothing is checked but that it returns.
 
-use ralf::config::{Config, Topics};
+use ralf::config::Config;
 use ralf::sensors::{CameraImage, Source};
 use ralf_data::depth::DepthStore;
 use ralf_data::read::inspection::Inspection;
+use ralf_data::read::ros::Topics;
 use ralf_data::run::{LabelRun, Observer, Stage, read_record};
 use ralf_data::write::export::{Export, ExportFormat, ExportOptions, RosFormat, Sensors, Split, write_ros};
-use ralf_data::{Balances, Comparison, Corrections, DataError, GroundTruth, Recording};
+use ralf_data::{Balances, Comparison, Corrections, DataError, GroundTruth, Recording, Settings};
 use ralf_depth::{DepthEstimator, OnnxModel};
 use ralf_files::Kind;
 use ralf_report::Report;
@@ -91,18 +92,19 @@ impl Observer for Nobody {
 }
 
 /// Labels a recording.
-pub(crate) fn label(recording: &Recording, config: &Config, out: &Path) -> Result<(), DataError> {
-    LabelRun { recording, config, out, jobs: 1 }.execute(&Nobody).map(drop)
+pub(crate) fn label(recording: &Recording, settings: &Settings, out: &Path) -> Result<(), DataError> {
+    LabelRun { recording, settings, out, jobs: 1 }.execute(&Nobody).map(drop)
 }
 
-fn config(file: &Path) -> Option<Config> {
+fn settings_of(file: &Path) -> Option<Settings> {
     let text = ralf_files::read_text(file, Kind::Settings).ok()?;
-    Config::from_toml(&text, &[]).ok()
+    Settings::from_toml(&text, &[]).ok()
 }
 
 fn read(place: &Path, random: &mut Pcg64Mcg) {
     let file = place.join("topics.toml");
-    let topics = if file.exists() { config(&file).map(|config| config.topics) } else { Some(Topics::new()) };
+    let topics =
+        if file.exists() { settings_of(&file).map(|settings| settings.topics) } else { Some(Topics::new()) };
     let path = place.join("recording");
     if random.random_range(0..8) == 0 {
         let _ = ralf_data::read::ros::inspect(&path);
@@ -117,7 +119,7 @@ fn read(place: &Path, random: &mut Pcg64Mcg) {
     }
     let new = place.join("new");
     match random.random_range(0..4) {
-        0 => drop(label(&recording, &config, &new)),
+        0 => drop(label(&recording, &Settings::default(), &new)),
         1 => recording.sequences.iter().for_each(|reader| {
             let _ = ralf_data::write_sequence(reader.as_ref(), &new, &|_| {});
         }),
@@ -148,7 +150,7 @@ fn labelled(place: &Path) -> Option<Recording> {
 
 fn label_again(place: &Path, _: &mut Pcg64Mcg) {
     if let Some(recording) = labelled(place) {
-        let _ = label(&recording, &Config::default(), &place.join("out"));
+        let _ = label(&recording, &Settings::default(), &place.join("out"));
     }
 }
 
@@ -177,7 +179,12 @@ fn report(place: &Path, _: &mut Pcg64Mcg) {
 
 fn review(place: &Path, _: &mut Pcg64Mcg) {
     let Some(recording) = labelled(place) else { return };
-    let options = ralf_review::Options { host: "127.0.0.1".into(), port: Some(0), author: "ada".into() };
+    let options = ralf_review::Options {
+        host: "127.0.0.1".into(),
+        port: Some(0),
+        author: "ada".into(),
+        token_folder: None,
+    };
     let _ = ralf_review::Server::bind(recording, &place.join("out"), &options);
 }
 
@@ -186,7 +193,7 @@ fn depth(place: &Path, _: &mut Pcg64Mcg) {
     let Ok(store) = DepthStore::open(&place.join("depth")) else { return };
     let recording = store.attach(recording);
     recording.sequences.iter().for_each(|reader| all_images(reader.as_ref()));
-    let _ = label(&recording, &Config::default(), &place.join("new"));
+    let _ = label(&recording, &Settings::default(), &place.join("new"));
 }
 
 fn network(place: &Path, _: &mut Pcg64Mcg) {
@@ -196,9 +203,11 @@ fn network(place: &Path, _: &mut Pcg64Mcg) {
 }
 
 fn settings(place: &Path, _: &mut Pcg64Mcg) {
-    let Some(config) = config(&place.join("file/ralf.toml")) else { return };
-    let Ok(recording) = ralf_data::open_with(&place.join("recording"), None, &config.topics) else { return };
-    let _ = label(&recording, &config, &place.join("new"));
+    let Some(settings) = settings_of(&place.join("file/ralf.toml")) else { return };
+    let Ok(recording) = ralf_data::open_with(&place.join("recording"), None, &settings.topics) else {
+        return;
+    };
+    let _ = label(&recording, &settings, &place.join("new"));
 }
 
 fn scenario(place: &Path, _: &mut Pcg64Mcg) {

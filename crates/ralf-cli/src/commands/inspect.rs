@@ -47,26 +47,29 @@ pub(crate) fn run(arguments: &InspectArgs) -> anyhow::Result<Outcome> {
     if folder.join("run.json").is_file() {
         return inspect_run(folder, arguments.json);
     }
-    let mut config = arguments.settings.resolve()?;
+    let mut settings = arguments.settings.resolve()?;
     let topics = ros::Look::at(&arguments.dataset)?;
     if let Some(file) = &arguments.write_topics {
         return topics
             .ok_or_else(|| UsageError("--write-topics: expected a ROS recording".into()))?
             .write(file);
     }
-    config.topics = arguments.dataset.topics_or(&config.topics)?;
-    let recording = arguments.dataset.open_with(&config.topics);
+    settings.topics = arguments.dataset.topics_or(&settings.topics)?;
+    let recording = arguments.dataset.open_with(&settings.topics);
     let recording = match (recording, &topics) {
         (Ok(recording), _) => recording,
         // The topics are what tells why.
         (Err(error), Some(topics)) => {
-            print(&topics.page(&config)?)?;
+            print(&topics.page(&settings.topics)?)?;
             return Err(error);
         }
         (Err(error), None) => return Err(error),
     };
-    let looks: Vec<_> =
-        recording.sequences.iter().map(|reader| look_at(reader.as_ref(), &config, arguments.quick)).collect();
+    let looks: Vec<_> = recording
+        .sequences
+        .iter()
+        .map(|reader| look_at(reader.as_ref(), &settings.method, arguments.quick))
+        .collect();
     if arguments.json {
         let mut look = serde_json::json!({ "format": recording.format, "sequences": looks });
         if let Some(topics) = topics {
@@ -76,7 +79,7 @@ pub(crate) fn run(arguments: &InspectArgs) -> anyhow::Result<Outcome> {
     } else {
         let head =
             format!("{} ({}), {} sequence(s)\n", recording.path.display(), recording.format, looks.len());
-        let head = topics.map_or(Ok(String::new()), |topics| topics.page(&config))? + &head;
+        let head = topics.map_or(Ok(String::new()), |topics| topics.page(&settings.topics))? + &head;
         print(&looks.iter().fold(head, |text, look| text + "\n" + &page(look)))?;
     }
     Ok(Outcome::Done)

@@ -136,7 +136,10 @@ fn results_in_the_place_of_a_file() {
     let dataset = Dataset::new();
     fs::write(&dataset.out, "mine").unwrap();
     let label = |out: &str| -> Ran { ralf(["label", &dataset.path, "-o", out]) };
-    label(&dataset.out).exits(1).prints_nothing().says([&dataset.out, "Not a directory"]);
+    label(&dataset.out)
+        .exits(1)
+        .prints_nothing()
+        .says([&dataset.out, "expected a folder, or nothing yet, found a file"]);
     let below = format!("{}/out", dataset.out);
     label(&below).exits(1).prints_nothing().says([&below, "Not a directory"]);
     assert_eq!(fs::read(&dataset.out).unwrap(), b"mine");

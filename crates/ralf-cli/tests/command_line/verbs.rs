@@ -77,14 +77,14 @@ impl Format {
     fn review(&self) {
         let out = self.beside("out");
         let mut store = Store::open(&Path::new(&out).join("corrections.sqlite")).unwrap();
-        let who = Who { author: "ada".into(), tab: None };
+        let who = Who::named("ada");
         for scan in 0..3 {
             let file = Path::new(&out).join("sequences").join(self.sequence).join(self.radar);
             let bytes = fs::read(file.join(format!("{scan:06}.label"))).unwrap();
             let machine =
                 bytes.as_chunks::<4>().0.iter().map(|[low, high, ..]| u16::from_le_bytes([*low, *high]));
             let key = ScanKey { sequence: self.sequence.into(), radar: self.radar.into(), scan };
-            let mark = Mark { key, base: 0, machine: machine.collect(), reviewed: true };
+            let mark = Mark { key, content: None, base: 0, machine: machine.collect(), reviewed: true };
             store.mark(&mark, &who).unwrap();
         }
     }

@@ -53,6 +53,11 @@ impl PlausibilityReader {
         Ok(Self { file: file.to_owned(), columns, reader, places })
     }
 
+    /// Where it lies.
+    pub fn file(&self) -> &Path {
+        &self.file
+    }
+
     /// The decimal columns.
     pub fn columns(&self) -> &Columns {
         &self.columns

@@ -1,18 +1,12 @@
 //! Sizes and hashes of everything that a run reads, and what they make of its sequences.
 
-use super::record::Input;
 use super::{Observer, Stage, fingerprint};
-use crate::disk::files;
-use crate::error::DataError;
 use crate::read::{Recording, SequenceReader};
+use crate::result::{Input, changed_ns, hash_file};
 use std::collections::{BTreeMap, BTreeSet};
-use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
-
-/// Bytes that are read at a time.
-const CHUNK: usize = 1 << 20;
 
 /// What makes a sequence's results what they are.
 pub(super) struct Identity {
@@ -70,24 +64,8 @@ fn hash_inputs(recording: &Recording, jobs: usize, observer: &dyn Observer) -> B
 /// named when it is read.
 fn input(file: &Path, root: &Path, observer: &dyn Observer) -> Input {
     let name = file.strip_prefix(root).unwrap_or(file).to_string_lossy().into_owned();
-    let (bytes, blake3) = hash(file, observer).unwrap_or_default();
-    Input { sequence: String::new(), file: name, bytes, blake3 }
-}
-
-/// Size and hash of a file.
-fn hash(file: &Path, observer: &dyn Observer) -> Result<(u64, String), DataError> {
-    let mut open = files::open_input(file)?;
-    let mut hasher = blake3::Hasher::new();
-    let mut buffer = vec![0; CHUNK];
-    let mut bytes = 0;
-    loop {
-        let read = open.read(&mut buffer).map_err(DataError::io(file))?;
-        if read == 0 {
-            break;
-        }
-        hasher.update(&buffer[..read]);
-        bytes += read as u64;
-        observer.advance(read as u64, 0);
-    }
-    Ok((bytes, hasher.finalize().to_hex().to_string()))
+    // The time before the content: what is changed meanwhile counts as changed later.
+    let mtime_ns = std::fs::metadata(file).ok().and_then(|meta| changed_ns(&meta));
+    let found = hash_file(file, &|bytes| observer.advance(bytes, 0)).unwrap_or_default();
+    Input { sequence: String::new(), file: name, bytes: found.bytes, mtime_ns, blake3: found.blake3 }
 }

@@ -25,7 +25,8 @@ pub struct Frame<'a> {
     pub images: Vec<ImageView>,
     /// The neighbouring radar scans, in time order.
     pub steps: Vec<TrackingStep>,
-    /// Ego-compensated range rates of the detections, m/s, where `tracking.dynamic` wants them and the radar measures them.
+    /// Ego-compensated range rates of the detections, m/s, where `tracking.dynamic` wants them and the radar measures
+    /// them.
     pub doppler: Option<Vec<f64>>,
     /// LiDAR scans that belong to it and can't be read: the scan is labelled without them.
     pub unreadable: Vec<Unreadable>,

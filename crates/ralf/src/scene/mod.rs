@@ -1,5 +1,5 @@
-//! What surrounds one radar scan: its detections with their uncertainty, the ground, the LiDAR scans and images nearest in time,
-//! the neighbouring radar scans, and the one distance in which all of them are compared.
+//! What surrounds one radar scan: its detections with their uncertainty, the ground, the LiDAR scans and images nearest
+//! in time, the neighbouring radar scans, and the one distance in which all of them are compared.
 
 mod association;
 mod camera;

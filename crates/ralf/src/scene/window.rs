@@ -94,7 +94,7 @@ impl<'a> FrameWindow<'a> {
         read
     }
 
-    /// The batch of METHOD 7.1 and 7.4.
+    /// The batch of docs/method.md, section 7.
     fn steps(&mut self, radar: usize, scan: usize, t_ns: i64) -> Vec<TrackingStep> {
         let max_gap = nanoseconds(self.config.tracking.max_gap_ms);
         let times = &self.source.sequence().times.radars;

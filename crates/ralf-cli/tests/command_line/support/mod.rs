@@ -2,6 +2,7 @@
 
 mod dataset;
 mod foreign;
+mod nuscenes;
 mod program;
 mod python;
 mod table;
@@ -10,6 +11,7 @@ mod world;
 
 pub(crate) use dataset::{Dataset, Shape};
 pub(crate) use foreign::{nuscenes, view_of_delft};
+pub(crate) use nuscenes::write_nuscenes;
 pub(crate) use program::{Ran, program, ralf};
 pub(crate) use python::read_export;
 pub(crate) use table::{Row, rows, schema};

@@ -2,10 +2,10 @@
 
 use super::cloud::{self, Columns};
 use super::messages::Messages;
+use super::topics::{TopicConfig, TopicKind, Topics};
 use super::{LABELLED, survey};
 use crate::error::DataError;
 use crate::read::models::{LIDARS, RADARS, named_in};
-use ralf::config::{TopicConfig, TopicKind, Topics};
 use ralf_ros::container::{MessageRef, Topic};
 use ralf_ros::message::{CameraInfo, Message, PointCloud2, RadarScan};
 use serde::Serialize;

@@ -3,8 +3,8 @@
 use super::messages::Messages;
 use super::mounting::{mounting, sensor_frame};
 use super::survey::{MotionSample, MotionTrack, Survey};
+use super::topics::{TopicConfig, TopicKind, Topics};
 use crate::error::DataError;
-use ralf::config::{TopicConfig, TopicKind, Topics};
 use ralf::space::{EgoMotion, OdometrySample, PoseSample, Transform, Vector, transform_from_parts};
 
 /// A topic of the motion: its settings, what it holds, and `vehicle_from_child` of its frame.

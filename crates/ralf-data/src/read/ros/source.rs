@@ -7,11 +7,11 @@ use super::motion::motion;
 use super::mounting::{mounting, sensor_frame, vehicle_frame};
 use super::pixels;
 use super::survey::{Survey, Track, info_topic, survey};
+use super::topics::{TopicConfig, TopicKind, Topics};
 use crate::error::DataError;
 use crate::read::SequenceReader;
 use crate::read::models::{LIDARS, RADARS};
 use crate::read::recording::measurement;
-use ralf::config::{TopicConfig, TopicKind, Topics};
 use ralf::sensors::{
     Camera, CameraImage, DepthImage, DepthOutput, Elevation, LidarScan, RadarScan, Rig, Sequence, Source,
     SourceError, Timelines, check_fields,

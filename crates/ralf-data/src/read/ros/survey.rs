@@ -1,8 +1,8 @@
 //! One look at every message that matters, in the order of the file: times, motion, frames, calibrations.
 
 use super::messages::Messages;
+use super::topics::{Stamps, TopicConfig, TopicKind, Topics};
 use crate::error::DataError;
-use ralf::config::{Stamps, TopicConfig, TopicKind, Topics};
 use ralf_ros::container::{ContainerError, MessageRef};
 use ralf_ros::message::{
     CameraInfo, CompressedImage, Definition, Image, Imu, Message, Odometry, PointCloud2, Pose, RadarScan,

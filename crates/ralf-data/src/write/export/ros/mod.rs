@@ -31,6 +31,7 @@ use crate::disk::files;
 use crate::disk::files::{beside, remove};
 use crate::error::DataError;
 use crate::read::SequenceReader;
+use crate::result::{OutFolder, WriterLock};
 use ralf_ros::container::{Container, recognises};
 use ralf_ros::writer::{Compression, MessageWriter, WriteError};
 use recorder::Recorder;
@@ -66,6 +67,14 @@ impl RosFormat {
         }
     }
 
+    /// The same with the dot.
+    pub(super) fn ending(self) -> &'static str {
+        match self {
+            Self::Mcap => ".mcap",
+            Self::Bag => ".bag",
+        }
+    }
+
     fn create(self, file: &Path) -> Result<FileWriter, DataError> {
         let open = BufWriter::new(File::create(file).map_err(DataError::io(file))?);
         let writer = match self {
@@ -80,8 +89,8 @@ impl RosFormat {
 pub(super) struct Ros(pub(super) RosFormat);
 
 impl Writer for Ros {
-    fn sequence(&mut self, folder: &Path, sequence: &mut LabelledSequence) -> Result<(), DataError> {
-        let file = folder.join(format!("{}.{}", sequence.name(), self.0.extension()));
+    fn sequence(&mut self, folder: &OutFolder, sequence: &mut LabelledSequence) -> Result<(), DataError> {
+        let file = folder.file(&sequence.names.sequence.and(self.0.ending()));
         let (reader, sensors) = (sequence.reader, sequence.options.sensors);
         let recorder = Recorder::new(self.0.create(&file)?, &file, reader, sensors, true)?;
         recorder.record(Some(sequence), &|_| {})
@@ -101,6 +110,7 @@ pub fn write_ros(
     format: RosFormat,
     progress: &dyn Fn(usize),
 ) -> Result<Option<PathBuf>, DataError> {
+    let _lock = WriterLock::beside(file)?;
     let settings_file = settings_file(file);
     if let Some(there) = [file, &settings_file].into_iter().find(|file| file.exists()) {
         return Err(DataError::content(there, "file", "none of this name yet", "one"));

@@ -1,6 +1,8 @@
 //! What `run.json` tells of a sequence.
 
-use crate::result::ScanTable;
+use super::ScanTable;
+use super::content::hash_of_labels;
+use crate::disk::label_file::label_bytes;
 use ralf::scene::{Frame, ImageMoment, Unreadable, ViewReport, ViewState};
 use serde::{Deserialize, Serialize};
 
@@ -11,6 +13,9 @@ pub struct SequenceRecord {
     pub name: String,
     /// Of program, settings, name and inputs together: equal where the results are equal.
     pub fingerprint: String,
+    /// Of `plausibility.parquet`. An older record has none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub table: Option<FileRecord>,
     /// In the rig's order.
     pub radars: Vec<RadarRecord>,
     /// In the rig's order.
@@ -35,16 +40,16 @@ pub struct UnreadableScan {
 
 /// What is told of a labelled scan beside its detections.
 #[derive(Debug, Default, Serialize, Deserialize)]
-pub(super) struct ScanNotes {
+pub(crate) struct ScanNotes {
     /// Images that were asked, with the names of their cameras.
-    pub(super) images: Vec<(String, ImageRecord)>,
+    pub(crate) images: Vec<(String, ImageRecord)>,
     /// LiDAR scans that it had to do without.
-    pub(super) unreadable: Vec<UnreadableScan>,
+    pub(crate) unreadable: Vec<UnreadableScan>,
 }
 
 impl ScanNotes {
     /// What a frame tells.
-    pub(super) fn new(frame: &Frame) -> Self {
+    pub(crate) fn new(frame: &Frame) -> Self {
         let name = |moment: &ImageMoment| frame.rig.cameras[moment.camera].name.clone();
         let images = frame.images.iter().map(|view| (name(&view.moment), ImageRecord::of(&view.moment)));
         let unreadable = frame.unreadable.iter().cloned();
@@ -55,6 +60,15 @@ impl ScanNotes {
         });
         Self { images: images.collect(), unreadable: unreadable.collect() }
     }
+}
+
+/// A file as it was written.
+#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct FileRecord {
+    /// Its size.
+    pub bytes: u64,
+    /// Of its content.
+    pub blake3: String,
 }
 
 /// The scans of one radar: one entry per scan in each list.
@@ -68,6 +82,9 @@ pub struct RadarRecord {
     pub plausible: Vec<u32>,
     /// Flags that any detection of the scan has.
     pub flags: Vec<u16>,
+    /// The first 16 digits of the BLAKE3 of each scan's `.label` file; empty for a scan that has none. An older record has no list.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub labels: Vec<String>,
 }
 
 /// The images of one camera that were asked about a radar scan and have depth.
@@ -107,7 +124,7 @@ pub struct NotLabelled {
 }
 
 impl ImageRecord {
-    pub(super) fn of(moment: &ImageMoment) -> Self {
+    pub(crate) fn of(moment: &ImageMoment) -> Self {
         let views = moment.views.iter().map(|view| view.report).collect();
         Self { image: moment.image, views, problem: moment.problem.clone() }
     }
@@ -115,7 +132,7 @@ impl ImageRecord {
 
 impl CameraRecord {
     /// The images of a camera, summed up.
-    pub(super) fn new(name: &str, images: Vec<ImageRecord>) -> Self {
+    pub(crate) fn new(name: &str, images: Vec<ImageRecord>) -> Self {
         let views = images.iter().flat_map(|image| &image.views);
         let failed = views.clone().filter(|view| view.state != ViewState::Calibrated).count();
         Self { name: name.to_owned(), views: views.count(), failed, images }
@@ -123,8 +140,21 @@ impl CameraRecord {
 }
 
 impl RadarRecord {
-    /// Adds the next scan.
-    pub(super) fn push(&mut self, table: &ScanTable) {
+    /// Whether these are the bytes that were written of a scan's labels. Of an older record this isn't known.
+    pub(crate) fn labels_match(&self, scan: usize, bytes: &[u8]) -> bool {
+        self.labels.get(scan).is_none_or(|written| written.is_empty() || *written == hash_of_labels(bytes))
+    }
+
+    /// Adds the next scan; one that could not be labelled has no table.
+    pub(crate) fn push(&mut self, table: Option<&ScanTable>) {
+        let Some(table) = table else {
+            self.detections.push(0);
+            self.plausible.push(0);
+            self.flags.push(0);
+            self.labels.push(String::new());
+            return;
+        };
+        self.labels.push(hash_of_labels(&label_bytes(&table.labels())));
         self.detections.push(table.len() as u32);
         self.plausible.push(table.label.iter().map(|label| u32::from(*label)).sum());
         self.flags.push(table.flags.iter().fold(0, |all, flags| all | flags));
