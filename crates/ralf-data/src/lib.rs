@@ -26,6 +26,7 @@ pub mod judge;
 pub mod read;
 pub mod result;
 pub mod run;
+mod settings;
 #[cfg(test)]
 mod testing;
 pub mod truth;
@@ -37,8 +38,8 @@ pub use disk::label_file::{Label, read_labels, write_labels};
 pub use error::DataError;
 pub use evidence::{SequenceEvidence, gather_evidence};
 pub use judge::{Balance, Balances, Comparison};
-pub use read::{
-    LayoutSequence, NuScenesKey, Recording, RosSource, SequenceReader, TruthLabels, formats, open, open_with,
-};
-pub use truth::{Causes, Corrections, GroundTruth, ScanId};
+pub use ralf_corrections::ContentHash;
+pub use read::{LayoutSequence, Recording, SequenceReader, TruthLabels, formats, open, open_with};
+pub use settings::Settings;
+pub use truth::{Causes, Corrections, GroundTruth, ScanId, scan_content};
 pub use write::write_sequence;

@@ -2,10 +2,10 @@
 
 use crate::cache::Cache;
 use crate::http::ApiError;
-use crate::need::{ScanNeed, of_scans};
+use crate::need::{Doubts, ScanNeed};
 use ralf::config::{Config, nanoseconds};
 use ralf::scene::ViewState;
-use ralf::sensors::Rig;
+use ralf::sensors::{Rig, Sequence};
 use ralf::space::sync;
 use ralf_data::result::{Columns, PlausibilityReader, ScanTable, ScanTables};
 use ralf_data::run::{CameraRecord, ImageRecord, read_record};
@@ -64,7 +64,7 @@ impl SequenceLabels {
         let sequence = reader.sequence();
         let record = read_record(out)?;
         let mut rig = sequence.rig.clone();
-        record.settings.apply_to(&mut rig).map_err(|error| ApiError::Broken(error.to_string()))?;
+        record.settings.method.apply_to(&mut rig).map_err(|error| ApiError::Broken(error.to_string()))?;
         let columns = Columns::of(&rig).map_err(ApiError::Broken)?;
         let known = record.sequences.iter().find(|known| known.name == sequence.name);
         let cameras = known.map_or(&[][..], |known| known.cameras.as_slice());
@@ -74,7 +74,7 @@ impl SequenceLabels {
         let images = rig.cameras.iter().map(|camera| asked_images(cameras, &camera.name)).collect();
         Ok(Self {
             stamp,
-            settings: record.settings,
+            settings: record.settings.method,
             reader: PlausibilityReader::open(&labels_file(out, &sequence.name), columns)?,
             groups: Cache::new(GROUPS_KEPT),
             images,
@@ -127,8 +127,38 @@ impl SequenceLabels {
         if let Some(known) = self.needs.get() {
             return Ok(known.clone());
         }
-        let needs = Arc::new(of_scans(self, reader.sequence())?);
+        let needs = Arc::new(self.count_needs(reader.sequence())?);
         Ok(self.needs.get_or_init(|| needs).clone())
+    }
+
+    fn count_needs(&self, sequence: &Sequence) -> Result<Vec<ScanNeed>, ApiError> {
+        let mut doubts = self.doubts()?;
+        let mut needs = Vec::new();
+        for (radar, times) in sequence.times.radars.iter().enumerate() {
+            for (scan, t_ns) in times.iter().copied().enumerate() {
+                let name = (sequence.rig.radars[radar].name.clone(), scan);
+                if self.reason(&name.0, scan).is_some() {
+                    continue;
+                }
+                let doubts = doubts.remove(&name).unwrap_or_default();
+                let (asked, failed) = self.cameras_at(&sequence.times.cameras, t_ns);
+                let (cameras_asked, cameras_failed) = (asked.len(), failed.len());
+                needs.push(ScanNeed { radar, scan, t_ns, doubts, cameras_failed, cameras_asked });
+            }
+        }
+        Ok(needs)
+    }
+
+    /// The doubts of every scan that has detections; no more than one row group is in memory.
+    fn doubts(&self) -> Result<BTreeMap<(String, usize), Doubts>, DataError> {
+        let threshold = self.settings.fusion.threshold as f32;
+        let mut doubts = BTreeMap::new();
+        for group in 0..self.reader.groups() {
+            for (scan, table) in self.reader.tables(group)? {
+                doubts.insert(scan, Doubts::of(self.reader.columns(), &table, threshold));
+            }
+        }
+        Ok(doubts)
     }
 }
 

@@ -25,7 +25,8 @@ pub enum ScenarioError {
     },
 }
 
-/// A place and a drive through it. Positions are in the site's frame: x east, y north, m; angles in degrees, to the left.
+/// A place and a drive through it. Positions are in the site's frame: x east, y north, m; angles in degrees, to the
+/// left.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Scenario {

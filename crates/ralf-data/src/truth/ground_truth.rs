@@ -1,4 +1,4 @@
-//! The corrected labels of a dataset: `sequences/NAME/ground_truth/RADAR/NNNNNN.label` (FORMATS 1), and above them the
+//! The corrected labels of a dataset: `sequences/NAME/ground_truth/RADAR/NNNNNN.label` (docs/formats.md, section 1), and above them the
 //! corrections of a review.
 
 use crate::disk::files;
@@ -205,9 +205,10 @@ mod tests {
         let [folder, out] = [(); 2].map(|()| tempfile::tempdir().unwrap());
         let merged = || GroundTruth::merged(folder.path(), Corrections::open(out.path()).unwrap());
         assert!(merged().unwrap_err().to_string().contains("found none"));
-        let edit = ScanEdit { radar: "a".into(), scan: 3, detections: 2, base: 0, points: vec![1] };
+        let edit =
+            ScanEdit { radar: "a".into(), scan: 3, detections: 2, content: None, base: 0, points: vec![1] };
         let stroke = Stroke { label: Some(1), scans: vec![edit], ..Stroke::of_sequence("01") };
-        let who = Who { author: "ada".into(), tab: None };
+        let who = Who::named("ada");
         Store::open(&out.path().join(FILE)).unwrap().apply(&stroke, &who).unwrap();
         let truth = merged().unwrap();
         assert_eq!(truth.labels(&truth.scans()[0]).unwrap(), [0, 1].map(Label::of_class));

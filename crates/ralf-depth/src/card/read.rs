@@ -4,6 +4,7 @@ use super::keys::Keys;
 use super::{Card, Fit, InputSize, presets};
 use crate::DepthError;
 use ralf::sensors::DepthOutput;
+use ralf_files::Kind;
 use std::path::{Path, PathBuf};
 
 /// Keys that have no default.
@@ -22,7 +23,7 @@ impl Card {
 
     /// Reads the card `file`.
     pub fn read(file: &Path) -> Result<Self, DepthError> {
-        match std::fs::read_to_string(file) {
+        match ralf_files::read_text(file, Kind::Settings) {
             Ok(text) => Self::parse(file, &text),
             Err(error) if error.kind() == std::io::ErrorKind::NotFound => Err(DepthError::NoCard {
                 card: file.to_owned(),
