@@ -1,8 +1,8 @@
 //! What may be wrong, as a change that would put it right.
 
 use nalgebra::{Translation3, UnitQuaternion};
-use ralf::space::{Point, Transform, Vector};
 use ralf::space::{EgoMotion, OdometrySample, PoseSample};
+use ralf::space::{Point, Transform, Vector};
 use serde::Serialize;
 
 /// A change of one sensor: its mounting, its clock, its handedness.

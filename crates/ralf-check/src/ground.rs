@@ -1,8 +1,8 @@
 //! The ground that a LiDAR sees: how far it is tilted and shifted against the vehicle's z = 0.
 
 use ralf::config::{GroundConfig, GroundModel};
-use ralf::space::Point;
 use ralf::scene::Ground;
+use ralf::space::Point;
 
 /// Points that a fit looks at.
 const POINTS: usize = 6000;

@@ -67,7 +67,8 @@ impl Remedy {
     /// As settings; none where settings can't put it right.
     pub fn settings(&self, subject: &str) -> Vec<Setting> {
         let of_sensor = |key: &str, value: String| Setting { key: format!("sensors.{subject}.{key}"), value };
-        let of_motion = |key: &str, value: f64| Setting { key: format!("motion.{key}"), value: number(value) };
+        let of_motion =
+            |key: &str, value: f64| Setting { key: format!("motion.{key}"), value: number(value) };
         match self {
             Self::Sensor(change) => change_as_settings(change, of_sensor),
             Self::Doppler(factor) => vec![of_sensor("doppler_factor", number(*factor))],
@@ -162,8 +163,7 @@ pub(crate) const SPEEDS: [(f64, &str); 6] = [
 ];
 
 /// Units that positions are given in by mistake, in m.
-pub(crate) const LENGTHS: [(f64, &str); 4] =
-    [(0.01, "cm"), (0.001, "mm"), (0.3048, "feet"), (1000.0, "km")];
+pub(crate) const LENGTHS: [(f64, &str); 4] = [(0.01, "cm"), (0.001, "mm"), (0.3048, "feet"), (1000.0, "km")];
 
 #[cfg(test)]
 mod tests {

@@ -1,7 +1,8 @@
 //! What can be typed.
 
 use crate::commands::{
-    ablate, check, convert, demo, depth, evaluate, export, inspect, label, plot, report, review, simulate, tune,
+    ablate, check, convert, demo, depth, evaluate, export, inspect, label, plot, report, review, simulate,
+    tune,
 };
 use anyhow::Context;
 use clap::{Args, Parser, Subcommand};

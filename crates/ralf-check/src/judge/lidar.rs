@@ -28,7 +28,8 @@ fn one(case: &mut Case, lidar: usize) -> Option<Verdict> {
     let tally = |change: &SensorChange| joined(tallies(case, lidar, change, Measure::Beside));
     let (found, then) = best(&pooled, changes, tally)?;
     let changed = tallies(case, lidar, &found, Measure::Beside);
-    let gains = now.iter().zip(&changed).filter(|(now, then)| now.is_enough() && now.sigmas_to(then) > TAKES_PART);
+    let gains =
+        now.iter().zip(&changed).filter(|(now, then)| now.is_enough() && now.sigmas_to(then) > TAKES_PART);
     let gaining = gains.count();
     if gaining * 5 < judged * 3 || gaining < 2 || is_the_radars_own(case, &found) {
         return None;

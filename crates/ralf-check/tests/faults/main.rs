@@ -1,5 +1,10 @@
 //! Faults that are planted into good recordings are noticed, with the right remedy; good recordings raise nothing.
-#![expect(clippy::unwrap_used, clippy::print_stdout, unreachable_pub, reason = "tests fail as tests do, and print a table for people")]
+#![expect(
+    clippy::unwrap_used,
+    clippy::print_stdout,
+    unreachable_pub,
+    reason = "tests fail as tests do, and print a table for people"
+)]
 
 mod recording;
 mod table;
@@ -27,7 +32,8 @@ fn judge(base: &Arc<Recording>, fault: &Fault) -> Row {
     (fault.plant)(&mut planted);
     let found = check(&planted);
     let speaks = |verdict: &&Verdict| {
-        let counts = verdict.state == State::Doubt || (verdict.state == State::Fact && verdict.remedy.is_some());
+        let counts =
+            verdict.state == State::Doubt || (verdict.state == State::Fact && verdict.remedy.is_some());
         counts && fault.subjects.contains(&verdict.subject.as_str())
     };
     let own: Vec<&Verdict> = found.verdicts.iter().filter(speaks).collect();
@@ -40,9 +46,16 @@ fn judge(base: &Arc<Recording>, fault: &Fault) -> Row {
 }
 
 fn told(found: &SequenceCheck) -> String {
-    let words = |verdict: &Verdict| verdict.remedy.as_ref().map_or_else(|| verdict.evidence.clone(), |r| r.words());
+    let words =
+        |verdict: &Verdict| verdict.remedy.as_ref().map_or_else(|| verdict.evidence.clone(), |r| r.words());
     let speaks = |v: &&Verdict| matches!(v.state, State::Doubt | State::Fact);
-    found.verdicts.iter().filter(speaks).map(|v| format!("{}: {}", v.subject, words(v))).collect::<Vec<_>>().join("; ")
+    found
+        .verdicts
+        .iter()
+        .filter(speaks)
+        .map(|v| format!("{}: {}", v.subject, words(v)))
+        .collect::<Vec<_>>()
+        .join("; ")
 }
 
 fn run(title: &str, base: &Arc<Recording>, wanted: impl Fn(&Fault) -> bool) {

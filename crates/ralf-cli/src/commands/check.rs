@@ -38,8 +38,8 @@ pub(crate) struct CheckArgs {
 
 /// Checks a recording.
 pub(crate) fn run(arguments: &CheckArgs) -> anyhow::Result<Outcome> {
-    let mut config = arguments.settings.resolve()?;
-    let recording = arguments.dataset.open_with(&mut config)?;
+    let settings = arguments.settings.resolve()?;
+    let recording = arguments.dataset.open_with(&arguments.dataset.topics_or(&settings.topics)?)?;
     let checks: Vec<SequenceCheck> =
         recording.sequences.iter().map(|reader| check(reader.as_ref())).collect();
     if arguments.json {
