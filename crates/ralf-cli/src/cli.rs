@@ -5,7 +5,7 @@ use crate::commands::depth;
 #[cfg(feature = "review")]
 use crate::commands::review;
 use crate::commands::{
-    ablate, convert, demo, evaluate, export, inspect, label, plot, report, simulate, tune,
+    ablate, check, convert, demo, evaluate, export, inspect, label, plot, report, simulate, tune,
 };
 use crate::outcome::Outcome;
 use crate::text::print;
@@ -21,6 +21,7 @@ use clap::{CommandFactory, Parser, Subcommand};
 Examples:
   ralf demo                                 see it work
   ralf inspect recordings/city              what is in there, and what is missing
+  ralf check recordings/city                is it what it says: mountings, clocks, units, signs
   ralf label recordings/city -o out         a plausibility and a label for every detection
   ralf plot recordings/city out --sequence 00 --scan 17 -o scan.png
   ralf evaluate out --truth recordings/city
@@ -42,6 +43,8 @@ enum Command {
     Demo(demo::DemoArgs),
     /// Sensors, rates, gaps, offsets between sensors, what is missing
     Inspect(inspect::InspectArgs),
+    /// Ask the sensors of a recording about each other: are its mountings, clocks, units and signs what it says?
+    Check(check::CheckArgs),
     /// Label every radar detection of a recording
     Label(label::LabelArgs),
     #[cfg(feature = "depth")]
@@ -80,6 +83,7 @@ impl Cli {
         match self.command {
             Command::Demo(arguments) => demo::run(&arguments),
             Command::Inspect(arguments) => inspect::run(&arguments),
+            Command::Check(arguments) => check::run(&arguments),
             Command::Label(arguments) => label::run(&arguments),
             #[cfg(feature = "depth")]
             Command::Depth(arguments) => depth::run(&arguments),

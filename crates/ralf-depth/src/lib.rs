@@ -41,6 +41,7 @@ mod squares;
 mod testing;
 #[cfg(test)]
 mod tests;
+mod wire;
 
 pub use card::{Card, Channels, Fit, InputSize, Side, presets};
 pub use error::DepthError;

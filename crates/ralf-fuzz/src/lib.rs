@@ -12,6 +12,6 @@ mod tree;
 mod verbs;
 mod watch;
 
-pub use case::Case;
+pub use case::{Case, all_cases};
 pub use places::make_places;
 pub use watch::{Failure, Watched, watch};

@@ -53,7 +53,7 @@ impl Writer for NuScenes {
                 let labels = sequence.scan(radar, scan)?.labels_in_place();
                 let bytes: Vec<u8> = labels.iter().map(|label| index(&ids, label.id)).collect();
                 let token = checked("sample_data token", &sample_data_token)?.and("_radarseg.bin");
-                let folder_name = checked("version", &version)?;
+                let folder_name = checked("version", version)?;
                 files::write_whole(&folder.own("radarseg").folder(&folder_name).file(&token), &bytes)?;
                 let filename = format!("radarseg/{version}/{}", token.as_str());
                 let row = Row { token: sample_data_token.clone(), sample_data_token, filename };
