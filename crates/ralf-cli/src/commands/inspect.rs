@@ -49,9 +49,8 @@ pub(crate) fn run(arguments: &InspectArgs) -> anyhow::Result<Outcome> {
     let mut settings = arguments.settings.resolve()?;
     let topics = ros::Look::at(&arguments.dataset)?;
     if let Some(file) = &arguments.write_topics {
-        return topics
-            .ok_or_else(|| UsageError("--write-topics: expected a ROS recording".into()))?
-            .write(file);
+        let topics = topics.ok_or_else(|| UsageError("--write-topics: expected a ROS recording".into()))?;
+        return topics.write(file);
     }
     settings.topics = arguments.dataset.topics_or(&settings.topics)?;
     let recording = arguments.dataset.open_with(&settings.topics);
@@ -76,9 +75,9 @@ pub(crate) fn run(arguments: &InspectArgs) -> anyhow::Result<Outcome> {
         }
         print(&serde_json::to_string_pretty(&look)?)?;
     } else {
-        let head =
-            format!("{} ({}), {} sequence(s)\n", recording.path.display(), recording.format, looks.len());
-        let head = topics.map_or(Ok(String::new()), |topics| topics.page(&settings.topics))? + &head;
+        let head = topics.map_or(Ok(String::new()), |topics| topics.page(&settings.topics))?;
+        let (path, format, count) = (recording.path.display(), recording.format, looks.len());
+        let head = format!("{head}{path} ({format}), {count} sequence(s)\n");
         print(&looks.iter().fold(head, |text, look| text + "\n" + &page(look)))?;
     }
     Ok(Outcome::Done)

@@ -1,7 +1,7 @@
 //! What `run.json` tells of a sequence.
 
 use super::ScanTable;
-use super::content::hash_of_labels;
+use super::label_hash::hash_of_labels;
 use crate::disk::label_file::label_bytes;
 use ralf::scene::{Frame, ImageMoment, Unreadable, ViewReport, ViewState};
 use serde::{Deserialize, Serialize};
