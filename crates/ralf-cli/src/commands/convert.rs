@@ -12,9 +12,9 @@ use std::path::{Path, PathBuf};
 /// Arguments of `ralf convert`.
 #[derive(Debug, Args)]
 #[command(after_help = "\
-Each sequence appears whole or not at all, and one that is there already is never overwritten. A name that ends in .mcap (ROS 2)
-or .bag (ROS 1) takes one sequence; beside it goes a .toml with the settings by which it is read back. What such a file can't
-hold is in docs/export.md.
+Each sequence appears whole or not at all, and one that is there already is never overwritten. A name that ends in
+.mcap (ROS 2) or .bag (ROS 1) takes one sequence; beside it goes a .toml with the settings by which it is read back.
+What such a file can't hold is in docs/export.md.
 
 Examples:
   ralf convert nuscenes -o recordings/nuscenes --sequence scene-0061

@@ -20,8 +20,9 @@ const USUAL_SCANS: usize = 100;
 /// Arguments of `ralf simulate`.
 #[derive(Debug, Args)]
 #[command(after_help = "\
-Writes LiDAR, four radars, four fisheye cameras with depth, wheel odometry, and the truth of every detection, in RALF's own layout.
-A sequence that is there already is never overwritten. The same preset, numbers and seed give the same bytes.
+Writes LiDAR, four radars, four fisheye cameras with depth, wheel odometry, and the truth of every detection, in RALF's
+own layout. A sequence that is there already is never overwritten. The same preset, numbers and seed give the same
+bytes.
 
 Examples:
   ralf simulate -o recordings/sim --scans 300         the paper's eleven sequences, each shorter
