@@ -1,7 +1,8 @@
 //! What can be typed.
 
 use crate::commands::{
-    ablate, convert, demo, depth, evaluate, export, inspect, label, plot, report, review, simulate, tune,
+    ablate, check, convert, demo, depth, evaluate, export, inspect, label, plot, report, review, simulate,
+    tune,
 };
 use anyhow::Context;
 use clap::{Args, Parser, Subcommand};
@@ -20,6 +21,7 @@ use std::path::{Path, PathBuf};
 Examples:
   ralf demo                                 see it work
   ralf inspect recordings/city              what is in there, and what is missing
+  ralf check recordings/city                is it what it says: mountings, clocks, units, signs
   ralf label recordings/city -o out         a plausibility and a label for every detection
   ralf plot recordings/city out --sequence 00 --scan 17 -o scan.png
   ralf evaluate out --truth recordings/city
@@ -41,6 +43,8 @@ pub(crate) enum Command {
     Demo(demo::DemoArgs),
     /// Sensors, rates, gaps, offsets between sensors, what is missing
     Inspect(inspect::InspectArgs),
+    /// Ask the sensors of a recording about each other: are its mountings, clocks, units and signs what it says?
+    Check(check::CheckArgs),
     /// Label every radar detection of a recording
     Label(label::LabelArgs),
     /// Compute the depth of every camera image once for all, or check it against the LiDAR
