@@ -53,8 +53,8 @@ impl<'a> FrameWindow<'a> {
         }
     }
 
-    /// All that belongs to one scan of one radar. Fails where that scan can't be read. A LiDAR scan that can't be is left out and
-    /// named in the frame; neighbouring radar scans are left out of the batch.
+    /// All that belongs to one scan of one radar. Fails where that scan can't be read. A LiDAR scan that can't be is
+    /// left out and named in the frame; neighbouring radar scans are left out of the batch.
     pub fn frame(&mut self, radar: usize, scan: usize) -> Result<Frame<'a>, SourceError> {
         let detections = match self.radar_scans.get(&(radar, scan)) {
             Some(Some(known)) => known,
@@ -122,8 +122,8 @@ impl<'a> FrameWindow<'a> {
         batch.into_iter().filter_map(step).collect()
     }
 
-    /// The LiDAR scans nearest to a time, with their ground; `None` where there is none within the tolerance. Fails where one of
-    /// them can't be read.
+    /// The LiDAR scans nearest to a time, with their ground; `None` where there is none within the tolerance. Fails
+    /// where one of them can't be read.
     pub fn lidar_view(&mut self, t_ns: i64) -> Result<Option<LidarView>, SourceError> {
         let NearLidars { view, unreadable } = self.near_lidars(t_ns);
         match unreadable.into_iter().next() {
@@ -156,8 +156,8 @@ impl<'a> FrameWindow<'a> {
         NearLidars { view: moment.map(|moment| LidarView { moment, vehicle_from_moment }), unreadable }
     }
 
-    /// The time of the ground: `flat` is z = 0 of the vehicle frame at the radar scan's time, any other belongs to the first
-    /// LiDAR scan.
+    /// The time of the ground: `flat` is z = 0 of the vehicle frame at the radar scan's time, any other belongs to the
+    /// first LiDAR scan.
     fn moment_time(&self, t_ns: i64, keys: &[Key]) -> i64 {
         match keys.first() {
             Some(&(lidar, scan)) if self.config.ground.model != GroundModel::Flat => {
@@ -202,8 +202,8 @@ impl<'a> FrameWindow<'a> {
         images
     }
 
-    /// An image with its views calibrated by the LiDAR scans nearest to it; `None` where there is no depth. What of it can't be
-    /// read makes its views fail.
+    /// An image with its views calibrated by the LiDAR scans nearest to it; `None` where there is no depth. What of it
+    /// can't be read makes its views fail.
     pub fn image(&mut self, camera: usize, image: usize) -> Option<Arc<ImageMoment>> {
         if let Some(known) = self.images.get(&(camera, image)) {
             return known;
