@@ -71,7 +71,7 @@ pub struct NotLabelled {
 impl ImageRecord {
     pub(super) fn of(moment: &ImageMoment) -> Self {
         let views = moment.views.iter().map(|view| view.report).collect();
-        Self { image: moment.image, views, problem: moment.problem.clone() }
+        Self { image: moment.id.image, views, problem: moment.problem.clone() }
     }
 }
 

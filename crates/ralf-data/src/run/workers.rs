@@ -103,10 +103,11 @@ impl Shared<'_> {
             }
         };
         let views = frame.images.iter().map(|view| &view.moment);
-        let images: Images =
-            views.map(|moment| (rig.cameras[moment.camera].name.clone(), ImageRecord::of(moment))).collect();
+        let images: Images = views
+            .map(|moment| (rig.cameras[moment.id.camera].name.clone(), ImageRecord::of(moment)))
+            .collect();
         let labels = Labeler::new(self.config).label(&frame);
-        let table = ScanTable::new(columns, &rig.radars[radar], &frame.detections, &labels);
+        let table = ScanTable::new(columns, &rig.radars[radar], &frame.scan, &labels);
         self.workspace.keep(name, scan, &images, &table)?;
         Ok(labels.len() as u64)
     }
