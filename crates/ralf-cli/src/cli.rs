@@ -1,13 +1,14 @@
 //! What can be typed.
 
 use crate::commands::{
-    ablate, convert, demo, depth, evaluate, export, inspect, label, plot, report, review, simulate, tune,
+    ablate, check, convert, demo, depth, evaluate, export, inspect, label, plot, report, review, simulate,
+    tune,
 };
-use crate::settings;
 use anyhow::Context;
 use clap::{Args, Parser, Subcommand};
-use ralf::config::Config;
-use ralf_data::run::read_record;
+use ralf_data::Recording;
+use ralf_data::read::ros::Topics;
+use ralf_data::result::{Change, LabelledRun};
 use std::path::{Path, PathBuf};
 
 /// Trustworthy labels for radar data: which detections are real, and which are artifacts?
@@ -20,6 +21,7 @@ use std::path::{Path, PathBuf};
 Examples:
   ralf demo                                 see it work
   ralf inspect recordings/city              what is in there, and what is missing
+  ralf check recordings/city                is it what it says: mountings, clocks, units, signs
   ralf label recordings/city -o out         a plausibility and a label for every detection
   ralf plot recordings/city out --sequence 00 --scan 17 -o scan.png
   ralf evaluate out --truth recordings/city
@@ -41,6 +43,8 @@ pub(crate) enum Command {
     Demo(demo::DemoArgs),
     /// Sensors, rates, gaps, offsets between sensors, what is missing
     Inspect(inspect::InspectArgs),
+    /// Ask the sensors of a recording about each other: are its mountings, clocks, units and signs what it says?
+    Check(check::CheckArgs),
     /// Label every radar detection of a recording
     Label(label::LabelArgs),
     /// Compute the depth of every camera image once for all, or check it against the LiDAR
@@ -90,22 +94,29 @@ pub(crate) struct DatasetArgs {
 
 impl DatasetArgs {
     /// Opens the recording, and says what its reader warns of.
-    pub(crate) fn open(&self) -> anyhow::Result<ralf_data::Recording> {
-        self.open_with(&mut Config::default())
+    pub(crate) fn open(&self) -> anyhow::Result<Recording> {
+        self.open_with(&self.topics_or(&Topics::new())?)
     }
 
-    /// The same with the topics that `ralf label` used.
-    pub(crate) fn open_labelled(&self, out: &Path) -> anyhow::Result<ralf_data::Recording> {
+    /// The same with the topics that `ralf label` used. It has to be what was labelled.
+    pub(crate) fn open_labelled(&self, out: &Path, changed: &ChangedArgs) -> anyhow::Result<Recording> {
         std::fs::metadata(&self.dataset).with_context(|| self.dataset.display().to_string())?;
-        self.open_with(&mut read_record(out)?.settings)
+        let run = LabelledRun::open(out)?;
+        let recording = self.open_with(&self.topics_or(&run.settings().topics)?)?;
+        changed.check(&run, &recording)?;
+        Ok(recording)
     }
 
-    /// The same with the topics of the settings; those of `--topics` win, and are put into the settings.
-    pub(crate) fn open_with(&self, config: &mut Config) -> anyhow::Result<ralf_data::Recording> {
-        if let Some(file) = &self.topics {
-            config.topics = settings::read(file)?.topics;
-        }
-        let recording = ralf_data::open_with(&self.dataset, self.format.as_deref(), &config.topics)?;
+    /// The topics of `--topics`, or else these.
+    pub(crate) fn topics_or(&self, topics: &Topics) -> anyhow::Result<Topics> {
+        self.topics
+            .as_deref()
+            .map_or_else(|| Ok(topics.clone()), |file| Ok(crate::settings::read(file)?.topics))
+    }
+
+    /// The same with these topics.
+    pub(crate) fn open_with(&self, topics: &Topics) -> anyhow::Result<Recording> {
+        let recording = ralf_data::open_with(&self.dataset, self.format.as_deref(), topics)?;
         let recording =
             if self.sequences.is_empty() { recording } else { recording.select(&self.sequences)? };
         for reader in &recording.sequences {
@@ -119,8 +130,42 @@ impl DatasetArgs {
     }
 }
 
+/// What to do where labels belong to another recording.
+#[derive(Debug, Clone, Default, Args)]
+pub(crate) struct ChangedArgs {
+    /// Go on though files of the recording are not those that were labelled; they are named
+    #[arg(long)]
+    pub(crate) changed_recording: bool,
+}
+
+impl ChangedArgs {
+    /// Compares a recording with what was labelled. What differs is refused, or named where it is to be used all the same.
+    pub(crate) fn check(&self, run: &LabelledRun, recording: &Recording) -> anyhow::Result<()> {
+        let changes = run.changes(recording)?;
+        let texts: Vec<String> = changes
+            .iter()
+            .map(|changed| {
+                let found = match changed.change {
+                    Change::Content => "another content",
+                    Change::Missing => "no such file",
+                    Change::New => "a file that wasn't there",
+                };
+                format!("{}: expected what was labelled, found {found}", changed.file.display())
+            })
+            .collect();
+        if self.changed_recording {
+            texts.iter().for_each(|text| crate::progress::say(&format!("warning: {text}")));
+            return Ok(());
+        }
+        let Some(first) = texts.first() else { return Ok(()) };
+        let more = texts.len() - 1;
+        let more = if more > 0 { format!(", and so are {more} more files") } else { String::new() };
+        anyhow::bail!("{first}{more}: label again, or go on with --changed-recording")
+    }
+}
+
 /// The only sequence of a recording.
-pub(crate) fn the_only(recording: &ralf_data::Recording) -> anyhow::Result<&dyn ralf_data::SequenceReader> {
+pub(crate) fn the_only(recording: &Recording) -> anyhow::Result<&dyn ralf_data::SequenceReader> {
     if let [reader] = recording.sequences.as_slice() {
         return Ok(reader.as_ref());
     }

@@ -3,7 +3,8 @@
 use crate::UsageError;
 use anyhow::Context;
 use clap::Args;
-use ralf::config::Config;
+use ralf_data::Settings;
+use ralf_files::Kind;
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
@@ -25,12 +26,12 @@ pub(crate) struct SettingsArgs {
 
 impl SettingsArgs {
     /// The settings, resolved.
-    pub(crate) fn resolve(&self) -> anyhow::Result<Config> {
+    pub(crate) fn resolve(&self) -> anyhow::Result<Settings> {
         // The file by itself first, so that what is wrong with it is said of the file.
         self.config.as_deref().map(read).transpose()?;
         let text = self.config.as_deref().map_or_else(|| Ok(String::new()), text)?;
         let assignments: Vec<&str> = self.assignments.iter().map(String::as_str).collect();
-        Config::from_toml(&text, &assignments).map_err(|error| UsageError(format!("--set: {error}")).into())
+        Settings::from_toml(&text, &assignments).map_err(|error| UsageError(format!("--set: {error}")).into())
     }
 
     /// As they were typed, each after a space.
@@ -41,10 +42,10 @@ impl SettingsArgs {
 }
 
 /// The settings of a file.
-pub(crate) fn read(file: &Path) -> anyhow::Result<Config> {
-    Config::from_toml(&text(file)?, &[]).with_context(|| file.display().to_string())
+pub(crate) fn read(file: &Path) -> anyhow::Result<Settings> {
+    Settings::from_toml(&text(file)?, &[]).with_context(|| file.display().to_string())
 }
 
 fn text(file: &Path) -> anyhow::Result<String> {
-    std::fs::read_to_string(file).with_context(|| file.display().to_string())
+    ralf_files::read_text(file, Kind::Settings).with_context(|| file.display().to_string())
 }

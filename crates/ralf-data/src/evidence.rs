@@ -1,4 +1,4 @@
-//! The evidence of all scans with truth: what tuning works on (METHOD 10).
+//! The evidence of all scans with truth: what tuning works on (docs/method.md, section 10).
 
 use crate::error::DataError;
 use crate::read::{Recording, SequenceReader};

@@ -1,4 +1,4 @@
-//! Monocular depth networks: one view of a camera in, one depth image of the same size out (METHOD 5.2).
+//! Monocular depth networks: one view of a camera in, one depth image of the same size out (docs/method.md, section 5).
 //!
 //! An [`OnnxModel`] is an `.onnx` file with a [`Card`] beside it: a small TOML file that says how the network is fed and
 //! what comes out. [`Card`] lists its keys; [`presets`] are cards of public networks, to build on. Nothing is guessed: a
@@ -41,6 +41,7 @@ mod squares;
 mod testing;
 #[cfg(test)]
 mod tests;
+mod wire;
 
 pub use card::{Card, Channels, Fit, InputSize, Side, presets};
 pub use error::DepthError;

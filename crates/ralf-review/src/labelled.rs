@@ -64,7 +64,7 @@ impl SequenceLabels {
         let sequence = reader.sequence();
         let record = read_record(out)?;
         let mut rig = sequence.rig.clone();
-        record.settings.apply_to(&mut rig).map_err(|error| ApiError::Broken(error.to_string()))?;
+        record.settings.method.apply_to(&mut rig).map_err(|error| ApiError::Broken(error.to_string()))?;
         let columns = Columns::of(&rig).map_err(ApiError::Broken)?;
         let known = record.sequences.iter().find(|known| known.name == sequence.name);
         let cameras = known.map_or(&[][..], |known| known.cameras.as_slice());
@@ -74,7 +74,7 @@ impl SequenceLabels {
         let images = rig.cameras.iter().map(|camera| asked_images(cameras, &camera.name)).collect();
         Ok(Self {
             stamp,
-            settings: record.settings,
+            settings: record.settings.method,
             reader: PlausibilityReader::open(&labels_file(out, &sequence.name), columns)?,
             groups: Cache::new(GROUPS_KEPT),
             images,

@@ -1,4 +1,5 @@
-//! Depth of an unknown scale becomes metric on a simulated fisheye rig, and the monitor tells bad images from good ones.
+//! Depth of an unknown scale becomes metric on a simulated fisheye rig, and the monitor tells bad images from good
+//! ones.
 #![expect(clippy::unwrap_used, reason = "helpers of tests fail as tests do")]
 
 use ralf::config::Config;

@@ -54,7 +54,8 @@ impl Gatherer {
         EvidenceTable::new(self.space.clone())
     }
 
-    /// Adds a scan to a table. `truth` says of each detection whether it is plausible; those of which it says nothing stay out.
+    /// Adds a scan to a table. `truth` says of each detection whether it is plausible; those of which it says nothing
+    /// stay out.
     pub fn add(&self, table: &mut EvidenceTable, frame: &Frame, truth: &[Option<bool>]) {
         let rest = Labeler::new(&self.rest).evidence(frame);
         let lidar: Vec<_> = self.lidar.iter().map(|config| Labeler::new(config).ask_lidar(frame)).collect();

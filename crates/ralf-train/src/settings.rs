@@ -20,7 +20,7 @@ pub struct Branches {
 
 /// The tuned settings, and the branches that they are meant for.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Settings {
+pub struct TunedSettings {
     /// `alpha`, the three `beta` and `w0`.
     pub weights: Weights,
     /// `K`.
@@ -31,7 +31,7 @@ pub struct Settings {
     pub branches: Branches,
 }
 
-impl Settings {
+impl TunedSettings {
     /// Dotted names of those that are tuned.
     pub const KEYS: [&'static str; 7] = [
         "fusion.alpha",
@@ -133,6 +133,6 @@ mod tests {
             ],
         )
         .unwrap();
-        assert_eq!(Settings::of(&other).applied_to(&base), other);
+        assert_eq!(TunedSettings::of(&other).applied_to(&base), other);
     }
 }

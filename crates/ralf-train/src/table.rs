@@ -1,6 +1,6 @@
 //! The evidence of many scans, in columns.
 
-use super::{Branches, Settings, Space, TuneError};
+use super::{Branches, Space, TuneError, TunedSettings};
 use ralf::metrics::Confusion;
 use ralf::paper::Evidence;
 use std::ops::Range;
@@ -10,8 +10,8 @@ const ON_FLOOR: u8 = 1;
 const IN_BLIND_SPOT: u8 = 2;
 const PLAUSIBLE: u8 = 4;
 
-/// Mismatches and truth of all detections with a truth, some hundred bytes each. Full precision is kept, so that a trial gives
-/// the labels that the labeler would give.
+/// Mismatches and truth of all detections with a truth, some hundred bytes each. Full precision is kept, so that a
+/// trial gives the labels that the labeler would give.
 #[derive(Debug, Clone, PartialEq)]
 pub struct EvidenceTable {
     space: Space,
@@ -96,7 +96,7 @@ impl EvidenceTable {
     }
 
     /// Each scan's confusion matrix with these settings.
-    pub fn confusions(&self, settings: &Settings) -> Result<Vec<Confusion>, TuneError> {
+    pub fn confusions(&self, settings: &TunedSettings) -> Result<Vec<Confusion>, TuneError> {
         let view = self.view(settings)?;
         let count = |rows: Range<usize>| {
             let mut counts = Confusion::default();
@@ -110,8 +110,8 @@ impl EvidenceTable {
     }
 
     /// The evidence that some settings look at: one `K`, one `n_b`, and the branches that have a say.
-    pub(super) fn view(&self, settings: &Settings) -> Result<View<'_>, TuneError> {
-        let Settings { neighbours, scans, branches, .. } = *settings;
+    pub(super) fn view(&self, settings: &TunedSettings) -> Result<View<'_>, TuneError> {
+        let TunedSettings { neighbours, scans, branches, .. } = *settings;
         let place = |values: &[usize], key, value| {
             let found = values.iter().position(|known| *known == value);
             found.ok_or(TuneError::NotGathered { key, value })

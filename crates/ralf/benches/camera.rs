@@ -49,8 +49,8 @@ fn map_of_1280x800(bencher: Bencher) {
     bencher.bench(|| UndistortMap::new(black_box(&lens(1280, 800)), 1280, 800, &view));
 }
 
-/// What one image brings: a camera, its views, their depth, and LiDAR points in scan lines of which the wanted number falls into
-/// each view.
+/// What one image brings: a camera, its views, their depth, and LiDAR points in scan lines of which the wanted number
+/// falls into each view.
 struct Image {
     camera: Camera,
     views: Vec<StraightView>,

@@ -1,5 +1,5 @@
-//! What a radar scan costs, stage by stage, on a street like the paper's: 72k LiDAR points, 1,216 detections of which four in
-//! five are artifacts, K = 5, n_b = 5. Run with `cargo bench -p ralf-radar --bench scan`; one thread.
+//! What a radar scan costs, stage by stage, on a street like the paper's: 72k LiDAR points, 1,216 detections of which
+//! four in five are artifacts, K = 5, n_b = 5. Run with `cargo bench -p ralf-radar --bench scan`; one thread.
 
 #![allow(clippy::expect_used, reason = "a bench that can't be set up should say so")]
 
@@ -29,7 +29,8 @@ fn main() {
     divan::main();
 }
 
-/// A street of 120 m with walls on both sides, parked cars and poles, and gardens with trees behind openings in the walls.
+/// A street of 120 m with walls on both sides, parked cars and poles, and gardens with trees behind openings in the
+/// walls.
 fn street(seed: u64) -> Vec<[f32; 3]> {
     let mut random = Pcg64Mcg::seed_from_u64(seed);
     let mut point = |i: usize| {
@@ -248,8 +249,8 @@ fn images(points: &[Point]) -> Vec<ImageView> {
     views.to_vec()
 }
 
-/// The same with four cameras: projection, monitor, calibration and camera matching besides. The made-up depth would fail
-/// the monitor, so that its limit is lifted.
+/// The same with four cameras: projection, monitor, calibration and camera matching besides. The made-up depth would
+/// fail the monitor, so that its limit is lifted.
 #[divan::bench]
 fn whole_scan_with_four_views(bencher: Bencher) {
     let scan = Arc::new(STREET.lidar.clone());

@@ -46,8 +46,8 @@ pub(crate) struct DepthArgs {
 
 /// Computes depth, or checks it.
 pub(crate) fn run(arguments: &DepthArgs) -> anyhow::Result<Outcome> {
-    let mut config = arguments.settings.resolve()?;
-    let mut recording = arguments.dataset.open_with(&mut config)?;
+    let settings = arguments.settings.resolve()?;
+    let mut recording = arguments.dataset.open_with(&arguments.dataset.topics_or(&settings.topics)?)?;
     let model = arguments.model.load()?;
     ensure!(
         model.is_some() || arguments.check,
@@ -65,7 +65,8 @@ pub(crate) fn run(arguments: &DepthArgs) -> anyhow::Result<Outcome> {
     if arguments.check {
         let mut checks = Vec::new();
         for reader in &recording.sequences {
-            let found = check_scalings(reader.as_ref(), &config).map_err(anyhow::Error::from_boxed)?;
+            let found =
+                check_scalings(reader.as_ref(), &settings.method).map_err(anyhow::Error::from_boxed)?;
             checks.push((reader.sequence().name.clone(), found));
         }
         print(&if arguments.json { json(&checks)? } else { table(&checks) })?;

@@ -1,6 +1,7 @@
 //! `ralf export`: labels in the formats of other tools.
 
-use crate::cli::DatasetArgs;
+use crate::cli::{ChangedArgs, DatasetArgs};
+use crate::corrections::orphaned;
 use crate::progress::{STEPS, bar, say};
 use crate::text::grouped;
 use crate::{Outcome, UsageError};
@@ -29,6 +30,8 @@ pub(crate) struct ExportArgs {
     /// What `ralf label` wrote
     #[arg(value_name = "OUT")]
     labels: PathBuf,
+    #[command(flatten)]
+    changed: ChangedArgs,
     /// The format
     #[arg(long, value_name = "FORMAT", value_parser = PossibleValuesParser::new(ExportFormat::ALL.map(ExportFormat::name)))]
     to: String,
@@ -65,7 +68,7 @@ enum Sensor {
 /// Exports the labels of a recording.
 pub(crate) fn run(arguments: &ExportArgs) -> anyhow::Result<Outcome> {
     let options = options(arguments)?;
-    let recording = arguments.dataset.open_labelled(&arguments.labels)?;
+    let recording = arguments.dataset.open_labelled(&arguments.labels, &arguments.changed)?;
     let export = Export { recording: &recording, out: &arguments.labels, options };
     let bar = bar(export.scans() as u64, STEPS, format!("exporting {}", arguments.to));
     let exported = export.write(&arguments.output, &|scans| bar.set_position(scans as u64));
@@ -95,6 +98,9 @@ fn options(arguments: &ExportArgs) -> anyhow::Result<ExportOptions> {
 }
 
 fn name_what_is_missing(exported: &Exported) -> Outcome {
+    for scan in &exported.orphaned {
+        say(&orphaned(scan));
+    }
     for scan in &exported.not_labelled {
         say(&format!("not labelled: {scan}: exported without labels"));
     }

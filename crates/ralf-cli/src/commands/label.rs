@@ -54,21 +54,30 @@ pub(crate) struct LabelArgs {
 
 /// Labels a recording.
 pub(crate) fn run(arguments: &LabelArgs) -> anyhow::Result<Outcome> {
-    let mut config = arguments.settings.resolve()?;
+    let mut settings = arguments.settings.resolve()?;
     let jobs = threads(arguments.jobs);
-    let recording = arguments.dataset.open_with(&mut config)?;
-    let recording = arguments.with_depth(recording, &config, jobs)?;
-    let run = LabelRun { recording: &recording, config: &config, out: &arguments.output, jobs };
+    settings.topics = arguments.dataset.topics_or(&settings.topics)?;
+    let recording = arguments.dataset.open_with(&settings.topics)?;
+    let recording = arguments.with_depth(recording, &settings.method, jobs)?;
+    let run = LabelRun { recording: &recording, settings: &settings, out: &arguments.output, jobs };
     let done = run.execute(&Bars::new(arguments.quiet))?;
     if !done.removed.is_empty() {
         let names = done.removed.join(", ");
         say(&format!("removed, for they were made by another version or with other settings: {names}"));
+    }
+    for (sequence, file) in &done.damaged {
+        let file = file.display();
+        say(&format!("sequence {sequence} is labelled again: {file} is not as it was written"));
     }
     if done.labelled.is_empty() {
         say("nothing to do: labelled before with the same program, settings and inputs");
     }
     let record = &done.record;
     print(&if arguments.json { serde_json::to_string_pretty(record)? } else { summary(&done) })?;
+    for (sequence, scan) in record.unreadable() {
+        let (sensor, number, reason) = (&scan.sensor, scan.scan, &scan.reason);
+        say(&format!("labelled without: {sequence} {sensor} scan {number}: {reason}"));
+    }
     let mut outcome = Outcome::Done;
     for (sequence, scan) in record.not_labelled() {
         say(&format!("not labelled: {sequence} {} scan {}: {}", scan.radar, scan.scan, scan.reason));

@@ -1,6 +1,7 @@
 //! One module per verb: thin, for what they do is done by the libraries.
 
 pub(crate) mod ablate;
+pub(crate) mod check;
 pub(crate) mod convert;
 pub(crate) mod demo;
 pub(crate) mod depth;
@@ -25,6 +26,7 @@ pub(crate) fn dispatch(arguments: Cli) -> anyhow::Result<Outcome> {
     match arguments.command {
         Command::Demo(arguments) => demo::run(&arguments),
         Command::Inspect(arguments) => inspect::run(&arguments),
+        Command::Check(arguments) => check::run(&arguments),
         Command::Label(arguments) => label::run(&arguments),
         Command::Evaluate(arguments) => evaluate::run(&arguments),
         Command::Plot(arguments) => plot::run(&arguments),

@@ -1,7 +1,7 @@
 //! `ralf report`: one page about a labelled recording.
 
 use crate::Outcome;
-use crate::cli::DatasetArgs;
+use crate::cli::{ChangedArgs, DatasetArgs};
 use crate::progress::say;
 use clap::Args;
 use indicatif::ProgressBar;
@@ -23,6 +23,8 @@ pub(crate) struct ReportArgs {
     /// What `ralf label` wrote
     #[arg(value_name = "OUT")]
     labels: PathBuf,
+    #[command(flatten)]
+    changed: ChangedArgs,
     /// The page (HTML)
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
@@ -33,7 +35,7 @@ pub(crate) struct ReportArgs {
 
 /// Writes the page.
 pub(crate) fn run(arguments: &ReportArgs) -> anyhow::Result<Outcome> {
-    let recording = arguments.dataset.open_labelled(&arguments.labels)?;
+    let recording = arguments.dataset.open_labelled(&arguments.labels, &arguments.changed)?;
     let report = Report {
         recording: &recording,
         out: &arguments.labels,

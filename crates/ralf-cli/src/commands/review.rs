@@ -1,7 +1,7 @@
 //! `ralf review`: the page where people correct labels.
 
 use crate::Outcome;
-use crate::cli::DatasetArgs;
+use crate::cli::{ChangedArgs, DatasetArgs};
 use crate::progress::say;
 use crate::text::print;
 use clap::Args;
@@ -30,6 +30,8 @@ pub(crate) struct ReviewArgs {
     /// What `ralf label` wrote
     #[arg(value_name = "OUT")]
     out: PathBuf,
+    #[command(flatten)]
+    changed: ChangedArgs,
     /// Port to listen on, 0 for any free one; 8642 if not given, or the next one that is free
     #[arg(long, value_name = "P")]
     port: Option<u16>,
@@ -46,7 +48,7 @@ pub(crate) struct ReviewArgs {
 
 /// Serves the page until Ctrl-C.
 pub(crate) fn run(arguments: &ReviewArgs) -> anyhow::Result<Outcome> {
-    let recording = arguments.dataset.open_labelled(&arguments.out)?;
+    let recording = arguments.dataset.open_labelled(&arguments.out, &arguments.changed)?;
     let options = Options {
         host: arguments.host.clone(),
         port: arguments.port,

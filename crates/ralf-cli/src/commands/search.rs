@@ -10,8 +10,8 @@ use clap::Args;
 use clap::builder::PossibleValuesParser;
 use indicatif::ProgressBar;
 use ralf::config::Config;
-use ralf_data::{GroundTruth, Recording, SequenceEvidence, gather_evidence};
-use ralf_train::{EvidenceTable, Found, Objective, Search, Settings};
+use ralf_data::{GroundTruth, Recording, SequenceEvidence, Settings, gather_evidence};
+use ralf_train::{EvidenceTable, Found, Objective, Search, TunedSettings};
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
@@ -40,7 +40,7 @@ pub(super) struct SearchArgs {
     #[arg(long, value_name = "S", default_value = "0")]
     pub(super) seed: u64,
     /// A setting that stays as it is, such as lidar.beta; may be given several times
-    #[arg(long = "hold", value_name = "KEY", value_parser = PossibleValuesParser::new(Settings::KEYS))]
+    #[arg(long = "hold", value_name = "KEY", value_parser = PossibleValuesParser::new(TunedSettings::KEYS))]
     held: Vec<String>,
     #[command(flatten)]
     pub(super) settings: SettingsArgs,
@@ -77,13 +77,14 @@ impl SearchArgs {
     }
 
     /// The recording of these sequences alone, and its truth.
-    pub(super) fn open(&self, base: &Config, test: &[String]) -> anyhow::Result<(Recording, GroundTruth)> {
+    pub(super) fn open(&self, base: &Settings, test: &[String]) -> anyhow::Result<(Recording, GroundTruth)> {
         let sequences = [self.train.as_slice(), test].concat();
         let (dataset, format) = (self.dataset.clone(), self.format.clone());
         let dataset = DatasetArgs { dataset, format, sequences, topics: None };
         let corrections = self.corrections.as_deref();
-        let truth = merged_truth(&self.dataset, corrections, corrections.is_some())?;
-        Ok((dataset.open_with(&mut base.clone())?, truth))
+        let recording = dataset.open_with(&dataset.topics_or(&base.topics)?)?;
+        let truth = merged_truth(&self.dataset, Some(&recording), corrections, corrections.is_some())?;
+        Ok((recording, truth))
     }
 
     /// Matches all scans of a recording that have truth.

@@ -7,6 +7,7 @@ use anyhow::Context;
 use clap::Args;
 use clap::builder::PossibleValuesParser;
 use ralf::sensors::Source;
+use ralf_files::Kind;
 use ralf_sim::presets::{self, Preset};
 use ralf_sim::{Scenario, SimulatedSequence};
 use std::path::{Path, PathBuf};
@@ -110,7 +111,7 @@ fn write_all(
 /// The user's scenario.
 fn own(file: &Path, arguments: &SimulateArgs) -> anyhow::Result<SimulatedSequence> {
     let name = || file.display().to_string();
-    let text = std::fs::read_to_string(file).with_context(name)?;
+    let text = ralf_files::read_text(file, Kind::Settings).with_context(name)?;
     let scenario = Scenario::from_toml(&text).with_context(name)?;
     let scans = arguments.scans.map_or(USUAL_SCANS, |scans| scans as usize);
     SimulatedSequence::new("00", &scenario, arguments.seed, scans).with_context(name)

@@ -9,8 +9,8 @@ use crate::text::print;
 use crate::{Outcome, UsageError};
 use clap::Args;
 use ralf::config::Config;
-use ralf_data::write_whole;
-use ralf_train::{EvidenceTable, Found, Search, Settings, leave_one_out, settings_file};
+use ralf_data::{Settings, write_whole};
+use ralf_train::{EvidenceTable, Found, Search, TunedSettings, leave_one_out, settings_file};
 use report::{Part, Report};
 use std::path::PathBuf;
 
@@ -45,11 +45,12 @@ pub(crate) fn run(arguments: &TuneArgs) -> anyhow::Result<Outcome> {
     let search = &arguments.search;
     let base = search.settings.resolve()?;
     let (recording, truth) = search.open(&base, &arguments.test)?;
-    let evidence = search.gather((&recording, &truth), &base)?;
+    let evidence = search.gather((&recording, &truth), &base.method)?;
     let outcome = name_what_is_left_out(&evidence);
-    let report = arguments.tune(&base, &search.parts(evidence))?;
+    let report = arguments.tune(&base.method, &search.parts(evidence))?;
     let comment = text::comment(&report, &arguments.command());
-    let tuned = report.found.settings.applied_to(&base);
+    let method = report.found.settings.applied_to(&base.method);
+    let tuned = Settings { method, ..base };
     write_whole(&arguments.output, settings_file(&comment, &tuned)?.as_bytes())?;
     print(&if search.json { serde_json::to_string_pretty(&report.json())? } else { text::page(&report) })?;
     if !search.objective.is_met(report.found.score) {
@@ -82,7 +83,7 @@ impl TuneArgs {
             objective: search.objective,
             trials: search.trials,
             seed: search.seed,
-            base: Settings::of(base),
+            base: TunedSettings::of(base),
             found,
             train: Part::of(train, base, &found.settings)?,
             test: if test.is_empty() { None } else { Some(Part::of(test, base, &found.settings)?) },

@@ -21,7 +21,11 @@ mod export;
 mod full_disk;
 #[cfg(unix)]
 mod inputs;
+mod names;
+#[cfg(unix)]
+mod odd_files;
 mod other_commands;
+mod other_data;
 mod real_data;
 mod resume;
 #[cfg(unix)]
@@ -32,4 +36,8 @@ mod simulation;
 mod streams;
 mod support;
 mod tuning;
+#[cfg(unix)]
+mod verbs;
 mod whole_run;
+#[cfg(unix)]
+mod writers;

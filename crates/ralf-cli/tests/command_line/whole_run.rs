@@ -1,4 +1,4 @@
-//! `ralf label` writes what FORMATS 2 says, and it means something.
+//! `ralf label` writes what docs/formats.md, section 2, says, and it means something.
 
 use crate::support::{ARTIFACT, CAR, Dataset, Row, Shape, WALL, ralf, rows, schema, tree};
 use serde_json::{Value, json};

@@ -4,7 +4,7 @@ use crate::disk::files;
 use crate::error::DataError;
 use image::{ColorType, ImageFormat, ImageReader};
 use ralf::sensors::CameraImage;
-use std::io::Cursor;
+use std::io::{BufReader, Cursor};
 use std::path::Path;
 
 /// Of the files that can be read.
@@ -28,8 +28,8 @@ pub(crate) fn read_of_size(file: &Path, width: usize, height: usize) -> Result<C
 
 /// Width and height in pixels, without decoding.
 pub(crate) fn size(file: &Path) -> Result<[usize; 2], DataError> {
-    let reader =
-        ImageReader::open(file).and_then(ImageReader::with_guessed_format).map_err(DataError::io(file))?;
+    let bytes = BufReader::new(files::open(file)?);
+    let reader = ImageReader::new(bytes).with_guessed_format().map_err(DataError::io(file))?;
     let (width, height) = reader.into_dimensions().map_err(|error| unreadable(file, error.to_string()))?;
     Ok([width as usize, height as usize])
 }

@@ -1,7 +1,9 @@
 //! What people corrected in the review, beside a run's labels: `OUT/corrections.sqlite`.
 
+use crate::disk::files;
 use crate::disk::label_file::Label;
 use crate::error::DataError;
+use crate::read::Recording;
 use crate::truth::ground_truth::ScanId;
 use ralf_corrections::{FILE, ScanContent, ScanKey, ScanLayer, read_layer};
 use std::collections::BTreeMap;
@@ -36,7 +38,7 @@ impl Corrections {
     /// A file that is no store of corrections, or one of another version of the program.
     pub fn open(out: &Path) -> Result<Self, DataError> {
         let file = out.join(FILE);
-        let there = file.try_exists().map_err(DataError::io(&file))?;
+        let there = files::exists(&file)?;
         let scans = if there { read_layer(&file)? } else { BTreeMap::new() };
         let scans = scans.into_iter().map(|(key, said)| (key.into(), said)).collect();
         Ok(Self { file, scans, orphaned: Vec::new() })
@@ -62,6 +64,14 @@ impl Corrections {
         }
         self.scans = bound;
         Ok(self)
+    }
+
+    /// Those of a recording's sequences alone.
+    pub(super) fn of_sequences(mut self, recording: &Recording) -> Self {
+        let names: Vec<&str> =
+            recording.sequences.iter().map(|reader| reader.sequence().name.as_str()).collect();
+        self.scans.retain(|scan, _| names.contains(&scan.sequence.as_str()));
+        self
     }
 
     /// The scans of which something was said while they held something else: it is kept in the file, and never applied.

@@ -1,4 +1,4 @@
-//! The corrected labels of a dataset: `sequences/NAME/ground_truth/RADAR/NNNNNN.label` (FORMATS 1), and above them the
+//! The corrected labels of a dataset: `sequences/NAME/ground_truth/RADAR/NNNNNN.label` (docs/formats.md, section 1), and above them the
 //! corrections of a review.
 
 use crate::disk::files;

@@ -1,5 +1,6 @@
 //! What people and simulators say of detections: label files, corrections, causes, and the label that counts.
 
+mod bound;
 mod causes;
 mod content;
 mod corrections;

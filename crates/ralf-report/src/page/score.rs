@@ -43,7 +43,7 @@ fn curve(with_truth: &[(&Scored, bool)]) -> Result<Markup, ReportError> {
 
 fn reliability(content: &Content, with_truth: &[(&Scored, bool)]) -> Result<Markup, ReportError> {
     let bins = by_plausibility(with_truth.iter().map(|(scored, truth)| (scored.w, *truth)));
-    let svg = chart::reliability(&bins, content.record.settings.fusion.threshold)?;
+    let svg = chart::reliability(&bins, content.record.settings.method.fusion.threshold)?;
     let caption = html! {
         "How many detections of a plausibility w are truly plausible; on the dashed diagonal w would be a probability. "
         "Dotted: the threshold of this run. Below: how many detections there are."
@@ -56,7 +56,7 @@ fn settings(content: &Content, with_truth: &[(&Scored, bool)]) -> Result<Markup,
     let Some(map) = SettingsMap::of(with_truth) else {
         return Ok(html! { p.absent { "Nothing is truly plausible, so that F1 has no value." } });
     };
-    let fusion = &content.record.settings.fusion;
+    let fusion = &content.record.settings.method.fusion;
     let svg = chart::settings_map(&map, (fusion.alpha, fusion.threshold))?;
     let (alpha, threshold, f1) = map.best();
     let caption = html! {

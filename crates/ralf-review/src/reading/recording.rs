@@ -9,7 +9,7 @@ use ralf_data::SequenceReader;
 use ralf_data::run::read_record;
 use serde_json::{Value, json};
 
-/// The bits of a detection's flags.
+/// The bits of a detection's flags (docs/formats.md, section 2).
 const FLAGS: [(u16, &str); 6] = [
     (flag::GROUND, "ground"),
     (flag::BLIND_SPOT, "blind spot"),
@@ -38,7 +38,7 @@ pub(crate) fn recording(app: &App) -> Answer {
         "author": app.author,
         "store": app.said(ralf_corrections::Reader::id)?,
         "read_only": app.store.read_only(),
-        "threshold": read_record(&app.out)?.settings.fusion.threshold,
+        "threshold": read_record(&app.out)?.settings.method.fusion.threshold,
         "sequences": sequences,
         "classes": (0..=LAST_CLASS).filter_map(class).collect::<Vec<_>>(),
         "causes": app.causes.names(),

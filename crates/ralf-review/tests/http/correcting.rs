@@ -1,7 +1,7 @@
 //! Edits: on disk when they are answered, undone and redone, and never silently overwritten.
 
 use crate::support::{Out, RADAR, SEQUENCE, label, recording, stroke};
-use ralf::config::Config;
+use ralf_data::Settings;
 use ralf_data::{Comparison, Corrections, GroundTruth, Label, ScanId};
 use serde_json::{Value, json};
 use std::fs;
@@ -134,8 +134,8 @@ fn what_was_accepted_outlives_labelling_again() {
         (&json!(RADAR), &json!(1), &json!("ada"))
     );
     // With a threshold that nothing reaches everything is an artifact.
-    let config = Config::from_toml("", &["fusion.threshold=1.0"]).unwrap();
-    label(&recording(), out.path(), &config);
+    let settings = Settings::from_toml("", &["fusion.threshold=1.0"]).unwrap();
+    label(&recording(), out.path(), &settings);
     let after = server.table(1);
     assert!(
         after.u16("machine").iter().filter(|id| **id == 1).count()

@@ -1,8 +1,8 @@
 //! What must never happen to people's work: labels accepted unseen, edits lost or made twice, corrections on other detections.
 
 use crate::support::{Out, RADAR, SEQUENCE, Serving, label, recording, stroke};
-use ralf::config::Config;
 use ralf_corrections::FILE;
+use ralf_data::Settings;
 use ralf_data::{Corrections, open, scan_content};
 use serde_json::{Value, json};
 use std::fs;
@@ -18,7 +18,7 @@ fn labels_that_changed_under_the_page_are_not_accepted() {
     let server = out.serve();
     let seen = server.table(1).header["stamp"].clone();
     // Labelled again with another threshold, while the page shows what was before.
-    label(&recording(), out.path(), &Config::from_toml("", &["fusion.threshold=1.0"]).unwrap());
+    label(&recording(), out.path(), &Settings::from_toml("", &["fusion.threshold=1.0"]).unwrap());
     let mark = |stamp: &Value| json!({ "reviewed": true, "revision": 0, "stamp": stamp });
     let refused = server.edit("PUT", &path(1), &mark(&seen), "one");
     let sentence = refused.refused(409);
@@ -153,7 +153,7 @@ fn corrections_of_other_detections_are_kept_shown_and_never_applied() {
     copy(&recording().path, &dataset);
     let labelled = || {
         let recording = open(&dataset, None).unwrap();
-        label(&recording, &out, &Config::default());
+        label(&recording, &out, &Settings::default());
         Serving::of_recording(recording, &out, "127.0.0.1", "ada").unwrap()
     };
     let server = labelled();

@@ -1,8 +1,7 @@
 //! A recording with labels, a server on it, and a client.
 
-use ralf::config::Config;
 use ralf_data::run::{LabelRun, Observer, Stage};
-use ralf_data::{Recording, open, write_sequence};
+use ralf_data::{Recording, Settings, open, write_sequence};
 use ralf_review::{Options, ReviewError, Server};
 use ralf_sim::presets;
 use serde_json::{Value, json};
@@ -39,7 +38,7 @@ static MADE: LazyLock<Made> = LazyLock::new(|| {
     let sequence = presets::find("tiny").unwrap().sequences[0].simulate(3, 3).unwrap();
     write_sequence(&sequence, &folder.path().join("recording"), &|_| ()).unwrap();
     let made = Made { folder };
-    label(&made.recording(), &made.folder.path().join("out"), &Config::default());
+    label(&made.recording(), &made.folder.path().join("out"), &Settings::default());
     made
 });
 
@@ -55,8 +54,8 @@ pub(crate) fn recording() -> Recording {
 }
 
 /// Labels a recording.
-pub(crate) fn label(recording: &Recording, out: &Path, config: &Config) {
-    LabelRun { recording, config, out, jobs: 1 }.execute(&Silent).unwrap();
+pub(crate) fn label(recording: &Recording, out: &Path, settings: &Settings) {
+    LabelRun { recording, settings, out, jobs: 1 }.execute(&Silent).unwrap();
 }
 
 /// Labels of one's own, as `ralf label` left them.

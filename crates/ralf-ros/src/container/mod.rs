@@ -24,8 +24,8 @@ use chunked::{ChunkedFile, Format};
 use db3::Db3File;
 pub use error::ContainerError;
 use mcap_file::Mcap;
+use ralf_files::Kind;
 use std::collections::BTreeMap;
-use std::fs::File;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
@@ -100,7 +100,7 @@ pub fn recognises(path: &Path) -> bool {
 
 fn beginning(path: &Path) -> std::io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
-    File::open(path)?.take(db3::MAGIC.len() as u64).read_to_end(&mut bytes)?;
+    ralf_files::open(path, Kind::Stream)?.take(db3::MAGIC.len() as u64).read_to_end(&mut bytes)?;
     Ok(bytes)
 }
 

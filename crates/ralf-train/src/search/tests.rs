@@ -69,7 +69,7 @@ fn the_score_is_what_the_settings_reach_and_the_best_never_gets_worse() {
     assert_eq!(Objective::F1.score(&counts), found.score);
     assert!(told.iter().map(|(trial, _)| *trial).eq(1..=40));
     assert!(told.is_sorted_by(|a, b| a.1 <= b.1));
-    let own = train.confusions(&Settings::of(&base)).unwrap().into_iter().sum();
+    let own = train.confusions(&TunedSettings::of(&base)).unwrap().into_iter().sum();
     assert!(Objective::F1.score(&own) <= told[0].1);
 }
 
@@ -117,14 +117,14 @@ fn what_says_nothing_keeps_its_setting() {
 #[test]
 fn what_is_held_stays_and_the_rest_is_searched() {
     let (train, base) = (planted(6, 20), Config::default());
-    for key in Settings::KEYS {
+    for key in TunedSettings::KEYS {
         let found = Search { held: vec![key.to_owned()], ..search(&base, 60) };
         let found = found.run(&[&train], &mut |_, _| {}).unwrap();
-        let own = Settings::of(&base).entries();
+        let own = TunedSettings::of(&base).entries();
         for ((name, value), (_, before)) in found.settings.entries().into_iter().zip(own) {
             assert!(name != key || value == before, "{name}");
         }
-        assert_ne!(found.settings, Settings::of(&base), "{key}");
+        assert_ne!(found.settings, TunedSettings::of(&base), "{key}");
         let counts = train.confusions(&found.settings).unwrap().into_iter().sum();
         assert_eq!(Objective::F1.score(&counts), found.score, "{key}");
     }

@@ -1,12 +1,12 @@
-//! Every setting of the labeler (METHOD 12). `config/default.toml` says what each one means, with its unit and range.
+//! Every setting of the labeler (docs/method.md, section 12). `config/default.toml` says what each one means, with its
+//! unit and range.
 
+mod read;
 mod sensors;
-mod topics;
 mod validate;
 
+pub use read::{ConfigError, read_toml};
 pub use sensors::SensorOverride;
-pub use topics::{Stamps, TopicConfig, TopicKind};
-pub use validate::ConfigError;
 
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -31,13 +31,7 @@ pub struct Config {
     pub fusion: FusionConfig,
     /// By sensor name: what replaces the recording's own values.
     pub sensors: BTreeMap<String, SensorOverride>,
-    /// By sensor name: which topic of a ROS recording it is. Other recordings need none.
-    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
-    pub topics: Topics,
 }
-
-/// `topics`: by name.
-pub type Topics = BTreeMap<String, TopicConfig>;
 
 /// `sync`: which measurements belong together.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

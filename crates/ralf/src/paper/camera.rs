@@ -1,4 +1,5 @@
-//! Camera matching: the mismatch of each detection with its nearest calibrated camera points (METHOD 5.5 and 5.7).
+//! Camera matching: the mismatch of each detection with its nearest calibrated camera points (paper, section 2.3;
+//! docs/method.md, section 5).
 
 use crate::config::CameraConfig;
 use crate::scene::{
@@ -38,8 +39,8 @@ pub fn match_detections(
     located.map(|detection| detection.as_ref().map(&mut answer).unwrap_or_default()).collect()
 }
 
-/// The calibrated points in the vehicle frame at the radar scan's time, each with `Sigma_l = (depth_sigma Z)^2 u u^T`. Of a
-/// radar without elevation only those within its vertical field of view.
+/// The calibrated points in the vehicle frame at the radar scan's time, each with `Sigma_l = (depth_sigma Z)^2 u u^T`.
+/// Of a radar without elevation only those within its vertical field of view.
 fn points_of_views(radar: &Radar, images: &[ImageView], depth_sigma: f64) -> Vec<Reference> {
     let radar_from_vehicle = radar.vehicle_from_radar.inverse();
     let mut points = Vec::new();

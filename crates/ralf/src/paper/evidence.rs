@@ -1,5 +1,5 @@
 //! From what is known of a detection to its label: everything that depends on `alpha`, the three `beta` and `w0` alone
-//! (METHOD 3, 6, 8 and 10). Labelling and tuning both go this way.
+//! (docs/method.md, sections 3, 6, 8 and 10). Labelling and tuning both go this way.
 
 use super::fusion::{optical, prioritize};
 use crate::config::{Config, FusionConfig};
@@ -65,7 +65,7 @@ impl Weights {
 }
 
 impl Evidence {
-    /// Plausibility and label: `w = exp(-beta d)` of each branch, then eq. lidar_blindspot and eq. priorization.
+    /// Plausibility and label: `w = exp(-beta d)` of each branch, then the paper's equations 5, 6 and 9.
     pub fn weigh(&self, weights: &Weights) -> Verdict {
         let optical_branch = |beta, d: Option<f64>| {
             if self.on_floor { Some(0.0) } else { d.map(|d| plausibility(beta, d)) }
@@ -79,8 +79,8 @@ impl Evidence {
         Verdict { w_lm, w_cm, w_tr, w_opt, w, plausible }
     }
 
-    /// What a threshold is compared with: the verdict's `w`, and `None` of a floor detection. It asks but the one optical branch
-    /// that has the say, for a search does this for every detection in every trial.
+    /// What a threshold is compared with: the verdict's `w`, and `None` of a floor detection. It asks but the one
+    /// optical branch that has the say, for a search does this for every detection in every trial.
     pub fn plausibility(&self, weights: &Weights) -> Option<f64> {
         if self.on_floor {
             return None;

@@ -1,13 +1,15 @@
-//! Fusion of the branches into a plausibility and a label (METHOD 6 and 8; eq. priorization).
+//! Fusion of the branches into a plausibility and a label (paper, equations 6 and 9; docs/method.md, sections 6 and 8).
 
 use crate::config::FusionConfig;
 
-/// `w_opt`: in the LiDAR's blind spot the camera's answer, elsewhere the LiDAR's; where the chosen one is absent, the other.
+/// `w_opt`: in the LiDAR's blind spot the camera's answer, elsewhere the LiDAR's; where the chosen one is absent, the
+/// other.
 pub fn optical(in_blind_spot: bool, w_lm: Option<f64>, w_cm: Option<f64>) -> Option<f64> {
     if in_blind_spot { w_cm.or(w_lm) } else { w_lm.or(w_cm) }
 }
 
-/// `w = (alpha w_opt + (1 - alpha) w_tr) / gamma_s`. With one branch absent the other counts alone; `None` without both.
+/// `w = (alpha w_opt + (1 - alpha) w_tr) / gamma_s`. With one branch absent the other counts alone; `None` without
+/// both.
 ///
 /// ```
 /// use ralf::{config::FusionConfig, paper::prioritize};

@@ -63,8 +63,8 @@ impl<'a> Labeler<'a> {
         located.map(label).collect()
     }
 
-    /// What is known of every detection of a frame before `alpha`, the `beta` and `w0` come in, in the scan's order. `None`
-    /// for a detection whose coordinates are not finite: whatever the weights, it is not plausible.
+    /// What is known of every detection of a frame before `alpha`, the `beta` and `w0` come in, in the scan's order.
+    /// `None` for a detection whose coordinates are not finite: whatever the weights, it is not plausible.
     pub fn evidence(&self, frame: &Frame) -> Vec<Option<Evidence>> {
         let answers = self.ask(frame);
         let located = frame.detections.located.iter().enumerate();

@@ -1,4 +1,5 @@
-//! LiDAR matching: the mismatch of each detection with its nearest LiDAR points (METHOD 3 and 4; alg. lidar_matching).
+//! LiDAR matching: the mismatch of each detection with its nearest LiDAR points (paper, algorithm 1; docs/method.md,
+//! section 4).
 
 use crate::label::UNLABELED;
 use crate::scene::{Association, Detections, LidarMoment, LidarView, Located};
@@ -10,7 +11,7 @@ use crate::space::{Neighbor, Transform};
 pub struct LidarMatch {
     /// Mean mismatch with the `K` nearest points.
     pub d: f64,
-    /// The class that most of these carry, where they carry any (METHOD 11).
+    /// The class that most of these carry, where they carry any (docs/method.md, section 11).
     pub semantic: Option<u16>,
 }
 

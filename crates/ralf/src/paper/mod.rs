@@ -1,5 +1,6 @@
-//! The method of the paper, and nothing else: each detection is compared with the LiDAR's points, with the cameras' and with the
-//! neighbouring radar scans, and the answers are fused into a plausibility and a label. Begin with [`Labeler::label`].
+//! The method of the paper, and nothing else: each detection is compared with the LiDAR's points, with the cameras' and
+//! with the neighbouring radar scans, and the answers are fused into a plausibility and a label. Begin with
+//! [`Labeler::label`].
 
 mod blind_spot;
 pub mod camera;

@@ -1,4 +1,4 @@
-//! The mismatch of each detection with the neighbouring radar scans (METHOD 7; eq. pose_trafo).
+//! The mismatch of each detection with the neighbouring radar scans (paper, equation 8; docs/method.md, section 7).
 
 use crate::config::TrackingConfig;
 use crate::scene::{
@@ -7,8 +7,8 @@ use crate::scene::{
 use crate::sensors::{Elevation, Radar};
 use crate::space::NeighborIndex;
 
-/// The mismatch `d` of each detection with its neighbouring scans, sorted and weighted; `None` for all where there is no
-/// such scan, and for detections without a place.
+/// The mismatch `d` of each detection with its neighbouring scans, sorted and weighted; `None` for all where there is
+/// no such scan, and for detections without a place.
 ///
 /// `doppler` are the ego-compensated range rates (m/s) of `tracking.dynamic`, where they are wanted and known.
 pub fn match_detections(
@@ -55,8 +55,8 @@ fn along_ray(radar: &Radar, detection: &Located, distance: f64) -> Located {
 
 /// The detections of a step in the vehicle frame at the reference scan's time.
 ///
-/// Moving some hundred points and sorting them costs less than it saves to ask each scan in its own frame, and horizontal
-/// distances are exact only here.
+/// Moving some hundred points and sorting them costs less than it saves to ask each scan in its own frame, and
+/// horizontal distances are exact only here.
 struct MovedCloud {
     points: Vec<Located>,
     index: NeighborIndex,

@@ -3,8 +3,9 @@
 use crate::sensors::{Radar, RadarScan};
 use crate::space::{EgoMotion, Vector};
 
-/// Ego-compensated range rates of a scan, m/s, positive when receding: the field `doppler_compensated` where the radar has
-/// it, else `doppler` plus the radial part of the radar's own velocity, `u . (v + omega x t)`. `None` where it has neither.
+/// Ego-compensated range rates of a scan, m/s, positive when receding: the field `doppler_compensated` where the radar
+/// has it, else `doppler` plus the radial part of the radar's own velocity, `u . (v + omega x t)`. `None` where it has
+/// neither.
 pub fn compensated_doppler(radar: &Radar, scan: &RadarScan, motion: &EgoMotion) -> Option<Vec<f64>> {
     if let Some(column) = radar.column("doppler_compensated") {
         return Some(scan.columns[column].iter().copied().map(f64::from).collect());

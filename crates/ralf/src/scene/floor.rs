@@ -1,4 +1,4 @@
-//! Floor detections: a detection on the road is implausible (METHOD 4.3).
+//! Floor detections: a detection on the road is implausible (docs/method.md, section 4).
 
 use super::detections::Located;
 use super::ground::Ground;
@@ -16,8 +16,8 @@ pub struct LocalGround {
 }
 
 impl LocalGround {
-    /// The ground around a radar scan or an image, in the vehicle frame that its view of the LiDAR leads to. `None` where
-    /// there is none; the flat one is there without any LiDAR.
+    /// The ground around a radar scan or an image, in the vehicle frame that its view of the LiDAR leads to. `None`
+    /// where there is none; the flat one is there without any LiDAR.
     pub fn around(lidar: Option<&LidarView>, config: &GroundConfig) -> Option<Self> {
         if config.model == GroundModel::Flat {
             return Some(Self { ground: Ground::flat(), ground_from_vehicle: Transform::identity() });

@@ -25,8 +25,22 @@ pub struct Frame<'a> {
     pub images: Vec<ImageView>,
     /// The neighbouring radar scans, in time order.
     pub steps: Vec<TrackingStep>,
-    /// Ego-compensated range rates of the detections, m/s, where `tracking.dynamic` wants them and the radar measures them.
+    /// Ego-compensated range rates of the detections, m/s, where `tracking.dynamic` wants them and the radar measures
+    /// them.
     pub doppler: Option<Vec<f64>>,
+    /// LiDAR scans that belong to it and can't be read: the scan is labelled without them.
+    pub unreadable: Vec<Unreadable>,
+}
+
+/// A measurement that can't be read.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Unreadable {
+    /// The sensor's name.
+    pub sensor: String,
+    /// Its place in the sensor's timeline, from 0.
+    pub index: usize,
+    /// File, place, expected, found.
+    pub reason: String,
 }
 
 impl Frame<'_> {

@@ -51,8 +51,8 @@ pub struct LidarMoment {
 }
 
 impl LidarMoment {
-    /// Brings the scans together at `t_ns`. `scans` gives each scan's LiDAR and the vehicle's pose at the scan's time in
-    /// the vehicle frame at `t_ns`. The ground is fitted to all points together.
+    /// Brings the scans together at `t_ns`. `scans` gives each scan's LiDAR and the vehicle's pose at the scan's time
+    /// in the vehicle frame at `t_ns`. The ground is fitted to all points together.
     pub fn new(
         t_ns: i64,
         scans: Vec<(&Lidar, Arc<LidarScan>, Transform)>,
@@ -85,8 +85,8 @@ impl LidarMoment {
         })
     }
 
-    /// Points above the ground within a radar's vertical field of view, in the horizontal plane of the vehicle frame that
-    /// `vehicle_from_moment` leads to: for a radar that measures no elevation.
+    /// Points above the ground within a radar's vertical field of view, in the horizontal plane of the vehicle frame
+    /// that `vehicle_from_moment` leads to: for a radar that measures no elevation.
     pub fn horizontal_index(&self, radar: &Radar, vehicle_from_moment: &Transform) -> NeighborIndex {
         let radar_from_vehicle = radar.vehicle_from_radar.inverse();
         let (mut points, mut ids) = (Vec::new(), Vec::new());
@@ -100,7 +100,8 @@ impl LidarMoment {
         NeighborIndex::new(&points, &ids)
     }
 
-    /// A point with its uncertainty along its own ray (METHOD 4.4), in the frame that `vehicle_from_moment` leads to.
+    /// A point with its uncertainty along its own ray (docs/method.md, section 4), in the frame that
+    /// `vehicle_from_moment` leads to.
     pub fn reference(&self, id: u32, vehicle_from_moment: &Transform) -> Reference {
         let (part, point) = self.find(id);
         let vehicle_from_lidar = vehicle_from_moment * part.moment_from_lidar;

@@ -1,5 +1,5 @@
-//! What surrounds one radar scan: its detections with their uncertainty, the ground, the LiDAR scans and images nearest in time,
-//! the neighbouring radar scans, and the one distance in which all of them are compared.
+//! What surrounds one radar scan: its detections with their uncertainty, the ground, the LiDAR scans and images nearest
+//! in time, the neighbouring radar scans, and the one distance in which all of them are compared.
 
 mod association;
 mod camera;
@@ -21,7 +21,7 @@ pub use camera::{
 pub use detections::{Detections, Located};
 pub use doppler::compensated_doppler;
 pub use floor::LocalGround;
-pub use frame::Frame;
+pub use frame::{Frame, Unreadable};
 pub use ground::{Ground, Plane};
 pub use lidar::{LidarMoment, LidarView};
 pub use mismatch::{Reference, Spread, distance_per_mismatch, mismatch, plausibility};

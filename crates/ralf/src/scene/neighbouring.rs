@@ -11,7 +11,7 @@ pub struct TrackingStep {
     pub j: isize,
     /// Time of the same radar's scan, ns.
     pub t_ns: i64,
-    /// That scan, and with `tracking.sources = "all"` the other radars' nearest in time; each with the transform into the
-    /// vehicle frame at the reference scan's time.
+    /// That scan, and with `tracking.sources = "all"` the other radars' nearest in time; each with the transform into
+    /// the vehicle frame at the reference scan's time.
     pub clouds: Vec<(Arc<Detections>, Transform)>,
 }

@@ -94,7 +94,7 @@ impl Plot<'_> {
 
     /// Those that the labels were made with, except that every pixel which has a depth is calibrated.
     fn settings(&self) -> anyhow::Result<Config> {
-        let mut config = read_record(&self.arguments.labels)?.settings;
+        let mut config = read_record(&self.arguments.labels)?.settings.method;
         config.camera.stride = 1;
         config.camera.max_depth = f64::INFINITY;
         config.ground.camera_margin = f64::NEG_INFINITY;
@@ -119,7 +119,7 @@ impl Plot<'_> {
             camera: &sequence.rig.cameras[camera],
             t_ns,
             image: self.pictures.reader.image(camera, image).map_err(anyhow::Error::from_boxed)?,
-            moment: window.image(camera, image).map_err(anyhow::Error::from_boxed)?,
+            moment: window.image(camera, image),
             lidar: lidar.map(|lidar| lidar.all_points()).unwrap_or_default(),
             occlusion_window: config.camera.occlusion_window,
         })

@@ -3,7 +3,7 @@
 mod camera;
 
 use crate::Outcome;
-use crate::cli::{DatasetArgs, the_only};
+use crate::cli::{ChangedArgs, DatasetArgs, the_only};
 use crate::progress::say;
 use clap::Args;
 use ralf_data::result::read_labelled_rows;
@@ -31,6 +31,8 @@ pub(crate) struct PlotArgs {
     /// What `ralf label` wrote
     #[arg(value_name = "OUT")]
     labels: PathBuf,
+    #[command(flatten)]
+    changed: ChangedArgs,
     /// Number of the scan
     #[arg(long, value_name = "N", required_unless_present = "all")]
     scan: Option<usize>,
@@ -59,7 +61,7 @@ pub(crate) struct PlotArgs {
 
 /// Draws a picture.
 pub(crate) fn run(arguments: &PlotArgs) -> anyhow::Result<Outcome> {
-    let recording = arguments.dataset.open_labelled(&arguments.labels)?;
+    let recording = arguments.dataset.open_labelled(&arguments.labels, &arguments.changed)?;
     let recording = match camera::depth_store(arguments)? {
         Some(store) => store.attach(recording),
         None => recording,

@@ -9,9 +9,10 @@ pub(crate) mod raw;
 pub(crate) mod rig;
 mod source;
 pub(crate) mod tables;
+mod values;
 
-pub(crate) use rig::degrees;
 pub use source::LayoutSequence;
+pub(crate) use values::degrees;
 
 use crate::error::DataError;
 use crate::read::{Recording, SequenceReader};

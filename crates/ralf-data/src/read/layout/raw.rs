@@ -3,6 +3,7 @@
 use crate::disk::files;
 use crate::error::DataError;
 use ralf::sensors::DepthOutput;
+use ralf_files::Kind;
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 
@@ -118,7 +119,7 @@ pub(crate) struct DepthToml {
 impl SequenceToml {
     /// The file, and a sentence for each key in it that has no meaning.
     pub(crate) fn read(file: &Path) -> Result<(Self, Vec<String>), DataError> {
-        let text = files::read_text(file)?;
+        let text = files::read_text(file, Kind::Settings)?;
         let mut warnings = Vec::new();
         let unknown = |key: serde_ignored::Path<'_>| {
             warnings.push(format!("{}: unknown key `{key}` ignored", file.display()));

@@ -241,12 +241,13 @@ fn measurements_are_read_to_the_last_field() {
 fn scans_keep_their_names_in_the_tables() {
     let set = DataSet::new();
     let scene = set.open().unwrap();
-    let token = |scan| scene.nuscenes_key(0, scan).map(|key| (key.version, key.sample_data_token));
+    let origin = scene.origin().and_then(|origin| origin.downcast_ref::<super::NuScenesOrigin>()).unwrap();
+    let token = |scan| origin.sample_data_token(0, scan).map(|token| (origin.version.clone(), token));
     // Of the fixture's tables: a token is the file's name.
     for (scan, file) in [(0, "samples/RADAR_FRONT/a.pcd"), (2, "sweeps/RADAR_FRONT/c.pcd")] {
         assert_eq!(token(scan), Some((VERSION.to_owned(), file.to_owned())));
     }
-    assert_eq!((token(3), scene.nuscenes_key(9, 0)), (None, None));
+    assert_eq!((token(3), origin.sample_data_token(9, 0)), (None, None));
 }
 
 #[test]

@@ -3,8 +3,8 @@
 use super::guess::{self, Guess};
 use super::messages::Messages;
 use super::survey;
+use super::topics::TopicKind;
 use crate::error::DataError;
-use ralf::config::TopicKind;
 use ralf_ros::container::{Topic, recognises};
 use ralf_ros::message::{CameraInfo, Message};
 use serde::Serialize;

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::read::SequenceReader;
-use ralf::config::Config;
+use crate::settings::Settings;
 use ralf::sensors::{Elevation, Intrinsics};
 use ralf::space::Point;
 use ralf_ros::message::{
@@ -161,7 +161,7 @@ imu = { topic = '/imu', kind = 'imu' }
 ";
 
 fn table(text: &str) -> Topics {
-    Config::from_toml(text, &[]).unwrap().topics
+    Settings::from_toml(text, &[]).unwrap().topics
 }
 
 fn open_file(path: &Path, text: &str) -> Result<Box<dyn SequenceReader>, DataError> {

@@ -1,4 +1,4 @@
-//! From the depth images of one camera image to a metric point cloud in the vehicle frame (METHOD 5.3 to 5.6).
+//! From the depth images of one camera image to a metric point cloud in the vehicle frame (docs/method.md, section 5).
 
 use super::depth::RelativeDepth;
 use super::monitor::{ViewReport, ViewState};
@@ -31,7 +31,8 @@ pub struct CalibratedView {
 /// What surrounds an image when its depth is calibrated.
 #[derive(Clone, Copy)]
 pub struct Surroundings<'a> {
-    /// Points of all LiDARs, the ground's too, in the vehicle frame at the image's time; `None` without a scan near enough.
+    /// Points of all LiDARs, the ground's too, in the vehicle frame at the image's time; `None` without a scan near
+    /// enough.
     pub lidar: Option<&'a [Point]>,
     /// Height above the ground of a point in that frame, m; `None` where there is no ground.
     pub height: &'a dyn Fn(&Point) -> Option<f64>,
@@ -41,8 +42,8 @@ pub struct Surroundings<'a> {
 
 /// Calibrates the depth images of one camera image, one per straight view.
 ///
-/// The error says what was expected and found where the depth images aren't those of the views; then all views of the image
-/// have failed.
+/// The error says what was expected and found where the depth images aren't those of the views; then all views of the
+/// image have failed.
 pub fn calibrate(
     camera: &Camera,
     views: &[StraightView],

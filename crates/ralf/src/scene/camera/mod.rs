@@ -1,9 +1,9 @@
 //! The cameras' images around a moment, and the metric depth of what they show.
 //!
-//! What a depth network gave for a [`StraightView`](crate::sensors::StraightView) becomes metric in [`calibrate()`]: LiDAR points
-//! are projected into the view ([`project_points`]), those that the camera cannot see leave, the rest scale the relative depth
-//! around them, a monitor judges the outcome ([`ViewReport`]), and the calibrated pixels return to the vehicle frame as
-//! [`CameraPoint`]s.
+//! What a depth network gave for a [`StraightView`](crate::sensors::StraightView) becomes metric in [`calibrate()`]:
+//! LiDAR points are projected into the view ([`project_points`]), those that the camera cannot see leave, the rest
+//! scale the relative depth around them, a monitor judges the outcome ([`ViewReport`]), and the calibrated pixels
+//! return to the vehicle frame as [`CameraPoint`]s.
 
 mod calibrate;
 mod depth;

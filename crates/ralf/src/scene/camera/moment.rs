@@ -48,7 +48,8 @@ pub struct Seen {
 /// What an image is calibrated with.
 #[derive(Clone, Copy)]
 pub struct Calibration<'a> {
-    /// Points of all LiDARs, the ground's too, in the vehicle frame at the image's time; `None` without a scan near enough.
+    /// Points of all LiDARs, the ground's too, in the vehicle frame at the image's time; `None` without a scan near
+    /// enough.
     pub lidar: Option<&'a [Point]>,
     /// Height above the ground of a point in that frame, m; `None` where there is no ground.
     pub height: &'a dyn Fn(&Point) -> Option<f64>,

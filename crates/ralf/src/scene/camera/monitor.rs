@@ -1,4 +1,4 @@
-//! Whether a view's calibrated depth can be trusted (METHOD 5.6).
+//! Whether a view's calibrated depth can be trusted (docs/method.md, section 5).
 
 use super::grid::PixelGrid;
 use super::scaling::{ScaleSample, Scaling, median};
@@ -11,8 +11,8 @@ use serde::{Deserialize, Serialize};
 pub struct ViewReport {
     /// Whether the view is used.
     pub state: ViewState,
-    /// Median of `|Z - Z_lidar| / Z_lidar` over the samples of odd index, calibrated by those of even index. `None` with
-    /// fewer than two samples.
+    /// Median of `|Z - Z_lidar| / Z_lidar` over the samples of odd index, calibrated by those of even index. `None`
+    /// with fewer than two samples.
     pub residual: Option<f64>,
     /// LiDAR points in the view that nothing occludes, on pixels that have a depth.
     pub samples: usize,

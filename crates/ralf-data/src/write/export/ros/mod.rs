@@ -31,6 +31,7 @@ use crate::disk::files;
 use crate::disk::files::{beside, remove};
 use crate::error::DataError;
 use crate::read::SequenceReader;
+use crate::result::{OutFolder, WriterLock};
 use ralf_ros::container::{Container, recognises};
 use ralf_ros::writer::{Compression, MessageWriter, WriteError};
 use recorder::Recorder;
@@ -66,6 +67,14 @@ impl RosFormat {
         }
     }
 
+    /// The same with the dot.
+    pub(super) fn ending(self) -> &'static str {
+        match self {
+            Self::Mcap => ".mcap",
+            Self::Bag => ".bag",
+        }
+    }
+
     fn create(self, file: &Path) -> Result<FileWriter, DataError> {
         let open = BufWriter::new(File::create(file).map_err(DataError::io(file))?);
         let writer = match self {
@@ -80,8 +89,8 @@ impl RosFormat {
 pub(super) struct Ros(pub(super) RosFormat);
 
 impl Writer for Ros {
-    fn sequence(&mut self, folder: &Path, sequence: &mut LabelledSequence) -> Result<(), DataError> {
-        let file = folder.join(format!("{}.{}", sequence.name(), self.0.extension()));
+    fn sequence(&mut self, folder: &OutFolder, sequence: &mut LabelledSequence) -> Result<(), DataError> {
+        let file = folder.file(&sequence.names.sequence.and(self.0.ending()));
         let (reader, sensors) = (sequence.reader, sequence.options.sensors);
         let recorder = Recorder::new(self.0.create(&file)?, &file, reader, sensors, true)?;
         recorder.record(Some(sequence), &|_| {})
@@ -101,7 +110,8 @@ pub fn write_ros(
     format: RosFormat,
     progress: &dyn Fn(usize),
 ) -> Result<Option<PathBuf>, DataError> {
-    let settings_file = file.with_extension("toml");
+    let _lock = WriterLock::beside(file)?;
+    let settings_file = settings_file(file);
     if let Some(there) = [file, &settings_file].into_iter().find(|file| file.exists()) {
         return Err(DataError::content(there, "file", "none of this name yet", "one"));
     }
@@ -125,6 +135,17 @@ pub fn write_ros(
         let _ = remove(&part);
     }
     written
+}
+
+/// Where the settings of a recording go: `t.toml` beside `t.mcap`, and `t.bag.toml` beside `t.bag` where that is another's.
+fn settings_file(file: &Path) -> PathBuf {
+    let usual = file.with_extension("toml");
+    if !usual.exists() {
+        return usual;
+    }
+    let mut name = file.as_os_str().to_owned();
+    name.push(".toml");
+    name.into()
 }
 
 /// The file could not be written: with all reasons, for libraries hide the system's behind their own.

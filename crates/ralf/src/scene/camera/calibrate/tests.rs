@@ -126,7 +126,8 @@ fn pixels_without_depth_and_points_without_place_are_passed_over() {
         *value = [*value, f32::NAN, 0.0, -1.0][i / WIDTH % 4];
     }
     let found = scene.run(DepthOutput::Depth, &config(DepthScaling::Local));
-    // Rows 4, 12, ... are divisible by four, so their pixels keep their depth; of the LiDAR's rows 1, 4, 7, ... a quarter.
+    // Rows 4, 12, ... are divisible by four, so their pixels keep their depth; of the LiDAR's rows 1, 4, 7, ... a
+    // quarter.
     assert_eq!(found[0].points.len(), found[1].points.len());
     assert!(found[0].report.samples < found[1].report.samples / 3);
     scene.depth[0].values.fill(f32::NAN);

@@ -1,6 +1,17 @@
-//! What a recording holds, how regularly, and what is missing: from its times alone, without reading a measurement.
+//! What a recording holds, how regularly, and what is missing: from its times, and by reading its scans once.
+
+mod clocks;
+mod path;
+mod readable;
+mod steps;
+
+use crate::read::SequenceReader;
+use path::Path;
+pub use readable::Unreadable;
+use steps::quantile;
 
 use ralf::config::{Config, nanoseconds};
+use ralf::sensors::Camera;
 use ralf::sensors::Sequence;
 use ralf::space::sync;
 use serde::Serialize;
@@ -17,8 +28,10 @@ pub struct Inspection {
     pub title: String,
     /// From the first radar scan to the last, s.
     pub seconds: f64,
-    /// Length of the vehicle's path between these, m.
+    /// Length of the vehicle's path between these, m, as far as its motion is known.
     pub path_m: f64,
+    /// How long the motion isn't known between these, for odometry and poses pause, s.
+    pub motion_unknown_s: f64,
     /// Samples of wheel odometry.
     pub odometry_samples: usize,
     /// 6-DoF poses; where there are some, they are used.
@@ -27,6 +40,8 @@ pub struct Inspection {
     pub sensors: Vec<SensorInspection>,
     /// What the labeler will miss, a sentence each.
     pub missing: Vec<String>,
+    /// Scans that can't be read; empty as long as none was tried.
+    pub unreadable: Vec<Unreadable>,
 }
 
 /// What one sensor delivers.
@@ -61,21 +76,31 @@ pub struct Gap {
 
 impl Inspection {
     /// Looks at a sequence; tolerances are those of the settings.
-    pub fn of(sequence: &Sequence, config: &Config) -> Self {
+    pub fn new(reader: &dyn SequenceReader, config: &Config) -> Self {
+        let sequence = reader.sequence();
         let all_scans = sequence.times.radars.iter().flatten();
         let span = all_scans.clone().min().zip(all_scans.max());
         let sensors = sensors(sequence, config);
         let (first, last) = span.map_or((0, 0), |(first, last)| (*first, *last));
+        let path = Path::new(&sequence.motion, [first, last]);
         Self {
             name: sequence.name.clone(),
             title: sequence.title.clone(),
             seconds: last.abs_diff(first) as f64 * 1e-9,
-            path_m: path_length(sequence, first, last),
+            path_m: path.metres,
+            motion_unknown_s: path.unknown_s,
             odometry_samples: sequence.motion.odometry().len(),
             poses: sequence.motion.poses().len(),
-            missing: missing(sequence, &sensors, config),
+            missing: [missing(reader, &sensors, config), path.missing(), clocks::strange(sequence)].concat(),
             sensors,
+            unreadable: Vec::new(),
         }
+    }
+
+    /// Reads every radar and LiDAR scan once, side by side in so many threads, and names those that can't be read. `progress`
+    /// is told of each that is done.
+    pub fn try_scans(&mut self, reader: &dyn SequenceReader, jobs: usize, progress: &(dyn Fn() + Sync)) {
+        self.unreadable = readable::unreadable_scans(reader, jobs, progress);
     }
 }
 
@@ -122,16 +147,25 @@ fn sensor(
     }
 }
 
-fn missing(sequence: &Sequence, sensors: &[SensorInspection], config: &Config) -> Vec<String> {
+fn missing(reader: &dyn SequenceReader, sensors: &[SensorInspection], config: &Config) -> Vec<String> {
     let mut missing = Vec::new();
     let mut say = |applies: bool, text: String| {
         if applies {
             missing.push(text);
         }
     };
+    let sequence = reader.sequence();
     let (rig, times) = (&sequence.rig, &sequence.times);
     say(rig.lidars.is_empty(), "no LiDAR: no LiDAR matching, and no scale for depth images".into());
     say(rig.cameras.is_empty(), "no camera: nothing looks into the LiDAR's blind spot".into());
+    for (camera, Camera { name, .. }) in rig.cameras.iter().enumerate() {
+        say(
+            !times.cameras[camera].is_empty() && !reader.has_depth(camera),
+            format!(
+                "{name}: no depth images, so it is not used: `ralf label --depth-model` or `ralf depth` makes them"
+            ),
+        );
+    }
     say(
         sequence.motion.poses().is_empty(),
         "no 6-DoF poses: the motion is integrated from wheel odometry".into(),
@@ -157,20 +191,6 @@ fn missing(sequence: &Sequence, sensors: &[SensorInspection], config: &Config) -
 fn offset_to_nearest(times: &[i64], t_ns: i64) -> Option<i64> {
     let nearest = sync::nearest(times, t_ns, i64::MAX)?;
     i64::try_from(times[nearest].abs_diff(t_ns)).ok()
-}
-
-/// The path in steps of 0.1 s, m.
-fn path_length(sequence: &Sequence, first: i64, last: i64) -> f64 {
-    const STEP: usize = 100_000_000;
-    let places = (first..last).step_by(STEP).chain([last]);
-    let places: Vec<_> = places.map(|t| sequence.motion.odom_from_vehicle(t).translation.vector).collect();
-    places.windows(2).map(|pair| (pair[1] - pair[0]).norm()).sum()
-}
-
-fn quantile(values: &[i64], share: f64) -> Option<i64> {
-    let mut sorted = values.to_vec();
-    sorted.sort_unstable();
-    sorted.get(((sorted.len() as f64 - 1.0).max(0.0) * share).round() as usize).copied()
 }
 
 fn ms(ns: i64) -> f64 {

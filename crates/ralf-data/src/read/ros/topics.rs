@@ -1,7 +1,11 @@
-//! Which topic of a ROS recording is which sensor. The method needs none of it: readers of such recordings do.
+//! Which topic of a ROS recording is which sensor: the table `topics` of the settings.
 
-use super::{ConfigError, Topics};
+use ralf::config::ConfigError;
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+
+/// `topics`: by the sensor's name, which topic of a ROS recording it is. Other recordings need none.
+pub type Topics = BTreeMap<String, TopicConfig>;
 
 /// `topics.NAME`: a topic, and what it is. NAME becomes the sensor's.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
@@ -100,7 +104,7 @@ impl TopicConfig {
 }
 
 /// Refuses keys that have no meaning for their kind, and cameras and sensors that lack one.
-pub(super) fn check(topics: &Topics) -> Result<(), ConfigError> {
+pub(crate) fn check(topics: &Topics) -> Result<(), ConfigError> {
     for (name, topic) in topics {
         let refused = |key: &str, expected: String| {
             Err(ConfigError::Value { key: format!("topics.{name}.{key}"), expected })
@@ -120,11 +124,11 @@ pub(super) fn check(topics: &Topics) -> Result<(), ConfigError> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::Config;
+    use crate::settings::Settings;
 
     #[test]
     fn keys_are_checked_by_kind() {
-        let error = |text: &str| Config::from_toml(text, &[]).unwrap_err().to_string();
+        let error = |text: &str| Settings::from_toml(text, &[]).unwrap_err().to_string();
         let radar = "[topics.front]\ntopic = \"/front\"\nkind = \"radar\"\n";
         assert_eq!(error(radar), "setting `topics.front.model`: expected to be given");
         let info = format!("{radar}model = \"generic\"\ninfo = \"/info\"");
@@ -138,7 +142,7 @@ mod tests {
                 .contains("topics.tf.stamps")
         );
         assert!(error("[topics.tf]\ntopic = \"/tf\"\nkind = \"tree\"").contains("tf_static"));
-        let config = Config::from_toml(&format!("{radar}model = \"generic\""), &[]).unwrap();
-        assert_eq!(Config::from_toml(&config.to_toml().unwrap(), &[]), Ok(config));
+        let config = Settings::from_toml(&format!("{radar}model = \"generic\""), &[]).unwrap();
+        assert_eq!(Settings::from_toml(&config.to_toml().unwrap(), &[]), Ok(config));
     }
 }

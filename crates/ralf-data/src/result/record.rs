@@ -1,16 +1,16 @@
 //! `run.json`: what was done, with what, and how it went.
 
 use super::json::read_json;
-use super::sequence_record::{CameraRecord, NotLabelled, RadarRecord, SequenceRecord};
+use super::sequence_record::{CameraRecord, NotLabelled, RadarRecord, SequenceRecord, UnreadableScan};
 use crate::error::DataError;
 use crate::read::Recording;
-use ralf::config::Config;
+use crate::settings::Settings;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
 use std::path::Path;
 
 /// The record of an output folder.
-pub(super) const RECORD: &str = "run.json";
+pub(crate) const RECORD: &str = "run.json";
 
 /// The content of `run.json`: sequences that were labelled by one version of the program with the same settings, be it at
 /// once or one after the other.
@@ -21,7 +21,7 @@ pub struct RunRecord {
     /// Format of the recording.
     pub format: String,
     /// All settings, resolved.
-    pub settings: Config,
+    pub settings: Settings,
     /// Every file that was read, by sequence and name.
     pub inputs: Vec<Input>,
     /// In the order of their names.
@@ -39,7 +39,10 @@ pub struct Input {
     pub file: String,
     /// Its size.
     pub bytes: u64,
-    /// Of its content.
+    /// When it was changed last before it was read, ns since 1970: a file of this size and time is taken for the same.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub mtime_ns: Option<i64>,
+    /// Of its content; empty where it can't be read.
     pub blake3: String,
 }
 
@@ -63,11 +66,11 @@ pub fn read_record(out: &Path) -> Result<RunRecord, DataError> {
 
 impl RunRecord {
     /// The record of a folder that holds no sequence yet.
-    pub(super) fn new(recording: &Recording, config: &Config) -> Self {
+    pub(crate) fn new(recording: &Recording, settings: &Settings) -> Self {
         Self {
             version: env!("CARGO_PKG_VERSION").to_owned(),
             format: recording.format.to_owned(),
-            settings: config.clone(),
+            settings: settings.clone(),
             inputs: Vec::new(),
             sequences: Vec::new(),
             timings: Timings::default(),
@@ -75,7 +78,7 @@ impl RunRecord {
     }
 
     /// Whether the sequences of both may stand side by side.
-    pub(super) fn is_like(&self, other: &Self) -> bool {
+    pub(crate) fn is_like(&self, other: &Self) -> bool {
         (&self.version, &self.format, &self.settings) == (&other.version, &other.format, &other.settings)
     }
 
@@ -85,7 +88,7 @@ impl RunRecord {
     }
 
     /// Adds sequences, which it does not have, with their inputs.
-    pub(super) fn add(&mut self, sequences: impl IntoIterator<Item = (SequenceRecord, Vec<Input>)>) {
+    pub(crate) fn add(&mut self, sequences: impl IntoIterator<Item = (SequenceRecord, Vec<Input>)>) {
         for (sequence, inputs) in sequences {
             self.sequences.push(sequence);
             self.inputs.extend(inputs);
@@ -95,7 +98,7 @@ impl RunRecord {
     }
 
     /// Keeps sequences, with their inputs.
-    pub(super) fn retain(&mut self, names: impl Fn(&SequenceRecord) -> bool) {
+    pub(crate) fn retain(&mut self, names: impl Fn(&SequenceRecord) -> bool) {
         self.sequences.retain(names);
         let left: BTreeSet<&str> = self.sequences.iter().map(|sequence| sequence.name.as_str()).collect();
         self.inputs.retain(|input| left.contains(input.sequence.as_str()));
@@ -106,6 +109,13 @@ impl RunRecord {
         self.sequences
             .iter()
             .flat_map(|sequence| sequence.not_labelled.iter().map(|scan| (sequence.name.as_str(), scan)))
+    }
+
+    /// LiDAR scans that labelling had to do without, for they can't be read, with their sequence.
+    pub fn unreadable(&self) -> impl Iterator<Item = (&str, &UnreadableScan)> {
+        self.sequences
+            .iter()
+            .flat_map(|sequence| sequence.unreadable.iter().map(|scan| (sequence.name.as_str(), scan)))
     }
 
     /// All cameras of all sequences.
