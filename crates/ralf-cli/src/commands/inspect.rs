@@ -18,7 +18,8 @@ use std::path::{Path, PathBuf};
 /// Arguments of `ralf inspect`.
 #[derive(Debug, Args)]
 #[command(after_help = "\
-Every radar and LiDAR scan is read once, so that those that can't be are found before labelling. Of a folder that `ralf label` wrote it tells what was labelled, and which cameras failed, and why.
+Every radar and LiDAR scan is read once, so that those that can't be are found before labelling. Shown a folder that
+`ralf label` wrote, it tells what was labelled, and which cameras failed, and why.
 
 Examples:
   ralf inspect recordings/city --sequence 00
@@ -53,21 +54,16 @@ pub(crate) fn run(arguments: &InspectArgs) -> anyhow::Result<Outcome> {
         return topics.write(file);
     }
     settings.topics = arguments.dataset.topics_or(&settings.topics)?;
-    let recording = arguments.dataset.open_with(&settings.topics);
-    let recording = match (recording, &topics) {
-        (Ok(recording), _) => recording,
-        // The topics are what tells why.
-        (Err(error), Some(topics)) => {
-            print(&topics.page(&settings.topics)?)?;
-            return Err(error);
-        }
-        (Err(error), None) => return Err(error),
-    };
-    let looks: Vec<_> = recording
-        .sequences
-        .iter()
-        .map(|reader| look_at(reader.as_ref(), &settings.method, arguments.quick))
-        .collect();
+    let opened = arguments.dataset.open_with(&settings.topics);
+    if let (Err(_), Some(topics)) = (&opened, &topics) {
+        // They tell why.
+        print(&topics.page(&settings.topics)?)?;
+    }
+    let recording = opened?;
+    let mut looks = Vec::new();
+    for reader in &recording.sequences {
+        looks.push(look_at(reader.as_ref(), &settings.method, arguments.quick));
+    }
     if arguments.json {
         let mut look = serde_json::json!({ "format": recording.format, "sequences": looks });
         if let Some(topics) = topics {

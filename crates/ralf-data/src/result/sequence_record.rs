@@ -50,7 +50,7 @@ pub(crate) struct ScanNotes {
 impl ScanNotes {
     /// What a frame tells.
     pub(crate) fn new(frame: &Frame) -> Self {
-        let name = |moment: &ImageMoment| frame.rig.cameras[moment.camera].name.clone();
+        let name = |moment: &ImageMoment| frame.rig.cameras[moment.id.camera].name.clone();
         let images = frame.images.iter().map(|view| (name(&view.moment), ImageRecord::of(&view.moment)));
         let unreadable = frame.unreadable.iter().cloned();
         let unreadable = unreadable.map(|Unreadable { sensor, index, reason }| UnreadableScan {
@@ -126,7 +126,7 @@ pub struct NotLabelled {
 impl ImageRecord {
     pub(crate) fn of(moment: &ImageMoment) -> Self {
         let views = moment.views.iter().map(|view| view.report).collect();
-        Self { image: moment.image, views, problem: moment.problem.clone() }
+        Self { image: moment.id.image, views, problem: moment.problem.clone() }
     }
 }
 
