@@ -98,19 +98,9 @@ impl<'a> Labeler<'a> {
                 | flag::when(w.is_none(), flag::UNOBSERVED);
             let semantic = lidar_match.and_then(|found| found.semantic);
             let w = w.unwrap_or(0.0);
-            labels.push(DetectionLabel {
-                d_lm,
-                d_cm,
-                d_tr,
-                w_lm,
-                w_cm,
-                w_tr,
-                w_opt,
-                w,
-                plausible,
-                flags,
-                semantic,
-            });
+            let label =
+                DetectionLabel { d_lm, d_cm, d_tr, w_lm, w_cm, w_tr, w_opt, w, plausible, flags, semantic };
+            labels.push(label);
         }
         labels
     }
