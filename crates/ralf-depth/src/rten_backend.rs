@@ -14,7 +14,7 @@ pub(crate) const NAME: &str = "rten";
 /// A loaded network.
 pub(crate) struct RtenNetwork {
     model: Model,
-    /// Of one thread each: a run always takes the same way through the sums, and waits for no other.
+    /// Pools of one thread each: a run always takes the same way through the sums, and waits for no other.
     pools: Spares<Arc<ThreadPool>>,
 }
 

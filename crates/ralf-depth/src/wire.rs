@@ -1,5 +1,5 @@
-//! Whether the bytes of an `.onnx` file hang together, looked at before a runtime sees them: it takes each length at its word and
-//! asks for as much memory.
+//! Whether the bytes of an `.onnx` file hang together, looked at before a runtime sees them: it takes each length at
+//! its word and asks for as much memory.
 //!
 //! The file is a Protocol Buffers message of type `ModelProto` (onnx.proto), and messages lie in each other.
 

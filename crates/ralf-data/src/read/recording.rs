@@ -27,8 +27,8 @@ pub trait SequenceReader: Source {
         None
     }
 
-    /// What only its own format knows of it, such as the names that the format's tables give to scans: an export into that format
-    /// asks for the type that its reader hands out.
+    /// What only its own format knows of it, such as the names that the format's tables give to scans: an export into
+    /// that format asks for the type that its reader hands out.
     fn origin(&self) -> Option<&dyn Any> {
         None
     }
@@ -49,7 +49,8 @@ pub trait SequenceReader: Source {
 pub struct TruthLabels {
     /// As they stand in a `.label` file.
     pub labels: Vec<Label>,
-    /// Why each is an artifact: [`ralf::label::Cause`] as a number, 0 of what is plausible. No file that labelling reads.
+    /// Why each is an artifact: [`ralf::label::Cause`] as a number, 0 of what is plausible. No file that labelling
+    /// reads.
     pub causes: Vec<u8>,
 }
 

@@ -38,7 +38,7 @@ impl Card {
 
     /// Reads a card's text. Errors name `file`.
     pub fn parse(file: &Path, text: &str) -> Result<Self, DepthError> {
-        let mut keys = Keys::of(file, text)?;
+        let mut keys = Keys::parse(file, text)?;
         let [input, fit, channels, divide_by, mean, std, output] = REQUIRED;
         let card = Self {
             input: keys.required(input, SIZE)?,
