@@ -61,6 +61,13 @@ export async function openKeeper(store: string, freshName: () => string): Promis
   return { found, keep };
 }
 
+/** Where the browser has no database: nothing is kept, and whoever wants to is told why. */
+export function keepNothing(reason: unknown): Keeper {
+  const keep = (waiting: readonly Pending[]): Promise<void> =>
+    waiting.length === 0 ? Promise.resolve() : Promise.reject(reason);
+  return { found: [], keep };
+}
+
 /** The name of this window, the same over a reload. */
 function ownWindow(freshName: () => string): string {
   const known = sessionStorage.getItem(WINDOW) ?? freshName();
