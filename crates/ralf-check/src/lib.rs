@@ -19,6 +19,7 @@ pub mod doppler;
 mod ground;
 mod judge;
 mod overlap;
+mod plan_field;
 mod remedy;
 mod sample;
 mod statistics;

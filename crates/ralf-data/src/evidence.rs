@@ -122,7 +122,7 @@ impl Task<'_> {
         };
         let truth: Vec<Option<bool>> =
             self.truth.labels(id)?.iter().map(|label| truth_of(label.id)).collect();
-        let detections = frame.detections.located.len();
+        let detections = frame.scan.len();
         if truth.len() != detections {
             let expected = format!("{detections} as in the scan");
             let file = self.truth.file(id);

@@ -1,10 +1,9 @@
 //! `ralf check`: is a recording what it says?
 
-pub(crate) mod page;
+mod page;
 
-use crate::Outcome;
-use crate::cli::DatasetArgs;
-use crate::settings::SettingsArgs;
+use crate::arguments::{DatasetArgs, SettingsArgs};
+use crate::outcome::Outcome;
 use crate::text::print;
 use clap::Args;
 use ralf_check::{SequenceCheck, check};
@@ -12,8 +11,9 @@ use ralf_check::{SequenceCheck, check};
 /// Arguments of `ralf check`.
 #[derive(Debug, Args)]
 #[command(after_help = "\
-Reads some hundred scans of each radar and some thirty of each LiDAR, and asks them about each other: range rates about the motion,
-detections about LiDAR points, LiDAR points about those half a second later. `docs/check.md` tells what is judged, and how.
+Reads some hundred scans of each radar and some thirty of each LiDAR, and asks them about each other: range rates \
+about the motion, detections about LiDAR points, LiDAR points about those half a second later. docs/check.md tells what \
+is judged, and how.
 
 Examples:
   ralf check recordings/city

@@ -2,12 +2,11 @@
 
 mod ros;
 
-use crate::cli::DatasetArgs;
-use crate::progress::{STEPS, bar};
+use crate::arguments::{DatasetArgs, SettingsArgs, threads};
+use crate::outcome::{Outcome, UsageError};
+use crate::progress::Progress;
 use crate::run_summary::run_summary;
-use crate::settings::{SettingsArgs, threads};
 use crate::text::{aligned, grouped, print};
-use crate::{Outcome, UsageError};
 use clap::Args;
 use ralf::config::Config;
 use ralf::sensors::Timelines;
@@ -51,9 +50,8 @@ pub(crate) fn run(arguments: &InspectArgs) -> anyhow::Result<Outcome> {
     let mut settings = arguments.settings.resolve()?;
     let topics = ros::Look::at(&arguments.dataset)?;
     if let Some(file) = &arguments.write_topics {
-        return topics
-            .ok_or_else(|| UsageError("--write-topics: expected a ROS recording".into()))?
-            .write(file);
+        let topics = topics.ok_or_else(|| UsageError("--write-topics: expected a ROS recording".into()))?;
+        return topics.write(file);
     }
     settings.topics = arguments.dataset.topics_or(&settings.topics)?;
     let opened = arguments.dataset.open_with(&settings.topics);
@@ -73,9 +71,9 @@ pub(crate) fn run(arguments: &InspectArgs) -> anyhow::Result<Outcome> {
         }
         print(&serde_json::to_string_pretty(&look)?)?;
     } else {
-        let head =
-            format!("{} ({}), {} sequence(s)\n", recording.path.display(), recording.format, looks.len());
-        let head = topics.map_or(Ok(String::new()), |topics| topics.page(&settings.topics))? + &head;
+        let head = topics.map_or(Ok(String::new()), |topics| topics.page(&settings.topics))?;
+        let (path, format, count) = (recording.path.display(), recording.format, looks.len());
+        let head = format!("{head}{path} ({format}), {count} sequence(s)\n");
         print(&looks.iter().fold(head, |text, look| text + "\n" + &page(look)))?;
     }
     Ok(Outcome::Done)
@@ -86,9 +84,8 @@ fn look_at(reader: &dyn SequenceReader, config: &Config, quick: bool) -> Inspect
     if !quick {
         let Timelines { radars, lidars, .. } = &reader.sequence().times;
         let scans = radars.iter().chain(lidars).map(|times| times.len() as u64).sum();
-        let bar = bar(scans, STEPS, format!("reading {}", look.name));
-        look.try_scans(reader, threads(None), &|| bar.inc(1));
-        bar.finish_and_clear();
+        let progress = Progress::of_steps(scans, format!("reading {}", look.name));
+        look.try_scans(reader, threads(None), &|| progress.advance(1));
     }
     look
 }

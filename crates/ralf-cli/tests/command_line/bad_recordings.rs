@@ -118,8 +118,9 @@ fn a_motion_that_is_not_finite() {
 fn a_camera_without_images() {
     let dataset = Dataset::new();
     let text = fs::read_to_string(dataset.file("sequence.toml")).unwrap();
-    let camera = "[[camera]]\nname = \"camera_front\"\ntranslation = [2, 0, 1]\nquaternion_xyzw = [-0.5, 0.5, -0.5, 0.5]\n\
-        width = 64\nheight = 48\nmodel = \"pinhole\"\nfx = 50\nfy = 50\ncx = 32\ncy = 24\n";
+    let camera = "[[camera]]\nname = \"camera_front\"\ntranslation = [2, 0, 1]\n\
+        quaternion_xyzw = [-0.5, 0.5, -0.5, 0.5]\nwidth = 64\nheight = 48\nmodel = \"pinhole\"\n\
+        fx = 50\nfy = 50\ncx = 32\ncy = 24\n";
     dataset.put("sequence.toml", text + camera);
     refused(&dataset, ["00/camera_front: No such file"]);
 }

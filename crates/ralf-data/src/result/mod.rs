@@ -3,6 +3,7 @@
 mod columns;
 mod content;
 pub(crate) mod json;
+mod label_hash;
 mod labelled_run;
 mod lock;
 mod names;

@@ -5,7 +5,7 @@
 
 use crate::disk::files;
 use crate::error::DataError;
-use crate::truth::ground_truth::ScanId;
+use crate::truth::scan_id::ScanId;
 use ralf_files::Kind;
 use std::path::{Path, PathBuf};
 

@@ -4,7 +4,7 @@ use crate::disk::files;
 use crate::disk::label_file::Label;
 use crate::error::DataError;
 use crate::read::Recording;
-use crate::truth::ground_truth::ScanId;
+use crate::truth::scan_id::ScanId;
 use ralf_corrections::{FILE, ScanContent, ScanKey, ScanLayer, read_layer};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};

@@ -26,7 +26,7 @@ mod settings;
 
 use super::Writer;
 use super::labelled::LabelledSequence;
-use super::options::Sensors;
+use super::options::{ExportFormat, Sensors};
 use crate::disk::files;
 use crate::disk::files::{beside, remove};
 use crate::error::DataError;
@@ -53,6 +53,15 @@ pub enum RosFormat {
 type FileWriter = MessageWriter<BufWriter<File>>;
 
 impl RosFormat {
+    /// The kind of recording that an export in this format is; `None` of formats that are none.
+    pub(super) fn of_export(format: ExportFormat) -> Option<Self> {
+        match format {
+            ExportFormat::Mcap => Some(Self::Mcap),
+            ExportFormat::Rosbag1 => Some(Self::Bag),
+            _ => None,
+        }
+    }
+
     /// The kind that a file's name tells of.
     pub fn of_file(file: &Path) -> Option<Self> {
         let found = file.extension()?.to_str()?;
