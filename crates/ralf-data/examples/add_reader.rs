@@ -1,9 +1,10 @@
-//! A reader for a format of one's own: a folder with a table of detections (`radar.csv`) and the vehicle's speed (`speed.csv`).
+//! A reader for a format of one's own: a folder with a table of detections (`radar.csv`) and the vehicle's speed
+//! (`speed.csv`).
 //!
 //!     cargo run -p ralf-data --example add_reader
 //!
-//! It writes such a folder, opens it, says what it holds, and converts it into RALF's own layout, which every command reads. A
-//! reader within the project is the same in a folder of `read/`, with an entry in the table of `read/open.rs`.
+//! It writes such a folder, opens it, says what it holds, and converts it into RALF's own layout, which every command
+//! reads. A reader within the project is the same in a folder of `read/`, with an entry in the table of `read/open.rs`.
 
 #![allow(clippy::print_stdout, reason = "an example shows what it does")]
 
