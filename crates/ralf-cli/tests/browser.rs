@@ -150,8 +150,23 @@ fn plant(dataset: &Path, out: &Path) -> Vec<Value> {
             writer.append(&radar, scan, &table).unwrap();
         }
         writer.finish().unwrap();
+        note(out, &sequence.name, &file);
     }
     planted
+}
+
+/// Has run.json tell of the table as it is now: the run made these labels, as far as anybody can see.
+fn note(out: &Path, sequence: &str, table: &Path) {
+    let file = out.join("run.json");
+    let mut record: Value = serde_json::from_slice(&fs::read(&file).unwrap()).unwrap();
+    let bytes = fs::read(table).unwrap();
+    for known in record["sequences"].as_array_mut().unwrap() {
+        if known["name"] == sequence {
+            known["table"] =
+                json!({ "bytes": bytes.len(), "blake3": blake3::hash(&bytes).to_hex().to_string() });
+        }
+    }
+    fs::write(&file, record.to_string()).unwrap();
 }
 
 fn all_tables(reader: &PlausibilityReader) -> ScanTables {
