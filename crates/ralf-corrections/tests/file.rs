@@ -2,8 +2,8 @@
 #![expect(clippy::unwrap_used, clippy::panic, reason = "helpers of tests fail as tests do")]
 
 use ralf_corrections::{
-    ContentHash, Outcome, Reader, ScanContent, ScanEdit, ScanKey, ScanVersion, Store, StoreError, Stroke, Who,
-    read_layer,
+    ContentHash, Outcome, Reader, ScanContent, ScanEdit, ScanKey, ScanVersion, Store, StoreError, Stroke,
+    Who, read_layer,
 };
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -42,14 +42,8 @@ fn version(scan: u32, hash: Option<ContentHash>) -> ScanVersion {
 }
 
 fn stroke(scan: u32, base: u64, content: Option<ContentHash>) -> Stroke {
-    let edit = ScanEdit {
-        radar: "front".into(),
-        scan,
-        detections: DETECTIONS,
-        content,
-        base,
-        points: vec![1, 2],
-    };
+    let edit =
+        ScanEdit { radar: "front".into(), scan, detections: DETECTIONS, content, base, points: vec![1, 2] };
     Stroke { tool: "lasso".into(), label: Some(99), scans: vec![edit], ..Stroke::of_sequence("00") }
 }
 
@@ -96,7 +90,10 @@ fn an_empty_file_is_no_new_store() {
     fs::write(&folder.file, "").unwrap();
     for error in [Store::open(&folder.file).unwrap_err(), Reader::open(&folder.file).unwrap_err()] {
         let error = error.to_string();
-        assert!(error.contains("expected an SQLite database with RALF's application id, found an empty file"), "{error}");
+        assert!(
+            error.contains("expected an SQLite database with RALF's application id, found an empty file"),
+            "{error}"
+        );
     }
     assert!(read_layer(&folder.file).is_err());
     assert_eq!(fs::read(&folder.file).unwrap(), []);
@@ -183,7 +180,8 @@ fn a_store_of_the_first_version_loses_nothing() {
     assert_eq!(fs::read(&folder.file).unwrap(), before, "reading changes nothing");
     let mut store = Store::open(&folder.file).unwrap();
     assert_eq!(read_layer(&folder.file).unwrap(), layer);
-    let said: Vec<_> = layer.iter().map(|(key, said)| (key.scan, said.len(), said[0].corrections.clone())).collect();
+    let said: Vec<_> =
+        layer.iter().map(|(key, said)| (key.scan, said.len(), said[0].corrections.clone())).collect();
     assert_eq!(said, [(3, 1, vec![(1, 99), (2, 99)]), (4, 1, vec![])]);
     assert_eq!(layer.values().next_back().unwrap()[0].accepted, Some(vec![99; 10]));
     let history = store.history("00", "ada").unwrap();

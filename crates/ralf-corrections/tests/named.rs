@@ -20,7 +20,8 @@ impl Open {
     fn stroke(&mut self, base: u64, point: u32, label: u16, who: &Who) -> Outcome {
         let points = vec![point];
         let edit = ScanEdit { radar: "front".into(), scan: 3, detections: 10, content: None, base, points };
-        let stroke = Stroke { tool: "box".into(), label: Some(label), scans: vec![edit], ..Stroke::of_sequence("00") };
+        let stroke =
+            Stroke { tool: "box".into(), label: Some(label), scans: vec![edit], ..Stroke::of_sequence("00") };
         self.store.apply(&stroke, who).unwrap()
     }
 
@@ -137,7 +138,8 @@ fn undo_takes_a_mark_back_and_redo_sets_it_again() {
 #[test]
 fn undo_takes_back_ones_own_last_stroke_and_nobody_elses() {
     let mut open = Open::new();
-    let [ada, bob] = ["a1", "b2"].map(|id| Who { author: id.into(), name: "anna".into(), tab: None, edit: None });
+    let [ada, bob] =
+        ["a1", "b2"].map(|id| Who { author: id.into(), name: "anna".into(), tab: None, edit: None });
     done(open.stroke(0, 1, 99, &ada));
     done(open.stroke(1, 2, 99, &bob));
     let undone = done(open.undo(&ada));

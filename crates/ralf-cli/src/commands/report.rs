@@ -2,6 +2,7 @@
 
 use crate::Outcome;
 use crate::cli::{ChangedArgs, DatasetArgs};
+use crate::corrections::orphaned;
 use crate::progress::say;
 use clap::Args;
 use indicatif::ProgressBar;
@@ -42,12 +43,16 @@ pub(crate) fn run(arguments: &ReportArgs) -> anyhow::Result<Outcome> {
         scans_per_sequence: arguments.scans_per_sequence,
     };
     let shown = ProgressBar::new_spinner();
-    let html = report.html(&|step| {
+    let page = report.page(&|step| {
         shown.set_message(step.to_owned());
         shown.tick();
     })?;
     shown.finish_and_clear();
-    ralf_data::write_whole(&arguments.output, html.as_bytes())?;
+    ralf_data::write_whole(&arguments.output, page.html.as_bytes())?;
     say(&format!("wrote {}", arguments.output.display()));
-    Ok(Outcome::Done)
+    page.orphaned.iter().for_each(|scan| say(&orphaned(scan)));
+    for sequence in &page.without_labels {
+        say(&format!("sequence {sequence} has no labels: left out"));
+    }
+    Ok(if page.without_labels.is_empty() { Outcome::Done } else { Outcome::Partial })
 }

@@ -26,7 +26,9 @@ fn readers(dataset: &Dataset) -> Vec<Vec<String>> {
     let (data, out) = (dataset.path.as_str(), dataset.out.as_str());
     let place = |name: &str| dataset.beside(name);
     let export = |format: &str| {
-        ["export", data, out, "--to", format, "-o", &place(&format!("exported-{format}"))].map(str::to_owned).to_vec()
+        ["export", data, out, "--to", format, "-o", &place(&format!("exported-{format}"))]
+            .map(str::to_owned)
+            .to_vec()
     };
     let formats = ["mcap", "rosbag1", "semantickitti", "pcd", "npz", "parquet"];
     let mut readers: Vec<Vec<String>> = formats.map(export).to_vec();
@@ -106,7 +108,8 @@ fn corrections_are_not_applied_to_another_content() {
     let export = |name: &str| {
         let path = dataset.beside(name);
         let both = ["--to", "semantickitti", "--sequence", "00"];
-        let ran = ralf(["export", &dataset.path, &dataset.out, both[0], both[1], both[2], both[3], "-o", &path]);
+        let ran =
+            ralf(["export", &dataset.path, &dataset.out, both[0], both[1], both[2], both[3], "-o", &path]);
         (path, ran.exits(0))
     };
     let (before, said) = export("before");
@@ -127,7 +130,12 @@ fn corrections_are_not_applied_to_another_content() {
     ralf(["label", &dataset.path, "-o", &dataset.out]).exits(0);
     let (again, said) = export("again");
     assert!(!said.stderr.contains("not applied"));
-    assert!(tree(again).iter().filter(|(name, _)| name.contains("labels/")).eq(tree(before).iter().filter(|(name, _)| name.contains("labels/"))));
+    assert!(
+        tree(again)
+            .iter()
+            .filter(|(name, _)| name.contains("labels/"))
+            .eq(tree(before).iter().filter(|(name, _)| name.contains("labels/")))
+    );
 }
 
 /// Flips a byte in the middle of a file, or cuts it short.
@@ -153,9 +161,11 @@ fn damaged_results_are_labelled_again_and_this_is_said() {
         ("radar_left/000005.label", true),
     ] {
         damage(&dataset.result(name), cut);
-        ralf(["label", &dataset.path, "-o", &dataset.out])
-            .exits(0)
-            .says(["sequence 00 is labelled again", name, "is not as it was written"]);
+        ralf(["label", &dataset.path, "-o", &dataset.out]).exits(0).says([
+            "sequence 00 is labelled again",
+            name,
+            "is not as it was written",
+        ]);
         assert!(without_timings(&dataset.out) == whole, "{name}");
         ralf(["label", &dataset.path, "-o", &dataset.out]).exits(0).says(["nothing to do"]);
     }
@@ -166,12 +176,19 @@ fn whoever_reads_results_notices_damage() {
     let dataset = labelled();
     damage(&dataset.result("plausibility.parquet"), false);
     for arguments in readers(&dataset).into_iter().take(9) {
-        ran(&arguments, &[]).exits(1).prints_nothing().says(["plausibility.parquet: content: expected what `ralf label` wrote"]);
+        ran(&arguments, &[])
+            .exits(1)
+            .prints_nothing()
+            .says(["plausibility.parquet: content: expected what `ralf label` wrote"]);
     }
     ralf(["evaluate", &dataset.out]).exits(1).says(["plausibility.parquet: content"]);
     ralf(["label", &dataset.path, "-o", &dataset.out]).exits(0);
     damage(&dataset.result("radar_front/000003.label"), false);
-    ralf(["evaluate", &dataset.out, "--truth", &dataset.path]).exits(1).says(["000003.label: content: expected what"]);
+    ralf(["evaluate", &dataset.out, "--truth", &dataset.path])
+        .exits(1)
+        .says(["000003.label: content: expected what"]);
     fs::remove_file(dataset.result("radar_front/000003.label")).unwrap();
-    ralf(["evaluate", &dataset.out, "--truth", &dataset.path]).exits(1).says(["000003.label: content", "missing"]);
+    ralf(["evaluate", &dataset.out, "--truth", &dataset.path])
+        .exits(1)
+        .says(["000003.label: content", "missing"]);
 }

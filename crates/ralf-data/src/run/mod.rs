@@ -21,12 +21,13 @@ pub use crate::result::{
 
 use crate::error::DataError;
 use crate::read::{Recording, SequenceReader, layout};
-use crate::result::{Columns, SequenceNames, WriterLock};
+use crate::result::{Schema, SequenceNames, WriterLock};
 use inputs::Identity;
 use output_folder::OutputFolder;
 use ralf::config::Config;
 use ralf::sensors::Rig;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::time::Instant;
 
 /// In the output folder while a run writes to it.
@@ -87,7 +88,7 @@ struct Task<'a> {
     /// Of the folders that its results go to.
     names: SequenceNames,
     rig: Rig,
-    columns: Columns,
+    schema: Arc<Schema>,
 }
 
 impl LabelRun<'_> {
@@ -122,8 +123,8 @@ impl LabelRun<'_> {
 
     fn task<'a>(&self, reader: &'a dyn SequenceReader, names: SequenceNames) -> Result<Task<'a>, DataError> {
         let rig = rig_of(self.recording, reader, self.config)?;
-        let columns = Columns::of(&rig).map_err(|reason| unsuitable(self.recording, reader, reason))?;
-        Ok(Task { reader, names, rig, columns })
+        let schema = Schema::of(&rig, &[]).map_err(|reason| unsuitable(self.recording, reader, reason))?;
+        Ok(Task { reader, names, rig, schema: Arc::new(schema) })
     }
 
     fn label_sequence(

@@ -3,7 +3,7 @@
 use super::workspace::{Images, Workspace};
 use super::{Observer, Stage, Task};
 use crate::error::DataError;
-use crate::result::{ImageRecord, NotLabelled, ScanTable};
+use crate::result::{ImageRecord, NotLabelled, ScanParts, Table};
 use ralf::config::Config;
 use ralf::paper::Labeler;
 use ralf::scene::FrameWindow;
@@ -88,9 +88,9 @@ impl Shared<'_> {
 
     /// Labels one scan, unless that was done before. Returns how many detections it has.
     fn label_scan(&self, window: &mut FrameWindow, radar: usize, scan: usize) -> Result<u64, DataError> {
-        let Task { rig, columns, .. } = self.task;
+        let Task { rig, schema, .. } = self.task;
         let name = &rig.radars[radar].name;
-        if self.workspace.has_kept(radar, scan, columns) {
+        if self.workspace.has_kept(radar, scan, schema) {
             return Ok(0);
         }
         let frame = match window.frame(radar, scan) {
@@ -105,7 +105,9 @@ impl Shared<'_> {
         let images: Images =
             views.map(|moment| (rig.cameras[moment.camera].name.clone(), ImageRecord::of(moment))).collect();
         let labels = Labeler::new(self.config).label(&frame);
-        let table = ScanTable::new(columns, &rig.radars[radar], &frame.detections, &labels);
+        let detections = &frame.detections;
+        let parts = ScanParts { radar: &rig.radars[radar], detections, labels: Some(&labels), evidence: &[] };
+        let table = Table::of_scan(schema, &parts)?;
         self.workspace.keep(radar, scan, &images, &table)?;
         Ok(labels.len() as u64)
     }
