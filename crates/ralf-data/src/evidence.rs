@@ -1,4 +1,4 @@
-//! The evidence of all scans with truth: what tuning works on (METHOD 10).
+//! The evidence of all scans with truth: what tuning works on (docs/method.md, section 10).
 
 use crate::error::DataError;
 use crate::read::{Recording, SequenceReader};
@@ -122,7 +122,7 @@ impl Task<'_> {
         };
         let truth: Vec<Option<bool>> =
             self.truth.labels(id)?.iter().map(|label| truth_of(label.id)).collect();
-        let detections = frame.detections.located.len();
+        let detections = frame.scan.len();
         if truth.len() != detections {
             let expected = format!("{detections} as in the scan");
             let file = self.truth.file(id);

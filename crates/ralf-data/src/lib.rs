@@ -26,6 +26,7 @@ pub mod judge;
 pub mod read;
 pub mod result;
 pub mod run;
+mod settings;
 #[cfg(test)]
 mod testing;
 pub mod truth;
@@ -38,8 +39,7 @@ pub use error::DataError;
 pub use evidence::{SequenceEvidence, gather_evidence};
 pub use judge::{Balance, Balances, Comparison};
 pub use ralf_corrections::ContentHash;
-pub use read::{
-    LayoutSequence, NuScenesKey, Recording, RosSource, SequenceReader, TruthLabels, formats, open, open_with,
-};
+pub use read::{LayoutSequence, Recording, SequenceReader, TruthLabels, formats, open, open_with};
+pub use settings::Settings;
 pub use truth::{Causes, Corrections, GroundTruth, ScanId, scan_content};
-pub use write::write_sequence;
+pub use write::{write_sequence, write_simulated};

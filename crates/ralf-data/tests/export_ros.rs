@@ -9,12 +9,11 @@
 mod dataset;
 
 use dataset::{SEQUENCE_TOML, tiny, write};
-use ralf::config::Config;
 use ralf::sensors::{Rig, Source};
 use ralf::space::Transform;
 use ralf_data::run::{LabelRun, Observer, Stage};
 use ralf_data::write::export::{Export, ExportFormat, ExportOptions, RosFormat, Sensors, Split, write_ros};
-use ralf_data::{LayoutSequence, Recording, open, open_with, write_sequence};
+use ralf_data::{LayoutSequence, Recording, Settings, open, open_with, write_sequence};
 use ralf_ros::container::Container;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -30,10 +29,10 @@ fn sequence() -> (TempDir, PathBuf) {
 }
 
 /// The sequence as a recording of this format, read back by the settings that were written beside it.
-fn converted(reader: &LayoutSequence, folder: &Path, format: RosFormat) -> (Recording, Config) {
+fn converted(reader: &LayoutSequence, folder: &Path, format: RosFormat) -> (Recording, Settings) {
     let file = folder.join("street").with_extension(format.extension());
     let settings = write_ros(reader, &file, format, &|_| {}).unwrap().unwrap();
-    let config = Config::from_toml(&fs::read_to_string(settings).unwrap(), &[]).unwrap();
+    let config = Settings::from_toml(&fs::read_to_string(settings).unwrap(), &[]).unwrap();
     (open_with(&file, None, &config.topics).unwrap(), config)
 }
 
@@ -73,7 +72,7 @@ fn the_way_there_and_back_keeps_what_both_can_hold() {
         let (recording, config) = converted(&reader, folder.path(), format);
         let back = recording.sequences[0].as_ref();
         let mut rig = back.sequence().rig.clone();
-        config.apply_to(&mut rig).unwrap();
+        config.method.apply_to(&mut rig).unwrap();
         same_rig(&rig, &reader.sequence().rig);
         assert_eq!(back.sequence().times, reader.sequence().times);
         assert_eq!(back.sequence().motion.odometry(), reader.sequence().motion.odometry());
@@ -167,9 +166,9 @@ fn original_messages_are_copied_beside_the_labelled_clouds() {
         let file = Path::new(&data).join("ros").join(name);
         let folder = tempfile::tempdir().unwrap();
         let recording = open(&file, None).unwrap();
-        let config = Config::default();
+        let settings = Settings::default();
         let out = folder.path().join("out");
-        LabelRun { recording: &recording, config: &config, out: &out, jobs: 2 }.execute(&Quiet).unwrap();
+        LabelRun { recording: &recording, settings: &settings, out: &out, jobs: 2 }.execute(&Quiet).unwrap();
         let options = ExportOptions { format, split: Split::All, sensors: Sensors::ALL, replace: false };
         let labelled = folder.path().join("labelled").with_extension(kind);
         let exported =

@@ -1,5 +1,5 @@
-//! Five real files hold the first seconds of a scene of nuScenes: they label to the numbers of the tables that they were
-//! made from.
+//! Five real files hold the first seconds of a scene of nuScenes: they label to the numbers of the tables that they
+//! were made from.
 
 #![allow(
     clippy::unwrap_used,
@@ -7,14 +7,15 @@
     reason = "a check that fails is a test that fails, and a skipped one says so"
 )]
 
-use ralf::config::{Config, Topics};
+use ralf::config::Config;
 use ralf::paper::{DetectionLabel, Labeler};
 use ralf::scene::FrameWindow;
 use ralf::sensors::{
     CameraImage, DepthImage, LidarScan, RadarScan, Sequence, Source, SourceError, Timelines,
 };
 use ralf::space::EgoMotion;
-use ralf_data::{Recording, SequenceReader};
+use ralf_data::read::ros::Topics;
+use ralf_data::{Recording, SequenceReader, Settings};
 use std::path::{Path, PathBuf};
 
 const FILES: [&str; 5] = [
@@ -42,7 +43,7 @@ fn topics() -> Topics {
     text += "[topics.lidar_top]\ntopic = \"/lidar_top/points\"\nkind = \"lidar\"\nmodel = \"hdl-32e\"\n\
              [topics.odom]\ntopic = \"/odom\"\nkind = \"odometry\"\n\
              [topics.tf]\ntopic = \"/tf_static\"\nkind = \"tf_static\"\n";
-    Config::from_toml(&text, &[]).unwrap().topics
+    Settings::from_toml(&text, &[]).unwrap().topics
 }
 
 /// Of the tables: the measurements that a file holds, under the names and in the order of the file, with any motion.

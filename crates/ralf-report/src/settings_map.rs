@@ -2,7 +2,6 @@
 //! that the fusion alone is done again for each pair.
 
 use crate::scored::Scored;
-use ralf::config::FusionConfig;
 use ralf::paper::prioritize;
 
 /// Values of each setting, evenly from 0 to 1.
@@ -37,8 +36,8 @@ impl Passed {
         }
         let present = |w: f32| w.is_finite().then_some(f64::from(w));
         for (step, counts) in self.counts.iter_mut().enumerate() {
-            let fusion = FusionConfig { alpha: value_at(step), threshold: 0.0 };
-            let w = prioritize(&fusion, present(scored.w_opt), present(scored.w_tr), scored.gamma.into());
+            let w =
+                prioritize(value_at(step), present(scored.w_opt), present(scored.w_tr), scored.gamma.into());
             let highest = (0..STEPS).rev().find(|step| w.is_some_and(|w| w >= value_at(*step)));
             if let Some(step) = highest {
                 counts[step][usize::from(truth)] += 1;

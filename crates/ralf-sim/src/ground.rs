@@ -61,7 +61,8 @@ impl Ground {
         )
     }
 
-    /// The distance at which a ray from above meets the ground. Along a ray its height is linear between the ramps' edges.
+    /// The distance at which a ray from above meets the ground. Along a ray its height is linear between the ramps'
+    /// edges.
     pub(super) fn hit(&self, ray: &Ray, limit: f64) -> Option<f64> {
         let above = |t: f64| {
             let p = ray.origin + ray.direction * t;

@@ -29,8 +29,8 @@ impl PresetSequence {
         format!("{}\n{}", self.place, self.drive)
     }
 
-    /// The sequence with so many scans of each radar. Its own seed follows from its name, so that sequences which share a
-    /// place share no noise.
+    /// The sequence with so many scans of each radar. Its own seed follows from its name, so that sequences which share
+    /// a place share no noise.
     pub fn simulate(&self, seed: u64, scans: usize) -> Result<SimulatedSequence, ScenarioError> {
         let own = self.name.bytes().fold(seed, |seed, byte| seed.wrapping_mul(257).wrapping_add(byte.into()));
         SimulatedSequence::new(self.name, &Scenario::from_toml(&self.text())?, own, scans)

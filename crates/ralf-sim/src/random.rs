@@ -1,5 +1,5 @@
-//! Random numbers of the simulator: each draw follows from the seed, what it is for, and which measurement it belongs to, so
-//! that a measurement is the same whenever it is asked for.
+//! Random numbers of the simulator: each draw follows from the seed, what it is for, and which measurement it belongs
+//! to, so that a measurement is the same whenever it is asked for.
 
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;

@@ -135,8 +135,8 @@ impl<'a> Scene<'a> {
         })
     }
 
-    /// What lies between two points takes from a radar wave, dB; `None` where nothing comes through. The bodies of `own`
-    /// don't count, nor does the ground.
+    /// What lies between two points takes from a radar wave, dB; `None` where nothing comes through. The bodies of
+    /// `own` don't count, nor does the ground.
     pub(super) fn radar_loss_db(&self, from: &Point, to: &Point, own: Option<usize>) -> Option<f64> {
         let way = to - from;
         let length = way.norm();

@@ -1,4 +1,5 @@
-//! The truth by the paper's labelling policy: it follows from what sent an echo, and never from what LiDAR or camera see.
+//! The truth by the paper's labelling policy: it follows from what sent an echo, and never from what LiDAR or camera
+//! see.
 
 use ralf::label::Cause;
 

@@ -97,8 +97,8 @@ fn camera(side: &str, yaw_deg: f64) -> Camera {
     }
 }
 
-/// Elevations of the LiDAR's channels, rad, from the lowest up: 40, a third of a degree apart about the horizon and a degree
-/// beyond.
+/// Elevations of the LiDAR's channels, rad, from the lowest up: 40, a third of a degree apart about the horizon and a
+/// degree beyond.
 pub(super) fn lidar_channels() -> Vec<f64> {
     let lowest = (0..10).map(|i| -16.0 + f64::from(i));
     let middle = (0..25).map(|i| -6.0 + f64::from(i) / 3.0);

@@ -1,7 +1,8 @@
-//! What is each part of the method good for? Variants that lack one part, have one part alone, or have one of our extensions
-//! besides; each is tuned on the same sequences as the paper's method, so that the comparison is fair, and judged on others.
+//! What is each part of the method good for? Variants that lack one part, have one part alone, or have one of our
+//! extensions besides; each is tuned on the same sequences as the paper's method, so that the comparison is fair, and
+//! judged on others.
 
-use super::{EvidenceTable, Found, Search, Settings, TuneError};
+use super::{EvidenceTable, Found, Search, TuneError, TunedSettings};
 use ralf::config::{Config, DepthScaling, GroundModel, TrackingSources};
 use ralf::metrics::{Confusion, Scores};
 
@@ -38,8 +39,8 @@ const VARIANTS: [(&str, Change); 14] = [
 ];
 
 impl Variant {
-    /// The paper's method and all that it is compared with, the paper's first. Of the settings everything stays that no variant is
-    /// about.
+    /// The paper's method and all that it is compared with, the paper's first. Of the settings everything stays that no
+    /// variant is about.
     pub fn all(settings: &Config) -> Vec<Self> {
         let paper = as_in_the_paper(settings);
         let variant = |(name, change): (&'static str, Change)| {
@@ -50,16 +51,16 @@ impl Variant {
         VARIANTS.into_iter().map(variant).collect()
     }
 
-    /// The settings with which its evidence is gathered. Equal ones need be gathered for once: branches that a variant lacks are
-    /// left out of account afterwards, and what is tuned doesn't change evidence.
+    /// The settings with which its evidence is gathered. Equal ones need be gathered for once: branches that a variant
+    /// lacks are left out of account afterwards, and what is tuned doesn't change evidence.
     pub fn evidence_config(&self) -> Config {
         let mut config = self.config.clone();
         all_branches(&mut config);
         config
     }
 
-    /// Tunes the variant on some tables and judges it on others. `search` says what for, how long and with which seed; its
-    /// base gives way to the variant's settings.
+    /// Tunes the variant on some tables and judges it on others. `search` says what for, how long and with which seed;
+    /// its base gives way to the variant's settings.
     pub fn judge(
         &self,
         search: &Search,
@@ -85,7 +86,7 @@ pub struct Judged {
     pub test: Scores,
 }
 
-fn scores(tables: &[&EvidenceTable], settings: &Settings) -> Result<Scores, TuneError> {
+fn scores(tables: &[&EvidenceTable], settings: &TunedSettings) -> Result<Scores, TuneError> {
     let scans = tables.iter().map(|table| table.confusions(settings));
     let scans: Vec<Vec<Confusion>> = scans.collect::<Result<_, _>>()?;
     Ok(Scores::of(&scans.concat()))

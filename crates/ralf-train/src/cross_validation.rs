@@ -1,6 +1,6 @@
 //! Leaving one sequence out in turn: how well tuned settings do on sequences they were not tuned on.
 
-use super::{EvidenceTable, Found, Search, Settings, TuneError};
+use super::{EvidenceTable, Found, Search, TuneError, TunedSettings};
 use ralf::metrics::Scores;
 
 /// One sequence, judged by settings that were tuned on the others.
@@ -25,7 +25,7 @@ pub fn leave_one_out(
     if sequences.len() < 2 {
         return Err(TuneError::TooFewSequences(sequences.len()));
     }
-    let base = Settings::of(search.base);
+    let base = TunedSettings::of(search.base);
     let fold = |(name, table): &(String, EvidenceTable)| {
         let others = sequences.iter().filter(|(other, _)| other != name);
         let others: Vec<&EvidenceTable> = others.map(|(_, table)| table).collect();

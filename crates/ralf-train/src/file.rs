@@ -1,17 +1,18 @@
 //! Tuned settings as a settings file.
 
-use super::Settings;
-use ralf::config::{Config, ConfigError};
+use super::TunedSettings;
+use ralf::config::ConfigError;
+use serde::Serialize;
 use toml::{Table, Value};
 
-/// A settings file: the comment, each line of it behind a `#`, then all tuned settings and whatever else differs from the
-/// built-in defaults. Reading it back gives `config`.
-pub fn settings_file(comment: &str, config: &Config) -> Result<String, ConfigError> {
+/// A settings file: the comment, each line of it behind a `#`, then all tuned settings and whatever else differs from
+/// the built-in defaults. Reading it back gives the same settings: a [`Config`](ralf::config::Config), or one with
+/// tables besides.
+pub fn settings_file<T: Serialize + Default>(comment: &str, settings: &T) -> Result<String, ConfigError> {
     let refused = |error: &dyn std::fmt::Display| ConfigError::Parse(error.to_string());
-    let all = Table::try_from(config).map_err(|error| refused(&error))?;
-    let defaults = Table::try_from(Config::default()).map_err(|error| refused(&error))?;
-    let tuned = Settings::of(config).entries().map(|(key, _)| key);
-    let told = select("", &all, &defaults, &tuned);
+    let all = Table::try_from(settings).map_err(|error| refused(&error))?;
+    let defaults = Table::try_from(T::default()).map_err(|error| refused(&error))?;
+    let told = select("", &all, &defaults);
     let text = toml::to_string(&told).map_err(|error| refused(&error))?;
     let comment: String =
         comment.lines().map(|line| format!("# {line}").trim_end().to_owned() + "\n").collect();
@@ -19,19 +20,19 @@ pub fn settings_file(comment: &str, config: &Config) -> Result<String, ConfigErr
 }
 
 /// What is tuned, or differs from the defaults.
-fn select(section: &str, all: &Table, defaults: &Table, tuned: &[&str]) -> Table {
+fn select(section: &str, all: &Table, defaults: &Table) -> Table {
     let mut told = Table::new();
     for (name, value) in all {
         let key = if section.is_empty() { name.clone() } else { format!("{section}.{name}") };
         let default = defaults.get(name);
         match (value, default) {
             (Value::Table(values), Some(Value::Table(defaults))) => {
-                let values = select(&key, values, defaults, tuned);
+                let values = select(&key, values, defaults);
                 if !values.is_empty() {
                     told.insert(name.clone(), Value::Table(values));
                 }
             }
-            _ if default != Some(value) || tuned.contains(&key.as_str()) => {
+            _ if default != Some(value) || TunedSettings::KEYS.contains(&key.as_str()) => {
                 told.insert(name.clone(), value.clone());
             }
             _ => {}
@@ -43,6 +44,7 @@ fn select(section: &str, all: &Table, defaults: &Table, tuned: &[&str]) -> Table
 #[cfg(test)]
 mod tests {
     use super::*;
+    use ralf::config::Config;
 
     #[test]
     fn only_what_matters_is_written_and_read_back() {

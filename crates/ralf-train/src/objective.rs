@@ -31,8 +31,8 @@ pub enum Objective {
 pub struct ObjectiveError(String);
 
 impl Objective {
-    /// How good the counts are, in [0, 1]. Where precision is below the floor, it is the precision less 1: below every score that
-    /// keeps the floor, and the nearer to it the better.
+    /// How good the counts are, in [0, 1]. Where precision is below the floor, it is the precision less 1: below every
+    /// score that keeps the floor, and the nearer to it the better.
     pub fn score(&self, counts: &Confusion) -> f64 {
         let rates = Rates::of(counts);
         let score = match *self {

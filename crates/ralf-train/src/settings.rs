@@ -1,7 +1,7 @@
 //! What is tuned, and among which values.
 
+use super::observed::Weights;
 use ralf::config::Config;
-use ralf::paper::Weights;
 use std::collections::BTreeSet;
 
 /// Values of `K` and of `n_b` worth a try.
@@ -20,7 +20,7 @@ pub struct Branches {
 
 /// The tuned settings, and the branches that they are meant for.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Settings {
+pub struct TunedSettings {
     /// `alpha`, the three `beta` and `w0`.
     pub weights: Weights,
     /// `K`.
@@ -31,7 +31,7 @@ pub struct Settings {
     pub branches: Branches,
 }
 
-impl Settings {
+impl TunedSettings {
     /// Dotted names of those that are tuned.
     pub const KEYS: [&'static str; 7] = [
         "fusion.alpha",
@@ -46,7 +46,7 @@ impl Settings {
     /// Those of all settings.
     pub fn of(config: &Config) -> Self {
         Self {
-            weights: Weights::of(config),
+            weights: Weights::from(config),
             neighbours: config.lidar.neighbours,
             scans: config.tracking.scans,
             branches: Branches {
@@ -133,6 +133,6 @@ mod tests {
             ],
         )
         .unwrap();
-        assert_eq!(Settings::of(&other).applied_to(&base), other);
+        assert_eq!(TunedSettings::of(&other).applied_to(&base), other);
     }
 }

@@ -1,8 +1,8 @@
 //! The evidence of many scans, in columns.
 
-use super::{Branches, Settings, Space, TuneError};
+use super::observed::Observed;
+use super::{Branches, Space, TuneError, TunedSettings};
 use ralf::metrics::Confusion;
-use ralf::paper::Evidence;
 use std::ops::Range;
 
 /// Bits of [`EvidenceTable::marks`].
@@ -10,8 +10,8 @@ const ON_FLOOR: u8 = 1;
 const IN_BLIND_SPOT: u8 = 2;
 const PLAUSIBLE: u8 = 4;
 
-/// Mismatches and truth of all detections with a truth, some hundred bytes each. Full precision is kept, so that a trial gives
-/// the labels that the labeler would give.
+/// Mismatches and truth of all detections with a truth, some hundred bytes each. Full precision is kept, so that a
+/// trial gives the labels that the labeler would give.
 #[derive(Debug, Clone, PartialEq)]
 pub struct EvidenceTable {
     space: Space,
@@ -30,7 +30,7 @@ pub struct EvidenceTable {
 #[derive(Debug, Clone)]
 pub(super) struct Row {
     /// Its `d_lm` and `d_tr` are not used.
-    pub(super) rest: Evidence,
+    pub(super) rest: Observed,
     /// Per `K`.
     pub(super) d_lm: Vec<Option<f64>>,
     /// Per `n_b`.
@@ -96,12 +96,12 @@ impl EvidenceTable {
     }
 
     /// Each scan's confusion matrix with these settings.
-    pub fn confusions(&self, settings: &Settings) -> Result<Vec<Confusion>, TuneError> {
+    pub fn confusions(&self, settings: &TunedSettings) -> Result<Vec<Confusion>, TuneError> {
         let view = self.view(settings)?;
         let count = |rows: Range<usize>| {
             let mut counts = Confusion::default();
             for row in rows {
-                counts.add(view.truth(row), view.evidence(row).weigh(&settings.weights).plausible);
+                counts.add(view.truth(row), view.evidence(row).is_plausible(&settings.weights));
             }
             counts
         };
@@ -110,8 +110,8 @@ impl EvidenceTable {
     }
 
     /// The evidence that some settings look at: one `K`, one `n_b`, and the branches that have a say.
-    pub(super) fn view(&self, settings: &Settings) -> Result<View<'_>, TuneError> {
-        let Settings { neighbours, scans, branches, .. } = *settings;
+    pub(super) fn view(&self, settings: &TunedSettings) -> Result<View<'_>, TuneError> {
+        let TunedSettings { neighbours, scans, branches, .. } = *settings;
         let place = |values: &[usize], key, value| {
             let found = values.iter().position(|known| *known == value);
             found.ok_or(TuneError::NotGathered { key, value })
@@ -133,11 +133,11 @@ pub(super) struct View<'a> {
 
 impl View<'_> {
     /// What is known of a detection.
-    pub(super) fn evidence(&self, row: usize) -> Evidence {
+    pub(super) fn evidence(&self, row: usize) -> Observed {
         let present = |has_a_say: bool, d: f64| (has_a_say && !d.is_nan()).then_some(d);
         let Branches { lidar, camera, tracking } = self.branches;
         let marks = self.table.marks[row];
-        Evidence {
+        Observed {
             d_lm: present(lidar, self.d_lm[row]),
             d_cm: present(camera, self.table.d_cm[row]),
             d_tr: present(tracking, self.d_tr[row]),
@@ -153,7 +153,7 @@ impl View<'_> {
     }
 
     /// Evidence and truth of all detections.
-    pub(super) fn rows(&self) -> impl Iterator<Item = (Evidence, bool)> {
+    pub(super) fn rows(&self) -> impl Iterator<Item = (Observed, bool)> {
         (0..self.table.len()).map(|row| (self.evidence(row), self.truth(row)))
     }
 }

@@ -43,12 +43,12 @@ impl Weighed {
         counts
     }
 
-    /// The threshold in [0, 1] with the best score; of equally good ones the one in the widest gap, where new detections are least
-    /// likely to fall on the wrong side.
+    /// The threshold in [0, 1] with the best score; of equally good ones the one in the widest gap, where new
+    /// detections are least likely to fall on the wrong side.
     ///
-    /// Exactly what sorting all plausibilities and trying each would find, but only those are sorted that lie in a bucket within
-    /// which the best score may be reached: it can't be better there than if all its plausible detections were above the threshold
-    /// and all its artifacts below.
+    /// Exactly what sorting all plausibilities and trying each would find, but only those are sorted that lie in a
+    /// bucket within which the best score may be reached: it can't be better there than if all its plausible detections
+    /// were above the threshold and all its artifacts below.
     pub(super) fn best_cut(&self, objective: Objective) -> Cut {
         let buckets = buckets(&self.decided);
         let mut below = self.silent;
@@ -85,8 +85,8 @@ fn turned(mut counts: Confusion, bucket: &Bucket) -> Confusion {
     counts
 }
 
-/// Within which buckets the best score may be reached. `counts` are those with nothing plausible, `best` is that threshold if
-/// there is one.
+/// Within which buckets the best score may be reached. `counts` are those with nothing plausible, `best` is that
+/// threshold if there is one.
 fn worth_sorting(
     buckets: &[Bucket],
     objective: Objective,
@@ -141,8 +141,8 @@ impl Cut {
     }
 }
 
-/// The number with the fewest decimals in the middle half of `(lower, upper]`, so that people can read it; `upper` where nothing lies
-/// in between.
+/// The number with the fewest decimals in the middle half of `(lower, upper]`, so that people can read it; `upper`
+/// where nothing lies in between.
 fn roundest(lower: f64, upper: f64) -> f64 {
     let (middle, quarter) = (lower + (upper - lower) / 2.0, (upper - lower) / 4.0);
     let rounded = (1..=17).filter_map(|decimals| format!("{middle:.decimals$}").parse::<f64>().ok());

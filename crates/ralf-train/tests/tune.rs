@@ -10,7 +10,7 @@ use ralf::config::Config;
 use ralf::metrics::Confusion;
 use ralf::scene::FrameWindow;
 use ralf::sensors::{Elevation, Reliability};
-use ralf_train::{Branches, Gatherer, Settings, Space};
+use ralf_train::{Branches, Gatherer, Space, TunedSettings};
 use support::{MS, Memory, lidar, radar};
 
 type Points = Vec<[f32; 3]>;
@@ -42,8 +42,8 @@ prop_compose! {
     fn settings()(
         alpha in 0.0..=1.0, threshold in 0.0..=1.0, betas in [0.01..2.0, 0.01..2.0, 0.01..2.0],
         neighbours in 1..5usize, scans in 1..5usize, [lidar, camera, tracking] in any::<[bool; 3]>(),
-    ) -> Settings {
-        let mut settings = Settings::of(&Config::default());
+    ) -> TunedSettings {
+        let mut settings = TunedSettings::of(&Config::default());
         (settings.neighbours, settings.scans) = (neighbours, scans);
         let weights = &mut settings.weights;
         (weights.fusion.alpha, weights.fusion.threshold) = (alpha, threshold);

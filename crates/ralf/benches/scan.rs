@@ -1,5 +1,5 @@
-//! What a radar scan costs, stage by stage, on a street like the paper's: 72k LiDAR points, 1,216 detections of which four in
-//! five are artifacts, K = 5, n_b = 5. Run with `cargo bench -p ralf-radar --bench scan`; one thread.
+//! What a radar scan costs, stage by stage, on a street like the paper's: 72k LiDAR points, 1,216 detections of which
+//! four in five are artifacts, K = 5, n_b = 5. Run with `cargo bench -p ralf-radar --bench scan`; one thread.
 
 #![allow(clippy::expect_used, reason = "a bench that can't be set up should say so")]
 
@@ -8,7 +8,9 @@ use nalgebra::UnitQuaternion;
 use ralf::config::Config;
 
 use ralf::paper::{Labeler, lidar, tracking};
-use ralf::scene::{Calibration, Frame, FrameWindow, Ground, ImageMoment, ImageView, LidarMoment, LidarView};
+use ralf::scene::{
+    Calibration, Frame, FrameWindow, Ground, ImageId, ImageMoment, ImageView, LidarMoment, LidarView,
+};
 use ralf::sensors::{
     Camera, CameraImage, DepthImage, DepthOutput, Elevation, Intrinsics, Lidar, LidarScan, Radar, RadarScan,
     Reliability, Rig, Sequence, Source, SourceError, Timelines,
@@ -29,7 +31,8 @@ fn main() {
     divan::main();
 }
 
-/// A street of 120 m with walls on both sides, parked cars and poles, and gardens with trees behind openings in the walls.
+/// A street of 120 m with walls on both sides, parked cars and poles, and gardens with trees behind openings in the
+/// walls.
 fn street(seed: u64) -> Vec<[f32; 3]> {
     let mut random = Pcg64Mcg::seed_from_u64(seed);
     let mut point = |i: usize| {
@@ -197,18 +200,14 @@ fn index_query(bencher: Bencher) {
 #[divan::bench]
 fn lidar_matching(bencher: Bencher) {
     let frame = frame();
-    let view = frame.lidar.as_ref().expect("a LiDAR scan");
-    bencher.bench(|| lidar::match_detections(frame.radar, &frame.detections, black_box(view), 5));
+    bencher.bench(|| lidar::match_detections(black_box(&frame), &CONFIG.lidar));
 }
 
 /// Ten neighbouring scans.
 #[divan::bench]
 fn tracking_matching(bencher: Bencher) {
     let frame = frame();
-    let detections = &frame.detections;
-    bencher.bench(|| {
-        tracking::match_detections(frame.radar, detections, black_box(&frame.steps), None, &CONFIG.tracking)
-    });
+    bencher.bench(|| tracking::match_detections(black_box(&frame), &CONFIG.tracking));
 }
 
 /// An image of 320 x 240 with its depth.
@@ -242,14 +241,19 @@ fn images(points: &[Point]) -> Vec<ImageView> {
             camera: &CONFIG.camera,
             ground: &CONFIG.ground,
         };
-        let moment = ImageMoment::new((0, &camera), (0, 0), Ok(IMAGE.clone()), &calibration);
+        let moment = ImageMoment::new(
+            &camera,
+            ImageId { camera: 0, image: 0, t_ns: 0 },
+            Ok(IMAGE.clone()),
+            &calibration,
+        );
         ImageView { moment: Arc::new(moment), vehicle_from_image: Transform::identity() }
     });
     views.to_vec()
 }
 
-/// The same with four cameras: projection, monitor, calibration and camera matching besides. The made-up depth would fail
-/// the monitor, so that its limit is lifted.
+/// The same with four cameras: projection, monitor, calibration and camera matching besides. The made-up depth would
+/// fail the monitor, so that its limit is lifted.
 #[divan::bench]
 fn whole_scan_with_four_views(bencher: Bencher) {
     let scan = Arc::new(STREET.lidar.clone());

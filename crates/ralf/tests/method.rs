@@ -47,9 +47,10 @@ fn by_hand() {
     // d = 0.5 / sqrt(0.0897385 + 0.000001) = 1.66909.
     close(labels[0].d_lm, 1.66909);
     close(labels[0].w_lm, (-0.2f64 * 1.66909).exp());
-    // Tracking: h = (0, -1, 0). Of the detection: azimuth moves y by 10 * 0.01, so 0.01. Of the other, at (10, 1, 2) with
-    // r^2 = 105 and rho^2 = 101: range (1^2 / 105) 0.09 = 0.000857; azimuth 100 * 0.0001 = 0.01; elevation moves y by
-    // r sin(theta) sin(phi) = 2 / sqrt(101) = 0.19901: (0.19901 * 0.02)^2 = 0.0000158. d = 1 / sqrt(0.0208739) = 6.9214.
+    // Tracking: h = (0, -1, 0). Of the detection: azimuth moves y by 10 * 0.01, so 0.01. Of the other, at (10, 1, 2)
+    // with r^2 = 105 and rho^2 = 101: range (1^2 / 105) 0.09 = 0.000857; azimuth 100 * 0.0001 = 0.01; elevation moves y
+    // by r sin(theta) sin(phi) = 2 / sqrt(101) = 0.19901: (0.19901 * 0.02)^2 = 0.0000158. d = 1 / sqrt(0.0208739) =
+    // 6.9214.
     close(labels[0].d_tr, 6.9214);
     let (w_lm, w_tr) = ((-0.2f64 * 1.66909).exp(), (-0.2f64 * 6.9214).exp());
     close(Some(labels[0].w), 0.5 * w_lm + 0.5 * w_tr);

@@ -1,19 +1,18 @@
 //! `ralf report`: one page about a labelled recording.
 
-use crate::Outcome;
-use crate::cli::{ChangedArgs, DatasetArgs};
+use crate::arguments::{ChangedArgs, DatasetArgs};
 use crate::corrections::orphaned;
-use crate::progress::say;
+use crate::outcome::Outcome;
+use crate::progress::{Progress, say};
 use clap::Args;
-use indicatif::ProgressBar;
 use ralf_report::Report;
 use std::path::PathBuf;
 
 /// What `ralf report` takes.
 #[derive(Debug, Args)]
 #[command(after_help = "\
-The page is one file that needs nothing else. It compares the labels with the recording's corrected ones where there are
-some, and tells what the labels say by themselves where there are none.
+The page is one file that needs nothing else. It compares the labels with the recording's corrected ones where there \
+are some, and tells what the labels say by themselves where there are none.
 
 Examples:
   ralf report recordings/city out -o report.html
@@ -42,12 +41,9 @@ pub(crate) fn run(arguments: &ReportArgs) -> anyhow::Result<Outcome> {
         out: &arguments.labels,
         scans_per_sequence: arguments.scans_per_sequence,
     };
-    let shown = ProgressBar::new_spinner();
-    let page = report.page(&|step| {
-        shown.set_message(step.to_owned());
-        shown.tick();
-    })?;
-    shown.finish_and_clear();
+    let progress = Progress::spinner();
+    let page = report.page(&|step| progress.tell(step.to_owned()))?;
+    drop(progress);
     ralf_data::write_whole(&arguments.output, page.html.as_bytes())?;
     say(&format!("wrote {}", arguments.output.display()));
     page.orphaned.iter().for_each(|scan| say(&orphaned(scan)));

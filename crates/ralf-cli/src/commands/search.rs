@@ -1,17 +1,14 @@
 //! What `ralf tune` and `ralf ablate` share: what is searched for, on which sequences, and how that is shown.
 
-use crate::Outcome;
-use crate::UsageError;
-use crate::cli::DatasetArgs;
+use crate::arguments::{DatasetArgs, SettingsArgs, threads};
 use crate::corrections::merged_truth;
-use crate::progress::{Bars, STEPS, bar, say};
-use crate::settings::{SettingsArgs, threads};
+use crate::outcome::{Outcome, UsageError};
+use crate::progress::{Progress, Stages, say};
 use clap::Args;
 use clap::builder::PossibleValuesParser;
-use indicatif::ProgressBar;
 use ralf::config::Config;
-use ralf_data::{GroundTruth, Recording, SequenceEvidence, gather_evidence};
-use ralf_train::{EvidenceTable, Found, Objective, Search, Settings};
+use ralf_data::{GroundTruth, Recording, SequenceEvidence, Settings, gather_evidence};
+use ralf_train::{EvidenceTable, Found, Objective, Search, TunedSettings};
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
@@ -40,7 +37,7 @@ pub(super) struct SearchArgs {
     #[arg(long, value_name = "S", default_value = "0")]
     pub(super) seed: u64,
     /// A setting that stays as it is, such as lidar.beta; may be given several times
-    #[arg(long = "hold", value_name = "KEY", value_parser = PossibleValuesParser::new(Settings::KEYS))]
+    #[arg(long = "hold", value_name = "KEY", value_parser = PossibleValuesParser::new(TunedSettings::KEYS))]
     held: Vec<String>,
     #[command(flatten)]
     pub(super) settings: SettingsArgs,
@@ -77,12 +74,12 @@ impl SearchArgs {
     }
 
     /// The recording of these sequences alone, and its truth.
-    pub(super) fn open(&self, base: &Config, test: &[String]) -> anyhow::Result<(Recording, GroundTruth)> {
+    pub(super) fn open(&self, base: &Settings, test: &[String]) -> anyhow::Result<(Recording, GroundTruth)> {
         let sequences = [self.train.as_slice(), test].concat();
         let (dataset, format) = (self.dataset.clone(), self.format.clone());
         let dataset = DatasetArgs { dataset, format, sequences, topics: None };
         let corrections = self.corrections.as_deref();
-        let recording = dataset.open_with(&mut base.clone())?;
+        let recording = dataset.open_with(&dataset.topics_or(&base.topics)?)?;
         let truth = merged_truth(&self.dataset, Some(&recording), corrections, corrections.is_some())?;
         Ok((recording, truth))
     }
@@ -93,7 +90,7 @@ impl SearchArgs {
         (recording, truth): (&Recording, &GroundTruth),
         config: &Config,
     ) -> anyhow::Result<Vec<SequenceEvidence>> {
-        Ok(gather_evidence(recording, truth, config, threads(self.jobs), &Bars::new(self.quiet))?)
+        Ok(gather_evidence(recording, truth, config, threads(self.jobs), &Stages::new(self.quiet))?)
     }
 
     /// Which evidence is for training, and which for judging.
@@ -114,18 +111,15 @@ impl SearchArgs {
     }
 
     /// Of a search's trials.
-    pub(super) fn bar(&self, name: &str) -> ProgressBar {
-        if self.quiet {
-            return ProgressBar::hidden();
-        }
-        bar(self.trials.get() as u64, STEPS, name.to_owned())
+    pub(super) fn progress(&self, name: &str) -> Progress {
+        if self.quiet { Progress::hidden() } else { Progress::of_steps(self.trials.get() as u64, name) }
     }
 
     /// How far the search has got, and the best so far.
-    pub(super) fn show(&self, shown: &ProgressBar, trial: usize, best: &Found) {
-        shown.set_position(trial as u64);
+    pub(super) fn show(&self, progress: &Progress, trial: usize, best: &Found) {
+        progress.reached(trial as u64);
         let settings = best.settings.entries().map(|(key, value)| format!("{key}={value}")).join(" ");
-        shown.set_message(format!("best {} {:.3} with {settings}", self.objective, best.score));
+        progress.tell(format!("best {} {:.3} with {settings}", self.objective, best.score));
     }
 
     /// The options that change the result of a search.

@@ -1,4 +1,5 @@
-//! The command line from outside: the built program on tiny recordings whose truth is known, on bad ones, and on real ones.
+//! The command line from outside: the built program on tiny recordings whose truth is known, on bad ones, and on real
+//! ones.
 
 #![allow(
     clippy::unwrap_used,
@@ -22,9 +23,12 @@ mod full_disk;
 #[cfg(unix)]
 mod inputs;
 mod names;
+#[cfg(unix)]
+mod odd_files;
 mod other_commands;
 mod other_data;
 mod real_data;
+mod reports;
 mod resume;
 #[cfg(unix)]
 mod review;
@@ -34,6 +38,8 @@ mod simulation;
 mod streams;
 mod support;
 mod tuning;
+#[cfg(unix)]
+mod verbs;
 mod whole_run;
 #[cfg(unix)]
 mod writers;

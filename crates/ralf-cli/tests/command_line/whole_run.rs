@@ -1,4 +1,4 @@
-//! `ralf label` writes what FORMATS 2 says, and it means something.
+//! `ralf label` writes what docs/formats.md, section 2, says, and it means something.
 
 use crate::support::{ARTIFACT, CAR, Dataset, Row, Shape, WALL, ralf, rows, schema, tree};
 use serde_json::{Value, json};
@@ -174,7 +174,7 @@ fn the_record_names_version_settings_inputs_and_scans() {
     let inputs = record["inputs"].as_array().unwrap();
     // sequence.toml, odometry.csv, and per sensor eight scans and their times.
     assert_eq!(inputs.len(), 2 + 3 * 9);
-    assert!(inputs.iter().all(|input| keys(input) == ["blake3", "bytes", "file", "sequence"]));
+    assert!(inputs.iter().all(|input| keys(input) == ["blake3", "bytes", "file", "mtime_ns", "sequence"]));
     assert!(
         inputs
             .iter()

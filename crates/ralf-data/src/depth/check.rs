@@ -39,7 +39,7 @@ pub fn check_scalings(reader: &dyn SequenceReader, config: &Config) -> Result<Ve
             let mut residuals = Vec::new();
             check.samples = 0;
             for image in 0..times.len() {
-                let moment = window.image(camera, image)?;
+                let moment = window.image(camera, image);
                 let views = moment.iter().flat_map(|moment| &moment.views);
                 for report in views.map(|view| view.report).filter(|r| r.samples >= config.camera.min_samples)
                 {

@@ -2,12 +2,14 @@
 
 use crate::disk::{files, npy};
 use crate::error::DataError;
-use crate::read::{Recording, SequenceReader};
+use crate::read::{Recording, SequenceReader, TruthLabels};
 use crate::result::{Component, OutFolder, SequenceNames, WriterLock};
 use ralf::sensors::{
     CameraImage, DepthImage, DepthOutput, LidarScan, RadarScan, Sequence, Source, SourceError,
 };
+use ralf_files::Kind;
 use serde::{Deserialize, Serialize};
+use std::any::Any;
 use std::path::{Path, PathBuf};
 
 /// Says what a store holds.
@@ -107,7 +109,7 @@ impl StoreToml {
         let refused = |error: toml::de::Error| {
             DataError::content(file, "content", "output and network", error.to_string())
         };
-        toml::from_str(&files::read_text(file)?).map_err(refused)
+        toml::from_str(&files::read_text(file, Kind::Settings)?).map_err(refused)
     }
 }
 
@@ -167,6 +169,19 @@ impl SequenceReader for WithDepth {
 
     fn lidar_label_file(&self, lidar: usize, scan: usize) -> Option<PathBuf> {
         self.inner.lidar_label_file(lidar, scan)
+    }
+
+    fn has_depth(&self, camera: usize) -> bool {
+        let images = self.sequence.times.cameras.get(camera).map_or(0, Vec::len);
+        (0..images).any(|image| self.file(camera, image).is_some())
+    }
+
+    fn origin(&self) -> Option<&dyn Any> {
+        self.inner.origin()
+    }
+
+    fn truth(&self, radar: usize, scan: usize) -> Result<Option<TruthLabels>, SourceError> {
+        self.inner.truth(radar, scan)
     }
 
     fn truth_file(&self, radar: usize, scan: usize) -> Option<PathBuf> {

@@ -1,4 +1,4 @@
-//! What a run's results say without ground truth (METHOD 9): how far apart the classes are, and how balanced.
+//! What a run's results say without ground truth (docs/method.md, section 9): how far apart the classes are, and how balanced.
 
 use crate::error::DataError;
 use crate::result::{LabelledRun, Table};

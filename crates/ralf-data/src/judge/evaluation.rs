@@ -1,4 +1,4 @@
-//! Labels of a run against the corrected ones (METHOD 9): the label files are all that is needed.
+//! Labels of a run against the corrected ones (docs/method.md, section 9): the label files are all that is needed.
 
 use crate::disk::files;
 use crate::disk::label_file::Label;
@@ -214,7 +214,7 @@ mod tests {
         assert_eq!(found["overall"]["scan_mean"]["iou_artifact"], json!(third));
     }
 
-    /// The paper's tab. conf_mat as label files, split unevenly over scans: 87.05 % accuracy (METHOD 9).
+    /// The paper's table 4 as label files, split unevenly over scans: 87.05 % accuracy (docs/method.md, section 9).
     #[test]
     fn the_papers_confusion_matrix_comes_out_of_label_files() {
         let folders = Folders::new();

@@ -1,8 +1,8 @@
 //! A folder or file becomes a recording: which format it is, by what it holds.
 
 use crate::error::DataError;
+use crate::read::ros::Topics;
 use crate::read::{Recording, layout, nuscenes, ros, view_of_delft};
-use ralf::config::Topics;
 use std::fs;
 use std::path::Path;
 

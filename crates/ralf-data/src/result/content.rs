@@ -5,19 +5,17 @@ use super::sequence_record::{FileRecord, RadarRecord, SequenceRecord};
 use super::{Component, Places};
 use crate::disk::files;
 use crate::error::DataError;
-use std::fs::{self, File};
+use std::fs;
 use std::io::{ErrorKind, Read};
 use std::path::{Path, PathBuf};
 use std::time::UNIX_EPOCH;
 
 /// Bytes that are read at a time.
 const CHUNK: usize = 1 << 20;
-/// Hexadecimal digits that are kept of the hash of a scan's labels.
-const SHORT: usize = 16;
 
 /// Hashes a file. `advance` is told how many bytes more are done.
 pub(crate) fn hash_file(file: &Path, advance: &dyn Fn(u64)) -> Result<FileRecord, DataError> {
-    let mut open = File::open(file).map_err(DataError::io(file))?;
+    let mut open = files::open_input(file)?;
     let mut hasher = blake3::Hasher::new();
     let mut buffer = vec![0; CHUNK];
     let mut bytes = 0;
@@ -32,11 +30,6 @@ pub(crate) fn hash_file(file: &Path, advance: &dyn Fn(u64)) -> Result<FileRecord
     }
 }
 
-/// The hash of a `.label` file, short: it tells damage, and there is one for each scan.
-pub(crate) fn hash_of_labels(bytes: &[u8]) -> String {
-    blake3::hash(bytes).to_hex()[..SHORT].to_owned()
-}
-
 /// When a file was changed last, ns since 1970; `None` where the system doesn't tell.
 pub(crate) fn changed_ns(meta: &fs::Metadata) -> Option<i64> {
     let time = meta.modified().ok()?.duration_since(UNIX_EPOCH).ok()?;
@@ -45,6 +38,10 @@ pub(crate) fn changed_ns(meta: &fs::Metadata) -> Option<i64> {
 
 /// Whether an input still has the content that was labelled: size and time first, the content where the time differs.
 pub(crate) fn input_is_unchanged(file: &Path, input: &Input) -> Result<bool, DataError> {
+    // It could not be read when the run read the others, and nothing was made from it.
+    if input.blake3.is_empty() {
+        return Ok(hash_file(file, &|_| {}).is_err());
+    }
     let meta = match fs::metadata(file) {
         Err(error) if error.kind() == ErrorKind::NotFound => return Ok(false),
         meta => meta.map_err(DataError::io(file))?,

@@ -8,6 +8,7 @@ use crate::disk::files;
 use crate::disk::label_file::{Label, labels_of_bytes};
 use crate::error::DataError;
 use crate::read::{Recording, SequenceReader};
+use crate::settings::Settings;
 use ralf::config::Config;
 use ralf::sensors::Rig;
 use std::collections::BTreeSet;
@@ -28,7 +29,7 @@ pub struct LabelledSequence {
     pub record: SequenceRecord,
     /// The recording's sensors with the settings of the run.
     pub rig: Rig,
-    /// The settings of the run.
+    /// The settings of the method that the labels were made with.
     pub settings: Config,
     /// The labelled detections.
     pub tables: PlausibilityReader,
@@ -76,7 +77,7 @@ impl LabelledRun {
     }
 
     /// The settings that the labels were made with.
-    pub fn settings(&self) -> &Config {
+    pub fn settings(&self) -> &Settings {
         &self.record.settings
     }
 
@@ -139,7 +140,7 @@ impl LabelledRun {
         };
         check_radars(&self.out, reader, record)?;
         let mut rig = reader.sequence().rig.clone();
-        self.record.settings.apply_to(&mut rig).map_err(|error| DataError::Unsuitable {
+        self.record.settings.method.apply_to(&mut rig).map_err(|error| DataError::Unsuitable {
             file: self.out.clone(),
             place: format!("sequence {name}"),
             reason: error.to_string(),
@@ -148,7 +149,7 @@ impl LabelledRun {
         let unlike = |found| DataError::content(&file, "columns", "those of the recording's radars", found);
         let schema = Schema::of(&rig, &[]).map_err(unlike)?;
         let tables = PlausibilityReader::open(&file, &schema)?;
-        let settings = self.record.settings.clone();
+        let settings = self.record.settings.method.clone();
         Ok(LabelledSequence { record: record.clone(), rig, settings, tables })
     }
 

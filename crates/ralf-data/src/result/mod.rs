@@ -2,6 +2,7 @@
 
 mod content;
 pub(crate) mod json;
+mod label_hash;
 mod labelled_run;
 mod lock;
 mod names;
@@ -23,7 +24,10 @@ pub use parquet_writer::PlausibilityWriter;
 pub use record::{Input, RunRecord, Timings, read_record};
 pub use scan_table::RadarScanKey;
 pub use schema::{Column, Group, Kind, Schema};
-pub use sequence_record::{CameraRecord, FileRecord, ImageRecord, NotLabelled, RadarRecord, SequenceRecord};
+pub(crate) use sequence_record::ScanNotes;
+pub use sequence_record::{
+    CameraRecord, FileRecord, ImageRecord, NotLabelled, RadarRecord, SequenceRecord, UnreadableScan,
+};
 pub use table::{Table, Value, Values};
 
 pub(crate) use content::{changed_ns, damaged_result, hash_file};

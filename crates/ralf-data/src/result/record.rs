@@ -1,10 +1,10 @@
 //! `run.json`: what was done, with what, and how it went.
 
 use super::json::read_json;
-use super::sequence_record::{CameraRecord, NotLabelled, RadarRecord, SequenceRecord};
+use super::sequence_record::{CameraRecord, NotLabelled, RadarRecord, SequenceRecord, UnreadableScan};
 use crate::error::DataError;
 use crate::read::Recording;
-use ralf::config::Config;
+use crate::settings::Settings;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -21,7 +21,7 @@ pub struct RunRecord {
     /// Format of the recording.
     pub format: String,
     /// All settings, resolved.
-    pub settings: Config,
+    pub settings: Settings,
     /// Every file that was read, by sequence and name.
     pub inputs: Vec<Input>,
     /// In the order of their names.
@@ -42,7 +42,7 @@ pub struct Input {
     /// When it was changed last before it was read, ns since 1970: a file of this size and time is taken for the same.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub mtime_ns: Option<i64>,
-    /// Of its content.
+    /// Of its content; empty where it can't be read.
     pub blake3: String,
 }
 
@@ -66,11 +66,11 @@ pub fn read_record(out: &Path) -> Result<RunRecord, DataError> {
 
 impl RunRecord {
     /// The record of a folder that holds no sequence yet.
-    pub(crate) fn new(recording: &Recording, config: &Config) -> Self {
+    pub(crate) fn new(recording: &Recording, settings: &Settings) -> Self {
         Self {
             version: env!("CARGO_PKG_VERSION").to_owned(),
             format: recording.format.to_owned(),
-            settings: config.clone(),
+            settings: settings.clone(),
             inputs: Vec::new(),
             sequences: Vec::new(),
             timings: Timings::default(),
@@ -109,6 +109,13 @@ impl RunRecord {
         self.sequences
             .iter()
             .flat_map(|sequence| sequence.not_labelled.iter().map(|scan| (sequence.name.as_str(), scan)))
+    }
+
+    /// LiDAR scans that labelling had to do without, for they can't be read, with their sequence.
+    pub fn unreadable(&self) -> impl Iterator<Item = (&str, &UnreadableScan)> {
+        self.sequences
+            .iter()
+            .flat_map(|sequence| sequence.unreadable.iter().map(|scan| (sequence.name.as_str(), scan)))
     }
 
     /// All cameras of all sequences.

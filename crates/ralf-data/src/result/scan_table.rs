@@ -6,7 +6,7 @@ use crate::disk::label_file::Label;
 use crate::error::DataError;
 use ralf::label::{ARTIFACT, PLAUSIBLE, truth_of};
 use ralf::paper::DetectionLabel;
-use ralf::scene::{Detections, Located};
+use ralf::scene::{Detection, LocatedScan};
 use ralf::sensors::{Elevation, Radar};
 use ralf::space::Spherical;
 use std::sync::Arc;
@@ -30,7 +30,7 @@ impl RadarScanKey {
 /// What a scan's table is made of.
 pub(crate) struct ScanParts<'a> {
     pub(crate) radar: &'a Radar,
-    pub(crate) detections: &'a Detections,
+    pub(crate) scan: &'a LocatedScan,
     /// One per detection; none at all where the scan could not be labelled: all answers are absent then.
     pub(crate) labels: Option<&'a [DetectionLabel]>,
     /// The values of each column of evidence, by name.
@@ -65,10 +65,10 @@ impl Table {
 
 impl ScanParts<'_> {
     fn values(&self, column: &Column) -> Result<Values, DataError> {
-        let rows = self.detections.located.len();
+        let rows = self.scan.len();
         Ok(match (column.group, column.kind, column.name.as_ref()) {
             (_, Kind::U32, "point") => Values::U32((0..rows as u32).collect()),
-            (_, Kind::I64, "t_ns") => Values::I64(vec![self.detections.t_ns(); rows]),
+            (_, Kind::I64, "t_ns") => Values::I64(vec![self.scan.t_ns(); rows]),
             (Group::Measured, Kind::F32, name) => Values::F32(self.measured(name)),
             (Group::Answers, Kind::F32, name) => {
                 let of = answer_of(name).ok_or_else(|| unknown(column))?;
@@ -87,14 +87,14 @@ impl ScanParts<'_> {
     fn of_labels<T: Clone>(&self, absent: T, of: impl Fn(&DetectionLabel) -> T) -> Vec<T> {
         match self.labels {
             Some(labels) => labels.iter().map(of).collect(),
-            None => vec![absent; self.detections.located.len()],
+            None => vec![absent; self.scan.len()],
         }
     }
 
     /// Place in the vehicle frame and as measured, or a further field as it is. A place is absent of a detection without one, and
     /// a further field of a radar that doesn't have it.
     fn measured(&self, name: &str) -> Vec<f32> {
-        let of: fn(&Located, &Spherical) -> f64 = match name {
+        let of: fn(&Detection, &Spherical) -> f64 = match name {
             "x" => |located, _| located.position.x,
             "y" => |located, _| located.position.y,
             "z" => |located, _| located.position.z,
@@ -104,11 +104,11 @@ impl ScanParts<'_> {
             "elevation" => |_, spherical| spherical.elevation,
             further => {
                 let column =
-                    self.radar.column(further).map(|column| self.detections.scan.columns[column].clone());
-                return column.unwrap_or_else(|| vec![f32::NAN; self.detections.located.len()]);
+                    self.radar.column(further).map(|column| self.scan.measured.columns[column].clone());
+                return column.unwrap_or_else(|| vec![f32::NAN; self.scan.len()]);
             }
         };
-        let rows = self.detections.located.iter().zip(&self.detections.scan.spherical);
+        let rows = self.scan.detections.iter().zip(&self.scan.measured.spherical);
         rows.map(|(located, spherical)| {
             located.as_ref().map_or(f32::NAN, |found| of(found, spherical) as f32)
         })

@@ -1,10 +1,10 @@
 //! What `run.json` tells of a sequence.
 
 use super::Table;
-use super::content::hash_of_labels;
+use super::label_hash::hash_of_labels;
 use crate::disk::label_file::label_bytes;
 use crate::error::DataError;
-use ralf::scene::{ImageMoment, ViewReport, ViewState};
+use ralf::scene::{Frame, ImageMoment, Unreadable, ViewReport, ViewState};
 use serde::{Deserialize, Serialize};
 
 /// One sequence.
@@ -23,10 +23,48 @@ pub struct SequenceRecord {
     pub cameras: Vec<CameraRecord>,
     /// Scans that could not be labelled.
     pub not_labelled: Vec<NotLabelled>,
+    /// LiDAR scans that can't be read: what lies near them in time was labelled without.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub unreadable: Vec<UnreadableScan>,
+}
+
+/// A scan that can't be read.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+pub struct UnreadableScan {
+    /// The sensor's name.
+    pub sensor: String,
+    /// Number of the scan.
+    pub scan: usize,
+    /// File, place, expected, found.
+    pub reason: String,
+}
+
+/// What is told of a labelled scan beside its detections.
+#[derive(Debug, Default, Serialize, Deserialize)]
+pub(crate) struct ScanNotes {
+    /// Images that were asked, with the names of their cameras.
+    pub(crate) images: Vec<(String, ImageRecord)>,
+    /// LiDAR scans that it had to do without.
+    pub(crate) unreadable: Vec<UnreadableScan>,
+}
+
+impl ScanNotes {
+    /// What a frame tells.
+    pub(crate) fn new(frame: &Frame) -> Self {
+        let name = |moment: &ImageMoment| frame.rig.cameras[moment.id.camera].name.clone();
+        let images = frame.images.iter().map(|view| (name(&view.moment), ImageRecord::of(&view.moment)));
+        let unreadable = frame.unreadable.iter().cloned();
+        let unreadable = unreadable.map(|Unreadable { sensor, index, reason }| UnreadableScan {
+            sensor,
+            scan: index,
+            reason,
+        });
+        Self { images: images.collect(), unreadable: unreadable.collect() }
+    }
 }
 
 /// A file as it was written.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct FileRecord {
     /// Its size.
     pub bytes: u64,
@@ -89,7 +127,7 @@ pub struct NotLabelled {
 impl ImageRecord {
     pub(crate) fn of(moment: &ImageMoment) -> Self {
         let views = moment.views.iter().map(|view| view.report).collect();
-        Self { image: moment.image, views, problem: moment.problem.clone() }
+        Self { image: moment.id.image, views, problem: moment.problem.clone() }
     }
 }
 

@@ -27,6 +27,7 @@ pub(super) fn assemble(
     let mut writer = PlausibilityWriter::create(&workspace.plausibility_file(), &task.schema)?;
     let mut radars = Vec::with_capacity(task.rig.radars.len());
     let mut images = Images::new();
+    let mut unreadable = BTreeSet::new();
     for (index, (radar, times)) in task.rig.radars.iter().zip(&sequence.times.radars).enumerate() {
         let mut record = RadarRecord { name: radar.name.clone(), ..RadarRecord::default() };
         for scan in 0..times.len() {
@@ -36,7 +37,9 @@ pub(super) fn assemble(
                 continue;
             }
             let table = workspace.table(index, scan, &task.schema)?;
-            for (camera, image) in workspace.images(index, scan)? {
+            let notes = workspace.notes(index, scan)?;
+            unreadable.extend(notes.unreadable);
+            for (camera, image) in notes.images {
                 images.entry(camera).or_default().insert(image.image, image);
             }
             writer.append(&RadarScanKey::new(&radar.name, scan), &table)?;
@@ -49,7 +52,15 @@ pub(super) fn assemble(
     observer.end();
     let cameras = cameras(&task.rig.cameras, images);
     let fingerprint = fingerprint.to_owned();
-    Ok(SequenceRecord { name: sequence.name.clone(), fingerprint, table, radars, cameras, not_labelled })
+    Ok(SequenceRecord {
+        name: sequence.name.clone(),
+        fingerprint,
+        table,
+        radars,
+        cameras,
+        not_labelled,
+        unreadable: unreadable.into_iter().collect(),
+    })
 }
 
 /// What the monitor found about the images that were asked.

@@ -16,12 +16,13 @@ mod workspace;
 
 pub use crate::result::{
     CameraRecord, ImageRecord, Input, NotLabelled, RadarRecord, RunRecord, SequenceRecord, Timings,
-    read_record,
+    UnreadableScan, read_record,
 };
 
 use crate::error::DataError;
 use crate::read::{Recording, SequenceReader, layout};
 use crate::result::{Schema, SequenceNames, WriterLock};
+use crate::settings::Settings;
 use inputs::Identity;
 use output_folder::OutputFolder;
 use ralf::config::Config;
@@ -38,7 +39,7 @@ pub struct LabelRun<'a> {
     /// What is labelled.
     pub recording: &'a Recording,
     /// With these settings.
-    pub config: &'a Config,
+    pub settings: &'a Settings,
     /// Where the results go.
     pub out: &'a Path,
     /// Threads.
@@ -103,8 +104,8 @@ impl LabelRun<'_> {
         let tasks = tasks.map(|(reader, names)| self.task(reader.as_ref(), names));
         let tasks = tasks.collect::<Result<Vec<_>, _>>()?;
         let _lock = WriterLock::take(self.out.join(LOCK), self.out)?;
-        let run = RunRecord::new(self.recording, self.config);
-        let asked = inputs::identify(self.recording, &fingerprint::of_run(&run), self.jobs, observer)?;
+        let run = RunRecord::new(self.recording, self.settings);
+        let asked = inputs::identify(self.recording, &fingerprint::of_run(&run), self.jobs, observer);
         let folder = OutputFolder::open(self.out, run, &asked)?;
         let mut finished = Vec::new();
         for (task, identity) in tasks.iter().zip(&asked).filter(|(_, asked)| !folder.holds(&asked.name)) {
@@ -122,7 +123,7 @@ impl LabelRun<'_> {
     }
 
     fn task<'a>(&self, reader: &'a dyn SequenceReader, names: SequenceNames) -> Result<Task<'a>, DataError> {
-        let rig = rig_of(self.recording, reader, self.config)?;
+        let rig = rig_of(self.recording, reader, &self.settings.method)?;
         let schema = Schema::of(&rig, &[]).map_err(|reason| unsuitable(self.recording, reader, reason))?;
         Ok(Task { reader, names, rig, schema: Arc::new(schema) })
     }
@@ -135,7 +136,8 @@ impl LabelRun<'_> {
         observer: &dyn Observer,
     ) -> Result<SequenceRecord, DataError> {
         let workspace = folder.workspace(identity, &task.names)?;
-        let not_labelled = workers::label_scans(task, self.config, &workspace, self.jobs, observer)?;
+        let not_labelled =
+            workers::label_scans(task, &self.settings.method, &workspace, self.jobs, observer)?;
         assemble::assemble(task, &identity.fingerprint, &workspace, not_labelled, observer)
     }
 

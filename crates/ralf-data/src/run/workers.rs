@@ -1,9 +1,9 @@
 //! Scans side by side: each worker takes a stretch of time and labels it with a window of its own.
 
-use super::workspace::{Images, Workspace};
+use super::workspace::Workspace;
 use super::{Observer, Stage, Task};
 use crate::error::DataError;
-use crate::result::{ImageRecord, NotLabelled, ScanParts, Table};
+use crate::result::{NotLabelled, ScanNotes, ScanParts, Table};
 use ralf::config::Config;
 use ralf::paper::Labeler;
 use ralf::scene::FrameWindow;
@@ -101,14 +101,11 @@ impl Shared<'_> {
                 return self.workspace.forget(radar, scan).map(|()| 0);
             }
         };
-        let views = frame.images.iter().map(|view| &view.moment);
-        let images: Images =
-            views.map(|moment| (rig.cameras[moment.camera].name.clone(), ImageRecord::of(moment))).collect();
         let labels = Labeler::new(self.config).label(&frame);
-        let detections = &frame.detections;
-        let parts = ScanParts { radar: &rig.radars[radar], detections, labels: Some(&labels), evidence: &[] };
+        let parts =
+            ScanParts { radar: &rig.radars[radar], scan: &frame.scan, labels: Some(&labels), evidence: &[] };
         let table = Table::of_scan(schema, &parts)?;
-        self.workspace.keep(radar, scan, &images, &table)?;
+        self.workspace.keep(radar, scan, &ScanNotes::new(&frame), &table)?;
         Ok(labels.len() as u64)
     }
 }

@@ -1,18 +1,15 @@
 //! A sequence while it is labelled: its scans, each in files of its own, that a run which was killed finds again.
 //!
-//! `FINGERPRINT/SEQUENCE/RADAR/000000.rows` holds a labelled scan, `000000.json` what the monitor found about its images.
+//! `FINGERPRINT/SEQUENCE/RADAR/000000.rows` holds a labelled scan, `000000.json` what is told of it beside that.
 
 use super::results::Results;
 use crate::disk::label_file::write_labels;
 use crate::error::DataError;
 use crate::result::json::{read_json, write_json};
-use crate::result::{Component, ImageRecord, OutFolder, Schema, SequenceNames, Table, read_rows, write_rows};
+use crate::result::{Component, OutFolder, ScanNotes, Schema, SequenceNames, Table, read_rows, write_rows};
 use std::fs;
 use std::path::PathBuf;
 use std::sync::Arc;
-
-/// Images that were asked about a scan, with the names of their cameras.
-pub(super) type Images = Vec<(String, ImageRecord)>;
 
 /// The scans of a sequence.
 pub(super) struct Workspace<'a> {
@@ -37,11 +34,11 @@ impl<'a> Workspace<'a> {
         &self,
         radar: usize,
         scan: usize,
-        images: &Images,
+        notes: &ScanNotes,
         table: &Table,
     ) -> Result<(), DataError> {
         write_rows(&self.file(radar, scan, "rows"), table)?;
-        write_json(&self.file(radar, scan, "json"), images)?;
+        write_json(&self.file(radar, scan, "json"), notes)?;
         write_labels(&self.label_file(radar, scan), &table.labels()?)
     }
 
@@ -49,7 +46,7 @@ impl<'a> Workspace<'a> {
     pub(super) fn has_kept(&self, radar: usize, scan: usize, schema: &Arc<Schema>) -> bool {
         let label = fs::metadata(self.label_file(radar, scan));
         let Ok(table) = self.table(radar, scan, schema) else { return false };
-        label.is_ok_and(|label| label.len() == 4 * table.len() as u64) && self.images(radar, scan).is_ok()
+        label.is_ok_and(|label| label.len() == 4 * table.len() as u64) && self.notes(radar, scan).is_ok()
     }
 
     /// The table of a scan.
@@ -57,8 +54,8 @@ impl<'a> Workspace<'a> {
         read_rows(&self.file(radar, scan, "rows"), schema)
     }
 
-    /// What the monitor found about the images of a scan.
-    pub(super) fn images(&self, radar: usize, scan: usize) -> Result<Images, DataError> {
+    /// What is told of a scan beside its detections.
+    pub(super) fn notes(&self, radar: usize, scan: usize) -> Result<ScanNotes, DataError> {
         read_json(&self.file(radar, scan, "json"))
     }
 

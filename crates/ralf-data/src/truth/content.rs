@@ -20,11 +20,11 @@ pub fn scan_content(scan: &RadarScan) -> ContentHash {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use ralf::space::Spherical;
+    use ralf::space::{Point, Spherical};
 
     fn scan(columns: &[&[f32]]) -> RadarScan {
         let rows = columns[0].len();
-        let positions = vec![ralf::space::Point::origin(); rows];
+        let positions = vec![Point::origin(); rows];
         let spherical = vec![Spherical { range: 0.0, azimuth: 0.0, elevation: 0.0 }; rows];
         RadarScan {
             t_ns: 0,

@@ -1,9 +1,10 @@
 //! What people corrected in the review, beside a run's labels: `OUT/corrections.sqlite`.
 
+use crate::disk::files;
 use crate::disk::label_file::Label;
 use crate::error::DataError;
 use crate::read::Recording;
-use crate::truth::ground_truth::ScanId;
+use crate::truth::scan_id::ScanId;
 use ralf_corrections::{FILE, ScanContent, ScanKey, ScanLayer, read_layer};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -37,7 +38,7 @@ impl Corrections {
     /// A file that is no store of corrections, or one of another version of the program.
     pub fn open(out: &Path) -> Result<Self, DataError> {
         let file = out.join(FILE);
-        let there = file.try_exists().map_err(DataError::io(&file))?;
+        let there = files::exists(&file)?;
         let scans = if there { read_layer(&file)? } else { BTreeMap::new() };
         let scans = scans.into_iter().map(|(key, said)| (key.into(), said)).collect();
         Ok(Self { file, scans, orphaned: Vec::new() })

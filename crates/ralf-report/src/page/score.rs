@@ -40,7 +40,7 @@ fn curve(findings: &Findings) -> Result<Markup, ReportError> {
 }
 
 fn reliability(content: &Content) -> Result<Markup, ReportError> {
-    let svg = chart::reliability(&content.findings.truly, content.record.settings.fusion.threshold)?;
+    let svg = chart::reliability(&content.findings.truly, content.record.settings.method.fusion.threshold)?;
     let caption = html! {
         "How many detections of a plausibility w are truly plausible; on the dashed diagonal w would be a probability. "
         "Dotted: the threshold of this run. Below: how many detections there are."
@@ -53,7 +53,7 @@ fn settings(content: &Content) -> Result<Markup, ReportError> {
     let Some(map) = content.findings.passed.map() else {
         return Ok(html! { p.absent { "Nothing is truly plausible, so that F1 has no value." } });
     };
-    let fusion = &content.record.settings.fusion;
+    let fusion = &content.record.settings.method.fusion;
     let svg = chart::settings_map(&map, (fusion.alpha, fusion.threshold))?;
     let (alpha, threshold, f1) = map.best();
     let caption = html! {

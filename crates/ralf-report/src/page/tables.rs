@@ -1,4 +1,4 @@
-//! Labels against corrected ones: the paper's table (tab. data_set) and its confusion matrix (tab. conf_mat).
+//! Labels against corrected ones: the paper's tables 3 (metrics) and 4 (confusion matrix).
 
 use super::NO_TRUTH;
 use super::number::{decimal, grouped, percent};
@@ -9,7 +9,7 @@ use ralf_data::Comparison;
 
 const COLUMNS: [&str; 7] =
     ["Accuracy", "Precision", "Recall", "F1 plausible", "Mean IoU", "IoU plausible", "IoU artifact"];
-/// The first row of the paper's tab. data_set: the mean of 2,704 scans.
+/// The first row of the paper's table 3: the mean of 2,704 scans.
 const PAPER: [f64; 7] = [0.873, 0.826, 0.779, 0.675, 0.682, 0.510, 0.854];
 const PAPER_SCANS: u64 = 2704;
 

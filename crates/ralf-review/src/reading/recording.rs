@@ -9,7 +9,7 @@ use ralf_data::SequenceReader;
 use ralf_data::run::read_record;
 use serde_json::{Value, json};
 
-/// The bits of a detection's flags (FORMATS 2).
+/// The bits of a detection's flags (docs/formats.md, section 2).
 const FLAGS: [(u16, &str); 6] = [
     (flag::GROUND, "ground"),
     (flag::BLIND_SPOT, "blind spot"),
@@ -28,12 +28,17 @@ pub(crate) fn recording(app: &App) -> Answer {
         |path: &std::path::Path| path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned();
     let sequences: Vec<Value> =
         app.recording.sequences.iter().map(|reader| sequence(app, reader.as_ref())).collect();
-    let flags: Vec<Value> = FLAGS.iter().map(|(bit, name)| json!({ "bit": bit, "name": name })).collect();
+    let flags: Vec<Value> = FLAGS
+        .iter()
+        .map(|(bit, name)| json!({ "bit": bit, "name": name, "decided": *bit == flag::GROUND }))
+        .collect();
     json(&json!({
         "dataset": name(&app.recording.path),
         "out": name(&app.out),
         "author": app.author,
-        "threshold": read_record(&app.out)?.settings.fusion.threshold,
+        "store": app.said(ralf_corrections::Reader::id)?,
+        "read_only": app.store.read_only(),
+        "threshold": read_record(&app.out)?.settings.method.fusion.threshold,
         "sequences": sequences,
         "classes": (0..=LAST_CLASS).filter_map(class).collect::<Vec<_>>(),
         "causes": app.causes.names(),

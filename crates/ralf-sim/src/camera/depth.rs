@@ -1,5 +1,5 @@
-//! What a monocular depth network would give: relative depth of an unknown scale, bent a little over the view, that bleeds
-//! over edges, and that is nonsense at times.
+//! What a monocular depth network would give: relative depth of an unknown scale, bent a little over the view, that
+//! bleeds over edges, and that is nonsense at times.
 
 use super::{HORIZON, Moment};
 use crate::random::Random;

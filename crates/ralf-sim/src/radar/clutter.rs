@@ -9,7 +9,8 @@ use ralf::space::{Point, Spherical, Vector};
 /// The road is seen up to here, m.
 const ROAD_REACH: f64 = 45.0;
 
-/// The road, anew in every scan: a wave that grazes it finds another grain each time the vehicle has moved by a wavelength.
+/// The road, anew in every scan: a wave that grazes it finds another grain each time the vehicle has moved by a
+/// wavelength.
 pub(super) fn road(view: &View<'_>, size: f64, random: &mut Random) -> Vec<Echo> {
     let origin = view.origin();
     let mut found = Vec::new();

@@ -22,7 +22,8 @@ pub(crate) struct Detection {
     pub(crate) origin: Point,
 }
 
-/// Measures echoes with the radar's uncertainties; those outside its field of view are lost. The order is that of range.
+/// Measures echoes with the radar's uncertainties; those outside its field of view are lost. The order is that of
+/// range.
 pub(super) fn measured(view: &View<'_>, echoes: &[Echo], random: &mut Random) -> Vec<Detection> {
     let radar = view.radar;
     let mut one = |echo: &Echo| {

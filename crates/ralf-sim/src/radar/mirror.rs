@@ -1,5 +1,5 @@
-//! Mirror images: facades and car sides are smooth for waves of 4 mm, and show real scatterers where none are. The images
-//! stay in their place as the vehicle moves, just as real things do.
+//! Mirror images: facades and car sides are smooth for waves of 4 mm, and show real scatterers where none are. The
+//! images stay in their place as the vehicle moves, just as real things do.
 
 use super::{Echo, View, distance_loss_db};
 use crate::kind::Kind;

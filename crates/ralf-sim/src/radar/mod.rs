@@ -1,7 +1,7 @@
 //! A radar: echoes of real scatterers and of what isn't there, and which of them become detections.
 //!
-//! Every echo has a level; of each cause the strongest are detected, as many as the scan has room for. Strong scatterers
-//! therefore persist from scan to scan, and weak ones flicker.
+//! Every echo has a level; of each cause the strongest are detected, as many as the scan has room for. Strong
+//! scatterers therefore persist from scan to scan, and weak ones flicker.
 
 mod clutter;
 mod ghosts;
@@ -85,7 +85,8 @@ impl View<'_> {
     }
 }
 
-/// What the distance takes from an echo, dB. Radars keep their threshold adapted, so it is less than the fourth power of range.
+/// What the distance takes from an echo, dB. Radars keep their threshold adapted, so it is less than the fourth power
+/// of range.
 fn distance_loss_db(range: f64) -> f64 {
     20.0 * (range.max(2.0) / 10.0).log10()
 }

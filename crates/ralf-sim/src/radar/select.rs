@@ -14,8 +14,8 @@ const MIX: [(Cause, f64); 6] = [
     (Cause::Noise, 0.20),
 ];
 
-/// The strongest echoes of each cause. A scan with fewer real ones has fewer artifacts, too: the threshold is adapted to the
-/// scene, so that the share stays about the same.
+/// The strongest echoes of each cause. A scan with fewer real ones has fewer artifacts, too: the threshold is adapted
+/// to the scene, so that the share stays about the same.
 pub(super) fn detected(
     real: Vec<Echo>,
     ghosts: Vec<Echo>,

@@ -1,7 +1,7 @@
 //! The search: a tree-structured Parzen estimator over `alpha`, the three `beta`, `K` and `n_b`.
 
 use super::threshold::{Cut, Weighed};
-use super::{EvidenceTable, Objective, Settings, TuneError};
+use super::{EvidenceTable, Objective, TuneError, TunedSettings};
 use ralf::config::Config;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
@@ -32,20 +32,20 @@ pub struct Search<'a> {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Found {
     /// The settings.
-    pub settings: Settings,
+    pub settings: TunedSettings,
     /// What they reach on the training tables.
     pub score: f64,
 }
 
 impl Search<'_> {
-    /// The best settings for some tables together; never worse there than the base's. `progress` is told of each trial, counted from
-    /// 1, and of the best so far.
+    /// The best settings for some tables together; never worse there than the base's. `progress` is told of each trial,
+    /// counted from 1, and of the best so far.
     pub fn run(
         &self,
         tables: &[&EvidenceTable],
         progress: &mut dyn FnMut(usize, &Found),
     ) -> Result<Found, TuneError> {
-        let base = Settings::of(self.base);
+        let base = TunedSettings::of(self.base);
         let observed = Observed::of(tables, &base)?;
         let mut dials = Dials::new(tables, &base, &observed, &|key| self.is_free(key))?;
         let mut rng = Pcg64Mcg::seed_from_u64(self.seed);
@@ -70,7 +70,7 @@ impl Search<'_> {
     fn with_best_threshold(
         &self,
         tables: &[&EvidenceTable],
-        mut settings: Settings,
+        mut settings: TunedSettings,
     ) -> Result<Found, TuneError> {
         let mut weighed = Weighed::with_capacity(tables.iter().map(|table| table.len()).sum());
         for table in tables {
@@ -97,7 +97,7 @@ struct Observed {
 
 impl Observed {
     /// Looks through the tables, which must hold both classes.
-    fn of(tables: &[&EvidenceTable], base: &Settings) -> Result<Self, TuneError> {
+    fn of(tables: &[&EvidenceTable], base: &TunedSettings) -> Result<Self, TuneError> {
         let mut observed = Self { lidar: false, camera: false, tracking: false };
         let (mut plausible, mut artifact) = (false, false);
         for table in tables {
@@ -131,7 +131,7 @@ struct Dials {
 impl Dials {
     fn new(
         tables: &[&EvidenceTable],
-        base: &Settings,
+        base: &TunedSettings,
         observed: &Observed,
         is_free: &dyn Fn(&str) -> bool,
     ) -> Result<Self, TuneError> {
@@ -173,7 +173,7 @@ impl Dials {
     }
 
     /// The settings of the trial, rounded to what people read.
-    fn settings(&self, base: &Settings) -> Settings {
+    fn settings(&self, base: &TunedSettings) -> TunedSettings {
         let beta = |dial: &Option<Dial>, base: f64| {
             dial.as_ref().map_or(base, |dial| three_digits(10.0_f64.powf(dial.value)))
         };

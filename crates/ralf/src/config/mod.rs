@@ -1,12 +1,12 @@
-//! Every setting of the labeler (METHOD 12). `config/default.toml` says what each one means, with its unit and range.
+//! Every setting of the labeler (docs/method.md, section 12). `config/default.toml` says what each one means, with its
+//! unit and range.
 
+mod read;
 mod sensors;
-mod topics;
 mod validate;
 
+pub use read::{ConfigError, read_toml};
 pub use sensors::SensorOverride;
-pub use topics::{Stamps, TopicConfig, TopicKind};
-pub use validate::ConfigError;
 
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -31,13 +31,7 @@ pub struct Config {
     pub fusion: FusionConfig,
     /// By sensor name: what replaces the recording's own values.
     pub sensors: BTreeMap<String, SensorOverride>,
-    /// By sensor name: which topic of a ROS recording it is. Other recordings need none.
-    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
-    pub topics: Topics,
 }
-
-/// `topics`: by name.
-pub type Topics = BTreeMap<String, TopicConfig>;
 
 /// `sync`: which measurements belong together.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -95,6 +89,9 @@ pub struct LidarConfig {
     pub beta: f64,
     /// `K`.
     pub neighbours: usize,
+    /// LiDAR scans before and after the nearest one that a frame carries besides it. The paper's method looks at the
+    /// nearest one alone.
+    pub window_scans: usize,
 }
 
 /// How relative depth becomes metric.
@@ -206,7 +203,7 @@ impl Default for GroundConfig {
 
 impl Default for LidarConfig {
     fn default() -> Self {
-        Self { enabled: true, beta: 0.2, neighbours: 3 }
+        Self { enabled: true, beta: 0.2, neighbours: 3, window_scans: 0 }
     }
 }
 

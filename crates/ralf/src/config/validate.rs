@@ -1,26 +1,7 @@
-//! Reading settings, and refusing what they can't be.
+//! Refusing settings that make no sense.
 
 use super::Config;
-use thiserror::Error;
-
-/// Settings that are refused.
-#[derive(Debug, Error, PartialEq)]
-pub enum ConfigError {
-    /// No TOML, an unknown key, a value of another type: the parser's message with the place.
-    #[error("{0}")]
-    Parse(String),
-    /// `--set` without a key and a value.
-    #[error("expected KEY=VALUE such as lidar.beta=0.5, found `{0}`")]
-    Assignment(String),
-    /// A value out of its range.
-    #[error("setting `{key}`: expected {expected}")]
-    Value {
-        /// Dotted name.
-        key: String,
-        /// And what was found.
-        expected: String,
-    },
-}
+use super::read::{ConfigError, read_toml};
 
 impl Config {
     /// Settings from a TOML text and assignments `key=value` that win over it.
@@ -32,18 +13,13 @@ impl Config {
     /// assert!(Config::from_toml("", &["lidar.betta=0.5"]).unwrap_err().to_string().contains("betta"));
     /// ```
     pub fn from_toml(text: &str, assignments: &[&str]) -> Result<Self, ConfigError> {
-        // The file by itself first: its errors then point into its own lines.
-        let from_file: Config =
-            toml::from_str(text).map_err(|error| ConfigError::Parse(error.to_string()))?;
-        let config = if assignments.is_empty() {
-            from_file
-        } else {
-            let mut table: toml::Table = text.parse().map_err(|error| parse_error(&error))?;
-            for assignment in assignments {
-                assign(&mut table, assignment)?;
-            }
-            table.try_into().map_err(|error| parse_error(&error))?
-        };
+        Self::from_toml_beside(&[], text, assignments)
+    }
+
+    /// [`Self::from_toml`] for a file that holds other tables besides: those of these names are left to whom they
+    /// belong to.
+    pub fn from_toml_beside(others: &[&str], text: &str, assignments: &[&str]) -> Result<Self, ConfigError> {
+        let config: Self = read_toml(text, assignments, others)?;
         config.check()?;
         Ok(config)
     }
@@ -54,8 +30,7 @@ impl Config {
     }
 
     fn check(&self) -> Result<(), ConfigError> {
-        let Self { sync, ground, lidar, camera, tracking, fusion, topics, .. } = self;
-        super::topics::check(topics)?;
+        let Self { sync, ground, lidar, camera, tracking, fusion, .. } = self;
         at_least(
             0.0,
             &[
@@ -94,28 +69,6 @@ impl Config {
             ("tracking.neighbours", tracking.neighbours),
         ])
     }
-}
-
-fn parse_error(error: &toml::de::Error) -> ConfigError {
-    ConfigError::Parse(error.to_string())
-}
-
-/// Puts `key=value` into the table. The value is TOML; what is no TOML is a string, so that quotes may be left out.
-fn assign(table: &mut toml::Table, assignment: &str) -> Result<(), ConfigError> {
-    let refused = || ConfigError::Assignment(assignment.to_owned());
-    let (key, text) = assignment.split_once('=').ok_or_else(refused)?;
-    let value =
-        format!("value = {text}").parse::<toml::Table>().ok().and_then(|mut parsed| parsed.remove("value"));
-    let value = value.unwrap_or_else(|| toml::Value::String(text.trim().to_owned()));
-    let mut names: Vec<&str> = key.split('.').map(str::trim).collect();
-    let last = names.pop().filter(|name| !name.is_empty()).ok_or_else(refused)?;
-    let mut place = table;
-    for name in names {
-        let next = place.entry(name).or_insert_with(|| toml::Value::Table(toml::Table::new()));
-        place = next.as_table_mut().ok_or_else(refused)?;
-    }
-    place.insert(last.to_owned(), value);
-    Ok(())
 }
 
 type Values<'a> = &'a [(&'a str, f64)];

@@ -1,4 +1,5 @@
-//! What a label says: SemanticKITTI's classes and the paper's clusters of them (METHOD 11, paper tab. consolidation).
+//! What a label says: SemanticKITTI's classes and the paper's clusters of them (paper, table 5; docs/method.md, section
+//! 11).
 
 /// Nobody has said anything of this detection.
 pub const UNLABELED: u16 = 0;

@@ -1,4 +1,5 @@
-//! What a result says: the classes that labels name, why a detection is an artifact, and the flags beside a plausibility.
+//! What a result says: the classes that labels name, why a detection is an artifact, and the flags beside a
+//! plausibility.
 
 mod cause;
 mod classes;

@@ -1,7 +1,7 @@
-//! How good labels are (METHOD 9 and 13, paper appendix): counts, metrics of one scan, and of many.
+//! How good labels are (paper, appendix; docs/method.md, sections 9 and 13): counts, metrics of one scan, and of many.
 //!
-//! "Positive" is plausible. A class that the truth of a scan holds none of has no value there: its precision, recall, F1
-//! and IoU are `None` and leave the mean over the classes and the mean over the scans.
+//! "Positive" is plausible. A class that the truth of a scan holds none of has no value there: its precision, recall,
+//! F1 and IoU are `None` and leave the mean over the classes and the mean over the scans.
 
 mod confusion;
 mod evaluation;

@@ -1,4 +1,4 @@
-//! The metrics of one confusion matrix (paper appendix, eq. metricstart to metricsend).
+//! The metrics of one confusion matrix (paper, equations 10 to 14).
 
 use super::Confusion;
 use serde::Serialize;
@@ -160,7 +160,7 @@ mod tests {
         assert!((found - expected).abs() < tolerance, "expected {expected}, found {found}");
     }
 
-    /// The paper's tab. conf_mat with `y = 1` read as artifact: METHOD 9 tells what must come out.
+    /// The paper's table 4 with `y = 1` read as artifact: docs/method.md, section 9, says what must come out.
     #[test]
     fn the_papers_confusion_matrix_gives_the_papers_figures() {
         let paper = rates(430_418, 157_076, 2_432_440, 268_869);

@@ -1,4 +1,5 @@
-//! What can be said without ground truth (paper sec. evaluation): how far apart the classes are, and how balanced.
+//! What can be said without ground truth (paper, section 2.5; docs/method.md, section 9): how far apart the classes
+//! are, and how balanced.
 
 /// Running sums over labelled detections.
 ///
@@ -30,7 +31,8 @@ impl Separation {
         *sum += w;
     }
 
-    /// Mean `w` of what is labelled plausible minus mean `w` of what is labelled artifact; `None` where a class is empty.
+    /// Mean `w` of what is labelled plausible minus mean `w` of what is labelled artifact; `None` where a class is
+    /// empty.
     pub fn distinctiveness(&self) -> Option<f64> {
         let mean = |sum: f64, count: u64| (count > 0).then(|| sum / count as f64);
         Some(mean(self.plausible_sum, self.plausible)? - mean(self.artifact_sum, self.artifact)?)

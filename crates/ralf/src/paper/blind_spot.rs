@@ -1,9 +1,10 @@
-//! Where the LiDAR cannot look (METHOD 6, eq. lidar_blindspot).
+//! Where the LiDAR cannot look (paper, equation 5; docs/method.md, section 6).
 
 use crate::sensors::Lidar;
 use crate::space::Point;
 
-/// Whether a point (vehicle frame) lies below the lowest beam of every LiDAR of the rig. Without a LiDAR there is no blind spot.
+/// Whether a point (vehicle frame) lies below the lowest beam of every LiDAR of the rig. Without a LiDAR there is no
+/// blind spot.
 pub fn in_blind_spot(lidars: &[Lidar], p: &Point) -> bool {
     !lidars.is_empty() && lidars.iter().all(|lidar| is_below_lowest_beam(lidar, p))
 }

@@ -1,6 +1,6 @@
-//! The association of a detection with its nearest reference points (METHOD 3).
+//! The association of a detection with its nearest reference points (docs/method.md, section 3).
 
-use super::detections::Located;
+use super::located::Detection;
 use super::mismatch::{Reference, mismatch};
 use crate::sensors::Elevation;
 use crate::space::{Neighbor, NeighborIndex, Point};
@@ -11,7 +11,8 @@ fn searched_at(p: &Point, elevation: Elevation) -> [f32; 3] {
     [p.x as f32, p.y as f32, z as f32]
 }
 
-/// An index over a cloud for detections of a radar that measures elevation or not; a point's place in it is its identity.
+/// An index over a cloud for detections of a radar that measures elevation or not; a point's place in it is its
+/// identity.
 pub fn index_of<'a>(points: impl Iterator<Item = &'a Point>, elevation: Elevation) -> NeighborIndex {
     let places: Vec<_> = points.map(|p| searched_at(p, elevation)).collect();
     let ids: Vec<u32> = (0..places.len() as u32).collect();
@@ -40,10 +41,11 @@ impl<'a> Association<'a> {
 
     /// The mean mismatch with the nearest points; `None` where the cloud is empty.
     ///
-    /// `place` is where the detection lies in the frame of the index; `reference` gives a point in the detection's frame.
+    /// `place` is where the detection lies in the frame of the index; `reference` gives a point in the detection's
+    /// frame.
     pub fn mean_mismatch(
         &mut self,
-        detection: &Located,
+        detection: &Detection,
         place: &Point,
         reference: impl Fn(u32) -> Reference,
     ) -> Option<f64> {

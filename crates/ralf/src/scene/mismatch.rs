@@ -1,4 +1,4 @@
-//! The one distance that all branches share (METHOD 3; alg. lidar_matching, eq. error_prop_d).
+//! The one distance that all branches share (paper, algorithm 1 and equation 4; docs/method.md, section 3).
 
 use crate::space::{Point, Vector};
 use nalgebra::Matrix3;
@@ -82,7 +82,7 @@ mod tests {
     }
 
     proptest! {
-        /// The paper's eq. error_prop_d, its partial derivatives by finite differences.
+        /// The paper's equation 4, its partial derivatives by finite differences.
         #[test]
         fn is_the_papers_error_propagation(
             (range, azimuth, elevation) in (1.0..80.0, -1.4..1.4, -0.4..0.4),

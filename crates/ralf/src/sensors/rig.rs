@@ -19,7 +19,7 @@ pub struct Rig {
 pub enum Elevation {
     /// Range, azimuth and elevation.
     Measured,
-    /// Range and azimuth only: the search and `h` are horizontal (METHOD 3).
+    /// Range and azimuth only: the search and `h` are horizontal (docs/method.md, section 3).
     None,
 }
 
@@ -48,7 +48,7 @@ pub struct Radar {
     pub reliability: Reliability,
 }
 
-/// `gamma_s(phi) >= 1`: what the sensor's mounting does to its plausibility (METHOD 8).
+/// `gamma_s(phi) >= 1`: what the sensor's mounting does to its plausibility (docs/method.md, section 8).
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Reliability {
     /// Azimuth (rad, ascending) and value.

@@ -34,7 +34,8 @@ pub struct Timelines {
     pub cameras: Vec<Vec<i64>>,
 }
 
-/// One sequence of a recording. Readers are indexed by the sensor's place in the rig and the measurement's in its timeline.
+/// One sequence of a recording. Readers are indexed by the sensor's place in the rig and the measurement's in its
+/// timeline.
 ///
 /// Any measurement may be asked for at any time and from any thread, and asking twice gives the same.
 pub trait Source: Send + Sync {

@@ -1,4 +1,5 @@
-//! Straightening: a view cut out of a raw image through a map that is computed once per camera and view (METHOD 5.1).
+//! Straightening: a view cut out of a raw image through a map that is computed once per camera and view
+//! (docs/method.md, section 5).
 
 use super::image::CameraImage;
 use super::intrinsics::Intrinsics;
@@ -34,8 +35,8 @@ const ONE: u16 = 256;
 impl UndistortMap {
     /// The map from a raw image of `width` by `height` px to a straight view.
     ///
-    /// A place outside the raw image (farther than half a pixel from its outermost pixels' centres), or one that the lens
-    /// doesn't see, becomes black. An image needs two rows and two columns for anything to lie between.
+    /// A place outside the raw image (farther than half a pixel from its outermost pixels' centres), or one that the
+    /// lens doesn't see, becomes black. An image needs two rows and two columns for anything to lie between.
     pub fn new(intrinsics: &Intrinsics, width: usize, height: usize, view: &StraightView) -> Self {
         let limit = intrinsics.limit();
         let pixels = (0..view.height).flat_map(|row| (0..view.width).map(move |column| [column, row]));
@@ -48,8 +49,8 @@ impl UndistortMap {
         Self { source: [width, height], target: [view.width, view.height], taps }
     }
 
-    /// The straight view of an image, interpolated between the four nearest pixels and rounded. The error says which size
-    /// of image was expected.
+    /// The straight view of an image, interpolated between the four nearest pixels and rounded. The error says which
+    /// size of image was expected.
     pub fn apply(&self, image: &CameraImage) -> Result<CameraImage, String> {
         let [width, height] = self.source;
         if [image.width, image.height] != self.source || image.rgb.len() != width * height {
@@ -104,8 +105,8 @@ fn lanes(&[r0, g0, b0, r1, g1, b1]: &[u8; 6]) -> [u64; 2] {
     [spread(u32::from_le_bytes([r0, g0, b0, r1])), spread(u32::from_le_bytes([b0, r1, g1, b1]) >> 8)]
 }
 
-/// The pixel before a coordinate that has a successor, and the successor's share; `None` outside the image, and where no two
-/// pixels are.
+/// The pixel before a coordinate that has a successor, and the successor's share; `None` outside the image, and where
+/// no two pixels are.
 fn split(coordinate: f64, size: usize) -> Option<(usize, u16)> {
     let last = size.checked_sub(2)?;
     if !(coordinate >= -0.5 && coordinate < size as f64 - 0.5) {

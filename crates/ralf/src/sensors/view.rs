@@ -1,4 +1,4 @@
-//! Straight (pinhole) views cut out of a camera's image (METHOD 5.1), and how points are seen in them.
+//! Straight (pinhole) views cut out of a camera's image (docs/method.md, section 5), and how points are seen in them.
 
 use crate::space::{Point, Vector};
 use nalgebra::UnitQuaternion;
@@ -58,8 +58,8 @@ impl StraightView {
         Self { width, height, focal, center, camera_from_view: UnitQuaternion::identity() }
     }
 
-    /// Where a point of the camera's optical frame appears; `None` unless it lies before the view and has a nearest pixel
-    /// (`-0.5 <= u < width - 0.5`, and so for v).
+    /// Where a point of the camera's optical frame appears; `None` unless it lies before the view and has a nearest
+    /// pixel (`-0.5 <= u < width - 0.5`, and so for v).
     pub fn project(&self, p_camera: &Point) -> Option<ViewPoint> {
         self.project_own(&(self.camera_from_view.inverse() * p_camera))
     }

@@ -1,4 +1,4 @@
-//! Transforms and spherical coordinates (METHOD 1); the parent says which frames there are.
+//! Transforms and spherical coordinates (docs/method.md, section 1); the parent says which frames there are.
 
 use nalgebra::{Isometry3, Matrix3, Point3, Quaternion, Translation3, UnitQuaternion, Vector3};
 

@@ -1,5 +1,5 @@
-//! Space and time without sensors: frames and spherical coordinates, how the vehicle moved, which times belong together, and the
-//! one search for nearest points.
+//! Space and time without sensors: frames and spherical coordinates, how the vehicle moved, which times belong
+//! together, and the one search for nearest points.
 //!
 //! | frame | axes | origin |
 //! | --- | --- | --- |

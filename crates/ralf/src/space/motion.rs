@@ -1,4 +1,5 @@
-//! How the vehicle moved (METHOD 2, eq. single_track): where the vehicle was in the odom frame at any time.
+//! How the vehicle moved (paper, equation 7; docs/method.md, section 2): where the vehicle was in the odom frame at any
+//! time.
 
 use crate::space::Transform;
 use nalgebra::{Translation3, UnitQuaternion, Vector3};
@@ -73,8 +74,8 @@ impl EgoMotion {
         if self.poses.is_empty() { self.integrated(t_ns) } else { self.interpolated(t_ns) }
     }
 
-    /// The vehicle's velocity (m/s, vehicle frame, at its origin) and turn rate (rad/s) at a time: measured by the wheels
-    /// where there is odometry, else from the poses around.
+    /// The vehicle's velocity (m/s, vehicle frame, at its origin) and turn rate (rad/s) at a time: measured by the
+    /// wheels where there is odometry, else from the poses around.
     pub fn twist(&self, t_ns: i64) -> (Vector3<f64>, Vector3<f64>) {
         match self.odometry.get(self.sample_at(t_ns)) {
             Some(sample) => {

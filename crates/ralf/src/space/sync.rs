@@ -1,4 +1,4 @@
-//! Which measurements belong together (METHOD 4.1, 5, 7.1, 7.4, 13 "Time and motion").
+//! Which measurements belong together (docs/method.md, sections 1, 7 and 13).
 
 /// The measurement nearest in time, if within the tolerance (inclusive, ns). A tie takes the earlier. `times` ascend.
 pub fn nearest(times: &[i64], t_ns: i64, tolerance_ns: i64) -> Option<usize> {

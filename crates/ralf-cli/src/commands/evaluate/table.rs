@@ -1,4 +1,4 @@
-//! An evaluation as text: the paper's table (tab. data_set) and its confusion matrix (tab. conf_mat).
+//! An evaluation as text: the paper's tables 3 (metrics) and 4 (confusion matrix).
 
 use crate::text::{aligned, decimal};
 use ralf::metrics::{Confusion, Evaluation, Rates, Scores};

@@ -1,11 +1,10 @@
 //! The topics of a ROS recording, and a first guess of which sensor each of them is.
 
-use crate::cli::DatasetArgs;
+use crate::arguments::DatasetArgs;
+use crate::outcome::{Outcome, UsageError};
 use crate::progress::say;
 use crate::text::{aligned, grouped};
-use crate::{Outcome, UsageError};
-use ralf::config::Config;
-use ralf_data::read::ros::{Guess, RosInspection, TopicInspection, inspect, is_ros, topics_toml};
+use ralf_data::read::ros::{Guess, RosInspection, TopicInspection, Topics, inspect, is_ros, topics_toml};
 use std::fs::File;
 use std::io::{ErrorKind, Write};
 use std::path::Path;
@@ -28,7 +27,7 @@ impl Look {
     }
 
     /// The topics, and the guess where the settings have no table.
-    pub(super) fn page(&self, config: &Config) -> anyhow::Result<String> {
+    pub(super) fn page(&self, topics: &Topics) -> anyhow::Result<String> {
         let head = ["topic", "type", "encoding", "count", "rate", "jitter", "delay", "frame"];
         let mut rows = vec![head.map(str::to_owned).to_vec()];
         rows.extend(self.inspection.topics.iter().map(row));
@@ -36,7 +35,7 @@ impl Look {
         for loss in &self.inspection.losses {
             page += &format!("lost: {loss}\n");
         }
-        if config.topics.is_empty() {
+        if topics.is_empty() {
             page += &format!("{}\n", topics_toml(&self.guess)?);
         }
         Ok(page)

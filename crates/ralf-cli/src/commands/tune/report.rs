@@ -2,7 +2,7 @@
 
 use ralf::config::Config;
 use ralf::metrics::{Confusion, Scores};
-use ralf_train::{EvidenceTable, Fold, Found, Objective, Settings, TuneError};
+use ralf_train::{EvidenceTable, Fold, Found, Objective, TuneError, TunedSettings};
 use serde::Serialize;
 use serde_json::{Map, Value, json};
 
@@ -11,7 +11,7 @@ pub(super) struct Report {
     pub(super) objective: Objective,
     pub(super) trials: usize,
     pub(super) seed: u64,
-    pub(super) base: Settings,
+    pub(super) base: TunedSettings,
     pub(super) found: Found,
     pub(super) train: Part,
     pub(super) test: Option<Part>,
@@ -32,9 +32,9 @@ impl Part {
     pub(super) fn of(
         sequences: &[(String, EvidenceTable)],
         base: &Config,
-        tuned: &Settings,
+        tuned: &TunedSettings,
     ) -> Result<Self, TuneError> {
-        let scores = |settings: &Settings| {
+        let scores = |settings: &TunedSettings| {
             let scans = sequences.iter().map(|(_, table)| table.confusions(settings));
             let scans: Vec<Vec<Confusion>> = scans.collect::<Result<_, _>>()?;
             Ok(Scores::of(&scans.concat()))
@@ -42,7 +42,7 @@ impl Part {
         Ok(Self {
             sequences: sequences.iter().map(|(name, _)| name.clone()).collect(),
             scans: sequences.iter().map(|(_, table)| table.scans()).sum(),
-            base: scores(&Settings::of(base))?,
+            base: scores(&TunedSettings::of(base))?,
             tuned: scores(tuned)?,
         })
     }
@@ -75,7 +75,7 @@ fn fold(fold: &Fold) -> Value {
     })
 }
 
-fn settings(settings: &Settings) -> Value {
+fn settings(settings: &TunedSettings) -> Value {
     let entries = settings.entries().map(|(key, value)| (key.to_owned(), json!(value)));
     Value::Object(Map::from_iter(entries))
 }

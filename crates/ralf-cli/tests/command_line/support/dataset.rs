@@ -1,4 +1,4 @@
-//! A recording in the project's own layout (FORMATS 1), in a folder of its own.
+//! A recording in the project's own layout (docs/formats.md, section 1), in a folder of its own.
 
 use super::world::{ARTIFACT, CAR, Chance, SPEED, Thing, seen_ahead, seen_left, surfaces};
 use std::fs;

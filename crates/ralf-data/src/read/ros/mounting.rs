@@ -2,8 +2,8 @@
 
 use super::messages::Messages;
 use super::survey::Survey;
+use super::topics::{TopicConfig, TopicKind, Topics};
 use crate::error::DataError;
-use ralf::config::{TopicConfig, TopicKind, Topics};
 use ralf::space::Transform;
 
 /// The vehicle's frame: as the settings say, or else that of the odometry, or else that of the twist.

@@ -9,7 +9,7 @@ use crate::result::{
 };
 use crate::truth::{Corrections, ScanId};
 use ralf::label::truth_of;
-use ralf::scene::Detections;
+use ralf::scene::LocatedScan;
 use ralf::sensors::RadarScan;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
@@ -154,15 +154,15 @@ impl<'a, 'p> LabelledSequence<'a, 'p> {
     /// A scan without rows saw nothing, or could not be labelled, which the record tells.
     fn without_rows(&mut self, id: &ScanId, radar: usize) -> Result<(Table, Vec<Label>), DataError> {
         let sensor = &self.reader.sequence().rig.radars[radar];
-        let detections = Detections::locate(sensor, self.measured(radar, id.scan as usize)?);
-        let found = detections.located.len();
+        let detections = LocatedScan::new(sensor, self.measured(radar, id.scan as usize)?);
+        let found = detections.len();
         if self.not_labelled.contains(&(sensor.name.clone(), id.scan as usize)) {
             self.tally.exported.not_labelled.push(id.to_string());
         } else if found > 0 {
             let expected = format!("{found} detections, as in the recording");
             return Err(self.unlike(id, expected, "none".to_owned()));
         }
-        let parts = ScanParts { radar: sensor, detections: &detections, labels: None, evidence: &[] };
+        let parts = ScanParts { radar: sensor, scan: &detections, labels: None, evidence: &[] };
         let table = Table::of_scan(self.tables.reader.schema(), &parts)?;
         Ok((table, vec![Label::default(); found]))
     }

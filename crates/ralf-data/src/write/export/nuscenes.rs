@@ -7,10 +7,11 @@ use super::Writer;
 use super::labelled::LabelledSequence;
 use crate::disk::files;
 use crate::error::DataError;
-use crate::read::NuScenesKey;
+use crate::read::nuscenes::NuScenesOrigin;
 use crate::result::{Component, OutFolder, checked};
 use ralf::label::{PLAUSIBLE, class_name, truth_of};
 use serde::Serialize;
+use std::any::Any;
 use std::collections::BTreeMap;
 use std::path::Path;
 
@@ -43,13 +44,16 @@ struct Category {
 impl Writer for NuScenes {
     fn sequence(&mut self, folder: &OutFolder, sequence: &mut LabelledSequence) -> Result<(), DataError> {
         let ids = class_ids();
+        let origin = origin(sequence)?;
+        let version = &origin.version;
         for radar in 0..sequence.reader.sequence().rig.radars.len() {
             for scan in 0..sequence.scans(radar) {
-                let NuScenesKey { version, sample_data_token } = key(sequence, radar, scan)?;
+                let sample_data_token =
+                    origin.sample_data_token(radar, scan).ok_or_else(|| no_tokens(sequence.name()))?;
                 let labels = sequence.scan(radar, scan)?.labels_in_place();
                 let bytes: Vec<u8> = labels.iter().map(|label| index(&ids, label.id)).collect();
                 let token = checked("sample_data token", &sample_data_token)?.and("_radarseg.bin");
-                let folder_name = checked("version", &version)?;
+                let folder_name = checked("version", version)?;
                 files::write_whole(&folder.own("radarseg").folder(&folder_name).file(&token), &bytes)?;
                 let filename = format!("radarseg/{version}/{}", token.as_str());
                 let row = Row { token: sample_data_token.clone(), sample_data_token, filename };
@@ -69,12 +73,17 @@ impl Writer for NuScenes {
     }
 }
 
-fn key(sequence: &LabelledSequence, radar: usize, scan: usize) -> Result<NuScenesKey, DataError> {
-    sequence.reader.nuscenes_key(radar, scan).ok_or_else(|| DataError::Unsuitable {
-        file: sequence.name().into(),
+fn origin<'a>(sequence: &LabelledSequence<'a, '_>) -> Result<&'a NuScenesOrigin, DataError> {
+    let origin = sequence.reader.origin().and_then(<dyn Any>::downcast_ref);
+    origin.ok_or_else(|| no_tokens(sequence.name()))
+}
+
+fn no_tokens(sequence: &str) -> DataError {
+    DataError::Unsuitable {
+        file: sequence.into(),
         place: "sample_data tokens".to_owned(),
         reason: "only a recording that is read from nuScenes' own tables has them".to_owned(),
-    })
+    }
 }
 
 /// SemanticKITTI's ids, ascending: a class's place here is its value in a sidecar.

@@ -48,7 +48,7 @@ impl Place {
             return Err(DataError::content(path, "path", "one that ends in a name", "none"));
         };
         let lock = WriterLock::beside(path)?;
-        let file = match options.format.recording() {
+        let file = match RosFormat::of_export(options.format) {
             Some(kind) if RosFormat::of_file(path) == Some(kind) && !path.is_dir() => {
                 check_file(path, options, &sequences)?;
                 names.first().map(|name| name.and(kind.ending()))

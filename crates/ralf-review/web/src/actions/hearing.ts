@@ -3,6 +3,7 @@
 import { ServerGone } from "../api/errors.js";
 import type { Changes } from "../api/types.js";
 import { sameScan } from "../data/scan.js";
+import type { Adopting } from "./adopting.js";
 import type { Correcting } from "./correcting.js";
 import { complain, tell, type World } from "./world.js";
 
@@ -13,6 +14,7 @@ export class Hearing {
 
   constructor(
     private readonly world: World,
+    private readonly adopting: Adopting,
     private readonly correcting: Correcting,
   ) {}
 
@@ -54,7 +56,7 @@ export class Hearing {
     if (store.state.connected) return;
     const [queue, history] = await Promise.all([api.queue(sequence), api.history(sequence)]);
     store.set({ connected: true, scans: queue.scans, progress: queue.progress, history });
-    await this.correcting.reread(sequence, store.state.cloud.scans);
+    await this.adopting.reread(sequence, store.state.cloud.scans);
     await this.correcting.retry();
   }
 
@@ -63,7 +65,7 @@ export class Hearing {
     if (scans.length === 0) return;
     const { cloud, current } = store.state;
     for (const change of scans) this.world.loader.forget(sequence, change);
-    await this.correcting.reread(
+    await this.adopting.reread(
       sequence,
       cloud.scans.filter((scan) => scans.some((change) => sameScan(change, scan))),
     );

@@ -12,6 +12,7 @@ type Met = Extract<OutboxStatus, { kind: "conflict" }>;
 export function conflictDialog({ store, actions }: Page): HTMLElement {
   const body = h("div", { class: "conflict-body" });
   const spare = h("input", { type: "checkbox", id: "spare" });
+  const spareLabel = h("label", { class: "check", for: "spare" }, spare, "Leave alone what is corrected already");
   const apply = h(
     "button",
     { class: "button", type: "button", on: { click: () => void actions.correct.applyAnyway(spare.checked) } },
@@ -27,7 +28,7 @@ export function conflictDialog({ store, actions }: Page): HTMLElement {
     { class: "conflict", role: "alertdialog", "aria-label": "Conflict", tabindex: "-1" },
     h("h2", {}, "Somebody changed this first"),
     body,
-    h("label", { class: "check", for: "spare" }, spare, "Leave alone what is corrected already"),
+    spareLabel,
     h("div", { class: "row" }, apply, drop),
   );
   store.watch(
@@ -37,6 +38,9 @@ export function conflictDialog({ store, actions }: Page): HTMLElement {
       box.hidden = met === null;
       if (met === null) return;
       spare.checked = met.pending.stroke.protect;
+      // A stroke on detections that aren't there any more can only be dropped.
+      apply.hidden = met.body.stale;
+      spareLabel.hidden = met.body.stale;
       body.replaceChildren(...told(met, store.state));
       // Not a button: a key that was on its way must not decide.
       box.focus();
@@ -45,7 +49,7 @@ export function conflictDialog({ store, actions }: Page): HTMLElement {
   return box;
 }
 
-function told({ body, pending }: Met, { labels, recording }: Readonly<State>): HTMLElement[] {
+function told({ body, pending }: Met, { labels, name }: Readonly<State>): HTMLElement[] {
   const { stroke } = pending;
   const count = stroke.points.reduce((sum, { points }) => sum + points.length, 0);
   const touched = stroke.points.reduce((sum, { radar, scan, points }) => {
@@ -55,11 +59,13 @@ function told({ body, pending }: Met, { labels, recording }: Readonly<State>): H
     return sum + points.filter((point) => now.has(point)).length;
   }, 0);
   const { conflict } = body;
-  const elsewhere = conflict?.author === recording.author ? " (in another window)" : "";
+  const elsewhere = conflict?.author === name ? " (in another window)" : "";
   const who =
     conflict === null
       ? body.error
       : `${conflict.author}${elsewhere} changed ${conflict.radar} ${conflict.scan} with ${conflict.tool}, ${clock(conflict.at)}.`;
+  if (body.stale)
+    return [h("p", {}, who), h("p", {}, "Your stroke was made on what was there before. Nothing of it is saved.")];
   return [
     h("p", {}, who),
     h(

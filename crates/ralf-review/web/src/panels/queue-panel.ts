@@ -83,6 +83,14 @@ function said(entry: QueueScan): HTMLElement[] {
   const parts = reasons(entry).map((reason) =>
     h("span", { class: reason.includes("failed") ? "reason alarm" : "reason" }, reason),
   );
+  if (entry.orphaned > 0)
+    parts.push(
+      h(
+        "span",
+        { class: "reason alarm", title: "Corrections of other detections: kept, not applied" },
+        `${entry.orphaned} orphaned`,
+      ),
+    );
   if (entry.corrected > 0) parts.unshift(h("span", { class: "reason corrected" }, `${entry.corrected} corrected`));
   if (entry.reviewed !== null) parts.unshift(h("span", { class: "reason reviewed" }, "✓ reviewed"));
   return parts;

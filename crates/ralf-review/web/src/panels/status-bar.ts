@@ -12,7 +12,17 @@ export function statusBar({ store, actions }: Page): HTMLElement {
   const history = h("span", { class: "number" });
   const cursor = h("span", { class: "number cursor" });
   const frame = h("span", { class: "number faint frame", title: "JavaScript time of the last drawn frame" });
-  const author = h("span", { title: "Author of corrections" });
+  const author = h("button", {
+    class: "link",
+    type: "button",
+    title: "What you are called (change)",
+    on: { click: () => actions.view.dialog("name") },
+  });
+  const announced = h("span", { class: "unseen", role: "status", "aria-live": "polite" });
+  store.watch(
+    ({ announced: text }) => [text],
+    (text) => say(announced, text),
+  );
   const help = h(
     "button",
     { class: "link", type: "button", on: { click: () => actions.view.dialog("help") } },
@@ -20,8 +30,8 @@ export function statusBar({ store, actions }: Page): HTMLElement {
     h("kbd", {}, "?"),
   );
   store.watch(
-    ({ recording }) => [recording],
-    (recording) => say(author, recording.author),
+    ({ name }) => [name],
+    (name) => say(author, name),
   );
   store.watch(
     ({ outbox, waiting, busy, history: past, connected }) => [outbox, waiting, busy, past, connected],
@@ -47,7 +57,7 @@ export function statusBar({ store, actions }: Page): HTMLElement {
     ({ frameTime }) => [frameTime],
     (time) => say(frame, `${decimal(time, 1)} ms/frame`),
   );
-  return h("footer", { class: "status-bar" }, saved, author, history, work, cursor, frame, help);
+  return h("footer", { class: "status-bar" }, saved, author, history, work, announced, cursor, frame, help);
 }
 
 /** What the state of saving is, in a word; "saved" only when nothing waits. */
@@ -56,7 +66,9 @@ export function savedState({
   waiting,
   busy,
   connected,
+  recording,
 }: Readonly<State>): readonly [text: string, look: string] {
+  if (recording.read_only !== null) return ["read-only", "pending"];
   if (outbox.kind === "conflict") return ["conflict", "alarm"];
   if (outbox.kind === "gone" || outbox.kind === "refused")
     return [`${counted(waiting.length, "stroke")} not saved`, "alarm"];

@@ -112,15 +112,19 @@ function selectionGroup({ store, actions }: Page): HTMLElement {
 }
 
 function historyGroup({ store, actions }: Page): HTMLElement {
-  const undo = iconButton("undo", "Undo (Ctrl+Z)", () => void actions.correct.undo());
-  const redo = iconButton("redo", "Redo (Ctrl+Shift+Z)", () => void actions.correct.redo());
+  const undo = iconButton("undo", "Undo (Ctrl+Z)", () => void actions.step.undo());
+  const redo = iconButton("redo", "Redo (Ctrl+Shift+Z)", () => void actions.step.redo());
   store.watch(
     ({ history, labels }) => [history, labels],
     (history, labels) => {
       undo.disabled = history.undo === null;
       redo.disabled = history.redo === null;
-      const told = (past: typeof history.undo): string =>
-        past === null ? "" : `: ${past.tool}, ${past.changed} to ${labels.choiceName(past.label)}`;
+      const told = (past: typeof history.undo): string => {
+        if (past === null) return "";
+        if (past.tool === "reviewed") return ": the mark of review";
+        if (past.tool === "unreviewed") return ": that a mark of review was taken away";
+        return `: ${past.tool}, ${past.changed} to ${labels.choiceName(past.label)}`;
+      };
       undo.title = `Undo (Ctrl+Z)${told(history.undo)}`;
       redo.title = `Redo (Ctrl+Shift+Z)${told(history.redo)}`;
     },

@@ -1,4 +1,4 @@
-//! What a depth network's values mean (METHOD 5.2, 5.3).
+//! What a depth network's values mean (docs/method.md, section 5).
 
 use crate::sensors::{DepthImage, DepthOutput};
 

@@ -1,9 +1,9 @@
 //! The cameras' images around a moment, and the metric depth of what they show.
 //!
-//! What a depth network gave for a [`StraightView`](crate::sensors::StraightView) becomes metric in [`calibrate()`]: LiDAR points
-//! are projected into the view ([`project_points`]), those that the camera cannot see leave, the rest scale the relative depth
-//! around them, a monitor judges the outcome ([`ViewReport`]), and the calibrated pixels return to the vehicle frame as
-//! [`CameraPoint`]s.
+//! What a depth network gave for a [`StraightView`](crate::sensors::StraightView) becomes metric in [`calibrate()`]:
+//! LiDAR points are projected into the view ([`project_points`]), those that the camera cannot see leave, the rest
+//! scale the relative depth around them, a monitor judges the outcome ([`ViewReport`]), and the calibrated pixels
+//! return to the vehicle frame as [`CameraPoint`]s.
 
 mod calibrate;
 mod depth;
@@ -13,8 +13,8 @@ mod monitor;
 mod projection;
 mod scaling;
 
-pub use calibrate::{CalibratedView, CameraPoint, Surroundings, calibrate};
-pub use moment::{Calibration, ImageMoment, ImageView, ImageWithDepth, Seen};
+pub use calibrate::{CalibratedView, Calibration, CameraPoint, calibrate};
+pub use moment::{ImageId, ImageMoment, ImageView, ImageWithDepth, Seen};
 pub use monitor::{Failure, ViewReport, ViewState, luminance};
 pub use projection::project_points;
 pub use scaling::median;

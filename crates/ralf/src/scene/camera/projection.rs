@@ -1,4 +1,4 @@
-//! LiDAR points in a straight view, without those that the camera cannot see (METHOD 5.3).
+//! LiDAR points in a straight view, without those that the camera cannot see (docs/method.md, section 5).
 
 use super::grid::PixelGrid;
 use crate::sensors::{StraightView, ViewPoint};
@@ -9,9 +9,9 @@ const NEARER: f64 = 0.9;
 
 /// Projects points of the camera's mother frame into a view, in their order, without the occluded.
 ///
-/// `camera_from_points` leads from the points' frame to the camera's optical frame. A point of depth `Z` is occluded when
-/// another point inside the view has a depth below `0.9 Z` and lies within `window` px in both u and v, inclusive. Points that
-/// aren't finite are in no view.
+/// `camera_from_points` leads from the points' frame to the camera's optical frame. A point of depth `Z` is occluded
+/// when another point inside the view has a depth below `0.9 Z` and lies within `window` px in both u and v, inclusive.
+/// Points that aren't finite are in no view.
 pub fn project_points(
     points: &[Point],
     camera_from_points: &Transform,

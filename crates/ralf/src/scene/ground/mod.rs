@@ -1,4 +1,4 @@
-//! The ground under the vehicle (METHOD 4.2, 13 "Ground").
+//! The ground under the vehicle (docs/method.md, sections 4 and 13).
 
 mod plane;
 mod polar;

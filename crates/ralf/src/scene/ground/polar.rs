@@ -1,5 +1,5 @@
-//! A ground that follows slopes and kerbs: a plane per concentric sector (not in the paper, which names slopes as a failure
-//! of its single plane).
+//! A ground that follows slopes and kerbs: a plane per concentric sector (not in the paper, which names slopes as a
+//! failure of its single plane).
 
 use super::plane::{Plane, PlaneSums};
 use super::ransac::Candidates;
@@ -79,7 +79,8 @@ fn fit_sector(
     Some(plane)
 }
 
-/// Whether a plane is a ground that can follow the one inside it: no steeper than allowed against up and against that one.
+/// Whether a plane is a ground that can follow the one inside it: no steeper than allowed against up and against that
+/// one.
 fn follows(next: &Plane, inside: &Plane, config: &GroundConfig) -> bool {
     let limit = config.max_tilt_deg.to_radians().cos();
     next.normal.z >= limit && next.normal.dot(&inside.normal) >= limit

@@ -26,8 +26,9 @@ pub(super) struct Candidates {
 }
 
 impl Candidates {
-    /// Leaves out what no admissible plane reaches: its height at a horizontal distance `rho` from the vehicle is at most
-    /// `max_offset / cos(max_tilt) + rho tan(max_tilt)`. Points that are not finite fail the comparison and leave, too.
+    /// Leaves out what no admissible plane reaches: its height at a horizontal distance `rho` from the vehicle is at
+    /// most `max_offset / cos(max_tilt) + rho tan(max_tilt)`. Points that are not finite fail the comparison and leave,
+    /// too.
     pub(super) fn admissible(points: &[[f32; 3]], config: &GroundConfig) -> Self {
         let tilt = config.max_tilt_deg.to_radians();
         let reach = ((config.max_offset + config.inlier_distance) / tilt.cos()) as f32;

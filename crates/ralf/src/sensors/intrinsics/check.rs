@@ -6,7 +6,8 @@ impl Intrinsics {
     /// Refuses, with what was expected and found, parameters that no camera with an image of this size (px) has.
     ///
     /// Besides numbers that aren't finite and focal lengths that aren't positive, these are polynomials that fold back
-    /// before they reach the border: the point of the image's border that is nearest to the centre must have a direction.
+    /// before they reach the border: the point of the image's border that is nearest to the centre must have a
+    /// direction.
     pub fn check(&self, width: usize, height: usize) -> Result<(), String> {
         if width < 2 || height < 2 {
             return Err(format!("an image of at least 2 x 2 px, found {width} x {height}"));

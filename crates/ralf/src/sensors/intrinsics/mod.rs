@@ -1,9 +1,10 @@
 //! Camera models: how a direction in the optical frame becomes a pixel, and a pixel a direction.
 //!
 //! Pixels are `[u, v]`, column and row, with the centres of pixels at integers, so an image covers
-//! `-0.5 <= u < width - 0.5`. Models know no border: they hold outside the image as well, up to the angle off the axis at
-//! which their polynomial folds back ([`Intrinsics::limit`]). Beyond it nothing is seen, so no far ray returns into the
-//! image. A pinhole sees nothing behind itself; a fisheye may, except straight behind, where no direction leads outward.
+//! `-0.5 <= u < width - 0.5`. Models know no border: they hold outside the image as well, up to the angle off the axis
+//! at which their polynomial folds back ([`Intrinsics::limit`]). Beyond it nothing is seen, so no far ray returns into
+//! the image. A pinhole sees nothing behind itself; a fisheye may, except straight behind, where no direction leads
+//! outward.
 
 mod check;
 mod kannala_brandt;
@@ -119,11 +120,12 @@ impl Intrinsics {
         }
     }
 
-    /// The largest distance (px) between a pixel and the projection of its own direction, over a grid that covers an image
-    /// and its border with `lines` by `lines` points (at least 2 by 2).
+    /// The largest distance (px) between a pixel and the projection of its own direction, over a grid that covers an
+    /// image and its border with `lines` by `lines` points (at least 2 by 2).
     ///
     /// Pixels without a direction are left out, and `None` means that there is no other; a pixel whose direction isn't
-    /// seen makes the distance infinite. Scaramuzza's two polynomials are separate fits: here it is seen how well they agree.
+    /// seen makes the distance infinite. Scaramuzza's two polynomials are separate fits: here it is seen how well they
+    /// agree.
     pub fn round_trip_error(&self, width: usize, height: usize, lines: usize) -> Option<f64> {
         let limit = self.limit();
         let steps = lines.max(2) - 1;
@@ -156,8 +158,8 @@ fn unscaled(focal: [f64; 2], center: [f64; 2], [u, v]: [f64; 2]) -> [f64; 2] {
     [(u - center[0]) / focal[0], (v - center[1]) / focal[1]]
 }
 
-/// The angle between a point's ray and the axis, rad, and the unit vector (x, y) that leads to it from the axis: (0, 0) on
-/// the axis. `None` for the centre itself, straight behind it, and what isn't finite.
+/// The angle between a point's ray and the axis, rad, and the unit vector (x, y) that leads to it from the axis: (0, 0)
+/// on the axis. `None` for the centre itself, straight behind it, and what isn't finite.
 fn angle_off_axis(p: &Point) -> Option<(f64, [f64; 2])> {
     let off = p.x.hypot(p.y);
     if off == 0.0 {

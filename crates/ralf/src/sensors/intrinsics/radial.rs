@@ -1,4 +1,5 @@
-//! What all models share: a radius in the image that grows with the angle off the axis, up to where the polynomial folds back.
+//! What all models share: a radius in the image that grows with the angle off the axis, up to where the polynomial
+//! folds back.
 
 /// Steps in which a polynomial's slope is looked at; a fold narrower than one of them does no harm.
 const STEPS: usize = 256;
@@ -30,7 +31,8 @@ pub(super) fn first_fold(end: f64, slope: impl Fn(f64) -> f64) -> f64 {
 
 /// The `x` in `0..=end` at which a rising function reaches `target`, by Newton's method within a shrinking bracket.
 ///
-/// `function` gives value and slope. A target below the value at 0 is reached at 0; one above the value at `end` nowhere.
+/// `function` gives value and slope. A target below the value at 0 is reached at 0; one above the value at `end`
+/// nowhere.
 pub(super) fn invert(target: f64, end: f64, function: impl Fn(f64) -> (f64, f64)) -> Option<f64> {
     let (at_zero, at_end) = (function(0.0), function(end));
     if target.is_nan() || target > at_end.0 {

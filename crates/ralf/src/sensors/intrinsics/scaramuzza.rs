@@ -30,7 +30,8 @@ impl Scaramuzza<'_> {
         first_fold(PI, |theta| self.radius(theta).1)
     }
 
-    /// Pixels per radian on the axis: `|a0|`, or where only the inverse polynomial is known its slope there, which is the same.
+    /// Pixels per radian on the axis: `|a0|`, or where only the inverse polynomial is known its slope there, which is
+    /// the same.
     pub(super) fn focal(self) -> f64 {
         self.polynomial.first().map_or_else(|| self.radius(0.0).1, |a0| a0.abs())
     }

@@ -21,8 +21,9 @@ fn cameras() -> [(&'static str, Intrinsics, f64); 4] {
         center: [303.1, 398.2],
         affine: [1.002, -0.0003, 0.0004],
     };
-    // A parabolic mirror, rho = 2 f tan(theta / 2): its direct polynomial is -f + rho^2 / (4 f), exactly, and its inverse
-    // the Taylor series of 2 f tan((angle + pi/2) / 2) about the horizon, cut off in the midst of its last term.
+    // A parabolic mirror, rho = 2 f tan(theta / 2): its direct polynomial is -f + rho^2 / (4 f), exactly, and its
+    // inverse the Taylor series of 2 f tan((angle + pi/2) / 2) about the horizon, cut off in the midst of its last
+    // term.
     let series = [1.0, 1.0, 1.0 / 2.0, 1.0 / 3.0, 5.0 / 24.0, 2.0 / 15.0, 61.0 / 720.0, 17.0 / 630.0];
     let both = Intrinsics::Scaramuzza {
         polynomial: vec![-120.0, 0.0, 1.0 / 480.0],

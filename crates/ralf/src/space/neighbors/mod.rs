@@ -1,10 +1,11 @@
 //! The only nearest-neighbour search: exact, over a bird's-eye grid that is cheap to build.
 //!
-//! A LiDAR scan is asked some thousand questions and thrown away, so the build decides. Points are sorted by counting into
-//! square cells of the ground plane; a search looks at rings of cells around the query's until no nearer point can follow.
+//! A LiDAR scan is asked some thousand questions and thrown away, so the build decides. Points are sorted by counting
+//! into square cells of the ground plane; a search looks at rings of cells around the query's until no nearer point can
+//! follow.
 //!
-//! Points beyond the grid are clamped into its border cells. Clamping to a box never lengthens a distance, so the bound that
-//! ends a search holds for them too, and a few points far away cannot blow up the grid.
+//! Points beyond the grid are clamped into its border cells. Clamping to a box never lengthens a distance, so the bound
+//! that ends a search holds for them too, and a few points far away cannot blow up the grid.
 
 mod search;
 
@@ -39,7 +40,8 @@ pub struct NeighborIndex {
     rows: usize,
     /// Where each cell's points begin, row by row, and the end.
     starts: Vec<u32>,
-    /// How many points lie in the cells before each one, column by column: tells at once that a stretch of a column is empty.
+    /// How many points lie in the cells before each one, column by column: tells at once that a stretch of a column is
+    /// empty.
     before: Vec<u32>,
     xs: Vec<f32>,
     ys: Vec<f32>,

@@ -33,8 +33,8 @@ impl<'a> Search<'a> {
         Self { query, k: k.min(index.len()), cell: index.cell, worst: f32::INFINITY, found }
     }
 
-    /// Whether no better point can follow where all that are left lie at least `bound` away; or, with nothing found so far,
-    /// beyond `reach`, m.
+    /// Whether no better point can follow where all that are left lie at least `bound` away; or, with nothing found so
+    /// far, beyond `reach`, m.
     pub(super) fn is_done(&self, bound: f32, reach: f32) -> bool {
         match self.found.len() {
             0 => bound > reach,
@@ -69,8 +69,8 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// The ring's cells in a row, as far as they can hold a point that is near enough: the middle ones first, for what they
-    /// hold leaves less of the others.
+    /// The ring's cells in a row, as far as they can hold a point that is near enough: the middle ones first, for what
+    /// they hold leaves less of the others.
     fn row(&mut self, index: &NeighborIndex, at: &Place, ring: usize, row: usize) {
         let away = distance_to_cell(at.y, row);
         let column = at.cell[0];

@@ -26,7 +26,7 @@ mod settings;
 
 use super::Writer;
 use super::labelled::LabelledSequence;
-use super::options::Sensors;
+use super::options::{ExportFormat, Sensors};
 use crate::disk::files;
 use crate::disk::files::{beside, remove};
 use crate::error::DataError;
@@ -53,6 +53,15 @@ pub enum RosFormat {
 type FileWriter = MessageWriter<BufWriter<File>>;
 
 impl RosFormat {
+    /// The kind of recording that an export in this format is; `None` of formats that are none.
+    pub(super) fn of_export(format: ExportFormat) -> Option<Self> {
+        match format {
+            ExportFormat::Mcap => Some(Self::Mcap),
+            ExportFormat::Rosbag1 => Some(Self::Bag),
+            _ => None,
+        }
+    }
+
     /// The kind that a file's name tells of.
     pub fn of_file(file: &Path) -> Option<Self> {
         let found = file.extension()?.to_str()?;
@@ -111,7 +120,7 @@ pub fn write_ros(
     progress: &dyn Fn(usize),
 ) -> Result<Option<PathBuf>, DataError> {
     let _lock = WriterLock::beside(file)?;
-    let settings_file = file.with_extension("toml");
+    let settings_file = settings_file(file);
     if let Some(there) = [file, &settings_file].into_iter().find(|file| file.exists()) {
         return Err(DataError::content(there, "file", "none of this name yet", "one"));
     }
@@ -135,6 +144,17 @@ pub fn write_ros(
         let _ = remove(&part);
     }
     written
+}
+
+/// Where the settings of a recording go: `t.toml` beside `t.mcap`, and `t.bag.toml` beside `t.bag` where that is another's.
+fn settings_file(file: &Path) -> PathBuf {
+    let usual = file.with_extension("toml");
+    if !usual.exists() {
+        return usual;
+    }
+    let mut name = file.as_os_str().to_owned();
+    name.push(".toml");
+    name.into()
 }
 
 /// The file could not be written: with all reasons, for libraries hide the system's behind their own.

@@ -10,8 +10,8 @@ const TOLERANCE: f64 = 0.1;
 
 /// The scale of the least squares `sum (Z - s d)^2` over the samples within 10 % of the best proposal.
 ///
-/// Every sample's ratio is a proposal; the one that most samples agree with wins, of equals the earlier sample's. Nothing
-/// is drawn by chance. `None` without samples.
+/// Every sample's ratio is a proposal; the one that most samples agree with wins, of equals the earlier sample's.
+/// Nothing is drawn by chance. `None` without samples.
 pub(super) fn ransac(samples: &[ScaleSample]) -> Option<f64> {
     // |s d - Z| <= 0.1 Z, as bounds of the ratio Z / d that grow with it, so that sorted ratios are enough.
     let too_small = |ratio: f64, scale: f64| ratio * (1.0 + TOLERANCE) < scale;
@@ -35,8 +35,9 @@ pub(super) fn ransac(samples: &[ScaleSample]) -> Option<f64> {
     Some(sums.0 / sums.1)
 }
 
-/// Huber's M-estimate of the scale with delta = 10 %: where the least squares `sum w (s d - Z)^2`, iteratively reweighted by
-/// `w = min(1, delta / |r|)` of the relative residual `r = (s d - Z) / Z`, come to rest. `None` without samples.
+/// Huber's M-estimate of the scale with delta = 10 %: where the least squares `sum w (s d - Z)^2`, iteratively
+/// reweighted by `w = min(1, delta / |r|)` of the relative residual `r = (s d - Z) / Z`, come to rest. `None` without
+/// samples.
 ///
 /// They rest where `sum(Z d clamp(r, -delta, delta))` is 0. That sum grows with `s`, so halving finds the place;
 /// reweighting itself would take thousands of rounds where few samples agree.

@@ -1,8 +1,8 @@
 //! Each place by its nearest samples (the paper's local scaling).
 //!
-//! Places are asked for in an order in which neighbours follow each other, and the answer for the last one is nearly that
-//! for the next: the distances of the last place's samples from the next one bound the search, so that it only looks into a thin
-//! rim. The search itself goes through rows of buckets, from the place's own outward, and is exact.
+//! Places are asked for in an order in which neighbours follow each other, and the answer for the last one is nearly
+//! that for the next: the distances of the last place's samples from the next one bound the search, so that it only
+//! looks into a thin rim. The search itself goes through rows of buckets, from the place's own outward, and is exact.
 
 use super::ScaleSample;
 use crate::scene::camera::grid::PixelGrid;
@@ -126,7 +126,8 @@ mod tests {
         all.iter().take(k).map(|(_, i)| *i).collect()
     }
 
-    /// One kind of distribution: everywhere, a lattice with many equal distances, clusters far apart, a line, one place.
+    /// One kind of distribution: everywhere, a lattice with many equal distances, clusters far apart, a line, one
+    /// place.
     fn samples() -> impl Strategy<Value = Vec<ScaleSample>> {
         let pixel = prop_oneof![
             (0.0..100.0, 0.0..80.0).prop_map(|(u, v)| [u, v]),

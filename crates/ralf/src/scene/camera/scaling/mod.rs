@@ -1,4 +1,4 @@
-//! From relative to metric depth, by the LiDAR points that a view sees (METHOD 5.4).
+//! From relative to metric depth, by the LiDAR points that a view sees (docs/method.md, section 5).
 
 mod global;
 mod local;
@@ -49,8 +49,8 @@ pub(super) enum Scaling {
 }
 
 impl Scaling {
-    /// The scaling that the samples give, with `neighbours` of them per place where it is local. `None` without samples,
-    /// except for metric depth taken as it is.
+    /// The scaling that the samples give, with `neighbours` of them per place where it is local. `None` without
+    /// samples, except for metric depth taken as it is.
     pub(super) fn fit(kind: DepthScaling, samples: &[ScaleSample], neighbours: usize) -> Option<Self> {
         match kind {
             DepthScaling::None => Some(Self::Global(1.0)),

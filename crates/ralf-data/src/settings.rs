@@ -1,0 +1,79 @@
+//! A settings file: the method's settings, and which topic of a ROS recording is which sensor.
+
+use crate::read::ros::{Topics, check_topics};
+use ralf::config::{Config, ConfigError, read_toml};
+use serde::{Deserialize, Serialize};
+
+/// Name of the table that readers of ROS recordings know.
+const TOPICS: &str = "topics";
+
+/// All that a settings file may hold. Every key is optional, and unknown keys are refused.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Settings {
+    /// The method's.
+    #[serde(flatten)]
+    pub method: Config,
+    /// `topics`.
+    #[serde(default, skip_serializing_if = "Topics::is_empty")]
+    pub topics: Topics,
+}
+
+/// The table alone, whatever else a file holds.
+#[derive(Deserialize)]
+struct OnlyTopics {
+    #[serde(default)]
+    topics: Topics,
+}
+
+impl Settings {
+    /// Settings from a TOML text and assignments `key=value` that win over it.
+    pub fn from_toml(text: &str, assignments: &[&str]) -> Result<Self, ConfigError> {
+        let method = Config::from_toml_beside(&[TOPICS], text, assignments)?;
+        let OnlyTopics { topics } = read_toml(text, assignments, &[])?;
+        check_topics(&topics)?;
+        Ok(Self { method, topics })
+    }
+
+    /// All settings as TOML.
+    pub fn to_toml(&self) -> Result<String, ConfigError> {
+        toml::to_string(self).map_err(|error| ConfigError::Parse(error.to_string()))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const BOTH: &str =
+        "seed = 7\n[topics.odom]\ntopic = \"/odom\"\nkind = \"odometry\"\n[fusion]\nalpha = 0.25\n";
+
+    #[test]
+    fn the_method_and_the_topics_stand_in_one_file() {
+        let settings = Settings::from_toml(BOTH, &["topics.odom.topic=/wheels", "lidar.beta=0.5"]).unwrap();
+        assert_eq!(
+            (settings.method.seed, settings.method.fusion.alpha, settings.method.lidar.beta),
+            (7, 0.25, 0.5)
+        );
+        assert_eq!(settings.topics["odom"].topic, "/wheels");
+        assert_eq!(Settings::from_toml(&settings.to_toml().unwrap(), &[]).unwrap(), settings);
+        let json = serde_json::to_string(&settings).unwrap();
+        assert_eq!(serde_json::from_str::<Settings>(&json).unwrap(), settings);
+    }
+
+    #[test]
+    fn unknown_keys_are_refused_with_their_line() {
+        let refusal = |text: &str| Settings::from_toml(text, &[]).unwrap_err().to_string();
+        for (text, key, line) in [
+            (format!("{BOTH}aplha = 1.0"), "aplha", "line 7"),
+            (format!("{BOTH}[lidarr]"), "lidarr", "line 7"),
+            (BOTH.replace("topic =", "topik ="), "topik", "line 3"),
+        ] {
+            let found = refusal(&text);
+            assert!(found.contains(key) && found.contains(line), "{found}");
+        }
+        assert!(
+            serde_json::from_str::<Settings>("{\"lidarr\": {}}").unwrap_err().to_string().contains("lidarr")
+        );
+    }
+}
