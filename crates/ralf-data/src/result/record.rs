@@ -18,6 +18,9 @@ pub(crate) const RECORD: &str = "run.json";
 pub struct RunRecord {
     /// Version of the program.
     pub version: String,
+    /// A hash of the sources that the program was built from, as far as labels depend on them. An older record has none.
+    #[serde(default)]
+    pub program: String,
     /// Format of the recording.
     pub format: String,
     /// All settings, resolved.
@@ -69,6 +72,7 @@ impl RunRecord {
     pub(crate) fn new(recording: &Recording, settings: &Settings) -> Self {
         Self {
             version: env!("CARGO_PKG_VERSION").to_owned(),
+            program: env!("RALF_SOURCES").to_owned(),
             format: recording.format.to_owned(),
             settings: settings.clone(),
             inputs: Vec::new(),
@@ -79,7 +83,8 @@ impl RunRecord {
 
     /// Whether the sequences of both may stand side by side.
     pub(crate) fn is_like(&self, other: &Self) -> bool {
-        (&self.version, &self.format, &self.settings) == (&other.version, &other.format, &other.settings)
+        let program = |run: &Self| (run.version.clone(), run.program.clone());
+        program(self) == program(other) && (&self.format, &self.settings) == (&other.format, &other.settings)
     }
 
     /// A sequence of this name.
