@@ -3,17 +3,30 @@
 use crate::progress::say;
 use crate::text::grouped;
 use anyhow::bail;
-use ralf_data::{Corrections, GroundTruth};
+use ralf_data::{Corrections, GroundTruth, Recording};
 use std::path::Path;
 
-/// The dataset's truth with the corrections of an output folder above it, which is said. Where they were asked for there must
-/// be some.
-pub(crate) fn merged_truth(dataset: &Path, out: Option<&Path>, asked: bool) -> anyhow::Result<GroundTruth> {
-    let corrections = out.map(Corrections::open).transpose()?.filter(|found| asked || !found.is_empty());
-    let Some(corrections) = corrections else { return Ok(GroundTruth::open(dataset)?) };
+/// The dataset's truth with the corrections of an output folder above it, which is said. Where they were asked for
+/// there must be some. Corrections of scans that hold something else now are named and left out, where the recording
+/// can be read.
+pub(crate) fn merged_truth(
+    dataset: &Path,
+    recording: Option<&Recording>,
+    out: Option<&Path>,
+    asked: bool,
+) -> anyhow::Result<GroundTruth> {
+    let Some(out) = out else { return Ok(GroundTruth::open(dataset)?) };
+    let corrections = match recording {
+        Some(recording) => Corrections::of_recording(out, recording)?,
+        None => Corrections::open(out)?,
+    };
+    corrections.orphaned().iter().for_each(|scan| say(&orphaned(scan)));
     let file = corrections.file().display();
-    if corrections.is_empty() {
+    if corrections.is_empty() && asked {
         bail!("{file}: expected corrections, found none");
+    }
+    if corrections.is_empty() {
+        return Ok(GroundTruth::open(dataset)?);
     }
     say(&format!(
         "{file}: {} corrected detections and {} reviewed scans are merged into the truth",
@@ -21,4 +34,9 @@ pub(crate) fn merged_truth(dataset: &Path, out: Option<&Path>, asked: bool) -> a
         grouped(corrections.reviewed_scans() as u64)
     ));
     Ok(GroundTruth::merged(dataset, corrections)?)
+}
+
+/// The sentence about a scan whose corrections belong to another content.
+pub(crate) fn orphaned(scan: &impl std::fmt::Display) -> String {
+    format!("corrections of {scan} are kept and not applied: they were made when it held other detections")
 }

@@ -5,6 +5,9 @@ use ralf::label::flag;
 use ralf::scene::{Failure, ViewState};
 use ralf_data::run::{CameraRecord, RadarRecord, RunRecord};
 
+/// So many cameras are named that were not used.
+const SHOWN_CAMERAS: usize = 8;
+
 /// The tables of a run.
 pub(crate) fn run_summary(record: &RunRecord) -> String {
     let head =
@@ -13,7 +16,26 @@ pub(crate) fn run_summary(record: &RunRecord) -> String {
     for sequence in &record.sequences {
         rows.extend(sequence.radars.iter().map(|radar| radar_row(&sequence.name, radar)));
     }
-    aligned(&rows) + &cameras(record)
+    aligned(&rows) + &cameras(record) + &unused_cameras(record)
+}
+
+/// Names the cameras that labelling was allowed to ask and that had nothing to say.
+fn unused_cameras(record: &RunRecord) -> String {
+    let mut unused = Vec::new();
+    for sequence in record.sequences.iter().filter(|_| record.settings.method.camera.enabled) {
+        let silent = sequence.cameras.iter().filter(|camera| camera.images.is_empty());
+        unused.extend(silent.map(|camera| format!("{} {}", sequence.name, camera.name)));
+    }
+    if unused.is_empty() {
+        return String::new();
+    }
+    let cameras = grouped(unused.len() as u64);
+    let shown = unused.iter().take(SHOWN_CAMERAS).cloned().collect::<Vec<_>>().join(", ");
+    let more = if unused.len() > SHOWN_CAMERAS { ", ..." } else { "" };
+    format!(
+        "\n{cameras} camera(s) not used, for no image near a radar scan has depth \
+         (--depth-model or `ralf depth` makes it): {shown}{more}\n"
+    )
 }
 
 fn radar_row(sequence: &str, radar: &RadarRecord) -> Vec<String> {

@@ -1,30 +1,31 @@
 //! Writing a stroke.
 
-use crate::changes::{log, log_scan};
+use crate::answered::{Asked, Made};
 use crate::conflict::{Attempt, Refusal, overtaken_base};
-use crate::error::{StoreError, told};
-use crate::history::history;
-use crate::model::{Edit, Outcome, ScanEdit, ScanKey, Stroke, Who};
-use crate::store::{Store, scan_id, scan_state};
-use rusqlite::{Connection, OptionalExtension, Transaction, params};
+use crate::error::StoreError;
+use crate::model::{ScanEdit, ScanVersion, Stroke, Who};
+use crate::outcome::Outcome;
+use crate::read::corrections;
+use crate::store::Store;
+use crate::write::{NewStroke, add_stroke, correct, log, log_scan, scan_id};
+use rusqlite::{Connection, Transaction, params};
 use std::collections::{BTreeMap, BTreeSet};
-use std::path::Path;
 
 /// A stroke's part in a scan, in the store's terms.
 struct Part {
-    id: i64,
+    scan: i64,
     /// Detections, with the correction before, where it differs from the stroke's label.
     changes: Vec<(u32, Option<u16>)>,
 }
 
 impl Store {
-    /// Writes a stroke: when this returns, it is on disk. A stroke that changes nothing leaves no trace.
+    /// Writes a stroke: when this returns, it is on disk. A stroke that changes nothing leaves nothing to be undone.
     ///
     /// # Errors
-    /// A scan of another size than when it was first edited, or named twice; a detection that it doesn't have; see [`StoreError`].
+    /// A scan named twice; a detection that it doesn't have; a file that was deleted or replaced; see [`StoreError`].
     pub fn apply(&mut self, stroke: &Stroke, who: &Who) -> Result<Outcome, StoreError> {
         check(stroke)?;
-        self.write(|on, file| apply(on, file, stroke, who))
+        self.write(|on| apply(on, stroke, who))
     }
 }
 
@@ -44,30 +45,25 @@ fn check(stroke: &Stroke) -> Result<(), StoreError> {
     Ok(())
 }
 
-fn apply(on: &Transaction, file: &Path, stroke: &Stroke, who: &Who) -> Result<Attempt<Edit>, StoreError> {
-    let key = |edit: &ScanEdit| ScanKey {
-        sequence: stroke.sequence.clone(),
-        radar: edit.radar.clone(),
-        scan: edit.scan,
-    };
-    let keys: BTreeSet<ScanKey> = stroke.scans.iter().map(key).collect();
+fn apply(on: &Transaction, stroke: &Stroke, who: &Who) -> rusqlite::Result<Attempt> {
+    let asked = Asked { kind: "stroke", sequence: &stroke.sequence, who };
+    let mut edits: Vec<(ScanVersion, u64)> =
+        stroke.scans.iter().map(|edit| (edit.version(&stroke.sequence), edit.base)).collect();
+    edits.sort_by(|(a, _), (b, _)| a.key.cmp(&b.key));
+    if let Some(made) = asked.made_before(on)? {
+        return asked.answer_again(on, made, &edits).map(Attempt::Done);
+    }
+    let scans: Vec<ScanVersion> = edits.into_iter().map(|(version, _)| version).collect();
     let mut parts = Vec::with_capacity(stroke.scans.len());
     for edit in &stroke.scans {
-        let id = scan_id(on, file, &key(edit), edit.detections)?;
-        if let Some(conflict) = overtaken_base(on, id, edit.base).map_err(told(file))? {
-            return Ok(Attempt::Refused(Refusal { conflict, keys }));
+        let scan = scan_id(on, &edit.version(&stroke.sequence))?;
+        if let Some(conflict) = overtaken_base(on, scan, edit.base)? {
+            return Ok(Attempt::Refused(Refusal { conflict, scans }));
         }
-        let changes = changes(on, id, stroke, edit).map_err(told(file))?;
-        parts.push(Part { id, changes });
+        parts.push(Part { scan, changes: changes(on, scan, stroke, edit)? });
     }
-    let write = || {
-        let stroke_id = write(on, stroke, who, &parts)?;
-        let changed = parts.iter().map(|part| part.changes.len() as u64).sum();
-        let scans = keys.iter().map(|key| scan_state(on, key)).collect::<Result<_, _>>()?;
-        let history = history(on, &stroke.sequence, &who.author)?;
-        Ok(Attempt::Done(Edit { stroke: stroke_id, changed, scans, history }))
-    };
-    write().map_err(told(file))
+    let made = write(on, stroke, who, &parts)?;
+    asked.answer(on, made, &scans).map(Attempt::Done)
 }
 
 /// The detections of a scan that the stroke gives another label.
@@ -77,7 +73,7 @@ fn changes(
     stroke: &Stroke,
     edit: &ScanEdit,
 ) -> rusqlite::Result<Vec<(u32, Option<u16>)>> {
-    let known: BTreeMap<u32, u16> = crate::store::corrections(on, scan)?.into_iter().collect();
+    let known: BTreeMap<u32, u16> = corrections(on, scan)?.into_iter().collect();
     let points: BTreeSet<u32> = edit.points.iter().copied().collect();
     let with_before = points.into_iter().map(|point| (point, known.get(&point).copied()));
     let changed =
@@ -85,49 +81,24 @@ fn changes(
     Ok(changed.collect())
 }
 
-/// Writes what is changed; `None` where nothing is.
-fn write(on: &Connection, stroke: &Stroke, who: &Who, parts: &[Part]) -> rusqlite::Result<Option<i64>> {
-    if parts.iter().all(|part| part.changes.is_empty()) {
-        return Ok(None);
+/// Writes what is changed, if anything is.
+fn write(on: &Connection, stroke: &Stroke, who: &Who, parts: &[Part]) -> rusqlite::Result<Made> {
+    let changed = parts.iter().map(|part| part.changes.len() as u64).sum();
+    if changed == 0 {
+        return Ok(Made { event: None, stroke: None, changed });
     }
-    on.prepare_cached(
-        "UPDATE stroke SET undone = NULL WHERE sequence = ? AND author = ? AND undone IS NOT NULL",
-    )?
-    .execute(params![stroke.sequence, who.author])?;
     let event = log(on, "stroke", &stroke.sequence, who)?;
-    on.prepare_cached(
-        "INSERT INTO stroke (made, sequence, author, tool, step, label, applied) VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?1)",
-    )?
-    .execute(params![event, stroke.sequence, who.author, stroke.tool, stroke.group, stroke.label])?;
-    let id = on.last_insert_rowid();
+    let Stroke { sequence, tool, group, label, .. } = stroke;
+    let new = NewStroke { event, sequence, tool, group: group.as_deref(), label: *label };
+    let id = add_stroke(on, who, &new)?;
     let mut change =
         on.prepare_cached("INSERT INTO change (stroke, scan, point, before, after) VALUES (?, ?, ?, ?, ?)")?;
     for part in parts.iter().filter(|part| !part.changes.is_empty()) {
         for (point, before) in &part.changes {
-            change.execute(params![id, part.id, point, before, stroke.label])?;
-            correct(on, part.id, *point, stroke.label)?;
+            change.execute(params![id, part.scan, point, before, label])?;
+            correct(on, part.scan, *point, *label)?;
         }
-        log_scan(on, event, part.id, true)?;
+        log_scan(on, event, part.scan, true)?;
     }
-    Ok(Some(id))
-}
-
-/// Sets a correction, or takes it away.
-pub(crate) fn correct(on: &Connection, scan: i64, point: u32, label: Option<u16>) -> rusqlite::Result<()> {
-    match label {
-        Some(label) => on
-            .prepare_cached("INSERT OR REPLACE INTO correction (scan, point, label) VALUES (?, ?, ?)")?
-            .execute(params![scan, point, label])?,
-        None => on
-            .prepare_cached("DELETE FROM correction WHERE scan = ? AND point = ?")?
-            .execute(params![scan, point])?,
-    };
-    Ok(())
-}
-
-/// The correction of a detection.
-pub(crate) fn correction(on: &Connection, scan: i64, point: u32) -> rusqlite::Result<Option<u16>> {
-    on.prepare_cached("SELECT label FROM correction WHERE scan = ? AND point = ?")?
-        .query_row(params![scan, point], |row| row.get(0))
-        .optional()
+    Ok(Made { event: Some(event), stroke: Some(id), changed })
 }

@@ -1,14 +1,14 @@
 //! Whose edit came first.
 
 use crate::history::Placed;
-use crate::model::{Conflict, ScanKey};
-use crate::store::scan_state;
+use crate::model::ScanVersion;
+use crate::outcome::{Conflict, Edit};
+use crate::read::scan_state;
 use rusqlite::{Connection, OptionalExtension, Row, params};
-use std::collections::BTreeSet;
 
 /// What came of an attempt to write, before anything is committed.
-pub(crate) enum Attempt<T> {
-    Done(T),
+pub(crate) enum Attempt {
+    Done(Edit),
     Refused(Refusal),
 }
 
@@ -17,40 +17,53 @@ pub(crate) struct Refusal {
     /// Whose edit came first.
     pub(crate) conflict: Conflict,
     /// The scans that were to be edited.
-    pub(crate) keys: BTreeSet<ScanKey>,
+    pub(crate) scans: Vec<ScanVersion>,
 }
 
 impl Refusal {
     /// The conflict with the scans as they are.
     pub(crate) fn told(self, on: &Connection) -> rusqlite::Result<Conflict> {
-        let scans = self.keys.iter().map(|key| scan_state(on, key)).collect::<Result<_, _>>()?;
+        let scans = self.scans.iter().map(|version| scan_state(on, version)).collect::<Result<_, _>>()?;
         Ok(Conflict { scans, ..self.conflict })
     }
 }
 
 /// What a conflict names: author, time, tool, radar, scan. A stroke has its tool; undo and redo are named as such.
-const NAMED: &str = "event.author, event.at, coalesce((SELECT tool FROM stroke WHERE made = event.id), event.kind), radar, scan.scan";
+const NAMED: &str =
+    "name, event.at, coalesce((SELECT tool FROM stroke WHERE made = event.id), event.kind), radar, scan.scan";
+
+/// What of a scan an edit is about.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum About {
+    Corrections,
+    Mark,
+}
 
 /// The last edit of a scan, unless its revision is the one that the author saw.
 pub(crate) fn overtaken_base(on: &Connection, scan: i64, base: u64) -> rusqlite::Result<Option<Conflict>> {
     let revision: u64 =
         on.prepare_cached("SELECT revision FROM scan WHERE id = ?")?.query_row([scan], |row| row.get(0))?;
-    if revision == base { Ok(None) } else { last_edit(on, scan).map(Some) }
+    if revision == base { Ok(None) } else { last_edit(on, scan, About::Corrections).map(Some) }
 }
 
-/// The last edit of a scan's corrections; of one that was never edited nobody's.
-pub(crate) fn last_edit(on: &Connection, scan: i64) -> rusqlite::Result<Conflict> {
+/// The last edit of a scan; of one that was never edited nobody's.
+pub(crate) fn last_edit(on: &Connection, scan: i64, about: About) -> rusqlite::Result<Conflict> {
+    let kinds = match about {
+        About::Corrections => "'stroke', 'undo', 'redo'",
+        About::Mark => "'reviewed', 'unreviewed', 'undo', 'redo'",
+    };
     let last = format!(
         "SELECT {NAMED} FROM event_scan JOIN event ON event.id = event_scan.event JOIN scan ON scan.id = event_scan.scan
-         WHERE event_scan.scan = ? AND kind IN ('stroke', 'undo', 'redo') ORDER BY event.id DESC LIMIT 1"
+         JOIN author ON author.id = event.author
+         WHERE event_scan.scan = ? AND kind IN ({kinds}) ORDER BY event.id DESC LIMIT 1"
     );
     let found = on.prepare_cached(&last)?.query_row([scan], conflict).optional()?;
     let nobody = "SELECT '', '', '', radar, scan FROM scan WHERE id = ?";
     found.map_or_else(|| on.query_row(nobody, [scan], conflict), Ok)
 }
 
-/// The last stroke that another author set on one of this stroke's detections since it was set or taken back itself. The
-/// author's own later ones are no conflict: they are taken back before it, and set again after it.
+/// The last stroke that another author set on one of this stroke's detections since it was set or taken back
+/// itself. The author's own later ones are no conflict: they are taken back before it, and set again after it.
 pub(crate) fn overtaken(
     on: &Connection,
     stroke: &Placed,
@@ -60,7 +73,7 @@ pub(crate) fn overtaken(
         "SELECT {NAMED} FROM change AS own
          JOIN change AS other ON other.scan = own.scan AND other.point = own.point AND other.stroke <> own.stroke
          JOIN stroke ON stroke.id = other.stroke JOIN event ON event.id = stroke.applied
-         JOIN scan ON scan.id = own.scan
+         JOIN scan ON scan.id = own.scan JOIN author ON author.id = event.author
          WHERE own.stroke = ?1 AND stroke.applied > ?2 AND stroke.author <> ?3
          ORDER BY stroke.applied DESC, stroke.id DESC LIMIT 1"
     );

@@ -1,6 +1,7 @@
 //! What can be wrong with a store, or with what is asked of it.
 
 use rusqlite::ErrorCode;
+use std::io;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
@@ -20,6 +21,17 @@ pub enum StoreError {
     ReadOnly {
         /// The store.
         file: PathBuf,
+    },
+    /// The file that was opened is not the one that lies there now: what is written to it nobody will ever read.
+    #[error(
+        "{}: expected the file that was opened, found {found}; nothing is saved any more: put it back, or start again",
+        file.display()
+    )]
+    Gone {
+        /// The store's file, or its journal.
+        file: PathBuf,
+        /// What became of it.
+        found: String,
     },
     /// The file holds something else than it should.
     #[error("{}: {place}: expected {expected}, found {found}", file.display())]
@@ -43,6 +55,14 @@ pub enum StoreError {
         /// What it is.
         found: String,
     },
+    /// The system refused.
+    #[error("{}: {error}", file.display())]
+    Io {
+        /// The store.
+        file: PathBuf,
+        /// What it said.
+        error: io::Error,
+    },
     /// The database refused otherwise.
     #[error("{}: {error}", file.display())]
     Database {
@@ -65,7 +85,9 @@ pub(crate) fn told(file: &Path) -> impl Fn(rusqlite::Error) -> StoreError {
             Some(ErrorCode::DatabaseBusy | ErrorCode::DatabaseLocked) => {
                 StoreError::Locked { file, seconds: WAIT_SECONDS }
             }
-            Some(ErrorCode::ReadOnly) => StoreError::ReadOnly { file },
+            Some(ErrorCode::ReadOnly | ErrorCode::CannotOpen | ErrorCode::PermissionDenied) => {
+                StoreError::ReadOnly { file }
+            }
             Some(ErrorCode::NotADatabase | ErrorCode::DatabaseCorrupt) => StoreError::Content {
                 file,
                 place: "file".into(),
@@ -78,6 +100,20 @@ pub(crate) fn told(file: &Path) -> impl Fn(rusqlite::Error) -> StoreError {
 }
 
 impl StoreError {
+    pub(crate) fn gone(file: &Path, found: &str) -> Self {
+        Self::Gone { file: file.to_owned(), found: found.to_owned() }
+    }
+
+    /// For `map_err`: what the system said of a file.
+    pub(crate) fn io(file: &Path) -> impl FnOnce(io::Error) -> Self {
+        move |error| match error.kind() {
+            io::ErrorKind::PermissionDenied | io::ErrorKind::ReadOnlyFilesystem => {
+                Self::ReadOnly { file: file.to_owned() }
+            }
+            _ => Self::Io { file: file.to_owned(), error },
+        }
+    }
+
     pub(crate) fn content(
         file: &Path,
         place: impl Into<String>,

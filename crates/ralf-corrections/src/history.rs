@@ -1,6 +1,6 @@
 //! What an author can undo and redo.
 
-use crate::model::{History, Step};
+use crate::outcome::{History, Step};
 use rusqlite::{Connection, OptionalExtension, Row, params};
 
 /// A stroke, and the event that set it or took it back last.
@@ -78,7 +78,10 @@ fn step(on: &Connection, strokes: &[Placed]) -> rusqlite::Result<Option<Step>> {
     let mut changed = 0;
     for stroke in strokes {
         changed += on
-            .prepare_cached("SELECT count(*) FROM change WHERE stroke = ?")?
+            .prepare_cached(
+                "SELECT (SELECT count(*) FROM change WHERE stroke = ?1)
+                      + (SELECT count(*) FROM mark_change WHERE stroke = ?1)",
+            )?
             .query_row([stroke.id], |row| row.get::<_, u64>(0))?;
     }
     let Some(last) = strokes.iter().map(|stroke| stroke.id).max() else { return Ok(None) };

@@ -1,57 +1,76 @@
 //! All that is said, at one moment: what evaluating and exporting read.
 
+use crate::content::ScanContent;
 use crate::error::{StoreError, told};
 use crate::model::ScanKey;
+use crate::read::{content, corrections, review};
 use crate::schema::open_read_only;
-use crate::store::{corrections, review};
 use rusqlite::Connection;
 use std::collections::BTreeMap;
 use std::path::Path;
 
-/// What is said of one scan.
+/// What is said of one scan while it held what it held then.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct ScanLayer {
-    /// How many detections it has.
-    pub detections: usize,
+    /// What it held.
+    pub content: ScanContent,
     /// Detections that a person has labelled, ascending, with the label's id.
     pub corrections: Vec<(u32, u16)>,
     /// The machine's labels that were accepted, one per detection, where the scan is marked as reviewed.
     pub accepted: Option<Vec<u16>>,
 }
 
-/// Reads a store: every scan of which something is said.
+impl ScanLayer {
+    /// What is said of a scan that holds this, among all that was ever said of it; see [`ScanContent::find_in`].
+    pub fn find_in<'a>(said: &'a [ScanLayer], content: &ScanContent) -> Option<&'a ScanLayer> {
+        let contents: Vec<ScanContent> = said.iter().map(|layer| layer.content).collect();
+        content.find_in(&contents).map(|at| &said[at])
+    }
+}
+
+/// Reads a store: every scan of which something is said, once per content that it had.
 ///
 /// # Errors
 /// A file that is no store, or one of another version; a mark of another size than its scan.
-pub fn read_layer(file: &Path) -> Result<BTreeMap<ScanKey, ScanLayer>, StoreError> {
+pub fn read_layer(file: &Path) -> Result<BTreeMap<ScanKey, Vec<ScanLayer>>, StoreError> {
     let mut connection = open_read_only(file)?;
     // One transaction is one moment, whoever writes meanwhile.
     let moment = connection.transaction().map_err(told(file))?;
-    let mut layer = read(&moment).map_err(told(file))?;
-    layer.retain(|_, scan| !scan.corrections.is_empty() || scan.accepted.is_some());
-    for (key, scan) in &layer {
-        let last = scan.corrections.last().map_or(0, |(point, _)| *point as usize + 1);
-        let accepted = scan.accepted.as_ref().map_or(scan.detections, Vec::len);
-        if accepted != scan.detections || last > scan.detections {
-            let expected = format!("labels of its {} detections", scan.detections);
-            let found = format!("{accepted} accepted, and corrections up to {last}");
-            return Err(StoreError::content(file, format!("scan {key}"), expected, found));
+    let mut layers: BTreeMap<ScanKey, Vec<ScanLayer>> = BTreeMap::new();
+    for (key, layer) in read(&moment).map_err(told(file))? {
+        if layer.corrections.is_empty() && layer.accepted.is_none() {
+            continue;
         }
+        check(file, &key, &layer)?;
+        layers.entry(key).or_default().push(layer);
     }
-    Ok(layer)
+    Ok(layers)
 }
 
-fn read(on: &Connection) -> rusqlite::Result<BTreeMap<ScanKey, ScanLayer>> {
-    let mut scans = on.prepare("SELECT id, sequence, radar, scan, detections FROM scan")?;
+fn check(file: &Path, key: &ScanKey, layer: &ScanLayer) -> Result<(), StoreError> {
+    let detections = layer.content.detections as usize;
+    let last = layer.corrections.last().map_or(0, |(point, _)| *point as usize + 1);
+    let accepted = layer.accepted.as_ref().map_or(detections, Vec::len);
+    if accepted == detections && last <= detections {
+        return Ok(());
+    }
+    let expected = format!("labels of its {detections} detections");
+    let found = format!("{accepted} accepted, and corrections up to {last}");
+    Err(StoreError::content(file, format!("scan {key}"), expected, found))
+}
+
+fn read(on: &Connection) -> rusqlite::Result<Vec<(ScanKey, ScanLayer)>> {
+    let mut scans =
+        on.prepare("SELECT id, sequence, radar, scan, content, detections FROM scan ORDER BY id")?;
     let scans = scans.query_map([], |row| {
         let key = ScanKey { sequence: row.get(1)?, radar: row.get(2)?, scan: row.get(3)? };
-        Ok((row.get::<_, i64>(0)?, key, row.get(4)?))
+        Ok((row.get::<_, i64>(0)?, key, content(row, 4, 5)?))
     })?;
     scans
         .map(|scan| {
-            let (id, key, detections) = scan?;
+            let (id, key, content) = scan?;
             let (corrections, review) = (corrections(on, id)?, review(on, id)?);
-            Ok((key, ScanLayer { detections, corrections, accepted: review.map(|mark| mark.accepted) }))
+            Ok((key, ScanLayer { content, corrections, accepted: review.map(|mark| mark.accepted) }))
         })
         .collect()
 }

@@ -1,5 +1,6 @@
-//! Strokes and what becomes of them.
+//! Edits: who makes them, and what they ask for.
 
+use crate::content::{ContentHash, ScanContent};
 use std::fmt;
 
 /// Which scan of which radar of which sequence. Ordered by these.
@@ -19,13 +20,25 @@ impl fmt::Display for ScanKey {
     }
 }
 
-/// Who edits.
+/// Who edits, from where, and under which name the edit is known.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Who {
-    /// The person: undo and redo belong to it.
+    /// The person: undo and redo belong to it. The same for ever, whatever the person is called.
     pub author: String,
+    /// What others read of the person.
+    pub name: String,
     /// The window it works in: its own edits are no news to it.
     pub tab: Option<String>,
+    /// Names this edit alone. One that was made already is not made again, and answered as the first time:
+    /// whoever lost the answer may ask again.
+    pub edit: Option<String>,
+}
+
+impl Who {
+    /// A person that is known by its name alone.
+    pub fn named(name: &str) -> Self {
+        Self { author: name.to_owned(), name: name.to_owned(), tab: None, edit: None }
+    }
 }
 
 /// One label for detections of scans of one sequence, given in one movement.
@@ -53,7 +66,7 @@ impl Stroke {
 }
 
 /// A stroke's part in one scan.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct ScanEdit {
     /// The radar's name.
     pub radar: String,
@@ -61,97 +74,41 @@ pub struct ScanEdit {
     pub scan: u32,
     /// How many detections the scan has.
     pub detections: u32,
+    /// What it holds, where that is known.
+    pub content: Option<ContentHash>,
     /// The revision that the author saw.
     pub base: u64,
     /// Which detections, by their place in the scan.
     pub points: Vec<u32>,
 }
 
-/// What came of an edit.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Outcome<T = Edit> {
-    /// It is on disk.
-    Done(T),
-    /// Another edit came first; nothing was written.
-    Conflict(Conflict),
+impl ScanEdit {
+    pub(crate) fn version(&self, sequence: &str) -> ScanVersion {
+        let key = ScanKey { sequence: sequence.to_owned(), radar: self.radar.clone(), scan: self.scan };
+        ScanVersion { key, content: ScanContent { detections: self.detections, hash: self.content } }
+    }
 }
 
-/// An edit that is on disk.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Edit {
-    /// The (last) stroke's number; `None` where nothing was to be done.
-    pub stroke: Option<i64>,
-    /// How many detections have another correction than before.
-    pub changed: u64,
-    /// The scans concerned, as they are now, by radar and scan.
-    pub scans: Vec<ScanState>,
-    /// What the author can undo and redo in the sequence now.
-    pub history: History,
-}
-
-/// Whose edit came first.
+/// A mark of review to be set or taken away.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Conflict {
-    /// The other edit's author.
-    pub author: String,
-    /// When it was made, ISO 8601 in UTC.
-    pub at: String,
-    /// Its tool; `undo` and `redo` are such.
-    pub tool: String,
-    /// Where the edits meet.
-    pub radar: String,
-    /// Where the edits meet.
-    pub scan: u32,
-    /// The scans that were to be edited, as they are now, by radar and scan.
-    pub scans: Vec<ScanState>,
+pub struct Mark {
+    /// The scan.
+    pub key: ScanKey,
+    /// What it holds, where that is known.
+    pub content: Option<ContentHash>,
+    /// The revision that the author saw.
+    pub base: u64,
+    /// The machine's labels (SemanticKITTI ids), one per detection.
+    pub machine: Vec<u16>,
+    /// Whether the mark is to be there.
+    pub reviewed: bool,
 }
 
-/// The corrections of one scan.
+/// A scan, and what it holds.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct ScanState {
+pub struct ScanVersion {
     /// Which scan.
     pub key: ScanKey,
-    /// How often its corrections changed; 0 is never.
-    pub revision: u64,
-    /// Detections that a person has labelled, ascending, with the label's id.
-    pub corrections: Vec<(u32, u16)>,
-    /// Where a person has marked the scan.
-    pub review: Option<Review>,
-}
-
-/// A reviewed mark.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Review {
-    /// Who marked the scan.
-    pub author: String,
-    /// When, ISO 8601 in UTC.
-    pub at: String,
-    /// The machine's labels (SemanticKITTI ids) at that moment, one per detection.
-    pub accepted: Vec<u16>,
-}
-
-/// What an author can take back and set again in a sequence.
-#[derive(Debug, Clone, PartialEq, Eq, Default)]
-pub struct History {
-    /// The step that undo would take back.
-    pub undo: Option<Step>,
-    /// The step that redo would set again.
-    pub redo: Option<Step>,
-    /// Steps that can be undone.
-    pub undo_depth: u64,
-    /// Steps that can be redone.
-    pub redo_depth: u64,
-}
-
-/// A stroke, or a group of them.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Step {
-    /// Of its last stroke.
-    pub tool: String,
-    /// Of its last stroke; `None` took corrections away.
-    pub label: Option<u16>,
-    /// Corrections that it changed.
-    pub changed: u64,
-    /// When its last stroke was made, ISO 8601 in UTC.
-    pub at: String,
+    /// What it holds.
+    pub content: ScanContent,
 }

@@ -1,65 +1,79 @@
 //! Marking a scan as reviewed.
 
-use crate::changes::{log, log_scan};
+use crate::answered::{Asked, Made};
 use crate::conflict::{Attempt, Refusal, overtaken_base};
-use crate::error::{StoreError, told};
-use crate::model::{Outcome, Review, ScanKey, Who};
-use crate::store::{Store, review, scan_id};
-use rusqlite::{Transaction, params};
-use std::collections::BTreeSet;
-use std::path::Path;
-
-/// A mark to be set or taken away.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Mark {
-    /// The scan.
-    pub key: ScanKey,
-    /// The revision that the author saw.
-    pub base: u64,
-    /// The machine's labels (SemanticKITTI ids), one per detection.
-    pub machine: Vec<u16>,
-    /// Whether the mark is to be there.
-    pub reviewed: bool,
-}
-
-/// The mark as it is now.
-pub type Marked = Option<Review>;
+use crate::content::ScanContent;
+use crate::error::StoreError;
+use crate::model::{Mark, ScanVersion, Who};
+use crate::outcome::{Outcome, Review};
+use crate::read::{mark_of, review};
+use crate::store::Store;
+use crate::write::{NewStroke, add_stroke, log, log_scan, scan_id, set_mark};
+use rusqlite::{Connection, Transaction, params};
 
 impl Store {
-    /// Sets or takes away a scan's mark. One that is there keeps the labels that were accepted first, for these are what the
-    /// author saw.
+    /// Sets or takes away a scan's mark, which is a step that can be undone. A mark that is there keeps the
+    /// labels that were accepted first, for these are what the author saw.
     ///
     /// # Errors
-    /// A scan of another size than when it was first edited; see [`StoreError`].
-    pub fn mark(&mut self, mark: &Mark, who: &Who) -> Result<Outcome<Marked>, StoreError> {
-        self.write(|on, file| set(on, file, mark, who))
+    /// More detections than can be counted; a file that was deleted or replaced; see [`StoreError`].
+    pub fn mark(&mut self, mark: &Mark, who: &Who) -> Result<Outcome, StoreError> {
+        let detections = u32::try_from(mark.machine.len()).map_err(|_| {
+            let (place, expected) =
+                (format!("scan {}", mark.key), format!("at most {} detections", u32::MAX));
+            StoreError::request(place, expected, mark.machine.len().to_string())
+        })?;
+        let content = ScanContent { detections, hash: mark.content };
+        let version = ScanVersion { key: mark.key.clone(), content };
+        self.write(|on| set(on, &version, mark, who))
     }
 }
 
-fn set(on: &Transaction, file: &Path, mark: &Mark, who: &Who) -> Result<Attempt<Marked>, StoreError> {
-    let detections = u32::try_from(mark.machine.len()).map_err(|_| {
-        let found = mark.machine.len().to_string();
-        StoreError::request(format!("scan {}", mark.key), format!("at most {} detections", u32::MAX), found)
-    })?;
-    let scan = scan_id(on, file, &mark.key, detections)?;
-    if let Some(conflict) = overtaken_base(on, scan, mark.base).map_err(told(file))? {
-        return Ok(Attempt::Refused(Refusal { conflict, keys: BTreeSet::from([mark.key.clone()]) }));
+fn set(on: &Transaction, version: &ScanVersion, mark: &Mark, who: &Who) -> rusqlite::Result<Attempt> {
+    let kind = if mark.reviewed { "reviewed" } else { "unreviewed" };
+    let asked = Asked { kind, sequence: &mark.key.sequence, who };
+    if let Some(made) = asked.made_before(on)? {
+        return asked.answer_again(on, made, &[(version.clone(), mark.base)]).map(Attempt::Done);
     }
-    let write = || {
-        let before = review(on, scan)?;
-        if mark.reviewed {
-            let event = log(on, "reviewed", &mark.key.sequence, who)?;
-            log_scan(on, event, scan, false)?;
-            let accepted = before.map_or_else(|| mark.machine.clone(), |before| before.accepted);
-            let accepted: Vec<u8> = accepted.into_iter().flat_map(u16::to_le_bytes).collect();
-            on.prepare_cached("INSERT OR REPLACE INTO review (scan, event, accepted) VALUES (?, ?, ?)")?
-                .execute(params![scan, event, accepted])?;
-        } else if before.is_some() {
-            let event = log(on, "unreviewed", &mark.key.sequence, who)?;
-            log_scan(on, event, scan, false)?;
-            on.prepare_cached("DELETE FROM review WHERE scan = ?")?.execute([scan])?;
-        }
-        review(on, scan).map(Attempt::Done)
+    let scan = scan_id(on, version)?;
+    if let Some(conflict) = overtaken_base(on, scan, mark.base)? {
+        return Ok(Attempt::Refused(Refusal { conflict, scans: vec![version.clone()] }));
+    }
+    let before = review(on, scan)?;
+    let made = if mark.reviewed || before.is_some() {
+        write(on, scan, mark, (before, &asked))?
+    } else {
+        Made { event: None, stroke: None, changed: 0 }
     };
-    write().map_err(told(file))
+    asked.answer(on, made, std::slice::from_ref(version)).map(Attempt::Done)
+}
+
+fn write(
+    on: &Connection,
+    scan: i64,
+    mark: &Mark,
+    (before, asked): (Option<Review>, &Asked),
+) -> rusqlite::Result<Made> {
+    let event = log(on, asked.kind, asked.sequence, asked.who)?;
+    let new = NewStroke { event, sequence: asked.sequence, tool: asked.kind, group: None, label: None };
+    let stroke = add_stroke(on, asked.who, &new)?;
+    let known = mark_of(on, scan)?;
+    let after = if mark.reviewed {
+        let accepted = before.map_or_else(|| mark.machine.clone(), |before| before.accepted);
+        Some(add_mark(on, event, &accepted)?)
+    } else {
+        None
+    };
+    on.prepare_cached("INSERT INTO mark_change (stroke, scan, before, after) VALUES (?, ?, ?, ?)")?
+        .execute(params![stroke, scan, known, after])?;
+    set_mark(on, scan, after)?;
+    log_scan(on, event, scan, false)?;
+    Ok(Made { event: Some(event), stroke: Some(stroke), changed: 1 })
+}
+
+fn add_mark(on: &Connection, event: i64, accepted: &[u16]) -> rusqlite::Result<i64> {
+    let accepted: Vec<u8> = accepted.iter().copied().flat_map(u16::to_le_bytes).collect();
+    on.prepare_cached("INSERT INTO mark (event, accepted) VALUES (?, ?)")?
+        .execute(params![event, accepted])?;
+    Ok(on.last_insert_rowid())
 }

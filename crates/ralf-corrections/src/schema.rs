@@ -1,158 +1,166 @@
-//! The tables, and opening a file that has them.
+//! Opening a file that has the tables, and making one.
 
 use crate::error::{StoreError, WAIT_SECONDS, told};
-use rusqlite::{Connection, ErrorCode, OpenFlags, TransactionBehavior};
-use std::path::Path;
+use crate::identity::journal;
+use crate::tables::{self, APPLICATION, FIRST_VERSION, VERSION};
+use rusqlite::{Connection, ErrorCode, OpenFlags};
+use std::fs;
+use std::io::ErrorKind;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicU32, Ordering};
 use std::time::Duration;
 
-/// `PRAGMA application_id`: "RALF".
-const APPLICATION: i32 = 0x5241_4C46;
-/// `PRAGMA user_version`: of the tables below.
-const VERSION: i32 = 1;
-
-/// `event`: all that was ever done, in order; its number is what other windows wait for.
-/// `stroke`: `applied` and `undone` name the event that did so last; both null: undone, and then overtaken by a new stroke.
-/// `change`: what a stroke did. Of one detection the applied ones follow each other: the `after` of one is the next one's `before`.
-/// `correction`: the `after` of each detection's last applied change, unless it is null.
-const TABLES: &str = "
-CREATE TABLE scan (
-  id INTEGER PRIMARY KEY,
-  sequence TEXT NOT NULL,
-  radar TEXT NOT NULL,
-  scan INTEGER NOT NULL,
-  detections INTEGER NOT NULL,
-  revision INTEGER NOT NULL DEFAULT 0,
-  UNIQUE (sequence, radar, scan)
-) STRICT;
-CREATE TABLE event (
-  id INTEGER PRIMARY KEY AUTOINCREMENT,
-  at TEXT NOT NULL DEFAULT (strftime('%Y-%m-%dT%H:%M:%fZ', 'now')),
-  kind TEXT NOT NULL,
-  sequence TEXT NOT NULL,
-  author TEXT NOT NULL,
-  tab TEXT
-) STRICT;
-CREATE TABLE event_scan (
-  event INTEGER NOT NULL REFERENCES event,
-  scan INTEGER NOT NULL REFERENCES scan,
-  revision INTEGER NOT NULL,
-  PRIMARY KEY (scan, event)
-) STRICT, WITHOUT ROWID;
-CREATE INDEX event_scan_by_event ON event_scan (event);
-CREATE TABLE stroke (
-  id INTEGER PRIMARY KEY AUTOINCREMENT,
-  made INTEGER NOT NULL REFERENCES event,
-  sequence TEXT NOT NULL,
-  author TEXT NOT NULL,
-  tool TEXT NOT NULL,
-  step TEXT,
-  label INTEGER,
-  applied INTEGER REFERENCES event,
-  undone INTEGER REFERENCES event
-) STRICT;
-CREATE INDEX stroke_applied ON stroke (sequence, author, applied, id);
-CREATE INDEX stroke_undone ON stroke (sequence, author, undone, id);
-CREATE TABLE change (
-  stroke INTEGER NOT NULL REFERENCES stroke,
-  scan INTEGER NOT NULL REFERENCES scan,
-  point INTEGER NOT NULL,
-  before INTEGER,
-  after INTEGER,
-  PRIMARY KEY (stroke, scan, point)
-) STRICT, WITHOUT ROWID;
-CREATE INDEX change_by_point ON change (scan, point, stroke);
-CREATE TABLE correction (
-  scan INTEGER NOT NULL REFERENCES scan,
-  point INTEGER NOT NULL,
-  label INTEGER NOT NULL,
-  PRIMARY KEY (scan, point)
-) STRICT, WITHOUT ROWID;
-CREATE TABLE review (
-  scan INTEGER PRIMARY KEY REFERENCES scan,
-  event INTEGER NOT NULL REFERENCES event,
-  accepted BLOB NOT NULL
-) STRICT;
-";
-
-/// Opens a store for writing; makes it where there is no file yet. Another program's file is left as it is.
+/// Opens a store for writing; makes it where there is no file yet. Another program's file, and a damaged one,
+/// is left as it is.
 pub(crate) fn open(file: &Path) -> Result<Connection, StoreError> {
-    let mut connection = Connection::open(file).map_err(told(file))?;
-    connection.busy_timeout(Duration::from_secs(WAIT_SECONDS)).map_err(told(file))?;
-    if !is_empty(&connection).map_err(told(file))? {
-        check(&connection, file)?;
+    if !file.try_exists().map_err(StoreError::io(file))? {
+        make(file)?;
     }
-    create(&mut connection).map_err(told(file))?;
-    check(&connection, file)?;
+    let flags = OpenFlags::SQLITE_OPEN_READ_WRITE | OpenFlags::SQLITE_OPEN_NO_MUTEX;
+    refuse_empty(file)?;
+    let mut connection = Connection::open_with_flags(file, flags).map_err(told(file))?;
+    let found = check(&connection, file)?;
+    check_pages(&connection, file)?;
+    prepare(&connection).map_err(told(file))?;
+    if found == FIRST_VERSION {
+        tables::migrate(&mut connection).map_err(told(file))?;
+    }
+    connection.pragma_update(None, "foreign_keys", "ON").map_err(told(file))?;
     Ok(connection)
 }
 
-/// Opens a store that exists, for reading.
+/// Sets what belongs to a connection: every commit reaches the disk before it is told.
+fn prepare(connection: &Connection) -> rusqlite::Result<()> {
+    connection.busy_timeout(Duration::from_secs(WAIT_SECONDS))?;
+    connection.pragma_update(None, "journal_mode", "WAL")?;
+    connection.pragma_update(None, "synchronous", "FULL")
+}
+
+/// Makes a store beside its place and moves it there, so that it is never there by half. Somebody else's that
+/// came first stays.
+fn make(file: &Path) -> Result<(), StoreError> {
+    static MADE: AtomicU32 = AtomicU32::new(0);
+    let number = MADE.fetch_add(1, Ordering::Relaxed);
+    let beside = suffixed(file, &format!(".{}-{number}.new", std::process::id()));
+    let made = Connection::open(&beside).and_then(|on| tables::create(&on)).map_err(told(file));
+    let moved = made.and_then(|()| match fs::hard_link(&beside, file) {
+        Err(error) if error.kind() == ErrorKind::AlreadyExists => Ok(()),
+        // Where the file system knows no links.
+        Err(_) if !file.exists() => fs::rename(&beside, file).map_err(StoreError::io(file)),
+        _ => Ok(()),
+    });
+    let _moved_already = fs::remove_file(&beside);
+    moved
+}
+
+fn suffixed(file: &Path, suffix: &str) -> PathBuf {
+    let mut name = file.as_os_str().to_owned();
+    name.push(suffix);
+    name.into()
+}
+
+/// Opens a store that exists, for reading. One of the first version is read into memory as if it were of this one.
 pub(crate) fn open_read_only(file: &Path) -> Result<Connection, StoreError> {
-    let flags = OpenFlags::SQLITE_OPEN_READ_ONLY | OpenFlags::SQLITE_OPEN_NO_MUTEX;
-    let connection = Connection::open_with_flags(file, flags).map_err(told(file))?;
+    refuse_empty(file)?;
+    let uri = if is_unchanging(file)? { uri(file, "immutable=1") } else { uri(file, "mode=ro") };
+    let connection = Connection::open_with_flags(&uri, read_flags()).map_err(told(file))?;
     connection.busy_timeout(Duration::from_secs(WAIT_SECONDS)).map_err(told(file))?;
-    match is_empty(&connection) {
-        // SQLite wants to lay a file beside the store, and can't: on a disk that can only be read nobody writes to it, either.
-        Err(error) if error.sqlite_error_code() == Some(ErrorCode::CannotOpen) && !has_journal(file) => {
-            let connection = open_unchanging(file).map_err(told(file))?;
-            check(&connection, file).map(|()| connection)
-        }
-        _ => check(&connection, file).map(|()| connection),
+    let found = check(&connection, file)?;
+    check_pages(&connection, file)?;
+    if found == VERSION { Ok(connection) } else { in_memory(&uri).map_err(told(file)) }
+}
+
+/// A further connection to a store that is open already, for reading.
+pub(crate) fn open_again(file: &Path) -> Result<Connection, StoreError> {
+    let connection = Connection::open_with_flags(uri(file, "mode=ro"), read_flags()).map_err(told(file))?;
+    connection.busy_timeout(Duration::from_secs(WAIT_SECONDS)).map_err(told(file))?;
+    Ok(connection)
+}
+
+/// A store that holds nothing and lies nowhere.
+pub(crate) fn nowhere() -> rusqlite::Result<Connection> {
+    let connection = Connection::open_in_memory()?;
+    tables::create(&connection).map(|()| connection)
+}
+
+fn in_memory(first: &str) -> rusqlite::Result<Connection> {
+    let connection = Connection::open_in_memory()?;
+    connection.execute("ATTACH DATABASE ? AS first", [first])?;
+    tables::take_over(&connection)?;
+    connection.execute_batch("DETACH DATABASE first")?;
+    Ok(connection)
+}
+
+fn read_flags() -> OpenFlags {
+    OpenFlags::SQLITE_OPEN_READ_ONLY | OpenFlags::SQLITE_OPEN_URI | OpenFlags::SQLITE_OPEN_NO_MUTEX
+}
+
+fn uri(file: &Path, option: &str) -> String {
+    let escaped = file.to_string_lossy().replace('%', "%25").replace('?', "%3f").replace('#', "%23");
+    format!("file:{escaped}?{option}")
+}
+
+/// Whether nobody can write to the store: SQLite wants to lay a file beside it even for reading, and can't there.
+fn is_unchanging(file: &Path) -> Result<bool, StoreError> {
+    let connection = Connection::open_with_flags(uri(file, "mode=ro"), read_flags()).map_err(told(file))?;
+    match tables::application(&connection) {
+        Err(error) if cannot_lay_files(&error) => Ok(!has_journal(file)),
+        _ => Ok(false),
     }
 }
 
-/// Opens a store that nobody writes to.
-fn open_unchanging(file: &Path) -> rusqlite::Result<Connection> {
-    let escaped = file.to_string_lossy().replace('%', "%25").replace('?', "%3f").replace('#', "%23");
-    let flags =
-        OpenFlags::SQLITE_OPEN_READ_ONLY | OpenFlags::SQLITE_OPEN_URI | OpenFlags::SQLITE_OPEN_NO_MUTEX;
-    Connection::open_with_flags(format!("file:{escaped}?immutable=1"), flags)
+fn cannot_lay_files(error: &rusqlite::Error) -> bool {
+    matches!(error.sqlite_error_code(), Some(ErrorCode::CannotOpen | ErrorCode::ReadOnly))
 }
 
 /// Whether there are edits that were not written back to the file itself.
 fn has_journal(file: &Path) -> bool {
-    let mut name = file.as_os_str().to_owned();
-    name.push("-wal");
-    Path::new(&name).metadata().is_ok_and(|journal| journal.len() > 0)
+    journal(file).metadata().is_ok_and(|journal| journal.len() > 0)
 }
 
-/// Makes the tables in a database that has none, and sets what belongs to a connection: every commit reaches the disk before
-/// it is told.
-fn create(connection: &mut Connection) -> rusqlite::Result<()> {
-    connection.pragma_update(None, "journal_mode", "WAL")?;
-    connection.pragma_update(None, "synchronous", "FULL")?;
-    connection.pragma_update(None, "foreign_keys", "ON")?;
-    let transaction = connection.transaction_with_behavior(TransactionBehavior::Immediate)?;
-    if is_empty(&transaction)? {
-        transaction.execute_batch(TABLES)?;
-        transaction.pragma_update(None, "application_id", APPLICATION)?;
-        transaction.pragma_update(None, "user_version", VERSION)?;
+/// An empty file is no store: SQLite would take it for a new one, and what it held would be forgotten silently.
+fn refuse_empty(file: &Path) -> Result<(), StoreError> {
+    let length = file.metadata().map_err(StoreError::io(file))?.len();
+    if length > 0 {
+        return Ok(());
     }
-    transaction.commit()
+    let expected = "an SQLite database with RALF's application id";
+    Err(StoreError::content(
+        file,
+        "file",
+        expected,
+        "an empty file; restore it, or delete it if nothing was corrected yet",
+    ))
 }
 
-fn is_empty(connection: &Connection) -> rusqlite::Result<bool> {
-    let tables: i64 = connection.query_row("SELECT count(*) FROM sqlite_schema", [], |row| row.get(0))?;
-    Ok(tables == 0 && number(connection, "application_id")? == 0)
-}
-
-/// Refuses other programs' databases, and those of another version.
-fn check(connection: &Connection, file: &Path) -> Result<(), StoreError> {
-    let application = number(connection, "application_id").map_err(told(file))?;
+/// Refuses other programs' databases, and those of another version; returns the version.
+fn check(connection: &Connection, file: &Path) -> Result<i32, StoreError> {
+    let application = tables::application(connection).map_err(told(file))?;
     if application != APPLICATION {
         let (expected, found) = (format!("{APPLICATION} (corrections)"), application.to_string());
         return Err(StoreError::content(file, "application_id", expected, found));
     }
-    let version = number(connection, "user_version").map_err(told(file))?;
-    if version != VERSION {
+    let version = tables::version(connection).map_err(told(file))?;
+    if ![FIRST_VERSION, VERSION].contains(&version) {
         let found = format!("{version}, of another version of the program");
         return Err(StoreError::content(file, "user_version", VERSION.to_string(), found));
     }
-    Ok(())
+    Ok(version)
 }
 
-fn number(connection: &Connection, pragma: &str) -> rusqlite::Result<i32> {
-    connection.pragma_query_value(None, pragma, |row| row.get(0))
+/// Refuses a store with damaged pages, before anything is read from it or written to it.
+fn check_pages(connection: &Connection, file: &Path) -> Result<(), StoreError> {
+    let found: String =
+        connection.query_row("PRAGMA integrity_check(1)", [], |row| row.get(0)).map_err(told(file))?;
+    if found == "ok" {
+        return Ok(());
+    }
+    Err(StoreError::content(
+        file,
+        "pages",
+        "a whole SQLite database of corrections",
+        format!("a damaged one ({found})"),
+    ))
 }
 
 #[cfg(test)]
@@ -165,9 +173,9 @@ mod tests {
         let file = folder.path().join("50% #1?.sqlite");
         drop(open(&file).unwrap());
         assert!(!has_journal(&file));
-        let connection = open_unchanging(&file).unwrap();
+        let connection = Connection::open_with_flags(uri(&file, "immutable=1"), read_flags()).unwrap();
         check(&connection, &file).unwrap();
-        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
     }
 
     #[test]
@@ -175,8 +183,21 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let file = folder.path().join("corrections.sqlite");
         Connection::open(&file).unwrap().execute_batch("CREATE TABLE notes (text TEXT)").unwrap();
-        let before = std::fs::read(&file).unwrap();
+        let before = fs::read(&file).unwrap();
         assert!(open(&file).is_err() && open_read_only(&file).is_err());
-        assert_eq!(std::fs::read(&file).unwrap(), before);
+        assert_eq!(fs::read(&file).unwrap(), before);
+    }
+
+    #[test]
+    fn several_may_make_it_at_once_and_one_remains() {
+        let folder = tempfile::tempdir().unwrap();
+        let file = folder.path().join("corrections.sqlite");
+        std::thread::scope(|scope| {
+            let opened: Vec<_> = (0..4).map(|_| scope.spawn(|| open(&file).map(drop))).collect();
+            opened.into_iter().for_each(|opened| opened.join().unwrap().unwrap());
+        });
+        let names: Vec<_> =
+            fs::read_dir(folder.path()).unwrap().map(|found| found.unwrap().file_name()).collect();
+        assert_eq!(names, ["corrections.sqlite"]);
     }
 }

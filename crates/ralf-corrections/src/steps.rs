@@ -1,14 +1,16 @@
 //! Undo and redo.
 
-use crate::apply::{correct, correction};
-use crate::changes::{log, log_scan};
-use crate::conflict::{Attempt, Refusal, last_edit, overtaken};
-use crate::error::{StoreError, told};
-use crate::history::{Placed, history, strokes_to_redo, strokes_to_undo};
-use crate::model::{Conflict, Edit, Outcome, ScanKey, Who};
-use crate::store::{Store, scan_state};
-use rusqlite::{Connection, Row, Transaction, params};
-use std::collections::BTreeSet;
+use crate::answered::{Asked, Made};
+use crate::conflict::{About, Attempt, Refusal, last_edit, overtaken};
+use crate::error::StoreError;
+use crate::history::{Placed, strokes_to_redo, strokes_to_undo};
+use crate::model::Who;
+use crate::outcome::{Conflict, Outcome};
+use crate::read::{correction, mark_of, version_of};
+use crate::store::Store;
+use crate::write::{correct, log, log_scan, set_mark};
+use rusqlite::{Connection, Transaction, params};
+use std::collections::BTreeMap;
 
 /// Which way a step goes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -17,101 +19,161 @@ enum Way {
     Redo,
 }
 
+impl Way {
+    fn name(self) -> &'static str {
+        match self {
+            Self::Undo => "undo",
+            Self::Redo => "redo",
+        }
+    }
+
+    /// From what to what a change goes.
+    fn turn<T>(self, before: T, after: T) -> (T, T) {
+        match self {
+            Self::Undo => (after, before),
+            Self::Redo => (before, after),
+        }
+    }
+}
+
+/// A stroke and what it did.
+struct Done {
+    stroke: Placed,
+    corrections: Vec<CorrectionChange>,
+    marks: Vec<MarkChange>,
+}
+
 /// What a stroke did to one detection.
-struct Change {
-    /// The scan's place in the store.
+struct CorrectionChange {
     scan: i64,
     point: u32,
     before: Option<u16>,
     after: Option<u16>,
 }
 
+/// What a stroke did to the mark of one scan.
+struct MarkChange {
+    scan: i64,
+    before: Option<i64>,
+    after: Option<i64>,
+}
+
 impl Store {
-    /// Takes back the author's last step in a sequence. Refused as a conflict where another author's later stroke is on one
-    /// of its detections.
+    /// Takes back the author's last step in a sequence, and nobody else's. Refused as a conflict where another
+    /// author's later stroke is on one of its detections, or another mark in the place of its mark.
+    ///
+    /// # Errors
+    /// A file that was deleted or replaced; see [`StoreError`].
     pub fn undo(&mut self, sequence: &str, who: &Who) -> Result<Outcome, StoreError> {
-        self.step(Way::Undo, sequence, who)
+        self.write(|on| step(on, Way::Undo, sequence, who))
     }
 
-    /// Sets the step again that the author took back last. Refused as a conflict where one of its detections was changed
-    /// since.
+    /// Sets the step again that the author took back last. Refused as a conflict where one of its detections
+    /// was changed since.
+    ///
+    /// # Errors
+    /// A file that was deleted or replaced; see [`StoreError`].
     pub fn redo(&mut self, sequence: &str, who: &Who) -> Result<Outcome, StoreError> {
-        self.step(Way::Redo, sequence, who)
-    }
-
-    fn step(&mut self, way: Way, sequence: &str, who: &Who) -> Result<Outcome, StoreError> {
-        self.write(|on, file| step(on, way, sequence, who).map_err(told(file)))
+        self.write(|on| step(on, Way::Redo, sequence, who))
     }
 }
 
-fn step(on: &Transaction, way: Way, sequence: &str, who: &Who) -> rusqlite::Result<Attempt<Edit>> {
+fn step(on: &Transaction, way: Way, sequence: &str, who: &Who) -> rusqlite::Result<Attempt> {
+    let asked = Asked { kind: way.name(), sequence, who };
+    if let Some(made) = asked.made_before(on)? {
+        return asked.answer_again(on, made, &[]).map(Attempt::Done);
+    }
     let strokes = match way {
         Way::Undo => strokes_to_undo(on, sequence, &who.author)?,
         Way::Redo => strokes_to_redo(on, sequence, &who.author)?,
     };
     let Some(last) = strokes.iter().map(|stroke| stroke.id).max() else {
-        let history = history(on, sequence, &who.author)?;
-        return Ok(Attempt::Done(Edit { stroke: None, changed: 0, scans: Vec::new(), history }));
+        return asked.answer(on, Made { event: None, stroke: None, changed: 0 }, &[]).map(Attempt::Done);
     };
-    let changes = strokes.iter().map(|stroke| changes_of(on, stroke.id)).collect::<Result<Vec<_>, _>>()?;
-    let scans: BTreeSet<i64> = changes.iter().flatten().map(|change| change.scan).collect();
-    let keys = scans.iter().map(|scan| key(on, *scan)).collect::<Result<BTreeSet<_>, _>>()?;
-    let event = log(on, if way == Way::Undo { "undo" } else { "redo" }, sequence, who)?;
-    for (stroke, changes) in strokes.iter().zip(&changes) {
-        if let Some(conflict) = move_stroke(on, way, (stroke, changes), (event, &who.author))? {
-            return Ok(Attempt::Refused(Refusal { conflict, keys }));
+    let strokes = strokes.into_iter().map(|stroke| done(on, stroke)).collect::<Result<Vec<_>, _>>()?;
+    let touched = touched(&strokes);
+    let mut scans = touched.keys().map(|scan| version_of(on, *scan)).collect::<Result<Vec<_>, _>>()?;
+    scans.sort_by(|a, b| a.key.cmp(&b.key));
+    let event = log(on, way.name(), sequence, who)?;
+    for stroke in &strokes {
+        if let Some(conflict) = move_stroke(on, way, stroke, (event, &who.author))? {
+            return Ok(Attempt::Refused(Refusal { conflict, scans }));
         }
     }
-    scans.iter().try_for_each(|scan| log_scan(on, event, *scan, true))?;
-    let changed = changes.iter().map(|changes| changes.len() as u64).sum();
-    let scans = keys.iter().map(|key| scan_state(on, key)).collect::<Result<_, _>>()?;
-    Ok(Attempt::Done(Edit {
-        stroke: Some(last),
-        changed,
-        scans,
-        history: history(on, sequence, &who.author)?,
-    }))
+    for (scan, corrected) in touched {
+        log_scan(on, event, scan, corrected)?;
+    }
+    let changed =
+        strokes.iter().map(|stroke| stroke.corrections.len() + stroke.marks.len()).sum::<usize>() as u64;
+    asked.answer(on, Made { event: Some(event), stroke: Some(last), changed }, &scans).map(Attempt::Done)
+}
+
+/// The scans that strokes concern, and whether they changed corrections there.
+fn touched(strokes: &[Done]) -> BTreeMap<i64, bool> {
+    let mut touched = BTreeMap::new();
+    for stroke in strokes {
+        for mark in &stroke.marks {
+            touched.entry(mark.scan).or_insert(false);
+        }
+        for change in &stroke.corrections {
+            touched.insert(change.scan, true);
+        }
+    }
+    touched
 }
 
 /// Takes a stroke back or sets it again, unless somebody else's edit is in the way.
 fn move_stroke(
     on: &Connection,
     way: Way,
-    (stroke, changes): (&Placed, &[Change]),
+    done: &Done,
     (event, author): (i64, &str),
 ) -> rusqlite::Result<Option<Conflict>> {
-    if let Some(conflict) = overtaken(on, stroke, author)? {
+    if let Some(conflict) = overtaken(on, &done.stroke, author)? {
         return Ok(Some(conflict));
     }
-    for change in changes {
-        let (from, to) = match way {
-            Way::Undo => (change.after, change.before),
-            Way::Redo => (change.before, change.after),
-        };
+    for change in &done.corrections {
+        let (from, to) = way.turn(change.before, change.after);
         // The stroke below this one may have been taken back since.
         if correction(on, change.scan, change.point)? != from {
-            return last_edit(on, change.scan).map(Some);
+            return last_edit(on, change.scan, About::Corrections).map(Some);
         }
         correct(on, change.scan, change.point, to)?;
+    }
+    for change in &done.marks {
+        let (from, to) = way.turn(change.before, change.after);
+        if mark_of(on, change.scan)? != from {
+            return last_edit(on, change.scan, About::Mark).map(Some);
+        }
+        set_mark(on, change.scan, to)?;
     }
     let moved = match way {
         Way::Undo => "UPDATE stroke SET applied = NULL, undone = ? WHERE id = ?",
         Way::Redo => "UPDATE stroke SET applied = ?, undone = NULL WHERE id = ?",
     };
-    on.prepare_cached(moved)?.execute(params![event, stroke.id])?;
+    on.prepare_cached(moved)?.execute(params![event, done.stroke.id])?;
     Ok(None)
 }
 
-fn changes_of(on: &Connection, stroke: i64) -> rusqlite::Result<Vec<Change>> {
-    let change = |row: &Row| {
-        Ok(Change { scan: row.get(0)?, point: row.get(1)?, before: row.get(2)?, after: row.get(3)? })
-    };
-    on.prepare_cached("SELECT scan, point, before, after FROM change WHERE stroke = ? ORDER BY scan, point")?
-        .query_map([stroke], change)?
-        .collect()
-}
-
-fn key(on: &Connection, scan: i64) -> rusqlite::Result<ScanKey> {
-    on.prepare_cached("SELECT sequence, radar, scan FROM scan WHERE id = ?")?
-        .query_row([scan], |row| Ok(ScanKey { sequence: row.get(0)?, radar: row.get(1)?, scan: row.get(2)? }))
+fn done(on: &Connection, stroke: Placed) -> rusqlite::Result<Done> {
+    let corrections = on
+        .prepare_cached(
+            "SELECT scan, point, before, after FROM change WHERE stroke = ? ORDER BY scan, point",
+        )?
+        .query_map([stroke.id], |row| {
+            Ok(CorrectionChange {
+                scan: row.get(0)?,
+                point: row.get(1)?,
+                before: row.get(2)?,
+                after: row.get(3)?,
+            })
+        })?
+        .collect::<Result<_, _>>()?;
+    let marks = on
+        .prepare_cached("SELECT scan, before, after FROM mark_change WHERE stroke = ? ORDER BY scan")?
+        .query_map([stroke.id], |row| {
+            Ok(MarkChange { scan: row.get(0)?, before: row.get(1)?, after: row.get(2)? })
+        })?
+        .collect::<Result<_, _>>()?;
+    Ok(Done { stroke, corrections, marks })
 }

@@ -1,7 +1,9 @@
 //! A program that is killed while it writes: every stroke that it told of is there, and none is there by half.
 #![expect(clippy::unwrap_used, reason = "helpers of tests fail as tests do")]
 
-use ralf_corrections::{Outcome, ScanEdit, ScanKey, Store, Stroke, Who, read_layer};
+use ralf_corrections::{
+    Outcome, ScanContent, ScanEdit, ScanKey, ScanVersion, Store, Stroke, Who, read_layer,
+};
 use std::io::{BufRead, BufReader, Write};
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
@@ -11,13 +13,14 @@ const TOLD: &str = "told ";
 const POINTS: u32 = 400;
 
 fn who() -> Who {
-    Who { author: "ada".into(), tab: None }
+    Who::named("ada")
 }
 
 /// Stroke `n` labels all detections of scan `n`.
 fn write_stroke(store: &mut Store, n: u32) {
     let points = (0..POINTS).collect();
-    let edit = ScanEdit { radar: "front".into(), scan: n, detections: POINTS, base: 0, points };
+    let edit =
+        ScanEdit { radar: "front".into(), scan: n, detections: POINTS, content: None, base: 0, points };
     let stroke =
         Stroke { tool: "brush".into(), label: Some(99), scans: vec![edit], ..Stroke::of_sequence("00") };
     let outcome = store.apply(&stroke, &who()).unwrap();
@@ -66,14 +69,15 @@ fn a_stroke_that_was_told_is_there_and_none_by_half() {
         let layer = read_layer(&file).unwrap();
         let there = layer.len() as u32;
         assert!(there == told + 1 || there == told + 2, "told of {told}, found {there} scans");
-        for (n, (key, scan)) in (0..).zip(&layer) {
-            assert_eq!((key.scan, scan.corrections.len()), (n, POINTS as usize));
+        for (n, (key, scans)) in (0..).zip(&layer) {
+            assert_eq!((key.scan, scans[0].corrections.len()), (n, POINTS as usize));
         }
         let mut store = Store::open(&file).unwrap();
         assert_eq!(store.history("00", "ada").unwrap().undo_depth, u64::from(there));
         let undone = store.undo("00", &who()).unwrap();
         assert!(matches!(undone, Outcome::Done(edit) if edit.changed == u64::from(POINTS)));
-        let last = ScanKey { sequence: "00".into(), radar: "front".into(), scan: there - 1 };
+        let key = ScanKey { sequence: "00".into(), radar: "front".into(), scan: there - 1 };
+        let last = ScanVersion { key, content: ScanContent { detections: POINTS, hash: None } };
         assert_eq!(store.scan(&last).unwrap().corrections, []);
         assert!(
             matches!(store.redo("00", &who()).unwrap(), Outcome::Done(edit) if edit.changed == u64::from(POINTS))

@@ -1,11 +1,11 @@
 //! The store against a simple model in memory, on random edits of two people.
 //!
-//! The model keeps the strokes that hold in a list, in the order in which they were set, and finds the corrections by going
-//! through it from the start. The store never does so.
+//! The model keeps the strokes that hold in a list, in the order in which they were set, and finds the
+//! corrections by going through it from the start. The store never does so.
 #![expect(clippy::unwrap_used, reason = "helpers of tests fail as tests do")]
 
 use proptest::prelude::*;
-use ralf_corrections::{Outcome, ScanEdit, ScanKey, Store, Stroke, Who};
+use ralf_corrections::{Outcome, ScanContent, ScanEdit, ScanKey, ScanVersion, Store, Stroke, Who};
 use std::collections::{BTreeMap, BTreeSet};
 
 const SCANS: u32 = 2;
@@ -147,11 +147,12 @@ fn set(values: &mut Values, stroke: &Done, to: impl Fn(&(Option<u16>, Option<u16
 }
 
 fn who(author: u8) -> Who {
-    Who { author: ["ada", "bob"][usize::from(author)].into(), tab: None }
+    Who::named(["ada", "bob"][usize::from(author)])
 }
 
-fn key(scan: u32) -> ScanKey {
-    ScanKey { sequence: SEQUENCE.into(), radar: "front".into(), scan }
+fn version(scan: u32) -> ScanVersion {
+    let key = ScanKey { sequence: SEQUENCE.into(), radar: "front".into(), scan };
+    ScanVersion { key, content: ScanContent { detections: POINTS, hash: None } }
 }
 
 /// What came of it: how many corrections changed, or nothing of a conflict.
@@ -168,6 +169,7 @@ fn edits(model: &Model, points: &BTreeSet<Place>, stale: bool) -> Vec<ScanEdit> 
         radar: "front".into(),
         scan,
         detections: POINTS,
+        content: None,
         base: model.revisions[scan as usize] + u64::from(stale),
         points: points.iter().filter(|(of, _)| *of == scan).map(|(_, point)| *point).collect(),
     };
@@ -194,7 +196,7 @@ fn step(store: &mut Store, model: &mut Model, author: u8, op: &Op) {
 fn compare(store: &Store, model: &Model) {
     let mut found = Values::new();
     for scan in 0..SCANS {
-        let state = store.scan(&key(scan)).unwrap();
+        let state = store.scan(&version(scan)).unwrap();
         assert_eq!(state.revision, model.revisions[scan as usize]);
         found.extend(state.corrections.into_iter().map(|(point, label)| ((scan, point), label)));
     }
@@ -217,7 +219,9 @@ fn op() -> impl Strategy<Value = Op> {
     let group = prop_oneof![3 => Just(None), 1 => (0..2u8).prop_map(Some)];
     let stroke = (points, label, any::<bool>(), group, proptest::bool::weighted(0.1));
     prop_oneof![
-        5 => stroke.prop_map(|(points, label, protect, group, stale)| Op::Stroke { points, label, protect, group, stale }),
+        5 => stroke.prop_map(|(points, label, protect, group, stale)| {
+            Op::Stroke { points, label, protect, group, stale }
+        }),
         4 => Just(Op::Undo),
         3 => Just(Op::Redo),
         1 => Just(Op::Reopen),
@@ -244,18 +248,18 @@ proptest! {
         let mut store = Store::open(&folder.path().join("corrections.sqlite")).unwrap();
         let mut model = Model::default();
         ops.iter().for_each(|op| step(&mut store, &mut model, 0, op));
-        let before: Vec<_> = (0..SCANS).map(|scan| store.scan(&key(scan)).unwrap().corrections).collect();
+        let before: Vec<_> = (0..SCANS).map(|scan| store.scan(&version(scan)).unwrap().corrections).collect();
         let depth = store.history(SEQUENCE, "ada").unwrap().undo_depth;
         for _ in 0..depth {
             prop_assert!(changed(store.undo(SEQUENCE, &who(0)).unwrap()).is_some_and(|changed| changed > 0));
         }
         for scan in 0..SCANS {
-            prop_assert_eq!(store.scan(&key(scan)).unwrap().corrections, []);
+            prop_assert_eq!(store.scan(&version(scan)).unwrap().corrections, []);
         }
         for _ in 0..depth {
             prop_assert!(changed(store.redo(SEQUENCE, &who(0)).unwrap()).is_some_and(|changed| changed > 0));
         }
-        let after: Vec<_> = (0..SCANS).map(|scan| store.scan(&key(scan)).unwrap().corrections).collect();
+        let after: Vec<_> = (0..SCANS).map(|scan| store.scan(&version(scan)).unwrap().corrections).collect();
         prop_assert_eq!(before, after);
     }
 }

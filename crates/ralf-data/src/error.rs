@@ -56,6 +56,24 @@ pub enum DataError {
         /// The measurement's place in the sensor's timeline.
         index: usize,
     },
+    /// A name in the recording can't be a file's or a folder's where output is written.
+    #[error(
+        "{kind}: expected a name that a folder can have and that leads nowhere else, found {found}: {name:?}"
+    )]
+    Name {
+        /// What has it.
+        kind: String,
+        /// The name.
+        name: String,
+        /// What is wrong with it.
+        found: &'static str,
+    },
+    /// Another process writes to the same place.
+    #[error("{}: another run of ralf writes here: wait until it ends, or choose another place", place.display())]
+    Busy {
+        /// The file or folder.
+        place: PathBuf,
+    },
     /// The store of corrections.
     #[error(transparent)]
     Corrections(#[from] StoreError),

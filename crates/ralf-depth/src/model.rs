@@ -10,6 +10,7 @@ use crate::rten_backend::{self, RtenNetwork};
 use crate::runner::Runner;
 use crate::{DepthError, DepthEstimator};
 use ralf::sensors::{CameraImage, DepthImage, DepthOutput};
+use ralf_files::Kind;
 use std::path::{Path, PathBuf};
 
 /// What runs a network.
@@ -42,7 +43,7 @@ impl OnnxModel {
 
     /// The same, run by the runtime given.
     pub fn load_with(runtime: Runtime, model: &Path, card: Option<&Path>) -> Result<Self, DepthError> {
-        let bytes = std::fs::read(model).map_err(DepthError::io(model))?;
+        let bytes = ralf_files::read(model, Kind::Network).map_err(DepthError::io(model))?;
         let card = Card::read(&card.map_or_else(|| Card::beside(model), Path::to_owned))?;
         let fingerprint = fingerprint(&bytes, &card)
             .map_err(|reason| DepthError::content(model, "card", "values that TOML can hold", reason))?;
@@ -77,7 +78,7 @@ impl DepthEstimator for OnnxModel {
     fn estimate(&self, view: &CameraImage, focal: f64) -> Result<DepthImage, DepthError> {
         let Self { file, card, network, output, .. } = self;
         let runner = Runner { file, card, network: network.as_ref(), output: *output };
-        let mut depth = fit::depth(&runner, &Colour::of(view)?)?;
+        let mut depth = fit::depth(&runner, &Colour::from_view(view)?)?;
         if let Some(canonical) = card.canonical_focal {
             if !(focal.is_finite() && focal > 0.0) {
                 let expected = "a focal length above 0 px".to_owned();

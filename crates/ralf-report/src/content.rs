@@ -3,8 +3,7 @@
 use crate::scored::{Detections, Origin, rig_of_run};
 use crate::{Pictures, Report, ReportError, pictures};
 use ralf::metrics::Separation;
-use ralf_data::result::{LabelledRows, read_labelled_rows};
-use ralf_data::run::{RunRecord, read_record};
+use ralf_data::result::{LabelledRows, LabelledRun, RunRecord, read_labelled_rows};
 use ralf_data::{Balance, Comparison, Corrections, GroundTruth, SequenceReader};
 use ralf_plot::Extent;
 
@@ -59,11 +58,13 @@ impl Content {
     /// Reads and draws everything.
     pub(crate) fn gather(report: &Report, progress: &dyn Fn(&str)) -> Result<Self, ReportError> {
         let dataset = &report.recording.path;
-        let mut record = read_record(report.out)?;
+        let run = LabelledRun::open(report.out)?;
+        let mut record = run.record().clone();
         let names: Vec<&str> =
             report.recording.sequences.iter().map(|reader| reader.sequence().name.as_str()).collect();
         record.sequences.retain(|sequence| names.contains(&sequence.name.as_str()));
-        let corrections = Corrections::open(report.out)?;
+        let corrections = Corrections::of_recording(report.out, report.recording)?;
+        let orphaned: Vec<String> = corrections.orphaned().iter().map(ToString::to_string).collect();
         let truth =
             GroundTruth::find_merged(dataset, corrections)?.and_then(|truth| truth.of_sequences(&names));
         let comparison = truth.as_ref().map(|truth| Comparison::new(report.out, truth)).transpose()?;
@@ -72,9 +73,9 @@ impl Content {
         for reader in &report.recording.sequences {
             let sequence = reader.sequence();
             progress(&format!("sequence {}", sequence.name));
-            let folder = report.out.join("sequences").join(&sequence.name);
-            let rows = read_labelled_rows(&folder.join("plausibility.parquet"))?;
-            let rig = rig_of_run(dataset, &sequence.name, &sequence.rig, &record.settings.method)?;
+            let labelled = run.sequence(reader.as_ref())?;
+            let rows = read_labelled_rows(labelled.tables.file())?;
+            let rig = labelled.rig;
             let origin = Origin { dataset, sequence: &sequence.name, rig: &rig, truth: truth.as_ref() };
             detections.add(origin, &rows)?;
             answers(&rows).for_each(|(w, plausible)| overall.add(w, plausible));

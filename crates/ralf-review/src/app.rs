@@ -1,16 +1,18 @@
 //! What all requests share.
 
 use crate::cache::Cache;
+use crate::causes::CauseNames;
+use crate::contents::Contents;
+use crate::error::ReviewError;
 use crate::http::{Answer, ApiError};
 use crate::labelled::{SequenceLabels, Stamp};
-use crate::reading::causes::CauseNames;
-use crate::{Options, ReviewError};
-use ralf_corrections::{FILE, ScanKey, Store, Who};
+use crate::shared_store::SharedStore;
+use ralf_corrections::{Outcome, Reader, ScanContent, ScanKey, ScanVersion, Store, StoreError};
 use ralf_data::run::read_record;
 use ralf_data::{Recording, SequenceReader};
 use std::path::{Path, PathBuf};
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
-use tokio::sync::watch;
+use std::sync::Arc;
+use tokio::sync::{Semaphore, watch};
 
 /// Sequences whose labels are kept open.
 const SEQUENCES_KEPT: usize = 2;
@@ -21,9 +23,13 @@ const CLOUDS_KEPT: usize = 24;
 pub(crate) struct App {
     pub(crate) recording: Recording,
     pub(crate) out: PathBuf,
+    /// What people are called who say no name of their own.
     pub(crate) author: String,
     pub(crate) causes: CauseNames,
-    store: Mutex<Store>,
+    pub(crate) contents: Contents,
+    pub(crate) store: SharedStore,
+    /// Who writes has it; who waits for it keeps no thread that others could read with.
+    writing: Semaphore,
     labels: Cache<usize, SequenceLabels>,
     /// Tables by sequence, LiDAR and scan, and the labels whose ground is in them.
     pub(crate) clouds: Cache<(usize, usize, usize), (Stamp, Vec<u8>)>,
@@ -37,21 +43,25 @@ pub(crate) struct App {
 pub(crate) struct ScanPlace<'a> {
     pub(crate) sequence: usize,
     pub(crate) reader: &'a dyn SequenceReader,
+    pub(crate) radar: usize,
+    pub(crate) scan: usize,
     pub(crate) t_ns: i64,
     pub(crate) key: ScanKey,
 }
 
 impl App {
     /// Opens all that is needed. Labels must be there; the store is made if it isn't.
-    pub(crate) fn open(recording: Recording, out: &Path, options: &Options) -> Result<Self, ReviewError> {
+    pub(crate) fn open(recording: Recording, out: &Path, author: &str) -> Result<Self, ReviewError> {
         // Without labels there is nothing to review, and no store is made.
         read_record(out)?;
         Ok(Self {
-            store: Mutex::new(Store::open(&out.join(FILE))?),
+            store: SharedStore::open(out)?,
             causes: CauseNames::of(&recording)?,
+            contents: Contents::default(),
             recording,
             out: out.to_owned(),
-            author: options.author.clone(),
+            author: author.to_owned(),
+            writing: Semaphore::new(1),
             labels: Cache::new(SEQUENCES_KEPT),
             clouds: Cache::new(CLOUDS_KEPT),
             news: watch::Sender::new(()),
@@ -69,15 +79,42 @@ impl App {
         tokio::task::spawn_blocking(move || work(&self)).await.unwrap_or_else(broken)
     }
 
-    /// The corrections; others wait.
-    pub(crate) fn store(&self) -> MutexGuard<'_, Store> {
-        // A stroke that panicked has written nothing: its transaction is rolled back.
-        self.store.lock().unwrap_or_else(PoisonError::into_inner)
+    /// Does work that writes to the store, one after the other.
+    pub(crate) async fn in_turn(
+        self: Arc<Self>,
+        work: impl FnOnce(&Self) -> Answer + Send + 'static,
+    ) -> Answer {
+        // It is never closed; without a turn the store's own lock would do.
+        let _turn = self.writing.acquire().await;
+        self.clone().blocking(work).await
     }
 
-    /// The author, in this window.
-    pub(crate) fn who(&self, tab: Option<String>) -> Who {
-        Who { author: self.author.clone(), tab }
+    /// Asks the corrections.
+    pub(crate) fn said<T>(&self, ask: impl FnOnce(&Reader) -> Result<T, StoreError>) -> Result<T, ApiError> {
+        Ok(self.store.read(ask)?)
+    }
+
+    /// Writes corrections, and has other windows hear of it.
+    pub(crate) fn edit(
+        &self,
+        edit: impl FnOnce(&mut Store) -> Result<Outcome, StoreError>,
+    ) -> Result<Outcome, ApiError> {
+        let reason = || ApiError::Forbidden(self.store.read_only().unwrap_or_default().to_owned());
+        let outcome = self.store.write(edit).ok_or_else(reason)??;
+        if matches!(outcome, Outcome::Done(_)) {
+            self.news.send_replace(());
+        }
+        Ok(outcome)
+    }
+
+    /// What a scan holds now.
+    pub(crate) fn version(&self, place: &ScanPlace) -> Result<ScanVersion, ApiError> {
+        let content = self.content(place)?;
+        Ok(ScanVersion { key: place.key.clone(), content })
+    }
+
+    pub(crate) fn content(&self, place: &ScanPlace) -> Result<ScanContent, ApiError> {
+        Ok(self.contents.read(place.reader, (place.sequence, place.radar, place.scan))?)
     }
 
     /// A sequence by its name.
@@ -92,10 +129,10 @@ impl App {
         let (index, reader) = self.sequence(sequence)?;
         let names = reader.sequence().rig.radars.iter().map(|radar| radar.name.as_str());
         let times = &reader.sequence().times.radars;
-        let (_, t_ns) = measurement("radar", names, times, radar, scan)?;
+        let (place, t_ns) = measurement("radar", names, times, radar, scan)?;
         let number = u32::try_from(scan).map_err(|error| ApiError::Malformed(error.to_string()))?;
         let key = ScanKey { sequence: sequence.to_owned(), radar: radar.to_owned(), scan: number };
-        Ok(ScanPlace { sequence: index, reader, t_ns, key })
+        Ok(ScanPlace { sequence: index, reader, radar: place, scan, t_ns, key })
     }
 
     /// A sequence's labels, as they lie there now.

@@ -2,10 +2,10 @@
 
 use crate::cache::Cache;
 use crate::http::ApiError;
-use crate::need::{ScanNeed, of_scans};
+use crate::need::{Doubts, ScanNeed};
 use ralf::config::{Config, nanoseconds};
 use ralf::scene::ViewState;
-use ralf::sensors::Rig;
+use ralf::sensors::{Rig, Sequence};
 use ralf::space::sync;
 use ralf_data::result::{Columns, PlausibilityReader, ScanTable, ScanTables};
 use ralf_data::run::{CameraRecord, ImageRecord, read_record};
@@ -106,7 +106,8 @@ impl SequenceLabels {
         self.not_labelled.get(&(radar.to_owned(), scan)).map(String::as_str)
     }
 
-    /// The cameras (by their place in the rig) whose image nearest to a time was asked, and those of them with a failed view.
+    /// The cameras (by their place in the rig) whose image nearest to a time was asked, and those of them with
+    /// a failed view.
     pub(crate) fn cameras_at(&self, times: &[Vec<i64>], t_ns: i64) -> (BTreeSet<usize>, BTreeSet<usize>) {
         let tolerance = nanoseconds(self.settings.sync.camera_tolerance_ms);
         let (mut asked, mut failed) = (BTreeSet::new(), BTreeSet::new());
@@ -127,8 +128,38 @@ impl SequenceLabels {
         if let Some(known) = self.needs.get() {
             return Ok(known.clone());
         }
-        let needs = Arc::new(of_scans(self, reader.sequence())?);
+        let needs = Arc::new(self.count_needs(reader.sequence())?);
         Ok(self.needs.get_or_init(|| needs).clone())
+    }
+
+    fn count_needs(&self, sequence: &Sequence) -> Result<Vec<ScanNeed>, ApiError> {
+        let mut doubts = self.doubts()?;
+        let mut needs = Vec::new();
+        for (radar, times) in sequence.times.radars.iter().enumerate() {
+            for (scan, t_ns) in times.iter().copied().enumerate() {
+                let name = (sequence.rig.radars[radar].name.clone(), scan);
+                if self.reason(&name.0, scan).is_some() {
+                    continue;
+                }
+                let doubts = doubts.remove(&name).unwrap_or_default();
+                let (asked, failed) = self.cameras_at(&sequence.times.cameras, t_ns);
+                let (cameras_asked, cameras_failed) = (asked.len(), failed.len());
+                needs.push(ScanNeed { radar, scan, t_ns, doubts, cameras_failed, cameras_asked });
+            }
+        }
+        Ok(needs)
+    }
+
+    /// The doubts of every scan that has detections; no more than one row group is in memory.
+    fn doubts(&self) -> Result<BTreeMap<(String, usize), Doubts>, DataError> {
+        let threshold = self.settings.fusion.threshold as f32;
+        let mut doubts = BTreeMap::new();
+        for group in 0..self.reader.groups() {
+            for (scan, table) in self.reader.tables(group)? {
+                doubts.insert(scan, Doubts::of(self.reader.columns(), &table, threshold));
+            }
+        }
+        Ok(doubts)
     }
 }
 

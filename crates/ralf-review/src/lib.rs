@@ -1,33 +1,40 @@
 //! The server of the page where people correct labels.
 //!
-//! [`Server::bind`] takes a [recording](ralf_data::Recording) and the folder that `ralf label` filled, and [`Server::run`] serves
-//! one page and an interface for it, which `docs/review-api.md` describes, until the user ends it. What is behind it:
+//! [`Server::bind`] takes a [recording](ralf_data::Recording) and the folder that `ralf label` filled, and
+//! [`Server::run`] serves one page and an interface for it, which `docs/review-api.md` describes, until the
+//! user ends it. What is behind it:
 //!
 //! - `reading/` makes tables of what the recording and the run hold; nothing of these is ever written.
-//! - `correcting/` turns requests into strokes, steps and marks of a [store](ralf_corrections::Store); an answer means that the
-//!   edit is on disk.
-//! - `http/` says who may ask and how answers look: other hosts, origins and sites are refused, and where others than this
-//!   machine can reach the server, requests without its token.
+//! - `correcting/` turns requests into strokes, steps and marks of a [store](ralf_corrections::Store); an
+//!   answer means that the edit is on disk.
+//! - `http/` says who may ask and how answers look: other hosts, origins and sites are refused, and requests
+//!   without the server's token: others may work on the same machine.
 //! - `need` orders scans by how much they want a person.
 //!
-//! Requests name sequences, sensors and measurements by what the recording holds and never by a path, so that nothing else can
-//! be read through it. Reading happens on threads of its own; what is kept in memory is bounded.
+//! Requests name sequences, sensors and measurements by what the recording holds and never by a path, so that
+//! nothing else can be read through it. Reading happens on threads of its own; what is kept in memory is
+//! bounded.
 
+mod addresses;
 mod app;
 mod cache;
+mod causes;
+mod columns;
+mod contents;
 mod correcting;
 mod error;
 mod http;
 mod labelled;
 mod need;
+mod options;
 mod page;
 mod reading;
 mod routes;
 mod server;
+mod shared_store;
 
 pub use error::ReviewError;
-pub use need::{CAMERA_WEIGHT, DISAGREEING, ScanNeed, UNCERTAIN};
-pub use server::{Options, Server};
-
-/// The largest body of a request, bytes.
-pub const MAX_BODY: usize = 8 << 20;
+pub use http::MAX_BODY;
+pub use need::{CAMERA_WEIGHT, DISAGREEING, Doubts, ScanNeed, UNCERTAIN};
+pub use options::Options;
+pub use server::Server;

@@ -1,13 +1,13 @@
 //! Which address leads where.
 
 use crate::app::App;
-use crate::correcting::{self, MarkRequest, Nothing, Since, StrokeRequest};
-use crate::http::{Answer, ApiError, Asked, Body, Guard, Place, guard, tab};
+use crate::correcting::{self, MarkRequest, Since, StepRequest, StrokeRequest};
+use crate::http::{Answer, ApiError, Asked, Body, Guard, MAX_BODY, Person, Place, guard};
+use crate::page;
 use crate::reading::{self, Moment, Projection};
-use crate::{MAX_BODY, page};
 use axum::Router;
 use axum::extract::{DefaultBodyLimit, State};
-use axum::http::{HeaderMap, Uri};
+use axum::http::Uri;
 use axum::middleware::from_fn_with_state;
 use axum::response::{IntoResponse, Response};
 use axum::routing::{get, post, put};
@@ -90,52 +90,48 @@ async fn moment(State(app): Shared, Place(sequence): Place<String>, Asked(asked)
 async fn stroke(
     State(app): Shared,
     Place(sequence): Place<String>,
-    headers: HeaderMap,
+    person: Person,
     Body(asked): Body<StrokeRequest>,
 ) -> Answer {
-    let tab = tab(&headers)?;
-    app.blocking(move |app| correcting::stroke(app, &sequence, asked, tab)).await
+    app.in_turn(move |app| correcting::stroke(app, &sequence, asked, person)).await
 }
 
 async fn undo(
     State(app): Shared,
     Place(sequence): Place<String>,
-    headers: HeaderMap,
-    Body(Nothing {}): Body<Nothing>,
+    person: Person,
+    Body(asked): Body<StepRequest>,
 ) -> Answer {
-    let tab = tab(&headers)?;
-    app.blocking(move |app| correcting::undo(app, &sequence, tab)).await
+    app.in_turn(move |app| correcting::undo(app, &sequence, asked, person)).await
 }
 
 async fn redo(
     State(app): Shared,
     Place(sequence): Place<String>,
-    headers: HeaderMap,
-    Body(Nothing {}): Body<Nothing>,
+    person: Person,
+    Body(asked): Body<StepRequest>,
 ) -> Answer {
-    let tab = tab(&headers)?;
-    app.blocking(move |app| correcting::redo(app, &sequence, tab)).await
+    app.in_turn(move |app| correcting::redo(app, &sequence, asked, person)).await
 }
 
-async fn history(State(app): Shared, Place(sequence): Place<String>) -> Answer {
-    app.blocking(move |app| correcting::history(app, &sequence)).await
+async fn history(State(app): Shared, Place(sequence): Place<String>, person: Person) -> Answer {
+    app.blocking(move |app| correcting::history(app, &sequence, person)).await
 }
 
 async fn mark(
     State(app): Shared,
     Place((sequence, radar, scan)): Place<(String, String, usize)>,
-    headers: HeaderMap,
+    person: Person,
     Body(asked): Body<MarkRequest>,
 ) -> Answer {
-    let tab = tab(&headers)?;
-    app.blocking(move |app| correcting::mark(app, (&sequence, &radar, scan), &asked, tab)).await
+    app.in_turn(move |app| correcting::mark(app, (&sequence, &radar, scan), asked, person)).await
 }
 
 async fn changes(
     State(app): Shared,
     Place(sequence): Place<String>,
     Asked(asked): Asked<Since>,
-    headers: HeaderMap,
+    person: Person,
 ) -> Answer {
-    correcting::changes(app, sequence, asked, tab(&headers)?).await
+    correcting::changes(app, sequence, asked, person).await
 }

@@ -1,10 +1,12 @@
 //! Listening, serving, ending.
 
 use crate::app::App;
+use crate::error::ReviewError;
 use crate::http::{Guard, Token};
-use crate::{ReviewError, routes};
+use crate::options::Options;
+use crate::{addresses, routes};
 use ralf_data::Recording;
-use std::io::ErrorKind;
+use std::io::{self, ErrorKind};
 use std::net::{IpAddr, SocketAddr, TcpListener, ToSocketAddrs};
 use std::path::Path;
 use std::sync::Arc;
@@ -17,19 +19,10 @@ const FIRST_PORT: u16 = 8642;
 const PORTS: u16 = 20;
 /// Files that are read at once.
 const READERS: usize = 8;
+/// Without an edit for so long, the journal is written back.
+const IDLE: Duration = Duration::from_millis(500);
 /// How long requests may take to end when the server does.
 const PATIENCE: Duration = Duration::from_secs(5);
-
-/// How to serve.
-#[derive(Debug, Clone)]
-pub struct Options {
-    /// Name or address to listen on.
-    pub host: String,
-    /// Port to listen on, 0 for any free one. `None`: 8642, or the next one that is free.
-    pub port: Option<u16>,
-    /// Who corrects.
-    pub author: String,
-}
 
 /// A review that listens.
 pub struct Server {
@@ -37,68 +30,125 @@ pub struct Server {
     guard: Arc<Guard>,
     listener: TcpListener,
     runtime: Runtime,
-    url: String,
+    urls: Vec<String>,
 }
 
 impl Server {
-    /// Opens labels and corrections, and begins to listen. A token is asked of requests unless only this machine can send any.
+    /// Opens labels and corrections, and begins to listen. Every request but those for the page itself needs the token.
     ///
     /// # Errors
     /// No labels, a store that is none, an address that can't be listened on.
     pub fn bind(recording: Recording, out: &Path, options: &Options) -> Result<Self, ReviewError> {
-        let app = App::open(recording, out, options)?;
+        let app = App::open(recording, out, &options.author)?;
         let listener = listen(&options.host, options.port)?;
         let address = listener.local_addr().map_err(ReviewError::system("local address"))?;
         listener.set_nonblocking(true).map_err(ReviewError::system("listening"))?;
-        let token = if address.ip().is_loopback() { None } else { Some(Token::new()?) };
-        let query = token.as_ref().map_or(String::new(), |token| format!("?token={}", token.digits()));
-        let url = format!("http://{}/{query}", name_of(&options.host, address));
+        let token = Token::of(out, options.token_folder.as_deref())?;
+        let named = addresses::reachable(&options.host, address);
+        let urls = named.into_iter().map(|name| format!("http://{name}/?token={}", token.digits())).collect();
         let guard = Guard::new(&options.host, address, token);
         let runtime = Builder::new_current_thread().enable_all().max_blocking_threads(READERS).build();
         let runtime = runtime.map_err(ReviewError::system("threads"))?;
-        Ok(Self { app: Arc::new(app), guard: Arc::new(guard), listener, runtime, url })
+        Ok(Self { app: Arc::new(app), guard: Arc::new(guard), listener, runtime, urls })
     }
 
-    /// What to type in a browser.
-    pub fn url(&self) -> &str {
-        &self.url
+    /// What to type in a browser: on this machine the first one, on others those behind it. Each holds the token.
+    pub fn urls(&self) -> &[String] {
+        &self.urls
     }
 
-    /// Serves until the user interrupts (Ctrl-C).
+    /// Why nothing can be corrected here; `None` where it can.
+    pub fn read_only(&self) -> Option<&str> {
+        self.app.store.read_only()
+    }
+
+    /// Serves until the user interrupts (Ctrl-C), or the system ends it.
+    ///
+    /// # Errors
+    /// Those of the system.
     pub fn run(self) -> Result<(), ReviewError> {
-        self.run_until(async {
-            // Where it can't be waited for, the server serves on, and is ended by the signal itself.
-            if tokio::signal::ctrl_c().await.is_err() {
-                std::future::pending::<()>().await;
-            }
-        })
+        self.run_until(told_to_end())
     }
 
-    /// Serves until something happens; requests in hand are answered.
+    /// Serves until something happens; requests in hand are answered, and the store's file holds everything by
+    /// itself then.
+    ///
+    /// # Errors
+    /// Those of the system.
     pub fn run_until(self, end: impl Future<Output = ()> + Send + 'static) -> Result<(), ReviewError> {
         let Self { app, guard, listener, runtime, .. } = self;
-        let router = routes::router(app.clone(), guard);
-        let served = runtime.block_on(async move {
-            let listener = tokio::net::TcpListener::from_std(listener)?;
-            let closing = app.closing.clone();
-            let ending = async move {
-                end.await;
-                closing.send_replace(true);
-            };
-            let mut ended = app.closing.subscribe();
-            let serving = axum::serve(listener, router).with_graceful_shutdown(ending);
-            let too_long = async {
-                let _ = ended.wait_for(|ended| *ended).await;
-                tokio::time::sleep(PATIENCE).await;
-            };
-            tokio::select! {
-                served = serving.into_future() => served,
-                () = too_long => Ok(()),
-            }
-        });
+        let served = runtime.block_on(serve(app.clone(), guard, listener, end));
         runtime.shutdown_timeout(PATIENCE);
-        served.map_err(ReviewError::system("serving"))
+        let written_back = app.store.write_back();
+        served.map_err(ReviewError::system("serving"))?;
+        Ok(written_back?)
     }
+}
+
+async fn serve(
+    app: Arc<App>,
+    guard: Arc<Guard>,
+    listener: TcpListener,
+    end: impl Future<Output = ()> + Send + 'static,
+) -> io::Result<()> {
+    let listener = tokio::net::TcpListener::from_std(listener)?;
+    let closing = app.closing.clone();
+    let ending = async move {
+        end.await;
+        closing.send_replace(true);
+    };
+    let mut ended = app.closing.subscribe();
+    let too_long = async {
+        let _ = ended.wait_for(|ended| *ended).await;
+        tokio::time::sleep(PATIENCE).await;
+    };
+    let settling = tokio::spawn(settle(app.clone()));
+    let serving = axum::serve(listener, routes::router(app, guard)).with_graceful_shutdown(ending);
+    let served = tokio::select! {
+        served = serving.into_future() => served,
+        () = too_long => Ok(()),
+    };
+    settling.abort();
+    served
+}
+
+/// Writes the store's journal back whenever nobody has edited for a moment, so that a copy of the file alone
+/// holds everything.
+async fn settle(app: Arc<App>) {
+    let mut news = app.news.subscribe();
+    while news.changed().await.is_ok() {
+        while tokio::time::timeout(IDLE, news.changed()).await.is_ok_and(|rung| rung.is_ok()) {}
+        let app = app.clone();
+        // What can't be written back stays in the journal, where it is as safe.
+        let _written_back = tokio::task::spawn_blocking(move || app.store.write_back()).await;
+    }
+}
+
+/// Ctrl-C, or the system's wish. Where it can't be waited for, the server serves on, and is ended by the signal itself.
+async fn told_to_end() {
+    let interrupted = async {
+        if tokio::signal::ctrl_c().await.is_err() {
+            std::future::pending::<()>().await;
+        }
+    };
+    tokio::select! {
+        () = interrupted => {}
+        () = terminated() => {}
+    }
+}
+
+#[cfg(unix)]
+async fn terminated() {
+    use tokio::signal::unix::{SignalKind, signal};
+    match signal(SignalKind::terminate()) {
+        Ok(mut wish) => drop(wish.recv().await),
+        Err(_) => std::future::pending().await,
+    }
+}
+
+#[cfg(not(unix))]
+async fn terminated() {
+    std::future::pending().await
 }
 
 /// Listens where asked, or on the first free port from 8642 on.
@@ -124,12 +174,6 @@ fn ip_of(host: &str) -> Result<IpAddr, ReviewError> {
     let name = host.trim_start_matches('[').trim_end_matches(']');
     let refused = |error| ReviewError::Host { host: host.to_owned(), error };
     let mut found = (name, 0).to_socket_addrs().map_err(refused)?;
-    let none = || refused(std::io::Error::new(ErrorKind::NotFound, "no address"));
+    let none = || refused(io::Error::new(ErrorKind::NotFound, "no address"));
     found.next().map(|address| address.ip()).ok_or_else(none)
-}
-
-/// The address as a browser takes it: the name asked for, where it is one.
-fn name_of(host: &str, address: SocketAddr) -> String {
-    let is_name = host.parse::<IpAddr>().is_err() && !host.starts_with('[') && !address.ip().is_loopback();
-    if is_name { format!("{host}:{}", address.port()) } else { address.to_string() }
 }

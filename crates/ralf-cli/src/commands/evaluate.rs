@@ -3,18 +3,21 @@
 mod balance;
 mod table;
 
-use crate::Outcome;
+use crate::arguments::ChangedArgs;
 use crate::corrections::merged_truth;
+use crate::outcome::Outcome;
 use crate::progress::say;
 use crate::text::print;
-use ralf_data::{Balances, Comparison};
+use ralf_data::result::LabelledRun;
+use ralf_data::{Balances, Comparison, Recording};
 use std::path::{Path, PathBuf};
 
 /// What `ralf evaluate` takes.
 #[derive(Debug, Clone, clap::Args)]
 #[command(after_help = "\
-Corrections of a review in OUT/corrections.sqlite count above the dataset's corrected labels; both or one of them may be there.
-Without --truth it tells how far apart the two classes are (mean plausibility of one minus that of the other), and how balanced.
+Corrections of a review in OUT/corrections.sqlite count above the dataset's corrected labels; both or one of them may \
+be there. Without --truth it tells how far apart the two classes are (mean plausibility of one minus that of the \
+other), and how balanced.
 
 Examples:
   ralf evaluate out --truth recordings/city
@@ -30,6 +33,8 @@ pub(crate) struct EvaluateArgs {
     /// Take the corrections of a review from this folder in place of OUT
     #[arg(long, value_name = "OUT", requires = "truth")]
     corrections: Option<PathBuf>,
+    #[command(flatten)]
+    changed: ChangedArgs,
     /// Print one JSON object in place of tables
     #[arg(long)]
     json: bool,
@@ -49,7 +54,9 @@ pub(crate) fn run(args: &EvaluateArgs) -> anyhow::Result<Outcome> {
 /// Against the truth. Scans without labels are named on standard error and left out.
 fn compare(args: &EvaluateArgs, dataset: &Path) -> anyhow::Result<Outcome> {
     let corrections = args.corrections.as_deref();
-    let truth = merged_truth(dataset, corrections.or(Some(&args.out)), corrections.is_some())?;
+    let recording = recording_of(args, dataset)?;
+    let out = corrections.or(Some(&args.out));
+    let truth = merged_truth(dataset, recording.as_ref(), out, corrections.is_some())?;
     let comparison = Comparison::new(&args.out, &truth)?;
     name_what_is_left_out(&comparison, args);
     let text = if args.json {
@@ -60,6 +67,25 @@ fn compare(args: &EvaluateArgs, dataset: &Path) -> anyhow::Result<Outcome> {
     };
     print(&text)?;
     Ok(if comparison.missing.is_empty() { Outcome::Done } else { Outcome::Partial })
+}
+
+/// The recording that the truth lies in, once it is found to be what was labelled. Label files are enough, so that
+/// there need not be one.
+fn recording_of(args: &EvaluateArgs, dataset: &Path) -> anyhow::Result<Option<Recording>> {
+    if !args.out.join("run.json").exists() {
+        return Ok(None);
+    }
+    let run = LabelledRun::open(&args.out)?;
+    let Ok(mut recording) = ralf_data::open_with(dataset, None, &run.settings().topics) else {
+        return Ok(None);
+    };
+    // Labels of one format may be compared with truth that is kept in another.
+    if recording.format != run.record().format {
+        return Ok(None);
+    }
+    recording.sequences.retain(|reader| run.holds(&reader.sequence().name));
+    args.changed.check(&run, &recording)?;
+    Ok(Some(recording))
 }
 
 /// Without the truth.
@@ -96,12 +122,13 @@ mod tests {
         put(&out, "sequences/00/front/000000.label", &[1, 99]);
         put(&dataset, "sequences/00/ground_truth/front/000000.label", &[1, 10]);
         let truth = Some(dataset.clone());
-        let mut args = EvaluateArgs { out, truth, corrections: None, json: true, scans: false };
+        let changed = ChangedArgs::default();
+        let mut args = EvaluateArgs { out, truth, corrections: None, changed, json: true, scans: false };
         assert_eq!(run(&args).unwrap(), Outcome::Done);
         put(&dataset, "sequences/00/ground_truth/front/000001.label", &[1]);
         assert_eq!(run(&args).unwrap(), Outcome::Partial);
         args.truth = None;
-        assert!(run(&args).unwrap_err().to_string().contains("plausibility.parquet"));
+        assert!(run(&args).unwrap_err().to_string().contains("run.json"));
         args.truth = Some(folder.path().join("elsewhere"));
         assert!(run(&args).unwrap_err().to_string().contains("elsewhere"));
     }

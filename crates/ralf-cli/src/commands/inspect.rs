@@ -2,20 +2,24 @@
 
 mod ros;
 
-use crate::cli::DatasetArgs;
+use crate::arguments::{DatasetArgs, SettingsArgs, threads};
+use crate::outcome::{Outcome, UsageError};
+use crate::progress::Progress;
 use crate::run_summary::run_summary;
-use crate::settings::SettingsArgs;
 use crate::text::{aligned, grouped, print};
-use crate::{Outcome, UsageError};
 use clap::Args;
-use ralf_data::read::inspection::{Inspection, SensorInspection};
+use ralf::config::Config;
+use ralf::sensors::Timelines;
+use ralf_data::SequenceReader;
+use ralf_data::read::inspection::{Inspection, SensorInspection, Unreadable};
 use ralf_data::run::{RunRecord, read_record};
 use std::path::{Path, PathBuf};
 
 /// Arguments of `ralf inspect`.
 #[derive(Debug, Args)]
 #[command(after_help = "\
-Of a folder that `ralf label` wrote it tells what was labelled, and which cameras failed, and why.
+Every radar and LiDAR scan is read once, so that those that can't be are found before labelling. Shown a folder that
+`ralf label` wrote, it tells what was labelled, and which cameras failed, and why.
 
 Examples:
   ralf inspect recordings/city --sequence 00
@@ -29,6 +33,9 @@ pub(crate) struct InspectArgs {
     /// Of a ROS recording: write a first guess of the table `topics` here, to be checked and then given as --config
     #[arg(long, value_name = "FILE", conflicts_with = "json")]
     write_topics: Option<PathBuf>,
+    /// Look at times alone: don't read the scans to find those that can't be read
+    #[arg(long)]
+    quick: bool,
     /// As JSON
     #[arg(long)]
     json: bool,
@@ -43,25 +50,20 @@ pub(crate) fn run(arguments: &InspectArgs) -> anyhow::Result<Outcome> {
     let mut settings = arguments.settings.resolve()?;
     let topics = ros::Look::at(&arguments.dataset)?;
     if let Some(file) = &arguments.write_topics {
-        return topics
-            .ok_or_else(|| UsageError("--write-topics: expected a ROS recording".into()))?
-            .write(file);
+        let topics = topics.ok_or_else(|| UsageError("--write-topics: expected a ROS recording".into()))?;
+        return topics.write(file);
     }
-    let recording = arguments.dataset.open_with(&mut settings);
-    let recording = match (recording, &topics) {
-        (Ok(recording), _) => recording,
-        // The topics are what tells why.
-        (Err(error), Some(topics)) => {
-            print(&topics.page(&settings.topics)?)?;
-            return Err(error);
-        }
-        (Err(error), None) => return Err(error),
-    };
-    let looks: Vec<_> = recording
-        .sequences
-        .iter()
-        .map(|reader| Inspection::of(reader.sequence(), &settings.method))
-        .collect();
+    settings.topics = arguments.dataset.topics_or(&settings.topics)?;
+    let opened = arguments.dataset.open_with(&settings.topics);
+    if let (Err(_), Some(topics)) = (&opened, &topics) {
+        // They tell why.
+        print(&topics.page(&settings.topics)?)?;
+    }
+    let recording = opened?;
+    let mut looks = Vec::new();
+    for reader in &recording.sequences {
+        looks.push(look_at(reader.as_ref(), &settings.method, arguments.quick));
+    }
     if arguments.json {
         let mut look = serde_json::json!({ "format": recording.format, "sequences": looks });
         if let Some(topics) = topics {
@@ -69,12 +71,23 @@ pub(crate) fn run(arguments: &InspectArgs) -> anyhow::Result<Outcome> {
         }
         print(&serde_json::to_string_pretty(&look)?)?;
     } else {
-        let head =
-            format!("{} ({}), {} sequence(s)\n", recording.path.display(), recording.format, looks.len());
-        let head = topics.map_or(Ok(String::new()), |topics| topics.page(&settings.topics))? + &head;
+        let head = topics.map_or(Ok(String::new()), |topics| topics.page(&settings.topics))?;
+        let (path, format, count) = (recording.path.display(), recording.format, looks.len());
+        let head = format!("{head}{path} ({format}), {count} sequence(s)\n");
         print(&looks.iter().fold(head, |text, look| text + "\n" + &page(look)))?;
     }
     Ok(Outcome::Done)
+}
+
+fn look_at(reader: &dyn SequenceReader, config: &Config, quick: bool) -> Inspection {
+    let mut look = Inspection::new(reader, config);
+    if !quick {
+        let Timelines { radars, lidars, .. } = &reader.sequence().times;
+        let scans = radars.iter().chain(lidars).map(|times| times.len() as u64).sum();
+        let progress = Progress::of_steps(scans, format!("reading {}", look.name));
+        look.try_scans(reader, threads(None), &|| progress.advance(1));
+    }
+    look
 }
 
 fn inspect_run(out: &Path, json: bool) -> anyhow::Result<Outcome> {
@@ -99,6 +112,7 @@ fn page(look: &Inspection) -> String {
     rows.extend(look.sensors.iter().map(row));
     let missing: String = look.missing.iter().map(|sentence| format!("  - {sentence}\n")).collect();
     let missing = if missing.is_empty() { missing } else { format!("missing:\n{missing}") };
+    let missing = missing + &unreadable(&look.unreadable);
     format!(
         "{}  {}\n{:.1} s, {:.0} m, {} poses, {} odometry samples\n{}{missing}",
         look.name,
@@ -109,6 +123,22 @@ fn page(look: &Inspection) -> String {
         grouped(look.odometry_samples as u64),
         aligned(&rows),
     )
+}
+
+/// The first scans that can't be read, and how many more there are.
+fn unreadable(scans: &[Unreadable]) -> String {
+    const SHOWN: usize = 10;
+    let mut text = String::new();
+    if !scans.is_empty() {
+        text += &format!("{} scans can't be read:\n", grouped(scans.len() as u64));
+    }
+    for Unreadable { sensor, scan, reason } in scans.iter().take(SHOWN) {
+        text += &format!("  - {sensor} scan {scan}: {reason}\n");
+    }
+    if scans.len() > SHOWN {
+        text += &format!("  - and {} more (--json lists all)\n", grouped((scans.len() - SHOWN) as u64));
+    }
+    text
 }
 
 fn row(sensor: &SensorInspection) -> Vec<String> {

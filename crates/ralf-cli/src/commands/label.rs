@@ -1,27 +1,25 @@
 //! `ralf label`: a plausibility and a label for every detection.
 
-use crate::Outcome;
-use crate::cli::DatasetArgs;
-use crate::depth_model::{DepthModelArgs, fill, images_of_scans};
-use crate::progress::{Bars, say};
+use crate::arguments::{DatasetArgs, SettingsArgs, threads};
+#[cfg(feature = "depth")]
+use crate::depth_model::{DepthModelArgs, depth_for_labelling};
+use crate::outcome::Outcome;
+use crate::progress::{Stages, say};
 use crate::run_summary::run_summary;
-use crate::settings::{SettingsArgs, threads};
 use crate::text::{grouped, print};
 use clap::Args;
-use ralf::config::Config;
-use ralf_data::Recording;
 use ralf_data::depth::DepthStore;
 use ralf_data::run::{LabelRun, Outcome as RunOutcome, SequenceRecord};
-use ralf_depth::DepthEstimator;
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
 /// Arguments of `ralf label`.
 #[derive(Debug, Args)]
 #[command(after_help = "\
-Writes OUT/run.json, OUT/sequences/NAME/plausibility.parquet and a .label file per scan. Killed and started again with the same
-arguments it goes on where it stopped. Sequences may be labelled into the same OUT one after the other; those that were labelled
-before are left as they are. All results in OUT have the same settings: those of other settings are removed, and this is said.
+Writes OUT/run.json, OUT/sequences/NAME/plausibility.parquet and a .label file per scan. Killed and started again \
+with the same arguments it goes on where it stopped. Sequences may be labelled into the same OUT one after the other; \
+those that were labelled before are left as they are. All results in OUT have the same settings: those of other \
+settings are removed, and this is said.
 
 Examples:
   ralf label recordings/city -o out
@@ -36,10 +34,12 @@ pub(crate) struct LabelArgs {
     output: PathBuf,
     #[command(flatten)]
     settings: SettingsArgs,
+    #[cfg(feature = "depth")]
     #[command(flatten)]
     model: DepthModelArgs,
     /// Take depth images from this folder, as `ralf depth -o` wrote them
-    #[arg(long, value_name = "FOLDER", conflicts_with = "depth_model")]
+    #[arg(long, value_name = "FOLDER")]
+    #[cfg_attr(feature = "depth", arg(conflicts_with = "depth_model"))]
     depth: Option<PathBuf>,
     /// Scans side by side; as many as there are processors if not given
     #[arg(long, value_name = "N")]
@@ -56,44 +56,42 @@ pub(crate) struct LabelArgs {
 pub(crate) fn run(arguments: &LabelArgs) -> anyhow::Result<Outcome> {
     let mut settings = arguments.settings.resolve()?;
     let jobs = threads(arguments.jobs);
-    let recording = arguments.dataset.open_with(&mut settings)?;
-    let recording = arguments.with_depth(recording, &settings.method, jobs)?;
+    settings.topics = arguments.dataset.topics_or(&settings.topics)?;
+    let recording = arguments.dataset.open_with(&settings.topics)?;
+    let recording = match &arguments.depth {
+        Some(folder) => DepthStore::open(folder)?.attach(recording),
+        None => recording,
+    };
+    #[cfg(feature = "depth")]
+    let recording = match arguments.model.load()? {
+        Some(model) => depth_for_labelling(recording, &model, &arguments.output, &settings.method, jobs)?,
+        None => recording,
+    };
     let run = LabelRun { recording: &recording, settings: &settings, out: &arguments.output, jobs };
-    let done = run.execute(&Bars::new(arguments.quiet))?;
+    let done = run.execute(&Stages::new(arguments.quiet))?;
     if !done.removed.is_empty() {
         let names = done.removed.join(", ");
         say(&format!("removed, for they were made by another version or with other settings: {names}"));
+    }
+    for (sequence, file) in &done.damaged {
+        let file = file.display();
+        say(&format!("sequence {sequence} is labelled again: {file} is not as it was written"));
     }
     if done.labelled.is_empty() {
         say("nothing to do: labelled before with the same program, settings and inputs");
     }
     let record = &done.record;
     print(&if arguments.json { serde_json::to_string_pretty(record)? } else { summary(&done) })?;
+    for (sequence, scan) in record.unreadable() {
+        let (sensor, number, reason) = (&scan.sensor, scan.scan, &scan.reason);
+        say(&format!("labelled without: {sequence} {sensor} scan {number}: {reason}"));
+    }
     let mut outcome = Outcome::Done;
     for (sequence, scan) in record.not_labelled() {
         say(&format!("not labelled: {sequence} {} scan {}: {}", scan.radar, scan.scan, scan.reason));
         outcome = Outcome::Partial;
     }
     Ok(outcome)
-}
-
-impl LabelArgs {
-    /// The recording with the depth that was asked for: of a network, computed now as far as labelling needs it, or stored.
-    fn with_depth(&self, recording: Recording, config: &Config, jobs: usize) -> anyhow::Result<Recording> {
-        let store = match (self.model.load()?, &self.depth) {
-            (Some(model), _) => {
-                let network = model.fingerprint();
-                let folder = self.output.join("depth").join(&network[..network.len().min(12)]);
-                let store = DepthStore::create(&folder, model.output(), network)?;
-                let tolerance = config.sync.camera_tolerance_ms;
-                fill(&store, &recording, &model, |sequence| images_of_scans(sequence, tolerance), jobs)?;
-                store
-            }
-            (None, Some(folder)) => DepthStore::open(folder)?,
-            (None, None) => return Ok(recording),
-        };
-        Ok(store.attach(recording))
-    }
 }
 
 /// What was labelled, and how fast those scans were that are new.

@@ -1,18 +1,17 @@
 //! `ralf report`: one page about a labelled recording.
 
-use crate::Outcome;
-use crate::cli::DatasetArgs;
-use crate::progress::say;
+use crate::arguments::{ChangedArgs, DatasetArgs};
+use crate::outcome::Outcome;
+use crate::progress::{Progress, say};
 use clap::Args;
-use indicatif::ProgressBar;
 use ralf_report::Report;
 use std::path::PathBuf;
 
 /// What `ralf report` takes.
 #[derive(Debug, Args)]
 #[command(after_help = "\
-The page is one file that needs nothing else. It compares the labels with the recording's corrected ones where there are
-some, and tells what the labels say by themselves where there are none.
+The page is one file that needs nothing else. It compares the labels with the recording's corrected ones where there \
+are some, and tells what the labels say by themselves where there are none.
 
 Examples:
   ralf report recordings/city out -o report.html
@@ -23,6 +22,8 @@ pub(crate) struct ReportArgs {
     /// What `ralf label` wrote
     #[arg(value_name = "OUT")]
     labels: PathBuf,
+    #[command(flatten)]
+    changed: ChangedArgs,
     /// The page (HTML)
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
@@ -33,18 +34,15 @@ pub(crate) struct ReportArgs {
 
 /// Writes the page.
 pub(crate) fn run(arguments: &ReportArgs) -> anyhow::Result<Outcome> {
-    let recording = arguments.dataset.open_labelled(&arguments.labels)?;
+    let recording = arguments.dataset.open_labelled(&arguments.labels, &arguments.changed)?;
     let report = Report {
         recording: &recording,
         out: &arguments.labels,
         scans_per_sequence: arguments.scans_per_sequence,
     };
-    let shown = ProgressBar::new_spinner();
-    let html = report.html(&|step| {
-        shown.set_message(step.to_owned());
-        shown.tick();
-    })?;
-    shown.finish_and_clear();
+    let progress = Progress::spinner();
+    let html = report.html(&|step| progress.tell(step.to_owned()))?;
+    drop(progress);
     ralf_data::write_whole(&arguments.output, html.as_bytes())?;
     say(&format!("wrote {}", arguments.output.display()));
     Ok(Outcome::Done)

@@ -1,12 +1,11 @@
 //! `ralf review`: the page where people correct labels.
 
-use crate::Outcome;
-use crate::cli::DatasetArgs;
+use crate::arguments::{ChangedArgs, DatasetArgs};
+use crate::outcome::Outcome;
 use crate::progress::say;
 use crate::text::print;
 use clap::Args;
 use ralf_review::{Options, Server};
-use std::net::IpAddr;
 use std::path::PathBuf;
 use std::process::{Command, Stdio};
 
@@ -16,27 +15,30 @@ const NAMES: [&str; 2] = ["USER", "USERNAME"];
 /// Arguments of `ralf review`.
 #[derive(Debug, Args)]
 #[command(after_help = "\
-Every edit is in OUT/corrections.sqlite before the page shows it as saved; machine labels stay as they are, and labelling again keeps
-the corrections. `ralf evaluate` and `ralf tune` read them. Only this machine can open the page, unless --host says otherwise: then
-the address holds a token that others need. Ctrl-C ends it.
+Every edit is in OUT/corrections.sqlite before the page shows it as saved; machine labels stay as they are, and \
+labelling again keeps the corrections. `ralf evaluate` and `ralf tune` read them. The printed address holds a token, \
+without which nobody can read or correct anything. Only this machine can open the page, unless --host says otherwise. \
+Ctrl-C ends it.
 
 Examples:
   ralf review recordings/city out
   ralf review recordings/city out --sequence 00 --author ada --open
-  ralf review recordings/city out --host 0.0.0.0 --port 9000    for others in a network that you trust: it is not encrypted")]
+  ralf review recordings/city out --host 0.0.0.0    for others in a network that you trust: it is not encrypted")]
 pub(crate) struct ReviewArgs {
     #[command(flatten)]
     dataset: DatasetArgs,
     /// What `ralf label` wrote
     #[arg(value_name = "OUT")]
     out: PathBuf,
+    #[command(flatten)]
+    changed: ChangedArgs,
     /// Port to listen on, 0 for any free one; 8642 if not given, or the next one that is free
     #[arg(long, value_name = "P")]
     port: Option<u16>,
     /// Address to listen on
     #[arg(long, value_name = "H", default_value = "127.0.0.1")]
     host: String,
-    /// Who corrects; the user's name if not given
+    /// What people are called who give no name in the page; the user's name if not given
     #[arg(long, value_name = "NAME", value_parser = clap::builder::NonEmptyStringValueParser::new())]
     author: Option<String>,
     /// Open the page in the browser
@@ -46,16 +48,26 @@ pub(crate) struct ReviewArgs {
 
 /// Serves the page until Ctrl-C.
 pub(crate) fn run(arguments: &ReviewArgs) -> anyhow::Result<Outcome> {
-    let recording = arguments.dataset.open_labelled(&arguments.out)?;
-    let options = Options { host: arguments.host.clone(), port: arguments.port, author: arguments.author() };
+    let recording = arguments.dataset.open_labelled(&arguments.out, &arguments.changed)?;
+    let options = Options {
+        host: arguments.host.clone(),
+        port: arguments.port,
+        author: arguments.author(),
+        token_folder: token_folder(),
+    };
     let server = Server::bind(recording, &arguments.out, &options)?;
-    print(server.url())?;
-    if arguments.host.parse().is_ok_and(|address: IpAddr| address.is_unspecified()) {
-        say(&format!("from another machine, type this one's name in place of {}", arguments.host));
+    for url in server.urls() {
+        print(url)?;
     }
-    say("Ctrl-C ends the review; every edit is on disk when the page shows it as saved");
-    if arguments.open {
-        open_browser(server.url());
+    if server.urls().len() > 1 {
+        say("the first address is for this machine, the others are for other machines that can reach it");
+    }
+    match server.read_only() {
+        Some(reason) => say(&format!("read-only, nothing can be corrected: {reason}")),
+        None => say("Ctrl-C ends the review; every edit is on disk when the page shows it as saved"),
+    }
+    if let Some(url) = server.urls().first().filter(|_| arguments.open) {
+        open_browser(url);
     }
     server.run()?;
     Ok(Outcome::Done)
@@ -66,6 +78,14 @@ impl ReviewArgs {
         let known = || NAMES.iter().find_map(|name| std::env::var(name).ok().filter(|user| !user.is_empty()));
         self.author.clone().or_else(known).unwrap_or_else(|| "anonymous".to_owned())
     }
+}
+
+/// Where programs keep what is the user's own and nobody else's; `None` where the system names no such place.
+fn token_folder() -> Option<PathBuf> {
+    let folder = |name: &str| std::env::var_os(name).map(PathBuf::from).filter(|folder| folder.is_absolute());
+    let state = folder("XDG_STATE_HOME").or_else(|| folder("LOCALAPPDATA"));
+    let state = state.or_else(|| Some(folder("HOME")?.join(".local").join("state")));
+    Some(state?.join("ralf").join("review"))
 }
 
 /// Asks the system to open an address. The review goes on where it can't.

@@ -1,6 +1,7 @@
 //! A measurement that can't be read costs its own scans and no others; odd values cost nothing but themselves.
 
 use crate::support::{Dataset, Ran, Row, ralf, rows};
+use std::path::Path;
 
 fn label(dataset: &Dataset) -> Ran {
     ralf(["label", &dataset.path, "-o", &dataset.out])
@@ -20,7 +21,8 @@ fn a_radar_scan_that_is_cut_short_is_the_only_one_left_out() {
     assert_eq!(named.len(), 1, "{named:?}");
     let file = dataset.file("radar_front/000003.bin");
     let expected = format!(
-        "00 radar_front scan 3: {}: byte 500: expected rows of 5 float32 (20 bytes), found 13 bytes left over at the end",
+        "00 radar_front scan 3: {}: byte 500: expected rows of 5 float32 (20 bytes), \
+         found 13 bytes left over at the end",
         file.display()
     );
     assert_eq!(named[0], expected);
@@ -42,32 +44,49 @@ fn a_radar_scan_that_is_gone_is_a_failure() {
 }
 
 #[test]
-fn a_lidar_scan_that_is_cut_short_costs_the_scans_that_need_it() {
+fn a_lidar_scan_that_is_cut_short_costs_no_radar_scan() {
     let dataset = Dataset::new();
     dataset.cut("lidar_top/000005.bin", 4);
-    let ran = label(&dataset).exits(3).says(["lidar_top/000005.bin: byte ", "rows of 4 float32"]);
-    let scans: Vec<_> =
-        ran.not_labelled().iter().filter_map(|line| line.split_once(": ")).map(|pair| pair.0).collect();
-    assert_eq!(scans, ["00 radar_front scan 5", "00 radar_left scan 5"]);
-    assert_eq!(of_scan(&dataset, "radar_left", 4).len(), 20);
+    let told =
+        ["labelled without: 00 lidar_top scan 5: ", "lidar_top/000005.bin: byte ", "rows of 4 float32"];
+    assert!(label(&dataset).exits(0).says(told).not_labelled().is_empty());
+    for row in of_scan(&dataset, "radar_front", 5) {
+        assert_eq!((row.whole("flags").map(|flags| flags & 8), row.decimal("d_lm")), (Some(8), None));
+        assert!(row.decimal("w").is_some() && row.decimal("d_tr").is_some());
+    }
+    let record = std::fs::read_to_string(Path::new(&dataset.out).join("run.json")).unwrap();
+    let record: serde_json::Value = serde_json::from_str(&record).unwrap();
+    let named = &record["sequences"][0]["unreadable"];
+    assert_eq!(
+        (&named[0]["sensor"], &named[0]["scan"], named.as_array().unwrap().len()),
+        (&"lidar_top".into(), &5.into(), 1)
+    );
+    // Asked again, it says so again.
+    label(&dataset).exits(0).says(["nothing to do", "labelled without: 00 lidar_top scan 5"]);
+    ralf(["inspect", &dataset.path]).exits(0).prints(["1 scans can't be read", "lidar_top scan 5: "]);
 }
 
 #[test]
 fn lidar_classes_of_another_number_are_named() {
     let dataset = Dataset::new();
     dataset.put("lidar_top/000001.label", [0; 12]);
-    let ran = label(&dataset).exits(3).says(["lidar_top/000001.label", "one per point", "found 3"]);
-    assert_eq!(ran.not_labelled().len(), 2);
+    let told =
+        ["labelled without: 00 lidar_top scan 1", "lidar_top/000001.label", "one per point", "found 3"];
+    label(&dataset).exits(0).says(told);
 }
 
 #[test]
-fn nothing_can_be_labelled_without_any_readable_scan() {
+fn without_any_readable_lidar_scan_the_other_branches_label() {
     let dataset = Dataset::new();
     for scan in 0..8 {
         dataset.cut(&format!("lidar_top/{scan:06}.bin"), 1);
     }
-    assert_eq!(label(&dataset).exits(3).not_labelled().len(), 16);
-    assert!(rows(dataset.result("plausibility.parquet")).is_empty());
+    assert!(
+        label(&dataset).exits(0).says(["labelled without: 00 lidar_top scan 7"]).not_labelled().is_empty()
+    );
+    let rows = rows(dataset.result("plausibility.parquet"));
+    assert_eq!(rows.len(), 8 * (26 + 20));
+    assert!(rows.iter().all(|row| row.decimal("d_lm").is_none() && row.decimal("w_tr").is_some()));
 }
 
 #[test]

@@ -58,5 +58,8 @@ fn without_depth_a_camera_is_absent_and_sets_no_flag() {
         fs::remove_dir_all(dataset.file("camera_front/depth")).unwrap();
     });
     assert!(record.contains("\"images\": []"), "{record}");
-    assert!(!inspected.contains("camera_front"), "{inspected}");
+    assert!(
+        inspected.contains("1 camera(s) not used, for no image near a radar scan has depth"),
+        "{inspected}"
+    );
 }

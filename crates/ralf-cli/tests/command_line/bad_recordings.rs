@@ -79,7 +79,31 @@ fn a_sensor_without_its_folder() {
 fn no_motion() {
     let dataset = Dataset::new();
     fs::remove_file(dataset.file("odometry.csv")).unwrap();
-    refused(&dataset, ["sequences/00: motion: expected rows in odometry.csv, poses.csv or both, found none"]);
+    refused(
+        &dataset,
+        ["sequences/00: motion: expected odometry.csv, poses.csv or both", "the header line is enough"],
+    );
+}
+
+#[test]
+fn a_parked_vehicle_needs_no_rows_of_odometry() {
+    let dataset = Dataset::new();
+    dataset.put("odometry.csv", "t_ns,v_mps,yaw_rate_radps\n");
+    let told = ["warning: 00: ", "odometry.csv: no rows: the vehicle is taken to stand still"];
+    ralf(["label", &dataset.path, "-o", &dataset.out]).exits(0).says(told);
+    ralf(["inspect", &dataset.path]).exits(0).prints(["0.7 s, 0 m"]);
+}
+
+#[test]
+fn a_radar_with_another_clock_is_named_at_once() {
+    let dataset = Dataset::new();
+    let times: String = (0..8).map(|scan| format!("{}\n", scan * 100_000_000)).collect();
+    dataset.put("radar_left/timestamps.txt", times);
+    ralf(["inspect", &dataset.path]).exits(0).prints([
+        "radar_left: all its times lie 1699999999 s or more before",
+        "those of the vehicle's motion: is it another clock?",
+        "the motion is not known for 1699999997.9 of",
+    ]);
 }
 
 #[test]
@@ -94,8 +118,9 @@ fn a_motion_that_is_not_finite() {
 fn a_camera_without_images() {
     let dataset = Dataset::new();
     let text = fs::read_to_string(dataset.file("sequence.toml")).unwrap();
-    let camera = "[[camera]]\nname = \"camera_front\"\ntranslation = [2, 0, 1]\nquaternion_xyzw = [-0.5, 0.5, -0.5, 0.5]\n\
-        width = 64\nheight = 48\nmodel = \"pinhole\"\nfx = 50\nfy = 50\ncx = 32\ncy = 24\n";
+    let camera = "[[camera]]\nname = \"camera_front\"\ntranslation = [2, 0, 1]\n\
+        quaternion_xyzw = [-0.5, 0.5, -0.5, 0.5]\nwidth = 64\nheight = 48\nmodel = \"pinhole\"\n\
+        fx = 50\nfy = 50\ncx = 32\ncy = 24\n";
     dataset.put("sequence.toml", text + camera);
     refused(&dataset, ["00/camera_front: No such file"]);
 }
@@ -112,7 +137,10 @@ fn results_in_the_place_of_a_file() {
     let dataset = Dataset::new();
     fs::write(&dataset.out, "mine").unwrap();
     let label = |out: &str| -> Ran { ralf(["label", &dataset.path, "-o", out]) };
-    label(&dataset.out).exits(1).prints_nothing().says([&dataset.out, "Not a directory"]);
+    label(&dataset.out)
+        .exits(1)
+        .prints_nothing()
+        .says([&dataset.out, "expected a folder, or nothing yet, found a file"]);
     let below = format!("{}/out", dataset.out);
     label(&below).exits(1).prints_nothing().says([&below, "Not a directory"]);
     assert_eq!(fs::read(&dataset.out).unwrap(), b"mine");

@@ -16,7 +16,7 @@ fn labelled() -> Dataset {
 }
 
 fn who() -> Who {
-    Who { author: "ada".into(), tab: None }
+    Who::named("ada")
 }
 
 fn store(out: &str) -> Store {
@@ -37,8 +37,8 @@ fn review_everything(dataset: &Dataset) {
         for scan in 0..8 {
             let machine = ids(&truth.join(RADAR).join(format!("{scan:06}.label")));
             let key = ScanKey { sequence: sequence.into(), radar: RADAR.into(), scan };
-            let mark = Mark { key, base: 0, machine, reviewed: true };
-            assert!(matches!(store.mark(&mark, &who()).unwrap(), Outcome::Done(Some(_))));
+            let mark = Mark { key, content: None, base: 0, machine, reviewed: true };
+            assert!(matches!(store.mark(&mark, &who()).unwrap(), Outcome::Done(_)));
         }
         fs::remove_dir_all(&truth).unwrap();
     }
@@ -56,7 +56,8 @@ fn a_correction_stands_above_the_datasets_truth() {
     let machine = ids(&Path::new(&dataset.out).join("sequences/00").join(RADAR).join("000000.label"));
     let artifact = machine.iter().position(|id| *id == 1).unwrap() as u32;
     let detections = machine.len() as u32;
-    let edit = ScanEdit { radar: RADAR.into(), scan: 0, detections, base: 0, points: vec![artifact] };
+    let points = vec![artifact];
+    let edit = ScanEdit { radar: RADAR.into(), scan: 0, detections, content: None, base: 0, points };
     let stroke =
         Stroke { tool: "click".into(), label: Some(10), scans: vec![edit], ..Stroke::of_sequence("00") };
     store(&dataset.out).apply(&stroke, &who()).unwrap();

@@ -1,4 +1,5 @@
-//! The command line from outside: the built program on tiny recordings whose truth is known, on bad ones, and on real ones.
+//! The command line from outside: the built program on tiny recordings whose truth is known, on bad ones, and on real
+//! ones.
 
 #![allow(
     clippy::unwrap_used,
@@ -21,7 +22,11 @@ mod export;
 mod full_disk;
 #[cfg(unix)]
 mod inputs;
+mod names;
+#[cfg(unix)]
+mod odd_files;
 mod other_commands;
+mod other_data;
 mod real_data;
 mod resume;
 #[cfg(unix)]
@@ -32,4 +37,8 @@ mod simulation;
 mod streams;
 mod support;
 mod tuning;
+#[cfg(unix)]
+mod verbs;
 mod whole_run;
+#[cfg(unix)]
+mod writers;

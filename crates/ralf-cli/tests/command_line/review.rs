@@ -1,28 +1,182 @@
-//! `ralf review`: from the first line that it prints to Ctrl-C.
+//! `ralf review`: from the first line that it prints to its end, however that comes.
 
 use crate::support::{Dataset, program, ralf};
+use ralf_corrections::{FILE, read_layer};
+use std::fs;
 use std::io::{BufRead, BufReader, Read, Write};
 use std::net::TcpStream;
-use std::process::{Command, Stdio};
+use std::path::Path;
+use std::process::{Child, ChildStdout, Command, Stdio};
+
+/// A server of its own.
+struct Review {
+    child: Child,
+    /// Held open, for a program that can't print ends.
+    _printed: BufReader<ChildStdout>,
+    address: String,
+    token: String,
+}
+
+impl Review {
+    fn start(dataset: &Dataset, more: &[&str]) -> Self {
+        Self::start_with(program(), dataset, more)
+    }
+
+    fn start_with(mut command: Command, dataset: &Dataset, more: &[&str]) -> Self {
+        let state = Path::new(&dataset.out).with_extension("state");
+        let command = command.args(["review", &dataset.path, &dataset.out, "--port", "0", "--author", "ada"]);
+        let command = command.args(more).env("XDG_STATE_HOME", state);
+        let mut child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+        let mut url = String::new();
+        let mut printed = BufReader::new(child.stdout.take().unwrap());
+        printed.read_line(&mut url).unwrap();
+        let (address, token) = url.trim().strip_prefix("http://").unwrap().split_once("/?token=").unwrap();
+        Self { address: address.to_owned(), token: token.to_owned(), _printed: printed, child }
+    }
+
+    fn ask(&self, method: &str, path: &str, body: &str) -> String {
+        let mut stream = TcpStream::connect(&self.address).unwrap();
+        let (address, token, length) = (&self.address, &self.token, body.len());
+        let request = format!(
+            "{method} /api/{path} HTTP/1.1\r\nHost: {address}\r\nConnection: close\r\nAuthorization: Bearer {token}\r\n\
+             Content-Type: application/json\r\nContent-Length: {length}\r\n\r\n{body}"
+        );
+        stream.write_all(request.as_bytes()).unwrap();
+        let mut answer = String::new();
+        stream.read_to_string(&mut answer).unwrap();
+        answer
+    }
+
+    /// Corrects one detection of a scan of the first radar; it is on disk when this returns.
+    fn correct(&self, scan: u32) {
+        let body = format!(
+            r#"{{"tool": "click", "label": 10, "base": [{{"radar": "radar_front", "scan": {scan}, "revision": 0}}],
+                "points": [{{"radar": "radar_front", "scan": {scan}, "points": [1]}}]}}"#
+        );
+        let answer = self.ask("POST", "sequences/00/strokes", &body);
+        assert!(answer.starts_with("HTTP/1.1 200"), "{answer}");
+    }
+
+    /// Ends it; whether it ended well.
+    fn end(mut self, signal: &str) -> bool {
+        let sent = Command::new("kill").args([signal, &self.child.id().to_string()]).status().unwrap();
+        assert!(sent.success());
+        self.child.wait().unwrap().success()
+    }
+}
+
+fn labelled() -> Dataset {
+    let dataset = Dataset::new();
+    ralf(["label", &dataset.path, "-o", &dataset.out]).exits(0);
+    dataset
+}
 
 #[test]
 fn the_address_is_printed_served_and_ended_by_an_interrupt() {
-    let dataset = Dataset::new();
-    ralf(["label", &dataset.path, "-o", &dataset.out]).exits(0);
-    let mut command = program();
-    let command = command.args(["review", &dataset.path, &dataset.out, "--port", "0", "--author", "ada"]);
-    let mut child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
-    let mut url = String::new();
-    BufReader::new(child.stdout.take().unwrap()).read_line(&mut url).unwrap();
-    let address = url.trim().strip_prefix("http://").unwrap().strip_suffix('/').unwrap();
-    let mut stream = TcpStream::connect(address).unwrap();
-    let request = format!("GET /api/recording HTTP/1.1\r\nHost: {address}\r\nConnection: close\r\n\r\n");
-    stream.write_all(request.as_bytes()).unwrap();
-    let mut answer = String::new();
-    stream.read_to_string(&mut answer).unwrap();
+    let dataset = labelled();
+    let review = Review::start(&dataset, &[]);
+    let answer = review.ask("GET", "recording", "");
     assert!(answer.starts_with("HTTP/1.1 200") && answer.contains("\"author\":\"ada\""), "{answer}");
-    let interrupt = Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
-    assert!(interrupt.success() && child.wait().unwrap().success());
+    assert!(review.end("-INT"));
+}
+
+#[test]
+fn however_it_ends_the_file_alone_holds_every_edit() {
+    for signal in ["-TERM", "-INT"] {
+        let dataset = labelled();
+        let review = Review::start(&dataset, &[]);
+        (0..3).for_each(|scan| review.correct(scan));
+        assert!(review.end(signal), "{signal}");
+        let file = Path::new(&dataset.out).join(FILE);
+        let copy = file.with_extension("copy");
+        fs::copy(&file, &copy).unwrap();
+        assert_eq!(read_layer(&copy).unwrap().len(), 3, "{signal}");
+    }
+}
+
+#[test]
+fn killed_without_warning_it_loses_nothing_and_keeps_its_token() {
+    let dataset = labelled();
+    let review = Review::start(&dataset, &[]);
+    (0..3).for_each(|scan| review.correct(scan));
+    let token = review.token.clone();
+    assert!(!review.end("-KILL"));
+    assert_eq!(read_layer(&Path::new(&dataset.out).join(FILE)).unwrap().len(), 3);
+    let again = Review::start(&dataset, &[]);
+    assert_eq!(again.token, token, "a page that is open stays open");
+    again.correct(3);
+    assert!(again.end("-TERM"));
+}
+
+#[test]
+fn a_deleted_store_is_told_and_nothing_is_called_saved() {
+    let dataset = labelled();
+    let review = Review::start(&dataset, &[]);
+    review.correct(0);
+    for suffix in ["", "-wal", "-shm"] {
+        fs::remove_file(format!("{}{suffix}", Path::new(&dataset.out).join(FILE).display())).unwrap();
+    }
+    let body = r#"{"tool": "click", "label": 10, "base": [{"radar": "radar_front", "scan": 1, "revision": 0}],
+        "points": [{"radar": "radar_front", "scan": 1, "points": [1]}]}"#;
+    let answer = review.ask("POST", "sequences/00/strokes", body);
+    assert!(answer.starts_with("HTTP/1.1 500") && answer.contains("it was deleted"), "{answer}");
+    review.end("-TERM");
+    assert!(!Path::new(&dataset.out).join(FILE).exists(), "nothing is made in its place");
+}
+
+#[test]
+fn addresses_of_all_interfaces_can_be_opened() {
+    let dataset = labelled();
+    let review = Review::start(&dataset, &["--host", "0.0.0.0"]);
+    assert!(review.address.starts_with("127.0.0.1:"), "{}", review.address);
+    assert!(review.ask("GET", "recording", "").starts_with("HTTP/1.1 200"));
+    assert!(review.end("-INT"));
+}
+
+/// A command that runs the program as somebody who can write nowhere: root could, whatever the permissions say.
+#[cfg(unix)]
+fn program_of_nobody() -> Command {
+    let mut command = Command::new("setpriv");
+    command.args(["--reuid=65534", "--regid=65534", "--clear-groups"]).arg(program().get_program());
+    command
+}
+
+#[cfg(unix)]
+#[test]
+fn an_out_that_can_only_be_read_is_shown_and_says_so() {
+    use std::os::unix::fs::{MetadataExt, PermissionsExt};
+    let is_root = fs::metadata("/proc/self").is_ok_and(|own| own.uid() == 0);
+    let works =
+        |command: &mut Command| command.arg("--version").output().is_ok_and(|ran| ran.status.success());
+    if is_root && !works(&mut program_of_nobody()) {
+        return println!("skipped: root can write everywhere, and there is no setpriv");
+    }
+    let dataset = labelled();
+    let out = Path::new(&dataset.out);
+    for with_corrections in [false, true] {
+        if with_corrections {
+            let review = Review::start(&dataset, &[]);
+            review.correct(0);
+            assert!(review.end("-TERM"));
+        }
+        let permit = |mode: u32| fs::set_permissions(out, fs::Permissions::from_mode(mode)).unwrap();
+        fs::set_permissions(out.parent().unwrap(), fs::Permissions::from_mode(0o755)).unwrap();
+        permit(0o555);
+        let command = if is_root { program_of_nobody() } else { program() };
+        let review = Review::start_with(command, &dataset, &[]);
+        let recording = review.ask("GET", "recording", "");
+        assert!(
+            recording.starts_with("HTTP/1.1 200") && !recording.contains("\"read_only\":null"),
+            "{recording}"
+        );
+        let queue = review.ask("GET", "sequences/00/queue", "");
+        let corrected = format!("\"corrected_detections\":{}", u8::from(with_corrections));
+        assert!(queue.contains(&corrected), "{queue}");
+        let undo = review.ask("POST", "sequences/00/undo", "{}");
+        assert!(undo.starts_with("HTTP/1.1 403") && undo.contains("can only be read"), "{undo}");
+        assert!(review.end("-TERM"));
+        permit(0o755);
+    }
 }
 
 #[test]

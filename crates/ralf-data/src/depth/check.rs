@@ -17,7 +17,8 @@ pub struct CameraCheck {
     pub views: usize,
     /// LiDAR points in these views that the camera sees.
     pub samples: usize,
-    /// Median over the views of their median relative error `|Z - Z_lidar| / Z_lidar`, for each of local, RANSAC, Huber.
+    /// Median over the views of their median relative error `|Z - Z_lidar| / Z_lidar`, for each of local, RANSAC,
+    /// Huber.
     pub residuals: [Option<f64>; 3],
 }
 
@@ -39,7 +40,7 @@ pub fn check_scalings(reader: &dyn SequenceReader, config: &Config) -> Result<Ve
             let mut residuals = Vec::new();
             check.samples = 0;
             for image in 0..times.len() {
-                let moment = window.image(camera, image)?;
+                let moment = window.image(camera, image);
                 let views = moment.iter().flat_map(|moment| &moment.views);
                 for report in views.map(|view| view.report).filter(|r| r.samples >= config.camera.min_samples)
                 {

@@ -3,6 +3,7 @@
 use super::DepthStore;
 use crate::error::DataError;
 use crate::read::SequenceReader;
+use crate::result::SequenceNames;
 use ralf::sensors::{Camera, CameraImage, DepthImage, StraightView, UndistortMap};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, OnceLock, PoisonError};
@@ -22,7 +23,7 @@ struct Straightening<'a> {
 /// Computes and stores the depth of the images (camera, number) that the store doesn't hold yet, several at a time.
 ///
 /// Returns the images that have no depth for a reason of their own, which is named, in their order. Depth that can't be
-/// stored is an error.
+/// stored is an error, and so is another process that writes to the store.
 pub fn compute_depth(
     reader: &dyn SequenceReader,
     images: &[(usize, usize)],
@@ -31,18 +32,20 @@ pub fn compute_depth(
     jobs: usize,
     observer: &DepthObserver,
 ) -> Result<Vec<DataError>, DataError> {
+    let names = SequenceNames::new(reader.sequence())?;
+    let _lock = store.lock()?;
     let cameras = reader.sequence().rig.cameras.iter();
     let cameras: Vec<_> = cameras.map(|camera| Straightening { camera, views: OnceLock::new() }).collect();
     let next = AtomicUsize::new(0);
     let without = Mutex::new(Vec::new());
     let work = || -> Result<(), DataError> {
         while let Some(&(camera, image)) = images.get(next.fetch_add(1, Ordering::Relaxed)) {
-            let name = (reader.sequence().name.as_str(), cameras[camera].camera.name.as_str(), image);
-            if !store.file(name.0, name.1, image).exists() {
+            let folder = &names.cameras[camera];
+            if !store.file(&names.sequence, folder, image).exists() {
                 match cameras[camera].depth(reader, (camera, image), estimate) {
-                    Ok(views) => store.write(name, &views)?,
+                    Ok(views) => store.write(&names.sequence, folder, image, &views)?,
                     Err(error) => {
-                        let sensor = name.1.to_owned();
+                        let sensor = cameras[camera].camera.name.clone();
                         let failed = DataError::Measurement { sensor, index: image, error };
                         without
                             .lock()

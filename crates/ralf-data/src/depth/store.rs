@@ -2,11 +2,14 @@
 
 use crate::disk::{files, npy};
 use crate::error::DataError;
-use crate::read::{Recording, SequenceReader};
+use crate::read::{Recording, SequenceReader, TruthLabels};
+use crate::result::{Component, OutFolder, SequenceNames, WriterLock};
 use ralf::sensors::{
     CameraImage, DepthImage, DepthOutput, LidarScan, RadarScan, Sequence, Source, SourceError,
 };
+use ralf_files::Kind;
 use serde::{Deserialize, Serialize};
+use std::any::Any;
 use std::path::{Path, PathBuf};
 
 /// Says what a store holds.
@@ -59,15 +62,22 @@ impl DepthStore {
     }
 
     /// The file of an image's views.
-    pub fn file(&self, sequence: &str, camera: &str, image: usize) -> PathBuf {
-        let camera = self.root.join("sequences").join(sequence).join(camera);
-        camera.join("depth").join(format!("{image:06}.npy"))
+    pub fn file(&self, sequence: &Component, camera: &Component, image: usize) -> PathBuf {
+        let camera = OutFolder::new(&self.root).own("sequences").folder(sequence).folder(camera);
+        camera.own("depth").file(&Component::numbered(image, "npy"))
+    }
+
+    /// The right to write to it; another process may have that.
+    pub(super) fn lock(&self) -> Result<WriterLock, DataError> {
+        WriterLock::take(self.root.join(".depth-lock"), &self.root)
     }
 
     /// Stores the depth of an image's views, whole or not at all.
     pub fn write(
         &self,
-        (sequence, camera, image): (&str, &str, usize),
+        sequence: &Component,
+        camera: &Component,
+        image: usize,
         views: &[DepthImage],
     ) -> Result<(), DataError> {
         let file = self.file(sequence, camera, image);
@@ -86,7 +96,9 @@ impl DepthStore {
     pub fn attach(&self, recording: Recording) -> Recording {
         let attach = |inner: Box<dyn SequenceReader>| {
             let sequence = Sequence { depth_output: self.output, ..inner.sequence().clone() };
-            Box::new(WithDepth { inner, sequence, store: self.clone() }) as Box<dyn SequenceReader>
+            // A store has no depth of what can't have a folder in it.
+            let names = SequenceNames::new(&sequence).ok();
+            Box::new(WithDepth { inner, sequence, names, store: self.clone() }) as Box<dyn SequenceReader>
         };
         Recording { sequences: recording.sequences.into_iter().map(attach).collect(), ..recording }
     }
@@ -97,7 +109,7 @@ impl StoreToml {
         let refused = |error: toml::de::Error| {
             DataError::content(file, "content", "output and network", error.to_string())
         };
-        toml::from_str(&files::read_text(file)?).map_err(refused)
+        toml::from_str(&files::read_text(file, Kind::Settings)?).map_err(refused)
     }
 }
 
@@ -105,13 +117,15 @@ impl StoreToml {
 struct WithDepth {
     inner: Box<dyn SequenceReader>,
     sequence: Sequence,
+    names: Option<SequenceNames>,
     store: DepthStore,
 }
 
 impl WithDepth {
     fn file(&self, camera: usize, image: usize) -> Option<PathBuf> {
-        let camera = self.sequence.rig.cameras.get(camera)?;
-        Some(self.store.file(&self.sequence.name, &camera.name, image)).filter(|file| file.exists())
+        let names = self.names.as_ref()?;
+        let camera = names.cameras.get(camera)?;
+        Some(self.store.file(&names.sequence, camera, image)).filter(|file| file.exists())
     }
 }
 
@@ -157,6 +171,19 @@ impl SequenceReader for WithDepth {
         self.inner.lidar_label_file(lidar, scan)
     }
 
+    fn has_depth(&self, camera: usize) -> bool {
+        let images = self.sequence.times.cameras.get(camera).map_or(0, Vec::len);
+        (0..images).any(|image| self.file(camera, image).is_some())
+    }
+
+    fn origin(&self) -> Option<&dyn Any> {
+        self.inner.origin()
+    }
+
+    fn truth(&self, radar: usize, scan: usize) -> Result<Option<TruthLabels>, SourceError> {
+        self.inner.truth(radar, scan)
+    }
+
     fn truth_file(&self, radar: usize, scan: usize) -> Option<PathBuf> {
         self.inner.truth_file(radar, scan)
     }
@@ -174,18 +201,14 @@ mod tests {
         let other = DepthStore::create(folder.path(), DepthOutput::Disparity, "b").unwrap_err().to_string();
         assert!(other.contains("depth.toml") && other.contains("found that of a"), "{other}");
         let view = |first: f32| DepthImage { width: 2, height: 1, values: vec![first, f32::NAN] };
-        store.write(("00", "front", 3), &[view(1.0), view(2.0)]).unwrap();
-        let file = store.file("00", "front", 3);
+        let [sequence, camera] = ["00", "front"].map(|name| Component::new(name).unwrap());
+        store.write(&sequence, &camera, 3, &[view(1.0), view(2.0)]).unwrap();
+        let file = store.file(&sequence, &camera, 3);
         assert!(file.ends_with("sequences/00/front/depth/000003.npy"));
         let read = npy::read_depth(&file).unwrap();
         assert_eq!((read.len(), read[1].values[0], read[1].width), (2, 2.0, 2));
         let wider = DepthImage { width: 3, height: 1, values: vec![1.0; 3] };
-        assert!(
-            store
-                .write(("00", "front", 4), &[view(1.0), wider])
-                .unwrap_err()
-                .to_string()
-                .contains("one size")
-        );
+        let error = store.write(&sequence, &camera, 4, &[view(1.0), wider]).unwrap_err().to_string();
+        assert!(error.contains("one size"), "{error}");
     }
 }

@@ -1,19 +1,44 @@
 //! Bytes on disk: reading whole files, rows of float32, and writing so that a file appears whole or not at all.
 
 use crate::error::DataError;
+use ralf_files::Kind;
 use std::collections::HashMap;
 use std::fs;
 use std::io::{ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
-/// The whole file.
+/// A whole measurement, or what belongs to one. Everything in this crate that reads a file does so through this module:
+/// it refuses what is no regular file, and what is larger than its kind can be ([`ralf_files`]).
 pub(crate) fn read(file: &Path) -> Result<Vec<u8>, DataError> {
-    fs::read(file).map_err(DataError::io(file))
+    ralf_files::read(file, Kind::Measurement).map_err(DataError::io(file))
+}
+
+/// Whether there is such a file or folder. Nothing lies below a file: a recording may be one.
+pub(crate) fn exists(file: &Path) -> Result<bool, DataError> {
+    match file.try_exists() {
+        Err(error) if is_nowhere(&error) => Ok(false),
+        found => found.map_err(DataError::io(file)),
+    }
+}
+
+/// Opens a file that is read piece by piece, of any size.
+pub(crate) fn open(file: &Path) -> Result<fs::File, DataError> {
+    ralf_files::open(file, Kind::Stream).map_err(DataError::io(file))
+}
+
+/// Opens an input to be read piece by piece, however large a file of its kind may be.
+pub(crate) fn open_input(file: &Path) -> Result<fs::File, DataError> {
+    const MEASUREMENTS: [&str; 7] = ["bin", "pcd", "npy", "label", "jpg", "jpeg", "png"];
+    let extension = file.extension().unwrap_or_default();
+    let is_measurement = MEASUREMENTS.iter().any(|known| extension.eq_ignore_ascii_case(known));
+    let kind = if is_measurement { Kind::Measurement } else { Kind::Stream };
+    ralf_files::open(file, kind).map_err(DataError::io(file))
 }
 
 /// The whole file as UTF-8 text.
-pub(crate) fn read_text(file: &Path) -> Result<String, DataError> {
-    String::from_utf8(read(file)?).map_err(|error| {
+pub(crate) fn read_text(file: &Path, kind: Kind) -> Result<String, DataError> {
+    let bytes = ralf_files::read(file, kind).map_err(DataError::io(file))?;
+    String::from_utf8(bytes).map_err(|error| {
         DataError::content(
             file,
             format!("byte {}", error.utf8_error().valid_up_to()),
@@ -59,10 +84,11 @@ fn check_rows(file: &Path, size: usize, columns: usize) -> Result<(), DataError>
     ))
 }
 
-/// The names of all that lies in a folder, sorted, hidden ones left out; empty where there is no such folder.
+/// The names of all that lies in a folder, sorted, hidden ones left out; empty where there is no such folder (a
+/// recording may be one file).
 pub(crate) fn names(folder: &Path) -> Result<Vec<String>, DataError> {
     let entries = match fs::read_dir(folder) {
-        Err(error) if error.kind() == ErrorKind::NotFound => return Ok(Vec::new()),
+        Err(error) if is_nowhere(&error) => return Ok(Vec::new()),
         entries => entries.map_err(DataError::io(folder))?,
     };
     let mut names = Vec::new();
@@ -75,6 +101,10 @@ pub(crate) fn names(folder: &Path) -> Result<Vec<String>, DataError> {
     names.retain(|name| !name.starts_with('.'));
     names.sort_unstable();
     Ok(names)
+}
+
+fn is_nowhere(error: &std::io::Error) -> bool {
+    matches!(error.kind(), ErrorKind::NotFound | ErrorKind::NotADirectory)
 }
 
 /// The names of the folders in a folder, sorted, hidden ones left out; empty where there is no such folder.

@@ -1,4 +1,5 @@
-//! `.label` files: one little-endian uint32 per detection or point, in the order of the `.bin` (docs/formats.md, section 1).
+//! `.label` files: one little-endian uint32 per detection or point, in the order of the `.bin` (docs/formats.md,
+//! section 1).
 
 use crate::disk::files;
 use crate::error::DataError;
@@ -35,7 +36,11 @@ impl Label {
 
 /// All labels of a file. One that ends within a value is refused.
 pub fn read_labels(file: &Path) -> Result<Vec<Label>, DataError> {
-    let bytes = files::read(file)?;
+    labels_of_bytes(file, &files::read(file)?)
+}
+
+/// The labels that a file's content holds.
+pub(crate) fn labels_of_bytes(file: &Path, bytes: &[u8]) -> Result<Vec<Label>, DataError> {
     let (values, rest) = bytes.as_chunks::<BYTES>();
     if rest.is_empty() {
         return Ok(values.iter().copied().map(Label::from_bytes).collect());
@@ -50,8 +55,12 @@ pub fn read_labels(file: &Path) -> Result<Vec<Label>, DataError> {
 
 /// Writes labels, whole or not at all. Folders are made as needed.
 pub fn write_labels(file: &Path, labels: &[Label]) -> Result<(), DataError> {
-    let bytes: Vec<u8> = labels.iter().copied().flat_map(Label::to_bytes).collect();
-    files::write_whole(file, &bytes)
+    files::write_whole(file, &label_bytes(labels))
+}
+
+/// The content of a file with these labels.
+pub(crate) fn label_bytes(labels: &[Label]) -> Vec<u8> {
+    labels.iter().copied().flat_map(Label::to_bytes).collect()
 }
 
 #[cfg(test)]

@@ -1,8 +1,7 @@
 //! What a run's results say without ground truth (docs/method.md, section 9): how far apart the classes are, and how balanced.
 
-use crate::disk::files;
 use crate::error::DataError;
-use crate::result::{LabelledRows, read_labelled_rows};
+use crate::result::{LabelledRows, LabelledRun, read_labelled_rows};
 use ralf::metrics::Separation;
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -47,23 +46,15 @@ impl From<Separation> for Balance {
 }
 
 impl Balances {
-    /// Reads every `sequences/*/plausibility.parquet` below a run's folder; none at all is an error.
+    /// Reads the table of every sequence that a run has labelled.
+    ///
+    /// # Errors
+    /// A folder without results, or with damaged ones.
     pub fn of_run(out: &Path) -> Result<Self, DataError> {
-        let sequences = out.join("sequences");
+        let run = LabelledRun::open(out)?;
         let mut sums = Sums::default();
-        for name in files::folders(&sequences)? {
-            let file = sequences.join(&name).join("plausibility.parquet");
-            if file.try_exists().map_err(DataError::io(&file))? {
-                sums.add(name, &read_labelled_rows(&file)?);
-            }
-        }
-        if sums.sequences.is_empty() {
-            return Err(DataError::content(
-                &sequences,
-                "*/plausibility.parquet",
-                "results of `ralf label`",
-                "none",
-            ));
+        for record in &run.record().sequences {
+            sums.add(record.name.clone(), &read_labelled_rows(&run.table_file(record)?)?);
         }
         Ok(sums.into())
     }
@@ -140,10 +131,7 @@ mod tests {
     fn no_results_are_an_error_that_names_the_folder() {
         let folder = tempfile::tempdir().unwrap();
         let error = Balances::of_run(folder.path()).unwrap_err().to_string();
-        assert!(
-            error
-                .ends_with("sequences: */plausibility.parquet: expected results of `ralf label`, found none"),
-            "{error}"
-        );
+        let expected = "run.json: expected the record of a finished `ralf label`, found no such file";
+        assert!(error.ends_with(expected), "{error}");
     }
 }

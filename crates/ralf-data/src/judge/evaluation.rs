@@ -1,8 +1,9 @@
 //! Labels of a run against the corrected ones (docs/method.md, section 9): the label files are all that is needed.
 
 use crate::disk::files;
-use crate::disk::label_file::{Label, read_labels};
+use crate::disk::label_file::Label;
 use crate::error::DataError;
+use crate::result::{LabelledRun, RECORD};
 use crate::truth::{GroundTruth, ScanId};
 use ralf::label::truth_of;
 use ralf::metrics::{Confusion, Evaluation};
@@ -20,12 +21,14 @@ pub struct Comparison {
 }
 
 impl Comparison {
-    /// Compares what a run wrote to the folder `out` with the truth. Refused are scans of another size than their truth,
+    /// Compares what a run wrote to the folder `out` with the truth. Label files are enough; where there is a
+    /// `run.json`, they have to be as it tells. Refused are scans of another size than their truth,
     /// labels of 0 (unlabeled), and a run that labelled none of the scans with truth.
     pub fn new(out: &Path, truth: &GroundTruth) -> Result<Self, DataError> {
+        let run = if out.join(RECORD).exists() { Some(LabelledRun::open(out)?) } else { None };
         let (mut scans, mut missing) = (Vec::new(), Vec::new());
         for scan in truth.scans() {
-            match compare(out, truth, scan)? {
+            match compare(out, run.as_ref(), truth, scan)? {
                 Some(counts) => scans.push((scan.clone(), counts)),
                 None => missing.push(scan.clone()),
             }
@@ -47,12 +50,16 @@ impl Comparison {
 }
 
 /// The confusion matrix of one scan; `None` where the run has no labels for it.
-fn compare(out: &Path, truth: &GroundTruth, scan: &ScanId) -> Result<Option<Confusion>, DataError> {
+fn compare(
+    out: &Path,
+    run: Option<&LabelledRun>,
+    truth: &GroundTruth,
+    scan: &ScanId,
+) -> Result<Option<Confusion>, DataError> {
     let file = scan.label_file(out);
-    if !file.try_exists().map_err(DataError::io(&file))? {
-        return Ok(None);
-    }
-    let (labels, truths) = (read_labels(&file)?, truth.labels(scan)?);
+    let names = (scan.sequence.as_str(), scan.radar.as_str(), scan.scan);
+    let Some(labels) = LabelledRun::labels_below(out, run, names)? else { return Ok(None) };
+    let truths = truth.labels(scan)?;
     if labels.len() != truths.len() {
         let expected = format!("{} as in its ground truth", truths.len());
         return Err(DataError::content(&file, "number of labels", expected, labels.len().to_string()));

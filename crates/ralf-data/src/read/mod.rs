@@ -4,7 +4,7 @@ pub mod inspection;
 pub(crate) mod layout;
 mod measured_files;
 pub(crate) mod models;
-mod nuscenes;
+pub(crate) mod nuscenes;
 pub(crate) mod open;
 mod radial;
 pub(crate) mod recording;
@@ -13,4 +13,4 @@ mod view_of_delft;
 
 pub use layout::LayoutSequence;
 pub use open::{formats, open, open_with};
-pub use recording::{NuScenesKey, Recording, RosSource, SequenceReader, TruthLabels};
+pub use recording::{Recording, SequenceReader, TruthLabels};

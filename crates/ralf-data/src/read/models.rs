@@ -102,6 +102,21 @@ pub(crate) const RADARS: [(&str, RadarModel); 3] =
 pub(crate) const LIDARS: [(&str, LidarModel); 3] =
     [(GENERIC, GENERIC_LIDAR), ("hdl-32e", HDL_32E), ("hdl-64e-s3", HDL_64E_S3)];
 
+/// Parts of names that tell a sensor's type, in small letters and without what separates them, with its model.
+const TELLING: [(&str, &str); 4] =
+    [("ars408", "ars408-21"), ("frgen21", "frgen21"), ("hdl32", "hdl-32e"), ("hdl64", "hdl-64e-s3")];
+
+/// The one of these models that a topic's or a frame's name tells of; the generic one where it tells of none.
+pub(crate) fn named_in<M>(names: &[&str], models: &[(&'static str, M)]) -> &'static str {
+    let told = |name: &str| {
+        let plain: String = name.chars().filter(char::is_ascii_alphanumeric).collect();
+        let plain = plain.to_ascii_lowercase();
+        let told = TELLING.iter().filter(|(part, _)| plain.contains(part));
+        told.map(|(_, model)| *model).find(|model| models.iter().any(|(known, _)| known == model))
+    };
+    names.iter().copied().find_map(told).unwrap_or(GENERIC)
+}
+
 impl RadarModel {
     /// A radar of this type.
     pub(crate) fn mounted(
@@ -141,6 +156,20 @@ impl LidarModel {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_model_is_the_one_that_topic_or_frame_tells() {
+        for (names, expected) in [
+            (["/ars408_front/points", "radar"], "ars408-21"),
+            (["/radar", "ARS-408-21_link"], "ars408-21"),
+            (["/radar", "frgen_21"], "frgen21"),
+            (["/hdl_32e/points", "velodyne"], GENERIC),
+            (["/radar/points", "base_link"], GENERIC),
+        ] {
+            assert_eq!(named_in(&names, &RADARS), expected, "{names:?}");
+        }
+        assert_eq!(named_in(&["/velodyne_hdl32/points"], &LIDARS), "hdl-32e");
+    }
 
     #[test]
     fn every_model_is_a_sensor() {

@@ -3,7 +3,7 @@
 use crate::disk::label_file::Label;
 use crate::error::DataError;
 use ralf::sensors::{Source, SourceError};
-use ralf_ros::container::Container;
+use std::any::Any;
 use std::path::PathBuf;
 
 /// One sequence of a recording, and the files it is read from.
@@ -27,14 +27,15 @@ pub trait SequenceReader: Source {
         None
     }
 
-    /// What nuScenes calls a radar's scan, of a recording that is read from nuScenes' own tables.
-    fn nuscenes_key(&self, _radar: usize, _scan: usize) -> Option<NuScenesKey> {
+    /// What only its own format knows of it, such as the names that the format's tables give to scans: an export into
+    /// that format asks for the type that its reader hands out.
+    fn origin(&self) -> Option<&dyn Any> {
         None
     }
 
-    /// The ROS recording that it is read from: topics that can be copied as they are.
-    fn ros(&self) -> Option<RosSource<'_>> {
-        None
+    /// Whether any image of a camera has depth: without it, labelling doesn't use the camera.
+    fn has_depth(&self, _camera: usize) -> bool {
+        false
     }
 
     /// The truth of a radar's scan where it is known without a file.
@@ -43,30 +44,13 @@ pub trait SequenceReader: Source {
     }
 }
 
-/// What nuScenes calls one measurement.
-#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
-pub struct NuScenesKey {
-    /// The version folder's name, as `v1.0-mini`.
-    pub version: String,
-    /// Its row in `sample_data.json`.
-    pub sample_data_token: String,
-}
-
-/// The ROS recording behind a sequence.
-#[derive(Debug, Clone, Copy)]
-pub struct RosSource<'a> {
-    /// All its messages.
-    pub container: &'a Container,
-    /// The frame of each radar, in the order of the rig.
-    pub radar_frames: &'a [String],
-}
-
 /// What is true of each detection of a scan, in its order.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct TruthLabels {
     /// As they stand in a `.label` file.
     pub labels: Vec<Label>,
-    /// Why each is an artifact: [`ralf::label::Cause`] as a number, 0 of what is plausible. No file that labelling reads.
+    /// Why each is an artifact: [`ralf::label::Cause`] as a number, 0 of what is plausible. No file that labelling
+    /// reads.
     pub causes: Vec<u8>,
 }
 

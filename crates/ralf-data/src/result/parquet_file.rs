@@ -1,6 +1,6 @@
 //! Writing `plausibility.parquet`.
 
-use super::{Columns, ScanTable};
+use super::{Columns, FileRecord, ScanTable};
 use crate::disk::files::beside;
 use crate::error::DataError;
 use parquet::basic::{Compression, LogicalType, Repetition, Type as Physical, ZstdLevel};
@@ -10,6 +10,7 @@ use parquet::file::properties::WriterProperties;
 use parquet::file::writer::{SerializedFileWriter, SerializedRowGroupWriter};
 use parquet::schema::types::Type;
 use std::fs::File;
+use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -19,8 +20,28 @@ const GROUP_ROWS: usize = 1 << 17;
 /// Writes the tables of a sequence, in the order (radar, scan), as one file that appears whole or not at all.
 pub struct PlausibilityWriter {
     file: PathBuf,
-    writer: SerializedFileWriter<File>,
+    writer: SerializedFileWriter<HashedFile>,
     group: Group,
+}
+
+/// A file that is hashed as it is written.
+struct HashedFile {
+    file: File,
+    hasher: blake3::Hasher,
+    bytes: u64,
+}
+
+impl Write for HashedFile {
+    fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
+        let written = self.file.write(bytes)?;
+        self.hasher.update(&bytes[..written]);
+        self.bytes += written as u64;
+        Ok(written)
+    }
+
+    fn flush(&mut self) -> std::io::Result<()> {
+        self.file.flush()
+    }
 }
 
 /// Rows that are still to be written.
@@ -47,7 +68,8 @@ impl PlausibilityWriter {
             std::fs::create_dir_all(folder).map_err(DataError::io(folder))?;
         }
         let open = File::create(beside(file)).map_err(DataError::io(file))?;
-        let writer = SerializedFileWriter::new(open, schema, Arc::new(properties)).map_err(refused)?;
+        let hashed = HashedFile { file: open, hasher: blake3::Hasher::new(), bytes: 0 };
+        let writer = SerializedFileWriter::new(hashed, schema, Arc::new(properties)).map_err(refused)?;
         Ok(Self { file: file.to_owned(), writer, group: Group::new(columns) })
     }
 
@@ -57,13 +79,15 @@ impl PlausibilityWriter {
         if self.group.scan.len() >= GROUP_ROWS { self.flush() } else { Ok(()) }
     }
 
-    /// Ends the file and puts it in its place.
-    pub fn finish(mut self) -> Result<(), DataError> {
+    /// Ends the file and puts it in its place. Returns its size and hash.
+    pub fn finish(mut self) -> Result<FileRecord, DataError> {
         self.flush()?;
         self.writer.finish().map_err(|error| written(&self.file, error))?;
         let open = self.writer.inner();
-        open.sync_all().map_err(DataError::io(&self.file))?;
-        std::fs::rename(beside(&self.file), &self.file).map_err(DataError::io(&self.file))
+        open.file.sync_all().map_err(DataError::io(&self.file))?;
+        let record = FileRecord { bytes: open.bytes, blake3: open.hasher.finalize().to_hex().to_string() };
+        std::fs::rename(beside(&self.file), &self.file).map_err(DataError::io(&self.file))?;
+        Ok(record)
     }
 
     fn flush(&mut self) -> Result<(), DataError> {
@@ -138,21 +162,21 @@ impl Group {
         self.semantic.extend(table.semantic.iter().map(|class| class.map(i32::from)));
     }
 
-    fn write(&self, group: &mut SerializedRowGroupWriter<File>) -> Result<(), ParquetError> {
-        write_column::<ByteArrayType>(group, &self.radar, None)?;
-        write_column::<Int32Type>(group, &self.scan, None)?;
-        write_column::<Int32Type>(group, &self.point, None)?;
-        write_column::<Int64Type>(group, &self.t_ns, None)?;
+    fn write(&self, group: &mut SerializedRowGroupWriter<HashedFile>) -> Result<(), ParquetError> {
+        write_column::<ByteArrayType, _>(group, &self.radar, None)?;
+        write_column::<Int32Type, _>(group, &self.scan, None)?;
+        write_column::<Int32Type, _>(group, &self.point, None)?;
+        write_column::<Int64Type, _>(group, &self.t_ns, None)?;
         for column in &self.decimals {
             let present: Vec<f32> = column.iter().copied().filter(|value| value.is_finite()).collect();
             let levels: Vec<i16> = column.iter().map(|value| i16::from(value.is_finite())).collect();
-            write_column::<FloatType>(group, &present, Some(&levels))?;
+            write_column::<FloatType, _>(group, &present, Some(&levels))?;
         }
-        write_column::<Int32Type>(group, &self.label, None)?;
-        write_column::<Int32Type>(group, &self.flags, None)?;
+        write_column::<Int32Type, _>(group, &self.label, None)?;
+        write_column::<Int32Type, _>(group, &self.flags, None)?;
         let present: Vec<i32> = self.semantic.iter().flatten().copied().collect();
         let levels: Vec<i16> = self.semantic.iter().map(|class| i16::from(class.is_some())).collect();
-        write_column::<Int32Type>(group, &present, Some(&levels))
+        write_column::<Int32Type, _>(group, &present, Some(&levels))
     }
 
     fn clear(&mut self) {
@@ -164,8 +188,8 @@ impl Group {
 }
 
 /// Writes the next column of a row group; `levels` say of each row whether it has a value.
-pub(crate) fn write_column<T: DataType>(
-    group: &mut SerializedRowGroupWriter<File>,
+pub(crate) fn write_column<T: DataType, W: Write + Send>(
+    group: &mut SerializedRowGroupWriter<W>,
     values: &[T::T],
     levels: Option<&[i16]>,
 ) -> Result<(), ParquetError> {

@@ -1,11 +1,11 @@
 //! Reading back from `plausibility.parquet` what pictures and reports need.
 
+use crate::disk::files;
 use crate::error::DataError;
 use parquet::column::reader::get_typed_column_reader;
 use parquet::data_type::{ByteArrayType, DataType, FloatType, Int32Type};
 use parquet::errors::ParquetError;
 use parquet::file::reader::{FileReader, RowGroupReader, SerializedFileReader};
-use std::fs::File;
 use std::path::Path;
 
 /// The rows of one sequence, by column.
@@ -41,7 +41,7 @@ pub struct LabelledRows {
 
 /// Reads the rows of a `plausibility.parquet`.
 pub fn read_labelled_rows(file: &Path) -> Result<LabelledRows, DataError> {
-    let open = File::open(file).map_err(DataError::io(file))?;
+    let open = files::open(file)?;
     let unreadable = |error: ParquetError| {
         DataError::content(file, "Parquet", "a result of `ralf label`", error.to_string())
     };

@@ -2,6 +2,7 @@
 
 use super::rows_read::column;
 use super::{Columns, ScanTable};
+use crate::disk::files;
 use crate::error::DataError;
 use parquet::data_type::{ByteArrayType, FloatType, Int32Type, Int64Type};
 use parquet::errors::ParquetError;
@@ -35,7 +36,7 @@ impl PlausibilityReader {
     /// # Errors
     /// A file that is no result of `ralf label`, or whose scans are torn apart.
     pub fn open(file: &Path, columns: Columns) -> Result<Self, DataError> {
-        let open = File::open(file).map_err(DataError::io(file))?;
+        let open = files::open(file)?;
         let unreadable = |error| unreadable(file, error);
         let reader = SerializedFileReader::new(open).map_err(unreadable)?;
         let mut places = BTreeMap::new();
@@ -50,6 +51,11 @@ impl PlausibilityReader {
             }
         }
         Ok(Self { file: file.to_owned(), columns, reader, places })
+    }
+
+    /// Where it lies.
+    pub fn file(&self) -> &Path {
+        &self.file
     }
 
     /// The decimal columns.

@@ -1,10 +1,11 @@
 //! Putting a sequence's labelled scans together, in the order of the rig.
 
-use super::sequence_record::{CameraRecord, ImageRecord, NotLabelled, RadarRecord, SequenceRecord};
 use super::workspace::Workspace;
 use super::{Observer, Stage, Task};
 use crate::error::DataError;
-use crate::result::{PlausibilityWriter, ScanTable};
+use crate::result::{
+    CameraRecord, ImageRecord, NotLabelled, PlausibilityWriter, RadarRecord, SequenceRecord,
+};
 use ralf::sensors::Camera;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -26,27 +27,40 @@ pub(super) fn assemble(
     let mut writer = PlausibilityWriter::create(&workspace.plausibility_file(), &task.columns)?;
     let mut radars = Vec::with_capacity(task.rig.radars.len());
     let mut images = Images::new();
-    for (radar, times) in task.rig.radars.iter().zip(&sequence.times.radars) {
+    let mut unreadable = BTreeSet::new();
+    for (index, (radar, times)) in task.rig.radars.iter().zip(&sequence.times.radars).enumerate() {
         let mut record = RadarRecord { name: radar.name.clone(), ..RadarRecord::default() };
         for scan in 0..times.len() {
-            let mut table = ScanTable::default();
-            if !missing.contains(&(radar.name.as_str(), scan)) {
-                table = workspace.table(&radar.name, scan, &task.columns)?;
-                for (camera, image) in workspace.images(&radar.name, scan)? {
-                    images.entry(camera).or_default().insert(image.image, image);
-                }
+            if missing.contains(&(radar.name.as_str(), scan)) {
+                record.push(None);
+                observer.advance(1, 0);
+                continue;
+            }
+            let table = workspace.table(index, scan, &task.columns)?;
+            let notes = workspace.notes(index, scan)?;
+            unreadable.extend(notes.unreadable);
+            for (camera, image) in notes.images {
+                images.entry(camera).or_default().insert(image.image, image);
             }
             writer.append(&radar.name, scan, &table)?;
-            record.push(&table);
+            record.push(Some(&table));
             observer.advance(1, table.len() as u64);
         }
         radars.push(record);
     }
-    writer.finish()?;
+    let table = Some(writer.finish()?);
     observer.end();
     let cameras = cameras(&task.rig.cameras, images);
     let fingerprint = fingerprint.to_owned();
-    Ok(SequenceRecord { name: sequence.name.clone(), fingerprint, radars, cameras, not_labelled })
+    Ok(SequenceRecord {
+        name: sequence.name.clone(),
+        fingerprint,
+        table,
+        radars,
+        cameras,
+        not_labelled,
+        unreadable: unreadable.into_iter().collect(),
+    })
 }
 
 /// What the monitor found about the images that were asked.

@@ -1,6 +1,6 @@
 //! What results depend on, in short: equal where the results are equal.
 
-use super::record::{Input, RunRecord};
+use crate::result::{Input, RunRecord};
 
 /// Of all that the sequences of an output folder have in common: program, format and settings.
 pub(super) fn of_run(run: &RunRecord) -> String {
@@ -35,6 +35,7 @@ mod tests {
             sequence: "00".to_owned(),
             file: file.to_owned(),
             bytes: 1,
+            mtime_ns: None,
             blake3: blake3.to_owned(),
         };
         let all = [

@@ -1,18 +1,12 @@
 //! Sizes and hashes of everything that a run reads, and what they make of its sequences.
 
-use super::record::Input;
 use super::{Observer, Stage, fingerprint};
-use crate::error::DataError;
 use crate::read::{Recording, SequenceReader};
+use crate::result::{Input, changed_ns, hash_file};
 use std::collections::{BTreeMap, BTreeSet};
-use std::fs::File;
-use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
-
-/// Bytes that are read at a time.
-const CHUNK: usize = 1 << 20;
 
 /// What makes a sequence's results what they are.
 pub(super) struct Identity {
@@ -30,8 +24,8 @@ pub(super) fn identify(
     run: &str,
     jobs: usize,
     observer: &dyn Observer,
-) -> Result<Vec<Identity>, DataError> {
-    let hashes = hash_inputs(recording, jobs, observer)?;
+) -> Vec<Identity> {
+    let hashes = hash_inputs(recording, jobs, observer);
     let identity = |reader: &dyn SequenceReader| {
         let name = reader.sequence().name.clone();
         // Sorted, and each but once.
@@ -41,29 +35,23 @@ pub(super) fn identify(
         let fingerprint = fingerprint::of_sequence(run, &name, &inputs);
         Identity { name, fingerprint, inputs }
     };
-    Ok(recording.sequences.iter().map(|reader| identity(reader.as_ref())).collect())
+    recording.sequences.iter().map(|reader| identity(reader.as_ref())).collect()
 }
 
 /// Hashes every input of the recording's sequences: each file once, for sequences may share some.
-fn hash_inputs(
-    recording: &Recording,
-    jobs: usize,
-    observer: &dyn Observer,
-) -> Result<BTreeMap<PathBuf, Input>, DataError> {
+fn hash_inputs(recording: &Recording, jobs: usize, observer: &dyn Observer) -> BTreeMap<PathBuf, Input> {
     let files: BTreeSet<PathBuf> = recording.sequences.iter().flat_map(|reader| reader.inputs()).collect();
     let files: Vec<PathBuf> = files.into_iter().collect();
-    let sizes =
-        files.iter().map(|file| std::fs::metadata(file).map(|data| data.len()).map_err(DataError::io(file)));
-    let total = sizes.sum::<Result<u64, _>>()?;
-    observer.begin(Stage::Inputs, total);
+    let sizes = files.iter().filter_map(|file| std::fs::metadata(file).ok());
+    observer.begin(Stage::Inputs, sizes.map(|data| data.len()).sum());
     let next = AtomicUsize::new(0);
     let hashed = Mutex::new(Vec::with_capacity(files.len()));
     std::thread::scope(|scope| {
         for _ in 0..jobs.max(1) {
             scope.spawn(|| {
                 while let Some(file) = files.get(next.fetch_add(1, Ordering::Relaxed)) {
-                    let input = hash(file, &recording.path, observer).map(|input| (file.clone(), input));
-                    hashed.lock().unwrap_or_else(PoisonError::into_inner).push(input);
+                    let input = input(file, &recording.path, observer);
+                    hashed.lock().unwrap_or_else(PoisonError::into_inner).push((file.clone(), input));
                 }
             });
         }
@@ -72,20 +60,12 @@ fn hash_inputs(
     hashed.into_inner().unwrap_or_else(PoisonError::into_inner).into_iter().collect()
 }
 
-fn hash(file: &Path, root: &Path, observer: &dyn Observer) -> Result<Input, DataError> {
-    let mut open = File::open(file).map_err(DataError::io(file))?;
-    let mut hasher = blake3::Hasher::new();
-    let mut buffer = vec![0; CHUNK];
-    let mut bytes = 0;
-    loop {
-        let read = open.read(&mut buffer).map_err(DataError::io(file))?;
-        if read == 0 {
-            break;
-        }
-        hasher.update(&buffer[..read]);
-        bytes += read as u64;
-        observer.advance(read as u64, 0);
-    }
+/// What the record keeps of a file. One that can't be read has no hash and costs the run nothing: a scan that needs it
+/// is named when it is read.
+fn input(file: &Path, root: &Path, observer: &dyn Observer) -> Input {
     let name = file.strip_prefix(root).unwrap_or(file).to_string_lossy().into_owned();
-    Ok(Input { sequence: String::new(), file: name, bytes, blake3: hasher.finalize().to_hex().to_string() })
+    // The time before the content: what is changed meanwhile counts as changed later.
+    let mtime_ns = std::fs::metadata(file).ok().and_then(|meta| changed_ns(&meta));
+    let found = hash_file(file, &|bytes| observer.advance(bytes, 0)).unwrap_or_default();
+    Input { sequence: String::new(), file: name, bytes: found.bytes, mtime_ns, blake3: found.blake3 }
 }

@@ -8,21 +8,20 @@
 mod assemble;
 mod fingerprint;
 mod inputs;
-mod json;
 mod output_folder;
-mod record;
 mod results;
-mod sequence_record;
 mod unfinished;
 mod workers;
 mod workspace;
 
-pub use record::{Input, RunRecord, Timings, read_record};
-pub use sequence_record::{CameraRecord, ImageRecord, NotLabelled, RadarRecord, SequenceRecord};
+pub use crate::result::{
+    CameraRecord, ImageRecord, Input, NotLabelled, RadarRecord, RunRecord, SequenceRecord, Timings,
+    UnreadableScan, read_record,
+};
 
 use crate::error::DataError;
 use crate::read::{Recording, SequenceReader, layout};
-use crate::result::Columns;
+use crate::result::{Columns, SequenceNames, WriterLock};
 use crate::settings::Settings;
 use inputs::Identity;
 use output_folder::OutputFolder;
@@ -30,6 +29,9 @@ use ralf::config::Config;
 use ralf::sensors::Rig;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
+
+/// In the output folder while a run writes to it.
+const LOCK: &str = ".ralf-lock";
 
 /// A labelling run.
 pub struct LabelRun<'a> {
@@ -73,6 +75,8 @@ pub struct Outcome {
     pub record: RunRecord,
     /// Names of those that this run has labelled; the others were labelled before, with the same program, settings and inputs.
     pub labelled: Vec<String>,
+    /// Sequences that were labelled before and whose results were damaged since, with the first file that is: they are labelled anew.
+    pub damaged: Vec<(String, PathBuf)>,
     /// Names of sequences that were not asked for and whose results are gone, for they were made by another version of the
     /// program or with other settings.
     pub removed: Vec<String>,
@@ -81,20 +85,26 @@ pub struct Outcome {
 /// One sequence with the sensors as the settings have them.
 struct Task<'a> {
     reader: &'a dyn SequenceReader,
+    /// Of the folders that its results go to.
+    names: SequenceNames,
     rig: Rig,
     columns: Columns,
 }
 
 impl LabelRun<'_> {
     /// Labels every scan of every radar of the sequences that were not labelled before. Scans that can't be labelled are named
-    /// in the record, and the run goes on; settings that don't fit the recording, and results that can't be written, end it.
+    /// in the record, and the run goes on; settings that don't fit the recording, and results that can't be written, end it, and
+    /// so does another run that writes to the same folder ([`DataError::Busy`]).
     pub fn execute(&self, observer: &dyn Observer) -> Result<Outcome, DataError> {
         let begun = Instant::now();
         self.refuse_to_write_into_the_recording()?;
-        let tasks = self.recording.sequences.iter().map(|reader| self.task(reader.as_ref()));
+        let names = SequenceNames::all(self.recording.sequences.iter().map(AsRef::as_ref))?;
+        let tasks = self.recording.sequences.iter().zip(names);
+        let tasks = tasks.map(|(reader, names)| self.task(reader.as_ref(), names));
         let tasks = tasks.collect::<Result<Vec<_>, _>>()?;
+        let _lock = WriterLock::take(self.out.join(LOCK), self.out)?;
         let run = RunRecord::new(self.recording, self.settings);
-        let asked = inputs::identify(self.recording, &fingerprint::of_run(&run), self.jobs, observer)?;
+        let asked = inputs::identify(self.recording, &fingerprint::of_run(&run), self.jobs, observer);
         let folder = OutputFolder::open(self.out, run, &asked)?;
         let mut finished = Vec::new();
         for (task, identity) in tasks.iter().zip(&asked).filter(|(_, asked)| !folder.holds(&asked.name)) {
@@ -105,15 +115,16 @@ impl LabelRun<'_> {
         }
         let labelled = finished.iter().map(|(sequence, _)| sequence.name.clone()).collect();
         let timings = Timings { seconds: begun.elapsed().as_secs_f64(), jobs: self.jobs };
+        let damaged = folder.damaged().to_vec();
         let (mut record, removed) = folder.finish(finished, timings)?;
         record.retain(|sequence| asked.iter().any(|asked| asked.name == sequence.name));
-        Ok(Outcome { record, labelled, removed })
+        Ok(Outcome { record, labelled, damaged, removed })
     }
 
-    fn task<'a>(&self, reader: &'a dyn SequenceReader) -> Result<Task<'a>, DataError> {
+    fn task<'a>(&self, reader: &'a dyn SequenceReader, names: SequenceNames) -> Result<Task<'a>, DataError> {
         let rig = rig_of(self.recording, reader, &self.settings.method)?;
         let columns = Columns::of(&rig).map_err(|reason| unsuitable(self.recording, reader, reason))?;
-        Ok(Task { reader, rig, columns })
+        Ok(Task { reader, names, rig, columns })
     }
 
     fn label_sequence(
@@ -123,7 +134,7 @@ impl LabelRun<'_> {
         folder: &OutputFolder,
         observer: &dyn Observer,
     ) -> Result<SequenceRecord, DataError> {
-        let workspace = folder.workspace(identity);
+        let workspace = folder.workspace(identity, &task.names)?;
         let not_labelled =
             workers::label_scans(task, &self.settings.method, &workspace, self.jobs, observer)?;
         assemble::assemble(task, &identity.fingerprint, &workspace, not_labelled, observer)

@@ -4,14 +4,15 @@
 //! knows of. `run.json` comes last: the sequences that it tells of are complete.
 
 use super::inputs::Identity;
-use super::json::write_json;
-use super::record::{RECORD, RunRecord, Timings, read_record};
 use super::results::Results;
-use super::sequence_record::SequenceRecord;
 use super::unfinished::{Finished, Unfinished};
 use super::workspace::Workspace;
 use crate::disk::files;
 use crate::error::DataError;
+use crate::result::json::write_json;
+use crate::result::{
+    OutFolder, RECORD, RunRecord, SequenceNames, SequenceRecord, Timings, damaged_result, read_record,
+};
 use std::path::{Path, PathBuf};
 
 /// The output folder of a run.
@@ -23,18 +24,22 @@ pub(super) struct OutputFolder {
     record: RunRecord,
     /// Sequences that are not asked for and were made by another version or with other settings.
     removed: Vec<String>,
+    /// Sequences with results that are not as they were written, and the first such file.
+    damaged: Vec<(String, PathBuf)>,
 }
 
 impl OutputFolder {
     /// Makes the folder ready for a run, whose record is still empty. What has the same version and settings stays, unless it
     /// is asked for and was read from other inputs or is not whole; all other results are removed.
     pub(super) fn open(out: &Path, run: RunRecord, asked: &[Identity]) -> Result<Self, DataError> {
+        let place = OutFolder::new(out);
         let mut folder = Self {
-            record_file: out.join(RECORD),
-            results: Results::of(out),
-            unfinished: Unfinished::of(out, &run),
+            record_file: place.own_file(RECORD),
+            results: Results::new(out),
+            unfinished: Unfinished::of(&place, &run)?,
             record: run,
             removed: Vec::new(),
+            damaged: Vec::new(),
         };
         // Of a record that this version can't read, nothing is known.
         match read_record(out) {
@@ -63,11 +68,7 @@ impl OutputFolder {
         let known = |finished: &Finished| self.record.sequence(&finished.0.name).is_some();
         let new: Vec<_> = finished.into_iter().filter(|finished| !known(finished)).collect();
         self.record.add(new);
-        let stays = |sequence: &SequenceRecord| match asked.iter().find(|asked| asked.name == sequence.name) {
-            Some(asked) => asked.fingerprint == sequence.fingerprint && self.results.hold(sequence),
-            None => true,
-        };
-        let outdated: Vec<_> = self.record.sequences.iter().filter(|s| !stays(s)).cloned().collect();
+        let outdated = self.outdated(asked)?;
         if fingerprints.is_empty() && outdated.is_empty() {
             return Ok(());
         }
@@ -75,6 +76,26 @@ impl OutputFolder {
         self.record.retain(|sequence| outdated.iter().all(|other| other.name != sequence.name));
         self.write_record()?;
         self.unfinished.forget(fingerprints.iter().map(String::as_str))
+    }
+
+    /// The sequences that are asked for and have to be labelled again: read from other inputs, or damaged.
+    fn outdated(&mut self, asked: &[Identity]) -> Result<Vec<SequenceRecord>, DataError> {
+        let mut outdated = Vec::new();
+        for sequence in &self.record.sequences {
+            let Some(asked) = asked.iter().find(|asked| asked.name == sequence.name) else { continue };
+            if asked.fingerprint != sequence.fingerprint {
+                outdated.push(sequence.clone());
+            } else if let Some(file) = damaged_result(self.results.places(), sequence)? {
+                self.damaged.push((sequence.name.clone(), file));
+                outdated.push(sequence.clone());
+            }
+        }
+        Ok(outdated)
+    }
+
+    /// Sequences with results that are not as they were written, and the first such file of each.
+    pub(super) fn damaged(&self) -> &[(String, PathBuf)] {
+        &self.damaged
     }
 
     fn write_record(&self) -> Result<(), DataError> {
@@ -90,8 +111,13 @@ impl OutputFolder {
     }
 
     /// Where a sequence is labelled.
-    pub(super) fn workspace<'a>(&'a self, sequence: &'a Identity) -> Workspace<'a> {
-        Workspace::of(&sequence.name, self.unfinished.scans(sequence), &self.results)
+    pub(super) fn workspace<'a>(
+        &'a self,
+        sequence: &Identity,
+        names: &'a SequenceNames,
+    ) -> Result<Workspace<'a>, DataError> {
+        let folder = self.unfinished.scans(sequence, &names.sequence)?;
+        Ok(Workspace::new(names, folder, &self.results))
     }
 
     /// A sequence's results are in their places.

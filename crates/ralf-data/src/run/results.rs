@@ -1,97 +1,82 @@
-//! Where a run's results lie, and how they go once others take their places.
+//! How a run's results go once others take their places.
 
-use super::sequence_record::SequenceRecord;
 use crate::disk::files;
 use crate::error::DataError;
-use crate::read::layout::is_folder_name;
-use std::collections::BTreeSet;
+use crate::result::{Component, Places, SequenceRecord};
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-/// The folder `OUT/sequences`.
+/// The results in an output folder.
 #[derive(Debug)]
 pub(super) struct Results {
-    sequences: PathBuf,
+    places: Places,
 }
 
 impl Results {
-    /// The results in an output folder.
-    pub(super) fn of(out: &Path) -> Self {
-        Self { sequences: out.join("sequences") }
+    pub(super) fn new(out: &Path) -> Self {
+        Self { places: Places::new(out) }
     }
 
-    /// The table of a sequence.
-    pub(super) fn plausibility_file(&self, sequence: &str) -> PathBuf {
-        self.sequences.join(sequence).join("plausibility.parquet")
-    }
-
-    /// The labels of a scan.
-    pub(super) fn label_file(&self, sequence: &str, radar: &str, scan: usize) -> PathBuf {
-        self.sequences.join(sequence).join(radar).join(format!("{scan:06}.label"))
-    }
-
-    /// Whether every result that a record tells of is there.
-    pub(super) fn hold(&self, record: &SequenceRecord) -> bool {
-        let not_labelled: BTreeSet<_> =
-            record.not_labelled.iter().map(|scan| (scan.radar.as_str(), scan.scan)).collect();
-        let labelled = scans(record).filter(|scan| !not_labelled.contains(scan));
-        let mut labels = labelled.map(|(radar, scan)| self.label_file(&record.name, radar, scan));
-        self.plausibility_file(&record.name).is_file() && labels.all(|file| file.is_file())
+    /// Where they lie.
+    pub(super) fn places(&self) -> &Places {
+        &self.places
     }
 
     /// Removes the results that a record tells of, and nothing else that people may have put beside them.
     pub(super) fn remove(&self, record: &SequenceRecord) -> Result<(), DataError> {
-        for (radar, scan) in scans(record) {
-            self.remove_label(&record.name, radar, scan)?;
+        // A record that somebody has edited leads nowhere else: such names are passed over.
+        let Ok(sequence) = Component::new(&record.name) else { return Ok(()) };
+        let mut radars = Vec::new();
+        for radar in &record.radars {
+            let Ok(folder) = Component::new(&radar.name) else { continue };
+            for scan in 0..radar.detections.len() {
+                files::remove(&self.places.label_file(&sequence, &folder, scan))?;
+            }
+            radars.push(folder);
         }
-        self.remove_folders(&record.name, record.radars.iter().map(|radar| radar.name.as_str()))
+        self.remove_folders(&sequence, &radars)
     }
 
     /// Removes what was labelled of sequences, by the scans that are kept as `SEQUENCE/RADAR/000000.rows`.
     pub(super) fn remove_unfinished(&self, kept: &Path) -> Result<(), DataError> {
-        for sequence in files::folders(kept)? {
-            let radars = files::folders(&kept.join(&sequence))?;
+        for sequence in components(kept)? {
+            let kept = kept.join(sequence.as_str());
+            let radars = components(&kept)?;
             for radar in &radars {
-                let names = files::names(&kept.join(&sequence).join(radar))?;
+                let names = files::names(&kept.join(radar.as_str()))?;
                 for scan in names.iter().filter_map(|name| name.strip_suffix(".rows")?.parse().ok()) {
                     self.remove_label(&sequence, radar, scan)?;
                 }
             }
-            self.remove_folders(&sequence, radars.iter().map(String::as_str))?;
+            self.remove_folders(&sequence, &radars)?;
         }
         Ok(())
     }
 
     /// Removes a scan's labels, if there are some.
-    pub(super) fn remove_label(&self, sequence: &str, radar: &str, scan: usize) -> Result<(), DataError> {
-        // A record that somebody has edited leads nowhere else.
-        if !is_folder_name(sequence) || !is_folder_name(radar) {
-            return Ok(());
-        }
-        files::remove(&self.label_file(sequence, radar, scan))
+    pub(super) fn remove_label(
+        &self,
+        sequence: &Component,
+        radar: &Component,
+        scan: usize,
+    ) -> Result<(), DataError> {
+        files::remove(&self.places.label_file(sequence, radar, scan))
     }
 
     /// Removes the table, and the folders that are empty now.
-    fn remove_folders<'a>(
-        &self,
-        sequence: &str,
-        radars: impl Iterator<Item = &'a str>,
-    ) -> Result<(), DataError> {
-        if !is_folder_name(sequence) {
-            return Ok(());
-        }
-        files::remove(&self.plausibility_file(sequence))?;
-        let folder = self.sequences.join(sequence);
+    fn remove_folders(&self, sequence: &Component, radars: &[Component]) -> Result<(), DataError> {
+        files::remove(&self.places.plausibility_file(sequence))?;
+        let folder = self.places.folder(sequence);
         // A folder that still holds something stays: that is no failure.
-        for radar in radars.filter(|radar| is_folder_name(radar)) {
-            let _ = fs::remove_dir(folder.join(radar));
+        for radar in radars {
+            let _ = fs::remove_dir(folder.folder(radar).path());
         }
-        let _ = fs::remove_dir(folder);
+        let _ = fs::remove_dir(folder.path());
         Ok(())
     }
 }
 
-/// All scans that a record tells of: radar, number.
-fn scans(record: &SequenceRecord) -> impl Iterator<Item = (&str, usize)> {
-    record.radars.iter().flat_map(|radar| (0..radar.detections.len()).map(|scan| (radar.name.as_str(), scan)))
+/// The folders in a folder whose names lead nowhere else.
+fn components(folder: &Path) -> Result<Vec<Component>, DataError> {
+    Ok(files::folders(folder)?.iter().filter_map(|name| Component::new(name).ok()).collect())
 }

@@ -1,19 +1,18 @@
 //! What runs keep in the output folder until `run.json` tells of it.
 //!
-//! `OUT/.ralf-run/RUN/FINGERPRINT/` holds a sequence under way, `FINGERPRINT.json` a finished one. Both names are fingerprints: of
-//! program and settings, and of the sequence.
+//! `OUT/.ralf-run/RUN/FINGERPRINT/` holds a sequence under way, `FINGERPRINT.json` a finished one. Both names are
+//! fingerprints: of program and settings, and of the sequence.
 
 use super::fingerprint;
 use super::inputs::Identity;
-use super::json::{read_json, write_json};
-use super::record::{Input, RunRecord};
 use super::results::Results;
-use super::sequence_record::SequenceRecord;
 use crate::disk::files;
 use crate::error::DataError;
+use crate::result::json::{read_json, write_json};
+use crate::result::{Component, Input, OutFolder, RunRecord, SequenceRecord, checked};
 use std::fs;
 use std::io::ErrorKind;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// Of all runs.
 const FOLDER: &str = ".ralf-run";
@@ -23,66 +22,70 @@ pub(super) type Finished = (SequenceRecord, Vec<Input>);
 
 /// The folder of runs with the same program and settings.
 pub(super) struct Unfinished {
-    all: PathBuf,
+    all: OutFolder,
     /// Fingerprint of program and settings.
-    pub(super) run: String,
+    run: Component,
 }
 
 impl Unfinished {
-    pub(super) fn of(out: &Path, run: &RunRecord) -> Self {
-        Self { all: out.join(FOLDER), run: fingerprint::of_run(run) }
+    pub(super) fn of(out: &OutFolder, run: &RunRecord) -> Result<Self, DataError> {
+        let run = checked("fingerprint of a run", &fingerprint::of_run(run))?;
+        Ok(Self { all: out.own(FOLDER), run })
     }
 
-    fn folder(&self) -> PathBuf {
-        self.all.join(&self.run)
+    fn folder(&self) -> OutFolder {
+        self.all.folder(&self.run)
     }
 
     /// The scans of a sequence under way.
-    pub(super) fn scans(&self, sequence: &Identity) -> PathBuf {
-        self.folder().join(&sequence.fingerprint).join(&sequence.name)
+    pub(super) fn scans(&self, sequence: &Identity, name: &Component) -> Result<OutFolder, DataError> {
+        let fingerprint = checked("fingerprint of a sequence", &sequence.fingerprint)?;
+        Ok(self.folder().folder(&fingerprint).folder(name))
     }
 
     /// Sequences that were finished by runs which were killed later; a record that is not whole is none.
     pub(super) fn finished(&self) -> Result<Vec<Finished>, DataError> {
         let folder = self.folder();
-        let names = files::names(&folder)?.into_iter().filter(|name| name.ends_with(".json"));
-        Ok(names.filter_map(|name| read_json(&folder.join(name)).ok()).collect())
+        let names = files::names(folder.path())?.into_iter().filter(|name| name.ends_with(".json"));
+        let records = names.filter_map(|name| read_json(&folder.path().join(name)).ok());
+        // A record that somebody has edited leads nowhere else.
+        Ok(records.filter(|(sequence, _): &Finished| Component::new(&sequence.fingerprint).is_ok()).collect())
     }
 
     /// Keeps a finished sequence, whose scans are not needed any more.
     pub(super) fn finish(&self, finished: &Finished) -> Result<(), DataError> {
-        let folder = self.folder().join(&finished.0.fingerprint);
-        write_json(&folder.with_extension("json"), finished)?;
-        remove_folder(&folder)
+        let fingerprint = checked("fingerprint of a sequence", &finished.0.fingerprint)?;
+        write_json(&self.folder().file(&fingerprint.and(".json")), finished)?;
+        remove_folder(self.folder().folder(&fingerprint).path())
     }
 
     /// `run.json` tells of these sequences now.
     pub(super) fn forget<'a>(&self, finished: impl Iterator<Item = &'a str>) -> Result<(), DataError> {
         for fingerprint in finished {
-            let folder = self.folder().join(fingerprint);
-            remove_folder(&folder)?;
-            files::remove(&folder.with_extension("json"))?;
+            let fingerprint = checked("fingerprint of a sequence", fingerprint)?;
+            remove_folder(self.folder().folder(&fingerprint).path())?;
+            files::remove(&self.folder().file(&fingerprint.and(".json")))?;
         }
         // Folders that still hold something stay: that is no failure.
-        let _ = fs::remove_dir(self.folder());
-        let _ = fs::remove_dir(&self.all);
+        let _ = fs::remove_dir(self.folder().path());
+        let _ = fs::remove_dir(self.all.path());
         Ok(())
     }
 
     /// Removes what is of no use any more, with its results: other settings, and what is asked for with other inputs.
     pub(super) fn remove_outdated(&self, asked: &[Identity], results: &Results) -> Result<(), DataError> {
-        for run in files::folders(&self.all)? {
-            let folder = self.all.join(&run);
+        for run in files::folders(self.all.path())? {
+            let folder = self.all.path().join(&run);
             for name in files::names(&folder)? {
                 let kept = folder.join(&name);
-                if run != self.run {
+                if run != self.run.as_str() {
                     remove_with_results(&kept, results)?;
                 } else if kept.is_dir() && is_outdated(&kept, &name, asked)? {
                     results.remove_unfinished(&kept)?;
                     remove_folder(&kept)?;
                 }
             }
-            if run != self.run {
+            if run != self.run.as_str() {
                 remove_folder(&folder)?;
             }
         }

@@ -1,10 +1,9 @@
 //! Scans side by side: each worker takes a stretch of time and labels it with a window of its own.
 
-use super::sequence_record::{ImageRecord, NotLabelled};
-use super::workspace::{Images, Workspace};
+use super::workspace::Workspace;
 use super::{Observer, Stage, Task};
 use crate::error::DataError;
-use crate::result::ScanTable;
+use crate::result::{NotLabelled, ScanNotes, ScanTable};
 use ralf::config::Config;
 use ralf::paper::Labeler;
 use ralf::scene::FrameWindow;
@@ -91,7 +90,7 @@ impl Shared<'_> {
     fn label_scan(&self, window: &mut FrameWindow, radar: usize, scan: usize) -> Result<u64, DataError> {
         let Task { rig, columns, .. } = self.task;
         let name = &rig.radars[radar].name;
-        if self.workspace.has_kept(name, scan, columns) {
+        if self.workspace.has_kept(radar, scan, columns) {
             return Ok(0);
         }
         let frame = match window.frame(radar, scan) {
@@ -99,16 +98,12 @@ impl Shared<'_> {
             Err(error) => {
                 let failed = NotLabelled { radar: name.clone(), scan, reason: error.to_string() };
                 self.failed.lock().unwrap_or_else(PoisonError::into_inner).push(failed);
-                return self.workspace.forget(name, scan).map(|()| 0);
+                return self.workspace.forget(radar, scan).map(|()| 0);
             }
         };
-        let views = frame.images.iter().map(|view| &view.moment);
-        let images: Images = views
-            .map(|moment| (rig.cameras[moment.id.camera].name.clone(), ImageRecord::of(moment)))
-            .collect();
         let labels = Labeler::new(self.config).label(&frame);
         let table = ScanTable::new(columns, &rig.radars[radar], &frame.scan, &labels);
-        self.workspace.keep(name, scan, &images, &table)?;
+        self.workspace.keep(radar, scan, &ScanNotes::new(&frame), &table)?;
         Ok(labels.len() as u64)
     }
 }

@@ -1,73 +1,76 @@
 //! A sequence while it is labelled: its scans, each in files of its own, that a run which was killed finds again.
 //!
-//! `FINGERPRINT/SEQUENCE/RADAR/000000.rows` holds a labelled scan, `000000.json` what the monitor found about its images.
+//! `FINGERPRINT/SEQUENCE/RADAR/000000.rows` holds a labelled scan, `000000.json` what is told of it beside that.
 
-use super::json::{read_json, write_json};
 use super::results::Results;
-use super::sequence_record::ImageRecord;
 use crate::disk::label_file::write_labels;
 use crate::error::DataError;
-use crate::result::{Columns, ScanTable, read_rows, write_rows};
+use crate::result::json::{read_json, write_json};
+use crate::result::{
+    Columns, Component, OutFolder, ScanNotes, ScanTable, SequenceNames, read_rows, write_rows,
+};
 use std::fs;
 use std::path::PathBuf;
 
-/// Images that were asked about a scan, with the names of their cameras.
-pub(super) type Images = Vec<(String, ImageRecord)>;
-
 /// The scans of a sequence.
 pub(super) struct Workspace<'a> {
-    sequence: &'a str,
-    folder: PathBuf,
+    names: &'a SequenceNames,
+    folder: OutFolder,
     results: &'a Results,
 }
 
 impl<'a> Workspace<'a> {
     /// The scans that are kept in this folder.
-    pub(super) fn of(sequence: &'a str, folder: PathBuf, results: &'a Results) -> Self {
-        Self { sequence, folder, results }
+    pub(super) fn new(names: &'a SequenceNames, folder: OutFolder, results: &'a Results) -> Self {
+        Self { names, folder, results }
     }
 
     /// Where the sequence's table goes.
     pub(super) fn plausibility_file(&self) -> PathBuf {
-        self.results.plausibility_file(self.sequence)
+        self.results.places().plausibility_file(&self.names.sequence)
     }
 
     /// Keeps a labelled scan. Its `.label` file comes last, so that no label is without a table that tells of it.
     pub(super) fn keep(
         &self,
-        radar: &str,
+        radar: usize,
         scan: usize,
-        images: &Images,
+        notes: &ScanNotes,
         table: &ScanTable,
     ) -> Result<(), DataError> {
         write_rows(&self.file(radar, scan, "rows"), table)?;
-        write_json(&self.file(radar, scan, "json"), images)?;
-        write_labels(&self.results.label_file(self.sequence, radar, scan), &table.labels())
+        write_json(&self.file(radar, scan, "json"), notes)?;
+        write_labels(&self.label_file(radar, scan), &table.labels())
     }
 
     /// Whether a scan was labelled before, and all its files are whole: a power cut may leave empty ones.
-    pub(super) fn has_kept(&self, radar: &str, scan: usize, columns: &Columns) -> bool {
-        let label = fs::metadata(self.results.label_file(self.sequence, radar, scan));
+    pub(super) fn has_kept(&self, radar: usize, scan: usize, columns: &Columns) -> bool {
+        let label = fs::metadata(self.label_file(radar, scan));
         let Ok(table) = self.table(radar, scan, columns) else { return false };
-        label.is_ok_and(|label| label.len() == 4 * table.len() as u64) && self.images(radar, scan).is_ok()
+        label.is_ok_and(|label| label.len() == 4 * table.len() as u64) && self.notes(radar, scan).is_ok()
     }
 
     /// The table of a scan.
-    pub(super) fn table(&self, radar: &str, scan: usize, columns: &Columns) -> Result<ScanTable, DataError> {
+    pub(super) fn table(&self, radar: usize, scan: usize, columns: &Columns) -> Result<ScanTable, DataError> {
         read_rows(&self.file(radar, scan, "rows"), columns)
     }
 
-    /// What the monitor found about the images of a scan.
-    pub(super) fn images(&self, radar: &str, scan: usize) -> Result<Images, DataError> {
+    /// What is told of a scan beside its detections.
+    pub(super) fn notes(&self, radar: usize, scan: usize) -> Result<ScanNotes, DataError> {
         read_json(&self.file(radar, scan, "json"))
     }
 
     /// Removes the `.label` file that an earlier run made of a scan that can't be labelled now.
-    pub(super) fn forget(&self, radar: &str, scan: usize) -> Result<(), DataError> {
-        self.results.remove_label(self.sequence, radar, scan)
+    pub(super) fn forget(&self, radar: usize, scan: usize) -> Result<(), DataError> {
+        self.results.remove_label(&self.names.sequence, &self.names.radars[radar], scan)
     }
 
-    fn file(&self, radar: &str, scan: usize, kind: &str) -> PathBuf {
-        self.folder.join(radar).join(format!("{scan:06}.{kind}"))
+    /// The labels of a scan.
+    pub(super) fn label_file(&self, radar: usize, scan: usize) -> PathBuf {
+        self.results.places().label_file(&self.names.sequence, &self.names.radars[radar], scan)
+    }
+
+    fn file(&self, radar: usize, scan: usize, kind: &'static str) -> PathBuf {
+        self.folder.folder(&self.names.radars[radar]).file(&Component::numbered(scan, kind))
     }
 }

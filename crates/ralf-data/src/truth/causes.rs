@@ -1,11 +1,13 @@
 //! What is behind each artifact, where a dataset knows it: a simulator does, people seldom.
 //!
-//! `sequences/NAME/ground_truth/causes.txt` names the causes, one per line: line n (from 0) is code n, and line 0 is `none`.
-//! `sequences/NAME/ground_truth/RADAR/NNNNNN.cause` beside a `.label` file holds one uint8 per detection, the code.
+//! `sequences/NAME/ground_truth/causes.txt` names the causes, one per line: line n (from 0) is code n, and line 0 is
+//! `none`. `sequences/NAME/ground_truth/RADAR/NNNNNN.cause` beside a `.label` file holds one uint8 per detection, the
+//! code.
 
 use crate::disk::files;
 use crate::error::DataError;
-use crate::truth::ground_truth::ScanId;
+use crate::truth::scan_id::ScanId;
+use ralf_files::Kind;
 use std::path::{Path, PathBuf};
 
 const NAMES: &str = "causes.txt";
@@ -26,11 +28,11 @@ impl Causes {
     /// An empty list or name, more names than codes, or a first name other than `none`.
     pub fn find(dataset: &Path, sequence: &str) -> Result<Option<Self>, DataError> {
         let file = dataset.join("sequences").join(sequence).join("ground_truth").join(NAMES);
-        if !file.try_exists().map_err(DataError::io(&file))? {
+        if !files::exists(&file)? {
             return Ok(None);
         }
         let names: Vec<String> =
-            files::read_text(&file)?.lines().map(|name| name.trim().to_owned()).collect();
+            files::read_text(&file, Kind::Settings)?.lines().map(|name| name.trim().to_owned()).collect();
         let refuse = |line: usize, expected: &str, found: &str| {
             Err(DataError::content(&file, format!("line {line}"), expected, format!("`{found}`")))
         };
@@ -58,7 +60,7 @@ impl Causes {
     /// Another number of codes, or a code without a name.
     pub fn of_scan(&self, scan: &ScanId, detections: usize) -> Result<Option<Vec<u8>>, DataError> {
         let file = scan.truth_file(&self.dataset).with_extension("cause");
-        if !file.try_exists().map_err(DataError::io(&file))? {
+        if !files::exists(&file)? {
             return Ok(None);
         }
         let codes = files::read(&file)?;

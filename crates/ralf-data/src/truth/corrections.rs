@@ -1,9 +1,11 @@
 //! What people corrected in the review, beside a run's labels: `OUT/corrections.sqlite`.
 
+use crate::disk::files;
 use crate::disk::label_file::Label;
 use crate::error::DataError;
-use crate::truth::ground_truth::ScanId;
-use ralf_corrections::{FILE, ScanKey, ScanLayer, read_layer};
+use crate::read::Recording;
+use crate::truth::scan_id::ScanId;
+use ralf_corrections::{FILE, ScanContent, ScanKey, ScanLayer, read_layer};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
@@ -11,7 +13,10 @@ use std::path::{Path, PathBuf};
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Corrections {
     file: PathBuf,
-    scans: BTreeMap<ScanId, ScanLayer>,
+    /// What is said of each scan, once per content that it had when something was said of it.
+    scans: BTreeMap<ScanId, Vec<ScanLayer>>,
+    /// The scans of which something was said while they held something else.
+    orphaned: Vec<ScanId>,
 }
 
 impl From<&ScanId> for ScanKey {
@@ -33,9 +38,46 @@ impl Corrections {
     /// A file that is no store of corrections, or one of another version of the program.
     pub fn open(out: &Path) -> Result<Self, DataError> {
         let file = out.join(FILE);
-        let there = file.try_exists().map_err(DataError::io(&file))?;
+        let there = files::exists(&file)?;
         let scans = if there { read_layer(&file)? } else { BTreeMap::new() };
-        Ok(Self { file, scans: scans.into_iter().map(|(key, scan)| (key.into(), scan)).collect() })
+        let scans = scans.into_iter().map(|(key, said)| (key.into(), said)).collect();
+        Ok(Self { file, scans, orphaned: Vec::new() })
+    }
+
+    /// The same, of what scans hold now: what was said of another content is [orphaned](Self::orphaned), and
+    /// counts no more. `content_of` tells what a scan holds (see [`scan_content`](crate::scan_content)), and
+    /// `None` of one that isn't there.
+    ///
+    /// # Errors
+    /// Those of `content_of`.
+    pub fn bound<E>(
+        mut self,
+        mut content_of: impl FnMut(&ScanId) -> Result<Option<ScanContent>, E>,
+    ) -> Result<Self, E> {
+        let mut bound = BTreeMap::new();
+        for (scan, said) in self.scans {
+            let content = content_of(&scan)?;
+            let held = content.and_then(|content| ScanLayer::find_in(&said, &content)).cloned();
+            if said.len() > usize::from(held.is_some()) {
+                self.orphaned.push(scan.clone());
+            }
+            bound.extend(held.map(|layer| (scan, vec![layer])));
+        }
+        self.scans = bound;
+        Ok(self)
+    }
+
+    /// Those of a recording's sequences alone.
+    pub(super) fn of_sequences(mut self, recording: &Recording) -> Self {
+        let names: Vec<&str> =
+            recording.sequences.iter().map(|reader| reader.sequence().name.as_str()).collect();
+        self.scans.retain(|scan, _| names.contains(&scan.sequence.as_str()));
+        self
+    }
+
+    /// The scans of which something was said while they held something else: it is kept in the file, and never applied.
+    pub fn orphaned(&self) -> &[ScanId] {
+        &self.orphaned
     }
 
     /// Where they lie.
@@ -55,21 +97,26 @@ impl Corrections {
 
     /// How many detections a person has labelled.
     pub fn corrected_detections(&self) -> usize {
-        self.scans.values().map(|scan| scan.corrections.len()).sum()
+        self.layers().map(|layer| layer.corrections.len()).sum()
     }
 
     /// How many scans are marked as reviewed.
     pub fn reviewed_scans(&self) -> usize {
-        self.scans.values().filter(|scan| scan.accepted.is_some()).count()
+        self.layers().filter(|layer| layer.accepted.is_some()).count()
     }
 
-    /// The labels of a scan with people's word above the machine's: of each detection its correction, else the label that was
-    /// accepted when the scan was marked as reviewed, else the machine's. A label that stays keeps its instance.
+    fn layers(&self) -> impl Iterator<Item = &ScanLayer> {
+        self.scans.values().flatten()
+    }
+
+    /// The labels of a scan with people's word above the machine's: of each detection its correction, else the
+    /// label that was accepted when the scan was marked as reviewed, else the machine's. A label that stays
+    /// keeps its instance.
     ///
     /// # Errors
     /// Labels of another number than the scan had when it was edited.
     pub fn effective_labels(&self, scan: &ScanId, machine: Vec<Label>) -> Result<Vec<Label>, DataError> {
-        let Some(layer) = self.scans.get(scan) else { return Ok(machine) };
+        let Some(layer) = self.layer(scan)? else { return Ok(machine) };
         self.check_size(scan, layer, machine.len())?;
         let mut labels = machine;
         for (label, accepted) in labels.iter_mut().zip(layer.accepted.iter().flatten()) {
@@ -79,15 +126,17 @@ impl Corrections {
         Ok(labels)
     }
 
-    /// What people say of a scan's detections: of each its correction, else what the ground truth's file says, else the label
-    /// accepted when the scan was marked as reviewed, else 0 (unlabeled). `None` where neither file nor corrections know the scan.
+    /// What people say of a scan's detections: of each its correction, else what the ground truth's file says,
+    /// else the label accepted when the scan was marked as reviewed, else 0 (unlabeled). `None` where neither
+    /// file nor corrections know the scan.
     pub(crate) fn truth(
         &self,
         scan: &ScanId,
         file: Option<Vec<Label>>,
     ) -> Result<Option<Vec<Label>>, DataError> {
-        let Some(layer) = self.scans.get(scan) else { return Ok(file) };
-        let mut labels = file.unwrap_or_else(|| vec![Label::default(); layer.detections]);
+        let Some(layer) = self.layer(scan)? else { return Ok(file) };
+        let detections = layer.content.detections as usize;
+        let mut labels = file.unwrap_or_else(|| vec![Label::default(); detections]);
         self.check_size(scan, layer, labels.len())?;
         for (label, accepted) in labels.iter_mut().zip(layer.accepted.iter().flatten()) {
             if label.id == Label::default().id {
@@ -98,12 +147,32 @@ impl Corrections {
         Ok(Some(labels))
     }
 
+    /// What is said of a scan. Which of several contents is meant must have been told before.
+    fn layer(&self, scan: &ScanId) -> Result<Option<&ScanLayer>, DataError> {
+        match self.scans.get(scan).map(Vec::as_slice) {
+            None | Some([]) => Ok(None),
+            Some([layer]) => Ok(Some(layer)),
+            Some(several) => {
+                let found = format!(
+                    "{} contents of this scan, and nothing that says which one is meant",
+                    several.len()
+                );
+                Err(DataError::content(
+                    &self.file,
+                    format!("scan {scan}"),
+                    "corrections of one content",
+                    found,
+                ))
+            }
+        }
+    }
+
     fn check_size(&self, scan: &ScanId, layer: &ScanLayer, labels: usize) -> Result<(), DataError> {
-        if labels == layer.detections {
+        let detections = layer.content.detections as usize;
+        if labels == detections {
             return Ok(());
         }
-        let (expected, found) =
-            (format!("{labels} detections"), format!("corrections of {}", layer.detections));
+        let (expected, found) = (format!("{labels} detections"), format!("corrections of {detections}"));
         Err(DataError::content(&self.file, format!("scan {scan}"), expected, found))
     }
 }
@@ -126,10 +195,14 @@ fn say(label: &mut Label, id: u16) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use ralf_corrections::{Mark, ScanEdit, Store, Stroke, Who};
+    use ralf_corrections::{ContentHash, Mark, ScanEdit, Store, Stroke, Who};
 
     fn scan() -> ScanId {
         ScanId { sequence: "00".into(), radar: "front".into(), scan: 3 }
+    }
+
+    fn hash(byte: u8) -> ContentHash {
+        ContentHash::new([byte; 32])
     }
 
     fn ids(labels: &[Label]) -> Vec<u16> {
@@ -139,11 +212,14 @@ mod tests {
     /// A scan of four detections: the machine says 99, 1, 99, 1; it is marked as reviewed, and the second is a car.
     fn store(out: &Path) -> Corrections {
         let mut store = Store::open(&out.join(FILE)).unwrap();
-        let who = Who { author: "ada".into(), tab: None };
-        let edit = ScanEdit { radar: "front".into(), scan: 3, detections: 4, base: 0, points: vec![1] };
+        let who = Who::named("ada");
+        let content = Some(hash(1));
+        let edit =
+            ScanEdit { radar: "front".into(), scan: 3, detections: 4, content, base: 0, points: vec![1] };
         let stroke = Stroke { label: Some(10), scans: vec![edit], ..Stroke::of_sequence("00") };
         store.apply(&stroke, &who).unwrap();
-        let mark = Mark { key: (&scan()).into(), base: 1, machine: vec![99, 1, 99, 1], reviewed: true };
+        let machine = vec![99, 1, 99, 1];
+        let mark = Mark { key: (&scan()).into(), content, base: 1, machine, reviewed: true };
         store.mark(&mark, &who).unwrap();
         Corrections::open(out).unwrap()
     }
@@ -171,6 +247,23 @@ mod tests {
         assert_eq!(ids(&corrections.truth(&scan(), Some(file)).unwrap().unwrap()), [99, 10, 48, 1]);
         assert_eq!(ids(&corrections.truth(&scan(), None).unwrap().unwrap()), [99, 10, 99, 1]);
         assert_eq!(corrections.truth(&ScanId { scan: 4, ..scan() }, None).unwrap(), None);
+    }
+
+    #[test]
+    fn corrections_of_another_content_are_kept_and_never_applied() {
+        let out = tempfile::tempdir().unwrap();
+        let content = |byte| Ok::<_, ()>(Some(ScanContent { detections: 4, hash: Some(hash(byte)) }));
+        let machine = vec![Label::of_class(1); 4];
+        let same = store(out.path()).bound(|_| content(1)).unwrap();
+        assert_eq!(ids(&same.effective_labels(&scan(), machine.clone()).unwrap()), [99, 10, 99, 1]);
+        assert!(same.orphaned().is_empty());
+        let open = || Corrections::open(out.path()).unwrap();
+        for other in [open().bound(|_| content(2)).unwrap(), open().bound(|_| Ok::<_, ()>(None)).unwrap()] {
+            assert_eq!(other.effective_labels(&scan(), machine.clone()).unwrap(), machine);
+            assert_eq!((other.orphaned(), other.corrected_detections()), (&[scan()][..], 0));
+            assert_eq!(other.truth(&scan(), None).unwrap(), None);
+        }
+        assert_eq!(open().corrected_detections(), 1, "kept");
     }
 
     #[test]

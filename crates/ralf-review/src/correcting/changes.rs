@@ -1,7 +1,7 @@
 //! News for other windows: a request that waits.
 
 use crate::app::App;
-use crate::http::{Answer, ApiError, json};
+use crate::http::{Answer, ApiError, Person, json};
 use ralf_corrections::Changes;
 use serde::Deserialize;
 use serde_json::json;
@@ -20,9 +20,11 @@ pub(crate) struct Since {
     since: Option<i64>,
 }
 
-/// What other windows did in a sequence since then, as soon as there is something; without `since` where the count is now.
-pub(crate) async fn changes(app: Arc<App>, sequence: String, asked: Since, tab: Option<String>) -> Answer {
+/// What other windows did in a sequence since then, as soon as there is something; without `since` where the
+/// count is now.
+pub(crate) async fn changes(app: Arc<App>, sequence: String, asked: Since, person: Person) -> Answer {
     app.sequence(&sequence)?;
+    let tab = person.tab;
     let Some(since) = asked.since else {
         return answer(&ask(&app, sequence, i64::MAX, tab).await?);
     };
@@ -44,9 +46,9 @@ pub(crate) async fn changes(app: Arc<App>, sequence: String, asked: Since, tab: 
 
 async fn ask(app: &Arc<App>, sequence: String, since: i64, tab: Option<String>) -> Result<Changes, ApiError> {
     let app = app.clone();
-    let asked = move || app.store().changes(&sequence, since, tab.as_deref());
+    let asked = move || app.said(|store| store.changes(&sequence, since, tab.as_deref()));
     let found = tokio::task::spawn_blocking(asked).await;
-    Ok(found.map_err(|error| ApiError::Broken(error.to_string()))??)
+    found.map_err(|error| ApiError::Broken(error.to_string()))?
 }
 
 fn answer(found: &Changes) -> Answer {

@@ -7,4 +7,4 @@ mod strokes;
 
 pub(crate) use changes::{Since, changes};
 pub(crate) use reviewed::{MarkRequest, mark};
-pub(crate) use strokes::{Nothing, StrokeRequest, history, redo, stroke, undo};
+pub(crate) use strokes::{StepRequest, StrokeRequest, history, redo, stroke, undo};

@@ -2,7 +2,7 @@
 
 use super::answers;
 use crate::app::App;
-use crate::http::{Answer, ApiError, json};
+use crate::http::{Answer, ApiError, EditId, Person, json};
 use ralf::label::class_name;
 use ralf_corrections::{ScanEdit, Stroke};
 use serde::{Deserialize, Deserializer};
@@ -15,6 +15,8 @@ const LONGEST_NAME: usize = 64;
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct StrokeRequest {
+    #[serde(default)]
+    id: Option<EditId>,
     tool: String,
     #[serde(default)]
     group: Option<String>,
@@ -34,6 +36,9 @@ struct Base {
     radar: String,
     scan: usize,
     revision: u64,
+    /// What the scan on screen holds.
+    #[serde(default)]
+    content: Option<String>,
 }
 
 /// Detections of a scan.
@@ -45,40 +50,44 @@ struct Points {
     points: Vec<u32>,
 }
 
-/// `{}`.
+/// One step back or forth.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct Nothing {}
+pub(crate) struct StepRequest {
+    #[serde(default)]
+    id: Option<EditId>,
+}
 
 fn present<'de, D: Deserializer<'de>>(value: D) -> Result<Option<u16>, D::Error> {
     Option::deserialize(value)
 }
 
 /// Writes a stroke.
-pub(crate) fn stroke(app: &App, sequence: &str, asked: StrokeRequest, tab: Option<String>) -> Answer {
+pub(crate) fn stroke(app: &App, sequence: &str, asked: StrokeRequest, person: Person) -> Answer {
+    let who = person.who(&app.author, asked.id.clone());
     let stroke = checked(app, sequence, asked)?;
-    let written = app.store().apply(&stroke, &app.who(tab))?;
-    answers::outcome(app, written)
+    answers::outcome(app, app.edit(|store| store.apply(&stroke, &who))?)
 }
 
-/// Takes the author's last stroke back.
-pub(crate) fn undo(app: &App, sequence: &str, tab: Option<String>) -> Answer {
+/// Takes the person's own last step back.
+pub(crate) fn undo(app: &App, sequence: &str, asked: StepRequest, person: Person) -> Answer {
     app.sequence(sequence)?;
-    let written = app.store().undo(sequence, &app.who(tab))?;
-    answers::outcome(app, written)
+    let who = person.who(&app.author, asked.id);
+    answers::outcome(app, app.edit(|store| store.undo(sequence, &who))?)
 }
 
-/// Sets the stroke again that the author took back last.
-pub(crate) fn redo(app: &App, sequence: &str, tab: Option<String>) -> Answer {
+/// Sets the step again that the person took back last.
+pub(crate) fn redo(app: &App, sequence: &str, asked: StepRequest, person: Person) -> Answer {
     app.sequence(sequence)?;
-    let written = app.store().redo(sequence, &app.who(tab))?;
-    answers::outcome(app, written)
+    let who = person.who(&app.author, asked.id);
+    answers::outcome(app, app.edit(|store| store.redo(sequence, &who))?)
 }
 
-/// What the author can undo and redo.
-pub(crate) fn history(app: &App, sequence: &str) -> Answer {
+/// What the person can undo and redo.
+pub(crate) fn history(app: &App, sequence: &str, person: Person) -> Answer {
     app.sequence(sequence)?;
-    let found = app.store().history(sequence, &app.author)?;
+    let who = person.who(&app.author, None);
+    let found = app.said(|store| store.history(sequence, &who.author))?;
     json(&answers::history(&found))
 }
 
@@ -89,27 +98,42 @@ fn checked(app: &App, sequence: &str, asked: StrokeRequest) -> Result<Stroke, Ap
     if let Some(unknown) = asked.label.filter(|id| class_name(*id).is_none()) {
         return Err(malformed(format!("label: expected an id of SemanticKITTI, found {unknown}")));
     }
-    let bases: BTreeMap<(&str, usize), u64> =
-        asked.base.iter().map(|base| ((base.radar.as_str(), base.scan), base.revision)).collect();
+    let bases: BTreeMap<(&str, usize), &Base> =
+        asked.base.iter().map(|base| ((base.radar.as_str(), base.scan), base)).collect();
     let mut seen = BTreeSet::new();
     let mut scans = Vec::with_capacity(asked.points.len());
-    for Points { radar, scan, points } in &asked.points {
-        let place = app.scan(sequence, radar, *scan)?;
-        let base = bases.get(&(radar.as_str(), *scan)).copied();
-        let base = base.ok_or_else(|| {
+    for part in &asked.points {
+        let Points { radar, scan, .. } = part;
+        let base = bases.get(&(radar.as_str(), *scan)).copied().ok_or_else(|| {
             malformed(format!("base: expected the revision of {radar} scan {scan}, found none"))
         })?;
         if !seen.insert((radar, scan)) {
             return Err(malformed(format!("points: expected {radar} scan {scan} once, found it twice")));
         }
-        let detections = app.labels(place.sequence)?.reader.detections(radar, *scan);
-        let detections = u32::try_from(detections).map_err(|error| malformed(error.to_string()))?;
-        let (radar, scan, points) = (radar.clone(), place.key.scan, points.clone());
-        scans.push(ScanEdit { radar, scan, detections, base, points });
+        scans.push(edit(app, sequence, part, base)?);
     }
     app.sequence(sequence)?;
     let StrokeRequest { tool, group, protect, label, .. } = asked;
     Ok(Stroke { sequence: sequence.to_owned(), tool, group, protect, label, scans })
+}
+
+/// A stroke's part in a scan, which must hold what was on screen.
+fn edit(app: &App, sequence: &str, part: &Points, base: &Base) -> Result<ScanEdit, ApiError> {
+    let Points { radar, scan, points } = part;
+    let place = app.scan(sequence, radar, *scan)?;
+    let content = app.content(&place)?;
+    if let (Some(seen), Some(now)) = (&base.content, content.hash) {
+        let scan = format!("{radar} scan {scan}");
+        answers::check_seen(&scan, "the detections", seen, &now.to_string())?;
+    }
+    Ok(ScanEdit {
+        radar: radar.clone(),
+        scan: place.key.scan,
+        detections: content.detections,
+        content: content.hash,
+        base: base.revision,
+        points: points.clone(),
+    })
 }
 
 fn check_name(what: &str, name: &str) -> Result<(), ApiError> {

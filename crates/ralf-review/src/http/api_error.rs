@@ -13,6 +13,8 @@ use serde_json::{Map, Value};
 pub(crate) enum ApiError {
     /// It makes no sense (400).
     Malformed(String),
+    /// Who asks does not have the token (401).
+    Unauthorized(String),
     /// Who asks may not (403).
     Forbidden(String),
     /// There is no such thing (404).
@@ -36,6 +38,7 @@ impl ApiError {
     fn parts(self) -> (StatusCode, String, Map<String, Value>) {
         let (status, sentence) = match self {
             Self::Malformed(sentence) => (StatusCode::BAD_REQUEST, sentence),
+            Self::Unauthorized(sentence) => (StatusCode::UNAUTHORIZED, sentence),
             Self::Forbidden(sentence) => (StatusCode::FORBIDDEN, sentence),
             Self::Unknown(sentence) => (StatusCode::NOT_FOUND, sentence),
             Self::Method => (StatusCode::METHOD_NOT_ALLOWED, "the address knows no such method".to_owned()),

@@ -1,15 +1,16 @@
 //! What is taken from a request; whatever is wrong with it is told in a sentence.
 
 use super::ApiError;
-use crate::MAX_BODY;
 use axum::body::Bytes;
 use axum::extract::{FromRequest, FromRequestParts, Path, Query, Request};
 use axum::http::request::Parts;
-use axum::http::{HeaderMap, StatusCode, header};
+use axum::http::{StatusCode, header};
 use serde::de::DeserializeOwned;
 use std::time::Duration;
 use tokio::time::timeout;
 
+/// The largest body of a request, bytes.
+pub const MAX_BODY: usize = 8 << 20;
 /// How long a body may take to arrive.
 const PATIENCE: Duration = Duration::from_secs(30);
 
@@ -75,13 +76,4 @@ impl<S: Send + Sync, T: DeserializeOwned> FromRequest<S> for Body<T> {
 
 fn too_large() -> ApiError {
     ApiError::TooLarge(format!("body: expected at most {MAX_BODY} bytes, found more"))
-}
-
-/// The window that asks, where it names itself.
-pub(crate) fn tab(headers: &HeaderMap) -> Result<Option<String>, ApiError> {
-    let Some(name) = headers.get("x-ralf-tab") else { return Ok(None) };
-    let name = name.to_str().ok().filter(|name| (1..=64).contains(&name.len()));
-    let refused =
-        || ApiError::Malformed("X-Ralf-Tab: expected 1 to 64 ASCII characters, found others".into());
-    name.map(|name| Some(name.to_owned())).ok_or_else(refused)
 }

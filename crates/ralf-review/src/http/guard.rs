@@ -1,5 +1,5 @@
-//! Who may ask: requests for another host, from another origin or without the token are refused; and the headers of every
-//! answer, which forbid the page to load anything but its own.
+//! Who may ask: requests for another host, from another origin or without the token are refused; and the
+//! headers of every answer, which forbid the page to load anything but its own.
 
 use super::{ApiError, Token};
 use axum::extract::{Request, State};
@@ -25,13 +25,13 @@ const HEADERS: [(HeaderName, &str); 4] = [
 pub(crate) struct Guard {
     /// Names of this server as `Host` has them; `None` where it listens on all addresses, which have many names.
     hosts: Option<Vec<String>>,
-    /// Asked for where others than this machine can reach the server.
-    token: Option<Token>,
+    /// Asked for by all but the page itself.
+    token: Token,
 }
 
 impl Guard {
     /// For a server that listens at `address`, which was asked for by the name `host`.
-    pub(crate) fn new(host: &str, address: SocketAddr, token: Option<Token>) -> Self {
+    pub(crate) fn new(host: &str, address: SocketAddr, token: Token) -> Self {
         let ip = address.ip();
         let names: &[&str] = if ip.is_loopback() { &["localhost", "127.0.0.1", "[::1]"] } else { &[host] };
         let port = address.port();
@@ -69,12 +69,13 @@ impl Guard {
                 "Sec-Fetch-Site: expected same-origin, found `{found}`"
             )));
         }
-        match &self.token {
-            Some(token) if !token.is_in(text(header::AUTHORIZATION).unwrap_or("")) => Err(ApiError::Forbidden(
-                "Authorization: expected `Bearer` and the token that `ralf review` printed, found another".into(),
-            )),
-            _ => Ok(()),
+        if self.token.is_in(text(header::AUTHORIZATION).unwrap_or("")) {
+            return Ok(());
         }
+        Err(ApiError::Unauthorized(
+            "Authorization: expected `Bearer` and the token of the address that `ralf review` printed, found another"
+                .into(),
+        ))
     }
 }
 
@@ -101,44 +102,53 @@ mod tests {
         pairs.collect()
     }
 
+    fn guard(host: &str, address: &str) -> (Guard, String) {
+        let token = Token::new().unwrap();
+        let bearer = format!("Bearer {}", token.digits());
+        (Guard::new(host, address.parse().unwrap(), token), bearer)
+    }
+
     fn passes(guard: &Guard, path: &str, pairs: &[(&'static str, &str)]) -> bool {
         guard.check(path, &headers(pairs)).is_ok()
     }
 
     #[test]
     fn on_this_machine_the_host_must_be_this_machine() {
-        let guard = Guard::new("127.0.0.1", "127.0.0.1:8642".parse().unwrap(), None);
+        let (guard, bearer) = guard("127.0.0.1", "127.0.0.1:8642");
+        let token = ("authorization", bearer.as_str());
         for host in ["127.0.0.1:8642", "localhost:8642", "LOCALHOST:8642", "[::1]:8642"] {
-            assert!(passes(&guard, "/api/recording", &[("host", host)]), "{host}");
+            assert!(passes(&guard, "/api/recording", &[("host", host), token]), "{host}");
         }
         for host in ["", "127.0.0.1", "127.0.0.1:8643", "evil.example:8642", "localhost.evil.example:8642"] {
-            assert!(!passes(&guard, "/", &[("host", host)]), "{host}");
+            assert!(!passes(&guard, "/", &[("host", host), token]), "{host}");
         }
         assert!(!passes(&guard, "/", &[]));
     }
 
     #[test]
     fn other_origins_and_sites_are_refused() {
-        let guard = Guard::new("127.0.0.1", "127.0.0.1:80".parse().unwrap(), None);
-        let from = |origin| passes(&guard, "/api/recording", &[("host", "localhost"), ("origin", origin)]);
-        assert!(from("http://localhost"));
+        let (guard, bearer) = guard("127.0.0.1", "127.0.0.1:80");
+        let asked = |path, name, value| {
+            passes(&guard, path, &[("host", "localhost"), ("authorization", &bearer), (name, value)])
+        };
+        assert!(asked("/api/recording", "origin", "http://localhost"));
         for origin in ["null", "https://localhost", "http://localhost:8000", "http://127.0.0.1"] {
-            assert!(!from(origin), "{origin}");
+            assert!(!asked("/api/recording", "origin", origin), "{origin}");
         }
-        let site = |path, site| passes(&guard, path, &[("host", "localhost"), ("sec-fetch-site", site)]);
+        let site = |path, site| asked(path, "sec-fetch-site", site);
         assert!(site("/api/recording", "same-origin") && site("/", "cross-site"));
         assert!(!site("/api/recording", "cross-site") && !site("/api/recording", "same-site"));
     }
 
     #[test]
     fn the_token_guards_all_but_the_page_itself() {
-        let token = Token::new().unwrap();
-        let bearer = format!("Bearer {}", token.digits());
-        let guard = Guard::new("0.0.0.0", "0.0.0.0:8642".parse().unwrap(), Some(token));
-        let host = ("host", "radar-pc:8642");
-        assert!(passes(&guard, "/assets/page.js", &[host]));
-        assert!(!passes(&guard, "/api/recording", &[host]));
-        assert!(!passes(&guard, "/api/recording", &[host, ("authorization", "Bearer 0")]));
-        assert!(passes(&guard, "/api/recording", &[host, ("authorization", &bearer)]));
+        for address in ["0.0.0.0:8642", "127.0.0.1:8642"] {
+            let (guard, bearer) = guard("0.0.0.0", address);
+            let host = ("host", "localhost:8642");
+            assert!(passes(&guard, "/assets/page.js", &[host]));
+            assert!(!passes(&guard, "/api/recording", &[host]));
+            assert!(!passes(&guard, "/api/recording", &[host, ("authorization", "Bearer 0")]));
+            assert!(passes(&guard, "/api/recording", &[host, ("authorization", &bearer)]));
+        }
     }
 }

@@ -3,12 +3,15 @@
 mod api_error;
 mod extract;
 mod guard;
+mod person;
 mod table;
 mod token;
 
 pub(crate) use api_error::ApiError;
-pub(crate) use extract::{Asked, Body, Place, tab};
+pub use extract::MAX_BODY;
+pub(crate) use extract::{Asked, Body, Place};
 pub(crate) use guard::{Guard, guard};
+pub(crate) use person::{EditId, Person};
 pub(crate) use table::Table;
 pub(crate) use token::Token;
 

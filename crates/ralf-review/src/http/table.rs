@@ -1,6 +1,7 @@
-//! Columns of numbers, as the page reads them without parsing: a header in JSON, then the columns, little-endian, each at a
-//! multiple of 8 bytes.
+//! Columns of numbers, as the page reads them without parsing: a header in JSON, then the columns,
+//! little-endian, each at a multiple of 8 bytes.
 
+use crate::columns::Meaning;
 use serde_json::{Map, Value, json};
 
 const ALIGNMENT: usize = 8;
@@ -21,6 +22,15 @@ impl Table {
     /// Adds a column of decimals; NaN is absent.
     pub(crate) fn f32(&mut self, name: &str, values: impl IntoIterator<Item = f32>) {
         self.column(name, "f32", values.into_iter().map(f32::to_le_bytes));
+    }
+
+    /// Says what the last column means.
+    pub(crate) fn explain(&mut self, meaning: &Meaning) {
+        if let Some(Value::Object(column)) = self.columns.last_mut() {
+            column.insert("unit".to_owned(), json!(meaning.unit));
+            column.insert("meaning".to_owned(), json!(meaning.text));
+            column.insert("group".to_owned(), json!(meaning.group.name()));
+        }
     }
 
     /// Adds a column of small numbers.

@@ -2,12 +2,13 @@
 
 use super::{matrix, time};
 use crate::app::{App, ScanPlace};
-use crate::http::{Answer, Table, content};
+use crate::columns::meaning;
+use crate::http::{Answer, ApiError, Table, content};
 use crate::labelled::SequenceLabels;
 use ralf::config::nanoseconds;
 use ralf::sensors::Sequence;
 use ralf::space::sync;
-use ralf_corrections::ScanState;
+use ralf_corrections::{ContentHash, ScanState, ScanVersion};
 use ralf_data::result::ScanTable;
 use serde_json::{Map, Value, json};
 
@@ -19,22 +20,51 @@ pub(crate) fn detections(app: &App, sequence: &str, radar: &str, scan: usize) ->
     let place = app.scan(sequence, radar, scan)?;
     let labels = app.labels(place.sequence)?;
     let rows = labels.table(radar, scan, place.t_ns)?;
-    let said = app.store().scan_of_size(&place.key, rows.len())?;
+    let version = app.version(&place)?;
+    check_size(&version, &rows)?;
+    let said = app.said(|store| store.scan(&version))?;
     let causes = app.causes.of_scan(place.sequence, &place.key.clone().into(), rows.len())?;
     let mut table = Table::new(rows.len());
     for (name, values) in labels.reader.columns().names().zip(&rows.decimals) {
         table.f32(name, values.iter().copied());
+        table.explain(&meaning(name));
     }
     table.u16("flags", rows.flags.iter().copied());
     let machine = machine_labels(&rows);
     table.u16("machine", machine.iter().copied());
+    let stamp = stamp(version.content.hash.as_ref(), &machine);
     let (effective, corrected) = effective(machine, &said);
     table.u16("label", effective);
     table.u8("corrected", corrected);
     if let Some(causes) = causes {
         table.u8("cause", causes);
     }
-    Ok(content("application/octet-stream", table.finish(header(&place, &labels, &said))))
+    let mut header = header(&place, &labels, &said);
+    header.insert("content".to_owned(), json!(version.content.hash.map(|hash| hash.to_string())));
+    header.insert("stamp".to_owned(), json!(stamp));
+    Ok(content("application/octet-stream", table.finish(header)))
+}
+
+/// Labels of other detections than the recording holds now must not be shown, nor corrected.
+pub(crate) fn check_size(version: &ScanVersion, rows: &ScanTable) -> Result<(), ApiError> {
+    let recorded = version.content.detections as usize;
+    if recorded == rows.len() {
+        return Ok(());
+    }
+    let (scan, labelled) = (&version.key, rows.len());
+    Err(ApiError::Broken(format!(
+        "scan {scan}: expected labels of its {recorded} detections, found {labelled}: label the recording again"
+    )))
+}
+
+/// What a mark of review names: a hash of the labels on screen, and of what they are about. Other labels have another.
+pub(crate) fn stamp(content: Option<&ContentHash>, machine: &[u16]) -> String {
+    let mut hasher = blake3::Hasher::new();
+    hasher.update(content.map_or(&[][..], ContentHash::as_bytes));
+    for id in machine {
+        hasher.update(&id.to_le_bytes());
+    }
+    hasher.finalize().to_hex()[..32].to_owned()
 }
 
 /// The machine's label ids.

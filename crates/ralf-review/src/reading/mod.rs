@@ -1,7 +1,6 @@
 //! What the page sees of the recording and the run.
 
 mod camera;
-pub(crate) mod causes;
 mod detections;
 mod lidar;
 mod moment;
@@ -10,7 +9,7 @@ mod queue;
 mod recording;
 
 pub(crate) use camera::image;
-pub(crate) use detections::{detections, machine_labels};
+pub(crate) use detections::{check_size, detections, machine_labels, reviewed, stamp};
 pub(crate) use lidar::cloud;
 pub(crate) use moment::{Moment, moment};
 pub(crate) use projection::{Projection, projection};

@@ -28,11 +28,16 @@ pub(crate) fn recording(app: &App) -> Answer {
         |path: &std::path::Path| path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned();
     let sequences: Vec<Value> =
         app.recording.sequences.iter().map(|reader| sequence(app, reader.as_ref())).collect();
-    let flags: Vec<Value> = FLAGS.iter().map(|(bit, name)| json!({ "bit": bit, "name": name })).collect();
+    let flags: Vec<Value> = FLAGS
+        .iter()
+        .map(|(bit, name)| json!({ "bit": bit, "name": name, "decided": *bit == flag::GROUND }))
+        .collect();
     json(&json!({
         "dataset": name(&app.recording.path),
         "out": name(&app.out),
         "author": app.author,
+        "store": app.said(ralf_corrections::Reader::id)?,
+        "read_only": app.store.read_only(),
         "threshold": read_record(&app.out)?.settings.method.fusion.threshold,
         "sequences": sequences,
         "classes": (0..=LAST_CLASS).filter_map(class).collect::<Vec<_>>(),
@@ -47,7 +52,10 @@ fn sequence(app: &App, reader: &dyn SequenceReader) -> Value {
     let radars = rig.radars.iter().zip(&all.radars);
     let lidars = rig.lidars.iter().zip(&all.lidars);
     let cameras = rig.cameras.iter().zip(&all.cameras);
-    let camera = |(camera, images): (&ralf::sensors::Camera, &Vec<i64>)| json!({ "name": camera.name, "width": camera.width, "height": camera.height, "images": times(images) });
+    let camera = |(camera, images): (&ralf::sensors::Camera, &Vec<i64>)| {
+        let (width, height) = (camera.width, camera.height);
+        json!({ "name": camera.name, "width": width, "height": height, "images": times(images) })
+    };
     json!({
         "name": sequence.name,
         "title": sequence.title,

@@ -21,7 +21,7 @@ fn a_stroke_is_on_disk_and_the_machines_labels_stay() {
     assert_eq!(answer["changed"], 2);
     assert_eq!(
         answer["scans"],
-        json!([{ "radar": RADAR, "scan": 1, "revision": 1, "corrections": [[3, 10], [5, 10]] }])
+        json!([{ "radar": RADAR, "scan": 1, "revision": 1, "corrections": [[3, 10], [5, 10]], "reviewed": null }])
     );
     let history = &answer["history"];
     assert_eq!(
@@ -112,13 +112,7 @@ fn neither_of_two_people_overwrites_the_other() {
     bob.stroke(2, 1, Some(1), &[1]).json();
     let refused = ada.edit("POST", "undo", &json!({}), "one").refused(409);
     assert!(refused.contains("bob"), "{refused}");
-    let mark = ada.edit(
-        "PUT",
-        &format!("radars/{RADAR}/scans/2/reviewed"),
-        &json!({ "reviewed": true, "revision": 1 }),
-        "one",
-    );
-    assert!(mark.refused(409).contains("bob"));
+    assert!(ada.accept(2, 1).refused(409).contains("bob"));
     bob.edit("POST", "undo", &json!({}), "one").json();
     assert_eq!(ada.edit("POST", "undo", &json!({}), "one").json()["scans"][0]["corrections"], json!([]));
 }
@@ -131,7 +125,7 @@ fn what_was_accepted_outlives_labelling_again() {
     let accepted = before.u16("label");
     server.stroke(1, 0, Some(10), &[0]).json();
     let path = format!("radars/{RADAR}/scans/1/reviewed");
-    let marked = server.edit("PUT", &path, &json!({ "reviewed": true, "revision": 1 }), "one").json();
+    let marked = server.accept(1, 1).json();
     assert_eq!((&marked["reviewed"]["author"], &marked["progress"]["reviewed"]), (&json!("ada"), &json!(1)));
     let queue = server.of_sequence("queue").json();
     let last = queue["scans"].as_array().unwrap().last().unwrap();
@@ -228,7 +222,7 @@ fn malformed_edits_are_refused_and_leave_nothing() {
     assert!(
         server.ask("POST", &path, &[], whole().to_string().as_bytes()).refused(400).contains("Content-Type")
     );
-    assert!(server.edit("POST", "strokes", &whole(), &"t".repeat(65)).refused(400).contains("X-Ralf-Tab"));
+    assert!(server.edit("POST", "strokes", &whole(), &"t".repeat(65)).refused(400).contains("x-ralf-tab"));
     assert!(Corrections::open(out.path()).unwrap().is_empty());
     assert_eq!(server.of_sequence("history").json()["undo_depth"], 0);
 }

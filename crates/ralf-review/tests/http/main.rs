@@ -3,6 +3,7 @@
 
 mod correcting;
 mod ending;
+mod harm;
 mod reading;
 mod safety;
 mod support;

@@ -41,7 +41,7 @@ fn the_recording_is_listed() {
     assert_eq!(*class(40), json!({ "id": 40, "name": "road", "cluster": "artifact", "plausible": false }));
     assert_eq!(class(259)["name"], "moving-other-vehicle");
     assert_eq!((&listed["causes"][0], &listed["causes"][1]), (&json!(""), &json!("road")));
-    assert_eq!(listed["flags"][5], json!({ "bit": 32, "name": "unobserved" }));
+    assert_eq!(listed["flags"][5], json!({ "bit": 32, "name": "unobserved", "decided": false }));
 }
 
 fn nanoseconds(text: &Value) -> i64 {
@@ -193,7 +193,10 @@ fn the_queue_begins_with_the_most_needy() {
     let server = out.serve();
     let queue = server.of_sequence("queue").json();
     let scans = queue["scans"].as_array().unwrap();
-    assert_eq!(queue["progress"], json!({ "scans": 12, "reviewed": 0, "corrected_detections": 0 }));
+    assert_eq!(
+        queue["progress"],
+        json!({ "scans": 12, "reviewed": 0, "corrected_detections": 0, "orphaned_scans": 0 })
+    );
     let need = |scan: &Value| scan["need"].as_f64().unwrap();
     assert!(scans.iter().all(|scan| (0.0..=1.0).contains(&need(scan))));
     assert!(scans.is_sorted_by(|a, b| need(a) >= need(b)) && need(&scans[0]) > need(&scans[11]));
@@ -204,8 +207,30 @@ fn the_queue_begins_with_the_most_needy() {
         let number = scan["scan"].as_u64().unwrap() as usize;
         let rows: Vec<usize> =
             (0..all.w.len()).filter(|r| all.radar[*r] == radar && all.scan[*r] == number).collect();
-        let uncertain = rows.iter().filter(|row| (f64::from(all.w[**row]) - threshold).abs() <= 0.1).count();
+        let on_floor = |row: &usize| all.flags[*row] & ralf::label::flag::GROUND != 0;
+        let is_near = |row: &usize| (f64::from(all.w[*row]) - threshold).abs() <= 0.1;
+        let uncertain = rows.iter().filter(|row| is_near(row) && !on_floor(row)).count();
         assert_eq!((&scan["detections"], &scan["uncertain"]), (&json!(rows.len()), &json!(uncertain)));
     }
     assert_eq!(server.of_sequence("queue").json(), queue, "asked again");
+}
+
+#[test]
+fn every_column_says_what_it_means() {
+    let out = Out::new();
+    let header = out.serve().table(1).header;
+    let column = |name: &str| {
+        let columns = header["columns"].as_array().unwrap();
+        columns.iter().find(|column| column["name"] == name).unwrap().clone()
+    };
+    for (name, unit, group) in [
+        ("x", "m", "place"),
+        ("doppler", "m/s", "measured"),
+        ("d_lm", "", "mismatch"),
+        ("w", "", "plausibility"),
+    ] {
+        let column = column(name);
+        assert_eq!((&column["unit"], &column["group"]), (&json!(unit), &json!(group)), "{name}");
+        assert!(!column["meaning"].as_str().unwrap().is_empty(), "{name}");
+    }
 }

@@ -48,20 +48,44 @@ fn other_hosts_and_origins_are_refused() {
 }
 
 #[test]
-fn beyond_this_machine_a_token_is_asked_for() {
+fn nobody_reads_or_writes_without_the_token_not_even_on_this_machine() {
+    for host in ["127.0.0.1", "0.0.0.0"] {
+        let out = Out::new();
+        let server = Serving::of(out.path(), host, "ada").unwrap();
+        let token = server.token();
+        assert_eq!(token.len(), 32);
+        let other = Serving::of(out.path(), host, "ada").unwrap();
+        assert_ne!(other.token(), token);
+        let with = |path: &str, value: &str| server.ask("GET", path, &[("Authorization", value)], &[]);
+        assert_eq!(with("/", "").status, 200, "the page itself is no secret");
+        for wrong in ["", &format!("Bearer {}", &token[..31]), &format!("Bearer {}", other.token())] {
+            assert!(with("/api/recording", wrong).refused(401).contains("Authorization"));
+            let asked = format!("/api/recording?token={token}");
+            assert!(with(&asked, wrong).refused(401).contains("Authorization"));
+        }
+        assert_eq!(with("/api/recording", &format!("Bearer {token}")).status, 200);
+        let head = [("Content-Type", "application/json"), ("Authorization", "")];
+        let body = stroke(1, 0, Some(99), &[0]).to_string();
+        let path = format!("/api/sequences/{SEQUENCE}/strokes");
+        server.ask("POST", &path, &head, body.as_bytes()).refused(401);
+        assert_eq!(server.table(1).header["revision"], 0);
+    }
+}
+
+#[test]
+fn a_server_that_is_started_again_keeps_its_token() {
     let out = Out::new();
-    let server = Serving::of(out.path(), "0.0.0.0", "ada").unwrap();
-    let token = server.url.split_once("/?token=").unwrap().1;
-    assert_eq!(token.len(), 32);
-    let other = Serving::of(out.path(), "0.0.0.0", "ada").unwrap();
-    assert_ne!(other.url.split_once("/?token=").unwrap().1, token);
-    assert_eq!(server.get("/").status, 200, "the page itself is no secret");
-    assert!(server.get("/api/recording").refused(403).contains("Authorization"));
-    assert!(server.get(&format!("/api/recording?token={token}")).refused(403).contains("Authorization"));
-    let with = |value: &str| server.ask("GET", "/api/recording", &[("Authorization", value)], &[]);
-    assert!(with(&format!("Bearer {}", &token[..31])).refused(403).contains("Authorization"));
-    assert_eq!(with(&format!("Bearer {token}")).status, 200);
-    assert!(!out.serve().url.contains("token"));
+    let kept = tempfile::tempdir().unwrap();
+    let bind = || {
+        let token_folder = Some(kept.path().to_owned());
+        let options = Options { host: "127.0.0.1".into(), port: Some(0), author: "ada".into(), token_folder };
+        Server::bind(recording(), out.path(), &options).unwrap().urls()[0]
+            .split_once("token=")
+            .unwrap()
+            .1
+            .to_owned()
+    };
+    assert_eq!(bind(), bind());
 }
 
 #[test]
@@ -108,13 +132,14 @@ fn a_port_in_use_is_told_and_without_one_the_next_free_one_is_taken() {
     let taken = TcpListener::bind("127.0.0.1:0").unwrap();
     let port = taken.local_addr().unwrap().port();
     let bind = |host: &str, port| {
-        let options = Options { host: host.into(), port, author: "ada".into() };
+        let options = Options { host: host.into(), port, author: "ada".into(), token_folder: None };
         Server::bind(recording(), out.path(), &options)
     };
     let error = bind("127.0.0.1", Some(port)).err().unwrap().to_string();
     assert!(error.starts_with(&format!("127.0.0.1:{port}: expected a free port")), "{error}");
     let [first, second] = [(); 2].map(|()| bind("127.0.0.1", None).unwrap());
-    assert_ne!(first.url(), second.url());
+    let address = |server: &Server| server.urls()[0].split("/?").next().unwrap().to_owned();
+    assert_ne!(address(&first), address(&second));
     let error = bind("no such host", None).err().unwrap().to_string();
     assert!(
         error.starts_with("--host: expected an address of this machine, found `no such host`"),

@@ -106,9 +106,19 @@ pub(crate) struct Serving {
 
 impl Serving {
     pub(crate) fn of(out: &Path, host: &str, author: &str) -> Result<Self, ReviewError> {
-        let options = Options { host: host.into(), port: Some(0), author: author.into() };
-        let server = Server::bind(recording(), out, &options)?;
-        let url = server.url().to_owned();
+        Self::of_recording(recording(), out, host, author)
+    }
+
+    /// The same of another recording.
+    pub(crate) fn of_recording(
+        recording: Recording,
+        out: &Path,
+        host: &str,
+        author: &str,
+    ) -> Result<Self, ReviewError> {
+        let options = Options { host: host.into(), port: Some(0), author: author.into(), token_folder: None };
+        let server = Server::bind(recording, out, &options)?;
+        let url = server.urls()[0].clone();
         let (end, ended) = oneshot::channel::<()>();
         let until = async { drop(ended.await) };
         let thread = std::thread::spawn(move || server.run_until(until));
@@ -132,13 +142,20 @@ impl Serving {
         address.rsplit_once(':').unwrap().1.parse().unwrap()
     }
 
-    /// A request of any kind; `head` are further header lines.
+    pub(crate) fn token(&self) -> &str {
+        self.url.split_once("/?token=").unwrap().1
+    }
+
+    /// A request of any kind, with the token; `head` are further header lines.
     pub(crate) fn ask(&self, method: &str, path: &str, head: &[(&str, &str)], body: &[u8]) -> Reply {
         let mut lines = format!("{method} {path} HTTP/1.1\r\nConnection: close\r\n");
         let host = format!("127.0.0.1:{}", self.port());
         let is_given = |name: &str| head.iter().any(|(given, _)| given.eq_ignore_ascii_case(name));
         if !is_given("host") {
             lines += &format!("Host: {host}\r\n");
+        }
+        if !is_given("authorization") {
+            lines += &format!("Authorization: Bearer {}\r\n", self.token());
         }
         if !is_given("content-length") && !body.is_empty() {
             lines += &format!("Content-Length: {}\r\n", body.len());
@@ -166,6 +183,19 @@ impl Serving {
         let head = [("Content-Type", "application/json"), ("X-Ralf-Tab", tab)];
         let path = format!("/api/sequences/{SEQUENCE}/{path}");
         self.ask(method, &path, &head, body.to_string().as_bytes())
+    }
+
+    /// An edit by a person who has a mark of its own.
+    pub(crate) fn edit_by(&self, path: &str, body: &Value, author: &str) -> Reply {
+        let head = [("Content-Type", "application/json"), ("X-Ralf-Author", author)];
+        self.ask("POST", &format!("/api/sequences/{SEQUENCE}/{path}"), &head, body.to_string().as_bytes())
+    }
+
+    /// Marks a scan of the front radar as reviewed, by the labels that are there now.
+    pub(crate) fn accept(&self, scan: usize, revision: u64) -> Reply {
+        let stamp = self.table(scan).header["stamp"].clone();
+        let body = json!({ "reviewed": true, "revision": revision, "stamp": stamp });
+        self.edit("PUT", &format!("radars/{RADAR}/scans/{scan}/reviewed"), &body, "one")
     }
 
     /// A stroke on a scan of the front radar.

@@ -5,8 +5,8 @@ use super::chunks::Chunks;
 use super::error::{ContainerError, Stop};
 use super::records::RecordFile;
 use crate::encoding::EncodingError;
+use ralf_files::Kind;
 use std::fmt::Debug;
-use std::fs::File;
 use std::path::Path;
 
 /// What bags and MCAP files don't have in common.
@@ -48,7 +48,7 @@ impl ChunkedFile {
         losses: &mut Vec<String>,
     ) -> Result<(Self, Catalogue), ContainerError> {
         let mut catalogue = Catalogue::default();
-        let open = || File::open(path).map_err(ContainerError::io(path));
+        let open = || ralf_files::open(path, Kind::Stream).map_err(ContainerError::io(path));
         let mut records = RecordFile::new(open()?).map_err(ContainerError::io(path))?;
         match format.walk(&mut records, &mut catalogue) {
             Ok(()) => {}
@@ -81,7 +81,7 @@ impl ChunkedFile {
             let found = self.format.message(bytes).map(<[u8]>::to_owned);
             found.map_err(|error| ContainerError::inside(path, part, error))
         };
-        match Place::of(message) {
+        match Place::from_message(message) {
             Place::Chunk(chunk, offset) => {
                 let bytes = self.chunks.chunk(chunk as usize)?;
                 let part = format!("{}, message at byte {offset}", self.chunks.describe(chunk as usize));

@@ -1,24 +1,16 @@
 //! Folders that ROS 2 records into: `metadata.yaml` beside one or several files.
 
 use super::error::ContainerError;
-use std::fs;
+use ralf_files::Kind;
 use std::path::{Path, PathBuf};
 
 /// What such a folder holds.
 pub(super) const METADATA: &str = "metadata.yaml";
 
-/// The largest one that is read; one that recorded for weeks has some 100 kB.
-const METADATA_BYTES: u64 = 1 << 24;
-
 /// The files that the folder's `metadata.yaml` lists, in its order; what it lists and the folder lacks is a loss.
 pub(super) fn files(folder: &Path, losses: &mut Vec<String>) -> Result<Vec<PathBuf>, ContainerError> {
     let metadata = folder.join(METADATA);
-    let size = fs::metadata(&metadata).map_err(ContainerError::io(&metadata))?.len();
-    if size > METADATA_BYTES {
-        let expected = format!("at most {METADATA_BYTES} bytes");
-        return Err(ContainerError::content(&metadata, "size", expected, size.to_string()));
-    }
-    let text = fs::read_to_string(&metadata).map_err(ContainerError::io(&metadata))?;
+    let text = ralf_files::read_text(&metadata, Kind::Settings).map_err(ContainerError::io(&metadata))?;
     let names = listed(&text);
     if names.is_empty() {
         let expected = "a list of files";
@@ -61,6 +53,7 @@ fn listed(text: &str) -> Vec<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::fs;
 
     const TEXT: &str = "rosbag2_bagfile_information:\n  version: 5\n  relative_file_paths:\n    - drive_0.db3\n    \
                         - \"drive_1.db3\"\n  duration:\n    nanoseconds: 5\n";

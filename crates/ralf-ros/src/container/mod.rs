@@ -1,7 +1,8 @@
-//! Finding and reading the messages of a recording: ROS 1 bags, MCAP files, SQLite files of ROS 2, and folders of the latter two.
+//! Finding and reading the messages of a recording: ROS 1 bags, MCAP files, SQLite files of ROS 2, and folders of the
+//! latter two.
 //!
-//! Opening walks over a file without reading its chunks, and keeps 24 bytes of each message. A chunk is decompressed when a
-//! message of it is asked for, and some are kept. What is cut short or damaged is read up to there, and the
+//! Opening walks over a file without reading its chunks, and keeps 24 bytes of each message. A chunk is decompressed
+//! when a message of it is asked for, and some are kept. What is cut short or damaged is read up to there, and the
 //! [loss](Container::losses) is said.
 
 pub(crate) mod bag_format;
@@ -24,8 +25,8 @@ use chunked::{ChunkedFile, Format};
 use db3::Db3File;
 pub use error::ContainerError;
 use mcap_file::Mcap;
+use ralf_files::Kind;
 use std::collections::BTreeMap;
-use std::fs::File;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
@@ -100,7 +101,7 @@ pub fn recognises(path: &Path) -> bool {
 
 fn beginning(path: &Path) -> std::io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
-    File::open(path)?.take(db3::MAGIC.len() as u64).read_to_end(&mut bytes)?;
+    ralf_files::open(path, Kind::Stream)?.take(db3::MAGIC.len() as u64).read_to_end(&mut bytes)?;
     Ok(bytes)
 }
 

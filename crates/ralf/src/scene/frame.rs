@@ -26,8 +26,8 @@ pub struct Frame<'a> {
     pub scan: Arc<LocatedScan>,
     /// The LiDAR scans nearest in time; `None` where there is none within the tolerance.
     pub lidar: Option<LidarView>,
-    /// The LiDAR scans before and after these, in time order: as many to each side as `lidar.window_scans` says, as far as
-    /// they exist and can be read. Each is in the vehicle frame at its own time.
+    /// The LiDAR scans before and after these, in time order: as many to each side as `lidar.window_scans` says, as far
+    /// as they exist and can be read. Each is in the vehicle frame at its own time.
     pub lidar_window: Vec<LidarView>,
     /// The ground in the vehicle frame at the scan's time; `None` where there is none.
     pub ground: Option<LocalGround>,
@@ -35,6 +35,19 @@ pub struct Frame<'a> {
     pub images: Vec<ImageView>,
     /// The neighbouring radar scans, in time order.
     pub steps: Vec<ScanStep>,
+    /// LiDAR scans that belong to it and can't be read: the scan is labelled without them.
+    pub unreadable: Vec<Unreadable>,
+}
+
+/// A measurement that can't be read.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Unreadable {
+    /// The sensor's name.
+    pub sensor: String,
+    /// Its place in the sensor's timeline, from 0.
+    pub index: usize,
+    /// File, place, expected, found.
+    pub reason: String,
 }
 
 impl Frame<'_> {

@@ -21,7 +21,7 @@ pub use camera::{
 };
 pub use doppler::Doppler;
 pub use floor::LocalGround;
-pub use frame::Frame;
+pub use frame::{Frame, Unreadable};
 pub use ground::{Ground, Plane};
 pub use lidar::{LidarMoment, LidarRay, LidarSweep, LidarView};
 pub use lidar_cloud::LidarCloud;

@@ -2,7 +2,7 @@
 
 use super::camera::{Calibration, ImageId, ImageMoment, ImageView};
 use super::floor::LocalGround;
-use super::frame::Frame;
+use super::frame::{Frame, Unreadable};
 use super::lidar::{LidarMoment, LidarView};
 use super::located::LocatedScan;
 use super::neighbouring::{NeighbouringScan, ScanStep};
@@ -13,6 +13,12 @@ use std::sync::Arc;
 
 /// Names a measurement: sensor and number.
 type Key = (usize, usize);
+
+/// The LiDAR scans nearest to a time.
+struct NearLidars {
+    view: Option<LidarView>,
+    unreadable: Vec<Unreadable>,
+}
 
 /// Gathers frames of one sequence. It remembers the last measurements, so that frames asked for in time order read each
 /// one once, and no more than these, so that its memory doesn't grow with the length of the recording.
@@ -36,7 +42,8 @@ pub struct FrameWindow<'a> {
     /// Whether the other radars' scans are gathered, too.
     all_radars: bool,
     radar_scans: Recent<Key, Option<Arc<LocatedScan>>>,
-    lidar_scans: Recent<Key, Arc<LidarScan>>,
+    /// With the reason where one can't be read.
+    lidar_scans: Recent<Key, Result<Arc<LidarScan>, String>>,
     moments: Recent<(i64, Vec<Key>), Arc<LidarMoment>>,
     images: Recent<Key, Option<Arc<ImageMoment>>>,
 }
@@ -67,8 +74,8 @@ impl<'a> FrameWindow<'a> {
         self
     }
 
-    /// All that belongs to one scan of one radar. Fails where that scan, or a LiDAR scan that belongs to it, can't be
-    /// read; neighbouring scans that can't be read are left out.
+    /// All that belongs to one scan of one radar. Fails where that scan can't be read. A LiDAR scan that can't be is
+    /// left out and named in the frame; neighbouring radar scans are left out of the batch.
     pub fn frame(&mut self, radar: usize, scan: usize) -> Result<Frame<'a>, SourceError> {
         let located = match self.radar_scans.get(&(radar, scan)) {
             Some(Some(known)) => known,
@@ -76,7 +83,7 @@ impl<'a> FrameWindow<'a> {
         };
         self.radar_scans.insert((radar, scan), Some(located.clone()));
         let t_ns = located.t_ns();
-        let lidar = self.lidar_view(t_ns)?;
+        let NearLidars { view: lidar, unreadable } = self.near_lidars(t_ns);
         Ok(Frame {
             rig: self.rig,
             radar: &self.rig.radars[radar],
@@ -84,9 +91,10 @@ impl<'a> FrameWindow<'a> {
             ground: LocalGround::around(lidar.as_ref(), &self.config.ground),
             lidar,
             lidar_window: self.lidar_window(t_ns),
-            images: if self.config.camera.enabled { self.images(t_ns)? } else { Vec::new() },
+            images: if self.config.camera.enabled { self.images(t_ns) } else { Vec::new() },
             steps: if self.config.tracking.enabled { self.steps(radar, scan, t_ns) } else { Vec::new() },
             scan: located,
+            unreadable,
         })
     }
 
@@ -129,10 +137,14 @@ impl<'a> FrameWindow<'a> {
         steps
     }
 
-    /// The LiDAR scans nearest to a time, with their ground; `None` where there is none within the tolerance.
+    /// The LiDAR scans nearest to a time, with their ground; `None` where there is none within the tolerance. Fails
+    /// where one of them can't be read.
     pub fn lidar_view(&mut self, t_ns: i64) -> Result<Option<LidarView>, SourceError> {
-        let nearest = self.nearest_lidar_scans(t_ns);
-        if nearest.is_empty() { Ok(None) } else { self.view(nearest, t_ns).map(Some) }
+        let NearLidars { view, unreadable } = self.near_lidars(t_ns);
+        match unreadable.into_iter().next() {
+            Some(Unreadable { reason, .. }) => Err(reason.into()),
+            None => Ok(view),
+        }
     }
 
     /// The LiDAR scans before and after the ones nearest to a time; those that can't be read are left out.
@@ -146,9 +158,7 @@ impl<'a> FrameWindow<'a> {
                 let scan = nearest.checked_add_signed(step).filter(|scan| *scan < times[lidar].len());
                 keys.extend(scan.map(|scan| (lidar, scan)));
             }
-            if !keys.is_empty() {
-                views.extend(self.view(keys, t_ns).ok());
-            }
+            views.extend(self.view(keys, t_ns));
         }
         views
     }
@@ -159,65 +169,94 @@ impl<'a> FrameWindow<'a> {
         times.filter_map(|(lidar, times)| Some((lidar, sync::nearest(times, t_ns, tolerance)?))).collect()
     }
 
-    /// LiDAR scans that belong together, at least one, as seen at a time.
-    fn view(&mut self, scans: Vec<Key>, t_ns: i64) -> Result<LidarView, SourceError> {
-        let (first_lidar, first_scan) = scans[0];
-        // `flat` is z = 0 of the vehicle frame at the radar scan's time; any other ground belongs to the LiDAR scan.
-        let moment_time = match self.config.ground.model {
-            GroundModel::Flat => t_ns,
-            _ => self.source.sequence().times.lidars[first_lidar][first_scan],
-        };
+    /// LiDAR scans that belong together as seen at a time; `None` where there is none, or one can't be read.
+    fn view(&mut self, scans: Vec<Key>, t_ns: i64) -> Option<LidarView> {
+        let moment_time = self.moment_time(t_ns, &scans);
         let moment = self.moment(moment_time, scans)?;
         let vehicle_from_moment = self.source.sequence().motion.between(t_ns, moment_time);
-        Ok(LidarView { moment, vehicle_from_moment })
+        Some(LidarView { moment, vehicle_from_moment })
     }
 
-    fn moment(&mut self, t_ns: i64, keys: Vec<Key>) -> Result<Arc<LidarMoment>, SourceError> {
+    /// The LiDAR scans nearest to a time but those that can't be read, which are named.
+    fn near_lidars(&mut self, t_ns: i64) -> NearLidars {
+        let mut keys = self.nearest_lidar_scans(t_ns);
+        let mut unreadable = Vec::new();
+        // What a moment was made of could be read, and is perhaps no longer at hand.
+        if self.moments.get(&(self.moment_time(t_ns, &keys), keys.clone())).is_none() {
+            keys.retain(|&(lidar, index)| match self.lidar_scan((lidar, index)) {
+                Ok(_) => true,
+                Err(reason) => {
+                    let sensor = self.rig.lidars[lidar].name.clone();
+                    unreadable.push(Unreadable { sensor, index, reason });
+                    false
+                }
+            });
+        }
+        NearLidars { view: self.view(keys, t_ns), unreadable }
+    }
+
+    /// The time of the ground: `flat` is z = 0 of the vehicle frame at the radar scan's time, any other belongs to the
+    /// first LiDAR scan.
+    fn moment_time(&self, t_ns: i64, keys: &[Key]) -> i64 {
+        match keys.first() {
+            Some(&(lidar, scan)) if self.config.ground.model != GroundModel::Flat => {
+                self.source.sequence().times.lidars[lidar][scan]
+            }
+            _ => t_ns,
+        }
+    }
+
+    /// The moment of scans that can be read; `None` of none.
+    fn moment(&mut self, t_ns: i64, keys: Vec<Key>) -> Option<Arc<LidarMoment>> {
         let name = (t_ns, keys);
         if let Some(known) = self.moments.get(&name) {
-            return Ok(known);
+            return Some(known);
         }
         let mut scans = Vec::with_capacity(name.1.len());
-        for &(lidar, scan) in &name.1 {
-            let scan = self.lidar_scan(lidar, scan)?;
+        for &key in &name.1 {
+            let scan = self.lidar_scan(key).ok()?;
             let moment_from_vehicle = self.source.sequence().motion.between(t_ns, scan.t_ns);
-            scans.push((&self.rig.lidars[lidar], scan, moment_from_vehicle));
+            scans.push((&self.rig.lidars[key.0], scan, moment_from_vehicle));
+        }
+        if scans.is_empty() {
+            return None;
         }
         let moment = Arc::new(LidarMoment::new(t_ns, scans, &self.config.ground, self.config.seed));
         self.moments.insert(name, moment.clone());
-        Ok(moment)
+        Some(moment)
     }
 
     /// The images nearest to a time, calibrated; those without depth are absent.
-    fn images(&mut self, t_ns: i64) -> Result<Vec<ImageView>, SourceError> {
+    fn images(&mut self, t_ns: i64) -> Vec<ImageView> {
         let tolerance = nanoseconds(self.config.sync.camera_tolerance_ms);
         let times = &self.source.sequence().times.cameras;
         let mut images = Vec::new();
         for (camera, times) in times.iter().enumerate() {
             let Some(image) = sync::nearest(times, t_ns, tolerance) else { continue };
-            if let Some(moment) = self.image(camera, image)? {
+            if let Some(moment) = self.image(camera, image) {
                 let vehicle_from_image = self.source.sequence().motion.between(t_ns, moment.id.t_ns);
                 images.push(ImageView { moment, vehicle_from_image });
             }
         }
-        Ok(images)
+        images
     }
 
-    /// An image with its views calibrated by the LiDAR scans nearest to it; `None` where there is no depth.
-    pub fn image(&mut self, camera: usize, image: usize) -> Result<Option<Arc<ImageMoment>>, SourceError> {
+    /// An image with its views calibrated by the LiDAR scans nearest to it; `None` where there is no depth. What of it
+    /// can't be read makes its views fail.
+    pub fn image(&mut self, camera: usize, image: usize) -> Option<Arc<ImageMoment>> {
         if let Some(known) = self.images.get(&(camera, image)) {
-            return Ok(known);
+            return known;
         }
         let t_ns = self.source.sequence().times.cameras[camera][image];
         let content = match self.source.depth(camera, image) {
             Ok(None) => {
                 self.images.insert((camera, image), None);
-                return Ok(None);
+                return None;
             }
             Ok(Some(depth)) => self.source.image(camera, image).map(|pixels| (pixels, depth)),
             Err(error) => Err(error),
         };
-        let lidar = self.lidar_view(t_ns)?;
+        let lidar = self.near_lidars(t_ns).view;
         let points = lidar.as_ref().map(LidarView::all_points);
         let ground = LocalGround::around(lidar.as_ref(), &self.config.ground);
         let calibration = Calibration {
@@ -231,15 +270,15 @@ impl<'a> FrameWindow<'a> {
         let id = ImageId { camera, image, t_ns };
         let moment = Arc::new(ImageMoment::new(&self.rig.cameras[camera], id, content, &calibration));
         self.images.insert((camera, image), Some(moment.clone()));
-        Ok(Some(moment))
+        Some(moment)
     }
 
-    fn lidar_scan(&mut self, lidar: usize, scan: usize) -> Result<Arc<LidarScan>, SourceError> {
-        if let Some(known) = self.lidar_scans.get(&(lidar, scan)) {
-            return Ok(known);
+    fn lidar_scan(&mut self, key: Key) -> Result<Arc<LidarScan>, String> {
+        if let Some(known) = self.lidar_scans.get(&key) {
+            return known;
         }
-        let read = Arc::new(self.source.lidar_scan(lidar, scan)?);
-        self.lidar_scans.insert((lidar, scan), read.clone());
-        Ok(read)
+        let read = self.source.lidar_scan(key.0, key.1).map(Arc::new).map_err(|error| error.to_string());
+        self.lidar_scans.insert(key, read.clone());
+        read
     }
 }

@@ -119,7 +119,7 @@ impl Plot<'_> {
             camera: &sequence.rig.cameras[camera],
             t_ns,
             image: self.pictures.reader.image(camera, image).map_err(anyhow::Error::from_boxed)?,
-            moment: window.image(camera, image).map_err(anyhow::Error::from_boxed)?,
+            moment: window.image(camera, image),
             lidar: lidar.map(|lidar| lidar.all_points()).unwrap_or_default(),
             occlusion_window: config.camera.occlusion_window,
         })

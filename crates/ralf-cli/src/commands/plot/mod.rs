@@ -2,8 +2,8 @@
 
 mod camera;
 
-use crate::Outcome;
-use crate::cli::{DatasetArgs, the_only};
+use crate::arguments::{ChangedArgs, DatasetArgs, the_only};
+use crate::outcome::Outcome;
 use crate::progress::say;
 use clap::Args;
 use ralf_data::result::read_labelled_rows;
@@ -17,8 +17,8 @@ const WIDTHS: [u32; 2] = [1600, 1400];
 /// Arguments of `ralf plot`.
 #[derive(Debug, Args)]
 #[command(after_help = "\
-Without --radar all radars are drawn: the first one's scan, and the others' nearest to it in time. With --camera the picture
-shows the straight views of the image nearest to the scan, each beside its depth as the LiDAR calibrates it.
+Without --radar all radars are drawn: the first one's scan, and the others' nearest to it in time. With --camera the \
+picture shows the straight views of the image nearest to the scan, each beside its depth as the LiDAR calibrates it.
 
 Examples:
   ralf plot recordings/city out --sequence 00 --scan 17 -o scan.png
@@ -31,6 +31,8 @@ pub(crate) struct PlotArgs {
     /// What `ralf label` wrote
     #[arg(value_name = "OUT")]
     labels: PathBuf,
+    #[command(flatten)]
+    changed: ChangedArgs,
     /// Number of the scan
     #[arg(long, value_name = "N", required_unless_present = "all")]
     scan: Option<usize>,
@@ -59,7 +61,7 @@ pub(crate) struct PlotArgs {
 
 /// Draws a picture.
 pub(crate) fn run(arguments: &PlotArgs) -> anyhow::Result<Outcome> {
-    let recording = arguments.dataset.open_labelled(&arguments.labels)?;
+    let recording = arguments.dataset.open_labelled(&arguments.labels, &arguments.changed)?;
     let recording = match camera::depth_store(arguments)? {
         Some(store) => store.attach(recording),
         None => recording,

@@ -16,14 +16,23 @@ fn corrections_and_accepted_labels_are_exported() {
     let before = export(&dataset, "semantickitti", "before", &[]);
     let [first, second] = [0, 1].map(|scan| labels(&before, scan));
     let mut store = Store::open(&Path::new(&dataset.out).join(FILE)).unwrap();
-    let who = Who { author: "ada".to_owned(), tab: None };
+    let who = Who::named("ada");
     let detections = first.len() as u32;
-    let edit = ScanEdit { radar: "radar_front".to_owned(), scan: 0, detections, base: 0, points: vec![2, 5] };
+    let edit = ScanEdit {
+        radar: "radar_front".to_owned(),
+        scan: 0,
+        detections,
+        content: None,
+        base: 0,
+        points: vec![2, 5],
+    };
     store.apply(&Stroke { label: Some(10), scans: vec![edit], ..Stroke::of_sequence("00") }, &who).unwrap();
     // Accepted when the machine said the contrary.
     let key = ScanKey { sequence: "00".to_owned(), radar: "radar_front".to_owned(), scan: 1 };
     let accepted: Vec<u16> = second.iter().map(|label| if *label == 1 { 99 } else { 1 }).collect();
-    store.mark(&Mark { key, base: 0, machine: accepted.clone(), reviewed: true }, &who).unwrap();
+    store
+        .mark(&Mark { key, content: None, base: 0, machine: accepted.clone(), reviewed: true }, &who)
+        .unwrap();
     let after = export(&dataset, "semantickitti", "after", &[]);
     let mut expected = first;
     [2, 5].into_iter().for_each(|point: usize| expected[point] = 10);

@@ -1,6 +1,8 @@
 //! What all tests share: recordings, the program, and what it leaves on disk.
 
 mod dataset;
+mod foreign;
+mod nuscenes;
 mod program;
 mod python;
 mod table;
@@ -8,6 +10,8 @@ mod tree;
 mod world;
 
 pub(crate) use dataset::{Dataset, Shape};
+pub(crate) use foreign::{nuscenes, view_of_delft};
+pub(crate) use nuscenes::write_nuscenes;
 pub(crate) use program::{Ran, program, ralf};
 pub(crate) use python::read_export;
 pub(crate) use table::{Row, rows, schema};

@@ -1,7 +1,7 @@
 //! Cameras as `sequence.toml` has them, turned into those of the method, and back.
 
 use super::raw::{CameraToml, ModelToml, ViewToml};
-use super::rig::{Place, degrees, pose_toml};
+use super::values::{Place, degrees, pose_toml};
 use crate::error::DataError;
 use ralf::sensors::{Camera, Intrinsics, View};
 

@@ -1,7 +1,7 @@
 //! The project's own layout: `sequences/NN/` as SemanticKITTI has it, with what radar needs.
 //!
-//! Bytes and text as specified lie in [`raw`] and [`tables`]; [`rig`] turns them into sensors and back; [`source`] reads
-//! measurements on demand.
+//! Bytes and text as specified lie in [`raw`] and [`tables`]; [`rig`] turns them into sensors and back; [`source`]
+//! reads measurements on demand.
 
 mod camera;
 mod listing;
@@ -9,9 +9,10 @@ pub(crate) mod raw;
 pub(crate) mod rig;
 mod source;
 pub(crate) mod tables;
+mod values;
 
-pub(crate) use rig::degrees;
 pub use source::LayoutSequence;
+pub(crate) use values::degrees;
 
 use crate::error::DataError;
 use crate::read::{Recording, SequenceReader};

@@ -3,6 +3,7 @@
 use crate::disk::files;
 use crate::error::DataError;
 use ralf::sensors::DepthOutput;
+use ralf_files::Kind;
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 
@@ -118,7 +119,7 @@ pub(crate) struct DepthToml {
 impl SequenceToml {
     /// The file, and a sentence for each key in it that has no meaning.
     pub(crate) fn read(file: &Path) -> Result<(Self, Vec<String>), DataError> {
-        let text = files::read_text(file)?;
+        let text = files::read_text(file, Kind::Settings)?;
         let mut warnings = Vec::new();
         let unknown = |key: serde_ignored::Path<'_>| {
             warnings.push(format!("{}: unknown key `{key}` ignored", file.display()));
@@ -160,7 +161,8 @@ mod tests {
     }
 
     const LIDAR: &str = "format = 1\r\nname = \"a\"\r\n\r\n[[lidar]] # on the roof\r\nname = \"top\"\r\n\
-        translation = [1, 0, 1.9]\r\nquaternion_xyzw = [0, 0, 0, 1]\r\nsigma_range_m = 0.03\r\nlowest_beam_deg = 25\r\n";
+        translation = [1, 0, 1.9]\r\nquaternion_xyzw = [0, 0, 0, 1]\r\nsigma_range_m = 0.03\r\n\
+        lowest_beam_deg = 25\r\n";
 
     #[test]
     fn unknown_keys_are_warnings() {

@@ -11,7 +11,7 @@ use ralf::sensors::{
     Camera, CameraImage, DepthImage, Lidar, LidarScan, Radar, RadarScan, Rig, Sequence, Source, SourceError,
     Timelines,
 };
-use ralf::space::EgoMotion;
+use ralf::space::{EgoMotion, OdometrySample};
 use std::path::{Path, PathBuf};
 
 /// A sequence's folder, opened: `sequence.toml`, times and motion are read, measurements are listed.
@@ -27,8 +27,8 @@ pub struct LayoutSequence {
 }
 
 impl LayoutSequence {
-    /// Opens `DATASET/sequences/NN`. All that needs no measurement is checked: the sensors' settings, that times don't go
-    /// back and that there is one for each file, the motion.
+    /// Opens `DATASET/sequences/NN`. All that needs no measurement is checked: the sensors' settings, that times don't
+    /// go back and that there is one for each file, the motion.
     pub fn open(folder: &Path) -> Result<Self, DataError> {
         let name = folder.file_name().and_then(|name| name.to_str());
         let name = name.ok_or_else(|| DataError::content(folder, "name", "UTF-8 text", "other bytes"))?;
@@ -37,7 +37,7 @@ impl LayoutSequence {
         let rig = rig::rig(&toml_file, &toml)?;
         warnings.extend(odd_lenses(&toml_file, &rig));
         let [radars, lidars, cameras] = list(folder, &rig, &mut warnings)?;
-        let (motion, motion_files) = motion(folder)?;
+        let (motion, motion_files) = motion(folder, first_scan(&radars), &mut warnings)?;
         let times = |sensors: &[SensorFiles]| sensors.iter().map(|sensor| sensor.times.clone()).collect();
         let times = Timelines { radars: times(&radars), lidars: times(&lidars), cameras: times(&cameras) };
         let sequence = Sequence {
@@ -89,21 +89,37 @@ fn list(folder: &Path, rig: &Rig, warnings: &mut Vec<String>) -> Result<[Vec<Sen
     Ok([radars, lidars, cameras.collect::<Result<_, _>>()?])
 }
 
-/// How the vehicle moved, and the files that say so.
-fn motion(folder: &Path) -> Result<(EgoMotion, Vec<PathBuf>), DataError> {
+/// When the first radar scan was made, ns.
+fn first_scan(radars: &[SensorFiles]) -> i64 {
+    radars.iter().filter_map(|radar| radar.times.first()).min().copied().unwrap_or_default()
+}
+
+/// How the vehicle moved, and the files that say so. Of a parked one an odometry without rows is enough.
+fn motion(
+    folder: &Path,
+    first_scan: i64,
+    warnings: &mut Vec<String>,
+) -> Result<(EgoMotion, Vec<PathBuf>), DataError> {
     let odometry_file = existing(folder.join("odometry.csv"))?;
     let poses_file = existing(folder.join("poses.csv"))?;
-    let odometry = odometry_file.as_deref().map_or(Ok(vec![]), tables::read_odometry)?;
+    let mut odometry = odometry_file.as_deref().map_or(Ok(vec![]), tables::read_odometry)?;
     let poses = poses_file.as_deref().map_or(Ok(vec![]), tables::read_poses)?;
+    let files: Vec<PathBuf> = [odometry_file, poses_file].into_iter().flatten().collect();
+    if let (true, true, Some(file)) = (odometry.is_empty(), poses.is_empty(), files.first()) {
+        warnings.push(format!("{}: no rows: the vehicle is taken to stand still", file.display()));
+        odometry.push(OdometrySample { t_ns: first_scan, velocity: 0.0, yaw_rate: 0.0 });
+    }
     let motion = EgoMotion::new(odometry, poses).ok_or_else(|| {
-        DataError::content(folder, "motion", "rows in odometry.csv, poses.csv or both", "none")
+        let expected =
+            "odometry.csv, poses.csv or both (of a vehicle that stands still the header line is enough)";
+        DataError::content(folder, "motion", expected, "none")
     })?;
-    Ok((motion, [odometry_file, poses_file].into_iter().flatten().collect()))
+    Ok((motion, files))
 }
 
 /// The file, if there is one.
 fn existing(file: PathBuf) -> Result<Option<PathBuf>, DataError> {
-    let exists = file.try_exists().map_err(DataError::io(&file))?;
+    let exists = files::exists(&file)?;
     Ok(exists.then_some(file))
 }
 
@@ -166,6 +182,10 @@ impl SequenceReader for LayoutSequence {
 
     fn lidar_label_file(&self, lidar: usize, scan: usize) -> Option<PathBuf> {
         self.lidars.get(lidar)?.partners.get(scan)?.clone()
+    }
+
+    fn has_depth(&self, camera: usize) -> bool {
+        self.cameras.get(camera).is_some_and(|files| files.partners.iter().any(Option::is_some))
     }
 
     fn truth_file(&self, radar: usize, scan: usize) -> Option<PathBuf> {

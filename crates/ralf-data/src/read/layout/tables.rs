@@ -1,9 +1,10 @@
 //! The text tables of a sequence: `timestamps.txt`, `odometry.csv`, `poses.csv`.
 
-use super::rig::quaternion_xyzw;
+use super::values::quaternion_xyzw;
 use crate::disk::files;
 use crate::error::DataError;
 use ralf::space::{OdometrySample, PoseSample, transform_from_parts};
+use ralf_files::Kind;
 use std::fmt::Write;
 use std::path::Path;
 
@@ -17,7 +18,7 @@ const LATEST_NS: i64 = i64::MAX / 2;
 /// The times in a `timestamps.txt`, one per line, none before the one above.
 pub(crate) fn read_timestamps(file: &Path) -> Result<Vec<i64>, DataError> {
     let mut order = Order { file, latest: None };
-    let text = files::read_text(file)?;
+    let text = files::read_text(file, Kind::Table)?;
     (1..).zip(text.lines()).map(|(line, text)| order.next(line, text)).collect()
 }
 
@@ -77,7 +78,7 @@ struct Row<const N: usize> {
 
 /// The rows below the header. Lines are split here, for the csv crate miscounts them where they end in CR LF.
 fn read_rows<const N: usize>(file: &Path, names: &[&str]) -> Result<Vec<Row<N>>, DataError> {
-    let text = files::read_text(file)?;
+    let text = files::read_text(file, Kind::Table)?;
     // Spreadsheets put a byte order mark before the first name.
     let mut lines = (1..).zip(text.trim_start_matches('\u{feff}').lines());
     let header = lines.next().map_or("", |(_, text)| text);

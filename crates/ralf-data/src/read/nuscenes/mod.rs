@@ -18,6 +18,8 @@ mod raw;
 mod rig;
 mod source;
 
+pub(crate) use source::NuScenesOrigin;
+
 use crate::disk::files::Folders;
 use crate::error::DataError;
 use crate::read::{Recording, SequenceReader};

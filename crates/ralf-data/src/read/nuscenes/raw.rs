@@ -1,11 +1,11 @@
-//! The tables as they lie on disk: JSON arrays of rows, read row by row, for `sample_data.json` of the whole data set is
-//! larger than most memories hold as JSON values. Keys that aren't needed are skipped.
+//! The tables as they lie on disk: JSON arrays of rows, read row by row, for `sample_data.json` of the whole data set
+//! is larger than most memories hold as JSON values. Keys that aren't needed are skipped.
 
+use crate::disk::files;
 use crate::error::DataError;
 use serde::de::{DeserializeOwned, DeserializeSeed, Error, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer};
 use std::fmt;
-use std::fs::File;
 use std::io::BufReader;
 use std::marker::PhantomData;
 use std::path::Path;
@@ -149,7 +149,7 @@ pub(super) fn for_each_row<T: DeserializeOwned>(
     file: &Path,
     take: impl FnMut(T) -> Result<(), String>,
 ) -> Result<(), DataError> {
-    let open = File::open(file).map_err(DataError::io(file))?;
+    let open = files::open(file)?;
     let mut deserializer = serde_json::Deserializer::from_reader(BufReader::with_capacity(1 << 16, open));
     let rows = Rows { take, row: PhantomData };
     rows.deserialize(&mut deserializer)

@@ -7,23 +7,36 @@ use super::rig::{PCD_FIELDS, rig};
 use super::{can, join};
 use crate::disk::files::Folders;
 use crate::error::DataError;
+use crate::read::SequenceReader;
 use crate::read::measured_files::MeasuredFiles;
 use crate::read::radial::radial;
-use crate::read::{NuScenesKey, SequenceReader};
 use ralf::sensors::{
     CameraImage, DepthImage, DepthOutput, LidarScan, RadarScan, Sequence, Source, SourceError, Timelines,
 };
 use ralf::space::EgoMotion;
+use std::any::Any;
 use std::path::{Path, PathBuf};
+
+/// What nuScenes calls the radar scans of a scene: a sequence's [`origin`](SequenceReader::origin).
+pub(crate) struct NuScenesOrigin {
+    /// The version folder's name, as `v1.0-mini`.
+    pub(crate) version: String,
+    /// The row of each scan of each radar in `sample_data.json`.
+    radar_tokens: Vec<Vec<Token>>,
+}
+
+impl NuScenesOrigin {
+    /// The row of a radar's scan in `sample_data.json`.
+    pub(crate) fn sample_data_token(&self, radar: usize, scan: usize) -> Option<String> {
+        Some(self.radar_tokens.get(radar)?.get(scan)?.to_string())
+    }
+}
 
 /// One scene.
 pub(super) struct Scene {
     sequence: Sequence,
     files: MeasuredFiles,
-    /// The version folder's name.
-    version: String,
-    /// The rows of the radars' scans in `sample_data.json`.
-    radar_tokens: Vec<Vec<Token>>,
+    origin: NuScenesOrigin,
     /// Tables, and the CAN bus where it is there.
     tables: Vec<PathBuf>,
     warnings: Vec<String>,
@@ -55,8 +68,9 @@ impl Scene {
             depth_output: DepthOutput::default(),
         };
         let version = version.file_name().unwrap_or_default().to_string_lossy().into_owned();
-        let (files, radar_tokens, warnings) = (MeasuredFiles::default(), Vec::new(), Vec::new());
-        let mut scene = Self { sequence, files, version, radar_tokens, tables, warnings };
+        let origin = NuScenesOrigin { version, radar_tokens: Vec::new() };
+        let mut scene =
+            Self { sequence, files: MeasuredFiles::default(), origin, tables, warnings: Vec::new() };
         for channel in record.channels {
             scene.add(dataset, channel, folders)?;
         }
@@ -76,7 +90,7 @@ impl Scene {
             }
         }
         if channel.calibration.modality == Modality::Radar {
-            self.radar_tokens.push(tokens);
+            self.origin.radar_tokens.push(tokens);
         }
         if files.len() < listed {
             let (name, missing) = (&channel.calibration.name, listed - files.len());
@@ -101,16 +115,16 @@ impl Source for Scene {
     }
 
     fn radar_scan(&self, radar: usize, scan: usize) -> Result<RadarScan, SourceError> {
-        self.files.radar_scan(&self.sequence, [radar, scan], |file| radar_columns(&Pcd::read(file)?))
+        self.files.radar_scan(&self.sequence, radar, scan, |file| radar_columns(&Pcd::read(file)?))
     }
 
     fn lidar_scan(&self, lidar: usize, scan: usize) -> Result<LidarScan, SourceError> {
         // The fifth column is the ring.
-        self.files.lidar_scan(&self.sequence, [lidar, scan], 5)
+        self.files.lidar_scan(&self.sequence, lidar, scan, 5)
     }
 
     fn image(&self, camera: usize, image: usize) -> Result<CameraImage, SourceError> {
-        self.files.image(&self.sequence, [camera, image])
+        self.files.image(&self.sequence, camera, image)
     }
 
     fn depth(&self, camera: usize, image: usize) -> Result<Option<Vec<DepthImage>>, SourceError> {
@@ -132,9 +146,8 @@ impl SequenceReader for Scene {
         self.files.image_file(camera, image).ok().cloned()
     }
 
-    fn nuscenes_key(&self, radar: usize, scan: usize) -> Option<NuScenesKey> {
-        let token = self.radar_tokens.get(radar)?.get(scan)?;
-        Some(NuScenesKey { version: self.version.clone(), sample_data_token: token.to_string() })
+    fn origin(&self) -> Option<&dyn Any> {
+        Some(&self.origin)
     }
 }
 

@@ -5,8 +5,8 @@ use super::messages::Messages;
 use super::topics::{TopicConfig, TopicKind, Topics};
 use super::{LABELLED, survey};
 use crate::error::DataError;
-use crate::read::models::GENERIC;
-use ralf_ros::container::Topic;
+use crate::read::models::{LIDARS, RADARS, named_in};
+use ralf_ros::container::{MessageRef, Topic};
 use ralf_ros::message::{CameraInfo, Message, PointCloud2, RadarScan};
 use serde::Serialize;
 use std::path::Path;
@@ -59,10 +59,10 @@ const FIRST_SCANS: usize = 10;
 
 /// A guess of the table `topics` of a recording.
 pub fn guess(path: &Path) -> Result<Guess, DataError> {
-    Ok(of(&Messages::open(path)?))
+    Ok(of_messages(&Messages::open(path)?))
 }
 
-pub(super) fn of(messages: &Messages) -> Guess {
+pub(super) fn of_messages(messages: &Messages) -> Guess {
     let mut guess = Guess { topics: Topics::new(), unused: Vec::new() };
     let topics = messages.container().topics();
     let usable = |topic: &Topic| topic.count > 0 && topic.known_encoding().is_some();
@@ -129,9 +129,10 @@ impl Guess {
 
     /// The odometry with the most messages, or else a twist, with an IMU where that is all there is of turning.
     fn add_motion(&mut self, topics: &[Topic]) {
+        // One without messages is a vehicle's that stands still.
         let most = |kind: TopicKind| {
-            let fits = |topic: &&Topic| topic.count > 0 && survey::types(kind)[0].is(&topic.type_name);
-            // Of equally many the first one.
+            let fits = |topic: &&Topic| survey::types(kind)[0].is(&topic.type_name);
+            // Among equally many the first one.
             topics.iter().filter(fits).rev().max_by_key(|topic| topic.count)
         };
         let chosen = [TopicKind::Odometry, TopicKind::Twist]
@@ -157,22 +158,35 @@ impl Guess {
 
 /// A radar, if it is one by type, name or fields; else a LiDAR.
 fn cloud_entry(messages: &Messages, topic: &Topic, place: usize) -> TopicConfig {
-    let entry = |kind| TopicConfig { model: Some(GENERIC.to_owned()), ..TopicConfig::new(&topic.name, kind) };
-    let of_topic = messages.container().messages().iter().filter(|message| message.topic() == place);
+    let mut of_topic = messages.container().messages().iter().filter(|message| message.topic() == place);
+    let frame = of_topic.clone().next().map_or_else(String::new, |first| frame(messages, first));
+    let names = [topic.name.as_str(), &frame];
+    let with_model = |kind, model: &str| TopicConfig {
+        model: Some(model.to_owned()),
+        ..TopicConfig::new(&topic.name, kind)
+    };
     let mut heights = Vec::new();
-    for message in of_topic.take(FIRST_SCANS) {
+    for message in of_topic.by_ref().take(FIRST_SCANS) {
         // What can't be read is told by whoever reads all of it.
-        let Ok(Columns { names, values }) = cloud::radar_columns(messages, message) else { continue };
-        let has = |name: &&str| names.iter().any(|known| known == name);
+        let Ok(Columns { names: fields, values }) = cloud::radar_columns(messages, message) else { continue };
+        let has = |name: &&str| fields.iter().any(|known| known == name);
         if !topic.name.contains("radar") && has(&"x") && !RADAR_FIELDS.iter().any(has) {
-            return entry(TopicKind::Lidar);
+            return with_model(TopicKind::Lidar, named_in(&names, &LIDARS));
         }
-        let third = names.iter().position(|name| ["z", "elevation"].contains(&name.as_str()));
+        let third = fields.iter().position(|name| ["z", "elevation"].contains(&name.as_str()));
         heights.extend(third.into_iter().flat_map(|third| values[third].iter().copied()));
     }
     // One that measures no elevation has none to tell, or the same for all detections.
     let elevation = heights.iter().any(|height| *height != heights[0]);
-    TopicConfig { elevation: Some(elevation), ..entry(TopicKind::Radar) }
+    TopicConfig { elevation: Some(elevation), ..with_model(TopicKind::Radar, named_in(&names, &RADARS)) }
+}
+
+/// The frame of a message; empty where it can't be read, which is told by whoever reads all of it.
+fn frame(messages: &Messages, message: &MessageRef) -> String {
+    let bytes = messages.container().read(message).map_err(DataError::from);
+    bytes
+        .and_then(|bytes| messages.header(message, &bytes))
+        .map_or_else(|_| String::new(), |header| header.frame_id)
 }
 
 /// The names above a topic's, from the nearest: `/a/b` and `/a` of `/a/b/c`.
@@ -195,7 +209,7 @@ fn name(topic: &str) -> String {
 
 /// The table as it stands in a settings file, with what the guess leaves out as comments.
 pub fn topics_toml(guess: &Guess) -> Result<String, DataError> {
-    // Of a struct, for a table would sort its keys.
+    // A struct, for a table would sort its keys.
     #[derive(Serialize)]
     struct Settings<'a> {
         topics: &'a Topics,
@@ -204,7 +218,8 @@ pub fn topics_toml(guess: &Guess) -> Result<String, DataError> {
         DataError::content(Path::new("topics"), "names", "what TOML can hold", error.to_string())
     })?;
     let unused: String = guess.unused.iter().map(|sentence| format!("# {sentence}\n")).collect();
-    let head = "# Which topic is which sensor: a first guess. Say what the sensors are: `model` gives their uncertainties\n\
+    let head = "# Which topic is which sensor: a first guess. Say what the sensors are: `model` gives their \
+                uncertainties\n\
                 # and fields of view, and the tables `sensors` replace them one by one.\n";
     Ok(format!("{head}{unused}\n{text}"))
 }

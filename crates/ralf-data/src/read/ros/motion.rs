@@ -20,6 +20,7 @@ pub(super) fn motion(
     topics: &Topics,
     survey: &Survey,
     vehicle: &str,
+    warnings: &mut Vec<String>,
 ) -> Result<EgoMotion, DataError> {
     let odometry = part(messages, topics, survey, vehicle, TopicKind::Odometry)?;
     let twist = part(messages, topics, survey, vehicle, TopicKind::Twist)?;
@@ -33,10 +34,19 @@ pub(super) fn motion(
             sample.yaw_rate = yaw_rate(&rates, sample.t_ns);
         }
     }
+    if let (true, true, Some(topic)) = (wheels.is_empty(), poses.is_empty(), silent(topics)) {
+        warnings.push(format!("{}: no messages: the vehicle is taken to stand still", topic.topic));
+        wheels.push(OdometrySample { t_ns: survey.first_time(), velocity: 0.0, yaw_rate: 0.0 });
+    }
     EgoMotion::new(wheels, poses).ok_or_else(|| {
         let expected = "a topic of the kind odometry or twist, which tells how the vehicle moves";
         DataError::content(messages.path(), "topics", expected, "none")
     })
+}
+
+/// The topic that would tell how the vehicle moves; asked where none has.
+fn silent(topics: &Topics) -> Option<&TopicConfig> {
+    topics.values().find(|topic| matches!(topic.kind, TopicKind::Odometry | TopicKind::Twist))
 }
 
 fn part<'a>(

@@ -9,26 +9,44 @@ use super::pixels;
 use super::survey::{Survey, Track, info_topic, survey};
 use super::topics::{TopicConfig, TopicKind, Topics};
 use crate::error::DataError;
+use crate::read::SequenceReader;
 use crate::read::models::{LIDARS, RADARS};
 use crate::read::recording::measurement;
-use crate::read::{RosSource, SequenceReader};
 use ralf::sensors::{
     Camera, CameraImage, DepthImage, DepthOutput, Elevation, LidarScan, RadarScan, Rig, Sequence, Source,
     SourceError, Timelines, check_fields,
 };
 use ralf::space::Transform;
-use ralf_ros::container::MessageRef;
+use ralf_ros::container::{Container, MessageRef};
+use std::any::Any;
 use std::path::PathBuf;
 
 /// The messages of each sensor, in the order of its timeline.
 type MessagesPerSensor = Vec<Vec<MessageRef>>;
 
+/// The messages behind a sequence: its [`origin`](SequenceReader::origin).
+pub(crate) struct RosOrigin {
+    messages: Messages,
+    radar_frames: Vec<String>,
+}
+
+impl RosOrigin {
+    /// All messages, which can be copied as they are.
+    pub(crate) fn container(&self) -> &Container {
+        self.messages.container()
+    }
+
+    /// The frame of each radar, in the order of the rig.
+    pub(crate) fn radar_frames(&self) -> &[String] {
+        &self.radar_frames
+    }
+}
+
 /// One recording.
 pub(super) struct Drive {
     sequence: Sequence,
-    messages: Messages,
+    origin: RosOrigin,
     radars: MessagesPerSensor,
-    radar_frames: Vec<String>,
     lidars: MessagesPerSensor,
     cameras: MessagesPerSensor,
     warnings: Vec<String>,
@@ -44,14 +62,14 @@ impl Drive {
         let mut survey = survey(&messages, topics)?;
         warnings.append(&mut survey.losses);
         let vehicle = vehicle_frame(&messages, topics, &survey)?;
-        let motion = motion(&messages, topics, &survey, &vehicle)?;
+        let motion = motion(&messages, topics, &survey, &vehicle, &mut warnings)?;
         let name = messages.path().file_stem().unwrap_or_default().to_string_lossy().into_owned();
         let title = format!("{} topics", messages.container().topics().len());
         let (rig, times, depth_output) = (Rig::default(), Timelines::default(), DepthOutput::default());
         let sequence = Sequence { name, title, rig, times, motion, depth_output };
         let [radars, lidars, cameras] = [const { Vec::new() }; 3];
-        let radar_frames = Vec::new();
-        let mut drive = Self { sequence, messages, radars, radar_frames, lidars, cameras, warnings };
+        let origin = RosOrigin { messages, radar_frames: Vec::new() };
+        let mut drive = Self { sequence, origin, radars, lidars, cameras, warnings };
         for (name, topic) in topics {
             if let Some(track) = survey.sensors.get(name) {
                 drive.add(name, topic, track, &survey, &vehicle)?;
@@ -72,7 +90,15 @@ impl Drive {
             return Ok(());
         };
         let frame = sensor_frame(topic, &track.frame);
-        let vehicle_from_sensor = mounting(&self.messages, survey, vehicle, frame, [first.0, last.0])?;
+        let vehicle_from_sensor =
+            match mounting(&self.origin.messages, survey, vehicle, frame, [first.0, last.0]) {
+                // Labels need radars and LiDARs; without a camera they are labels still.
+                Err(error) if topic.kind == TopicKind::Camera => {
+                    self.warnings.push(format!("the camera {name} is left out: {error}"));
+                    return Ok(());
+                }
+                found => found?,
+            };
         let times = track.measurements.iter().map(|(t_ns, _)| *t_ns).collect();
         let messages = track.measurements.iter().map(|(_, message)| *message).collect();
         match topic.kind {
@@ -80,7 +106,7 @@ impl Drive {
                 self.add_radar(name, topic, &first.1, vehicle_from_sensor)?;
                 self.sequence.times.radars.push(times);
                 self.radars.push(messages);
-                self.radar_frames.push(frame.to_owned());
+                self.origin.radar_frames.push(frame.to_owned());
             }
             TopicKind::Lidar => {
                 let model = self.model(name, topic, &LIDARS)?;
@@ -88,11 +114,14 @@ impl Drive {
                 self.sequence.times.lidars.push(times);
                 self.lidars.push(messages);
             }
-            _ => {
-                self.add_camera(name, topic, survey, vehicle_from_sensor)?;
-                self.sequence.times.cameras.push(times);
-                self.cameras.push(messages);
-            }
+            _ => match self.camera(name, topic, survey, vehicle_from_sensor) {
+                Ok(camera) => {
+                    self.sequence.rig.cameras.push(camera);
+                    self.sequence.times.cameras.push(times);
+                    self.cameras.push(messages);
+                }
+                Err(error) => self.warnings.push(format!("the camera {name} is left out: {error}")),
+            },
         }
         Ok(())
     }
@@ -105,7 +134,7 @@ impl Drive {
         first: &MessageRef,
         vehicle_from_radar: Transform,
     ) -> Result<(), DataError> {
-        let names = radar_columns(&self.messages, first)?.names;
+        let names = radar_columns(&self.origin.messages, first)?.names;
         let mut radar = self.model(name, topic, &RADARS)?.mounted(name, &names, vehicle_from_radar);
         match topic.elevation {
             Some(true) => radar.elevation = Elevation::Measured,
@@ -113,38 +142,44 @@ impl Drive {
             None => {}
         }
         check_fields(&radar)
-            .map_err(|found| self.messages.error(first, "fields", "those of a radar", found))?;
+            .map_err(|found| self.origin.messages.error(first, "fields", "those of a radar", found))?;
         radar.check().map_err(|expected| {
             let found = format!("the model `{}`", topic.model.as_deref().unwrap_or_default());
-            DataError::content(self.messages.path(), format!("topics.{name}"), expected, found)
+            DataError::content(self.origin.messages.path(), format!("topics.{name}"), expected, found)
         })?;
         self.sequence.rig.radars.push(radar);
         Ok(())
     }
 
-    fn add_camera(
-        &mut self,
+    fn camera(
+        &self,
         name: &str,
         topic: &TopicConfig,
         survey: &Survey,
         vehicle_from_camera: Transform,
-    ) -> Result<(), DataError> {
-        let place = info_topic(&self.messages, name, topic)?;
+    ) -> Result<Camera, DataError> {
+        let place = info_topic(&self.origin.messages, name, topic)?;
         let (message, info) = survey.infos.get(&place).ok_or_else(|| {
             let found = "none that can be read";
-            DataError::content(self.messages.path(), format!("topics.{name}.info"), "a calibration", found)
+            DataError::content(
+                self.origin.messages.path(),
+                format!("topics.{name}.info"),
+                "a calibration",
+                found,
+            )
         })?;
-        let intrinsics = intrinsics(info, topic.rectified.unwrap_or_default())
-            .map_err(|(expected, found)| self.messages.error(message, "calibration", expected, found))?;
-        self.sequence.rig.cameras.push(Camera {
+        let intrinsics =
+            intrinsics(info, topic.rectified.unwrap_or_default()).map_err(|(expected, found)| {
+                self.origin.messages.error(message, "calibration", expected, found)
+            })?;
+        Ok(Camera {
             name: name.to_owned(),
             vehicle_from_camera,
             width: info.width as usize,
             height: info.height as usize,
             intrinsics,
             views: Vec::new(),
-        });
-        Ok(())
+        })
     }
 
     fn model<M: Copy>(&self, name: &str, topic: &TopicConfig, models: &[(&str, M)]) -> Result<M, DataError> {
@@ -153,7 +188,7 @@ impl Drive {
             let known: Vec<&str> = models.iter().map(|(known, _)| *known).collect();
             let expected = format!("one of the models {}", known.join(", "));
             DataError::content(
-                self.messages.path(),
+                self.origin.messages.path(),
                 format!("topics.{name}.model"),
                 expected,
                 format!("`{wanted}`"),
@@ -170,32 +205,33 @@ impl Source for Drive {
     fn radar_scan(&self, radar: usize, scan: usize) -> Result<RadarScan, SourceError> {
         let message = measurement("radar", &self.radars, radar, scan)?;
         let model = &self.sequence.rig.radars[radar];
-        let columns = radar_columns(&self.messages, message)?;
+        let columns = radar_columns(&self.origin.messages, message)?;
         if columns.names != model.fields {
             let (expected, found) = (model.fields.join(", "), columns.names.join(", "));
             let expected = format!("those of the first scan, {expected}");
-            return Err(self.messages.error(message, "fields", expected, found).into());
+            return Err(self.origin.messages.error(message, "fields", expected, found).into());
         }
         let t_ns = self.sequence.times.radars[radar][scan];
         let scan = RadarScan::new(model, t_ns, columns.values);
-        Ok(scan.map_err(|found| self.messages.error(message, "columns", "those of the radar", found))?)
+        Ok(scan
+            .map_err(|found| self.origin.messages.error(message, "columns", "those of the radar", found))?)
     }
 
     fn lidar_scan(&self, lidar: usize, scan: usize) -> Result<LidarScan, SourceError> {
         let message = measurement("lidar", &self.lidars, lidar, scan)?;
-        Ok(lidar_scan(&self.messages, message, self.sequence.times.lidars[lidar][scan])?)
+        Ok(lidar_scan(&self.origin.messages, message, self.sequence.times.lidars[lidar][scan])?)
     }
 
     fn image(&self, camera: usize, image: usize) -> Result<CameraImage, SourceError> {
         let message = measurement("camera", &self.cameras, camera, image)?;
         let model = &self.sequence.rig.cameras[camera];
-        let image = pixels::image(&self.messages, message)?;
+        let image = pixels::image(&self.origin.messages, message)?;
         if (image.width, image.height) == (model.width, model.height) {
             return Ok(image);
         }
         let expected = format!("{} x {} px, as the camera has", model.width, model.height);
         let found = format!("{} x {} px", image.width, image.height);
-        Err(self.messages.error(message, "image size", expected, found).into())
+        Err(self.origin.messages.error(message, "image size", expected, found).into())
     }
 
     fn depth(&self, camera: usize, image: usize) -> Result<Option<Vec<DepthImage>>, SourceError> {
@@ -206,7 +242,7 @@ impl Source for Drive {
 
 impl SequenceReader for Drive {
     fn inputs(&self) -> Vec<PathBuf> {
-        self.messages.container().files().to_vec()
+        self.origin.messages.container().files().to_vec()
     }
 
     fn warnings(&self) -> &[String] {
@@ -217,7 +253,7 @@ impl SequenceReader for Drive {
         None
     }
 
-    fn ros(&self) -> Option<RosSource<'_>> {
-        Some(RosSource { container: self.messages.container(), radar_frames: &self.radar_frames })
+    fn origin(&self) -> Option<&dyn Any> {
+        Some(&self.origin)
     }
 }

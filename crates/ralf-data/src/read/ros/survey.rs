@@ -28,7 +28,7 @@ pub(super) struct Survey {
 /// When a sensor measured.
 #[derive(Default)]
 pub(super) struct Track {
-    /// Of its messages.
+    /// The frame that its messages name.
     pub(super) frame: String,
     /// Time and message, in time order.
     pub(super) measurements: Vec<(i64, MessageRef)>,
@@ -108,9 +108,20 @@ pub(super) fn survey(messages: &Messages, topics: &Topics) -> Result<Survey, Dat
     Ok(survey)
 }
 
+/// Whether a topic that tells of the motion has no messages: those of a vehicle that stands still.
+fn is_silent(messages: &Messages, topic: &TopicConfig) -> bool {
+    let mut named = messages.container().topics().iter().filter(|known| known.name == topic.topic).peekable();
+    matches!(topic.kind, TopicKind::Odometry | TopicKind::Twist)
+        && named.peek().is_some()
+        && named.all(|known| known.count == 0)
+}
+
 fn roles<'a>(messages: &Messages, topics: &'a Topics) -> Result<Vec<Vec<Role<'a>>>, DataError> {
     let mut roles: Vec<Vec<Role<'_>>> = vec![Vec::new(); messages.container().topics().len()];
     for (name, topic) in topics {
+        if is_silent(messages, topic) {
+            continue;
+        }
         let place = messages.resolve(&format!("topics.{name}"), &topic.topic, types(topic.kind))?;
         roles[place].push(match topic.kind {
             TopicKind::Radar | TopicKind::Lidar | TopicKind::Camera => Role::Sensor(name, topic),
@@ -129,6 +140,12 @@ fn roles<'a>(messages: &Messages, topics: &'a Topics) -> Result<Vec<Vec<Role<'a>
 }
 
 impl Survey {
+    /// When the first measurement of any sensor was made, ns.
+    pub(super) fn first_time(&self) -> i64 {
+        let times = self.sensors.values().filter_map(|track| track.measurements.first());
+        times.map(|(t_ns, _)| *t_ns).min().unwrap_or_default()
+    }
+
     fn look(
         &mut self,
         messages: &Messages,
@@ -184,6 +201,7 @@ impl Survey {
     fn check_complete(&self, messages: &Messages, topics: &Topics) -> Result<(), DataError> {
         let is_read = |name: &String, topic: &TopicConfig| {
             matches!(topic.kind, TopicKind::Tf | TopicKind::TfStatic)
+                || is_silent(messages, topic)
                 || self.sensors.contains_key(name)
                 || self.motion.contains_key(name)
         };

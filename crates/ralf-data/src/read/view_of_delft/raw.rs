@@ -2,6 +2,7 @@
 
 use crate::disk::files;
 use crate::error::DataError;
+use ralf_files::Kind;
 use serde::Deserialize;
 use std::fs;
 use std::path::Path;
@@ -51,7 +52,7 @@ pub(super) struct Calib {
 impl Calib {
     /// Reads a file of lines `KEY: numbers`. Other keys (the empty `Tr_imu_to_velo:` among them) don't matter.
     pub(super) fn read(file: &Path) -> Result<Self, DataError> {
-        let text = files::read_text(file)?;
+        let text = files::read_text(file, Kind::Settings)?;
         Ok(Self {
             p2: numbers(file, &text, "P2")?,
             r0_rect: numbers(file, &text, "R0_rect")?,
@@ -85,7 +86,7 @@ pub(super) fn read_odom_from_camera(file: &Path) -> Result<[f64; 16], DataError>
     let bad = |place, found| {
         DataError::content(file, place, "JSON documents, one with 16 numbers `odomToCamera`", found)
     };
-    let text = files::read_text(file)?;
+    let text = files::read_text(file, Kind::Settings)?;
     for document in serde_json::Deserializer::from_str(&text).into_iter::<PoseDocument>() {
         let document = document.map_err(|error| bad(format!("line {}", error.line()), error.to_string()))?;
         if let Some(pose) = document.odom_from_camera {

@@ -4,8 +4,9 @@ use super::{Export, ExportOptions, Exported};
 use crate::disk::label_file::Label;
 use crate::error::DataError;
 use crate::read::SequenceReader;
-use crate::result::{Columns, PlausibilityReader, ScanTable, ScanTables};
-use crate::run::SequenceRecord;
+use crate::result::{
+    Columns, LabelledRun, PlausibilityReader, ScanTable, ScanTables, SequenceNames, SequenceRecord,
+};
 use crate::truth::{Corrections, ScanId};
 use ralf::label::truth_of;
 use ralf::scene::LocatedScan;
@@ -19,11 +20,13 @@ pub(super) struct LabelledSequence<'a, 'p> {
     pub(super) reader: &'a dyn SequenceReader,
     /// What is asked for.
     pub(super) options: ExportOptions,
+    /// Of the folders and files that it goes to.
+    pub(super) names: SequenceNames,
     out: &'a Path,
     corrections: &'a Corrections,
-    record: &'a SequenceRecord,
+    record: SequenceRecord,
     tables: Tables,
-    not_labelled: BTreeSet<(&'a str, usize)>,
+    not_labelled: BTreeSet<(String, usize)>,
     tally: &'a mut Tally<'p>,
 }
 
@@ -71,25 +74,22 @@ impl<'a, 'p> LabelledSequence<'a, 'p> {
     /// Opens the results of a sequence.
     pub(super) fn open(
         export: &Export<'a>,
+        run: &LabelledRun,
         corrections: &'a Corrections,
-        (reader, record): (&'a dyn SequenceReader, &'a SequenceRecord),
+        reader: &'a dyn SequenceReader,
+        names: SequenceNames,
         tally: &'a mut Tally<'p>,
     ) -> Result<Self, DataError> {
-        let (out, name) = (export.out, &reader.sequence().name);
-        let file = out.join("sequences").join(name).join("plausibility.parquet");
-        let rig = &reader.sequence().rig;
-        let unlike = |found| DataError::content(&file, "columns", "those of the recording's radars", found);
-        let columns = Columns::of(rig).map_err(unlike)?;
-        check_radars(out, reader, record)?;
-        let tables = Tables { reader: PlausibilityReader::open(&file, columns)?, held: BTreeMap::new() };
-        let not_labelled: BTreeSet<_> =
-            record.not_labelled.iter().map(|missing| (missing.radar.as_str(), missing.scan)).collect();
-        let options = export.options;
-        Ok(Self { reader, options, out, corrections, record, tables, not_labelled, tally })
+        let crate::result::LabelledSequence { record, tables, .. } = run.sequence(reader)?;
+        let tables = Tables { reader: tables, held: BTreeMap::new() };
+        let not_labelled =
+            record.not_labelled.iter().map(|missing| (missing.radar.clone(), missing.scan)).collect();
+        let (out, options) = (export.out, export.options);
+        Ok(Self { reader, options, names, out, corrections, record, tables, not_labelled, tally })
     }
 
     /// The sequence's name.
-    pub(super) fn name(&self) -> &'a str {
+    pub(super) fn name(&self) -> &str {
         &self.record.name
     }
 
@@ -141,7 +141,7 @@ impl<'a, 'p> LabelledSequence<'a, 'p> {
         let sequence = self.reader.sequence();
         let (sensor, t_ns) = (&sequence.rig.radars[radar], sequence.times.radars[radar][index]);
         self.reader.radar_scan(radar, index).or_else(|error| {
-            if self.not_labelled.contains(&(sensor.name.as_str(), index)) {
+            if self.not_labelled.contains(&(sensor.name.clone(), index)) {
                 let columns = vec![Vec::new(); sensor.fields.len()];
                 return Ok(RadarScan { t_ns, columns, positions: Vec::new(), spherical: Vec::new() });
             }
@@ -154,7 +154,7 @@ impl<'a, 'p> LabelledSequence<'a, 'p> {
         let sensor = &self.reader.sequence().rig.radars[radar];
         let detections = LocatedScan::new(sensor, self.measured(radar, id.scan as usize)?);
         let found = detections.len();
-        if self.not_labelled.contains(&(sensor.name.as_str(), id.scan as usize)) {
+        if self.not_labelled.contains(&(sensor.name.clone(), id.scan as usize)) {
             self.tally.exported.not_labelled.push(id.to_string());
         } else if found > 0 {
             let expected = format!("{found} detections, as in the recording");
@@ -188,22 +188,6 @@ impl<'a, 'p> LabelledSequence<'a, 'p> {
     fn unlike(&self, id: &ScanId, expected: String, found: String) -> DataError {
         DataError::content(self.out, id.to_string(), expected, found)
     }
-}
-
-/// Refuses results of other radars, or of another number of scans.
-fn check_radars(out: &Path, reader: &dyn SequenceReader, record: &SequenceRecord) -> Result<(), DataError> {
-    let sequence = reader.sequence();
-    let text = |radars: &mut dyn Iterator<Item = (&str, usize)>| {
-        radars.map(|(name, scans)| format!("{name} ({scans})")).collect::<Vec<_>>().join(", ")
-    };
-    let names = sequence.rig.radars.iter().map(|radar| radar.name.as_str());
-    let recorded = text(&mut names.zip(sequence.times.radars.iter().map(Vec::len)));
-    let labelled = text(&mut record.radars.iter().map(|radar| (radar.name.as_str(), radar.detections.len())));
-    if recorded == labelled {
-        return Ok(());
-    }
-    let place = format!("run.json, sequence {}", record.name);
-    Err(DataError::content(out, place, format!("the recording's radars and scans: {recorded}"), labelled))
 }
 
 impl LabelledScan {

@@ -11,6 +11,7 @@
 //! the same bytes.
 
 mod columns;
+mod formats;
 mod labelled;
 mod npy_array;
 mod npz;
@@ -27,7 +28,7 @@ pub use ros::{RosFormat, write_ros};
 
 use crate::error::DataError;
 use crate::read::Recording;
-use crate::run::read_record;
+use crate::result::{LabelledRun, OutFolder, SequenceNames};
 use crate::truth::Corrections;
 use labelled::{LabelledSequence, Tally};
 use place::Place;
@@ -54,15 +55,17 @@ pub struct Exported {
     pub without_labels: Vec<String>,
     /// Scans that `ralf label` could not label, as `sequence/radar/scan`: unlabeled, unless a person has labelled them.
     pub not_labelled: Vec<String>,
+    /// Scans, named like these, of which people said something while they held something else: it is not applied.
+    pub orphaned: Vec<String>,
 }
 
 /// The writer of a format.
 trait Writer {
     /// Writes one sequence below the export's folder.
-    fn sequence(&mut self, folder: &Path, sequence: &mut LabelledSequence) -> Result<(), DataError>;
+    fn sequence(&mut self, folder: &OutFolder, sequence: &mut LabelledSequence) -> Result<(), DataError>;
 
     /// Writes what tells of all sequences.
-    fn finish(&mut self, _folder: &Path) -> Result<(), DataError> {
+    fn finish(&mut self, _folder: &OutFolder) -> Result<(), DataError> {
         Ok(())
     }
 }
@@ -80,13 +83,14 @@ impl Export<'_> {
     /// Anything at `path` but an empty folder, or an earlier export in this format where replacing it is asked for; results
     /// that are not those of the recording, or of none of its sequences; what the system refuses. Nothing half-written stays.
     pub fn write(&self, path: &Path, progress: &dyn Fn(usize)) -> Result<Exported, DataError> {
-        let record = read_record(self.out)?;
-        let corrections = Corrections::open(self.out)?;
-        let mut exported = Exported::default();
+        let run = LabelledRun::open(self.out)?;
+        let corrections = Corrections::of_recording(self.out, self.recording)?;
+        let orphaned = corrections.orphaned().iter().map(ToString::to_string).collect();
+        let mut exported = Exported { orphaned, ..Exported::default() };
         let mut sequences = Vec::new();
         for reader in &self.recording.sequences {
             let name = &reader.sequence().name;
-            match record.sequence(name) {
+            match run.record().sequence(name) {
                 Some(found) => sequences.push((reader.as_ref(), found)),
                 None => exported.without_labels.push(name.clone()),
             }
@@ -101,12 +105,12 @@ impl Export<'_> {
                 found,
             ));
         }
-        let names = sequences.iter().map(|(_, record)| record.name.clone()).collect();
-        let place = Place::prepare(path, &self.options, names)?;
+        let names = SequenceNames::all(sequences.iter().map(|(reader, _)| *reader))?;
+        let place = Place::prepare(path, &self.options, names.iter().map(|names| &names.sequence))?;
         let mut writer = self.options.format.writer(&sequences);
         let mut tally = Tally { exported, progress };
-        for found in sequences {
-            let mut sequence = LabelledSequence::open(self, &corrections, found, &mut tally)?;
+        for (found, names) in sequences.into_iter().zip(names) {
+            let mut sequence = LabelledSequence::open(self, &run, &corrections, found.0, names, &mut tally)?;
             writer.sequence(place.folder(), &mut sequence)?;
         }
         writer.finish(place.folder())?;

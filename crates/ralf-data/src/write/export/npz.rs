@@ -6,8 +6,8 @@ use super::labelled::LabelledSequence;
 use super::npy_array;
 use crate::disk::files;
 use crate::error::DataError;
+use crate::result::{Component, OutFolder};
 use std::io::{Cursor, Write};
-use std::path::Path;
 use zip::result::ZipError;
 use zip::write::{SimpleFileOptions, ZipWriter};
 use zip::{CompressionMethod, DateTime};
@@ -16,12 +16,13 @@ use zip::{CompressionMethod, DateTime};
 pub(super) struct Npz;
 
 impl Writer for Npz {
-    fn sequence(&mut self, folder: &Path, sequence: &mut LabelledSequence) -> Result<(), DataError> {
-        let folder = folder.join("sequences").join(sequence.name());
-        for (radar, sensor) in sequence.reader.sequence().rig.radars.iter().enumerate() {
+    fn sequence(&mut self, folder: &OutFolder, sequence: &mut LabelledSequence) -> Result<(), DataError> {
+        let folder = folder.own("sequences").folder(&sequence.names.sequence);
+        for radar in 0..sequence.names.radars.len() {
             for scan in 0..sequence.scans(radar) {
                 let labelled = sequence.scan(radar, scan)?;
-                let file = folder.join(&sensor.name).join(format!("{scan:06}.npz"));
+                let file =
+                    folder.folder(&sequence.names.radars[radar]).file(&Component::numbered(scan, "npz"));
                 let refused = |error: ZipError| DataError::io(&file)(error.into());
                 let bytes = archive(&table_columns(sequence, &labelled)).map_err(refused)?;
                 files::write_whole(&file, &bytes)?;

@@ -1,15 +1,18 @@
-//! Label sidecars for nuScenes, laid out as nuScenes-lidarseg: `radarseg/VERSION/TOKEN_radarseg.bin` with one uint8 per point
-//! of the `.pcd`, `VERSION/radarseg.json` that lists them by `sample_data` token, and the classes beside it.
+//! Label sidecars for nuScenes, laid out as nuScenes-lidarseg: `radarseg/VERSION/TOKEN_radarseg.bin` with one uint8 per
+//! point of the `.pcd`, `VERSION/radarseg.json` that lists them by `sample_data` token, and the classes beside it.
 //!
-//! The table of classes has a name of its own: nuScenes' `category.json` lies in the same folder and must not be overwritten.
+//! The table of classes has a name of its own: nuScenes' `category.json` lies in the same folder and must not be
+//! overwritten.
 
 use super::Writer;
 use super::labelled::LabelledSequence;
 use crate::disk::files;
 use crate::error::DataError;
-use crate::read::NuScenesKey;
+use crate::read::nuscenes::NuScenesOrigin;
+use crate::result::{Component, OutFolder, checked};
 use ralf::label::{PLAUSIBLE, class_name, truth_of};
 use serde::Serialize;
+use std::any::Any;
 use std::collections::BTreeMap;
 use std::path::Path;
 
@@ -17,7 +20,7 @@ use std::path::Path;
 #[derive(Default)]
 pub(super) struct NuScenes {
     /// The rows of `radarseg.json` by version.
-    rows: BTreeMap<String, Vec<Row>>,
+    rows: BTreeMap<Component, Vec<Row>>,
 }
 
 /// A row of `radarseg.json`.
@@ -40,37 +43,48 @@ struct Category {
 }
 
 impl Writer for NuScenes {
-    fn sequence(&mut self, folder: &Path, sequence: &mut LabelledSequence) -> Result<(), DataError> {
+    fn sequence(&mut self, folder: &OutFolder, sequence: &mut LabelledSequence) -> Result<(), DataError> {
         let ids = class_ids();
+        let origin = origin(sequence)?;
+        let version = &origin.version;
         for radar in 0..sequence.reader.sequence().rig.radars.len() {
             for scan in 0..sequence.scans(radar) {
-                let NuScenesKey { version, sample_data_token } = key(sequence, radar, scan)?;
+                let sample_data_token =
+                    origin.sample_data_token(radar, scan).ok_or_else(|| no_tokens(sequence.name()))?;
                 let labels = sequence.scan(radar, scan)?.labels_in_place();
                 let bytes: Vec<u8> = labels.iter().map(|label| index(&ids, label.id)).collect();
-                let filename = format!("radarseg/{version}/{sample_data_token}_radarseg.bin");
-                files::write_whole(&folder.join(&filename), &bytes)?;
+                let token = checked("sample_data token", &sample_data_token)?.and("_radarseg.bin");
+                let folder_name = checked("version", version)?;
+                files::write_whole(&folder.own("radarseg").folder(&folder_name).file(&token), &bytes)?;
+                let filename = format!("radarseg/{version}/{}", token.as_str());
                 let row = Row { token: sample_data_token.clone(), sample_data_token, filename };
-                self.rows.entry(version).or_default().push(row);
+                self.rows.entry(folder_name).or_default().push(row);
             }
         }
         Ok(())
     }
 
-    fn finish(&mut self, folder: &Path) -> Result<(), DataError> {
+    fn finish(&mut self, folder: &OutFolder) -> Result<(), DataError> {
         for (version, rows) in &self.rows {
-            write_table(&folder.join(version).join("radarseg.json"), rows)?;
-            write_table(&folder.join(version).join("radarseg_category.json"), &categories())?;
+            let folder = folder.folder(version);
+            write_table(&folder.own_file("radarseg.json"), rows)?;
+            write_table(&folder.own_file("radarseg_category.json"), &categories())?;
         }
         Ok(())
     }
 }
 
-fn key(sequence: &LabelledSequence, radar: usize, scan: usize) -> Result<NuScenesKey, DataError> {
-    sequence.reader.nuscenes_key(radar, scan).ok_or_else(|| DataError::Unsuitable {
-        file: sequence.name().into(),
+fn origin<'a>(sequence: &LabelledSequence<'a, '_>) -> Result<&'a NuScenesOrigin, DataError> {
+    let origin = sequence.reader.origin().and_then(<dyn Any>::downcast_ref);
+    origin.ok_or_else(|| no_tokens(sequence.name()))
+}
+
+fn no_tokens(sequence: &str) -> DataError {
+    DataError::Unsuitable {
+        file: sequence.into(),
         place: "sample_data tokens".to_owned(),
         reason: "only a recording that is read from nuScenes' own tables has them".to_owned(),
-    })
+    }
 }
 
 /// SemanticKITTI's ids, ascending: a class's place here is its value in a sidecar.

@@ -4,7 +4,7 @@ use super::Writer;
 use super::columns::{Column, Values, table_columns};
 use super::labelled::LabelledSequence;
 use crate::error::DataError;
-use crate::result::{field, write_column, written};
+use crate::result::{OutFolder, checked, field, write_column, written};
 use parquet::basic::{Compression, LogicalType, Repetition, Type as Physical, ZstdLevel};
 use parquet::data_type::{BoolType, ByteArray, ByteArrayType, FloatType, Int32Type, Int64Type};
 use parquet::errors::ParquetError;
@@ -22,11 +22,12 @@ const GROUP_ROWS: usize = 1 << 17;
 pub(super) struct Parquet;
 
 impl Writer for Parquet {
-    fn sequence(&mut self, folder: &Path, sequence: &mut LabelledSequence) -> Result<(), DataError> {
-        let folder = folder.join(format!("sequence={}", partition(sequence.name())));
-        fs::create_dir_all(&folder).map_err(DataError::io(&folder))?;
+    fn sequence(&mut self, folder: &OutFolder, sequence: &mut LabelledSequence) -> Result<(), DataError> {
+        let partition = format!("sequence={}", partition(sequence.name()));
+        let folder = folder.folder(&checked("sequence, as a partition's name", &partition)?);
+        fs::create_dir_all(folder.path()).map_err(DataError::io(folder.path()))?;
         for (radar, sensor) in sequence.reader.sequence().rig.radars.iter().enumerate() {
-            let file = folder.join(format!("{}.parquet", sensor.name));
+            let file = folder.file(&sequence.names.radars[radar].and(".parquet"));
             let mut rows = RadarFile { file: &file, radar: &sensor.name, rows: Vec::new(), writer: None };
             for scan in 0..sequence.scans(radar) {
                 let labelled = sequence.scan(radar, scan)?;
@@ -126,27 +127,27 @@ fn write_group(
     columns: &[Column],
 ) -> Result<(), ParquetError> {
     let rows = columns.first().map_or(0, |column| column.values.len());
-    write_column::<ByteArrayType>(&mut group, &vec![ByteArray::from(radar); rows], None)?;
+    write_column::<ByteArrayType, _>(&mut group, &vec![ByteArray::from(radar); rows], None)?;
     for column in columns {
         match &column.values {
             Values::F32(values) => {
                 let present: Vec<f32> = values.iter().copied().filter(|value| value.is_finite()).collect();
                 let levels: Vec<i16> = values.iter().map(|value| i16::from(value.is_finite())).collect();
-                write_column::<FloatType>(&mut group, &present, Some(&levels))?;
+                write_column::<FloatType, _>(&mut group, &present, Some(&levels))?;
             }
             Values::U16(values) => {
                 let values: Vec<i32> = values.iter().copied().map(i32::from).collect();
-                write_column::<Int32Type>(&mut group, &values, None)?;
+                write_column::<Int32Type, _>(&mut group, &values, None)?;
             }
             Values::U32(values) => {
                 let values: Vec<i32> = values.iter().map(|value| value.cast_signed()).collect();
-                write_column::<Int32Type>(&mut group, &values, None)?;
+                write_column::<Int32Type, _>(&mut group, &values, None)?;
             }
-            Values::I64(values) => write_column::<Int64Type>(&mut group, values, None)?,
+            Values::I64(values) => write_column::<Int64Type, _>(&mut group, values, None)?,
             Values::Truth(values) => {
                 let present: Vec<bool> = values.iter().flatten().copied().collect();
                 let levels: Vec<i16> = values.iter().map(|value| i16::from(value.is_some())).collect();
-                write_column::<BoolType>(&mut group, &present, Some(&levels))?;
+                write_column::<BoolType, _>(&mut group, &present, Some(&levels))?;
             }
         }
     }

@@ -8,20 +8,21 @@ use super::columns::{Column, Values, cloud_columns};
 use super::labelled::LabelledSequence;
 use crate::disk::files;
 use crate::error::DataError;
+use crate::result::{Component, OutFolder};
 use ralf::space::Transform;
-use std::path::Path;
 
 /// Writes the clouds.
 pub(super) struct Pcd;
 
 impl Writer for Pcd {
-    fn sequence(&mut self, folder: &Path, sequence: &mut LabelledSequence) -> Result<(), DataError> {
-        let folder = folder.join("sequences").join(sequence.name());
+    fn sequence(&mut self, folder: &OutFolder, sequence: &mut LabelledSequence) -> Result<(), DataError> {
+        let folder = folder.own("sequences").folder(&sequence.names.sequence);
         for (radar, sensor) in sequence.reader.sequence().rig.radars.iter().enumerate() {
             for scan in 0..sequence.scans(radar) {
                 let labelled = sequence.scan(radar, scan)?;
                 let columns = cloud_columns(sequence, &labelled, &sequence.measured_of(&labelled)?)?;
-                let file = folder.join(&sensor.name).join(format!("{scan:06}.pcd"));
+                let file =
+                    folder.folder(&sequence.names.radars[radar]).file(&Component::numbered(scan, "pcd"));
                 files::write_whole(&file, &cloud(&columns, labelled.kept.len(), &sensor.vehicle_from_radar))?;
             }
         }

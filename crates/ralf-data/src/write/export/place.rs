@@ -4,6 +4,8 @@ use super::ExportOptions;
 use super::ros::{self, RosFormat};
 use crate::disk::files;
 use crate::error::DataError;
+use crate::result::{Component, OutFolder, WriterLock};
+use ralf_files::Kind;
 use serde::{Deserialize, Serialize};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -25,46 +27,52 @@ struct Record {
 /// The folder of an export, or its only file; it is written beside its place.
 pub(super) struct Place {
     path: PathBuf,
-    part: PathBuf,
+    part: OutFolder,
     /// An earlier export, while the new one takes its place.
     earlier: PathBuf,
     /// The name that the only file has in the folder that is written.
-    file: Option<String>,
+    file: Option<Component>,
+    /// Another export to the same place would write to the same folder beside it.
+    _lock: WriterLock,
 }
 
 impl Place {
     /// Checks that an export of these sequences may be put at `path`, and begins it.
-    pub(super) fn prepare(
+    pub(super) fn prepare<'n>(
         path: &Path,
         options: &ExportOptions,
-        sequences: Vec<String>,
+        sequences: impl IntoIterator<Item = &'n Component>,
     ) -> Result<Self, DataError> {
-        let file = match options.format.recording() {
+        let names: Vec<&Component> = sequences.into_iter().collect();
+        let sequences: Vec<String> = names.iter().map(|name| name.as_str().to_owned()).collect();
+        let (Some(name), Some(parent)) = (path.file_name(), path.parent()) else {
+            return Err(DataError::content(path, "path", "one that ends in a name", "none"));
+        };
+        let lock = WriterLock::beside(path)?;
+        let file = match RosFormat::of_export(options.format) {
             Some(kind) if RosFormat::of_file(path) == Some(kind) && !path.is_dir() => {
                 check_file(path, options, &sequences)?;
-                sequences.first().map(|name| format!("{name}.{}", kind.extension()))
+                names.first().map(|name| name.and(kind.ending()))
             }
             _ => {
                 check_folder(path, options)?;
                 None
             }
         };
-        let (Some(name), Some(parent)) = (path.file_name(), path.parent()) else {
-            return Err(DataError::content(path, "path", "one that ends in a name", "none"));
-        };
         let hidden = |end: &str| parent.join(format!(".{}.{end}", name.to_string_lossy()));
-        let place = Self { path: path.to_owned(), part: hidden("part"), earlier: hidden("earlier"), file };
+        let (part, earlier) = (OutFolder::new(&hidden("part")), hidden("earlier"));
+        let place = Self { path: path.to_owned(), part, earlier, file, _lock: lock };
         // What a killed export left.
-        remove_folder(&place.part)?;
+        remove_folder(place.part.path())?;
         let record = Record { version: env!("CARGO_PKG_VERSION").to_owned(), options: *options, sequences };
-        let file = place.part.join(RECORD);
+        let file = place.part.own_file(RECORD);
         let json = serde_json::to_string_pretty(&record).map_err(std::io::Error::from);
         files::write_whole(&file, (json.map_err(DataError::io(&file))? + "\n").as_bytes())?;
         Ok(place)
     }
 
     /// The folder to write to.
-    pub(super) fn folder(&self) -> &Path {
+    pub(super) fn folder(&self) -> &OutFolder {
         &self.part
     }
 
@@ -72,13 +80,13 @@ impl Place {
     pub(super) fn finish(self) -> Result<(), DataError> {
         let refused = || DataError::io(&self.path);
         if let Some(file) = &self.file {
-            return fs::rename(self.part.join(file), &self.path).map_err(refused());
+            return fs::rename(self.part.file(file), &self.path).map_err(refused());
         }
         remove_folder(&self.earlier)?;
         if self.path.exists() {
             fs::rename(&self.path, &self.earlier).map_err(refused())?;
         }
-        if let Err(error) = fs::rename(&self.part, &self.path) {
+        if let Err(error) = fs::rename(self.part.path(), &self.path) {
             // The earlier one comes back; the error that matters is the first one.
             let _ = fs::rename(&self.earlier, &self.path);
             return Err(refused()(error));
@@ -90,7 +98,7 @@ impl Place {
 impl Drop for Place {
     /// A half-written export is of no use to anyone. Of a finished one nothing is left beside its place.
     fn drop(&mut self) {
-        let _ = remove_folder(&self.part);
+        let _ = remove_folder(self.part.path());
     }
 }
 
@@ -139,7 +147,7 @@ fn check_folder(path: &Path, options: &ExportOptions) -> Result<(), DataError> {
 }
 
 fn read(folder: &Path) -> Option<Record> {
-    serde_json::from_slice(&fs::read(folder.join(RECORD)).ok()?).ok()
+    serde_json::from_str(&files::read_text(&folder.join(RECORD), Kind::Settings).ok()?).ok()
 }
 
 fn remove_folder(folder: &Path) -> Result<(), DataError> {

@@ -11,11 +11,11 @@ use crate::disk::files;
 use crate::disk::label_file::write_labels;
 use crate::error::DataError;
 use crate::read::SequenceReader;
+use crate::result::{Component, OutFolder, checked};
 use crate::run::SequenceRecord;
 use ralf::sensors::{Radar, RadarScan};
 use ralf::space::Transform;
 use std::fmt::Write;
-use std::path::Path;
 
 /// Fields that are taken for the intensity of a return, the first that a radar has.
 const INTENSITIES: [&str; 5] = ["rcs", "power", "snr", "amplitude", "intensity"];
@@ -38,14 +38,14 @@ impl SemanticKitti {
 }
 
 impl Writer for SemanticKitti {
-    fn sequence(&mut self, folder: &Path, sequence: &mut LabelledSequence) -> Result<(), DataError> {
+    fn sequence(&mut self, folder: &OutFolder, sequence: &mut LabelledSequence) -> Result<(), DataError> {
         let all = sequence.reader.sequence();
         for (radar, Radar { name, .. }) in all.rig.radars.iter().enumerate() {
             let number = match self.keeps_names {
                 true => sequence.name().to_owned(),
                 false => format!("{:02}", self.table.len()),
             };
-            let folder = folder.join("sequences").join(&number);
+            let folder = folder.own("sequences").folder(&checked("sequence", &number)?);
             self.table.push(format!(
                 "{number},{},{},{}\n",
                 csv(sequence.name()),
@@ -63,9 +63,9 @@ impl Writer for SemanticKitti {
         Ok(())
     }
 
-    fn finish(&mut self, folder: &Path) -> Result<(), DataError> {
+    fn finish(&mut self, folder: &OutFolder) -> Result<(), DataError> {
         let text = "number,sequence,radar,scans\n".to_owned() + &self.table.concat();
-        files::write_whole(&folder.join("sequences.csv"), text.as_bytes())
+        files::write_whole(&folder.own_file("sequences.csv"), text.as_bytes())
     }
 }
 
@@ -78,8 +78,10 @@ fn csv(text: &str) -> String {
     }
 }
 
-fn write_scan(folder: &Path, sequence: &LabelledSequence, scan: &LabelledScan) -> Result<(), DataError> {
-    let file = |kind: &str, extension: &str| folder.join(kind).join(format!("{:06}.{extension}", scan.scan));
+fn write_scan(folder: &OutFolder, sequence: &LabelledSequence, scan: &LabelledScan) -> Result<(), DataError> {
+    let file = |kind: &'static str, ending: &'static str| {
+        folder.own(kind).file(&Component::numbered(scan.scan, ending))
+    };
     if !sequence.options.sensors.radar {
         return write_labels(&file("labels", "label"), &scan.labels_in_place());
     }
@@ -107,10 +109,10 @@ fn point(radar: &Radar, measured: &RadarScan, row: usize) -> [f32; 4] {
 
 /// `calib.txt`, `poses.txt` and `times.txt`. In place of SemanticKITTI's camera stands the vehicle: `Tr` is
 /// vehicle_from_radar, and a pose is that of the vehicle in its frame at the first scan.
-fn write_tables(folder: &Path, sequence: &LabelledSequence, radar: usize) -> Result<(), DataError> {
+fn write_tables(folder: &OutFolder, sequence: &LabelledSequence, radar: usize) -> Result<(), DataError> {
     let all = sequence.reader.sequence();
     let calib = format!("Tr:{}\n", matrix(&all.rig.radars[radar].vehicle_from_radar));
-    files::write_whole(&folder.join("calib.txt"), calib.as_bytes())?;
+    files::write_whole(&folder.own_file("calib.txt"), calib.as_bytes())?;
     let (mut poses, mut seconds) = (String::new(), String::new());
     let times = &all.times.radars[radar];
     let first_ns = times.first().copied().unwrap_or_default();
@@ -121,8 +123,8 @@ fn write_tables(folder: &Path, sequence: &LabelledSequence, radar: usize) -> Res
         let _ = writeln!(poses, "{}", pose.trim_start());
         let _ = writeln!(seconds, "{:.9}", (t_ns - first_ns) as f64 * 1e-9);
     }
-    files::write_whole(&folder.join("poses.txt"), poses.as_bytes())?;
-    files::write_whole(&folder.join("times.txt"), seconds.as_bytes())
+    files::write_whole(&folder.own_file("poses.txt"), poses.as_bytes())?;
+    files::write_whole(&folder.own_file("times.txt"), seconds.as_bytes())
 }
 
 /// The upper three rows of a transform, each number after a space.

@@ -10,11 +10,11 @@
 //! | `/tf` | TFMessage | with the sensors' data |
 //! | `/tf_static` | TFMessage | always |
 //!
-//! Of a sequence that is read from a recording of the same kind, all messages are copied byte for byte where all sensors' data
-//! are asked for, and the labelled clouds are in the frames of the original ones.
+//! Of a sequence that is read from a recording of the same kind, all messages are copied byte for byte where all
+//! sensors' data are asked for, and the labelled clouds are in the frames of the original ones.
 //!
-//! Else a sensor's frame has the sensor's name, the vehicle's is `base_link`, and it moves in `odom`. A message is recorded at the
-//! time of its measurement, so that they lie in order.
+//! Else a sensor's frame has the sensor's name, the vehicle's is `base_link`, and it moves in `odom`. A message is
+//! recorded at the time of its measurement, so that they lie in order.
 
 mod cloud;
 mod images;
@@ -26,11 +26,12 @@ mod settings;
 
 use super::Writer;
 use super::labelled::LabelledSequence;
-use super::options::Sensors;
+use super::options::{ExportFormat, Sensors};
 use crate::disk::files;
 use crate::disk::files::{beside, remove};
 use crate::error::DataError;
 use crate::read::SequenceReader;
+use crate::result::{OutFolder, WriterLock};
 use ralf_ros::container::{Container, recognises};
 use ralf_ros::writer::{Compression, MessageWriter, WriteError};
 use recorder::Recorder;
@@ -52,6 +53,15 @@ pub enum RosFormat {
 type FileWriter = MessageWriter<BufWriter<File>>;
 
 impl RosFormat {
+    /// The kind of recording that an export in this format is; `None` of formats that are none.
+    pub(super) fn of_export(format: ExportFormat) -> Option<Self> {
+        match format {
+            ExportFormat::Mcap => Some(Self::Mcap),
+            ExportFormat::Rosbag1 => Some(Self::Bag),
+            _ => None,
+        }
+    }
+
     /// The kind that a file's name tells of.
     pub fn of_file(file: &Path) -> Option<Self> {
         let found = file.extension()?.to_str()?;
@@ -63,6 +73,14 @@ impl RosFormat {
         match self {
             Self::Mcap => "mcap",
             Self::Bag => "bag",
+        }
+    }
+
+    /// The same with the dot.
+    pub(super) fn ending(self) -> &'static str {
+        match self {
+            Self::Mcap => ".mcap",
+            Self::Bag => ".bag",
         }
     }
 
@@ -80,18 +98,18 @@ impl RosFormat {
 pub(super) struct Ros(pub(super) RosFormat);
 
 impl Writer for Ros {
-    fn sequence(&mut self, folder: &Path, sequence: &mut LabelledSequence) -> Result<(), DataError> {
-        let file = folder.join(format!("{}.{}", sequence.name(), self.0.extension()));
+    fn sequence(&mut self, folder: &OutFolder, sequence: &mut LabelledSequence) -> Result<(), DataError> {
+        let file = folder.file(&sequence.names.sequence.and(self.0.ending()));
         let (reader, sensors) = (sequence.reader, sequence.options.sensors);
         let recorder = Recorder::new(self.0.create(&file)?, &file, reader, sensors, true)?;
         recorder.record(Some(sequence), &|_| {})
     }
 }
 
-/// Writes all that the sensors of a sequence measured as one file, and beside it, with the ending `.toml`, the settings by
-/// which it is read back: which topic is which sensor, and the sensors' uncertainties. Each appears whole or not at all.
-/// `progress` is told how many measurements are done. Returns the file of the settings; `None` of a recording that was copied,
-/// for those of the original hold. What is lost is told in `docs/export.md`.
+/// Writes all that the sensors of a sequence measured as one file, and beside it, with the ending `.toml`, the settings
+/// by which it is read back: which topic is which sensor, and the sensors' uncertainties. Each appears whole or not at
+/// all. `progress` is told how many measurements are done. Returns the file of the settings; `None` of a recording that
+/// was copied, for those of the original hold. What is lost is told in `docs/export.md`.
 ///
 /// # Errors
 /// A file that is there already, a measurement that can't be read, times before 1970, what the system refuses.
@@ -101,7 +119,8 @@ pub fn write_ros(
     format: RosFormat,
     progress: &dyn Fn(usize),
 ) -> Result<Option<PathBuf>, DataError> {
-    let settings_file = file.with_extension("toml");
+    let _lock = WriterLock::beside(file)?;
+    let settings_file = settings_file(file);
     if let Some(there) = [file, &settings_file].into_iter().find(|file| file.exists()) {
         return Err(DataError::content(there, "file", "none of this name yet", "one"));
     }
@@ -125,6 +144,18 @@ pub fn write_ros(
         let _ = remove(&part);
     }
     written
+}
+
+/// Where the settings of a recording go: `t.toml` beside `t.mcap`, and `t.bag.toml` beside `t.bag` where that is
+/// another's.
+fn settings_file(file: &Path) -> PathBuf {
+    let usual = file.with_extension("toml");
+    if !usual.exists() {
+        return usual;
+    }
+    let mut name = file.as_os_str().to_owned();
+    name.push(".toml");
+    name.into()
 }
 
 /// The file could not be written: with all reasons, for libraries hide the system's behind their own.

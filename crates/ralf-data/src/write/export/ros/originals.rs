@@ -2,10 +2,11 @@
 
 use super::{FileWriter, written};
 use crate::error::DataError;
-use crate::read::ros::LABELLED;
-use crate::read::{RosSource, SequenceReader};
+use crate::read::SequenceReader;
+use crate::read::ros::{LABELLED, RosOrigin};
 use ralf_ros::container::{Container, MessageRef, Topic};
 use ralf_ros::writer::{RawTopic, WriteError};
+use std::any::Any;
 use std::path::Path;
 
 /// The recording behind a sequence, and which of its topics are copied.
@@ -23,7 +24,10 @@ impl<'a> Originals<'a> {
         reader: &'a dyn SequenceReader,
         writer: &mut FileWriter,
     ) -> Result<Option<Self>, WriteError> {
-        let Some(RosSource { container, radar_frames }) = reader.ros() else { return Ok(None) };
+        let Some(origin) = reader.origin().and_then(<dyn Any>::downcast_ref::<RosOrigin>) else {
+            return Ok(None);
+        };
+        let (container, radar_frames) = (origin.container(), origin.radar_frames());
         let is_copied = |topic: &&Topic| !topic.name.ends_with(LABELLED);
         if !container.topics().iter().filter(is_copied).all(|topic| writer.can_copy(topic)) {
             return Ok(None);

@@ -1,0 +1,50 @@
+//! A LiDAR's numbers: whether they were read as what they are.
+
+use super::mounting;
+use crate::remedy::Remedy;
+use crate::sample::LidarLook;
+use crate::statistics::median;
+use crate::verdict::{Question, Verdict};
+use ralf::sensors::Lidar;
+
+/// More than this share of absurd coordinates is another data type: one in a thousand happens.
+const ABSURD: f64 = 0.01;
+/// No LiDAR looks up or down by more than 45 degrees with so many of its returns.
+const STEEP: f64 = 0.3;
+/// Medians of distances lie within, m.
+const RANGES: std::ops::Range<f64> = 1.0..150.0;
+
+pub(super) fn judge(lidar: &Lidar, looks: &[&LidarLook]) -> Vec<Verdict> {
+    let mut verdicts = mounting(&lidar.name, &lidar.vehicle_from_lidar);
+    let of = |figure: fn(&LidarLook) -> f64| {
+        median(&looks.iter().map(|look| figure(look)).collect::<Vec<_>>()).unwrap_or(0.0)
+    };
+    let doubt = |evidence: String, remedy| Verdict::doubt(&lidar.name, Question::Bounds, evidence, remedy);
+    let (points, absurd) = (of(|look| look.shape.points as f64), of(|look| look.shape.absurd));
+    let (steep, range) = (of(|look| look.shape.steep), of(|look| look.shape.range));
+    if looks.is_empty() || points < 50.0 {
+        let missing = format!("{} scans of {points:.0} points; 50 points are needed", looks.len());
+        verdicts.push(Verdict::cannot_judge(&lidar.name, Question::Bounds, missing));
+    } else if absurd > ABSURD {
+        let share = absurd * 100.0;
+        let evidence = format!("{share:.0} % of the coordinates are beyond 1000 km or closer to 0 than 1 um");
+        verdicts.push(doubt(evidence, Some(Remedy::LookInto("its file holds numbers of another type"))));
+    } else if !RANGES.contains(&range) {
+        let factor = [0.01, 0.001].into_iter().find(|factor| RANGES.contains(&(range * factor)));
+        verdicts.push(doubt(
+            format!("half of the points lie beyond {range:.1} m"),
+            factor.map(Remedy::Positions),
+        ));
+    } else if steep > STEEP {
+        let share = steep * 100.0;
+        let evidence =
+            format!("{share:.0} % of the points lie more than 45 degrees above or below the sensor");
+        verdicts.push(doubt(evidence, Some(Remedy::LookInto("its rows have another number of columns"))));
+    }
+    let same = looks.windows(2).filter(|pair| pair[0].digest == pair[1].digest && points >= 50.0).count();
+    if same > 0 {
+        let evidence = format!("the same scan again in {same} of {} cases: it is stuck", looks.len() - 1);
+        verdicts.push(doubt(evidence, Some(Remedy::LookInto("leave out the scans that repeat"))));
+    }
+    verdicts
+}

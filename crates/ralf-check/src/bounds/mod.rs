@@ -1,0 +1,55 @@
+//! What no sensor gives and no vehicle does, whatever the scene.
+
+mod lidar;
+mod motion;
+mod radar;
+mod timing;
+
+use crate::sample::Sample;
+use crate::verdict::{Question, Verdict};
+use ralf::sensors::Sequence;
+
+/// All questions about bounds. What is in order is said once per sensor.
+pub(crate) fn judge(sequence: &Sequence, sample: &Sample) -> Vec<Verdict> {
+    let mut verdicts = motion::judge(sequence);
+    let (rig, times) = (&sequence.rig, &sequence.times);
+    for ((radar, looks), times) in rig.radars.iter().zip(&sample.radars).zip(&times.radars) {
+        let mut found = radar::judge(radar, looks);
+        found.extend(timing::judge(&radar.name, times));
+        verdicts.extend(settled(&radar.name, found));
+    }
+    for (i, (lidar, times)) in rig.lidars.iter().zip(&times.lidars).enumerate() {
+        let looks: Vec<_> = sample.lidars.iter().filter(|look| look.lidar == i).collect();
+        let mut found = lidar::judge(lidar, &looks);
+        found.extend(timing::judge(&lidar.name, times));
+        verdicts.extend(settled(&lidar.name, found));
+    }
+    for (camera, times) in rig.cameras.iter().zip(&times.cameras) {
+        let mut found = mounting(&camera.name, &camera.vehicle_from_camera);
+        found.extend(timing::judge(&camera.name, times));
+        verdicts.extend(settled(&camera.name, found));
+    }
+    verdicts
+}
+
+fn settled(name: &str, found: Vec<Verdict>) -> Vec<Verdict> {
+    if found.is_empty() {
+        return vec![Verdict::good(name, Question::Bounds, "its numbers are such as a sensor gives".into())];
+    }
+    found
+}
+
+/// A sensor farther from the rear axle than this is on no vehicle, m.
+const FARTHEST_MOUNTING: f64 = 20.0;
+
+fn mounting(name: &str, mount: &ralf::space::Transform) -> Vec<Verdict> {
+    let distance = mount.translation.vector.norm();
+    if distance <= FARTHEST_MOUNTING {
+        return Vec::new();
+    }
+    let evidence = format!(
+        "mounted {distance:.0} m from the rear axle, on no vehicle farther than {FARTHEST_MOUNTING} m"
+    );
+    let remedy = crate::remedy::Remedy::LookInto("the translation looks like cm");
+    vec![Verdict::doubt(name, Question::Bounds, evidence, Some(remedy))]
+}

@@ -1,0 +1,147 @@
+//! A radar's numbers.
+
+use super::mounting;
+use crate::remedy::{LENGTHS, Remedy};
+use crate::sample::RadarLook;
+use crate::statistics::{median, quantile};
+use crate::verdict::{Question, State, Verdict};
+use ralf::sensors::{Elevation, Radar};
+use std::f64::consts::{FRAC_PI_2, PI};
+
+/// Medians of ranges lie within, m: from parking to motorways.
+const RANGES: std::ops::Range<f64> = 0.8..200.0;
+/// Where a usual median lies, m.
+const USUAL_RANGE: f64 = 20.0;
+/// Share of detections that may lie outside the field of view: calibrations are rounded.
+const OUTSIDE: f64 = 0.1;
+/// Share of detections without coordinates that is said, and that is doubted.
+const NOT_FINITE: (f64, f64) = (0.01, 0.2);
+/// Share of scans that may repeat the one before.
+const REPEATED: f64 = 0.05;
+/// Fewer detections than this tell nothing of a distribution.
+const FEWEST: usize = 30;
+
+pub(super) fn judge(radar: &Radar, looks: &[RadarLook]) -> Vec<Verdict> {
+    let mut verdicts = mounting(&radar.name, &radar.vehicle_from_radar);
+    let all: Vec<[f64; 3]> = looks.iter().flat_map(|look| &look.spherical).copied().collect();
+    verdicts.extend(repeated(&radar.name, looks));
+    verdicts.extend(not_finite(&radar.name, looks));
+    verdicts.extend(sigmas(radar));
+    if all.len() < FEWEST {
+        let missing = format!("{} detections in {} scans; {FEWEST} are needed", all.len(), looks.len());
+        verdicts.push(Verdict::cannot_judge(&radar.name, Question::Bounds, missing));
+        return verdicts;
+    }
+    let in_degrees = angles(&radar.name, &all);
+    if in_degrees.is_empty() {
+        verdicts.extend(field_of_view(radar, &all));
+    }
+    verdicts.extend(in_degrees);
+    verdicts.extend(ranges(&radar.name, &all));
+    verdicts.extend(elevation(radar, &all));
+    verdicts
+}
+
+fn doubt(name: &str, evidence: String, remedy: Option<Remedy>) -> Verdict {
+    Verdict::doubt(name, Question::Bounds, evidence, remedy)
+}
+
+fn repeated(name: &str, looks: &[RadarLook]) -> Option<Verdict> {
+    let follows = |pair: &&[RadarLook]| pair[1].scan == pair[0].scan + 1 && pair[0].rows > 1;
+    let pairs: Vec<&[RadarLook]> = looks.windows(2).filter(follows).collect();
+    let same = pairs.iter().filter(|pair| pair[0].digest == pair[1].digest).count();
+    if same == 0 || (same as f64) < REPEATED * pairs.len() as f64 {
+        return None;
+    }
+    let evidence = format!(
+        "the same scan again in {same} of {} cases: the sensor or its recorder is stuck",
+        pairs.len()
+    );
+    Some(doubt(name, evidence, Some(Remedy::LookInto("leave out the scans that repeat"))))
+}
+
+fn not_finite(name: &str, looks: &[RadarLook]) -> Option<Verdict> {
+    let rows: usize = looks.iter().map(|look| look.rows).sum();
+    let lost: usize = looks.iter().map(|look| look.not_finite).sum();
+    let share = lost as f64 / rows.max(1) as f64;
+    let evidence = format!("{:.0} % of the detections have no finite coordinates", share * 100.0);
+    if share > NOT_FINITE.1 {
+        return Some(doubt(name, evidence, None));
+    }
+    (share > NOT_FINITE.0).then(|| Verdict::new(name, Question::Bounds, State::Fact, evidence))
+}
+
+/// Angles that are no radians.
+fn angles(name: &str, all: &[[f64; 3]]) -> Vec<Verdict> {
+    let mut found = Vec::new();
+    for (column, field, largest) in [(1, "azimuth", PI), (2, "elevation", FRAC_PI_2)] {
+        let beyond = all.iter().filter(|row| row[column].abs() > largest * 1.001).count();
+        if beyond * 100 > all.len() {
+            let share = 100.0 * beyond as f64 / all.len() as f64;
+            let evidence = format!("{share:.0} % of the detections have |{field}| above {largest:.2} rad");
+            found.push(doubt(name, evidence, Some(Remedy::InDegrees(field))));
+        }
+    }
+    found
+}
+
+fn field_of_view(radar: &Radar, all: &[[f64; 3]]) -> Vec<Verdict> {
+    let azimuth = (1, "fov_azimuth_deg", radar.fov_azimuth, radar.sigma_azimuth);
+    let elevation = (2, "fov_elevation_deg", radar.fov_elevation, radar.sigma_elevation);
+    let measured = radar.elevation == Elevation::Measured;
+    let axes = [Some(azimuth), Some(elevation).filter(|_| measured)];
+    let mut found = Vec::new();
+    for (column, key, full, sigma) in axes.into_iter().flatten() {
+        let angles: Vec<f64> = all.iter().map(|row| row[column].abs()).collect();
+        let room = full / 2.0 + 2.0 * sigma.min(0.1);
+        let outside = angles.iter().filter(|angle| **angle > room).count() as f64 / all.len() as f64;
+        if outside > OUTSIDE {
+            let value = 2.0 * quantile(&angles, 0.99).unwrap_or(0.0).to_degrees();
+            let evidence = format!(
+                "{:.0} % of the detections lie outside {key} = {:.1}",
+                outside * 100.0,
+                full.to_degrees()
+            );
+            found.push(doubt(&radar.name, evidence, Some(Remedy::Value { key, value })));
+        }
+    }
+    found
+}
+
+fn ranges(name: &str, all: &[[f64; 3]]) -> Option<Verdict> {
+    let ranges: Vec<f64> = all.iter().map(|row| row[0]).collect();
+    let middle = median(&ranges).filter(|middle| !RANGES.contains(middle))?;
+    let off = |factor: f64| (middle * factor / USUAL_RANGE).ln().abs();
+    let nearest = LENGTHS.iter().map(|(factor, _)| *factor).min_by(|a, b| off(*a).total_cmp(&off(*b)));
+    let remedy = nearest.filter(|factor| RANGES.contains(&(middle * factor))).map(Remedy::Positions);
+    Some(doubt(name, format!("half of the detections lie beyond {middle:.1} m"), remedy))
+}
+
+fn elevation(radar: &Radar, all: &[[f64; 3]]) -> Option<Verdict> {
+    let angles: Vec<f64> = all.iter().map(|row| row[2]).filter(|angle| angle.is_finite()).collect();
+    let [low, high] = [0.01, 0.99].map(|share| quantile(&angles, share).unwrap_or(0.0));
+    if radar.elevation == Elevation::None || high - low > 1e-4 {
+        return None;
+    }
+    let evidence = format!("elevation is said to be measured, and is {:.2} degrees always", low.to_degrees());
+    Some(doubt(&radar.name, evidence, Some(Remedy::LookInto("elevation = \"none\" in the rig"))))
+}
+
+/// Sigmas, and what a radian taken for a degree (or the other way round) makes of them.
+fn sigmas(radar: &Radar) -> Vec<Verdict> {
+    let measured = radar.elevation == Elevation::Measured;
+    let azimuth = Some(("sigma_azimuth_deg", radar.sigma_azimuth.to_degrees(), 0.03..8.0, 57.3));
+    let elevation = Some(("sigma_elevation_deg", radar.sigma_elevation.to_degrees(), 0.03..12.0, 57.3));
+    let range = Some(("sigma_range_m", radar.sigma_range, 0.004..3.0, 0.01));
+    let rows = [azimuth, elevation.filter(|_| measured), range];
+    let mut found = Vec::new();
+    for (key, value, usual, factor) in rows.into_iter().flatten() {
+        if usual.contains(&value) {
+            continue;
+        }
+        let other = [value * factor, value / factor].into_iter().find(|other| usual.contains(other));
+        let evidence = format!("{key} = {value} is out of reason ({} to {})", usual.start, usual.end);
+        found.push(doubt(&radar.name, evidence, other.map(|value| Remedy::Value { key, value })));
+    }
+    found
+}

@@ -1,0 +1,30 @@
+//! What range rates say of the vehicle's motion, of the radars' mountings and of their clocks.
+
+mod clock;
+mod compare;
+pub(crate) mod fit;
+mod vehicle;
+
+pub(crate) use clock::{ClockFigures, clock};
+pub(crate) use compare::{DopplerFigures, compare, predicted};
+pub use fit::{VelocityFit, fit};
+pub use vehicle::from_doppler;
+pub(crate) use vehicle::{Turning, turning};
+
+use crate::sample::RadarLook;
+
+/// A scan's velocity and when it was measured.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Timed {
+    pub(crate) t_ns: i64,
+    pub(crate) fit: VelocityFit,
+}
+
+/// The velocities of a radar's scans.
+pub(crate) fn fits(looks: &[RadarLook]) -> Vec<Timed> {
+    let one = |look: &RadarLook| {
+        let fit = fit(&look.rays, &look.range_rates, look.scan as u64)?;
+        Some(Timed { t_ns: look.t_ns, fit })
+    };
+    looks.iter().filter_map(one).collect()
+}

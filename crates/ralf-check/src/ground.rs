@@ -1,0 +1,78 @@
+//! The ground that a LiDAR sees: how far it is tilted and shifted against the vehicle's z = 0.
+
+use ralf::config::{GroundConfig, GroundModel};
+use ralf::scene::Ground;
+use ralf::space::Point;
+
+/// Points that a fit looks at.
+const POINTS: usize = 6000;
+/// A wrong mounting may be off by so much: what the labeler itself would no longer take for the ground is found as well.
+const WIDEST: (f64, f64) = (20.0, 3.0);
+/// A point this close to the plane supports it, m.
+const CLOSE: f64 = 0.15;
+/// Only within this distance of the vehicle is the road a plane, m.
+const NEAR: f64 = 25.0;
+
+/// A plane through the ground.
+#[derive(Debug, Clone)]
+pub(crate) struct GroundFit {
+    ground: Ground,
+    /// Rise towards the front and to the left, rad.
+    pub(crate) slope: [f64; 2],
+    /// Height of the plane at the vehicle's origin, m.
+    pub(crate) offset: f64,
+    /// Share of the points nearby that lie on it.
+    pub(crate) support: f64,
+}
+
+impl GroundFit {
+    /// Height above the plane, m.
+    pub(crate) fn height(&self, p: &Point) -> f64 {
+        self.ground.height(p)
+    }
+}
+
+/// The plane with the most LiDAR points (vehicle frame, m); `None` where none is found.
+pub(crate) fn fit(points: &[Point]) -> Option<GroundFit> {
+    let near: Vec<[f32; 3]> = points
+        .iter()
+        .filter(|p| p.coords.xy().norm() < NEAR)
+        .map(|p| [p.x as f32, p.y as f32, p.z as f32])
+        .collect();
+    let step = near.len().div_ceil(POINTS).max(1);
+    let thin: Vec<[f32; 3]> = near.into_iter().step_by(step).collect();
+    let config = GroundConfig {
+        model: GroundModel::Plane,
+        max_tilt_deg: WIDEST.0,
+        max_offset: WIDEST.1,
+        inlier_distance: CLOSE,
+        ..GroundConfig::default()
+    };
+    let ground = Ground::fit(&thin, &config, 0)?;
+    let height = |x: f64, y: f64| -ground.height(&Point::new(x, y, 0.0));
+    let offset = height(0.0, 0.0);
+    let slope = [height(1.0, 0.0) - offset, height(0.0, 1.0) - offset].map(f64::atan);
+    let on = |p: &&[f32; 3]| ground.height(&Point::new(p[0].into(), p[1].into(), p[2].into())).abs() < CLOSE;
+    let support = thin.iter().filter(on).count() as f64 / thin.len().max(1) as f64;
+    Some(GroundFit { ground, slope, offset, support })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_road_that_rises_by_three_degrees_is_told() {
+        let slope = 3.0_f64.to_radians().tan();
+        let road = (0..900).map(|i| [f64::from(i % 30) - 15.0, f64::from(i / 30) - 15.0]);
+        let points: Vec<Point> = road.map(|[x, y]| Point::new(x, y, 0.2 + slope * x)).collect();
+        let found = fit(&points).unwrap();
+        assert!((found.slope[0].to_degrees() - 3.0).abs() < 0.1 && found.slope[1].abs() < 0.002, "{found:?}");
+        assert!((found.offset - 0.2).abs() < 0.01 && found.support > 0.99);
+    }
+
+    #[test]
+    fn no_points_have_no_ground() {
+        assert!(fit(&[]).is_none());
+    }
+}

@@ -1,0 +1,57 @@
+//! From evidence to verdicts: the change that explains the most is taken first, and the rest is judged with it in place.
+//!
+//! Motion before clocks before LiDARs before radars, for a fault of one is seen in all that come after.
+
+mod alternatives;
+mod case;
+mod clocks;
+mod doppler;
+mod ground;
+mod lidar;
+mod motion;
+mod radar;
+mod swapped;
+mod vertical;
+
+use crate::bounds;
+use crate::remedy::Remedy;
+use crate::sample::Sample;
+use crate::verdict::{Question, SequenceCheck, State, Verdict};
+use case::Case;
+use ralf::sensors::Source;
+
+/// Judges a sequence. Some hundred scans of each radar and some thirty of each LiDAR are read, spread over the sequence; those
+/// that can't be read are left out, and this is said.
+pub fn check(source: &dyn Source) -> SequenceCheck {
+    let sequence = source.sequence();
+    let sample = Sample::of(source);
+    let mut verdicts = bounds::judge(sequence, &sample);
+    if let Some(first) = sample.unreadable.first() {
+        let evidence = format!("{} scans can't be read, the first: {first}", sample.unreadable.len());
+        verdicts.push(Verdict::new(&sequence.name, Question::Bounds, State::Fact, evidence));
+    }
+    let mut case = Case::new(sequence, &sample, unfit(&verdicts));
+    verdicts.extend(motion::judge(&mut case));
+    verdicts.extend(clocks::judge(&mut case));
+    verdicts.extend(lidar::judge(&mut case));
+    verdicts.extend(radar::judge(&mut case));
+    verdicts.extend(vertical::judge(&case));
+    verdicts.extend(ground::judge(sequence, &sample));
+    let figures = case.figures();
+    let rank = |verdict: &Verdict| case.rank(&verdict.subject);
+    verdicts.sort_by_key(|verdict| (rank(verdict), verdict.question));
+    SequenceCheck { name: sequence.name.clone(), verdicts, figures }
+}
+
+/// Sensors whose numbers are no positions: nothing else can be asked of them.
+fn unfit(verdicts: &[Verdict]) -> Vec<String> {
+    let breaks = |verdict: &&Verdict| {
+        let remedy = verdict.remedy.as_ref();
+        verdict.state == State::Doubt
+            && remedy.is_some_and(|remedy| {
+                matches!(remedy, Remedy::Positions(_) | Remedy::InDegrees(_))
+                    || matches!(remedy, Remedy::LookInto(what) if what.contains("type") || what.contains("columns") || what.contains("cm"))
+            })
+    };
+    verdicts.iter().filter(breaks).map(|verdict| verdict.subject.clone()).collect()
+}

@@ -1,0 +1,170 @@
+//! Whether a radar is where and when it is said to be: by its range rates, and by the LiDAR.
+
+use super::alternatives::{best, clocks, exact, shifts, yaws};
+use super::case::Case;
+use super::doppler::{RATIO, in_words, is_aligned, is_explained};
+use super::motion::correct_range_rates;
+use super::swapped;
+use crate::change::SensorChange;
+use crate::doppler::{DopplerFigures, Timed};
+use crate::overlap::{Measure, Tally};
+use crate::remedy::{Remedy, SPEEDS};
+use crate::statistics::wrapped;
+use crate::verdict::{Question, State, Verdict};
+use nalgebra::Vector2;
+use std::f64::consts::PI;
+
+/// A radar whose velocity is this share of the vehicle's or less has range rates without the vehicle's motion.
+const COMPENSATED: f64 = 0.2;
+/// A direction that is off by more is no mounting that slipped, degrees: it may be mirrored.
+const SLIPPED_DEG: f64 = 12.0;
+/// Scans of a standing vehicle whose world moves.
+const CREEPING: usize = 3;
+
+/// Judges each radar, and puts right what is found.
+pub(super) fn judge(case: &mut Case) -> Vec<Verdict> {
+    let mut verdicts = swapped::judge(case);
+    let swapped: Vec<String> = verdicts.iter().map(|verdict| verdict.subject.clone()).collect();
+    let radars: Vec<usize> = case.radars().collect();
+    for radar in radars {
+        if !swapped.iter().any(|name| name == case.name(radar)) {
+            verdicts.push(by_range_rates(case, radar));
+            verdicts.push(by_lidar(case, radar));
+        }
+    }
+    verdicts
+}
+
+fn by_range_rates(case: &mut Case, radar: usize) -> Verdict {
+    let name = case.name(radar);
+    let Some(figures) = case.doppler(radar, &case.motion, &case.mount(radar)) else {
+        return Verdict::cannot_judge(name, Question::Doppler, missing(case, radar));
+    };
+    if figures.creeping >= CREEPING {
+        let evidence =
+            format!("the world moves in {} scans in which the vehicle is said to stand", figures.creeping);
+        return Verdict::doubt(name, Question::Doppler, evidence, None);
+    }
+    if is_explained(&figures) {
+        return Verdict::good(name, Question::Doppler, in_words(&figures));
+    }
+    let remedy = remedy(case, radar, &figures);
+    match &remedy {
+        Some(Remedy::Doppler(factor)) => correct_range_rates(&mut case.fits[radar], *factor),
+        Some(Remedy::Sensor(change)) => case.radar_changes[radar] = case.radar_changes[radar].and(change),
+        _ => {}
+    }
+    Verdict::doubt(name, Question::Doppler, in_words(&figures), remedy)
+}
+
+fn missing(case: &Case, radar: usize) -> String {
+    let sensor = &case.sequence.rig.radars[radar];
+    if sensor.column("doppler").is_none() {
+        return "raw range rates are needed: a field `doppler`".into();
+    }
+    format!(
+        "{} of {} scans tell a velocity: five scans at more than 1 m/s are needed in which three in ten detections stand still",
+        case.fits[radar].len(),
+        case.sample.radars[radar].len()
+    )
+}
+
+/// What makes range rates go with the motion.
+fn remedy(case: &Case, radar: usize, figures: &DopplerFigures) -> Option<Remedy> {
+    let (ratio, angle) = (figures.ratio.value, figures.angle.value);
+    if ratio < COMPENSATED
+        && figures.inliers > 0.4
+        && !SPEEDS
+            .iter()
+            .any(|(unit, _)| (ratio * unit - 1.0).abs() < 0.05 || (ratio / unit - 1.0).abs() < 0.05)
+    {
+        return Some(Remedy::LookInto(
+            "range rates look like those without the vehicle's motion (doppler_compensated)",
+        ));
+    }
+    if !RATIO.contains(&ratio) {
+        let known = SPEEDS.iter().map(|(unit, _)| *unit).chain(SPEEDS.iter().map(|(unit, _)| 1.0 / unit));
+        let factor = known.into_iter().find(|unit| RATIO.contains(&(ratio * unit)));
+        return is_aligned(figures).then_some(factor.map(Remedy::Doppler)).flatten();
+    }
+    let turned = SensorChange::yaw((-angle.to_degrees() * 10.0).round() / 10.0);
+    if angle.abs().to_degrees() <= SLIPPED_DEG {
+        return Some(Remedy::Sensor(turned));
+    }
+    let mirrored = Some(SensorChange::mirror()).filter(|_| mirror_explains(case, radar));
+    let other_sign = wrapped(angle - PI).abs() < SLIPPED_DEG.to_radians();
+    Some(of_large_angles(case, radar, [Some(turned), mirrored], other_sign))
+}
+
+/// A direction that is far off: turned, mirrored, or the range rates have the other sign. The LiDAR tells, where it can.
+fn of_large_angles(
+    case: &Case,
+    radar: usize,
+    changes: [Option<SensorChange>; 2],
+    other_sign: bool,
+) -> Remedy {
+    let tally = |change: &SensorChange| case.overlap(radar, change, Measure::Beside);
+    let now = tally(&SensorChange::default());
+    let found = best(&now, changes.into_iter().flatten(), tally).map(|(change, _)| change);
+    match (found, other_sign, changes) {
+        (Some(change), _, _) => Remedy::Sensor(change),
+        (None, true, _) => Remedy::Doppler(-1.0),
+        (None, false, [_, Some(mirrored)]) => Remedy::Sensor(mirrored),
+        (None, false, [turned, None]) => Remedy::Sensor(turned.unwrap_or_default()),
+    }
+}
+
+fn mirror_explains(case: &Case, radar: usize) -> bool {
+    let mirrored = |timed: &Timed| {
+        let mut timed = *timed;
+        timed.fit.velocity = Vector2::new(timed.fit.velocity.x, -timed.fit.velocity.y);
+        timed
+    };
+    let fits: Vec<Timed> = case.fits[radar].iter().map(mirrored).collect();
+    crate::doppler::compare(&fits, &case.motion, &case.mount(radar)).as_ref().is_some_and(is_explained)
+}
+
+fn by_lidar(case: &mut Case, radar: usize) -> Verdict {
+    let name = case.name(radar);
+    let tally = |change: &SensorChange| case.overlap(radar, change, Measure::Beside);
+    let now = tally(&SensorChange::default());
+    if !now.is_enough() {
+        let missing = format!(
+            "{} detections within 40 m were measured together with a LiDAR scan: 150 are needed",
+            now.points()
+        );
+        return Verdict::cannot_judge(name, Question::Lidar, missing);
+    }
+    let Some((found, then)) = best(&now, allowed(case, radar).into_iter(), tally) else {
+        return Verdict::good(name, Question::Lidar, in_share(&now, None));
+    };
+    let change = exact(found, |change| case.overlap(radar, change, Measure::Smooth).share());
+    let verdict =
+        Verdict::doubt(name, Question::Lidar, in_share(&now, Some(&then)), Some(Remedy::Sensor(change)));
+    case.radar_changes[radar] = case.radar_changes[radar].and(&change);
+    Verdict { state: State::Doubt, ..verdict }
+}
+
+fn in_share(now: &Tally, then: Option<&Tally>) -> String {
+    let share =
+        format!("{:.0} % of {:.0} detections lie beside LiDAR points", now.share() * 100.0, now.points());
+    then.map_or_else(|| share.clone(), |then| format!("{share}, and {:.0} % otherwise", then.share() * 100.0))
+}
+
+/// The changes that range rates leave open: no yaw where they have none, no clock where speeds fall upon each other.
+fn allowed(case: &Case, radar: usize) -> Vec<SensorChange> {
+    let figures = case.doppler(radar, &case.motion, &case.mount(radar));
+    let known_yaw = figures.as_ref().is_some_and(is_explained);
+    let known_clock = figures.is_some_and(|figures| {
+        crate::doppler::clock(&case.fits[radar], &case.motion, &case.mount(radar), &figures)
+            .is_some_and(|clock| clock.is_sharp && clock.offset_ms.abs() < 60.0)
+    });
+    let mut changes: Vec<SensorChange> = shifts().chain([SensorChange::mirror()]).collect();
+    if !known_yaw {
+        changes.extend(yaws());
+    }
+    if !known_clock {
+        changes.extend(clocks());
+    }
+    changes
+}

@@ -1,0 +1,34 @@
+//! Roll and pitch of a radar that measures elevation: its detections are as high as what they lie on.
+
+use super::case::Case;
+use crate::change::SensorChange;
+use crate::overlap::Measure;
+use crate::remedy::Remedy;
+use crate::verdict::{Question, Verdict};
+use ralf::sensors::Elevation;
+
+/// Degrees that are tried.
+const TILTS: [f64; 6] = [-6.0, -4.0, -2.0, 2.0, 4.0, 6.0];
+
+/// Judges each radar that measures elevation; nothing is said of those in order.
+pub(super) fn judge(case: &Case) -> Vec<Verdict> {
+    case.radars().filter_map(|radar| one(case, radar)).collect()
+}
+
+fn one(case: &Case, radar: usize) -> Option<Verdict> {
+    let sensor = &case.sequence.rig.radars[radar];
+    if sensor.elevation == Elevation::None {
+        return None;
+    }
+    let tally = |change: &SensorChange| case.overlap(radar, change, Measure::AsHigh);
+    let now = tally(&SensorChange::default());
+    let tilts =
+        TILTS.into_iter().flat_map(|tilt| [SensorChange::tilt(tilt, 0.0), SensorChange::tilt(0.0, tilt)]);
+    let (found, then) = super::alternatives::best(&now, tilts, tally)?;
+    let evidence = format!(
+        "{:.0} % of the detections are as high as the LiDAR points beside them, and {:.0} % otherwise",
+        now.share() * 100.0,
+        then.share() * 100.0
+    );
+    Some(Verdict::doubt(&sensor.name, Question::Lidar, evidence, Some(Remedy::Sensor(found))))
+}

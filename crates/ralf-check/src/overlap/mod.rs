@@ -1,0 +1,9 @@
+//! Whether things lie where other measurements have them: radar on LiDAR, LiDAR on LiDAR half a second later.
+
+mod motion;
+mod radar_lidar;
+mod tally;
+
+pub(crate) use motion::{motion_overlap, radar_motion_overlap};
+pub(crate) use radar_lidar::{Measure, Setup, overlap};
+pub(crate) use tally::Tally;

@@ -1,0 +1,113 @@
+//! Which share of a radar's detections has a LiDAR point beside it, as recorded and under changes.
+
+use super::Tally;
+use crate::change::SensorChange;
+use crate::sample::{LidarLook, RadarLook, nearest};
+use ralf::sensors::Rig;
+use ralf::space::EgoMotion;
+use ralf::space::{Point, Transform};
+
+/// Beside: in plan, m. Five standard deviations of a radar's range, and half a car's flank.
+const BESIDE: f64 = 0.4;
+/// Farther detections are smeared by their azimuth, m.
+const FARTHEST: f64 = 40.0;
+/// Nearer ones are the vehicle itself, m.
+const NEAREST: f64 = 1.0;
+/// A radar's scan belongs to a LiDAR's within this, ns.
+const TOGETHER_NS: u64 = 80_000_000;
+/// Things lower than this show both their ends, so that too high and too low count alike, m. Of walls a LiDAR sees no top.
+const LOW_THINGS: f64 = 2.2;
+/// A detection is as high as what it lies on within this, m.
+const HEIGHT: f64 = 0.3;
+
+/// What is compared with what.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Setup<'a> {
+    pub(crate) rig: &'a Rig,
+    pub(crate) motion: &'a EgoMotion,
+    pub(crate) lidars: &'a [LidarLook],
+    /// Changes of the LiDARs that are taken for granted, in the order of the rig.
+    pub(crate) lidar_changes: &'a [SensorChange],
+}
+
+/// How a detection counts.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Measure {
+    /// 1 beside an obstacle in plan.
+    Beside,
+    /// Of detections beside low things: 1 between the road and their tops.
+    AsHigh,
+    /// `1 - (d / 1 m)^2`: smooth, for refinement.
+    Smooth,
+}
+
+/// A radar's tally over all moments under a change of it; changes of the LiDAR are in the setup.
+pub(crate) fn overlap(
+    setup: &Setup,
+    radar: usize,
+    looks: &[RadarLook],
+    change: &SensorChange,
+    measure: Measure,
+) -> Tally {
+    let times: Vec<i64> = looks.iter().map(|look| look.t_ns).collect();
+    let mut tally = Tally::default();
+    for lidar in setup.lidars {
+        let Some(look) = nearest(&times, lidar.t_ns).map(|i| &looks[i]) else { continue };
+        if look.t_ns.abs_diff(lidar.t_ns) <= TOGETHER_NS {
+            let place = setup.lidar_from_radar(radar, lidar, look.t_ns, change);
+            tally.moments.push(count(lidar, look, &place, change, measure));
+        }
+    }
+    tally
+}
+
+impl Setup<'_> {
+    /// From the radar's frame at its time to the vehicle frame as recorded at the LiDAR's time, in which its obstacles lie.
+    fn lidar_from_radar(
+        &self,
+        radar: usize,
+        lidar: &LidarLook,
+        t_ns: i64,
+        change: &SensorChange,
+    ) -> Transform {
+        let of_lidar = self.lidar_changes.get(lidar.lidar).copied().unwrap_or_default();
+        let recorded = &self.rig.lidars[lidar.lidar].vehicle_from_lidar;
+        let back = recorded * of_lidar.mount(recorded).inverse();
+        let moved = self.motion.between(of_lidar.time(lidar.t_ns), change.time(t_ns));
+        back * moved * change.mount(&self.rig.radars[radar].vehicle_from_radar)
+    }
+}
+
+fn count(
+    lidar: &LidarLook,
+    look: &RadarLook,
+    place: &Transform,
+    change: &SensorChange,
+    measure: Measure,
+) -> [f64; 2] {
+    let mut found = [0.0; 2];
+    for position in &look.positions {
+        let range = position.coords.norm();
+        if !(NEAREST..FARTHEST).contains(&range) {
+            continue;
+        }
+        let p = place * change.place(position);
+        let Some(distance) = lidar.field.distance(p.x, p.y) else { continue };
+        let counted = match measure {
+            Measure::Beside => Some(f64::from(distance <= BESIDE)),
+            Measure::AsHigh => is_as_high(lidar, &p).filter(|_| distance <= BESIDE).map(f64::from),
+            Measure::Smooth => Some(1.0 - distance * distance),
+        };
+        if let Some(score) = counted {
+            found[0] += score;
+            found[1] += 1.0;
+        }
+    }
+    found
+}
+
+/// Whether a place beside a low thing is as high; `None` beside others.
+fn is_as_high(lidar: &LidarLook, p: &Point) -> Option<bool> {
+    let top = lidar.field.top(p.x, p.y).filter(|top| *top < LOW_THINGS)?;
+    Some((-HEIGHT..=top + HEIGHT).contains(&p.z))
+}

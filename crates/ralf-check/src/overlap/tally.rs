@@ -1,0 +1,81 @@
+//! How many of the points that were asked about lie on something, moment by moment.
+
+use crate::statistics::paired_sigmas;
+
+/// An alternative is better by this factor at least: a smaller gain is no fault that harms labels.
+const GAIN: f64 = 1.08;
+/// And by so many standard errors: with some forty alternatives a sensor, chance comes this far once in a thousand recordings.
+const SIGMAS: f64 = 4.0;
+/// Fewer points than this say nothing.
+const FEWEST: f64 = 150.0;
+/// A share below this is that of things that don't see the same.
+const LEAST: f64 = 0.1;
+
+/// Counts per moment. Every moment weighs as much as it holds points.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub(crate) struct Tally {
+    /// Points on something, and points.
+    pub(crate) moments: Vec<[f64; 2]>,
+}
+
+impl Tally {
+    pub(crate) fn points(&self) -> f64 {
+        self.moments.iter().map(|[_, n]| n).sum()
+    }
+
+    /// Share of the points that lie on something; 0 of none.
+    pub(crate) fn share(&self) -> f64 {
+        let near: f64 = self.moments.iter().map(|[near, _]| near).sum();
+        if self.points() > 0.0 { near / self.points() } else { 0.0 }
+    }
+
+    /// Whether there are enough points to judge.
+    pub(crate) fn is_enough(&self) -> bool {
+        self.points() >= FEWEST
+    }
+
+    /// By how many standard errors another tally of the same moments has the larger share: the smaller of what binomial
+    /// counts say and of what the differences from moment to moment say, where there are enough moments for the latter.
+    pub(crate) fn sigmas_to(&self, other: &Self) -> f64 {
+        let share = |[near, n]: &[f64; 2]| if *n > 0.0 { near / n } else { 0.0 };
+        let (p, n) = (self.share(), self.points().max(1.0));
+        let binomial = (other.share() - p) / (p.max(1.0 / n) * (1.0 - p).max(1.0 / n) / n).sqrt();
+        let pairs = self.moments.iter().zip(&other.moments);
+        let differences: Vec<f64> = pairs.map(|(now, then)| share(then) - share(now)).collect();
+        if differences.len() < 5 { binomial } else { binomial.min(paired_sigmas(&differences)) }
+    }
+
+    /// Whether another tally is so much better that chance is no reason.
+    pub(crate) fn is_beaten_by(&self, other: &Self) -> bool {
+        self.is_enough()
+            && other.share() > LEAST
+            && other.share() > GAIN * self.share()
+            && self.sigmas_to(other) > SIGMAS
+    }
+
+    /// Both together, moment after moment.
+    pub(crate) fn joined(mut self, other: Self) -> Self {
+        self.moments.extend(other.moments);
+        self
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn tally(near: &[f64]) -> Tally {
+        Tally { moments: near.iter().map(|near| [*near, 100.0]).collect() }
+    }
+
+    #[test]
+    fn a_clear_gain_beats_and_a_small_or_a_lucky_one_does_not() {
+        let now = tally(&[30.0, 32.0, 28.0, 31.0, 29.0, 30.0]);
+        assert_eq!(now.share(), 0.3);
+        assert!(now.is_beaten_by(&tally(&[50.0, 55.0, 49.0, 52.0, 51.0, 50.0])));
+        assert!(!now.is_beaten_by(&tally(&[32.0, 34.0, 30.0, 33.0, 31.0, 32.0])), "a gain of 7 %");
+        assert!(!now.is_beaten_by(&tally(&[30.0, 32.0, 28.0, 31.0, 29.0, 90.0])), "one moment alone");
+        assert!(!tally(&[30.0]).is_beaten_by(&tally(&[90.0])), "100 points");
+        assert!(!Tally::default().is_beaten_by(&Tally::default()));
+    }
+}

@@ -1,0 +1,187 @@
+//! What would put a fault right, in words and as settings that `ralf label` takes.
+
+use crate::change::SensorChange;
+use serde::Serialize;
+
+/// A remedy. Angles in degrees, lengths in m, times in ms.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Remedy {
+    /// The mounting or the clock, as a change.
+    Sensor(SensorChange),
+    /// Its mounting is that of this sensor, and the other way round.
+    SwapWith(String),
+    /// Range rates times this.
+    Doppler(f64),
+    /// Positions times this.
+    Positions(f64),
+    /// This field is in degrees.
+    InDegrees(&'static str),
+    /// This key's value is in radians, or what is measured asks for this value, degrees.
+    Value {
+        /// As in `sequence.toml`.
+        key: &'static str,
+        /// What it should be.
+        value: f64,
+    },
+    /// Recorded speed times this.
+    Speed(f64),
+    /// Recorded yaw rate times this.
+    YawRate(f64),
+    /// Added to the motion's timestamps.
+    MotionClock(f64),
+    /// Something to look into that no setting puts right.
+    LookInto(&'static str),
+}
+
+/// One setting: its key and value as TOML has them.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct Setting {
+    /// Dotted.
+    pub key: String,
+    /// As TOML.
+    pub value: String,
+}
+
+impl Remedy {
+    /// For people, after the subject's name: `fits better with yaw -4.8 degrees`.
+    pub fn words(&self) -> String {
+        match self {
+            Self::Sensor(change) => change_in_words(change),
+            Self::SwapWith(other) => format!("looks swapped with {other}"),
+            Self::Doppler(factor) if *factor == -1.0 => "range rate has the other sign".into(),
+            Self::Doppler(factor) => format!("range rate looks like {}", unit_of_speed(*factor)),
+            Self::Positions(factor) => format!("positions look like {}", unit_of_length(*factor)),
+            Self::InDegrees(field) => format!("{field} looks like degrees"),
+            Self::Value { key, value } => format!("{key} should rather be {value:.2}"),
+            Self::Speed(factor) if *factor == -1.0 => "speed has the other sign".into(),
+            Self::Speed(factor) => format!("speed looks like {}", unit_of_speed(*factor)),
+            Self::YawRate(factor) if *factor == -1.0 => "yaw rate has the other sign".into(),
+            Self::YawRate(factor) if *factor < 1.0 => "yaw rate looks like deg/s".into(),
+            Self::YawRate(factor) => format!("yaw rate fits better times {factor:.3}"),
+            Self::MotionClock(ms) => lag(-ms),
+            Self::LookInto(what) => (*what).to_owned(),
+        }
+    }
+
+    /// As settings; none where settings can't put it right.
+    pub fn settings(&self, subject: &str) -> Vec<Setting> {
+        let of_sensor = |key: &str, value: String| Setting { key: format!("sensors.{subject}.{key}"), value };
+        let of_motion =
+            |key: &str, value: f64| Setting { key: format!("motion.{key}"), value: number(value) };
+        match self {
+            Self::Sensor(change) => change_as_settings(change, of_sensor),
+            Self::Doppler(factor) => vec![of_sensor("doppler_factor", number(*factor))],
+            Self::Positions(factor) => vec![of_sensor("position_factor", number(*factor))],
+            Self::Value { key, value } => vec![of_sensor(key, number(*value))],
+            Self::Speed(factor) => vec![of_motion("speed_factor", *factor)],
+            Self::YawRate(factor) => vec![of_motion("yaw_rate_factor", *factor)],
+            Self::MotionClock(ms) => vec![of_motion("time_offset_ms", *ms)],
+            Self::SwapWith(_) | Self::InDegrees(_) | Self::LookInto(_) => Vec::new(),
+        }
+    }
+}
+
+/// A number as TOML has it: with a point.
+fn number(value: f64) -> String {
+    let rounded = (value * 1e6).round() / 1e6;
+    if rounded == rounded.trunc() { format!("{rounded:.1}") } else { format!("{rounded}") }
+}
+
+fn lag(ms: f64) -> String {
+    let way = if ms > 0.0 { "lags" } else { "runs ahead" };
+    format!("{way} by {:.0} ms", ms.abs())
+}
+
+fn change_in_words(change: &SensorChange) -> String {
+    let mut parts = Vec::new();
+    for (name, degrees) in ["roll", "pitch", "yaw"].iter().zip(change.turn_deg).rev() {
+        if degrees != 0.0 {
+            parts.push(format!("{name} {degrees:+.1} degrees"));
+        }
+    }
+    for (name, metres) in ["forward", "left", "up"].iter().zip(change.shift_m) {
+        if metres != 0.0 {
+            parts.push(format!("{metres:+.2} m {name}"));
+        }
+    }
+    let mut sentences = Vec::new();
+    if !parts.is_empty() {
+        sentences.push(format!("fits better with {}", parts.join(", ")));
+    }
+    if change.clock_ms != 0.0 {
+        sentences.push(lag(-change.clock_ms));
+    }
+    if change.mirrored {
+        sentences.push("y looks mirrored".into());
+    }
+    sentences.join(", ")
+}
+
+fn change_as_settings(change: &SensorChange, of_sensor: impl Fn(&str, String) -> Setting) -> Vec<Setting> {
+    let mut settings = Vec::new();
+    for (key, degrees) in ["add_roll_deg", "add_pitch_deg", "add_yaw_deg"].iter().zip(change.turn_deg).rev() {
+        if degrees != 0.0 {
+            settings.push(of_sensor(key, number(degrees)));
+        }
+    }
+    if change.shift_m != [0.0; 3] {
+        let [x, y, z] = change.shift_m.map(number);
+        settings.push(of_sensor("add_translation", format!("[{x}, {y}, {z}]")));
+    }
+    if change.clock_ms != 0.0 {
+        settings.push(of_sensor("time_offset_ms", number(change.clock_ms)));
+    }
+    if change.mirrored {
+        settings.push(of_sensor("mirror_y", "true".into()));
+    }
+    settings
+}
+
+/// Units by what they are in m/s or m.
+fn unit(factor: f64, units: &[(f64, &'static str)]) -> String {
+    let known = units.iter().find(|(value, _)| (factor / value - 1.0).abs() < 0.05);
+    known.map_or_else(|| format!("its value over {:.3}", 1.0 / factor), |(_, name)| (*name).to_owned())
+}
+
+fn unit_of_speed(factor: f64) -> String {
+    unit(factor, &SPEEDS)
+}
+
+fn unit_of_length(factor: f64) -> String {
+    unit(factor, &LENGTHS)
+}
+
+/// Units that speeds are given in by mistake, in m/s.
+pub(crate) const SPEEDS: [(f64, &str); 6] = [
+    (1.0 / 3.6, "km/h"),
+    (0.01, "cm/s"),
+    (0.447, "mph"),
+    (3.6, "m/s that were divided by 3.6 again"),
+    (100.0, "hundreds of m/s"),
+    (0.514, "knots"),
+];
+
+/// Units that positions are given in by mistake, in m.
+pub(crate) const LENGTHS: [(f64, &str); 4] = [(0.01, "cm"), (0.001, "mm"), (0.3048, "feet"), (1000.0, "km")];
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn remedies_are_said_in_words_and_as_settings() {
+        let yaw = Remedy::Sensor(SensorChange::yaw(-4.8));
+        assert_eq!(yaw.words(), "fits better with yaw -4.8 degrees");
+        assert_eq!(yaw.settings("radar_left")[0].key, "sensors.radar_left.add_yaw_deg");
+        assert_eq!(yaw.settings("radar_left")[0].value, "-4.8");
+        let late = Remedy::Sensor(SensorChange::clock(-180.0));
+        assert_eq!(late.words(), "lags by 180 ms");
+        assert_eq!(late.settings("a")[0].value, "-180.0");
+        assert_eq!(Remedy::Speed(1.0 / 3.6).words(), "speed looks like km/h");
+        assert_eq!(Remedy::Positions(0.01).words(), "positions look like cm");
+        assert_eq!(Remedy::YawRate(1.0_f64.to_radians()).words(), "yaw rate looks like deg/s");
+        assert_eq!(Remedy::Sensor(SensorChange::mirror()).words(), "y looks mirrored");
+        assert_eq!(Remedy::MotionClock(200.0).words(), "runs ahead by 200 ms");
+    }
+}

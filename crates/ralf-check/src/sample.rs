@@ -1,0 +1,258 @@
+//! Which scans are looked at, and what is kept of them: enough to judge, far less than labelling reads.
+
+use crate::ground::{self, GroundFit};
+use crate::plan_field::PlanField;
+use ralf::sensors::Source;
+use ralf::sensors::{Elevation, Radar};
+use ralf::sensors::{LidarScan, RadarScan, is_return};
+use ralf::space::{Point, Vector};
+use std::collections::BTreeSet;
+use std::hash::{DefaultHasher, Hash, Hasher};
+
+/// Times at which two LiDAR scans, half a second apart, are compared with each other and with the radars.
+const MOMENTS: usize = 16;
+/// Between the two, ns.
+pub(crate) const LAG_NS: i64 = 500_000_000;
+/// Scans of a radar, besides those beside a LiDAR scan.
+const RADAR_SCANS: usize = 120;
+/// Points kept of a LiDAR scan.
+const LIDAR_POINTS: usize = 60_000;
+/// What stands between these heights above the ground is an obstacle that a radar sees as well, m.
+const OBSTACLES: std::ops::Range<f64> = 0.4..3.0;
+/// Obstacles kept to be sought in another scan.
+const PROBES: usize = 800;
+
+/// A radar's scan.
+#[derive(Debug, Clone)]
+pub(crate) struct RadarLook {
+    /// Number in its timeline.
+    pub(crate) scan: usize,
+    pub(crate) t_ns: i64,
+    /// Detections with finite coordinates, radar frame, m.
+    pub(crate) positions: Vec<Point>,
+    /// Unit directions of detections with a finite range rate, radar frame.
+    pub(crate) rays: Vec<Vector>,
+    /// Their raw range rates, m/s.
+    pub(crate) range_rates: Vec<f64>,
+    /// Ranges, azimuths and elevations as measured, m and rad.
+    pub(crate) spherical: Vec<[f64; 3]>,
+    /// Rows of the scan, and those among them without finite coordinates.
+    pub(crate) rows: usize,
+    pub(crate) not_finite: usize,
+    /// Of all columns: the same scan again has the same.
+    pub(crate) digest: u64,
+}
+
+/// A LiDAR's scan.
+#[derive(Debug, Clone)]
+pub(crate) struct LidarLook {
+    pub(crate) lidar: usize,
+    pub(crate) t_ns: i64,
+    /// Obstacles above the ground, vehicle frame as recorded, m.
+    pub(crate) probes: Vec<Point>,
+    /// The same, all of them, by distance.
+    pub(crate) field: PlanField,
+    pub(crate) ground: Option<GroundFit>,
+    /// Figures of its numbers, which a wrong data type gives away.
+    pub(crate) shape: CloudShape,
+    pub(crate) digest: u64,
+}
+
+/// What the numbers of a point cloud look like.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(crate) struct CloudShape {
+    pub(crate) points: usize,
+    /// Share of points that are finite and not the origin.
+    pub(crate) returns: f64,
+    /// Median distance, m.
+    pub(crate) range: f64,
+    /// Share of returns more than 45 degrees above or below the sensor.
+    pub(crate) steep: f64,
+    /// Share of coordinates that no LiDAR gives: beyond 1000 km, or closer to 0 than a micrometre without being it.
+    pub(crate) absurd: f64,
+}
+
+/// What was read of a sequence.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Sample {
+    /// Per radar, in time order.
+    pub(crate) radars: Vec<Vec<RadarLook>>,
+    /// Of all LiDARs, in the order of the rig and of time.
+    pub(crate) lidars: Vec<LidarLook>,
+    /// Why a scan could not be read, a sentence each.
+    pub(crate) unreadable: Vec<String>,
+}
+
+impl Sample {
+    /// Reads evenly spread scans.
+    pub(crate) fn of(source: &dyn Source) -> Self {
+        let mut sample = Self::default();
+        let times = &source.sequence().times;
+        let mut wanted = vec![BTreeSet::new(); times.radars.len()];
+        for (lidar, own) in times.lidars.iter().enumerate() {
+            for scan in paired(own) {
+                sample.read_lidar(source, lidar, scan);
+                for (radar, times) in times.radars.iter().enumerate() {
+                    wanted[radar].extend(nearest(times, own[scan]));
+                }
+            }
+        }
+        for (radar, (own, mut scans)) in times.radars.iter().zip(wanted).enumerate() {
+            scans.extend(spread(own.len(), RADAR_SCANS / 2).into_iter().flat_map(|scan| [scan, scan + 1]));
+            let looks = scans.into_iter().filter(|scan| *scan < own.len());
+            let looks = looks.filter_map(|scan| sample.read_radar(source, radar, scan)).collect();
+            sample.radars.push(looks);
+        }
+        sample
+    }
+
+    fn read_lidar(&mut self, source: &dyn Source, lidar: usize, scan: usize) {
+        match source.lidar_scan(lidar, scan) {
+            Ok(read) => self.lidars.push(LidarLook::of(source, lidar, &read)),
+            Err(error) => self.unreadable.push(error.to_string()),
+        }
+    }
+
+    fn read_radar(&mut self, source: &dyn Source, radar: usize, scan: usize) -> Option<RadarLook> {
+        match source.radar_scan(radar, scan) {
+            Ok(read) => Some(RadarLook::of(&source.sequence().rig.radars[radar], scan, &read)),
+            Err(error) => {
+                self.unreadable.push(error.to_string());
+                None
+            }
+        }
+    }
+}
+
+/// So many indices, evenly over a list; all of a short one.
+fn spread(length: usize, count: usize) -> Vec<usize> {
+    if length <= count {
+        return (0..length).collect();
+    }
+    (0..count).map(|i| i * (length - 1) / (count - 1).max(1)).collect()
+}
+
+/// Scans evenly over a timeline, each with the one that comes [`LAG_NS`] later.
+fn paired(times: &[i64]) -> BTreeSet<usize> {
+    let later = |scan: usize| times.partition_point(|t| *t < times[scan].saturating_add(LAG_NS));
+    let firsts = (0..times.len()).filter(|scan| later(*scan) < times.len()).count().max(1);
+    let chosen = spread(firsts.min(times.len()), MOMENTS);
+    chosen.into_iter().flat_map(|scan| [scan, later(scan)]).filter(|scan| *scan < times.len()).collect()
+}
+
+/// The measurement nearest to a time.
+pub(crate) fn nearest(times: &[i64], t_ns: i64) -> Option<usize> {
+    let after = times.partition_point(|t| *t < t_ns);
+    let around = after.saturating_sub(1)..(after + 1).min(times.len());
+    around.min_by_key(|i| times[*i].abs_diff(t_ns))
+}
+
+impl RadarLook {
+    fn of(radar: &Radar, scan: usize, read: &RadarScan) -> Self {
+        let mut hasher = DefaultHasher::new();
+        read.columns.iter().flatten().for_each(|value| value.to_bits().hash(&mut hasher));
+        let finite = |p: &Point| p.coords.iter().all(|v| v.is_finite());
+        let positions: Vec<Point> = read.positions.iter().copied().filter(finite).collect();
+        let mut look = Self {
+            scan,
+            t_ns: read.t_ns,
+            rows: read.len(),
+            not_finite: read.len() - positions.len(),
+            positions,
+            rays: Vec::new(),
+            range_rates: Vec::new(),
+            spherical: read.spherical.iter().map(|s| [s.range, s.azimuth, s.elevation]).collect(),
+            digest: hasher.finish(),
+        };
+        if let Some(column) = radar.column("doppler") {
+            look.add_range_rates(radar.elevation, &read.positions, &read.columns[column]);
+        }
+        look
+    }
+
+    fn add_range_rates(&mut self, elevation: Elevation, positions: &[Point], range_rates: &[f32]) {
+        for (position, rate) in positions.iter().zip(range_rates) {
+            let flat = Vector::new(position.x, position.y, 0.0);
+            let ray = if elevation == Elevation::Measured { position.coords } else { flat };
+            if let Some(ray) =
+                ray.try_normalize(1e-9).filter(|ray| ray.norm().is_finite() && rate.is_finite())
+            {
+                self.rays.push(ray);
+                self.range_rates.push(f64::from(*rate));
+            }
+        }
+    }
+}
+
+impl LidarLook {
+    fn of(source: &dyn Source, lidar: usize, read: &LidarScan) -> Self {
+        let mut hasher = DefaultHasher::new();
+        read.points.iter().flatten().for_each(|value| value.to_bits().hash(&mut hasher));
+        let mount = source.sequence().rig.lidars[lidar].vehicle_from_lidar;
+        let step = read.points.len().div_ceil(LIDAR_POINTS).max(1);
+        let kept = read.points.iter().step_by(step).filter(|point| is_return(point));
+        let points: Vec<Point> =
+            kept.map(|[x, y, z]| mount * Point::new((*x).into(), (*y).into(), (*z).into())).collect();
+        let ground = ground::fit(&points);
+        let height = |p: &Point| ground.as_ref().map_or(p.z, |ground| ground.height(p));
+        let obstacles: Vec<&Point> = points.iter().filter(|p| OBSTACLES.contains(&height(p))).collect();
+        let step = obstacles.len().div_ceil(PROBES).max(1);
+        Self {
+            lidar,
+            t_ns: read.t_ns,
+            probes: obstacles.iter().step_by(step).map(|p| **p).collect(),
+            field: PlanField::new(obstacles.iter().map(|p| [p.x, p.y, p.z])),
+            ground,
+            shape: CloudShape::of(&read.points),
+            digest: hasher.finish(),
+        }
+    }
+}
+
+impl CloudShape {
+    fn of(points: &[[f32; 3]]) -> Self {
+        let step = points.len().div_ceil(5000).max(1);
+        let looked: Vec<&[f32; 3]> = points.iter().step_by(step).collect();
+        let returns: Vec<[f64; 3]> =
+            looked.iter().filter(|p| is_return(p)).map(|p| p.map(f64::from)).collect();
+        let norm = |p: &[f64; 3]| p[0].hypot(p[1]).hypot(p[2]);
+        let share = |count: usize, of: usize| if of == 0 { 0.0 } else { count as f64 / of as f64 };
+        let absurd = |v: &&f64| v.abs() > 1e6 || (**v != 0.0 && v.abs() < 1e-6);
+        let ranges: Vec<f64> = returns.iter().map(norm).collect();
+        let steep = |p: &&[f64; 3]| p[2].abs() > p[0].hypot(p[1]);
+        Self {
+            points: points.len(),
+            returns: share(returns.len(), looked.len()),
+            range: crate::statistics::median(&ranges).unwrap_or(0.0),
+            steep: share(returns.iter().filter(steep).count(), returns.len()),
+            absurd: share(returns.iter().flatten().filter(absurd).count(), 3 * returns.len()),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn scans_are_spread_from_the_first_to_the_last() {
+        assert_eq!(spread(3, 5), [0, 1, 2]);
+        assert_eq!(spread(101, 5), [0, 25, 50, 75, 100]);
+        assert!(spread(0, 5).is_empty());
+    }
+
+    #[test]
+    fn pairs_are_half_a_second_apart_and_a_lonely_scan_is_taken_too() {
+        let times: Vec<i64> = (0..8).map(|i| i * 100_000_000).collect();
+        assert_eq!(paired(&times), BTreeSet::from([0, 1, 2, 5, 6, 7]));
+        assert_eq!(paired(&times[..1]), BTreeSet::from([0]));
+        assert!(paired(&[]).is_empty());
+    }
+
+    #[test]
+    fn the_nearest_measurement_is_found() {
+        assert_eq!(nearest(&[0, 10, 20], 14), Some(1));
+        assert_eq!(nearest(&[0, 10, 20], 99), Some(2));
+        assert_eq!(nearest(&[], 0), None);
+    }
+}

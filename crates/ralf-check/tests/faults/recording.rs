@@ -1,0 +1,106 @@
+//! A simulated recording in which faults are planted.
+
+use ralf::sensors::{CameraImage, DepthImage, LidarScan, RadarScan, Sequence, Source, SourceError};
+use ralf::space::{EgoMotion, OdometrySample};
+use ralf_sim::{Scenario, SimulatedSequence};
+use std::sync::{Arc, OnceLock};
+
+/// What is simulated once and read by every check.
+pub struct Recording {
+    inner: SimulatedSequence,
+    radars: Vec<Vec<OnceLock<RadarScan>>>,
+    lidars: Vec<OnceLock<LidarScan>>,
+}
+
+impl Recording {
+    /// A drive through the street of this folder.
+    pub fn of(drive: &str, scans: usize, seed: u64) -> Arc<Self> {
+        let text = format!("{}\n{drive}", include_str!("street.toml"));
+        let inner = SimulatedSequence::new("00", &Scenario::from_toml(&text).unwrap(), seed, scans).unwrap();
+        Self::simulated(inner)
+    }
+
+    /// A sequence that is simulated already.
+    pub fn simulated(inner: SimulatedSequence) -> Arc<Self> {
+        let times = &inner.sequence().times;
+        let radars =
+            times.radars.iter().map(|times| times.iter().map(|_| OnceLock::new()).collect()).collect();
+        let lidars = times.lidars[0].iter().map(|_| OnceLock::new()).collect();
+        Arc::new(Self { inner, radars, lidars })
+    }
+}
+
+/// Changes the columns (x, y, z, doppler, rcs) of a scan of a radar.
+type RadarEdit = Box<dyn Fn(usize, usize, &mut Vec<Vec<f32>>) + Send + Sync>;
+/// Changes the points of a LiDAR's scan.
+type LidarEdit = Box<dyn Fn(&mut LidarScan) + Send + Sync>;
+
+/// A recording with a fault.
+pub struct Planted {
+    base: Arc<Recording>,
+    pub sequence: Sequence,
+    radar: Option<RadarEdit>,
+    lidar: Option<LidarEdit>,
+    /// The radar and the LiDAR whose first scan comes again and again.
+    pub stuck_radar: Option<usize>,
+    pub stuck_lidar: bool,
+}
+
+impl Planted {
+    pub fn new(base: &Arc<Recording>) -> Self {
+        let sequence = base.inner.sequence().clone();
+        Self { base: base.clone(), sequence, radar: None, lidar: None, stuck_radar: None, stuck_lidar: false }
+    }
+
+    /// Changes scans of radars: their number, the scan's, its columns.
+    pub fn edit_radars(&mut self, edit: impl Fn(usize, usize, &mut Vec<Vec<f32>>) + Send + Sync + 'static) {
+        self.radar = Some(Box::new(edit));
+    }
+
+    pub fn edit_lidar(&mut self, edit: impl Fn(&mut LidarScan) + Send + Sync + 'static) {
+        self.lidar = Some(Box::new(edit));
+    }
+
+    /// Changes every sample of the odometry.
+    pub fn edit_odometry(&mut self, edit: impl Fn(&mut OdometrySample)) {
+        let mut samples = self.sequence.motion.odometry().to_vec();
+        samples.iter_mut().for_each(edit);
+        self.sequence.motion = EgoMotion::new(samples, vec![]).unwrap();
+    }
+}
+
+impl Source for Planted {
+    fn sequence(&self) -> &Sequence {
+        &self.sequence
+    }
+
+    fn radar_scan(&self, radar: usize, scan: usize) -> Result<RadarScan, SourceError> {
+        let read = if self.stuck_radar == Some(radar) { 0 } else { scan };
+        let base =
+            self.base.radars[radar][read].get_or_init(|| self.base.inner.radar_scan(radar, read).unwrap());
+        let mut columns = base.columns.clone();
+        if let Some(edit) = &self.radar {
+            edit(radar, scan, &mut columns);
+        }
+        let t_ns = self.sequence.times.radars[radar][scan];
+        Ok(RadarScan::new(&self.sequence.rig.radars[radar], t_ns, columns)?)
+    }
+
+    fn lidar_scan(&self, lidar: usize, scan: usize) -> Result<LidarScan, SourceError> {
+        let read = if self.stuck_lidar { 0 } else { scan };
+        let base = self.base.lidars[read].get_or_init(|| self.base.inner.lidar_scan(lidar, read).unwrap());
+        let mut found = LidarScan { t_ns: self.sequence.times.lidars[lidar][scan], ..base.clone() };
+        if let Some(edit) = &self.lidar {
+            edit(&mut found);
+        }
+        Ok(found)
+    }
+
+    fn image(&self, _: usize, _: usize) -> Result<CameraImage, SourceError> {
+        Err("no image".into())
+    }
+
+    fn depth(&self, _: usize, _: usize) -> Result<Option<Vec<DepthImage>>, SourceError> {
+        Ok(None)
+    }
+}

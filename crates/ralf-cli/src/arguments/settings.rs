@@ -1,0 +1,51 @@
+//! Settings from a file and from the command line.
+
+use crate::outcome::UsageError;
+use anyhow::Context;
+use clap::Args;
+use ralf_data::Settings;
+use ralf_files::Kind;
+use std::num::NonZeroUsize;
+use std::path::{Path, PathBuf};
+
+/// As many threads as asked for, or as there are processors.
+pub(crate) fn threads(jobs: Option<NonZeroUsize>) -> usize {
+    jobs.or_else(|| std::thread::available_parallelism().ok()).map_or(1, NonZeroUsize::get)
+}
+
+/// How the labeler is set.
+#[derive(Debug, Args)]
+pub(crate) struct SettingsArgs {
+    /// Settings file (TOML); every key is optional
+    #[arg(long, value_name = "FILE")]
+    config: Option<PathBuf>,
+    /// One setting, such as lidar.beta=0.5; wins over the file, may be given several times
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    assignments: Vec<String>,
+}
+
+impl SettingsArgs {
+    /// The settings, resolved.
+    pub(crate) fn resolve(&self) -> anyhow::Result<Settings> {
+        // The file by itself first, so that what is wrong with it is said of the file.
+        self.config.as_deref().map(read).transpose()?;
+        let text = self.config.as_deref().map_or_else(|| Ok(String::new()), text)?;
+        let assignments: Vec<&str> = self.assignments.iter().map(String::as_str).collect();
+        Settings::from_toml(&text, &assignments).map_err(|error| UsageError(format!("--set: {error}")).into())
+    }
+
+    /// As they were typed, each after a space.
+    pub(crate) fn told(&self) -> String {
+        let config = self.config.iter().map(|file| format!(" --config {}", file.display()));
+        config.chain(self.assignments.iter().map(|assignment| format!(" --set {assignment}"))).collect()
+    }
+}
+
+/// The settings of a file.
+pub(super) fn read(file: &Path) -> anyhow::Result<Settings> {
+    Settings::from_toml(&text(file)?, &[]).with_context(|| file.display().to_string())
+}
+
+fn text(file: &Path) -> anyhow::Result<String> {
+    ralf_files::read_text(file, Kind::Settings).with_context(|| file.display().to_string())
+}

@@ -1,0 +1,87 @@
+//! What is no regular file, or far too large, is refused at once and costs no more than itself.
+
+use crate::support::{Dataset, Ran, program, ralf};
+use std::fs::{self, File};
+use std::path::Path;
+use std::process::Command;
+
+fn pipe(file: &Path) {
+    let _ = fs::remove_file(file);
+    assert!(Command::new("mkfifo").arg(file).status().unwrap().success());
+}
+
+/// A file of gigabytes that takes no room on the disk.
+fn sparse(file: &Path) {
+    File::create(file).unwrap().set_len(3_000_000_000).unwrap();
+}
+
+fn device(file: &Path) {
+    let _ = fs::remove_file(file);
+    std::os::unix::fs::symlink("/dev/zero", file).unwrap();
+}
+
+fn label(dataset: &Dataset) -> Ran {
+    ralf(["label", &dataset.path, "-o", &dataset.out])
+}
+
+#[test]
+fn a_radar_scan_that_is_no_regular_file_is_the_only_one_left_out() {
+    for (make, told) in [
+        (pipe as fn(&Path), "expected a regular file, found a named pipe"),
+        (device, "expected a regular file, found a device"),
+        (sparse, "RALF_MAX_FILE_MB in the environment raises it"),
+    ] {
+        let dataset = Dataset::new();
+        make(&dataset.file("radar_front/000003.bin"));
+        assert_eq!(label(&dataset).exits(3).says([told, "radar_front/000003.bin"]).not_labelled().len(), 1);
+        ralf(["inspect", &dataset.path]).exits(0).prints(["radar_front scan 3: ", told]);
+    }
+}
+
+#[test]
+fn an_unreadable_file_costs_its_scan_and_not_the_run() {
+    let dataset = Dataset::new();
+    let file = dataset.file("radar_front/000003.bin");
+    fs::remove_file(&file).unwrap();
+    std::os::unix::fs::symlink("nowhere", &file).unwrap();
+    let ran = label(&dataset).exits(3).says(["radar_front/000003.bin: No such file"]);
+    assert_eq!(ran.not_labelled().len(), 1);
+    let record = fs::read_to_string(Path::new(&dataset.out).join("run.json")).unwrap();
+    assert!(record.contains("\"blake3\": \"\""), "{record}");
+}
+
+#[test]
+fn a_limit_is_raised_where_that_is_asked_for() {
+    let dataset = Dataset::new();
+    sparse(&dataset.file("radar_front/000003.bin"));
+    let mut command = program();
+    command.env("RALF_MAX_FILE_MB", "4000").args(["label", &dataset.path, "-o", &dataset.out, "--quiet"]);
+    let ran = command.output().unwrap();
+    let told = String::from_utf8_lossy(&ran.stderr);
+    assert!(!told.contains("RALF_MAX_FILE_MB"), "{told}");
+}
+
+#[test]
+fn tables_settings_and_networks_that_are_no_files_are_refused() {
+    for (name, make) in [
+        ("sequence.toml", pipe as fn(&Path)),
+        ("odometry.csv", device),
+        ("radar_front/timestamps.txt", sparse),
+    ] {
+        let dataset = Dataset::new();
+        make(&dataset.file(name));
+        label(&dataset).exits(1).says([name, "expected "]);
+    }
+    let dataset = Dataset::new();
+    for (name, make) in [("pipe", pipe as fn(&Path)), ("device", device), ("sparse", sparse)] {
+        let network = dataset.beside(&format!("{name}.onnx"));
+        make(Path::new(&network));
+        fs::write(dataset.beside(&format!("{name}.toml")), "preset = \"midas-small\"").unwrap();
+        let ran = ralf(["label", &dataset.path, "-o", &dataset.out, "--depth-model", &network]).exits(1);
+        ran.says([".onnx: expected "]);
+        let settings = dataset.beside(&format!("{name}-settings.toml"));
+        make(Path::new(&settings));
+        let ran = ralf(["label", &dataset.path, "-o", &dataset.out, "--config", &settings]).exits(1);
+        ran.says(["settings.toml: expected "]);
+    }
+}

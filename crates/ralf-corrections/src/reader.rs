@@ -1,0 +1,89 @@
+//! What can be asked of a store.
+
+use crate::changes::{Changes, changes};
+use crate::error::{StoreError, told};
+use crate::history::history;
+use crate::identity::Identity;
+use crate::model::ScanVersion;
+use crate::outcome::{History, ScanState};
+use crate::read::{ScanSummary, scan_state, summaries};
+use crate::schema;
+use rusqlite::Connection;
+use std::path::{Path, PathBuf};
+
+/// The corrections of one output folder, to be read. Whoever writes meanwhile, even for long, is not waited for.
+#[derive(Debug)]
+pub struct Reader {
+    pub(crate) connection: Connection,
+    pub(crate) file: PathBuf,
+    /// `None` of a store that can't be deleted or replaced, for it lies in memory or where nobody can write.
+    pub(crate) identity: Option<Identity>,
+}
+
+impl Reader {
+    /// Opens a store that exists. Nothing is written, so one on a disk that can only be read will do.
+    ///
+    /// # Errors
+    /// A file that is no store, is damaged, or is of another version.
+    pub fn open(file: &Path) -> Result<Self, StoreError> {
+        let connection = schema::open_read_only(file)?;
+        Ok(Self { connection, file: file.to_owned(), identity: None })
+    }
+
+    /// A store in which nothing is said, for a place that has none and can't have one.
+    ///
+    /// # Errors
+    /// Only those of the database itself.
+    pub fn empty(file: &Path) -> Result<Self, StoreError> {
+        let connection = schema::nowhere().map_err(told(file))?;
+        Ok(Self { connection, file: file.to_owned(), identity: None })
+    }
+
+    /// Where the store lies.
+    pub fn file(&self) -> &Path {
+        &self.file
+    }
+
+    /// A name that no other store has.
+    pub fn id(&self) -> Result<String, StoreError> {
+        self.read(|on| on.query_row("SELECT id FROM store", [], |row| row.get(0)))
+    }
+
+    /// What is said of a scan with this content; nothing of one that was never touched.
+    pub fn scan(&self, version: &ScanVersion) -> Result<ScanState, StoreError> {
+        self.read(|on| scan_state(on, version))
+    }
+
+    /// What an author (see [`Who::author`](crate::Who::author)) can undo and redo in a sequence.
+    pub fn history(&self, sequence: &str, author: &str) -> Result<History, StoreError> {
+        self.read(|on| history(on, sequence, author))
+    }
+
+    /// The scans of a sequence that have corrections or a mark, by radar and number. One of which something was
+    /// said while it held something else is there once per content.
+    pub fn summaries(&self, sequence: &str) -> Result<Vec<ScanSummary>, StoreError> {
+        self.read(|on| summaries(on, sequence))
+    }
+
+    /// The number of the last thing done, by anyone, in any sequence; 0 before the first.
+    pub fn counter(&self) -> Result<i64, StoreError> {
+        self.read(|on| on.query_row("SELECT coalesce(max(id), 0) FROM event", [], |row| row.get(0)))
+    }
+
+    /// What was done in a sequence after `since`, by other windows than `tab`.
+    pub fn changes(&self, sequence: &str, since: i64, tab: Option<&str>) -> Result<Changes, StoreError> {
+        let counter = self.counter()?;
+        let scans = self.read(|on| changes(on, sequence, since, tab))?;
+        Ok(Changes { counter, scans })
+    }
+
+    /// Reads, where the file is still the one that was opened.
+    fn read<T>(&self, work: impl FnOnce(&Connection) -> rusqlite::Result<T>) -> Result<T, StoreError> {
+        self.check_there()?;
+        work(&self.connection).map_err(told(&self.file))
+    }
+
+    pub(crate) fn check_there(&self) -> Result<(), StoreError> {
+        self.identity.as_ref().map_or(Ok(()), Identity::check)
+    }
+}

@@ -1,0 +1,75 @@
+//! Values as `sequence.toml` has them: checked with the table they stand in, and written with the fewest decimals that
+//! are read back as the same.
+
+use crate::error::DataError;
+use nalgebra::UnitQuaternion;
+use ralf::space::{Transform, transform_from_parts};
+use std::path::Path;
+
+/// A table of the file, to be named in errors.
+pub(crate) struct Place<'a> {
+    pub(super) file: &'a Path,
+    pub(super) table: &'static str,
+    pub(super) name: &'a str,
+}
+
+impl Place<'_> {
+    /// Key `key` of this table holds something else than it should.
+    pub(crate) fn error(&self, key: &str, expected: &str, found: impl ToString) -> DataError {
+        let Self { file, table, name } = self;
+        DataError::content(file, format!("[[{table}]] {name}: {key}"), expected, found.to_string())
+    }
+
+    /// The same, from a sentence that says what was expected and found.
+    pub(super) fn refused(&self, key: &str, reason: &str) -> DataError {
+        let (expected, found) = reason.split_once(", found ").unwrap_or((reason, "something else"));
+        self.error(key, expected.strip_prefix("expected ").unwrap_or(expected), found)
+    }
+
+    /// `values`, unless one of them is no finite number.
+    pub(crate) fn finite<'v>(&self, key: &str, values: &'v [f64]) -> Result<&'v [f64], DataError> {
+        match values.iter().find(|value| !value.is_finite()) {
+            Some(value) => Err(self.error(key, "finite numbers", value)),
+            None => Ok(values),
+        }
+    }
+
+    /// The sensor's pose in the vehicle frame.
+    pub(crate) fn pose(
+        &self,
+        translation: [f64; 3],
+        quaternion_xyzw: [f64; 4],
+    ) -> Result<Transform, DataError> {
+        self.finite("translation", &translation)?;
+        transform_from_parts(translation, quaternion_xyzw)
+            .ok_or_else(|| self.error("quaternion_xyzw", "a length of 1", format!("{quaternion_xyzw:?}")))
+    }
+}
+
+/// Translation and quaternion of a pose.
+pub(crate) fn pose_toml(pose: &Transform) -> ([f64; 3], [f64; 4]) {
+    (pose.translation.vector.into(), quaternion_xyzw(&pose.rotation))
+}
+
+/// The quaternion with the fewest decimals that is read as this rotation.
+pub(crate) fn quaternion_xyzw(rotation: &UnitQuaternion<f64>) -> [f64; 4] {
+    let exact = [rotation.i, rotation.j, rotation.k, rotation.w];
+    let same = |parts: &[f64; 4]| {
+        transform_from_parts([0.0; 3], *parts).is_some_and(|transform| transform.rotation == *rotation)
+    };
+    (0..=17).map(|decimals| exact.map(|value| rounded(value, decimals))).find(same).unwrap_or(exact)
+}
+
+/// The degrees with the fewest decimals that are read as this angle.
+pub(crate) fn degrees(radians: f64) -> f64 {
+    let exact = radians.to_degrees();
+    let few = (0..=17).map(|decimals| rounded(exact, decimals));
+    // Where rounding there and back misses, a neighbour of the exact value may hit.
+    let candidates = few.chain([exact.next_up(), exact.next_down()]);
+    candidates.into_iter().find(|degrees| degrees.to_radians() == radians).unwrap_or(exact)
+}
+
+/// The nearest number of so many decimals.
+fn rounded(value: f64, decimals: usize) -> f64 {
+    format!("{value:.decimals$}").parse().unwrap_or(value)
+}

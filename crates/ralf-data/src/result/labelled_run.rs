@@ -1,0 +1,202 @@
+//! The one door to what a run left: `OUT` with its `run.json`, its tables and its label files, checked as they are read.
+
+use super::content::{input_is_unchanged, table_is_whole};
+use super::record::{RunRecord, read_record};
+use super::sequence_record::SequenceRecord;
+use super::{Columns, Component, Places, PlausibilityReader};
+use crate::disk::files;
+use crate::disk::label_file::{Label, labels_of_bytes};
+use crate::error::DataError;
+use crate::read::{Recording, SequenceReader};
+use crate::settings::Settings;
+use ralf::sensors::Rig;
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+
+/// An output folder of `ralf label`.
+#[derive(Debug, Clone)]
+pub struct LabelledRun {
+    out: PathBuf,
+    places: Places,
+    record: RunRecord,
+}
+
+/// One sequence of a run, with its labelled detections.
+#[derive(Debug)]
+pub struct LabelledSequence {
+    /// What `run.json` tells of it.
+    pub record: SequenceRecord,
+    /// The recording's sensors with the settings of the run.
+    pub rig: Rig,
+    /// The labelled detections.
+    pub tables: PlausibilityReader,
+}
+
+/// A file that isn't what was labelled.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
+pub struct ChangedInput {
+    /// The sequence that it belongs to.
+    pub sequence: String,
+    /// Where it lies, or lay.
+    pub file: PathBuf,
+    /// What became of it.
+    pub change: Change,
+}
+
+/// What became of an input since it was labelled.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Change {
+    /// It has another content.
+    Content,
+    /// It is gone.
+    Missing,
+    /// It wasn't there.
+    New,
+}
+
+impl LabelledRun {
+    /// Opens an output folder by its `run.json`.
+    ///
+    /// # Errors
+    /// A folder without one, or one that this program can't read.
+    pub fn open(out: &Path) -> Result<Self, DataError> {
+        Ok(Self { out: out.to_owned(), places: Places::new(out), record: read_record(out)? })
+    }
+
+    /// The folder.
+    pub fn out(&self) -> &Path {
+        &self.out
+    }
+
+    /// What `run.json` tells.
+    pub fn record(&self) -> &RunRecord {
+        &self.record
+    }
+
+    /// The settings that the labels were made with.
+    pub fn settings(&self) -> &Settings {
+        &self.record.settings
+    }
+
+    /// Whether a sequence of this name is labelled.
+    pub fn holds(&self, sequence: &str) -> bool {
+        self.record.sequence(sequence).is_some()
+    }
+
+    /// The files of a recording that are not what was labelled, in the order of their names; of the sequences that were
+    /// labelled. A file of the recorded size and time is taken for the same, of any other the content is compared.
+    ///
+    /// # Errors
+    /// A file that can't be read.
+    pub fn changes(&self, recording: &Recording) -> Result<Vec<ChangedInput>, DataError> {
+        let mut changes = BTreeSet::new();
+        for reader in &recording.sequences {
+            let name = &reader.sequence().name;
+            if !self.holds(name) {
+                continue;
+            }
+            let mut now: BTreeSet<PathBuf> = reader.inputs().into_iter().collect();
+            for input in self.record.inputs.iter().filter(|input| input.sequence == *name) {
+                let file = recording.path.join(&input.file);
+                // What lies elsewhere, such as depth beside the labels, may go once it was used.
+                let elsewhere = Path::new(&input.file).is_absolute();
+                let change = if !now.remove(&file) && elsewhere {
+                    continue;
+                } else if !file.exists() {
+                    Change::Missing
+                } else if input_is_unchanged(&file, input)? {
+                    continue;
+                } else {
+                    Change::Content
+                };
+                changes.insert(ChangedInput { sequence: name.clone(), file, change });
+            }
+            let new = now.into_iter().map(|file| (file, Change::New));
+            changes.extend(new.map(|(file, change)| ChangedInput { sequence: name.clone(), file, change }));
+        }
+        Ok(changes.into_iter().collect())
+    }
+
+    /// A sequence as it was labelled.
+    ///
+    /// # Errors
+    /// A sequence that was not labelled, or had other radars or scans then; a table that is damaged.
+    pub fn sequence(&self, reader: &dyn SequenceReader) -> Result<LabelledSequence, DataError> {
+        let name = &reader.sequence().name;
+        let Some(record) = self.record.sequence(name) else {
+            return Err(DataError::content(
+                &self.out,
+                "run.json, sequences",
+                format!("labels of {name}"),
+                "none",
+            ));
+        };
+        check_radars(&self.out, reader, record)?;
+        let mut rig = reader.sequence().rig.clone();
+        self.record.settings.method.apply_to(&mut rig).map_err(|error| DataError::Unsuitable {
+            file: self.out.clone(),
+            place: format!("sequence {name}"),
+            reason: error.to_string(),
+        })?;
+        let file = self.table_file(record)?;
+        let unlike = |found| DataError::content(&file, "columns", "those of the recording's radars", found);
+        let columns = Columns::of(&rig).map_err(unlike)?;
+        let tables = PlausibilityReader::open(&file, columns)?;
+        Ok(LabelledSequence { record: record.clone(), rig, tables })
+    }
+
+    /// Where the table of a sequence lies, once it is found to be as it was written.
+    pub(crate) fn table_file(&self, record: &SequenceRecord) -> Result<PathBuf, DataError> {
+        let file = self.places.plausibility_file(&super::checked("run.json, sequence", &record.name)?);
+        if table_is_whole(&file, record)? { Ok(file) } else { Err(damaged(&file)) }
+    }
+
+    /// The labels of a scan as a run wrote them; `None` where it has none. Only the label file has to be there, but where
+    /// `run.json` tells of it, it has to be as it was written.
+    pub(crate) fn labels_below(
+        out: &Path,
+        run: Option<&Self>,
+        scan: (&str, &str, u32),
+    ) -> Result<Option<Vec<Label>>, DataError> {
+        let (sequence, radar, number) = (scan.0, scan.1, scan.2 as usize);
+        // Who has a name that no folder can have was not labelled.
+        let (Ok(sequence), Ok(radar)) = (Component::new(sequence), Component::new(radar)) else {
+            return Ok(None);
+        };
+        let file = Places::new(out).label_file(&sequence, &radar, number);
+        let record = run.and_then(|run| run.record.sequence(sequence.as_str()));
+        let record =
+            record.and_then(|record| record.radars.iter().find(|known| known.name == radar.as_str()));
+        if !file.try_exists().map_err(DataError::io(&file))? {
+            let written =
+                record.is_some_and(|record| record.labels.get(number).is_some_and(|hash| !hash.is_empty()));
+            return if written { Err(damaged(&file)) } else { Ok(None) };
+        }
+        let bytes = files::read(&file)?;
+        if record.is_some_and(|record| !record.labels_match(number, &bytes)) {
+            return Err(damaged(&file));
+        }
+        labels_of_bytes(&file, &bytes).map(Some)
+    }
+}
+
+/// Refuses results of other radars, or of another number of scans.
+fn check_radars(out: &Path, reader: &dyn SequenceReader, record: &SequenceRecord) -> Result<(), DataError> {
+    let sequence = reader.sequence();
+    let radars = sequence.rig.radars.iter().zip(&sequence.times.radars);
+    let recorded: Vec<String> =
+        radars.map(|(radar, times)| format!("{} ({})", radar.name, times.len())).collect();
+    let labelled: Vec<String> =
+        record.radars.iter().map(|radar| format!("{} ({})", radar.name, radar.detections.len())).collect();
+    if recorded == labelled {
+        return Ok(());
+    }
+    let place = format!("run.json, sequence {}", record.name);
+    let expected = format!("the recording's radars and scans: {}", recorded.join(", "));
+    Err(DataError::content(out, place, expected, labelled.join(", ")))
+}
+
+fn damaged(file: &Path) -> DataError {
+    let expected = "what `ralf label` wrote, as run.json tells it";
+    DataError::content(file, "content", expected, "a damaged or missing file: label again")
+}

@@ -1,0 +1,130 @@
+//! `run.json`: what was done, with what, and how it went.
+
+use super::json::read_json;
+use super::sequence_record::{CameraRecord, NotLabelled, RadarRecord, SequenceRecord, UnreadableScan};
+use crate::error::DataError;
+use crate::read::Recording;
+use crate::settings::Settings;
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeSet;
+use std::path::Path;
+
+/// The record of an output folder.
+pub(crate) const RECORD: &str = "run.json";
+
+/// The content of `run.json`: sequences that were labelled by one version of the program with the same settings, be it at
+/// once or one after the other.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct RunRecord {
+    /// Version of the program.
+    pub version: String,
+    /// Format of the recording.
+    pub format: String,
+    /// All settings, resolved.
+    pub settings: Settings,
+    /// Every file that was read, by sequence and name.
+    pub inputs: Vec<Input>,
+    /// In the order of their names.
+    pub sequences: Vec<SequenceRecord>,
+    /// Of the last run; the only part that differs from run to run.
+    pub timings: Timings,
+}
+
+/// A file that was read.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Input {
+    /// Name of the sequence that it was read for.
+    pub sequence: String,
+    /// Relative to the recording.
+    pub file: String,
+    /// Its size.
+    pub bytes: u64,
+    /// When it was changed last before it was read, ns since 1970: a file of this size and time is taken for the same.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub mtime_ns: Option<i64>,
+    /// Of its content; empty where it can't be read.
+    pub blake3: String,
+}
+
+/// How long it took.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub struct Timings {
+    /// Wall time of the whole run, s.
+    pub seconds: f64,
+    /// Threads.
+    pub jobs: usize,
+}
+
+/// What an output folder holds: its `run.json`.
+pub fn read_record(out: &Path) -> Result<RunRecord, DataError> {
+    let file = out.join(RECORD);
+    if !file.exists() {
+        return Err(DataError::content(out, RECORD, "the record of a finished `ralf label`", "no such file"));
+    }
+    read_json(&file)
+}
+
+impl RunRecord {
+    /// The record of a folder that holds no sequence yet.
+    pub(crate) fn new(recording: &Recording, settings: &Settings) -> Self {
+        Self {
+            version: env!("CARGO_PKG_VERSION").to_owned(),
+            format: recording.format.to_owned(),
+            settings: settings.clone(),
+            inputs: Vec::new(),
+            sequences: Vec::new(),
+            timings: Timings::default(),
+        }
+    }
+
+    /// Whether the sequences of both may stand side by side.
+    pub(crate) fn is_like(&self, other: &Self) -> bool {
+        (&self.version, &self.format, &self.settings) == (&other.version, &other.format, &other.settings)
+    }
+
+    /// A sequence of this name.
+    pub(crate) fn sequence(&self, name: &str) -> Option<&SequenceRecord> {
+        self.sequences.iter().find(|sequence| sequence.name == name)
+    }
+
+    /// Adds sequences, which it does not have, with their inputs.
+    pub(crate) fn add(&mut self, sequences: impl IntoIterator<Item = (SequenceRecord, Vec<Input>)>) {
+        for (sequence, inputs) in sequences {
+            self.sequences.push(sequence);
+            self.inputs.extend(inputs);
+        }
+        self.sequences.sort_by(|a, b| a.name.cmp(&b.name));
+        self.inputs.sort_by(|a, b| (&a.sequence, &a.file).cmp(&(&b.sequence, &b.file)));
+    }
+
+    /// Keeps sequences, with their inputs.
+    pub(crate) fn retain(&mut self, names: impl Fn(&SequenceRecord) -> bool) {
+        self.sequences.retain(names);
+        let left: BTreeSet<&str> = self.sequences.iter().map(|sequence| sequence.name.as_str()).collect();
+        self.inputs.retain(|input| left.contains(input.sequence.as_str()));
+    }
+
+    /// Scans that could not be labelled, with their sequence.
+    pub fn not_labelled(&self) -> impl Iterator<Item = (&str, &NotLabelled)> {
+        self.sequences
+            .iter()
+            .flat_map(|sequence| sequence.not_labelled.iter().map(|scan| (sequence.name.as_str(), scan)))
+    }
+
+    /// LiDAR scans that labelling had to do without, for they can't be read, with their sequence.
+    pub fn unreadable(&self) -> impl Iterator<Item = (&str, &UnreadableScan)> {
+        self.sequences
+            .iter()
+            .flat_map(|sequence| sequence.unreadable.iter().map(|scan| (sequence.name.as_str(), scan)))
+    }
+
+    /// All cameras of all sequences.
+    pub fn cameras(&self) -> impl Iterator<Item = &CameraRecord> {
+        self.sequences.iter().flat_map(|sequence| &sequence.cameras)
+    }
+
+    /// All radars of all sequences.
+    pub fn radars(&self) -> impl Iterator<Item = &RadarRecord> {
+        self.sequences.iter().flat_map(|sequence| &sequence.radars)
+    }
+}

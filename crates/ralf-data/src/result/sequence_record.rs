@@ -1,0 +1,162 @@
+//! What `run.json` tells of a sequence.
+
+use super::ScanTable;
+use super::label_hash::hash_of_labels;
+use crate::disk::label_file::label_bytes;
+use ralf::scene::{Frame, ImageMoment, Unreadable, ViewReport, ViewState};
+use serde::{Deserialize, Serialize};
+
+/// One sequence.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct SequenceRecord {
+    /// Its name.
+    pub name: String,
+    /// Of program, settings, name and inputs together: equal where the results are equal.
+    pub fingerprint: String,
+    /// Of `plausibility.parquet`. An older record has none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub table: Option<FileRecord>,
+    /// In the rig's order.
+    pub radars: Vec<RadarRecord>,
+    /// In the rig's order.
+    pub cameras: Vec<CameraRecord>,
+    /// Scans that could not be labelled.
+    pub not_labelled: Vec<NotLabelled>,
+    /// LiDAR scans that can't be read: what lies near them in time was labelled without.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub unreadable: Vec<UnreadableScan>,
+}
+
+/// A scan that can't be read.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+pub struct UnreadableScan {
+    /// The sensor's name.
+    pub sensor: String,
+    /// Number of the scan.
+    pub scan: usize,
+    /// File, place, expected, found.
+    pub reason: String,
+}
+
+/// What is told of a labelled scan beside its detections.
+#[derive(Debug, Default, Serialize, Deserialize)]
+pub(crate) struct ScanNotes {
+    /// Images that were asked, with the names of their cameras.
+    pub(crate) images: Vec<(String, ImageRecord)>,
+    /// LiDAR scans that it had to do without.
+    pub(crate) unreadable: Vec<UnreadableScan>,
+}
+
+impl ScanNotes {
+    /// What a frame tells.
+    pub(crate) fn new(frame: &Frame) -> Self {
+        let name = |moment: &ImageMoment| frame.rig.cameras[moment.id.camera].name.clone();
+        let images = frame.images.iter().map(|view| (name(&view.moment), ImageRecord::of(&view.moment)));
+        let unreadable = frame.unreadable.iter().cloned();
+        let unreadable = unreadable.map(|Unreadable { sensor, index, reason }| UnreadableScan {
+            sensor,
+            scan: index,
+            reason,
+        });
+        Self { images: images.collect(), unreadable: unreadable.collect() }
+    }
+}
+
+/// A file as it was written.
+#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct FileRecord {
+    /// Its size.
+    pub bytes: u64,
+    /// Of its content.
+    pub blake3: String,
+}
+
+/// The scans of one radar: one entry per scan in each list.
+#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
+pub struct RadarRecord {
+    /// The radar's name.
+    pub name: String,
+    /// Detections.
+    pub detections: Vec<u32>,
+    /// Of these labelled plausible.
+    pub plausible: Vec<u32>,
+    /// Flags that any detection of the scan has.
+    pub flags: Vec<u16>,
+    /// The first 16 digits of the BLAKE3 of each scan's `.label` file; empty for a scan that has none. An older record has no list.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub labels: Vec<String>,
+}
+
+/// The images of one camera that were asked about a radar scan and have depth.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub struct CameraRecord {
+    /// The camera's name.
+    pub name: String,
+    /// Views of all images.
+    pub views: usize,
+    /// How many of these have failed.
+    pub failed: usize,
+    /// In their order.
+    pub images: Vec<ImageRecord>,
+}
+
+/// What the monitor found about an image.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct ImageRecord {
+    /// Number of the image.
+    pub image: usize,
+    /// One per straight view.
+    pub views: Vec<ViewReport>,
+    /// Why all views have failed, where image or depth can't be used at all.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub problem: Option<String>,
+}
+
+/// A scan that could not be labelled.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+pub struct NotLabelled {
+    /// The radar's name.
+    pub radar: String,
+    /// Number of the scan.
+    pub scan: usize,
+    /// File, place, expected, found.
+    pub reason: String,
+}
+
+impl ImageRecord {
+    pub(crate) fn of(moment: &ImageMoment) -> Self {
+        let views = moment.views.iter().map(|view| view.report).collect();
+        Self { image: moment.id.image, views, problem: moment.problem.clone() }
+    }
+}
+
+impl CameraRecord {
+    /// The images of a camera, summed up.
+    pub(crate) fn new(name: &str, images: Vec<ImageRecord>) -> Self {
+        let views = images.iter().flat_map(|image| &image.views);
+        let failed = views.clone().filter(|view| view.state != ViewState::Calibrated).count();
+        Self { name: name.to_owned(), views: views.count(), failed, images }
+    }
+}
+
+impl RadarRecord {
+    /// Whether these are the bytes that were written of a scan's labels. Of an older record this isn't known.
+    pub(crate) fn labels_match(&self, scan: usize, bytes: &[u8]) -> bool {
+        self.labels.get(scan).is_none_or(|written| written.is_empty() || *written == hash_of_labels(bytes))
+    }
+
+    /// Adds the next scan; one that could not be labelled has no table.
+    pub(crate) fn push(&mut self, table: Option<&ScanTable>) {
+        let Some(table) = table else {
+            self.detections.push(0);
+            self.plausible.push(0);
+            self.flags.push(0);
+            self.labels.push(String::new());
+            return;
+        };
+        self.labels.push(hash_of_labels(&label_bytes(&table.labels())));
+        self.detections.push(table.len() as u32);
+        self.plausible.push(table.label.iter().map(|label| u32::from(*label)).sum());
+        self.flags.push(table.flags.iter().fold(0, |all, flags| all | flags));
+    }
+}

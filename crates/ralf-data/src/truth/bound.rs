@@ -1,0 +1,35 @@
+//! Corrections of a recording's scans as these are now: what was said of another content is kept, told, and never
+//! applied.
+
+use super::content::scan_content;
+use super::{Corrections, ScanId};
+use crate::error::DataError;
+use crate::read::Recording;
+use ralf_corrections::ScanContent;
+use std::path::Path;
+
+impl Corrections {
+    /// Reads what is said below an output folder of the sequences of a recording, and looks what each scan holds now:
+    /// what was said of another content, or of a scan that can't be read, is [orphaned](Self::orphaned).
+    ///
+    /// # Errors
+    /// A file that is no store of corrections, or one of another version of the program.
+    pub fn of_recording(out: &Path, recording: &Recording) -> Result<Self, DataError> {
+        let corrections = Self::open(out)?.of_sequences(recording);
+        corrections.bound(|scan| Ok(content_now(recording, scan)))
+    }
+}
+
+/// What a scan of a recording holds; `None` of one that isn't there or can't be read.
+fn content_now(recording: &Recording, scan: &ScanId) -> Option<ScanContent> {
+    let reader = recording.sequences.iter().find(|reader| reader.sequence().name == scan.sequence)?;
+    let sequence = reader.sequence();
+    let radar = sequence.rig.radars.iter().position(|radar| radar.name == scan.radar)?;
+    let number = scan.scan as usize;
+    if number >= sequence.times.radars[radar].len() {
+        return None;
+    }
+    let measured = reader.radar_scan(radar, number).ok()?;
+    let detections = u32::try_from(measured.len()).ok()?;
+    Some(ScanContent { detections, hash: Some(scan_content(&measured)) })
+}

@@ -1,0 +1,178 @@
+//! Opening files that others made: regular files alone, and none larger than its kind can be.
+//!
+//! A recording may hold anything under a name that looks like a measurement: a named pipe that nobody writes to, a
+//! device that never ends, a sparse file of terabytes. Nothing of it may hang a program or take all of its memory, so
+//! everything in RALF that opens a file does so here.
+//!
+//! ```
+//! # fn main() -> std::io::Result<()> {
+//! let folder = std::env::temp_dir();
+//! let refused = ralf_files::read(&folder, ralf_files::Kind::Measurement).unwrap_err();
+//! assert_eq!(refused.to_string(), "expected a regular file, found a folder");
+//! # Ok(())
+//! # }
+//! ```
+
+use std::fs::{self, File, FileType};
+use std::io::{Error, ErrorKind, Read, Result};
+use std::path::Path;
+use std::sync::OnceLock;
+
+/// The environment variable that raises all limits: a number of megabytes.
+pub const LIMIT_VARIABLE: &str = "RALF_MAX_FILE_MB";
+
+const MEGABYTE: u64 = 1_000_000;
+
+/// What a file is for, and with it how large it can be.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Kind {
+    /// Settings, calibrations, cards, lists of files: up to 16 MB.
+    Settings,
+    /// One scan, image, depth image or file of labels: up to 512 MB.
+    Measurement,
+    /// Times, odometry, poses, records, which are read as a whole: up to 1,024 MB.
+    Table,
+    /// The weights of a network: up to 2,048 MB, which is the most that such a file can hold.
+    Network,
+    /// Recordings and tables that are read piece by piece: of any size.
+    Stream,
+}
+
+impl Kind {
+    /// The largest size, bytes; `None` where any will do.
+    pub fn limit(self) -> Option<u64> {
+        let megabytes = match self {
+            Self::Settings => 16,
+            Self::Measurement => 512,
+            Self::Table => 1024,
+            Self::Network => 2048,
+            Self::Stream => return None,
+        };
+        Some((megabytes * MEGABYTE).max(raised()))
+    }
+}
+
+/// What the environment asks for, bytes; 0 where it asks for nothing or for what is no number.
+fn raised() -> u64 {
+    static RAISED: OnceLock<u64> = OnceLock::new();
+    *RAISED.get_or_init(|| {
+        let asked = std::env::var(LIMIT_VARIABLE).ok().and_then(|value| value.trim().parse::<u64>().ok());
+        asked.map_or(0, |megabytes| megabytes.saturating_mul(MEGABYTE))
+    })
+}
+
+/// Refuses what is no regular file, and one that is larger than its kind can be. Returns its size, bytes.
+pub fn check(file: &Path, kind: Kind) -> Result<u64> {
+    // Asked before opening: opening a pipe waits for someone to write into it.
+    let found = fs::metadata(file)?;
+    if !found.is_file() {
+        let found = special(found.file_type());
+        return Err(Error::new(ErrorKind::InvalidInput, format!("expected a regular file, found {found}")));
+    }
+    refuse_above(kind.limit(), found.len()).map(|()| found.len())
+}
+
+/// Opens a file for reading.
+pub fn open(file: &Path, kind: Kind) -> Result<File> {
+    check(file, kind)?;
+    File::open(file)
+}
+
+/// The whole file.
+pub fn read(file: &Path, kind: Kind) -> Result<Vec<u8>> {
+    let size = check(file, kind)?;
+    let mut bytes = Vec::with_capacity(usize::try_from(size).unwrap_or_default());
+    let open = File::open(file)?;
+    match kind.limit() {
+        // It may have grown since it was looked at.
+        Some(limit) => open.take(limit.saturating_add(1)).read_to_end(&mut bytes)?,
+        None => { open }.read_to_end(&mut bytes)?,
+    };
+    refuse_above(kind.limit(), bytes.len() as u64).map(|()| bytes)
+}
+
+/// The whole file as UTF-8 text.
+pub fn read_text(file: &Path, kind: Kind) -> Result<String> {
+    String::from_utf8(read(file, kind)?).map_err(|error| {
+        let place = error.utf8_error().valid_up_to();
+        Error::new(ErrorKind::InvalidData, format!("byte {place}: expected UTF-8 text, found other bytes"))
+    })
+}
+
+fn refuse_above(limit: Option<u64>, size: u64) -> Result<()> {
+    let Some(limit) = limit.filter(|limit| size > *limit) else { return Ok(()) };
+    let [limit, found] = [limit, size].map(|bytes| bytes.div_ceil(MEGABYTE));
+    let sentence = format!(
+        "expected at most {limit} MB ({LIMIT_VARIABLE} in the environment raises it), found {found} MB"
+    );
+    Err(Error::new(ErrorKind::FileTooLarge, sentence))
+}
+
+#[cfg(unix)]
+fn special(found: FileType) -> &'static str {
+    use std::os::unix::fs::FileTypeExt;
+    match () {
+        () if found.is_dir() => "a folder",
+        () if found.is_fifo() => "a named pipe",
+        () if found.is_socket() => "a socket",
+        () => "a device",
+    }
+}
+
+#[cfg(not(unix))]
+fn special(found: FileType) -> &'static str {
+    if found.is_dir() { "a folder" } else { "a device" }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_file_is_read_whole_and_text_is_text() {
+        let folder = tempfile::tempdir().unwrap();
+        let file = folder.path().join("a");
+        fs::write(&file, "caf\u{e9}").unwrap();
+        assert_eq!(read(&file, Kind::Measurement).unwrap(), "caf\u{e9}".as_bytes());
+        assert_eq!(read_text(&file, Kind::Settings).unwrap(), "caf\u{e9}");
+        assert_eq!(check(&file, Kind::Stream).unwrap(), 5);
+        fs::write(&file, [b'a', 0xff]).unwrap();
+        let error = read_text(&file, Kind::Settings).unwrap_err().to_string();
+        assert_eq!(error, "byte 1: expected UTF-8 text, found other bytes");
+        assert_eq!(read(&folder.path().join("b"), Kind::Stream).unwrap_err().kind(), ErrorKind::NotFound);
+    }
+
+    #[test]
+    fn a_sparse_file_beyond_its_kind_is_refused_before_it_is_read() {
+        let folder = tempfile::tempdir().unwrap();
+        let file = folder.path().join("000000.bin");
+        File::create(&file).unwrap().set_len(3_000 * MEGABYTE).unwrap();
+        for kind in [Kind::Settings, Kind::Measurement, Kind::Table, Kind::Network] {
+            let error = read(&file, kind).unwrap_err();
+            assert_eq!(error.kind(), ErrorKind::FileTooLarge);
+            let told = error.to_string();
+            assert!(told.contains("RALF_MAX_FILE_MB") && told.contains("found 3000 MB"), "{told}");
+        }
+        assert!(open(&file, Kind::Stream).is_ok());
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_device_a_pipe_and_a_folder_are_named_and_not_opened() {
+        let folder = tempfile::tempdir().unwrap();
+        let pipe = folder.path().join("pipe");
+        let made = std::process::Command::new("mkfifo").arg(&pipe).status().unwrap();
+        assert!(made.success());
+        let socket = folder.path().join("socket");
+        let _bound = std::os::unix::net::UnixListener::bind(&socket).unwrap();
+        for (file, name) in [
+            (Path::new("/dev/zero"), "a device"),
+            (&pipe, "a named pipe"),
+            (&socket, "a socket"),
+            (folder.path(), "a folder"),
+        ] {
+            let error = read(file, Kind::Stream).unwrap_err().to_string();
+            assert_eq!(error, format!("expected a regular file, found {name}"));
+        }
+    }
+}

@@ -1,0 +1,92 @@
+//! Small whole recordings, runs, networks and settings, to be damaged.
+
+#[allow(dead_code, reason = "the tests of the command line use all of it")]
+#[path = "../../ralf-cli/tests/command_line/support/dataset.rs"]
+mod dataset;
+#[path = "../../ralf-cli/tests/command_line/support/foreign.rs"]
+mod foreign;
+#[allow(dead_code, reason = "the tests of the crate use all of it")]
+#[path = "../../ralf-depth/src/testing.rs"]
+mod network;
+#[allow(dead_code, reason = "the tests of the command line use all of it")]
+#[path = "../../ralf-cli/tests/command_line/support/world.rs"]
+mod world;
+
+use crate::tree::copy;
+use crate::verbs::{TOPICS, label};
+use ralf::config::Config;
+use ralf::sensors::DepthOutput;
+use ralf_corrections::{Mark, ScanKey, Store, Who};
+use ralf_data::Settings;
+use ralf_data::depth::DepthStore;
+use ralf_data::result::Component;
+use std::fs;
+use std::path::Path;
+
+const ROS: [&str; 4] = ["plain.bag", "lz4.bag", "zstd.mcap", "lz4.mcap"];
+const CARD: &str = "input = { size = 16, multiple_of = 4, side = \"short\" }\nfit = \"stretch\"\nchannels = \"rgb\"\n\
+    divide_by = 255\nmean = [0, 0, 0]\nstd = [1, 1, 1]\noutput = \"disparity\"\nflip = true\n";
+
+/// Makes all places in a folder, one in each.
+pub fn make_places(folder: &Path) {
+    let own = own_recording();
+    copy(Path::new(&own.path), &folder.join("own/recording"));
+    foreign::nuscenes(&folder.join("nuscenes/recording"));
+    foreign::view_of_delft(&folder.join("view-of-delft/recording"));
+    let ros = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../testdata/ros");
+    for name in ROS {
+        let place = folder.join(name);
+        put(&place.join("topics.toml"), TOPICS);
+        fs::copy(ros.join(name), place.join("recording")).unwrap();
+    }
+    for name in ["db3", "db3_zstd", "folder"] {
+        copy(&ros.join(name), &folder.join(name).join("recording"));
+        put(&folder.join(name).join("topics.toml"), TOPICS);
+    }
+    make_run(Path::new(&own.path), &folder.join("run"));
+    make_depth(Path::new(&own.path), &folder.join("depth"));
+    let tiny = network::channel_sum([0.5, 0.25, 0.125]);
+    put(&folder.join("network/net.onnx"), tiny);
+    put(&folder.join("network/net.toml"), CARD);
+    copy(Path::new(&own.path), &folder.join("settings/recording"));
+    put(&folder.join("settings/file/ralf.toml"), Config::default().to_toml().unwrap());
+    let scenario = ralf_sim::presets::find("tiny").unwrap().sequences[0].text();
+    put(&folder.join("scenario/scenario.toml"), scenario);
+}
+
+fn own_recording() -> dataset::Dataset {
+    let shape = dataset::Shape { scans: 3, classes: true, ..dataset::Shape::default() };
+    dataset::Dataset::of(&shape).with_camera(2)
+}
+
+/// A recording with what `ralf label` made of it, and corrections of a scan.
+fn make_run(recording: &Path, place: &Path) {
+    copy(recording, &place.join("recording"));
+    let opened = ralf_data::open(&place.join("recording"), None).unwrap();
+    let out = place.join("out");
+    label(&opened, &Settings::default(), &out).unwrap();
+    let labels = fs::read(out.join("sequences/00/radar_front/000000.label")).unwrap();
+    let machine = labels.as_chunks::<4>().0.iter().map(|[low, high, ..]| u16::from_le_bytes([*low, *high]));
+    let key = ScanKey { sequence: "00".into(), radar: "radar_front".into(), scan: 0 };
+    let mark = Mark { key, content: None, base: 0, machine: machine.collect(), reviewed: true };
+    let mut store = Store::open(&out.join("corrections.sqlite")).unwrap();
+    store.mark(&mark, &Who::named("ada")).unwrap();
+}
+
+/// A recording with a store of depth images beside it.
+fn make_depth(recording: &Path, place: &Path) {
+    copy(recording, &place.join("recording"));
+    let store = DepthStore::create(&place.join("depth"), DepthOutput::Depth, "net").unwrap();
+    let depth = place.join("recording/sequences/00/camera_front/depth");
+    for image in 0..2 {
+        let [sequence, camera] = ["00", "camera_front"].map(|name| Component::new(name).unwrap());
+        let to = store.file(&sequence, &camera, image);
+        fs::create_dir_all(to.parent().unwrap()).unwrap();
+        fs::copy(depth.join(format!("{image:06}.npy")), to).unwrap();
+    }
+}
+
+fn put(file: &Path, content: impl AsRef<[u8]>) {
+    fs::create_dir_all(file.parent().unwrap()).unwrap();
+    fs::write(file, content).unwrap();
+}

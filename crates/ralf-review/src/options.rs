@@ -1,0 +1,17 @@
+//! How to serve.
+
+use std::path::PathBuf;
+
+/// How to serve.
+#[derive(Debug, Clone, Default)]
+pub struct Options {
+    /// Name or address to listen on.
+    pub host: String,
+    /// Port to listen on, 0 for any free one. `None`: 8642, or the next one that is free.
+    pub port: Option<u16>,
+    /// What people are called who say no name of their own.
+    pub author: String,
+    /// A folder of the user's own, in which the token is kept, so that pages stay open over a restart. `None`:
+    /// a new token each time.
+    pub token_folder: Option<PathBuf>,
+}

@@ -1,0 +1,82 @@
+//! The corrections, for many requests at once: one writes at a time, and nobody who reads waits for it.
+
+use ralf_corrections::{FILE, Outcome, Reader, Store, StoreError};
+use std::path::Path;
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
+/// Requests that read at once without waiting for each other.
+const READERS: usize = 8;
+
+/// The store of an output folder.
+pub(crate) struct SharedStore {
+    writer: Writer,
+    /// At least one.
+    readers: Vec<Mutex<Reader>>,
+}
+
+enum Writer {
+    Open(Box<Mutex<Store>>),
+    /// Nothing can be written there, and why.
+    ReadOnly(String),
+}
+
+impl SharedStore {
+    /// Opens the store of an output folder; makes it if there is none. Where nothing can be written it is open
+    /// for reading.
+    pub(crate) fn open(out: &Path) -> Result<Self, StoreError> {
+        let file = out.join(FILE);
+        match Store::open(&file) {
+            Ok(store) => {
+                let readers =
+                    (0..READERS).map(|_| store.reader().map(Mutex::new)).collect::<Result<_, _>>()?;
+                Ok(Self { writer: Writer::Open(Box::new(Mutex::new(store))), readers })
+            }
+            Err(error @ StoreError::ReadOnly { .. }) => {
+                let reader = if file.exists() { Reader::open(&file)? } else { Reader::empty(&file)? };
+                Ok(Self { writer: Writer::ReadOnly(error.to_string()), readers: vec![Mutex::new(reader)] })
+            }
+            Err(error) => Err(error),
+        }
+    }
+
+    /// Why nothing can be written.
+    pub(crate) fn read_only(&self) -> Option<&str> {
+        match &self.writer {
+            Writer::Open(_) => None,
+            Writer::ReadOnly(reason) => Some(reason),
+        }
+    }
+
+    /// Asks something.
+    pub(crate) fn read<T>(
+        &self,
+        ask: impl FnOnce(&Reader) -> Result<T, StoreError>,
+    ) -> Result<T, StoreError> {
+        let free = self.readers.iter().find_map(|reader| reader.try_lock().ok());
+        ask(&free.unwrap_or_else(|| held(&self.readers[0])))
+    }
+
+    /// Edits; whoever else wants to waits. `None` where nothing can be written.
+    pub(crate) fn write(
+        &self,
+        edit: impl FnOnce(&mut Store) -> Result<Outcome, StoreError>,
+    ) -> Option<Result<Outcome, StoreError>> {
+        match &self.writer {
+            Writer::Open(store) => Some(edit(&mut held(store))),
+            Writer::ReadOnly(_) => None,
+        }
+    }
+
+    /// Has the store's file hold everything by itself.
+    pub(crate) fn write_back(&self) -> Result<(), StoreError> {
+        match &self.writer {
+            Writer::Open(store) => held(store).write_back(),
+            Writer::ReadOnly(_) => Ok(()),
+        }
+    }
+}
+
+/// What a mutex holds. Who panicked with it has written nothing: its transaction is rolled back.
+fn held<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}
