@@ -25,9 +25,9 @@ pub struct SequenceEvidence {
     pub left_out: Vec<NotLabelled>,
 }
 
-/// Matches all scans with truth of all sequences of a recording, in its order, for every `K` and `n_b` around the settings' own.
-/// The result doesn't depend on the number of jobs. A sequence without truth is refused, and so is a truth of another size than
-/// its scan.
+/// Matches all scans with truth of all sequences of a recording, in its order, for every `K` and `n_b` around the
+/// settings' own. The result doesn't depend on the number of jobs. A sequence without truth is refused, and so is a
+/// truth of another size than its scan.
 pub fn gather_evidence(
     recording: &Recording,
     truth: &GroundTruth,

@@ -163,7 +163,9 @@ impl Scenario {
     /// Reads a scenario; every value is checked.
     ///
     /// ```
-    /// let text = "title = 'A pole'\nego = { start = [0, 0, 0], speed_kmh = 7 }\nthing = [{ kind = 'pole', at = [9, 3] }]";
+    /// let text = "title = 'A pole'
+    /// ego = { start = [0, 0, 0], speed_kmh = 7 }
+    /// thing = [{ kind = 'pole', at = [9, 3] }]";
     /// assert_eq!(ralf_sim::Scenario::from_toml(text)?.thing.len(), 1);
     /// # Ok::<(), ralf_sim::ScenarioError>(())
     /// ```

@@ -2,7 +2,8 @@
 //!
 //! No mismatch `d` depends on `alpha`, the three `beta` or `w0`. An [`EvidenceTable`] therefore keeps the mismatches of
 //! every detection that has a truth, `d_lm` for each `K` and `d_tr` for each `n_b` of a [`Space`], and a trial of a
-//! [`Search`] never touches a point cloud: it weighs the mismatches anew, and gives the labels that the labeler would give.
+//! [`Search`] never touches a point cloud: it weighs the mismatches anew, and gives the labels that the labeler would
+//! give.
 //!
 //! `w0` is not searched but solved for: given all `w`, only the values between two neighbouring ones differ in their
 //! labels, so that one pass over them finds the best threshold there is.

@@ -1,5 +1,5 @@
-//! What is known of a detection before `alpha`, the three `beta` and `w0` come in, and the plausibility that these make of it
-//! (docs/method.md, sections 3, 6, 8 and 10).
+//! What is known of a detection before `alpha`, the three `beta` and `w0` come in, and the plausibility that these make
+//! of it (docs/method.md, sections 3, 6, 8 and 10).
 
 use ralf::config::{Config, FusionConfig};
 use ralf::paper::prioritize;
@@ -51,9 +51,9 @@ impl Observed {
     pub const NOTHING: Self =
         Self { d_lm: None, d_cm: None, d_tr: None, on_floor: false, in_blind_spot: false, gamma_s: 1.0 };
 
-    /// What the threshold is compared with: the labeler's `w`, and `None` for a floor detection and where no branch said
-    /// anything. It computes `w` for one optical branch alone, the one that counts, because a search does this for every
-    /// detection in every trial.
+    /// What the threshold is compared with: the labeler's `w`, and `None` for a floor detection and where no branch
+    /// said anything. It computes `w` for one optical branch alone, the one that counts, because a search does this for
+    /// every detection in every trial.
     pub fn plausibility(&self, weights: &Weights) -> Option<f64> {
         if self.on_floor {
             return None;

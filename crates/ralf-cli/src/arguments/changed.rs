@@ -14,7 +14,8 @@ pub(crate) struct ChangedArgs {
 }
 
 impl ChangedArgs {
-    /// Compares a recording with what was labelled. What differs is refused, or named where it is to be used all the same.
+    /// Compares a recording with what was labelled. What differs is refused, or named where it is to be used all the
+    /// same.
     pub(crate) fn check(&self, run: &LabelledRun, recording: &Recording) -> anyhow::Result<()> {
         let changes = run.changes(recording)?;
         let texts: Vec<String> = changes

@@ -12,8 +12,7 @@ use ralf_check::{SequenceCheck, check};
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Reads some hundred scans of each radar and some thirty of each LiDAR, and asks them about each other: range rates \
-about the motion, detections about LiDAR points, LiDAR points about those half a second later. docs/check.md tells what \
-is judged, and how.
+about the motion, detections about LiDAR points, LiDAR points about those half a second later.
 
 Examples:
   ralf check recordings/city

@@ -69,8 +69,8 @@ fn compare(args: &EvaluateArgs, dataset: &Path) -> anyhow::Result<Outcome> {
     Ok(if comparison.missing.is_empty() { Outcome::Done } else { Outcome::Partial })
 }
 
-/// The recording that the truth lies in, once it is found to be what was labelled. Label files are enough, so that there need not
-/// be one.
+/// The recording that the truth lies in, once it is found to be what was labelled. Label files are enough, so that
+/// there need not be one.
 fn recording_of(args: &EvaluateArgs, dataset: &Path) -> anyhow::Result<Option<Recording>> {
     if !args.out.join("run.json").exists() {
         return Ok(None);

@@ -81,7 +81,7 @@ pub(crate) fn run(arguments: &ExportArgs) -> anyhow::Result<Outcome> {
 }
 
 fn options(arguments: &ExportArgs) -> anyhow::Result<ExportOptions> {
-    let format = ExportFormat::ALL.into_iter().find(|format| format.name() == arguments.to);
+    let format = ExportFormat::named(&arguments.to);
     let format = format.ok_or_else(|| UsageError(format!("no format `{}`", arguments.to)))?;
     let has = |sensor| arguments.sensors.contains(&sensor);
     let sensors =

@@ -1,5 +1,5 @@
-//! The corrected labels of a dataset: `sequences/NAME/ground_truth/RADAR/NNNNNN.label` (docs/formats.md, section 1), and above them the
-//! corrections of a review.
+//! The corrected labels of a dataset: `sequences/NAME/ground_truth/RADAR/NNNNNN.label` (docs/formats.md, section 1),
+//! and above them the corrections of a review.
 
 use super::corrections::Corrections;
 use super::scan_id::{EXTENSION, ScanId, label_name};
@@ -61,8 +61,8 @@ impl GroundTruth {
         &self.scans
     }
 
-    /// What people say of a scan, one label per detection: its correction, else what its file says, else what was accepted when
-    /// it was marked as reviewed, else 0 (unlabeled).
+    /// What people say of a scan, one label per detection: its correction, else what its file says, else what was
+    /// accepted when it was marked as reviewed, else 0 (unlabeled).
     pub fn labels(&self, scan: &ScanId) -> Result<Vec<Label>, DataError> {
         let on_file = || read_labels(&scan.truth_file(&self.dataset));
         let Some(corrections) = &self.corrections else { return on_file() };

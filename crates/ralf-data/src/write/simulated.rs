@@ -1,7 +1,8 @@
 //! Simulated sequences as part of a recording: they have no files, and their truth is known.
 //!
-//! [`crate::write::write_sequence`] writes the truth as `ground_truth/RADAR/NNNNNN.label`, and beside it `NNNNNN.cause`: one byte per
-//! detection, the number of its [`ralf::label::Cause`]. Nothing that labels reads either of them.
+//! [`crate::write::write_sequence`] writes the truth as `ground_truth/RADAR/NNNNNN.label`, and beside it
+//! `NNNNNN.cause`: one byte per detection, the number of its [`ralf::label::Cause`]. Nothing that labels reads either
+//! of them.
 
 use super::dataset::write_sequence;
 use crate::disk::label_file::Label;

@@ -11,7 +11,7 @@ import { CamerasPanel } from "./cameras/cameras-panel.js";
 import { Loader } from "./data/loader.js";
 import { deriveAlways } from "./derive.js";
 import { h } from "./dom.js";
-import { openKeeper } from "./history/keep.js";
+import { keepNothing, openKeeper } from "./history/keep.js";
 import type { Page } from "./page.js";
 import { acceptBar } from "./panels/accept-bar.js";
 import { banner, notice, painting } from "./panels/banner.js";
@@ -40,7 +40,7 @@ async function start(): Promise<void> {
   const store = new Store(initialState(recording, session.name() ?? recording.author));
   keepPreferences(store);
   deriveAlways(store);
-  const keeper = await openKeeper(recording.store, randomName);
+  const keeper = await openKeeper(recording.store, randomName).catch(keepNothing);
   const actions = actionsOn({ store, api, session, loader: new Loader(api) }, keeper);
   build({ store, actions });
   document.title = `${recording.dataset} · RALF review`;

@@ -95,8 +95,32 @@ export interface State {
 
 const NO_HISTORY: History = { undo: null, redo: null, undo_depth: 0, redo_depth: 0 };
 
+/** What a person does, before anything is done. */
+const NOTHING_DONE = {
+  tool: "click",
+  brush: 18,
+  scope: "scan",
+  protect: true,
+  armed: undefined,
+  selection: new Uint8Array(0),
+  hover: -1,
+  picked: -1,
+  announced: "",
+  accepting: null,
+  cursor: null,
+  history: NO_HISTORY,
+  outbox: { kind: "idle" },
+  waiting: [],
+  connected: true,
+  busy: false,
+  notice: null,
+  dialog: "none",
+  frameTime: 0,
+} as const satisfies Partial<State>;
+
 export function initialState(recording: Recording, name: string): State {
   return {
+    ...NOTHING_DONE,
     recording,
     labels: new LabelBook(recording.classes),
     name,
@@ -121,24 +145,5 @@ export function initialState(recording: Recording, name: string): State {
     shown: new Uint8Array(0),
     eligible: new Uint8Array(0),
     painting: { colours: new Uint8Array(0), legend: { kind: "categories", entries: [] } },
-    tool: "click",
-    brush: 18,
-    scope: "scan",
-    protect: true,
-    armed: undefined,
-    selection: new Uint8Array(0),
-    hover: -1,
-    picked: -1,
-    announced: "",
-    accepting: null,
-    cursor: null,
-    history: NO_HISTORY,
-    outbox: { kind: "idle" },
-    waiting: [],
-    connected: true,
-    busy: false,
-    notice: null,
-    dialog: "none",
-    frameTime: 0,
   };
 }

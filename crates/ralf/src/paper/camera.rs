@@ -17,7 +17,8 @@ pub struct CameraMatch {
     pub in_failed_view: bool,
 }
 
-/// The mismatch of each detection with its nearest calibrated points, of the views of all cameras together that are left.
+/// The mismatch of each detection with its nearest calibrated points, of the views of all cameras together that are
+/// left.
 pub fn match_detections(frame: &Frame, config: &CameraConfig) -> Vec<CameraMatch> {
     let images = if config.enabled { frame.images.as_slice() } else { &[] };
     let points = reference_cloud(frame.radar, images, config.depth_sigma);
@@ -37,8 +38,8 @@ pub fn match_detections(frame: &Frame, config: &CameraConfig) -> Vec<CameraMatch
     matches
 }
 
-/// The calibrated points in the vehicle frame at the radar scan's time, each with `Sigma_l = (depth_sigma Z)^2 u u^T`. For
-/// a radar without elevation only those within its vertical field of view.
+/// The calibrated points in the vehicle frame at the radar scan's time, each with `Sigma_l = (depth_sigma Z)^2 u u^T`.
+/// For a radar without elevation only those within its vertical field of view.
 fn reference_cloud(radar: &Radar, images: &[ImageView], depth_sigma: f64) -> Vec<Reference> {
     let radar_from_vehicle = radar.vehicle_from_radar.inverse();
     let mut points = Vec::new();

@@ -48,13 +48,13 @@ impl<'a> Labeler<'a> {
 
     /// The plausibility and label of every detection of a frame, in the scan's order.
     ///
-    /// This is the whole method. Equations, algorithm and figures are numbered as in the paper; `docs/method.md` states each
-    /// step exactly.
+    /// This is the whole method. Equations, algorithm and figures are numbered as in the paper; `docs/method.md` states
+    /// each step exactly.
     pub fn label(&self, frame: &Frame) -> Vec<DetectionLabel> {
         let Config { ground, lidar, camera, tracking, fusion, .. } = self.config;
 
-        // The branches. Each gives the mean mismatch d (equations 1 to 4) of each detection with its nearest neighbours:
-        // I, LiDAR (algorithm 1): the points above the ground;
+        // The branches. Each gives the mean mismatch d (equations 1 to 4) of each detection with its nearest
+        // neighbours: I, LiDAR (algorithm 1): the points above the ground;
         let lidar_matches = lidar::match_detections(frame, lidar);
         // I, cameras (section 2.3, Camera matching): the pixels of the scaled depth images;
         let camera_matches = camera::match_detections(frame, camera);
@@ -70,7 +70,8 @@ impl<'a> Labeler<'a> {
                 continue;
             };
 
-            // A detection on the floor is an artifact (section 2.3, LiDAR matching); tracking alone still says its part.
+            // A detection on the floor is an artifact (section 2.3, LiDAR matching); tracking alone still says its
+            // part.
             let on_floor = frame.is_on_floor(detection, ground);
             let lidar_match = lidar_matches[i].filter(|_| !on_floor);
             let d_lm = lidar_match.map(|found| found.d);
@@ -98,19 +99,9 @@ impl<'a> Labeler<'a> {
                 | flag::when(w.is_none(), flag::UNOBSERVED);
             let semantic = lidar_match.and_then(|found| found.semantic);
             let w = w.unwrap_or(0.0);
-            labels.push(DetectionLabel {
-                d_lm,
-                d_cm,
-                d_tr,
-                w_lm,
-                w_cm,
-                w_tr,
-                w_opt,
-                w,
-                plausible,
-                flags,
-                semantic,
-            });
+            let label =
+                DetectionLabel { d_lm, d_cm, d_tr, w_lm, w_cm, w_tr, w_opt, w, plausible, flags, semantic };
+            labels.push(label);
         }
         labels
     }

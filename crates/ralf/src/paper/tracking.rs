@@ -8,8 +8,8 @@ use crate::scene::{
 use crate::sensors::{Elevation, Radar};
 use crate::space::NeighborIndex;
 
-/// The mismatch `d` of each detection with the neighbouring scans, sorted and weighted; `None` for all where the branch is
-/// off or there is no such scan, and for detections without a position.
+/// The mismatch `d` of each detection with the neighbouring scans, sorted and weighted; `None` for all where the branch
+/// is off or there is no such scan, and for detections without a position.
 pub fn match_detections(frame: &Frame, config: &TrackingConfig) -> Vec<Option<f64>> {
     let steps = if config.enabled { frame.steps_within(config.scans) } else { &[] };
     let doppler = if config.dynamic { frame.doppler() } else { None };

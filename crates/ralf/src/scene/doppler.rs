@@ -13,8 +13,8 @@ pub struct Doppler {
 }
 
 impl Doppler {
-    /// The range rates of a radar's scan: the fields `doppler` and `doppler_compensated`, each derived from the other where
-    /// the radar has but one. `None` where it has neither.
+    /// The range rates of a radar's scan: the fields `doppler` and `doppler_compensated`, each derived from the other
+    /// where the radar has but one. `None` where it has neither.
     ///
     /// The difference is the radial part of the radar's own velocity, `u . (v + omega x t)`: `u` is the unit ray to the
     /// detection, `t` the radar's lever arm from the vehicle's origin.
@@ -68,8 +68,8 @@ mod tests {
         }
     }
 
-    /// 5 m/s ahead, turning left by 0.4 rad/s: the radar, 3 m ahead of the origin, moves with (5, 0.4 * 3). A wall ahead
-    /// comes nearer at 5 m/s, one to the left at 1.2 m/s.
+    /// 5 m/s ahead, turning left by 0.4 rad/s: the radar, 3 m ahead of the origin, moves with (5, 0.4 * 3). A wall
+    /// ahead comes nearer at 5 m/s, one to the left at 1.2 m/s.
     fn turning() -> EgoMotion {
         EgoMotion::new(vec![OdometrySample { t_ns: 0, velocity: 5.0, yaw_rate: 0.4 }], vec![]).unwrap()
     }

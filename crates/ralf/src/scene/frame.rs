@@ -26,8 +26,8 @@ pub struct Frame<'a> {
     pub scan: Arc<LocatedScan>,
     /// The LiDAR scans nearest in time; `None` where there is none within the tolerance.
     pub lidar: Option<LidarView>,
-    /// The LiDAR scans before and after these, in time order: as many to each side as `lidar.window_scans` says, as far as
-    /// they exist and can be read. Each is in the vehicle frame at its own time.
+    /// The LiDAR scans before and after these, in time order: as many to each side as `lidar.window_scans` says, as far
+    /// as they exist and can be read. Each is in the vehicle frame at its own time.
     pub lidar_window: Vec<LidarView>,
     /// The ground in the vehicle frame at the scan's time; `None` where there is none.
     pub ground: Option<LocalGround>,

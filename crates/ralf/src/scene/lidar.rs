@@ -1,4 +1,5 @@
-//! The LiDAR scans of one moment: their rays, their ground and their reference cloud, shared by all radars that use them.
+//! The LiDAR scans of one moment: their rays, their ground and their reference cloud, shared by all radars that use
+//! them.
 
 use super::ground::Ground;
 use super::mismatch::{Reference, Spread};
@@ -80,8 +81,8 @@ pub struct LidarMoment {
 }
 
 impl LidarMoment {
-    /// Brings the scans together at `t_ns`. `scans` gives each scan's LiDAR and the vehicle's pose at the scan's time in
-    /// the vehicle frame at `t_ns`. The ground is fitted to all points together once it is asked for.
+    /// Brings the scans together at `t_ns`. `scans` gives each scan's LiDAR and the vehicle's pose at the scan's time
+    /// in the vehicle frame at `t_ns`. The ground is fitted to all points together once it is asked for.
     pub fn new(
         t_ns: i64,
         scans: Vec<(&Lidar, Arc<LidarScan>, Transform)>,
@@ -127,8 +128,8 @@ impl LidarMoment {
         })
     }
 
-    /// Points above the ground within a radar's vertical field of view, in the horizontal plane of the vehicle frame that
-    /// `vehicle_from_moment` leads to: the reference cloud for a radar that measures no elevation.
+    /// Points above the ground within a radar's vertical field of view, in the horizontal plane of the vehicle frame
+    /// that `vehicle_from_moment` leads to: the reference cloud for a radar that measures no elevation.
     pub fn horizontal_index(&self, radar: &Radar, vehicle_from_moment: &Transform) -> NeighborIndex {
         let radar_from_vehicle = radar.vehicle_from_radar.inverse();
         let (mut points, mut ids) = (Vec::new(), Vec::new());
@@ -204,7 +205,8 @@ mod tests {
         let scans = vec![(&lidar, scan, Transform::translation(10.0, 0.0, 0.0))];
         let moment = Arc::new(LidarMoment::new(0, scans, &GroundConfig::default(), 0));
         let view = LidarView { moment, vehicle_from_moment: Transform::translation(-10.0, 0.0, 0.0) };
-        // The LiDAR looks to the left: its (3, 4) is the vehicle's (-4, 3). The second and the third point are no returns.
+        // The LiDAR looks to the left: its (3, 4) is the vehicle's (-4, 3). The second and the third point are no
+        // returns.
         let rays: Vec<LidarRay> = view.rays().collect();
         assert_eq!(rays.len(), 2);
         for (ray, range, end) in

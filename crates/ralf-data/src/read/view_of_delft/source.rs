@@ -191,15 +191,15 @@ impl Source for Training {
 
     fn radar_scan(&self, radar: usize, scan: usize) -> Result<RadarScan, SourceError> {
         let read = |file: &Path| files::read_f32_columns(file, RADAR_FIELDS.len());
-        self.files.radar_scan(&self.sequence, [radar, scan], read)
+        self.files.radar_scan(&self.sequence, radar, scan, read)
     }
 
     fn lidar_scan(&self, lidar: usize, scan: usize) -> Result<LidarScan, SourceError> {
-        self.files.lidar_scan(&self.sequence, [lidar, scan], 4)
+        self.files.lidar_scan(&self.sequence, lidar, scan, 4)
     }
 
     fn image(&self, camera: usize, image: usize) -> Result<CameraImage, SourceError> {
-        self.files.image(&self.sequence, [camera, image])
+        self.files.image(&self.sequence, camera, image)
     }
 
     fn depth(&self, camera: usize, image: usize) -> Result<Option<Vec<DepthImage>>, SourceError> {

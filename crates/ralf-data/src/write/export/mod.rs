@@ -108,7 +108,7 @@ impl Export<'_> {
         }
         let names = SequenceNames::all(sequences.iter().map(|(reader, _)| *reader))?;
         let place = Place::prepare(path, &self.options, names.iter().map(|names| &names.sequence))?;
-        let mut writer = formats::writer(self.options.format, &sequences);
+        let mut writer = self.options.format.writer(&sequences);
         let mut tally = Tally { exported, progress };
         for (found, names) in sequences.into_iter().zip(names) {
             let mut sequence = LabelledSequence::open(self, &run, &corrections, found.0, names, &mut tally)?;

@@ -1,7 +1,8 @@
-//! Label sidecars for nuScenes, laid out as nuScenes-lidarseg: `radarseg/VERSION/TOKEN_radarseg.bin` with one uint8 per point
-//! of the `.pcd`, `VERSION/radarseg.json` that lists them by `sample_data` token, and the classes beside it.
+//! Label sidecars for nuScenes, laid out as nuScenes-lidarseg: `radarseg/VERSION/TOKEN_radarseg.bin` with one uint8 per
+//! point of the `.pcd`, `VERSION/radarseg.json` that lists them by `sample_data` token, and the classes beside it.
 //!
-//! The table of classes has a name of its own: nuScenes' `category.json` lies in the same folder and must not be overwritten.
+//! The table of classes has a name of its own: nuScenes' `category.json` lies in the same folder and must not be
+//! overwritten.
 
 use super::Writer;
 use super::labelled::LabelledSequence;

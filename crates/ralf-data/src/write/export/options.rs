@@ -60,36 +60,6 @@ pub struct ExportOptions {
     pub replace: bool,
 }
 
-impl ExportFormat {
-    /// All of them.
-    pub const ALL: [Self; 7] =
-        [Self::Mcap, Self::Rosbag1, Self::SemanticKitti, Self::Pcd, Self::Npz, Self::Parquet, Self::NuScenes];
-
-    /// The name, as `--to` takes it.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Mcap => "mcap",
-            Self::Rosbag1 => "rosbag1",
-            Self::SemanticKitti => "semantickitti",
-            Self::Pcd => "pcd",
-            Self::Npz => "npz",
-            Self::Parquet => "parquet",
-            Self::NuScenes => "nuscenes",
-        }
-    }
-
-    /// Which sensors' data can go with the labels.
-    pub fn sensors(self) -> Sensors {
-        match self {
-            Self::Mcap | Self::Rosbag1 => Sensors::ALL,
-            Self::NuScenes => Sensors::default(),
-            Self::SemanticKitti | Self::Pcd | Self::Npz | Self::Parquet => {
-                Sensors { radar: true, ..Sensors::default() }
-            }
-        }
-    }
-}
-
 impl Sensors {
     /// All there are.
     pub const ALL: Self = Self { radar: true, lidar: true, camera: true };

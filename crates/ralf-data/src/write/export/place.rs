@@ -5,6 +5,7 @@ use super::ros::{self, RosFormat};
 use crate::disk::files;
 use crate::error::DataError;
 use crate::result::{Component, OutFolder, WriterLock};
+use ralf_files::Kind;
 use serde::{Deserialize, Serialize};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -146,7 +147,7 @@ fn check_folder(path: &Path, options: &ExportOptions) -> Result<(), DataError> {
 }
 
 fn read(folder: &Path) -> Option<Record> {
-    serde_json::from_slice(&fs::read(folder.join(RECORD)).ok()?).ok()
+    serde_json::from_str(&files::read_text(&folder.join(RECORD), Kind::Settings).ok()?).ok()
 }
 
 fn remove_folder(folder: &Path) -> Result<(), DataError> {

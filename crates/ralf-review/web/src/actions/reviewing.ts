@@ -38,7 +38,10 @@ export class Reviewing {
     else void this.mark(false);
   }
 
-  /** Marks the scan, and goes on to the next. Detections that were never on screen are counted first; a second time accepts them. */
+  /**
+   * Marks the scan, and goes on to the next. Detections that were never on screen are counted first; a second time
+   * accepts them.
+   */
   accept(goOn: boolean): void {
     const { store } = this.world;
     const { cloud, shown, accepting, loading } = store.state;

@@ -36,7 +36,10 @@ export function openSession(): Session {
   };
 }
 
-/** A cookie, for it is known on every port of the host: the person is the same when the server listens on another one. */
+/**
+ * A cookie, for it is known on every port of the host: the person is the same when the server listens on another
+ * one.
+ */
 function knownAuthor(): string {
   const known = document.cookie.match(/(?:^|; )ralf-author=([0-9a-f]+)/)?.[1] ?? localStorage.getItem(AUTHOR);
   const author = known ?? randomName();

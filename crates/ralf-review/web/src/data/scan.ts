@@ -38,8 +38,9 @@ export function scanFromTable({ radar, scan }: ScanId, table: Table<ScanHeader>)
 }
 
 /**
- * The scan after a stroke, undo, or another's change. `null` where a mark was set or taken away, or a detection went back
- * from a correction in a scan that was accepted: what was accepted is the server's to say, so the scan must be read anew.
+ * The scan after a stroke, undo, or another's change. `null` where a mark was set or taken away, or a detection went
+ * back from a correction in a scan that was accepted: what was accepted is the server's to say, so the scan must be
+ * read anew.
  */
 export function withCorrections(scan: Scan, { revision, corrections, reviewed }: ScanCorrections): Scan | null {
   if ((reviewed === null) !== (scan.reviewed === null)) return null;

@@ -1,6 +1,7 @@
 /**
- * Unsaved strokes in the browser's database: a reload, the server's end, or a closed window loses none. A window takes its
- * own strokes up again; those of a window that was closed are taken up by the next one that opens the same corrections.
+ * Unsaved strokes in the browser's database: a reload, the server's end, or a closed window loses none. A window
+ * takes its own strokes up again; those of a window that was closed are taken up by the next one that opens the same
+ * corrections.
  */
 
 import type { Pending } from "./outbox.js";
@@ -60,6 +61,13 @@ export async function openKeeper(store: string, freshName: () => string): Promis
   return { found, keep };
 }
 
+/** Where the browser has no database: nothing is kept, and whoever wants to is told why. */
+export function keepNothing(reason: unknown): Keeper {
+  const keep = (waiting: readonly Pending[]): Promise<void> =>
+    waiting.length === 0 ? Promise.resolve() : Promise.reject(reason);
+  return { found: [], keep };
+}
+
 /** The name of this window, the same over a reload. */
 function ownWindow(freshName: () => string): string {
   const known = sessionStorage.getItem(WINDOW) ?? freshName();
@@ -67,7 +75,10 @@ function ownWindow(freshName: () => string): string {
   return known;
 }
 
-/** Which windows are closed; where the browser doesn't say (not on this machine's own address), none is taken for closed. */
+/**
+ * Which windows are closed; where the browser doesn't say (not on this machine's own address), none is taken for
+ * closed.
+ */
 async function closedWindows(own: string): Promise<(window: string) => boolean> {
   if (navigator.locks === undefined) return () => false;
   // Held as long as the window is open.

@@ -1,7 +1,8 @@
 /**
- * Strokes on their way to the server, one after the other. A stroke stays here, and in the browser's storage, until the
- * server has said that it's on disk; nobody's answer, a refusal and a conflict keep it too, until a person decides. Each
- * has a name by which the server knows it, so that one whose answer was lost is not made twice when it is sent again.
+ * Strokes on their way to the server, one after the other. A stroke stays here, and in the browser's storage, until
+ * the server has said that it's on disk; nobody's answer, a refusal and a conflict keep it too, until a person
+ * decides. Each has a name by which the server knows it, so that one whose answer was lost is not made twice when it
+ * is sent again.
  */
 
 import { Conflict, messageOf, ServerGone } from "../api/errors.js";

@@ -33,5 +33,6 @@ function question({ all, hidden }: Accepting): string {
   const where =
     hidden === 0 ? "" : hidden === all ? " (the filter hides them)" : ` (the filter hides ${hidden} of them)`;
   const were = all === 1 ? "was" : "were";
-  return `${counted(all, "detection")} of this scan ${were} not on screen yet${where}. Enter again accepts them unseen.`;
+  const which = `${counted(all, "detection")} of this scan ${were} not on screen yet${where}`;
+  return `${which}. Enter again accepts them unseen.`;
 }

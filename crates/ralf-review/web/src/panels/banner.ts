@@ -47,8 +47,8 @@ function trouble({ outbox, waiting, connected, recording, progress }: Readonly<S
 function standing({ read_only: reason }: Recording, { orphaned_scans: orphaned }: Progress): string | null {
   if (reason !== null) return `Read-only: nothing can be corrected here. ${reason}`;
   if (orphaned === 0) return null;
-  const corrections = `Corrections of ${counted(orphaned, "scan")} belong to other detections than the recording holds now`;
-  return `${corrections}: they are kept, and not applied.`;
+  const scans = counted(orphaned, "scan");
+  return `Corrections of ${scans} belong to other detections than the recording holds now: kept, and not applied.`;
 }
 
 /** Over the picture, while every stroke sets a label at once. */

@@ -1,4 +1,7 @@
-/** Somebody was faster: who, what and when; the newer state is on screen already, and the stroke waits for a decision. */
+/**
+ * Somebody was faster: who, what and when; the newer state is on screen already, and the stroke waits for a
+ * decision.
+ */
 
 import { sameScan } from "../data/scan.js";
 import { h } from "../dom.js";
@@ -63,20 +66,15 @@ function told({ body, pending }: Met, { labels, name }: Readonly<State>): HTMLEl
   const who =
     conflict === null
       ? body.error
-      : `${conflict.author}${elsewhere} changed ${conflict.radar} ${conflict.scan} with ${conflict.tool}, ${clock(conflict.at)}.`;
+      : `${conflict.author}${elsewhere} changed ${conflict.radar} ${conflict.scan} with ${conflict.tool}, ` +
+        `${clock(conflict.at)}.`;
   if (body.stale)
     return [h("p", {}, who), h("p", {}, "Your stroke was made on what was there before. Nothing of it is saved.")];
+  const wanted = `${counted(count, "detection")} to ${labels.choiceName(stroke.label)}`;
+  const corrected = `${touched === 0 ? "none" : touched} of them ${touched === 1 ? "is" : "are"} corrected there`;
   return [
     h("p", {}, who),
-    h(
-      "p",
-      {},
-      `Your ${stroke.tool} sets ${counted(count, "detection")} to ${labels.choiceName(stroke.label)}. Nothing of it is saved yet.`,
-    ),
-    h(
-      "p",
-      { class: "faint" },
-      `The picture shows the newer state, with your detections selected; ${touched === 0 ? "none" : touched} of them ${touched === 1 ? "is" : "are"} corrected there.`,
-    ),
+    h("p", {}, `Your ${stroke.tool} sets ${wanted}. Nothing of it is saved yet.`),
+    h("p", { class: "faint" }, `The picture shows the newer state, with your detections selected; ${corrected}.`),
   ];
 }

@@ -6,36 +6,10 @@ import { openWith } from "./dialog.js";
 import { GROUPS, type Key, shownKey } from "./keys.js";
 
 export function helpDialog({ store, actions }: Page, table: readonly Key[]): HTMLDialogElement {
-  const groups = GROUPS.map((group) =>
-    h(
-      "section",
-      {},
-      h("h3", {}, group),
-      ...table
-        .filter((key) => key.group === group)
-        .map((key) =>
-          h(
-            "div",
-            { class: "key-row" },
-            h(
-              "span",
-              { class: "keys" },
-              ...key.keys.map((name) =>
-                h("span", { class: "key-combination" }, ...shownKey(name).map((part) => h("kbd", {}, part))),
-              ),
-            ),
-            h("span", {}, key.text),
-          ),
-        ),
-    ),
-  );
-  const mouse = h(
-    "section",
-    {},
-    h("h3", {}, "Mouse"),
-    ...MOUSE.map(([what, text]) =>
-      h("div", { class: "key-row" }, h("span", { class: "keys" }, h("kbd", {}, what)), h("span", {}, text)),
-    ),
+  const groups = GROUPS.map((group) => section(group, table.filter((key) => key.group === group).map(keyRow)));
+  const mouse = section(
+    "Mouse",
+    MOUSE.map(([what, text]) => row([h("kbd", {}, what)], text)),
   );
   const close = h(
     "button",
@@ -50,6 +24,20 @@ export function helpDialog({ store, actions }: Page, table: readonly Key[]): HTM
   );
   openWith({ store, actions }, dialog, "help");
   return dialog;
+}
+
+function section(title: string, rows: readonly HTMLElement[]): HTMLElement {
+  return h("section", {}, h("h3", {}, title), ...rows);
+}
+
+function keyRow({ keys, text }: Key): HTMLElement {
+  const combination = (name: string): HTMLElement =>
+    h("span", { class: "key-combination" }, ...shownKey(name).map((part) => h("kbd", {}, part)));
+  return row(keys.map(combination), text);
+}
+
+function row(keys: readonly HTMLElement[], text: string): HTMLElement {
+  return h("div", { class: "key-row" }, h("span", { class: "keys" }, ...keys), h("span", {}, text));
 }
 
 const MOUSE = [

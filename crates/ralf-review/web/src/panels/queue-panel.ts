@@ -162,6 +162,19 @@ function head({ store, actions }: Page): HTMLElement {
   return h("header", { class: "queue-head" }, brand, sequenceList({ store, actions }), bar, text);
 }
 
+/** Whose scans are listed. */
+function radarList({ store, actions }: Page): HTMLSelectElement {
+  const radars = select("Radar", [], (value) => actions.go.viewQueue({ radar: value === "" ? null : value }));
+  store.watch(
+    ({ recording, sequence }) => [recording, sequence],
+    (recording, sequence) => {
+      const names = recording.sequences.find(({ name }) => name === sequence)?.radars.map(({ name }) => name) ?? [];
+      setOptions(radars, [{ value: "", text: "All radars" }, ...names.map((name) => ({ value: name, text: name }))]);
+    },
+  );
+  return radars;
+}
+
 function order({ store, actions }: Page): HTMLElement {
   const orders: readonly (readonly [QueueOrder, string])[] = [
     ["need", "Need"],
@@ -182,14 +195,7 @@ function order({ store, actions }: Page): HTMLElement {
     },
     "Open",
   );
-  const radars = select("Radar", [], (value) => actions.go.viewQueue({ radar: value === "" ? null : value }));
-  store.watch(
-    ({ recording, sequence }) => [recording, sequence],
-    (recording, sequence) => {
-      const names = recording.sequences.find(({ name }) => name === sequence)?.radars.map(({ name }) => name) ?? [];
-      setOptions(radars, [{ value: "", text: "All radars" }, ...names.map((name) => ({ value: name, text: name }))]);
-    },
-  );
+  const radars = radarList({ store, actions });
   store.watch(
     ({ queueView }) => [queueView],
     ({ order: now, hideReviewed, radar }) => {

@@ -1,6 +1,6 @@
 /**
- * The colours. Labels have Okabe and Ito's blue and vermilion, as in `ralf plot`, lightened for a dark ground; they can be
- * told apart with any colour vision. Quantities have viridis; the Doppler velocity has a map with two ends.
+ * The colours. Labels have Okabe and Ito's blue and vermilion, as in `ralf plot`, lightened for a dark ground; they
+ * can be told apart with any colour vision. Quantities have viridis; the Doppler velocity has a map with two ends.
  */
 
 export type Rgb = readonly [red: number, green: number, blue: number];

@@ -1,6 +1,6 @@
 /**
- * Where one looks from. Bird's eye and free view share the place looked at and how much of it is seen, so that switching
- * between them keeps one's bearings. Vehicle frame: x forward (up on screen), y left, z up.
+ * Where one looks from. Bird's eye and free view share the place looked at and how much of it is seen, so that
+ * switching between them keeps one's bearings. Vehicle frame: x forward (up on screen), y left, z up.
  */
 
 export interface Rig {
@@ -22,7 +22,9 @@ const MOST_PITCH = Math.PI / 2 - 0.01;
 
 export const HOME: Rig = { target: [0, 0, 0], span: 100, yaw: 0, pitch: 0.55 };
 
-/** Home, or as much farther away as it takes to have all places (x, y, z, x, y, z, ..., m) in a picture of this size. */
+/**
+ * Home, or as much farther away as it takes to have all places (x, y, z, x, y, z, ..., m) in a picture of this size.
+ */
 export function around(positions: Float32Array, [width, height]: readonly [number, number]): Rig {
   let [forward, left] = [0, 0];
   for (let i = 0; i < positions.length; i += 3) {

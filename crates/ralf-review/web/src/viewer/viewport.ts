@@ -54,7 +54,8 @@ export class Viewport {
       (rig) => this.aim(rig),
     );
     new ResizeObserver(() => this.resize()).observe(this.element);
-    this.watch();
+    this.watchScene();
+    this.watchLooks();
   }
 
   /** Shows the whole scan. */
@@ -68,7 +69,8 @@ export class Viewport {
     return this.page.store.state.mode !== "free";
   }
 
-  private watch(): void {
+  /** What is in the scene. */
+  private watchScene(): void {
     const { store } = this.page;
     const { view } = this;
     store.watch(
@@ -100,6 +102,12 @@ export class Viewport {
         this.changed();
       },
     );
+  }
+
+  /** How the scene is looked at, and what lies over it. */
+  private watchLooks(): void {
+    const { store } = this.page;
+    const { view } = this;
     store.watch(
       ({ lidarShown, groundHidden, dotSize, mode, lidar }) => [lidarShown, groundHidden, dotSize, mode, lidar],
       (lidarShown, groundHidden, dotSize) => {

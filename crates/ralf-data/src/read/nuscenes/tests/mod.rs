@@ -65,7 +65,10 @@ impl DataSet {
 
     fn write_tables(&self) {
         let turn = [1.0, 0.0, 0.0, 0.0];
-        let sensor = |channel: &str, modality: &str| json!({"modality": modality, "token": channel, "channel": channel});
+        let sensor = |channel: &str, modality: &str| {
+            json!({"modality": modality, "token": channel,
+                   "channel": channel})
+        };
         self.table(
             "sensor",
             json!([
@@ -118,7 +121,10 @@ impl DataSet {
                    "translation": [0.01 * *ms as f64, 7.0, 0.0]})
         });
         self.table("ego_pose", poses.collect());
-        let can = |ms: i64, v: f64| json!({"utime": T0 + ms * MS, "vel": [v, 0.0, 0.0], "rotation_rate": [9.0, 9.0, 0.25], "pos": [0, 0, 0]});
+        let can = |ms: i64, v: f64| {
+            json!({"utime": T0 + ms * MS, "vel": [v, 0.0, 0.0],
+                   "rotation_rate": [9.0, 9.0, 0.25], "pos": [0, 0, 0]})
+        };
         self.write(
             "can_bus/scene-0001_pose.json",
             json!([can(20, 10.0), can(0, 9.0)]).to_string().as_bytes(),
