@@ -17,6 +17,7 @@ mod camera_plot;
 mod corrections;
 mod determinism;
 mod evaluation;
+mod evidence;
 mod export;
 #[cfg(unix)]
 mod full_disk;

@@ -39,3 +39,4 @@ pub(crate) use places::Places;
 pub(crate) use record::RECORD;
 pub(crate) use rows_file::{read_rows, write_rows};
 pub(crate) use scan_table::ScanParts;
+pub(crate) use schema::evidence_columns;

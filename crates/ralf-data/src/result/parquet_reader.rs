@@ -1,7 +1,7 @@
 //! Reading `plausibility.parquet` back, a row group at a time.
 
 use super::parquet_columns::read_values;
-use super::schema::{Column, Group, Kind, SCAN, Schema};
+use super::schema::{Column, Group, Kind, SCAN, Schema, evidence_columns};
 use super::table::Value;
 use super::{RadarScanKey, Table};
 use crate::error::DataError;
@@ -172,12 +172,16 @@ fn with_evidence(reader: &SerializedFileReader<File>, needed: &Schema) -> Result
         if columns.iter().all(|known| known.name != column.name())
             && column.physical_type() == Physical::FLOAT
         {
-            let name = column.name().to_owned().into();
-            let meaning = "Evidence that this version doesn't know.";
-            columns.push(Column { name, kind: Kind::F32, unit: "", meaning, group: Group::Evidence });
+            let known = evidence_columns().into_iter().find(|known| known.name == column.name());
+            columns.push(known.unwrap_or_else(|| unknown_evidence(column.name())));
         }
     }
     Ok(Schema::new(columns))
+}
+
+fn unknown_evidence(name: &str) -> Column {
+    let meaning = "Evidence that this version doesn't know.";
+    Column { name: name.to_owned().into(), kind: Kind::F32, unit: "", meaning, group: Group::Evidence }
 }
 
 /// The scans of a row group in the order of its rows.

@@ -4,6 +4,7 @@ use super::schema::{Column, Group, Kind, Schema, answer_of};
 use super::table::{Table, Values};
 use crate::disk::label_file::Label;
 use crate::error::DataError;
+use ralf::evidence;
 use ralf::label::{ARTIFACT, PLAUSIBLE, truth_of};
 use ralf::paper::DetectionLabel;
 use ralf::scene::{Detection, LocatedScan};
@@ -33,8 +34,8 @@ pub(crate) struct ScanParts<'a> {
     pub(crate) scan: &'a LocatedScan,
     /// One per detection; none at all where the scan could not be labelled: all answers are absent then.
     pub(crate) labels: Option<&'a [DetectionLabel]>,
-    /// The values of each column of evidence, by name.
-    pub(crate) evidence: &'a [(&'static str, Vec<f32>)],
+    /// The columns of evidence; those that nobody gathered are absent.
+    pub(crate) evidence: &'a [evidence::Column],
 }
 
 impl Table {
@@ -79,7 +80,7 @@ impl ScanParts<'_> {
             (_, Kind::U8, "label") => Values::U8(self.of_labels(0, |label| u8::from(label.plausible))),
             (_, Kind::U16, "flags") => Values::U16(self.of_labels(0, |label| label.flags)),
             (_, Kind::Class, "semantic") => Values::Class(self.of_labels(None, |label| label.semantic)),
-            (Group::Evidence, Kind::F32, name) => Values::F32(self.evidence(name, rows)?),
+            (Group::Evidence, Kind::F32, name) => Values::F32(self.evidence(name, rows)),
             _ => return Err(unknown(column)),
         })
     }
@@ -116,9 +117,10 @@ impl ScanParts<'_> {
     }
 
     /// Absent where nobody gathered it.
-    fn evidence(&self, name: &str, rows: usize) -> Result<Vec<f32>, DataError> {
-        let found = self.evidence.iter().find(|(known, _)| *known == name);
-        Ok(found.map_or_else(|| vec![f32::NAN; rows], |(_, values)| values.clone()))
+    fn evidence(&self, name: &str, rows: usize) -> Vec<f32> {
+        let found = self.evidence.iter().find(|column| column.feature.name == name);
+        let Some(found) = found else { return vec![f32::NAN; rows] };
+        found.values.iter().map(|value| value.map_or(f32::NAN, |value| value as f32)).collect()
     }
 }
 

@@ -2,6 +2,7 @@
 //! through this list.
 
 use crate::error::DataError;
+use ralf::evidence::{Feature, features};
 use ralf::paper::DetectionLabel;
 use ralf::sensors::Rig;
 use std::borrow::Cow;
@@ -199,6 +200,15 @@ impl Schema {
 pub(crate) fn field(name: &str) -> Column {
     let meaning = "As the radar gave it.";
     Column { name: name.to_owned().into(), kind: Kind::F32, unit: "", meaning, group: Group::Measured }
+}
+
+/// The columns of all evidence that is known.
+pub(crate) fn evidence_columns() -> Vec<Column> {
+    let of = |feature: &'static Feature| {
+        let Feature { name, unit, meaning, .. } = *feature;
+        Column { name: name.into(), kind: Kind::F32, unit, meaning, group: Group::Evidence }
+    };
+    features().map(of).collect()
 }
 
 /// What an answer is of a label; `None` of a column that is no answer.

@@ -5,6 +5,7 @@ use super::{Observer, Stage, Task};
 use crate::error::DataError;
 use crate::result::{NotLabelled, ScanNotes, ScanParts, Table};
 use ralf::config::Config;
+use ralf::evidence;
 use ralf::paper::Labeler;
 use ralf::scene::FrameWindow;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
@@ -102,8 +103,13 @@ impl Shared<'_> {
             }
         };
         let labels = Labeler::new(self.config).label(&frame);
-        let parts =
-            ScanParts { radar: &rig.radars[radar], scan: &frame.scan, labels: Some(&labels), evidence: &[] };
+        let evidence = if self.task.evidence { evidence::observe(&frame, self.config) } else { Vec::new() };
+        let parts = ScanParts {
+            radar: &rig.radars[radar],
+            scan: &frame.scan,
+            labels: Some(&labels),
+            evidence: &evidence,
+        };
         let table = Table::of_scan(schema, &parts)?;
         self.workspace.keep(radar, scan, &ScanNotes::new(&frame), &table)?;
         Ok(labels.len() as u64)
