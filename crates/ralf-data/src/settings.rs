@@ -3,19 +3,20 @@
 use crate::read::ros::{Topics, check_topics};
 use ralf::config::{Config, ConfigError, read_toml};
 use serde::{Deserialize, Serialize};
+use toml::{Table, Value};
 
 /// Name of the table that readers of ROS recordings know.
 const TOPICS: &str = "topics";
 
 /// All that a settings file may hold. Every key is optional, and unknown keys are refused.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(try_from = "toml::Table")]
 pub struct Settings {
     /// The method's.
     #[serde(flatten)]
     pub method: Config,
     /// `topics`.
-    #[serde(default, skip_serializing_if = "Topics::is_empty")]
+    #[serde(skip_serializing_if = "Topics::is_empty")]
     pub topics: Topics,
 }
 
@@ -30,7 +31,7 @@ impl Settings {
     /// Settings from a TOML text and assignments `key=value` that win over it.
     pub fn from_toml(text: &str, assignments: &[&str]) -> Result<Self, ConfigError> {
         let method = Config::from_toml_beside(&[TOPICS], text, assignments)?;
-        let OnlyTopics { topics } = read_toml(text, assignments, &[])?;
+        let OnlyTopics { topics } = read_toml(text, assignments)?;
         check_topics(&topics)?;
         Ok(Self { method, topics })
     }
@@ -38,6 +39,16 @@ impl Settings {
     /// All settings as TOML.
     pub fn to_toml(&self) -> Result<String, ConfigError> {
         toml::to_string(self).map_err(|error| ConfigError::Parse(error.to_string()))
+    }
+}
+
+impl TryFrom<Table> for Settings {
+    type Error = ConfigError;
+
+    fn try_from(mut table: Table) -> Result<Self, ConfigError> {
+        let topics = table.remove(TOPICS).map_or(Ok(Topics::new()), Value::try_into);
+        let topics = topics.map_err(|error: toml::de::Error| ConfigError::Parse(error.to_string()))?;
+        Ok(Self { method: Config::try_from(table)?, topics })
     }
 }
 

@@ -38,6 +38,6 @@ pub use birds_eye::{ScanPicture, scan_picture};
 pub use camera::{CameraPicture, PixelDepth, ViewPicture, camera_picture};
 pub use error::PlotError;
 pub use extent::Extent;
-pub use marks::{Mark, MarkLabel};
+pub use marks::{Mark, MarkLabel, Marks};
 pub use overview::{OverviewPicture, overview_picture};
 pub use vehicle::{RadarMount, VehicleOutline};

@@ -41,6 +41,9 @@ pub(crate) struct LabelArgs {
     #[arg(long, value_name = "FOLDER")]
     #[cfg_attr(feature = "depth", arg(conflicts_with = "depth_model"))]
     depth: Option<PathBuf>,
+    /// Gather what else is known of each detection: a column of plausibility.parquet for each piece (docs/evidence.md)
+    #[arg(long)]
+    evidence: bool,
     /// Scans side by side; as many as there are processors if not given
     #[arg(long, value_name = "N")]
     jobs: Option<NonZeroUsize>,
@@ -67,7 +70,13 @@ pub(crate) fn run(arguments: &LabelArgs) -> anyhow::Result<Outcome> {
         Some(model) => depth_for_labelling(recording, &model, &arguments.output, &settings.method, jobs)?,
         None => recording,
     };
-    let run = LabelRun { recording: &recording, settings: &settings, out: &arguments.output, jobs };
+    let run = LabelRun {
+        recording: &recording,
+        settings: &settings,
+        out: &arguments.output,
+        jobs,
+        evidence: arguments.evidence,
+    };
     let done = run.execute(&Stages::new(arguments.quiet))?;
     if !done.removed.is_empty() {
         let names = done.removed.join(", ");

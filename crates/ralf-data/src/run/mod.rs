@@ -21,13 +21,14 @@ pub use crate::result::{
 
 use crate::error::DataError;
 use crate::read::{Recording, SequenceReader, layout};
-use crate::result::{Columns, SequenceNames, WriterLock};
+use crate::result::{Schema, SequenceNames, WriterLock, evidence_columns};
 use crate::settings::Settings;
 use inputs::Identity;
 use output_folder::OutputFolder;
 use ralf::config::Config;
 use ralf::sensors::Rig;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::time::Instant;
 
 /// In the output folder while a run writes to it.
@@ -43,6 +44,8 @@ pub struct LabelRun<'a> {
     pub out: &'a Path,
     /// Threads.
     pub jobs: usize,
+    /// Whether the evidence of [`ralf::evidence`] is gathered, too: a column of the table for each feature.
+    pub evidence: bool,
 }
 
 /// Part of the work, for a progress display.
@@ -88,7 +91,9 @@ struct Task<'a> {
     /// Of the folders that its results go to.
     names: SequenceNames,
     rig: Rig,
-    columns: Columns,
+    schema: Arc<Schema>,
+    /// Whether evidence is gathered.
+    evidence: bool,
 }
 
 impl LabelRun<'_> {
@@ -103,7 +108,7 @@ impl LabelRun<'_> {
         let tasks = tasks.map(|(reader, names)| self.task(reader.as_ref(), names));
         let tasks = tasks.collect::<Result<Vec<_>, _>>()?;
         let _lock = WriterLock::take(self.out.join(LOCK), self.out)?;
-        let run = RunRecord::new(self.recording, self.settings);
+        let run = RunRecord::new(self.recording, self.settings, self.evidence);
         let asked = inputs::identify(self.recording, &fingerprint::of_run(&run), self.jobs, observer);
         let folder = OutputFolder::open(self.out, run, &asked)?;
         let mut finished = Vec::new();
@@ -123,8 +128,10 @@ impl LabelRun<'_> {
 
     fn task<'a>(&self, reader: &'a dyn SequenceReader, names: SequenceNames) -> Result<Task<'a>, DataError> {
         let rig = rig_of(self.recording, reader, &self.settings.method)?;
-        let columns = Columns::of(&rig).map_err(|reason| unsuitable(self.recording, reader, reason))?;
-        Ok(Task { reader, names, rig, columns })
+        let evidence = if self.evidence { evidence_columns() } else { Vec::new() };
+        let schema =
+            Schema::of(&rig, &evidence).map_err(|reason| unsuitable(self.recording, reader, reason))?;
+        Ok(Task { reader, names, rig, schema: Arc::new(schema), evidence: self.evidence })
     }
 
     fn label_sequence(

@@ -3,8 +3,9 @@
 use super::workspace::Workspace;
 use super::{Observer, Stage, Task};
 use crate::error::DataError;
-use crate::result::{NotLabelled, ScanNotes, ScanTable};
+use crate::result::{NotLabelled, ScanNotes, ScanParts, Table};
 use ralf::config::Config;
+use ralf::evidence;
 use ralf::paper::Labeler;
 use ralf::scene::FrameWindow;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
@@ -88,9 +89,9 @@ impl Shared<'_> {
 
     /// Labels one scan, unless that was done before. Returns how many detections it has.
     fn label_scan(&self, window: &mut FrameWindow, radar: usize, scan: usize) -> Result<u64, DataError> {
-        let Task { rig, columns, .. } = self.task;
+        let Task { rig, schema, .. } = self.task;
         let name = &rig.radars[radar].name;
-        if self.workspace.has_kept(radar, scan, columns) {
+        if self.workspace.has_kept(radar, scan, schema) {
             return Ok(0);
         }
         let frame = match window.frame(radar, scan) {
@@ -102,7 +103,14 @@ impl Shared<'_> {
             }
         };
         let labels = Labeler::new(self.config).label(&frame);
-        let table = ScanTable::new(columns, &rig.radars[radar], &frame.scan, &labels);
+        let evidence = if self.task.evidence { evidence::observe(&frame, self.config) } else { Vec::new() };
+        let parts = ScanParts {
+            radar: &rig.radars[radar],
+            scan: &frame.scan,
+            labels: Some(&labels),
+            evidence: &evidence,
+        };
+        let table = Table::of_scan(schema, &parts)?;
         self.workspace.keep(radar, scan, &ScanNotes::new(&frame), &table)?;
         Ok(labels.len() as u64)
     }

@@ -135,7 +135,9 @@ fn results_of_another_recording_are_refused() {
     let dataset = small();
     let path = dataset.beside("labels");
     let refused = |parts: [&str; 2]| {
-        run(&dataset, "npz", &path, &["--sensors"]).exits(1).prints_nothing().says(parts);
+        let asked = ["--sensors", "--changed-recording"];
+        run(&dataset, "npz", &path, &asked[..1]).exits(1).says(["expected what was labelled"]);
+        run(&dataset, "npz", &path, &asked).exits(1).prints_nothing().says(parts);
         assert!(!fs::exists(&path).unwrap());
     };
     let times = fs::read_to_string(dataset.file("radar_front/timestamps.txt")).unwrap();

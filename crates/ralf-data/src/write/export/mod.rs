@@ -10,6 +10,7 @@
 //! An export appears whole or not at all: it is written beside its place, then renamed. The same recording and results give
 //! the same bytes.
 
+mod bytes;
 mod columns;
 mod formats;
 mod labelled;

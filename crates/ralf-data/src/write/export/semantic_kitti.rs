@@ -4,14 +4,13 @@
 //! A sequence of this tree is one radar of one sequence of the recording: frame n is scan n, point i its detection i, and
 //! nothing is moved in time. `sequences.csv` tells which is which.
 
-use super::columns::Values;
 use super::labelled::{LabelledScan, LabelledSequence};
 use super::{Split, Writer, npy_array};
 use crate::disk::files;
 use crate::disk::label_file::write_labels;
 use crate::error::DataError;
 use crate::read::SequenceReader;
-use crate::result::{Component, OutFolder, checked};
+use crate::result::{Component, OutFolder, Values, checked};
 use crate::run::SequenceRecord;
 use ralf::sensors::{Radar, RadarScan};
 use ralf::space::Transform;
