@@ -12,8 +12,8 @@ use std::path::Path;
 /// The record of an output folder.
 pub(crate) const RECORD: &str = "run.json";
 
-/// The content of `run.json`: sequences that were labelled by one version of the program with the same settings, be it at
-/// once or one after the other.
+/// The content of `run.json`: sequences that were labelled by one version of the program with the same settings, be it
+/// at once or one after the other.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct RunRecord {
     /// Version of the program.
