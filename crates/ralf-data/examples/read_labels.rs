@@ -1,4 +1,5 @@
-//! Reads what `ralf label` left: every detection of every sequence, with its plausibility and the label that the machine gave it.
+//! Reads what `ralf label` left: every detection of every sequence, with its plausibility and the label that the
+//! machine gave it.
 //!
 //!     cargo run -p ralf-data --example read_labels -- OUT
 

@@ -1,7 +1,8 @@
-//! The one engine that yields frames: of chosen scans, in stretches of time, several at a time, with results in the scans' order.
+//! The one engine that yields frames: of chosen scans, in stretches of time, several at a time, with results in the
+//! scans' order.
 //!
-//! Labelling and tuning go through it. Scans that follow each other in time are one worker's, whose window reads their neighbours
-//! but once; no more than the windows of all workers are in memory, beside what the work itself returns.
+//! Labelling and tuning go through it. Scans that follow each other in time are one worker's, whose window reads their
+//! neighbours but once; no more than the windows of all workers are in memory, beside what the work itself returns.
 
 use crate::read::SequenceReader;
 use ralf::config::Config;
@@ -30,8 +31,8 @@ pub(crate) struct Frames<'a> {
 }
 
 impl Frames<'_> {
-    /// Works on each of these scans with a window from which its frame can be asked; `work` is told the scan's place in the list.
-    /// Results are in the list's order. An error ends the work.
+    /// Works on each of these scans with a window from which its frame can be asked; `work` is told the scan's place in
+    /// the list. Results are in the list's order. An error ends the work.
     pub(crate) fn each<R: Send, E: Send>(
         &self,
         scans: &[ScanIndex],
