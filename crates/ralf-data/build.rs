@@ -1,7 +1,7 @@
 //! Tells the program which sources its labels come from: a hash that changes when one of them does.
 //!
-//! In the workspace these are the sources of the method, of the readers and of labelling; in a package from a registry, where the
-//! other crates lie elsewhere, its own, for published versions never change.
+//! In the workspace these are the sources of the method, of the readers and of labelling; in a package from a registry,
+//! where the other crates lie elsewhere, its own, for published versions never change.
 
 use std::fs;
 use std::io;

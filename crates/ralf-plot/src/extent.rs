@@ -73,8 +73,8 @@ impl Extent {
 /// Lowest and highest value of x and of y.
 pub(crate) type Bounds = [[f64; 2]; 2];
 
-/// The bounds of very many places without their tails, with no more in memory than the tails: the lowest and highest values along
-/// each axis, as many as may be left out at most.
+/// The bounds of very many places without their tails, with no more in memory than the tails: the lowest and highest
+/// values along each axis, as many as may be left out at most.
 pub(crate) struct Tails {
     /// Values that are kept at each end.
     kept: usize,

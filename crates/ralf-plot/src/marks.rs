@@ -35,8 +35,8 @@ impl Mark {
     }
 }
 
-/// Detections that can be gone through again and again, in the same order: a slice of them, or a reader that keeps but a part in
-/// memory.
+/// Detections that can be gone through again and again, in the same order: a slice of them, or a reader that keeps but
+/// a part in memory.
 pub trait Marks {
     /// Shows each detection.
     ///

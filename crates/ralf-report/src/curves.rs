@@ -36,7 +36,8 @@ impl Bin {
     }
 }
 
-/// Detections with truth by their plausibility, 4 bytes each: floor detections and unobserved ones never pass, as in the method.
+/// Detections with truth by their plausibility, 4 bytes each: floor detections and unobserved ones never pass, as in
+/// the method.
 #[derive(Debug, Default)]
 pub(crate) struct Ranked {
     /// The bits of `w`, which order as `w` does from 0 to 1, and below them whether it is plausible.

@@ -1,8 +1,8 @@
 //! A labelled recording as one page for people: how good the labels are, where they are wrong, what they look like.
 //!
-//! [`Report::page`] gathers a run's results, the recording and, where there are some, the corrected labels, and gives one
-//! self-contained HTML page: charts as inline SVG, pictures as data, nothing from a network. The same data give the same
-//! bytes. [`Pictures`] draws single pictures of a sequence.
+//! [`Report::page`] gathers a run's results, the recording and, where there are some, the corrected labels, and gives
+//! one self-contained HTML page: charts as inline SVG, pictures as data, nothing from a network. The same data give the
+//! same bytes. [`Pictures`] draws single pictures of a sequence.
 
 mod breakdown;
 mod chart;
@@ -39,17 +39,18 @@ pub struct Page {
     pub html: String,
     /// Sequences of the recording that are not labelled: the page names them.
     pub without_labels: Vec<String>,
-    /// Scans, as `sequence/radar/scan`, of which people said something while they held something else: it is not applied.
+    /// Scans, as `sequence/radar/scan`, of which people said something while they held something else: it is not
+    /// applied.
     pub orphaned: Vec<String>,
 }
 
 impl Report<'_> {
-    /// The page. `progress` is told what is done next. Detections pass one row group at a time, so that a page about millions of
-    /// them needs little memory.
+    /// The page. `progress` is told what is done next. Detections pass one row group at a time, so that a page about
+    /// millions of them needs little memory.
     ///
     /// # Errors
-    /// Results or corrected labels that are damaged, unreadable or of another recording; a run that has labelled none of the
-    /// recording's sequences.
+    /// Results or corrected labels that are damaged, unreadable or of another recording; a run that has labelled none
+    /// of the recording's sequences.
     pub fn page(&self, progress: &dyn Fn(&str)) -> Result<Page, ReportError> {
         let content = Content::gather(self, progress)?;
         progress("writing the page");

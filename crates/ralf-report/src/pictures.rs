@@ -122,7 +122,8 @@ impl Pictures<'_> {
         })?)
     }
 
-    /// Each drawn radar's scan nearest to a time, in the rig's order: when it was made, ns, and its detections with these columns.
+    /// Each drawn radar's scan nearest to a time, in the rig's order: when it was made, ns, and its detections with
+    /// these columns.
     ///
     /// # Errors
     /// Labels that can't be read, or lack a column.

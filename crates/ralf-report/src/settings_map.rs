@@ -1,5 +1,5 @@
-//! F1 of plausible detections over alpha and `w_0` (the paper's figure param_selection): the branches' answers are known, so
-//! that the fusion alone is done again for each pair.
+//! F1 of plausible detections over alpha and `w_0` (the paper's figure param_selection): the branches' answers are
+//! known, so that the fusion alone is done again for each pair.
 
 use crate::scored::Scored;
 use ralf::paper::prioritize;
@@ -19,8 +19,8 @@ pub(crate) fn value_at(step: usize) -> f64 {
     step as f64 / (STEPS - 1) as f64
 }
 
-/// Detections with truth by the settings with which they pass: for each alpha by the highest threshold, artifacts apart from
-/// plausible ones.
+/// Detections with truth by the settings with which they pass: for each alpha by the highest threshold, artifacts apart
+/// from plausible ones.
 #[derive(Debug, Default)]
 pub(crate) struct Passed {
     counts: [[[usize; 2]; STEPS]; STEPS],
@@ -86,7 +86,8 @@ mod tests {
         Scored { range, azimuth, w_opt, w_tr, w, gamma, plausible: false, flags, truth: None, cause: None }
     }
 
-    /// By hand: an object seen by LiDAR alone, a ghost that tracking follows, a floor detection, one halved by the bumper.
+    /// By hand: an object seen by LiDAR alone, a ghost that tracking follows, a floor detection, one halved by the
+    /// bumper.
     #[test]
     fn alpha_weighs_the_branches_and_w_0_cuts() {
         let object = scored(1.0, 0.0, 1.0, 0);

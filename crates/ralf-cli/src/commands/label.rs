@@ -78,17 +78,7 @@ pub(crate) fn run(arguments: &LabelArgs) -> anyhow::Result<Outcome> {
         evidence: arguments.evidence,
     };
     let done = run.execute(&Stages::new(arguments.quiet))?;
-    if !done.removed.is_empty() {
-        let names = done.removed.join(", ");
-        say(&format!("removed, for they were made by another version or with other settings: {names}"));
-    }
-    for (sequence, file) in &done.damaged {
-        let file = file.display();
-        say(&format!("sequence {sequence} is labelled again: {file} is not as it was written"));
-    }
-    if done.labelled.is_empty() {
-        say("nothing to do: labelled before with the same program, settings and inputs");
-    }
+    say_what_changed(&done);
     let record = &done.record;
     print(&if arguments.json { serde_json::to_string_pretty(record)? } else { summary(&done) })?;
     for (sequence, scan) in record.unreadable() {
@@ -101,6 +91,21 @@ pub(crate) fn run(arguments: &LabelArgs) -> anyhow::Result<Outcome> {
         outcome = Outcome::Partial;
     }
     Ok(outcome)
+}
+
+/// What became of earlier results.
+fn say_what_changed(done: &RunOutcome) {
+    if !done.removed.is_empty() {
+        let names = done.removed.join(", ");
+        say(&format!("removed, for they were made by another version or with other settings: {names}"));
+    }
+    for (sequence, file) in &done.damaged {
+        let file = file.display();
+        say(&format!("sequence {sequence} is labelled again: {file} is not as it was written"));
+    }
+    if done.labelled.is_empty() {
+        say("nothing to do: labelled before with the same program, settings and inputs");
+    }
 }
 
 /// What was labelled, and how fast those scans were that are new.

@@ -1,4 +1,5 @@
-//! What a run's results say without ground truth (docs/method.md, section 9): how far apart the classes are, and how balanced.
+//! What a run's results say without ground truth (docs/method.md, section 9): how far apart the classes are, and how
+//! balanced.
 
 use crate::error::DataError;
 use crate::result::{LabelledRun, Table};
@@ -18,7 +19,8 @@ pub struct Balance {
     pub artifact: u64,
     /// Share of detections labelled plausible; `None` without detections.
     pub plausible_share: Option<f64>,
-    /// Mean `w` of what is labelled plausible minus mean `w` of what is labelled artifact; `None` where a class is empty.
+    /// Mean `w` of what is labelled plausible minus mean `w` of what is labelled artifact; `None` where a class is
+    /// empty.
     pub distinctiveness: Option<f64>,
 }
 

@@ -19,7 +19,8 @@ pub struct Doubts {
     pub detections: usize,
     /// Those whose plausibility is within [`UNCERTAIN`] of the threshold.
     pub uncertain: usize,
-    /// Those of whose branches, as far as observed, one says plausible and another, lower by more than [`DISAGREEING`], doesn't.
+    /// Those of whose branches, as far as observed, one says plausible and another, lower by more than [`DISAGREEING`],
+    /// doesn't.
     pub disagreeing: usize,
 }
 

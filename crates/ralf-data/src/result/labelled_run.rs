@@ -1,4 +1,5 @@
-//! The one door to what a run left: `OUT` with its `run.json`, its tables and its label files, checked as they are read.
+//! The one door to what a run left: `OUT` with its `run.json`, its tables and its label files, checked as they are
+//! read.
 
 use super::content::{input_is_unchanged, table_is_whole};
 use super::record::{RunRecord, read_record};
@@ -169,7 +170,8 @@ impl LabelledRun {
         if table_is_whole(&file, record)? { Ok(file) } else { Err(damaged(&file)) }
     }
 
-    /// The labels of a scan as a run wrote them; `None` where it has none. Only the label file has to be there, but where
+    /// The labels of a scan as a run wrote them; `None` where it has none. Only the label file has to be there, but
+    /// where
     /// `run.json` tells of it, it has to be as it was written.
     pub(crate) fn labels_below(
         out: &Path,

@@ -32,8 +32,8 @@ struct Place {
 }
 
 impl PlausibilityReader {
-    /// Opens a result and finds out which scans it holds. `schema` has the columns that are needed; evidence that the file holds
-    /// besides is read, too.
+    /// Opens a result and finds out which scans it holds. `schema` has the columns that are needed; evidence that the
+    /// file holds besides is read, too.
     ///
     /// # Errors
     /// A file that is no result of `ralf label`, that lacks a column, or whose scans are torn apart.

@@ -18,7 +18,8 @@ pub(crate) const RECORD: &str = "run.json";
 pub struct RunRecord {
     /// Version of the program.
     pub version: String,
-    /// A hash of the sources that the program was built from, as far as labels depend on them. An older record has none.
+    /// A hash of the sources that the program was built from, as far as labels depend on them. An older record has
+    /// none.
     #[serde(default)]
     pub program: String,
     /// Format of the recording.

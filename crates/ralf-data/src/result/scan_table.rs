@@ -48,8 +48,8 @@ impl Table {
         Self::new(schema.clone(), values.collect::<Result<_, _>>()?)
     }
 
-    /// The values of the `.label` file: 1 for an artifact; for a plausible detection its class where it has a plausible one,
-    /// else 99.
+    /// The values of the `.label` file: 1 for an artifact; for a plausible detection its class where it has a plausible
+    /// one, else 99.
     ///
     /// # Errors
     /// A table that isn't of a labelled scan.
@@ -92,8 +92,8 @@ impl ScanParts<'_> {
         }
     }
 
-    /// Place in the vehicle frame and as measured, or a further field as it is. A place is absent of a detection without one, and
-    /// a further field of a radar that doesn't have it.
+    /// Place in the vehicle frame and as measured, or a further field as it is. A place is absent of a detection
+    /// without one, and a further field of a radar that doesn't have it.
     fn measured(&self, name: &str) -> Vec<f32> {
         let of: fn(&Detection, &Spherical) -> f64 = match name {
             "x" => |located, _| located.position.x,

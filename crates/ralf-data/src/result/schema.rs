@@ -1,5 +1,5 @@
-//! The columns of a result: each is listed once, here, with its type, unit and meaning. Files, exports, the page and the report go
-//! through this list.
+//! The columns of a result: each is listed once, here, with its type, unit and meaning. Files, exports, the page and
+//! the report go through this list.
 
 use crate::error::DataError;
 use ralf::evidence::{Feature, features};
@@ -141,8 +141,8 @@ impl Schema {
         Self { columns }
     }
 
-    /// The columns of a scan's table for a rig: identity, place, the radars' further fields in the order in which they first
-    /// appear, answers, verdict, and evidence.
+    /// The columns of a scan's table for a rig: identity, place, the radars' further fields in the order in which they
+    /// first appear, answers, verdict, and evidence.
     ///
     /// # Errors
     /// A further field that has the name of another column.

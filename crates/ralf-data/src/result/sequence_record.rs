@@ -83,7 +83,8 @@ pub struct RadarRecord {
     pub plausible: Vec<u32>,
     /// Flags that any detection of the scan has.
     pub flags: Vec<u16>,
-    /// The first 16 digits of the BLAKE3 of each scan's `.label` file; empty for a scan that has none. An older record has no list.
+    /// The first 16 digits of the BLAKE3 of each scan's `.label` file; empty for a scan that has none. An older record
+    /// has no list.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub labels: Vec<String>,
 }

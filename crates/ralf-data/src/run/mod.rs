@@ -1,9 +1,10 @@
-//! Labelling a recording: in parallel, in bounded memory, resumable, and the same to the byte whatever the number of jobs.
+//! Labelling a recording: in parallel, in bounded memory, resumable, and the same to the byte whatever the number of
+//! jobs.
 //!
-//! Every scan's label depends on the recording and the settings alone, so that scans may be labelled in any order. Their
-//! tables are kept as files of their own until a sequence is complete, and then put together in the order of the rig. A run
-//! that was killed finds them again by a fingerprint of program, settings and the sequence's inputs, and a sequence that was
-//! labelled before is left as it is.
+//! Every scan's label depends on the recording and the settings alone, so that scans may be labelled in any order.
+//! Their tables are kept as files of their own until a sequence is complete, and then put together in the order of the
+//! rig. A run that was killed finds them again by a fingerprint of program, settings and the sequence's inputs, and a
+//! sequence that was labelled before is left as it is.
 
 mod assemble;
 mod fingerprint;
@@ -76,12 +77,14 @@ pub trait Observer: Sync {
 pub struct Outcome {
     /// Of the sequences that were asked for: this part of `run.json`.
     pub record: RunRecord,
-    /// Names of those that this run has labelled; the others were labelled before, with the same program, settings and inputs.
+    /// Names of those that this run has labelled; the others were labelled before, with the same program, settings and
+    /// inputs.
     pub labelled: Vec<String>,
-    /// Sequences that were labelled before and whose results were damaged since, with the first file that is: they are labelled anew.
+    /// Sequences that were labelled before and whose results were damaged since, with the first file that is: they are
+    /// labelled anew.
     pub damaged: Vec<(String, PathBuf)>,
-    /// Names of sequences that were not asked for and whose results are gone, for they were made by another version of the
-    /// program or with other settings.
+    /// Names of sequences that were not asked for and whose results are gone, for they were made by another version of
+    /// the program or with other settings.
     pub removed: Vec<String>,
 }
 
@@ -97,9 +100,9 @@ struct Task<'a> {
 }
 
 impl LabelRun<'_> {
-    /// Labels every scan of every radar of the sequences that were not labelled before. Scans that can't be labelled are named
-    /// in the record, and the run goes on; settings that don't fit the recording, and results that can't be written, end it, and
-    /// so does another run that writes to the same folder ([`DataError::Busy`]).
+    /// Labels every scan of every radar of the sequences that were not labelled before. Scans that can't be labelled
+    /// are named in the record, and the run goes on; settings that don't fit the recording, and results that can't be
+    /// written, end it, and so does another run that writes to the same folder ([`DataError::Busy`]).
     pub fn execute(&self, observer: &dyn Observer) -> Result<Outcome, DataError> {
         let begun = Instant::now();
         self.refuse_to_write_into_the_recording()?;

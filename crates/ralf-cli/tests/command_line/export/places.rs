@@ -153,7 +153,9 @@ fn results_of_another_recording_are_refused() {
     fs::rename(dataset.file("radar_left"), dataset.file("radar_right")).unwrap();
     refused(["run.json, sequence 00: expected the recording's radars", "radar_left (3)"]);
     fs::remove_file(format!("{}/run.json", dataset.out)).unwrap();
-    refused(["run.json: expected the record of a finished `ralf label`", "no such file"]);
+    run(&dataset, "npz", &path, &[])
+        .exits(1)
+        .says(["run.json: expected the record of a finished `ralf label`", "no such file"]);
 }
 
 #[test]

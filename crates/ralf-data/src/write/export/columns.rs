@@ -26,7 +26,8 @@ impl Columns {
     }
 }
 
-/// The columns of `plausibility.parquet` but `radar`, with the effective labels; of what was measured only if asked for.
+/// The columns of `plausibility.parquet` but `radar`, with the effective labels; of what was measured only if asked
+/// for.
 pub(super) fn table_columns(sequence: &LabelledSequence, scan: &LabelledScan) -> Result<Table, DataError> {
     let mut columns = Columns::default();
     let number = vec![scan.scan as u32; scan.kept.len()];
@@ -49,8 +50,8 @@ pub(super) fn table_columns(sequence: &LabelledSequence, scan: &LabelledScan) ->
 /// Answers of the method that a labelled cloud has, and what they are called there.
 const ANSWERS: [(&str, &str); 4] = [("w_lm", "w_lm"), ("w_cm", "w_cm"), ("w_tr", "w_tr"), ("w_opt", "w_opt")];
 
-/// The columns of a labelled cloud: where the radar saw the detections (its own frame, m), its further fields as they are,
-/// and what was found about them. The one of 2 bytes is last, so that all lie aligned.
+/// The columns of a labelled cloud: where the radar saw the detections (its own frame, m), its further fields as they
+/// are, and what was found about them. The one of 2 bytes is last, so that all lie aligned.
 pub(super) fn cloud_columns(
     sequence: &LabelledSequence,
     scan: &LabelledScan,

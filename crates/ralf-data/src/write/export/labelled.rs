@@ -31,8 +31,8 @@ pub(super) struct LabelledSequence<'a, 'p> {
     tally: &'a mut Tally<'p>,
 }
 
-/// The results of a sequence. One row group per radar is held in memory, so that going through each radar's scans in order,
-/// all radars side by side, reads every group once per radar in it.
+/// The results of a sequence. One row group per radar is held in memory, so that going through each radar's scans in
+/// order, all radars side by side, reads every group once per radar in it.
 struct Tables {
     reader: PlausibilityReader,
     /// Per radar the row group that was read last, and its number.
@@ -189,7 +189,8 @@ impl<'a, 'p> LabelledSequence<'a, 'p> {
 }
 
 impl LabelledScan {
-    /// The effective labels where their order is the only key to clouds elsewhere: what the split leaves out is unlabeled.
+    /// The effective labels where their order is the only key to clouds elsewhere: what the split leaves out is
+    /// unlabeled.
     pub(super) fn labels_in_place(&self) -> Vec<Label> {
         let mut labels = vec![Label::default(); self.labels.len()];
         self.kept.iter().for_each(|row| labels[*row] = self.labels[*row]);

@@ -1,4 +1,5 @@
-//! NumPy archives: `sequences/NAME/RADAR/000000.npz`, one per scan, one array per column, in the order of the recording.
+//! NumPy archives: `sequences/NAME/RADAR/000000.npz`, one per scan, one array per column, in the order of the
+//! recording.
 
 use super::Writer;
 use super::columns::table_columns;
@@ -32,7 +33,8 @@ impl Writer for Npz {
     }
 }
 
-/// The bytes of an archive, uncompressed as `numpy.savez` leaves them. It is told no time, so that it is always the same.
+/// The bytes of an archive, uncompressed as `numpy.savez` leaves them. It is told no time, so that it is always the
+/// same.
 fn archive(table: &Table) -> Result<Vec<u8>, ZipError> {
     let mut zip = ZipWriter::new(Cursor::new(Vec::new()));
     let options = SimpleFileOptions::default()

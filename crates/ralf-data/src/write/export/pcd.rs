@@ -1,7 +1,7 @@
 //! Point clouds as PCL has them (PCD 0.7, binary): `sequences/NAME/RADAR/000000.pcd`, one per scan.
 //!
-//! Points are in the radar's frame; `VIEWPOINT` tells how the radar is mounted on the vehicle. Fields are the radar's own,
-//! under their names, and what was found about each detection.
+//! Points are in the radar's frame; `VIEWPOINT` tells how the radar is mounted on the vehicle. Fields are the radar's
+//! own, under their names, and what was found about each detection.
 
 use super::Writer;
 use super::bytes;
