@@ -1,7 +1,7 @@
 //! What the labels say by themselves: class balance and distinctiveness.
 
 use super::number::{decimal, grouped, percent};
-use super::{figure, swatch};
+use super::{figure, heads, swatch};
 use crate::content::Content;
 use crate::{ReportError, chart};
 use maud::{Markup, html};
@@ -14,10 +14,12 @@ pub(super) fn balance(content: &Content) -> Result<Markup, ReportError> {
     Ok(html! {
         section #balance {
             h2 { "Class balance and distinctiveness" }
-            p { "These need no corrected labels. Distinctiveness is the mean plausibility w of what is labelled plausible minus that of "
-                "what is labelled artifact: 1 where the method is certain of everything." }
+            p {
+                "These need no corrected labels. Distinctiveness is the mean plausibility w of what is labelled "
+                "plausible minus that of what is labelled artifact: 1 where the method is certain of everything."
+            }
             div.scroll { table.bars {
-                thead { tr { th scope="col" { "Sequence" } th scope="col" { "Detections" } th scope="col" { "Plausible" } th {} th scope="col" { "Distinctiveness" } } }
+                (heads(&["Sequence", "Detections", "Plausible", "", "Distinctiveness"]))
                 tbody {
                     (row("Overall", &content.balance, "total"))
                     @if content.sequences.len() > 1 {

@@ -1,7 +1,7 @@
 //! Where the labels are wrong.
 
 use super::number::{grouped, percent};
-use super::{NO_TRUTH, figure, swatch};
+use super::{NO_TRUTH, figure, heads, swatch};
 use crate::breakdown::Group;
 use crate::content::Content;
 use crate::{ReportError, chart};
@@ -20,8 +20,10 @@ fn found(content: &Content) -> Result<Markup, ReportError> {
     let azimuth =
         chart::profile(&content.findings.profiles.over_azimuth(), "azimuth from the radar’s axis (°)")?;
     let legend = || {
-        html! { (swatch("plausible")) "plausible detections labelled artifact " (swatch("artifact")) "artifacts labelled plausible. "
-        "Below: how many detections there are." }
+        html! {
+            (swatch("plausible")) "plausible detections labelled artifact "
+            (swatch("artifact")) "artifacts labelled plausible. Below: how many detections there are."
+        }
     };
     Ok(html! {
         div.figures {
@@ -40,7 +42,7 @@ fn classes(groups: &[Group]) -> Markup {
         div {
             h3 { "Right by class" }
             table.bars {
-                thead { tr { th scope="col" { "Class" } th scope="col" { "Detections" } th scope="col" { "Labelled right" } th {} } }
+                (heads(&["Class", "Detections", "Labelled right", ""]))
                 tbody { @for group in groups {
                     @let right = if group.plausible { group.kept } else { group.count - group.kept };
                     (row(group, right, if group.plausible { "plausible" } else { "artifact" }))
@@ -58,7 +60,7 @@ fn causes(groups: &[Group]) -> Markup {
             @if groups.is_empty() { p.absent { "The causes of artifacts are not known in this recording." } }
             @else {
                 table.bars {
-                    thead { tr { th scope="col" { "Cause" } th scope="col" { "Artifacts" } th scope="col" { "Labelled plausible" } th {} } }
+                    (heads(&["Cause", "Artifacts", "Labelled plausible", ""]))
                     tbody { @for group in groups { (row(group, group.kept, "artifact")) } }
                 }
             }

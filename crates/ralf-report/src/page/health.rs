@@ -1,5 +1,6 @@
 //! What was missing while the labels were made: flags, failed cameras, scans without labels.
 
+use super::heads;
 use super::number::{grouped, percent, ranges};
 use crate::content::Content;
 use maud::{Markup, html};
@@ -41,7 +42,7 @@ fn flags(content: &Content) -> Markup {
     let all = content.findings.detections;
     html! {
         table.bars {
-            thead { tr { th scope="col" { "Detections" } th scope="col" { "Number" } th scope="col" { "Share" } th {} } }
+            (heads(&["Detections", "Number", "Share", ""]))
             tbody { @for (bit, name) in FLAGS {
                 @let count = content.findings.with_flag(bit);
                 @let width = 100.0 * count as f64 / all.max(1) as f64;
@@ -78,7 +79,7 @@ fn scans_to_look_at(content: &Content) -> Markup {
         @if found.is_empty() { p.absent { "None." } }
         @else {
             div.scroll { table.plain {
-                thead { tr { th scope="col" { "Sequence" } th scope="col" { "Radar" } th scope="col" { "Missing" } th scope="col" { "Scans" } } }
+                (heads(&["Sequence", "Radar", "Missing", "Scans"]))
                 tbody { @for (sequence, radar, scans, why) in found {
                     tr { td { (sequence) } td { (radar) } td { (why) } td { (ranges(&scans)) } }
                 } }
@@ -93,16 +94,17 @@ fn cameras(content: &Content) -> Markup {
         .flat_map(|sequence| sequence.cameras.iter().map(|camera| (sequence.name.as_str(), camera)))
         .filter(|(_, camera)| !camera.images.is_empty())
         .collect();
+    let columns = [&["Sequence", "Camera", "Images", "Views"][..], &FAILURES.map(|(_, name)| name)].concat();
     html! {
         h3 { "Cameras" }
         @if found.is_empty() { p.absent { "No camera was asked." } }
         @else {
             div.scroll { table.plain {
-                thead { tr { th scope="col" { "Sequence" } th scope="col" { "Camera" } th scope="col" { "Images" } th scope="col" { "Views" }
-                    @for (_, name) in FAILURES { th scope="col" { (name) } } } }
+                (heads(&columns))
                 tbody { @for (sequence, camera) in found {
                     tr {
-                        td { (sequence) } td { (camera.name) } td { (camera.images.len()) } td { (states(camera).count()) }
+                        td { (sequence) } td { (camera.name) }
+                        td { (camera.images.len()) } td { (states(camera).count()) }
                         @for (failure, _) in FAILURES {
                             td { (states(camera).filter(|state| *state == ViewState::Failed(failure)).count()) }
                         }

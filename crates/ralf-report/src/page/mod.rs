@@ -17,10 +17,22 @@ use maud::{DOCTYPE, Markup, PreEscaped, html};
 const STYLE: &str = include_str!("style.css");
 const SCRIPT: &str = include_str!("script.js");
 /// Nothing may be loaded from anywhere.
-const POLICY: &str = "default-src 'none'; img-src data:; style-src 'unsafe-inline'; script-src 'unsafe-inline'; base-uri 'none'; form-action 'none'";
+const POLICY: &str = "default-src 'none'; img-src data:; style-src 'unsafe-inline'; script-src 'unsafe-inline'; \
+                      base-uri 'none'; form-action 'none'";
 
 /// What sections about the truth say where there is none.
 const NO_TRUTH: &str = "This recording has no corrected labels, so nothing can be said about this.";
+
+/// A table's head; a column without a name holds bars.
+fn heads(names: &[&str]) -> Markup {
+    html! {
+        thead { tr {
+            @for name in names {
+                @if name.is_empty() { th {} } @else { th scope="col" { (name) } }
+            }
+        } }
+    }
+}
 
 /// The whole page.
 pub(crate) fn render(content: &Content) -> Result<String, ReportError> {

@@ -33,7 +33,8 @@ fn curve(findings: &Findings) -> Result<Markup, ReportError> {
     let svg = chart::precision_recall(&thinned(&points, CURVE_POINTS), used, base_rate)?;
     let caption = html! {
         "Precision and recall of plausible detections as the threshold w" sub { "0" } " goes from 1 to 0. "
-        (swatch("artifact round")) "the threshold of this run; dashed: everything labelled plausible. Average precision "
+        (swatch("artifact round"))
+        "the threshold of this run; dashed: everything labelled plausible. Average precision "
         (decimal(Some(average_precision(&points)))) "."
     };
     Ok(figure("Precision and recall", svg, caption))
@@ -58,9 +59,11 @@ fn settings(content: &Content) -> Result<Markup, ReportError> {
     let (alpha, threshold, f1) = map.best();
     let caption = html! {
         "F1 of plausible detections, all together, for other branch weights α and thresholds w" sub { "0" } ". "
-        "At α = 1 LiDAR and cameras decide alone, at α = 0 tracking does. Ring: this run (α = " (fusion.alpha) ", w" sub { "0" }
-        " = " (fusion.threshold) "). Cross: the best, α = " (format!("{alpha:.2}")) ", w" sub { "0" } " = "
-        (format!("{threshold:.2}")) ", with F1 = " (decimal(Some(f1))) ". A best setting found on the data it is judged by flatters itself."
+        "At α = 1 LiDAR and cameras decide alone, at α = 0 tracking does. Ring: this run (α = " (fusion.alpha)
+        ", w" sub { "0" } " = " (fusion.threshold)
+        "). Cross: the best, α = " (format!("{alpha:.2}")) ", w" sub { "0" } " = "
+        (format!("{threshold:.2}")) ", with F1 = " (decimal(Some(f1)))
+        ". A best setting found on the data it is judged by flatters itself."
     };
     Ok(figure(heading, svg, caption))
 }

@@ -120,8 +120,8 @@ fn time_ns(time: u64) -> Result<i64, EncodingError> {
         .map_err(|_| EncodingError::new(0, "a time before the year 2262", format!("{time} ns")))
 }
 
-/// What a schema, a channel or an index says. Lengths are checked here: a library that takes them at their word asks for as
-/// much memory.
+/// What a schema, a channel or an index says. Lengths are checked here: a library that takes them at their word asks
+/// for as much memory.
 fn record(op: u8, body: &[u8], catalogue: &mut Catalogue) -> Result<(), EncodingError> {
     // Numbers and texts of MCAP lie as those of ROS 1.
     let mut decoder = Decoder::new(Encoding::Ros1, body)?;
