@@ -28,7 +28,7 @@ fn curve(with_truth: &[(&Scored, bool)]) -> Result<Markup, ReportError> {
     let points = precision_recall(with_truth);
     let mut counts = Confusion::default();
     with_truth.iter().for_each(|(scored, truth)| counts.add(*truth, scored.plausible));
-    let rates = Rates::of(&counts);
+    let rates = Rates::new(&counts);
     let used = rates.recall_plausible.zip(rates.precision_plausible);
     let used = used.map(|(recall, precision)| Point { recall, precision });
     let base_rate = (counts.tp + counts.r#fn) as f64 / counts.total().max(1) as f64;
