@@ -6,7 +6,8 @@ use ralf::space::Point;
 
 /// Points that a fit looks at.
 const POINTS: usize = 6000;
-/// A wrong mounting may be off by so much: what the labeler itself would no longer take for the ground is found as well.
+/// A wrong mounting may be off by so much: what the labeler itself would no longer take for the ground is found as
+/// well.
 const WIDEST: (f64, f64) = (20.0, 3.0);
 /// A point this close to the plane supports it, m.
 const CLOSE: f64 = 0.15;

@@ -1,4 +1,5 @@
-//! From evidence to verdicts: the change that explains the most is taken first, and the rest is judged with it in place.
+//! From evidence to verdicts: the change that explains the most is taken first, and the rest is judged with it in
+//! place.
 //!
 //! Motion before clocks before LiDARs before radars, for a fault of one is seen in all that come after.
 
@@ -20,8 +21,8 @@ use crate::verdict::{Question, SequenceCheck, State, Verdict};
 use case::Case;
 use ralf::sensors::Source;
 
-/// Judges a sequence. Some hundred scans of each radar and some thirty of each LiDAR are read, spread over the sequence; those
-/// that can't be read are left out, and this is said.
+/// Judges a sequence. Some hundred scans of each radar and some thirty of each LiDAR are read, spread over the
+/// sequence; those that can't be read are left out, and this is said.
 pub fn check(source: &dyn Source) -> SequenceCheck {
     let sequence = source.sequence();
     let sample = Sample::of(source);
@@ -49,8 +50,9 @@ fn unfit(verdicts: &[Verdict]) -> Vec<String> {
         let remedy = verdict.remedy.as_ref();
         verdict.state == State::Doubt
             && remedy.is_some_and(|remedy| {
+                let told = |what: &str| ["type", "columns", "cm"].iter().any(|word| what.contains(word));
                 matches!(remedy, Remedy::Positions(_) | Remedy::InDegrees(_))
-                    || matches!(remedy, Remedy::LookInto(what) if what.contains("type") || what.contains("columns") || what.contains("cm"))
+                    || matches!(remedy, Remedy::LookInto(what) if told(what))
             })
     };
     verdicts.iter().filter(breaks).map(|verdict| verdict.subject.clone()).collect()

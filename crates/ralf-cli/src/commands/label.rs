@@ -41,6 +41,9 @@ pub(crate) struct LabelArgs {
     #[arg(long, value_name = "FOLDER")]
     #[cfg_attr(feature = "depth", arg(conflicts_with = "depth_model"))]
     depth: Option<PathBuf>,
+    /// Gather what else is known of each detection: a column of plausibility.parquet for each piece (docs/evidence.md)
+    #[arg(long)]
+    evidence: bool,
     /// Scans side by side; as many as there are processors if not given
     #[arg(long, value_name = "N")]
     jobs: Option<NonZeroUsize>,
@@ -67,19 +70,15 @@ pub(crate) fn run(arguments: &LabelArgs) -> anyhow::Result<Outcome> {
         Some(model) => depth_for_labelling(recording, &model, &arguments.output, &settings.method, jobs)?,
         None => recording,
     };
-    let run = LabelRun { recording: &recording, settings: &settings, out: &arguments.output, jobs };
+    let run = LabelRun {
+        recording: &recording,
+        settings: &settings,
+        out: &arguments.output,
+        jobs,
+        evidence: arguments.evidence,
+    };
     let done = run.execute(&Stages::new(arguments.quiet))?;
-    if !done.removed.is_empty() {
-        let names = done.removed.join(", ");
-        say(&format!("removed, for they were made by another version or with other settings: {names}"));
-    }
-    for (sequence, file) in &done.damaged {
-        let file = file.display();
-        say(&format!("sequence {sequence} is labelled again: {file} is not as it was written"));
-    }
-    if done.labelled.is_empty() {
-        say("nothing to do: labelled before with the same program, settings and inputs");
-    }
+    say_what_changed(&done);
     let record = &done.record;
     print(&if arguments.json { serde_json::to_string_pretty(record)? } else { summary(&done) })?;
     for (sequence, scan) in record.unreadable() {
@@ -92,6 +91,21 @@ pub(crate) fn run(arguments: &LabelArgs) -> anyhow::Result<Outcome> {
         outcome = Outcome::Partial;
     }
     Ok(outcome)
+}
+
+/// What became of earlier results.
+fn say_what_changed(done: &RunOutcome) {
+    if !done.removed.is_empty() {
+        let names = done.removed.join(", ");
+        say(&format!("removed, for they were made by another version or with other settings: {names}"));
+    }
+    for (sequence, file) in &done.damaged {
+        let file = file.display();
+        say(&format!("sequence {sequence} is labelled again: {file} is not as it was written"));
+    }
+    if done.labelled.is_empty() {
+        say("nothing to do: labelled before with the same program, settings and inputs");
+    }
 }
 
 /// What was labelled, and how fast those scans were that are new.

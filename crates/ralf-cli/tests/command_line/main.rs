@@ -17,6 +17,7 @@ mod camera_plot;
 mod corrections;
 mod determinism;
 mod evaluation;
+mod evidence;
 mod export;
 #[cfg(unix)]
 mod full_disk;
@@ -28,6 +29,7 @@ mod odd_files;
 mod other_commands;
 mod other_data;
 mod real_data;
+mod reports;
 mod resume;
 #[cfg(unix)]
 mod review;
