@@ -4,7 +4,7 @@ use super::Table;
 use super::label_hash::hash_of_labels;
 use crate::disk::label_file::label_bytes;
 use crate::error::DataError;
-use ralf::scene::{Frame, ImageMoment, Unreadable, ViewReport, ViewState};
+use ralf::scene::{CalibratedImage, Frame, Unreadable, ViewReport, ViewState};
 use serde::{Deserialize, Serialize};
 
 /// One sequence.
@@ -51,7 +51,7 @@ pub(crate) struct ScanNotes {
 impl ScanNotes {
     /// What a frame tells.
     pub(crate) fn new(frame: &Frame) -> Self {
-        let name = |moment: &ImageMoment| frame.rig.cameras[moment.id.camera].name.clone();
+        let name = |moment: &CalibratedImage| frame.rig.cameras[moment.id.camera].name.clone();
         let images = frame.images.iter().map(|view| (name(&view.moment), ImageRecord::of(&view.moment)));
         let unreadable = frame.unreadable.iter().cloned();
         let unreadable = unreadable.map(|Unreadable { sensor, index, reason }| UnreadableScan {
@@ -126,7 +126,7 @@ pub struct NotLabelled {
 }
 
 impl ImageRecord {
-    pub(crate) fn of(moment: &ImageMoment) -> Self {
+    pub(crate) fn of(moment: &CalibratedImage) -> Self {
         let views = moment.views.iter().map(|view| view.report).collect();
         Self { image: moment.id.image, views, problem: moment.problem.clone() }
     }
