@@ -1,8 +1,8 @@
 //! What may be wrong, as a change that would put it right.
 
 use nalgebra::{Translation3, UnitQuaternion};
-use ralf::space::{Point, Transform, Vector};
 use ralf::space::{EgoMotion, OdometrySample, PoseSample};
+use ralf::space::{Point, Transform, Vector};
 use serde::Serialize;
 
 /// A change of one sensor: its mounting, its clock, its handedness.
@@ -53,6 +53,24 @@ impl SensorChange {
             clock_ms: self.clock_ms + other.clock_ms,
             mirrored: self.mirrored != other.mirrored,
         }
+    }
+
+    /// So many times the change.
+    pub(crate) fn times(&self, factor: f64) -> Self {
+        Self {
+            turn_deg: self.turn_deg.map(|value| value * factor),
+            shift_m: self.shift_m.map(|value| value * factor),
+            clock_ms: self.clock_ms * factor,
+            mirrored: self.mirrored,
+        }
+    }
+
+    /// How much of this unit another change holds.
+    pub(crate) fn value_in(&self, change: &Self) -> f64 {
+        let product = |a: [f64; 3], b: [f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+        product(self.turn_deg, change.turn_deg)
+            + product(self.shift_m, change.shift_m)
+            + self.clock_ms * change.clock_ms
     }
 
     /// The mounting with the change.

@@ -25,6 +25,6 @@ mod statistics;
 mod verdict;
 
 pub use change::{MotionChange, SensorChange};
-pub use judge::check;
+pub use judge::{Refinement, check, check_and_refine};
 pub use remedy::{Remedy, Setting};
 pub use verdict::{Question, RadarFigures, SequenceCheck, State, Verdict};

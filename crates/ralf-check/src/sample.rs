@@ -2,10 +2,10 @@
 
 use crate::ground::{self, GroundFit};
 use crate::overlap::field::PlanField;
-use ralf::space::{Point, Vector};
-use ralf::sensors::{LidarScan, RadarScan, is_return};
-use ralf::sensors::{Elevation, Radar};
 use ralf::sensors::Source;
+use ralf::sensors::{Elevation, Radar};
+use ralf::sensors::{LidarScan, RadarScan, is_return};
+use ralf::space::{Point, Vector};
 use std::collections::BTreeSet;
 use std::hash::{DefaultHasher, Hash, Hasher};
 
@@ -174,7 +174,9 @@ impl RadarLook {
         for (position, rate) in positions.iter().zip(range_rates) {
             let flat = Vector::new(position.x, position.y, 0.0);
             let ray = if elevation == Elevation::Measured { position.coords } else { flat };
-            if let Some(ray) = ray.try_normalize(1e-9).filter(|ray| ray.norm().is_finite() && rate.is_finite()) {
+            if let Some(ray) =
+                ray.try_normalize(1e-9).filter(|ray| ray.norm().is_finite() && rate.is_finite())
+            {
                 self.rays.push(ray);
                 self.range_rates.push(f64::from(*rate));
             }
@@ -189,8 +191,9 @@ impl LidarLook {
         let mount = source.sequence().rig.lidars[lidar].vehicle_from_lidar;
         let step = read.points.len().div_ceil(LIDAR_POINTS).max(1);
         let kept = read.points.iter().step_by(step).filter(|point| is_return(point));
-        let points: Vec<Point> = kept.map(|[x, y, z]| mount * Point::new((*x).into(), (*y).into(), (*z).into())).collect();
-        let ground = ground::fit(&points);
+        let points: Vec<Point> =
+            kept.map(|[x, y, z]| mount * Point::new((*x).into(), (*y).into(), (*z).into())).collect();
+        let ground = ground::fit(&points, &mount.translation.vector.into());
         let height = |p: &Point| ground.as_ref().map_or(p.z, |ground| ground.height(p));
         let obstacles: Vec<&Point> = points.iter().filter(|p| OBSTACLES.contains(&height(p))).collect();
         let step = obstacles.len().div_ceil(PROBES).max(1);

@@ -1,7 +1,8 @@
 //! What can be typed.
 
 use crate::commands::{
-    ablate, check, convert, demo, depth, evaluate, export, inspect, label, plot, report, review, simulate, tune,
+    ablate, check, convert, demo, depth, evaluate, export, inspect, label, plot, report, review, simulate,
+    tune,
 };
 use anyhow::Context;
 use clap::{Args, Parser, Subcommand};
@@ -101,7 +102,8 @@ impl DatasetArgs {
     pub(crate) fn open_labelled(&self, out: &Path, changed: &ChangedArgs) -> anyhow::Result<Recording> {
         std::fs::metadata(&self.dataset).with_context(|| self.dataset.display().to_string())?;
         let run = LabelledRun::open(out)?;
-        let recording = self.open_with(&self.topics_or(&run.settings().topics)?)?;
+        let recording =
+            self.open_with(&self.topics_or(&run.settings().topics)?)?.corrected(run.settings())?;
         changed.check(&run, &recording)?;
         Ok(recording)
     }

@@ -1,11 +1,13 @@
 //! A settings file: the method's settings, and which topic of a ROS recording is which sensor.
 
 use crate::read::ros::{Topics, check_topics};
+use crate::read::{MotionSettings, SensorCorrection};
 use ralf::config::{Config, ConfigError, read_toml};
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
 
-/// Name of the table that readers of ROS recordings know.
-const TOPICS: &str = "topics";
+/// Tables that readers of recordings know, and the method does not.
+const OF_READERS: [&str; 3] = ["topics", "corrections", "motion"];
 
 /// All that a settings file may hold. Every key is optional, and unknown keys are refused.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
@@ -17,22 +19,36 @@ pub struct Settings {
     /// `topics`.
     #[serde(default, skip_serializing_if = "Topics::is_empty")]
     pub topics: Topics,
+    /// `corrections`: by sensor name, what is added to what the recording says of it.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub corrections: BTreeMap<String, SensorCorrection>,
+    /// `motion`: where the vehicle's motion comes from.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub motion: MotionSettings,
 }
 
-/// The table alone, whatever else a file holds.
+fn is_default(motion: &MotionSettings) -> bool {
+    *motion == MotionSettings::default()
+}
+
+/// The readers' tables alone, whatever else a file holds.
 #[derive(Deserialize)]
-struct OnlyTopics {
+struct OfReaders {
     #[serde(default)]
     topics: Topics,
+    #[serde(default)]
+    corrections: BTreeMap<String, SensorCorrection>,
+    #[serde(default)]
+    motion: MotionSettings,
 }
 
 impl Settings {
     /// Settings from a TOML text and assignments `key=value` that win over it.
     pub fn from_toml(text: &str, assignments: &[&str]) -> Result<Self, ConfigError> {
-        let method = Config::from_toml_beside(&[TOPICS], text, assignments)?;
-        let OnlyTopics { topics } = read_toml(text, assignments, &[])?;
+        let method = Config::from_toml_beside(&OF_READERS, text, assignments)?;
+        let OfReaders { topics, corrections, motion } = read_toml(text, assignments, &[])?;
         check_topics(&topics)?;
-        Ok(Self { method, topics })
+        Ok(Self { method, topics, corrections, motion })
     }
 
     /// All settings as TOML.

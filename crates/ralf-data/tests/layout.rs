@@ -201,15 +201,6 @@ fn missing_and_surplus_files_are_named() {
             "line 2: expected a time of 3 or later",
         ),
         (
-            |path| {
-                ["odometry.csv", "poses.csv"]
-                    .map(|name| fs::remove_file(path.join(name)).unwrap())
-                    .into_iter()
-                    .collect()
-            },
-            "sequences/00: motion: expected rows in odometry.csv, poses.csv or both, found none",
-        ),
-        (
             |path| write(&path.join("odometry.csv"), "t_ns,v_mps,yaw_rate_radps\n0,1,NaN\n"),
             "odometry.csv: line 2, yaw_rate_radps: expected a finite number, found `NaN`",
         ),

@@ -73,7 +73,7 @@ impl Tiny {
 
 fn page(dataset: &Path, out: &Path, scans_per_sequence: usize) -> String {
     let recording = ralf_data::open(dataset, None).unwrap();
-    let run = LabelRun { recording: &recording, settings: &Settings::default(), out, jobs: 1 };
+    let run = LabelRun { recording: &recording, settings: &Settings::default(), out, jobs: 1, checks: &[] };
     run.execute(&Silent).unwrap();
     Report { recording: &recording, out, scans_per_sequence }.html(&|_| ()).unwrap()
 }
@@ -182,7 +182,8 @@ fn a_recording_of_another_format_without_truth() {
     let recording = recording.select(&[first]).unwrap();
     let out = tempfile::tempdir().unwrap();
     let out = out.path().join("out");
-    let run = LabelRun { recording: &recording, settings: &Settings::default(), out: &out, jobs: 2 };
+    let run =
+        LabelRun { recording: &recording, settings: &Settings::default(), out: &out, jobs: 2, checks: &[] };
     run.execute(&Silent).unwrap();
     let page = Report { recording: &recording, out: &out, scans_per_sequence: 1 }.html(&|_| ()).unwrap();
     assert!(page.contains("This recording has no corrected labels") && page.contains("RADAR_FRONT"));

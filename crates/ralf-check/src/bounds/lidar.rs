@@ -31,10 +31,14 @@ pub(super) fn judge(lidar: &Lidar, looks: &[&LidarLook]) -> Vec<Verdict> {
         verdicts.push(doubt(evidence, Some(Remedy::LookInto("its file holds numbers of another type"))));
     } else if !RANGES.contains(&range) {
         let factor = [0.01, 0.001].into_iter().find(|factor| RANGES.contains(&(range * factor)));
-        verdicts.push(doubt(format!("half of the points lie beyond {range:.1} m"), factor.map(Remedy::Positions)));
+        verdicts.push(doubt(
+            format!("half of the points lie beyond {range:.1} m"),
+            factor.map(Remedy::Positions),
+        ));
     } else if steep > STEEP {
         let share = steep * 100.0;
-        let evidence = format!("{share:.0} % of the points lie more than 45 degrees above or below the sensor");
+        let evidence =
+            format!("{share:.0} % of the points lie more than 45 degrees above or below the sensor");
         verdicts.push(doubt(evidence, Some(Remedy::LookInto("its rows have another number of columns"))));
     }
     let same = looks.windows(2).filter(|pair| pair[0].digest == pair[1].digest && points >= 50.0).count();

@@ -47,7 +47,9 @@ fn mounting(name: &str, mount: &ralf::space::Transform) -> Vec<Verdict> {
     if distance <= FARTHEST_MOUNTING {
         return Vec::new();
     }
-    let evidence = format!("mounted {distance:.0} m from the rear axle, on no vehicle farther than {FARTHEST_MOUNTING} m");
+    let evidence = format!(
+        "mounted {distance:.0} m from the rear axle, on no vehicle farther than {FARTHEST_MOUNTING} m"
+    );
     let remedy = crate::remedy::Remedy::LookInto("the translation looks like cm");
     vec![Verdict::doubt(name, Question::Bounds, evidence, Some(remedy))]
 }

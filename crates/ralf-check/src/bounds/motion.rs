@@ -3,8 +3,8 @@
 use crate::remedy::Remedy;
 use crate::statistics::{median, quantile};
 use crate::verdict::{Question, Verdict};
-use ralf::space::{EgoMotion, PoseSample};
 use ralf::sensors::Sequence;
+use ralf::space::{EgoMotion, PoseSample};
 
 /// Faster than any road vehicle in traffic, m/s.
 const FASTEST: f64 = 70.0;
@@ -29,7 +29,11 @@ pub(super) fn judge(sequence: &Sequence) -> Vec<Verdict> {
     verdicts.extend(stuck(motion));
     verdicts.extend(jumps(motion.poses()));
     if verdicts.is_empty() {
-        verdicts.push(Verdict::good("motion", Question::Bounds, "speeds, turns and times are such as a vehicle has".into()));
+        verdicts.push(Verdict::good(
+            "motion",
+            Question::Bounds,
+            "speeds, turns and times are such as a vehicle has".into(),
+        ));
     }
     verdicts
 }
@@ -55,11 +59,16 @@ fn coverage(sequence: &Sequence) -> Option<Verdict> {
     if lost > 0 {
         let evidence = format!(
             "{lost} of {} radar scans lie more than {} ms before or after all samples of it",
-            scans.len(), OUTSIDE_NS / 1_000_000
+            scans.len(),
+            OUTSIDE_NS / 1_000_000
         );
-        return Some(doubt(evidence, Some(Remedy::LookInto("is its clock the sensors', and is all of it there?"))));
+        return Some(doubt(
+            evidence,
+            Some(Remedy::LookInto("is its clock the sensors', and is all of it there?")),
+        ));
     }
-    let within = |pair: &&[i64]| pair[1] - pair[0] > GAP_NS && scans.iter().any(|t| pair[0] < *t && *t < pair[1]);
+    let within =
+        |pair: &&[i64]| pair[1] - pair[0] > GAP_NS && scans.iter().any(|t| pair[0] < *t && *t < pair[1]);
     let gap = own.windows(2).filter(within).max_by_key(|pair| pair[1] - pair[0])?;
     let seconds = (gap[1] - gap[0]) as f64 * 1e-9;
     Some(doubt(format!("nothing is known of it for {seconds:.1} s in which radars measured"), None))
@@ -117,7 +126,10 @@ fn jumps(poses: &[PoseSample]) -> Option<Verdict> {
     let lengths: Vec<f64> = poses
         .windows(2)
         .filter(|pair| twist(pair).is_some())
-        .map(|pair| (pair[1].odom_from_vehicle.translation.vector - pair[0].odom_from_vehicle.translation.vector).norm())
+        .map(|pair| {
+            (pair[1].odom_from_vehicle.translation.vector - pair[0].odom_from_vehicle.translation.vector)
+                .norm()
+        })
         .collect();
     let jumped = |i: &usize| {
         let around: Vec<f64> = speeds[i.saturating_sub(3)..(*i + 4).min(speeds.len())].to_vec();

@@ -53,7 +53,10 @@ fn repeated(name: &str, looks: &[RadarLook]) -> Option<Verdict> {
     if same == 0 || (same as f64) < REPEATED * pairs.len() as f64 {
         return None;
     }
-    let evidence = format!("the same scan again in {same} of {} cases: the sensor or its recorder is stuck", pairs.len());
+    let evidence = format!(
+        "the same scan again in {same} of {} cases: the sensor or its recorder is stuck",
+        pairs.len()
+    );
     Some(doubt(name, evidence, Some(Remedy::LookInto("leave out the scans that repeat"))))
 }
 
@@ -95,7 +98,9 @@ fn field_of_view(radar: &Radar, all: &[[f64; 3]]) -> Vec<Verdict> {
         if outside > OUTSIDE {
             let value = 2.0 * quantile(&angles, 0.99).unwrap_or(0.0).to_degrees();
             let evidence = format!(
-                "{:.0} % of the detections lie outside {key} = {:.1}", outside * 100.0, full.to_degrees()
+                "{:.0} % of the detections lie outside {key} = {:.1}",
+                outside * 100.0,
+                full.to_degrees()
             );
             found.push(doubt(&radar.name, evidence, Some(Remedy::Value { key, value })));
         }

@@ -3,8 +3,8 @@
 use super::{DopplerFigures, Timed, predicted};
 use crate::statistics::paired_sigmas;
 use nalgebra::Rotation2;
-use ralf::space::Transform;
 use ralf::space::EgoMotion;
+use ralf::space::Transform;
 
 /// Offsets that are tried, ms.
 const WIDEST_MS: i64 = 500;
@@ -91,8 +91,10 @@ mod tests {
     fn a_stamp_that_comes_late_is_told_by_how_much() {
         let (motion, mount) = (swinging(), Transform::identity());
         // Measured at t, stamped 180 ms later.
-        let fits: Vec<Timed> =
-            (10..90).map(|i| i * 100 * MS).map(|t| seen(t + 180 * MS, predicted(&motion, &mount, t))).collect();
+        let fits: Vec<Timed> = (10..90)
+            .map(|i| i * 100 * MS)
+            .map(|t| seen(t + 180 * MS, predicted(&motion, &mount, t)))
+            .collect();
         let figures = compare(&fits, &motion, &mount).unwrap();
         let found = clock(&fits, &motion, &mount, &figures).unwrap();
         assert!((found.offset_ms + 180.0).abs() < 15.0, "{found:?}");

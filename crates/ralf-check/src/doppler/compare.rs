@@ -3,8 +3,8 @@
 use super::Timed;
 use crate::statistics::{Estimate, angle_estimate, estimate, median};
 use nalgebra::Vector2;
-use ralf::space::Transform;
 use ralf::space::EgoMotion;
+use ralf::space::Transform;
 
 /// Below this speed a direction is noise, m/s.
 const MOVING: f64 = 1.0;
@@ -69,8 +69,8 @@ pub(super) mod tests {
     use super::*;
     use crate::doppler::VelocityFit;
     use nalgebra::{Matrix2, UnitQuaternion};
-    use ralf::space::{Transform, Vector};
     use ralf::space::OdometrySample;
+    use ralf::space::{Transform, Vector};
 
     pub(in crate::doppler) fn seen(t_ns: i64, velocity: Vector2<f64>) -> Timed {
         let covariance = Matrix2::identity() * 1e-4;

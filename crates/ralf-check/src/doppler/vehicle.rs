@@ -6,11 +6,11 @@
 use super::fit::{VelocityFit, fit};
 use crate::sample::{RadarLook, nearest};
 use crate::statistics::median;
-use ralf::space::{Transform, Vector};
 use ralf::sensors::RadarScan;
-use ralf::space::{EgoMotion, OdometrySample};
 use ralf::sensors::{Elevation, Radar};
 use ralf::sensors::{Source, SourceError};
+use ralf::space::{EgoMotion, OdometrySample};
+use ralf::space::{Transform, Vector};
 
 /// Scans of other radars count for a moment when they are this near, ns.
 const TOGETHER_NS: i64 = 50_000_000;
@@ -84,8 +84,11 @@ pub fn from_doppler(source: &dyn Source) -> Result<EgoMotion, SourceError> {
         .collect();
     let lever = |radar: &usize| sequence.rig.radars[*radar].vehicle_from_radar.translation.vector.xy().norm();
     let longest = with_doppler.iter().map(lever).fold(0.0, f64::max);
-    let Some(first) = with_doppler.iter().copied().max_by_key(|radar| sequence.times.radars[*radar].len()) else {
-        return Err("no motion from range rates: expected a radar with the field `doppler`, found none".into());
+    let Some(first) = with_doppler.iter().copied().max_by_key(|radar| sequence.times.radars[*radar].len())
+    else {
+        return Err(
+            "no motion from range rates: expected a radar with the field `doppler`, found none".into()
+        );
     };
     if longest < SHORTEST_LEVER {
         return Err(format!(
@@ -171,7 +174,8 @@ mod tests {
         let (speed, yaw_rate) = (6.0, 0.3);
         let (mut rays, mut rates) = (Vec::new(), Vec::new());
         for mount in &mounts {
-            let own = Vector::new(speed, 0.0, 0.0) + Vector::new(0.0, 0.0, yaw_rate).cross(&mount.translation.vector);
+            let own = Vector::new(speed, 0.0, 0.0)
+                + Vector::new(0.0, 0.0, yaw_rate).cross(&mount.translation.vector);
             for i in 0..20 {
                 let azimuth = f64::from(i) * 0.1 - 1.0;
                 let ray = Vector::new(azimuth.cos(), azimuth.sin(), 0.0);
@@ -180,6 +184,9 @@ mod tests {
             }
         }
         let found = fit(&rays, &rates, 0).unwrap();
-        assert!((found.velocity.x - speed).abs() < 1e-9 && (found.velocity.y - yaw_rate).abs() < 1e-9, "{found:?}");
+        assert!(
+            (found.velocity.x - speed).abs() < 1e-9 && (found.velocity.y - yaw_rate).abs() < 1e-9,
+            "{found:?}"
+        );
     }
 }

@@ -5,9 +5,9 @@ use crate::doppler::{DopplerFigures, Timed, compare, fits, predicted};
 use crate::overlap::{Measure, Setup, Tally, overlap};
 use crate::sample::{LidarLook, Sample};
 use crate::verdict::RadarFigures;
-use ralf::space::Transform;
-use ralf::space::EgoMotion;
 use ralf::sensors::Sequence;
+use ralf::space::EgoMotion;
+use ralf::space::Transform;
 
 /// A radar's Doppler is trusted when so many of its detections stand still.
 const INLIERS: f64 = 0.3;
@@ -65,7 +65,12 @@ impl<'a> Case<'a> {
     }
 
     /// How a radar's range rates go with a motion and a mounting, where this can be judged.
-    pub(super) fn doppler(&self, radar: usize, motion: &EgoMotion, mount: &Transform) -> Option<DopplerFigures> {
+    pub(super) fn doppler(
+        &self,
+        radar: usize,
+        motion: &EgoMotion,
+        mount: &Transform,
+    ) -> Option<DopplerFigures> {
         compare(&self.fits[radar], motion, mount)
             .filter(|figures| figures.scans >= SCANS && figures.inliers >= INLIERS)
     }

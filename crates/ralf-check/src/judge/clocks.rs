@@ -21,8 +21,10 @@ const HARMLESS_MS: f64 = 300.0;
 
 /// Judges all clocks by range rates, and puts right what is found.
 pub(super) fn judge(case: &mut Case) -> Vec<Verdict> {
-    let known: Vec<(usize, ClockFigures)> = case.radars().filter_map(|radar| Some((radar, of_radar(case, radar)?))).collect();
-    let late: Vec<(usize, ClockFigures)> = known.iter().copied().filter(|(_, figures)| is_clear(figures)).collect();
+    let known: Vec<(usize, ClockFigures)> =
+        case.radars().filter_map(|radar| Some((radar, of_radar(case, radar)?))).collect();
+    let late: Vec<(usize, ClockFigures)> =
+        known.iter().copied().filter(|(_, figures)| is_clear(figures)).collect();
     let offsets: Vec<f64> = late.iter().map(|(_, figures)| figures.offset_ms).collect();
     let common = median(&offsets).unwrap_or(0.0);
     let is_common = offsets.iter().all(|offset| (offset - common).abs() <= COMMON_MS);
@@ -80,7 +82,8 @@ fn motion_is_late(case: &mut Case, late: &[(usize, ClockFigures)], offset_ms: f6
     let own = -offset_ms.round();
     case.motion = MotionChange { clock_ms: own, ..MotionChange::default() }.of(&case.motion);
     let state = if own.abs() <= HARMLESS_MS { State::Fact } else { State::Doubt };
-    let misfit = |figure: fn(&ClockFigures) -> f64| median(&late.iter().map(|(_, f)| figure(f)).collect::<Vec<_>>());
+    let misfit =
+        |figure: fn(&ClockFigures) -> f64| median(&late.iter().map(|(_, f)| figure(f)).collect::<Vec<_>>());
     let evidence = format!(
         "{} radars see speeds {:.0} ms {} than recorded ({:.2} m/s apart, {:.2} m/s with this)",
         late.len(),
@@ -89,13 +92,23 @@ fn motion_is_late(case: &mut Case, late: &[(usize, ClockFigures)], offset_ms: f6
         misfit(|f| f.now).unwrap_or(0.0),
         misfit(|f| f.then).unwrap_or(0.0)
     );
-    Verdict { remedy: Some(Remedy::MotionClock(own)), ..Verdict::new("motion", Question::Clock, state, evidence) }
+    Verdict {
+        remedy: Some(Remedy::MotionClock(own)),
+        ..Verdict::new("motion", Question::Clock, state, evidence)
+    }
 }
 
 fn clear_or_dull(name: &str, figures: &ClockFigures) -> Verdict {
     if figures.is_sharp {
-        let evidence = format!("speeds fit best within {:.0} ms of the motion's clock", figures.offset_ms.abs().max(20.0));
+        let evidence = format!(
+            "speeds fit best within {:.0} ms of the motion's clock",
+            figures.offset_ms.abs().max(20.0)
+        );
         return Verdict::good(name, Question::Clock, evidence);
     }
-    Verdict::cannot_judge(name, Question::Clock, "the speed changes too little: braking or starting is needed")
+    Verdict::cannot_judge(
+        name,
+        Question::Clock,
+        "the speed changes too little: braking or starting is needed",
+    )
 }

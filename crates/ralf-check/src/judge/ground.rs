@@ -18,10 +18,12 @@ const FEWEST: usize = 3;
 
 pub(super) fn judge(sequence: &Sequence, sample: &Sample) -> Vec<Verdict> {
     let lidars = sequence.rig.lidars.iter().enumerate();
-    lidars.map(|(i, lidar)| {
-        let looks: Vec<&LidarLook> = sample.lidars.iter().filter(|look| look.lidar == i).collect();
-        one(&lidar.name, &looks)
-    }).collect()
+    lidars
+        .map(|(i, lidar)| {
+            let looks: Vec<&LidarLook> = sample.lidars.iter().filter(|look| look.lidar == i).collect();
+            one(&lidar.name, &looks)
+        })
+        .collect()
 }
 
 fn one(name: &str, looks: &[&LidarLook]) -> Verdict {
@@ -30,7 +32,10 @@ fn one(name: &str, looks: &[&LidarLook]) -> Verdict {
     if fits.len() < FEWEST || support < SUPPORT {
         let missing = format!(
             "a plane in {} of {} scans, with {:.0} % of the points nearby on it: {FEWEST} scans and {:.0} % are needed",
-            fits.len(), looks.len(), support * 100.0, SUPPORT * 100.0
+            fits.len(),
+            looks.len(),
+            support * 100.0,
+            SUPPORT * 100.0
         );
         return Verdict::cannot_judge(name, Question::Ground, missing);
     }
@@ -40,14 +45,20 @@ fn one(name: &str, looks: &[&LidarLook]) -> Verdict {
     let height = of(fits.iter().map(|fit| fit.offset).collect());
     let evidence = format!(
         "the ground rises by {:+.1} degrees to the front and {:+.1} to the left, and lies {:+.2} m high, over {} scans",
-        forward.value, left.value, height.value, fits.len()
+        forward.value,
+        left.value,
+        height.value,
+        fits.len()
     );
-    let beyond = |estimate: &Estimate, limit: f64| estimate.value.abs() > limit && estimate.value.abs() - 4.0 * estimate.error > limit / 2.0;
+    let beyond = |estimate: &Estimate, limit: f64| {
+        estimate.value.abs() > limit && estimate.value.abs() - 4.0 * estimate.error > limit / 2.0
+    };
     if !beyond(&forward, TILT_DEG) && !beyond(&left, TILT_DEG) && !beyond(&height, OFFSET) {
         return Verdict::good(name, Question::Ground, evidence);
     }
     // About the vehicle's axes, for a LiDAR that looks forward: what rises in front is put down by a positive pitch.
-    let turn = |estimate: &Estimate, sign: f64| if beyond(estimate, TILT_DEG) { sign * estimate.value } else { 0.0 };
+    let turn =
+        |estimate: &Estimate, sign: f64| if beyond(estimate, TILT_DEG) { sign * estimate.value } else { 0.0 };
     let up = if beyond(&height, OFFSET) { -height.value } else { 0.0 };
     let change = SensorChange {
         turn_deg: [turn(&left, -1.0), turn(&forward, 1.0), 0.0],

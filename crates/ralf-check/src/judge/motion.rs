@@ -163,7 +163,8 @@ fn measured(case: &Case, unit: f64) -> f64 {
 
 fn agreement(case: &Case, explained: usize, lidar: &Tally) -> Verdict {
     let of_lidar = format!(
-        "{:.0} % of what the LiDAR saw lies on what it sees half a second later", lidar.share() * 100.0
+        "{:.0} % of what the LiDAR saw lies on what it sees half a second later",
+        lidar.share() * 100.0
     );
     match (explained, lidar.is_enough()) {
         (0, false) => {

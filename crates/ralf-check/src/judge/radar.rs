@@ -1,6 +1,6 @@
 //! Whether a radar is where and when it is said to be: by its range rates, and by the LiDAR.
 
-use super::alternatives::{best, clocks, exact, shifts, yaws};
+use super::alternatives::{best, clocks, exact, gain_of_one, shifts, yaws};
 use super::case::Case;
 use super::doppler::{RATIO, in_words, is_aligned, is_explained};
 use super::motion::correct_range_rates;
@@ -41,7 +41,8 @@ fn by_range_rates(case: &mut Case, radar: usize) -> Verdict {
         return Verdict::cannot_judge(name, Question::Doppler, missing(case, radar));
     };
     if figures.creeping >= CREEPING {
-        let evidence = format!("the world moves in {} scans in which the vehicle is said to stand", figures.creeping);
+        let evidence =
+            format!("the world moves in {} scans in which the vehicle is said to stand", figures.creeping);
         return Verdict::doubt(name, Question::Doppler, evidence, None);
     }
     if is_explained(&figures) {
@@ -71,8 +72,15 @@ fn missing(case: &Case, radar: usize) -> String {
 /// What makes range rates go with the motion.
 fn remedy(case: &Case, radar: usize, figures: &DopplerFigures) -> Option<Remedy> {
     let (ratio, angle) = (figures.ratio.value, figures.angle.value);
-    if ratio < COMPENSATED && figures.inliers > 0.4 && !SPEEDS.iter().any(|(unit, _)| (ratio * unit - 1.0).abs() < 0.05 || (ratio / unit - 1.0).abs() < 0.05) {
-        return Some(Remedy::LookInto("range rates look like those without the vehicle's motion (doppler_compensated)"));
+    if ratio < COMPENSATED
+        && figures.inliers > 0.4
+        && !SPEEDS
+            .iter()
+            .any(|(unit, _)| (ratio * unit - 1.0).abs() < 0.05 || (ratio / unit - 1.0).abs() < 0.05)
+    {
+        return Some(Remedy::LookInto(
+            "range rates look like those without the vehicle's motion (doppler_compensated)",
+        ));
     }
     if !RATIO.contains(&ratio) {
         let known = SPEEDS.iter().map(|(unit, _)| *unit).chain(SPEEDS.iter().map(|(unit, _)| 1.0 / unit));
@@ -89,10 +97,15 @@ fn remedy(case: &Case, radar: usize, figures: &DopplerFigures) -> Option<Remedy>
 }
 
 /// A direction that is far off: turned, mirrored, or the range rates have the other sign. The LiDAR tells, where it can.
-fn of_large_angles(case: &Case, radar: usize, changes: [Option<SensorChange>; 2], other_sign: bool) -> Remedy {
+fn of_large_angles(
+    case: &Case,
+    radar: usize,
+    changes: [Option<SensorChange>; 2],
+    other_sign: bool,
+) -> Remedy {
     let tally = |change: &SensorChange| case.overlap(radar, change, Measure::Beside);
     let now = tally(&SensorChange::default());
-    let found = best(&now, changes.into_iter().flatten(), tally).map(|(change, _)| change);
+    let found = best(&now, changes.into_iter().flatten(), gain_of_one, tally).map(|(change, _)| change);
     match (found, other_sign, changes) {
         (Some(change), _, _) => Remedy::Sensor(change),
         (None, true, _) => Remedy::Doppler(-1.0),
@@ -117,21 +130,24 @@ fn by_lidar(case: &mut Case, radar: usize) -> Verdict {
     let now = tally(&SensorChange::default());
     if !now.is_enough() {
         let missing = format!(
-            "{} detections within 40 m were measured together with a LiDAR scan: 150 are needed", now.points()
+            "{} detections within 40 m were measured together with a LiDAR scan: 150 are needed",
+            now.points()
         );
         return Verdict::cannot_judge(name, Question::Lidar, missing);
     }
-    let Some((found, then)) = best(&now, allowed(case, radar).into_iter(), tally) else {
+    let Some((found, then)) = best(&now, allowed(case, radar).into_iter(), gain_of_one, tally) else {
         return Verdict::good(name, Question::Lidar, in_share(&now, None));
     };
     let change = exact(found, |change| case.overlap(radar, change, Measure::Smooth).share());
-    let verdict = Verdict::doubt(name, Question::Lidar, in_share(&now, Some(&then)), Some(Remedy::Sensor(change)));
+    let verdict =
+        Verdict::doubt(name, Question::Lidar, in_share(&now, Some(&then)), Some(Remedy::Sensor(change)));
     case.radar_changes[radar] = case.radar_changes[radar].and(&change);
     Verdict { state: State::Doubt, ..verdict }
 }
 
 fn in_share(now: &Tally, then: Option<&Tally>) -> String {
-    let share = format!("{:.0} % of {:.0} detections lie beside LiDAR points", now.share() * 100.0, now.points());
+    let share =
+        format!("{:.0} % of {:.0} detections lie beside LiDAR points", now.share() * 100.0, now.points());
     then.map_or_else(|| share.clone(), |then| format!("{share}, and {:.0} % otherwise", then.share() * 100.0))
 }
 

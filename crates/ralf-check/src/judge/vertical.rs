@@ -22,8 +22,9 @@ fn one(case: &Case, radar: usize) -> Option<Verdict> {
     }
     let tally = |change: &SensorChange| case.overlap(radar, change, Measure::AsHigh);
     let now = tally(&SensorChange::default());
-    let tilts = TILTS.into_iter().flat_map(|tilt| [SensorChange::tilt(tilt, 0.0), SensorChange::tilt(0.0, tilt)]);
-    let (found, then) = super::alternatives::best(&now, tilts, tally)?;
+    let tilts =
+        TILTS.into_iter().flat_map(|tilt| [SensorChange::tilt(tilt, 0.0), SensorChange::tilt(0.0, tilt)]);
+    let (found, then) = super::alternatives::best(&now, tilts, super::alternatives::gain_of_one, tally)?;
     let evidence = format!(
         "{:.0} % of the detections are as high as the LiDAR points beside them, and {:.0} % otherwise",
         now.share() * 100.0,

@@ -3,8 +3,8 @@
 use super::Tally;
 use super::field::PlanField;
 use crate::sample::{LAG_NS, LidarLook, RadarLook, nearest};
-use ralf::space::{Point, Transform};
 use ralf::space::EgoMotion;
+use ralf::space::{Point, Transform};
 
 /// On: in plan, m.
 const ON: f64 = 0.3;
@@ -32,7 +32,8 @@ pub(crate) fn radar_motion_overlap(looks: &[RadarLook], mount: &Transform, motio
     for first in looks {
         let Some(second) = nearest(&times, first.t_ns + LAG_NS).map(|i| &looks[i]) else { continue };
         if is_pair(first.t_ns, second.t_ns) {
-            let placed = |look: &RadarLook| -> Vec<Point> { look.positions.iter().map(|p| mount * p).collect() };
+            let placed =
+                |look: &RadarLook| -> Vec<Point> { look.positions.iter().map(|p| mount * p).collect() };
             let field = PlanField::new(placed(second).iter().map(|p| [p.x, p.y, 0.0]));
             tally.moments.push(on(&placed(first), &field, &motion.between(second.t_ns, first.t_ns)));
         }

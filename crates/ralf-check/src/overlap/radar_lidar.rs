@@ -3,9 +3,9 @@
 use super::Tally;
 use crate::change::SensorChange;
 use crate::sample::{LidarLook, RadarLook, nearest};
-use ralf::space::{Point, Transform};
-use ralf::space::EgoMotion;
 use ralf::sensors::Rig;
+use ralf::space::EgoMotion;
+use ralf::space::{Point, Transform};
 
 /// Beside: in plan, m. Five standard deviations of a radar's range, and half a car's flank.
 const BESIDE: f64 = 0.4;
@@ -63,7 +63,13 @@ pub(crate) fn overlap(
 
 impl Setup<'_> {
     /// From the radar's frame at its time to the vehicle frame as recorded at the LiDAR's time, in which its obstacles lie.
-    fn lidar_from_radar(&self, radar: usize, lidar: &LidarLook, t_ns: i64, change: &SensorChange) -> Transform {
+    fn lidar_from_radar(
+        &self,
+        radar: usize,
+        lidar: &LidarLook,
+        t_ns: i64,
+        change: &SensorChange,
+    ) -> Transform {
         let of_lidar = self.lidar_changes.get(lidar.lidar).copied().unwrap_or_default();
         let recorded = &self.rig.lidars[lidar.lidar].vehicle_from_lidar;
         let back = recorded * of_lidar.mount(recorded).inverse();
@@ -90,7 +96,9 @@ fn count(
         let counted = match measure {
             Measure::Beside => Some(f64::from(distance <= BESIDE)),
             Measure::AsHigh => is_as_high(lidar, &p).filter(|_| distance <= BESIDE).map(f64::from),
-            Measure::Smooth => Some(1.0 - distance * distance),
+            Measure::Smooth => {
+                lidar.field.smooth_distance(p.x, p.y).map(|distance| 1.0 - distance * distance)
+            }
         };
         if let Some(score) = counted {
             found[0] += score;

@@ -23,7 +23,8 @@ impl Recording {
     /// A sequence that is simulated already.
     pub fn simulated(inner: SimulatedSequence) -> Arc<Self> {
         let times = &inner.sequence().times;
-        let radars = times.radars.iter().map(|times| times.iter().map(|_| OnceLock::new()).collect()).collect();
+        let radars =
+            times.radars.iter().map(|times| times.iter().map(|_| OnceLock::new()).collect()).collect();
         let lidars = times.lidars[0].iter().map(|_| OnceLock::new()).collect();
         Arc::new(Self { inner, radars, lidars })
     }
@@ -75,7 +76,8 @@ impl Source for Planted {
 
     fn radar_scan(&self, radar: usize, scan: usize) -> Result<RadarScan, SourceError> {
         let read = if self.stuck_radar == Some(radar) { 0 } else { scan };
-        let base = self.base.radars[radar][read].get_or_init(|| self.base.inner.radar_scan(radar, read).unwrap());
+        let base =
+            self.base.radars[radar][read].get_or_init(|| self.base.inner.radar_scan(radar, read).unwrap());
         let mut columns = base.columns.clone();
         if let Some(edit) = &self.radar {
             edit(radar, scan, &mut columns);

@@ -4,7 +4,7 @@ use crate::recording::Planted;
 use nalgebra::{Translation3, UnitQuaternion};
 use ralf::sensors::Elevation;
 use ralf::space::{EgoMotion, Transform};
-use ralf_check::Remedy;
+use ralf_check::{Remedy, SensorChange};
 
 /// A fault.
 pub struct Fault {
@@ -26,6 +26,17 @@ fn turned(p: &mut Planted, radar: usize, roll: f64, pitch: f64, yaw: f64) {
     let mount = &mut p.sequence.rig.radars[radar].vehicle_from_radar;
     let [roll, pitch, yaw] = [roll, pitch, yaw].map(f64::to_radians);
     mount.rotation *= UnitQuaternion::from_euler_angles(roll, pitch, yaw);
+}
+
+/// Plants errors of all radars at once: what is said is the truth plus these.
+pub fn plant(p: &mut Planted, errors: &[SensorChange]) {
+    for (radar, error) in errors.iter().enumerate() {
+        let [roll, pitch, yaw] = error.turn_deg;
+        turned(p, radar, roll, pitch, yaw);
+        let [x, y, z] = error.shift_m;
+        shifted(&mut p.sequence.rig.radars[radar].vehicle_from_radar, x, y, z);
+        radar_late(p, radar, error.clock_ms as i64);
+    }
 }
 
 fn shifted(mount: &mut Transform, x: f64, y: f64, z: f64) {
@@ -117,12 +128,24 @@ fn extrinsics() -> Vec<Fault> {
         fault!("radar roll +6 deg", ["radar_front"], true, |p| turned(p, FRONT, 6.0, 0.0, 0.0), |r| {
             matches!(r, Remedy::Sensor(c) if near(c.turn_deg[0], -6.0, 2.1))
         }),
-        fault!("radar 1 m off", ["radar_left"], true, |p| {
-            shifted(&mut p.sequence.rig.radars[LEFT].vehicle_from_radar, 0.0, 1.0, 0.0);
-        }, |r| matches!(r, Remedy::Sensor(c) if near(c.shift_m[1], -1.0, 0.35))),
-        fault!("radar translation in cm", ["radar_front"], true, |p| {
-            p.sequence.rig.radars[FRONT].vehicle_from_radar.translation.vector *= 100.0;
-        }, |r| matches!(r, Remedy::LookInto(what) if what.contains("cm"))),
+        fault!(
+            "radar 1 m off",
+            ["radar_left"],
+            true,
+            |p| {
+                shifted(&mut p.sequence.rig.radars[LEFT].vehicle_from_radar, 0.0, 1.0, 0.0);
+            },
+            |r| matches!(r, Remedy::Sensor(c) if near(c.shift_m[1], -1.0, 0.35))
+        ),
+        fault!(
+            "radar translation in cm",
+            ["radar_front"],
+            true,
+            |p| {
+                p.sequence.rig.radars[FRONT].vehicle_from_radar.translation.vector *= 100.0;
+            },
+            |r| matches!(r, Remedy::LookInto(what) if what.contains("cm"))
+        ),
         fault!("left and right radar swapped", ["radar_left", "radar_right"], true, |p| swap(p, 1, 2), |r| {
             matches!(r, Remedy::SwapWith(other) if other == "radar_left" || other == "radar_right")
         }),
@@ -138,15 +161,25 @@ fn extrinsics() -> Vec<Fault> {
         fault!("LiDAR yaw +5 deg", ["lidar_top"], true, |p| lidar_turned(p, 0.0, 0.0, 5.0), |r| {
             yaw_of(r).is_some_and(|yaw| near(yaw, -5.0, 1.0))
         }),
-        fault!("LiDAR axes x right, y forward", ["lidar_top"], true, |p| lidar_turned(p, 0.0, 0.0, -90.0), |r| {
-            yaw_of(r).is_some_and(|yaw| near(yaw, 90.0, 3.0))
-        }),
+        fault!(
+            "LiDAR axes x right, y forward",
+            ["lidar_top"],
+            true,
+            |p| lidar_turned(p, 0.0, 0.0, -90.0),
+            |r| { yaw_of(r).is_some_and(|yaw| near(yaw, 90.0, 3.0)) }
+        ),
         fault!("LiDAR pitch +4 deg", ["lidar_top"], true, |p| lidar_turned(p, 0.0, 4.0, 0.0), |r| {
             matches!(r, Remedy::Sensor(c) if near(c.turn_deg[1], -4.0, 0.8))
         }),
-        fault!("LiDAR 0.5 m too high", ["lidar_top"], true, |p| {
-            shifted(&mut p.sequence.rig.lidars[0].vehicle_from_lidar, 0.0, 0.0, 0.5);
-        }, |r| matches!(r, Remedy::Sensor(c) if near(c.shift_m[2], -0.5, 0.1))),
+        fault!(
+            "LiDAR 0.5 m too high",
+            ["lidar_top"],
+            true,
+            |p| {
+                shifted(&mut p.sequence.rig.lidars[0].vehicle_from_lidar, 0.0, 0.0, 0.5);
+            },
+            |r| matches!(r, Remedy::Sensor(c) if near(c.shift_m[2], -0.5, 0.1))
+        ),
         fault!("quaternion read as w x y z", ["radar_left"], true, |p| {
             // (0, 0, s, c) taken for w, x, y, z.
             let mount = &mut p.sequence.rig.radars[LEFT].vehicle_from_radar;
@@ -171,15 +204,29 @@ fn clocks() -> Vec<Fault> {
         fault!("radar clock -200 ms", ["radar_front"], true, |p| radar_late(p, FRONT, -200), |r| {
             clock_of(r).is_some_and(|ms| near(ms, 200.0, 60.0))
         }),
-        fault!("all radar clocks +200 ms", ALL_RADARS, true, |p| (0..4).for_each(|radar| radar_late(p, radar, 200)), |r| {
-            clock_of(r).is_some_and(|ms| near(ms, -200.0, 60.0))
-        }),
-        fault!("LiDAR clock +200 ms", ["lidar_top"], true, |p| {
-            p.sequence.times.lidars[0].iter_mut().for_each(|t| *t += 200 * MS);
-        }, |r| clock_of(r).is_some_and(|ms| near(ms, -200.0, 60.0))),
-        fault!("odometry clock +200 ms", ["motion"], true, |p| p.edit_odometry(|s| s.t_ns += 200 * MS), |r| {
-            matches!(r, Remedy::MotionClock(ms) if near(*ms, -200.0, 60.0))
-        }),
+        fault!(
+            "all radar clocks +200 ms",
+            ALL_RADARS,
+            true,
+            |p| (0..4).for_each(|radar| radar_late(p, radar, 200)),
+            |r| { clock_of(r).is_some_and(|ms| near(ms, -200.0, 60.0)) }
+        ),
+        fault!(
+            "LiDAR clock +200 ms",
+            ["lidar_top"],
+            true,
+            |p| {
+                p.sequence.times.lidars[0].iter_mut().for_each(|t| *t += 200 * MS);
+            },
+            |r| clock_of(r).is_some_and(|ms| near(ms, -200.0, 60.0))
+        ),
+        fault!(
+            "odometry clock +200 ms",
+            ["motion"],
+            true,
+            |p| p.edit_odometry(|s| s.t_ns += 200 * MS),
+            |r| { matches!(r, Remedy::MotionClock(ms) if near(*ms, -200.0, 60.0)) }
+        ),
         fault!("timestamps in us, taken for ns", ["radar_front"], true, |p| {
             p.sequence.times.radars[FRONT].iter_mut().for_each(|t| *t /= 1000);
         }),
@@ -191,9 +238,15 @@ fn units() -> Vec<Fault> {
         fault!("positions in cm", ["radar_front"], true, |p| times(p, Some(FRONT), &[0, 1, 2], 100.0), |r| {
             matches!(r, Remedy::Positions(f) if near(*f, 0.01, 1e-9))
         }),
-        fault!("LiDAR in cm", ["lidar_top"], true, |p| p.edit_lidar(|scan| {
-            scan.points.iter_mut().flatten().for_each(|v| *v *= 100.0);
-        }), |r| matches!(r, Remedy::Positions(f) if near(*f, 0.01, 1e-9))),
+        fault!(
+            "LiDAR in cm",
+            ["lidar_top"],
+            true,
+            |p| p.edit_lidar(|scan| {
+                scan.points.iter_mut().flatten().for_each(|v| *v *= 100.0);
+            }),
+            |r| matches!(r, Remedy::Positions(f) if near(*f, 0.01, 1e-9))
+        ),
         fault!("Doppler in km/h, one radar", ["radar_rear"], true, |p| times(p, Some(3), &[3], 3.6), |r| {
             matches!(r, Remedy::Doppler(f) if near(*f, 1.0 / 3.6, 0.02))
         }),
@@ -206,26 +259,46 @@ fn units() -> Vec<Fault> {
         fault!("speed in cm/s", ["motion"], true, |p| p.edit_odometry(|s| s.velocity *= 100.0), |r| {
             matches!(r, Remedy::Speed(f) if near(*f, 0.01, 1e-6))
         }),
-        fault!("yaw rate in deg/s", ["motion"], false, |p| p.edit_odometry(|s| s.yaw_rate = s.yaw_rate.to_degrees()), |r| {
-            matches!(r, Remedy::YawRate(f) if near(*f, 1.0_f64.to_radians(), 1e-6))
-        }),
+        fault!(
+            "yaw rate in deg/s",
+            ["motion"],
+            false,
+            |p| p.edit_odometry(|s| s.yaw_rate = s.yaw_rate.to_degrees()),
+            |r| { matches!(r, Remedy::YawRate(f) if near(*f, 1.0_f64.to_radians(), 1e-6)) }
+        ),
         fault!("azimuth in degrees", ["radar_front"], true, |p| spherical(p, 57.2958, 1.0), |r| {
             matches!(r, Remedy::InDegrees("azimuth"))
         }),
         fault!("elevation in degrees", ["radar_front"], true, |p| spherical(p, 1.0, 57.2958), |r| {
             matches!(r, Remedy::InDegrees("elevation"))
         }),
-        fault!("field of view in radians", ["radar_front"], true, |p| {
-            let radar = &mut p.sequence.rig.radars[FRONT];
-            radar.fov_azimuth = radar.fov_azimuth.to_radians();
-        }, |r| matches!(r, Remedy::Value { key: "fov_azimuth_deg", value } if *value > 100.0)),
-        fault!("sigma in radians", ["radar_front"], true, |p| {
-            let radar = &mut p.sequence.rig.radars[FRONT];
-            radar.sigma_azimuth = radar.sigma_azimuth.to_radians();
-        }, |r| matches!(r, Remedy::Value { key: "sigma_azimuth_deg", value } if near(*value, 0.6, 0.05))),
-        fault!("sigma of range in cm", ["radar_front"], true, |p| p.sequence.rig.radars[FRONT].sigma_range *= 100.0, |r| {
-            matches!(r, Remedy::Value { key: "sigma_range_m", value } if near(*value, 0.1, 0.01))
-        }),
+        fault!(
+            "field of view in radians",
+            ["radar_front"],
+            true,
+            |p| {
+                let radar = &mut p.sequence.rig.radars[FRONT];
+                radar.fov_azimuth = radar.fov_azimuth.to_radians();
+            },
+            |r| matches!(r, Remedy::Value { key: "fov_azimuth_deg", value } if *value > 100.0)
+        ),
+        fault!(
+            "sigma in radians",
+            ["radar_front"],
+            true,
+            |p| {
+                let radar = &mut p.sequence.rig.radars[FRONT];
+                radar.sigma_azimuth = radar.sigma_azimuth.to_radians();
+            },
+            |r| matches!(r, Remedy::Value { key: "sigma_azimuth_deg", value } if near(*value, 0.6, 0.05))
+        ),
+        fault!(
+            "sigma of range in cm",
+            ["radar_front"],
+            true,
+            |p| p.sequence.rig.radars[FRONT].sigma_range *= 100.0,
+            |r| { matches!(r, Remedy::Value { key: "sigma_range_m", value } if near(*value, 0.1, 0.01)) }
+        ),
     ]
 }
 
@@ -273,12 +346,19 @@ fn structure() -> Vec<Fault> {
             let half = samples.len() / 2;
             p.sequence.motion = EgoMotion::new(samples[..half].to_vec(), vec![]).unwrap();
         }),
-        fault!("elevation constant, said to be measured", ["radar_front"], true, |p| times(p, Some(FRONT), &[2], 0.0)),
-        fault!("a third of the detections not finite", ["radar_front"], true, |p| p.edit_radars(|radar, _, columns| {
-            if radar == FRONT {
-                columns[0].iter_mut().step_by(3).for_each(|v| *v = f32::NAN);
+        fault!("elevation constant, said to be measured", ["radar_front"], true, |p| times(
+            p,
+            Some(FRONT),
+            &[2],
+            0.0
+        )),
+        fault!("a third of the detections not finite", ["radar_front"], true, |p| p.edit_radars(
+            |radar, _, columns| {
+                if radar == FRONT {
+                    columns[0].iter_mut().step_by(3).for_each(|v| *v = f32::NAN);
+                }
             }
-        })),
+        )),
         fault!("yaw rate 10 times too large", ["motion"], false, |p| p.edit_odometry(|s| s.yaw_rate *= 10.0)),
     ]
 }

@@ -2,6 +2,7 @@
 
 mod ros;
 
+use super::check::page::page as check_page;
 use crate::cli::DatasetArgs;
 use crate::progress::{STEPS, bar};
 use crate::run_summary::run_summary;
@@ -11,9 +12,10 @@ use crate::{Outcome, UsageError};
 use clap::Args;
 use ralf::config::Config;
 use ralf::sensors::Timelines;
-use ralf_data::SequenceReader;
+use ralf_check::SequenceCheck;
 use ralf_data::read::inspection::{Inspection, SensorInspection, Unreadable};
 use ralf_data::run::{RunRecord, read_record};
+use ralf_data::{Recording, SequenceReader};
 use std::path::{Path, PathBuf};
 
 /// Arguments of `ralf inspect`.
@@ -65,13 +67,15 @@ pub(crate) fn run(arguments: &InspectArgs) -> anyhow::Result<Outcome> {
         }
         (Err(error), None) => return Err(error),
     };
+    let recording = recording.corrected(&settings)?;
     let looks: Vec<_> = recording
         .sequences
         .iter()
         .map(|reader| look_at(reader.as_ref(), &settings.method, arguments.quick))
         .collect();
     if arguments.json {
-        let mut look = serde_json::json!({ "format": recording.format, "sequences": looks });
+        let checks = checks(&recording, arguments.quick);
+        let mut look = serde_json::json!({ "format": recording.format, "sequences": looks, "check": checks });
         if let Some(topics) = topics {
             look["ros"] = serde_json::to_value(topics.inspection)?;
         }
@@ -81,8 +85,16 @@ pub(crate) fn run(arguments: &InspectArgs) -> anyhow::Result<Outcome> {
             format!("{} ({}), {} sequence(s)\n", recording.path.display(), recording.format, looks.len());
         let head = topics.map_or(Ok(String::new()), |topics| topics.page(&settings.topics))? + &head;
         print(&looks.iter().fold(head, |text, look| text + "\n" + &page(look)))?;
+        let checks = checks(&recording, arguments.quick);
+        checks.iter().try_for_each(|check| print(&("\n".to_owned() + &check_page(check, false))))?;
     }
     Ok(Outcome::Done)
+}
+
+/// What the sensors say of each other, unless only times are looked at.
+fn checks(recording: &Recording, quick: bool) -> Vec<SequenceCheck> {
+    let readers = recording.sequences.iter().filter(|_| !quick);
+    readers.map(|reader| ralf_check::check(reader.as_ref())).collect()
 }
 
 fn look_at(reader: &dyn SequenceReader, config: &Config, quick: bool) -> Inspection {

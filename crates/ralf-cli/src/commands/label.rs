@@ -1,5 +1,6 @@
 //! `ralf label`: a plausibility and a label for every detection.
 
+use super::check::page;
 use crate::Outcome;
 use crate::cli::DatasetArgs;
 use crate::depth_model::{DepthModelArgs, fill, images_of_scans};
@@ -11,7 +12,7 @@ use clap::Args;
 use ralf::config::Config;
 use ralf_data::Recording;
 use ralf_data::depth::DepthStore;
-use ralf_data::run::{LabelRun, Outcome as RunOutcome, SequenceRecord};
+use ralf_data::run::{CheckRecord, LabelRun, Outcome as RunOutcome, SequenceRecord};
 use ralf_depth::DepthEstimator;
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
@@ -27,7 +28,9 @@ Examples:
   ralf label recordings/city -o out
   ralf label nuscenes -o out --sequence scene-0061 --set tracking.sources=all
   ralf label recordings/city -o out --config ralf.toml --set fusion.alpha=0.7 --jobs 4
-  ralf label nuscenes -o out --depth-model midas.onnx      cameras, too: depth is stored in OUT/depth")]
+  ralf label nuscenes -o out --depth-model midas.onnx      cameras, too: depth is stored in OUT/depth
+  ralf label drive -o out --trajectory poses.tum --trajectory-frame lidar_top
+  ralf label drive -o out --config fixes.toml              with what `ralf check drive --write fixes.toml` found")]
 pub(crate) struct LabelArgs {
     #[command(flatten)]
     dataset: DatasetArgs,
@@ -44,6 +47,12 @@ pub(crate) struct LabelArgs {
     /// Scans side by side; as many as there are processors if not given
     #[arg(long, value_name = "N")]
     jobs: Option<NonZeroUsize>,
+    /// Label nothing where the check of the recording doubts it, and end with status 3
+    #[arg(long)]
+    strict: bool,
+    /// Leave out the check of the recording
+    #[arg(long, conflicts_with = "strict")]
+    no_check: bool,
     /// Print the record of these sequences as JSON
     #[arg(long)]
     json: bool,
@@ -57,9 +66,20 @@ pub(crate) fn run(arguments: &LabelArgs) -> anyhow::Result<Outcome> {
     let mut settings = arguments.settings.resolve()?;
     let jobs = threads(arguments.jobs);
     settings.topics = arguments.dataset.topics_or(&settings.topics)?;
-    let recording = arguments.dataset.open_with(&settings.topics)?;
+    let recording = arguments.dataset.open_with(&settings.topics)?.corrected(&settings)?;
+    let checks = arguments.checks(&recording);
+    if arguments.strict && checks.iter().any(|check| !check.doubts.is_empty()) {
+        say("nothing is labelled, for the recording is doubted (--strict)");
+        return Ok(Outcome::Partial);
+    }
     let recording = arguments.with_depth(recording, &settings.method, jobs)?;
-    let run = LabelRun { recording: &recording, settings: &settings, out: &arguments.output, jobs };
+    let run = LabelRun {
+        recording: &recording,
+        settings: &settings,
+        out: &arguments.output,
+        jobs,
+        checks: &checks,
+    };
     let done = run.execute(&Bars::new(arguments.quiet))?;
     if !done.removed.is_empty() {
         let names = done.removed.join(", ");
@@ -87,6 +107,20 @@ pub(crate) fn run(arguments: &LabelArgs) -> anyhow::Result<Outcome> {
 }
 
 impl LabelArgs {
+    /// What `ralf check` says of the recording; doubts are told.
+    fn checks(&self, recording: &Recording) -> Vec<CheckRecord> {
+        if self.no_check {
+            return Vec::new();
+        }
+        let checks: Vec<CheckRecord> = recording
+            .sequences
+            .iter()
+            .map(|reader| CheckRecord::of(&ralf_check::check(reader.as_ref())))
+            .collect();
+        checks.iter().flat_map(page::doubts).for_each(|line| say(&line));
+        checks
+    }
+
     /// The recording with the depth that was asked for: of a network, computed now as far as labelling needs it, or stored.
     fn with_depth(&self, recording: Recording, config: &Config, jobs: usize) -> anyhow::Result<Recording> {
         let store = match (self.model.load()?, &self.depth) {

@@ -2,6 +2,8 @@
 
 use crate::disk::label_file::Label;
 use crate::error::DataError;
+use crate::read::{MotionSource, corrected};
+use crate::settings::Settings;
 use ralf::sensors::{Source, SourceError};
 use std::any::Any;
 use std::path::PathBuf;
@@ -36,6 +38,11 @@ pub trait SequenceReader: Source {
     /// Whether any image of a camera has depth: without it, labelling doesn't use the camera.
     fn has_depth(&self, _camera: usize) -> bool {
         false
+    }
+
+    /// Where the vehicle's motion comes from.
+    fn motion_source(&self) -> MotionSource {
+        MotionSource::Recorded
     }
 
     /// The truth of a radar's scan where it is known without a file.
@@ -84,6 +91,14 @@ impl Recording {
         }
         self.sequences.retain(|sequence| names.is_empty() || names.contains(&sequence.sequence().name));
         Ok(self)
+    }
+}
+
+impl Recording {
+    /// The recording as the tables `corrections` and `motion` of the settings have it. Where it knows no motion, that is taken from the
+    /// radars' range rates. Refused: names that no sensor has, files that hold no poses, and sequences whose motion nobody knows.
+    pub fn corrected(self, settings: &Settings) -> Result<Self, DataError> {
+        corrected(self, settings)
     }
 }
 

@@ -1,5 +1,6 @@
 //! What a labelling run writes: `plausibility.parquet`, `.label` files and `run.json`.
 
+mod check_record;
 mod columns;
 mod content;
 pub(crate) mod json;
@@ -15,6 +16,7 @@ mod scan_tables;
 mod sequence_record;
 mod table;
 
+pub use check_record::{CheckLine, CheckRecord};
 pub use columns::Columns;
 pub use labelled_run::{Change, ChangedInput, LabelledRun, LabelledSequence};
 pub use names::Component;
