@@ -1,5 +1,5 @@
-//! Builds the page from `web/` with Node and npm, and has it embedded. Without them the program builds all the same, and
-//! its page says what is missing.
+//! Builds the page from `web/` with Node and npm, and has it embedded. Without them the program builds all the
+//! same, and its page says what is missing.
 
 use std::fs;
 use std::io;
@@ -41,7 +41,8 @@ fn watch(web: &Path) -> io::Result<()> {
     Ok(())
 }
 
-/// Copies the sources and builds them there, so that nothing is left in the tree. The error is what to install or to mend.
+/// Copies the sources and builds them there, so that nothing is left in the tree. The error is what to install
+/// or to mend.
 fn build(web: &Path, copy: &Path) -> Result<PathBuf, String> {
     if !web.join("package.json").is_file() {
         return Err("crates/ralf-review/web/package.json is missing; expected the page's sources".into());

@@ -6,11 +6,13 @@ use ralf::space::Point;
 
 /// Points that a fit looks at.
 const POINTS: usize = 6000;
-/// A wrong mounting may be off by so much: what the labeler itself would no longer take for the ground is found as well.
+/// A wrong mounting may be off by so much: what the labeler itself would no longer take for the ground is found as
+/// well.
 const WIDEST: (f64, f64) = (20.0, 3.0);
 /// A point this close to the plane supports it, m.
 const CLOSE: f64 = 0.15;
-/// Beams at the horizon hit walls all around at one height, which looks like a plane: points have to lie this far below, as a slope.
+/// Beams at the horizon hit walls all around at one height, which looks like a plane: points have to lie this far
+/// below, as a slope.
 const BELOW: f64 = 0.06;
 /// So far below the plane, m, lies at most this share of the points.
 const UNDER: (f64, f64) = (0.3, 0.08);

@@ -1,17 +1,17 @@
 //! Is a recording what it says? Extrinsics, clocks, units and signs are judged by what the sensors themselves measure.
 //!
-//! Labels from a recording whose yaw is off by five degrees look like any others. This crate asks the sensors about each
-//! other, and says of each what speaks for or against it, and what would put it right:
+//! Labels from a recording whose yaw is off by five degrees look like any others. This crate asks the sensors about
+//! each other, and says of each what speaks for or against it, and what would put it right:
 //!
-//! - [`doppler`]: detections of what stands still tell a radar's own velocity. It has to be the one that the vehicle's motion
-//!   gives it: direction (yaw), size (units), sign, and time (clock).
-//! - `overlap`: detections lie where LiDAR points do, and LiDAR points where they lie half a second later, as recorded and
-//!   under changes. What fits clearly better is named.
+//! - [`doppler`]: detections of what stands still tell a radar's own velocity. It has to be the one that the
+//!   vehicle's motion gives it: direction (yaw), size (units), sign, and time (clock).
+//! - `overlap`: detections lie where LiDAR points do, and LiDAR points where they lie half a second later, as
+//!   recorded and under changes. What fits clearly better is named.
 //! - `ground`: the plane that the LiDAR sees has to be the vehicle's z = 0.
 //! - `bounds`: what no sensor gives and no vehicle does.
 //!
-//! Pure, like the method: no files, no printing. Everything follows from the recording alone, so the same recording has the
-//! same answers.
+//! Pure, like the method: no files, no printing. Everything follows from the recording alone, so the same recording
+//! has the same answers.
 
 mod bounds;
 mod change;
@@ -19,6 +19,7 @@ pub mod doppler;
 mod ground;
 mod judge;
 mod overlap;
+mod plan_field;
 mod remedy;
 mod sample;
 mod statistics;

@@ -1,7 +1,7 @@
 //! Which scans are looked at, and what is kept of them: enough to judge, far less than labelling reads.
 
 use crate::ground::{self, GroundFit};
-use crate::overlap::field::PlanField;
+use crate::plan_field::PlanField;
 use ralf::sensors::Source;
 use ralf::sensors::{Elevation, Radar};
 use ralf::sensors::{LidarScan, RadarScan, is_return};

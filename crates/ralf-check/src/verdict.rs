@@ -92,8 +92,8 @@ impl SequenceCheck {
 pub struct RadarFigures {
     /// Its name.
     pub name: String,
-    /// Scans: seconds after the first, and the radar's own velocity (x, y; m/s, its frame) as its range rates have it, and as
-    /// the vehicle's motion has it.
+    /// Scans: seconds after the first, and the radar's own velocity (x, y; m/s, its frame) as its range rates have it,
+    /// and as the vehicle's motion has it.
     pub velocities: Vec<[f64; 5]>,
     /// Share of detections beside a LiDAR point, by added yaw, degrees.
     pub by_yaw: Vec<[f64; 2]>,

@@ -1,15 +1,15 @@
-//! What can be typed.
+//! What can be typed, and what then runs.
 
+#[cfg(feature = "depth")]
+use crate::commands::depth;
+#[cfg(feature = "review")]
+use crate::commands::review;
 use crate::commands::{
-    ablate, check, convert, demo, depth, evaluate, export, inspect, label, plot, report, review, simulate,
-    tune,
+    ablate, check, convert, demo, evaluate, export, inspect, label, plot, report, simulate, tune,
 };
-use anyhow::Context;
-use clap::{Args, Parser, Subcommand};
-use ralf_data::Recording;
-use ralf_data::read::ros::Topics;
-use ralf_data::result::{Change, LabelledRun};
-use std::path::{Path, PathBuf};
+use crate::outcome::Outcome;
+use crate::text::print;
+use clap::{CommandFactory, Parser, Subcommand};
 
 /// Trustworthy labels for radar data: which detections are real, and which are artifacts?
 #[derive(Debug, Parser)]
@@ -34,11 +34,11 @@ Exit status: 0 done; 1 failed; 2 wrong usage; 3 done, but some scans are left ou
 )]
 pub(crate) struct Cli {
     #[command(subcommand)]
-    pub(crate) command: Command,
+    command: Command,
 }
 
 #[derive(Debug, Subcommand)]
-pub(crate) enum Command {
+enum Command {
     /// The method in one command: simulate, label, evaluate, write a report
     Demo(demo::DemoArgs),
     /// Sensors, rates, gaps, offsets between sensors, what is missing
@@ -47,6 +47,7 @@ pub(crate) enum Command {
     Check(check::CheckArgs),
     /// Label every radar detection of a recording
     Label(label::LabelArgs),
+    #[cfg(feature = "depth")]
     /// Compute the depth of every camera image once for all, or check it against the LiDAR
     Depth(depth::DepthArgs),
     /// Compare labels with corrected ones, or tell what they say by themselves
@@ -59,6 +60,7 @@ pub(crate) enum Command {
     Plot(plot::PlotArgs),
     /// Write one page about a labelled recording: figures, curves, pictures
     Report(report::ReportArgs),
+    #[cfg(feature = "review")]
     /// Correct labels by hand, on a page in the browser
     Review(review::ReviewArgs),
     /// Write labels in the formats of other tools
@@ -75,105 +77,31 @@ pub(crate) enum Command {
     },
 }
 
-/// The recording that a command works on.
-#[derive(Debug, Args)]
-pub(crate) struct DatasetArgs {
-    /// The recording: a folder, or a ROS bag or MCAP file; its format is recognised by what it holds
-    #[arg(value_name = "DATASET")]
-    pub(crate) dataset: PathBuf,
-    /// Take the recording for this format
-    #[arg(long, value_name = "FORMAT", value_parser = clap::builder::PossibleValuesParser::new(ralf_data::formats()))]
-    pub(crate) format: Option<String>,
-    /// Only this sequence; may be given several times
-    #[arg(long = "sequence", value_name = "NAME")]
-    pub(crate) sequences: Vec<String>,
-    /// Which ROS topic is which sensor: the table `topics` of this settings file (TOML)
-    #[arg(long, value_name = "FILE")]
-    pub(crate) topics: Option<PathBuf>,
-}
-
-impl DatasetArgs {
-    /// Opens the recording, and says what its reader warns of.
-    pub(crate) fn open(&self) -> anyhow::Result<Recording> {
-        self.open_with(&self.topics_or(&Topics::new())?)
-    }
-
-    /// The same with the topics that `ralf label` used. It has to be what was labelled.
-    pub(crate) fn open_labelled(&self, out: &Path, changed: &ChangedArgs) -> anyhow::Result<Recording> {
-        std::fs::metadata(&self.dataset).with_context(|| self.dataset.display().to_string())?;
-        let run = LabelledRun::open(out)?;
-        let recording =
-            self.open_with(&self.topics_or(&run.settings().topics)?)?.corrected(run.settings())?;
-        changed.check(&run, &recording)?;
-        Ok(recording)
-    }
-
-    /// The topics of `--topics`, or else these.
-    pub(crate) fn topics_or(&self, topics: &Topics) -> anyhow::Result<Topics> {
-        self.topics
-            .as_deref()
-            .map_or_else(|| Ok(topics.clone()), |file| Ok(crate::settings::read(file)?.topics))
-    }
-
-    /// The same with these topics.
-    pub(crate) fn open_with(&self, topics: &Topics) -> anyhow::Result<Recording> {
-        let recording = ralf_data::open_with(&self.dataset, self.format.as_deref(), topics)?;
-        let recording =
-            if self.sequences.is_empty() { recording } else { recording.select(&self.sequences)? };
-        for reader in &recording.sequences {
-            let name = &reader.sequence().name;
-            reader
-                .warnings()
-                .iter()
-                .for_each(|warning| crate::progress::say(&format!("warning: {name}: {warning}")));
+impl Cli {
+    /// Runs what was typed.
+    pub(crate) fn run(self) -> anyhow::Result<Outcome> {
+        match self.command {
+            Command::Demo(arguments) => demo::run(&arguments),
+            Command::Inspect(arguments) => inspect::run(&arguments),
+            Command::Check(arguments) => check::run(&arguments),
+            Command::Label(arguments) => label::run(&arguments),
+            #[cfg(feature = "depth")]
+            Command::Depth(arguments) => depth::run(&arguments),
+            Command::Evaluate(arguments) => evaluate::run(&arguments),
+            Command::Tune(arguments) => tune::run(&arguments),
+            Command::Ablate(arguments) => ablate::run(&arguments),
+            Command::Plot(arguments) => plot::run(&arguments),
+            Command::Report(arguments) => report::run(&arguments),
+            #[cfg(feature = "review")]
+            Command::Review(arguments) => review::run(&arguments),
+            Command::Export(arguments) => export::run(&arguments),
+            Command::Convert(arguments) => convert::run(&arguments),
+            Command::Simulate(arguments) => simulate::run(&arguments),
+            Command::Completions { shell } => {
+                let mut script = Vec::new();
+                clap_complete::generate(shell, &mut Self::command(), "ralf", &mut script);
+                print(&String::from_utf8_lossy(&script)).map(|()| Outcome::Done)
+            }
         }
-        Ok(recording)
     }
-}
-
-/// What to do where labels belong to another recording.
-#[derive(Debug, Clone, Default, Args)]
-pub(crate) struct ChangedArgs {
-    /// Go on though files of the recording are not those that were labelled; they are named
-    #[arg(long)]
-    pub(crate) changed_recording: bool,
-}
-
-impl ChangedArgs {
-    /// Compares a recording with what was labelled. What differs is refused, or named where it is to be used all the same.
-    pub(crate) fn check(&self, run: &LabelledRun, recording: &Recording) -> anyhow::Result<()> {
-        let changes = run.changes(recording)?;
-        let texts: Vec<String> = changes
-            .iter()
-            .map(|changed| {
-                let found = match changed.change {
-                    Change::Content => "another content",
-                    Change::Missing => "no such file",
-                    Change::New => "a file that wasn't there",
-                };
-                format!("{}: expected what was labelled, found {found}", changed.file.display())
-            })
-            .collect();
-        if self.changed_recording {
-            texts.iter().for_each(|text| crate::progress::say(&format!("warning: {text}")));
-            return Ok(());
-        }
-        let Some(first) = texts.first() else { return Ok(()) };
-        let more = texts.len() - 1;
-        let more = if more > 0 { format!(", and so are {more} more files") } else { String::new() };
-        anyhow::bail!("{first}{more}: label again, or go on with --changed-recording")
-    }
-}
-
-/// The only sequence of a recording.
-pub(crate) fn the_only(recording: &Recording) -> anyhow::Result<&dyn ralf_data::SequenceReader> {
-    if let [reader] = recording.sequences.as_slice() {
-        return Ok(reader.as_ref());
-    }
-    let names: Vec<_> = recording.sequences.iter().map(|reader| reader.sequence().name.as_str()).collect();
-    anyhow::bail!(
-        "expected one sequence, found {}: choose with --sequence ({})",
-        names.len(),
-        names.join(", ")
-    )
 }

@@ -6,8 +6,9 @@ use anyhow::bail;
 use ralf_data::{Corrections, GroundTruth, Recording};
 use std::path::Path;
 
-/// The dataset's truth with the corrections of an output folder above it, which is said. Where they were asked for there must
-/// be some. Corrections of scans that hold something else now are named and left out, where the recording can be read.
+/// The dataset's truth with the corrections of an output folder above it, which is said. Where they were asked for
+/// there must be some. Corrections of scans that hold something else now are named and left out, where the recording
+/// can be read.
 pub(crate) fn merged_truth(
     dataset: &Path,
     recording: Option<&Recording>,

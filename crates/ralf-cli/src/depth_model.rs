@@ -1,16 +1,16 @@
 //! A depth network from the command line, and running it over a recording's images.
 
-use crate::progress::{STEPS, bar, say};
+use crate::progress::{Progress, say};
 use anyhow::Context;
 use clap::Args;
-use ralf::config::nanoseconds;
+use ralf::config::{Config, nanoseconds};
 use ralf::sensors::Sequence;
 use ralf::space::sync;
 use ralf_data::depth::{DepthStore, compute_depth};
 use ralf_data::{Recording, SequenceReader};
 use ralf_depth::{DepthEstimator, OnnxModel};
 use std::collections::BTreeSet;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Which network, and what runs it.
 #[derive(Debug, Args)]
@@ -55,7 +55,7 @@ pub(crate) fn all_images(sequence: &Sequence) -> Images {
 }
 
 /// The images that are nearest to some radar scan, within a tolerance in ms: those that labelling asks for.
-pub(crate) fn images_of_scans(sequence: &Sequence, tolerance_ms: f64) -> Images {
+fn images_of_scans(sequence: &Sequence, tolerance_ms: f64) -> Images {
     let tolerance = nanoseconds(tolerance_ms);
     let cameras = sequence.times.cameras.iter().enumerate();
     let of_camera = |(camera, times): (usize, &Vec<i64>)| {
@@ -65,6 +65,22 @@ pub(crate) fn images_of_scans(sequence: &Sequence, tolerance_ms: f64) -> Images 
         images.into_iter().map(move |image| (camera, image)).collect::<Vec<_>>()
     };
     cameras.flat_map(of_camera).collect()
+}
+
+/// The recording with the network's depth, computed now as far as labelling needs it and stored in `OUT/depth`.
+pub(crate) fn depth_for_labelling(
+    recording: Recording,
+    model: &OnnxModel,
+    out: &Path,
+    config: &Config,
+    jobs: usize,
+) -> anyhow::Result<Recording> {
+    let network = model.fingerprint();
+    let folder = out.join("depth").join(&network[..network.len().min(12)]);
+    let store = DepthStore::create(&folder, model.output(), network)?;
+    let tolerance = config.sync.camera_tolerance_ms;
+    fill(&store, &recording, model, |sequence| images_of_scans(sequence, tolerance), jobs)?;
+    Ok(store.attach(recording))
 }
 
 /// Computes what a store lacks of a recording's depth. Images that can't be used are named, and have no depth.
@@ -90,10 +106,10 @@ fn fill_sequence(
     jobs: usize,
 ) -> anyhow::Result<usize> {
     let name = &reader.sequence().name;
-    let bar = bar(images.len() as u64, STEPS, format!("depth of {name}"));
+    let progress = Progress::of_steps(images.len() as u64, format!("depth of {name}"));
     let estimate = |view: &_, focal| model.estimate(view, focal).map_err(|error| error.to_string());
-    let without = compute_depth(reader, images, store, &estimate, jobs, &|| bar.inc(1));
-    bar.finish_and_clear();
+    let without = compute_depth(reader, images, store, &estimate, jobs, &|| progress.advance(1));
+    drop(progress);
     let without = without.with_context(|| format!("depth of {name}"))?;
     without.iter().for_each(|error| say(&format!("no depth: {name}: {error}")));
     Ok(without.len())

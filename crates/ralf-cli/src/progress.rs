@@ -1,4 +1,4 @@
-//! How far a run has got: a bar with rate and remaining time where standard error is a terminal.
+//! How far the work has got: a bar with rate and remaining time where standard error is a terminal.
 
 use indicatif::{ProgressBar, ProgressStyle};
 use ralf_data::run::{Observer, Stage};
@@ -11,68 +11,116 @@ pub(crate) fn say(message: &str) {
     let _ = writeln!(std::io::stderr(), "{message}");
 }
 
-/// Shows a run's stages as bars.
+const STEPS: &str = "{prefix} [{bar:30}] {human_pos}/{human_len}  {per_sec}  {eta} left  {msg}";
+const BYTES: &str = "{prefix} [{bar:30}] {bytes}/{total_bytes}  {binary_bytes_per_sec}  {eta} left";
+
+/// One piece of work on the screen, until it is dropped.
+pub(crate) struct Progress {
+    bar: ProgressBar,
+}
+
+impl Progress {
+    /// A bar of so many steps.
+    pub(crate) fn of_steps(steps: u64, name: impl Into<String>) -> Self {
+        Self::with_template(steps, STEPS, name.into())
+    }
+
+    /// Work whose length nobody knows.
+    pub(crate) fn spinner() -> Self {
+        Self { bar: ProgressBar::new_spinner() }
+    }
+
+    /// Nothing is shown.
+    pub(crate) fn hidden() -> Self {
+        Self { bar: ProgressBar::hidden() }
+    }
+
+    fn with_template(steps: u64, template: &str, name: String) -> Self {
+        let style = ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar());
+        Self { bar: ProgressBar::new(steps).with_style(style.progress_chars("=> ")).with_prefix(name) }
+    }
+
+    /// So many steps are done.
+    pub(crate) fn reached(&self, steps: u64) {
+        self.bar.set_position(steps);
+    }
+
+    /// So many more steps are done.
+    pub(crate) fn advance(&self, steps: u64) {
+        self.bar.inc(steps);
+    }
+
+    /// What the work is at.
+    pub(crate) fn tell(&self, message: String) {
+        self.bar.set_message(message);
+        self.bar.tick();
+    }
+
+    /// What is worked on.
+    pub(crate) fn name(&self, name: String) {
+        self.bar.set_prefix(name);
+    }
+
+    fn seconds(&self) -> f64 {
+        self.bar.elapsed().as_secs_f64()
+    }
+}
+
+impl Drop for Progress {
+    fn drop(&mut self) {
+        self.bar.finish_and_clear();
+    }
+}
+
+/// Shows a run's stages, one after the other.
 #[derive(Default)]
-pub(crate) struct Bars {
+pub(crate) struct Stages {
     quiet: bool,
-    current: Mutex<Option<ProgressBar>>,
+    current: Mutex<Option<Progress>>,
     detections: AtomicU64,
 }
 
-impl Bars {
+impl Stages {
     /// Shows nothing where `quiet`.
     pub(crate) fn new(quiet: bool) -> Self {
         Self { quiet, ..Self::default() }
     }
 
-    fn with_current(&self, act: impl FnOnce(&ProgressBar)) {
-        if let Ok(current) = self.current.lock()
-            && let Some(bar) = current.as_ref()
-        {
-            act(bar);
+    fn show(&self, progress: Option<Progress>) {
+        if let Ok(mut current) = self.current.lock() {
+            *current = progress;
         }
     }
 }
 
-/// A bar of so many steps; hidden where standard error is no terminal.
-pub(crate) fn bar(steps: u64, template: &str, name: String) -> ProgressBar {
-    let style = ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar());
-    ProgressBar::new(steps).with_style(style.progress_chars("=> ")).with_prefix(name)
-}
-
-const BYTES: &str = "{prefix} [{bar:30}] {bytes}/{total_bytes}  {binary_bytes_per_sec}  {eta} left";
-/// With a message at its end.
-pub(crate) const STEPS: &str = "{prefix} [{bar:30}] {human_pos}/{human_len}  {per_sec}  {eta} left  {msg}";
-
-impl Observer for Bars {
+impl Observer for Stages {
     fn begin(&self, stage: Stage, steps: u64) {
         if self.quiet {
             return;
         }
-        let bar = match stage {
-            Stage::Inputs => bar(steps, BYTES, "hashing inputs".into()),
-            Stage::Matching(sequence) => bar(steps, STEPS, format!("matching {sequence}")),
-            Stage::Labelling(sequence) => bar(steps, STEPS, format!("labelling {sequence}")),
-            Stage::Writing(sequence) => bar(steps, STEPS, format!("writing {sequence}")),
-        };
         self.detections.store(0, Ordering::Relaxed);
-        if let Ok(mut current) = self.current.lock() {
-            *current = Some(bar);
-        }
+        self.show(Some(match stage {
+            Stage::Inputs => Progress::with_template(steps, BYTES, "hashing inputs".into()),
+            Stage::Matching(sequence) => Progress::of_steps(steps, format!("matching {sequence}")),
+            Stage::Labelling(sequence) => Progress::of_steps(steps, format!("labelling {sequence}")),
+            Stage::Writing(sequence) => Progress::of_steps(steps, format!("writing {sequence}")),
+        }));
     }
 
     fn advance(&self, steps: u64, detections: u64) {
         let detections = self.detections.fetch_add(detections, Ordering::Relaxed) + detections;
-        self.with_current(|bar| {
-            bar.inc(steps);
-            let seconds = bar.elapsed().as_secs_f64();
+        if let Ok(current) = self.current.lock()
+            && let Some(progress) = current.as_ref()
+        {
+            progress.advance(steps);
+            let seconds = progress.seconds();
             if detections > 0 && seconds > 0.0 {
-                bar.set_message(format!("{:.0}k detections/s", detections as f64 / seconds / 1e3));
+                progress.tell(format!("{:.0}k detections/s", detections as f64 / seconds / 1e3));
             }
-        });
+        }
     }
 
     fn end(&self) {
-        self.with_current(ProgressBar::finish_and_clear);
+        self.show(None);
     }
 }

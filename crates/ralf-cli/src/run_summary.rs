@@ -33,8 +33,8 @@ fn unused_cameras(record: &RunRecord) -> String {
     let shown = unused.iter().take(SHOWN_CAMERAS).cloned().collect::<Vec<_>>().join(", ");
     let more = if unused.len() > SHOWN_CAMERAS { ", ..." } else { "" };
     format!(
-        "\n{cameras} camera(s) not used, for no image near a radar scan has depth (--depth-model or `ralf depth` makes it): \
-         {shown}{more}\n"
+        "\n{cameras} camera(s) not used, for no image near a radar scan has depth \
+         (--depth-model or `ralf depth` makes it): {shown}{more}\n"
     )
 }
 

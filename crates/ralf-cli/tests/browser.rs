@@ -1,5 +1,6 @@
-//! The review page, by its own tests and in a real browser: there, a recording is simulated and labelled, errors are planted into the labels, and
-//! `crates/ralf-review/web/tests/browser` does what a person would do. Needs Node.js, npm and Chromium.
+//! The review page, by its own tests and in a real browser: there, a recording is simulated and labelled, errors are
+//! planted into the labels, and `crates/ralf-review/web/tests/browser` does what a person would do. Needs Node.js, npm
+//! and Chromium.
 
 #![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout, reason = "these are tests")]
 
@@ -75,7 +76,8 @@ fn runs(program: &str) -> bool {
     Command::new(program).arg("--version").output().is_ok_and(|ran| ran.status.success())
 }
 
-/// The page's sources and tests with their packages, beside the build's outputs. Says why it was skipped where it's `None`.
+/// The page's sources and tests with their packages, beside the build's outputs. Says why it was skipped where it's
+/// `None`.
 fn installed_page() -> Option<&'static Path> {
     static PAGE: OnceLock<Result<PathBuf, String>> = OnceLock::new();
     match PAGE.get_or_init(install) {

@@ -28,7 +28,8 @@ impl Asked<'_> {
     /// What came of the same edit when it was asked for before.
     pub(crate) fn made_before(&self, on: &Connection) -> rusqlite::Result<Option<Made>> {
         let Some(name) = &self.who.edit else { return Ok(None) };
-        on.prepare_cached("SELECT event, stroke, changed FROM edit WHERE id = ? AND kind = ? AND sequence = ? AND author = ?")?
+        let same = "id = ? AND kind = ? AND sequence = ? AND author = ?";
+        on.prepare_cached(&format!("SELECT event, stroke, changed FROM edit WHERE {same}"))?
             .query_row(params![name, self.kind, self.sequence, self.who.author], |row| {
                 Ok(Made { event: row.get(0)?, stroke: row.get(1)?, changed: row.get(2)? })
             })
@@ -53,8 +54,8 @@ impl Asked<'_> {
         self.edit(on, made, scans)
     }
 
-    /// Answers as the first time: with the revisions that the edit led to, so that a later edit of somebody else is still met.
-    /// `scans` are those that were to be edited, with the revisions that the author saw.
+    /// Answers as the first time: with the revisions that the edit led to, so that a later edit of somebody
+    /// else is still met. `scans` are those that were to be edited, with the revisions that the author saw.
     pub(crate) fn answer_again(
         &self,
         on: &Connection,

@@ -62,8 +62,8 @@ pub(crate) fn last_edit(on: &Connection, scan: i64, about: About) -> rusqlite::R
     found.map_or_else(|| on.query_row(nobody, [scan], conflict), Ok)
 }
 
-/// The last stroke that another author set on one of this stroke's detections since it was set or taken back itself. The
-/// author's own later ones are no conflict: they are taken back before it, and set again after it.
+/// The last stroke that another author set on one of this stroke's detections since it was set or taken back
+/// itself. The author's own later ones are no conflict: they are taken back before it, and set again after it.
 pub(crate) fn overtaken(
     on: &Connection,
     stroke: &Placed,

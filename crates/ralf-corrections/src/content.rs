@@ -20,7 +20,8 @@ impl ContentHash {
         &self.0
     }
 
-    /// The hash that is written in hexadecimal digits; `None` where these are others than [`Display`](fmt::Display) writes.
+    /// The hash that is written in hexadecimal digits; `None` where these are others than
+    /// [`Display`](fmt::Display) writes.
     pub fn from_hex(digits: &str) -> Option<Self> {
         let mut bytes = [0; Self::LENGTH];
         if digits.len() != 2 * Self::LENGTH || !digits.is_ascii() {
@@ -55,8 +56,9 @@ pub struct ScanContent {
 }
 
 impl ScanContent {
-    /// Which of several contents, of which something was said, is this one: the one with the same hash. One without a hash is
-    /// taken for any scan of its size, and where this one has none, a single one of its size is taken for it.
+    /// Which of several contents, of which something was said, is this one: the one with the same hash. One
+    /// without a hash is taken for any scan of its size, and where this one has none, a single one of its size
+    /// is taken for it.
     pub fn find_in(&self, said: &[ScanContent]) -> Option<usize> {
         let same = said.iter().position(|other| other == self);
         let of_size = |other: &ScanContent| other.detections == self.detections;

@@ -23,7 +23,10 @@ pub enum StoreError {
         file: PathBuf,
     },
     /// The file that was opened is not the one that lies there now: what is written to it nobody will ever read.
-    #[error("{}: expected the file that was opened, found {found}; nothing is saved any more: put it back, or start again", file.display())]
+    #[error(
+        "{}: expected the file that was opened, found {found}; nothing is saved any more: put it back, or start again",
+        file.display()
+    )]
     Gone {
         /// The store's file, or its journal.
         file: PathBuf,

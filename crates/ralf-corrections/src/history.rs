@@ -79,7 +79,8 @@ fn step(on: &Connection, strokes: &[Placed]) -> rusqlite::Result<Option<Step>> {
     for stroke in strokes {
         changed += on
             .prepare_cached(
-                "SELECT (SELECT count(*) FROM change WHERE stroke = ?1) + (SELECT count(*) FROM mark_change WHERE stroke = ?1)",
+                "SELECT (SELECT count(*) FROM change WHERE stroke = ?1)
+                      + (SELECT count(*) FROM mark_change WHERE stroke = ?1)",
             )?
             .query_row([stroke.id], |row| row.get::<_, u64>(0))?;
     }

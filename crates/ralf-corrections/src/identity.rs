@@ -1,5 +1,5 @@
-//! Whether the file that is open is still the one that lies there. A file that was deleted or replaced takes every edit, and
-//! nobody ever reads it again.
+//! Whether the file that is open is still the one that lies there. A file that was deleted or replaced takes
+//! every edit, and nobody ever reads it again.
 
 use crate::error::StoreError;
 use std::io;

@@ -29,8 +29,8 @@ pub struct Who {
     pub name: String,
     /// The window it works in: its own edits are no news to it.
     pub tab: Option<String>,
-    /// Names this edit alone. One that was made already is not made again, and answered as the first time: whoever lost the
-    /// answer may ask again.
+    /// Names this edit alone. One that was made already is not made again, and answered as the first time:
+    /// whoever lost the answer may ask again.
     pub edit: Option<String>,
 }
 

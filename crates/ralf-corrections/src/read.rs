@@ -30,7 +30,8 @@ pub(crate) fn find_scan(on: &Connection, version: &ScanVersion) -> rusqlite::Res
     let key = &version.key;
     let mut rows: Vec<ScanRow> = on
         .prepare_cached(
-            "SELECT id, content, detections, revision FROM scan WHERE sequence = ? AND radar = ? AND scan = ? ORDER BY id",
+            "SELECT id, content, detections, revision FROM scan
+             WHERE sequence = ? AND radar = ? AND scan = ? ORDER BY id",
         )?
         .query_map(params![key.sequence, key.radar, key.scan], |row| {
             Ok(ScanRow { id: row.get(0)?, content: content(row, 1, 2)?, revision: row.get(3)? })

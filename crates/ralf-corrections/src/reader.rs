@@ -59,8 +59,8 @@ impl Reader {
         self.read(|on| history(on, sequence, author))
     }
 
-    /// The scans of a sequence that have corrections or a mark, by radar and number. One of which something was said while it
-    /// held something else is there once per content.
+    /// The scans of a sequence that have corrections or a mark, by radar and number. One of which something was
+    /// said while it held something else is there once per content.
     pub fn summaries(&self, sequence: &str) -> Result<Vec<ScanSummary>, StoreError> {
         self.read(|on| summaries(on, sequence))
     }

@@ -12,8 +12,8 @@ use crate::write::{NewStroke, add_stroke, log, log_scan, scan_id, set_mark};
 use rusqlite::{Connection, Transaction, params};
 
 impl Store {
-    /// Sets or takes away a scan's mark, which is a step that can be undone. A mark that is there keeps the labels that were
-    /// accepted first, for these are what the author saw.
+    /// Sets or takes away a scan's mark, which is a step that can be undone. A mark that is there keeps the
+    /// labels that were accepted first, for these are what the author saw.
     ///
     /// # Errors
     /// More detections than can be counted; a file that was deleted or replaced; see [`StoreError`].

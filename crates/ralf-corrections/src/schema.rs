@@ -10,7 +10,8 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU32, Ordering};
 use std::time::Duration;
 
-/// Opens a store for writing; makes it where there is no file yet. Another program's file, and a damaged one, is left as it is.
+/// Opens a store for writing; makes it where there is no file yet. Another program's file, and a damaged one,
+/// is left as it is.
 pub(crate) fn open(file: &Path) -> Result<Connection, StoreError> {
     if !file.try_exists().map_err(StoreError::io(file))? {
         make(file)?;
@@ -35,7 +36,8 @@ fn prepare(connection: &Connection) -> rusqlite::Result<()> {
     connection.pragma_update(None, "synchronous", "FULL")
 }
 
-/// Makes a store beside its place and moves it there, so that it is never there by half. Somebody else's that came first stays.
+/// Makes a store beside its place and moves it there, so that it is never there by half. Somebody else's that
+/// came first stays.
 fn make(file: &Path) -> Result<(), StoreError> {
     static MADE: AtomicU32 = AtomicU32::new(0);
     let number = MADE.fetch_add(1, Ordering::Relaxed);

@@ -59,8 +59,8 @@ struct MarkChange {
 }
 
 impl Store {
-    /// Takes back the author's last step in a sequence, and nobody else's. Refused as a conflict where another author's later
-    /// stroke is on one of its detections, or another mark in the place of its mark.
+    /// Takes back the author's last step in a sequence, and nobody else's. Refused as a conflict where another
+    /// author's later stroke is on one of its detections, or another mark in the place of its mark.
     ///
     /// # Errors
     /// A file that was deleted or replaced; see [`StoreError`].
@@ -68,8 +68,8 @@ impl Store {
         self.write(|on| step(on, Way::Undo, sequence, who))
     }
 
-    /// Sets the step again that the author took back last. Refused as a conflict where one of its detections was changed
-    /// since.
+    /// Sets the step again that the author took back last. Refused as a conflict where one of its detections
+    /// was changed since.
     ///
     /// # Errors
     /// A file that was deleted or replaced; see [`StoreError`].

@@ -23,10 +23,12 @@ impl Deref for Store {
 }
 
 impl Store {
-    /// Opens a store; makes it where there is no such file yet. A store of the first version becomes one of this version.
+    /// Opens a store; makes it where there is no such file yet. A store of the first version becomes one of
+    /// this version.
     ///
     /// # Errors
-    /// A file that is no store, is empty or damaged, or is of another version; one that can't be written, or that is locked.
+    /// A file that is no store, is empty or damaged, or is of another version; one that can't be written, or
+    /// that is locked.
     pub fn open(file: &Path) -> Result<Self, StoreError> {
         let connection = schema::open(file)?;
         // The journal lies there from the first reading on.
@@ -45,7 +47,8 @@ impl Store {
         reader.check_there().map(|()| reader)
     }
 
-    /// Writes the journal back, so that the file alone holds everything. Where others read at the moment, as far as they let.
+    /// Writes the journal back, so that the file alone holds everything. Where others read at the moment, as
+    /// far as they let.
     ///
     /// # Errors
     /// A file that can't be written any more.

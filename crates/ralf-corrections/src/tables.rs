@@ -12,11 +12,13 @@ pub(crate) const FIRST_VERSION: i32 = 1;
 /// - `store`: a name that no other store has.
 /// - `scan`: a scan and what it held (a hash; empty: nobody knows). The same scan with another content has another row.
 /// - `event`: all that was ever done, in order; its number is what other windows wait for.
-/// - `stroke`: a step, or a part of one; `applied` and `undone` name the event that did so last; both null: undone, and then
-///   overtaken by a new stroke.
-/// - `change`: what a stroke did. The applied ones of a detection follow each other: the `after` of one is the next one's `before`.
+/// - `stroke`: a step, or a part of one; `applied` and `undone` name the event that did so last; both null:
+///   undone, and then overtaken by a new stroke.
+/// - `change`: what a stroke did. The applied ones of a detection follow each other: the `after` of one is the
+///   next one's `before`.
 /// - `correction`: the `after` of each detection's last applied change, unless it is null.
-/// - `mark`: marks of review with the labels that were accepted; `mark_change`: what a step did to them; `review`: those that hold.
+/// - `mark`: marks of review with the labels that were accepted; `mark_change`: what a step did to them;
+///   `review`: those that hold.
 /// - `edit`: what came of edits with a name, so that none is made twice.
 const TABLES: &str = "
 CREATE TABLE store (id TEXT NOT NULL) STRICT;

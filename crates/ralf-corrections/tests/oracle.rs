@@ -1,7 +1,7 @@
 //! The store against a simple model in memory, on random edits of two people.
 //!
-//! The model keeps the strokes that hold in a list, in the order in which they were set, and finds the corrections by going
-//! through it from the start. The store never does so.
+//! The model keeps the strokes that hold in a list, in the order in which they were set, and finds the
+//! corrections by going through it from the start. The store never does so.
 #![expect(clippy::unwrap_used, reason = "helpers of tests fail as tests do")]
 
 use proptest::prelude::*;
@@ -219,7 +219,9 @@ fn op() -> impl Strategy<Value = Op> {
     let group = prop_oneof![3 => Just(None), 1 => (0..2u8).prop_map(Some)];
     let stroke = (points, label, any::<bool>(), group, proptest::bool::weighted(0.1));
     prop_oneof![
-        5 => stroke.prop_map(|(points, label, protect, group, stale)| Op::Stroke { points, label, protect, group, stale }),
+        5 => stroke.prop_map(|(points, label, protect, group, stale)| {
+            Op::Stroke { points, label, protect, group, stale }
+        }),
         4 => Just(Op::Undo),
         3 => Just(Op::Redo),
         1 => Just(Op::Reopen),

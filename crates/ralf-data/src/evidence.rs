@@ -25,9 +25,9 @@ pub struct SequenceEvidence {
     pub left_out: Vec<NotLabelled>,
 }
 
-/// Matches all scans with truth of all sequences of a recording, in its order, for every `K` and `n_b` around the settings' own.
-/// The result doesn't depend on the number of jobs. A sequence without truth is refused, and so is a truth of another size than
-/// its scan.
+/// Matches all scans with truth of all sequences of a recording, in its order, for every `K` and `n_b` around the
+/// settings' own. The result doesn't depend on the number of jobs. A sequence without truth is refused, and so is a
+/// truth of another size than its scan.
 pub fn gather_evidence(
     recording: &Recording,
     truth: &GroundTruth,
@@ -122,7 +122,7 @@ impl Task<'_> {
         };
         let truth: Vec<Option<bool>> =
             self.truth.labels(id)?.iter().map(|label| truth_of(label.id)).collect();
-        let detections = frame.detections.located.len();
+        let detections = frame.scan.len();
         if truth.len() != detections {
             let expected = format!("{detections} as in the scan");
             let file = self.truth.file(id);

@@ -1,11 +1,11 @@
 //! Recordings in and labels out: readers and writers of the formats that RALF knows.
 //!
-//! [`open`] recognises what a folder holds and gives a [`Recording`]: its sequences, each a [`SequenceReader`], which is a
-//! [`ralf::sensors::Source`] that also knows its files. Opening checks all metadata; measurements are read when they are
-//! asked for. [`write_sequence`] writes any of them in the project's own layout, without loss.
+//! [`open`] recognises what a folder holds and gives a [`Recording`]: its sequences, each a [`SequenceReader`], which
+//! is a [`ralf::sensors::Source`] that also knows its files. Opening checks all metadata; measurements are read when
+//! they are asked for. [`write_sequence`] writes any of them in the project's own layout, without loss.
 //!
-//! Whatever is wrong with a file is a [`DataError`] that names the file, the place in it, what was expected and what was
-//! found. Keys of no meaning and files that belong to nothing are [warnings](SequenceReader::warnings).
+//! Whatever is wrong with a file is a [`DataError`] that names the file, the place in it, what was expected and what
+//! was found. Keys of no meaning and files that belong to nothing are [warnings](SequenceReader::warnings).
 //!
 //! ```no_run
 //! # fn main() -> Result<(), Box<dyn std::error::Error + Send + Sync>> {
@@ -42,4 +42,4 @@ pub use ralf_corrections::ContentHash;
 pub use read::{LayoutSequence, Recording, SequenceReader, TruthLabels, formats, open, open_with};
 pub use settings::Settings;
 pub use truth::{Causes, Corrections, GroundTruth, ScanId, scan_content};
-pub use write::write_sequence;
+pub use write::{write_sequence, write_simulated};

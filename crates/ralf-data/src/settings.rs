@@ -1,7 +1,8 @@
 //! A settings file: the method's settings, and which topic of a ROS recording is which sensor.
 
+use crate::error::DataError;
 use crate::read::ros::{Topics, check_topics};
-use crate::read::{MotionSettings, SensorCorrection};
+use crate::read::{MotionSettings, Recording, SensorCorrection, corrected};
 use ralf::config::{Config, ConfigError, read_toml};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -49,6 +50,13 @@ impl Settings {
         let OfReaders { topics, corrections, motion } = read_toml(text, assignments, &[])?;
         check_topics(&topics)?;
         Ok(Self { method, topics, corrections, motion })
+    }
+
+    /// A recording as the tables `corrections` and `motion` have it. Where it knows no motion, that is taken from the
+    /// radars' range rates. Refused: names that no sensor has, files that hold no poses, and sequences whose motion
+    /// nobody knows.
+    pub fn correct(&self, recording: Recording) -> Result<Recording, DataError> {
+        corrected(recording, &self.corrections, &self.motion)
     }
 
     /// All settings as TOML.

@@ -1,5 +1,5 @@
-//! Five real files hold the first seconds of a scene of nuScenes: they label to the numbers of the tables that they were
-//! made from.
+//! Five real files hold the first seconds of a scene of nuScenes: they label to the numbers of the tables that they
+//! were made from.
 
 #![allow(
     clippy::unwrap_used,

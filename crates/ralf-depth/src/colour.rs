@@ -12,7 +12,7 @@ pub(crate) struct Colour(pub(crate) [Plane; 3]);
 
 impl Colour {
     /// The pixels of a view.
-    pub(crate) fn of(view: &CameraImage) -> Result<Self, DepthError> {
+    pub(crate) fn from_view(view: &CameraImage) -> Result<Self, DepthError> {
         let CameraImage { width, height, rgb } = view;
         if rgb.is_empty() || Some(rgb.len()) != width.checked_mul(*height) {
             let found = format!("{} pixels in {width} x {height}", rgb.len());
@@ -65,7 +65,8 @@ mod tests {
     #[test]
     fn a_view_without_its_pixels_is_refused() {
         for (width, height, pixels) in [(0, 0, 0), (2, 2, 3), (usize::MAX, 2, 4), (0, 5, 0)] {
-            let error = Colour::of(&CameraImage { width, height, rgb: vec![[0; 3]; pixels] }).unwrap_err();
+            let error =
+                Colour::from_view(&CameraImage { width, height, rgb: vec![[0; 3]; pixels] }).unwrap_err();
             assert!(error.to_string().contains(&format!("{pixels} pixels in {width} x {height}")), "{error}");
         }
     }
@@ -73,7 +74,7 @@ mod tests {
     #[test]
     fn padding_is_even_and_of_the_given_colour() {
         let view = CameraImage { width: 2, height: 1, rgb: vec![[1, 2, 3], [4, 5, 6]] };
-        let (padded, place) = Colour::of(&view).unwrap().padded(3, 4, [7.0, 8.0, 9.0]);
+        let (padded, place) = Colour::from_view(&view).unwrap().padded(3, 4, [7.0, 8.0, 9.0]);
         assert_eq!((padded.size(), place), ([3, 4], [0, 1]));
         assert_eq!(padded.0[1].values, [8.0, 8.0, 8.0, 2.0, 5.0, 8.0, 8.0, 8.0, 8.0, 8.0, 8.0, 8.0]);
     }

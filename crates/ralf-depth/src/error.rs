@@ -16,8 +16,9 @@ pub enum DepthError {
     },
     /// A network without a card.
     #[error(
-        "{}: not found: a network needs a card that says how it is fed. Of a known network the line `preset = \"NAME\"` \
-         is enough, NAME one of {}; of another one it has the keys {}", card.display(), presets.join(", "), keys.join(", ")
+        "{}: not found: a network needs a card that says how it is fed. Of a known network the line \
+         `preset = \"NAME\"` is enough, NAME one of {}; of another one it has the keys {}",
+        card.display(), presets.join(", "), keys.join(", ")
     )]
     NoCard {
         /// The card that is missing.

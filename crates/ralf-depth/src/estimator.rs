@@ -9,8 +9,8 @@ use ralf::sensors::{CameraImage, DepthImage, DepthOutput};
 pub trait DepthEstimator: Send + Sync {
     /// The depth of each pixel of a straight view with a focal length of `focal` px.
     ///
-    /// Networks that were trained for one focal length ([`crate::Card::canonical_focal`]) turn their depth metric with it; others
-    /// don't look at it.
+    /// Networks that were trained for one focal length ([`crate::Card::canonical_focal`]) turn their depth metric with
+    /// it; others don't look at it.
     fn estimate(&self, view: &CameraImage, focal: f64) -> Result<DepthImage, DepthError>;
 
     /// What the values mean.

@@ -1,14 +1,14 @@
 //! Monocular depth networks: one view of a camera in, one depth image of the same size out (docs/method.md, section 5).
 //!
-//! An [`OnnxModel`] is an `.onnx` file with a [`Card`] beside it: a small TOML file that says how the network is fed and
-//! what comes out. [`Card`] lists its keys; [`presets`] are cards of public networks, to build on. Nothing is guessed: a
-//! card that doesn't go with its network is refused when the two are loaded.
+//! An [`OnnxModel`] is an `.onnx` file with a [`Card`] beside it: a small TOML file that says how the network is fed
+//! and what comes out. [`Card`] lists its keys; [`presets`] are cards of public networks, to build on. Nothing is
+//! guessed: a card that doesn't go with its network is refused when the two are loaded.
 //!
 //! An image takes this way: view -> [`Fit`] -> resize (antialiased) -> normalise -> network, and once more mirrored if
 //! `flip` is set -> resize back -> [`DepthImage`](ralf::sensors::DepthImage).
 //!
-//! A single estimate uses one thread and gives the same bytes however many run side by side, so callers parallelise over
-//! images.
+//! A single estimate uses one thread and gives the same bytes however many run side by side, so callers parallelise
+//! over images.
 //!
 //! ```no_run
 //! use ralf_depth::{DepthEstimator, OnnxModel};
@@ -41,6 +41,7 @@ mod squares;
 mod testing;
 #[cfg(test)]
 mod tests;
+mod wire;
 
 pub use card::{Card, Channels, Fit, InputSize, Side, presets};
 pub use error::DepthError;

@@ -78,7 +78,7 @@ impl DepthEstimator for OnnxModel {
     fn estimate(&self, view: &CameraImage, focal: f64) -> Result<DepthImage, DepthError> {
         let Self { file, card, network, output, .. } = self;
         let runner = Runner { file, card, network: network.as_ref(), output: *output };
-        let mut depth = fit::depth(&runner, &Colour::of(view)?)?;
+        let mut depth = fit::depth(&runner, &Colour::from_view(view)?)?;
         if let Some(canonical) = card.canonical_focal {
             if !(focal.is_finite() && focal > 0.0) {
                 let expected = "a focal length above 0 px".to_owned();

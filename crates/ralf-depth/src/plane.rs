@@ -29,8 +29,8 @@ impl Plane {
         Self { width, height, values: kept.flat_map(|row| &row[columns.clone()]).copied().collect() }
     }
 
-    /// Bilinear where it grows; where it shrinks the triangle widens to the pixels that fall into one (as in Pillow), so
-    /// that fine patterns don't alias. Pixel areas, not centres, map onto each other: edges stay at edges.
+    /// Bilinear where it grows; where it shrinks the triangle widens to the pixels that fall into one (as in Pillow),
+    /// so that fine patterns don't alias. Pixel areas, not centres, map onto each other: edges stay at edges.
     pub(crate) fn resized(&self, width: usize, height: usize) -> Self {
         self.resized_across(width).resized_down(height)
     }

@@ -2,6 +2,7 @@
 
 use crate::network::{Network, Port, Tensor};
 use crate::spares::Spares;
+use crate::wire;
 use rten::{DataType, Dimension, Model, NodeId, RunOptions, ThreadPool, Value, ValueType};
 use rten_tensor::prelude::*;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -13,13 +14,14 @@ pub(crate) const NAME: &str = "rten";
 /// A loaded network.
 pub(crate) struct RtenNetwork {
     model: Model,
-    /// Of one thread each: a run always takes the same way through the sums, and waits for no other.
+    /// Pools of one thread each: a run always takes the same way through the sums, and waits for no other.
     pools: Spares<Arc<ThreadPool>>,
 }
 
 impl RtenNetwork {
     /// Loads the bytes of an `.onnx` file; the error says why it can't.
     pub(crate) fn load(bytes: Vec<u8>) -> Result<Self, String> {
+        wire::check(&bytes)?;
         let model = guarded(|| Model::load(bytes).map_err(|error| error.to_string()))?;
         Ok(Self { model, pools: Spares::holding(Vec::new()) })
     }

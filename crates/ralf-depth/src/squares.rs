@@ -11,7 +11,8 @@ pub(crate) fn places(width: usize, height: usize) -> Vec<usize> {
     (0..=steps).map(|step| step * rest / steps.max(1)).collect()
 }
 
-/// What to multiply each square by, that all have the scale of the middle one: medians of the ratios between neighbours.
+/// What to multiply each square by, that all have the scale of the middle one: medians of the ratios between
+/// neighbours.
 ///
 /// Squares come with their first column, from left to right, in the view's resolution.
 pub(crate) fn scales(squares: &[(usize, Plane)]) -> Result<Vec<f32>, DepthError> {

@@ -1,8 +1,8 @@
 //! Opening files that others made: regular files alone, and none larger than its kind can be.
 //!
-//! A recording may hold anything under a name that looks like a measurement: a named pipe that nobody writes to, a device that
-//! never ends, a sparse file of terabytes. Nothing of it may hang a program or take all of its memory, so everything in RALF
-//! that opens a file does so here.
+//! A recording may hold anything under a name that looks like a measurement: a named pipe that nobody writes to, a
+//! device that never ends, a sparse file of terabytes. Nothing of it may hang a program or take all of its memory, so
+//! everything in RALF that opens a file does so here.
 //!
 //! ```
 //! # fn main() -> std::io::Result<()> {

@@ -1,6 +1,6 @@
 //! Runs cases, one after the other or a single one: see the crate's page.
 
-use ralf_fuzz::{Case, make_places, watch};
+use ralf_fuzz::{Case, all_cases, make_places, watch};
 use std::io::{Result, Write, stdout};
 use std::path::Path;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -12,6 +12,7 @@ fn main() -> Result<()> {
     match words[..] {
         ["cases", places, scratch, first] => cases(Path::new(places), Path::new(scratch), number(first)?),
         ["replay", case] => replay(number(case)?),
+        ["corpus", folder] => corpus(Path::new(folder)),
         ["watch", seconds, first] => {
             let program = std::env::current_exe()?;
             let watched = watch(&program, number(first)?, Duration::from_secs(number(seconds)?))?;
@@ -21,7 +22,7 @@ fn main() -> Result<()> {
             let (cases, failures) = (watched.cases, watched.failures.len());
             writeln!(stdout(), "{cases} cases, {failures} failures, the longest took {:?}", watched.longest)
         }
-        _ => writeln!(stdout(), "ralf-fuzz watch SECONDS FIRST | replay CASE"),
+        _ => writeln!(stdout(), "ralf-fuzz watch SECONDS FIRST | replay CASE | corpus FOLDER"),
     }
 }
 
@@ -46,6 +47,20 @@ fn cases(places: &Path, scratch: &Path, first: u64) -> Result<()> {
         }
         writeln!(stdout(), "end {number}")?;
         stdout().flush()?;
+    }
+    Ok(())
+}
+
+/// Writes what the target `files` of the folder `fuzz` begins with: verb, file, and the file's content.
+fn corpus(folder: &Path) -> Result<()> {
+    let made = tempfile::tempdir()?;
+    let places = made.path().join("places");
+    make_places(&places);
+    std::fs::create_dir_all(folder)?;
+    for (verb, file) in all_cases(&places) {
+        let case = Case::chosen(verb, file, &places, &made.path().join("scratch"));
+        let bytes = [vec![verb, file], case.whole()].concat();
+        std::fs::write(folder.join(format!("{verb:03}-{file:03}")), bytes)?;
     }
     Ok(())
 }

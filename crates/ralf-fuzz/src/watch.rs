@@ -67,9 +67,11 @@ pub fn watch(program: &Path, first: u64, time: Duration) -> std::io::Result<Watc
 }
 
 fn death(said: &str) -> String {
-    let last = said.lines().rev().find(|line| !line.trim().is_empty()).unwrap_or("without a word");
-    let kind = if said.contains("memory allocation") { "memory" } else { "death" };
-    format!("{kind}: {last}")
+    if let Some(line) = said.lines().find(|line| line.contains("memory allocation")) {
+        return format!("memory: {line}");
+    }
+    let last = said.lines().rev().find(|line| !line.trim().is_empty());
+    format!("death: {}", last.unwrap_or("without a word"))
 }
 
 fn start(program: &Path, folder: &Path, next: u64) -> std::io::Result<Child> {

@@ -1,5 +1,5 @@
-//! Whatever is wrong with a file, nothing panics, hangs or takes all memory. `RALF_FUZZ_SECONDS` says for how long it is tried
-//! (2 s without it), `RALF_FUZZ_FIRST` from which case on.
+//! Whatever is wrong with a file, nothing panics, hangs or takes all memory. `RALF_FUZZ_SECONDS` says for how long it
+//! is tried (2 s without it), `RALF_FUZZ_FIRST` from which case on.
 
 #![cfg(unix)]
 

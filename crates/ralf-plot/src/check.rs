@@ -1,4 +1,5 @@
-//! What a check of a recording saw of each radar: its own speed beside the vehicle's, and where detections lie on LiDAR points.
+//! What a check of a recording saw of each radar: its own speed beside the vehicle's, and where detections lie on
+//! LiDAR points.
 
 use crate::canvas::Canvas;
 use crate::error::PlotError;
@@ -62,9 +63,10 @@ impl Sheet<'_> {
     fn row(&mut self, row: &CheckRow) {
         let name = Style { size: 18.0, bold: true, ink: TITLE };
         self.typeface.write(self.canvas, [MARGIN, self.top + 14.0], Align::Left, row.name, name);
-        let room = WIDTH - 2.0 * MARGIN - 200.0;
+        let left = MARGIN + self.typeface.width(row.name, name) + 20.0;
+        let room = WIDTH - MARGIN - left;
         let says = self.typeface.fitted(row.says, text(), room);
-        self.typeface.write(self.canvas, [MARGIN + 200.0, self.top + 14.0], Align::Left, &says, text());
+        self.typeface.write(self.canvas, [left, self.top + 14.0], Align::Left, &says, text());
         self.speeds(row.speeds);
         self.shares(1, row.by_yaw, "share beside LiDAR, by added yaw, degrees");
         self.shares(2, row.by_clock, "share beside LiDAR, by added time, ms");

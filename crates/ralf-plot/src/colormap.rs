@@ -13,7 +13,8 @@ const VIRIDIS: [[u8; 3]; 9] = [
     [253, 231, 37],
 ];
 
-/// The nearest and the farthest depth that have a colour of their own, m: always the same, so that pictures can be compared.
+/// The nearest and the farthest depth that have a colour of their own, m: always the same, so that pictures can be
+/// compared.
 pub(crate) const DEPTHS: [f64; 2] = [2.0, 80.0];
 
 /// The colour of a share from 0 (dark) to 1 (bright), linear between the steps.

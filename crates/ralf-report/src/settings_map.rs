@@ -2,7 +2,6 @@
 //! that the fusion alone is done again for each pair.
 
 use crate::scored::Scored;
-use ralf::config::FusionConfig;
 use ralf::paper::prioritize;
 
 /// Values of each setting, evenly from 0 to 1.
@@ -49,11 +48,10 @@ impl SettingsMap {
 
 /// F1 for every threshold: detections are counted by the highest threshold that they pass.
 fn over_thresholds(detections: &[(&Scored, bool)], alpha: f64, positives: usize) -> [f64; STEPS] {
-    let fusion = FusionConfig { alpha, threshold: 0.0 };
     let mut passed = [[0_usize; 2]; STEPS];
     for (scored, truth) in detections.iter().filter(|(scored, _)| scored.may_be_plausible()) {
         let present = |w: f32| w.is_finite().then_some(f64::from(w));
-        let w = prioritize(&fusion, present(scored.w_opt), present(scored.w_tr), scored.gamma.into());
+        let w = prioritize(alpha, present(scored.w_opt), present(scored.w_tr), scored.gamma.into());
         let highest = (0..STEPS).rev().find(|step| w.is_some_and(|w| w >= value_at(*step)));
         if let Some(step) = highest {
             passed[step][usize::from(*truth)] += 1;

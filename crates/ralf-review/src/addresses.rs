@@ -2,8 +2,9 @@
 
 use std::net::{IpAddr, Ipv4Addr, Ipv6Addr, SocketAddr};
 
-/// Names with ports as a browser takes them, of a server that listens at `address`, which was asked for by the name `host`. The
-/// first is good on this machine; where it listens on all addresses the others are good on other machines.
+/// Names with ports as a browser takes them, of a server that listens at `address`, which was asked for by the
+/// name `host`. The first is good on this machine; where it listens on all addresses the others are good on
+/// other machines.
 pub(crate) fn reachable(host: &str, address: SocketAddr) -> Vec<String> {
     let port = address.port();
     if !address.ip().is_unspecified() {

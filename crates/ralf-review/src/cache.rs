@@ -17,8 +17,8 @@ impl<K: PartialEq, V> Cache<K, V> {
         Self { capacity, entries: Mutex::new(Vec::new()) }
     }
 
-    /// The value of a key, made if it isn't kept or no longer good. Who asks for it meanwhile waits; for another one nobody
-    /// does.
+    /// The value of a key, made if it isn't kept or no longer good. Who asks for it meanwhile waits; for
+    /// another one nobody does.
     pub(crate) fn get<E>(
         &self,
         key: K,

@@ -27,8 +27,8 @@ impl Contents {
         found
     }
 
-    /// Whether something was said of what the scan holds, and not of something else. `place` is `None` where the recording has
-    /// no such scan. Read once, for lists of many scans.
+    /// Whether something was said of what the scan holds, and not of something else. `place` is `None` where
+    /// the recording has no such scan. Read once, for lists of many scans.
     pub(crate) fn holds(
         &self,
         reader: &dyn SequenceReader,

@@ -106,7 +106,8 @@ impl SequenceLabels {
         self.not_labelled.get(&(radar.to_owned(), scan)).map(String::as_str)
     }
 
-    /// The cameras (by their place in the rig) whose image nearest to a time was asked, and those of them with a failed view.
+    /// The cameras (by their place in the rig) whose image nearest to a time was asked, and those of them with
+    /// a failed view.
     pub(crate) fn cameras_at(&self, times: &[Vec<i64>], t_ns: i64) -> (BTreeSet<usize>, BTreeSet<usize>) {
         let tolerance = nanoseconds(self.settings.sync.camera_tolerance_ms);
         let (mut asked, mut failed) = (BTreeSet::new(), BTreeSet::new());

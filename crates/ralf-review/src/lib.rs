@@ -1,17 +1,19 @@
 //! The server of the page where people correct labels.
 //!
-//! [`Server::bind`] takes a [recording](ralf_data::Recording) and the folder that `ralf label` filled, and [`Server::run`] serves
-//! one page and an interface for it, which `docs/review-api.md` describes, until the user ends it. What is behind it:
+//! [`Server::bind`] takes a [recording](ralf_data::Recording) and the folder that `ralf label` filled, and
+//! [`Server::run`] serves one page and an interface for it, which `docs/review-api.md` describes, until the
+//! user ends it. What is behind it:
 //!
 //! - `reading/` makes tables of what the recording and the run hold; nothing of these is ever written.
-//! - `correcting/` turns requests into strokes, steps and marks of a [store](ralf_corrections::Store); an answer means that the
-//!   edit is on disk.
-//! - `http/` says who may ask and how answers look: other hosts, origins and sites are refused, and requests without the server's
-//!   token: others may work on the same machine.
+//! - `correcting/` turns requests into strokes, steps and marks of a [store](ralf_corrections::Store); an
+//!   answer means that the edit is on disk.
+//! - `http/` says who may ask and how answers look: other hosts, origins and sites are refused, and requests
+//!   without the server's token: others may work on the same machine.
 //! - `need` orders scans by how much they want a person.
 //!
-//! Requests name sequences, sensors and measurements by what the recording holds and never by a path, so that nothing else can
-//! be read through it. Reading happens on threads of its own; what is kept in memory is bounded.
+//! Requests name sequences, sensors and measurements by what the recording holds and never by a path, so that
+//! nothing else can be read through it. Reading happens on threads of its own; what is kept in memory is
+//! bounded.
 
 mod addresses;
 mod app;

@@ -1,9 +1,9 @@
 //! How much a scan needs a person.
 //!
-//! Of a scan's detections, `u` is the share whose plausibility lies within [`UNCERTAIN`] of the threshold `w0`, and `d` the
-//! share whose branches disagree: of `w_lm`, `w_cm`, `w_tr`, as far as observed, one says plausible and another, lower by more
-//! than [`DISAGREEING`], doesn't. A floor detection is decided, whatever its branches say, and counts for neither. `c` is the share
-//! of failed cameras among those that were asked. Then
+//! Of a scan's detections, `u` is the share whose plausibility lies within [`UNCERTAIN`] of the threshold `w0`,
+//! and `d` the share whose branches disagree: of `w_lm`, `w_cm`, `w_tr`, as far as observed, one says plausible
+//! and another, lower by more than [`DISAGREEING`], doesn't. A floor detection is decided, whatever its
+//! branches say, and counts for neither. `c` is the share of failed cameras among those that were asked. Then
 //!
 //! `need = 1 - (1 - u) (1 - d) (1 - c CAMERA_WEIGHT)`,
 //!

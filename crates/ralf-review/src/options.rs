@@ -11,7 +11,7 @@ pub struct Options {
     pub port: Option<u16>,
     /// What people are called who say no name of their own.
     pub author: String,
-    /// A folder of the user's own, in which the token is kept, so that pages stay open over a restart. `None`: a new token
-    /// each time.
+    /// A folder of the user's own, in which the token is kept, so that pages stay open over a restart. `None`:
+    /// a new token each time.
     pub token_folder: Option<PathBuf>,
 }

@@ -70,7 +70,8 @@ impl Server {
         self.run_until(told_to_end())
     }
 
-    /// Serves until something happens; requests in hand are answered, and the store's file holds everything by itself then.
+    /// Serves until something happens; requests in hand are answered, and the store's file holds everything by
+    /// itself then.
     ///
     /// # Errors
     /// Those of the system.
@@ -111,7 +112,8 @@ async fn serve(
     served
 }
 
-/// Writes the store's journal back whenever nobody has edited for a moment, so that a copy of the file alone holds everything.
+/// Writes the store's journal back whenever nobody has edited for a moment, so that a copy of the file alone
+/// holds everything.
 async fn settle(app: Arc<App>) {
     let mut news = app.news.subscribe();
     while news.changed().await.is_ok() {

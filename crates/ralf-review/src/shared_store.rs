@@ -21,7 +21,8 @@ enum Writer {
 }
 
 impl SharedStore {
-    /// Opens the store of an output folder; makes it if there is none. Where nothing can be written it is open for reading.
+    /// Opens the store of an output folder; makes it if there is none. Where nothing can be written it is open
+    /// for reading.
     pub(crate) fn open(out: &Path) -> Result<Self, StoreError> {
         let file = out.join(FILE);
         match Store::open(&file) {

@@ -1,12 +1,15 @@
 // Bundles the page into dist/, or (--tests) the unit tests into dist-tests/.
-import { cp, mkdir, readdir, rm } from "node:fs/promises";
+import { cp, readdir, rm } from "node:fs/promises";
 import { fileURLToPath } from "node:url";
 import { build } from "esbuild";
 
 const here = (path) => fileURLToPath(new URL(path, import.meta.url));
 
 const page = {
-  entryPoints: { page: here("src/main.ts") },
+  entryPoints: [
+    { in: here("src/main.ts"), out: "page" },
+    { in: here("src/styles/page.css"), out: "page" },
+  ],
   outdir: here("dist/assets"),
   platform: "browser",
   minify: true,
@@ -28,8 +31,6 @@ const options = testing ? await tests() : page;
 await rm(testing ? options.outdir : here("dist"), { recursive: true, force: true });
 await build({ ...options, bundle: true, format: "esm", target: "es2022", logLevel: "warning" });
 if (!testing) {
-  await mkdir(here("dist/assets"), { recursive: true });
   await cp(here("src/index.html"), here("dist/index.html"));
-  await cp(here("src/page.css"), here("dist/assets/page.css"));
   await cp(here("src/icon.svg"), here("dist/assets/icon.svg"));
 }

@@ -1,9 +1,9 @@
 //! ROS recordings and the messages in them.
 //!
-//! [`container`] finds the messages of a ROS 1 bag, an MCAP file or a ROS 2 folder, and reads any of them by its place, in
-//! bounded memory. [`encoding`] is how values lie in a message: ROS 1 or CDR. [`message`] knows the types that a radar
-//! recording is made of, once for both. [`point_cloud`] gives the columns of a cloud by the names of its fields, [`tf`] the
-//! transform between two frames. [`writer`] makes MCAP files and bags:
+//! [`container`] finds the messages of a ROS 1 bag, an MCAP file or a ROS 2 folder, and reads any of them by its place,
+//! in bounded memory. [`encoding`] is how values lie in a message: ROS 1 or CDR. [`message`] knows the types that a
+//! radar recording is made of, once for both. [`point_cloud`] gives the columns of a cloud by the names of its fields,
+//! [`tf`] the transform between two frames. [`writer`] makes MCAP files and bags:
 //!
 //! ```
 //! use ralf_ros::message::{Header, Imu};

@@ -1,6 +1,7 @@
 //! The values of a point cloud, by the names of its fields.
 //!
-//! Every value is read where its field says: padding, mixed types, either byte order and fields in any order are all the same.
+//! Every value is read where its field says: padding, mixed types, either byte order and fields in any order are all
+//! the same.
 
 use crate::message::{Datatype, PointCloud2};
 use thiserror::Error;
@@ -50,7 +51,7 @@ impl<'a> PointTable<'a> {
         let mut columns: Vec<Column> = Vec::new();
         for field in &cloud.fields {
             let place = || format!("field `{}`", field.name);
-            let datatype = Datatype::of(field.datatype).ok_or_else(|| {
+            let datatype = Datatype::from_code(field.datatype).ok_or_else(|| {
                 PointCloudError::new(place(), "a datatype of 1 to 8", field.datatype.to_string())
             })?;
             let (offset, count) = (field.offset as usize, field.count.max(1) as usize);
@@ -86,7 +87,8 @@ impl<'a> PointTable<'a> {
         self.columns.iter().map(|column| column.name.as_str())
     }
 
-    /// A column, row by row of the cloud. Integers beyond 2^24 and floats of 8 bytes are rounded to the nearest float32.
+    /// A column, row by row of the cloud. Integers beyond 2^24 and floats of 8 bytes are rounded to the nearest
+    /// float32.
     pub fn column(&self, name: &str) -> Option<Vec<f32>> {
         let Column { offset, datatype, .. } = *self.columns.iter().find(|column| column.name == name)?;
         let cloud = self.cloud;
@@ -158,7 +160,8 @@ mod tests {
     use super::*;
     use crate::message::PointField;
 
-    /// Two rows of two points: y and x as f64 and i16 out of order, three bytes per value, padding of 0xEE, rows padded.
+    /// Two rows of two points: y and x as f64 and i16 out of order, three bytes per value, padding of 0xEE, rows
+    /// padded.
     fn cloud(is_bigendian: bool) -> PointCloud2 {
         let number = |value: i16| if is_bigendian { value.to_be_bytes() } else { value.to_le_bytes() };
         let float = |value: f64| if is_bigendian { value.to_be_bytes() } else { value.to_le_bytes() };
@@ -221,9 +224,9 @@ mod tests {
             big.reverse();
             assert_eq!(little.len(), datatype.size());
             assert_eq!((value(datatype, false, &little), value(datatype, true, &big)), (expected, expected));
-            assert_eq!(Datatype::of(datatype as u8), Some(datatype));
+            assert_eq!(Datatype::from_code(datatype as u8), Some(datatype));
         }
-        assert_eq!((Datatype::of(0), Datatype::of(9)), (None, None));
+        assert_eq!((Datatype::from_code(0), Datatype::from_code(9)), (None, None));
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! The tree of frames, from the messages of `/tf` and `/tf_static`.
 //!
-//! A transform `a_from_b` takes coordinates in frame b to frame a. Between two messages positions are interpolated linearly
-//! and rotations by slerp; outside their span nothing is known, and this is said.
+//! A transform `a_from_b` takes coordinates in frame b to frame a. Between two messages positions are interpolated
+//! linearly and rotations by slerp; outside their span nothing is known, and this is said.
 
 use crate::message::TransformStamped;
 use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion};
@@ -17,17 +17,17 @@ pub enum TfError {
     /// A frame without a name.
     #[error("expected the names of two frames, found `{parent}` and `{child}`")]
     Names {
-        /// Of the message.
+        /// The frame that the message names as the upper one.
         parent: String,
-        /// Of the message.
+        /// The frame that the message places in it.
         child: String,
     },
     /// Numbers that are no transform.
     #[error("{child} in {parent}: expected finite numbers and a unit quaternion x y z w, found {found}")]
     NoTransform {
-        /// Of the message.
+        /// The frame that the message names as the upper one.
         parent: String,
-        /// Of the message.
+        /// The frame that the message places in it.
         child: String,
         /// The numbers.
         found: String,

@@ -1,5 +1,5 @@
-//! What the writers write is read back; what is cut short is read up to the cut and the loss is said; what is damaged is
-//! refused, or told.
+//! What the writers write is read back; what is cut short is read up to the cut and the loss is said; what is damaged
+//! is refused, or told.
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a check that fails is a test that fails")]
 
@@ -97,8 +97,8 @@ fn the_same_messages_give_the_same_bytes() {
     assert_eq!(own_files(50), own_files(50));
 }
 
-/// How many messages are found in the file, cut to each of these lengths. Whatever the cut, nothing is invented, a longer
-/// file tells no less, and the loss is said.
+/// How many messages are found in the file, cut to each of these lengths. Whatever the cut, nothing is invented, a
+/// longer file tells no less, and the loss is said.
 fn check_cuts(place: &Place, bytes: &[u8], lengths: impl DoubleEndedIterator<Item = usize>) -> Vec<usize> {
     let whole = found(&place.open(bytes).unwrap());
     let file = std::fs::File::options().write(true).open(&place.file).unwrap();

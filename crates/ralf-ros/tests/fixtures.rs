@@ -1,4 +1,5 @@
-//! Files that other programs wrote (`testdata/make_ros.py`): every container, compression and encoding gives the same messages.
+//! Files that other programs wrote (`testdata/make_ros.py`): every container, compression and encoding gives the same
+//! messages.
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a check that fails is a test that fails")]
 

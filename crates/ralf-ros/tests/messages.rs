@@ -127,7 +127,8 @@ proptest! {
         holds(&TfMessage { transforms: vec![transform.clone(), transform] })?;
         let child_frame_id = "base_link".to_owned();
         let covariances = [covariance; 36];
-        holds(&Odometry { header, child_frame_id, pose, pose_covariance: covariances, twist, twist_covariance: covariances })?;
+        let (pose_covariance, twist_covariance) = (covariances, covariances);
+        holds(&Odometry { header, child_frame_id, pose, pose_covariance, twist, twist_covariance })?;
     }
 }
 

@@ -7,6 +7,13 @@ use thiserror::Error;
 /// The vehicle stays below this, km/h. Those of the presets stay below 10 km/h, as in the paper.
 const MAX_SPEED_KMH: f64 = 130.0;
 
+/// No row of things is longer.
+const MOST: usize = 1000;
+/// What all things together may fill, by [`Thing::bulk`]: each m3 is some scatterers, and all are kept in memory.
+const LARGEST_BULK: f64 = 1e6;
+/// Nothing lies farther from the site's origin, m.
+const FARTHEST: f64 = 1e5;
+
 /// Why a scenario can't be simulated.
 #[derive(Debug, Error)]
 pub enum ScenarioError {
@@ -136,6 +143,14 @@ pub struct Thing {
     pub velocity: [f64; 2],
 }
 
+impl Thing {
+    /// How much room it takes, of a row all of it: volume, with what walls and edges count for, in m3 or so.
+    fn bulk(&self) -> f64 {
+        let [length, width, height] = self.size.unwrap_or([1.0; 3]);
+        self.count as f64 * (length * width * height.max(1.0) + 20.0 * (length + width))
+    }
+}
+
 fn usual_share() -> f64 {
     0.215
 }
@@ -148,7 +163,9 @@ impl Scenario {
     /// Reads a scenario; every value is checked.
     ///
     /// ```
-    /// let text = "title = 'A pole'\nego = { start = [0, 0, 0], speed_kmh = 7 }\nthing = [{ kind = 'pole', at = [9, 3] }]";
+    /// let text = "title = 'A pole'
+    /// ego = { start = [0, 0, 0], speed_kmh = 7 }
+    /// thing = [{ kind = 'pole', at = [9, 3] }]";
     /// assert_eq!(ralf_sim::Scenario::from_toml(text)?.thing.len(), 1);
     /// # Ok::<(), ralf_sim::ScenarioError>(())
     /// ```
@@ -176,6 +193,13 @@ impl Scenario {
         if let Some(size) = sizes.into_iter().find(|size| !(*size > 0.0 && size.is_finite())) {
             return refuse("thing.size", "lengths above 0 m", size);
         }
+        if let Some(thing) = self.thing.iter().find(|thing| thing.count > MOST) {
+            return refuse("thing.count", "1000 at most", thing.count as f64);
+        }
+        let bulk: f64 = self.thing.iter().map(Thing::bulk).sum();
+        if bulk > LARGEST_BULK {
+            return refuse("thing.size", "things that fill a few streets, in all", bulk);
+        }
         let slope = self.ramp.iter().find(|ramp| ramp.slope_deg.is_nan() || ramp.slope_deg.abs() > 30.0);
         if let Some(ramp) = slope {
             return refuse("ramp.slope_deg", "a slope of 30 degrees at most", ramp.slope_deg);
@@ -185,8 +209,8 @@ impl Scenario {
         let ramps =
             self.ramp.iter().flat_map(|ramp| [ramp.at[0], ramp.at[1], ramp.direction_deg, ramp.length]);
         let mut numbers = places.flatten().chain(turns).chain(ramps).chain(*start);
-        match numbers.find(|value| !value.is_finite()) {
-            Some(value) => refuse("positions and angles", "finite numbers", value),
+        match numbers.find(|value| value.is_nan() || value.abs() > FARTHEST) {
+            Some(value) => refuse("positions and angles", "finite numbers up to 100000", value),
             None => Ok(()),
         }
     }

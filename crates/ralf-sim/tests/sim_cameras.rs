@@ -3,7 +3,7 @@
 #![expect(clippy::unwrap_used, reason = "helpers of tests fail as tests do")]
 
 use ralf::config::Config;
-use ralf::scene::{CalibratedView, Failure, Surroundings, ViewState, calibrate, luminance};
+use ralf::scene::{CalibratedView, Calibration, Failure, ViewState, calibrate, luminance};
 use ralf::sensors::Source;
 use ralf::space::Point;
 use ralf_sim::{CameraFailure, FailureKind, Scenario, SimulatedSequence, presets};
@@ -31,16 +31,18 @@ fn views(sequence: &SimulatedSequence, camera: usize, image: usize) -> Vec<Calib
         .iter()
         .map(|p| vehicle_from_lidar * Point::new(p[0].into(), p[1].into(), p[2].into()))
         .collect();
-    let surroundings = Surroundings {
+    let config = Config::default();
+    let calibration = Calibration {
         lidar: Some(&points),
         height: &|p| Some(p.z),
-        luminance: luminance(&sequence.image(camera, image).unwrap()),
+        output: known.depth_output,
+        camera: &config.camera,
+        ground: &config.ground,
     };
-    let config = Config::default();
     let sensor = &known.rig.cameras[camera];
     let depth = sequence.depth(camera, image).unwrap().unwrap();
-    let settings = (&config.camera, &config.ground);
-    calibrate(sensor, &sensor.straight_views(), &depth, known.depth_output, &surroundings, settings).unwrap()
+    let luminance = luminance(&sequence.image(camera, image).unwrap());
+    calibrate(sensor, &sensor.straight_views(), &depth, luminance, &calibration).unwrap()
 }
 
 #[test]

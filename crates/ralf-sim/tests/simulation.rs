@@ -125,6 +125,11 @@ fn measurements_that_are_not_there_and_worlds_that_cannot_be_are_refused() {
     assert!(refused(with("nan", "")).contains("speed_kmh"));
     assert!(refused(with("7", "{ kind = 'car', at = [inf, 0] }")).contains("finite"));
     assert!(refused(with("7", "{ kind = 'car', at = [1, 0], size = [0, 1, 1] }")).contains("above 0 m"));
+    assert!(refused(with("7", "{ kind = 'car', at = [1, 0], count = 4294967296 }")).contains("thing.count"));
+    assert!(
+        refused(with("7", "{ kind = 'tree', at = [1, 0], size = [1e3, 1e3, 1e3] }"))
+            .contains("a few streets")
+    );
     assert!(refused(with("7", "{ kind = 'castle', at = [1, 0] }")).contains("castle"));
     assert!(refused(with("7", "{ kind = 'car', at = [1, 0], wings = 2 }")).contains("wings"));
 }

@@ -1,52 +1,43 @@
-//! From frames to evidence: every mismatch that a search may ask for.
+//! From frames to mismatches: every one that a search may ask for.
 
-use super::table::Row;
-use super::{EvidenceTable, Space};
-use ralf::config::Config;
-use ralf::paper::{Evidence, Labeler};
+use super::observed::Observed;
+use super::settings::Space;
+use super::table::{EvidenceTable, Row};
+use ralf::config::{Config, LidarConfig, TrackingConfig};
+use ralf::paper::{camera, in_blind_spot, lidar, tracking};
 use ralf::scene::Frame;
-
-/// A detection without a place: whatever the weights, it is not plausible.
-const UNOBSERVED: Evidence =
-    Evidence { d_lm: None, d_cm: None, d_tr: None, on_floor: false, in_blind_spot: false, gamma_s: 1.0 };
 
 /// Asks the branches about frames, once for each `K` and each `n_b`.
 #[derive(Debug, Clone)]
 pub struct Gatherer {
     space: Space,
     /// With the longest batch.
-    frames: Config,
-    /// Without LiDAR and tracking: what depends on neither `K` nor `n_b`.
-    rest: Config,
+    config: Config,
     /// Per `K`.
-    lidar: Vec<Config>,
+    lidar: Vec<LidarConfig>,
     /// Per `n_b`.
-    tracking: Vec<Config>,
+    tracking: Vec<TrackingConfig>,
 }
 
 impl Gatherer {
-    /// For all settings but those that are tuned.
+    /// A gatherer for all settings but those that are tuned.
     pub fn new(config: &Config, space: Space) -> Self {
-        let changed = |change: &dyn Fn(&mut Config)| {
-            let mut config = config.clone();
-            change(&mut config);
-            config
-        };
-        let longest = space.scans.iter().copied().max().unwrap_or(config.tracking.scans);
-        let lidar = |k: &usize| changed(&|config| config.lidar.neighbours = *k);
-        let tracking = |n_b: &usize| changed(&|config| config.tracking.scans = *n_b);
-        Self {
-            frames: changed(&|config| config.tracking.scans = longest),
-            rest: changed(&|config| (config.lidar.enabled, config.tracking.enabled) = (false, false)),
-            lidar: space.neighbours.iter().map(lidar).collect(),
-            tracking: space.scans.iter().map(tracking).collect(),
-            space,
+        let mut lidar = Vec::with_capacity(space.neighbours.len());
+        for neighbours in space.neighbours.iter().copied() {
+            lidar.push(LidarConfig { neighbours, ..config.lidar.clone() });
         }
+        let mut tracking = Vec::with_capacity(space.scans.len());
+        for scans in space.scans.iter().copied() {
+            tracking.push(TrackingConfig { scans, ..config.tracking.clone() });
+        }
+        let mut config = config.clone();
+        config.tracking.scans = space.scans.iter().copied().max().unwrap_or(config.tracking.scans);
+        Self { space, config, lidar, tracking }
     }
 
     /// The settings with which frames must be gathered.
     pub fn frame_config(&self) -> &Config {
-        &self.frames
+        &self.config
     }
 
     /// A table for its scans.
@@ -57,22 +48,24 @@ impl Gatherer {
     /// Adds a scan to a table. `truth` says of each detection whether it is plausible; those of which it says nothing
     /// stay out.
     pub fn add(&self, table: &mut EvidenceTable, frame: &Frame, truth: &[Option<bool>]) {
-        let rest = Labeler::new(&self.rest).evidence(frame);
-        let lidar: Vec<_> = self.lidar.iter().map(|config| Labeler::new(config).ask_lidar(frame)).collect();
+        let camera = camera::match_detections(frame, &self.config.camera);
+        let lidar: Vec<_> = self.lidar.iter().map(|config| lidar::match_detections(frame, config)).collect();
         let tracking: Vec<_> =
-            self.tracking.iter().map(|config| Labeler::new(config).ask_tracking(frame)).collect();
-        let row = |(i, plausible): (usize, &Option<bool>)| {
-            let rest = rest[i].unwrap_or(UNOBSERVED);
-            Some(Row {
-                d_lm: lidar
-                    .iter()
-                    .map(|of_k| of_k[i].map(|found| found.d).filter(|_| !rest.on_floor))
-                    .collect(),
-                d_tr: tracking.iter().map(|of_n_b| of_n_b[i]).collect(),
-                rest,
-                plausible: (*plausible)?,
-            })
-        };
-        table.push_scan(truth.iter().take(rest.len()).enumerate().filter_map(row));
+            self.tracking.iter().map(|config| tracking::match_detections(frame, config)).collect();
+        let mut rows = Vec::new();
+        for (i, (detection, plausible)) in frame.scan.detections.iter().zip(truth).enumerate() {
+            let Some(plausible) = *plausible else { continue };
+            let mut rest = Observed::NOTHING;
+            if let Some(detection) = detection {
+                rest.on_floor = frame.is_on_floor(detection, &self.config.ground);
+                rest.in_blind_spot = in_blind_spot(&frame.rig.lidars, &detection.position);
+                rest.gamma_s = frame.radar.reliability.at(frame.scan.measured.spherical[i].azimuth);
+                rest.d_cm = camera[i].d.filter(|_| !rest.on_floor);
+            }
+            let optical = |found: &Vec<Option<lidar::LidarMatch>>| found[i].map(|found| found.d);
+            let d_lm = lidar.iter().map(|found| optical(found).filter(|_| !rest.on_floor)).collect();
+            rows.push(Row { d_lm, d_tr: tracking.iter().map(|found| found[i]).collect(), rest, plausible });
+        }
+        table.push_scan(rows);
     }
 }

@@ -2,7 +2,8 @@
 //!
 //! No mismatch `d` depends on `alpha`, the three `beta` or `w0`. An [`EvidenceTable`] therefore keeps the mismatches of
 //! every detection that has a truth, `d_lm` for each `K` and `d_tr` for each `n_b` of a [`Space`], and a trial of a
-//! [`Search`] never touches a point cloud: it weighs the evidence anew, with the very function that the labeler uses.
+//! [`Search`] never touches a point cloud: it weighs the mismatches anew, and gives the labels that the labeler would
+//! give.
 //!
 //! `w0` is not searched but solved for: given all `w`, only the values between two neighbouring ones differ in their
 //! labels, so that one pass over them finds the best threshold there is.
@@ -13,6 +14,7 @@ mod cross_validation;
 mod file;
 mod gather;
 mod objective;
+mod observed;
 mod search;
 mod settings;
 mod table;
@@ -23,6 +25,7 @@ pub use cross_validation::{Fold, leave_one_out};
 pub use file::settings_file;
 pub use gather::Gatherer;
 pub use objective::{Objective, ObjectiveError};
+pub use observed::{Observed, Weights};
 pub use search::{Found, Search};
 pub use settings::{Branches, Space, TunedSettings};
 pub use table::EvidenceTable;

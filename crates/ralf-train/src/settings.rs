@@ -1,7 +1,7 @@
 //! What is tuned, and among which values.
 
+use super::observed::Weights;
 use ralf::config::Config;
-use ralf::paper::Weights;
 use std::collections::BTreeSet;
 
 /// Values of `K` and of `n_b` worth a try.
@@ -46,7 +46,7 @@ impl TunedSettings {
     /// Those of all settings.
     pub fn of(config: &Config) -> Self {
         Self {
-            weights: Weights::of(config),
+            weights: Weights::from(config),
             neighbours: config.lidar.neighbours,
             scans: config.tracking.scans,
             branches: Branches {

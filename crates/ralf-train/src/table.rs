@@ -1,8 +1,8 @@
 //! The evidence of many scans, in columns.
 
+use super::observed::Observed;
 use super::{Branches, Space, TuneError, TunedSettings};
 use ralf::metrics::Confusion;
-use ralf::paper::Evidence;
 use std::ops::Range;
 
 /// Bits of [`EvidenceTable::marks`].
@@ -30,7 +30,7 @@ pub struct EvidenceTable {
 #[derive(Debug, Clone)]
 pub(super) struct Row {
     /// Its `d_lm` and `d_tr` are not used.
-    pub(super) rest: Evidence,
+    pub(super) rest: Observed,
     /// Per `K`.
     pub(super) d_lm: Vec<Option<f64>>,
     /// Per `n_b`.
@@ -101,7 +101,7 @@ impl EvidenceTable {
         let count = |rows: Range<usize>| {
             let mut counts = Confusion::default();
             for row in rows {
-                counts.add(view.truth(row), view.evidence(row).weigh(&settings.weights).plausible);
+                counts.add(view.truth(row), view.evidence(row).is_plausible(&settings.weights));
             }
             counts
         };
@@ -133,11 +133,11 @@ pub(super) struct View<'a> {
 
 impl View<'_> {
     /// What is known of a detection.
-    pub(super) fn evidence(&self, row: usize) -> Evidence {
+    pub(super) fn evidence(&self, row: usize) -> Observed {
         let present = |has_a_say: bool, d: f64| (has_a_say && !d.is_nan()).then_some(d);
         let Branches { lidar, camera, tracking } = self.branches;
         let marks = self.table.marks[row];
-        Evidence {
+        Observed {
             d_lm: present(lidar, self.d_lm[row]),
             d_cm: present(camera, self.table.d_cm[row]),
             d_tr: present(tracking, self.d_tr[row]),
@@ -153,7 +153,7 @@ impl View<'_> {
     }
 
     /// Evidence and truth of all detections.
-    pub(super) fn rows(&self) -> impl Iterator<Item = (Evidence, bool)> {
+    pub(super) fn rows(&self) -> impl Iterator<Item = (Observed, bool)> {
         (0..self.table.len()).map(|row| (self.evidence(row), self.truth(row)))
     }
 }

@@ -2,7 +2,7 @@
 
 use divan::{Bencher, black_box};
 use ralf::config::{CameraConfig, GroundConfig};
-use ralf::scene::{Surroundings, calibrate, project_points};
+use ralf::scene::{Calibration, calibrate, project_points};
 use ralf::sensors::{
     Camera, CameraImage, DepthImage, DepthOutput, Intrinsics, StraightView, UndistortMap, View,
 };
@@ -92,11 +92,17 @@ impl Image {
 
     fn calibrate(&self, bencher: Bencher) {
         let config = CameraConfig { max_residual: 1e3, ..CameraConfig::default() };
-        let settings = (&config, &GroundConfig::default());
+        let ground = GroundConfig::default();
         let Self { camera, views, depth, lidar } = self;
         bencher.bench(|| {
-            let surroundings = Surroundings { lidar: Some(lidar), height: &|p| Some(p.z), luminance: 90.0 };
-            calibrate(camera, views, depth, DepthOutput::Depth, &surroundings, settings)
+            let calibration = Calibration {
+                lidar: Some(lidar),
+                height: &|p| Some(p.z),
+                output: DepthOutput::Depth,
+                camera: &config,
+                ground: &ground,
+            };
+            calibrate(camera, views, depth, 90.0, &calibration)
         });
     }
 }

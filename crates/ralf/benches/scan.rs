@@ -8,7 +8,9 @@ use nalgebra::UnitQuaternion;
 use ralf::config::Config;
 
 use ralf::paper::{Labeler, lidar, tracking};
-use ralf::scene::{Calibration, Frame, FrameWindow, Ground, ImageMoment, ImageView, LidarMoment, LidarView};
+use ralf::scene::{
+    Calibration, Frame, FrameWindow, Ground, ImageId, ImageMoment, ImageView, LidarMoment, LidarView,
+};
 use ralf::sensors::{
     Camera, CameraImage, DepthImage, DepthOutput, Elevation, Intrinsics, Lidar, LidarScan, Radar, RadarScan,
     Reliability, Rig, Sequence, Source, SourceError, Timelines,
@@ -198,18 +200,14 @@ fn index_query(bencher: Bencher) {
 #[divan::bench]
 fn lidar_matching(bencher: Bencher) {
     let frame = frame();
-    let view = frame.lidar.as_ref().expect("a LiDAR scan");
-    bencher.bench(|| lidar::match_detections(frame.radar, &frame.detections, black_box(view), 5));
+    bencher.bench(|| lidar::match_detections(black_box(&frame), &CONFIG.lidar));
 }
 
 /// Ten neighbouring scans.
 #[divan::bench]
 fn tracking_matching(bencher: Bencher) {
     let frame = frame();
-    let detections = &frame.detections;
-    bencher.bench(|| {
-        tracking::match_detections(frame.radar, detections, black_box(&frame.steps), None, &CONFIG.tracking)
-    });
+    bencher.bench(|| tracking::match_detections(black_box(&frame), &CONFIG.tracking));
 }
 
 /// An image of 320 x 240 with its depth.
@@ -243,7 +241,12 @@ fn images(points: &[Point]) -> Vec<ImageView> {
             camera: &CONFIG.camera,
             ground: &CONFIG.ground,
         };
-        let moment = ImageMoment::new((0, &camera), (0, 0), Ok(IMAGE.clone()), &calibration);
+        let moment = ImageMoment::new(
+            &camera,
+            ImageId { camera: 0, image: 0, t_ns: 0 },
+            Ok(IMAGE.clone()),
+            &calibration,
+        );
         ImageView { moment: Arc::new(moment), vehicle_from_image: Transform::identity() }
     });
     views.to_vec()

@@ -28,8 +28,8 @@ pub(crate) struct ClockFigures {
     pub(crate) is_sharp: bool,
 }
 
-/// Minimises the mean of `|v_est(t) - v_pred(t + tau)|` over tau. A constant factor and a constant angle between the two are
-/// taken out first, for they are no matter of time. `None` of fewer than ten scans.
+/// Minimises the mean of `|v_est(t) - v_pred(t + tau)|` over tau. A constant factor and a constant angle between the
+/// two are taken out first, for they are no matter of time. `None` of fewer than ten scans.
 pub(crate) fn clock(
     fits: &[Timed],
     motion: &EgoMotion,

@@ -1,15 +1,15 @@
 //! The velocity of a radar from one scan of its own: what stands still has the range rate `-u . v`.
 //!
-//! Kellner et al., *Instantaneous ego-motion estimation using Doppler radar*, ITSC 2013: RANSAC over pairs of detections,
-//! least squares over the inliers.
+//! Kellner et al., *Instantaneous ego-motion estimation using Doppler radar*, ITSC 2013: RANSAC over pairs of
+//! detections, least squares over the inliers.
 
 use nalgebra::{Matrix2, Vector2};
 use ralf::space::Vector;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 
-/// A detection belongs to the standing world within this and a share of the speed: noise of the range rate, m/s, and what an
-/// azimuth that is off by a degree makes of it.
+/// A detection belongs to the standing world within this and a share of the speed: noise of the range rate, m/s, and
+/// what an azimuth that is off by a degree makes of it.
 const TOLERANCE: (f64, f64) = (0.15, 0.02);
 /// Pairs that are drawn: with 30 % inliers one pair in eleven is good; 80 draws miss all with 0.05 %.
 const DRAWS: usize = 80;
@@ -29,13 +29,14 @@ pub struct VelocityFit {
     pub count: usize,
     /// Of the velocity, (m/s)^2.
     pub covariance: Matrix2<f64>,
-    /// Vertical velocity of the radar in its own frame, m/s, by what elevations leave of the inliers' range rates, and the sum
-    /// of squared vertical rays that it rests on. 0 where all rays lie in the radar's plane.
+    /// Vertical velocity of the radar in its own frame, m/s, by what elevations leave of the inliers' range rates, and
+    /// the sum of squared vertical rays that it rests on. 0 where all rays lie in the radar's plane.
     pub vertical: (f64, f64),
 }
 
-/// The velocity that most detections agree with. `rays` are unit directions in the radar's frame, `range_rates` raw (m/s,
-/// positive when receding). `None` of scans with fewer than eight detections, and where the rays don't span the plane.
+/// The velocity that most detections agree with. `rays` are unit directions in the radar's frame, `range_rates` raw
+/// (m/s, positive when receding). `None` of scans with fewer than eight detections, and where the rays don't span the
+/// plane.
 pub fn fit(rays: &[Vector], range_rates: &[f64], seed: u64) -> Option<VelocityFit> {
     if rays.len() < FEWEST || rays.len() != range_rates.len() {
         return None;

@@ -27,8 +27,9 @@ pub(super) fn shifts() -> impl Iterator<Item = SensorChange> {
 /// By which factor a change has to be better that several radars ask for alike.
 pub(super) const GAIN: f64 = 1.08;
 
-/// By which factor a change of a single radar has to be better. A shift, or a clock's offset, which is one along the way, brings what lies beside narrow
-/// things, such as clutter before a garage's walls, onto them: half a metre that is truly missing gains more than this.
+/// By which factor a change of a single radar has to be better. A shift, or a clock's offset, which is one along the
+/// way, brings what lies beside narrow things, such as clutter before a garage's walls, onto them: half a metre that
+/// is truly missing gains more than this.
 pub(super) fn gain_of_one(change: &SensorChange) -> f64 {
     if change.shift_m == [0.0; 3] && change.clock_ms == 0.0 { GAIN } else { 1.3 }
 }

@@ -15,8 +15,8 @@ const LEFT: f64 = 0.85;
 const SIGMAS: f64 = 4.0;
 /// Radars agree on an offset within this, ms.
 const COMMON_MS: f64 = 80.0;
-/// Odometry that is late by less moves nothing by a decimetre between two scans, for speeds change by some m/s per s: a fact.
-/// Some vehicles' buses lag by 200 ms.
+/// Odometry that is late by less moves nothing by a decimetre between two scans, for speeds change by some m/s per s:
+/// a fact. Some vehicles' buses lag by 200 ms.
 const HARMLESS_MS: f64 = 300.0;
 
 /// Judges all clocks by range rates, and puts right what is found.
@@ -28,7 +28,8 @@ pub(super) fn judge(case: &mut Case) -> Vec<Verdict> {
     let offsets: Vec<f64> = late.iter().map(|(_, figures)| figures.offset_ms).collect();
     let common = median(&offsets).unwrap_or(0.0);
     let is_common = offsets.iter().all(|offset| (offset - common).abs() <= COMMON_MS);
-    // One radar of several has a clock of its own; what most of them see alike is the motion's, unless the LiDAR says otherwise.
+    // One radar of several has a clock of its own; what most of them see alike is the motion's, unless the LiDAR says
+    // otherwise.
     let most = late.len() * 5 >= known.len() * 3 && is_common && !late.is_empty();
     if most && !fits_lidar(case, &late, common) && (late.len() > 1 || lidar_can_tell(case, &late)) {
         return vec![motion_is_late(case, &late, common)];

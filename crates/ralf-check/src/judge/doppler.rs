@@ -23,7 +23,8 @@ pub(super) fn is_aligned(figures: &DopplerFigures) -> bool {
 /// For people.
 pub(super) fn in_words(figures: &DopplerFigures) -> String {
     format!(
-        "range rates of {} scans give {:.2} of the speed, {:+.1} degrees off its direction ({:.0} % of the detections stand still)",
+        "range rates of {} scans give {:.2} of the speed, {:+.1} degrees off its direction \
+         ({:.0} % of the detections stand still)",
         figures.scans,
         figures.ratio.value,
         figures.angle.value.to_degrees(),

@@ -1,4 +1,5 @@
-//! From evidence to verdicts: the change that explains the most is taken first, and the rest is judged with it in place.
+//! From evidence to verdicts: the change that explains the most is taken first, and the rest is judged with it in
+//! place.
 //!
 //! Motion before clocks before LiDARs before radars, for a fault of one is seen in all that come after.
 
@@ -22,8 +23,8 @@ use case::Case;
 use ralf::sensors::{Sequence, Source};
 pub use refine::Refinement;
 
-/// Judges a sequence, and refines what was found: the corrections of each sensor, jointly from range rates and the LiDAR, with standard
-/// deviations. Nothing is applied.
+/// Judges a sequence, and refines what was found: the corrections of each sensor, jointly from range rates and the
+/// LiDAR, with standard deviations. Nothing is applied.
 pub fn check_and_refine(source: &dyn Source) -> (SequenceCheck, Vec<Refinement>) {
     let sample = Sample::of(source);
     let (checked, case) = judge(source.sequence(), &sample);
@@ -31,8 +32,8 @@ pub fn check_and_refine(source: &dyn Source) -> (SequenceCheck, Vec<Refinement>)
     (checked, refined)
 }
 
-/// Judges a sequence. Some hundred scans of each radar and some thirty of each LiDAR are read, spread over the sequence; those
-/// that can't be read are left out, and this is said.
+/// Judges a sequence. Some hundred scans of each radar and some thirty of each LiDAR are read, spread over the
+/// sequence; those that can't be read are left out, and this is said.
 pub fn check(source: &dyn Source) -> SequenceCheck {
     let sample = Sample::of(source);
     judge(source.sequence(), &sample).0
@@ -57,15 +58,17 @@ fn judge<'a>(sequence: &'a Sequence, sample: &'a Sample) -> (SequenceCheck, Case
     (SequenceCheck { name: sequence.name.clone(), verdicts, figures }, case)
 }
 
+/// Words of remedies for what can't be asked anything else.
+const UNFIT: [&str; 3] = ["type", "columns", "cm"];
+
 /// Sensors whose numbers are no positions: nothing else can be asked of them.
 fn unfit(verdicts: &[Verdict]) -> Vec<String> {
     let breaks = |verdict: &&Verdict| {
         let remedy = verdict.remedy.as_ref();
-        verdict.state == State::Doubt
-            && remedy.is_some_and(|remedy| {
-                matches!(remedy, Remedy::Positions(_) | Remedy::InDegrees(_))
-                    || matches!(remedy, Remedy::LookInto(what) if what.contains("type") || what.contains("columns") || what.contains("cm"))
-            })
+        verdict.state == State::Doubt && remedy.is_some_and(|remedy| {
+            matches!(remedy, Remedy::Positions(_) | Remedy::InDegrees(_))
+                || matches!(remedy, Remedy::LookInto(what) if UNFIT.iter().any(|word| what.contains(word)))
+        })
     };
     verdicts.iter().filter(breaks).map(|verdict| verdict.subject.clone()).collect()
 }

@@ -63,7 +63,8 @@ fn missing(case: &Case, radar: usize) -> String {
         return "raw range rates are needed: a field `doppler`".into();
     }
     format!(
-        "{} of {} scans tell a velocity: five scans at more than 1 m/s are needed in which three in ten detections stand still",
+        "{} of {} scans tell a velocity: ten scans at more than 1 m/s are needed in which three in ten \
+         detections stand still",
         case.fits[radar].len(),
         case.sample.radars[radar].len()
     )
@@ -96,7 +97,8 @@ fn remedy(case: &Case, radar: usize, figures: &DopplerFigures) -> Option<Remedy>
     Some(of_large_angles(case, radar, [Some(turned), mirrored], other_sign))
 }
 
-/// A direction that is far off: turned, mirrored, or the range rates have the other sign. The LiDAR tells, where it can.
+/// A direction that is far off: turned, mirrored, or the range rates have the other sign. The LiDAR tells, where it
+/// can.
 fn of_large_angles(
     case: &Case,
     radar: usize,

@@ -1,8 +1,10 @@
-//! Corrections made exact: yaw, place in plan and clock of each radar, jointly from range rates and the LiDAR, with standard deviations.
+//! Corrections made exact: yaw, place in plan and clock of each radar, jointly from range rates and the LiDAR, with
+//! standard deviations.
 //!
-//! What is maximised is a log-likelihood: detections lie beside LiDAR points, velocities are those of the vehicle, and small
-//! corrections are likelier than large ones. Standard deviations come from leaving out a quarter of the time each (jackknife),
-//! so that they hold what differs from place to place.
+//! What is maximised is a log-likelihood: detections lie beside LiDAR points, velocities are those of the vehicle,
+//! and small corrections are likelier than large ones. Standard deviations come from leaving out a quarter of the
+//! time each
+//! (jackknife), so that they hold what differs from place to place.
 
 use super::case::Case;
 use crate::change::SensorChange;
@@ -11,7 +13,8 @@ use crate::overlap::{Measure, Setup, overlap};
 use crate::sample::LidarLook;
 use serde::Serialize;
 
-/// Detections of a moment lie on the same walls: a fifth of them count as independent. Each is beside its surface within 0.25 m.
+/// Detections of a moment lie on the same walls: a fifth of them count as independent. Each is beside its surface
+/// within 0.25 m.
 const LIDAR_WEIGHT: f64 = 0.2 / (2.0 * 0.25 * 0.25);
 /// A scan's velocity is right within this, m/s, whatever its noise: yaw rates and wheels are.
 const VELOCITY_SIGMA: f64 = 0.1;
@@ -86,8 +89,8 @@ fn of_radar(case: &Case, radar: usize) -> Refinement {
     Refinement { name: case.name(radar).to_owned(), change, deviations }
 }
 
-/// Which quantities can be judged: a yaw by range rates or the LiDAR, a place by the LiDAR alone, a clock by the LiDAR or by speeds that
-/// change.
+/// Which quantities can be judged: a yaw by range rates or the LiDAR, a place by the LiDAR alone, a clock by the
+/// LiDAR or by speeds that change.
 fn judgeable(case: &Case, radar: usize) -> [bool; 4] {
     let by_lidar = case.overlap(radar, &NOTHING, Measure::Beside).is_enough();
     let mount = case.mount(radar);
@@ -115,7 +118,8 @@ fn climb(start: SensorChange, open: [bool; 4], likelihood: impl Fn(&SensorChange
                 }
             }
         }
-        // Quantities that go together, such as a clock and a place along the way, are followed in their common direction.
+        // Quantities that go together, such as a clock and a place along the way, are followed in their common
+        // direction.
         let moved = SensorChange { mirrored: false, ..best.and(&before.times(-1.0)) };
         let mut ahead = best.and(&moved);
         while moved != NOTHING && likelihood(&ahead) > highest {
@@ -130,12 +134,17 @@ fn climb(start: SensorChange, open: [bool; 4], likelihood: impl Fn(&SensorChange
 struct Evidence {
     lidars: Vec<LidarLook>,
     fits: Vec<Timed>,
+    /// Of the speed by range rates to the recorded one: wheels are known to half a percent, which is no matter of
+    /// mounting or time.
+    ratio: f64,
 }
 
 impl Evidence {
     /// All of it, or without a part of the time.
     fn without(case: &Case, radar: usize, part: Option<usize>) -> Self {
-        Self { lidars: kept(&case.lidars, part), fits: kept(&case.fits[radar], part) }
+        let figures = case.doppler(radar, &case.motion, &case.mount(radar));
+        let ratio = figures.map_or(1.0, |figures| figures.ratio.value);
+        Self { lidars: kept(&case.lidars, part), fits: kept(&case.fits[radar], part), ratio }
     }
 
     /// The logarithm, but for a constant.
@@ -146,7 +155,7 @@ impl Evidence {
         let mount = change.mount(&case.sequence.rig.radars[radar].vehicle_from_radar);
         let off = self.fits.iter().map(|timed| {
             let told = predicted(&case.motion, &mount, change.time(timed.t_ns));
-            let squared = (timed.fit.velocity - told).norm_squared();
+            let squared = (timed.fit.velocity / self.ratio - told).norm_squared();
             (squared / (2.0 * VELOCITY_SIGMA * VELOCITY_SIGMA)).min(VELOCITY_CAP)
         });
         let small = AXES.iter().map(|axis| (axis.unit.value_in(change) / axis.prior).powi(2) / 2.0);

@@ -7,8 +7,8 @@ use crate::overlap::{Measure, Setup, Tally, overlap};
 use crate::remedy::Remedy;
 use crate::verdict::{Question, Verdict};
 
-/// Finds pairs that fit each other's mountings and not their own, by range rates, and by the LiDAR where it says something.
-/// Without it, all other radars have to be in order: else the sign of all range rates explains it as well.
+/// Finds pairs that fit each other's mountings and not their own, by range rates, and by the LiDAR where it says
+/// something. Without it, all other radars have to be in order: else the sign of all range rates explains it as well.
 pub(super) fn judge(case: &Case) -> Vec<Verdict> {
     let radars: Vec<usize> = case.radars().collect();
     for (i, a) in radars.iter().enumerate() {
@@ -49,7 +49,8 @@ fn swapped(case: &Case, a: usize, b: usize) -> Option<String> {
     let convincing = if now.is_enough() { now.is_beaten_by(&then) } else { others_fit() };
     convincing.then(|| {
         format!(
-            "range rates go with the motion in each other's mounting alone; {:.0} % of the detections lie on LiDAR points, {:.0} % when swapped",
+            "range rates go with the motion in each other's mounting alone; \
+             {:.0} % of the detections lie on LiDAR points, {:.0} % when swapped",
             now.share() * 100.0,
             then.share() * 100.0
         )

@@ -1,6 +1,5 @@
 //! Whether things lie where other measurements have them: radar on LiDAR, LiDAR on LiDAR half a second later.
 
-pub(crate) mod field;
 mod motion;
 mod radar_lidar;
 mod tally;

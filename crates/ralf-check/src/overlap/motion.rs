@@ -1,7 +1,7 @@
 //! Which share of what was seen lies on what is seen half a second later: whether the vehicle moved as recorded.
 
 use super::Tally;
-use super::field::PlanField;
+use crate::plan_field::PlanField;
 use crate::sample::{LAG_NS, LidarLook, RadarLook, nearest};
 use ralf::space::EgoMotion;
 use ralf::space::{Point, Transform};

@@ -15,7 +15,8 @@ const FARTHEST: f64 = 40.0;
 const NEAREST: f64 = 1.0;
 /// A radar's scan belongs to a LiDAR's within this, ns.
 const TOGETHER_NS: u64 = 80_000_000;
-/// Things lower than this show both their ends, so that too high and too low count alike, m. Of walls a LiDAR sees no top.
+/// Things lower than this show both their ends, so that too high and too low count alike, m. Of walls a LiDAR sees no
+/// top.
 const LOW_THINGS: f64 = 2.2;
 /// A detection is as high as what it lies on within this, m.
 const HEIGHT: f64 = 0.3;
@@ -62,7 +63,8 @@ pub(crate) fn overlap(
 }
 
 impl Setup<'_> {
-    /// From the radar's frame at its time to the vehicle frame as recorded at the LiDAR's time, in which its obstacles lie.
+    /// From the radar's frame at its time to the vehicle frame as recorded at the LiDAR's time, in which its
+    /// obstacles lie.
     fn lidar_from_radar(
         &self,
         radar: usize,

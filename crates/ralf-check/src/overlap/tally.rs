@@ -4,7 +4,8 @@ use crate::statistics::paired_sigmas;
 
 /// An alternative is better by this factor at least: a smaller gain is no fault that harms labels.
 const GAIN: f64 = 1.08;
-/// And by so many standard errors: with some forty alternatives a sensor, chance comes this far once in a thousand recordings.
+/// And by so many standard errors: with some forty alternatives a sensor, chance comes this far once in a thousand
+/// recordings.
 const SIGMAS: f64 = 4.0;
 /// Fewer points than this say nothing.
 const FEWEST: f64 = 150.0;

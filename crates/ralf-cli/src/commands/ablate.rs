@@ -1,7 +1,7 @@
 //! `ralf ablate`: what each branch and each extension is good for.
 
 use super::search::{SearchArgs, name_what_is_left_out, tables};
-use crate::Outcome;
+use crate::outcome::Outcome;
 use crate::text::{aligned, decimal, print};
 use clap::Args;
 use ralf::metrics::{Rates, Scores};
@@ -12,8 +12,9 @@ use serde_json::{Map, Value, json};
 /// Arguments of `ralf ablate`.
 #[derive(Debug, Args)]
 #[command(after_help = "\
-Compares the paper's method with variants that lack a branch, have one branch alone, or have one extension besides. Each variant is
-tuned on the sequences to tune on, as `ralf tune` does it, and judged on the others. All figures are of all detections together.
+Compares the paper's method with variants that lack a branch, have one branch alone, or have one extension besides. \
+Each variant is tuned on the sequences to tune on, as `ralf tune` does it, and judged on the others. All figures are \
+of all detections together.
 
 Examples:
   ralf ablate recordings/city --train 00,01 --test 02,03
@@ -52,7 +53,8 @@ pub(crate) fn run(arguments: &AblateArgs) -> anyhow::Result<Outcome> {
 }
 
 impl AblateArgs {
-    /// Variants that share their evidence. Scans that can't be matched are the same ones each time: the first group names them.
+    /// Variants that share their evidence. Scans that can't be matched are the same ones each time: the first group
+    /// names them.
     fn judge(
         &self,
         variants: &[Variant],
@@ -66,10 +68,9 @@ impl AblateArgs {
         let parts = self.search.parts(evidence);
         let (train, test) = (tables(&parts.train), tables(&parts.test));
         let judge = |variant: &Variant| {
-            let shown = self.search.bar(variant.name);
-            let mut show = |trial: usize, best: &_| self.search.show(&shown, trial, best);
+            let progress = self.search.progress(variant.name);
+            let mut show = |trial: usize, best: &_| self.search.show(&progress, trial, best);
             let judged = variant.judge(&self.search.search(&config), (&train, &test), &mut show);
-            shown.finish_and_clear();
             Ok(judged?)
         };
         Ok((variants.iter().map(judge).collect::<anyhow::Result<_>>()?, outcome))

@@ -4,10 +4,9 @@ mod fixes;
 pub(crate) mod page;
 mod picture;
 
-use crate::Outcome;
-use crate::cli::DatasetArgs;
+use crate::arguments::{DatasetArgs, SettingsArgs};
+use crate::outcome::Outcome;
 use crate::progress::say;
-use crate::settings::SettingsArgs;
 use crate::text::print;
 use clap::Args;
 use ralf_check::{Refinement, SequenceCheck, check, check_and_refine};
@@ -16,9 +15,9 @@ use std::path::PathBuf;
 /// Arguments of `ralf check`.
 #[derive(Debug, Args)]
 #[command(after_help = "\
-Reads some hundred scans of each radar and some thirty of each LiDAR, and asks them about each other: range rates about the motion,
-detections about LiDAR points, LiDAR points about those half a second later. `docs/check.md` tells what is judged, and how.
-`ralf label` does the same before it begins.
+Reads some hundred scans of each radar and some thirty of each LiDAR, and asks them about each other: range rates \
+about the motion, detections about LiDAR points, LiDAR points about those half a second later. `docs/check.md` tells \
+what is judged, and how. `ralf label` does the same before it begins.
 
 Examples:
   ralf check recordings/city
@@ -53,7 +52,7 @@ pub(crate) struct CheckArgs {
 pub(crate) fn run(arguments: &CheckArgs) -> anyhow::Result<Outcome> {
     let mut settings = arguments.settings.resolve()?;
     settings.topics = arguments.dataset.topics_or(&settings.topics)?;
-    let recording = arguments.dataset.open_with(&settings.topics)?.corrected(&settings)?;
+    let recording = arguments.dataset.open_corrected(&settings)?;
     let mut checks: Vec<SequenceCheck> = Vec::new();
     let mut refined: Vec<Refinement> = Vec::new();
     for reader in &recording.sequences {
@@ -63,12 +62,12 @@ pub(crate) fn run(arguments: &CheckArgs) -> anyhow::Result<Outcome> {
         }
         let (check, own) = check_and_refine(reader.as_ref());
         checks.push(check);
-        // One rig, one set of corrections: the first sequence that tells of a sensor is taken.
-        refined.extend(
-            own.into_iter()
-                .filter(|new| refined.iter().all(|known| known.name != new.name))
-                .collect::<Vec<_>>(),
-        );
+        for refinement in own {
+            // One rig, one set of corrections: the first sequence that tells of a sensor is taken.
+            if refined.iter().all(|known| known.name != refinement.name) {
+                refined.push(refinement);
+            }
+        }
     }
     if let Some(file) = &arguments.write {
         ralf_data::write_whole(file, fixes::text(&checks, &refined).as_bytes())?;

@@ -1,10 +1,10 @@
 //! `ralf convert`: another format into the project's own, or into a recording as ROS keeps it.
 
-use crate::Outcome;
-use crate::cli::{DatasetArgs, the_only};
-use crate::progress::{STEPS, bar, say};
+use crate::arguments::{DatasetArgs, the_only};
+use crate::outcome::Outcome;
+use crate::progress::{Progress, say};
 use clap::Args;
-use ralf::sensors::Timelines;
+use ralf::sensors::{Sequence, Timelines};
 use ralf_data::Recording;
 use ralf_data::write::export::{RosFormat, write_ros};
 use std::path::{Path, PathBuf};
@@ -12,9 +12,9 @@ use std::path::{Path, PathBuf};
 /// Arguments of `ralf convert`.
 #[derive(Debug, Args)]
 #[command(after_help = "\
-Each sequence appears whole or not at all, and one that is there already is never overwritten. A name that ends in .mcap (ROS 2)
-or .bag (ROS 1) takes one sequence; beside it goes a .toml with the settings by which it is read back. What such a file can't
-hold is in docs/export.md.
+Each sequence appears whole or not at all, and one that is there already is never overwritten. A name that ends in \
+.mcap (ROS 2) or .bag (ROS 1) takes one sequence; beside it goes a .toml with the settings by which it is read back. \
+What such a file can't hold is in docs/export.md.
 
 Examples:
   ralf convert nuscenes -o recordings/nuscenes --sequence scene-0061
@@ -35,9 +35,9 @@ pub(crate) fn run(arguments: &ConvertArgs) -> anyhow::Result<Outcome> {
     }
     for reader in &recording.sequences {
         let sequence = reader.sequence();
-        let bar = bar(measurements(&sequence.times), STEPS, format!("converting {}", sequence.name));
-        ralf_data::write_sequence(reader.as_ref(), &arguments.output, &|done| bar.set_position(done as u64))?;
-        bar.finish_and_clear();
+        let progress = shown(sequence);
+        ralf_data::write_sequence(reader.as_ref(), &arguments.output, &|done| progress.reached(done as u64))?;
+        drop(progress);
         say(&format!("wrote {}", arguments.output.join("sequences").join(&sequence.name).display()));
     }
     Ok(Outcome::Done)
@@ -46,15 +46,18 @@ pub(crate) fn run(arguments: &ConvertArgs) -> anyhow::Result<Outcome> {
 /// Converts the only sequence of a recording into one file.
 fn as_ros(recording: &Recording, file: &Path, format: RosFormat) -> anyhow::Result<Outcome> {
     let reader = the_only(recording)?;
-    let sequence = reader.sequence();
-    let bar = bar(measurements(&sequence.times), STEPS, format!("converting {}", sequence.name));
-    let settings = write_ros(reader, file, format, &|done| bar.set_position(done as u64))?;
-    bar.finish_and_clear();
+    let progress = shown(reader.sequence());
+    let settings = write_ros(reader, file, format, &|done| progress.reached(done as u64))?;
+    drop(progress);
     say(&format!("wrote {}", file.display()));
     if let Some(settings) = settings {
         say(&format!("wrote {}: the settings by which it is read back", settings.display()));
     }
     Ok(Outcome::Done)
+}
+
+fn shown(sequence: &Sequence) -> Progress {
+    Progress::of_steps(measurements(&sequence.times), format!("converting {}", sequence.name))
 }
 
 /// How many measurements all sensors delivered.

@@ -1,17 +1,18 @@
 //! `ralf demo`: the method in one command, made of the commands that anyone would type.
 
-use crate::cli::Cli;
-use crate::commands::dispatch;
+use super::{evaluate, label, report, simulate};
+use crate::outcome::Outcome;
 use crate::progress::say;
-use crate::{Outcome, text::print};
+use crate::text::print;
 use anyhow::Context;
-use clap::{Args, Parser};
+use clap::{Args, Command};
 use std::path::PathBuf;
 
 /// Arguments of `ralf demo`.
 #[derive(Debug, Args)]
 #[command(after_help = "\
-Simulates a small recording whose truth is known, labels it, compares, and writes a report; each command is shown as it runs.
+Simulates a small recording whose truth is known, labels it, compares, and writes a report; each command is shown as \
+it runs.
 
 Examples:
   ralf demo
@@ -32,13 +33,14 @@ pub(crate) fn run(arguments: &DemoArgs) -> anyhow::Result<Outcome> {
     if arguments.folder.join("recording").exists() {
         say(&format!("{recording} is there already"));
     } else {
-        step(&["simulate", "-o", &recording, "--preset", "tiny"])?;
+        step(&["simulate", "-o", &recording, "--preset", "tiny"], simulate::run)?;
     }
-    step(&["label", &recording, "-o", &labels])?;
-    step(&["evaluate", &labels, "--truth", &recording])?;
-    step(&["report", &recording, &labels, "-o", &report])?;
+    step(&["label", &recording, "-o", &labels], label::run)?;
+    step(&["evaluate", &labels, "--truth", &recording], evaluate::run)?;
+    step(&["report", &recording, &labels, "-o", &report], report::run)?;
     print(&format!(
-        "\nOpen {report} in a browser. What to try next:\n  \
+        "\nOpen {report} in a browser. What to try next, once `cargo install --path crates/ralf-cli` has built \
+         all of it:\n  \
          ralf review {recording} {labels}    correct labels in the browser\n  \
          ralf plot {recording} {labels} --scan 6 -o scan.png\n  \
          ralf label {recording} -o {labels} --set fusion.alpha=1.0    LiDAR and cameras alone\n  \
@@ -48,8 +50,9 @@ pub(crate) fn run(arguments: &DemoArgs) -> anyhow::Result<Outcome> {
 }
 
 /// Shows a command and runs it.
-fn step(command: &[&str]) -> anyhow::Result<Outcome> {
-    say(&format!("\n$ ralf {}", command.join(" ")));
-    let line = std::iter::once("ralf").chain(command.iter().copied());
-    dispatch(Cli::try_parse_from(line).context("a command of the demonstration")?)
+fn step<A: Args>(words: &[&str], run: impl FnOnce(&A) -> anyhow::Result<Outcome>) -> anyhow::Result<Outcome> {
+    say(&format!("\n$ ralf {}", words.join(" ")));
+    let command = A::augment_args(Command::new("ralf"));
+    let typed = command.try_get_matches_from(words).context("a command of the demonstration")?;
+    run(&A::from_arg_matches(&typed).context("a command of the demonstration")?)
 }

@@ -1,10 +1,9 @@
 //! `ralf depth`: the depth of every image, once for all; and how well it fits the LiDAR.
 
-use crate::cli::DatasetArgs;
+use crate::arguments::{DatasetArgs, SettingsArgs, threads};
 use crate::depth_model::{DepthModelArgs, all_images, fill};
-use crate::settings::{SettingsArgs, threads};
+use crate::outcome::{Outcome, UsageError};
 use crate::text::{aligned, grouped, print};
-use crate::{Outcome, UsageError};
 use anyhow::{Context, ensure};
 use clap::Args;
 use ralf_data::Recording;
@@ -16,8 +15,9 @@ use std::path::PathBuf;
 /// Arguments of `ralf depth`.
 #[derive(Debug, Args)]
 #[command(after_help = "\
-Depth is stored as CAMERA/depth/000000.npy: in the dataset itself where it has RALF's own layout, else in the same tree below
-the folder given with -o, where `ralf label --depth FOLDER` finds it. What is stored already is not computed again.
+Depth is stored as CAMERA/depth/000000.npy: in the dataset itself where it has RALF's own layout, else in the same \
+tree below the folder given with -o, where `ralf label --depth FOLDER` finds it. What is stored already is not \
+computed again.
 
 Examples:
   ralf depth recordings/city --depth-model midas.onnx

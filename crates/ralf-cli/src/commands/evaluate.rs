@@ -3,9 +3,9 @@
 mod balance;
 mod table;
 
-use crate::Outcome;
-use crate::cli::ChangedArgs;
+use crate::arguments::ChangedArgs;
 use crate::corrections::merged_truth;
+use crate::outcome::Outcome;
 use crate::progress::say;
 use crate::text::print;
 use ralf_data::result::LabelledRun;
@@ -15,8 +15,9 @@ use std::path::{Path, PathBuf};
 /// What `ralf evaluate` takes.
 #[derive(Debug, Clone, clap::Args)]
 #[command(after_help = "\
-Corrections of a review in OUT/corrections.sqlite count above the dataset's corrected labels; both or one of them may be there.
-Without --truth it tells how far apart the two classes are (mean plausibility of one minus that of the other), and how balanced.
+Corrections of a review in OUT/corrections.sqlite count above the dataset's corrected labels; both or one of them may \
+be there. Without --truth it tells how far apart the two classes are (mean plausibility of one minus that of the \
+other), and how balanced.
 
 Examples:
   ralf evaluate out --truth recordings/city
@@ -68,8 +69,8 @@ fn compare(args: &EvaluateArgs, dataset: &Path) -> anyhow::Result<Outcome> {
     Ok(if comparison.missing.is_empty() { Outcome::Done } else { Outcome::Partial })
 }
 
-/// The recording that the truth lies in, once it is found to be what was labelled. Label files are enough, so that there need not
-/// be one.
+/// The recording that the truth lies in, once it is found to be what was labelled. Label files are enough, so that
+/// there need not be one.
 fn recording_of(args: &EvaluateArgs, dataset: &Path) -> anyhow::Result<Option<Recording>> {
     if !args.out.join("run.json").exists() {
         return Ok(None);

@@ -1,10 +1,10 @@
 //! `ralf export`: labels in the formats of other tools.
 
-use crate::cli::{ChangedArgs, DatasetArgs};
+use crate::arguments::{ChangedArgs, DatasetArgs};
 use crate::corrections::orphaned;
-use crate::progress::{STEPS, bar, say};
+use crate::outcome::{Outcome, UsageError};
+use crate::progress::{Progress, say};
 use crate::text::grouped;
-use crate::{Outcome, UsageError};
 use clap::builder::PossibleValuesParser;
 use clap::{Args, ValueEnum};
 use ralf_data::write::export::{Export, ExportFormat, ExportOptions, Exported, Sensors, Split};
@@ -13,9 +13,9 @@ use std::path::PathBuf;
 /// What `ralf export` takes.
 #[derive(Debug, Args)]
 #[command(after_help = "\
-Labels are the ones that count: a person's correction, else what a person has accepted, else the machine's. They come alone
-unless --sensors asks for what the sensors measured; clouds (mcap, rosbag1, pcd) always hold the radars' detections.
-An export appears whole or not at all. Formats and fields: docs/export.md
+Labels are the ones that count: a person's correction, else what a person has accepted, else the machine's. They come \
+alone unless --sensors asks for what the sensors measured; clouds (mcap, rosbag1, pcd) always hold the radars' \
+detections. An export appears whole or not at all. Formats and fields: docs/export.md
 
 Examples:
   ralf export recordings/city out --to mcap --sequence 00 -o city-00.mcap
@@ -33,7 +33,8 @@ pub(crate) struct ExportArgs {
     #[command(flatten)]
     changed: ChangedArgs,
     /// The format
-    #[arg(long, value_name = "FORMAT", value_parser = PossibleValuesParser::new(ExportFormat::ALL.map(ExportFormat::name)))]
+    #[arg(long, value_name = "FORMAT",
+        value_parser = PossibleValuesParser::new(ExportFormat::ALL.map(ExportFormat::name)))]
     to: String,
     /// Where it goes: a folder that is empty or not there yet; of one sequence also an .mcap or .bag file
     #[arg(short, long, value_name = "PATH")]
@@ -42,7 +43,8 @@ pub(crate) struct ExportArgs {
     #[arg(long, value_enum, default_value_t = Kind::All)]
     split: Kind,
     /// Add what the sensors measured: all of them, or some (`--sensors=radar,lidar`)
-    #[arg(long, value_enum, value_name = "KINDS", value_delimiter = ',', num_args = 0..=3, require_equals = true, default_missing_value = "radar,lidar,camera")]
+    #[arg(long, value_enum, value_name = "KINDS", value_delimiter = ',', num_args = 0..=3, require_equals = true,
+        default_missing_value = "radar,lidar,camera")]
     sensors: Vec<Sensor>,
     /// Replace an earlier export in the same format
     #[arg(long)]
@@ -70,17 +72,16 @@ pub(crate) fn run(arguments: &ExportArgs) -> anyhow::Result<Outcome> {
     let options = options(arguments)?;
     let recording = arguments.dataset.open_labelled(&arguments.labels, &arguments.changed)?;
     let export = Export { recording: &recording, out: &arguments.labels, options };
-    let bar = bar(export.scans() as u64, STEPS, format!("exporting {}", arguments.to));
-    let exported = export.write(&arguments.output, &|scans| bar.set_position(scans as u64));
-    bar.finish_and_clear();
-    let exported = exported?;
+    let progress = Progress::of_steps(export.scans() as u64, format!("exporting {}", arguments.to));
+    let exported = export.write(&arguments.output, &|scans| progress.reached(scans as u64))?;
+    drop(progress);
     let [scans, detections] = [exported.scans, exported.detections].map(|count| grouped(count as u64));
     say(&format!("wrote {}: {scans} scans, {detections} detections", arguments.output.display()));
     Ok(name_what_is_missing(&exported))
 }
 
 fn options(arguments: &ExportArgs) -> anyhow::Result<ExportOptions> {
-    let format = ExportFormat::ALL.into_iter().find(|format| format.name() == arguments.to);
+    let format = ExportFormat::named(&arguments.to);
     let format = format.ok_or_else(|| UsageError(format!("no format `{}`", arguments.to)))?;
     let has = |sensor| arguments.sensors.contains(&sensor);
     let sensors =

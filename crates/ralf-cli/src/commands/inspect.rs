@@ -3,12 +3,11 @@
 mod ros;
 
 use super::check::page::page as check_page;
-use crate::cli::DatasetArgs;
-use crate::progress::{STEPS, bar};
+use crate::arguments::{DatasetArgs, SettingsArgs, threads};
+use crate::outcome::{Outcome, UsageError};
+use crate::progress::Progress;
 use crate::run_summary::run_summary;
-use crate::settings::{SettingsArgs, threads};
 use crate::text::{aligned, grouped, print};
-use crate::{Outcome, UsageError};
 use clap::Args;
 use ralf::config::Config;
 use ralf::sensors::Timelines;
@@ -21,7 +20,8 @@ use std::path::{Path, PathBuf};
 /// Arguments of `ralf inspect`.
 #[derive(Debug, Args)]
 #[command(after_help = "\
-Every radar and LiDAR scan is read once, so that those that can't be are found before labelling. Of a folder that `ralf label` wrote it tells what was labelled, and which cameras failed, and why.
+Every radar and LiDAR scan is read once, so that those that can't be are found before labelling. Shown a folder that
+`ralf label` wrote, it tells what was labelled, and which cameras failed, and why.
 
 Examples:
   ralf inspect recordings/city --sequence 00
@@ -52,27 +52,20 @@ pub(crate) fn run(arguments: &InspectArgs) -> anyhow::Result<Outcome> {
     let mut settings = arguments.settings.resolve()?;
     let topics = ros::Look::at(&arguments.dataset)?;
     if let Some(file) = &arguments.write_topics {
-        return topics
-            .ok_or_else(|| UsageError("--write-topics: expected a ROS recording".into()))?
-            .write(file);
+        let topics = topics.ok_or_else(|| UsageError("--write-topics: expected a ROS recording".into()))?;
+        return topics.write(file);
     }
     settings.topics = arguments.dataset.topics_or(&settings.topics)?;
-    let recording = arguments.dataset.open_with(&settings.topics);
-    let recording = match (recording, &topics) {
-        (Ok(recording), _) => recording,
-        // The topics are what tells why.
-        (Err(error), Some(topics)) => {
-            print(&topics.page(&settings.topics)?)?;
-            return Err(error);
-        }
-        (Err(error), None) => return Err(error),
-    };
-    let recording = recording.corrected(&settings)?;
-    let looks: Vec<_> = recording
-        .sequences
-        .iter()
-        .map(|reader| look_at(reader.as_ref(), &settings.method, arguments.quick))
-        .collect();
+    let opened = arguments.dataset.open_corrected(&settings);
+    if let (Err(_), Some(topics)) = (&opened, &topics) {
+        // They tell why.
+        print(&topics.page(&settings.topics)?)?;
+    }
+    let recording = opened?;
+    let mut looks = Vec::new();
+    for reader in &recording.sequences {
+        looks.push(look_at(reader.as_ref(), &settings.method, arguments.quick));
+    }
     if arguments.json {
         let checks = checks(&recording, arguments.quick);
         let mut look = serde_json::json!({ "format": recording.format, "sequences": looks, "check": checks });
@@ -81,12 +74,13 @@ pub(crate) fn run(arguments: &InspectArgs) -> anyhow::Result<Outcome> {
         }
         print(&serde_json::to_string_pretty(&look)?)?;
     } else {
-        let head =
-            format!("{} ({}), {} sequence(s)\n", recording.path.display(), recording.format, looks.len());
-        let head = topics.map_or(Ok(String::new()), |topics| topics.page(&settings.topics))? + &head;
+        let head = topics.map_or(Ok(String::new()), |topics| topics.page(&settings.topics))?;
+        let (path, format, count) = (recording.path.display(), recording.format, looks.len());
+        let head = format!("{head}{path} ({format}), {count} sequence(s)\n");
         print(&looks.iter().fold(head, |text, look| text + "\n" + &page(look)))?;
-        let checks = checks(&recording, arguments.quick);
-        checks.iter().try_for_each(|check| print(&("\n".to_owned() + &check_page(check, false))))?;
+        for check in checks(&recording, arguments.quick) {
+            print(&("\n".to_owned() + &check_page(&check, false)))?;
+        }
     }
     Ok(Outcome::Done)
 }
@@ -102,9 +96,8 @@ fn look_at(reader: &dyn SequenceReader, config: &Config, quick: bool) -> Inspect
     if !quick {
         let Timelines { radars, lidars, .. } = &reader.sequence().times;
         let scans = radars.iter().chain(lidars).map(|times| times.len() as u64).sum();
-        let bar = bar(scans, STEPS, format!("reading {}", look.name));
-        look.try_scans(reader, threads(None), &|| bar.inc(1));
-        bar.finish_and_clear();
+        let progress = Progress::of_steps(scans, format!("reading {}", look.name));
+        look.try_scans(reader, threads(None), &|| progress.advance(1));
     }
     look
 }

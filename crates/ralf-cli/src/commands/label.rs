@@ -1,28 +1,27 @@
 //! `ralf label`: a plausibility and a label for every detection.
 
-use super::check::page;
-use crate::Outcome;
-use crate::cli::DatasetArgs;
-use crate::depth_model::{DepthModelArgs, fill, images_of_scans};
-use crate::progress::{Bars, say};
+use super::check::page::doubts;
+use crate::arguments::{DatasetArgs, SettingsArgs, threads};
+#[cfg(feature = "depth")]
+use crate::depth_model::{DepthModelArgs, depth_for_labelling};
+use crate::outcome::Outcome;
+use crate::progress::{Stages, say};
 use crate::run_summary::run_summary;
-use crate::settings::{SettingsArgs, threads};
 use crate::text::{grouped, print};
 use clap::Args;
-use ralf::config::Config;
 use ralf_data::Recording;
 use ralf_data::depth::DepthStore;
-use ralf_data::run::{CheckRecord, LabelRun, Outcome as RunOutcome, SequenceRecord};
-use ralf_depth::DepthEstimator;
+use ralf_data::run::{CheckRecord, LabelRun, Outcome as RunOutcome, RunRecord, SequenceRecord};
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
 /// Arguments of `ralf label`.
 #[derive(Debug, Args)]
 #[command(after_help = "\
-Writes OUT/run.json, OUT/sequences/NAME/plausibility.parquet and a .label file per scan. Killed and started again with the same
-arguments it goes on where it stopped. Sequences may be labelled into the same OUT one after the other; those that were labelled
-before are left as they are. All results in OUT have the same settings: those of other settings are removed, and this is said.
+Writes OUT/run.json, OUT/sequences/NAME/plausibility.parquet and a .label file per scan. Killed and started again \
+with the same arguments it goes on where it stopped. Sequences may be labelled into the same OUT one after the other; \
+those that were labelled before are left as they are. All results in OUT have the same settings: those of other \
+settings are removed, and this is said.
 
 Examples:
   ralf label recordings/city -o out
@@ -39,10 +38,12 @@ pub(crate) struct LabelArgs {
     output: PathBuf,
     #[command(flatten)]
     settings: SettingsArgs,
+    #[cfg(feature = "depth")]
     #[command(flatten)]
     model: DepthModelArgs,
     /// Take depth images from this folder, as `ralf depth -o` wrote them
-    #[arg(long, value_name = "FOLDER", conflicts_with = "depth_model")]
+    #[arg(long, value_name = "FOLDER")]
+    #[cfg_attr(feature = "depth", arg(conflicts_with = "depth_model"))]
     depth: Option<PathBuf>,
     /// Scans side by side; as many as there are processors if not given
     #[arg(long, value_name = "N")]
@@ -66,21 +67,24 @@ pub(crate) fn run(arguments: &LabelArgs) -> anyhow::Result<Outcome> {
     let mut settings = arguments.settings.resolve()?;
     let jobs = threads(arguments.jobs);
     settings.topics = arguments.dataset.topics_or(&settings.topics)?;
-    let recording = arguments.dataset.open_with(&settings.topics)?.corrected(&settings)?;
+    let recording = arguments.dataset.open_corrected(&settings)?;
     let checks = arguments.checks(&recording);
     if arguments.strict && checks.iter().any(|check| !check.doubts.is_empty()) {
         say("nothing is labelled, for the recording is doubted (--strict)");
         return Ok(Outcome::Partial);
     }
-    let recording = arguments.with_depth(recording, &settings.method, jobs)?;
-    let run = LabelRun {
-        recording: &recording,
-        settings: &settings,
-        out: &arguments.output,
-        jobs,
-        checks: &checks,
+    let recording = match &arguments.depth {
+        Some(folder) => DepthStore::open(folder)?.attach(recording),
+        None => recording,
     };
-    let done = run.execute(&Bars::new(arguments.quiet))?;
+    #[cfg(feature = "depth")]
+    let recording = match arguments.model.load()? {
+        Some(model) => depth_for_labelling(recording, &model, &arguments.output, &settings.method, jobs)?,
+        None => recording,
+    };
+    let out = arguments.output.as_path();
+    let run = LabelRun { recording: &recording, settings: &settings, out, jobs, checks: &checks };
+    let done = run.execute(&Stages::new(arguments.quiet))?;
     if !done.removed.is_empty() {
         let names = done.removed.join(", ");
         say(&format!("removed, for they were made by another version or with other settings: {names}"));
@@ -94,6 +98,11 @@ pub(crate) fn run(arguments: &LabelArgs) -> anyhow::Result<Outcome> {
     }
     let record = &done.record;
     print(&if arguments.json { serde_json::to_string_pretty(record)? } else { summary(&done) })?;
+    Ok(told_of_scans(record))
+}
+
+/// Says which scans were left out, and how it ended by that.
+fn told_of_scans(record: &RunRecord) -> Outcome {
     for (sequence, scan) in record.unreadable() {
         let (sensor, number, reason) = (&scan.sensor, scan.scan, &scan.reason);
         say(&format!("labelled without: {sequence} {sensor} scan {number}: {reason}"));
@@ -103,39 +112,19 @@ pub(crate) fn run(arguments: &LabelArgs) -> anyhow::Result<Outcome> {
         say(&format!("not labelled: {sequence} {} scan {}: {}", scan.radar, scan.scan, scan.reason));
         outcome = Outcome::Partial;
     }
-    Ok(outcome)
+    outcome
 }
 
 impl LabelArgs {
     /// What `ralf check` says of the recording; doubts are told.
     fn checks(&self, recording: &Recording) -> Vec<CheckRecord> {
-        if self.no_check {
-            return Vec::new();
+        let mut checks = Vec::new();
+        for reader in recording.sequences.iter().filter(|_| !self.no_check) {
+            let check = CheckRecord::of(&ralf_check::check(reader.as_ref()));
+            doubts(&check).for_each(|line| say(&line));
+            checks.push(check);
         }
-        let checks: Vec<CheckRecord> = recording
-            .sequences
-            .iter()
-            .map(|reader| CheckRecord::of(&ralf_check::check(reader.as_ref())))
-            .collect();
-        checks.iter().flat_map(page::doubts).for_each(|line| say(&line));
         checks
-    }
-
-    /// The recording with the depth that was asked for: of a network, computed now as far as labelling needs it, or stored.
-    fn with_depth(&self, recording: Recording, config: &Config, jobs: usize) -> anyhow::Result<Recording> {
-        let store = match (self.model.load()?, &self.depth) {
-            (Some(model), _) => {
-                let network = model.fingerprint();
-                let folder = self.output.join("depth").join(&network[..network.len().min(12)]);
-                let store = DepthStore::create(&folder, model.output(), network)?;
-                let tolerance = config.sync.camera_tolerance_ms;
-                fill(&store, &recording, &model, |sequence| images_of_scans(sequence, tolerance), jobs)?;
-                store
-            }
-            (None, Some(folder)) => DepthStore::open(folder)?,
-            (None, None) => return Ok(recording),
-        };
-        Ok(store.attach(recording))
     }
 }
 

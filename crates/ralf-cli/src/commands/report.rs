@@ -1,18 +1,17 @@
 //! `ralf report`: one page about a labelled recording.
 
-use crate::Outcome;
-use crate::cli::{ChangedArgs, DatasetArgs};
-use crate::progress::say;
+use crate::arguments::{ChangedArgs, DatasetArgs};
+use crate::outcome::Outcome;
+use crate::progress::{Progress, say};
 use clap::Args;
-use indicatif::ProgressBar;
 use ralf_report::Report;
 use std::path::PathBuf;
 
 /// What `ralf report` takes.
 #[derive(Debug, Args)]
 #[command(after_help = "\
-The page is one file that needs nothing else. It compares the labels with the recording's corrected ones where there are
-some, and tells what the labels say by themselves where there are none.
+The page is one file that needs nothing else. It compares the labels with the recording's corrected ones where there \
+are some, and tells what the labels say by themselves where there are none.
 
 Examples:
   ralf report recordings/city out -o report.html
@@ -41,12 +40,9 @@ pub(crate) fn run(arguments: &ReportArgs) -> anyhow::Result<Outcome> {
         out: &arguments.labels,
         scans_per_sequence: arguments.scans_per_sequence,
     };
-    let shown = ProgressBar::new_spinner();
-    let html = report.html(&|step| {
-        shown.set_message(step.to_owned());
-        shown.tick();
-    })?;
-    shown.finish_and_clear();
+    let progress = Progress::spinner();
+    let html = report.html(&|step| progress.tell(step.to_owned()))?;
+    drop(progress);
     ralf_data::write_whole(&arguments.output, html.as_bytes())?;
     say(&format!("wrote {}", arguments.output.display()));
     Ok(Outcome::Done)

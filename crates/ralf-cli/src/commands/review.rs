@@ -1,7 +1,7 @@
 //! `ralf review`: the page where people correct labels.
 
-use crate::Outcome;
-use crate::cli::{ChangedArgs, DatasetArgs};
+use crate::arguments::{ChangedArgs, DatasetArgs};
+use crate::outcome::Outcome;
 use crate::progress::say;
 use crate::text::print;
 use clap::Args;
@@ -15,9 +15,9 @@ const NAMES: [&str; 2] = ["USER", "USERNAME"];
 /// Arguments of `ralf review`.
 #[derive(Debug, Args)]
 #[command(after_help = "\
-Every edit is in OUT/corrections.sqlite before the page shows it as saved; machine labels stay as they are, and
-labelling again keeps the corrections. `ralf evaluate` and `ralf tune` read them. The printed address holds a token,
-without which nobody can read or correct anything. Only this machine can open the page, unless --host says otherwise.
+Every edit is in OUT/corrections.sqlite before the page shows it as saved; machine labels stay as they are, and \
+labelling again keeps the corrections. `ralf evaluate` and `ralf tune` read them. The printed address holds a token, \
+without which nobody can read or correct anything. Only this machine can open the page, unless --host says otherwise. \
 Ctrl-C ends it.
 
 Examples:

@@ -1,14 +1,11 @@
 //! What `ralf tune` and `ralf ablate` share: what is searched for, on which sequences, and how that is shown.
 
-use crate::Outcome;
-use crate::UsageError;
-use crate::cli::DatasetArgs;
+use crate::arguments::{DatasetArgs, SettingsArgs, threads};
 use crate::corrections::merged_truth;
-use crate::progress::{Bars, STEPS, bar, say};
-use crate::settings::{SettingsArgs, threads};
+use crate::outcome::{Outcome, UsageError};
+use crate::progress::{Progress, Stages, say};
 use clap::Args;
 use clap::builder::PossibleValuesParser;
-use indicatif::ProgressBar;
 use ralf::config::Config;
 use ralf_data::{GroundTruth, Recording, SequenceEvidence, Settings, gather_evidence};
 use ralf_train::{EvidenceTable, Found, Objective, Search, TunedSettings};
@@ -82,7 +79,7 @@ impl SearchArgs {
         let (dataset, format) = (self.dataset.clone(), self.format.clone());
         let dataset = DatasetArgs { dataset, format, sequences, topics: None };
         let corrections = self.corrections.as_deref();
-        let recording = dataset.open_with(&dataset.topics_or(&base.topics)?)?.corrected(base)?;
+        let recording = base.correct(dataset.open_with(&dataset.topics_or(&base.topics)?)?)?;
         let truth = merged_truth(&self.dataset, Some(&recording), corrections, corrections.is_some())?;
         Ok((recording, truth))
     }
@@ -93,7 +90,7 @@ impl SearchArgs {
         (recording, truth): (&Recording, &GroundTruth),
         config: &Config,
     ) -> anyhow::Result<Vec<SequenceEvidence>> {
-        Ok(gather_evidence(recording, truth, config, threads(self.jobs), &Bars::new(self.quiet))?)
+        Ok(gather_evidence(recording, truth, config, threads(self.jobs), &Stages::new(self.quiet))?)
     }
 
     /// Which evidence is for training, and which for judging.
@@ -114,18 +111,15 @@ impl SearchArgs {
     }
 
     /// Of a search's trials.
-    pub(super) fn bar(&self, name: &str) -> ProgressBar {
-        if self.quiet {
-            return ProgressBar::hidden();
-        }
-        bar(self.trials.get() as u64, STEPS, name.to_owned())
+    pub(super) fn progress(&self, name: &str) -> Progress {
+        if self.quiet { Progress::hidden() } else { Progress::of_steps(self.trials.get() as u64, name) }
     }
 
     /// How far the search has got, and the best so far.
-    pub(super) fn show(&self, shown: &ProgressBar, trial: usize, best: &Found) {
-        shown.set_position(trial as u64);
+    pub(super) fn show(&self, progress: &Progress, trial: usize, best: &Found) {
+        progress.reached(trial as u64);
         let settings = best.settings.entries().map(|(key, value)| format!("{key}={value}")).join(" ");
-        shown.set_message(format!("best {} {:.3} with {settings}", self.objective, best.score));
+        progress.tell(format!("best {} {:.3} with {settings}", self.objective, best.score));
     }
 
     /// The options that change the result of a search.

@@ -1,18 +1,17 @@
 //! `ralf simulate`: a recording whose truth is known.
 
 use super::convert::measurements;
-use crate::progress::{STEPS, bar, say};
-use crate::{Outcome, UsageError};
+use crate::outcome::{Outcome, UsageError};
+use crate::progress::{Progress, say};
 use anyhow::Context;
 use clap::Args;
 use clap::builder::PossibleValuesParser;
 use ralf::sensors::Source;
+use ralf_data::write_simulated;
 use ralf_files::Kind;
 use ralf_sim::presets::{self, Preset};
 use ralf_sim::{Scenario, SimulatedSequence};
 use std::path::{Path, PathBuf};
-use std::sync::Mutex;
-use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
 
 /// Scans of a scenario of one's own, where no number is given.
 const USUAL_SCANS: usize = 100;
@@ -20,8 +19,9 @@ const USUAL_SCANS: usize = 100;
 /// Arguments of `ralf simulate`.
 #[derive(Debug, Args)]
 #[command(after_help = "\
-Writes LiDAR, four radars, four fisheye cameras with depth, wheel odometry, and the truth of every detection, in RALF's own layout.
-A sequence that is there already is never overwritten. The same preset, numbers and seed give the same bytes.
+Writes LiDAR, four radars, four fisheye cameras with depth, wheel odometry, and the truth of every detection, in \
+RALF's own layout. A sequence that is there already is never overwritten. The same preset, numbers and seed give the \
+same bytes.
 
 Examples:
   ralf simulate -o recordings/sim --scans 300         the paper's eleven sequences, each shorter
@@ -60,52 +60,14 @@ pub(crate) fn run(arguments: &SimulateArgs) -> anyhow::Result<Outcome> {
         None => preset(arguments)?,
     };
     let steps: u64 = sequences.iter().map(|sequence| measurements(&sequence.sequence().times)).sum();
-    let bar = bar(steps, STEPS, "simulating".into());
-    if arguments.quiet {
-        bar.set_draw_target(indicatif::ProgressDrawTarget::hidden());
-    }
-    let done: Vec<AtomicU64> = sequences.iter().map(|_| AtomicU64::new(0)).collect();
-    write_all(&sequences, &arguments.output, &|sequence, measurements| {
-        done[sequence].store(measurements as u64, Ordering::Relaxed);
-        bar.set_position(done.iter().map(|count| count.load(Ordering::Relaxed)).sum());
-    })?;
-    bar.finish_and_clear();
+    let progress = if arguments.quiet { Progress::hidden() } else { Progress::of_steps(steps, "simulating") };
+    write_simulated(&sequences, &arguments.output, &|measurements| progress.reached(measurements as u64))?;
+    drop(progress);
     for sequence in &sequences {
         let folder = arguments.output.join("sequences").join(&sequence.sequence().name);
         say(&format!("wrote {}", folder.display()));
     }
     Ok(Outcome::Done)
-}
-
-/// Writes the sequences side by side; the first error in their order ends it.
-fn write_all(
-    sequences: &[SimulatedSequence],
-    output: &Path,
-    progress: &(dyn Fn(usize, usize) + Sync),
-) -> anyhow::Result<()> {
-    let jobs = std::thread::available_parallelism().map_or(1, std::num::NonZeroUsize::get);
-    let next = AtomicUsize::new(0);
-    let failed = Mutex::new(None::<(usize, ralf_data::DataError)>);
-    std::thread::scope(|scope| {
-        for _ in 0..jobs.min(sequences.len()) {
-            scope.spawn(|| {
-                while let Some((index, sequence)) = Some(next.fetch_add(1, Ordering::Relaxed))
-                    .and_then(|index| Some((index, sequences.get(index)?)))
-                {
-                    let written = ralf_data::write_sequence(sequence, output, &|done| progress(index, done));
-                    let Err(error) = written else { continue };
-                    let mut failed = failed.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
-                    if failed.as_ref().is_none_or(|(first, _)| index < *first) {
-                        *failed = Some((index, error));
-                    }
-                }
-            });
-        }
-    });
-    match failed.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner) {
-        Some((_, error)) => Err(error.into()),
-        None => Ok(()),
-    }
 }
 
 /// The user's scenario.

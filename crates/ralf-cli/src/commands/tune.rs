@@ -4,9 +4,9 @@ mod report;
 mod text;
 
 use super::search::{Parts, SearchArgs, name_what_is_left_out, tables};
+use crate::outcome::{Outcome, UsageError};
 use crate::progress::say;
 use crate::text::print;
-use crate::{Outcome, UsageError};
 use clap::Args;
 use ralf::config::Config;
 use ralf_data::{Settings, write_whole};
@@ -17,8 +17,8 @@ use std::path::PathBuf;
 /// Arguments of `ralf tune`.
 #[derive(Debug, Args)]
 #[command(after_help = "\
-Searches fusion.alpha, fusion.threshold, lidar.beta, lidar.neighbours, camera.beta, tracking.beta and tracking.scans. The result is
-judged on sequences that the search did not see.
+Searches fusion.alpha, fusion.threshold, lidar.beta, lidar.neighbours, camera.beta, tracking.beta and tracking.scans. \
+The result is judged on sequences that the search did not see.
 
 Examples:
   ralf tune recordings/city -o ralf.toml --train 00,01 --test 02
@@ -75,9 +75,10 @@ impl TuneArgs {
 
     fn tune(&self, base: &Config, Parts { train, test }: &Parts) -> anyhow::Result<Report> {
         let search = self.search.search(base);
-        let shown = self.search.bar("tuning");
-        let found = search.run(&tables(train), &mut |trial, best| self.search.show(&shown, trial, best))?;
-        shown.finish_and_clear();
+        let progress = self.search.progress("tuning");
+        let found =
+            search.run(&tables(train), &mut |trial, best| self.search.show(&progress, trial, best))?;
+        drop(progress);
         let folds = if self.cross_validate { self.cross_validate(&search, train)? } else { Vec::new() };
         Ok(Report {
             objective: search.objective,
@@ -96,14 +97,12 @@ impl TuneArgs {
         search: &Search,
         train: &[(String, EvidenceTable)],
     ) -> anyhow::Result<Vec<ralf_train::Fold>> {
-        let shown = self.search.bar("cross-validation");
+        let progress = self.search.progress("cross-validation");
         let mut show = |left_out: &str, trial: usize, best: &Found| {
-            shown.set_prefix(format!("cross-validation without {left_out}"));
-            self.search.show(&shown, trial, best);
+            progress.name(format!("cross-validation without {left_out}"));
+            self.search.show(&progress, trial, best);
         };
-        let folds = leave_one_out(search, train, &mut show)?;
-        shown.finish_and_clear();
-        Ok(folds)
+        Ok(leave_one_out(search, train, &mut show)?)
     }
 
     /// The command that repeats this, without what doesn't change the result.

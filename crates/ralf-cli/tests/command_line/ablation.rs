@@ -1,4 +1,5 @@
-//! `ralf ablate`: its first row is what `ralf tune` reaches with the paper's settings, and every other is told beside it.
+//! `ralf ablate`: its first row is what `ralf tune` reaches with the paper's settings, and every other is told beside
+//! it.
 
 use crate::support::{Dataset, Shape, ralf};
 use serde_json::Value;

@@ -21,7 +21,8 @@ fn a_radar_scan_that_is_cut_short_is_the_only_one_left_out() {
     assert_eq!(named.len(), 1, "{named:?}");
     let file = dataset.file("radar_front/000003.bin");
     let expected = format!(
-        "00 radar_front scan 3: {}: byte 500: expected rows of 5 float32 (20 bytes), found 13 bytes left over at the end",
+        "00 radar_front scan 3: {}: byte 500: expected rows of 5 float32 (20 bytes), \
+         found 13 bytes left over at the end",
         file.display()
     );
     assert_eq!(named[0], expected);

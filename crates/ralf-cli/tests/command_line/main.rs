@@ -1,4 +1,5 @@
-//! The command line from outside: the built program on tiny recordings whose truth is known, on bad ones, and on real ones.
+//! The command line from outside: the built program on tiny recordings whose truth is known, on bad ones, and on real
+//! ones.
 
 #![allow(
     clippy::unwrap_used,

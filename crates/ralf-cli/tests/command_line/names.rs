@@ -24,7 +24,8 @@ impl Place {
         self.path(name).to_str().unwrap().to_owned()
     }
 
-    /// Every verb that writes below a folder refuses the recording, names what is wrong, and leaves everything as it was.
+    /// Every verb that writes below a folder refuses the recording, names what is wrong, and leaves everything as it
+    /// was.
     #[track_caller]
     fn nothing_is_written(&self, arguments: &[&str], shown: &str) {
         let recording = self.text("recording");

@@ -6,26 +6,32 @@ use std::fs;
 use std::io::{BufRead, BufReader, Read, Write};
 use std::net::TcpStream;
 use std::path::Path;
-use std::process::{Child, Command, Stdio};
+use std::process::{Child, ChildStdout, Command, Stdio};
 
 /// A server of its own.
 struct Review {
     child: Child,
+    /// Held open, for a program that can't print ends.
+    _printed: BufReader<ChildStdout>,
     address: String,
     token: String,
 }
 
 impl Review {
     fn start(dataset: &Dataset, more: &[&str]) -> Self {
-        let mut command = program();
+        Self::start_with(program(), dataset, more)
+    }
+
+    fn start_with(mut command: Command, dataset: &Dataset, more: &[&str]) -> Self {
         let state = Path::new(&dataset.out).with_extension("state");
         let command = command.args(["review", &dataset.path, &dataset.out, "--port", "0", "--author", "ada"]);
         let command = command.args(more).env("XDG_STATE_HOME", state);
         let mut child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
         let mut url = String::new();
-        BufReader::new(child.stdout.take().unwrap()).read_line(&mut url).unwrap();
+        let mut printed = BufReader::new(child.stdout.take().unwrap());
+        printed.read_line(&mut url).unwrap();
         let (address, token) = url.trim().strip_prefix("http://").unwrap().split_once("/?token=").unwrap();
-        Self { address: address.to_owned(), token: token.to_owned(), child }
+        Self { address: address.to_owned(), token: token.to_owned(), _printed: printed, child }
     }
 
     fn ask(&self, method: &str, path: &str, body: &str) -> String {
@@ -67,7 +73,8 @@ fn labelled() -> Dataset {
 
 #[test]
 fn the_address_is_printed_served_and_ended_by_an_interrupt() {
-    let review = Review::start(&labelled(), &[]);
+    let dataset = labelled();
+    let review = Review::start(&dataset, &[]);
     let answer = review.ask("GET", "recording", "");
     assert!(answer.starts_with("HTTP/1.1 200") && answer.contains("\"author\":\"ada\""), "{answer}");
     assert!(review.end("-INT"));
@@ -119,10 +126,57 @@ fn a_deleted_store_is_told_and_nothing_is_called_saved() {
 
 #[test]
 fn addresses_of_all_interfaces_can_be_opened() {
-    let review = Review::start(&labelled(), &["--host", "0.0.0.0"]);
+    let dataset = labelled();
+    let review = Review::start(&dataset, &["--host", "0.0.0.0"]);
     assert!(review.address.starts_with("127.0.0.1:"), "{}", review.address);
     assert!(review.ask("GET", "recording", "").starts_with("HTTP/1.1 200"));
     assert!(review.end("-INT"));
+}
+
+/// A command that runs the program as somebody who can write nowhere: root could, whatever the permissions say.
+#[cfg(unix)]
+fn program_of_nobody() -> Command {
+    let mut command = Command::new("setpriv");
+    command.args(["--reuid=65534", "--regid=65534", "--clear-groups"]).arg(program().get_program());
+    command
+}
+
+#[cfg(unix)]
+#[test]
+fn an_out_that_can_only_be_read_is_shown_and_says_so() {
+    use std::os::unix::fs::{MetadataExt, PermissionsExt};
+    let is_root = fs::metadata("/proc/self").is_ok_and(|own| own.uid() == 0);
+    let works =
+        |command: &mut Command| command.arg("--version").output().is_ok_and(|ran| ran.status.success());
+    if is_root && !works(&mut program_of_nobody()) {
+        return println!("skipped: root can write everywhere, and there is no setpriv");
+    }
+    let dataset = labelled();
+    let out = Path::new(&dataset.out);
+    for with_corrections in [false, true] {
+        if with_corrections {
+            let review = Review::start(&dataset, &[]);
+            review.correct(0);
+            assert!(review.end("-TERM"));
+        }
+        let permit = |mode: u32| fs::set_permissions(out, fs::Permissions::from_mode(mode)).unwrap();
+        fs::set_permissions(out.parent().unwrap(), fs::Permissions::from_mode(0o755)).unwrap();
+        permit(0o555);
+        let command = if is_root { program_of_nobody() } else { program() };
+        let review = Review::start_with(command, &dataset, &[]);
+        let recording = review.ask("GET", "recording", "");
+        assert!(
+            recording.starts_with("HTTP/1.1 200") && !recording.contains("\"read_only\":null"),
+            "{recording}"
+        );
+        let queue = review.ask("GET", "sequences/00/queue", "");
+        let corrected = format!("\"corrected_detections\":{}", u8::from(with_corrections));
+        assert!(queue.contains(&corrected), "{queue}");
+        let undo = review.ask("POST", "sequences/00/undo", "{}");
+        assert!(undo.starts_with("HTTP/1.1 403") && undo.contains("can only be read"), "{undo}");
+        assert!(review.end("-TERM"));
+        permit(0o755);
+    }
 }
 
 #[test]

@@ -114,8 +114,9 @@ fn own(place: &Path) -> String {
 }
 
 /// In the order of a first day with a recording. What tunes wants two sequences, and a bag is one.
-const VERBS: [&str; 14] = [
+const VERBS: [&str; 15] = [
     "inspect DATASET --topics TOPICS",
+    "check DATASET --topics TOPICS",
     "label DATASET -o OUT --topics TOPICS -q",
     "inspect OUT",
     "evaluate OUT",

@@ -17,7 +17,8 @@ pub struct CameraCheck {
     pub views: usize,
     /// LiDAR points in these views that the camera sees.
     pub samples: usize,
-    /// Median over the views of their median relative error `|Z - Z_lidar| / Z_lidar`, for each of local, RANSAC, Huber.
+    /// Median over the views of their median relative error `|Z - Z_lidar| / Z_lidar`, for each of local, RANSAC,
+    /// Huber.
     pub residuals: [Option<f64>; 3],
 }
 

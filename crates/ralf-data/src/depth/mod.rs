@@ -1,4 +1,5 @@
-//! Depth images: computed once by a network, stored beside the images or elsewhere, and read whenever a recording is labelled.
+//! Depth images: computed once by a network, stored beside the images or elsewhere, and read whenever a recording is
+//! labelled.
 
 mod check;
 mod compute;

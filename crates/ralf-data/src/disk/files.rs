@@ -7,8 +7,8 @@ use std::fs;
 use std::io::{ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
-/// A whole measurement, or what belongs to one. Everything in this crate that reads a file does so through this module: it
-/// refuses what is no regular file, and what is larger than its kind can be ([`ralf_files`]).
+/// A whole measurement, or what belongs to one. Everything in this crate that reads a file does so through this module:
+/// it refuses what is no regular file, and what is larger than its kind can be ([`ralf_files`]).
 pub(crate) fn read(file: &Path) -> Result<Vec<u8>, DataError> {
     ralf_files::read(file, Kind::Measurement).map_err(DataError::io(file))
 }

@@ -7,7 +7,7 @@ use ralf::sensors::CameraImage;
 use std::io::{BufReader, Cursor};
 use std::path::Path;
 
-/// Of the files that can be read.
+/// How the names of image files end that can be read.
 pub(crate) const EXTENSIONS: [&str; 3] = ["jpg", "jpeg", "png"];
 
 /// An image file as 8-bit colour.
@@ -49,7 +49,8 @@ pub(crate) fn decode(bytes: &[u8]) -> Result<CameraImage, String> {
     Ok(CameraImage { width, height, rgb: image.into_raw().as_chunks::<3>().0.to_vec() })
 }
 
-/// The bytes of a PNG file: what any reader turns back into the same pixels. The error says what is wrong with the image.
+/// The bytes of a PNG file: what any reader turns back into the same pixels. The error says what is wrong with the
+/// image.
 pub fn png(image: &CameraImage) -> Result<Vec<u8>, String> {
     let mut bytes = Cursor::new(Vec::new());
     let size = |pixels: usize| u32::try_from(pixels).map_err(|error| error.to_string());

@@ -1,4 +1,5 @@
-//! `.label` files: one little-endian uint32 per detection or point, in the order of the `.bin` (docs/formats.md, section 1).
+//! `.label` files: one little-endian uint32 per detection or point, in the order of the `.bin` (docs/formats.md,
+//! section 1).
 
 use crate::disk::files;
 use crate::error::DataError;

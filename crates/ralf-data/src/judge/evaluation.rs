@@ -21,8 +21,8 @@ pub struct Comparison {
 }
 
 impl Comparison {
-    /// Compares what a run wrote to the folder `out` with the truth. Label files are enough; where there is a `run.json`, they have
-    /// to be as it tells. Refused are scans of another size than their truth,
+    /// Compares what a run wrote to the folder `out` with the truth. Label files are enough; where there is a
+    /// `run.json`, they have to be as it tells. Refused are scans of another size than their truth,
     /// labels of 0 (unlabeled), and a run that labelled none of the scans with truth.
     pub fn new(out: &Path, truth: &GroundTruth) -> Result<Self, DataError> {
         let run = if out.join(RECORD).exists() { Some(LabelledRun::open(out)?) } else { None };

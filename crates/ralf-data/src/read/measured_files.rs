@@ -24,7 +24,8 @@ impl MeasuredFiles {
     pub(crate) fn radar_scan(
         &self,
         of: &Sequence,
-        [radar, scan]: [usize; 2],
+        radar: usize,
+        scan: usize,
         read: impl FnOnce(&Path) -> Result<Vec<Vec<f32>>, DataError>,
     ) -> Result<RadarScan, SourceError> {
         let file = measurement("radar", &self.radars, radar, scan)?;
@@ -36,7 +37,8 @@ impl MeasuredFiles {
     pub(crate) fn lidar_scan(
         &self,
         of: &Sequence,
-        [lidar, scan]: [usize; 2],
+        lidar: usize,
+        scan: usize,
         row: usize,
     ) -> Result<LidarScan, SourceError> {
         let mut columns = files::read_f32_columns(measurement("lidar", &self.lidars, lidar, scan)?, row)?;
@@ -49,7 +51,8 @@ impl MeasuredFiles {
     pub(crate) fn image(
         &self,
         of: &Sequence,
-        [camera, image]: [usize; 2],
+        camera: usize,
+        image: usize,
     ) -> Result<CameraImage, SourceError> {
         let file = self.image_file(camera, image)?;
         let model = &of.rig.cameras[camera];

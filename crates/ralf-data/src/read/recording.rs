@@ -2,8 +2,7 @@
 
 use crate::disk::label_file::Label;
 use crate::error::DataError;
-use crate::read::{MotionSource, corrected};
-use crate::settings::Settings;
+use crate::read::corrections::MotionSource;
 use ralf::sensors::{Source, SourceError};
 use std::any::Any;
 use std::path::PathBuf;
@@ -29,8 +28,8 @@ pub trait SequenceReader: Source {
         None
     }
 
-    /// What only its own format knows of it, such as the names that the format's tables give to scans: an export into that format
-    /// asks for the type that its reader hands out.
+    /// What only its own format knows of it, such as the names that the format's tables give to scans: an export into
+    /// that format asks for the type that its reader hands out.
     fn origin(&self) -> Option<&dyn Any> {
         None
     }
@@ -56,7 +55,8 @@ pub trait SequenceReader: Source {
 pub struct TruthLabels {
     /// As they stand in a `.label` file.
     pub labels: Vec<Label>,
-    /// Why each is an artifact: [`ralf::label::Cause`] as a number, 0 of what is plausible. No file that labelling reads.
+    /// Why each is an artifact: [`ralf::label::Cause`] as a number, 0 of what is plausible. No file that labelling
+    /// reads.
     pub causes: Vec<u8>,
 }
 
@@ -91,14 +91,6 @@ impl Recording {
         }
         self.sequences.retain(|sequence| names.is_empty() || names.contains(&sequence.sequence().name));
         Ok(self)
-    }
-}
-
-impl Recording {
-    /// The recording as the tables `corrections` and `motion` of the settings have it. Where it knows no motion, that is taken from the
-    /// radars' range rates. Refused: names that no sensor has, files that hold no poses, and sequences whose motion nobody knows.
-    pub fn corrected(self, settings: &Settings) -> Result<Self, DataError> {
-        corrected(self, settings)
     }
 }
 

@@ -12,8 +12,6 @@ use std::time::UNIX_EPOCH;
 
 /// Bytes that are read at a time.
 const CHUNK: usize = 1 << 20;
-/// Hexadecimal digits that are kept of the hash of a scan's labels.
-const SHORT: usize = 16;
 
 /// Hashes a file. `advance` is told how many bytes more are done.
 pub(crate) fn hash_file(file: &Path, advance: &dyn Fn(u64)) -> Result<FileRecord, DataError> {
@@ -30,11 +28,6 @@ pub(crate) fn hash_file(file: &Path, advance: &dyn Fn(u64)) -> Result<FileRecord
         bytes += read as u64;
         advance(read as u64);
     }
-}
-
-/// The hash of a `.label` file, short: it tells damage, and there is one for each scan.
-pub(crate) fn hash_of_labels(bytes: &[u8]) -> String {
-    blake3::hash(bytes).to_hex()[..SHORT].to_owned()
 }
 
 /// When a file was changed last, ns since 1970; `None` where the system doesn't tell.

@@ -4,6 +4,7 @@ mod check_record;
 mod columns;
 mod content;
 pub(crate) mod json;
+mod label_hash;
 mod labelled_run;
 mod lock;
 mod names;

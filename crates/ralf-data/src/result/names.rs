@@ -20,8 +20,8 @@ const UNFINISHED: &str = ".part";
 
 /// One part of a path, which leads nowhere but into the folder that it is joined to.
 ///
-/// A name that comes from a recording becomes one by [`Component::new`] alone, which refuses separators, `.` and `..`, control
-/// characters, names that a system or the program keeps for itself, and names that are too long.
+/// A name that comes from a recording becomes one by [`Component::new`] alone, which refuses separators, `.` and `..`,
+/// control characters, names that a system or the program keeps for itself, and names that are too long.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Component(String);
 
@@ -82,7 +82,8 @@ impl Component {
     }
 }
 
-/// A folder that the program writes to. Nothing but a [`Component`] is ever joined to it, so that no path below it leads out.
+/// A folder that the program writes to. Nothing but a [`Component`] is ever joined to it, so that no path below it
+/// leads out.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct OutFolder(PathBuf);
 

@@ -1,7 +1,7 @@
 //! What `run.json` tells of a sequence.
 
 use super::ScanTable;
-use super::content::hash_of_labels;
+use super::label_hash::hash_of_labels;
 use crate::disk::label_file::label_bytes;
 use crate::read::MotionSource;
 use ralf::scene::{Frame, ImageMoment, Unreadable, ViewReport, ViewState};
@@ -58,7 +58,7 @@ pub(crate) struct ScanNotes {
 impl ScanNotes {
     /// What a frame tells.
     pub(crate) fn new(frame: &Frame) -> Self {
-        let name = |moment: &ImageMoment| frame.rig.cameras[moment.camera].name.clone();
+        let name = |moment: &ImageMoment| frame.rig.cameras[moment.id.camera].name.clone();
         let images = frame.images.iter().map(|view| (name(&view.moment), ImageRecord::of(&view.moment)));
         let unreadable = frame.unreadable.iter().cloned();
         let unreadable = unreadable.map(|Unreadable { sensor, index, reason }| UnreadableScan {
@@ -134,7 +134,7 @@ pub struct NotLabelled {
 impl ImageRecord {
     pub(crate) fn of(moment: &ImageMoment) -> Self {
         let views = moment.views.iter().map(|view| view.report).collect();
-        Self { image: moment.image, views, problem: moment.problem.clone() }
+        Self { image: moment.id.image, views, problem: moment.problem.clone() }
     }
 }
 

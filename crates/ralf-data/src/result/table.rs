@@ -4,7 +4,7 @@ use super::Columns;
 use crate::disk::label_file::Label;
 use ralf::label::{ARTIFACT, PLAUSIBLE, truth_of};
 use ralf::paper::DetectionLabel;
-use ralf::scene::Detections;
+use ralf::scene::LocatedScan;
 use ralf::sensors::{Elevation, Radar};
 
 /// One row per detection of one scan.
@@ -24,8 +24,8 @@ pub struct ScanTable {
 
 impl ScanTable {
     /// The table of a labelled scan.
-    pub fn new(columns: &Columns, radar: &Radar, detections: &Detections, labels: &[DetectionLabel]) -> Self {
-        let mut decimals = measured_columns(columns, radar, detections);
+    pub fn new(columns: &Columns, radar: &Radar, scan: &LocatedScan, labels: &[DetectionLabel]) -> Self {
+        let mut decimals = measured_columns(columns, radar, scan);
         let answers: [fn(&DetectionLabel) -> Option<f64>; 8] = [
             |label| label.d_lm,
             |label| label.d_cm,
@@ -40,7 +40,7 @@ impl ScanTable {
             answers.map(|of| labels.iter().map(|label| of(label).map_or(f32::NAN, |v| v as f32)).collect()),
         );
         Self {
-            t_ns: detections.t_ns(),
+            t_ns: scan.t_ns(),
             decimals,
             label: labels.iter().map(|label| u8::from(label.plausible)).collect(),
             flags: labels.iter().map(|label| label.flags).collect(),
@@ -49,12 +49,12 @@ impl ScanTable {
     }
 
     /// The table of a scan that was not labelled: all answers are absent.
-    pub(crate) fn not_labelled(columns: &Columns, radar: &Radar, detections: &Detections) -> Self {
-        let rows = detections.located.len();
-        let mut decimals = measured_columns(columns, radar, detections);
+    pub(crate) fn not_labelled(columns: &Columns, radar: &Radar, scan: &LocatedScan) -> Self {
+        let rows = scan.len();
+        let mut decimals = measured_columns(columns, radar, scan);
         decimals.resize(columns.count(), vec![f32::NAN; rows]);
         let (label, flags, semantic) = (vec![0; rows], vec![0; rows], vec![None; rows]);
-        Self { t_ns: detections.t_ns(), decimals, label, flags, semantic }
+        Self { t_ns: scan.t_ns(), decimals, label, flags, semantic }
     }
 
     /// How many detections.
@@ -80,19 +80,19 @@ impl ScanTable {
 }
 
 /// Place and further radar fields.
-fn measured_columns(columns: &Columns, radar: &Radar, detections: &Detections) -> Vec<Vec<f32>> {
-    let mut decimals = place_columns(radar, detections);
+fn measured_columns(columns: &Columns, radar: &Radar, scan: &LocatedScan) -> Vec<Vec<f32>> {
+    let mut decimals = place_columns(radar, scan);
     for name in columns.further() {
-        let column = radar.column(name).map(|column| detections.scan.columns[column].clone());
-        decimals.push(column.unwrap_or_else(|| vec![f32::NAN; detections.located.len()]));
+        let column = radar.column(name).map(|column| scan.measured.columns[column].clone());
+        decimals.push(column.unwrap_or_else(|| vec![f32::NAN; scan.len()]));
     }
     decimals
 }
 
 /// x, y, z (vehicle frame), range, azimuth, elevation (as measured). All absent for a detection without a place.
-fn place_columns(radar: &Radar, detections: &Detections) -> Vec<Vec<f32>> {
+fn place_columns(radar: &Radar, scan: &LocatedScan) -> Vec<Vec<f32>> {
     let mut columns = vec![Vec::new(); 6];
-    for (located, spherical) in detections.located.iter().zip(&detections.scan.spherical) {
+    for (located, spherical) in scan.detections.iter().zip(&scan.measured.spherical) {
         let row = match located {
             None => [f32::NAN; 6],
             Some(located) => {

@@ -60,8 +60,8 @@ fn hash_inputs(recording: &Recording, jobs: usize, observer: &dyn Observer) -> B
     hashed.into_inner().unwrap_or_else(PoisonError::into_inner).into_iter().collect()
 }
 
-/// What the record keeps of a file. One that can't be read has no hash and costs the run nothing: a scan that needs it is
-/// named when it is read.
+/// What the record keeps of a file. One that can't be read has no hash and costs the run nothing: a scan that needs it
+/// is named when it is read.
 fn input(file: &Path, root: &Path, observer: &dyn Observer) -> Input {
     let name = file.strip_prefix(root).unwrap_or(file).to_string_lossy().into_owned();
     // The time before the content: what is changed meanwhile counts as changed later.

@@ -1,7 +1,7 @@
 //! What runs keep in the output folder until `run.json` tells of it.
 //!
-//! `OUT/.ralf-run/RUN/FINGERPRINT/` holds a sequence under way, `FINGERPRINT.json` a finished one. Both names are fingerprints: of
-//! program and settings, and of the sequence.
+//! `OUT/.ralf-run/RUN/FINGERPRINT/` holds a sequence under way, `FINGERPRINT.json` a finished one. Both names are
+//! fingerprints: of program and settings, and of the sequence.
 
 use super::fingerprint;
 use super::inputs::Identity;

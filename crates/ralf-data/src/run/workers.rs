@@ -102,7 +102,7 @@ impl Shared<'_> {
             }
         };
         let labels = Labeler::new(self.config).label(&frame);
-        let table = ScanTable::new(columns, &rig.radars[radar], &frame.detections, &labels);
+        let table = ScanTable::new(columns, &rig.radars[radar], &frame.scan, &labels);
         self.workspace.keep(radar, scan, &ScanNotes::new(&frame), &table)?;
         Ok(labels.len() as u64)
     }

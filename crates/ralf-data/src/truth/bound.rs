@@ -1,4 +1,5 @@
-//! Corrections of a recording's scans as these are now: what was said of another content is kept, told, and never applied.
+//! Corrections of a recording's scans as these are now: what was said of another content is kept, told, and never
+//! applied.
 
 use super::content::scan_content;
 use super::{Corrections, ScanId};
@@ -8,8 +9,8 @@ use ralf_corrections::ScanContent;
 use std::path::Path;
 
 impl Corrections {
-    /// Reads what is said below an output folder of the sequences of a recording, and looks what each scan holds now: what was
-    /// said of another content, or of a scan that can't be read, is [orphaned](Self::orphaned).
+    /// Reads what is said below an output folder of the sequences of a recording, and looks what each scan holds now:
+    /// what was said of another content, or of a scan that can't be read, is [orphaned](Self::orphaned).
     ///
     /// # Errors
     /// A file that is no store of corrections, or one of another version of the program.

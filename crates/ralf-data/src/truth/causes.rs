@@ -1,11 +1,12 @@
 //! What is behind each artifact, where a dataset knows it: a simulator does, people seldom.
 //!
-//! `sequences/NAME/ground_truth/causes.txt` names the causes, one per line: line n (from 0) is code n, and line 0 is `none`.
-//! `sequences/NAME/ground_truth/RADAR/NNNNNN.cause` beside a `.label` file holds one uint8 per detection, the code.
+//! `sequences/NAME/ground_truth/causes.txt` names the causes, one per line: line n (from 0) is code n, and line 0 is
+//! `none`. `sequences/NAME/ground_truth/RADAR/NNNNNN.cause` beside a `.label` file holds one uint8 per detection, the
+//! code.
 
 use crate::disk::files;
 use crate::error::DataError;
-use crate::truth::ground_truth::ScanId;
+use crate::truth::scan_id::ScanId;
 use ralf_files::Kind;
 use std::path::{Path, PathBuf};
 

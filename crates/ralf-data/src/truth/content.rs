@@ -1,10 +1,12 @@
-//! What a radar's scan holds, as one hash: what people say of detections belongs to a scan with this content, and to no other.
+//! What a radar's scan holds, as one hash: what people say of detections belongs to a scan with this content,
+//! and to no other.
 
 use ralf::sensors::RadarScan;
 use ralf_corrections::ContentHash;
 
-/// The hash of a scan's detections in their order: every field's values, bit for bit as they were read. The time of the scan
-/// and the radar's mounting are not in it, for these may be corrected without the detections becoming others.
+/// The hash of a scan's detections in their order: every field's values, bit for bit as they were read. The
+/// time of the scan and the radar's mounting are not in it, for these may be corrected without the detections
+/// becoming others.
 pub fn scan_content(scan: &RadarScan) -> ContentHash {
     let mut hasher = blake3::Hasher::new();
     for count in [scan.columns.len(), scan.len()] {

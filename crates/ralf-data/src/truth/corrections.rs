@@ -4,7 +4,7 @@ use crate::disk::files;
 use crate::disk::label_file::Label;
 use crate::error::DataError;
 use crate::read::Recording;
-use crate::truth::ground_truth::ScanId;
+use crate::truth::scan_id::ScanId;
 use ralf_corrections::{FILE, ScanContent, ScanKey, ScanLayer, read_layer};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -44,8 +44,9 @@ impl Corrections {
         Ok(Self { file, scans, orphaned: Vec::new() })
     }
 
-    /// The same, of what scans hold now: what was said of another content is [orphaned](Self::orphaned), and counts no more.
-    /// `content_of` tells what a scan holds (see [`scan_content`](crate::scan_content)), and `None` of one that isn't there.
+    /// The same, of what scans hold now: what was said of another content is [orphaned](Self::orphaned), and
+    /// counts no more. `content_of` tells what a scan holds (see [`scan_content`](crate::scan_content)), and
+    /// `None` of one that isn't there.
     ///
     /// # Errors
     /// Those of `content_of`.
@@ -108,8 +109,9 @@ impl Corrections {
         self.scans.values().flatten()
     }
 
-    /// The labels of a scan with people's word above the machine's: of each detection its correction, else the label that was
-    /// accepted when the scan was marked as reviewed, else the machine's. A label that stays keeps its instance.
+    /// The labels of a scan with people's word above the machine's: of each detection its correction, else the
+    /// label that was accepted when the scan was marked as reviewed, else the machine's. A label that stays
+    /// keeps its instance.
     ///
     /// # Errors
     /// Labels of another number than the scan had when it was edited.
@@ -124,8 +126,9 @@ impl Corrections {
         Ok(labels)
     }
 
-    /// What people say of a scan's detections: of each its correction, else what the ground truth's file says, else the label
-    /// accepted when the scan was marked as reviewed, else 0 (unlabeled). `None` where neither file nor corrections know the scan.
+    /// What people say of a scan's detections: of each its correction, else what the ground truth's file says,
+    /// else the label accepted when the scan was marked as reviewed, else 0 (unlabeled). `None` where neither
+    /// file nor corrections know the scan.
     pub(crate) fn truth(
         &self,
         scan: &ScanId,

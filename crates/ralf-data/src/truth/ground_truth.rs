@@ -1,49 +1,13 @@
-//! The corrected labels of a dataset: `sequences/NAME/ground_truth/RADAR/NNNNNN.label` (docs/formats.md, section 1), and above them the
-//! corrections of a review.
+//! The corrected labels of a dataset: `sequences/NAME/ground_truth/RADAR/NNNNNN.label` (docs/formats.md, section 1),
+//! and above them the corrections of a review.
 
+use super::corrections::Corrections;
+use super::scan_id::{EXTENSION, ScanId, label_name};
 use crate::disk::files;
 use crate::disk::label_file::{Label, read_labels};
 use crate::error::DataError;
-use crate::truth::Corrections;
 use std::collections::BTreeSet;
-use std::fmt;
 use std::path::{Path, PathBuf};
-
-const EXTENSION: &str = "label";
-
-/// Which scan of which radar of which sequence. Ordered by these.
-#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
-pub struct ScanId {
-    /// The sequence's folder.
-    pub sequence: String,
-    /// The radar's folder.
-    pub radar: String,
-    /// The number in the file's name.
-    pub scan: u32,
-}
-
-impl ScanId {
-    /// Where the labels that a run gave this scan lie below its folder.
-    pub fn label_file(&self, out: &Path) -> PathBuf {
-        out.join("sequences").join(&self.sequence).join(&self.radar).join(label_name(self.scan))
-    }
-
-    /// Where its corrected labels lie below the dataset's folder.
-    pub fn truth_file(&self, dataset: &Path) -> PathBuf {
-        let sequence = dataset.join("sequences").join(&self.sequence);
-        sequence.join("ground_truth").join(&self.radar).join(label_name(self.scan))
-    }
-}
-
-impl fmt::Display for ScanId {
-    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        write!(f, "{}/{}/{:06}", self.sequence, self.radar, self.scan)
-    }
-}
-
-fn label_name(scan: u32) -> String {
-    format!("{scan:06}.{EXTENSION}")
-}
 
 /// What people say of a dataset's detections. The one place to ask: the layers of what they said are merged here.
 #[derive(Debug, Clone)]
@@ -97,8 +61,8 @@ impl GroundTruth {
         &self.scans
     }
 
-    /// What people say of a scan, one label per detection: its correction, else what its file says, else what was accepted when
-    /// it was marked as reviewed, else 0 (unlabeled).
+    /// What people say of a scan, one label per detection: its correction, else what its file says, else what was
+    /// accepted when it was marked as reviewed, else 0 (unlabeled).
     pub fn labels(&self, scan: &ScanId) -> Result<Vec<Label>, DataError> {
         let on_file = || read_labels(&scan.truth_file(&self.dataset));
         let Some(corrections) = &self.corrections else { return on_file() };

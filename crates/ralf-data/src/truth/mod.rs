@@ -5,8 +5,10 @@ mod causes;
 mod content;
 mod corrections;
 mod ground_truth;
+mod scan_id;
 
 pub use causes::Causes;
 pub use content::scan_content;
 pub use corrections::Corrections;
-pub use ground_truth::{GroundTruth, ScanId};
+pub use ground_truth::GroundTruth;
+pub use scan_id::ScanId;

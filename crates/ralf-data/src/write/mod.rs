@@ -5,3 +5,4 @@ pub mod export;
 mod simulated;
 
 pub use dataset::write_sequence;
+pub use simulated::write_simulated;

@@ -15,7 +15,7 @@ pub(super) struct Keys<'a> {
 
 impl<'a> Keys<'a> {
     /// The keys of a card's text, and of the preset that it names.
-    pub(super) fn of(file: &'a Path, text: &str) -> Result<Self, DepthError> {
+    pub(super) fn parse(file: &'a Path, text: &str) -> Result<Self, DepthError> {
         let own = table(file, text)?;
         let mut keys = Keys { file, table: own, known: Vec::new() };
         let names = presets::names();

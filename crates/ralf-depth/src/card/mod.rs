@@ -46,8 +46,8 @@ pub struct Card {
     pub output_name: Option<String>,
     /// Whether the mirrored image is estimated too, and the mean taken: twice the time, fewer errors.
     pub flip: bool,
-    /// The focal length, px, of the camera that a metric network takes every image to be from. Depth is multiplied by the
-    /// view's focal length, scaled like the view, over this (Metric3D's canonical camera).
+    /// The focal length, px, of the camera that a metric network takes every image to be from. Depth is multiplied by
+    /// the view's focal length, scaled like the view, over this (Metric3D's canonical camera).
     pub canonical_focal: Option<f64>,
 }
 
@@ -64,7 +64,7 @@ pub enum InputSize {
     },
     /// In the proportions of the view, as nearly as whole patches allow.
     Scaled {
-        /// Of one side, px.
+        /// The length of one side, px.
         size: usize,
         /// Patch size: both sides become the nearest multiple of this, px.
         multiple_of: usize,
@@ -89,13 +89,15 @@ pub enum Side {
 pub enum Fit {
     /// The whole view, resized to the input's width and height.
     Stretch,
-    /// Squares of the view's full height, side by side and overlapping by half or more, each estimated by itself and blended.
+    /// Squares of the view's full height, side by side and overlapping by half or more, each estimated by itself and
+    /// blended.
     ///
-    /// A network of relative depth gives each square a scale of its own. From the middle square outwards, each is brought
-    /// to its neighbour's scale by the median ratio of the two where they overlap; then all fade linearly into each other.
+    /// A network of relative depth gives each square a scale of its own. From the middle square outwards, each is
+    /// brought to its neighbour's scale by the median ratio of the two where they overlap; then all fade linearly into
+    /// each other.
     Squares,
-    /// The whole view, resized as far as it fits in its proportions, in the middle of an image of this colour (red, green,
-    /// blue, 0 to 255).
+    /// The whole view, resized as far as it fits in its proportions, in the middle of an image of this colour (red,
+    /// green, blue, 0 to 255).
     Pad([f32; 3]),
 }
 

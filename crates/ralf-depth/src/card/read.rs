@@ -13,6 +13,8 @@ const REQUIRED: [&str; 7] = ["input", "fit", "channels", "divide_by", "mean", "s
 const SIZE: &str =
     "{ width, height } or { size, multiple_of, side = \"short\" | \"long\" }, of whole numbers above 0";
 const FIT: &str = "\"stretch\", \"squares\" or { pad = [red, green, blue] }, of 0 to 255";
+/// The widest image that a network is fed, px.
+const WIDEST: usize = 16_384;
 const POSITIVE: &str = "a number above 0";
 
 impl Card {
@@ -36,7 +38,7 @@ impl Card {
 
     /// Reads a card's text. Errors name `file`.
     pub fn parse(file: &Path, text: &str) -> Result<Self, DepthError> {
-        let mut keys = Keys::of(file, text)?;
+        let mut keys = Keys::parse(file, text)?;
         let [input, fit, channels, divide_by, mean, std, output] = REQUIRED;
         let card = Self {
             input: keys.required(input, SIZE)?,
@@ -61,6 +63,9 @@ impl Card {
             InputSize::Fixed { width, height } => [width, height],
             InputSize::Scaled { size, multiple_of, .. } => [size, multiple_of],
         };
+        if let Some(size) = sizes.iter().find(|size| **size > WIDEST) {
+            return Err(keys.error("input", &format!("sizes of at most {WIDEST} px"), &size.to_string()));
+        }
         if sizes.contains(&0) {
             return Err(keys.error("input", SIZE, &format!("{} and {}", sizes[0], sizes[1])));
         }

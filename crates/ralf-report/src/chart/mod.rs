@@ -1,5 +1,5 @@
-//! Charts as SVG. Lines and text take their colours from the page's style sheet where they carry one of the colours named
-//! here as part of the page, so that the same chart is at home on light and dark paper.
+//! Charts as SVG. Lines and text take their colours from the page's style sheet where they carry one of the colours
+//! named here as part of the page, so that the same chart is at home on light and dark paper.
 
 mod curve;
 mod heat_map;

@@ -3,7 +3,8 @@
 use super::*;
 use crate::breakdown::Profile;
 
-/// For each bin the share of plausible detections that are missed and of artifacts that are kept, with the counts below.
+/// For each bin the share of plausible detections that are missed and of artifacts that are kept, with the counts
+/// below.
 pub(crate) fn profile(profile: &Profile, name: &str) -> Result<String, ReportError> {
     let Profile { first, step, bins } = profile;
     let edges: Vec<f64> = (0..=bins.len()).map(|edge| first + edge as f64 * step).collect();

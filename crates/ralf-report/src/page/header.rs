@@ -19,8 +19,16 @@ pub(super) fn header(content: &Content) -> Markup {
                 @else { "There are no corrected labels to compare with: here is what the labels say by themselves." }
             }
             dl.tiles {
-                (tile("Detections", &grouped(balance.detections), &format!("{}, {}", counted(scans, "scan"), counted(content.sequences.len(), "sequence"))))
-                (tile("Plausible", &percent(balance.plausible, balance.detections), &format!("{} detections", grouped(balance.plausible))))
+                (tile(
+                    "Detections",
+                    &grouped(balance.detections),
+                    &format!("{}, {}", counted(scans, "scan"), counted(content.sequences.len(), "sequence")),
+                ))
+                (tile(
+                    "Plausible",
+                    &percent(balance.plausible, balance.detections),
+                    &format!("{} detections", grouped(balance.plausible)),
+                ))
                 (tile("Distinctiveness", &decimal(balance.distinctiveness), "mean w, plausible minus artifact"))
                 @if let Some(rates) = scores {
                     (tile("Accuracy", &decimal(rates.accuracy), "mean over scans"))

@@ -12,7 +12,9 @@ pub(super) fn pictures(content: &Content) -> Markup {
             div.picker hidden {
                 label { "Sequence " select #pick-sequence {
                     @for (index, sequence) in content.sequences.iter().enumerate() {
-                        option value=(index) { (sequence.name) @if sequence.title != sequence.name { ": " (sequence.title) } }
+                        option value=(index) {
+                            (sequence.name) @if sequence.title != sequence.name { ": " (sequence.title) }
+                        }
                     }
                 } }
                 label { "Scan " select #pick-scan {} }
@@ -26,7 +28,10 @@ fn of_sequence(sequence: &SequenceContent) -> Markup {
     html! {
         article.sequence {
             figure {
-                (image(&sequence.overview, &format!("All scans of sequence {} from above, raw beside plausible", sequence.name)))
+                (image(
+                    &sequence.overview,
+                    &format!("All scans of sequence {} from above, raw beside plausible", sequence.name),
+                ))
                 figcaption { "Sequence " (sequence.name) ": all detections beside those labelled plausible." }
             }
             @for scan in &sequence.scans { (of_scan(sequence, scan)) }

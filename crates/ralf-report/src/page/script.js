@@ -3,7 +3,8 @@
   const [sequencePicker, scanPicker] = ["pick-sequence", "pick-scan"].map((id) => document.getElementById(id));
   const sequences = [...document.querySelectorAll("article.sequence")];
   const scansOf = (sequence) => [...sequence.querySelectorAll("figure.scan")];
-  const show = (elements, chosen) => elements.forEach((element, index) => element.classList.toggle("away", index !== chosen));
+  const show = (elements, chosen) =>
+    elements.forEach((element, index) => element.classList.toggle("away", index !== chosen));
   const showScan = () => show(scansOf(sequences[sequencePicker.selectedIndex]), scanPicker.selectedIndex);
   const showSequence = () => {
     show(sequences, sequencePicker.selectedIndex);

@@ -29,8 +29,10 @@ fn compared(comparison: &Comparison) -> Markup {
     let evaluation = comparison.evaluation();
     let Scores { scan_mean, pooled } = &evaluation.overall;
     html! {
-        p { "Precision, recall and mean IoU are means over the two classes. The paper's row is the mean over its own test data, "
-            "recorded with other sensors in other places: a yardstick, not a contest." }
+        p {
+            "Precision, recall and mean IoU are means over the two classes. The paper's row is the mean over its own "
+            "test data, recorded with other sensors in other places: a yardstick, not a contest."
+        }
         (table(&evaluation, "Mean over scans", true, |scores| scores.scan_mean.rates))
         (table(&evaluation, "All detections together", false, |scores| scores.pooled.rates))
         h3 { "Confusion matrix" }
@@ -50,9 +52,15 @@ fn table(evaluation: &Evaluation, title: &str, with_paper: bool, rates: fn(&Scor
     html! {
         div.scroll { table.metrics {
             caption { (title) }
-            thead { tr { th scope="col" { "Sequence" } th scope="col" { "Scans" } @for name in COLUMNS { th scope="col" { (name) } } } }
+            thead { tr {
+                th scope="col" { "Sequence" } th scope="col" { "Scans" }
+                @for name in COLUMNS { th scope="col" { (name) } }
+            } }
             tbody {
-                tr.total { th scope="row" { "Overall" } td { (grouped(evaluation.scans() as u64)) } (cells(rates(&evaluation.overall))) }
+                tr.total {
+                    th scope="row" { "Overall" } td { (grouped(evaluation.scans() as u64)) }
+                    (cells(rates(&evaluation.overall)))
+                }
                 @if with_paper {
                     tr.paper {
                         th scope="row" { "Paper, on other data" } td { (grouped(PAPER_SCANS)) }
@@ -60,7 +68,10 @@ fn table(evaluation: &Evaluation, title: &str, with_paper: bool, rates: fn(&Scor
                     }
                 }
                 @for (name, sequence) in &evaluation.sequences {
-                    tr { th scope="row" { (name) } td { (grouped(sequence.scans as u64)) } (cells(rates(&sequence.scores))) }
+                    tr {
+                        th scope="row" { (name) } td { (grouped(sequence.scans as u64)) }
+                        (cells(rates(&sequence.scores)))
+                    }
                 }
             }
         } }

@@ -20,7 +20,8 @@ pub(crate) struct Since {
     since: Option<i64>,
 }
 
-/// What other windows did in a sequence since then, as soon as there is something; without `since` where the count is now.
+/// What other windows did in a sequence since then, as soon as there is something; without `since` where the
+/// count is now.
 pub(crate) async fn changes(app: Arc<App>, sequence: String, asked: Since, person: Person) -> Answer {
     app.sequence(&sequence)?;
     let tab = person.tab;

@@ -1,5 +1,5 @@
-//! Who may ask: requests for another host, from another origin or without the token are refused; and the headers of every
-//! answer, which forbid the page to load anything but its own.
+//! Who may ask: requests for another host, from another origin or without the token are refused; and the
+//! headers of every answer, which forbid the page to load anything but its own.
 
 use super::{ApiError, Token};
 use axum::extract::{Request, State};

@@ -20,7 +20,8 @@ pub(crate) struct Person {
 }
 
 impl Person {
-    /// The person who makes an edit; without a name of its own it is called `anybody`, and without an own mark it is anybody.
+    /// The person who makes an edit; without a name of its own it is called `anybody`, and without an own mark
+    /// it is anybody.
     pub(crate) fn who(self, anybody: &str, edit: Option<EditId>) -> Who {
         let name = self.name.unwrap_or_else(|| anybody.to_owned());
         Who {

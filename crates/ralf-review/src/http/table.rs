@@ -1,5 +1,5 @@
-//! Columns of numbers, as the page reads them without parsing: a header in JSON, then the columns, little-endian, each at a
-//! multiple of 8 bytes.
+//! Columns of numbers, as the page reads them without parsing: a header in JSON, then the columns,
+//! little-endian, each at a multiple of 8 bytes.
 
 use crate::columns::Meaning;
 use serde_json::{Map, Value, json};

@@ -14,8 +14,8 @@ pub(crate) struct Token(String);
 const DIGITS: usize = 32;
 
 impl Token {
-    /// The token of the labels in `out`, kept in the user's own `folder` so that a page stays open when the server is started
-    /// again. A new one where there is none, and where none can be kept.
+    /// The token of the labels in `out`, kept in the user's own `folder` so that a page stays open when the
+    /// server is started again. A new one where there is none, and where none can be kept.
     pub(crate) fn of(out: &Path, folder: Option<&Path>) -> Result<Self, ReviewError> {
         let Some(folder) = folder else { return Self::new() };
         let out = out.canonicalize().unwrap_or_else(|_| out.to_owned());

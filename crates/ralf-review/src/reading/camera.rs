@@ -4,6 +4,7 @@ use crate::app::{App, measurement};
 use crate::http::{Answer, ApiError, content};
 use axum::http::{HeaderValue, header};
 use ralf_data::{DataError, png};
+use ralf_files::Kind;
 use std::path::{Component, Path};
 
 /// What files of these kinds begin with.
@@ -32,7 +33,7 @@ fn of_file(recording: &Path, file: &Path) -> Result<(&'static str, Vec<u8>), Api
             "{file}: expected a file of the recording, found one elsewhere"
         )));
     }
-    let bytes = std::fs::read(file).map_err(DataError::io(file))?;
+    let bytes = ralf_files::read(file, Kind::Measurement).map_err(DataError::io(file))?;
     let kind = KINDS
         .iter()
         .find(|(begin, _)| bytes.starts_with(begin))

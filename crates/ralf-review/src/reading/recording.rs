@@ -52,7 +52,10 @@ fn sequence(app: &App, reader: &dyn SequenceReader) -> Value {
     let radars = rig.radars.iter().zip(&all.radars);
     let lidars = rig.lidars.iter().zip(&all.lidars);
     let cameras = rig.cameras.iter().zip(&all.cameras);
-    let camera = |(camera, images): (&ralf::sensors::Camera, &Vec<i64>)| json!({ "name": camera.name, "width": camera.width, "height": camera.height, "images": times(images) });
+    let camera = |(camera, images): (&ralf::sensors::Camera, &Vec<i64>)| {
+        let (width, height) = (camera.width, camera.height);
+        json!({ "name": camera.name, "width": width, "height": height, "images": times(images) })
+    };
     json!({
         "name": sequence.name,
         "title": sequence.title,

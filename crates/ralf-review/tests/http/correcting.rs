@@ -222,7 +222,7 @@ fn malformed_edits_are_refused_and_leave_nothing() {
     assert!(
         server.ask("POST", &path, &[], whole().to_string().as_bytes()).refused(400).contains("Content-Type")
     );
-    assert!(server.edit("POST", "strokes", &whole(), &"t".repeat(65)).refused(400).contains("X-Ralf-Tab"));
+    assert!(server.edit("POST", "strokes", &whole(), &"t".repeat(65)).refused(400).contains("x-ralf-tab"));
     assert!(Corrections::open(out.path()).unwrap().is_empty());
     assert_eq!(server.of_sequence("history").json()["undo_depth"], 0);
 }

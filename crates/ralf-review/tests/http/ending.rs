@@ -11,7 +11,10 @@ fn requests_that_wait_are_answered_when_the_server_ends() {
     let server = out.serve();
     let port = server.port();
     let path = format!("/api/sequences/{SEQUENCE}/changes?since=0");
-    let request = format!("GET {path} HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\nConnection: close\r\n\r\n");
+    let token = server.token();
+    let request = format!(
+        "GET {path} HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\nAuthorization: Bearer {token}\r\nConnection: close\r\n\r\n"
+    );
     let mut stream = TcpStream::connect(("127.0.0.1", port)).unwrap();
     stream.write_all(request.as_bytes()).unwrap();
     std::thread::sleep(Duration::from_millis(200));

@@ -1,4 +1,5 @@
-//! What must never happen to people's work: labels accepted unseen, edits lost or made twice, corrections on other detections.
+//! What must never happen to people's work: labels accepted unseen, edits lost or made twice, corrections on
+//! other detections.
 
 use crate::support::{Out, RADAR, SEQUENCE, Serving, label, recording, stroke};
 use ralf_corrections::FILE;

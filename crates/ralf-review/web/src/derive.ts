@@ -1,6 +1,6 @@
 /** What follows from the rest of the state: what is shown, what may be changed, and the colours. */
 
-import { visible } from "./data/filter.js";
+import { certaintyOf, visible } from "./data/filter.js";
 import { intersection } from "./selection/mask.js";
 import type { State } from "./state.js";
 import type { Store } from "./store.js";
@@ -11,7 +11,7 @@ export function deriveAlways(store: Store<State>): void {
     ({ cloud, filter, scope }) => [cloud, filter, scope],
     (cloud, filter, scope) => {
       const { labels, recording, selection } = store.state;
-      const shown = visible(cloud, filter, labels, recording.threshold);
+      const shown = visible(cloud, filter, labels, certaintyOf(recording));
       const eligible = scope === "shown" ? shown : shown.map((value, i) => value & Number(cloud.scanOf[i] === 0));
       const same = selection.length === cloud.count;
       store.set({ shown, eligible, selection: same ? intersection(selection, eligible) : new Uint8Array(cloud.count) });

@@ -17,6 +17,8 @@ export interface Attributes {
   readonly min?: string;
   readonly max?: string;
   readonly for?: string;
+  readonly maxlength?: string;
+  readonly method?: string;
 }
 
 export function h<Tag extends keyof HTMLElementTagNameMap>(
@@ -43,6 +45,7 @@ export function pressed(button: HTMLElement, is: boolean): void {
 export interface Option {
   readonly value: string;
   readonly text: string;
+  readonly meaning?: string;
 }
 
 /** A labelled list to choose from. */
@@ -53,5 +56,5 @@ export function select(label: string, options: readonly Option[], chosen: (value
 }
 
 export function setOptions(list: HTMLSelectElement, options: readonly Option[]): void {
-  list.replaceChildren(...options.map(({ value, text }) => h("option", { value }, text)));
+  list.replaceChildren(...options.map(({ value, text, meaning = "" }) => h("option", { value, title: meaning }, text)));
 }

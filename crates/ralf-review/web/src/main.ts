@@ -4,18 +4,22 @@ import { actionsOn } from "./actions/actions.js";
 import { addressFrom } from "./actions/address.js";
 import { Api } from "./api/client.js";
 import { messageOf } from "./api/errors.js";
-import { openSession } from "./api/session.js";
+import { openSession, randomName } from "./api/session.js";
 import type { Recording } from "./api/types.js";
 import { CameraView } from "./cameras/camera-view.js";
 import { CamerasPanel } from "./cameras/cameras-panel.js";
 import { Loader } from "./data/loader.js";
 import { deriveAlways } from "./derive.js";
 import { h } from "./dom.js";
+import { keepNothing, openKeeper } from "./history/keep.js";
 import type { Page } from "./page.js";
+import { acceptBar } from "./panels/accept-bar.js";
 import { banner, notice, painting } from "./panels/banner.js";
 import { conflictDialog } from "./panels/conflict-dialog.js";
 import { detailsPanel } from "./panels/details-panel.js";
-import { classesDialog, helpDialog } from "./panels/dialogs.js";
+import { classesDialog } from "./panels/classes-dialog.js";
+import { helpDialog } from "./panels/help-dialog.js";
+import { nameDialog } from "./panels/name-dialog.js";
 import { filterPanel } from "./panels/filter-panel.js";
 import { keyTable, listenToKeys } from "./panels/keys.js";
 import { legendPanel } from "./panels/legend.js";
@@ -24,16 +28,20 @@ import { scanBar, scanTitle } from "./panels/scan-bar.js";
 import { statusBar } from "./panels/status-bar.js";
 import { Timeline } from "./panels/timeline.js";
 import { toolbar } from "./panels/toolbar.js";
+import { keepPreferences } from "./preferences.js";
 import { initialState } from "./state.js";
 import { Store } from "./store.js";
 import { Viewport } from "./viewer/viewport.js";
 
 async function start(): Promise<void> {
-  const api = new Api(openSession());
+  const session = openSession();
+  const api = new Api(session);
   const recording = await api.recording();
-  const store = new Store(initialState(recording));
+  const store = new Store(initialState(recording, session.name() ?? recording.author));
+  keepPreferences(store);
   deriveAlways(store);
-  const actions = actionsOn({ store, api, loader: new Loader(api) });
+  const keeper = await openKeeper(recording.store, randomName).catch(keepNothing);
+  const actions = actionsOn({ store, api, session, loader: new Loader(api) }, keeper);
   build({ store, actions });
   document.title = `${recording.dataset} · RALF review`;
   window.addEventListener("beforeunload", (event) => {
@@ -56,60 +64,62 @@ function firstSequence({ sequences }: Recording): ReturnType<typeof addressFrom>
 function build(page: Page): void {
   const viewport = new Viewport(page);
   const cameras = new CamerasPanel(page);
-  const centreCamera = new CameraView(page);
-  centreCamera.element.classList.add("centre");
-  page.store.watch(
-    ({ mode, cameras: all, chosenCamera }) => [mode, all, chosenCamera],
-    (mode, all) => {
-      centreCamera.element.hidden = mode !== "camera";
-      viewport.element.classList.toggle("behind", mode === "camera");
-      centreCamera.show(mode === "camera" ? (all.find(({ info }) => info.name === cameras.seen) ?? null) : null);
-    },
-  );
+  const centreCamera = centreCameraOf(page, viewport, cameras);
   const surfaces = [viewport.surface, centreCamera.surface];
+  /** Everything of the scan: what waits to be accepted unseen is shown whatever the filter. */
+  const home = (): void => {
+    if (page.store.state.accepting !== null) page.actions.view.showEverything();
+    viewport.home();
+    centreCamera.fit();
+  };
   const table = keyTable({
     ...page,
     cancelGesture: () => surfaces.map((surface) => surface.cancel()).some(Boolean),
     closePolygon: () => surfaces.map((surface) => surface.closePolygon("replace")).some(Boolean),
-    home: () => {
-      viewport.home();
-      centreCamera.fit();
-    },
+    home,
     seenCamera: () => cameras.seen,
   });
   listenToKeys(table, page.store);
   keepFocus(viewport.element);
-  const stage = h(
-    "div",
-    { class: "stage" },
-    viewport.element,
-    centreCamera.element,
-    legendPanel(page),
-    scanTitle(page),
-    painting(page),
-    notice(page),
-    banner(page),
-    conflictDialog(page),
-  );
+  const overlays = [legendPanel(page), scanTitle(page), painting(page), notice(page)];
+  const asked = [banner(page), acceptBar(page, home), conflictDialog(page)];
+  const stage = h("div", { class: "stage" }, viewport.element, centreCamera.element, ...overlays, ...asked);
   document.body.append(
     h(
       "div",
       { class: "layout" },
-      h("aside", { class: "left" }, new QueuePanel(page).element, filterPanel(page)),
+      h("aside", { class: "left", "aria-label": "Scans" }, new QueuePanel(page).element, filterPanel(page)),
       h("main", { class: "centre-column" }, toolbar(page), scanBar(page), stage, new Timeline(page).element),
-      h("aside", { class: "right" }, cameras.element, detailsPanel(page)),
+      h("aside", { class: "right", "aria-label": "Cameras and numbers" }, cameras.element, detailsPanel(page)),
       statusBar(page),
     ),
     helpDialog(page, table),
     classesDialog(page),
+    nameDialog(page),
   );
+}
+
+/** The camera's image in the middle, in place of the scene. */
+function centreCameraOf(page: Page, viewport: Viewport, cameras: CamerasPanel): CameraView {
+  const view = new CameraView(page, true);
+  view.element.classList.add("centre");
+  page.store.watch(
+    ({ mode, cameras: all, chosenCamera }) => [mode, all, chosenCamera],
+    (mode, all) => {
+      view.element.hidden = mode !== "camera";
+      viewport.element.classList.toggle("behind", mode === "camera");
+      view.show(mode === "camera" ? (all.find(({ info }) => info.name === cameras.seen) ?? null) : null);
+    },
+  );
+  return view;
 }
 
 /** After a press on a button or a choice in a list, keys are for the picture again. */
 function keepFocus(picture: HTMLElement): void {
   const back = (target: EventTarget | null): void => {
     const control = target instanceof Element ? target.closest("button, select") : null;
-    if (control !== null && control.closest("dialog, .conflict") === null) picture.focus({ preventScroll: true });
+    if (control !== null && control.closest("dialog, .conflict, .accept") === null)
+      picture.focus({ preventScroll: true });
   };
   document.addEventListener("click", (event) => {
     if (event.detail > 0 && !(event.target instanceof HTMLSelectElement)) back(event.target);

@@ -6,6 +6,7 @@ import { buildCloud, type Cloud } from "./data/cloud.js";
 import { everything, type Filter } from "./data/filter.js";
 import { type Choice, LabelBook } from "./data/labels.js";
 import type { Lidar } from "./data/lidar.js";
+import type { Unseen } from "./data/sight.js";
 import type { OutboxStatus, Pending } from "./history/outbox.js";
 import type { QueueView } from "./queue/queue.js";
 import type { Tool } from "./selection/tools.js";
@@ -14,7 +15,12 @@ import type { ColourMode, Painting } from "./viewer/colours.js";
 export type ViewMode = "bird" | "free" | "camera";
 /** What a stroke may change: the scan under review alone, or everything shown. */
 export type Scope = "scan" | "shown";
-export type Dialog = "none" | "help" | "classes";
+export type Dialog = "none" | "help" | "classes" | "name";
+
+/** Detections that would be accepted unseen; a second time accepts them. */
+export interface Accepting extends Unseen {
+  readonly goOn: boolean;
+}
 
 export interface Notice {
   readonly text: string;
@@ -24,6 +30,8 @@ export interface Notice {
 export interface State {
   readonly recording: Recording;
   readonly labels: LabelBook;
+  /** What the person in this browser is called. */
+  readonly name: string;
   readonly sequence: string;
   readonly scans: readonly QueueScan[];
   readonly progress: Progress;
@@ -63,6 +71,12 @@ export interface State {
   readonly armed: Choice | undefined;
   readonly selection: Uint8Array;
   readonly hover: number;
+  /** The detection that was chosen by keyboard last, or -1. */
+  readonly picked: number;
+  /** For those who don't see the picture. */
+  readonly announced: string;
+  /** Not `null`: a mark waits for a second press. */
+  readonly accepting: Accepting | null;
   /** x, y under the pointer, m, vehicle frame. */
   readonly cursor: readonly [number, number] | null;
 
@@ -81,13 +95,38 @@ export interface State {
 
 const NO_HISTORY: History = { undo: null, redo: null, undo_depth: 0, redo_depth: 0 };
 
-export function initialState(recording: Recording): State {
+/** What a person does, before anything is done. */
+const NOTHING_DONE = {
+  tool: "click",
+  brush: 18,
+  scope: "scan",
+  protect: true,
+  armed: undefined,
+  selection: new Uint8Array(0),
+  hover: -1,
+  picked: -1,
+  announced: "",
+  accepting: null,
+  cursor: null,
+  history: NO_HISTORY,
+  outbox: { kind: "idle" },
+  waiting: [],
+  connected: true,
+  busy: false,
+  notice: null,
+  dialog: "none",
+  frameTime: 0,
+} as const satisfies Partial<State>;
+
+export function initialState(recording: Recording, name: string): State {
   return {
+    ...NOTHING_DONE,
     recording,
     labels: new LabelBook(recording.classes),
+    name,
     sequence: "",
     scans: [],
-    progress: { scans: 0, reviewed: 0, corrected_detections: 0 },
+    progress: { scans: 0, reviewed: 0, corrected_detections: 0, orphaned_scans: 0 },
     progressElsewhere: new Map(),
     queueView: { order: "need", hideReviewed: false, radar: null },
     current: null,
@@ -106,21 +145,5 @@ export function initialState(recording: Recording): State {
     shown: new Uint8Array(0),
     eligible: new Uint8Array(0),
     painting: { colours: new Uint8Array(0), legend: { kind: "categories", entries: [] } },
-    tool: "click",
-    brush: 18,
-    scope: "scan",
-    protect: true,
-    armed: undefined,
-    selection: new Uint8Array(0),
-    hover: -1,
-    cursor: null,
-    history: NO_HISTORY,
-    outbox: { kind: "idle" },
-    waiting: [],
-    connected: true,
-    busy: false,
-    notice: null,
-    dialog: "none",
-    frameTime: 0,
   };
 }

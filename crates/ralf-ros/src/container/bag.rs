@@ -1,4 +1,5 @@
-//! ROS 1 bags. Connections and the index are read where they stand, so that a bag that was cut short needs no other way.
+//! ROS 1 bags. Connections and the index are read where they stand, so that a bag that was cut short needs no other
+//! way.
 
 use super::Schema;
 use super::bag_format::{MAGIC, ParsedFields, op, time_ns};

@@ -69,7 +69,7 @@ impl Place {
         }
     }
 
-    pub(super) fn of(message: &MessageRef) -> Self {
+    pub(super) fn from_message(message: &MessageRef) -> Self {
         if message.place & OUTSIDE != 0 {
             return Self::File(message.place & !OUTSIDE);
         }

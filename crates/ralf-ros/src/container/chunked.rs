@@ -81,7 +81,7 @@ impl ChunkedFile {
             let found = self.format.message(bytes).map(<[u8]>::to_owned);
             found.map_err(|error| ContainerError::inside(path, part, error))
         };
-        match Place::of(message) {
+        match Place::from_message(message) {
             Place::Chunk(chunk, offset) => {
                 let bytes = self.chunks.chunk(chunk as usize)?;
                 let part = format!("{}, message at byte {offset}", self.chunks.describe(chunk as usize));

@@ -8,20 +8,20 @@ use std::io::{Read, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// Of decompressed chunks that are kept; the last one always is.
+/// Bytes of decompressed chunks that are kept; the last one always is.
 const CACHE_BYTES: usize = 64 << 20;
 
 /// Where a chunk lies in its file.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct ChunkPlace {
-    /// Of its compressed bytes.
+    /// How many compressed bytes there are.
     pub(super) position: u64,
     /// How many there are of them.
     pub(super) stored: u64,
     /// How many come out.
     pub(super) size: u64,
     pub(super) compression: Compression,
-    /// Of what comes out; 0 where it isn't known.
+    /// How many bytes come out; 0 where it isn't known.
     pub(super) crc: u32,
     /// Whether the file ends before the chunk does.
     pub(super) cut: bool,

@@ -1,5 +1,5 @@
-//! MCAP: <https://mcap.dev/spec>. Channels and the index are read where they stand, so that a file that was cut short needs
-//! no other way.
+//! MCAP: <https://mcap.dev/spec>. Channels and the index are read where they stand, so that a file that was cut short
+//! needs no other way.
 
 use super::Schema;
 use super::catalogue::{Catalogue, Channel, Place};
@@ -130,7 +130,8 @@ fn record(op: u8, body: &[u8], catalogue: &mut Catalogue) -> Result<(), Encoding
             catalogue.schemas.insert(header.id, (header.name, schema));
         }
         Record::Channel(channel) => {
-            // 0 is no schema. Of any other one that isn't known yet an earlier chunk tells, and this channel is met again.
+            // 0 is no schema. Of any other one that isn't known yet an earlier chunk tells, and this channel is met
+            // again.
             let schema = catalogue.schemas.get(&channel.schema_id).cloned();
             if let Some((type_name, mut schema)) =
                 schema.or_else(|| (channel.schema_id == 0).then(Default::default))

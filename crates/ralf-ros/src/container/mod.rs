@@ -1,7 +1,8 @@
-//! Finding and reading the messages of a recording: ROS 1 bags, MCAP files, SQLite files of ROS 2, and folders of the latter two.
+//! Finding and reading the messages of a recording: ROS 1 bags, MCAP files, SQLite files of ROS 2, and folders of the
+//! latter two.
 //!
-//! Opening walks over a file without reading its chunks, and keeps 24 bytes of each message. A chunk is decompressed when a
-//! message of it is asked for, and some are kept. What is cut short or damaged is read up to there, and the
+//! Opening walks over a file without reading its chunks, and keeps 24 bytes of each message. A chunk is decompressed
+//! when a message of it is asked for, and some are kept. What is cut short or damaged is read up to there, and the
 //! [loss](Container::losses) is said.
 
 pub(crate) mod bag_format;

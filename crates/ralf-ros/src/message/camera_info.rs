@@ -9,9 +9,9 @@ use crate::encoding::{Decoder, Encoder, EncodingError};
 pub struct CameraInfo {
     /// When and in which frame.
     pub header: Header,
-    /// Of the calibrated image, px.
+    /// Height of the calibrated image, px.
     pub height: u32,
-    /// Of the calibrated image, px.
+    /// Width of the calibrated image, px.
     pub width: u32,
     /// Such as `plumb_bob`.
     pub distortion_model: String,

@@ -54,7 +54,8 @@ impl Definition {
         [Encoding::Ros1, Encoding::Cdr].into_iter().any(|encoding| self.type_name(encoding) == type_name)
     }
 
-    /// The fields, followed by those of every type that they are made of: what bags hold, and MCAP as `ros1msg` or `ros2msg`.
+    /// The fields, followed by those of every type that they are made of: what bags hold, and MCAP as `ros1msg` or
+    /// `ros2msg`.
     pub fn text(&self, encoding: Encoding) -> String {
         let mut parts = Vec::new();
         self.collect(&mut parts);
@@ -84,7 +85,7 @@ impl Definition {
     }
 }
 
-/// Of ROS 2 only: in ROS 1 a time is a type like any number.
+/// Known to ROS 2 alone: in ROS 1 a time is a type like any number.
 pub(super) static TIME: Definition =
     Definition::part("builtin_interfaces/Time", "", &[]).with_ros2_fields("int32 sec\nuint32 nanosec");
 

@@ -11,7 +11,7 @@ pub struct Odometry {
     pub header: Header,
     /// The frame whose pose and twist these are.
     pub child_frame_id: String,
-    /// Of the child frame in the header's.
+    /// The child frame in the header's.
     pub pose: Pose,
     /// Row by row; all 0 is not known.
     pub pose_covariance: [f64; 36],

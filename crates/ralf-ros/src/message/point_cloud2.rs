@@ -34,13 +34,13 @@ pub struct PointField {
     pub name: String,
     /// Bytes from the record's beginning.
     pub offset: u32,
-    /// A number that [`Datatype::of`] knows.
+    /// A number that [`Datatype::from_code`] knows.
     pub datatype: u8,
     /// How many values; 0 and 1 are one.
     pub count: u32,
 }
 
-/// Of a value of a record.
+/// The type of a value of a record.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[repr(u8)]
 pub enum Datatype {
@@ -64,7 +64,7 @@ pub enum Datatype {
 
 impl Datatype {
     /// The type of this number.
-    pub fn of(datatype: u8) -> Option<Self> {
+    pub fn from_code(datatype: u8) -> Option<Self> {
         use Datatype::{Float32, Float64, Int8, Int16, Int32, Uint8, Uint16, Uint32};
         let all = [Int8, Uint8, Int16, Uint16, Int32, Uint32, Float32, Float64];
         all.into_iter().find(|known| *known as u8 == datatype)

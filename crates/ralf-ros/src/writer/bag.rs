@@ -5,7 +5,7 @@ use crate::container::bag_format::{Fields, MAGIC, op};
 use std::collections::BTreeMap;
 use std::io::{Seek, SeekFrom, Write};
 
-/// Of messages, before a chunk is written; rosbag's own.
+/// Bytes of messages before a chunk is written; rosbag's own.
 const CHUNK_BYTES: usize = 768 * 1024;
 
 /// What the first record is filled up to, so that it can be written again when the index is known.

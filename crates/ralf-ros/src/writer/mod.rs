@@ -74,7 +74,7 @@ pub struct RawTopic {
 /// What a file writes down of the messages of a topic.
 struct Described {
     type_name: String,
-    /// Of the messages.
+    /// How the messages are written.
     encoding: String,
     schema: Schema,
 }
@@ -141,8 +141,8 @@ impl<W: Write + Seek> MessageWriter<W> {
         Ok(Topic { id, name: name.to_owned(), of: PhantomData })
     }
 
-    /// Whether the messages of another recording's topic can be written as they are: a bag holds the encoding of ROS 1 alone,
-    /// with a checksum, and a file of the profile `ros2` everything else.
+    /// Whether the messages of another recording's topic can be written as they are: a bag holds the encoding of ROS 1
+    /// alone, with a checksum, and a file of the profile `ros2` everything else.
     pub fn can_copy(&self, topic: &container::Topic) -> bool {
         let is_ros1 = topic.known_encoding() == Some(Encoding::Ros1);
         match &self.container {

@@ -1,7 +1,7 @@
 use super::*;
 use crate::table::Row;
+use crate::{Observed, Weights};
 use crate::{Space, leave_one_out};
-use ralf::paper::{Evidence, Weights};
 
 const SCAN: usize = 20;
 
@@ -17,7 +17,7 @@ pub(crate) fn planted(seed: u64, scans: usize) -> EvidenceTable {
             "tracking.beta=0.1",
         ],
     );
-    let weights = Weights::of(&config.unwrap());
+    let weights = Weights::from(&config.unwrap());
     let space = Space { neighbours: vec![2, 3], scans: vec![3, 5] };
     let mut table = EvidenceTable::new(space);
     let mut rng = Pcg64Mcg::seed_from_u64(seed);
@@ -31,7 +31,7 @@ pub(crate) fn planted(seed: u64, scans: usize) -> EvidenceTable {
 fn row(rng: &mut Pcg64Mcg, weights: &Weights) -> Row {
     let d = |rng: &mut Pcg64Mcg| rng.random_bool(0.9).then(|| rng.random_range(0.0..20.0));
     let [lm, other_lm, cm, tr, other_tr] = std::array::from_fn(|_| d(rng));
-    let rest = Evidence {
+    let rest = Observed {
         d_lm: lm,
         d_cm: cm,
         d_tr: tr,
@@ -39,7 +39,7 @@ fn row(rng: &mut Pcg64Mcg, weights: &Weights) -> Row {
         in_blind_spot: rng.random_bool(0.3),
         gamma_s: rng.random_range(1.0..1.2),
     };
-    Row { plausible: rest.weigh(weights).plausible, rest, d_lm: vec![lm, other_lm], d_tr: vec![tr, other_tr] }
+    Row { plausible: rest.is_plausible(weights), rest, d_lm: vec![lm, other_lm], d_tr: vec![tr, other_tr] }
 }
 
 fn search(base: &Config, trials: usize) -> Search<'_> {
@@ -97,8 +97,7 @@ fn the_floor_of_precision_is_kept() {
 fn what_says_nothing_keeps_its_setting() {
     let space = Space { neighbours: vec![2, 3], scans: vec![3, 5] };
     let mut table = EvidenceTable::new(space);
-    let rest =
-        Evidence { d_lm: None, d_cm: None, d_tr: None, on_floor: false, in_blind_spot: false, gamma_s: 1.0 };
+    let rest = Observed::NOTHING;
     let row = |plausible: bool| {
         let d = if plausible { 1.0 } else { 9.0 };
         Row { rest, d_lm: vec![None; 2], d_tr: vec![Some(d), Some(10.0 - d)], plausible }
@@ -108,7 +107,7 @@ fn what_says_nothing_keeps_its_setting() {
     let found = search(&base, 30).run(&[&table], &mut |_, _| {}).unwrap();
     let weights = found.settings.weights;
     assert_eq!(found.score, 1.0);
-    let own = Weights::of(&base);
+    let own = Weights::from(&base);
     assert_eq!((weights.beta_lm, weights.beta_cm), (own.beta_lm, own.beta_cm));
     assert_eq!(weights.fusion.alpha, own.fusion.alpha);
     assert_eq!((found.settings.neighbours, found.settings.scans), (3, 3));
@@ -138,7 +137,7 @@ fn one_class_alone_teaches_nothing() {
     let refused = |table: &EvidenceTable| search(&base, 1).run(&[table], &mut |_, _| {}).unwrap_err();
     assert_eq!(refused(&table), TuneError::OneClass("plausible detections"));
     let mut rng = Pcg64Mcg::seed_from_u64(0);
-    table.push_scan([Row { plausible: true, ..row(&mut rng, &Weights::of(&base)) }]);
+    table.push_scan([Row { plausible: true, ..row(&mut rng, &Weights::from(&base)) }]);
     assert_eq!(refused(&table), TuneError::OneClass("artifacts"));
 }
 

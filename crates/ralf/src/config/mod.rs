@@ -89,6 +89,9 @@ pub struct LidarConfig {
     pub beta: f64,
     /// `K`.
     pub neighbours: usize,
+    /// LiDAR scans before and after the nearest one that a frame carries besides it. The paper's method looks at the
+    /// nearest one alone.
+    pub window_scans: usize,
 }
 
 /// How relative depth becomes metric.
@@ -200,7 +203,7 @@ impl Default for GroundConfig {
 
 impl Default for LidarConfig {
     fn default() -> Self {
-        Self { enabled: true, beta: 0.2, neighbours: 3 }
+        Self { enabled: true, beta: 0.2, neighbours: 3, window_scans: 0 }
     }
 }
 

@@ -1,9 +1,9 @@
-//! Camera matching: the mismatch of each detection with its nearest calibrated camera points (paper, section 2.3;
-//! docs/method.md, section 5).
+//! Camera matching: is there an object in the scaled depth images where the radar saw something? (paper, section 2.3;
+//! docs/method.md, section 5)
 
 use crate::config::CameraConfig;
 use crate::scene::{
-    Association, Detections, ImageMoment, ImageView, Located, Reference, Seen, Spread, ViewState, index_of,
+    Association, Frame, ImageMoment, ImageView, Reference, Seen, Spread, ViewState, index_of,
 };
 use crate::sensors::{Elevation, Radar};
 use crate::space::{Point, Transform};
@@ -17,40 +17,42 @@ pub struct CameraMatch {
     pub in_failed_view: bool,
 }
 
-/// The mismatch of each detection with the points of all views that are left, of all cameras together.
-pub fn match_detections(
-    radar: &Radar,
-    detections: &Detections,
-    images: &[ImageView],
-    config: &CameraConfig,
-) -> Vec<CameraMatch> {
-    let points = points_of_views(radar, images, config.depth_sigma);
-    let index = index_of(points.iter().map(|point| &point.position), radar.elevation);
-    let mut association = Association::new(&index, radar.elevation, config.neighbours);
+/// The mismatch of each detection with its nearest calibrated points, of the views of all cameras together that are
+/// left.
+pub fn match_detections(frame: &Frame, config: &CameraConfig) -> Vec<CameraMatch> {
+    let images = if config.enabled { frame.images.as_slice() } else { &[] };
+    let points = reference_cloud(frame.radar, images, config.depth_sigma);
+    let index = index_of(points.iter().map(|point| &point.position), frame.radar.elevation);
+    let mut association = Association::new(&index, frame.radar.elevation, config.neighbours);
     let images_from_vehicle: Vec<_> =
         images.iter().map(|view| (view.moment.as_ref(), view.vehicle_from_image.inverse())).collect();
-    let mut answer = |detection: &Located| {
+    let mut matches = vec![CameraMatch::default(); frame.scan.len()];
+    for (found, detection) in matches.iter_mut().zip(&frame.scan.detections) {
+        let Some(detection) = detection else { continue };
         let seen = seen_by(&images_from_vehicle, &detection.position);
-        let reference = |id: u32| points[id as usize];
-        let d = seen.calibrated.then(|| association.mean_mismatch(detection, &detection.position, reference));
-        CameraMatch { d: d.flatten(), in_failed_view: seen.failed }
-    };
-    let located = detections.located.iter();
-    located.map(|detection| detection.as_ref().map(&mut answer).unwrap_or_default()).collect()
+        found.in_failed_view = seen.failed;
+        if seen.calibrated {
+            found.d = association.mean_mismatch(detection, &detection.position, |id| points[id as usize]);
+        }
+    }
+    matches
 }
 
 /// The calibrated points in the vehicle frame at the radar scan's time, each with `Sigma_l = (depth_sigma Z)^2 u u^T`.
-/// Of a radar without elevation only those within its vertical field of view.
-fn points_of_views(radar: &Radar, images: &[ImageView], depth_sigma: f64) -> Vec<Reference> {
+/// For a radar without elevation only those within its vertical field of view.
+fn reference_cloud(radar: &Radar, images: &[ImageView], depth_sigma: f64) -> Vec<Reference> {
     let radar_from_vehicle = radar.vehicle_from_radar.inverse();
     let mut points = Vec::new();
-    for ImageView { moment, vehicle_from_image } in images {
+    for image in images {
+        let vehicle_from_image = image.vehicle_from_image;
         let rotation = vehicle_from_image.rotation.to_rotation_matrix();
-        let calibrated = moment.views.iter().filter(|view| view.report.state == ViewState::Calibrated);
-        points.extend(calibrated.flat_map(|view| &view.points).map(|point| Reference {
-            position: vehicle_from_image * point.position,
-            spread: Spread::Ray(rotation * point.ray * (depth_sigma * point.depth)),
-        }));
+        let views = &image.moment.views;
+        for view in views.iter().filter(|view| view.report.state == ViewState::Calibrated) {
+            points.extend(view.points.iter().map(|point| Reference {
+                position: vehicle_from_image * point.position,
+                spread: Spread::Ray(rotation * point.ray * (depth_sigma * point.depth)),
+            }));
+        }
     }
     if radar.elevation == Elevation::None {
         points.retain(|point| radar.sees_height_of(&(radar_from_vehicle * point.position)));
@@ -60,8 +62,11 @@ fn points_of_views(radar: &Radar, images: &[ImageView], depth_sigma: f64) -> Vec
 
 /// In which kinds of views of all images a point (vehicle frame at the radar scan's time) lies.
 fn seen_by(images_from_vehicle: &[(&ImageMoment, Transform)], p: &Point) -> Seen {
-    images_from_vehicle.iter().fold(Seen::default(), |seen, (moment, image_from_vehicle)| {
+    let mut seen = Seen::default();
+    for (moment, image_from_vehicle) in images_from_vehicle {
         let here = moment.sees(&(image_from_vehicle * p));
-        Seen { calibrated: seen.calibrated || here.calibrated, failed: seen.failed || here.failed }
-    })
+        seen.calibrated |= here.calibrated;
+        seen.failed |= here.failed;
+    }
+    seen
 }

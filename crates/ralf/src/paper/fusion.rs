@@ -1,7 +1,5 @@
 //! Fusion of the branches into a plausibility and a label (paper, equations 6 and 9; docs/method.md, sections 6 and 8).
 
-use crate::config::FusionConfig;
-
 /// `w_opt`: in the LiDAR's blind spot the camera's answer, elsewhere the LiDAR's; where the chosen one is absent, the
 /// other.
 pub fn optical(in_blind_spot: bool, w_lm: Option<f64>, w_cm: Option<f64>) -> Option<f64> {
@@ -12,15 +10,14 @@ pub fn optical(in_blind_spot: bool, w_lm: Option<f64>, w_cm: Option<f64>) -> Opt
 /// both.
 ///
 /// ```
-/// use ralf::{config::FusionConfig, paper::prioritize};
-/// let config = FusionConfig { alpha: 0.25, threshold: 0.5 };
-/// assert_eq!(prioritize(&config, Some(1.0), Some(0.5), 1.0), Some(0.625));
-/// assert_eq!(prioritize(&config, None, Some(0.5), 2.0), Some(0.25));
-/// assert_eq!(prioritize(&config, None, None, 1.0), None);
+/// use ralf::paper::prioritize;
+/// assert_eq!(prioritize(0.25, Some(1.0), Some(0.5), 1.0), Some(0.625));
+/// assert_eq!(prioritize(0.25, None, Some(0.5), 2.0), Some(0.25));
+/// assert_eq!(prioritize(0.25, None, None, 1.0), None);
 /// ```
-pub fn prioritize(config: &FusionConfig, w_opt: Option<f64>, w_tr: Option<f64>, gamma_s: f64) -> Option<f64> {
+pub fn prioritize(alpha: f64, w_opt: Option<f64>, w_tr: Option<f64>, gamma_s: f64) -> Option<f64> {
     let w = match (w_opt, w_tr) {
-        (Some(w_opt), Some(w_tr)) => config.alpha * w_opt + (1.0 - config.alpha) * w_tr,
+        (Some(w_opt), Some(w_tr)) => alpha * w_opt + (1.0 - alpha) * w_tr,
         (one, other) => one.or(other)?,
     };
     Some(w / gamma_s)

@@ -1,13 +1,11 @@
-//! The whole method, for one radar scan.
+//! The paper's method, for one radar scan.
 
 use super::blind_spot::in_blind_spot;
-use super::camera::{self, CameraMatch};
-use super::evidence::{Evidence, Verdict, Weights};
-use super::lidar::{self, LidarMatch};
-use super::tracking;
+use super::fusion::{optical, prioritize};
+use super::{camera, lidar, tracking};
 use crate::config::Config;
 use crate::label::flag;
-use crate::scene::{Frame, LocalGround, Located};
+use crate::scene::{Frame, plausibility};
 
 /// What the method says of one detection. `None` is *not observed*, which is something else than implausible.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -24,9 +22,9 @@ pub struct DetectionLabel {
     pub w_cm: Option<f64>,
     /// `exp(-beta_tr d_tr)`.
     pub w_tr: Option<f64>,
-    /// Of LiDAR and cameras together.
+    /// What LiDAR and cameras say together.
     pub w_opt: Option<f64>,
-    /// The plausibility.
+    /// The plausibility, in [0, 1]; 0 where nothing was observed.
     pub w: f64,
     /// Whether the detection is plausible.
     pub plausible: bool,
@@ -49,111 +47,62 @@ impl<'a> Labeler<'a> {
     }
 
     /// The plausibility and label of every detection of a frame, in the scan's order.
+    ///
+    /// This is the whole method. Equations, algorithm and figures are numbered as in the paper; `docs/method.md` states
+    /// each step exactly.
     pub fn label(&self, frame: &Frame) -> Vec<DetectionLabel> {
-        let answers = self.ask(frame);
-        let weights = Weights::of(self.config);
-        let located = frame.detections.located.iter().enumerate();
-        let label = |(i, detection): (usize, &Option<Located>)| match detection {
-            Some(detection) => {
-                let evidence = self.evidence_of(frame, i, detection, &answers);
-                answers.label(i, &evidence, &evidence.weigh(&weights))
-            }
-            None => DetectionLabel { flags: flag::UNOBSERVED, ..Default::default() },
-        };
-        located.map(label).collect()
-    }
+        let Config { ground, lidar, camera, tracking, fusion, .. } = self.config;
 
-    /// What is known of every detection of a frame before `alpha`, the `beta` and `w0` come in, in the scan's order.
-    /// `None` for a detection whose coordinates are not finite: whatever the weights, it is not plausible.
-    pub fn evidence(&self, frame: &Frame) -> Vec<Option<Evidence>> {
-        let answers = self.ask(frame);
-        let located = frame.detections.located.iter().enumerate();
-        located.map(|(i, found)| Some(self.evidence_of(frame, i, found.as_ref()?, &answers))).collect()
-    }
+        // The branches. Each gives the mean mismatch d (equations 1 to 4) of each detection with its nearest
+        // neighbours: I, LiDAR (algorithm 1): the points above the ground;
+        let lidar_matches = lidar::match_detections(frame, lidar);
+        // I, cameras (section 2.3, Camera matching): the pixels of the scaled depth images;
+        let camera_matches = camera::match_detections(frame, camera);
+        // II, tracking (equations 7 and 8): the scans k - n_b .. k + n_b, the smallest mismatches counting most.
+        let tracking_mismatches = tracking::match_detections(frame, tracking);
 
-    /// Asks all branches.
-    fn ask(&self, frame: &Frame) -> Answers {
-        Answers {
-            lidar: self.ask_lidar(frame),
-            camera: self.ask_cameras(frame),
-            tracking: self.ask_tracking(frame),
-            absent: self.absent_branches(frame),
-        }
-    }
+        let silent_branches = flag::when(lidar.enabled && frame.lidar.is_none(), flag::NO_LIDAR)
+            | flag::when(tracking.enabled && frame.steps.is_empty(), flag::NO_NEIGHBOURS);
+        let mut labels = Vec::with_capacity(frame.scan.len());
+        for (i, detection) in frame.scan.detections.iter().enumerate() {
+            let Some(detection) = detection else {
+                labels.push(DetectionLabel { flags: flag::UNOBSERVED, ..Default::default() });
+                continue;
+            };
 
-    /// What is known of one detection.
-    fn evidence_of(&self, frame: &Frame, i: usize, detection: &Located, answers: &Answers) -> Evidence {
-        let is_on =
-            |local: &LocalGround| local.is_floor_detection(frame.radar, detection, &self.config.ground);
-        let on_floor = frame.ground.as_ref().is_some_and(is_on);
-        Evidence {
-            d_lm: answers.lidar[i].map(|found| found.d).filter(|_| !on_floor),
-            d_cm: answers.camera[i].d.filter(|_| !on_floor),
-            d_tr: answers.tracking[i],
-            on_floor,
-            in_blind_spot: in_blind_spot(&frame.rig.lidars, &detection.position),
-            gamma_s: frame.radar.reliability.at(frame.detections.scan.spherical[i].azimuth),
-        }
-    }
+            // A detection on the floor is an artifact (section 2.3, LiDAR matching); tracking alone still says its
+            // part.
+            let on_floor = frame.is_on_floor(detection, ground);
+            let lidar_match = lidar_matches[i].filter(|_| !on_floor);
+            let d_lm = lidar_match.map(|found| found.d);
+            let d_cm = camera_matches[i].d.filter(|_| !on_floor);
+            let d_tr = tracking_mismatches[i];
 
-    /// What the LiDAR says of each detection.
-    pub fn ask_lidar(&self, frame: &Frame) -> Vec<Option<LidarMatch>> {
-        match &frame.lidar {
-            Some(view) if self.config.lidar.enabled => {
-                lidar::match_detections(frame.radar, &frame.detections, view, self.config.lidar.neighbours)
-            }
-            _ => vec![None; frame.detections.located.len()],
-        }
-    }
+            // Each branch's plausibility, exp(-beta d) (algorithm 1, its last line).
+            let w_lm = if on_floor { Some(0.0) } else { d_lm.map(|d| plausibility(lidar.beta, d)) };
+            let w_cm = if on_floor { Some(0.0) } else { d_cm.map(|d| plausibility(camera.beta, d)) };
+            let w_tr = d_tr.map(|d| plausibility(tracking.beta, d));
 
-    fn ask_cameras(&self, frame: &Frame) -> Vec<CameraMatch> {
-        camera::match_detections(frame.radar, &frame.detections, &frame.images, &self.config.camera)
-    }
+            // In the LiDAR's blind spot (equation 5) the cameras answer, elsewhere the LiDAR (equation 6).
+            let in_blind_spot = in_blind_spot(&frame.rig.lidars, &detection.position);
+            let w_opt = optical(in_blind_spot, w_lm, w_cm);
 
-    /// What the neighbouring scans say of each detection.
-    pub fn ask_tracking(&self, frame: &Frame) -> Vec<Option<f64>> {
-        let Frame { radar, detections, doppler, .. } = frame;
-        let steps = frame.steps_within(self.config.tracking.scans);
-        tracking::match_detections(radar, detections, steps, doppler.as_deref(), &self.config.tracking)
-    }
+            // alpha weighs the branches, gamma_s(phi) the sensor's mounting (figure 6), w_0 decides (equation 9).
+            let gamma_s = frame.radar.reliability.at(frame.scan.measured.spherical[i].azimuth);
+            let w = prioritize(fusion.alpha, w_opt, w_tr, gamma_s);
+            let plausible = !on_floor && w.is_some_and(|w| w >= fusion.threshold);
 
-    /// Flags of enabled branches that have nothing to say on the whole scan.
-    fn absent_branches(&self, frame: &Frame) -> u16 {
-        flag::when(self.config.lidar.enabled && frame.lidar.is_none(), flag::NO_LIDAR)
-            | flag::when(self.config.tracking.enabled && frame.steps.is_empty(), flag::NO_NEIGHBOURS)
-    }
-}
-
-/// What each branch says of a scan: one entry per detection.
-struct Answers {
-    lidar: Vec<Option<LidarMatch>>,
-    camera: Vec<CameraMatch>,
-    tracking: Vec<Option<f64>>,
-    /// Flags of the branches that say nothing of the whole scan.
-    absent: u16,
-}
-
-impl Answers {
-    /// All that is told of one detection.
-    fn label(&self, i: usize, evidence: &Evidence, verdict: &Verdict) -> DetectionLabel {
-        let Evidence { d_lm, d_cm, d_tr, on_floor, in_blind_spot, .. } = *evidence;
-        let Verdict { w_lm, w_cm, w_tr, w_opt, w, plausible } = *verdict;
-        DetectionLabel {
-            d_lm,
-            d_cm,
-            d_tr,
-            w_lm,
-            w_cm,
-            w_tr,
-            w_opt,
-            w: w.unwrap_or(0.0),
-            plausible,
-            flags: self.absent
+            let flags = silent_branches
                 | flag::when(on_floor, flag::GROUND)
                 | flag::when(in_blind_spot, flag::BLIND_SPOT)
-                | flag::when(self.camera[i].in_failed_view, flag::CAMERA_FAILED)
-                | flag::when(w.is_none(), flag::UNOBSERVED),
-            semantic: self.lidar[i].filter(|_| !on_floor).and_then(|found| found.semantic),
+                | flag::when(camera_matches[i].in_failed_view, flag::CAMERA_FAILED)
+                | flag::when(w.is_none(), flag::UNOBSERVED);
+            let semantic = lidar_match.and_then(|found| found.semantic);
+            let w = w.unwrap_or(0.0);
+            let label =
+                DetectionLabel { d_lm, d_cm, d_tr, w_lm, w_cm, w_tr, w_opt, w, plausible, flags, semantic };
+            labels.push(label);
         }
+        labels
     }
 }

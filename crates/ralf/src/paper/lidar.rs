@@ -1,9 +1,9 @@
-//! LiDAR matching: the mismatch of each detection with its nearest LiDAR points (paper, algorithm 1; docs/method.md,
-//! section 4).
+//! LiDAR matching: is there a surface where the radar saw something? (paper, algorithm 1; docs/method.md, section 4)
 
+use crate::config::LidarConfig;
 use crate::label::UNLABELED;
-use crate::scene::{Association, Detections, LidarMoment, LidarView, Located};
-use crate::sensors::{Elevation, Radar};
+use crate::scene::{Association, Frame, LidarMoment};
+use crate::sensors::Elevation;
 use crate::space::{Neighbor, Transform};
 
 /// What the LiDAR says of one detection.
@@ -15,38 +15,41 @@ pub struct LidarMatch {
     pub semantic: Option<u16>,
 }
 
-/// The mismatch of each detection with its `neighbours` nearest points of the moment's reference cloud; `None` for all
-/// where that cloud is empty, and for detections without a place.
-pub fn match_detections(
-    radar: &Radar,
-    detections: &Detections,
-    LidarView { moment, vehicle_from_moment }: &LidarView,
-    neighbours: usize,
-) -> Vec<Option<LidarMatch>> {
+/// The mismatch of each detection with its `K` nearest LiDAR points above the ground. `None` for all where the branch is
+/// off or there is no such point, and for detections without a position.
+pub fn match_detections(frame: &Frame, config: &LidarConfig) -> Vec<Option<LidarMatch>> {
+    let mut matches = vec![None; frame.scan.len()];
+    let Some(view) = frame.lidar.as_ref().filter(|_| config.enabled) else { return matches };
+    let (moment, elevation) = (view.moment.as_ref(), frame.radar.elevation);
     let horizontal_index;
     // Distances in space are the same in every frame, so the shared index is asked in its own. Horizontal ones are not.
-    let (index, index_from_vehicle) = match radar.elevation {
-        Elevation::Measured => (moment.index(), vehicle_from_moment.inverse()),
+    let (index, index_from_vehicle) = match elevation {
+        Elevation::Measured => (moment.index(), view.vehicle_from_moment.inverse()),
         Elevation::None => {
-            horizontal_index = moment.horizontal_index(radar, vehicle_from_moment);
+            horizontal_index = moment.horizontal_index(frame.radar, &view.vehicle_from_moment);
             (&horizontal_index, Transform::identity())
         }
     };
-    let mut association = Association::new(index, radar.elevation, neighbours);
-    let mut answer = |detection: &Located| {
-        let place = index_from_vehicle * detection.position;
-        let d =
-            association.mean_mismatch(detection, &place, |id| moment.reference(id, vehicle_from_moment))?;
-        Some(LidarMatch { d, semantic: majority(moment, association.found()) })
-    };
-    detections.located.iter().map(|detection| answer(detection.as_ref()?)).collect()
+    let mut association = Association::new(index, elevation, config.neighbours);
+    for (found, detection) in matches.iter_mut().zip(&frame.scan.detections) {
+        let Some(detection) = detection else { continue };
+        let query = index_from_vehicle * detection.position;
+        let reference = |id| moment.reference(id, &view.vehicle_from_moment);
+        if let Some(d) = association.mean_mismatch(detection, &query, reference) {
+            *found = Some(LidarMatch { d, semantic: majority(moment, association.found()) });
+        }
+    }
+    matches
 }
 
 /// The class of most neighbours; of equally frequent ones the one that comes nearer. Unlabeled points don't vote.
 fn majority(moment: &LidarMoment, found: &[Neighbor]) -> Option<u16> {
-    let classes = found.iter().map(|neighbor| moment.class(neighbor.id));
     let mut votes: Vec<(u16, usize)> = Vec::new();
-    for class in classes.filter(|class| *class != UNLABELED) {
+    for neighbor in found {
+        let class = moment.class(neighbor.id);
+        if class == UNLABELED {
+            continue;
+        }
         match votes.iter_mut().find(|(voted, _)| *voted == class) {
             Some((_, count)) => *count += 1,
             None => votes.push((class, 1)),

@@ -4,13 +4,11 @@
 
 mod blind_spot;
 pub mod camera;
-mod evidence;
 mod fusion;
 mod labeler;
 pub mod lidar;
 pub mod tracking;
 
 pub use blind_spot::in_blind_spot;
-pub use evidence::{Evidence, Verdict, Weights};
 pub use fusion::{optical, prioritize};
 pub use labeler::{DetectionLabel, Labeler};

@@ -1,44 +1,39 @@
-//! The mismatch of each detection with the neighbouring radar scans (paper, equation 8; docs/method.md, section 7).
+//! Tracking: what exists reoccurs in the neighbouring radar scans, clutter and noise do not (paper, equation 8;
+//! docs/method.md, section 7).
 
-use crate::config::TrackingConfig;
+use crate::config::{TrackingConfig, TrackingSources};
 use crate::scene::{
-    Association, Detections, Located, Reference, TrackingStep, distance_per_mismatch, index_of,
+    Association, Detection, Frame, NeighbouringScan, Reference, ScanStep, distance_per_mismatch, index_of,
 };
 use crate::sensors::{Elevation, Radar};
 use crate::space::NeighborIndex;
 
-/// The mismatch `d` of each detection with its neighbouring scans, sorted and weighted; `None` for all where there is
-/// no such scan, and for detections without a place.
-///
-/// `doppler` are the ego-compensated range rates (m/s) of `tracking.dynamic`, where they are wanted and known.
-pub fn match_detections(
-    radar: &Radar,
-    detections: &Detections,
-    steps: &[TrackingStep],
-    doppler: Option<&[f64]>,
-    config: &TrackingConfig,
-) -> Vec<Option<f64>> {
-    let mut mismatches: Vec<Vec<f64>> = vec![Vec::with_capacity(steps.len()); detections.located.len()];
+/// The mismatch `d` of each detection with the neighbouring scans, sorted and weighted; `None` for all where the branch
+/// is off or there is no such scan, and for detections without a position.
+pub fn match_detections(frame: &Frame, config: &TrackingConfig) -> Vec<Option<f64>> {
+    let steps = if config.enabled { frame.steps_within(config.scans) } else { &[] };
+    let doppler = if config.dynamic { frame.doppler() } else { None };
+    let mut mismatches = vec![Vec::with_capacity(steps.len()); frame.scan.len()];
     for step in steps {
-        let cloud = MovedCloud::new(step, radar.elevation);
-        let mut association = Association::new(&cloud.index, radar.elevation, config.neighbours);
-        let dt = (step.t_ns - detections.t_ns()) as f64 * 1e-9;
-        for (i, detection) in detections.located.iter().enumerate() {
+        let cloud = MovedCloud::new(step, frame.radar.elevation, config.sources);
+        let mut association = Association::new(&cloud.index, frame.radar.elevation, config.neighbours);
+        let dt = (step.t_ns - frame.scan.t_ns()) as f64 * 1e-9;
+        for (i, detection) in frame.scan.detections.iter().enumerate() {
             let Some(detection) = detection else { continue };
             association.set_reach(cloud.reach(detection, config.max_mismatch));
             let mut d = cloud.mismatch(&mut association, detection);
-            let velocity = doppler.map(|values| values[i]).filter(|velocity| velocity.is_finite());
-            if let Some(velocity) = velocity {
-                let moved = along_ray(radar, detection, velocity * dt);
+            let velocity = doppler.as_ref().map(|doppler| doppler.compensated[i]);
+            if let Some(velocity) = velocity.filter(|velocity| velocity.is_finite()) {
+                let moved = along_ray(frame.radar, detection, velocity * dt);
                 d = d.min(cloud.mismatch(&mut association, &moved));
             }
             mismatches[i].push(d.min(config.max_mismatch));
         }
     }
-    mismatches.into_iter().map(|mut of_detection| sorted_mean(&mut of_detection)).collect()
+    mismatches.iter_mut().map(|of_steps| sorted_mean(of_steps)).collect()
 }
 
-/// `sum c_k d_(k) / sum c_k` over the ascending `d_(k)`, with `c_k = n - k + 1`. `None` of nothing.
+/// `sum c_k d_(k) / sum c_k` over the ascending `d_(k)`, with `c_k = n - k + 1`. `None` where there are none.
 fn sorted_mean(mismatches: &mut [f64]) -> Option<f64> {
     mismatches.sort_by(f64::total_cmp);
     let n = mismatches.len();
@@ -47,10 +42,10 @@ fn sorted_mean(mismatches: &mut [f64]) -> Option<f64> {
 }
 
 /// The detection moved away from the radar by a distance, m, its uncertainty with it.
-fn along_ray(radar: &Radar, detection: &Located, distance: f64) -> Located {
+fn along_ray(radar: &Radar, detection: &Detection, distance: f64) -> Detection {
     let from_radar = detection.position.coords - radar.vehicle_from_radar.translation.vector;
     let ray = from_radar.try_normalize(0.0).unwrap_or_default();
-    Located { position: detection.position + ray * distance, axes: detection.axes }
+    Detection { position: detection.position + ray * distance, axes: detection.axes }
 }
 
 /// The detections of a step in the vehicle frame at the reference scan's time.
@@ -58,31 +53,33 @@ fn along_ray(radar: &Radar, detection: &Located, distance: f64) -> Located {
 /// Moving some hundred points and sorting them costs less than it saves to ask each scan in its own frame, and
 /// horizontal distances are exact only here.
 struct MovedCloud {
-    points: Vec<Located>,
+    points: Vec<Detection>,
     index: NeighborIndex,
     /// No point's variance in any direction is larger, m^2.
     max_variance: f64,
 }
 
 impl MovedCloud {
-    fn new(step: &TrackingStep, elevation: Elevation) -> Self {
+    fn new(step: &ScanStep, elevation: Elevation, sources: TrackingSources) -> Self {
+        let others = if sources == TrackingSources::All { step.others.as_slice() } else { &[] };
         let mut points = Vec::new();
-        for (cloud, vehicle_from_cloud) in &step.clouds {
-            points.extend(cloud.located.iter().flatten().map(|located| located.moved(vehicle_from_cloud)));
+        for NeighbouringScan { scan, vehicle_from_scan, .. } in [&step.own].into_iter().chain(others) {
+            points
+                .extend(scan.detections.iter().flatten().map(|detection| detection.moved(vehicle_from_scan)));
         }
         let index = index_of(points.iter().map(|point| &point.position), elevation);
-        let max_variance = points.iter().map(Located::total_variance).fold(0.0, f64::max);
+        let max_variance = points.iter().map(Detection::total_variance).fold(0.0, f64::max);
         Self { points, index, max_variance }
     }
 
     /// Farther than this, m, every mismatch with the detection is above the cap.
-    fn reach(&self, detection: &Located, cap: f64) -> f64 {
+    fn reach(&self, detection: &Detection, cap: f64) -> f64 {
         const ROUNDING: f64 = 1.001;
         cap * distance_per_mismatch(detection.total_variance() + self.max_variance) * ROUNDING
     }
 
     /// Infinite where the step saw nothing, so that the cap takes its place.
-    fn mismatch(&self, association: &mut Association, detection: &Located) -> f64 {
+    fn mismatch(&self, association: &mut Association, detection: &Detection) -> f64 {
         let reference = |id: u32| {
             let point = &self.points[id as usize];
             Reference { position: point.position, spread: point.spread() }

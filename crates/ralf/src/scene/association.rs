@@ -1,6 +1,6 @@
 //! The association of a detection with its nearest reference points (docs/method.md, section 3).
 
-use super::detections::Located;
+use super::located::Detection;
 use super::mismatch::{Reference, mismatch};
 use crate::sensors::Elevation;
 use crate::space::{Neighbor, NeighborIndex, Point};
@@ -45,7 +45,7 @@ impl<'a> Association<'a> {
     /// frame.
     pub fn mean_mismatch(
         &mut self,
-        detection: &Located,
+        detection: &Detection,
         place: &Point,
         reference: impl Fn(u32) -> Reference,
     ) -> Option<f64> {

@@ -1,24 +1,50 @@
-//! The range rate of a detection without the vehicle's own motion.
+//! Range rates, with and without the vehicle's own motion.
 
 use crate::sensors::{Radar, RadarScan};
-use crate::space::{EgoMotion, Vector};
+use crate::space::{EgoMotion, Point, Vector};
 
-/// Ego-compensated range rates of a scan, m/s, positive when receding: the field `doppler_compensated` where the radar
-/// has it, else `doppler` plus the radial part of the radar's own velocity, `u . (v + omega x t)`. `None` where it has
-/// neither.
-pub fn compensated_doppler(radar: &Radar, scan: &RadarScan, motion: &EgoMotion) -> Option<Vec<f64>> {
-    if let Some(column) = radar.column("doppler_compensated") {
-        return Some(scan.columns[column].iter().copied().map(f64::from).collect());
+/// The range rates of a scan, m/s, positive when receding: one per detection, NaN where none was measured.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Doppler {
+    /// As the radar sees it: a wall ahead of a vehicle that drives comes nearer.
+    pub raw: Vec<f64>,
+    /// Without the radar's own motion: a wall stands still.
+    pub compensated: Vec<f64>,
+}
+
+impl Doppler {
+    /// The range rates of a radar's scan: the fields `doppler` and `doppler_compensated`, each derived from the other
+    /// where the radar has but one. `None` where it has neither.
+    ///
+    /// The difference is the radial part of the radar's own velocity, `u . (v + omega x t)`: `u` is the unit ray to the
+    /// detection, `t` the radar's lever arm from the vehicle's origin.
+    pub fn new(radar: &Radar, scan: &RadarScan, motion: &EgoMotion) -> Option<Self> {
+        let (raw, compensated) = (radar.column("doppler"), radar.column("doppler_compensated"));
+        let along = own_motion(radar, scan, motion);
+        let column = |place: usize| scan.columns[place].iter().copied().map(f64::from).collect::<Vec<_>>();
+        Some(match (raw.map(column), compensated.map(column)) {
+            (Some(raw), Some(compensated)) => Self { raw, compensated },
+            (Some(raw), None) => {
+                let compensated = raw.iter().zip(along).map(|(raw, along)| raw + along).collect();
+                Self { raw, compensated }
+            }
+            (None, Some(compensated)) => {
+                let raw = compensated.iter().zip(along).map(|(rate, along)| rate - along).collect();
+                Self { raw, compensated }
+            }
+            (None, None) => return None,
+        })
     }
-    let raw = &scan.columns[radar.column("doppler")?];
+}
+
+/// How fast the radar itself moves towards each detection, m/s.
+fn own_motion(radar: &Radar, scan: &RadarScan, motion: &EgoMotion) -> impl Iterator<Item = f64> {
     let (velocity, turn) = motion.twist(scan.t_ns);
     let mount = &radar.vehicle_from_radar;
     let of_radar: Vector = mount.rotation.inverse() * (velocity + turn.cross(&mount.translation.vector));
-    let compensated = |(doppler, position): (&f32, &crate::space::Point)| {
-        let along = position.coords.try_normalize(0.0).map_or(0.0, |ray| ray.dot(&of_radar));
-        f64::from(*doppler) + along
-    };
-    Some(raw.iter().zip(&scan.positions).map(compensated).collect())
+    scan.positions
+        .iter()
+        .map(move |position: &Point| position.coords.try_normalize(0.0).map_or(0.0, |ray| ray.dot(&of_radar)))
 }
 
 #[cfg(test)]
@@ -42,27 +68,42 @@ mod tests {
         }
     }
 
-    #[test]
-    fn what_stands_still_has_no_compensated_doppler() {
-        let radar = radar(&["x", "y", "doppler"]);
-        let motion =
-            EgoMotion::new(vec![OdometrySample { t_ns: 0, velocity: 5.0, yaw_rate: 0.4 }], vec![]).unwrap();
-        // The radar moves with (5, 0.4 * 3): a wall ahead comes nearer at 5 m/s, one to the left at 1.2 m/s.
-        let columns = vec![vec![10.0, 0.0], vec![0.0, 10.0], vec![-5.0, -1.2]];
-        let scan = RadarScan::new(&radar, 0, columns).unwrap();
-        let compensated = compensated_doppler(&radar, &scan, &motion).unwrap();
-        assert!(compensated.iter().all(|v| v.abs() < 1e-6), "{compensated:?}");
+    /// 5 m/s ahead, turning left by 0.4 rad/s: the radar, 3 m ahead of the origin, moves with (5, 0.4 * 3). A wall
+    /// ahead comes nearer at 5 m/s, one to the left at 1.2 m/s.
+    fn turning() -> EgoMotion {
+        EgoMotion::new(vec![OdometrySample { t_ns: 0, velocity: 5.0, yaw_rate: 0.4 }], vec![]).unwrap()
+    }
+
+    const AHEAD_AND_LEFT: [[f32; 2]; 2] = [[10.0, 0.0], [0.0, 10.0]];
+
+    fn doppler(field: &[&str], rates: &[[f32; 2]]) -> Option<Doppler> {
+        let radar = radar(&[&["x", "y"], field].concat());
+        let columns = AHEAD_AND_LEFT.iter().chain(rates).map(|column| column.to_vec()).collect();
+        Doppler::new(&radar, &RadarScan::new(&radar, 0, columns).unwrap(), &turning())
+    }
+
+    fn close(found: &[f64], expected: [f64; 2]) {
+        assert!(found.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-6), "{found:?} {expected:?}");
     }
 
     #[test]
-    fn a_recorded_value_is_taken_as_it_is() {
-        let motion =
-            EgoMotion::new(vec![OdometrySample { t_ns: 0, velocity: 5.0, yaw_rate: 0.0 }], vec![]).unwrap();
-        let with = radar(&["x", "y", "doppler_compensated"]);
-        let scan = RadarScan::new(&with, 0, vec![vec![1.0], vec![0.0], vec![2.5]]).unwrap();
-        assert_eq!(compensated_doppler(&with, &scan, &motion), Some(vec![2.5]));
-        let without = radar(&["x", "y"]);
-        let scan = RadarScan::new(&without, 0, vec![vec![1.0], vec![0.0]]).unwrap();
-        assert_eq!(compensated_doppler(&without, &scan, &motion), None);
+    fn what_stands_still_has_no_compensated_doppler() {
+        let found = doppler(&["doppler"], &[[-5.0, -1.2]]).unwrap();
+        close(&found.raw, [-5.0, -1.2]);
+        close(&found.compensated, [0.0, 0.0]);
+    }
+
+    #[test]
+    fn a_recorded_value_is_taken_as_it_is_and_gives_the_other() {
+        let found = doppler(&["doppler_compensated"], &[[2.5, 0.0]]).unwrap();
+        assert_eq!(found.compensated, [2.5, 0.0]);
+        close(&found.raw, [-2.5, -1.2]);
+        let both = doppler(&["doppler", "doppler_compensated"], &[[7.0, 8.0], [1.0, 2.0]]).unwrap();
+        assert_eq!((both.raw, both.compensated), (vec![7.0, 8.0], vec![1.0, 2.0]));
+    }
+
+    #[test]
+    fn a_radar_that_measures_no_rate_has_none() {
+        assert_eq!(doppler(&[], &[]), None);
     }
 }

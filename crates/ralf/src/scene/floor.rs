@@ -1,8 +1,8 @@
 //! Floor detections: a detection on the road is implausible (docs/method.md, section 4).
 
-use super::detections::Located;
 use super::ground::Ground;
 use super::lidar::LidarView;
+use super::located::Detection;
 use crate::config::{GroundConfig, GroundModel};
 use crate::sensors::{Elevation, Radar};
 use crate::space::{Point, Transform};
@@ -34,7 +34,7 @@ impl LocalGround {
 
     /// Whether a radar's detection lies on the floor: `height + k sqrt(n^T Sigma_i n) < ground.radar_clearance` with
     /// `k = ground.radar_sigmas`; `k = 0` is the paper's rule. A radar without elevation makes no floor detections.
-    pub fn is_floor_detection(&self, radar: &Radar, detection: &Located, config: &GroundConfig) -> bool {
+    pub fn is_floor_detection(&self, radar: &Radar, detection: &Detection, config: &GroundConfig) -> bool {
         if radar.elevation == Elevation::None {
             return false;
         }
@@ -69,7 +69,7 @@ mod tests {
     #[test]
     fn an_uncertain_height_is_no_floor_detection() {
         let ground = LocalGround { ground: Ground::flat(), ground_from_vehicle: Transform::identity() };
-        let at = |z: f64| Located {
+        let at = |z: f64| Detection {
             position: Point::new(10.0, 0.0, z),
             axes: Matrix3::from_diagonal(&Vector3::new(0.1, 0.1, 0.2)),
         };

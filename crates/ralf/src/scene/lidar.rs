@@ -1,21 +1,35 @@
-//! The LiDAR scans of one moment: their ground and their reference cloud, shared by all radars that use them.
+//! The LiDAR scans of one moment: their rays, their ground and their reference cloud, shared by all radars that use
+//! them.
 
 use super::ground::Ground;
 use super::mismatch::{Reference, Spread};
 use crate::config::GroundConfig;
 use crate::sensors::{Lidar, LidarScan, Radar, is_return};
-use crate::space::{NeighborIndex, Point, Transform};
+use crate::space::{NeighborIndex, Point, Transform, Vector};
 use std::sync::{Arc, OnceLock};
 
-/// One LiDAR's part in a moment.
+/// One LiDAR's scan in the vehicle frame at the moment.
 #[derive(Debug)]
-struct Part {
-    scan: Arc<LidarScan>,
-    /// Of the moment's vehicle frame.
-    moment_from_lidar: Transform,
-    sigma_range: f64,
+pub struct LidarSweep {
+    /// The scan, in the LiDAR's frame.
+    pub scan: Arc<LidarScan>,
+    /// From the LiDAR's frame to the vehicle frame at the moment.
+    pub moment_from_lidar: Transform,
+    /// `s_r,lidar`, m.
+    pub sigma_range: f64,
     /// Identity of the scan's first point.
     first_id: usize,
+}
+
+/// A ray that came back: where it began, where it went, and how far it came.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LidarRay {
+    /// The LiDAR, m.
+    pub origin: Point,
+    /// Of unit length.
+    pub direction: Vector,
+    /// From the LiDAR to the return, m.
+    pub range: f64,
 }
 
 /// A moment of the LiDARs, seen from a radar scan.
@@ -34,6 +48,20 @@ impl LidarView {
         let offset = self.vehicle_from_moment.translation.vector;
         self.moment.points.iter().map(|p| rotation * Point::from(p.map(f64::from)) + offset).collect()
     }
+
+    /// The rays of all LiDARs that came back, in the vehicle frame at hand, in the order of the points.
+    pub fn rays(&self) -> impl Iterator<Item = LidarRay> {
+        self.moment.sweeps.iter().flat_map(|sweep| {
+            let vehicle_from_lidar = self.vehicle_from_moment * sweep.moment_from_lidar;
+            let origin = Point::from(vehicle_from_lidar.translation.vector);
+            let returns = sweep.scan.points.iter().filter(|point| is_return(point));
+            returns.map(move |point| {
+                let ray = Vector::from(point.map(f64::from));
+                let range = ray.norm();
+                LidarRay { origin, direction: vehicle_from_lidar.rotation * (ray / range), range }
+            })
+        })
+    }
 }
 
 /// The scans that all LiDARs made around one moment, in the vehicle frame at that moment.
@@ -41,56 +69,71 @@ impl LidarView {
 pub struct LidarMoment {
     /// The moment, ns.
     pub t_ns: i64,
-    parts: Vec<Part>,
-    /// All points of all parts, m; not finite where there was no return. A point's place here is its identity.
+    sweeps: Vec<LidarSweep>,
+    /// All points of all sweeps, m; not finite where there was no return. A point's index here is its identity.
     points: Vec<[f32; 3]>,
-    ground: Option<Ground>,
+    config: GroundConfig,
+    seed: u64,
+    ground: OnceLock<Option<Ground>>,
     /// Identities of the points that are not ground.
-    above_ground: Vec<u32>,
+    above_ground: OnceLock<Vec<u32>>,
     index: OnceLock<NeighborIndex>,
 }
 
 impl LidarMoment {
     /// Brings the scans together at `t_ns`. `scans` gives each scan's LiDAR and the vehicle's pose at the scan's time
-    /// in the vehicle frame at `t_ns`. The ground is fitted to all points together.
+    /// in the vehicle frame at `t_ns`. The ground is fitted to all points together once it is asked for.
     pub fn new(
         t_ns: i64,
         scans: Vec<(&Lidar, Arc<LidarScan>, Transform)>,
         config: &GroundConfig,
         seed: u64,
     ) -> Self {
-        let mut parts = Vec::with_capacity(scans.len());
+        let mut sweeps = Vec::with_capacity(scans.len());
         let mut points = Vec::with_capacity(scans.iter().map(|(_, scan, _)| scan.points.len()).sum());
         for (lidar, scan, moment_from_vehicle) in scans {
             let moment_from_lidar = moment_from_vehicle * lidar.vehicle_from_lidar;
             let first_id = points.len();
             points.extend(scan.points.iter().map(|p| moved_return(&moment_from_lidar, p)));
-            parts.push(Part { scan, moment_from_lidar, sigma_range: lidar.sigma_range, first_id });
+            sweeps.push(LidarSweep { scan, moment_from_lidar, sigma_range: lidar.sigma_range, first_id });
         }
-        let ground = Ground::fit(&points, config, seed);
-        let above_ground = above_ground(&points, ground.as_ref(), config.lidar_margin);
-        Self { t_ns, parts, points, ground, above_ground, index: OnceLock::new() }
+        Self {
+            t_ns,
+            sweeps,
+            points,
+            config: config.clone(),
+            seed,
+            ground: OnceLock::new(),
+            above_ground: OnceLock::new(),
+            index: OnceLock::new(),
+        }
     }
 
-    /// The ground, in the vehicle frame at the moment.
+    /// One entry per LiDAR that delivered a scan.
+    pub fn sweeps(&self) -> &[LidarSweep] {
+        &self.sweeps
+    }
+
+    /// The ground, in the vehicle frame at the moment; `None` where there is none.
     pub fn ground(&self) -> Option<&Ground> {
-        self.ground.as_ref()
+        self.ground.get_or_init(|| Ground::fit(&self.points, &self.config, self.seed)).as_ref()
     }
 
-    /// Points above the ground for a radar that measures elevation, in the moment's frame.
+    /// Points above the ground for a radar that measures elevation, in the moment's frame: the reference cloud.
     pub fn index(&self) -> &NeighborIndex {
         self.index.get_or_init(|| {
-            let points: Vec<_> = self.above_ground.iter().map(|id| self.points[*id as usize]).collect();
-            NeighborIndex::new(&points, &self.above_ground)
+            let ids = self.above_ground();
+            let points: Vec<_> = ids.iter().map(|id| self.points[*id as usize]).collect();
+            NeighborIndex::new(&points, ids)
         })
     }
 
     /// Points above the ground within a radar's vertical field of view, in the horizontal plane of the vehicle frame
-    /// that `vehicle_from_moment` leads to: for a radar that measures no elevation.
+    /// that `vehicle_from_moment` leads to: the reference cloud for a radar that measures no elevation.
     pub fn horizontal_index(&self, radar: &Radar, vehicle_from_moment: &Transform) -> NeighborIndex {
         let radar_from_vehicle = radar.vehicle_from_radar.inverse();
         let (mut points, mut ids) = (Vec::new(), Vec::new());
-        for &id in &self.above_ground {
+        for &id in self.above_ground() {
             let in_vehicle = vehicle_from_moment * Point::from(self.points[id as usize].map(f64::from));
             if radar.sees_height_of(&(radar_from_vehicle * in_vehicle)) {
                 points.push([in_vehicle.x as f32, in_vehicle.y as f32, 0.0]);
@@ -103,23 +146,35 @@ impl LidarMoment {
     /// A point with its uncertainty along its own ray (docs/method.md, section 4), in the frame that
     /// `vehicle_from_moment` leads to.
     pub fn reference(&self, id: u32, vehicle_from_moment: &Transform) -> Reference {
-        let (part, point) = self.find(id);
-        let vehicle_from_lidar = vehicle_from_moment * part.moment_from_lidar;
-        let p = Point::from(part.scan.points[point].map(f64::from));
-        let ray = p.coords.normalize() * part.sigma_range;
+        let (sweep, point) = self.find(id);
+        let vehicle_from_lidar = vehicle_from_moment * sweep.moment_from_lidar;
+        let p = Point::from(sweep.scan.points[point].map(f64::from));
+        let ray = p.coords.normalize() * sweep.sigma_range;
         Reference { position: vehicle_from_lidar * p, spread: Spread::Ray(vehicle_from_lidar.rotation * ray) }
     }
 
     /// The SemanticKITTI id of a point, 0 where it has none.
     pub fn class(&self, id: u32) -> u16 {
-        let (part, point) = self.find(id);
-        part.scan.classes.as_ref().and_then(|classes| classes.get(point)).copied().unwrap_or(0)
+        let (sweep, point) = self.find(id);
+        sweep.scan.classes.as_ref().and_then(|classes| classes.get(point)).copied().unwrap_or(0)
     }
 
-    /// The part that a point belongs to, and its place in that part's scan.
-    fn find(&self, id: u32) -> (&Part, usize) {
-        let part = self.parts.partition_point(|part| part.first_id <= id as usize) - 1;
-        (&self.parts[part], id as usize - self.parts[part].first_id)
+    /// Identities of the returns that lie at least the margin above the ground.
+    fn above_ground(&self) -> &[u32] {
+        self.above_ground.get_or_init(|| {
+            let (ground, margin) = (self.ground(), self.config.lidar_margin);
+            let stays = |point: &[f32; 3]| {
+                point[0].is_finite()
+                    && ground.is_none_or(|ground| ground.height(&Point::from(point.map(f64::from))) >= margin)
+            };
+            (0u32..).zip(&self.points).filter(|(_, point)| stays(point)).map(|(id, _)| id).collect()
+        })
+    }
+
+    /// The sweep that a point belongs to, and the point's index in that sweep's scan.
+    fn find(&self, id: u32) -> (&LidarSweep, usize) {
+        let sweep = self.sweeps.partition_point(|sweep| sweep.first_id <= id as usize) - 1;
+        (&self.sweeps[sweep], id as usize - self.sweeps[sweep].first_id)
     }
 }
 
@@ -131,11 +186,35 @@ fn moved_return(moment_from_lidar: &Transform, point: &[f32; 3]) -> [f32; 3] {
     [p.x as f32, p.y as f32, p.z as f32]
 }
 
-/// Identities of the returns that lie at least `margin` above the ground.
-fn above_ground(points: &[[f32; 3]], ground: Option<&Ground>, margin: f64) -> Vec<u32> {
-    let stays = |point: &[f32; 3]| {
-        point[0].is_finite()
-            && ground.is_none_or(|ground| ground.height(&Point::from(point.map(f64::from))) >= margin)
-    };
-    (0u32..).zip(points).filter(|(_, point)| stays(point)).map(|(id, _)| id).collect()
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::f64::consts::FRAC_PI_2;
+
+    #[test]
+    fn a_ray_leads_from_its_lidar_to_its_return() {
+        let lidar = Lidar {
+            name: "roof".into(),
+            vehicle_from_lidar: Transform::new(Vector::new(1.0, 0.0, 2.0), Vector::new(0.0, 0.0, FRAC_PI_2)),
+            sigma_range: 0.03,
+            lowest_beam: 0.4,
+            max_range: None,
+        };
+        let points = vec![[3.0, 4.0, 0.0], [0.0; 3], [f32::NAN, 0.0, 1.0], [0.0, 0.0, -2.0]];
+        let scan = Arc::new(LidarScan { t_ns: 0, points, ..Default::default() });
+        let scans = vec![(&lidar, scan, Transform::translation(10.0, 0.0, 0.0))];
+        let moment = Arc::new(LidarMoment::new(0, scans, &GroundConfig::default(), 0));
+        let view = LidarView { moment, vehicle_from_moment: Transform::translation(-10.0, 0.0, 0.0) };
+        // The LiDAR looks to the left: its (3, 4) is the vehicle's (-4, 3). The second and the third point are no
+        // returns.
+        let rays: Vec<LidarRay> = view.rays().collect();
+        assert_eq!(rays.len(), 2);
+        for (ray, range, end) in
+            [(rays[0], 5.0, Point::new(-3.0, 3.0, 2.0)), (rays[1], 2.0, Point::new(1.0, 0.0, 0.0))]
+        {
+            assert!((ray.origin - Point::new(1.0, 0.0, 2.0)).norm() < 1e-12);
+            assert!((ray.range - range).abs() < 1e-12 && (ray.direction.norm() - 1.0).abs() < 1e-12);
+            assert!((ray.origin + ray.direction * ray.range - end).norm() < 1e-12);
+        }
+    }
 }

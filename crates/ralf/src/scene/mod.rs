@@ -3,27 +3,27 @@
 
 mod association;
 mod camera;
-mod detections;
 mod doppler;
 mod floor;
 mod frame;
 mod ground;
 mod lidar;
+mod located;
 mod mismatch;
 mod neighbouring;
 mod window;
 
 pub use association::{Association, index_of};
 pub use camera::{
-    CalibratedView, Calibration, CameraPoint, Failure, ImageMoment, ImageView, ImageWithDepth, Seen,
-    Surroundings, ViewReport, ViewState, calibrate, luminance, median, project_points,
+    CalibratedView, Calibration, CameraPoint, Failure, ImageId, ImageMoment, ImageView, ImageWithDepth, Seen,
+    ViewReport, ViewState, calibrate, luminance, median, project_points,
 };
-pub use detections::{Detections, Located};
-pub use doppler::compensated_doppler;
+pub use doppler::Doppler;
 pub use floor::LocalGround;
 pub use frame::{Frame, Unreadable};
 pub use ground::{Ground, Plane};
-pub use lidar::{LidarMoment, LidarView};
+pub use lidar::{LidarMoment, LidarRay, LidarSweep, LidarView};
+pub use located::{Detection, LocatedScan};
 pub use mismatch::{Reference, Spread, distance_per_mismatch, mismatch, plausibility};
-pub use neighbouring::TrackingStep;
+pub use neighbouring::{NeighbouringScan, ScanStep};
 pub use window::FrameWindow;

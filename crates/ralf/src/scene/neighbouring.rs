@@ -1,17 +1,31 @@
 //! The radar scans around a scan.
 
-use super::detections::Detections;
+use super::located::LocatedScan;
 use crate::space::Transform;
 use std::sync::Arc;
 
-/// What the radars saw at one neighbouring scan's time.
+/// A scan of any radar, seen from the reference scan.
 #[derive(Debug, Clone)]
-pub struct TrackingStep {
+pub struct NeighbouringScan {
+    /// Which radar made it: its index in the rig.
+    pub radar: usize,
+    /// The scan, in the vehicle frame at its own time.
+    pub scan: Arc<LocatedScan>,
+    /// From the vehicle frame at that time to that at the reference scan's (paper, equation 8).
+    pub vehicle_from_scan: Transform,
+}
+
+/// What the radars saw at the time of one neighbouring scan of the reference scan's radar.
+#[derive(Debug, Clone)]
+pub struct ScanStep {
     /// `j`: how many scans of the same radar it comes after the reference scan; negative before it.
     pub j: isize,
     /// Time of the same radar's scan, ns.
     pub t_ns: i64,
-    /// That scan, and with `tracking.sources = "all"` the other radars' nearest in time; each with the transform into
-    /// the vehicle frame at the reference scan's time.
-    pub clouds: Vec<(Arc<Detections>, Transform)>,
+    /// That scan.
+    pub own: NeighbouringScan,
+    /// The other radars' scans nearest to it in time, in the rig's order. Empty unless somebody asks for them: the
+    /// setting `tracking.sources = "all"` does, and
+    /// [`FrameWindow::with_all_radars`](super::FrameWindow::with_all_radars).
+    pub others: Vec<NeighbouringScan>,
 }

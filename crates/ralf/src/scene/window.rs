@@ -1,16 +1,14 @@
 //! Frames of one sequence, gathered in bounded memory.
 
-use super::camera::{Calibration, ImageMoment, ImageView};
-use super::detections::Detections;
-use super::doppler::compensated_doppler;
+use super::camera::{Calibration, ImageId, ImageMoment, ImageView};
 use super::floor::LocalGround;
 use super::frame::{Frame, Unreadable};
 use super::lidar::{LidarMoment, LidarView};
-use super::neighbouring::TrackingStep;
+use super::located::LocatedScan;
+use super::neighbouring::{NeighbouringScan, ScanStep};
 use crate::config::{Config, GroundModel, TrackingSources, nanoseconds};
 use crate::sensors::{LidarScan, Rig, Source, SourceError};
-use crate::space::Recent;
-use crate::space::sync;
+use crate::space::{Recent, sync};
 use std::sync::Arc;
 
 /// Names a measurement: sensor and number.
@@ -24,11 +22,26 @@ struct NearLidars {
 
 /// Gathers frames of one sequence. It remembers the last measurements, so that frames asked for in time order read each
 /// one once, and no more than these, so that its memory doesn't grow with the length of the recording.
+///
+/// ```
+/// # use ralf::sensors::{Rig, SourceError};
+/// use ralf::{config::Config, paper::Labeler, scene::FrameWindow, sensors::Source};
+///
+/// /// How many detections of a radar's first scan are plausible.
+/// fn plausible(source: &dyn Source, radar: usize) -> Result<usize, SourceError> {
+///     let config = Config::default();
+///     let mut window = FrameWindow::new(source, &source.sequence().rig, &config);
+///     let labels = Labeler::new(&config).label(&window.frame(radar, 0)?);
+///     Ok(labels.iter().filter(|label| label.plausible).count())
+/// }
+/// ```
 pub struct FrameWindow<'a> {
     source: &'a dyn Source,
     config: &'a Config,
     rig: &'a Rig,
-    radar_scans: Recent<Key, Option<Arc<Detections>>>,
+    /// Whether the other radars' scans are gathered, too.
+    all_radars: bool,
+    radar_scans: Recent<Key, Option<Arc<LocatedScan>>>,
     /// With the reason where one can't be read.
     lidar_scans: Recent<Key, Result<Arc<LidarScan>, String>>,
     moments: Recent<(i64, Vec<Key>), Arc<LidarMoment>>,
@@ -41,89 +54,91 @@ impl<'a> FrameWindow<'a> {
         let batch = config.tracking.scans.saturating_mul(2).saturating_add(2);
         // A batch can't be longer than the sequence.
         let longest = source.sequence().times.radars.iter().map(Vec::len).max().unwrap_or(0);
+        let moments = config.lidar.window_scans.saturating_mul(2).saturating_add(2);
         Self {
             source,
             config,
             rig,
+            all_radars: config.tracking.sources == TrackingSources::All,
             radar_scans: Recent::new(batch.min(longest) * rig.radars.len()),
-            lidar_scans: Recent::new(2 * rig.lidars.len()),
+            lidar_scans: Recent::new(moments * rig.lidars.len()),
             // The images around a radar scan may have other LiDAR scans nearest to them.
-            moments: Recent::new(2 + rig.cameras.len()),
+            moments: Recent::new(moments + rig.cameras.len()),
             images: Recent::new(2 * rig.cameras.len()),
         }
     }
 
-    /// All that belongs to one scan of one radar. Fails where that scan can't be read. A LiDAR scan that can't be is left out and
-    /// named in the frame; neighbouring radar scans are left out of the batch.
+    /// The same window, whose frames carry all radars' neighbouring scans, whatever the settings say.
+    pub fn with_all_radars(mut self) -> Self {
+        self.all_radars = true;
+        self
+    }
+
+    /// All that belongs to one scan of one radar. Fails where that scan can't be read. A LiDAR scan that can't be is
+    /// left out and named in the frame; neighbouring radar scans are left out of the batch.
     pub fn frame(&mut self, radar: usize, scan: usize) -> Result<Frame<'a>, SourceError> {
-        let detections = match self.radar_scans.get(&(radar, scan)) {
+        let located = match self.radar_scans.get(&(radar, scan)) {
             Some(Some(known)) => known,
             _ => Arc::new(self.locate(radar, scan)?),
         };
-        self.radar_scans.insert((radar, scan), Some(detections.clone()));
-        let t_ns = detections.t_ns();
-        let tracking = &self.config.tracking;
-        let motion = &self.source.sequence().motion;
-        let doppler = (tracking.enabled && tracking.dynamic)
-            .then(|| compensated_doppler(&self.rig.radars[radar], &detections.scan, motion));
+        self.radar_scans.insert((radar, scan), Some(located.clone()));
+        let t_ns = located.t_ns();
         let NearLidars { view: lidar, unreadable } = self.near_lidars(t_ns);
         Ok(Frame {
             rig: self.rig,
             radar: &self.rig.radars[radar],
+            motion: &self.source.sequence().motion,
             ground: LocalGround::around(lidar.as_ref(), &self.config.ground),
             lidar,
+            lidar_window: self.lidar_window(t_ns),
             images: if self.config.camera.enabled { self.images(t_ns) } else { Vec::new() },
-            steps: if tracking.enabled { self.steps(radar, scan, t_ns) } else { Vec::new() },
-            doppler: doppler.flatten(),
-            detections,
+            steps: if self.config.tracking.enabled { self.steps(radar, scan, t_ns) } else { Vec::new() },
+            scan: located,
             unreadable,
         })
     }
 
-    fn locate(&self, radar: usize, scan: usize) -> Result<Detections, SourceError> {
-        Ok(Detections::locate(&self.rig.radars[radar], self.source.radar_scan(radar, scan)?))
+    fn locate(&self, radar: usize, scan: usize) -> Result<LocatedScan, SourceError> {
+        Ok(LocatedScan::new(&self.rig.radars[radar], self.source.radar_scan(radar, scan)?))
     }
 
-    /// A neighbouring scan; `None` where it can't be read.
-    fn neighbouring_scan(&mut self, radar: usize, scan: usize) -> Option<Arc<Detections>> {
-        if let Some(known) = self.radar_scans.get(&(radar, scan)) {
-            return known;
-        }
-        let read = self.locate(radar, scan).ok().map(Arc::new);
-        self.radar_scans.insert((radar, scan), read.clone());
-        read
+    /// A neighbouring scan as seen at a time; `None` where it can't be read.
+    fn neighbouring_scan(&mut self, radar: usize, scan: usize, t_ns: i64) -> Option<NeighbouringScan> {
+        let located = match self.radar_scans.get(&(radar, scan)) {
+            Some(known) => known?,
+            None => {
+                let read = self.locate(radar, scan).ok().map(Arc::new);
+                self.radar_scans.insert((radar, scan), read.clone());
+                read?
+            }
+        };
+        let vehicle_from_scan = self.source.sequence().motion.between(t_ns, located.t_ns());
+        Some(NeighbouringScan { radar, scan: located, vehicle_from_scan })
     }
 
-    /// The batch of docs/method.md, section 7.
-    fn steps(&mut self, radar: usize, scan: usize, t_ns: i64) -> Vec<TrackingStep> {
+    /// The batch of scans before and after (docs/method.md, section 7).
+    fn steps(&mut self, radar: usize, scan: usize, t_ns: i64) -> Vec<ScanStep> {
         let max_gap = nanoseconds(self.config.tracking.max_gap_ms);
         let times = &self.source.sequence().times.radars;
-        let batch = sync::batch(&times[radar], scan, self.config.tracking.scans, max_gap);
-        let step = |j: usize| {
+        let mut steps = Vec::new();
+        for j in sync::batch(&times[radar], scan, self.config.tracking.scans, max_gap) {
             let step_time = times[radar][j];
-            let own = self.neighbouring_scan(radar, j)?;
-            let others = (0..times.len())
-                .filter(|other| *other != radar && self.config.tracking.sources == TrackingSources::All);
-            let others: Vec<Key> = others
-                .filter_map(|other| Some((other, sync::nearest(&times[other], step_time, max_gap)?)))
-                .collect();
-            let mut scans = vec![own];
-            scans.extend(
-                others.into_iter().filter_map(|(other, nearest)| self.neighbouring_scan(other, nearest)),
-            );
-            let motion = &self.source.sequence().motion;
-            let with_transform = |scan: Arc<Detections>| {
-                let vehicle_from_scan = motion.between(t_ns, scan.t_ns());
-                (scan, vehicle_from_scan)
-            };
-            let clouds = scans.into_iter().map(with_transform).collect();
-            Some(TrackingStep { j: j as isize - scan as isize, t_ns: step_time, clouds })
-        };
-        batch.into_iter().filter_map(step).collect()
+            let Some(own) = self.neighbouring_scan(radar, j, t_ns) else { continue };
+            let mut others = Vec::new();
+            for other in 0..times.len() {
+                if other == radar || !self.all_radars {
+                    continue;
+                }
+                let nearest = sync::nearest(&times[other], step_time, max_gap);
+                others.extend(nearest.and_then(|nearest| self.neighbouring_scan(other, nearest, t_ns)));
+            }
+            steps.push(ScanStep { j: j as isize - scan as isize, t_ns: step_time, own, others });
+        }
+        steps
     }
 
-    /// The LiDAR scans nearest to a time, with their ground; `None` where there is none within the tolerance. Fails where one of
-    /// them can't be read.
+    /// The LiDAR scans nearest to a time, with their ground; `None` where there is none within the tolerance. Fails
+    /// where one of them can't be read.
     pub fn lidar_view(&mut self, t_ns: i64) -> Result<Option<LidarView>, SourceError> {
         let NearLidars { view, unreadable } = self.near_lidars(t_ns);
         match unreadable.into_iter().next() {
@@ -132,12 +147,39 @@ impl<'a> FrameWindow<'a> {
         }
     }
 
-    fn near_lidars(&mut self, t_ns: i64) -> NearLidars {
+    /// The LiDAR scans before and after the ones nearest to a time; those that can't be read are left out.
+    fn lidar_window(&mut self, t_ns: i64) -> Vec<LidarView> {
+        let reach = self.config.lidar.window_scans as isize;
+        let times = &self.source.sequence().times.lidars;
+        let mut views = Vec::new();
+        for step in (-reach..=reach).filter(|step| *step != 0) {
+            let mut keys = Vec::new();
+            for (lidar, nearest) in self.nearest_lidar_scans(t_ns) {
+                let scan = nearest.checked_add_signed(step).filter(|scan| *scan < times[lidar].len());
+                keys.extend(scan.map(|scan| (lidar, scan)));
+            }
+            views.extend(self.view(keys, t_ns));
+        }
+        views
+    }
+
+    fn nearest_lidar_scans(&self, t_ns: i64) -> Vec<Key> {
         let tolerance = nanoseconds(self.config.sync.lidar_tolerance_ms);
         let times = self.source.sequence().times.lidars.iter().enumerate();
-        let mut keys: Vec<Key> = times
-            .filter_map(|(lidar, times)| Some((lidar, sync::nearest(times, t_ns, tolerance)?)))
-            .collect();
+        times.filter_map(|(lidar, times)| Some((lidar, sync::nearest(times, t_ns, tolerance)?))).collect()
+    }
+
+    /// LiDAR scans that belong together as seen at a time; `None` where there is none, or one can't be read.
+    fn view(&mut self, scans: Vec<Key>, t_ns: i64) -> Option<LidarView> {
+        let moment_time = self.moment_time(t_ns, &scans);
+        let moment = self.moment(moment_time, scans)?;
+        let vehicle_from_moment = self.source.sequence().motion.between(t_ns, moment_time);
+        Some(LidarView { moment, vehicle_from_moment })
+    }
+
+    /// The LiDAR scans nearest to a time but those that can't be read, which are named.
+    fn near_lidars(&mut self, t_ns: i64) -> NearLidars {
+        let mut keys = self.nearest_lidar_scans(t_ns);
         let mut unreadable = Vec::new();
         // What a moment was made of could be read, and is perhaps no longer at hand.
         if self.moments.get(&(self.moment_time(t_ns, &keys), keys.clone())).is_none() {
@@ -150,14 +192,11 @@ impl<'a> FrameWindow<'a> {
                 }
             });
         }
-        let moment_time = self.moment_time(t_ns, &keys);
-        let vehicle_from_moment = self.source.sequence().motion.between(t_ns, moment_time);
-        let moment = self.moment(moment_time, keys);
-        NearLidars { view: moment.map(|moment| LidarView { moment, vehicle_from_moment }), unreadable }
+        NearLidars { view: self.view(keys, t_ns), unreadable }
     }
 
-    /// The time of the ground: `flat` is z = 0 of the vehicle frame at the radar scan's time, any other belongs to the first
-    /// LiDAR scan.
+    /// The time of the ground: `flat` is z = 0 of the vehicle frame at the radar scan's time, any other belongs to the
+    /// first LiDAR scan.
     fn moment_time(&self, t_ns: i64, keys: &[Key]) -> i64 {
         match keys.first() {
             Some(&(lidar, scan)) if self.config.ground.model != GroundModel::Flat => {
@@ -195,15 +234,15 @@ impl<'a> FrameWindow<'a> {
         for (camera, times) in times.iter().enumerate() {
             let Some(image) = sync::nearest(times, t_ns, tolerance) else { continue };
             if let Some(moment) = self.image(camera, image) {
-                let vehicle_from_image = self.source.sequence().motion.between(t_ns, moment.t_ns);
+                let vehicle_from_image = self.source.sequence().motion.between(t_ns, moment.id.t_ns);
                 images.push(ImageView { moment, vehicle_from_image });
             }
         }
         images
     }
 
-    /// An image with its views calibrated by the LiDAR scans nearest to it; `None` where there is no depth. What of it can't be
-    /// read makes its views fail.
+    /// An image with its views calibrated by the LiDAR scans nearest to it; `None` where there is no depth. What of it
+    /// can't be read makes its views fail.
     pub fn image(&mut self, camera: usize, image: usize) -> Option<Arc<ImageMoment>> {
         if let Some(known) = self.images.get(&(camera, image)) {
             return known;
@@ -228,9 +267,8 @@ impl<'a> FrameWindow<'a> {
             ground: &self.config.ground,
         };
         let content = content.map_err(|error| error.to_string());
-        let moment =
-            ImageMoment::new((camera, &self.rig.cameras[camera]), (image, t_ns), content, &calibration);
-        let moment = Arc::new(moment);
+        let id = ImageId { camera, image, t_ns };
+        let moment = Arc::new(ImageMoment::new(&self.rig.cameras[camera], id, content, &calibration));
         self.images.insert((camera, image), Some(moment.clone()));
         Some(moment)
     }

@@ -1,9 +1,9 @@
 //! The topics of a ROS recording, and a first guess of which sensor each of them is.
 
-use crate::cli::DatasetArgs;
+use crate::arguments::DatasetArgs;
+use crate::outcome::{Outcome, UsageError};
 use crate::progress::say;
 use crate::text::{aligned, grouped};
-use crate::{Outcome, UsageError};
 use ralf_data::read::ros::{Guess, RosInspection, TopicInspection, Topics, inspect, is_ros, topics_toml};
 use std::fs::File;
 use std::io::{ErrorKind, Write};

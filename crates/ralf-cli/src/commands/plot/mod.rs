@@ -2,8 +2,8 @@
 
 mod camera;
 
-use crate::Outcome;
-use crate::cli::{ChangedArgs, DatasetArgs, the_only};
+use crate::arguments::{ChangedArgs, DatasetArgs, the_only};
+use crate::outcome::Outcome;
 use crate::progress::say;
 use clap::Args;
 use ralf_data::result::read_labelled_rows;
@@ -17,8 +17,8 @@ const WIDTHS: [u32; 2] = [1600, 1400];
 /// Arguments of `ralf plot`.
 #[derive(Debug, Args)]
 #[command(after_help = "\
-Without --radar all radars are drawn: the first one's scan, and the others' nearest to it in time. With --camera the picture
-shows the straight views of the image nearest to the scan, each beside its depth as the LiDAR calibrates it.
+Without --radar all radars are drawn: the first one's scan, and the others' nearest to it in time. With --camera the \
+picture shows the straight views of the image nearest to the scan, each beside its depth as the LiDAR calibrates it.
 
 Examples:
   ralf plot recordings/city out --sequence 00 --scan 17 -o scan.png

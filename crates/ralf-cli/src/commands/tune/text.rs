@@ -84,7 +84,8 @@ fn cross_validation(folds: &[Fold]) -> String {
     }
     rows.push(row("mean ± deviation, before".to_owned(), spread(folds, |fold| &fold.base)));
     rows.push(row("mean ± deviation, after".to_owned(), spread(folds, |fold| &fold.tuned)));
-    let title = "Cross-validation: each training sequence judged by settings tuned on the others, all its detections together";
+    let title = "Cross-validation: each training sequence judged by settings tuned on the others, all its \
+                 detections together";
     format!("{title}\n{}", aligned(&rows))
 }
 

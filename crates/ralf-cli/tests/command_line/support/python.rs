@@ -4,8 +4,8 @@ use serde_json::Value;
 use std::path::Path;
 use std::process::Command;
 
-/// What an export holds, read by `testdata/read_export.py` with the interpreter that `RALF_TEST_PYTHON` names. `None`, and
-/// said so, where it or its packages are not there.
+/// What an export holds, read by `testdata/read_export.py` with the interpreter that `RALF_TEST_PYTHON` names. `None`,
+/// and said so, where it or its packages are not there.
 pub(crate) fn read_export(format: &str, path: &str) -> Option<Value> {
     let Some(python) = std::env::var_os("RALF_TEST_PYTHON") else {
         println!("skipped: RALF_TEST_PYTHON is not set");

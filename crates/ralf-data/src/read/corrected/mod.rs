@@ -1,62 +1,64 @@
-//! A recording as the settings correct it: mountings, clocks, units and signs of sensors, and where the vehicle's motion comes from.
+//! A recording as the settings correct it: mountings, clocks, units and signs of sensors, and where the vehicle's
+//! motion comes from.
 //!
-//! Nothing is corrected that the settings don't name, with one exception: where a recording knows no motion at all, it is taken
-//! from the radars' range rates, and this is warned of.
+//! Nothing is corrected that the settings don't name, with one exception: where a recording knows no motion at all,
+//! it is taken from the radars' range rates, and this is warned of.
 
 mod reader;
-mod settings;
 mod trajectory;
 
-pub use settings::{MotionSettings, MotionSource, SensorCorrection};
-
 use crate::error::DataError;
-use crate::read::{Recording, SequenceReader};
-use crate::settings::Settings;
+use crate::read::corrections::{MotionSettings, MotionSource, SensorCorrection};
+use crate::read::recording::{Recording, SequenceReader};
 use nalgebra::Translation3;
 use ralf::sensors::{Sequence, Source};
 use ralf::space::{EgoMotion, OdometrySample, PoseSample, Transform};
 use reader::Corrected;
-use std::path::PathBuf;
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
 
-/// The recording with what the settings say of it. Refused: a name that no sensor has, a trajectory that is none, and a sequence whose motion
-/// nobody knows.
-pub(crate) fn corrected(recording: Recording, settings: &Settings) -> Result<Recording, DataError> {
+/// By sensor name.
+pub(crate) type Corrections = BTreeMap<String, SensorCorrection>;
+
+/// The recording with what the settings say of it. Refused: a name that no sensor has, a trajectory that is none, and a
+/// sequence whose motion nobody knows.
+pub(crate) fn corrected(
+    recording: Recording,
+    corrections: &Corrections,
+    motion: &MotionSettings,
+) -> Result<Recording, DataError> {
     let Recording { path, format, sequences } = recording;
-    let one = |inner: Box<dyn SequenceReader>| {
+    let mut read = Vec::with_capacity(sequences.len());
+    for inner in sequences {
         let known = inner.sequence().motion.is_known();
-        if known && settings.corrections.is_empty() && settings.motion == MotionSettings::default() {
-            return Ok(inner);
+        if known && corrections.is_empty() && *motion == MotionSettings::default() {
+            read.push(inner);
+            continue;
         }
-        let corrected = with_motion(with_sensors(inner, settings, &path)?, settings, &path)?;
-        Ok(Box::new(corrected) as Box<dyn SequenceReader>)
-    };
-    let sequences = sequences.into_iter().map(one).collect::<Result<Vec<_>, DataError>>()?;
-    Ok(Recording { path, format, sequences })
+        let sensors = with_sensors(inner, corrections, &path)?;
+        read.push(Box::new(with_motion(sensors, motion, &path)?));
+    }
+    Ok(Recording { path, format, sequences: read })
 }
 
-fn unsuitable(path: &std::path::Path, sequence: &Sequence, reason: String) -> DataError {
+fn unsuitable(path: &Path, sequence: &Sequence, reason: String) -> DataError {
     DataError::Unsuitable { file: path.to_owned(), place: format!("sequence {}", sequence.name), reason }
 }
 
 /// The sensors first, for a motion from range rates needs them as they are.
 fn with_sensors(
     inner: Box<dyn SequenceReader>,
-    settings: &Settings,
-    path: &std::path::Path,
+    corrections: &Corrections,
+    path: &Path,
 ) -> Result<Corrected, DataError> {
     let mut sequence = inner.sequence().clone();
-    for (name, correction) in &settings.corrections {
+    for (name, correction) in corrections {
         correction.apply_to(&mut sequence, name).map_err(|reason| unsuitable(path, &sequence, reason))?;
     }
-    Ok(Corrected::new(inner, sequence, &settings.corrections))
+    Ok(Corrected::new(inner, sequence, corrections))
 }
 
-fn with_motion(
-    mut reader: Corrected,
-    settings: &Settings,
-    path: &std::path::Path,
-) -> Result<Corrected, DataError> {
-    let wanted = &settings.motion;
+fn with_motion(mut reader: Corrected, wanted: &MotionSettings, path: &Path) -> Result<Corrected, DataError> {
     let sequence = reader.sequence();
     let from_radar = wanted.source == MotionSource::Radar || !sequence.motion.is_known();
     let (motion, source, file): (EgoMotion, MotionSource, Option<PathBuf>) = match &wanted.trajectory {

@@ -1,7 +1,7 @@
 //! A sequence that reads as corrected.
 
-use super::settings::{MotionSource, SensorCorrection};
-use crate::read::{SequenceReader, TruthLabels};
+use crate::read::corrections::{MotionSource, SensorCorrection};
+use crate::read::recording::{SequenceReader, TruthLabels};
 use ralf::sensors::{CameraImage, DepthImage, LidarScan, RadarScan, Sequence, Source, SourceError};
 use ralf::space::EgoMotion;
 use std::any::Any;

@@ -1,12 +1,13 @@
 //! Poses that another program estimated: TUM and KITTI files.
 //!
-//! - TUM: a pose per line, `t x y z qx qy qz qw`, times in seconds, quaternions with w last; lines that begin with `#` are comments.
-//! - KITTI: a pose per line, the twelve numbers of a 3 x 4 matrix, row by row. It has no times: the n-th pose belongs to the n-th
-//!   measurement of a sensor.
+//! - TUM: a pose per line, `t x y z qx qy qz qw`, times in seconds, quaternions with w last; lines that begin with
+//!   `#` are comments.
+//! - KITTI: a pose per line, the twelve numbers of a 3 x 4 matrix, row by row. It has no times: the n-th pose belongs
+//!   to the n-th measurement of a sensor.
 
-use super::settings::MotionSettings;
 use crate::disk::files;
 use crate::error::DataError;
+use crate::read::corrections::MotionSettings;
 use nalgebra::{Matrix3, Rotation3, Translation3, UnitQuaternion};
 use ralf::sensors::Sequence;
 use ralf::space::{EgoMotion, PoseSample, Transform, transform_from_parts};
@@ -102,7 +103,8 @@ fn no_sensor(file: &Path, key: &str, name: &str) -> DataError {
     DataError::content(file, key, "`vehicle` or the name of a sensor", format!("`{name}`"))
 }
 
-/// The times of poses that have none: those of the sensor that is named, else of the only LiDAR. `None` where they have times.
+/// The times of poses that have none: those of the sensor that is named, else of the only LiDAR. `None` where they
+/// have times.
 fn order<'a>(
     file: &Path,
     settings: &MotionSettings,

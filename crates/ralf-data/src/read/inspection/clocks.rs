@@ -19,7 +19,8 @@ pub(super) fn strange(sequence: &Sequence) -> Vec<String> {
         if seconds > FAR_S {
             let side = if span[1] < moving[0] { "before" } else { "after" };
             strange.push(format!(
-                "{name}: all its times lie {seconds:.0} s or more {side} those of the vehicle's motion: is it another clock?"
+                "{name}: all its times lie {seconds:.0} s or more {side} those of the vehicle's motion: is it another \
+                 clock?"
             ));
         }
     }

@@ -53,7 +53,7 @@ pub struct SensorInspection {
     pub name: String,
     /// Scans or images.
     pub count: usize,
-    /// Of the median time between two of them, Hz.
+    /// How often it delivers, by the median time between two of them, Hz.
     pub rate_hz: Option<f64>,
     /// How far the middle half of these times lies apart, ms.
     pub jitter_ms: Option<f64>,
@@ -97,8 +97,8 @@ impl Inspection {
         }
     }
 
-    /// Reads every radar and LiDAR scan once, side by side in so many threads, and names those that can't be read. `progress`
-    /// is told of each that is done.
+    /// Reads every radar and LiDAR scan once, side by side in so many threads, and names those that can't be read.
+    /// `progress` is told of each that is done.
     pub fn try_scans(&mut self, reader: &dyn SequenceReader, jobs: usize, progress: &(dyn Fn() + Sync)) {
         self.unreadable = readable::unreadable_scans(reader, jobs, progress);
     }

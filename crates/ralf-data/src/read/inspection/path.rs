@@ -16,15 +16,15 @@ pub(super) struct Path {
     pub(super) metres: f64,
     /// How long the motion isn't known, s.
     pub(super) unknown_s: f64,
-    /// Of how many seconds, s.
+    /// Length of the span, s.
     span_s: f64,
     /// Steps that are too long to be driven.
     jumps: usize,
 }
 
 impl Path {
-    /// The path between two times, ns. The time that this takes grows with the samples of the motion and not with the span,
-    /// for the clocks of a recording may lie decades apart.
+    /// The path between two times, ns. The time that this takes grows with the samples of the motion and not with the
+    /// span, for the clocks of a recording may lie decades apart.
     pub(super) fn new(motion: &EgoMotion, [first, last]: [i64; 2]) -> Self {
         let span_s = seconds(first, last);
         let mut path = Self { metres: 0.0, unknown_s: span_s, span_s, jumps: 0 };
@@ -66,8 +66,8 @@ impl Path {
         if self.unknown_s > seconds(0, PAUSE_NS) {
             let Self { unknown_s, span_s, .. } = self;
             missing.push(format!(
-                "the motion is not known for {unknown_s:.1} of {span_s:.1} s, where odometry and poses pause: the path is \
-                 that of the rest"
+                "the motion is not known for {unknown_s:.1} of {span_s:.1} s, where odometry and poses pause: the \
+                 path is that of the rest"
             ));
         }
         if self.jumps > 0 {
@@ -77,8 +77,8 @@ impl Path {
     }
 }
 
-/// Spans in which the motion is known, in time order: from the first sample to the last, without the pauses. At both ends the
-/// nearest sample holds for as long as it would before a pause.
+/// Spans in which the motion is known, in time order: from the first sample to the last, without the pauses. At both
+/// ends the nearest sample holds for as long as it would before a pause.
 fn stretches(motion: &EgoMotion) -> Vec<[i64; 2]> {
     let poses = motion.poses().iter().map(|pose| pose.t_ns);
     let wheels = motion.odometry().iter().map(|sample| sample.t_ns);
@@ -128,7 +128,7 @@ mod tests {
         let motion = EgoMotion::new(vec![], vec![pose(0, 0.0), pose(45 * SECOND, 51.0)]).unwrap();
         let path = Path::new(&motion, [0, 45 * SECOND]);
         assert_eq!(path.metres, 0.0);
-        assert!(path.missing()[0].contains("not known for 41.0 of 45.0 s"), "{:?}", path.missing());
+        assert!(path.missing()[0].contains("not known for 45.0 of 45.0 s"), "{:?}", path.missing());
         // Neighbouring numbers of two drives: nobody drives 510 m/s.
         let motion = EgoMotion::new(vec![], vec![pose(0, 0.0), pose(SECOND / 10, 51.0)]).unwrap();
         let path = Path::new(&motion, [0, SECOND / 10]);
@@ -151,7 +151,11 @@ mod tests {
         let motion = EgoMotion::new(samples, vec![]).unwrap();
         let path = Path::new(&motion, [0, now + SECOND]);
         assert!((path.metres - 7.0).abs() < 1e-6, "{path:?}");
-        assert!(path.missing()[0].contains("not known for 1699999"), "{:?}", path.missing());
+        assert!(
+            path.missing()[0].contains("not known for 1700000000.0 of 1700000001.0 s"),
+            "{:?}",
+            path.missing()
+        );
         let path = Path::new(&motion, [i64::MIN / 2, i64::MAX / 2]);
         assert!(path.metres < 50.0, "{path:?}");
     }

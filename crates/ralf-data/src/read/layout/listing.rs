@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 pub(super) struct SensorFiles {
     /// Where the times are.
     timestamps: PathBuf,
-    /// Of each measurement, ns.
+    /// When each was measured, ns.
     pub(super) times: Vec<i64>,
     /// One per time.
     pub(super) files: Vec<PathBuf>,
@@ -23,7 +23,7 @@ pub(super) struct SensorFiles {
 pub(super) struct Partner {
     /// It need not exist.
     pub(super) folder: PathBuf,
-    /// Of its file name.
+    /// How its file name ends, without the dot.
     pub(super) extension: &'static str,
 }
 

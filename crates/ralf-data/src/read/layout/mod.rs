@@ -1,7 +1,7 @@
 //! The project's own layout: `sequences/NN/` as SemanticKITTI has it, with what radar needs.
 //!
-//! Bytes and text as specified lie in [`raw`] and [`tables`]; [`rig`] turns them into sensors and back; [`source`] reads
-//! measurements on demand.
+//! Bytes and text as specified lie in [`raw`] and [`tables`]; [`rig`] turns them into sensors and back; [`source`]
+//! reads measurements on demand.
 
 mod camera;
 mod listing;

@@ -161,7 +161,8 @@ mod tests {
     }
 
     const LIDAR: &str = "format = 1\r\nname = \"a\"\r\n\r\n[[lidar]] # on the roof\r\nname = \"top\"\r\n\
-        translation = [1, 0, 1.9]\r\nquaternion_xyzw = [0, 0, 0, 1]\r\nsigma_range_m = 0.03\r\nlowest_beam_deg = 25\r\n";
+        translation = [1, 0, 1.9]\r\nquaternion_xyzw = [0, 0, 0, 1]\r\nsigma_range_m = 0.03\r\n\
+        lowest_beam_deg = 25\r\n";
 
     #[test]
     fn unknown_keys_are_warnings() {

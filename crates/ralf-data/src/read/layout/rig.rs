@@ -1,4 +1,5 @@
-//! Sensors as `sequence.toml` has them, checked and turned into those of the method, and back: degrees there, radians here.
+//! Sensors as `sequence.toml` has them, checked and turned into those of the method, and back: degrees there, radians
+//! here.
 
 use super::camera::{camera, camera_toml};
 use super::raw::{CameraToml, ElevationToml, LidarToml, RadarToml, SequenceToml};

@@ -27,8 +27,8 @@ pub struct LayoutSequence {
 }
 
 impl LayoutSequence {
-    /// Opens `DATASET/sequences/NN`. All that needs no measurement is checked: the sensors' settings, that times don't go
-    /// back and that there is one for each file, the motion.
+    /// Opens `DATASET/sequences/NN`. All that needs no measurement is checked: the sensors' settings, that times don't
+    /// go back and that there is one for each file, the motion.
     pub fn open(folder: &Path) -> Result<Self, DataError> {
         let name = folder.file_name().and_then(|name| name.to_str());
         let name = name.ok_or_else(|| DataError::content(folder, "name", "UTF-8 text", "other bytes"))?;

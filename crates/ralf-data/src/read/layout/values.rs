@@ -1,5 +1,5 @@
-//! Values as `sequence.toml` has them: checked with the table they stand in, and written with the fewest decimals that are
-//! read back as the same.
+//! Values as `sequence.toml` has them: checked with the table they stand in, and written with the fewest decimals that
+//! are read back as the same.
 
 use crate::error::DataError;
 use nalgebra::UnitQuaternion;

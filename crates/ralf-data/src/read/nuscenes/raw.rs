@@ -1,5 +1,5 @@
-//! The tables as they lie on disk: JSON arrays of rows, read row by row, for `sample_data.json` of the whole data set is
-//! larger than most memories hold as JSON values. Keys that aren't needed are skipped.
+//! The tables as they lie on disk: JSON arrays of rows, read row by row, for `sample_data.json` of the whole data set
+//! is larger than most memories hold as JSON values. Keys that aren't needed are skipped.
 
 use crate::disk::files;
 use crate::error::DataError;

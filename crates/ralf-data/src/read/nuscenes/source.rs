@@ -115,16 +115,16 @@ impl Source for Scene {
     }
 
     fn radar_scan(&self, radar: usize, scan: usize) -> Result<RadarScan, SourceError> {
-        self.files.radar_scan(&self.sequence, [radar, scan], |file| radar_columns(&Pcd::read(file)?))
+        self.files.radar_scan(&self.sequence, radar, scan, |file| radar_columns(&Pcd::read(file)?))
     }
 
     fn lidar_scan(&self, lidar: usize, scan: usize) -> Result<LidarScan, SourceError> {
         // The fifth column is the ring.
-        self.files.lidar_scan(&self.sequence, [lidar, scan], 5)
+        self.files.lidar_scan(&self.sequence, lidar, scan, 5)
     }
 
     fn image(&self, camera: usize, image: usize) -> Result<CameraImage, SourceError> {
-        self.files.image(&self.sequence, [camera, image])
+        self.files.image(&self.sequence, camera, image)
     }
 
     fn depth(&self, camera: usize, image: usize) -> Result<Option<Vec<DepthImage>>, SourceError> {

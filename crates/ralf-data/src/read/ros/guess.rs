@@ -59,10 +59,10 @@ const FIRST_SCANS: usize = 10;
 
 /// A guess of the table `topics` of a recording.
 pub fn guess(path: &Path) -> Result<Guess, DataError> {
-    Ok(of(&Messages::open(path)?))
+    Ok(of_messages(&Messages::open(path)?))
 }
 
-pub(super) fn of(messages: &Messages) -> Guess {
+pub(super) fn of_messages(messages: &Messages) -> Guess {
     let mut guess = Guess { topics: Topics::new(), unused: Vec::new() };
     let topics = messages.container().topics();
     let usable = |topic: &Topic| topic.count > 0 && topic.known_encoding().is_some();
@@ -132,7 +132,7 @@ impl Guess {
         // One without messages is a vehicle's that stands still.
         let most = |kind: TopicKind| {
             let fits = |topic: &&Topic| survey::types(kind)[0].is(&topic.type_name);
-            // Of equally many the first one.
+            // Among equally many the first one.
             topics.iter().filter(fits).rev().max_by_key(|topic| topic.count)
         };
         let chosen = [TopicKind::Odometry, TopicKind::Twist]
@@ -209,7 +209,7 @@ fn name(topic: &str) -> String {
 
 /// The table as it stands in a settings file, with what the guess leaves out as comments.
 pub fn topics_toml(guess: &Guess) -> Result<String, DataError> {
-    // Of a struct, for a table would sort its keys.
+    // A struct, for a table would sort its keys.
     #[derive(Serialize)]
     struct Settings<'a> {
         topics: &'a Topics,
@@ -218,7 +218,8 @@ pub fn topics_toml(guess: &Guess) -> Result<String, DataError> {
         DataError::content(Path::new("topics"), "names", "what TOML can hold", error.to_string())
     })?;
     let unused: String = guess.unused.iter().map(|sentence| format!("# {sentence}\n")).collect();
-    let head = "# Which topic is which sensor: a first guess. Say what the sensors are: `model` gives their uncertainties\n\
+    let head = "# Which topic is which sensor: a first guess. Say what the sensors are: `model` gives their \
+                uncertainties\n\
                 # and fields of view, and the tables `sensors` replace them one by one.\n";
     Ok(format!("{head}{unused}\n{text}"))
 }

@@ -35,7 +35,8 @@ pub struct TopicInspection {
     pub encoding: String,
     /// How many there are.
     pub count: usize,
-    /// Of the median time between two of them, Hz: by the headers where they are known, else by the recorder.
+    /// How often it delivers, by the median time between two of them, Hz: times of the headers where they are known,
+    /// else of the recorder.
     pub rate_hz: Option<f64>,
     /// How far the middle half of these times lies apart, ms.
     pub jitter_ms: Option<f64>,
@@ -49,7 +50,7 @@ pub struct TopicInspection {
 pub fn inspect(path: &Path) -> Result<(RosInspection, Guess), DataError> {
     let messages = Messages::open(path)?;
     let topics = messages.container().topics();
-    let mut seen: Vec<Seen> = topics.iter().map(Seen::of).collect();
+    let mut seen: Vec<Seen> = topics.iter().map(Seen::new).collect();
     let mut losses = messages.container().losses().to_vec();
     for message in messages.container().messages() {
         let seen = &mut seen[message.topic()];
@@ -77,7 +78,7 @@ pub fn inspect(path: &Path) -> Result<(RosInspection, Guess), DataError> {
         }
     }
     let topics = topics.iter().zip(seen).map(|(topic, seen)| seen.inspection(topic)).collect();
-    Ok((RosInspection { topics, losses }, guess::of(&messages)))
+    Ok((RosInspection { topics, losses }, guess::of_messages(&messages)))
 }
 
 /// What was seen of a topic.
@@ -92,7 +93,7 @@ struct Seen {
 }
 
 impl Seen {
-    fn of(topic: &Topic) -> Self {
+    fn new(topic: &Topic) -> Self {
         use TopicKind::{Camera, Imu, Odometry, Radar, Twist};
         let kinds = [Radar, Camera, Odometry, Twist, Imu];
         let known = kinds.into_iter().flat_map(survey::types).chain([&CameraInfo::DEFINITION]);

@@ -39,7 +39,7 @@ pub(crate) fn open(path: &Path, topics: &Topics) -> Result<Recording, DataError>
     let messages = Messages::open(path)?;
     let mut warnings = messages.container().losses().to_vec();
     let topics = if topics.is_empty() {
-        let Guess { topics, unused } = guess::of(&messages);
+        let Guess { topics, unused } = guess::of_messages(&messages);
         warnings.push(
             "no table `topics` in the settings: a first guess of it is used; `ralf inspect` shows it"
                 .to_owned(),

@@ -28,7 +28,7 @@ pub(super) struct Survey {
 /// When a sensor measured.
 #[derive(Default)]
 pub(super) struct Track {
-    /// Of its messages.
+    /// The frame that its messages name.
     pub(super) frame: String,
     /// Time and message, in time order.
     pub(super) measurements: Vec<(i64, MessageRef)>,

@@ -5,9 +5,10 @@
 //!   already moved to the camera's time.
 //! - One radar `radar`, one LiDAR `lidar`, one camera `camera`. LiDAR or image files that a frame lacks are left out of
 //!   that sensor's timeline, with a warning. Image and pose are the same in both folders; the radar's are read.
-//! - Every frame has a calibration file per sensor. The first frame's holds for all; frames that say otherwise are warned of.
-//! - The vehicle frame is not given. Here it has the LiDAR's axes and its origin on the ground below the rear axle, 1.12 m
-//!   behind and 1.49 m below the LiDAR.
+//! - Every frame has a calibration file per sensor. The first frame's holds for all; frames that say otherwise are
+//!   warned of.
+//! - The vehicle frame is not given. Here it has the LiDAR's axes and its origin on the ground below the rear axle,
+//!   1.12 m behind and 1.49 m below the LiDAR.
 //! - Poses come from `odomToCamera`, which in spite of its name maps the camera's frame to odom:
 //!   `odom_from_vehicle = odom_from_camera * camera_from_lidar * lidar_from_vehicle`. A frame without one is an error,
 //!   for without it its neighbours in time would be moved wrongly.

@@ -19,7 +19,7 @@ use std::path::{Path, PathBuf};
 const RADAR_FIELDS: [&str; 7] = ["x", "y", "z", "rcs", "doppler", "doppler_compensated", "time"];
 /// Frames are taken at 10 Hz.
 const FRAME_NS: i64 = 100_000_000;
-/// Of the published images, for a data set that is copied without them.
+/// Width and height of the published images, px, for a data set that is copied without them.
 const IMAGE_SIZE: [usize; 2] = [1936, 1216];
 /// A pose this far from the frame before belongs to another drive, m: half of it would be 25 m/s.
 const LARGEST_STEP: f64 = 5.0;
@@ -191,15 +191,15 @@ impl Source for Training {
 
     fn radar_scan(&self, radar: usize, scan: usize) -> Result<RadarScan, SourceError> {
         let read = |file: &Path| files::read_f32_columns(file, RADAR_FIELDS.len());
-        self.files.radar_scan(&self.sequence, [radar, scan], read)
+        self.files.radar_scan(&self.sequence, radar, scan, read)
     }
 
     fn lidar_scan(&self, lidar: usize, scan: usize) -> Result<LidarScan, SourceError> {
-        self.files.lidar_scan(&self.sequence, [lidar, scan], 4)
+        self.files.lidar_scan(&self.sequence, lidar, scan, 4)
     }
 
     fn image(&self, camera: usize, image: usize) -> Result<CameraImage, SourceError> {
-        self.files.image(&self.sequence, [camera, image])
+        self.files.image(&self.sequence, camera, image)
     }
 
     fn depth(&self, camera: usize, image: usize) -> Result<Option<Vec<DepthImage>>, SourceError> {

@@ -15,7 +15,8 @@ const RADAR: &str = "0 -1 0 0 0 0 -1 1.1 1 0 0 2.5";
 
 fn calib(velo_to_cam: &str) -> String {
     format!(
-        "P0: 1\nP2: 50 0 2 0 0 50 1 0 0 0 1 0\nR0_rect: 1 0 0 0 1 0 0 0 1\nTr_velo_to_cam: {velo_to_cam}\nTr_imu_to_velo:"
+        "P0: 1\nP2: 50 0 2 0 0 50 1 0 0 0 1 0\nR0_rect: 1 0 0 0 1 0 0 0 1\nTr_velo_to_cam: {velo_to_cam}\n\
+         Tr_imu_to_velo:"
     )
 }
 

@@ -9,7 +9,7 @@ use crate::result::{
 };
 use crate::truth::{Corrections, ScanId};
 use ralf::label::truth_of;
-use ralf::scene::Detections;
+use ralf::scene::LocatedScan;
 use ralf::sensors::RadarScan;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
@@ -152,8 +152,8 @@ impl<'a, 'p> LabelledSequence<'a, 'p> {
     /// A scan without rows saw nothing, or could not be labelled, which the record tells.
     fn without_rows(&mut self, id: &ScanId, radar: usize) -> Result<(ScanTable, Vec<Label>), DataError> {
         let sensor = &self.reader.sequence().rig.radars[radar];
-        let detections = Detections::locate(sensor, self.measured(radar, id.scan as usize)?);
-        let found = detections.located.len();
+        let detections = LocatedScan::new(sensor, self.measured(radar, id.scan as usize)?);
+        let found = detections.len();
         if self.not_labelled.contains(&(sensor.name.clone(), id.scan as usize)) {
             self.tally.exported.not_labelled.push(id.to_string());
         } else if found > 0 {

@@ -11,6 +11,7 @@
 //! the same bytes.
 
 mod columns;
+mod formats;
 mod labelled;
 mod npy_array;
 mod npz;

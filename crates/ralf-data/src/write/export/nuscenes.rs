@@ -1,7 +1,8 @@
-//! Label sidecars for nuScenes, laid out as nuScenes-lidarseg: `radarseg/VERSION/TOKEN_radarseg.bin` with one uint8 per point
-//! of the `.pcd`, `VERSION/radarseg.json` that lists them by `sample_data` token, and the classes beside it.
+//! Label sidecars for nuScenes, laid out as nuScenes-lidarseg: `radarseg/VERSION/TOKEN_radarseg.bin` with one uint8 per
+//! point of the `.pcd`, `VERSION/radarseg.json` that lists them by `sample_data` token, and the classes beside it.
 //!
-//! The table of classes has a name of its own: nuScenes' `category.json` lies in the same folder and must not be overwritten.
+//! The table of classes has a name of its own: nuScenes' `category.json` lies in the same folder and must not be
+//! overwritten.
 
 use super::Writer;
 use super::labelled::LabelledSequence;
@@ -53,7 +54,7 @@ impl Writer for NuScenes {
                 let labels = sequence.scan(radar, scan)?.labels_in_place();
                 let bytes: Vec<u8> = labels.iter().map(|label| index(&ids, label.id)).collect();
                 let token = checked("sample_data token", &sample_data_token)?.and("_radarseg.bin");
-                let folder_name = checked("version", &version)?;
+                let folder_name = checked("version", version)?;
                 files::write_whole(&folder.own("radarseg").folder(&folder_name).file(&token), &bytes)?;
                 let filename = format!("radarseg/{version}/{}", token.as_str());
                 let row = Row { token: sample_data_token.clone(), sample_data_token, filename };

@@ -1,9 +1,5 @@
 //! What can be asked of an export.
 
-use super::ros::{Ros, RosFormat};
-use super::{Writer, npz, nuscenes, parquet, pcd, semantic_kitti};
-use crate::read::SequenceReader;
-use crate::run::SequenceRecord;
 use serde::{Deserialize, Serialize};
 
 /// The formats that labels can be exported in.
@@ -62,58 +58,6 @@ pub struct ExportOptions {
     /// Whether an earlier export in this format may be replaced.
     #[serde(skip)]
     pub replace: bool,
-}
-
-impl ExportFormat {
-    /// All of them.
-    pub const ALL: [Self; 7] =
-        [Self::Mcap, Self::Rosbag1, Self::SemanticKitti, Self::Pcd, Self::Npz, Self::Parquet, Self::NuScenes];
-
-    /// The name, as `--to` takes it.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Mcap => "mcap",
-            Self::Rosbag1 => "rosbag1",
-            Self::SemanticKitti => "semantickitti",
-            Self::Pcd => "pcd",
-            Self::Npz => "npz",
-            Self::Parquet => "parquet",
-            Self::NuScenes => "nuscenes",
-        }
-    }
-
-    /// Which sensors' data can go with the labels.
-    pub fn sensors(self) -> Sensors {
-        match self {
-            Self::Mcap | Self::Rosbag1 => Sensors::ALL,
-            Self::NuScenes => Sensors::default(),
-            Self::SemanticKitti | Self::Pcd | Self::Npz | Self::Parquet => {
-                Sensors { radar: true, ..Sensors::default() }
-            }
-        }
-    }
-
-    /// The kind of recording that an export in this format is.
-    pub(super) fn recording(self) -> Option<RosFormat> {
-        match self {
-            Self::Mcap => Some(RosFormat::Mcap),
-            Self::Rosbag1 => Some(RosFormat::Bag),
-            _ => None,
-        }
-    }
-
-    /// What writes it, for these sequences.
-    pub(super) fn writer(self, sequences: &[(&dyn SequenceReader, &SequenceRecord)]) -> Box<dyn Writer> {
-        match self {
-            Self::Mcap => Box::new(Ros(RosFormat::Mcap)),
-            Self::Rosbag1 => Box::new(Ros(RosFormat::Bag)),
-            Self::SemanticKitti => Box::new(semantic_kitti::SemanticKitti::new(sequences)),
-            Self::Pcd => Box::new(pcd::Pcd),
-            Self::Npz => Box::new(npz::Npz),
-            Self::Parquet => Box::new(parquet::Parquet),
-            Self::NuScenes => Box::new(nuscenes::NuScenes::default()),
-        }
-    }
 }
 
 impl Sensors {

@@ -5,6 +5,7 @@ use super::ros::{self, RosFormat};
 use crate::disk::files;
 use crate::error::DataError;
 use crate::result::{Component, OutFolder, WriterLock};
+use ralf_files::Kind;
 use serde::{Deserialize, Serialize};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -48,7 +49,7 @@ impl Place {
             return Err(DataError::content(path, "path", "one that ends in a name", "none"));
         };
         let lock = WriterLock::beside(path)?;
-        let file = match options.format.recording() {
+        let file = match RosFormat::of_export(options.format) {
             Some(kind) if RosFormat::of_file(path) == Some(kind) && !path.is_dir() => {
                 check_file(path, options, &sequences)?;
                 names.first().map(|name| name.and(kind.ending()))
@@ -146,7 +147,7 @@ fn check_folder(path: &Path, options: &ExportOptions) -> Result<(), DataError> {
 }
 
 fn read(folder: &Path) -> Option<Record> {
-    serde_json::from_slice(&fs::read(folder.join(RECORD)).ok()?).ok()
+    serde_json::from_str(&files::read_text(&folder.join(RECORD), Kind::Settings).ok()?).ok()
 }
 
 fn remove_folder(folder: &Path) -> Result<(), DataError> {

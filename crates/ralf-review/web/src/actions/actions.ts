@@ -1,29 +1,41 @@
 /** Everything a person can do, by topic. */
 
+import type { Keeper } from "../history/keep.js";
+import { Adopting } from "./adopting.js";
 import { Correcting } from "./correcting.js";
 import { Hearing } from "./hearing.js";
 import { Moment } from "./moment.js";
 import { Navigation } from "./navigation.js";
+import { Picking } from "./picking.js";
+import { Reviewing } from "./reviewing.js";
 import { Selecting } from "./selecting.js";
+import { Stepping } from "./stepping.js";
 import { Viewing } from "./viewing.js";
 import type { World } from "./world.js";
 
 export interface Actions {
   readonly go: Navigation;
   readonly correct: Correcting;
+  readonly review: Reviewing;
+  readonly step: Stepping;
   readonly select: Selecting;
+  readonly pick: Picking;
   readonly view: Viewing;
   readonly hear: Hearing;
 }
 
-export function actionsOn(world: World): Actions {
+export function actionsOn(world: World, keeper: Keeper): Actions {
   const go = new Navigation(world, new Moment(world));
-  const correct = new Correcting(world, go);
+  const adopting = new Adopting(world);
+  const correct = new Correcting(world, go, adopting, keeper);
   return {
     go,
     correct,
+    review: new Reviewing(world, go, adopting, correct),
+    step: new Stepping(world, go, adopting, correct),
     select: new Selecting(world, correct),
+    pick: new Picking(world),
     view: new Viewing(world),
-    hear: new Hearing(world, correct),
+    hear: new Hearing(world, adopting, correct),
   };
 }

@@ -13,8 +13,17 @@ export function addressText({ sequence, scan }: Address): string {
 }
 
 export function addressFrom(hash: string): Address | null {
-  const [sequence, radar, scan] = hash.replace(/^#/, "").split("/").map(decodeURIComponent);
+  const [sequence, radar, scan] = hash.replace(/^#/, "").split("/").map(decoded);
   if (sequence === undefined || sequence === "") return null;
   const known = radar !== undefined && scan !== undefined && /^\d+$/.test(scan);
   return { sequence, scan: known ? { radar, scan: Number(scan) } : null };
+}
+
+/** What isn't encoded as it should be, such as a single `%`, is taken as it is. */
+function decoded(part: string): string {
+  try {
+    return decodeURIComponent(part);
+  } catch {
+    return part;
+  }
 }

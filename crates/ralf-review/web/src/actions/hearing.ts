@@ -3,18 +3,28 @@
 import { ServerGone } from "../api/errors.js";
 import type { Changes } from "../api/types.js";
 import { sameScan } from "../data/scan.js";
+import type { Adopting } from "./adopting.js";
 import type { Correcting } from "./correcting.js";
 import { complain, tell, type World } from "./world.js";
 
 const PATIENCE_MS = 1500;
+const WAKING_MS = 300;
 
 export class Hearing {
   private listening: AbortController | null = null;
+  private wake: () => void = () => undefined;
 
   constructor(
     private readonly world: World,
+    private readonly adopting: Adopting,
     private readonly correcting: Correcting,
-  ) {}
+  ) {
+    // A stroke got no answer: whether the server is there is asked at once, and not when the long wait ends.
+    world.store.watch(
+      ({ outbox }) => [outbox.kind],
+      (kind) => (kind === "gone" ? this.wake() : undefined),
+    );
+  }
 
   /** Listens to a sequence's changes, and to no other's, until told otherwise. */
   listen(sequence: string): void {
@@ -27,6 +37,11 @@ export class Hearing {
     let since: number | null = null;
     while (!ended.aborted) {
       const poll = pollWhileSeen(ended);
+      let woken = false;
+      this.wake = () => {
+        woken = true;
+        poll.stop();
+      };
       try {
         await seen();
         const changes: Changes = await this.world.api.changes(sequence, since, { signal: poll.signal });
@@ -41,9 +56,13 @@ export class Hearing {
         } else {
           complain(this.world, error);
         }
-        await new Promise((resolve) => setTimeout(resolve, PATIENCE_MS));
+        await pause(PATIENCE_MS);
       } finally {
         poll.end();
+        if (woken) {
+          since = null;
+          await pause(WAKING_MS);
+        }
       }
     }
   }
@@ -54,7 +73,7 @@ export class Hearing {
     if (store.state.connected) return;
     const [queue, history] = await Promise.all([api.queue(sequence), api.history(sequence)]);
     store.set({ connected: true, scans: queue.scans, progress: queue.progress, history });
-    await this.correcting.reread(sequence, store.state.cloud.scans);
+    await this.adopting.reread(sequence, store.state.cloud.scans);
     await this.correcting.retry();
   }
 
@@ -63,7 +82,7 @@ export class Hearing {
     if (scans.length === 0) return;
     const { cloud, current } = store.state;
     for (const change of scans) this.world.loader.forget(sequence, change);
-    await this.correcting.reread(
+    await this.adopting.reread(
       sequence,
       cloud.scans.filter((scan) => scans.some((change) => sameScan(change, scan))),
     );
@@ -76,7 +95,7 @@ export class Hearing {
 }
 
 /** A browser has few connections to a server for all of its tabs: one that isn't seen must not hold one. */
-function pollWhileSeen(ended: AbortSignal): { readonly signal: AbortSignal; readonly end: () => void } {
+function pollWhileSeen(ended: AbortSignal): Poll {
   const poll = new AbortController();
   const stop = (): void => {
     if (document.hidden || ended.aborted) poll.abort();
@@ -87,7 +106,17 @@ function pollWhileSeen(ended: AbortSignal): { readonly signal: AbortSignal; read
     ended.removeEventListener("abort", stop);
     document.removeEventListener("visibilitychange", stop);
   };
-  return { signal: poll.signal, end };
+  return { signal: poll.signal, stop: () => poll.abort(), end };
+}
+
+interface Poll {
+  readonly signal: AbortSignal;
+  readonly stop: () => void;
+  readonly end: () => void;
+}
+
+function pause(milliseconds: number): Promise<void> {
+  return new Promise((resolve) => setTimeout(resolve, milliseconds));
 }
 
 /** Resolves once the page is seen. */

@@ -71,7 +71,7 @@ export class Selecting {
     const { store } = this.world;
     const { selection } = store.state;
     if (countOf(selection) > 0) store.set({ selection: new Uint8Array(selection.length) });
-    else store.set({ armed: undefined, notice: null });
+    else store.set({ armed: undefined, notice: null, accepting: null });
   }
 
   tool(tool: Tool): void {

@@ -2,9 +2,10 @@
 
 import { everything, type Filter } from "../data/filter.js";
 import type { Dialog, ViewMode } from "../state.js";
-import { COLOUR_MODES, type ColourMode } from "../viewer/colours.js";
+import { type ColourMode, colourModes } from "../viewer/colours.js";
 import type { World } from "./world.js";
 
+const LONGEST_NAME = 64;
 const LEAST_DOT = 3;
 const MOST_DOT = 24;
 
@@ -41,8 +42,9 @@ export class Viewing {
   }
 
   nextColour(step: 1 | -1): void {
-    const names = COLOUR_MODES.map(([name]) => name);
-    const now = names.indexOf(this.world.store.state.colour);
+    const { cloud, recording, colour } = this.world.store.state;
+    const names = colourModes(cloud, recording).map(({ value }) => value);
+    const now = names.indexOf(colour);
     this.colour(names[(now + step + names.length) % names.length]);
   }
 
@@ -86,6 +88,14 @@ export class Viewing {
 
   dialog(dialog: Dialog): void {
     this.world.store.set({ dialog });
+  }
+
+  /** What the person is called from now on. */
+  rename(typed: string): void {
+    const name = typed.trim().slice(0, LONGEST_NAME);
+    if (name === "") return;
+    this.world.session.rename(name);
+    this.world.store.set({ name });
   }
 
   dismissNotice(): void {

@@ -2,6 +2,7 @@
 
 import type { Api } from "../api/client.js";
 import { messageOf } from "../api/errors.js";
+import type { Session } from "../api/session.js";
 import type { Loader } from "../data/loader.js";
 import type { State } from "../state.js";
 import type { Store } from "../store.js";
@@ -9,6 +10,7 @@ import type { Store } from "../store.js";
 export interface World {
   readonly store: Store<State>;
   readonly api: Api;
+  readonly session: Session;
   readonly loader: Loader;
 }
 
@@ -18,4 +20,11 @@ export function tell({ store }: World, text: string): void {
 
 export function complain({ store }: World, error: unknown): void {
   store.set({ notice: { text: messageOf(error), kind: "problem" } });
+}
+
+/** Whether nothing can be corrected here, which is said. */
+export function readOnly(world: World): boolean {
+  const reason = world.store.state.recording.read_only;
+  if (reason !== null) complain(world, `Read-only: nothing can be corrected here. ${reason}`);
+  return reason !== null;
 }

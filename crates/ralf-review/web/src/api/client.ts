@@ -1,11 +1,12 @@
 /** The server's interface, typed; every failure is one of `errors.ts` or an abort. */
 
-import { Conflict, Refused, ServerGone } from "./errors.js";
+import { Conflict, Refused, ServerGone, TokenMissing } from "./errors.js";
 import type { Session } from "./session.js";
 import { decodeTable, type Table } from "./table.js";
 import type {
   Changes,
   ConflictBody,
+  MarkRequest,
   History,
   LidarHeader,
   Queue,
@@ -75,17 +76,17 @@ export class Api {
     return this.json("POST", `${inSequence(sequence)}/strokes`, undefined, stroke);
   }
 
-  undo(sequence: string): Promise<StrokeAnswer> {
-    return this.json("POST", `${inSequence(sequence)}/undo`, undefined, {});
+  undo(sequence: string, id: string): Promise<StrokeAnswer> {
+    return this.json("POST", `${inSequence(sequence)}/undo`, undefined, { id });
   }
 
-  redo(sequence: string): Promise<StrokeAnswer> {
-    return this.json("POST", `${inSequence(sequence)}/redo`, undefined, {});
+  redo(sequence: string, id: string): Promise<StrokeAnswer> {
+    return this.json("POST", `${inSequence(sequence)}/redo`, undefined, { id });
   }
 
-  reviewed(sequence: string, { radar, scan }: ScanId, reviewed: boolean, revision: number): Promise<ReviewedAnswer> {
+  reviewed(sequence: string, { radar, scan }: ScanId, mark: MarkRequest): Promise<ReviewedAnswer> {
     const path = `${inSequence(sequence)}/radars/${part(radar)}/scans/${scan}/reviewed`;
-    return this.json("PUT", path, undefined, { reviewed, revision });
+    return this.json("PUT", path, undefined, mark);
   }
 
   /** What others change after `since`; `null`: at once, only how far the count is. */
@@ -104,8 +105,10 @@ export class Api {
   }
 
   private async send(method: string, path: string, call?: Call, body?: object): Promise<Response> {
-    const headers = new Headers({ "X-Ralf-Tab": this.session.tab });
-    if (this.session.token !== null) headers.set("Authorization", `Bearer ${this.session.token}`);
+    const headers = new Headers({ "X-Ralf-Tab": this.session.tab, "X-Ralf-Author": this.session.author });
+    const [token, name] = [this.session.token(), this.session.name()];
+    if (token !== null) headers.set("Authorization", `Bearer ${token}`);
+    if (name !== null) headers.set("X-Ralf-Name", encodeURIComponent(name));
     if (body !== undefined) headers.set("Content-Type", "application/json");
     const request: RequestInit = { method, headers, cache: "no-store", signal: call?.signal ?? null };
     if (body !== undefined) request.body = JSON.stringify(body);
@@ -133,6 +136,8 @@ function inSequence(sequence: string): string {
 async function failure(answer: Response): Promise<Error> {
   const body = (await answer.json().catch(() => null)) as Partial<ConflictBody> | null;
   const message = body?.error ?? `the server answered ${answer.status}`;
+  if (answer.status === 401) return new TokenMissing();
   if (answer.status !== 409) return new Refused(answer.status, message);
-  return new Conflict({ error: message, conflict: body?.conflict ?? null, scans: body?.scans ?? [] });
+  const stale = body?.stale === true;
+  return new Conflict({ error: message, conflict: body?.conflict ?? null, stale, scans: body?.scans ?? [] });
 }

@@ -17,6 +17,13 @@ export class Refused extends Error {
   }
 }
 
+/** The page was opened without the token, or the server was started again with another one. */
+export class TokenMissing extends Refused {
+  constructor() {
+    super(401, "this window has no token of the server: open the address that `ralf review` printed");
+  }
+}
+
 /** Somebody else changed the same scan first; nothing was written. */
 export class Conflict extends Error {
   constructor(readonly body: ConflictBody) {

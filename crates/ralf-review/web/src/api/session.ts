@@ -1,22 +1,51 @@
-/** Who this tab is: the token it was opened with, and a name by which the server leaves out its own changes. */
+/** Who this is: the token that the page was opened with, the window, and the person, who stays the same for ever. */
 
 const TOKEN = "ralf-token";
+const AUTHOR = "ralf-author";
+const NAME = "ralf-name";
+const TEN_YEARS_S = 315_360_000;
 
 export interface Session {
-  readonly token: string | null;
+  /** `null`: the page was opened without one. */
+  token(): string | null;
+  /** The window, by which the server leaves out its own changes. */
   readonly tab: string;
+  /** The person in this browser: undo takes back what it did, and nobody else's. */
+  readonly author: string;
+  /** What the person is called; `null` until it says so. */
+  name(): string | null;
+  rename(name: string): void;
 }
 
-/** Takes the token out of the address, so that it isn't seen or bookmarked, and keeps it as long as the tab lives. */
+/** Takes the token out of the address, so that it isn't seen or bookmarked, and keeps it for this browser's windows. */
 export function openSession(): Session {
   const address = new URL(location.href);
   const given = address.searchParams.get("token");
   if (given !== null) {
-    sessionStorage.setItem(TOKEN, given);
+    localStorage.setItem(TOKEN, given);
     address.searchParams.delete("token");
     history.replaceState(null, "", address);
   }
-  return { token: sessionStorage.getItem(TOKEN), tab: randomName() };
+  return {
+    // Another window may have been opened with a newer one.
+    token: () => localStorage.getItem(TOKEN),
+    tab: randomName(),
+    author: knownAuthor(),
+    name: () => localStorage.getItem(NAME),
+    rename: (name) => localStorage.setItem(NAME, name),
+  };
+}
+
+/**
+ * A cookie, for it is known on every port of the host: the person is the same when the server listens on another
+ * one.
+ */
+function knownAuthor(): string {
+  const known = document.cookie.match(/(?:^|; )ralf-author=([0-9a-f]+)/)?.[1] ?? localStorage.getItem(AUTHOR);
+  const author = known ?? randomName();
+  localStorage.setItem(AUTHOR, author);
+  document.cookie = `${AUTHOR}=${author}; max-age=${TEN_YEARS_S}; path=/; samesite=strict`;
+  return author;
 }
 
 /** 16 random hex digits. (`crypto.randomUUID` is missing where the page isn't served from this machine.) */

@@ -2,8 +2,22 @@
 
 export type Column = Float32Array | Uint8Array | Uint16Array | Int32Array | Uint32Array;
 
+/** What kind of number a column holds, where the server says so. */
+export type ColumnGroup = "place" | "measured" | "mismatch" | "plausibility";
+
+export interface ColumnInfo {
+  readonly name: string;
+  readonly type: ColumnType;
+  readonly offset: number;
+  readonly unit?: string;
+  readonly meaning?: string;
+  readonly group?: ColumnGroup;
+}
+
 export interface Table<Header> {
   readonly rows: number;
+  /** Every column, as the server tells of it. */
+  readonly infos: readonly ColumnInfo[];
   readonly header: Header;
   readonly columns: ReadonlyMap<string, Column>;
 }
@@ -12,7 +26,7 @@ type ColumnType = "f32" | "u8" | "u16" | "i32" | "u32";
 
 interface TableHeader {
   readonly rows: number;
-  readonly columns: readonly { readonly name: string; readonly type: ColumnType; readonly offset: number }[];
+  readonly columns: readonly ColumnInfo[];
 }
 
 const ARRAYS = {
@@ -42,7 +56,7 @@ export function decodeTable<Header>(buffer: ArrayBuffer): Table<Header> {
     }
     columns.set(name, new Type(buffer, start, header.rows));
   }
-  return { rows: header.rows, header, columns };
+  return { rows: header.rows, infos: header.columns, header, columns };
 }
 
 /** A column of floats; throws where the table has none of that name and type. */

@@ -32,12 +32,19 @@ export interface LabelClass {
 export interface FlagInfo {
   readonly bit: number;
   readonly name: string;
+  /** What it says settles the label, whatever the branches say. */
+  readonly decided: boolean;
 }
 
 export interface Recording {
   readonly dataset: string;
   readonly out: string;
+  /** What people are called who give no name. */
   readonly author: string;
+  /** Of the corrections: another store has another one. */
+  readonly store: string;
+  /** Why nothing can be corrected; `null` where it can. */
+  readonly read_only: string | null;
   /** The plausibility from which a detection is labelled plausible. */
   readonly threshold: number;
   readonly sequences: readonly SequenceInfo[];
@@ -66,12 +73,15 @@ export interface QueueScan extends ScanId {
   readonly cameras_failed: number;
   readonly corrected: number;
   readonly reviewed: Reviewed | null;
+  /** Corrections and marks of other detections than the scan has now; kept, and never applied. */
+  readonly orphaned: number;
 }
 
 export interface Progress {
   readonly scans: number;
   readonly reviewed: number;
   readonly corrected_detections: number;
+  readonly orphaned_scans: number;
 }
 
 export interface Queue {
@@ -87,6 +97,10 @@ export interface CameraImageId {
 
 export interface ScanHeader {
   readonly t_ns: string;
+  /** Of the detections: a scan with others has another one. */
+  readonly content: string;
+  /** Of the machine's labels: whoever accepts them names it. */
+  readonly stamp: string;
   readonly revision: number;
   readonly reviewed: Reviewed | null;
   /** Row-major 4 by 4, `null` where the recording has neither poses nor odometry. */
@@ -107,6 +121,8 @@ export interface TimedScan extends ScanId {
 
 export interface BaseRevision extends ScanId {
   readonly revision: number;
+  /** The detections that were on screen. */
+  readonly content?: string;
 }
 
 export interface ScanPoints extends ScanId {
@@ -114,6 +130,8 @@ export interface ScanPoints extends ScanId {
 }
 
 export interface StrokeRequest {
+  /** One that is asked for again is made once. */
+  readonly id: string;
   readonly tool: string;
   readonly protect: boolean;
   /** `null`: back to the machine's guess. */
@@ -124,8 +142,18 @@ export interface StrokeRequest {
   readonly group?: string;
 }
 
-/** All corrections of a scan, as they are now. */
-export interface ScanCorrections extends BaseRevision {
+export interface MarkRequest {
+  readonly id: string;
+  readonly reviewed: boolean;
+  readonly revision: number;
+  /** Of the labels on screen. */
+  readonly stamp: string;
+}
+
+/** All that is said of a scan, as it is now. */
+export interface ScanCorrections extends ScanId {
+  readonly revision: number;
+  readonly reviewed: Reviewed | null;
   readonly corrections: readonly (readonly [point: number, label: number])[];
 }
 
@@ -157,16 +185,18 @@ export interface ConflictCause extends ScanId {
 
 export interface ConflictBody {
   readonly error: string;
+  /** True where the detections or labels on screen are not those that lie there now. */
+  readonly stale: boolean;
   readonly conflict: ConflictCause | null;
   readonly scans: readonly ScanCorrections[];
 }
 
-export interface ReviewedAnswer {
+export interface ReviewedAnswer extends StrokeAnswer {
   readonly reviewed: Reviewed | null;
   readonly progress: Progress;
 }
 
 export interface Changes {
   readonly counter: number;
-  readonly scans: readonly (BaseRevision & { readonly author: string })[];
+  readonly scans: readonly (ScanId & { readonly revision: number; readonly author: string })[];
 }

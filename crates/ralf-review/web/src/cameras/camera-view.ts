@@ -1,7 +1,9 @@
 /** One camera's image with the detections in it; can be zoomed, and the tools work on it. */
 
 import type { CameraMoment } from "../data/camera-moment.js";
+import { maskOf } from "../data/cloud.js";
 import { h, say } from "../dom.js";
+import { pointsOf } from "../history/outbox.js";
 import type { Page } from "../page.js";
 import type { Point } from "../selection/geometry.js";
 import { Surface } from "../selection/surface.js";
@@ -27,7 +29,11 @@ export class CameraView {
   private places: Float32Array | null = null;
   private asked = 0;
 
-  constructor(private readonly page: Page) {
+  /** `watched`: what is drawn here counts as seen. */
+  constructor(
+    private readonly page: Page,
+    private readonly watched = false,
+  ) {
     this.element = h("div", { class: "camera" }, this.picture, this.overlay, this.caption);
     this.surface = new Surface(page.store, page.actions, {
       element: this.element,
@@ -43,7 +49,14 @@ export class CameraView {
     new ResizeObserver(() => this.fit()).observe(this.element);
     const { store } = page;
     store.watch(
-      ({ painting, shown, eligible, selection, dotSize }) => [painting, shown, eligible, selection, dotSize],
+      ({ painting, shown, eligible, selection, dotSize, waiting }) => [
+        painting,
+        shown,
+        eligible,
+        selection,
+        dotSize,
+        waiting,
+      ],
       () => this.invalidate(),
     );
     store.watch(
@@ -112,17 +125,18 @@ export class CameraView {
       context.imageSmoothingEnabled = scale < 3;
       context.drawImage(camera.picture, left, top, camera.info.width * scale, camera.info.height * scale);
     }
-    const { cloud, painting, shown, eligible, selection, dotSize } = this.page.store.state;
+    const { cloud, painting, shown, eligible, selection, dotSize, waiting: strokes } = this.page.store.state;
     const radius = dotSize * Math.min(0.5, Math.max(0.28, width / 1400));
     if (shown.length === cloud.count && painting.colours.length === 3 * cloud.count) {
       drawDetections(
         context,
         this.placed(),
-        { cloud, colours: painting.colours, shown, eligible, selection },
+        { cloud, colours: painting.colours, shown, eligible, selection, waiting: maskOf(cloud, pointsOf(strokes)) },
         radius,
         width < SMALL ? LAYERS.slice(1) : LAYERS,
       );
     }
+    if (this.watched) this.page.actions.review.saw(within(this.placed(), width, height));
     this.drawOverlay();
   }
 
@@ -136,6 +150,13 @@ export class CameraView {
     if (this.gesture !== null) drawGesture(context, this.gesture, brush);
     else if (tool === "brush" && this.pointer !== null) drawBrushCursor(context, this.pointer, brush);
   }
+}
+
+/** The places that lie in the element; NaN for the others. */
+function within(places: Float32Array, width: number, height: number): Float32Array {
+  const inside = (at: number): boolean =>
+    places[at] >= 0 && places[at] <= width && places[at + 1] >= 0 && places[at + 1] <= height;
+  return places.map((value, i) => (inside(i - (i % 2)) ? value : Number.NaN));
 }
 
 function captionOf({ info, failed, problem }: CameraMoment): string {

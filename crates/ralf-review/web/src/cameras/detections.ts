@@ -1,7 +1,16 @@
 /** Detections as dots on a 2D canvas. */
 
 import type { Cloud } from "../data/cloud.js";
-import { cssColour, SELECTED_RGB } from "../viewer/palette.js";
+import { cssColour, SELECTED_RGB, WAITING_RGB } from "../viewer/palette.js";
+
+/** A broken rim: told by its shape, whatever colours one sees. */
+function drawWaiting(context: CanvasRenderingContext2D): void {
+  context.setLineDash([2.5, 2.5]);
+  context.lineWidth = 2;
+  context.strokeStyle = cssColour(WAITING_RGB);
+  context.stroke();
+  context.setLineDash([]);
+}
 
 export interface Dots {
   readonly cloud: Cloud;
@@ -9,6 +18,8 @@ export interface Dots {
   readonly shown: Uint8Array;
   readonly eligible: Uint8Array;
   readonly selection: Uint8Array;
+  /** Those of strokes that aren't saved yet. */
+  readonly waiting: Uint8Array;
 }
 
 const RIM = "rgb(5 8 12 / 80%)";
@@ -43,6 +54,7 @@ function drawDot(context: CanvasRenderingContext2D, places: Float32Array, dots: 
   context.arc(places[2 * i], places[2 * i + 1], size, 0, 2 * Math.PI);
   context.fillStyle = cssColour([colours[3 * i], colours[3 * i + 1], colours[3 * i + 2]]);
   context.fill();
+  if (!selected && dots.waiting[i] === 1) return drawWaiting(context);
   context.lineWidth = selected ? 2 : 1;
   context.strokeStyle = selected ? cssColour(SELECTED_RGB) : dots.cloud.corrected[i] === 1 ? CORRECTED_RIM : RIM;
   context.stroke();

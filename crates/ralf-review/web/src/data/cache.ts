@@ -25,6 +25,10 @@ export class Cache<Value> {
     if (this.entries.size > this.room && oldest.done !== true) this.entries.delete(oldest.value);
   }
 
+  clear(): void {
+    this.entries.clear();
+  }
+
   forget(key: string): void {
     this.entries.delete(key);
   }

@@ -1,6 +1,6 @@
 /** The detections on screen: those of several scans, one after the other, in the vehicle frame of one of them. */
 
-import { floats, type Column } from "../api/table.js";
+import { type Column, type ColumnGroup, floats } from "../api/table.js";
 import type { ScanId, ScanPoints } from "../api/types.js";
 import { sameScan, type Scan } from "./scan.js";
 import { movePoints, targetFromSource } from "./transform.js";
@@ -57,6 +57,25 @@ export function gather(cloud: Cloud, name: string): Float32Array {
     if (column !== undefined) values.set(column, cloud.starts[index]);
   });
   return values;
+}
+
+/** A column that holds a number of each detection, and what the server says of it. */
+export interface NumberColumn {
+  readonly name: string;
+  readonly unit: string;
+  readonly meaning: string;
+  readonly group: ColumnGroup;
+}
+
+/** The columns with a meaning, of the first scan's radar first. */
+export function columnsOf({ scans }: Cloud): readonly NumberColumn[] {
+  const columns = new Map<string, NumberColumn>();
+  for (const { table } of scans) {
+    for (const { name, unit = "", meaning = "", group } of table.infos) {
+      if (group !== undefined && !columns.has(name)) columns.set(name, { name, unit, meaning, group });
+    }
+  }
+  return [...columns.values()];
 }
 
 export function columnOf(cloud: Cloud, index: number, name: string): number {

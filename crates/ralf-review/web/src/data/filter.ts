@@ -1,5 +1,6 @@
 /** Which detections are shown. */
 
+import type { Recording } from "../api/types.js";
 import { gather, type Cloud } from "./cloud.js";
 import type { LabelBook } from "./labels.js";
 
@@ -38,12 +39,24 @@ export const everything: Filter = {
 /** Scores no farther from the threshold than this are uncertain, as in the queue. */
 export const UNCERTAIN_WITHIN = 0.1;
 
-export function isUncertain(score: number, threshold: number): boolean {
-  return Math.abs(score - threshold) <= UNCERTAIN_WITHIN;
+/** Near the threshold, unless a flag settles the label whatever the score (`decided`: the bits of such flags). */
+export function isUncertain(score: number, flags: number, { threshold, decided }: Certainty): boolean {
+  return Math.abs(score - threshold) <= UNCERTAIN_WITHIN && (flags & decided) === 0;
+}
+
+/** What the machine is sure by. */
+export interface Certainty {
+  readonly threshold: number;
+  readonly decided: number;
+}
+
+export function certaintyOf({ threshold, flags }: Pick<Recording, "threshold" | "flags">): Certainty {
+  const decided = flags.reduce((bits, flag) => (flag.decided ? bits | flag.bit : bits), 0);
+  return { threshold, decided };
 }
 
 /** 1 for each detection that passes. */
-export function visible(cloud: Cloud, filter: Filter, labels: LabelBook, threshold: number): Uint8Array {
+export function visible(cloud: Cloud, filter: Filter, labels: LabelBook, certainty: Certainty): Uint8Array {
   const shown = new Uint8Array(cloud.count);
   const [score, range, flags] = ["w", "range", "flags"].map((name) => gather(cloud, name));
   const shownScans = cloud.scans.map(({ radar }) => !filter.hiddenRadars.has(radar));
@@ -54,7 +67,7 @@ export function visible(cloud: Cloud, filter: Filter, labels: LabelBook, thresho
       shownScans[cloud.scanOf[i]] &&
         filter[labels.truth(cloud.label[i])] &&
         (filter.origin === "any" || corrected === (filter.origin === "corrected")) &&
-        (!filter.uncertain || (!corrected && isUncertain(score[i], threshold))) &&
+        (!filter.uncertain || (!corrected && isUncertain(score[i], flags[i], certainty))) &&
         (anyScore || within(score[i], filter.score)) &&
         within(range[i], filter.range) &&
         within(cloud.positions[3 * i + 2], filter.height) &&

@@ -29,6 +29,10 @@ export class Loader {
     this.scans.forget(key(sequence, scanKey(id)));
   }
 
+  forgetScans(): void {
+    this.scans.clear();
+  }
+
   /** The detections around the scan, of every radar, with so many neighbouring scans. */
   async cloud(sequence: string, id: ScanId, accumulate: number): Promise<Cloud> {
     const first = await this.scan(sequence, id);

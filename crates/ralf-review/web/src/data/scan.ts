@@ -38,10 +38,12 @@ export function scanFromTable({ radar, scan }: ScanId, table: Table<ScanHeader>)
 }
 
 /**
- * The scan after a stroke, undo, or another's change. `null` where a detection went back from a correction in a
- * scan that was accepted: what was accepted is the server's to say, so the scan must be read anew.
+ * The scan after a stroke, undo, or another's change. `null` where a mark was set or taken away, or a detection went
+ * back from a correction in a scan that was accepted: what was accepted is the server's to say, so the scan must be
+ * read anew.
  */
-export function withCorrections(scan: Scan, { revision, corrections }: ScanCorrections): Scan | null {
+export function withCorrections(scan: Scan, { revision, corrections, reviewed }: ScanCorrections): Scan | null {
+  if ((reviewed === null) !== (scan.reviewed === null)) return null;
   const corrected = new Uint8Array(scan.corrected.length);
   for (const [point] of corrections) corrected[point] = 1;
   const label = scan.label.slice();
@@ -51,7 +53,7 @@ export function withCorrections(scan: Scan, { revision, corrections }: ScanCorre
     label[i] = scan.machine[i];
   }
   for (const [point, id] of corrections) label[point] = id;
-  return { ...scan, revision, label, corrected };
+  return { ...scan, revision, label, corrected, reviewed };
 }
 
 function ids(table: Table<ScanHeader>, name: string): Uint16Array {

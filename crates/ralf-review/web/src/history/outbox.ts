@@ -1,10 +1,19 @@
 /**
- * Strokes on their way to the server, one after the other. A stroke stays here, and in the tab's storage, until the
- * server has said that it's on disk; nobody's answer, a refusal and a conflict keep it too, until a person decides.
+ * Strokes on their way to the server, one after the other. A stroke stays here, and in the browser's storage, until
+ * the server has said that it's on disk; nobody's answer, a refusal and a conflict keep it too, until a person
+ * decides. Each has a name by which the server knows it, so that one whose answer was lost is not made twice when it
+ * is sent again.
  */
 
 import { Conflict, messageOf, ServerGone } from "../api/errors.js";
-import type { BaseRevision, ConflictBody, ScanCorrections, StrokeAnswer, StrokeRequest } from "../api/types.js";
+import type {
+  BaseRevision,
+  ConflictBody,
+  ScanCorrections,
+  ScanPoints,
+  StrokeAnswer,
+  StrokeRequest,
+} from "../api/types.js";
 import { sameScan } from "../data/scan.js";
 
 export interface Pending {
@@ -21,7 +30,7 @@ export type OutboxStatus =
 
 export interface OutboxWorld {
   readonly send: (pending: Pending) => Promise<StrokeAnswer>;
-  /** Keeps what isn't saved over a reload. */
+  /** Keeps what isn't saved over a reload, in the order of the calls. */
   readonly keep: (waiting: readonly Pending[]) => void;
   readonly saved: (pending: Pending, answer: StrokeAnswer) => void;
   readonly status: (status: OutboxStatus, waiting: readonly Pending[]) => void;
@@ -72,7 +81,8 @@ export class Outbox {
 
   /** After a conflict: sets the stroke on top of the newer state. */
   applyAnyway(protect: boolean): Promise<void> {
-    if (this.current.kind !== "conflict") return Promise.resolve();
+    // What was chosen on other detections means nothing on these.
+    if (this.current.kind !== "conflict" || this.current.body.stale) return Promise.resolve();
     const newest = rebased(this.waiting, this.current.body.scans);
     this.waiting = newest.map((pending) =>
       together(newest[0], pending) ? { ...pending, stroke: { ...pending.stroke, protect } } : pending,
@@ -106,6 +116,11 @@ export class Outbox {
   }
 }
 
+/** The detections of strokes, wherever they are. */
+export function pointsOf(strokes: readonly Pending[]): readonly ScanPoints[] {
+  return strokes.flatMap(({ stroke }) => stroke.points);
+}
+
 /** Whether both are one step to the person who made them. */
 function together(first: Pending, other: Pending): boolean {
   return first === other || (first.stroke.group !== undefined && first.stroke.group === other.stroke.group);
@@ -127,16 +142,12 @@ export function afterOwn(
   answered: readonly ScanCorrections[],
 ): readonly Pending[] {
   const was = new Map(own.stroke.base.map((base) => [`${base.radar}/${base.scan}`, base.revision]));
-  return waiting.map((pending) => ({
-    ...pending,
-    stroke: {
-      ...pending.stroke,
-      base: pending.stroke.base.map((base) => {
-        const ours = pending.sequence === own.sequence && was.get(`${base.radar}/${base.scan}`) === base.revision;
-        return ours ? atRevision(base, answered) : base;
-      }),
-    },
-  }));
+  const rests = (base: BaseRevision): boolean => was.get(`${base.radar}/${base.scan}`) === base.revision;
+  return waiting.map((pending) => {
+    if (pending.sequence !== own.sequence || !pending.stroke.base.some(rests)) return pending;
+    const base = pending.stroke.base.map((one) => (rests(one) ? atRevision(one, answered) : one));
+    return { ...pending, stroke: { ...pending.stroke, base } };
+  });
 }
 
 /** The same strokes on the newest revisions. */
@@ -145,16 +156,6 @@ function rebased(waiting: readonly Pending[], newest: readonly ScanCorrections[]
     ...pending,
     stroke: { ...pending.stroke, base: pending.stroke.base.map((base) => atRevision(base, newest)) },
   }));
-}
-
-/** Whether the newer state holds what the stroke wanted already: it was saved, and only the answer was lost. */
-export function alreadyThere({ stroke }: Pending, { scans }: ConflictBody): boolean {
-  return stroke.points.every(({ radar, scan, points }) => {
-    const now = scans.find((other) => sameScan(other, { radar, scan }));
-    if (now === undefined) return false;
-    const corrections = new Map(now.corrections);
-    return points.every((point) => (corrections.get(point) ?? null) === stroke.label);
-  });
 }
 
 function atRevision(base: BaseRevision, newest: readonly ScanCorrections[]): BaseRevision {

@@ -1,5 +1,6 @@
 /** What must not be overlooked: a server that is gone, a refused stroke, a message. */
 
+import type { Progress, Recording } from "../api/types.js";
 import { h, say } from "../dom.js";
 import { counted } from "../format.js";
 import type { Page } from "../page.js";
@@ -19,10 +20,11 @@ export function banner({ store, actions }: Page): HTMLElement {
   );
   const bar = h("div", { class: "banner", role: "alert" }, text, retry, drop);
   store.watch(
-    ({ outbox, waiting, connected }) => [outbox, waiting, connected],
+    ({ outbox, waiting, connected, recording, progress }) => [outbox, waiting, connected, recording, progress],
     () => {
       const said = trouble(store.state);
       bar.hidden = said === null;
+      bar.classList.toggle("quiet", store.state.connected && store.state.waiting.length === 0);
       say(text, said ?? "");
       retry.hidden = store.state.waiting.length === 0;
       drop.hidden = store.state.waiting.length === 0;
@@ -31,14 +33,22 @@ export function banner({ store, actions }: Page): HTMLElement {
   return bar;
 }
 
-function trouble({ outbox, waiting, connected }: Readonly<State>): string | null {
+function trouble({ outbox, waiting, connected, recording, progress }: Readonly<State>): string | null {
   if (outbox.kind === "refused") return `The server refused a stroke: ${outbox.message}`;
-  if (outbox.kind !== "gone" && connected) return null;
+  if (outbox.kind !== "gone" && connected) return standing(recording, progress);
   const kept =
     waiting.length === 0
       ? "Nothing is unsaved."
       : `${counted(waiting.length, "stroke")} not saved; kept in this window and sent when it is back.`;
   return `The server does not answer. ${kept} Is ralf review still running?`;
+}
+
+/** What holds all the time. */
+function standing({ read_only: reason }: Recording, { orphaned_scans: orphaned }: Progress): string | null {
+  if (reason !== null) return `Read-only: nothing can be corrected here. ${reason}`;
+  if (orphaned === 0) return null;
+  const scans = counted(orphaned, "scan");
+  return `Corrections of ${scans} belong to other detections than the recording holds now: kept, and not applied.`;
 }
 
 /** Over the picture, while every stroke sets a label at once. */

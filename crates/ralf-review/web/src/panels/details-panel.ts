@@ -1,47 +1,13 @@
 /** Every number of the detection under the pointer; without one, of the one selected. */
 
-import { type Cloud, columnOf, pointOf } from "../data/cloud.js";
+import type { ColumnGroup } from "../api/table.js";
+import { type Cloud, columnOf, columnsOf, type NumberColumn, pointOf } from "../data/cloud.js";
 import type { LabelBook } from "../data/labels.js";
 import { h } from "../dom.js";
 import { counted, decimal, degrees } from "../format.js";
 import type { Page } from "../page.js";
 import { countOf } from "../selection/mask.js";
 import type { State } from "../state.js";
-
-const BRANCHES = [
-  ["w", "w"],
-  ["w_opt", "optical"],
-  ["w_lm", "LiDAR"],
-  ["w_cm", "camera"],
-  ["w_tr", "tracking"],
-] as const;
-const MISMATCHES = [
-  ["d_lm", "d LiDAR"],
-  ["d_cm", "d camera"],
-  ["d_tr", "d tracking"],
-] as const;
-const TOLD_APART = new Set<string>([
-  ...BRANCHES.map(([name]) => name),
-  ...MISMATCHES.map(([name]) => name),
-  "x",
-  "y",
-  "z",
-  "range",
-  "azimuth",
-  "elevation",
-  "flags",
-  "machine",
-  "label",
-  "corrected",
-  "cause",
-]);
-const UNITS: Readonly<Record<string, string>> = {
-  doppler: " m/s",
-  doppler_compensated: " m/s",
-  rcs: " dBsm",
-  power: " dB",
-  snr: " dB",
-};
 
 export function detailsPanel({ store }: Page): HTMLElement {
   const body = h("div", { class: "details-body" });
@@ -55,7 +21,7 @@ export function detailsPanel({ store }: Page): HTMLElement {
       else body.replaceChildren(...about(store.state, cloud, index));
     },
   );
-  return h("section", { class: "details", "aria-label": "Detection" }, body);
+  return h("section", { class: "details", "aria-label": "Detection", tabindex: "0" }, body);
 }
 
 function overview(cloud: Cloud, selection: Uint8Array, selected: number, labels: LabelBook): HTMLElement {
@@ -81,42 +47,63 @@ function overview(cloud: Cloud, selection: Uint8Array, selected: number, labels:
 
 function about(state: Readonly<State>, cloud: Cloud, index: number): HTMLElement[] {
   const { scan, point } = pointOf(cloud, index);
-  const { labels, recording } = state;
+  const columns = columnsOf(cloud).filter(({ name }) => scan.table.columns.has(name));
+  const of = (group: ColumnGroup): readonly NumberColumn[] => columns.filter((column) => column.group === group);
   const value = (name: string): number => columnOf(cloud, index, name);
+  const { recording, labels } = state;
+  const flags = recording.flags.filter(({ bit }) => (value("flags") & bit) !== 0);
+  const numbers = [...of("place"), ...of("measured"), ...of("mismatch")];
+  const id = h("p", { class: "faint number" }, `${scan.radar} ${scan.scan} · detection ${point}`);
+  return [
+    heading(cloud, index, labels),
+    id,
+    h("div", { class: "row wrap" }, ...flags.map(({ name }) => h("span", { class: "reason" }, name))),
+    h(
+      "div",
+      { class: "branches" },
+      ...byName(of("plausibility")).map((column) => branch(column, value(column.name), recording.threshold)),
+    ),
+    h(
+      "dl",
+      { class: "facts" },
+      ...said(state, cloud, index),
+      ...numbers.flatMap((column) => fact(column.name, measured(value(column.name), column.unit), column.meaning)),
+    ),
+  ];
+}
+
+function heading(cloud: Cloud, index: number, labels: LabelBook): HTMLElement {
   const label = cloud.label[index];
-  const corrected = cloud.corrected[index] === 1;
-  const heading = h(
+  return h(
     "h2",
     { class: labels.truth(label) },
     h("span", { class: "dot" }),
     labels.name(label),
-    h("span", { class: "faint" }, corrected ? "corrected" : "by machine"),
+    h("span", { class: "faint" }, cloud.corrected[index] === 1 ? "corrected" : "by machine"),
   );
-  const id = h("p", { class: "faint number" }, `${scan.radar} ${scan.scan} · detection ${point}`);
-  const further = [...scan.table.columns.keys()].filter((name) => !TOLD_APART.has(name));
-  const cause = recording.causes === null ? [] : fact("cause", recording.causes[value("cause")] || "none");
-  const facts = [
-    ...(corrected ? fact("machine", labels.name(scan.machine[point])) : []),
-    ...cause,
-    ...fact("range", `${decimal(value("range"), 2)} m`),
-    ...fact("azimuth", degrees(value("azimuth"))),
-    ...fact("elevation", degrees(value("elevation"))),
-    ...fact("x y z", ["x", "y", "z"].map((name) => decimal(value(name), 1)).join(" ")),
-    ...further.flatMap((name) => fact(name, decimal(value(name), 2) + (UNITS[name] ?? ""))),
-    ...MISMATCHES.flatMap(([name, text]) => fact(text, decimal(value(name), 2))),
-  ];
-  const flags = recording.flags.filter(({ bit }) => (value("flags") & bit) !== 0);
-  return [
-    heading,
-    id,
-    h("div", { class: "branches" }, ...BRANCHES.map(([name, text]) => branch(text, value(name), recording.threshold))),
-    h("dl", { class: "facts" }, ...facts),
-    h("div", { class: "row wrap" }, ...flags.map(({ name }) => h("span", { class: "reason" }, name))),
-  ];
+}
+
+/** What the machine said where a person said otherwise, and the cause where it is known. */
+function said({ labels, recording }: Readonly<State>, cloud: Cloud, index: number): HTMLElement[] {
+  const { scan, point } = pointOf(cloud, index);
+  const machine = cloud.corrected[index] === 1 ? fact("machine", labels.name(scan.machine[point])) : [];
+  const { causes } = recording;
+  const cause = causes === null ? [] : fact("cause", causes[columnOf(cloud, index, "cause")] || "none");
+  return [...machine, ...cause];
+}
+
+/** The fused plausibility (the shortest name) first. */
+function byName(columns: readonly NumberColumn[]): readonly NumberColumn[] {
+  return [...columns].sort((a, b) => a.name.length - b.name.length);
+}
+
+function measured(value: number, unit: string): string {
+  if (unit === "rad") return degrees(value);
+  return unit === "" || !Number.isFinite(value) ? decimal(value, 2) : `${decimal(value, 2)} ${unit}`;
 }
 
 /** A plausibility as a bar, with a tick at the threshold. */
-function branch(text: string, value: number, threshold: number): HTMLElement {
+function branch({ name, meaning }: NumberColumn, value: number, threshold: number): HTMLElement {
   const known = Number.isFinite(value);
   const fill = h("span", { class: known && value < threshold ? "fill artifact" : "fill plausible" });
   fill.style.setProperty("width", `${known ? 100 * value : 0}%`);
@@ -124,13 +111,13 @@ function branch(text: string, value: number, threshold: number): HTMLElement {
   tick.style.setProperty("left", `${100 * threshold}%`);
   return h(
     "div",
-    { class: known ? "branch" : "branch absent" },
-    h("span", {}, text),
+    { class: known ? "branch" : "branch absent", title: meaning },
+    h("span", {}, name),
     h("span", { class: "branch-bar" }, fill, tick),
     h("b", { class: "number" }, decimal(value, 2)),
   );
 }
 
-function fact(name: string, value: string): HTMLElement[] {
-  return [h("dt", {}, name), h("dd", { class: "number" }, value)];
+function fact(name: string, value: string, meaning = ""): HTMLElement[] {
+  return [h("dt", { title: meaning }, name), h("dd", { class: "number" }, value)];
 }

@@ -14,6 +14,8 @@ export interface Key {
   readonly group: (typeof GROUPS)[number];
   readonly text: string;
   readonly run: () => void;
+  /** Whether holding it down does it again and again. What changes labels or marks is done once per press. */
+  readonly repeats?: boolean;
 }
 
 export interface KeyContext {
@@ -30,8 +32,8 @@ export function keyTable(context: KeyContext): readonly Key[] {
   return [...correct(context), ...tools(context), ...go(context), ...view(context), ...detections(context)];
 }
 
-function correct({ store, actions, cancelGesture }: KeyContext): readonly Key[] {
-  const { select, correct: correcting, view: viewing } = actions;
+function correct({ actions, cancelGesture }: KeyContext): readonly Key[] {
+  const { select, step, review, view: viewing } = actions;
   const key = (keys: readonly string[], text: string, run: () => void): Key => ({ keys, group: "Correct", text, run });
   return [
     key(["p", "1"], "Selected are plausible; with none selected: every stroke sets plausible", () =>
@@ -48,11 +50,9 @@ function correct({ store, actions, cancelGesture }: KeyContext): readonly Key[] 
       "Give up the gesture, the selection, the painting",
       () => void (cancelGesture() || select.escape()),
     ),
-    key(["ctrl+z"], "Undo", () => void correcting.undo()),
-    key(["ctrl+shift+z", "ctrl+y"], "Redo", () => void correcting.redo()),
-    key(["r"], "Mark the scan as reviewed, or take the mark back", () => {
-      void correcting.review(store.state.cloud.scans[0]?.reviewed === null);
-    }),
+    key(["ctrl+z"], "Undo: your own last stroke or mark", () => void step.undo()),
+    key(["ctrl+shift+z", "ctrl+y"], "Redo", () => void step.redo()),
+    key(["r"], "Mark the scan as reviewed, or take the mark back", () => review.toggle()),
     key(["o"], "Protect what is corrected already", () => select.toggleProtect()),
     key(["e"], "Correct this scan alone, or everything shown", () => select.toggleScope()),
   ];
@@ -65,22 +65,24 @@ function tools({ actions, closePolygon }: KeyContext): readonly Key[] {
   const names = ["Click; drag moves the view", "Box", "Lasso", "Polygon", "Brush"];
   return [
     ...TOOLS.map((tool, i) => key([letters[i]], names[i], () => select.tool(tool))),
-    key(["["], "Smaller brush", () => select.brush(-1)),
-    key(["]"], "Larger brush", () => select.brush(1)),
+    repeating(key(["d"], "Choose the next detection, from left to right", () => actions.pick.step(1))),
+    repeating(key(["shift+d"], "Choose the detection before", () => actions.pick.step(-1))),
+    repeating(key(["["], "Smaller brush", () => select.brush(-1))),
+    repeating(key(["]"], "Larger brush", () => select.brush(1))),
     key([" "], "Close the polygon", () => void closePolygon()),
   ];
 }
 
 function go({ actions }: KeyContext): readonly Key[] {
-  const { go: going, correct: correcting } = actions;
+  const { go: going, review } = actions;
   const key = (keys: readonly string[], text: string, run: () => void): Key => ({ keys, group: "Go", text, run });
   return [
     key(["n"], "To the next scan that needs a person", () => void going.nextNeedy()),
-    key(["enter"], "Mark as reviewed and go to the next needy scan", () => void correcting.reviewAndGoOn()),
-    key(["arrowright"], "To the radar's next scan", () => void going.step(1)),
-    key(["arrowleft"], "To the radar's previous scan", () => void going.step(-1)),
-    key(["arrowdown"], "To the next scan of the list", () => void going.stepInList(1)),
-    key(["arrowup"], "To the previous scan of the list", () => void going.stepInList(-1)),
+    key(["enter"], "Mark as reviewed and go to the next needy scan", () => review.accept(true)),
+    repeating(key(["arrowright"], "To the radar's next scan", () => void going.step(1))),
+    repeating(key(["arrowleft"], "To the radar's previous scan", () => void going.step(-1))),
+    repeating(key(["arrowdown"], "To the next scan of the list", () => void going.stepInList(1))),
+    repeating(key(["arrowup"], "To the previous scan of the list", () => void going.stepInList(-1))),
     key(["s"], "To the next radar at this moment", () => void going.nextRadar()),
   ];
 }
@@ -90,7 +92,7 @@ function view({ actions, home, seenCamera }: KeyContext): readonly Key[] {
   const key = (keys: readonly string[], text: string, run: () => void): Key => ({ keys, group: "View", text, run });
   return [
     key(["t"], "Bird's eye or free 3D view", () => viewing.toggleMode()),
-    key(["f"], "The whole scene", home),
+    key(["f"], "The whole scan", home),
     key(["w"], "The camera in the centre, or the scene", () => viewing.toggleCameraMode()),
     key(["q"], "Next camera", () => viewing.nextCamera(seenCamera())),
     key(["."], "Accumulate one more scan before and after", () => void going.accumulate(1)),
@@ -112,13 +114,17 @@ function detections({ store, actions }: KeyContext): readonly Key[] {
   return [
     key(["y"], "Next way of colouring", () => viewing.nextColour(1)),
     key(["shift+y"], "Previous way of colouring", () => viewing.nextColour(-1)),
-    key(["+", "="], "Larger dots", () => viewing.dots(1)),
-    key(["-"], "Smaller dots", () => viewing.dots(-1)),
+    repeating(key(["+", "="], "Larger dots", () => viewing.dots(1))),
+    repeating(key(["-"], "Smaller dots", () => viewing.dots(-1))),
     key(["shift+p"], "Show or hide plausible ones", () => viewing.filter({ plausible: !store.state.filter.plausible })),
     key(["shift+a"], "Show or hide artifacts", () => viewing.filter({ artifact: !store.state.filter.artifact })),
     key(["shift+u"], "Only uncertain ones", () => viewing.filter({ uncertain: !store.state.filter.uncertain })),
     key(["0"], "Show everything", () => viewing.showEverything()),
   ];
+}
+
+function repeating(key: Key): Key {
+  return { ...key, repeats: true };
 }
 
 /** How a pressed key is called: modifiers, then the key in lower case; a sign's shift is part of the sign. */
@@ -159,11 +165,15 @@ export function listenToKeys(table: readonly Key[], store: Store<State>): void {
     const { dialog, outbox } = store.state;
     if (dialog !== "none" || outbox.kind === "conflict" || typing(event.target)) return;
     const name = keyName(event);
-    if ((name === "enter" || name === " ") && event.target instanceof HTMLButtonElement) return;
+    if ((name === "enter" || name === " ") && event.target instanceof HTMLButtonElement) {
+      // Held down, a button would be pressed again and again.
+      if (event.repeat) event.preventDefault();
+      return;
+    }
     const key = byName.get(name);
     if (key === undefined) return;
     event.preventDefault();
-    key.run();
+    if (!event.repeat || key.repeats === true) key.run();
   });
 }
 

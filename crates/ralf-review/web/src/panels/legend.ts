@@ -3,7 +3,7 @@
 import { h } from "../dom.js";
 import type { Page } from "../page.js";
 import type { Legend } from "../viewer/colours.js";
-import { COLOUR_MODES } from "../viewer/colours.js";
+import { colourModes } from "../viewer/colours.js";
 import { CORRECTED_RGB, cssColour, type Rgb, SELECTED_RGB, UNCERTAIN_RGB, WAITING_RGB } from "../viewer/palette.js";
 
 const RIMS: readonly (readonly [string, Rgb])[] = [
@@ -15,19 +15,21 @@ const RIMS: readonly (readonly [string, Rgb])[] = [
 const STEPS = 24;
 
 export function legendPanel({ store }: Page): HTMLElement {
-  const panel = h("div", { class: "legend", "aria-label": "Legend" });
+  const panel = h("div", { class: "legend", role: "group", "aria-label": "Legend" });
   store.watch(
-    ({ painting, colour, waiting }) => [painting.legend, colour, waiting.length > 0],
+    ({ painting, colour, waiting, cloud }) => [painting.legend, colour, waiting.length > 0, cloud.scans],
     (legend, colour, unsaved) => {
-      const title = COLOUR_MODES.find(([name]) => name === colour)?.[1] ?? colour;
+      const { cloud, recording } = store.state;
+      const chosen = colourModes(cloud, recording).find(({ value }) => value === colour);
       const rims = h(
         "div",
         { class: "legend-rims" },
         ...RIMS.filter(([, rgb]) => unsaved || rgb !== WAITING_RGB).map(([name, rgb]) =>
-          entry(name, rgb, "swatch rim"),
+          entry(name, rgb, rgb === WAITING_RGB ? "swatch rim broken" : "swatch rim"),
         ),
       );
-      panel.replaceChildren(h("b", {}, title), legend.kind === "scale" ? scale(legend) : entries(legend), rims);
+      const title = h("b", { title: chosen?.meaning ?? "" }, chosen?.text ?? "Label");
+      panel.replaceChildren(title, legend.kind === "scale" ? scale(legend) : entries(legend), rims);
     },
   );
   return panel;

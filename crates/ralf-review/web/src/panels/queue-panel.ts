@@ -83,6 +83,14 @@ function said(entry: QueueScan): HTMLElement[] {
   const parts = reasons(entry).map((reason) =>
     h("span", { class: reason.includes("failed") ? "reason alarm" : "reason" }, reason),
   );
+  if (entry.orphaned > 0)
+    parts.push(
+      h(
+        "span",
+        { class: "reason alarm", title: "Corrections of other detections: kept, not applied" },
+        `${entry.orphaned} orphaned`,
+      ),
+    );
   if (entry.corrected > 0) parts.unshift(h("span", { class: "reason corrected" }, `${entry.corrected} corrected`));
   if (entry.reviewed !== null) parts.unshift(h("span", { class: "reason reviewed" }, "✓ reviewed"));
   return parts;
@@ -154,6 +162,19 @@ function head({ store, actions }: Page): HTMLElement {
   return h("header", { class: "queue-head" }, brand, sequenceList({ store, actions }), bar, text);
 }
 
+/** Whose scans are listed. */
+function radarList({ store, actions }: Page): HTMLSelectElement {
+  const radars = select("Radar", [], (value) => actions.go.viewQueue({ radar: value === "" ? null : value }));
+  store.watch(
+    ({ recording, sequence }) => [recording, sequence],
+    (recording, sequence) => {
+      const names = recording.sequences.find(({ name }) => name === sequence)?.radars.map(({ name }) => name) ?? [];
+      setOptions(radars, [{ value: "", text: "All radars" }, ...names.map((name) => ({ value: name, text: name }))]);
+    },
+  );
+  return radars;
+}
+
 function order({ store, actions }: Page): HTMLElement {
   const orders: readonly (readonly [QueueOrder, string])[] = [
     ["need", "Need"],
@@ -174,14 +195,7 @@ function order({ store, actions }: Page): HTMLElement {
     },
     "Open",
   );
-  const radars = select("Radar", [], (value) => actions.go.viewQueue({ radar: value === "" ? null : value }));
-  store.watch(
-    ({ recording, sequence }) => [recording, sequence],
-    (recording, sequence) => {
-      const names = recording.sequences.find(({ name }) => name === sequence)?.radars.map(({ name }) => name) ?? [];
-      setOptions(radars, [{ value: "", text: "All radars" }, ...names.map((name) => ({ value: name, text: name }))]);
-    },
-  );
+  const radars = radarList({ store, actions });
   store.watch(
     ({ queueView }) => [queueView],
     ({ order: now, hideReviewed, radar }) => {

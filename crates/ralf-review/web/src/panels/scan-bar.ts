@@ -1,11 +1,11 @@
 /** Over the picture: how the scene is shown, which scan it is, and the mark of review. */
 
 import type { Page } from "../page.js";
-import { h, pressed, say, select } from "../dom.js";
+import { h, pressed, say, select, setOptions } from "../dom.js";
 import { counted, decimal, secondsBetween } from "../format.js";
 import { icon, type IconName } from "../icons.js";
 import type { ViewMode } from "../state.js";
-import { COLOUR_MODES, type ColourMode } from "../viewer/colours.js";
+import { colourModes } from "../viewer/colours.js";
 
 const MODES: readonly (readonly [ViewMode, string, string])[] = [
   ["bird", "Bird's eye", "T"],
@@ -59,16 +59,19 @@ function modes({ store, actions }: Page): HTMLElement {
 }
 
 function colouring({ store, actions }: Page): HTMLElement {
-  const options = COLOUR_MODES.map(([value, text]) => ({ value, text }));
-  const list = select("Colour by (Y)", options, (value) => actions.view.colour(value as ColourMode));
+  const list = select("Colour by (Y)", [], (value) => actions.view.colour(value));
+  let listed = "";
   store.watch(
-    ({ colour, recording }) => [colour, recording],
-    (colour, recording) => {
-      list.value = colour;
-      for (const option of list.options) option.hidden = option.value === "cause" && recording.causes === null;
+    ({ colour, cloud, recording }) => [colour, cloud.scans, recording],
+    (colour) => {
+      const options = colourModes(store.state.cloud, store.state.recording);
+      const now = options.map(({ value }) => value).join();
+      if (now !== listed) setOptions(list, options);
+      listed = now;
+      list.value = options.some(({ value }) => value === colour) ? colour : "label";
     },
   );
-  return h("label", { class: "field", title: "Colour by (Y)" }, "Colour", list);
+  return h("label", { class: "field", title: "Colour by (Y)" }, h("span", { class: "field-name" }, "Colour"), list);
 }
 
 function accumulation({ store, actions }: Page): HTMLElement {
@@ -92,7 +95,7 @@ function accumulation({ store, actions }: Page): HTMLElement {
   return h(
     "div",
     { class: "field stepper", role: "group", "aria-label": "Accumulated scans before and after" },
-    "Scans",
+    h("span", { class: "field-name" }, "Scans"),
     button("−", "Accumulate fewer (,)", -1),
     value,
     button("+", "Accumulate more (.)", 1),
@@ -123,7 +126,7 @@ function review({ store, actions }: Page): HTMLElement {
       type: "button",
       title: "Mark as reviewed (R); with Enter, go on to the next",
       on: {
-        click: () => void actions.correct.review(store.state.cloud.scans[0]?.reviewed === null),
+        click: () => actions.review.toggle(),
       },
     },
     icon("check"),

@@ -6,23 +6,13 @@ import type { Page } from "../page.js";
 import { countOf } from "../selection/mask.js";
 import type { State } from "../state.js";
 
-export function statusBar({ store, actions }: Page): HTMLElement {
+export function statusBar(page: Page): HTMLElement {
+  const parts = [saving(page), author(page), history(page), work(page), announced(page), cursor(page), frame(page)];
+  return h("footer", { class: "status-bar" }, ...parts, help(page));
+}
+
+function saving({ store }: Page): HTMLElement {
   const saved = h("span", { class: "saved", role: "status", "aria-live": "polite" });
-  const work = h("span", { class: "work" });
-  const history = h("span", { class: "number" });
-  const cursor = h("span", { class: "number cursor" });
-  const frame = h("span", { class: "number faint frame", title: "JavaScript time of the last drawn frame" });
-  const author = h("span", { title: "Author of corrections" });
-  const help = h(
-    "button",
-    { class: "link", type: "button", on: { click: () => actions.view.dialog("help") } },
-    "All keys ",
-    h("kbd", {}, "?"),
-  );
-  store.watch(
-    ({ recording }) => [recording],
-    (recording) => say(author, recording.author),
-  );
   store.watch(
     ({ outbox, waiting, busy, history: past, connected }) => [outbox, waiting, busy, past, connected],
     () => {
@@ -31,23 +21,76 @@ export function statusBar({ store, actions }: Page): HTMLElement {
       saved.className = `saved ${look}`;
     },
   );
+  return saved;
+}
+
+function author({ store, actions }: Page): HTMLElement {
+  const name = h("button", {
+    class: "link",
+    type: "button",
+    title: "What you are called (change)",
+    on: { click: () => actions.view.dialog("name") },
+  });
+  store.watch(
+    ({ name: now }) => [now],
+    (now) => say(name, now),
+  );
+  return name;
+}
+
+function history({ store }: Page): HTMLElement {
+  const depths = h("span", { class: "number" });
   store.watch(
     ({ history: past }) => [past],
-    (past) => say(history, `undo ${past.undo_depth} · redo ${past.redo_depth}`),
+    (past) => say(depths, `undo ${past.undo_depth} · redo ${past.redo_depth}`),
   );
+  return depths;
+}
+
+function work({ store }: Page): HTMLElement {
+  const text = h("span", { class: "work" });
   store.watch(
     ({ selection, armed, tool }) => [selection, armed, tool],
-    () => say(work, workText(store.state)),
+    () => say(text, workText(store.state)),
   );
+  return text;
+}
+
+/** For those who hear the page. */
+function announced({ store }: Page): HTMLElement {
+  const text = h("span", { class: "unseen", role: "status", "aria-live": "polite" });
   store.watch(
-    ({ cursor: place }) => [place],
-    (place) => say(cursor, place === null ? "" : `x ${decimal(place[0], 1)} m  y ${decimal(place[1], 1)} m`),
+    ({ announced: now }) => [now],
+    (now) => say(text, now),
   );
+  return text;
+}
+
+function cursor({ store }: Page): HTMLElement {
+  const place = h("span", { class: "number cursor" });
+  store.watch(
+    ({ cursor: at }) => [at],
+    (at) => say(place, at === null ? "" : `x ${decimal(at[0], 1)} m  y ${decimal(at[1], 1)} m`),
+  );
+  return place;
+}
+
+function frame({ store }: Page): HTMLElement {
+  const time = h("span", { class: "number faint frame", title: "JavaScript time of the last drawn frame" });
   store.watch(
     ({ frameTime }) => [frameTime],
-    (time) => say(frame, `${decimal(time, 1)} ms/frame`),
+    (now) => say(time, `${decimal(now, 1)} ms/frame`),
   );
-  return h("footer", { class: "status-bar" }, saved, author, history, work, cursor, frame, help);
+  return time;
+}
+
+function help({ actions }: Page): HTMLElement {
+  return h(
+    "button",
+    { class: "link", type: "button", on: { click: () => actions.view.dialog("help") } },
+    "All keys ",
+    h("kbd", {}, "?"),
+  );
 }
 
 /** What the state of saving is, in a word; "saved" only when nothing waits. */
@@ -56,7 +99,9 @@ export function savedState({
   waiting,
   busy,
   connected,
+  recording,
 }: Readonly<State>): readonly [text: string, look: string] {
+  if (recording.read_only !== null) return ["read-only", "pending"];
   if (outbox.kind === "conflict") return ["conflict", "alarm"];
   if (outbox.kind === "gone" || outbox.kind === "refused")
     return [`${counted(waiting.length, "stroke")} not saved`, "alarm"];

@@ -42,22 +42,26 @@ function toolGroup({ store, actions }: Page): HTMLElement {
   return group("Tools", ...buttons);
 }
 
-function labelGroup({ store, actions }: Page): HTMLElement {
-  const chip = (choice: Choice, text: string, key: string, look: string): HTMLButtonElement =>
-    h(
-      "button",
-      {
-        class: `chip ${look}`,
-        type: "button",
-        title: `${text} (${key}): sets the selected; with none selected, every stroke`,
-        on: { click: () => actions.select.choose(choice) },
-      },
-      h("span", { class: "dot" }),
-      text,
-      h("kbd", {}, key),
-    );
-  const plausible = chip(PLAUSIBLE, "Plausible", "P", "plausible");
-  const artifact = chip(ARTIFACT, "Artifact", "A", "artifact");
+/** A button that sets a label. */
+function labelChip({ actions }: Page, choice: Choice, text: string, key: string, look: string): HTMLButtonElement {
+  return h(
+    "button",
+    {
+      class: `chip ${look}`,
+      type: "button",
+      title: `${text} (${key}): sets the selected; with none selected, every stroke`,
+      on: { click: () => actions.select.choose(choice) },
+    },
+    h("span", { class: "dot" }),
+    text,
+    h("kbd", {}, key),
+  );
+}
+
+function labelGroup(page: Page): HTMLElement {
+  const { store, actions } = page;
+  const plausible = labelChip(page, PLAUSIBLE, "Plausible", "P", "plausible");
+  const artifact = labelChip(page, ARTIFACT, "Artifact", "A", "artifact");
   const className = h("span", {}, "Class…");
   const classes = h(
     "button",
@@ -71,7 +75,7 @@ function labelGroup({ store, actions }: Page): HTMLElement {
     className,
     h("kbd", {}, "C"),
   );
-  const machine = chip(null, "Machine", "M", "machine");
+  const machine = labelChip(page, null, "Machine", "M", "machine");
   store.watch(
     ({ armed, labels }) => [armed, labels],
     (armed, labels) => {
@@ -112,15 +116,19 @@ function selectionGroup({ store, actions }: Page): HTMLElement {
 }
 
 function historyGroup({ store, actions }: Page): HTMLElement {
-  const undo = iconButton("undo", "Undo (Ctrl+Z)", () => void actions.correct.undo());
-  const redo = iconButton("redo", "Redo (Ctrl+Shift+Z)", () => void actions.correct.redo());
+  const undo = iconButton("undo", "Undo (Ctrl+Z)", () => void actions.step.undo());
+  const redo = iconButton("redo", "Redo (Ctrl+Shift+Z)", () => void actions.step.redo());
   store.watch(
     ({ history, labels }) => [history, labels],
     (history, labels) => {
       undo.disabled = history.undo === null;
       redo.disabled = history.redo === null;
-      const told = (past: typeof history.undo): string =>
-        past === null ? "" : `: ${past.tool}, ${past.changed} to ${labels.choiceName(past.label)}`;
+      const told = (past: typeof history.undo): string => {
+        if (past === null) return "";
+        if (past.tool === "reviewed") return ": the mark of review";
+        if (past.tool === "unreviewed") return ": that a mark of review was taken away";
+        return `: ${past.tool}, ${past.changed} to ${labels.choiceName(past.label)}`;
+      };
       undo.title = `Undo (Ctrl+Z)${told(history.undo)}`;
       redo.title = `Redo (Ctrl+Shift+Z)${told(history.redo)}`;
     },

@@ -43,13 +43,10 @@ export function reasons({ uncertain, disagreeing, cameras_failed: failed }: Queu
   return said;
 }
 
-export function withCorrectionCounts(
-  scans: readonly QueueScan[],
-  answered: readonly ScanCorrections[],
-): readonly QueueScan[] {
+export function withAnswers(scans: readonly QueueScan[], answered: readonly ScanCorrections[]): readonly QueueScan[] {
   return scans.map((entry) => {
     const answer = answered.find((other) => sameScan(other, entry));
-    return answer === undefined ? entry : { ...entry, corrected: answer.corrections.length };
+    return answer === undefined ? entry : { ...entry, corrected: answer.corrections.length, reviewed: answer.reviewed };
   });
 }
 
@@ -57,11 +54,12 @@ export function withReviewed(scans: readonly QueueScan[], id: ScanId, reviewed: 
   return scans.map((entry) => (sameScan(entry, id) ? { ...entry, reviewed } : entry));
 }
 
-export function progressOf(scans: readonly QueueScan[]): Progress {
+export function progressOf(scans: readonly QueueScan[], before: Progress): Progress {
   return {
     scans: scans.length,
     reviewed: scans.filter(({ reviewed }) => reviewed !== null).length,
     corrected_detections: scans.reduce((sum, { corrected }) => sum + corrected, 0),
+    orphaned_scans: before.orphaned_scans,
   };
 }
 

@@ -1,7 +1,7 @@
 /** What a detection's colour says, and the legend to it. */
 
 import type { Recording } from "../api/types.js";
-import { gather, type Cloud } from "../data/cloud.js";
+import { columnsOf, gather, type Cloud } from "../data/cloud.js";
 import type { LabelBook, Truth } from "../data/labels.js";
 import {
   ABSENT_RGB,
@@ -14,23 +14,33 @@ import {
   viridis,
 } from "./palette.js";
 
-export const COLOUR_MODES = [
-  ["label", "Label"],
-  ["class", "Class"],
-  ["w", "Plausibility w"],
-  ["w_lm", "w LiDAR"],
-  ["w_cm", "w camera"],
-  ["w_opt", "w optical"],
-  ["w_tr", "w tracking"],
-  ["doppler", "Doppler"],
-  ["power", "Power"],
-  ["cause", "Cause"],
-  ["radar", "Radar"],
-  ["height", "Height"],
-  ["age", "Time"],
-] as const;
+/** `label`, `class` and so on; or a column of the result, by its name behind this. */
+export type ColourMode = string;
+const COLUMN = "column ";
 
-export type ColourMode = (typeof COLOUR_MODES)[number][0];
+export interface ColourOption {
+  readonly value: ColourMode;
+  readonly text: string;
+  readonly meaning: string;
+}
+
+/** What detections can be coloured by: everything that the server tells a number of. */
+export function colourModes(cloud: Cloud, { causes }: Pick<Recording, "causes">): readonly ColourOption[] {
+  const option = (value: ColourMode, text: string, meaning = ""): ColourOption => ({ value, text, meaning });
+  const columns = columnsOf(cloud)
+    .filter(({ group }) => group !== "place")
+    .map(({ name, meaning }) => option(`${COLUMN}${name}`, name, meaning));
+  const cause = causes === null ? [] : [option("cause", "Cause")];
+  return [
+    option("label", "Label"),
+    option("class", "Class"),
+    ...columns,
+    ...cause,
+    option("radar", "Radar"),
+    option("height", "Height"),
+    option("age", "Time"),
+  ];
+}
 
 export type Legend =
   | { readonly kind: "categories"; readonly entries: readonly (readonly [name: string, colour: Rgb])[] }
@@ -54,16 +64,8 @@ const TRUTH_COLOURS: Readonly<Record<Truth, Rgb>> = {
   unlabelled: UNLABELLED_RGB,
 };
 
-/** Names under which the strength of the echo comes, and its unit. */
-const POWER_FIELDS: readonly (readonly [name: string, unit: string])[] = [
-  ["power", "dB"],
-  ["rcs", "dBsm"],
-  ["snr", "dB"],
-  ["RCS", "dBsm"],
-];
-const DOPPLER_FIELDS = ["doppler_compensated", "doppler"] as const;
-/** Doppler velocities beyond this have the map's ends, m/s. */
-const DOPPLER_END = 10;
+/** Velocities beyond this have the map's ends, m/s. */
+const VELOCITY_END = 10;
 
 export function truthColour(truth: Truth): Rgb {
   return TRUTH_COLOURS[truth];
@@ -79,10 +81,6 @@ export function paint(cloud: Cloud, mode: ColourMode, labels: LabelBook, recordi
       return paintCauses(cloud, recording.causes ?? []);
     case "radar":
       return paintRadars(cloud);
-    case "doppler":
-      return paintScale(firstKnown(cloud, DOPPLER_FIELDS), -DOPPLER_END, DOPPLER_END, "m/s", diverging);
-    case "power":
-      return paintPower(cloud);
     case "height":
       return paintScale(
         cloud.positions.filter((_, i) => i % 3 === 2),
@@ -94,7 +92,7 @@ export function paint(cloud: Cloud, mode: ColourMode, labels: LabelBook, recordi
     case "age":
       return paintAge(cloud);
     default:
-      return paintScale(gather(cloud, mode), 0, 1, "", viridis);
+      return mode.startsWith(COLUMN) ? paintColumn(cloud, mode.slice(COLUMN.length)) : paintLabels(cloud, labels);
   }
 }
 
@@ -139,15 +137,17 @@ function paintRadars(cloud: Cloud): Painting {
   return { colours: paintEach(cloud.count, (i) => ofScan[cloud.scanOf[i]]), legend: { kind: "categories", entries } };
 }
 
-function paintPower(cloud: Cloud): Painting {
-  const known =
-    POWER_FIELDS.find(([name]) => cloud.scans.some(({ table }) => table.columns.has(name))) ?? POWER_FIELDS[0];
-  const values = gather(cloud, known[0]);
+/** A column as its kind wants it: shares from 0 to 1, velocities around 0, anything else over most of its values. */
+function paintColumn(cloud: Cloud, name: string): Painting {
+  const values = gather(cloud, name);
+  const info = columnsOf(cloud).find((column) => column.name === name);
+  if (info?.group === "plausibility") return paintScale(values, 0, 1, info.unit, viridis);
+  if (info?.unit === "m/s") return paintScale(values, -VELOCITY_END, VELOCITY_END, info.unit, diverging);
   const sorted = values.filter((value) => !Number.isNaN(value)).sort();
-  // Some echoes are far stronger than the rest; the map spans nine tenths of them.
+  // Some values are far larger than the rest; the map spans nine tenths of them.
   const at = (share: number): number => sorted[Math.floor(share * (sorted.length - 1))] ?? 0;
   const least = Math.floor(at(0.05));
-  return paintScale(values, least, Math.max(Math.ceil(at(0.95)), least + 1), known[1], viridis);
+  return paintScale(values, least, Math.max(Math.ceil(at(0.95)), least + 1), info?.unit ?? "", viridis);
 }
 
 function paintAge(cloud: Cloud): Painting {
@@ -170,9 +170,4 @@ function paintScale(
     colours: paintEach(values.length, (i) => colour(values[i])),
     legend: { kind: "scale", least, most, unit, map },
   };
-}
-
-function firstKnown(cloud: Cloud, names: readonly string[]): Float32Array {
-  const name = names.find((field) => cloud.scans.some(({ table }) => table.columns.has(field)));
-  return gather(cloud, name ?? names[0]);
 }

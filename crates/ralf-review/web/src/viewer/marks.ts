@@ -1,7 +1,7 @@
 /** How a detection stands out: the rim of its dot. */
 
 import { type Cloud, gather } from "../data/cloud.js";
-import { isUncertain } from "../data/filter.js";
+import { type Certainty, isUncertain } from "../data/filter.js";
 
 export type Marks = Uint8Array;
 
@@ -17,15 +17,15 @@ export function marksOf(
     /** Those of strokes that aren't saved yet. */
     readonly waiting: Uint8Array;
   },
-  threshold: number,
+  certainty: Certainty,
 ): Marks {
-  const score = gather(cloud, "w");
+  const [score, flags] = [gather(cloud, "w"), gather(cloud, "flags")];
   return new Uint8Array(cloud.count).map((_, i) => {
     if (masks.shown[i] === 0) return Mark.hidden;
     if (masks.selection[i] === 1) return Mark.selected;
     if (masks.waiting[i] === 1) return Mark.waiting;
     if (masks.eligible[i] === 0) return Mark.context;
     if (cloud.corrected[i] === 1) return Mark.corrected;
-    return isUncertain(score[i], threshold) ? Mark.uncertain : Mark.plain;
+    return isUncertain(score[i], flags[i], certainty) ? Mark.uncertain : Mark.plain;
   });
 }

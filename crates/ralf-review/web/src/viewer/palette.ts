@@ -1,6 +1,6 @@
 /**
- * The colours. Labels have Okabe and Ito's blue and vermilion, as in `ralf plot`, lightened for a dark ground; they can be
- * told apart with any colour vision. Quantities have viridis; the Doppler velocity has a map with two ends.
+ * The colours. Labels have Okabe and Ito's blue and vermilion, as in `ralf plot`, lightened for a dark ground; they
+ * can be told apart with any colour vision. Quantities have viridis; the Doppler velocity has a map with two ends.
  */
 
 export type Rgb = readonly [red: number, green: number, blue: number];
@@ -11,7 +11,7 @@ export const UNLABELLED_RGB: Rgb = [139, 150, 165];
 export const UNCERTAIN_RGB: Rgb = [240, 228, 66];
 export const CORRECTED_RGB: Rgb = [255, 255, 255];
 export const SELECTED_RGB: Rgb = [94, 234, 166];
-export const WAITING_RGB: Rgb = [204, 121, 167];
+export const WAITING_RGB: Rgb = [255, 158, 212];
 export const ABSENT_RGB: Rgb = [96, 105, 119];
 
 /** Okabe and Ito's eight without black, for categories. */

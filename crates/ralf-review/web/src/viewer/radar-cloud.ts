@@ -20,7 +20,8 @@ void main() {
   vMark = mark;
   bool selected = mark == ${Mark.selected}.0;
   bool context = mark == ${Mark.context}.0;
-  vSize = size * nearness * (selected ? 1.3 : context ? 0.72 : 1.0);
+  bool waiting = mark == ${Mark.waiting}.0;
+  vSize = size * nearness * (selected || waiting ? 1.3 : context ? 0.72 : 1.0);
   gl_PointSize = vSize;
   gl_Position = projectionMatrix * place;
   if (mark == ${Mark.hidden}.0) gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
@@ -40,7 +41,13 @@ void main() {
   if (vMark == ${Mark.uncertain}.0) edge = ${glsl(UNCERTAIN_RGB)};
   if (vMark == ${Mark.corrected}.0) edge = ${glsl(CORRECTED_RGB)};
   if (vMark == ${Mark.selected}.0) { edge = ${glsl(SELECTED_RGB)}; rim *= 1.3; }
-  if (vMark == ${Mark.waiting}.0) { edge = ${glsl(WAITING_RGB)}; rim *= 1.2; }
+  if (vMark == ${Mark.waiting}.0) {
+    // A broken rim: told by its shape, whatever colours one sees.
+    vec2 place = gl_PointCoord - 0.5;
+    bool gap = fract(atan(place.y, place.x) * ${(6 / (2 * Math.PI)).toFixed(4)}) < 0.45;
+    edge = gap ? vec3(0.04) : ${glsl(WAITING_RGB)};
+    rim *= 1.7;
+  }
   vec3 colour = mix(vTint, edge, smoothstep(outer - rim - 0.6, outer - rim + 0.4, radius));
   float alpha = clamp(outer + 0.5 - radius, 0.0, 1.0) * (vMark == ${Mark.context}.0 ? 0.42 : 1.0);
   gl_FragColor = vec4(colour, alpha);

@@ -1,6 +1,6 @@
 /**
- * Where one looks from. Bird's eye and free view share the place looked at and how much of it is seen, so that switching
- * between them keeps one's bearings. Vehicle frame: x forward (up on screen), y left, z up.
+ * Where one looks from. Bird's eye and free view share the place looked at and how much of it is seen, so that
+ * switching between them keeps one's bearings. Vehicle frame: x forward (up on screen), y left, z up.
  */
 
 export interface Rig {
@@ -16,11 +16,25 @@ export interface Rig {
 
 export const FIELD_OF_VIEW = (45 * Math.PI) / 180;
 const LEAST_SPAN = 4;
-const MOST_SPAN = 800;
+const MOST_SPAN = 2000;
 const LEAST_PITCH = 0.02;
 const MOST_PITCH = Math.PI / 2 - 0.01;
 
 export const HOME: Rig = { target: [0, 0, 0], span: 100, yaw: 0, pitch: 0.55 };
+
+/**
+ * Home, or as much farther away as it takes to have all places (x, y, z, x, y, z, ..., m) in a picture of this size.
+ */
+export function around(positions: Float32Array, [width, height]: readonly [number, number]): Rig {
+  let [forward, left] = [0, 0];
+  for (let i = 0; i < positions.length; i += 3) {
+    if (Number.isNaN(positions[i])) continue;
+    forward = Math.max(forward, Math.abs(positions[i]));
+    left = Math.max(left, Math.abs(positions[i + 1]));
+  }
+  const span = 2.1 * Math.max(forward, (left * height) / width);
+  return { ...HOME, span: clamp(span, HOME.span, MOST_SPAN) };
+}
 
 export function zoomed(rig: Rig, factor: number, anchor: readonly [number, number] | null): Rig {
   const span = clamp(rig.span * factor, LEAST_SPAN, MOST_SPAN);

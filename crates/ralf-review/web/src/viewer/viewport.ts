@@ -2,14 +2,16 @@
 
 import { maskOf } from "../data/cloud.js";
 import { h } from "../dom.js";
+import { pointsOf } from "../history/outbox.js";
 import type { Page } from "../page.js";
 import type { Point } from "../selection/geometry.js";
 import { Surface } from "../selection/surface.js";
 import type { Gesture } from "../selection/tools.js";
 import { cleared, drawBrushCursor, drawGesture, drawHover } from "./drawing.js";
+import { certaintyOf } from "../data/filter.js";
 import { marksOf } from "./marks.js";
 import { navigate } from "./navigate.js";
-import { HOME, panned, type Rig } from "./rig.js";
+import { around, panned, type Rig } from "./rig.js";
 import { drawAxes, drawRingLabels, drawScaleBar } from "./scale.js";
 import { SceneView } from "./scene.js";
 
@@ -52,18 +54,23 @@ export class Viewport {
       (rig) => this.aim(rig),
     );
     new ResizeObserver(() => this.resize()).observe(this.element);
-    this.watch();
+    this.watchScene();
+    this.watchLooks();
   }
 
+  /** Shows the whole scan. */
   home(): void {
-    this.aim(HOME);
+    const { cloud } = this.page.store.state;
+    const rows = cloud.scans[0]?.table.rows ?? 0;
+    this.aim(around(cloud.positions.subarray(0, 3 * rows), this.view.size));
   }
 
   private get above(): boolean {
     return this.page.store.state.mode !== "free";
   }
 
-  private watch(): void {
+  /** What is in the scene. */
+  private watchScene(): void {
     const { store } = this.page;
     const { view } = this;
     store.watch(
@@ -88,14 +95,19 @@ export class Viewport {
       ({ cloud, shown, eligible, selection, waiting: strokes }) => [cloud, shown, eligible, selection, strokes],
       (cloud, shown, eligible, selection, strokes) => {
         if (shown.length !== cloud.count || selection.length !== cloud.count) return;
-        const waiting = maskOf(
-          cloud,
-          strokes.flatMap(({ stroke }) => stroke.points),
+        const waiting = maskOf(cloud, pointsOf(strokes));
+        view.radar.setMarks(
+          marksOf(cloud, { shown, eligible, selection, waiting }, certaintyOf(store.state.recording)),
         );
-        view.radar.setMarks(marksOf(cloud, { shown, eligible, selection, waiting }, store.state.recording.threshold));
         this.changed();
       },
     );
+  }
+
+  /** How the scene is looked at, and what lies over it. */
+  private watchLooks(): void {
+    const { store } = this.page;
+    const { view } = this;
     store.watch(
       ({ lidarShown, groundHidden, dotSize, mode, lidar }) => [lidarShown, groundHidden, dotSize, mode, lidar],
       (lidarShown, groundHidden, dotSize) => {
@@ -109,6 +121,18 @@ export class Viewport {
       ({ hover, tool }) => [hover, tool],
       () => this.drawOverlay(),
     );
+    store.watch(
+      ({ picked, announced }) => [picked, announced],
+      (picked) => this.bringIntoView(picked),
+    );
+  }
+
+  /** Moves the picture so that a detection is in it. */
+  private bringIntoView(index: number): void {
+    const { positions, count } = this.page.store.state.cloud;
+    if (index < 0 || index >= count || !Number.isNaN(this.placed()[2 * index])) return;
+    const { rig } = this.view;
+    this.aim({ ...rig, target: [positions[3 * index], positions[3 * index + 1], rig.target[2]] });
   }
 
   private changed(): void {
@@ -148,7 +172,8 @@ export class Viewport {
     const [width, height] = this.view.size;
     const context = cleared(this.overlay, width, height);
     if (context === null) return;
-    const { hover, dotSize, tool, brush } = this.page.store.state;
+    const { hover, dotSize, tool, brush, mode, cloud, shown } = this.page.store.state;
+    if (mode !== "camera" && shown.length === cloud.count) this.page.actions.review.saw(this.placed());
     drawRingLabels(context, (positions) => this.view.project(positions));
     if (this.above) {
       drawScaleBar(context, this.view.rig.span / height, width, height);

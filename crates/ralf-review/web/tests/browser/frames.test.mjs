@@ -1,4 +1,5 @@
-// 200,000 LiDAR points and twenty radar scans: drawn only when something changes, and what JavaScript a frame costs then.
+// 200,000 LiDAR points and twenty radar scans: drawn only when something changes, and what JavaScript a frame costs
+// then.
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { clean, freshOut, launch, open, serve } from "./support.mjs";

@@ -2,6 +2,8 @@
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
 import {
+  accept,
+  anotherBrowser,
   clean,
   current,
   drag,
@@ -152,6 +154,7 @@ test("killed without warning, the server loses nothing: strokes wait in the page
   await click(first, "a");
   await says(page.locator(".status-bar"), "undo 1");
   await page.keyboard.press("r");
+  if (await page.locator(".accept").isVisible()) await page.keyboard.press("r");
   await says(page.locator(".review"), "Reviewed by ada");
   await says(status(page), "saved");
   await server.kill("SIGKILL");
@@ -159,19 +162,20 @@ test("killed without warning, the server loses nothing: strokes wait in the page
   await says(status(page), "1 stroke not saved");
   await says(page.locator(".banner"), "does not answer");
   const back = await serve(context, out, { port: server.port });
-  await says(page.locator(".status-bar"), "undo 2");
+  await says(page.locator(".status-bar"), "undo 3");
   await says(status(page), "saved");
   await page.locator(".banner").waitFor({ state: "hidden" });
   const now = await scanOf(back, id);
   assert.deepEqual([now.corrected[first], now.corrected[second], now.label[first], now.label[second]], [1, 1, 1, 1]);
   assert.equal(now.header.reviewed.author, "ada");
-  assert.equal((await historyOf(back)).undo_depth, 2);
+  assert.equal((await historyOf(back, page)).undo_depth, 3);
   clean(tab, GONE);
 });
 
 test("two tabs on one scan: the second is told, sees the newer state, and decides", async (context) => {
   const server = await serve(context, await freshOut(context));
-  const [early, late] = [await open(context, browser, server), await open(context, browser, server)];
+  const own = await anotherBrowser(context, browser);
+  const [early, late] = [await open(context, browser, server, own), await open(context, browser, server, own)];
   // The late tab doesn't hear of changes in time.
   await late.page.route("**/changes*", () => undefined);
   await late.page.reload();
@@ -220,7 +224,7 @@ test("every planted error is corrected by mouse and keyboard alone, and exports 
   for (let seen = 1; seen <= scans.length; seen += 1) {
     await correctPlanted(server, page);
     const here = page.url();
-    await page.keyboard.press("Enter");
+    await accept(page);
     await says(page.locator(".queue-head"), `${seen} of ${scans.length}`);
     if (seen === scans.length) break;
     await page.waitForFunction((address) => location.href !== address, here);
@@ -241,7 +245,7 @@ async function correctPlanted(server, page) {
   const id = await current(page);
   const table = await scanOf(server, id);
   for (const { point, label } of planted.filter(({ radar, scan }) => radar === id.radar && scan === id.scan)) {
-    const depth = (await historyOf(server)).undo_depth;
+    const depth = (await historyOf(server, page)).undo_depth;
     await page.mouse.click(...(await pixel(page, table.x[point], table.y[point])));
     assert.equal(await selected(page), 1);
     await page.keyboard.press(label === 1 ? "a" : "p");

@@ -40,6 +40,7 @@ export async function freshOut(context) {
 export async function serve(context, out, { author = "ada", port = 0 } = {}) {
   const child = spawn(RALF_PROGRAM, ["review", RALF_DATASET, out, "--port", String(port), "--author", author], {
     stdio: ["ignore", "pipe", "inherit"],
+    env: { ...process.env, XDG_STATE_HOME: join(out, "..", "state") },
   });
   const kill = async (signal = "SIGKILL") => {
     if (child.exitCode !== null || child.signalCode !== null) return;
@@ -50,13 +51,20 @@ export async function serve(context, out, { author = "ada", port = 0 } = {}) {
   const lines = createInterface({ input: child.stdout });
   const [line] = await once(lines, "line");
   const url = line.match(/http:\/\/\S+/)[0];
-  return { url, port: Number(new URL(url).port), kill };
+  const address = new URL(url);
+  return { url, port: Number(address.port), token: address.searchParams.get("token"), kill };
+}
+
+/** A browser of its own: another person. */
+export async function anotherBrowser(context, browser, viewport = { width: 1600, height: 1000 }) {
+  const own = await browser.newContext({ viewport });
+  context.after(() => own.close());
+  return own;
 }
 
 /** A page on the server; `complaints` are console errors, `strangers` are requests to anywhere else. */
-export async function open(context, browser, server) {
-  const page = await (await browser.newContext({ viewport: { width: 1600, height: 1000 } })).newPage();
-  context.after(() => page.context().close());
+export async function open(context, browser, server, own) {
+  const page = await (own ?? (await anotherBrowser(context, browser))).newPage();
   const told = { page, complaints: [], strangers: [] };
   const { origin } = new URL(server.url);
   page.on("console", (message) => {
@@ -87,8 +95,10 @@ export function clean({ complaints, strangers }, expected = /$^/) {
   assert.deepEqual(strangers, []);
 }
 
-export async function ask(server, path) {
-  const answer = await fetch(new URL(`/api/${path}`, server.url));
+/** Asks the server, as anybody or as the person in a page's browser. */
+export async function ask(server, path, author = null) {
+  const headers = { Authorization: `Bearer ${server.token}`, ...(author === null ? {} : { "X-Ralf-Author": author }) };
+  const answer = await fetch(new URL(`/api/${path}`, server.url), { headers });
   assert.equal(answer.status, 200, path);
   return answer;
 }
@@ -134,8 +144,16 @@ export async function scanOf(server, { radar, scan }) {
   return { header, ...Object.fromEntries(columns) };
 }
 
-export async function historyOf(server) {
-  return (await ask(server, `sequences/${await sequenceOf(server)}/history`)).json();
+/** What the person in a page's browser can undo and redo. */
+export async function historyOf(server, page) {
+  const author = await page.evaluate(() => localStorage.getItem("ralf-author"));
+  return (await ask(server, `sequences/${await sequenceOf(server)}/history`, author)).json();
+}
+
+/** Presses Enter until the scan is accepted: detections that were never on screen are asked for first. */
+export async function accept(page) {
+  await page.keyboard.press("Enter");
+  if (await page.locator(".accept").isVisible()) await page.keyboard.press("Enter");
 }
 
 export async function queueOf(server) {
@@ -188,4 +206,12 @@ export async function says(locator, text) {
 export async function selected(page) {
   const text = await page.locator(".work").textContent();
   return Number(text.match(/^([\d,]+) detections? selected/)?.[1].replace(",", "") ?? 0);
+}
+
+/** Labels the recording again, with another setting. */
+export function relabel(out, setting) {
+  const ran = spawnSync(RALF_PROGRAM, ["label", RALF_DATASET, "-o", out, "--set", setting, "--quiet"], {
+    encoding: "utf8",
+  });
+  assert.equal(ran.status, 0, ran.stderr);
 }

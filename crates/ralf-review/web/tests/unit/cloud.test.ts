@@ -1,9 +1,10 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { buildCloud, columnOf, gather, maskOf, pointOf, pointsByScan, withScans } from "../../src/data/cloud.js";
-import { everything, hides, visible } from "../../src/data/filter.js";
+import { certaintyOf, everything, hides, isUncertain, visible } from "../../src/data/filter.js";
 import { LabelBook } from "../../src/data/labels.js";
 import { withCorrections } from "../../src/data/scan.js";
+import { Sight } from "../../src/data/sight.js";
 import { compose, IDENTITY, inverse } from "../../src/data/transform.js";
 import { made } from "./scans.js";
 
@@ -56,10 +57,10 @@ test("detections keep the names under which the server knows them", () => {
 
 test("a correction sets its detection alone, and its end gives the machine's label back", () => {
   const scan = made("front", 0, { x: [1, 2], machine: [99, 99] });
-  const after = withCorrections(scan, { radar: "front", scan: 0, revision: 1, corrections: [[1, 10]] });
+  const after = withCorrections(scan, { radar: "front", scan: 0, revision: 1, corrections: [[1, 10]], reviewed: null });
   assert.ok(after !== null);
   assert.deepEqual([[...after.label], [...after.corrected], after.revision], [[99, 10], [0, 1], 1]);
-  const back = withCorrections(after, { radar: "front", scan: 0, revision: 2, corrections: [] });
+  const back = withCorrections(after, { radar: "front", scan: 0, revision: 2, corrections: [], reviewed: null });
   assert.deepEqual(
     [[...(back?.label ?? [])], [...(back?.corrected ?? [])]],
     [
@@ -73,7 +74,10 @@ test("a correction sets its detection alone, and its end gives the machine's lab
 
 test("what a scan was accepted with is the server's to say", () => {
   const scan = made("front", 0, { x: [1], corrected: [1], reviewed: true });
-  assert.equal(withCorrections(scan, { radar: "front", scan: 0, revision: 2, corrections: [] }), null);
+  const now = { radar: "front", scan: 0, revision: 2, corrections: [] };
+  assert.equal(withCorrections(scan, { ...now, reviewed: scan.reviewed }), null);
+  // A mark that was taken away, by undo or by somebody else.
+  assert.equal(withCorrections(scan, { ...now, corrections: [[0, 99]], reviewed: null }), null);
 });
 
 test("every filter lets through what it says", () => {
@@ -81,7 +85,7 @@ test("every filter lets through what it says", () => {
     made("front", 0, { x: [1, 20, 60], w: [0.95, 0.55, Number.NaN], machine: [99, 1, 99], corrected: [1, 0, 0] }),
   ]);
   const shown = (filter: Partial<typeof everything>): number[] => [
-    ...visible(cloud, { ...everything, ...filter }, labels, 0.5),
+    ...visible(cloud, { ...everything, ...filter }, labels, { threshold: 0.5, decided: 1 }),
   ];
   assert.deepEqual(shown({}), [1, 1, 1]);
   assert.deepEqual(shown({ artifact: false }), [1, 0, 1]);
@@ -98,4 +102,32 @@ test("every filter lets through what it says", () => {
       hides({ ...everything, range: [0, 30] }) &&
       hides({ ...everything, hiddenRadars: new Set(["front"]) }),
   );
+});
+
+test("a floor detection is decided, however near its score is to the threshold", () => {
+  const certainty = certaintyOf({
+    threshold: 0.5,
+    flags: [
+      { bit: 1, name: "ground", decided: true },
+      { bit: 2, name: "blind spot", decided: false },
+    ],
+  });
+  assert.deepEqual(
+    [0, 1, 2, 3].map((flags) => isUncertain(0.45, flags, certainty)),
+    [true, false, true, false],
+  );
+  assert.ok(!isUncertain(0.7, 0, certainty));
+});
+
+test("what was never on screen is counted until it was, and another scan begins unseen", () => {
+  const cloud = buildCloud([made("front", 0, { x: [1, 2, 3, Number.NaN] }), made("rear", 0, { x: [9] })]);
+  const sight = new Sight();
+  const [all, places] = [new Uint8Array([1, 1, 1, 1, 1]), (seen: readonly number[]) => new Float32Array(seen)];
+  assert.deepEqual(sight.unseen(cloud, all), { all: 3, hidden: 0 });
+  sight.saw(cloud, new Uint8Array([1, 0, 1, 1, 1]), places([5, 5, 6, 6, NaN, NaN, NaN, NaN, 1, 1]));
+  assert.deepEqual(sight.unseen(cloud, new Uint8Array([1, 0, 1, 1, 1])), { all: 2, hidden: 1 });
+  sight.saw(cloud, all, places([NaN, NaN, 6, 6, 7, 7, NaN, NaN, 1, 1]));
+  assert.deepEqual(sight.unseen(cloud, all), { all: 0, hidden: 0 });
+  const next = buildCloud([made("front", 1, { x: [1, 2] })]);
+  assert.equal(sight.unseen(next, new Uint8Array([1, 1])).all, 2);
 });

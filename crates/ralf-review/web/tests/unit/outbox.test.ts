@@ -2,7 +2,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { Conflict, Refused, ServerGone } from "../../src/api/errors.js";
 import type { StrokeAnswer } from "../../src/api/types.js";
-import { alreadyThere, Outbox, type OutboxStatus, type Pending } from "../../src/history/outbox.js";
+import { afterOwn, Outbox, type OutboxStatus, type Pending } from "../../src/history/outbox.js";
 
 const HISTORY = { undo: null, redo: null, undo_depth: 0, redo_depth: 0 };
 
@@ -10,7 +10,14 @@ function stroke(points: readonly number[], revision: number, label: number | nul
   const base = [{ radar: "front", scan: 3, revision }];
   return {
     sequence: "00",
-    stroke: { tool: "lasso", protect: true, label, base, points: [{ radar: "front", scan: 3, points }] },
+    stroke: {
+      id: `stroke ${points.join()}`,
+      tool: "lasso",
+      protect: true,
+      label,
+      base,
+      points: [{ radar: "front", scan: 3, points }],
+    },
   };
 }
 
@@ -18,6 +25,8 @@ function stroke(points: readonly number[], revision: number, label: number | nul
 class FakeServer {
   revision = 0;
   trouble: Error | null = null;
+  stale = false;
+  readonly asked: string[] = [];
   readonly written: number[][] = [];
   readonly kept: Pending[][] = [];
   readonly said: string[] = [];
@@ -33,14 +42,16 @@ class FakeServer {
     },
   });
 
-  private async take({ stroke: { base, points, label } }: Pending): Promise<StrokeAnswer> {
+  private async take({ stroke: { id, base, points, label } }: Pending): Promise<StrokeAnswer> {
     await Promise.resolve();
+    this.asked.push(id);
     if (this.trouble !== null) throw this.trouble;
     const corrections = points[0].points.map((point) => [point, label ?? 0] as const);
     if (base[0].revision !== this.revision) {
-      const scans = [{ radar: "front", scan: 3, revision: this.revision, corrections: [] }];
+      const scans = [{ radar: "front", scan: 3, revision: this.revision, corrections: [], reviewed: null }];
       throw new Conflict({
         error: "changed",
+        stale: this.stale,
         conflict: { author: "grace", at: "", tool: "box", radar: "front", scan: 3 },
         scans,
       });
@@ -49,7 +60,7 @@ class FakeServer {
     this.written.push([...points[0].points]);
     return {
       changed: points[0].points.length,
-      scans: [{ radar: "front", scan: 3, revision: this.revision, corrections }],
+      scans: [{ radar: "front", scan: 3, revision: this.revision, corrections, reviewed: null }],
       history: HISTORY,
     };
   }
@@ -130,20 +141,32 @@ test("a refusal says why and keeps the stroke", async () => {
   assert.equal(server.kept.at(-1)?.length, 1);
 });
 
-test("a stroke whose answer was lost is known by its effect", () => {
-  const scans = [
-    {
-      radar: "front",
-      scan: 3,
-      revision: 1,
-      corrections: [
-        [1, 99],
-        [2, 99],
-      ] as const,
-    },
-  ];
-  assert.ok(alreadyThere(stroke([1, 2], 0), { error: "", conflict: null, scans }));
-  assert.ok(!alreadyThere(stroke([1, 3], 0), { error: "", conflict: null, scans }));
-  assert.ok(!alreadyThere(stroke([1], 0, 1), { error: "", conflict: null, scans }));
-  assert.ok(alreadyThere(stroke([5], 0, null), { error: "", conflict: null, scans }));
+test("a stroke whose answer was lost is asked for again under its name", async () => {
+  const server = new FakeServer();
+  server.trouble = new ServerGone();
+  await server.outbox.add([stroke([1], 0)]);
+  server.trouble = null;
+  await server.outbox.retry();
+  assert.deepEqual(server.asked, ["stroke 1", "stroke 1"]);
+});
+
+test("a stroke on detections that aren't there any more can only be dropped", async () => {
+  const server = new FakeServer();
+  [server.revision, server.stale] = [2, true];
+  await server.outbox.add([stroke([1], 1)]);
+  await server.outbox.applyAnyway(false);
+  assert.deepEqual([server.last.kind, server.written], ["conflict", []]);
+  await server.outbox.drop();
+  assert.equal(server.last.kind, "idle");
+});
+
+test("strokes that wait are the same objects until they rest on another revision, so that each is kept once", () => {
+  const [first, second, elsewhere] = [stroke([1], 0), stroke([2], 0), { ...stroke([3], 0), sequence: "01" }];
+  const answered = [{ radar: "front", scan: 3, revision: 1, corrections: [], reviewed: null }];
+  const after = afterOwn([second, elsewhere, stroke([4], 7)], first, answered);
+  assert.deepEqual(
+    after.map(({ stroke: { base } }) => base[0].revision),
+    [1, 0, 7],
+  );
+  assert.equal(after[1], elsewhere);
 });

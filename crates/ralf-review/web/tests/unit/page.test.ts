@@ -2,9 +2,11 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { addressFrom, addressText } from "../../src/actions/address.js";
 import { Cache } from "../../src/data/cache.js";
+import { everything } from "../../src/data/filter.js";
 import { LabelBook, searchClasses } from "../../src/data/labels.js";
 import { clock, counted, decimal, secondsBetween } from "../../src/format.js";
 import { keyName, shownKey } from "../../src/panels/keys.js";
+import { read, writtenPreferences } from "../../src/preferences.js";
 import { Store } from "../../src/store.js";
 
 const CLASSES = [
@@ -47,6 +49,25 @@ test("addresses come back as they were, whatever the names", () => {
   assert.deepEqual(addressFrom("#00"), { sequence: "00", scan: null });
   assert.deepEqual(addressFrom("#00/front/x"), { sequence: "00", scan: null });
   assert.equal(addressFrom(""), null);
+  assert.deepEqual(addressFrom("#%"), { sequence: "%", scan: null }, "an address that nobody encoded stops nothing");
+});
+
+test("preferences come back as they were, and nonsense changes nothing", () => {
+  const queueView = { order: "need", hideReviewed: false, radar: null } as const;
+  const now = { colour: "label", filter: everything, lidarShown: true, groundHidden: true, dotSize: 8, queueView };
+  const filter = { ...everything, range: [0, 30] as const, hiddenRadars: new Set(["rear"]), uncertain: true };
+  const changed = {
+    ...now,
+    colour: "column w",
+    filter,
+    dotSize: 12,
+    queueView: { ...queueView, order: "time" } as const,
+  };
+  assert.deepEqual(read(writtenPreferences(changed), now), changed);
+  assert.deepEqual(read(null, now), {});
+  for (const nonsense of ["", "{", "7", "null"]) assert.deepEqual(read(nonsense, now), {});
+  const odd = read('{"colour": 7, "dotSize": "x", "filter": {"score": "no", "origin": "who"}, "queueView": 3}', now);
+  assert.deepEqual(odd, { filter: everything, queueView });
 });
 
 test("a cache forgets the oldest, and what failed", async () => {

@@ -1,15 +1,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import type { QueueScan } from "../../src/api/types.js";
-import {
-  listed,
-  neighbour,
-  nextNeedy,
-  progressOf,
-  reasons,
-  withCorrectionCounts,
-  withReviewed,
-} from "../../src/queue/queue.js";
+import { listed, neighbour, nextNeedy, progressOf, reasons, withAnswers, withReviewed } from "../../src/queue/queue.js";
 
 const ADA = { author: "ada", at: "2024-01-01T00:00:00Z" };
 
@@ -22,6 +14,7 @@ function entry(radar: string, scan: number, patch: Partial<QueueScan> = {}): Que
     cameras_failed: 0,
     corrected: 0,
     reviewed: null,
+    orphaned: 0,
   };
   return { radar, scan, t_ns: `${1_600_000_000_000_000_000n + BigInt(scan) * 50_000_000n}`, ...whole, ...patch };
 }
@@ -79,16 +72,25 @@ test("reasons name what speaks for a person", () => {
 
 test("progress follows what is done", () => {
   const marked = withReviewed(SCANS, { radar: "rear", scan: 2 }, ADA);
-  const counted = withCorrectionCounts(marked, [
+  const counted = withAnswers(marked, [
     {
       radar: "front",
       scan: 7,
       revision: 1,
+      reviewed: ADA,
       corrections: [
         [0, 1],
         [4, 99],
       ],
     },
   ]);
-  assert.deepEqual(progressOf(counted), { scans: 4, reviewed: 2, corrected_detections: 2 });
+  const before = { scans: 0, reviewed: 0, corrected_detections: 0, orphaned_scans: 3 };
+  assert.deepEqual(progressOf(counted, before), {
+    scans: 4,
+    reviewed: 3,
+    corrected_detections: 2,
+    orphaned_scans: 3,
+  });
+  const undone = withAnswers(marked, [{ radar: "rear", scan: 2, revision: 0, reviewed: null, corrections: [] }]);
+  assert.equal(progressOf(undone, before).reviewed, 1, "undo takes a mark back");
 });

@@ -33,6 +33,8 @@ export function made(
   ]);
   const header = {
     t_ns: time,
+    content: "",
+    stamp: "",
     revision: 0,
     reviewed: reviewed === true ? { author: "ada", at: "" } : null,
     odom_from_vehicle: odom,
@@ -40,5 +42,5 @@ export function made(
     cameras: [],
     failed_cameras: [],
   };
-  return scanFromTable({ radar, scan }, { rows: x.length, header, columns });
+  return scanFromTable({ radar, scan }, { rows: x.length, infos: [], header, columns });
 }

@@ -3,7 +3,7 @@ import { test } from "node:test";
 import { fitted, movedBy, toScreen, zoomedAt } from "../../src/cameras/frame.js";
 import { ARTIFACT_RGB, diverging, PLAUSIBLE_RGB, type Rgb, viridis } from "../../src/viewer/palette.js";
 import { projectAll } from "../../src/viewer/project.js";
-import { eye, HOME, panned, turned, zoomed } from "../../src/viewer/rig.js";
+import { around, eye, HOME, panned, turned, zoomed } from "../../src/viewer/rig.js";
 import { roundLength } from "../../src/viewer/scale.js";
 
 /** CIE luminance, roughly. */
@@ -41,6 +41,12 @@ test("the free eye is behind the vehicle and above the ground, however one turns
   const [x, y, z] = eye(HOME);
   assert.ok(x < -20 && Math.abs(y) < 1e-9 && z > 20);
   for (const down of [-1e4, 1e4]) assert.ok(eye(turned(HOME, 123, down))[2] > 0);
+});
+
+test("the whole scan is in the picture, however far it reaches", () => {
+  assert.equal(around(new Float32Array([10, 20, 0, -30, 5, 1]), [800, 600]).span, HOME.span);
+  const far = around(new Float32Array([120, 0, 0, Number.NaN, 9, 9, 0, -200, 0]), [1000, 500]);
+  assert.ok(far.span / 2 >= 120 && far.span >= 200, `${far.span}`);
 });
 
 test("an image is fitted whole, in the middle, and zoomed at the pointer", () => {

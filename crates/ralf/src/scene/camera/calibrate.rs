@@ -28,19 +28,24 @@ pub struct CalibratedView {
     pub points: Vec<CameraPoint>,
 }
 
-/// What surrounds an image when its depth is calibrated.
+/// What an image is calibrated with.
 #[derive(Clone, Copy)]
-pub struct Surroundings<'a> {
+pub struct Calibration<'a> {
     /// Points of all LiDARs, the ground's too, in the vehicle frame at the image's time; `None` without a scan near
     /// enough.
     pub lidar: Option<&'a [Point]>,
     /// Height above the ground of a point in that frame, m; `None` where there is no ground.
     pub height: &'a dyn Fn(&Point) -> Option<f64>,
-    /// Of the raw image ([`super::luminance`]).
-    pub luminance: f64,
+    /// What the depth images hold.
+    pub output: DepthOutput,
+    /// Settings of the cameras.
+    pub camera: &'a CameraConfig,
+    /// Settings of the ground.
+    pub ground: &'a GroundConfig,
 }
 
-/// Calibrates the depth images of one camera image, one per straight view.
+/// Calibrates the depth images of one camera image, one per straight view. `luminance` is that of the raw image
+/// ([`luminance`](super::luminance)).
 ///
 /// The error says what was expected and found where the depth images aren't those of the views; then all views of the
 /// image have failed.
@@ -48,33 +53,40 @@ pub fn calibrate(
     camera: &Camera,
     views: &[StraightView],
     depth: &[DepthImage],
-    output: DepthOutput,
-    surroundings: &Surroundings<'_>,
-    (config, ground): (&CameraConfig, &GroundConfig),
+    luminance: f64,
+    calibration: &Calibration<'_>,
 ) -> Result<Vec<CalibratedView>, String> {
     check(views, depth)?;
-    let calibrated = views.iter().zip(depth).map(|(view, image)| {
-        let relative = RelativeDepth::new(image, output);
-        let samples = surroundings.lidar.map(|points| {
-            let camera_from_vehicle = camera.vehicle_from_camera.inverse();
-            let seen = project_points(points, &camera_from_vehicle, view, config.occlusion_window);
-            ScaleSample::usable(&seen, view, &relative)
-        });
-        let report = ViewReport::of(samples.as_deref(), surroundings.luminance, config);
-        let scaling = samples
-            .filter(|_| report.state == ViewState::Calibrated)
-            .and_then(|samples| Scaling::fit(config.scaling, &samples, config.scale_neighbours));
-        let keeps = |point: &CameraPoint| {
-            let on_ground = (surroundings.height)(&point.position).is_some_and(|h| h < ground.camera_margin);
-            point.depth <= config.max_depth && !on_ground
-        };
-        let points = scaling.map(|scaling| {
-            let all = metric_points(camera, view, &relative, &scaling, config.stride);
-            all.into_iter().filter(keeps).collect()
-        });
-        CalibratedView { report, points: points.unwrap_or_default() }
+    let views = views.iter().zip(depth);
+    Ok(views.map(|(view, image)| calibrate_view(camera, view, image, luminance, calibration)).collect())
+}
+
+fn calibrate_view(
+    camera: &Camera,
+    view: &StraightView,
+    image: &DepthImage,
+    luminance: f64,
+    calibration: &Calibration<'_>,
+) -> CalibratedView {
+    let Calibration { lidar, height, output, camera: config, ground } = *calibration;
+    let relative = RelativeDepth::new(image, output);
+    let samples = lidar.map(|points| {
+        let camera_from_vehicle = camera.vehicle_from_camera.inverse();
+        let seen = project_points(points, &camera_from_vehicle, view, config.occlusion_window);
+        ScaleSample::usable(&seen, view, &relative)
     });
-    Ok(calibrated.collect())
+    let report = ViewReport::new(samples.as_deref(), luminance, config);
+    let mut points = Vec::new();
+    if let (ViewState::Calibrated, Some(samples)) = (report.state, samples) {
+        if let Some(scaling) = Scaling::fit(config.scaling, &samples, config.scale_neighbours) {
+            points = metric_points(camera, view, &relative, &scaling, config.stride);
+            points.retain(|point| {
+                let on_ground = height(&point.position).is_some_and(|h| h < ground.camera_margin);
+                point.depth <= config.max_depth && !on_ground
+            });
+        }
+    }
+    CalibratedView { report, points }
 }
 
 /// The calibrated pixels `(floor(s/2) + a s, floor(s/2) + b s)` of a view, row by row.

@@ -13,8 +13,8 @@ mod monitor;
 mod projection;
 mod scaling;
 
-pub use calibrate::{CalibratedView, CameraPoint, Surroundings, calibrate};
-pub use moment::{Calibration, ImageMoment, ImageView, ImageWithDepth, Seen};
+pub use calibrate::{CalibratedView, Calibration, CameraPoint, calibrate};
+pub use moment::{ImageId, ImageMoment, ImageView, ImageWithDepth, Seen};
 pub use monitor::{Failure, ViewReport, ViewState, luminance};
 pub use projection::project_points;
 pub use scaling::median;

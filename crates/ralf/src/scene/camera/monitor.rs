@@ -48,7 +48,7 @@ pub enum Failure {
 
 impl ViewReport {
     /// The report on a view with these samples; `None` where there was no LiDAR scan.
-    pub(super) fn of(samples: Option<&[ScaleSample]>, luminance: f64, config: &CameraConfig) -> Self {
+    pub(super) fn new(samples: Option<&[ScaleSample]>, luminance: f64, config: &CameraConfig) -> Self {
         let found = samples.unwrap_or_default();
         let residual = residual(found, config);
         let bright = luminance >= config.min_luminance;
@@ -113,7 +113,7 @@ mod tests {
     }
 
     fn report(samples: &[ScaleSample]) -> ViewReport {
-        ViewReport::of(Some(samples), 100.0, &config(DepthScaling::Local))
+        ViewReport::new(Some(samples), 100.0, &config(DepthScaling::Local))
     }
 
     #[test]
@@ -154,7 +154,7 @@ mod tests {
             let sample = |&(u, v, depth, relative)| ScaleSample { pixel: [u, v], depth, relative };
             let samples: Vec<_> = values.iter().map(sample).collect();
             let config = CameraConfig { scale_neighbours: k, ..config(DepthScaling::Local) };
-            let found = ViewReport::of(Some(&samples), 100.0, &config).residual.unwrap();
+            let found = ViewReport::new(Some(&samples), 100.0, &config).residual.unwrap();
             let expected = naive_residual(&samples, k);
             prop_assert!((found - expected).abs() < 1e-9 * (1.0 + expected), "{} {}", found, expected);
         }
@@ -164,7 +164,7 @@ mod tests {
     fn every_reason_to_fail() {
         let good = row(&[2.0; 6]);
         let failed = |samples: Option<&[ScaleSample]>, luminance: f64| {
-            ViewReport::of(samples, luminance, &config(DepthScaling::Local)).state
+            ViewReport::new(samples, luminance, &config(DepthScaling::Local)).state
         };
         assert_eq!(failed(Some(&good), 10.0), ViewState::Calibrated, "the limit itself is bright enough");
         assert_eq!(failed(Some(&good), 9.99), ViewState::Failed(Failure::Dark));
@@ -180,14 +180,14 @@ mod tests {
     fn without_two_samples_nothing_can_be_checked() {
         let lenient = CameraConfig { min_samples: 0, ..config(DepthScaling::None) };
         for few in [&row(&[])[..], &row(&[1.0])[..]] {
-            let found = ViewReport::of(Some(few), 100.0, &lenient);
+            let found = ViewReport::new(Some(few), 100.0, &lenient);
             assert_eq!((found.state, found.residual), (ViewState::Failed(Failure::FewSamples), None));
         }
     }
 
     #[test]
     fn metric_depth_is_compared_as_it_is() {
-        let found = ViewReport::of(Some(&row(&[9.0, 1.25, 9.0, 1.25])), 100.0, &config(DepthScaling::None));
+        let found = ViewReport::new(Some(&row(&[9.0, 1.25, 9.0, 1.25])), 100.0, &config(DepthScaling::None));
         assert!((found.residual.unwrap() - 0.2).abs() < 1e-12);
     }
 

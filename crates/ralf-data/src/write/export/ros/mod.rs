@@ -10,11 +10,11 @@
 //! | `/tf` | TFMessage | with the sensors' data |
 //! | `/tf_static` | TFMessage | always |
 //!
-//! Of a sequence that is read from a recording of the same kind, all messages are copied byte for byte where all sensors' data
-//! are asked for, and the labelled clouds are in the frames of the original ones.
+//! Of a sequence that is read from a recording of the same kind, all messages are copied byte for byte where all
+//! sensors' data are asked for, and the labelled clouds are in the frames of the original ones.
 //!
-//! Else a sensor's frame has the sensor's name, the vehicle's is `base_link`, and it moves in `odom`. A message is recorded at the
-//! time of its measurement, so that they lie in order.
+//! Else a sensor's frame has the sensor's name, the vehicle's is `base_link`, and it moves in `odom`. A message is
+//! recorded at the time of its measurement, so that they lie in order.
 
 mod cloud;
 mod images;
@@ -26,7 +26,7 @@ mod settings;
 
 use super::Writer;
 use super::labelled::LabelledSequence;
-use super::options::Sensors;
+use super::options::{ExportFormat, Sensors};
 use crate::disk::files;
 use crate::disk::files::{beside, remove};
 use crate::error::DataError;
@@ -53,6 +53,15 @@ pub enum RosFormat {
 type FileWriter = MessageWriter<BufWriter<File>>;
 
 impl RosFormat {
+    /// The kind of recording that an export in this format is; `None` of formats that are none.
+    pub(super) fn of_export(format: ExportFormat) -> Option<Self> {
+        match format {
+            ExportFormat::Mcap => Some(Self::Mcap),
+            ExportFormat::Rosbag1 => Some(Self::Bag),
+            _ => None,
+        }
+    }
+
     /// The kind that a file's name tells of.
     pub fn of_file(file: &Path) -> Option<Self> {
         let found = file.extension()?.to_str()?;
@@ -97,10 +106,10 @@ impl Writer for Ros {
     }
 }
 
-/// Writes all that the sensors of a sequence measured as one file, and beside it, with the ending `.toml`, the settings by
-/// which it is read back: which topic is which sensor, and the sensors' uncertainties. Each appears whole or not at all.
-/// `progress` is told how many measurements are done. Returns the file of the settings; `None` of a recording that was copied,
-/// for those of the original hold. What is lost is told in `docs/export.md`.
+/// Writes all that the sensors of a sequence measured as one file, and beside it, with the ending `.toml`, the settings
+/// by which it is read back: which topic is which sensor, and the sensors' uncertainties. Each appears whole or not at
+/// all. `progress` is told how many measurements are done. Returns the file of the settings; `None` of a recording that
+/// was copied, for those of the original hold. What is lost is told in `docs/export.md`.
 ///
 /// # Errors
 /// A file that is there already, a measurement that can't be read, times before 1970, what the system refuses.
@@ -137,7 +146,8 @@ pub fn write_ros(
     written
 }
 
-/// Where the settings of a recording go: `t.toml` beside `t.mcap`, and `t.bag.toml` beside `t.bag` where that is another's.
+/// Where the settings of a recording go: `t.toml` beside `t.mcap`, and `t.bag.toml` beside `t.bag` where that is
+/// another's.
 fn settings_file(file: &Path) -> PathBuf {
     let usual = file.with_extension("toml");
     if !usual.exists() {

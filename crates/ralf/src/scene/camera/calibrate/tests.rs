@@ -42,6 +42,8 @@ struct Scene {
 }
 
 /// Both views look at walls; their depth images hold true depth passed through `relative`.
+const LUMINANCE: f64 = 90.0;
+
 fn scene(relative: impl Fn(f64) -> f64) -> Scene {
     let camera = camera();
     let views = camera.straight_views();
@@ -58,9 +60,10 @@ fn scene(relative: impl Fn(f64) -> f64) -> Scene {
 impl Scene {
     fn run(&self, output: DepthOutput, config: &CameraConfig) -> Vec<CalibratedView> {
         let no_ground = |_: &Point| None;
-        let surroundings = Surroundings { lidar: Some(&self.lidar), height: &no_ground, luminance: 90.0 };
-        let settings = (config, &GroundConfig::default());
-        calibrate(&self.camera, &self.views, &self.depth, output, &surroundings, settings).unwrap()
+        let ground = GroundConfig::default();
+        let lidar = Some(self.lidar.as_slice());
+        let calibration = Calibration { lidar, height: &no_ground, output, camera: config, ground: &ground };
+        calibrate(&self.camera, &self.views, &self.depth, LUMINANCE, &calibration).unwrap()
     }
 }
 
@@ -103,13 +106,14 @@ fn every_scaling_finds_the_wall() {
 fn the_low_and_the_far_are_left_out() {
     let scene = scene(|z| z);
     let height = |p: &Point| Some(p.z);
-    let surroundings = Surroundings { lidar: Some(&scene.lidar), height: &height, luminance: 90.0 };
     let config = CameraConfig { max_depth: 15.0, ..config(DepthScaling::Local) };
     let ground = GroundConfig::default();
     let Scene { camera, views, depth, .. } = &scene;
     let all = scene.run(DepthOutput::Depth, &config);
-    let kept =
-        calibrate(camera, views, depth, DepthOutput::Depth, &surroundings, (&config, &ground)).unwrap();
+    let output = DepthOutput::Depth;
+    let lidar = Some(scene.lidar.as_slice());
+    let calibration = Calibration { lidar, height: &height, output, camera: &config, ground: &ground };
+    let kept = calibrate(camera, views, depth, LUMINANCE, &calibration).unwrap();
     for (all, kept) in all.iter().zip(&kept) {
         assert!(all.points.iter().all(|point| point.depth <= 15.0));
         let high: Vec<_> = all.points.iter().filter(|p| p.position.z >= 0.3).copied().collect();
@@ -139,9 +143,11 @@ fn pixels_without_depth_and_points_without_place_are_passed_over() {
 #[test]
 fn without_a_scan_all_views_have_failed() {
     let Scene { camera, views, depth, .. } = scene(|z| z);
-    let surroundings = Surroundings { lidar: None, height: &|_| None, luminance: 90.0 };
-    let settings = (&config(DepthScaling::None), &GroundConfig::default());
-    let found = calibrate(&camera, &views, &depth, DepthOutput::Metric, &surroundings, settings).unwrap();
+    let (config, ground) = (config(DepthScaling::None), GroundConfig::default());
+    let output = DepthOutput::Metric;
+    let calibration =
+        Calibration { lidar: None, height: &|_| None, output, camera: &config, ground: &ground };
+    let found = calibrate(&camera, &views, &depth, LUMINANCE, &calibration).unwrap();
     assert!(
         found.iter().all(|v| v.report.state == ViewState::Failed(Failure::NoScan) && v.points.is_empty())
     );
@@ -150,11 +156,12 @@ fn without_a_scan_all_views_have_failed() {
 #[test]
 fn depth_images_of_other_views_are_refused() {
     let Scene { camera, views, mut depth, .. } = scene(|z| z);
-    let surroundings = Surroundings { lidar: None, height: &|_| None, luminance: 90.0 };
-    let refusal = |depth: &[DepthImage]| {
-        let settings = (&config(DepthScaling::Local), &GroundConfig::default());
-        calibrate(&camera, &views, depth, DepthOutput::Depth, &surroundings, settings).unwrap_err()
-    };
+    let (config, ground) = (config(DepthScaling::Local), GroundConfig::default());
+    let output = DepthOutput::Depth;
+    let calibration =
+        Calibration { lidar: None, height: &|_| None, output, camera: &config, ground: &ground };
+    let refusal =
+        |depth: &[DepthImage]| calibrate(&camera, &views, depth, LUMINANCE, &calibration).unwrap_err();
     let error = refusal(&depth[..1]);
     assert!(error.contains("2 depth images") && error.contains("found 1"), "{error}");
     depth[1].width = 64;

@@ -24,7 +24,8 @@ pub(crate) struct PlanField {
 const STEP: f64 = FAR / 250.0;
 
 impl PlanField {
-    /// Of obstacles at x, y (m, about the vehicle) and z (m above the vehicle's origin). Those farther than 50 m are left out.
+    /// Of obstacles at x, y (m, about the vehicle) and z (m above the vehicle's origin). Those farther than 50 m are
+    /// left out.
     pub(crate) fn new(obstacles: impl IntoIterator<Item = [f64; 3]>) -> Self {
         let mut own: Vec<Option<i8>> = vec![None; SIDE * SIDE];
         let mut occupied = Vec::new();

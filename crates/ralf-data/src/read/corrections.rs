@@ -6,7 +6,8 @@ use ralf::space::{Transform, Vector};
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
-/// `corrections.NAME`: what is added to what a recording says of the sensor of that name. `ralf check --write` proposes it.
+/// `corrections.NAME`: what is added to what a recording says of the sensor of that name. `ralf check --write`
+/// proposes it.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct SensorCorrection {
@@ -95,7 +96,7 @@ impl Default for MotionSettings {
 
 impl SensorCorrection {
     /// Corrects the mounting and the times of the sensor of this name. The error says which names there are.
-    pub(super) fn apply_to(&self, sequence: &mut Sequence, name: &str) -> Result<(), String> {
+    pub(crate) fn apply_to(&self, sequence: &mut Sequence, name: &str) -> Result<(), String> {
         let (rig, times) = (&mut sequence.rig, &mut sequence.times);
         let mut names = Vec::new();
         let radars =
@@ -123,7 +124,7 @@ impl SensorCorrection {
         Transform::from_parts(Translation3::from(place), rotation)
     }
 
-    pub(super) fn time(&self, t_ns: i64) -> i64 {
+    pub(crate) fn time(&self, t_ns: i64) -> i64 {
         t_ns.saturating_add((self.time_offset_ms * 1e6) as i64)
     }
 }

@@ -2,26 +2,26 @@
 
 use super::mismatch::Spread;
 use crate::sensors::{Elevation, Radar, RadarScan};
-use crate::space::{Point, Transform, Vector};
+use crate::space::{Point, Spherical, Transform, Vector};
 use nalgebra::{Matrix3, Vector3};
 
-/// Where a detection lies, and how well that is known.
+/// A detection: where it lies, and how well that is known.
 #[derive(Debug, Clone, Copy)]
-pub struct Located {
-    /// `p_i`, m.
+pub struct Detection {
+    /// `p_i`, m, in the frame of whoever holds it: mostly the vehicle frame at the scan's time.
     pub position: Point,
-    /// A square root of `Sigma_i`: the columns of `R J diag(s_r, s_phi, s_theta)`.
+    /// A square root of the covariance `Sigma_i`: the columns of `R J diag(s_r, s_phi, s_theta)`, m.
     pub axes: Matrix3<f64>,
 }
 
-impl Located {
+impl Detection {
     /// The same detection in another frame.
     pub fn moved(&self, to_from_here: &Transform) -> Self {
         let rotation = to_from_here.rotation.to_rotation_matrix();
         Self { position: to_from_here * self.position, axes: rotation.matrix() * self.axes }
     }
 
-    /// `Sigma_i`.
+    /// The covariance `Sigma_i`.
     pub fn spread(&self) -> Spread {
         Spread::Axes(self.axes)
     }
@@ -39,16 +39,17 @@ impl Located {
 
 /// One scan of one radar in the vehicle frame at the scan's time.
 #[derive(Debug, Clone)]
-pub struct Detections {
-    /// The scan as measured.
-    pub scan: RadarScan,
-    /// One per detection; `None` where its coordinates are not finite.
-    pub located: Vec<Option<Located>>,
+pub struct LocatedScan {
+    /// The scan as measured, in the radar's frame.
+    pub measured: RadarScan,
+    /// One per row of the scan, in the vehicle frame; `None` where the coordinates are not finite.
+    pub detections: Vec<Option<Detection>>,
 }
 
-impl Detections {
-    /// Moves a radar's scan into the vehicle frame.
-    pub fn locate(radar: &Radar, scan: RadarScan) -> Self {
+impl LocatedScan {
+    /// Moves a radar's scan into the vehicle frame, with the covariance that the radar's uncertainties give (paper,
+    /// equations 1 to 3; docs/method.md, section 3).
+    pub fn new(radar: &Radar, scan: RadarScan) -> Self {
         let rotation = radar.vehicle_from_radar.rotation.to_rotation_matrix();
         let sigma_elevation = match radar.elevation {
             Elevation::Measured => radar.sigma_elevation,
@@ -56,18 +57,28 @@ impl Detections {
         };
         let sigmas =
             Matrix3::from_diagonal(&Vector3::new(radar.sigma_range, radar.sigma_azimuth, sigma_elevation));
-        let locate = |(position, spherical): (&Point, &crate::space::Spherical)| {
-            position.iter().all(|v| v.is_finite()).then(|| Located {
+        let locate = |(position, spherical): (&Point, &Spherical)| {
+            position.iter().all(|v| v.is_finite()).then(|| Detection {
                 position: radar.vehicle_from_radar * position,
                 axes: rotation.matrix() * spherical.jacobian() * sigmas,
             })
         };
-        let located = scan.positions.iter().zip(&scan.spherical).map(locate).collect();
-        Self { scan, located }
+        let detections = scan.positions.iter().zip(&scan.spherical).map(locate).collect();
+        Self { measured: scan, detections }
     }
 
     /// Time of the scan, ns.
     pub fn t_ns(&self) -> i64 {
-        self.scan.t_ns
+        self.measured.t_ns
+    }
+
+    /// How many detections the scan has, those without a position too.
+    pub fn len(&self) -> usize {
+        self.detections.len()
+    }
+
+    /// Whether the radar saw nothing.
+    pub fn is_empty(&self) -> bool {
+        self.detections.is_empty()
     }
 }

@@ -1,6 +1,6 @@
 //! Settings from a file and from the command line.
 
-use crate::UsageError;
+use crate::outcome::UsageError;
 use anyhow::Context;
 use clap::Args;
 use ralf_data::Settings;
@@ -55,7 +55,7 @@ impl SettingsArgs {
 }
 
 /// The settings of a file.
-pub(crate) fn read(file: &Path) -> anyhow::Result<Settings> {
+pub(super) fn read(file: &Path) -> anyhow::Result<Settings> {
     Settings::from_toml(&text(file)?, &[]).with_context(|| file.display().to_string())
 }
 

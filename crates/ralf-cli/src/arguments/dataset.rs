@@ -1,0 +1,91 @@
+//! The recording that a command works on.
+
+use super::changed::ChangedArgs;
+use super::settings;
+use crate::progress::say;
+use anyhow::Context;
+use clap::Args;
+use ralf_data::read::ros::Topics;
+use ralf_data::result::LabelledRun;
+use ralf_data::{Recording, SequenceReader, Settings};
+use std::path::{Path, PathBuf};
+
+/// Which recording, and which part of it.
+#[derive(Debug, Args)]
+pub(crate) struct DatasetArgs {
+    /// The recording: a folder, or a ROS bag or MCAP file; its format is recognised by what it holds
+    #[arg(value_name = "DATASET")]
+    pub(crate) dataset: PathBuf,
+    /// Take the recording for this format
+    #[arg(long, value_name = "FORMAT", value_parser = clap::builder::PossibleValuesParser::new(ralf_data::formats()))]
+    pub(crate) format: Option<String>,
+    /// Only this sequence; may be given several times
+    #[arg(long = "sequence", value_name = "NAME")]
+    pub(crate) sequences: Vec<String>,
+    /// Which ROS topic is which sensor: the table `topics` of this settings file (TOML)
+    #[arg(long, value_name = "FILE")]
+    pub(crate) topics: Option<PathBuf>,
+}
+
+impl DatasetArgs {
+    /// Opens the recording, and says what its reader warns of.
+    pub(crate) fn open(&self) -> anyhow::Result<Recording> {
+        self.open_with(&self.topics_or(&Topics::new())?)
+    }
+
+    /// The same with the topics that `ralf label` used. It has to be what was labelled.
+    pub(crate) fn open_labelled(&self, out: &Path, changed: &ChangedArgs) -> anyhow::Result<Recording> {
+        std::fs::metadata(&self.dataset).with_context(|| self.dataset.display().to_string())?;
+        let run = LabelledRun::open(out)?;
+        let topics = self.topics_or(&run.settings().topics)?;
+        let recording = told(run.settings().correct(self.read(&topics)?)?);
+        changed.check(&run, &recording)?;
+        Ok(recording)
+    }
+
+    /// The topics of `--topics`, or else these.
+    pub(crate) fn topics_or(&self, topics: &Topics) -> anyhow::Result<Topics> {
+        match &self.topics {
+            Some(file) => Ok(settings::read(file)?.topics),
+            None => Ok(topics.clone()),
+        }
+    }
+
+    /// The same with these topics.
+    pub(crate) fn open_with(&self, topics: &Topics) -> anyhow::Result<Recording> {
+        self.read(topics).map(told)
+    }
+
+    /// The same with the topics of these settings, and as they correct it.
+    pub(crate) fn open_corrected(&self, settings: &Settings) -> anyhow::Result<Recording> {
+        Ok(told(settings.correct(self.read(&settings.topics)?)?))
+    }
+
+    fn read(&self, topics: &Topics) -> anyhow::Result<Recording> {
+        let recording = ralf_data::open_with(&self.dataset, self.format.as_deref(), topics)?;
+        Ok(if self.sequences.is_empty() { recording } else { recording.select(&self.sequences)? })
+    }
+}
+
+/// A recording, of which its readers' warnings are said.
+fn told(recording: Recording) -> Recording {
+    for reader in &recording.sequences {
+        for warning in reader.warnings() {
+            say(&format!("warning: {}: {warning}", reader.sequence().name));
+        }
+    }
+    recording
+}
+
+/// The only sequence of a recording.
+pub(crate) fn the_only(recording: &Recording) -> anyhow::Result<&dyn SequenceReader> {
+    if let [reader] = recording.sequences.as_slice() {
+        return Ok(reader.as_ref());
+    }
+    let names: Vec<_> = recording.sequences.iter().map(|reader| reader.sequence().name.as_str()).collect();
+    anyhow::bail!(
+        "expected one sequence, found {}: choose with --sequence ({})",
+        names.len(),
+        names.join(", ")
+    )
+}

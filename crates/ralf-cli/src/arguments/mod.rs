@@ -1,0 +1,9 @@
+//! What several commands take: the recording, what to do where it has changed, the settings.
+
+mod changed;
+mod dataset;
+mod settings;
+
+pub(crate) use changed::ChangedArgs;
+pub(crate) use dataset::{DatasetArgs, the_only};
+pub(crate) use settings::{SettingsArgs, threads};

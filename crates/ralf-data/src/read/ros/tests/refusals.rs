@@ -1,0 +1,107 @@
+//! What is damaged or contradicts itself is named.
+
+use super::*;
+
+#[test]
+fn what_a_table_asks_for_and_the_file_lacks_is_named() {
+    let with = |from: &str, to: &str| error(&Drive::default(), &TABLE.replace(from, to));
+    let missing = with("'/front/points'", "'/side/points'");
+    assert!(missing.contains("topics.front: expected one of the topics /cam/camera_info,"), "{missing}");
+    assert!(
+        with("'/rear/scan', kind = 'radar'", "'/rear/scan', kind = 'lidar'")
+            .contains("sensor_msgs/PointCloud2, found radar_msgs")
+    );
+    assert!(
+        with("hdl-32e", "hdl-99").contains("topics.roof.model: expected one of the models generic, hdl-32e")
+    );
+    assert!(with("odom =", "# odom =").contains("`vehicle_frame`"));
+    let unmoved = with(
+        "odom = { topic = '/odom', kind = 'odometry' }\nimu = { topic = '/imu', kind = 'imu' }",
+        "imu = { topic = '/imu', kind = 'imu', vehicle_frame = 'base' }",
+    );
+    assert!(unmoved.contains("which tells how the vehicle moves"), "{unmoved}");
+    assert!(with("tf =", "# tf =").contains("nothing connects `base`"));
+    assert!(with("'/front/points', ", "'/front/points', frame = 'side', ").contains("no frame `side`"));
+    assert!(with("info = '/cam/camera_info'", "info = '/imu'").contains("topics.cam.info"));
+}
+
+#[test]
+fn what_contradicts_itself_is_refused() {
+    let error = |drive: &Drive| error(drive, TABLE);
+    let moved = error(&Drive { mast_moves: true, ..Drive::default() });
+    assert!(moved.contains("expected a sensor that doesn't move on `base`"), "{moved}");
+    let changed = error(&Drive { infos: vec![100.0, 101.0], ..Drive::default() });
+    assert!(changed.contains("/cam/camera_info recorded at") && changed.contains("another one"), "{changed}");
+}
+
+#[test]
+fn drivers_without_stamps_can_have_those_of_the_recorder() {
+    let drive = Drive { stamped: false, ..Drive::default() };
+    let refused = error(&drive, TABLE);
+    assert!(
+        refused.contains("/front/points, header.stamp: expected times (`topics.front.stamps"),
+        "{refused}"
+    );
+    let text = TABLE
+        .replace("'radar', ", "'radar', stamps = 'log', ")
+        .replace("kind = 'odometry'", "kind = 'odometry', stamps = 'log'")
+        .replace("'lidar', ", "'lidar', stamps = 'log', ")
+        .replace("'camera', ", "'camera', stamps = 'log', ")
+        .replace("kind = 'imu'", "kind = 'imu', stamps = 'log'");
+    let (_folder, path) = drive.write();
+    let opened = open_file(&path, &text).unwrap();
+    assert_eq!(opened.sequence().times.radars[0], [90, 95, 160].map(|ms| T0 + ms * MS));
+}
+
+#[test]
+fn a_scan_of_other_fields_is_refused_when_it_is_read() {
+    let (_folder, path) = Drive { radar_fields: ["vx", "v_x"], ..Drive::default() }.write();
+    let drive = open_file(&path, TABLE).unwrap();
+    let error = drive.radar_scan(0, 1).unwrap_err().to_string();
+    assert!(error.contains("those of the first scan, x, y, z, v_x, vy, found x, y, z, vx"), "{error}");
+    assert!(drive.radar_scan(0, 0).is_ok());
+}
+
+#[test]
+fn a_file_that_is_cut_is_read_up_to_the_cut_and_the_loss_is_said() {
+    let (_folder, path) = Drive { bag: true, ..Drive::default() }.write();
+    let whole = std::fs::metadata(&path).unwrap().len();
+    File::options().write(true).open(&path).unwrap().set_len(whole - 3000).unwrap();
+    let drive = open_file(&path, TABLE).unwrap();
+    assert!(drive.warnings()[0].contains("cut short or damaged"), "{:?}", drive.warnings());
+    assert_eq!(drive.sequence().times.radars[0].len(), 3);
+}
+
+#[test]
+fn damaged_chunks_are_left_out_and_counted() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("long.mcap");
+    let mut to = MessageWriter::mcap(File::create(&path).unwrap(), Compression::None).unwrap();
+    let drive = Drive::default();
+    let odometry: Topic<Odometry> = to.topic("/odom", Delivery::Live).unwrap();
+    to.write(&odometry, T0, &drive.odometry(0)).unwrap();
+    let scans: Topic<RadarScan> = to.topic("/scan", Delivery::Live).unwrap();
+    for ms in 0..4000 {
+        let scan = RadarScan { header: drive.header(ms, "base"), returns: vec![RadarReturn::default(); 40] };
+        to.write(&scans, T0 + ms * MS, &scan).unwrap();
+    }
+    to.finish().unwrap();
+    let table = "[topics]\nodom = { topic = '/odom', kind = 'odometry' }\n\
+                 scan = { topic = '/scan', kind = 'radar', model = 'generic' }";
+    assert_eq!(open_file(&path, table).unwrap().sequence().times.radars[0].len(), 4000);
+    let whole = std::fs::read(&path).unwrap();
+    let damaged = |at: usize| {
+        let mut bytes = whole.clone();
+        bytes[at] ^= 0x10;
+        std::fs::write(&path, bytes).unwrap();
+        open_file(&path, table)
+    };
+    let opened = damaged(whole.len() / 2).unwrap();
+    let left = opened.sequence().times.radars[0].len();
+    let [told] = opened.warnings() else { panic!("{:?}", opened.warnings()) };
+    assert!(told.starts_with(&format!("{} messages of /scan can't be read", 4000 - left)), "{told}");
+    assert!(told.contains("expected the checksum") && (1000..4000).contains(&left), "{told}");
+    // The only odometry lies in the first chunk.
+    let refused = damaged(2000).err().unwrap().to_string();
+    assert!(refused.contains("/odom: expected a message that can be read"), "{refused}");
+}

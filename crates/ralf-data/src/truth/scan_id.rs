@@ -1,0 +1,42 @@
+//! Which scan, and where its labels lie.
+
+use std::fmt;
+use std::path::{Path, PathBuf};
+
+/// The ending of files of labels.
+pub(super) const EXTENSION: &str = "label";
+
+/// Which scan of which radar of which sequence. Ordered by these.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
+pub struct ScanId {
+    /// The sequence's folder.
+    pub sequence: String,
+    /// The radar's folder.
+    pub radar: String,
+    /// The number in the file's name.
+    pub scan: u32,
+}
+
+impl ScanId {
+    /// Where the labels that a run gave this scan lie below its folder.
+    pub fn label_file(&self, out: &Path) -> PathBuf {
+        out.join("sequences").join(&self.sequence).join(&self.radar).join(label_name(self.scan))
+    }
+
+    /// Where its corrected labels lie below the dataset's folder.
+    pub fn truth_file(&self, dataset: &Path) -> PathBuf {
+        let sequence = dataset.join("sequences").join(&self.sequence);
+        sequence.join("ground_truth").join(&self.radar).join(label_name(self.scan))
+    }
+}
+
+impl fmt::Display for ScanId {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        write!(f, "{}/{}/{:06}", self.sequence, self.radar, self.scan)
+    }
+}
+
+/// The name of a scan's file of labels.
+pub(super) fn label_name(scan: u32) -> String {
+    format!("{scan:06}.{EXTENSION}")
+}

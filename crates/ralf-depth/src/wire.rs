@@ -1,0 +1,182 @@
+//! Whether the bytes of an `.onnx` file hang together, looked at before a runtime sees them: it takes each length at
+//! its word and asks for as much memory.
+//!
+//! The file is a Protocol Buffers message of type `ModelProto` (onnx.proto), and messages lie in each other.
+
+/// Messages may lie so deep in each other: a graph in an attribute of a node of a graph, and so on.
+const DEEPEST: usize = 64;
+/// More than any window, stride, dilation or margin of a convolution, px.
+const WIDEST: i64 = 4096;
+/// Attributes whose values say how large an image becomes.
+const WIDTHS: [&[u8]; 5] = [b"pads", b"strides", b"dilations", b"kernel_shape", b"output_padding"];
+
+/// Messages of onnx.proto that hold others, or what is looked at.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Message {
+    Model,
+    Graph,
+    Node,
+    Attribute,
+    Value,
+    Type,
+    Tensor,
+    Shape,
+    /// One of strings, numbers and bytes alone.
+    Plain,
+}
+
+impl Message {
+    /// The message in a field, where there is one.
+    fn field(self, number: u64) -> Option<Self> {
+        use Message::{Attribute, Graph, Model, Node, Plain, Shape, Tensor, Type, Value};
+        Some(match (self, number) {
+            (Model, 7) | (Attribute, 6 | 11) => Graph,
+            (Graph, 1) => Node,
+            (Graph, 5) | (Attribute, 5 | 10) => Tensor,
+            (Graph, 11..=13) => Value,
+            (Node, 5) => Attribute,
+            (Value, 2) | (Attribute, 14 | 15) => Type,
+            (Type, 1) => Shape,
+            (Model, 8 | 14) | (Shape, 2) | (Plain, 1) | (Tensor, 13) => Plain,
+            _ => return None,
+        })
+    }
+}
+
+/// A field of a message.
+struct Field<'a> {
+    number: u64,
+    /// Its bytes, where it has a length.
+    content: Option<&'a [u8]>,
+    /// Its number, where it is one.
+    value: u64,
+}
+
+/// Refuses bytes whose lengths lead beyond their message; the error says where.
+pub(crate) fn check(bytes: &[u8]) -> Result<(), String> {
+    message(bytes, Message::Model, 0)
+}
+
+fn message(mut bytes: &[u8], kind: Message, depth: usize) -> Result<(), String> {
+    if depth > DEEPEST {
+        return Err(format!("messages lie more than {DEEPEST} deep in each other"));
+    }
+    let mut widths: Vec<u64> = Vec::new();
+    let mut name: &[u8] = &[];
+    while !bytes.is_empty() {
+        let (field, rest) = next(bytes).ok_or_else(|| format!("a {kind:?} is cut short or damaged"))?;
+        if let Some((content, inner)) = field.content.zip(kind.field(field.number)) {
+            message(content, inner, depth + 1)?;
+        }
+        match (kind, field.number, field.content) {
+            (Message::Attribute, 1, Some(content)) => name = content,
+            (Message::Attribute, 8, Some(packed)) => widths.extend(numbers(packed)),
+            (Message::Attribute, 8, None) => widths.push(field.value),
+            _ => {}
+        }
+        bytes = rest;
+    }
+    match widths.iter().find(|value| !(-WIDEST..=WIDEST).contains(&value.cast_signed())) {
+        Some(value) if WIDTHS.contains(&name) => {
+            let name = String::from_utf8_lossy(name);
+            Err(format!("{name}: expected at most {WIDEST}, found {}", value.cast_signed()))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// The field at the beginning, and what follows it; `None` where that leads beyond the end.
+fn next(bytes: &[u8]) -> Option<(Field<'_>, &[u8])> {
+    let (key, rest) = varint(bytes)?;
+    let number = key >> 3;
+    let plain = |value, rest| Some((Field { number, content: None, value }, rest));
+    match key & 7 {
+        0 => {
+            let (value, rest) = varint(rest)?;
+            plain(value, rest)
+        }
+        1 => plain(0, rest.get(8..)?),
+        2 => {
+            let (length, rest) = varint(rest)?;
+            let (content, rest) = rest.split_at_checked(usize::try_from(length).ok()?)?;
+            Some((Field { number, content: Some(content), value: 0 }, rest))
+        }
+        5 => plain(0, rest.get(4..)?),
+        _ => None,
+    }
+}
+
+/// The numbers of a packed list, as far as it is whole.
+fn numbers(mut packed: &[u8]) -> Vec<u64> {
+    let mut numbers = Vec::new();
+    while let Some((value, rest)) = varint(packed) {
+        numbers.push(value);
+        packed = rest;
+    }
+    numbers
+}
+
+fn varint(bytes: &[u8]) -> Option<(u64, &[u8])> {
+    let mut value = 0;
+    for (place, byte) in bytes.iter().enumerate().take(10) {
+        value |= u64::from(byte & 0x7f).checked_shl(7 * place as u32)?;
+        if byte & 0x80 == 0 {
+            return Some((value, &bytes[place + 1..]));
+        }
+    }
+    None
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::testing::{FLOAT, channel_sum, conv, node, onnx, weights};
+
+    #[test]
+    fn whole_networks_pass() {
+        assert_eq!(check(&channel_sum([0.5; 3])), Ok(()));
+        assert_eq!(check(&[]), Ok(()));
+    }
+
+    #[test]
+    fn a_length_beyond_its_message_is_refused_before_memory_is_asked_for() {
+        let whole = channel_sum([0.5; 3]);
+        // A string of 2^56 bytes: field 2 (the producer's name) with its length.
+        let huge = [&[0x12, 0xff, 0xff, 0xff, 0xff, 0xff, 0xff, 0xff, 0x7f], whole.as_slice()].concat();
+        assert!(check(&huge).unwrap_err().contains("Model is cut short"));
+        for cut in 1..whole.len() {
+            // What ends between two fields of the model is whole by itself.
+            let _ = check(&whole[..cut]);
+        }
+        assert!(check(&whole[..whole.len() - 1]).is_err());
+    }
+
+    #[test]
+    fn a_margin_wider_than_any_image_is_refused() {
+        let network = |margin| {
+            let (input, output) = (("image", FLOAT, &[1, 3, 0, 0][..]), ("depth", FLOAT, &[1, 1, 0, 0][..]));
+            onnx(&[conv("depth", margin)], &[weights("w", &[1, 3, 1, 1], &[1.0; 3])], &[input], &[output])
+        };
+        assert_eq!(check(&network(4096)), Ok(()));
+        assert_eq!(check(&network(1 << 40)).unwrap_err(), "pads: expected at most 4096, found 1099511627776");
+        // Elsewhere such a number means `to the end`.
+        let slice = node("Slice", &["image"], "depth", &[("ends", &[i64::MAX.cast_unsigned()])]);
+        assert_eq!(check(&onnx(&[slice], &[], &[], &[])), Ok(()));
+    }
+
+    #[test]
+    fn graphs_that_lie_too_deep_in_each_other_are_refused() {
+        let wrap = |field: u8, content: Vec<u8>| {
+            let mut length = Vec::new();
+            let mut rest = content.len();
+            while rest >= 0x80 {
+                length.push(rest as u8 | 0x80);
+                rest >>= 7;
+            }
+            length.push(rest as u8);
+            [vec![field << 3 | 2], length, content].concat()
+        };
+        let deep = (0..100).fold(Vec::new(), |graph, _| wrap(1, wrap(5, wrap(6, graph))));
+        assert!(check(&wrap(7, deep)).unwrap_err().contains("more than 64 deep"));
+    }
+}

@@ -1,0 +1,61 @@
+/** Takes over what the server says of scans. */
+
+import { Conflict } from "../api/errors.js";
+import type { ScanCorrections } from "../api/types.js";
+import { withScans } from "../data/cloud.js";
+import { sameScan, type Scan, withCorrections } from "../data/scan.js";
+import { progressOf, withAnswers } from "../queue/queue.js";
+import { complain, type World } from "./world.js";
+
+export class Adopting {
+  constructor(private readonly world: World) {}
+
+  /** Takes over what is said of some scans now. */
+  async adopt(sequence: string, answered: readonly ScanCorrections[]): Promise<void> {
+    const { store, loader } = this.world;
+    if (sequence !== store.state.sequence) return answered.forEach((id) => loader.forget(sequence, id));
+    const { cloud, scans, progress } = store.state;
+    const onScreen = cloud.scans.flatMap((scan) => {
+      const answer = answered.find((other) => sameScan(other, scan));
+      return answer === undefined ? [] : [{ scan, now: withCorrections(scan, answer) }];
+    });
+    const changed = onScreen.flatMap(({ now }) => (now === null ? [] : [now]));
+    for (const answer of answered) loader.forget(sequence, answer);
+    for (const scan of changed) loader.keep(sequence, scan);
+    const counted = withAnswers(scans, answered);
+    store.set({ cloud: withScans(cloud, changed), scans: counted, progress: progressOf(counted, progress) });
+    await this.reread(
+      sequence,
+      onScreen.filter(({ now }) => now === null).map(({ scan }) => scan),
+    );
+  }
+
+  /** Reads scans on screen anew. */
+  async reread(sequence: string, stale: readonly Scan[]): Promise<void> {
+    const { store, loader } = this.world;
+    for (const scan of stale) loader.forget(sequence, scan);
+    const fresh = await Promise.all(stale.map((scan) => loader.scan(sequence, scan)));
+    if (fresh.length > 0) store.set({ cloud: withScans(store.state.cloud, fresh) });
+  }
+
+  /** The labels are others than those on screen: everything that was read of them is read anew. */
+  async readAllAnew(): Promise<void> {
+    const { store, loader, api } = this.world;
+    const { sequence } = store.state;
+    loader.forgetScans();
+    await this.reread(sequence, store.state.cloud.scans);
+    const queue = await api.queue(sequence);
+    store.set({ scans: queue.scans, progress: queue.progress });
+  }
+
+  /** Says why something was not done, and shows what is there in its place. */
+  async refused(done: string, error: unknown): Promise<void> {
+    if (!(error instanceof Conflict)) return complain(this.world, error);
+    const { conflict, scans, stale } = error.body;
+    const failed = (problem: unknown): void => complain(this.world, problem);
+    if (stale) await this.readAllAnew().catch(failed);
+    else await this.adopt(this.world.store.state.sequence, scans).catch(failed);
+    const by = conflict === null ? "" : ` (${conflict.author}, ${conflict.tool})`;
+    complain(this.world, `Not ${done}${by}: ${error.message}`);
+  }
+}

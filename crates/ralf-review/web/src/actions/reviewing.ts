@@ -1,0 +1,91 @@
+/** Marks of review. What nobody has looked at is not accepted by the way: it is counted first. */
+
+import { withScans } from "../data/cloud.js";
+import type { Scan } from "../data/scan.js";
+import { Sight } from "../data/sight.js";
+import { withReviewed } from "../queue/queue.js";
+import type { Adopting } from "./adopting.js";
+import { askPatiently } from "./asking.js";
+import type { Correcting } from "./correcting.js";
+import type { Navigation } from "./navigation.js";
+import { readOnly, type World } from "./world.js";
+
+export class Reviewing {
+  private readonly sight = new Sight();
+
+  constructor(
+    private readonly world: World,
+    private readonly navigation: Navigation,
+    private readonly adopting: Adopting,
+    private readonly correcting: Correcting,
+  ) {
+    world.store.watch(
+      ({ current }) => [current],
+      () => this.cancel(),
+    );
+  }
+
+  /** A picture was drawn: `places` are x, y of every detection, NaN where it isn't in it. */
+  saw(places: Float32Array): void {
+    const { cloud, shown, accepting } = this.world.store.state;
+    this.sight.saw(cloud, shown, places);
+    if (accepting !== null && this.sight.unseen(cloud, shown).all === 0) this.cancel();
+  }
+
+  /** Marks the scan, or takes the mark back. */
+  toggle(): void {
+    if (this.world.store.state.cloud.scans[0]?.reviewed === null) this.accept(false);
+    else void this.mark(false);
+  }
+
+  /**
+   * Marks the scan, and goes on to the next. Detections that were never on screen are counted first; a second time
+   * accepts them.
+   */
+  accept(goOn: boolean): void {
+    const { store } = this.world;
+    const { cloud, shown, accepting, loading } = store.state;
+    if (loading) return;
+    const unseen = this.sight.unseen(cloud, shown);
+    if (accepting === null && unseen.all > 0 && store.state.recording.read_only === null) {
+      return store.set({ accepting: { ...unseen, goOn } });
+    }
+    this.cancel();
+    void this.mark(true).then((marked) => (marked && goOn ? this.navigation.nextNeedy() : undefined));
+  }
+
+  cancel(): void {
+    if (this.world.store.state.accepting !== null) this.world.store.set({ accepting: null });
+  }
+
+  private async mark(reviewed: boolean): Promise<boolean> {
+    const { store, api, loader } = this.world;
+    const { sequence, cloud, loading } = store.state;
+    const scan = cloud.scans[0];
+    // While another scan is coming, the one on screen isn't the one that is meant.
+    if (scan === undefined || loading || readOnly(this.world) || !this.correcting.free("mark")) return false;
+    store.set({ busy: true });
+    try {
+      const { revision } = scan;
+      const { stamp } = scan.table.header;
+      const answer = await askPatiently((id) => api.reviewed(sequence, scan, { id, reviewed, revision, stamp }));
+      const marked: Scan = { ...scan, reviewed: answer.reviewed };
+      loader.keep(sequence, marked);
+      const { cloud: now, scans } = store.state;
+      store.set({
+        cloud: withScans(now, [marked]),
+        scans: withReviewed(scans, scan, answer.reviewed),
+        progress: answer.progress,
+        history: answer.history,
+      });
+      // Without the mark the machine's labels count again, which may be others than those that were accepted.
+      if (!reviewed) await this.adopting.reread(sequence, [marked]);
+      return true;
+    } catch (error) {
+      await this.adopting.refused("marked", error);
+      return false;
+    } finally {
+      store.set({ busy: false });
+    }
+  }
+}

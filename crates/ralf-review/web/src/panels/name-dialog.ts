@@ -1,0 +1,21 @@
+/** What the person in this browser is called. */
+
+import { h } from "../dom.js";
+import type { Page } from "../page.js";
+import { openWith } from "./dialog.js";
+
+export function nameDialog(page: Page): HTMLDialogElement {
+  const { store, actions } = page;
+  const name = h("input", { type: "text", "aria-label": "Your name", maxlength: "64" });
+  const save = h("button", { class: "button", type: "submit" }, "Save");
+  const form = h("form", { method: "dialog" }, h("h2", {}, "Your name"), name, save);
+  form.addEventListener("submit", () => actions.view.rename(name.value));
+  const note =
+    "Others see it beside what you correct. Undo takes back what was done in this browser, whatever it is called.";
+  const dialog = h("dialog", { class: "name", "aria-label": "Your name" }, form, h("p", { class: "faint" }, note));
+  openWith(page, dialog, "name", () => {
+    name.value = store.state.name;
+    name.select();
+  });
+  return dialog;
+}

@@ -1,0 +1,182 @@
+// How the page stands on small and large screens, for keyboards, and for those who don't see it all.
+import assert from "node:assert/strict";
+import { createRequire } from "node:module";
+import { after, before, test } from "node:test";
+import {
+  anotherBrowser,
+  clean,
+  current,
+  freshOut,
+  launch,
+  open,
+  ready,
+  says,
+  scanOf,
+  selected,
+  serve,
+} from "./support.mjs";
+
+const AXE = createRequire(import.meta.url).resolve("axe-core/axe.min.js");
+
+let browser;
+before(async () => {
+  browser = await launch();
+});
+after(() => browser.close());
+
+/** Sees the page as a person would: RALF_PICTURES names a folder for pictures of it. */
+async function picture(page, name) {
+  if (process.env.RALF_PICTURES) await page.screenshot({ path: `${process.env.RALF_PICTURES}/${name}.png` });
+}
+
+test("nothing that axe calls serious is wrong with the page, its dialogs and bars", async (context) => {
+  const server = await serve(context, await freshOut(context));
+  const tab = await open(context, browser, server);
+  const { page } = tab;
+  // The page forbids scripts of others; a test may still bring one along.
+  const faults = async (where) => {
+    await page.evaluate(await axe());
+    const { violations } = await page.evaluate(() => window.axe.run());
+    const serious = violations.filter(({ impact }) => impact === "serious" || impact === "critical");
+    const said = serious.map(
+      ({ id, nodes }) => `${where}: ${id}: ${nodes.map(({ html }) => html.slice(0, 120)).join(" | ")}`,
+    );
+    assert.deepEqual(said, []);
+  };
+  await faults("the page");
+  await page.keyboard.press("d");
+  await faults("a detection");
+  await page.keyboard.press("a");
+  await says(page.locator(".status-bar"), "undo 1");
+  await faults("a correction");
+  for (const key of ["?", "c"]) {
+    await page.keyboard.press(key);
+    await page.locator("dialog[open]").waitFor();
+    await faults(`the dialog of ${key}`);
+    await page.keyboard.press("Escape");
+  }
+  await page.keyboard.press("Shift+P");
+  await page.reload();
+  await ready(page);
+  await page.keyboard.press("Enter");
+  await page.locator(".accept").waitFor();
+  await faults("the question");
+  clean(tab);
+});
+
+async function axe() {
+  const { readFile } = await import("node:fs/promises");
+  return readFile(AXE, "utf8");
+}
+
+for (const [width, height] of [
+  [1280, 720],
+  [1920, 1080],
+]) {
+  test(`on ${width} x ${height} each toolbar is one line, and all numbers can be read`, async (context) => {
+    const server = await serve(context, await freshOut(context));
+    const tab = await open(context, browser, server, await anotherBrowser(context, browser, { width, height }));
+    const { page } = tab;
+    await page.keyboard.press("d");
+    await page.waitForTimeout(400);
+    await picture(page, `page-${width}`);
+    for (const bar of [".toolbar", ".scan-bar"]) {
+      const box = await page.locator(bar).boundingBox();
+      assert.ok(box.height < 50, `${bar} is ${box.height} px high`);
+      const over = await page.locator(bar).evaluate((element) => element.scrollWidth - element.clientWidth);
+      assert.ok(over <= 0, `${bar} is ${over} px too wide`);
+    }
+    const last = page.locator(".details .facts dd").last();
+    await last.scrollIntoViewIfNeeded();
+    const [fact, screen] = [await last.boundingBox(), await page.locator(".right").boundingBox()];
+    assert.ok(fact.y + fact.height <= screen.y + screen.height && fact.x + fact.width <= screen.x + screen.width);
+    clean(tab);
+  });
+}
+
+test("single detections are chosen by keyboard, one after the other, and announced", async (context) => {
+  const server = await serve(context, await freshOut(context));
+  const tab = await open(context, browser, server);
+  const { page } = tab;
+  const scan = await scanOf(server, await current(page));
+  const count = scan.x.length;
+  await page.keyboard.press("d");
+  assert.equal(await selected(page), 1);
+  const announced = page.locator(".status-bar .unseen");
+  await says(announced, new RegExp(`^Detection 1 of ${count}, `));
+  await page.keyboard.press("d");
+  await says(announced, new RegExp(`^Detection 2 of ${count}, `));
+  await page.keyboard.press("Shift+D");
+  await page.keyboard.press("Shift+D");
+  await says(announced, new RegExp(`^Detection ${count} of ${count}, `));
+  clean(tab);
+});
+
+test("filters and colours outlive a reload, and an odd address stops nothing", async (context) => {
+  const server = await serve(context, await freshOut(context));
+  const tab = await open(context, browser, server);
+  const { page } = tab;
+  await page.keyboard.press("y");
+  await page.keyboard.press("y");
+  const colour = await page.locator(".scan-bar select").inputValue();
+  assert.notEqual(colour, "label");
+  await page.keyboard.press("Shift+A");
+  await page.goto(`${new URL(server.url).origin}/#%`);
+  await page.reload();
+  await ready(page);
+  assert.equal(await page.locator(".scan-bar select").inputValue(), colour);
+  assert.equal(await page.locator(".filters .chip.artifact").getAttribute("aria-pressed"), "false");
+  clean(tab);
+});
+
+test("a column that the server adds is shown and can be coloured by, without anybody naming it", async (context) => {
+  const server = await serve(context, await freshOut(context));
+  const tab = await open(context, browser, server);
+  const { page } = tab;
+  await page.route("**/radars/*/scans/*", async (route) => {
+    const answer = await route.fetch();
+    return route.fulfill({ response: answer, body: withColumn(await answer.body()) });
+  });
+  await page.reload();
+  await ready(page);
+  await page.keyboard.press("d");
+  await says(page.locator(".details .facts"), "lidar_vertical");
+  await says(page.locator(".details .facts"), "1.50 sigma");
+  await page.locator(".scan-bar select").selectOption({ label: "lidar_vertical" });
+  await says(page.locator(".legend"), "lidar_vertical");
+  clean(tab);
+});
+
+test("what is not saved has a rim of another shape than anything else", async (context) => {
+  const server = await serve(context, await freshOut(context));
+  const tab = await open(context, browser, server);
+  const { page } = tab;
+  await page.route("**/strokes", () => undefined);
+  await page.keyboard.press("d");
+  await page.keyboard.press("a");
+  await says(page.locator(".legend-rims"), "not saved yet");
+  const styles = await page
+    .locator(".legend-rims .swatch")
+    .evaluateAll((all) => all.map((one) => getComputedStyle(one).borderTopStyle));
+  assert.deepEqual(styles.filter((style) => style === "dashed").length, 1);
+  await picture(page, "not-saved");
+  clean(tab);
+});
+
+/** The table with one more column, of numbers in sigmas. */
+function withColumn(body) {
+  const length = body.readUInt32LE(0);
+  const header = JSON.parse(body.subarray(4, 4 + length).toString());
+  const columns = body.subarray(4 + length);
+  const values = Buffer.from(new Float32Array(header.rows).fill(1.5).buffer);
+  const column = { name: "lidar_vertical", type: "f32", offset: Math.ceil(columns.length / 8) * 8 };
+  header.columns.push({ ...column, unit: "sigma", meaning: "vertical part of the LiDAR residual", group: "mismatch" });
+  let text = JSON.stringify(header);
+  while ((4 + text.length) % 8 !== 0) text += " ";
+  const whole = Buffer.alloc(4 + text.length + column.offset + values.length);
+  whole.writeUInt32LE(text.length);
+  whole.write(text, 4);
+  columns.copy(whole, 4 + text.length);
+  values.copy(whole, 4 + text.length + column.offset);
+  return whole;
+}
