@@ -5,8 +5,11 @@
 #![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout, reason = "these are tests")]
 
 use ralf::label::{ARTIFACT, PLAUSIBLE};
-use ralf_data::result::{Columns, PlausibilityReader, PlausibilityWriter, ScanTable, ScanTables};
+use ralf_data::result::{
+    FileRecord, PlausibilityReader, PlausibilityWriter, RadarScanKey, Schema, Table, Values,
+};
 use serde_json::{Value, json};
+use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -135,32 +138,53 @@ fn plant(dataset: &Path, out: &Path) -> Vec<Value> {
     let mut planted = Vec::new();
     for reader in &recording.sequences {
         let sequence = reader.sequence();
-        let columns = Columns::of(&sequence.rig).unwrap();
+        let schema = Schema::of(&sequence.rig, &[]).unwrap();
         let file = out.join("sequences").join(&sequence.name).join("plausibility.parquet");
-        let tables = all_tables(&PlausibilityReader::open(&file, columns.clone()).unwrap());
-        let mut writer = PlausibilityWriter::create(&file, &columns).unwrap();
-        for ((radar, scan), mut table) in tables {
-            if scan % EVERY == 0 {
+        let tables = all_tables(&PlausibilityReader::open(&file, &schema).unwrap());
+        let mut writer = PlausibilityWriter::create(&file, &schema.into()).unwrap();
+        for (key, table) in tables {
+            let mut labels = table.get::<u8>("label").unwrap().to_vec();
+            if key.scan % EVERY == 0 {
                 for point in lonely(&table) {
-                    let right = if table.label[point] == 1 { PLAUSIBLE } else { ARTIFACT };
-                    table.label[point] ^= 1;
-                    planted.push(json!({"radar": radar, "scan": scan, "point": point, "label": right}));
+                    let right = if labels[point] == 1 { PLAUSIBLE } else { ARTIFACT };
+                    labels[point] ^= 1;
+                    let radar = key.radar.as_ref();
+                    planted.push(json!({"radar": radar, "scan": key.scan, "point": point, "label": right}));
                 }
             }
-            writer.append(&radar, scan, &table).unwrap();
+            writer.append(&key, &with_labels(&table, labels)).unwrap();
         }
-        writer.finish().unwrap();
+        record(out, &sequence.name, &writer.finish().unwrap());
     }
     planted
 }
 
-fn all_tables(reader: &PlausibilityReader) -> ScanTables {
+/// The same table with other labels.
+fn with_labels(table: &Table, labels: Vec<u8>) -> Table {
+    let values = table.columns().map(|(column, values)| match column.name.as_ref() {
+        "label" => Values::U8(labels.clone()),
+        _ => values.clone(),
+    });
+    Table::new(table.schema().clone(), values.collect()).unwrap()
+}
+
+/// Tells run.json of the table that a sequence has now.
+fn record(out: &Path, sequence: &str, table: &FileRecord) {
+    let file = out.join("run.json");
+    let mut run: Value = serde_json::from_slice(&fs::read(&file).unwrap()).unwrap();
+    let sequences = run["sequences"].as_array_mut().unwrap();
+    let found = sequences.iter_mut().find(|found| found["name"] == sequence).unwrap();
+    found["table"] = json!({ "bytes": table.bytes, "blake3": table.blake3 });
+    fs::write(&file, run.to_string()).unwrap();
+}
+
+fn all_tables(reader: &PlausibilityReader) -> BTreeMap<RadarScanKey, Table> {
     (0..reader.groups()).flat_map(|group| reader.tables(group).unwrap()).collect()
 }
 
-/// Two detections in sight that no other of the scan is near. `x`, `y` are the first two decimal columns.
-fn lonely(table: &ScanTable) -> Vec<usize> {
-    let (x, y) = (&table.decimals[0], &table.decimals[1]);
+/// Two detections in sight that no other of the scan is near.
+fn lonely(table: &Table) -> Vec<usize> {
+    let (x, y) = (table.get::<f32>("x").unwrap(), table.get::<f32>("y").unwrap());
     let alone = |point: usize| {
         (0..table.len())
             .all(|other| other == point || (x[point] - x[other]).hypot(y[point] - y[other]) > ALONE)

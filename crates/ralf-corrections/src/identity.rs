@@ -14,12 +14,14 @@ pub(crate) struct Identity {
 type FileId = (u64, u64);
 
 impl Identity {
-    /// The store's file and its journal, which lies there as long as anybody has the store open.
+    /// The store's file, and its journal, which lies there as long as anybody has the store open; some file
+    /// systems know none.
     pub(crate) fn of_store(file: &Path) -> Result<Self, StoreError> {
-        let mut files = Vec::with_capacity(2);
-        for part in [file.to_owned(), journal(file)] {
-            let id = file_id(&part).map_err(|_| StoreError::gone(&part, "none there"))?;
-            files.push((part, id));
+        let id = file_id(file).map_err(|_| StoreError::gone(file, "that it was deleted"))?;
+        let mut files = vec![(file.to_owned(), id)];
+        let journal = journal(file);
+        if let Ok(id) = file_id(&journal) {
+            files.push((journal, id));
         }
         Ok(Self { files })
     }

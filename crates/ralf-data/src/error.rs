@@ -56,6 +56,22 @@ pub enum DataError {
         /// The measurement's place in the sensor's timeline.
         index: usize,
     },
+    /// A column was asked for that a table doesn't have.
+    #[error("no column `{name}` among {known}")]
+    NoColumn {
+        /// The name asked for.
+        name: String,
+        /// Those that exist.
+        known: String,
+    },
+    /// A column is not what it was taken for.
+    #[error("column `{name}`: found {found}")]
+    WrongColumn {
+        /// Its name, or `*` of all.
+        name: String,
+        /// What there is.
+        found: String,
+    },
     /// A name in the recording can't be a file's or a folder's where output is written.
     #[error(
         "{kind}: expected a name that a folder can have and that leads nowhere else, found {found}: {name:?}"

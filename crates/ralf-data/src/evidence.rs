@@ -1,6 +1,7 @@
 //! The evidence of all scans with truth: what tuning works on (docs/method.md, section 10).
 
 use crate::error::DataError;
+use crate::frames::{Frames, ScanIndex};
 use crate::read::{Recording, SequenceReader};
 use crate::run::{NotLabelled, Observer, Stage, rig_of};
 use crate::truth::{GroundTruth, ScanId};
@@ -9,10 +10,6 @@ use ralf::label::truth_of;
 use ralf::scene::FrameWindow;
 use ralf::sensors::Rig;
 use ralf_train::{EvidenceTable, Gatherer, Space};
-use std::sync::atomic::{AtomicUsize, Ordering};
-
-/// Scans that follow each other in time and are matched by one worker, which reads their neighbours but once.
-const STRETCH: usize = 64;
 
 /// What is known of one sequence's detections with truth.
 #[derive(Debug, Clone)]
@@ -60,62 +57,51 @@ struct Task<'a> {
     observer: &'a dyn Observer,
 }
 
-/// A scan's place in [`Task::scans`], and its evidence or why there is none.
-type Matched = (usize, Result<EvidenceTable, NotLabelled>);
-
 impl Task<'_> {
     fn gather(&self, jobs: usize) -> Result<SequenceEvidence, DataError> {
         let name = self.reader.sequence().name.clone();
         self.observer.begin(Stage::Matching(&name), self.scans.len() as u64);
-        let in_time_order = self.in_time_order();
-        let stretches: Vec<&[usize]> = in_time_order.chunks(STRETCH).collect();
-        let matched = side_by_side(&stretches, jobs, |stretch| self.match_stretch(stretch));
+        let places: Vec<Option<ScanIndex>> = self.scans.iter().map(|id| self.place_of(id)).collect();
+        let (mut there, mut ids) = (Vec::new(), Vec::new());
+        for (place, id) in places.iter().zip(&self.scans) {
+            if let Some(place) = place {
+                there.push(*place);
+                ids.push(*id);
+            }
+        }
+        let config = self.gatherer.frame_config();
+        let frames = Frames { reader: self.reader, rig: &self.rig, config, jobs };
+        let matched = frames.each(&there, |window, at| self.match_scan(window, ids[at], there[at]));
         self.observer.end();
-        let mut matched: Vec<Matched> = matched?.into_iter().flatten().collect();
-        matched.sort_by_key(|(place, _)| *place);
+        let mut matched = matched?.into_iter();
         let (mut table, mut left_out) = (self.gatherer.table(), Vec::new());
-        for (_, scan) in matched {
-            match scan {
-                Ok(scan) => table.append(scan),
-                Err(reason) => left_out.push(reason),
+        for (place, id) in places.iter().zip(&self.scans) {
+            match place.and_then(|_| matched.next()) {
+                Some(Ok(scan)) => table.append(scan),
+                Some(Err(reason)) => left_out.push(reason),
+                None => {
+                    let reason = "no such scan in the recording, though it has truth".to_owned();
+                    left_out.push(NotLabelled { radar: id.radar.clone(), scan: id.scan as usize, reason });
+                }
             }
         }
         Ok(SequenceEvidence { name, table, left_out })
     }
 
-    /// Places of the scans, by their time.
-    fn in_time_order(&self) -> Vec<usize> {
-        let times = &self.reader.sequence().times.radars;
-        let time = |place: &usize| {
-            self.place_of(self.scans[*place]).map(|(radar, scan)| (times[radar][scan], radar, scan))
-        };
-        let mut places: Vec<usize> = (0..self.scans.len()).collect();
-        places.sort_by_key(time);
-        places
-    }
-
     /// Radar and scan, where the recording holds them.
-    fn place_of(&self, id: &ScanId) -> Option<(usize, usize)> {
+    fn place_of(&self, id: &ScanId) -> Option<ScanIndex> {
         let radar = self.rig.radars.iter().position(|radar| radar.name == id.radar)?;
         let scan = id.scan as usize;
-        (scan < self.reader.sequence().times.radars[radar].len()).then_some((radar, scan))
-    }
-
-    fn match_stretch(&self, stretch: &[usize]) -> Result<Vec<Matched>, DataError> {
-        let mut window = FrameWindow::new(self.reader, &self.rig, self.gatherer.frame_config());
-        stretch.iter().map(|&place| Ok((place, self.match_scan(&mut window, self.scans[place])?))).collect()
+        (scan < self.reader.sequence().times.radars[radar].len()).then_some(ScanIndex { radar, scan })
     }
 
     fn match_scan(
         &self,
         window: &mut FrameWindow,
         id: &ScanId,
+        ScanIndex { radar, scan }: ScanIndex,
     ) -> Result<Result<EvidenceTable, NotLabelled>, DataError> {
-        let left_out =
-            |reason: String| NotLabelled { radar: id.radar.clone(), scan: id.scan as usize, reason };
-        let Some((radar, scan)) = self.place_of(id) else {
-            return Ok(Err(left_out("no such scan in the recording, though it has truth".into())));
-        };
+        let left_out = |reason| NotLabelled { radar: id.radar.clone(), scan, reason };
         let frame = match window.frame(radar, scan) {
             Ok(frame) => frame,
             Err(error) => return Ok(Err(left_out(error.to_string()))),
@@ -133,32 +119,4 @@ impl Task<'_> {
         self.observer.advance(1, detections as u64);
         Ok(Ok(table))
     }
-}
-
-/// Works on all items, several at a time. Results are in the items' order. An error ends the work.
-fn side_by_side<T: Sync, R: Send>(
-    items: &[T],
-    jobs: usize,
-    work: impl Fn(&T) -> Result<R, DataError> + Sync,
-) -> Result<Vec<R>, DataError> {
-    let next = AtomicUsize::new(0);
-    let work_off = || {
-        let mut done = Vec::new();
-        loop {
-            let place = next.fetch_add(1, Ordering::Relaxed);
-            let Some(item) = items.get(place) else { return Ok(done) };
-            // The others find no more items.
-            done.push((place, work(item).inspect_err(|_| next.store(items.len(), Ordering::Relaxed))?));
-        }
-    };
-    let results: Vec<Result<Vec<(usize, R)>, DataError>> = std::thread::scope(|scope| {
-        let workers: Vec<_> = (0..jobs.clamp(1, items.len().max(1))).map(|_| scope.spawn(work_off)).collect();
-        let joined =
-            workers.into_iter().map(|w| w.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)));
-        joined.collect()
-    });
-    let mut done: Vec<_> =
-        results.into_iter().collect::<Result<Vec<_>, _>>()?.into_iter().flatten().collect();
-    done.sort_by_key(|(place, _)| *place);
-    Ok(done.into_iter().map(|(_, result)| result).collect())
 }

@@ -22,6 +22,7 @@ pub mod depth;
 mod disk;
 mod error;
 mod evidence;
+mod frames;
 pub mod judge;
 pub mod read;
 pub mod result;

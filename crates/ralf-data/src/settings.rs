@@ -6,25 +6,26 @@ use crate::read::{MotionSettings, Recording, SensorCorrection, corrected};
 use ralf::config::{Config, ConfigError, read_toml};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
+use toml::{Table, Value};
 
 /// Tables that readers of recordings know, and the method does not.
 const OF_READERS: [&str; 3] = ["topics", "corrections", "motion"];
 
 /// All that a settings file may hold. Every key is optional, and unknown keys are refused.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(try_from = "toml::Table")]
 pub struct Settings {
     /// The method's.
     #[serde(flatten)]
     pub method: Config,
     /// `topics`.
-    #[serde(default, skip_serializing_if = "Topics::is_empty")]
+    #[serde(skip_serializing_if = "Topics::is_empty")]
     pub topics: Topics,
     /// `corrections`: by sensor name, what is added to what the recording says of it.
-    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub corrections: BTreeMap<String, SensorCorrection>,
     /// `motion`: where the vehicle's motion comes from.
-    #[serde(default, skip_serializing_if = "is_default")]
+    #[serde(skip_serializing_if = "is_default")]
     pub motion: MotionSettings,
 }
 
@@ -47,7 +48,7 @@ impl Settings {
     /// Settings from a TOML text and assignments `key=value` that win over it.
     pub fn from_toml(text: &str, assignments: &[&str]) -> Result<Self, ConfigError> {
         let method = Config::from_toml_beside(&OF_READERS, text, assignments)?;
-        let OfReaders { topics, corrections, motion } = read_toml(text, assignments, &[])?;
+        let OfReaders { topics, corrections, motion } = read_toml(text, assignments)?;
         check_topics(&topics)?;
         Ok(Self { method, topics, corrections, motion })
     }
@@ -62,6 +63,21 @@ impl Settings {
     /// All settings as TOML.
     pub fn to_toml(&self) -> Result<String, ConfigError> {
         toml::to_string(self).map_err(|error| ConfigError::Parse(error.to_string()))
+    }
+}
+
+impl TryFrom<Table> for Settings {
+    type Error = ConfigError;
+
+    fn try_from(mut table: Table) -> Result<Self, ConfigError> {
+        let mut own = Table::new();
+        for name in OF_READERS {
+            own.extend(table.remove_entry(name));
+        }
+        let own = Value::Table(own).try_into::<OfReaders>();
+        let OfReaders { topics, corrections, motion } =
+            own.map_err(|error| ConfigError::Parse(error.to_string()))?;
+        Ok(Self { method: Config::try_from(table)?, topics, corrections, motion })
     }
 }
 

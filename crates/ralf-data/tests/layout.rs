@@ -183,7 +183,7 @@ fn settings_that_no_sensor_has_are_refused() {
 #[test]
 fn missing_and_surplus_files_are_named() {
     type Harm = fn(&Path);
-    let harms: [(Harm, &str); 9] = [
+    let harms: [(Harm, &str); 8] = [
         (|path| fs::remove_file(path.join("sequence.toml")).unwrap(), "sequence.toml: "),
         (|path| fs::remove_dir_all(path.join("lidar_top")).unwrap(), "lidar_top: "),
         (

@@ -93,7 +93,7 @@ impl Observer for Nobody {
 
 /// Labels a recording.
 pub(crate) fn label(recording: &Recording, settings: &Settings, out: &Path) -> Result<(), DataError> {
-    LabelRun { recording, settings, out, jobs: 1, checks: &[] }.execute(&Nobody).map(drop)
+    LabelRun { recording, settings, out, jobs: 1, evidence: false, checks: &[] }.execute(&Nobody).map(drop)
 }
 
 fn settings_of(file: &Path) -> Option<Settings> {
@@ -172,8 +172,9 @@ fn export(place: &Path, random: &mut Pcg64Mcg) {
 
 fn report(place: &Path, _: &mut Pcg64Mcg) {
     if let Some(recording) = labelled(place) {
-        let _ =
-            Report { recording: &recording, out: &place.join("out"), scans_per_sequence: 1 }.html(&|_| {});
+        let out = place.join("out");
+        let page = Report { recording: &recording, out: &out, scans_per_sequence: 1 }.page(&|_| {});
+        let _ = page.map(|page| page.html);
     }
 }
 

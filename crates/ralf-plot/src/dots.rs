@@ -18,14 +18,23 @@ const FULL_AT: f64 = 0.99;
 impl DotField {
     /// A dot of `radius` pixels for each place (x, y in m); places outside the view are left out.
     pub(crate) fn of(places: impl Iterator<Item = [f64; 2]>, viewport: &Viewport, radius: f32) -> Self {
-        let size = viewport.size().map(|pixels| pixels as usize);
-        let mut field = Self { size, weight: vec![0.0; size[0] * size[1]] };
-        for pixel in places.map(|place| viewport.pixel_from_world(place)) {
-            if viewport.contains(pixel, -radius) {
-                field.add(pixel, radius);
-            }
-        }
+        let mut field = Self::empty(viewport);
+        places.for_each(|place| field.add_place(place, viewport, radius));
         field
+    }
+
+    /// No dots yet.
+    pub(crate) fn empty(viewport: &Viewport) -> Self {
+        let size = viewport.size().map(|pixels| pixels as usize);
+        Self { size, weight: vec![0.0; size[0] * size[1]] }
+    }
+
+    /// One dot more, unless it lies outside the view.
+    pub(crate) fn add_place(&mut self, place: [f64; 2], viewport: &Viewport, radius: f32) {
+        let pixel = viewport.pixel_from_world(place);
+        if viewport.contains(pixel, -radius) {
+            self.add(pixel, radius);
+        }
     }
 
     fn add(&mut self, [x, y]: [f32; 2], radius: f32) {

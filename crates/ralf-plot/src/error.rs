@@ -32,6 +32,9 @@ pub enum PlotError {
     /// The built-in typeface can't be read.
     #[error("the built-in typeface can't be read: {0}")]
     Typeface(String),
+    /// The detections can't be gone through.
+    #[error("{0}")]
+    Marks(String),
     /// The picture can't be encoded as PNG.
     #[error("the picture can't be encoded as PNG: {0}")]
     Encode(String),

@@ -1,6 +1,8 @@
 //! Which part of the ground a picture shows.
 
 use crate::error::PlotError;
+use std::cmp::{Ordering, Reverse};
+use std::collections::BinaryHeap;
 
 /// Which part of the ground a picture shows.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -52,11 +54,16 @@ impl Extent {
     /// The window to show. `scattered` lose their farthest, `kept` are shown in any case; a radius is taken around
     /// `kept`'s middle or, without any, the middle of `scattered`.
     pub(crate) fn window(self, scattered: impl Iterator<Item = [f64; 2]>, kept: &[[f64; 2]]) -> Window {
+        self.window_of(bounds(scattered, TAIL), kept)
+    }
+
+    /// The same, where the bounds of what is scattered are known.
+    pub(crate) fn window_of(self, scattered: Option<Bounds>, kept: &[[f64; 2]]) -> Window {
         let kept = bounds(kept.iter().copied(), 0.0);
         match self {
-            Self::Fit => around(union(bounds(scattered, TAIL), kept)),
+            Self::Fit => around(union(scattered, kept)),
             Self::Radius(radius) => {
-                let middle = around(kept.or_else(|| bounds(scattered, TAIL)));
+                let middle = around(kept.or(scattered));
                 Window { centre: middle.centre, half: [radius; 2] }
             }
         }
@@ -64,7 +71,75 @@ impl Extent {
 }
 
 /// Lowest and highest value of x and of y.
-type Bounds = [[f64; 2]; 2];
+pub(crate) type Bounds = [[f64; 2]; 2];
+
+/// The bounds of very many places without their tails, with no more in memory than the tails: the lowest and highest
+/// values along each axis, as many as may be left out at most.
+pub(crate) struct Tails {
+    /// Values that are kept at each end.
+    kept: usize,
+    places: usize,
+    lowest: [BinaryHeap<Ordered>; 2],
+    highest: [BinaryHeap<Reverse<Ordered>>; 2],
+}
+
+/// A number with the order of [`f64::total_cmp`].
+#[derive(Clone, Copy, PartialEq)]
+struct Ordered(f64);
+
+impl Eq for Ordered {}
+
+impl Ord for Ordered {
+    fn cmp(&self, other: &Self) -> Ordering {
+        self.0.total_cmp(&other.0)
+    }
+}
+
+impl PartialOrd for Ordered {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl Tails {
+    /// For at most so many places.
+    pub(crate) fn of_at_most(places: usize) -> Self {
+        let kept = dropped(places) + 1;
+        Self { kept, places: 0, lowest: Default::default(), highest: Default::default() }
+    }
+
+    pub(crate) fn add(&mut self, place: [f64; 2]) {
+        if !is_place(&place) {
+            return;
+        }
+        self.places += 1;
+        for (axis, value) in place.into_iter().map(Ordered).enumerate() {
+            let (lowest, highest) = (&mut self.lowest[axis], &mut self.highest[axis]);
+            lowest.push(value);
+            highest.push(Reverse(value));
+            if lowest.len() > self.kept {
+                lowest.pop();
+                highest.pop();
+            }
+        }
+    }
+
+    /// The bounds of what was added.
+    pub(crate) fn bounds(self) -> Option<Bounds> {
+        let at = dropped(self.places);
+        let [x, y] = self.lowest.map(BinaryHeap::into_sorted_vec);
+        let [high_x, high_y] = self.highest.map(BinaryHeap::into_sorted_vec);
+        let of = |lowest: &[Ordered], highest: &[Reverse<Ordered>]| {
+            Some([lowest.get(at)?.0, highest.get(at)?.0.0])
+        };
+        Some([of(&x, &high_x)?, of(&y, &high_y)?])
+    }
+}
+
+/// How many of so many values are left out at each end.
+fn dropped(values: usize) -> usize {
+    (values.saturating_sub(1) as f64 * TAIL) as usize
+}
 
 fn bounds(places: impl Iterator<Item = [f64; 2]>, tail: f64) -> Option<Bounds> {
     let (mut xs, mut ys): (Vec<f64>, Vec<f64>) = places.filter(is_place).map(|[x, y]| (x, y)).unzip();
@@ -112,6 +187,26 @@ mod tests {
         let window = Extent::Fit.window(grid(), &[[-505.0, 0.0]]);
         assert_eq!(window.centre[0], 245.0);
         assert!((window.half[0] - 750.0 * 1.05).abs() < 1e-9);
+    }
+
+    /// However many may come, and however many do.
+    #[test]
+    fn tails_are_left_out_the_same_with_little_in_memory() {
+        let mut state = 7_u64;
+        let mut chance = || {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (state >> 40) as f64 / 1e3 - 8e3
+        };
+        for count in [0, 1, 2, 199, 200, 201, 202, 999, 5000] {
+            let places: Vec<[f64; 2]> = (0..count)
+                .map(|i| if i % 17 == 3 { [f64::NAN, 1.0] } else { [chance(), -chance()] })
+                .collect();
+            for more in [0, 1, 1000] {
+                let mut tails = Tails::of_at_most(count + more);
+                places.iter().for_each(|place| tails.add(*place));
+                assert_eq!(tails.bounds(), bounds(places.iter().copied(), TAIL), "{count}");
+            }
+        }
     }
 
     #[test]

@@ -1,8 +1,8 @@
 //! Pictures of labelled radar scans, as PNG bytes.
 //!
 //! Three figures: [`scan_picture`] shows one scan from above in the vehicle frame, [`overview_picture`] all scans of a
-//! sequence in a fixed frame, raw beside those labelled plausible, and [`camera_picture`] what a camera sees, beside its
-//! depth. From above, x points up and y to the left, so that the vehicle of a single scan drives upwards. Plausible
+//! sequence in a fixed frame, raw beside those labelled plausible, and [`camera_picture`] what a camera sees, beside
+//! its depth. From above, x points up and y to the left, so that the vehicle of a single scan drives upwards. Plausible
 //! and artifact detections differ in colour and in shape.
 //!
 //! Nothing here reads, writes or prints: data in, bytes out, and the same data give the same bytes.
@@ -40,6 +40,6 @@ pub use camera::{CameraPicture, PixelDepth, ViewPicture, camera_picture};
 pub use check::{CheckPicture, CheckRow, check_picture};
 pub use error::PlotError;
 pub use extent::Extent;
-pub use marks::{Mark, MarkLabel};
+pub use marks::{Mark, MarkLabel, Marks};
 pub use overview::{OverviewPicture, overview_picture};
 pub use vehicle::{RadarMount, VehicleOutline};

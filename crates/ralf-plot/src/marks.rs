@@ -1,6 +1,7 @@
 //! Detections: what they are labelled, how they look, how many there are.
 
 use crate::canvas::Canvas;
+use crate::error::PlotError;
 use crate::extent::is_place;
 use crate::palette::{ARTIFACT, PAPER, PLAUSIBLE, UNLABELLED};
 use crate::viewport::Viewport;
@@ -34,6 +35,30 @@ impl Mark {
     }
 }
 
+/// Detections that can be gone through again and again, in the same order: a slice of them, or a reader that keeps but
+/// a part in memory.
+pub trait Marks {
+    /// Shows each detection.
+    ///
+    /// # Errors
+    /// [`PlotError::Marks`] where they can't be read.
+    fn each(&self, see: &mut dyn FnMut(&Mark)) -> Result<(), PlotError>;
+}
+
+impl<const N: usize> Marks for [Mark; N] {
+    fn each(&self, see: &mut dyn FnMut(&Mark)) -> Result<(), PlotError> {
+        self.iter().for_each(see);
+        Ok(())
+    }
+}
+
+impl Marks for Vec<Mark> {
+    fn each(&self, see: &mut dyn FnMut(&Mark)) -> Result<(), PlotError> {
+        self.iter().for_each(see);
+        Ok(())
+    }
+}
+
 /// How many detections there are of each kind, and how many of them are not seen.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(crate) struct Counts {
@@ -50,19 +75,22 @@ impl Counts {
     /// Counts the detections of a picture.
     pub(crate) fn of(marks: &[Mark], viewport: &Viewport) -> Self {
         let mut counts = Self::default();
-        for mark in marks {
-            match mark.label {
-                MarkLabel::Plausible => counts.plausible += 1,
-                MarkLabel::Artifact => counts.artifact += 1,
-                MarkLabel::Unlabelled => counts.unlabelled += 1,
-            }
-            if !is_place(&mark.place()) {
-                counts.nowhere += 1;
-            } else if !viewport.contains(viewport.pixel_from_world(mark.place()), 0.0) {
-                counts.outside += 1;
-            }
-        }
+        marks.iter().for_each(|mark| counts.add(mark, viewport));
         counts
+    }
+
+    /// Counts one more.
+    pub(crate) fn add(&mut self, mark: &Mark, viewport: &Viewport) {
+        match mark.label {
+            MarkLabel::Plausible => self.plausible += 1,
+            MarkLabel::Artifact => self.artifact += 1,
+            MarkLabel::Unlabelled => self.unlabelled += 1,
+        }
+        if !is_place(&mark.place()) {
+            self.nowhere += 1;
+        } else if !viewport.contains(viewport.pixel_from_world(mark.place()), 0.0) {
+            self.outside += 1;
+        }
     }
 
     /// All of them.

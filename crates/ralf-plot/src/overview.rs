@@ -3,9 +3,9 @@
 use crate::canvas::Canvas;
 use crate::dots::DotField;
 use crate::error::{PlotError, check_width};
-use crate::extent::{Extent, Window};
+use crate::extent::{Extent, Tails, Window};
 use crate::legend::{Entry, Legend, Symbol};
-use crate::marks::{Counts, Mark, MarkLabel};
+use crate::marks::{Counts, Mark, MarkLabel, Marks};
 use crate::page::Page;
 use crate::palette::{FAINT_TEXT, Ink, LIDAR, PATH, PLAUSIBLE, RAW, TITLE};
 use crate::panel::Panel;
@@ -13,7 +13,7 @@ use crate::scale::{count, multiples, number, share};
 use crate::text::{Align, Style, Typeface};
 
 /// What to draw of a sequence. All places are x and y in one fixed frame, m.
-#[derive(Debug, Clone, Copy)]
+#[derive(Clone, Copy)]
 pub struct OverviewPicture<'a> {
     /// Above the picture, in large letters; may be empty.
     pub title: &'a str,
@@ -25,8 +25,8 @@ pub struct OverviewPicture<'a> {
     pub extent: Extent,
     /// LiDAR returns, in any order; may be empty.
     pub lidar: &'a [[f64; 2]],
-    /// The detections of all scans.
-    pub marks: &'a [Mark],
+    /// The detections of all scans. They are gone through three times.
+    pub marks: &'a dyn Marks,
     /// Where the vehicle drove, in order of time; may be empty.
     pub path: &'a [[f64; 2]],
 }
@@ -35,10 +35,11 @@ impl Default for OverviewPicture<'_> {
     /// An empty picture, twice 1400 pixels wide.
     fn default() -> Self {
         let extent = Extent::Fit;
-        Self { title: "", subtitle: "", half_width: 1400, extent, lidar: &[], marks: &[], path: &[] }
+        Self { title: "", subtitle: "", half_width: 1400, extent, lidar: &[], marks: &NO_MARKS, path: &[] }
     }
 }
 
+const NO_MARKS: [Mark; 0] = [];
 const WIDTHS: [u32; 2] = [200, 10_000];
 /// Smallest and largest height of a panel, in its widths.
 const HEIGHTS: [f64; 2] = [0.4, 1.25];
@@ -61,14 +62,14 @@ fn draw(picture: &OverviewPicture<'_>) -> Result<Canvas, PlotError> {
     let typeface = Typeface::load()?;
     let unit = picture.half_width as f32 / 1400.0;
     let page = Page { width: 2.0 * picture.half_width as f32, margin: 56.0 * unit, unit };
-    let window = picture.extent.window(picture.marks.iter().map(Mark::place), picture.path);
+    let window = window(picture)?;
     let (numbers, between) = (130.0 * unit, 56.0 * unit);
     let width = ((page.width - 2.0 * page.margin - numbers - between) / 2.0).round();
-    let panels = panels(picture, &window, width, unit)?;
+    let (panels, counts) = panels(picture, &window, width, unit)?;
 
     let viewport = panels[0].viewport;
     let height = viewport.size()[1] as f32;
-    let entries = entries(picture, &Counts::of(picture.marks, &viewport));
+    let entries = entries(picture, &counts);
     let legend = Legend::lay_out(entries, &typeface, page.legend_room(width), unit);
     let top = (page.header(picture.title, picture.subtitle) + HEADING * unit).round();
     let bottom = top + height + (NUMBERS + AXIS_NAME) * unit;
@@ -90,22 +91,39 @@ fn draw(picture: &OverviewPicture<'_>) -> Result<Canvas, PlotError> {
 /// The two halves, inked alike: the same crowd is equally dark in both.
 fn panels(
     picture: &OverviewPicture<'_>,
-    window: &Window,
+    window: &Shown,
     width: f32,
     unit: f32,
-) -> Result<[Panel; 2], PlotError> {
-    let mut raw = Panel::new(window, width, HEIGHTS, unit)?;
-    let mut plausible = Panel::new(window, width, HEIGHTS, unit)?;
-    let radius = dot_radius(picture.marks.len()) * unit;
-    let of = |wanted: fn(&Mark) -> bool, panel: &Panel| {
-        let places = picture.marks.iter().filter(|mark| wanted(mark)).map(Mark::place);
-        DotField::of(places, &panel.viewport, radius.max(0.6))
-    };
-    let all = of(|_| true, &raw);
+) -> Result<([Panel; 2], Counts), PlotError> {
+    let mut raw = Panel::new(&window.window, width, HEIGHTS, unit)?;
+    let mut plausible = Panel::new(&window.window, width, HEIGHTS, unit)?;
+    let radius = (dot_radius(window.detections) * unit).max(0.6);
+    let (mut all, mut labelled) = (DotField::empty(&raw.viewport), DotField::empty(&plausible.viewport));
+    let mut counts = Counts::default();
+    picture.marks.each(&mut |mark| {
+        counts.add(mark, &raw.viewport);
+        all.add_place(mark.place(), &raw.viewport, radius);
+        if mark.label == MarkLabel::Plausible {
+            labelled.add_place(mark.place(), &plausible.viewport, radius);
+        }
+    })?;
     finish(&mut raw, picture, &all, RAW, all.full());
-    let labelled = of(|mark| mark.label == MarkLabel::Plausible, &plausible);
     finish(&mut plausible, picture, &labelled, PLAUSIBLE, all.full());
-    Ok([raw, plausible])
+    Ok(([raw, plausible], counts))
+}
+
+/// Which part of the ground is shown, and how many detections there are.
+struct Shown {
+    window: Window,
+    detections: usize,
+}
+
+fn window(picture: &OverviewPicture<'_>) -> Result<Shown, PlotError> {
+    let mut detections = 0;
+    picture.marks.each(&mut |_| detections += 1)?;
+    let mut tails = Tails::of_at_most(detections);
+    picture.marks.each(&mut |mark| tails.add(mark.place()))?;
+    Ok(Shown { window: picture.extent.window_of(tails.bounds(), picture.path), detections })
 }
 
 fn finish(panel: &mut Panel, picture: &OverviewPicture<'_>, dots: &DotField, ink: Ink, full: f32) {
@@ -196,8 +214,7 @@ mod tests {
         let marks = [mark(10.0, MarkLabel::Plausible), mark(-10.0, MarkLabel::Artifact)];
         let picture =
             OverviewPicture { marks: &marks, extent: Extent::Radius(20.0), ..OverviewPicture::default() };
-        let window = picture.extent.window(marks.iter().map(Mark::place), &[]);
-        let [raw, plausible] = panels(&picture, &window, 400.0, 1.0).unwrap();
+        let ([raw, plausible], _) = panels(&picture, &window(&picture).unwrap(), 400.0, 1.0).unwrap();
         let at = |panel: &Panel, x: f64| {
             let pixel = panel.viewport.pixel_from_world([x, 0.0]).map(|edge| edge as u32);
             panel.canvas.rgb(pixel)

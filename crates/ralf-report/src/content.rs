@@ -1,10 +1,11 @@
 //! Everything that the page tells, gathered.
 
-use crate::scored::{Detections, Origin, rig_of_run};
-use crate::{Pictures, Report, ReportError, pictures};
+use crate::findings::Findings;
+use crate::scored::{COLUMNS, Origin, Scored};
+use crate::{Detections, Pictures, Report, ReportError};
 use ralf::metrics::Separation;
-use ralf_data::result::{LabelledRows, LabelledRun, RunRecord, read_labelled_rows};
-use ralf_data::{Balance, Comparison, Corrections, GroundTruth, SequenceReader};
+use ralf_data::result::{LabelledRun, LabelledSequence, RunRecord};
+use ralf_data::{Balance, Causes, Comparison, Corrections, DataError, GroundTruth, SequenceReader};
 use ralf_plot::Extent;
 
 /// Widths of the pictures, pixels: an overview's half, a scan.
@@ -18,14 +19,18 @@ pub(crate) struct Content {
     pub(crate) dataset: String,
     /// Of the run.
     pub(crate) record: RunRecord,
-    /// The detections of all sequences.
-    pub(crate) detections: Detections,
+    /// What is counted over the detections of all sequences.
+    pub(crate) findings: Findings,
     /// Labels against truth, where there is some.
     pub(crate) comparison: Option<Comparison>,
     /// Of all sequences together.
     pub(crate) balance: Balance,
     /// In the recording's order.
     pub(crate) sequences: Vec<SequenceContent>,
+    /// Sequences of the recording that are not labelled.
+    pub(crate) without_labels: Vec<String>,
+    /// Scans whose corrections belong to another content.
+    pub(crate) orphaned: Vec<String>,
 }
 
 /// One sequence.
@@ -55,94 +60,136 @@ pub(crate) struct ScanContent {
 }
 
 impl Content {
-    /// Reads and draws everything.
+    /// Reads and draws everything. Sequences that are not labelled are named and left out.
     pub(crate) fn gather(report: &Report, progress: &dyn Fn(&str)) -> Result<Self, ReportError> {
         let dataset = &report.recording.path;
         let run = LabelledRun::open(report.out)?;
+        let of_run = |reader: &&Box<dyn SequenceReader>| run.holds(&reader.sequence().name);
+        let (readers, others): (Vec<_>, Vec<_>) = report.recording.sequences.iter().partition(of_run);
+        let names: Vec<&str> = readers.iter().map(|reader| reader.sequence().name.as_str()).collect();
+        let without_labels: Vec<String> =
+            others.iter().map(|reader| reader.sequence().name.clone()).collect();
+        if names.is_empty() {
+            let found = format!("none of them (the recording holds {})", without_labels.join(", "));
+            let place = "run.json, sequences";
+            return Err(DataError::content(report.out, place, "labels of the recording", found).into());
+        }
         let mut record = run.record().clone();
-        let names: Vec<&str> =
-            report.recording.sequences.iter().map(|reader| reader.sequence().name.as_str()).collect();
         record.sequences.retain(|sequence| names.contains(&sequence.name.as_str()));
         let corrections = Corrections::of_recording(report.out, report.recording)?;
-        let orphaned: Vec<String> = corrections.orphaned().iter().map(ToString::to_string).collect();
+        let orphaned = corrections.orphaned().iter().map(ToString::to_string).collect();
         let truth =
             GroundTruth::find_merged(dataset, corrections)?.and_then(|truth| truth.of_sequences(&names));
         let comparison = truth.as_ref().map(|truth| Comparison::new(report.out, truth)).transpose()?;
-        let mut detections = Detections::default();
-        let (mut sequences, mut overall) = (Vec::new(), Separation::default());
-        for reader in &report.recording.sequences {
-            let sequence = reader.sequence();
-            progress(&format!("sequence {}", sequence.name));
+        let (mut findings, mut overall) = (Findings::default(), Separation::default());
+        let mut sequences = Vec::new();
+        for reader in &readers {
+            progress(&format!("sequence {}", reader.sequence().name));
             let labelled = run.sequence(reader.as_ref())?;
-            let rows = read_labelled_rows(labelled.tables.file())?;
-            let rig = labelled.rig;
-            let origin = Origin { dataset, sequence: &sequence.name, rig: &rig, truth: truth.as_ref() };
-            detections.add(origin, &rows)?;
-            answers(&rows).for_each(|(w, plausible)| overall.add(w, plausible));
-            let threshold = record.settings.method.fusion.threshold;
+            let counted = Counted::gather(
+                report,
+                reader.as_ref(),
+                &labelled,
+                truth.as_ref(),
+                &mut findings,
+                &mut overall,
+            )?;
             sequences.push(SequenceContent::draw(
                 reader.as_ref(),
-                &rows,
+                &labelled,
+                counted,
                 report.scans_per_sequence,
-                threshold,
             )?);
         }
         let name = dataset.canonicalize().ok();
         let name = name.as_ref().unwrap_or(dataset).file_name().unwrap_or_default();
         let dataset = name.to_string_lossy().into_owned();
-        Ok(Self { dataset, record, detections, comparison, balance: overall.into(), sequences })
+        let balance = overall.into();
+        Ok(Self { dataset, record, findings, comparison, balance, sequences, without_labels, orphaned })
+    }
+}
+
+/// What is counted over the detections of one sequence.
+struct Counted {
+    balance: Balance,
+    /// The scans of the first radar, those first whose plausibilities are on average closest to the threshold.
+    uncertain: Vec<usize>,
+}
+
+impl Counted {
+    /// Goes through the sequence's tables once.
+    fn gather(
+        report: &Report,
+        reader: &dyn SequenceReader,
+        labelled: &LabelledSequence,
+        truth: Option<&GroundTruth>,
+        findings: &mut Findings,
+        overall: &mut Separation,
+    ) -> Result<Self, ReportError> {
+        let (dataset, sequence) = (&report.recording.path, &reader.sequence().name);
+        let causes = Causes::find(dataset, sequence)?;
+        findings.groups.name_causes(causes.as_ref().map_or(&[], Causes::names));
+        let origin = Origin { dataset, sequence, rig: &labelled.rig, truth, causes: causes.as_ref() };
+        let radar = first_radar(reader);
+        let (mut balance, mut distances) = (Separation::default(), Vec::new());
+        labelled.tables.each(&COLUMNS, |key, table| {
+            let scan = origin.scored(key, table)?;
+            findings.add(&scan, causes.as_ref());
+            for scored in &scan {
+                balance.add(scored.w.into(), scored.plausible);
+                overall.add(scored.w.into(), scored.plausible);
+            }
+            if *key.radar == *radar {
+                distances.push((mean_distance(&scan, labelled.settings.fusion.threshold), key.scan));
+            }
+            Ok::<_, ReportError>(())
+        })?;
+        Ok(Self { balance: balance.into(), uncertain: in_order(distances) })
     }
 }
 
 impl SequenceContent {
     fn draw(
         reader: &dyn SequenceReader,
-        rows: &LabelledRows,
+        labelled: &LabelledSequence,
+        counted: Counted,
         wanted: usize,
-        threshold: f64,
     ) -> Result<Self, ReportError> {
-        let pictures = Pictures { reader, rows, radar: None, extent: Extent::Fit };
+        let pictures = Pictures { reader, tables: &labelled.tables, radar: None, extent: Extent::Fit };
         let sequence = reader.sequence();
-        let radar = sequence.rig.radars.first().map_or(String::new(), |radar| radar.name.clone());
-        let draw = |(scan, uncertain)| {
-            use pictures::Detections::{Labelled, Raw};
-            let pictures = [pictures.scan(scan, Raw, WIDTHS[1])?, pictures.scan(scan, Labelled, WIDTHS[1])?];
-            Ok(ScanContent { scan, uncertain, pictures })
-        };
         let count = sequence.times.radars.first().map_or(0, Vec::len);
-        let chosen = choose(count, wanted, &uncertain_scans(rows, &radar, threshold));
+        let mut scans = Vec::new();
+        for (scan, uncertain) in choose(count, wanted, &counted.uncertain) {
+            let raw = pictures.scan(scan, Detections::Raw, WIDTHS[1])?;
+            let pictures = [raw, pictures.scan(scan, Detections::Labelled, WIDTHS[1])?];
+            scans.push(ScanContent { scan, uncertain, pictures });
+        }
         Ok(Self {
             name: sequence.name.clone(),
             title: sequence.title.clone(),
-            balance: answers(rows).collect::<Separation>().into(),
+            balance: counted.balance,
             overview: pictures.overview(WIDTHS[0])?,
-            radar,
-            scans: chosen.into_iter().map(draw).collect::<Result<_, ReportError>>()?,
+            radar: first_radar(reader),
+            scans,
         })
     }
 }
 
-fn answers(rows: &LabelledRows) -> impl Iterator<Item = (f64, bool)> {
-    rows.w.iter().zip(&rows.label).map(|(w, label)| (f64::from(*w), *label == 1))
+/// The radar that numbers the scans that are drawn.
+fn first_radar(reader: &dyn SequenceReader) -> String {
+    reader.sequence().rig.radars.first().map_or(String::new(), |radar| radar.name.clone())
 }
 
-/// The scans of a radar, those first whose plausibilities are on average closest to the threshold.
-fn uncertain_scans(rows: &LabelledRows, radar: &str, threshold: f64) -> Vec<usize> {
-    let of_radar = (0..rows.scan.len()).filter(|row| rows.radars[rows.radar[*row]] == radar);
-    let mut sums: Vec<(usize, f64, u32)> = Vec::new();
-    for row in of_radar {
-        let distance = (f64::from(rows.w[row]) - threshold).abs();
-        match sums.last_mut() {
-            Some((scan, sum, count)) if *scan == rows.scan[row] => {
-                (*sum, *count) = (*sum + distance, *count + 1)
-            }
-            _ => sums.push((rows.scan[row], distance, 1)),
-        }
-    }
-    let mut means: Vec<(f64, usize)> =
-        sums.into_iter().map(|(scan, sum, count)| (sum / f64::from(count), scan)).collect();
-    means.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-    means.into_iter().map(|(_, scan)| scan).collect()
+/// How far the plausibilities of a scan lie from the threshold.
+fn mean_distance(scan: &[Scored], threshold: f64) -> f64 {
+    let sum: f64 = scan.iter().map(|scored| (f64::from(scored.w) - threshold).abs()).sum();
+    sum / scan.len() as f64
+}
+
+/// The scans, the nearest first.
+fn in_order(mut distances: Vec<(f64, usize)>) -> Vec<usize> {
+    distances.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+    distances.into_iter().map(|(_, scan)| scan).collect()
 }
 
 /// Some scans of so many, in order: a third of them the most uncertain, the others evenly spread. The flag tells which.
@@ -176,13 +223,20 @@ mod tests {
 
     #[test]
     fn closeness_to_the_threshold_makes_a_scan_uncertain() {
-        let rows = LabelledRows {
-            radars: vec!["front".into(), "rear".into()],
-            radar: vec![0, 0, 0, 1],
-            scan: vec![0, 1, 1, 2],
-            w: vec![0.9, 0.4, 0.6, 0.5],
-            ..LabelledRows::default()
+        let scored = |w| Scored {
+            range: 1.0,
+            azimuth: 0.0,
+            w_opt: w,
+            w_tr: w,
+            w,
+            gamma: 1.0,
+            plausible: true,
+            flags: 0,
+            truth: None,
+            cause: None,
         };
-        assert_eq!(uncertain_scans(&rows, "front", 0.5), [1, 0]);
+        let scans = [vec![scored(0.9)], vec![scored(0.4), scored(0.6)]];
+        let distances = scans.iter().enumerate().map(|(scan, scored)| (mean_distance(scored, 0.5), scan));
+        assert_eq!(in_order(distances.collect()), [1, 0]);
     }
 }

@@ -24,30 +24,52 @@ pub(crate) struct Bin {
 }
 
 impl Bin {
+    /// Counts one more.
+    pub(crate) fn add(&mut self, plausible: bool) {
+        self.count += 1;
+        self.plausible += usize::from(plausible);
+    }
+
     /// The plausible share; `None` of an empty bin.
     pub(crate) fn share(&self) -> Option<f64> {
         (self.count > 0).then(|| self.plausible as f64 / self.count as f64)
     }
 }
 
-/// Precision over recall for every threshold that makes a difference, by rising recall. Floor detections and unobserved ones
-/// never pass, as in the method.
-pub(crate) fn precision_recall(detections: &[(&Scored, bool)]) -> Vec<Point> {
-    let positives = detections.iter().filter(|(_, truth)| *truth).count();
-    let may_pass = detections.iter().filter(|(scored, _)| scored.may_be_plausible());
-    let mut ranked: Vec<(f32, bool)> = may_pass.map(|(scored, truth)| (scored.w, *truth)).collect();
-    ranked.sort_unstable_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
-    let (mut points, mut tp, mut passed) = (Vec::new(), 0_usize, 0_usize);
-    if positives == 0 {
-        return points;
+/// Detections with truth by their plausibility, 4 bytes each: floor detections and unobserved ones never pass, as in
+/// the method.
+#[derive(Debug, Default)]
+pub(crate) struct Ranked {
+    /// The bits of `w`, which order as `w` does from 0 to 1, and below them whether it is plausible.
+    keys: Vec<u32>,
+    positives: usize,
+}
+
+impl Ranked {
+    pub(crate) fn add(&mut self, scored: &Scored, truth: bool) {
+        self.positives += usize::from(truth);
+        if scored.may_be_plausible() {
+            let w = if scored.w > 0.0 { scored.w.min(1.0) } else { 0.0 };
+            self.keys.push(w.to_bits() << 1 | u32::from(truth));
+        }
     }
-    for tie in ranked.chunk_by(|a, b| a.0 == b.0) {
-        tp += tie.iter().filter(|(_, truth)| *truth).count();
-        passed += tie.len();
-        let (recall, precision) = (tp as f64 / positives as f64, tp as f64 / passed as f64);
-        points.push(Point { recall, precision });
+
+    /// Precision over recall for every threshold that makes a difference, by rising recall.
+    pub(crate) fn precision_recall(&self) -> Vec<Point> {
+        let (mut points, mut tp, mut passed) = (Vec::new(), 0_usize, 0_usize);
+        if self.positives == 0 {
+            return points;
+        }
+        let mut keys = self.keys.clone();
+        keys.sort_unstable_by(|a, b| b.cmp(a));
+        for tie in keys.chunk_by(|a, b| a >> 1 == b >> 1) {
+            tp += tie.iter().filter(|key| **key & 1 == 1).count();
+            passed += tie.len();
+            let (recall, precision) = (tp as f64 / self.positives as f64, tp as f64 / passed as f64);
+            points.push(Point { recall, precision });
+        }
+        points
     }
-    points
 }
 
 /// The area under the curve: average precision, the sum of precision times the step in recall.
@@ -68,15 +90,9 @@ pub(crate) fn thinned(points: &[Point], wanted: usize) -> Vec<Point> {
     points.iter().step_by(every).chain(last.map(|last| &points[last])).copied().collect()
 }
 
-/// Detections by `w`, from 0 to 1.
-pub(crate) fn by_plausibility(detections: impl IntoIterator<Item = (f32, bool)>) -> [Bin; BINS] {
-    let mut bins = [Bin::default(); BINS];
-    for (w, plausible) in detections {
-        let bin = &mut bins[((f64::from(w) * BINS as f64) as usize).min(BINS - 1)];
-        bin.count += 1;
-        bin.plausible += usize::from(plausible);
-    }
-    bins
+/// The bin of a plausibility, from 0 to 1.
+pub(crate) fn bin_of(w: f32) -> usize {
+    ((f64::from(w) * BINS as f64) as usize).min(BINS - 1)
 }
 
 #[cfg(test)]
@@ -93,13 +109,17 @@ mod tests {
     fn ties_pass_together_and_floor_detections_never() {
         let seen =
             [(scored(0.9, 0), true), (scored(0.5, 0), false), (scored(0.5, 0), true), (scored(0.0, 1), true)];
-        let seen: Vec<_> = seen.iter().map(|(scored, truth)| (scored, *truth)).collect();
-        let found = precision_recall(&seen);
+        let ranked = |seen: &[(Scored, bool)]| {
+            let mut ranked = Ranked::default();
+            seen.iter().for_each(|(scored, truth)| ranked.add(scored, *truth));
+            ranked
+        };
+        let found = ranked(&seen).precision_recall();
         let third = 1.0 / 3.0;
         let expected = [(third, 1.0), (2.0 * third, 2.0 * third)];
         assert_eq!(found.iter().map(|p| (p.recall, p.precision)).collect::<Vec<_>>(), expected);
         assert!((average_precision(&found) - (third + third * 2.0 * third)).abs() < 1e-12);
-        assert!(precision_recall(&[(&scored(0.9, 0), false)]).is_empty());
+        assert!(ranked(&[(scored(0.9, 0), false)]).precision_recall().is_empty());
     }
 
     #[test]
@@ -113,7 +133,10 @@ mod tests {
 
     #[test]
     fn both_ends_of_w_have_their_bin() {
-        let bins = by_plausibility([(0.0, false), (1.0, true), (0.974, false), (0.976, false)]);
+        let mut bins = [Bin::default(); BINS];
+        for (w, plausible) in [(0.0, false), (1.0, true), (0.974, false), (0.976, false)] {
+            bins[bin_of(w)].add(plausible);
+        }
         assert_eq!((bins[0].count, bins[BINS - 1].count), (1, 3));
         assert_eq!(bins[BINS - 1].share(), Some(1.0 / 3.0));
         assert_eq!(bins[5].share(), None);

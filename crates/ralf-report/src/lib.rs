@@ -1,21 +1,22 @@
 //! A labelled recording as one page for people: how good the labels are, where they are wrong, what they look like.
 //!
-//! [`Report::html`] gathers a run's results, the recording and, where there are some, the corrected labels, and gives one
-//! self-contained HTML page: charts as inline SVG, pictures as data, nothing from a network. The same data give the same
-//! bytes. [`Pictures`] draws single pictures of a sequence.
+//! [`Report::page`] gathers a run's results, the recording and, where there are some, the corrected labels, and gives
+//! one self-contained HTML page: charts as inline SVG, pictures as data, nothing from a network. The same data give the
+//! same bytes. [`Pictures`] draws single pictures of a sequence.
 
 mod breakdown;
 mod chart;
 mod content;
 mod curves;
 mod error;
+mod findings;
 mod page;
 mod pictures;
 mod scored;
 mod settings_map;
 
 pub use error::ReportError;
-pub use pictures::{Detections, Pictures};
+pub use pictures::{Detections, Pictures, mark_label};
 
 use content::Content;
 use ralf_data::Recording;
@@ -31,14 +32,29 @@ pub struct Report<'a> {
     pub scans_per_sequence: usize,
 }
 
+/// A report, and what it could not tell of.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Page {
+    /// The page.
+    pub html: String,
+    /// Sequences of the recording that are not labelled: the page names them.
+    pub without_labels: Vec<String>,
+    /// Scans, as `sequence/radar/scan`, of which people said something while they held something else: it is not
+    /// applied.
+    pub orphaned: Vec<String>,
+}
+
 impl Report<'_> {
-    /// The page. `progress` is told what is done next.
+    /// The page. `progress` is told what is done next. Detections pass one row group at a time, so that a page about
+    /// millions of them needs little memory.
     ///
     /// # Errors
-    /// Results or corrected labels that are missing, unreadable or of another recording.
-    pub fn html(&self, progress: &dyn Fn(&str)) -> Result<String, ReportError> {
+    /// Results or corrected labels that are damaged, unreadable or of another recording; a run that has labelled none
+    /// of the recording's sequences.
+    pub fn page(&self, progress: &dyn Fn(&str)) -> Result<Page, ReportError> {
         let content = Content::gather(self, progress)?;
         progress("writing the page");
-        page::render(&content)
+        let html = page::render(&content)?;
+        Ok(Page { html, without_labels: content.without_labels, orphaned: content.orphaned })
     }
 }

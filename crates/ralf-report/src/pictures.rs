@@ -5,10 +5,11 @@ use crate::ReportError;
 use ralf::sensors::{Radar, Sequence, is_return};
 use ralf::space::sync;
 use ralf::space::{Point, Transform, Vector};
-use ralf_data::SequenceReader;
-use ralf_data::result::LabelledRows;
+use ralf_data::result::{PlausibilityReader, RadarScanKey, Table};
+use ralf_data::{DataError, SequenceReader};
 use ralf_plot::{
-    Extent, Mark, MarkLabel, OverviewPicture, RadarMount, ScanPicture, overview_picture, scan_picture,
+    Extent, Mark, MarkLabel, Marks, OverviewPicture, PlotError, RadarMount, ScanPicture, overview_picture,
+    scan_picture,
 };
 
 /// A LiDAR scan farther from the radar scan than this is not drawn with it, ns.
@@ -30,7 +31,7 @@ pub struct Pictures<'a> {
     /// The sequence.
     pub reader: &'a dyn SequenceReader,
     /// Its labels.
-    pub rows: &'a LabelledRows,
+    pub tables: &'a PlausibilityReader,
     /// Only this radar; all of them if `None`.
     pub radar: Option<&'a str>,
     /// Which part of the ground is shown.
@@ -82,7 +83,7 @@ impl Pictures<'_> {
     pub fn scan(&self, scan: usize, shown: Detections, width: u32) -> Result<Vec<u8>, ReportError> {
         let sequence = self.sequence();
         let t_ns = self.time_of(scan)?;
-        let marks = self.marks_at(t_ns, shown);
+        let marks = self.marks_at(t_ns, shown)?;
         let radars: Vec<_> =
             sequence.rig.radars.iter().filter(|radar| self.shows(&radar.name)).map(mount).collect();
         let who = self.who();
@@ -106,12 +107,6 @@ impl Pictures<'_> {
         self.first_radar()?;
         let sequence = self.sequence();
         let times = &sequence.times.radars;
-        let marks: Vec<_> = (0..self.rows.scan.len())
-            .filter_map(|row| {
-                let t_ns = *times[self.radar_of(row)?].get(self.rows.scan[row])?;
-                Some(self.mark(row, &sequence.motion.odom_from_vehicle(t_ns), Detections::Labelled))
-            })
-            .collect();
         let mut moments: Vec<_> = times.iter().flatten().copied().collect();
         moments.sort_unstable();
         let place = |t_ns: &i64| sequence.motion.odom_from_vehicle(*t_ns).translation.vector;
@@ -122,48 +117,38 @@ impl Pictures<'_> {
             half_width,
             extent: self.extent,
             lidar: &self.lidar_over_time()?,
-            marks: &marks,
+            marks: self,
             path: &path,
         })?)
     }
 
-    /// The detections of each drawn radar's scan nearest to a time: row, and time of its scan, ns.
-    pub fn rows_near(&self, t_ns: i64) -> impl Iterator<Item = (usize, i64)> {
-        let times = &self.sequence().times.radars;
-        let nearest: Vec<_> = times.iter().map(|times| sync::nearest(times, t_ns, i64::MAX)).collect();
-        let near = move |row: usize| {
-            let radar = self.radar_of(row)?;
-            let scan = nearest[radar].filter(|scan| *scan == self.rows.scan[row])?;
-            Some((row, times[radar][scan]))
-        };
-        (0..self.rows.scan.len()).filter_map(near)
+    /// Each drawn radar's scan nearest to a time, in the rig's order: when it was made, ns, and its detections with
+    /// these columns.
+    ///
+    /// # Errors
+    /// Labels that can't be read, or lack a column.
+    pub fn scans_near(&self, t_ns: i64, columns: &[&str]) -> Result<Vec<(i64, Table)>, ReportError> {
+        let sequence = self.sequence();
+        let schema = self.tables.schema().only(columns)?;
+        let mut near = Vec::new();
+        for (radar, times) in sequence.rig.radars.iter().zip(&sequence.times.radars) {
+            let Some(scan) = sync::nearest(times, t_ns, i64::MAX).filter(|_| self.shows(&radar.name)) else {
+                continue;
+            };
+            let table = self.tables.table_of(&RadarScanKey::new(&radar.name, scan), &schema)?;
+            near.extend(table.map(|table| (times[scan], table)));
+        }
+        Ok(near)
     }
 
     /// These detections in the vehicle frame at that time.
-    fn marks_at(&self, t_ns: i64, shown: Detections) -> Vec<Mark> {
+    fn marks_at(&self, t_ns: i64, shown: Detections) -> Result<Vec<Mark>, ReportError> {
         let motion = &self.sequence().motion;
-        let mark = |(row, scan_ns)| self.mark(row, &motion.between(t_ns, scan_ns), shown);
-        self.rows_near(t_ns).map(mark).collect()
-    }
-
-    /// Index of a row's radar in the rig; `None` of one that isn't drawn.
-    fn radar_of(&self, row: usize) -> Option<usize> {
-        let name = &self.rows.radars[self.rows.radar[row]];
-        self.sequence().rig.radars.iter().position(|radar| radar.name == *name && self.shows(name))
-    }
-
-    fn mark(&self, row: usize, to_from_vehicle: &Transform, shown: Detections) -> Mark {
-        let p = to_from_vehicle * Point::new(self.rows.x[row].into(), self.rows.y[row].into(), 0.0);
-        let label = match shown {
-            Detections::Raw => MarkLabel::Unlabelled,
-            Detections::Labelled => self.label(row),
-        };
-        Mark { x: p.x, y: p.y, label }
-    }
-
-    /// What a detection is labelled.
-    pub fn label(&self, row: usize) -> MarkLabel {
-        if self.rows.label[row] == 1 { MarkLabel::Plausible } else { MarkLabel::Artifact }
+        let mut marks = Vec::new();
+        for (scan_ns, table) in self.scans_near(t_ns, &MARKED)? {
+            add_marks(&table, &motion.between(t_ns, scan_ns), shown, &mut |mark| marks.push(*mark))?;
+        }
+        Ok(marks)
     }
 
     fn seconds_into(&self, t_ns: i64) -> f64 {
@@ -220,4 +205,46 @@ fn mount(radar: &Radar) -> RadarMount {
     let place = radar.vehicle_from_radar.translation.vector;
     let boresight = radar.vehicle_from_radar.rotation * Vector::x();
     RadarMount { x: place.x, y: place.y, azimuth: boresight.y.atan2(boresight.x), fov: radar.fov_azimuth }
+}
+
+/// The columns that make a mark.
+const MARKED: [&str; 3] = ["x", "y", "label"];
+
+/// The marks of a scan's detections in another frame.
+fn add_marks(
+    table: &Table,
+    to_from_vehicle: &Transform,
+    shown: Detections,
+    see: &mut dyn FnMut(&Mark),
+) -> Result<(), DataError> {
+    let (x, y, labels) = (table.get::<f32>("x")?, table.get::<f32>("y")?, table.get::<u8>("label")?);
+    for ((x, y), label) in x.iter().zip(y).zip(labels) {
+        let p = to_from_vehicle * Point::new((*x).into(), (*y).into(), 0.0);
+        let label = match shown {
+            Detections::Raw => MarkLabel::Unlabelled,
+            Detections::Labelled => mark_label(*label),
+        };
+        see(&Mark { x: p.x, y: p.y, label });
+    }
+    Ok(())
+}
+
+/// What a detection is labelled.
+pub fn mark_label(label: u8) -> MarkLabel {
+    if label == 1 { MarkLabel::Plausible } else { MarkLabel::Artifact }
+}
+
+/// All detections of the drawn radars in the odom frame, one row group in memory at a time.
+impl Marks for Pictures<'_> {
+    fn each(&self, see: &mut dyn FnMut(&Mark)) -> Result<(), PlotError> {
+        let sequence = self.sequence();
+        let read = self.tables.each(&MARKED, |key, table| {
+            let radar = sequence.rig.radars.iter().position(|radar| *radar.name == *key.radar);
+            let times = radar.filter(|_| self.shows(&key.radar)).map(|radar| &sequence.times.radars[radar]);
+            let Some(t_ns) = times.and_then(|times| times.get(key.scan)) else { return Ok(()) };
+            let odom_from_vehicle = sequence.motion.odom_from_vehicle(*t_ns);
+            add_marks(table, &odom_from_vehicle, Detections::Labelled, see)
+        });
+        read.map_err(|error: DataError| PlotError::Marks(error.to_string()))
+    }
 }

@@ -1,5 +1,5 @@
-//! F1 of plausible detections over alpha and `w_0` (the paper's figure param_selection): the branches' answers are known, so
-//! that the fusion alone is done again for each pair.
+//! F1 of plausible detections over alpha and `w_0` (the paper's figure param_selection): the branches' answers are
+//! known, so that the fusion alone is done again for each pair.
 
 use crate::scored::Scored;
 use ralf::paper::prioritize;
@@ -19,19 +19,50 @@ pub(crate) fn value_at(step: usize) -> f64 {
     step as f64 / (STEPS - 1) as f64
 }
 
-impl SettingsMap {
-    /// `None` where nothing is truly plausible, for F1 has no value then.
-    pub(crate) fn of(detections: &[(&Scored, bool)]) -> Option<Self> {
-        let positives = detections.iter().filter(|(_, truth)| *truth).count();
-        (positives > 0).then(|| {
-            let mut f1 = [[0.0; STEPS]; STEPS];
-            for (step, row) in f1.iter_mut().enumerate() {
-                *row = over_thresholds(detections, value_at(step), positives);
+/// Detections with truth by the settings with which they pass: for each alpha by the highest threshold, artifacts apart
+/// from plausible ones.
+#[derive(Debug, Default)]
+pub(crate) struct Passed {
+    counts: [[[usize; 2]; STEPS]; STEPS],
+    positives: usize,
+}
+
+impl Passed {
+    /// Fuses the branches' answers again, for each alpha.
+    pub(crate) fn add(&mut self, scored: &Scored, truth: bool) {
+        self.positives += usize::from(truth);
+        if !scored.may_be_plausible() {
+            return;
+        }
+        let present = |w: f32| w.is_finite().then_some(f64::from(w));
+        for (step, counts) in self.counts.iter_mut().enumerate() {
+            let w =
+                prioritize(value_at(step), present(scored.w_opt), present(scored.w_tr), scored.gamma.into());
+            let highest = (0..STEPS).rev().find(|step| w.is_some_and(|w| w >= value_at(*step)));
+            if let Some(step) = highest {
+                counts[step][usize::from(truth)] += 1;
             }
-            Self { f1 }
-        })
+        }
     }
 
+    /// The map; `None` where nothing is truly plausible, for F1 has no value then.
+    pub(crate) fn map(&self) -> Option<SettingsMap> {
+        if self.positives == 0 {
+            return None;
+        }
+        let mut f1 = [[0.0; STEPS]; STEPS];
+        for (row, counts) in f1.iter_mut().zip(&self.counts) {
+            let [mut fp, mut tp] = [0, 0];
+            for (cell, passed) in row.iter_mut().zip(counts).rev() {
+                (fp, tp) = (fp + passed[0], tp + passed[1]);
+                *cell = (2 * tp) as f64 / (self.positives + tp + fp) as f64;
+            }
+        }
+        Some(SettingsMap { f1 })
+    }
+}
+
+impl SettingsMap {
     /// The best pair: alpha, `w_0`, F1. Of equal ones the first.
     pub(crate) fn best(&self) -> (f64, f64, f64) {
         let mut best = (0.0, 0.0, f64::NEG_INFINITY);
@@ -46,26 +77,6 @@ impl SettingsMap {
     }
 }
 
-/// F1 for every threshold: detections are counted by the highest threshold that they pass.
-fn over_thresholds(detections: &[(&Scored, bool)], alpha: f64, positives: usize) -> [f64; STEPS] {
-    let mut passed = [[0_usize; 2]; STEPS];
-    for (scored, truth) in detections.iter().filter(|(scored, _)| scored.may_be_plausible()) {
-        let present = |w: f32| w.is_finite().then_some(f64::from(w));
-        let w = prioritize(alpha, present(scored.w_opt), present(scored.w_tr), scored.gamma.into());
-        let highest = (0..STEPS).rev().find(|step| w.is_some_and(|w| w >= value_at(*step)));
-        if let Some(step) = highest {
-            passed[step][usize::from(*truth)] += 1;
-        }
-    }
-    let mut f1 = [0.0; STEPS];
-    let [mut fp, mut tp] = [0, 0];
-    for (step, counts) in passed.iter().enumerate().rev() {
-        (fp, tp) = (fp + counts[0], tp + counts[1]);
-        f1[step] = (2 * tp) as f64 / (positives + tp + fp) as f64;
-    }
-    f1
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -75,16 +86,20 @@ mod tests {
         Scored { range, azimuth, w_opt, w_tr, w, gamma, plausible: false, flags, truth: None, cause: None }
     }
 
-    /// By hand: an object seen by LiDAR alone, a ghost that tracking follows, a floor detection, one halved by the bumper.
+    /// By hand: an object seen by LiDAR alone, a ghost that tracking follows, a floor detection, one halved by the
+    /// bumper.
     #[test]
     fn alpha_weighs_the_branches_and_w_0_cuts() {
         let object = scored(1.0, 0.0, 1.0, 0);
         let ghost = scored(0.0, 1.0, 1.0, 0);
         let floor = scored(0.0, 1.0, 1.0, 1);
         let behind_bumper = scored(1.0, f32::NAN, 2.0, 0);
-        let found =
-            SettingsMap::of(&[(&object, true), (&ghost, false), (&floor, true), (&behind_bumper, true)])
-                .unwrap();
+        let map = |seen: &[(&Scored, bool)]| {
+            let mut passed = Passed::default();
+            seen.iter().for_each(|(scored, truth)| passed.add(scored, *truth));
+            passed.map()
+        };
+        let found = map(&[(&object, true), (&ghost, false), (&floor, true), (&behind_bumper, true)]).unwrap();
         let step = |value: f64| (value * (STEPS - 1) as f64).round() as usize;
         let f1 = |alpha, threshold| found.f1[step(alpha)][step(threshold)];
         // tp 2 of 3, no ghost: 4 / (3 + 2).
@@ -97,6 +112,6 @@ mod tests {
         // At w_0 = 0 all but the floor detection pass.
         assert_eq!(f1(0.5, 0.0), 4.0 / 6.0);
         assert_eq!(found.best().2, 0.8);
-        assert!(SettingsMap::of(&[(&ghost, false)]).is_none());
+        assert!(map(&[(&ghost, false)]).is_none());
     }
 }

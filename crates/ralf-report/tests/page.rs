@@ -73,9 +73,16 @@ impl Tiny {
 
 fn page(dataset: &Path, out: &Path, scans_per_sequence: usize) -> String {
     let recording = ralf_data::open(dataset, None).unwrap();
-    let run = LabelRun { recording: &recording, settings: &Settings::default(), out, jobs: 1, checks: &[] };
+    let run = LabelRun {
+        recording: &recording,
+        settings: &Settings::default(),
+        out,
+        jobs: 1,
+        evidence: false,
+        checks: &[],
+    };
     run.execute(&Silent).unwrap();
-    Report { recording: &recording, out, scans_per_sequence }.html(&|_| ()).unwrap()
+    Report { recording: &recording, out, scans_per_sequence }.page(&|_| ()).unwrap().html
 }
 
 #[test]
@@ -168,7 +175,7 @@ fn results_that_are_missing_are_named() {
     let tiny = Tiny::new();
     let recording = ralf_data::open(&tiny.dataset(), None).unwrap();
     let report = Report { recording: &recording, out: &tiny.out(), scans_per_sequence: 1 };
-    let error = report.html(&|_| ()).unwrap_err().to_string();
+    let error = report.page(&|_| ()).unwrap_err().to_string();
     assert!(error.contains("run.json: expected the record of a finished `ralf label`"), "{error}");
 }
 
@@ -182,9 +189,15 @@ fn a_recording_of_another_format_without_truth() {
     let recording = recording.select(&[first]).unwrap();
     let out = tempfile::tempdir().unwrap();
     let out = out.path().join("out");
-    let run =
-        LabelRun { recording: &recording, settings: &Settings::default(), out: &out, jobs: 2, checks: &[] };
+    let run = LabelRun {
+        recording: &recording,
+        settings: &Settings::default(),
+        out: &out,
+        jobs: 2,
+        evidence: false,
+        checks: &[],
+    };
     run.execute(&Silent).unwrap();
-    let page = Report { recording: &recording, out: &out, scans_per_sequence: 1 }.html(&|_| ()).unwrap();
+    let page = Report { recording: &recording, out: &out, scans_per_sequence: 1 }.page(&|_| ()).unwrap().html;
     assert!(page.contains("This recording has no corrected labels") && page.contains("RADAR_FRONT"));
 }

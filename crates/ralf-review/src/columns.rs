@@ -1,5 +1,7 @@
 //! What the columns of a result mean, as the page shows them.
 
+use ralf_data::result::Column;
+
 /// What kind of number a column holds; the page shows each kind in its own manner.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Group {
@@ -56,10 +58,11 @@ const KNOWN: [(&str, Meaning); 20] = [
     ("w_tr", plausibility("tracking")),
 ];
 
-/// What a column means; one of no known name is a measured number without a unit.
-pub(crate) fn meaning(name: &str) -> Meaning {
-    let known = KNOWN.iter().find(|(known, _)| *known == name);
-    known.map_or(measured("", ""), |(_, meaning)| *meaning)
+/// What a column means: a few words where there are some, else what the result says of it.
+pub(crate) fn meaning(column: &Column) -> Meaning {
+    let known = KNOWN.iter().find(|(known, _)| *known == column.name);
+    let text = if column.group == ralf_data::result::Group::Evidence { column.meaning } else { "" };
+    known.map_or(measured(column.unit, text), |(_, meaning)| *meaning)
 }
 
 const fn place(unit: &'static str, text: &'static str) -> Meaning {

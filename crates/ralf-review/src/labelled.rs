@@ -7,8 +7,9 @@ use ralf::config::{Config, nanoseconds};
 use ralf::scene::ViewState;
 use ralf::sensors::{Rig, Sequence};
 use ralf::space::sync;
-use ralf_data::result::{Columns, PlausibilityReader, ScanTable, ScanTables};
-use ralf_data::run::{CameraRecord, ImageRecord, read_record};
+use ralf_data::result::{
+    CameraRecord, ImageRecord, LabelledRun, LabelledSequence, PlausibilityReader, RadarScanKey, Table,
+};
 use ralf_data::{DataError, SequenceReader};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -26,7 +27,7 @@ pub(crate) struct SequenceLabels {
     pub(crate) rig: Rig,
     pub(crate) settings: Config,
     pub(crate) reader: PlausibilityReader,
-    groups: Cache<usize, ScanTables>,
+    groups: Cache<usize, BTreeMap<RadarScanKey, Table>>,
     /// By camera of the rig: images that were asked, and whether one of their views has failed.
     images: Vec<BTreeMap<usize, bool>>,
     /// Why scans could not be labelled, by radar and number.
@@ -61,21 +62,15 @@ impl SequenceLabels {
     }
 
     pub(crate) fn load(out: &Path, reader: &dyn SequenceReader, stamp: Stamp) -> Result<Self, ApiError> {
-        let sequence = reader.sequence();
-        let record = read_record(out)?;
-        let mut rig = sequence.rig.clone();
-        record.settings.method.apply_to(&mut rig).map_err(|error| ApiError::Broken(error.to_string()))?;
-        let columns = Columns::of(&rig).map_err(ApiError::Broken)?;
-        let known = record.sequences.iter().find(|known| known.name == sequence.name);
-        let cameras = known.map_or(&[][..], |known| known.cameras.as_slice());
-        let not_labelled = known.map_or(&[][..], |known| known.not_labelled.as_slice());
+        let LabelledSequence { record, rig, settings, tables } = LabelledRun::open(out)?.sequence(reader)?;
+        let not_labelled = record.not_labelled.iter();
         let not_labelled =
-            not_labelled.iter().map(|scan| ((scan.radar.clone(), scan.scan), scan.reason.clone())).collect();
-        let images = rig.cameras.iter().map(|camera| asked_images(cameras, &camera.name)).collect();
+            not_labelled.map(|scan| ((scan.radar.clone(), scan.scan), scan.reason.clone())).collect();
+        let images = rig.cameras.iter().map(|camera| asked_images(&record.cameras, &camera.name)).collect();
         Ok(Self {
             stamp,
-            settings: record.settings.method,
-            reader: PlausibilityReader::open(&labels_file(out, &sequence.name), columns)?,
+            settings,
+            reader: tables,
             groups: Cache::new(GROUPS_KEPT),
             images,
             not_labelled,
@@ -85,20 +80,18 @@ impl SequenceLabels {
     }
 
     /// The labelled detections of a scan; 404 of one that could not be labelled.
-    pub(crate) fn table(&self, radar: &str, scan: usize, t_ns: i64) -> Result<ScanTable, ApiError> {
+    pub(crate) fn table(&self, radar: &str, scan: usize) -> Result<Table, ApiError> {
         if let Some(reason) = self.reason(radar, scan) {
             return Err(ApiError::Unknown(format!(
                 "{radar} scan {scan}: expected labels, found none: {reason}"
             )));
         }
-        let nothing = || ScanTable {
-            t_ns,
-            decimals: vec![Vec::new(); self.reader.columns().count()],
-            ..ScanTable::default()
-        };
-        let Some(group) = self.reader.group_of(radar, scan) else { return Ok(nothing()) };
-        let tables = self.groups.get(group, |_| true, || self.reader.tables(group))?;
-        Ok(tables.get(&(radar.to_owned(), scan)).cloned().unwrap_or_else(nothing))
+        let key = RadarScanKey::new(radar, scan);
+        let nothing = || Table::empty(self.reader.schema().clone());
+        let Some(group) = self.reader.group_of(&key) else { return Ok(nothing()) };
+        let read = || Ok::<_, DataError>(self.reader.tables(group)?.into_iter().collect());
+        let tables = self.groups.get(group, |_| true, read)?;
+        Ok(tables.get(&key).cloned().unwrap_or_else(nothing))
     }
 
     /// Why a scan could not be labelled.
@@ -154,11 +147,10 @@ impl SequenceLabels {
     fn doubts(&self) -> Result<BTreeMap<(String, usize), Doubts>, DataError> {
         let threshold = self.settings.fusion.threshold as f32;
         let mut doubts = BTreeMap::new();
-        for group in 0..self.reader.groups() {
-            for (scan, table) in self.reader.tables(group)? {
-                doubts.insert(scan, Doubts::of(self.reader.columns(), &table, threshold));
-            }
-        }
+        self.reader.each(&Doubts::COLUMNS, |key, table| {
+            doubts.insert((key.radar.to_string(), key.scan), Doubts::of(table, threshold)?);
+            Ok::<_, DataError>(())
+        })?;
         Ok(doubts)
     }
 }

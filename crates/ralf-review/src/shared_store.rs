@@ -9,9 +9,9 @@ const READERS: usize = 8;
 
 /// The store of an output folder.
 pub(crate) struct SharedStore {
-    writer: Writer,
-    /// At least one.
+    /// At least one. They are closed before the writer, which clears the journal away when it is the last.
     readers: Vec<Mutex<Reader>>,
+    writer: Writer,
 }
 
 enum Writer {

@@ -23,9 +23,11 @@
 //! | [`config`] | every setting | `sensors` |
 //! | [`scene`] | what surrounds one radar scan | `space`, `sensors`, `config` |
 //! | [`paper`] | the paper's method | all above |
+//! | [`evidence`] | what else can be observed of a detection | `scene`, `config` |
 //! | [`metrics`] | how good labels are | |
 
 pub mod config;
+pub mod evidence;
 pub mod label;
 pub mod metrics;
 pub mod paper;

@@ -45,6 +45,9 @@ pub(crate) struct LabelArgs {
     #[arg(long, value_name = "FOLDER")]
     #[cfg_attr(feature = "depth", arg(conflicts_with = "depth_model"))]
     depth: Option<PathBuf>,
+    /// Gather what else is known of each detection: a column of plausibility.parquet for each piece (docs/evidence.md)
+    #[arg(long)]
+    evidence: bool,
     /// Scans side by side; as many as there are processors if not given
     #[arg(long, value_name = "N")]
     jobs: Option<NonZeroUsize>,
@@ -82,20 +85,16 @@ pub(crate) fn run(arguments: &LabelArgs) -> anyhow::Result<Outcome> {
         Some(model) => depth_for_labelling(recording, &model, &arguments.output, &settings.method, jobs)?,
         None => recording,
     };
-    let out = arguments.output.as_path();
-    let run = LabelRun { recording: &recording, settings: &settings, out, jobs, checks: &checks };
+    let run = LabelRun {
+        recording: &recording,
+        settings: &settings,
+        out: &arguments.output,
+        jobs,
+        evidence: arguments.evidence,
+        checks: &checks,
+    };
     let done = run.execute(&Stages::new(arguments.quiet))?;
-    if !done.removed.is_empty() {
-        let names = done.removed.join(", ");
-        say(&format!("removed, for they were made by another version or with other settings: {names}"));
-    }
-    for (sequence, file) in &done.damaged {
-        let file = file.display();
-        say(&format!("sequence {sequence} is labelled again: {file} is not as it was written"));
-    }
-    if done.labelled.is_empty() {
-        say("nothing to do: labelled before with the same program, settings and inputs");
-    }
+    say_what_changed(&done);
     let record = &done.record;
     print(&if arguments.json { serde_json::to_string_pretty(record)? } else { summary(&done) })?;
     Ok(told_of_scans(record))
@@ -125,6 +124,21 @@ impl LabelArgs {
             checks.push(check);
         }
         checks
+    }
+}
+
+/// What became of earlier results.
+fn say_what_changed(done: &RunOutcome) {
+    if !done.removed.is_empty() {
+        let names = done.removed.join(", ");
+        say(&format!("removed, for they were made by another version or with other settings: {names}"));
+    }
+    for (sequence, file) in &done.damaged {
+        let file = file.display();
+        say(&format!("sequence {sequence} is labelled again: {file} is not as it was written"));
+    }
+    if done.labelled.is_empty() {
+        say("nothing to do: labelled before with the same program, settings and inputs");
     }
 }
 

@@ -1,6 +1,7 @@
 //! `ralf report`: one page about a labelled recording.
 
 use crate::arguments::{ChangedArgs, DatasetArgs};
+use crate::corrections::orphaned;
 use crate::outcome::Outcome;
 use crate::progress::{Progress, say};
 use clap::Args;
@@ -41,9 +42,13 @@ pub(crate) fn run(arguments: &ReportArgs) -> anyhow::Result<Outcome> {
         scans_per_sequence: arguments.scans_per_sequence,
     };
     let progress = Progress::spinner();
-    let html = report.html(&|step| progress.tell(step.to_owned()))?;
+    let page = report.page(&|step| progress.tell(step.to_owned()))?;
     drop(progress);
-    ralf_data::write_whole(&arguments.output, html.as_bytes())?;
+    ralf_data::write_whole(&arguments.output, page.html.as_bytes())?;
     say(&format!("wrote {}", arguments.output.display()));
-    Ok(Outcome::Done)
+    page.orphaned.iter().for_each(|scan| say(&orphaned(scan)));
+    for sequence in &page.without_labels {
+        say(&format!("sequence {sequence} has no labels: left out"));
+    }
+    Ok(if page.without_labels.is_empty() { Outcome::Done } else { Outcome::Partial })
 }

@@ -11,7 +11,7 @@ fn labelled() -> Dataset {
 
 /// Plots scan 1 with these further arguments.
 fn plot(dataset: &Dataset, picture: &str, what: &[&str]) -> Ran {
-    let fixed = ["plot", &dataset.path, &dataset.out, "--scan", "1", "-o", picture];
+    let fixed = ["plot", &dataset.path, &dataset.out, "--scan", "1", "-o", picture, "--changed-recording"];
     Ran::of(&program().args(fixed).args(what).output().unwrap())
 }
 

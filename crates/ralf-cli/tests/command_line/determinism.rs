@@ -28,12 +28,12 @@ fn the_same_command_again_has_nothing_to_do() {
 #[test]
 fn a_result_that_was_deleted_is_made_again() {
     let dataset = Dataset::new();
-    let label = || ralf(["label", &dataset.path, "-o", &dataset.out]).exits(0).says_nothing();
-    label();
+    let label = || ralf(["label", &dataset.path, "-o", &dataset.out]).exits(0);
+    label().says_nothing();
     let before = without_timings(&dataset.out);
     for lost in ["plausibility.parquet", "radar_left/000004.label"] {
         fs::remove_file(dataset.result(lost)).unwrap();
-        label();
+        label().says(["sequence 00 is labelled again", lost]);
         assert!(without_timings(&dataset.out) == before, "{lost}");
     }
 }

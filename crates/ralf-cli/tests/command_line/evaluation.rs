@@ -81,7 +81,7 @@ fn truth_that_is_not_there_is_named() {
     let nowhere = dataset.beside("nowhere");
     ralf(["evaluate", &dataset.out, "--truth", &nowhere]).exits(1).prints_nothing().says([&nowhere]);
     ralf(["evaluate", &nowhere, "--truth", &dataset.path]).exits(1).prints_nothing().says([&nowhere]);
-    ralf(["evaluate", &nowhere]).exits(1).prints_nothing().says([&nowhere, "plausibility.parquet"]);
+    ralf(["evaluate", &nowhere]).exits(1).prints_nothing().says([&nowhere, "run.json"]);
 }
 
 /// Worked out anew from the table.

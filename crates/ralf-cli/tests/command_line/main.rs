@@ -18,6 +18,7 @@ mod check;
 mod corrections;
 mod determinism;
 mod evaluation;
+mod evidence;
 mod export;
 #[cfg(unix)]
 mod full_disk;
@@ -29,6 +30,7 @@ mod odd_files;
 mod other_commands;
 mod other_data;
 mod real_data;
+mod reports;
 mod resume;
 #[cfg(unix)]
 mod review;

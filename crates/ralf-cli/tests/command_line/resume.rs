@@ -161,3 +161,22 @@ fn a_scan_that_can_not_be_labelled_any_more_keeps_no_label() {
     assert!(!dataset.result("radar_front/000003.label").exists());
     assert!(dataset.result("radar_front/000002.label").exists());
 }
+
+/// A program that was built from other sources has the same version.
+#[test]
+fn labels_of_another_build_are_made_again() {
+    let dataset = Dataset::new();
+    ralf(["label", &dataset.path, "-o", &dataset.out]).exits(0);
+    let whole = without_timings(&dataset.out);
+    let file = format!("{}/run.json", dataset.out);
+    let mut record: serde_json::Value = serde_json::from_slice(&fs::read(&file).unwrap()).unwrap();
+    let program = record["program"].as_str().unwrap().to_owned();
+    assert!(program.len() == 32 && program.bytes().all(|byte| byte.is_ascii_hexdigit()), "{program}");
+    record["program"] = "of-other-sources".into();
+    fs::write(&file, record.to_string()).unwrap();
+    let table = dataset.result("plausibility.parquet");
+    let written = fs::metadata(&table).unwrap().modified().unwrap();
+    ralf(["label", &dataset.path, "-o", &dataset.out]).exits(0).says_nothing();
+    assert_ne!(fs::metadata(&table).unwrap().modified().unwrap(), written, "nothing was done");
+    assert!(without_timings(&dataset.out) == whole);
+}

@@ -2,11 +2,11 @@
 
 use super::DepthStore;
 use crate::error::DataError;
+use crate::frames::side_by_side;
 use crate::read::SequenceReader;
 use crate::result::SequenceNames;
 use ralf::sensors::{Camera, CameraImage, DepthImage, StraightView, UndistortMap};
-use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::{Mutex, OnceLock, PoisonError};
+use std::sync::OnceLock;
 
 /// A depth network: the depth of a view with a focal length, px; or why there is none.
 pub type Estimate<'a> = dyn Fn(&CameraImage, f64) -> Result<DepthImage, String> + Sync + 'a;
@@ -36,36 +36,22 @@ pub fn compute_depth(
     let _lock = store.lock()?;
     let cameras = reader.sequence().rig.cameras.iter();
     let cameras: Vec<_> = cameras.map(|camera| Straightening { camera, views: OnceLock::new() }).collect();
-    let next = AtomicUsize::new(0);
-    let without = Mutex::new(Vec::new());
-    let work = || -> Result<(), DataError> {
-        while let Some(&(camera, image)) = images.get(next.fetch_add(1, Ordering::Relaxed)) {
-            let folder = &names.cameras[camera];
-            if !store.file(&names.sequence, folder, image).exists() {
-                match cameras[camera].depth(reader, (camera, image), estimate) {
-                    Ok(views) => store.write(&names.sequence, folder, image, &views)?,
-                    Err(error) => {
-                        let sensor = cameras[camera].camera.name.clone();
-                        let failed = DataError::Measurement { sensor, index: image, error };
-                        without
-                            .lock()
-                            .unwrap_or_else(PoisonError::into_inner)
-                            .push(((camera, image), failed));
-                    }
+    let without = side_by_side(images, jobs, |&(camera, image)| {
+        let (folder, straightening) = (&names.cameras[camera], &cameras[camera]);
+        let mut failed = None;
+        if !store.file(&names.sequence, folder, image).exists() {
+            match straightening.depth(reader, (camera, image), estimate) {
+                Ok(views) => store.write(&names.sequence, folder, image, &views)?,
+                Err(error) => {
+                    let sensor = straightening.camera.name.clone();
+                    failed = Some(((camera, image), DataError::Measurement { sensor, index: image, error }));
                 }
             }
-            observer();
         }
-        Ok(())
-    };
-    std::thread::scope(|scope| {
-        let workers: Vec<_> = (0..jobs.max(1)).map(|_| scope.spawn(work)).collect();
-        let join = |worker: std::thread::ScopedJoinHandle<'_, Result<(), DataError>>| {
-            worker.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))
-        };
-        workers.into_iter().try_for_each(join)
+        observer();
+        Ok::<_, DataError>(failed)
     })?;
-    let mut without = without.into_inner().unwrap_or_else(PoisonError::into_inner);
+    let mut without: Vec<_> = without.into_iter().flatten().collect();
     without.sort_by_key(|(image, _)| *image);
     Ok(without.into_iter().map(|(_, error)| error).collect())
 }

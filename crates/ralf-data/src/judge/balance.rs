@@ -1,7 +1,8 @@
-//! What a run's results say without ground truth (docs/method.md, section 9): how far apart the classes are, and how balanced.
+//! What a run's results say without ground truth (docs/method.md, section 9): how far apart the classes are, and how
+//! balanced.
 
 use crate::error::DataError;
-use crate::result::{LabelledRows, LabelledRun, read_labelled_rows};
+use crate::result::{LabelledRun, Table};
 use ralf::metrics::Separation;
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -18,7 +19,8 @@ pub struct Balance {
     pub artifact: u64,
     /// Share of detections labelled plausible; `None` without detections.
     pub plausible_share: Option<f64>,
-    /// Mean `w` of what is labelled plausible minus mean `w` of what is labelled artifact; `None` where a class is empty.
+    /// Mean `w` of what is labelled plausible minus mean `w` of what is labelled artifact; `None` where a class is
+    /// empty.
     pub distinctiveness: Option<f64>,
 }
 
@@ -54,7 +56,9 @@ impl Balances {
         let run = LabelledRun::open(out)?;
         let mut sums = Sums::default();
         for record in &run.record().sequences {
-            sums.add(record.name.clone(), &read_labelled_rows(&run.table_file(record)?)?);
+            sums.sequences.entry(record.name.clone()).or_default();
+            run.table(record)?
+                .each(&["w", "label"], |scan, table| sums.add(&record.name, &scan.radar, table))?;
         }
         Ok(sums.into())
     }
@@ -69,19 +73,16 @@ struct Sums {
 }
 
 impl Sums {
-    fn add(&mut self, sequence: String, rows: &LabelledRows) {
-        let of_sequence = self.sequences.entry(sequence).or_default();
-        for ((radar, w), label) in rows.radar.iter().zip(&rows.w).zip(&rows.label) {
+    fn add(&mut self, sequence: &str, radar: &str, table: &Table) -> Result<(), DataError> {
+        let of_sequence = self.sequences.entry(sequence.to_owned()).or_default();
+        let of_radar = self.radars.entry(radar.to_owned()).or_default();
+        for (w, label) in table.get::<f32>("w")?.iter().zip(table.get::<u8>("label")?) {
             let (w, plausible) = (f64::from(*w), *label == 1);
             self.overall.add(w, plausible);
             of_sequence.add(w, plausible);
-            match self.radars.get_mut(&rows.radars[*radar]) {
-                Some(of_radar) => of_radar.add(w, plausible),
-                None => drop(
-                    self.radars.insert(rows.radars[*radar].clone(), [(w, plausible)].into_iter().collect()),
-                ),
-            }
+            of_radar.add(w, plausible);
         }
+        Ok(())
     }
 }
 
@@ -97,20 +98,21 @@ impl From<Sums> for Balances {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::result::{Schema, Values};
+    use ralf::sensors::Rig;
 
     /// Worked out by hand.
     #[test]
     fn sums_are_kept_by_radar_and_by_sequence() {
-        let rows = |radars: [&str; 2], w: [f32; 3], label: [u8; 3]| LabelledRows {
-            radars: radars.map(str::to_owned).to_vec(),
-            radar: vec![0, 1, 1],
-            w: w.to_vec(),
-            label: label.to_vec(),
-            ..LabelledRows::default()
+        let schema = Schema::of(&Rig::default(), &[]).unwrap().only(&["w", "label"]).unwrap();
+        let rows = |w: &[f32], label: &[u8]| {
+            Table::new(schema.clone(), vec![Values::F32(w.to_vec()), Values::U8(label.to_vec())]).unwrap()
         };
         let mut sums = Sums::default();
-        sums.add("00".into(), &rows(["front", "back"], [1.0, 0.25, 0.0], [1, 0, 0]));
-        sums.add("01".into(), &rows(["back", "front"], [0.75, 0.5, 0.0], [1, 1, 0]));
+        sums.add("00", "front", &rows(&[1.0], &[1])).unwrap();
+        sums.add("00", "back", &rows(&[0.25, 0.0], &[0, 0])).unwrap();
+        sums.add("01", "back", &rows(&[0.75], &[1])).unwrap();
+        sums.add("01", "front", &rows(&[0.5, 0.0], &[1, 0])).unwrap();
         let found = Balances::from(sums);
         let balance = |plausible, artifact, distinctiveness| Balance {
             detections: plausible + artifact,

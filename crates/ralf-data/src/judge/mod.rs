@@ -1,7 +1,9 @@
 //! How good a run's labels are: against a truth, and without one.
 
 mod balance;
+mod doubt;
 mod evaluation;
 
 pub use balance::{Balance, Balances};
+pub use doubt::{DISAGREEING, Doubts, UNCERTAIN};
 pub use evaluation::Comparison;

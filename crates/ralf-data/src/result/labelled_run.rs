@@ -1,14 +1,16 @@
-//! The one door to what a run left: `OUT` with its `run.json`, its tables and its label files, checked as they are read.
+//! The one door to what a run left: `OUT` with its `run.json`, its tables and its label files, checked as they are
+//! read.
 
 use super::content::{input_is_unchanged, table_is_whole};
 use super::record::{RunRecord, read_record};
 use super::sequence_record::SequenceRecord;
-use super::{Columns, Component, Places, PlausibilityReader};
+use super::{Component, Places, PlausibilityReader, Schema};
 use crate::disk::files;
 use crate::disk::label_file::{Label, labels_of_bytes};
 use crate::error::DataError;
 use crate::read::{Recording, SequenceReader};
 use crate::settings::Settings;
+use ralf::config::Config;
 use ralf::sensors::Rig;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -28,6 +30,8 @@ pub struct LabelledSequence {
     pub record: SequenceRecord,
     /// The recording's sensors with the settings of the run.
     pub rig: Rig,
+    /// The settings of the method that the labels were made with.
+    pub settings: Config,
     /// The labelled detections.
     pub tables: PlausibilityReader,
 }
@@ -97,7 +101,11 @@ impl LabelledRun {
             }
             let mut now: BTreeSet<PathBuf> = reader.inputs().into_iter().collect();
             for input in self.record.inputs.iter().filter(|input| input.sequence == *name) {
-                let file = recording.path.join(&input.file);
+                // A recording that is one file has no name within itself.
+                let file = match input.file.is_empty() {
+                    true => recording.path.clone(),
+                    false => recording.path.join(&input.file),
+                };
                 // What lies elsewhere, such as depth beside the labels, may go once it was used.
                 let elsewhere = Path::new(&input.file).is_absolute();
                 let change = if !now.remove(&file) && elsewhere {
@@ -140,18 +148,30 @@ impl LabelledRun {
         })?;
         let file = self.table_file(record)?;
         let unlike = |found| DataError::content(&file, "columns", "those of the recording's radars", found);
-        let columns = Columns::of(&rig).map_err(unlike)?;
-        let tables = PlausibilityReader::open(&file, columns)?;
-        Ok(LabelledSequence { record: record.clone(), rig, tables })
+        let schema = Schema::of(&rig, &[]).map_err(unlike)?;
+        let tables = PlausibilityReader::open(&file, &schema)?;
+        let settings = self.record.settings.method.clone();
+        Ok(LabelledSequence { record: record.clone(), rig, settings, tables })
+    }
+
+    /// The table of a sequence, with the columns that every result has.
+    ///
+    /// # Errors
+    /// A table that is damaged.
+    pub fn table(&self, record: &SequenceRecord) -> Result<PlausibilityReader, DataError> {
+        let file = self.table_file(record)?;
+        let unlike = |found| DataError::content(&file, "columns", "those of a result", found);
+        PlausibilityReader::open(&file, &Schema::of(&Rig::default(), &[]).map_err(unlike)?)
     }
 
     /// Where the table of a sequence lies, once it is found to be as it was written.
-    pub(crate) fn table_file(&self, record: &SequenceRecord) -> Result<PathBuf, DataError> {
+    fn table_file(&self, record: &SequenceRecord) -> Result<PathBuf, DataError> {
         let file = self.places.plausibility_file(&super::checked("run.json, sequence", &record.name)?);
         if table_is_whole(&file, record)? { Ok(file) } else { Err(damaged(&file)) }
     }
 
-    /// The labels of a scan as a run wrote them; `None` where it has none. Only the label file has to be there, but where
+    /// The labels of a scan as a run wrote them; `None` where it has none. Only the label file has to be there, but
+    /// where
     /// `run.json` tells of it, it has to be as it was written.
     pub(crate) fn labels_below(
         out: &Path,

@@ -13,16 +13,23 @@ use std::path::Path;
 /// The record of an output folder.
 pub(crate) const RECORD: &str = "run.json";
 
-/// The content of `run.json`: sequences that were labelled by one version of the program with the same settings, be it at
-/// once or one after the other.
+/// The content of `run.json`: sequences that were labelled by one version of the program with the same settings, be it
+/// at once or one after the other.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct RunRecord {
     /// Version of the program.
     pub version: String,
+    /// A hash of the sources that the program was built from, as far as labels depend on them. An older record has
+    /// none.
+    #[serde(default)]
+    pub program: String,
     /// Format of the recording.
     pub format: String,
     /// All settings, resolved.
     pub settings: Settings,
+    /// Whether evidence was gathered, too.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub evidence: bool,
     /// Every file that was read, by sequence and name.
     pub inputs: Vec<Input>,
     /// In the order of their names.
@@ -70,11 +77,13 @@ pub fn read_record(out: &Path) -> Result<RunRecord, DataError> {
 
 impl RunRecord {
     /// The record of a folder that holds no sequence yet.
-    pub(crate) fn new(recording: &Recording, settings: &Settings) -> Self {
+    pub(crate) fn new(recording: &Recording, settings: &Settings, evidence: bool) -> Self {
         Self {
             version: env!("CARGO_PKG_VERSION").to_owned(),
+            program: env!("RALF_SOURCES").to_owned(),
             format: recording.format.to_owned(),
             settings: settings.clone(),
+            evidence,
             inputs: Vec::new(),
             sequences: Vec::new(),
             check: Vec::new(),
@@ -84,7 +93,8 @@ impl RunRecord {
 
     /// Whether the sequences of both may stand side by side.
     pub(crate) fn is_like(&self, other: &Self) -> bool {
-        (&self.version, &self.format, &self.settings) == (&other.version, &other.format, &other.settings)
+        let program = |run: &Self| (run.version.clone(), run.program.clone(), run.evidence);
+        program(self) == program(other) && (&self.format, &self.settings) == (&other.format, &other.settings)
     }
 
     /// A sequence of this name.

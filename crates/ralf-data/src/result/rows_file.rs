@@ -1,55 +1,84 @@
 //! The table of one scan in a file of its own: what a run that is killed leaves for the next one.
 
-use super::{Columns, ScanTable};
+use super::schema::{Kind, Schema};
+use super::{Table, Values};
 use crate::disk::files::{read, write_whole};
 use crate::error::DataError;
 use std::path::Path;
+use std::sync::Arc;
 
-const MAGIC: &[u8; 8] = b"RALFrow1";
-/// Magic, time, rows.
-const HEADER: usize = 24;
+const MAGIC: &[u8; 8] = b"RALFrow2";
 const NO_CLASS: u32 = u32::MAX;
 
-/// Writes a table, whole or not at all.
-pub(crate) fn write_rows(file: &Path, table: &ScanTable) -> Result<(), DataError> {
-    let mut bytes = Vec::with_capacity(HEADER + table.len() * (4 * table.decimals.len() + 7));
-    bytes.extend_from_slice(MAGIC);
-    bytes.extend_from_slice(&table.t_ns.to_le_bytes());
+/// Writes a table, whole or not at all: how many rows, then column by column.
+pub(crate) fn write_rows(file: &Path, table: &Table) -> Result<(), DataError> {
+    let mut bytes = MAGIC.to_vec();
     bytes.extend_from_slice(&(table.len() as u64).to_le_bytes());
-    for column in &table.decimals {
-        column.iter().for_each(|value| bytes.extend_from_slice(&value.to_le_bytes()));
+    for (column, values) in table.columns() {
+        append(&mut bytes, values).ok_or_else(|| no_such_kind(file, &column.name))?;
     }
-    bytes.extend_from_slice(&table.label);
-    table.flags.iter().for_each(|flags| bytes.extend_from_slice(&flags.to_le_bytes()));
-    let classes = table.semantic.iter().map(|class| class.map_or(NO_CLASS, u32::from));
-    classes.for_each(|class| bytes.extend_from_slice(&class.to_le_bytes()));
     write_whole(file, &bytes)
 }
 
-/// Reads what [`write_rows`] wrote for a sequence with these columns.
-pub(crate) fn read_rows(file: &Path, columns: &Columns) -> Result<ScanTable, DataError> {
+fn append(bytes: &mut Vec<u8>, values: &Values) -> Option<()> {
+    match values {
+        Values::U8(values) => bytes.extend_from_slice(values),
+        Values::U16(values) => values.iter().for_each(|value| bytes.extend_from_slice(&value.to_le_bytes())),
+        Values::U32(values) => values.iter().for_each(|value| bytes.extend_from_slice(&value.to_le_bytes())),
+        Values::I64(values) => values.iter().for_each(|value| bytes.extend_from_slice(&value.to_le_bytes())),
+        Values::F32(values) => values.iter().for_each(|value| bytes.extend_from_slice(&value.to_le_bytes())),
+        Values::Class(values) => {
+            let classes = values.iter().map(|class| class.map_or(NO_CLASS, u32::from));
+            classes.for_each(|class| bytes.extend_from_slice(&class.to_le_bytes()));
+        }
+        Values::Text(_) | Values::Truth(_) => return None,
+    }
+    Some(())
+}
+
+/// Reads what [`write_rows`] wrote of a table with these columns.
+pub(crate) fn read_rows(file: &Path, schema: &Arc<Schema>) -> Result<Table, DataError> {
     let bytes = read(file)?;
-    let mut rest = bytes.as_slice();
     let cut = || DataError::content(file, "end", "the rows of one scan", "another file, or one cut short");
-    let mut take = |n: usize| {
-        let (head, tail) = rest.split_at_checked(n).ok_or_else(cut)?;
-        rest = tail;
-        Ok::<&[u8], DataError>(head)
-    };
-    if take(MAGIC.len())? != MAGIC {
-        return Err(cut());
+    let (head, mut rest) = bytes.split_at_checked(MAGIC.len() + 8).ok_or_else(cut)?;
+    let rows = head.strip_prefix(MAGIC).and_then(|rows| rows.try_into().ok()).ok_or_else(cut)?;
+    let rows = usize::try_from(u64::from_le_bytes(rows)).map_err(|_| cut())?;
+    let mut values = Vec::with_capacity(schema.columns().len());
+    for column in schema.columns() {
+        let size = size(column.kind).ok_or_else(|| no_such_kind(file, &column.name))?;
+        let (of_column, more) = rest.split_at_checked(rows.saturating_mul(size)).ok_or_else(cut)?;
+        rest = more;
+        values.push(values_of(column.kind, of_column).ok_or_else(|| no_such_kind(file, &column.name))?);
     }
-    let t_ns = i64::from_le_bytes(take(8)?.try_into().map_err(|_| cut())?);
-    let rows = u64::from_le_bytes(take(8)?.try_into().map_err(|_| cut())?) as usize;
-    let mut decimals = Vec::with_capacity(columns.count());
-    for _ in 0..columns.count() {
-        decimals.push(
-            take(rows.saturating_mul(4))?.as_chunks().0.iter().map(|b| f32::from_le_bytes(*b)).collect(),
-        );
+    if rest.is_empty() { Table::new(schema.clone(), values) } else { Err(cut()) }
+}
+
+/// Bytes of a value.
+fn size(kind: Kind) -> Option<usize> {
+    match kind {
+        Kind::U8 => Some(1),
+        Kind::U16 => Some(2),
+        Kind::U32 | Kind::F32 | Kind::Class => Some(4),
+        Kind::I64 => Some(8),
+        Kind::Text | Kind::Truth => None,
     }
-    let label = take(rows)?.to_vec();
-    let flags = take(rows.saturating_mul(2))?.as_chunks().0.iter().map(|b| u16::from_le_bytes(*b)).collect();
-    let classes = take(rows.saturating_mul(4))?.as_chunks().0.iter().map(|b| u32::from_le_bytes(*b));
-    let semantic = classes.map(|class| u16::try_from(class).ok()).collect();
-    if rest.is_empty() { Ok(ScanTable { t_ns, decimals, label, flags, semantic }) } else { Err(cut()) }
+}
+
+fn values_of(kind: Kind, bytes: &[u8]) -> Option<Values> {
+    fn each<const N: usize, T>(bytes: &[u8], of: impl Fn([u8; N]) -> T) -> Vec<T> {
+        bytes.as_chunks::<N>().0.iter().map(|bytes| of(*bytes)).collect()
+    }
+    Some(match kind {
+        Kind::U8 => Values::U8(bytes.to_vec()),
+        Kind::U16 => Values::U16(each(bytes, u16::from_le_bytes)),
+        Kind::U32 => Values::U32(each(bytes, u32::from_le_bytes)),
+        Kind::F32 => Values::F32(each(bytes, f32::from_le_bytes)),
+        Kind::I64 => Values::I64(each(bytes, i64::from_le_bytes)),
+        Kind::Class => Values::Class(each(bytes, |bytes| u16::try_from(u32::from_le_bytes(bytes)).ok())),
+        Kind::Text | Kind::Truth => return None,
+    })
+}
+
+fn no_such_kind(file: &Path, column: &str) -> DataError {
+    DataError::content(file, format!("column `{column}`"), "numbers", "values that are none")
 }

@@ -1,8 +1,9 @@
 //! What `run.json` tells of a sequence.
 
-use super::ScanTable;
+use super::Table;
 use super::label_hash::hash_of_labels;
 use crate::disk::label_file::label_bytes;
+use crate::error::DataError;
 use crate::read::MotionSource;
 use ralf::scene::{Frame, ImageMoment, Unreadable, ViewReport, ViewState};
 use serde::{Deserialize, Serialize};
@@ -90,7 +91,8 @@ pub struct RadarRecord {
     pub plausible: Vec<u32>,
     /// Flags that any detection of the scan has.
     pub flags: Vec<u16>,
-    /// The first 16 digits of the BLAKE3 of each scan's `.label` file; empty for a scan that has none. An older record has no list.
+    /// The first 16 digits of the BLAKE3 of each scan's `.label` file; empty for a scan that has none. An older record
+    /// has no list.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub labels: Vec<String>,
 }
@@ -154,17 +156,21 @@ impl RadarRecord {
     }
 
     /// Adds the next scan; one that could not be labelled has no table.
-    pub(crate) fn push(&mut self, table: Option<&ScanTable>) {
+    ///
+    /// # Errors
+    /// A table that isn't of a labelled scan.
+    pub(crate) fn push(&mut self, table: Option<&Table>) -> Result<(), DataError> {
         let Some(table) = table else {
             self.detections.push(0);
             self.plausible.push(0);
             self.flags.push(0);
             self.labels.push(String::new());
-            return;
+            return Ok(());
         };
-        self.labels.push(hash_of_labels(&label_bytes(&table.labels())));
+        self.labels.push(hash_of_labels(&label_bytes(&table.labels()?)));
         self.detections.push(table.len() as u32);
-        self.plausible.push(table.label.iter().map(|label| u32::from(*label)).sum());
-        self.flags.push(table.flags.iter().fold(0, |all, flags| all | flags));
+        self.plausible.push(table.get::<u8>("label")?.iter().map(|label| u32::from(*label)).sum());
+        self.flags.push(table.get::<u16>("flags")?.iter().fold(0, |all, flags| all | flags));
+        Ok(())
     }
 }

@@ -1,110 +1,283 @@
-//! The result of one scan as a table.
+//! Named, typed columns of equal length: the one shape that results have in memory.
 
-use super::Columns;
-use crate::disk::label_file::Label;
-use ralf::label::{ARTIFACT, PLAUSIBLE, truth_of};
-use ralf::paper::DetectionLabel;
-use ralf::scene::LocatedScan;
-use ralf::sensors::{Elevation, Radar};
+use super::schema::{Column, Kind, Schema};
+use crate::error::DataError;
+use std::ops::Range;
+use std::sync::Arc;
 
-/// One row per detection of one scan.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct ScanTable {
-    /// Time of the scan, ns.
-    pub t_ns: i64,
-    /// The decimal columns in the order of [`Columns::names`]; not finite is absent.
-    pub decimals: Vec<Vec<f32>>,
-    /// 1 plausible, 0 artifact.
-    pub label: Vec<u8>,
-    /// Bits of [`ralf::label::flag`].
-    pub flags: Vec<u16>,
-    /// SemanticKITTI ids, where known.
-    pub semantic: Vec<Option<u16>>,
+/// The values of a column.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Values {
+    /// See [`Kind::Text`].
+    Text(Vec<Arc<str>>),
+    /// See [`Kind::U8`].
+    U8(Vec<u8>),
+    /// See [`Kind::U16`].
+    U16(Vec<u16>),
+    /// See [`Kind::U32`].
+    U32(Vec<u32>),
+    /// See [`Kind::I64`].
+    I64(Vec<i64>),
+    /// What is not finite is absent.
+    F32(Vec<f32>),
+    /// See [`Kind::Class`].
+    Class(Vec<Option<u16>>),
+    /// See [`Kind::Truth`].
+    Truth(Vec<Option<bool>>),
 }
 
-impl ScanTable {
-    /// The table of a labelled scan.
-    pub fn new(columns: &Columns, radar: &Radar, scan: &LocatedScan, labels: &[DetectionLabel]) -> Self {
-        let mut decimals = measured_columns(columns, radar, scan);
-        let answers: [fn(&DetectionLabel) -> Option<f64>; 8] = [
-            |label| label.d_lm,
-            |label| label.d_cm,
-            |label| label.d_tr,
-            |label| label.w_lm,
-            |label| label.w_cm,
-            |label| label.w_tr,
-            |label| label.w_opt,
-            |label| Some(label.w),
-        ];
-        decimals.extend(
-            answers.map(|of| labels.iter().map(|label| of(label).map_or(f32::NAN, |v| v as f32)).collect()),
-        );
-        Self {
-            t_ns: scan.t_ns(),
-            decimals,
-            label: labels.iter().map(|label| u8::from(label.plausible)).collect(),
-            flags: labels.iter().map(|label| label.flags).collect(),
-            semantic: labels.iter().map(|label| label.semantic).collect(),
+/// Does the same with the values of any column.
+macro_rules! each_kind {
+    ($values:expr, $found:ident => $done:expr) => {
+        match $values {
+            Values::Text($found) => $done,
+            Values::U8($found) => $done,
+            Values::U16($found) => $done,
+            Values::U32($found) => $done,
+            Values::I64($found) => $done,
+            Values::F32($found) => $done,
+            Values::Class($found) => $done,
+            Values::Truth($found) => $done,
+        }
+    };
+}
+
+/// A type that a column may hold.
+pub trait Value: Sized {
+    /// The values, where they are of this type.
+    fn of(values: &Values) -> Option<&[Self]>;
+}
+
+macro_rules! value {
+    ($($kind:ident: $type:ty),*) => {$(
+        impl Value for $type {
+            fn of(values: &Values) -> Option<&[Self]> {
+                match values {
+                    Values::$kind(found) => Some(found),
+                    _ => None,
+                }
+            }
+        }
+    )*};
+}
+
+value!(Text: Arc<str>, U8: u8, U16: u16, U32: u32, I64: i64, F32: f32, Class: Option<u16>, Truth: Option<bool>);
+
+impl Values {
+    /// None of this kind.
+    pub(crate) fn none(kind: Kind) -> Self {
+        match kind {
+            Kind::Text => Self::Text(Vec::new()),
+            Kind::U8 => Self::U8(Vec::new()),
+            Kind::U16 => Self::U16(Vec::new()),
+            Kind::U32 => Self::U32(Vec::new()),
+            Kind::I64 => Self::I64(Vec::new()),
+            Kind::F32 => Self::F32(Vec::new()),
+            Kind::Class => Self::Class(Vec::new()),
+            Kind::Truth => Self::Truth(Vec::new()),
         }
     }
 
-    /// The table of a scan that was not labelled: all answers are absent.
-    pub(crate) fn not_labelled(columns: &Columns, radar: &Radar, scan: &LocatedScan) -> Self {
-        let rows = scan.len();
-        let mut decimals = measured_columns(columns, radar, scan);
-        decimals.resize(columns.count(), vec![f32::NAN; rows]);
-        let (label, flags, semantic) = (vec![0; rows], vec![0; rows], vec![None; rows]);
-        Self { t_ns: scan.t_ns(), decimals, label, flags, semantic }
+    /// Their kind.
+    pub fn kind(&self) -> Kind {
+        match self {
+            Self::Text(_) => Kind::Text,
+            Self::U8(_) => Kind::U8,
+            Self::U16(_) => Kind::U16,
+            Self::U32(_) => Kind::U32,
+            Self::I64(_) => Kind::I64,
+            Self::F32(_) => Kind::F32,
+            Self::Class(_) => Kind::Class,
+            Self::Truth(_) => Kind::Truth,
+        }
     }
 
-    /// How many detections.
+    /// How many.
     pub fn len(&self) -> usize {
-        self.label.len()
+        each_kind!(self, values => values.len())
     }
 
-    /// Whether the radar saw nothing.
+    /// Whether there are none.
     pub fn is_empty(&self) -> bool {
-        self.label.is_empty()
+        self.len() == 0
     }
 
-    /// The values of the `.label` file: 1 for an artifact; for a plausible detection its class where it has a plausible one,
-    /// else 99.
-    pub fn labels(&self) -> Vec<Label> {
-        let class = |(label, semantic): (&u8, &Option<u16>)| match (label, semantic) {
-            (0, _) => ARTIFACT,
-            (_, Some(class)) if truth_of(*class) == Some(true) => *class,
-            _ => PLAUSIBLE,
-        };
-        self.label.iter().zip(&self.semantic).map(class).map(Label::of_class).collect()
+    /// Those of some rows.
+    pub fn slice(&self, rows: Range<usize>) -> Self {
+        match self {
+            Self::Text(values) => Self::Text(values[rows].to_vec()),
+            Self::U8(values) => Self::U8(values[rows].to_vec()),
+            Self::U16(values) => Self::U16(values[rows].to_vec()),
+            Self::U32(values) => Self::U32(values[rows].to_vec()),
+            Self::I64(values) => Self::I64(values[rows].to_vec()),
+            Self::F32(values) => Self::F32(values[rows].to_vec()),
+            Self::Class(values) => Self::Class(values[rows].to_vec()),
+            Self::Truth(values) => Self::Truth(values[rows].to_vec()),
+        }
+    }
+
+    /// Those of these rows, in their order.
+    pub fn pick(&self, rows: &[usize]) -> Self {
+        fn of<T: Clone>(values: &[T], rows: &[usize]) -> Vec<T> {
+            rows.iter().map(|row| values[*row].clone()).collect()
+        }
+        match self {
+            Self::Text(values) => Self::Text(of(values, rows)),
+            Self::U8(values) => Self::U8(of(values, rows)),
+            Self::U16(values) => Self::U16(of(values, rows)),
+            Self::U32(values) => Self::U32(of(values, rows)),
+            Self::I64(values) => Self::I64(of(values, rows)),
+            Self::F32(values) => Self::F32(of(values, rows)),
+            Self::Class(values) => Self::Class(of(values, rows)),
+            Self::Truth(values) => Self::Truth(of(values, rows)),
+        }
+    }
+
+    /// Adds values of the same kind. Returns whether they are.
+    pub(crate) fn append(&mut self, others: &Self) -> bool {
+        match (self, others) {
+            (Self::Text(all), Self::Text(more)) => all.extend_from_slice(more),
+            (Self::U8(all), Self::U8(more)) => all.extend_from_slice(more),
+            (Self::U16(all), Self::U16(more)) => all.extend_from_slice(more),
+            (Self::U32(all), Self::U32(more)) => all.extend_from_slice(more),
+            (Self::I64(all), Self::I64(more)) => all.extend_from_slice(more),
+            (Self::F32(all), Self::F32(more)) => all.extend_from_slice(more),
+            (Self::Class(all), Self::Class(more)) => all.extend_from_slice(more),
+            (Self::Truth(all), Self::Truth(more)) => all.extend_from_slice(more),
+            _ => return false,
+        }
+        true
+    }
+
+    fn clear(&mut self) {
+        each_kind!(self, values => values.clear());
     }
 }
 
-/// Place and further radar fields.
-fn measured_columns(columns: &Columns, radar: &Radar, scan: &LocatedScan) -> Vec<Vec<f32>> {
-    let mut decimals = place_columns(radar, scan);
-    for name in columns.further() {
-        let column = radar.column(name).map(|column| scan.measured.columns[column].clone());
-        decimals.push(column.unwrap_or_else(|| vec![f32::NAN; scan.len()]));
-    }
-    decimals
+/// Columns by name. Asking for one that isn't there, or for another type than it has, is an error.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Table {
+    schema: Arc<Schema>,
+    values: Vec<Values>,
 }
 
-/// x, y, z (vehicle frame), range, azimuth, elevation (as measured). All absent for a detection without a place.
-fn place_columns(radar: &Radar, scan: &LocatedScan) -> Vec<Vec<f32>> {
-    let mut columns = vec![Vec::new(); 6];
-    for (located, spherical) in scan.detections.iter().zip(&scan.measured.spherical) {
-        let row = match located {
-            None => [f32::NAN; 6],
-            Some(located) => {
-                let elevation = match radar.elevation {
-                    Elevation::Measured => spherical.elevation,
-                    Elevation::None => f64::NAN,
-                };
-                let p = located.position;
-                [p.x, p.y, p.z, spherical.range, spherical.azimuth, elevation].map(|value| value as f32)
+impl Table {
+    /// A table without rows.
+    pub fn empty(schema: Arc<Schema>) -> Self {
+        let values = schema.columns().iter().map(|column| Values::none(column.kind)).collect();
+        Self { schema, values }
+    }
+
+    /// The values of all columns in their order.
+    ///
+    /// # Errors
+    /// Another number of columns, another kind, or columns of different lengths.
+    pub fn new(schema: Arc<Schema>, values: Vec<Values>) -> Result<Self, DataError> {
+        let wrong = |name: &str, found: String| DataError::WrongColumn { name: name.to_owned(), found };
+        if values.len() != schema.columns().len() {
+            return Err(wrong("*", format!("{} columns of {}", values.len(), schema.columns().len())));
+        }
+        let rows = values.first().map_or(0, Values::len);
+        for (column, values) in schema.columns().iter().zip(&values) {
+            if values.kind() != column.kind || values.len() != rows {
+                return Err(wrong(
+                    &column.name,
+                    format!("{} values of {:?} for {rows} rows", values.len(), values.kind()),
+                ));
             }
-        };
-        columns.iter_mut().zip(row).for_each(|(column, value)| column.push(value));
+        }
+        Ok(Self { schema, values })
     }
-    columns
+
+    /// Its columns.
+    pub fn schema(&self) -> &Arc<Schema> {
+        &self.schema
+    }
+
+    /// How many rows.
+    pub fn len(&self) -> usize {
+        self.values.first().map_or(0, Values::len)
+    }
+
+    /// Whether it has no rows.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// All columns with their values, in order.
+    pub fn columns(&self) -> impl Iterator<Item = (&Column, &Values)> {
+        self.schema.columns().iter().zip(&self.values)
+    }
+
+    /// The values of a column.
+    ///
+    /// # Errors
+    /// No such column, or one of another type.
+    pub fn get<T: Value>(&self, name: &str) -> Result<&[T], DataError> {
+        let values = &self.values[self.schema.place(name)?];
+        T::of(values).ok_or_else(|| {
+            let found = format!("{:?}", values.kind());
+            DataError::WrongColumn { name: name.to_owned(), found }
+        })
+    }
+
+    /// Some rows.
+    pub fn slice(&self, rows: Range<usize>) -> Self {
+        let values = self.values.iter().map(|values| values.slice(rows.clone())).collect();
+        Self { schema: self.schema.clone(), values }
+    }
+
+    /// Adds the rows of a table with the same columns.
+    ///
+    /// # Errors
+    /// Other columns.
+    pub fn append(&mut self, other: &Self) -> Result<(), DataError> {
+        if self.schema != other.schema {
+            return Err(DataError::WrongColumn {
+                name: "*".into(),
+                found: "a table with other columns".into(),
+            });
+        }
+        for (all, more) in self.values.iter_mut().zip(&other.values) {
+            all.append(more);
+        }
+        Ok(())
+    }
+
+    /// Removes all rows, and keeps their room.
+    pub(crate) fn clear(&mut self) {
+        self.values.iter_mut().for_each(Values::clear);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::result::schema::field;
+
+    fn table(values: Vec<f32>) -> Table {
+        Table::new(Arc::new(Schema::new(vec![field("a")])), vec![Values::F32(values)]).unwrap()
+    }
+
+    #[test]
+    fn rows_are_cut_and_put_together() {
+        let mut all = table(vec![1.0, 2.0]);
+        all.append(&table(vec![3.0]).slice(0..1)).unwrap();
+        assert_eq!(all.get::<f32>("a").unwrap(), [1.0, 2.0, 3.0]);
+        assert_eq!(all.slice(1..3), table(vec![2.0, 3.0]));
+        all.clear();
+        assert!(all.is_empty());
+    }
+
+    #[test]
+    fn what_does_not_fit_is_an_error_and_never_an_empty_answer() {
+        let found = table(vec![1.0]);
+        assert!(found.get::<f32>("b").unwrap_err().to_string().contains("no column `b`"));
+        assert!(found.get::<u16>("a").unwrap_err().to_string().contains("`a`"));
+        let schema = Arc::new(Schema::new(vec![field("a"), field("b")]));
+        assert!(Table::new(schema.clone(), vec![Values::F32(vec![1.0])]).is_err());
+        assert!(Table::new(schema.clone(), vec![Values::F32(vec![1.0]), Values::F32(vec![])]).is_err());
+        assert!(Table::new(schema.clone(), vec![Values::F32(vec![1.0]), Values::U8(vec![1])]).is_err());
+        assert!(table(vec![]).append(&Table::empty(schema)).is_err());
+    }
 }

@@ -4,7 +4,7 @@ use super::workspace::Workspace;
 use super::{Observer, Stage, Task};
 use crate::error::DataError;
 use crate::result::{
-    CameraRecord, ImageRecord, NotLabelled, PlausibilityWriter, RadarRecord, SequenceRecord,
+    CameraRecord, ImageRecord, NotLabelled, PlausibilityWriter, RadarRecord, RadarScanKey, SequenceRecord,
 };
 use ralf::sensors::Camera;
 use std::collections::{BTreeMap, BTreeSet};
@@ -24,7 +24,7 @@ pub(super) fn assemble(
     let missing: BTreeSet<_> = not_labelled.iter().map(|scan| (scan.radar.as_str(), scan.scan)).collect();
     let scans = sequence.times.radars.iter().map(Vec::len).sum::<usize>();
     observer.begin(Stage::Writing(&sequence.name), scans as u64);
-    let mut writer = PlausibilityWriter::create(&workspace.plausibility_file(), &task.columns)?;
+    let mut writer = PlausibilityWriter::create(&workspace.plausibility_file(), &task.schema)?;
     let mut radars = Vec::with_capacity(task.rig.radars.len());
     let mut images = Images::new();
     let mut unreadable = BTreeSet::new();
@@ -32,18 +32,18 @@ pub(super) fn assemble(
         let mut record = RadarRecord { name: radar.name.clone(), ..RadarRecord::default() };
         for scan in 0..times.len() {
             if missing.contains(&(radar.name.as_str(), scan)) {
-                record.push(None);
+                record.push(None)?;
                 observer.advance(1, 0);
                 continue;
             }
-            let table = workspace.table(index, scan, &task.columns)?;
+            let table = workspace.table(index, scan, &task.schema)?;
             let notes = workspace.notes(index, scan)?;
             unreadable.extend(notes.unreadable);
             for (camera, image) in notes.images {
                 images.entry(camera).or_default().insert(image.image, image);
             }
-            writer.append(&radar.name, scan, &table)?;
-            record.push(Some(&table));
+            writer.append(&RadarScanKey::new(&radar.name, scan), &table)?;
+            record.push(Some(&table))?;
             observer.advance(1, table.len() as u64);
         }
         radars.push(record);

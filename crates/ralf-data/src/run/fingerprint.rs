@@ -6,7 +6,8 @@ use crate::result::{Input, RunRecord};
 pub(super) fn of_run(run: &RunRecord) -> String {
     // Debug shows every digit of every setting.
     let settings = format!("{:?}", run.settings);
-    of_texts([run.version.as_str(), &run.format, &settings])
+    let evidence = if run.evidence { "with evidence" } else { "without" };
+    of_texts([run.version.as_str(), &run.program, &run.format, &settings, evidence])
 }
 
 /// Of one sequence: what it has in common with the others, its name and the files that it was read from.

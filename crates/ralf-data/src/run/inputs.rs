@@ -1,12 +1,12 @@
 //! Sizes and hashes of everything that a run reads, and what they make of its sequences.
 
 use super::{Observer, Stage, fingerprint};
+use crate::frames::side_by_side;
 use crate::read::{Recording, SequenceReader};
 use crate::result::{Input, changed_ns, hash_file};
 use std::collections::{BTreeMap, BTreeSet};
+use std::convert::Infallible;
 use std::path::{Path, PathBuf};
-use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::{Mutex, PoisonError};
 
 /// What makes a sequence's results what they are.
 pub(super) struct Identity {
@@ -44,20 +44,11 @@ fn hash_inputs(recording: &Recording, jobs: usize, observer: &dyn Observer) -> B
     let files: Vec<PathBuf> = files.into_iter().collect();
     let sizes = files.iter().filter_map(|file| std::fs::metadata(file).ok());
     observer.begin(Stage::Inputs, sizes.map(|data| data.len()).sum());
-    let next = AtomicUsize::new(0);
-    let hashed = Mutex::new(Vec::with_capacity(files.len()));
-    std::thread::scope(|scope| {
-        for _ in 0..jobs.max(1) {
-            scope.spawn(|| {
-                while let Some(file) = files.get(next.fetch_add(1, Ordering::Relaxed)) {
-                    let input = input(file, &recording.path, observer);
-                    hashed.lock().unwrap_or_else(PoisonError::into_inner).push((file.clone(), input));
-                }
-            });
-        }
+    let hashed = side_by_side(&files, jobs, |file| {
+        Ok::<_, Infallible>((file.clone(), input(file, &recording.path, observer)))
     });
     observer.end();
-    hashed.into_inner().unwrap_or_else(PoisonError::into_inner).into_iter().collect()
+    hashed.unwrap_or_default().into_iter().collect()
 }
 
 /// What the record keeps of a file. One that can't be read has no hash and costs the run nothing: a scan that needs it

@@ -1,9 +1,10 @@
-//! Labelling a recording: in parallel, in bounded memory, resumable, and the same to the byte whatever the number of jobs.
+//! Labelling a recording: in parallel, in bounded memory, resumable, and the same to the byte whatever the number of
+//! jobs.
 //!
-//! Every scan's label depends on the recording and the settings alone, so that scans may be labelled in any order. Their
-//! tables are kept as files of their own until a sequence is complete, and then put together in the order of the rig. A run
-//! that was killed finds them again by a fingerprint of program, settings and the sequence's inputs, and a sequence that was
-//! labelled before is left as it is.
+//! Every scan's label depends on the recording and the settings alone, so that scans may be labelled in any order.
+//! Their tables are kept as files of their own until a sequence is complete, and then put together in the order of the
+//! rig. A run that was killed finds them again by a fingerprint of program, settings and the sequence's inputs, and a
+//! sequence that was labelled before is left as it is.
 
 mod assemble;
 mod fingerprint;
@@ -21,13 +22,14 @@ pub use crate::result::{
 
 use crate::error::DataError;
 use crate::read::{Recording, SequenceReader, layout};
-use crate::result::{Columns, SequenceNames, WriterLock};
+use crate::result::{Schema, SequenceNames, WriterLock, evidence_columns};
 use crate::settings::Settings;
 use inputs::Identity;
 use output_folder::OutputFolder;
 use ralf::config::Config;
 use ralf::sensors::Rig;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::time::Instant;
 
 /// In the output folder while a run writes to it.
@@ -45,6 +47,8 @@ pub struct LabelRun<'a> {
     pub jobs: usize,
     /// What a check said of its sequences, for the record.
     pub checks: &'a [CheckRecord],
+    /// Whether the evidence of [`ralf::evidence`] is gathered, too: a column of the table for each feature.
+    pub evidence: bool,
 }
 
 /// Part of the work, for a progress display.
@@ -75,12 +79,14 @@ pub trait Observer: Sync {
 pub struct Outcome {
     /// Of the sequences that were asked for: this part of `run.json`.
     pub record: RunRecord,
-    /// Names of those that this run has labelled; the others were labelled before, with the same program, settings and inputs.
+    /// Names of those that this run has labelled; the others were labelled before, with the same program, settings and
+    /// inputs.
     pub labelled: Vec<String>,
-    /// Sequences that were labelled before and whose results were damaged since, with the first file that is: they are labelled anew.
+    /// Sequences that were labelled before and whose results were damaged since, with the first file that is: they are
+    /// labelled anew.
     pub damaged: Vec<(String, PathBuf)>,
-    /// Names of sequences that were not asked for and whose results are gone, for they were made by another version of the
-    /// program or with other settings.
+    /// Names of sequences that were not asked for and whose results are gone, for they were made by another version of
+    /// the program or with other settings.
     pub removed: Vec<String>,
 }
 
@@ -90,13 +96,15 @@ struct Task<'a> {
     /// Of the folders that its results go to.
     names: SequenceNames,
     rig: Rig,
-    columns: Columns,
+    schema: Arc<Schema>,
+    /// Whether evidence is gathered.
+    evidence: bool,
 }
 
 impl LabelRun<'_> {
-    /// Labels every scan of every radar of the sequences that were not labelled before. Scans that can't be labelled are named
-    /// in the record, and the run goes on; settings that don't fit the recording, and results that can't be written, end it, and
-    /// so does another run that writes to the same folder ([`DataError::Busy`]).
+    /// Labels every scan of every radar of the sequences that were not labelled before. Scans that can't be labelled
+    /// are named in the record, and the run goes on; settings that don't fit the recording, and results that can't be
+    /// written, end it, and so does another run that writes to the same folder ([`DataError::Busy`]).
     pub fn execute(&self, observer: &dyn Observer) -> Result<Outcome, DataError> {
         let begun = Instant::now();
         self.refuse_to_write_into_the_recording()?;
@@ -105,7 +113,7 @@ impl LabelRun<'_> {
         let tasks = tasks.map(|(reader, names)| self.task(reader.as_ref(), names));
         let tasks = tasks.collect::<Result<Vec<_>, _>>()?;
         let _lock = WriterLock::take(self.out.join(LOCK), self.out)?;
-        let run = RunRecord::new(self.recording, self.settings);
+        let run = RunRecord::new(self.recording, self.settings, self.evidence);
         let asked = inputs::identify(self.recording, &fingerprint::of_run(&run), self.jobs, observer);
         let folder = OutputFolder::open(self.out, run, &asked)?;
         let mut finished = Vec::new();
@@ -129,8 +137,10 @@ impl LabelRun<'_> {
             return Err(unsuitable(self.recording, reader, reason.to_owned()));
         }
         let rig = rig_of(self.recording, reader, &self.settings.method)?;
-        let columns = Columns::of(&rig).map_err(|reason| unsuitable(self.recording, reader, reason))?;
-        Ok(Task { reader, names, rig, columns })
+        let evidence = if self.evidence { evidence_columns() } else { Vec::new() };
+        let schema =
+            Schema::of(&rig, &evidence).map_err(|reason| unsuitable(self.recording, reader, reason))?;
+        Ok(Task { reader, names, rig, schema: Arc::new(schema), evidence: self.evidence })
     }
 
     fn label_sequence(

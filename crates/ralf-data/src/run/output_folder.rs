@@ -1,7 +1,7 @@
 //! The output folder: results belong to sequences, and those of one program and the same settings lie side by side.
 //!
-//! Results go before the records that tell of them, and come before them, so that a kill in between leaves none that nobody
-//! knows of. `run.json` comes last: the sequences that it tells of are complete.
+//! Results go before the records that tell of them, and come before them, so that a kill in between leaves none that
+//! nobody knows of. `run.json` comes last: the sequences that it tells of are complete.
 
 use super::inputs::Identity;
 use super::results::Results;
@@ -30,8 +30,8 @@ pub(super) struct OutputFolder {
 }
 
 impl OutputFolder {
-    /// Makes the folder ready for a run, whose record is still empty. What has the same version and settings stays, unless it
-    /// is asked for and was read from other inputs or is not whole; all other results are removed.
+    /// Makes the folder ready for a run, whose record is still empty. What has the same version and settings stays,
+    /// unless it is asked for and was read from other inputs or is not whole; all other results are removed.
     pub(super) fn open(out: &Path, run: RunRecord, asked: &[Identity]) -> Result<Self, DataError> {
         let place = OutFolder::new(out);
         let mut folder = Self {

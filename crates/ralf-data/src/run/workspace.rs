@@ -6,11 +6,10 @@ use super::results::Results;
 use crate::disk::label_file::write_labels;
 use crate::error::DataError;
 use crate::result::json::{read_json, write_json};
-use crate::result::{
-    Columns, Component, OutFolder, ScanNotes, ScanTable, SequenceNames, read_rows, write_rows,
-};
+use crate::result::{Component, OutFolder, ScanNotes, Schema, SequenceNames, Table, read_rows, write_rows};
 use std::fs;
 use std::path::PathBuf;
+use std::sync::Arc;
 
 /// The scans of a sequence.
 pub(super) struct Workspace<'a> {
@@ -36,23 +35,23 @@ impl<'a> Workspace<'a> {
         radar: usize,
         scan: usize,
         notes: &ScanNotes,
-        table: &ScanTable,
+        table: &Table,
     ) -> Result<(), DataError> {
         write_rows(&self.file(radar, scan, "rows"), table)?;
         write_json(&self.file(radar, scan, "json"), notes)?;
-        write_labels(&self.label_file(radar, scan), &table.labels())
+        write_labels(&self.label_file(radar, scan), &table.labels()?)
     }
 
     /// Whether a scan was labelled before, and all its files are whole: a power cut may leave empty ones.
-    pub(super) fn has_kept(&self, radar: usize, scan: usize, columns: &Columns) -> bool {
+    pub(super) fn has_kept(&self, radar: usize, scan: usize, schema: &Arc<Schema>) -> bool {
         let label = fs::metadata(self.label_file(radar, scan));
-        let Ok(table) = self.table(radar, scan, columns) else { return false };
+        let Ok(table) = self.table(radar, scan, schema) else { return false };
         label.is_ok_and(|label| label.len() == 4 * table.len() as u64) && self.notes(radar, scan).is_ok()
     }
 
     /// The table of a scan.
-    pub(super) fn table(&self, radar: usize, scan: usize, columns: &Columns) -> Result<ScanTable, DataError> {
-        read_rows(&self.file(radar, scan, "rows"), columns)
+    pub(super) fn table(&self, radar: usize, scan: usize, schema: &Arc<Schema>) -> Result<Table, DataError> {
+        read_rows(&self.file(radar, scan, "rows"), schema)
     }
 
     /// What is told of a scan beside its detections.

@@ -3,14 +3,12 @@
 use super::number::{decimal, grouped, percent};
 use super::{figure, swatch};
 use crate::content::Content;
-use crate::curves::by_plausibility;
 use crate::{ReportError, chart};
 use maud::{Markup, html};
 use ralf_data::Balance;
 
 pub(super) fn balance(content: &Content) -> Result<Markup, ReportError> {
-    let bins = by_plausibility(content.detections.all.iter().map(|scored| (scored.w, scored.plausible)));
-    let histogram = chart::histogram(&bins)?;
+    let histogram = chart::histogram(&content.findings.labelled)?;
     let caption =
         html! { (swatch("plausible")) "labelled plausible " (swatch("artifact")) "labelled artifact" };
     Ok(html! {

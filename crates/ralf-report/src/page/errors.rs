@@ -2,7 +2,7 @@
 
 use super::number::{grouped, percent};
 use super::{NO_TRUTH, figure, swatch};
-use crate::breakdown::{Group, Profile, by_cause, by_class};
+use crate::breakdown::Group;
 use crate::content::Content;
 use crate::{ReportError, chart};
 use maud::{Markup, html};
@@ -16,9 +16,9 @@ pub(super) fn errors(content: &Content) -> Result<Markup, ReportError> {
 }
 
 fn found(content: &Content) -> Result<Markup, ReportError> {
-    let range = chart::profile(&Profile::over_range(&content.detections), "range (m)")?;
+    let range = chart::profile(&content.findings.profiles.over_range(), "range (m)")?;
     let azimuth =
-        chart::profile(&Profile::over_azimuth(&content.detections), "azimuth from the radar’s axis (°)")?;
+        chart::profile(&content.findings.profiles.over_azimuth(), "azimuth from the radar’s axis (°)")?;
     let legend = || {
         html! { (swatch("plausible")) "plausible detections labelled artifact " (swatch("artifact")) "artifacts labelled plausible. "
         "Below: how many detections there are." }
@@ -29,8 +29,8 @@ fn found(content: &Content) -> Result<Markup, ReportError> {
             (figure("Errors over azimuth", azimuth, legend()))
         }
         div.figures {
-            (classes(&by_class(&content.detections)))
-            (causes(&by_cause(&content.detections)))
+            (classes(&content.findings.groups.by_class()))
+            (causes(&content.findings.groups.by_cause()))
         }
     })
 }

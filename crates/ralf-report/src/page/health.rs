@@ -33,6 +33,7 @@ pub(super) fn health(content: &Content) -> Markup {
             (scans_to_look_at(content))
             (cameras(content))
             (not_labelled(content))
+            (left_out(content))
         }
     }
 }
@@ -53,12 +54,12 @@ fn check(content: &Content) -> Markup {
 }
 
 fn flags(content: &Content) -> Markup {
-    let all = content.detections.all.len() as u64;
+    let all = content.findings.detections;
     html! {
         table.bars {
             thead { tr { th scope="col" { "Detections" } th scope="col" { "Number" } th scope="col" { "Share" } th {} } }
             tbody { @for (bit, name) in FLAGS {
-                @let count = content.detections.all.iter().filter(|scored| scored.flags & bit != 0).count() as u64;
+                @let count = content.findings.with_flag(bit);
                 @let width = 100.0 * count as f64 / all.max(1) as f64;
                 tr {
                     th scope="row" { (name) }
@@ -140,6 +141,21 @@ fn not_labelled(content: &Content) -> Markup {
             ul { @for (sequence, scan) in found {
                 li { (sequence) "/" (scan.radar) "/" (scan.scan) ": " (scan.reason) }
             } }
+        }
+    }
+}
+
+/// What of the recording the page can't tell of.
+fn left_out(content: &Content) -> Markup {
+    html! {
+        @if !content.without_labels.is_empty() {
+            h3 { "Sequences without labels" }
+            ul { @for sequence in &content.without_labels { li { (sequence) } } }
+        }
+        @if !content.orphaned.is_empty() {
+            h3 { "Corrections that are not applied" }
+            p { "They were made when these scans held other detections; they are kept." }
+            ul { @for scan in &content.orphaned { li { (scan) } } }
         }
     }
 }

@@ -12,7 +12,6 @@ mod tables;
 
 use crate::ReportError;
 use crate::content::Content;
-use crate::scored::Scored;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 const STYLE: &str = include_str!("style.css");
@@ -25,7 +24,6 @@ const NO_TRUTH: &str = "This recording has no corrected labels, so nothing can b
 
 /// The whole page.
 pub(crate) fn render(content: &Content) -> Result<String, ReportError> {
-    let with_truth: Vec<(&Scored, bool)> = content.detections.with_truth().collect();
     let page = html! {
         (DOCTYPE)
         html lang="en" {
@@ -41,7 +39,7 @@ pub(crate) fn render(content: &Content) -> Result<String, ReportError> {
                 main {
                     (header::header(content))
                     (tables::agreement(content))
-                    (score::score(content, &with_truth)?)
+                    (score::score(content)?)
                     (errors::errors(content)?)
                     (balance::balance(content)?)
                     (pictures::pictures(content))

@@ -3,32 +3,30 @@
 use super::number::decimal;
 use super::{NO_TRUTH, figure, swatch};
 use crate::content::Content;
-use crate::curves::{Point, average_precision, by_plausibility, precision_recall, thinned};
-use crate::scored::Scored;
-use crate::settings_map::SettingsMap;
+use crate::curves::{Point, average_precision, thinned};
+use crate::findings::Findings;
 use crate::{ReportError, chart};
 use maud::{Markup, html};
-use ralf::metrics::{Confusion, Rates};
+use ralf::metrics::Rates;
 
 /// Points that a curve is drawn with.
 const CURVE_POINTS: usize = 500;
 
-pub(super) fn score(content: &Content, with_truth: &[(&Scored, bool)]) -> Result<Markup, ReportError> {
-    let figures = match with_truth {
-        [] => html! { p.absent { (NO_TRUTH) } },
-        _ => html! {
-            div.figures { (curve(with_truth)?) (reliability(content, with_truth)?) }
-            div.beside { (settings(content, with_truth)?) }
+pub(super) fn score(content: &Content) -> Result<Markup, ReportError> {
+    let figures = match content.findings.has_truth() {
+        false => html! { p.absent { (NO_TRUTH) } },
+        true => html! {
+            div.figures { (curve(&content.findings)?) (reliability(content)?) }
+            div.beside { (settings(content)?) }
         },
     };
     Ok(html! { section #score { h2 { "The plausibility as a score" } (figures) } })
 }
 
-fn curve(with_truth: &[(&Scored, bool)]) -> Result<Markup, ReportError> {
-    let points = precision_recall(with_truth);
-    let mut counts = Confusion::default();
-    with_truth.iter().for_each(|(scored, truth)| counts.add(*truth, scored.plausible));
-    let rates = Rates::of(&counts);
+fn curve(findings: &Findings) -> Result<Markup, ReportError> {
+    let points = findings.ranked.precision_recall();
+    let counts = &findings.confusion;
+    let rates = Rates::of(counts);
     let used = rates.recall_plausible.zip(rates.precision_plausible);
     let used = used.map(|(recall, precision)| Point { recall, precision });
     let base_rate = (counts.tp + counts.r#fn) as f64 / counts.total().max(1) as f64;
@@ -41,9 +39,8 @@ fn curve(with_truth: &[(&Scored, bool)]) -> Result<Markup, ReportError> {
     Ok(figure("Precision and recall", svg, caption))
 }
 
-fn reliability(content: &Content, with_truth: &[(&Scored, bool)]) -> Result<Markup, ReportError> {
-    let bins = by_plausibility(with_truth.iter().map(|(scored, truth)| (scored.w, *truth)));
-    let svg = chart::reliability(&bins, content.record.settings.method.fusion.threshold)?;
+fn reliability(content: &Content) -> Result<Markup, ReportError> {
+    let svg = chart::reliability(&content.findings.truly, content.record.settings.method.fusion.threshold)?;
     let caption = html! {
         "How many detections of a plausibility w are truly plausible; on the dashed diagonal w would be a probability. "
         "Dotted: the threshold of this run. Below: how many detections there are."
@@ -51,9 +48,9 @@ fn reliability(content: &Content, with_truth: &[(&Scored, bool)]) -> Result<Mark
     Ok(figure("Reliability", svg, caption))
 }
 
-fn settings(content: &Content, with_truth: &[(&Scored, bool)]) -> Result<Markup, ReportError> {
+fn settings(content: &Content) -> Result<Markup, ReportError> {
     let heading = "F1 over α and w₀";
-    let Some(map) = SettingsMap::of(with_truth) else {
+    let Some(map) = content.findings.passed.map() else {
         return Ok(html! { p.absent { "Nothing is truly plausible, so that F1 has no value." } });
     };
     let fusion = &content.record.settings.method.fusion;

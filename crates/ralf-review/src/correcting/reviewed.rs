@@ -29,10 +29,10 @@ pub(crate) fn mark(
     person: Person,
 ) -> Answer {
     let place = app.scan(sequence, radar, scan)?;
-    let rows = app.labels(place.sequence)?.table(radar, scan, place.t_ns)?;
+    let rows = app.labels(place.sequence)?.table(radar, scan)?;
     let version = app.version(&place)?;
     reading::check_size(&version, &rows)?;
-    let machine = reading::machine_labels(&rows);
+    let machine = reading::machine_labels(&rows)?;
     let content = version.content.hash;
     if asked.reviewed {
         let seen = asked.stamp.as_deref().ok_or_else(|| {

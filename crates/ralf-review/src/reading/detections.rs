@@ -9,7 +9,7 @@ use ralf::config::nanoseconds;
 use ralf::sensors::Sequence;
 use ralf::space::sync;
 use ralf_corrections::{ContentHash, ScanState, ScanVersion};
-use ralf_data::result::ScanTable;
+use ralf_data::result::{Group, Table as Rows, Values};
 use serde_json::{Map, Value, json};
 
 /// Without a scan within the method's tolerance one this near in time is shown, ns.
@@ -19,18 +19,21 @@ const NEARBY_NS: i64 = 2_000_000_000;
 pub(crate) fn detections(app: &App, sequence: &str, radar: &str, scan: usize) -> Answer {
     let place = app.scan(sequence, radar, scan)?;
     let labels = app.labels(place.sequence)?;
-    let rows = labels.table(radar, scan, place.t_ns)?;
+    let rows = labels.table(radar, scan)?;
     let version = app.version(&place)?;
     check_size(&version, &rows)?;
     let said = app.said(|store| store.scan(&version))?;
     let causes = app.causes.of_scan(place.sequence, &place.key.clone().into(), rows.len())?;
     let mut table = Table::new(rows.len());
-    for (name, values) in labels.reader.columns().names().zip(&rows.decimals) {
-        table.f32(name, values.iter().copied());
-        table.explain(&meaning(name));
+    let shown = |group| matches!(group, Group::Measured | Group::Answers | Group::Evidence);
+    for (column, values) in rows.columns().filter(|(column, _)| shown(column.group)) {
+        if let Values::F32(values) = values {
+            table.f32(&column.name, values.iter().copied());
+            table.explain(&meaning(column));
+        }
     }
-    table.u16("flags", rows.flags.iter().copied());
-    let machine = machine_labels(&rows);
+    table.u16("flags", rows.get::<u16>("flags")?.iter().copied());
+    let machine = machine_labels(&rows)?;
     table.u16("machine", machine.iter().copied());
     let stamp = stamp(version.content.hash.as_ref(), &machine);
     let (effective, corrected) = effective(machine, &said);
@@ -46,7 +49,7 @@ pub(crate) fn detections(app: &App, sequence: &str, radar: &str, scan: usize) ->
 }
 
 /// Labels of other detections than the recording holds now must not be shown, nor corrected.
-pub(crate) fn check_size(version: &ScanVersion, rows: &ScanTable) -> Result<(), ApiError> {
+pub(crate) fn check_size(version: &ScanVersion, rows: &Rows) -> Result<(), ApiError> {
     let recorded = version.content.detections as usize;
     if recorded == rows.len() {
         return Ok(());
@@ -68,8 +71,8 @@ pub(crate) fn stamp(content: Option<&ContentHash>, machine: &[u16]) -> String {
 }
 
 /// The machine's label ids.
-pub(crate) fn machine_labels(rows: &ScanTable) -> Vec<u16> {
-    rows.labels().into_iter().map(|label| label.id).collect()
+pub(crate) fn machine_labels(rows: &Rows) -> Result<Vec<u16>, ApiError> {
+    Ok(rows.labels()?.into_iter().map(|label| label.id).collect())
 }
 
 /// The label ids that count, and which of them a person has set.

@@ -27,14 +27,11 @@ pub(crate) fn projection(
     let names = known.rig.cameras.iter().map(|camera| camera.name.as_str());
     let (camera, t_ns) = measurement("camera", names, &known.times.cameras, camera, image)?;
     let labels = app.labels(place.sequence)?;
-    let rows = labels.table(&asked.radar, asked.scan, place.t_ns)?;
+    let rows = labels.table(&asked.radar, asked.scan)?;
     let camera = &known.rig.cameras[camera];
     let camera_from_scan = camera.vehicle_from_camera.inverse() * known.motion.between(t_ns, place.t_ns);
-    let column = |name: &str| {
-        let at = labels.reader.columns().names().position(|known| known == name);
-        at.map_or(&[][..], |at| rows.decimals[at].as_slice())
-    };
-    let points = column("x").iter().zip(column("y")).zip(column("z"));
+    let [x, y, z] = [rows.get::<f32>("x")?, rows.get::<f32>("y")?, rows.get::<f32>("z")?];
+    let points = x.iter().zip(y).zip(z);
     let seen: Vec<Option<[f64; 3]>> = points
         .map(|((x, y), z)| see(camera, &(camera_from_scan * Point::from([*x, *y, *z].map(f64::from)))))
         .collect();

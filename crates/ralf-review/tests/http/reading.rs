@@ -2,8 +2,10 @@
 
 use crate::support::{CAMERA, LIDAR, Out, RADAR, SEQUENCE, recording};
 use ralf::config::Config;
+use ralf::sensors::Rig;
 use ralf::space::Point;
-use ralf_data::result::read_labelled_rows;
+use ralf_data::DataError;
+use ralf_data::result::{PlausibilityReader, Schema};
 use ralf_data::{Causes, ScanId, read_labels};
 use serde_json::{Value, json};
 
@@ -48,15 +50,48 @@ fn nanoseconds(text: &Value) -> i64 {
     text.as_str().unwrap().parse().unwrap()
 }
 
+/// All rows of the result, by column.
+#[derive(Default)]
+struct Rows {
+    radar: Vec<String>,
+    scan: Vec<usize>,
+    x: Vec<f32>,
+    y: Vec<f32>,
+    z: Vec<f32>,
+    w: Vec<f32>,
+    w_opt: Vec<f32>,
+    flags: Vec<u16>,
+}
+
+impl Rows {
+    fn read(out: &Out) -> Self {
+        let schema = Schema::of(&Rig::default(), &[]).unwrap();
+        let reader = PlausibilityReader::open(&out.parquet(), &schema).unwrap();
+        let mut rows = Self::default();
+        let read = reader.each(&["x", "y", "z", "w", "w_opt", "flags"], |key, table| {
+            rows.radar.extend(vec![key.radar.to_string(); table.len()]);
+            rows.scan.extend(vec![key.scan; table.len()]);
+            rows.x.extend(table.get::<f32>("x")?);
+            rows.y.extend(table.get::<f32>("y")?);
+            rows.z.extend(table.get::<f32>("z")?);
+            rows.w.extend(table.get::<f32>("w")?);
+            rows.w_opt.extend(table.get::<f32>("w_opt")?);
+            rows.flags.extend(table.get::<u16>("flags")?);
+            Ok::<_, DataError>(())
+        });
+        read.unwrap();
+        rows
+    }
+}
+
 #[test]
 fn detections_are_those_of_the_run() {
     let out = Out::new();
     let server = out.serve();
     let table = server.table(1);
-    let all = read_labelled_rows(&out.parquet()).unwrap();
-    let radar = all.radars.iter().position(|name| name == RADAR).unwrap();
+    let all = Rows::read(&out);
     let rows: Vec<usize> =
-        (0..all.w.len()).filter(|row| all.radar[*row] == radar && all.scan[*row] == 1).collect();
+        (0..all.w.len()).filter(|row| all.radar[*row] == RADAR && all.scan[*row] == 1).collect();
     assert!(rows.len() > 50 && table.rows() == rows.len());
     let same = |name: &str, column: &[f32]| {
         let expected: Vec<u32> = rows.iter().map(|row| column[*row].to_bits()).collect();
@@ -200,13 +235,12 @@ fn the_queue_begins_with_the_most_needy() {
     let need = |scan: &Value| scan["need"].as_f64().unwrap();
     assert!(scans.iter().all(|scan| (0.0..=1.0).contains(&need(scan))));
     assert!(scans.is_sorted_by(|a, b| need(a) >= need(b)) && need(&scans[0]) > need(&scans[11]));
-    let all = read_labelled_rows(&out.parquet()).unwrap();
+    let all = Rows::read(&out);
     let threshold = Config::default().fusion.threshold;
     for scan in scans {
-        let radar = all.radars.iter().position(|name| scan["radar"] == **name).unwrap();
         let number = scan["scan"].as_u64().unwrap() as usize;
         let rows: Vec<usize> =
-            (0..all.w.len()).filter(|r| all.radar[*r] == radar && all.scan[*r] == number).collect();
+            (0..all.w.len()).filter(|r| scan["radar"] == *all.radar[*r] && all.scan[*r] == number).collect();
         let on_floor = |row: &usize| all.flags[*row] & ralf::label::flag::GROUND != 0;
         let is_near = |row: &usize| (f64::from(all.w[*row]) - threshold).abs() <= 0.1;
         let uncertain = rows.iter().filter(|row| is_near(row) && !on_floor(row)).count();

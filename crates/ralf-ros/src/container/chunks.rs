@@ -14,14 +14,14 @@ const CACHE_BYTES: usize = 64 << 20;
 /// Where a chunk lies in its file.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct ChunkPlace {
-    /// How many compressed bytes there are.
+    /// Where its compressed bytes begin in the file.
     pub(super) position: u64,
     /// How many there are of them.
     pub(super) stored: u64,
     /// How many come out.
     pub(super) size: u64,
     pub(super) compression: Compression,
-    /// How many bytes come out; 0 where it isn't known.
+    /// The checksum of what comes out; 0 where it isn't known.
     pub(super) crc: u32,
     /// Whether the file ends before the chunk does.
     pub(super) cut: bool,

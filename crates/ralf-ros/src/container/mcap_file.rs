@@ -10,7 +10,7 @@ use super::error::Stop;
 use super::records::RecordFile;
 use crate::encoding::{Decoder, Encoding, EncodingError};
 use mcap::MAGIC;
-use mcap::records::{Record, op};
+use mcap::records::op;
 
 /// The kind of a record and its length.
 const PREFIX_BYTES: usize = 9;
@@ -120,43 +120,60 @@ fn time_ns(time: u64) -> Result<i64, EncodingError> {
         .map_err(|_| EncodingError::new(0, "a time before the year 2262", format!("{time} ns")))
 }
 
-/// What a schema, a channel or an index says.
+/// What a schema, a channel or an index says. Lengths are checked here: a library that takes them at their word asks for as
+/// much memory.
 fn record(op: u8, body: &[u8], catalogue: &mut Catalogue) -> Result<(), EncodingError> {
-    let record = mcap::parse_record(op, body)
-        .map_err(|error| EncodingError::new(0, "a record of MCAP", error.to_string()))?;
-    match record {
-        Record::Schema { header, data } => {
-            let schema = Schema { encoding: header.encoding, text: data.into_owned(), ..Schema::default() };
-            catalogue.schemas.insert(header.id, (header.name, schema));
-        }
-        Record::Channel(channel) => {
-            // 0 is no schema. Of any other one that isn't known yet an earlier chunk tells, and this channel is met
-            // again.
-            let schema = catalogue.schemas.get(&channel.schema_id).cloned();
-            if let Some((type_name, mut schema)) =
-                schema.or_else(|| (channel.schema_id == 0).then(Default::default))
-            {
-                let quality_of_service = channel.metadata.get("offered_qos_profiles");
-                schema.latched = quality_of_service
-                    .is_some_and(|text| LATCHED.iter().any(|latched| text.contains(latched)));
-                let (topic, encoding) = (channel.topic, channel.message_encoding);
-                catalogue
-                    .channels
-                    .insert(u32::from(channel.id), Channel { topic, type_name, encoding, schema });
-            }
-        }
-        Record::MessageIndex(index) => {
-            let chunk = catalogue
-                .last_chunk()
-                .ok_or_else(|| EncodingError::new(0, "an index after its chunk", "one before any"))?;
-            for entry in index.records {
-                let offset = u32::try_from(entry.offset)
-                    .map_err(|_| EncodingError::new(0, "an offset in a chunk", entry.offset.to_string()))?;
-                let place = Place::Chunk(chunk, offset);
-                catalogue.add_message(u32::from(index.channel_id), time_ns(entry.log_time)?, place);
-            }
-        }
-        _ => {}
+    // Numbers and texts of MCAP lie as those of ROS 1.
+    let mut decoder = Decoder::new(Encoding::Ros1, body)?;
+    match op {
+        op::SCHEMA => schema(&mut decoder, catalogue),
+        op::CHANNEL => channel(&mut decoder, catalogue),
+        _ => message_index(&mut decoder, catalogue),
+    }
+}
+
+fn schema(decoder: &mut Decoder<'_>, catalogue: &mut Catalogue) -> Result<(), EncodingError> {
+    let (id, name, encoding) = (decoder.u16()?, decoder.string()?, decoder.string()?);
+    let schema = Schema { encoding, text: decoder.bytes()?.to_vec(), ..Schema::default() };
+    catalogue.schemas.insert(id, (name, schema));
+    Ok(())
+}
+
+fn channel(decoder: &mut Decoder<'_>, catalogue: &mut Catalogue) -> Result<(), EncodingError> {
+    let (id, schema_id) = (decoder.u16()?, decoder.u16()?);
+    let (topic, encoding) = (decoder.string()?, decoder.string()?);
+    let latched = is_latched(decoder.bytes()?)?;
+    // 0 is no schema. Of any other one that isn't known yet an earlier chunk tells, and this channel is met again.
+    let known = catalogue.schemas.get(&schema_id).cloned();
+    if let Some((type_name, mut schema)) = known.or_else(|| (schema_id == 0).then(Default::default)) {
+        schema.latched = latched;
+        catalogue.channels.insert(u32::from(id), Channel { topic, type_name, encoding, schema });
+    }
+    Ok(())
+}
+
+/// Whether a channel's metadata, pairs of texts, say that its messages are also for those who come later.
+fn is_latched(metadata: &[u8]) -> Result<bool, EncodingError> {
+    let mut decoder = Decoder::new(Encoding::Ros1, metadata)?;
+    let mut is_latched = false;
+    while !decoder.is_at_end() {
+        let (key, value) = (decoder.string()?, decoder.string()?);
+        is_latched |= key == "offered_qos_profiles" && LATCHED.iter().any(|latched| value.contains(latched));
+    }
+    Ok(is_latched)
+}
+
+fn message_index(decoder: &mut Decoder<'_>, catalogue: &mut Catalogue) -> Result<(), EncodingError> {
+    let channel = u32::from(decoder.u16()?);
+    let mut entries = Decoder::new(Encoding::Ros1, decoder.bytes()?)?;
+    let chunk = catalogue
+        .last_chunk()
+        .ok_or_else(|| EncodingError::new(0, "an index after its chunk", "one before any"))?;
+    while !entries.is_at_end() {
+        let (log_time, offset) = (entries.u64()?, entries.u64()?);
+        let offset = u32::try_from(offset)
+            .map_err(|_| EncodingError::new(0, "an offset in a chunk", offset.to_string()))?;
+        catalogue.add_message(channel, time_ns(log_time)?, Place::Chunk(chunk, offset));
     }
     Ok(())
 }
@@ -190,4 +207,30 @@ fn chunk(file: &mut RecordFile, length: u64, catalogue: &mut Catalogue) -> Resul
     };
     catalogue.add_chunk(place);
     file.skip(stored)
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::container::Container;
+    use mcap::MAGIC;
+    use mcap::records::op;
+
+    #[test]
+    fn a_length_beyond_its_record_is_a_loss_before_memory_is_asked_for() {
+        let folder = tempfile::tempdir().unwrap();
+        for (kind, before) in [(op::SCHEMA, 2), (op::CHANNEL, 4), (op::MESSAGE_INDEX, 2)] {
+            // Numbers, and then a text or list of 4 GB in a record of a few bytes.
+            let body = [vec![0; before], vec![0xff; 4], vec![0; 8]].concat();
+            let length = (body.len() as u64).to_le_bytes();
+            let file = folder.path().join("drive.mcap");
+            std::fs::write(&file, [MAGIC, &[kind], &length, &body].concat()).unwrap();
+            let container = Container::open(&file).unwrap();
+            assert!(container.topics().is_empty());
+            let told = &container.losses()[0];
+            assert!(
+                told.contains("a list that fits into the 8 bytes left, found 4294967295 entries"),
+                "{told}"
+            );
+        }
+    }
 }

@@ -1,9 +1,9 @@
 //! Every setting of the labeler (docs/method.md, section 12). `config/default.toml` says what each one means, with its
-//! unit and range.
+//! default, unit and range; a new setting is its line there, its field here, and its use.
 
+mod page;
 mod read;
 mod sensors;
-mod validate;
 
 pub use read::{ConfigError, read_toml};
 pub use sensors::SensorOverride;
@@ -12,8 +12,8 @@ use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
 /// All settings. Every key of the file is optional, and unknown keys are refused.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "toml::Table")]
 pub struct Config {
     /// Of every random choice.
     pub seed: u64,
@@ -33,9 +33,31 @@ pub struct Config {
     pub sensors: BTreeMap<String, SensorOverride>,
 }
 
+/// The settings' tables, none of whose keys may lack. It reads what [`Config`] is made of.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Complete {
+    seed: u64,
+    sync: SyncConfig,
+    ground: GroundConfig,
+    lidar: LidarConfig,
+    camera: CameraConfig,
+    tracking: TrackingConfig,
+    fusion: FusionConfig,
+    #[serde(default)]
+    sensors: BTreeMap<String, SensorOverride>,
+}
+
+impl From<Complete> for Config {
+    fn from(complete: Complete) -> Self {
+        let Complete { seed, sync, ground, lidar, camera, tracking, fusion, sensors } = complete;
+        Self { seed, sync, ground, lidar, camera, tracking, fusion, sensors }
+    }
+}
+
 /// `sync`: which measurements belong together.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
+#[serde(deny_unknown_fields)]
 pub struct SyncConfig {
     /// Largest time between a radar scan (or an image) and the LiDAR scan used with it, ms.
     pub lidar_tolerance_ms: f64,
@@ -59,7 +81,7 @@ pub enum GroundModel {
 
 /// `ground`: the ground, and what lies on it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
+#[serde(deny_unknown_fields)]
 pub struct GroundConfig {
     /// Which ground.
     pub model: GroundModel,
@@ -81,7 +103,7 @@ pub struct GroundConfig {
 
 /// `lidar`: LiDAR matching.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
+#[serde(deny_unknown_fields)]
 pub struct LidarConfig {
     /// Whether the branch is used.
     pub enabled: bool,
@@ -110,7 +132,7 @@ pub enum DepthScaling {
 
 /// `camera`: camera matching.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
+#[serde(deny_unknown_fields)]
 pub struct CameraConfig {
     /// Whether the branch is used.
     pub enabled: bool,
@@ -150,7 +172,7 @@ pub enum TrackingSources {
 
 /// `tracking`: the neighbouring radar scans.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
+#[serde(deny_unknown_fields)]
 pub struct TrackingConfig {
     /// Whether the branch is used.
     pub enabled: bool,
@@ -172,7 +194,7 @@ pub struct TrackingConfig {
 
 /// `fusion`: fusion and label.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
+#[serde(deny_unknown_fields)]
 pub struct FusionConfig {
     /// `alpha`: the share of `w_opt`.
     pub alpha: f64,
@@ -180,70 +202,23 @@ pub struct FusionConfig {
     pub threshold: f64,
 }
 
-impl Default for SyncConfig {
-    fn default() -> Self {
-        Self { lidar_tolerance_ms: 60.0, camera_tolerance_ms: 60.0 }
-    }
+macro_rules! defaults {
+    ($($section:ident: $name:ty),*) => {
+        $(impl Default for $name {
+            fn default() -> Self {
+                page::CONFIG.$section.clone()
+            }
+        })*
+    };
 }
+defaults!(
+    sync: SyncConfig, ground: GroundConfig, lidar: LidarConfig, camera: CameraConfig, tracking: TrackingConfig,
+    fusion: FusionConfig
+);
 
-impl Default for GroundConfig {
+impl Default for Config {
     fn default() -> Self {
-        Self {
-            model: GroundModel::Plane,
-            max_tilt_deg: 10.0,
-            max_offset: 0.5,
-            inlier_distance: 0.15,
-            lidar_margin: 0.20,
-            camera_margin: 0.30,
-            radar_clearance: 0.10,
-            radar_sigmas: 2.0,
-        }
-    }
-}
-
-impl Default for LidarConfig {
-    fn default() -> Self {
-        Self { enabled: true, beta: 0.2, neighbours: 3, window_scans: 0 }
-    }
-}
-
-impl Default for CameraConfig {
-    fn default() -> Self {
-        Self {
-            enabled: true,
-            beta: 0.116,
-            neighbours: 3,
-            stride: 8,
-            scaling: DepthScaling::Local,
-            scale_neighbours: 3,
-            occlusion_window: 6.0,
-            depth_sigma: 0.10,
-            max_depth: 40.0,
-            max_residual: 0.30,
-            min_samples: 50,
-            min_luminance: 10.0,
-        }
-    }
-}
-
-impl Default for TrackingConfig {
-    fn default() -> Self {
-        Self {
-            enabled: true,
-            beta: 0.682,
-            scans: 5,
-            neighbours: 1,
-            max_mismatch: 20.0,
-            sources: TrackingSources::Same,
-            dynamic: false,
-            max_gap_ms: 500.0,
-        }
-    }
-}
-
-impl Default for FusionConfig {
-    fn default() -> Self {
-        Self { alpha: 0.554, threshold: 0.441_048 }
+        page::CONFIG.clone()
     }
 }
 
@@ -251,23 +226,4 @@ impl Default for FusionConfig {
 pub fn nanoseconds(ms: f64) -> i64 {
     // Saturates: a tolerance of a million years means "any".
     (ms * 1e6).round() as i64
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn default_toml_is_the_default() {
-        let text = include_str!("../../../../config/default.toml");
-        assert_eq!(Config::from_toml(text, &[]).unwrap(), Config::default());
-        // Each key stands there, so that the page is complete.
-        let table: toml::Table = text.parse().unwrap();
-        let written = toml::Table::try_from(Config::default()).unwrap();
-        for (section, keys) in written.iter().filter_map(|(name, value)| Some((name, value.as_table()?))) {
-            for key in keys.keys() {
-                assert!(table[section].get(key).is_some(), "config/default.toml lacks {section}.{key}");
-            }
-        }
-    }
 }

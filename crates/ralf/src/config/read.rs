@@ -1,8 +1,11 @@
 //! Reading settings from TOML.
 
+use super::{Complete, Config, page};
+use serde::Deserialize;
 use serde::de::DeserializeOwned;
 use thiserror::Error;
 use toml::de::{DeTable, Deserializer};
+use toml::{Spanned, Table, Value};
 
 /// Settings that are refused.
 #[derive(Debug, Error, PartialEq)]
@@ -23,57 +26,140 @@ pub enum ConfigError {
     },
 }
 
-/// Reads settings from a TOML text and assignments `key=value` that win over it. Tables of the names `left_out` are
-/// passed over; what is wrong with the text is said with its place.
-pub fn read_toml<T: DeserializeOwned>(
-    text: &str,
-    assignments: &[&str],
-    left_out: &[&str],
-) -> Result<T, ConfigError> {
-    // The text by itself first: its errors then point into its own lines.
-    let from_text = read_text(text, left_out).map_err(|mut error| {
-        error.set_input(Some(text));
-        parse_error(&error)
-    })?;
-    if assignments.is_empty() {
-        return Ok(from_text);
+impl Config {
+    /// Settings from a TOML text and assignments `key=value` that win over it; what neither names has its default.
+    ///
+    /// ```
+    /// use ralf::config::Config;
+    /// let config = Config::from_toml("[fusion]\nalpha = 0.7", &["lidar.beta=0.5", "ground.model=none"]).unwrap();
+    /// assert_eq!((config.fusion.alpha, config.lidar.beta), (0.7, 0.5));
+    /// assert!(Config::from_toml("", &["lidar.betta=0.5"]).unwrap_err().to_string().contains("betta"));
+    /// ```
+    pub fn from_toml(text: &str, assignments: &[&str]) -> Result<Self, ConfigError> {
+        Self::from_toml_beside(&[], text, assignments)
     }
-    let mut table: toml::Table = text.parse().map_err(|error| parse_error(&error))?;
-    for assignment in assignments {
-        assign(&mut table, assignment)?;
+
+    /// [`Self::from_toml`] for a file that holds other tables besides: those of these names are left to whom they belong
+    /// to.
+    pub fn from_toml_beside(others: &[&str], text: &str, assignments: &[&str]) -> Result<Self, ConfigError> {
+        // The text by itself first: its errors then point into its own lines.
+        let mut config = spanned(text, |mut table| {
+            for name in others {
+                table.get_mut().remove(*name);
+            }
+            page::complete_text(table.get_mut());
+            Complete::deserialize(Deserializer::from(table)).map(Self::from)
+        })?;
+        if !assignments.is_empty() {
+            let mut table = assigned(text, assignments)?;
+            for name in others {
+                table.remove(*name);
+            }
+            config = Self::try_from(table)?;
+        }
+        page::check(&config)?;
+        Ok(config)
     }
-    for name in left_out {
-        table.remove(*name);
+
+    /// All settings as TOML.
+    pub fn to_toml(&self) -> Result<String, ConfigError> {
+        toml::to_string(self).map_err(|error| ConfigError::Parse(error.to_string()))
     }
-    table.try_into().map_err(|error| parse_error(&error))
 }
 
-fn read_text<T: DeserializeOwned>(text: &str, left_out: &[&str]) -> Result<T, toml::de::Error> {
-    let mut table = DeTable::parse(text)?;
-    for name in left_out {
-        table.get_mut().remove(*name);
+impl TryFrom<Table> for Config {
+    type Error = ConfigError;
+
+    /// What the table lacks has its default. Ranges are not looked at.
+    fn try_from(mut table: Table) -> Result<Self, ConfigError> {
+        page::complete(&mut table);
+        table.try_into().map(|complete: Complete| complete.into()).map_err(|error| parse_error(&error))
     }
-    T::deserialize(Deserializer::from(table))
+}
+
+/// Reads another part of a settings file: whatever a text and the assignments that win over it hold of `T`.
+pub fn read_toml<T: DeserializeOwned>(text: &str, assignments: &[&str]) -> Result<T, ConfigError> {
+    let read = spanned(text, |table| T::deserialize(Deserializer::from(table)))?;
+    if assignments.is_empty() {
+        return Ok(read);
+    }
+    assigned(text, assignments)?.try_into().map_err(|error| parse_error(&error))
+}
+
+/// Reads a text's tables, whose values know their places; an error then shows the line.
+fn spanned<'a, T>(
+    text: &'a str,
+    read: impl FnOnce(Spanned<DeTable<'a>>) -> Result<T, toml::de::Error>,
+) -> Result<T, ConfigError> {
+    DeTable::parse(text).and_then(read).map_err(|mut error| {
+        error.set_input(Some(text));
+        parse_error(&error)
+    })
 }
 
 fn parse_error(error: &toml::de::Error) -> ConfigError {
     ConfigError::Parse(error.to_string())
 }
 
+/// A text's tables with the assignments in them.
+fn assigned(text: &str, assignments: &[&str]) -> Result<Table, ConfigError> {
+    let mut table = text.parse().map_err(|error| parse_error(&error))?;
+    for assignment in assignments {
+        assign(&mut table, assignment)?;
+    }
+    Ok(table)
+}
+
 /// Puts `key=value` into the table. The value is TOML; what is no TOML is a string, so that quotes may be left out.
-fn assign(table: &mut toml::Table, assignment: &str) -> Result<(), ConfigError> {
+fn assign(table: &mut Table, assignment: &str) -> Result<(), ConfigError> {
     let refused = || ConfigError::Assignment(assignment.to_owned());
     let (key, text) = assignment.split_once('=').ok_or_else(refused)?;
-    let value =
-        format!("value = {text}").parse::<toml::Table>().ok().and_then(|mut parsed| parsed.remove("value"));
-    let value = value.unwrap_or_else(|| toml::Value::String(text.trim().to_owned()));
+    let value = format!("value = {text}").parse::<Table>().ok().and_then(|mut parsed| parsed.remove("value"));
+    let value = value.unwrap_or_else(|| Value::String(text.trim().to_owned()));
     let mut names: Vec<&str> = key.split('.').map(str::trim).collect();
     let last = names.pop().filter(|name| !name.is_empty()).ok_or_else(refused)?;
     let mut place = table;
     for name in names {
-        let next = place.entry(name).or_insert_with(|| toml::Value::Table(toml::Table::new()));
+        let next = place.entry(name).or_insert_with(|| Value::Table(Table::new()));
         place = next.as_table_mut().ok_or_else(refused)?;
     }
     place.insert(last.to_owned(), value);
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn refusal(text: &str, assignments: &[&str]) -> String {
+        Config::from_toml(text, assignments).unwrap_err().to_string()
+    }
+
+    #[test]
+    fn unknown_keys_are_named() {
+        assert!(refusal("[lidar]\nbetta = 1.0", &[]).contains("betta"));
+        assert!(refusal("[lidarr]\nbeta = 1.0", &[]).contains("lidarr"));
+        assert!(refusal("", &["fusion.aplha=1.0"]).contains("aplha"));
+    }
+
+    #[test]
+    fn values_out_of_range_are_named() {
+        assert!(refusal("[fusion]\nalpha = 1.5", &[]).contains("fusion.alpha"));
+        assert!(refusal("", &["lidar.neighbours=0"]).contains("lidar.neighbours"));
+        assert!(refusal("", &["lidar.beta=nan"]).contains("lidar.beta"));
+        assert!(refusal("", &["lidar.beta"]).contains("KEY=VALUE"));
+        assert!(refusal("", &["ground.model=round"]).contains("round"));
+    }
+
+    #[test]
+    fn whole_numbers_are_decimals_where_those_are_wanted() {
+        assert_eq!(Config::from_toml("[lidar]\nbeta = 1", &["tracking.beta=2"]).unwrap().tracking.beta, 2.0);
+    }
+
+    #[test]
+    fn what_is_written_is_read_back() {
+        let mut config = Config::from_toml("seed = 7", &["sensors.front.sigma_range_m=0.2"]).unwrap();
+        config.fusion.alpha = 0.1 + 0.2;
+        assert_eq!(Config::from_toml(&config.to_toml().unwrap(), &[]).unwrap(), config);
+    }
 }

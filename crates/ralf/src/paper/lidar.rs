@@ -2,9 +2,8 @@
 
 use crate::config::LidarConfig;
 use crate::label::UNLABELED;
-use crate::scene::{Association, Frame, LidarMoment};
-use crate::sensors::Elevation;
-use crate::space::{Neighbor, Transform};
+use crate::scene::{Frame, LidarCloud, LidarMoment};
+use crate::space::Neighbor;
 
 /// What the LiDAR says of one detection.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -20,23 +19,12 @@ pub struct LidarMatch {
 pub fn match_detections(frame: &Frame, config: &LidarConfig) -> Vec<Option<LidarMatch>> {
     let mut matches = vec![None; frame.scan.len()];
     let Some(view) = frame.lidar.as_ref().filter(|_| config.enabled) else { return matches };
-    let (moment, elevation) = (view.moment.as_ref(), frame.radar.elevation);
-    let horizontal_index;
-    // Distances in space are the same in every frame, so the shared index is asked in its own. Horizontal ones are not.
-    let (index, index_from_vehicle) = match elevation {
-        Elevation::Measured => (moment.index(), view.vehicle_from_moment.inverse()),
-        Elevation::None => {
-            horizontal_index = moment.horizontal_index(frame.radar, &view.vehicle_from_moment);
-            (&horizontal_index, Transform::identity())
-        }
-    };
-    let mut association = Association::new(index, elevation, config.neighbours);
+    let cloud = LidarCloud::new(view, frame.radar);
+    let mut association = cloud.association(config.neighbours);
     for (found, detection) in matches.iter_mut().zip(&frame.scan.detections) {
         let Some(detection) = detection else { continue };
-        let query = index_from_vehicle * detection.position;
-        let reference = |id| moment.reference(id, &view.vehicle_from_moment);
-        if let Some(d) = association.mean_mismatch(detection, &query, reference) {
-            *found = Some(LidarMatch { d, semantic: majority(moment, association.found()) });
+        if let Some(d) = cloud.mean_mismatch(&mut association, detection) {
+            *found = Some(LidarMatch { d, semantic: majority(&view.moment, association.found()) });
         }
     }
     matches

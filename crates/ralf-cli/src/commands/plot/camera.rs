@@ -5,12 +5,11 @@ use anyhow::{Context, bail, ensure};
 use ralf::config::{Config, nanoseconds};
 use ralf::scene::{CalibratedView, Failure, FrameWindow, ImageMoment, ViewReport, ViewState, project_points};
 use ralf::sensors::{Camera, CameraImage, Sequence, StraightView, UndistortMap};
-use ralf::space::Point;
-use ralf::space::sync;
+use ralf::space::{Point, Transform, sync};
 use ralf_data::depth::DepthStore;
-use ralf_data::run::read_record;
-use ralf_plot::{CameraPicture, PixelDepth, ViewPicture, camera_picture};
-use ralf_report::Pictures;
+use ralf_data::result::LabelledSequence;
+use ralf_plot::{CameraPicture, MarkLabel, PixelDepth, ViewPicture, camera_picture};
+use ralf_report::{Pictures, mark_label};
 use std::path::PathBuf;
 
 /// The depth that is asked for, or that labelling left in its folder; of several networks one must be chosen.
@@ -55,6 +54,7 @@ struct Shot<'a> {
 /// Draws what a camera of a labelled sequence sees.
 pub(super) struct Plot<'a> {
     pub(super) pictures: Pictures<'a>,
+    pub(super) labelled: &'a LabelledSequence,
     pub(super) arguments: &'a PlotArgs,
 }
 
@@ -65,7 +65,7 @@ impl Plot<'_> {
 
     /// The views of a camera's image nearest to a scan.
     pub(super) fn camera(&self, scan: usize, name: &str) -> anyhow::Result<Vec<u8>> {
-        let config = self.settings()?;
+        let config = self.settings();
         let (t_ns, camera) = (self.pictures.time_of(scan)?, self.camera_named(name)?);
         let (times, tolerance) = (&self.sequence().times.cameras[camera], config.sync.camera_tolerance_ms);
         let image = sync::nearest(times, t_ns, nanoseconds(tolerance)).with_context(|| {
@@ -93,12 +93,12 @@ impl Plot<'_> {
     }
 
     /// Those that the labels were made with, except that every pixel which has a depth is calibrated.
-    fn settings(&self) -> anyhow::Result<Config> {
-        let mut config = read_record(&self.arguments.labels)?.settings.method;
+    fn settings(&self) -> Config {
+        let mut config = self.labelled.settings.clone();
         config.camera.stride = 1;
         config.camera.max_depth = f64::INFINITY;
         config.ground.camera_margin = f64::NEG_INFINITY;
-        Ok(config)
+        config
     }
 
     fn camera_named(&self, name: &str) -> anyhow::Result<usize> {
@@ -110,10 +110,8 @@ impl Plot<'_> {
 
     fn shot(&self, camera: usize, image: usize, config: &Config) -> anyhow::Result<Shot<'_>> {
         let sequence = self.sequence();
-        let mut rig = sequence.rig.clone();
-        config.apply_to(&mut rig)?;
         let t_ns = sequence.times.cameras[camera][image];
-        let mut window = FrameWindow::new(self.pictures.reader, &rig, config);
+        let mut window = FrameWindow::new(self.pictures.reader, &self.labelled.rig, config);
         let lidar = window.lidar_view(t_ns).map_err(anyhow::Error::from_boxed)?;
         Ok(Shot {
             camera: &sequence.rig.cameras[camera],
@@ -137,11 +135,7 @@ impl Plot<'_> {
         let straight = straight.map_err(|expected| anyhow::anyhow!("{name}: expected {expected}"))?;
         let camera_from_vehicle = shot.camera.vehicle_from_camera.inverse();
         let seen = project_points(&shot.lidar, &camera_from_vehicle, view, shot.occlusion_window);
-        let marks = self.pictures.rows_near(scan_ns).filter_map(|(row, t_ns)| {
-            let camera_from_scan = camera_from_vehicle * self.sequence().motion.between(shot.t_ns, t_ns);
-            let point = view.project(&(camera_from_scan * self.place(row)))?;
-            Some((PixelDepth { pixel: point.pixel, depth: point.depth }, self.pictures.label(row)))
-        });
+        let marks = self.marks(scan_ns, shot.t_ns, &camera_from_vehicle, view)?;
         let calibrated = shot.moment.as_ref().and_then(|moment| moment.views.get(index));
         Ok(ViewPicture {
             size: [straight.width as u32, straight.height as u32],
@@ -149,14 +143,32 @@ impl Plot<'_> {
             depth: calibrated.map(|found| shot.dense_depth(view, found)).unwrap_or_default(),
             verdict: shot.verdict(calibrated),
             lidar: seen.iter().map(|p| PixelDepth { pixel: p.pixel, depth: p.depth }).collect(),
-            marks: marks.collect(),
+            marks,
         })
     }
 
-    /// In the vehicle frame at its scan's time.
-    fn place(&self, row: usize) -> Point {
-        let rows = self.pictures.rows;
-        Point::from([rows.x[row], rows.y[row], rows.z[row]].map(f64::from))
+    /// The detections near a time that a view sees, with what they are labelled.
+    fn marks(
+        &self,
+        scan_ns: i64,
+        image_ns: i64,
+        camera_from_vehicle: &Transform,
+        view: &StraightView,
+    ) -> anyhow::Result<Vec<(PixelDepth, MarkLabel)>> {
+        let mut marks = Vec::new();
+        for (t_ns, table) in self.pictures.scans_near(scan_ns, &["x", "y", "z", "label"])? {
+            let camera_from_scan = camera_from_vehicle * self.sequence().motion.between(image_ns, t_ns);
+            let axis = |name| table.get::<f32>(name);
+            let (x, y, z, labels) = (axis("x")?, axis("y")?, axis("z")?, table.get::<u8>("label")?);
+            for (row, label) in labels.iter().enumerate() {
+                let place = Point::from([x[row], y[row], z[row]].map(f64::from));
+                if let Some(point) = view.project(&(camera_from_scan * place)) {
+                    let mark = PixelDepth { pixel: point.pixel, depth: point.depth };
+                    marks.push((mark, mark_label(*label)));
+                }
+            }
+        }
+        Ok(marks)
     }
 }
 

@@ -6,7 +6,7 @@ use crate::arguments::{ChangedArgs, DatasetArgs, the_only};
 use crate::outcome::Outcome;
 use crate::progress::say;
 use clap::Args;
-use ralf_data::result::read_labelled_rows;
+use ralf_data::result::LabelledRun;
 use ralf_plot::Extent;
 use ralf_report::{Detections, Pictures};
 use std::path::PathBuf;
@@ -67,12 +67,13 @@ pub(crate) fn run(arguments: &PlotArgs) -> anyhow::Result<Outcome> {
         None => recording,
     };
     let reader = the_only(&recording)?;
-    let file = arguments.labels.join("sequences").join(&reader.sequence().name).join("plausibility.parquet");
-    let rows = read_labelled_rows(&file)?;
+    let labelled = LabelledRun::open(&arguments.labels)?.sequence(reader)?;
     let extent = arguments.radius.map_or(Extent::Fit, Extent::Radius);
-    let pictures = Pictures { reader, rows: &rows, radar: arguments.radar.as_deref(), extent };
+    let pictures = Pictures { reader, tables: &labelled.tables, radar: arguments.radar.as_deref(), extent };
     let png = match (arguments.scan, &arguments.camera) {
-        (Some(scan), Some(name)) => camera::Plot { pictures, arguments }.camera(scan, name)?,
+        (Some(scan), Some(name)) => {
+            camera::Plot { pictures, labelled: &labelled, arguments }.camera(scan, name)?
+        }
         (Some(scan), None) => pictures.scan(scan, Detections::Labelled, WIDTHS[0])?,
         (None, _) => pictures.overview(WIDTHS[1])?,
     };

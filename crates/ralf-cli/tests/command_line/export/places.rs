@@ -135,7 +135,9 @@ fn results_of_another_recording_are_refused() {
     let dataset = small();
     let path = dataset.beside("labels");
     let refused = |parts: [&str; 2]| {
-        run(&dataset, "npz", &path, &["--sensors"]).exits(1).prints_nothing().says(parts);
+        let asked = ["--sensors", "--changed-recording"];
+        run(&dataset, "npz", &path, &asked[..1]).exits(1).says(["expected what was labelled"]);
+        run(&dataset, "npz", &path, &asked).exits(1).prints_nothing().says(parts);
         assert!(!fs::exists(&path).unwrap());
     };
     let times = fs::read_to_string(dataset.file("radar_front/timestamps.txt")).unwrap();
@@ -151,7 +153,9 @@ fn results_of_another_recording_are_refused() {
     fs::rename(dataset.file("radar_left"), dataset.file("radar_right")).unwrap();
     refused(["run.json, sequence 00: expected the recording's radars", "radar_left (3)"]);
     fs::remove_file(format!("{}/run.json", dataset.out)).unwrap();
-    refused(["run.json: expected the record of a finished `ralf label`", "no such file"]);
+    run(&dataset, "npz", &path, &[])
+        .exits(1)
+        .says(["run.json: expected the record of a finished `ralf label`", "no such file"]);
 }
 
 #[test]

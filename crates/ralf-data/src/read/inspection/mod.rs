@@ -3,16 +3,13 @@
 mod clocks;
 mod path;
 mod readable;
-mod steps;
 
 use crate::read::SequenceReader;
 use path::Path;
 pub use readable::Unreadable;
-use steps::quantile;
 
 use ralf::config::{Config, nanoseconds};
-use ralf::sensors::Camera;
-use ralf::sensors::Sequence;
+use ralf::sensors::{Camera, Sequence};
 use ralf::space::sync;
 use serde::Serialize;
 
@@ -191,6 +188,13 @@ fn missing(reader: &dyn SequenceReader, sensors: &[SensorInspection], config: &C
 fn offset_to_nearest(times: &[i64], t_ns: i64) -> Option<i64> {
     let nearest = sync::nearest(times, t_ns, i64::MAX)?;
     i64::try_from(times[nearest].abs_diff(t_ns)).ok()
+}
+
+/// The value below which this share of them lies, the nearest of few; `None` of none.
+fn quantile(values: &[i64], share: f64) -> Option<i64> {
+    let mut sorted = values.to_vec();
+    sorted.sort_unstable();
+    sorted.get(((sorted.len() as f64 - 1.0).max(0.0) * share).round() as usize).copied()
 }
 
 fn ms(ns: i64) -> f64 {

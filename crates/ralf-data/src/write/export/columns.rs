@@ -2,146 +2,124 @@
 
 use super::labelled::{LabelledScan, LabelledSequence};
 use crate::error::DataError;
-use crate::result::ANSWERS;
+use crate::result::schema::field;
+use crate::result::{Column, Group, Kind, Schema, Table, Values};
 use ralf::label::truth_of;
 use ralf::sensors::{Radar, RadarScan};
+use std::sync::Arc;
 
-/// Names of what a labelled cloud has beside the radar's own fields. The one of 2 bytes is last, so that all lie aligned.
-const ADDED: [&str; 7] = ["plausibility", "label", "w_lm", "w_cm", "w_tr", "w_opt", "flags"];
-
-/// One column, a value per detection of the split.
-pub(super) struct Column {
-    pub(super) name: String,
-    pub(super) values: Values,
+/// Columns in the making.
+#[derive(Default)]
+struct Columns {
+    columns: Vec<Column>,
+    values: Vec<Values>,
 }
 
-/// The values of a column.
-pub(super) enum Values {
-    /// NaN is absent.
-    F32(Vec<f32>),
-    U16(Vec<u16>),
-    U32(Vec<u32>),
-    I64(Vec<i64>),
-    /// Of a detection that is unlabeled `None`.
-    Truth(Vec<Option<bool>>),
-}
-
-impl Values {
-    /// How many.
-    pub(super) fn len(&self) -> usize {
-        match self {
-            Self::F32(values) => values.len(),
-            Self::U16(values) => values.len(),
-            Self::U32(values) => values.len(),
-            Self::I64(values) => values.len(),
-            Self::Truth(values) => values.len(),
-        }
+impl Columns {
+    fn add(&mut self, column: Column, values: Values) {
+        self.columns.push(column);
+        self.values.push(values);
     }
 
-    /// Bytes of a value.
-    pub(super) fn size(&self) -> usize {
-        match self {
-            Self::Truth(_) => 1,
-            Self::U16(_) => 2,
-            Self::F32(_) | Self::U32(_) => 4,
-            Self::I64(_) => 8,
-        }
-    }
-
-    /// Adds the little-endian bytes of a value: of what is true 1, of what is false 0, of what nobody knows -1.
-    pub(super) fn append_bytes(&self, row: usize, bytes: &mut Vec<u8>) {
-        match self {
-            Self::F32(values) => bytes.extend(values[row].to_le_bytes()),
-            Self::U16(values) => bytes.extend(values[row].to_le_bytes()),
-            Self::U32(values) => bytes.extend(values[row].to_le_bytes()),
-            Self::I64(values) => bytes.extend(values[row].to_le_bytes()),
-            Self::Truth(values) => bytes.extend(values[row].map_or(-1, i8::from).to_le_bytes()),
-        }
-    }
-
-    /// Adds values of the same type; others are none of this column.
-    pub(super) fn append(&mut self, others: Self) {
-        match (self, others) {
-            (Self::F32(values), Self::F32(others)) => values.extend(others),
-            (Self::U16(values), Self::U16(others)) => values.extend(others),
-            (Self::U32(values), Self::U32(others)) => values.extend(others),
-            (Self::I64(values), Self::I64(others)) => values.extend(others),
-            (Self::Truth(values), Self::Truth(others)) => values.extend(others),
-            _ => {}
-        }
+    fn table(self) -> Result<Table, DataError> {
+        Table::new(Arc::new(Schema::new(self.columns)), self.values)
     }
 }
 
-/// The columns of `plausibility.parquet` but `radar`, with the effective labels; of what was measured only if asked for.
-pub(super) fn table_columns(sequence: &LabelledSequence, scan: &LabelledScan) -> Vec<Column> {
-    let whole = |value: usize| value as u32;
-    let mut columns = vec![
-        column("scan", Values::U32(vec![whole(scan.scan); scan.kept.len()])),
-        column("point", Values::U32(scan.kept.iter().copied().map(whole).collect())),
-        column("t_ns", Values::I64(vec![scan.table.t_ns; scan.kept.len()])),
-    ];
-    for (name, values) in sequence.columns().names().zip(&scan.table.decimals) {
-        if sequence.options.sensors.radar || ANSWERS.contains(&name) {
-            columns.push(column(name, Values::F32(kept(scan, values))));
+/// The columns of `plausibility.parquet` but `radar`, with the effective labels; of what was measured only if asked
+/// for.
+pub(super) fn table_columns(sequence: &LabelledSequence, scan: &LabelledScan) -> Result<Table, DataError> {
+    let mut columns = Columns::default();
+    let number = vec![scan.scan as u32; scan.kept.len()];
+    columns.add(plain("scan", Kind::U32, "The number of the scan.", Group::Identity), Values::U32(number));
+    for group in [Group::Identity, Group::Measured, Group::Answers] {
+        if group != Group::Measured || sequence.options.sensors.radar {
+            add_group(&mut columns, scan, group);
         }
     }
     let ids: Vec<u16> = scan.kept.iter().map(|row| scan.labels[*row].id).collect();
-    columns.push(column("plausible", Values::Truth(ids.iter().copied().map(truth_of).collect())));
-    columns.push(column("label", Values::U16(ids)));
-    columns.push(column("flags", Values::U16(kept(scan, &scan.table.flags))));
-    columns
+    let truth = Values::Truth(ids.iter().copied().map(truth_of).collect());
+    columns.add(plain("plausible", Kind::Truth, "What the label says.", Group::Verdict), truth);
+    let meaning = "SemanticKITTI id of the label that counts.";
+    columns.add(plain("label", Kind::U16, meaning, Group::Verdict), Values::U16(ids));
+    columns.add(flags(), flags_of(scan)?);
+    add_group(&mut columns, scan, Group::Evidence);
+    columns.table()
 }
 
-/// The columns of a labelled cloud: where the radar saw the detections (its own frame, m), its further fields as they are,
-/// and what was found about them.
+/// Answers of the method that a labelled cloud has, and what they are called there.
+const ANSWERS: [(&str, &str); 4] = [("w_lm", "w_lm"), ("w_cm", "w_cm"), ("w_tr", "w_tr"), ("w_opt", "w_opt")];
+
+/// The columns of a labelled cloud: where the radar saw the detections (its own frame, m), its further fields as they
+/// are, and what was found about them. The one of 2 bytes is last, so that all lie aligned.
 pub(super) fn cloud_columns(
     sequence: &LabelledSequence,
     scan: &LabelledScan,
     measured: &RadarScan,
-) -> Result<Vec<Column>, DataError> {
+) -> Result<Table, DataError> {
     let radar = &sequence.reader.sequence().rig.radars[scan.radar];
-    if let Some(name) = radar.fields.iter().find(|name| ADDED.contains(&name.as_str())) {
+    let mut added = Columns::default();
+    let decimals = |name: &str| Ok::<_, DataError>(Values::F32(kept(scan, scan.table.get::<f32>(name)?)));
+    added.add(plain("plausibility", Kind::F32, "The plausibility.", Group::Answers), decimals("w")?);
+    let ids = scan.kept.iter().map(|row| scan.labels[*row].id.into()).collect();
+    let meaning = "SemanticKITTI id of the label that counts.";
+    added.add(plain("label", Kind::U32, meaning, Group::Verdict), Values::U32(ids));
+    for (name, of) in ANSWERS {
+        added.add(plain(name, Kind::F32, "A branch's plausibility.", Group::Answers), decimals(of)?);
+    }
+    add_group(&mut added, scan, Group::Evidence);
+    added.add(flags(), flags_of(scan)?);
+    let taken = |name: &&String| added.columns.iter().any(|column| column.name == **name);
+    if let Some(name) = radar.fields.iter().find(taken) {
         let reason = format!("field `{name}` of the radar has the name of one that the export adds");
         let (file, place) = (sequence.name().into(), radar.name.clone());
         return Err(DataError::Unsuitable { file, place, reason });
     }
-    let mut columns = place(radar, measured);
-    let fields = radar.fields.iter().zip(&measured.columns);
-    let further = fields.filter(|(name, _)| !["x", "y", "z"].contains(&name.as_str()));
-    columns.extend(further.map(|(name, values)| (name.clone(), values.clone())));
-    let mut columns: Vec<Column> = columns
-        .into_iter()
-        .map(|(name, values)| Column { name, values: Values::F32(kept(scan, &values)) })
-        .collect();
-    columns.extend(ADDED.map(|name| column(name, added(sequence, scan, name))));
-    Ok(columns)
-}
-
-/// x, y, z as they were recorded, or worked out from range, azimuth and elevation.
-fn place(radar: &Radar, measured: &RadarScan) -> Vec<(String, Vec<f32>)> {
-    let axis = |(axis, name): (usize, &str)| {
-        let recorded = radar.column(name).map(|column| measured.columns[column].clone());
-        let worked_out = || measured.positions.iter().map(|position| position[axis] as f32).collect();
-        (name.to_owned(), recorded.unwrap_or_else(worked_out))
-    };
-    ["x", "y", "z"].into_iter().enumerate().map(axis).collect()
-}
-
-fn added(sequence: &LabelledSequence, scan: &LabelledScan, name: &str) -> Values {
-    match name {
-        "label" => Values::U32(scan.kept.iter().map(|row| scan.labels[*row].id.into()).collect()),
-        "flags" => Values::U16(kept(scan, &scan.table.flags)),
-        _ => {
-            let name = if name == "plausibility" { "w" } else { name };
-            let found = sequence.columns().names().position(|known| known == name);
-            let values = found.and_then(|at| scan.table.decimals.get(at)).map(|values| kept(scan, values));
-            Values::F32(values.unwrap_or_default())
+    let mut columns = Columns::default();
+    for (axis, name) in ["x", "y", "z"].into_iter().enumerate() {
+        columns.add(field(name), Values::F32(kept(scan, &place(radar, measured, axis, name))));
+    }
+    for (name, values) in radar.fields.iter().zip(&measured.columns) {
+        if !["x", "y", "z"].contains(&name.as_str()) {
+            columns.add(field(name), Values::F32(kept(scan, values)));
         }
+    }
+    columns.columns.extend(added.columns);
+    columns.values.extend(added.values);
+    columns.table()
+}
+
+/// A table of decimals under these names.
+pub(super) fn decimals<'a>(columns: impl Iterator<Item = (&'a str, Vec<f32>)>) -> Result<Table, DataError> {
+    let mut all = Columns::default();
+    columns.for_each(|(name, values)| all.add(field(name), Values::F32(values)));
+    all.table()
+}
+
+/// Adds the columns of the result that belong to a group.
+fn add_group(columns: &mut Columns, scan: &LabelledScan, group: Group) {
+    for (column, values) in scan.table.columns().filter(|(column, _)| column.group == group) {
+        columns.add(column.clone(), values.pick(&scan.kept));
     }
 }
 
-fn column(name: &str, values: Values) -> Column {
-    Column { name: name.to_owned(), values }
+/// x, y or z as it was recorded, or worked out from range, azimuth and elevation.
+fn place(radar: &Radar, measured: &RadarScan, axis: usize, name: &str) -> Vec<f32> {
+    let recorded = radar.column(name).map(|column| measured.columns[column].clone());
+    let worked_out = || measured.positions.iter().map(|position| position[axis] as f32).collect();
+    recorded.unwrap_or_else(worked_out)
+}
+
+fn flags() -> Column {
+    plain("flags", Kind::U16, "The bits of `ralf::label::flag`.", Group::Verdict)
+}
+
+fn flags_of(scan: &LabelledScan) -> Result<Values, DataError> {
+    Ok(Values::U16(kept(scan, scan.table.get::<u16>("flags")?)))
+}
+
+fn plain(name: &'static str, kind: Kind, meaning: &'static str, group: Group) -> Column {
+    Column { name: name.into(), kind, unit: "", meaning, group }
 }
 
 fn kept<T: Copy>(scan: &LabelledScan, values: &[T]) -> Vec<T> {

@@ -5,7 +5,7 @@ use crate::disk::label_file::Label;
 use crate::error::DataError;
 use crate::read::SequenceReader;
 use crate::result::{
-    Columns, LabelledRun, PlausibilityReader, ScanTable, ScanTables, SequenceNames, SequenceRecord,
+    LabelledRun, PlausibilityReader, RadarScanKey, ScanParts, SequenceNames, SequenceRecord, Table,
 };
 use crate::truth::{Corrections, ScanId};
 use ralf::label::truth_of;
@@ -13,6 +13,7 @@ use ralf::scene::LocatedScan;
 use ralf::sensors::RadarScan;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
+use std::sync::Arc;
 
 /// A sequence with its results.
 pub(super) struct LabelledSequence<'a, 'p> {
@@ -30,23 +31,24 @@ pub(super) struct LabelledSequence<'a, 'p> {
     tally: &'a mut Tally<'p>,
 }
 
-/// The results of a sequence. One row group per radar is held in memory, so that going through each radar's scans in order,
-/// all radars side by side, reads every group once per radar in it.
+/// The results of a sequence. One row group per radar is held in memory, so that going through each radar's scans in
+/// order, all radars side by side, reads every group once per radar in it.
 struct Tables {
     reader: PlausibilityReader,
     /// Per radar the row group that was read last, and its number.
-    held: BTreeMap<String, (usize, ScanTables)>,
+    held: BTreeMap<Arc<str>, (usize, BTreeMap<usize, Table>)>,
 }
 
 impl Tables {
     /// The table of a scan; `None` where there are no rows of it.
-    fn table(&mut self, radar: &str, scan: usize) -> Result<Option<ScanTable>, DataError> {
-        let Some(group) = self.reader.group_of(radar, scan) else { return Ok(None) };
-        if self.held.get(radar).is_none_or(|(held, _)| *held != group) {
-            self.held.insert(radar.to_owned(), (group, self.reader.tables(group)?));
+    fn table(&mut self, key: &RadarScanKey) -> Result<Option<Table>, DataError> {
+        let Some(group) = self.reader.group_of(key) else { return Ok(None) };
+        if self.held.get(&key.radar).is_none_or(|(held, _)| *held != group) {
+            let tables = self.reader.tables(group)?.into_iter().filter(|(found, _)| found.radar == key.radar);
+            let tables = tables.map(|(found, table)| (found.scan, table)).collect();
+            self.held.insert(key.radar.clone(), (group, tables));
         }
-        let held = self.held.get(radar).and_then(|(_, tables)| tables.get(&(radar.to_owned(), scan)));
-        Ok(held.cloned())
+        Ok(self.held.get(&key.radar).and_then(|(_, tables)| tables.get(&key.scan)).cloned())
     }
 }
 
@@ -63,7 +65,7 @@ pub(super) struct LabelledScan {
     /// Its number.
     pub(super) scan: usize,
     /// What `ralf label` found; all answers are absent where it could not label the scan.
-    pub(super) table: ScanTable,
+    pub(super) table: Table,
     /// The effective labels.
     pub(super) labels: Vec<Label>,
     /// The detections of the split, ascending.
@@ -104,17 +106,17 @@ impl<'a, 'p> LabelledSequence<'a, 'p> {
         let name = &sequence.rig.radars[radar].name;
         let id = self.id(radar, scan);
         self.check_recorded(&id, radar)?;
-        let (table, machine) = match self.tables.table(name, scan)? {
+        let (table, machine) = match self.tables.table(&RadarScanKey::new(name, scan))? {
             Some(table) => {
-                let labels = table.labels();
+                let labels = table.labels()?;
                 (table, labels)
             }
             None => self.without_rows(&id, radar)?,
         };
         let t_ns = sequence.times.radars[radar][scan];
-        if table.t_ns != t_ns {
+        if let Some(found) = table.get::<i64>("t_ns")?.first().filter(|found| **found != t_ns) {
             let expected = format!("a scan at {t_ns} ns, as in the recording");
-            return Err(self.unlike(&id, expected, table.t_ns.to_string()));
+            return Err(self.unlike(&id, expected, found.to_string()));
         }
         let labels = self.corrections.effective_labels(&id, machine)?;
         let kept: Vec<usize> =
@@ -150,7 +152,7 @@ impl<'a, 'p> LabelledSequence<'a, 'p> {
     }
 
     /// A scan without rows saw nothing, or could not be labelled, which the record tells.
-    fn without_rows(&mut self, id: &ScanId, radar: usize) -> Result<(ScanTable, Vec<Label>), DataError> {
+    fn without_rows(&mut self, id: &ScanId, radar: usize) -> Result<(Table, Vec<Label>), DataError> {
         let sensor = &self.reader.sequence().rig.radars[radar];
         let detections = LocatedScan::new(sensor, self.measured(radar, id.scan as usize)?);
         let found = detections.len();
@@ -160,23 +162,19 @@ impl<'a, 'p> LabelledSequence<'a, 'p> {
             let expected = format!("{found} detections, as in the recording");
             return Err(self.unlike(id, expected, "none".to_owned()));
         }
-        let table = ScanTable::not_labelled(self.columns(), sensor, &detections);
+        let parts = ScanParts { radar: sensor, scan: &detections, labels: None, evidence: &[] };
+        let table = Table::of_scan(self.tables.reader.schema(), &parts)?;
         Ok((table, vec![Label::default(); found]))
     }
 
     /// The table has as many rows of a scan as the record tells.
     fn check_recorded(&self, id: &ScanId, radar: usize) -> Result<(), DataError> {
         let recorded = self.record.radars[radar].detections[id.scan as usize] as usize;
-        let found = self.tables.reader.detections(&id.radar, id.scan as usize);
+        let found = self.tables.reader.detections(&RadarScanKey::new(&id.radar, id.scan as usize));
         if found == recorded {
             return Ok(());
         }
         Err(self.unlike(id, format!("{recorded} detections, as run.json says"), found.to_string()))
-    }
-
-    /// The decimal columns of the tables.
-    pub(super) fn columns(&self) -> &Columns {
-        self.tables.reader.columns()
     }
 
     fn id(&self, radar: usize, scan: usize) -> ScanId {
@@ -191,7 +189,8 @@ impl<'a, 'p> LabelledSequence<'a, 'p> {
 }
 
 impl LabelledScan {
-    /// The effective labels where their order is the only key to clouds elsewhere: what the split leaves out is unlabeled.
+    /// The effective labels where their order is the only key to clouds elsewhere: what the split leaves out is
+    /// unlabeled.
     pub(super) fn labels_in_place(&self) -> Vec<Label> {
         let mut labels = vec![Label::default(); self.labels.len()];
         self.kept.iter().for_each(|row| labels[*row] = self.labels[*row]);

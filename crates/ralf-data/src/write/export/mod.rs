@@ -1,15 +1,17 @@
 //! Labels in the formats of other tools.
 //!
-//! [`Export::write`] goes through the labelled sequences of a recording and hands them to the writer of a format, one file of
-//! this folder each. What the writers get is the same: a `LabelledScan` with the results of `ralf label` and the *effective*
-//! labels (a person's correction, else what a person accepted, else the machine's).
+//! [`Export::write`] goes through the labelled sequences of a recording and hands them to the writer of a format, one
+//! file of this folder each. What the writers get is the same: a `LabelledScan` with the results of `ralf label` and
+//! the *effective* labels (a person's correction, else what a person accepted, else the machine's).
 //!
-//! Labels come alone, unless the sensors' data are asked for too. A detection that [`Split`] leaves out is in no file of the
-//! export; where the labels belong to clouds that are not part of it (their order is the only key), it stays as unlabeled.
+//! Labels come alone, unless the sensors' data are asked for too. A detection that [`Split`] leaves out is in no file
+//! of the export; where the labels belong to clouds that are not part of it (their order is the only key), it stays as
+//! unlabeled.
 //!
-//! An export appears whole or not at all: it is written beside its place, then renamed. The same recording and results give
-//! the same bytes.
+//! An export appears whole or not at all: it is written beside its place, then renamed. The same recording and results
+//! give the same bytes.
 
+mod bytes;
 mod columns;
 mod formats;
 mod labelled;
@@ -80,8 +82,9 @@ impl Export<'_> {
     /// Writes the export to `path`. `progress` is told after each scan how many are done.
     ///
     /// # Errors
-    /// Anything at `path` but an empty folder, or an earlier export in this format where replacing it is asked for; results
-    /// that are not those of the recording, or of none of its sequences; what the system refuses. Nothing half-written stays.
+    /// Anything at `path` but an empty folder, or an earlier export in this format where replacing it is asked for;
+    /// results that are not those of the recording, or of none of its sequences; what the system refuses. Nothing
+    /// half-written stays.
     pub fn write(&self, path: &Path, progress: &dyn Fn(usize)) -> Result<Exported, DataError> {
         let run = LabelledRun::open(self.out)?;
         let corrections = Corrections::of_recording(self.out, self.recording)?;

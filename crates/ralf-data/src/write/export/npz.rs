@@ -1,12 +1,13 @@
-//! NumPy archives: `sequences/NAME/RADAR/000000.npz`, one per scan, one array per column, in the order of the recording.
+//! NumPy archives: `sequences/NAME/RADAR/000000.npz`, one per scan, one array per column, in the order of the
+//! recording.
 
 use super::Writer;
-use super::columns::{Column, table_columns};
+use super::columns::table_columns;
 use super::labelled::LabelledSequence;
 use super::npy_array;
 use crate::disk::files;
 use crate::error::DataError;
-use crate::result::{Component, OutFolder};
+use crate::result::{Component, OutFolder, Table};
 use std::io::{Cursor, Write};
 use zip::result::ZipError;
 use zip::write::{SimpleFileOptions, ZipWriter};
@@ -24,7 +25,7 @@ impl Writer for Npz {
                 let file =
                     folder.folder(&sequence.names.radars[radar]).file(&Component::numbered(scan, "npz"));
                 let refused = |error: ZipError| DataError::io(&file)(error.into());
-                let bytes = archive(&table_columns(sequence, &labelled)).map_err(refused)?;
+                let bytes = archive(&table_columns(sequence, &labelled)?).map_err(refused)?;
                 files::write_whole(&file, &bytes)?;
             }
         }
@@ -32,14 +33,15 @@ impl Writer for Npz {
     }
 }
 
-/// The bytes of an archive, uncompressed as `numpy.savez` leaves them. It is told no time, so that it is always the same.
-fn archive(columns: &[Column]) -> Result<Vec<u8>, ZipError> {
+/// The bytes of an archive, uncompressed as `numpy.savez` leaves them. It is told no time, so that it is always the
+/// same.
+fn archive(table: &Table) -> Result<Vec<u8>, ZipError> {
     let mut zip = ZipWriter::new(Cursor::new(Vec::new()));
     let options = SimpleFileOptions::default()
         .compression_method(CompressionMethod::Stored)
         .last_modified_time(DateTime::default());
-    for Column { name, values } in columns {
-        zip.start_file(format!("{name}.npy"), options)?;
+    for (column, values) in table.columns() {
+        zip.start_file(format!("{}.npy", column.name), options)?;
         zip.write_all(&npy_array::of_column(values))?;
     }
     Ok(zip.finish()?.into_inner())

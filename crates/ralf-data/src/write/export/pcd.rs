@@ -1,14 +1,15 @@
 //! Point clouds as PCL has them (PCD 0.7, binary): `sequences/NAME/RADAR/000000.pcd`, one per scan.
 //!
-//! Points are in the radar's frame; `VIEWPOINT` tells how the radar is mounted on the vehicle. Fields are the radar's own,
-//! under their names, and what was found about each detection.
+//! Points are in the radar's frame; `VIEWPOINT` tells how the radar is mounted on the vehicle. Fields are the radar's
+//! own, under their names, and what was found about each detection.
 
 use super::Writer;
-use super::columns::{Column, Values, cloud_columns};
+use super::bytes;
+use super::columns::cloud_columns;
 use super::labelled::LabelledSequence;
 use crate::disk::files;
 use crate::error::DataError;
-use crate::result::{Component, OutFolder};
+use crate::result::{Column, Component, Kind, OutFolder, Table};
 use ralf::space::Transform;
 
 /// Writes the clouds.
@@ -23,7 +24,7 @@ impl Writer for Pcd {
                 let columns = cloud_columns(sequence, &labelled, &sequence.measured_of(&labelled)?)?;
                 let file =
                     folder.folder(&sequence.names.radars[radar]).file(&Component::numbered(scan, "pcd"));
-                files::write_whole(&file, &cloud(&columns, labelled.kept.len(), &sensor.vehicle_from_radar))?;
+                files::write_whole(&file, &cloud(&columns, &sensor.vehicle_from_radar))?;
             }
         }
         Ok(())
@@ -31,30 +32,32 @@ impl Writer for Pcd {
 }
 
 /// The bytes of a cloud.
-fn cloud(columns: &[Column], points: usize, vehicle_from_radar: &Transform) -> Vec<u8> {
+fn cloud(table: &Table, vehicle_from_radar: &Transform) -> Vec<u8> {
+    let points = table.len();
+    let columns = table.schema().columns();
     let of = |text: fn(&Column) -> String| columns.iter().map(text).collect::<Vec<_>>().join(" ");
     let fields = of(|column| column.name.replace(char::is_whitespace, "_"));
     let (letters, sizes) =
-        (of(|column| letter(column).into()), of(|column| column.values.size().to_string()));
+        (of(|column| letter(column).into()), of(|column| bytes::size(column.kind).to_string()));
     let counts = of(|_| "1".into());
     let viewpoint = viewpoint(vehicle_from_radar);
     let header = format!(
         "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\nFIELDS {fields}\nSIZE {sizes}\nTYPE {letters}\n\
          COUNT {counts}\nWIDTH {points}\nHEIGHT 1\nVIEWPOINT {viewpoint}\nPOINTS {points}\nDATA binary\n"
     );
-    let mut bytes = header.into_bytes();
+    let mut all = header.into_bytes();
     for row in 0..points {
-        columns.iter().for_each(|column| column.values.append_bytes(row, &mut bytes));
+        table.columns().for_each(|(_, values)| bytes::append(values, row, &mut all));
     }
-    bytes
+    all
 }
 
 /// PCD's letter for the kind of a column.
 fn letter(column: &Column) -> &'static str {
-    match column.values {
-        Values::F32(_) => "F",
-        Values::U16(_) | Values::U32(_) => "U",
-        Values::I64(_) | Values::Truth(_) => "I",
+    match column.kind {
+        Kind::F32 => "F",
+        Kind::U8 | Kind::U16 | Kind::U32 | Kind::Class | Kind::Text => "U",
+        Kind::I64 | Kind::Truth => "I",
     }
 }
 

@@ -10,7 +10,8 @@ use serde::{Deserialize, Serialize};
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Tells that a folder is an export, and of what. Tools that search folders for data pass over names with an underscore.
+/// Tells that a folder is an export, and of what. Tools that search folders for data pass over names with an
+/// underscore.
 const RECORD: &str = "_export.json";
 
 /// The content of `_export.json`.

@@ -1,17 +1,17 @@
-//! SemanticKITTI's tree: `sequences/NN/labels/000000.label`, and with the radars' data `velodyne/000000.bin`, `calib.txt`,
+//! SemanticKITTI's tree: `sequences/NN/labels/000000.label`, and with the radars' data `velodyne/000000.bin`,
+//! `calib.txt`,
 //! `poses.txt` and `times.txt`, as semantic-kitti-api reads them.
 //!
-//! A sequence of this tree is one radar of one sequence of the recording: frame n is scan n, point i its detection i, and
-//! nothing is moved in time. `sequences.csv` tells which is which.
+//! A sequence of this tree is one radar of one sequence of the recording: frame n is scan n, point i its detection i,
+//! and nothing is moved in time. `sequences.csv` tells which is which.
 
-use super::columns::Values;
 use super::labelled::{LabelledScan, LabelledSequence};
 use super::{Split, Writer, npy_array};
 use crate::disk::files;
 use crate::disk::label_file::write_labels;
 use crate::error::DataError;
 use crate::read::SequenceReader;
-use crate::result::{Component, OutFolder, checked};
+use crate::result::{Component, OutFolder, Values, checked};
 use crate::run::SequenceRecord;
 use ralf::sensors::{Radar, RadarScan};
 use ralf::space::Transform;
@@ -22,7 +22,8 @@ const INTENSITIES: [&str; 5] = ["rcs", "power", "snr", "amplitude", "intensity"]
 
 /// Writes the tree.
 pub(super) struct SemanticKitti {
-    /// Whether the recording's sequences are named by numbers and have one radar each, so that they can keep their names.
+    /// Whether the recording's sequences are named by numbers and have one radar each, so that they can keep their
+    /// names.
     keeps_names: bool,
     /// Rows of `sequences.csv`.
     table: Vec<String>,
@@ -98,7 +99,8 @@ fn write_scan(folder: &OutFolder, sequence: &LabelledSequence, scan: &LabelledSc
     Ok(())
 }
 
-/// x, y, z (radar frame, m) and intensity. A detection without a place is put at the origin, which stands for no return.
+/// x, y, z (radar frame, m) and intensity. A detection without a place is put at the origin, which stands for no
+/// return.
 fn point(radar: &Radar, measured: &RadarScan, row: usize) -> [f32; 4] {
     let position = measured.positions[row].coords.map(|value| value as f32);
     let place = if position.iter().all(|value| value.is_finite()) { position } else { Default::default() };

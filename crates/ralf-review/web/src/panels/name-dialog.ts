@@ -9,7 +9,11 @@ export function nameDialog(page: Page): HTMLDialogElement {
   const name = h("input", { type: "text", "aria-label": "Your name", maxlength: "64" });
   const save = h("button", { class: "button", type: "submit" }, "Save");
   const form = h("form", { method: "dialog" }, h("h2", {}, "Your name"), name, save);
-  form.addEventListener("submit", () => actions.view.rename(name.value));
+  form.addEventListener("submit", () => {
+    actions.view.rename(name.value);
+    // The browser tells of the closing with its next picture alone; keys count at once.
+    actions.view.dialog("none");
+  });
   const note =
     "Others see it beside what you correct. Undo takes back what was done in this browser, whatever it is called.";
   const dialog = h("dialog", { class: "name", "aria-label": "Your name" }, form, h("p", { class: "faint" }, note));

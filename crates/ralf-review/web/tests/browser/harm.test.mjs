@@ -145,7 +145,7 @@ test("61 large strokes that wait for the server outlive a reload, and a window t
   const back = await serve(context, out, { port: server.port });
   const next = await open(context, browser, back, own);
   await says(next.page.locator(".status-bar"), "undo 61");
-  await says(status(next.page), "saved");
+  await says(status(next.page), /^saved$/);
   const labels = (await scanOf(back, await current(next.page))).label;
   assert.ok(labels.every((label) => label === 1));
   clean(next, GONE);
@@ -164,7 +164,7 @@ test("an answer that is lost makes neither a conflict nor a second stroke", asyn
   });
   await pickAndSet(page, "a");
   await says(page.locator(".status-bar"), "undo 1");
-  await says(status(page), "saved");
+  await says(status(page), /^saved$/);
   await page.keyboard.press("Control+z");
   await says(page.locator(".status-bar"), "redo 1");
   const { undo_depth: undo, redo_depth: redo } = await historyOf(server, page);

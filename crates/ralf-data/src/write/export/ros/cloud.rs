@@ -1,23 +1,27 @@
 //! Scans as `sensor_msgs/PointCloud2`.
 
-use crate::write::export::columns::{Column, Values};
+use crate::error::DataError;
+use crate::result::{Kind, Table};
+use crate::write::export::bytes;
+use crate::write::export::columns::decimals;
 use ralf::sensors::{LidarScan, Radar, RadarScan};
 use ralf_ros::message::{Datatype, Header, PointCloud2, PointField};
 
 /// A cloud with a field for each column.
-pub(super) fn of_columns(header: Header, columns: &[Column]) -> PointCloud2 {
-    let points = columns.first().map_or(0, |column| column.values.len());
+pub(super) fn of_columns(header: Header, table: &Table) -> PointCloud2 {
+    let points = table.len();
+    let columns = table.schema().columns();
     let mut fields = Vec::with_capacity(columns.len());
     let mut offset = 0;
-    for Column { name, values } in columns {
-        fields.push(PointField::new(name, offset as u32, datatype(values)));
-        offset += values.size();
+    for column in columns {
+        fields.push(PointField::new(&column.name, offset as u32, datatype(column.kind)));
+        offset += bytes::size(column.kind);
     }
     // Records begin aligned, whatever the last field is.
     let point_step = offset.next_multiple_of(4);
     let mut data = Vec::with_capacity(points * point_step);
     for row in 0..points {
-        columns.iter().for_each(|column| column.values.append_bytes(row, &mut data));
+        table.columns().for_each(|(_, values)| bytes::append(values, row, &mut data));
         data.resize((row + 1) * point_step, 0);
     }
     PointCloud2 {
@@ -35,29 +39,27 @@ pub(super) fn of_columns(header: Header, columns: &[Column]) -> PointCloud2 {
 }
 
 /// A radar's scan with its fields as they are.
-pub(super) fn of_radar(header: Header, radar: &Radar, scan: RadarScan) -> PointCloud2 {
-    let column = |(name, values): (&String, _)| Column { name: name.clone(), values: Values::F32(values) };
-    let columns: Vec<Column> = radar.fields.iter().zip(scan.columns).map(column).collect();
-    of_columns(header, &columns)
+pub(super) fn of_radar(header: Header, radar: &Radar, scan: RadarScan) -> Result<PointCloud2, DataError> {
+    let columns = radar.fields.iter().map(String::as_str).zip(scan.columns);
+    Ok(of_columns(header, &decimals(columns)?))
 }
 
 /// A LiDAR's scan: x, y, z, intensity.
-pub(super) fn of_lidar(header: Header, scan: LidarScan) -> PointCloud2 {
-    let axis = |axis: usize| Values::F32(scan.points.iter().map(|point| point[axis]).collect());
-    let values = [axis(0), axis(1), axis(2), Values::F32(scan.intensity)];
-    let names = ["x", "y", "z", "intensity"].map(str::to_owned);
-    let columns: Vec<Column> =
-        names.into_iter().zip(values).map(|(name, values)| Column { name, values }).collect();
-    of_columns(header, &columns)
+pub(super) fn of_lidar(header: Header, scan: LidarScan) -> Result<PointCloud2, DataError> {
+    let axis = |axis: usize| scan.points.iter().map(|point| point[axis]).collect();
+    let [x, y, z] = [axis(0), axis(1), axis(2)];
+    let columns = [("x", x), ("y", y), ("z", z), ("intensity", scan.intensity)];
+    Ok(of_columns(header, &decimals(columns.into_iter())?))
 }
 
-/// Of a field. Clouds have no times and no truth values; these would be their bytes.
-fn datatype(values: &Values) -> Datatype {
-    match values {
-        Values::F32(_) => Datatype::Float32,
-        Values::U16(_) => Datatype::Uint16,
-        Values::U32(_) => Datatype::Uint32,
-        Values::I64(_) => Datatype::Float64,
-        Values::Truth(_) => Datatype::Int8,
+/// Clouds have no texts, times and truth values; these would be their bytes.
+fn datatype(kind: Kind) -> Datatype {
+    match kind {
+        Kind::F32 => Datatype::Float32,
+        Kind::U16 | Kind::Class => Datatype::Uint16,
+        Kind::U32 => Datatype::Uint32,
+        Kind::I64 => Datatype::Float64,
+        Kind::U8 | Kind::Text => Datatype::Uint8,
+        Kind::Truth => Datatype::Int8,
     }
 }

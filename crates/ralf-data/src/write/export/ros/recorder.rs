@@ -193,14 +193,14 @@ impl<'a> Recorder<'a> {
             None => self.reader.radar_scan(radar, scan).map_err(unread(&sensor.name, scan))?,
         };
         let Some(topic) = self.topics.radars.get(radar) else { return Ok(()) };
-        let cloud = cloud::of_radar(header, sensor, measured);
+        let cloud = cloud::of_radar(header, sensor, measured)?;
         self.writer.write(topic, t_ns, &cloud).map_err(written(self.file))
     }
 
     fn lidar(&mut self, t_ns: i64, lidar: usize, scan: usize) -> Result<(), DataError> {
         let name = &self.reader.sequence().rig.lidars[lidar].name;
         let measured = self.reader.lidar_scan(lidar, scan).map_err(unread(name, scan))?;
-        let cloud = cloud::of_lidar(header(t_ns, &self.names.lidars[lidar]), measured);
+        let cloud = cloud::of_lidar(header(t_ns, &self.names.lidars[lidar]), measured)?;
         self.writer.write(&self.topics.lidars[lidar], t_ns, &cloud).map_err(written(self.file))
     }
 

@@ -1,0 +1,130 @@
+//! The one engine that yields frames: of chosen scans, in stretches of time, several at a time, with results in the
+//! scans' order.
+//!
+//! Labelling and tuning go through it. Scans that follow each other in time are one worker's, whose window reads their
+//! neighbours but once; no more than the windows of all workers are in memory, beside what the work itself returns.
+
+use crate::read::SequenceReader;
+use ralf::config::Config;
+use ralf::scene::FrameWindow;
+use ralf::sensors::{Rig, Timelines};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+
+/// Scans that follow each other in time and are worked on with one window.
+const STRETCH: usize = 64;
+
+/// A scan of a radar, by their places in the rig and in the radar's timeline.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct ScanIndex {
+    pub(crate) radar: usize,
+    pub(crate) scan: usize,
+}
+
+/// What frames are made of.
+pub(crate) struct Frames<'a> {
+    pub(crate) reader: &'a dyn SequenceReader,
+    /// With the settings' overrides.
+    pub(crate) rig: &'a Rig,
+    pub(crate) config: &'a Config,
+    /// Threads.
+    pub(crate) jobs: usize,
+}
+
+impl Frames<'_> {
+    /// Works on each of these scans with a window from which its frame can be asked; `work` is told the scan's place in
+    /// the list. Results are in the list's order. An error ends the work.
+    pub(crate) fn each<R: Send, E: Send>(
+        &self,
+        scans: &[ScanIndex],
+        work: impl Fn(&mut FrameWindow, usize) -> Result<R, E> + Sync,
+    ) -> Result<Vec<R>, E> {
+        let times = &self.reader.sequence().times.radars;
+        let mut order: Vec<usize> = (0..scans.len()).collect();
+        order.sort_by_key(|place| {
+            let ScanIndex { radar, scan } = scans[*place];
+            (times[radar][scan], radar, scan)
+        });
+        let stretches: Vec<&[usize]> = order.chunks(STRETCH).collect();
+        let stop = AtomicBool::new(false);
+        let worked = side_by_side(&stretches, self.jobs, |stretch| {
+            let mut window = FrameWindow::new(self.reader, self.rig, self.config);
+            let mut done = Vec::with_capacity(stretch.len());
+            for place in stretch.iter().copied() {
+                // Another worker has failed, so that more work would be lost, too.
+                if stop.load(Ordering::Relaxed) {
+                    break;
+                }
+                let result = work(&mut window, place);
+                done.push((place, result.inspect_err(|_| stop.store(true, Ordering::Relaxed))?));
+            }
+            Ok(done)
+        })?;
+        let mut done: Vec<(usize, R)> = worked.into_iter().flatten().collect();
+        done.sort_by_key(|(place, _)| *place);
+        Ok(done.into_iter().map(|(_, result)| result).collect())
+    }
+}
+
+/// All scans of all radars, radar by radar.
+pub(crate) fn all_scans(times: &Timelines) -> Vec<ScanIndex> {
+    let mut scans = Vec::new();
+    for (radar, times) in times.radars.iter().enumerate() {
+        scans.extend((0..times.len()).map(|scan| ScanIndex { radar, scan }));
+    }
+    scans
+}
+
+/// Works on all items, several at a time. Results are in the items' order. An error ends the work.
+pub(crate) fn side_by_side<T: Sync, R: Send, E: Send>(
+    items: &[T],
+    jobs: usize,
+    work: impl Fn(&T) -> Result<R, E> + Sync,
+) -> Result<Vec<R>, E> {
+    let next = AtomicUsize::new(0);
+    let work_off = || {
+        let mut done = Vec::new();
+        loop {
+            let place = next.fetch_add(1, Ordering::Relaxed);
+            let Some(item) = items.get(place) else { return Ok(done) };
+            // The others find no more items.
+            done.push((place, work(item).inspect_err(|_| next.store(items.len(), Ordering::Relaxed))?));
+        }
+    };
+    let results: Vec<Result<Vec<(usize, R)>, E>> = std::thread::scope(|scope| {
+        let workers: Vec<_> = (0..jobs.clamp(1, items.len().max(1))).map(|_| scope.spawn(work_off)).collect();
+        let joined =
+            workers.into_iter().map(|w| w.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)));
+        joined.collect()
+    });
+    let mut done: Vec<_> =
+        results.into_iter().collect::<Result<Vec<_>, _>>()?.into_iter().flatten().collect();
+    done.sort_by_key(|(place, _)| *place);
+    Ok(done.into_iter().map(|(_, result)| result).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn results_are_in_the_items_order_whatever_the_number_of_jobs() {
+        let items: Vec<usize> = (0..500).collect();
+        for jobs in [1, 2, 7, 1000] {
+            let found = side_by_side(&items, jobs, |item| Ok::<_, ()>(item * item)).unwrap();
+            assert!(found.into_iter().eq(items.iter().map(|item| item * item)));
+        }
+        assert_eq!(side_by_side(&[] as &[u8], 3, |_| Err::<(), _>("never asked")), Ok(vec![]));
+    }
+
+    #[test]
+    fn an_error_ends_the_work() {
+        let seen = AtomicUsize::new(0);
+        let items: Vec<usize> = (0..10_000).collect();
+        let found = side_by_side(&items, 2, |item| {
+            seen.fetch_add(1, Ordering::Relaxed);
+            if *item == 3 { Err("three") } else { Ok(()) }
+        });
+        assert_eq!(found, Err("three"));
+        assert!(seen.into_inner() < items.len());
+    }
+}

@@ -1,0 +1,57 @@
+//! How far a detection lies from the LiDAR's points in height and in the plane, each in its own standard deviations.
+//!
+//! The paper's `d_lm` is one number for both. Real radars measure elevation much worse than range and azimuth, and ghosts
+//! below the road or above a wall are far off in height alone.
+
+use super::{Feature, Piece, Values};
+use crate::config::Config;
+use crate::scene::{Frame, LidarCloud, mismatch};
+use crate::sensors::Elevation;
+use crate::space::Vector;
+
+pub(super) const PIECE: Piece = Piece {
+    features: &[
+        Feature {
+            name: "lidar_residual_horizontal",
+            unit: "sigma",
+            group: "LiDAR",
+            meaning: "mean horizontal distance from the K nearest LiDAR points above the ground, in standard deviations \
+                      along it",
+        },
+        Feature {
+            name: "lidar_residual_vertical",
+            unit: "sigma",
+            group: "LiDAR",
+            meaning: "mean height over the K nearest LiDAR points above the ground, in standard deviations of height; \
+                      null for a radar without elevation",
+        },
+    ],
+    observe,
+};
+
+/// The mismatch (docs/method.md, section 3) of the residual's horizontal and vertical part, meaned over the `K` nearest
+/// points. Floor detections have theirs, too.
+fn observe(frame: &Frame, config: &Config) -> Vec<Values> {
+    let mut horizontal = vec![None; frame.scan.len()];
+    let mut vertical = vec![None; frame.scan.len()];
+    let Some(view) = &frame.lidar else { return vec![horizontal, vertical] };
+    let cloud = LidarCloud::new(view, frame.radar);
+    let mut association = cloud.association(config.lidar.neighbours);
+    for (i, detection) in frame.scan.detections.iter().enumerate() {
+        let Some(detection) = detection else { continue };
+        let spread = detection.spread();
+        let (mut across, mut up) = (0.0, 0.0);
+        let nearest = cloud.nearest(&mut association, detection);
+        for reference in &nearest {
+            let h = detection.position - reference.position;
+            across += mismatch(&Vector::new(h.x, h.y, 0.0), &spread, &reference.spread);
+            up += mismatch(&Vector::new(0.0, 0.0, h.z), &spread, &reference.spread).copysign(h.z);
+        }
+        if !nearest.is_empty() {
+            horizontal[i] = Some(across / nearest.len() as f64);
+            vertical[i] =
+                Some(up / nearest.len() as f64).filter(|_| frame.radar.elevation == Elevation::Measured);
+        }
+    }
+    vec![horizontal, vertical]
+}

@@ -1,0 +1,77 @@
+//! Evidence besides the paper's: numbers about each detection that a person, a rule or a learner can weigh.
+//!
+//! A [`Piece`] is a pure function of a [`Frame`] that gives one or several columns, each described by its [`Feature`]. All
+//! pieces stand in [`PIECES`]; whoever writes, shows or learns from evidence goes by that list. Nothing is computed unless
+//! it is asked for.
+//!
+//! A new piece is a file of its own here, its line in [`PIECES`], and a row in `docs/evidence.md`.
+
+mod lidar_residual;
+
+use crate::config::Config;
+use crate::scene::Frame;
+
+/// Every piece of evidence, in the order of the columns.
+pub const PIECES: &[Piece] = &[lidar_residual::PIECE];
+
+/// What one column says.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Feature {
+    /// The column's name: lower-case words and underscores, unique.
+    pub name: &'static str,
+    /// Unit of the values, such as `m` or `sigma`; `1` for a plain number.
+    pub unit: &'static str,
+    /// What it belongs to, for people who look for it: `LiDAR`, `Doppler` ...
+    pub group: &'static str,
+    /// One sentence for people, without a full stop.
+    pub meaning: &'static str,
+}
+
+/// One value per detection, in the scan's order; `None` where it was not observed.
+pub type Values = Vec<Option<f64>>;
+
+/// A piece of evidence: what its columns say, and how a frame answers.
+#[derive(Debug, Clone, Copy)]
+pub struct Piece {
+    /// One entry per column.
+    pub features: &'static [Feature],
+    /// The columns' values, as many as features and in their order.
+    pub observe: fn(&Frame, &Config) -> Vec<Values>,
+}
+
+/// A column of evidence on one scan.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Column {
+    /// What it says.
+    pub feature: &'static Feature,
+    /// What was observed; finite.
+    pub values: Values,
+}
+
+/// What all columns say, in their order.
+pub fn features() -> impl Iterator<Item = &'static Feature> {
+    PIECES.iter().flat_map(|piece| piece.features)
+}
+
+/// Every piece of evidence on a frame: one column per entry of [`features`], in that order.
+///
+/// ```
+/// use ralf::{config::Config, evidence, scene::Frame};
+///
+/// fn print(frame: &Frame) -> String {
+///     let columns = evidence::observe(frame, &Config::default());
+///     columns.iter().map(|column| format!("{}: {:?}\n", column.feature.name, column.values)).collect()
+/// }
+/// ```
+pub fn observe(frame: &Frame, config: &Config) -> Vec<Column> {
+    let mut columns = Vec::new();
+    for piece in PIECES {
+        for (feature, mut values) in piece.features.iter().zip((piece.observe)(frame, config)) {
+            for value in &mut values {
+                *value = value.filter(|value| value.is_finite());
+            }
+            columns.push(Column { feature, values });
+        }
+    }
+    columns
+}

@@ -1,0 +1,56 @@
+//! The LiDAR's reference cloud: the points above the ground, as one radar is compared with them.
+
+use super::association::Association;
+use super::lidar::LidarView;
+use super::located::Detection;
+use super::mismatch::Reference;
+use crate::sensors::{Elevation, Radar};
+use crate::space::{NeighborIndex, Transform};
+use std::borrow::Cow;
+
+/// The LiDAR points above the ground, ready to be searched for detections of one radar. Identities are those of the
+/// view's [`LidarMoment`](super::LidarMoment).
+pub struct LidarCloud<'a> {
+    view: &'a LidarView,
+    elevation: Elevation,
+    index: Cow<'a, NeighborIndex>,
+    index_from_vehicle: Transform,
+}
+
+impl<'a> LidarCloud<'a> {
+    /// The cloud of a view for a radar. One that measures no elevation searches in the horizontal plane, among the points
+    /// within its vertical field of view.
+    pub fn new(view: &'a LidarView, radar: &Radar) -> Self {
+        let elevation = radar.elevation;
+        // Distances in space are the same in every frame, so the shared index is asked in its own. Horizontal ones are not.
+        let (index, index_from_vehicle) = match elevation {
+            Elevation::Measured => (Cow::Borrowed(view.moment.index()), view.vehicle_from_moment.inverse()),
+            Elevation::None => {
+                let index = view.moment.horizontal_index(radar, &view.vehicle_from_moment);
+                (Cow::Owned(index), Transform::identity())
+            }
+        };
+        Self { view, elevation, index, index_from_vehicle }
+    }
+
+    /// An association with this cloud.
+    pub fn association(&self, neighbours: usize) -> Association<'_> {
+        Association::new(&self.index, self.elevation, neighbours)
+    }
+
+    /// The mean mismatch of a detection with its nearest points; `None` where the cloud is empty.
+    pub fn mean_mismatch(&self, association: &mut Association, detection: &Detection) -> Option<f64> {
+        let query = self.index_from_vehicle * detection.position;
+        association.mean_mismatch(detection, &query, |id| self.reference(id))
+    }
+
+    /// The points nearest to a detection, in the vehicle frame at hand, nearest first; none where the cloud is empty.
+    pub fn nearest(&self, association: &mut Association, detection: &Detection) -> Vec<Reference> {
+        let nearest = association.nearest(&(self.index_from_vehicle * detection.position));
+        nearest.iter().map(|neighbor| self.reference(neighbor.id)).collect()
+    }
+
+    fn reference(&self, id: u32) -> Reference {
+        self.view.moment.reference(id, &self.view.vehicle_from_moment)
+    }
+}
