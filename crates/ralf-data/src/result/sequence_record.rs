@@ -4,6 +4,7 @@ use super::Table;
 use super::label_hash::hash_of_labels;
 use crate::disk::label_file::label_bytes;
 use crate::error::DataError;
+use crate::read::MotionSource;
 use ralf::scene::{CalibratedImage, Frame, Unreadable, ViewReport, ViewState};
 use serde::{Deserialize, Serialize};
 
@@ -23,9 +24,16 @@ pub struct SequenceRecord {
     pub cameras: Vec<CameraRecord>,
     /// Scans that could not be labelled.
     pub not_labelled: Vec<NotLabelled>,
+    /// Where the vehicle's motion comes from, if not from the recording.
+    #[serde(default, skip_serializing_if = "is_recorded")]
+    pub motion: MotionSource,
     /// LiDAR scans that can't be read: what lies near them in time was labelled without.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub unreadable: Vec<UnreadableScan>,
+}
+
+fn is_recorded(motion: &MotionSource) -> bool {
+    *motion == MotionSource::Recorded
 }
 
 /// A scan that can't be read.
