@@ -55,6 +55,24 @@ impl SensorChange {
         }
     }
 
+    /// So many times the change.
+    pub(crate) fn times(&self, factor: f64) -> Self {
+        Self {
+            turn_deg: self.turn_deg.map(|value| value * factor),
+            shift_m: self.shift_m.map(|value| value * factor),
+            clock_ms: self.clock_ms * factor,
+            mirrored: self.mirrored,
+        }
+    }
+
+    /// How much of this unit another change holds.
+    pub(crate) fn value_in(&self, change: &Self) -> f64 {
+        let product = |a: [f64; 3], b: [f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+        product(self.turn_deg, change.turn_deg)
+            + product(self.shift_m, change.shift_m)
+            + self.clock_ms * change.clock_ms
+    }
+
     /// The mounting with the change.
     pub(crate) fn mount(&self, recorded: &Transform) -> Transform {
         let [roll, pitch, yaw] = self.turn_deg.map(f64::to_radians);

@@ -11,6 +11,11 @@ const POINTS: usize = 6000;
 const WIDEST: (f64, f64) = (20.0, 3.0);
 /// A point this close to the plane supports it, m.
 const CLOSE: f64 = 0.15;
+/// Beams at the horizon hit walls all around at one height, which looks like a plane: points have to lie this far
+/// below, as a slope.
+const BELOW: f64 = 0.06;
+/// So far below the plane, m, lies at most this share of the points.
+const UNDER: (f64, f64) = (0.3, 0.08);
 /// Only within this distance of the vehicle is the road a plane, m.
 const NEAR: f64 = 25.0;
 
@@ -33,11 +38,11 @@ impl GroundFit {
     }
 }
 
-/// The plane with the most LiDAR points (vehicle frame, m); `None` where none is found.
-pub(crate) fn fit(points: &[Point]) -> Option<GroundFit> {
+/// The plane with the most LiDAR points (vehicle frame, m) of a LiDAR at a place; `None` where none is found.
+pub(crate) fn fit(points: &[Point], lidar: &Point) -> Option<GroundFit> {
     let near: Vec<[f32; 3]> = points
         .iter()
-        .filter(|p| p.coords.xy().norm() < NEAR)
+        .filter(|p| p.coords.xy().norm() < NEAR && lidar.z - p.z > BELOW * (*p - lidar).xy().norm())
         .map(|p| [p.x as f32, p.y as f32, p.z as f32])
         .collect();
     let step = near.len().div_ceil(POINTS).max(1);
@@ -53,6 +58,11 @@ pub(crate) fn fit(points: &[Point]) -> Option<GroundFit> {
     let height = |x: f64, y: f64| -ground.height(&Point::new(x, y, 0.0));
     let offset = height(0.0, 0.0);
     let slope = [height(1.0, 0.0) - offset, height(0.0, 1.0) - offset].map(f64::atan);
+    let below = |p: &&[f32; 3]| ground.height(&Point::new(p[0].into(), p[1].into(), p[2].into())) < -UNDER.0;
+    // Nothing lies under the road: what has more below it is a band on walls.
+    if thin.iter().filter(below).count() as f64 > UNDER.1 * thin.len() as f64 {
+        return None;
+    }
     let on = |p: &&[f32; 3]| ground.height(&Point::new(p[0].into(), p[1].into(), p[2].into())).abs() < CLOSE;
     let support = thin.iter().filter(on).count() as f64 / thin.len().max(1) as f64;
     Some(GroundFit { ground, slope, offset, support })
@@ -67,13 +77,13 @@ mod tests {
         let slope = 3.0_f64.to_radians().tan();
         let road = (0..900).map(|i| [f64::from(i % 30) - 15.0, f64::from(i / 30) - 15.0]);
         let points: Vec<Point> = road.map(|[x, y]| Point::new(x, y, 0.2 + slope * x)).collect();
-        let found = fit(&points).unwrap();
+        let found = fit(&points, &Point::new(0.0, 0.0, 2.0)).unwrap();
         assert!((found.slope[0].to_degrees() - 3.0).abs() < 0.1 && found.slope[1].abs() < 0.002, "{found:?}");
         assert!((found.offset - 0.2).abs() < 0.01 && found.support > 0.99);
     }
 
     #[test]
     fn no_points_have_no_ground() {
-        assert!(fit(&[]).is_none());
+        assert!(fit(&[], &Point::origin()).is_none());
     }
 }

@@ -3,15 +3,15 @@
 //! Labels from a recording whose yaw is off by five degrees look like any others. This crate asks the sensors about
 //! each other, and says of each what speaks for or against it, and what would put it right:
 //!
-//! - [`doppler`]: detections of what stands still tell a radar's own velocity. It has to be the one that the vehicle's
-//!   motion gives it: direction (yaw), size (units), sign, and time (clock).
-//! - `overlap`: detections lie where LiDAR points do, and LiDAR points where they lie half a second later, as recorded
-//!   and under changes. What fits clearly better is named.
+//! - [`doppler`]: detections of what stands still tell a radar's own velocity. It has to be the one that the
+//!   vehicle's motion gives it: direction (yaw), size (units), sign, and time (clock).
+//! - `overlap`: detections lie where LiDAR points do, and LiDAR points where they lie half a second later, as
+//!   recorded and under changes. What fits clearly better is named.
 //! - `ground`: the plane that the LiDAR sees has to be the vehicle's z = 0.
 //! - `bounds`: what no sensor gives and no vehicle does.
 //!
-//! Pure, like the method: no files, no printing. Everything follows from the recording alone, so the same recording has
-//! the same answers.
+//! Pure, like the method: no files, no printing. Everything follows from the recording alone, so the same recording
+//! has the same answers.
 
 mod bounds;
 mod change;
@@ -26,6 +26,6 @@ mod statistics;
 mod verdict;
 
 pub use change::{MotionChange, SensorChange};
-pub use judge::check;
+pub use judge::{Refinement, check, check_and_refine};
 pub use remedy::{Remedy, Setting};
 pub use verdict::{Question, RadarFigures, SequenceCheck, State, Verdict};

@@ -68,6 +68,16 @@ impl PlanField {
         Some(if distance == u8::MAX { FAR } else { f64::from(distance) * STEP })
     }
 
+    /// The same, linear between the middles of cells, so that small moves are felt.
+    pub(crate) fn smooth_distance(&self, x: f64, y: f64) -> Option<f64> {
+        let [low_x, low_y] = [x, y].map(|value| (value / CELL).floor() * CELL);
+        let [right, up] = [(x - low_x) / CELL, (y - low_y) / CELL];
+        let at = |i: f64, j: f64| self.distance(low_x + i * CELL, low_y + j * CELL);
+        let lower = at(0.0, 0.0)? * (1.0 - right) + at(1.0, 0.0)? * right;
+        let upper = at(0.0, 1.0)? * (1.0 - right) + at(1.0, 1.0)? * right;
+        Some(lower * (1.0 - up) + upper * up)
+    }
+
     /// Highest point of the obstacle nearest to a place, m; `None` where there is none near.
     pub(crate) fn top(&self, x: f64, y: f64) -> Option<f64> {
         let at = cell(x, y)?;
@@ -121,6 +131,8 @@ mod tests {
             let field = PlanField::new(obstacles.iter().map(|(x, y)| [*x, *y, 1.0]));
             let nearest = obstacles.iter().map(|(x, y)| (x - place.0).hypot(y - place.1)).fold(FAR, f64::min);
             let found = field.distance(place.0, place.1).unwrap();
+            let smooth = field.smooth_distance(place.0, place.1).unwrap();
+            prop_assert!((smooth - nearest).abs() <= 2.0 * CELL * 2.0_f64.sqrt(), "{smooth} {nearest}");
             prop_assert!((found - nearest).abs() <= CELL * 2.0_f64.sqrt() + STEP, "{found} {nearest}");
         }
     }

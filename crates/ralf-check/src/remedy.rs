@@ -66,14 +66,17 @@ impl Remedy {
 
     /// As settings; none where settings can't put it right.
     pub fn settings(&self, subject: &str) -> Vec<Setting> {
-        let of_sensor = |key: &str, value: String| Setting { key: format!("sensors.{subject}.{key}"), value };
+        let of_sensor =
+            |key: &str, value: String| Setting { key: format!("corrections.{subject}.{key}"), value };
+        let of_rig =
+            |key: &str, value: f64| Setting { key: format!("sensors.{subject}.{key}"), value: number(value) };
         let of_motion =
             |key: &str, value: f64| Setting { key: format!("motion.{key}"), value: number(value) };
         match self {
             Self::Sensor(change) => change_as_settings(change, of_sensor),
             Self::Doppler(factor) => vec![of_sensor("doppler_factor", number(*factor))],
             Self::Positions(factor) => vec![of_sensor("position_factor", number(*factor))],
-            Self::Value { key, value } => vec![of_sensor(key, number(*value))],
+            Self::Value { key, value } => vec![of_rig(key, *value)],
             Self::Speed(factor) => vec![of_motion("speed_factor", *factor)],
             Self::YawRate(factor) => vec![of_motion("yaw_rate_factor", *factor)],
             Self::MotionClock(ms) => vec![of_motion("time_offset_ms", *ms)],
@@ -173,7 +176,7 @@ mod tests {
     fn remedies_are_said_in_words_and_as_settings() {
         let yaw = Remedy::Sensor(SensorChange::yaw(-4.8));
         assert_eq!(yaw.words(), "fits better with yaw -4.8 degrees");
-        assert_eq!(yaw.settings("radar_left")[0].key, "sensors.radar_left.add_yaw_deg");
+        assert_eq!(yaw.settings("radar_left")[0].key, "corrections.radar_left.add_yaw_deg");
         assert_eq!(yaw.settings("radar_left")[0].value, "-4.8");
         let late = Remedy::Sensor(SensorChange::clock(-180.0));
         assert_eq!(late.words(), "lags by 180 ms");

@@ -193,7 +193,7 @@ impl LidarLook {
         let kept = read.points.iter().step_by(step).filter(|point| is_return(point));
         let points: Vec<Point> =
             kept.map(|[x, y, z]| mount * Point::new((*x).into(), (*y).into(), (*z).into())).collect();
-        let ground = ground::fit(&points);
+        let ground = ground::fit(&points, &mount.translation.vector.into());
         let height = |p: &Point| ground.as_ref().map_or(p.z, |ground| ground.height(p));
         let obstacles: Vec<&Point> = points.iter().filter(|p| OBSTACLES.contains(&height(p))).collect();
         let step = obstacles.len().div_ceil(PROBES).max(1);

@@ -1,12 +1,15 @@
 //! A settings file: the method's settings, and which topic of a ROS recording is which sensor.
 
+use crate::error::DataError;
 use crate::read::ros::{Topics, check_topics};
+use crate::read::{MotionSettings, Recording, SensorCorrection, corrected};
 use ralf::config::{Config, ConfigError, read_toml};
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
 use toml::{Table, Value};
 
-/// Name of the table that readers of ROS recordings know.
-const TOPICS: &str = "topics";
+/// Tables that readers of recordings know, and the method does not.
+const OF_READERS: [&str; 3] = ["topics", "corrections", "motion"];
 
 /// All that a settings file may hold. Every key is optional, and unknown keys are refused.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
@@ -18,22 +21,43 @@ pub struct Settings {
     /// `topics`.
     #[serde(skip_serializing_if = "Topics::is_empty")]
     pub topics: Topics,
+    /// `corrections`: by sensor name, what is added to what the recording says of it.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    pub corrections: BTreeMap<String, SensorCorrection>,
+    /// `motion`: where the vehicle's motion comes from.
+    #[serde(skip_serializing_if = "is_default")]
+    pub motion: MotionSettings,
 }
 
-/// The table alone, whatever else a file holds.
+fn is_default(motion: &MotionSettings) -> bool {
+    *motion == MotionSettings::default()
+}
+
+/// The readers' tables alone, whatever else a file holds.
 #[derive(Deserialize)]
-struct OnlyTopics {
+struct OfReaders {
     #[serde(default)]
     topics: Topics,
+    #[serde(default)]
+    corrections: BTreeMap<String, SensorCorrection>,
+    #[serde(default)]
+    motion: MotionSettings,
 }
 
 impl Settings {
     /// Settings from a TOML text and assignments `key=value` that win over it.
     pub fn from_toml(text: &str, assignments: &[&str]) -> Result<Self, ConfigError> {
-        let method = Config::from_toml_beside(&[TOPICS], text, assignments)?;
-        let OnlyTopics { topics } = read_toml(text, assignments)?;
+        let method = Config::from_toml_beside(&OF_READERS, text, assignments)?;
+        let OfReaders { topics, corrections, motion } = read_toml(text, assignments)?;
         check_topics(&topics)?;
-        Ok(Self { method, topics })
+        Ok(Self { method, topics, corrections, motion })
+    }
+
+    /// A recording as the tables `corrections` and `motion` have it. Where it knows no motion, that is taken from the
+    /// radars' range rates. Refused: names that no sensor has, files that hold no poses, and sequences whose motion
+    /// nobody knows.
+    pub fn correct(&self, recording: Recording) -> Result<Recording, DataError> {
+        corrected(recording, &self.corrections, &self.motion)
     }
 
     /// All settings as TOML.
@@ -46,9 +70,14 @@ impl TryFrom<Table> for Settings {
     type Error = ConfigError;
 
     fn try_from(mut table: Table) -> Result<Self, ConfigError> {
-        let topics = table.remove(TOPICS).map_or(Ok(Topics::new()), Value::try_into);
-        let topics = topics.map_err(|error: toml::de::Error| ConfigError::Parse(error.to_string()))?;
-        Ok(Self { method: Config::try_from(table)?, topics })
+        let mut own = Table::new();
+        for name in OF_READERS {
+            own.extend(table.remove_entry(name));
+        }
+        let own = Value::Table(own).try_into::<OfReaders>();
+        let OfReaders { topics, corrections, motion } =
+            own.map_err(|error| ConfigError::Parse(error.to_string()))?;
+        Ok(Self { method: Config::try_from(table)?, topics, corrections, motion })
     }
 }
 

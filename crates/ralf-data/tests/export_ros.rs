@@ -167,9 +167,16 @@ fn original_messages_are_copied_beside_the_labelled_clouds() {
         let recording = open(&file, None).unwrap();
         let settings = Settings::default();
         let out = folder.path().join("out");
-        LabelRun { recording: &recording, settings: &settings, out: &out, jobs: 2, evidence: false }
-            .execute(&Quiet)
-            .unwrap();
+        LabelRun {
+            recording: &recording,
+            settings: &settings,
+            out: &out,
+            jobs: 2,
+            evidence: false,
+            checks: &[],
+        }
+        .execute(&Quiet)
+        .unwrap();
         let format = ExportFormat::named(format).unwrap();
         let options = ExportOptions { format, split: Split::All, sensors: Sensors::ALL, replace: false };
         let labelled = folder.path().join("labelled").with_extension(kind);

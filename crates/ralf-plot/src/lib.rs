@@ -18,6 +18,7 @@
 mod birds_eye;
 mod camera;
 mod canvas;
+mod check;
 mod colormap;
 mod depth_bar;
 mod dots;
@@ -36,6 +37,7 @@ mod viewport;
 
 pub use birds_eye::{ScanPicture, scan_picture};
 pub use camera::{CameraPicture, PixelDepth, ViewPicture, camera_picture};
+pub use check::{CheckPicture, CheckRow, check_picture};
 pub use error::PlotError;
 pub use extent::Extent;
 pub use marks::{Mark, MarkLabel, Marks};

@@ -73,8 +73,14 @@ impl Tiny {
 
 fn page(dataset: &Path, out: &Path, scans_per_sequence: usize) -> String {
     let recording = ralf_data::open(dataset, None).unwrap();
-    let run =
-        LabelRun { recording: &recording, settings: &Settings::default(), out, jobs: 1, evidence: false };
+    let run = LabelRun {
+        recording: &recording,
+        settings: &Settings::default(),
+        out,
+        jobs: 1,
+        evidence: false,
+        checks: &[],
+    };
     run.execute(&Silent).unwrap();
     Report { recording: &recording, out, scans_per_sequence }.page(&|_| ()).unwrap().html
 }
@@ -189,6 +195,7 @@ fn a_recording_of_another_format_without_truth() {
         out: &out,
         jobs: 2,
         evidence: false,
+        checks: &[],
     };
     run.execute(&Silent).unwrap();
     let page = Report { recording: &recording, out: &out, scans_per_sequence: 1 }.page(&|_| ()).unwrap().html;

@@ -8,9 +8,9 @@ use ralf::space::OdometrySample;
 const PERIOD_NS: i64 = 20_000_000;
 /// The wheels' radius is known to this, relative.
 const SCALE_SIGMA: f64 = 0.004;
-/// Of a single speed, m/s.
+/// Standard deviation of a single speed, m/s.
 const SPEED_SIGMA: f64 = 0.01;
-/// Of the gyro's offset and of a single turn rate, rad/s.
+/// Standard deviations of the gyro's offset and of a single turn rate, rad/s.
 const YAW_RATE_SIGMAS: (f64, f64) = (0.0015, 0.003);
 
 /// Samples from the start on, for so many seconds.

@@ -138,7 +138,7 @@ pub struct Thing {
     /// From one to the next.
     #[serde(default)]
     pub step: [f64; 2],
-    /// Of moving ones, m/s.
+    /// Speed of moving ones, m/s.
     #[serde(default)]
     pub velocity: [f64; 2],
 }

@@ -13,7 +13,7 @@ pub(super) struct Solid {
     pub(super) object: usize,
     pub(super) shape: Shape,
     center: Point,
-    /// Of its yaw.
+    /// Sine of its yaw; the cosine follows.
     sin: f64,
     cos: f64,
 }

@@ -24,7 +24,7 @@ const START_NS: i64 = 1_600_000_000_000_000_000;
 const RADAR_PERIOD_NS: i64 = 50_000_000;
 /// The radars fire in turn, so as not to blind each other, ns.
 const RADAR_STAGGER_NS: i64 = 5_000_000;
-/// Of the LiDAR and the cameras, ns.
+/// Time between two scans of the LiDAR, and two images, ns.
 const OPTICAL_PERIOD_NS: i64 = 100_000_000;
 /// The first image is this much later than the first LiDAR scan, ns.
 const CAMERA_DELAY_NS: i64 = 12_000_000;

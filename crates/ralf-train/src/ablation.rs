@@ -89,7 +89,7 @@ pub struct Judged {
 fn scores(tables: &[&EvidenceTable], settings: &TunedSettings) -> Result<Scores, TuneError> {
     let scans = tables.iter().map(|table| table.confusions(settings));
     let scans: Vec<Vec<Confusion>> = scans.collect::<Result<_, _>>()?;
-    Ok(Scores::of(&scans.concat()))
+    Ok(Scores::from_scans(&scans.concat()))
 }
 
 /// All three branches, and none of our extensions.

@@ -4,7 +4,7 @@
 const PER_OCTAVE_LOG: u32 = 9;
 /// Plausibilities below `2^-OCTAVES` share a bucket.
 const OCTAVES: u64 = 24;
-/// Of a float's bits those that name its bucket: exponent and the first digits.
+/// How many of a float's bits don't name its bucket, which exponent and first digits do.
 const SHIFT: u32 = 52 - PER_OCTAVE_LOG;
 const LOWEST: u64 = (1023 - OCTAVES) << PER_OCTAVE_LOG;
 const COUNT: usize = ((OCTAVES as usize) << PER_OCTAVE_LOG) + 1;

@@ -25,7 +25,7 @@ pub fn leave_one_out(
     if sequences.len() < 2 {
         return Err(TuneError::TooFewSequences(sequences.len()));
     }
-    let base = TunedSettings::of(search.base);
+    let base = TunedSettings::from_config(search.base);
     let fold = |(name, table): &(String, EvidenceTable)| {
         let others = sequences.iter().filter(|(other, _)| other != name);
         let others: Vec<&EvidenceTable> = others.map(|(_, table)| table).collect();
@@ -33,8 +33,8 @@ pub fn leave_one_out(
         Ok(Fold {
             left_out: name.clone(),
             found,
-            base: Scores::of(&table.confusions(&base)?),
-            tuned: Scores::of(&table.confusions(&found.settings)?),
+            base: Scores::from_scans(&table.confusions(&base)?),
+            tuned: Scores::from_scans(&table.confusions(&found.settings)?),
         })
     };
     sequences.iter().map(fold).collect()

@@ -12,8 +12,8 @@ pub fn settings_file<T: Serialize + Default>(comment: &str, settings: &T) -> Res
     let refused = |error: &dyn std::fmt::Display| ConfigError::Parse(error.to_string());
     let all = Table::try_from(settings).map_err(|error| refused(&error))?;
     let defaults = Table::try_from(T::default()).map_err(|error| refused(&error))?;
-    let told = select("", &all, &defaults);
-    let text = toml::to_string(&told).map_err(|error| refused(&error))?;
+    let selected = select("", &all, &defaults);
+    let text = toml::to_string(&selected).map_err(|error| refused(&error))?;
     let comment: String =
         comment.lines().map(|line| format!("# {line}").trim_end().to_owned() + "\n").collect();
     Ok(format!("{comment}\n{text}"))
@@ -21,7 +21,7 @@ pub fn settings_file<T: Serialize + Default>(comment: &str, settings: &T) -> Res
 
 /// What is tuned, or differs from the defaults.
 fn select(section: &str, all: &Table, defaults: &Table) -> Table {
-    let mut told = Table::new();
+    let mut selected = Table::new();
     for (name, value) in all {
         let key = if section.is_empty() { name.clone() } else { format!("{section}.{name}") };
         let default = defaults.get(name);
@@ -29,16 +29,16 @@ fn select(section: &str, all: &Table, defaults: &Table) -> Table {
             (Value::Table(values), Some(Value::Table(defaults))) => {
                 let values = select(&key, values, defaults);
                 if !values.is_empty() {
-                    told.insert(name.clone(), Value::Table(values));
+                    selected.insert(name.clone(), Value::Table(values));
                 }
             }
             _ if default != Some(value) || TunedSettings::KEYS.contains(&key.as_str()) => {
-                told.insert(name.clone(), value.clone());
+                selected.insert(name.clone(), value.clone());
             }
             _ => {}
         }
     }
-    told
+    selected
 }
 
 #[cfg(test)]

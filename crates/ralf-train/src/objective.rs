@@ -34,7 +34,7 @@ impl Objective {
     /// How good the counts are, in [0, 1]. Where precision is below the floor, it is the precision less 1: below every
     /// score that keeps the floor, and the nearer to it the better.
     pub fn score(&self, counts: &Confusion) -> f64 {
-        let rates = Rates::of(counts);
+        let rates = Rates::new(counts);
         let score = match *self {
             Self::F1 => rates.f1_plausible,
             Self::Iou => rates.mean_iou,

@@ -44,7 +44,7 @@ impl TunedSettings {
     ];
 
     /// Those of all settings.
-    pub fn of(config: &Config) -> Self {
+    pub fn from_config(config: &Config) -> Self {
         Self {
             weights: Weights::from(config),
             neighbours: config.lidar.neighbours,
@@ -133,6 +133,6 @@ mod tests {
             ],
         )
         .unwrap();
-        assert_eq!(TunedSettings::of(&other).applied_to(&base), other);
+        assert_eq!(TunedSettings::from_config(&other).applied_to(&base), other);
     }
 }

@@ -43,7 +43,7 @@ prop_compose! {
         alpha in 0.0..=1.0, threshold in 0.0..=1.0, betas in [0.01..2.0, 0.01..2.0, 0.01..2.0],
         neighbours in 1..5usize, scans in 1..5usize, [lidar, camera, tracking] in any::<[bool; 3]>(),
     ) -> TunedSettings {
-        let mut settings = TunedSettings::of(&Config::default());
+        let mut settings = TunedSettings::from_config(&Config::default());
         (settings.neighbours, settings.scans) = (neighbours, scans);
         let weights = &mut settings.weights;
         (weights.fusion.alpha, weights.fusion.threshold) = (alpha, threshold);

@@ -9,7 +9,7 @@ use ralf::config::Config;
 
 use ralf::paper::{Labeler, lidar, tracking};
 use ralf::scene::{
-    Calibration, Frame, FrameWindow, Ground, ImageId, ImageMoment, ImageView, LidarMoment, LidarView,
+    CalibratedImage, Calibration, Frame, FrameWindow, Ground, ImageId, ImageView, LidarSnapshot, LidarView,
 };
 use ralf::sensors::{
     Camera, CameraImage, DepthImage, DepthOutput, Elevation, Intrinsics, Lidar, LidarScan, Radar, RadarScan,
@@ -241,7 +241,7 @@ fn images(points: &[Point]) -> Vec<ImageView> {
             camera: &CONFIG.camera,
             ground: &CONFIG.ground,
         };
-        let moment = ImageMoment::new(
+        let moment = CalibratedImage::new(
             &camera,
             ImageId { camera: 0, image: 0, t_ns: 0 },
             Ok(IMAGE.clone()),
@@ -262,7 +262,7 @@ fn whole_scan_with_four_views(bencher: Bencher) {
     bencher.bench(|| {
         let mut frame = frame.clone();
         let parts = vec![(lidar, scan.clone(), Transform::identity())];
-        let moment = Arc::new(LidarMoment::new(scan.t_ns, parts, &CONFIG.ground, CONFIG.seed));
+        let moment = Arc::new(LidarSnapshot::new(scan.t_ns, parts, &CONFIG.ground, CONFIG.seed));
         let view = LidarView { moment, vehicle_from_moment: Transform::identity() };
         frame.images = images(&view.all_points());
         frame.lidar = Some(view);
@@ -281,7 +281,7 @@ fn whole_scan(bencher: Bencher) {
     bencher.bench(|| {
         let mut frame = frame.clone();
         let parts = vec![(lidar, scan.clone(), Transform::identity())];
-        let moment = LidarMoment::new(scan.t_ns, parts, &CONFIG.ground, CONFIG.seed);
+        let moment = LidarSnapshot::new(scan.t_ns, parts, &CONFIG.ground, CONFIG.seed);
         frame.lidar.as_mut().expect("a LiDAR scan").moment = Arc::new(moment);
         Labeler::new(&CONFIG).label(&frame)
     });

@@ -43,8 +43,8 @@ fn the_lidar_residual_by_hand() {
     // Two detections 10 m ahead, level with the radar; in the vehicle frame the point lies at (10.5, 0, 0.4).
     let nan = [f32::NAN, 0.0, 0.0];
     let found = observe(&memory(Elevation::Measured, vec![[10.0, 0.0, 0.0], nan], vec![[10.5, 0.0, -1.6]]));
-    // Horizontal: h = (-0.5, 0). The radar's range knows x by 0.3; the LiDAR's ray is (10.5, 0, -1.6) / 10.62121, along x
-    // 0.988588 of its 0.04 m. 0.5 / sqrt(0.09 + 0.0015637 + 0.000001) = 1.65237.
+    // Horizontal: h = (-0.5, 0). The radar's range knows x by 0.3; the LiDAR's ray is (10.5, 0, -1.6) / 10.62121, along
+    // x 0.988588 of its 0.04 m. 0.5 / sqrt(0.09 + 0.0015637 + 0.000001) = 1.65237.
     close(column(&found, "lidar_residual_horizontal")[0], 1.65237);
     // Vertical: h = -0.4. The radar's elevation knows height by 10 * 0.02 = 0.2; of the LiDAR's 0.04 m the ray has
     // 1.6 / 10.62121 = 0.150642 in height. -0.4 / sqrt(0.04 + 0.0000363 + 0.000001) = -1.99907.

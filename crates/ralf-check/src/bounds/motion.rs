@@ -21,6 +21,8 @@ const GAP_NS: i64 = 1_000_000_000;
 const OUTSIDE_NS: i64 = 250_000_000;
 /// Samples of a moving vehicle that may repeat the last, share.
 const SAME: f64 = 0.9;
+/// No foot and no wheel is steady to the last bit for so long, s.
+const LONGEST_STEADY: f64 = 5.0;
 
 pub(super) fn judge(sequence: &Sequence) -> Vec<Verdict> {
     let motion = &sequence.motion;
@@ -110,11 +112,12 @@ fn stuck(motion: &EgoMotion) -> Option<Verdict> {
     let samples = motion.odometry();
     let moving = |pair: &&[ralf::space::OdometrySample]| pair[1].velocity.abs() > 0.5;
     let pairs: Vec<_> = samples.windows(2).filter(moving).collect();
+    let seconds = pairs.iter().map(|pair| (pair[1].t_ns - pair[0].t_ns) as f64 * 1e-9).sum::<f64>();
     let same = |pair: &&&[ralf::space::OdometrySample]| {
         (pair[0].velocity, pair[0].yaw_rate) == (pair[1].velocity, pair[1].yaw_rate)
     };
     let repeated = pairs.iter().filter(same).count() as f64 / pairs.len().max(1) as f64;
-    if pairs.len() < 20 || repeated < SAME {
+    if seconds < LONGEST_STEADY || repeated < SAME {
         return None;
     }
     let evidence = format!("{:.0} % of its samples repeat the one before to the last bit", repeated * 100.0);

@@ -1,8 +1,8 @@
 //! Speed and yaw rate of the vehicle from the range rates of all its radars.
 //!
-//! With `u` the ray and `t` the mounting in the vehicle frame, a standing detection has
-//! `range rate = -(u_x v + (u_y t_x - u_x t_y) w)`: linear in speed `v` and yaw rate `w`, for a vehicle that doesn't
-//! slide sideways at its rear axle.
+//! With `u` the ray and `t` the mounting in the vehicle frame, a standing detection has `range rate = -(u_x v + (u_y
+//! t_x - u_x t_y) w)`: linear in speed `v` and yaw rate `w`, for a vehicle that doesn't slide sideways at its rear
+//! axle.
 
 use super::fit::{VelocityFit, fit};
 use crate::sample::{RadarLook, nearest};
@@ -73,8 +73,8 @@ fn usable(rays: &[Vector], rates: &[f64], scan: usize) -> Option<VelocityFit> {
     fit(rays, rates, scan as u64).filter(|fit| fit.inliers > FEWEST_INLIERS)
 }
 
-/// The vehicle's motion from range rates alone, a sample per scan of the radar with the most scans: for recordings that
-/// have neither odometry nor poses. Where a moment tells nothing, the samples around it are held.
+/// The vehicle's motion from range rates alone, a sample per scan of the radar with the most scans: for recordings
+/// that have neither odometry nor poses. Where a moment tells nothing, the samples around it are held.
 ///
 /// The error says what is missing: range rates, or a lever arm from the rear axle that makes a turn visible, or it is
 /// what a scan could not be read for.

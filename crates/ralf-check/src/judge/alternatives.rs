@@ -24,17 +24,28 @@ pub(super) fn shifts() -> impl Iterator<Item = SensorChange> {
     along.chain(SHIFTS.into_iter().map(|metres| SensorChange::shift(0.0, metres)))
 }
 
+/// By which factor a change has to be better that several radars ask for alike.
+pub(super) const GAIN: f64 = 1.08;
+
+/// By which factor a change of a single radar has to be better. A shift, or a clock's offset, which is one along the
+/// way, brings what lies beside narrow things, such as clutter before a garage's walls, onto them: half a metre that
+/// is truly missing gains more than this.
+pub(super) fn gain_of_one(change: &SensorChange) -> f64 {
+    if change.shift_m == [0.0; 3] && change.clock_ms == 0.0 { GAIN } else { 1.3 }
+}
+
 /// The change with the best tally, if it beats the present one.
 pub(super) fn best(
     now: &Tally,
     changes: impl Iterator<Item = SensorChange>,
+    gain: impl Fn(&SensorChange) -> f64,
     tally: impl Fn(&SensorChange) -> Tally,
 ) -> Option<(SensorChange, Tally)> {
     if !now.is_enough() {
         return None;
     }
     let tried = changes.map(|change| (change, tally(&change)));
-    let beating = tried.filter(|(_, then)| now.is_beaten_by(then));
+    let beating = tried.filter(|(change, then)| now.is_beaten_by_factor(then, gain(change)));
     beating.max_by(|a, b| a.1.share().total_cmp(&b.1.share()))
 }
 
@@ -51,26 +62,22 @@ pub(super) fn exact(found: SensorChange, score: impl Fn(&SensorChange) -> f64) -
     } else {
         return found;
     };
-    let last = step / 16.0;
+    let (last, farthest) = (step / 16.0, 3.0 * step);
     let (mut best, mut highest) = (found, score(&found));
     while step > last {
-        let sides = [-step, step].map(|step| best.and(&times(&unit, step)));
-        let next = sides.into_iter().map(|side| (score(&side), side)).max_by(|a, b| a.0.total_cmp(&b.0));
+        let sides = [-step, step].map(|step| best.and(&unit.times(step)));
+        let near = |side: &SensorChange| unit.value_in(&side.and(&found.times(-1.0))).abs() <= farthest;
+        let next = sides
+            .into_iter()
+            .filter(near)
+            .map(|side| (score(&side), side))
+            .max_by(|a, b| a.0.total_cmp(&b.0));
         match next {
             Some((score, side)) if score > highest => (highest, best) = (score, side),
             _ => step /= 2.0,
         }
     }
     best
-}
-
-fn times(unit: &SensorChange, factor: f64) -> SensorChange {
-    SensorChange {
-        turn_deg: unit.turn_deg.map(|value| value * factor),
-        shift_m: unit.shift_m.map(|value| value * factor),
-        clock_ms: unit.clock_ms * factor,
-        mirrored: false,
-    }
 }
 
 #[cfg(test)]

@@ -15,8 +15,8 @@ const LEFT: f64 = 0.85;
 const SIGMAS: f64 = 4.0;
 /// Radars agree on an offset within this, ms.
 const COMMON_MS: f64 = 80.0;
-/// Odometry that is late by less moves nothing by a decimetre between two scans, for speeds change by some m/s per s: a
-/// fact. Some vehicles' buses lag by 200 ms.
+/// Odometry that is late by less moves nothing by a decimetre between two scans, for speeds change by some m/s per s:
+/// a fact. Some vehicles' buses lag by 200 ms.
 const HARMLESS_MS: f64 = 300.0;
 
 /// Judges all clocks by range rates, and puts right what is found.

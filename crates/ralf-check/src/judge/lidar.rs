@@ -1,6 +1,6 @@
 //! Whether a LiDAR is where and when it is said to be: what several radars ask for alike is its fault.
 
-use super::alternatives::{best, clocks, exact, shifts, yaws};
+use super::alternatives::{GAIN, best, clocks, exact, shifts, yaws};
 use super::case::Case;
 use super::doppler::is_aligned;
 use crate::change::SensorChange;
@@ -26,7 +26,7 @@ fn one(case: &mut Case, lidar: usize) -> Option<Verdict> {
         return None;
     }
     let tally = |change: &SensorChange| joined(tallies(case, lidar, change, Measure::Beside));
-    let (found, then) = best(&pooled, changes, tally)?;
+    let (found, then) = best(&pooled, changes, |_| GAIN, tally)?;
     let changed = tallies(case, lidar, &found, Measure::Beside);
     let gains =
         now.iter().zip(&changed).filter(|(now, then)| now.is_enough() && now.sigmas_to(then) > TAKES_PART);

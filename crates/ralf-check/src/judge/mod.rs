@@ -11,6 +11,7 @@ mod ground;
 mod lidar;
 mod motion;
 mod radar;
+mod refine;
 mod swapped;
 mod vertical;
 
@@ -19,41 +20,55 @@ use crate::remedy::Remedy;
 use crate::sample::Sample;
 use crate::verdict::{Question, SequenceCheck, State, Verdict};
 use case::Case;
-use ralf::sensors::Source;
+use ralf::sensors::{Sequence, Source};
+pub use refine::Refinement;
+
+/// Judges a sequence, and refines what was found: the corrections of each sensor, jointly from range rates and the
+/// LiDAR, with standard deviations. Nothing is applied.
+pub fn check_and_refine(source: &dyn Source) -> (SequenceCheck, Vec<Refinement>) {
+    let sample = Sample::of(source);
+    let (checked, case) = judge(source.sequence(), &sample);
+    let refined = refine::refine(&case);
+    (checked, refined)
+}
 
 /// Judges a sequence. Some hundred scans of each radar and some thirty of each LiDAR are read, spread over the
 /// sequence; those that can't be read are left out, and this is said.
 pub fn check(source: &dyn Source) -> SequenceCheck {
-    let sequence = source.sequence();
     let sample = Sample::of(source);
-    let mut verdicts = bounds::judge(sequence, &sample);
+    judge(source.sequence(), &sample).0
+}
+
+fn judge<'a>(sequence: &'a Sequence, sample: &'a Sample) -> (SequenceCheck, Case<'a>) {
+    let mut verdicts = bounds::judge(sequence, sample);
     if let Some(first) = sample.unreadable.first() {
         let evidence = format!("{} scans can't be read, the first: {first}", sample.unreadable.len());
         verdicts.push(Verdict::new(&sequence.name, Question::Bounds, State::Fact, evidence));
     }
-    let mut case = Case::new(sequence, &sample, unfit(&verdicts));
+    let mut case = Case::new(sequence, sample, unfit(&verdicts));
     verdicts.extend(motion::judge(&mut case));
     verdicts.extend(clocks::judge(&mut case));
     verdicts.extend(lidar::judge(&mut case));
     verdicts.extend(radar::judge(&mut case));
     verdicts.extend(vertical::judge(&case));
-    verdicts.extend(ground::judge(sequence, &sample));
+    verdicts.extend(ground::judge(sequence, sample));
     let figures = case.figures();
     let rank = |verdict: &Verdict| case.rank(&verdict.subject);
     verdicts.sort_by_key(|verdict| (rank(verdict), verdict.question));
-    SequenceCheck { name: sequence.name.clone(), verdicts, figures }
+    (SequenceCheck { name: sequence.name.clone(), verdicts, figures }, case)
 }
+
+/// Words of remedies for what can't be asked anything else.
+const UNFIT: [&str; 3] = ["type", "columns", "cm"];
 
 /// Sensors whose numbers are no positions: nothing else can be asked of them.
 fn unfit(verdicts: &[Verdict]) -> Vec<String> {
     let breaks = |verdict: &&Verdict| {
         let remedy = verdict.remedy.as_ref();
-        verdict.state == State::Doubt
-            && remedy.is_some_and(|remedy| {
-                let told = |what: &str| ["type", "columns", "cm"].iter().any(|word| what.contains(word));
-                matches!(remedy, Remedy::Positions(_) | Remedy::InDegrees(_))
-                    || matches!(remedy, Remedy::LookInto(what) if told(what))
-            })
+        verdict.state == State::Doubt && remedy.is_some_and(|remedy| {
+            matches!(remedy, Remedy::Positions(_) | Remedy::InDegrees(_))
+                || matches!(remedy, Remedy::LookInto(what) if UNFIT.iter().any(|word| what.contains(word)))
+        })
     };
     verdicts.iter().filter(breaks).map(|verdict| verdict.subject.clone()).collect()
 }

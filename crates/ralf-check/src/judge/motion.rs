@@ -13,8 +13,8 @@ use ralf::space::EgoMotion;
 
 /// What a yaw rate is mistaken for.
 const YAW_RATES: [f64; 3] = [-1.0, std::f64::consts::PI / 180.0, 180.0 / std::f64::consts::PI];
-/// Another factor of the yaw rate is better when it leaves less than this share of the misfit, and takes away at least
-/// so many rad/s: 0.02 rad/s on a lever of 3 m are 0.06 m/s, what a scan's range rates just tell.
+/// Another factor of the yaw rate is better when it leaves less than this share of the misfit, and takes away at
+/// least so many rad/s: 0.02 rad/s on a lever of 3 m are 0.06 m/s, what a scan's range rates just tell.
 const YAW_RATE_GAIN: (f64, f64) = (0.6, 0.02);
 /// Of two motions, one is clearly better by so many standard errors.
 const CLEARLY: f64 = 2.0;

@@ -1,6 +1,6 @@
 //! Whether a radar is where and when it is said to be: by its range rates, and by the LiDAR.
 
-use super::alternatives::{best, clocks, exact, shifts, yaws};
+use super::alternatives::{best, clocks, exact, gain_of_one, shifts, yaws};
 use super::case::Case;
 use super::doppler::{RATIO, in_words, is_aligned, is_explained};
 use super::motion::correct_range_rates;
@@ -63,8 +63,8 @@ fn missing(case: &Case, radar: usize) -> String {
         return "raw range rates are needed: a field `doppler`".into();
     }
     format!(
-        "{} of {} scans tell a velocity: five scans at more than 1 m/s are needed \
-             in which three in ten detections stand still",
+        "{} of {} scans tell a velocity: ten scans at more than 1 m/s are needed in which three in ten \
+         detections stand still",
         case.fits[radar].len(),
         case.sample.radars[radar].len()
     )
@@ -107,7 +107,7 @@ fn of_large_angles(
 ) -> Remedy {
     let tally = |change: &SensorChange| case.overlap(radar, change, Measure::Beside);
     let now = tally(&SensorChange::default());
-    let found = best(&now, changes.into_iter().flatten(), tally).map(|(change, _)| change);
+    let found = best(&now, changes.into_iter().flatten(), gain_of_one, tally).map(|(change, _)| change);
     match (found, other_sign, changes) {
         (Some(change), _, _) => Remedy::Sensor(change),
         (None, true, _) => Remedy::Doppler(-1.0),
@@ -137,7 +137,7 @@ fn by_lidar(case: &mut Case, radar: usize) -> Verdict {
         );
         return Verdict::cannot_judge(name, Question::Lidar, missing);
     }
-    let Some((found, then)) = best(&now, allowed(case, radar).into_iter(), tally) else {
+    let Some((found, then)) = best(&now, allowed(case, radar).into_iter(), gain_of_one, tally) else {
         return Verdict::good(name, Question::Lidar, in_share(&now, None));
     };
     let change = exact(found, |change| case.overlap(radar, change, Measure::Smooth).share());

@@ -24,7 +24,7 @@ fn one(case: &Case, radar: usize) -> Option<Verdict> {
     let now = tally(&SensorChange::default());
     let tilts =
         TILTS.into_iter().flat_map(|tilt| [SensorChange::tilt(tilt, 0.0), SensorChange::tilt(0.0, tilt)]);
-    let (found, then) = super::alternatives::best(&now, tilts, tally)?;
+    let (found, then) = super::alternatives::best(&now, tilts, super::alternatives::gain_of_one, tally)?;
     let evidence = format!(
         "{:.0} % of the detections are as high as the LiDAR points beside them, and {:.0} % otherwise",
         now.share() * 100.0,

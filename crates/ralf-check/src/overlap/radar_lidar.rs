@@ -63,8 +63,8 @@ pub(crate) fn overlap(
 }
 
 impl Setup<'_> {
-    /// From the radar's frame at its time to the vehicle frame as recorded at the LiDAR's time, in which its obstacles
-    /// lie.
+    /// From the radar's frame at its time to the vehicle frame as recorded at the LiDAR's time, in which its
+    /// obstacles lie.
     fn lidar_from_radar(
         &self,
         radar: usize,
@@ -98,7 +98,9 @@ fn count(
         let counted = match measure {
             Measure::Beside => Some(f64::from(distance <= BESIDE)),
             Measure::AsHigh => is_as_high(lidar, &p).filter(|_| distance <= BESIDE).map(f64::from),
-            Measure::Smooth => Some(1.0 - distance * distance),
+            Measure::Smooth => {
+                lidar.field.smooth_distance(p.x, p.y).map(|distance| 1.0 - distance * distance)
+            }
         };
         if let Some(score) = counted {
             found[0] += score;

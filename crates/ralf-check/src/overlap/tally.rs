@@ -21,7 +21,7 @@ pub(crate) struct Tally {
 
 impl Tally {
     pub(crate) fn points(&self) -> f64 {
-        self.moments.iter().map(|[_, n]| n).sum()
+        self.moments.iter().fold(0.0, |sum, [_, n]| sum + n)
     }
 
     /// Share of the points that lie on something; 0 of none.
@@ -48,9 +48,14 @@ impl Tally {
 
     /// Whether another tally is so much better that chance is no reason.
     pub(crate) fn is_beaten_by(&self, other: &Self) -> bool {
+        self.is_beaten_by_factor(other, GAIN)
+    }
+
+    /// The same where the gain has to be this factor at least.
+    pub(crate) fn is_beaten_by_factor(&self, other: &Self, gain: f64) -> bool {
         self.is_enough()
             && other.share() > LEAST
-            && other.share() > GAIN * self.share()
+            && other.share() > gain * self.share()
             && self.sigmas_to(other) > SIGMAS
     }
 

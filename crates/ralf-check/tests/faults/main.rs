@@ -9,7 +9,8 @@
 mod recording;
 mod table;
 
-use ralf_check::{SequenceCheck, State, Verdict, check};
+use ralf::sensors::Source;
+use ralf_check::{Question, SensorChange, SequenceCheck, State, Verdict, check, check_and_refine, doppler};
 use recording::{Planted, Recording};
 use std::sync::Arc;
 use table::{Fault, faults};
@@ -91,4 +92,71 @@ fn good_recordings_raise_nothing() {
         let found = check(&planted);
         assert_eq!(told(&found), "", "{drive}, seed {seed}");
     }
+}
+
+#[test]
+fn corrections_come_near_known_errors() {
+    let base = Recording::of(TURNING, 160, 4);
+    let known = [
+        SensorChange { turn_deg: [0.0, 0.0, 3.5], clock_ms: -120.0, ..SensorChange::default() },
+        SensorChange { turn_deg: [0.0, 0.0, -4.5], shift_m: [0.2, -0.25, 0.0], ..SensorChange::default() },
+        SensorChange { shift_m: [-0.3, 0.0, 0.0], clock_ms: 180.0, ..SensorChange::default() },
+        SensorChange {
+            turn_deg: [0.0, 0.0, 5.0],
+            shift_m: [0.0, 0.3, 0.0],
+            clock_ms: 60.0,
+            ..SensorChange::default()
+        },
+    ];
+    let mut planted = Planted::new(&base);
+    table::plant(&mut planted, &known);
+    let (_, refined) = check_and_refine(&planted);
+    for (radar, change) in known.iter().enumerate() {
+        let name = &planted.sequence.rig.radars[radar].name;
+        let found = refined.iter().find(|refinement| refinement.name == *name).unwrap();
+        let off = [
+            found.change.turn_deg[2] + change.turn_deg[2],
+            found.change.shift_m[0] + change.shift_m[0],
+            found.change.shift_m[1] + change.shift_m[1],
+            found.change.clock_ms + change.clock_ms,
+        ];
+        println!(
+            "{name}: off by {:+.2} deg, {:+.3} m, {:+.3} m, {:+.0} ms, +- {:?}",
+            off[0], off[1], off[2], off[3], found.deviations
+        );
+        let within = off.iter().zip([0.6, 0.15, 0.15, 45.0]).all(|(off, limit)| off.abs() < limit);
+        assert!(within, "{name}: {off:?}");
+    }
+}
+
+#[test]
+fn range_rates_tell_the_vehicles_motion() {
+    let base = Recording::of(TURNING, 160, 5);
+    let planted = Planted::new(&base);
+    let sequence = planted.sequence();
+    let found = doppler::from_doppler(&planted).unwrap();
+    let times = &sequence.times.radars[0];
+    let (first, last) = (times[0], times[times.len() - 1]);
+    let (told, seen) = (sequence.motion.between(first, last), found.between(first, last));
+    let way = told.translation.vector.norm();
+    let off = (told.translation.vector - seen.translation.vector).norm();
+    assert!(way > 20.0 && off < 0.03 * way, "{off} of {way}");
+    assert!(told.rotation.angle_to(&seen.rotation).to_degrees() < 3.0);
+}
+
+#[test]
+fn what_cannot_be_judged_says_what_is_missing() {
+    let mut planted = Planted::new(&Recording::of(STRAIGHT, 40, 6));
+    planted.sequence.rig.lidars.clear();
+    planted.sequence.times.lidars.clear();
+    planted.sequence.rig.radars.iter_mut().for_each(|radar| radar.fields[3] = "speed".into());
+    let found = check(&planted);
+    let missing = |subject: &str, question: Question, what: &str| {
+        let own = found.verdicts.iter().find(|v| v.subject == subject && v.question == question).unwrap();
+        assert!(own.state == State::CannotJudge && own.evidence.contains(what), "{own:?}");
+    };
+    missing("motion", Question::Motion, "`doppler`");
+    missing("radar_front", Question::Doppler, "`doppler`");
+    missing("radar_front", Question::Lidar, "150 are needed");
+    assert_eq!(told(&found), "");
 }

@@ -4,7 +4,7 @@ use crate::recording::Planted;
 use nalgebra::{Translation3, UnitQuaternion};
 use ralf::sensors::Elevation;
 use ralf::space::{EgoMotion, Transform};
-use ralf_check::Remedy;
+use ralf_check::{Remedy, SensorChange};
 
 /// A fault.
 pub struct Fault {
@@ -26,6 +26,17 @@ fn turned(p: &mut Planted, radar: usize, roll: f64, pitch: f64, yaw: f64) {
     let mount = &mut p.sequence.rig.radars[radar].vehicle_from_radar;
     let [roll, pitch, yaw] = [roll, pitch, yaw].map(f64::to_radians);
     mount.rotation *= UnitQuaternion::from_euler_angles(roll, pitch, yaw);
+}
+
+/// Plants errors of all radars at once: what is said is the truth plus these.
+pub fn plant(p: &mut Planted, errors: &[SensorChange]) {
+    for (radar, error) in errors.iter().enumerate() {
+        let [roll, pitch, yaw] = error.turn_deg;
+        turned(p, radar, roll, pitch, yaw);
+        let [x, y, z] = error.shift_m;
+        shifted(&mut p.sequence.rig.radars[radar].vehicle_from_radar, x, y, z);
+        radar_late(p, radar, error.clock_ms as i64);
+    }
 }
 
 fn shifted(mount: &mut Transform, x: f64, y: f64, z: f64) {

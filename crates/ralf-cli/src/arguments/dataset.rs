@@ -7,7 +7,7 @@ use anyhow::Context;
 use clap::Args;
 use ralf_data::read::ros::Topics;
 use ralf_data::result::LabelledRun;
-use ralf_data::{Recording, SequenceReader};
+use ralf_data::{Recording, SequenceReader, Settings};
 use std::path::{Path, PathBuf};
 
 /// Which recording, and which part of it.
@@ -37,7 +37,8 @@ impl DatasetArgs {
     pub(crate) fn open_labelled(&self, out: &Path, changed: &ChangedArgs) -> anyhow::Result<Recording> {
         std::fs::metadata(&self.dataset).with_context(|| self.dataset.display().to_string())?;
         let run = LabelledRun::open(out)?;
-        let recording = self.open_with(&self.topics_or(&run.settings().topics)?)?;
+        let topics = self.topics_or(&run.settings().topics)?;
+        let recording = told(run.settings().correct(self.read(&topics)?)?);
         changed.check(&run, &recording)?;
         Ok(recording)
     }
@@ -52,16 +53,28 @@ impl DatasetArgs {
 
     /// The same with these topics.
     pub(crate) fn open_with(&self, topics: &Topics) -> anyhow::Result<Recording> {
-        let recording = ralf_data::open_with(&self.dataset, self.format.as_deref(), topics)?;
-        let recording =
-            if self.sequences.is_empty() { recording } else { recording.select(&self.sequences)? };
-        for reader in &recording.sequences {
-            for warning in reader.warnings() {
-                say(&format!("warning: {}: {warning}", reader.sequence().name));
-            }
-        }
-        Ok(recording)
+        self.read(topics).map(told)
     }
+
+    /// The same with the topics of these settings, and as they correct it.
+    pub(crate) fn open_corrected(&self, settings: &Settings) -> anyhow::Result<Recording> {
+        Ok(told(settings.correct(self.read(&settings.topics)?)?))
+    }
+
+    fn read(&self, topics: &Topics) -> anyhow::Result<Recording> {
+        let recording = ralf_data::open_with(&self.dataset, self.format.as_deref(), topics)?;
+        Ok(if self.sequences.is_empty() { recording } else { recording.select(&self.sequences)? })
+    }
+}
+
+/// A recording, of which its readers' warnings are said.
+fn told(recording: Recording) -> Recording {
+    for reader in &recording.sequences {
+        for warning in reader.warnings() {
+            say(&format!("warning: {}: {warning}", reader.sequence().name));
+        }
+    }
+    recording
 }
 
 /// The only sequence of a recording.

@@ -22,6 +22,12 @@ pub(crate) struct SettingsArgs {
     /// One setting, such as lidar.beta=0.5; wins over the file, may be given several times
     #[arg(long = "set", value_name = "KEY=VALUE")]
     assignments: Vec<String>,
+    /// Take the vehicle's motion from these poses: a TUM file, or a KITTI file in the order of the LiDAR's scans
+    #[arg(long, value_name = "FILE")]
+    trajectory: Option<PathBuf>,
+    /// The sensor whose poses these are; `vehicle` if not given
+    #[arg(long, value_name = "NAME", requires = "trajectory")]
+    trajectory_frame: Option<String>,
 }
 
 impl SettingsArgs {
@@ -31,13 +37,20 @@ impl SettingsArgs {
         self.config.as_deref().map(read).transpose()?;
         let text = self.config.as_deref().map_or_else(|| Ok(String::new()), text)?;
         let assignments: Vec<&str> = self.assignments.iter().map(String::as_str).collect();
-        Settings::from_toml(&text, &assignments).map_err(|error| UsageError(format!("--set: {error}")).into())
+        let settings = Settings::from_toml(&text, &assignments);
+        let mut settings = settings.map_err(|error| UsageError(format!("--set: {error}")))?;
+        settings.motion.trajectory = self.trajectory.clone().or(settings.motion.trajectory);
+        settings.motion.trajectory_frame = self.trajectory_frame.clone().or(settings.motion.trajectory_frame);
+        Ok(settings)
     }
 
     /// As they were typed, each after a space.
     pub(crate) fn told(&self) -> String {
         let config = self.config.iter().map(|file| format!(" --config {}", file.display()));
-        config.chain(self.assignments.iter().map(|assignment| format!(" --set {assignment}"))).collect()
+        let set = self.assignments.iter().map(|assignment| format!(" --set {assignment}"));
+        let trajectory = self.trajectory.iter().map(|file| format!(" --trajectory {}", file.display()));
+        let frame = self.trajectory_frame.iter().map(|name| format!(" --trajectory-frame {name}"));
+        config.chain(set).chain(trajectory).chain(frame).collect()
     }
 }
 

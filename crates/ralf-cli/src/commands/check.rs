@@ -1,24 +1,31 @@
 //! `ralf check`: is a recording what it says?
 
-mod page;
+mod fixes;
+pub(crate) mod page;
+mod picture;
 
 use crate::arguments::{DatasetArgs, SettingsArgs};
 use crate::outcome::Outcome;
+use crate::progress::say;
 use crate::text::print;
 use clap::Args;
-use ralf_check::{SequenceCheck, check};
+use ralf_check::{Refinement, SequenceCheck, check, check_and_refine};
+use std::path::PathBuf;
 
 /// Arguments of `ralf check`.
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Reads some hundred scans of each radar and some thirty of each LiDAR, and asks them about each other: range rates \
-about the motion, detections about LiDAR points, LiDAR points about those half a second later.
+about the motion, detections about LiDAR points, LiDAR points about those half a second later. `docs/check.md` tells \
+what is judged, and how. `ralf label` does the same before it begins.
 
 Examples:
   ralf check recordings/city
-  ralf check recordings/city --strict && ralf label recordings/city -o out
+  ralf check recordings/city -o check.png
+  ralf check recordings/city --write fixes.toml && ralf label recordings/city -o out --config fixes.toml
+  ralf check drive --trajectory poses.tum --trajectory-frame lidar_top
 
-Exit status: as always, and 3 with --strict where something is doubted.")]
+Exit status: 0 done, 1 failed, 2 wrong usage, and 3 with --strict where something is doubted.")]
 pub(crate) struct CheckArgs {
     #[command(flatten)]
     dataset: DatasetArgs,
@@ -27,6 +34,12 @@ pub(crate) struct CheckArgs {
     /// End with status 3 where something is doubted
     #[arg(long)]
     strict: bool,
+    /// Write corrections as settings that `ralf label --config` takes; nothing is corrected before
+    #[arg(long, value_name = "FILE")]
+    write: Option<PathBuf>,
+    /// Draw velocities and overlaps of each radar (PNG)
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
     /// Everything that was judged, not only what is doubted
     #[arg(short, long)]
     verbose: bool,
@@ -37,15 +50,38 @@ pub(crate) struct CheckArgs {
 
 /// Checks a recording.
 pub(crate) fn run(arguments: &CheckArgs) -> anyhow::Result<Outcome> {
-    let settings = arguments.settings.resolve()?;
-    let recording = arguments.dataset.open_with(&arguments.dataset.topics_or(&settings.topics)?)?;
-    let checks: Vec<SequenceCheck> =
-        recording.sequences.iter().map(|reader| check(reader.as_ref())).collect();
-    if arguments.json {
-        print(&serde_json::to_string_pretty(&checks)?)?;
-    } else {
-        print(&checks.iter().map(|check| page::page(check, arguments.verbose)).collect::<String>())?;
+    let mut settings = arguments.settings.resolve()?;
+    settings.topics = arguments.dataset.topics_or(&settings.topics)?;
+    let recording = arguments.dataset.open_corrected(&settings)?;
+    let mut checks: Vec<SequenceCheck> = Vec::new();
+    let mut refined: Vec<Refinement> = Vec::new();
+    for reader in &recording.sequences {
+        if arguments.write.is_none() {
+            checks.push(check(reader.as_ref()));
+            continue;
+        }
+        let (check, own) = check_and_refine(reader.as_ref());
+        checks.push(check);
+        for refinement in own {
+            // One rig, one set of corrections: the first sequence that tells of a sensor is taken.
+            if refined.iter().all(|known| known.name != refinement.name) {
+                refined.push(refinement);
+            }
+        }
     }
+    if let Some(file) = &arguments.write {
+        ralf_data::write_whole(file, fixes::text(&checks, &refined).as_bytes())?;
+        say(&format!("wrote {}", file.display()));
+    }
+    if let Some(file) = &arguments.output {
+        ralf_data::write_whole(file, &picture::png(&checks)?)?;
+        say(&format!("wrote {}", file.display()));
+    }
+    print(&if arguments.json {
+        serde_json::to_string_pretty(&checks)?
+    } else {
+        checks.iter().map(|check| page::page(check, arguments.verbose)).collect::<String>()
+    })?;
     let doubted = checks.iter().any(|check| check.doubts().next().is_some());
     Ok(if doubted && arguments.strict { Outcome::Partial } else { Outcome::Done })
 }

@@ -2,6 +2,7 @@
 
 mod ros;
 
+use super::check::page::page as check_page;
 use crate::arguments::{DatasetArgs, SettingsArgs, threads};
 use crate::outcome::{Outcome, UsageError};
 use crate::progress::Progress;
@@ -10,9 +11,10 @@ use crate::text::{aligned, grouped, print};
 use clap::Args;
 use ralf::config::Config;
 use ralf::sensors::Timelines;
-use ralf_data::SequenceReader;
+use ralf_check::SequenceCheck;
 use ralf_data::read::inspection::{Inspection, SensorInspection, Unreadable};
 use ralf_data::run::{RunRecord, read_record};
+use ralf_data::{Recording, SequenceReader};
 use std::path::{Path, PathBuf};
 
 /// Arguments of `ralf inspect`.
@@ -54,7 +56,7 @@ pub(crate) fn run(arguments: &InspectArgs) -> anyhow::Result<Outcome> {
         return topics.write(file);
     }
     settings.topics = arguments.dataset.topics_or(&settings.topics)?;
-    let opened = arguments.dataset.open_with(&settings.topics);
+    let opened = arguments.dataset.open_corrected(&settings);
     if let (Err(_), Some(topics)) = (&opened, &topics) {
         // They tell why.
         print(&topics.page(&settings.topics)?)?;
@@ -65,7 +67,8 @@ pub(crate) fn run(arguments: &InspectArgs) -> anyhow::Result<Outcome> {
         looks.push(look_at(reader.as_ref(), &settings.method, arguments.quick));
     }
     if arguments.json {
-        let mut look = serde_json::json!({ "format": recording.format, "sequences": looks });
+        let checks = checks(&recording, arguments.quick);
+        let mut look = serde_json::json!({ "format": recording.format, "sequences": looks, "check": checks });
         if let Some(topics) = topics {
             look["ros"] = serde_json::to_value(topics.inspection)?;
         }
@@ -75,8 +78,17 @@ pub(crate) fn run(arguments: &InspectArgs) -> anyhow::Result<Outcome> {
         let (path, format, count) = (recording.path.display(), recording.format, looks.len());
         let head = format!("{head}{path} ({format}), {count} sequence(s)\n");
         print(&looks.iter().fold(head, |text, look| text + "\n" + &page(look)))?;
+        for check in checks(&recording, arguments.quick) {
+            print(&("\n".to_owned() + &check_page(&check, false)))?;
+        }
     }
     Ok(Outcome::Done)
+}
+
+/// What the sensors say of each other, unless only times are looked at.
+fn checks(recording: &Recording, quick: bool) -> Vec<SequenceCheck> {
+    let readers = recording.sequences.iter().filter(|_| !quick);
+    readers.map(|reader| ralf_check::check(reader.as_ref())).collect()
 }
 
 fn look_at(reader: &dyn SequenceReader, config: &Config, quick: bool) -> Inspection {

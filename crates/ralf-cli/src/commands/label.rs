@@ -1,5 +1,6 @@
 //! `ralf label`: a plausibility and a label for every detection.
 
+use super::check::page::doubts;
 use crate::arguments::{DatasetArgs, SettingsArgs, threads};
 #[cfg(feature = "depth")]
 use crate::depth_model::{DepthModelArgs, depth_for_labelling};
@@ -8,8 +9,9 @@ use crate::progress::{Stages, say};
 use crate::run_summary::run_summary;
 use crate::text::{grouped, print};
 use clap::Args;
+use ralf_data::Recording;
 use ralf_data::depth::DepthStore;
-use ralf_data::run::{LabelRun, Outcome as RunOutcome, SequenceRecord};
+use ralf_data::run::{CheckRecord, LabelRun, Outcome as RunOutcome, RunRecord, SequenceRecord};
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
@@ -25,7 +27,9 @@ Examples:
   ralf label recordings/city -o out
   ralf label nuscenes -o out --sequence scene-0061 --set tracking.sources=all
   ralf label recordings/city -o out --config ralf.toml --set fusion.alpha=0.7 --jobs 4
-  ralf label nuscenes -o out --depth-model midas.onnx      cameras, too: depth is stored in OUT/depth")]
+  ralf label nuscenes -o out --depth-model midas.onnx      cameras, too: depth is stored in OUT/depth
+  ralf label drive -o out --trajectory poses.tum --trajectory-frame lidar_top
+  ralf label drive -o out --config fixes.toml              with what `ralf check drive --write fixes.toml` found")]
 pub(crate) struct LabelArgs {
     #[command(flatten)]
     dataset: DatasetArgs,
@@ -47,6 +51,12 @@ pub(crate) struct LabelArgs {
     /// Scans side by side; as many as there are processors if not given
     #[arg(long, value_name = "N")]
     jobs: Option<NonZeroUsize>,
+    /// Label nothing where the check of the recording doubts it, and end with status 3
+    #[arg(long)]
+    strict: bool,
+    /// Leave out the check of the recording
+    #[arg(long, conflicts_with = "strict")]
+    no_check: bool,
     /// Print the record of these sequences as JSON
     #[arg(long)]
     json: bool,
@@ -60,7 +70,12 @@ pub(crate) fn run(arguments: &LabelArgs) -> anyhow::Result<Outcome> {
     let mut settings = arguments.settings.resolve()?;
     let jobs = threads(arguments.jobs);
     settings.topics = arguments.dataset.topics_or(&settings.topics)?;
-    let recording = arguments.dataset.open_with(&settings.topics)?;
+    let recording = arguments.dataset.open_corrected(&settings)?;
+    let checks = arguments.checks(&recording);
+    if arguments.strict && checks.iter().any(|check| !check.doubts.is_empty()) {
+        say("nothing is labelled, for the recording is doubted (--strict)");
+        return Ok(Outcome::Partial);
+    }
     let recording = match &arguments.depth {
         Some(folder) => DepthStore::open(folder)?.attach(recording),
         None => recording,
@@ -76,11 +91,17 @@ pub(crate) fn run(arguments: &LabelArgs) -> anyhow::Result<Outcome> {
         out: &arguments.output,
         jobs,
         evidence: arguments.evidence,
+        checks: &checks,
     };
     let done = run.execute(&Stages::new(arguments.quiet))?;
     say_what_changed(&done);
     let record = &done.record;
     print(&if arguments.json { serde_json::to_string_pretty(record)? } else { summary(&done) })?;
+    Ok(told_of_scans(record))
+}
+
+/// Says which scans were left out, and how it ended by that.
+fn told_of_scans(record: &RunRecord) -> Outcome {
     for (sequence, scan) in record.unreadable() {
         let (sensor, number, reason) = (&scan.sensor, scan.scan, &scan.reason);
         say(&format!("labelled without: {sequence} {sensor} scan {number}: {reason}"));
@@ -90,7 +111,20 @@ pub(crate) fn run(arguments: &LabelArgs) -> anyhow::Result<Outcome> {
         say(&format!("not labelled: {sequence} {} scan {}: {}", scan.radar, scan.scan, scan.reason));
         outcome = Outcome::Partial;
     }
-    Ok(outcome)
+    outcome
+}
+
+impl LabelArgs {
+    /// What `ralf check` says of the recording; doubts are told.
+    fn checks(&self, recording: &Recording) -> Vec<CheckRecord> {
+        let mut checks = Vec::new();
+        for reader in recording.sequences.iter().filter(|_| !self.no_check) {
+            let check = CheckRecord::of(&ralf_check::check(reader.as_ref()));
+            doubts(&check).for_each(|line| say(&line));
+            checks.push(check);
+        }
+        checks
+    }
 }
 
 /// What became of earlier results.

@@ -79,7 +79,7 @@ impl SearchArgs {
         let (dataset, format) = (self.dataset.clone(), self.format.clone());
         let dataset = DatasetArgs { dataset, format, sequences, topics: None };
         let corrections = self.corrections.as_deref();
-        let recording = dataset.open_with(&dataset.topics_or(&base.topics)?)?;
+        let recording = base.correct(dataset.open_with(&dataset.topics_or(&base.topics)?)?)?;
         let truth = merged_truth(&self.dataset, Some(&recording), corrections, corrections.is_some())?;
         Ok((recording, truth))
     }

@@ -84,7 +84,7 @@ impl TuneArgs {
             objective: search.objective,
             trials: search.trials,
             seed: search.seed,
-            base: TunedSettings::of(base),
+            base: TunedSettings::from_config(base),
             found,
             train: Part::of(train, base, &found.settings)?,
             test: if test.is_empty() { None } else { Some(Part::of(test, base, &found.settings)?) },

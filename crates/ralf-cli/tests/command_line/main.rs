@@ -14,6 +14,7 @@ mod bad_files;
 mod bad_images;
 mod bad_recordings;
 mod camera_plot;
+mod check;
 mod corrections;
 mod determinism;
 mod evaluation;

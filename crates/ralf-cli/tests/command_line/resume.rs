@@ -22,8 +22,10 @@ fn kept(folder: &Path) -> usize {
 
 /// Starts a run and kills it as soon as some scans are labelled.
 fn kill_midway(dataset: &Dataset) {
-    let mut run =
-        program().args(["label", &dataset.path, "-o", &dataset.out, "--jobs", "1"]).spawn().unwrap();
+    let mut run = program()
+        .args(["label", "--no-check", &dataset.path, "-o", &dataset.out, "--jobs", "1"])
+        .spawn()
+        .unwrap();
     let begun = Instant::now();
     while kept(&Path::new(&dataset.out).join(".ralf-run")) < 10 {
         assert!(run.try_wait().unwrap().is_none(), "it ended before it could be killed");
@@ -41,7 +43,7 @@ fn run_folder(dataset: &Dataset) -> String {
     let stopped = dataset.beside("stopped");
     // A folder in the place of the table lets the run fail when all scans are labelled.
     fs::create_dir_all(format!("{stopped}/sequences/00/plausibility.parquet/in-the-way")).unwrap();
-    ralf(["label", &dataset.path, "-o", &stopped]).exits(1);
+    ralf(["label", "--no-check", &dataset.path, "-o", &stopped]).exits(1);
     let name = fs::read_dir(format!("{stopped}/.ralf-run")).unwrap().next().unwrap().unwrap().file_name();
     name.into_string().unwrap()
 }
@@ -52,10 +54,10 @@ fn a_run_that_was_killed_goes_on_and_ends_the_same() {
     kill_midway(&dataset);
     let kept = dataset.result("radar_front/000000.label");
     let written = fs::metadata(&kept).unwrap().modified().unwrap();
-    ralf(["label", &dataset.path, "-o", &dataset.out]).exits(0).says_nothing();
+    ralf(["label", "--no-check", &dataset.path, "-o", &dataset.out]).exits(0).says_nothing();
     assert_eq!(fs::metadata(&kept).unwrap().modified().unwrap(), written, "it was labelled again");
     let whole = dataset.beside("whole");
-    ralf(["label", &dataset.path, "-o", &whole]).exits(0);
+    ralf(["label", "--no-check", &dataset.path, "-o", &whole]).exits(0);
     assert!(without_timings(&dataset.out) == without_timings(&whole));
 }
 
@@ -63,7 +65,7 @@ fn a_run_that_was_killed_goes_on_and_ends_the_same() {
 fn what_a_power_cut_spoiled_is_made_again() {
     let dataset = Dataset::of(&Shape { scans: 60, ..Shape::default() });
     let whole = dataset.beside("whole");
-    ralf(["label", &dataset.path, "-o", &whole]).exits(0);
+    ralf(["label", "--no-check", &dataset.path, "-o", &whole]).exits(0);
     kill_midway(&dataset);
     let unfinished = Path::new(&dataset.out).join(".ralf-run");
     let kept: Vec<_> = tree(&unfinished).into_keys().filter(|name| name.ends_with(".rows")).collect();
@@ -74,17 +76,17 @@ fn what_a_power_cut_spoiled_is_made_again() {
     // What the monitor found about the images of a scan, and the record of a finished sequence.
     fs::write(unfinished.join(&kept[2]).with_extension("json"), "").unwrap();
     fs::write(unfinished.join(&kept[0]).ancestors().nth(3).unwrap().with_extension("json"), "{").unwrap();
-    ralf(["label", &dataset.path, "-o", &dataset.out]).exits(0).says_nothing();
+    ralf(["label", "--no-check", &dataset.path, "-o", &dataset.out]).exits(0).says_nothing();
     assert!(without_timings(&dataset.out) == without_timings(&whole));
     fs::write(format!("{}/run.json", dataset.out), "{").unwrap();
-    ralf(["label", &dataset.path, "-o", &dataset.out]).exits(0).says_nothing();
+    ralf(["label", "--no-check", &dataset.path, "-o", &dataset.out]).exits(0).says_nothing();
     assert!(without_timings(&dataset.out) == without_timings(&whole));
 }
 
 #[test]
 fn a_sequence_that_was_finished_before_the_kill_is_kept() {
     let dataset = Dataset::of(&Shape { scans: 4, sequences: &["00", "01"], ..Shape::default() });
-    ralf(["label", &dataset.path, "-o", &dataset.out]).exits(0);
+    ralf(["label", "--no-check", &dataset.path, "-o", &dataset.out]).exits(0);
     let whole = without_timings(&dataset.out);
     // What is on disk between the last sequence and the record.
     let record: serde_json::Value =
@@ -104,7 +106,7 @@ fn a_sequence_that_was_finished_before_the_kill_is_kept() {
     fs::remove_file(format!("{}/run.json", dataset.out)).unwrap();
     let table = dataset.result("plausibility.parquet");
     let written = fs::metadata(&table).unwrap().modified().unwrap();
-    ralf(["label", &dataset.path, "-o", &dataset.out]).exits(0).says(["nothing to do"]);
+    ralf(["label", "--no-check", &dataset.path, "-o", &dataset.out]).exits(0).says(["nothing to do"]);
     assert_eq!(fs::metadata(&table).unwrap().modified().unwrap(), written);
     assert!(without_timings(&dataset.out) == whole);
 }
@@ -112,11 +114,11 @@ fn a_sequence_that_was_finished_before_the_kill_is_kept() {
 #[test]
 fn a_lost_record_is_made_again() {
     let dataset = Dataset::new();
-    ralf(["label", &dataset.path, "-o", &dataset.out]).exits(0);
+    ralf(["label", "--no-check", &dataset.path, "-o", &dataset.out]).exits(0);
     let whole = without_timings(&dataset.out);
     fs::remove_file(format!("{}/run.json", dataset.out)).unwrap();
     fs::create_dir_all(format!("{}/.ralf-run/of-another-run/00", dataset.out)).unwrap();
-    ralf(["label", &dataset.path, "-o", &dataset.out]).exits(0).says_nothing();
+    ralf(["label", "--no-check", &dataset.path, "-o", &dataset.out]).exits(0).says_nothing();
     assert!(without_timings(&dataset.out) == whole);
 }
 
@@ -124,9 +126,11 @@ fn a_lost_record_is_made_again() {
 fn other_settings_replace_everything() {
     let dataset = Dataset::new();
     let fresh = dataset.beside("fresh");
-    ralf(["label", &dataset.path, "-o", &dataset.out]).exits(0);
+    ralf(["label", "--no-check", &dataset.path, "-o", &dataset.out]).exits(0);
     for out in [&dataset.out, &fresh] {
-        ralf(["label", &dataset.path, "-o", out, "--set", "fusion.threshold=0.9"]).exits(0).says_nothing();
+        ralf(["label", "--no-check", &dataset.path, "-o", out, "--set", "fusion.threshold=0.9"])
+            .exits(0)
+            .says_nothing();
     }
     assert!(without_timings(&dataset.out) == without_timings(&fresh));
 }
@@ -141,7 +145,7 @@ fn other_settings_replace_what_a_killed_run_left() {
     let fresh = dataset.beside("fresh");
     for out in [&dataset.out, &fresh] {
         let other = ["--sequence", "01", "--set", "fusion.threshold=0.9"];
-        ralf(["label", &dataset.path, "-o", out, other[0], other[1], other[2], other[3]])
+        ralf(["label", "--no-check", &dataset.path, "-o", out, other[0], other[1], other[2], other[3]])
             .exits(0)
             .says_nothing();
     }
@@ -151,9 +155,9 @@ fn other_settings_replace_what_a_killed_run_left() {
 #[test]
 fn a_scan_that_can_not_be_labelled_any_more_keeps_no_label() {
     let dataset = Dataset::new();
-    ralf(["label", &dataset.path, "-o", &dataset.out]).exits(0);
+    ralf(["label", "--no-check", &dataset.path, "-o", &dataset.out]).exits(0);
     dataset.cut("radar_front/000003.bin", 1);
-    ralf(["label", &dataset.path, "-o", &dataset.out]).exits(3);
+    ralf(["label", "--no-check", &dataset.path, "-o", &dataset.out]).exits(3);
     assert!(!dataset.result("radar_front/000003.label").exists());
     assert!(dataset.result("radar_front/000002.label").exists());
 }

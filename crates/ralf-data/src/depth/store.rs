@@ -2,7 +2,7 @@
 
 use crate::disk::{files, npy};
 use crate::error::DataError;
-use crate::read::{Recording, SequenceReader, TruthLabels};
+use crate::read::{MotionSource, Recording, SequenceReader, TruthLabels};
 use crate::result::{Component, OutFolder, SequenceNames, WriterLock};
 use ralf::sensors::{
     CameraImage, DepthImage, DepthOutput, LidarScan, RadarScan, Sequence, Source, SourceError,
@@ -178,6 +178,10 @@ impl SequenceReader for WithDepth {
 
     fn origin(&self) -> Option<&dyn Any> {
         self.inner.origin()
+    }
+
+    fn motion_source(&self) -> MotionSource {
+        self.inner.motion_source()
     }
 
     fn truth(&self, radar: usize, scan: usize) -> Result<Option<TruthLabels>, SourceError> {

@@ -45,7 +45,7 @@ impl Comparison {
 
     /// The metrics of all scans.
     pub fn evaluation(&self) -> Evaluation {
-        Evaluation::of(self.scans.iter().map(|(scan, counts)| (scan.sequence.as_str(), *counts)))
+        Evaluation::from_scans(self.scans.iter().map(|(scan, counts)| (scan.sequence.as_str(), *counts)))
     }
 }
 

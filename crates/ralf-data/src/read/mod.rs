@@ -1,5 +1,7 @@
 //! Recordings in: what a folder or file holds, as sequences whose measurements are read on demand. A folder per format.
 
+mod corrected;
+mod corrections;
 pub mod inspection;
 pub(crate) mod layout;
 mod measured_files;
@@ -11,6 +13,8 @@ pub(crate) mod recording;
 pub mod ros;
 mod view_of_delft;
 
+pub(crate) use corrected::corrected;
+pub use corrections::{MotionSettings, MotionSource, SensorCorrection};
 pub use layout::LayoutSequence;
 pub use open::{formats, open, open_with};
 pub use recording::{Recording, SequenceReader, TruthLabels};

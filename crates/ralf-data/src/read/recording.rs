@@ -2,6 +2,7 @@
 
 use crate::disk::label_file::Label;
 use crate::error::DataError;
+use crate::read::corrections::MotionSource;
 use ralf::sensors::{Source, SourceError};
 use std::any::Any;
 use std::path::PathBuf;
@@ -36,6 +37,11 @@ pub trait SequenceReader: Source {
     /// Whether any image of a camera has depth: without it, labelling doesn't use the camera.
     fn has_depth(&self, _camera: usize) -> bool {
         false
+    }
+
+    /// Where the vehicle's motion comes from.
+    fn motion_source(&self) -> MotionSource {
+        MotionSource::Recorded
     }
 
     /// The truth of a radar's scan where it is known without a file.

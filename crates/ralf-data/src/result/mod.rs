@@ -1,5 +1,6 @@
 //! What a labelling run leaves: tables, `.label` files and `run.json`, and the one door to them.
 
+mod check_record;
 mod content;
 pub(crate) mod json;
 mod label_hash;
@@ -18,6 +19,7 @@ pub(crate) mod schema;
 mod sequence_record;
 mod table;
 
+pub use check_record::{CheckLine, CheckRecord};
 pub use labelled_run::{Change, ChangedInput, LabelledRun, LabelledSequence};
 pub use names::Component;
 pub use parquet_reader::PlausibilityReader;

@@ -1,5 +1,6 @@
 //! `run.json`: what was done, with what, and how it went.
 
+use super::check_record::CheckRecord;
 use super::json::read_json;
 use super::sequence_record::{CameraRecord, NotLabelled, RadarRecord, SequenceRecord, UnreadableScan};
 use crate::error::DataError;
@@ -33,6 +34,9 @@ pub struct RunRecord {
     pub inputs: Vec<Input>,
     /// In the order of their names.
     pub sequences: Vec<SequenceRecord>,
+    /// What the check at the head of a run said, by sequence.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub check: Vec<CheckRecord>,
     /// Of the last run; the only part that differs from run to run.
     pub timings: Timings,
 }
@@ -82,6 +86,7 @@ impl RunRecord {
             evidence,
             inputs: Vec::new(),
             sequences: Vec::new(),
+            check: Vec::new(),
             timings: Timings::default(),
         }
     }
@@ -107,11 +112,19 @@ impl RunRecord {
         self.inputs.sort_by(|a, b| (&a.sequence, &a.file).cmp(&(&b.sequence, &b.file)));
     }
 
+    /// What was checked anew takes the place of what was said before.
+    pub(crate) fn add_checks(&mut self, checks: &[CheckRecord]) {
+        self.check.retain(|known| checks.iter().all(|new| new.sequence != known.sequence));
+        self.check.extend(checks.iter().cloned());
+        self.check.sort_by(|a, b| a.sequence.cmp(&b.sequence));
+    }
+
     /// Keeps sequences, with their inputs.
     pub(crate) fn retain(&mut self, names: impl Fn(&SequenceRecord) -> bool) {
         self.sequences.retain(names);
         let left: BTreeSet<&str> = self.sequences.iter().map(|sequence| sequence.name.as_str()).collect();
         self.inputs.retain(|input| left.contains(input.sequence.as_str()));
+        self.check.retain(|check| left.contains(check.sequence.as_str()));
     }
 
     /// Scans that could not be labelled, with their sequence.

@@ -4,7 +4,8 @@ use super::Table;
 use super::label_hash::hash_of_labels;
 use crate::disk::label_file::label_bytes;
 use crate::error::DataError;
-use ralf::scene::{Frame, ImageMoment, Unreadable, ViewReport, ViewState};
+use crate::read::MotionSource;
+use ralf::scene::{CalibratedImage, Frame, Unreadable, ViewReport, ViewState};
 use serde::{Deserialize, Serialize};
 
 /// One sequence.
@@ -23,9 +24,16 @@ pub struct SequenceRecord {
     pub cameras: Vec<CameraRecord>,
     /// Scans that could not be labelled.
     pub not_labelled: Vec<NotLabelled>,
+    /// Where the vehicle's motion comes from, if not from the recording.
+    #[serde(default, skip_serializing_if = "is_recorded")]
+    pub motion: MotionSource,
     /// LiDAR scans that can't be read: what lies near them in time was labelled without.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub unreadable: Vec<UnreadableScan>,
+}
+
+fn is_recorded(motion: &MotionSource) -> bool {
+    *motion == MotionSource::Recorded
 }
 
 /// A scan that can't be read.
@@ -51,7 +59,7 @@ pub(crate) struct ScanNotes {
 impl ScanNotes {
     /// What a frame tells.
     pub(crate) fn new(frame: &Frame) -> Self {
-        let name = |moment: &ImageMoment| frame.rig.cameras[moment.id.camera].name.clone();
+        let name = |moment: &CalibratedImage| frame.rig.cameras[moment.id.camera].name.clone();
         let images = frame.images.iter().map(|view| (name(&view.moment), ImageRecord::of(&view.moment)));
         let unreadable = frame.unreadable.iter().cloned();
         let unreadable = unreadable.map(|Unreadable { sensor, index, reason }| UnreadableScan {
@@ -126,7 +134,7 @@ pub struct NotLabelled {
 }
 
 impl ImageRecord {
-    pub(crate) fn of(moment: &ImageMoment) -> Self {
+    pub(crate) fn of(moment: &CalibratedImage) -> Self {
         let views = moment.views.iter().map(|view| view.report).collect();
         Self { image: moment.id.image, views, problem: moment.problem.clone() }
     }

@@ -59,6 +59,7 @@ pub(super) fn assemble(
         radars,
         cameras,
         not_labelled,
+        motion: task.reader.motion_source(),
         unreadable: unreadable.into_iter().collect(),
     })
 }

@@ -16,8 +16,8 @@ mod workers;
 mod workspace;
 
 pub use crate::result::{
-    CameraRecord, ImageRecord, Input, NotLabelled, RadarRecord, RunRecord, SequenceRecord, Timings,
-    UnreadableScan, read_record,
+    CameraRecord, CheckLine, CheckRecord, ImageRecord, Input, NotLabelled, RadarRecord, RunRecord,
+    SequenceRecord, Timings, UnreadableScan, read_record,
 };
 
 use crate::error::DataError;
@@ -45,6 +45,8 @@ pub struct LabelRun<'a> {
     pub out: &'a Path,
     /// Threads.
     pub jobs: usize,
+    /// What a check said of its sequences, for the record.
+    pub checks: &'a [CheckRecord],
     /// Whether the evidence of [`ralf::evidence`] is gathered, too: a column of the table for each feature.
     pub evidence: bool,
 }
@@ -126,12 +128,16 @@ impl LabelRun<'_> {
         let labelled = finished.iter().map(|(sequence, _)| sequence.name.clone()).collect();
         let timings = Timings { seconds: begun.elapsed().as_secs_f64(), jobs: self.jobs };
         let damaged = folder.damaged().to_vec();
-        let (mut record, removed) = folder.finish(finished, timings)?;
+        let (mut record, removed) = folder.finish(finished, timings, self.checks)?;
         record.retain(|sequence| asked.iter().any(|asked| asked.name == sequence.name));
         Ok(Outcome { record, labelled, damaged, removed })
     }
 
     fn task<'a>(&self, reader: &'a dyn SequenceReader, names: SequenceNames) -> Result<Task<'a>, DataError> {
+        if !reader.sequence().motion.is_known() {
+            let reason = "the vehicle's motion is not known: odometry, poses or a trajectory is needed";
+            return Err(unsuitable(self.recording, reader, reason.to_owned()));
+        }
         let rig = rig_of(self.recording, reader, &self.settings.method)?;
         let evidence = if self.evidence { evidence_columns() } else { Vec::new() };
         let schema =

@@ -11,7 +11,8 @@ use crate::disk::files;
 use crate::error::DataError;
 use crate::result::json::write_json;
 use crate::result::{
-    OutFolder, RECORD, RunRecord, SequenceNames, SequenceRecord, Timings, damaged_result, read_record,
+    CheckRecord, OutFolder, RECORD, RunRecord, SequenceNames, SequenceRecord, Timings, damaged_result,
+    read_record,
 };
 use std::path::{Path, PathBuf};
 
@@ -130,12 +131,14 @@ impl OutputFolder {
         mut self,
         finished: Vec<Finished>,
         timings: Timings,
+        checks: &[CheckRecord],
     ) -> Result<(RunRecord, Vec<String>), DataError> {
         if !finished.is_empty() {
             let fingerprints: Vec<_> =
                 finished.iter().map(|(sequence, _)| sequence.fingerprint.clone()).collect();
             self.record.add(finished);
             self.record.timings = timings;
+            self.record.add_checks(checks);
             self.write_record()?;
             self.unfinished.forget(fingerprints.iter().map(String::as_str))?;
         }

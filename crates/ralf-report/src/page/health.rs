@@ -29,11 +29,31 @@ pub(super) fn health(content: &Content) -> Markup {
     html! {
         section #health {
             h2 { "Flagged scans and failed cameras" }
+            (check(content))
             (flags(content))
             (scans_to_look_at(content))
             (cameras(content))
             (not_labelled(content))
             (left_out(content))
+        }
+    }
+}
+
+/// What the check at the head of the run doubted.
+fn check(content: &Content) -> Markup {
+    let lines =
+        content.record.check.iter().flat_map(|check| check.doubts.iter().map(|line| (&check.sequence, line)));
+    let lines: Vec<_> = lines.collect();
+    html! {
+        @if !lines.is_empty() {
+            h3 { "Doubts about the recording" }
+            ul { @for (sequence, line) in lines {
+                li {
+                    (sequence) ", " (line.subject) ": "
+                    @if let Some(remedy) = &line.remedy { strong { (remedy) } ": " }
+                    (line.evidence)
+                }
+            } }
         }
     }
 }

@@ -26,7 +26,7 @@ pub(super) fn score(content: &Content) -> Result<Markup, ReportError> {
 fn curve(findings: &Findings) -> Result<Markup, ReportError> {
     let points = findings.ranked.precision_recall();
     let counts = &findings.confusion;
-    let rates = Rates::of(counts);
+    let rates = Rates::new(counts);
     let used = rates.recall_plausible.zip(rates.precision_plausible);
     let used = used.map(|(recall, precision)| Point { recall, precision });
     let base_rate = (counts.tp + counts.r#fn) as f64 / counts.total().max(1) as f64;

@@ -6,7 +6,7 @@ use crate::truth::Truth;
 use ralf::sensors::{Radar, RadarScan};
 use ralf::space::{Point, Spherical};
 
-/// Of a range rate, m/s.
+/// Standard deviation of a range rate, m/s.
 const RANGE_RATE_SIGMA: f64 = 0.06;
 
 /// A detection and what is true of it.

@@ -60,7 +60,7 @@ struct Placed {
     center: Point,
     normal: Vector,
     half: [f64; 2],
-    /// Of the radar before it, m.
+    /// How far the radar is before it, m.
     distance: f64,
 }
 

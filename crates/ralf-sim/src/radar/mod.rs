@@ -27,7 +27,7 @@ pub(super) struct View<'a> {
     pub(super) scene: &'a Scene<'a>,
     pub(super) radar: &'a Radar,
     pub(super) site_from_radar: Transform,
-    /// Of the antenna in the site's frame, m/s.
+    /// The antenna's velocity in the site's frame, m/s.
     pub(super) velocity: Vector,
 }
 
@@ -44,7 +44,7 @@ pub(super) struct Echo {
 }
 
 impl View<'_> {
-    /// Of the antenna, in the site's frame.
+    /// The antenna's position in the site's frame.
     fn origin(&self) -> Point {
         self.site_from_radar.translation.vector.into()
     }

@@ -22,7 +22,7 @@ pub struct Search<'a> {
     pub objective: Objective,
     /// How many settings are tried beside the base's.
     pub trials: usize,
-    /// Of all choices: the same seed finds the same settings.
+    /// Seed of all choices: the same seed finds the same settings.
     pub seed: u64,
     /// Dotted names of settings that stay as they are.
     pub held: Vec<String>,
@@ -45,8 +45,8 @@ impl Search<'_> {
         tables: &[&EvidenceTable],
         progress: &mut dyn FnMut(usize, &Found),
     ) -> Result<Found, TuneError> {
-        let base = TunedSettings::of(self.base);
-        let observed = Observed::of(tables, &base)?;
+        let base = TunedSettings::from_config(self.base);
+        let observed = BranchesSeen::new(tables, &base)?;
         let mut dials = Dials::new(tables, &base, &observed, &|key| self.is_free(key))?;
         let mut rng = Pcg64Mcg::seed_from_u64(self.seed);
         let mut best = self.with_best_threshold(tables, base)?;
@@ -89,15 +89,15 @@ impl Search<'_> {
 }
 
 /// Which branches say anything at all.
-struct Observed {
+struct BranchesSeen {
     lidar: bool,
     camera: bool,
     tracking: bool,
 }
 
-impl Observed {
+impl BranchesSeen {
     /// Looks through the tables, which must hold both classes.
-    fn of(tables: &[&EvidenceTable], base: &TunedSettings) -> Result<Self, TuneError> {
+    fn new(tables: &[&EvidenceTable], base: &TunedSettings) -> Result<Self, TuneError> {
         let mut observed = Self { lidar: false, camera: false, tracking: false };
         let (mut plausible, mut artifact) = (false, false);
         for table in tables {
@@ -132,10 +132,10 @@ impl Dials {
     fn new(
         tables: &[&EvidenceTable],
         base: &TunedSettings,
-        observed: &Observed,
+        observed: &BranchesSeen,
         is_free: &dyn Fn(&str) -> bool,
     ) -> Result<Self, TuneError> {
-        let Observed { lidar, camera, tracking } = *observed;
+        let BranchesSeen { lidar, camera, tracking } = *observed;
         let number =
             |key, applies: bool, range| (applies && is_free(key)).then(|| Dial::number(range)).transpose();
         let choice = |key, applies: bool, values: Vec<usize>| {

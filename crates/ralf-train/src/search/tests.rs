@@ -63,14 +63,14 @@ fn a_planted_optimum_is_found_and_holds_on_other_detections() {
 fn the_score_is_what_the_settings_reach_and_the_best_never_gets_worse() {
     let train = planted(3, 20);
     let base = Config::default();
-    let mut told = Vec::new();
-    let found = search(&base, 40).run(&[&train], &mut |trial, best| told.push((trial, best.score))).unwrap();
+    let mut seen = Vec::new();
+    let found = search(&base, 40).run(&[&train], &mut |trial, best| seen.push((trial, best.score))).unwrap();
     let counts = train.confusions(&found.settings).unwrap().into_iter().sum();
     assert_eq!(Objective::F1.score(&counts), found.score);
-    assert!(told.iter().map(|(trial, _)| *trial).eq(1..=40));
-    assert!(told.is_sorted_by(|a, b| a.1 <= b.1));
-    let own = train.confusions(&TunedSettings::of(&base)).unwrap().into_iter().sum();
-    assert!(Objective::F1.score(&own) <= told[0].1);
+    assert!(seen.iter().map(|(trial, _)| *trial).eq(1..=40));
+    assert!(seen.is_sorted_by(|a, b| a.1 <= b.1));
+    let own = train.confusions(&TunedSettings::from_config(&base)).unwrap().into_iter().sum();
+    assert!(Objective::F1.score(&own) <= seen[0].1);
 }
 
 #[test]
@@ -89,7 +89,7 @@ fn the_floor_of_precision_is_kept() {
         let found = Search { objective, ..search(&base, 80) }.run(&[&train], &mut |_, _| {}).unwrap();
         assert!(objective.is_met(found.score));
         let counts = train.confusions(&found.settings).unwrap().into_iter().sum();
-        assert!(ralf::metrics::Rates::of(&counts).precision_plausible.unwrap() >= floor);
+        assert!(ralf::metrics::Rates::new(&counts).precision_plausible.unwrap() >= floor);
     }
 }
 
@@ -119,11 +119,11 @@ fn what_is_held_stays_and_the_rest_is_searched() {
     for key in TunedSettings::KEYS {
         let found = Search { held: vec![key.to_owned()], ..search(&base, 60) };
         let found = found.run(&[&train], &mut |_, _| {}).unwrap();
-        let own = TunedSettings::of(&base).entries();
+        let own = TunedSettings::from_config(&base).entries();
         for ((name, value), (_, before)) in found.settings.entries().into_iter().zip(own) {
             assert!(name != key || value == before, "{name}");
         }
-        assert_ne!(found.settings, TunedSettings::of(&base), "{key}");
+        assert_ne!(found.settings, TunedSettings::from_config(&base), "{key}");
         let counts = train.confusions(&found.settings).unwrap().into_iter().sum();
         assert_eq!(Objective::F1.score(&counts), found.score, "{key}");
     }
@@ -158,7 +158,7 @@ fn each_fold_is_tuned_without_the_sequence_it_is_judged_on() {
     let others = [&sequences[0].1, &sequences[2].1];
     assert_eq!(folds[1].found, search.run(&others, &mut |_, _| {}).unwrap());
     let counts = sequences[1].1.confusions(&folds[1].found.settings).unwrap();
-    assert_eq!(folds[1].tuned, ralf::metrics::Scores::of(&counts));
+    assert_eq!(folds[1].tuned, ralf::metrics::Scores::from_scans(&counts));
     assert_eq!(
         leave_one_out(&search, &sequences[..1], &mut |_, _, _| {}),
         Err(TuneError::TooFewSequences(1))

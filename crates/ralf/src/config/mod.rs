@@ -1,11 +1,13 @@
 //! Every setting of the labeler (docs/method.md, section 12). `config/default.toml` says what each one means, with its
 //! default, unit and range; a new setting is its line there, its field here, and its use.
 
+mod error;
 mod page;
 mod read;
 mod sensors;
 
-pub use read::{ConfigError, read_toml};
+pub use error::ConfigError;
+pub use read::read_toml;
 pub use sensors::SensorOverride;
 
 use serde::{Deserialize, Serialize};
@@ -15,7 +17,7 @@ use std::collections::BTreeMap;
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "toml::Table")]
 pub struct Config {
-    /// Of every random choice.
+    /// Seed of every random choice.
     pub seed: u64,
     /// Which measurements belong together.
     pub sync: SyncConfig,

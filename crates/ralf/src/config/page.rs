@@ -1,6 +1,7 @@
 //! The page of settings, `config/default.toml`: the one place of defaults and ranges.
 
-use super::{Config, ConfigError};
+use super::Config;
+use super::error::ConfigError;
 use std::fmt;
 use std::sync::LazyLock;
 use toml::de::{DeTable, DeValue};
@@ -164,8 +165,11 @@ mod tests {
     #[test]
     fn both_ends_of_every_range_are_kept_and_what_lies_beyond_is_refused_by_name() {
         for (key, range) in &*RANGES {
-            let whole =
-                key.split_once('.').map_or(&DEFAULTS[key.as_str()], |(s, k)| &DEFAULTS[s][k]).is_integer();
+            let default = match key.split_once('.') {
+                Some((section, key)) => &DEFAULTS[section][key],
+                None => &DEFAULTS[key.as_str()],
+            };
+            let whole = default.is_integer();
             let text = |value: f64| if whole { format!("{}", value as i64) } else { format!("{value:?}") };
             let inside = if range.above_low { range.low + range.high / 1e6 } else { range.low };
             for value in [inside, range.high] {

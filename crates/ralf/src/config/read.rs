@@ -1,30 +1,11 @@
 //! Reading settings from TOML.
 
+use super::error::ConfigError;
 use super::{Complete, Config, page};
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
-use thiserror::Error;
 use toml::de::{DeTable, Deserializer};
 use toml::{Spanned, Table, Value};
-
-/// Settings that are refused.
-#[derive(Debug, Error, PartialEq)]
-pub enum ConfigError {
-    /// No TOML, an unknown key, a value of another type: the parser's message with the place.
-    #[error("{0}")]
-    Parse(String),
-    /// `--set` without a key and a value.
-    #[error("expected KEY=VALUE such as lidar.beta=0.5, found `{0}`")]
-    Assignment(String),
-    /// A value out of its range.
-    #[error("setting `{key}`: expected {expected}")]
-    Value {
-        /// Dotted name.
-        key: String,
-        /// And what was found.
-        expected: String,
-    },
-}
 
 impl Config {
     /// Settings from a TOML text and assignments `key=value` that win over it; what neither names has its default.
@@ -39,8 +20,8 @@ impl Config {
         Self::from_toml_beside(&[], text, assignments)
     }
 
-    /// [`Self::from_toml`] for a file that holds other tables besides: those of these names are left to whom they belong
-    /// to.
+    /// [`Self::from_toml`] for a file that holds other tables besides: those of these names are left to whom they
+    /// belong to.
     pub fn from_toml_beside(others: &[&str], text: &str, assignments: &[&str]) -> Result<Self, ConfigError> {
         // The text by itself first: its errors then point into its own lines.
         let mut config = spanned(text, |mut table| {

@@ -1,6 +1,6 @@
 //! What a user knows better than the recording.
 
-use super::ConfigError;
+use super::error::ConfigError;
 use crate::sensors::{Lidar, Radar, Reliability, Rig};
 use serde::{Deserialize, Serialize};
 

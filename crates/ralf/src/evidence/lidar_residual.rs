@@ -1,7 +1,7 @@
 //! How far a detection lies from the LiDAR's points in height and in the plane, each in its own standard deviations.
 //!
-//! The paper's `d_lm` is one number for both. Real radars measure elevation much worse than range and azimuth, and ghosts
-//! below the road or above a wall are far off in height alone.
+//! The paper's `d_lm` is one number for both. Real radars measure elevation much worse than range and azimuth, and
+//! ghosts below the road or above a wall are far off in height alone.
 
 use super::{Feature, Piece, Values};
 use crate::config::Config;
@@ -15,8 +15,8 @@ pub(super) const PIECE: Piece = Piece {
             name: "lidar_residual_horizontal",
             unit: "sigma",
             group: "LiDAR",
-            meaning: "mean horizontal distance from the K nearest LiDAR points above the ground, in standard deviations \
-                      along it",
+            meaning: "mean horizontal distance from the K nearest LiDAR points above the ground, in standard \
+                      deviations along it",
         },
         Feature {
             name: "lidar_residual_vertical",

@@ -1,8 +1,8 @@
 //! Evidence besides the paper's: numbers about each detection that a person, a rule or a learner can weigh.
 //!
-//! A [`Piece`] is a pure function of a [`Frame`] that gives one or several columns, each described by its [`Feature`]. All
-//! pieces stand in [`PIECES`]; whoever writes, shows or learns from evidence goes by that list. Nothing is computed unless
-//! it is asked for.
+//! A [`Piece`] is a pure function of a [`Frame`] that gives one or several columns, each described by its [`Feature`].
+//! All pieces stand in [`PIECES`]; whoever writes, shows or learns from evidence goes by that list. Nothing is computed
+//! unless it is asked for.
 //!
 //! A new piece is a file of its own here, its line in [`PIECES`], and a row in `docs/evidence.md`.
 

@@ -32,7 +32,7 @@ impl Cause {
         Self::Noise,
     ];
 
-    /// For tables.
+    /// The name in tables and in the files of causes, where a plausible detection has the cause `none`.
     pub fn name(self) -> &'static str {
         match self {
             Self::Plausible => "none",

@@ -17,19 +17,19 @@ pub struct Metrics<Count = u64> {
 
 impl Metrics {
     /// The metrics of one confusion matrix.
-    pub fn of(counts: Confusion) -> Self {
-        Self { rates: Rates::of(&counts), counts }
+    pub fn new(counts: Confusion) -> Self {
+        Self { rates: Rates::new(&counts), counts }
     }
 }
 
 impl Metrics<f64> {
     /// Every metric's mean over the scans that have it; every count's mean over all scans, 0 where there are none.
-    fn mean_of(scans: &[Confusion]) -> Self {
+    fn mean(scans: &[Confusion]) -> Self {
         let pooled: Confusion = scans.iter().copied().sum();
         let mean = |sum: u64| sum as f64 / scans.len().max(1) as f64;
         let Confusion { tp, fp, tn, r#fn } = pooled;
         Self {
-            rates: Rates::mean_of(scans.iter().map(Rates::of)),
+            rates: Rates::mean(scans.iter().map(Rates::new)),
             counts: Confusion { tp: mean(tp), fp: mean(fp), tn: mean(tn), r#fn: mean(r#fn) },
         }
     }
@@ -40,14 +40,14 @@ impl Metrics<f64> {
 pub struct Scores {
     /// Mean over the scans: what the paper's table shows.
     pub scan_mean: Metrics<f64>,
-    /// Of the counts of all scans together.
+    /// The metrics of all scans' counts together.
     pub pooled: Metrics,
 }
 
 impl Scores {
     /// The scores of some scans.
-    pub fn of(scans: &[Confusion]) -> Self {
-        Self { scan_mean: Metrics::mean_of(scans), pooled: Metrics::of(scans.iter().copied().sum()) }
+    pub fn from_scans(scans: &[Confusion]) -> Self {
+        Self { scan_mean: Metrics::mean(scans), pooled: Metrics::new(scans.iter().copied().sum()) }
     }
 }
 
@@ -66,22 +66,22 @@ pub struct SequenceScores {
 pub struct Evaluation {
     /// Over all scans of all sequences.
     pub overall: Scores,
-    /// Of each sequence that has truth, by name.
+    /// The scores of each sequence that has truth, by name.
     pub sequences: BTreeMap<String, SequenceScores>,
 }
 
 impl Evaluation {
     /// Sums up scans, each given with the name of its sequence.
-    pub fn of<'a>(scans: impl IntoIterator<Item = (&'a str, Confusion)>) -> Self {
+    pub fn from_scans<'a>(scans: impl IntoIterator<Item = (&'a str, Confusion)>) -> Self {
         let mut by_sequence: BTreeMap<&str, Vec<Confusion>> = BTreeMap::new();
         for (sequence, counts) in scans {
             by_sequence.entry(sequence).or_default().push(counts);
         }
         let all: Vec<Confusion> = by_sequence.values().flatten().copied().collect();
         let scored = |(name, scans): (&str, Vec<Confusion>)| {
-            (name.to_owned(), SequenceScores { scans: scans.len(), scores: Scores::of(&scans) })
+            (name.to_owned(), SequenceScores { scans: scans.len(), scores: Scores::from_scans(&scans) })
         };
-        Self { overall: Scores::of(&all), sequences: by_sequence.into_iter().map(scored).collect() }
+        Self { overall: Scores::from_scans(&all), sequences: by_sequence.into_iter().map(scored).collect() }
     }
 
     /// How many scans were compared.
@@ -102,7 +102,7 @@ mod tests {
     /// By hand: sequence 00 has two scans, of which the second holds no artifacts; 01 has one.
     fn example() -> Evaluation {
         let scans = [("00", [1, 0, 1, 0]), ("01", [1, 1, 1, 1]), ("00", [3, 0, 0, 1])];
-        Evaluation::of(scans.map(|(name, cells)| (name, counts(cells))))
+        Evaluation::from_scans(scans.map(|(name, cells)| (name, counts(cells))))
     }
 
     #[test]
@@ -125,10 +125,10 @@ mod tests {
             scans in proptest::collection::vec(proptest::array::uniform4(0..50u64), 0..20)
         ) {
             let mut scans: Vec<Confusion> = scans.into_iter().map(counts).collect();
-            let scores = Scores::of(&scans);
-            prop_assert_eq!(scores.pooled, Metrics::of(scans.iter().copied().sum()));
+            let scores = Scores::from_scans(&scans);
+            prop_assert_eq!(scores.pooled, Metrics::new(scans.iter().copied().sum()));
             scans.reverse();
-            let reversed = Scores::of(&scans);
+            let reversed = Scores::from_scans(&scans);
             prop_assert_eq!(scores.pooled, reversed.pooled);
             prop_assert_eq!(scores.scan_mean.counts, reversed.scan_mean.counts);
             let accuracy = |s: Scores| s.scan_mean.rates.accuracy.unwrap_or(0.0);
@@ -137,8 +137,8 @@ mod tests {
 
         #[test]
         fn equal_scans_have_their_own_value_as_mean(cells in proptest::array::uniform4(0..50u64)) {
-            let one = Rates::of(&counts(cells));
-            let mean = Scores::of(&[counts(cells); 2]).scan_mean;
+            let one = Rates::new(&counts(cells));
+            let mean = Scores::from_scans(&[counts(cells); 2]).scan_mean;
             prop_assert_eq!(mean.rates, one);
         }
     }

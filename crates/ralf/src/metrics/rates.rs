@@ -35,8 +35,8 @@ impl Rates {
     pub(super) const COUNT: usize = 11;
 
     /// The metrics of one confusion matrix.
-    pub fn of(counts: &Confusion) -> Self {
-        let (plausible, artifact) = (ClassRates::of(counts), ClassRates::of(&counts.swapped()));
+    pub fn new(counts: &Confusion) -> Self {
+        let (plausible, artifact) = (ClassRates::new(counts), ClassRates::new(&counts.swapped()));
         let mean = |rate: fn(&ClassRates) -> f64| {
             mean_of_present([plausible, artifact].map(|c| c.as_ref().map(rate)))
         };
@@ -56,7 +56,7 @@ impl Rates {
     }
 
     /// Each metric's mean over the scans that have it.
-    pub fn mean_of(scans: impl IntoIterator<Item = Self>) -> Self {
+    pub fn mean(scans: impl IntoIterator<Item = Self>) -> Self {
         let mut sums = [(0.0, 0_u32); Self::COUNT];
         for scan in scans {
             for ((sum, scans), value) in sums.iter_mut().zip(scan.to_array()) {
@@ -114,8 +114,8 @@ struct ClassRates {
 }
 
 impl ClassRates {
-    /// Of the positive class; `None` where the truth holds none of it.
-    fn of(counts: &Confusion) -> Option<Self> {
+    /// The rates of the positive class; `None` where the truth holds none of it.
+    fn new(counts: &Confusion) -> Option<Self> {
         let Confusion { tp, fp, r#fn: missed, .. } = *counts;
         (tp + missed > 0).then(|| Self {
             // A class that is never predicted has precision 0.
@@ -151,7 +151,7 @@ mod tests {
     use proptest::prelude::*;
 
     fn rates(tp: u64, fp: u64, tn: u64, missed: u64) -> Rates {
-        Rates::of(&Confusion { tp, fp, tn, r#fn: missed })
+        Rates::new(&Confusion { tp, fp, tn, r#fn: missed })
     }
 
     #[track_caller]
@@ -224,12 +224,12 @@ mod tests {
     #[test]
     fn nothing_counted_says_nothing() {
         assert_eq!(rates(0, 0, 0, 0), Rates::default());
-        assert_eq!(Rates::mean_of([]), Rates::default());
+        assert_eq!(Rates::mean([]), Rates::default());
     }
 
     #[test]
     fn a_mean_leaves_out_the_scans_without_a_value() {
-        let mean = Rates::mean_of([rates(3, 0, 0, 1), rates(1, 1, 1, 1), rates(0, 0, 0, 0)]);
+        let mean = Rates::mean([rates(3, 0, 0, 1), rates(1, 1, 1, 1), rates(0, 0, 0, 0)]);
         assert_eq!(mean.accuracy, Some(0.625)); // (0.75 + 0.5) / 2
         assert_eq!(mean.recall_plausible, Some(0.625));
         assert_eq!(mean.f1_artifact, Some(0.5));
@@ -249,7 +249,7 @@ mod tests {
     proptest! {
         #[test]
         fn values_are_bounded(counts in counts()) {
-            let rates = Rates::of(&counts);
+            let rates = Rates::new(&counts);
             for value in rates.to_array().into_iter().flatten() {
                 prop_assert!((-1.0..=1.0).contains(&value), "{value}");
             }
@@ -260,7 +260,7 @@ mod tests {
 
         #[test]
         fn swapping_the_classes_swaps_their_values(counts in counts()) {
-            let (one, other) = (Rates::of(&counts), Rates::of(&counts.swapped()));
+            let (one, other) = (Rates::new(&counts), Rates::new(&counts.swapped()));
             prop_assert_eq!((one.f1_plausible, one.iou_plausible), (other.f1_artifact, other.iou_artifact));
             prop_assert_eq!((one.f1_artifact, one.iou_artifact), (other.f1_plausible, other.iou_plausible));
             let of_both = |r: Rates| (r.accuracy, r.precision, r.recall, r.mean_iou, r.mcc.is_some());
@@ -273,7 +273,7 @@ mod tests {
         /// The relation between a class's F1 and its IoU: `F1 = 2 IoU / (1 + IoU)`.
         #[test]
         fn f1_and_iou_tell_the_same(counts in counts()) {
-            let rates = Rates::of(&counts);
+            let rates = Rates::new(&counts);
             if let (Some(f1), Some(iou)) = (rates.f1_plausible, rates.iou_plausible) {
                 prop_assert!((f1 - 2.0 * iou / (1.0 + iou)).abs() < 1e-12);
             }
@@ -281,13 +281,13 @@ mod tests {
 
         #[test]
         fn labels_that_are_the_truth_are_perfect(tp in 1..5_000_000u64, tn in 1..5_000_000u64) {
-            let rates = Rates::of(&Confusion { tp, tn, ..Confusion::default() });
+            let rates = Rates::new(&Confusion { tp, tn, ..Confusion::default() });
             prop_assert!(rates.to_array().into_iter().all(|value| value.is_some_and(|v| (v - 1.0).abs() < 1e-15)));
         }
 
         #[test]
         fn the_array_keeps_the_order(counts in counts()) {
-            let rates = Rates::of(&counts);
+            let rates = Rates::new(&counts);
             prop_assert_eq!(Rates::from_array(rates.to_array()), rates);
         }
     }

@@ -3,7 +3,7 @@
 
 use crate::config::CameraConfig;
 use crate::scene::{
-    Association, Frame, ImageMoment, ImageView, Reference, Seen, Spread, ViewState, index_of,
+    Association, CalibratedImage, Frame, ImageView, Reference, Seen, Spread, ViewState, index_of,
 };
 use crate::sensors::{Elevation, Radar};
 use crate::space::{Point, Transform};
@@ -61,7 +61,7 @@ fn reference_cloud(radar: &Radar, images: &[ImageView], depth_sigma: f64) -> Vec
 }
 
 /// In which kinds of views of all images a point (vehicle frame at the radar scan's time) lies.
-fn seen_by(images_from_vehicle: &[(&ImageMoment, Transform)], p: &Point) -> Seen {
+fn seen_by(images_from_vehicle: &[(&CalibratedImage, Transform)], p: &Point) -> Seen {
     let mut seen = Seen::default();
     for (moment, image_from_vehicle) in images_from_vehicle {
         let here = moment.sees(&(image_from_vehicle * p));

@@ -2,7 +2,7 @@
 
 use crate::config::LidarConfig;
 use crate::label::UNLABELED;
-use crate::scene::{Frame, LidarCloud, LidarMoment};
+use crate::scene::{Frame, LidarCloud, LidarSnapshot};
 use crate::space::Neighbor;
 
 /// What the LiDAR says of one detection.
@@ -14,8 +14,8 @@ pub struct LidarMatch {
     pub semantic: Option<u16>,
 }
 
-/// The mismatch of each detection with its `K` nearest LiDAR points above the ground. `None` for all where the branch is
-/// off or there is no such point, and for detections without a position.
+/// The mismatch of each detection with its `K` nearest LiDAR points above the ground. `None` for all where the branch
+/// is off or there is no such point, and for detections without a position.
 pub fn match_detections(frame: &Frame, config: &LidarConfig) -> Vec<Option<LidarMatch>> {
     let mut matches = vec![None; frame.scan.len()];
     let Some(view) = frame.lidar.as_ref().filter(|_| config.enabled) else { return matches };
@@ -31,7 +31,7 @@ pub fn match_detections(frame: &Frame, config: &LidarConfig) -> Vec<Option<Lidar
 }
 
 /// The class of most neighbours; of equally frequent ones the one that comes nearer. Unlabeled points don't vote.
-fn majority(moment: &LidarMoment, found: &[Neighbor]) -> Option<u16> {
+fn majority(moment: &LidarSnapshot, found: &[Neighbor]) -> Option<u16> {
     let mut votes: Vec<(u16, usize)> = Vec::new();
     for neighbor in found {
         let class = moment.class(neighbor.id);

@@ -26,7 +26,7 @@ pub struct LidarSweep {
 pub struct LidarRay {
     /// The LiDAR, m.
     pub origin: Point,
-    /// Of unit length.
+    /// Where the ray went, of unit length.
     pub direction: Vector,
     /// From the LiDAR to the return, m.
     pub range: f64,
@@ -36,7 +36,7 @@ pub struct LidarRay {
 #[derive(Debug, Clone)]
 pub struct LidarView {
     /// The LiDAR scans with their ground.
-    pub moment: Arc<LidarMoment>,
+    pub moment: Arc<LidarSnapshot>,
     /// From the moment's vehicle frame to that at the radar scan's time.
     pub vehicle_from_moment: Transform,
 }
@@ -66,7 +66,7 @@ impl LidarView {
 
 /// The scans that all LiDARs made around one moment, in the vehicle frame at that moment.
 #[derive(Debug)]
-pub struct LidarMoment {
+pub struct LidarSnapshot {
     /// The moment, ns.
     pub t_ns: i64,
     sweeps: Vec<LidarSweep>,
@@ -80,7 +80,7 @@ pub struct LidarMoment {
     index: OnceLock<NeighborIndex>,
 }
 
-impl LidarMoment {
+impl LidarSnapshot {
     /// Brings the scans together at `t_ns`. `scans` gives each scan's LiDAR and the vehicle's pose at the scan's time
     /// in the vehicle frame at `t_ns`. The ground is fitted to all points together once it is asked for.
     pub fn new(
@@ -203,7 +203,7 @@ mod tests {
         let points = vec![[3.0, 4.0, 0.0], [0.0; 3], [f32::NAN, 0.0, 1.0], [0.0, 0.0, -2.0]];
         let scan = Arc::new(LidarScan { t_ns: 0, points, ..Default::default() });
         let scans = vec![(&lidar, scan, Transform::translation(10.0, 0.0, 0.0))];
-        let moment = Arc::new(LidarMoment::new(0, scans, &GroundConfig::default(), 0));
+        let moment = Arc::new(LidarSnapshot::new(0, scans, &GroundConfig::default(), 0));
         let view = LidarView { moment, vehicle_from_moment: Transform::translation(-10.0, 0.0, 0.0) };
         // The LiDAR looks to the left: its (3, 4) is the vehicle's (-4, 3). The second and the third point are no
         // returns.

@@ -9,7 +9,7 @@ use crate::space::{NeighborIndex, Transform};
 use std::borrow::Cow;
 
 /// The LiDAR points above the ground, ready to be searched for detections of one radar. Identities are those of the
-/// view's [`LidarMoment`](super::LidarMoment).
+/// view's [`LidarSnapshot`](super::LidarSnapshot).
 pub struct LidarCloud<'a> {
     view: &'a LidarView,
     elevation: Elevation,
@@ -18,11 +18,12 @@ pub struct LidarCloud<'a> {
 }
 
 impl<'a> LidarCloud<'a> {
-    /// The cloud of a view for a radar. One that measures no elevation searches in the horizontal plane, among the points
-    /// within its vertical field of view.
+    /// The cloud of a view for a radar. One that measures no elevation searches in the horizontal plane, among the
+    /// points within its vertical field of view.
     pub fn new(view: &'a LidarView, radar: &Radar) -> Self {
         let elevation = radar.elevation;
-        // Distances in space are the same in every frame, so the shared index is asked in its own. Horizontal ones are not.
+        // Distances in space are the same in every frame, so the shared index is asked in its own. Horizontal ones are
+        // not.
         let (index, index_from_vehicle) = match elevation {
             Elevation::Measured => (Cow::Borrowed(view.moment.index()), view.vehicle_from_moment.inverse()),
             Elevation::None => {

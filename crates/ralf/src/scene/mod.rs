@@ -16,14 +16,14 @@ mod window;
 
 pub use association::{Association, index_of};
 pub use camera::{
-    CalibratedView, Calibration, CameraPoint, Failure, ImageId, ImageMoment, ImageView, ImageWithDepth, Seen,
-    ViewReport, ViewState, calibrate, luminance, median, project_points,
+    CalibratedImage, CalibratedView, Calibration, CameraPoint, Failure, ImageId, ImageView, ImageWithDepth,
+    Seen, ViewReport, ViewState, calibrate, luminance, median, project_points,
 };
 pub use doppler::Doppler;
 pub use floor::LocalGround;
 pub use frame::{Frame, Unreadable};
 pub use ground::{Ground, Plane};
-pub use lidar::{LidarMoment, LidarRay, LidarSweep, LidarView};
+pub use lidar::{LidarRay, LidarSnapshot, LidarSweep, LidarView};
 pub use lidar_cloud::LidarCloud;
 pub use located::{Detection, LocatedScan};
 pub use mismatch::{Reference, Spread, distance_per_mismatch, mismatch, plausibility};

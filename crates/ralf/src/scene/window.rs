@@ -1,9 +1,9 @@
 //! Frames of one sequence, gathered in bounded memory.
 
-use super::camera::{Calibration, ImageId, ImageMoment, ImageView};
+use super::camera::{CalibratedImage, Calibration, ImageId, ImageView};
 use super::floor::LocalGround;
 use super::frame::{Frame, Unreadable};
-use super::lidar::{LidarMoment, LidarView};
+use super::lidar::{LidarSnapshot, LidarView};
 use super::located::LocatedScan;
 use super::neighbouring::{NeighbouringScan, ScanStep};
 use crate::config::{Config, GroundModel, TrackingSources, nanoseconds};
@@ -44,8 +44,8 @@ pub struct FrameWindow<'a> {
     radar_scans: Recent<Key, Option<Arc<LocatedScan>>>,
     /// With the reason where one can't be read.
     lidar_scans: Recent<Key, Result<Arc<LidarScan>, String>>,
-    moments: Recent<(i64, Vec<Key>), Arc<LidarMoment>>,
-    images: Recent<Key, Option<Arc<ImageMoment>>>,
+    moments: Recent<(i64, Vec<Key>), Arc<LidarSnapshot>>,
+    images: Recent<Key, Option<Arc<CalibratedImage>>>,
 }
 
 impl<'a> FrameWindow<'a> {
@@ -125,11 +125,11 @@ impl<'a> FrameWindow<'a> {
             let step_time = times[radar][j];
             let Some(own) = self.neighbouring_scan(radar, j, t_ns) else { continue };
             let mut others = Vec::new();
-            for other in 0..times.len() {
+            for (other, times) in times.iter().enumerate() {
                 if other == radar || !self.all_radars {
                     continue;
                 }
-                let nearest = sync::nearest(&times[other], step_time, max_gap);
+                let nearest = sync::nearest(times, step_time, max_gap);
                 others.extend(nearest.and_then(|nearest| self.neighbouring_scan(other, nearest, t_ns)));
             }
             steps.push(ScanStep { j: j as isize - scan as isize, t_ns: step_time, own, others });
@@ -207,7 +207,7 @@ impl<'a> FrameWindow<'a> {
     }
 
     /// The moment of scans that can be read; `None` of none.
-    fn moment(&mut self, t_ns: i64, keys: Vec<Key>) -> Option<Arc<LidarMoment>> {
+    fn moment(&mut self, t_ns: i64, keys: Vec<Key>) -> Option<Arc<LidarSnapshot>> {
         let name = (t_ns, keys);
         if let Some(known) = self.moments.get(&name) {
             return Some(known);
@@ -221,7 +221,7 @@ impl<'a> FrameWindow<'a> {
         if scans.is_empty() {
             return None;
         }
-        let moment = Arc::new(LidarMoment::new(t_ns, scans, &self.config.ground, self.config.seed));
+        let moment = Arc::new(LidarSnapshot::new(t_ns, scans, &self.config.ground, self.config.seed));
         self.moments.insert(name, moment.clone());
         Some(moment)
     }
@@ -243,7 +243,7 @@ impl<'a> FrameWindow<'a> {
 
     /// An image with its views calibrated by the LiDAR scans nearest to it; `None` where there is no depth. What of it
     /// can't be read makes its views fail.
-    pub fn image(&mut self, camera: usize, image: usize) -> Option<Arc<ImageMoment>> {
+    pub fn image(&mut self, camera: usize, image: usize) -> Option<Arc<CalibratedImage>> {
         if let Some(known) = self.images.get(&(camera, image)) {
             return known;
         }
@@ -268,7 +268,7 @@ impl<'a> FrameWindow<'a> {
         };
         let content = content.map_err(|error| error.to_string());
         let id = ImageId { camera, image, t_ns };
-        let moment = Arc::new(ImageMoment::new(&self.rig.cameras[camera], id, content, &calibration));
+        let moment = Arc::new(CalibratedImage::new(&self.rig.cameras[camera], id, content, &calibration));
         self.images.insert((camera, image), Some(moment.clone()));
         Some(moment)
     }

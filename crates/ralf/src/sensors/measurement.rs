@@ -30,7 +30,7 @@ impl RadarScan {
             let (name, found) = (&radar.fields[column], columns[column].len());
             return Err(format!("expected {rows} values of `{name}`, found {found}"));
         }
-        let coordinates = Coordinates::of(radar)?;
+        let coordinates = Coordinates::for_radar(radar)?;
         let positions: Vec<Point> = (0..rows).map(|row| coordinates.position(&columns, row)).collect();
         let spherical = (0..rows).map(|row| coordinates.spherical(&columns, row, &positions[row])).collect();
         Ok(Self { t_ns, columns, positions, spherical })
@@ -55,7 +55,7 @@ enum Coordinates {
 }
 
 impl Coordinates {
-    fn of(radar: &Radar) -> Result<Self, String> {
+    fn for_radar(radar: &Radar) -> Result<Self, String> {
         let measured = radar.elevation == Elevation::Measured;
         let third = |name: &str| radar.column(name).filter(|_| measured);
         let of_kind = |names: [&str; 3]| {
@@ -102,7 +102,7 @@ impl Coordinates {
 
 /// Checks that a radar's fields name one kind of coordinates, completely. The error says what was expected.
 pub fn check_fields(radar: &Radar) -> Result<(), String> {
-    Coordinates::of(radar).map(drop)
+    Coordinates::for_radar(radar).map(drop)
 }
 
 /// One revolution of one LiDAR, motion-corrected to its timestamp, in the LiDAR's frame.

@@ -26,11 +26,11 @@ pub struct Sequence {
 /// Times (ns, ascending) of all measurements: one list per sensor, in the rig's order.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Timelines {
-    /// Of each radar's scans.
+    /// Times of each radar's scans.
     pub radars: Vec<Vec<i64>>,
-    /// Of each LiDAR's scans.
+    /// Times of each LiDAR's scans.
     pub lidars: Vec<Vec<i64>>,
-    /// Of each camera's images.
+    /// Times of each camera's images.
     pub cameras: Vec<Vec<i64>>,
 }
 

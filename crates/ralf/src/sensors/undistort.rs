@@ -22,9 +22,9 @@ pub struct UndistortMap {
 struct Tap {
     /// Place of the upper left one in the raw image, row by row; [`OUTSIDE`] where there is none.
     place: u32,
-    /// Of [`ONE`].
+    /// How much the right ones count, in parts of [`ONE`].
     right: u16,
-    /// Of [`ONE`].
+    /// How much the lower ones count, in parts of [`ONE`].
     down: u16,
 }
 

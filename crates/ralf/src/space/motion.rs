@@ -50,6 +50,16 @@ impl EgoMotion {
         Some(Self { odometry, planar, poses })
     }
 
+    /// A vehicle of whose motion nothing is known. Until something is, it stands still.
+    pub fn unknown() -> Self {
+        Self { odometry: Vec::new(), planar: Vec::new(), poses: Vec::new() }
+    }
+
+    /// Whether there is odometry or a pose.
+    pub fn is_known(&self) -> bool {
+        !self.odometry.is_empty() || !self.poses.is_empty()
+    }
+
     /// The wheel odometry, as recorded.
     pub fn odometry(&self) -> &[OdometrySample] {
         &self.odometry
@@ -105,7 +115,10 @@ impl EgoMotion {
 
     fn integrated(&self, t_ns: i64) -> Transform {
         let at = self.sample_at(t_ns);
-        let [x, y, psi] = advance(self.planar[at], &self.odometry[at], t_ns);
+        let (Some(planar), Some(sample)) = (self.planar.get(at), self.odometry.get(at)) else {
+            return Transform::identity();
+        };
+        let [x, y, psi] = advance(*planar, sample, t_ns);
         let rotation = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), psi);
         Transform::from_parts(Translation3::new(x, y, 0.0), rotation)
     }
@@ -217,5 +230,8 @@ mod tests {
     #[test]
     fn no_samples_is_no_motion() {
         assert!(EgoMotion::new(vec![], vec![]).is_none());
+        let unknown = EgoMotion::unknown();
+        assert!(!unknown.is_known() && unknown.between(SECOND, 0) == Transform::identity());
+        assert_eq!(unknown.twist(0), (Vector3::zeros(), Vector3::zeros()));
     }
 }

@@ -1,6 +1,7 @@
 //! A sequence in memory.
 
 #![allow(clippy::unwrap_used, reason = "of tests alone")]
+#![allow(dead_code, reason = "not every test uses all of it")]
 
 use ralf::config::Config;
 use ralf::paper::{DetectionLabel, Labeler};

@@ -1,6 +1,7 @@
 //! What a check says, for people.
 
 use ralf_check::{Question, SequenceCheck, State, Verdict};
+use ralf_data::run::{CheckLine, CheckRecord};
 
 /// A sequence: what is doubted first, with remedies; all else in a line, or in full.
 pub(crate) fn page(check: &SequenceCheck, verbose: bool) -> String {
@@ -45,4 +46,13 @@ fn question(question: Question) -> &'static str {
         Question::Motion => "motion",
         Question::Ground => "ground",
     }
+}
+
+/// What is doubted of a sequence, a line each.
+pub(crate) fn doubts(check: &CheckRecord) -> impl Iterator<Item = String> {
+    let told = |line: &CheckLine| match &line.remedy {
+        Some(remedy) => format!("{} {remedy}: {}", line.subject, line.evidence),
+        None => format!("{}: {}", line.subject, line.evidence),
+    };
+    check.doubts.iter().map(move |line| format!("doubt: {}: {}", check.sequence, told(line)))
 }

@@ -29,7 +29,7 @@ pub(super) fn of_scans(comparison: &Comparison) -> String {
         comparison
             .scans
             .iter()
-            .map(|(scan, counts)| row(scan.to_string(), counts.total().to_string(), &Rates::of(counts))),
+            .map(|(scan, counts)| row(scan.to_string(), counts.total().to_string(), &Rates::new(counts))),
     );
     aligned(&rows)
 }
@@ -89,7 +89,7 @@ mod tests {
     /// Worked out by hand: 00 is perfect, 01 holds no artifacts.
     #[test]
     fn the_whole_text() {
-        let evaluation = Evaluation::of([("00", counts([1, 0, 1, 0])), ("01", counts([3, 0, 0, 1]))]);
+        let evaluation = Evaluation::from_scans([("00", counts([1, 0, 1, 0])), ("01", counts([3, 0, 0, 1]))]);
         let expected = "\
 Mean over scans
 Sequence  Scans    Acc  Precision  Recall  F1 plausible  mean IoU  IoU plausible  IoU artifact
@@ -127,7 +127,7 @@ Scan             Detections    Acc  Precision  Recall  F1 plausible  mean IoU  I
 
     #[test]
     fn nothing_compared_shows_dashes() {
-        let text = table(&Evaluation::of([("00", counts([0; 4]))]));
+        let text = table(&Evaluation::from_scans([("00", counts([0; 4]))]));
         assert!(text.contains("labelled plausible      0 (    - %)     0 (    - %)\n"), "{text}");
         assert!(text.contains("MCC: - over all detections together, - as the mean over scans"), "{text}");
     }

@@ -3,7 +3,9 @@
 use super::PlotArgs;
 use anyhow::{Context, bail, ensure};
 use ralf::config::{Config, nanoseconds};
-use ralf::scene::{CalibratedView, Failure, FrameWindow, ImageMoment, ViewReport, ViewState, project_points};
+use ralf::scene::{
+    CalibratedImage, CalibratedView, Failure, FrameWindow, ViewReport, ViewState, project_points,
+};
 use ralf::sensors::{Camera, CameraImage, Sequence, StraightView, UndistortMap};
 use ralf::space::{Point, Transform, sync};
 use ralf_data::depth::DepthStore;
@@ -45,7 +47,7 @@ struct Shot<'a> {
     t_ns: i64,
     image: CameraImage,
     /// `None` where there is no depth.
-    moment: Option<std::sync::Arc<ImageMoment>>,
+    moment: Option<std::sync::Arc<CalibratedImage>>,
     /// In the vehicle frame at the image's time.
     lidar: Vec<Point>,
     occlusion_window: f64,

@@ -37,12 +37,12 @@ impl Part {
         let scores = |settings: &TunedSettings| {
             let scans = sequences.iter().map(|(_, table)| table.confusions(settings));
             let scans: Vec<Vec<Confusion>> = scans.collect::<Result<_, _>>()?;
-            Ok(Scores::of(&scans.concat()))
+            Ok(Scores::from_scans(&scans.concat()))
         };
         Ok(Self {
             sequences: sequences.iter().map(|(name, _)| name.clone()).collect(),
             scans: sequences.iter().map(|(_, table)| table.scans()).sum(),
-            base: scores(&TunedSettings::of(base))?,
+            base: scores(&TunedSettings::from_config(base))?,
             tuned: scores(tuned)?,
         })
     }

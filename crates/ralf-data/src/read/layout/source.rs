@@ -109,11 +109,8 @@ fn motion(
         warnings.push(format!("{}: no rows: the vehicle is taken to stand still", file.display()));
         odometry.push(OdometrySample { t_ns: first_scan, velocity: 0.0, yaw_rate: 0.0 });
     }
-    let motion = EgoMotion::new(odometry, poses).ok_or_else(|| {
-        let expected =
-            "odometry.csv, poses.csv or both (of a vehicle that stands still the header line is enough)";
-        DataError::content(folder, "motion", expected, "none")
-    })?;
+    // Where there is neither file, another trajectory or the radars have to tell it.
+    let motion = EgoMotion::new(odometry, poses).unwrap_or_else(EgoMotion::unknown);
     Ok((motion, files))
 }
 

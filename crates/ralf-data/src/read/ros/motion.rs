@@ -38,10 +38,8 @@ pub(super) fn motion(
         warnings.push(format!("{}: no messages: the vehicle is taken to stand still", topic.topic));
         wheels.push(OdometrySample { t_ns: survey.first_time(), velocity: 0.0, yaw_rate: 0.0 });
     }
-    EgoMotion::new(wheels, poses).ok_or_else(|| {
-        let expected = "a topic of the kind odometry or twist, which tells how the vehicle moves";
-        DataError::content(messages.path(), "topics", expected, "none")
-    })
+    // Where no topic tells it, another trajectory or the radars have to.
+    Ok(EgoMotion::new(wheels, poses).unwrap_or_else(EgoMotion::unknown))
 }
 
 /// The topic that would tell how the vehicle moves; asked where none has.

@@ -77,14 +77,14 @@ fn calibrate_view(
     });
     let report = ViewReport::new(samples.as_deref(), luminance, config);
     let mut points = Vec::new();
-    if let (ViewState::Calibrated, Some(samples)) = (report.state, samples) {
-        if let Some(scaling) = Scaling::fit(config.scaling, &samples, config.scale_neighbours) {
-            points = metric_points(camera, view, &relative, &scaling, config.stride);
-            points.retain(|point| {
-                let on_ground = height(&point.position).is_some_and(|h| h < ground.camera_margin);
-                point.depth <= config.max_depth && !on_ground
-            });
-        }
+    if let (ViewState::Calibrated, Some(samples)) = (report.state, samples)
+        && let Some(scaling) = Scaling::fit(config.scaling, &samples, config.scale_neighbours)
+    {
+        points = metric_points(camera, view, &relative, &scaling, config.stride);
+        points.retain(|point| {
+            let on_ground = height(&point.position).is_some_and(|h| h < ground.camera_margin);
+            point.depth <= config.max_depth && !on_ground
+        });
     }
     CalibratedView { report, points }
 }

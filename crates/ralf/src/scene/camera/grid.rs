@@ -9,12 +9,12 @@ pub(super) struct PixelGrid {
     rows: usize,
     /// Where each bucket begins among the places, and the end of the last.
     starts: Vec<usize>,
-    places: Vec<Place>,
+    places: Vec<Entry>,
 }
 
 /// A place, and its index in the list that the grid was made of.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Place {
+pub(super) struct Entry {
     pub(super) pixel: [f64; 2],
     pub(super) index: usize,
 }
@@ -30,7 +30,7 @@ impl PixelGrid {
             columns: count(right - left),
             rows: count(bottom - top),
             starts: vec![],
-            places: vec![Place { pixel: [0.0; 2], index: 0 }; pixels.len()],
+            places: vec![Entry { pixel: [0.0; 2], index: 0 }; pixels.len()],
         };
         let buckets: Vec<usize> = pixels.iter().map(|pixel| grid.bucket(*pixel)).collect();
         // A counting sort: ends first, then filled from behind.
@@ -45,7 +45,7 @@ impl PixelGrid {
         }
         for (index, bucket) in buckets.iter().enumerate().rev() {
             starts[*bucket] -= 1;
-            grid.places[starts[*bucket]] = Place { pixel: pixels[index], index };
+            grid.places[starts[*bucket]] = Entry { pixel: pixels[index], index };
         }
         grid.starts = starts;
         grid
@@ -94,7 +94,7 @@ impl PixelGrid {
     }
 
     /// The places of a range of buckets.
-    pub(super) fn places(&self, buckets: std::ops::Range<usize>) -> &[Place] {
+    pub(super) fn places(&self, buckets: std::ops::Range<usize>) -> &[Entry] {
         &self.places[self.starts[buckets.start]..self.starts[buckets.end]]
     }
 

@@ -14,7 +14,7 @@ mod projection;
 mod scaling;
 
 pub use calibrate::{CalibratedView, Calibration, CameraPoint, calibrate};
-pub use moment::{ImageId, ImageMoment, ImageView, ImageWithDepth, Seen};
+pub use moment::{CalibratedImage, ImageId, ImageView, ImageWithDepth, Seen};
 pub use monitor::{Failure, ViewReport, ViewState, luminance};
 pub use projection::project_points;
 pub use scaling::median;

@@ -19,7 +19,7 @@ pub struct ImageId {
 
 /// An image's views in the vehicle frame at the image's time.
 #[derive(Debug)]
-pub struct ImageMoment {
+pub struct CalibratedImage {
     /// Which image.
     pub id: ImageId,
     /// One per straight view.
@@ -34,7 +34,7 @@ pub struct ImageMoment {
 #[derive(Debug, Clone)]
 pub struct ImageView {
     /// The image with its calibrated views.
-    pub moment: Arc<ImageMoment>,
+    pub moment: Arc<CalibratedImage>,
     /// From the vehicle frame at the image's time to that at the radar scan's.
     pub vehicle_from_image: Transform,
 }
@@ -51,7 +51,7 @@ pub struct Seen {
     pub failed: bool,
 }
 
-impl ImageMoment {
+impl CalibratedImage {
     /// Calibrates the views of an image. What can't be used makes failed views, not an error: the other cameras go on.
     pub fn new(camera: &Camera, id: ImageId, content: ImageWithDepth, calibration: &Calibration) -> Self {
         let straight_views = camera.straight_views();

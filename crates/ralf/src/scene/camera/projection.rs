@@ -50,11 +50,11 @@ fn visible(seen: Vec<ViewPoint>, window: f64) -> Vec<ViewPoint> {
 
 /// The least depth around each bucket: settles most points without looking at their neighbours one by one.
 struct NearestAround {
-    /// Of the bucket itself.
+    /// The least depth in the bucket itself.
     own: Vec<f64>,
-    /// Of the buckets that lie within the window of every place of the bucket.
+    /// The least depth in the buckets that lie within the window of every pixel of the bucket.
     surely: Vec<f64>,
-    /// Of those that lie within the window of any.
+    /// The least depth in those that lie within the window of any.
     possibly: Vec<f64>,
 }
 

@@ -7,7 +7,7 @@ use nalgebra::Matrix3;
 /// The points `p` with `normal . p = offset`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Plane {
-    /// Of unit length, upward.
+    /// The normal, of unit length, upward.
     pub normal: Vector,
     /// Distance of the plane from the frame's origin along the normal, m.
     pub offset: f64,

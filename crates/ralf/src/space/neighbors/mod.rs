@@ -138,7 +138,7 @@ impl NeighborIndex {
     }
 
     /// No point of this ring or a later one lies nearer than this, m. Sides beyond the grid hold no points.
-    fn bound(&self, at: &Place, ring: usize) -> f32 {
+    fn bound(&self, at: &GridPoint, ring: usize) -> f32 {
         let side = |place: f32, cell: usize, cells: usize| {
             let below = if cell >= ring { place - (cell + 1) as f32 + ring as f32 } else { f32::INFINITY };
             let above = if cell + ring < cells { (cell + ring) as f32 - place } else { f32::INFINITY };
@@ -148,14 +148,14 @@ impl NeighborIndex {
         (nearest * self.cell - SLACK).max(0.0)
     }
 
-    fn place_of(&self, x: f32, y: f32) -> Place {
+    fn place_of(&self, x: f32, y: f32) -> GridPoint {
         let place = |value: f32, origin: f32, cells: usize| {
             let place = ((value - origin) / self.cell).clamp(0.0, cells as f32);
             (place, (place as usize).min(cells - 1))
         };
         let ((x, column), (y, row)) =
             (place(x, self.origin[0], self.columns), place(y, self.origin[1], self.rows));
-        Place { x, y, cell: [column, row] }
+        GridPoint { x, y, cell: [column, row] }
     }
 
     fn cell_of(&self, x: f32, y: f32) -> u32 {
@@ -172,7 +172,7 @@ fn span(points: &[[f32; 3]], axis: usize) -> (f32, f32) {
 }
 
 /// Where a point lies in the grid, in cells; points outside are clamped to its border.
-struct Place {
+struct GridPoint {
     x: f32,
     y: f32,
     /// Column and row.

@@ -1,6 +1,6 @@
 //! One search: which cells are looked at, in which order, and the best points so far.
 
-use super::{Neighbor, NeighborIndex, Place, SLACK};
+use super::{GridPoint, Neighbor, NeighborIndex, SLACK};
 use std::ops::Range;
 
 /// Cells to each side of the query's column that are searched first in a row.
@@ -43,7 +43,7 @@ impl<'a> Search<'a> {
     }
 
     /// Looks through the query's own cell and those around it, as three runs of points.
-    pub(super) fn middle(&mut self, index: &NeighborIndex, at: &Place) {
+    pub(super) fn middle(&mut self, index: &NeighborIndex, at: &GridPoint) {
         let [column, row] = at.cell;
         let (left, right) = (column.saturating_sub(1), (column + 1).min(index.columns - 1));
         for row in row.saturating_sub(1)..=(row + 1).min(index.rows - 1) {
@@ -52,7 +52,7 @@ impl<'a> Search<'a> {
     }
 
     /// Looks through the cells at so many cells, at least one, from the query's own.
-    pub(super) fn ring(&mut self, index: &NeighborIndex, at: &Place, ring: usize) {
+    pub(super) fn ring(&mut self, index: &NeighborIndex, at: &GridPoint, ring: usize) {
         let [cx, cy] = at.cell;
         // The cells of a row lie side by side, so that the ring's lower and upper edge are one run of points each.
         if ring <= cy {
@@ -71,7 +71,7 @@ impl<'a> Search<'a> {
 
     /// The ring's cells in a row, as far as they can hold a point that is near enough: the middle ones first, for what
     /// they hold leaves less of the others.
-    fn row(&mut self, index: &NeighborIndex, at: &Place, ring: usize, row: usize) {
+    fn row(&mut self, index: &NeighborIndex, at: &GridPoint, ring: usize, row: usize) {
         let away = distance_to_cell(at.y, row);
         let column = at.cell[0];
         let (first, last) = stretch(at.x, column, ring.min(MIDDLE), self.reach_beside(away), index.columns);
@@ -91,7 +91,7 @@ impl<'a> Search<'a> {
     }
 
     /// The ring's cells in a column, its corners apart, from the middle outward.
-    fn column(&mut self, index: &NeighborIndex, at: &Place, ring: usize, column: usize) {
+    fn column(&mut self, index: &NeighborIndex, at: &GridPoint, ring: usize, column: usize) {
         let away = distance_to_cell(at.x, column);
         let (low, high) = stretch(at.y, at.cell[1], ring - 1, self.reach_beside(away), index.rows);
         let first = column * index.rows;

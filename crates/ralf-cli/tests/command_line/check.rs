@@ -1,0 +1,98 @@
+//! `ralf check`, and the same at the head of `ralf label`: faults are noticed, told and put right; motion comes from elsewhere.
+
+use crate::support::{Dataset, ralf};
+use std::fs;
+use std::path::Path;
+
+/// A good recording, small.
+fn simulated(dataset: &Dataset) -> String {
+    let made = dataset.beside("made");
+    ralf(["simulate", "-o", &made, "--preset", "tiny", "-q"]).exits(0);
+    made
+}
+
+fn sequence_file(recording: &str, name: &str) -> String {
+    format!("{recording}/sequences/tiny/{name}")
+}
+
+/// The first radar's mounting is turned by 8 degrees.
+fn turn_the_front_radar(recording: &str) {
+    let file = sequence_file(recording, "sequence.toml");
+    let text = fs::read_to_string(&file).unwrap();
+    let turned = text.replacen("[0.0, 0.0, 0.0, 1.0]", "[0.0, 0.0, 0.0697564737, 0.9975640503]", 1);
+    assert_ne!(text, turned);
+    fs::write(&file, turned).unwrap();
+}
+
+fn record(out: &str) -> serde_json::Value {
+    serde_json::from_str(&fs::read_to_string(format!("{out}/run.json")).unwrap()).unwrap()
+}
+
+#[test]
+fn a_good_recording_raises_nothing() {
+    let dataset = Dataset::new();
+    let made = simulated(&dataset);
+    let picture = dataset.beside("check.png");
+    ralf(["check", &made, "--strict", "-o", &picture]).exits(0).prints(["tiny: nothing speaks against it"]);
+    assert!(fs::read(&picture).unwrap().starts_with(b"\x89PNG"));
+    let json = ralf(["check", &made, "--json"]).exits(0).json();
+    assert!(json[0]["verdicts"].as_array().unwrap().len() > 10, "{json}");
+    ralf(["inspect", &made]).exits(0).prints(["tiny: nothing speaks against it"]);
+}
+
+#[test]
+fn a_turned_radar_is_noticed_told_and_put_right() {
+    let dataset = Dataset::new();
+    let made = simulated(&dataset);
+    turn_the_front_radar(&made);
+    let [fixes, out, fixed] = ["fixes.toml", "labels", "fixed"].map(|name| dataset.beside(name));
+    let found = ralf(["check", &made, "--strict", "--write", &fixes]).exits(3);
+    found.prints(["DOUBT", "radar_front", "fits better with yaw -"]);
+
+    ralf(["label", &made, "-o", &out, "--strict", "-q"])
+        .exits(3)
+        .says(["doubt: tiny: radar_front", "--strict"]);
+    assert!(!Path::new(&out).exists(), "nothing is labelled");
+    ralf(["label", &made, "-o", &out, "-q"]).exits(0).says(["doubt: tiny: radar_front"]);
+    let doubt = &record(&out)["check"][0]["doubts"][0];
+    assert_eq!(doubt["subject"], "radar_front", "{doubt}");
+    ralf(["label", &made, "-o", &fixed, "--config", &fixes, "--strict", "-q"]).exits(0).says_nothing();
+    assert_eq!(record(&fixed)["check"][0]["doubts"].as_array().unwrap().len(), 0);
+}
+
+#[test]
+fn without_odometry_the_radars_tell_the_motion() {
+    let dataset = Dataset::new();
+    let made = simulated(&dataset);
+    fs::remove_file(sequence_file(&made, "odometry.csv")).unwrap();
+    let out = dataset.beside("labels");
+    ralf(["label", &made, "-o", &out, "-q"]).exits(0).says(["motion is taken from the radars' range rates"]);
+    assert_eq!(record(&out)["sequences"][0]["motion"], "radar");
+}
+
+#[test]
+fn a_trajectory_takes_the_place_of_odometry() {
+    let dataset = Dataset::new();
+    let made = simulated(&dataset);
+    let [poses, out] = ["poses.tum", "labels"].map(|name| dataset.beside(name));
+    // 2 m/s straight on from the first scan; the LiDAR's poses.
+    let times = (0..10).map(|i| 1_600_000_000.0 + 0.1 * f64::from(i));
+    let rows = times.enumerate().map(|(i, t)| format!("{t:.3} {} 0 0 0 0 0 1\n", 0.2 * i as f64));
+    fs::write(&poses, rows.collect::<String>()).unwrap();
+    ralf(["label", &made, "-o", &out, "-q", "--trajectory", &poses, "--trajectory-frame", "lidar_top"])
+        .exits(0);
+    let record = record(&out);
+    assert_eq!(record["sequences"][0]["motion"], "trajectory");
+    assert_eq!(record["settings"]["motion"]["trajectory_frame"], "lidar_top");
+    let inputs = record["inputs"].to_string();
+    assert!(inputs.contains("poses.tum"), "{inputs}");
+
+    let refused =
+        |frame: &str| ralf(["check", &made, "--trajectory", &poses, "--trajectory-frame", frame]).exits(1);
+    refused("lidar_bottom").says(["expected `vehicle` or the name of a sensor", "lidar_bottom"]);
+    fs::write(&poses, "0 0 0 0 0 0 0 1\n0.1 0 0 0 0 0 1\n").unwrap();
+    refused("vehicle").says(["poses.tum", "line 2", "7 numbers"]);
+    ralf(["check", &made, "--set", "corrections.radar_up.add_yaw_deg=1"])
+        .exits(1)
+        .says(["radar_up", "radar_front"]);
+}

@@ -1,0 +1,136 @@
+//! A sequence that reads as corrected.
+
+use crate::read::corrections::{MotionSource, SensorCorrection};
+use crate::read::recording::{SequenceReader, TruthLabels};
+use ralf::sensors::{CameraImage, DepthImage, LidarScan, RadarScan, Sequence, Source, SourceError};
+use ralf::space::EgoMotion;
+use std::any::Any;
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+
+/// A sequence with corrections.
+pub(super) struct Corrected {
+    inner: Box<dyn SequenceReader>,
+    sequence: Sequence,
+    /// In the rig's order; none where nothing is corrected.
+    radars: Vec<Option<SensorCorrection>>,
+    lidars: Vec<Option<SensorCorrection>>,
+    source: MotionSource,
+    trajectory: Option<PathBuf>,
+    warnings: Vec<String>,
+}
+
+impl Corrected {
+    /// The sequence has its mountings and times corrected already.
+    pub(super) fn new(
+        inner: Box<dyn SequenceReader>,
+        sequence: Sequence,
+        corrections: &BTreeMap<String, SensorCorrection>,
+    ) -> Self {
+        let radars = sequence.rig.radars.iter().map(|radar| corrections.get(&radar.name).copied()).collect();
+        let lidars = sequence.rig.lidars.iter().map(|lidar| corrections.get(&lidar.name).copied()).collect();
+        let (source, warnings) = (MotionSource::Recorded, inner.warnings().to_vec());
+        Self { inner, sequence, radars, lidars, source, trajectory: None, warnings }
+    }
+
+    pub(super) fn warn(&mut self, warning: String) {
+        self.warnings.push(warning);
+    }
+
+    pub(super) fn set_motion(&mut self, motion: EgoMotion, source: MotionSource, file: Option<PathBuf>) {
+        self.sequence.motion = motion;
+        self.source = source;
+        self.trajectory = file;
+    }
+}
+
+impl Source for Corrected {
+    fn sequence(&self) -> &Sequence {
+        &self.sequence
+    }
+
+    fn radar_scan(&self, radar: usize, scan: usize) -> Result<RadarScan, SourceError> {
+        let read = self.inner.radar_scan(radar, scan)?;
+        let Some(correction) = self.radars.get(radar).copied().flatten() else { return Ok(read) };
+        let sensor = &self.sequence.rig.radars[radar];
+        let RadarScan { t_ns, mut columns, .. } = read;
+        for (name, column) in sensor.fields.iter().zip(&mut columns) {
+            let factor = factor(&correction, name) as f32;
+            // Numbers that are not corrected keep their bits.
+            if factor != 1.0 {
+                column.iter_mut().for_each(|value| *value *= factor);
+            }
+        }
+        Ok(RadarScan::new(sensor, correction.time(t_ns), columns)?)
+    }
+
+    fn lidar_scan(&self, lidar: usize, scan: usize) -> Result<LidarScan, SourceError> {
+        let mut read = self.inner.lidar_scan(lidar, scan)?;
+        let Some(correction) = self.lidars.get(lidar).copied().flatten() else { return Ok(read) };
+        read.t_ns = correction.time(read.t_ns);
+        if correction.position_factor != 1.0 {
+            let factor = correction.position_factor as f32;
+            read.points.iter_mut().flatten().for_each(|value| *value *= factor);
+        }
+        Ok(read)
+    }
+
+    fn image(&self, camera: usize, image: usize) -> Result<CameraImage, SourceError> {
+        self.inner.image(camera, image)
+    }
+
+    fn depth(&self, camera: usize, image: usize) -> Result<Option<Vec<DepthImage>>, SourceError> {
+        self.inner.depth(camera, image)
+    }
+}
+
+/// What a field's values are multiplied with.
+fn factor(correction: &SensorCorrection, field: &str) -> f64 {
+    let SensorCorrection { doppler_factor, position_factor, mirror_y, .. } = *correction;
+    let mirror = if mirror_y { -1.0 } else { 1.0 };
+    match field {
+        "x" | "z" | "range" => position_factor,
+        "y" => position_factor * mirror,
+        "azimuth" => mirror,
+        "doppler" => doppler_factor,
+        _ => 1.0,
+    }
+}
+
+impl SequenceReader for Corrected {
+    fn inputs(&self) -> Vec<PathBuf> {
+        self.inner.inputs().into_iter().chain(self.trajectory.clone()).collect()
+    }
+
+    fn warnings(&self) -> &[String] {
+        &self.warnings
+    }
+
+    fn image_file(&self, camera: usize, image: usize) -> Option<PathBuf> {
+        self.inner.image_file(camera, image)
+    }
+
+    fn lidar_label_file(&self, lidar: usize, scan: usize) -> Option<PathBuf> {
+        self.inner.lidar_label_file(lidar, scan)
+    }
+
+    fn truth_file(&self, radar: usize, scan: usize) -> Option<PathBuf> {
+        self.inner.truth_file(radar, scan)
+    }
+
+    fn origin(&self) -> Option<&dyn Any> {
+        self.inner.origin()
+    }
+
+    fn has_depth(&self, camera: usize) -> bool {
+        self.inner.has_depth(camera)
+    }
+
+    fn truth(&self, radar: usize, scan: usize) -> Result<Option<TruthLabels>, SourceError> {
+        self.inner.truth(radar, scan)
+    }
+
+    fn motion_source(&self) -> MotionSource {
+        self.source
+    }
+}

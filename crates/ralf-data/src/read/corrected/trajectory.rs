@@ -1,0 +1,171 @@
+//! Poses that another program estimated: TUM and KITTI files.
+//!
+//! - TUM: a pose per line, `t x y z qx qy qz qw`, times in seconds, quaternions with w last; lines that begin with
+//!   `#` are comments.
+//! - KITTI: a pose per line, the twelve numbers of a 3 x 4 matrix, row by row. It has no times: the n-th pose belongs
+//!   to the n-th measurement of a sensor.
+
+use crate::disk::files;
+use crate::error::DataError;
+use crate::read::corrections::MotionSettings;
+use nalgebra::{Matrix3, Rotation3, Translation3, UnitQuaternion};
+use ralf::sensors::Sequence;
+use ralf::space::{EgoMotion, PoseSample, Transform, transform_from_parts};
+use ralf_files::Kind;
+use std::path::Path;
+
+/// A pose as it lies in a file, and its time where it has one, ns.
+struct Row {
+    line: usize,
+    t_ns: Option<i64>,
+    pose: Transform,
+}
+
+/// The motion that a file tells of a sequence.
+pub(super) fn read(
+    file: &Path,
+    settings: &MotionSettings,
+    sequence: &Sequence,
+) -> Result<EgoMotion, DataError> {
+    let rows = rows(file)?;
+    let sensor_from_vehicle = mounting(file, settings, sequence)?.inverse();
+    let order = order(file, settings, sequence, &rows)?;
+    let mut poses = Vec::with_capacity(rows.len());
+    for (i, row) in rows.iter().enumerate() {
+        let t_ns = match order {
+            Some(times) => times[i],
+            None => row.t_ns.unwrap_or_default(),
+        };
+        poses.push(PoseSample { t_ns, odom_from_vehicle: row.pose * sensor_from_vehicle });
+    }
+    if let Some(i) = poses.windows(2).position(|pair| pair[1].t_ns <= pair[0].t_ns) {
+        let place = format!("line {}", rows[i + 1].line);
+        return Err(DataError::content(file, place, "a time after that of the line before", "none"));
+    }
+    EgoMotion::new(vec![], poses).ok_or_else(|| DataError::content(file, "content", "poses", "none"))
+}
+
+fn rows(file: &Path) -> Result<Vec<Row>, DataError> {
+    let text = files::read_text(file, Kind::Table)?;
+    let lines = text.lines().enumerate().map(|(i, line)| (i + 1, line.trim()));
+    let filled = lines.filter(|(_, line)| !line.is_empty() && !line.starts_with('#'));
+    filled.map(|(line, text)| row(file, line, text)).collect()
+}
+
+fn row(file: &Path, line: usize, text: &str) -> Result<Row, DataError> {
+    let place = || format!("line {line}");
+    let words: Vec<&str> = text.split([' ', '\t', ',']).filter(|word| !word.is_empty()).collect();
+    let mut values = Vec::with_capacity(words.len());
+    for word in &words {
+        let value = word.parse::<f64>().ok().filter(|value| value.is_finite());
+        values.push(
+            value.ok_or_else(|| DataError::content(file, place(), "finite numbers", format!("`{word}`")))?,
+        );
+    }
+    let (t_ns, pose) = match values[..] {
+        [t, x, y, z, qx, qy, qz, qw] => {
+            (Some((t * 1e9).round() as i64), transform_from_parts([x, y, z], [qx, qy, qz, qw]))
+        }
+        [a, b, c, x, d, e, f, y, g, h, i, z] => {
+            (None, matrix_pose(&Matrix3::new(a, b, c, d, e, f, g, h, i), [x, y, z]))
+        }
+        _ => {
+            let expected = "8 numbers (TUM: t x y z qx qy qz qw) or 12 (KITTI: a 3 x 4 matrix)";
+            return Err(DataError::content(file, place(), expected, format!("{} numbers", values.len())));
+        }
+    };
+    let pose = pose.ok_or_else(|| DataError::content(file, place(), "a rotation", "none"))?;
+    Ok(Row { line, t_ns, pose })
+}
+
+fn matrix_pose(matrix: &Matrix3<f64>, place: [f64; 3]) -> Option<Transform> {
+    let off = (matrix * matrix.transpose() - Matrix3::identity()).abs().max();
+    (off < 0.01 && matrix.determinant() > 0.0).then(|| {
+        let rotation = UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix(matrix));
+        Transform::from_parts(Translation3::from(place), rotation)
+    })
+}
+
+/// From the frame whose poses they are to the vehicle's.
+fn mounting(file: &Path, settings: &MotionSettings, sequence: &Sequence) -> Result<Transform, DataError> {
+    let Some(name) = settings.trajectory_frame.as_deref().filter(|name| *name != "vehicle") else {
+        return Ok(Transform::identity());
+    };
+    let rig = &sequence.rig;
+    let radars = rig.radars.iter().map(|radar| (&radar.name, radar.vehicle_from_radar));
+    let lidars = rig.lidars.iter().map(|lidar| (&lidar.name, lidar.vehicle_from_lidar));
+    let cameras = rig.cameras.iter().map(|camera| (&camera.name, camera.vehicle_from_camera));
+    let found = radars.chain(lidars).chain(cameras).find(|(own, _)| *own == name);
+    found.map(|(_, mount)| mount).ok_or_else(|| no_sensor(file, "motion.trajectory_frame", name))
+}
+
+fn no_sensor(file: &Path, key: &str, name: &str) -> DataError {
+    DataError::content(file, key, "`vehicle` or the name of a sensor", format!("`{name}`"))
+}
+
+/// The times of poses that have none: those of the sensor that is named, else of the only LiDAR. `None` where they
+/// have times.
+fn order<'a>(
+    file: &Path,
+    settings: &MotionSettings,
+    sequence: &'a Sequence,
+    rows: &[Row],
+) -> Result<Option<&'a [i64]>, DataError> {
+    let times = match &settings.trajectory_order {
+        Some(name) => {
+            Some(times_of(sequence, name).ok_or_else(|| no_sensor(file, "motion.trajectory_order", name))?)
+        }
+        None if rows.iter().all(|row| row.t_ns.is_some()) => None,
+        None => Some(sequence.times.lidars.first().map(Vec::as_slice).unwrap_or_default()),
+    };
+    match times {
+        Some(times) if times.len() != rows.len() => {
+            let expected = format!("{} poses, one per measurement", times.len());
+            Err(DataError::content(file, "content", expected, format!("{} poses", rows.len())))
+        }
+        times => Ok(times),
+    }
+}
+
+fn times_of<'a>(sequence: &'a Sequence, name: &str) -> Option<&'a [i64]> {
+    let (rig, times) = (&sequence.rig, &sequence.times);
+    let radars = rig.radars.iter().map(|radar| &radar.name).zip(&times.radars);
+    let lidars = rig.lidars.iter().map(|lidar| &lidar.name).zip(&times.lidars);
+    let cameras = rig.cameras.iter().map(|camera| &camera.name).zip(&times.cameras);
+    let found = radars.chain(lidars).chain(cameras).find(|(own, _)| *own == name);
+    found.map(|(_, times)| times.as_slice())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::path::PathBuf;
+
+    fn parsed(text: &str) -> Result<Vec<Row>, String> {
+        let folder = tempfile::tempdir().unwrap();
+        let file: PathBuf = folder.path().join("poses.txt");
+        std::fs::write(&file, text).unwrap();
+        rows(&file).map_err(|error| error.to_string())
+    }
+
+    #[test]
+    fn a_line_of_tum_and_one_of_kitti_are_the_same_pose() {
+        // A quarter turn to the left, 3 m ahead.
+        let half = 0.5_f64.sqrt();
+        let tum =
+            parsed(&format!("# time x y z qx qy qz qw\n1600000000.25 3 0 0 0 0 {half} {half}\n")).unwrap();
+        let kitti = parsed("0 -1 0 3 1 0 0 0 0 0 1 0\n").unwrap();
+        assert_eq!(tum[0].t_ns, Some(1_600_000_000_250_000_000));
+        assert_eq!((tum[0].line, kitti[0].t_ns), (2, None));
+        assert!((tum[0].pose.to_homogeneous() - kitti[0].pose.to_homogeneous()).abs().max() < 1e-12);
+    }
+
+    #[test]
+    fn what_is_no_pose_is_refused_with_its_line() {
+        let refused = |text: &str| parsed(text).map(|_| ()).unwrap_err();
+        assert!(refused("1 2 3\n").contains("line 1") && refused("1 2 3\n").contains("3 numbers"));
+        assert!(refused("0 0 0 0 0 0 0 1\n1 0 0 nan 0 0 0 1").contains("line 2"));
+        assert!(refused("0 0 0 0 0 0 0 0\n").contains("a rotation"));
+        assert!(refused("1 0 0 0 0 1 0 0 0 0 -1 0\n").contains("a rotation"));
+    }
+}

@@ -1,0 +1,130 @@
+//! What a settings file may correct: the tables `corrections.NAME` and `motion`.
+
+use nalgebra::{Translation3, UnitQuaternion};
+use ralf::sensors::Sequence;
+use ralf::space::{Transform, Vector};
+use serde::{Deserialize, Serialize};
+use std::path::PathBuf;
+
+/// `corrections.NAME`: what is added to what a recording says of the sensor of that name. `ralf check --write`
+/// proposes it.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct SensorCorrection {
+    /// About the sensor's own z axis, degrees, positive to the left.
+    pub add_yaw_deg: f64,
+    /// About its own y axis, degrees, positive puts its front down.
+    pub add_pitch_deg: f64,
+    /// About its own x axis, degrees.
+    pub add_roll_deg: f64,
+    /// Vehicle frame, m.
+    pub add_translation: [f64; 3],
+    /// Added to its timestamps, ms.
+    pub time_offset_ms: f64,
+    /// Of its range rates (radar).
+    pub doppler_factor: f64,
+    /// Of its coordinates (radar, LiDAR).
+    pub position_factor: f64,
+    /// Exchanges left and right (radar).
+    pub mirror_y: bool,
+}
+
+impl Default for SensorCorrection {
+    fn default() -> Self {
+        Self {
+            add_yaw_deg: 0.0,
+            add_pitch_deg: 0.0,
+            add_roll_deg: 0.0,
+            add_translation: [0.0; 3],
+            time_offset_ms: 0.0,
+            doppler_factor: 1.0,
+            position_factor: 1.0,
+            mirror_y: false,
+        }
+    }
+}
+
+/// Where the vehicle's motion comes from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum MotionSource {
+    /// From the recording's own odometry or poses.
+    #[default]
+    Recorded,
+    /// From the radars' range rates.
+    Radar,
+    /// From a trajectory's file.
+    Trajectory,
+}
+
+/// `motion`: how the vehicle moved.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct MotionSettings {
+    /// `recorded` or `radar`; a trajectory wins over both.
+    pub source: MotionSource,
+    /// File of poses: TUM (`t x y z qx qy qz qw`) or KITTI (twelve numbers, row by row).
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub trajectory: Option<PathBuf>,
+    /// `vehicle`, or the sensor whose poses they are.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub trajectory_frame: Option<String>,
+    /// Sensor whose n-th measurement the n-th pose belongs to, for poses without times; KITTI has none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub trajectory_order: Option<String>,
+    /// Factor of recorded speeds and of the translations of poses.
+    pub speed_factor: f64,
+    /// Factor of recorded yaw rates.
+    pub yaw_rate_factor: f64,
+    /// Added to the motion's timestamps, ms.
+    pub time_offset_ms: f64,
+}
+
+impl Default for MotionSettings {
+    fn default() -> Self {
+        Self {
+            source: MotionSource::Recorded,
+            trajectory: None,
+            trajectory_frame: None,
+            trajectory_order: None,
+            speed_factor: 1.0,
+            yaw_rate_factor: 1.0,
+            time_offset_ms: 0.0,
+        }
+    }
+}
+
+impl SensorCorrection {
+    /// Corrects the mounting and the times of the sensor of this name. The error says which names there are.
+    pub(crate) fn apply_to(&self, sequence: &mut Sequence, name: &str) -> Result<(), String> {
+        let (rig, times) = (&mut sequence.rig, &mut sequence.times);
+        let mut names = Vec::new();
+        let radars =
+            rig.radars.iter_mut().map(|r| (&r.name, &mut r.vehicle_from_radar)).zip(&mut times.radars);
+        let lidars =
+            rig.lidars.iter_mut().map(|l| (&l.name, &mut l.vehicle_from_lidar)).zip(&mut times.lidars);
+        let cameras =
+            rig.cameras.iter_mut().map(|c| (&c.name, &mut c.vehicle_from_camera)).zip(&mut times.cameras);
+        for ((own, mount), times) in radars.chain(lidars).chain(cameras) {
+            if own == name {
+                *mount = self.mount(mount);
+                times.iter_mut().for_each(|t| *t = self.time(*t));
+                return Ok(());
+            }
+            names.push(own.clone());
+        }
+        Err(format!("corrections.{name}: expected one of its sensors {}", names.join(", ")))
+    }
+
+    fn mount(&self, recorded: &Transform) -> Transform {
+        let [roll, pitch, yaw] =
+            [self.add_roll_deg, self.add_pitch_deg, self.add_yaw_deg].map(f64::to_radians);
+        let place = recorded.translation.vector + Vector::from(self.add_translation);
+        let rotation = recorded.rotation * UnitQuaternion::from_euler_angles(roll, pitch, yaw);
+        Transform::from_parts(Translation3::from(place), rotation)
+    }
+
+    pub(crate) fn time(&self, t_ns: i64) -> i64 {
+        t_ns.saturating_add((self.time_offset_ms * 1e6) as i64)
+    }
+}
