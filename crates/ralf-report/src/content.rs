@@ -214,11 +214,13 @@ fn evenly(count: usize, wanted: usize) -> Vec<usize> {
 /// Some scans of so many, in order: a third of them the most uncertain, the others evenly spread. The flag tells which.
 fn choose(count: usize, wanted: usize, uncertain_first: &[usize]) -> Vec<(usize, bool)> {
     let wanted = wanted.min(count);
-    let even = wanted - wanted / UNCERTAIN;
+    let even = wanted - (wanted / UNCERTAIN).min(uncertain_first.len());
     let mut chosen: Vec<(usize, bool)> = evenly(count, even).into_iter().map(|scan| (scan, false)).collect();
-    for scan in uncertain_first {
-        if chosen.len() < wanted && chosen.iter().all(|(known, _)| known != scan) {
-            chosen.push((*scan, true));
+    // Where uncertain ones are among the others already, the next ones stand in.
+    let others = (0..count).map(|scan| (scan, false));
+    for (scan, uncertain) in uncertain_first.iter().map(|scan| (*scan, true)).chain(others) {
+        if chosen.len() < wanted && chosen.iter().all(|(known, _)| *known != scan) {
+            chosen.push((scan, uncertain));
         }
     }
     chosen.sort_unstable();
