@@ -1,5 +1,5 @@
 //! What may happen to the file, and is noticed.
-#![expect(clippy::unwrap_used, clippy::panic, reason = "helpers of tests fail as tests do")]
+#![expect(clippy::unwrap_used, reason = "helpers of tests fail as tests do")]
 
 use ralf_corrections::{
     ContentHash, Outcome, Reader, ScanContent, ScanEdit, ScanKey, ScanVersion, Store, StoreError, Stroke,

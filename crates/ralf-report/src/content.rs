@@ -14,7 +14,7 @@ const WIDTHS: [u32; 2] = [760, 760];
 /// One in so many of the scans that are drawn is an uncertain one.
 const UNCERTAIN: usize = 3;
 /// Sequences that are drawn at most: a page of thousands of pictures opens in no browser.
-const MOST_DRAWN: usize = 10;
+const MOST_DRAWN: usize = 20;
 
 /// What the page tells.
 pub(crate) struct Content {
@@ -75,8 +75,9 @@ impl Content {
     pub(crate) fn gather(report: &Report, progress: &dyn Fn(&str)) -> Result<Self, ReportError> {
         let dataset = &report.recording.path;
         let run = LabelledRun::open(report.out)?;
-        let of_run = |reader: &&Box<dyn SequenceReader>| run.holds(&reader.sequence().name);
-        let (readers, others): (Vec<_>, Vec<_>) = report.recording.sequences.iter().partition(of_run);
+        let readers = report.recording.sequences.iter().map(AsRef::as_ref);
+        let (readers, others): (Vec<&dyn SequenceReader>, Vec<_>) =
+            readers.partition(|reader| run.holds(&reader.sequence().name));
         let names: Vec<&str> = readers.iter().map(|reader| reader.sequence().name.as_str()).collect();
         let without_labels: Vec<String> =
             others.iter().map(|reader| reader.sequence().name.clone()).collect();

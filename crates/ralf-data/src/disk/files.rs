@@ -154,7 +154,7 @@ pub fn write_whole(file: &Path, bytes: &[u8]) -> Result<(), DataError> {
 /// Creates a file. What lies there is removed first: through a link, what it leads to would be overwritten.
 pub(crate) fn create_new(file: &Path) -> std::io::Result<fs::File> {
     match fs::remove_file(file) {
-        Err(error) if error.kind() != ErrorKind::NotFound => return Err(error),
+        Err(error) if error.kind() != ErrorKind::NotFound => Err(error),
         _ => fs::File::options().write(true).create_new(true).open(file),
     }
 }
