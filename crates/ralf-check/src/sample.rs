@@ -1,7 +1,7 @@
 //! Which scans are looked at, and what is kept of them: enough to judge, far less than labelling reads.
 
 use crate::ground::{self, GroundFit};
-use crate::picture::{CameraLook, DepthEdge, depth_edges};
+use crate::picture::{CameraLook, DepthEdge, Moment, depth_edges};
 use crate::plan_field::PlanField;
 use ralf::sensors::Source;
 use ralf::sensors::{Elevation, Radar};
@@ -108,7 +108,9 @@ impl Sample {
             let looks = looks.filter_map(|scan| sample.read_radar(source, radar, scan)).collect();
             sample.radars.push(looks);
         }
-        sample.cameras = crate::picture::read(source, &sample.lidars);
+        let first = sample.lidars.iter().filter(|look| look.lidar == 0);
+        let moments: Vec<Moment> = first.map(|look| Moment { lidar: look.lidar, t_ns: look.t_ns }).collect();
+        sample.cameras = crate::picture::read(source, &moments);
         sample
     }
 

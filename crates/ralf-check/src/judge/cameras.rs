@@ -5,7 +5,7 @@ use crate::change::SensorChange;
 use crate::picture::CameraLook;
 use crate::remedy::Remedy;
 use crate::statistics::paired_sigmas;
-use crate::verdict::{Question, Verdict};
+use crate::verdict::{Question, State, Verdict};
 use ralf::space::Transform;
 
 /// Degrees and ms that are tried.
@@ -22,8 +22,14 @@ const SIGMAS: f64 = 4.5;
 const FEWEST: usize = 6;
 
 /// Judges each camera of which images were read.
-pub(super) fn judge(case: &Case) -> Vec<Verdict> {
+pub(super) fn judge(case: &Case, known: &[Verdict]) -> Vec<Verdict> {
     let cameras = 0..case.sequence.rig.cameras.len();
+    if is_lidar_doubted(case, known) {
+        let missing = "the LiDAR's own height, tilt or numbers are doubted: they have to be put right before";
+        return cameras
+            .map(|camera| Verdict::cannot_judge(name(case, camera), Question::Camera, missing))
+            .collect();
+    }
     let swapped = swapped(case);
     let mut verdicts = Vec::new();
     for camera in cameras.filter(|_| !case.lidars.is_empty()) {
@@ -37,6 +43,16 @@ pub(super) fn judge(case: &Case) -> Vec<Verdict> {
         }
     }
     verdicts
+}
+
+/// Whether something of a LiDAR is doubted that is not put right for the questions that follow.
+fn is_lidar_doubted(case: &Case, known: &[Verdict]) -> bool {
+    let is_lidar = |name: &str| case.sequence.rig.lidars.iter().any(|lidar| lidar.name == name);
+    known.iter().any(|verdict| {
+        verdict.state == State::Doubt
+            && matches!(verdict.question, Question::Ground | Question::Bounds)
+            && is_lidar(&verdict.subject)
+    })
 }
 
 fn name<'a>(case: &'a Case, camera: usize) -> &'a str {

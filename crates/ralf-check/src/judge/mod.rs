@@ -53,9 +53,9 @@ fn judge<'a>(sequence: &'a Sequence, sample: &'a Sample) -> (SequenceCheck, Case
     verdicts.extend(lidar::judge(&mut case));
     verdicts.extend(radar::judge(&mut case));
     verdicts.extend(neighbours::judge(&mut case));
-    verdicts.extend(cameras::judge(&case));
     verdicts.extend(vertical::judge(&case));
     verdicts.extend(ground::judge(sequence, sample));
+    verdicts.extend(cameras::judge(&case, &verdicts));
     let figures = case.figures();
     let rank = |verdict: &Verdict| case.rank(&verdict.subject);
     verdicts.sort_by_key(|verdict| (rank(verdict), verdict.question));

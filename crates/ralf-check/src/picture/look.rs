@@ -2,7 +2,6 @@
 
 use super::DepthEdge;
 use super::edge_map::EdgeMap;
-use crate::sample::{LidarLook, nearest};
 use ralf::sensors::{Camera, Source};
 use ralf::space::Transform;
 
@@ -24,23 +23,31 @@ pub(crate) struct CameraLook {
     edges: EdgeMap,
 }
 
+/// A LiDAR's scan whose edges are known.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Moment {
+    pub(crate) lidar: usize,
+    pub(crate) t_ns: i64,
+}
+
 /// Reads images beside the LiDAR's scans, evenly spread; those that can't be read are left out.
-pub(crate) fn read(source: &dyn Source, lidars: &[LidarLook]) -> Vec<CameraLook> {
+pub(crate) fn read(source: &dyn Source, moments: &[Moment]) -> Vec<CameraLook> {
     let sequence = source.sequence();
     let mut looks = Vec::new();
     for (camera, times) in sequence.times.cameras.iter().enumerate() {
-        let mut beside: Vec<(usize, &LidarLook)> = Vec::new();
-        for lidar in lidars.iter().filter(|look| look.lidar == 0 && look.edges.len() >= FEWEST) {
-            let image = nearest(times, lidar.t_ns).filter(|i| times[*i].abs_diff(lidar.t_ns) <= TOGETHER_NS);
-            beside.extend(image.map(|image| (image, lidar)));
+        let mut beside: Vec<(usize, Moment)> = Vec::new();
+        for moment in moments {
+            let distance = |image: &usize| times[*image].abs_diff(moment.t_ns);
+            let image = (0..times.len()).min_by_key(distance).filter(|i| distance(i) <= TOGETHER_NS);
+            beside.extend(image.map(|image| (image, *moment)));
         }
         let step = beside.len().div_ceil(IMAGES).max(1);
-        for (image, lidar) in beside.into_iter().step_by(step) {
+        for (image, moment) in beside.into_iter().step_by(step) {
             let own = &sequence.rig.cameras[camera];
             let read = source.image(camera, image).ok();
             if let Some(edges) = read.and_then(|image| EdgeMap::new(own, &image)) {
-                let (t_ns, lidar_ns, lidar) = (times[image], lidar.t_ns, lidar.lidar);
-                looks.push(CameraLook { camera, t_ns, lidar_ns, lidar, edges });
+                let Moment { lidar, t_ns: lidar_ns } = moment;
+                looks.push(CameraLook { camera, t_ns: times[image], lidar_ns, lidar, edges });
             }
         }
     }
