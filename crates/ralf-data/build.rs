@@ -2,13 +2,17 @@
 //!
 //! In the workspace these are the sources of the method, of the readers and of labelling; in a package from a registry,
 //! where the other crates lie elsewhere, its own, for published versions never change.
+//!
+//! Crates are found by the dependencies in `Cargo.toml`: a new one counts unless [`NOT_DECIDING`] names it.
 
+use std::collections::BTreeSet;
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// Folders and files that labels depend on, relative to this crate. Those that aren't there are passed over.
-const SOURCES: [&str; 10] = [
+/// Folders and files of this crate that labels depend on, relative to it, and the lock of all dependencies. Those that
+/// aren't there are passed over.
+const SOURCES: [&str; 8] = [
     "src/disk",
     "src/read",
     "src/result",
@@ -16,18 +20,23 @@ const SOURCES: [&str; 10] = [
     "src/frames",
     "src/frames.rs",
     "src/settings.rs",
-    "../ralf/src",
-    "../ralf-ros/src",
     "../../Cargo.lock",
 ];
 
+/// Crates of the workspace that no label depends on: what people say, the simulator and the tuner.
+const NOT_DECIDING: [&str; 3] = ["ralf-corrections", "ralf-sim", "ralf-train"];
+
 fn main() -> io::Result<()> {
     println!("cargo:rerun-if-changed=build.rs");
+    let mut crates = BTreeSet::new();
+    find_crates(Path::new("."), &mut crates)?;
+    let mut sources: Vec<PathBuf> = SOURCES.map(PathBuf::from).to_vec();
+    sources.extend(crates.iter().map(|name| Path::new("..").join(name).join("src")));
     let mut files = Vec::new();
-    for source in SOURCES.map(Path::new) {
+    for source in sources {
         if source.exists() {
             println!("cargo:rerun-if-changed={}", source.display());
-            gather(source, &mut files)?;
+            gather(&source, &mut files)?;
         }
     }
     files.sort();
@@ -39,6 +48,24 @@ fn main() -> io::Result<()> {
         hash.add(&content);
     }
     println!("cargo:rustc-env=RALF_SOURCES={:032x}", hash.0);
+    println!("cargo:rustc-env=RALF_SOURCE_CRATES={}", Vec::from_iter(crates).join(" "));
+    Ok(())
+}
+
+/// Adds the workspace's crates that the one in `folder` depends on and that may decide labels, and theirs.
+fn find_crates(folder: &Path, found: &mut BTreeSet<String>) -> io::Result<()> {
+    let manifest = folder.join("Cargo.toml");
+    println!("cargo:rerun-if-changed={}", manifest.display());
+    let text = fs::read_to_string(manifest)?;
+    let after_head = text.split_once("\n[dependencies]\n").map_or("", |(_, after)| after);
+    for line in after_head.lines().take_while(|line| !line.starts_with('[')) {
+        let name = line.split(['.', ' ', '=']).next().unwrap_or_default();
+        let next = Path::new("..").join(name);
+        let counts = name.starts_with("ralf") && !NOT_DECIDING.contains(&name) && next.is_dir();
+        if counts && found.insert(name.to_owned()) {
+            find_crates(&next, found)?;
+        }
+    }
     Ok(())
 }
 

@@ -159,10 +159,9 @@ fn original_messages_are_copied_beside_the_labelled_clouds() {
     let Ok(data) = std::env::var("RALF_TEST_DATA") else {
         return println!("skipped: RALF_TEST_DATA is not set");
     };
-    for (name, format, kind) in [
-        ("nuscenes-0061-zstd.mcap", ExportFormat::Mcap, "mcap"),
-        ("nuscenes-0061-lz4.bag", ExportFormat::Rosbag1, "bag"),
-    ] {
+    for (name, format, kind) in
+        [("nuscenes-0061-zstd.mcap", "mcap", "mcap"), ("nuscenes-0061-lz4.bag", "rosbag1", "bag")]
+    {
         let file = Path::new(&data).join("ros").join(name);
         let folder = tempfile::tempdir().unwrap();
         let recording = open(&file, None).unwrap();
@@ -178,6 +177,7 @@ fn original_messages_are_copied_beside_the_labelled_clouds() {
         }
         .execute(&Quiet)
         .unwrap();
+        let format = ExportFormat::named(format).unwrap();
         let options = ExportOptions { format, split: Split::All, sensors: Sensors::ALL, replace: false };
         let labelled = folder.path().join("labelled").with_extension(kind);
         let exported =

@@ -4,6 +4,7 @@ use crate::findings::Findings;
 use crate::scored::{COLUMNS, Origin, Scored};
 use crate::{Detections, Pictures, Report, ReportError};
 use ralf::metrics::Separation;
+use ralf_data::judge::is_uncertain;
 use ralf_data::result::{LabelledRun, LabelledSequence, RunRecord};
 use ralf_data::{Balance, Causes, Comparison, Corrections, DataError, GroundTruth, SequenceReader};
 use ralf_plot::Extent;
@@ -12,6 +13,8 @@ use ralf_plot::Extent;
 const WIDTHS: [u32; 2] = [760, 760];
 /// One in so many of the scans that are drawn is an uncertain one.
 const UNCERTAIN: usize = 3;
+/// Sequences that are drawn at most: a page of thousands of pictures opens in no browser.
+const MOST_DRAWN: usize = 10;
 
 /// What the page tells.
 pub(crate) struct Content {
@@ -37,10 +40,18 @@ pub(crate) struct Content {
 pub(crate) struct SequenceContent {
     /// Its name.
     pub(crate) name: String,
-    /// Its title for people.
-    pub(crate) title: String,
     /// How its labels are spread.
     pub(crate) balance: Balance,
+    /// What it looks like; `None` where others stand for it.
+    pub(crate) drawn: Option<DrawnSequence>,
+}
+
+/// The pictures of one sequence.
+pub(crate) struct DrawnSequence {
+    /// Its name.
+    pub(crate) name: String,
+    /// Its title for people.
+    pub(crate) title: String,
     /// All its scans; PNG.
     pub(crate) overview: Vec<u8>,
     /// The radar that numbers the scans below.
@@ -83,7 +94,8 @@ impl Content {
         let comparison = truth.as_ref().map(|truth| Comparison::new(report.out, truth)).transpose()?;
         let (mut findings, mut overall) = (Findings::default(), Separation::default());
         let mut sequences = Vec::new();
-        for reader in &readers {
+        let drawn = evenly(readers.len(), MOST_DRAWN);
+        for (index, reader) in readers.iter().enumerate() {
             progress(&format!("sequence {}", reader.sequence().name));
             let labelled = run.sequence(reader.as_ref())?;
             let counted = Counted::gather(
@@ -94,12 +106,11 @@ impl Content {
                 &mut findings,
                 &mut overall,
             )?;
-            sequences.push(SequenceContent::draw(
-                reader.as_ref(),
-                &labelled,
-                counted,
-                report.scans_per_sequence,
-            )?);
+            let wanted = drawn.contains(&index).then_some(report.scans_per_sequence);
+            let draw = |wanted| DrawnSequence::draw(reader.as_ref(), &labelled, &counted.uncertain, wanted);
+            let drawn = wanted.map(draw).transpose()?;
+            let name = reader.sequence().name.clone();
+            sequences.push(SequenceContent { name, balance: counted.balance, drawn });
         }
         let name = dataset.canonicalize().ok();
         let name = name.as_ref().unwrap_or(dataset).file_name().unwrap_or_default();
@@ -112,7 +123,8 @@ impl Content {
 /// What is counted over the detections of one sequence.
 struct Counted {
     balance: Balance,
-    /// The scans of the first radar, those first whose plausibilities are on average closest to the threshold.
+    /// The scans of the first radar with uncertain detections ([`is_uncertain`]), those first that have the largest
+    /// share of them.
     uncertain: Vec<usize>,
 }
 
@@ -131,7 +143,8 @@ impl Counted {
         findings.groups.name_causes(causes.as_ref().map_or(&[], Causes::names));
         let origin = Origin { dataset, sequence, rig: &labelled.rig, truth, causes: causes.as_ref() };
         let radar = first_radar(reader);
-        let (mut balance, mut distances) = (Separation::default(), Vec::new());
+        let (mut balance, mut shares) = (Separation::default(), Vec::new());
+        let threshold = labelled.settings.fusion.threshold as f32;
         labelled.tables.each(&COLUMNS, |key, table| {
             let scan = origin.scored(key, table)?;
             findings.add(&scan, causes.as_ref());
@@ -140,26 +153,26 @@ impl Counted {
                 overall.add(scored.w.into(), scored.plausible);
             }
             if *key.radar == *radar {
-                distances.push((mean_distance(&scan, labelled.settings.fusion.threshold), key.scan));
+                shares.push((uncertain_share(&scan, threshold), key.scan));
             }
             Ok::<_, ReportError>(())
         })?;
-        Ok(Self { balance: balance.into(), uncertain: in_order(distances) })
+        Ok(Self { balance: balance.into(), uncertain: in_order(shares) })
     }
 }
 
-impl SequenceContent {
+impl DrawnSequence {
     fn draw(
         reader: &dyn SequenceReader,
         labelled: &LabelledSequence,
-        counted: Counted,
+        uncertain: &[usize],
         wanted: usize,
     ) -> Result<Self, ReportError> {
         let pictures = Pictures { reader, tables: &labelled.tables, radar: None, extent: Extent::Fit };
         let sequence = reader.sequence();
         let count = sequence.times.radars.first().map_or(0, Vec::len);
         let mut scans = Vec::new();
-        for (scan, uncertain) in choose(count, wanted, &counted.uncertain) {
+        for (scan, uncertain) in choose(count, wanted, uncertain) {
             let raw = pictures.scan(scan, Detections::Raw, WIDTHS[1])?;
             let pictures = [raw, pictures.scan(scan, Detections::Labelled, WIDTHS[1])?];
             scans.push(ScanContent { scan, uncertain, pictures });
@@ -167,7 +180,6 @@ impl SequenceContent {
         Ok(Self {
             name: sequence.name.clone(),
             title: sequence.title.clone(),
-            balance: counted.balance,
             overview: pictures.overview(WIDTHS[0])?,
             radar: first_radar(reader),
             scans,
@@ -180,24 +192,30 @@ fn first_radar(reader: &dyn SequenceReader) -> String {
     reader.sequence().rig.radars.first().map_or(String::new(), |radar| radar.name.clone())
 }
 
-/// How far the plausibilities of a scan lie from the threshold.
-fn mean_distance(scan: &[Scored], threshold: f64) -> f64 {
-    let sum: f64 = scan.iter().map(|scored| (f64::from(scored.w) - threshold).abs()).sum();
-    sum / scan.len() as f64
+/// The share of a scan's detections that are uncertain.
+fn uncertain_share(scan: &[Scored], threshold: f32) -> f64 {
+    let uncertain = scan.iter().filter(|scored| is_uncertain(scored.w, scored.flags, threshold)).count();
+    uncertain as f64 / scan.len().max(1) as f64
 }
 
-/// The scans, the nearest first.
-fn in_order(mut distances: Vec<(f64, usize)>) -> Vec<usize> {
-    distances.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-    distances.into_iter().map(|(_, scan)| scan).collect()
+/// The scans with a share at all, the largest first.
+fn in_order(mut shares: Vec<(f64, usize)>) -> Vec<usize> {
+    shares.retain(|(share, _)| *share > 0.0);
+    shares.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
+    shares.into_iter().map(|(_, scan)| scan).collect()
+}
+
+/// So many of `count`, or all of them where these are fewer: both ends, and the others evenly between them.
+fn evenly(count: usize, wanted: usize) -> Vec<usize> {
+    let wanted = wanted.min(count);
+    (0..wanted).map(|i| i * (count - 1) / wanted.saturating_sub(1).max(1)).collect()
 }
 
 /// Some scans of so many, in order: a third of them the most uncertain, the others evenly spread. The flag tells which.
 fn choose(count: usize, wanted: usize, uncertain_first: &[usize]) -> Vec<(usize, bool)> {
     let wanted = wanted.min(count);
     let even = wanted - wanted / UNCERTAIN;
-    let mut chosen: Vec<(usize, bool)> =
-        (0..even).map(|i| (i * (count - 1) / even.saturating_sub(1).max(1), false)).collect();
+    let mut chosen: Vec<(usize, bool)> = evenly(count, even).into_iter().map(|scan| (scan, false)).collect();
     for scan in uncertain_first {
         if chosen.len() < wanted && chosen.iter().all(|(known, _)| known != scan) {
             chosen.push((*scan, true));
@@ -210,6 +228,7 @@ fn choose(count: usize, wanted: usize, uncertain_first: &[usize]) -> Vec<(usize,
 #[cfg(test)]
 mod tests {
     use super::*;
+    use ralf::label::flag;
 
     #[test]
     fn scans_are_spread_and_the_uncertain_among_them() {
@@ -222,8 +241,18 @@ mod tests {
     }
 
     #[test]
-    fn closeness_to_the_threshold_makes_a_scan_uncertain() {
-        let scored = |w| Scored {
+    fn no_more_sequences_are_drawn_than_a_page_can_hold() {
+        assert_eq!(evenly(3, MOST_DRAWN), [0, 1, 2]);
+        assert_eq!(evenly(10, MOST_DRAWN), (0..10).collect::<Vec<_>>());
+        let many = evenly(150, MOST_DRAWN);
+        assert_eq!((many.len(), many[0], many[MOST_DRAWN - 1]), (MOST_DRAWN, 0, 149));
+        assert!(evenly(0, MOST_DRAWN).is_empty());
+    }
+
+    /// A floor detection is decided, however near to the threshold.
+    #[test]
+    fn doubtful_detections_make_a_scan_uncertain() {
+        let scored = |w, flags| Scored {
             range: 1.0,
             azimuth: 0.0,
             w_opt: w,
@@ -231,12 +260,17 @@ mod tests {
             w,
             gamma: 1.0,
             plausible: true,
-            flags: 0,
+            flags,
             truth: None,
             cause: None,
         };
-        let scans = [vec![scored(0.9)], vec![scored(0.4), scored(0.6)]];
-        let distances = scans.iter().enumerate().map(|(scan, scored)| (mean_distance(scored, 0.5), scan));
-        assert_eq!(in_order(distances.collect()), [1, 0]);
+        let scans = [
+            vec![scored(0.9, 0), scored(0.55, 0)],
+            vec![scored(0.45, 0), scored(0.55, 0)],
+            vec![scored(0.5, flag::GROUND)],
+            vec![],
+        ];
+        let shares = scans.iter().enumerate().map(|(scan, scored)| (uncertain_share(scored, 0.5), scan));
+        assert_eq!(in_order(shares.collect()), [1, 0]);
     }
 }

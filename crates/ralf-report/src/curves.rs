@@ -36,35 +36,40 @@ impl Bin {
     }
 }
 
-/// Detections with truth by their plausibility, 4 bytes each: floor detections and unobserved ones never pass, as in
-/// the method.
+/// Detections with truth by their plausibility: floor detections and unobserved ones never pass, as in the method.
+///
+/// Counted in fine steps of `w`, so that memory doesn't grow with the detections: those in one step pass together, and a
+/// threshold is told to 1/65,536.
 #[derive(Debug, Default)]
 pub(crate) struct Ranked {
-    /// The bits of `w`, which order as `w` does from 0 to 1, and below them whether it is plausible.
-    keys: Vec<u32>,
-    positives: usize,
+    /// By step of `w`: artifacts, and what is plausible. Empty until the first is added.
+    steps: Vec<[u64; 2]>,
+    positives: u64,
 }
+
+/// Steps of `w` from 0 to 1.
+const W_STEPS: usize = 1 << 16;
 
 impl Ranked {
     pub(crate) fn add(&mut self, scored: &Scored, truth: bool) {
-        self.positives += usize::from(truth);
+        self.positives += u64::from(truth);
         if scored.may_be_plausible() {
-            let w = if scored.w > 0.0 { scored.w.min(1.0) } else { 0.0 };
-            self.keys.push(w.to_bits() << 1 | u32::from(truth));
+            self.steps.resize(W_STEPS, [0; 2]);
+            // What is below 0 or no number lies in the first step.
+            let step = (f64::from(scored.w) * W_STEPS as f64) as usize;
+            self.steps[step.min(W_STEPS - 1)][usize::from(truth)] += 1;
         }
     }
 
     /// Precision over recall for every threshold that makes a difference, by rising recall.
     pub(crate) fn precision_recall(&self) -> Vec<Point> {
-        let (mut points, mut tp, mut passed) = (Vec::new(), 0_usize, 0_usize);
+        let (mut points, mut tp, mut passed) = (Vec::new(), 0, 0);
         if self.positives == 0 {
             return points;
         }
-        let mut keys = self.keys.clone();
-        keys.sort_unstable_by(|a, b| b.cmp(a));
-        for tie in keys.chunk_by(|a, b| a >> 1 == b >> 1) {
-            tp += tie.iter().filter(|key| **key & 1 == 1).count();
-            passed += tie.len();
+        for [artifacts, plausible] in self.steps.iter().rev().filter(|counts| **counts != [0; 2]) {
+            tp += plausible;
+            passed += artifacts + plausible;
             let (recall, precision) = (tp as f64 / self.positives as f64, tp as f64 / passed as f64);
             points.push(Point { recall, precision });
         }
@@ -120,6 +125,18 @@ mod tests {
         assert_eq!(found.iter().map(|p| (p.recall, p.precision)).collect::<Vec<_>>(), expected);
         assert!((average_precision(&found) - (third + third * 2.0 * third)).abs() < 1e-12);
         assert!(ranked(&[(scored(0.9, 0), false)]).precision_recall().is_empty());
+    }
+
+    /// Both ends of `w` and what lies beyond them have their step, and a million detections take no more room than ten.
+    #[test]
+    fn the_curve_needs_no_more_memory_for_more_detections() {
+        let mut ranked = Ranked::default();
+        for w in [1.0, 2.0, f32::NAN, -1.0, 0.0].into_iter().cycle().take(1000) {
+            ranked.add(&scored(w, 0), w >= 1.0);
+        }
+        assert_eq!(ranked.steps.len(), W_STEPS);
+        let found: Vec<_> = ranked.precision_recall().iter().map(|p| (p.recall, p.precision)).collect();
+        assert_eq!(found, [(1.0, 1.0), (1.0, 0.4)]);
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! Names in a recording lead nowhere: whatever they are, nothing outside the output folder changes.
 
-use crate::support::{Dataset, ralf, tree, write_nuscenes};
+use crate::support::{Dataset, ralf, tree, view_of_delft, write_nuscenes};
 use std::fs;
 use std::path::{Path, PathBuf};
 use tempfile::TempDir;
@@ -110,6 +110,59 @@ fn a_ros_sensor_writes_nothing_elsewhere() {
         let shown = format!("{name:?}");
         place.nothing_is_written(&["--topics", &place.text("topics.toml")], shown.trim_matches('"'));
     }
+}
+
+/// View-of-Delft's sequence and sensors have fixed names; what is left are the numbers of its frames.
+#[test]
+fn a_view_of_delft_frame_writes_nothing_elsewhere() {
+    for name in ["..", "-1", "1e3", "..\\victim", "a\nb", "NUL", "99999999999999999999999"] {
+        let place = Place::new();
+        view_of_delft(&place.path("recording"));
+        let folder = place.path("recording/radar/training/velodyne");
+        fs::copy(folder.join("00005.bin"), folder.join(format!("{name}.bin"))).unwrap();
+        place.nothing_is_written(&[], "file name: expected a frame's number");
+    }
+    let place = Place::new();
+    view_of_delft(&place.path("recording"));
+    ralf(["label", &place.text("recording"), "-o", &place.text("room/out")]).exits(0);
+    let outside: Vec<String> =
+        tree(place.0.path()).into_keys().filter(|name| name.contains(".label")).collect();
+    assert!(
+        outside.iter().all(|name| name.starts_with("room/out/sequences/") || name.starts_with("victim/"))
+    );
+}
+
+/// What somebody has linked into the output folder is not written to, and nothing of it is removed.
+#[cfg(unix)]
+#[test]
+fn a_link_in_the_output_folder_leads_nowhere() {
+    use std::os::unix::fs::symlink;
+    let dataset = Dataset::new();
+    let place = Place::new();
+    let out = place.path("out");
+    let label = || ralf(["label", &dataset.path, "-o", &place.text("out"), "--set", "fusion.threshold=0.9"]);
+    for link in ["sequences", "sequences/00", "sequences/00/radar_front", ".ralf-run", ".ralf-lock"] {
+        // Of a new folder, and of one with results that are to be replaced.
+        for labelled in [false, true] {
+            if labelled {
+                ralf(["label", &dataset.path, "-o", &place.text("out")]).exits(0);
+            }
+            let link = out.join(link);
+            fs::create_dir_all(link.parent().unwrap()).unwrap();
+            if link.exists() {
+                fs::rename(&link, place.path("victim/moved")).unwrap();
+                symlink(place.path("victim/moved"), &link).unwrap();
+            } else {
+                symlink(place.path("victim"), &link).unwrap();
+            }
+            let before = tree(place.0.path());
+            label().exits(1).says([link.to_str().unwrap(), "a link"]);
+            assert!(tree(place.0.path()) == before, "{link:?}");
+            fs::remove_dir_all(&out).unwrap();
+            let _ = fs::remove_dir_all(place.path("victim/moved"));
+        }
+    }
+    label().exits(0);
 }
 
 /// The own layout's sequences have the names of folders on disk.

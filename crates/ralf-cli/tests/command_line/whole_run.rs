@@ -167,7 +167,7 @@ fn the_record_names_version_settings_inputs_and_scans() {
     let record: Value =
         serde_json::from_slice(&fs::read(format!("{}/run.json", dataset.out)).unwrap()).unwrap();
     let keys = |value: &Value| value.as_object().unwrap().keys().cloned().collect::<Vec<_>>();
-    let expected = ["format", "inputs", "program", "sequences", "settings", "timings", "version"];
+    let expected = ["check", "format", "inputs", "program", "sequences", "settings", "timings", "version"];
     assert_eq!(keys(&record), expected);
     assert_eq!((&record["version"], &record["format"]), (&json!(env!("CARGO_PKG_VERSION")), &json!("ralf")));
     assert_eq!(record["settings"]["lidar"]["neighbours"], json!(3));

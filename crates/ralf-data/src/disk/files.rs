@@ -142,13 +142,21 @@ pub fn write_whole(file: &Path, bytes: &[u8]) -> Result<(), DataError> {
         fs::create_dir_all(folder).map_err(DataError::io(folder))?;
     }
     let beside = beside(file);
-    let written = fs::File::create(&beside).and_then(|mut open| open.write_all(bytes));
+    let written = create_new(&beside).and_then(|mut open| open.write_all(bytes));
     if let Err(error) = written.and_then(|()| fs::rename(&beside, file)) {
         // The half-written file is of no use to anyone; the error that matters is the first one.
         let _ = fs::remove_file(&beside);
         return Err(DataError::Io { file: file.to_owned(), error });
     }
     Ok(())
+}
+
+/// Creates a file. What lies there is removed first: through a link, what it leads to would be overwritten.
+pub(crate) fn create_new(file: &Path) -> std::io::Result<fs::File> {
+    match fs::remove_file(file) {
+        Err(error) if error.kind() != ErrorKind::NotFound => return Err(error),
+        _ => fs::File::options().write(true).create_new(true).open(file),
+    }
 }
 
 /// Where a file is written before it is renamed.
@@ -172,6 +180,23 @@ pub(crate) fn remove(file: &Path) -> Result<(), DataError> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[cfg(unix)]
+    #[test]
+    fn a_file_is_never_written_through_a_link() {
+        let folder = tempfile::tempdir().unwrap();
+        let (file, victim) = (folder.path().join("a"), folder.path().join("victim"));
+        fs::write(&victim, "mine").unwrap();
+        for link in [file.clone(), beside(&file)] {
+            std::os::unix::fs::symlink(&victim, link).unwrap();
+            write_whole(&file, b"new").unwrap();
+            assert_eq!(
+                (fs::read(&file).unwrap(), fs::read(&victim).unwrap()),
+                (b"new".into(), b"mine".into())
+            );
+            fs::remove_file(&file).unwrap();
+        }
+    }
 
     #[test]
     fn rows_become_columns_and_a_cut_row_is_named() {

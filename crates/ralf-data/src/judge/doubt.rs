@@ -44,11 +44,16 @@ impl Doubts {
                 continue;
             }
             let observed = branches.iter().map(|branch| branch[row]).filter(|w| !w.is_nan());
-            doubts.uncertain += usize::from((score[row] - threshold).abs() <= UNCERTAIN);
+            doubts.uncertain += usize::from(is_uncertain(score[row], *flags, threshold));
             doubts.disagreeing += usize::from(disagree(observed, threshold));
         }
         Ok(doubts)
     }
+}
+
+/// Whether a plausibility `w` is within [`UNCERTAIN`] of the threshold. A floor detection is decided.
+pub fn is_uncertain(w: f32, flags: u16, threshold: f32) -> bool {
+    flags & flag::GROUND == 0 && (w - threshold).abs() <= UNCERTAIN
 }
 
 /// Whether branches lie on either side of the threshold, far apart.

@@ -5,5 +5,5 @@ mod doubt;
 mod evaluation;
 
 pub use balance::{Balance, Balances};
-pub use doubt::{DISAGREEING, Doubts, UNCERTAIN};
+pub use doubt::{DISAGREEING, Doubts, UNCERTAIN, is_uncertain};
 pub use evaluation::Comparison;

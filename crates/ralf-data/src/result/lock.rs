@@ -29,6 +29,9 @@ impl WriterLock {
             return Err(DataError::content(folder, "path", "a folder, or nothing yet", "a file"));
         }
         fs::create_dir_all(folder).map_err(DataError::io(folder))?;
+        if file.is_symlink() {
+            return Err(DataError::content(&file, "lock", "a file, or nothing yet", "a link"));
+        }
         loop {
             let open = File::options().create(true).truncate(false).write(true).open(&file);
             let open = open.map_err(DataError::io(&file))?;

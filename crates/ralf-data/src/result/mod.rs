@@ -5,6 +5,7 @@ mod content;
 pub(crate) mod json;
 mod label_hash;
 mod labelled_run;
+mod links;
 mod lock;
 mod names;
 mod parquet_columns;
@@ -33,6 +34,7 @@ pub use sequence_record::{
 pub use table::{Table, Value, Values};
 
 pub(crate) use content::{changed_ns, damaged_result, hash_file};
+pub(crate) use links::refuse_links_out;
 pub(crate) use lock::WriterLock;
 pub(crate) use names::{OutFolder, SequenceNames, checked};
 pub(crate) use parquet_columns::{GROUP_ROWS, begin, write_values};

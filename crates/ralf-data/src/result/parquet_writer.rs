@@ -3,7 +3,7 @@
 use super::parquet_columns::{GROUP_ROWS, begin, write_values};
 use super::schema::{SCAN, Schema};
 use super::{FileRecord, RadarScanKey, Table, Values};
-use crate::disk::files::beside;
+use crate::disk::files::{beside, create_new};
 use crate::error::DataError;
 use parquet::errors::ParquetError;
 use parquet::file::writer::SerializedFileWriter;
@@ -48,7 +48,7 @@ impl PlausibilityWriter {
         if let Some(folder) = file.parent() {
             std::fs::create_dir_all(folder).map_err(DataError::io(folder))?;
         }
-        let open = File::create(beside(file)).map_err(DataError::io(file))?;
+        let open = create_new(&beside(file)).map_err(DataError::io(file))?;
         let hashed = HashedFile { file: open, hasher: blake3::Hasher::new(), bytes: 0 };
         let columns = SCAN.iter().chain(schema.columns());
         let writer = begin(hashed, "plausibility", columns).map_err(|error| written(file, error))?;

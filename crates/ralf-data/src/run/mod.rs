@@ -22,7 +22,7 @@ pub use crate::result::{
 
 use crate::error::DataError;
 use crate::read::{Recording, SequenceReader, layout};
-use crate::result::{Schema, SequenceNames, WriterLock, evidence_columns};
+use crate::result::{Schema, SequenceNames, WriterLock, evidence_columns, refuse_links_out};
 use crate::settings::Settings;
 use inputs::Identity;
 use output_folder::OutputFolder;
@@ -112,6 +112,8 @@ impl LabelRun<'_> {
         let tasks = self.recording.sequences.iter().zip(names);
         let tasks = tasks.map(|(reader, names)| self.task(reader.as_ref(), names));
         let tasks = tasks.collect::<Result<Vec<_>, _>>()?;
+        refuse_links_out(self.out, "sequences", 2)?;
+        refuse_links_out(self.out, unfinished::FOLDER, 4)?;
         let _lock = WriterLock::take(self.out.join(LOCK), self.out)?;
         let run = RunRecord::new(self.recording, self.settings, self.evidence);
         let asked = inputs::identify(self.recording, &fingerprint::of_run(&run), self.jobs, observer);

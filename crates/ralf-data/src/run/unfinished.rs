@@ -15,7 +15,7 @@ use std::io::ErrorKind;
 use std::path::Path;
 
 /// Of all runs.
-const FOLDER: &str = ".ralf-run";
+pub(super) const FOLDER: &str = ".ralf-run";
 
 /// A finished sequence and what it was read from.
 pub(super) type Finished = (SequenceRecord, Vec<Input>);

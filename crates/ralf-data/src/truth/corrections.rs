@@ -4,6 +4,7 @@ use crate::disk::files;
 use crate::disk::label_file::Label;
 use crate::error::DataError;
 use crate::read::Recording;
+use crate::truth::effective::{correct, effective_labels, say};
 use crate::truth::scan_id::ScanId;
 use ralf_corrections::{FILE, ScanContent, ScanKey, ScanLayer, read_layer};
 use std::collections::BTreeMap;
@@ -118,12 +119,7 @@ impl Corrections {
     pub fn effective_labels(&self, scan: &ScanId, machine: Vec<Label>) -> Result<Vec<Label>, DataError> {
         let Some(layer) = self.layer(scan)? else { return Ok(machine) };
         self.check_size(scan, layer, machine.len())?;
-        let mut labels = machine;
-        for (label, accepted) in labels.iter_mut().zip(layer.accepted.iter().flatten()) {
-            say(label, *accepted);
-        }
-        correct(&mut labels, layer);
-        Ok(labels)
+        Ok(effective_labels(machine, layer.accepted.as_deref(), &layer.corrections))
     }
 
     /// What people say of a scan's detections: of each its correction, else what the ground truth's file says,
@@ -143,7 +139,7 @@ impl Corrections {
                 say(label, *accepted);
             }
         }
-        correct(&mut labels, layer);
+        correct(&mut labels, &layer.corrections);
         Ok(Some(labels))
     }
 
@@ -174,21 +170,6 @@ impl Corrections {
         }
         let (expected, found) = (format!("{labels} detections"), format!("corrections of {detections}"));
         Err(DataError::content(&self.file, format!("scan {scan}"), expected, found))
-    }
-}
-
-fn correct(labels: &mut [Label], layer: &ScanLayer) {
-    for (point, id) in &layer.corrections {
-        if let Some(label) = labels.get_mut(*point as usize) {
-            say(label, *id);
-        }
-    }
-}
-
-/// Gives a detection this id. One that it has already stays with its instance.
-fn say(label: &mut Label, id: u16) {
-    if label.id != id {
-        *label = Label::of_class(id);
     }
 }
 

@@ -4,11 +4,13 @@ mod bound;
 mod causes;
 mod content;
 mod corrections;
+mod effective;
 mod ground_truth;
 mod scan_id;
 
 pub use causes::Causes;
 pub use content::scan_content;
 pub use corrections::Corrections;
+pub use effective::effective_labels;
 pub use ground_truth::GroundTruth;
 pub use scan_id::ScanId;

@@ -6,7 +6,7 @@ use crate::error::DataError;
 use crate::read::SequenceReader;
 use crate::read::layout::raw::{DepthToml, SequenceToml};
 use crate::read::layout::{GROUND_TRUTH, SEQUENCES, rig, tables};
-use crate::result::{Component, OutFolder, SequenceNames, WriterLock, checked};
+use crate::result::{Component, OutFolder, SequenceNames, WriterLock, checked, refuse_links_out};
 use ralf::label::Cause;
 use ralf::sensors::{Sequence, SourceError};
 use std::cell::Cell;
@@ -29,6 +29,7 @@ pub fn write_sequence(
     if folder.exists() {
         return Err(DataError::content(folder, "folder", "none of this name yet", "one"));
     }
+    refuse_links_out(dataset, SEQUENCES, 0)?;
     let _lock = WriterLock::beside(folder)?;
     let part = sequences.folder(&names.sequence.hidden(".part"));
     // What a killed conversion left.

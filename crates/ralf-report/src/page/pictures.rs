@@ -1,17 +1,23 @@
 //! Pictures from above, to be picked by sequence and scan.
 
-use crate::content::{Content, ScanContent, SequenceContent};
+use crate::content::{Content, DrawnSequence, ScanContent};
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use maud::{Markup, html};
 
 pub(super) fn pictures(content: &Content) -> Markup {
+    let drawn: Vec<&DrawnSequence> =
+        content.sequences.iter().filter_map(|sequence| sequence.drawn.as_ref()).collect();
+    let all = content.sequences.len();
     html! {
         section #pictures {
             h2 { "From above" }
+            @if drawn.len() < all {
+                p { "Drawn are " (drawn.len()) " of " (all) " sequences, evenly chosen; " code { "ralf plot" } " draws any." }
+            }
             div.picker hidden {
                 label { "Sequence " select #pick-sequence {
-                    @for (index, sequence) in content.sequences.iter().enumerate() {
+                    @for (index, sequence) in drawn.iter().enumerate() {
                         option value=(index) {
                             (sequence.name) @if sequence.title != sequence.name { ": " (sequence.title) }
                         }
@@ -19,12 +25,12 @@ pub(super) fn pictures(content: &Content) -> Markup {
                 } }
                 label { "Scan " select #pick-scan {} }
             }
-            @for sequence in &content.sequences { (of_sequence(sequence)) }
+            @for sequence in &drawn { (of_sequence(sequence)) }
         }
     }
 }
 
-fn of_sequence(sequence: &SequenceContent) -> Markup {
+fn of_sequence(sequence: &DrawnSequence) -> Markup {
     html! {
         article.sequence {
             figure {
@@ -39,7 +45,7 @@ fn of_sequence(sequence: &SequenceContent) -> Markup {
     }
 }
 
-fn of_scan(sequence: &SequenceContent, scan: &ScanContent) -> Markup {
+fn of_scan(sequence: &DrawnSequence, scan: &ScanContent) -> Markup {
     let [raw, labelled] = &scan.pictures;
     let alt = |what: &str| format!("Scan {} of sequence {} from above, {what}", scan.scan, sequence.name);
     html! {
@@ -48,7 +54,7 @@ fn of_scan(sequence: &SequenceContent, scan: &ScanContent) -> Markup {
             figcaption {
                 "Sequence " (sequence.name) ", scan " (scan.scan) " of " (sequence.radar)
                 " with the scans of the other radars nearest to it: raw beside labelled."
-                @if scan.uncertain { " One of the scans whose plausibilities are closest to the threshold." }
+                @if scan.uncertain { " One of the scans with the largest share of detections within 0.1 of the threshold." }
             }
         }
     }

@@ -9,7 +9,9 @@ use ralf::config::nanoseconds;
 use ralf::sensors::Sequence;
 use ralf::space::sync;
 use ralf_corrections::{ContentHash, ScanState, ScanVersion};
+use ralf_data::Label;
 use ralf_data::result::{Group, Table as Rows, Values};
+use ralf_data::truth::effective_labels;
 use serde_json::{Map, Value, json};
 
 /// Without a scan within the method's tolerance one this near in time is shown, ns.
@@ -36,9 +38,8 @@ pub(crate) fn detections(app: &App, sequence: &str, radar: &str, scan: usize) ->
     let machine = machine_labels(&rows)?;
     table.u16("machine", machine.iter().copied());
     let stamp = stamp(version.content.hash.as_ref(), &machine);
-    let (effective, corrected) = effective(machine, &said);
-    table.u16("label", effective);
-    table.u8("corrected", corrected);
+    table.u16("label", effective(rows.labels()?, &said));
+    table.u8("corrected", corrected(rows.len(), &said));
     if let Some(causes) = causes {
         table.u8("cause", causes);
     }
@@ -75,17 +76,21 @@ pub(crate) fn machine_labels(rows: &Rows) -> Result<Vec<u16>, ApiError> {
     Ok(rows.labels()?.into_iter().map(|label| label.id).collect())
 }
 
-/// The label ids that count, and which of them a person has set.
-fn effective(machine: Vec<u16>, said: &ScanState) -> (Vec<u16>, Vec<u8>) {
-    let mut corrected = vec![0; machine.len()];
-    let mut labels = said.review.as_ref().map_or(machine, |review| review.accepted.clone());
-    for (point, label) in &said.corrections {
-        let point = *point as usize;
-        if let (Some(known), Some(flag)) = (labels.get_mut(point), corrected.get_mut(point)) {
-            (*known, *flag) = (*label, 1);
+/// The label ids that count.
+fn effective(machine: Vec<Label>, said: &ScanState) -> Vec<u16> {
+    let accepted = said.review.as_ref().map(|review| review.accepted.as_slice());
+    effective_labels(machine, accepted, &said.corrections).into_iter().map(|label| label.id).collect()
+}
+
+/// 1 for each detection that a person has labelled, else 0.
+fn corrected(detections: usize, said: &ScanState) -> Vec<u8> {
+    let mut corrected = vec![0; detections];
+    for (point, _) in &said.corrections {
+        if let Some(flag) = corrected.get_mut(*point as usize) {
+            *flag = 1;
         }
     }
-    (labels, corrected)
+    corrected
 }
 
 fn header(place: &ScanPlace, labels: &SequenceLabels, said: &ScanState) -> Map<String, Value> {

@@ -63,8 +63,16 @@ fn row(file: &Path, line: usize, text: &str) -> Result<Row, DataError> {
         );
     }
     let (t_ns, pose) = match values[..] {
-        [t, x, y, z, qx, qy, qz, qw] => {
-            (Some((t * 1e9).round() as i64), transform_from_parts([x, y, z], [qx, qy, qz, qw]))
+        [_, x, y, z, qx, qy, qz, qw] => {
+            let t_ns = nanoseconds(words[0]).ok_or_else(|| {
+                DataError::content(
+                    file,
+                    place(),
+                    "a time in seconds, 64 bits of ns",
+                    format!("`{}`", words[0]),
+                )
+            })?;
+            (Some(t_ns), transform_from_parts([x, y, z], [qx, qy, qz, qw]))
         }
         [a, b, c, x, d, e, f, y, g, h, i, z] => {
             (None, matrix_pose(&Matrix3::new(a, b, c, d, e, f, g, h, i), [x, y, z]))
@@ -76,6 +84,24 @@ fn row(file: &Path, line: usize, text: &str) -> Result<Row, DataError> {
     };
     let pose = pose.ok_or_else(|| DataError::content(file, place(), "a rotation", "none"))?;
     Ok(Row { line, t_ns, pose })
+}
+
+/// A time in seconds as nanoseconds, digit by digit: as a float, times of today are off by a hundred of them.
+fn nanoseconds(seconds: &str) -> Option<i64> {
+    let (whole, fraction) = seconds.split_once('.').unwrap_or((seconds, ""));
+    let negative = whole.starts_with('-');
+    match (whole.parse::<i64>(), fraction.bytes().all(|digit| digit.is_ascii_digit())) {
+        (Ok(whole), true) => {
+            let digits: String = fraction.chars().chain("000000000".chars()).take(9).collect();
+            let part = digits.parse::<i64>().ok()?;
+            whole.checked_mul(1_000_000_000)?.checked_add(if negative { -part } else { part })
+        }
+        // Such as 1.6e9, which can't be more exact than a float.
+        _ => {
+            let t_ns = (seconds.parse::<f64>().ok()? * 1e9).round();
+            (t_ns.abs() < i64::MAX as f64).then_some(t_ns as i64)
+        }
+    }
 }
 
 fn matrix_pose(matrix: &Matrix3<f64>, place: [f64; 3]) -> Option<Transform> {
@@ -158,6 +184,15 @@ mod tests {
         assert_eq!(tum[0].t_ns, Some(1_600_000_000_250_000_000));
         assert_eq!((tum[0].line, kitti[0].t_ns), (2, None));
         assert!((tum[0].pose.to_homogeneous() - kitti[0].pose.to_homogeneous()).abs().max() < 1e-12);
+    }
+
+    #[test]
+    fn times_keep_their_nanoseconds() {
+        let times = ["1600000000.123456789", "-0.5", "12", "3.0000000019", "1.5e1"].map(nanoseconds);
+        let expected =
+            [1_600_000_000_123_456_789, -500_000_000, 12_000_000_000, 3_000_000_001, 15_000_000_000];
+        assert_eq!(times, expected.map(Some));
+        assert_eq!(["9e30", "99999999999.0", "x"].map(nanoseconds), [None; 3]);
     }
 
     #[test]

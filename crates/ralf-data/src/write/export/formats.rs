@@ -3,69 +3,82 @@
 use super::Writer;
 use super::npz::Npz;
 use super::nuscenes::NuScenes;
-use super::options::{ExportFormat, Sensors};
+use super::options::Sensors;
 use super::parquet::Parquet;
 use super::pcd::Pcd;
-use super::ros::{Ros, RosFormat};
+use super::ros::{self, Ros, RosFormat};
 use super::semantic_kitti::SemanticKitti;
+use crate::error::DataError;
 use crate::read::SequenceReader;
 use crate::result::SequenceRecord;
+use serde::{Deserialize, Serialize};
+use std::fmt;
+use std::path::Path;
 
 /// The sequences of an export, each with what the run tells of it.
 type Sequences<'a> = [(&'a dyn SequenceReader, &'a SequenceRecord)];
 
-/// A format that labels can be exported in.
+/// What there is to know of a format.
 struct Format {
-    format: ExportFormat,
     /// As `--to` takes it.
     name: &'static str,
     /// Whose data can go with the labels.
     sensors: Sensors,
+    /// How a sequence can be one file; `None` of formats that are always a folder.
+    single_file: Option<SingleFile>,
     /// What writes it.
     writer: fn(&Sequences) -> Box<dyn Writer>,
+}
+
+/// A format of which one sequence can be one file.
+pub(super) struct SingleFile {
+    /// How the file's name ends, with the dot.
+    pub(super) ending: &'static str,
+    /// Whether a file is an export, which may be replaced.
+    pub(super) is_export: fn(&Path) -> Result<bool, DataError>,
 }
 
 const NONE: Sensors = Sensors { radar: false, lidar: false, camera: false };
 const RADAR: Sensors = Sensors { radar: true, ..NONE };
 
 /// In the order in which they are listed.
-const FORMATS: [Format; 7] = [
+static FORMATS: [Format; 7] = [
     Format {
-        format: ExportFormat::Mcap,
         name: "mcap",
         sensors: Sensors::ALL,
+        single_file: Some(SingleFile { ending: RosFormat::Mcap.ending(), is_export: ros::is_labelled }),
         writer: |_| Box::new(Ros(RosFormat::Mcap)),
     },
     Format {
-        format: ExportFormat::Rosbag1,
         name: "rosbag1",
         sensors: Sensors::ALL,
+        single_file: Some(SingleFile { ending: RosFormat::Bag.ending(), is_export: ros::is_labelled }),
         writer: |_| Box::new(Ros(RosFormat::Bag)),
     },
     Format {
-        format: ExportFormat::SemanticKitti,
         name: "semantickitti",
         sensors: RADAR,
+        single_file: None,
         writer: |sequences| Box::new(SemanticKitti::new(sequences)),
     },
-    Format { format: ExportFormat::Pcd, name: "pcd", sensors: RADAR, writer: |_| Box::new(Pcd) },
-    Format { format: ExportFormat::Npz, name: "npz", sensors: RADAR, writer: |_| Box::new(Npz) },
-    Format { format: ExportFormat::Parquet, name: "parquet", sensors: RADAR, writer: |_| Box::new(Parquet) },
-    Format {
-        format: ExportFormat::NuScenes,
-        name: "nuscenes",
-        sensors: NONE,
-        writer: |_| Box::new(NuScenes::default()),
-    },
+    Format { name: "pcd", sensors: RADAR, single_file: None, writer: |_| Box::new(Pcd) },
+    Format { name: "npz", sensors: RADAR, single_file: None, writer: |_| Box::new(Npz) },
+    Format { name: "parquet", sensors: RADAR, single_file: None, writer: |_| Box::new(Parquet) },
+    Format { name: "nuscenes", sensors: NONE, single_file: None, writer: |_| Box::new(NuScenes::default()) },
 ];
+
+/// A format that labels can be exported in: [`ExportFormat::ALL`] of them, each known by its name.
+#[derive(Clone, Copy, Serialize, Deserialize)]
+#[serde(into = "&'static str", try_from = "String")]
+pub struct ExportFormat(&'static Format);
 
 impl ExportFormat {
     /// All of them.
     pub const ALL: [Self; FORMATS.len()] = {
-        let mut all = [Self::Mcap; FORMATS.len()];
+        let mut all = [Self(&FORMATS[0]); FORMATS.len()];
         let mut i = 0;
         while i < all.len() {
-            all[i] = FORMATS[i].format;
+            all[i] = Self(&FORMATS[i]);
             i += 1;
         }
         all
@@ -73,27 +86,64 @@ impl ExportFormat {
 
     /// The format of a name, as `--to` takes it.
     pub fn named(name: &str) -> Option<Self> {
-        FORMATS.iter().find(|entry| entry.name == name).map(|entry| entry.format)
+        FORMATS.iter().find(|format| format.name == name).map(Self)
     }
 
     /// The name, as `--to` takes it.
     pub fn name(self) -> &'static str {
-        self.entry().name
+        self.0.name
     }
 
     /// Whose data can go with the labels.
     pub fn sensors(self) -> Sensors {
-        self.entry().sensors
+        self.0.sensors
+    }
+
+    /// How a sequence can be one file, where it can.
+    pub(super) fn single_file(self) -> Option<&'static SingleFile> {
+        self.0.single_file.as_ref()
     }
 
     /// What writes it, for these sequences.
     pub(super) fn writer(self, sequences: &Sequences) -> Box<dyn Writer> {
-        (self.entry().writer)(sequences)
+        (self.0.writer)(sequences)
     }
+}
 
-    fn entry(self) -> &'static Format {
-        // Each has an entry, as a test tells.
-        FORMATS.iter().find(|entry| entry.format == self).unwrap_or(&FORMATS[0])
+impl SingleFile {
+    /// Whether a path ends as such a file does.
+    pub(super) fn is_named_by(&self, path: &Path) -> bool {
+        let found = path.extension().and_then(|found| found.to_str());
+        found.is_some() && found == self.ending.strip_prefix('.')
+    }
+}
+
+impl fmt::Debug for ExportFormat {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        write!(f, "ExportFormat({})", self.name())
+    }
+}
+
+/// Formats are the same where their names are.
+impl PartialEq for ExportFormat {
+    fn eq(&self, other: &Self) -> bool {
+        self.name() == other.name()
+    }
+}
+
+impl Eq for ExportFormat {}
+
+impl From<ExportFormat> for &'static str {
+    fn from(format: ExportFormat) -> Self {
+        format.name()
+    }
+}
+
+impl TryFrom<String> for ExportFormat {
+    type Error = String;
+
+    fn try_from(name: String) -> Result<Self, Self::Error> {
+        Self::named(&name).ok_or_else(|| format!("no export format `{name}`"))
     }
 }
 
@@ -101,21 +151,27 @@ impl ExportFormat {
 mod tests {
     use super::*;
 
+    /// Exports made before tell their format by these names.
     #[test]
-    fn every_format_has_one_entry_of_its_own() {
-        let every = [
-            ExportFormat::SemanticKitti,
-            ExportFormat::Pcd,
-            ExportFormat::Npz,
-            ExportFormat::Parquet,
-            ExportFormat::Mcap,
-            ExportFormat::Rosbag1,
-            ExportFormat::NuScenes,
-        ];
-        assert_eq!(ExportFormat::ALL.len(), every.len());
-        for format in every {
-            assert_eq!(FORMATS.iter().filter(|entry| entry.format == format).count(), 1);
+    fn every_format_has_a_name_of_its_own_and_is_stored_by_it() {
+        let names = ExportFormat::ALL.map(ExportFormat::name);
+        assert_eq!(names, ["mcap", "rosbag1", "semantickitti", "pcd", "npz", "parquet", "nuscenes"]);
+        for format in ExportFormat::ALL {
             assert_eq!(ExportFormat::named(format.name()), Some(format));
+            let stored = serde_json::to_string(&format).unwrap();
+            assert_eq!(stored, format!("{:?}", format.name()));
+            assert_eq!(serde_json::from_str::<ExportFormat>(&stored).unwrap(), format);
         }
+        assert!(serde_json::from_str::<ExportFormat>("\"MCAP\"").is_err());
+    }
+
+    #[test]
+    fn a_single_file_is_told_by_its_ending() {
+        let mcap = ExportFormat::named("mcap").unwrap().single_file().unwrap();
+        assert!(mcap.is_named_by(Path::new("a/b.mcap")));
+        for other in ["a/b.bag", "a/mcap", "a/.mcap", "a/b.mcap.d"] {
+            assert!(!mcap.is_named_by(Path::new(other)), "{other}");
+        }
+        assert!(ExportFormat::named("npz").unwrap().single_file().is_none());
     }
 }

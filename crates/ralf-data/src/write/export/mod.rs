@@ -25,7 +25,8 @@ mod place;
 mod ros;
 mod semantic_kitti;
 
-pub use options::{ExportFormat, ExportOptions, Sensors, Split};
+pub use formats::ExportFormat;
+pub use options::{ExportOptions, Sensors, Split};
 pub use ros::{RosFormat, write_ros};
 
 use crate::error::DataError;

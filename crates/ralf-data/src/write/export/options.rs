@@ -1,26 +1,7 @@
 //! What can be asked of an export.
 
+use super::formats::ExportFormat;
 use serde::{Deserialize, Serialize};
-
-/// The formats that labels can be exported in.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum ExportFormat {
-    /// SemanticKITTI's tree of `.bin` and `.label`.
-    SemanticKitti,
-    /// A `.pcd` per scan.
-    Pcd,
-    /// A NumPy archive per scan.
-    Npz,
-    /// A Parquet data set, partitioned by sequence.
-    Parquet,
-    /// MCAP files, with the labels in the radars' clouds.
-    Mcap,
-    /// ROS 1 bags, with the labels in the radars' clouds.
-    Rosbag1,
-    /// Sidecars keyed by `sample_data` token, as nuScenes-lidarseg has them.
-    NuScenes,
-}
 
 /// Which detections are exported, by their effective label.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]

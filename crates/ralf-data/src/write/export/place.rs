@@ -1,7 +1,7 @@
 //! Where an export goes: it appears whole or not at all, and never takes the place of anything else.
 
 use super::ExportOptions;
-use super::ros::{self, RosFormat};
+use super::formats::SingleFile;
 use crate::disk::files;
 use crate::error::DataError;
 use crate::result::{Component, OutFolder, WriterLock};
@@ -50,10 +50,10 @@ impl Place {
             return Err(DataError::content(path, "path", "one that ends in a name", "none"));
         };
         let lock = WriterLock::beside(path)?;
-        let file = match RosFormat::of_export(options.format) {
-            Some(kind) if RosFormat::of_file(path) == Some(kind) && !path.is_dir() => {
-                check_file(path, options, &sequences)?;
-                names.first().map(|name| name.and(kind.ending()))
+        let file = match options.format.single_file() {
+            Some(single) if single.is_named_by(path) && !path.is_dir() => {
+                check_file(path, single, options, &sequences)?;
+                names.first().map(|name| name.and(single.ending))
             }
             _ => {
                 check_folder(path, options)?;
@@ -104,7 +104,12 @@ impl Drop for Place {
 }
 
 /// Refuses a file that can't hold the sequences, or must not be replaced.
-fn check_file(path: &Path, options: &ExportOptions, sequences: &[String]) -> Result<(), DataError> {
+fn check_file(
+    path: &Path,
+    single: &SingleFile,
+    options: &ExportOptions,
+    sequences: &[String],
+) -> Result<(), DataError> {
     if sequences.len() != 1 {
         let expected = "one sequence for one file; more of them go into a folder";
         return Err(DataError::content(path, "sequences", expected, sequences.join(", ")));
@@ -112,7 +117,7 @@ fn check_file(path: &Path, options: &ExportOptions, sequences: &[String]) -> Res
     if !path.exists() {
         return Ok(());
     }
-    if !ros::is_labelled(path)? {
+    if !(single.is_export)(path)? {
         let expected = "no file yet, or an earlier export";
         return Err(DataError::content(path, "file", expected, "one without labelled clouds"));
     }

@@ -15,14 +15,21 @@ fn what_a_table_asks_for_and_the_file_lacks_is_named() {
         with("hdl-32e", "hdl-99").contains("topics.roof.model: expected one of the models generic, hdl-32e")
     );
     assert!(with("odom =", "# odom =").contains("`vehicle_frame`"));
-    let unmoved = with(
-        "odom = { topic = '/odom', kind = 'odometry' }\nimu = { topic = '/imu', kind = 'imu' }",
-        "imu = { topic = '/imu', kind = 'imu', vehicle_frame = 'base' }",
-    );
-    assert!(unmoved.contains("which tells how the vehicle moves"), "{unmoved}");
     assert!(with("tf =", "# tf =").contains("nothing connects `base`"));
     assert!(with("'/front/points', ", "'/front/points', frame = 'side', ").contains("no frame `side`"));
     assert!(with("info = '/cam/camera_info'", "info = '/imu'").contains("topics.cam.info"));
+}
+
+#[test]
+fn without_odometry_the_motion_is_unknown() {
+    let unmoved = TABLE.replace(
+        "odom = { topic = '/odom', kind = 'odometry' }\nimu = { topic = '/imu', kind = 'imu' }",
+        "imu = { topic = '/imu', kind = 'imu', vehicle_frame = 'base' }",
+    );
+    assert_ne!(unmoved, TABLE);
+    let (_folder, path) = Drive::default().write();
+    assert!(!open_file(&path, &unmoved).unwrap().sequence().motion.is_known());
+    assert!(open_file(&path, TABLE).unwrap().sequence().motion.is_known());
 }
 
 #[test]

@@ -26,7 +26,7 @@ mod settings;
 
 use super::Writer;
 use super::labelled::LabelledSequence;
-use super::options::{ExportFormat, Sensors};
+use super::options::Sensors;
 use crate::disk::files;
 use crate::disk::files::{beside, remove};
 use crate::error::DataError;
@@ -53,15 +53,6 @@ pub enum RosFormat {
 type FileWriter = MessageWriter<BufWriter<File>>;
 
 impl RosFormat {
-    /// The kind of recording that an export in this format is; `None` of formats that are none.
-    pub(super) fn of_export(format: ExportFormat) -> Option<Self> {
-        match format {
-            ExportFormat::Mcap => Some(Self::Mcap),
-            ExportFormat::Rosbag1 => Some(Self::Bag),
-            _ => None,
-        }
-    }
-
     /// The kind that a file's name tells of.
     pub fn of_file(file: &Path) -> Option<Self> {
         let found = file.extension()?.to_str()?;
@@ -77,7 +68,7 @@ impl RosFormat {
     }
 
     /// The same with the dot.
-    pub(super) fn ending(self) -> &'static str {
+    pub(super) const fn ending(self) -> &'static str {
         match self {
             Self::Mcap => ".mcap",
             Self::Bag => ".bag",
