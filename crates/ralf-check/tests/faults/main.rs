@@ -120,7 +120,6 @@ fn without_lidar(base: &Arc<Recording>, with_range_rates: &[usize]) -> Planted {
 #[test]
 fn radars_that_see_the_same_tell_a_wrong_one() {
     let base = Recording::of(TURNING, 200, 2);
-    let left = 1;
     let planted = |with_range_rates: &[usize], degrees: f64| {
         let mut planted = without_lidar(&base, with_range_rates);
         let turned = SensorChange { turn_deg: [0.0, 0.0, degrees], ..SensorChange::default() };
