@@ -8,6 +8,7 @@
 //! - `overlap`: detections lie where LiDAR points do, and LiDAR points where they lie half a second later, as
 //!   recorded and under changes. What fits clearly better is named.
 //! - `ground`: the plane that the LiDAR sees has to be the vehicle's z = 0.
+//! - `picture`: edges of images lie where the LiDAR sees things end.
 //! - `bounds`: what no sensor gives and no vehicle does.
 //!
 //! Pure, like the method: no files, no printing. Everything follows from the recording alone, so the same recording
@@ -19,6 +20,7 @@ pub mod doppler;
 mod ground;
 mod judge;
 mod overlap;
+mod picture;
 mod plan_field;
 mod remedy;
 mod sample;

@@ -9,6 +9,8 @@ use serde::Serialize;
 pub enum Remedy {
     /// The mounting or the clock, as a change.
     Sensor(SensorChange),
+    /// The mounting or the clock of a camera: turns about its optical axes, x right, y down and z ahead.
+    Camera(SensorChange),
     /// Its mounting is that of this sensor, and the other way round.
     SwapWith(String),
     /// Range rates times this.
@@ -48,6 +50,7 @@ impl Remedy {
     pub fn words(&self) -> String {
         match self {
             Self::Sensor(change) => change_in_words(change),
+            Self::Camera(change) => camera_in_words(change),
             Self::SwapWith(other) => format!("looks swapped with {other}"),
             Self::Doppler(factor) if *factor == -1.0 => "range rate has the other sign".into(),
             Self::Doppler(factor) => format!("range rate looks like {}", unit_of_speed(*factor)),
@@ -73,7 +76,7 @@ impl Remedy {
         let of_motion =
             |key: &str, value: f64| Setting { key: format!("motion.{key}"), value: number(value) };
         match self {
-            Self::Sensor(change) => change_as_settings(change, of_sensor),
+            Self::Sensor(change) | Self::Camera(change) => change_as_settings(change, of_sensor),
             Self::Doppler(factor) => vec![of_sensor("doppler_factor", number(*factor))],
             Self::Positions(factor) => vec![of_sensor("position_factor", number(*factor))],
             Self::Value { key, value } => vec![of_rig(key, *value)],
@@ -94,6 +97,23 @@ fn number(value: f64) -> String {
 fn lag(ms: f64) -> String {
     let way = if ms > 0.0 { "lags" } else { "runs ahead" };
     format!("{way} by {:.0} ms", ms.abs())
+}
+
+/// Turns as a person behind the camera has them.
+fn camera_in_words(change: &SensorChange) -> String {
+    let [pitch, yaw, roll] = change.turn_deg;
+    let ways = [
+        (yaw, "to the right", "to the left"),
+        (pitch, "up", "down"),
+        (roll, "clockwise", "counterclockwise"),
+    ];
+    for (degrees, positive, negative) in ways {
+        if degrees != 0.0 {
+            let way = if degrees > 0.0 { positive } else { negative };
+            return format!("fits better when turned {way} by {:.1} degrees", degrees.abs());
+        }
+    }
+    lag(-change.clock_ms)
 }
 
 fn change_in_words(change: &SensorChange) -> String {

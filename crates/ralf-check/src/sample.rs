@@ -1,6 +1,7 @@
 //! Which scans are looked at, and what is kept of them: enough to judge, far less than labelling reads.
 
 use crate::ground::{self, GroundFit};
+use crate::picture::{CameraLook, DepthEdge, Moment, depth_edges};
 use crate::plan_field::PlanField;
 use ralf::sensors::Source;
 use ralf::sensors::{Elevation, Radar};
@@ -53,6 +54,8 @@ pub(crate) struct LidarLook {
     /// The same, all of them, by distance.
     pub(crate) field: PlanField,
     pub(crate) ground: Option<GroundFit>,
+    /// Where things end, for images; empty without cameras.
+    pub(crate) edges: Vec<DepthEdge>,
     /// Figures of its numbers, which a wrong data type gives away.
     pub(crate) shape: CloudShape,
     pub(crate) digest: u64,
@@ -79,6 +82,8 @@ pub(crate) struct Sample {
     pub(crate) radars: Vec<Vec<RadarLook>>,
     /// Of all LiDARs, in the order of the rig and of time.
     pub(crate) lidars: Vec<LidarLook>,
+    /// Of all cameras, in the order of the rig and of time.
+    pub(crate) cameras: Vec<CameraLook>,
     /// Why a scan could not be read, a sentence each.
     pub(crate) unreadable: Vec<String>,
 }
@@ -103,6 +108,9 @@ impl Sample {
             let looks = looks.filter_map(|scan| sample.read_radar(source, radar, scan)).collect();
             sample.radars.push(looks);
         }
+        let first = sample.lidars.iter().filter(|look| look.lidar == 0);
+        let moments: Vec<Moment> = first.map(|look| Moment { lidar: look.lidar, t_ns: look.t_ns }).collect();
+        sample.cameras = crate::picture::read(source, &moments);
         sample
     }
 
@@ -196,12 +204,16 @@ impl LidarLook {
         let ground = ground::fit(&points, &mount.translation.vector.into());
         let height = |p: &Point| ground.as_ref().map_or(p.z, |ground| ground.height(p));
         let obstacles: Vec<&Point> = points.iter().filter(|p| OBSTACLES.contains(&height(p))).collect();
+        let has_cameras = !source.sequence().rig.cameras.is_empty();
+        let stands = |p: &Point| height(p) > OBSTACLES.start;
+        let edges = if has_cameras { depth_edges(&points, &mount, stands) } else { Vec::new() };
         let step = obstacles.len().div_ceil(PROBES).max(1);
         Self {
             lidar,
             t_ns: read.t_ns,
             probes: obstacles.iter().step_by(step).map(|p| **p).collect(),
             field: PlanField::new(obstacles.iter().map(|p| [p.x, p.y, p.z])),
+            edges,
             ground,
             shape: CloudShape::of(&read.points),
             digest: hasher.finish(),

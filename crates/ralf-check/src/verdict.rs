@@ -15,6 +15,10 @@ pub enum Question {
     Clock,
     /// Do detections lie where LiDAR points do?
     Lidar,
+    /// Do sensors of a kind see the same where their views overlap?
+    Neighbours,
+    /// Do edges of images lie where the LiDAR sees things end?
+    Camera,
     /// Do things lie where the motion takes them?
     Motion,
     /// Is the ground level?

@@ -4,12 +4,14 @@
 //! Motion before clocks before LiDARs before radars, for a fault of one is seen in all that come after.
 
 mod alternatives;
+mod cameras;
 mod case;
 mod clocks;
 mod doppler;
 mod ground;
 mod lidar;
 mod motion;
+mod neighbours;
 mod radar;
 mod refine;
 mod swapped;
@@ -50,8 +52,10 @@ fn judge<'a>(sequence: &'a Sequence, sample: &'a Sample) -> (SequenceCheck, Case
     verdicts.extend(clocks::judge(&mut case));
     verdicts.extend(lidar::judge(&mut case));
     verdicts.extend(radar::judge(&mut case));
+    verdicts.extend(neighbours::judge(&mut case));
     verdicts.extend(vertical::judge(&case));
     verdicts.extend(ground::judge(sequence, sample));
+    verdicts.extend(cameras::judge(&case, &verdicts));
     let figures = case.figures();
     let rank = |verdict: &Verdict| case.rank(&verdict.subject);
     verdicts.sort_by_key(|verdict| (rank(verdict), verdict.question));

@@ -1,9 +1,12 @@
-//! Whether things lie where other measurements have them: radar on LiDAR, LiDAR on LiDAR half a second later.
+//! Whether things lie where other measurements have them: radar on LiDAR, LiDAR on LiDAR half a second later, and
+//! sensors on others of their kind.
 
 mod motion;
+mod neighbours;
 mod radar_lidar;
 mod tally;
 
 pub(crate) use motion::{motion_overlap, radar_motion_overlap};
+pub(crate) use neighbours::{LidarPair, RadarPair, Side};
 pub(crate) use radar_lidar::{Measure, Setup, overlap};
 pub(crate) use tally::Tally;

@@ -35,6 +35,11 @@ impl Tally {
         self.points() >= FEWEST
     }
 
+    /// Whether there are enough points, and enough of them lie on something to tell one place from another.
+    pub(crate) fn tells(&self) -> bool {
+        self.is_enough() && self.share() > LEAST
+    }
+
     /// By how many standard errors another tally of the same moments has the larger share: the smaller of what binomial
     /// counts say and of what the differences from moment to moment say, where there are enough moments for the latter.
     pub(crate) fn sigmas_to(&self, other: &Self) -> f64 {

@@ -10,6 +10,7 @@ pub struct Recording {
     inner: SimulatedSequence,
     radars: Vec<Vec<OnceLock<RadarScan>>>,
     lidars: Vec<OnceLock<LidarScan>>,
+    images: Vec<Vec<OnceLock<CameraImage>>>,
 }
 
 impl Recording {
@@ -26,7 +27,9 @@ impl Recording {
         let radars =
             times.radars.iter().map(|times| times.iter().map(|_| OnceLock::new()).collect()).collect();
         let lidars = times.lidars[0].iter().map(|_| OnceLock::new()).collect();
-        Arc::new(Self { inner, radars, lidars })
+        let images =
+            times.cameras.iter().map(|times| times.iter().map(|_| OnceLock::new()).collect()).collect();
+        Arc::new(Self { inner, radars, lidars, images })
     }
 }
 
@@ -96,8 +99,9 @@ impl Source for Planted {
         Ok(found)
     }
 
-    fn image(&self, _: usize, _: usize) -> Result<CameraImage, SourceError> {
-        Err("no image".into())
+    fn image(&self, camera: usize, image: usize) -> Result<CameraImage, SourceError> {
+        let rendered = || self.base.inner.image(camera, image).unwrap();
+        Ok(self.base.images[camera][image].get_or_init(rendered).clone())
     }
 
     fn depth(&self, _: usize, _: usize) -> Result<Option<Vec<DepthImage>>, SourceError> {

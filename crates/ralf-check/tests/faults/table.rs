@@ -108,7 +108,7 @@ const ALL_RADARS: [&str; 4] = ["radar_front", "radar_left", "radar_right", "rada
 
 /// All of them, numbered from 1 in this order.
 pub fn faults() -> Vec<Fault> {
-    [extrinsics(), clocks(), units(), signs(), structure()].into_iter().flatten().collect()
+    [extrinsics(), cameras(), clocks(), units(), signs(), structure()].into_iter().flatten().collect()
 }
 
 fn extrinsics() -> Vec<Fault> {
@@ -187,6 +187,41 @@ fn extrinsics() -> Vec<Fault> {
             mount.rotation = UnitQuaternion::from_quaternion(nalgebra::Quaternion::new(q.x, q.y, q.z, q.w));
             mount.translation = Translation3::from(mount.translation.vector);
         }),
+    ]
+}
+
+fn cameras() -> Vec<Fault> {
+    vec![
+        fault!(
+            "camera yaw +3 deg",
+            ["camera_front"],
+            true,
+            |p| {
+                // To the left about the vehicle's vertical: the right remedy turns it to the right about the optical y.
+                let mount = &mut p.sequence.rig.cameras[FRONT].vehicle_from_camera;
+                mount.rotation =
+                    UnitQuaternion::from_euler_angles(0.0, 0.0, 3.0_f64.to_radians()) * mount.rotation;
+            },
+            |r| matches!(r, Remedy::Camera(c) if near(c.turn_deg[1], 3.0, 1.0))
+        ),
+        fault!(
+            "camera clock +200 ms",
+            ["camera_front"],
+            false,
+            |p| p.sequence.times.cameras[FRONT].iter_mut().for_each(|t| *t += 200 * MS),
+            |r| matches!(r, Remedy::Camera(c) if near(c.clock_ms, -200.0, 60.0))
+        ),
+        fault!(
+            "left and right camera swapped",
+            ["camera_left", "camera_right"],
+            true,
+            |p| {
+                let cameras = &mut p.sequence.rig.cameras;
+                (cameras[1].vehicle_from_camera, cameras[2].vehicle_from_camera) =
+                    (cameras[2].vehicle_from_camera, cameras[1].vehicle_from_camera);
+            },
+            |r| matches!(r, Remedy::SwapWith(other) if other.starts_with("camera_"))
+        ),
     ]
 }
 

@@ -43,6 +43,8 @@ fn question(question: Question) -> &'static str {
         Question::Doppler => "range rates",
         Question::Clock => "clock",
         Question::Lidar => "LiDAR",
+        Question::Neighbours => "neighbours",
+        Question::Camera => "picture",
         Question::Motion => "motion",
         Question::Ground => "ground",
     }

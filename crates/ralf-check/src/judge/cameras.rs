@@ -1,0 +1,191 @@
+//! Whether a camera looks where and when it is said to: edges of its images lie where the LiDAR sees things end.
+
+use super::case::Case;
+use crate::change::SensorChange;
+use crate::picture::CameraLook;
+use crate::remedy::Remedy;
+use crate::statistics::paired_sigmas;
+use crate::verdict::{Question, State, Verdict};
+use ralf::space::Transform;
+
+/// Degrees and ms that are tried.
+const TURNS: [f64; 8] = [-5.0, -3.0, -2.0, -1.0, 1.0, 2.0, 3.0, 5.0];
+const CLOCKS: [f64; 6] = [-300.0, -200.0, -100.0, 100.0, 200.0, 300.0];
+/// What is found exactly has to be this large, degrees and ms: cameras of good recordings stay below.
+const SMALLEST: (f64, f64) = (1.5, 80.0);
+/// The last steps of making it exact, degrees and ms.
+const STEPS: (f64, f64) = (0.25, 12.5);
+/// A change is better by this factor and by so many standard errors over the images.
+const GAIN: f64 = 1.06;
+const SIGMAS: f64 = 4.5;
+/// Fewer images tell no standard error.
+const FEWEST: usize = 6;
+
+/// Judges each camera of which images were read.
+pub(super) fn judge(case: &Case, known: &[Verdict]) -> Vec<Verdict> {
+    let cameras = 0..case.sequence.rig.cameras.len();
+    if is_lidar_doubted(case, known) {
+        let missing = "the LiDAR's own height, tilt or numbers are doubted: they have to be put right before";
+        return cameras
+            .map(|camera| Verdict::cannot_judge(name(case, camera), Question::Camera, missing))
+            .collect();
+    }
+    let swapped = swapped(case);
+    let mut verdicts = Vec::new();
+    for camera in cameras.filter(|_| !case.lidars.is_empty()) {
+        match swapped.iter().find(|(own, _, _)| *own == camera) {
+            Some((_, other, scores)) => {
+                let remedy = Remedy::SwapWith(name(case, *other).to_owned());
+                let (subject, evidence) = (name(case, camera), scores.in_words());
+                verdicts.push(Verdict::doubt(subject, Question::Camera, evidence, Some(remedy)));
+            }
+            None => verdicts.push(one(case, camera)),
+        }
+    }
+    verdicts
+}
+
+/// Whether something of a LiDAR is doubted that is not put right for the questions that follow.
+fn is_lidar_doubted(case: &Case, known: &[Verdict]) -> bool {
+    let is_lidar = |name: &str| case.sequence.rig.lidars.iter().any(|lidar| lidar.name == name);
+    known.iter().any(|verdict| {
+        verdict.state == State::Doubt
+            && matches!(verdict.question, Question::Ground | Question::Bounds)
+            && is_lidar(&verdict.subject)
+    })
+}
+
+fn name<'a>(case: &'a Case, camera: usize) -> &'a str {
+    &case.sequence.rig.cameras[camera].name
+}
+
+fn one(case: &Case, camera: usize) -> Verdict {
+    let name = name(case, camera);
+    let now = scores(case, camera, &SensorChange::default(), camera);
+    let known = now.iter().flatten().count();
+    if known < FEWEST {
+        let missing = format!(
+            "{known} images beside LiDAR scans show 25 ends of things that the LiDAR sees: {FEWEST} are needed"
+        );
+        return Verdict::cannot_judge(name, Question::Camera, missing);
+    }
+    let mut found: Option<(SensorChange, Compared)> = None;
+    for change in changes() {
+        let compared = Compared::of(&now, &scores(case, camera, &change, camera));
+        if compared.is_clear() && found.as_ref().is_none_or(|(_, best)| compared.then > best.then) {
+            found = Some((change, compared));
+        }
+    }
+    let exact = found.map(|(change, _)| exact(case, camera, &now, change));
+    match exact.filter(|(change, _)| is_large(change)) {
+        Some((change, compared)) => {
+            let remedy = Some(Remedy::Camera(change));
+            Verdict::doubt(name, Question::Camera, compared.in_words(), remedy)
+        }
+        None => Verdict::good(name, Question::Camera, "its edges lie where the LiDAR sees things end".into()),
+    }
+}
+
+/// Turns to the sides, and clocks. Pitch and roll are left out: rows of a LiDAR lie up to a degree and more apart, and
+/// tops of things between them pretend a pitch of some degrees in good recordings.
+fn changes() -> impl Iterator<Item = SensorChange> {
+    let to_side = |degrees| SensorChange { turn_deg: [0.0, degrees, 0.0], ..SensorChange::default() };
+    TURNS.into_iter().map(to_side).chain(CLOCKS.map(SensorChange::clock))
+}
+
+fn is_large(change: &SensorChange) -> bool {
+    change.turn_deg.iter().any(|degrees| degrees.abs() >= SMALLEST.0) || change.clock_ms.abs() >= SMALLEST.1
+}
+
+/// The change in steps until none is better.
+fn exact(case: &Case, camera: usize, now: &[Option<f64>], found: SensorChange) -> (SensorChange, Compared) {
+    let unit = if found.clock_ms != 0.0 {
+        SensorChange::clock(STEPS.1)
+    } else {
+        SensorChange {
+            turn_deg: found.turn_deg.map(|value| STEPS.0 * value.signum() * f64::from(value != 0.0)),
+            ..found
+        }
+    };
+    let compared = |change: &SensorChange| Compared::of(now, &scores(case, camera, change, camera));
+    let mut best = (found, compared(&found));
+    for steps in -4..=4 {
+        let change = found.and(&unit.times(f64::from(steps)));
+        let compared = compared(&change);
+        if compared.then > best.1.then {
+            best = (change, compared);
+        }
+    }
+    best
+}
+
+/// Cameras that see what they should in each other's mounting alone, each with the other.
+fn swapped(case: &Case) -> Vec<(usize, usize, Compared)> {
+    let count = case.sequence.rig.cameras.len();
+    let nothing = SensorChange::default();
+    let compared = |camera: usize, place: usize| {
+        Compared::of(&scores(case, camera, &nothing, camera), &scores(case, camera, &nothing, place))
+    };
+    let mut found = Vec::new();
+    for first in 0..count {
+        for second in first + 1..count {
+            let [there, back] = [compared(first, second), compared(second, first)];
+            if there.is_clear() && back.is_clear() {
+                found.push((first, second, there));
+                found.push((second, first, back));
+            }
+        }
+    }
+    found
+}
+
+/// How well each image of a camera fits under a change, in the mounting of a camera.
+fn scores(case: &Case, camera: usize, change: &SensorChange, place: usize) -> Vec<Option<f64>> {
+    let rig = &case.sequence.rig;
+    let mount = change.mount(&rig.cameras[place].vehicle_from_camera);
+    let looks = case.sample.cameras.iter().filter(|look| look.camera == camera);
+    looks.map(|look| score(case, look, &mount, change)).collect()
+}
+
+fn score(case: &Case, look: &CameraLook, mount: &Transform, change: &SensorChange) -> Option<f64> {
+    let rig = &case.sequence.rig;
+    let lidar = case.lidars.iter().find(|own| own.lidar == look.lidar && own.t_ns == look.lidar_ns)?;
+    let of_lidar = case.lidar_changes[look.lidar];
+    let recorded = &rig.lidars[look.lidar].vehicle_from_lidar;
+    let forth = of_lidar.mount(recorded) * recorded.inverse();
+    let moved = case.motion.between(change.time(look.t_ns), of_lidar.time(look.lidar_ns));
+    look.score(&rig.cameras[look.camera], &(mount.inverse() * moved * forth), &lidar.edges)
+}
+
+/// How well images fit as recorded and otherwise.
+struct Compared {
+    now: f64,
+    then: f64,
+    sigmas: f64,
+    images: usize,
+}
+
+impl Compared {
+    /// Over the images of which both are known.
+    fn of(now: &[Option<f64>], then: &[Option<f64>]) -> Self {
+        let both: Vec<(f64, f64)> =
+            now.iter().zip(then).filter_map(|(now, then)| (*now).zip(*then)).collect();
+        let count = both.len().max(1) as f64;
+        let (now, then) = both.iter().fold((0.0, 0.0), |(now, then), one| (now + one.0, then + one.1));
+        let differences: Vec<f64> = both.iter().map(|(now, then)| then - now).collect();
+        let sigmas = paired_sigmas(&differences);
+        Self { now: now / count, then: then / count, sigmas, images: both.len() }
+    }
+
+    fn is_clear(&self) -> bool {
+        self.images >= FEWEST && self.then > GAIN * self.now && self.sigmas > SIGMAS
+    }
+
+    fn in_words(&self) -> String {
+        format!(
+            "ends of things that the LiDAR sees lie on edges of {} images with {:.2}, and with {:.2} otherwise \
+             (1: all on strong edges; a gain of {:.0} standard errors)",
+            self.images, self.now, self.then, self.sigmas
+        )
+    }
+}
