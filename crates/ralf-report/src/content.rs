@@ -98,17 +98,11 @@ impl Content {
         let drawn = evenly(readers.len(), MOST_DRAWN);
         for (index, reader) in readers.iter().enumerate() {
             progress(&format!("sequence {}", reader.sequence().name));
-            let labelled = run.sequence(reader.as_ref())?;
-            let counted = Counted::gather(
-                report,
-                reader.as_ref(),
-                &labelled,
-                truth.as_ref(),
-                &mut findings,
-                &mut overall,
-            )?;
+            let labelled = run.sequence(*reader)?;
+            let counted =
+                Counted::gather(report, *reader, &labelled, truth.as_ref(), &mut findings, &mut overall)?;
             let wanted = drawn.contains(&index).then_some(report.scans_per_sequence);
-            let draw = |wanted| DrawnSequence::draw(reader.as_ref(), &labelled, &counted.uncertain, wanted);
+            let draw = |wanted| DrawnSequence::draw(*reader, &labelled, &counted.uncertain, wanted);
             let drawn = wanted.map(draw).transpose()?;
             let name = reader.sequence().name.clone();
             sequences.push(SequenceContent { name, balance: counted.balance, drawn });

@@ -38,8 +38,8 @@ impl Bin {
 
 /// Detections with truth by their plausibility: floor detections and unobserved ones never pass, as in the method.
 ///
-/// Counted in fine steps of `w`, so that memory doesn't grow with the detections: those in one step pass together, and a
-/// threshold is told to 1/65,536.
+/// Counted in fine steps of `w`, so that memory doesn't grow with the detections: those in one step pass together, and
+/// a threshold is told to 1/65,536.
 #[derive(Debug, Default)]
 pub(crate) struct Ranked {
     /// By step of `w`: artifacts, and what is plausible. Empty until the first is added.

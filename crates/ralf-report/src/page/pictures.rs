@@ -13,7 +13,10 @@ pub(super) fn pictures(content: &Content) -> Markup {
         section #pictures {
             h2 { "From above" }
             @if drawn.len() < all {
-                p { "Drawn are " (drawn.len()) " of " (all) " sequences, evenly chosen; " code { "ralf plot" } " draws any." }
+                p {
+                    "Drawn are " (drawn.len()) " of " (all) " sequences, evenly chosen; "
+                    code { "ralf plot" } " draws any."
+                }
             }
             div.picker hidden {
                 label { "Sequence " select #pick-sequence {
@@ -54,7 +57,9 @@ fn of_scan(sequence: &DrawnSequence, scan: &ScanContent) -> Markup {
             figcaption {
                 "Sequence " (sequence.name) ", scan " (scan.scan) " of " (sequence.radar)
                 " with the scans of the other radars nearest to it: raw beside labelled."
-                @if scan.uncertain { " One of the scans with the largest share of detections within 0.1 of the threshold." }
+                @if scan.uncertain {
+                    " One of the scans with the largest share of detections within 0.1 of the threshold."
+                }
             }
         }
     }

@@ -33,7 +33,7 @@ pub(super) fn table_columns(sequence: &LabelledSequence, scan: &LabelledScan) ->
     let number = vec![scan.scan as u32; scan.kept.len()];
     columns.add(plain("scan", Kind::U32, "The number of the scan.", Group::Identity), Values::U32(number));
     for group in [Group::Identity, Group::Measured, Group::Answers] {
-        if group != Group::Measured || sequence.options.sensors.radar {
+        if group != Group::Measured || sequence.sensors.radar {
             add_group(&mut columns, scan, group);
         }
     }

@@ -3,7 +3,7 @@
 use super::Writer;
 use super::npz::Npz;
 use super::nuscenes::NuScenes;
-use super::options::Sensors;
+use super::options::{Sensors, Split};
 use super::parquet::Parquet;
 use super::pcd::Pcd;
 use super::ros::{self, Ros, RosFormat};
@@ -71,6 +71,20 @@ static FORMATS: [Format; 7] = [
 #[derive(Clone, Copy, Serialize, Deserialize)]
 #[serde(into = "&'static str", try_from = "String")]
 pub struct ExportFormat(&'static Format);
+
+/// Format and extent of an export.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub struct ExportOptions {
+    /// The format.
+    pub format: ExportFormat,
+    /// Which detections.
+    pub split: Split,
+    /// Which sensors' data.
+    pub sensors: Sensors,
+    /// Whether an earlier export in this format may be replaced.
+    #[serde(skip)]
+    pub replace: bool,
+}
 
 impl ExportFormat {
     /// All of them.

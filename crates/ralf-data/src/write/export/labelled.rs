@@ -1,6 +1,7 @@
 //! What every writer gets: labelled sequences, and scans with their results and effective labels.
 
-use super::{Export, ExportOptions, Exported};
+use super::options::{Sensors, Split};
+use super::{Export, Exported};
 use crate::disk::label_file::Label;
 use crate::error::DataError;
 use crate::read::SequenceReader;
@@ -19,8 +20,10 @@ use std::sync::Arc;
 pub(super) struct LabelledSequence<'a, 'p> {
     /// The sequence as recorded.
     pub(super) reader: &'a dyn SequenceReader,
-    /// What is asked for.
-    pub(super) options: ExportOptions,
+    /// Which detections are asked for.
+    pub(super) split: Split,
+    /// Which sensors' data are asked for.
+    pub(super) sensors: Sensors,
     /// Of the folders and files that it goes to.
     pub(super) names: SequenceNames,
     out: &'a Path,
@@ -86,8 +89,9 @@ impl<'a, 'p> LabelledSequence<'a, 'p> {
         let tables = Tables { reader: tables, held: BTreeMap::new() };
         let not_labelled =
             record.not_labelled.iter().map(|missing| (missing.radar.clone(), missing.scan)).collect();
-        let (out, options) = (export.out, export.options);
-        Ok(Self { reader, options, names, out, corrections, record, tables, not_labelled, tally })
+        let Export { out, options, .. } = export;
+        let (split, sensors) = (options.split, options.sensors);
+        Ok(Self { reader, split, sensors, names, out, corrections, record, tables, not_labelled, tally })
     }
 
     /// The sequence's name.
@@ -120,7 +124,7 @@ impl<'a, 'p> LabelledSequence<'a, 'p> {
         }
         let labels = self.corrections.effective_labels(&id, machine)?;
         let kept: Vec<usize> =
-            (0..labels.len()).filter(|row| self.options.split.takes(truth_of(labels[*row].id))).collect();
+            (0..labels.len()).filter(|row| self.split.takes(truth_of(labels[*row].id))).collect();
         self.tally.exported.scans += 1;
         self.tally.exported.detections += kept.len();
         (self.tally.progress)(self.tally.exported.scans);

@@ -25,8 +25,8 @@ mod place;
 mod ros;
 mod semantic_kitti;
 
-pub use formats::ExportFormat;
-pub use options::{ExportOptions, Sensors, Split};
+pub use formats::{ExportFormat, ExportOptions};
+pub use options::{Sensors, Split};
 pub use ros::{RosFormat, write_ros};
 
 use crate::error::DataError;

@@ -1,6 +1,5 @@
-//! What can be asked of an export.
+//! Which part of a recording is exported.
 
-use super::formats::ExportFormat;
 use serde::{Deserialize, Serialize};
 
 /// Which detections are exported, by their effective label.
@@ -25,20 +24,6 @@ pub struct Sensors {
     pub lidar: bool,
     /// Images, where the format can hold them.
     pub camera: bool,
-}
-
-/// Format and extent of an export.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-pub struct ExportOptions {
-    /// The format.
-    pub format: ExportFormat,
-    /// Which detections.
-    pub split: Split,
-    /// Which sensors' data.
-    pub sensors: Sensors,
-    /// Whether an earlier export in this format may be replaced.
-    #[serde(skip)]
-    pub replace: bool,
 }
 
 impl Sensors {

@@ -53,7 +53,7 @@ impl Writer for SemanticKitti {
                 csv(name),
                 sequence.scans(radar)
             ));
-            if sequence.options.sensors.radar {
+            if sequence.sensors.radar {
                 write_tables(&folder, sequence, radar)?;
             }
             for scan in 0..sequence.scans(radar) {
@@ -83,7 +83,7 @@ fn write_scan(folder: &OutFolder, sequence: &LabelledSequence, scan: &LabelledSc
     let file = |kind: &'static str, ending: &'static str| {
         folder.own(kind).file(&Component::numbered(scan.scan, ending))
     };
-    if !sequence.options.sensors.radar {
+    if !sequence.sensors.radar {
         return write_labels(&file("labels", "label"), &scan.labels_in_place());
     }
     let measured = sequence.measured_of(scan)?;
@@ -92,7 +92,7 @@ fn write_scan(folder: &OutFolder, sequence: &LabelledSequence, scan: &LabelledSc
     files::write_whole(&file("velodyne", "bin"), &files::f32_bytes(rows))?;
     let labels: Vec<_> = scan.kept.iter().map(|row| scan.labels[*row]).collect();
     write_labels(&file("labels", "label"), &labels)?;
-    if sequence.options.split != Split::All {
+    if sequence.split != Split::All {
         let points = Values::U32(scan.kept.iter().map(|row| *row as u32).collect());
         files::write_whole(&file("points", "npy"), &npy_array::of_column(&points))?;
     }

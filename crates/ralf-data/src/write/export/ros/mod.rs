@@ -91,7 +91,7 @@ pub(super) struct Ros(pub(super) RosFormat);
 impl Writer for Ros {
     fn sequence(&mut self, folder: &OutFolder, sequence: &mut LabelledSequence) -> Result<(), DataError> {
         let file = folder.file(&sequence.names.sequence.and(self.0.ending()));
-        let (reader, sensors) = (sequence.reader, sequence.options.sensors);
+        let (reader, sensors) = (sequence.reader, sequence.sensors);
         let recorder = Recorder::new(self.0.create(&file)?, &file, reader, sensors, true)?;
         recorder.record(Some(sequence), &|_| {})
     }
