@@ -4,10 +4,13 @@
 //! the same.
 
 use crate::message::{Datatype, PointCloud2};
+use std::collections::HashSet;
 use thiserror::Error;
 
 /// The longest record that is believed; drivers have some 20 to 100 bytes.
 const POINT_BYTES: usize = 1 << 16;
+/// The most values of a record that are believed; drivers have some 4 to 30.
+const MOST_COLUMNS: usize = 1 << 10;
 
 /// Why a cloud has no meaning.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
@@ -49,6 +52,7 @@ impl<'a> PointTable<'a> {
     pub fn new(cloud: &'a PointCloud2) -> Result<Self, PointCloudError> {
         check_lengths(cloud)?;
         let mut columns: Vec<Column> = Vec::new();
+        let mut names = HashSet::new();
         for field in &cloud.fields {
             let place = || format!("field `{}`", field.name);
             let datatype = Datatype::from_code(field.datatype).ok_or_else(|| {
@@ -61,9 +65,17 @@ impl<'a> PointTable<'a> {
                 let found = format!("{count} of {} bytes at {offset}", datatype.size());
                 return Err(PointCloudError::new(place(), expected, found));
             }
+            if columns.len().saturating_add(count) > MOST_COLUMNS {
+                let expected = format!("at most {MOST_COLUMNS} values per record");
+                return Err(PointCloudError::new(
+                    place(),
+                    expected,
+                    format!("{count} more than {}", columns.len()),
+                ));
+            }
             for value in 0..count {
                 let name = if count == 1 { field.name.clone() } else { format!("{}_{value}", field.name) };
-                if columns.iter().any(|known| known.name == name) {
+                if !names.insert(name.clone()) {
                     return Err(PointCloudError::new("fields", "unique names", format!("`{name}` twice")));
                 }
                 columns.push(Column { name, offset: offset + value * datatype.size(), datatype });
@@ -92,6 +104,10 @@ impl<'a> PointTable<'a> {
     pub fn column(&self, name: &str) -> Option<Vec<f32>> {
         let Column { offset, datatype, .. } = *self.columns.iter().find(|column| column.name == name)?;
         let cloud = self.cloud;
+        // Billions of rows may hold no point.
+        if self.is_empty() {
+            return Some(Vec::new());
+        }
         let (step, width) = (cloud.point_step as usize, cloud.width as usize);
         let rows = (0..cloud.height as usize).map(|row| row * cloud.row_step as usize);
         let points = rows.flat_map(|row| (0..width).map(move |point| row + point * step + offset));
@@ -191,6 +207,20 @@ mod tests {
             data,
             ..PointCloud2::default()
         }
+    }
+
+    #[test]
+    fn what_a_small_message_claims_costs_nothing() {
+        let empty = PointCloud2 { height: u32::MAX, width: 0, data: vec![], ..cloud(false) };
+        let table = PointTable::new(&empty).unwrap();
+        assert_eq!((table.len(), table.column("x")), (0, Some(vec![])));
+        let field = PointField { count: 1 << 15, ..PointField::new("x", 0, Datatype::Uint8) };
+        let wide = PointCloud2 { point_step: 1 << 16, fields: vec![field], ..empty };
+        let error = PointTable::new(&wide).unwrap_err();
+        assert_eq!(
+            error.to_string(),
+            "field `x`: expected at most 1024 values per record, found 32768 more than 0"
+        );
     }
 
     #[test]
