@@ -1,5 +1,6 @@
 //! Everything that the page tells, gathered.
 
+use crate::evidence::{self, Observed};
 use crate::findings::Findings;
 use crate::scored::{COLUMNS, Origin, Scored};
 use crate::{Detections, Pictures, Report, ReportError};
@@ -24,6 +25,8 @@ pub(crate) struct Content {
     pub(crate) record: RunRecord,
     /// What is counted over the detections of all sequences.
     pub(crate) findings: Findings,
+    /// What each column of evidence says, where evidence was gathered.
+    pub(crate) evidence: Vec<Observed>,
     /// Labels against truth, where there is some.
     pub(crate) comparison: Option<Comparison>,
     /// Of all sequences together.
@@ -94,13 +97,14 @@ impl Content {
             GroundTruth::find_merged(dataset, corrections)?.and_then(|truth| truth.of_sequences(&names));
         let comparison = truth.as_ref().map(|truth| Comparison::new(report.out, truth)).transpose()?;
         let (mut findings, mut overall) = (Findings::default(), Separation::default());
-        let mut sequences = Vec::new();
+        let (mut sequences, mut evidence) = (Vec::new(), Vec::new());
         let drawn = evenly(readers.len(), MOST_DRAWN);
         for (index, reader) in readers.iter().enumerate() {
             progress(&format!("sequence {}", reader.sequence().name));
             let labelled = run.sequence(*reader)?;
             let counted =
                 Counted::gather(report, *reader, &labelled, truth.as_ref(), &mut findings, &mut overall)?;
+            evidence::add(&mut evidence, &labelled.tables)?;
             let wanted = drawn.contains(&index).then_some(report.scans_per_sequence);
             let draw = |wanted| DrawnSequence::draw(*reader, &labelled, &counted.uncertain, wanted);
             let drawn = wanted.map(draw).transpose()?;
@@ -110,8 +114,17 @@ impl Content {
         let name = dataset.canonicalize().ok();
         let name = name.as_ref().unwrap_or(dataset).file_name().unwrap_or_default();
         let dataset = name.to_string_lossy().into_owned();
-        let balance = overall.into();
-        Ok(Self { dataset, record, findings, comparison, balance, sequences, without_labels, orphaned })
+        Ok(Self {
+            dataset,
+            record,
+            findings,
+            evidence,
+            comparison,
+            balance: overall.into(),
+            sequences,
+            without_labels,
+            orphaned,
+        })
     }
 }
 

@@ -9,6 +9,7 @@ mod chart;
 mod content;
 mod curves;
 mod error;
+mod evidence;
 mod findings;
 mod page;
 mod pictures;

@@ -72,17 +72,30 @@ impl Tiny {
 }
 
 fn page(dataset: &Path, out: &Path, scans_per_sequence: usize) -> String {
+    label(dataset, out, false);
     let recording = ralf_data::open(dataset, None).unwrap();
-    let run = LabelRun {
-        recording: &recording,
-        settings: &Settings::default(),
-        out,
-        jobs: 1,
-        evidence: false,
-        checks: &[],
-    };
-    run.execute(&Silent).unwrap();
     Report { recording: &recording, out, scans_per_sequence }.page(&|_| ()).unwrap().html
+}
+
+fn label(dataset: &Path, out: &Path, evidence: bool) {
+    let recording = ralf_data::open(dataset, None).unwrap();
+    let settings = Settings::default();
+    let run = LabelRun { recording: &recording, settings: &settings, out, jobs: 1, evidence, checks: &[] };
+    run.execute(&Silent).unwrap();
+}
+
+#[test]
+fn every_piece_of_evidence_has_its_line_where_it_was_gathered() {
+    let tiny = Tiny::new();
+    assert!(!tiny.page().contains("id=\"evidence\""));
+    label(&tiny.dataset(), &tiny.out(), true);
+    let recording = ralf_data::open(&tiny.dataset(), None).unwrap();
+    let report = Report { recording: &recording, out: &tiny.out(), scans_per_sequence: 1 };
+    let page = report.page(&|_| ()).unwrap().html;
+    assert!(page.contains("id=\"evidence\""));
+    for feature in ralf::evidence::features() {
+        assert!(page.contains(feature.name) && page.contains(feature.meaning), "{}", feature.name);
+    }
 }
 
 #[test]

@@ -2,6 +2,7 @@
 
 mod balance;
 mod errors;
+mod evidence;
 mod header;
 mod health;
 mod number;
@@ -54,6 +55,7 @@ pub(crate) fn render(content: &Content) -> Result<String, ReportError> {
                     (score::score(content)?)
                     (errors::errors(content)?)
                     (balance::balance(content)?)
+                    (evidence::evidence(content))
                     (pictures::pictures(content))
                     (health::health(content))
                     (provenance::provenance(content))
