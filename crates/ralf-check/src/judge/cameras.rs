@@ -86,8 +86,8 @@ fn one(case: &Case, camera: usize) -> Verdict {
     }
 }
 
-/// Turns to the sides, and clocks. Pitch and roll are left out: good recordings seemed to ask for some degrees of pitch,
-/// perhaps because the rows of a LiDAR lie a degree and more apart and miss the tops of things.
+/// Turns to the sides, and clocks. Pitch and roll are left out: good recordings seemed to ask for some degrees of
+/// pitch, perhaps because the rows of a LiDAR lie a degree and more apart and miss the tops of things.
 fn changes() -> impl Iterator<Item = SensorChange> {
     let to_side = |degrees| SensorChange { turn_deg: [0.0, degrees, 0.0], ..SensorChange::default() };
     TURNS.into_iter().map(to_side).chain(CLOCKS.map(SensorChange::clock))
