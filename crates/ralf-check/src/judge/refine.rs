@@ -3,8 +3,7 @@
 //!
 //! What is maximised is a log-likelihood: detections lie beside LiDAR points, velocities are those of the vehicle,
 //! and small corrections are likelier than large ones. Standard deviations come from leaving out a quarter of the
-//! time each
-//! (jackknife), so that they hold what differs from place to place.
+//! time each (jackknife), so that they hold what differs from place to place.
 
 use super::case::Case;
 use crate::change::SensorChange;

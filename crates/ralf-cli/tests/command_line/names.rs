@@ -1,6 +1,6 @@
 //! Names in a recording lead nowhere: whatever they are, nothing outside the output folder changes.
 
-use crate::support::{Dataset, ralf, tree, view_of_delft, write_nuscenes};
+use crate::support::{Dataset, nuscenes_named, ralf, tree, view_of_delft};
 use std::fs;
 use std::path::{Path, PathBuf};
 use tempfile::TempDir;
@@ -60,7 +60,7 @@ fn a_nuscenes_channel_or_scene_writes_nothing_elsewhere() {
     for name in bad_names(&Place::new()) {
         for (scene, channel) in [("scene-0001", name.as_str()), (name.as_str(), "RADAR_FRONT")] {
             let place = Place::new();
-            write_nuscenes(&place.path("recording"), scene, channel);
+            nuscenes_named(&place.path("recording"), scene, channel);
             let shown = format!("{name:?}");
             place.nothing_is_written(&[], shown.trim_matches('"'));
         }
@@ -70,7 +70,7 @@ fn a_nuscenes_channel_or_scene_writes_nothing_elsewhere() {
 #[test]
 fn a_name_that_leads_nowhere_is_labelled_as_ever() {
     let place = Place::new();
-    write_nuscenes(&place.path("recording"), "scene 0001, at 10:30", "RADAR_FRONT");
+    nuscenes_named(&place.path("recording"), "scene 0001, at 10:30", "RADAR_FRONT");
     let (recording, out) = (place.text("recording"), place.text("out"));
     ralf(["label", &recording, "-o", &out]).exits(0);
     assert!(Path::new(&out).join("sequences/scene 0001, at 10:30/RADAR_FRONT/000000.label").is_file());
@@ -80,10 +80,11 @@ fn a_name_that_leads_nowhere_is_labelled_as_ever() {
 #[test]
 fn a_nuscenes_token_writes_no_sidecar_elsewhere() {
     let place = Place::new();
-    write_nuscenes(&place.path("recording"), "scene-0001", "RADAR_FRONT");
+    nuscenes_named(&place.path("recording"), "scene-0001", "RADAR_FRONT");
     let table = place.path("recording/v1.0-test/sample_data.json");
     let text = fs::read_to_string(&table).unwrap();
-    fs::write(&table, text.replace("\"token\":\"data-r\"", "\"token\":\"../../victim/x\"")).unwrap();
+    fs::write(&table, text.replace("\"token\":\"data-RADAR_FRONT-0\"", "\"token\":\"../../victim/x\""))
+        .unwrap();
     let (recording, out) = (place.text("recording"), place.text("out"));
     ralf(["label", &recording, "-o", &out]).exits(0);
     let before = tree(place.0.path());

@@ -1,6 +1,6 @@
 //! ROS recordings: from a first look to labels. The small files are of other programs (`testdata/make_ros.py`).
 
-use crate::support::ralf;
+use crate::support::{ROS_TOPICS, ralf};
 use std::fs;
 use std::path::Path;
 
@@ -8,20 +8,6 @@ fn fixture(name: &str) -> String {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../testdata/ros");
     folder.join(name).to_str().unwrap().to_owned()
 }
-
-/// Only the camera's frame is missing in the files.
-const TABLE: &str = "
-[topics.radar]
-topic = '/radar/points'
-kind = 'radar'
-model = 'ars408-21'
-[topics.odom]
-topic = '/odom'
-kind = 'odometry'
-[topics.tf]
-topic = '/tf_static'
-kind = 'tf_static'
-";
 
 fn beside(folder: &tempfile::TempDir, name: &str) -> String {
     folder.path().join(name).to_str().unwrap().to_owned()
@@ -63,7 +49,7 @@ fn a_guess_is_written_once_and_never_over_another_file() {
 fn every_container_is_labelled_to_the_same_numbers() {
     let folder = tempfile::tempdir().unwrap();
     let table = beside(&folder, "ralf.toml");
-    fs::write(&table, TABLE).unwrap();
+    fs::write(&table, ROS_TOPICS).unwrap();
     let mut labels = Vec::new();
     for name in ["plain.bag", "bz2.bag", "lz4.mcap", "ros1.mcap", "db3"] {
         let out = beside(&folder, name);
@@ -89,10 +75,10 @@ fn a_table_that_asks_for_what_is_not_there_is_refused() {
     let folder = tempfile::tempdir().unwrap();
     let table = beside(&folder, "ralf.toml");
     for (text, told) in [
-        (TABLE.replace("/odom", "/nowhere"), "topics.odom: expected one of the topics"),
-        (TABLE.replace("ars408-21", "ars"), "expected one of the models generic"),
-        (TABLE.replace("kind = 'odometry'", "kind = 'odometer'"), "odometer"),
-        (TABLE.replace("model =", "modell ="), "modell"),
+        (ROS_TOPICS.replace("/odom", "/nowhere"), "topics.odom: expected one of the topics"),
+        (ROS_TOPICS.replace("ars408-21", "ars"), "expected one of the models generic"),
+        (ROS_TOPICS.replace("kind = 'odometry'", "kind = 'odometer'"), "odometer"),
+        (ROS_TOPICS.replace("model =", "modell ="), "modell"),
     ] {
         fs::write(&table, text).unwrap();
         let out = beside(&folder, "out");

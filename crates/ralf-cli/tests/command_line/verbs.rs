@@ -1,26 +1,12 @@
 //! Every verb on every kind of recording.
 
-use crate::support::{Dataset, Shape, nuscenes, program, ralf, view_of_delft};
+use crate::support::{Dataset, ROS_TOPICS, Shape, nuscenes, program, ralf, view_of_delft};
 use ralf_corrections::{Mark, ScanKey, Store, Who};
 use std::fs;
 use std::io::{BufRead, BufReader};
 use std::path::Path;
 use std::process::Stdio;
 use tempfile::TempDir;
-
-/// Which topic of the files in `testdata/ros` is which sensor.
-const TOPICS: &str = "
-[topics.radar]
-topic = '/radar/points'
-kind = 'radar'
-model = 'ars408-21'
-[topics.odom]
-topic = '/odom'
-kind = 'odometry'
-[topics.tf]
-topic = '/tf_static'
-kind = 'tf_static'
-";
 
 /// A recording, and where results go.
 struct Format {
@@ -33,7 +19,7 @@ struct Format {
 impl Format {
     fn new(dataset: impl FnOnce(&Path) -> String, sequence: &'static str, radar: &'static str) -> Self {
         let place = tempfile::tempdir().unwrap();
-        fs::write(place.path().join("topics.toml"), TOPICS).unwrap();
+        fs::write(place.path().join("topics.toml"), ROS_TOPICS).unwrap();
         let dataset = dataset(place.path());
         Self { place, dataset, sequence, radar }
     }

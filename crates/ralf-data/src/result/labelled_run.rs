@@ -171,8 +171,7 @@ impl LabelledRun {
     }
 
     /// The labels of a scan as a run wrote them; `None` where it has none. Only the label file has to be there, but
-    /// where
-    /// `run.json` tells of it, it has to be as it was written.
+    /// where `run.json` tells of it, it has to be as it was written.
     pub(crate) fn labels_below(
         out: &Path,
         run: Option<&Self>,

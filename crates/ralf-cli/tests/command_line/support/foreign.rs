@@ -11,9 +11,15 @@ const FIELDS: &str = "x y z dyn_prop id rcs vx vy vx_comp vy_comp is_quality_val
 
 /// A scene `scene-0001` of nuScenes with the radar `RADAR_FRONT`.
 pub(crate) fn nuscenes(folder: &Path) {
+    nuscenes_named(folder, "scene-0001", "RADAR_FRONT");
+}
+
+/// The same scene under another name, with a radar of another channel.
+pub(crate) fn nuscenes_named(folder: &Path, scene: &str, channel: &str) {
     let table = |name: &str, rows: Value| write(&folder.join("v1.0-test").join(name), rows.to_string());
-    let sensor = |name: &str, modality: &str| json!({"token": name, "channel": name, "modality": modality});
-    table("sensor.json", json!([sensor("RADAR_FRONT", "radar"), sensor("LIDAR_TOP", "lidar")]));
+    let sensor = |token: &str, channel: &str, modality: &str| json!({"token": token, "channel": channel, "modality": modality});
+    let sensors = [sensor("RADAR_FRONT", channel, "radar"), sensor("LIDAR_TOP", "LIDAR_TOP", "lidar")];
+    table("sensor.json", json!(sensors));
     let turn = [1.0, 0.0, 0.0, 0.0];
     let mounted = |name: &str, z: f64| {
         json!({"token": format!("at-{name}"), "sensor_token": name, "translation": [1.0, 0.0, z], "rotation": turn,
@@ -21,7 +27,7 @@ pub(crate) fn nuscenes(folder: &Path) {
     };
     table("calibrated_sensor.json", json!([mounted("RADAR_FRONT", 0.5), mounted("LIDAR_TOP", 1.8)]));
     table("log.json", json!([{"token": "l", "location": "here", "date_captured": "2018-07-24"}]));
-    let scene = json!([{"token": "s", "log_token": "l", "name": "scene-0001", "description": "a wall"}]);
+    let scene = json!([{"token": "s", "log_token": "l", "name": scene, "description": "a wall"}]);
     table("scene.json", scene);
     table("sample.json", json!([{"token": "x", "scene_token": "s"}]));
     let (mut data, mut poses) = (Vec::new(), Vec::new());
@@ -32,7 +38,7 @@ pub(crate) fn nuscenes(folder: &Path) {
         write(&folder.join(&radar), pcd(&wall(12)));
         write(&folder.join(&lidar), rows(&wall(200), 5));
         for (name, file) in [("RADAR_FRONT", radar), ("LIDAR_TOP", lidar)] {
-            data.push(json!({"token": file, "sample_token": "x", "ego_pose_token": format!("p{scan}"), "filename": file,
+            data.push(json!({"token": format!("data-{name}-{scan}"), "sample_token": "x", "ego_pose_token": format!("p{scan}"), "filename": file,
                 "calibrated_sensor_token": format!("at-{name}"), "timestamp": time, "width": 0, "height": 0}));
         }
         poses.push(json!({"token": format!("p{scan}"), "timestamp": time, "rotation": turn, "translation": [0.1 * scan as f64, 0.0, 0.0]}));

@@ -2,18 +2,18 @@
 
 mod dataset;
 mod foreign;
-mod nuscenes;
 mod program;
 mod python;
+mod ros_topics;
 mod table;
 mod tree;
 mod world;
 
 pub(crate) use dataset::{Dataset, Shape};
-pub(crate) use foreign::{nuscenes, view_of_delft};
-pub(crate) use nuscenes::write_nuscenes;
+pub(crate) use foreign::{nuscenes, nuscenes_named, view_of_delft};
 pub(crate) use program::{Ran, program, ralf};
 pub(crate) use python::read_export;
+pub(crate) use ros_topics::ROS_TOPICS;
 pub(crate) use table::{Row, rows, schema};
 pub(crate) use tree::{tree, without_timings};
 pub(crate) use world::{ARTIFACT, CAR, WALL};

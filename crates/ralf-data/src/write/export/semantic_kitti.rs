@@ -1,6 +1,5 @@
 //! SemanticKITTI's tree: `sequences/NN/labels/000000.label`, and with the radars' data `velodyne/000000.bin`,
-//! `calib.txt`,
-//! `poses.txt` and `times.txt`, as semantic-kitti-api reads them.
+//! `calib.txt`, `poses.txt` and `times.txt`, as semantic-kitti-api reads them.
 //!
 //! A sequence of this tree is one radar of one sequence of the recording: frame n is scan n, point i its detection i,
 //! and nothing is moved in time. `sequences.csv` tells which is which.
