@@ -6,6 +6,7 @@ use super::floor::LocalGround;
 use super::lidar::LidarView;
 use super::located::{Detection, LocatedScan};
 use super::neighbouring::ScanStep;
+use super::strength::Strength;
 use crate::config::GroundConfig;
 use crate::sensors::{Radar, Rig};
 use crate::space::EgoMotion;
@@ -66,5 +67,10 @@ impl Frame<'_> {
     /// The range rates of the scan's detections; `None` where the radar measures none.
     pub fn doppler(&self) -> Option<Doppler> {
         Doppler::new(self.radar, &self.scan.measured, self.motion)
+    }
+
+    /// How strong the echoes of the scan's detections were; `None` where the radar doesn't measure it.
+    pub fn strength(&self) -> Option<Strength> {
+        Strength::new(self.radar, &self.scan.measured)
     }
 }

@@ -12,6 +12,7 @@ mod lidar_cloud;
 mod located;
 mod mismatch;
 mod neighbouring;
+mod strength;
 mod window;
 
 pub use association::{Association, index_of};
@@ -28,4 +29,5 @@ pub use lidar_cloud::LidarCloud;
 pub use located::{Detection, LocatedScan};
 pub use mismatch::{Reference, Spread, distance_per_mismatch, mismatch, plausibility};
 pub use neighbouring::{NeighbouringScan, ScanStep};
+pub use strength::Strength;
 pub use window::FrameWindow;
