@@ -12,6 +12,8 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 /// Scans that follow each other in time and are worked on with one window.
 const STRETCH: usize = 64;
+/// At most so many where evidence is asked for: each window then begins with seconds of LiDAR scans.
+const LONG_STRETCH: usize = 512;
 
 /// A scan of a radar, by their places in the rig and in the radar's timeline.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -26,6 +28,8 @@ pub(crate) struct Frames<'a> {
     /// With the settings' overrides.
     pub(crate) rig: &'a Rig,
     pub(crate) config: &'a Config,
+    /// Whether frames carry what evidence looks at.
+    pub(crate) evidence: bool,
     /// Threads.
     pub(crate) jobs: usize,
 }
@@ -44,10 +48,10 @@ impl Frames<'_> {
             let ScanIndex { radar, scan } = scans[*place];
             (times[radar][scan], radar, scan)
         });
-        let stretches: Vec<&[usize]> = order.chunks(STRETCH).collect();
+        let stretches: Vec<&[usize]> = order.chunks(self.stretch(scans.len())).collect();
         let stop = AtomicBool::new(false);
         let worked = side_by_side(&stretches, self.jobs, |stretch| {
-            let mut window = FrameWindow::new(self.reader, self.rig, self.config);
+            let mut window = self.window();
             let mut done = Vec::with_capacity(stretch.len());
             for place in stretch.iter().copied() {
                 // Another worker has failed, so that more work would be lost, too.
@@ -62,6 +66,15 @@ impl Frames<'_> {
         let mut done: Vec<(usize, R)> = worked.into_iter().flatten().collect();
         done.sort_by_key(|(place, _)| *place);
         Ok(done.into_iter().map(|(_, result)| result).collect())
+    }
+
+    fn stretch(&self, scans: usize) -> usize {
+        if self.evidence { (scans / self.jobs.max(1)).clamp(STRETCH, LONG_STRETCH) } else { STRETCH }
+    }
+
+    fn window(&self) -> FrameWindow<'_> {
+        let window = FrameWindow::new(self.reader, self.rig, self.config);
+        if self.evidence { window.with_evidence() } else { window }
     }
 }
 
