@@ -144,6 +144,10 @@ impl Writer<'_> {
         let rows = read.points.iter().zip(&read.intensity);
         let values = rows.flat_map(|([x, y, z], intensity)| [*x, *y, *z, *intensity]);
         files::write_whole(&folder.file(&Component::numbered(scan, "bin")), &files::f32_bytes(values))?;
+        if let Some(times) = read.times {
+            let times = files::f32_bytes(times.into_iter());
+            files::write_whole(&folder.file(&Component::numbered(scan, "time")), &times)?;
+        }
         let labels = match (self.reader.lidar_label_file(lidar, scan), read.classes) {
             (Some(label_file), _) => files::read(&label_file)?,
             (None, Some(classes)) => classes.iter().flat_map(|id| u32::from(*id).to_le_bytes()).collect(),
