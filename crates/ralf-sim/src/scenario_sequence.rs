@@ -140,6 +140,12 @@ impl Simulation for ScenarioSequence {
         &Cause::ALL[..=Cause::Noise as usize]
     }
 
+    fn remove_cameras(&mut self) {
+        self.sequence.rig.cameras.clear();
+        self.sequence.times.cameras.clear();
+        self.rays.clear();
+    }
+
     fn true_pose(&self, t_ns: i64) -> Transform {
         self.pose(START_NS).inv_mul(&self.pose(t_ns))
     }

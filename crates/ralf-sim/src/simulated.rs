@@ -34,6 +34,12 @@ impl SimulatedSequence {
         Self { inner: Box::new(simulation) }
     }
 
+    /// The same sequence from a vehicle without cameras: all other measurements are as they were.
+    pub fn without_cameras(mut self) -> Self {
+        self.inner.remove_cameras();
+        self
+    }
+
     /// What is true of each detection of a scan, in its order. The error names a scan that doesn't exist.
     pub fn truth(&self, radar: usize, scan: usize) -> Result<Vec<Truth>, SourceError> {
         self.inner.truth(radar, scan)

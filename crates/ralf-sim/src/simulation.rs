@@ -14,6 +14,9 @@ pub(super) trait Simulation: Source + Debug {
     /// The causes that it tells apart, by their numbers.
     fn causes(&self) -> &'static [Cause];
 
+    /// Takes the cameras off the vehicle; all other measurements stay as they are.
+    fn remove_cameras(&mut self);
+
     /// The vehicle's true pose, in its frame at the start.
     fn true_pose(&self, t_ns: i64) -> Transform;
 

@@ -144,6 +144,8 @@ fn lidars(family: &Family, seed: u64, random: &mut Random) -> Vec<LidarModel> {
     let layout = one_of(&layouts, random).unwrap_or_default();
     let period_ns = (1e9 / ranges.rate.draw(random)).round() as i64;
     let rolling = random.chance(ranges.rolling);
+    // Most drivers keep the times; data sets that are compensated often drop them.
+    let timed = rolling && random.chance(0.6);
     let optics = Optics {
         sigma: ranges.sigma.draw(random),
         lost: ranges.lost.draw(random),
@@ -161,6 +163,7 @@ fn lidars(family: &Family, seed: u64, random: &mut Random) -> Vec<LidarModel> {
             pattern: *pattern,
             period_ns,
             rolling,
+            timed,
             optics,
         });
     }

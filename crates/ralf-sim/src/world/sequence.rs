@@ -153,6 +153,8 @@ impl Simulation for WorldSequence {
         &Cause::ALL
     }
 
+    fn remove_cameras(&mut self) {}
+
     fn true_pose(&self, t_ns: i64) -> Transform {
         let pose = |t: f64| self.ride.pose(&self.site.terrain, t);
         pose(0.0).inv_mul(&pose(seconds(t_ns)))

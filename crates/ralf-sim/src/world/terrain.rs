@@ -110,11 +110,8 @@ impl Terrain {
         let p = ray.origin + ray.direction * at;
         let normal = self.ground.normal(p.x, p.y);
         let patch = self.patch(p.x, p.y);
-        let found = |distance: f64, normal: Vector| GroundHit {
-            distance,
-            normal,
-            reflectance: patch.reflectance,
-        };
+        let found =
+            |distance: f64, normal: Vector| GroundHit { distance, normal, reflectance: patch.reflectance };
         let above = patch.rise + self.pile(patch, &p);
         let down = (-ray.direction.dot(&normal)).max(1e-3);
         let raised = at - above / down;

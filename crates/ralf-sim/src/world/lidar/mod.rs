@@ -24,5 +24,7 @@ pub(crate) struct LidarModel {
     pub(crate) period_ns: i64,
     /// Whether its points are measured one after the other during the revolution.
     pub(crate) rolling: bool,
+    /// Whether it says when.
+    pub(crate) timed: bool,
     pub(crate) optics: Optics,
 }

@@ -35,6 +35,7 @@ pub(crate) fn scan(
     let pose_at = |seconds: f64| (sweep.site_from_vehicle)(seconds) * lidar.vehicle_from_lidar;
     let lidar_from_site = pose_at(sweep.seconds).inverse();
     let mut site_from_lidar = pose_at(sweep.seconds);
+    let mut times = Vec::new();
     for (step, azimuth) in azimuths.iter().enumerate() {
         if lidar.rolling && step % FIRINGS == 0 {
             let share = (step as f64 + 0.5 * FIRINGS as f64) / azimuths.len() as f64 - 0.5;
@@ -50,9 +51,11 @@ pub(crate) fn scan(
                 let place: Point = lidar_from_site * (ray.origin + direction * range);
                 scan.points.push([place.x as f32, place.y as f32, place.z as f32]);
                 scan.intensity.push(intensity as f32);
+                times.push((moment.seconds - sweep.seconds) as f32);
             }
         }
     }
+    scan.times = lidar.timed.then_some(times);
     scan
 }
 
