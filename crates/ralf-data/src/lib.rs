@@ -45,4 +45,4 @@ pub use read::{LayoutSequence, Recording, SequenceReader, TruthLabels, formats, 
 pub use settings::Settings;
 pub use training::{TrainingGatherer, TrainingTruth};
 pub use truth::{Causes, Corrections, GroundTruth, ScanId, scan_content};
-pub use write::{write_sequence, write_simulated};
+pub use write::{write_sequence, write_sequence_with, write_simulated};
