@@ -112,7 +112,7 @@ impl Task<'_> {
         if let TrainingTruth::Said(truth) = self.truth {
             scans.retain(|scan| truth.scans().contains(&self.id(*scan)));
         }
-        observer.begin(Stage::Matching(&sequence.name), scans.len() as u64);
+        observer.begin(Stage::Gathering(&sequence.name), scans.len() as u64);
         let frames = Frames { reader: self.reader, rig: &self.rig, config, evidence: true, jobs };
         let gathered = frames.each(&scans, |window, at| self.gather_scan(window, scans[at]));
         observer.end();
