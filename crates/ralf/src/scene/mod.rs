@@ -14,6 +14,7 @@ mod located;
 mod mismatch;
 mod neighbouring;
 mod neighbouring_detections;
+mod rays;
 mod window;
 
 pub use association::{Association, index_of};
@@ -32,4 +33,5 @@ pub use located::{Detection, LocatedScan};
 pub use mismatch::{Reference, Spread, distance_per_mismatch, mismatch, plausibility};
 pub use neighbouring::{NeighbouringScan, ScanStep};
 pub use neighbouring_detections::NeighbouringDetections;
+pub use rays::{Cone, RayTable, direction_of};
 pub use window::FrameWindow;
