@@ -15,6 +15,7 @@ mod mismatch;
 mod neighbouring;
 mod neighbouring_detections;
 mod rays;
+mod strength;
 mod window;
 
 pub use association::{Association, index_of};
@@ -34,4 +35,5 @@ pub use mismatch::{Reference, Spread, distance_per_mismatch, mismatch, plausibil
 pub use neighbouring::{NeighbouringScan, ScanStep};
 pub use neighbouring_detections::NeighbouringDetections;
 pub use rays::{Cone, RayTable, direction_of};
+pub use strength::Strength;
 pub use window::FrameWindow;
