@@ -3,6 +3,7 @@
 
 use super::ground::{Ground, GroundSurface};
 use super::mismatch::{Reference, Spread};
+use super::rays::RayTable;
 use crate::config::GroundConfig;
 use crate::sensors::{Lidar, LidarScan, Radar, is_return};
 use crate::space::{NeighborIndex, Point, Transform, Vector};
@@ -19,6 +20,14 @@ pub struct LidarSweep {
     pub sigma_range: f64,
     /// Identity of the scan's first point.
     first_id: usize,
+    rays: OnceLock<RayTable>,
+}
+
+impl LidarSweep {
+    /// The rays by their direction.
+    pub fn rays(&self) -> &RayTable {
+        self.rays.get_or_init(|| RayTable::new(&self.scan.points))
+    }
 }
 
 /// A ray that came back: where it began, where it went, and how far it came.
@@ -96,7 +105,8 @@ impl LidarSnapshot {
             let moment_from_lidar = moment_from_vehicle * lidar.vehicle_from_lidar;
             let first_id = points.len();
             points.extend(scan.points.iter().map(|p| moved_return(&moment_from_lidar, p)));
-            sweeps.push(LidarSweep { scan, moment_from_lidar, sigma_range: lidar.sigma_range, first_id });
+            let sigma_range = lidar.sigma_range;
+            sweeps.push(LidarSweep { scan, moment_from_lidar, sigma_range, first_id, rays: OnceLock::new() });
         }
         Self {
             t_ns,

@@ -14,6 +14,7 @@ mod located;
 mod mismatch;
 mod neighbouring;
 mod neighbouring_detections;
+mod rays;
 mod strength;
 mod window;
 
@@ -33,5 +34,6 @@ pub use located::{Detection, LocatedScan};
 pub use mismatch::{Reference, Spread, distance_per_mismatch, mismatch, plausibility};
 pub use neighbouring::{NeighbouringScan, ScanStep};
 pub use neighbouring_detections::NeighbouringDetections;
+pub use rays::{Cone, RayTable, direction_of};
 pub use strength::Strength;
 pub use window::FrameWindow;
