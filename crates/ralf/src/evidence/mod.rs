@@ -13,6 +13,7 @@ mod distance;
 mod doppler;
 mod echoes;
 mod geometry;
+mod ground;
 mod lidar_residual;
 mod ordered;
 mod persistence;
@@ -31,6 +32,7 @@ use crate::scene::Frame;
 /// Every piece of evidence, in the order of the columns.
 pub const PIECES: &[Piece] = &[
     lidar_residual::PIECE,
+    ground::PIECE,
     amplitude::PIECE,
     doppler::PIECE,
     persistence::PIECE,

@@ -25,7 +25,7 @@ pub use camera::{
 pub use doppler::Doppler;
 pub use floor::LocalGround;
 pub use frame::{Frame, Unreadable};
-pub use ground::{Ground, Plane};
+pub use ground::{Ground, GroundSurface, Plane};
 pub use lidar::{LidarRay, LidarSnapshot, LidarSweep, LidarView};
 pub use lidar_cloud::LidarCloud;
 pub use lidar_window::{LidarWindow, LidarWindowView};

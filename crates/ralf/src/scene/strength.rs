@@ -15,8 +15,8 @@ pub struct Strength {
 }
 
 impl Strength {
-    /// The strengths of a radar's scan, by the field that [`Radar::amplitude`] names. The radar equation gives the other
-    /// quantity: `power = cross_section - 40 log10(r / 1 m)`. `None` where the radar measures no strength.
+    /// The strengths of a radar's scan, by the field that [`Radar::amplitude`] names. The radar equation gives the
+    /// other quantity: `power = cross_section - 40 log10(r / 1 m)`. `None` where the radar measures no strength.
     pub fn new(radar: &Radar, scan: &RadarScan) -> Option<Self> {
         let field = radar.amplitude()?;
         let measured: Vec<f64> = scan.columns[field.column].iter().copied().map(f64::from).collect();
