@@ -132,7 +132,13 @@ impl Street {
             motion: EgoMotion::new(vec![standing], vec![]).expect("there is odometry"),
             depth_output: DepthOutput::Depth,
         };
-        let lidar = LidarScan { t_ns: middle, intensity: vec![0.0; points.len()], points, times: None, classes: None };
+        let lidar = LidarScan {
+            t_ns: middle,
+            intensity: vec![0.0; points.len()],
+            points,
+            times: None,
+            classes: None,
+        };
         Self { sequence, lidar, scans }
     }
 }

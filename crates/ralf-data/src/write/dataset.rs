@@ -6,6 +6,7 @@ use crate::error::DataError;
 use crate::read::SequenceReader;
 use crate::read::layout::raw::{DepthToml, SequenceToml};
 use crate::read::layout::{GROUND_TRUTH, SEQUENCES, rig, tables};
+use crate::read::recording::check_motion_corrected;
 use crate::result::{Component, OutFolder, SequenceNames, WriterLock, checked, refuse_links_out};
 use ralf::label::Cause;
 use ralf::sensors::{Sequence, SourceError};
@@ -23,6 +24,7 @@ pub fn write_sequence(
     progress: &dyn Fn(usize),
 ) -> Result<(), DataError> {
     let names = SequenceNames::new(reader.sequence())?;
+    check_motion_corrected(reader)?;
     let sequences = OutFolder::new(dataset).own(SEQUENCES);
     let folder = sequences.folder(&names.sequence);
     let folder = folder.path();

@@ -5,6 +5,7 @@ mod image;
 mod intrinsics;
 mod measurement;
 mod rig;
+mod rolling;
 mod source;
 mod undistort;
 mod view;

@@ -105,7 +105,13 @@ impl Source for Memory {
     fn lidar_scan(&self, lidar: usize, scan: usize) -> Result<LidarScan, SourceError> {
         let points = self.lidar_scans[lidar][scan].clone();
         let intensity = vec![0.0; points.len()];
-        Ok(LidarScan { t_ns: self.sequence.times.lidars[lidar][scan], points, times: None, intensity, classes: None })
+        Ok(LidarScan {
+            t_ns: self.sequence.times.lidars[lidar][scan],
+            points,
+            times: None,
+            intensity,
+            classes: None,
+        })
     }
 
     fn image(&self, _: usize, _: usize) -> Result<CameraImage, SourceError> {
