@@ -73,7 +73,7 @@ pub(crate) fn check_motion_corrected(reader: &dyn SequenceReader) -> Result<(), 
     if motion.is_known() {
         return Ok(());
     }
-    for (lidar, times) in times.lidars.iter().enumerate().filter(|(_, times)| !times.is_empty()) {
+    for (lidar, _) in times.lidars.iter().enumerate().filter(|(_, times)| !times.is_empty()) {
         let sensor = &rig.lidars[lidar].name;
         let rolling = reader.rolling_scan(lidar, 0).map_err(|error| DataError::Measurement {
             sensor: sensor.clone(),

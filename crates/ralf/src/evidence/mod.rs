@@ -7,6 +7,7 @@
 //!
 //! A new piece is a file of its own here, its line in [`PIECES`], and a row in `docs/evidence.md`.
 
+mod ground;
 mod lidar_residual;
 mod surroundings;
 
@@ -16,7 +17,7 @@ use crate::config::Config;
 use crate::scene::Frame;
 
 /// Every piece of evidence, in the order of the columns.
-pub const PIECES: &[Piece] = &[lidar_residual::PIECE];
+pub const PIECES: &[Piece] = &[lidar_residual::PIECE, ground::PIECE];
 
 /// What pieces of evidence can belong to. A sensor or circumstance that lacks takes whole groups away.
 pub const GROUPS: [&str; 12] = [

@@ -1,7 +1,7 @@
 //! The LiDAR scans of one moment: their rays, their ground and their reference cloud, shared by all radars that use
 //! them.
 
-use super::ground::Ground;
+use super::ground::{Ground, GroundSurface};
 use super::mismatch::{Reference, Spread};
 use crate::config::GroundConfig;
 use crate::sensors::{Lidar, LidarScan, Radar, is_return};
@@ -78,6 +78,7 @@ pub struct LidarSnapshot {
     /// Identities of the points that are not ground.
     above_ground: OnceLock<Vec<u32>>,
     index: OnceLock<NeighborIndex>,
+    lowest_points: OnceLock<Vec<[f32; 3]>>,
 }
 
 impl LidarSnapshot {
@@ -106,6 +107,7 @@ impl LidarSnapshot {
             ground: OnceLock::new(),
             above_ground: OnceLock::new(),
             index: OnceLock::new(),
+            lowest_points: OnceLock::new(),
         }
     }
 
@@ -117,6 +119,11 @@ impl LidarSnapshot {
     /// The ground, in the vehicle frame at the moment; `None` where there is none.
     pub fn ground(&self) -> Option<&Ground> {
         self.ground.get_or_init(|| Ground::fit(&self.points, &self.config, self.seed)).as_ref()
+    }
+
+    /// The lowest point of each cell of a grid, in the moment's frame, m: all that a [`GroundSurface`] needs.
+    pub fn lowest_points(&self) -> &[[f32; 3]] {
+        self.lowest_points.get_or_init(|| GroundSurface::lowest_points(&self.points))
     }
 
     /// Points above the ground for a radar that measures elevation, in the moment's frame: the reference cloud.
