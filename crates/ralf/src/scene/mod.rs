@@ -11,7 +11,9 @@ mod lidar;
 mod lidar_cloud;
 mod located;
 mod mismatch;
+mod mover;
 mod neighbouring;
+mod sight;
 mod window;
 
 pub use association::{Association, index_of};
@@ -19,7 +21,7 @@ pub use camera::{
     CalibratedImage, CalibratedView, Calibration, CameraPoint, Failure, ImageId, ImageView, ImageWithDepth,
     Seen, ViewReport, ViewState, calibrate, luminance, median, project_points,
 };
-pub use doppler::Doppler;
+pub use doppler::{Doppler, radar_velocity};
 pub use floor::LocalGround;
 pub use frame::{Frame, Unreadable};
 pub use ground::{Ground, Plane};
@@ -27,5 +29,7 @@ pub use lidar::{LidarRay, LidarSnapshot, LidarSweep, LidarView};
 pub use lidar_cloud::LidarCloud;
 pub use located::{Detection, LocatedScan};
 pub use mismatch::{Reference, Spread, distance_per_mismatch, mismatch, plausibility};
+pub use mover::Mover;
 pub use neighbouring::{NeighbouringScan, ScanStep};
+pub use sight::{Reach, Sight};
 pub use window::FrameWindow;
