@@ -43,4 +43,4 @@ pub use ralf_corrections::ContentHash;
 pub use read::{LayoutSequence, Recording, SequenceReader, TruthLabels, formats, open, open_with};
 pub use settings::Settings;
 pub use truth::{Causes, Corrections, GroundTruth, ScanId, scan_content};
-pub use write::{write_sequence, write_simulated};
+pub use write::{write_sequence, write_sequence_with, write_simulated};

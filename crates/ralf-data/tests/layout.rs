@@ -7,9 +7,9 @@ mod dataset;
 use dataset::{floats, tiny, write};
 use ralf::sensors::{DepthOutput, Intrinsics, Source};
 use ralf_data::{LayoutSequence, SequenceReader, write_sequence};
-use std::cell::RefCell;
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::sync::Mutex;
 
 #[test]
 fn units_and_values_are_as_the_file_says() {
@@ -46,9 +46,9 @@ fn a_conversion_keeps_everything() {
     let (_folder, path) = tiny();
     let out = tempfile::tempdir().unwrap();
     let reader = LayoutSequence::open(&path).unwrap();
-    let told = RefCell::new(vec![]);
-    write_sequence(&reader, out.path(), &|done| told.borrow_mut().push(done)).unwrap();
-    assert_eq!(told.into_inner(), (1..=9).collect::<Vec<_>>());
+    let told = Mutex::new(vec![]);
+    write_sequence(&reader, out.path(), &|done| told.lock().unwrap().push(done)).unwrap();
+    assert_eq!(told.into_inner().unwrap(), (1..=9).collect::<Vec<_>>());
     let copy = out.path().join("sequences/00");
     // Numbers start from 0 and have no gaps; line ends are one kind. All else is the same to the byte.
     for (from, to) in [

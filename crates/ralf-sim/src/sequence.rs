@@ -93,6 +93,14 @@ impl SimulatedSequence {
         Ok(Self { sequence, scenario: scenario.clone(), site, mirrors, path, seed, rays })
     }
 
+    /// The same sequence from a vehicle without cameras: all other measurements are as they were.
+    pub fn without_cameras(mut self) -> Self {
+        self.sequence.rig.cameras.clear();
+        self.sequence.times.cameras.clear();
+        self.rays.clear();
+        self
+    }
+
     /// What is true of each detection of a scan, in its order. The error names a scan that doesn't exist.
     pub fn truth(&self, radar: usize, scan: usize) -> Result<Vec<Truth>, SourceError> {
         Ok(self.detections(radar, scan)?.iter().map(|detection| detection.truth).collect())

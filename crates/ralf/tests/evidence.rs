@@ -6,7 +6,7 @@ mod support;
 
 use proptest::prelude::*;
 use ralf::config::Config;
-use ralf::evidence::{self, Column};
+use ralf::evidence::{self, Column, GROUPS};
 use ralf::paper::Labeler;
 use ralf::scene::FrameWindow;
 use ralf::sensors::Elevation;
@@ -20,7 +20,7 @@ fn config() -> Config {
 /// The evidence on the first scan.
 fn observe(memory: &Memory) -> Vec<Column> {
     let config = config();
-    let mut window = FrameWindow::new(memory, &memory.sequence.rig, &config);
+    let mut window = FrameWindow::new(memory, &memory.sequence.rig, &config).with_evidence();
     evidence::observe(&window.frame(0, 0).unwrap(), &config)
 }
 
@@ -95,6 +95,7 @@ fn every_column_has_a_name_of_its_own_and_is_documented() {
     let mut names = BTreeSet::new();
     for feature in evidence::features() {
         assert!(names.insert(feature.name), "{} twice", feature.name);
+        assert!(GROUPS.contains(&feature.group), "{} belongs to {}", feature.name, feature.group);
         assert!(feature.name.chars().all(|c| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_'));
         let row =
             format!("| `{}` | {} | {} | {} |", feature.name, feature.unit, feature.group, feature.meaning);

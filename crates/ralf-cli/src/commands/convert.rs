@@ -1,12 +1,13 @@
 //! `ralf convert`: another format into the project's own, or into a recording as ROS keeps it.
 
-use crate::arguments::{DatasetArgs, the_only};
+use crate::arguments::{DatasetArgs, the_only, threads};
 use crate::outcome::Outcome;
 use crate::progress::{Progress, say};
 use clap::Args;
-use ralf::sensors::{Sequence, Timelines};
+use ralf::sensors::Sequence;
 use ralf_data::Recording;
 use ralf_data::write::export::{RosFormat, write_ros};
+use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
 /// Arguments of `ralf convert`.
@@ -25,6 +26,9 @@ pub(crate) struct ConvertArgs {
     /// Folder of the dataset that is written, or an .mcap or .bag file
     #[arg(short, long, value_name = "PATH")]
     output: PathBuf,
+    /// Measurements side by side; as many as there are processors if not given. The files are the same for any number
+    #[arg(long, value_name = "N")]
+    jobs: Option<NonZeroUsize>,
 }
 
 /// Converts a recording.
@@ -33,10 +37,13 @@ pub(crate) fn run(arguments: &ConvertArgs) -> anyhow::Result<Outcome> {
     if let Some(format) = RosFormat::of_file(&arguments.output) {
         return as_ros(&recording, &arguments.output, format);
     }
+    let jobs = threads(arguments.jobs);
     for reader in &recording.sequences {
         let sequence = reader.sequence();
         let progress = shown(sequence);
-        ralf_data::write_sequence(reader.as_ref(), &arguments.output, &|done| progress.reached(done as u64))?;
+        ralf_data::write_sequence_with(reader.as_ref(), &arguments.output, jobs, &|done| {
+            progress.reached(done as u64);
+        })?;
         drop(progress);
         say(&format!("wrote {}", arguments.output.join("sequences").join(&sequence.name).display()));
     }
@@ -57,11 +64,5 @@ fn as_ros(recording: &Recording, file: &Path, format: RosFormat) -> anyhow::Resu
 }
 
 fn shown(sequence: &Sequence) -> Progress {
-    Progress::of_steps(measurements(&sequence.times), format!("converting {}", sequence.name))
-}
-
-/// How many measurements all sensors delivered.
-pub(crate) fn measurements(times: &Timelines) -> u64 {
-    let Timelines { radars, lidars, cameras } = times;
-    radars.iter().chain(lidars).chain(cameras).map(|times| times.len() as u64).sum()
+    Progress::of_steps(sequence.times.measurements() as u64, format!("converting {}", sequence.name))
 }

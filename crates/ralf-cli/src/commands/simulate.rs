@@ -1,6 +1,6 @@
 //! `ralf simulate`: a recording whose truth is known.
 
-use super::convert::measurements;
+use crate::arguments::threads;
 use crate::outcome::{Outcome, UsageError};
 use crate::progress::{Progress, say};
 use anyhow::Context;
@@ -11,6 +11,7 @@ use ralf_data::write_simulated;
 use ralf_files::Kind;
 use ralf_sim::presets::{self, Preset};
 use ralf_sim::{Scenario, SimulatedSequence};
+use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
 /// Scans of a scenario of one's own, where no number is given.
@@ -48,6 +49,12 @@ pub(crate) struct SimulateArgs {
     /// Of every random choice
     #[arg(long, default_value_t = 0, value_name = "S")]
     seed: u64,
+    /// No cameras: all other measurements are the same, and made ten times as fast
+    #[arg(long)]
+    no_images: bool,
+    /// Measurements side by side; as many as there are processors if not given. The files are the same for any number
+    #[arg(long, value_name = "N")]
+    jobs: Option<NonZeroUsize>,
     /// No progress
     #[arg(short, long)]
     quiet: bool,
@@ -55,13 +62,17 @@ pub(crate) struct SimulateArgs {
 
 /// Makes a recording.
 pub(crate) fn run(arguments: &SimulateArgs) -> anyhow::Result<Outcome> {
-    let sequences = match &arguments.scenario {
+    let mut sequences = match &arguments.scenario {
         Some(file) => vec![own(file, arguments)?],
         None => preset(arguments)?,
     };
-    let steps: u64 = sequences.iter().map(|sequence| measurements(&sequence.sequence().times)).sum();
+    if arguments.no_images {
+        sequences = sequences.into_iter().map(SimulatedSequence::without_cameras).collect();
+    }
+    let steps: u64 = sequences.iter().map(|sequence| sequence.sequence().times.measurements() as u64).sum();
     let progress = if arguments.quiet { Progress::hidden() } else { Progress::of_steps(steps, "simulating") };
-    write_simulated(&sequences, &arguments.output, &|measurements| progress.reached(measurements as u64))?;
+    let jobs = threads(arguments.jobs);
+    write_simulated(&sequences, &arguments.output, jobs, &|done| progress.reached(done as u64))?;
     drop(progress);
     for sequence in &sequences {
         let folder = arguments.output.join("sequences").join(&sequence.sequence().name);

@@ -21,7 +21,7 @@ pub(super) fn label_scans(
     let scans = all_scans(&task.reader.sequence().times);
     observer.begin(Stage::Labelling(&task.reader.sequence().name), scans.len() as u64);
     let labelling = Labelling { task, config, workspace };
-    let frames = Frames { reader: task.reader, rig: &task.rig, config, jobs };
+    let frames = Frames { reader: task.reader, rig: &task.rig, config, evidence: task.evidence, jobs };
     let labelled = frames.each(&scans, |window, place| {
         let ScanIndex { radar, scan } = scans[place];
         let labelled = labelling.label_scan(window, radar, scan)?;

@@ -31,6 +31,8 @@ pub struct Config {
     pub tracking: TrackingConfig,
     /// Fusion and label.
     pub fusion: FusionConfig,
+    /// What evidence looks at.
+    pub evidence: EvidenceConfig,
     /// By sensor name: what replaces the recording's own values.
     pub sensors: BTreeMap<String, SensorOverride>,
 }
@@ -46,14 +48,15 @@ struct Complete {
     camera: CameraConfig,
     tracking: TrackingConfig,
     fusion: FusionConfig,
+    evidence: EvidenceConfig,
     #[serde(default)]
     sensors: BTreeMap<String, SensorOverride>,
 }
 
 impl From<Complete> for Config {
     fn from(complete: Complete) -> Self {
-        let Complete { seed, sync, ground, lidar, camera, tracking, fusion, sensors } = complete;
-        Self { seed, sync, ground, lidar, camera, tracking, fusion, sensors }
+        let Complete { seed, sync, ground, lidar, camera, tracking, fusion, evidence, sensors } = complete;
+        Self { seed, sync, ground, lidar, camera, tracking, fusion, evidence, sensors }
     }
 }
 
@@ -115,9 +118,6 @@ pub struct LidarConfig {
     pub neighbours: usize,
     /// Also compare each detection with every point where its Doppler velocity takes it at the point's own time.
     pub dynamic: bool,
-    /// LiDAR scans before and after the nearest one that a frame carries besides it. The paper's method looks at the
-    /// nearest one alone.
-    pub window_scans: usize,
 }
 
 /// How relative depth becomes metric.
@@ -214,6 +214,20 @@ pub struct FusionConfig {
     pub threshold: f64,
 }
 
+/// `evidence`: what evidence looks at around a radar scan, beyond what the paper's method does.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct EvidenceConfig {
+    /// LiDAR scans so far before and after count, ms.
+    pub lidar_reach_ms: f64,
+    /// At most so many LiDAR scans, spread over that time.
+    pub lidar_scans: usize,
+    /// All radars' scans so far before and after count, ms.
+    pub radar_reach_ms: f64,
+    /// At most so many scans of each radar, the nearest in time.
+    pub radar_scans: usize,
+}
+
 macro_rules! defaults {
     ($($section:ident: $name:ty),*) => {
         $(impl Default for $name {
@@ -225,7 +239,7 @@ macro_rules! defaults {
 }
 defaults!(
     sync: SyncConfig, ground: GroundConfig, lidar: LidarConfig, camera: CameraConfig, tracking: TrackingConfig,
-    fusion: FusionConfig
+    fusion: FusionConfig, evidence: EvidenceConfig
 );
 
 impl Default for Config {

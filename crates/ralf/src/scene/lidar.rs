@@ -1,7 +1,7 @@
 //! The LiDAR scans of one moment: their rays, their ground and their reference cloud, shared by all radars that use
 //! them.
 
-use super::ground::Ground;
+use super::ground::{Ground, GroundSurface};
 use super::mismatch::{Reference, Spread};
 use crate::config::GroundConfig;
 use crate::sensors::{Lidar, LidarScan, Radar, is_return};
@@ -93,6 +93,7 @@ pub struct LidarSnapshot {
     index: OnceLock<NeighborIndex>,
     /// From the moment to the first and the last point, s.
     span: OnceLock<Range<f64>>,
+    lowest_points: OnceLock<Vec<[f32; 3]>>,
 }
 
 impl LidarSnapshot {
@@ -122,6 +123,7 @@ impl LidarSnapshot {
             above_ground: OnceLock::new(),
             index: OnceLock::new(),
             span: OnceLock::new(),
+            lowest_points: OnceLock::new(),
         }
     }
 
@@ -133,6 +135,11 @@ impl LidarSnapshot {
     /// The ground, in the vehicle frame at the moment; `None` where there is none.
     pub fn ground(&self) -> Option<&Ground> {
         self.ground.get_or_init(|| Ground::fit(&self.points, &self.config, self.seed)).as_ref()
+    }
+
+    /// The lowest point of each cell of a grid, in the moment's frame, m: all that a [`GroundSurface`] needs.
+    pub fn lowest_points(&self) -> &[[f32; 3]] {
+        self.lowest_points.get_or_init(|| GroundSurface::lowest_points(&self.points))
     }
 
     /// Points above the ground for a radar that measures elevation, in the moment's frame: the reference cloud.
