@@ -82,6 +82,8 @@ pub enum GroundModel {
     Plane,
     /// A plane per concentric sector.
     Polar,
+    /// A surface that follows slopes, ramps and kerbs.
+    Local,
 }
 
 /// `ground`: the ground, and what lies on it.
