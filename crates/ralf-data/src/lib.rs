@@ -25,6 +25,7 @@ mod evidence;
 mod frames;
 pub mod judge;
 pub mod read;
+pub mod realism;
 pub mod result;
 pub mod run;
 mod settings;

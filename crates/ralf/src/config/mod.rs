@@ -120,6 +120,8 @@ pub enum GroundModel {
     Plane,
     /// A plane per concentric sector.
     Polar,
+    /// A surface that follows slopes, ramps and kerbs.
+    Local,
 }
 
 /// `ground`: the ground, and what lies on it.
@@ -154,6 +156,8 @@ pub struct LidarConfig {
     pub beta: f64,
     /// `K`.
     pub neighbours: usize,
+    /// Also compare each detection with every point where its Doppler velocity takes it at the point's own time.
+    pub dynamic: bool,
 }
 
 /// How relative depth becomes metric.
@@ -228,6 +232,14 @@ pub struct TrackingConfig {
     pub sources: TrackingSources,
     /// Also try each detection where its Doppler velocity takes it.
     pub dynamic: bool,
+    /// Doppler-consistent tracking: each detection is sought where its Doppler velocity takes it alone, among those
+    /// whose Doppler velocity agrees, in the scans that could have seen it there. Then `dynamic` says nothing.
+    pub doppler: bool,
+    /// Compensated Doppler velocities that differ by no more agree, m/s.
+    pub doppler_tolerance: f64,
+    /// With `doppler`: the share of the scans that could have seen a detection whose mismatches count, the smallest
+    /// ones.
+    pub quorum: f64,
     /// Two scans in a row farther apart than this end the batch, ms.
     pub max_gap_ms: f64,
 }
