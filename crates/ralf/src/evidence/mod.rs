@@ -8,6 +8,7 @@
 //! A new piece is a file of its own here, its line in [`PIECES`], and a row in `docs/evidence.md`.
 
 mod amplitude;
+mod camera;
 mod context;
 mod distance;
 mod doppler;
@@ -36,6 +37,7 @@ pub const PIECES: &[Piece] = &[
     amplitude::PIECE,
     doppler::PIECE,
     persistence::PIECE,
+    camera::PIECE,
     context::PIECE,
     geometry::PIECE,
 ];
