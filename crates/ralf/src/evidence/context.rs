@@ -1,0 +1,116 @@
+//! A detection among those of its scan: how crowded it is there, and which stronger echoes could have made it.
+//!
+//! Strong echoes cast others. What lies behind one at its azimuth may be a path that took a turn, or the echo that went
+//! to and fro twice and so lies twice as far; what lies beside one at its range and range rate may be a side lobe.
+
+use super::echoes::Echoes;
+use super::statistics::ranks;
+use super::{Feature, Piece, Surroundings, Values};
+use crate::scene::Detection;
+
+pub(super) const PIECE: Piece = Piece {
+    features: &[
+        feature(
+            "context_density",
+            "1",
+            "how many of the scan's other detections lie within 3 m, seen from above",
+        ),
+        feature(
+            "context_density_rank",
+            "1",
+            "share of the scan's other detections that have fewer within 3 m",
+        ),
+        feature(
+            "context_density_around",
+            "1",
+            "how many detections of all radars' scans around lie within 1.5 m, seen from above, per scan",
+        ),
+        feature(
+            "context_before",
+            "1",
+            "how many detections of the scan lie before it at its azimuth and have a larger cross-section",
+        ),
+        feature("context_before_distance", "m", "distance along the ray from the nearest of these"),
+        feature(
+            "context_double_bounce",
+            "sigma",
+            "distance of its range from twice that of one of these, of which the least",
+        ),
+        feature(
+            "context_beside_rank",
+            "1",
+            "share of the scan's other detections at its range whose power is smaller",
+        ),
+        feature(
+            "context_beside_angle",
+            "deg",
+            "angle to the nearest detection of the scan at its range that has more power",
+        ),
+        feature(
+            "context_side_lobe",
+            "dB",
+            "by how much the strongest detection of the scan at its range and range rate, but at another azimuth, has \
+             more power",
+        ),
+    ],
+    observe,
+};
+
+/// Own detections within this make a place crowded, m.
+const CROWD: f64 = 3.0;
+/// Detections around within this lie on the same thing, m.
+const NEAR: f64 = 1.5;
+
+const fn feature(name: &'static str, unit: &'static str, meaning: &'static str) -> Feature {
+    Feature { name, unit, group: "Context", meaning }
+}
+
+fn observe(surroundings: &Surroundings) -> Vec<Values> {
+    let frame = surroundings.frame;
+    let crowd = crowd(surroundings);
+    let crowd_ranks = ranks(&crowd);
+    let echoes = Echoes::new(surroundings);
+    let mut columns = vec![Vec::with_capacity(frame.scan.len()); PIECE.features.len()];
+    for (i, detection) in frame.scan.detections.iter().enumerate() {
+        let before = echoes.as_ref().map(|echoes| echoes.before(i)).unwrap_or_default();
+        let beside = echoes.as_ref().map(|echoes| echoes.beside(i)).unwrap_or_default();
+        let values = [
+            Some(crowd[i]).filter(|crowd| crowd.is_finite()),
+            crowd_ranks[i],
+            detection.as_ref().and_then(|detection| density_around(surroundings, detection)),
+            before.count,
+            before.distance,
+            before.double_bounce,
+            beside.rank,
+            beside.angle,
+            beside.side_lobe,
+        ];
+        for (column, value) in columns.iter_mut().zip(values) {
+            column.push(value);
+        }
+    }
+    columns
+}
+
+/// How many others of the scan lie near each detection; NaN for one without a place.
+fn crowd(surroundings: &Surroundings) -> Vec<f64> {
+    let mut near = Vec::new();
+    let mut crowd = Vec::with_capacity(surroundings.frame.scan.len());
+    for detection in &surroundings.frame.scan.detections {
+        let others = detection.as_ref().map(|detection| {
+            surroundings.beside(&detection.position, CROWD, &mut near);
+            near.len() as f64 - 1.0
+        });
+        crowd.push(others.unwrap_or(f64::NAN));
+    }
+    crowd
+}
+
+/// How many detections of each scan around lie near; `None` without scans around.
+fn density_around(surroundings: &Surroundings, detection: &Detection) -> Option<f64> {
+    let around = surroundings.neighbours();
+    let mut near = Vec::new();
+    around.index.beside([detection.position.x as f32, detection.position.y as f32], NEAR as f32, &mut near);
+    let scans = around.radars.len();
+    (scans > 0).then(|| near.len() as f64 / scans as f64)
+}
