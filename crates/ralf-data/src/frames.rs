@@ -87,8 +87,11 @@ pub(crate) fn all_scans(times: &Timelines) -> Vec<ScanIndex> {
     scans
 }
 
-/// Works on all items, several at a time. Results are in the items' order. An error ends the work; of several it is that
-/// of the first item, whatever the number of jobs.
+/// What one worker did: a result for each item it took, or the item that failed and why.
+type Worked<R, E> = Result<Vec<(usize, R)>, (usize, E)>;
+
+/// Works on all items, several at a time. Results are in the items' order. An error ends the work; of several it is
+/// that of the first item, whatever the number of jobs.
 pub(crate) fn side_by_side<T: Sync, R: Send, E: Send>(
     items: &[T],
     jobs: usize,
@@ -110,7 +113,7 @@ pub(crate) fn side_by_side<T: Sync, R: Send, E: Send>(
             }
         }
     };
-    let results: Vec<Result<Vec<(usize, R)>, (usize, E)>> = std::thread::scope(|scope| {
+    let results: Vec<Worked<R, E>> = std::thread::scope(|scope| {
         let workers: Vec<_> = (0..jobs.clamp(1, items.len().max(1))).map(|_| scope.spawn(work_off)).collect();
         let joined =
             workers.into_iter().map(|w| w.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)));

@@ -4,6 +4,7 @@ use crate::disk::{files, npy};
 use crate::error::DataError;
 use crate::read::{MotionSource, Recording, SequenceReader, TruthLabels};
 use crate::result::{Component, OutFolder, SequenceNames, WriterLock};
+use ralf::label::Cause;
 use ralf::sensors::{
     CameraImage, DepthImage, DepthOutput, LidarScan, RadarScan, Sequence, Source, SourceError,
 };
@@ -186,6 +187,10 @@ impl SequenceReader for WithDepth {
 
     fn truth(&self, radar: usize, scan: usize) -> Result<Option<TruthLabels>, SourceError> {
         self.inner.truth(radar, scan)
+    }
+
+    fn causes(&self) -> &'static [Cause] {
+        self.inner.causes()
     }
 
     fn truth_file(&self, radar: usize, scan: usize) -> Option<PathBuf> {

@@ -3,6 +3,7 @@
 use crate::disk::label_file::Label;
 use crate::error::DataError;
 use crate::read::corrections::MotionSource;
+use ralf::label::Cause;
 use ralf::sensors::{Source, SourceError};
 use std::any::Any;
 use std::path::PathBuf;
@@ -47,6 +48,11 @@ pub trait SequenceReader: Source {
     /// The truth of a radar's scan where it is known without a file.
     fn truth(&self, _radar: usize, _scan: usize) -> Result<Option<TruthLabels>, SourceError> {
         Ok(None)
+    }
+
+    /// The causes of artifacts that this truth tells apart, by their numbers.
+    fn causes(&self) -> &'static [Cause] {
+        &[]
     }
 }
 

@@ -7,16 +7,21 @@
 //!
 //! A new piece is a file of its own here, its line in [`PIECES`], and a row in `docs/evidence.md`.
 
+mod columns;
+mod ground;
+mod lidar_rays;
 mod lidar_residual;
+mod probe;
 mod surroundings;
 
+pub use probe::Probe;
 pub use surroundings::Surroundings;
 
 use crate::config::Config;
 use crate::scene::Frame;
 
 /// Every piece of evidence, in the order of the columns.
-pub const PIECES: &[Piece] = &[lidar_residual::PIECE];
+pub const PIECES: &[Piece] = &[lidar_residual::PIECE, ground::PIECE, lidar_rays::PIECE];
 
 /// What pieces of evidence can belong to. A sensor or circumstance that lacks takes whole groups away.
 pub const GROUPS: [&str; 12] = [

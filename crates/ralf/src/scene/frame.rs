@@ -7,6 +7,7 @@ use super::lidar::LidarView;
 use super::lidar_window::LidarWindowView;
 use super::located::{Detection, LocatedScan};
 use super::neighbouring::{NeighbouringScan, ScanStep};
+use super::strength::Strength;
 use crate::config::GroundConfig;
 use crate::sensors::{Radar, Rig};
 use crate::space::EgoMotion;
@@ -70,5 +71,20 @@ impl Frame<'_> {
     /// The range rates of the scan's detections; `None` where the radar measures none.
     pub fn doppler(&self) -> Option<Doppler> {
         Doppler::new(self.radar, &self.scan.measured, self.motion)
+    }
+
+    /// The scans of the `radar_window` that the same radar made.
+    pub fn own_scans_around(&self) -> impl Iterator<Item = &NeighbouringScan> {
+        self.radar_window.iter().filter(|neighbour| self.is_own(neighbour.radar))
+    }
+
+    /// Whether a radar, by its place in the rig, is the one that made the scan.
+    pub fn is_own(&self, radar: usize) -> bool {
+        self.rig.radars[radar].name == self.radar.name
+    }
+
+    /// How strong the echoes of the scan's detections were; `None` where the radar doesn't measure it.
+    pub fn strength(&self) -> Option<Strength> {
+        Strength::new(self.radar, &self.scan.measured)
     }
 }

@@ -1,8 +1,9 @@
 //! The LiDAR scans of one moment: their rays, their ground and their reference cloud, shared by all radars that use
 //! them.
 
-use super::ground::Ground;
+use super::ground::{Ground, GroundSurface};
 use super::mismatch::{Reference, Spread};
+use super::rays::RayTable;
 use crate::config::GroundConfig;
 use crate::sensors::{Lidar, LidarScan, Radar, is_return};
 use crate::space::{NeighborIndex, Point, Transform, Vector};
@@ -19,6 +20,14 @@ pub struct LidarSweep {
     pub sigma_range: f64,
     /// Identity of the scan's first point.
     first_id: usize,
+    rays: OnceLock<RayTable>,
+}
+
+impl LidarSweep {
+    /// The rays by their direction.
+    pub fn rays(&self) -> &RayTable {
+        self.rays.get_or_init(|| RayTable::new(&self.scan.points))
+    }
 }
 
 /// A ray that came back: where it began, where it went, and how far it came.
@@ -78,6 +87,7 @@ pub struct LidarSnapshot {
     /// Identities of the points that are not ground.
     above_ground: OnceLock<Vec<u32>>,
     index: OnceLock<NeighborIndex>,
+    lowest_points: OnceLock<Vec<[f32; 3]>>,
 }
 
 impl LidarSnapshot {
@@ -95,7 +105,8 @@ impl LidarSnapshot {
             let moment_from_lidar = moment_from_vehicle * lidar.vehicle_from_lidar;
             let first_id = points.len();
             points.extend(scan.points.iter().map(|p| moved_return(&moment_from_lidar, p)));
-            sweeps.push(LidarSweep { scan, moment_from_lidar, sigma_range: lidar.sigma_range, first_id });
+            let sigma_range = lidar.sigma_range;
+            sweeps.push(LidarSweep { scan, moment_from_lidar, sigma_range, first_id, rays: OnceLock::new() });
         }
         Self {
             t_ns,
@@ -106,6 +117,7 @@ impl LidarSnapshot {
             ground: OnceLock::new(),
             above_ground: OnceLock::new(),
             index: OnceLock::new(),
+            lowest_points: OnceLock::new(),
         }
     }
 
@@ -117,6 +129,11 @@ impl LidarSnapshot {
     /// The ground, in the vehicle frame at the moment; `None` where there is none.
     pub fn ground(&self) -> Option<&Ground> {
         self.ground.get_or_init(|| Ground::fit(&self.points, &self.config, self.seed)).as_ref()
+    }
+
+    /// The lowest point of each cell of a grid, in the moment's frame, m: all that a [`GroundSurface`] needs.
+    pub fn lowest_points(&self) -> &[[f32; 3]] {
+        self.lowest_points.get_or_init(|| GroundSurface::lowest_points(&self.points))
     }
 
     /// Points above the ground for a radar that measures elevation, in the moment's frame: the reference cloud.

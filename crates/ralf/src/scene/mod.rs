@@ -14,6 +14,8 @@ mod located;
 mod mismatch;
 mod neighbouring;
 mod neighbouring_detections;
+mod rays;
+mod strength;
 mod window;
 
 pub use association::{Association, index_of};
@@ -24,7 +26,7 @@ pub use camera::{
 pub use doppler::Doppler;
 pub use floor::LocalGround;
 pub use frame::{Frame, Unreadable};
-pub use ground::{Ground, Plane};
+pub use ground::{Ground, GroundSurface, Plane};
 pub use lidar::{LidarRay, LidarSnapshot, LidarSweep, LidarView};
 pub use lidar_cloud::LidarCloud;
 pub use lidar_window::{LidarWindow, LidarWindowView};
@@ -32,4 +34,6 @@ pub use located::{Detection, LocatedScan};
 pub use mismatch::{Reference, Spread, distance_per_mismatch, mismatch, plausibility};
 pub use neighbouring::{NeighbouringScan, ScanStep};
 pub use neighbouring_detections::NeighbouringDetections;
+pub use rays::{Cone, RayTable, direction_of};
+pub use strength::Strength;
 pub use window::FrameWindow;

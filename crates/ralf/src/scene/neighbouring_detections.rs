@@ -18,8 +18,6 @@ pub struct NeighbouringDetections {
     pub rows: Vec<u32>,
     /// How fast it recedes from its radar, without the radar's own motion, m/s; NaN where that was not measured.
     pub doppler: Vec<f64>,
-    /// Radar cross section as recorded, dBsm; NaN where the radar gives none.
-    pub rcs: Vec<f64>,
     /// Of the detections' positions; an identity is a place in these lists. Horizontal where the frame's radar measures
     /// no elevation.
     pub index: NeighborIndex,
@@ -33,26 +31,24 @@ impl NeighbouringDetections {
     /// The detections around a frame's scan.
     pub fn around(frame: &Frame) -> Self {
         let (mut detections, mut scans, mut rows) = (Vec::new(), Vec::new(), Vec::new());
-        let (mut doppler, mut rcs) = (Vec::new(), Vec::new());
+        let mut doppler = Vec::new();
         for (scan, neighbour) in (0u32..).zip(&frame.radar_window) {
             let radar = &frame.rig.radars[neighbour.radar];
             let measured = &neighbour.scan.measured;
             let rates = Doppler::new(radar, measured, frame.motion);
-            let cross_sections = radar.column("rcs").map(|column| &measured.columns[column]);
             for (row, detection) in neighbour.scan.detections.iter().enumerate() {
                 let Some(detection) = detection else { continue };
                 detections.push(detection.moved(&neighbour.vehicle_from_scan));
                 scans.push(scan);
                 rows.push(row as u32);
                 doppler.push(rates.as_ref().map_or(f64::NAN, |rates| rates.compensated[row]));
-                rcs.push(cross_sections.map_or(f64::NAN, |column| f64::from(column[row])));
             }
         }
         let index = index_of(detections.iter().map(|detection| &detection.position), frame.radar.elevation);
         let radars = frame.radar_window.iter().map(|neighbour| neighbour.radar).collect();
         let after = |t_ns: i64| (t_ns - frame.scan.t_ns()) as f64 * 1e-9;
         let seconds = frame.radar_window.iter().map(|neighbour| after(neighbour.scan.t_ns())).collect();
-        Self { detections, scans, rows, doppler, rcs, index, radars, seconds }
+        Self { detections, scans, rows, doppler, index, radars, seconds }
     }
 
     /// How many detections.

@@ -1,5 +1,6 @@
 //! The sensors of a vehicle, how they are mounted, what they deliver, and where that comes from.
 
+mod amplitude;
 mod camera;
 mod image;
 mod intrinsics;
@@ -9,6 +10,7 @@ mod source;
 mod undistort;
 mod view;
 
+pub use amplitude::{AmplitudeField, AmplitudeKind};
 pub use camera::Camera;
 pub use image::{CameraImage, DepthImage, DepthOutput};
 pub use intrinsics::Intrinsics;

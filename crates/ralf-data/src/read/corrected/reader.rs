@@ -2,6 +2,7 @@
 
 use crate::read::corrections::{MotionSource, SensorCorrection};
 use crate::read::recording::{SequenceReader, TruthLabels};
+use ralf::label::Cause;
 use ralf::sensors::{CameraImage, DepthImage, LidarScan, RadarScan, Sequence, Source, SourceError};
 use ralf::space::EgoMotion;
 use std::any::Any;
@@ -128,6 +129,10 @@ impl SequenceReader for Corrected {
 
     fn truth(&self, radar: usize, scan: usize) -> Result<Option<TruthLabels>, SourceError> {
         self.inner.truth(radar, scan)
+    }
+
+    fn causes(&self) -> &'static [Cause] {
+        self.inner.causes()
     }
 
     fn motion_source(&self) -> MotionSource {

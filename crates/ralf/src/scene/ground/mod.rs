@@ -1,9 +1,11 @@
 //! The ground under the vehicle (docs/method.md, sections 4 and 13).
 
+mod local;
 mod plane;
 mod polar;
 mod ransac;
 
+pub use local::GroundSurface;
 pub use plane::Plane;
 
 use crate::config::{GroundConfig, GroundModel};

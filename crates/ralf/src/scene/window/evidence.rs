@@ -9,8 +9,8 @@ use crate::space::{Recent, sync};
 use std::sync::Arc;
 
 impl FrameWindow<'_> {
-    /// The same window, whose frames carry what evidence looks at: the settings `evidence` say how much. For the paper's
-    /// method nothing changes.
+    /// The same window, whose frames carry what evidence looks at: the settings `evidence` say how much. For the
+    /// paper's method nothing changes.
     pub fn with_evidence(mut self) -> Self {
         self.evidence = true;
         let settings = &self.config.evidence;
