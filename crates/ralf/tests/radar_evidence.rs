@@ -200,24 +200,27 @@ fn context_by_hand() {
     let scan = vec![
         row([10.0, 0.0], 0.0, 20.0),
         row([20.5, 0.0], 0.0, 5.0),
-        row([15.0, 0.0], 0.0, 0.0),
+        row([14.5, 0.0], 0.0, 0.0),
         row(degrees(10.0, 30.0), 0.1, -5.0),
         row(degrees(10.0, 31.0), 9.0, -8.0),
         NO_PLACE,
     ];
     let found = observe(&drive(vec![(front(), vec![(0, scan)])]), 0);
-    close(&column(&found, "context_density"), &[Some(0.0), Some(0.0), Some(0.0), Some(1.0), Some(1.0), None]);
     let crowded = [0.25, 0.25, 0.25, 0.875, 0.875].map(Some);
     close(&column(&found, "context_density_rank")[..5], &crowded);
+    // The second is alone within 5 m of range; of 0, 0, 1 and 1 others the median of the logarithms is that of sqrt(2).
+    let half = 0.5 * 2f64.ln();
+    let over_ring = [-half, 0.0, -half, half, half].map(Some);
+    close(&column(&found, "context_density_over_ring")[..5], &over_ring);
     close(&column(&found, "context_density_around"), &[None; 6]);
     // Behind the first lie the second and the third; before the second lies the third, which is weaker.
     close(&column(&found, "context_before")[..5], &[0.0, 1.0, 1.0, 0.0, 0.0].map(Some));
-    close(&column(&found, "context_before_distance"), &[None, Some(10.5), Some(5.0), None, None, None]);
-    // 20.5 - 2 * 10 and 15 - 2 * 10, of a variance of 5 * (0.09 + 0.01).
+    close(&column(&found, "context_before_distance"), &[None, Some(10.5), Some(4.5), None, None, None]);
+    // 20.5 - 2 * 10 and 14.5 - 2 * 10, of a variance of 5 * (0.09 + 0.01).
     let sigma = 0.5f64.sqrt();
     close(
         &column(&found, "context_double_bounce"),
-        &[None, Some(0.5 / sigma), Some(5.0 / sigma), None, None, None],
+        &[None, Some(0.5 / sigma), Some(5.5 / sigma), None, None, None],
     );
     // Three at 10 m.
     close(&column(&found, "context_beside_rank"), &[Some(1.0), None, None, Some(0.5), Some(0.0), None]);

@@ -8,6 +8,7 @@
 //! A new piece is a file of its own here, its line in [`PIECES`], and a row in `docs/evidence.md`.
 
 mod amplitude;
+mod camera;
 mod columns;
 mod context;
 mod distance;
@@ -41,6 +42,7 @@ pub const PIECES: &[Piece] = &[
     amplitude::PIECE,
     doppler::PIECE,
     persistence::PIECE,
+    camera::PIECE,
     context::PIECE,
     geometry::PIECE,
 ];
