@@ -33,7 +33,7 @@ pub use lidar::{LidarRay, LidarSnapshot, LidarSweep, LidarView};
 pub use lidar_cloud::LidarCloud;
 pub use lidar_window::{LidarWindow, LidarWindowView};
 pub use located::{Detection, LocatedScan};
-pub use mismatch::{Reference, Spread, distance_per_mismatch, mismatch, plausibility};
+pub use mismatch::{Reference, Spread, mismatch, plausibility, reach_of_cap};
 pub use mover::Mover;
 pub use neighbouring::{NeighbouringScan, ScanStep};
 pub use neighbouring_detections::NeighbouringDetections;
