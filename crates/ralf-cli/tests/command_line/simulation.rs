@@ -46,7 +46,9 @@ fn a_simulated_recording_is_compared_with_another_one() {
     for part in ["How real is", "to the next LiDAR point", "Kolmogorov-Smirnov", "</svg>"] {
         assert!(html.contains(part), "the page lacks {part}");
     }
-    assert!(!html.contains("http://") && !html.contains("https://"), "the page needs a network");
+    for loaded in ["src=\"http", "href=\"http", "url(http", "@import"] {
+        assert!(!html.contains(loaded), "the page needs a network: {loaded}");
+    }
 
     let other = ["simulate", "--compare", &made, "--preset", "tiny", "--seed", "4", "--json"];
     let figures = ralf(other).exits(0).json();
