@@ -103,9 +103,9 @@ fn everything_moves_with_the_vehicle() {
 
 #[test]
 fn a_detection_without_a_place_keeps_its_row() {
-    let nan = vec![[f32::NAN, 0.0, 0.0], [10.0, 0.0, 2.0], [1.0, f32::INFINITY, 0.0]];
+    let nan = [[f32::NAN, 0.0, 0.0], [10.0, 0.0, 2.0], [1.0, f32::INFINITY, 0.0]].map(Vec::from);
     let mut memory = small();
-    memory.radar_scans[0][0] = Some(nan.clone());
+    memory.radar_scans[0][0] = Some(nan.to_vec());
     let labels = memory.label(&config(&[]), 0, 0);
     assert_eq!(labels.len(), 3);
     for i in [0, 2] {
@@ -114,7 +114,7 @@ fn a_detection_without_a_place_keeps_its_row() {
     }
     close(labels[1].d_lm, 1.66909);
     // Nor is it a reference: the other scan finds the one with a place.
-    memory.radar_scans[0][0] = Some(vec![nan[0]]);
+    memory.radar_scans[0][0] = Some(vec![nan[0].clone()]);
     assert_eq!(memory.label(&config(&[]), 0, 1)[0].d_tr, Some(20.0), "a scan that saw nothing gives the cap");
 }
 

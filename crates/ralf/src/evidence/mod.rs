@@ -7,11 +7,25 @@
 //!
 //! A new piece is a file of its own here, its line in [`PIECES`], and a row in `docs/evidence.md`.
 
+mod amplitude;
+mod camera;
 mod columns;
+mod context;
+mod distance;
+mod doppler;
+mod echoes;
+mod geometry;
 mod ground;
 mod lidar_rays;
 mod lidar_residual;
+mod ordered;
+mod persistence;
 mod probe;
+mod rates;
+mod recurrence;
+mod sensor_frame;
+mod sight;
+mod statistics;
 mod surroundings;
 
 pub use probe::Probe;
@@ -21,7 +35,17 @@ use crate::config::Config;
 use crate::scene::Frame;
 
 /// Every piece of evidence, in the order of the columns.
-pub const PIECES: &[Piece] = &[lidar_residual::PIECE, ground::PIECE, lidar_rays::PIECE];
+pub const PIECES: &[Piece] = &[
+    lidar_residual::PIECE,
+    ground::PIECE,
+    lidar_rays::PIECE,
+    amplitude::PIECE,
+    doppler::PIECE,
+    persistence::PIECE,
+    camera::PIECE,
+    context::PIECE,
+    geometry::PIECE,
+];
 
 /// What pieces of evidence can belong to. A sensor or circumstance that lacks takes whole groups away.
 pub const GROUPS: [&str; 12] = [
