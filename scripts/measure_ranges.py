@@ -45,9 +45,9 @@ def main():
     print("| --- |" + " --- |" * len(recordings))
     scans = " | ".join(f"{one['radar_scans']} / {one['lidar_scans']}" for one in found)
     print(f"| radar / LiDAR scans looked at | {scans} |")
-    for name, first in found[0]["quantities"].items():
-        unit = f", {first['unit']}" if first["unit"] else ""
-        print(f"| {name}{unit} | " + " | ".join(cell(one["quantities"][name]) for one in found) + " |")
+    for row in zip(*(one["quantities"] for one in found)):
+        unit = f", {row[0]['unit']}" if row[0]["unit"] else ""
+        print(f"| {row[0]['name']}{unit} | " + " | ".join(cell(quantity) for quantity in row) + " |")
 
 
 if __name__ == "__main__":

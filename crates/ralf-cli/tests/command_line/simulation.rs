@@ -57,6 +57,11 @@ fn a_simulated_recording_is_compared_with_another_one() {
     assert!((0.005..0.4).contains(&distance), "another seed of the same world: {distance}");
     assert_eq!(figures["realism"]["quantities"][1]["name"], "range");
 
+    let alone = ralf(["inspect", &made, "--distributions", "--json"]).exits(0).json();
+    assert_eq!(alone["quantities"][1]["summary"], figures["realism"]["quantities"][1]["real"]);
+    ralf(["inspect", &made, "--distributions"]).exits(0).prints(["radar scans", "persistence, share"]);
+    ralf(["inspect", &made, "--distributions", "--quick"]).exits(2).says(["--quick"]);
+
     ralf(["simulate", "--with", &made]).exits(2).says(["--compare"]);
     ralf(["simulate", "--compare", &made, "--with", &made, "--seed", "1"]).exits(2).says(["--seed"]);
     ralf(["simulate", "--compare", "nowhere"]).exits(1).says(["nowhere"]);
