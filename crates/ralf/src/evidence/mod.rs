@@ -9,10 +9,13 @@
 
 mod columns;
 mod ground;
+mod lidar_map;
 mod lidar_rays;
 mod lidar_residual;
+mod line_of_sight;
 mod probe;
 mod surroundings;
+mod terrain;
 
 pub use probe::Probe;
 pub use surroundings::Surroundings;
@@ -21,7 +24,14 @@ use crate::config::Config;
 use crate::scene::Frame;
 
 /// Every piece of evidence, in the order of the columns.
-pub const PIECES: &[Piece] = &[lidar_residual::PIECE, ground::PIECE, lidar_rays::PIECE];
+pub const PIECES: &[Piece] = &[
+    lidar_residual::PIECE,
+    ground::PIECE,
+    lidar_rays::PIECE,
+    lidar_map::PIECE,
+    line_of_sight::PIECE,
+    terrain::PIECE,
+];
 
 /// What pieces of evidence can belong to. A sensor or circumstance that lacks takes whole groups away.
 pub const GROUPS: [&str; 12] = [

@@ -15,7 +15,10 @@ mod mismatch;
 mod neighbouring;
 mod neighbouring_detections;
 mod rays;
+mod standing;
+mod static_map;
 mod strength;
+mod terrain;
 mod window;
 
 pub use association::{Association, index_of};
@@ -35,5 +38,7 @@ pub use mismatch::{Reference, Spread, distance_per_mismatch, mismatch, plausibil
 pub use neighbouring::{NeighbouringScan, ScanStep};
 pub use neighbouring_detections::NeighbouringDetections;
 pub use rays::{Cone, RayTable, direction_of};
+pub use static_map::{Column, ColumnGrid, StaticMap};
 pub use strength::Strength;
+pub use terrain::{Terrain, Texture};
 pub use window::FrameWindow;
