@@ -71,11 +71,15 @@ fn spiral(step: f32) -> Vec<[f32; 3]> {
 fn a_cap_changes_nothing_below_it() {
     for elevation in [Elevation::Measured, Elevation::None] {
         let memory = Memory::new(0.0)
-            .radar(radar(elevation), vec![(0, Some(spiral(0.11)))])
+            .radar(radar(elevation), vec![(0, Some(spiral(0.105)))])
             .lidar(lidar(), vec![(0, spiral(0.1).into_iter().map(|[x, y, z]| [x, y, z - 2.0]).collect())]);
-        let exact = memory.label(&config(&["lidar.max_mismatch=1e6"]), 0, 0);
-        for cap in [3.0, 40.0] {
-            let capped = memory.label(&config(&[&format!("lidar.max_mismatch={cap}")]), 0, 0);
+        let with_cap = |cap: f64| {
+            let settings = config(&["lidar.neighbours=2", &format!("lidar.max_mismatch={cap}")]);
+            memory.label(&settings, 0, 0)
+        };
+        let exact = with_cap(1e6);
+        for cap in [6.0, 15.0] {
+            let capped = with_cap(cap);
             for (exact, capped) in exact.iter().zip(&capped) {
                 assert_eq!(capped.d_lm, exact.d_lm.map(|d| d.min(cap)));
             }
