@@ -11,7 +11,8 @@ use crate::space::{Point, Transform};
 /// What the cameras say of one detection.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct CameraMatch {
-    /// Mean mismatch with the nearest points, at most `camera.max_mismatch`; `None` where no view that is left sees the detection, or none has points.
+    /// Mean mismatch with the nearest points, at most `camera.max_mismatch`; `None` where no view that is left sees the
+    /// detection, or none has points.
     pub d: Option<f64>,
     /// A view that has failed would have seen it.
     pub in_failed_view: bool,
