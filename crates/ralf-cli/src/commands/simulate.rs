@@ -1,4 +1,6 @@
-//! `ralf simulate`: a recording whose truth is known.
+//! `ralf simulate`: a recording whose truth is known; and how far it is from a real one.
+
+pub(super) mod compare;
 
 use crate::arguments::threads;
 use crate::outcome::{Outcome, UsageError};
@@ -6,8 +8,9 @@ use crate::progress::{Progress, say};
 use anyhow::Context;
 use clap::Args;
 use clap::builder::PossibleValuesParser;
+use compare::{Named, Told, compare};
 use ralf::sensors::Source;
-use ralf_data::write_simulated;
+use ralf_data::{SequenceReader, write_simulated};
 use ralf_files::Kind;
 use ralf_sim::presets::{self, Preset};
 use ralf_sim::world::{FAMILIES, Family, Recording};
@@ -38,11 +41,29 @@ Examples:
   ralf simulate -o recordings/tiny --preset tiny      in a second
   ralf simulate -o recordings/motorway --preset worlds --family motorway --seed 3
   ralf simulate -o recordings/city5 --preset worlds --family 0 --seed 5 --scans 200 --sequence 01
-  ralf simulate -o recordings/mine --scenario yard.toml --scans 200 --seed 3")]
+  ralf simulate -o recordings/mine --scenario yard.toml --scans 200 --seed 3
+
+With --compare nothing is simulated that isn't looked at: some hundred scans, spread over the sequences, are set \
+beside as many of a real recording, and the distance between the distributions of what both measure is printed. \
+`docs/realism.md` tells what is compared, and how.
+
+  ralf simulate --compare nuscenes --preset paper -o realism.html
+  ralf simulate --compare nuscenes --preset worlds --family 2 -o realism.html
+  ralf simulate --compare nuscenes --with recordings/mine -o realism.html --json > realism.json")]
 pub(crate) struct SimulateArgs {
-    /// Folder of the dataset that is written
-    #[arg(short, long, value_name = "DATASET")]
-    output: PathBuf,
+    /// Folder of the dataset that is written; with --compare the page (HTML), which may be left out
+    #[arg(short, long, value_name = "PATH", required_unless_present = "compare")]
+    output: Option<PathBuf>,
+    /// Write no recording: tell how far it is from this real one
+    #[arg(long, value_name = "RECORDING")]
+    compare: Option<PathBuf>,
+    /// Compare this recording in place of one that is simulated now
+    #[arg(long, value_name = "RECORDING", requires = "compare",
+        conflicts_with_all = ["preset", "family", "scenario", "sequences", "scans", "seed"])]
+    with: Option<PathBuf>,
+    /// The comparison's figures as JSON
+    #[arg(long, requires = "compare")]
+    json: bool,
     /// Which sequences
     #[arg(long, default_value = "paper", conflicts_with = "scenario",
         value_parser = PossibleValuesParser::new(presets::ALL.iter().map(|preset| preset.name).chain([WORLDS])))]
@@ -73,26 +94,60 @@ pub(crate) struct SimulateArgs {
     quiet: bool,
 }
 
-/// Makes a recording.
+/// Makes a recording, or compares one.
 pub(crate) fn run(arguments: &SimulateArgs) -> anyhow::Result<Outcome> {
-    let mut sequences = match &arguments.scenario {
-        Some(file) => vec![own(file, arguments)?],
-        None if arguments.preset == WORLDS => world(arguments)?,
-        None => preset(arguments)?,
-    };
-    if arguments.no_images {
-        sequences = sequences.into_iter().map(SimulatedSequence::without_cameras).collect();
+    match (&arguments.compare, &arguments.output) {
+        (Some(real), _) => arguments.compare_with(real),
+        (None, Some(output)) => arguments.write(output),
+        (None, None) => Err(UsageError("--output: expected a folder, found none".into()).into()),
     }
-    let steps: u64 = sequences.iter().map(|sequence| sequence.sequence().times.measurements() as u64).sum();
-    let progress = if arguments.quiet { Progress::hidden() } else { Progress::of_steps(steps, "simulating") };
-    let jobs = threads(arguments.jobs);
-    write_simulated(&sequences, &arguments.output, jobs, &|done| progress.reached(done as u64))?;
-    drop(progress);
-    for sequence in &sequences {
-        let folder = arguments.output.join("sequences").join(&sequence.sequence().name);
-        say(&format!("wrote {}", folder.display()));
+}
+
+impl SimulateArgs {
+    fn sequences(&self) -> anyhow::Result<Vec<SimulatedSequence>> {
+        match &self.scenario {
+            Some(file) => Ok(vec![own(file, self)?]),
+            None if self.preset == WORLDS => world(self),
+            None => preset(self),
+        }
     }
-    Ok(Outcome::Done)
+
+    fn write(&self, output: &Path) -> anyhow::Result<Outcome> {
+        let mut sequences = self.sequences()?;
+        if self.no_images {
+            sequences = sequences.into_iter().map(SimulatedSequence::without_cameras).collect();
+        }
+        let steps: u64 =
+            sequences.iter().map(|sequence| sequence.sequence().times.measurements() as u64).sum();
+        let progress = if self.quiet { Progress::hidden() } else { Progress::of_steps(steps, "simulating") };
+        write_simulated(&sequences, output, threads(self.jobs), &|done| progress.reached(done as u64))?;
+        drop(progress);
+        for sequence in &sequences {
+            let folder = output.join("sequences").join(&sequence.sequence().name);
+            say(&format!("wrote {}", folder.display()));
+        }
+        Ok(Outcome::Done)
+    }
+
+    fn compare_with(&self, real: &Path) -> anyhow::Result<Outcome> {
+        let told = Told { page: self.output.as_deref(), json: self.json, quiet: self.quiet };
+        let recording = ralf_data::open(real, None)?;
+        let real = Named::opened(&recording);
+        if let Some(other) = &self.with {
+            let other = ralf_data::open(other, None)?;
+            compare(&real, &Named::opened(&other), threads(self.jobs), &told)?;
+            return Ok(Outcome::Done);
+        }
+        let made = self.sequences()?;
+        let name = match &self.scenario {
+            Some(file) => file.display().to_string(),
+            None if self.preset == WORLDS => format!("{}, seed {}", self.family.name, self.seed),
+            None => format!("{}, seed {}", self.preset, self.seed),
+        };
+        let sequences = made.iter().map(|sequence| sequence as &dyn SequenceReader).collect();
+        compare(&real, &Named { name, sequences }, threads(self.jobs), &told)?;
+        Ok(Outcome::Done)
+    }
 }
 
 /// The user's scenario.
