@@ -37,7 +37,7 @@ pub use located::{Detection, LocatedScan};
 pub use mismatch::{Reference, Spread, distance_per_mismatch, mismatch, plausibility};
 pub use neighbouring::{NeighbouringScan, ScanStep};
 pub use neighbouring_detections::NeighbouringDetections;
-pub use rays::{Cone, RayTable, direction_of};
+pub use rays::{Cone, RayTable, TableRay, direction_of};
 pub use static_map::{Column, ColumnGrid, StaticMap};
 pub use strength::Strength;
 pub use terrain::{Terrain, Texture};
