@@ -70,7 +70,7 @@ impl Task<'_> {
             }
         }
         let config = self.gatherer.frame_config();
-        let frames = Frames { reader: self.reader, rig: &self.rig, config, jobs };
+        let frames = Frames { reader: self.reader, rig: &self.rig, config, evidence: false, jobs };
         let matched = frames.each(&there, |window, at| self.match_scan(window, ids[at], there[at]));
         self.observer.end();
         let mut matched = matched?.into_iter();

@@ -12,6 +12,8 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 /// Scans that follow each other in time and are worked on with one window.
 const STRETCH: usize = 64;
+/// At most so many where evidence is asked for: each window then begins with seconds of LiDAR scans.
+const LONG_STRETCH: usize = 512;
 
 /// A scan of a radar, by their places in the rig and in the radar's timeline.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -26,6 +28,8 @@ pub(crate) struct Frames<'a> {
     /// With the settings' overrides.
     pub(crate) rig: &'a Rig,
     pub(crate) config: &'a Config,
+    /// Whether frames carry what evidence looks at.
+    pub(crate) evidence: bool,
     /// Threads.
     pub(crate) jobs: usize,
 }
@@ -44,10 +48,10 @@ impl Frames<'_> {
             let ScanIndex { radar, scan } = scans[*place];
             (times[radar][scan], radar, scan)
         });
-        let stretches: Vec<&[usize]> = order.chunks(STRETCH).collect();
+        let stretches: Vec<&[usize]> = order.chunks(self.stretch(scans.len())).collect();
         let stop = AtomicBool::new(false);
         let worked = side_by_side(&stretches, self.jobs, |stretch| {
-            let mut window = FrameWindow::new(self.reader, self.rig, self.config);
+            let mut window = self.window();
             let mut done = Vec::with_capacity(stretch.len());
             for place in stretch.iter().copied() {
                 // Another worker has failed, so that more work would be lost, too.
@@ -63,6 +67,15 @@ impl Frames<'_> {
         done.sort_by_key(|(place, _)| *place);
         Ok(done.into_iter().map(|(_, result)| result).collect())
     }
+
+    fn stretch(&self, scans: usize) -> usize {
+        if self.evidence { (scans / self.jobs.max(1)).clamp(STRETCH, LONG_STRETCH) } else { STRETCH }
+    }
+
+    fn window(&self) -> FrameWindow<'_> {
+        let window = FrameWindow::new(self.reader, self.rig, self.config);
+        if self.evidence { window.with_evidence() } else { window }
+    }
 }
 
 /// All scans of all radars, radar by radar.
@@ -74,7 +87,11 @@ pub(crate) fn all_scans(times: &Timelines) -> Vec<ScanIndex> {
     scans
 }
 
-/// Works on all items, several at a time. Results are in the items' order. An error ends the work.
+/// What one worker did: a result for each item it took, or the item that failed and why.
+type Worked<R, E> = Result<Vec<(usize, R)>, (usize, E)>;
+
+/// Works on all items, several at a time. Results are in the items' order. An error ends the work; of several it is
+/// that of the first item, whatever the number of jobs.
 pub(crate) fn side_by_side<T: Sync, R: Send, E: Send>(
     items: &[T],
     jobs: usize,
@@ -86,18 +103,32 @@ pub(crate) fn side_by_side<T: Sync, R: Send, E: Send>(
         loop {
             let place = next.fetch_add(1, Ordering::Relaxed);
             let Some(item) = items.get(place) else { return Ok(done) };
-            // The others find no more items.
-            done.push((place, work(item).inspect_err(|_| next.store(items.len(), Ordering::Relaxed))?));
+            match work(item) {
+                Ok(result) => done.push((place, result)),
+                Err(error) => {
+                    // The others find no more items; those before this one are somebody's already.
+                    next.store(items.len(), Ordering::Relaxed);
+                    return Err((place, error));
+                }
+            }
         }
     };
-    let results: Vec<Result<Vec<(usize, R)>, E>> = std::thread::scope(|scope| {
+    let results: Vec<Worked<R, E>> = std::thread::scope(|scope| {
         let workers: Vec<_> = (0..jobs.clamp(1, items.len().max(1))).map(|_| scope.spawn(work_off)).collect();
         let joined =
             workers.into_iter().map(|w| w.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)));
         joined.collect()
     });
-    let mut done: Vec<_> =
-        results.into_iter().collect::<Result<Vec<_>, _>>()?.into_iter().flatten().collect();
+    let (mut done, mut failed) = (Vec::new(), Vec::new());
+    for result in results {
+        match result {
+            Ok(of_worker) => done.extend(of_worker),
+            Err(error) => failed.push(error),
+        }
+    }
+    if let Some((_, error)) = failed.into_iter().min_by_key(|(place, _)| *place) {
+        return Err(error);
+    }
     done.sort_by_key(|(place, _)| *place);
     Ok(done.into_iter().map(|(_, result)| result).collect())
 }
@@ -126,5 +157,21 @@ mod tests {
         });
         assert_eq!(found, Err("three"));
         assert!(seen.into_inner() < items.len());
+    }
+
+    /// The second item fails at once, the first one only when it has.
+    #[test]
+    fn of_several_errors_the_first_items_is_told() {
+        let second_failed = AtomicBool::new(false);
+        let found = side_by_side(&[0, 1], 2, |item| {
+            if *item == 1 {
+                second_failed.store(true, Ordering::SeqCst);
+            }
+            while !second_failed.load(Ordering::SeqCst) {
+                std::thread::yield_now();
+            }
+            Err::<(), _>(*item)
+        });
+        assert_eq!(found, Err(0));
     }
 }

@@ -208,6 +208,9 @@ fn check_lidars(reader: &dyn SequenceReader) {
         for (s, &t_ns) in times.iter().enumerate() {
             let scan = same_twice(|| reader.lidar_scan(l, s));
             assert_eq!((scan.t_ns, scan.intensity.len()), (t_ns, scan.points.len()));
+            let has_times =
+                |times: &Vec<f32>| times.len() == scan.points.len() && times.iter().all(|t| t.is_finite());
+            assert!(scan.times.as_ref().is_none_or(has_times));
             assert!(scan.classes.is_none_or(|classes| classes.len() == scan.points.len()));
         }
         assert!(reader.lidar_scan(l, times.len()).is_err());

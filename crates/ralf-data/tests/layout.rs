@@ -7,9 +7,9 @@ mod dataset;
 use dataset::{floats, tiny, write};
 use ralf::sensors::{DepthOutput, Intrinsics, Source};
 use ralf_data::{LayoutSequence, SequenceReader, write_sequence};
-use std::cell::RefCell;
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::sync::Mutex;
 
 #[test]
 fn units_and_values_are_as_the_file_says() {
@@ -30,12 +30,14 @@ fn units_and_values_are_as_the_file_says() {
     assert_eq!(distortion, [0.05, -0.01, 0.0, 0.0]);
     assert_eq!(reader.lidar_scan(0, 0).unwrap().classes, Some(vec![10, 40]));
     assert_eq!(reader.lidar_scan(0, 1).unwrap().classes, None);
+    assert_eq!(reader.lidar_scan(0, 0).unwrap().times, Some(vec![-0.048, 0.025]));
+    assert_eq!(reader.lidar_scan(0, 1).unwrap().times, None);
     let scan = reader.radar_scan(1, 1).unwrap();
     assert_eq!((scan.spherical[0].range, scan.spherical[0].azimuth), (19.0, -0.5));
     let depth = reader.depth(0, 1).unwrap().unwrap();
     assert_eq!((depth.len(), &depth[0].values[..]), (2, &[1.0, 2.0, 3.0, 4.0][..]));
     assert!(reader.depth(0, 0).unwrap().is_none());
-    assert_eq!(reader.inputs().len(), 3 + 4 + 3 + 4 + 4, "ground truth is no input of labelling");
+    assert_eq!(reader.inputs().len(), 3 + 4 + 3 + 5 + 4, "ground truth is no input of labelling");
     assert!(reader.warnings().is_empty());
 }
 
@@ -44,9 +46,9 @@ fn a_conversion_keeps_everything() {
     let (_folder, path) = tiny();
     let out = tempfile::tempdir().unwrap();
     let reader = LayoutSequence::open(&path).unwrap();
-    let told = RefCell::new(vec![]);
-    write_sequence(&reader, out.path(), &|done| told.borrow_mut().push(done)).unwrap();
-    assert_eq!(told.into_inner(), (1..=9).collect::<Vec<_>>());
+    let told = Mutex::new(vec![]);
+    write_sequence(&reader, out.path(), &|done| told.lock().unwrap().push(done)).unwrap();
+    assert_eq!(told.into_inner().unwrap(), (1..=9).collect::<Vec<_>>());
     let copy = out.path().join("sequences/00");
     // Numbers start from 0 and have no gaps; line ends are one kind. All else is the same to the byte.
     for (from, to) in [
@@ -225,6 +227,11 @@ fn bad_measurements_are_named_when_they_are_read() {
     says(reader.radar_scan(0, 0).map(drop), "radar_front/000000.bin: byte 20: expected rows of 5 float32");
     harm("lidar_top/000000.label", &[0; 4]);
     says(reader.lidar_scan(0, 0).map(drop), "000000.label: size: expected 2 uint32, one per point, found 1");
+    harm("lidar_top/000000.label", &[0; 8]);
+    harm("lidar_top/000000.time", &floats(&[0.0; 3]));
+    says(reader.lidar_scan(0, 0).map(drop), "000000.time: size: expected 2 float32, one per point, found 3");
+    harm("lidar_top/000000.time", &floats(&[0.0, f32::NAN]));
+    says(reader.lidar_scan(0, 0).map(drop), "000000.time: byte 4: expected a finite time, found NaN");
     let picture = fs::read(path.join("camera_front/000001.jpg")).unwrap();
     harm("camera_front/000001.jpg", &picture[..picture.len() - 2]);
     says(reader.image(0, 1).map(drop), "000001.jpg: content: expected a whole JPEG or PNG image");
@@ -243,9 +250,11 @@ fn what_has_no_meaning_is_a_warning() {
     let (_folder, path) = tiny();
     write(&path.join("sequence.toml"), dataset::SEQUENCE_TOML.replace("fx = ", "lens = \"wide\"\nfx = "));
     write(&path.join("lidar_top/000007.label"), "");
+    write(&path.join("lidar_top/000007.time"), "");
     let warnings = LayoutSequence::open(&path).unwrap().warnings().join("\n");
     assert!(warnings.contains("sequence.toml: unknown key `camera.0.lens` ignored"), "{warnings}");
     assert!(warnings.contains("000007.label: belongs to no measurement, ignored"), "{warnings}");
+    assert!(warnings.contains("000007.time: belongs to no measurement, ignored"), "{warnings}");
 }
 
 fn refused(sequence: &Path, expected: &str) {

@@ -75,15 +75,15 @@ impl Tree {
         self.split(bounds, middle, to);
     }
 
-    /// Visits every box that the ray crosses before a limit, which the visit may lower.
-    pub(super) fn visit(&self, ray: &Ray, mut limit: f64, mut visit: impl FnMut(usize, f64) -> f64) {
+    /// Visits every box that the ray crosses before a limit, which the visit may lower. The last limit is returned.
+    pub(super) fn visit(&self, ray: &Ray, mut limit: f64, mut visit: impl FnMut(usize, f64) -> f64) -> f64 {
         let inverse = ray.direction.map(|value| 1.0 / if value == 0.0 { 1e-300 } else { value });
-        // Deep enough for any tree of halves.
-        let mut stack = [0_usize; 64];
+        // Deep enough for any tree of halves over fewer than 2^32 boxes, and small, for it is cleared for every ray.
+        let mut stack = [0_u32; 33];
         let mut height = usize::from(!self.nodes.is_empty());
         while height > 0 {
             height -= 1;
-            let node = stack[height];
+            let node = stack[height] as usize;
             let (bounds, content) = &self.nodes[node];
             if !bounds.is_crossed(ray, &inverse, limit) {
                 continue;
@@ -95,11 +95,12 @@ impl Tree {
                     }
                 }
                 Content::Inner(second) => {
-                    stack[height] = second;
-                    stack[height + 1] = node + 1;
+                    stack[height] = second as u32;
+                    stack[height + 1] = node as u32 + 1;
                     height += 2;
                 }
             }
         }
+        limit
     }
 }

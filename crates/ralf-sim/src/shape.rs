@@ -54,25 +54,33 @@ impl Shape {
 
 /// The slab method.
 fn box_crossing(ray: &Ray, half: Vector) -> Option<Crossing> {
-    let mut crossing = Crossing { enter: f64::NEG_INFINITY, leave: f64::INFINITY, normal: Vector::zeros() };
+    let (mut enter, mut leave) = (f64::NEG_INFINITY, f64::INFINITY);
+    let mut entered_along = None;
     for axis in 0..3 {
         let (from, along) = (ray.origin[axis], ray.direction[axis]);
-        let (near, far) = ((-half[axis] - from) / along, (half[axis] - from) / along);
-        let (near, far) = if near <= far { (near, far) } else { (far, near) };
         if along == 0.0 {
             if from.abs() > half[axis] {
                 return None;
             }
             continue;
         }
-        if near > crossing.enter {
-            crossing.enter = near;
-            crossing.normal = Vector::zeros();
-            crossing.normal[axis] = -along.signum();
+        let (a, b) = ((-half[axis] - from) / along, (half[axis] - from) / along);
+        let (near, far) = if a <= b { (a, b) } else { (b, a) };
+        if near > enter {
+            enter = near;
+            entered_along = Some(axis);
         }
-        crossing.leave = crossing.leave.min(far);
+        leave = leave.min(far);
+        // Most boxes that a ray is asked about are missed.
+        if enter > leave {
+            return None;
+        }
     }
-    (crossing.enter <= crossing.leave).then_some(crossing)
+    let mut normal = Vector::zeros();
+    if let Some(axis) = entered_along {
+        normal[axis] = -ray.direction[axis].signum();
+    }
+    (enter <= leave).then_some(Crossing { enter, leave, normal })
 }
 
 fn ellipsoid_crossing(ray: &Ray, half: Vector) -> Option<Crossing> {

@@ -13,6 +13,7 @@ mod buckets;
 mod cross_validation;
 mod file;
 mod gather;
+pub mod learning;
 mod objective;
 mod observed;
 mod search;

@@ -98,20 +98,25 @@ struct Street {
     scans: Vec<RadarScan>,
 }
 
+/// A 4D radar in the vehicle's origin.
+fn radar() -> Radar {
+    Radar {
+        name: "radar".into(),
+        fields: ["range", "azimuth", "elevation"].map(str::to_owned).to_vec(),
+        vehicle_from_radar: Transform::translation(0.0, 0.0, 0.0),
+        elevation: Elevation::Measured,
+        fov_azimuth: 2.8,
+        fov_elevation: 0.35,
+        sigma_range: 0.1,
+        sigma_azimuth: 0.01,
+        sigma_elevation: 0.02,
+        reliability: Reliability::default(),
+    }
+}
+
 impl Street {
     fn new() -> Self {
-        let radar = Radar {
-            name: "radar".into(),
-            fields: ["range", "azimuth", "elevation"].map(str::to_owned).to_vec(),
-            vehicle_from_radar: Transform::translation(0.0, 0.0, 0.0),
-            elevation: Elevation::Measured,
-            fov_azimuth: 2.8,
-            fov_elevation: 0.35,
-            sigma_range: 0.1,
-            sigma_azimuth: 0.01,
-            sigma_elevation: 0.02,
-            reliability: Reliability::default(),
-        };
+        let radar = radar();
         let lidar = Lidar {
             name: "lidar".into(),
             vehicle_from_lidar: Transform::translation(0.0, 0.0, 0.0),
@@ -132,7 +137,13 @@ impl Street {
             motion: EgoMotion::new(vec![standing], vec![]).expect("there is odometry"),
             depth_output: DepthOutput::Depth,
         };
-        let lidar = LidarScan { t_ns: middle, intensity: vec![0.0; points.len()], points, classes: None };
+        let lidar = LidarScan {
+            t_ns: middle,
+            intensity: vec![0.0; points.len()],
+            points,
+            times: None,
+            classes: None,
+        };
         Self { sequence, lidar, scans }
     }
 }

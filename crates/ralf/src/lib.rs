@@ -29,6 +29,7 @@
 pub mod config;
 pub mod evidence;
 pub mod label;
+pub mod learned;
 pub mod metrics;
 pub mod paper;
 pub mod scene;

@@ -6,7 +6,7 @@ mod support;
 
 use proptest::prelude::*;
 use ralf::config::Config;
-use ralf::evidence::{self, Column};
+use ralf::evidence::{self, Column, GROUPS};
 use ralf::paper::Labeler;
 use ralf::scene::FrameWindow;
 use ralf::sensors::Elevation;
@@ -20,7 +20,7 @@ fn config() -> Config {
 /// The evidence on the first scan.
 fn observe(memory: &Memory) -> Vec<Column> {
     let config = config();
-    let mut window = FrameWindow::new(memory, &memory.sequence.rig, &config);
+    let mut window = FrameWindow::new(memory, &memory.sequence.rig, &config).with_evidence();
     evidence::observe(&window.frame(0, 0).unwrap(), &config)
 }
 
@@ -59,7 +59,10 @@ fn what_the_lidar_does_not_see_is_null() {
         Memory::new(0.0).radar(radar(Elevation::Measured), vec![(0, Some(detections.clone()))]);
     let without_points = memory(Elevation::Measured, detections.clone(), vec![]);
     for memory in [without_scan, without_points] {
-        assert!(observe(&memory).iter().all(|column| column.values == [None]));
+        let found = observe(&memory);
+        for name in ["lidar_residual_horizontal", "lidar_residual_vertical"] {
+            assert_eq!(column(&found, name), [None]);
+        }
     }
     let level = observe(&memory(Elevation::None, detections, vec![[10.5, 0.0, -2.0]]));
     assert!(column(&level, "lidar_residual_horizontal")[0].is_some());
@@ -95,6 +98,7 @@ fn every_column_has_a_name_of_its_own_and_is_documented() {
     let mut names = BTreeSet::new();
     for feature in evidence::features() {
         assert!(names.insert(feature.name), "{} twice", feature.name);
+        assert!(GROUPS.contains(&feature.group), "{} belongs to {}", feature.name, feature.group);
         assert!(feature.name.chars().all(|c| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_'));
         let row =
             format!("| `{}` | {} | {} | {} |", feature.name, feature.unit, feature.group, feature.meaning);

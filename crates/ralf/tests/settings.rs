@@ -63,7 +63,7 @@ fn counts_that_would_fill_the_memory_are_refused_by_name() {
         }
     }
     for (key, value) in
-        [("tracking.scans", "4e9"), ("camera.stride", "-1"), ("lidar.window_scans", "1000000")]
+        [("tracking.scans", "4e9"), ("camera.stride", "-1"), ("evidence.lidar_scans", "1000000")]
     {
         assert!(Config::from_toml("", &[&format!("{key}={value}")]).is_err(), "{key}");
     }

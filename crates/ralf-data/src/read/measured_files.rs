@@ -44,7 +44,7 @@ impl MeasuredFiles {
         let mut columns = files::read_f32_columns(measurement("lidar", &self.lidars, lidar, scan)?, row)?;
         let intensity = columns.swap_remove(3);
         let points = (0..intensity.len()).map(|n| [columns[0][n], columns[1][n], columns[2][n]]).collect();
-        Ok(LidarScan { t_ns: of.times.lidars[lidar][scan], points, intensity, classes: None })
+        Ok(LidarScan { t_ns: of.times.lidars[lidar][scan], points, times: None, intensity, classes: None })
     }
 
     /// A camera's image, which must have the size that the camera's model is for.

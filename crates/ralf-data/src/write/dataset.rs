@@ -3,15 +3,16 @@
 use crate::disk::label_file::write_labels;
 use crate::disk::{files, images, npy};
 use crate::error::DataError;
+use crate::frames::side_by_side;
 use crate::read::SequenceReader;
 use crate::read::layout::raw::{DepthToml, SequenceToml};
 use crate::read::layout::{GROUND_TRUTH, SEQUENCES, rig, tables};
+use crate::read::recording::check_motion_corrected;
 use crate::result::{Component, OutFolder, SequenceNames, WriterLock, checked, refuse_links_out};
-use ralf::label::Cause;
-use ralf::sensors::{Sequence, SourceError};
-use std::cell::Cell;
+use ralf::sensors::{Sequence, SourceError, Timelines};
 use std::fs;
 use std::path::Path;
+use std::sync::{Mutex, PoisonError};
 
 /// Writes a sequence as `DATASET/sequences/NAME`, whole or not at all: it lies in a hidden folder until it is complete.
 ///
@@ -20,9 +21,20 @@ use std::path::Path;
 pub fn write_sequence(
     reader: &dyn SequenceReader,
     dataset: &Path,
-    progress: &dyn Fn(usize),
+    progress: &(dyn Fn(usize) + Sync),
+) -> Result<(), DataError> {
+    write_sequence_with(reader, dataset, 1, progress)
+}
+
+/// The same with so many threads. The files are the same to the byte whatever their number, and so is the error.
+pub fn write_sequence_with(
+    reader: &dyn SequenceReader,
+    dataset: &Path,
+    jobs: usize,
+    progress: &(dyn Fn(usize) + Sync),
 ) -> Result<(), DataError> {
     let names = SequenceNames::new(reader.sequence())?;
+    check_motion_corrected(reader)?;
     let sequences = OutFolder::new(dataset).own(SEQUENCES);
     let folder = sequences.folder(&names.sequence);
     let folder = folder.path();
@@ -36,9 +48,9 @@ pub fn write_sequence(
     if part.path().exists() {
         fs::remove_dir_all(part.path()).map_err(DataError::io(part.path()))?;
     }
-    let writer = Writer { reader, names: &names, folder: &part, done: Cell::new(0), progress };
+    let writer = Writer { reader, names: &names, folder: &part, done: Mutex::new(0), progress };
     let written =
-        writer.write().and_then(|()| fs::rename(part.path(), folder).map_err(DataError::io(folder)));
+        writer.write(jobs).and_then(|()| fs::rename(part.path(), folder).map_err(DataError::io(folder)));
     if written.is_err() {
         // The unfinished folder is of no use to anyone; the error that matters is the first one.
         let _ = fs::remove_dir_all(part.path());
@@ -46,29 +58,50 @@ pub fn write_sequence(
     written
 }
 
+/// A measurement: its sensor's place in the rig, and its own in the sensor's timeline.
+#[derive(Clone, Copy)]
+enum Measurement {
+    Radar(usize, usize),
+    Lidar(usize, usize),
+    Camera(usize, usize),
+}
+
+/// All measurements, sensor by sensor.
+fn all_measurements(times: &Timelines) -> Vec<Measurement> {
+    let mut all = Vec::new();
+    for (radar, times) in times.radars.iter().enumerate() {
+        all.extend((0..times.len()).map(|scan| Measurement::Radar(radar, scan)));
+    }
+    for (lidar, times) in times.lidars.iter().enumerate() {
+        all.extend((0..times.len()).map(|scan| Measurement::Lidar(lidar, scan)));
+    }
+    for (camera, times) in times.cameras.iter().enumerate() {
+        all.extend((0..times.len()).map(|image| Measurement::Camera(camera, image)));
+    }
+    all
+}
+
 struct Writer<'a> {
     reader: &'a dyn SequenceReader,
     names: &'a SequenceNames,
     folder: &'a OutFolder,
-    done: Cell<usize>,
-    progress: &'a dyn Fn(usize),
+    done: Mutex<usize>,
+    progress: &'a (dyn Fn(usize) + Sync),
 }
 
 impl Writer<'_> {
-    fn write(&self) -> Result<(), DataError> {
+    fn write(&self, jobs: usize) -> Result<(), DataError> {
         let Sequence { times, .. } = self.reader.sequence();
-        let SequenceNames { radars, lidars, cameras, .. } = self.names;
         self.metadata()?;
-        for (sensor, (radar, times)) in radars.iter().zip(&times.radars).enumerate() {
-            self.measurements(radar, times, |folder, scan| self.radar_scan(sensor, scan, folder))?;
-        }
-        for (sensor, (lidar, times)) in lidars.iter().zip(&times.lidars).enumerate() {
-            self.measurements(lidar, times, |folder, scan| self.lidar_scan(sensor, scan, folder))?;
-        }
-        for (sensor, (camera, times)) in cameras.iter().zip(&times.cameras).enumerate() {
-            self.measurements(camera, times, |folder, image| self.image(sensor, image, folder))?;
-        }
-        Ok(())
+        self.timestamps()?;
+        side_by_side(&all_measurements(times), jobs, |measurement| {
+            self.measurement(*measurement)?;
+            let mut done = self.done.lock().unwrap_or_else(PoisonError::into_inner);
+            *done += 1;
+            (self.progress)(*done);
+            Ok::<(), DataError>(())
+        })?;
+        self.names_of_causes()
     }
 
     /// `sequence.toml`, `odometry.csv` and `poses.csv`. The first is checked as if it were read.
@@ -94,25 +127,31 @@ impl Writer<'_> {
         Ok(())
     }
 
-    /// One sensor's folder; `write` takes that folder and the measurement's index.
-    fn measurements(
-        &self,
-        sensor: &Component,
-        times: &[i64],
-        write: impl Fn(&OutFolder, usize) -> Result<(), SourceError>,
-    ) -> Result<(), DataError> {
-        let folder = self.folder.folder(sensor);
-        files::write_whole(&folder.own_file("timestamps.txt"), tables::timestamps_text(times).as_bytes())?;
-        for index in 0..times.len() {
-            let named = |error| DataError::Measurement { sensor: sensor.as_str().to_owned(), index, error };
-            write(&folder, index).map_err(named)?;
-            self.done.set(self.done.get() + 1);
-            (self.progress)(self.done.get());
+    /// `timestamps.txt` of every sensor.
+    fn timestamps(&self) -> Result<(), DataError> {
+        let Sequence { times, .. } = self.reader.sequence();
+        let SequenceNames { radars, lidars, cameras, .. } = self.names;
+        let sensors = radars.iter().chain(lidars).chain(cameras);
+        for (sensor, times) in sensors.zip(times.radars.iter().chain(&times.lidars).chain(&times.cameras)) {
+            let file = self.folder.folder(sensor).own_file("timestamps.txt");
+            files::write_whole(&file, tables::timestamps_text(times).as_bytes())?;
         }
         Ok(())
     }
 
-    fn radar_scan(&self, radar: usize, scan: usize, folder: &OutFolder) -> Result<(), SourceError> {
+    /// One measurement, into its sensor's folder.
+    fn measurement(&self, measurement: Measurement) -> Result<(), DataError> {
+        let SequenceNames { radars, lidars, cameras, .. } = self.names;
+        let (sensor, index, written) = match measurement {
+            Measurement::Radar(radar, scan) => (&radars[radar], scan, self.radar_scan(radar, scan)),
+            Measurement::Lidar(lidar, scan) => (&lidars[lidar], scan, self.lidar_scan(lidar, scan)),
+            Measurement::Camera(camera, image) => (&cameras[camera], image, self.image(camera, image)),
+        };
+        written.map_err(|error| DataError::Measurement { sensor: sensor.as_str().to_owned(), index, error })
+    }
+
+    fn radar_scan(&self, radar: usize, scan: usize) -> Result<(), SourceError> {
+        let folder = self.folder.folder(&self.names.radars[radar]);
         let columns = self.reader.radar_scan(radar, scan)?.columns;
         let rows = columns.first().map_or(0, Vec::len);
         let values = (0..rows).flat_map(|row| columns.iter().map(move |column| column[row]));
@@ -124,26 +163,31 @@ impl Writer<'_> {
         } else if let Some(truth) = self.reader.truth(radar, scan)? {
             write_labels(&truth_file, &truth.labels)?;
             files::write_whole(&truth_file.with_extension("cause"), &truth.causes)?;
-            self.names_of_causes()?;
         }
         Ok(())
     }
 
-    /// `ground_truth/causes.txt`: line n names the cause n.
+    /// `ground_truth/causes.txt` where causes are known: line n names the cause n.
     fn names_of_causes(&self) -> Result<(), DataError> {
-        let file = self.folder.own(GROUND_TRUTH).own_file("causes.txt");
-        if file.exists() {
+        let causes = self.reader.causes();
+        if causes.is_empty() {
             return Ok(());
         }
-        let names: String = Cause::ALL.iter().map(|cause| format!("{}\n", cause.name())).collect();
+        let file = self.folder.own(GROUND_TRUTH).own_file("causes.txt");
+        let names: String = causes.iter().map(|cause| format!("{}\n", cause.name())).collect();
         files::write_whole(&file, names.as_bytes())
     }
 
-    fn lidar_scan(&self, lidar: usize, scan: usize, folder: &OutFolder) -> Result<(), SourceError> {
+    fn lidar_scan(&self, lidar: usize, scan: usize) -> Result<(), SourceError> {
+        let folder = self.folder.folder(&self.names.lidars[lidar]);
         let read = self.reader.lidar_scan(lidar, scan)?;
         let rows = read.points.iter().zip(&read.intensity);
         let values = rows.flat_map(|([x, y, z], intensity)| [*x, *y, *z, *intensity]);
         files::write_whole(&folder.file(&Component::numbered(scan, "bin")), &files::f32_bytes(values))?;
+        if let Some(times) = read.times {
+            let times = files::f32_bytes(times.into_iter());
+            files::write_whole(&folder.file(&Component::numbered(scan, "time")), &times)?;
+        }
         let labels = match (self.reader.lidar_label_file(lidar, scan), read.classes) {
             (Some(label_file), _) => files::read(&label_file)?,
             (None, Some(classes)) => classes.iter().flat_map(|id| u32::from(*id).to_le_bytes()).collect(),
@@ -152,7 +196,8 @@ impl Writer<'_> {
         Ok(files::write_whole(&folder.file(&Component::numbered(scan, "label")), &labels)?)
     }
 
-    fn image(&self, camera: usize, image: usize, folder: &OutFolder) -> Result<(), SourceError> {
+    fn image(&self, camera: usize, image: usize) -> Result<(), SourceError> {
+        let folder = self.folder.folder(&self.names.cameras[camera]);
         match self.reader.image_file(camera, image) {
             Some(original) => {
                 let extension = original.extension().unwrap_or_default().to_ascii_lowercase();

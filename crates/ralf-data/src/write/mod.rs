@@ -4,5 +4,5 @@ mod dataset;
 pub mod export;
 mod simulated;
 
-pub use dataset::write_sequence;
+pub use dataset::{write_sequence, write_sequence_with};
 pub use simulated::write_simulated;

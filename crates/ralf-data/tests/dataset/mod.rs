@@ -103,6 +103,7 @@ fn sequence(folder: &Path) {
     put("lidar_top/timestamps.txt", b"0\n100000000\n");
     put("lidar_top/000000.bin", &floats(&[5.0, 0.0, -1.0, 0.5, 6.0, 1.0, -1.9, 0.25]));
     put("lidar_top/000000.label", &labels(&[10 | 7 << 16, 40]));
+    put("lidar_top/000000.time", &floats(&[-0.048, 0.025]));
     put("lidar_top/000001.bin", &floats(&[0.0, 0.0, 0.0, 1.0]));
     put("camera_front/timestamps.txt", b"5000\n100005000\n");
     put("camera_front/000000.png", &picture(image::ImageFormat::Png));

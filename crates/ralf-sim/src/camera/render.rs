@@ -20,8 +20,8 @@ const FLARE: f64 = 0.35;
 
 /// Where the pixels of a camera look.
 pub(crate) fn rays(camera: &Camera) -> Rays {
-    let pixels = (0..camera.height).flat_map(|v| (0..camera.width).map(move |u| [u as f64, v as f64]));
-    pixels.map(|pixel| camera.intrinsics.back_project(pixel).map(|ray| ray.into_inner())).collect()
+    let rays = camera.intrinsics.rays(camera.width, camera.height);
+    rays.into_iter().map(|ray| ray.map(|ray| ray.into_inner())).collect()
 }
 
 /// What the camera sees.

@@ -19,6 +19,8 @@ use std::collections::BTreeMap;
 pub struct Config {
     /// Seed of every random choice.
     pub seed: u64,
+    /// Who answers.
+    pub method: Method,
     /// Which measurements belong together.
     pub sync: SyncConfig,
     /// The ground, and what lies on it.
@@ -31,6 +33,10 @@ pub struct Config {
     pub tracking: TrackingConfig,
     /// Fusion and label.
     pub fusion: FusionConfig,
+    /// What evidence looks at.
+    pub evidence: EvidenceConfig,
+    /// The method that learns.
+    pub learned: LearnedConfig,
     /// By sensor name: what replaces the recording's own values.
     pub sensors: BTreeMap<String, SensorOverride>,
 }
@@ -40,21 +46,56 @@ pub struct Config {
 #[serde(deny_unknown_fields)]
 struct Complete {
     seed: u64,
+    method: Method,
     sync: SyncConfig,
     ground: GroundConfig,
     lidar: LidarConfig,
     camera: CameraConfig,
     tracking: TrackingConfig,
     fusion: FusionConfig,
+    evidence: EvidenceConfig,
+    learned: LearnedConfig,
     #[serde(default)]
     sensors: BTreeMap<String, SensorOverride>,
 }
 
 impl From<Complete> for Config {
     fn from(complete: Complete) -> Self {
-        let Complete { seed, sync, ground, lidar, camera, tracking, fusion, sensors } = complete;
-        Self { seed, sync, ground, lidar, camera, tracking, fusion, sensors }
+        let Complete {
+            seed,
+            method,
+            sync,
+            ground,
+            lidar,
+            camera,
+            tracking,
+            fusion,
+            evidence,
+            learned,
+            sensors,
+        } = complete;
+        Self { seed, method, sync, ground, lidar, camera, tracking, fusion, evidence, learned, sensors }
     }
+}
+
+/// Who answers.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Method {
+    /// The paper's method.
+    Paper,
+    /// A [model](crate::learned), from all evidence.
+    Learned,
+}
+
+/// `learned`: the method that learns.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct LearnedConfig {
+    /// Where a larger share of the evidence is unlike what the model was trained on, the paper's method answers.
+    pub max_novelty: f64,
+    /// Whether it is told what each group of evidence adds.
+    pub reasons: bool,
 }
 
 /// `sync`: which measurements belong together.
@@ -79,6 +120,8 @@ pub enum GroundModel {
     Plane,
     /// A plane per concentric sector.
     Polar,
+    /// A surface that follows slopes, ramps and kerbs.
+    Local,
 }
 
 /// `ground`: the ground, and what lies on it.
@@ -113,9 +156,10 @@ pub struct LidarConfig {
     pub beta: f64,
     /// `K`.
     pub neighbours: usize,
-    /// LiDAR scans before and after the nearest one that a frame carries besides it. The paper's method looks at the
-    /// nearest one alone.
-    pub window_scans: usize,
+    /// Cap of `d_lm`.
+    pub max_mismatch: f64,
+    /// Also compare each detection with every point where its Doppler velocity takes it at the point's own time.
+    pub dynamic: bool,
 }
 
 /// How relative depth becomes metric.
@@ -142,6 +186,8 @@ pub struct CameraConfig {
     pub beta: f64,
     /// Nearest calibrated points per detection.
     pub neighbours: usize,
+    /// Cap of `d_cm`.
+    pub max_mismatch: f64,
     /// Every stride-th pixel of every stride-th row is calibrated.
     pub stride: usize,
     /// How relative depth becomes metric.
@@ -190,6 +236,14 @@ pub struct TrackingConfig {
     pub sources: TrackingSources,
     /// Also try each detection where its Doppler velocity takes it.
     pub dynamic: bool,
+    /// Doppler-consistent tracking: each detection is sought where its Doppler velocity takes it alone, among those
+    /// whose Doppler velocity agrees, in the scans that could have seen it there. Then `dynamic` says nothing.
+    pub doppler: bool,
+    /// Compensated Doppler velocities that differ by no more agree, m/s.
+    pub doppler_tolerance: f64,
+    /// With `doppler`: the share of the scans that could have seen a detection whose mismatches count, the smallest
+    /// ones.
+    pub quorum: f64,
     /// Two scans in a row farther apart than this end the batch, ms.
     pub max_gap_ms: f64,
 }
@@ -204,6 +258,20 @@ pub struct FusionConfig {
     pub threshold: f64,
 }
 
+/// `evidence`: what evidence looks at around a radar scan, beyond what the paper's method does.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct EvidenceConfig {
+    /// LiDAR scans so far before and after count, ms.
+    pub lidar_reach_ms: f64,
+    /// At most so many LiDAR scans, spread over that time.
+    pub lidar_scans: usize,
+    /// All radars' scans so far before and after count, ms.
+    pub radar_reach_ms: f64,
+    /// At most so many scans of each radar, the nearest in time.
+    pub radar_scans: usize,
+}
+
 macro_rules! defaults {
     ($($section:ident: $name:ty),*) => {
         $(impl Default for $name {
@@ -215,7 +283,7 @@ macro_rules! defaults {
 }
 defaults!(
     sync: SyncConfig, ground: GroundConfig, lidar: LidarConfig, camera: CameraConfig, tracking: TrackingConfig,
-    fusion: FusionConfig
+    fusion: FusionConfig, evidence: EvidenceConfig, learned: LearnedConfig
 );
 
 impl Default for Config {

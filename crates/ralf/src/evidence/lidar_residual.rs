@@ -3,9 +3,8 @@
 //! The paper's `d_lm` is one number for both. Real radars measure elevation much worse than range and azimuth, and
 //! ghosts below the road or above a wall are far off in height alone.
 
-use super::{Feature, Piece, Values};
-use crate::config::Config;
-use crate::scene::{Frame, LidarCloud, mismatch};
+use super::{Feature, Piece, Surroundings, Values};
+use crate::scene::{LidarCloud, mismatch};
 use crate::sensors::Elevation;
 use crate::space::Vector;
 
@@ -14,14 +13,14 @@ pub(super) const PIECE: Piece = Piece {
         Feature {
             name: "lidar_residual_horizontal",
             unit: "sigma",
-            group: "LiDAR",
+            group: "LiDAR rays",
             meaning: "mean horizontal distance from the K nearest LiDAR points above the ground, in standard \
                       deviations along it",
         },
         Feature {
             name: "lidar_residual_vertical",
             unit: "sigma",
-            group: "LiDAR",
+            group: "LiDAR rays",
             meaning: "mean height over the K nearest LiDAR points above the ground, in standard deviations of height; \
                       null for a radar without elevation",
         },
@@ -31,7 +30,8 @@ pub(super) const PIECE: Piece = Piece {
 
 /// The mismatch (docs/method.md, section 3) of the residual's horizontal and vertical part, meaned over the `K` nearest
 /// points. Floor detections have theirs, too.
-fn observe(frame: &Frame, config: &Config) -> Vec<Values> {
+fn observe(surroundings: &Surroundings) -> Vec<Values> {
+    let (frame, config) = (surroundings.frame, surroundings.config);
     let mut horizontal = vec![None; frame.scan.len()];
     let mut vertical = vec![None; frame.scan.len()];
     let Some(view) = &frame.lidar else { return vec![horizontal, vertical] };

@@ -1,11 +1,14 @@
 //! Everything that is known around one radar scan.
 
 use super::camera::ImageView;
-use super::doppler::Doppler;
+use super::doppler::{Doppler, radar_velocity};
 use super::floor::LocalGround;
 use super::lidar::LidarView;
+use super::lidar_window::LidarWindowView;
 use super::located::{Detection, LocatedScan};
-use super::neighbouring::ScanStep;
+use super::mover::Mover;
+use super::neighbouring::{NeighbouringScan, ScanStep};
+use super::strength::Strength;
 use crate::config::GroundConfig;
 use crate::sensors::{Radar, Rig};
 use crate::space::EgoMotion;
@@ -13,7 +16,7 @@ use std::sync::Arc;
 
 /// One radar scan with what the other sensors and the neighbouring scans saw.
 ///
-/// It holds what the settings ask for, and so may hold more than the paper's method looks at.
+/// It may hold more than the paper's method looks at.
 #[derive(Debug, Clone)]
 pub struct Frame<'a> {
     /// All sensors.
@@ -26,9 +29,12 @@ pub struct Frame<'a> {
     pub scan: Arc<LocatedScan>,
     /// The LiDAR scans nearest in time; `None` where there is none within the tolerance.
     pub lidar: Option<LidarView>,
-    /// The LiDAR scans before and after these, in time order: as many to each side as `lidar.window_scans` says, as far
-    /// as they exist and can be read. Each is in the vehicle frame at its own time.
-    pub lidar_window: Vec<LidarView>,
+    /// The LiDAR scans of the seconds around, accumulated; `None` where there are none, and unless the
+    /// [`FrameWindow`](super::FrameWindow) gathers what evidence looks at.
+    pub lidar_window: Option<LidarWindowView>,
+    /// All radars' scans of the tenths of a second around, this one apart, in time order; empty unless the window
+    /// gathers what evidence looks at.
+    pub radar_window: Vec<NeighbouringScan>,
     /// The ground in the vehicle frame at the scan's time; `None` where there is none.
     pub ground: Option<LocalGround>,
     /// The cameras' images nearest in time for which there is depth.
@@ -66,5 +72,33 @@ impl Frame<'_> {
     /// The range rates of the scan's detections; `None` where the radar measures none.
     pub fn doppler(&self) -> Option<Doppler> {
         Doppler::new(self.radar, &self.scan.measured, self.motion)
+    }
+
+    /// The scan's detections with the velocity that their range rates tell; `None` without a position.
+    pub fn movers(&self) -> Vec<Option<Mover>> {
+        let rates = self.doppler().map(|doppler| doppler.compensated);
+        let of_radar = radar_velocity(self.radar, self.scan.t_ns(), self.motion);
+        let mut movers = Vec::with_capacity(self.scan.len());
+        for (i, detection) in self.scan.detections.iter().enumerate() {
+            let rate = rates.as_ref().map_or(f64::NAN, |rates| rates[i]);
+            let mover = |detection| Mover::new(self.radar, detection, rate, &of_radar);
+            movers.push(detection.as_ref().map(mover));
+        }
+        movers
+    }
+
+    /// The scans of the `radar_window` that the same radar made.
+    pub fn own_scans_around(&self) -> impl Iterator<Item = &NeighbouringScan> {
+        self.radar_window.iter().filter(|neighbour| self.is_own(neighbour.radar))
+    }
+
+    /// Whether a radar, by its place in the rig, is the one that made the scan.
+    pub fn is_own(&self, radar: usize) -> bool {
+        self.rig.radars[radar].name == self.radar.name
+    }
+
+    /// How strong the echoes of the scan's detections were; `None` where the radar doesn't measure it.
+    pub fn strength(&self) -> Option<Strength> {
+        Strength::new(self.radar, &self.scan.measured)
     }
 }

@@ -24,8 +24,6 @@ pub struct ScanStep {
     pub t_ns: i64,
     /// That scan.
     pub own: NeighbouringScan,
-    /// The other radars' scans nearest to it in time, in the rig's order. Empty unless somebody asks for them: the
-    /// setting `tracking.sources = "all"` does, and
-    /// [`FrameWindow::with_all_radars`](super::FrameWindow::with_all_radars).
+    /// The other radars' scans nearest to it in time, in the rig's order. Empty unless `tracking.sources = "all"`.
     pub others: Vec<NeighbouringScan>,
 }

@@ -106,12 +106,19 @@ pub fn check_fields(radar: &Radar) -> Result<(), String> {
 }
 
 /// One revolution of one LiDAR, motion-corrected to its timestamp, in the LiDAR's frame.
+///
+/// Motion-corrected means: every point lies where it would have been measured at [`t_ns`](Self::t_ns), had the world
+/// stood still since. Where things move that isn't so: a vehicle at 30 m/s has gone on by 1.5 m in half a revolution.
+/// [`times`](Self::times) tells when a point was truly measured.
 #[derive(Debug, Clone, Default)]
 pub struct LidarScan {
     /// Time of the scan, ns.
     pub t_ns: i64,
     /// x, y, z, m. Points that are not finite or exactly the origin are no returns.
     pub points: Vec<[f32; 3]>,
+    /// When each point was measured, in seconds after [`t_ns`](Self::t_ns) and negative before it; finite. `None`
+    /// where the recording doesn't say.
+    pub times: Option<Vec<f32>>,
     /// One per point, in the recording's own unit.
     pub intensity: Vec<f32>,
     /// SemanticKITTI ids, one per point, where the recording carries them; 0 is unlabeled.

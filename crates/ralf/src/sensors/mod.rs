@@ -1,14 +1,17 @@
 //! The sensors of a vehicle, how they are mounted, what they deliver, and where that comes from.
 
+mod amplitude;
 mod camera;
 mod image;
 mod intrinsics;
 mod measurement;
 mod rig;
+mod rolling;
 mod source;
 mod undistort;
 mod view;
 
+pub use amplitude::{AmplitudeField, AmplitudeKind};
 pub use camera::Camera;
 pub use image::{CameraImage, DepthImage, DepthOutput};
 pub use intrinsics::Intrinsics;

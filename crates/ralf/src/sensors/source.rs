@@ -34,6 +34,14 @@ pub struct Timelines {
     pub cameras: Vec<Vec<i64>>,
 }
 
+impl Timelines {
+    /// How many measurements all sensors delivered.
+    pub fn measurements(&self) -> usize {
+        let Self { radars, lidars, cameras } = self;
+        radars.iter().chain(lidars).chain(cameras).map(Vec::len).sum()
+    }
+}
+
 /// One sequence of a recording. Readers are indexed by the sensor's place in the rig and the measurement's in its
 /// timeline.
 ///

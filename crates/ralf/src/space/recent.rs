@@ -14,6 +14,11 @@ impl<K: PartialEq, V: Clone> Recent<K, V> {
         Self { capacity: capacity.max(1), entries: Vec::new() }
     }
 
+    /// Room for how many values.
+    pub(crate) fn capacity(&self) -> usize {
+        self.capacity
+    }
+
     /// The value of a key, which thereby becomes the most recent.
     pub(crate) fn get(&mut self, key: &K) -> Option<V> {
         let at = self.entries.iter().rposition(|(known, _)| known == key)?;

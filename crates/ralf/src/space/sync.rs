@@ -1,5 +1,7 @@
 //! Which measurements belong together (docs/method.md, sections 1, 7 and 13).
 
+use std::ops::Range;
+
 /// The measurement nearest in time, if within the tolerance (inclusive, ns). A tie takes the earlier. `times` ascend.
 pub fn nearest(times: &[i64], t_ns: i64, tolerance_ns: i64) -> Option<usize> {
     let after = times.partition_point(|time| *time < t_ns);
@@ -8,6 +10,22 @@ pub fn nearest(times: &[i64], t_ns: i64, tolerance_ns: i64) -> Option<usize> {
     let candidates = [before, (after < times.len()).then_some(after)];
     let best = candidates.into_iter().flatten().min_by_key(|i| distance(*i))?;
     (i128::from(distance(best)) <= i128::from(tolerance_ns)).then_some(best)
+}
+
+/// The measurements within a time of another (inclusive, ns), in order; the nearest ones where there are more than
+/// `at_most`. `times` ascend.
+pub fn around(times: &[i64], t_ns: i64, reach_ns: i64, at_most: usize) -> Range<usize> {
+    let within = |time: &i64| i128::from(time.abs_diff(t_ns)) <= i128::from(reach_ns);
+    let mut begin = times.partition_point(|time| *time < t_ns && !within(time));
+    let mut end = times.partition_point(|time| *time < t_ns || within(time));
+    while end.saturating_sub(begin) > at_most {
+        if times[begin].abs_diff(t_ns) > times[end - 1].abs_diff(t_ns) {
+            begin += 1;
+        } else {
+            end -= 1;
+        }
+    }
+    begin..end.max(begin)
 }
 
 /// The scans `k - n_b ..= k + n_b` without `k` itself, in order, as far as they exist and no two scans in a row between
@@ -43,6 +61,23 @@ mod tests {
         }
         assert_eq!(nearest(&[], 0, i64::MAX), None);
         assert_eq!(nearest(&[i64::MIN], i64::MAX, i64::MAX), None);
+    }
+
+    #[test]
+    fn around_a_time_the_nearest_are_kept() {
+        let times = [0, 10, 20, 20, 30, 47];
+        for (t, reach, at_most, expected) in [
+            (20, 10, 9, 1..5),
+            (20, 9, 9, 2..4),
+            (20, 20, 3, 1..4),
+            (25, 100, 1, 2..3),
+            (100, 10, 9, 6..6),
+            (-5, 4, 9, 0..0),
+            (20, 10, 0, 1..1),
+        ] {
+            let found = around(&times, t, reach, at_most);
+            assert!(found == expected || (found.is_empty() && expected.is_empty()), "{t} {reach} {found:?}");
+        }
     }
 
     #[test]

@@ -15,11 +15,11 @@ pub(super) struct SensorFiles {
     pub(super) times: Vec<i64>,
     /// One per time.
     pub(super) files: Vec<PathBuf>,
-    /// What belongs to each file (see [`Partner`]), where it exists.
-    pub(super) partners: Vec<Option<PathBuf>>,
+    /// What belongs to each file (see [`Partner`]), where it exists: a list for each kind of partner.
+    partners: Vec<Vec<Option<PathBuf>>>,
 }
 
-/// Where a file of the same number as a measurement's is looked for: labels, truth, depth.
+/// Where a file of the same number as a measurement's is looked for: labels, times of points, truth, depth.
 pub(super) struct Partner {
     /// It need not exist.
     pub(super) folder: PathBuf,
@@ -32,7 +32,7 @@ impl SensorFiles {
     pub(super) fn list(
         folder: &Path,
         extensions: &[&str],
-        partner: Partner,
+        partners: &[Partner],
         warnings: &mut Vec<String>,
     ) -> Result<Self, DataError> {
         let files = numbered(folder, extensions)?;
@@ -42,8 +42,21 @@ impl SensorFiles {
             let expected = format!("a line for each of the {} files beside it", files.len());
             return Err(DataError::content(&timestamps, "end", expected, format!("{} lines", times.len())));
         }
-        let partners = partners(partner, files.keys().copied(), warnings)?;
-        Ok(Self { timestamps, times, files: files.into_values().collect(), partners })
+        let mut found = Vec::with_capacity(partners.len());
+        for partner in partners {
+            found.push(partners_of(partner, files.keys().copied(), warnings)?);
+        }
+        Ok(Self { timestamps, times, files: files.into_values().collect(), partners: found })
+    }
+
+    /// The partner of a measurement, of the kind that was listed at this place.
+    pub(super) fn partner(&self, kind: usize, index: usize) -> Option<&PathBuf> {
+        self.partners.get(kind)?.get(index)?.as_ref()
+    }
+
+    /// Whether any measurement has a partner of this kind.
+    pub(super) fn has_partners(&self, kind: usize) -> bool {
+        self.partners.get(kind).is_some_and(|files| files.iter().any(Option::is_some))
     }
 
     /// Times and measurements.
@@ -51,11 +64,13 @@ impl SensorFiles {
         std::iter::once(&self.timestamps).chain(&self.files)
     }
 
-    /// Times, and each measurement with its partner.
+    /// Times, and each measurement with its partners.
     pub(super) fn all(&self) -> impl Iterator<Item = &PathBuf> {
-        let pairs = self.files.iter().zip(&self.partners);
-        std::iter::once(&self.timestamps)
-            .chain(pairs.flat_map(|(file, partner)| [Some(file), partner.as_ref()]).flatten())
+        let with_partners = self.files.iter().enumerate().flat_map(move |(index, file)| {
+            let partners = (0..self.partners.len()).filter_map(move |kind| self.partner(kind, index));
+            std::iter::once(file).chain(partners)
+        });
+        std::iter::once(&self.timestamps).chain(with_partners)
     }
 }
 
@@ -78,12 +93,12 @@ fn numbered(folder: &Path, extensions: &[&str]) -> Result<BTreeMap<u64, PathBuf>
 }
 
 /// For each of the numbers, its partner.
-fn partners(
-    Partner { folder, extension }: Partner,
+fn partners_of(
+    Partner { folder, extension }: &Partner,
     numbers: impl Iterator<Item = u64>,
     warnings: &mut Vec<String>,
 ) -> Result<Vec<Option<PathBuf>>, DataError> {
-    let mut files = if folder.is_dir() { numbered(&folder, &[extension])? } else { BTreeMap::new() };
+    let mut files = if folder.is_dir() { numbered(folder, &[*extension])? } else { BTreeMap::new() };
     let partners = numbers.map(|number| files.remove(&number)).collect();
     let lone = files.values().map(|file| format!("{}: belongs to no measurement, ignored", file.display()));
     warnings.extend(lone);
@@ -117,7 +132,7 @@ mod tests {
         assert_eq!(files.keys().copied().collect::<Vec<_>>(), [2, 9, 10]);
         let mut warnings = vec![];
         let partner = Partner { folder: folder.path().to_owned(), extension: "label" };
-        let labels = partners(partner, [2].into_iter(), &mut warnings).unwrap();
+        let labels = partners_of(&partner, [2].into_iter(), &mut warnings).unwrap();
         assert_eq!(labels, [None]);
         assert!(warnings[0].contains("3.label: belongs to no measurement"), "{warnings:?}");
     }

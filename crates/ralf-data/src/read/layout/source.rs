@@ -14,6 +14,11 @@ use ralf::sensors::{
 use ralf::space::{EgoMotion, OdometrySample};
 use std::path::{Path, PathBuf};
 
+/// Place of the only kind of partner: a radar's truth, a LiDAR's classes, a camera's depth.
+const FIRST: usize = 0;
+/// Place of the times of a LiDAR's points among its partners.
+const POINT_TIMES: usize = 1;
+
 /// A sequence's folder, opened: `sequence.toml`, times and motion are read, measurements are listed.
 #[derive(Debug)]
 pub struct LayoutSequence {
@@ -76,16 +81,20 @@ fn measurement<'a>(
 /// The files of all radars, LiDARs and cameras.
 fn list(folder: &Path, rig: &Rig, warnings: &mut Vec<String>) -> Result<[Vec<SensorFiles>; 3], DataError> {
     let label = |folder: PathBuf| Partner { folder, extension: "label" };
-    let mut list = |name: &str, extensions: &[&str], partner| {
-        SensorFiles::list(&folder.join(name), extensions, partner, warnings)
+    let mut list = |name: &str, extensions: &[&str], partners: &[Partner]| {
+        SensorFiles::list(&folder.join(name), extensions, partners, warnings)
     };
-    let truth = |name: &str| label(folder.join(GROUND_TRUTH).join(name));
-    let depth = |name: &str| Partner { folder: folder.join(name).join("depth"), extension: "npy" };
-    let radars = rig.radars.iter().map(|Radar { name, .. }| list(name, &["bin"], truth(name)));
+    let truth = |name: &str| [label(folder.join(GROUND_TRUTH).join(name))];
+    let of_points = |name: &str| {
+        let times = Partner { folder: folder.join(name), extension: "time" };
+        [label(folder.join(name)), times]
+    };
+    let depth = |name: &str| [Partner { folder: folder.join(name).join("depth"), extension: "npy" }];
+    let radars = rig.radars.iter().map(|Radar { name, .. }| list(name, &["bin"], &truth(name)));
     let radars = radars.collect::<Result<_, _>>()?;
-    let lidars = rig.lidars.iter().map(|Lidar { name, .. }| list(name, &["bin"], label(folder.join(name))));
+    let lidars = rig.lidars.iter().map(|Lidar { name, .. }| list(name, &["bin"], &of_points(name)));
     let lidars = lidars.collect::<Result<_, _>>()?;
-    let cameras = rig.cameras.iter().map(|Camera { name, .. }| list(name, &images::EXTENSIONS, depth(name)));
+    let cameras = rig.cameras.iter().map(|Camera { name, .. }| list(name, &images::EXTENSIONS, &depth(name)));
     Ok([radars, lidars, cameras.collect::<Result<_, _>>()?])
 }
 
@@ -137,11 +146,10 @@ impl Source for LayoutSequence {
         let rows = files::read_f32_rows::<4>(file)?;
         let points = rows.iter().map(|[x, y, z, _]| [*x, *y, *z]).collect();
         let intensity = rows.iter().map(|row| row[3]).collect();
-        let classes = match &sensor.partners[scan] {
-            Some(file) => Some(classes(file, rows.len())?),
-            None => None,
-        };
-        Ok(LidarScan { t_ns: sensor.times[scan], points, intensity, classes })
+        let classes = sensor.partner(FIRST, scan).map(|file| classes(file, rows.len())).transpose()?;
+        let times =
+            sensor.partner(POINT_TIMES, scan).map(|file| point_times(file, rows.len())).transpose()?;
+        Ok(LidarScan { t_ns: sensor.times[scan], points, times, intensity, classes })
     }
 
     fn image(&self, camera: usize, image: usize) -> Result<CameraImage, SourceError> {
@@ -151,7 +159,7 @@ impl Source for LayoutSequence {
 
     fn depth(&self, camera: usize, image: usize) -> Result<Option<Vec<DepthImage>>, SourceError> {
         let (sensor, _) = measurement("camera", &self.cameras, camera, image)?;
-        let Some(file) = &sensor.partners[image] else { return Ok(None) };
+        let Some(file) = sensor.partner(FIRST, image) else { return Ok(None) };
         let depth = npy::read_depth(file)?;
         let views = self.sequence.rig.cameras[camera].views.len().max(1);
         if depth.len() != views {
@@ -178,15 +186,31 @@ impl SequenceReader for LayoutSequence {
     }
 
     fn lidar_label_file(&self, lidar: usize, scan: usize) -> Option<PathBuf> {
-        self.lidars.get(lidar)?.partners.get(scan)?.clone()
+        self.lidars.get(lidar)?.partner(FIRST, scan).cloned()
     }
 
     fn has_depth(&self, camera: usize) -> bool {
-        self.cameras.get(camera).is_some_and(|files| files.partners.iter().any(Option::is_some))
+        self.cameras.get(camera).is_some_and(|files| files.has_partners(FIRST))
     }
 
     fn truth_file(&self, radar: usize, scan: usize) -> Option<PathBuf> {
-        self.radars.get(radar)?.partners.get(scan)?.clone()
+        self.radars.get(radar)?.partner(FIRST, scan).cloned()
+    }
+}
+
+/// When each of so many points was measured, s after the scan's time, from a `.time` file.
+fn point_times(file: &Path, points: usize) -> Result<Vec<f32>, DataError> {
+    let times = files::read_f32_columns(file, 1)?.swap_remove(0);
+    if times.len() != points {
+        let expected = format!("{points} float32, one per point");
+        return Err(DataError::content(file, "size", expected, times.len().to_string()));
+    }
+    match times.iter().position(|time| !time.is_finite()) {
+        Some(row) => {
+            let place = format!("byte {}", row * size_of::<f32>());
+            Err(DataError::content(file, place, "a finite time", times[row].to_string()))
+        }
+        None => Ok(times),
     }
 }
 

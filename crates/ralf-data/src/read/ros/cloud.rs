@@ -57,7 +57,7 @@ pub(super) fn lidar_scan(
     let [x, y, z] = [column("x")?, column("y")?, column("z")?];
     let points: Vec<[f32; 3]> = x.into_iter().zip(y).zip(z).map(|((x, y), z)| [x, y, z]).collect();
     let intensity = table.column("intensity").unwrap_or_else(|| vec![0.0; points.len()]);
-    Ok(LidarScan { t_ns, points, intensity, classes: None })
+    Ok(LidarScan { t_ns, points, times: None, intensity, classes: None })
 }
 
 impl Columns {

@@ -16,9 +16,6 @@ use ralf::sensors::{Radar, RadarScan};
 use ralf::space::Transform;
 use std::fmt::Write;
 
-/// Fields that are taken for the intensity of a return, the first that a radar has.
-const INTENSITIES: [&str; 5] = ["rcs", "power", "snr", "amplitude", "intensity"];
-
 /// Writes the tree.
 pub(super) struct SemanticKitti {
     /// Whether the recording's sequences are named by numbers and have one radar each, so that they can keep their
@@ -103,8 +100,7 @@ fn write_scan(folder: &OutFolder, sequence: &LabelledSequence, scan: &LabelledSc
 fn point(radar: &Radar, measured: &RadarScan, row: usize) -> [f32; 4] {
     let position = measured.positions[row].coords.map(|value| value as f32);
     let place = if position.iter().all(|value| value.is_finite()) { position } else { Default::default() };
-    let intensity = INTENSITIES.iter().find_map(|name| radar.column(name));
-    let intensity = intensity.map_or(0.0, |column| measured.columns[column][row]);
+    let intensity = radar.amplitude().map_or(0.0, |field| measured.columns[field.column][row]);
     [place.x, place.y, place.z, if intensity.is_finite() { intensity } else { 0.0 }]
 }
 

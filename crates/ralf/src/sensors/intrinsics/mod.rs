@@ -74,8 +74,8 @@ impl Intrinsics {
         self.project_within(p, self.limit())
     }
 
-    /// [`Self::project`] with the limit at hand, for many points.
-    pub(super) fn project_within(&self, p: &Point, limit: f64) -> Option<[f64; 2]> {
+    /// [`Self::project`] with the limit ([`Self::limit`]) at hand, for many points.
+    pub(crate) fn project_within(&self, p: &Point, limit: f64) -> Option<[f64; 2]> {
         let pixel = match *self {
             Self::Pinhole { focal, center, distortion } => {
                 scaled(focal, center, pinhole::project(p, limit, distortion)?)
@@ -90,7 +90,18 @@ impl Intrinsics {
 
     /// The direction in the optical frame that a pixel `[u, v]` looks in; `None` where no ray leads to it.
     pub fn back_project(&self, pixel: [f64; 2]) -> Option<UnitVector3<f64>> {
+        self.back_project_within(pixel, self.limit())
+    }
+
+    /// The directions that all pixels of an image look in, row by row.
+    pub fn rays(&self, width: usize, height: usize) -> Vec<Option<UnitVector3<f64>>> {
         let limit = self.limit();
+        let pixels = (0..height).flat_map(|v| (0..width).map(move |u| [u as f64, v as f64]));
+        pixels.map(|pixel| self.back_project_within(pixel, limit)).collect()
+    }
+
+    /// [`Self::back_project`] with the limit at hand, for many pixels.
+    fn back_project_within(&self, pixel: [f64; 2], limit: f64) -> Option<UnitVector3<f64>> {
         let ray = match *self {
             Self::Pinhole { focal, center, distortion } => {
                 pinhole::back_project(unscaled(focal, center, pixel), limit, distortion)?
@@ -133,7 +144,7 @@ impl Intrinsics {
         let pixels = (0..=steps).flat_map(|row| (0..=steps).map(move |column| [column, row]));
         let errors = pixels.filter_map(|[column, row]| {
             let [u, v] = [at(width, column), at(height, row)];
-            let direction = self.back_project([u, v])?;
+            let direction = self.back_project_within([u, v], limit)?;
             let back = self.project_within(&Point::from(direction.into_inner()), limit);
             Some(back.map_or(f64::INFINITY, |back| (back[0] - u).hypot(back[1] - v)))
         });

@@ -131,6 +131,26 @@ impl NeighborIndex {
         }
     }
 
+    /// The identities of all points at most `radius`, m, from a place, seen from above, in an order that depends on the
+    /// points alone. `found` is overwritten.
+    pub fn beside(&self, [x, y]: [f32; 2], radius: f32, found: &mut Vec<u32>) {
+        found.clear();
+        if self.is_empty() || !(x.is_finite() && y.is_finite() && radius >= 0.0) {
+            return;
+        }
+        let wide = radius + SLACK;
+        let [left, bottom] = self.place_of(x - wide, y - wide).cell;
+        let [right, top] = self.place_of(x + wide, y + wide).cell;
+        for row in bottom..=top {
+            for place in self.run(row, left, right) {
+                let [dx, dy] = [self.xs[place] - x, self.ys[place] - y];
+                if dx * dx + dy * dy <= radius * radius {
+                    found.push(self.ids[place]);
+                }
+            }
+        }
+    }
+
     /// Points of the cells `left..=right` of a row.
     fn run(&self, row: usize, left: usize, right: usize) -> Range<usize> {
         let first = row * self.columns;

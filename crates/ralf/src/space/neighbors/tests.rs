@@ -65,7 +65,48 @@ fn far_away() {
     check(&far, &QUERIES);
 }
 
+/// The identities of all points at most so far from a place, seen from above, in ascending order.
+fn beside(points: &[[f32; 3]], [x, y]: [f32; 2], radius: f32) -> Vec<u32> {
+    let near = |p: &[f32; 3]| (p[0] - x) * (p[0] - x) + (p[1] - y) * (p[1] - y) <= radius * radius;
+    (0u32..).zip(points).filter(|(_, p)| near(p)).map(|(id, _)| id).collect()
+}
+
+fn check_beside(points: &[[f32; 3]], queries: &[[f32; 3]], radius: f32) {
+    let ids: Vec<u32> = (0..points.len() as u32).collect();
+    let index = NeighborIndex::new(points, &ids);
+    let mut found = Vec::new();
+    for &[x, y, _] in queries {
+        index.beside([x, y], radius, &mut found);
+        found.sort_unstable();
+        assert_eq!(found, beside(points, [x, y], radius), "query {x} {y}, radius {radius}");
+    }
+}
+
+#[test]
+fn all_beside_far_away_and_of_no_number() {
+    let far = [[5e3, 0.0, 0.0], [5e3, 1.0, 90.0], [-7e4, 2e5, 3.0], [0.0, 1.0, 0.0], [300.0, 300.0, 4.0]];
+    for radius in [0.0, 1.0, 100.0, 1e6, f32::INFINITY] {
+        check_beside(&far, &QUERIES, radius);
+        check_beside(&far, &far, radius);
+        check_beside(&[], &QUERIES, radius);
+    }
+    let (index, mut found) = (NeighborIndex::new(&far, &[0, 1, 2, 3, 4]), vec![7]);
+    for (place, radius) in [([f32::NAN, 0.0], 9.0), ([0.0, 0.0], -1.0), ([0.0, 0.0], f32::NAN)] {
+        index.beside(place, radius, &mut found);
+        assert!(found.is_empty());
+    }
+}
+
 proptest! {
+    #[test]
+    fn all_beside_as_brute_force(
+        points in prop::collection::vec(prop::array::uniform3(-60f32..60.0), 0..400),
+        queries in prop::collection::vec(prop::array::uniform3(-90f32..90.0), 5),
+        radius in 0f32..40.0,
+    ) {
+        check_beside(&points, &queries, radius);
+    }
+
     #[test]
     fn as_brute_force(
         points in prop::collection::vec(prop::array::uniform3(-60f32..60.0), 0..400),

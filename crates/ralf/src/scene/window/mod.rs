@@ -1,15 +1,21 @@
 //! Frames of one sequence, gathered in bounded memory.
 
+mod evidence;
+
 use super::camera::{CalibratedImage, Calibration, ImageId, ImageView};
 use super::floor::LocalGround;
 use super::frame::{Frame, Unreadable};
 use super::lidar::{LidarSnapshot, LidarView};
+use super::lidar_window::LidarWindow;
 use super::located::LocatedScan;
 use super::neighbouring::{NeighbouringScan, ScanStep};
 use crate::config::{Config, GroundModel, TrackingSources, nanoseconds};
 use crate::sensors::{LidarScan, Rig, Source, SourceError};
 use crate::space::{Recent, sync};
 use std::sync::Arc;
+
+/// Moments of the LiDARs that may be the nearest ones of radar scans that are asked for in turn.
+const MOMENTS: usize = 2;
 
 /// Names a measurement: sensor and number.
 type Key = (usize, usize);
@@ -39,12 +45,14 @@ pub struct FrameWindow<'a> {
     source: &'a dyn Source,
     config: &'a Config,
     rig: &'a Rig,
-    /// Whether the other radars' scans are gathered, too.
-    all_radars: bool,
+    /// Whether what evidence looks at is gathered, too.
+    evidence: bool,
     radar_scans: Recent<Key, Option<Arc<LocatedScan>>>,
     /// With the reason where one can't be read.
     lidar_scans: Recent<Key, Result<Arc<LidarScan>, String>>,
     moments: Recent<(i64, Vec<Key>), Arc<LidarSnapshot>>,
+    /// By the scan of the leading LiDAR in their middle.
+    lidar_windows: Recent<Key, Arc<LidarWindow>>,
     images: Recent<Key, Option<Arc<CalibratedImage>>>,
 }
 
@@ -54,24 +62,18 @@ impl<'a> FrameWindow<'a> {
         let batch = config.tracking.scans.saturating_mul(2).saturating_add(2);
         // A batch can't be longer than the sequence.
         let longest = source.sequence().times.radars.iter().map(Vec::len).max().unwrap_or(0);
-        let moments = config.lidar.window_scans.saturating_mul(2).saturating_add(2);
         Self {
             source,
             config,
             rig,
-            all_radars: config.tracking.sources == TrackingSources::All,
+            evidence: false,
             radar_scans: Recent::new(batch.min(longest) * rig.radars.len()),
-            lidar_scans: Recent::new(moments * rig.lidars.len()),
+            lidar_scans: Recent::new(MOMENTS * rig.lidars.len()),
             // The images around a radar scan may have other LiDAR scans nearest to them.
-            moments: Recent::new(moments + rig.cameras.len()),
+            moments: Recent::new(MOMENTS + rig.cameras.len()),
+            lidar_windows: Recent::new(MOMENTS),
             images: Recent::new(2 * rig.cameras.len()),
         }
-    }
-
-    /// The same window, whose frames carry all radars' neighbouring scans, whatever the settings say.
-    pub fn with_all_radars(mut self) -> Self {
-        self.all_radars = true;
-        self
     }
 
     /// All that belongs to one scan of one radar. Fails where that scan can't be read. A LiDAR scan that can't be is
@@ -90,7 +92,8 @@ impl<'a> FrameWindow<'a> {
             motion: &self.source.sequence().motion,
             ground: LocalGround::around(lidar.as_ref(), &self.config.ground),
             lidar,
-            lidar_window: self.lidar_window(t_ns),
+            lidar_window: if self.evidence { self.lidar_window(t_ns) } else { None },
+            radar_window: if self.evidence { self.radar_window(radar, scan, t_ns) } else { Vec::new() },
             images: if self.config.camera.enabled { self.images(t_ns) } else { Vec::new() },
             steps: if self.config.tracking.enabled { self.steps(radar, scan, t_ns) } else { Vec::new() },
             scan: located,
@@ -119,6 +122,7 @@ impl<'a> FrameWindow<'a> {
     /// The batch of scans before and after (docs/method.md, section 7).
     fn steps(&mut self, radar: usize, scan: usize, t_ns: i64) -> Vec<ScanStep> {
         let max_gap = nanoseconds(self.config.tracking.max_gap_ms);
+        let all_radars = self.config.tracking.sources == TrackingSources::All;
         let times = &self.source.sequence().times.radars;
         let mut steps = Vec::new();
         for j in sync::batch(&times[radar], scan, self.config.tracking.scans, max_gap) {
@@ -126,7 +130,7 @@ impl<'a> FrameWindow<'a> {
             let Some(own) = self.neighbouring_scan(radar, j, t_ns) else { continue };
             let mut others = Vec::new();
             for (other, times) in times.iter().enumerate() {
-                if other == radar || !self.all_radars {
+                if other == radar || !all_radars {
                     continue;
                 }
                 let nearest = sync::nearest(times, step_time, max_gap);
@@ -145,22 +149,6 @@ impl<'a> FrameWindow<'a> {
             Some(Unreadable { reason, .. }) => Err(reason.into()),
             None => Ok(view),
         }
-    }
-
-    /// The LiDAR scans before and after the ones nearest to a time; those that can't be read are left out.
-    fn lidar_window(&mut self, t_ns: i64) -> Vec<LidarView> {
-        let reach = self.config.lidar.window_scans as isize;
-        let times = &self.source.sequence().times.lidars;
-        let mut views = Vec::new();
-        for step in (-reach..=reach).filter(|step| *step != 0) {
-            let mut keys = Vec::new();
-            for (lidar, nearest) in self.nearest_lidar_scans(t_ns) {
-                let scan = nearest.checked_add_signed(step).filter(|scan| *scan < times[lidar].len());
-                keys.extend(scan.map(|scan| (lidar, scan)));
-            }
-            views.extend(self.view(keys, t_ns));
-        }
-        views
     }
 
     fn nearest_lidar_scans(&self, t_ns: i64) -> Vec<Key> {

@@ -1,0 +1,60 @@
+//! Detections as the LiDAR window's scans are asked about them.
+
+use crate::scene::{Detection, Frame};
+use crate::sensors::Elevation;
+use nalgebra::{Matrix3, Vector3};
+
+/// A radar without elevation is taken to have seen what it saw so high above the ground, m: the middle of what stands
+/// on a road.
+const SUPPOSED_HEIGHT: f64 = 0.7;
+/// How well that is known, m.
+const SUPPOSED_SIGMA: f64 = 0.4;
+
+/// LiDAR and radar don't see the same spot of an object: uncertainty of a point's place as the detection's own, m.
+pub(super) const SAME_SPOT: f64 = 0.1;
+
+/// A detection in the vehicle frame of the LiDAR window.
+#[derive(Debug, Clone, Copy)]
+pub struct Probe {
+    /// Where it lies, m, and how well that is known. Of a radar without elevation the height is supposed.
+    pub detection: Detection,
+    /// Height of the ground there, m; that of the vehicle where nobody saw the ground.
+    pub ground: f64,
+    /// `(Sigma + (0.1 m)^2 I)^-1`, m^-2: LiDAR and radar don't see the same spot of an object.
+    pub precision: Matrix3<f64>,
+}
+
+impl Probe {
+    /// A detection above a ground.
+    fn new(detection: Detection, ground: f64) -> Self {
+        let covariance =
+            detection.axes * detection.axes.transpose() + Matrix3::identity() * SAME_SPOT.powi(2);
+        // A covariance that is not finite makes all distances 0 rather than a run end.
+        let precision = covariance.try_inverse().unwrap_or_else(Matrix3::zeros);
+        Self { detection, ground, precision }
+    }
+}
+
+/// The frame's detections in the frame of its LiDAR window; `None` for those without a position. Empty without a
+/// window.
+pub(super) fn probes(frame: &Frame) -> Vec<Option<Probe>> {
+    let Some(lidar) = &frame.lidar_window else { return Vec::new() };
+    let window_from_vehicle = lidar.vehicle_from_window.inverse();
+    let surface = lidar.window.ground();
+    let mut probes = Vec::with_capacity(frame.scan.len());
+    for detection in &frame.scan.detections {
+        let Some(detection) = detection else {
+            probes.push(None);
+            continue;
+        };
+        let mut detection = detection.moved(&window_from_vehicle);
+        let p = detection.position;
+        let ground = surface.and_then(|surface| surface.height_at(p.x, p.y)).unwrap_or(0.0);
+        if frame.radar.elevation == Elevation::None {
+            detection.position.z = ground + SUPPOSED_HEIGHT;
+            detection.axes.set_column(2, &Vector3::new(0.0, 0.0, SUPPOSED_SIGMA));
+        }
+        probes.push(Some(Probe::new(detection, ground)));
+    }
+    probes
+}

@@ -1,0 +1,28 @@
+//! The method that learns: a [`Model`] weighs all evidence of a detection, and its answer is a calibrated probability
+//! with reasons.
+//!
+//! A model is decision trees ([`Forest`]) over [evidence](crate::evidence), trained where the truth is known; `ralf
+//! learn` makes one, and it is a text of its own format ([`Model::from_text`]). Evidence that was not observed is
+//! ordinary: every question knows where absence leads. What lies outside of all that a model was trained on
+//! ([`novelty`]) is left to the paper's method.
+
+mod calibration;
+mod familiar;
+mod forest;
+mod labeler;
+mod model;
+mod reason;
+mod rows;
+mod shapley;
+mod text;
+mod tree;
+
+pub use calibration::{Calibration, CalibrationError};
+pub use familiar::{Seen, novelty};
+pub use forest::{Forest, probability};
+pub use labeler::{Answer, LearnedLabeler, LearnedScan, ToldCause, UNCLEAR};
+pub use model::{CauseForest, Input, Model, Origin, UseError, World};
+pub use rows::Rows;
+pub use shapley::Explainer;
+pub use text::ReadError;
+pub use tree::{Leaf, Node, Split, Tree, TreeError};

@@ -1,0 +1,104 @@
+//! A learned model: what it reads, what it says, and where it comes from.
+
+use super::calibration::Calibration;
+use super::familiar::Seen;
+use super::forest::Forest;
+use crate::evidence::features;
+use thiserror::Error;
+
+/// A model that tells how plausible a detection is, from its evidence.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Model {
+    /// Where it comes from.
+    pub origin: Origin,
+    /// What it reads, in the order of its rows.
+    pub inputs: Vec<Input>,
+    /// Log odds that a detection is plausible.
+    pub plausible: Forest,
+    /// What these log odds mean.
+    pub calibration: Calibration,
+    /// Log odds of each cause, of artifacts.
+    pub causes: Vec<CauseForest>,
+}
+
+/// Where a model comes from.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct Origin {
+    /// The program that trained it: version and sources.
+    pub program: String,
+    /// The command that trains it again.
+    pub command: String,
+    /// The seed of every random choice.
+    pub seed: u64,
+    /// What it was trained in, and how well models did that had never seen it.
+    pub worlds: Vec<World>,
+}
+
+/// Recordings of one kind, and how well a model labels them that was trained on all the others.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct World {
+    /// Its name.
+    pub name: String,
+    /// Detections, of which so many are plausible.
+    pub detections: u64,
+    /// Plausible ones.
+    pub plausible: u64,
+    /// What was measured, with its name: printed as they are, for people.
+    pub scores: Vec<(String, String)>,
+}
+
+/// One feature that a model reads.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Input {
+    /// The name of a [`Feature`](crate::evidence::Feature).
+    pub name: String,
+    /// What it was like in training.
+    pub seen: Seen,
+}
+
+/// The log odds of one cause.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CauseForest {
+    /// The cause, as [`Cause::name`](crate::label::Cause::name) has it.
+    pub name: String,
+    /// Its log odds.
+    pub forest: Forest,
+}
+
+/// Why a model can't be used.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+pub enum UseError {
+    /// Evidence that this program doesn't gather.
+    #[error("the model reads `{0}`, which this program does not observe: it was trained by another version")]
+    UnknownFeature(String),
+    /// A forest that asks for more features than the model names.
+    #[error("a tree of the model asks for feature {asked} of {known}")]
+    NoSuchFeature {
+        /// The place asked for, from 0.
+        asked: usize,
+        /// How many there are.
+        known: usize,
+    },
+}
+
+impl Model {
+    /// Whether this program can use it: it observes every feature that the model reads, and no tree asks for another.
+    ///
+    /// # Errors
+    /// The first feature that is not known, or not named.
+    pub fn check(&self) -> Result<(), UseError> {
+        if let Some(unknown) =
+            self.inputs.iter().find(|input| features().all(|known| known.name != input.name))
+        {
+            return Err(UseError::UnknownFeature(unknown.name.clone()));
+        }
+        let known = self.inputs.len();
+        for forest in self.causes.iter().map(|cause| &cause.forest).chain([&self.plausible]) {
+            let width = forest.width();
+            if width > known {
+                return Err(UseError::NoSuchFeature { asked: width - 1, known });
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,125 @@
+//! A model as text, line by line (docs/learned.md): what differs between two models shows where they differ.
+
+mod read;
+mod write;
+
+pub use read::ReadError;
+
+use super::model::Model;
+
+/// The first line of every model.
+const HEAD: &str = "ralf model 1";
+
+/// What comes with the program.
+const SHIPPED: &str = include_str!("../../../models/shipped.txt");
+
+impl Model {
+    /// The model that comes with this version of the program.
+    ///
+    /// # Errors
+    /// None, as long as the program is whole; its tests read it.
+    pub fn shipped() -> Result<Self, ReadError> {
+        read::model(SHIPPED)
+    }
+
+    /// The model as text. Every number is written so that it is read back to the bit.
+    pub fn to_text(&self) -> String {
+        write::text(self)
+    }
+
+    /// Reads [`to_text`](Self::to_text).
+    ///
+    /// # Errors
+    /// The first line that isn't as expected. Whether this program can use the model, [`check`](Self::check) tells.
+    pub fn from_text(text: &str) -> Result<Self, ReadError> {
+        read::model(text)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::calibration::Calibration;
+    use super::super::familiar::Seen;
+    use super::super::forest::Forest;
+    use super::super::model::{CauseForest, Input, Origin, World};
+    use super::super::tree::Tree;
+    use super::super::tree::tests::{leaf, split};
+    use super::*;
+
+    fn model() -> Model {
+        let tree = Tree::new(vec![split(1, 0.1, true), leaf(-0.3, 7.0), leaf(1e-9, 2.5)]).unwrap();
+        let input = |name: &str| Input {
+            name: name.to_owned(),
+            seen: Seen { low: -1.5, high: 3e20, absent: 0.1, gain: 2.0 },
+        };
+        let scores = vec![("f1".to_owned(), "0.9123".to_owned())];
+        let world = World { name: "town, by day".to_owned(), detections: 9, plausible: 4, scores };
+        Model {
+            origin: Origin {
+                program: "0.1.0 abc".to_owned(),
+                command: "ralf learn a b".to_owned(),
+                seed: u64::MAX,
+                worlds: vec![world],
+            },
+            inputs: vec![input("lidar_residual_horizontal"), input("lidar_residual_vertical")],
+            plausible: Forest {
+                base: -1.0 / 3.0,
+                trees: vec![tree.clone(), Tree::new(vec![leaf(0.5, 1.0)]).unwrap()],
+            },
+            calibration: Calibration::new(vec![(-2.5, 0.01), (0.1, 0.7)]).unwrap(),
+            causes: vec![CauseForest {
+                name: "side lobe".to_owned(),
+                forest: Forest { base: 0.5, trees: vec![tree] },
+            }],
+        }
+    }
+
+    #[test]
+    fn what_is_written_is_read_back_to_the_bit() {
+        assert_eq!(Model::from_text(&model().to_text()), Ok(model()));
+        let bare = Model { causes: vec![], origin: Origin::default(), ..model() };
+        assert_eq!(Model::from_text(&bare.to_text()), Ok(bare));
+        assert_eq!(model().check(), Ok(()));
+    }
+
+    #[test]
+    fn a_text_that_is_cut_short_anywhere_is_refused() {
+        let text = model().to_text();
+        for end in 0..text.len() - 1 {
+            let found = Model::from_text(&text[..end]);
+            assert!(found.is_err(), "{end}: {found:?}");
+        }
+    }
+
+    #[test]
+    fn what_is_wrong_is_named_with_its_line() {
+        let refusal = |from: &str, to: &str| {
+            let text = model().to_text();
+            assert!(text.contains(from), "{from} in {text}");
+            Model::from_text(&text.replacen(from, to, 1)).unwrap_err().to_string()
+        };
+        for (from, to, expected) in [
+            ("ralf model 1", "ralf model 2", "line 1: expected `ralf model 1`, found `ralf model 2`"),
+            ("seed 18", "seed x18", "line 4: expected seed and a whole number"),
+            ("input lidar_residual_v", "inputs lidar_residual_v", "expected"),
+            ("calibrated 0.1 0.7", "calibrated 0.1 1.7", "expected points of rising log odds"),
+            ("tree 1 0.1 y", "tree 1 inf y", "expected finite numbers"),
+            ("tree 1 0.1 y", "tree 70000 0.1 y", "expected"),
+            ("tree 1 0.1 y", "tree 1 0.1 y 1 0.1 n", "expected a whole tree"),
+            ("end", "end\nend", "expected no further line, found `end`"),
+        ] {
+            let found = refusal(from, to);
+            assert!(found.contains(expected), "{from} -> {to}: {found}");
+        }
+    }
+
+    #[test]
+    fn a_model_that_asks_for_what_nobody_observes_is_refused_by_name() {
+        let mut unknown = model();
+        unknown.inputs[1].name = "smell".to_owned();
+        assert!(unknown.check().unwrap_err().to_string().contains("`smell`"));
+        let mut narrow = model();
+        narrow.inputs.pop();
+        assert!(narrow.check().unwrap_err().to_string().contains("feature 1 of 1"));
+    }
+}

@@ -1,0 +1,208 @@
+//! Models, read.
+
+use super::super::calibration::Calibration;
+use super::super::familiar::Seen;
+use super::super::forest::Forest;
+use super::super::model::{CauseForest, Input, Model, Origin, World};
+use super::super::tree::{Leaf, Node, Split, Tree};
+use super::HEAD;
+use std::iter::Peekable;
+use std::str::{Lines, SplitWhitespace};
+use thiserror::Error;
+
+/// A text that is no model.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[error("line {line}: expected {expected}, found {found}")]
+pub struct ReadError {
+    /// From 1.
+    pub line: usize,
+    /// What should stand there.
+    pub expected: String,
+    /// What does.
+    pub found: String,
+}
+
+/// Reads a whole text.
+pub(super) fn model(text: &str) -> Result<Model, ReadError> {
+    let mut reader = Reader { lines: text.lines().enumerate().peekable() };
+    let head = reader.next(HEAD)?;
+    if head.text != HEAD {
+        return Err(head.refuse(format!("`{HEAD}`")));
+    }
+    let origin = reader.origin()?;
+    let mut inputs = Vec::new();
+    while let Some(line) = reader.next_if("input")? {
+        inputs.push(line.input()?);
+    }
+    let calibration = reader.calibration()?;
+    let plausible = reader.forest("plausible")?;
+    let mut causes = Vec::new();
+    while let Some(cause) = reader.cause()? {
+        causes.push(cause);
+    }
+    let end = reader.next("end")?;
+    // The last line is whole only with its end.
+    if end.text != "end" || !text.ends_with('\n') {
+        return Err(end.refuse("another forest, or `end` as the last line"));
+    }
+    match reader.lines.next() {
+        None => Ok(Model { origin, inputs, plausible, calibration, causes }),
+        Some((at, text)) => Err(Line { at, key: "", text, rest: text }.refuse("no further line")),
+    }
+}
+
+/// A line: its key, and what follows.
+#[derive(Debug, Clone, Copy)]
+struct Line<'a> {
+    at: usize,
+    key: &'a str,
+    text: &'a str,
+    rest: &'a str,
+}
+
+struct Reader<'a> {
+    lines: Peekable<std::iter::Enumerate<Lines<'a>>>,
+}
+
+impl<'a> Reader<'a> {
+    fn next(&mut self, expected: &str) -> Result<Line<'a>, ReadError> {
+        let Some((at, text)) = self.lines.next() else {
+            let found = "the end of the text".to_owned();
+            return Err(ReadError { line: 0, expected: format!("`{expected}`"), found });
+        };
+        let (key, rest) = text.split_once(' ').unwrap_or((text, ""));
+        Ok(Line { at, key, text, rest })
+    }
+
+    /// The next line, if it has this key.
+    fn next_if(&mut self, key: &str) -> Result<Option<Line<'a>>, ReadError> {
+        let has = self.lines.peek().is_some_and(|(_, text)| text.split(' ').next() == Some(key));
+        if has { self.next(key).map(Some) } else { Ok(None) }
+    }
+
+    fn with_key(&mut self, key: &str) -> Result<Line<'a>, ReadError> {
+        let line = self.next(key)?;
+        if line.key == key { Ok(line) } else { Err(line.refuse(format!("`{key}`"))) }
+    }
+
+    fn origin(&mut self) -> Result<Origin, ReadError> {
+        let program = self.with_key("program")?.rest.to_owned();
+        let command = self.with_key("command")?.rest.to_owned();
+        let line = self.with_key("seed")?;
+        let seed = line.rest.parse().map_err(|_| line.refuse("seed and a whole number"))?;
+        let mut worlds = Vec::new();
+        while let Some(line) = self.next_if("world")? {
+            worlds.push(
+                line.world().ok_or_else(|| line.refuse("world, two counts, a name, a colon and scores"))?,
+            );
+        }
+        Ok(Origin { program, command, seed, worlds })
+    }
+
+    fn calibration(&mut self) -> Result<Calibration, ReadError> {
+        let mut last = self.with_key("calibrated")?;
+        let mut points = vec![last.point()?];
+        while let Some(line) = self.next_if("calibrated")? {
+            points.push(line.point()?);
+            last = line;
+        }
+        Calibration::new(points).map_err(|error| last.refuse(error))
+    }
+
+    fn forest(&mut self, name: &str) -> Result<Forest, ReadError> {
+        let line = self.with_key("forest")?;
+        match line.rest.split_once(' ') {
+            Some((base, found)) if found == name => self.trees(line, base),
+            _ => Err(line.refuse(format!("forest, a number and `{name}`"))),
+        }
+    }
+
+    /// The next cause's forest, if there is one.
+    fn cause(&mut self) -> Result<Option<CauseForest>, ReadError> {
+        let Some(line) = self.next_if("forest")? else { return Ok(None) };
+        let Some((base, name)) = line.rest.split_once(" cause ") else {
+            return Err(line.refuse("forest, a number and the name of a cause"));
+        };
+        Ok(Some(CauseForest { name: name.to_owned(), forest: self.trees(line, base)? }))
+    }
+
+    fn trees(&mut self, line: Line, base: &str) -> Result<Forest, ReadError> {
+        let base = base.parse().ok().filter(|base: &f64| base.is_finite());
+        let base = base.ok_or_else(|| line.refuse("finite log odds"))?;
+        let mut trees = Vec::new();
+        while let Some(line) = self.next_if("tree")? {
+            let nodes = nodes(line.rest).ok_or_else(|| line.refuse("nodes of a tree"))?;
+            trees.push(Tree::new(nodes).map_err(|error| line.refuse(error))?);
+        }
+        Ok(Forest { base, trees })
+    }
+}
+
+/// The nodes of a line; `None` where one isn't whole.
+fn nodes(text: &str) -> Option<Vec<Node>> {
+    let mut words = text.split_whitespace();
+    let mut nodes = Vec::new();
+    while let Some(first) = words.next() {
+        nodes.push(if first == "=" {
+            Node::Leaf(Leaf { value: number(&mut words)?, cover: number(&mut words)? })
+        } else {
+            let threshold = number(&mut words)?;
+            let absent_is_yes = match words.next()? {
+                "y" => true,
+                "n" => false,
+                _ => return None,
+            };
+            Node::Split(Split { feature: first.parse().ok()?, threshold, absent_is_yes, right: 0 })
+        });
+    }
+    Some(nodes)
+}
+
+fn number(words: &mut SplitWhitespace) -> Option<f32> {
+    words.next()?.parse().ok()
+}
+
+impl Line<'_> {
+    fn refuse(&self, expected: impl ToString) -> ReadError {
+        // A tree's line may be long.
+        let mut found: String = self.text.chars().take(60).collect();
+        if found.len() < self.text.len() {
+            found += " ...";
+        }
+        let expected = expected.to_string().trim_start_matches("expected ").to_owned();
+        ReadError { line: self.at + 1, expected, found: format!("`{found}`") }
+    }
+
+    fn world(&self) -> Option<World> {
+        let (head, told) = self.rest.split_once(':')?;
+        let mut words = head.splitn(3, ' ');
+        let (detections, plausible) = (words.next()?.parse().ok()?, words.next()?.parse().ok()?);
+        let name = words.next()?.to_owned();
+        let words: Vec<&str> = told.split_whitespace().collect();
+        if words.len() % 2 == 1 {
+            return None;
+        }
+        let scores = words.chunks(2).map(|pair| (pair[0].to_owned(), pair[1].to_owned())).collect();
+        Some(World { name, detections, plausible, scores })
+    }
+
+    fn input(&self) -> Result<Input, ReadError> {
+        let refuse = || self.refuse("input, a name and four finite numbers");
+        let (name, numbers) = self.rest.split_once(' ').ok_or_else(refuse)?;
+        let numbers: Option<Vec<f32>> = numbers.split(' ').map(|word| word.parse().ok()).collect();
+        match numbers.as_deref() {
+            Some(&[low, high, absent, gain])
+                if [low, high, absent, gain].iter().all(|number| number.is_finite()) =>
+            {
+                Ok(Input { name: name.to_owned(), seen: Seen { low, high, absent, gain } })
+            }
+            _ => Err(refuse()),
+        }
+    }
+
+    fn point(&self) -> Result<(f64, f64), ReadError> {
+        let refuse = || self.refuse("calibrated and two numbers");
+        let (log_odds, probability) = self.rest.split_once(' ').ok_or_else(refuse)?;
+        Ok((log_odds.parse().map_err(|_| refuse())?, probability.parse().map_err(|_| refuse())?))
+    }
+}

@@ -1,0 +1,69 @@
+//! Models, written.
+
+use super::super::familiar::Seen;
+use super::super::forest::Forest;
+use super::super::model::{Input, Model, World};
+use super::super::tree::{Leaf, Node, Split, Tree};
+use super::HEAD;
+use std::fmt::Write;
+
+/// A model as text.
+pub(super) fn text(model: &Model) -> String {
+    let Model { origin, inputs, plausible, calibration, causes } = model;
+    let mut lines =
+        format!("{HEAD}\nprogram {}\ncommand {}\n", one_line(&origin.program), one_line(&origin.command));
+    line(&mut lines, format_args!("seed {}", origin.seed));
+    for World { name, detections, plausible, scores } in &origin.worlds {
+        let mut told = String::new();
+        for (score, value) in scores {
+            told += &format!(" {score} {value}");
+        }
+        line(
+            &mut lines,
+            format_args!("world {detections} {plausible} {}:{told}", one_line(name).replace(':', ";")),
+        );
+    }
+    for Input { name, seen: Seen { low, high, absent, gain } } in inputs {
+        line(&mut lines, format_args!("input {name} {low:?} {high:?} {absent:?} {gain:?}"));
+    }
+    for (log_odds, probability) in calibration.points() {
+        line(&mut lines, format_args!("calibrated {log_odds:?} {probability:?}"));
+    }
+    forest(&mut lines, "plausible", plausible);
+    for cause in causes {
+        forest(&mut lines, &format!("cause {}", one_line(&cause.name)), &cause.forest);
+    }
+    lines + "end\n"
+}
+
+fn forest(lines: &mut String, name: &str, Forest { base, trees }: &Forest) {
+    line(lines, format_args!("forest {base:?} {name}"));
+    for tree in trees {
+        *lines += "tree";
+        nodes(lines, tree);
+        lines.push('\n');
+    }
+}
+
+/// `FEATURE THRESHOLD y|n` of a question, where y says that absence counts as yes; `= VALUE COVER` of a leaf.
+fn nodes(lines: &mut String, tree: &Tree) {
+    for node in tree.nodes() {
+        let text = match node {
+            Node::Split(Split { feature, threshold, absent_is_yes, .. }) => {
+                format!(" {feature} {threshold:?} {}", if *absent_is_yes { "y" } else { "n" })
+            }
+            Node::Leaf(Leaf { value, cover }) => format!(" = {value:?} {cover:?}"),
+        };
+        *lines += &text;
+    }
+}
+
+fn line(lines: &mut String, line: std::fmt::Arguments) {
+    // A string takes everything.
+    let _ = writeln!(lines, "{line}");
+}
+
+/// What people typed, as one line.
+fn one_line(text: &str) -> String {
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
+}

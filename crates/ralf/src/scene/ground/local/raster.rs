@@ -1,0 +1,232 @@
+//! Square rasters of numbers, and what is done to them cell by cell.
+
+/// A number per cell of a square, row by row.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Raster {
+    /// Cells along an edge.
+    size: usize,
+    pub(super) values: Vec<f32>,
+}
+
+impl Raster {
+    pub(super) fn filled(size: usize, value: f32) -> Self {
+        Self { size, values: vec![value; size * size] }
+    }
+
+    /// Of the known cells each clipped to within `slack` of the median of the known ones within `radius`, itself among
+    /// them; the others as they are.
+    pub(super) fn clipped_to_median(&self, known: &[usize], radius: usize, slack: f32) -> Self {
+        let mut clipped = self.clone();
+        let mut around = Vec::new();
+        for &cell in known {
+            let (row, column) = (cell / self.size, cell % self.size);
+            around.clear();
+            for row in row.saturating_sub(radius)..=(row + radius).min(self.size - 1) {
+                let begin = row * self.size + column.saturating_sub(radius);
+                let end = row * self.size + (column + radius).min(self.size - 1);
+                around.extend(self.values[begin..=end].iter().filter(|value| value.is_finite()));
+            }
+            let value = self.values[cell];
+            // No median of values that are all near is far.
+            if around.iter().all(|other| (other - value).abs() <= slack) {
+                continue;
+            }
+            let middle = around.len() / 2;
+            let median = *around.select_nth_unstable_by(middle, f32::total_cmp).1;
+            clipped.values[cell] = value.clamp(median - slack, median + slack);
+        }
+        clipped
+    }
+
+    /// Every cell with the value of the finite one nearest to it, and how far that is away, in cells. Ways lead from
+    /// cell to cell, so that distances are up to 8 % too long.
+    pub(super) fn filled_from_nearest(&self) -> (Self, Self) {
+        let away = |value: &f32| if value.is_finite() { 0.0 } else { f32::INFINITY };
+        let away = Self { size: self.size, values: self.values.iter().map(away).collect() };
+        let mut spread = Spread { value: self.clone(), away };
+        let diagonal = std::f32::consts::SQRT_2;
+        for row in 0..self.size {
+            for column in 0..self.size {
+                spread.pull(row, column, [(0, -1, 1.0), (-1, -1, diagonal), (-1, 0, 1.0), (-1, 1, diagonal)]);
+            }
+        }
+        for row in (0..self.size).rev() {
+            for column in (0..self.size).rev() {
+                spread.pull(row, column, [(0, 1, 1.0), (1, 1, diagonal), (1, 0, 1.0), (1, -1, diagonal)]);
+            }
+        }
+        (spread.value, spread.away)
+    }
+
+    /// The least value within `radius` cells in row and column.
+    pub(super) fn eroded(&self, radius: usize) -> Self {
+        self.within(radius, |a, b| if b < a { b } else { a })
+    }
+
+    /// The largest value within `radius` cells in row and column.
+    pub(super) fn dilated(&self, radius: usize) -> Self {
+        self.within(radius, |a, b| if b > a { b } else { a })
+    }
+
+    /// The mean within `radius` cells in row and column; beyond the border its cells go on.
+    pub(super) fn smoothed(&self, radius: usize) -> Self {
+        let cells = (2 * radius + 1).pow(2) as f32;
+        self.within(radius, |a, b| a + b).scaled(1.0 / cells)
+    }
+
+    pub(super) fn minus(&self, other: &Self) -> Self {
+        let values = self.values.iter().zip(&other.values).map(|(a, b)| a - b).collect();
+        Self { size: self.size, values }
+    }
+
+    pub(super) fn scaled(&self, factor: f32) -> Self {
+        Self { size: self.size, values: self.values.iter().map(|value| value * factor).collect() }
+    }
+
+    /// The value at a place between cells' middles, linear in between and held at the border.
+    pub(super) fn between(&self, column: f64, row: f64) -> f64 {
+        let last = (self.size - 1) as f64;
+        let [column, row] = [column, row].map(|place| place.clamp(0.0, last));
+        let [left, low] = [column, row].map(|place| (place as usize).min(self.size - 2));
+        let (right, up) = (column - left as f64, row - low as f64);
+        let at = |row: usize, column: usize| f64::from(self.values[row * self.size + column]);
+        let along = |row: usize| at(row, left) * (1.0 - right) + at(row, left + 1) * right;
+        along(low) * (1.0 - up) + along(low + 1) * up
+    }
+
+    /// All values within `radius` cells of each one taken together, first in its column and then in its row.
+    fn within(&self, radius: usize, join: impl Fn(f32, f32) -> f32) -> Self {
+        let (size, last) = (self.size, self.size - 1);
+        let mut joined = self.clone();
+        for row in 0..size {
+            let target = &mut joined.values[row * size..][..size];
+            for step in 1..=radius {
+                for other in [row.saturating_sub(step), (row + step).min(last)] {
+                    for (value, more) in target.iter_mut().zip(&self.values[other * size..][..size]) {
+                        *value = join(*value, *more);
+                    }
+                }
+            }
+        }
+        let mut padded = vec![0.0; size + 2 * radius];
+        for row in joined.values.chunks_mut(size) {
+            padded[..radius].fill(row[0]);
+            padded[radius..radius + size].copy_from_slice(row);
+            padded[radius + size..].fill(row[last]);
+            row.copy_from_slice(&padded[..size]);
+            for step in 1..=2 * radius {
+                for (value, more) in row.iter_mut().zip(&padded[step..]) {
+                    *value = join(*value, *more);
+                }
+            }
+        }
+        joined
+    }
+}
+
+/// Values on their way from known cells to the others.
+struct Spread {
+    value: Raster,
+    away: Raster,
+}
+
+impl Spread {
+    /// Takes the value of the neighbour that is nearest to a known cell: steps in row and column, and their length.
+    fn pull(&mut self, row: usize, column: usize, neighbours: [(isize, isize, f32); 4]) {
+        let size = self.value.size;
+        let cell = row * size + column;
+        for (down, right, length) in neighbours {
+            let (Some(row), Some(column)) = (row.checked_add_signed(down), column.checked_add_signed(right))
+            else {
+                continue;
+            };
+            if row >= size || column >= size {
+                continue;
+            }
+            let neighbour = row * size + column;
+            let away = self.away.values[neighbour] + length;
+            if away < self.away.values[cell] {
+                self.away.values[cell] = away;
+                self.value.values[cell] = self.value.values[neighbour];
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    const SIZE: usize = 12;
+
+    fn raster() -> impl Strategy<Value = Raster> {
+        prop::collection::vec(-3.0f32..3.0, SIZE * SIZE).prop_map(|values| Raster { size: SIZE, values })
+    }
+
+    /// The cells within a radius, those beyond the border as often as the border's stand for them.
+    fn around(raster: &Raster, cell: usize, radius: isize) -> Vec<f32> {
+        let clamp = |at: usize, step: isize| (at as isize + step).clamp(0, SIZE as isize - 1) as usize;
+        let (row, column) = (cell / SIZE, cell % SIZE);
+        let steps = (-radius..=radius).flat_map(|down| (-radius..=radius).map(move |right| (down, right)));
+        steps.map(|(down, right)| raster.values[clamp(row, down) * SIZE + clamp(column, right)]).collect()
+    }
+
+    proptest! {
+        #[test]
+        fn windows_are_what_a_look_at_every_cell_finds(raster in raster(), radius in 0usize..5) {
+            let (eroded, dilated, smoothed) = (raster.eroded(radius), raster.dilated(radius), raster.smoothed(radius));
+            for cell in 0..SIZE * SIZE {
+                let around = around(&raster, cell, radius as isize);
+                prop_assert_eq!(eroded.values[cell], around.iter().copied().fold(f32::INFINITY, f32::min));
+                prop_assert_eq!(dilated.values[cell], around.iter().copied().fold(f32::NEG_INFINITY, f32::max));
+                let mean = around.iter().sum::<f32>() / around.len() as f32;
+                prop_assert!((smoothed.values[cell] - mean).abs() < 1e-4);
+            }
+        }
+
+        #[test]
+        fn a_gap_takes_a_value_that_is_about_nearest(
+            known in prop::collection::btree_map(0..SIZE * SIZE, -3.0f32..3.0, 1..9),
+        ) {
+            let mut raster = Raster::filled(SIZE, f32::INFINITY);
+            known.iter().for_each(|(cell, value)| raster.values[*cell] = *value);
+            let (filled, away) = raster.filled_from_nearest();
+            for cell in 0..SIZE * SIZE {
+                let to = |other: usize| {
+                    let [rows, columns] =
+                        [(cell / SIZE).abs_diff(other / SIZE), (cell % SIZE).abs_diff(other % SIZE)];
+                    let diagonal = rows.min(columns) as f32;
+                    diagonal * std::f32::consts::SQRT_2 + (rows.max(columns) as f32 - diagonal)
+                };
+                let nearest = known.keys().map(|other| to(*other)).fold(f32::INFINITY, f32::min);
+                prop_assert!((away.values[cell] - nearest).abs() < 1e-4);
+                let as_near = known.iter().filter(|(other, _)| to(**other) < nearest + 1e-4);
+                prop_assert!(as_near.into_iter().any(|(_, value)| *value == filled.values[cell]));
+            }
+        }
+    }
+
+    #[test]
+    fn between_cells_is_linear() {
+        let raster = Raster { size: 2, values: vec![0.0, 1.0, 2.0, 3.0] };
+        for (column, row, expected) in
+            [(0.0, 0.0, 0.0), (0.5, 0.0, 0.5), (0.5, 0.5, 1.5), (9.0, 1.0, 3.0), (-1.0, 0.25, 0.5)]
+        {
+            assert_eq!(raster.between(column, row), expected);
+        }
+    }
+
+    #[test]
+    fn the_median_is_of_the_known_cells() {
+        let mut raster = Raster::filled(3, f32::INFINITY);
+        for (cell, value) in [(0, 0.0), (1, 0.1), (4, -5.0), (8, 0.2), (5, 7.0)] {
+            raster.values[cell] = value;
+        }
+        let clipped = raster.clipped_to_median(&[0, 1, 4, 5, 8], 1, 0.3);
+        // Around the middle all five are known, and their median is 0.1; around cell 5 -5, 0.1, 0.2 and 7, of which the
+        // upper middle is 0.2.
+        assert!((clipped.values[4] + 0.2).abs() < 1e-6 && (clipped.values[5] - 0.5).abs() < 1e-6);
+        assert!(clipped.values[2].is_infinite());
+    }
+}

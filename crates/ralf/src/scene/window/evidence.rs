@@ -1,0 +1,109 @@
+//! What evidence looks at besides: the scans of all radars and LiDARs of a few tenths of a second to seconds around a
+//! radar scan, whatever the settings let the paper's method see.
+
+use super::super::lidar_window::{LidarWindow, LidarWindowView};
+use super::super::neighbouring::NeighbouringScan;
+use super::{FrameWindow, MOMENTS, NearLidars};
+use crate::config::{EvidenceConfig, nanoseconds};
+use crate::space::{Recent, sync};
+use std::sync::Arc;
+
+impl FrameWindow<'_> {
+    /// The same window, whose frames carry what evidence looks at: the settings `evidence` say how much. For the
+    /// paper's method nothing changes.
+    pub fn with_evidence(mut self) -> Self {
+        self.evidence = true;
+        let settings = &self.config.evidence;
+        let times = &self.source.sequence().times;
+        let scans: usize = times.radars.iter().map(|times| settings.radar_scans_at_most(times)).sum();
+        let moments = settings.lidar_scans + 2 * MOMENTS;
+        self.radar_scans = Recent::new(self.radar_scans.capacity() + scans);
+        self.lidar_scans = Recent::new(moments * self.rig.lidars.len());
+        self.moments = Recent::new(moments + self.rig.cameras.len());
+        self
+    }
+
+    /// All radars' scans around a time but the scan itself, in time order.
+    pub(super) fn radar_window(&mut self, radar: usize, scan: usize, t_ns: i64) -> Vec<NeighbouringScan> {
+        let settings = &self.config.evidence;
+        let mut around = Vec::new();
+        for (other, times) in self.source.sequence().times.radars.iter().enumerate() {
+            let near = sync::around(times, t_ns, nanoseconds(settings.radar_reach_ms), settings.radar_scans);
+            around.extend(near.map(|near| (times[near], other, near)));
+        }
+        around.retain(|(_, other, near)| (*other, *near) != (radar, scan));
+        around.sort_unstable();
+        around.into_iter().filter_map(|(_, radar, scan)| self.neighbouring_scan(radar, scan, t_ns)).collect()
+    }
+
+    /// The LiDAR scans around a time; `None` where there are none.
+    ///
+    /// Only every so many scans of the first LiDAR are taken, counted from the recording's begin, and the window is the
+    /// one around one of these. So radar scans that follow each other share a window, and windows share their scans.
+    pub(super) fn lidar_window(&mut self, t_ns: i64) -> Option<LidarWindowView> {
+        let reach = nanoseconds(self.config.evidence.lidar_reach_ms);
+        let timelines = &self.source.sequence().times.lidars;
+        let (lidar, times) = timelines.iter().enumerate().find(|(_, times)| !times.is_empty())?;
+        let stride = stride(times, &self.config.evidence);
+        let chosen: Vec<i64> = times.iter().copied().step_by(stride).collect();
+        let middle = sync::nearest(&chosen, t_ns, reach)?;
+        let middle_time = chosen[middle];
+        let vehicle_from_window = self.source.sequence().motion.between(t_ns, middle_time);
+        if let Some(window) = self.lidar_windows.get(&(lidar, middle)) {
+            return Some(LidarWindowView { window, vehicle_from_window });
+        }
+        let mut views = Vec::new();
+        for near in sync::around(&chosen, middle_time, reach, self.config.evidence.lidar_scans) {
+            let NearLidars { view, .. } = self.near_lidars(chosen[near]);
+            let Some(mut view) = view else { continue };
+            view.vehicle_from_moment = self.source.sequence().motion.between(middle_time, view.moment.t_ns);
+            views.push(view);
+        }
+        let window = Arc::new(LidarWindow::new(middle_time, views));
+        self.lidar_windows.insert((lidar, middle), window.clone());
+        Some(LidarWindowView { window, vehicle_from_window })
+    }
+}
+
+impl EvidenceConfig {
+    /// How many scans of a radar there are at most around any time.
+    fn radar_scans_at_most(&self, times: &[i64]) -> usize {
+        let span = nanoseconds(self.radar_reach_ms).saturating_mul(2);
+        let from =
+            |first: usize| times[first..].partition_point(|time| time.saturating_sub(times[first]) <= span);
+        (0..times.len()).map(from).max().unwrap_or(0).min(self.radar_scans)
+    }
+}
+
+/// One in how many LiDAR scans is taken, so that no more than wanted lie around any of them.
+fn stride(times: &[i64], config: &EvidenceConfig) -> usize {
+    let mut periods: Vec<i64> = times.windows(2).map(|pair| pair[1].saturating_sub(pair[0])).collect();
+    periods.sort_unstable();
+    let Some(period) = periods.get(periods.len() / 2) else { return 1 };
+    let to_each_side = nanoseconds(config.lidar_reach_ms).unsigned_abs() / period.unsigned_abs().max(1);
+    let wanted = (config.lidar_scans as u64 - 1) / 2;
+    usize::try_from(to_each_side.div_ceil(wanted.max(1))).unwrap_or(usize::MAX).max(1)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn scans_are_spread_over_the_window() {
+        let config = EvidenceConfig { lidar_scans: 12, lidar_reach_ms: 1000.0, ..EvidenceConfig::default() };
+        let every = |ms: i64| -> Vec<i64> { (0..100).map(|scan| scan * ms * 1_000_000).collect() };
+        // 20 Hz: 20 to each side, of which 5 are wanted; 10 Hz: every second; 2 Hz: all of them.
+        assert_eq!([50, 100, 500].map(|ms| stride(&every(ms), &config)), [4, 2, 1]);
+        assert_eq!(stride(&[], &config), 1);
+        assert_eq!(stride(&[7, 7, 7], &config), 200_000_000, "a clock that stands still");
+    }
+
+    #[test]
+    fn the_fullest_stretch_of_a_timeline_is_counted() {
+        let config = EvidenceConfig { radar_reach_ms: 1.0, radar_scans: 3, ..EvidenceConfig::default() };
+        assert_eq!(config.radar_scans_at_most(&[0, 5_000_000, 6_000_000, 9_000_000]), 2);
+        assert_eq!(config.radar_scans_at_most(&[0, 1, 2, 3, 4]), 3, "no more than the settings allow");
+        assert_eq!(config.radar_scans_at_most(&[]), 0);
+    }
+}

@@ -1,0 +1,31 @@
+//! Evidence from LiDAR on made-up recordings, with numbers worked out by hand and searches without any shortcut.
+
+#![allow(clippy::unwrap_used, clippy::expect_used, reason = "of tests alone")]
+
+mod ground;
+mod map;
+mod rays;
+#[path = "../support/mod.rs"]
+mod support;
+
+use ralf::config::Config;
+use ralf::evidence::{self, Column};
+use ralf::scene::FrameWindow;
+use support::Memory;
+
+/// The evidence on a scan of the first radar.
+fn observe(memory: &Memory, scan: usize) -> Vec<Column> {
+    let config = Config::default();
+    let mut window = FrameWindow::new(memory, &memory.sequence.rig, &config).with_evidence();
+    evidence::observe(&window.frame(0, scan).unwrap(), &config)
+}
+
+fn column<'a>(columns: &'a [Column], name: &str) -> &'a [Option<f64>] {
+    &columns.iter().find(|column| column.feature.name == name).expect("a column of this name").values
+}
+
+#[track_caller]
+fn close(found: Option<f64>, expected: f64, tolerance: f64) {
+    let found = found.expect("a value");
+    assert!((found - expected).abs() <= tolerance, "found {found}, expected {expected}");
+}

@@ -1,0 +1,91 @@
+//! What a frame holds of the scans around it where evidence is asked for.
+
+#![allow(clippy::unwrap_used, reason = "of tests alone")]
+
+mod support;
+
+use ralf::config::Config;
+use ralf::paper::Labeler;
+use ralf::scene::{FrameWindow, NeighbouringDetections};
+use ralf::sensors::Elevation;
+use support::{MS, Memory, lidar, radar};
+
+const SCANS: i64 = 60;
+
+/// 10 m/s ahead; a wall's point 30 m ahead of where the vehicle begins, seen by two radars every 50 ms, the second
+/// 20 ms later, and by a LiDAR every 100 ms.
+fn memory() -> Memory {
+    let ahead = |t_ns: i64| 30.0 - 10.0 * (t_ns as f32 * 1e-9);
+    let radar_scans = |after: i64| -> Vec<_> {
+        let times = (0..SCANS).map(|scan| (scan * 50 + after) * MS);
+        times.map(|t_ns| (t_ns, Some(vec![[ahead(t_ns), 0.0, 1.0], [f32::NAN; 3]]))).collect()
+    };
+    let lidar_scans =
+        (0..SCANS / 2).map(|scan| (scan * 100 * MS, vec![[ahead(scan * 100 * MS), 0.0, -1.0]])).collect();
+    Memory::new(10.0)
+        .radar(radar(Elevation::Measured), radar_scans(0))
+        .radar(radar(Elevation::Measured), radar_scans(20))
+        .lidar(lidar(), lidar_scans)
+}
+
+#[test]
+fn all_radars_scans_around_are_gathered_and_moved_into_the_frame() {
+    let (memory, config) = (memory(), Config::default());
+    let frame =
+        FrameWindow::new(&memory, &memory.sequence.rig, &config).with_evidence().frame(1, 30).unwrap();
+    let around = NeighbouringDetections::around(&frame);
+    // 0.6 s at 50 ms is 12 scans to each side; the first radar has 12 before and 12 after, and one at -20 ms, which
+    // leaves it -620 ms out.
+    let expected: Vec<(usize, i64)> = {
+        let own = (-12..=12).filter(|j| *j != 0).map(|j| (1, j * 50));
+        let other = (-12..=12).map(|j| (0, j * 50 - 20)).filter(|(_, ms)| *ms >= -600);
+        let mut all: Vec<_> = own.chain(other).collect();
+        all.sort_by_key(|(_, ms)| *ms);
+        all
+    };
+    let found: Vec<(usize, i64)> = around
+        .radars
+        .iter()
+        .zip(&around.seconds)
+        .map(|(radar, s)| (*radar, (s * 1e3).round() as i64))
+        .collect();
+    assert_eq!(found, expected);
+    assert_eq!(around.len(), expected.len(), "those without a position are left out");
+    for (place, detection) in around.detections.iter().enumerate() {
+        assert!((detection.position - frame.scan.detections[0].unwrap().position).norm() < 1e-4);
+        assert_eq!((around.scans[place], around.rows[place]), (place as u32, 0));
+    }
+}
+
+#[test]
+fn the_lidar_scans_around_are_spread_and_shared() {
+    let (memory, config) = (memory(), Config::default());
+    let mut window = FrameWindow::new(&memory, &memory.sequence.rig, &config).with_evidence();
+    // Every second LiDAR scan is taken: those at 0.6, 0.8 ... 2.4 s around 1.4 or 1.6 s.
+    let frame = window.frame(0, 29).unwrap();
+    let around = frame.lidar_window.clone().unwrap();
+    let times: Vec<i64> = around.window.views.iter().map(|view| view.moment.t_ns / MS).collect();
+    assert_eq!(times, [400, 600, 800, 1000, 1200, 1400, 1600, 1800, 2000, 2200, 2400]);
+    let own = frame.scan.detections[0].unwrap().position;
+    for view in around.views() {
+        assert!((view.all_points()[0] - own).norm() < 1e-4, "{:?}", view.all_points());
+    }
+    let next = window.frame(0, 30).unwrap().lidar_window.unwrap();
+    assert!(std::sync::Arc::ptr_eq(&around.window, &next.window));
+}
+
+#[test]
+fn evidence_changes_nothing_for_the_papers_method() {
+    let memory = memory();
+    for sources in ["same", "all"] {
+        let config = Config::from_toml("", &[&format!("tracking.sources={sources}")]).unwrap();
+        let mut window = FrameWindow::new(&memory, &memory.sequence.rig, &config).with_evidence();
+        for scan in [0, 7, 59] {
+            let labels = Labeler::new(&config).label(&window.frame(1, scan).unwrap());
+            assert_eq!(labels, memory.label(&config, 1, scan));
+        }
+    }
+    let config = Config::default();
+    let frame = FrameWindow::new(&memory, &memory.sequence.rig, &config).frame(1, 30).unwrap();
+    assert!(frame.lidar_window.is_none() && frame.radar_window.is_empty(), "nobody asked for it");
+}
