@@ -25,11 +25,13 @@ mod evidence;
 mod frames;
 pub mod judge;
 pub mod read;
+pub mod realism;
 pub mod result;
 pub mod run;
 mod settings;
 #[cfg(test)]
 mod testing;
+mod training;
 pub mod truth;
 pub mod write;
 
@@ -42,5 +44,6 @@ pub use judge::{Balance, Balances, Comparison};
 pub use ralf_corrections::ContentHash;
 pub use read::{LayoutSequence, Recording, SequenceReader, TruthLabels, formats, open, open_with};
 pub use settings::Settings;
+pub use training::{TrainingGatherer, TrainingTruth};
 pub use truth::{Causes, Corrections, GroundTruth, ScanId, scan_content};
 pub use write::{write_sequence, write_sequence_with, write_simulated};

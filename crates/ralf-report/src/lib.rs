@@ -13,11 +13,13 @@ mod evidence;
 mod findings;
 mod page;
 mod pictures;
+mod realism;
 mod scored;
 mod settings_map;
 
 pub use error::ReportError;
 pub use pictures::{Detections, Pictures, mark_label};
+pub use realism::RealismPage;
 
 use content::Content;
 use ralf_data::Recording;

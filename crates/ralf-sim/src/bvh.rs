@@ -75,8 +75,8 @@ impl Tree {
         self.split(bounds, middle, to);
     }
 
-    /// Visits every box that the ray crosses before a limit, which the visit may lower.
-    pub(super) fn visit(&self, ray: &Ray, mut limit: f64, mut visit: impl FnMut(usize, f64) -> f64) {
+    /// Visits every box that the ray crosses before a limit, which the visit may lower. The last limit is returned.
+    pub(super) fn visit(&self, ray: &Ray, mut limit: f64, mut visit: impl FnMut(usize, f64) -> f64) -> f64 {
         let inverse = ray.direction.map(|value| 1.0 / if value == 0.0 { 1e-300 } else { value });
         // Deep enough for any tree of halves over fewer than 2^32 boxes, and small, for it is cleared for every ray.
         let mut stack = [0_u32; 33];
@@ -101,5 +101,6 @@ impl Tree {
                 }
             }
         }
+        limit
     }
 }

@@ -30,6 +30,18 @@ pub enum Kind {
     Hedge,
     /// A fence.
     Fence,
+    /// A lorry or a bus.
+    Truck,
+    /// A bicycle with its rider.
+    Cyclist,
+    /// A guard rail of steel on posts.
+    Rail,
+    /// A wall of concrete: a noise barrier, a median, a retaining wall.
+    Wall,
+    /// A container, a skip, a cabinet: a box of sheet metal.
+    Container,
+    /// A traffic sign on its pole, turned to +x.
+    Sign,
 }
 
 impl Kind {
@@ -43,7 +55,11 @@ impl Kind {
             Self::Pedestrian => 30,
             Self::Pole => 80,
             Self::Tree | Self::Hedge => 70,
-            Self::Fence => 51,
+            Self::Fence | Self::Rail | Self::Wall => 51,
+            Self::Truck => 18,
+            Self::Cyclist => 31,
+            Self::Container => 52,
+            Self::Sign => 81,
         }
     }
 
@@ -62,6 +78,12 @@ impl Kind {
             Self::Tree => [4.0, 4.0, 6.0],
             Self::Hedge => [8.0, 0.9, 1.3],
             Self::Fence => [10.0, 0.06, 1.6],
+            Self::Truck => [11.0, 2.5, 3.6],
+            Self::Cyclist => [1.75, 0.5, 1.75],
+            Self::Rail => [4.0, 0.15, 0.75],
+            Self::Wall => [4.0, 0.3, 1.1],
+            Self::Container => [6.1, 2.44, 2.6],
+            Self::Sign => [0.08, 0.8, 2.6],
         }
     }
 
@@ -74,10 +96,11 @@ impl Kind {
     /// Waves find their way around and under cars, and through leaves.
     pub(super) fn radar_loss_db(self) -> Option<f64> {
         match self {
-            Self::Building | Self::Garage => None,
+            Self::Building | Self::Garage | Self::Wall | Self::Container => None,
+            Self::Truck => Some(15.0),
             Self::Car => Some(9.0),
-            Self::Tree | Self::Hedge => Some(4.0),
-            Self::Pedestrian | Self::Fence => Some(3.0),
+            Self::Tree | Self::Hedge | Self::Rail | Self::Sign => Some(4.0),
+            Self::Pedestrian | Self::Fence | Self::Cyclist => Some(3.0),
             Self::Pole => Some(1.0),
             Self::Road | Self::Sidewalk | Self::Marking | Self::Grass => Some(0.0),
         }

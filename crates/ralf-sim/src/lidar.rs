@@ -66,11 +66,13 @@ fn penetrates(kind: Kind, crossing: &Crossing, random: &mut Random) -> Option<f6
 fn reflectance(kind: Kind) -> f64 {
     match kind {
         Kind::Road => 0.15,
-        Kind::Sidewalk | Kind::Garage => 0.35,
+        Kind::Sidewalk | Kind::Garage | Kind::Wall => 0.35,
         Kind::Marking => 0.8,
         Kind::Grass | Kind::Hedge | Kind::Tree => 0.4,
         Kind::Building => 0.5,
         Kind::Car => 0.3,
         Kind::Pedestrian | Kind::Fence | Kind::Pole => 0.45,
+        Kind::Truck | Kind::Cyclist | Kind::Rail | Kind::Container => 0.4,
+        Kind::Sign => 0.9,
     }
 }

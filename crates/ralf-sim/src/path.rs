@@ -1,7 +1,7 @@
 //! How the vehicle really moves.
 
 use super::ground::Ground;
-use super::scenario::Drive;
+use super::scenario::{Drive, Leg};
 use ralf::space::Transform;
 use std::f64::consts::TAU;
 
@@ -44,15 +44,21 @@ pub(super) struct Path {
 impl Path {
     /// A drive of so many seconds.
     pub(super) fn new(drive: &Drive, seconds: f64) -> Self {
-        let [x, y, heading_deg] = drive.start;
+        let swinging = |t: f64| drive.speed_kmh / 3.6 * (1.0 + SWING.0 * (TAU * t / SWING.1).sin());
+        Self::along(drive.start, &drive.leg, seconds, swinging)
+    }
+
+    /// From a start (x, y, heading in degrees) along legs for so many seconds; `speed` (m/s) at each of them, below 0
+    /// where the vehicle reverses. Legs count the way whichever direction it is driven in.
+    pub(super) fn along(start: [f64; 3], legs: &[Leg], seconds: f64, speed: impl Fn(f64) -> f64) -> Self {
+        let [x, y, heading_deg] = start;
         let mut state = State { x, y, heading: heading_deg.to_radians(), speed: 0.0, yaw_rate: 0.0 };
         let mut travelled = 0.0;
         let steps = (seconds / STEP).ceil() as usize + 1;
         let states = (0..steps).map(|step| {
-            let phase = TAU * step as f64 * STEP / SWING.1;
-            state.speed = drive.speed_kmh / 3.6 * (1.0 + SWING.0 * phase.sin());
-            state.yaw_rate = state.speed * curvature(drive, travelled);
-            travelled += state.speed * STEP;
+            state.speed = speed(step as f64 * STEP);
+            state.yaw_rate = state.speed * curvature(legs, travelled);
+            travelled += state.speed.abs() * STEP;
             let now = state;
             state = state.advanced(STEP);
             now
@@ -74,9 +80,9 @@ impl Path {
 }
 
 /// 1/m, after so many metres.
-fn curvature(drive: &Drive, travelled: f64) -> f64 {
+fn curvature(legs: &[Leg], travelled: f64) -> f64 {
     let mut end = 0.0;
-    let leg = drive.leg.iter().find(|leg| {
+    let leg = legs.iter().find(|leg| {
         end += leg.length;
         travelled < end
     });

@@ -15,6 +15,8 @@ pub(super) enum Purpose {
     Radar,
     Image,
     Depth,
+    World,
+    Calibration,
 }
 
 /// A stream of random numbers.
@@ -63,6 +65,12 @@ impl Random {
         }
         events
     }
+}
+
+/// A number in [0, 1) that belongs to a place and stays what it is: grain of the ground, of a facade, of an aspect.
+pub(super) fn grain(seed: u64, place: [i64; 3]) -> f64 {
+    let hash = place.into_iter().fold(mixed(seed), |state, part| mixed(state ^ part as u64));
+    (hash >> 11) as f64 / (1_u64 << 53) as f64
 }
 
 /// Spreads neighbouring numbers over all 64 bits (SplitMix64's finaliser).

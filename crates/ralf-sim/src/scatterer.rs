@@ -32,7 +32,7 @@ pub(super) fn scatterers(kind: Kind, size: Vector, random: &mut Random) -> Vec<S
     let (l, w) = (length / 2.0, width / 2.0);
     let per = |density: f64, extent: f64| (density * extent).ceil() as usize;
     match kind {
-        Kind::Car => car(l, w, height, random),
+        Kind::Car | Kind::Truck => car(l, w, height, random),
         Kind::Building => facades(l, w, height, 1.0, random),
         // Seen from its inside, too.
         Kind::Garage => {
@@ -45,6 +45,10 @@ pub(super) fn scatterers(kind: Kind, size: Vector, random: &mut Random) -> Vec<S
             let step = (height / count as f64).min(0.7);
             (0..count).map(|i| Scatterer::new([0.0, 0.0, step * (0.4 + i as f64)], 5.0, 3.0)).collect()
         }
+        Kind::Container => outer_walls(l, w, height, random),
+        Kind::Cyclist => scattered(6, [l, w], [0.3, 0.9 * height], (0.0, 5.0), random),
+        Kind::Sign => scattered(3, [l, w], [0.7 * height, height], (3.0, 4.0), random),
+        Kind::Rail | Kind::Wall => scattered(per(2.0, length), [l, w], [0.3, height], (3.0, 4.0), random),
         Kind::Pedestrian => scattered(4, [l, w], [0.3, 0.9 * height], (0.0, 5.0), random),
         Kind::Tree => {
             let trunk = scattered(4, [0.12, 0.12], [0.2, 0.4 * height], (1.0, 4.0), random);
@@ -139,6 +143,12 @@ fn facades(l: f64, w: f64, height: f64, side: f64, random: &mut Random) -> Vec<S
         });
     }
     found
+}
+
+/// The same without anything inside.
+fn outer_walls(l: f64, w: f64, height: f64, random: &mut Random) -> Vec<Scatterer> {
+    let walls = facades(l, w, height, 1.0, random);
+    walls.into_iter().filter(|scatterer| !scatterer.behind_facade).collect()
 }
 
 /// Along the edges of a sidewalk.

@@ -2,49 +2,10 @@
 
 use super::bvh::{Bounds, Tree};
 use super::kind::Kind;
-use super::shape::{Crossing, Ray, Shape};
+use super::shape::{Crossing, Ray};
 use super::site::Site;
+use super::solid::Solid;
 use ralf::space::{Point, Vector};
-
-/// A body in its place.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Solid {
-    pub(super) kind: Kind,
-    pub(super) object: usize,
-    pub(super) shape: Shape,
-    center: Point,
-    /// Sine of its yaw; the cosine follows.
-    sin: f64,
-    cos: f64,
-}
-
-impl Solid {
-    /// A vector of the site's frame in the body's own.
-    fn turned_back(&self, v: Vector) -> Vector {
-        Vector::new(self.cos * v.x + self.sin * v.y, self.cos * v.y - self.sin * v.x, v.z)
-    }
-
-    fn turned(&self, v: Vector) -> Vector {
-        Vector::new(self.cos * v.x - self.sin * v.y, self.cos * v.y + self.sin * v.x, v.z)
-    }
-
-    /// A point of the site's frame in the body's own.
-    pub(super) fn local(&self, p: &Point) -> Point {
-        Point::from(self.turned_back(p - self.center))
-    }
-
-    fn crossing(&self, ray: &Ray) -> Option<Crossing> {
-        let own = Ray { origin: self.local(&ray.origin), direction: self.turned_back(ray.direction) };
-        self.shape.crossing(&own)
-    }
-
-    fn bounds(&self) -> Bounds {
-        let half = self.shape.half_size();
-        let [sin, cos] = [self.sin.abs(), self.cos.abs()];
-        let reach = Vector::new(cos * half.x + sin * half.y, sin * half.x + cos * half.y, half.z);
-        Bounds { low: self.center - reach, high: self.center + reach }
-    }
-}
 
 /// Where a ray ends.
 #[derive(Debug, Clone, Copy)]
@@ -83,9 +44,10 @@ impl<'a> Scene<'a> {
             .flat_map(|(index, object)| {
                 let pose = object.pose(seconds);
                 let (sin, cos) = pose.rotation.euler_angles().2.sin_cos();
-                object.bodies.iter().map(move |(shape, center)| Solid {
+                object.bodies.iter().enumerate().map(move |(part, (shape, center))| Solid {
                     kind: object.kind,
                     object: index,
+                    part,
                     shape: *shape,
                     center: pose * Point::from(*center),
                     sin,

@@ -83,7 +83,7 @@ fn object(ground: &Ground, thing: &Thing, member: usize, random: &mut Random) ->
 }
 
 /// The bodies of a thing: shape and centre, in its own frame.
-fn bodies(kind: Kind, size: Vector) -> Vec<(Shape, Vector)> {
+pub(super) fn bodies(kind: Kind, size: Vector) -> Vec<(Shape, Vector)> {
     let [length, width, height] = size.into();
     let block = |x: [f64; 2], y: [f64; 2], z: [f64; 2]| {
         let low = Point::new(x[0], y[0], z[0]);
@@ -94,6 +94,13 @@ fn bodies(kind: Kind, size: Vector) -> Vec<(Shape, Vector)> {
     match kind {
         Kind::Car => car(&block, l, w, height),
         Kind::Garage => garage(&block, l, w, height),
+        Kind::Truck => truck(&block, l, w, height),
+        Kind::Cyclist => cyclist(&block, l, w, height),
+        Kind::Rail => vec![block([-l, l], [-w, w], [height - 0.31, height])],
+        Kind::Sign => vec![
+            block([-l, l], [-w, w], [height - 2.0 * w, height]),
+            (Shape::Cylinder(0.04, height / 2.0), Vector::new(-l - 0.04, 0.0, height / 2.0)),
+        ],
         Kind::Tree => vec![
             (Shape::Cylinder(0.16, 0.25 * height), Vector::new(0.0, 0.0, 0.25 * height)),
             (Shape::Ellipsoid(Vector::new(l, w, 0.35 * height)), Vector::new(0.0, 0.0, 0.65 * height)),
@@ -119,6 +126,27 @@ fn car(block: &Block<'_>, l: f64, w: f64, height: f64) -> Vec<(Shape, Vector)> {
         wheel(0.62 * l, 0.1 - w),
         wheel(-0.62 * l, w - 0.1),
         wheel(-0.62 * l, 0.1 - w),
+    ]
+}
+
+/// Cab, load, and a gap below.
+fn truck(block: &Block<'_>, l: f64, w: f64, height: f64) -> Vec<(Shape, Vector)> {
+    let wheels = |x: f64| block([x - 0.5, x + 0.5], [-w, w], [0.0, 1.0]);
+    vec![
+        block([l - 2.0, l], [-0.96 * w, 0.96 * w], [0.4, 0.8 * height]),
+        block([-l, l - 2.4], [-w, w], [0.9, height]),
+        wheels(l - 1.2),
+        wheels(0.3 * l),
+        wheels(-0.7 * l),
+    ]
+}
+
+/// Frame and wheels, and the rider above them.
+fn cyclist(block: &Block<'_>, l: f64, w: f64, height: f64) -> Vec<(Shape, Vector)> {
+    let rider = Vector::new(0.35, w, (height - 0.8) / 2.0);
+    vec![
+        block([-l, l], [-0.05, 0.05], [0.0, 0.9]),
+        (Shape::Ellipsoid(rider), Vector::new(-0.1, 0.0, height - rider.z)),
     ]
 }
 

@@ -1,4 +1,6 @@
-//! `ralf simulate`: a recording whose truth is known.
+//! `ralf simulate`: a recording whose truth is known; and how far it is from a real one.
+
+mod compare;
 
 use crate::arguments::threads;
 use crate::outcome::{Outcome, UsageError};
@@ -6,16 +8,21 @@ use crate::progress::{Progress, say};
 use anyhow::Context;
 use clap::Args;
 use clap::builder::PossibleValuesParser;
+use compare::{Named, Told, compare};
 use ralf::sensors::Source;
-use ralf_data::write_simulated;
+use ralf_data::{SequenceReader, write_simulated};
 use ralf_files::Kind;
 use ralf_sim::presets::{self, Preset};
+use ralf_sim::world::{FAMILIES, Family, Recording};
 use ralf_sim::{Scenario, SimulatedSequence};
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
 /// Scans of a scenario of one's own, where no number is given.
 const USUAL_SCANS: usize = 100;
+
+/// The preset whose sequences a seed draws.
+const WORLDS: &str = "worlds";
 
 /// Arguments of `ralf simulate`.
 #[derive(Debug, Args)]
@@ -24,19 +31,46 @@ Writes LiDAR, four radars, four fisheye cameras with depth, wheel odometry, and 
 RALF's own layout. A sequence that is there already is never overwritten. The same preset, numbers and seed give the \
 same bytes.
 
+With `--preset worlds` a seed draws sensors, places and physics from a family of worlds (docs/worlds.md): radars and \
+LiDARs of other kinds, four to six sequences of 40 scans, and no cameras. Families, by number: city, survey, \
+motorway, carpark, imaging, yard, country, anything.
+
 Examples:
   ralf simulate -o recordings/sim --scans 300         the paper's eleven sequences, each shorter
   ralf simulate -o recordings/sim                     all 2,704 scans of each radar: minutes, and some 6 GB
   ralf simulate -o recordings/tiny --preset tiny      in a second
-  ralf simulate -o recordings/mine --scenario yard.toml --scans 200 --seed 3")]
+  ralf simulate -o recordings/motorway --preset worlds --family motorway --seed 3
+  ralf simulate -o recordings/city5 --preset worlds --family 0 --seed 5 --scans 200 --sequence 01
+  ralf simulate -o recordings/mine --scenario yard.toml --scans 200 --seed 3
+
+With --compare nothing is simulated that isn't looked at: some hundred scans, spread over the sequences, are set beside \
+as many of a real recording, and the distance between the distributions of what both measure is printed. `docs/worlds.md` \
+tells what is compared, and how.
+
+  ralf simulate --compare nuscenes --preset paper -o realism.html
+  ralf simulate --compare nuscenes --preset worlds --family 2 -o realism.html
+  ralf simulate --compare nuscenes --with recordings/mine -o realism.html --json > realism.json")]
 pub(crate) struct SimulateArgs {
-    /// Folder of the dataset that is written
-    #[arg(short, long, value_name = "DATASET")]
-    output: PathBuf,
+    /// Folder of the dataset that is written; with --compare the page (HTML), which may be left out
+    #[arg(short, long, value_name = "PATH", required_unless_present = "compare")]
+    output: Option<PathBuf>,
+    /// Write no recording: tell how far it is from this real one
+    #[arg(long, value_name = "RECORDING")]
+    compare: Option<PathBuf>,
+    /// Compare this recording in place of one that is simulated now
+    #[arg(long, value_name = "RECORDING", requires = "compare",
+        conflicts_with_all = ["preset", "scenario", "sequences", "scans", "seed"])]
+    with: Option<PathBuf>,
+    /// The comparison's figures as JSON
+    #[arg(long, requires = "compare")]
+    json: bool,
     /// Which sequences
     #[arg(long, default_value = "paper", conflicts_with = "scenario",
-        value_parser = PossibleValuesParser::new(presets::ALL.iter().map(|preset| preset.name)))]
+        value_parser = PossibleValuesParser::new(presets::ALL.iter().map(|preset| preset.name).chain([WORLDS])))]
     preset: String,
+    /// The family of the worlds, by name or number
+    #[arg(long, value_name = "FAMILY", default_value = "0", value_parser = family)]
+    family: &'static Family,
     /// A scenario of your own (TOML), as sequence 00
     #[arg(long, value_name = "FILE")]
     scenario: Option<PathBuf>,
@@ -60,25 +94,60 @@ pub(crate) struct SimulateArgs {
     quiet: bool,
 }
 
-/// Makes a recording.
+/// Makes a recording, or compares one.
 pub(crate) fn run(arguments: &SimulateArgs) -> anyhow::Result<Outcome> {
-    let mut sequences = match &arguments.scenario {
-        Some(file) => vec![own(file, arguments)?],
-        None => preset(arguments)?,
-    };
-    if arguments.no_images {
-        sequences = sequences.into_iter().map(SimulatedSequence::without_cameras).collect();
+    match (&arguments.compare, &arguments.output) {
+        (Some(real), _) => arguments.compare_with(real),
+        (None, Some(output)) => arguments.write(output),
+        (None, None) => Err(UsageError("--output: expected a folder, found none".into()).into()),
     }
-    let steps: u64 = sequences.iter().map(|sequence| sequence.sequence().times.measurements() as u64).sum();
-    let progress = if arguments.quiet { Progress::hidden() } else { Progress::of_steps(steps, "simulating") };
-    let jobs = threads(arguments.jobs);
-    write_simulated(&sequences, &arguments.output, jobs, &|done| progress.reached(done as u64))?;
-    drop(progress);
-    for sequence in &sequences {
-        let folder = arguments.output.join("sequences").join(&sequence.sequence().name);
-        say(&format!("wrote {}", folder.display()));
+}
+
+impl SimulateArgs {
+    fn sequences(&self) -> anyhow::Result<Vec<SimulatedSequence>> {
+        match &self.scenario {
+            Some(file) => Ok(vec![own(file, self)?]),
+            None if self.preset == WORLDS => world(self),
+            None => preset(self),
+        }
     }
-    Ok(Outcome::Done)
+
+    fn write(&self, output: &Path) -> anyhow::Result<Outcome> {
+        let mut sequences = self.sequences()?;
+        if self.no_images {
+            sequences = sequences.into_iter().map(SimulatedSequence::without_cameras).collect();
+        }
+        let steps: u64 =
+            sequences.iter().map(|sequence| sequence.sequence().times.measurements() as u64).sum();
+        let progress = if self.quiet { Progress::hidden() } else { Progress::of_steps(steps, "simulating") };
+        write_simulated(&sequences, output, threads(self.jobs), &|done| progress.reached(done as u64))?;
+        drop(progress);
+        for sequence in &sequences {
+            let folder = output.join("sequences").join(&sequence.sequence().name);
+            say(&format!("wrote {}", folder.display()));
+        }
+        Ok(Outcome::Done)
+    }
+
+    fn compare_with(&self, real: &Path) -> anyhow::Result<Outcome> {
+        let told = Told { page: self.output.as_deref(), json: self.json, quiet: self.quiet };
+        let recording = ralf_data::open(real, None)?;
+        let real = Named::opened(&recording);
+        if let Some(other) = &self.with {
+            let other = ralf_data::open(other, None)?;
+            compare(&real, &Named::opened(&other), threads(self.jobs), &told)?;
+            return Ok(Outcome::Done);
+        }
+        let made = self.sequences()?;
+        let name = match &self.scenario {
+            Some(file) => file.display().to_string(),
+            None if self.preset == WORLDS => format!("{}, seed {}", self.family.name, self.seed),
+            None => format!("{}, seed {}", self.preset, self.seed),
+        };
+        let sequences = made.iter().map(|sequence| sequence as &dyn SequenceReader).collect();
+        compare(&real, &Named { name, sequences }, threads(self.jobs), &told)?;
+        Ok(Outcome::Done)
+    }
 }
 
 /// The user's scenario.
@@ -90,16 +159,44 @@ fn own(file: &Path, arguments: &SimulateArgs) -> anyhow::Result<SimulatedSequenc
     SimulatedSequence::new("00", &scenario, arguments.seed, scans).with_context(name)
 }
 
+/// What `--family` names.
+fn family(text: &str) -> Result<&'static Family, String> {
+    let known: Vec<&str> = FAMILIES.iter().map(|family| family.name).collect();
+    Family::find(text)
+        .ok_or_else(|| format!("one of {}, or a number below {}", known.join(", "), known.len()))
+}
+
+/// The sequences of a world that are asked for.
+fn world(arguments: &SimulateArgs) -> anyhow::Result<Vec<SimulatedSequence>> {
+    let recording = Recording::new(arguments.family, arguments.seed);
+    let names = recording.names();
+    let spread = recording.spread(arguments.scans.map(|scans| scans as usize));
+    let mut found = Vec::new();
+    for index in wanted(arguments, &names)? {
+        found.push(recording.sequence(index, spread[index])?);
+    }
+    Ok(found)
+}
+
 /// The sequences of the preset that are asked for. Each has a seed of its own.
 fn preset(arguments: &SimulateArgs) -> anyhow::Result<Vec<SimulatedSequence>> {
     let preset: &Preset = presets::find(&arguments.preset).context("no such preset")?;
-    let names: Vec<&str> = preset.sequences.iter().map(|sequence| sequence.name).collect();
-    if let Some(unknown) = arguments.sequences.iter().find(|name| !names.contains(&name.as_str())) {
+    let names: Vec<String> = preset.sequences.iter().map(|sequence| sequence.name.to_owned()).collect();
+    let spread = preset.spread(arguments.scans.map_or(preset.scans(), |scans| scans as usize));
+    let mut found = Vec::new();
+    for index in wanted(arguments, &names)? {
+        found.push(preset.sequences[index].simulate(arguments.seed, spread[index])?);
+    }
+    Ok(found)
+}
+
+/// Which of some sequences `--sequence` asks for, in their order: all if it isn't given.
+fn wanted(arguments: &SimulateArgs, names: &[String]) -> anyhow::Result<Vec<usize>> {
+    let asked = &arguments.sequences;
+    if let Some(unknown) = asked.iter().find(|name| !names.contains(name)) {
         let known = names.join(", ");
         return Err(UsageError(format!("--sequence: expected one of {known}, found {unknown}")).into());
     }
-    let spread = preset.spread(arguments.scans.map_or(preset.scans(), |scans| scans as usize));
-    let wanted = |name: &str| arguments.sequences.is_empty() || arguments.sequences.iter().any(|n| n == name);
-    let chosen = preset.sequences.iter().zip(spread).filter(|(sequence, _)| wanted(sequence.name));
-    chosen.map(|(sequence, scans)| Ok(sequence.simulate(arguments.seed, scans)?)).collect()
+    let wanted = |index: &usize| asked.is_empty() || asked.contains(&names[*index]);
+    Ok((0..names.len()).filter(wanted).collect())
 }

@@ -4,6 +4,7 @@ use crate::disk::{files, npy};
 use crate::error::DataError;
 use crate::read::{MotionSource, Recording, SequenceReader, TruthLabels};
 use crate::result::{Component, OutFolder, SequenceNames, WriterLock};
+use ralf::label::Cause;
 use ralf::sensors::{
     CameraImage, DepthImage, DepthOutput, LidarScan, RadarScan, Sequence, Source, SourceError,
 };
@@ -180,12 +181,20 @@ impl SequenceReader for WithDepth {
         self.inner.origin()
     }
 
+    fn rolling_scan(&self, lidar: usize, scan: usize) -> Result<Option<LidarScan>, SourceError> {
+        self.inner.rolling_scan(lidar, scan)
+    }
+
     fn motion_source(&self) -> MotionSource {
         self.inner.motion_source()
     }
 
     fn truth(&self, radar: usize, scan: usize) -> Result<Option<TruthLabels>, SourceError> {
         self.inner.truth(radar, scan)
+    }
+
+    fn causes(&self) -> &'static [Cause] {
+        self.inner.causes()
     }
 
     fn truth_file(&self, radar: usize, scan: usize) -> Option<PathBuf> {

@@ -5,6 +5,7 @@ mod content;
 pub(crate) mod json;
 mod label_hash;
 mod labelled_run;
+mod learned_columns;
 mod links;
 mod lock;
 mod names;
@@ -34,6 +35,7 @@ pub use sequence_record::{
 pub use table::{Table, Value, Values};
 
 pub(crate) use content::{changed_ns, damaged_result, hash_file};
+pub(crate) use learned_columns::learned_columns;
 pub(crate) use links::refuse_links_out;
 pub(crate) use lock::WriterLock;
 pub(crate) use names::{OutFolder, SequenceNames, checked};

@@ -7,12 +7,11 @@ use crate::frames::side_by_side;
 use crate::read::SequenceReader;
 use crate::read::layout::raw::{DepthToml, SequenceToml};
 use crate::read::layout::{GROUND_TRUTH, SEQUENCES, rig, tables};
+use crate::read::recording::check_motion_corrected;
 use crate::result::{Component, OutFolder, SequenceNames, WriterLock, checked, refuse_links_out};
-use ralf::label::Cause;
 use ralf::sensors::{Sequence, SourceError, Timelines};
 use std::fs;
 use std::path::Path;
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, PoisonError};
 
 /// Writes a sequence as `DATASET/sequences/NAME`, whole or not at all: it lies in a hidden folder until it is complete.
@@ -35,6 +34,7 @@ pub fn write_sequence_with(
     progress: &(dyn Fn(usize) + Sync),
 ) -> Result<(), DataError> {
     let names = SequenceNames::new(reader.sequence())?;
+    check_motion_corrected(reader)?;
     let sequences = OutFolder::new(dataset).own(SEQUENCES);
     let folder = sequences.folder(&names.sequence);
     let folder = folder.path();
@@ -48,14 +48,7 @@ pub fn write_sequence_with(
     if part.path().exists() {
         fs::remove_dir_all(part.path()).map_err(DataError::io(part.path()))?;
     }
-    let writer = Writer {
-        reader,
-        names: &names,
-        folder: &part,
-        done: Mutex::new(0),
-        knows_causes: AtomicBool::new(false),
-        progress,
-    };
+    let writer = Writer { reader, names: &names, folder: &part, done: Mutex::new(0), progress };
     let written =
         writer.write(jobs).and_then(|()| fs::rename(part.path(), folder).map_err(DataError::io(folder)));
     if written.is_err() {
@@ -93,7 +86,6 @@ struct Writer<'a> {
     names: &'a SequenceNames,
     folder: &'a OutFolder,
     done: Mutex<usize>,
-    knows_causes: AtomicBool,
     progress: &'a (dyn Fn(usize) + Sync),
 }
 
@@ -171,18 +163,18 @@ impl Writer<'_> {
         } else if let Some(truth) = self.reader.truth(radar, scan)? {
             write_labels(&truth_file, &truth.labels)?;
             files::write_whole(&truth_file.with_extension("cause"), &truth.causes)?;
-            self.knows_causes.store(true, Ordering::Relaxed);
         }
         Ok(())
     }
 
     /// `ground_truth/causes.txt` where causes are known: line n names the cause n.
     fn names_of_causes(&self) -> Result<(), DataError> {
-        if !self.knows_causes.load(Ordering::Relaxed) {
+        let causes = self.reader.causes();
+        if causes.is_empty() {
             return Ok(());
         }
         let file = self.folder.own(GROUND_TRUTH).own_file("causes.txt");
-        let names: String = Cause::ALL.iter().map(|cause| format!("{}\n", cause.name())).collect();
+        let names: String = causes.iter().map(|cause| format!("{}\n", cause.name())).collect();
         files::write_whole(&file, names.as_bytes())
     }
 

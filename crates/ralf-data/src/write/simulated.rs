@@ -8,6 +8,7 @@ use super::dataset::write_sequence_with;
 use crate::disk::label_file::Label;
 use crate::error::DataError;
 use crate::read::{SequenceReader, TruthLabels};
+use ralf::label::Cause;
 use ralf::sensors::{Source, SourceError};
 use ralf_sim::SimulatedSequence;
 use std::path::{Path, PathBuf};
@@ -51,5 +52,9 @@ impl SequenceReader for SimulatedSequence {
             labels: truth.iter().map(|truth| Label::of_class(truth.class)).collect(),
             causes: truth.iter().map(|truth| truth.cause as u8).collect(),
         }))
+    }
+
+    fn causes(&self) -> &'static [Cause] {
+        SimulatedSequence::causes(self)
     }
 }

@@ -2,11 +2,13 @@
 //! named here as part of the page, so that the same chart is at home on light and dark paper.
 
 mod curve;
+mod distribution;
 mod heat_map;
 mod profile;
 mod reliability;
 
 pub(crate) use curve::precision_recall;
+pub(crate) use distribution::distribution;
 pub(crate) use heat_map::settings_map;
 pub(crate) use profile::profile;
 pub(crate) use reliability::{histogram, reliability};

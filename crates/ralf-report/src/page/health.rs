@@ -14,6 +14,7 @@ const FLAGS: [(u16, &str); 6] = [
     (flag::NO_NEIGHBOURS, "no neighbouring radar scan"),
     (flag::CAMERA_FAILED, "in a failed camera view"),
     (flag::UNOBSERVED, "seen by no branch"),
+    (flag::PAPER, "unlike what the model knows, answered by the paper's method"),
     (flag::BLIND_SPOT, "in the LiDAR’s blind spot"),
     (flag::GROUND, "on the ground"),
 ];

@@ -8,8 +8,11 @@ mod health;
 mod number;
 mod pictures;
 mod provenance;
+mod realism;
 mod score;
 mod tables;
+
+pub(crate) use realism::render as realism;
 
 use crate::ReportError;
 use crate::content::Content;
@@ -37,6 +40,22 @@ fn heads(names: &[&str]) -> Markup {
 
 /// The whole page.
 pub(crate) fn render(content: &Content) -> Result<String, ReportError> {
+    let body = html! {
+        (header::header(content))
+        (tables::agreement(content))
+        (score::score(content)?)
+        (errors::errors(content)?)
+        (balance::balance(content)?)
+        (evidence::evidence(content))
+        (pictures::pictures(content))
+        (health::health(content))
+        (provenance::provenance(content))
+    };
+    Ok(document(&format!("RALF report: {}", content.dataset), &body))
+}
+
+/// A page that needs nothing else.
+fn document(title: &str, body: &Markup) -> String {
     let page = html! {
         (DOCTYPE)
         html lang="en" {
@@ -45,26 +64,16 @@ pub(crate) fn render(content: &Content) -> Result<String, ReportError> {
                 meta http-equiv="Content-Security-Policy" content=(POLICY);
                 meta name="viewport" content="width=device-width, initial-scale=1";
                 meta name="color-scheme" content="light dark";
-                title { "RALF report: " (content.dataset) }
+                title { (title) }
                 style { (PreEscaped(STYLE)) }
             }
             body {
-                main {
-                    (header::header(content))
-                    (tables::agreement(content))
-                    (score::score(content)?)
-                    (errors::errors(content)?)
-                    (balance::balance(content)?)
-                    (evidence::evidence(content))
-                    (pictures::pictures(content))
-                    (health::health(content))
-                    (provenance::provenance(content))
-                }
+                main { (body) }
                 script { (PreEscaped(SCRIPT)) }
             }
         }
     };
-    Ok(page.into_string())
+    page.into_string()
 }
 
 /// A chart with a heading and what it shows.

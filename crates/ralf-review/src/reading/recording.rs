@@ -17,6 +17,7 @@ const FLAGS: [(u16, &str); 6] = [
     (flag::NO_LIDAR, "no LiDAR scan"),
     (flag::NO_NEIGHBOURS, "no neighbouring radar scan"),
     (flag::UNOBSERVED, "unobserved"),
+    (flag::PAPER, "paper"),
 ];
 
 /// SemanticKITTI's ids end here.

@@ -1,8 +1,9 @@
 //! Colours: enough of walls, windows, paint and leaves that straight edges and textures are there to be seen.
 
 use crate::kind::Kind;
-use crate::scene::{Hit, Scene, Solid};
+use crate::scene::{Hit, Scene};
 use crate::shape::{Ray, Shape};
+use crate::solid::Solid;
 use ralf::space::{Point, Vector};
 
 /// Half of a thing's colour is gone in the haze at this distance, m.
@@ -79,6 +80,10 @@ fn solid_colour(scene: &Scene<'_>, solid: &Solid, p: &Point, normal: &Vector) ->
         Kind::Pedestrian => mixed([176.0, 48.0, 44.0], [44.0, 66.0, 150.0], tint),
         Kind::Pole => [138.0, 140.0, 144.0],
         Kind::Marking => [236.0; 3],
+        Kind::Cyclist => mixed([44.0, 66.0, 150.0], [60.0, 120.0, 70.0], tint),
+        Kind::Truck | Kind::Container => mixed([210.0, 210.0, 214.0], [40.0, 80.0, 140.0], tint),
+        Kind::Rail | Kind::Wall => [168.0, 168.0, 164.0],
+        Kind::Sign => [220.0, 200.0, 60.0],
         Kind::Road => asphalt(p),
     }
 }

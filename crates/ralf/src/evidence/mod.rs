@@ -9,15 +9,18 @@
 
 mod amplitude;
 mod camera;
+mod columns;
 mod context;
 mod distance;
 mod doppler;
 mod echoes;
 mod geometry;
 mod ground;
+mod lidar_rays;
 mod lidar_residual;
 mod ordered;
 mod persistence;
+mod probe;
 mod rates;
 mod recurrence;
 mod sensor_frame;
@@ -25,6 +28,7 @@ mod sight;
 mod statistics;
 mod surroundings;
 
+pub use probe::Probe;
 pub use surroundings::Surroundings;
 
 use crate::config::Config;
@@ -34,6 +38,7 @@ use crate::scene::Frame;
 pub const PIECES: &[Piece] = &[
     lidar_residual::PIECE,
     ground::PIECE,
+    lidar_rays::PIECE,
     amplitude::PIECE,
     doppler::PIECE,
     persistence::PIECE,

@@ -1,5 +1,6 @@
 //! A frame with what several pieces of evidence need of it, each worked out once.
 
+use super::probe::{Probe, probes};
 use super::rates::Rates;
 use super::recurrence::{Sighting, sightings};
 use crate::config::Config;
@@ -14,6 +15,7 @@ pub struct Surroundings<'a> {
     /// All settings.
     pub config: &'a Config,
     neighbours: OnceCell<NeighbouringDetections>,
+    probes: OnceCell<Vec<Option<Probe>>>,
     rates: OnceCell<Option<Rates>>,
     sightings: OnceCell<Vec<Vec<Sighting>>>,
     own_index: OnceCell<NeighborIndex>,
@@ -26,6 +28,7 @@ impl<'a> Surroundings<'a> {
             frame,
             config,
             neighbours: OnceCell::new(),
+            probes: OnceCell::new(),
             rates: OnceCell::new(),
             sightings: OnceCell::new(),
             own_index: OnceCell::new(),
@@ -35,6 +38,12 @@ impl<'a> Surroundings<'a> {
     /// The detections of all radars around the scan, in its frame.
     pub fn neighbours(&self) -> &NeighbouringDetections {
         self.neighbours.get_or_init(|| NeighbouringDetections::around(self.frame))
+    }
+
+    /// The scan's detections in the vehicle frame of its LiDAR window, `None` for those without a position; no entry
+    /// at all without a window.
+    pub fn probes(&self) -> &[Option<Probe>] {
+        self.probes.get_or_init(|| probes(self.frame))
     }
 
     /// The compensated range rates of the scan; `None` where the radar measures none.

@@ -18,11 +18,17 @@ pub enum Cause {
     InsideBuilding = 5,
     /// Nothing at all.
     Noise = 6,
+    /// A real scatterer whose angle was taken for another: right range, wrong azimuth or elevation.
+    Ambiguity = 7,
+    /// The own vehicle: its bumper, what hangs from it.
+    OwnVehicle = 8,
+    /// Another radar's waves.
+    Interference = 9,
 }
 
 impl Cause {
     /// All of them, in the order of their numbers.
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 10] = [
         Self::Plausible,
         Self::Road,
         Self::Mirror,
@@ -30,6 +36,9 @@ impl Cause {
         Self::SideLobe,
         Self::InsideBuilding,
         Self::Noise,
+        Self::Ambiguity,
+        Self::OwnVehicle,
+        Self::Interference,
     ];
 
     /// The name in tables and in the files of causes, where a plausible detection has the cause `none`.
@@ -42,6 +51,9 @@ impl Cause {
             Self::SideLobe => "side lobe",
             Self::InsideBuilding => "inside building",
             Self::Noise => "noise",
+            Self::Ambiguity => "ambiguity",
+            Self::OwnVehicle => "own vehicle",
+            Self::Interference => "interference",
         }
     }
 }

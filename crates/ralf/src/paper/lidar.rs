@@ -2,7 +2,7 @@
 
 use crate::config::LidarConfig;
 use crate::label::UNLABELED;
-use crate::scene::{Frame, LidarCloud, LidarSnapshot};
+use crate::scene::{Association, Frame, LidarCloud, LidarSnapshot, LidarView};
 use crate::space::Neighbor;
 
 /// What the LiDAR says of one detection.
@@ -16,6 +16,9 @@ pub struct LidarMatch {
 
 /// The mismatch of each detection with its `K` nearest LiDAR points above the ground. `None` for all where the branch
 /// is off or there is no such point, and for detections without a position.
+///
+/// With `lidar.dynamic`, which the paper doesn't have, a detection is also compared with each point where its Doppler
+/// velocity takes it at the time of the point; the smaller mismatch counts.
 pub fn match_detections(frame: &Frame, config: &LidarConfig) -> Vec<Option<LidarMatch>> {
     let mut matches = vec![None; frame.scan.len()];
     let Some(view) = frame.lidar.as_ref().filter(|_| config.enabled) else { return matches };
@@ -27,7 +30,32 @@ pub fn match_detections(frame: &Frame, config: &LidarConfig) -> Vec<Option<Lidar
             *found = Some(LidarMatch { d, semantic: majority(&view.moment, association.found()) });
         }
     }
+    if config.dynamic {
+        match_movers(frame, view, &cloud, &mut association, &mut matches);
+    }
     matches
+}
+
+/// Compares the detections that move with each point at the point's own time, and keeps the smaller mismatch. A
+/// detection that moves less in that time than its own range is uncertain by stays as it is.
+fn match_movers(
+    frame: &Frame,
+    view: &LidarView,
+    cloud: &LidarCloud,
+    association: &mut Association,
+    matches: &mut [Option<LidarMatch>],
+) {
+    let t_ns = frame.scan.t_ns();
+    for (found, mover) in matches.iter_mut().zip(frame.movers()) {
+        let (Some(found), Some(mover)) = (found, mover) else { continue };
+        if cloud.farthest_move(&mover, t_ns) <= frame.radar.sigma_range {
+            continue;
+        }
+        let d = cloud.mean_mismatch_of_mover(association, &mover, t_ns);
+        if let Some(d) = d.filter(|d| *d < found.d) {
+            *found = LidarMatch { d, semantic: majority(&view.moment, association.found()) };
+        }
+    }
 }
 
 /// The class of most neighbours; of equally frequent ones the one that comes nearer. Unlabeled points don't vote.

@@ -12,8 +12,11 @@ mod lidar_cloud;
 mod lidar_window;
 mod located;
 mod mismatch;
+mod mover;
 mod neighbouring;
 mod neighbouring_detections;
+mod rays;
+mod sight;
 mod strength;
 mod window;
 
@@ -22,7 +25,7 @@ pub use camera::{
     CalibratedImage, CalibratedView, Calibration, CameraPoint, DepthLattice, Failure, Greenness, ImageId,
     ImageView, ImageWithDepth, Seen, ViewReport, ViewState, calibrate, luminance, median, project_points,
 };
-pub use doppler::Doppler;
+pub use doppler::{Doppler, radar_velocity};
 pub use floor::LocalGround;
 pub use frame::{Frame, Unreadable};
 pub use ground::{Ground, GroundSurface, Plane};
@@ -31,7 +34,10 @@ pub use lidar_cloud::LidarCloud;
 pub use lidar_window::{LidarWindow, LidarWindowView};
 pub use located::{Detection, LocatedScan};
 pub use mismatch::{Reference, Spread, distance_per_mismatch, mismatch, plausibility};
+pub use mover::Mover;
 pub use neighbouring::{NeighbouringScan, ScanStep};
 pub use neighbouring_detections::NeighbouringDetections;
+pub use rays::{Cone, RayTable, direction_of};
+pub use sight::{Reach, Sight};
 pub use strength::Strength;
 pub use window::FrameWindow;

@@ -22,6 +22,8 @@ pub(crate) struct Memory {
     pub(crate) radar_scans: Vec<Vec<Option<Vec<Vec<f32>>>>>,
     /// Per LiDAR and scan.
     pub(crate) lidar_scans: Vec<Vec<Vec<[f32; 3]>>>,
+    /// Of every LiDAR scan.
+    pub(crate) point_times: Option<Vec<f32>>,
 }
 
 /// A radar at the vehicle's origin: 0.3 m, 0.01 rad, 0.02 rad.
@@ -63,7 +65,7 @@ impl Memory {
             motion: EgoMotion::new(odometry, vec![]).unwrap(),
             depth_output: DepthOutput::Depth,
         };
-        Self { sequence, radar_scans: vec![], lidar_scans: vec![] }
+        Self { sequence, radar_scans: vec![], lidar_scans: vec![], point_times: None }
     }
 
     /// With another radar and its scans.
@@ -121,7 +123,7 @@ impl Source for Memory {
         Ok(LidarScan {
             t_ns: self.sequence.times.lidars[lidar][scan],
             points,
-            times: None,
+            times: self.point_times.clone(),
             intensity,
             classes: None,
         })

@@ -2,6 +2,7 @@
 
 use crate::read::corrections::{MotionSource, SensorCorrection};
 use crate::read::recording::{SequenceReader, TruthLabels};
+use ralf::label::Cause;
 use ralf::sensors::{CameraImage, DepthImage, LidarScan, RadarScan, Sequence, Source, SourceError};
 use ralf::space::EgoMotion;
 use std::any::Any;
@@ -65,14 +66,11 @@ impl Source for Corrected {
     }
 
     fn lidar_scan(&self, lidar: usize, scan: usize) -> Result<LidarScan, SourceError> {
-        let mut read = self.inner.lidar_scan(lidar, scan)?;
-        let Some(correction) = self.lidars.get(lidar).copied().flatten() else { return Ok(read) };
-        read.t_ns = correction.time(read.t_ns);
-        if correction.position_factor != 1.0 {
-            let factor = correction.position_factor as f32;
-            read.points.iter_mut().flatten().for_each(|value| *value *= factor);
+        let Sequence { rig, motion, .. } = &self.sequence;
+        match self.rolling_scan(lidar, scan)? {
+            Some(rolling) => Ok(rolling.motion_corrected(&rig.lidars[lidar].vehicle_from_lidar, motion)),
+            None => Ok(self.with_lidar_corrected(lidar, self.inner.lidar_scan(lidar, scan)?)),
         }
-        Ok(read)
     }
 
     fn image(&self, camera: usize, image: usize) -> Result<CameraImage, SourceError> {
@@ -81,6 +79,19 @@ impl Source for Corrected {
 
     fn depth(&self, camera: usize, image: usize) -> Result<Option<Vec<DepthImage>>, SourceError> {
         self.inner.depth(camera, image)
+    }
+}
+
+impl Corrected {
+    /// A LiDAR's scan with its time and its unit corrected.
+    fn with_lidar_corrected(&self, lidar: usize, mut read: LidarScan) -> LidarScan {
+        let Some(correction) = self.lidars.get(lidar).copied().flatten() else { return read };
+        read.t_ns = correction.time(read.t_ns);
+        if correction.position_factor != 1.0 {
+            let factor = correction.position_factor as f32;
+            read.points.iter_mut().flatten().for_each(|value| *value *= factor);
+        }
+        read
     }
 }
 
@@ -128,6 +139,15 @@ impl SequenceReader for Corrected {
 
     fn truth(&self, radar: usize, scan: usize) -> Result<Option<TruthLabels>, SourceError> {
         self.inner.truth(radar, scan)
+    }
+
+    fn causes(&self) -> &'static [Cause] {
+        self.inner.causes()
+    }
+
+    fn rolling_scan(&self, lidar: usize, scan: usize) -> Result<Option<LidarScan>, SourceError> {
+        let rolling = self.inner.rolling_scan(lidar, scan)?;
+        Ok(rolling.map(|rolling| self.with_lidar_corrected(lidar, rolling)))
     }
 
     fn motion_source(&self) -> MotionSource {

@@ -1,4 +1,4 @@
-//! A simulated sequence as a source of measurements.
+//! A sequence made from a scenario.
 
 use super::camera::{self, Moment, Rays};
 use super::lidar;
@@ -8,9 +8,11 @@ use super::radar::{Detection, Mirror, View, radar_scan};
 use super::random::{Purpose, Random};
 use super::scenario::{CameraFailure, FailureKind, Scenario, ScenarioError};
 use super::scene::Scene;
+use super::simulation::{Simulation, time};
 use super::site::Site;
 use super::truth::Truth;
 use super::vehicle::rig;
+use ralf::label::Cause;
 use ralf::sensors::{
     Camera, CameraImage, DepthImage, DepthOutput, LidarScan, RadarScan, Sequence, Source, SourceError,
     Timelines,
@@ -32,18 +34,8 @@ const CAMERA_DELAY_NS: i64 = 12_000_000;
 const DETECTIONS: f64 = 1216.0;
 
 /// A sequence made from a scenario and a seed.
-///
-/// ```
-/// use ralf_sim::{Scenario, SimulatedSequence};
-/// use ralf::sensors::Source;
-/// let scenario = Scenario::from_toml(&ralf_sim::presets::find("tiny").unwrap().sequences[0].text())?;
-/// let sequence = SimulatedSequence::new("00", &scenario, 7, 10)?;
-/// let scan = sequence.radar_scan(0, 3)?;
-/// assert_eq!(sequence.truth(0, 3).unwrap().len(), scan.len());
-/// # Ok::<(), Box<dyn std::error::Error + Send + Sync>>(())
-/// ```
 #[derive(Debug)]
-pub struct SimulatedSequence {
+pub(super) struct ScenarioSequence {
     sequence: Sequence,
     scenario: Scenario,
     site: Site,
@@ -54,9 +46,14 @@ pub struct SimulatedSequence {
     rays: Vec<OnceLock<Rays>>,
 }
 
-impl SimulatedSequence {
+impl ScenarioSequence {
     /// A sequence of so many scans of each radar.
-    pub fn new(name: &str, scenario: &Scenario, seed: u64, scans: usize) -> Result<Self, ScenarioError> {
+    pub(super) fn new(
+        name: &str,
+        scenario: &Scenario,
+        seed: u64,
+        scans: usize,
+    ) -> Result<Self, ScenarioError> {
         scenario.check()?;
         let rig = rig();
         let last_ns = scans as i64 * RADAR_PERIOD_NS;
@@ -91,29 +88,6 @@ impl SimulatedSequence {
         let mirrors = Mirror::all(&site);
         let rays = sequence.rig.cameras.iter().map(|_| OnceLock::new()).collect();
         Ok(Self { sequence, scenario: scenario.clone(), site, mirrors, path, seed, rays })
-    }
-
-    /// The same sequence from a vehicle without cameras: all other measurements are as they were.
-    pub fn without_cameras(mut self) -> Self {
-        self.sequence.rig.cameras.clear();
-        self.sequence.times.cameras.clear();
-        self.rays.clear();
-        self
-    }
-
-    /// What is true of each detection of a scan, in its order. The error names a scan that doesn't exist.
-    pub fn truth(&self, radar: usize, scan: usize) -> Result<Vec<Truth>, SourceError> {
-        Ok(self.detections(radar, scan)?.iter().map(|detection| detection.truth).collect())
-    }
-
-    /// The vehicle's true pose, in its frame at the start: what wheel odometry is measured against.
-    pub fn true_pose(&self, t_ns: i64) -> Transform {
-        self.pose(START_NS).inv_mul(&self.pose(t_ns))
-    }
-
-    /// The true depth of each straight view of an image along its axis, m; the sky is 80 m away.
-    pub fn true_depth(&self, camera: usize, image: usize) -> Result<Vec<DepthImage>, SourceError> {
-        Ok(camera::true_depth(&self.moment(camera, image)?.1))
     }
 
     fn detections(&self, radar: usize, scan: usize) -> Result<Vec<Detection>, SourceError> {
@@ -157,18 +131,36 @@ impl SimulatedSequence {
     }
 }
 
+impl Simulation for ScenarioSequence {
+    fn truth(&self, radar: usize, scan: usize) -> Result<Vec<Truth>, SourceError> {
+        Ok(self.detections(radar, scan)?.iter().map(|detection| detection.truth).collect())
+    }
+
+    fn causes(&self) -> &'static [Cause] {
+        &Cause::ALL[..=Cause::Noise as usize]
+    }
+
+    fn remove_cameras(&mut self) {
+        self.sequence.rig.cameras.clear();
+        self.sequence.times.cameras.clear();
+        self.rays.clear();
+    }
+
+    fn true_pose(&self, t_ns: i64) -> Transform {
+        self.pose(START_NS).inv_mul(&self.pose(t_ns))
+    }
+
+    fn true_depth(&self, camera: usize, image: usize) -> Result<Vec<DepthImage>, SourceError> {
+        Ok(camera::true_depth(&self.moment(camera, image)?.1))
+    }
+}
+
 /// Since the start.
 fn seconds(t_ns: i64) -> f64 {
     (t_ns - START_NS) as f64 * 1e-9
 }
 
-/// Time of a measurement, ns.
-fn time(kind: &str, times: &[Vec<i64>], sensor: usize, index: usize) -> Result<i64, SourceError> {
-    let found = times.get(sensor).and_then(|times| times.get(index)).copied();
-    found.ok_or_else(|| format!("{kind} {sensor} has no measurement {index}").into())
-}
-
-impl Source for SimulatedSequence {
+impl Source for ScenarioSequence {
     fn sequence(&self) -> &Sequence {
         &self.sequence
     }
@@ -206,11 +198,11 @@ mod tests {
     use super::*;
     use crate::shape::Ray;
     use crate::{Kind, presets};
-    use ralf::label::Cause;
     use ralf::space::{Point, Spherical};
 
-    fn tiny() -> SimulatedSequence {
-        presets::find("tiny").unwrap().sequences[0].simulate(5, 6).unwrap()
+    fn tiny() -> ScenarioSequence {
+        let text = presets::find("tiny").unwrap().sequences[0].text();
+        ScenarioSequence::new("tiny", &Scenario::from_toml(&text).unwrap(), 5, 6).unwrap()
     }
 
     #[test]

@@ -1,0 +1,119 @@
+//! `ralf simulate --compare`: how far a simulated recording is from a real one.
+
+use crate::progress::{Progress, say};
+use crate::text::{aligned, print};
+use ralf_data::realism::{Compared, Distributions, Summary};
+use ralf_data::{Recording, SequenceReader};
+use ralf_report::RealismPage;
+use serde_json::json;
+use std::path::Path;
+
+/// A recording with the name that people know it by.
+pub(super) struct Named<'a> {
+    pub(super) name: String,
+    pub(super) sequences: Vec<&'a dyn SequenceReader>,
+}
+
+impl<'a> Named<'a> {
+    /// A recording by its folder's or file's name.
+    pub(super) fn opened(recording: &'a Recording) -> Self {
+        let name = recording.path.file_name().map_or("recording".into(), |name| name.to_string_lossy());
+        Self {
+            name: name.into_owned(),
+            sequences: recording.sequences.iter().map(|reader| reader.as_ref()).collect(),
+        }
+    }
+}
+
+/// What is made of the comparison.
+pub(super) struct Told<'a> {
+    /// The page, where one is asked for.
+    pub(super) page: Option<&'a Path>,
+    pub(super) json: bool,
+    pub(super) quiet: bool,
+}
+
+/// Compares, writes the page and prints the distances.
+pub(super) fn compare(real: &Named, simulated: &Named, jobs: usize, told: &Told) -> anyhow::Result<()> {
+    let gathered = |recording: &Named| (recording.name.clone(), gather(recording, jobs, told.quiet));
+    let page = RealismPage::new(gathered(real), gathered(simulated));
+    for reason in page.real.unreadable.iter().chain(&page.simulated.unreadable) {
+        say(&format!("left out: {reason}"));
+    }
+    if let Some(file) = told.page {
+        ralf_data::write_whole(file, page.html()?.as_bytes())?;
+        say(&format!("wrote {}", file.display()));
+    }
+    print(&if told.json {
+        serde_json::to_string_pretty(&json!({
+            "real": page.real_name,
+            "simulated": page.simulated_name,
+            "realism": page.realism,
+        }))?
+    } else {
+        table(&page)
+    })
+}
+
+fn gather(recording: &Named, jobs: usize, quiet: bool) -> Distributions {
+    let progress = if quiet { Progress::hidden() } else { Progress::spinner() };
+    Distributions::gather(&recording.sequences, jobs, &|done, all| {
+        progress.tell(format!("{}: {done} of {all} scans", recording.name));
+    })
+}
+
+/// A line per quantity, and what is lacking.
+fn table(page: &RealismPage) -> String {
+    let head = [
+        "",
+        "real 5 %",
+        "50 %",
+        "95 %",
+        "simulated 5 %",
+        "50 %",
+        "95 %",
+        "moved/spread",
+        "KS",
+        "KS of halves",
+    ];
+    let mut rows = vec![head.map(str::to_owned).to_vec()];
+    let mut lacking = String::new();
+    for compared in &page.realism.quantities {
+        let Compared { name, unit, real, simulated, distance, within_real, .. } = compared;
+        let needs = compared.quantity.description().needs;
+        for (recording, summary) in [(&page.real_name, real), (&page.simulated_name, simulated)] {
+            if summary.is_none() {
+                lacking += &format!("{name}: {recording} lacks {needs}\n");
+            }
+        }
+        if real.is_none() && simulated.is_none() {
+            continue;
+        }
+        let name = if unit.is_empty() { (*name).to_owned() } else { format!("{name}, {unit}") };
+        let two = |value: Option<f64>| value.map_or("-".to_owned(), |value| format!("{value:.2}"));
+        let mut row = vec![name];
+        row.extend(figures(real.as_ref()));
+        row.extend(figures(simulated.as_ref()));
+        row.extend([two(distance.and_then(|d| d.normalised)), two(distance.map(|d| d.ks))]);
+        row.push(two(within_real.map(|d| d.ks)));
+        rows.push(row);
+    }
+    let mean = |value: Option<f64>| value.map_or("none".to_owned(), |value| format!("{value:.3}"));
+    format!(
+        "{} beside {} (real)\n\n{}\n{lacking}mean KS {}, of the halves of the real recording {}\n",
+        page.simulated_name,
+        page.real_name,
+        aligned(&rows),
+        mean(page.realism.mean_ks),
+        mean(page.realism.mean_ks_within_real),
+    )
+}
+
+/// Three quantiles.
+fn figures(summary: Option<&Summary>) -> [String; 3] {
+    let Some(summary) = summary else { return std::array::from_fn(|_| "-".to_owned()) };
+    [0, 2, 4].map(|place| {
+        let value = summary.quantiles[place];
+        if value.abs() >= 1000.0 { format!("{value:.0}") } else { format!("{value:.2}") }
+    })
+}

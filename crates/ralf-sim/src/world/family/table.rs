@@ -1,0 +1,346 @@
+//! The families. Where a range comes from stands beside it; *chosen* is nobody's measurement, but wide enough for what
+//! is said of such sensors and places.
+//!
+//! Measured means: on the recordings that the readers' tests use (nuScenes scene-0061, a frame of View-of-Delft, 20
+//! frames of aiMotive).
+
+use super::mounts::{
+    AHEAD, AROUND, CORNERS, FIVE, FRONT_REAR, ONE, ROOF_16, ROOF_32, ROOF_40, ROOF_64, ROOF_64_EVEN,
+    ROOF_128, ROOF_128_WIDE, ROOF_AND_CORNERS, SIDES, SIX, TWO,
+};
+use super::ranges::{
+    CalibrationRanges, Family, LidarRanges, MotionRanges, PlaceKind, RadarRanges, WaveRanges,
+};
+use crate::world::span::span;
+
+/// A 4D radar with a wide view, as in the paper: some 300 detections in a scan.
+const RADARS: RadarRanges = RadarRanges {
+    layouts: &[SIDES, CORNERS],
+    elevation: 1.0,
+    // 160 degrees in the paper's kind; View-of-Delft's detections reach from -32 to 47 (5 to 95 %).
+    fov_azimuth: span(120.0, 160.0),
+    // Measured, View-of-Delft: 5 to 95 % of the elevations lie in -8 .. 7 degrees.
+    fov_elevation: span(16.0, 30.0),
+    // 13 Hz in nuScenes and View-of-Delft, 18 in aiMotive, 20 in the paper.
+    rate: span(12.0, 20.0),
+    // A car of 10 dBsm is seen up to so far (data sheets of corner radars: 70 to 100 m).
+    car_range: span(60.0, 110.0),
+    max_range: span(60.0, 100.0),
+    // c / (2 B): 0.15 m at 1 GHz, 0.5 m at 300 MHz.
+    range_cell: span(0.15, 0.5),
+    // Data sheets of imaging radars: 1 to 2 degrees; of corner radars 3 to 6.
+    azimuth_cell: span(1.2, 3.5),
+    elevation_cell: span(3.0, 7.0),
+    // Wavelength / (2 T): 0.1 m/s for a burst of 20 ms.
+    doppler_cell: span(0.08, 0.25),
+    // Cramer-Rao: cell / sqrt(SNR) or so, and no better than a tenth.
+    accuracy: span(0.12, 0.3),
+    // Measured, aiMotive: the least SNR is 14.2 dB. Data sheets of radar chips: 10 to 15.
+    threshold: span(10.0, 15.0),
+    // Wider than any closing speed: chirps of several repetition times.
+    doppler_interval: span(80.0, 140.0),
+    doppler_failure: span(0.0, 0.05),
+    // Tapered arrays: 20 to 30 dB one-way; calibration errors raise them. Two-way with a uniform transmitter.
+    side_lobe: span(17.0, 26.0),
+    angle_failure: span(0.02, 0.15),
+    // 1,216 in four radars in the paper's recordings.
+    room: span(250.0, 500.0),
+    false_alarms: span(15.0, 70.0),
+};
+
+const WAVES: WaveRanges = WaveRanges {
+    // W-band backscatter of asphalt at 5 to 20 degrees of grazing: -30 to -15 dB (Ulaby and Dobson 1989; Sarabandi et
+    // al. 1997).
+    asphalt: span(-32.0, -20.0),
+    // K-distributed and worse near the ground: chosen.
+    texture: span(4.0, 7.5),
+    // Reflection of facades at 77 GHz: glass and metal 0 to 3 dB, plaster and brick 5 to 12 (chosen).
+    mirror_loss: span(2.0, 9.0),
+    // Insulating glass at 77 GHz takes 3 to 10 dB one-way; coated panes up to 30 (chosen).
+    window_loss: span(6.0, 24.0),
+    // Foliage at millimetre waves: 1 to 3 dB per metre one-way in full leaf (ITU-R P.833).
+    leaf_loss: span(1.5, 6.0),
+    // Chosen: the absolute calibration of a sensor's cross-sections is off by some dB.
+    strength: span(-4.0, 4.0),
+    interference: span(0.0, 0.05),
+    bumper: span(0.0, 3.0),
+    rain: 0.1,
+};
+
+const LIDARS: LidarRanges = LidarRanges {
+    layouts: &[ROOF_40, ROOF_64, ROOF_32],
+    rate: span(10.0, 10.0),
+    // Data sheets: 2 to 3 cm.
+    sigma: span(0.01, 0.04),
+    lost: span(0.0, 0.05),
+    rolling: 0.5,
+    // Uncoated glass passes some 90 % of 905 nm at right angles; sun protection less than half (chosen).
+    glass: span(0.3, 0.9),
+};
+
+const MOTION: MotionRanges = MotionRanges {
+    speed: span(0.5, 1.2),
+    standing: 0.1,
+    reversing: 0.05,
+    traffic: span(0.3, 1.8),
+    slope: span(0.0, 3.0),
+};
+
+const CALIBRATION: CalibrationRanges = CalibrationRanges {
+    angle: span(0.05, 0.5),
+    place: span(0.01, 0.05),
+    clock: span(0.0, 20.0),
+    sigmas: span(-0.2, 0.3),
+    wheels: span(-0.01, 0.01),
+    poses: 0.3,
+    drift: span(0.0, 0.01),
+};
+
+/// All families, by their numbers.
+pub const FAMILIES: [Family; 8] = [
+    Family {
+        name: "city",
+        about: "4D radars on all sides, a roof LiDAR of 32 to 64 beams, streets and crossings",
+        radars: RADARS,
+        waves: WAVES,
+        lidars: LIDARS,
+        places: &[(PlaceKind::Street, 2.0), (PlaceKind::Crossing, 2.0), (PlaceKind::Residential, 1.0)],
+        motion: MOTION,
+        calibration: CALIBRATION,
+    },
+    Family {
+        name: "survey",
+        about: "five sparse radars without elevation, as in nuScenes, and 32 beams at 20 Hz",
+        radars: RadarRanges {
+            layouts: &[FIVE],
+            elevation: 0.0,
+            // Continental ARS 408-21: 120 degrees near, 18 far.
+            fov_azimuth: span(90.0, 120.0),
+            fov_elevation: span(14.0, 20.0),
+            rate: span(13.0, 14.0),
+            car_range: span(110.0, 180.0),
+            // Measured, nuScenes: 95 % within 91 to 108 m, the farthest at 193 m.
+            max_range: span(100.0, 190.0),
+            // ARS 408-21: 0.39 m near, 1.79 m far; angles 3.2 to 12.3 degrees near; 0.37 km/h.
+            range_cell: span(0.39, 1.2),
+            azimuth_cell: span(3.2, 6.0),
+            doppler_cell: span(0.1, 0.3),
+            accuracy: span(0.15, 0.3),
+            // Measured, nuScenes: 125 wherever there is enough to see.
+            room: span(64.0, 125.0),
+            false_alarms: span(2.0, 12.0),
+            ..RADARS
+        },
+        waves: WaveRanges { asphalt: span(-36.0, -26.0), ..WAVES },
+        lidars: LidarRanges { layouts: &[ROOF_32], rate: span(20.0, 20.0), ..LIDARS },
+        places: &[(PlaceKind::Street, 2.0), (PlaceKind::Crossing, 2.0), (PlaceKind::CarPark, 1.0)],
+        motion: MotionRanges { speed: span(0.6, 1.4), ..MOTION },
+        calibration: CalibrationRanges { poses: 1.0, drift: span(0.0, 0.003), ..CALIBRATION },
+    },
+    Family {
+        name: "motorway",
+        about: "long range ahead and behind at up to 35 m/s, guard rails, a LiDAR that turns while the world moves",
+        radars: RadarRanges {
+            layouts: &[FRONT_REAR, SIX],
+            elevation: 0.7,
+            // Measured, aiMotive: azimuths within 17, elevations within 7.8 degrees to a side.
+            fov_azimuth: span(30.0, 100.0),
+            fov_elevation: span(12.0, 18.0),
+            rate: span(15.0, 18.2),
+            car_range: span(130.0, 220.0),
+            // Measured, aiMotive: 13 to 180 m.
+            max_range: span(150.0, 200.0),
+            range_cell: span(0.4, 1.5),
+            azimuth_cell: span(1.5, 4.0),
+            elevation_cell: span(3.0, 6.0),
+            // Measured, aiMotive: 5 % are off by 32 to 33.4 m/s.
+            doppler_interval: span(55.0, 90.0),
+            doppler_failure: span(0.03, 0.3),
+            // Measured, aiMotive: 26 to 55 in a scan.
+            room: span(40.0, 200.0),
+            false_alarms: span(2.0, 20.0),
+            ..RADARS
+        },
+        waves: WaveRanges { interference: span(0.0, 0.1), ..WAVES },
+        lidars: LidarRanges { layouts: &[ROOF_128, ROOF_64], rolling: 0.9, ..LIDARS },
+        places: &[(PlaceKind::Motorway, 4.0), (PlaceKind::Country, 1.0)],
+        motion: MotionRanges { speed: span(0.7, 1.1), standing: 0.03, reversing: 0.0, ..MOTION },
+        calibration: CALIBRATION,
+    },
+    Family {
+        name: "carpark",
+        about: "short range at walking speed, standing and reversing, between cars that one sees into; small LiDARs",
+        radars: RadarRanges {
+            layouts: &[CORNERS, SIDES, SIX],
+            elevation: 0.6,
+            fov_azimuth: span(130.0, 160.0),
+            fov_elevation: span(16.0, 40.0),
+            rate: span(15.0, 20.0),
+            car_range: span(40.0, 80.0),
+            max_range: span(30.0, 60.0),
+            range_cell: span(0.08, 0.25),
+            azimuth_cell: span(2.0, 6.0),
+            elevation_cell: span(4.0, 10.0),
+            room: span(150.0, 400.0),
+            false_alarms: span(5.0, 40.0),
+            side_lobe: span(13.0, 22.0),
+            ..RADARS
+        },
+        waves: WaveRanges {
+            asphalt: span(-28.0, -17.0),
+            mirror_loss: span(1.0, 6.0),
+            bumper: span(1.0, 5.0),
+            ..WAVES
+        },
+        lidars: LidarRanges {
+            layouts: &[AROUND, ROOF_AND_CORNERS, ROOF_16],
+            glass: span(0.5, 0.95),
+            ..LIDARS
+        },
+        places: &[(PlaceKind::CarPark, 4.0), (PlaceKind::Residential, 1.0), (PlaceKind::Industrial, 1.0)],
+        motion: MotionRanges { speed: span(0.3, 1.0), standing: 0.2, reversing: 0.3, ..MOTION },
+        calibration: CALIBRATION,
+    },
+    Family {
+        name: "imaging",
+        about: "one 4D radar and 64 beams, as in View-of-Delft: grass, hedges, cyclists, much noise",
+        radars: RadarRanges {
+            layouts: &[ONE],
+            fov_azimuth: span(100.0, 120.0),
+            rate: span(10.0, 13.0),
+            // Measured, View-of-Delft: half of the detections within 23 m, the farthest at 100 m.
+            car_range: span(60.0, 100.0),
+            max_range: span(80.0, 105.0),
+            range_cell: span(0.1, 0.3),
+            azimuth_cell: span(1.0, 2.2),
+            elevation_cell: span(1.5, 4.0),
+            // Measured, View-of-Delft: cross-sections from -39 to 4 dBsm (5 to 95 %): a low threshold.
+            threshold: span(9.0, 12.0),
+            // Measured, View-of-Delft: 322 detections in a scan.
+            room: span(250.0, 450.0),
+            false_alarms: span(40.0, 120.0),
+            ..RADARS
+        },
+        waves: WaveRanges { asphalt: span(-28.0, -18.0), strength: span(-8.0, 0.0), ..WAVES },
+        lidars: LidarRanges { layouts: &[ROOF_64], sigma: span(0.015, 0.03), rolling: 0.0, ..LIDARS },
+        places: &[(PlaceKind::Residential, 2.0), (PlaceKind::Street, 2.0), (PlaceKind::Country, 1.0)],
+        motion: MotionRanges { speed: span(0.4, 0.9), traffic: span(0.6, 2.5), ..MOTION },
+        calibration: CalibrationRanges { poses: 1.0, angle: span(0.05, 0.3), ..CALIBRATION },
+    },
+    Family {
+        name: "yard",
+        about: "sparse arrays with high side lobes and ambiguities among halls, containers and lorries",
+        radars: RadarRanges {
+            layouts: &[TWO, SIDES, FRONT_REAR],
+            elevation: 0.8,
+            fov_azimuth: span(90.0, 150.0),
+            car_range: span(60.0, 140.0),
+            max_range: span(60.0, 120.0),
+            azimuth_cell: span(0.8, 2.5),
+            side_lobe: span(9.0, 18.0),
+            angle_failure: span(0.1, 0.35),
+            // A cascade of chips with long chirps: the interval shrinks to a few tens of m/s.
+            doppler_interval: span(20.0, 60.0),
+            room: span(200.0, 800.0),
+            false_alarms: span(10.0, 100.0),
+            ..RADARS
+        },
+        waves: WaveRanges { mirror_loss: span(0.5, 4.0), interference: span(0.0, 0.15), ..WAVES },
+        lidars: LidarRanges { layouts: &[AHEAD, ROOF_128_WIDE, ROOF_64_EVEN], ..LIDARS },
+        places: &[(PlaceKind::Industrial, 4.0), (PlaceKind::CarPark, 1.0)],
+        motion: MotionRanges { standing: 0.15, reversing: 0.15, ..MOTION },
+        calibration: CalibrationRanges { wheels: span(-0.02, 0.02), ..CALIBRATION },
+    },
+    Family {
+        name: "country",
+        about: "hills, banks, gravel, grass and trees, sometimes rain; one radar and 16 or 32 beams",
+        radars: RadarRanges {
+            layouts: &[ONE, FRONT_REAR, TWO],
+            elevation: 0.4,
+            fov_azimuth: span(60.0, 120.0),
+            car_range: span(80.0, 160.0),
+            max_range: span(80.0, 160.0),
+            azimuth_cell: span(1.5, 5.0),
+            room: span(60.0, 300.0),
+            false_alarms: span(3.0, 40.0),
+            ..RADARS
+        },
+        waves: WaveRanges { texture: span(5.0, 9.0), rain: 0.4, ..WAVES },
+        lidars: LidarRanges { layouts: &[ROOF_16, ROOF_32], lost: span(0.0, 0.15), ..LIDARS },
+        places: &[(PlaceKind::Country, 4.0), (PlaceKind::Residential, 1.0)],
+        motion: MotionRanges { slope: span(2.0, 9.0), traffic: span(0.2, 1.0), ..MOTION },
+        calibration: CALIBRATION,
+    },
+    Family {
+        name: "anything",
+        about: "all places and sensors, each range as wide as that of the other families together",
+        radars: RadarRanges {
+            layouts: &[ONE, FRONT_REAR, SIDES, CORNERS, FIVE, SIX, TWO],
+            elevation: 0.6,
+            fov_azimuth: span(30.0, 160.0),
+            fov_elevation: span(12.0, 40.0),
+            rate: span(10.0, 20.0),
+            car_range: span(50.0, 200.0),
+            max_range: span(40.0, 190.0),
+            range_cell: span(0.1, 1.2),
+            azimuth_cell: span(0.8, 6.0),
+            elevation_cell: span(1.5, 10.0),
+            doppler_cell: span(0.06, 0.35),
+            accuracy: span(0.1, 0.35),
+            threshold: span(9.0, 15.0),
+            doppler_interval: span(25.0, 140.0),
+            doppler_failure: span(0.0, 0.3),
+            side_lobe: span(10.0, 26.0),
+            angle_failure: span(0.02, 0.35),
+            room: span(50.0, 600.0),
+            false_alarms: span(2.0, 100.0),
+            ..RADARS
+        },
+        waves: WaveRanges {
+            asphalt: span(-36.0, -17.0),
+            texture: span(4.0, 9.0),
+            mirror_loss: span(0.5, 12.0),
+            strength: span(-8.0, 4.0),
+            interference: span(0.0, 0.15),
+            bumper: span(0.0, 5.0),
+            rain: 0.2,
+            ..WAVES
+        },
+        lidars: LidarRanges {
+            layouts: &[
+                ROOF_16,
+                ROOF_32,
+                ROOF_40,
+                ROOF_64,
+                ROOF_64_EVEN,
+                ROOF_128,
+                ROOF_128_WIDE,
+                AHEAD,
+                ROOF_AND_CORNERS,
+                AROUND,
+            ],
+            rate: span(10.0, 20.0),
+            sigma: span(0.01, 0.06),
+            lost: span(0.0, 0.15),
+            glass: span(0.2, 0.95),
+            ..LIDARS
+        },
+        places: &[
+            (PlaceKind::Street, 1.0),
+            (PlaceKind::Crossing, 1.0),
+            (PlaceKind::Residential, 1.0),
+            (PlaceKind::CarPark, 1.0),
+            (PlaceKind::Industrial, 1.0),
+            (PlaceKind::Motorway, 1.0),
+            (PlaceKind::Country, 1.0),
+        ],
+        motion: MotionRanges {
+            speed: span(0.3, 1.3),
+            standing: 0.1,
+            reversing: 0.1,
+            slope: span(0.0, 7.0),
+            ..MOTION
+        },
+        calibration: CALIBRATION,
+    },
+];

@@ -1,0 +1,106 @@
+//! A radar as it really is, and how waves meet the world.
+
+use ralf::space::Transform;
+
+/// A radar.
+#[derive(Debug, Clone)]
+pub(crate) struct RadarModel {
+    pub(crate) name: String,
+    /// Where it really sits.
+    pub(crate) vehicle_from_radar: Transform,
+    /// Whether it measures elevation.
+    pub(crate) elevation: bool,
+    /// Full fields of view in azimuth and elevation, rad.
+    pub(crate) fov: [f64; 2],
+    /// Between scans, ns.
+    pub(crate) period_ns: i64,
+    /// The first scan after the start, ns.
+    pub(crate) first_ns: i64,
+    /// What its clock is ahead of the true time, ns.
+    pub(crate) clock_ns: i64,
+    /// Signal to noise of 0 dBsm at 10 m on boresight, dB.
+    pub(crate) sensitivity_db: f64,
+    /// m.
+    pub(crate) max_range: f64,
+    pub(crate) cell: Cell,
+    /// Standard deviation at 20 dB as a share of the cell.
+    pub(crate) accuracy: f64,
+    /// Above the floor, dB.
+    pub(crate) threshold_db: f64,
+    /// Width of the unambiguous interval of range rates, m/s.
+    pub(crate) doppler_interval: f64,
+    /// How often the next interval is taken near the threshold.
+    pub(crate) doppler_failure: f64,
+    /// Side lobes lie so far below the main one, dB.
+    pub(crate) side_lobe_db: f64,
+    /// How often an angle is taken for another near the threshold.
+    pub(crate) angle_failure: f64,
+    /// By how much its sine is off then.
+    pub(crate) ambiguity: f64,
+    /// Detections that a scan has room for.
+    pub(crate) room: usize,
+    /// False alarms in a scan.
+    pub(crate) false_alarms: f64,
+    /// What its cross-sections are off, dB.
+    pub(crate) rcs_offset_db: f64,
+    /// Names of the columns that follow x, y, z.
+    pub(crate) amplitudes: Vec<Amplitude>,
+}
+
+/// What a radar tells of an echo's strength.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Amplitude {
+    /// dBsm.
+    Rcs,
+    /// Above noise, dB.
+    Snr,
+    /// dB of something.
+    Power,
+}
+
+impl Amplitude {
+    /// The column's name.
+    pub(crate) fn name(self) -> &'static str {
+        match self {
+            Self::Rcs => "rcs",
+            Self::Snr => "snr",
+            Self::Power => "power",
+        }
+    }
+}
+
+/// What a radar can't tell apart.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Cell {
+    /// m.
+    pub(crate) range: f64,
+    /// rad.
+    pub(crate) azimuth: f64,
+    /// rad.
+    pub(crate) elevation: f64,
+    /// m/s.
+    pub(crate) doppler: f64,
+}
+
+/// How waves meet a world.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Waves {
+    /// Backscatter of asphalt at 10 degrees of grazing, dB.
+    pub(crate) asphalt_db: f64,
+    /// Its spread from place to place, dB.
+    pub(crate) texture_db: f64,
+    /// What a facade takes from a mirrored wave, one way, dB.
+    pub(crate) mirror_loss_db: f64,
+    /// What a window takes, there and back, dB.
+    pub(crate) window_loss_db: f64,
+    /// What leaves take per metre, there and back, dB.
+    pub(crate) leaf_loss_db: f64,
+    /// Added to every cross-section, dB.
+    pub(crate) strength_db: f64,
+    /// Share of scans with a burst of interference.
+    pub(crate) interference: f64,
+    /// Returns of the own bumper.
+    pub(crate) bumper: usize,
+    /// Whether it rains.
+    pub(crate) rain: bool,
+}

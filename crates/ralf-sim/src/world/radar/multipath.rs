@@ -1,0 +1,188 @@
+//! Waves that take another way: mirror images, paths that are mirrored on one of their two ways, second trips.
+
+use super::echo::{Echo, View, fluctuation_db};
+use super::equation::{decibel, range_loss_db};
+use super::targets::Target;
+use crate::random::Random;
+use crate::world::reflector::Wall;
+use nalgebra::Isometry3;
+use ralf::label::Cause;
+use ralf::space::{Point, Spherical, Vector};
+
+/// Farther mirrors, and things farther from a mirror, are left out, m.
+const REACH: f64 = 45.0;
+/// A second trip is lost beyond this first one, m.
+const FARTHEST_BOUNCE: f64 = 30.0;
+/// How many of the strongest echoes have a second trip.
+const STRONGEST: usize = 24;
+/// Cross-section of the own front to a wave that comes back, dBsm.
+const OWN_FRONT_DB: f64 = 8.0;
+
+/// A mirror in its place that faces the radar.
+struct Mirror {
+    item: usize,
+    center: Point,
+    normal: Vector,
+    half: [f64; 2],
+    loss_db: f64,
+    /// How far the radar is before it, m.
+    distance: f64,
+    /// In the site's frame.
+    velocity: Vector,
+}
+
+impl Mirror {
+    fn new(
+        view: &View<'_>,
+        item: usize,
+        wall: &Wall,
+        pose: &Isometry3<f64>,
+        velocity: Vector,
+    ) -> Option<Self> {
+        let (center, normal) = (pose * wall.center, pose.rotation * wall.normal);
+        let to_radar = view.origin() - center;
+        let distance = normal.dot(&to_radar);
+        let near = distance > 0.3 && to_radar.norm() < REACH + wall.half[0];
+        near.then(|| Self {
+            item,
+            center,
+            normal,
+            half: wall.half,
+            loss_db: (view.waves.mirror_loss_db + wall.loss_db).max(0.3),
+            distance,
+            velocity,
+        })
+    }
+
+    fn image(&self, p: &Point) -> Point {
+        p - self.normal * (2.0 * self.normal.dot(&(p - self.center)))
+    }
+
+    /// Where the wave to the image of `p` is reflected.
+    fn point_of_reflection(&self, origin: &Point, p: &Point) -> Option<Point> {
+        let before = self.normal.dot(&(p - self.center));
+        if before < 0.3 {
+            return None;
+        }
+        let at = origin + (self.image(p) - origin) * (self.distance / (self.distance + before));
+        let offset = at - self.center;
+        let along = self.normal.x * offset.y - self.normal.y * offset.x;
+        (along.abs() <= self.half[0] && offset.z.abs() <= self.half[1]).then_some(at)
+    }
+
+    /// How an image moves whose original moves.
+    fn mirrored(&self, velocity: &Vector) -> Vector {
+        velocity - self.normal * (2.0 * self.normal.dot(&(velocity - self.velocity)))
+    }
+}
+
+/// The images of what was heard directly, in every wall that faces the radar.
+pub(super) fn mirrored(view: &View<'_>, targets: &[Target], random: &mut Random) -> Vec<Echo> {
+    let mut found = Vec::new();
+    for mirror in mirrors(view) {
+        for target in targets.iter().filter(|target| target.item != mirror.item) {
+            found.extend(images(view, &mirror, target, random).into_iter().flatten().flatten());
+        }
+    }
+    found
+}
+
+fn mirrors(view: &View<'_>) -> Vec<Mirror> {
+    let site = view.moment.site;
+    let mut found = Vec::new();
+    for (index, item) in site.items.iter().enumerate() {
+        let pose = &view.moment.poses[index];
+        let velocity = item.velocity(&site.terrain, view.moment.seconds);
+        found.extend(item.walls.iter().filter_map(|wall| Mirror::new(view, index, wall, pose, velocity)));
+    }
+    found
+}
+
+/// The image (there and back by the mirror), and the paths by the mirror on one way alone: these seem to come from the
+/// mirror or from the thing itself, at the mean of both ranges.
+fn images(
+    view: &View<'_>,
+    mirror: &Mirror,
+    target: &Target,
+    random: &mut Random,
+) -> Option<[Option<Echo>; 3]> {
+    let at = mirror.point_of_reflection(&view.origin(), &target.place)?;
+    let direct = target.echo.seen;
+    let image = mirror.image(&target.place);
+    let around = view.seen(&image)?;
+    if around.range > direct.range + 2.0 * REACH {
+        return None;
+    }
+    let level_db = decibel(target.echo.power) + fluctuation_db(random);
+    let spread_db = range_loss_db(around.range) - range_loss_db(direct.range);
+    // The way by the mirror, once.
+    let longer_db = mirror.loss_db + spread_db / 2.0;
+    let hope = view.radar.threshold_db - 3.0;
+    if level_db - longer_db < hope {
+        return None;
+    }
+    let origin = view.origin();
+    let on_db = view.between_db(&(at + mirror.normal * 0.02), &target.place, Some(target.item))?;
+    let there_db = view.between_db(&origin, &at, Some(mirror.item))?;
+    let way_db = longer_db + (on_db + there_db) / 2.0;
+    let image_rate = view.range_rate(&image, &mirror.mirrored(&target.velocity));
+    let mixed_rate = f64::midpoint(image_rate, target.echo.range_rate);
+    let mixed = |seen: Spherical| {
+        let seen = Spherical { range: f64::midpoint(around.range, direct.range), ..seen };
+        Echo::artifact(seen, mixed_rate, level_db - way_db, Cause::Mirror)
+    };
+    let pure = Echo::artifact(around, image_rate, level_db - 2.0 * way_db, Cause::Mirror);
+    // An image beside its original is on the same surface as good as.
+    let apart = (image - target.place).norm() > 1.0;
+    let heard = |echo: Echo| (apart && decibel(echo.power) > hope).then_some(echo);
+    Some([heard(pure), heard(mixed(around)), heard(mixed(direct))])
+}
+
+/// To a thing, back to the own front, and the same way again: twice the range, twice the range rate. And from one thing
+/// to another and back.
+pub(super) fn second_trips(view: &View<'_>, targets: &[Target], random: &mut Random) -> Vec<Echo> {
+    let mut strongest: Vec<&Target> = targets.iter().collect();
+    strongest.sort_by(|a, b| b.echo.power.total_cmp(&a.echo.power));
+    strongest.truncate(STRONGEST);
+    let mut found = Vec::new();
+    for target in &strongest {
+        found.extend(twice(view, target, random));
+    }
+    for (number, first) in strongest.iter().enumerate() {
+        for second in strongest[number + 1..].iter().filter(|second| second.item != first.item) {
+            found.extend(triangle(view, first, second, random));
+        }
+    }
+    found
+}
+
+fn twice(view: &View<'_>, target: &Target, random: &mut Random) -> Option<Echo> {
+    let Spherical { range, azimuth, elevation } = target.echo.seen;
+    let seen = Spherical { range: 2.0 * range, azimuth, elevation };
+    if range > FARTHEST_BOUNCE || seen.range > view.radar.max_range {
+        return None;
+    }
+    // Radar equation twice: each trip spreads by 4 pi r^2, and the thing's own cross-section counts again.
+    let strength_db = decibel(target.echo.power) - view.radar.sensitivity_db + range_loss_db(range);
+    let again_db = strength_db + OWN_FRONT_DB - 22.0 - 40.0 * range.max(1.0).log10();
+    let level = decibel(target.echo.power) + again_db.min(-8.0) + random.normal(3.0);
+    (level > view.radar.threshold_db - 3.0)
+        .then(|| Echo::artifact(seen, 2.0 * target.echo.range_rate, level, Cause::DoubleBounce))
+}
+
+/// Radar, one thing, another thing, radar: it seems to come from the second, half the detour farther.
+fn triangle(view: &View<'_>, first: &Target, second: &Target, random: &mut Random) -> Option<Echo> {
+    let between = (first.place - second.place).norm();
+    if !(0.5..20.0).contains(&between) {
+        return None;
+    }
+    let [a, b] = [first.echo.seen.range, second.echo.seen.range];
+    let range = (a + between + b) / 2.0;
+    let seen = Spherical { range, ..second.echo.seen };
+    let mean_db = f64::midpoint(decibel(first.echo.power), decibel(second.echo.power));
+    let level = mean_db - 11.0 - 20.0 * between.log10() + random.normal(4.0);
+    let off = range - b;
+    let loud = level > view.radar.threshold_db - 3.0 && off > 1.0 && range < view.radar.max_range;
+    let rate = f64::midpoint(first.echo.range_rate, second.echo.range_rate);
+    loud.then(|| Echo::artifact(seen, rate, level, Cause::DoubleBounce))
+}

@@ -1,0 +1,57 @@
+//! A recording: one world, some sequences.
+
+use super::draw::World;
+use super::family::Family;
+use super::sequence::WorldSequence;
+use crate::random::{Purpose, Random};
+use crate::scenario::ScenarioError;
+use crate::simulated::SimulatedSequence;
+use std::sync::Arc;
+
+/// Scans of each radar in a sequence, where no number is given: some 3 s.
+const USUAL_SCANS: usize = 40;
+
+/// A world that a seed drew from a family, with its sequences.
+///
+/// ```
+/// use ralf::sensors::Source;
+/// use ralf_sim::world::{Family, Recording};
+/// let recording = Recording::new(Family::find("motorway").unwrap(), 3);
+/// let sequence = recording.sequence(0, 2)?;
+/// assert_eq!(sequence.truth(0, 1).unwrap().len(), sequence.radar_scan(0, 1).unwrap().len());
+/// # Ok::<(), ralf_sim::ScenarioError>(())
+/// ```
+#[derive(Debug)]
+pub struct Recording {
+    world: Arc<World>,
+    count: usize,
+}
+
+impl Recording {
+    /// The world of a seed.
+    pub fn new(family: &'static Family, seed: u64) -> Self {
+        // The same seed gives unrelated worlds in two families.
+        let own =
+            family.name.bytes().fold(seed, |seed, byte| seed.wrapping_mul(257).wrapping_add(byte.into()));
+        let count = 4 + (3.0 * Random::new(own, Purpose::World, 1, 0).uniform()) as usize;
+        Self { world: Arc::new(World::new(family, own)), count }
+    }
+
+    /// The sequences' names: `00`, `01` and so on, four to six of them.
+    pub fn names(&self) -> Vec<String> {
+        (0..self.count).map(|index| format!("{index:02}")).collect()
+    }
+
+    /// So many scans of each radar, spread over the sequences; as many as is usual if none are given.
+    pub fn spread(&self, scans: Option<usize>) -> Vec<usize> {
+        let all = scans.unwrap_or(USUAL_SCANS * self.count);
+        let share = |index: usize| all / self.count + usize::from(index < all % self.count);
+        (0..self.count).map(|index| share(index).max(1)).collect()
+    }
+
+    /// A sequence of so many scans of each radar. What it is like doesn't depend on how long it is.
+    pub fn sequence(&self, index: usize, scans: usize) -> Result<SimulatedSequence, ScenarioError> {
+        let sequence = WorldSequence::new(self.world.clone(), index, scans)?;
+        Ok(SimulatedSequence::from_simulation(sequence))
+    }
+}

@@ -1,0 +1,221 @@
+//! The rays of one LiDAR scan by their direction, to be asked which of them pass near a place.
+
+use std::f32::consts::{FRAC_PI_2, PI, TAU};
+use std::ops::Range;
+
+/// Edge of a bin of directions, rad.
+const BIN: f32 = 0.5 * PI / 180.0;
+/// Bins of azimuth.
+const COLUMNS: usize = 720;
+
+/// The returns of one LiDAR scan, sorted into bins of half a degree of azimuth and elevation as seen from the LiDAR.
+/// All lists have an entry per return.
+#[derive(Debug, Clone)]
+pub struct RayTable {
+    /// Bin of elevation of the first row.
+    first_row: usize,
+    rows: usize,
+    /// Where each bin's returns begin, row by row, and the end.
+    starts: Vec<u32>,
+    /// Of each return, rad.
+    pub azimuths: Vec<f32>,
+    /// Of each return, rad, positive up.
+    pub elevations: Vec<f32>,
+    /// From the LiDAR to each return, m.
+    pub ranges: Vec<f32>,
+    /// Each return in the LiDAR's frame, m.
+    pub points: Vec<[f32; 3]>,
+    /// Its place in the scan.
+    pub ids: Vec<u32>,
+}
+
+/// Directions around a middle one, rad.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Cone {
+    /// In the middle, from -pi to pi.
+    pub azimuth: f32,
+    /// In the middle.
+    pub elevation: f32,
+    /// To each side.
+    pub half_azimuth: f32,
+    /// Up and down.
+    pub half_elevation: f32,
+}
+
+/// A return and its bin.
+struct Ray {
+    bin: u32,
+    azimuth: f32,
+    elevation: f32,
+    range: f32,
+    id: u32,
+}
+
+impl RayTable {
+    /// Sorts the returns of a scan (LiDAR frame, m); points that are none are left out.
+    pub fn new(points: &[[f32; 3]]) -> Self {
+        let rays = directions(points);
+        let first_row = rays.iter().map(|ray| ray.bin as usize / COLUMNS).min().unwrap_or(0);
+        let last_row = rays.iter().map(|ray| ray.bin as usize / COLUMNS).max().unwrap_or(0);
+        let rows = last_row - first_row + 1;
+        let mut starts = vec![0u32; rows * COLUMNS + 1];
+        for ray in &rays {
+            starts[ray.bin as usize - first_row * COLUMNS + 1] += 1;
+        }
+        let mut total = 0;
+        for start in &mut starts {
+            total += *start;
+            *start = total;
+        }
+        let mut next = starts.clone();
+        let zeros = || vec![0.0; rays.len()];
+        let (mut azimuths, mut elevations, mut ranges) = (zeros(), zeros(), zeros());
+        let (mut sorted, mut ids) = (vec![[0.0; 3]; rays.len()], vec![0; rays.len()]);
+        for ray in &rays {
+            let next = &mut next[ray.bin as usize - first_row * COLUMNS];
+            let place = *next as usize;
+            *next += 1;
+            azimuths[place] = ray.azimuth;
+            elevations[place] = ray.elevation;
+            ranges[place] = ray.range;
+            sorted[place] = points[ray.id as usize];
+            ids[place] = ray.id;
+        }
+        Self { first_row, rows, starts, azimuths, elevations, ranges, points: sorted, ids }
+    }
+
+    /// The returns of all bins that a cone touches, as stretches of the lists: every return within the cone is among
+    /// them, and some beside it.
+    pub fn runs(&self, cone: &Cone) -> impl Iterator<Item = Range<usize>> {
+        // A row below or above all that there are stays outside, so that nothing is found in it.
+        let row = |elevation: f32| (row_of(elevation) + 1).saturating_sub(self.first_row).min(self.rows + 1);
+        let low = row(cone.elevation - cone.half_elevation).max(1);
+        let high = row(cone.elevation + cone.half_elevation).min(self.rows);
+        let columns = columns_of(cone);
+        (low..=high).flat_map(move |row| {
+            let begin = (row - 1) * COLUMNS;
+            columns.clone().into_iter().map(move |columns| {
+                self.starts[begin + columns.start] as usize..self.starts[begin + columns.end] as usize
+            })
+        })
+    }
+
+    /// How many returns there are.
+    pub fn len(&self) -> usize {
+        self.ranges.len()
+    }
+
+    /// Whether nothing came back.
+    pub fn is_empty(&self) -> bool {
+        self.ranges.is_empty()
+    }
+}
+
+fn directions(points: &[[f32; 3]]) -> Vec<Ray> {
+    let mut rays = Vec::with_capacity(points.len());
+    for (id, &[x, y, z]) in (0u32..).zip(points) {
+        let (azimuth, elevation, range) = direction_of(x, y, z);
+        // What is not finite fails the comparison, too.
+        if range > 0.0 && range < f32::INFINITY {
+            let bin = row_of(elevation) * COLUMNS + column_of(azimuth);
+            rays.push(Ray { bin: bin as u32, azimuth, elevation, range, id });
+        }
+    }
+    rays
+}
+
+/// Azimuth and elevation, rad, to 1e-5, and range, m, of a point in the LiDAR's frame.
+pub fn direction_of(x: f32, y: f32, z: f32) -> (f32, f32, f32) {
+    let across_squared = x * x + y * y;
+    (arc_tangent(y, x), arc_tangent(z, across_squared.sqrt()), (across_squared + z * z).sqrt())
+}
+
+/// The bins of azimuth that a cone touches; the second stretch is empty unless it lies across the back.
+fn columns_of(cone: &Cone) -> [Range<usize>; 2] {
+    if cone.half_azimuth >= PI - BIN {
+        return [0..COLUMNS, 0..0];
+    }
+    let [left, right] = [-1.0, 1.0].map(|side| {
+        let azimuth = cone.azimuth + side * cone.half_azimuth;
+        column_of(azimuth - TAU * (azimuth / TAU).round())
+    });
+    if left <= right { [left..right + 1, 0..0] } else { [0..right + 1, left..COLUMNS] }
+}
+
+fn column_of(azimuth: f32) -> usize {
+    (((azimuth + PI) / BIN) as usize).min(COLUMNS - 1)
+}
+
+fn row_of(elevation: f32) -> usize {
+    ((elevation + FRAC_PI_2) / BIN) as usize
+}
+
+/// `atan2(y, x)` to 1e-5 rad, at a fraction of its cost: the polynomial of Abramowitz and Stegun, 4.4.49, on [0, 1].
+fn arc_tangent(y: f32, x: f32) -> f32 {
+    let (ax, ay) = (x.abs(), y.abs());
+    let (small, large) = if ax < ay { (ax, ay) } else { (ay, ax) };
+    let t = if large > 0.0 { small / large } else { 0.0 };
+    let s = t * t;
+    let series = 1.0
+        + s * (-0.333_331_45
+            + s * (0.199_935_51
+                + s * (-0.142_089
+                    + s * (0.106_562_64
+                        + s * (-0.075_289_64
+                            + s * (0.042_909_614 + s * (-0.016_165_737 + s * 0.002_866_225_7)))))));
+    let first = t * series;
+    let half = if ax < ay { FRAC_PI_2 - first } else { first };
+    let turned = if x < 0.0 { PI - half } else { half };
+    if y < 0.0 { -turned } else { turned }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn directions_are_those_of_the_library(x in -90.0f32..90.0, y in -90.0f32..90.0, z in -20.0f32..20.0) {
+            let (azimuth, elevation, range) = direction_of(x, y, z);
+            let expected = f64::from(y).atan2(f64::from(x));
+            prop_assert!((f64::from(azimuth) - expected).abs() < 1e-5, "{azimuth} {expected}");
+            let expected = f64::from(z).atan2(f64::from(x).hypot(f64::from(y)));
+            prop_assert!((f64::from(elevation) - expected).abs() < 1e-5);
+            prop_assert!((range - (x * x + y * y + z * z).sqrt()).abs() < 1e-3);
+        }
+
+        #[test]
+        fn every_ray_of_a_cone_is_found_once(
+            points in prop::collection::vec(prop::array::uniform3(-20.0f32..20.0), 0..200),
+            azimuth in -PI..PI, elevation in -1.5f32..1.5, half_azimuth in 0.0f32..4.0, half_elevation in 0.0f32..1.0,
+        ) {
+            let table = RayTable::new(&points);
+            let cone = Cone { azimuth, elevation, half_azimuth, half_elevation };
+            let mut found: Vec<u32> = table.runs(&cone).flatten().map(|place| table.ids[place]).collect();
+            found.sort_unstable();
+            prop_assert!(found.windows(2).all(|pair| pair[0] < pair[1]), "none twice");
+            for (id, &[x, y, z]) in (0u32..).zip(&points) {
+                let (a, e, _) = direction_of(x, y, z);
+                let beside = (a - azimuth).abs();
+                let beside = beside.min(TAU - beside);
+                if beside < half_azimuth - 1e-4 && (e - elevation).abs() < half_elevation - 1e-4 {
+                    prop_assert!(found.binary_search(&id).is_ok(), "{a} {e}");
+                }
+                if beside > half_azimuth + BIN + 1e-4 || (e - elevation).abs() > half_elevation + BIN + 1e-4 {
+                    prop_assert!(found.binary_search(&id).is_err(), "{a} {e}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn what_did_not_come_back_is_no_ray() {
+        let table =
+            RayTable::new(&[[0.0; 3], [f32::NAN, 1.0, 1.0], [f32::INFINITY, 0.0, 0.0], [0.0, 0.0, -2.0]]);
+        assert_eq!((table.len(), &table.ids[..], &table.ranges[..]), (1, &[3][..], &[2.0][..]));
+        let everywhere = Cone { azimuth: 0.0, elevation: 0.0, half_azimuth: 9.0, half_elevation: 9.0 };
+        assert_eq!(table.runs(&everywhere).flatten().count(), 1);
+        assert!(RayTable::new(&[]).runs(&everywhere).flatten().next().is_none());
+    }
+}
