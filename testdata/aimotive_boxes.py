@@ -10,9 +10,9 @@ detections of each kind the share is printed that is labelled plausible:
 1. in boxes: inside an annotated box where it was at the scan's time, grown by 0.5 m in plan (a tenth of a degree of azimuth
    and the box's own error) and by 1 degree in height, with a Doppler within 2 m/s of the box's. The box holds at least 5 points
    of the LiDAR scan nearest in time, each of which is compared at its own time;
-2. on guard rails: standing by its Doppler (within 0.5 m/s), in no box, at least 3 m to a side, and within 0.5 m in plan of a cell
-   of 0.25 m that holds LiDAR points 0.3 to 1.5 m above the road in at least 3 scans; points in boxes are left out. These are rails, and posts
-   and noise barriers beside them;
+2. on guard rails: standing by its Doppler (within 0.5 m/s), in no box, at least 3 m to a side, and within 0.5 m in plan of points 0.3 to
+   1.5 m above the road both of the LiDAR scan nearest in time and of at least 3 scans of the sequence (in a cell of 0.25 m); points in
+   boxes are left out. These are rails, and posts and noise barriers beside them;
 3. far: more than 2.5 m from every point of the LiDAR scan nearest in time, the road's too, and of neither kind above;
 4. all others.
 
@@ -181,8 +181,7 @@ class Rails:
         seen = {}
         for scan, t_ns in enumerate(sequence.lidar_times):
             points, times = sequence.cloud(scan)
-            low, high = RAIL_HEIGHTS
-            rail = (points[:, 2] > low) & (points[:, 2] < high) & (np.abs(points[:, 1]) > RAIL_ASIDE)
+            rail = self.of_height(points)
             for box in boxes[scan]:
                 rail &= ~points_in(box, points, times, sequence.motion)
             placed = sequence.motion.odom_from_vehicle(t_ns) @ points[rail]
@@ -191,9 +190,15 @@ class Rails:
         cells = [cell for cell, scans in seen.items() if scans >= RAIL_SCANS]
         self.centers = (np.array(cells).reshape(-1, 2) + 0.5) * RAIL_CELL
 
-    def near(self, place):
-        """Whether a place of the odom frame is beside one."""
-        return bool((np.hypot(*(self.centers - place[:2]).T) <= RAIL_WITHIN).any())
+    @staticmethod
+    def of_height(points):
+        low, high = RAIL_HEIGHTS
+        return (points[:, 2] > low) & (points[:, 2] < high) & (np.abs(points[:, 1]) > RAIL_ASIDE)
+
+
+def is_beside(place, points):
+    """Whether a point lies within reach of a rail, in plan."""
+    return bool((np.hypot(*(points[:, :2] - place[:2]).T) <= RAIL_WITHIN).any())
 
 
 def kinds(sequence, boxes, rails, radar, scan, t_ns):
@@ -213,7 +218,8 @@ def kinds(sequence, boxes, rails, radar, scan, t_ns):
         for box in boxes[nearest]
         if points_in(box, cloud, times, motion).sum() >= POINTS_IN_BOX
     ]
-    cloud = motion.between(t_ns, sequence.lidar_times[nearest]) @ cloud
+    rail_points = cloud[Rails.of_height(cloud)]
+    cloud, rail_points = [motion.between(t_ns, sequence.lidar_times[nearest]) @ each for each in (cloud, rail_points)]
     odom = motion.odom_from_vehicle(t_ns) @ places
     found = []
     for n, place in enumerate(places):
@@ -223,7 +229,9 @@ def kinds(sequence, boxes, rails, radar, scan, t_ns):
         stands = abs(doppler[n] - standing[n]) <= DOPPLER_OF_STANDING
         if any(moves):
             found.append(0)
-        elif not around and stands and abs(place[1]) > RAIL_ASIDE and rails.near(odom[n]):
+        elif not around and stands and abs(place[1]) > RAIL_ASIDE and all(
+            is_beside(*pair) for pair in ((place, rail_points), (odom[n], rails.centers))
+        ):
             found.append(1)
         elif np.linalg.norm(cloud - place, axis=1).min() > FAR_FROM_LIDAR:
             found.append(2)

@@ -43,6 +43,7 @@ pub use evidence::{SequenceEvidence, gather_evidence};
 pub use judge::{Balance, Balances, Comparison};
 pub use ralf_corrections::ContentHash;
 pub use read::{LayoutSequence, Recording, SequenceReader, TruthLabels, formats, open, open_with};
+pub use result::program;
 pub use settings::Settings;
 pub use training::{TrainingGatherer, TrainingTruth};
 pub use truth::{Causes, Corrections, GroundTruth, ScanId, scan_content};

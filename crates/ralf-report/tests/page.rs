@@ -80,7 +80,15 @@ fn page(dataset: &Path, out: &Path, scans_per_sequence: usize) -> String {
 fn label(dataset: &Path, out: &Path, evidence: bool) {
     let recording = ralf_data::open(dataset, None).unwrap();
     let settings = Settings::default();
-    let run = LabelRun { recording: &recording, settings: &settings, out, jobs: 1, evidence, checks: &[], model: None };
+    let run = LabelRun {
+        recording: &recording,
+        settings: &settings,
+        out,
+        jobs: 1,
+        evidence,
+        checks: &[],
+        model: None,
+    };
     run.execute(&Silent).unwrap();
 }
 
@@ -208,7 +216,8 @@ fn a_recording_of_another_format_without_truth() {
         out: &out,
         jobs: 2,
         evidence: false,
-        checks: &[], model: None,
+        checks: &[],
+        model: None,
     };
     run.execute(&Silent).unwrap();
     let page = Report { recording: &recording, out: &out, scans_per_sequence: 1 }.page(&|_| ()).unwrap().html;

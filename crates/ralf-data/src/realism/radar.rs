@@ -1,8 +1,8 @@
 //! What a radar scan gives, with what surrounds it.
 
 use super::Quantity;
-use super::distributions::Values;
 use super::free_space::{Heights, RayFan};
+use super::values::Values;
 use ralf::scene::{Association, Detection, Frame, LidarCloud, index_of};
 use ralf::sensors::Elevation;
 use ralf::space::{NeighborIndex, Point};

@@ -25,7 +25,7 @@ pub use labelled_run::{Change, ChangedInput, LabelledRun, LabelledSequence};
 pub use names::Component;
 pub use parquet_reader::PlausibilityReader;
 pub use parquet_writer::PlausibilityWriter;
-pub use record::{Input, RunRecord, Timings, read_record};
+pub use record::{Input, RunRecord, Timings, program, read_record};
 pub use scan_table::RadarScanKey;
 pub use schema::{Column, Group, Kind, Schema};
 pub(crate) use sequence_record::ScanNotes;

@@ -70,6 +70,11 @@ pub struct Timings {
     pub jobs: usize,
 }
 
+/// Which program this is: its version and a hash of the sources that labels depend on.
+pub fn program() -> String {
+    format!("{} {}", env!("CARGO_PKG_VERSION"), env!("RALF_SOURCES"))
+}
+
 /// What an output folder holds: its `run.json`.
 pub fn read_record(out: &Path) -> Result<RunRecord, DataError> {
     let file = out.join(RECORD);

@@ -61,6 +61,8 @@ pub enum Stage<'a> {
     Inputs,
     /// Matching a sequence's scans for tuning; counted in scans.
     Matching(&'a str),
+    /// Gathering a sequence's evidence for learning; counted in scans.
+    Gathering(&'a str),
     /// Labelling a sequence; counted in scans.
     Labelling(&'a str),
     /// Writing a sequence's result; counted in scans.

@@ -9,7 +9,7 @@ use ralf::scene::{Failure, ViewState};
 use ralf_data::run::{CameraRecord, RadarRecord};
 
 /// Flags that tell of something missing in a whole scan, then those that are everyday.
-const FLAGS: [(u16, &str); 6] = [
+const FLAGS: [(u16, &str); 7] = [
     (flag::NO_LIDAR, "no LiDAR scan near in time"),
     (flag::NO_NEIGHBOURS, "no neighbouring radar scan"),
     (flag::CAMERA_FAILED, "in a failed camera view"),
