@@ -5,9 +5,9 @@ use super::columns::{set, unobserved};
 use super::distance::area_within;
 use super::recurrence::{FARTHEST, Sighting};
 use super::sensor_frame::Unmoved;
-use super::sight::Sight;
 use super::{Feature, Piece, Surroundings, Values};
-use crate::scene::{Detection, Frame};
+use crate::scene::{Detection, Frame, NeighbouringScan};
+use crate::space::Vector;
 use std::f64::consts::PI;
 
 pub(super) const PIECE: Piece = Piece {
@@ -65,7 +65,7 @@ const fn feature(name: &'static str, unit: &'static str, meaning: &'static str) 
 
 fn observe(surroundings: &Surroundings) -> Vec<Values> {
     let frame = surroundings.frame;
-    let (sights, unmoved) = (Sight::of_window(frame), Unmoved::new(frame));
+    let (origins, unmoved) = (origins(frame), Unmoved::new(frame));
     let mut columns = unobserved(PIECE.features, frame.scan.len());
     for (i, detection) in frame.scan.detections.iter().enumerate() {
         let Some(detection) = detection else { continue };
@@ -79,7 +79,7 @@ fn observe(surroundings: &Surroundings) -> Vec<Values> {
             share(others.map(|sighting| sighting.still <= SAME)),
             mean(own().map(|sighting| sighting.still.min(FARTHEST))),
             excess(surroundings, detection, seen),
-            aspect(frame, &sights, detection, seen),
+            aspect(frame, &origins, detection, seen),
             unmoved.share_at(detection),
         ];
         set(&mut columns, i, values);
@@ -115,11 +115,18 @@ fn excess(surroundings: &Surroundings, detection: &Detection, seen: &[Sighting])
     Some(((hits + 0.5) / (expected + 0.5)).ln())
 }
 
+/// Where each scan around was made, in the vehicle frame at the frame's time, m.
+fn origins(frame: &Frame) -> Vec<Vector> {
+    let mounting = |radar: usize| frame.rig.radars[radar].vehicle_from_radar;
+    let origin = |scan: &NeighbouringScan| (scan.vehicle_from_scan * mounting(scan.radar)).translation.vector;
+    frame.radar_window.iter().map(origin).collect()
+}
+
 /// Degrees; `None` where no scan saw it again.
-fn aspect(frame: &Frame, sights: &[Sight], detection: &Detection, seen: &[Sighting]) -> Option<f64> {
+fn aspect(frame: &Frame, origins: &[Vector], detection: &Detection, seen: &[Sighting]) -> Option<f64> {
     let ray = detection.position.coords - frame.radar.vehicle_from_radar.translation.vector;
     let again = seen.iter().filter(|sighting| sighting.still <= SAME);
     let angles =
-        again.map(|sighting| ray.angle(&(detection.position - sights[sighting.scan as usize].origin)));
+        again.map(|sighting| ray.angle(&(detection.position.coords - origins[sighting.scan as usize])));
     angles.reduce(f64::max).map(f64::to_degrees)
 }

@@ -17,7 +17,10 @@ mod neighbouring;
 mod neighbouring_detections;
 mod rays;
 mod sight;
+mod standing;
+mod static_map;
 mod strength;
+mod terrain;
 mod window;
 
 pub use association::{Association, index_of};
@@ -39,5 +42,7 @@ pub use neighbouring::{NeighbouringScan, ScanStep};
 pub use neighbouring_detections::NeighbouringDetections;
 pub use rays::{Cone, RayTable, direction_of};
 pub use sight::{Reach, Sight};
+pub use static_map::{Column, ColumnGrid, StaticMap};
 pub use strength::Strength;
+pub use terrain::{Terrain, Texture};
 pub use window::FrameWindow;
