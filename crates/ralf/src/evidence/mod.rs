@@ -20,6 +20,7 @@ mod lidar_map;
 mod lidar_rays;
 mod lidar_residual;
 mod line_of_sight;
+mod mirror;
 mod ordered;
 mod persistence;
 mod probe;
@@ -49,6 +50,7 @@ pub const PIECES: &[Piece] = &[
     persistence::PIECE,
     camera::PIECE,
     context::PIECE,
+    mirror::PIECE,
     geometry::PIECE,
 ];
 
