@@ -16,8 +16,10 @@ mod doppler;
 mod echoes;
 mod geometry;
 mod ground;
+mod lidar_map;
 mod lidar_rays;
 mod lidar_residual;
+mod line_of_sight;
 mod ordered;
 mod persistence;
 mod probe;
@@ -27,6 +29,7 @@ mod sensor_frame;
 mod sight;
 mod statistics;
 mod surroundings;
+mod terrain;
 
 pub use probe::Probe;
 pub use surroundings::Surroundings;
@@ -39,6 +42,9 @@ pub const PIECES: &[Piece] = &[
     lidar_residual::PIECE,
     ground::PIECE,
     lidar_rays::PIECE,
+    lidar_map::PIECE,
+    line_of_sight::PIECE,
+    terrain::PIECE,
     amplitude::PIECE,
     doppler::PIECE,
     persistence::PIECE,

@@ -100,6 +100,15 @@ impl RayTable {
         })
     }
 
+    /// The returns in the bin of a direction, as a stretch of the lists.
+    pub fn bin(&self, azimuth: f32, elevation: f32) -> Range<usize> {
+        let Some(row) = row_of(elevation).checked_sub(self.first_row).filter(|row| *row < self.rows) else {
+            return 0..0;
+        };
+        let bin = row * COLUMNS + column_of(azimuth);
+        self.starts[bin] as usize..self.starts[bin + 1] as usize
+    }
+
     /// How many returns there are.
     pub fn len(&self) -> usize {
         self.ranges.len()
