@@ -5,7 +5,7 @@ use crate::commands::depth;
 #[cfg(feature = "review")]
 use crate::commands::review;
 use crate::commands::{
-    ablate, check, convert, demo, evaluate, export, inspect, label, plot, report, simulate, tune,
+    ablate, check, convert, demo, evaluate, export, inspect, label, learn, plot, report, simulate, tune,
 };
 use crate::outcome::Outcome;
 use crate::text::print;
@@ -54,6 +54,8 @@ enum Command {
     Evaluate(evaluate::EvaluateArgs),
     /// Find the settings that come nearest to corrected labels
     Tune(tune::TuneArgs),
+    /// Fit a model to recordings whose truth is known: for `ralf label --method learned`
+    Learn(learn::LearnArgs),
     /// Tell what each branch and each extension of the method is good for
     Ablate(ablate::AblateArgs),
     /// Draw labelled scans from above
@@ -89,6 +91,7 @@ impl Cli {
             Command::Depth(arguments) => depth::run(&arguments),
             Command::Evaluate(arguments) => evaluate::run(&arguments),
             Command::Tune(arguments) => tune::run(&arguments),
+            Command::Learn(arguments) => learn::run(&arguments),
             Command::Ablate(arguments) => ablate::run(&arguments),
             Command::Plot(arguments) => plot::run(&arguments),
             Command::Report(arguments) => report::run(&arguments),

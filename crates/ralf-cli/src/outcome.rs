@@ -9,6 +9,13 @@ pub(crate) enum Outcome {
     Partial,
 }
 
+impl Outcome {
+    /// How both ended together.
+    pub(crate) fn and(self, other: Self) -> Self {
+        if self == Self::Done { other } else { self }
+    }
+}
+
 /// The user asked for something that doesn't exist.
 #[derive(Debug)]
 pub(crate) struct UsageError(pub(crate) String);

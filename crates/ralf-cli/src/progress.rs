@@ -45,6 +45,12 @@ impl Progress {
         self.bar.set_position(steps);
     }
 
+    /// So many steps of so many are done.
+    pub(crate) fn reached_of(&self, steps: u64, all: u64) {
+        self.bar.set_length(all);
+        self.bar.set_position(steps);
+    }
+
     /// So many more steps are done.
     pub(crate) fn advance(&self, steps: u64) {
         self.bar.inc(steps);
@@ -102,6 +108,7 @@ impl Observer for Stages {
         self.show(Some(match stage {
             Stage::Inputs => Progress::with_template(steps, BYTES, "hashing inputs".into()),
             Stage::Matching(sequence) => Progress::of_steps(steps, format!("matching {sequence}")),
+            Stage::Gathering(sequence) => Progress::of_steps(steps, format!("gathering {sequence}")),
             Stage::Labelling(sequence) => Progress::of_steps(steps, format!("labelling {sequence}")),
             Stage::Writing(sequence) => Progress::of_steps(steps, format!("writing {sequence}")),
         }));

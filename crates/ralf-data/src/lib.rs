@@ -31,6 +31,7 @@ pub mod run;
 mod settings;
 #[cfg(test)]
 mod testing;
+mod training;
 pub mod truth;
 pub mod write;
 
@@ -42,6 +43,8 @@ pub use evidence::{SequenceEvidence, gather_evidence};
 pub use judge::{Balance, Balances, Comparison};
 pub use ralf_corrections::ContentHash;
 pub use read::{LayoutSequence, Recording, SequenceReader, TruthLabels, formats, open, open_with};
+pub use result::program;
 pub use settings::Settings;
+pub use training::{TrainingGatherer, TrainingTruth};
 pub use truth::{Causes, Corrections, GroundTruth, ScanId, scan_content};
 pub use write::{write_sequence, write_sequence_with, write_simulated};

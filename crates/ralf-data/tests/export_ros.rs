@@ -174,6 +174,7 @@ fn original_messages_are_copied_beside_the_labelled_clouds() {
             jobs: 2,
             evidence: false,
             checks: &[],
+            model: None,
         }
         .execute(&Quiet)
         .unwrap();

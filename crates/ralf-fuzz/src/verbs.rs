@@ -93,7 +93,9 @@ impl Observer for Nobody {
 
 /// Labels a recording.
 pub(crate) fn label(recording: &Recording, settings: &Settings, out: &Path) -> Result<(), DataError> {
-    LabelRun { recording, settings, out, jobs: 1, evidence: false, checks: &[] }.execute(&Nobody).map(drop)
+    LabelRun { recording, settings, out, jobs: 1, evidence: false, checks: &[], model: None }
+        .execute(&Nobody)
+        .map(drop)
 }
 
 fn settings_of(file: &Path) -> Option<Settings> {

@@ -80,7 +80,15 @@ fn page(dataset: &Path, out: &Path, scans_per_sequence: usize) -> String {
 fn label(dataset: &Path, out: &Path, evidence: bool) {
     let recording = ralf_data::open(dataset, None).unwrap();
     let settings = Settings::default();
-    let run = LabelRun { recording: &recording, settings: &settings, out, jobs: 1, evidence, checks: &[] };
+    let run = LabelRun {
+        recording: &recording,
+        settings: &settings,
+        out,
+        jobs: 1,
+        evidence,
+        checks: &[],
+        model: None,
+    };
     run.execute(&Silent).unwrap();
 }
 
@@ -209,6 +217,7 @@ fn a_recording_of_another_format_without_truth() {
         jobs: 2,
         evidence: false,
         checks: &[],
+        model: None,
     };
     run.execute(&Silent).unwrap();
     let page = Report { recording: &recording, out: &out, scans_per_sequence: 1 }.page(&|_| ()).unwrap().html;

@@ -2,8 +2,10 @@
 
 mod changed;
 mod dataset;
+mod method;
 mod settings;
 
 pub(crate) use changed::ChangedArgs;
 pub(crate) use dataset::{DatasetArgs, the_only};
+pub(crate) use method::MethodArgs;
 pub(crate) use settings::{SettingsArgs, threads};

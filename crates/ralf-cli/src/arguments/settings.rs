@@ -44,6 +44,11 @@ impl SettingsArgs {
         Ok(settings)
     }
 
+    /// Whether any was typed.
+    pub(crate) fn are_given(&self) -> bool {
+        self.config.is_some() || !self.assignments.is_empty() || self.trajectory.is_some()
+    }
+
     /// As they were typed, each after a space.
     pub(crate) fn told(&self) -> String {
         let config = self.config.iter().map(|file| format!(" --config {}", file.display()));

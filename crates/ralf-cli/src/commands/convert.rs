@@ -1,6 +1,6 @@
 //! `ralf convert`: another format into the project's own, or into a recording as ROS keeps it.
 
-use crate::arguments::{DatasetArgs, the_only, threads};
+use crate::arguments::{DatasetArgs, SettingsArgs, the_only, threads};
 use crate::outcome::Outcome;
 use crate::progress::{Progress, say};
 use clap::Args;
@@ -15,17 +15,21 @@ use std::path::{Path, PathBuf};
 #[command(after_help = "\
 Each sequence appears whole or not at all, and one that is there already is never overwritten. A name that ends in \
 .mcap (ROS 2) or .bag (ROS 1) takes one sequence; beside it goes a .toml with the settings by which it is read back. \
-What such a file can't hold is in docs/export.md.
+What such a file can't hold is in docs/export.md. With --config, --set or --trajectory the recording is written as these correct it \
+(tables `corrections` and `motion`), and needs no correction afterwards.
 
 Examples:
   ralf convert nuscenes -o recordings/nuscenes --sequence scene-0061
-  ralf convert recordings/city --sequence 00 -o city-00.mcap")]
+  ralf convert recordings/city --sequence 00 -o city-00.mcap
+  ralf convert drive -o recordings/drive --config fixes.toml --trajectory poses.tum")]
 pub(crate) struct ConvertArgs {
     #[command(flatten)]
     dataset: DatasetArgs,
     /// Folder of the dataset that is written, or an .mcap or .bag file
     #[arg(short, long, value_name = "PATH")]
     output: PathBuf,
+    #[command(flatten)]
+    settings: SettingsArgs,
     /// Measurements side by side; as many as there are processors if not given. The files are the same for any number
     #[arg(long, value_name = "N")]
     jobs: Option<NonZeroUsize>,
@@ -33,7 +37,7 @@ pub(crate) struct ConvertArgs {
 
 /// Converts a recording.
 pub(crate) fn run(arguments: &ConvertArgs) -> anyhow::Result<Outcome> {
-    let recording = arguments.dataset.open()?;
+    let recording = opened(arguments)?;
     if let Some(format) = RosFormat::of_file(&arguments.output) {
         return as_ros(&recording, &arguments.output, format);
     }
@@ -48,6 +52,16 @@ pub(crate) fn run(arguments: &ConvertArgs) -> anyhow::Result<Outcome> {
         say(&format!("wrote {}", arguments.output.join("sequences").join(&sequence.name).display()));
     }
     Ok(Outcome::Done)
+}
+
+/// The recording, as the settings correct it where there are any.
+fn opened(arguments: &ConvertArgs) -> anyhow::Result<Recording> {
+    if !arguments.settings.are_given() {
+        return arguments.dataset.open();
+    }
+    let mut settings = arguments.settings.resolve()?;
+    settings.topics = arguments.dataset.topics_or(&settings.topics)?;
+    arguments.dataset.open_corrected(&settings)
 }
 
 /// Converts the only sequence of a recording into one file.

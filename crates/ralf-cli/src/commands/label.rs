@@ -1,7 +1,7 @@
 //! `ralf label`: a plausibility and a label for every detection.
 
 use super::check::page::doubts;
-use crate::arguments::{DatasetArgs, SettingsArgs, threads};
+use crate::arguments::{DatasetArgs, MethodArgs, SettingsArgs, threads};
 #[cfg(feature = "depth")]
 use crate::depth_model::{DepthModelArgs, depth_for_labelling};
 use crate::outcome::Outcome;
@@ -28,6 +28,7 @@ Examples:
   ralf label nuscenes -o out --sequence scene-0061 --set tracking.sources=all
   ralf label recordings/city -o out --config ralf.toml --set fusion.alpha=0.7 --jobs 4
   ralf label nuscenes -o out --depth-model midas.onnx      cameras, too: depth is stored in OUT/depth
+  ralf label recordings/city -o out --method learned       probabilities, with reasons (docs/learned.md)
   ralf label drive -o out --trajectory poses.tum --trajectory-frame lidar_top
   ralf label drive -o out --config fixes.toml              with what `ralf check drive --write fixes.toml` found")]
 pub(crate) struct LabelArgs {
@@ -38,9 +39,11 @@ pub(crate) struct LabelArgs {
     output: PathBuf,
     #[command(flatten)]
     settings: SettingsArgs,
+    #[command(flatten)]
+    method: MethodArgs,
     #[cfg(feature = "depth")]
     #[command(flatten)]
-    model: DepthModelArgs,
+    depth_model: DepthModelArgs,
     /// Take depth images from this folder, as `ralf depth -o` wrote them
     #[arg(long, value_name = "FOLDER")]
     #[cfg_attr(feature = "depth", arg(conflicts_with = "depth_model"))]
@@ -68,6 +71,7 @@ pub(crate) struct LabelArgs {
 /// Labels a recording.
 pub(crate) fn run(arguments: &LabelArgs) -> anyhow::Result<Outcome> {
     let mut settings = arguments.settings.resolve()?;
+    let model = arguments.method.apply(&mut settings.method)?;
     let jobs = threads(arguments.jobs);
     settings.topics = arguments.dataset.topics_or(&settings.topics)?;
     let recording = arguments.dataset.open_corrected(&settings)?;
@@ -81,7 +85,7 @@ pub(crate) fn run(arguments: &LabelArgs) -> anyhow::Result<Outcome> {
         None => recording,
     };
     #[cfg(feature = "depth")]
-    let recording = match arguments.model.load()? {
+    let recording = match arguments.depth_model.load()? {
         Some(model) => depth_for_labelling(recording, &model, &arguments.output, &settings.method, jobs)?,
         None => recording,
     };
@@ -91,6 +95,7 @@ pub(crate) fn run(arguments: &LabelArgs) -> anyhow::Result<Outcome> {
         out: &arguments.output,
         jobs,
         evidence: arguments.evidence,
+        model: model.as_ref(),
         checks: &checks,
     };
     let done = run.execute(&Stages::new(arguments.quiet))?;

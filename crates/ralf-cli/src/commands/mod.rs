@@ -10,6 +10,7 @@ pub(crate) mod evaluate;
 pub(crate) mod export;
 pub(crate) mod inspect;
 pub(crate) mod label;
+pub(crate) mod learn;
 pub(crate) mod plot;
 pub(crate) mod report;
 #[cfg(feature = "review")]

@@ -181,6 +181,10 @@ impl SequenceReader for WithDepth {
         self.inner.origin()
     }
 
+    fn rolling_scan(&self, lidar: usize, scan: usize) -> Result<Option<LidarScan>, SourceError> {
+        self.inner.rolling_scan(lidar, scan)
+    }
+
     fn motion_source(&self) -> MotionSource {
         self.inner.motion_source()
     }

@@ -28,7 +28,7 @@ pub(crate) fn open(file: &Path) -> Result<fs::File, DataError> {
 
 /// Opens an input to be read piece by piece, however large a file of its kind may be.
 pub(crate) fn open_input(file: &Path) -> Result<fs::File, DataError> {
-    const MEASUREMENTS: [&str; 8] = ["bin", "pcd", "npy", "label", "time", "jpg", "jpeg", "png"];
+    const MEASUREMENTS: [&str; 9] = ["bin", "pcd", "laz", "npy", "label", "time", "jpg", "jpeg", "png"];
     let extension = file.extension().unwrap_or_default();
     let is_measurement = MEASUREMENTS.iter().any(|known| extension.eq_ignore_ascii_case(known));
     let kind = if is_measurement { Kind::Measurement } else { Kind::Stream };

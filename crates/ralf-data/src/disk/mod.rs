@@ -1,6 +1,7 @@
-//! Bytes on disk: whole files, `.npy` arrays, images and `.label` files.
+//! Bytes on disk: whole files, `.npy` arrays, LAZ point clouds, images and `.label` files.
 
 pub(crate) mod files;
 pub(crate) mod images;
 pub(crate) mod label_file;
+pub(crate) mod laz;
 pub(crate) mod npy;

@@ -21,11 +21,16 @@ pub struct SensorCorrection {
     pub add_translation: [f64; 3],
     /// Added to its timestamps, ms.
     pub time_offset_ms: f64,
+    /// How often it truly measures, ms, where a recorder stamps its latest measurement with a time of its own: every
+    /// time goes back to the tick before it. 0 leaves times alone.
+    pub period_ms: f64,
+    /// One of these ticks, ms on the recording's clock.
+    pub tick_ms: f64,
     /// Of its range rates (radar).
     pub doppler_factor: f64,
     /// Of its coordinates (radar, LiDAR).
     pub position_factor: f64,
-    /// Exchanges left and right (radar).
+    /// Exchanges left and right (radar): of places, angles, and velocities in two components (`vy`, `vy_comp`).
     pub mirror_y: bool,
 }
 
@@ -37,6 +42,8 @@ impl Default for SensorCorrection {
             add_roll_deg: 0.0,
             add_translation: [0.0; 3],
             time_offset_ms: 0.0,
+            period_ms: 0.0,
+            tick_ms: 0.0,
             doppler_factor: 1.0,
             position_factor: 1.0,
             mirror_y: false,
@@ -125,6 +132,12 @@ impl SensorCorrection {
     }
 
     pub(crate) fn time(&self, t_ns: i64) -> i64 {
-        t_ns.saturating_add((self.time_offset_ms * 1e6) as i64)
+        let shifted = t_ns.saturating_add((self.time_offset_ms * 1e6) as i64);
+        let (period, tick) = ((self.period_ms * 1e6) as i64, (self.tick_ms * 1e6) as i64);
+        if period <= 0 {
+            shifted
+        } else {
+            shifted.saturating_sub(shifted.saturating_sub(tick).rem_euclid(period))
+        }
     }
 }

@@ -1,5 +1,6 @@
 //! Recordings in: what a folder or file holds, as sequences whose measurements are read on demand. A folder per format.
 
+mod aimotive;
 mod corrected;
 mod corrections;
 pub mod inspection;
@@ -11,6 +12,7 @@ pub(crate) mod open;
 mod radial;
 pub(crate) mod recording;
 pub mod ros;
+mod rotation;
 mod view_of_delft;
 
 pub(crate) use corrected::corrected;

@@ -2,7 +2,7 @@
 
 use crate::error::DataError;
 use crate::read::ros::Topics;
-use crate::read::{Recording, layout, nuscenes, ros, view_of_delft};
+use crate::read::{Recording, aimotive, layout, nuscenes, ros, view_of_delft};
 use std::fs;
 use std::path::Path;
 
@@ -19,7 +19,7 @@ struct Format {
 }
 
 /// In the order in which they are tried.
-const FORMATS: [Format; 4] = [
+const FORMATS: [Format; 5] = [
     Format {
         name: layout::NAME,
         holds: "the folder `sequences`",
@@ -37,6 +37,12 @@ const FORMATS: [Format; 4] = [
         holds: "the folders `radar/training/velodyne` and `radar/training/calib`",
         recognises: view_of_delft::recognises,
         open: |path, _| view_of_delft::open(path),
+    },
+    Format {
+        name: aimotive::NAME,
+        holds: "a sequence's `sensor/calibration/calibration.json` and `sensor/radar`, or folders of such sequences",
+        recognises: aimotive::recognises,
+        open: |path, _| aimotive::open(path),
     },
     Format {
         name: ros::NAME,

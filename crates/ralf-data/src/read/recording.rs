@@ -4,7 +4,7 @@ use crate::disk::label_file::Label;
 use crate::error::DataError;
 use crate::read::corrections::MotionSource;
 use ralf::label::Cause;
-use ralf::sensors::{Source, SourceError};
+use ralf::sensors::{LidarScan, Sequence, Source, SourceError};
 use std::any::Any;
 use std::path::PathBuf;
 
@@ -40,6 +40,13 @@ pub trait SequenceReader: Source {
         false
     }
 
+    /// A LiDAR's scan with its points as they were measured, each at its own time, where the recording holds them so;
+    /// `None` where it holds scans that are motion-corrected. [`Source::lidar_scan`] corrects them by the recording's
+    /// own motion; whoever knows a better one corrects these.
+    fn rolling_scan(&self, _lidar: usize, _scan: usize) -> Result<Option<LidarScan>, SourceError> {
+        Ok(None)
+    }
+
     /// Where the vehicle's motion comes from.
     fn motion_source(&self) -> MotionSource {
         MotionSource::Recorded
@@ -64,6 +71,30 @@ pub struct TruthLabels {
     /// Why each is an artifact: [`ralf::label::Cause`] as a number, 0 of what is plausible. No file that labelling
     /// reads.
     pub causes: Vec<u8>,
+}
+
+/// Refuses to write LiDAR scans that are not motion-corrected, for nothing that is written says so.
+pub(crate) fn check_motion_corrected(reader: &dyn SequenceReader) -> Result<(), DataError> {
+    let Sequence { name, rig, times, motion, .. } = reader.sequence();
+    if motion.is_known() {
+        return Ok(());
+    }
+    for (lidar, _) in times.lidars.iter().enumerate().filter(|(_, times)| !times.is_empty()) {
+        let sensor = &rig.lidars[lidar].name;
+        let rolling = reader.rolling_scan(lidar, 0).map_err(|error| DataError::Measurement {
+            sensor: sensor.clone(),
+            index: 0,
+            error,
+        })?;
+        if rolling.is_some() {
+            let reason = format!(
+                "the points of {sensor} lie where each was measured, and the vehicle's motion, which would bring them \
+                 to one time, isn't known: a trajectory tells it (--trajectory, or motion.source=radar)"
+            );
+            return Err(DataError::Unsuitable { file: name.into(), place: "LiDAR".into(), reason });
+        }
+    }
+    Ok(())
 }
 
 /// What `sensors` holds of a measurement: one list per sensor of this kind, one entry per measurement.

@@ -5,6 +5,7 @@ mod content;
 pub(crate) mod json;
 mod label_hash;
 mod labelled_run;
+mod learned_columns;
 mod links;
 mod lock;
 mod names;
@@ -24,7 +25,7 @@ pub use labelled_run::{Change, ChangedInput, LabelledRun, LabelledSequence};
 pub use names::Component;
 pub use parquet_reader::PlausibilityReader;
 pub use parquet_writer::PlausibilityWriter;
-pub use record::{Input, RunRecord, Timings, read_record};
+pub use record::{Input, RunRecord, Timings, program, read_record};
 pub use scan_table::RadarScanKey;
 pub use schema::{Column, Group, Kind, Schema};
 pub(crate) use sequence_record::ScanNotes;
@@ -34,6 +35,7 @@ pub use sequence_record::{
 pub use table::{Table, Value, Values};
 
 pub(crate) use content::{changed_ns, damaged_result, hash_file};
+pub(crate) use learned_columns::learned_columns;
 pub(crate) use links::refuse_links_out;
 pub(crate) use lock::WriterLock;
 pub(crate) use names::{OutFolder, SequenceNames, checked};

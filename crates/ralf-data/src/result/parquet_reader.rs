@@ -1,5 +1,6 @@
 //! Reading `plausibility.parquet` back, a row group at a time.
 
+use super::learned_columns::learned_columns;
 use super::parquet_columns::read_values;
 use super::schema::{Column, Group, Kind, SCAN, Schema, evidence_columns};
 use super::table::Value;
@@ -159,7 +160,8 @@ fn unreadable(file: &Path, error: ParquetError) -> DataError {
     DataError::content(file, "Parquet", "a result of `ralf label`", error.to_string())
 }
 
-/// The columns that are needed, and after them the decimals that the file has behind the last of them: evidence.
+/// The columns that are needed, and after them what the file has behind the last of them: evidence, and what a model
+/// says.
 fn with_evidence(reader: &SerializedFileReader<File>, needed: &Schema) -> Result<Schema, ParquetError> {
     let found = reader.metadata().file_metadata().schema_descr();
     let at = |name: &str| found.columns().iter().position(|column| column.name() == name);
@@ -167,13 +169,18 @@ fn with_evidence(reader: &SerializedFileReader<File>, needed: &Schema) -> Result
     for column in &columns {
         at(&column.name).ok_or_else(|| ParquetError::General(format!("no column `{}`", column.name)))?;
     }
+    let further: Vec<Column> = evidence_columns().into_iter().chain(learned_columns()).collect();
     let last = at("semantic").map_or(found.num_columns(), |semantic| semantic + 1);
     for column in &found.columns()[last..] {
-        if columns.iter().all(|known| known.name != column.name())
-            && column.physical_type() == Physical::FLOAT
-        {
-            let known = evidence_columns().into_iter().find(|known| known.name == column.name());
-            columns.push(known.unwrap_or_else(|| unknown_evidence(column.name())));
+        if columns.iter().any(|known| known.name == column.name()) {
+            continue;
+        }
+        let known = further.iter().find(|known| known.name == column.name()).cloned();
+        match (known, column.physical_type()) {
+            (Some(known), Physical::FLOAT) if known.kind == Kind::F32 => columns.push(known),
+            (Some(known), Physical::BYTE_ARRAY) if known.kind == Kind::Text => columns.push(known),
+            (None, Physical::FLOAT) => columns.push(unknown_evidence(column.name())),
+            _ => {}
         }
     }
     Ok(Schema::new(columns))

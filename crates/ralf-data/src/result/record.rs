@@ -6,6 +6,7 @@ use super::sequence_record::{CameraRecord, NotLabelled, RadarRecord, SequenceRec
 use crate::error::DataError;
 use crate::read::Recording;
 use crate::settings::Settings;
+use ralf::learned::Model;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -30,6 +31,9 @@ pub struct RunRecord {
     /// Whether evidence was gathered, too.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub evidence: bool,
+    /// A hash of the model that answered, where one did.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub model: Option<String>,
     /// Every file that was read, by sequence and name.
     pub inputs: Vec<Input>,
     /// In the order of their names.
@@ -66,6 +70,11 @@ pub struct Timings {
     pub jobs: usize,
 }
 
+/// Which program this is: its version and a hash of the sources that labels depend on.
+pub fn program() -> String {
+    format!("{} {}", env!("CARGO_PKG_VERSION"), env!("RALF_SOURCES"))
+}
+
 /// What an output folder holds: its `run.json`.
 pub fn read_record(out: &Path) -> Result<RunRecord, DataError> {
     let file = out.join(RECORD);
@@ -77,13 +86,19 @@ pub fn read_record(out: &Path) -> Result<RunRecord, DataError> {
 
 impl RunRecord {
     /// The record of a folder that holds no sequence yet.
-    pub(crate) fn new(recording: &Recording, settings: &Settings, evidence: bool) -> Self {
+    pub(crate) fn new(
+        recording: &Recording,
+        settings: &Settings,
+        evidence: bool,
+        model: Option<&Model>,
+    ) -> Self {
         Self {
             version: env!("CARGO_PKG_VERSION").to_owned(),
             program: env!("RALF_SOURCES").to_owned(),
             format: recording.format.to_owned(),
             settings: settings.clone(),
             evidence,
+            model: model.map(|model| blake3::hash(model.to_text().as_bytes()).to_hex().to_string()),
             inputs: Vec::new(),
             sequences: Vec::new(),
             check: Vec::new(),
@@ -93,7 +108,8 @@ impl RunRecord {
 
     /// Whether the sequences of both may stand side by side.
     pub(crate) fn is_like(&self, other: &Self) -> bool {
-        let program = |run: &Self| (run.version.clone(), run.program.clone(), run.evidence);
+        let program =
+            |run: &Self| (run.version.clone(), run.program.clone(), run.evidence, run.model.clone());
         program(self) == program(other) && (&self.format, &self.settings) == (&other.format, &other.settings)
     }
 

@@ -31,7 +31,13 @@ fn append(bytes: &mut Vec<u8>, values: &Values) -> Option<()> {
             let classes = values.iter().map(|class| class.map_or(NO_CLASS, u32::from));
             classes.for_each(|class| bytes.extend_from_slice(&class.to_le_bytes()));
         }
-        Values::Text(_) | Values::Truth(_) => return None,
+        Values::Text(values) => {
+            for value in values {
+                bytes.extend_from_slice(&(value.len() as u32).to_le_bytes());
+                bytes.extend_from_slice(value.as_bytes());
+            }
+        }
+        Values::Truth(_) => return None,
     }
     Some(())
 }
@@ -45,12 +51,30 @@ pub(crate) fn read_rows(file: &Path, schema: &Arc<Schema>) -> Result<Table, Data
     let rows = usize::try_from(u64::from_le_bytes(rows)).map_err(|_| cut())?;
     let mut values = Vec::with_capacity(schema.columns().len());
     for column in schema.columns() {
+        if column.kind == Kind::Text {
+            let (texts, more) = texts(rest, rows).ok_or_else(cut)?;
+            rest = more;
+            values.push(Values::Text(texts));
+            continue;
+        }
         let size = size(column.kind).ok_or_else(|| no_such_kind(file, &column.name))?;
         let (of_column, more) = rest.split_at_checked(rows.saturating_mul(size)).ok_or_else(cut)?;
         rest = more;
         values.push(values_of(column.kind, of_column).ok_or_else(|| no_such_kind(file, &column.name))?);
     }
     if rest.is_empty() { Table::new(schema.clone(), values) } else { Err(cut()) }
+}
+
+/// So many texts, each after its length, and the bytes behind them.
+fn texts(mut bytes: &[u8], rows: usize) -> Option<(Vec<Arc<str>>, &[u8])> {
+    let mut texts = Vec::new();
+    for _ in 0..rows {
+        let (length, rest) = bytes.split_first_chunk::<4>()?;
+        let (text, rest) = rest.split_at_checked(u32::from_le_bytes(*length) as usize)?;
+        texts.push(std::str::from_utf8(text).ok()?.into());
+        bytes = rest;
+    }
+    Some((texts, bytes))
 }
 
 /// Bytes of a value.

@@ -1,11 +1,13 @@
 //! The table of one scan: what was measured, what was found, and the labels that come of it.
 
+use super::learned_columns::{numbers, words};
 use super::schema::{Column, Group, Kind, Schema, answer_of};
 use super::table::{Table, Values};
 use crate::disk::label_file::Label;
 use crate::error::DataError;
 use ralf::evidence;
 use ralf::label::{ARTIFACT, PLAUSIBLE, truth_of};
+use ralf::learned::Answer;
 use ralf::paper::DetectionLabel;
 use ralf::scene::{Detection, LocatedScan};
 use ralf::sensors::{Elevation, Radar};
@@ -36,6 +38,8 @@ pub(crate) struct ScanParts<'a> {
     pub(crate) labels: Option<&'a [DetectionLabel]>,
     /// The columns of evidence; those that nobody gathered are absent.
     pub(crate) evidence: &'a [evidence::Column],
+    /// What a model says, one per detection; none where no model was asked.
+    pub(crate) answers: &'a [Answer],
 }
 
 impl Table {
@@ -80,7 +84,14 @@ impl ScanParts<'_> {
             (_, Kind::U8, "label") => Values::U8(self.of_labels(0, |label| u8::from(label.plausible))),
             (_, Kind::U16, "flags") => Values::U16(self.of_labels(0, |label| label.flags)),
             (_, Kind::Class, "semantic") => Values::Class(self.of_labels(None, |label| label.semantic)),
-            (Group::Evidence, Kind::F32, name) => Values::F32(self.evidence(name, rows)),
+            (Group::Evidence, Kind::F32, name) => {
+                let told = numbers(name, self.answers).filter(|told| told.len() == rows);
+                Values::F32(told.unwrap_or_else(|| self.evidence(name, rows)))
+            }
+            (Group::Words, Kind::Text, name) => {
+                let told = words(name, self.answers).filter(|told| told.len() == rows);
+                Values::Text(told.unwrap_or_else(|| vec!["".into(); rows]))
+            }
             _ => return Err(unknown(column)),
         })
     }

@@ -42,6 +42,8 @@ pub enum Group {
     Verdict,
     /// What else is known of it.
     Evidence,
+    /// What is said of it, for people.
+    Words,
 }
 
 /// A column: how it is called, and what it means.

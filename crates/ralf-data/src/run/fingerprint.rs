@@ -7,7 +7,8 @@ pub(super) fn of_run(run: &RunRecord) -> String {
     // Debug shows every digit of every setting.
     let settings = format!("{:?}", run.settings);
     let evidence = if run.evidence { "with evidence" } else { "without" };
-    of_texts([run.version.as_str(), &run.program, &run.format, &settings, evidence])
+    let model = run.model.as_deref().unwrap_or("no model");
+    of_texts([run.version.as_str(), &run.program, &run.format, &settings, evidence, model])
 }
 
 /// Of one sequence: what it has in common with the others, its name and the files that it was read from.

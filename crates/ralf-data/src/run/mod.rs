@@ -22,11 +22,12 @@ pub use crate::result::{
 
 use crate::error::DataError;
 use crate::read::{Recording, SequenceReader, layout};
-use crate::result::{Schema, SequenceNames, WriterLock, evidence_columns, refuse_links_out};
+use crate::result::{Schema, SequenceNames, WriterLock, evidence_columns, learned_columns, refuse_links_out};
 use crate::settings::Settings;
 use inputs::Identity;
 use output_folder::OutputFolder;
-use ralf::config::Config;
+use ralf::config::{Config, Method};
+use ralf::learned::{LearnedLabeler, Model};
 use ralf::sensors::Rig;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -49,6 +50,8 @@ pub struct LabelRun<'a> {
     pub checks: &'a [CheckRecord],
     /// Whether the evidence of [`ralf::evidence`] is gathered, too: a column of the table for each feature.
     pub evidence: bool,
+    /// The model that answers where the settings' method is [`Method::Learned`].
+    pub model: Option<&'a Model>,
 }
 
 /// Part of the work, for a progress display.
@@ -58,6 +61,8 @@ pub enum Stage<'a> {
     Inputs,
     /// Matching a sequence's scans for tuning; counted in scans.
     Matching(&'a str),
+    /// Gathering a sequence's evidence for learning; counted in scans.
+    Gathering(&'a str),
     /// Labelling a sequence; counted in scans.
     Labelling(&'a str),
     /// Writing a sequence's result; counted in scans.
@@ -97,8 +102,17 @@ struct Task<'a> {
     names: SequenceNames,
     rig: Rig,
     schema: Arc<Schema>,
-    /// Whether evidence is gathered.
+    /// Whether evidence is kept.
     evidence: bool,
+    /// Asks a model; `None` where the paper's method answers.
+    labeler: Option<&'a LearnedLabeler<'a>>,
+}
+
+impl Task<'_> {
+    /// Whether evidence is gathered: to be kept, or for a model.
+    fn gathers_evidence(&self) -> bool {
+        self.evidence || self.labeler.is_some()
+    }
 }
 
 impl LabelRun<'_> {
@@ -109,13 +123,14 @@ impl LabelRun<'_> {
         let begun = Instant::now();
         self.refuse_to_write_into_the_recording()?;
         let names = SequenceNames::all(self.recording.sequences.iter().map(AsRef::as_ref))?;
+        let labeler = self.labeler()?;
         let tasks = self.recording.sequences.iter().zip(names);
-        let tasks = tasks.map(|(reader, names)| self.task(reader.as_ref(), names));
+        let tasks = tasks.map(|(reader, names)| self.task(reader.as_ref(), names, labeler.as_ref()));
         let tasks = tasks.collect::<Result<Vec<_>, _>>()?;
         refuse_links_out(self.out, "sequences", 2)?;
         refuse_links_out(self.out, unfinished::FOLDER, 4)?;
         let _lock = WriterLock::take(self.out.join(LOCK), self.out)?;
-        let run = RunRecord::new(self.recording, self.settings, self.evidence);
+        let run = RunRecord::new(self.recording, self.settings, self.evidence, self.asked_model());
         let asked = inputs::identify(self.recording, &fingerprint::of_run(&run), self.jobs, observer);
         let folder = OutputFolder::open(self.out, run, &asked)?;
         let mut finished = Vec::new();
@@ -133,16 +148,46 @@ impl LabelRun<'_> {
         Ok(Outcome { record, labelled, damaged, removed })
     }
 
-    fn task<'a>(&self, reader: &'a dyn SequenceReader, names: SequenceNames) -> Result<Task<'a>, DataError> {
+    /// The model, where the method is one that asks it.
+    fn asked_model(&self) -> Option<&Model> {
+        self.model.filter(|_| self.settings.method.method == Method::Learned)
+    }
+
+    /// What asks the model; `None` where the paper's method answers.
+    fn labeler(&self) -> Result<Option<LearnedLabeler<'_>>, DataError> {
+        let config = &self.settings.method;
+        let unsuitable = |reason| DataError::Unsuitable {
+            file: self.recording.path.clone(),
+            place: "method = \"learned\"".to_owned(),
+            reason,
+        };
+        match (config.method, self.model) {
+            (Method::Paper, _) => Ok(None),
+            (Method::Learned, None) => Err(unsuitable("no model was given".to_owned())),
+            (Method::Learned, Some(model)) => {
+                LearnedLabeler::new(config, model).map(Some).map_err(|error| unsuitable(error.to_string()))
+            }
+        }
+    }
+
+    fn task<'a>(
+        &self,
+        reader: &'a dyn SequenceReader,
+        names: SequenceNames,
+        labeler: Option<&'a LearnedLabeler<'a>>,
+    ) -> Result<Task<'a>, DataError> {
         if !reader.sequence().motion.is_known() {
             let reason = "the vehicle's motion is not known: odometry, poses or a trajectory is needed";
             return Err(unsuitable(self.recording, reader, reason.to_owned()));
         }
         let rig = rig_of(self.recording, reader, &self.settings.method)?;
-        let evidence = if self.evidence { evidence_columns() } else { Vec::new() };
+        let mut further = if self.evidence { evidence_columns() } else { Vec::new() };
+        if labeler.is_some() {
+            further.extend(learned_columns());
+        }
         let schema =
-            Schema::of(&rig, &evidence).map_err(|reason| unsuitable(self.recording, reader, reason))?;
-        Ok(Task { reader, names, rig, schema: Arc::new(schema), evidence: self.evidence })
+            Schema::of(&rig, &further).map_err(|reason| unsuitable(self.recording, reader, reason))?;
+        Ok(Task { reader, names, rig, schema: Arc::new(schema), evidence: self.evidence, labeler })
     }
 
     fn label_sequence(

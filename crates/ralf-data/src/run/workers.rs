@@ -7,6 +7,7 @@ use crate::frames::{Frames, ScanIndex, all_scans};
 use crate::result::{NotLabelled, ScanNotes, ScanParts, Table};
 use ralf::config::Config;
 use ralf::evidence;
+use ralf::learned::LearnedScan;
 use ralf::paper::Labeler;
 use ralf::scene::FrameWindow;
 
@@ -21,7 +22,8 @@ pub(super) fn label_scans(
     let scans = all_scans(&task.reader.sequence().times);
     observer.begin(Stage::Labelling(&task.reader.sequence().name), scans.len() as u64);
     let labelling = Labelling { task, config, workspace };
-    let frames = Frames { reader: task.reader, rig: &task.rig, config, evidence: task.evidence, jobs };
+    let frames =
+        Frames { reader: task.reader, rig: &task.rig, config, evidence: task.gathers_evidence(), jobs };
     let labelled = frames.each(&scans, |window, place| {
         let ScanIndex { radar, scan } = scans[place];
         let labelled = labelling.label_scan(window, radar, scan)?;
@@ -62,13 +64,18 @@ impl Labelling<'_> {
                 return Ok(Err(failed));
             }
         };
-        let labels = Labeler::new(self.config).label(&frame);
-        let evidence = if self.task.evidence { evidence::observe(&frame, self.config) } else { Vec::new() };
+        let gathers = self.task.gathers_evidence();
+        let evidence = if gathers { evidence::observe(&frame, self.config) } else { Vec::new() };
+        let LearnedScan { labels, answers } = match self.task.labeler {
+            Some(labeler) => labeler.label(&frame, &evidence),
+            None => LearnedScan { labels: Labeler::new(self.config).label(&frame), answers: Vec::new() },
+        };
         let parts = ScanParts {
             radar: &rig.radars[radar],
             scan: &frame.scan,
             labels: Some(&labels),
             evidence: &evidence,
+            answers: &answers,
         };
         let table = Table::of_scan(schema, &parts)?;
         self.workspace.keep(radar, scan, &ScanNotes::new(&frame), &table)?;

@@ -7,6 +7,7 @@ use crate::frames::side_by_side;
 use crate::read::SequenceReader;
 use crate::read::layout::raw::{DepthToml, SequenceToml};
 use crate::read::layout::{GROUND_TRUTH, SEQUENCES, rig, tables};
+use crate::read::recording::check_motion_corrected;
 use crate::result::{Component, OutFolder, SequenceNames, WriterLock, checked, refuse_links_out};
 use ralf::sensors::{Sequence, SourceError, Timelines};
 use std::fs;
@@ -33,6 +34,7 @@ pub fn write_sequence_with(
     progress: &(dyn Fn(usize) + Sync),
 ) -> Result<(), DataError> {
     let names = SequenceNames::new(reader.sequence())?;
+    check_motion_corrected(reader)?;
     let sequences = OutFolder::new(dataset).own(SEQUENCES);
     let folder = sequences.folder(&names.sequence);
     let folder = folder.path();

@@ -10,13 +10,14 @@ use ralf_data::run::read_record;
 use serde_json::{Value, json};
 
 /// The bits of a detection's flags (docs/formats.md, section 2).
-const FLAGS: [(u16, &str); 6] = [
+const FLAGS: [(u16, &str); 7] = [
     (flag::GROUND, "ground"),
     (flag::BLIND_SPOT, "blind spot"),
     (flag::CAMERA_FAILED, "camera failed"),
     (flag::NO_LIDAR, "no LiDAR scan"),
     (flag::NO_NEIGHBOURS, "no neighbouring radar scan"),
     (flag::UNOBSERVED, "unobserved"),
+    (flag::PAPER, "paper"),
 ];
 
 /// SemanticKITTI's ids end here.

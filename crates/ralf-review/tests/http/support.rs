@@ -55,7 +55,9 @@ pub(crate) fn recording() -> Recording {
 
 /// Labels a recording.
 pub(crate) fn label(recording: &Recording, out: &Path, settings: &Settings) {
-    LabelRun { recording, settings, out, jobs: 1, evidence: false, checks: &[] }.execute(&Silent).unwrap();
+    LabelRun { recording, settings, out, jobs: 1, evidence: false, checks: &[], model: None }
+        .execute(&Silent)
+        .unwrap();
 }
 
 /// Labels of one's own, as `ralf label` left them.

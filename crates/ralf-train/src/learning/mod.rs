@@ -1,5 +1,29 @@
-//! Fitting a [`Model`](ralf::learned::Model) to evidence whose truth is known.
+//! Learning: a [`Model`](ralf::learned::Model) is fitted to evidence whose truth is known.
+//!
+//! 1. A [`TrainingTable`] holds evidence and truth of many detections of several worlds, some of them as if less could
+//!    be observed ([`View`]).
+//! 2. [`fit`] grows a forest without each world, judges it there, calibrates by what all of them say of the worlds that
+//!    they never saw, and grows the one that stays on everything.
+//! 3. [`boost`] grows a forest.
+//!
+//! The same table and seed give the same model to the byte.
 
+mod blanking;
 mod boosting;
+mod calibrate;
+mod causes;
+mod fit;
+mod monotone;
+mod random;
+mod scores;
+mod side_by_side;
+mod table;
+#[cfg(test)]
+mod testing;
+mod view;
 
 pub use boosting::{Bins, Examples, Grown, Parameters, boost};
+pub use fit::{Fitted, Fitting, LearnError, LeftOut, fit};
+pub use scores::{Judged, Scores, best_threshold};
+pub use table::{Known, TrainingTable};
+pub use view::View;

@@ -19,6 +19,8 @@ use std::collections::BTreeMap;
 pub struct Config {
     /// Seed of every random choice.
     pub seed: u64,
+    /// Who answers.
+    pub method: Method,
     /// Which measurements belong together.
     pub sync: SyncConfig,
     /// The ground, and what lies on it.
@@ -33,6 +35,8 @@ pub struct Config {
     pub fusion: FusionConfig,
     /// What evidence looks at.
     pub evidence: EvidenceConfig,
+    /// The method that learns.
+    pub learned: LearnedConfig,
     /// By sensor name: what replaces the recording's own values.
     pub sensors: BTreeMap<String, SensorOverride>,
 }
@@ -42,6 +46,7 @@ pub struct Config {
 #[serde(deny_unknown_fields)]
 struct Complete {
     seed: u64,
+    method: Method,
     sync: SyncConfig,
     ground: GroundConfig,
     lidar: LidarConfig,
@@ -49,15 +54,48 @@ struct Complete {
     tracking: TrackingConfig,
     fusion: FusionConfig,
     evidence: EvidenceConfig,
+    learned: LearnedConfig,
     #[serde(default)]
     sensors: BTreeMap<String, SensorOverride>,
 }
 
 impl From<Complete> for Config {
     fn from(complete: Complete) -> Self {
-        let Complete { seed, sync, ground, lidar, camera, tracking, fusion, evidence, sensors } = complete;
-        Self { seed, sync, ground, lidar, camera, tracking, fusion, evidence, sensors }
+        let Complete {
+            seed,
+            method,
+            sync,
+            ground,
+            lidar,
+            camera,
+            tracking,
+            fusion,
+            evidence,
+            learned,
+            sensors,
+        } = complete;
+        Self { seed, method, sync, ground, lidar, camera, tracking, fusion, evidence, learned, sensors }
     }
+}
+
+/// Who answers.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Method {
+    /// The paper's method.
+    Paper,
+    /// A [model](crate::learned), from all evidence.
+    Learned,
+}
+
+/// `learned`: the method that learns.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct LearnedConfig {
+    /// Where a larger share of the evidence is unlike what the model was trained on, the paper's method answers.
+    pub max_novelty: f64,
+    /// Whether it is told what each group of evidence adds.
+    pub reasons: bool,
 }
 
 /// `sync`: which measurements belong together.
@@ -82,6 +120,8 @@ pub enum GroundModel {
     Plane,
     /// A plane per concentric sector.
     Polar,
+    /// A surface that follows slopes, ramps and kerbs.
+    Local,
 }
 
 /// `ground`: the ground, and what lies on it.
@@ -116,6 +156,10 @@ pub struct LidarConfig {
     pub beta: f64,
     /// `K`.
     pub neighbours: usize,
+    /// Cap of `d_lm`.
+    pub max_mismatch: f64,
+    /// Also compare each detection with every point where its Doppler velocity takes it at the point's own time.
+    pub dynamic: bool,
 }
 
 /// How relative depth becomes metric.
@@ -142,6 +186,8 @@ pub struct CameraConfig {
     pub beta: f64,
     /// Nearest calibrated points per detection.
     pub neighbours: usize,
+    /// Cap of `d_cm`.
+    pub max_mismatch: f64,
     /// Every stride-th pixel of every stride-th row is calibrated.
     pub stride: usize,
     /// How relative depth becomes metric.
@@ -190,6 +236,14 @@ pub struct TrackingConfig {
     pub sources: TrackingSources,
     /// Also try each detection where its Doppler velocity takes it.
     pub dynamic: bool,
+    /// Doppler-consistent tracking: each detection is sought where its Doppler velocity takes it alone, among those
+    /// whose Doppler velocity agrees, in the scans that could have seen it there. Then `dynamic` says nothing.
+    pub doppler: bool,
+    /// Compensated Doppler velocities that differ by no more agree, m/s.
+    pub doppler_tolerance: f64,
+    /// With `doppler`: the share of the scans that could have seen a detection whose mismatches count, the smallest
+    /// ones.
+    pub quorum: f64,
     /// Two scans in a row farther apart than this end the batch, ms.
     pub max_gap_ms: f64,
 }
@@ -229,7 +283,7 @@ macro_rules! defaults {
 }
 defaults!(
     sync: SyncConfig, ground: GroundConfig, lidar: LidarConfig, camera: CameraConfig, tracking: TrackingConfig,
-    fusion: FusionConfig, evidence: EvidenceConfig
+    fusion: FusionConfig, evidence: EvidenceConfig, learned: LearnedConfig
 );
 
 impl Default for Config {

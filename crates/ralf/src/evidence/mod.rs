@@ -7,13 +7,27 @@
 //!
 //! A new piece is a file of its own here, its line in [`PIECES`], and a row in `docs/evidence.md`.
 
+mod amplitude;
+mod camera;
 mod columns;
+mod context;
+mod distance;
+mod doppler;
+mod echoes;
+mod geometry;
 mod ground;
 mod lidar_map;
 mod lidar_rays;
 mod lidar_residual;
 mod line_of_sight;
+mod ordered;
+mod persistence;
 mod probe;
+mod rates;
+mod recurrence;
+mod sensor_frame;
+mod sight;
+mod statistics;
 mod surroundings;
 mod terrain;
 
@@ -31,6 +45,12 @@ pub const PIECES: &[Piece] = &[
     lidar_map::PIECE,
     line_of_sight::PIECE,
     terrain::PIECE,
+    amplitude::PIECE,
+    doppler::PIECE,
+    persistence::PIECE,
+    camera::PIECE,
+    context::PIECE,
+    geometry::PIECE,
 ];
 
 /// What pieces of evidence can belong to. A sensor or circumstance that lacks takes whole groups away.

@@ -1,8 +1,11 @@
 //! A frame with what several pieces of evidence need of it, each worked out once.
 
 use super::probe::{Probe, probes};
+use super::rates::Rates;
+use super::recurrence::{Sighting, sightings};
 use crate::config::Config;
-use crate::scene::{Frame, NeighbouringDetections};
+use crate::scene::{Detection, Frame, NeighbouringDetections};
+use crate::space::{NeighborIndex, Point};
 use std::cell::OnceCell;
 
 /// A frame, the settings, and what several pieces of evidence need: worked out where a piece first asks for it.
@@ -13,12 +16,23 @@ pub struct Surroundings<'a> {
     pub config: &'a Config,
     neighbours: OnceCell<NeighbouringDetections>,
     probes: OnceCell<Vec<Option<Probe>>>,
+    rates: OnceCell<Option<Rates>>,
+    sightings: OnceCell<Vec<Vec<Sighting>>>,
+    own_index: OnceCell<NeighborIndex>,
 }
 
 impl<'a> Surroundings<'a> {
     /// What can be told of a frame.
     pub fn new(frame: &'a Frame<'a>, config: &'a Config) -> Self {
-        Self { frame, config, neighbours: OnceCell::new(), probes: OnceCell::new() }
+        Self {
+            frame,
+            config,
+            neighbours: OnceCell::new(),
+            probes: OnceCell::new(),
+            rates: OnceCell::new(),
+            sightings: OnceCell::new(),
+            own_index: OnceCell::new(),
+        }
     }
 
     /// The detections of all radars around the scan, in its frame.
@@ -30,5 +44,32 @@ impl<'a> Surroundings<'a> {
     /// at all without a window.
     pub fn probes(&self) -> &[Option<Probe>] {
         self.probes.get_or_init(|| probes(self.frame))
+    }
+
+    /// The compensated range rates of the scan; `None` where the radar measures none.
+    pub(super) fn rates(&self) -> Option<&Rates> {
+        self.rates
+            .get_or_init(|| self.frame.doppler().map(|doppler| Rates::new(doppler.compensated)))
+            .as_ref()
+    }
+
+    /// Of each detection of the scan, in which scans around it could have been seen again, and whether it was.
+    pub(super) fn sightings(&self) -> &[Vec<Sighting>] {
+        self.sightings.get_or_init(|| sightings(self.frame, self.neighbours(), self.rates()))
+    }
+
+    /// Finds the scan's own detections at most `radius`, m, from a point, seen from above.
+    pub(super) fn beside(&self, p: &Point, radius: f64, found: &mut Vec<u32>) {
+        let index = self.own_index.get_or_init(|| {
+            let (mut places, mut rows) = (Vec::new(), Vec::new());
+            for (row, detection) in (0u32..).zip(&self.frame.scan.detections) {
+                if let Some(Detection { position, .. }) = detection {
+                    places.push([position.x as f32, position.y as f32, 0.0]);
+                    rows.push(row);
+                }
+            }
+            NeighborIndex::new(&places, &rows)
+        });
+        index.beside([p.x as f32, p.y as f32], radius as f32, found);
     }
 }

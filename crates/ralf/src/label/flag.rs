@@ -12,6 +12,8 @@ pub const NO_LIDAR: u16 = 8;
 pub const NO_NEIGHBOURS: u16 = 16;
 /// No branch could say anything.
 pub const UNOBSERVED: u16 = 32;
+/// A model was asked for, and the paper's method answered: the evidence is unlike what the model was trained on.
+pub const PAPER: u16 = 64;
 
 pub(crate) fn when(applies: bool, flag: u16) -> u16 {
     if applies { flag } else { 0 }

@@ -27,6 +27,11 @@ impl Calibration {
         Ok(Self { points })
     }
 
+    /// The line of nothing known: always one half.
+    pub fn even() -> Self {
+        Self { points: vec![(0.0, 0.5)] }
+    }
+
     /// The points.
     pub fn points(&self) -> &[(f64, f64)] {
         &self.points

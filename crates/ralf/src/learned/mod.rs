@@ -9,7 +9,9 @@
 mod calibration;
 mod familiar;
 mod forest;
+mod labeler;
 mod model;
+mod reason;
 mod rows;
 mod shapley;
 mod text;
@@ -18,6 +20,7 @@ mod tree;
 pub use calibration::{Calibration, CalibrationError};
 pub use familiar::{Seen, novelty};
 pub use forest::{Forest, probability};
+pub use labeler::{Answer, LearnedLabeler, LearnedScan, ToldCause, UNCLEAR};
 pub use model::{CauseForest, Input, Model, Origin, UseError, World};
 pub use rows::Rows;
 pub use shapley::Explainer;

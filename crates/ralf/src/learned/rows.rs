@@ -38,6 +38,21 @@ impl Rows {
         &mut self.values[row * self.width..][..self.width]
     }
 
+    /// Adds the rows of a table of the same width.
+    pub fn append(&mut self, more: &Self) {
+        debug_assert_eq!(self.width, more.width, "tables of one width");
+        self.values.extend_from_slice(&more.values);
+    }
+
+    /// Some of the rows.
+    pub fn pick(&self, rows: impl Iterator<Item = usize>) -> Self {
+        let mut values = Vec::new();
+        for row in rows {
+            values.extend_from_slice(self.row(row));
+        }
+        Self { width: self.width, values }
+    }
+
     /// Sets the features of a column; what is `None` is absent.
     pub fn set_column(&mut self, column: usize, values: &[Option<f64>]) {
         for (row, value) in values.iter().enumerate().take(self.len()) {

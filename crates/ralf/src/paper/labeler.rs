@@ -61,8 +61,7 @@ impl<'a> Labeler<'a> {
         // II, tracking (equations 7 and 8): the scans k - n_b .. k + n_b, the smallest mismatches counting most.
         let tracking_mismatches = tracking::match_detections(frame, tracking);
 
-        let silent_branches = flag::when(lidar.enabled && frame.lidar.is_none(), flag::NO_LIDAR)
-            | flag::when(tracking.enabled && frame.steps.is_empty(), flag::NO_NEIGHBOURS);
+        let no_lidar = flag::when(lidar.enabled && frame.lidar.is_none(), flag::NO_LIDAR);
         let mut labels = Vec::with_capacity(frame.scan.len());
         for (i, detection) in frame.scan.detections.iter().enumerate() {
             let Some(detection) = detection else {
@@ -92,7 +91,8 @@ impl<'a> Labeler<'a> {
             let w = prioritize(fusion.alpha, w_opt, w_tr, gamma_s);
             let plausible = !on_floor && w.is_some_and(|w| w >= fusion.threshold);
 
-            let flags = silent_branches
+            let flags = no_lidar
+                | flag::when(tracking.enabled && d_tr.is_none(), flag::NO_NEIGHBOURS)
                 | flag::when(on_floor, flag::GROUND)
                 | flag::when(in_blind_spot, flag::BLIND_SPOT)
                 | flag::when(camera_matches[i].in_failed_view, flag::CAMERA_FAILED)

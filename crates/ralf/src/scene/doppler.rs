@@ -37,11 +37,16 @@ impl Doppler {
     }
 }
 
+/// The velocity of a radar at a time, in the vehicle frame at that time, m/s: `v + omega x t`, with the radar's lever
+/// arm `t` from the vehicle's origin.
+pub fn radar_velocity(radar: &Radar, t_ns: i64, motion: &EgoMotion) -> Vector {
+    let (velocity, turn) = motion.twist(t_ns);
+    velocity + turn.cross(&radar.vehicle_from_radar.translation.vector)
+}
+
 /// How fast the radar itself moves towards each detection, m/s.
 fn own_motion(radar: &Radar, scan: &RadarScan, motion: &EgoMotion) -> impl Iterator<Item = f64> {
-    let (velocity, turn) = motion.twist(scan.t_ns);
-    let mount = &radar.vehicle_from_radar;
-    let of_radar: Vector = mount.rotation.inverse() * (velocity + turn.cross(&mount.translation.vector));
+    let of_radar = radar.vehicle_from_radar.rotation.inverse() * radar_velocity(radar, scan.t_ns, motion);
     scan.positions
         .iter()
         .map(move |position: &Point| position.coords.try_normalize(0.0).map_or(0.0, |ray| ray.dot(&of_radar)))

@@ -1,11 +1,12 @@
 //! Everything that is known around one radar scan.
 
 use super::camera::ImageView;
-use super::doppler::Doppler;
+use super::doppler::{Doppler, radar_velocity};
 use super::floor::LocalGround;
 use super::lidar::LidarView;
 use super::lidar_window::LidarWindowView;
 use super::located::{Detection, LocatedScan};
+use super::mover::Mover;
 use super::neighbouring::{NeighbouringScan, ScanStep};
 use super::strength::Strength;
 use crate::config::GroundConfig;
@@ -71,6 +72,19 @@ impl Frame<'_> {
     /// The range rates of the scan's detections; `None` where the radar measures none.
     pub fn doppler(&self) -> Option<Doppler> {
         Doppler::new(self.radar, &self.scan.measured, self.motion)
+    }
+
+    /// The scan's detections with the velocity that their range rates tell; `None` without a position.
+    pub fn movers(&self) -> Vec<Option<Mover>> {
+        let rates = self.doppler().map(|doppler| doppler.compensated);
+        let of_radar = radar_velocity(self.radar, self.scan.t_ns(), self.motion);
+        let mut movers = Vec::with_capacity(self.scan.len());
+        for (i, detection) in self.scan.detections.iter().enumerate() {
+            let rate = rates.as_ref().map_or(f64::NAN, |rates| rates[i]);
+            let mover = |detection| Mover::new(self.radar, detection, rate, &of_radar);
+            movers.push(detection.as_ref().map(mover));
+        }
+        movers
     }
 
     /// The scans of the `radar_window` that the same radar made.

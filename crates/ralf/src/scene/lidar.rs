@@ -9,6 +9,7 @@ use super::terrain::{Patch, patches};
 use crate::config::GroundConfig;
 use crate::sensors::{Lidar, LidarScan, Radar, is_return};
 use crate::space::{NeighborIndex, Point, Transform, Vector};
+use std::ops::Range;
 use std::sync::{Arc, OnceLock};
 
 /// One LiDAR's scan in the vehicle frame at the moment.
@@ -29,6 +30,18 @@ impl LidarSweep {
     /// The rays by their direction.
     pub fn rays(&self) -> &RayTable {
         self.rays.get_or_init(|| RayTable::new(&self.scan.points))
+    }
+}
+
+impl LidarSweep {
+    /// From a time to when a point was measured, s; to the scan's time where the recording doesn't tell the point's.
+    fn seconds_after(&self, t_ns: i64, point: usize) -> f64 {
+        let time = self.scan.times.as_ref().and_then(|times| times.get(point));
+        self.seconds_to_scan(t_ns) + time.map_or(0.0, |seconds| f64::from(*seconds))
+    }
+
+    fn seconds_to_scan(&self, t_ns: i64) -> f64 {
+        (self.scan.t_ns - t_ns) as f64 * 1e-9
     }
 }
 
@@ -89,6 +102,8 @@ pub struct LidarSnapshot {
     /// Identities of the points that are not ground.
     above_ground: OnceLock<Vec<u32>>,
     index: OnceLock<NeighborIndex>,
+    /// From the moment to the first and the last point, s.
+    span: OnceLock<Range<f64>>,
     lowest_points: OnceLock<Vec<[f32; 3]>>,
     floor: OnceLock<Floor>,
     standing_points: OnceLock<Vec<[f32; 3]>>,
@@ -122,6 +137,7 @@ impl LidarSnapshot {
             ground: OnceLock::new(),
             above_ground: OnceLock::new(),
             index: OnceLock::new(),
+            span: OnceLock::new(),
             lowest_points: OnceLock::new(),
             floor: OnceLock::new(),
             standing_points: OnceLock::new(),
@@ -132,6 +148,16 @@ impl LidarSnapshot {
     /// One entry per LiDAR that delivered a scan.
     pub fn sweeps(&self) -> &[LidarSweep] {
         &self.sweeps
+    }
+
+    /// The largest `s_r,lidar` of the LiDARs, m.
+    pub fn max_sigma_range(&self) -> f64 {
+        self.sweeps.iter().map(|sweep| sweep.sigma_range).fold(0.0, f64::max)
+    }
+
+    /// Whether points carry classes.
+    pub fn has_classes(&self) -> bool {
+        self.sweeps.iter().any(|sweep| sweep.scan.classes.is_some())
     }
 
     /// The ground, in the vehicle frame at the moment; `None` where there is none.
@@ -198,6 +224,32 @@ impl LidarSnapshot {
         let p = Point::from(sweep.scan.points[point].map(f64::from));
         let ray = p.coords.normalize() * sweep.sigma_range;
         Reference { position: vehicle_from_lidar * p, spread: Spread::Ray(vehicle_from_lidar.rotation * ray) }
+    }
+
+    /// From a time to when a point was measured, s; to its scan's time where the recording doesn't tell.
+    pub fn seconds_after(&self, t_ns: i64, id: u32) -> f64 {
+        let (sweep, point) = self.find(id);
+        sweep.seconds_after(t_ns, point)
+    }
+
+    /// From a time to when the first and the last point were measured, s.
+    pub fn span_after(&self, t_ns: i64) -> Range<f64> {
+        let span = self.span.get_or_init(|| self.span());
+        let seconds = (self.t_ns - t_ns) as f64 * 1e-9;
+        span.start + seconds..span.end + seconds
+    }
+
+    /// From the moment to when the first and the last point were measured, s.
+    fn span(&self) -> Range<f64> {
+        let mut span = f64::INFINITY..f64::NEG_INFINITY;
+        for sweep in &self.sweeps {
+            let seconds = sweep.seconds_to_scan(self.t_ns);
+            for time in sweep.scan.times.as_deref().unwrap_or(&[0.0]) {
+                span.start = span.start.min(seconds + f64::from(*time));
+                span.end = span.end.max(seconds + f64::from(*time));
+            }
+        }
+        span
     }
 
     /// The SemanticKITTI id of a point, 0 where it has none.

@@ -3,7 +3,8 @@
 use super::association::Association;
 use super::lidar::LidarView;
 use super::located::Detection;
-use super::mismatch::Reference;
+use super::mismatch::{Reference, reach_of_cap};
+use super::mover::Mover;
 use crate::sensors::{Elevation, Radar};
 use crate::space::{NeighborIndex, Transform};
 use std::borrow::Cow;
@@ -34,6 +35,17 @@ impl<'a> LidarCloud<'a> {
         Self { view, elevation, index, index_from_vehicle }
     }
 
+    /// Whether there is nothing to compare with.
+    pub fn is_empty(&self) -> bool {
+        self.index.is_empty()
+    }
+
+    /// Farther from a detection than this, m, every point's mismatch is above the cap.
+    pub fn reach(&self, detection: &Detection, cap: f64) -> f64 {
+        let sigma_range = self.view.moment.max_sigma_range();
+        reach_of_cap(cap, detection.total_variance() + sigma_range * sigma_range)
+    }
+
     /// An association with this cloud.
     pub fn association(&self, neighbours: usize) -> Association<'_> {
         Association::new(&self.index, self.elevation, neighbours)
@@ -43,6 +55,38 @@ impl<'a> LidarCloud<'a> {
     pub fn mean_mismatch(&self, association: &mut Association, detection: &Detection) -> Option<f64> {
         let query = self.index_from_vehicle * detection.position;
         association.mean_mismatch(detection, &query, |id| self.reference(id))
+    }
+
+    /// How far something moves, at most, m, from where it is at a time to where it was when a point was measured.
+    pub fn farthest_move(&self, mover: &Mover, t_ns: i64) -> f64 {
+        let span = self.view.moment.span_after(t_ns);
+        mover.rate().abs() * span.start.abs().max(span.end.abs())
+    }
+
+    /// The mean mismatch of a detection that moves with the nearest points, each compared with where the detection was
+    /// when the point was measured; `None` where the cloud is empty. `t_ns` is the time of the detection.
+    ///
+    /// That is exact: a point lies as far from the detection at the middle of the LiDAR's time as from the detection at
+    /// the point's own time, to within the way that lies between. So all points that can be among the nearest are found
+    /// around the middle, once some points bound the distance.
+    pub fn mean_mismatch_of_mover(
+        &self,
+        association: &mut Association,
+        mover: &Mover,
+        t_ns: i64,
+    ) -> Option<f64> {
+        const ROUNDING: f64 = 1e-3;
+        let span = self.view.moment.span_after(t_ns);
+        let middle = mover.along_ray((span.start + span.end) / 2.0).position;
+        let half_way = mover.rate().abs() * (span.end - span.start) / 2.0;
+        let at_time_of = |id| mover.after(self.view.moment.seconds_after(t_ns, id));
+        let offset = |id| at_time_of(id).position - self.reference(id).position;
+
+        let query = self.index_from_vehicle * middle;
+        let some = association.nearest(&query).iter().map(|neighbor| offset(neighbor.id).norm());
+        let bound = some.fold(0.0, f64::max);
+        association.nearest_by(&query, bound + half_way + ROUNDING, |id| Some(offset(id)));
+        association.mean_over_found(|id| association.mismatch(&at_time_of(id), &self.reference(id)))
     }
 
     /// The points nearest to a detection, in the vehicle frame at hand, nearest first; none where the cloud is empty.

@@ -20,7 +20,8 @@ impl Strength {
     pub fn new(radar: &Radar, scan: &RadarScan) -> Option<Self> {
         let field = radar.amplitude()?;
         let measured: Vec<f64> = scan.columns[field.column].iter().copied().map(f64::from).collect();
-        let losses = scan.spherical.iter().map(|place| 40.0 * place.range.max(NEAREST).log10());
+        let losses =
+            scan.spherical.iter().map(|place| 40.0 * place.range.clamp(NEAREST, f64::INFINITY).log10());
         Some(match field.kind {
             AmplitudeKind::CrossSection => {
                 let power = measured.iter().zip(losses).map(|(rcs, loss)| rcs - loss).collect();

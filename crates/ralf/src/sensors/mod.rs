@@ -6,6 +6,7 @@ mod image;
 mod intrinsics;
 mod measurement;
 mod rig;
+mod rolling;
 mod source;
 mod undistort;
 mod view;

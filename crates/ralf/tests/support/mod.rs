@@ -18,10 +18,12 @@ pub(crate) const MS: i64 = 1_000_000;
 #[derive(Debug)]
 pub(crate) struct Memory {
     pub(crate) sequence: Sequence,
-    /// Per radar and scan: x, y, z; none where the scan can't be read.
-    pub(crate) radar_scans: Vec<Vec<Option<Vec<[f32; 3]>>>>,
+    /// Per radar and scan: one row per detection of all its fields; none where the scan can't be read.
+    pub(crate) radar_scans: Vec<Vec<Option<Vec<Vec<f32>>>>>,
     /// Per LiDAR and scan.
     pub(crate) lidar_scans: Vec<Vec<Vec<[f32; 3]>>>,
+    /// Of every LiDAR scan.
+    pub(crate) point_times: Option<Vec<f32>>,
 }
 
 /// A radar at the vehicle's origin: 0.3 m, 0.01 rad, 0.02 rad.
@@ -63,14 +65,25 @@ impl Memory {
             motion: EgoMotion::new(odometry, vec![]).unwrap(),
             depth_output: DepthOutput::Depth,
         };
-        Self { sequence, radar_scans: vec![], lidar_scans: vec![] }
+        Self { sequence, radar_scans: vec![], lidar_scans: vec![], point_times: None }
     }
 
     /// With another radar and its scans.
-    pub(crate) fn radar(mut self, radar: Radar, scans: Vec<(i64, Option<Vec<[f32; 3]>>)>) -> Self {
+    pub(crate) fn radar(self, radar: Radar, scans: Vec<(i64, Option<Vec<[f32; 3]>>)>) -> Self {
+        let rows = |points: Vec<[f32; 3]>| points.into_iter().map(Vec::from).collect();
+        self.rows(radar, scans.into_iter().map(|(t_ns, points)| (t_ns, points.map(rows))).collect())
+    }
+
+    /// With another radar and its scans, a row of all its fields for each detection.
+    pub(crate) fn measured<const N: usize>(self, radar: Radar, scans: Vec<(i64, Vec<[f32; N]>)>) -> Self {
+        let rows = |rows: Vec<[f32; N]>| Some(rows.into_iter().map(Vec::from).collect());
+        self.rows(radar, scans.into_iter().map(|(t_ns, scan)| (t_ns, rows(scan))).collect())
+    }
+
+    fn rows(mut self, radar: Radar, scans: Vec<(i64, Option<Vec<Vec<f32>>>)>) -> Self {
         self.sequence.rig.radars.push(radar);
         self.sequence.times.radars.push(scans.iter().map(|(t_ns, _)| *t_ns).collect());
-        self.radar_scans.push(scans.into_iter().map(|(_, points)| points).collect());
+        self.radar_scans.push(scans.into_iter().map(|(_, rows)| rows).collect());
         self
     }
 
@@ -96,10 +109,12 @@ impl Source for Memory {
     }
 
     fn radar_scan(&self, radar: usize, scan: usize) -> Result<RadarScan, SourceError> {
-        let points = self.radar_scans[radar][scan].as_ref().ok_or("cut short")?;
-        let columns = (0..3).map(|axis| points.iter().map(|p| p[axis]).collect()).collect();
+        let rows = self.radar_scans[radar][scan].as_ref().ok_or("cut short")?;
+        let sensor = &self.sequence.rig.radars[radar];
+        let columns =
+            (0..sensor.fields.len()).map(|field| rows.iter().map(|row| row[field]).collect()).collect();
         let t_ns = self.sequence.times.radars[radar][scan];
-        Ok(RadarScan::new(&self.sequence.rig.radars[radar], t_ns, columns)?)
+        Ok(RadarScan::new(sensor, t_ns, columns)?)
     }
 
     fn lidar_scan(&self, lidar: usize, scan: usize) -> Result<LidarScan, SourceError> {
@@ -108,7 +123,7 @@ impl Source for Memory {
         Ok(LidarScan {
             t_ns: self.sequence.times.lidars[lidar][scan],
             points,
-            times: None,
+            times: self.point_times.clone(),
             intensity,
             classes: None,
         })

@@ -66,14 +66,11 @@ impl Source for Corrected {
     }
 
     fn lidar_scan(&self, lidar: usize, scan: usize) -> Result<LidarScan, SourceError> {
-        let mut read = self.inner.lidar_scan(lidar, scan)?;
-        let Some(correction) = self.lidars.get(lidar).copied().flatten() else { return Ok(read) };
-        read.t_ns = correction.time(read.t_ns);
-        if correction.position_factor != 1.0 {
-            let factor = correction.position_factor as f32;
-            read.points.iter_mut().flatten().for_each(|value| *value *= factor);
+        let Sequence { rig, motion, .. } = &self.sequence;
+        match self.rolling_scan(lidar, scan)? {
+            Some(rolling) => Ok(rolling.motion_corrected(&rig.lidars[lidar].vehicle_from_lidar, motion)),
+            None => Ok(self.with_lidar_corrected(lidar, self.inner.lidar_scan(lidar, scan)?)),
         }
-        Ok(read)
     }
 
     fn image(&self, camera: usize, image: usize) -> Result<CameraImage, SourceError> {
@@ -85,14 +82,27 @@ impl Source for Corrected {
     }
 }
 
-/// What a field's values are multiplied with.
+impl Corrected {
+    /// A LiDAR's scan with its time and its unit corrected.
+    fn with_lidar_corrected(&self, lidar: usize, mut read: LidarScan) -> LidarScan {
+        let Some(correction) = self.lidars.get(lidar).copied().flatten() else { return read };
+        read.t_ns = correction.time(read.t_ns);
+        if correction.position_factor != 1.0 {
+            let factor = correction.position_factor as f32;
+            read.points.iter_mut().flatten().for_each(|value| *value *= factor);
+        }
+        read
+    }
+}
+
+/// What a field's values are multiplied with. A mirrored velocity has its other component across, as a place has.
 fn factor(correction: &SensorCorrection, field: &str) -> f64 {
     let SensorCorrection { doppler_factor, position_factor, mirror_y, .. } = *correction;
     let mirror = if mirror_y { -1.0 } else { 1.0 };
     match field {
         "x" | "z" | "range" => position_factor,
         "y" => position_factor * mirror,
-        "azimuth" => mirror,
+        "azimuth" | "vy" | "vy_comp" => mirror,
         "doppler" => doppler_factor,
         _ => 1.0,
     }
@@ -135,7 +145,29 @@ impl SequenceReader for Corrected {
         self.inner.causes()
     }
 
+    fn rolling_scan(&self, lidar: usize, scan: usize) -> Result<Option<LidarScan>, SourceError> {
+        let rolling = self.inner.rolling_scan(lidar, scan)?;
+        Ok(rolling.map(|rolling| self.with_lidar_corrected(lidar, rolling)))
+    }
+
     fn motion_source(&self) -> MotionSource {
         self.source
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_mirrored_keeps_its_range_rates() {
+        // A detection ahead to the left, whose velocity lies along its ray.
+        let fields = ["x", "y", "vx", "vy", "vx_comp", "vy_comp", "vy_rms"];
+        let values = [4.0, 3.0, -8.0, -6.0, 0.8, 0.6, 14.0];
+        let mirrored = SensorCorrection { mirror_y: true, ..SensorCorrection::default() };
+        let [x, y, vx, vy, vx_comp, vy_comp, code]: [f64; 7] =
+            std::array::from_fn(|i| values[i] * factor(&mirrored, fields[i]));
+        assert_eq!((x, y, vy, code), (4.0, -3.0, 6.0, 14.0));
+        assert_eq!((x * vx + y * vy, x * vx_comp + y * vy_comp), (-50.0, 5.0), "as before");
     }
 }

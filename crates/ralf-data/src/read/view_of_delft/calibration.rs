@@ -5,7 +5,8 @@
 
 use super::raw::{Calib, read_odom_from_camera};
 use crate::error::DataError;
-use nalgebra::{Matrix3, Rotation3, Translation3, UnitQuaternion, Vector3};
+use crate::read::rotation::rotation;
+use nalgebra::{Matrix3, Translation3};
 use ralf::sensors::{Camera, Intrinsics};
 use ralf::space::Transform;
 use std::path::Path;
@@ -15,8 +16,6 @@ use std::path::Path;
 const LIDAR_X: f64 = 2.70 + 0.93 - 2.51;
 /// The LiDAR above the ground, m, measured by a plane fitted to the ground around the car.
 const LIDAR_Z: f64 = 1.49;
-/// Rotation matrices are printed with seven digits; what is farther from orthonormal than this is no rotation.
-const ORTHONORMAL_WITHIN: f64 = 1e-3;
 
 /// Where the LiDAR sits.
 pub(super) fn vehicle_from_lidar() -> Transform {
@@ -69,27 +68,6 @@ pub(super) fn odom_from_vehicle(file: &Path, mounting: &Mounting) -> Result<Tran
     let turn = rotation(file, "odomToCamera", Matrix3::new(a, b, c, d, e, f, g, h, i))?;
     let odom_from_camera = Transform::from_parts(Translation3::new(x, y, z), turn);
     Ok(odom_from_camera * mounting.vehicle_from_camera().inverse())
-}
-
-/// The rotation nearest to a matrix that is one up to its printed digits.
-fn rotation(file: &Path, place: &str, matrix: Matrix3<f64>) -> Result<UnitQuaternion<f64>, DataError> {
-    let off = (matrix.transpose() * matrix - Matrix3::identity()).abs().max();
-    if off <= ORTHONORMAL_WITHIN && matrix.determinant() > 0.0 {
-        return Ok(UnitQuaternion::from_rotation_matrix(&orthonormal(&matrix)));
-    }
-    Err(DataError::content(
-        file,
-        place,
-        format!("a rotation, orthonormal within {ORTHONORMAL_WITHIN}"),
-        format!("a matrix off by {off:.3e}, determinant {:.3}", matrix.determinant()),
-    ))
-}
-
-/// Columns of unit length at right angles. The first keeps its direction; the others move by less than was refused.
-fn orthonormal(matrix: &Matrix3<f64>) -> Rotation3<f64> {
-    let x: Vector3<f64> = matrix.column(0).normalize();
-    let z = x.cross(&matrix.column(1)).normalize();
-    Rotation3::from_basis_unchecked(&[x, z.cross(&x), z])
 }
 
 /// A pinhole without distortion, for the images are rectified: `P2` is `K [I | 0]`.

@@ -42,6 +42,8 @@ const RADARS: RadarRanges = RadarRanges {
     doppler_failure: span(0.0, 0.05),
     // Tapered arrays: 20 to 30 dB one-way; calibration errors raise them. Two-way with a uniform transmitter.
     side_lobe: span(17.0, 26.0),
+    // Chosen: radars that tell two things in one cell of range and range rate accept peaks 10 to 20 dB below another.
+    accepted: span(12.0, 20.0),
     angle_failure: span(0.02, 0.15),
     // 1,216 in four radars in the paper's recordings.
     room: span(250.0, 500.0),
@@ -56,8 +58,8 @@ const WAVES: WaveRanges = WaveRanges {
     texture: span(4.0, 7.5),
     // Reflection of facades at 77 GHz: glass and metal 0 to 3 dB, plaster and brick 5 to 12 (chosen).
     mirror_loss: span(2.0, 9.0),
-    // Insulating glass at 77 GHz takes 3 to 10 dB one-way; coated panes up to 30 (chosen).
-    window_loss: span(6.0, 24.0),
+    // Plain glass at 77 GHz takes 1 to 5 dB one-way, insulating glass up to 10, coated panes up to 30 (chosen).
+    window_loss: span(2.0, 20.0),
     // Foliage at millimetre waves: 1 to 3 dB per metre one-way in full leaf (ITU-R P.833).
     leaf_loss: span(1.5, 6.0),
     // Chosen: the absolute calibration of a sensor's cross-sections is off by some dB.

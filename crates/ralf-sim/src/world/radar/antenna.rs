@@ -9,8 +9,6 @@ use ralf::space::Spherical;
 
 /// How many of the strongest echoes have company.
 const STRONGEST: usize = 40;
-/// Peaks of the angle's spectrum so far below the highest are taken for things of their own, dB.
-const ACCEPTED_DB: f64 = 15.0;
 /// A wrong angle that leads less far than this from where the echo comes from is but an inexact one, m.
 const APART: f64 = 1.0;
 
@@ -26,7 +24,7 @@ pub(super) fn side_lobes(view: &View<'_>, merged: &[Echo], random: &mut Random) 
             let below = view.radar.side_lobe_db + height + (number.abs() - 1) as f64 + random.normal(3.0);
             let sine = echo.seen.azimuth.sin() + (number as f64 + 0.5 * number.signum() as f64) * width;
             let level = decibel(echo.power) - below;
-            if below > ACCEPTED_DB || sine.abs() >= 1.0 || level < view.radar.threshold_db {
+            if below > view.radar.accepted_db || sine.abs() >= 1.0 || level < view.radar.threshold_db {
                 continue;
             }
             let seen = Spherical { azimuth: sine.asin(), ..echo.seen };

@@ -1,12 +1,15 @@
-//! The floor that detections must rise above: noise, and what the cells around hold (CFAR by cell averaging).
+//! The floor that detections must rise above: noise, and what the cells around hold (CFAR by an ordered statistic,
+//! Rohling 1983, which few strong neighbours don't mask).
 
 use super::echo::Echo;
 use super::equation::{decibel, ratio};
 use super::model::RadarModel;
 use std::f64::consts::PI;
 
-/// Cells of range on each side that are averaged, and those next to the one asked about that are not.
+/// Cells of range on each side that are looked at, and those next to the one asked about that are not.
 const WINDOW: (usize, usize) = (8, 1);
+/// Which of them, in order, tells the floor.
+const RANK: f64 = 0.7;
 /// Sectors of azimuth.
 const SECTORS: usize = 16;
 
@@ -56,16 +59,14 @@ impl Floor {
     pub(super) fn level_db(&self, echo: &Echo) -> f64 {
         let [sector, bin] = self.place(echo);
         let sums = &self.sums[sector];
-        let mut around = 0.0;
-        let mut count = 0.0;
+        let mut around = Vec::with_capacity(2 * WINDOW.0);
         for distance in WINDOW.1 + 1..=WINDOW.0 {
             let near = [bin.checked_sub(distance), Some(bin + distance)];
-            for power in near.into_iter().flatten().filter_map(|bin| sums.get(bin)) {
-                around += power;
-                count += self.cells;
-            }
+            around.extend(near.into_iter().flatten().filter_map(|bin| sums.get(bin)));
         }
+        around.sort_by(f64::total_cmp);
+        let ranked = around.get((RANK * around.len() as f64) as usize).copied().unwrap_or(0.0);
         let others = (self.ring[bin] - sums[bin]).max(0.0);
-        decibel(self.noise + around / f64::max(count, 1.0) + self.leak * others)
+        decibel(self.noise + ranked / self.cells + self.leak * others)
     }
 }

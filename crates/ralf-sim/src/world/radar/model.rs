@@ -33,6 +33,8 @@ pub(crate) struct RadarModel {
     pub(crate) doppler_failure: f64,
     /// Side lobes lie so far below the main one, dB.
     pub(crate) side_lobe_db: f64,
+    /// Peaks of the angle's spectrum down to so far below the highest are taken for things of their own, dB.
+    pub(crate) accepted_db: f64,
     /// How often an angle is taken for another near the threshold.
     pub(crate) angle_failure: f64,
     /// By how much its sine is off then.

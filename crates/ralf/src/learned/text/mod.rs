@@ -10,7 +10,18 @@ use super::model::Model;
 /// The first line of every model.
 const HEAD: &str = "ralf model 1";
 
+/// What comes with the program.
+const SHIPPED: &str = include_str!("../../../models/shipped.txt");
+
 impl Model {
+    /// The model that comes with this version of the program.
+    ///
+    /// # Errors
+    /// None, as long as the program is whole; its tests read it.
+    pub fn shipped() -> Result<Self, ReadError> {
+        read::model(SHIPPED)
+    }
+
     /// The model as text. Every number is written so that it is read back to the bit.
     pub fn to_text(&self) -> String {
         write::text(self)

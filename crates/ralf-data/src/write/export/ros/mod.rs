@@ -31,6 +31,7 @@ use crate::disk::files;
 use crate::disk::files::{beside, remove};
 use crate::error::DataError;
 use crate::read::SequenceReader;
+use crate::read::recording::check_motion_corrected;
 use crate::result::{OutFolder, WriterLock};
 use ralf_ros::container::{Container, recognises};
 use ralf_ros::writer::{Compression, MessageWriter, WriteError};
@@ -110,6 +111,7 @@ pub fn write_ros(
     format: RosFormat,
     progress: &dyn Fn(usize),
 ) -> Result<Option<PathBuf>, DataError> {
+    check_motion_corrected(reader)?;
     let _lock = WriterLock::beside(file)?;
     let settings_file = settings_file(file);
     if let Some(there) = [file, &settings_file].into_iter().find(|file| file.exists()) {

@@ -1,0 +1,147 @@
+//! `ralf learn`: a model from recordings whose truth is known.
+
+mod text;
+mod worlds;
+
+use crate::arguments::{SettingsArgs, threads};
+use crate::outcome::{Outcome, UsageError};
+use crate::progress::{Progress, Stages, say};
+use crate::text::print;
+use anyhow::Context;
+use clap::Args;
+use ralf::learned::Origin;
+use ralf_data::run::NotLabelled;
+use ralf_data::{GroundTruth, TrainingGatherer, TrainingTruth, write_whole};
+use ralf_train::learning::{Fitting, Parameters, TrainingTable, fit};
+use std::num::NonZeroUsize;
+use std::path::PathBuf;
+use worlds::WorldArgs;
+
+/// Arguments of `ralf learn`.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Fits gradient-boosted trees to all evidence of detections whose truth is known (docs/learned.md). Recordings of one \
+DATASET are a world; of a single DATASET every sequence is one. A model is judged in each world by one that was fitted \
+to all the others, and that is what is printed and stands in the model's file. The same recordings, settings and seed \
+give the same file.
+
+Examples:
+  ralf learn town motorway yard -o model.txt           recordings in RALF's layout, with ground_truth
+  ralf learn --preset worlds -o model.txt              simulated on the way: the shipped model
+  ralf learn --preset worlds --seeds 1 --scans 40 -o quick.txt
+  ralf label recordings/city -o out --method learned --model model.txt")]
+pub(crate) struct LearnArgs {
+    /// Recordings with corrected labels; each is a world
+    #[arg(value_name = "DATASET", required_unless_present = "preset")]
+    datasets: Vec<PathBuf>,
+    /// The model's file
+    #[arg(short, long = "output", visible_alias = "out", value_name = "MODEL")]
+    output: PathBuf,
+    #[command(flatten)]
+    worlds: WorldArgs,
+    /// Trees
+    #[arg(long, value_name = "N", default_value_t = Parameters::default().rounds)]
+    rounds: usize,
+    /// Most leaves of a tree
+    #[arg(long, value_name = "N", default_value_t = Parameters::default().leaves)]
+    leaves: usize,
+    /// Leave no group of evidence out of any scan: a model that knows no missing sensor
+    #[arg(long)]
+    no_blanking: bool,
+    /// Of every random choice; the same seed fits the same model
+    #[arg(long, value_name = "S", default_value_t = 0)]
+    seed: u64,
+    #[command(flatten)]
+    settings: SettingsArgs,
+    /// Scans and forests side by side; as many as there are processors if not given
+    #[arg(long, value_name = "N")]
+    jobs: Option<NonZeroUsize>,
+    /// Print what the model is worth as JSON
+    #[arg(long)]
+    json: bool,
+    /// No progress
+    #[arg(short, long)]
+    quiet: bool,
+}
+
+/// Gathers, fits, writes and prints what the model is worth.
+pub(crate) fn run(arguments: &LearnArgs) -> anyhow::Result<Outcome> {
+    if arguments.output.is_dir() {
+        let file = arguments.output.display();
+        return Err(UsageError(format!("--output: expected a file, found the folder {file}")).into());
+    }
+    let settings = arguments.settings.resolve()?;
+    let stages = Stages::new(arguments.quiet);
+    let jobs = threads(arguments.jobs);
+    let gatherer =
+        TrainingGatherer { config: &settings.method, seed: arguments.seed, jobs, observer: &stages };
+    let mut table = gatherer.table();
+    let mut outcome = arguments.gather(&gatherer, &settings, &mut table)?;
+    outcome = outcome.and(arguments.worlds.gather(&gatherer, &mut table)?);
+    let fitting = Fitting {
+        parameters: Parameters {
+            rounds: arguments.rounds,
+            leaves: arguments.leaves,
+            seed: arguments.seed,
+            ..Parameters::default()
+        },
+        blanking: !arguments.no_blanking,
+        causes: true,
+        threshold: settings.method.fusion.threshold,
+        jobs,
+    };
+    let progress = if arguments.quiet { Progress::hidden() } else { Progress::of_steps(0, "fitting") };
+    let fitted =
+        fit(&table, &fitting, arguments.origin(), &|done, of| progress.reached_of(done as u64, of as u64))?;
+    drop(progress);
+    write_whole(&arguments.output, fitted.model.to_text().as_bytes())?;
+    print(&if arguments.json { text::json(&fitted)? } else { text::page(&fitted) })?;
+    Ok(outcome)
+}
+
+impl LearnArgs {
+    /// Adds what the recordings hold.
+    fn gather(
+        &self,
+        gatherer: &TrainingGatherer,
+        settings: &ralf_data::Settings,
+        table: &mut TrainingTable,
+    ) -> anyhow::Result<Outcome> {
+        let mut outcome = Outcome::Done;
+        for dataset in &self.datasets {
+            let recording = settings.correct(ralf_data::open_with(dataset, None, &settings.topics)?)?;
+            let truth = GroundTruth::open(&recording.path)?;
+            let name = dataset.canonicalize().unwrap_or_else(|_| dataset.clone());
+            let name = name.file_name().map(|name| name.to_string_lossy().into_owned());
+            let name = name.with_context(|| dataset.display().to_string())?;
+            let world = (self.datasets.len() > 1 || self.worlds.are_asked()).then_some(name.as_str());
+            let left_out = gatherer.add(table, world, &recording, TrainingTruth::Said(&truth))?;
+            outcome = outcome.and(named(&left_out));
+        }
+        Ok(outcome)
+    }
+
+    /// Where the model comes from: the command without what doesn't change it.
+    fn origin(&self) -> Origin {
+        let datasets: String =
+            self.datasets.iter().map(|dataset| format!(" {}", dataset.display())).collect();
+        let blanking = if self.no_blanking { " --no-blanking" } else { "" };
+        let command = format!(
+            "ralf learn{datasets}{} --rounds {} --leaves {}{blanking} --seed {}{}",
+            self.worlds.told(),
+            self.rounds,
+            self.leaves,
+            self.seed,
+            self.settings.told(),
+        );
+        Origin { program: ralf_data::program(), command, seed: self.seed, worlds: Vec::new() }
+    }
+}
+
+/// Names the scans that were left out.
+fn named(left_out: &[NotLabelled]) -> Outcome {
+    for NotLabelled { radar, scan, reason } in left_out {
+        say(&format!("left out: {radar} scan {scan}: {reason}"));
+    }
+    if left_out.is_empty() { Outcome::Done } else { Outcome::Partial }
+}

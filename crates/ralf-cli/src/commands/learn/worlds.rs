@@ -1,0 +1,79 @@
+//! Worlds to learn in that are simulated on the way.
+
+use super::named;
+use crate::outcome::Outcome;
+use clap::Args;
+use clap::builder::PossibleValuesParser;
+use ralf_data::{Recording, SequenceReader, TrainingGatherer, TrainingTruth};
+use ralf_sim::world::{self, FAMILIES, Family};
+use ralf_train::learning::TrainingTable;
+use std::path::PathBuf;
+
+/// Which worlds.
+#[derive(Debug, Args)]
+pub(super) struct WorldArgs {
+    /// Simulate worlds to learn in, too
+    #[arg(long, value_parser = PossibleValuesParser::new(["worlds"]))]
+    preset: Option<String>,
+    /// Worlds of each family
+    #[arg(long, value_name = "N", default_value_t = 2, requires = "preset")]
+    seeds: u64,
+    /// Scans of each radar in each world, over all of its sequences
+    #[arg(long, value_name = "N", default_value_t = 48, requires = "preset",
+        value_parser = clap::value_parser!(u32).range(1..))]
+    scans: u32,
+    /// Leave these families out, to judge the model in them
+    #[arg(long, value_name = "FAMILY,...", value_delimiter = ',', requires = "preset",
+        value_parser = PossibleValuesParser::new(FAMILIES.iter().map(|family| family.name)))]
+    without: Vec<String>,
+}
+
+impl WorldArgs {
+    /// Whether any are.
+    pub(super) fn are_asked(&self) -> bool {
+        self.preset.is_some()
+    }
+
+    /// As they were typed.
+    pub(super) fn told(&self) -> String {
+        if !self.are_asked() {
+            return String::new();
+        }
+        let without = if self.without.is_empty() {
+            String::new()
+        } else {
+            format!(" --without {}", self.without.join(","))
+        };
+        format!(" --preset worlds --seeds {} --scans {}{without}", self.seeds, self.scans)
+    }
+
+    /// Adds every family's worlds; a family is what is left out at a time.
+    pub(super) fn gather(
+        &self,
+        gatherer: &TrainingGatherer,
+        table: &mut TrainingTable,
+    ) -> anyhow::Result<Outcome> {
+        let mut outcome = Outcome::Done;
+        if !self.are_asked() {
+            return Ok(outcome);
+        }
+        for family in FAMILIES.iter().filter(|family| !self.without.iter().any(|name| name == family.name)) {
+            for seed in 0..self.seeds {
+                let recording = self.recording(family, seed)?;
+                let left_out = gatherer.add(table, Some(family.name), &recording, TrainingTruth::Known)?;
+                outcome = outcome.and(named(&left_out));
+            }
+        }
+        Ok(outcome)
+    }
+
+    fn recording(&self, family: &'static Family, seed: u64) -> anyhow::Result<Recording> {
+        let world = world::Recording::new(family, seed);
+        let mut sequences: Vec<Box<dyn SequenceReader>> = Vec::new();
+        for (index, scans) in world.spread(Some(self.scans as usize)).into_iter().enumerate() {
+            sequences.push(Box::new(world.sequence(index, scans)?));
+        }
+        let path = PathBuf::from(format!("{} {seed}", family.name));
+        Ok(Recording { path, format: "simulated", sequences })
+    }
+}

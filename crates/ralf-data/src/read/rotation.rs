@@ -1,0 +1,33 @@
+//! Rotations out of printed matrices.
+
+use crate::error::DataError;
+use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
+use std::path::Path;
+
+/// Matrices are printed with a few digits; what is farther from orthonormal than this is no rotation.
+const ORTHONORMAL_WITHIN: f64 = 1e-3;
+
+/// The rotation nearest to a matrix that is one up to its printed digits.
+pub(crate) fn rotation(
+    file: &Path,
+    place: &str,
+    matrix: Matrix3<f64>,
+) -> Result<UnitQuaternion<f64>, DataError> {
+    let off = (matrix.transpose() * matrix - Matrix3::identity()).abs().max();
+    if off <= ORTHONORMAL_WITHIN && matrix.determinant() > 0.0 {
+        return Ok(UnitQuaternion::from_rotation_matrix(&orthonormal(&matrix)));
+    }
+    Err(DataError::content(
+        file,
+        place,
+        format!("a rotation, orthonormal within {ORTHONORMAL_WITHIN}"),
+        format!("a matrix off by {off:.3e}, determinant {:.3}", matrix.determinant()),
+    ))
+}
+
+/// Columns of unit length at right angles. The first keeps its direction; the others move by less than was refused.
+fn orthonormal(matrix: &Matrix3<f64>) -> Rotation3<f64> {
+    let x: Vector3<f64> = matrix.column(0).normalize();
+    let z = x.cross(&matrix.column(1)).normalize();
+    Rotation3::from_basis_unchecked(&[x, z.cross(&x), z])
+}

@@ -1,0 +1,78 @@
+//! The columns of what a model says besides its plausibility (docs/learned.md).
+
+use super::schema::{Column, Group, Kind};
+use ralf::evidence::GROUPS;
+use ralf::learned::Answer;
+use std::sync::Arc;
+
+const NOVELTY: &str = "novelty";
+const CAUSE: &str = "cause";
+const CAUSE_PROBABILITY: &str = "cause_probability";
+const REASON: &str = "reason";
+/// Before the name of a group.
+const SHARE: &str = "reason_";
+
+/// The columns, in their order.
+pub(crate) fn learned_columns() -> Vec<Column> {
+    let number = |name: String, unit, meaning| Column {
+        name: name.into(),
+        kind: Kind::F32,
+        unit,
+        meaning,
+        group: Group::Evidence,
+    };
+    let text = |name: &'static str, meaning| Column {
+        name: name.into(),
+        kind: Kind::Text,
+        unit: "",
+        meaning,
+        group: Group::Words,
+    };
+    let mut columns = vec![number(
+        NOVELTY.to_owned(),
+        "1",
+        "The share of the evidence, by its worth to the model, that is unlike what the model was trained on.",
+    )];
+    for group in GROUPS {
+        let meaning = "What the evidence of this group adds to the log odds that the detection is plausible.";
+        columns.push(number(share_name(group), "log odds", meaning));
+    }
+    let meaning = "The share of the cause among all causes.";
+    columns.push(number(CAUSE_PROBABILITY.to_owned(), "1", meaning));
+    columns.push(text(
+        CAUSE,
+        "Why the detection is an artifact, or that it is unclear; empty where it is none.",
+    ));
+    columns.push(text(REASON, "What adds most to the log odds that the detection is plausible, in words."));
+    columns
+}
+
+/// `LiDAR rays` is `reason_lidar_rays`.
+fn share_name(group: &str) -> String {
+    format!("{SHARE}{}", group.to_lowercase().replace(' ', "_"))
+}
+
+/// A column's number of each detection; `None` of a column that is no number of a model's.
+pub(crate) fn numbers(name: &str, answers: &[Answer]) -> Option<Vec<f32>> {
+    let of: Box<dyn Fn(&Answer) -> Option<f64>> = match name {
+        NOVELTY => Box::new(|answer| answer.novelty),
+        CAUSE_PROBABILITY => Box::new(|answer| answer.cause.as_ref().map(|cause| cause.probability)),
+        _ => {
+            let group = GROUPS.iter().position(|group| share_name(group) == name)?;
+            Box::new(move |answer| answer.shares.get(group).copied())
+        }
+    };
+    Some(answers.iter().map(|answer| of(answer).map_or(f32::NAN, |value| value as f32)).collect())
+}
+
+/// A column's words of each detection; `None` of a column that holds none.
+pub(crate) fn words(name: &str, answers: &[Answer]) -> Option<Vec<Arc<str>>> {
+    let of = |answer: &Answer| -> Option<Arc<str>> {
+        match name {
+            CAUSE => Some(answer.cause.as_ref().map_or("", |cause| &cause.name).into()),
+            REASON => Some(answer.reason.as_str().into()),
+            _ => None,
+        }
+    };
+    answers.iter().map(of).collect()
+}

@@ -1,0 +1,217 @@
+//! Evidence and truth of all scans with truth: what a model is fitted to (docs/learned.md).
+
+use crate::error::DataError;
+use crate::frames::{Frames, ScanIndex, all_scans};
+use crate::read::{Recording, SequenceReader};
+use crate::run::{NotLabelled, Observer, Stage, rig_of};
+use crate::truth::{Causes, GroundTruth, ScanId};
+use ralf::config::Config;
+use ralf::evidence::{features, observe};
+use ralf::label::{Cause, truth_of};
+use ralf::learned::Rows;
+use ralf::paper::Labeler;
+use ralf::scene::{Frame, FrameWindow};
+use ralf::sensors::Rig;
+use ralf_train::learning::{Known, TrainingTable, View};
+
+/// What is gathered from a recording, and how.
+pub struct TrainingGatherer<'a> {
+    /// With these settings.
+    pub config: &'a Config,
+    /// Of what is drawn: which scans are also seen as if less could be observed.
+    pub seed: u64,
+    /// Threads; the result doesn't depend on it.
+    pub jobs: usize,
+    /// Is told how it gets on.
+    pub observer: &'a dyn Observer,
+}
+
+/// Where a recording's truth is.
+#[derive(Clone, Copy)]
+pub enum TrainingTruth<'a> {
+    /// Its readers know it: it is simulated.
+    Known,
+    /// In files, and in what people corrected.
+    Said(&'a GroundTruth),
+}
+
+impl TrainingGatherer<'_> {
+    /// A table without rows.
+    pub fn table(&self) -> TrainingTable {
+        TrainingTable::new(features().collect())
+    }
+
+    /// Adds all detections with truth of a recording to a table, as those of a world of this name; without one, every
+    /// sequence is a world. Scans that can't be read are left out, and told.
+    ///
+    /// # Errors
+    /// Truth that doesn't fit the recording, or settings that don't.
+    pub fn add(
+        &self,
+        table: &mut TrainingTable,
+        world: Option<&str>,
+        recording: &Recording,
+        truth: TrainingTruth,
+    ) -> Result<Vec<NotLabelled>, DataError> {
+        let mut left_out = Vec::new();
+        for reader in &recording.sequences {
+            let reader = reader.as_ref();
+            let rig = rig_of(recording, reader, self.config)?;
+            let causes = match truth {
+                TrainingTruth::Known => None,
+                TrainingTruth::Said(_) => Causes::find(&recording.path, &reader.sequence().name)?,
+            };
+            let task = Task { gatherer: self, reader, rig, truth, causes };
+            let first_scan = table.known.last().map_or(0, |known| known.scan + 1);
+            let number = table.world(world.unwrap_or(&reader.sequence().name));
+            for (scan, gathered) in task.gather()?.into_iter().enumerate() {
+                match gathered {
+                    Ok(parts) => {
+                        for part in parts {
+                            let scan = first_scan + scan as u32;
+                            let known =
+                                part.known.into_iter().map(|known| Known { world: number, scan, ..known });
+                            table.append(&part.rows, known);
+                        }
+                    }
+                    Err(reason) => left_out.push(reason),
+                }
+            }
+        }
+        Ok(left_out)
+    }
+}
+
+/// One sequence.
+struct Task<'a> {
+    gatherer: &'a TrainingGatherer<'a>,
+    reader: &'a dyn SequenceReader,
+    rig: Rig,
+    truth: TrainingTruth<'a>,
+    causes: Option<Causes>,
+}
+
+/// The detections with truth of one scan, seen in one way.
+struct Part {
+    rows: Rows,
+    known: Vec<Known>,
+}
+
+/// What is true of a detection.
+#[derive(Debug, Clone, Copy)]
+struct True {
+    plausible: Option<bool>,
+    cause: u8,
+}
+
+impl Task<'_> {
+    fn gather(&self) -> Result<Vec<Result<Vec<Part>, NotLabelled>>, DataError> {
+        let TrainingGatherer { config, jobs, observer, .. } = *self.gatherer;
+        let sequence = self.reader.sequence();
+        let mut scans = all_scans(&sequence.times);
+        if let TrainingTruth::Said(truth) = self.truth {
+            scans.retain(|scan| truth.scans().contains(&self.id(*scan)));
+        }
+        observer.begin(Stage::Gathering(&sequence.name), scans.len() as u64);
+        let frames = Frames { reader: self.reader, rig: &self.rig, config, evidence: true, jobs };
+        let gathered = frames.each(&scans, |window, at| self.gather_scan(window, scans[at]));
+        observer.end();
+        gathered
+    }
+
+    fn gather_scan(
+        &self,
+        window: &mut FrameWindow,
+        place: ScanIndex,
+    ) -> Result<Result<Vec<Part>, NotLabelled>, DataError> {
+        let frame = match window.frame(place.radar, place.scan) {
+            Ok(frame) => frame,
+            Err(error) => return Ok(Err(self.left_out(place, error.to_string()))),
+        };
+        let truth = match self.true_of(place, frame.scan.len())? {
+            Ok(truth) => truth,
+            Err(reason) => return Ok(Err(self.left_out(place, reason))),
+        };
+        let mut parts = vec![self.part(&frame, View::Whole, &truth)];
+        let t_ns = frame.scan.t_ns().cast_unsigned();
+        let number = t_ns.wrapping_mul(31).wrapping_add(place.radar as u64);
+        if let Some(view) = View::drawn(self.gatherer.seed, number) {
+            parts.push(self.part(&view.of(&frame), view, &truth));
+        }
+        self.gatherer.observer.advance(1, frame.scan.len() as u64);
+        Ok(Ok(parts))
+    }
+
+    /// What is observed of the detections whose truth is known.
+    fn part(&self, frame: &Frame, view: View, truth: &[True]) -> Part {
+        let config = self.gatherer.config;
+        let labels = Labeler::new(config).label(frame);
+        let columns = observe(frame, config);
+        let mut rows = Rows::absent(frame.scan.len(), columns.len());
+        for (place, column) in columns.iter().enumerate() {
+            rows.set_column(place, &column.values);
+        }
+        let (mut kept, mut known) = (Vec::new(), Vec::new());
+        for (row, (truth, label)) in truth.iter().zip(&labels).enumerate() {
+            // A detection without a place has no evidence.
+            let (Some(plausible), Some(_)) = (truth.plausible, &frame.scan.detections[row]) else { continue };
+            kept.push(row);
+            known.push(Known {
+                world: 0,
+                scan: 0,
+                view,
+                plausible,
+                cause: truth.cause,
+                paper: label.w as f32,
+                paper_label: label.plausible,
+                weight: 1.0,
+            });
+        }
+        Part { rows: rows.pick(kept.into_iter()), known }
+    }
+
+    /// What is true of a scan's detections, or why nobody knows.
+    fn true_of(&self, place: ScanIndex, detections: usize) -> Result<Result<Vec<True>, String>, DataError> {
+        let (labels, causes, file) = match self.truth {
+            TrainingTruth::Known => match self.reader.truth(place.radar, place.scan) {
+                Ok(Some(truth)) => (truth.labels, truth.causes, String::new()),
+                Ok(None) => return Ok(Err("its truth is not known".to_owned())),
+                Err(error) => return Ok(Err(error.to_string())),
+            },
+            TrainingTruth::Said(truth) => {
+                let id = self.id(place);
+                let labels = truth.labels(&id)?;
+                let causes = self.causes_of(&id, labels.len())?;
+                (labels, causes, truth.file(&id).display().to_string())
+            }
+        };
+        if labels.len() != detections {
+            let expected = format!("{detections} as in the scan");
+            let file = std::path::Path::new(&file);
+            return Err(DataError::content(file, "number of labels", expected, labels.len().to_string()));
+        }
+        let cause = |row: usize| causes.get(row).copied().unwrap_or(0);
+        let rows = labels.iter().enumerate();
+        Ok(Ok(rows.map(|(row, label)| True { plausible: truth_of(label.id), cause: cause(row) }).collect()))
+    }
+
+    /// The numbers of the causes that a file tells; none where there is no file.
+    fn causes_of(&self, id: &ScanId, detections: usize) -> Result<Vec<u8>, DataError> {
+        let Some(causes) = &self.causes else { return Ok(Vec::new()) };
+        let codes = causes.of_scan(id, detections)?.unwrap_or_default();
+        let number = |code: &u8| {
+            let name = &causes.names()[usize::from(*code)];
+            Cause::ALL.iter().find(|cause| cause.name() == name).map_or(0, |cause| *cause as u8)
+        };
+        Ok(codes.iter().map(number).collect())
+    }
+
+    fn id(&self, place: ScanIndex) -> ScanId {
+        let radar = self.rig.radars[place.radar].name.clone();
+        ScanId { sequence: self.reader.sequence().name.clone(), radar, scan: place.scan as u32 }
+    }
+
+    fn left_out(&self, place: ScanIndex, reason: String) -> NotLabelled {
+        NotLabelled { radar: self.rig.radars[place.radar].name.clone(), scan: place.scan, reason }
+    }
+}

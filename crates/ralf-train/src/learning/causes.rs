@@ -1,0 +1,40 @@
+//! Why artifacts are such: a forest for each cause, of artifacts alone.
+
+use super::boosting::{Bins, Examples, Parameters, boost};
+use super::fit::Fitting;
+use super::side_by_side::side_by_side;
+use super::table::TrainingTable;
+use ralf::label::Cause;
+use ralf::learned::{CauseForest, Rows};
+
+/// Rows of a cause from which it can be learned.
+const FEWEST: usize = 100;
+/// What a cause's forest is smaller by: there is one for each.
+const PARTS: usize = 4;
+
+/// The forest of each cause that enough rows have, in the causes' order.
+pub(super) fn cause_forests(
+    table: &TrainingTable,
+    rows: &Rows,
+    bins: &Bins,
+    fitting: &Fitting,
+) -> Vec<CauseForest> {
+    let of_known_cause =
+        |row: &u32| table.known[*row as usize].cause != 0 && !table.known[*row as usize].plausible;
+    let train: Vec<u32> = (0..table.len() as u32).filter(of_known_cause).collect();
+    let count =
+        |cause: &Cause| train.iter().filter(|row| table.known[**row as usize].cause == *cause as u8).count();
+    let causes: Vec<Cause> = Cause::ALL.into_iter().skip(1).filter(|cause| count(cause) >= FEWEST).collect();
+    let weights: Vec<f32> = table.known.iter().map(|known| known.weight).collect();
+    let either_way = vec![0; table.features.len()];
+    let parameters = Parameters {
+        rounds: fitting.parameters.rounds.div_ceil(PARTS),
+        leaves: fitting.parameters.leaves.div_ceil(2).max(2),
+        ..fitting.parameters.clone()
+    };
+    side_by_side(&causes, fitting.jobs, |cause| {
+        let target: Vec<bool> = table.known.iter().map(|known| known.cause == *cause as u8).collect();
+        let examples = Examples { rows, bins, target: &target, weights: &weights, monotone: &either_way };
+        CauseForest { name: cause.name().to_owned(), forest: boost(&examples, &train, &parameters).forest }
+    })
+}

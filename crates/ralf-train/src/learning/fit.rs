@@ -1,0 +1,329 @@
+//! From a table to a model: cross-fitted, judged and calibrated world by world.
+
+use super::blanking::blanked;
+use super::boosting::{Bins, Examples, Grown, Parameters, boost};
+use super::calibrate::{Answered, calibration};
+use super::causes::cause_forests;
+use super::monotone::direction;
+use super::scores::{Judged, Scores, best_threshold};
+use super::side_by_side::side_by_side;
+use super::table::TrainingTable;
+use super::view::View;
+use ralf::learned::{Input, Model, Origin, Rows, Seen, World};
+use thiserror::Error;
+
+/// How a model is fitted.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Fitting {
+    /// Of the trees.
+    pub parameters: Parameters,
+    /// Whether whole groups of evidence lack in some scans of the training.
+    pub blanking: bool,
+    /// Whether causes are learned, too.
+    pub causes: bool,
+    /// `w0`: what is labelled plausible.
+    pub threshold: f64,
+    /// Forests grown side by side; the result doesn't depend on it.
+    pub jobs: usize,
+}
+
+/// A model with what it is worth.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Fitted {
+    /// Fitted to all worlds.
+    pub model: Model,
+    /// How well models do that never saw a world, by world.
+    pub left_out: Vec<LeftOut>,
+}
+
+/// How well a model labels a world that it was not fitted to.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LeftOut {
+    /// The world.
+    pub world: String,
+    /// Detections.
+    pub detections: usize,
+    /// Plausible ones.
+    pub plausible: usize,
+    /// What the model is worth at the threshold that is best in the other worlds, with all evidence.
+    pub learned: Scores,
+    /// The same at the threshold of the settings.
+    pub at_threshold: Scores,
+    /// What the paper's method is worth, with its settings.
+    pub paper: Scores,
+    /// What the model is worth where less can be observed.
+    pub views: Vec<(View, Scores)>,
+}
+
+/// Why no model can be fitted.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+pub enum LearnError {
+    /// Nothing is learned from one class.
+    #[error("expected plausible detections and artifacts to learn from, found {plausible} and {artifacts}")]
+    OneClass {
+        /// How many are plausible.
+        plausible: usize,
+        /// How many are not.
+        artifacts: usize,
+    },
+    /// Leaving one out must leave another.
+    #[error(
+        "expected recordings of two worlds or more, so that one can be left out and judged by; found {0}"
+    )]
+    TooFewWorlds(usize),
+}
+
+/// What forests are grown of.
+struct Ground<'a> {
+    table: &'a TrainingTable,
+    /// As they are fitted to: with groups blanked.
+    rows: Rows,
+    bins: Bins,
+    target: Vec<bool>,
+    weights: Vec<f32>,
+    monotone: Vec<i8>,
+}
+
+/// Fits a model to a table. `origin` names where it comes from; its worlds are filled in here. `progress` is told how
+/// many forests of how many are grown.
+///
+/// # Errors
+/// A table of one class, or of fewer than two worlds.
+pub fn fit(
+    table: &TrainingTable,
+    fitting: &Fitting,
+    origin: Origin,
+    progress: &(dyn Fn(usize, usize) + Sync),
+) -> Result<Fitted, LearnError> {
+    refuse_what_cannot_be_learned(table)?;
+    let ground = Ground::new(table, fitting);
+    let worlds = table.worlds.len();
+    // One forest without each world, and the last with all.
+    let left_out: Vec<Option<u16>> = (0..worlds).map(|world| Some(world as u16)).chain([None]).collect();
+    let done = std::sync::atomic::AtomicUsize::new(0);
+    let mut grown = side_by_side(&left_out, fitting.jobs, |left_out| {
+        let grown = ground.grow(*left_out, &fitting.parameters);
+        progress(done.fetch_add(1, std::sync::atomic::Ordering::Relaxed) + 1, worlds + 1);
+        grown
+    });
+    let Some(whole) = grown.pop() else { return Err(LearnError::TooFewWorlds(0)) };
+    let log_odds = out_of_fold(table, &grown);
+    let left_out = judge(table, &log_odds, fitting.threshold);
+    let everywhere = calibration(&answered(table, &log_odds, |_| true));
+    let causes =
+        if fitting.causes { cause_forests(table, &ground.rows, &ground.bins, fitting) } else { Vec::new() };
+    let model = Model {
+        origin: Origin { worlds: left_out.iter().map(LeftOut::told).collect(), ..origin },
+        inputs: inputs(table, &whole.gains),
+        plausible: whole.forest,
+        calibration: everywhere,
+        causes,
+    };
+    Ok(Fitted { model, left_out })
+}
+
+fn refuse_what_cannot_be_learned(table: &TrainingTable) -> Result<(), LearnError> {
+    let plausible = table.known.iter().filter(|known| known.plausible).count();
+    let artifacts = table.len() - plausible;
+    if plausible == 0 || artifacts == 0 {
+        return Err(LearnError::OneClass { plausible, artifacts });
+    }
+    let worlds = table.worlds.len();
+    if worlds < 2 { Err(LearnError::TooFewWorlds(worlds)) } else { Ok(()) }
+}
+
+impl<'a> Ground<'a> {
+    fn new(table: &'a TrainingTable, fitting: &Fitting) -> Self {
+        let rows =
+            if fitting.blanking { blanked(table, fitting.parameters.seed) } else { table.rows.clone() };
+        let bins = Bins::new(&rows);
+        Self {
+            table,
+            bins,
+            rows,
+            target: table.known.iter().map(|known| known.plausible).collect(),
+            weights: table.known.iter().map(|known| known.weight).collect(),
+            monotone: table.features.iter().map(|feature| direction(feature.name)).collect(),
+        }
+    }
+
+    fn grow(&self, left_out: Option<u16>, parameters: &Parameters) -> Grown {
+        let known = self.table.known.iter().enumerate();
+        let train: Vec<u32> =
+            known.filter(|(_, known)| Some(known.world) != left_out).map(|(row, _)| row as u32).collect();
+        let examples = Examples {
+            rows: &self.rows,
+            bins: &self.bins,
+            target: &self.target,
+            weights: &self.weights,
+            monotone: &self.monotone,
+        };
+        boost(&examples, &train, parameters)
+    }
+}
+
+/// The log odds of every row by the forest that was grown without its world; of what was observed, nothing blanked.
+fn out_of_fold(table: &TrainingTable, grown: &[Grown]) -> Vec<f64> {
+    let mut log_odds = vec![0.0; table.len()];
+    for (world, grown) in grown.iter().enumerate() {
+        let places: Vec<usize> =
+            (0..table.len()).filter(|row| usize::from(table.known[*row].world) == world).collect();
+        let answers = grown.forest.log_odds(&table.rows.pick(places.iter().copied()));
+        for (row, answer) in places.into_iter().zip(answers) {
+            log_odds[row] = answer;
+        }
+    }
+    log_odds
+}
+
+/// Rows of some worlds, in which every world counts the same.
+fn answered(table: &TrainingTable, log_odds: &[f64], of: impl Fn(u16) -> bool) -> Vec<Answered> {
+    let mut rows = vec![0.0; table.worlds.len()];
+    for known in &table.known {
+        rows[usize::from(known.world)] += 1.0;
+    }
+    let worlds = rows.iter().filter(|rows| **rows > 0.0).count() as f64;
+    let mut found = Vec::new();
+    for (known, log_odds) in table.known.iter().zip(log_odds).filter(|(known, _)| of(known.world)) {
+        let weight = table.len() as f64 / (worlds * rows[usize::from(known.world)]);
+        found.push(Answered { log_odds: *log_odds, plausible: known.plausible, weight });
+    }
+    found
+}
+
+/// Every world by the others' calibration and threshold.
+fn judge(table: &TrainingTable, log_odds: &[f64], threshold: f64) -> Vec<LeftOut> {
+    let mut all = Vec::new();
+    for (number, name) in table.worlds.iter().enumerate() {
+        let number = number as u16;
+        let line = calibration(&answered(table, log_odds, |world| world != number));
+        let judged = |here: &dyn Fn(u16) -> bool, view: View| -> Vec<Judged> {
+            let rows = table.known.iter().zip(log_odds);
+            let rows = rows.filter(|(known, _)| here(known.world) && known.view == view);
+            rows.map(|(known, log_odds)| Judged {
+                score: line.probability(*log_odds),
+                plausible: known.plausible,
+            })
+            .collect()
+        };
+        let elsewhere = best_threshold(&judged(&|world| world != number, View::Whole));
+        let here = judged(&|world| world == number, View::Whole);
+        let mut views = Vec::new();
+        for view in View::ALL.into_iter().filter(|view| *view != View::Whole) {
+            let rows = judged(&|world| world == number, view);
+            if !rows.is_empty() {
+                views.push((view, Scores::new(&rows, elsewhere)));
+            }
+        }
+        all.push(LeftOut {
+            world: name.clone(),
+            detections: here.len(),
+            plausible: here.iter().filter(|row| row.plausible).count(),
+            learned: Scores::new(&here, elsewhere),
+            at_threshold: Scores::new(&here, threshold),
+            paper: paper(table, number),
+            views,
+        });
+    }
+    all
+}
+
+/// What the paper's method is worth in a world.
+fn paper(table: &TrainingTable, world: u16) -> Scores {
+    let rows = || table.known.iter().filter(|known| known.world == world && known.view == View::Whole);
+    let score =
+        |known: &super::table::Known| Judged { score: known.paper.into(), plausible: known.plausible };
+    let label = |known: &super::table::Known| Judged {
+        score: if known.paper_label { 1.0 } else { 0.0 },
+        plausible: known.plausible,
+    };
+    let by_label = Scores::new(&rows().map(label).collect::<Vec<_>>(), 0.5);
+    let by_w = Scores::new(&rows().map(score).collect::<Vec<_>>(), 0.5);
+    Scores { f1: by_label.f1, accuracy: by_label.accuracy, ..by_w }
+}
+
+impl LeftOut {
+    /// For the model's file.
+    fn told(&self) -> World {
+        let mut scores = Vec::new();
+        for (of, measured) in [("", &self.learned), ("paper_", &self.paper)] {
+            for (name, value) in measured.named() {
+                scores.extend(value.map(|value| (format!("{of}{name}"), format!("{value:.4}"))));
+            }
+        }
+        let (detections, plausible) = (self.detections as u64, self.plausible as u64);
+        World { name: self.world.clone(), detections, plausible, scores }
+    }
+}
+
+/// What each feature was like, as far as it was observed at all.
+fn inputs(table: &TrainingTable, gains: &[f64]) -> Vec<Input> {
+    let mut inputs = Vec::new();
+    for (place, feature) in table.features.iter().enumerate() {
+        let mut values: Vec<f32> = Vec::new();
+        for row in 0..table.len() {
+            let value = table.rows.row(row)[place];
+            if !value.is_nan() {
+                values.push(value);
+            }
+        }
+        values.sort_unstable_by(f32::total_cmp);
+        let at =
+            |share: f64| values.get(((values.len().max(1) - 1) as f64 * share).round() as usize).copied();
+        let seen = Seen {
+            low: at(0.001).unwrap_or(0.0),
+            high: at(0.999).unwrap_or(0.0),
+            absent: 1.0 - values.len() as f32 / table.len().max(1) as f32,
+            gain: gains[place] as f32,
+        };
+        inputs.push(Input { name: feature.name.to_owned(), seen });
+    }
+    inputs
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::testing::table;
+    use super::*;
+
+    fn fitting(jobs: usize) -> Fitting {
+        let parameters = Parameters { rounds: 30, rows_per_leaf: 20, ..Parameters::default() };
+        Fitting { parameters, blanking: true, causes: true, threshold: 0.5, jobs }
+    }
+
+    fn fitted(table: &TrainingTable, jobs: usize) -> Result<Fitted, LearnError> {
+        fit(table, &fitting(jobs), Origin::default(), &|_, _| {})
+    }
+
+    #[test]
+    fn a_model_is_the_same_to_the_byte_whatever_the_number_of_jobs() {
+        let table = table(120, 10);
+        let texts = [1, 2, 5].map(|jobs| fitted(&table, jobs).unwrap().model.to_text());
+        assert!(texts[0] == texts[1] && texts[1] == texts[2]);
+        assert_eq!(Model::from_text(&texts[0]).unwrap().to_text(), texts[0]);
+    }
+
+    #[test]
+    fn what_can_be_learned_is_learned_in_worlds_that_were_left_out() {
+        let found = fitted(&table(300, 10), 2).unwrap();
+        assert_eq!(found.left_out.len(), 3);
+        for world in &found.left_out {
+            assert!(world.learned.average_precision.unwrap() > 0.85, "{world:?}");
+            assert!(world.learned.calibration_error.unwrap() < 0.1, "{world:?}");
+            assert!(world.paper.average_precision.unwrap() < 0.7, "the table's `paper` says nothing");
+        }
+        assert_eq!(found.model.origin.worlds.len(), 3);
+        assert_eq!(found.model.check(), Ok(()));
+    }
+
+    #[test]
+    fn one_class_and_one_world_are_refused() {
+        let mut one_class = table(10, 10);
+        one_class.known.iter_mut().for_each(|known| known.plausible = false);
+        assert_eq!(fitted(&one_class, 1), Err(LearnError::OneClass { plausible: 0, artifacts: 100 }));
+        let mut one_world = table(10, 10);
+        one_world.worlds.truncate(1);
+        one_world.known.iter_mut().for_each(|known| known.world = 0);
+        assert_eq!(fitted(&one_world, 1), Err(LearnError::TooFewWorlds(1)));
+    }
+}

@@ -1,0 +1,73 @@
+//! Evidence and truth of many detections: what a model is fitted to.
+
+use super::view::View;
+use ralf::evidence::Feature;
+use ralf::learned::Rows;
+
+/// Evidence and truth, a row per detection.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TrainingTable {
+    /// What the features are, in the order of the rows.
+    pub features: Vec<&'static Feature>,
+    /// Names of the worlds: recordings of one kind. A model is judged in worlds that it was not fitted to.
+    pub worlds: Vec<String>,
+    /// What was observed.
+    pub rows: Rows,
+    /// What is known of each row beside it.
+    pub known: Vec<Known>,
+}
+
+/// What is known of a detection beside its evidence.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Known {
+    /// Its place in [`TrainingTable::worlds`].
+    pub world: u16,
+    /// The scan that it belongs to: rows of one number share what could be observed.
+    pub scan: u32,
+    /// How much of the scan's surroundings could be observed.
+    pub view: View,
+    /// Whether it is truly plausible.
+    pub plausible: bool,
+    /// Why it is an artifact, as a number of [`Cause`](ralf::label::Cause); 0 where it is none or nobody knows.
+    pub cause: u8,
+    /// `w` of the paper's method.
+    pub paper: f32,
+    /// Whether the paper's method calls it plausible.
+    pub paper_label: bool,
+    /// How much it counts; above 0.
+    pub weight: f32,
+}
+
+impl TrainingTable {
+    /// A table of these features, without rows.
+    pub fn new(features: Vec<&'static Feature>) -> Self {
+        let rows = Rows::absent(0, features.len());
+        Self { features, worlds: Vec::new(), rows, known: Vec::new() }
+    }
+
+    /// The number of a world, which is new or known.
+    pub fn world(&mut self, name: &str) -> u16 {
+        let known = self.worlds.iter().position(|world| world == name);
+        let place = known.unwrap_or_else(|| {
+            self.worlds.push(name.to_owned());
+            self.worlds.len() - 1
+        });
+        place as u16
+    }
+
+    /// Adds detections.
+    pub fn append(&mut self, rows: &Rows, known: impl IntoIterator<Item = Known>) {
+        self.rows.append(rows);
+        self.known.extend(known);
+    }
+
+    /// How many rows.
+    pub fn len(&self) -> usize {
+        self.known.len()
+    }
+
+    /// Whether it has no row.
+    pub fn is_empty(&self) -> bool {
+        self.known.is_empty()
+    }
+}

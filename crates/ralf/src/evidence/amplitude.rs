@@ -1,0 +1,119 @@
+//! How strong an echo is among its own: the radar equation and the radar's detection threshold, without anything
+//! absolute, for which radars would have to be calibrated.
+//!
+//! The cross-section tells what reflected, the power (cross-section less `40 log10 r`) how far the echo stood out of the
+//! noise. Noise and clutter crowd just above the threshold; what a real object sends back often does not.
+
+use super::ordered::Ordered;
+use super::statistics::{median_of, over_median_nearby, quantile, ranks};
+use super::{Feature, Piece, Surroundings, Values};
+use crate::scene::{Frame, Strength};
+use crate::sensors::RadarScan;
+use std::collections::BTreeMap;
+
+pub(super) const PIECE: Piece = Piece {
+    features: &[
+        feature("amplitude_rank", "1", "share of the scan's other detections whose cross-section is smaller"),
+        feature(
+            "amplitude_power_rank",
+            "1",
+            "share of the scan's other detections whose power, cross-section less 40 log10 of range, is smaller",
+        ),
+        feature("amplitude_over_scan", "dB", "cross-section above the median of the scan"),
+        feature(
+            "amplitude_over_ring",
+            "dB",
+            "cross-section above the median of the scan's detections within 5 m of range",
+        ),
+        feature(
+            "amplitude_over_floor",
+            "dB",
+            "power above the radar's own floor, which 2 % of its detections in the scans around lie below",
+        ),
+        feature(
+            "amplitude_over_ring_floor",
+            "dB",
+            "power above the floor at this range, which 5 % of the radar's detections within 5 m of range in the scans \
+             around lie below",
+        ),
+    ],
+    observe,
+};
+
+/// Detections whose range differs by at most this stand in the same clutter, m.
+const RING: f64 = 5.0;
+/// So many of a radar's detections lie below its floor.
+const FLOOR: f64 = 0.02;
+/// The same of one ring, which holds fewer.
+const RING_FLOOR: f64 = 0.05;
+
+const fn feature(name: &'static str, unit: &'static str, meaning: &'static str) -> Feature {
+    Feature { name, unit, group: "Amplitude", meaning }
+}
+
+fn observe(surroundings: &Surroundings) -> Vec<Values> {
+    let frame = surroundings.frame;
+    let Some(strength) = frame.strength() else {
+        return vec![vec![None; frame.scan.len()]; PIECE.features.len()];
+    };
+    let ranges = ranges(&frame.scan.measured);
+    let around = EchoesAround::new(frame, &strength, &ranges);
+    vec![
+        ranks(&strength.cross_section),
+        ranks(&strength.power),
+        over(&strength.cross_section, median_of(&strength.cross_section)),
+        over_median_nearby(&strength.cross_section, &ranges, RING),
+        over(&strength.power, quantile(&around.powers, FLOOR)),
+        around.over_ring_floor(&strength.power, &ranges),
+    ]
+}
+
+fn over(values: &[f64], level: Option<f64>) -> Values {
+    values.iter().map(|value| Some(value - level?)).collect()
+}
+
+fn ranges(scan: &RadarScan) -> Vec<f64> {
+    scan.spherical.iter().map(|place| place.range).collect()
+}
+
+/// All echoes of one radar in the scan and those around.
+struct EchoesAround {
+    /// dB.
+    powers: Vec<f64>,
+    /// m.
+    ranges: Vec<f64>,
+}
+
+impl EchoesAround {
+    fn new(frame: &Frame, strength: &Strength, own_ranges: &[f64]) -> Self {
+        let (mut powers, mut all_ranges) = (strength.power.clone(), own_ranges.to_vec());
+        for neighbour in frame.own_scans_around() {
+            if let Some(strength) = Strength::new(frame.radar, &neighbour.scan.measured) {
+                powers.extend(strength.power);
+                all_ranges.extend(ranges(&neighbour.scan.measured));
+            }
+        }
+        Self { powers, ranges: all_ranges }
+    }
+
+    /// How far each power stands above the floor at its range. Floors are those of whole metres, so that thousands of
+    /// echoes around are not gone through for every detection.
+    fn over_ring_floor(&self, powers: &[f64], ranges: &[f64]) -> Values {
+        let ordered = Ordered::new(&self.ranges);
+        let mut floors: BTreeMap<i64, Option<f64>> = BTreeMap::new();
+        let mut over = Vec::with_capacity(powers.len());
+        for (power, range) in powers.iter().zip(ranges) {
+            // A cast holds at the ends, and takes what is no number to 0.
+            let metre = range.round() as i64;
+            let floor = floors.entry(metre).or_insert_with(|| self.floor_at(&ordered, metre as f64));
+            over.push(floor.filter(|_| range.is_finite()).map(|floor| power - floor));
+        }
+        over
+    }
+
+    fn floor_at(&self, ordered: &Ordered, range: f64) -> Option<f64> {
+        let ring = ordered.within(range - RING..=range + RING);
+        let powers: Vec<f64> = ring.iter().map(|i| self.powers[*i]).collect();
+        quantile(&powers, RING_FLOOR)
+    }
+}

@@ -1,0 +1,130 @@
+//! A detection among those of its scan: how crowded it is there, and which stronger echoes could have made it.
+//!
+//! Strong echoes cast others. What lies behind one at its azimuth may be a path that took a turn, or the echo that went
+//! to and fro twice and so lies twice as far; what lies beside one at its range and range rate may be a side lobe.
+
+use super::echoes::Echoes;
+use super::statistics::{over_median_nearby, ranks};
+use super::{Feature, Piece, Surroundings, Values};
+use crate::scene::Frame;
+
+pub(super) const PIECE: Piece = Piece {
+    features: &[
+        feature(
+            "context_density_rank",
+            "1",
+            "share of the scan's other detections that have fewer others within 3 m, seen from above",
+        ),
+        feature(
+            "context_density_over_ring",
+            "1",
+            "logarithm of one more than the others within 3 m, above its median of the scan's detections within 5 m of \
+             range",
+        ),
+        feature(
+            "context_density_around",
+            "1",
+            "share of the scan's other detections with fewer detections of all radars' scans around within 1.5 m",
+        ),
+        feature(
+            "context_before",
+            "1",
+            "how many detections of the scan lie before it at its azimuth and have a larger cross-section",
+        ),
+        feature("context_before_distance", "m", "distance along the ray from the nearest of these"),
+        feature(
+            "context_double_bounce",
+            "sigma",
+            "distance of its range from twice that of one of these, of which the least",
+        ),
+        feature(
+            "context_beside_rank",
+            "1",
+            "share of the scan's other detections at its range whose power is smaller",
+        ),
+        feature(
+            "context_beside_angle",
+            "deg",
+            "angle to the nearest detection of the scan at its range that has more power",
+        ),
+        feature(
+            "context_side_lobe",
+            "dB",
+            "by how much the strongest detection of the scan at its range and range rate, but at another azimuth, has \
+             more power",
+        ),
+    ],
+    observe,
+};
+
+/// Own detections within this make a place crowded, m.
+const CROWD: f64 = 3.0;
+/// Detections around within this lie on the same thing, m.
+const NEAR: f64 = 1.5;
+/// Detections whose range differs by no more are as crowded for the same reasons, m.
+const RING: f64 = 5.0;
+
+const fn feature(name: &'static str, unit: &'static str, meaning: &'static str) -> Feature {
+    Feature { name, unit, group: "Context", meaning }
+}
+
+fn observe(surroundings: &Surroundings) -> Vec<Values> {
+    let frame = surroundings.frame;
+    let crowd = crowd(surroundings);
+    let logarithms: Vec<f64> = crowd.iter().map(|others| others.ln_1p()).collect();
+    let over_ring = over_median_nearby(&logarithms, &ranges(frame), RING);
+    let crowding = [ranks(&crowd), over_ring, ranks(&crowd_around(surroundings))];
+    let echoes = Echoes::new(surroundings);
+    let mut columns = vec![Vec::with_capacity(frame.scan.len()); PIECE.features.len() - crowding.len()];
+    for i in 0..frame.scan.len() {
+        let before = echoes.as_ref().map(|echoes| echoes.before(i)).unwrap_or_default();
+        let beside = echoes.as_ref().map(|echoes| echoes.beside(i)).unwrap_or_default();
+        let values = [
+            before.count,
+            before.distance,
+            before.double_bounce,
+            beside.rank,
+            beside.angle,
+            beside.side_lobe,
+        ];
+        for (column, value) in columns.iter_mut().zip(values) {
+            column.push(value);
+        }
+    }
+    crowding.into_iter().chain(columns).collect()
+}
+
+fn ranges(frame: &Frame) -> Vec<f64> {
+    frame.scan.measured.spherical.iter().map(|place| place.range).collect()
+}
+
+/// How many others of the scan lie near each detection; NaN for one without a place.
+fn crowd(surroundings: &Surroundings) -> Vec<f64> {
+    let mut near = Vec::new();
+    let mut crowd = Vec::with_capacity(surroundings.frame.scan.len());
+    for detection in &surroundings.frame.scan.detections {
+        let others = detection.as_ref().map(|detection| {
+            surroundings.beside(&detection.position, CROWD, &mut near);
+            near.len() as f64 - 1.0
+        });
+        crowd.push(others.unwrap_or(f64::NAN));
+    }
+    crowd
+}
+
+/// How many detections of all scans around lie near each detection; NaN for one without a place, and without scans
+/// around.
+fn crowd_around(surroundings: &Surroundings) -> Vec<f64> {
+    let around = surroundings.neighbours();
+    let mut near = Vec::new();
+    let mut crowd = Vec::with_capacity(surroundings.frame.scan.len());
+    for detection in &surroundings.frame.scan.detections {
+        let found = detection.as_ref().filter(|_| !around.radars.is_empty()).map(|detection| {
+            let place = [detection.position.x as f32, detection.position.y as f32];
+            around.index.beside(place, NEAR as f32, &mut near);
+            near.len() as f64
+        });
+        crowd.push(found.unwrap_or(f64::NAN));
+    }
+    crowd
+}

@@ -1,0 +1,130 @@
+//! The echoes of a scan, and which stronger ones lie before and beside each of them.
+
+use super::Surroundings;
+use super::distance::ROOM;
+use super::ordered::Ordered;
+use super::rates::Rates;
+use crate::scene::Strength;
+use std::f64::consts::SQRT_2;
+
+/// Ranges and azimuths are the same if they differ by no more, in standard deviations of such a difference.
+const SAME: f64 = 2.0;
+
+/// What the scan's echoes are: one entry per detection of each list.
+pub(super) struct Echoes<'a> {
+    strength: Strength,
+    /// As the radar measured them, m/s, and how well.
+    rates: Option<(Vec<f64>, &'a Rates)>,
+    /// m
+    ranges: Vec<f64>,
+    /// rad
+    azimuths: Vec<f64>,
+    by_range: Ordered,
+    by_azimuth: Ordered,
+    /// Standard deviation of a range, m.
+    sigma_range: f64,
+    /// Standard deviation of an azimuth, rad.
+    sigma_azimuth: f64,
+}
+
+/// Stronger echoes before a detection.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub(super) struct Before {
+    /// How many.
+    pub(super) count: Option<f64>,
+    /// Along the ray from the nearest of them, m.
+    pub(super) distance: Option<f64>,
+    /// Least distance of the range from twice that of one of them, in standard deviations.
+    pub(super) double_bounce: Option<f64>,
+}
+
+/// Echoes beside a detection, at its range.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub(super) struct Beside {
+    /// Share of them that have less power.
+    pub(super) rank: Option<f64>,
+    /// To the nearest that has more, degrees.
+    pub(super) angle: Option<f64>,
+    /// How much more power the strongest of its range rate has that lies at another azimuth, dB.
+    pub(super) side_lobe: Option<f64>,
+}
+
+impl<'a> Echoes<'a> {
+    /// The echoes of a scan; `None` where the radar doesn't measure how strong they are.
+    pub(super) fn new(surroundings: &'a Surroundings) -> Option<Self> {
+        let frame = surroundings.frame;
+        let places = &frame.scan.measured.spherical;
+        let ranges: Vec<f64> = places.iter().map(|place| place.range).collect();
+        let azimuths: Vec<f64> = places.iter().map(|place| place.azimuth).collect();
+        Some(Self {
+            strength: frame.strength()?,
+            rates: frame.doppler().map(|doppler| doppler.raw).zip(surroundings.rates()),
+            by_range: Ordered::new(&ranges),
+            by_azimuth: Ordered::new(&azimuths),
+            ranges,
+            azimuths,
+            sigma_range: frame.radar.sigma_range.hypot(ROOM),
+            sigma_azimuth: frame.radar.sigma_azimuth,
+        })
+    }
+
+    /// The echoes before a detection at its azimuth, of a larger cross-section.
+    pub(super) fn before(&self, i: usize) -> Before {
+        let (range, cross_section) = (self.ranges[i], self.strength.cross_section[i]);
+        if !(range.is_finite() && cross_section.is_finite()) {
+            return Before::default();
+        }
+        let (mut count, mut last, mut bounce) = (0, f64::NEG_INFINITY, f64::INFINITY);
+        let tolerance = SAME * SQRT_2 * self.sigma_azimuth;
+        for &j in self.by_azimuth.within(self.azimuths[i] - tolerance..=self.azimuths[i] + tolerance) {
+            let is_before = self.ranges[j] < range - SAME * SQRT_2 * self.sigma_range;
+            if is_before && self.strength.cross_section[j] > cross_section {
+                count += 1;
+                last = last.max(self.ranges[j]);
+                bounce = bounce.min((range - 2.0 * self.ranges[j]).abs());
+            }
+        }
+        // The variance of r_i - 2 r_j is five times that of a range.
+        let found = |value: f64| Some(value).filter(|_| count > 0);
+        Before {
+            count: Some(f64::from(count)),
+            distance: found(range - last),
+            double_bounce: found(bounce / (5.0f64.sqrt() * self.sigma_range)),
+        }
+    }
+
+    /// The echoes beside a detection.
+    pub(super) fn beside(&self, i: usize) -> Beside {
+        let (range, power) = (self.ranges[i], self.strength.power[i]);
+        if !power.is_finite() {
+            return Beside::default();
+        }
+        let (mut less, mut others) = (0, 0);
+        let (mut angle, mut side_lobe) = (f64::INFINITY, f64::NEG_INFINITY);
+        let tolerance = SAME * SQRT_2 * self.sigma_range;
+        for &j in self.by_range.within(range - tolerance..=range + tolerance) {
+            let over = self.strength.power[j] - power;
+            if j == i || over.is_nan() {
+                continue;
+            }
+            others += 1;
+            less += i32::from(over < 0.0);
+            let away = (self.azimuths[j] - self.azimuths[i]).abs();
+            if over > 0.0 {
+                angle = angle.min(away);
+            }
+            if away > SAME * SQRT_2 * self.sigma_azimuth && self.at_same_rate(i, j) {
+                side_lobe = side_lobe.max(over);
+            }
+        }
+        Beside {
+            rank: (others > 0).then(|| f64::from(less) / f64::from(others)),
+            angle: Some(angle.to_degrees()).filter(|angle| angle.is_finite()),
+            side_lobe: Some(side_lobe).filter(|over| over.is_finite()),
+        }
+    }
+
+    fn at_same_rate(&self, i: usize, j: usize) -> bool {
+        self.rates.as_ref().is_some_and(|(raw, rates)| rates.are_alike(raw[i], raw[j]))
+    }
+}

@@ -1,0 +1,126 @@
+//! What exists is seen again: of the scans that could have seen a detection, how many did, from where, and would chance
+//! have done as well?
+
+use super::distance::area_within;
+use super::recurrence::{FARTHEST, Sighting};
+use super::sensor_frame::held_in_place;
+use super::sight::Sight;
+use super::{Feature, Piece, Surroundings, Values};
+use crate::scene::{Detection, Frame};
+use std::f64::consts::PI;
+
+pub(super) const PIECE: Piece = Piece {
+    features: &[
+        feature(
+            "persistence_own",
+            "1",
+            "share of the radar's own scans around that could have seen the detection again and did, if it stood still",
+        ),
+        feature(
+            "persistence_moving",
+            "1",
+            "the same if it moved along its ray at its range rate, by detections whose range rate agrees",
+        ),
+        feature(
+            "persistence_others",
+            "1",
+            "share of the other radars' scans around that could have seen the detection and did, if it stood still",
+        ),
+        feature(
+            "persistence_distance",
+            "sigma",
+            "mean distance from the nearest detection of each of the radar's own scans around that could have seen it, \
+             each at most 3",
+        ),
+        feature(
+            "persistence_excess",
+            "1",
+            "logarithm of how many of the radar's own scans saw it again, over how many would by chance, as densely as \
+             detections lie within 5 m",
+        ),
+        feature(
+            "persistence_aspect",
+            "deg",
+            "largest angle between the radar's ray and those of the scans that saw it again, the other radars' too",
+        ),
+        feature(
+            "persistence_sensor",
+            "1",
+            "share of the radar's own scans around that detected something at the same place of the radar's frame, of \
+             those in which what stands still had moved on; high for side lobes and for the vehicle itself",
+        ),
+    ],
+    observe,
+};
+
+/// A detection is seen again by one nearer than this, in standard deviations.
+const SAME: f64 = 2.0;
+/// How densely detections lie is told from those within this, m.
+const AROUND: f64 = 5.0;
+
+const fn feature(name: &'static str, unit: &'static str, meaning: &'static str) -> Feature {
+    Feature { name, unit, group: "Persistence", meaning }
+}
+
+fn observe(surroundings: &Surroundings) -> Vec<Values> {
+    let frame = surroundings.frame;
+    let sights = Sight::of_window(frame);
+    let mut columns = vec![Vec::with_capacity(frame.scan.len()); PIECE.features.len()];
+    for (i, seen) in surroundings.sightings().iter().enumerate() {
+        let own = || seen.iter().filter(|sighting| sighting.own);
+        let others = || seen.iter().filter(|sighting| !sighting.own);
+        let moving = own().filter(|_| surroundings.rates().is_some_and(|rates| rates.residual(i).is_some()));
+        let excess =
+            frame.scan.detections[i].as_ref().and_then(|detection| excess(surroundings, detection, seen));
+        let values = [
+            share(own().map(|sighting| sighting.still <= SAME)),
+            share(moving.map(|sighting| sighting.moving <= SAME)),
+            share(others().map(|sighting| sighting.still <= SAME)),
+            mean(own().map(|sighting| sighting.still.min(FARTHEST))),
+            excess,
+            frame.scan.detections[i].as_ref().and_then(|detection| aspect(frame, &sights, detection, seen)),
+        ];
+        for (column, value) in columns.iter_mut().zip(values) {
+            column.push(value);
+        }
+    }
+    columns[6] = held_in_place(frame);
+    columns
+}
+
+fn share(answers: impl Iterator<Item = bool>) -> Option<f64> {
+    mean(answers.map(|answer| f64::from(u8::from(answer))))
+}
+
+fn mean(values: impl Iterator<Item = f64>) -> Option<f64> {
+    let (sum, count) = values.fold((0.0, 0), |(sum, count), value| (sum + value, count + 1));
+    (count > 0).then(|| sum / f64::from(count))
+}
+
+/// `ln((hits + 1/2) / (expected + 1/2))`, where a scan sees a detection by chance with the probability
+/// `1 - exp(-density area)`.
+fn excess(surroundings: &Surroundings, detection: &Detection, seen: &[Sighting]) -> Option<f64> {
+    let own: Vec<&Sighting> = seen.iter().filter(|sighting| sighting.own).collect();
+    if own.is_empty() {
+        return None;
+    }
+    let around = surroundings.neighbours();
+    let mut near = Vec::new();
+    let place = [detection.position.x as f32, detection.position.y as f32];
+    around.index.beside(place, AROUND as f32, &mut near);
+    let is_own = |id: &&u32| surroundings.frame.is_own(around.radars[around.scans[**id as usize] as usize]);
+    let scans = own.len() as f64;
+    let density = near.iter().filter(is_own).count() as f64 / (scans * PI * AROUND * AROUND);
+    let expected = scans * (1.0 - (-density * area_within(SAME, detection)).exp());
+    let hits = own.iter().filter(|sighting| sighting.still <= SAME).count() as f64;
+    Some(((hits + 0.5) / (expected + 0.5)).ln())
+}
+
+/// Degrees; `None` where no scan saw it again.
+fn aspect(frame: &Frame, sights: &[Sight], detection: &Detection, seen: &[Sighting]) -> Option<f64> {
+    let ray = detection.position.coords - frame.radar.vehicle_from_radar.translation.vector;
+    let again = seen.iter().filter(|sighting| sighting.still <= SAME);
+    let angles =
+        again.map(|sighting| ray.angle(&(detection.position - sights[sighting.scan as usize].origin)));
+    angles.reduce(f64::max).map(f64::to_degrees)
+}

@@ -1,0 +1,115 @@
+//! Ranks, quantiles and medians of values of which some may be no number.
+
+use super::ordered::Ordered;
+use crate::scene::median;
+
+/// For each value which share of the others is less, in [0, 1]; equal ones count half. `None` where it is no number,
+/// and where there are no others.
+pub(super) fn ranks(values: &[f64]) -> Vec<Option<f64>> {
+    let sorted = sorted(values);
+    let others = sorted.len().saturating_sub(1);
+    let rank = |value: &f64| {
+        let less = sorted.partition_point(|other| other < value);
+        let equal = sorted.partition_point(|other| other <= value) - less;
+        (value.is_finite() && others > 0).then(|| (less as f64 + 0.5 * (equal as f64 - 1.0)) / others as f64)
+    };
+    values.iter().map(rank).collect()
+}
+
+/// The least value that at least this share of the values doesn't exceed; `None` where there is no number.
+pub(super) fn quantile(values: &[f64], share: f64) -> Option<f64> {
+    let mut finite: Vec<f64> = values.iter().copied().filter(|value| value.is_finite()).collect();
+    if finite.is_empty() {
+        return None;
+    }
+    let at = (share * finite.len() as f64).ceil() as usize;
+    let at = at.clamp(1, finite.len()) - 1;
+    Some(*finite.select_nth_unstable_by(at, f64::total_cmp).1)
+}
+
+/// The median of those values that are numbers.
+pub(super) fn median_of(values: &[f64]) -> Option<f64> {
+    median(values.iter().copied().filter(|value| value.is_finite()).collect())
+}
+
+/// For each value how much it is more than the median of those whose place lies at most `reach` from its own, itself
+/// among them; `None` where value or place is no number.
+pub(super) fn over_median_nearby(values: &[f64], places: &[f64], reach: f64) -> Vec<Option<f64>> {
+    let ordered = Ordered::new(places);
+    let over = |(value, place): (&f64, &f64)| {
+        let near = ordered.within(place - reach..=place + reach);
+        let median = median(near.iter().map(|i| values[*i]).filter(|value| value.is_finite()).collect())?;
+        Some(value - median).filter(|over| over.is_finite())
+    };
+    values.iter().zip(places).map(over).collect()
+}
+
+fn sorted(values: &[f64]) -> Vec<f64> {
+    let mut finite: Vec<f64> = values.iter().copied().filter(|value| value.is_finite()).collect();
+    finite.sort_by(f64::total_cmp);
+    finite
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    /// Few different values, so that ties are common; some are no numbers.
+    fn value() -> impl Strategy<Value = f64> {
+        prop_oneof![4 => (0..12).prop_map(f64::from), 1 => Just(f64::NAN)]
+    }
+
+    proptest! {
+        #[test]
+        fn ranks_are_what_counting_gives(values in prop::collection::vec(value(), 0..30)) {
+            for (i, found) in ranks(&values).into_iter().enumerate() {
+                let others: Vec<f64> =
+                    (0..values.len()).filter(|j| *j != i && values[*j].is_finite()).map(|j| values[j]).collect();
+                let points: f64 =
+                    others.iter().map(|other| f64::from(u8::from(*other < values[i])) + 0.5 * f64::from(u8::from(*other == values[i]))).sum();
+                let expected = (values[i].is_finite() && !others.is_empty()).then(|| points / others.len() as f64);
+                prop_assert_eq!(found, expected);
+            }
+        }
+
+        #[test]
+        fn the_median_nearby_is_what_looking_at_all_gives(
+            rows in prop::collection::vec((value(), value()), 0..40), reach in 0.0..4.0,
+        ) {
+            let (values, places): (Vec<f64>, Vec<f64>) = rows.into_iter().unzip();
+            for (i, found) in over_median_nearby(&values, &places, reach).into_iter().enumerate() {
+                let near: Vec<f64> = (0..values.len())
+                    .filter(|j| (places[*j] - places[i]).abs() <= reach && values[*j].is_finite())
+                    .map(|j| values[j])
+                    .collect();
+                let expected = median_of(&near).filter(|_| values[i].is_finite() && places[i].is_finite());
+                prop_assert_eq!(found, expected.map(|median| values[i] - median));
+            }
+        }
+
+        #[test]
+        fn a_quantile_has_its_share_at_or_below(values in prop::collection::vec(value(), 0..40), share in 0.0..1.0) {
+            let finite: Vec<f64> = values.iter().copied().filter(|v| v.is_finite()).collect();
+            let below = |limit: f64| finite.iter().filter(|v| **v <= limit).count() as f64;
+            match quantile(&values, share) {
+                None => prop_assert!(finite.is_empty()),
+                Some(found) => {
+                    prop_assert!(below(found) >= share * finite.len() as f64 && finite.contains(&found));
+                    let less = finite.iter().copied().filter(|v| *v < found).fold(f64::NEG_INFINITY, f64::max);
+                    prop_assert!(less == f64::NEG_INFINITY || below(less) < share * finite.len() as f64);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn ranks_by_hand() {
+        assert_eq!(
+            ranks(&[3.0, 1.0, 3.0, f64::NAN, 2.0]),
+            [Some(2.5 / 3.0), Some(0.0), Some(2.5 / 3.0), None, Some(1.0 / 3.0)]
+        );
+        assert_eq!(ranks(&[7.0]), [None]);
+        assert_eq!(quantile(&[5.0, 1.0, f64::NAN, 4.0, 2.0], 0.5), Some(2.0));
+    }
+}

@@ -1,0 +1,162 @@
+//! A model, asked about radar scans.
+
+use super::familiar::{Seen, novelty};
+use super::forest::{Forest, probability};
+use super::model::{Model, UseError};
+use super::reason::reason;
+use super::rows::Rows;
+use super::shapley::Explainer;
+use crate::config::Config;
+use crate::evidence::{Column, Feature, GROUPS, features};
+use crate::label::flag;
+use crate::paper::{DetectionLabel, Labeler};
+use crate::scene::Frame;
+
+/// Labels radar scans with a model and one set of settings.
+#[derive(Debug, Clone)]
+pub struct LearnedLabeler<'a> {
+    config: &'a Config,
+    model: &'a Model,
+    /// What the model reads, in its order.
+    inputs: Vec<&'static Feature>,
+    seen: Vec<Seen>,
+    /// `None` where reasons are not wanted.
+    explainer: Option<Explainer>,
+}
+
+/// What a model says of a scan's detections, in their order.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LearnedScan {
+    /// As the paper's method has them, with the model's plausibility and label in place of its own.
+    pub labels: Vec<DetectionLabel>,
+    /// What the model says besides.
+    pub answers: Vec<Answer>,
+}
+
+/// What a model says of a detection besides its plausibility.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Answer {
+    /// The share of the evidence, by its worth to the model, that is unlike what the model was trained on, in [0, 1];
+    /// `None` of a detection without a place.
+    pub novelty: Option<f64>,
+    /// What each of [`GROUPS`] adds to the log odds; empty where reasons are not wanted or the model was not asked.
+    pub shares: Vec<f64>,
+    /// The largest of these in words.
+    pub reason: String,
+    /// Why it is an artifact, where it is called one and a cause stands out.
+    pub cause: Option<ToldCause>,
+}
+
+/// A cause with how sure the model is.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ToldCause {
+    /// As [`Cause::name`](crate::label::Cause::name) has it, or [`UNCLEAR`].
+    pub name: String,
+    /// Its share among all causes, in [0, 1].
+    pub probability: f64,
+}
+
+/// The name where no cause stands out.
+pub const UNCLEAR: &str = "unclear";
+/// The share among all causes from which one stands out.
+const CLEAR: f64 = 0.5;
+
+impl<'a> LearnedLabeler<'a> {
+    /// A labeler with this model and these settings.
+    ///
+    /// # Errors
+    /// A model that this program can't use.
+    pub fn new(config: &'a Config, model: &'a Model) -> Result<Self, UseError> {
+        model.check()?;
+        let mut inputs: Vec<&'static Feature> = Vec::with_capacity(model.inputs.len());
+        for input in &model.inputs {
+            inputs.extend(features().find(|feature| feature.name == input.name));
+        }
+        let group_of: Vec<usize> = inputs.iter().map(|feature| group_of(feature)).collect();
+        let explain = config.learned.reasons;
+        let explainer = explain.then(|| Explainer::new(&model.plausible, &group_of, GROUPS.len()));
+        let seen = model.inputs.iter().map(|input| input.seen).collect();
+        Ok(Self { config, model, inputs, seen, explainer })
+    }
+
+    /// What the model says of a frame, of which this evidence was gathered.
+    ///
+    /// `w` is the probability that a detection is plausible. Where the evidence is too unlike what the model was trained
+    /// on (`learned.max_novelty`), the paper's method answers, and [`flag::PAPER`] says so.
+    pub fn label(&self, frame: &Frame, evidence: &[Column]) -> LearnedScan {
+        let mut labels = Labeler::new(self.config).label(frame);
+        let mut answers = vec![Answer::default(); labels.len()];
+        let rows = self.rows(frame.scan.len(), evidence);
+        let novelties: Vec<f64> = (0..rows.len()).map(|row| novelty(&self.seen, rows.row(row))).collect();
+        let is_asked = |row: usize| {
+            frame.scan.detections[row].is_some() && novelties[row] <= self.config.learned.max_novelty
+        };
+        let asked: Vec<usize> = (0..labels.len()).filter(|row| is_asked(*row)).collect();
+        for (row, detection) in frame.scan.detections.iter().enumerate() {
+            answers[row].novelty = detection.as_ref().map(|_| novelties[row]);
+            labels[row].flags |= flag::when(detection.is_some() && !is_asked(row), flag::PAPER);
+        }
+        let rows = rows.pick(asked.iter().copied());
+        for (row, log_odds) in asked.iter().zip(self.model.plausible.log_odds(&rows)) {
+            labels[*row].w = self.model.calibration.probability(log_odds);
+            labels[*row].plausible = labels[*row].w >= self.config.fusion.threshold;
+            labels[*row].flags &= !flag::UNOBSERVED;
+        }
+        self.explain(&rows, &asked, &mut answers);
+        self.tell_causes(&rows, &asked, &labels, &mut answers);
+        LearnedScan { labels, answers }
+    }
+
+    /// The model's rows.
+    fn rows(&self, detections: usize, evidence: &[Column]) -> Rows {
+        let mut rows = Rows::absent(detections, self.inputs.len());
+        for (place, feature) in self.inputs.iter().enumerate() {
+            if let Some(column) = evidence.iter().find(|column| column.feature.name == feature.name) {
+                rows.set_column(place, &column.values);
+            }
+        }
+        rows
+    }
+
+    fn explain(&self, rows: &Rows, asked: &[usize], answers: &mut [Answer]) {
+        let Some(explainer) = &self.explainer else { return };
+        for (at, shares) in explainer.explain(rows).into_iter().enumerate() {
+            let answer = &mut answers[asked[at]];
+            answer.reason = reason(&shares, &self.inputs, &self.seen, rows.row(at));
+            answer.shares = shares;
+        }
+    }
+
+    /// The likeliest cause of each artifact.
+    fn tell_causes(&self, rows: &Rows, asked: &[usize], labels: &[DetectionLabel], answers: &mut [Answer]) {
+        let artifacts: Vec<usize> = (0..asked.len()).filter(|at| !labels[asked[*at]].plausible).collect();
+        if self.model.causes.is_empty() {
+            return;
+        }
+        let rows = rows.pick(artifacts.iter().copied());
+        let forests: Vec<&Forest> = self.model.causes.iter().map(|cause| &cause.forest).collect();
+        let odds: Vec<Vec<f64>> = forests.iter().map(|forest| forest.log_odds(&rows)).collect();
+        for (row, at) in artifacts.into_iter().enumerate() {
+            let likely: Vec<f64> = odds.iter().map(|odds| probability(odds[row])).collect();
+            answers[asked[at]].cause = Some(self.likeliest(&likely));
+        }
+    }
+
+    fn likeliest(&self, likely: &[f64]) -> ToldCause {
+        let all: f64 = likely.iter().sum();
+        let (mut best, mut most) = (0, f64::NEG_INFINITY);
+        for (place, likely) in likely.iter().enumerate() {
+            if *likely > most {
+                (best, most) = (place, *likely);
+            }
+        }
+        let probability = most / all.max(f64::MIN_POSITIVE);
+        let name = if probability >= CLEAR { self.model.causes[best].name.as_str() } else { UNCLEAR };
+        ToldCause { name: name.to_owned(), probability }
+    }
+}
+
+/// The place of a feature's group in [`GROUPS`]; the last of one that is in none.
+fn group_of(feature: &Feature) -> usize {
+    GROUPS.iter().position(|group| *group == feature.group).unwrap_or(GROUPS.len() - 1)
+}

@@ -1,0 +1,315 @@
+//! Evidence from the radars alone, on drives of a few detections, with numbers worked out by hand and by brute force.
+
+#![allow(clippy::unwrap_used, clippy::expect_used, reason = "of tests alone")]
+
+mod support;
+
+use proptest::prelude::*;
+use ralf::config::Config;
+use ralf::evidence::{self, Column};
+use ralf::scene::{Frame, FrameWindow, NeighbouringDetections};
+use ralf::sensors::{Elevation, Radar};
+use ralf::space::Transform;
+use std::f64::consts::SQRT_2;
+use support::{MS, Memory, radar};
+
+/// x, y, z, range rate and cross-section of each detection of a scan.
+type Rows = Vec<[f32; 5]>;
+
+const SPEED: f64 = 10.0;
+const NO_PLACE: [f32; 5] = [f32::NAN, 0.0, 0.0, 0.0, 0.0];
+
+fn front() -> Radar {
+    let fields = ["x", "y", "z", "doppler", "rcs"].map(str::to_owned).to_vec();
+    Radar { name: "front".into(), fields, ..radar(Elevation::Measured) }
+}
+
+/// A drive ahead at [`SPEED`]; each radar with its scans and their times, ms.
+fn drive(radars: Vec<(Radar, Vec<(i64, Rows)>)>) -> Memory {
+    let mut memory = Memory::new(SPEED);
+    for (radar, scans) in radars {
+        memory = memory.measured(radar, scans.into_iter().map(|(ms, rows)| (ms * MS, rows)).collect());
+    }
+    memory
+}
+
+fn with_frame<R>(memory: &Memory, radar: usize, scan: usize, look: impl FnOnce(&Frame) -> R) -> R {
+    let config = Config::default();
+    let mut window = FrameWindow::new(memory, &memory.sequence.rig, &config).with_evidence();
+    look(&window.frame(radar, scan).unwrap())
+}
+
+fn observe(memory: &Memory, scan: usize) -> Vec<Column> {
+    with_frame(memory, 0, scan, |frame| evidence::observe(frame, &Config::default()))
+}
+
+fn column(columns: &[Column], name: &str) -> Vec<Option<f64>> {
+    columns.iter().find(|column| column.feature.name == name).expect("a column of this name").values.clone()
+}
+
+#[track_caller]
+fn close(found: &[Option<f64>], expected: &[Option<f64>]) {
+    let near = |(found, expected): (&Option<f64>, &Option<f64>)| match (found, expected) {
+        (Some(found), Some(expected)) => (found - expected).abs() < 1e-4 * expected.abs().max(1.0),
+        (found, expected) => found.is_none() && expected.is_none(),
+    };
+    let same = found.len() == expected.len() && found.iter().zip(expected).all(near);
+    assert!(same, "found {found:?}, expected {expected:?}");
+}
+
+#[test]
+fn amplitude_by_hand() {
+    let scan = vec![
+        [10.0, 0.0, 0.0, 0.0, 0.0],
+        [14.0, 0.0, 0.0, 0.0, 10.0],
+        [100.0, 0.0, 0.0, 0.0, 30.0],
+        [20.0, 0.0, 0.0, 0.0, f32::NAN],
+        NO_PLACE,
+    ];
+    let found = observe(&drive(vec![(front(), vec![(0, scan)])]), 0);
+    // The last has a cross-section, but no place that a power could be told from.
+    let ranks = column(&found, "amplitude_rank");
+    close(&ranks, &[Some(0.5 / 3.0), Some(2.0 / 3.0), Some(1.0), None, Some(0.5 / 3.0)]);
+    // Powers: -40, 10 - 45.845 = -35.845, 30 - 80 = -50.
+    close(&column(&found, "amplitude_power_rank"), &[Some(0.5), Some(1.0), Some(0.0), None, None]);
+    close(&column(&found, "amplitude_over_scan"), &[Some(-5.0), Some(5.0), Some(25.0), None, Some(-5.0)]);
+    // Within 5 m: 0 and 10 dB; alone.
+    close(&column(&found, "amplitude_over_ring"), &[Some(-5.0), Some(5.0), Some(0.0), None, None]);
+    // The floor is the weakest of three.
+    close(&column(&found, "amplitude_over_floor"), &[Some(10.0), Some(14.15488), Some(0.0), None, None]);
+    close(&column(&found, "amplitude_over_ring_floor"), &[Some(0.0), Some(4.15488), Some(0.0), None, None]);
+}
+
+#[test]
+fn the_floor_is_that_of_the_radars_own_scans_around() {
+    let rows = |rcs: f32| vec![[10.0, 0.0, 0.0, 0.0, rcs]];
+    let other = Radar { name: "other".into(), ..front() };
+    let memory = drive(vec![
+        (front(), vec![(0, rows(0.0)), (100, rows(-7.0)), (700, rows(-20.0))]),
+        (other, vec![(0, rows(-30.0))]),
+    ]);
+    let found = observe(&memory, 0);
+    close(&column(&found, "amplitude_over_floor"), &[Some(7.0)]);
+    close(&column(&found, "amplitude_over_ring_floor"), &[Some(7.0)]);
+}
+
+#[test]
+fn a_radar_that_measures_place_alone_has_geometry_and_no_amplitude_or_doppler() {
+    let memory = Memory::new(SPEED).radar(radar(Elevation::None), vec![(0, Some(vec![[3.0, 4.0, 9.0]]))]);
+    let found = observe(&memory, 0);
+    for Column { feature, values } in &found {
+        if ["Amplitude", "Doppler"].contains(&feature.group) {
+            assert_eq!(values, &[None], "{}", feature.name);
+        }
+    }
+    close(&column(&found, "geometry_range"), &[Some(5.0)]);
+    close(&column(&found, "geometry_azimuth"), &[Some((4.0f64 / 3.0).atan() / 1.25)]);
+    close(&column(&found, "geometry_elevation"), &[None]);
+    close(&column(&found, "geometry_sigma_across"), &[Some(0.05)]);
+}
+
+#[test]
+fn doppler_by_hand() {
+    // Ahead, what stands still comes nearer at 10 m/s.
+    let scan = vec![
+        [10.0, 0.0, 0.0, -10.0, 0.0],
+        [10.5, 0.0, 0.0, -10.1, 0.0],
+        [11.0, 0.0, 0.0, -4.0, 0.0],
+        [10.0, 0.0, 9.0, f32::NAN, 0.0],
+        [40.0, 0.0, 0.0, -10.0, 0.0],
+        NO_PLACE,
+    ];
+    let found = observe(&drive(vec![(front(), vec![(0, scan)])]), 0);
+    // The rates 0, -0.1, 6, 0, 0 have a spread of 0, for which 0.12 m/s is taken.
+    let residuals = [Some(0.0), Some(0.1 / 0.12), Some(50.0), None, Some(0.0), None];
+    close(&column(&found, "doppler_residual"), &residuals);
+    close(&column(&found, "doppler_agreeing"), &[Some(1.0), Some(1.0), Some(0.0), None, Some(0.0), None]);
+    close(&column(&found, "doppler_agreeing_share"), &[Some(0.5), Some(0.5), Some(0.0), None, None, None]);
+    close(&column(&found, "doppler_track_residual"), &[None; 6]);
+}
+
+/// Scans every 100 ms, made of where things are at a time, s.
+fn scans(count: i64, rows: impl Fn(f32) -> Rows) -> Vec<(i64, Rows)> {
+    (0..count).map(|scan| (scan * 100, rows(scan as f32 * 0.1))).collect()
+}
+
+#[test]
+fn what_stands_still_what_moves_and_what_moves_along() {
+    // A post ahead on the left; a car ahead that drives at 25 m/s; something on the own bumper.
+    let memory = drive(vec![(
+        front(),
+        scans(13, |t| {
+            let post = [40.0 - 10.0 * t, 8.0];
+            let towards_post = post[0] / post[0].hypot(post[1]);
+            vec![
+                [post[0], post[1], 0.0, -10.0 * towards_post, 0.0],
+                [20.0 + 15.0 * t, 0.0, 0.0, 15.0, 0.0],
+                [3.0, -1.0, 0.0, 0.0, 0.0],
+            ]
+        }),
+    )]);
+    let found = observe(&memory, 6);
+    close(&column(&found, "persistence_own"), &[Some(1.0), Some(0.0), Some(0.0)]);
+    close(&column(&found, "persistence_moving"), &[Some(1.0), Some(1.0), Some(0.0)]);
+    close(&column(&found, "persistence_others"), &[None; 3]);
+    close(&column(&found, "persistence_sensor"), &[Some(0.0), Some(0.0), Some(1.0)]);
+    // What moves along has the range rate of what drives away as fast.
+    close(&column(&found, "doppler_track_residual"), &[Some(0.0); 3]);
+    close(&column(&found, "persistence_distance")[..1], &[Some(0.0)]);
+    // The rays of the first and the last scan, 6 m behind and ahead of the own: from (34, 8) those of (40, 8), (28, 8).
+    let own = 8.0f64.atan2(34.0);
+    let aspect = (8.0f64.atan2(28.0) - own).max(own - 8.0f64.atan2(40.0)).to_degrees();
+    close(&column(&found, "persistence_aspect"), &[Some(aspect), None, None]);
+    // All 12 scans see it; in each of them one detection lies within 5 m, and within 2 sigma of it an ellipse of
+    // variances 2 * 0.3^2 + 0.01 along the ray and 2 * (0.01 r)^2 + 0.01 across it.
+    let r = 34.0f64.hypot(8.0);
+    let area = std::f64::consts::PI * 4.0 * (0.19 * (2.0 * (0.01 * r).powi(2) + 0.01)).sqrt();
+    let expected = 12.0 * (1.0 - (-area / (std::f64::consts::PI * 25.0)).exp());
+    close(&column(&found, "persistence_excess")[..1], &[Some((12.5 / (expected + 0.5)).ln())]);
+}
+
+#[test]
+fn only_scans_that_could_have_seen_it_count() {
+    // A second radar looks ahead as far as 20 m, and saw one of two posts once in two scans.
+    let post = |t: f32| [20.0 - 10.0 * t, 0.0, 0.0, -10.0, 0.0];
+    let far = |t: f32| [60.0 - 10.0 * t, 0.0, 0.0, -10.0, 0.0];
+    let other = Radar { name: "other".into(), ..front() };
+    let memory = drive(vec![
+        (front(), vec![(0, vec![post(0.0), far(0.0)])]),
+        (other, vec![(-100, vec![post(-0.1)]), (100, vec![[20.0, 2.0, 0.0, 0.0, 0.0]])]),
+    ]);
+    let found = observe(&memory, 0);
+    close(&column(&found, "persistence_others"), &[Some(0.5), None]);
+    close(&column(&found, "persistence_own"), &[None, None]);
+    close(&column(&found, "persistence_sensor"), &[None, None]);
+}
+
+#[test]
+fn a_vehicle_that_stands_tells_nothing_of_what_moves_along() {
+    let mut memory = drive(vec![(front(), scans(3, |_| vec![[9.0, 1.0, 0.0, 0.0, 0.0]]))]);
+    memory.sequence.motion = Memory::new(0.0).sequence.motion;
+    close(&column(&observe(&memory, 1), "persistence_sensor"), &[None]);
+    close(&column(&observe(&memory, 1), "persistence_own"), &[Some(1.0)]);
+}
+
+#[test]
+fn context_by_hand() {
+    let degrees =
+        |range: f32, degrees: f32| [range * degrees.to_radians().cos(), range * degrees.to_radians().sin()];
+    let row = |[x, y]: [f32; 2], rate: f32, rcs: f32| [x, y, 0.0, rate, rcs];
+    let scan = vec![
+        row([10.0, 0.0], 0.0, 20.0),
+        row([20.5, 0.0], 0.0, 5.0),
+        row([14.5, 0.0], 0.0, 0.0),
+        row(degrees(10.0, 30.0), 0.1, -5.0),
+        row(degrees(10.0, 31.0), 9.0, -8.0),
+        NO_PLACE,
+    ];
+    let found = observe(&drive(vec![(front(), vec![(0, scan)])]), 0);
+    let crowded = [0.25, 0.25, 0.25, 0.875, 0.875].map(Some);
+    close(&column(&found, "context_density_rank")[..5], &crowded);
+    // The second is alone within 5 m of range; of 0, 0, 1 and 1 others the median of the logarithms is that of sqrt(2).
+    let half = 0.5 * 2f64.ln();
+    let over_ring = [-half, 0.0, -half, half, half].map(Some);
+    close(&column(&found, "context_density_over_ring")[..5], &over_ring);
+    close(&column(&found, "context_density_around"), &[None; 6]);
+    // Behind the first lie the second and the third; before the second lies the third, which is weaker.
+    close(&column(&found, "context_before")[..5], &[0.0, 1.0, 1.0, 0.0, 0.0].map(Some));
+    close(&column(&found, "context_before_distance"), &[None, Some(10.5), Some(4.5), None, None, None]);
+    // 20.5 - 2 * 10 and 14.5 - 2 * 10, of a variance of 5 * (0.09 + 0.01).
+    let sigma = 0.5f64.sqrt();
+    close(
+        &column(&found, "context_double_bounce"),
+        &[None, Some(0.5 / sigma), Some(5.5 / sigma), None, None, None],
+    );
+    // Three at 10 m.
+    close(&column(&found, "context_beside_rank"), &[Some(1.0), None, None, Some(0.5), Some(0.0), None]);
+    close(&column(&found, "context_beside_angle"), &[None, None, None, Some(30.0), Some(1.0), None]);
+    // The rates of the first and the fourth agree, those of the others don't; one degree is the same azimuth.
+    close(&column(&found, "context_side_lobe"), &[Some(-25.0), None, None, Some(25.0), None, None]);
+}
+
+/// A detection anywhere before the radar, on few places, so that there is something to meet.
+fn row() -> impl Strategy<Value = [f32; 5]> {
+    let place = (0..12, -6..6).prop_map(|(x, y)| [12.0 + x as f32 * 0.5, y as f32 * 0.5]);
+    (place, -2..3, prop_oneof![Just(-10.0f32), Just(-4.0), Just(f32::NAN)])
+        .prop_map(|([x, y], z, rate)| [x, y, z as f32 * 0.3, rate, 0.0])
+}
+
+/// `chi` of two detections, by solving a system of equations.
+fn chi(frame: &Frame, around: &NeighbouringDetections, i: usize, j: usize, way: f64) -> f64 {
+    let mut a = frame.scan.detections[i].unwrap();
+    let b = &around.detections[j];
+    a.position += a.position.coords.normalize() * way;
+    let room = nalgebra::Matrix3::identity() * 0.01;
+    let covariance = a.axes * a.axes.transpose() + b.axes * b.axes.transpose() + room;
+    let h = a.position - b.position;
+    h.dot(&covariance.lu().solve(&h).unwrap()).sqrt()
+}
+
+/// Shares of persistence, and the mean distance, by going through everything.
+fn brute_force(frame: &Frame, i: usize) -> [Option<f64>; 4] {
+    let around = NeighbouringDetections::around(frame);
+    let rates = frame.doppler().unwrap().compensated;
+    // Made of so few different rates that the spread is at its lower bound, or its upper.
+    let finite: Vec<f64> = rates.iter().copied().filter(|rate| rate.is_finite()).collect();
+    let middle = ralf::scene::median(finite.clone()).unwrap_or(0.0);
+    let distances = finite.iter().map(|rate| (rate - middle).abs()).collect();
+    let spread = (1.48 * ralf::scene::median(distances).unwrap_or(0.0)).clamp(0.12, 0.3);
+    let moves = rates[i].abs() > 3.0 * spread;
+    let (mut own, mut moving, mut others, mut distance) = (vec![], vec![], vec![], vec![]);
+    for (scan, radar) in around.radars.iter().enumerate() {
+        let there = |j: &usize| around.scans[*j] as usize == scan;
+        let all: Vec<usize> = (0..around.len()).filter(there).collect();
+        let still = all.iter().map(|j| chi(frame, &around, i, *j, 0.0)).fold(f64::INFINITY, f64::min);
+        if *radar != 0 {
+            others.push(still <= 2.0);
+            continue;
+        }
+        own.push(still <= 2.0);
+        distance.push(still.min(3.0));
+        let way = if moves { rates[i] * around.seconds[scan] } else { 0.0 };
+        let agrees = |j: &&usize| (around.doppler[**j] - rates[i]).abs() <= 2.0 * SQRT_2 * spread;
+        if rates[i].is_finite() {
+            moving.push(all.iter().filter(agrees).any(|j| chi(frame, &around, i, *j, way) <= 2.0));
+        }
+    }
+    let share = |hits: Vec<bool>| {
+        let count = hits.len();
+        (count > 0).then(|| hits.into_iter().filter(|hit| *hit).count() as f64 / count as f64)
+    };
+    let mean = (!distance.is_empty()).then(|| distance.iter().sum::<f64>() / distance.len() as f64);
+    [share(own), share(moving), share(others), mean]
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(64))]
+    #[test]
+    fn persistence_is_what_brute_force_gives(
+        own in prop::collection::vec(prop::collection::vec(row(), 0..12), 2..6),
+        other in prop::collection::vec(prop::collection::vec(row(), 0..12), 0..4),
+    ) {
+        // A detection far away in each direction lets every scan see all.
+        let wide = |mut rows: Rows| {
+            rows.extend((-6..=6).map(|k| {
+                let angle = k as f32 * 10f32.to_radians();
+                [60.0 * angle.cos(), 60.0 * angle.sin(), 0.0, 0.0, 0.0]
+            }));
+            rows
+        };
+        let timed = |scans: Vec<Rows>, first: i64| (0..).map(|k| first + 50 * k).zip(scans.into_iter().map(wide)).collect();
+        let beside = Radar {
+            name: "beside".into(), vehicle_from_radar: Transform::translation(0.5, 0.3, 0.2), ..front()
+        };
+        let memory = drive(vec![(front(), timed(own, 0)), (beside, timed(other, 20))]);
+        with_frame(&memory, 0, 1, |frame| {
+            let found = evidence::observe(frame, &Config::default());
+            let names = ["persistence_own", "persistence_moving", "persistence_others", "persistence_distance"];
+            let found = names.map(|name| column(&found, name));
+            // Those far away lie at the very limit of what can be seen.
+            for (i, own) in found[0].iter().enumerate().take(frame.scan.len() - 13) {
+                close(&[*own, found[1][i], found[2][i], found[3][i]], &brute_force(frame, i));
+            }
+        });
+    }
+}
