@@ -40,7 +40,7 @@ pub(crate) struct InspectArgs {
     /// Look at times alone: don't read the scans to find those that can't be read
     #[arg(long)]
     quick: bool,
-    /// Tell instead what its measurements are like: ranges, strengths, range rates, persistence (docs/worlds.md)
+    /// Tell instead what its measurements are like: ranges, strengths, range rates, persistence (docs/realism.md)
     #[arg(long, conflicts_with_all = ["quick", "write_topics"])]
     distributions: bool,
     /// As JSON

@@ -45,7 +45,7 @@ Examples:
 
 With --compare nothing is simulated that isn't looked at: some hundred scans, spread over the sequences, are set \
 beside as many of a real recording, and the distance between the distributions of what both measure is printed. \
-`docs/worlds.md` tells what is compared, and how.
+`docs/realism.md` tells what is compared, and how.
 
   ralf simulate --compare nuscenes --preset paper -o realism.html
   ralf simulate --compare nuscenes --preset worlds --family 2 -o realism.html
@@ -59,7 +59,7 @@ pub(crate) struct SimulateArgs {
     compare: Option<PathBuf>,
     /// Compare this recording in place of one that is simulated now
     #[arg(long, value_name = "RECORDING", requires = "compare",
-        conflicts_with_all = ["preset", "scenario", "sequences", "scans", "seed"])]
+        conflicts_with_all = ["preset", "family", "scenario", "sequences", "scans", "seed"])]
     with: Option<PathBuf>,
     /// The comparison's figures as JSON
     #[arg(long, requires = "compare")]

@@ -46,7 +46,9 @@ fn a_simulated_recording_is_compared_with_another_one() {
     for part in ["How real is", "to the next LiDAR point", "Kolmogorov-Smirnov", "</svg>"] {
         assert!(html.contains(part), "the page lacks {part}");
     }
-    assert!(!html.contains("http://") && !html.contains("https://"), "the page needs a network");
+    for loaded in ["src=\"http", "href=\"http", "url(http", "@import"] {
+        assert!(!html.contains(loaded), "the page needs a network: {loaded}");
+    }
 
     let other = ["simulate", "--compare", &made, "--preset", "tiny", "--seed", "4", "--json"];
     let figures = ralf(other).exits(0).json();
@@ -54,6 +56,11 @@ fn a_simulated_recording_is_compared_with_another_one() {
     let distance = figures["realism"]["mean_ks"].as_f64().unwrap();
     assert!((0.005..0.4).contains(&distance), "another seed of the same world: {distance}");
     assert_eq!(figures["realism"]["quantities"][1]["name"], "range");
+
+    let alone = ralf(["inspect", &made, "--distributions", "--json"]).exits(0).json();
+    assert_eq!(alone["quantities"][1]["summary"], figures["realism"]["quantities"][1]["real"]);
+    ralf(["inspect", &made, "--distributions"]).exits(0).prints(["radar scans", "persistence, share"]);
+    ralf(["inspect", &made, "--distributions", "--quick"]).exits(2).says(["--quick"]);
 
     ralf(["simulate", "--with", &made]).exits(2).says(["--compare"]);
     ralf(["simulate", "--compare", &made, "--with", &made, "--seed", "1"]).exits(2).says(["--seed"]);

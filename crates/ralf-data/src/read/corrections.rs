@@ -30,7 +30,7 @@ pub struct SensorCorrection {
     pub doppler_factor: f64,
     /// Of its coordinates (radar, LiDAR).
     pub position_factor: f64,
-    /// Exchanges left and right (radar).
+    /// Exchanges left and right (radar): of places, angles, and velocities in two components (`vy`, `vy_comp`).
     pub mirror_y: bool,
 }
 

@@ -156,6 +156,8 @@ pub struct LidarConfig {
     pub beta: f64,
     /// `K`.
     pub neighbours: usize,
+    /// Cap of `d_lm`.
+    pub max_mismatch: f64,
     /// Also compare each detection with every point where its Doppler velocity takes it at the point's own time.
     pub dynamic: bool,
 }
@@ -184,6 +186,8 @@ pub struct CameraConfig {
     pub beta: f64,
     /// Nearest calibrated points per detection.
     pub neighbours: usize,
+    /// Cap of `d_cm`.
+    pub max_mismatch: f64,
     /// Every stride-th pixel of every stride-th row is calibrated.
     pub stride: usize,
     /// How relative depth becomes metric.

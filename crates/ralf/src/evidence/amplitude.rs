@@ -1,8 +1,8 @@
 //! How strong an echo is among its own: the radar equation and the radar's detection threshold, without anything
 //! absolute, for which radars would have to be calibrated.
 //!
-//! The cross-section tells what reflected, the power (cross-section less `40 log10 r`) how far the echo stood out of the
-//! noise. Noise and clutter crowd just above the threshold; what a real object sends back often does not.
+//! The cross-section tells what reflected, the power (cross-section less `40 log10 r`) how far the echo stood out of
+//! the noise. Noise and clutter crowd just above the threshold; what a real object sends back often does not.
 
 use super::columns::unobserved;
 use super::ordered::Ordered;

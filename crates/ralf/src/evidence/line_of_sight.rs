@@ -10,12 +10,12 @@ const GROUP: &str = "Line of sight";
 /// Length of a step, m.
 const STEP: f64 = 0.2;
 /// A column with something at these heights is a surface that a radar at a vehicle's height meets, m.
-const SURFACE: [f32; 2] = [0.25, 1.8];
+const SURFACE: [f64; 2] = [0.25, 1.8];
 /// A column that reaches so high and has so many voxels is tall: a wall, a hedge, a lorry, m.
-pub(super) const TALL: f32 = 1.0;
-const TALL_VOXELS: u16 = 3;
+pub(super) const TALL: f64 = 1.0;
+const TALL_VOXELS: u32 = 3;
 /// What reaches so high is no car any more, m.
-const OVER_CARS: f32 = 2.2;
+const OVER_CARS: f64 = 2.2;
 /// Columns this near to a detection are its footprint, m.
 const FOOTPRINT: f64 = 1.5;
 /// The march begins so far from the radar: what is nearer belongs to the own vehicle, m.
@@ -127,7 +127,7 @@ impl Way {
             let gone = OWN + step as f64 * STEP;
             let place = radar.coords.xy() + along * (gone / length);
             if let Some(column) = map.columns.at(place.x, place.y) {
-                way.meet(column, length - gone);
+                way.meet(&column, length - gone);
             }
         }
         way
@@ -137,7 +137,7 @@ impl Way {
     fn meet(&mut self, column: &Column, before: f64) {
         if column.bottom <= SURFACE[1] && column.top >= SURFACE[0] && self.surface_height.is_none() {
             self.behind_surface = before;
-            self.surface_height = Some(column.top.into());
+            self.surface_height = Some(column.top);
         }
         if column.top >= TALL && column.voxels >= TALL_VOXELS && column.bottom <= SURFACE[1] {
             if self.through == 0.0 {

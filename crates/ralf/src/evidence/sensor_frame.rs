@@ -1,5 +1,5 @@
-//! What moves along with the radar: side lobes of the vehicle itself, its bumper, interference. It lies at the same place
-//! of the radar's own frame again and again, however the vehicle moves.
+//! What moves along with the radar: side lobes of the vehicle itself, its bumper, interference. It lies at the same
+//! place of the radar's own frame again and again, however the vehicle moves.
 
 use super::chance::{AROUND, SAME, excess_of};
 use super::distance::{ROOM, chi, horizontal_variance};
@@ -63,8 +63,8 @@ impl<'a> Unmoved<'a> {
     }
 }
 
-/// Whether a detection that stands still is elsewhere in the vehicle frame at another time, by more than its uncertainty
-/// in any direction explains.
+/// Whether a detection that stands still is elsewhere in the vehicle frame at another time, by more than its
+/// uncertainty in any direction explains.
 fn moves_on(detection: &Detection, scan_from_vehicle: &Transform) -> bool {
     let way = scan_from_vehicle * detection.position - detection.position;
     way.norm_squared() > MOVED_ON * MOVED_ON * (2.0 * horizontal_variance(detection) + ROOM * ROOM)

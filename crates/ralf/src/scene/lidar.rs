@@ -150,6 +150,16 @@ impl LidarSnapshot {
         &self.sweeps
     }
 
+    /// The largest `s_r,lidar` of the LiDARs, m.
+    pub fn max_sigma_range(&self) -> f64 {
+        self.sweeps.iter().map(|sweep| sweep.sigma_range).fold(0.0, f64::max)
+    }
+
+    /// Whether points carry classes.
+    pub fn has_classes(&self) -> bool {
+        self.sweeps.iter().any(|sweep| sweep.scan.classes.is_some())
+    }
+
     /// The ground, in the vehicle frame at the moment; `None` where there is none.
     pub fn ground(&self) -> Option<&Ground> {
         self.ground.get_or_init(|| Ground::fit(&self.points, &self.config, self.seed)).as_ref()

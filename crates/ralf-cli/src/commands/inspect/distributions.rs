@@ -5,8 +5,8 @@ use crate::outcome::Outcome;
 use crate::progress::{Progress, say};
 use crate::text::{aligned, grouped, print};
 use ralf_data::Recording;
-use ralf_data::realism::{Distributions, Quantity, Summary};
-use serde_json::{Map, Value, json};
+use ralf_data::realism::{Description, Distributions, Quantity, Summary};
+use serde_json::{Value, json};
 
 /// Gathers them and prints them.
 pub(super) fn show(recording: &Recording, jobs: usize, as_json: bool) -> anyhow::Result<Outcome> {
@@ -43,12 +43,11 @@ fn table(found: &Distributions) -> String {
 }
 
 fn values(found: &Distributions) -> anyhow::Result<Value> {
-    let mut quantities = Map::new();
+    let mut quantities = Vec::new();
     for quantity in Quantity::ALL {
+        let Description { name, unit, .. } = quantity.description();
         let summary = Summary::of(&found.values(quantity));
-        let unit = quantity.description().unit;
-        let told = json!({ "unit": unit, "summary": summary });
-        quantities.insert(quantity.description().name.to_owned(), told);
+        quantities.push(json!({ "name": name, "unit": unit, "summary": summary }));
     }
     Ok(json!({
         "radar_scans": found.radar_scans,
