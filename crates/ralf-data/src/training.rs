@@ -41,15 +41,15 @@ impl TrainingGatherer<'_> {
         TrainingTable::new(features().collect())
     }
 
-    /// Adds all detections with truth of a recording to a table, as those of a world of this name. Scans that can't be
-    /// read are left out, and told.
+    /// Adds all detections with truth of a recording to a table, as those of a world of this name; without one, every
+    /// sequence is a world. Scans that can't be read are left out, and told.
     ///
     /// # Errors
     /// Truth that doesn't fit the recording, or settings that don't.
     pub fn add(
         &self,
         table: &mut TrainingTable,
-        world: &str,
+        world: Option<&str>,
         recording: &Recording,
         truth: TrainingTruth,
     ) -> Result<Vec<NotLabelled>, DataError> {
@@ -63,7 +63,7 @@ impl TrainingGatherer<'_> {
             };
             let task = Task { gatherer: self, reader, rig, truth, causes };
             let first_scan = table.known.last().map_or(0, |known| known.scan + 1);
-            let number = table.world(world);
+            let number = table.world(world.unwrap_or(&reader.sequence().name));
             for (scan, gathered) in task.gather()?.into_iter().enumerate() {
                 match gathered {
                     Ok(parts) => {

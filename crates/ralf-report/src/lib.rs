@@ -3,6 +3,7 @@
 //! [`Report::page`] gathers a run's results, the recording and, where there are some, the corrected labels, and gives
 //! one self-contained HTML page: charts as inline SVG, pictures as data, nothing from a network. The same data give the
 //! same bytes. [`Pictures`] draws single pictures of a sequence.
+//! [`RealismPage`] sets a simulated recording beside a real one.
 
 mod breakdown;
 mod chart;
@@ -59,5 +60,15 @@ impl Report<'_> {
         progress("writing the page");
         let html = page::render(&content)?;
         Ok(Page { html, without_labels: content.without_labels, orphaned: content.orphaned })
+    }
+}
+
+impl RealismPage {
+    /// One self-contained HTML page: charts as inline SVG, nothing from a network. The same data give the same bytes.
+    ///
+    /// # Errors
+    /// A chart that can't be drawn.
+    pub fn html(&self) -> Result<String, ReportError> {
+        page::realism(self)
     }
 }

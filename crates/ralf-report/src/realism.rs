@@ -1,7 +1,5 @@
-//! One page about how far a simulated recording is from a real one.
+//! What is told of how far a simulated recording is from a real one.
 
-use crate::ReportError;
-use crate::page;
 use ralf_data::realism::{Distributions, Realism};
 
 /// Two recordings side by side.
@@ -24,13 +22,5 @@ impl RealismPage {
         let realism = Realism::new(&real.1, &simulated.1);
         let ((real_name, real), (simulated_name, simulated)) = (real, simulated);
         Self { real_name, simulated_name, real, simulated, realism }
-    }
-
-    /// One self-contained HTML page: charts as inline SVG, nothing from a network. The same data give the same bytes.
-    ///
-    /// # Errors
-    /// A chart that can't be drawn.
-    pub fn html(&self) -> Result<String, ReportError> {
-        page::realism(self)
     }
 }

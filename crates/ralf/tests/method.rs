@@ -58,6 +58,37 @@ fn by_hand() {
     assert!(!labels[0].plausible, "0.48 is below 0.5");
 }
 
+/// A spiral of points that runs from 1 m to 80 m around the vehicle, from -2 m to 3 m high.
+fn spiral(step: f32) -> Vec<[f32; 3]> {
+    let at = |i: u16| {
+        let (range, angle) = (1.0 + f32::from(i) * 0.5, f32::from(i) * step);
+        [range * angle.cos(), range * angle.sin(), (f32::from(i) * 0.37) % 5.0 - 2.0]
+    };
+    (0..160).map(at).collect()
+}
+
+#[test]
+fn a_cap_changes_nothing_below_it() {
+    for elevation in [Elevation::Measured, Elevation::None] {
+        let memory = Memory::new(0.0)
+            .radar(radar(elevation), vec![(0, Some(spiral(0.105)))])
+            .lidar(lidar(), vec![(0, spiral(0.1).into_iter().map(|[x, y, z]| [x, y, z - 2.0]).collect())]);
+        let with_cap = |cap: f64| {
+            let settings = config(&["lidar.neighbours=2", &format!("lidar.max_mismatch={cap}")]);
+            memory.label(&settings, 0, 0)
+        };
+        let exact = with_cap(1e6);
+        for cap in [6.0, 15.0] {
+            let capped = with_cap(cap);
+            for (exact, capped) in exact.iter().zip(&capped) {
+                assert_eq!(capped.d_lm, exact.d_lm.map(|d| d.min(cap)));
+            }
+            let beyond = exact.iter().filter(|label| label.d_lm.unwrap() > cap).count();
+            assert!((1..160).contains(&beyond), "{beyond} of 160 are beyond {cap}");
+        }
+    }
+}
+
 #[test]
 fn an_absent_branch_leaves_the_other_alone_and_says_so() {
     let far = config(&["sync.lidar_tolerance_ms=9"]);

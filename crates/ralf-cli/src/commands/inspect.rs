@@ -1,5 +1,6 @@
 //! `ralf inspect`: what a recording holds, and what is missing; or what a run of `ralf label` made.
 
+mod distributions;
 mod ros;
 
 use super::check::page::page as check_page;
@@ -26,6 +27,7 @@ Every radar and LiDAR scan is read once, so that those that can't be are found b
 Examples:
   ralf inspect recordings/city --sequence 00
   ralf inspect drive.mcap --write-topics ralf.toml
+  ralf inspect recordings/city --distributions
   ralf inspect out")]
 pub(crate) struct InspectArgs {
     #[command(flatten)]
@@ -38,6 +40,9 @@ pub(crate) struct InspectArgs {
     /// Look at times alone: don't read the scans to find those that can't be read
     #[arg(long)]
     quick: bool,
+    /// Tell instead what its measurements are like: ranges, strengths, range rates, persistence (docs/realism.md)
+    #[arg(long, conflicts_with_all = ["quick", "write_topics"])]
+    distributions: bool,
     /// As JSON
     #[arg(long)]
     json: bool,
@@ -62,10 +67,11 @@ pub(crate) fn run(arguments: &InspectArgs) -> anyhow::Result<Outcome> {
         print(&topics.page(&settings.topics)?)?;
     }
     let recording = opened?;
-    let mut looks = Vec::new();
-    for reader in &recording.sequences {
-        looks.push(look_at(reader.as_ref(), &settings.method, arguments.quick));
+    if arguments.distributions {
+        return distributions::show(&recording, threads(None), arguments.json);
     }
+    let look = |reader: &Box<dyn SequenceReader>| look_at(reader.as_ref(), &settings.method, arguments.quick);
+    let looks: Vec<Inspection> = recording.sequences.iter().map(look).collect();
     if arguments.json {
         let checks = checks(&recording, arguments.quick);
         let mut look = serde_json::json!({ "format": recording.format, "sequences": looks, "check": checks });

@@ -1,6 +1,6 @@
 //! `ralf simulate`: a recording whose truth is known; and how far it is from a real one.
 
-mod compare;
+pub(super) mod compare;
 
 use crate::arguments::threads;
 use crate::outcome::{Outcome, UsageError};
@@ -43,9 +43,9 @@ Examples:
   ralf simulate -o recordings/city5 --preset worlds --family 0 --seed 5 --scans 200 --sequence 01
   ralf simulate -o recordings/mine --scenario yard.toml --scans 200 --seed 3
 
-With --compare nothing is simulated that isn't looked at: some hundred scans, spread over the sequences, are set beside \
-as many of a real recording, and the distance between the distributions of what both measure is printed. `docs/worlds.md` \
-tells what is compared, and how.
+With --compare nothing is simulated that isn't looked at: some hundred scans, spread over the sequences, are set \
+beside as many of a real recording, and the distance between the distributions of what both measure is printed. \
+`docs/realism.md` tells what is compared, and how.
 
   ralf simulate --compare nuscenes --preset paper -o realism.html
   ralf simulate --compare nuscenes --preset worlds --family 2 -o realism.html
@@ -59,7 +59,7 @@ pub(crate) struct SimulateArgs {
     compare: Option<PathBuf>,
     /// Compare this recording in place of one that is simulated now
     #[arg(long, value_name = "RECORDING", requires = "compare",
-        conflicts_with_all = ["preset", "scenario", "sequences", "scans", "seed"])]
+        conflicts_with_all = ["preset", "family", "scenario", "sequences", "scans", "seed"])]
     with: Option<PathBuf>,
     /// The comparison's figures as JSON
     #[arg(long, requires = "compare")]

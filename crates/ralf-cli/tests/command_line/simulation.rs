@@ -34,3 +34,54 @@ fn a_simulated_recording_is_labelled_evaluated_and_reported() {
         assert!(html.contains(part), "the page lacks {part}");
     }
 }
+
+#[test]
+fn a_simulated_recording_is_compared_with_another_one() {
+    let dataset = Dataset::new();
+    let [made, page] = ["made", "realism.html"].map(|name| dataset.beside(name));
+    ralf(["simulate", "-o", &made, "--preset", "tiny", "--scans", "10", "--no-images"]).exits(0);
+    let same = ["simulate", "--compare", &made, "--with", &made, "-o", &page];
+    ralf(same).exits(0).prints(["made beside made (real)", "range, m", "mean KS 0.000"]);
+    let html = fs::read_to_string(&page).unwrap();
+    for part in ["How real is", "to the next LiDAR point", "Kolmogorov-Smirnov", "</svg>"] {
+        assert!(html.contains(part), "the page lacks {part}");
+    }
+    for loaded in ["src=\"http", "href=\"http", "url(http", "@import"] {
+        assert!(!html.contains(loaded), "the page needs a network: {loaded}");
+    }
+
+    let other = ["simulate", "--compare", &made, "--preset", "tiny", "--seed", "4", "--json"];
+    let figures = ralf(other).exits(0).json();
+    assert_eq!(figures["simulated"], "tiny, seed 4");
+    let distance = figures["realism"]["mean_ks"].as_f64().unwrap();
+    assert!((0.005..0.4).contains(&distance), "another seed of the same world: {distance}");
+    assert_eq!(figures["realism"]["quantities"][1]["name"], "range");
+
+    let alone = ralf(["inspect", &made, "--distributions", "--json"]).exits(0).json();
+    assert_eq!(alone["quantities"][1]["summary"], figures["realism"]["quantities"][1]["real"]);
+    ralf(["inspect", &made, "--distributions"]).exits(0).prints(["radar scans", "persistence, share"]);
+    ralf(["inspect", &made, "--distributions", "--quick"]).exits(2).says(["--quick"]);
+
+    ralf(["simulate", "--with", &made]).exits(2).says(["--compare"]);
+    ralf(["simulate", "--compare", &made, "--with", &made, "--seed", "1"]).exits(2).says(["--seed"]);
+    ralf(["simulate", "--compare", "nowhere"]).exits(1).says(["nowhere"]);
+    ralf(["simulate"]).exits(2).says(["--output"]);
+}
+
+#[test]
+fn without_images_or_with_other_numbers_of_jobs_all_other_files_are_the_same() {
+    let dataset = Dataset::new();
+    let [one, three, bare] = ["one", "three", "bare"].map(|name| dataset.beside(name));
+    ralf(["simulate", "-o", &one, "--preset", "tiny", "--scans", "3", "--jobs", "1"]).exits(0);
+    ralf(["simulate", "-o", &three, "--preset", "tiny", "--scans", "3", "--jobs", "3"]).exits(0);
+    ralf(["simulate", "-o", &bare, "--preset", "tiny", "--scans", "3", "--no-images"]).exits(0);
+    let all = tree(&one);
+    assert_eq!(all, tree(&three));
+    let mut others = all.clone();
+    let is_other = |file: &str| !file.contains("camera_") && !file.ends_with("sequence.toml");
+    others.retain(|file, _| is_other(file));
+    let mut left = tree(&bare);
+    left.retain(|file, _| is_other(file));
+    assert_eq!(left, others);
+    assert!(tree(&bare).keys().all(|file| !file.contains("camera_")));
+}

@@ -30,7 +30,7 @@ pub struct SensorCorrection {
     pub doppler_factor: f64,
     /// Of its coordinates (radar, LiDAR).
     pub position_factor: f64,
-    /// Exchanges left and right (radar).
+    /// Exchanges left and right (radar): of places, angles, and velocities in two components (`vy`, `vy_comp`).
     pub mirror_y: bool,
 }
 
@@ -60,6 +60,8 @@ pub enum MotionSource {
     Recorded,
     /// From the radars' range rates.
     Radar,
+    /// From the scans of a LiDAR.
+    Lidar,
     /// From a trajectory's file.
     Trajectory,
 }
@@ -68,7 +70,7 @@ pub enum MotionSource {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct MotionSettings {
-    /// `recorded` or `radar`; a trajectory wins over both.
+    /// `recorded`, `radar` or `lidar`; a trajectory wins over all.
     pub source: MotionSource,
     /// File of poses: TUM (`t x y z qx qy qz qw`) or KITTI (twelve numbers, row by row).
     #[serde(skip_serializing_if = "Option::is_none")]

@@ -2,6 +2,9 @@
 
 use serde::Serialize;
 
+/// Fewer values than this on either side say nothing of a distribution.
+pub(super) const ENOUGH: usize = 8;
+
 /// The distance between a real distribution and another one.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Distance {
@@ -62,8 +65,8 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    /// Half of the real values lie at 0 and half at 4; of the others a quarter lies at 4, so that a quarter of all has to
-    /// be moved by 4. The real ones lie 2 about their median on average, for it is 4: (4 + 4 + 0 + 0) / 4.
+    /// Half of the real values lie at 0 and half at 4; of the others a quarter lies at 4, so that a quarter of all has
+    /// to be moved by 4. The real ones lie 2 about their median on average, for it is 4: (4 + 4 + 0 + 0) / 4.
     #[test]
     fn worked_out_by_hand() {
         let found = Distance::between(&[0.0, 0.0, 4.0, 4.0], &[0.0, 0.0, 0.0, 4.0]).unwrap();

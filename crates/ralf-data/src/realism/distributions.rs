@@ -1,5 +1,6 @@
 //! The values of all quantities, gathered from a recording.
 
+use super::values::Values;
 use super::{Quantity, lidar, radar};
 use crate::frames::{Frames, ScanIndex, side_by_side};
 use crate::read::SequenceReader;
@@ -21,25 +22,6 @@ pub struct Distributions {
     /// Why a scan could not be, a sentence each.
     pub unreadable: Vec<String>,
     halves: [Values; 2],
-}
-
-/// Values of every quantity, none of them infinite or no number.
-#[derive(Debug, Clone, Default, PartialEq)]
-pub(super) struct Values([Vec<f32>; Quantity::ALL.len()]);
-
-impl Values {
-    /// Takes what is a number.
-    pub(super) fn push(&mut self, quantity: Quantity, value: f64) {
-        if value.is_finite() {
-            self.0[quantity as usize].push(value as f32);
-        }
-    }
-
-    fn append(&mut self, mut other: Self) {
-        for (own, others) in self.0.iter_mut().zip(&mut other.0) {
-            own.append(others);
-        }
-    }
 }
 
 /// What was read of a scan, in which half of its sequence; or why it could not be read.
@@ -78,8 +60,8 @@ impl Distributions {
             progress(done, all);
             found.lidar_scans += found.add(looked);
         }
-        for values in found.halves.iter_mut().flat_map(|half| &mut half.0) {
-            values.sort_by(f32::total_cmp);
+        for half in &mut found.halves {
+            half.sort();
         }
         found
     }
@@ -94,7 +76,7 @@ impl Distributions {
 
     /// The values from the first and from the second half of each sequence, each in ascending order.
     pub fn halves(&self, quantity: Quantity) -> [&[f32]; 2] {
-        [0, 1].map(|half| self.halves[half].0[quantity as usize].as_slice())
+        [0, 1].map(|half| self.halves[half].of(quantity))
     }
 
     /// Adds scans, and tells how many could be read.

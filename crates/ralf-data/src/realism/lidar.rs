@@ -1,7 +1,7 @@
 //! What a LiDAR scan gives.
 
 use super::Quantity;
-use super::distributions::Values;
+use super::values::Values;
 use crate::read::SequenceReader;
 use ralf::config::Config;
 use ralf::scene::Ground;

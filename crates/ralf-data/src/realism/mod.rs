@@ -12,6 +12,7 @@ mod lidar;
 mod quantity;
 mod radar;
 mod side_by_side;
+mod values;
 
 pub use distance::Distance;
 pub use distributions::Distributions;

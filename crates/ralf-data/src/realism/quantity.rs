@@ -39,17 +39,27 @@ pub enum Quantity {
     Speed,
 }
 
+/// Unit of what lies between 0 and 1.
+const SHARE: &str = "share";
+
 /// A quantity, for people.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Description {
     /// In two or three words.
     pub name: &'static str,
-    /// Unit; empty of shares and counts.
+    /// Unit: `share` of shares, empty of counts.
     pub unit: &'static str,
     /// What a value is, in a sentence.
     pub meaning: &'static str,
     /// What a recording must have for it.
     pub needs: &'static str,
+}
+
+impl Description {
+    /// Whether values are shares, from 0 to 1.
+    pub fn is_share(&self) -> bool {
+        self.unit == SHARE
+    }
 }
 
 impl Quantity {
@@ -75,92 +85,109 @@ impl Quantity {
     ];
 
     /// What it is.
-    pub fn description(self) -> Description {
-        let [name, unit, meaning, needs] = match self {
-            Self::Detections => ["detections per scan", "", "Detections of a radar scan.", "a radar scan"],
-            Self::Range => ["range", "m", "Range of a detection, from its radar.", "a detection"],
-            Self::Azimuth => [
-                "azimuth",
-                "degrees",
-                "Azimuth of a detection in its radar's frame, positive to the left.",
-                "a detection",
-            ],
-            Self::Elevation => [
-                "elevation",
-                "degrees",
-                "Elevation of a detection in its radar's frame.",
-                "a radar that measures elevation",
-            ],
-            Self::Height => [
-                "height",
-                "m",
-                "Height of a detection above the ground that LiDAR points show.",
-                "a radar that measures elevation, and a LiDAR that sees ground",
-            ],
-            Self::Amplitude => [
-                "amplitude",
-                "dB",
-                "Strength of a detection less the median of its scan.",
-                "a column rcs, power, snr, amplitude or intensity",
-            ],
-            Self::DopplerResidual => [
-                "Doppler residual",
-                "m/s",
-                "Range rate of a detection less that of a standing thing in its place.",
-                "range rates, and the vehicle's motion where they are raw",
-            ],
-            Self::DopplerSpread => [
-                "Doppler noise",
-                "m/s",
-                "1.48 times the median size of a scan's Doppler residuals below 1 m/s, of eight or more.",
-                "range rates, and the vehicle's motion where they are raw",
-            ],
-            Self::NearestDetection => [
-                "to the next detection",
-                "m",
-                "From a detection to the nearest other one of its scan, 20 m at most.",
-                "two detections in a scan",
-            ],
-            Self::NearestLidar => [
-                "to the next LiDAR point",
-                "m",
-                "From a detection to the nearest LiDAR point above the ground, 20 m at most; horizontally for a radar \
-                 without elevation.",
-                "a LiDAR scan near in time",
-            ],
-            Self::FreeSpace => [
-                "in free space",
-                "",
-                "Of a scan's detections that LiDAR rays reach, the share where three or more pass and none ends \
-                 within 1 m.",
-                "a LiDAR scan near in time",
-            ],
-            Self::Persistence => [
-                "persistence",
-                "",
-                "Share of the five scans before and the five after that have a detection within 1 m of a place that \
-                 stands, or within 2 % of its range.",
-                "four neighbouring scans, and the vehicle's motion",
-            ],
-            Self::FreePersistence => [
-                "persistence in free space",
-                "",
-                "The same, of detections in free space alone.",
-                "four neighbouring scans, the vehicle's motion, and a LiDAR scan near in time",
-            ],
-            Self::LidarPoints => ["LiDAR points", "", "Returns of a LiDAR scan.", "a LiDAR"],
-            Self::LidarGround => [
-                "LiDAR on the ground",
-                "",
-                "Share of a LiDAR scan's returns that lie less than 0.2 m above the ground.",
-                "a LiDAR that sees ground",
-            ],
-            Self::LidarRange => ["LiDAR range", "m", "Range of a LiDAR return.", "a LiDAR"],
-            Self::Speed => ["speed", "m/s", "The vehicle's speed at a radar scan.", "the vehicle's motion"],
-        };
-        Description { name, unit, meaning, needs }
+    pub fn description(self) -> &'static Description {
+        &DESCRIPTIONS[self as usize]
     }
 }
+
+/// In the order of [`Quantity::ALL`].
+const DESCRIPTIONS: [Description; Quantity::ALL.len()] = [
+    Description {
+        name: "detections per scan",
+        unit: "",
+        meaning: "Detections of a radar scan.",
+        needs: "a radar scan",
+    },
+    Description {
+        name: "range",
+        unit: "m",
+        meaning: "Range of a detection, from its radar.",
+        needs: "a detection",
+    },
+    Description {
+        name: "azimuth",
+        unit: "degrees",
+        meaning: "Azimuth of a detection in its radar's frame, positive to the left.",
+        needs: "a detection",
+    },
+    Description {
+        name: "elevation",
+        unit: "degrees",
+        meaning: "Elevation of a detection in its radar's frame.",
+        needs: "a radar that measures elevation",
+    },
+    Description {
+        name: "height",
+        unit: "m",
+        meaning: "Height of a detection above the ground that LiDAR points show.",
+        needs: "a radar that measures elevation, and a LiDAR that sees ground",
+    },
+    Description {
+        name: "amplitude",
+        unit: "dB",
+        meaning: "Radar cross-section of a detection less the median of its scan; power becomes one by range to the fourth.",
+        needs: "a column rcs, power, snr, amplitude or intensity",
+    },
+    Description {
+        name: "Doppler residual",
+        unit: "m/s",
+        meaning: "Range rate of a detection less that of a standing thing in its place.",
+        needs: "range rates, and the vehicle's motion where they are raw",
+    },
+    Description {
+        name: "Doppler noise",
+        unit: "m/s",
+        meaning: "1.48 times the median size of a scan's Doppler residuals below 1 m/s, of eight or more.",
+        needs: "range rates, and the vehicle's motion where they are raw",
+    },
+    Description {
+        name: "to the next detection",
+        unit: "m",
+        meaning: "From a detection to the nearest other one of its scan, 20 m at most.",
+        needs: "two detections in a scan",
+    },
+    Description {
+        name: "to the next LiDAR point",
+        unit: "m",
+        meaning: "From a detection to the nearest LiDAR point above the ground, 20 m at most; horizontally for a radar \
+        without elevation.",
+        needs: "a LiDAR scan near in time",
+    },
+    Description {
+        name: "in free space",
+        unit: SHARE,
+        meaning: "Of a scan's detections that LiDAR rays reach, the share where three or more pass and none ends \
+        within 1 m.",
+        needs: "a LiDAR scan near in time",
+    },
+    Description {
+        name: "persistence",
+        unit: SHARE,
+        meaning: "Share of the five scans before and the five after that have a detection within 1 m of a place that \
+        stands, or within 2 % of its range.",
+        needs: "four neighbouring scans, and the vehicle's motion",
+    },
+    Description {
+        name: "persistence in free space",
+        unit: SHARE,
+        meaning: "The same, of detections in free space alone.",
+        needs: "four neighbouring scans, the vehicle's motion, and a LiDAR scan near in time",
+    },
+    Description { name: "LiDAR points", unit: "", meaning: "Returns of a LiDAR scan.", needs: "a LiDAR" },
+    Description {
+        name: "LiDAR on the ground",
+        unit: SHARE,
+        meaning: "Share of a LiDAR scan's returns that lie less than 0.2 m above the ground.",
+        needs: "a LiDAR that sees ground",
+    },
+    Description { name: "LiDAR range", unit: "m", meaning: "Range of a LiDAR return.", needs: "a LiDAR" },
+    Description {
+        name: "speed",
+        unit: "m/s",
+        meaning: "The vehicle's speed at a radar scan.",
+        needs: "the vehicle's motion",
+    },
+];
 
 #[cfg(test)]
 mod tests {

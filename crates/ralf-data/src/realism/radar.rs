@@ -1,9 +1,9 @@
 //! What a radar scan gives, with what surrounds it.
 
 use super::Quantity;
-use super::distributions::Values;
 use super::free_space::{Heights, RayFan};
-use ralf::scene::{Association, Detection, Frame, LidarCloud, index_of};
+use super::values::Values;
+use ralf::scene::{Association, Detection, Frame, LidarCloud, Strength, index_of};
 use ralf::sensors::Elevation;
 use ralf::space::{NeighborIndex, Point};
 
@@ -21,8 +21,6 @@ const AGAIN: (f64, f64) = (1.0, 0.02);
 const STANDING: (f64, usize) = (1.0, 8);
 /// Heights above the ground at which a radar without elevation sees most of what it sees, m.
 const USUAL_HEIGHTS: (f64, f64) = (0.3, 1.5);
-/// Columns that say how strong a detection is.
-const AMPLITUDES: [&str; 5] = ["rcs", "power", "snr", "amplitude", "intensity"];
 
 /// The values of one scan.
 pub(super) fn values(frame: &Frame) -> Values {
@@ -64,9 +62,8 @@ fn coordinates(frame: &Frame, rows: &[usize], values: &mut Values) {
 }
 
 fn amplitudes(frame: &Frame, rows: &[usize], values: &mut Values) {
-    let Some(column) = AMPLITUDES.iter().find_map(|name| frame.radar.column(name)) else { return };
-    let levels: Vec<f64> =
-        rows.iter().map(|row| f64::from(frame.scan.measured.columns[column][*row])).collect();
+    let Some(strength) = Strength::new(frame.radar, &frame.scan.measured) else { return };
+    let levels: Vec<f64> = rows.iter().map(|row| strength.cross_section[*row]).collect();
     let Some(median) = median(levels.clone()) else { return };
     for level in levels {
         values.push(Quantity::Amplitude, level - median);

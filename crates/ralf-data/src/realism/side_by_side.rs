@@ -1,5 +1,6 @@
 //! Two recordings side by side.
 
+use super::distance::ENOUGH;
 use super::{Distance, Distributions, Quantity};
 use serde::Serialize;
 
@@ -33,13 +34,13 @@ pub struct Compared {
     pub quantity: Quantity,
     /// Its name.
     pub name: &'static str,
-    /// Its unit; empty of shares and counts.
+    /// Its unit: `share` of shares, empty of counts.
     pub unit: &'static str,
     /// In the real recording; `None` where that lacks what it needs.
     pub real: Option<Summary>,
     /// In the simulated recording; `None` where that lacks what it needs.
     pub simulated: Option<Summary>,
-    /// Between the two.
+    /// Between the two; `None` where one has fewer than eight values.
     pub distance: Option<Distance>,
     /// Between the first and the second half of the real recording: what reality itself varies.
     pub within_real: Option<Distance>,
@@ -68,8 +69,8 @@ impl Realism {
                 unit: quantity.description().unit,
                 real: Summary::of(&all_real),
                 simulated: Summary::of(&all_simulated),
-                distance: Distance::between(&all_real, &all_simulated),
-                within_real: Distance::between(first, second),
+                distance: distance(&all_real, &all_simulated),
+                within_real: distance(first, second),
             }
         });
         let both = || compared.iter().filter(|compared| compared.distance.is_some());
@@ -79,6 +80,11 @@ impl Realism {
             quantities: compared.to_vec(),
         }
     }
+}
+
+/// The distance of two lists of values that are long enough to be distributions.
+fn distance(real: &[f32], other: &[f32]) -> Option<Distance> {
+    if real.len().min(other.len()) < ENOUGH { None } else { Distance::between(real, other) }
 }
 
 fn mean(distances: impl Iterator<Item = Distance>) -> Option<f64> {

@@ -16,15 +16,14 @@ struct Bins {
 }
 
 impl Bins {
-    /// From the first to the last hundredth of both lists, which are in ascending order and not both empty; a share has
-    /// bins of its own.
+    /// From 0 to 1.
+    fn of_shares() -> Self {
+        let half = 0.5 / (SHARE_BINS - 1) as f64;
+        Self { from: -half, to: 1.0 + half, count: SHARE_BINS }
+    }
+
+    /// From the first to the last hundredth of both lists, which are in ascending order and not both empty.
     fn over(real: &[f32], simulated: &[f32]) -> Self {
-        let ends =
-            [real, simulated].into_iter().filter_map(|values| Some((*values.first()?, *values.last()?)));
-        if ends.clone().all(|(first, last)| first >= 0.0 && last <= 1.0) && ends.count() > 0 {
-            let half = 0.5 / (SHARE_BINS - 1) as f64;
-            return Self { from: -half, to: 1.0 + half, count: SHARE_BINS };
-        }
         let at = |values: &[f32], share: f64| {
             let last = values.len().checked_sub(1)?;
             values.get((share * last as f64).round() as usize).copied().map(f64::from)
@@ -55,8 +54,13 @@ impl Bins {
 
 /// Shares of values, the real recording's as areas and the simulated one's as a line. Both lists are in ascending
 /// order, and one may be empty.
-pub(crate) fn distribution(real: &[f32], simulated: &[f32], name: &str) -> Result<String, ReportError> {
-    let bins = Bins::over(real, simulated);
+pub(crate) fn distribution(
+    real: &[f32],
+    simulated: &[f32],
+    name: &str,
+    is_share: bool,
+) -> Result<String, ReportError> {
+    let bins = if is_share { Bins::of_shares() } else { Bins::over(real, simulated) };
     let (of_real, of_simulated) = (bins.shares(real), bins.shares(simulated));
     let most = of_real.iter().chain(&of_simulated).copied().fold(0.01, f64::max);
     svg((560, 260), |area| {
@@ -100,7 +104,7 @@ mod tests {
         let total: f64 = bins.shares(&values).iter().sum();
         assert!(total > 0.97 && total < 1.0 + 1e-9, "{total}");
         // Shares have their own bins: a twentieth each.
-        let shares = Bins::over(&[0.0, 0.5, 1.0], &[0.1]).shares(&[0.0, 0.5, 0.5, 1.0]);
+        let shares = Bins::of_shares().shares(&[0.0, 0.5, 0.5, 1.0]);
         assert_eq!((shares[0], shares[10], shares[20]), (0.25, 0.5, 0.25));
         // All values equal.
         assert_eq!(Bins::over(&[7.0; 3], &[7.0]).shares(&[7.0]).iter().sum::<f64>(), 1.0);

@@ -38,7 +38,10 @@ fn header(page: &RealismPage) -> Markup {
                 "What its measurements are like, beside those of " em { (page.real_name) } "."
             }
             dl.tiles {
-                div { dt { "Mean distance" } dd { (ks(page.realism.mean_ks)) } dd.note { "Kolmogorov-Smirnov, 0 to 1" } }
+                div {
+                    dt { "Mean distance" } dd { (ks(page.realism.mean_ks)) }
+                    dd.note { "Kolmogorov-Smirnov, 0 to 1" }
+                }
                 div {
                     dt { "Of the real halves" } dd { (ks(page.realism.mean_ks_within_real)) }
                     dd.note { "what reality itself varies" }
@@ -57,27 +60,36 @@ fn distances(page: &RealismPage) -> Markup {
                 "Kolmogorov-Smirnov (KS) is the largest difference between the shares of values below any one number. "
                 "Moved (1-Wasserstein) is how far values have to be moved on average to turn one distribution into the "
                 "other; over the spread, which is the mean distance of the real values from their median, 1 is as far "
-                "off as that median alone would be. The last column compares the first half of the real recording with "
-                "its second."
+                "off as that median alone would be. Halves is the KS of the first half of the real recording and "
+                "its second; real and simulated are medians. Fewer than eight values on a side are no distribution."
             }
             div.scroll { table.bars {
-                (heads(&["Quantity", "Real median", "5 to 95 %", "Simulated median", "5 to 95 %", "Moved / spread", "KS", "", "KS of real halves"]))
+                (heads(&["Quantity", "Real", "5 to 95 %", "Simulated", "5 to 95 %", "Moved", "KS", "", "Halves"]))
                 tbody { @for compared in &page.realism.quantities { (row(compared)) } }
             } }
+            @for compared in &page.realism.quantities {
+                @for (name, summary) in [(&page.real_name, compared.real), (&page.simulated_name, compared.simulated)] {
+                    @if summary.is_none() {
+                        p.note {
+                            (name) " lacks what " em { (compared.name) } " needs: "
+                            (compared.quantity.description().needs) "."
+                        }
+                    }
+                }
+            }
         }
     }
 }
 
 fn row(compared: &Compared) -> Markup {
     let Compared { name, unit, real, simulated, distance, within_real, .. } = compared;
-    let needs = compared.quantity.description().needs;
     html! {
         tr {
             th scope="row" { (name) @if !unit.is_empty() { ", " (unit) } }
             @for summary in [real, simulated] {
                 @match summary {
                     Some(summary) => { td { (number(summary.quantiles[2])) } td { (span(summary)) } }
-                    None => { td.absent colspan="2" { "needs " (needs) } }
+                    None => { td.absent colspan="2" { "not measured" } }
                 }
             }
             td { (distance.and_then(|d| d.normalised).map_or("–".to_owned(), |value| format!("{value:.2}"))) }
@@ -115,7 +127,7 @@ fn chart_of(page: &RealismPage, compared: &Compared) -> Result<Markup, ReportErr
     };
     let real = page.real.values(compared.quantity);
     let simulated = page.simulated.values(compared.quantity);
-    let svg = chart::distribution(&real, &simulated, &axis)?;
+    let svg = chart::distribution(&real, &simulated, &axis, description.is_share())?;
     let mut heading = description.name.to_owned();
     if let Some(distance) = compared.distance {
         heading += &format!(": KS {:.2}", distance.ks);
@@ -129,7 +141,8 @@ fn looked_at(page: &RealismPage) -> Markup {
         html! {
             dt { (name) }
             dd {
-                (grouped(found.radar_scans as u64)) " radar scans and " (grouped(found.lidar_scans as u64)) " LiDAR scans"
+                (grouped(found.radar_scans as u64)) " radar scans and "
+                (grouped(found.lidar_scans as u64)) " LiDAR scans"
                 @if !found.unreadable.is_empty() { "; " (grouped(found.unreadable.len() as u64)) " can't be read" }
             }
         }

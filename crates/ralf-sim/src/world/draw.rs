@@ -44,6 +44,7 @@ fn waves(family: &Family, random: &mut Random) -> Waves {
         asphalt_db: ranges.asphalt.draw(random),
         texture_db: ranges.texture.draw(random),
         mirror_loss_db: ranges.mirror_loss.draw(random),
+        road_mirror: ranges.road_mirror.draw(random),
         window_loss_db: ranges.window_loss.draw(random),
         leaf_loss_db: ranges.leaf_loss.draw(random),
         strength_db: ranges.strength.draw(random),
@@ -109,6 +110,7 @@ fn radar(ranges: &RadarRanges, elevation: bool, random: &mut Random) -> RadarMod
         [draw(ranges.accuracy), draw(ranges.threshold), draw(ranges.max_range)];
     let [doppler_interval, doppler_failure] = [draw(ranges.doppler_interval), draw(ranges.doppler_failure)];
     let [side_lobe_db, angle_failure] = [draw(ranges.side_lobe), draw(ranges.angle_failure)];
+    let accepted_db = draw(ranges.accepted);
     let [ambiguity, false_alarms] = [draw(span(0.25, 0.7)), draw(ranges.false_alarms)];
     let room = ranges.room.count(random);
     let chosen = one_of(&[(0, 0.5), (1, 0.2), (2, 0.15), (3, 0.15)], random).unwrap_or(0);
@@ -129,6 +131,7 @@ fn radar(ranges: &RadarRanges, elevation: bool, random: &mut Random) -> RadarMod
         doppler_interval,
         doppler_failure,
         side_lobe_db,
+        accepted_db,
         angle_failure,
         ambiguity,
         room,

@@ -156,6 +156,8 @@ pub struct LidarConfig {
     pub beta: f64,
     /// `K`.
     pub neighbours: usize,
+    /// Cap of `d_lm`.
+    pub max_mismatch: f64,
     /// Also compare each detection with every point where its Doppler velocity takes it at the point's own time.
     pub dynamic: bool,
 }
@@ -184,6 +186,8 @@ pub struct CameraConfig {
     pub beta: f64,
     /// Nearest calibrated points per detection.
     pub neighbours: usize,
+    /// Cap of `d_cm`.
+    pub max_mismatch: f64,
     /// Every stride-th pixel of every stride-th row is calibrated.
     pub stride: usize,
     /// How relative depth becomes metric.
@@ -237,9 +241,9 @@ pub struct TrackingConfig {
     pub doppler: bool,
     /// Compensated Doppler velocities that differ by no more agree, m/s.
     pub doppler_tolerance: f64,
-    /// With `doppler`: the share of the scans that could have seen a detection whose mismatches count, the smallest
-    /// ones.
-    pub quorum: f64,
+    /// With `doppler`: bounds every `d_j` in place of `max_mismatch`; the value of a scan that could have seen a
+    /// detection and has none that agrees.
+    pub absence: f64,
     /// Two scans in a row farther apart than this end the batch, ms.
     pub max_gap_ms: f64,
 }

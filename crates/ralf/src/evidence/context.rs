@@ -3,27 +3,29 @@
 //! Strong echoes cast others. What lies behind one at its azimuth may be a path that took a turn, or the echo that went
 //! to and fro twice and so lies twice as far; what lies beside one at its range and range rate may be a side lobe.
 
+use super::columns::{set, unobserved};
 use super::echoes::Echoes;
-use super::statistics::ranks;
+use super::statistics::{over_median_nearby, ranks};
 use super::{Feature, Piece, Surroundings, Values};
-use crate::scene::Detection;
+use crate::scene::Frame;
 
 pub(super) const PIECE: Piece = Piece {
     features: &[
         feature(
-            "context_density",
-            "1",
-            "how many of the scan's other detections lie within 3 m, seen from above",
-        ),
-        feature(
             "context_density_rank",
             "1",
-            "share of the scan's other detections that have fewer within 3 m",
+            "share of the scan's other detections that have fewer others within 3 m, seen from above",
+        ),
+        feature(
+            "context_density_over_ring",
+            "1",
+            "logarithm of one more than the others within 3 m, above its median of the scan's detections within 5 m of \
+             range",
         ),
         feature(
             "context_density_around",
             "1",
-            "how many detections of all radars' scans around lie within 1.5 m, seen from above, per scan",
+            "share of the scan's other detections with fewer detections of all radars' scans around within 1.5 m",
         ),
         feature(
             "context_before",
@@ -60,6 +62,8 @@ pub(super) const PIECE: Piece = Piece {
 const CROWD: f64 = 3.0;
 /// Detections around within this lie on the same thing, m.
 const NEAR: f64 = 1.5;
+/// Detections whose range differs by no more are as crowded for the same reasons, m.
+const RING: f64 = 5.0;
 
 const fn feature(name: &'static str, unit: &'static str, meaning: &'static str) -> Feature {
     Feature { name, unit, group: "Context", meaning }
@@ -68,16 +72,19 @@ const fn feature(name: &'static str, unit: &'static str, meaning: &'static str) 
 fn observe(surroundings: &Surroundings) -> Vec<Values> {
     let frame = surroundings.frame;
     let crowd = crowd(surroundings);
-    let crowd_ranks = ranks(&crowd);
+    let logarithms: Vec<f64> = crowd.iter().map(|others| others.ln_1p()).collect();
+    let density = ranks(&crowd);
+    let over_ring = over_median_nearby(&logarithms, &ranges(frame), RING);
+    let around = ranks(&crowd_around(surroundings));
     let echoes = Echoes::new(surroundings);
-    let mut columns = vec![Vec::with_capacity(frame.scan.len()); PIECE.features.len()];
-    for (i, detection) in frame.scan.detections.iter().enumerate() {
+    let mut columns = unobserved(PIECE.features, frame.scan.len());
+    for i in 0..frame.scan.len() {
         let before = echoes.as_ref().map(|echoes| echoes.before(i)).unwrap_or_default();
         let beside = echoes.as_ref().map(|echoes| echoes.beside(i)).unwrap_or_default();
         let values = [
-            Some(crowd[i]).filter(|crowd| crowd.is_finite()),
-            crowd_ranks[i],
-            detection.as_ref().and_then(|detection| density_around(surroundings, detection)),
+            density[i],
+            over_ring[i],
+            around[i],
             before.count,
             before.distance,
             before.double_bounce,
@@ -85,11 +92,13 @@ fn observe(surroundings: &Surroundings) -> Vec<Values> {
             beside.angle,
             beside.side_lobe,
         ];
-        for (column, value) in columns.iter_mut().zip(values) {
-            column.push(value);
-        }
+        set(&mut columns, i, values);
     }
     columns
+}
+
+fn ranges(frame: &Frame) -> Vec<f64> {
+    frame.scan.measured.spherical.iter().map(|place| place.range).collect()
 }
 
 /// How many others of the scan lie near each detection; NaN for one without a place.
@@ -106,11 +115,19 @@ fn crowd(surroundings: &Surroundings) -> Vec<f64> {
     crowd
 }
 
-/// How many detections of each scan around lie near; `None` without scans around.
-fn density_around(surroundings: &Surroundings, detection: &Detection) -> Option<f64> {
+/// How many detections of all scans around lie near each detection; NaN for one without a place, and without scans
+/// around.
+fn crowd_around(surroundings: &Surroundings) -> Vec<f64> {
     let around = surroundings.neighbours();
     let mut near = Vec::new();
-    around.index.beside([detection.position.x as f32, detection.position.y as f32], NEAR as f32, &mut near);
-    let scans = around.radars.len();
-    (scans > 0).then(|| near.len() as f64 / scans as f64)
+    let mut crowd = Vec::with_capacity(surroundings.frame.scan.len());
+    for detection in &surroundings.frame.scan.detections {
+        let found = detection.as_ref().filter(|_| !around.radars.is_empty()).map(|detection| {
+            let place = [detection.position.x as f32, detection.position.y as f32];
+            around.index.beside(place, NEAR as f32, &mut near);
+            near.len() as f64
+        });
+        crowd.push(found.unwrap_or(f64::NAN));
+    }
+    crowd
 }

@@ -8,6 +8,7 @@
 //! A new piece is a file of its own here, its line in [`PIECES`], and a row in `docs/evidence.md`.
 
 mod amplitude;
+mod camera;
 mod columns;
 mod context;
 mod distance;
@@ -15,17 +16,20 @@ mod doppler;
 mod echoes;
 mod geometry;
 mod ground;
+mod lidar_map;
 mod lidar_rays;
 mod lidar_residual;
+mod line_of_sight;
+mod mirror;
 mod ordered;
 mod persistence;
 mod probe;
 mod rates;
 mod recurrence;
 mod sensor_frame;
-mod sight;
 mod statistics;
 mod surroundings;
+mod terrain;
 
 pub use probe::Probe;
 pub use surroundings::Surroundings;
@@ -38,10 +42,15 @@ pub const PIECES: &[Piece] = &[
     lidar_residual::PIECE,
     ground::PIECE,
     lidar_rays::PIECE,
+    lidar_map::PIECE,
+    line_of_sight::PIECE,
+    terrain::PIECE,
     amplitude::PIECE,
     doppler::PIECE,
     persistence::PIECE,
+    camera::PIECE,
     context::PIECE,
+    mirror::PIECE,
     geometry::PIECE,
 ];
 

@@ -11,7 +11,8 @@ use crate::space::{Point, Transform};
 /// What the cameras say of one detection.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct CameraMatch {
-    /// Mean mismatch with the nearest points; `None` where no view that is left sees the detection, or none has points.
+    /// Mean mismatch with the nearest points, at most `camera.max_mismatch`; `None` where no view that is left sees the
+    /// detection, or none has points.
     pub d: Option<f64>,
     /// A view that has failed would have seen it.
     pub in_failed_view: bool,
@@ -32,7 +33,8 @@ pub fn match_detections(frame: &Frame, config: &CameraConfig) -> Vec<CameraMatch
         let seen = seen_by(&images_from_vehicle, &detection.position);
         found.in_failed_view = seen.failed;
         if seen.calibrated {
-            found.d = association.mean_mismatch(detection, &detection.position, |id| points[id as usize]);
+            let d = association.mean_mismatch(detection, &detection.position, |id| points[id as usize]);
+            found.d = d.map(|d| d.min(config.max_mismatch));
         }
     }
     matches

@@ -8,7 +8,7 @@ use crate::space::Neighbor;
 /// What the LiDAR says of one detection.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LidarMatch {
-    /// Mean mismatch with the `K` nearest points.
+    /// Mean mismatch with the `K` nearest points, at most `lidar.max_mismatch`.
     pub d: f64,
     /// The class that most of these carry, where they carry any (docs/method.md, section 11).
     pub semantic: Option<u16>,
@@ -23,14 +23,22 @@ pub fn match_detections(frame: &Frame, config: &LidarConfig) -> Vec<Option<Lidar
     let mut matches = vec![None; frame.scan.len()];
     let Some(view) = frame.lidar.as_ref().filter(|_| config.enabled) else { return matches };
     let cloud = LidarCloud::new(view, frame.radar);
+    if cloud.is_empty() {
+        return matches;
+    }
     let mut association = cloud.association(config.neighbours);
     for (found, detection) in matches.iter_mut().zip(&frame.scan.detections) {
         let Some(detection) = detection else { continue };
-        if let Some(d) = cloud.mean_mismatch(&mut association, detection) {
-            *found = Some(LidarMatch { d, semantic: majority(&view.moment, association.found()) });
+        // A point beyond the cap says nothing but its class.
+        if !view.moment.has_classes() {
+            association.set_reach(cloud.reach(detection, config.max_mismatch));
         }
+        let d = cloud.mean_mismatch(&mut association, detection);
+        let d = d.map_or(config.max_mismatch, |d| d.min(config.max_mismatch));
+        *found = Some(LidarMatch { d, semantic: majority(&view.moment, association.found()) });
     }
     if config.dynamic {
+        association.set_reach(f64::INFINITY);
         match_movers(frame, view, &cloud, &mut association, &mut matches);
     }
     matches

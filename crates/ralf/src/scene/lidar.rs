@@ -1,9 +1,11 @@
 //! The LiDAR scans of one moment: their rays, their ground and their reference cloud, shared by all radars that use
 //! them.
 
-use super::ground::{Ground, GroundSurface};
+use super::ground::{Floor, Ground, GroundSurface};
 use super::mismatch::{Reference, Spread};
 use super::rays::RayTable;
+use super::standing::standing_points;
+use super::terrain::{Patch, patches};
 use crate::config::GroundConfig;
 use crate::sensors::{Lidar, LidarScan, Radar, is_return};
 use crate::space::{NeighborIndex, Point, Transform, Vector};
@@ -103,6 +105,9 @@ pub struct LidarSnapshot {
     /// From the moment to the first and the last point, s.
     span: OnceLock<Range<f64>>,
     lowest_points: OnceLock<Vec<[f32; 3]>>,
+    floor: OnceLock<Floor>,
+    standing_points: OnceLock<Vec<[f32; 3]>>,
+    patches: OnceLock<Vec<Patch>>,
 }
 
 impl LidarSnapshot {
@@ -134,12 +139,25 @@ impl LidarSnapshot {
             index: OnceLock::new(),
             span: OnceLock::new(),
             lowest_points: OnceLock::new(),
+            floor: OnceLock::new(),
+            standing_points: OnceLock::new(),
+            patches: OnceLock::new(),
         }
     }
 
     /// One entry per LiDAR that delivered a scan.
     pub fn sweeps(&self) -> &[LidarSweep] {
         &self.sweeps
+    }
+
+    /// The largest `s_r,lidar` of the LiDARs, m.
+    pub fn max_sigma_range(&self) -> f64 {
+        self.sweeps.iter().map(|sweep| sweep.sigma_range).fold(0.0, f64::max)
+    }
+
+    /// Whether points carry classes.
+    pub fn has_classes(&self) -> bool {
+        self.sweeps.iter().any(|sweep| sweep.scan.classes.is_some())
     }
 
     /// The ground, in the vehicle frame at the moment; `None` where there is none.
@@ -150,6 +168,28 @@ impl LidarSnapshot {
     /// The lowest point of each cell of a grid, in the moment's frame, m: all that a [`GroundSurface`] needs.
     pub fn lowest_points(&self) -> &[[f32; 3]] {
         self.lowest_points.get_or_init(|| GroundSurface::lowest_points(&self.points))
+    }
+
+    /// The points above the lowest ones, thinned, in the moment's frame, m: all that a [`StaticMap`](super::StaticMap)
+    /// needs.
+    pub fn standing_points(&self) -> &[[f32; 3]] {
+        self.standing_points.get_or_init(|| standing_points(&self.points, self.floor()))
+    }
+
+    /// The ground's brightness and roughness, cell by cell and LiDAR by LiDAR.
+    pub(super) fn patches(&self) -> &[Patch] {
+        self.patches.get_or_init(|| {
+            let mut found = Vec::new();
+            for sweep in &self.sweeps {
+                let points = &self.points[sweep.first_id..][..sweep.scan.points.len()];
+                found.extend(patches(points, &sweep.scan.intensity, self.floor()));
+            }
+            found
+        })
+    }
+
+    fn floor(&self) -> &Floor {
+        self.floor.get_or_init(|| GroundSurface::lowest_within_a_metre(self.lowest_points()))
     }
 
     /// Points above the ground for a radar that measures elevation, in the moment's frame: the reference cloud.

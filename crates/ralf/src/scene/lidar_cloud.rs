@@ -3,7 +3,7 @@
 use super::association::Association;
 use super::lidar::LidarView;
 use super::located::Detection;
-use super::mismatch::Reference;
+use super::mismatch::{Reference, reach_of_cap};
 use super::mover::Mover;
 use crate::sensors::{Elevation, Radar};
 use crate::space::{NeighborIndex, Transform};
@@ -33,6 +33,17 @@ impl<'a> LidarCloud<'a> {
             }
         };
         Self { view, elevation, index, index_from_vehicle }
+    }
+
+    /// Whether there is nothing to compare with.
+    pub fn is_empty(&self) -> bool {
+        self.index.is_empty()
+    }
+
+    /// Farther from a detection than this, m, every point's mismatch is above the cap.
+    pub fn reach(&self, detection: &Detection, cap: f64) -> f64 {
+        let sigma_range = self.view.moment.max_sigma_range();
+        reach_of_cap(cap, detection.total_variance() + sigma_range * sigma_range)
     }
 
     /// An association with this cloud.

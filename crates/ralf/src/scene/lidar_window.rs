@@ -2,6 +2,8 @@
 
 use super::ground::GroundSurface;
 use super::lidar::LidarView;
+use super::static_map::StaticMap;
+use super::terrain::Terrain;
 use crate::space::{Point, Transform};
 use nalgebra::{Isometry3, Point3};
 use std::sync::{Arc, OnceLock};
@@ -15,6 +17,8 @@ pub struct LidarWindow {
     /// The scans, in time order, each with the way to the vehicle frame at the middle.
     pub views: Vec<LidarView>,
     ground: OnceLock<Option<GroundSurface>>,
+    map: OnceLock<StaticMap>,
+    terrain: OnceLock<Terrain>,
 }
 
 /// A window of LiDAR scans, seen from a radar scan.
@@ -29,12 +33,23 @@ pub struct LidarWindowView {
 impl LidarWindow {
     /// A window of these scans, in the vehicle frame at a time.
     pub fn new(t_ns: i64, views: Vec<LidarView>) -> Self {
-        Self { t_ns, views, ground: OnceLock::new() }
+        Self { t_ns, views, ground: OnceLock::new(), map: OnceLock::new(), terrain: OnceLock::new() }
     }
 
     /// The ground surface of all scans together, in the vehicle frame at the middle; `None` where none was seen.
     pub fn ground(&self) -> Option<&GroundSurface> {
         self.ground.get_or_init(|| GroundSurface::fit(&self.lowest_points())).as_ref()
+    }
+
+    /// What stands still, in the vehicle frame at the middle.
+    pub fn map(&self) -> &StaticMap {
+        self.map.get_or_init(|| StaticMap::new(&self.views, self.ground()))
+    }
+
+    /// What the ground is like, in the vehicle frame at the middle.
+    pub fn terrain(&self) -> &Terrain {
+        let scans = self.views.iter().map(|view| (view.vehicle_from_moment, view.moment.patches()));
+        self.terrain.get_or_init(|| Terrain::new(scans))
     }
 
     fn lowest_points(&self) -> Vec<[f32; 3]> {

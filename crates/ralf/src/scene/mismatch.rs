@@ -60,9 +60,12 @@ pub fn mismatch(h: &Vector, detection: &Spread, reference: &Spread) -> f64 {
     (distance_squared / (variance + EPSILON)).sqrt()
 }
 
-/// `|h| / m` is at most this, m, where no variance is larger than the given one, m^2.
-pub fn distance_per_mismatch(variance: f64) -> f64 {
-    (variance + EPSILON).sqrt()
+/// Farther apart than this, m, two points have a mismatch above the cap, if their variances in no direction sum up to
+/// more than the given one, m^2.
+pub fn reach_of_cap(cap: f64, variance: f64) -> f64 {
+    // Searches round to `f32`.
+    const ROUNDING: f64 = 1.001;
+    cap * (variance + EPSILON).sqrt() * ROUNDING
 }
 
 /// `w = exp(-beta d)`.

@@ -17,13 +17,16 @@ mod neighbouring;
 mod neighbouring_detections;
 mod rays;
 mod sight;
+mod standing;
+mod static_map;
 mod strength;
+mod terrain;
 mod window;
 
 pub use association::{Association, index_of};
 pub use camera::{
-    CalibratedImage, CalibratedView, Calibration, CameraPoint, Failure, ImageId, ImageView, ImageWithDepth,
-    Seen, ViewReport, ViewState, calibrate, luminance, median, project_points,
+    CalibratedImage, CalibratedView, Calibration, CameraPoint, DepthLattice, Failure, Greenness, ImageId,
+    ImageView, ImageWithDepth, Seen, ViewReport, ViewState, calibrate, luminance, median, project_points,
 };
 pub use doppler::{Doppler, radar_velocity};
 pub use floor::LocalGround;
@@ -33,11 +36,13 @@ pub use lidar::{LidarRay, LidarSnapshot, LidarSweep, LidarView};
 pub use lidar_cloud::LidarCloud;
 pub use lidar_window::{LidarWindow, LidarWindowView};
 pub use located::{Detection, LocatedScan};
-pub use mismatch::{Reference, Spread, distance_per_mismatch, mismatch, plausibility};
+pub use mismatch::{Reference, Spread, mismatch, plausibility, reach_of_cap};
 pub use mover::Mover;
 pub use neighbouring::{NeighbouringScan, ScanStep};
 pub use neighbouring_detections::NeighbouringDetections;
-pub use rays::{Cone, RayTable, direction_of};
+pub use rays::{Cone, RayTable, TableRay, direction_of};
 pub use sight::{Reach, Sight};
+pub use static_map::{Column, ColumnGrid, StaticMap};
 pub use strength::Strength;
+pub use terrain::{Terrain, Texture};
 pub use window::FrameWindow;

@@ -59,7 +59,7 @@ mod tests {
     fn what_stands_still_is_seen_in_one_place_from_a_bend() {
         let vehicle_from_lidar = transform_from_parts([1.2, 0.3, 1.9], [0.0, 0.0, 0.6, 0.8]).unwrap();
         let (motion, t_ns) = (bend(), 7_000_000_000);
-        let post = Point::new(30.0, 10.0, 1.0);
+        let post = Point::new(60.0, -25.0, 1.0);
         let times = vec![-0.05, -0.05, -0.0125, 0.0, 0.049];
         let seen_at = |time: &f32| {
             let then = t_ns + (f64::from(*time) * 1e9).round() as i64;

@@ -52,3 +52,11 @@ fn without_lidar_there_is_no_ground() {
         assert_eq!(column(&found, name), [None]);
     }
 }
+
+#[test]
+fn ground_that_is_as_bright_everywhere_tells_nothing() {
+    let found = observe(&memory(Elevation::Measured, vec![[10.0, 0.0, 0.5]]), 0);
+    for name in ["terrain_brightness", "terrain_mottling", "terrain_roughness"] {
+        assert_eq!(column(&found, name), [None]);
+    }
+}

@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, reason = "of tests alone")]
 
 mod ground;
+mod map;
 mod rays;
 #[path = "../support/mod.rs"]
 mod support;

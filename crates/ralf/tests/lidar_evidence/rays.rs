@@ -12,7 +12,7 @@ use ralf::space::Spherical;
 
 /// A wall 20 m ahead of where the vehicle begins, 4 m high and 12 m wide, on a road that is seen up to 15 m; the
 /// vehicle drives 1 m from LiDAR scan to LiDAR scan, of which there are five, and the radar's scan is at the third.
-fn wall(elevation: Elevation, detections: Vec<[f32; 3]>) -> Memory {
+pub(super) fn wall(elevation: Elevation, detections: Vec<[f32; 3]>) -> Memory {
     let scan = |driven: f32| -> Vec<[f32; 3]> {
         let wall =
             (-60..=60).flat_map(|y| (0..40).map(move |z| [20.0, y as f32 * 0.1, z as f32 * 0.1 - 2.0]));

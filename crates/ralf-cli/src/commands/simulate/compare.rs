@@ -77,43 +77,56 @@ fn table(page: &RealismPage) -> String {
         "KS of halves",
     ];
     let mut rows = vec![head.map(str::to_owned).to_vec()];
-    let mut lacking = String::new();
-    for compared in &page.realism.quantities {
-        let Compared { name, unit, real, simulated, distance, within_real, .. } = compared;
-        let needs = compared.quantity.description().needs;
-        for (recording, summary) in [(&page.real_name, real), (&page.simulated_name, simulated)] {
-            if summary.is_none() {
-                lacking += &format!("{name}: {recording} lacks {needs}\n");
-            }
-        }
-        if real.is_none() && simulated.is_none() {
-            continue;
-        }
-        let name = if unit.is_empty() { (*name).to_owned() } else { format!("{name}, {unit}") };
-        let two = |value: Option<f64>| value.map_or("-".to_owned(), |value| format!("{value:.2}"));
-        let mut row = vec![name];
-        row.extend(figures(real.as_ref()));
-        row.extend(figures(simulated.as_ref()));
-        row.extend([two(distance.and_then(|d| d.normalised)), two(distance.map(|d| d.ks))]);
-        row.push(two(within_real.map(|d| d.ks)));
-        rows.push(row);
-    }
+    let measured = page.realism.quantities.iter().filter(|c| c.real.is_some() || c.simulated.is_some());
+    rows.extend(measured.map(row));
     let mean = |value: Option<f64>| value.map_or("none".to_owned(), |value| format!("{value:.3}"));
     format!(
-        "{} beside {} (real)\n\n{}\n{lacking}mean KS {}, of the halves of the real recording {}\n",
+        "{} beside {} (real)\n\n{}\n{}mean KS {}, of the halves of the real recording {}\n",
         page.simulated_name,
         page.real_name,
         aligned(&rows),
+        lacking(page),
         mean(page.realism.mean_ks),
         mean(page.realism.mean_ks_within_real),
     )
 }
 
+fn row(compared: &Compared) -> Vec<String> {
+    let Compared { name, unit, real, simulated, distance, within_real, .. } = compared;
+    let two = |value: Option<f64>| value.map_or("-".to_owned(), |value| format!("{value:.2}"));
+    let mut row = vec![with_unit(name, unit)];
+    row.extend(figures(real.as_ref()));
+    row.extend(figures(simulated.as_ref()));
+    row.extend([two(distance.and_then(|d| d.normalised)), two(distance.map(|d| d.ks))]);
+    row.push(two(within_real.map(|d| d.ks)));
+    row
+}
+
+/// Which recording lacks what, a line each.
+fn lacking(page: &RealismPage) -> String {
+    let mut text = String::new();
+    for Compared { quantity, name, real, simulated, .. } in &page.realism.quantities {
+        for (recording, summary) in [(&page.real_name, real), (&page.simulated_name, simulated)] {
+            if summary.is_none() {
+                text += &format!("{name}: {recording} lacks {}\n", quantity.description().needs);
+            }
+        }
+    }
+    text
+}
+
+/// A quantity's name for people.
+pub(in crate::commands) fn with_unit(name: &str, unit: &str) -> String {
+    if unit.is_empty() { name.to_owned() } else { format!("{name}, {unit}") }
+}
+
 /// Three quantiles.
 fn figures(summary: Option<&Summary>) -> [String; 3] {
     let Some(summary) = summary else { return std::array::from_fn(|_| "-".to_owned()) };
-    [0, 2, 4].map(|place| {
-        let value = summary.quantiles[place];
-        if value.abs() >= 1000.0 { format!("{value:.0}") } else { format!("{value:.2}") }
-    })
+    [0, 2, 4].map(|place| figure(summary.quantiles[place]))
+}
+
+/// A value with two decimals, a large one with none.
+pub(in crate::commands) fn figure(value: f32) -> String {
+    if value.abs() >= 1000.0 { format!("{value:.0}") } else { format!("{value:.2}") }
 }

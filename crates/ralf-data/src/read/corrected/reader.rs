@@ -95,14 +95,14 @@ impl Corrected {
     }
 }
 
-/// What a field's values are multiplied with.
+/// What a field's values are multiplied with. A mirrored velocity has its other component across, as a place has.
 fn factor(correction: &SensorCorrection, field: &str) -> f64 {
     let SensorCorrection { doppler_factor, position_factor, mirror_y, .. } = *correction;
     let mirror = if mirror_y { -1.0 } else { 1.0 };
     match field {
         "x" | "z" | "range" => position_factor,
         "y" => position_factor * mirror,
-        "azimuth" => mirror,
+        "azimuth" | "vy" | "vy_comp" => mirror,
         "doppler" => doppler_factor,
         _ => 1.0,
     }
@@ -152,5 +152,22 @@ impl SequenceReader for Corrected {
 
     fn motion_source(&self) -> MotionSource {
         self.source
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_mirrored_keeps_its_range_rates() {
+        // A detection ahead to the left, whose velocity lies along its ray.
+        let fields = ["x", "y", "vx", "vy", "vx_comp", "vy_comp", "vy_rms"];
+        let values = [4.0, 3.0, -8.0, -6.0, 0.8, 0.6, 14.0];
+        let mirrored = SensorCorrection { mirror_y: true, ..SensorCorrection::default() };
+        let [x, y, vx, vy, vx_comp, vy_comp, code]: [f64; 7] =
+            std::array::from_fn(|i| values[i] * factor(&mirrored, fields[i]));
+        assert_eq!((x, y, vy, code), (4.0, -3.0, 6.0, 14.0));
+        assert_eq!((x * vx + y * vy, x * vx_comp + y * vy_comp), (-50.0, 5.0), "as before");
     }
 }

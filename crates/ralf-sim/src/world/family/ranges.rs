@@ -57,6 +57,8 @@ pub(crate) struct RadarRanges {
     pub(crate) doppler_failure: Span,
     /// Level of the highest side lobe below the main one (two-way), dB.
     pub(crate) side_lobe: Span,
+    /// Peaks of the angle's spectrum down to so far below the highest are taken for things of their own, dB.
+    pub(crate) accepted: Span,
     /// How often an angle is taken for another, near the threshold.
     pub(crate) angle_failure: Span,
     /// Detections that a scan has room for.
@@ -74,6 +76,8 @@ pub(crate) struct WaveRanges {
     pub(crate) texture: Span,
     /// What a facade takes from a mirrored wave, one way, dB.
     pub(crate) mirror_loss: Span,
+    /// How often a thing is seen mirrored in the road.
+    pub(crate) road_mirror: Span,
     /// What a window or door takes, there and back, dB.
     pub(crate) window_loss: Span,
     /// What leaves take per metre, there and back, dB.

@@ -1,12 +1,15 @@
-//! The floor that detections must rise above: noise, and what the cells around hold (CFAR by cell averaging).
+//! The floor that detections must rise above: noise, and what the cells around hold (CFAR by an ordered statistic,
+//! Rohling 1983, which few strong neighbours don't mask).
 
 use super::echo::Echo;
 use super::equation::{decibel, ratio};
 use super::model::RadarModel;
 use std::f64::consts::PI;
 
-/// Cells of range on each side that are averaged, and those next to the one asked about that are not.
+/// Cells of range on each side that are looked at, and those next to the one asked about that are not.
 const WINDOW: (usize, usize) = (8, 1);
+/// Which of them, in order, tells the floor.
+const RANK: f64 = 0.7;
 /// Sectors of azimuth.
 const SECTORS: usize = 16;
 
@@ -56,16 +59,47 @@ impl Floor {
     pub(super) fn level_db(&self, echo: &Echo) -> f64 {
         let [sector, bin] = self.place(echo);
         let sums = &self.sums[sector];
-        let mut around = 0.0;
-        let mut count = 0.0;
+        let mut around = Vec::with_capacity(2 * WINDOW.0);
         for distance in WINDOW.1 + 1..=WINDOW.0 {
             let near = [bin.checked_sub(distance), Some(bin + distance)];
-            for power in near.into_iter().flatten().filter_map(|bin| sums.get(bin)) {
-                around += power;
-                count += self.cells;
-            }
+            around.extend(near.into_iter().flatten().filter_map(|bin| sums.get(bin)));
         }
+        around.sort_by(f64::total_cmp);
+        let ranked = around.get((RANK * around.len() as f64) as usize).copied().unwrap_or(0.0);
         let others = (self.ring[bin] - sums[bin]).max(0.0);
-        decibel(self.noise + around / f64::max(count, 1.0) + self.leak * others)
+        decibel(self.noise + ranked / self.cells + self.leak * others)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::model::tests::radar;
+    use super::*;
+    use crate::truth::Truth;
+    use ralf::label::Cause;
+    use ralf::space::Spherical;
+
+    fn echo(range: f64, level_db: f64) -> Echo {
+        let seen = Spherical { range, azimuth: 0.1, elevation: 0.0 };
+        Echo::new(seen, 0.0, level_db, Truth::artifact(Cause::Road))
+    }
+
+    fn floor_db(echoes: &[Echo], range: f64) -> f64 {
+        Floor::new(&radar(), echoes, 1.0).level_db(&echo(range, 0.0))
+    }
+
+    #[test]
+    fn the_floor_is_the_noise_where_nothing_is() {
+        assert!(floor_db(&[], 30.0).abs() < 1e-9);
+        assert!((Floor::new(&radar(), &[], 4.0).level_db(&echo(30.0, 0.0)) - 6.02).abs() < 0.01);
+    }
+
+    #[test]
+    fn one_strong_neighbour_does_not_mask_and_clutter_all_around_does() {
+        assert!(floor_db(&[echo(32.0, 60.0)], 30.0) < 0.1);
+        let clutter = |level: f64| (0..200).map(|i| echo(0.3 * f64::from(i), level)).collect::<Vec<Echo>>();
+        let [weak, strong] = [10.0, 40.0].map(|level| floor_db(&clutter(level), 30.0));
+        assert!(weak < 5.0 && strong > 20.0 && strong < 40.0, "{weak} {strong}");
+        assert!(floor_db(&clutter(40.0), 90.0) < 0.1, "the floor follows range");
     }
 }

@@ -1,9 +1,7 @@
 //! What the radars saw at the time of a neighbouring scan.
 
 use crate::config::TrackingSources;
-use crate::scene::{
-    Association, Detection, NeighbouringScan, Reference, ScanStep, distance_per_mismatch, index_of,
-};
+use crate::scene::{Association, Detection, NeighbouringScan, Reference, ScanStep, index_of, reach_of_cap};
 use crate::sensors::Elevation;
 use crate::space::NeighborIndex;
 
@@ -32,8 +30,7 @@ impl MovedCloud {
 
     /// Farther than this, m, every mismatch with the detection is above the cap.
     pub(super) fn reach(&self, detection: &Detection, cap: f64) -> f64 {
-        const ROUNDING: f64 = 1.001;
-        cap * distance_per_mismatch(detection.total_variance() + self.max_variance) * ROUNDING
+        reach_of_cap(cap, detection.total_variance() + self.max_variance)
     }
 
     /// The mean mismatch of a detection with its nearest points; infinite where the step saw nothing, so that the cap

@@ -1,6 +1,7 @@
 //! From the depth images of one camera image to a metric point cloud in the vehicle frame (docs/method.md, section 5).
 
 use super::depth::RelativeDepth;
+use super::lattice::DepthLattice;
 use super::monitor::{ViewReport, ViewState};
 use super::projection::project_points;
 use super::scaling::{ScaleSample, Scaling};
@@ -24,8 +25,10 @@ pub struct CameraPoint {
 pub struct CalibratedView {
     /// Whether it is used, and why not.
     pub report: ViewReport,
-    /// The view's points, row by row; none where it has failed.
+    /// The view's points, row by row, without those on the ground and too far away; none where it has failed.
     pub points: Vec<CameraPoint>,
+    /// The depth of all pixels that were calibrated, those on the ground and far away too; empty where it has failed.
+    pub lattice: DepthLattice,
 }
 
 /// What an image is calibrated with.
@@ -76,43 +79,48 @@ fn calibrate_view(
         ScaleSample::usable(&seen, view, &relative)
     });
     let report = ViewReport::new(samples.as_deref(), luminance, config);
-    let mut points = Vec::new();
+    let (mut points, mut lattice) = (Vec::new(), DepthLattice::default());
     if let (ViewState::Calibrated, Some(samples)) = (report.state, samples)
         && let Some(scaling) = Scaling::fit(config.scaling, &samples, config.scale_neighbours)
     {
-        points = metric_points(camera, view, &relative, &scaling, config.stride);
+        lattice = DepthLattice::new(view, config.stride);
+        points = metric_points(camera, view, &relative, &scaling, &mut lattice);
         points.retain(|point| {
             let on_ground = height(&point.position).is_some_and(|h| h < ground.camera_margin);
             point.depth <= config.max_depth && !on_ground
         });
     }
-    CalibratedView { report, points }
+    CalibratedView { report, points, lattice }
 }
 
-/// The calibrated pixels `(floor(s/2) + a s, floor(s/2) + b s)` of a view, row by row.
+/// The calibrated pixels of a view, row by row; their depths are noted in the lattice.
 fn metric_points(
     camera: &Camera,
     view: &StraightView,
     relative: &RelativeDepth<'_>,
     scaling: &Scaling,
-    stride: usize,
+    lattice: &mut DepthLattice,
 ) -> Vec<CameraPoint> {
-    let every = |size: usize| (stride / 2..size).step_by(stride);
-    let lattice = every(view.height).flat_map(|row| every(view.width).map(move |column| [column, row]));
-    let with_depth = lattice.filter_map(|[column, row]| {
-        Some(([column as f64, row as f64], relative.at(row * view.width + column)?))
-    });
-    let pixels: Vec<([f64; 2], f64)> = with_depth.collect();
+    let with_depth = lattice
+        .pixels()
+        .filter_map(|[column, row]| Some(([column, row], relative.at(row * view.width + column)?)));
+    let pixels: Vec<([usize; 2], f64)> = with_depth.collect();
+    let places = || pixels.iter().map(|([column, row], _)| [*column as f64, *row as f64]);
     let vehicle_from_view =
         (camera.vehicle_from_camera.rotation * view.camera_from_view).to_rotation_matrix();
     let center = camera.vehicle_from_camera.translation.vector;
-    let scales = scaling.at(pixels.iter().map(|(pixel, _)| *pixel));
-    let points = pixels.iter().zip(scales).map(|((pixel, relative), scale)| {
+    let mut points = Vec::with_capacity(pixels.len());
+    for (((pixel, relative), place), scale) in pixels.iter().zip(places()).zip(scaling.at(places())) {
         let depth = scale * relative;
-        let along = vehicle_from_view * view.ray(*pixel);
-        CameraPoint { position: Point::from(center + along * depth), ray: along.normalize(), depth }
-    });
-    points.collect()
+        lattice.set(*pixel, depth);
+        let along = vehicle_from_view * view.ray(place);
+        points.push(CameraPoint {
+            position: Point::from(center + along * depth),
+            ray: along.normalize(),
+            depth,
+        });
+    }
+    points
 }
 
 fn check(views: &[StraightView], depth: &[DepthImage]) -> Result<(), String> {

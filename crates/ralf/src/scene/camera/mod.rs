@@ -7,13 +7,17 @@
 
 mod calibrate;
 mod depth;
+mod greenness;
 mod grid;
+mod lattice;
 mod moment;
 mod monitor;
 mod projection;
 mod scaling;
 
 pub use calibrate::{CalibratedView, Calibration, CameraPoint, calibrate};
+pub use greenness::Greenness;
+pub use lattice::DepthLattice;
 pub use moment::{CalibratedImage, ImageId, ImageView, ImageWithDepth, Seen};
 pub use monitor::{Failure, ViewReport, ViewState, luminance};
 pub use projection::project_points;

@@ -1,6 +1,8 @@
 //! One camera image with its calibrated views, shared by all radars that use it.
 
 use super::calibrate::{CalibratedView, Calibration, calibrate};
+use super::greenness::Greenness;
+use super::lattice::DepthLattice;
 use super::monitor::{Failure, ViewReport, ViewState, luminance};
 use crate::sensors::{Camera, CameraImage, DepthImage, StraightView};
 use crate::space::{Point, Transform};
@@ -26,6 +28,8 @@ pub struct CalibratedImage {
     pub views: Vec<CalibratedView>,
     /// Why all views have failed, where image or depth can't be used at all.
     pub problem: Option<String>,
+    /// How green the raw image is; `None` where it can't be used.
+    pub greenness: Option<Greenness>,
     straight_views: Vec<StraightView>,
     camera_from_vehicle: Transform,
 }
@@ -55,12 +59,24 @@ impl CalibratedImage {
     /// Calibrates the views of an image. What can't be used makes failed views, not an error: the other cameras go on.
     pub fn new(camera: &Camera, id: ImageId, content: ImageWithDepth, calibration: &Calibration) -> Self {
         let straight_views = camera.straight_views();
+        let greenness = content.as_ref().ok().and_then(|(image, _)| Greenness::new(image));
         let (views, problem) = match calibrated(camera, &straight_views, content, calibration) {
             Ok(views) => (views, None),
             Err(problem) => (vec![CalibratedView::unusable(); straight_views.len()], Some(problem)),
         };
         let camera_from_vehicle = camera.vehicle_from_camera.inverse();
-        Self { id, views, problem, straight_views, camera_from_vehicle }
+        Self { id, views, problem, greenness, straight_views, camera_from_vehicle }
+    }
+
+    /// The views that are left, each with its geometry.
+    pub fn calibrated_views(&self) -> impl Iterator<Item = (&StraightView, &CalibratedView)> {
+        let views = self.straight_views.iter().zip(&self.views);
+        views.filter(|(_, view)| view.report.state == ViewState::Calibrated)
+    }
+
+    /// From the vehicle frame at the image's time to the camera's optical frame.
+    pub fn camera_from_vehicle(&self) -> &Transform {
+        &self.camera_from_vehicle
     }
 
     /// In which kinds of views a point (vehicle frame at the image's time) lies.
@@ -99,6 +115,7 @@ impl CalibratedView {
     /// A view whose image or depth can't be used.
     fn unusable() -> Self {
         let state = ViewState::Failed(Failure::Unusable);
-        Self { report: ViewReport { state, residual: None, samples: 0, luminance: 0.0 }, points: Vec::new() }
+        let report = ViewReport { state, residual: None, samples: 0, luminance: 0.0 };
+        Self { report, points: Vec::new(), lattice: DepthLattice::default() }
     }
 }

@@ -5,6 +5,7 @@ mod plane;
 mod polar;
 mod ransac;
 
+pub(super) use local::Floor;
 pub use local::GroundSurface;
 pub use plane::Plane;
 

@@ -72,6 +72,23 @@ impl GroundSurface {
         lowest.into_iter().filter(|id| *id != u32::MAX).map(|id| points[id as usize]).collect()
     }
 
+    /// The lowest of all points within about a metre, everywhere.
+    pub(crate) fn lowest_within_a_metre(lowest: &[[f32; 3]]) -> Floor {
+        let mut raster = Raster::filled(CELLS, f32::INFINITY);
+        for &[x, y, z] in lowest {
+            if let Some(cell) = cell_of(x, y) {
+                raster.values[cell] = raster.values[cell].min(z);
+            }
+        }
+        Floor { heights: raster.eroded(2) }
+    }
+
+    /// Height of the ground in the cell of a place, m; `None` far from all ground that was seen.
+    pub(crate) fn cell_height(&self, x: f32, y: f32) -> Option<f32> {
+        let cell = cell_of(x, y)?;
+        (self.unseen.values[cell] <= KNOWN_WITHIN).then(|| self.heights.values[cell])
+    }
+
     /// Height of the ground at a place, m; `None` far from all ground that was seen.
     pub fn height_at(&self, x: f64, y: f64) -> Option<f64> {
         self.is_known(x, y).then(|| self.heights.between(place(x), place(y)))
@@ -108,6 +125,19 @@ impl GroundSurface {
 
     fn is_known(&self, x: f64, y: f64) -> bool {
         cell_of(x as f32, y as f32).is_some_and(|cell| self.unseen.values[cell] <= KNOWN_WITHIN)
+    }
+}
+
+/// The lowest points of a scan, spread over the cells around.
+#[derive(Debug)]
+pub(crate) struct Floor {
+    heights: Raster,
+}
+
+impl Floor {
+    /// The lowest height near a place, m; infinite where there is none, `None` beyond the border.
+    pub(crate) fn at(&self, x: f32, y: f32) -> Option<f32> {
+        cell_of(x, y).map(|cell| self.heights.values[cell])
     }
 }
 

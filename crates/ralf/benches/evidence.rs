@@ -1,0 +1,229 @@
+//! What the evidence on a radar scan costs, piece by piece, on a street that is driven through: 72k LiDAR points a scan
+//! at 10 Hz, 1,216 detections a scan at 16.7 Hz, of which four in five are artifacts. One thread. Run with
+//! `cargo bench -p ralf-radar --bench evidence`.
+
+#![allow(clippy::expect_used, reason = "a bench that can't be set up should say so")]
+
+use divan::{Bencher, black_box};
+use ralf::config::Config;
+use ralf::evidence::{PIECES, Surroundings, observe};
+use ralf::scene::{Frame, FrameWindow, LidarSnapshot, LidarWindow};
+use ralf::sensors::{
+    CameraImage, DepthImage, DepthOutput, Elevation, Lidar, LidarScan, Radar, RadarScan, Reliability, Rig,
+    Sequence, Source, SourceError, Timelines,
+};
+use ralf::space::{EgoMotion, OdometrySample, Spherical, Transform};
+use rand::{RngExt, SeedableRng};
+use rand_pcg::Pcg64Mcg;
+use std::sync::{Arc, LazyLock};
+
+const BEAMS: usize = 64;
+const AZIMUTHS: usize = 1125;
+const DETECTIONS: usize = 1216;
+const RADAR_SCANS: usize = 35;
+const RADAR_NS: i64 = 60_000_000;
+const LIDAR_SCANS: usize = 22;
+const LIDAR_NS: i64 = 100_000_000;
+const SPEED: f64 = 10.0;
+const LIDAR_HEIGHT: f64 = 1.8;
+
+fn main() {
+    divan::main();
+}
+
+/// How far a ray from the LiDAR goes that has driven so far: to the road, to a wall at either side, to a parked car or
+/// to the street's end.
+fn range(driven: f64, azimuth: f64, elevation: f64) -> f64 {
+    let (sin, cos) = azimuth.sin_cos();
+    let flat = elevation.cos();
+    let road = if elevation < 0.0 { LIDAR_HEIGHT / -elevation.sin() } else { f64::INFINITY };
+    let wall = 12.0 / (sin.abs() * flat).max(1e-9);
+    let car = 6.0 / (sin.abs() * flat).max(1e-9);
+    let along = driven + car * flat * cos;
+    let height = LIDAR_HEIGHT + car * elevation.sin();
+    let parked = along.rem_euclid(9.0) < 4.5 && (0.2..1.5).contains(&height);
+    let end = 70.0 / (cos.abs() * flat).max(1e-9);
+    if parked { car.min(road) } else { wall.min(road).min(end) }
+}
+
+fn lidar_scan(scan: usize) -> LidarScan {
+    let mut random = Pcg64Mcg::seed_from_u64(scan as u64);
+    let t_ns = scan as i64 * LIDAR_NS;
+    let driven = SPEED * t_ns as f64 * 1e-9;
+    let mut points = Vec::with_capacity(BEAMS * AZIMUTHS);
+    for step in 0..AZIMUTHS {
+        for beam in 0..BEAMS {
+            let azimuth = step as f64 / AZIMUTHS as f64 * std::f64::consts::TAU;
+            let elevation = (-24.8 + 26.8 * beam as f64 / BEAMS as f64).to_radians();
+            let range = range(driven, azimuth, elevation) + random.random_range(-0.03..0.03);
+            let p = Spherical { range, azimuth, elevation }.to_cartesian();
+            points.push([p.x as f32, p.y as f32, p.z as f32]);
+        }
+    }
+    LidarScan { t_ns, intensity: vec![10.0; points.len()], points, ..LidarScan::default() }
+}
+
+/// One in five detections on walls and cars, the others anywhere.
+fn radar_scan(radar: &Radar, scan: usize) -> RadarScan {
+    let mut random = Pcg64Mcg::seed_from_u64(1000 + scan as u64);
+    let t_ns = scan as i64 * RADAR_NS;
+    let driven = SPEED * t_ns as f64 * 1e-9;
+    let mut columns = vec![Vec::new(); 5];
+    for i in 0..DETECTIONS {
+        let azimuth = random.random_range(-1.4..1.4);
+        let elevation: f64 = random.random_range(-0.02..0.1);
+        let range = match i % 5 {
+            0 => range(driven, azimuth, elevation).min(75.0),
+            _ => random.random_range(2.0..75.0),
+        };
+        let p = Spherical { range, azimuth, elevation }.to_cartesian();
+        let values =
+            [p.x, p.y, p.z + LIDAR_HEIGHT, random.random_range(-3.0..3.0), random.random_range(-20.0..20.0)];
+        columns.iter_mut().zip(values).for_each(|(column, value)| column.push(value as f32));
+    }
+    RadarScan::new(radar, t_ns, columns).expect("columns fit the radar")
+}
+
+fn radar() -> Radar {
+    Radar {
+        name: "radar".into(),
+        fields: ["x", "y", "z", "doppler", "rcs"].map(str::to_owned).to_vec(),
+        vehicle_from_radar: Transform::identity(),
+        elevation: Elevation::Measured,
+        fov_azimuth: 2.8,
+        fov_elevation: 0.35,
+        sigma_range: 0.1,
+        sigma_azimuth: 0.01,
+        sigma_elevation: 0.02,
+        reliability: Reliability::default(),
+    }
+}
+
+fn lidar() -> Lidar {
+    Lidar {
+        name: "lidar".into(),
+        vehicle_from_lidar: Transform::translation(0.0, 0.0, LIDAR_HEIGHT),
+        sigma_range: 0.03,
+        lowest_beam: 0.43,
+        max_range: None,
+    }
+}
+
+struct Street {
+    sequence: Sequence,
+    lidar_scans: Vec<LidarScan>,
+    radar_scans: Vec<RadarScan>,
+}
+
+impl Street {
+    fn new() -> Self {
+        let odometry = OdometrySample { t_ns: 0, velocity: SPEED, yaw_rate: 0.0 };
+        let radar_scans: Vec<_> = (0..RADAR_SCANS).map(|scan| radar_scan(&radar(), scan)).collect();
+        let lidar_scans: Vec<_> = (0..LIDAR_SCANS).map(lidar_scan).collect();
+        let times = Timelines {
+            radars: vec![radar_scans.iter().map(|scan| scan.t_ns).collect()],
+            lidars: vec![lidar_scans.iter().map(|scan| scan.t_ns).collect()],
+            cameras: vec![],
+        };
+        let sequence = Sequence {
+            name: "street".into(),
+            title: String::new(),
+            rig: Rig { radars: vec![radar()], lidars: vec![lidar()], cameras: vec![] },
+            times,
+            motion: EgoMotion::new(vec![odometry], vec![]).expect("there is odometry"),
+            depth_output: DepthOutput::Depth,
+        };
+        Self { sequence, lidar_scans, radar_scans }
+    }
+}
+
+impl Source for Street {
+    fn sequence(&self) -> &Sequence {
+        &self.sequence
+    }
+    fn radar_scan(&self, _: usize, scan: usize) -> Result<RadarScan, SourceError> {
+        Ok(self.radar_scans[scan].clone())
+    }
+    fn lidar_scan(&self, _: usize, scan: usize) -> Result<LidarScan, SourceError> {
+        Ok(self.lidar_scans[scan].clone())
+    }
+    fn image(&self, _: usize, _: usize) -> Result<CameraImage, SourceError> {
+        Err("no camera".into())
+    }
+    fn depth(&self, _: usize, _: usize) -> Result<Option<Vec<DepthImage>>, SourceError> {
+        Ok(None)
+    }
+}
+
+static STREET: LazyLock<Street> = LazyLock::new(Street::new);
+static CONFIG: LazyLock<Config> = LazyLock::new(Config::default);
+
+fn frame() -> Frame<'static> {
+    let mut window = FrameWindow::new(&*STREET, &STREET.sequence.rig, &CONFIG).with_evidence();
+    window.frame(0, RADAR_SCANS / 2).expect("the street can be read")
+}
+
+/// The pieces by the names of their first columns.
+fn pieces() -> impl Iterator<Item = &'static str> {
+    PIECES.iter().map(|piece| piece.features[0].name)
+}
+
+/// One piece, where what it shares with others is there.
+#[divan::bench(args = pieces())]
+fn piece(bencher: Bencher, name: &str) {
+    let frame = frame();
+    let surroundings = Surroundings::new(&frame, &CONFIG);
+    let piece = PIECES.iter().find(|piece| piece.features[0].name == name).expect("a piece");
+    (piece.observe)(&surroundings);
+    bencher.bench_local(|| (piece.observe)(black_box(&surroundings)));
+}
+
+/// What is worked out once for each of the LiDAR scans of a window: rays by direction, lowest and standing points.
+#[divan::bench]
+fn lidar_scan_once(bencher: Bencher) {
+    let lidar = lidar();
+    bencher
+        .with_inputs(|| {
+            let scan = Arc::new(STREET.lidar_scans[LIDAR_SCANS / 2].clone());
+            let parts = vec![(&lidar, scan, Transform::identity())];
+            LidarSnapshot::new(0, parts, &CONFIG.ground, 0)
+        })
+        .bench_local_values(|moment| {
+            moment.standing_points();
+            moment.sweeps()[0].rays().len()
+        });
+}
+
+/// What is worked out once for each window: ground surface, static map and terrain.
+#[divan::bench]
+fn lidar_window_once(bencher: Bencher) {
+    let frame = frame();
+    let views = &frame.lidar_window.as_ref().expect("a window").window.views;
+    let known = &frame.lidar_window.as_ref().expect("a window").window;
+    (known.map(), known.terrain());
+    bencher.bench_local(|| {
+        let window = LidarWindow::new(0, views.clone());
+        window.terrain();
+        window.map().points.len()
+    });
+}
+
+/// All pieces with what they share within a scan; LiDAR scans and window are there.
+#[divan::bench]
+fn whole_scan(bencher: Bencher) {
+    let frame = frame();
+    observe(&frame, &CONFIG);
+    bencher.bench_local(|| observe(black_box(&frame), &CONFIG));
+}
+
+/// Twenty scans in a row with all that is made for them, LiDAR scans and windows too: twenty times what a scan costs.
+#[divan::bench(sample_count = 10)]
+fn twenty_scans(bencher: Bencher) {
+    bencher.bench_local(|| {
+        let mut window = FrameWindow::new(&*STREET, &STREET.sequence.rig, &CONFIG).with_evidence();
+        for scan in 8..28 {
+            let frame = window.frame(0, scan).expect("the street can be read");
+            black_box(observe(&frame, &CONFIG));
+        }
+    });
+}

@@ -1,0 +1,165 @@
+//! How far a detection lies from what stands still around it: the LiDAR scans of the seconds around put together,
+//! without the ground and what moved.
+
+use super::columns::{set, unobserved};
+use super::probe::{Probe, SAME_SPOT};
+use super::{Feature, Piece, Surroundings, Values};
+use crate::scene::{Column, ColumnGrid, StaticMap};
+use crate::space::Neighbor;
+use nalgebra::Vector3;
+
+const GROUP: &str = "LiDAR map";
+/// No Mahalanobis distance is larger.
+const LARGEST_CHI: f64 = 10.0;
+/// Of so many points, the nearest ones, the Mahalanobis distance is taken.
+const CANDIDATES: usize = 8;
+/// What is farther than this is far, m: no distance is larger.
+const AROUND: f64 = 3.0;
+/// Columns nearer than this count for the density, m.
+const BESIDE: f64 = 0.5;
+/// The nearest column's heights are told if it is nearer than this, m.
+const NEAR: f64 = 1.0;
+
+pub(super) const PIECE: Piece = Piece { features: FEATURES, observe };
+
+const FEATURES: &[Feature] = &[
+    Feature {
+        name: "map_distance",
+        unit: "m",
+        group: GROUP,
+        meaning: "distance from the nearest point of the static map, at most 3; null beyond the map",
+    },
+    Feature {
+        name: "map_chi",
+        unit: "sigma",
+        group: GROUP,
+        meaning: "least Mahalanobis distance from the points of the static map near by, at most 10",
+    },
+    Feature {
+        name: "map_column_distance",
+        unit: "m",
+        group: GROUP,
+        meaning: "horizontal distance from the nearest column in which something stands, at most 3",
+    },
+    Feature {
+        name: "map_column_sigmas",
+        unit: "sigma",
+        group: GROUP,
+        meaning: "horizontal distance from the nearest column in which something stands, in standard deviations along \
+                  it",
+    },
+    Feature {
+        name: "map_column_top",
+        unit: "m",
+        group: GROUP,
+        meaning: "height above the ground up to which the nearest column is filled, where one is within a metre",
+    },
+    Feature {
+        name: "map_column_bottom",
+        unit: "m",
+        group: GROUP,
+        meaning: "height above the ground from which the nearest column is filled, where one is within a metre",
+    },
+    Feature {
+        name: "map_density",
+        unit: "1",
+        group: GROUP,
+        meaning: "logarithm of one more than the voxels that are filled within half a metre, at any height",
+    },
+    Feature {
+        name: "map_octants",
+        unit: "share",
+        group: GROUP,
+        meaning: "share of the eight directions in which something stands within 3 m",
+    },
+];
+
+fn observe(surroundings: &Surroundings) -> Vec<Values> {
+    let frame = surroundings.frame;
+    let mut columns = unobserved(FEATURES, frame.scan.len());
+    let Some(lidar) = &frame.lidar_window else { return columns };
+    let map = lidar.window.map();
+    let mut found = Vec::new();
+    for (i, probe) in surroundings.probes().iter().enumerate() {
+        let Some(probe) = probe else { continue };
+        let p = probe.detection.position;
+        if !ColumnGrid::covers(p.x, p.y) {
+            continue;
+        }
+        let around = Around::look(map, probe);
+        let (distance, chi) = match around.nearest {
+            Some(_) => nearest_point(map, probe, &mut found),
+            None => (AROUND, LARGEST_CHI),
+        };
+        let near = around.nearest.map(|(_, column)| column).filter(|_| around.distance <= NEAR);
+        let values = [
+            Some(distance),
+            Some(chi),
+            Some(around.distance),
+            Some(around.sigmas(probe)),
+            near.map(|column| column.top),
+            near.map(|column| column.bottom),
+            Some(f64::from(around.voxels).ln_1p()),
+            Some(f64::from(around.octants.count_ones()) / 8.0),
+        ];
+        set(&mut columns, i, values);
+    }
+    columns
+}
+
+/// The Euclidean distance from the nearest point, and the least Mahalanobis distance.
+fn nearest_point(map: &StaticMap, probe: &Probe, found: &mut Vec<Neighbor>) -> (f64, f64) {
+    let position = probe.detection.position.coords;
+    map.index.nearest_within(position.cast::<f32>().into(), CANDIDATES, AROUND as f32, found);
+    let nearest = found.first().map_or(AROUND, |neighbor| f64::from(neighbor.distance_squared).sqrt());
+    let mut least = LARGEST_CHI * LARGEST_CHI;
+    for neighbor in found.iter() {
+        let h = Vector3::from(map.points[neighbor.id as usize].map(f64::from)) - position;
+        least = least.min(h.dot(&(probe.precision * h)));
+    }
+    (nearest.min(AROUND), least.max(0.0).sqrt())
+}
+
+/// The columns around a detection in which something stands.
+struct Around {
+    /// The nearest one and the way to its middle, m.
+    nearest: Option<([f64; 2], Column)>,
+    /// From its middle, m.
+    distance: f64,
+    /// A bit for each eighth of the circle in which one is.
+    octants: u8,
+    /// Voxels that are filled near by.
+    voxels: u32,
+}
+
+impl Around {
+    fn look(map: &StaticMap, probe: &Probe) -> Self {
+        let p = probe.detection.position;
+        let mut around = Self { nearest: None, distance: AROUND, octants: 0, voxels: 0 };
+        for ([x, y], column) in map.columns.around(p.x, p.y, AROUND) {
+            let distance = (x * x + y * y).sqrt();
+            if distance > AROUND {
+                continue;
+            }
+            around.octants |= octant(x, y);
+            around.voxels += if distance <= BESIDE { column.voxels } else { 0 };
+            if distance < around.distance {
+                around.distance = distance;
+                around.nearest = Some(([x, y], column));
+            }
+        }
+        around
+    }
+
+    /// The distance in standard deviations along it.
+    fn sigmas(&self, probe: &Probe) -> f64 {
+        let Some(([x, y], _)) = self.nearest else { return LARGEST_CHI };
+        let direction = Vector3::new(x, y, 0.0).try_normalize(1e-6).unwrap_or_else(Vector3::x);
+        (self.distance / probe.detection.sigma_along(&direction).hypot(SAME_SPOT)).min(LARGEST_CHI)
+    }
+}
+
+/// The bit of the eighth of the circle to which a direction belongs.
+fn octant(x: f64, y: f64) -> u8 {
+    1 << (u8::from(x > 0.0) + 2 * u8::from(y > 0.0) + 4 * u8::from(x.abs() > y.abs()))
+}

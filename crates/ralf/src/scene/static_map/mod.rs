@@ -1,0 +1,99 @@
+//! What stands still around the vehicle: the LiDAR scans of a window put together, without the ground and without what
+//! moved meanwhile.
+
+mod columns;
+mod movers;
+
+pub use columns::{Column, ColumnGrid};
+
+use super::ground::GroundSurface;
+use super::lidar::LidarView;
+use super::standing::VOXEL;
+use crate::space::NeighborIndex;
+use nalgebra::{Isometry3, Point3};
+
+/// Voxels along an edge of the map.
+const VOXELS: usize = (2.0 * REACH / VOXEL) as usize;
+/// The map reaches so far from the frame's origin in x and in y, m.
+pub(super) const REACH: f32 = 80.0;
+/// Points of all scans together from which every second scan is enough, every third from twice as many, and so on.
+const ENOUGH: usize = 120_000;
+/// Of what stands so high above the ground, m, the map is made.
+const LOWEST: f32 = 0.2;
+const HIGHEST: f32 = LOWEST + 40.0 * VOXEL;
+
+/// Points of what stands still, a point for each voxel of 0.15 m, and the columns that they fill.
+#[derive(Debug)]
+pub struct StaticMap {
+    /// The points, m.
+    pub points: Vec<[f32; 3]>,
+    /// The points in bird's-eye cells.
+    pub index: NeighborIndex,
+    /// The columns above the ground.
+    pub columns: ColumnGrid,
+}
+
+impl StaticMap {
+    /// The map of LiDAR scans, each with the way to the map's frame, above a ground; without one above z = 0.
+    pub fn new(views: &[LidarView], ground: Option<&GroundSurface>) -> Self {
+        let standing: usize = views.iter().map(|view| view.moment.standing_points().len()).sum();
+        let mut voxels = Voxels::new();
+        // What stands still needs not be seen in every scan.
+        for view in views.iter().step_by(standing.div_ceil(ENOUGH).max(1)) {
+            let map_from_moment: Isometry3<f32> = view.vehicle_from_moment.cast();
+            for point in view.moment.standing_points() {
+                let point: [f32; 3] = (map_from_moment * Point3::from(*point)).into();
+                let below = ground.and_then(|ground| ground.cell_height(point[0], point[1])).unwrap_or(0.0);
+                voxels.add(point, point[2] - below);
+            }
+        }
+        let Voxels { mut points, cells, mut columns, .. } = voxels;
+        let moved = movers::moved_columns(&points, &cells, views);
+        for cell in &moved {
+            columns.clear(*cell as usize);
+        }
+        let mut cells = cells.iter();
+        points.retain(|_| cells.next().is_none_or(|cell| moved.binary_search(cell).is_err()));
+        let ids: Vec<u32> = (0..points.len() as u32).collect();
+        Self { index: NeighborIndex::new(&points, &ids), points, columns }
+    }
+}
+
+/// The first point of each voxel above the ground.
+struct Voxels {
+    /// A bit for each voxel above a place.
+    filled: Vec<u64>,
+    points: Vec<[f32; 3]>,
+    /// The column of each point.
+    cells: Vec<u32>,
+    columns: ColumnGrid,
+}
+
+impl Voxels {
+    fn new() -> Self {
+        let filled = vec![0; VOXELS * VOXELS];
+        Self { filled, points: Vec::new(), cells: Vec::new(), columns: ColumnGrid::empty() }
+    }
+
+    fn add(&mut self, point: [f32; 3], height: f32) {
+        let [column, row] = [point[0], point[1]].map(|v| (v + REACH) / VOXEL);
+        let inside = |v: f32| (0.0..VOXELS as f32).contains(&v);
+        if !(inside(column) && inside(row) && (LOWEST..HIGHEST).contains(&height)) {
+            return;
+        }
+        let filled = &mut self.filled[row as usize * VOXELS + column as usize];
+        let level = ((height - LOWEST) / VOXEL) as u32;
+        if *filled & (1 << level) != 0 {
+            return;
+        }
+        *filled |= 1 << level;
+        if let Some(cell) = columns::cell_of(point[0], point[1]) {
+            self.points.push(point);
+            self.cells.push(cell as u32);
+            self.columns.add(cell, level);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

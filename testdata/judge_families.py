@@ -1,0 +1,159 @@
+#!/usr/bin/env python3
+"""Judges evidence from outside: gradient-boosted trees (LightGBM) that never saw a family of worlds label that family.
+
+    judge_families.py --world FAMILY DATASET OUT [--world FAMILY DATASET OUT]... [--rounds N] [--seed S] [--rows N]
+
+DATASET is a recording with its truth (`ralf simulate --preset worlds --family FAMILY --seed S -o DATASET`), OUT what
+`ralf label DATASET -o OUT --evidence` made of it. Worlds of one FAMILY are left out together. Printed are, for each family
+left out and on average: plausible F1 (at the threshold that is best on the families trained on, in turn left out), average
+precision, accuracy and calibration error (isotonic, fitted there, too): from all evidence, from the paper's columns alone,
+by the paper's method itself; and what is lost where one group of evidence is missing. Groups are those of docs/evidence.md.
+
+Needs lightgbm, numpy, pyarrow and scikit-learn.
+"""
+
+import argparse
+import re
+import sys
+from pathlib import Path
+
+import lightgbm
+import numpy
+import pyarrow.parquet
+from sklearn.isotonic import IsotonicRegression
+from sklearn.metrics import average_precision_score
+
+# As the experiments had it that the project's learner starts from.
+PARAMETERS = dict(
+    objective="binary", num_leaves=31, learning_rate=0.1, feature_fraction=0.5, bagging_fraction=0.7, bagging_freq=1,
+    lambda_l2=5.0, min_data_in_leaf=150, max_bin=63, deterministic=True, force_row_wise=True, verbose=-1,
+)
+# What the paper's method says, as columns of every result.
+PAPER = ["d_lm", "d_cm", "d_tr", "w_lm", "w_cm", "w_tr", "w_opt", "w"]
+# SemanticKITTI ids that are artifacts: outlier, road, parking, sidewalk, other-ground, lane-marking.
+ARTIFACTS = [1, 40, 44, 48, 49, 60]
+CELLS = 15
+
+
+def groups_of_features():
+    """Group of each column, by the table of docs/evidence.md."""
+    text = (Path(__file__).parent.parent / "docs/evidence.md").read_text()
+    rows = re.findall(r"^\| `(\w+)` \| [^|]* \| ([^|]+) \|", text, re.MULTILINE)
+    return {name: group.strip() for name, group in rows}
+
+
+def read_world(dataset, out, names):
+    """Features (absent: NaN), the paper's columns, labels of the paper's method, and truth, of all its sequences."""
+    parts = []
+    for file in sorted(Path(out).glob("sequences/*/plausibility.parquet")):
+        table = pyarrow.parquet.read_table(file)
+        missing = [name for name in names if name not in table.column_names]
+        if missing:
+            sys.exit(f"{file}: no column {', '.join(missing)}: label with --evidence")
+        truth_folder = Path(dataset) / "sequences" / file.parent.name / "ground_truth"
+        radar, scan = table["radar"].to_numpy(zero_copy_only=False), table["scan"].to_numpy()
+        truth = numpy.full(len(table), -1)
+        begins = numpy.flatnonzero(numpy.r_[True, (radar[1:] != radar[:-1]) | (scan[1:] != scan[:-1])])
+        for begin, end in zip(begins, numpy.r_[begins[1:], len(table)]):
+            labels = truth_folder / radar[begin] / f"{scan[begin]:06}.label"
+            if labels.exists():
+                ids = numpy.fromfile(labels, "<u4") & 0xFFFF
+                assert len(ids) == end - begin, f"{labels}: {len(ids)} labels for {end - begin} detections"
+                truth[begin:end] = numpy.where(ids == 0, -1, ~numpy.isin(ids, ARTIFACTS))
+        column = lambda name: table[name].to_numpy(zero_copy_only=False).astype("f4")
+        known = truth >= 0
+        features = numpy.column_stack([column(name) for name in names])[known]
+        paper = numpy.column_stack([column(name) for name in PAPER])[known]
+        parts.append((features, paper, table["label"].to_numpy()[known], truth[known]))
+    if not parts:
+        sys.exit(f"{out}: no sequences/*/plausibility.parquet")
+    return [numpy.concatenate(part) for part in zip(*parts)]
+
+
+def best_threshold(scores, truth):
+    order = numpy.argsort(-scores, kind="stable")
+    found = numpy.cumsum(truth[order])
+    f1 = 2 * found / (numpy.arange(1, len(truth) + 1) + truth.sum())
+    return scores[order][numpy.argmax(f1)]
+
+
+def f1_of(labels, truth):
+    return 2 * (labels & truth).sum() / max(labels.sum() + truth.sum(), 1)
+
+
+def calibration_error(p, truth):
+    cell = numpy.minimum((p * CELLS).astype(int), CELLS - 1)
+    return sum(abs((p - truth)[cell == i].sum()) for i in range(CELLS)) / len(truth)
+
+
+def out_of_fold(features, truth, family, options):
+    """Scores of every row by trees that never saw its family."""
+    scores = numpy.zeros(len(truth))
+    for left_out in numpy.unique(family):
+        train = numpy.flatnonzero(family != left_out)
+        if len(train) > options.rows:
+            train = numpy.sort(numpy.random.default_rng(options.seed).choice(train, options.rows, replace=False))
+        parameters = dict(PARAMETERS, seed=options.seed)
+        model = lightgbm.train(parameters, lightgbm.Dataset(features[train], truth[train]), options.rounds)
+        here = family == left_out
+        scores[here] = model.predict(features[here])
+    return scores
+
+
+def judge(scores, truth, family):
+    """F1, average precision, accuracy and calibration error of each family, by what the others say."""
+    rows = []
+    for left_out in numpy.unique(family):
+        here = family == left_out
+        line = IsotonicRegression(out_of_bounds="clip").fit(scores[~here], truth[~here])
+        p, labels = line.predict(scores[here]), scores[here] >= best_threshold(scores[~here], truth[~here])
+        right = (labels == (truth[here] == 1)).mean()
+        precision = average_precision_score(truth[here], scores[here])
+        rows.append([f1_of(labels, truth[here] == 1), precision, right, calibration_error(p, truth[here])])
+    return numpy.array(rows)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--world", nargs=3, action="append", required=True, metavar=("FAMILY", "DATASET", "OUT"))
+    parser.add_argument("--rounds", type=int, default=220)
+    parser.add_argument("--rows", type=int, default=200_000, help="most rows that a model is trained on")
+    parser.add_argument("--seed", type=int, default=0)
+    parser.add_argument("--no-groups", action="store_true", help="leave out the table of groups")
+    options = parser.parse_args()
+    groups = groups_of_features()
+    names = list(groups)
+    worlds = [(name, *read_world(dataset, out, names)) for name, dataset, out in options.world]
+    features, paper, labels, truth = (numpy.concatenate([world[i] for world in worlds]) for i in range(1, 5))
+    families = sorted({world[0] for world in worlds})
+    family = numpy.concatenate([numpy.full(len(world[4]), families.index(world[0])) for world in worlds])
+    if len(families) < 2:
+        sys.exit("two families or more, so that one can be left out")
+    every = judge(out_of_fold(features, truth, family, options), truth, family)
+    of_paper = judge(out_of_fold(paper, truth, family, options), truth, family)
+    print(f"{len(truth)} detections, {truth.mean():.1%} plausible, {len(names)} columns of evidence, seed {options.seed}\n")
+    print("| family left out | detections | plausible | F1 | AP | accuracy | ECE | paper's columns: F1 | AP | paper's method: F1 | AP |")
+    print("| --- " * 11 + "|")
+    lines = []
+    for number, name in enumerate(families):
+        here = family == number
+        method = [f1_of(labels[here] == 1, truth[here] == 1), average_precision_score(truth[here], paper[here, -1])]
+        lines.append([*every[number], *of_paper[number, :2], *method])
+        told = " | ".join(f"{value:.3f}" for value in lines[-1])
+        print(f"| {name} | {here.sum()} | {truth[here].mean():.1%} | {told} |")
+    print(f"| mean | | | {' | '.join(f'{value:.3f}' for value in numpy.mean(lines, axis=0))} |")
+    if options.no_groups:
+        return
+    print("\n| group left out | columns | F1 | change | AP | change |\n| --- | --- | --- | --- | --- | --- |")
+    for group in dict.fromkeys(groups.values()):
+        kept = [i for i, name in enumerate(names) if groups[name] != group]
+        if not kept:
+            continue
+        rows = judge(out_of_fold(features[:, kept], truth, family, options), truth, family)
+        (f1, precision), change = rows[:, :2].mean(0), (rows - every)[:, :2].mean(0)
+        columns = len(names) - len(kept)
+        print(f"| {group} | {columns} | {f1:.3f} | {change[0]:+.3f} | {precision:.3f} | {change[1]:+.3f} |", flush=True)
+
+
+if __name__ == "__main__":
+    main()
