@@ -11,7 +11,7 @@ use ralf::scene::{Frame, FrameWindow, NeighbouringDetections};
 use ralf::sensors::{Elevation, Radar};
 use ralf::space::Transform;
 use std::f64::consts::SQRT_2;
-use support::{MS, Memory, radar};
+use support::{MS, Memory, lidar, radar};
 
 /// x, y, z, range rate and cross-section of each detection of a scan.
 type Rows = Vec<[f32; 5]>;
@@ -227,6 +227,28 @@ fn context_by_hand() {
     close(&column(&found, "context_beside_angle"), &[None, None, None, Some(30.0), Some(1.0), None]);
     // The rates of the first and the fourth agree, those of the others don't; one degree is the same azimuth.
     close(&column(&found, "context_side_lobe"), &[Some(-25.0), None, None, Some(25.0), None, None]);
+}
+
+#[test]
+fn what_a_wall_mirrors_is_found_on_the_radars_side_of_it() {
+    // A wall along the left, 5 m away. A post at (10, 2) and its image at (10, 8), a weaker one that is nobody's
+    // image, and one that is stronger than the post.
+    let scan = vec![
+        [10.0, 2.0, 1.0, 0.0, 10.0],
+        [10.0, 8.0, 1.0, 0.0, 0.0],
+        [20.0, 8.0, 1.0, 0.0, 0.0],
+        [10.2, 8.0, 1.0, 0.0, 20.0],
+        NO_PLACE,
+    ];
+    let wall: Vec<[f32; 3]> =
+        (0..4000).map(|k| [(k % 200) as f32 * 0.1, 5.05, (k / 200) as f32 * 0.12 - 1.8]).collect();
+    let memory = drive(vec![(front(), vec![(0, scan)])]).lidar(lidar(), vec![(0, wall)]);
+    let found = column(&observe(&memory, 0), "context_mirror");
+    // Columns are 0.25 m wide: the wall is taken to be 5.125 m away, the image to come from (10, 2.25). That misses by
+    // 0.25 m, across rays whose ends are known by 0.1 m each, with 0.1 m of room: 1.44 sigma at most.
+    let [none_before, image, nobodys, stronger] = [0, 1, 2, 3].map(|row| found[row]);
+    assert!(image.is_some_and(|distance| distance < 1.5), "{image:?}");
+    assert_eq!([none_before, nobodys, stronger, found[4]], [None; 4]);
 }
 
 /// A detection anywhere before the radar, on few places, so that there is something to meet.

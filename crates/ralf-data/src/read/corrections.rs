@@ -60,6 +60,8 @@ pub enum MotionSource {
     Recorded,
     /// From the radars' range rates.
     Radar,
+    /// From the scans of a LiDAR.
+    Lidar,
     /// From a trajectory's file.
     Trajectory,
 }
@@ -68,7 +70,7 @@ pub enum MotionSource {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct MotionSettings {
-    /// `recorded` or `radar`; a trajectory wins over both.
+    /// `recorded`, `radar` or `lidar`; a trajectory wins over all.
     pub source: MotionSource,
     /// File of poses: TUM (`t x y z qx qy qz qw`) or KITTI (twelve numbers, row by row).
     #[serde(skip_serializing_if = "Option::is_none")]

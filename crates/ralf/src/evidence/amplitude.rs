@@ -4,6 +4,7 @@
 //! The cross-section tells what reflected, the power (cross-section less `40 log10 r`) how far the echo stood out of the
 //! noise. Noise and clutter crowd just above the threshold; what a real object sends back often does not.
 
+use super::columns::unobserved;
 use super::ordered::Ordered;
 use super::statistics::{median_of, over_median_nearby, quantile, ranks};
 use super::{Feature, Piece, Surroundings, Values};
@@ -54,7 +55,7 @@ const fn feature(name: &'static str, unit: &'static str, meaning: &'static str) 
 fn observe(surroundings: &Surroundings) -> Vec<Values> {
     let frame = surroundings.frame;
     let Some(strength) = frame.strength() else {
-        return vec![vec![None; frame.scan.len()]; PIECE.features.len()];
+        return unobserved(PIECE.features, frame.scan.len());
     };
     let ranges = ranges(&frame.scan.measured);
     let around = EchoesAround::new(frame, &strength, &ranges);

@@ -3,6 +3,7 @@
 //! Strong echoes cast others. What lies behind one at its azimuth may be a path that took a turn, or the echo that went
 //! to and fro twice and so lies twice as far; what lies beside one at its range and range rate may be a side lobe.
 
+use super::columns::{set, unobserved};
 use super::echoes::Echoes;
 use super::statistics::{over_median_nearby, ranks};
 use super::{Feature, Piece, Surroundings, Values};
@@ -72,14 +73,18 @@ fn observe(surroundings: &Surroundings) -> Vec<Values> {
     let frame = surroundings.frame;
     let crowd = crowd(surroundings);
     let logarithms: Vec<f64> = crowd.iter().map(|others| others.ln_1p()).collect();
+    let density = ranks(&crowd);
     let over_ring = over_median_nearby(&logarithms, &ranges(frame), RING);
-    let crowding = [ranks(&crowd), over_ring, ranks(&crowd_around(surroundings))];
+    let around = ranks(&crowd_around(surroundings));
     let echoes = Echoes::new(surroundings);
-    let mut columns = vec![Vec::with_capacity(frame.scan.len()); PIECE.features.len() - crowding.len()];
+    let mut columns = unobserved(PIECE.features, frame.scan.len());
     for i in 0..frame.scan.len() {
         let before = echoes.as_ref().map(|echoes| echoes.before(i)).unwrap_or_default();
         let beside = echoes.as_ref().map(|echoes| echoes.beside(i)).unwrap_or_default();
         let values = [
+            density[i],
+            over_ring[i],
+            around[i],
             before.count,
             before.distance,
             before.double_bounce,
@@ -87,11 +92,9 @@ fn observe(surroundings: &Surroundings) -> Vec<Values> {
             beside.angle,
             beside.side_lobe,
         ];
-        for (column, value) in columns.iter_mut().zip(values) {
-            column.push(value);
-        }
+        set(&mut columns, i, values);
     }
-    crowding.into_iter().chain(columns).collect()
+    columns
 }
 
 fn ranges(frame: &Frame) -> Vec<f64> {

@@ -20,13 +20,13 @@ mod lidar_map;
 mod lidar_rays;
 mod lidar_residual;
 mod line_of_sight;
+mod mirror;
 mod ordered;
 mod persistence;
 mod probe;
 mod rates;
 mod recurrence;
 mod sensor_frame;
-mod sight;
 mod statistics;
 mod surroundings;
 mod terrain;
@@ -50,6 +50,7 @@ pub const PIECES: &[Piece] = &[
     persistence::PIECE,
     camera::PIECE,
     context::PIECE,
+    mirror::PIECE,
     geometry::PIECE,
 ];
 

@@ -1,12 +1,13 @@
 //! What exists is seen again: of the scans that could have seen a detection, how many did, from where, and would chance
 //! have done as well?
 
+use super::columns::{set, unobserved};
 use super::distance::area_within;
 use super::recurrence::{FARTHEST, Sighting};
-use super::sensor_frame::held_in_place;
-use super::sight::Sight;
+use super::sensor_frame::Unmoved;
 use super::{Feature, Piece, Surroundings, Values};
-use crate::scene::{Detection, Frame};
+use crate::scene::{Detection, Frame, NeighbouringScan};
+use crate::space::Vector;
 use std::f64::consts::PI;
 
 pub(super) const PIECE: Piece = Piece {
@@ -64,27 +65,25 @@ const fn feature(name: &'static str, unit: &'static str, meaning: &'static str) 
 
 fn observe(surroundings: &Surroundings) -> Vec<Values> {
     let frame = surroundings.frame;
-    let sights = Sight::of_window(frame);
-    let mut columns = vec![Vec::with_capacity(frame.scan.len()); PIECE.features.len()];
-    for (i, seen) in surroundings.sightings().iter().enumerate() {
+    let (origins, unmoved) = (origins(frame), Unmoved::new(frame));
+    let mut columns = unobserved(PIECE.features, frame.scan.len());
+    for (i, detection) in frame.scan.detections.iter().enumerate() {
+        let Some(detection) = detection else { continue };
+        let seen = surroundings.sightings()[i].as_slice();
         let own = || seen.iter().filter(|sighting| sighting.own);
-        let others = || seen.iter().filter(|sighting| !sighting.own);
-        let moving = own().filter(|_| surroundings.rates().is_some_and(|rates| rates.residual(i).is_some()));
-        let excess =
-            frame.scan.detections[i].as_ref().and_then(|detection| excess(surroundings, detection, seen));
+        let others = seen.iter().filter(|sighting| !sighting.own);
+        let has_rate = surroundings.rates().is_some_and(|rates| rates.residual(i).is_some());
         let values = [
             share(own().map(|sighting| sighting.still <= SAME)),
-            share(moving.map(|sighting| sighting.moving <= SAME)),
-            share(others().map(|sighting| sighting.still <= SAME)),
+            share(own().filter(|_| has_rate).map(|sighting| sighting.moving <= SAME)),
+            share(others.map(|sighting| sighting.still <= SAME)),
             mean(own().map(|sighting| sighting.still.min(FARTHEST))),
-            excess,
-            frame.scan.detections[i].as_ref().and_then(|detection| aspect(frame, &sights, detection, seen)),
+            excess(surroundings, detection, seen),
+            aspect(frame, &origins, detection, seen),
+            unmoved.share_at(detection),
         ];
-        for (column, value) in columns.iter_mut().zip(values) {
-            column.push(value);
-        }
+        set(&mut columns, i, values);
     }
-    columns[6] = held_in_place(frame);
     columns
 }
 
@@ -116,11 +115,18 @@ fn excess(surroundings: &Surroundings, detection: &Detection, seen: &[Sighting])
     Some(((hits + 0.5) / (expected + 0.5)).ln())
 }
 
+/// Where each scan around was made, in the vehicle frame at the frame's time, m.
+fn origins(frame: &Frame) -> Vec<Vector> {
+    let mounting = |radar: usize| frame.rig.radars[radar].vehicle_from_radar;
+    let origin = |scan: &NeighbouringScan| (scan.vehicle_from_scan * mounting(scan.radar)).translation.vector;
+    frame.radar_window.iter().map(origin).collect()
+}
+
 /// Degrees; `None` where no scan saw it again.
-fn aspect(frame: &Frame, sights: &[Sight], detection: &Detection, seen: &[Sighting]) -> Option<f64> {
+fn aspect(frame: &Frame, origins: &[Vector], detection: &Detection, seen: &[Sighting]) -> Option<f64> {
     let ray = detection.position.coords - frame.radar.vehicle_from_radar.translation.vector;
     let again = seen.iter().filter(|sighting| sighting.still <= SAME);
     let angles =
-        again.map(|sighting| ray.angle(&(detection.position - sights[sighting.scan as usize].origin)));
+        again.map(|sighting| ray.angle(&(detection.position.coords - origins[sighting.scan as usize])));
     angles.reduce(f64::max).map(f64::to_degrees)
 }

@@ -1,7 +1,6 @@
 //! What moves along with the radar: side lobes of the vehicle itself, its bumper, interference. It lies at the same place
 //! of the radar's own frame again and again, however the vehicle moves.
 
-use super::Values;
 use super::distance::{ROOM, chi, horizontal_variance};
 use crate::scene::{Detection, Frame, index_of};
 use crate::sensors::Elevation;
@@ -14,16 +13,9 @@ const MOVED_ON: f64 = 3.0;
 /// Nothing farther is looked at, m, whatever the radar's uncertainty is said to be.
 const REACH: f64 = 8.0;
 
-/// For each detection which share of the radar's own scans around detected something at the same place of the radar's
-/// frame, of those in which what stands still had moved on; `None` where it had moved on in none.
-pub(super) fn held_in_place(frame: &Frame) -> Values {
-    let unmoved = Unmoved::new(frame);
-    frame.scan.detections.iter().map(|detection| unmoved.share_at(detection.as_ref()?)).collect()
-}
-
 /// The detections of a radar's own scans around, each in the vehicle frame at its own time, in which the radar doesn't
 /// move.
-struct Unmoved<'a> {
+pub(super) struct Unmoved<'a> {
     frame: &'a Frame<'a>,
     detections: Vec<&'a Detection>,
     /// Of each detection: its scan among the radar's own.
@@ -36,7 +28,8 @@ struct Unmoved<'a> {
 }
 
 impl<'a> Unmoved<'a> {
-    fn new(frame: &'a Frame<'a>) -> Self {
+    /// The radar's own scans around a frame.
+    pub(super) fn new(frame: &'a Frame<'a>) -> Self {
         let (mut detections, mut scans, mut scans_from_vehicle) = (Vec::new(), Vec::new(), Vec::new());
         for (scan, neighbour) in frame.own_scans_around().enumerate() {
             for detection in neighbour.scan.detections.iter().flatten() {
@@ -51,7 +44,9 @@ impl<'a> Unmoved<'a> {
         Self { frame, detections, scans, scans_from_vehicle, index, max_variance }
     }
 
-    fn share_at(&self, detection: &Detection) -> Option<f64> {
+    /// Which share of the scans has a detection at the same place of the radar's frame, of those in which what stands
+    /// still had moved on; `None` where it had moved on in none.
+    pub(super) fn share_at(&self, detection: &Detection) -> Option<f64> {
         let moved_on: Vec<bool> = self
             .scans_from_vehicle
             .iter()

@@ -17,7 +17,7 @@ impl Raster {
     /// them; the others as they are.
     pub(super) fn clipped_to_median(&self, known: &[usize], radius: usize, slack: f32) -> Self {
         let mut clipped = self.clone();
-        let mut around = Vec::new();
+        let mut around: Vec<f32> = Vec::new();
         for &cell in known {
             let (row, column) = (cell / self.size, cell % self.size);
             around.clear();
