@@ -149,3 +149,28 @@ fn declared_lidar(lidar: &LidarModel, said: Transform) -> Lidar {
         max_range: Some(lidar.pattern.max_range),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::world::draw::World;
+    use crate::world::family::FAMILIES;
+
+    #[test]
+    fn what_is_said_of_mountings_is_wrong_by_what_the_family_says_at_most() {
+        for (family, seed) in FAMILIES.iter().zip(0..) {
+            let world = World::new(family, seed);
+            let [angle, place] = [family.calibration.angle.high, family.calibration.place.high];
+            let pairs = world.radars.iter().zip(&world.calibration.rig.radars);
+            for (real, said) in pairs {
+                let error = real.vehicle_from_radar.inv_mul(&said.vehicle_from_radar);
+                let turned = error.rotation.angle().to_degrees();
+                assert!(turned > 0.0 && turned < angle * 3.0_f64.sqrt() * 1.01, "{turned}");
+                assert!(error.translation.vector.amax() > 0.0);
+                assert!(error.translation.vector.norm() < place * 3.0_f64.sqrt() + 1e-9);
+                assert!(real.clock_ns.abs() <= 20_000_000);
+                let sigmas = said.sigma_range / (real.accuracy * real.cell.range);
+                assert!((0.8..=1.3).contains(&sigmas), "{sigmas}");
+            }
+        }
+    }
+}

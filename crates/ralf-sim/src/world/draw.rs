@@ -44,6 +44,7 @@ fn waves(family: &Family, random: &mut Random) -> Waves {
         asphalt_db: ranges.asphalt.draw(random),
         texture_db: ranges.texture.draw(random),
         mirror_loss_db: ranges.mirror_loss.draw(random),
+        road_mirror: ranges.road_mirror.draw(random),
         window_loss_db: ranges.window_loss.draw(random),
         leaf_loss_db: ranges.leaf_loss.draw(random),
         strength_db: ranges.strength.draw(random),

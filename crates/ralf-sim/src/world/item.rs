@@ -62,6 +62,15 @@ impl Item {
         self.course.speed != 0.0
     }
 
+    /// Whether a place on the ground lies within its outline at the start, widened by so much (m).
+    pub(super) fn is_within(&self, [x, y]: [f64; 2], wider: f64) -> bool {
+        let [x0, y0, yaw] = self.course.start;
+        let (sin, cos) = yaw.sin_cos();
+        let [dx, dy] = [x - x0, y - y0];
+        (cos * dx + sin * dy).abs() < self.size.x / 2.0 + wider
+            && (cos * dy - sin * dx).abs() < self.size.y / 2.0 + wider
+    }
+
     /// Where it is after so many seconds: upright, with its foot on the ground.
     pub(super) fn pose(&self, terrain: &Terrain, seconds: f64) -> Isometry3<f64> {
         let [x, y, yaw] = self.course.at(seconds);

@@ -208,7 +208,7 @@ fn building(l: f64, w: f64, height: f64, parts: &mut Parts<'_>) {
             let z = parts.random.between(0.2, top);
             // Balconies, window reveals and drain pipes are corners, and so are shelves and radiators: few, and strong.
             let corner = parts.random.chance(0.12);
-            let level = if corner { 8.0 } else { -4.0 };
+            let level = if corner { 8.0 } else { -4.0 } + if inside { 3.0 } else { 0.0 };
             parts.put([place.x, place.y, z], Some(outward), level, 5.0).inside = inside;
         }
     }

@@ -25,6 +25,13 @@ const START_NS: i64 = 1_700_000_000_000_000_000;
 /// Half the step of the numerical derivative of the pose, s.
 const HALF_STEP: f64 = 1e-3;
 
+/// So long a drive nothing stands in the way, s, looked at in steps of so many s.
+const LASTING: f64 = 15.0;
+const STEP: f64 = 0.1;
+/// Places of the vehicle along its axis, m, and half its width with some air.
+const ALONG: [f64; 4] = [-0.8, 0.7, 2.2, 3.6];
+const HALF_WIDTH: f64 = 1.15;
+
 /// A sequence of a world.
 #[derive(Debug)]
 pub(super) struct WorldSequence {
@@ -73,13 +80,15 @@ impl WorldSequence {
         let mut random = Random::new(seed, Purpose::Placement, 0, 0);
         let random = &mut random;
         let kind = world.place(random);
-        let plan = plan(kind, &world.family.motion, random);
+        let mut plan = plan(kind, &world.family.motion, random);
         let rains = random.chance(world.family.waves.rain);
         let sway = [random.between(0.0, 0.006), random.between(0.0, 0.004), random.between(0.0, TAU)];
         let times = timelines(&world, scans);
         let seconds =
             2.0 + times.radars.iter().flatten().max().map_or(0, |last| last - START_NS) as f64 * 1e-9;
-        let ride = Ride { path: path(&plan, seconds, random), sway };
+        let phase = random.between(0.0, TAU);
+        let ride = Ride { path: path(&plan, seconds, phase), sway };
+        clear_the_way(&mut plan, phase);
         let title = format!("{}: {}{}", world.family.name, plan.title, if rains { ", rain" } else { "" });
         let terrain = Terrain::new(&plan.ramps, plan.patches, plan.base, seed);
         let motion = motion(&world, &ride, &terrain, seconds, seed).ok_or(ScenarioError::Value {
@@ -127,11 +136,22 @@ fn timelines(world: &World, scans: usize) -> Timelines {
     Timelines { radars, lidars: world.lidars.iter().map(of_lidar).collect(), cameras: Vec::new() }
 }
 
-fn path(plan: &Plan, seconds: f64, random: &mut Random) -> Path {
+fn path(plan: &Plan, seconds: f64, phase: f64) -> Path {
     let (swing, period) = plan.drive.swing;
-    let phase = random.between(0.0, TAU);
     let speed = |t: f64| plan.drive.speed * (1.0 + swing * (TAU * t / period + phase).sin());
     Path::along(plan.drive.start, &plan.drive.legs, seconds, speed)
+}
+
+/// Takes away what the vehicle would drive through.
+fn clear_the_way(plan: &mut Plan, phase: f64) {
+    let path = path(plan, LASTING, phase);
+    let mut way = Vec::new();
+    for step in 0..(LASTING / STEP) as usize {
+        let state = path.state(step as f64 * STEP);
+        let (sin, cos) = state.heading.sin_cos();
+        way.extend(ALONG.map(|along| [state.x + along * cos, state.y + along * sin]));
+    }
+    plan.items.retain(|item| item.moves() || !way.iter().any(|place| item.is_within(*place, HALF_WIDTH)));
 }
 
 fn motion(world: &World, ride: &Ride, terrain: &Terrain, seconds: f64, seed: u64) -> Option<EgoMotion> {

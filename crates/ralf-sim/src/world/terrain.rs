@@ -28,8 +28,8 @@ impl Surface {
         match self {
             Self::Asphalt => 0.0,
             Self::Pavement => 3.0,
-            Self::Gravel => 7.0,
-            Self::Grass => 9.0,
+            Self::Gravel => 8.0,
+            Self::Grass => 12.0,
         }
     }
 }
@@ -52,10 +52,22 @@ pub(super) struct Patch {
 }
 
 impl Patch {
-    pub(super) fn contains(&self, x: f64, y: f64) -> bool {
+    /// A place in the patch's own frame.
+    pub(super) fn own(&self, x: f64, y: f64) -> [f64; 2] {
         let [dx, dy] = [x - self.center[0], y - self.center[1]];
         let [sin, cos] = self.turn;
-        (cos * dx + sin * dy).abs() <= self.half[0] && (cos * dy - sin * dx).abs() <= self.half[1]
+        [cos * dx + sin * dy, cos * dy - sin * dx]
+    }
+
+    /// A place of the patch's own frame in the site's.
+    pub(super) fn place(&self, [x, y]: [f64; 2]) -> [f64; 2] {
+        let [sin, cos] = self.turn;
+        [self.center[0] + cos * x - sin * y, self.center[1] + sin * x + cos * y]
+    }
+
+    pub(super) fn contains(&self, x: f64, y: f64) -> bool {
+        let [along, across] = self.own(x, y);
+        along.abs() <= self.half[0] && across.abs() <= self.half[1]
     }
 }
 
@@ -81,6 +93,10 @@ pub(super) struct Terrain {
 impl Terrain {
     pub(super) fn new(ramps: &[Ramp], patches: Vec<Patch>, base: Patch, seed: u64) -> Self {
         Self { ground: Ground::new(ramps), patches, base, seed }
+    }
+
+    pub(super) fn patches(&self) -> &[Patch] {
+        &self.patches
     }
 
     pub(super) fn patch(&self, x: f64, y: f64) -> &Patch {

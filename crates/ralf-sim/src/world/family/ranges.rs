@@ -76,6 +76,8 @@ pub(crate) struct WaveRanges {
     pub(crate) texture: Span,
     /// What a facade takes from a mirrored wave, one way, dB.
     pub(crate) mirror_loss: Span,
+    /// How often a thing is seen mirrored in the road.
+    pub(crate) road_mirror: Span,
     /// What a window or door takes, there and back, dB.
     pub(crate) window_loss: Span,
     /// What leaves take per metre, there and back, dB.

@@ -23,8 +23,8 @@ const RADARS: RadarRanges = RadarRanges {
     fov_elevation: span(16.0, 30.0),
     // 13 Hz in nuScenes and View-of-Delft, 18 in aiMotive, 20 in the paper.
     rate: span(12.0, 20.0),
-    // A car of 10 dBsm is seen up to so far (data sheets of corner radars: 70 to 100 m).
-    car_range: span(60.0, 110.0),
+    // A car of 10 dBsm is seen up to so far (data sheets: corner radars 70 to 100 m, mid-range ones 160 m).
+    car_range: span(70.0, 130.0),
     max_range: span(60.0, 100.0),
     // c / (2 B): 0.15 m at 1 GHz, 0.5 m at 300 MHz.
     range_cell: span(0.15, 0.5),
@@ -47,19 +47,21 @@ const RADARS: RadarRanges = RadarRanges {
     angle_failure: span(0.02, 0.15),
     // 1,216 in four radars in the paper's recordings.
     room: span(250.0, 500.0),
-    false_alarms: span(15.0, 70.0),
+    false_alarms: span(20.0, 110.0),
 };
 
 const WAVES: WaveRanges = WaveRanges {
     // W-band backscatter of asphalt at 5 to 20 degrees of grazing: -30 to -15 dB (Ulaby and Dobson 1989; Sarabandi et
     // al. 1997).
-    asphalt: span(-32.0, -20.0),
+    asphalt: span(-30.0, -18.0),
     // K-distributed and worse near the ground: chosen.
     texture: span(4.0, 7.5),
     // Reflection of facades at 77 GHz: glass and metal 0 to 3 dB, plaster and brick 5 to 12 (chosen).
     mirror_loss: span(2.0, 9.0),
+    // Measured, View-of-Delft: 18 % of the detections lie below the road.
+    road_mirror: span(0.0, 0.2),
     // Plain glass at 77 GHz takes 1 to 5 dB one-way, insulating glass up to 10, coated panes up to 30 (chosen).
-    window_loss: span(2.0, 20.0),
+    window_loss: span(0.0, 18.0),
     // Foliage at millimetre waves: 1 to 3 dB per metre one-way in full leaf (ITU-R P.833).
     leaf_loss: span(1.5, 6.0),
     // Chosen: the absolute calibration of a sensor's cross-sections is off by some dB.
@@ -130,10 +132,10 @@ pub const FAMILIES: [Family; 8] = [
             accuracy: span(0.15, 0.3),
             // Measured, nuScenes: 125 wherever there is enough to see.
             room: span(64.0, 125.0),
-            false_alarms: span(2.0, 12.0),
+            false_alarms: span(6.0, 36.0),
             ..RADARS
         },
-        waves: WaveRanges { asphalt: span(-36.0, -26.0), ..WAVES },
+        waves: WaveRanges { asphalt: span(-32.0, -20.0), ..WAVES },
         lidars: LidarRanges { layouts: &[ROOF_32], rate: span(20.0, 20.0), ..LIDARS },
         places: &[(PlaceKind::Street, 2.0), (PlaceKind::Crossing, 2.0), (PlaceKind::CarPark, 1.0)],
         motion: MotionRanges { speed: span(0.6, 1.4), ..MOTION },
@@ -160,10 +162,10 @@ pub const FAMILIES: [Family; 8] = [
             doppler_failure: span(0.03, 0.3),
             // Measured, aiMotive: 26 to 55 in a scan.
             room: span(40.0, 200.0),
-            false_alarms: span(2.0, 20.0),
+            false_alarms: span(8.0, 60.0),
             ..RADARS
         },
-        waves: WaveRanges { interference: span(0.0, 0.1), ..WAVES },
+        waves: WaveRanges { asphalt: span(-28.0, -16.0), interference: span(0.0, 0.1), ..WAVES },
         lidars: LidarRanges { layouts: &[ROOF_128, ROOF_64], rolling: 0.9, ..LIDARS },
         places: &[(PlaceKind::Motorway, 4.0), (PlaceKind::Country, 1.0)],
         motion: MotionRanges { speed: span(0.7, 1.1), standing: 0.03, reversing: 0.0, ..MOTION },
@@ -184,12 +186,12 @@ pub const FAMILIES: [Family; 8] = [
             azimuth_cell: span(2.0, 6.0),
             elevation_cell: span(4.0, 10.0),
             room: span(150.0, 400.0),
-            false_alarms: span(5.0, 40.0),
+            false_alarms: span(15.0, 110.0),
             side_lobe: span(13.0, 22.0),
             ..RADARS
         },
         waves: WaveRanges {
-            asphalt: span(-28.0, -17.0),
+            asphalt: span(-26.0, -15.0),
             mirror_loss: span(1.0, 6.0),
             bumper: span(1.0, 5.0),
             ..WAVES
@@ -223,7 +225,7 @@ pub const FAMILIES: [Family; 8] = [
             false_alarms: span(40.0, 120.0),
             ..RADARS
         },
-        waves: WaveRanges { asphalt: span(-28.0, -18.0), strength: span(-8.0, 0.0), ..WAVES },
+        waves: WaveRanges { asphalt: span(-27.0, -16.0), strength: span(-8.0, 0.0), ..WAVES },
         lidars: LidarRanges { layouts: &[ROOF_64], sigma: span(0.015, 0.03), rolling: 0.0, ..LIDARS },
         places: &[(PlaceKind::Residential, 2.0), (PlaceKind::Street, 2.0), (PlaceKind::Country, 1.0)],
         motion: MotionRanges { speed: span(0.4, 0.9), traffic: span(0.6, 2.5), ..MOTION },
@@ -264,7 +266,7 @@ pub const FAMILIES: [Family; 8] = [
             max_range: span(80.0, 160.0),
             azimuth_cell: span(1.5, 5.0),
             room: span(60.0, 300.0),
-            false_alarms: span(3.0, 40.0),
+            false_alarms: span(20.0, 120.0),
             ..RADARS
         },
         waves: WaveRanges { texture: span(5.0, 9.0), rain: 0.4, ..WAVES },

@@ -8,14 +8,14 @@ use crate::world::terrain::Surface;
 /// A quiet street among gardens.
 pub(super) fn residential(builder: &mut Builder<'_>) {
     builder.plan.title = "residential street";
-    let way = builder.drive([0.0, -1.4, 0.0], 6.5);
+    let way = builder.drive([0.0, -1.1, 0.0], 6.5);
     let reach = [-50.0, way + 70.0];
-    let half = builder.between(2.8, 4.2);
+    let half = builder.between(2.8, 4.6);
     builder.hills(way);
     for side in [1.0, -1.0] {
         gardens(builder, side, half, reach);
     }
-    let road = Road { reach, lanes: vec![-1.4, 1.4], speed: 8.0, cars: 2.5, trucks: 0.1 };
+    let road = Road { reach, lanes: vec![-1.1, 1.4], speed: 8.0, cars: 2.5, trucks: 0.1 };
     on_road(builder, &road);
     on_foot(builder, 4.0, reach, half + 0.8);
     on_bicycles(builder, 3.0, reach, 2.2);
@@ -57,7 +57,7 @@ fn gardens(builder: &mut Builder<'_>, side: f64, half: f64, [from, to]: [f64; 2]
 }
 
 fn parked(builder: &mut Builder<'_>, x: f64, y: f64, width: f64) {
-    if builder.chance(0.3) && y.abs() > 2.4 {
+    if builder.chance(0.3) && y.abs() > 2.9 {
         let at = [x + builder.between(3.0, width - 3.0), y];
         builder.place(Kind::Car, at, if y < 0.0 { 0.0 } else { 180.0 });
     }

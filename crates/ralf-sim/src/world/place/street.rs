@@ -61,7 +61,7 @@ pub(super) fn crossing(builder: &mut Builder<'_>) {
 
 fn profile(builder: &mut Builder<'_>) -> Profile {
     Profile {
-        road: builder.between(4.6, 7.5),
+        road: builder.between(4.2, 7.5),
         walk: builder.between(1.5, 4.0),
         kerb: if builder.chance(0.85) { builder.between(0.04, 0.16) } else { 0.0 },
     }
@@ -88,7 +88,7 @@ fn flank(
     let mut x = from;
     while x < to {
         x += builder.between(5.2, 7.0);
-        if free(x, 4.0) && builder.chance(parked) && profile.road > 4.4 {
+        if free(x, 4.0) && builder.chance(parked) && profile.road > 5.4 {
             let yaw = if builder.chance(0.8) == (side < 0.0) { 0.0 } else { 180.0 };
             let y = side * (profile.road - 1.05) + builder.normal(0.1);
             let yaw = yaw + builder.normal(1.5);

@@ -5,7 +5,7 @@ use super::equation::decibel;
 use crate::random::{Random, grain};
 use crate::truth::Truth;
 use ralf::label::Cause;
-use ralf::space::Spherical;
+use ralf::space::{Point, Spherical};
 
 /// How many of the strongest echoes have company.
 const STRONGEST: usize = 40;
@@ -57,6 +57,30 @@ pub(super) fn confused(view: &View<'_>, echo: Echo, margin_db: f64, random: &mut
         (false, ..) => echo,
         (true, true, Cause::Plausible) => Echo { seen, truth: Truth::artifact(Cause::Ambiguity), ..echo },
         (true, ..) => Echo { seen, ..echo },
+    }
+}
+
+/// By way of the road a thing is seen as far below it as it stands above. In the same cell of range both add up, and
+/// now and then the image wins: measured radars of this kind have a fifth of their detections below the road.
+pub(super) fn reflected_by_road(view: &View<'_>, echo: Echo, random: &mut Random) -> Echo {
+    let [chance, share] = [random.uniform(), random.uniform()];
+    if !view.radar.elevation || chance > view.waves.road_mirror || echo.truth.cause == Cause::Noise {
+        return echo;
+    }
+    let place = view.site_from_radar * echo.seen.to_cartesian();
+    let below = view.moment.site.terrain.height(place.x, place.y);
+    let height = place.z - below;
+    let image = Point::new(place.x, place.y, below - height * share.sqrt());
+    let seen =
+        Spherical { range: echo.seen.range, ..Spherical::from_cartesian(&(view.radar_from_site * image)) };
+    if height < 0.1 || seen.elevation.abs() > view.radar.fov[1] / 2.0 {
+        return echo;
+    }
+    match echo.truth.cause {
+        Cause::Plausible if displaced(&echo, &seen) > APART => {
+            Echo { seen, truth: Truth::artifact(Cause::Mirror), ..echo }
+        }
+        _ => Echo { seen, ..echo },
     }
 }
 

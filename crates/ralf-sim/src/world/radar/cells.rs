@@ -50,3 +50,35 @@ fn sum(cell: &[(Key, usize)], echoes: &[Echo], random: &mut Random) -> Echo {
         truth: strongest.truth,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::model::tests::radar;
+    use super::*;
+    use crate::random::Purpose;
+    use crate::truth::Truth;
+    use ralf::label::Cause;
+
+    fn echo(range: f64, azimuth: f64, rate: f64, level_db: f64, cause: Cause) -> Echo {
+        Echo::new(Spherical { range, azimuth, elevation: 0.01 }, rate, level_db, Truth { class: 10, cause })
+    }
+
+    #[test]
+    fn echoes_of_a_cell_are_one_and_the_strongest_tells_its_truth() {
+        let random = &mut Random::new(1, Purpose::Radar, 0, 0);
+        let near = [
+            echo(20.11, 0.001, 1.01, 20.0, Cause::Road),
+            echo(20.2, 0.02, 1.05, 30.0, Cause::Plausible),
+            // Another range, another rate, another azimuth.
+            echo(21.0, 0.001, 1.01, 20.0, Cause::Noise),
+            echo(20.11, 0.001, 3.0, 20.0, Cause::Noise),
+            echo(20.11, 0.3, 1.01, 20.0, Cause::Noise),
+        ];
+        let found = merged(&radar(), &near, random);
+        assert_eq!(found.len(), 4);
+        let both = found.iter().find(|echo| echo.truth.cause == Cause::Plausible).unwrap();
+        assert!(both.power >= 0.5 * near[1].power);
+        assert!((20.18..20.2).contains(&both.seen.range), "nearer the stronger: {}", both.seen.range);
+        assert!(found.iter().filter(|echo| echo.truth.cause == Cause::Noise).count() == 3);
+    }
+}

@@ -70,3 +70,36 @@ impl Floor {
         decibel(self.noise + ranked / self.cells + self.leak * others)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::model::tests::radar;
+    use super::*;
+    use crate::truth::Truth;
+    use ralf::label::Cause;
+    use ralf::space::Spherical;
+
+    fn echo(range: f64, level_db: f64) -> Echo {
+        let seen = Spherical { range, azimuth: 0.1, elevation: 0.0 };
+        Echo::new(seen, 0.0, level_db, Truth::artifact(Cause::Road))
+    }
+
+    fn floor_db(echoes: &[Echo], range: f64) -> f64 {
+        Floor::new(&radar(), echoes, 1.0).level_db(&echo(range, 0.0))
+    }
+
+    #[test]
+    fn the_floor_is_the_noise_where_nothing_is() {
+        assert!(floor_db(&[], 30.0).abs() < 1e-9);
+        assert!((Floor::new(&radar(), &[], 4.0).level_db(&echo(30.0, 0.0)) - 6.02).abs() < 0.01);
+    }
+
+    #[test]
+    fn one_strong_neighbour_does_not_mask_and_clutter_all_around_does() {
+        assert!(floor_db(&[echo(32.0, 60.0)], 30.0) < 0.1);
+        let clutter = |level: f64| (0..200).map(|i| echo(0.3 * f64::from(i), level)).collect::<Vec<Echo>>();
+        let [weak, strong] = [10.0, 40.0].map(|level| floor_db(&clutter(level), 30.0));
+        assert!(weak < 5.0 && strong > 20.0 && strong < 40.0, "{weak} {strong}");
+        assert!(floor_db(&clutter(40.0), 90.0) < 0.1, "the floor follows range");
+    }
+}

@@ -1,6 +1,6 @@
 //! From echoes to what the radar reports.
 
-use super::antenna::confused;
+use super::antenna::{confused, reflected_by_road};
 use super::cfar::Floor;
 use super::echo::{Echo, NEAREST, View};
 use super::equation::{apparent_rcs_db, decibel, folded};
@@ -25,9 +25,6 @@ pub(crate) struct Detection {
     rcs_db: f64,
     snr_db: f64,
     pub(crate) truth: Truth,
-    /// Without the errors of measuring.
-    #[cfg(test)]
-    pub(crate) exact: (Spherical, f64),
 }
 
 /// Which echoes rise above the floor, as many as the scan has room for, by range.
@@ -45,7 +42,7 @@ pub(super) fn detected(
     above.truncate(radar.room);
     let mut found = Vec::new();
     for (margin, echo) in above {
-        let echo = confused(view, *echo, margin, random);
+        let echo = reflected_by_road(view, confused(view, *echo, margin, random), random);
         found.extend(measured(view, &echo, margin, random));
     }
     found.sort_by(|a, b| a.seen.range.total_cmp(&b.seen.range));
@@ -72,8 +69,6 @@ fn measured(view: &View<'_>, echo: &Echo, margin_db: f64, random: &mut Random) -
         rcs_db: apparent_rcs_db(radar, snr_db, seen.range, seen.azimuth) + radar.rcs_offset_db,
         snr_db,
         truth: echo.truth,
-        #[cfg(test)]
-        exact: (echo.seen, echo.range_rate),
     };
     let inside = seen.range > 0.5 * NEAREST && seen.azimuth.abs() <= radar.fov[0] / 2.0;
     inside.then_some(detection)

@@ -47,3 +47,52 @@ pub(super) fn ratio(db: f64) -> f64 {
 pub(super) fn decibel(ratio: f64) -> f64 {
     10.0 * ratio.log10()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::model::tests::radar;
+    use super::*;
+    use proptest::prelude::*;
+
+    #[test]
+    fn a_car_on_boresight_is_13_db_above_noise_at_its_range() {
+        let radar = RadarModel { sensitivity_db: sensitivity_db(80.0), ..radar() };
+        assert!((snr_db(&radar, 10.0, 80.0, [0.0; 2]) - 13.0).abs() < 1e-12);
+    }
+
+    proptest! {
+        #[test]
+        fn twice_the_range_costs_twelve_db_and_ten_times_the_cross_section_gains_ten(
+            range in 1.0..150.0, rcs in -30.0..30.0, azimuth in -1.0..1.0, elevation in -0.2..0.2,
+        ) {
+            let near = snr_db(&radar(), rcs, range, [azimuth, elevation]);
+            let far = snr_db(&radar(), rcs, 2.0 * range, [azimuth, elevation]);
+            prop_assert!((near - far - 40.0 * 2.0_f64.log10()).abs() < 1e-9);
+            prop_assert!((snr_db(&radar(), rcs + 10.0, range, [azimuth, elevation]) - near - 10.0).abs() < 1e-9);
+        }
+
+        #[test]
+        fn nothing_is_louder_than_on_boresight(azimuth in -1.4..1.4, elevation in -0.3..0.3) {
+            let at = |angles| snr_db(&radar(), 0.0, 30.0, angles);
+            prop_assert!(at([azimuth, elevation]) <= at([0.0; 2]));
+            prop_assert!((at([azimuth, elevation]) - at([-azimuth, -elevation])).abs() < 1e-9);
+        }
+
+        #[test]
+        fn a_radar_on_its_horizon_tells_the_cross_section_itself(
+            range in 1.0..150.0, rcs in -30.0..30.0, azimuth in -1.3..1.3,
+        ) {
+            let snr = snr_db(&radar(), rcs, range, [azimuth, 0.0]);
+            prop_assert!((apparent_rcs_db(&radar(), snr, range, azimuth) - rcs).abs() < 1e-9);
+        }
+
+        #[test]
+        fn a_folded_rate_lies_in_the_interval_and_is_off_by_whole_ones(rate in -200.0..200.0, interval in 5.0..150.0) {
+            let found = folded(rate, interval);
+            prop_assert!((-interval / 2.0..=interval / 2.0).contains(&found));
+            let turns = (rate - found) / interval;
+            prop_assert!((turns - turns.round()).abs() < 1e-9);
+            prop_assert!(rate.abs() > interval / 2.0 || (found - rate).abs() < 1e-9);
+        }
+    }
+}

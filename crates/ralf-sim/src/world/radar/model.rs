@@ -93,6 +93,8 @@ pub(crate) struct Waves {
     pub(crate) texture_db: f64,
     /// What a facade takes from a mirrored wave, one way, dB.
     pub(crate) mirror_loss_db: f64,
+    /// How often a thing is seen mirrored in the road.
+    pub(crate) road_mirror: f64,
     /// What a window takes, there and back, dB.
     pub(crate) window_loss_db: f64,
     /// What leaves take per metre, there and back, dB.
@@ -105,4 +107,54 @@ pub(crate) struct Waves {
     pub(crate) bumper: usize,
     /// Whether it rains.
     pub(crate) rain: bool,
+}
+
+#[cfg(test)]
+pub(super) mod tests {
+    use super::*;
+    use crate::world::radar::sensitivity_db;
+
+    /// A radar without any chance in it.
+    pub(in crate::world::radar) fn radar() -> RadarModel {
+        RadarModel {
+            name: "radar_front".into(),
+            vehicle_from_radar: Transform::translation(3.6, 0.0, 0.5),
+            elevation: true,
+            fov: [2.6, 0.5],
+            period_ns: 50_000_000,
+            first_ns: 0,
+            clock_ns: 0,
+            sensitivity_db: sensitivity_db(100.0),
+            max_range: 100.0,
+            cell: Cell { range: 0.3, azimuth: 0.03, elevation: 0.08, doppler: 0.1 },
+            accuracy: 0.2,
+            threshold_db: 12.0,
+            doppler_interval: 100.0,
+            doppler_failure: 0.0,
+            side_lobe_db: 20.0,
+            accepted_db: 15.0,
+            angle_failure: 0.0,
+            ambiguity: 0.4,
+            room: 500,
+            false_alarms: 0.0,
+            rcs_offset_db: 0.0,
+            amplitudes: vec![Amplitude::Rcs],
+        }
+    }
+
+    /// Waves of a usual world.
+    pub(in crate::world::radar) fn waves() -> Waves {
+        Waves {
+            asphalt_db: -25.0,
+            texture_db: 5.0,
+            mirror_loss_db: 4.0,
+            road_mirror: 0.0,
+            window_loss_db: 8.0,
+            leaf_loss_db: 3.0,
+            strength_db: 0.0,
+            interference: 0.0,
+            bumper: 0,
+            rain: false,
+        }
+    }
 }
