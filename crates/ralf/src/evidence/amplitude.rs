@@ -1,12 +1,12 @@
 //! How strong an echo is among its own: the radar equation and the radar's detection threshold, without anything
 //! absolute, for which radars would have to be calibrated.
 //!
-//! The cross-section tells what reflected, the power (cross-section less `40 log10 r`) how far the echo stood out of the
-//! noise. Noise and clutter crowd just above the threshold; what a real object sends back often does not.
+//! The cross-section tells what reflected, the power (cross-section less `40 log10 r`) how far the echo stood out of
+//! the noise. Noise and clutter crowd just above the threshold; what a real object sends back often does not.
 
 use super::columns::unobserved;
 use super::ordered::Ordered;
-use super::statistics::{median_of, over_median_nearby, quantile, ranks};
+use super::statistics::{over_median_nearby, quantile, ranks};
 use super::{Feature, Piece, Surroundings, Values};
 use crate::scene::{Frame, Strength};
 use crate::sensors::RadarScan;
@@ -20,7 +20,6 @@ pub(super) const PIECE: Piece = Piece {
             "1",
             "share of the scan's other detections whose power, cross-section less 40 log10 of range, is smaller",
         ),
-        feature("amplitude_over_scan", "dB", "cross-section above the median of the scan"),
         feature(
             "amplitude_over_ring",
             "dB",
@@ -62,7 +61,6 @@ fn observe(surroundings: &Surroundings) -> Vec<Values> {
     vec![
         ranks(&strength.cross_section),
         ranks(&strength.power),
-        over(&strength.cross_section, median_of(&strength.cross_section)),
         over_median_nearby(&strength.cross_section, &ranges, RING),
         over(&strength.power, quantile(&around.powers, FLOOR)),
         around.over_ring_floor(&strength.power, &ranges),

@@ -5,9 +5,8 @@
 
 use super::columns::{set, unobserved};
 use super::echoes::Echoes;
-use super::statistics::{over_median_nearby, ranks};
+use super::statistics::ranks;
 use super::{Feature, Piece, Surroundings, Values};
-use crate::scene::Frame;
 
 pub(super) const PIECE: Piece = Piece {
     features: &[
@@ -15,12 +14,6 @@ pub(super) const PIECE: Piece = Piece {
             "context_density_rank",
             "1",
             "share of the scan's other detections that have fewer others within 3 m, seen from above",
-        ),
-        feature(
-            "context_density_over_ring",
-            "1",
-            "logarithm of one more than the others within 3 m, above its median of the scan's detections within 5 m of \
-             range",
         ),
         feature(
             "context_density_around",
@@ -62,8 +55,6 @@ pub(super) const PIECE: Piece = Piece {
 const CROWD: f64 = 3.0;
 /// Detections around within this lie on the same thing, m.
 const NEAR: f64 = 1.5;
-/// Detections whose range differs by no more are as crowded for the same reasons, m.
-const RING: f64 = 5.0;
 
 const fn feature(name: &'static str, unit: &'static str, meaning: &'static str) -> Feature {
     Feature { name, unit, group: "Context", meaning }
@@ -71,10 +62,7 @@ const fn feature(name: &'static str, unit: &'static str, meaning: &'static str) 
 
 fn observe(surroundings: &Surroundings) -> Vec<Values> {
     let frame = surroundings.frame;
-    let crowd = crowd(surroundings);
-    let logarithms: Vec<f64> = crowd.iter().map(|others| others.ln_1p()).collect();
-    let density = ranks(&crowd);
-    let over_ring = over_median_nearby(&logarithms, &ranges(frame), RING);
+    let density = ranks(&crowd(surroundings));
     let around = ranks(&crowd_around(surroundings));
     let echoes = Echoes::new(surroundings);
     let mut columns = unobserved(PIECE.features, frame.scan.len());
@@ -83,7 +71,6 @@ fn observe(surroundings: &Surroundings) -> Vec<Values> {
         let beside = echoes.as_ref().map(|echoes| echoes.beside(i)).unwrap_or_default();
         let values = [
             density[i],
-            over_ring[i],
             around[i],
             before.count,
             before.distance,
@@ -95,10 +82,6 @@ fn observe(surroundings: &Surroundings) -> Vec<Values> {
         set(&mut columns, i, values);
     }
     columns
-}
-
-fn ranges(frame: &Frame) -> Vec<f64> {
-    frame.scan.measured.spherical.iter().map(|place| place.range).collect()
 }
 
 /// How many others of the scan lie near each detection; NaN for one without a place.

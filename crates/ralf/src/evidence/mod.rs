@@ -9,6 +9,7 @@
 
 mod amplitude;
 mod camera;
+mod chance;
 mod columns;
 mod context;
 mod distance;

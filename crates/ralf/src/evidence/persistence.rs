@@ -1,14 +1,13 @@
 //! What exists is seen again: of the scans that could have seen a detection, how many did, from where, and would chance
 //! have done as well?
 
+use super::chance::{AROUND, SAME, excess_of};
 use super::columns::{set, unobserved};
-use super::distance::area_within;
 use super::recurrence::{FARTHEST, Sighting};
 use super::sensor_frame::Unmoved;
 use super::{Feature, Piece, Surroundings, Values};
 use crate::scene::{Detection, Frame, NeighbouringScan};
 use crate::space::Vector;
-use std::f64::consts::PI;
 
 pub(super) const PIECE: Piece = Piece {
     features: &[
@@ -41,23 +40,23 @@ pub(super) const PIECE: Piece = Piece {
         ),
         feature(
             "persistence_aspect",
-            "deg",
-            "largest angle between the radar's ray and those of the scans that saw it again, the other radars' too",
+            "1",
+            "largest angle between the radar's ray and those of the scans that saw it again, as a share of the largest \
+             of the scans that could have, the other radars' too; null where none looked from elsewhere",
         ),
         feature(
             "persistence_sensor",
             "1",
-            "share of the radar's own scans around that detected something at the same place of the radar's frame, of \
-             those in which what stands still had moved on; high for side lobes and for the vehicle itself",
+            "logarithm of how many of the radar's own scans detected something at the same place of the radar's frame, \
+             over how many would by chance, of those in which what stands still had moved on; high for side lobes and \
+             for the vehicle itself",
         ),
     ],
     observe,
 };
 
-/// A detection is seen again by one nearer than this, in standard deviations.
-const SAME: f64 = 2.0;
-/// How densely detections lie is told from those within this, m.
-const AROUND: f64 = 5.0;
+/// Rays that differ by no more look from the same place, rad.
+const ELSEWHERE: f64 = 0.01;
 
 const fn feature(name: &'static str, unit: &'static str, meaning: &'static str) -> Feature {
     Feature { name, unit, group: "Persistence", meaning }
@@ -80,7 +79,7 @@ fn observe(surroundings: &Surroundings) -> Vec<Values> {
             mean(own().map(|sighting| sighting.still.min(FARTHEST))),
             excess(surroundings, detection, seen),
             aspect(frame, &origins, detection, seen),
-            unmoved.share_at(detection),
+            unmoved.excess_at(detection),
         ];
         set(&mut columns, i, values);
     }
@@ -96,8 +95,7 @@ fn mean(values: impl Iterator<Item = f64>) -> Option<f64> {
     (count > 0).then(|| sum / f64::from(count))
 }
 
-/// `ln((hits + 1/2) / (expected + 1/2))`, where a scan sees a detection by chance with the probability
-/// `1 - exp(-density area)`.
+/// Of the radar's own scans around.
 fn excess(surroundings: &Surroundings, detection: &Detection, seen: &[Sighting]) -> Option<f64> {
     let own: Vec<&Sighting> = seen.iter().filter(|sighting| sighting.own).collect();
     if own.is_empty() {
@@ -108,11 +106,8 @@ fn excess(surroundings: &Surroundings, detection: &Detection, seen: &[Sighting])
     let place = [detection.position.x as f32, detection.position.y as f32];
     around.index.beside(place, AROUND as f32, &mut near);
     let is_own = |id: &&u32| surroundings.frame.is_own(around.radars[around.scans[**id as usize] as usize]);
-    let scans = own.len() as f64;
-    let density = near.iter().filter(is_own).count() as f64 / (scans * PI * AROUND * AROUND);
-    let expected = scans * (1.0 - (-density * area_within(SAME, detection)).exp());
-    let hits = own.iter().filter(|sighting| sighting.still <= SAME).count() as f64;
-    Some(((hits + 0.5) / (expected + 0.5)).ln())
+    let hits = own.iter().filter(|sighting| sighting.still <= SAME).count();
+    Some(excess_of(hits, own.len(), near.iter().filter(is_own).count(), detection))
 }
 
 /// Where each scan around was made, in the vehicle frame at the frame's time, m.
@@ -122,11 +117,12 @@ fn origins(frame: &Frame) -> Vec<Vector> {
     frame.radar_window.iter().map(origin).collect()
 }
 
-/// Degrees; `None` where no scan saw it again.
+/// `None` where no scan could have seen it from elsewhere.
 fn aspect(frame: &Frame, origins: &[Vector], detection: &Detection, seen: &[Sighting]) -> Option<f64> {
     let ray = detection.position.coords - frame.radar.vehicle_from_radar.translation.vector;
-    let again = seen.iter().filter(|sighting| sighting.still <= SAME);
-    let angles =
-        again.map(|sighting| ray.angle(&(detection.position.coords - origins[sighting.scan as usize])));
-    angles.reduce(f64::max).map(f64::to_degrees)
+    let angle =
+        |sighting: &Sighting| ray.angle(&(detection.position.coords - origins[sighting.scan as usize]));
+    let largest = seen.iter().map(angle).fold(0.0, f64::max);
+    let again = seen.iter().filter(|sighting| sighting.still <= SAME).map(angle).fold(0.0, f64::max);
+    (largest > ELSEWHERE).then(|| again / largest)
 }

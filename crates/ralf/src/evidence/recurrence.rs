@@ -77,8 +77,8 @@ impl Sighting {
         Self { scan, own, still: none, moving: none, rate_difference: none }
     }
 
-    /// A detection at a distance `chi` from where this one would be if it moved; `difference` is that of their rates, in
-    /// spreads.
+    /// A detection at a distance `chi` from where this one would be if it moved; `difference` is that of their rates,
+    /// in spreads.
     fn meet(&mut self, chi: f64, difference: Option<f64>) {
         let Some(difference) = difference.filter(|_| chi <= FARTHEST) else { return };
         self.rate_difference = self.rate_difference.min(difference);
