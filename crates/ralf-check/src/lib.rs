@@ -11,6 +11,8 @@
 //! - `picture`: edges of images lie where the LiDAR sees things end.
 //! - `bounds`: what no sensor gives and no vehicle does.
 //!
+//! And it tells how the vehicle moved where nobody recorded it: [`doppler::from_doppler`], [`odometry::from_lidar`].
+//!
 //! Pure, like the method: no files, no printing. Everything follows from the recording alone, so the same recording
 //! has the same answers.
 
@@ -19,6 +21,7 @@ mod change;
 pub mod doppler;
 mod ground;
 mod judge;
+pub mod odometry;
 mod overlap;
 mod picture;
 mod plan_field;

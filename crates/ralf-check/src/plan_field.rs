@@ -1,11 +1,11 @@
 //! How far the nearest obstacle is from any place in plan: a grid, so that a question costs one look.
 
 /// Width of a cell, m.
-const CELL: f64 = 0.2;
+pub(crate) const CELL: f64 = 0.2;
 /// Cells from the centre to the border: 50 m.
 const REACH: usize = 250;
 /// Cells of a side.
-const SIDE: usize = 2 * REACH + 1;
+pub(crate) const SIDE: usize = 2 * REACH + 1;
 /// Distances are known up to this many cells.
 const DISC: i64 = 5;
 /// The distance of what is farther from every obstacle, m.
@@ -68,7 +68,12 @@ impl PlanField {
         Some(if distance == u8::MAX { FAR } else { f64::from(distance) * STEP })
     }
 
-    /// The same, linear between the middles of cells, so that small moves are felt.
+    /// Of all cells, row by row, x along a row: the distance to the nearest obstacle, m, at most [`FAR`].
+    pub(crate) fn distances(&self) -> impl Iterator<Item = f64> {
+        self.distance.iter().map(|steps| if *steps == u8::MAX { FAR } else { f64::from(*steps) * STEP })
+    }
+
+    /// The distance from a place, linear between the middles of cells, so that small moves are felt.
     pub(crate) fn smooth_distance(&self, x: f64, y: f64) -> Option<f64> {
         let [low_x, low_y] = [x, y].map(|value| (value / CELL).floor() * CELL);
         let [right, up] = [(x - low_x) / CELL, (y - low_y) / CELL];

@@ -14,8 +14,8 @@ use std::hash::{DefaultHasher, Hash, Hasher};
 const MOMENTS: usize = 16;
 /// Between the two, ns.
 pub(crate) const LAG_NS: i64 = 500_000_000;
-/// Scans of a radar, besides those beside a LiDAR scan.
-const RADAR_SCANS: usize = 120;
+/// Scans of a radar, besides those beside a LiDAR scan, in pairs.
+const RADAR_SCANS: usize = 80;
 /// Points kept of a LiDAR scan.
 const LIDAR_POINTS: usize = 60_000;
 /// What stands between these heights above the ground is an obstacle that a radar sees as well, m.
@@ -98,7 +98,10 @@ impl Sample {
             for scan in paired(own) {
                 sample.read_lidar(source, lidar, scan);
                 for (radar, times) in times.radars.iter().enumerate() {
-                    wanted[radar].extend(nearest(times, own[scan]));
+                    // What is seen in the scans before and after as well is less often clutter.
+                    let around =
+                        nearest(times, own[scan]).map_or(0..0, |near| near.saturating_sub(1)..near + 2);
+                    wanted[radar].extend(around);
                 }
             }
         }

@@ -16,7 +16,18 @@ pub(crate) fn run_summary(record: &RunRecord) -> String {
     for sequence in &record.sequences {
         rows.extend(sequence.radars.iter().map(|radar| radar_row(&sequence.name, radar)));
     }
-    aligned(&rows) + &cameras(record) + &unused_cameras(record)
+    aligned(&rows) + &unlike_sisters(record) + &cameras(record) + &unused_cameras(record)
+}
+
+/// Names the radars whose share of plausible detections is far from their sisters'.
+fn unlike_sisters(record: &RunRecord) -> String {
+    let mut text = String::new();
+    for sequence in &record.sequences {
+        for found in &sequence.unlike_sisters {
+            text += &format!("\n{} {}: {}\n", sequence.name, found.radar, found.words());
+        }
+    }
+    text
 }
 
 /// Names the cameras that labelling was allowed to ask and that had nothing to say.

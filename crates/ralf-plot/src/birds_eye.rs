@@ -10,6 +10,7 @@ use crate::palette::{FAINT_TEXT, LIDAR, PAPER, PATH};
 use crate::panel::Panel;
 use crate::scale::{count, share};
 use crate::text::{Align, Style, Typeface};
+use crate::values::ValueScale;
 use crate::vehicle::{RadarMount, VehicleOutline};
 
 /// What to draw of one scan. All places are x (forward) and y (left) in the vehicle frame, m.
@@ -27,6 +28,8 @@ pub struct ScanPicture<'a> {
     pub lidar: &'a [[f64; 2]],
     /// The detections.
     pub marks: &'a [Mark],
+    /// What the colours of those with a value mean.
+    pub scale: Option<ValueScale<'a>>,
     /// Where the vehicle was and will be, in order of time; may be empty.
     pub path: &'a [[f64; 2]],
     /// The vehicle's radars; may be empty.
@@ -45,6 +48,7 @@ impl Default for ScanPicture<'_> {
             extent: Extent::Fit,
             lidar: &[],
             marks: &[],
+            scale: None,
             path: &[],
             radars: &[],
             vehicle: VehicleOutline::default(),
@@ -122,13 +126,23 @@ fn detections(panel: &mut Panel, marks: &[Mark]) {
         1000..5000 => 5.0,
         _ => 3.5,
     };
-    for label in [MarkLabel::Unlabelled, MarkLabel::Artifact, MarkLabel::Plausible] {
-        for mark in marks.iter().filter(|mark| mark.label == label && is_place(&mark.place())) {
-            let at = panel.viewport.pixel_from_world(mark.place());
-            if panel.viewport.contains(at, -2.0 * radius) {
-                marks::draw(&mut panel.canvas, at, radius * panel.unit, label);
-            }
+    let mut upwards: Vec<&Mark> = marks.iter().filter(|mark| is_place(&mark.place())).collect();
+    upwards.sort_by_key(|mark| level(mark.label));
+    for mark in upwards {
+        let at = panel.viewport.pixel_from_world(mark.place());
+        if panel.viewport.contains(at, -2.0 * radius) {
+            marks::draw(&mut panel.canvas, at, radius * panel.unit, mark.label);
         }
+    }
+}
+
+/// What lies on what: brighter values on darker ones.
+fn level(label: MarkLabel) -> u16 {
+    match label {
+        MarkLabel::Unlabelled => 0,
+        MarkLabel::Artifact => 1,
+        MarkLabel::Plausible => 2,
+        MarkLabel::Valued(shade) => 3 + u16::from(shade),
     }
 }
 
@@ -153,7 +167,9 @@ fn entries(picture: &ScanPicture<'_>, counts: &Counts) -> Vec<Entry> {
     let of = |name: &str, part: usize| format!("{name} {} ({})", count(part), share(part, counts.all()));
     // A scan as the radar gave it has no labels to count.
     let raw = counts.unlabelled > 0 && counts.unlabelled == counts.all();
-    let mut entries = if raw {
+    let mut entries = if let Some(scale) = &picture.scale {
+        scale.entries()
+    } else if raw {
         vec![Entry::new(Symbol::Mark(MarkLabel::Unlabelled), format!("Detections {}", count(counts.all())))]
     } else {
         vec![
@@ -166,8 +182,13 @@ fn entries(picture: &ScanPicture<'_>, counts: &Counts) -> Vec<Entry> {
             entries.push(Entry::new(symbol, text));
         }
     };
-    let unlabelled = of("Unlabelled", counts.unlabelled);
-    add(counts.unlabelled > 0 && !raw, Symbol::Mark(MarkLabel::Unlabelled), unlabelled);
+    let name = if picture.scale.is_some() { "Not observed" } else { "Unlabelled" };
+    let unlabelled = of(name, counts.unlabelled);
+    add(
+        counts.unlabelled > 0 && !(raw && picture.scale.is_none()),
+        Symbol::Mark(MarkLabel::Unlabelled),
+        unlabelled,
+    );
     add(!picture.lidar.is_empty(), Symbol::Dots(LIDAR), "LiDAR".to_owned());
     add(!picture.radars.is_empty(), Symbol::Wedge, "Radar".to_owned());
     add(!picture.path.is_empty(), Symbol::Line(PATH), "Path".to_owned());

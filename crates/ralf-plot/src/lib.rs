@@ -32,6 +32,7 @@ mod palette;
 mod panel;
 mod scale;
 mod text;
+mod values;
 mod vehicle;
 mod viewport;
 
@@ -42,4 +43,5 @@ pub use error::PlotError;
 pub use extent::Extent;
 pub use marks::{Mark, MarkLabel, Marks};
 pub use overview::{OverviewPicture, overview_picture};
+pub use values::ValueScale;
 pub use vehicle::{RadarMount, VehicleOutline};

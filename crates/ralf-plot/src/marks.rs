@@ -1,9 +1,10 @@
 //! Detections: what they are labelled, how they look, how many there are.
 
 use crate::canvas::Canvas;
+use crate::colormap::viridis;
 use crate::error::PlotError;
 use crate::extent::is_place;
-use crate::palette::{ARTIFACT, PAPER, PLAUSIBLE, UNLABELLED};
+use crate::palette::{ARTIFACT, Ink, PAPER, PLAUSIBLE, UNLABELLED};
 use crate::viewport::Viewport;
 
 /// What a detection is labelled.
@@ -15,6 +16,9 @@ pub enum MarkLabel {
     Artifact,
     /// Neither, for want of evidence or of a decision.
     Unlabelled,
+    /// Of a value, whose colour it has: from 0, dark, the least of the picture's [`ValueScale`](crate::ValueScale), to
+    /// 255, bright, its largest.
+    Valued(u8),
 }
 
 /// A detection, in the frame of its picture. One that is not finite is counted and not drawn.
@@ -65,6 +69,7 @@ pub(crate) struct Counts {
     pub(crate) plausible: usize,
     pub(crate) artifact: usize,
     pub(crate) unlabelled: usize,
+    pub(crate) valued: usize,
     /// Without a place.
     pub(crate) nowhere: usize,
     /// Outside the view.
@@ -85,6 +90,7 @@ impl Counts {
             MarkLabel::Plausible => self.plausible += 1,
             MarkLabel::Artifact => self.artifact += 1,
             MarkLabel::Unlabelled => self.unlabelled += 1,
+            MarkLabel::Valued(_) => self.valued += 1,
         }
         if !is_place(&mark.place()) {
             self.nowhere += 1;
@@ -95,11 +101,12 @@ impl Counts {
 
     /// All of them.
     pub(crate) fn all(&self) -> usize {
-        self.plausible + self.artifact + self.unlabelled
+        self.plausible + self.artifact + self.unlabelled + self.valued
     }
 }
 
-/// Draws one detection: plausible a disc, artifact a cross, unlabelled a ring, each with a thin white edge.
+/// Draws one detection: plausible a disc, artifact a cross, unlabelled a ring, one of a value a disc in its colour,
+/// each with a thin white edge.
 pub(crate) fn draw(canvas: &mut Canvas, at: [f32; 2], radius: f32, label: MarkLabel) {
     let edge = radius * 0.22;
     let halo = PAPER.with_alpha(190);
@@ -107,6 +114,10 @@ pub(crate) fn draw(canvas: &mut Canvas, at: [f32; 2], radius: f32, label: MarkLa
         MarkLabel::Plausible => {
             canvas.disc(at, radius + edge, halo);
             canvas.disc(at, radius, PLAUSIBLE);
+        }
+        MarkLabel::Valued(shade) => {
+            canvas.disc(at, radius + edge, halo);
+            canvas.disc(at, radius, Ink { rgb: viridis(f64::from(shade) / 255.0), alpha: 255 });
         }
         MarkLabel::Artifact => {
             let (arm, line) = (radius * 0.78, radius * 0.5);
@@ -135,7 +146,10 @@ mod tests {
             mark(-9.0, MarkLabel::Unlabelled),
         ];
         let counts = Counts::of(&marks, &viewport);
-        assert_eq!(counts, Counts { plausible: 2, artifact: 1, unlabelled: 1, nowhere: 1, outside: 1 });
+        assert_eq!(
+            counts,
+            Counts { plausible: 2, artifact: 1, unlabelled: 1, valued: 0, nowhere: 1, outside: 1 }
+        );
         assert_eq!(counts.all(), 4);
     }
 }

@@ -8,8 +8,8 @@ use ralf::space::{Point, Transform, Vector};
 use ralf_data::result::{PlausibilityReader, RadarScanKey, Table};
 use ralf_data::{DataError, SequenceReader};
 use ralf_plot::{
-    Extent, Mark, MarkLabel, Marks, OverviewPicture, PlotError, RadarMount, ScanPicture, overview_picture,
-    scan_picture,
+    Extent, Mark, MarkLabel, Marks, OverviewPicture, PlotError, RadarMount, ScanPicture, ValueScale,
+    overview_picture, scan_picture,
 };
 
 /// A LiDAR scan farther from the radar scan than this is not drawn with it, ns.
@@ -81,9 +81,40 @@ impl Pictures<'_> {
     /// # Errors
     /// No such radar or scan, a LiDAR scan that can't be read, or a width outside its range.
     pub fn scan(&self, scan: usize, shown: Detections, width: u32) -> Result<Vec<u8>, ReportError> {
+        let marks = self.marks_at(self.time_of(scan)?, shown)?;
+        self.picture(scan, &marks, None, width)
+    }
+
+    /// The same, the detections in the colours of a column of numbers, such as a piece of evidence; PNG.
+    ///
+    /// # Errors
+    /// As [`Self::scan`], and no such column of numbers.
+    pub fn scan_by(&self, scan: usize, column: &str, width: u32) -> Result<Vec<u8>, ReportError> {
+        let t_ns = self.time_of(scan)?;
+        let motion = &self.sequence().motion;
+        let (mut marks, mut values) = (Vec::new(), Vec::new());
+        for (scan_ns, table) in self.scans_near(t_ns, &["x", "y", "label", column])? {
+            let to_from_vehicle = motion.between(t_ns, scan_ns);
+            add_marks(&table, &to_from_vehicle, Detections::Raw, &mut |mark| marks.push(*mark))?;
+            values.extend(table.get::<f32>(column)?.iter().map(|value| f64::from(*value)));
+        }
+        let name = name_of(column);
+        let scale = ValueScale::fitting(&name, &values);
+        for (mark, value) in marks.iter_mut().zip(values) {
+            mark.label = scale.mark(Some(value));
+        }
+        self.picture(scan, &marks, Some(scale), width)
+    }
+
+    fn picture(
+        &self,
+        scan: usize,
+        marks: &[Mark],
+        scale: Option<ValueScale>,
+        width: u32,
+    ) -> Result<Vec<u8>, ReportError> {
         let sequence = self.sequence();
         let t_ns = self.time_of(scan)?;
-        let marks = self.marks_at(t_ns, shown)?;
         let radars: Vec<_> =
             sequence.rig.radars.iter().filter(|radar| self.shows(&radar.name)).map(mount).collect();
         let who = self.who();
@@ -93,7 +124,8 @@ impl Pictures<'_> {
             width,
             extent: self.extent,
             lidar: &self.lidar_at(t_ns)?,
-            marks: &marks,
+            marks,
+            scale,
             radars: &radars,
             ..ScanPicture::default()
         })?)
@@ -198,6 +230,15 @@ impl Pictures<'_> {
             [p.x, p.y]
         }));
         Ok(())
+    }
+}
+
+/// A column's name, with the unit where it is a piece of evidence.
+fn name_of(column: &str) -> String {
+    let feature = ralf::evidence::features().find(|feature| feature.name == column);
+    match feature.map(|feature| feature.unit).filter(|unit| *unit != "1") {
+        Some(unit) => format!("{column}, {unit}"),
+        None => column.to_owned(),
     }
 }
 

@@ -17,6 +17,8 @@ use ralf::space::{Transform, Vector};
 const TOGETHER_NS: i64 = 50_000_000;
 /// Radars whose levers are shorter than this tell no yaw rate, m.
 const SHORTEST_LEVER: f64 = 0.5;
+/// A motion is known when one in so many scans tells it: samples are held in between.
+const TELLING: usize = 3;
 /// A fit that rests on less is left out.
 const FEWEST_INLIERS: f64 = 0.15;
 
@@ -106,9 +108,14 @@ pub fn from_doppler(source: &dyn Source) -> Result<EgoMotion, SourceError> {
             samples.push(OdometrySample { t_ns: *t_ns, velocity: fit.velocity.x, yaw_rate: fit.velocity.y });
         }
     }
-    let middle = centred(&samples);
-    EgoMotion::new(middle, vec![]).ok_or_else(|| {
-        "no motion from range rates: expected scans whose detections agree on a velocity, found none".into()
+    let scans = sequence.times.radars[first].len();
+    let known = samples.len();
+    EgoMotion::new(centred(&samples), vec![]).filter(|_| known * TELLING >= scans).ok_or_else(|| {
+        format!(
+            "no motion from range rates: expected one in {TELLING} scans at least whose detections agree on a \
+             velocity, found {known} of {scans}"
+        )
+        .into()
     })
 }
 

@@ -1,11 +1,13 @@
 //! Whether the plane that a LiDAR sees is the vehicle's z = 0.
 
+use super::case::Case;
 use crate::change::SensorChange;
+use crate::ground::GroundFit;
 use crate::remedy::Remedy;
-use crate::sample::{LidarLook, Sample};
+use crate::sample::LidarLook;
 use crate::statistics::{Estimate, estimate, median};
 use crate::verdict::{Question, Verdict};
-use ralf::sensors::Sequence;
+use ralf::space::EgoMotion;
 
 /// Roads are cambered by two degrees, and vehicles pitch by one: a median beyond this is the mounting's, degrees.
 const TILT_DEG: f64 = 2.0;
@@ -15,19 +17,26 @@ const OFFSET: f64 = 0.2;
 const SUPPORT: f64 = 0.15;
 /// Scans that are needed: one may stand on a kerb.
 const FEWEST: usize = 3;
+/// After so much way the road under the vehicle is another one, m.
+const PLACE: f64 = 10.0;
+/// A tilt that is the mounting's goes along: it is seen from so many places. On a ramp, or before one, the ground is
+/// tilted as well.
+const PLACES: usize = 3;
+/// No road is that steep, degrees, and no ramp that high, m: one place is enough.
+const NO_RAMP: (f64, f64) = (12.0, 1.5);
 
-pub(super) fn judge(sequence: &Sequence, sample: &Sample) -> Vec<Verdict> {
-    let lidars = sequence.rig.lidars.iter().enumerate();
+pub(super) fn judge(case: &Case) -> Vec<Verdict> {
+    let lidars = case.sequence.rig.lidars.iter().enumerate();
     lidars
         .map(|(i, lidar)| {
-            let looks: Vec<&LidarLook> = sample.lidars.iter().filter(|look| look.lidar == i).collect();
-            one(&lidar.name, &looks)
+            let looks: Vec<&LidarLook> = case.sample.lidars.iter().filter(|look| look.lidar == i).collect();
+            one(&lidar.name, &looks, &case.motion)
         })
         .collect()
 }
 
-fn one(name: &str, looks: &[&LidarLook]) -> Verdict {
-    let fits: Vec<_> = looks.iter().filter_map(|look| look.ground.as_ref()).collect();
+fn one(name: &str, looks: &[&LidarLook], motion: &EgoMotion) -> Verdict {
+    let fits: Vec<&GroundFit> = looks.iter().filter_map(|look| look.ground.as_ref()).collect();
     let support = median(&fits.iter().map(|fit| fit.support).collect::<Vec<_>>()).unwrap_or(0.0);
     if fits.len() < FEWEST || support < SUPPORT {
         let missing = format!(
@@ -39,31 +48,97 @@ fn one(name: &str, looks: &[&LidarLook]) -> Verdict {
         );
         return Verdict::cannot_judge(name, Question::Ground, missing);
     }
-    let of = |values: Vec<f64>| estimate(&values).unwrap_or(Estimate { value: 0.0, error: f64::INFINITY });
-    let forward = of(fits.iter().map(|fit| fit.slope[0].to_degrees()).collect());
-    let left = of(fits.iter().map(|fit| fit.slope[1].to_degrees()).collect());
-    let height = of(fits.iter().map(|fit| fit.offset).collect());
-    let evidence = format!(
-        "the ground rises by {:+.1} degrees to the front and {:+.1} to the left, and lies {:+.2} m high, over {} scans",
-        forward.value,
-        left.value,
-        height.value,
-        fits.len()
-    );
-    let beyond = |estimate: &Estimate, limit: f64| {
-        estimate.value.abs() > limit && estimate.value.abs() - 4.0 * estimate.error > limit / 2.0
-    };
-    if !beyond(&forward, TILT_DEG) && !beyond(&left, TILT_DEG) && !beyond(&height, OFFSET) {
+    let seen = Seen::of(looks, motion);
+    let evidence = seen.in_words();
+    if !seen.is_off() {
         return Verdict::good(name, Question::Ground, evidence);
     }
-    // About the vehicle's axes, for a LiDAR that looks forward: what rises in front is put down by a positive pitch.
-    let turn =
-        |estimate: &Estimate, sign: f64| if beyond(estimate, TILT_DEG) { sign * estimate.value } else { 0.0 };
-    let up = if beyond(&height, OFFSET) { -height.value } else { 0.0 };
-    let change = SensorChange {
-        turn_deg: [turn(&left, -1.0), turn(&forward, 1.0), 0.0],
-        shift_m: [0.0, 0.0, up],
-        ..SensorChange::default()
-    };
-    Verdict::doubt(name, Question::Ground, evidence, Some(Remedy::Sensor(change)))
+    if seen.places < PLACES && !seen.is_no_ramp() {
+        let missing =
+            format!("{evidence}, which a ramp may be: {:.0} m of driving are needed", PLACE * PLACES as f64);
+        return Verdict::cannot_judge(name, Question::Ground, missing);
+    }
+    Verdict::doubt(name, Question::Ground, evidence, Some(Remedy::Sensor(seen.remedy())))
+}
+
+/// The plane as it was seen from several places.
+struct Seen {
+    /// Rise to the front and to the left, degrees.
+    forward: Estimate,
+    left: Estimate,
+    /// Of the plane at the vehicle's origin, m.
+    height: Estimate,
+    places: usize,
+}
+
+impl Seen {
+    /// The median of what is seen from each place: scans of one place see one road.
+    fn of(looks: &[&LidarLook], motion: &EgoMotion) -> Self {
+        let places = by_place(looks, motion);
+        let over = |figure: fn(&GroundFit) -> f64| {
+            let of_place =
+                |fits: &Vec<&GroundFit>| median(&fits.iter().map(|fit| figure(fit)).collect::<Vec<_>>());
+            let values: Vec<f64> = places.iter().filter_map(of_place).collect();
+            estimate(&values).unwrap_or(Estimate { value: 0.0, error: f64::INFINITY })
+        };
+        Self {
+            forward: over(|fit| fit.slope[0].to_degrees()),
+            left: over(|fit| fit.slope[1].to_degrees()),
+            height: over(|fit| fit.offset),
+            places: places.len(),
+        }
+    }
+
+    fn is_off(&self) -> bool {
+        is_beyond(&self.forward, TILT_DEG)
+            || is_beyond(&self.left, TILT_DEG)
+            || is_beyond(&self.height, OFFSET)
+    }
+
+    fn is_no_ramp(&self) -> bool {
+        self.forward.value.hypot(self.left.value) > NO_RAMP.0 || self.height.value.abs() > NO_RAMP.1
+    }
+
+    /// About the vehicle's axes, for a LiDAR that looks forward: what rises in front is put down by a positive pitch.
+    fn remedy(&self) -> SensorChange {
+        let found =
+            |estimate: &Estimate, limit: f64| if is_beyond(estimate, limit) { estimate.value } else { 0.0 };
+        SensorChange {
+            turn_deg: [-found(&self.left, TILT_DEG), found(&self.forward, TILT_DEG), 0.0],
+            shift_m: [0.0, 0.0, -found(&self.height, OFFSET)],
+            ..SensorChange::default()
+        }
+    }
+
+    fn in_words(&self) -> String {
+        format!(
+            "the ground rises by {:+.1} degrees to the front and {:+.1} to the left, and lies {:+.2} m high, as seen \
+             from {} places",
+            self.forward.value, self.left.value, self.height.value, self.places
+        )
+    }
+}
+
+fn is_beyond(estimate: &Estimate, limit: f64) -> bool {
+    estimate.value.abs() > limit && estimate.value.abs() - 4.0 * estimate.error > limit / 2.0
+}
+
+/// What was seen of the ground, one list per stretch of [`PLACE`] metres on the way.
+fn by_place<'a>(looks: &[&'a LidarLook], motion: &EgoMotion) -> Vec<Vec<&'a GroundFit>> {
+    let mut places: Vec<Vec<&GroundFit>> = Vec::new();
+    let (mut way, mut begun) = (0.0, 0.0);
+    let mut before: Option<i64> = None;
+    for look in looks {
+        way += before.map_or(0.0, |t_ns| motion.between(t_ns, look.t_ns).translation.vector.norm());
+        before = Some(look.t_ns);
+        let Some(fit) = &look.ground else { continue };
+        match places.last_mut() {
+            Some(place) if way - begun < PLACE => place.push(fit),
+            _ => {
+                begun = way;
+                places.push(vec![fit]);
+            }
+        }
+    }
+    places
 }

@@ -54,7 +54,7 @@ fn judge<'a>(sequence: &'a Sequence, sample: &'a Sample) -> (SequenceCheck, Case
     verdicts.extend(radar::judge(&mut case));
     verdicts.extend(neighbours::judge(&mut case));
     verdicts.extend(vertical::judge(&case));
-    verdicts.extend(ground::judge(sequence, sample));
+    verdicts.extend(ground::judge(&case));
     verdicts.extend(cameras::judge(&case, &verdicts));
     let figures = case.figures();
     let rank = |verdict: &Verdict| case.rank(&verdict.subject);

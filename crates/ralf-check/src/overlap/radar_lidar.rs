@@ -38,7 +38,7 @@ pub(crate) enum Measure {
     Beside,
     /// Of detections beside low things: 1 between the road and their tops.
     AsHigh,
-    /// `1 - (d / 1 m)^2`: smooth, for refinement.
+    /// `1 - (d / 1 m)^2`: smooth, to make a change exact.
     Smooth,
 }
 
@@ -65,7 +65,7 @@ pub(crate) fn overlap(
 impl Setup<'_> {
     /// From the radar's frame at its time to the vehicle frame as recorded at the LiDAR's time, in which its
     /// obstacles lie.
-    fn lidar_from_radar(
+    pub(crate) fn lidar_from_radar(
         &self,
         radar: usize,
         lidar: &LidarLook,

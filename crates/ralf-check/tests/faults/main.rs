@@ -6,7 +6,10 @@
     reason = "tests fail as tests do, and print a table for people"
 )]
 
+mod odometry;
 mod recording;
+mod refinement;
+mod sweep;
 mod table;
 
 use nalgebra::UnitQuaternion;

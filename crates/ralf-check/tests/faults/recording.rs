@@ -31,6 +31,12 @@ impl Recording {
             times.cameras.iter().map(|times| times.iter().map(|_| OnceLock::new()).collect()).collect();
         Arc::new(Self { inner, radars, lidars, images })
     }
+
+    /// Which detections of a scan are truly plausible.
+    pub fn plausible(&self, radar: usize, scan: usize) -> Vec<bool> {
+        let truth = self.inner.truth(radar, scan).unwrap();
+        truth.iter().map(|truth| truth.class != 1).collect()
+    }
 }
 
 /// Changes the columns (x, y, z, doppler, rcs) of a scan of a radar.

@@ -71,6 +71,22 @@ fn without_odometry_the_radars_tell_the_motion() {
 }
 
 #[test]
+fn without_odometry_and_range_rates_the_lidar_tells_the_motion() {
+    let dataset = Dataset::new();
+    let made = simulated(&dataset);
+    fs::remove_file(sequence_file(&made, "odometry.csv")).unwrap();
+    let file = sequence_file(&made, "sequence.toml");
+    let text = fs::read_to_string(&file).unwrap();
+    fs::write(&file, text.replace("\"doppler\"", "\"speed\"")).unwrap();
+    let out = dataset.beside("labels");
+    ralf(["label", &made, "-o", &out, "-q"]).exits(0).says(["motion is taken from the LiDAR's scans"]);
+    assert_eq!(record(&out)["sequences"][0]["motion"], "lidar");
+    // Nothing is left that tells it.
+    fs::write(&file, text.replace("\"doppler\"", "\"speed\"").split("[[lidar]]").next().unwrap()).unwrap();
+    ralf(["check", &made]).exits(1).says(["range rates", "LiDAR", "--trajectory"]);
+}
+
+#[test]
 fn a_trajectory_takes_the_place_of_odometry() {
     let dataset = Dataset::new();
     let made = simulated(&dataset);

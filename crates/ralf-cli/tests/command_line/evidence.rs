@@ -1,6 +1,6 @@
 //! Evidence is asked for, and follows into every table by itself.
 
-use crate::support::{Dataset, ralf, schema, tree};
+use crate::support::{Dataset, Ran, program, ralf, schema, tree};
 use ralf::evidence::features;
 use std::fs;
 
@@ -33,4 +33,27 @@ fn evidence_comes_after_the_other_columns_and_changes_none_of_them() {
     }
     ralf(["label", &dataset.path, "-o", &dataset.out]).exits(0);
     assert_eq!(columns(&dataset.out), without);
+}
+
+#[test]
+fn detections_are_drawn_in_the_colours_of_a_column() {
+    let dataset = Dataset::new();
+    ralf(["label", &dataset.path, "-o", &dataset.out, "--evidence"]).exits(0);
+    let picture = |name: &str, more: &[&str]| {
+        let path = dataset.beside(name);
+        let common = ["plot", &dataset.path, &dataset.out, "--sequence", "00", "--scan", "0", "-o", &path];
+        (Ran::of(&program().args(common).args(more).output().unwrap()), path)
+    };
+    let mut drawn = std::collections::BTreeSet::new();
+    for (name, more) in [
+        ("labels.png", &[][..]),
+        ("w.png", &["--color-by", "w"]),
+        ("distance.png", &["--color-by", "map_distance"]),
+    ] {
+        let (done, path) = picture(name, more);
+        done.exits(0);
+        assert!(drawn.insert(fs::read(path).unwrap()), "{name} is like another");
+    }
+    picture("none.png", &["--color-by", "no_such_column"]).0.exits(1).says(["no_such_column"]);
+    picture("text.png", &["--color-by", "label"]).0.exits(1).says(["label"]);
 }

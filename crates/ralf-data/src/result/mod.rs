@@ -18,6 +18,7 @@ mod rows_file;
 mod scan_table;
 pub(crate) mod schema;
 mod sequence_record;
+mod sisters;
 mod table;
 
 pub use check_record::{CheckLine, CheckRecord};
@@ -32,6 +33,7 @@ pub(crate) use sequence_record::ScanNotes;
 pub use sequence_record::{
     CameraRecord, FileRecord, ImageRecord, NotLabelled, RadarRecord, SequenceRecord, UnreadableScan,
 };
+pub use sisters::UnlikeSisters;
 pub use table::{Table, Value, Values};
 
 pub(crate) use content::{changed_ns, damaged_result, hash_file};

@@ -1,7 +1,7 @@
 //! What `run.json` tells of a sequence.
 
-use super::Table;
 use super::label_hash::hash_of_labels;
+use super::{Table, UnlikeSisters};
 use crate::disk::label_file::label_bytes;
 use crate::error::DataError;
 use crate::read::MotionSource;
@@ -24,6 +24,9 @@ pub struct SequenceRecord {
     pub cameras: Vec<CameraRecord>,
     /// Scans that could not be labelled.
     pub not_labelled: Vec<NotLabelled>,
+    /// Radars whose plausible share is far from that of the others.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub unlike_sisters: Vec<UnlikeSisters>,
     /// Where the vehicle's motion comes from, if not from the recording.
     #[serde(default, skip_serializing_if = "is_recorded")]
     pub motion: MotionSource,

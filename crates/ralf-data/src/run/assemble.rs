@@ -5,6 +5,7 @@ use super::{Observer, Stage, Task};
 use crate::error::DataError;
 use crate::result::{
     CameraRecord, ImageRecord, NotLabelled, PlausibilityWriter, RadarRecord, RadarScanKey, SequenceRecord,
+    UnlikeSisters,
 };
 use ralf::sensors::Camera;
 use std::collections::{BTreeMap, BTreeSet};
@@ -56,6 +57,7 @@ pub(super) fn assemble(
         name: sequence.name.clone(),
         fingerprint,
         table,
+        unlike_sisters: UnlikeSisters::of(&radars),
         radars,
         cameras,
         not_labelled,

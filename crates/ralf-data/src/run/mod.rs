@@ -17,7 +17,7 @@ mod workspace;
 
 pub use crate::result::{
     CameraRecord, CheckLine, CheckRecord, ImageRecord, Input, NotLabelled, RadarRecord, RunRecord,
-    SequenceRecord, Timings, UnreadableScan, read_record,
+    SequenceRecord, Timings, UnlikeSisters, UnreadableScan, read_record,
 };
 
 use crate::error::DataError;

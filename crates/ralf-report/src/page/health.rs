@@ -31,6 +31,7 @@ pub(super) fn health(content: &Content) -> Markup {
         section #health {
             h2 { "Flagged scans and failed cameras" }
             (check(content))
+            (unlike_sisters(content))
             (flags(content))
             (scans_to_look_at(content))
             (cameras(content))
@@ -54,6 +55,22 @@ fn check(content: &Content) -> Markup {
                     @if let Some(remedy) = &line.remedy { strong { (remedy) } ": " }
                     (line.evidence)
                 }
+            } }
+        }
+    }
+}
+
+/// Radars whose share of plausible detections is far from that of the others.
+fn unlike_sisters(content: &Content) -> Markup {
+    let sequences = content.record.sequences.iter();
+    let found: Vec<_> = sequences
+        .flat_map(|sequence| sequence.unlike_sisters.iter().map(|found| (sequence.name.as_str(), found)))
+        .collect();
+    html! {
+        @if !found.is_empty() {
+            h3 { "Radars unlike their sisters" }
+            ul { @for (sequence, found) in found {
+                li { (sequence) ", " (found.radar) ": " (found.words()) }
             } }
         }
     }

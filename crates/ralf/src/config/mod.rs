@@ -241,9 +241,9 @@ pub struct TrackingConfig {
     pub doppler: bool,
     /// Compensated Doppler velocities that differ by no more agree, m/s.
     pub doppler_tolerance: f64,
-    /// With `doppler`: the share of the scans that could have seen a detection whose mismatches count, the smallest
-    /// ones.
-    pub quorum: f64,
+    /// With `doppler`: bounds every `d_j` in place of `max_mismatch`; the value of a scan that could have seen a
+    /// detection and has none that agrees.
+    pub absence: f64,
     /// Two scans in a row farther apart than this end the batch, ms.
     pub max_gap_ms: f64,
 }

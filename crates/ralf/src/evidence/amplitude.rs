@@ -1,11 +1,12 @@
 //! How strong an echo is among its own: the radar equation and the radar's detection threshold, without anything
 //! absolute, for which radars would have to be calibrated.
 //!
-//! The cross-section tells what reflected, the power (cross-section less `40 log10 r`) how far the echo stood out of the
-//! noise. Noise and clutter crowd just above the threshold; what a real object sends back often does not.
+//! The cross-section tells what reflected, the power (cross-section less `40 log10 r`) how far the echo stood out of
+//! the noise. Noise and clutter crowd just above the threshold; what a real object sends back often does not.
 
+use super::columns::unobserved;
 use super::ordered::Ordered;
-use super::statistics::{median_of, over_median_nearby, quantile, ranks};
+use super::statistics::{over_median_nearby, quantile, ranks};
 use super::{Feature, Piece, Surroundings, Values};
 use crate::scene::{Frame, Strength};
 use crate::sensors::RadarScan;
@@ -19,7 +20,6 @@ pub(super) const PIECE: Piece = Piece {
             "1",
             "share of the scan's other detections whose power, cross-section less 40 log10 of range, is smaller",
         ),
-        feature("amplitude_over_scan", "dB", "cross-section above the median of the scan"),
         feature(
             "amplitude_over_ring",
             "dB",
@@ -54,14 +54,13 @@ const fn feature(name: &'static str, unit: &'static str, meaning: &'static str) 
 fn observe(surroundings: &Surroundings) -> Vec<Values> {
     let frame = surroundings.frame;
     let Some(strength) = frame.strength() else {
-        return vec![vec![None; frame.scan.len()]; PIECE.features.len()];
+        return unobserved(PIECE.features, frame.scan.len());
     };
     let ranges = ranges(&frame.scan.measured);
     let around = EchoesAround::new(frame, &strength, &ranges);
     vec![
         ranks(&strength.cross_section),
         ranks(&strength.power),
-        over(&strength.cross_section, median_of(&strength.cross_section)),
         over_median_nearby(&strength.cross_section, &ranges, RING),
         over(&strength.power, quantile(&around.powers, FLOOR)),
         around.over_ring_floor(&strength.power, &ranges),

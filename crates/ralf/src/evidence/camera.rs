@@ -1,6 +1,7 @@
 //! Where the cameras look past a detection, at it, or at something before it, by their calibrated depth; and whether
 //! grass grows below it.
 
+use super::columns::{set, unobserved};
 use super::{Feature, Piece, Surroundings, Values};
 use crate::scene::{Detection, Frame, ImageView, median};
 use crate::sensors::{Camera, Elevation};
@@ -54,21 +55,18 @@ const fn feature(name: &'static str, unit: &'static str, meaning: &'static str) 
 fn observe(surroundings: &Surroundings) -> Vec<Values> {
     let (frame, depth_sigma) = (surroundings.frame, surroundings.config.camera.depth_sigma);
     let images: Vec<Image> = frame.images.iter().map(|image| Image::new(frame, image, depth_sigma)).collect();
-    let mut columns = vec![Vec::with_capacity(frame.scan.len()); PIECE.features.len()];
+    let mut columns = unobserved(PIECE.features, frame.scan.len());
     let mut residuals = Vec::new();
-    for detection in &frame.scan.detections {
+    for (i, detection) in frame.scan.detections.iter().enumerate() {
+        let Some(detection) = detection else { continue };
+        let sought = Sought::new(frame, detection);
         residuals.clear();
-        let mut green = None;
-        if let Some(detection) = detection {
-            let sought = Sought::new(frame, detection);
-            for image in &images {
-                image.add_residuals(&sought.detection, &mut residuals);
-                green = green.or_else(|| image.green_at(&sought.ground));
-            }
+        for image in &images {
+            image.add_residuals(&sought.detection, &mut residuals);
         }
-        for (column, value) in columns.iter_mut().zip(summary(&residuals).into_iter().chain([green])) {
-            column.push(value);
-        }
+        let [middle, least, on, through, hidden] = summary(&residuals);
+        let green = images.iter().find_map(|image| image.green_at(&sought.ground));
+        set(&mut columns, i, [middle, least, on, through, hidden, green]);
     }
     columns
 }

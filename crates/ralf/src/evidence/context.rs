@@ -3,10 +3,10 @@
 //! Strong echoes cast others. What lies behind one at its azimuth may be a path that took a turn, or the echo that went
 //! to and fro twice and so lies twice as far; what lies beside one at its range and range rate may be a side lobe.
 
+use super::columns::{set, unobserved};
 use super::echoes::Echoes;
-use super::statistics::{over_median_nearby, ranks};
+use super::statistics::ranks;
 use super::{Feature, Piece, Surroundings, Values};
-use crate::scene::Frame;
 
 pub(super) const PIECE: Piece = Piece {
     features: &[
@@ -14,12 +14,6 @@ pub(super) const PIECE: Piece = Piece {
             "context_density_rank",
             "1",
             "share of the scan's other detections that have fewer others within 3 m, seen from above",
-        ),
-        feature(
-            "context_density_over_ring",
-            "1",
-            "logarithm of one more than the others within 3 m, above its median of the scan's detections within 5 m of \
-             range",
         ),
         feature(
             "context_density_around",
@@ -61,8 +55,6 @@ pub(super) const PIECE: Piece = Piece {
 const CROWD: f64 = 3.0;
 /// Detections around within this lie on the same thing, m.
 const NEAR: f64 = 1.5;
-/// Detections whose range differs by no more are as crowded for the same reasons, m.
-const RING: f64 = 5.0;
 
 const fn feature(name: &'static str, unit: &'static str, meaning: &'static str) -> Feature {
     Feature { name, unit, group: "Context", meaning }
@@ -70,16 +62,16 @@ const fn feature(name: &'static str, unit: &'static str, meaning: &'static str) 
 
 fn observe(surroundings: &Surroundings) -> Vec<Values> {
     let frame = surroundings.frame;
-    let crowd = crowd(surroundings);
-    let logarithms: Vec<f64> = crowd.iter().map(|others| others.ln_1p()).collect();
-    let over_ring = over_median_nearby(&logarithms, &ranges(frame), RING);
-    let crowding = [ranks(&crowd), over_ring, ranks(&crowd_around(surroundings))];
+    let density = ranks(&crowd(surroundings));
+    let around = ranks(&crowd_around(surroundings));
     let echoes = Echoes::new(surroundings);
-    let mut columns = vec![Vec::with_capacity(frame.scan.len()); PIECE.features.len() - crowding.len()];
+    let mut columns = unobserved(PIECE.features, frame.scan.len());
     for i in 0..frame.scan.len() {
         let before = echoes.as_ref().map(|echoes| echoes.before(i)).unwrap_or_default();
         let beside = echoes.as_ref().map(|echoes| echoes.beside(i)).unwrap_or_default();
         let values = [
+            density[i],
+            around[i],
             before.count,
             before.distance,
             before.double_bounce,
@@ -87,15 +79,9 @@ fn observe(surroundings: &Surroundings) -> Vec<Values> {
             beside.angle,
             beside.side_lobe,
         ];
-        for (column, value) in columns.iter_mut().zip(values) {
-            column.push(value);
-        }
+        set(&mut columns, i, values);
     }
-    crowding.into_iter().chain(columns).collect()
-}
-
-fn ranges(frame: &Frame) -> Vec<f64> {
-    frame.scan.measured.spherical.iter().map(|place| place.range).collect()
+    columns
 }
 
 /// How many others of the scan lie near each detection; NaN for one without a place.

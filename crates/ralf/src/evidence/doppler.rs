@@ -1,6 +1,7 @@
 //! What the range rate says: does the detection stand still with the world, do those around it move with it, and does
 //! it go where its range rate says it goes?
 
+use super::columns::{set, unobserved};
 use super::rates::Rates;
 use super::recurrence::Sighting;
 use super::{Feature, Piece, Surroundings, Values};
@@ -42,10 +43,10 @@ const fn feature(name: &'static str, unit: &'static str, meaning: &'static str) 
 
 fn observe(surroundings: &Surroundings) -> Vec<Values> {
     let detections = surroundings.frame.scan.detections.as_slice();
+    let mut columns = unobserved(PIECE.features, detections.len());
     let Some(rates) = surroundings.rates() else {
-        return vec![vec![None; detections.len()]; PIECE.features.len()];
+        return columns;
     };
-    let mut columns = vec![Vec::with_capacity(detections.len()); PIECE.features.len()];
     let mut near = Vec::new();
     for (i, detection) in detections.iter().enumerate() {
         let residual = rates.residual(i).filter(|_| detection.is_some());
@@ -54,10 +55,13 @@ fn observe(surroundings: &Surroundings) -> Vec<Values> {
             Agreement::new(rates, i, &near)
         });
         let agreement = agreement.filter(|_| residual.is_some());
-        columns[0].push(residual);
-        columns[1].push(agreement.and_then(|agreement| agreement.share()));
-        columns[2].push(agreement.map(|agreement| agreement.agreeing as f64));
-        columns[3].push(track_residual(&surroundings.sightings()[i]));
+        let values = [
+            residual,
+            agreement.and_then(|agreement| agreement.share()),
+            agreement.map(|agreement| agreement.agreeing as f64),
+            track_residual(&surroundings.sightings()[i]),
+        ];
+        set(&mut columns, i, values);
     }
     columns
 }

@@ -1,6 +1,7 @@
 //! Where a detection lies in what its radar can see. Radars see ghosts where they see worst: near, at the sides, high
 //! and low.
 
+use super::columns::{set, unobserved};
 use super::{Feature, Piece, Surroundings, Values};
 use crate::sensors::{Elevation, Radar};
 use crate::space::Spherical;
@@ -30,11 +31,10 @@ const fn feature(name: &'static str, unit: &'static str, meaning: &'static str) 
 
 fn observe(surroundings: &Surroundings) -> Vec<Values> {
     let frame = surroundings.frame;
-    let mut columns = vec![Vec::with_capacity(frame.scan.len()); PIECE.features.len()];
-    for (detection, measured) in frame.scan.detections.iter().zip(&frame.scan.measured.spherical) {
-        let values = detection.as_ref().map(|_| of_place(frame.radar, measured));
-        for (column, value) in columns.iter_mut().zip(values.unwrap_or_default()) {
-            column.push(value);
+    let mut columns = unobserved(PIECE.features, frame.scan.len());
+    for (i, place) in frame.scan.measured.spherical.iter().enumerate() {
+        if frame.scan.detections[i].is_some() {
+            set(&mut columns, i, of_place(frame.radar, place));
         }
     }
     columns

@@ -2,23 +2,18 @@
 //! without the ground and what moved.
 
 use super::columns::{set, unobserved};
-use super::probe::Probe;
+use super::probe::{Probe, SAME_SPOT};
 use super::{Feature, Piece, Surroundings, Values};
-use crate::scene::{ColumnGrid, StaticMap};
+use crate::scene::{Column, ColumnGrid, StaticMap};
 use crate::space::Neighbor;
-use nalgebra::{Matrix3, Vector3};
-use std::f64::consts::TAU;
+use nalgebra::Vector3;
 
 const GROUP: &str = "LiDAR map";
-/// No distance is larger, m.
-const FARTHEST: f64 = 10.0;
 /// No Mahalanobis distance is larger.
 const LARGEST_CHI: f64 = 10.0;
 /// Of so many points, the nearest ones, the Mahalanobis distance is taken.
-const CANDIDATES: usize = 12;
-/// LiDAR and radar don't see the same spot of an object, m.
-const SAME_SPOT: f64 = 0.1;
-/// Columns nearer than this count for what surrounds a detection, m.
+const CANDIDATES: usize = 8;
+/// What is farther than this is far, m: no distance is larger.
 const AROUND: f64 = 3.0;
 /// Columns nearer than this count for the density, m.
 const BESIDE: f64 = 0.5;
@@ -32,7 +27,7 @@ const FEATURES: &[Feature] = &[
         name: "map_distance",
         unit: "m",
         group: GROUP,
-        meaning: "distance from the nearest point of the static map, at most 10; null beyond the map",
+        meaning: "distance from the nearest point of the static map, at most 3; null beyond the map",
     },
     Feature {
         name: "map_chi",
@@ -73,7 +68,7 @@ const FEATURES: &[Feature] = &[
     },
     Feature {
         name: "map_octants",
-        unit: "share",
+        unit: "1",
         group: GROUP,
         meaning: "share of the eight directions in which something stands within 3 m",
     },
@@ -91,60 +86,80 @@ fn observe(surroundings: &Surroundings) -> Vec<Values> {
         if !ColumnGrid::covers(p.x, p.y) {
             continue;
         }
-        let (distance, chi) = nearest_point(map, probe, &mut found);
-        let [a, b, c, d, e, f] = around(map, probe);
-        set(&mut columns, i, [Some(distance), Some(chi), a, b, c, d, e, f]);
+        let around = Around::look(map, probe);
+        let (distance, chi) = match around.nearest {
+            Some(_) => nearest_point(map, probe, &mut found),
+            None => (AROUND, LARGEST_CHI),
+        };
+        let near = around.nearest.map(|(_, column)| column).filter(|_| around.distance <= NEAR);
+        let values = [
+            Some(distance),
+            Some(chi),
+            Some(around.distance),
+            Some(around.sigmas(probe)),
+            near.map(|column| column.top),
+            near.map(|column| column.bottom),
+            Some(f64::from(around.voxels).ln_1p()),
+            Some(f64::from(around.octants.count_ones()) / 8.0),
+        ];
+        set(&mut columns, i, values);
     }
     columns
 }
 
 /// The Euclidean distance from the nearest point, and the least Mahalanobis distance.
 fn nearest_point(map: &StaticMap, probe: &Probe, found: &mut Vec<Neighbor>) -> (f64, f64) {
-    let detection = &probe.detection;
-    let query = detection.position.coords.cast::<f32>().into();
-    map.index.nearest_within(query, CANDIDATES, FARTHEST as f32, found);
-    let nearest = found.first().map_or(FARTHEST, |neighbor| f64::from(neighbor.distance_squared).sqrt());
-    let covariance = detection.axes * detection.axes.transpose() + Matrix3::identity() * SAME_SPOT.powi(2);
-    let Some(precision) = covariance.try_inverse() else { return (nearest.min(FARTHEST), LARGEST_CHI) };
+    let position = probe.detection.position.coords;
+    map.index.nearest_within(position.cast::<f32>().into(), CANDIDATES, AROUND as f32, found);
+    let nearest = found.first().map_or(AROUND, |neighbor| f64::from(neighbor.distance_squared).sqrt());
     let mut least = LARGEST_CHI * LARGEST_CHI;
     for neighbor in found.iter() {
-        let point = Vector3::from(map.points[neighbor.id as usize].map(f64::from));
-        let h = point - detection.position.coords;
-        least = least.min(h.dot(&(precision * h)));
+        let h = Vector3::from(map.points[neighbor.id as usize].map(f64::from)) - position;
+        least = least.min(h.dot(&(probe.precision * h)));
     }
-    (nearest.min(FARTHEST), least.max(0.0).sqrt())
+    (nearest.min(AROUND), least.max(0.0).sqrt())
 }
 
-/// What the columns say: distance, the same in sigmas, top, bottom, density, octants.
-fn around(map: &StaticMap, probe: &Probe) -> [Option<f64>; 6] {
-    let p = probe.detection.position;
-    let mut nearest = None;
-    let mut least = AROUND;
-    let mut octants = 0u8;
-    let mut voxels = 0u32;
-    for ([x, y], column) in map.columns.around(p.x, p.y, AROUND) {
-        let distance = x.hypot(y);
-        if distance > AROUND {
-            continue;
+/// The columns around a detection in which something stands.
+struct Around {
+    /// The nearest one and the way to its middle, m.
+    nearest: Option<([f64; 2], Column)>,
+    /// From its middle, m.
+    distance: f64,
+    /// A bit for each eighth of the circle in which one is.
+    octants: u8,
+    /// Voxels that are filled near by.
+    voxels: u32,
+}
+
+impl Around {
+    fn look(map: &StaticMap, probe: &Probe) -> Self {
+        let p = probe.detection.position;
+        let mut around = Self { nearest: None, distance: AROUND, octants: 0, voxels: 0 };
+        for ([x, y], column) in map.columns.around(p.x, p.y, AROUND) {
+            let distance = (x * x + y * y).sqrt();
+            if distance > AROUND {
+                continue;
+            }
+            around.octants |= octant(x, y);
+            around.voxels += if distance <= BESIDE { column.voxels } else { 0 };
+            if distance < around.distance {
+                around.distance = distance;
+                around.nearest = Some(([x, y], column));
+            }
         }
-        octants |= 1 << ((y.atan2(x) / TAU).rem_euclid(1.0) * 8.0).min(7.0) as u8;
-        voxels += if distance <= BESIDE { u32::from(column.voxels) } else { 0 };
-        if distance < least {
-            least = distance;
-            nearest = Some(([x, y], column));
-        }
+        around
     }
-    let sigmas = nearest.map(|([x, y], _)| {
+
+    /// The distance in standard deviations along it.
+    fn sigmas(&self, probe: &Probe) -> f64 {
+        let Some(([x, y], _)) = self.nearest else { return LARGEST_CHI };
         let direction = Vector3::new(x, y, 0.0).try_normalize(1e-6).unwrap_or_else(Vector3::x);
-        least / probe.detection.sigma_along(&direction).hypot(SAME_SPOT)
-    });
-    let near = nearest.map(|(_, column)| column).filter(|_| least <= NEAR);
-    [
-        Some(least),
-        Some(sigmas.unwrap_or(LARGEST_CHI).min(LARGEST_CHI)),
-        near.map(|column| f64::from(column.top)),
-        near.map(|column| f64::from(column.bottom)),
-        Some(f64::from(voxels).ln_1p()),
-        Some(f64::from(octants.count_ones()) / 8.0),
-    ]
+        (self.distance / probe.detection.sigma_along(&direction).hypot(SAME_SPOT)).min(LARGEST_CHI)
+    }
+}
+
+/// The bit of the eighth of the circle to which a direction belongs.
+fn octant(x: f64, y: f64) -> u8 {
+    1 << (u8::from(x > 0.0) + 2 * u8::from(y > 0.0) + 4 * u8::from(x.abs() > y.abs()))
 }

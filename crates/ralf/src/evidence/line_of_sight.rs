@@ -10,12 +10,12 @@ const GROUP: &str = "Line of sight";
 /// Length of a step, m.
 const STEP: f64 = 0.2;
 /// A column with something at these heights is a surface that a radar at a vehicle's height meets, m.
-const SURFACE: [f32; 2] = [0.25, 1.8];
+const SURFACE: [f64; 2] = [0.25, 1.8];
 /// A column that reaches so high and has so many voxels is tall: a wall, a hedge, a lorry, m.
-const TALL: f32 = 1.0;
-const TALL_VOXELS: u16 = 3;
+pub(super) const TALL: f64 = 1.0;
+const TALL_VOXELS: u32 = 3;
 /// What reaches so high is no car any more, m.
-const OVER_CARS: f32 = 2.2;
+const OVER_CARS: f64 = 2.2;
 /// Columns this near to a detection are its footprint, m.
 const FOOTPRINT: f64 = 1.5;
 /// The march begins so far from the radar: what is nearer belongs to the own vehicle, m.
@@ -59,13 +59,13 @@ const FEATURES: &[Feature] = &[
     },
     Feature {
         name: "sight_footprint_cars",
-        unit: "share",
+        unit: "1",
         group: GROUP,
         meaning: "share of the columns within 1.5 m that are as high as cars, 1 to 2.2 m",
     },
     Feature {
         name: "sight_footprint_tall",
-        unit: "share",
+        unit: "1",
         group: GROUP,
         meaning: "share of the columns within 1.5 m that are higher than cars",
     },
@@ -103,11 +103,12 @@ fn observe(surroundings: &Surroundings) -> Vec<Values> {
 
 /// What was met on the way from the radar to a detection.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-struct Way {
+pub(super) struct Way {
     /// From the first surface to the detection, m.
     behind_surface: f64,
     surface_height: Option<f64>,
-    behind_first_tall: f64,
+    /// From the first tall column to the detection, m; 0 where there is none.
+    pub(super) behind_first_tall: f64,
     behind_last_tall: f64,
     /// Steps through tall columns, m.
     through: f64,
@@ -116,7 +117,7 @@ struct Way {
 impl Way {
     /// Steps from the radar to the detection, seen from above; what is met within `slack` before the detection, m, may
     /// be what was detected and doesn't count.
-    fn march(map: &StaticMap, radar: &Point, p: &Point, slack: f64) -> Self {
+    pub(super) fn march(map: &StaticMap, radar: &Point, p: &Point, slack: f64) -> Self {
         let along = (p - radar).xy();
         let length = along.norm();
         let end = length - slack.max(STEP);
@@ -126,7 +127,7 @@ impl Way {
             let gone = OWN + step as f64 * STEP;
             let place = radar.coords.xy() + along * (gone / length);
             if let Some(column) = map.columns.at(place.x, place.y) {
-                way.meet(column, length - gone);
+                way.meet(&column, length - gone);
             }
         }
         way
@@ -136,7 +137,7 @@ impl Way {
     fn meet(&mut self, column: &Column, before: f64) {
         if column.bottom <= SURFACE[1] && column.top >= SURFACE[0] && self.surface_height.is_none() {
             self.behind_surface = before;
-            self.surface_height = Some(column.top.into());
+            self.surface_height = Some(column.top);
         }
         if column.top >= TALL && column.voxels >= TALL_VOXELS && column.bottom <= SURFACE[1] {
             if self.through == 0.0 {

@@ -9,6 +9,7 @@
 
 mod amplitude;
 mod camera;
+mod chance;
 mod columns;
 mod context;
 mod distance;
@@ -20,13 +21,13 @@ mod lidar_map;
 mod lidar_rays;
 mod lidar_residual;
 mod line_of_sight;
+mod mirror;
 mod ordered;
 mod persistence;
 mod probe;
 mod rates;
 mod recurrence;
 mod sensor_frame;
-mod sight;
 mod statistics;
 mod surroundings;
 mod terrain;
@@ -50,6 +51,7 @@ pub const PIECES: &[Piece] = &[
     persistence::PIECE,
     camera::PIECE,
     context::PIECE,
+    mirror::PIECE,
     geometry::PIECE,
 ];
 

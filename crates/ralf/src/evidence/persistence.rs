@@ -1,13 +1,13 @@
 //! What exists is seen again: of the scans that could have seen a detection, how many did, from where, and would chance
 //! have done as well?
 
-use super::distance::area_within;
+use super::chance::{AROUND, SAME, excess_of};
+use super::columns::{set, unobserved};
 use super::recurrence::{FARTHEST, Sighting};
-use super::sensor_frame::held_in_place;
-use super::sight::Sight;
+use super::sensor_frame::Unmoved;
 use super::{Feature, Piece, Surroundings, Values};
-use crate::scene::{Detection, Frame};
-use std::f64::consts::PI;
+use crate::scene::{Detection, Frame, NeighbouringScan};
+use crate::space::Vector;
 
 pub(super) const PIECE: Piece = Piece {
     features: &[
@@ -40,23 +40,23 @@ pub(super) const PIECE: Piece = Piece {
         ),
         feature(
             "persistence_aspect",
-            "deg",
-            "largest angle between the radar's ray and those of the scans that saw it again, the other radars' too",
+            "1",
+            "largest angle between the radar's ray and those of the scans that saw it again, as a share of the largest \
+             of the scans that could have, the other radars' too; null where none looked from elsewhere",
         ),
         feature(
             "persistence_sensor",
             "1",
-            "share of the radar's own scans around that detected something at the same place of the radar's frame, of \
-             those in which what stands still had moved on; high for side lobes and for the vehicle itself",
+            "logarithm of how many of the radar's own scans detected something at the same place of the radar's frame, \
+             over how many would by chance, of those in which what stands still had moved on; high for side lobes and \
+             for the vehicle itself",
         ),
     ],
     observe,
 };
 
-/// A detection is seen again by one nearer than this, in standard deviations.
-const SAME: f64 = 2.0;
-/// How densely detections lie is told from those within this, m.
-const AROUND: f64 = 5.0;
+/// Rays that differ by no more look from the same place, rad.
+const ELSEWHERE: f64 = 0.01;
 
 const fn feature(name: &'static str, unit: &'static str, meaning: &'static str) -> Feature {
     Feature { name, unit, group: "Persistence", meaning }
@@ -64,27 +64,25 @@ const fn feature(name: &'static str, unit: &'static str, meaning: &'static str) 
 
 fn observe(surroundings: &Surroundings) -> Vec<Values> {
     let frame = surroundings.frame;
-    let sights = Sight::of_window(frame);
-    let mut columns = vec![Vec::with_capacity(frame.scan.len()); PIECE.features.len()];
-    for (i, seen) in surroundings.sightings().iter().enumerate() {
+    let (origins, unmoved) = (origins(frame), Unmoved::new(frame));
+    let mut columns = unobserved(PIECE.features, frame.scan.len());
+    for (i, detection) in frame.scan.detections.iter().enumerate() {
+        let Some(detection) = detection else { continue };
+        let seen = surroundings.sightings()[i].as_slice();
         let own = || seen.iter().filter(|sighting| sighting.own);
-        let others = || seen.iter().filter(|sighting| !sighting.own);
-        let moving = own().filter(|_| surroundings.rates().is_some_and(|rates| rates.residual(i).is_some()));
-        let excess =
-            frame.scan.detections[i].as_ref().and_then(|detection| excess(surroundings, detection, seen));
+        let others = seen.iter().filter(|sighting| !sighting.own);
+        let has_rate = surroundings.rates().is_some_and(|rates| rates.residual(i).is_some());
         let values = [
             share(own().map(|sighting| sighting.still <= SAME)),
-            share(moving.map(|sighting| sighting.moving <= SAME)),
-            share(others().map(|sighting| sighting.still <= SAME)),
+            share(own().filter(|_| has_rate).map(|sighting| sighting.moving <= SAME)),
+            share(others.map(|sighting| sighting.still <= SAME)),
             mean(own().map(|sighting| sighting.still.min(FARTHEST))),
-            excess,
-            frame.scan.detections[i].as_ref().and_then(|detection| aspect(frame, &sights, detection, seen)),
+            excess(surroundings, detection, seen),
+            aspect(frame, &origins, detection, seen),
+            unmoved.excess_at(detection),
         ];
-        for (column, value) in columns.iter_mut().zip(values) {
-            column.push(value);
-        }
+        set(&mut columns, i, values);
     }
-    columns[6] = held_in_place(frame);
     columns
 }
 
@@ -97,8 +95,7 @@ fn mean(values: impl Iterator<Item = f64>) -> Option<f64> {
     (count > 0).then(|| sum / f64::from(count))
 }
 
-/// `ln((hits + 1/2) / (expected + 1/2))`, where a scan sees a detection by chance with the probability
-/// `1 - exp(-density area)`.
+/// Of the radar's own scans around.
 fn excess(surroundings: &Surroundings, detection: &Detection, seen: &[Sighting]) -> Option<f64> {
     let own: Vec<&Sighting> = seen.iter().filter(|sighting| sighting.own).collect();
     if own.is_empty() {
@@ -109,18 +106,23 @@ fn excess(surroundings: &Surroundings, detection: &Detection, seen: &[Sighting])
     let place = [detection.position.x as f32, detection.position.y as f32];
     around.index.beside(place, AROUND as f32, &mut near);
     let is_own = |id: &&u32| surroundings.frame.is_own(around.radars[around.scans[**id as usize] as usize]);
-    let scans = own.len() as f64;
-    let density = near.iter().filter(is_own).count() as f64 / (scans * PI * AROUND * AROUND);
-    let expected = scans * (1.0 - (-density * area_within(SAME, detection)).exp());
-    let hits = own.iter().filter(|sighting| sighting.still <= SAME).count() as f64;
-    Some(((hits + 0.5) / (expected + 0.5)).ln())
+    let hits = own.iter().filter(|sighting| sighting.still <= SAME).count();
+    Some(excess_of(hits, own.len(), near.iter().filter(is_own).count(), detection))
 }
 
-/// Degrees; `None` where no scan saw it again.
-fn aspect(frame: &Frame, sights: &[Sight], detection: &Detection, seen: &[Sighting]) -> Option<f64> {
+/// Where each scan around was made, in the vehicle frame at the frame's time, m.
+fn origins(frame: &Frame) -> Vec<Vector> {
+    let mounting = |radar: usize| frame.rig.radars[radar].vehicle_from_radar;
+    let origin = |scan: &NeighbouringScan| (scan.vehicle_from_scan * mounting(scan.radar)).translation.vector;
+    frame.radar_window.iter().map(origin).collect()
+}
+
+/// `None` where no scan could have seen it from elsewhere.
+fn aspect(frame: &Frame, origins: &[Vector], detection: &Detection, seen: &[Sighting]) -> Option<f64> {
     let ray = detection.position.coords - frame.radar.vehicle_from_radar.translation.vector;
-    let again = seen.iter().filter(|sighting| sighting.still <= SAME);
-    let angles =
-        again.map(|sighting| ray.angle(&(detection.position - sights[sighting.scan as usize].origin)));
-    angles.reduce(f64::max).map(f64::to_degrees)
+    let angle =
+        |sighting: &Sighting| ray.angle(&(detection.position.coords - origins[sighting.scan as usize]));
+    let largest = seen.iter().map(angle).fold(0.0, f64::max);
+    let again = seen.iter().filter(|sighting| sighting.still <= SAME).map(angle).fold(0.0, f64::max);
+    (largest > ELSEWHERE).then(|| again / largest)
 }

@@ -2,13 +2,16 @@
 
 use crate::scene::{Detection, Frame};
 use crate::sensors::Elevation;
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
 
 /// A radar without elevation is taken to have seen what it saw so high above the ground, m: the middle of what stands
 /// on a road.
 const SUPPOSED_HEIGHT: f64 = 0.7;
 /// How well that is known, m.
 const SUPPOSED_SIGMA: f64 = 0.4;
+
+/// LiDAR and radar don't see the same spot of an object: uncertainty of a point's place as the detection's own, m.
+pub(super) const SAME_SPOT: f64 = 0.1;
 
 /// A detection in the vehicle frame of the LiDAR window.
 #[derive(Debug, Clone, Copy)]
@@ -17,6 +20,19 @@ pub struct Probe {
     pub detection: Detection,
     /// Height of the ground there, m; that of the vehicle where nobody saw the ground.
     pub ground: f64,
+    /// `(Sigma + (0.1 m)^2 I)^-1`, m^-2: LiDAR and radar don't see the same spot of an object.
+    pub precision: Matrix3<f64>,
+}
+
+impl Probe {
+    /// A detection above a ground.
+    fn new(detection: Detection, ground: f64) -> Self {
+        let covariance =
+            detection.axes * detection.axes.transpose() + Matrix3::identity() * SAME_SPOT.powi(2);
+        // A covariance that is not finite makes all distances 0 rather than a run end.
+        let precision = covariance.try_inverse().unwrap_or_else(Matrix3::zeros);
+        Self { detection, ground, precision }
+    }
 }
 
 /// The frame's detections in the frame of its LiDAR window; `None` for those without a position. Empty without a
@@ -38,7 +54,7 @@ pub(super) fn probes(frame: &Frame) -> Vec<Option<Probe>> {
             detection.position.z = ground + SUPPOSED_HEIGHT;
             detection.axes.set_column(2, &Vector3::new(0.0, 0.0, SUPPOSED_SIGMA));
         }
-        probes.push(Some(Probe { detection, ground }));
+        probes.push(Some(Probe::new(detection, ground)));
     }
     probes
 }

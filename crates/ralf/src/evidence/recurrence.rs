@@ -2,8 +2,7 @@
 
 use super::distance::{ROOM, chi, horizontal_variance};
 use super::rates::{AGREEING, Rates};
-use super::sight::Sight;
-use crate::scene::{Detection, Frame, NeighbouringDetections};
+use crate::scene::{Detection, Frame, NeighbouringDetections, NeighbouringScan, Reach, Sight};
 use crate::sensors::{Elevation, Radar};
 use crate::space::Point;
 
@@ -36,7 +35,10 @@ pub(super) fn sightings(
     around: &NeighbouringDetections,
     rates: Option<&Rates>,
 ) -> Vec<Vec<Sighting>> {
-    let sights = Sight::of_window(frame);
+    let reaches = reaches(frame);
+    let sight =
+        |scan: &NeighbouringScan| Sight::new(&frame.rig.radars[scan.radar], scan, &reaches[scan.radar]);
+    let sights: Vec<Sight> = frame.radar_window.iter().map(sight).collect();
     let mut search = Search::new(frame, around, rates);
     let mut all = Vec::with_capacity(frame.scan.len());
     for (i, detection) in frame.scan.detections.iter().enumerate() {
@@ -47,7 +49,7 @@ pub(super) fn sightings(
         let mut seen: Vec<Sighting> = Vec::new();
         for (scan, sight) in (0u32..).zip(&sights) {
             if sight.covers(&detection.position) {
-                seen.push(Sighting::nothing(scan, sight.own));
+                seen.push(Sighting::nothing(scan, frame.is_own(around.radars[scan as usize])));
             }
         }
         search.still(i, detection, &mut seen);
@@ -57,14 +59,26 @@ pub(super) fn sightings(
     all
 }
 
+/// How far each radar of the rig reaches, by its scans at hand.
+fn reaches(frame: &Frame) -> Vec<Reach> {
+    let mut reaches = Vec::with_capacity(frame.rig.radars.len());
+    for (index, radar) in frame.rig.radars.iter().enumerate() {
+        let around =
+            frame.radar_window.iter().filter(|scan| scan.radar == index).map(|scan| &scan.scan.measured);
+        let own = frame.is_own(index).then_some(&frame.scan.measured);
+        reaches.push(Reach::of_scans(radar, around.chain(own)));
+    }
+    reaches
+}
+
 impl Sighting {
     fn nothing(scan: u32, own: bool) -> Self {
         let none = f64::INFINITY;
         Self { scan, own, still: none, moving: none, rate_difference: none }
     }
 
-    /// A detection at a distance `chi` from where this one would be if it moved; `difference` is that of their rates, in
-    /// spreads.
+    /// A detection at a distance `chi` from where this one would be if it moved; `difference` is that of their rates,
+    /// in spreads.
     fn meet(&mut self, chi: f64, difference: Option<f64>) {
         let Some(difference) = difference.filter(|_| chi <= FARTHEST) else { return };
         self.rate_difference = self.rate_difference.min(difference);

@@ -40,7 +40,7 @@ pub use mismatch::{Reference, Spread, mismatch, plausibility, reach_of_cap};
 pub use mover::Mover;
 pub use neighbouring::{NeighbouringScan, ScanStep};
 pub use neighbouring_detections::NeighbouringDetections;
-pub use rays::{Cone, RayTable, direction_of};
+pub use rays::{Cone, RayTable, TableRay, direction_of};
 pub use sight::{Reach, Sight};
 pub use static_map::{Column, ColumnGrid, StaticMap};
 pub use strength::Strength;

@@ -9,7 +9,6 @@ const BIN: f32 = 0.5 * PI / 180.0;
 const COLUMNS: usize = 720;
 
 /// The returns of one LiDAR scan, sorted into bins of half a degree of azimuth and elevation as seen from the LiDAR.
-/// All lists have an entry per return.
 #[derive(Debug, Clone)]
 pub struct RayTable {
     /// Bin of elevation of the first row.
@@ -17,16 +16,23 @@ pub struct RayTable {
     rows: usize,
     /// Where each bin's returns begin, row by row, and the end.
     starts: Vec<u32>,
-    /// Of each return, rad.
-    pub azimuths: Vec<f32>,
-    /// Of each return, rad, positive up.
-    pub elevations: Vec<f32>,
-    /// From the LiDAR to each return, m.
-    pub ranges: Vec<f32>,
-    /// Each return in the LiDAR's frame, m.
-    pub points: Vec<[f32; 3]>,
+    /// Bin by bin.
+    rays: Vec<TableRay>,
+}
+
+/// A return as its LiDAR sees it.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct TableRay {
+    /// rad, from -pi to pi.
+    pub azimuth: f32,
+    /// rad, positive up.
+    pub elevation: f32,
+    /// From the LiDAR, m.
+    pub range: f32,
+    /// In the LiDAR's frame, m.
+    pub point: [f32; 3],
     /// Its place in the scan.
-    pub ids: Vec<u32>,
+    pub id: u32,
 }
 
 /// Directions around a middle one, rad.
@@ -42,25 +48,17 @@ pub struct Cone {
     pub half_elevation: f32,
 }
 
-/// A return and its bin.
-struct Ray {
-    bin: u32,
-    azimuth: f32,
-    elevation: f32,
-    range: f32,
-    id: u32,
-}
-
 impl RayTable {
     /// Sorts the returns of a scan (LiDAR frame, m); points that are none are left out.
     pub fn new(points: &[[f32; 3]]) -> Self {
-        let rays = directions(points);
-        let first_row = rays.iter().map(|ray| ray.bin as usize / COLUMNS).min().unwrap_or(0);
-        let last_row = rays.iter().map(|ray| ray.bin as usize / COLUMNS).max().unwrap_or(0);
+        let (rays, bins) = directions(points);
+        let first_row = bins.iter().min().map_or(0, |bin| *bin as usize / COLUMNS);
+        let last_row = bins.iter().max().map_or(0, |bin| *bin as usize / COLUMNS);
         let rows = last_row - first_row + 1;
+        let first_bin = first_row * COLUMNS;
         let mut starts = vec![0u32; rows * COLUMNS + 1];
-        for ray in &rays {
-            starts[ray.bin as usize - first_row * COLUMNS + 1] += 1;
+        for bin in &bins {
+            starts[*bin as usize - first_bin + 1] += 1;
         }
         let mut total = 0;
         for start in &mut starts {
@@ -68,24 +66,22 @@ impl RayTable {
             *start = total;
         }
         let mut next = starts.clone();
-        let zeros = || vec![0.0; rays.len()];
-        let (mut azimuths, mut elevations, mut ranges) = (zeros(), zeros(), zeros());
-        let (mut sorted, mut ids) = (vec![[0.0; 3]; rays.len()], vec![0; rays.len()]);
-        for ray in &rays {
-            let next = &mut next[ray.bin as usize - first_row * COLUMNS];
-            let place = *next as usize;
+        let mut sorted = vec![TableRay::default(); rays.len()];
+        for (ray, bin) in rays.iter().zip(bins) {
+            let next = &mut next[bin as usize - first_bin];
+            sorted[*next as usize] = *ray;
             *next += 1;
-            azimuths[place] = ray.azimuth;
-            elevations[place] = ray.elevation;
-            ranges[place] = ray.range;
-            sorted[place] = points[ray.id as usize];
-            ids[place] = ray.id;
         }
-        Self { first_row, rows, starts, azimuths, elevations, ranges, points: sorted, ids }
+        Self { first_row, rows, starts, rays: sorted }
     }
 
-    /// The returns of all bins that a cone touches, as stretches of the lists: every return within the cone is among
-    /// them, and some beside it.
+    /// All returns, bin by bin.
+    pub fn rays(&self) -> &[TableRay] {
+        &self.rays
+    }
+
+    /// The returns of all bins that a cone touches, as stretches of [`Self::rays`]: every return within the cone is
+    /// among them, and some beside it.
     pub fn runs(&self, cone: &Cone) -> impl Iterator<Item = Range<usize>> {
         // A row below or above all that there are stays outside, so that nothing is found in it.
         let row = |elevation: f32| (row_of(elevation) + 1).saturating_sub(self.first_row).min(self.rows + 1);
@@ -100,37 +96,38 @@ impl RayTable {
         })
     }
 
-    /// The returns in the bin of a direction, as a stretch of the lists.
-    pub fn bin(&self, azimuth: f32, elevation: f32) -> Range<usize> {
+    /// The returns in the bin of a direction.
+    pub fn bin(&self, azimuth: f32, elevation: f32) -> &[TableRay] {
         let Some(row) = row_of(elevation).checked_sub(self.first_row).filter(|row| *row < self.rows) else {
-            return 0..0;
+            return &[];
         };
         let bin = row * COLUMNS + column_of(azimuth);
-        self.starts[bin] as usize..self.starts[bin + 1] as usize
+        &self.rays[self.starts[bin] as usize..self.starts[bin + 1] as usize]
     }
 
     /// How many returns there are.
     pub fn len(&self) -> usize {
-        self.ranges.len()
+        self.rays.len()
     }
 
     /// Whether nothing came back.
     pub fn is_empty(&self) -> bool {
-        self.ranges.is_empty()
+        self.rays.is_empty()
     }
 }
 
-fn directions(points: &[[f32; 3]]) -> Vec<Ray> {
-    let mut rays = Vec::with_capacity(points.len());
-    for (id, &[x, y, z]) in (0u32..).zip(points) {
-        let (azimuth, elevation, range) = direction_of(x, y, z);
+/// The returns, and the bin of each.
+fn directions(points: &[[f32; 3]]) -> (Vec<TableRay>, Vec<u32>) {
+    let (mut rays, mut bins) = (Vec::with_capacity(points.len()), Vec::with_capacity(points.len()));
+    for (id, &point) in (0u32..).zip(points) {
+        let (azimuth, elevation, range) = direction_of(point[0], point[1], point[2]);
         // What is not finite fails the comparison, too.
         if range > 0.0 && range < f32::INFINITY {
-            let bin = row_of(elevation) * COLUMNS + column_of(azimuth);
-            rays.push(Ray { bin: bin as u32, azimuth, elevation, range, id });
+            rays.push(TableRay { azimuth, elevation, range, point, id });
+            bins.push((row_of(elevation) * COLUMNS + column_of(azimuth)) as u32);
         }
     }
-    rays
+    (rays, bins)
 }
 
 /// Azimuth and elevation, rad, to 1e-5, and range, m, of a point in the LiDAR's frame.
@@ -201,7 +198,7 @@ mod tests {
         ) {
             let table = RayTable::new(&points);
             let cone = Cone { azimuth, elevation, half_azimuth, half_elevation };
-            let mut found: Vec<u32> = table.runs(&cone).flatten().map(|place| table.ids[place]).collect();
+            let mut found: Vec<u32> = table.runs(&cone).flatten().map(|place| table.rays()[place].id).collect();
             found.sort_unstable();
             prop_assert!(found.windows(2).all(|pair| pair[0] < pair[1]), "none twice");
             for (id, &[x, y, z]) in (0u32..).zip(&points) {
@@ -222,7 +219,7 @@ mod tests {
     fn what_did_not_come_back_is_no_ray() {
         let table =
             RayTable::new(&[[0.0; 3], [f32::NAN, 1.0, 1.0], [f32::INFINITY, 0.0, 0.0], [0.0, 0.0, -2.0]]);
-        assert_eq!((table.len(), &table.ids[..], &table.ranges[..]), (1, &[3][..], &[2.0][..]));
+        assert_eq!((table.len(), table.rays()[0].id, table.rays()[0].range), (1, 3, 2.0));
         let everywhere = Cone { azimuth: 0.0, elevation: 0.0, half_azimuth: 9.0, half_elevation: 9.0 };
         assert_eq!(table.runs(&everywhere).flatten().count(), 1);
         assert!(RayTable::new(&[]).runs(&everywhere).flatten().next().is_none());

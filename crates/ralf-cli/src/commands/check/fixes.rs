@@ -3,11 +3,6 @@
 use ralf_check::{Refinement, Remedy, SensorChange, SequenceCheck, Setting, State};
 use std::collections::BTreeMap;
 
-/// A correction is proposed when it is so many standard deviations.
-const SIGMAS: f64 = 3.0;
-/// And larger than what labels notice: yaw in degrees, places in m, clock in ms.
-const SMALLEST: [f64; 4] = [0.3, 0.05, 0.05, 15.0];
-
 /// The text of the file: remedies of what is doubted, and refined corrections of the radars.
 pub(crate) fn text(checks: &[SequenceCheck], refined: &[Refinement]) -> String {
     let mut text = String::from(
@@ -49,35 +44,34 @@ fn add(lines: &mut BTreeMap<String, String>, setting: Setting, note: &str) {
     lines.entry(setting.key).or_insert_with(|| format!(" = {}{note}", setting.value));
 }
 
-/// What is significant of a refinement, each with its standard deviation as a comment.
+/// What a refinement proposes, each with its standard deviation as a comment.
 fn settings(refinement: &Refinement) -> Vec<(Setting, String)> {
-    let SensorChange { turn_deg, shift_m, clock_ms, mirrored } = refinement.change;
-    let values = [turn_deg[2], shift_m[0], shift_m[1], clock_ms];
-    let matters = |i: usize| {
-        let deviation = refinement.deviations[i];
-        values[i].abs() > SMALLEST[i] && (deviation.is_nan() || values[i].abs() > SIGMAS * deviation)
-    };
-    let kept = |i: usize, digits: f64| if matters(i) { (values[i] * digits).round() / digits } else { 0.0 };
-    let change = |change: SensorChange| Remedy::Sensor(change).settings(&refinement.name);
-    let note = |which: &[usize], unit: &str| {
-        let told: Vec<String> = which.iter().map(|i| format!("{:.3}", refinement.deviations[*i])).collect();
-        if told.iter().any(|value| value == "NaN") {
-            String::new()
-        } else {
-            format!("    # +- {} {unit}", told.join(", "))
-        }
-    };
+    let SensorChange { turn_deg, shift_m, clock_ms, mirrored } = refinement.proposed;
+    let rounded = |value: f64, digits: f64| (value * digits).round() / digits;
     let nothing = SensorChange::default();
-    let turned = SensorChange { turn_deg: [turn_deg[0], turn_deg[1], kept(0, 100.0)], ..nothing };
-    let shifted = SensorChange { shift_m: [kept(1, 1000.0), kept(2, 1000.0), shift_m[2]], ..nothing };
-    let later = SensorChange { clock_ms: kept(3, 10.0), ..nothing };
+    let turned = SensorChange { turn_deg: turn_deg.map(|value| rounded(value, 100.0)), ..nothing };
+    let shifted = SensorChange { shift_m: shift_m.map(|value| rounded(value, 1000.0)), ..nothing };
+    let later = SensorChange { clock_ms: rounded(clock_ms, 10.0), ..nothing };
     let rows = [
-        (turned, note(&[0], "degrees")),
-        (shifted, note(&[1, 2], "m")),
-        (later, note(&[3], "ms")),
+        (turned, note(refinement, &[0], "degrees")),
+        (shifted, note(refinement, &[1, 2], "m")),
+        (later, note(refinement, &[3], "ms")),
         (SensorChange { mirrored, ..nothing }, String::new()),
     ];
-    rows.into_iter()
-        .flat_map(|(row, note)| change(row).into_iter().map(move |setting| (setting, note.clone())))
-        .collect()
+    let mut settings = Vec::new();
+    for (change, note) in rows {
+        for setting in Remedy::Sensor(change).settings(&refinement.name) {
+            settings.push((setting, note.clone()));
+        }
+    }
+    settings
+}
+
+/// Standard deviations, as a comment; nothing where there are none.
+fn note(refinement: &Refinement, which: &[usize], unit: &str) -> String {
+    if which.iter().any(|i| refinement.deviations[*i].is_nan()) {
+        return String::new();
+    }
+    let told: Vec<String> = which.iter().map(|i| format!("{:.3}", refinement.deviations[*i])).collect();
+    format!("    # +- {} {unit}", told.join(", "))
 }

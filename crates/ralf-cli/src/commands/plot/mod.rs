@@ -23,6 +23,7 @@ picture shows the straight views of the image nearest to the scan, each beside i
 Examples:
   ralf plot recordings/city out --sequence 00 --scan 17 -o scan.png
   ralf plot recordings/city out --sequence 00 --scan 17 --radar radar_front --radius 40 -o front.png
+  ralf plot recordings/city out --sequence 00 --scan 17 --color-by lidar_window_beyond -o free.png
   ralf plot recordings/city out --sequence 00 --all -o overview.png
   ralf plot recordings/city out --sequence 00 --scan 17 --camera front -o camera.png")]
 pub(crate) struct PlotArgs {
@@ -45,6 +46,9 @@ pub(crate) struct PlotArgs {
     /// Draw this far around the vehicle, m; fitted to the detections if not given
     #[arg(long, value_name = "M", conflicts_with = "camera")]
     radius: Option<f64>,
+    /// Detections in the colours of this column of numbers: a piece of evidence, a mismatch, the plausibility w
+    #[arg(long, value_name = "COLUMN", requires = "scan", conflicts_with = "camera")]
+    color_by: Option<String>,
     /// What this camera sees, beside its depth, with LiDAR and radar in it
     #[arg(long, value_name = "NAME", requires = "scan")]
     camera: Option<String>,
@@ -74,7 +78,10 @@ pub(crate) fn run(arguments: &PlotArgs) -> anyhow::Result<Outcome> {
         (Some(scan), Some(name)) => {
             camera::Plot { pictures, labelled: &labelled, arguments }.camera(scan, name)?
         }
-        (Some(scan), None) => pictures.scan(scan, Detections::Labelled, WIDTHS[0])?,
+        (Some(scan), None) => match &arguments.color_by {
+            Some(column) => pictures.scan_by(scan, column, WIDTHS[0])?,
+            None => pictures.scan(scan, Detections::Labelled, WIDTHS[0])?,
+        },
         (None, _) => pictures.overview(WIDTHS[1])?,
     };
     ralf_data::write_whole(&arguments.output, &png)?;

@@ -2,7 +2,7 @@
 //! motion comes from.
 //!
 //! Nothing is corrected that the settings don't name, with one exception: where a recording knows no motion at all,
-//! it is taken from the radars' range rates, and this is warned of.
+//! it is taken from the radars' range rates, else from a LiDAR's scans, and this is warned of.
 
 mod reader;
 mod trajectory;
@@ -11,11 +11,13 @@ use crate::error::DataError;
 use crate::read::corrections::{MotionSettings, MotionSource, SensorCorrection};
 use crate::read::recording::{Recording, SequenceReader};
 use nalgebra::Translation3;
-use ralf::sensors::{Sequence, Source};
+use ralf::sensors::{Sequence, Source, SourceError};
 use ralf::space::{EgoMotion, OdometrySample, PoseSample, Transform};
+use ralf_check::doppler::from_doppler;
+use ralf_check::odometry::from_lidar;
 use reader::Corrected;
 use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// By sensor name.
 pub(crate) type Corrections = BTreeMap<String, SensorCorrection>;
@@ -59,32 +61,42 @@ fn with_sensors(
 }
 
 fn with_motion(mut reader: Corrected, wanted: &MotionSettings, path: &Path) -> Result<Corrected, DataError> {
-    let sequence = reader.sequence();
-    let from_radar = wanted.source == MotionSource::Radar || !sequence.motion.is_known();
-    let (motion, source, file): (EgoMotion, MotionSource, Option<PathBuf>) = match &wanted.trajectory {
-        Some(file) => {
-            (trajectory::read(file, wanted, sequence)?, MotionSource::Trajectory, Some(file.clone()))
-        }
-        None if from_radar => {
-            let found = ralf_check::doppler::from_doppler(&reader);
-            let found = found.map_err(|error| {
-                unsuitable(
-                    path,
-                    sequence,
-                    format!("the vehicle's motion: {error}; a trajectory would do as well (--trajectory)"),
-                )
-            })?;
-            (found, MotionSource::Radar, None)
-        }
-        None => (sequence.motion.clone(), MotionSource::Recorded, None),
-    };
-    if source == MotionSource::Radar && wanted.source != MotionSource::Radar {
-        reader.warn(
-            "neither odometry nor poses: the vehicle's motion is taken from the radars' range rates".into(),
-        );
+    if let Some(file) = &wanted.trajectory {
+        let motion = trajectory::read(file, wanted, reader.sequence())?;
+        reader.set_motion(scaled(&motion, wanted), MotionSource::Trajectory, Some(file.clone()));
+        return Ok(reader);
     }
-    reader.set_motion(scaled(&motion, wanted), source, file);
+    let is_known = reader.sequence().motion.is_known();
+    let found = match wanted.source {
+        MotionSource::Radar => from_doppler(&reader).map(|motion| (motion, MotionSource::Radar)),
+        MotionSource::Lidar => from_lidar(&reader).map(|motion| (motion, MotionSource::Lidar)),
+        _ if is_known => Ok((reader.sequence().motion.clone(), MotionSource::Recorded)),
+        _ => seen(&reader),
+    };
+    let (motion, source) = found.map_err(|error| {
+        let reason = format!("the vehicle's motion: {error}; a trajectory would do as well (--trajectory)");
+        unsuitable(path, reader.sequence(), reason)
+    })?;
+    let from = match source {
+        MotionSource::Radar => "the radars' range rates",
+        _ => "the LiDAR's scans",
+    };
+    if source != MotionSource::Recorded && wanted.source != source {
+        reader.warn(format!("neither odometry nor poses: the vehicle's motion is taken from {from}"));
+    }
+    reader.set_motion(scaled(&motion, wanted), source, None);
     Ok(reader)
+}
+
+/// The motion as the sensors see it: by range rates, or, where these say nothing, by a LiDAR.
+fn seen(source: &dyn Source) -> Result<(EgoMotion, MotionSource), SourceError> {
+    let by_doppler = match from_doppler(source) {
+        Ok(motion) => return Ok((motion, MotionSource::Radar)),
+        Err(missing) => missing,
+    };
+    from_lidar(source)
+        .map(|motion| (motion, MotionSource::Lidar))
+        .map_err(|missing| format!("{by_doppler}; {missing}").into())
 }
 
 /// A motion with the factors and the offset of the settings.

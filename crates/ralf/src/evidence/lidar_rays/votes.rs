@@ -1,9 +1,9 @@
 //! The votes of one LiDAR scan on one detection.
 
-use super::super::probe::Probe;
-use crate::scene::{Cone, LidarSweep, RayTable, direction_of};
+use super::super::probe::{Probe, SAME_SPOT};
+use crate::scene::{Cone, LidarSweep, RayTable, TableRay, direction_of};
 use crate::space::Transform;
-use nalgebra::{Matrix3, RowVector3, Vector3};
+use nalgebra::{Isometry3, Matrix3, RowVector3, Vector3};
 
 /// Rays within so many standard deviations of a detection's direction vote.
 const CONE_SIGMAS: f32 = 2.5;
@@ -13,8 +13,6 @@ const LEAST_CONE: f32 = 0.7 * std::f32::consts::PI / 180.0;
 const LARGEST_CONE: f32 = 0.35;
 /// A ray ends in a detection within so many standard deviations of its range.
 const RANGE_SIGMAS: f32 = 3.0;
-/// LiDAR and radar don't see the same spot of an object: uncertainty of the place of a point as the detection's own, m.
-const SAME_SPOT: f64 = 0.1;
 /// A ray that ends lower than this above the ground ends on it, m.
 const GROUND_BAND: f32 = 0.2;
 /// No Mahalanobis distance is larger.
@@ -57,10 +55,10 @@ impl Votes {
 /// One LiDAR's scan, ready to be asked.
 pub(super) struct Sweep<'a> {
     table: &'a RayTable,
-    lidar_from_window: Transform,
-    /// Gives a point's height in the window's frame.
-    up: RowVector3<f32>,
-    height: f32,
+    lidar_from_window: Isometry3<f32>,
+    window_from_lidar: Matrix3<f64>,
+    /// Where the LiDAR is in the window's frame, m.
+    origin: Vector3<f64>,
     sigma_range: f64,
     /// About how many rays are looked at.
     rays: usize,
@@ -75,18 +73,19 @@ struct Target {
     depth: f32,
     /// `(Sigma + (0.1 m)^2 I)^-1`.
     precision: Matrix3<f32>,
-    /// Up to this height in the window's frame points are ground, m.
-    ground: f32,
+    /// A point's height above the ground is this times it ...
+    up: RowVector3<f32>,
+    /// ... and this, m.
+    origin_height: f32,
 }
 
 impl<'a> Sweep<'a> {
     pub(super) fn new(sweep: &'a LidarSweep, window_from_lidar: Transform, rays: usize) -> Self {
-        let rotation = window_from_lidar.rotation.to_rotation_matrix();
         Self {
             table: sweep.rays(),
-            lidar_from_window: window_from_lidar.inverse(),
-            up: rotation.matrix().row(2).into_owned().cast(),
-            height: window_from_lidar.translation.z as f32,
+            lidar_from_window: window_from_lidar.inverse().cast(),
+            window_from_lidar: window_from_lidar.rotation.to_rotation_matrix().into_inner(),
+            origin: window_from_lidar.translation.vector,
             sigma_range: sweep.sigma_range,
             rays,
         }
@@ -104,9 +103,10 @@ impl<'a> Sweep<'a> {
             let end = run.end;
             let mut place = run.start + skip;
             while place < end {
-                let h = Vector3::from(self.table.points[place]) - target.position;
+                let ray = &self.table.rays()[place];
+                let h = Vector3::from(ray.point) - target.position;
                 least = least.min(h.dot(&(target.precision * h)));
-                sums[self.ending(&target, place)] += self.weight(&target.cone, place);
+                sums[target.ending(ray)] += target.cone.weight(ray);
                 place += step;
             }
             skip = place - end;
@@ -116,24 +116,59 @@ impl<'a> Sweep<'a> {
         Votes { inside, ground, beyond, before, chi }
     }
 
+    /// `None` where the detection lies in the LiDAR itself.
+    fn target(&self, probe: &Probe) -> Option<Target> {
+        let detection = &probe.detection;
+        let position = self.lidar_from_window * detection.position.cast::<f32>();
+        let (azimuth, elevation, range) = direction_of(position.x, position.y, position.z);
+        let towards = detection.position.coords - self.origin;
+        let ray = towards.try_normalize(1e-3)?;
+        let zenith = self.window_from_lidar.column(2);
+        let aside = zenith.cross(&ray);
+        // Of the way to the detection so much lies across the LiDAR's axis.
+        let across = aside.norm().max(1e-6);
+        let aside = aside / across;
+        let angle = |sigma: f64, radius: f64| {
+            (CONE_SIGMAS * (sigma / radius.max(1e-3)) as f32).clamp(LEAST_CONE, LARGEST_CONE)
+        };
+        let distance = towards.norm();
+        let half_azimuth = angle(detection.sigma_along(&aside), distance * across);
+        let half_elevation = angle(detection.sigma_along(&ray.cross(&aside)), distance);
+        let spread = detection.sigma_along(&ray).hypot(self.sigma_range).hypot(SAME_SPOT);
+        let rotation = self.window_from_lidar;
+        Some(Target {
+            position: position.coords,
+            range,
+            cone: Cone { azimuth, elevation, half_azimuth, half_elevation },
+            depth: RANGE_SIGMAS * spread as f32,
+            precision: (rotation.transpose() * probe.precision * rotation).cast(),
+            up: rotation.row(2).into_owned().cast(),
+            origin_height: (self.origin.z - probe.ground) as f32,
+        })
+    }
+}
+
+impl Target {
     /// 0 where a ray ends in the detection, 1 on the ground there, 2 beyond, 3 before.
-    fn ending(&self, target: &Target, place: usize) -> usize {
-        let past = self.table.ranges[place] - target.range;
-        if past >= target.depth {
+    fn ending(&self, ray: &TableRay) -> usize {
+        let past = ray.range - self.range;
+        if past >= self.depth {
             return 2;
         }
-        if past <= -target.depth {
+        if past <= -self.depth {
             return 3;
         }
-        let height = (self.up * Vector3::from(self.table.points[place])).x + self.height;
-        usize::from(height < target.ground)
+        let height = (self.up * Vector3::from(ray.point)).x + self.origin_height;
+        usize::from(height < GROUND_BAND)
     }
+}
 
+impl Cone {
     /// A Gaussian of the way from the cone's middle, whose borders lie at 2.5 sigmas; 0 outside.
-    fn weight(&self, cone: &Cone, place: usize) -> f32 {
-        let beside = (self.table.azimuths[place] - cone.azimuth).abs();
-        let beside = beside.min(std::f32::consts::TAU - beside) / cone.half_azimuth;
-        let above = (self.table.elevations[place] - cone.elevation).abs() / cone.half_elevation;
+    fn weight(&self, ray: &TableRay) -> f32 {
+        let beside = (ray.azimuth - self.azimuth).abs();
+        let beside = beside.min(std::f32::consts::TAU - beside) / self.half_azimuth;
+        let above = (ray.elevation - self.elevation).abs() / self.half_elevation;
         if beside > 1.0 || above > 1.0 {
             return 0.0;
         }
@@ -144,33 +179,5 @@ impl<'a> Sweep<'a> {
             weight *= weight;
         }
         weight
-    }
-
-    /// `None` where the detection lies in the LiDAR itself.
-    fn target(&self, probe: &Probe) -> Option<Target> {
-        let detection = probe.detection.moved(&self.lidar_from_window);
-        let p = detection.position.coords;
-        let (azimuth, elevation, range) = direction_of(p.x as f32, p.y as f32, p.z as f32);
-        let ray = p.try_normalize(1e-3)?;
-        let aside = Vector3::new(-p.y, p.x, 0.0).try_normalize(1e-9).unwrap_or_else(Vector3::y);
-        let upward = ray.cross(&aside);
-        let sigma = |direction: &Vector3<f64>| detection.sigma_along(direction);
-        let half = |direction: &Vector3<f64>, radius: f64| {
-            let angle = CONE_SIGMAS * (sigma(direction) / radius.max(1e-3)) as f32;
-            angle.clamp(LEAST_CONE, LARGEST_CONE)
-        };
-        let half_azimuth = half(&aside, p.xy().norm());
-        let half_elevation = half(&upward, p.norm());
-        let spread = sigma(&ray).hypot(self.sigma_range).hypot(SAME_SPOT);
-        let covariance =
-            detection.axes * detection.axes.transpose() + Matrix3::identity() * SAME_SPOT.powi(2);
-        Some(Target {
-            position: p.cast(),
-            range,
-            cone: Cone { azimuth, elevation, half_azimuth, half_elevation },
-            depth: RANGE_SIGMAS * spread as f32,
-            precision: covariance.try_inverse()?.cast(),
-            ground: probe.ground as f32 + GROUND_BAND,
-        })
     }
 }

@@ -27,14 +27,14 @@ pub(super) fn with_agreeing(frame: &Frame, config: &TrackingConfig) -> Vec<Vec<f
                 let agrees = mover.agrees_with(seen.rates[id as usize], config.doppler_tolerance);
                 agrees.then(|| expected.position - cloud.points[id as usize].position)
             };
-            let reach = cloud.reach(&expected, config.max_mismatch);
+            let reach = cloud.reach(&expected, config.absence);
             let found = association.nearest_by(&expected.position, reach, offset).len();
             // Beyond the reach every mismatch is above the cap: it counts only in the mean with one that isn't.
             if (1..config.neighbours).contains(&found) {
                 association.nearest_by(&expected.position, f64::INFINITY, offset);
             }
             let d = association.mean_over_found(|id| association.mismatch(&expected, &cloud.reference(id)));
-            of_steps.push(d.map_or(config.max_mismatch, |d| d.min(config.max_mismatch)));
+            of_steps.push(d.map_or(config.absence, |d| d.min(config.absence)));
         }
     }
     mismatches

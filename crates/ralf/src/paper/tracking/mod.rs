@@ -12,11 +12,9 @@ use moved_cloud::MovedCloud;
 /// is off or there is no such scan, and for detections without a position. With `tracking.doppler` also for those that
 /// none of these scans could have seen.
 pub fn match_detections(frame: &Frame, config: &TrackingConfig) -> Vec<Option<f64>> {
-    let (mut mismatches, share) = match config.doppler {
-        false => (with_nearest(frame, config), 1.0),
-        true => (consistent::with_agreeing(frame, config), config.quorum),
-    };
-    mismatches.iter_mut().map(|of_steps| sorted_mean(of_steps, share)).collect()
+    let mut mismatches =
+        if config.doppler { consistent::with_agreeing(frame, config) } else { with_nearest(frame, config) };
+    mismatches.iter_mut().map(|of_steps| sorted_mean(of_steps)).collect()
 }
 
 /// The mismatch of each detection with the nearest ones of each neighbouring scan: the paper's.
@@ -41,13 +39,11 @@ fn with_nearest(frame: &Frame, config: &TrackingConfig) -> Vec<Vec<f64>> {
     mismatches
 }
 
-/// `sum c_k d_(k) / sum c_k` over the ascending `d_(k)`, with `c_k = n - k + 1`, where `n` is this share of their
-/// number, rounded up: all of them in the paper. `None` where there are none.
-fn sorted_mean(mismatches: &mut [f64], share: f64) -> Option<f64> {
+/// `sum c_k d_(k) / sum c_k` over the ascending `d_(k)`, with `c_k = n - k + 1`. `None` where there are none.
+fn sorted_mean(mismatches: &mut [f64]) -> Option<f64> {
     mismatches.sort_by(f64::total_cmp);
-    let n = (mismatches.len() as f64 * share).ceil() as usize;
-    let smallest = &mismatches[..n.min(mismatches.len())];
-    let weighted: f64 = smallest.iter().enumerate().map(|(k, d)| (n - k) as f64 * d).sum();
+    let n = mismatches.len();
+    let weighted: f64 = mismatches.iter().enumerate().map(|(k, d)| (n - k) as f64 * d).sum();
     (n > 0).then(|| weighted / (n * (n + 1) / 2) as f64)
 }
 
@@ -58,17 +54,8 @@ mod tests {
     #[test]
     fn small_mismatches_count_most() {
         // (3 * 1 + 2 * 2 + 1 * 6) / 6
-        assert_eq!(sorted_mean(&mut [6.0, 1.0, 2.0], 1.0), Some(13.0 / 6.0));
-        assert_eq!(sorted_mean(&mut [4.0], 1.0), Some(4.0));
-        assert_eq!(sorted_mean(&mut [], 1.0), None);
-    }
-
-    #[test]
-    fn a_share_of_the_smallest_is_enough() {
-        // A third of 7, rounded up, is 3: (3 * 1 + 2 * 2 + 1 * 6) / 6.
-        let mut mismatches = [20.0, 6.0, 20.0, 1.0, 2.0, 20.0, 20.0];
-        assert_eq!(sorted_mean(&mut mismatches, 1.0 / 3.0), Some(13.0 / 6.0));
-        assert_eq!(sorted_mean(&mut [7.0, 3.0], 0.01), Some(3.0), "one at least");
-        assert_eq!(sorted_mean(&mut [], 0.5), None);
+        assert_eq!(sorted_mean(&mut [6.0, 1.0, 2.0]), Some(13.0 / 6.0));
+        assert_eq!(sorted_mean(&mut [4.0]), Some(4.0));
+        assert_eq!(sorted_mean(&mut []), None);
     }
 }

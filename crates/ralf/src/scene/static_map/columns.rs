@@ -1,50 +1,60 @@
 //! What stands above each place.
 
-use super::REACH;
+use super::super::standing::VOXEL;
+use super::{LOWEST, REACH};
 
 /// Edge of a column, m.
 const CELL: f32 = 0.25;
 /// Columns along an edge.
 const CELLS: usize = (2.0 * REACH / CELL) as usize;
+/// Words of a row of bits.
+const WORDS: usize = CELLS.div_ceil(64);
 
 /// What fills a column.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Column {
-    /// Height of the lowest voxel's point above the ground, m.
-    pub bottom: f32,
-    /// Height of the highest voxel's point above the ground, m.
-    pub top: f32,
-    /// How many voxels are filled; 0 in an empty column.
-    pub voxels: u16,
+    /// Height of the lowest filled voxel's middle above the ground, m.
+    pub bottom: f64,
+    /// Height of the highest filled voxel's middle above the ground, m.
+    pub top: f64,
+    /// How many voxels are filled.
+    pub voxels: u32,
 }
 
 /// Columns of 0.25 m over the horizontal plane of a frame.
 #[derive(Debug)]
 pub struct ColumnGrid {
-    columns: Vec<Column>,
+    /// A bit for each voxel above a place, row by row.
+    voxels: Vec<u64>,
+    /// A bit for each column that has any.
+    filled: Vec<u64>,
 }
 
 impl ColumnGrid {
     /// Edge of a column, m.
     pub const CELL: f64 = CELL as f64;
-    const EMPTY: Column = Column { bottom: f32::INFINITY, top: f32::NEG_INFINITY, voxels: 0 };
 
     pub(super) fn empty() -> Self {
-        Self { columns: vec![Self::EMPTY; CELLS * CELLS] }
+        Self { voxels: vec![0; CELLS * CELLS], filled: vec![0; CELLS * WORDS] }
     }
 
-    /// Fills a voxel at a height above the ground, m.
-    pub(super) fn add(&mut self, cell: usize, height: f32) {
-        let column = &mut self.columns[cell];
-        column.bottom = column.bottom.min(height);
-        column.top = column.top.max(height);
-        column.voxels = column.voxels.saturating_add(1);
+    /// Fills the voxel of a column at a level.
+    pub(super) fn add(&mut self, cell: usize, level: u32) {
+        self.voxels[cell] |= 1 << level;
+        self.filled[cell / CELLS * WORDS + cell % CELLS / 64] |= 1 << (cell % 64);
+    }
+
+    /// Empties a column.
+    pub(super) fn clear(&mut self, cell: usize) {
+        self.voxels[cell] = 0;
+        self.filled[cell / CELLS * WORDS + cell % CELLS / 64] &= !(1 << (cell % 64));
     }
 
     /// What stands at a place; `None` beyond the map, and where nothing stands.
-    pub fn at(&self, x: f64, y: f64) -> Option<&Column> {
-        let column = &self.columns[cell_of(x as f32, y as f32)?];
-        (column.voxels > 0).then_some(column)
+    pub fn at(&self, x: f64, y: f64) -> Option<Column> {
+        let cell = cell_of(x as f32, y as f32)?;
+        let filled = self.filled[cell / CELLS * WORDS + cell % CELLS / 64] >> (cell % 64) & 1;
+        (filled != 0).then(|| column(self.voxels[cell]))
     }
 
     /// Whether the map reaches to a place.
@@ -52,19 +62,63 @@ impl ColumnGrid {
         cell_of(x as f32, y as f32).is_some()
     }
 
-    /// The filled columns with their middle less than a distance from a place, m, along each axis, with the way there.
-    pub fn around(&self, x: f64, y: f64, distance: f64) -> impl Iterator<Item = ([f64; 2], &Column)> {
-        let span = |v: f64| {
-            let place = |v: f64| ((v + f64::from(REACH)) / Self::CELL - 0.5).clamp(0.0, CELLS as f64);
-            place(v - distance).ceil() as usize..place(v + distance).ceil() as usize
-        };
-        let columns = span(x);
-        span(y).flat_map(move |row| {
-            let filled = self.columns[row * CELLS..][columns.clone()].iter();
-            let filled = filled.enumerate().filter(|(_, column)| column.voxels > 0);
-            let first = columns.start;
-            filled.map(move |(place, column)| ([middle(first + place) - x, middle(row) - y], column))
+    /// The filled columns whose middle is at most a distance from a place along each axis, m, with the way there.
+    pub fn around(&self, x: f64, y: f64, distance: f64) -> impl Iterator<Item = ([f64; 2], Column)> {
+        let [columns, rows] = [x, y].map(|v| {
+            let place = |v: f64| ((v + f64::from(REACH)) / Self::CELL - 0.5).clamp(-1.0, CELLS as f64);
+            let end = (place(v + distance).floor() + 1.0).min(CELLS as f64);
+            place(v - distance).ceil().max(0.0) as usize..end.max(0.0) as usize
+        });
+        rows.flat_map(move |row| {
+            let filled = Bits::of(&self.filled[row * WORDS..][..WORDS], columns.start, columns.end);
+            filled.map(move |place| {
+                ([middle(place) - x, middle(row) - y], column(self.voxels[row * CELLS + place]))
+            })
         })
+    }
+}
+
+/// The places of the bits that are set from a first to before an end.
+struct Bits<'a> {
+    words: &'a [u64],
+    /// What is left of the word at hand.
+    left: u64,
+    word: usize,
+    end: usize,
+}
+
+impl<'a> Bits<'a> {
+    fn of(words: &'a [u64], begin: usize, end: usize) -> Self {
+        let word = (begin / 64).min(words.len() - 1);
+        let left = if begin < end { words[word] & (u64::MAX << (begin % 64)) } else { 0 };
+        Self { words, left, word, end: if begin < end { end } else { 0 } }
+    }
+}
+
+impl Iterator for Bits<'_> {
+    type Item = usize;
+
+    fn next(&mut self) -> Option<usize> {
+        while self.left == 0 {
+            self.word += 1;
+            if self.word * 64 >= self.end {
+                return None;
+            }
+            self.left = self.words[self.word];
+        }
+        let place = self.word * 64 + self.left.trailing_zeros() as usize;
+        self.left &= self.left - 1;
+        (place < self.end).then_some(place)
+    }
+}
+
+/// What bits of voxels say; at least one is set.
+fn column(voxels: u64) -> Column {
+    let height = |level: u32| f64::from(LOWEST + (level as f32 + 0.5) * VOXEL);
+    Column {
+        bottom: height(voxels.trailing_zeros()),
+        top: height(63 - voxels.leading_zeros()),
+        voxels: voxels.count_ones(),
     }
 }
 
@@ -79,3 +133,6 @@ pub(super) fn cell_of(x: f32, y: f32) -> Option<usize> {
     let inside = |v: f32| (0.0..CELLS as f32).contains(&v);
     (inside(column) && inside(row)).then(|| row as usize * CELLS + column as usize)
 }
+
+/// How many columns there are.
+pub(super) const COLUMNS: usize = CELLS * CELLS;

@@ -16,6 +16,8 @@ use nalgebra::{Isometry3, Point3};
 const VOXELS: usize = (2.0 * REACH / VOXEL) as usize;
 /// The map reaches so far from the frame's origin in x and in y, m.
 pub(super) const REACH: f32 = 80.0;
+/// Points of all scans together from which every second scan is enough, every third from twice as many, and so on.
+const ENOUGH: usize = 120_000;
 /// Of what stands so high above the ground, m, the map is made.
 const LOWEST: f32 = 0.2;
 const HIGHEST: f32 = LOWEST + 40.0 * VOXEL;
@@ -34,25 +36,24 @@ pub struct StaticMap {
 impl StaticMap {
     /// The map of LiDAR scans, each with the way to the map's frame, above a ground; without one above z = 0.
     pub fn new(views: &[LidarView], ground: Option<&GroundSurface>) -> Self {
+        let standing: usize = views.iter().map(|view| view.moment.standing_points().len()).sum();
         let mut voxels = Voxels::new();
-        for view in views {
+        // What stands still needs not be seen in every scan.
+        for view in views.iter().step_by(standing.div_ceil(ENOUGH).max(1)) {
             let map_from_moment: Isometry3<f32> = view.vehicle_from_moment.cast();
             for point in view.moment.standing_points() {
                 let point: [f32; 3] = (map_from_moment * Point3::from(*point)).into();
-                let [x, y, z] = point;
-                let below = ground.and_then(|ground| ground.cell_height(x, y)).unwrap_or(0.0);
-                voxels.add(point, z - below);
+                let below = ground.and_then(|ground| ground.cell_height(point[0], point[1])).unwrap_or(0.0);
+                voxels.add(point, point[2] - below);
             }
         }
-        let moved = movers::moved_columns(&voxels, views);
-        let (mut points, mut columns) = (Vec::with_capacity(voxels.points.len()), ColumnGrid::empty());
-        for (point, height) in voxels.points.into_iter().zip(voxels.heights) {
-            let Some(cell) = columns::cell_of(point[0], point[1]) else { continue };
-            if !moved.contains(&(cell as u32)) {
-                points.push(point);
-                columns.add(cell, height);
-            }
+        let Voxels { mut points, cells, mut columns, .. } = voxels;
+        let moved = movers::moved_columns(&points, &cells, views);
+        for cell in &moved {
+            columns.clear(*cell as usize);
         }
+        let mut cells = cells.iter();
+        points.retain(|_| cells.next().is_none_or(|cell| moved.binary_search(cell).is_err()));
         let ids: Vec<u32> = (0..points.len() as u32).collect();
         Self { index: NeighborIndex::new(&points, &ids), points, columns }
     }
@@ -63,13 +64,15 @@ struct Voxels {
     /// A bit for each voxel above a place.
     filled: Vec<u64>,
     points: Vec<[f32; 3]>,
-    /// Above the ground, m.
-    heights: Vec<f32>,
+    /// The column of each point.
+    cells: Vec<u32>,
+    columns: ColumnGrid,
 }
 
 impl Voxels {
     fn new() -> Self {
-        Self { filled: vec![0; VOXELS * VOXELS], points: Vec::new(), heights: Vec::new() }
+        let filled = vec![0; VOXELS * VOXELS];
+        Self { filled, points: Vec::new(), cells: Vec::new(), columns: ColumnGrid::empty() }
     }
 
     fn add(&mut self, point: [f32; 3], height: f32) {
@@ -79,11 +82,15 @@ impl Voxels {
             return;
         }
         let filled = &mut self.filled[row as usize * VOXELS + column as usize];
-        let bit = 1 << ((height - LOWEST) / VOXEL) as u32;
-        if *filled & bit == 0 {
-            *filled |= bit;
+        let level = ((height - LOWEST) / VOXEL) as u32;
+        if *filled & (1 << level) != 0 {
+            return;
+        }
+        *filled |= 1 << level;
+        if let Some(cell) = columns::cell_of(point[0], point[1]) {
             self.points.push(point);
-            self.heights.push(height);
+            self.cells.push(cell as u32);
+            self.columns.add(cell, level);
         }
     }
 }

@@ -2,9 +2,9 @@
 
 use super::super::lidar::LidarView;
 use super::super::rays::{RayTable, direction_of};
-use super::{Voxels, columns};
+use super::columns;
 use nalgebra::{Isometry3, Point3};
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 
 /// Scans that are asked whether they look through a column: spread over the window.
 const WITNESSES: usize = 6;
@@ -14,28 +14,35 @@ const AGREEING: usize = 2;
 const BEYOND: f32 = 0.5;
 const BEYOND_SHARE: f32 = 0.02;
 
-/// The columns whose lowest point at least two scans of the window look through, or the only other one.
-pub(super) fn moved_columns(voxels: &Voxels, views: &[LidarView]) -> BTreeSet<u32> {
+/// The columns whose lowest point at least two scans of the window look through, or the only other one; ascending.
+/// `cells` gives each point's column.
+pub(super) fn moved_columns(points: &[[f32; 3]], cells: &[u32], views: &[LidarView]) -> Vec<u32> {
     let witnesses = witnesses(views);
     let enough = AGREEING.min(views.len().saturating_sub(1)).max(1);
-    let mut moved = BTreeSet::new();
-    for (column, point) in lowest_points(voxels) {
+    let mut moved = Vec::new();
+    for (cell, point) in lowest_points(points, cells) {
         let through = witnesses.iter().filter(|witness| witness.looks_through(&point)).count();
         if through >= enough {
-            moved.insert(column);
+            moved.push(cell);
         }
     }
+    moved.sort_unstable();
     moved
 }
 
 /// The lowest point of each column.
-fn lowest_points(voxels: &Voxels) -> BTreeMap<u32, Point3<f32>> {
-    let mut lowest: BTreeMap<u32, Point3<f32>> = BTreeMap::new();
-    for &[x, y, z] in &voxels.points {
-        let Some(column) = columns::cell_of(x, y) else { continue };
-        let point = lowest.entry(column as u32).or_insert(Point3::new(x, y, z));
-        if z < point.z {
-            *point = Point3::new(x, y, z);
+fn lowest_points(points: &[[f32; 3]], cells: &[u32]) -> Vec<(u32, Point3<f32>)> {
+    let mut places = vec![0u32; columns::COLUMNS];
+    let mut lowest: Vec<(u32, Point3<f32>)> = Vec::new();
+    for (point, &cell) in points.iter().zip(cells) {
+        let place = &mut places[cell as usize];
+        if *place == 0 {
+            lowest.push((cell, Point3::from(*point)));
+            *place = lowest.len() as u32;
+        }
+        let known = &mut lowest[*place as usize - 1].1;
+        if point[2] < known.z {
+            *known = Point3::from(*point);
         }
     }
     lowest
@@ -69,7 +76,7 @@ impl Witness<'_> {
             let (azimuth, elevation, range) = direction_of(p.x, p.y, p.z);
             let there = rays.bin(azimuth, elevation);
             let far = range * (1.0 + BEYOND_SHARE) + BEYOND;
-            !there.is_empty() && rays.ranges[there].iter().all(|end| *end > far)
+            !there.is_empty() && there.iter().all(|ray| ray.range > far)
         })
     }
 }

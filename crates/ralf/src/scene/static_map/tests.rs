@@ -54,8 +54,7 @@ fn what_stands_still_is_kept_and_what_moved_is_not() {
         [15.0, 0.0, 0.0],
         [20.0, 0.0, 0.0],
     ]);
-    let column =
-        |views: &[LidarView], x: f64| StaticMap::new(views, ground.as_ref()).columns.at(x, 0.1).copied();
+    let column = |views: &[LidarView], x: f64| StaticMap::new(views, ground.as_ref()).columns.at(x, 0.1);
     let wall = column(&passing, 20.1).unwrap();
     // To a voxel; the box hides the wall's foot in every scan.
     assert!((wall.top - 2.95).abs() < 0.15 && wall.bottom < 0.7 && wall.voxels >= 12, "{wall:?}");
@@ -94,7 +93,7 @@ fn columns_around_a_place_are_all_that_are_near() {
     let places: Vec<[f32; 2]> =
         (0..200).map(|i| [((i * 37) % 83) as f32 * 0.3 - 80.0, ((i * 53) % 97) as f32 * 0.2 - 5.0]).collect();
     for [x, y] in &places {
-        grid.add(columns::cell_of(*x, *y).unwrap(), 1.0);
+        grid.add(columns::cell_of(*x, *y).unwrap(), 5);
     }
     let filled = grid.around(0.0, 0.0, 200.0).count();
     assert!(filled > 100);

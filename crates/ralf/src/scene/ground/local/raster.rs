@@ -17,7 +17,7 @@ impl Raster {
     /// them; the others as they are.
     pub(super) fn clipped_to_median(&self, known: &[usize], radius: usize, slack: f32) -> Self {
         let mut clipped = self.clone();
-        let mut around = Vec::new();
+        let mut around: Vec<f32> = Vec::new();
         for &cell in known {
             let (row, column) = (cell / self.size, cell % self.size);
             around.clear();
@@ -26,9 +26,14 @@ impl Raster {
                 let end = row * self.size + (column + radius).min(self.size - 1);
                 around.extend(self.values[begin..=end].iter().filter(|value| value.is_finite()));
             }
+            let value = self.values[cell];
+            // No median of values that are all near is far.
+            if around.iter().all(|other| (other - value).abs() <= slack) {
+                continue;
+            }
             let middle = around.len() / 2;
             let median = *around.select_nth_unstable_by(middle, f32::total_cmp).1;
-            clipped.values[cell] = self.values[cell].clamp(median - slack, median + slack);
+            clipped.values[cell] = value.clamp(median - slack, median + slack);
         }
         clipped
     }

@@ -1,0 +1,83 @@
+//! What a radar saw again and again beside a LiDAR's scans, and how likely it lies on the LiDAR's points.
+
+use super::super::case::Case;
+use super::contrast::Contrast;
+use crate::change::SensorChange;
+use crate::overlap::Setup;
+use crate::sample::{LidarLook, RadarLook};
+use ralf::space::{EgoMotion, Point, Transform};
+
+/// A radar's scan belongs to a LiDAR's within this, ns.
+const TOGETHER_NS: u64 = 80_000_000;
+/// Detections nearer are the vehicle itself, farther ones are smeared by their azimuth, m.
+const RANGES: std::ops::Range<f64> = 1.0..40.0;
+/// A detection is seen again in the scan before or after within this, m, and this share of its range: the noise of both.
+const AGAIN: (f64, f64) = (0.2, 0.015);
+
+/// A radar's scan, with the detections that were seen again.
+struct Seen {
+    t_ns: i64,
+    positions: Vec<Point>,
+}
+
+/// Scans of a radar beside each scan of the LiDARs.
+pub(super) struct Beside<'a> {
+    moments: Vec<Moment<'a>>,
+}
+
+/// A LiDAR's scan, and the radar's about its time.
+struct Moment<'a> {
+    lidar: &'a LidarLook,
+    contrast: &'a Contrast,
+    seen: Vec<Seen>,
+}
+
+impl<'a> Beside<'a> {
+    pub(super) fn of(case: &'a Case, contrasts: &'a [Contrast], radar: usize) -> Self {
+        let (looks, mount) = (&case.sample.radars[radar], case.mount(radar));
+        let mut moments = Vec::new();
+        for (lidar, contrast) in case.lidars.iter().zip(contrasts) {
+            let together = |i: &usize| looks[*i].t_ns.abs_diff(lidar.t_ns) <= TOGETHER_NS;
+            let seen = (0..looks.len())
+                .filter(together)
+                .map(|i| Seen { t_ns: looks[i].t_ns, positions: seen_again(looks, i, &case.motion, &mount) });
+            moments.push(Moment { lidar, contrast, seen: seen.collect() });
+        }
+        Self { moments }
+    }
+
+    /// By moment: how many detections lie on things where a change puts them, beyond those that any place has.
+    pub(super) fn on_things(&self, setup: &Setup, radar: usize, change: &SensorChange) -> Vec<f64> {
+        let mut found = Vec::with_capacity(self.moments.len());
+        for Moment { lidar, contrast, seen } in &self.moments {
+            let mut sum = 0.0;
+            for scan in seen {
+                let place = setup.lidar_from_radar(radar, lidar, scan.t_ns, change);
+                for position in &scan.positions {
+                    let p = place * change.place(position);
+                    sum += contrast.at(p.x, p.y);
+                }
+            }
+            found.push(sum);
+        }
+        found
+    }
+}
+
+/// Detections of a scan that the scan before or after has as well: clutter comes and goes.
+fn seen_again(looks: &[RadarLook], own: usize, motion: &EgoMotion, mount: &Transform) -> Vec<Point> {
+    let look = &looks[own];
+    let mut others: Vec<Point> = Vec::new();
+    for other in looks[own.saturating_sub(1)..(own + 2).min(looks.len())].iter() {
+        if other.scan.abs_diff(look.scan) == 1 {
+            let place = mount.inverse() * motion.between(look.t_ns, other.t_ns) * mount;
+            others.extend(other.positions.iter().map(|position| place * position));
+        }
+    }
+    let again = |position: &&Point| {
+        let range = position.coords.norm();
+        let reach = AGAIN.0 + AGAIN.1 * range;
+        RANGES.contains(&range) && others.iter().any(|other| (other - *position).xy().norm() < reach)
+    };
+    look.positions.iter().filter(again).copied().collect()
+}

@@ -1,0 +1,92 @@
+//! What a correction rests on: how likely the measurements are under it.
+
+use super::super::case::Case;
+use super::beside::Beside;
+use super::contrast::Contrast;
+use super::quantity::{Values, values, with_values};
+use crate::change::SensorChange;
+use crate::doppler::predicted;
+use nalgebra::Matrix2;
+use ralf::space::Transform;
+
+/// What a detection that lies on something counts, as a logarithm of likelihood: there are five times as many as beside
+/// it, but those of a moment lie on the same walls, and a fifth of them count as independent.
+const LIDAR_WEIGHT: f64 = 0.3;
+/// A scan's velocity is right within this, m/s, whatever its noise, and within this share of the speed: yaw rates and
+/// wheels are, and azimuths are off by half a degree.
+const VELOCITY_SIGMA: (f64, f64) = (0.02, 0.01);
+/// What a single scan's velocity can cost.
+const VELOCITY_CAP: f64 = 4.0;
+/// Stretches of time, whose measurements have little to do with each other.
+pub(super) const STRETCHES: usize = 8;
+
+/// Range rates of a radar, and its detections beside the LiDAR's points.
+pub(super) struct Evidence<'a> {
+    case: &'a Case<'a>,
+    radar: usize,
+    beside: Beside<'a>,
+    /// What the quantities are added to: a mirror, a roll.
+    base: SensorChange,
+    /// Of the speed by range rates to the recorded one: wheels are known to half a percent, which is no matter of
+    /// mounting or time.
+    ratio: f64,
+}
+
+impl<'a> Evidence<'a> {
+    pub(super) fn of(case: &'a Case<'a>, contrasts: &'a [Contrast], radar: usize) -> Self {
+        let figures = case.doppler(radar, &case.motion, &case.mount(radar));
+        let ratio = figures.map_or(1.0, |figures| figures.ratio.value);
+        Self {
+            case,
+            radar,
+            beside: Beside::of(case, contrasts, radar),
+            base: case.radar_changes[radar],
+            ratio,
+        }
+    }
+
+    /// What was found before.
+    pub(super) fn start(&self) -> Values {
+        values(&self.base)
+    }
+
+    /// The change that these values are.
+    pub(super) fn change(&self, values: &Values) -> SensorChange {
+        with_values(&self.base, values)
+    }
+
+    /// The logarithm of the likelihood of everything, small corrections being likelier than large ones; but for a
+    /// constant.
+    pub(super) fn posterior(&self, values: &Values) -> f64 {
+        self.likelihoods(values).iter().sum::<f64>() - values.norm_squared() / 2.0
+    }
+
+    /// The logarithm of the likelihood of each stretch of time, but for a constant.
+    pub(super) fn likelihoods(&self, values: &Values) -> [f64; STRETCHES] {
+        let Self { case, radar, .. } = *self;
+        let change = self.change(values);
+        let mut found = [0.0; STRETCHES];
+        let moments = self.beside.on_things(&case.setup(), radar, &change);
+        let count = moments.len().max(1);
+        for (i, beside) in moments.into_iter().enumerate() {
+            found[i * STRETCHES / count] += LIDAR_WEIGHT * beside;
+        }
+        let mount = change.mount(&case.sequence.rig.radars[radar].vehicle_from_radar);
+        let scans = case.fits[radar].len().max(1);
+        for i in 0..case.fits[radar].len() {
+            found[i * STRETCHES / scans] -= self.misfit(i, &change, &mount);
+        }
+        found
+    }
+
+    /// What a scan's velocity costs.
+    fn misfit(&self, scan: usize, change: &SensorChange, mount: &Transform) -> f64 {
+        let timed = &self.case.fits[self.radar][scan];
+        let told = predicted(&self.case.motion, mount, change.time(timed.t_ns));
+        let off = timed.fit.velocity / self.ratio - told;
+        let at_least = VELOCITY_SIGMA.0.powi(2) + (VELOCITY_SIGMA.1 * told.norm()).powi(2);
+        let covariance = timed.fit.covariance + Matrix2::identity() * at_least;
+        let squared = covariance.try_inverse().map_or(0.0, |inverse| (off.transpose() * inverse * off)[0]);
+        (squared / 2.0).min(VELOCITY_CAP)
+    }
+}

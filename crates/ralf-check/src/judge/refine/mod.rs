@@ -1,0 +1,98 @@
+//! Corrections made exact: yaw, place in plan and clock of each radar, jointly from range rates and the LiDAR, with
+//! standard deviations.
+//!
+//! What is maximised is a log-likelihood: detections lie beside LiDAR points, velocities are those of the vehicle,
+//! and small corrections are likelier than large ones.
+
+mod beside;
+mod contrast;
+mod evidence;
+mod quantity;
+mod search;
+
+use super::case::Case;
+use crate::change::SensorChange;
+use crate::doppler::clock;
+use crate::overlap::Measure;
+use contrast::Contrast;
+use evidence::Evidence;
+use quantity::{QUANTITIES, Values};
+use search::{Open, deviations, likeliest};
+use serde::Serialize;
+
+/// A correction is proposed when it is so many of the standard deviations that chance gives.
+const SIGMAS: f64 = 3.0;
+
+/// The correction of one sensor.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Refinement {
+    /// The sensor's name.
+    pub name: String,
+    /// What is likeliest to be added.
+    pub change: SensorChange,
+    /// Standard deviations of yaw (degrees), of the place forward and to the left (m) and of the clock (ms), each with
+    /// the others unknown, and what more measurements would not take away. NaN of a sensor whose change was found and not refined.
+    pub deviations: [f64; 4],
+    /// What is proposed: quantities that are three standard deviations of chance and more than labels notice, and the
+    /// likeliest of these with all others left alone.
+    pub proposed: SensorChange,
+}
+
+/// The corrections of all radars that can be refined; a LiDAR's and an unrefined one's are those that were found.
+pub(super) fn refine(case: &Case) -> Vec<Refinement> {
+    let rig = &case.sequence.rig;
+    let found =
+        rig.lidars.iter().zip(&case.lidar_changes).filter(|(_, change)| **change != SensorChange::default());
+    let found = found.map(|(lidar, change)| Refinement {
+        name: lidar.name.clone(),
+        change: *change,
+        deviations: [f64::NAN; 4],
+        proposed: *change,
+    });
+    let contrasts: Vec<Contrast> = case.lidars.iter().map(|look| Contrast::of(&look.field)).collect();
+    let radars = case.radars().map(|radar| of_radar(case, &contrasts, radar));
+    found.chain(radars).collect()
+}
+
+fn of_radar(case: &Case, contrasts: &[Contrast], radar: usize) -> Refinement {
+    let evidence = Evidence::of(case, contrasts, radar);
+    let open = judgeable(case, radar);
+    let values = likeliest(&evidence, &evidence.start(), open);
+    let deviations = deviations(&evidence, &values, open);
+    Refinement {
+        name: case.name(radar).to_owned(),
+        change: evidence.change(&values),
+        deviations: std::array::from_fn(|i| {
+            (deviations[i] * QUANTITIES[i].prior).hypot(QUANTITIES[i].systematic)
+        }),
+        proposed: evidence.change(&proposed(&evidence, values, &deviations, open)),
+    }
+}
+
+/// Quantities that say nothing are left alone, the least telling one first; what goes together with them is sought
+/// again without.
+fn proposed(evidence: &Evidence, likeliest_of_all: Values, deviations: &Values, mut open: Open) -> Values {
+    let mut values = likeliest_of_all;
+    loop {
+        let in_sigmas = |i: &usize| values[*i].abs() / deviations[*i];
+        let is_idle = |i: &usize| {
+            in_sigmas(i) < SIGMAS || values[*i].abs() * QUANTITIES[*i].prior < QUANTITIES[*i].smallest
+        };
+        let idle = (0..4).filter(|i| open[*i]).filter(is_idle);
+        let Some(least) = idle.min_by(|a, b| in_sigmas(a).total_cmp(&in_sigmas(b))) else {
+            return Values::from_fn(|i, _| if open[i] { values[i] } else { 0.0 });
+        };
+        open[least] = false;
+        values = likeliest(evidence, &values, open);
+    }
+}
+
+/// Which quantities can be judged: a yaw by range rates or the LiDAR, a place by the LiDAR alone, a clock by the
+/// LiDAR or by speeds that change.
+fn judgeable(case: &Case, radar: usize) -> Open {
+    let by_lidar = case.overlap(radar, &SensorChange::default(), Measure::Beside).is_enough();
+    let mount = case.mount(radar);
+    let figures = case.doppler(radar, &case.motion, &mount);
+    let timed = figures.and_then(|figures| clock(&case.fits[radar], &case.motion, &mount, &figures));
+    [by_lidar || figures.is_some(), by_lidar, by_lidar, by_lidar || timed.is_some_and(|clock| clock.is_sharp)]
+}

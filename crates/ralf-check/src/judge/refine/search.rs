@@ -1,0 +1,124 @@
+//! The likeliest values, and how well they are known.
+//!
+//! Quantities go together: a clock that is late and a place farther back put detections at the same places as long as
+//! the speed is the same. So after each quantity for itself the search follows the axes of the likelihood's own bend,
+//! and the standard deviations are those of all quantities together.
+
+use super::evidence::{Evidence, STRETCHES};
+use super::quantity::{QUANTITIES, Values};
+use nalgebra::{Matrix4, SymmetricEigen};
+
+/// Rounds over each quantity for itself, and over the axes of the bend.
+const ROUNDS: usize = 3;
+/// Differences are taken over so much of each quantity: degrees, m, ms. Less is lost in the steps of the LiDAR's grid.
+const REACH: [f64; 4] = [0.5, 0.08, 0.08, 20.0];
+/// Along an axis of the bend a search ends at this part of a standard deviation.
+const FINEST: f64 = 0.05;
+
+/// Which quantities may be changed; the others stay at nothing.
+pub(super) type Open = [bool; 4];
+
+/// The likeliest values near a start.
+pub(super) fn likeliest(evidence: &Evidence, start: &Values, open: Open) -> Values {
+    let mut best = Values::from_fn(|i, _| if open[i] { start[i] } else { 0.0 });
+    for _ in 0..ROUNDS {
+        for (i, quantity) in QUANTITIES.iter().enumerate().filter(|(i, _)| open[*i]) {
+            let mut axis = Values::zeros();
+            axis[i] = 1.0 / quantity.prior;
+            best = along(evidence, best, &axis, quantity.steps);
+        }
+        let Bend { axes, variances } = Bend::at(evidence, &best, open);
+        for (axis, variance) in
+            axes.column_iter().zip(variances.iter()).filter(|(_, variance)| **variance > 0.0)
+        {
+            let deviation = variance.sqrt();
+            best = along(evidence, best, &(axis * deviation), [1.0, FINEST]);
+        }
+    }
+    best
+}
+
+/// The best along a direction: in steps that are halved from the first to the last.
+fn along(evidence: &Evidence, start: Values, direction: &Values, [first, last]: [f64; 2]) -> Values {
+    let (mut best, mut highest, mut step) = (start, evidence.posterior(&start), first);
+    while step >= last {
+        let mut moved = false;
+        for side in [-step, step] {
+            let values = best + direction * side;
+            let score = evidence.posterior(&values);
+            if score > highest {
+                (best, highest, moved) = (values, score, true);
+                break;
+            }
+        }
+        if !moved {
+            step /= 2.0;
+        }
+    }
+    best
+}
+
+/// How the posterior falls off about its maximum, as independent axes.
+struct Bend {
+    /// Unit vectors, as columns.
+    axes: Matrix4<f64>,
+    /// Along each; 0 along quantities that aren't open. Never more than before anything was measured.
+    variances: Values,
+}
+
+impl Bend {
+    fn at(evidence: &Evidence, values: &Values, open: Open) -> Self {
+        let mut precision = Matrix4::identity();
+        for i in (0..4).filter(|i| open[*i]) {
+            for j in (0..=i).filter(|j| open[*j]) {
+                let corner = |a: f64, b: f64| evidence.posterior(&(values + reach(i) * a + reach(j) * b));
+                let mixed = corner(1.0, 1.0) - corner(1.0, -1.0) - corner(-1.0, 1.0) + corner(-1.0, -1.0);
+                precision[(i, j)] = -mixed / (4.0 * reach(i)[i] * reach(j)[j]);
+                precision[(j, i)] = precision[(i, j)];
+            }
+        }
+        let SymmetricEigen { eigenvalues, eigenvectors } = SymmetricEigen::new(precision);
+        let is_open = |axis: usize| (0..4).any(|i| open[i] && eigenvectors[(i, axis)].abs() > 1e-9);
+        let variances = Values::from_fn(|i, _| if is_open(i) { 1.0 / eigenvalues[i].max(1.0) } else { 0.0 });
+        Self { axes: eigenvectors, variances }
+    }
+
+    fn covariance(&self) -> Matrix4<f64> {
+        self.axes * Matrix4::from_diagonal(&self.variances) * self.axes.transpose()
+    }
+}
+
+/// A step of one quantity.
+fn reach(quantity: usize) -> Values {
+    let mut step = Values::zeros();
+    step[quantity] = REACH[quantity] / QUANTITIES[quantity].prior;
+    step
+}
+
+/// Standard deviations of values that are the likeliest: from how the likelihood falls off about them, which knows
+/// what goes together, and from how much stretches of time disagree (the sandwich of White, *Econometrica* 50, 1982),
+/// which knows what the model doesn't. Of what isn't open, those before anything was measured.
+pub(super) fn deviations(evidence: &Evidence, values: &Values, open: Open) -> Values {
+    let covariance = Bend::at(evidence, values, open).covariance();
+    let mut disagreement = Matrix4::zeros();
+    for slope in slopes(evidence, values, open) {
+        disagreement += slope * slope.transpose();
+    }
+    let sandwich = covariance * disagreement * covariance;
+    Values::from_fn(
+        |i, _| if open[i] { (covariance[(i, i)] + sandwich[(i, i)]).sqrt().min(1.0) } else { 1.0 },
+    )
+}
+
+/// How each stretch of time would have the values changed, beside what all would.
+fn slopes(evidence: &Evidence, values: &Values, open: Open) -> [Values; STRETCHES] {
+    let mut slopes = [Values::zeros(); STRETCHES];
+    for i in (0..4).filter(|i| open[*i]) {
+        let [behind, ahead] = [-1.0, 1.0].map(|side| evidence.likelihoods(&(values + reach(i) * side)));
+        for (slope, (behind, ahead)) in slopes.iter_mut().zip(behind.iter().zip(&ahead)) {
+            slope[i] = (ahead - behind) / (2.0 * reach(i)[i]);
+        }
+    }
+    let mean = slopes.iter().sum::<Values>() / STRETCHES as f64;
+    slopes.map(|slope| slope - mean)
+}

@@ -1,0 +1,43 @@
+//! Clocks.
+
+use super::planting::radar_late;
+use super::right::{clock_of, near};
+use super::{ALL_RADARS, FRONT, Fault, LEFT, MS};
+use ralf_check::Remedy;
+
+pub(super) fn faults() -> Vec<Fault> {
+    vec![
+        fault!("radar clock +200 ms", ["radar_left"], true, |p| radar_late(p, LEFT, 200), |r| {
+            clock_of(r).is_some_and(|ms| near(ms, -200.0, 60.0))
+        }),
+        fault!("radar clock -200 ms", ["radar_front"], true, |p| radar_late(p, FRONT, -200), |r| {
+            clock_of(r).is_some_and(|ms| near(ms, 200.0, 60.0))
+        }),
+        fault!(
+            "all radar clocks +200 ms",
+            ALL_RADARS,
+            true,
+            |p| (0..4).for_each(|radar| radar_late(p, radar, 200)),
+            |r| { clock_of(r).is_some_and(|ms| near(ms, -200.0, 60.0)) }
+        ),
+        fault!(
+            "LiDAR clock +200 ms",
+            ["lidar_top"],
+            true,
+            |p| {
+                p.sequence.times.lidars[0].iter_mut().for_each(|t| *t += 200 * MS);
+            },
+            |r| clock_of(r).is_some_and(|ms| near(ms, -200.0, 60.0))
+        ),
+        fault!(
+            "odometry clock +200 ms",
+            ["motion"],
+            true,
+            |p| p.edit_odometry(|s| s.t_ns += 200 * MS),
+            |r| { matches!(r, Remedy::MotionClock(ms) if near(*ms, -200.0, 60.0)) }
+        ),
+        fault!("timestamps in us, taken for ns", ["radar_front"], true, |p| {
+            p.sequence.times.radars[FRONT].iter_mut().for_each(|t| *t /= 1000);
+        }),
+    ]
+}

@@ -1,0 +1,126 @@
+//! Mountings of radars, LiDARs and cameras.
+
+use super::planting::{lidar_turned, shifted, swap, times, turned};
+use super::right::{near, yaw_of};
+use super::{ALL_RADARS, FRONT, Fault, LEFT, MS};
+use nalgebra::{Translation3, UnitQuaternion};
+use ralf_check::Remedy;
+
+pub(super) fn radars() -> Vec<Fault> {
+    vec![
+        fault!("radar yaw +5 deg", ["radar_front"], true, |p| turned(p, FRONT, 0.0, 0.0, 5.0), |r| {
+            yaw_of(r).is_some_and(|yaw| near(yaw, -5.0, 1.0))
+        }),
+        fault!("side radar yaw -3 deg", ["radar_left"], true, |p| turned(p, LEFT, 0.0, 0.0, -3.0), |r| {
+            yaw_of(r).is_some_and(|yaw| near(yaw, 3.0, 1.0))
+        }),
+        fault!("radar yaw 180 deg", ["radar_front"], true, |p| turned(p, FRONT, 0.0, 0.0, 180.0), |r| {
+            yaw_of(r).is_some_and(|yaw| near(yaw.abs(), 180.0, 2.0))
+        }),
+        fault!("radar pitch +5 deg", ["radar_front"], true, |p| turned(p, FRONT, 0.0, 5.0, 0.0), |r| {
+            matches!(r, Remedy::Sensor(c) if near(c.turn_deg[1], -5.0, 1.6))
+        }),
+        fault!("radar roll +6 deg", ["radar_front"], true, |p| turned(p, FRONT, 6.0, 0.0, 0.0), |r| {
+            matches!(r, Remedy::Sensor(c) if near(c.turn_deg[0], -6.0, 2.1))
+        }),
+        fault!(
+            "radar 1 m off",
+            ["radar_left"],
+            true,
+            |p| {
+                shifted(&mut p.sequence.rig.radars[LEFT].vehicle_from_radar, 0.0, 1.0, 0.0);
+            },
+            |r| matches!(r, Remedy::Sensor(c) if near(c.shift_m[1], -1.0, 0.35))
+        ),
+        fault!(
+            "radar translation in cm",
+            ["radar_front"],
+            true,
+            |p| {
+                p.sequence.rig.radars[FRONT].vehicle_from_radar.translation.vector *= 100.0;
+            },
+            |r| matches!(r, Remedy::LookInto(what) if what.contains("cm"))
+        ),
+        fault!("left and right radar swapped", ["radar_left", "radar_right"], true, |p| swap(p, 1, 2), |r| {
+            matches!(r, Remedy::SwapWith(other) if other == "radar_left" || other == "radar_right")
+        }),
+        fault!("front and rear radar swapped", ["radar_front", "radar_rear"], true, |p| swap(p, 0, 3), |r| {
+            matches!(r, Remedy::SwapWith(other) if other == "radar_front" || other == "radar_rear")
+        }),
+        fault!("y mirrored, one radar", ["radar_front"], true, |p| times(p, Some(FRONT), &[1], -1.0), |r| {
+            matches!(r, Remedy::Sensor(c) if c.mirrored)
+        }),
+        fault!("y mirrored, all radars", ALL_RADARS, true, |p| times(p, None, &[1], -1.0), |r| {
+            matches!(r, Remedy::Sensor(c) if c.mirrored)
+        }),
+        fault!("quaternion read as w x y z", ["radar_left"], true, |p| {
+            // (0, 0, s, c) taken for w, x, y, z.
+            let mount = &mut p.sequence.rig.radars[LEFT].vehicle_from_radar;
+            let q = mount.rotation.coords;
+            mount.rotation = UnitQuaternion::from_quaternion(nalgebra::Quaternion::new(q.x, q.y, q.z, q.w));
+            mount.translation = Translation3::from(mount.translation.vector);
+        }),
+    ]
+}
+
+pub(super) fn lidars() -> Vec<Fault> {
+    vec![
+        fault!("LiDAR yaw +5 deg", ["lidar_top"], true, |p| lidar_turned(p, 0.0, 0.0, 5.0), |r| {
+            yaw_of(r).is_some_and(|yaw| near(yaw, -5.0, 1.0))
+        }),
+        fault!(
+            "LiDAR axes x right, y forward",
+            ["lidar_top"],
+            true,
+            |p| lidar_turned(p, 0.0, 0.0, -90.0),
+            |r| { yaw_of(r).is_some_and(|yaw| near(yaw, 90.0, 3.0)) }
+        ),
+        fault!("LiDAR pitch +4 deg", ["lidar_top"], true, |p| lidar_turned(p, 0.0, 4.0, 0.0), |r| {
+            matches!(r, Remedy::Sensor(c) if near(c.turn_deg[1], -4.0, 0.8))
+        }),
+        fault!(
+            "LiDAR 0.5 m too high",
+            ["lidar_top"],
+            true,
+            |p| {
+                shifted(&mut p.sequence.rig.lidars[0].vehicle_from_lidar, 0.0, 0.0, 0.5);
+            },
+            |r| matches!(r, Remedy::Sensor(c) if near(c.shift_m[2], -0.5, 0.1))
+        ),
+    ]
+}
+
+pub(super) fn cameras() -> Vec<Fault> {
+    vec![
+        fault!(
+            "camera yaw +3 deg",
+            ["camera_front"],
+            true,
+            |p| {
+                // To the left about the vehicle's vertical: the right remedy turns it to the right about the optical y.
+                let mount = &mut p.sequence.rig.cameras[FRONT].vehicle_from_camera;
+                mount.rotation =
+                    UnitQuaternion::from_euler_angles(0.0, 0.0, 3.0_f64.to_radians()) * mount.rotation;
+            },
+            |r| matches!(r, Remedy::Camera(c) if near(c.turn_deg[1], 3.0, 1.0))
+        ),
+        fault!(
+            "camera clock +200 ms",
+            ["camera_front"],
+            false,
+            |p| p.sequence.times.cameras[FRONT].iter_mut().for_each(|t| *t += 200 * MS),
+            |r| matches!(r, Remedy::Camera(c) if near(c.clock_ms, -200.0, 60.0))
+        ),
+        fault!(
+            "left and right camera swapped",
+            ["camera_left", "camera_right"],
+            true,
+            |p| {
+                let cameras = &mut p.sequence.rig.cameras;
+                (cameras[1].vehicle_from_camera, cameras[2].vehicle_from_camera) =
+                    (cameras[2].vehicle_from_camera, cameras[1].vehicle_from_camera);
+            },
+            |r| matches!(r, Remedy::SwapWith(other) if other.starts_with("camera_"))
+        ),
+    ]
+}

@@ -1,0 +1,48 @@
+//! What was read as something else, or not at all.
+
+use super::planting::times;
+use super::{FRONT, Fault};
+use ralf::space::EgoMotion;
+
+pub(super) fn faults() -> Vec<Fault> {
+    vec![
+        fault!("LiDAR rows of 4 read as 5", ["lidar_top"], true, |p| p.edit_lidar(|scan| {
+            let intensity = scan.intensity.clone();
+            let rows = scan.points.iter().zip(intensity);
+            let flat: Vec<f32> = rows.flat_map(|([x, y, z], i)| [*x, *y, *z, i]).collect();
+            scan.points = flat.chunks_exact(5).map(|row| [row[0], row[1], row[2]]).collect();
+        })),
+        fault!("LiDAR float64 read as float32", ["lidar_top"], true, |p| p.edit_lidar(|scan| {
+            let halves = |v: &f32| f64::from(*v).to_le_bytes();
+            let bytes: Vec<u8> = scan.points.iter().flatten().flat_map(halves).collect();
+            let word = |b: &[u8]| f32::from_le_bytes([b[0], b[1], b[2], b[3]]);
+            let flat: Vec<f32> = bytes.chunks_exact(4).map(word).collect();
+            scan.points = flat.chunks_exact(4).map(|row| [row[0], row[1], row[2]]).collect();
+        })),
+        fault!("radar stuck", ["radar_front"], true, |p| p.stuck_radar = Some(FRONT)),
+        fault!("LiDAR stuck", ["lidar_top"], true, |p| p.stuck_lidar = true),
+        fault!("odometry stuck", ["motion"], true, |p| {
+            let first = p.sequence.motion.odometry()[0];
+            p.edit_odometry(move |s| (s.velocity, s.yaw_rate) = (first.velocity, first.yaw_rate));
+        }),
+        fault!("odometry ends halfway", ["motion"], true, |p| {
+            let samples = p.sequence.motion.odometry().to_vec();
+            let half = samples.len() / 2;
+            p.sequence.motion = EgoMotion::new(samples[..half].to_vec(), vec![]).unwrap();
+        }),
+        fault!("elevation constant, said to be measured", ["radar_front"], true, |p| times(
+            p,
+            Some(FRONT),
+            &[2],
+            0.0
+        )),
+        fault!("a third of the detections not finite", ["radar_front"], true, |p| p.edit_radars(
+            |radar, _, columns| {
+                if radar == FRONT {
+                    columns[0].iter_mut().step_by(3).for_each(|v| *v = f32::NAN);
+                }
+            }
+        )),
+        fault!("yaw rate 10 times too large", ["motion"], false, |p| p.edit_odometry(|s| s.yaw_rate *= 10.0)),
+    ]
+}

@@ -1,0 +1,75 @@
+//! Units of what is measured, of the motion and of the rig.
+
+use super::planting::{spherical, times};
+use super::right::near;
+use super::{ALL_RADARS, FRONT, Fault};
+use ralf_check::Remedy;
+
+pub(super) fn faults() -> Vec<Fault> {
+    vec![
+        fault!("positions in cm", ["radar_front"], true, |p| times(p, Some(FRONT), &[0, 1, 2], 100.0), |r| {
+            matches!(r, Remedy::Positions(f) if near(*f, 0.01, 1e-9))
+        }),
+        fault!(
+            "LiDAR in cm",
+            ["lidar_top"],
+            true,
+            |p| p.edit_lidar(|scan| {
+                scan.points.iter_mut().flatten().for_each(|v| *v *= 100.0);
+            }),
+            |r| matches!(r, Remedy::Positions(f) if near(*f, 0.01, 1e-9))
+        ),
+        fault!("Doppler in km/h, one radar", ["radar_rear"], true, |p| times(p, Some(3), &[3], 3.6), |r| {
+            matches!(r, Remedy::Doppler(f) if near(*f, 1.0 / 3.6, 0.02))
+        }),
+        fault!("Doppler in km/h, all radars", ALL_RADARS, true, |p| times(p, None, &[3], 3.6), |r| {
+            matches!(r, Remedy::Doppler(f) if near(*f, 1.0 / 3.6, 0.02))
+        }),
+        fault!("speed in km/h", ["motion"], true, |p| p.edit_odometry(|s| s.velocity *= 3.6), |r| {
+            matches!(r, Remedy::Speed(f) if near(*f, 1.0 / 3.6, 0.02))
+        }),
+        fault!("speed in cm/s", ["motion"], true, |p| p.edit_odometry(|s| s.velocity *= 100.0), |r| {
+            matches!(r, Remedy::Speed(f) if near(*f, 0.01, 1e-6))
+        }),
+        fault!(
+            "yaw rate in deg/s",
+            ["motion"],
+            false,
+            |p| p.edit_odometry(|s| s.yaw_rate = s.yaw_rate.to_degrees()),
+            |r| { matches!(r, Remedy::YawRate(f) if near(*f, 1.0_f64.to_radians(), 1e-6)) }
+        ),
+        fault!("azimuth in degrees", ["radar_front"], true, |p| spherical(p, 57.2958, 1.0), |r| {
+            matches!(r, Remedy::InDegrees("azimuth"))
+        }),
+        fault!("elevation in degrees", ["radar_front"], true, |p| spherical(p, 1.0, 57.2958), |r| {
+            matches!(r, Remedy::InDegrees("elevation"))
+        }),
+        fault!(
+            "field of view in radians",
+            ["radar_front"],
+            true,
+            |p| {
+                let radar = &mut p.sequence.rig.radars[FRONT];
+                radar.fov_azimuth = radar.fov_azimuth.to_radians();
+            },
+            |r| matches!(r, Remedy::Value { key: "fov_azimuth_deg", value } if *value > 100.0)
+        ),
+        fault!(
+            "sigma in radians",
+            ["radar_front"],
+            true,
+            |p| {
+                let radar = &mut p.sequence.rig.radars[FRONT];
+                radar.sigma_azimuth = radar.sigma_azimuth.to_radians();
+            },
+            |r| matches!(r, Remedy::Value { key: "sigma_azimuth_deg", value } if near(*value, 0.6, 0.05))
+        ),
+        fault!(
+            "sigma of range in cm",
+            ["radar_front"],
+            true,
+            |p| p.sequence.rig.radars[FRONT].sigma_range *= 100.0,
+            |r| { matches!(r, Remedy::Value { key: "sigma_range_m", value } if near(*value, 0.1, 0.01)) }
+        ),
+    ]
+}

@@ -1,0 +1,90 @@
+//! `ralf learn`, and labels by what it writes.
+
+use crate::support::{Dataset, ralf, schema, without_timings};
+use std::fs;
+
+/// Two simulated recordings.
+fn simulated(dataset: &Dataset) -> [String; 2] {
+    ["town", "yard"].map(|name| {
+        let made = dataset.beside(name);
+        let seed = name.len().to_string();
+        ralf(["simulate", "-o", &made, "--preset", "tiny", "--scans", "3", "--seed", &seed, "-q"]).exits(0);
+        made
+    })
+}
+
+#[test]
+fn what_is_learned_labels_and_is_the_same_to_the_byte_whatever_the_number_of_jobs() {
+    let dataset = Dataset::new();
+    let [town, yard] = simulated(&dataset);
+    let models = ["1", "3"].map(|jobs| {
+        let model = dataset.beside(&format!("model{jobs}"));
+        let done =
+            ralf(["learn", &town, &yard, "-o", &model, "--rounds", "15", "--leaves", "6", "--jobs", jobs]);
+        done.exits(0).prints(["town", "yard", "mean"]);
+        model
+    });
+    let text = fs::read_to_string(&models[0]).unwrap();
+    assert_eq!(text, fs::read_to_string(&models[1]).unwrap());
+    assert!(
+        text.starts_with("ralf model 1\nprogram ") && text.contains("\nforest ") && text.ends_with("\nend\n")
+    );
+    let outs = ["1", "2"].map(|jobs| {
+        let out = dataset.beside(&format!("out{jobs}"));
+        let method = ["--method", "learned", "--model", &models[0]];
+        let [a, b, c, d] = method;
+        ralf(["label", &town, "-o", &out, a, b, c, d, "--jobs", jobs, "--no-check"]).exits(0);
+        out
+    });
+    assert!(without_timings(&outs[0]) == without_timings(&outs[1]));
+    let columns = schema(format!("{}/sequences/tiny/plausibility.parquet", outs[0]));
+    for name in ["novelty", "reason_doppler", "reason", "cause"] {
+        assert!(columns.iter().any(|column| column.starts_with(&format!("{name}:"))), "{name}");
+    }
+    ralf(["evaluate", &outs[0], "--truth", &town]).exits(0);
+    ralf(["report", &town, &outs[0], "-o", &dataset.beside("report.html")]).exits(0);
+    ralf(["export", &town, &outs[0], "--to", "npz", "-o", &dataset.beside("npz")]).exits(0);
+    // Another model is another result.
+    ralf(["label", &town, "-o", &outs[0], "--method", "learned", "--model", &models[0], "--no-check"])
+        .exits(0)
+        .says(["nothing to do"]);
+    let other = text.replacen("seed 0", "seed 1", 1);
+    fs::write(&models[1], other).unwrap();
+    ralf(["label", &town, "-o", &outs[0], "--method", "learned", "--model", &models[1], "--no-check"])
+        .exits(0)
+        .says(["removed"]);
+}
+
+#[test]
+fn what_cannot_be_learned_or_asked_is_refused_and_nothing_is_written() {
+    let dataset = Dataset::new();
+    let model = dataset.beside("model");
+    // One sequence is one world.
+    ralf(["learn", &dataset.path, "-o", &model, "-q"]).exits(1).says(["two worlds"]);
+    ralf(["learn", "-o", &model]).exits(2);
+    assert!(!fs::exists(&model).unwrap());
+    for (text, expected) in [
+        ("", "ralf model 1"),
+        ("ralf model 2\n", "ralf model 1"),
+        (
+            "ralf model 1\nprogram x\ncommand y\nseed 0\ninput smell 0 1 0 1\ncalibrated 0 0.5\nforest 0 plausible\nend\n",
+            "smell",
+        ),
+    ] {
+        fs::write(&model, text).unwrap();
+        ralf([
+            "label",
+            &dataset.path,
+            "-o",
+            &dataset.out,
+            "--method",
+            "learned",
+            "--model",
+            &model,
+            "--no-check",
+        ])
+        .exits(1)
+        .says(["model", expected]);
+    }
+    assert!(!fs::exists(format!("{}/run.json", dataset.out)).unwrap());
+}
