@@ -3,8 +3,9 @@
 
     measure_ranges.py RALF RECORDING...
 
-RALF is the program, each RECORDING a folder or file that it reads. For every quantity of `ralf inspect --distributions` the
-table has the values below which 5, 50 and 95 % lie, of each recording (docs/realism.md tells what the quantities are).
+RALF is the program, each RECORDING a folder or file that it reads. For every quantity of `ralf inspect
+--distributions` the table has the values below which 5, 50 and 95 % lie, of each recording (docs/realism.md tells what
+the quantities are).
 """
 
 import json

@@ -1,16 +1,19 @@
 #!/usr/bin/env python3
 """Which weights carry over from some families of worlds to others (docs/method.md, section 12).
 
-    tune_families.py DATASET OUT [--trials N] [--lidar-alone FROM TO] [--try alpha=A,threshold=W,...]
+    tune_families.py DATASET OUT [--trials N] [--lidar-alone FROM TO] [--hold lidar ...]
+                      [--try alpha=A,threshold=W,...]
 
-DATASET is a simulated dataset whose sequences are named FAMILY_..., OUT what `ralf label DATASET -o OUT` wrote. The mismatches
-d don't depend on alpha, the betas and w0, so that the fusion alone is done again for each trial. Every family counts
-the same, however many detections it has. Each family in turn is left out: settings are found on the others and judged on it,
-beside what the settings of the run reach there, and what these reach with the threshold that suits that family best.
+DATASET is a simulated dataset whose sequences are named FAMILY_..., OUT what `ralf label DATASET -o OUT` wrote. The
+mismatches d don't depend on alpha, the betas and w0, so that the fusion alone is done again for each trial. Every
+family counts the same, however many detections it has. Each family in turn is left out: settings are found on the
+others and judged on it, beside what the settings of the run reach there, and what these reach with the threshold that
+suits that family best.
 
---lidar-alone refuses settings with which a detection of which the LiDAR alone speaks is plausible up to fewer than FROM or more
-than TO standard deviations: ln(1 / w0) / beta_lm. Real mountings, clocks and elevations are less exact than simulated ones, and
-the annotated frame of View-of-Delft says what they need (testdata/vod_boxes.py). --try judges these settings, too.
+--lidar-alone refuses settings with which a detection of which the LiDAR alone speaks is plausible up to fewer than
+FROM or more than TO standard deviations: ln(1 / w0) / beta_lm. Real mountings, clocks and elevations are less exact
+than simulated ones, and the annotated frame of View-of-Delft says what they need (testdata/vod_boxes.py). --hold
+keeps a beta as the run had it. --try judges these settings, too.
 
 Needs numpy and pyarrow.
 """
@@ -95,7 +98,8 @@ def read(dataset, out, settings):
         table = pq.read_table(folder / "plausibility.parquet", columns=COLUMNS)
         rows = {name: table[name].to_numpy(zero_copy_only=False) for name in COLUMNS}
         truth = np.zeros(len(table), dtype=int)
-        starts = np.flatnonzero(np.r_[True, (rows["scan"][1:] != rows["scan"][:-1]) | (rows["radar"][1:] != rows["radar"][:-1])])
+        other_scan, other_radar = (rows[name][1:] != rows[name][:-1] for name in ("scan", "radar"))
+        starts = np.flatnonzero(np.r_[True, other_scan | other_radar])
         for start, end in zip(starts, np.r_[starts[1:], len(table)]):
             name = f"{rows['radar'][start]}/{rows['scan'][start]:06}.label"
             labels = np.fromfile(dataset / "sequences" / folder.name / "ground_truth" / name, dtype="<u4")
@@ -104,7 +108,7 @@ def read(dataset, out, settings):
     return {name: family.ready() for name, family in families.items()}
 
 
-def search(families, base, trials, alone, seed=0):
+def search(families, base, trials, alone, held, seed=0):
     """The settings of the best mean F1 over the families: alpha and the betas at random, then about the best so far."""
     rng = np.random.default_rng(seed)
     best, best_score = None, -1.0
@@ -113,6 +117,8 @@ def search(families, base, trials, alone, seed=0):
         settings = dict(base)
         settings["alpha"] = float(np.clip(rng.normal(best["alpha"], 0.08), 0, 1) if near else rng.uniform(0, 1))
         for key in BETAS:
+            if key in held:
+                continue
             settings[key] = float(10 ** (rng.normal(np.log10(best[key]), 0.15) if near else rng.uniform(-2, 1)))
         curve = np.mean([family.curve(settings) for family in families], axis=0)
         if alone:
@@ -143,6 +149,7 @@ def arguments():
     parser.add_argument("out", type=Path)
     parser.add_argument("--trials", type=int, default=300)
     parser.add_argument("--lidar-alone", type=float, nargs=2, metavar=("FROM", "TO"))
+    parser.add_argument("--hold", nargs="*", default=[], choices=BETAS)
     parser.add_argument("--try", dest="tried", metavar="KEY=VALUE,...")
     return parser.parse_args()
 
@@ -151,7 +158,7 @@ def main():
     chosen = arguments()
     run = run_settings(chosen.out)
     families = read(chosen.dataset, chosen.out, run)
-    find = lambda some: search(some, run, chosen.trials, chosen.lidar_alone)
+    find = lambda some: search(some, run, chosen.trials, chosen.lidar_alone, chosen.hold)
     everywhere = find(list(families.values()))
     print(f"the run: {told(run)}\nfound on all families: {told(everywhere)}\n")
     columns = {"start": START, "the run": run, "found on all": everywhere}

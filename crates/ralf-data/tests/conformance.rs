@@ -6,6 +6,9 @@
     reason = "a check that fails is a test that fails, and a skipped one says so"
 )]
 
+#[path = "../src/read/aimotive/tests/recording.rs"]
+#[allow(dead_code, reason = "the tests of the reader use all of it")]
+mod aimotive;
 mod dataset;
 
 use ralf::sensors::SourceError;
@@ -33,6 +36,13 @@ fn own_layout_as_converted() {
         ralf_data::write_sequence(sequence.as_ref(), out.path(), &|_| ()).unwrap();
     }
     check(&ralf_data::open(out.path(), Some("ralf")).unwrap());
+}
+
+#[test]
+fn aimotive_as_published() {
+    let folder = tempfile::tempdir().unwrap();
+    aimotive::write_sequence(&folder.path().join("train/highway").join(aimotive::SEQUENCE));
+    check_and_convert(&ralf_data::open(folder.path(), None).unwrap(), "aimotive");
 }
 
 /// Written as bags and MCAP files and read again, with a guess of the topics.
@@ -113,9 +123,13 @@ fn check_real(path: &str, format: &str) {
         println!("skipped: RALF_TEST_DATA is not set");
         return;
     };
-    let recording = ralf_data::open(&Path::new(&root).join(path), None).unwrap();
+    check_and_convert(&ralf_data::open(&Path::new(&root).join(path), None).unwrap(), format);
+}
+
+/// A recording, and the same in the own layout.
+fn check_and_convert(recording: &Recording, format: &str) {
     assert_eq!(recording.format, format);
-    check(&recording);
+    check(recording);
     let out = tempfile::tempdir().unwrap();
     for sequence in &recording.sequences {
         ralf_data::write_sequence(sequence.as_ref(), out.path(), &|_| ()).unwrap();

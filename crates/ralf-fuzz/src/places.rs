@@ -1,5 +1,8 @@
 //! Small whole recordings, runs, networks and settings, to be damaged.
 
+#[allow(dead_code, reason = "the tests of the reader use all of it")]
+#[path = "../../ralf-data/src/read/aimotive/tests/recording.rs"]
+mod aimotive;
 #[allow(dead_code, reason = "the tests of the command line use all of it")]
 #[path = "../../ralf-cli/tests/command_line/support/dataset.rs"]
 mod dataset;
@@ -33,6 +36,7 @@ pub fn make_places(folder: &Path) {
     copy(Path::new(&own.path), &folder.join("own/recording"));
     foreign::nuscenes(&folder.join("nuscenes/recording"));
     foreign::view_of_delft(&folder.join("view-of-delft/recording"));
+    aimotive::write_sequence(&folder.join("aimotive/recording").join(aimotive::SEQUENCE));
     let ros = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../testdata/ros");
     for name in ROS {
         let place = folder.join(name);

@@ -36,11 +36,12 @@ const fn of_run(name: &'static str, run: fn(&Path, &mut Pcg64Mcg)) -> Verb {
     Verb { name, place: "run", damaged: "out", writes: true, run }
 }
 
-pub(crate) const VERBS: [Verb; 20] = [
+pub(crate) const VERBS: [Verb; 21] = [
     reading("own"),
     reading("own"),
     reading("nuscenes"),
     reading("view-of-delft"),
+    reading("aimotive"),
     reading("plain.bag"),
     reading("lz4.bag"),
     reading("zstd.mcap"),

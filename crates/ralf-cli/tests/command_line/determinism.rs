@@ -14,6 +14,16 @@ fn the_number_of_jobs_changes_no_byte() {
 }
 
 #[test]
+fn the_number_of_jobs_changes_no_byte_of_evidence() {
+    // With four jobs windows begin anew within the recording, with one they don't.
+    let dataset = Dataset::of(&Shape { scans: 90, ..Shape::default() });
+    let other = dataset.beside("other");
+    ralf(["label", &dataset.path, "-o", &dataset.out, "--evidence", "--jobs", "1"]).exits(0);
+    ralf(["label", &dataset.path, "-o", &other, "--evidence", "--jobs", "4"]).exits(0);
+    assert!(without_timings(&dataset.out) == without_timings(&other));
+}
+
+#[test]
 fn the_same_command_again_has_nothing_to_do() {
     let dataset = Dataset::new();
     let label = || ralf(["label", &dataset.path, "-o", &dataset.out]).exits(0);

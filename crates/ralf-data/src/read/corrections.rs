@@ -143,3 +143,28 @@ impl SensorCorrection {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_time_goes_back_to_the_tick_before_it() {
+        let ms = |correction: SensorCorrection, t: f64| correction.time((t * 1e6) as i64) as f64 * 1e-6;
+        let held = SensorCorrection {
+            time_offset_ms: -100.0,
+            period_ms: 55.0,
+            tick_ms: 7.0,
+            ..SensorCorrection::default()
+        };
+        // Ticks are at 7, 62, 117, 172, ... and at -48.
+        let times = [217.0, 216.9, 300.0, 272.0, 100.0, 106.9].map(|t| ms(held, t));
+        assert_eq!(times, [117.0, 62.0, 172.0, 172.0, -48.0, -48.0]);
+        assert_eq!(ms(SensorCorrection { period_ms: 0.0, ..held }, 217.0), 117.0);
+        // Whole numbers of time, however long after the tick.
+        let late = 4_833_189_570_000_i64;
+        assert_eq!((held.time(late) - 7_000_000) % 55_000_000, 0);
+        assert!((0..55_000_000).contains(&(late - 100_000_000 - held.time(late))));
+        assert_eq!(held.time(i64::MIN), i64::MIN);
+    }
+}

@@ -6,6 +6,7 @@ mod corrections;
 pub mod inspection;
 pub(crate) mod layout;
 mod measured_files;
+mod memory;
 pub(crate) mod models;
 pub(crate) mod nuscenes;
 pub(crate) mod open;

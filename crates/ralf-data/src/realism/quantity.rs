@@ -125,7 +125,8 @@ const DESCRIPTIONS: [Description; Quantity::ALL.len()] = [
     Description {
         name: "amplitude",
         unit: "dB",
-        meaning: "Radar cross-section of a detection less the median of its scan; power becomes one by range to the fourth.",
+        meaning: "Radar cross-section of a detection less the median of its scan; power becomes one by range to \
+                  the fourth.",
         needs: "a column rcs, power, snr, amplitude or intensity",
     },
     Description {

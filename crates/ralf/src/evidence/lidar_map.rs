@@ -68,7 +68,7 @@ const FEATURES: &[Feature] = &[
     },
     Feature {
         name: "map_octants",
-        unit: "share",
+        unit: "1",
         group: GROUP,
         meaning: "share of the eight directions in which something stands within 3 m",
     },

@@ -8,6 +8,9 @@ use crate::scene::{LidarCloud, mismatch};
 use crate::sensors::Elevation;
 use crate::space::Vector;
 
+/// Where no point is as near as this, m, there is no residual: a search that need not go on costs little.
+const NEAR: f64 = 5.0;
+
 pub(super) const PIECE: Piece = Piece {
     features: &[
         Feature {
@@ -15,14 +18,14 @@ pub(super) const PIECE: Piece = Piece {
             unit: "sigma",
             group: "LiDAR rays",
             meaning: "mean horizontal distance from the K nearest LiDAR points above the ground, in standard \
-                      deviations along it",
+                      deviations along it; null where none is within 5 m",
         },
         Feature {
             name: "lidar_residual_vertical",
             unit: "sigma",
             group: "LiDAR rays",
             meaning: "mean height over the K nearest LiDAR points above the ground, in standard deviations of height; \
-                      null for a radar without elevation",
+                      null for a radar without elevation, and where none is within 5 m",
         },
     ],
     observe,
@@ -37,11 +40,15 @@ fn observe(surroundings: &Surroundings) -> Vec<Values> {
     let Some(view) = &frame.lidar else { return vec![horizontal, vertical] };
     let cloud = LidarCloud::new(view, frame.radar);
     let mut association = cloud.association(config.lidar.neighbours);
+    association.set_reach(NEAR);
     for (i, detection) in frame.scan.detections.iter().enumerate() {
         let Some(detection) = detection else { continue };
         let spread = detection.spread();
         let (mut across, mut up) = (0.0, 0.0);
-        let nearest = cloud.nearest(&mut association, detection);
+        let mut nearest = cloud.nearest(&mut association, detection);
+        if nearest.first().is_some_and(|first| (first.position - detection.position).norm() > NEAR) {
+            nearest.clear();
+        }
         for reference in &nearest {
             let h = detection.position - reference.position;
             across += mismatch(&Vector::new(h.x, h.y, 0.0), &spread, &reference.spread);

@@ -51,13 +51,13 @@ const FEATURES: &[Feature] = &[
     },
     Feature {
         name: "sight_footprint_cars",
-        unit: "share",
+        unit: "1",
         group: GROUP,
         meaning: "share of the columns within 1.5 m that are as high as cars, 1 to 2.2 m",
     },
     Feature {
         name: "sight_footprint_tall",
-        unit: "share",
+        unit: "1",
         group: GROUP,
         meaning: "share of the columns within 1.5 m that are higher than cars",
     },

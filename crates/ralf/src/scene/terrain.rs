@@ -16,6 +16,8 @@ const GROUND_BAND: f32 = 0.15;
 const RING: f32 = 2.0;
 /// Points that a ring needs at least.
 const MIN_POINTS: usize = 20;
+/// So many ranges from the median all is as bright: reflectors are not what the ground is like.
+const BRIGHTEST: f32 = 5.0;
 /// Points of one scan in a cell from which its roughness is told.
 const MIN_ROUGH: f32 = 3.0;
 /// Cells to each side that are taken together.
@@ -156,7 +158,7 @@ impl Rings {
 
     fn brightness(&self, point: &GroundPoint) -> Option<f32> {
         let [median, range] = self.0[point.ring]?;
-        Some((point.intensity - median) / range)
+        Some(((point.intensity - median) / range).clamp(-BRIGHTEST, BRIGHTEST))
     }
 }
 

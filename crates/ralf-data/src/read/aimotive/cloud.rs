@@ -7,7 +7,7 @@ use ralf::sensors::{Lidar, LidarScan};
 use ralf::space::Point;
 use std::path::Path;
 
-/// Points nearer to the LiDAR than this are no returns, m: coordinates were rounded to 1 mm after they had been moved to
+/// Points nearer to the LiDAR than this are no returns, m: coordinates were rounded to 1 mm after they were moved to
 /// the vehicle's frame.
 const NO_RETURN_WITHIN: f64 = 0.005;
 /// A point farther in time from its frame is of another clock or unit, s.

@@ -88,3 +88,6 @@ fn sequence_folders(path: &Path) -> Result<Vec<PathBuf>, DataError> {
 fn below(folder: &Path) -> Result<Vec<PathBuf>, DataError> {
     Ok(files::folders(folder)?.into_iter().map(|name| folder.join(name)).collect())
 }
+
+#[cfg(test)]
+mod tests;
