@@ -83,7 +83,7 @@ mod tests {
     use super::*;
 
     /// A ramp of 14 % from 10 m to 40 m ahead, level beyond.
-    fn height(x: f64) -> f64 {
+    fn ramp_at(x: f64) -> f64 {
         0.14 * (x - 10.0).clamp(0.0, 30.0)
     }
 
