@@ -1,7 +1,7 @@
 //! Why artifacts are such: a forest for each cause, of artifacts alone.
 
 use super::boosting::{Bins, Examples, Parameters, boost};
-use super::fit::Fitting;
+use super::fitting::Fitting;
 use super::side_by_side::side_by_side;
 use super::table::TrainingTable;
 use ralf::label::Cause;

@@ -5,6 +5,7 @@ use super::blanking::blanked;
 use super::boosting::{Bins, Examples, Grown, Parameters, boost};
 use super::calibrate::{Answered, calibration};
 use super::causes::cause_forests;
+use super::fitting::Fitting;
 use super::monotone::direction;
 use super::scores::{Judged, Scores, best_threshold};
 use super::side_by_side::side_by_side;
@@ -12,21 +13,6 @@ use super::table::TrainingTable;
 use super::view::View;
 use ralf::learned::{Input, Model, Origin, Rows, Seen, World};
 use thiserror::Error;
-
-/// How a model is fitted.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Fitting {
-    /// Of the trees.
-    pub parameters: Parameters,
-    /// Whether whole groups of evidence lack in some scans of the training.
-    pub blanking: bool,
-    /// Whether causes are learned, too.
-    pub causes: bool,
-    /// `w0`: what is labelled plausible.
-    pub threshold: f64,
-    /// Forests grown side by side; the result doesn't depend on it.
-    pub jobs: usize,
-}
 
 /// A model with what it is worth.
 #[derive(Debug, Clone, PartialEq)]

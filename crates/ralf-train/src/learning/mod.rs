@@ -14,6 +14,7 @@ mod boosting;
 mod calibrate;
 mod causes;
 mod fit;
+mod fitting;
 mod monotone;
 mod random;
 mod scores;
@@ -24,7 +25,8 @@ mod testing;
 mod view;
 
 pub use boosting::{Bins, Examples, Grown, Parameters, boost};
-pub use fit::{Fitted, Fitting, LearnError, LeftOut, fit};
+pub use fit::{Fitted, LearnError, LeftOut, fit};
+pub use fitting::Fitting;
 pub use scores::{Judged, Scores, best_threshold};
 pub use table::{Known, TrainingTable};
 pub use view::View;

@@ -1,7 +1,7 @@
 //! Sums of derivatives by bin.
 
 use super::bins::{ALL, Bins};
-use super::grow::Gradients;
+use super::gradients::Gradients;
 
 /// What is summed up of rows.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]

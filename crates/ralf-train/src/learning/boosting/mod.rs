@@ -4,13 +4,15 @@
 //! whatever else runs beside. Several forests are grown side by side by whoever needs several.
 
 mod bins;
+mod gradients;
 mod grow;
 mod histogram;
 mod split;
 
 pub use bins::Bins;
 
-use grow::{Gradients, Growth};
+use gradients::Gradients;
+use grow::Growth;
 use ralf::learned::{Forest, Rows, probability};
 use rand::seq::index::sample;
 use rand::{RngExt, SeedableRng};

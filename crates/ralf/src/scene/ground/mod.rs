@@ -82,19 +82,22 @@ impl Ground {
 mod tests {
     use super::*;
 
-    /// A ramp of 14 % from 10 m to 40 m ahead, level beyond, 0.4 m apart; a car on the ramp, of which the LiDAR sees
-    /// the near side and the roof.
-    fn ramp() -> (Vec<[f32; 3]>, fn(f64) -> f64) {
-        let height = |x: f64| 0.14 * (x - 10.0).clamp(0.0, 30.0);
+    /// A ramp of 14 % from 10 m to 40 m ahead, level beyond.
+    fn height(x: f64) -> f64 {
+        0.14 * (x - 10.0).clamp(0.0, 30.0)
+    }
+
+    /// Points 0.4 m apart on the ramp, and on a car there, of which the LiDAR sees the near side and the roof.
+    fn ramp() -> Vec<[f32; 3]> {
         let mut points = Vec::new();
         for i in -100..175 {
             for j in -50..50 {
                 let (x, y) = (f64::from(i) * 0.4, f64::from(j) * 0.4);
                 let on_car = (22.0..26.5).contains(&x) && y.abs() < 0.9;
-                points.push([x as f32, y as f32, (height(x) + if on_car { 1.4 } else { 0.0 }) as f32]);
+                points.push([x as f32, y as f32, (ramp_at(x) + if on_car { 1.4 } else { 0.0 }) as f32]);
             }
         }
-        (points, height)
+        points
     }
 
     fn fitted(points: &[[f32; 3]], model: GroundModel) -> Ground {
@@ -103,11 +106,11 @@ mod tests {
 
     #[test]
     fn the_local_ground_follows_a_ramp_where_one_plane_cannot() {
-        let (points, height) = ramp();
+        let points = ramp();
         let worst = |model| {
             let ground = fitted(&points, model);
             let places =
-                [-30.0, 5.0, 15.0, 24.0, 30.0, 38.0, 50.0, 65.0].map(|x| Point::new(x, 0.3, height(x)));
+                [-30.0, 5.0, 15.0, 24.0, 30.0, 38.0, 50.0, 65.0].map(|x| Point::new(x, 0.3, ramp_at(x)));
             places.iter().map(|p| ground.height(p).abs()).fold(0.0, f64::max)
         };
         assert!(worst(GroundModel::Local) < 0.1, "local is off by {} m", worst(GroundModel::Local));
@@ -116,9 +119,9 @@ mod tests {
 
     #[test]
     fn the_local_plane_touches_the_ramp() {
-        let (points, height) = ramp();
+        let points = ramp();
         let ground = fitted(&points, GroundModel::Local);
-        let p = Point::new(33.0, -7.0, height(33.0) + 1.0);
+        let p = Point::new(33.0, -7.0, ramp_at(33.0) + 1.0);
         // The normal of a rise of 14 %.
         let normal = crate::space::Vector::new(-0.14, 0.0, 1.0).normalize();
         assert!((ground.plane_at(&p).normal - normal).norm() < 1e-3);

@@ -1,0 +1,18 @@
+//! How a model is fitted.
+
+use super::boosting::Parameters;
+
+/// How a model is fitted.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Fitting {
+    /// Of the trees.
+    pub parameters: Parameters,
+    /// Whether whole groups of evidence lack in some scans of the training.
+    pub blanking: bool,
+    /// Whether causes are learned, too.
+    pub causes: bool,
+    /// `w0`: what is labelled plausible.
+    pub threshold: f64,
+    /// Forests grown side by side; the result doesn't depend on it.
+    pub jobs: usize,
+}
