@@ -1,8 +1,9 @@
 //! Weights that take away what a world's shares happen to say.
 //!
-//! How many of the detections that move are real depends on the traffic and on the noise of a recording, and both differ
-//! from place to place: where a simulator has few cars and much noise, *it moves* would mean *it is an artifact*, and on
-//! a real street all cars and people would go. So movers count such that moving by itself says nothing.
+//! How many of the detections that move are real depends on the traffic and on the noise of a recording, and both
+//! differ from place to place: where a simulator has few cars and much noise, *it moves* would mean *it is an
+//! artifact*, and on a real street all cars and people would go. So movers count such that moving by itself says
+//! nothing.
 
 use super::table::TrainingTable;
 
@@ -65,7 +66,7 @@ mod tests {
             let moving = row % 3 == 0;
             table.rows.row_mut(row)[moves] = if moving { -9.0 } else { 0.5 };
             // Of those that move one in five is plausible, of the others four.
-            table.known[row].plausible = (row / 3 % 5 == 0) == moving;
+            table.known[row].plausible = (row / 30 % 5 == 0) == moving;
         }
         let weights = weights(&table);
         let share = |moving: bool| {
