@@ -19,8 +19,8 @@ const FEW: f64 = 0.02;
 /// A point nearer than this is the detection's own, sigmas.
 const NEAR: f64 = 2.0;
 /// Rays that are looked at in the nearest scan, and in each of the others, at most about; more are thinned evenly.
-const RAYS_NEAREST: usize = 256;
-const RAYS: usize = 64;
+const RAYS_NEAREST: usize = 128;
+const RAYS: usize = 40;
 
 pub(super) const PIECE: Piece = Piece { features: FEATURES, observe };
 
@@ -140,19 +140,19 @@ fn observe(surroundings: &Surroundings) -> Vec<Values> {
     let mut columns = unobserved(FEATURES, frame.scan.len());
     let Some(window) = &frame.lidar_window else { return columns };
     let window_from_vehicle = window.vehicle_from_window.inverse();
-    let nearest = frame
-        .lidar
-        .as_ref()
-        .map(|view| sweeps_of(&view.moment, window_from_vehicle * view.vehicle_from_moment, RAYS_NEAREST));
+    let probes = surroundings.probes();
+    let nearest = frame.lidar.as_ref().map(|view| {
+        let window_from_moment = window_from_vehicle * view.vehicle_from_moment;
+        vote(&sweeps_of(&view.moment, window_from_moment, RAYS_NEAREST), probes)
+    });
+    // Scan by scan, so that the rays of one stay at hand.
     let mut around = Vec::with_capacity(window.window.views.len());
     for view in &window.window.views {
-        around.push(sweeps_of(&view.moment, view.vehicle_from_moment, RAYS));
+        around.push(vote(&sweeps_of(&view.moment, view.vehicle_from_moment, RAYS), probes));
     }
-    for (i, probe) in surroundings.probes().iter().enumerate() {
-        let Some(probe) = probe else { continue };
-        let nearest = nearest.as_ref().map(|sweeps| vote(sweeps, probe));
-        let around: Vec<Votes> = around.iter().map(|sweeps| vote(sweeps, probe)).collect();
-        set(&mut columns, i, answers(nearest, &around));
+    for (i, _) in probes.iter().enumerate().filter(|(_, probe)| probe.is_some()) {
+        let around: Vec<Votes> = around.iter().map(|votes| votes[i]).collect();
+        set(&mut columns, i, answers(nearest.as_ref().map(|votes| votes[i]), &around));
     }
     columns
 }
@@ -163,13 +163,17 @@ fn sweeps_of(moment: &LidarSnapshot, window_from_moment: Transform, rays: usize)
     sweeps.map(|sweep| Sweep::new(sweep, window_from_moment * sweep.moment_from_lidar, rays)).collect()
 }
 
-/// The votes of all LiDARs of one moment.
-fn vote(sweeps: &[Sweep], probe: &Probe) -> Votes {
-    let mut votes = Votes::default();
-    for sweep in sweeps {
-        votes.add(&sweep.vote(probe));
+/// The votes of all LiDARs of one moment on each of the detections; nobody votes on one without a position.
+fn vote(sweeps: &[Sweep], probes: &[Option<Probe>]) -> Vec<Votes> {
+    let mut all = Vec::with_capacity(probes.len());
+    for probe in probes {
+        let mut votes = Votes::default();
+        if let Some(probe) = probe {
+            sweeps.iter().for_each(|sweep| votes.add(&sweep.vote(probe)));
+        }
+        all.push(votes);
     }
-    votes
+    all
 }
 
 /// The values of all columns from the votes of the nearest scan and of those around.
