@@ -66,7 +66,7 @@ mod tests {
             let moving = row % 3 == 0;
             table.rows.row_mut(row)[moves] = if moving { -9.0 } else { 0.5 };
             // Of those that move one in five is plausible, of the others four.
-            table.known[row].plausible = (row / 3 % 5 == 0) == moving;
+            table.known[row].plausible = (row / 30 % 5 == 0) == moving;
         }
         let weights = weights(&table);
         let share = |moving: bool| {
