@@ -11,6 +11,8 @@ use ralf::space::Transform;
 
 /// By how much the sine of an ambiguous angle is off: wavelength over the spacing of an array with gaps.
 const AMBIGUITY: Span = span(0.25, 0.7);
+/// How likely a radar that finds more than it has room for keeps the clearest (chosen).
+const CLEAREST_FIRST: f64 = 0.4;
 /// What radars tell of an echo's strength, and how likely.
 const AMPLITUDES: [(&[Amplitude], f64); 4] = [
     (&[Amplitude::Rcs], 0.5),
@@ -126,6 +128,7 @@ fn radar(ranges: &RadarRanges, elevation: bool, random: &mut Random) -> RadarMod
         angle_failure: ranges.angle_failure.draw(random),
         ambiguity: AMBIGUITY.draw(random),
         room: ranges.room.count(random),
+        clearest_first: random.chance(CLEAREST_FIRST),
         false_alarms: ranges.false_alarms.draw(random),
         rcs_offset_db: 0.0,
         amplitudes: one_of(&AMPLITUDES, random).unwrap_or_default().to_vec(),

@@ -78,9 +78,10 @@ pub const FAMILIES: [Family; 8] = [
             // Measured, aiMotive: 5 % are off by 32 to 33.4 m/s.
             doppler_interval: span(55.0, 90.0),
             doppler_failure: span(0.03, 0.3),
-            // Measured, aiMotive: 26 to 55 in a scan.
-            room: span(40.0, 200.0),
-            false_alarms: span(8.0, 60.0),
+            // Measured, aiMotive: 26 to 55 in a scan; radars of the next generation give hundreds.
+            room: span(60.0, 240.0),
+            false_alarms: span(24.0, 100.0),
+            side_lobe: span(13.0, 22.0),
             ..RADARS
         },
         waves: WaveRanges { asphalt: span(-28.0, -16.0), interference: span(0.0, 0.1), ..WAVES },
@@ -183,11 +184,19 @@ pub const FAMILIES: [Family; 8] = [
             car_range: span(80.0, 160.0),
             max_range: span(80.0, 160.0),
             azimuth_cell: span(1.5, 5.0),
-            room: span(60.0, 300.0),
-            false_alarms: span(20.0, 120.0),
+            room: span(100.0, 300.0),
+            false_alarms: span(50.0, 130.0),
             ..RADARS
         },
-        waves: WaveRanges { texture: span(5.0, 9.0), rain: 0.4, ..WAVES },
+        waves: WaveRanges {
+            // Dry grass and soil: less than in town, or grass alone would be heard.
+            asphalt: span(-36.0, -24.0),
+            texture: span(5.0, 9.0),
+            mirror_loss: span(1.0, 7.0),
+            strength: span(-9.0, 1.0),
+            rain: 0.4,
+            ..WAVES
+        },
         lidars: LidarRanges { layouts: &[ROOF_16, ROOF_32], lost: span(0.0, 0.15), ..LIDARS },
         places: &[(PlaceKind::Country, 4.0), (PlaceKind::Residential, 1.0)],
         motion: MotionRanges { slope: span(2.0, 9.0), traffic: span(0.2, 1.0), ..MOTION },
@@ -215,7 +224,7 @@ pub const FAMILIES: [Family; 8] = [
             side_lobe: span(10.0, 26.0),
             angle_failure: span(0.02, 0.35),
             room: span(50.0, 600.0),
-            false_alarms: span(2.0, 100.0),
+            false_alarms: span(15.0, 110.0),
             ..RADARS
         },
         waves: WaveRanges {

@@ -65,7 +65,7 @@ pub(super) const WAVES: WaveRanges = WaveRanges {
     leaf_loss: span(1.5, 6.0),
     // Chosen: the absolute calibration of a sensor's cross-sections is off by some dB.
     strength: span(-4.0, 4.0),
-    interference: span(0.0, 0.05),
+    interference: span(0.01, 0.1),
     bumper: span(0.0, 3.0),
     rain: 0.1,
 };

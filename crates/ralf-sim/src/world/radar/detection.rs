@@ -38,7 +38,11 @@ pub(super) fn detected(
     let margin = |echo: &Echo| decibel(echo.power) - floor.level_db(echo) - radar.threshold_db;
     let mut above: Vec<(f64, &Echo)> =
         echoes.iter().map(|echo| (margin(echo), echo)).filter(|(margin, _)| *margin > 0.0).collect();
-    above.sort_by(|a, b| b.0.total_cmp(&a.0));
+    if radar.clearest_first {
+        above.sort_by(|a, b| b.0.total_cmp(&a.0));
+    } else {
+        above.sort_by(|a, b| a.1.seen.range.total_cmp(&b.1.seen.range));
+    }
     above.truncate(radar.room);
     let mut found = Vec::new();
     for (margin, echo) in above {

@@ -41,6 +41,8 @@ pub(crate) struct RadarModel {
     pub(crate) ambiguity: f64,
     /// Detections that a scan has room for.
     pub(crate) room: usize,
+    /// Whether the clearest are kept where there are more; else the list is filled from the nearest on.
+    pub(crate) clearest_first: bool,
     /// False alarms in a scan.
     pub(crate) false_alarms: f64,
     /// What its cross-sections are off, dB.
@@ -138,6 +140,7 @@ pub(super) mod tests {
             angle_failure: 0.0,
             ambiguity: 0.4,
             room: 500,
+            clearest_first: true,
             false_alarms: 0.0,
             rcs_offset_db: 0.0,
             amplitudes: vec![Amplitude::Rcs],
