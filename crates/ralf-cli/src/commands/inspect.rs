@@ -70,10 +70,7 @@ pub(crate) fn run(arguments: &InspectArgs) -> anyhow::Result<Outcome> {
     if arguments.distributions {
         return distributions::show(&recording, threads(None), arguments.json);
     }
-    let mut looks: Vec<Inspection> = Vec::new();
-    for reader in &recording.sequences {
-        looks.push(look_at(reader.as_ref(), &settings.method, arguments.quick));
-    }
+    let looks = looks(&recording, &settings.method, arguments.quick);
     if arguments.json {
         let checks = checks(&recording, arguments.quick);
         let mut look = serde_json::json!({ "format": recording.format, "sequences": looks, "check": checks });
@@ -91,6 +88,11 @@ pub(crate) fn run(arguments: &InspectArgs) -> anyhow::Result<Outcome> {
         }
     }
     Ok(Outcome::Done)
+}
+
+/// Each sequence's sensors, times and scans.
+fn looks(recording: &Recording, config: &Config, quick: bool) -> Vec<Inspection> {
+    recording.sequences.iter().map(|reader| look_at(reader.as_ref(), config, quick)).collect()
 }
 
 /// What the sensors say of each other, unless only times are looked at.

@@ -83,7 +83,7 @@ mod tests {
     use super::*;
 
     /// A ramp of 14 % from 10 m to 40 m ahead, level beyond.
-    fn height(x: f64) -> f64 {
+    fn ramp_at(x: f64) -> f64 {
         0.14 * (x - 10.0).clamp(0.0, 30.0)
     }
 
@@ -94,7 +94,7 @@ mod tests {
             for j in -50..50 {
                 let (x, y) = (f64::from(i) * 0.4, f64::from(j) * 0.4);
                 let on_car = (22.0..26.5).contains(&x) && y.abs() < 0.9;
-                points.push([x as f32, y as f32, (height(x) + if on_car { 1.4 } else { 0.0 }) as f32]);
+                points.push([x as f32, y as f32, (ramp_at(x) + if on_car { 1.4 } else { 0.0 }) as f32]);
             }
         }
         points
@@ -110,7 +110,7 @@ mod tests {
         let worst = |model| {
             let ground = fitted(&points, model);
             let places =
-                [-30.0, 5.0, 15.0, 24.0, 30.0, 38.0, 50.0, 65.0].map(|x| Point::new(x, 0.3, height(x)));
+                [-30.0, 5.0, 15.0, 24.0, 30.0, 38.0, 50.0, 65.0].map(|x| Point::new(x, 0.3, ramp_at(x)));
             places.iter().map(|p| ground.height(p).abs()).fold(0.0, f64::max)
         };
         assert!(worst(GroundModel::Local) < 0.1, "local is off by {} m", worst(GroundModel::Local));
@@ -121,7 +121,7 @@ mod tests {
     fn the_local_plane_touches_the_ramp() {
         let points = ramp();
         let ground = fitted(&points, GroundModel::Local);
-        let p = Point::new(33.0, -7.0, height(33.0) + 1.0);
+        let p = Point::new(33.0, -7.0, ramp_at(33.0) + 1.0);
         // The normal of a rise of 14 %.
         let normal = crate::space::Vector::new(-0.14, 0.0, 1.0).normalize();
         assert!((ground.plane_at(&p).normal - normal).norm() < 1e-3);
