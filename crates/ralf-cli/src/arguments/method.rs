@@ -46,7 +46,7 @@ impl MethodArgs {
 /// The model of a file.
 fn read_model(file: &Path) -> anyhow::Result<Model> {
     let name = || file.display().to_string();
-    let text = ralf_files::read_text(file, Kind::Measurement).with_context(name)?;
+    let text = ralf_files::read_text(file, Kind::Settings).with_context(name)?;
     let model = Model::from_text(&text).with_context(name)?;
     model.check().with_context(name)?;
     Ok(model)

@@ -48,11 +48,15 @@ fn what_is_learned_labels_and_is_the_same_to_the_byte_whatever_the_number_of_job
     ralf(["label", &town, "-o", &outs[0], "--method", "learned", "--model", &models[0], "--no-check"])
         .exits(0)
         .says(["nothing to do"]);
-    let other = text.replacen("seed 0", "seed 1", 1);
-    fs::write(&models[1], other).unwrap();
+    let model_of_run = || {
+        let record = fs::read(format!("{}/run.json", outs[0])).unwrap();
+        serde_json::from_slice::<serde_json::Value>(&record).unwrap()["model"].as_str().unwrap().to_owned()
+    };
+    let before = model_of_run();
+    fs::write(&models[1], text.replacen("seed 0", "seed 1", 1)).unwrap();
     ralf(["label", &town, "-o", &outs[0], "--method", "learned", "--model", &models[1], "--no-check"])
-        .exits(0)
-        .says(["removed"]);
+        .exits(0);
+    assert_ne!(model_of_run(), before);
 }
 
 #[test]

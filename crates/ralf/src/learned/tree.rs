@@ -2,8 +2,8 @@
 
 use thiserror::Error;
 
-/// Most nodes that a tree may have.
-const MOST_NODES: usize = u16::MAX as usize;
+/// Most nodes that a tree may have: a file from outside can't ask for more than its size lets expect.
+const MOST_NODES: usize = 2 * Tree::MOST_LEAVES - 1;
 
 /// A question: is the feature at most the threshold? Yes leads to the next node, no to the node `right`.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -48,7 +48,7 @@ pub enum TreeError {
     /// Some question lacks one of its answers, or there are nodes that no question leads to.
     #[error("expected a whole tree in preorder, found one that breaks off or goes on behind its end")]
     Shape,
-    /// More than 16 bits can count.
+    /// More than [`Tree::MOST_LEAVES`] allow.
     #[error("expected at most {MOST_NODES} nodes")]
     TooLarge,
     /// A threshold, value or cover that is infinite, not a number, or a cover below 0.
@@ -65,6 +65,9 @@ impl Split {
 }
 
 impl Tree {
+    /// Most leaves of a tree.
+    pub const MOST_LEAVES: usize = 256;
+
     /// A tree of nodes in preorder. Where the questions' `right` lead follows from the order, and is set.
     ///
     /// # Errors

@@ -53,7 +53,7 @@ impl<'a> Growth<'a> {
         }
         let root = self.bud(rows, sum, Bounds::NONE, histogram, features);
         let mut nodes = vec![Growing::Bud(Some(Box::new(root)))];
-        for _ in 1..self.parameters.leaves {
+        for _ in 1..self.parameters.leaves.min(Tree::MOST_LEAVES) {
             let Some(at) = most_promising(&nodes) else { break };
             let Growing::Bud(bud) = &mut nodes[at] else { break };
             let Some(bud) = bud.take() else { break };

@@ -23,7 +23,7 @@ use rand_pcg::Pcg64Mcg;
 pub struct Parameters {
     /// Trees.
     pub rounds: usize,
-    /// Most leaves of a tree.
+    /// Most leaves of a tree; more than [`Tree::MOST_LEAVES`](ralf::learned::Tree::MOST_LEAVES) are not grown.
     pub leaves: usize,
     /// What each tree's answer is multiplied by.
     pub rate: f64,
