@@ -7,18 +7,17 @@ AIMOTIVE is the folder of one sequence, of which the boxes are read. CONVERTED i
 the corrections of its clocks and mountings (docs/aimotive.md), and OUT the output folder of `ralf label CONVERTED`. Of the
 detections of each kind the share is printed that is labelled plausible:
 
-1. in boxes: inside an annotated box where it was at the scan's time, grown by 0.5 m in plan (a tenth of a degree of azimuth
-   and the box's own error) and by 1 degree in height, with a Doppler within 2 m/s of the box's. The box holds at least 5 points
-   of the LiDAR scan nearest in time, each of which is compared at its own time;
-2. on guard rails: standing by its Doppler (within 0.5 m/s), in no box, at least 3 m to a side, and within 0.5 m in plan of points 0.3 to
-   1.5 m above the road both of the LiDAR scan nearest in time and of at least 3 scans of the sequence (in a cell of 0.25 m); points in
-   boxes are left out. These are rails, and posts and noise barriers beside them;
+1. in boxes: inside an annotated box where it was at the scan's time, grown by 0.5 m along its sides and by 1 degree in
+   height, with a Doppler within 2 m/s of the box's. The box holds at least 5 points of the LiDAR scan nearest in time, each
+   of which is compared at its own time;
+2. on guard rails: standing by its Doppler (within 0.5 m/s), in no box, at least 3 m to a side, and within 0.5 m in plan of
+   points 0.3 to 1.5 m above the road both of the LiDAR scan nearest in time and of at least 3 scans of the sequence (in a
+   cell of 0.25 m); points in boxes are left out. These are rails, and posts and noise barriers beside them;
 3. far: more than 2.5 m from every point of the LiDAR scan nearest in time, the road's too, and of neither kind above;
 4. all others.
 
-Scans without a LiDAR scan within 60 ms are left out. None of it is ground truth: a box may hide another reflection, and a detection
-far from the LiDAR may still be real. A labeler that works gives two high shares and then a low one.
-Needs NumPy.
+Scans without a LiDAR scan within 60 ms are left out. None of it is ground truth: a box may hide another reflection, and a
+detection far from the LiDAR may still be real. A labeler that works gives two high shares and then a low one. Needs NumPy.
 """
 
 import csv
@@ -208,30 +207,26 @@ def kinds(sequence, boxes, rails, radar, scan, t_ns):
         return None
     motion, mounting = sequence.motion, sequence.mounting(radar)
     azimuth, elevation, distance, doppler = sequence.detections(radar, scan)
-    rays = np.stack([np.cos(elevation) * np.cos(azimuth), np.cos(elevation) * np.sin(azimuth), np.sin(elevation)])
-    places = mounting @ (rays.T * distance[:, None])
-    directions = rays.T @ mounting.turn.T
+    level = np.cos(elevation)
+    rays = np.stack([level * np.cos(azimuth), level * np.sin(azimuth), np.sin(elevation)], axis=1)
+    places = mounting @ (rays * distance[:, None])
+    directions = rays @ mounting.turn.T
     standing = -(directions @ motion.velocity_of(mounting.shift, t_ns))
     cloud, times = sequence.cloud(nearest)
-    with_points = [
-        box
-        for box in boxes[nearest]
-        if points_in(box, cloud, times, motion).sum() >= POINTS_IN_BOX
-    ]
-    rail_points = cloud[Rails.of_height(cloud)]
-    cloud, rail_points = [motion.between(t_ns, sequence.lidar_times[nearest]) @ each for each in (cloud, rail_points)]
+    with_points = [box for box in boxes[nearest] if points_in(box, cloud, times, motion).sum() >= POINTS_IN_BOX]
+    rail_heights = Rails.of_height(cloud)
+    cloud = motion.between(t_ns, sequence.lidar_times[nearest]) @ cloud
     odom = motion.odom_from_vehicle(t_ns) @ places
     found = []
     for n, place in enumerate(places):
         margin = np.array([GROWN_BY, GROWN_BY, distance[n] * GROWN_BY_ELEVATION])
         around = [box for box in boxes[nearest] if box.hold(place, box.center_at(t_ns), margin)]
-        moves = [abs(directions[n] @ box.velocity - doppler[n]) <= DOPPLER_OF_BOX for box in around if box in with_points]
-        stands = abs(doppler[n] - standing[n]) <= DOPPLER_OF_STANDING
-        if any(moves):
+        seen = [box for box in around if box in with_points]
+        stands_aside = abs(doppler[n] - standing[n]) <= DOPPLER_OF_STANDING and abs(place[1]) > RAIL_ASIDE
+        beside = is_beside(place, cloud[rail_heights]) and is_beside(odom[n], rails.centers)
+        if any(abs(directions[n] @ box.velocity - doppler[n]) <= DOPPLER_OF_BOX for box in seen):
             found.append(0)
-        elif not around and stands and abs(place[1]) > RAIL_ASIDE and all(
-            is_beside(*pair) for pair in ((place, rail_points), (odom[n], rails.centers))
-        ):
+        elif stands_aside and beside and not around:
             found.append(1)
         elif np.linalg.norm(cloud - place, axis=1).min() > FAR_FROM_LIDAR:
             found.append(2)

@@ -15,7 +15,7 @@ const MOMENTS: usize = 16;
 /// Between the two, ns.
 pub(crate) const LAG_NS: i64 = 500_000_000;
 /// Scans of a radar, besides those beside a LiDAR scan, in pairs.
-const RADAR_SCANS: usize = 80;
+const RADAR_SCANS: usize = 120;
 /// Points kept of a LiDAR scan.
 const LIDAR_POINTS: usize = 60_000;
 /// What stands between these heights above the ground is an obstacle that a radar sees as well, m.
@@ -91,6 +91,16 @@ pub(crate) struct Sample {
 impl Sample {
     /// Reads evenly spread scans.
     pub(crate) fn of(source: &dyn Source) -> Self {
+        Self::with_scans_around(source, 0)
+    }
+
+    /// Reads evenly spread scans, and of each radar the scans before and after those beside a LiDAR's: what is seen in
+    /// these as well is less often clutter.
+    pub(crate) fn in_rows(source: &dyn Source) -> Self {
+        Self::with_scans_around(source, 1)
+    }
+
+    fn with_scans_around(source: &dyn Source, around: usize) -> Self {
         let mut sample = Self::default();
         let times = &source.sequence().times;
         let mut wanted = vec![BTreeSet::new(); times.radars.len()];
@@ -98,10 +108,9 @@ impl Sample {
             for scan in paired(own) {
                 sample.read_lidar(source, lidar, scan);
                 for (radar, times) in times.radars.iter().enumerate() {
-                    // What is seen in the scans before and after as well is less often clutter.
-                    let around =
-                        nearest(times, own[scan]).map_or(0..0, |near| near.saturating_sub(1)..near + 2);
-                    wanted[radar].extend(around);
+                    if let Some(near) = nearest(times, own[scan]) {
+                        wanted[radar].extend(near.saturating_sub(around)..=near + around);
+                    }
                 }
             }
         }

@@ -1,5 +1,7 @@
 //! A model from simulated recordings, and labels by it.
 
+#![allow(clippy::unwrap_used, clippy::expect_used, reason = "of tests alone")]
+
 use ralf::config::{Config, Method};
 use ralf::label::flag;
 use ralf::learned::{Model, Origin};

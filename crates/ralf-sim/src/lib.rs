@@ -14,6 +14,9 @@
 //! grass are plausible; the road, mirror images and the inside of buildings are not. It is known from what sent an
 //! echo, and never from what LiDAR or cameras see. Each artifact has a [`Cause`](ralf::label::Cause).
 //!
+//! [`world`] has another kind of sequences: worlds that a seed draws, each with sensors and physics of its own, whose
+//! radars follow the radar equation.
+//!
 //! Every measurement follows from (seed, sensor, number) alone: the same seed gives the same bytes in any order.
 
 mod bvh;

@@ -46,9 +46,7 @@ pub(super) fn scatterers(kind: Kind, size: Vector, random: &mut Random) -> Vec<S
             (0..count).map(|i| Scatterer::new([0.0, 0.0, step * (0.4 + i as f64)], 5.0, 3.0)).collect()
         }
         Kind::Container => outer_walls(l, w, height, random),
-        Kind::Cyclist => scattered(6, [l, w], [0.3, 0.9 * height], (0.0, 5.0), random),
-        Kind::Sign => scattered(3, [l, w], [0.7 * height, height], (3.0, 4.0), random),
-        Kind::Rail | Kind::Wall => scattered(per(2.0, length), [l, w], [0.3, height], (3.0, 4.0), random),
+        Kind::Cyclist | Kind::Sign | Kind::Rail | Kind::Wall => slender(size, random),
         Kind::Pedestrian => scattered(4, [l, w], [0.3, 0.9 * height], (0.0, 5.0), random),
         Kind::Tree => {
             let trunk = scattered(4, [0.12, 0.12], [0.2, 0.4 * height], (1.0, 4.0), random);
@@ -69,6 +67,12 @@ pub(super) fn scatterers(kind: Kind, size: Vector, random: &mut Random) -> Vec<S
         Kind::Sidewalk => kerb(per(0.6, length), l, w, height, random),
         Kind::Road | Kind::Marking => Vec::new(),
     }
+}
+
+/// What stands by itself and is seen from everywhere.
+fn slender(size: Vector, random: &mut Random) -> Vec<Scatterer> {
+    let count = (1.5 * size.x).ceil() as usize + 3;
+    scattered(count, [size.x / 2.0, size.y / 2.0], [0.3, 0.9 * size.z], (2.0, 4.0), random)
 }
 
 /// Anywhere within a box, with a mean strength and a flicker.

@@ -1,7 +1,7 @@
 //! Labels one radar scan that lies in memory: `cargo run -p ralf-radar --example label_one_scan`.
 //!
-//! Whatever delivers measurements is a [`Source`]; arrays become one as a [`MemorySource`]. Here it is a street of a few
-//! points: a wall 10 m ahead, seen by a LiDAR and twice by a radar, which also reports something in the empty air.
+//! Whatever delivers measurements is a [`Source`]; arrays become one as a [`MemorySource`]. Here it is a street of a
+//! few points: a wall 10 m ahead, seen by a LiDAR and twice by a radar, which also reports something in the empty air.
 
 use ralf::config::Config;
 use ralf::paper::Labeler;

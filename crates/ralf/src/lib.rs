@@ -24,6 +24,7 @@
 //! | [`scene`] | what surrounds one radar scan | `space`, `sensors`, `config` |
 //! | [`paper`] | the paper's method | all above |
 //! | [`evidence`] | what else can be observed of a detection | `scene`, `config` |
+//! | [`learned`] | a model that weighs all evidence | `evidence`, `paper` |
 //! | [`metrics`] | how good labels are | |
 
 pub mod config;

@@ -28,7 +28,7 @@ pub use refine::Refinement;
 /// Judges a sequence, and refines what was found: the corrections of each sensor, jointly from range rates and the
 /// LiDAR, with standard deviations. Nothing is applied.
 pub fn check_and_refine(source: &dyn Source) -> (SequenceCheck, Vec<Refinement>) {
-    let sample = Sample::of(source);
+    let sample = Sample::in_rows(source);
     let (checked, case) = judge(source.sequence(), &sample);
     let refined = refine::refine(&case);
     (checked, refined)

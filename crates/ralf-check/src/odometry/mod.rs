@@ -23,8 +23,8 @@ const LAID: f64 = 0.6;
 const KEPT: f64 = 0.15;
 /// Speeds that are tried for the second scan, m/s: a recording may begin at any.
 const SPEEDS: [f64; 10] = [0.0, 4.0, 8.0, 12.0, 16.0, 20.0, 25.0, 30.0, 35.0, -3.0];
-/// A scan is laid well when this share of its points is near surfaces, and these lie on them so well. Of the second scan
-/// few are: the first one's rings on the road are no surfaces yet.
+/// A scan is laid well when this share of its points is near surfaces, and these lie on them so well. Of the second
+/// scan few are: the first one's rings on the road are no surfaces yet.
 const WELL: (f64, f64) = (0.1, 0.5);
 /// Radar scans may come this much before the first and after the last LiDAR scan, ns.
 const BEYOND_NS: i64 = 300_000_000;

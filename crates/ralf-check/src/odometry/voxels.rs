@@ -10,8 +10,8 @@ const SIDE: f64 = 1.0;
 const FEWEST: u32 = 6;
 /// More points say nothing new.
 const MOST: u32 = 300;
-/// A line that holds stands upright, as poles and edges of houses do: the sine of its elevation. Those that lie are what
-/// a beam draws onto a road or a wall, and a ring on the road goes along with the vehicle.
+/// A line that holds stands upright, as poles and edges of houses do: the sine of its elevation. Those that lie are
+/// what a beam draws onto a road or a wall, and a ring on the road goes along with the vehicle.
 const UPRIGHT: f64 = 0.8;
 /// Points are flat, or in a line, when they spread across so many times less than along (variances).
 const FLAT: f64 = 0.04;

@@ -72,16 +72,23 @@ fn told(found: &SequenceCheck) -> String {
 
 fn run(title: &str, base: &Arc<Recording>, wanted: impl Fn(&Fault) -> bool) {
     let mut failed = Vec::new();
+    let (mut noticed, mut remedies) = ([0; 2], [0; 2]);
     println!("{title}\n{:>3}  {:<40} {:<8} {:<7} says", "", "fault", "noticed", "remedy");
     for (i, fault) in faults().iter().enumerate().filter(|(_, fault)| wanted(fault)) {
         let row = judge(base, fault);
         let mark = |good| if good { "yes" } else { "NO" };
         let remedy = row.right_remedy.map_or("-", mark);
         println!("{:>3}  {:<40} {:<8} {:<7} {}", i + 1, fault.name, mark(row.noticed), remedy, row.says);
+        noticed = [noticed[0] + usize::from(row.noticed), noticed[1] + 1];
+        if let Some(is_right) = row.right_remedy {
+            remedies = [remedies[0] + usize::from(is_right), remedies[1] + 1];
+        }
         if !row.noticed || row.right_remedy == Some(false) {
             failed.push(fault.name);
         }
     }
+    let [[noticed, faults], [right, remedies]] = [noticed, remedies];
+    println!("{title}: {noticed} of {faults} faults noticed, {right} of {remedies} remedies right");
     assert!(failed.is_empty(), "{title}: {failed:?}");
 }
 

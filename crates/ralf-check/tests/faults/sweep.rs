@@ -1,9 +1,14 @@
 //! Good recordings: the sequences of the simulator's preset `paper`, whole and in short, with three seeds.
 
+use crate::recording::{Planted, Recording};
 use crate::told;
+use ralf::config::Config;
+use ralf::paper::Labeler;
+use ralf::scene::FrameWindow;
 use ralf::sensors::Source;
 use ralf_check::check;
 use ralf_sim::presets;
+use std::time::Instant;
 
 const SEEDS: [u64; 3] = [1, 2, 3];
 /// Scans of each radar in a short one: 3 s.
@@ -29,4 +34,32 @@ fn the_sequences_of_the_paper_raise_nothing() {
     }
     println!("{} alarms in {} recordings", alarms.len(), 11 * 2 * SEEDS.len());
     assert!(alarms.is_empty(), "{alarms:#?}");
+}
+
+/// Seconds that a check takes beside those that labelling every scan takes, both reading anew. Nothing is asserted of a
+/// time.
+#[test]
+#[ignore = "measures: cargo test --release -p ralf-check --test faults -- --ignored --nocapture costs"]
+fn what_a_check_costs_beside_labelling() {
+    for sequence in presets::find("paper").unwrap().sequences.iter().take(2) {
+        let recording = Recording::simulated(sequence.simulate(1, sequence.scans).unwrap());
+        let planted = Planted::new(&recording);
+        let sequence = planted.sequence();
+        // What is simulated is kept: the first round pays for it.
+        for round in ["with reading", "read before"] {
+            let begun = Instant::now();
+            check(&planted);
+            let checked = begun.elapsed().as_secs_f64();
+            let begun = Instant::now();
+            let config = Config::default();
+            let mut window = FrameWindow::new(&planted, &sequence.rig, &config);
+            for (radar, times) in sequence.times.radars.iter().enumerate() {
+                for scan in 0..times.len() {
+                    Labeler::new(&config).label(&window.frame(radar, scan).unwrap());
+                }
+            }
+            let labelled = begun.elapsed().as_secs_f64();
+            println!("{} {round}: check {checked:.2} s, labels {labelled:.2} s", sequence.name);
+        }
+    }
 }

@@ -70,8 +70,10 @@ pub(crate) fn run(arguments: &InspectArgs) -> anyhow::Result<Outcome> {
     if arguments.distributions {
         return distributions::show(&recording, threads(None), arguments.json);
     }
-    let look = |reader: &Box<dyn SequenceReader>| look_at(reader.as_ref(), &settings.method, arguments.quick);
-    let looks: Vec<Inspection> = recording.sequences.iter().map(look).collect();
+    let mut looks: Vec<Inspection> = Vec::new();
+    for reader in &recording.sequences {
+        looks.push(look_at(reader.as_ref(), &settings.method, arguments.quick));
+    }
     if arguments.json {
         let checks = checks(&recording, arguments.quick);
         let mut look = serde_json::json!({ "format": recording.format, "sequences": looks, "check": checks });

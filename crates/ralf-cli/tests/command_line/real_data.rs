@@ -16,6 +16,25 @@ fn data(name: &str) -> Option<String> {
     Some(folder?.to_str().unwrap().to_owned())
 }
 
+/// What `ralf check` says of recordings that are known to be good: a line each.
+#[test]
+fn good_real_recordings_raise_nothing() {
+    let recordings = [
+        "nuscenes",
+        "view-of-delft",
+        "ros/nuscenes-0061.bag",
+        "ros/nuscenes-0061-lz4.bag",
+        "ros/nuscenes-0061.mcap",
+        "ros/nuscenes-0061-lz4.mcap",
+        "ros/nuscenes-0061-zstd.mcap",
+    ];
+    for name in recordings {
+        let Some(data) = data(name) else { return };
+        ralf(["check", &data, "--strict"]).exits(0).prints(["nothing speaks against it"]);
+        println!("{name}: nothing speaks against it");
+    }
+}
+
 #[test]
 fn a_scene_of_nuscenes() {
     let Some(data) = data("nuscenes") else { return };

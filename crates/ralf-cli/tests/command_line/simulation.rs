@@ -85,3 +85,30 @@ fn without_images_or_with_other_numbers_of_jobs_all_other_files_are_the_same() {
     assert_eq!(left, others);
     assert!(tree(&bare).keys().all(|file| !file.contains("camera_")));
 }
+
+#[test]
+fn a_world_is_simulated_the_same_again_and_labelled() {
+    let dataset = Dataset::new();
+    let [made, again, out] = ["world", "world_again", "labels"].map(|name| dataset.beside(name));
+    let world = |to: &str, jobs: &str| {
+        let which = ["--preset", "worlds", "--family", "carpark", "--seed", "2", "--sequence", "01"];
+        let [a, b, c, d, e, f, g, h] = which;
+        ralf(["simulate", "-o", to, "--scans", "8", "--jobs", jobs, a, b, c, d, e, f, g, h])
+            .exits(0)
+            .prints_nothing();
+    };
+    world(&made, "2");
+    world(&again, "1");
+    assert_eq!(tree(&made), tree(&again), "the same seed gives the same bytes on any number of threads");
+    let causes = fs::read_to_string(format!("{made}/sequences/01/ground_truth/causes.txt")).unwrap();
+    assert_eq!(causes.lines().last(), Some("interference"));
+    ralf(["label", &made, "-o", &out]).exits(0).prints(["radar_"]);
+    let scores = ralf(["evaluate", &out, "--truth", &made, "--json"]).exits(0).json();
+    assert!(scores["overall"]["pooled"]["tp"].as_u64().unwrap() > 0);
+
+    let none = dataset.beside("none");
+    ralf(["simulate", "-o", &none, "--preset", "worlds", "--family", "moon"]).exits(2).says(["city", "moon"]);
+    ralf(["simulate", "-o", &none, "--preset", "worlds", "--sequence", "09"])
+        .exits(2)
+        .says(["expected one of 00"]);
+}

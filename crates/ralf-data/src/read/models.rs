@@ -80,8 +80,8 @@ pub(crate) const HDL_64E_S3: LidarModel =
 pub(crate) const PANDAR64: LidarModel =
     LidarModel { sigma_range_m: 0.02, lowest_beam_deg: 25.0, max_range_m: Some(200.0) };
 
-/// smartmicro UMRR-11 type 132, both radars of aiMotive. Fields of view are those that scans of a motorway fill, 17.3 deg
-/// to either side and 7.8 deg up and down; sigmas what they scatter by about guard rails in the LiDAR's map.
+/// smartmicro UMRR-11 type 132, both radars of aiMotive. Fields of view are those that scans of a motorway fill,
+/// 17.3 deg to either side and 7.8 deg up and down; sigmas what they scatter by about guard rails in the LiDAR's map.
 pub(crate) const UMRR_11: RadarModel = RadarModel {
     elevation: Elevation::Measured,
     fov_azimuth_deg: 36.0,

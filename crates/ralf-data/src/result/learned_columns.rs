@@ -54,15 +54,20 @@ fn share_name(group: &str) -> String {
 
 /// A column's number of each detection; `None` of a column that is no number of a model's.
 pub(crate) fn numbers(name: &str, answers: &[Answer]) -> Option<Vec<f32>> {
-    let of: Box<dyn Fn(&Answer) -> Option<f64>> = match name {
-        NOVELTY => Box::new(|answer| answer.novelty),
-        CAUSE_PROBABILITY => Box::new(|answer| answer.cause.as_ref().map(|cause| cause.probability)),
-        _ => {
-            let group = GROUPS.iter().position(|group| share_name(group) == name)?;
-            Box::new(move |answer| answer.shares.get(group).copied())
-        }
-    };
-    Some(answers.iter().map(|answer| of(answer).map_or(f32::NAN, |value| value as f32)).collect())
+    let group = GROUPS.iter().position(|group| share_name(group) == name);
+    if group.is_none() && name != NOVELTY && name != CAUSE_PROBABILITY {
+        return None;
+    }
+    let mut numbers = Vec::with_capacity(answers.len());
+    for answer in answers {
+        let number = match group {
+            Some(group) => answer.shares.get(group).copied(),
+            None if name == NOVELTY => answer.novelty,
+            None => answer.cause.as_ref().map(|cause| cause.probability),
+        };
+        numbers.push(number.map_or(f32::NAN, |number| number as f32));
+    }
+    Some(numbers)
 }
 
 /// A column's words of each detection; `None` of a column that holds none.

@@ -33,6 +33,7 @@ pub(crate) use sequence_record::ScanNotes;
 pub use sequence_record::{
     CameraRecord, FileRecord, ImageRecord, NotLabelled, RadarRecord, SequenceRecord, UnreadableScan,
 };
+pub(crate) use sisters::RadarCounts;
 pub use sisters::UnlikeSisters;
 pub use table::{Table, Value, Values};
 

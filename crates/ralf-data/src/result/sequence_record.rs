@@ -1,10 +1,11 @@
 //! What `run.json` tells of a sequence.
 
 use super::label_hash::hash_of_labels;
-use super::{Table, UnlikeSisters};
+use super::{RadarCounts, Table, UnlikeSisters};
 use crate::disk::label_file::label_bytes;
 use crate::error::DataError;
 use crate::read::MotionSource;
+use ralf::label::flag;
 use ralf::scene::{CalibratedImage, Frame, Unreadable, ViewReport, ViewState};
 use serde::{Deserialize, Serialize};
 
@@ -153,6 +154,17 @@ impl CameraRecord {
 }
 
 impl RadarRecord {
+    /// Over all scans that had a LiDAR's beside them: what others are worth depends on how densely a radar sees.
+    pub(crate) fn counts(&self) -> RadarCounts<'_> {
+        let mut counts = RadarCounts { radar: &self.name, plausible: 0, detections: 0 };
+        let rows = self.plausible.iter().zip(&self.detections).zip(&self.flags);
+        for ((plausible, detections), _) in rows.filter(|(_, flags)| **flags & flag::NO_LIDAR == 0) {
+            counts.plausible += u64::from(*plausible);
+            counts.detections += u64::from(*detections);
+        }
+        counts
+    }
+
     /// Whether these are the bytes that were written of a scan's labels. Of an older record this isn't known.
     pub(crate) fn labels_match(&self, scan: usize, bytes: &[u8]) -> bool {
         self.labels.get(scan).is_none_or(|written| written.is_empty() || *written == hash_of_labels(bytes))

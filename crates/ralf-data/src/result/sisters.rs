@@ -1,16 +1,29 @@
-//! A radar whose plausible share is far from its sisters': what neither its range rates nor the LiDAR gave away shows in
-//! the labels.
+//! A radar whose plausible share is far from its sisters': what neither its range rates nor the LiDAR gave away shows
+//! in the labels.
 
-use super::RadarRecord;
 use serde::{Deserialize, Serialize};
 
 /// A sequence needs so many radars: of two nobody knows which is right.
 const FEWEST_RADARS: usize = 3;
-/// Fewer detections tell no share.
+/// Fewer detections, in scans that had a LiDAR's beside them, tell no share.
 const FEWEST: u64 = 500;
-/// Far: the odds of being plausible are so many times those of the sister with the highest, or the lowest over this. In
-/// good recordings, real and simulated, they stay within 1.6 times.
+/// Far: the odds of being plausible are so many times those of the sister with the highest, or those of the lowest are
+/// so many times them.
 const FAR: f64 = 2.5;
+
+/// What a radar's labels count.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct RadarCounts<'a> {
+    pub(crate) radar: &'a str,
+    pub(crate) plausible: u64,
+    pub(crate) detections: u64,
+}
+
+impl RadarCounts<'_> {
+    fn share(&self) -> f64 {
+        self.plausible as f64 / self.detections as f64
+    }
+}
 
 /// A radar that is unlike the others of its sequence.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -25,25 +38,20 @@ pub struct UnlikeSisters {
 
 impl UnlikeSisters {
     /// Those of a sequence's radars.
-    pub(crate) fn of(radars: &[RadarRecord]) -> Vec<Self> {
-        let total = |counts: &[u32]| counts.iter().copied().map(u64::from).sum::<u64>();
-        let known: Vec<(&str, f64)> = radars
-            .iter()
-            .map(|radar| (radar.name.as_str(), total(&radar.plausible), total(&radar.detections)))
-            .filter(|(_, _, detections)| *detections >= FEWEST)
-            .map(|(name, plausible, detections)| (name, plausible as f64 / detections as f64))
-            .collect();
+    pub(crate) fn of(radars: &[RadarCounts]) -> Vec<Self> {
+        let known: Vec<&RadarCounts> = radars.iter().filter(|radar| radar.detections >= FEWEST).collect();
         if known.len() < FEWEST_RADARS {
             return Vec::new();
         }
         let mut found = Vec::new();
-        for (i, (radar, share)) in known.iter().enumerate() {
-            let others =
-                known.iter().enumerate().filter(|(other, _)| *other != i).map(|(_, (_, share))| *share);
-            let (lowest, highest) =
-                others.fold((1.0_f64, 0.0_f64), |(low, high), share| (low.min(share), high.max(share)));
-            if odds(*share) > FAR * odds(highest) || FAR * odds(*share) < odds(lowest) {
-                found.push(Self { radar: (*radar).to_owned(), share: *share, sisters: [lowest, highest] });
+        for (i, counts) in known.iter().enumerate() {
+            let (mut lowest, mut highest) = (1.0_f64, 0.0_f64);
+            for (_, other) in known.iter().enumerate().filter(|(other, _)| *other != i) {
+                (lowest, highest) = (lowest.min(other.share()), highest.max(other.share()));
+            }
+            let share = counts.share();
+            if odds(share) > FAR * odds(highest) || FAR * odds(share) < odds(lowest) {
+                found.push(Self { radar: counts.radar.to_owned(), share, sisters: [lowest, highest] });
             }
         }
         found
@@ -71,13 +79,12 @@ mod tests {
     use super::*;
 
     fn unlike(shares: &[(u32, u32)]) -> Vec<String> {
-        let record = |(i, (plausible, detections)): (usize, &(u32, u32))| RadarRecord {
-            name: format!("radar_{i}"),
-            plausible: vec![*plausible, 0],
-            detections: vec![*detections, 0],
-            ..RadarRecord::default()
-        };
-        let radars: Vec<RadarRecord> = shares.iter().enumerate().map(record).collect();
+        let names = ["radar_0", "radar_1", "radar_2", "radar_3"];
+        let mut radars = Vec::new();
+        for (radar, (plausible, detections)) in names.into_iter().zip(shares) {
+            let [plausible, detections] = [*plausible, *detections].map(u64::from);
+            radars.push(RadarCounts { radar, plausible, detections });
+        }
         UnlikeSisters::of(&radars).into_iter().map(|found| found.radar).collect()
     }
 

@@ -57,7 +57,7 @@ pub(super) fn assemble(
         name: sequence.name.clone(),
         fingerprint,
         table,
-        unlike_sisters: UnlikeSisters::of(&radars),
+        unlike_sisters: UnlikeSisters::of(&radars.iter().map(RadarRecord::counts).collect::<Vec<_>>()),
         radars,
         cameras,
         not_labelled,

@@ -55,20 +55,8 @@ fn solid_colour(scene: &Scene<'_>, solid: &Solid, p: &Point, normal: &Vector) ->
         Kind::Tree if matches!(solid.shape, Shape::Cylinder(..)) => [96.0, 74.0, 56.0],
         Kind::Tree | Kind::Hedge => leaves(p, [66.0, 112.0, 52.0]),
         Kind::Grass => leaves(p, [92.0, 142.0, 70.0]),
-        Kind::Fence => {
-            if repeats(along, 0.16, 0.75) {
-                [150.0, 112.0, 76.0]
-            } else {
-                [70.0, 54.0, 40.0]
-            }
-        }
-        Kind::Garage => {
-            if repeats(height, 0.5, 0.95) {
-                [150.0, 148.0, 142.0]
-            } else {
-                [120.0, 118.0, 112.0]
-            }
-        }
+        Kind::Fence => striped(along, 0.16, 0.75, [[150.0, 112.0, 76.0], [70.0, 54.0, 40.0]]),
+        Kind::Garage => striped(height, 0.5, 0.95, [[150.0, 148.0, 142.0], [120.0, 118.0, 112.0]]),
         Kind::Sidewalk => {
             if repeats(p.x, 0.6, 0.95) && repeats(p.y, 0.6, 0.95) {
                 [172.0; 3]
@@ -80,10 +68,10 @@ fn solid_colour(scene: &Scene<'_>, solid: &Solid, p: &Point, normal: &Vector) ->
         Kind::Pedestrian => mixed([176.0, 48.0, 44.0], [44.0, 66.0, 150.0], tint),
         Kind::Pole => [138.0, 140.0, 144.0],
         Kind::Marking => [236.0; 3],
-        Kind::Cyclist => mixed([44.0, 66.0, 150.0], [60.0, 120.0, 70.0], tint),
-        Kind::Truck | Kind::Container => mixed([210.0, 210.0, 214.0], [40.0, 80.0, 140.0], tint),
+        Kind::Cyclist | Kind::Truck | Kind::Container | Kind::Sign => {
+            mixed([210.0, 210.0, 214.0], [40.0, 80.0, 140.0], tint)
+        }
         Kind::Rail | Kind::Wall => [168.0, 168.0, 164.0],
-        Kind::Sign => [220.0, 200.0, 60.0],
         Kind::Road => asphalt(p),
     }
 }
@@ -128,6 +116,11 @@ fn asphalt(p: &Point) -> [f64; 3] {
 fn leaves(p: &Point, base: [f64; 3]) -> [f64; 3] {
     let value = grain((p.x * 7.0).floor(), (p.y * 7.0).floor(), (p.z * 7.0).floor());
     base.map(|channel| channel * (0.6 + 0.8 * value))
+}
+
+/// One colour in the first `share` of each period, and another in the rest.
+fn striped(place: f64, period: f64, share: f64, colours: [[f64; 3]; 2]) -> [f64; 3] {
+    colours[usize::from(!repeats(place, period, share))]
 }
 
 /// Whether a place lies in the first `share` of its period.

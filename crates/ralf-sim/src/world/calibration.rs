@@ -9,6 +9,8 @@ use nalgebra::{Translation3, UnitQuaternion};
 use ralf::sensors::{Elevation, Lidar, Radar, Reliability, Rig};
 use ralf::space::{EgoMotion, OdometrySample, PoseSample, Transform, Vector};
 
+/// Standard deviations are stated for what most detections have, some 16 dB: so much more than at 20 dB.
+const USUAL_ERROR: f64 = 1.6;
 /// Between samples of odometry and between poses, ns.
 const ODOMETRY_NS: i64 = 20_000_000;
 const POSE_NS: i64 = 50_000_000;
@@ -123,7 +125,7 @@ fn off(mount: &Transform, angle_deg: f64, place: f64, random: &mut Random) -> Tr
 }
 
 fn declared_radar(radar: &RadarModel, said: Transform, factor: f64) -> Radar {
-    let sigma = |cell: f64| cell * radar.accuracy * factor;
+    let sigma = |cell: f64| cell * radar.accuracy * USUAL_ERROR * factor;
     let columns =
         ["x", "y", "z", "doppler"].into_iter().chain(radar.amplitudes.iter().map(|kind| kind.name()));
     Radar {
@@ -152,6 +154,7 @@ fn declared_lidar(lidar: &LidarModel, said: Transform) -> Lidar {
 
 #[cfg(test)]
 mod tests {
+    use super::USUAL_ERROR;
     use crate::world::draw::World;
     use crate::world::family::FAMILIES;
 
@@ -168,7 +171,7 @@ mod tests {
                 assert!(error.translation.vector.amax() > 0.0);
                 assert!(error.translation.vector.norm() < place * 3.0_f64.sqrt() + 1e-9);
                 assert!(real.clock_ns.abs() <= 20_000_000);
-                let sigmas = said.sigma_range / (real.accuracy * real.cell.range);
+                let sigmas = said.sigma_range / (USUAL_ERROR * real.accuracy * real.cell.range);
                 assert!((0.8..=1.3).contains(&sigmas), "{sigmas}");
             }
         }

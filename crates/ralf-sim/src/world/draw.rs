@@ -9,6 +9,16 @@ use crate::random::{Purpose, Random};
 use nalgebra::{Translation3, UnitQuaternion};
 use ralf::space::Transform;
 
+/// By how much the sine of an ambiguous angle is off: wavelength over the spacing of an array with gaps.
+const AMBIGUITY: Span = span(0.25, 0.7);
+/// What radars tell of an echo's strength, and how likely.
+const AMPLITUDES: [(&[Amplitude], f64); 4] = [
+    (&[Amplitude::Rcs], 0.5),
+    (&[Amplitude::Rcs, Amplitude::Snr], 0.2),
+    (&[Amplitude::Power], 0.15),
+    (&[Amplitude::Rcs, Amplitude::Power], 0.15),
+];
+
 /// A vehicle with its sensors, and how the waves of its world behave. All sequences of a recording share it.
 #[derive(Debug, Clone)]
 pub(super) struct World {
@@ -43,6 +53,7 @@ fn waves(family: &Family, random: &mut Random) -> Waves {
     Waves {
         asphalt_db: ranges.asphalt.draw(random),
         texture_db: ranges.texture.draw(random),
+        lumps: [ranges.lumps.draw(random), ranges.lump_strength.draw(random)],
         mirror_loss_db: ranges.mirror_loss.draw(random),
         road_mirror: ranges.road_mirror.draw(random),
         window_loss_db: ranges.window_loss.draw(random),
@@ -66,7 +77,7 @@ fn radars(family: &Family, random: &mut Random) -> Vec<RadarModel> {
     let ranges = &family.radars;
     let layouts: Vec<_> = ranges.layouts.iter().map(|layout| (*layout, 1.0)).collect();
     let layout = one_of(&layouts, random).unwrap_or_default();
-    let lowest = [0.0, 2.0][usize::from(random.chance(0.3))];
+    let upward = if random.chance(0.3) { 2.0 } else { 0.0 };
     let measures = random.chance(ranges.elevation);
     // Those along the vehicle's axis and those at its corners may be of two kinds.
     let along = radar(ranges, measures, random);
@@ -75,7 +86,7 @@ fn radars(family: &Family, random: &mut Random) -> Vec<RadarModel> {
     let mut found = Vec::new();
     for (number, mount) in layout.iter().enumerate() {
         let kind = if mount.2.abs() < 1.0 || mount.2.abs() > 179.0 { &along } else { &across };
-        let pitch = random.between(-1.0, 1.0) - lowest;
+        let pitch = random.between(-1.0, 1.0) - upward;
         found.push(RadarModel {
             name: mount.0.to_owned(),
             vehicle_from_radar: mounted(mount, 0.1, pitch, random),
@@ -90,54 +101,34 @@ fn radars(family: &Family, random: &mut Random) -> Vec<RadarModel> {
 
 /// A model of radar; name and place come later.
 fn radar(ranges: &RadarRanges, elevation: bool, random: &mut Random) -> RadarModel {
-    let amplitudes = [
-        (vec![Amplitude::Rcs], 0.5),
-        (vec![Amplitude::Rcs, Amplitude::Snr], 0.2),
-        (vec![Amplitude::Power], 0.15),
-        (vec![Amplitude::Rcs, Amplitude::Power], 0.15),
-    ];
-    let mut draw = |span: Span| span.draw(random);
-    let fov = [draw(ranges.fov_azimuth).to_radians(), draw(ranges.fov_elevation).to_radians()];
-    let cell = Cell {
-        range: draw(ranges.range_cell),
-        azimuth: draw(ranges.azimuth_cell).to_radians(),
-        elevation: draw(ranges.elevation_cell).to_radians(),
-        doppler: draw(ranges.doppler_cell),
-    };
-    let sensitivity_db = sensitivity_db(draw(ranges.car_range));
-    let period_ns = (1e9 / draw(ranges.rate)).round() as i64;
-    let [accuracy, threshold_db, max_range] =
-        [draw(ranges.accuracy), draw(ranges.threshold), draw(ranges.max_range)];
-    let [doppler_interval, doppler_failure] = [draw(ranges.doppler_interval), draw(ranges.doppler_failure)];
-    let [side_lobe_db, angle_failure] = [draw(ranges.side_lobe), draw(ranges.angle_failure)];
-    let accepted_db = draw(ranges.accepted);
-    let [ambiguity, false_alarms] = [draw(span(0.25, 0.7)), draw(ranges.false_alarms)];
-    let room = ranges.room.count(random);
-    let chosen = one_of(&[(0, 0.5), (1, 0.2), (2, 0.15), (3, 0.15)], random).unwrap_or(0);
-    let amplitudes = amplitudes.into_iter().nth(chosen).map(|(columns, _)| columns).unwrap_or_default();
     RadarModel {
         name: String::new(),
         vehicle_from_radar: Transform::identity(),
         elevation,
-        fov,
-        period_ns,
+        fov: [ranges.fov_azimuth, ranges.fov_elevation].map(|span| span.draw(random).to_radians()),
+        period_ns: (1e9 / ranges.rate.draw(random)).round() as i64,
         first_ns: 0,
         clock_ns: 0,
-        sensitivity_db,
-        max_range,
-        cell,
-        accuracy,
-        threshold_db,
-        doppler_interval,
-        doppler_failure,
-        side_lobe_db,
-        accepted_db,
-        angle_failure,
-        ambiguity,
-        room,
-        false_alarms,
+        sensitivity_db: sensitivity_db(ranges.car_range.draw(random)),
+        max_range: ranges.max_range.draw(random),
+        cell: Cell {
+            range: ranges.range_cell.draw(random),
+            azimuth: ranges.azimuth_cell.draw(random).to_radians(),
+            elevation: ranges.elevation_cell.draw(random).to_radians(),
+            doppler: ranges.doppler_cell.draw(random),
+        },
+        accuracy: ranges.accuracy.draw(random),
+        threshold_db: ranges.threshold.draw(random),
+        doppler_interval: ranges.doppler_interval.draw(random),
+        doppler_failure: ranges.doppler_failure.draw(random),
+        side_lobe_db: ranges.side_lobe.draw(random),
+        accepted_db: ranges.accepted.draw(random),
+        angle_failure: ranges.angle_failure.draw(random),
+        ambiguity: AMBIGUITY.draw(random),
+        room: ranges.room.count(random),
+        false_alarms: ranges.false_alarms.draw(random),
         rcs_offset_db: 0.0,
-        amplitudes,
+        amplitudes: one_of(&AMPLITUDES, random).unwrap_or_default().to_vec(),
     }
 }
 

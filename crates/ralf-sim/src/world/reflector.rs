@@ -86,55 +86,78 @@ impl Parts<'_> {
 
 /// The reflectors of a thing of a kind and size, in its own frame.
 pub(super) fn reflectors(kind: Kind, size: Vector, random: &mut Random) -> Vec<Reflector> {
-    let [length, width, height] = size.into();
-    let (l, w) = (length / 2.0, width / 2.0);
-    let per = |density: f64, extent: f64| (density * extent).ceil() as usize;
+    let (l, w, height) = (size.x / 2.0, size.y / 2.0, size.z);
     let mut parts = Parts { found: Vec::new(), random };
     match kind {
         Kind::Car => car(l, w, height, &mut parts),
         Kind::Truck => truck(l, w, height, &mut parts),
         Kind::Building | Kind::Garage => building(l, w, height, &mut parts),
         Kind::Container => box_of_metal(l, w, height, &mut parts),
-        Kind::Pedestrian => {
-            parts.scatter(3, [l, w], [0.6, 0.9 * height], -13.0, 4.0);
-            parts.scatter(2, [l, w], [0.1, 0.6], -15.0, 4.0);
-            parts.found.iter_mut().skip(3).for_each(|leg| leg.swings = true);
+        Kind::Pedestrian | Kind::Cyclist => person(kind, l, w, height, &mut parts),
+        Kind::Tree | Kind::Hedge => leaves(kind, size, &mut parts),
+        Kind::Pole | Kind::Sign => post(kind, [l, w], height, &mut parts),
+        Kind::Fence | Kind::Rail | Kind::Wall => barrier(kind, l, w, height, &mut parts),
+        Kind::Grass | Kind::Sidewalk | Kind::Road | Kind::Marking => {}
+    }
+    parts.found
+}
+
+/// So many on a stretch or in a room.
+fn per(density: f64, extent: f64) -> usize {
+    (density * extent).ceil() as usize
+}
+
+/// A trunk, and limbs that swing; a cyclist's wheels.
+fn person(kind: Kind, l: f64, w: f64, height: f64, parts: &mut Parts<'_>) {
+    if kind == Kind::Cyclist {
+        parts.scatter(4, [0.3, w], [0.6, 0.9 * height], -9.0, 4.0);
+        for x in [-0.55, 0.55] {
+            parts.put([x, 0.0, 0.33], None, -7.0, 4.0).swings = true;
         }
-        Kind::Cyclist => {
-            parts.scatter(4, [0.3, w], [0.6, 0.9 * height], -9.0, 4.0);
-            for x in [-0.55, 0.55] {
-                parts.put([x, 0.0, 0.33], None, -7.0, 4.0).swings = true;
-            }
-        }
-        Kind::Pole => parts.scatter(per(1.0, height).min(5), [l, w], [0.2, height.min(3.5)], -1.0, 3.0),
-        Kind::Sign => {
-            parts.put([l, 0.0, height - 0.8 * w], Some(Vector::x()), 8.0, 5.0);
-            parts.scatter(2, [l, w], [0.3, height], -4.0, 3.0);
-        }
-        Kind::Tree => {
-            parts.scatter(4, [0.15, 0.15], [0.3, 0.4 * height], -2.0, 3.0);
-            let leaves = per(0.35, length * width * height).min(60);
-            parts.scatter(leaves, [0.85 * l, 0.85 * w], [0.35 * height, 0.9 * height], -9.0, 5.0);
-        }
-        Kind::Hedge => parts.scatter(per(4.0, length), [l, w], [0.15, height], -8.0, 5.0),
+        return;
+    }
+    parts.scatter(3, [l, w], [0.6, 0.9 * height], -13.0, 4.0);
+    parts.scatter(2, [l, w], [0.1, 0.6], -15.0, 4.0);
+    parts.found.iter_mut().skip(3).for_each(|leg| leg.swings = true);
+}
+
+fn leaves(kind: Kind, size: Vector, parts: &mut Parts<'_>) {
+    let (l, w, height) = (size.x / 2.0, size.y / 2.0, size.z);
+    if kind == Kind::Hedge {
+        return parts.scatter(per(8.0, l), [l, w], [0.15, height], -8.0, 5.0);
+    }
+    parts.scatter(4, [0.15, 0.15], [0.3, 0.4 * height], -2.0, 3.0);
+    let crown = per(0.35, size.product()).min(60);
+    parts.scatter(crown, [0.85 * l, 0.85 * w], [0.35 * height, 0.9 * height], -9.0, 5.0);
+}
+
+fn post(kind: Kind, [l, w]: [f64; 2], height: f64, parts: &mut Parts<'_>) {
+    if kind == Kind::Sign {
+        parts.put([l, 0.0, height - 0.8 * w], Some(Vector::x()), 8.0, 5.0);
+        return parts.scatter(2, [l, w], [0.3, height], -4.0, 3.0);
+    }
+    parts.scatter(per(1.0, height).min(5), [l, w], [0.2, height.min(3.5)], -1.0, 3.0);
+}
+
+/// Posts shine at any angle; what runs along does at right angles, see [`walls`].
+fn barrier(kind: Kind, l: f64, w: f64, height: f64, parts: &mut Parts<'_>) {
+    match kind {
         Kind::Fence => {
-            (0..per(0.4, length)).for_each(|i| {
-                let x = -l + (i as f64 + 0.5) * length / per(0.4, length) as f64;
+            let posts = per(0.8, l);
+            for i in 0..posts {
+                let x = -l + (i as f64 + 0.5) * 2.0 * l / posts as f64;
                 parts.put([x, 0.0, 0.6 * height], None, 0.0, 4.0);
-            });
-            parts.scatter(per(2.0, length), [l, w], [0.1, height], -8.0, 5.0);
+            }
+            parts.scatter(per(4.0, l), [l, w], [0.1, height], -8.0, 5.0);
         }
-        // A post every 2 m or 4 m shines at any angle; the rail itself at right angles, see `walls`.
         Kind::Rail => {
             for x in [-0.5 * l, 0.5 * l] {
                 parts.put([x, 0.0, 0.55], None, 2.0, 4.0);
             }
-            parts.scatter(per(0.5, length), [l, w], [0.45, height], -6.0, 5.0);
+            parts.scatter(per(1.0, l), [l, w], [0.45, height], -6.0, 5.0);
         }
-        Kind::Wall => parts.scatter(per(1.2, length), [l, w], [0.2, height], -6.0, 5.0),
-        Kind::Grass | Kind::Sidewalk | Kind::Road | Kind::Marking => {}
+        _ => parts.scatter(per(2.4, l), [l, w], [0.2, height], -6.0, 5.0),
     }
-    parts.found
 }
 
 /// Corners and wheels shine, the rest less; waves also find what lies inside.

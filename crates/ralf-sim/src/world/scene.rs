@@ -97,8 +97,8 @@ impl Moment<'_> {
         }
     }
 
-    /// The first surface that a ray meets within `limit`, where `stop` says how far a ray comes that meets a body: `None`
-    /// passes through.
+    /// The first surface that a ray meets within `limit`, where `stop` says how far a ray comes that meets a body:
+    /// `None` passes through.
     pub(super) fn cast(
         &self,
         ray: &Ray,
@@ -131,8 +131,8 @@ impl Moment<'_> {
         })
     }
 
-    /// What lies between two points takes from a radar wave, there and back, dB; `None` where nothing comes through. The
-    /// bodies of `own` don't count, nor does the ground.
+    /// What lies between two points takes from a radar wave, there and back, dB; `None` where nothing comes through.
+    /// The bodies of `own` don't count, nor does the ground.
     pub(super) fn loss_db(&self, from: &Point, to: &Point, own: Option<usize>, leaf_db: f64) -> Option<f64> {
         let way = to - from;
         let length = way.norm();

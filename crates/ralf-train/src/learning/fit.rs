@@ -1,5 +1,6 @@
 //! From a table to a model: cross-fitted, judged and calibrated world by world.
 
+use super::balance::weights;
 use super::blanking::blanked;
 use super::boosting::{Bins, Examples, Grown, Parameters, boost};
 use super::calibrate::{Answered, calibration};
@@ -128,7 +129,7 @@ impl<'a> Ground<'a> {
             bins,
             rows,
             target: table.known.iter().map(|known| known.plausible).collect(),
-            weights: table.known.iter().map(|known| known.weight).collect(),
+            weights: weights(table),
             monotone: table.features.iter().map(|feature| direction(feature.name)).collect(),
         }
     }

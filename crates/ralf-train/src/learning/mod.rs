@@ -8,6 +8,7 @@
 //!
 //! The same table and seed give the same model to the byte.
 
+mod balance;
 mod blanking;
 mod boosting;
 mod calibrate;

@@ -109,8 +109,8 @@ impl Counts {
 
 /// The threshold at which F1 is largest; the highest of several. 0.5 where nothing is plausible.
 pub fn best_threshold(judged: &[Judged]) -> f64 {
-    let mut counts = Counts::default();
-    counts.false_negative = judged.iter().filter(|row| row.plausible).count() as f64;
+    let all_missed = judged.iter().filter(|row| row.plausible).count() as f64;
+    let mut counts = Counts { false_negative: all_missed, ..Counts::default() };
     let (mut best, mut threshold) = (0.0, 0.5);
     for group in by_falling_score(judged) {
         for row in group.iter() {

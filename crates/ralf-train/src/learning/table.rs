@@ -61,6 +61,19 @@ impl TrainingTable {
         self.known.extend(known);
     }
 
+    /// The same without the features of some groups.
+    pub fn without_groups(&self, groups: &[String]) -> Self {
+        let is_kept = |feature: &Feature| groups.iter().all(|group| group != feature.group);
+        let kept: Vec<usize> =
+            (0..self.features.len()).filter(|place| is_kept(self.features[*place])).collect();
+        Self {
+            features: kept.iter().map(|place| self.features[*place]).collect(),
+            worlds: self.worlds.clone(),
+            rows: self.rows.pick_columns(&kept),
+            known: self.known.clone(),
+        }
+    }
+
     /// How many rows.
     pub fn len(&self) -> usize {
         self.known.len()

@@ -5,12 +5,11 @@
 //! the noise. Noise and clutter crowd just above the threshold; what a real object sends back often does not.
 
 use super::columns::unobserved;
-use super::ordered::Ordered;
-use super::statistics::{over_median_nearby, quantile, ranks};
+use super::rings::Rings;
+use super::statistics::{median_of, quantile, ranks};
 use super::{Feature, Piece, Surroundings, Values};
 use crate::scene::{Frame, Strength};
 use crate::sensors::RadarScan;
-use std::collections::BTreeMap;
 
 pub(super) const PIECE: Piece = Piece {
     features: &[
@@ -40,8 +39,6 @@ pub(super) const PIECE: Piece = Piece {
     observe,
 };
 
-/// Detections whose range differs by at most this stand in the same clutter, m.
-const RING: f64 = 5.0;
 /// So many of a radar's detections lie below its floor.
 const FLOOR: f64 = 0.02;
 /// The same of one ring, which holds fewer.
@@ -61,14 +58,18 @@ fn observe(surroundings: &Surroundings) -> Vec<Values> {
     vec![
         ranks(&strength.cross_section),
         ranks(&strength.power),
-        over_median_nearby(&strength.cross_section, &ranges, RING),
+        Rings::new(&strength.cross_section, &ranges).over(&strength.cross_section, &ranges, median_of),
         over(&strength.power, quantile(&around.powers, FLOOR)),
-        around.over_ring_floor(&strength.power, &ranges),
+        Rings::new(&around.powers, &around.ranges).over(&strength.power, &ranges, ring_floor),
     ]
 }
 
 fn over(values: &[f64], level: Option<f64>) -> Values {
     values.iter().map(|value| Some(value - level?)).collect()
+}
+
+fn ring_floor(powers: &[f64]) -> Option<f64> {
+    quantile(powers, RING_FLOOR)
 }
 
 fn ranges(scan: &RadarScan) -> Vec<f64> {
@@ -93,26 +94,5 @@ impl EchoesAround {
             }
         }
         Self { powers, ranges: all_ranges }
-    }
-
-    /// How far each power stands above the floor at its range. Floors are those of whole metres, so that thousands of
-    /// echoes around are not gone through for every detection.
-    fn over_ring_floor(&self, powers: &[f64], ranges: &[f64]) -> Values {
-        let ordered = Ordered::new(&self.ranges);
-        let mut floors: BTreeMap<i64, Option<f64>> = BTreeMap::new();
-        let mut over = Vec::with_capacity(powers.len());
-        for (power, range) in powers.iter().zip(ranges) {
-            // A cast holds at the ends, and takes what is no number to 0.
-            let metre = range.round() as i64;
-            let floor = floors.entry(metre).or_insert_with(|| self.floor_at(&ordered, metre as f64));
-            over.push(floor.filter(|_| range.is_finite()).map(|floor| power - floor));
-        }
-        over
-    }
-
-    fn floor_at(&self, ordered: &Ordered, range: f64) -> Option<f64> {
-        let ring = ordered.within(range - RING..=range + RING);
-        let powers: Vec<f64> = ring.iter().map(|i| self.powers[*i]).collect();
-        quantile(&powers, RING_FLOOR)
     }
 }

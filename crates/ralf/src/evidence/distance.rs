@@ -24,6 +24,17 @@ pub(super) fn chi(a: &Detection, b: &Detection, level: bool) -> f64 {
     squared.filter(|squared| squared.is_finite()).map_or(f64::INFINITY, |squared| squared.max(0.0).sqrt())
 }
 
+/// [`chi`] where it is no more than a limit. It mostly tells from the plane alone that it is more.
+pub(super) fn chi_within(limit: f64, a: &Detection, b: &Detection, level: bool) -> Option<f64> {
+    let variance = horizontal_variance(a) + horizontal_variance(b) + ROOM * ROOM;
+    let away = (a.position - b.position).xy().norm_squared();
+    // A hair more, so that rounding never decides.
+    if away > 1.000_001 * limit * limit * variance {
+        return None;
+    }
+    Some(chi(a, b, level)).filter(|chi| *chi <= limit)
+}
+
 /// No variance in a horizontal direction is larger, m^2.
 pub(super) fn horizontal_variance(detection: &Detection) -> f64 {
     detection.axes.fixed_rows::<2>(0).norm_squared()
@@ -53,6 +64,9 @@ mod tests {
         // Variances 0.09 + 0.16 + 0.01 = 0.26, 2.01 and 8.01: 1 / 0.26 + 4 / 2.01 + 36 / 8.01.
         assert!((chi(&a, &b, false).powi(2) - (1.0 / 0.26 + 4.0 / 2.01 + 36.0 / 8.01)).abs() < 1e-12);
         assert!((chi(&a, &b, true).powi(2) - (1.0 / 0.26 + 4.0 / 2.01)).abs() < 1e-12);
+        assert_eq!(chi_within(2.0, &a, &b, true), Some(chi(&a, &b, true)).filter(|chi| *chi <= 2.0));
+        assert_eq!(chi_within(3.0, &a, &b, true), Some(chi(&a, &b, true)));
+        assert_eq!(chi_within(2.0, &a, &detection([30.0, 0.0, 0.0], [0.3; 3]), true), None);
         assert_eq!(chi(&a, &detection([f64::NAN, 0.0, 0.0], [1.0; 3]), false), f64::INFINITY);
         assert!((horizontal_variance(&a) - 1.09).abs() < 1e-12);
         // Twice its own variances and 0.01: 0.19 and 2.01.

@@ -2,7 +2,7 @@
 
 use super::columns::{set, unobserved};
 use super::distance::chi;
-use super::line_of_sight::{TALL, Way};
+use super::way::TALL;
 use super::{Feature, Piece, Surroundings, Values};
 use crate::scene::{Detection, StaticMap};
 use crate::sensors::Elevation;
@@ -41,7 +41,8 @@ fn observe(surroundings: &Surroundings) -> Vec<Values> {
     let mut near = Vec::new();
     for (i, detection) in frame.scan.detections.iter().enumerate() {
         let Some(moved) = detection.map(|detection| detection.moved(&window_from_vehicle)) else { continue };
-        let Some(wall) = Wall::before(map, &radar, &moved) else { continue };
+        let behind = surroundings.ways()[i].map_or(0.0, |way| way.behind_first_tall);
+        let Some(wall) = Wall::before(map, &radar, &moved.position, behind) else { continue };
         let image = wall.reflect(&moved).moved(&lidar.vehicle_from_window);
         surroundings.beside(&image.position, REACH, &mut near);
         let mut least: Option<f64> = None;
@@ -67,16 +68,14 @@ struct Wall {
 }
 
 impl Wall {
-    /// The wall that stands first in the radar's way to a detection; `None` where nothing tall stands there, or
-    /// nothing flat.
-    fn before(map: &StaticMap, radar: &Point, detection: &Detection) -> Option<Self> {
-        let ray = (detection.position - radar).try_normalize(1e-6)?;
-        let way = Way::march(map, radar, &detection.position, 2.0 * detection.sigma_along(&ray));
-        let along = Vector::new(ray.x, ray.y, 0.0).try_normalize(1e-6)?;
-        let met = detection.position - along * way.behind_first_tall;
-        if way.behind_first_tall == 0.0 {
+    /// The wall that something tall in the radar's way to a place belongs to, which lies so far behind it, m; `None`
+    /// where the place lies behind nothing, or behind nothing flat.
+    fn before(map: &StaticMap, radar: &Point, place: &Point, behind: f64) -> Option<Self> {
+        if behind == 0.0 {
             return None;
         }
+        let along = Vector::new(place.x - radar.x, place.y - radar.y, 0.0).try_normalize(1e-6)?;
+        let met = place - along * behind;
         let columns = map.columns.around(met.x, met.y, AROUND).filter(|(_, column)| column.top >= TALL);
         let places: Vec<[f64; 2]> = columns.map(|(place, _)| place).collect();
         let (center, normal) = line_through(&places)?;

@@ -27,10 +27,12 @@ mod persistence;
 mod probe;
 mod rates;
 mod recurrence;
+mod rings;
 mod sensor_frame;
 mod statistics;
 mod surroundings;
 mod terrain;
+mod way;
 
 pub use probe::Probe;
 pub use surroundings::Surroundings;

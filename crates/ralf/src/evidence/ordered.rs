@@ -11,9 +11,10 @@ pub(super) struct Ordered {
 impl Ordered {
     /// Orders a list of values. Equal ones keep their order.
     pub(super) fn new(values: &[f64]) -> Self {
-        let mut indices: Vec<usize> = (0..values.len()).filter(|i| values[*i].is_finite()).collect();
-        indices.sort_by(|a, b| values[*a].total_cmp(&values[*b]));
-        let values = indices.iter().map(|i| values[*i]).collect();
+        let finite = values.iter().copied().enumerate().filter(|(_, value)| value.is_finite());
+        let mut sorted: Vec<(usize, f64)> = finite.collect();
+        sorted.sort_unstable_by(|(i, a), (j, b)| a.total_cmp(b).then(i.cmp(j)));
+        let (indices, values) = sorted.into_iter().unzip();
         Self { indices, values }
     }
 

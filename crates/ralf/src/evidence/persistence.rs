@@ -6,7 +6,7 @@ use super::columns::{set, unobserved};
 use super::recurrence::{FARTHEST, Sighting};
 use super::sensor_frame::Unmoved;
 use super::{Feature, Piece, Surroundings, Values};
-use crate::scene::{Detection, Frame, NeighbouringScan};
+use crate::scene::{Detection, Frame, NeighbouringDetections, NeighbouringScan};
 use crate::space::Vector;
 
 pub(super) const PIECE: Piece = Piece {
@@ -65,6 +65,8 @@ const fn feature(name: &'static str, unit: &'static str, meaning: &'static str) 
 fn observe(surroundings: &Surroundings) -> Vec<Values> {
     let frame = surroundings.frame;
     let (origins, unmoved) = (origins(frame), Unmoved::new(frame));
+    let own_scans: Vec<bool> =
+        surroundings.neighbours().radars.iter().map(|radar| frame.is_own(*radar)).collect();
     let mut columns = unobserved(PIECE.features, frame.scan.len());
     for (i, detection) in frame.scan.detections.iter().enumerate() {
         let Some(detection) = detection else { continue };
@@ -77,7 +79,7 @@ fn observe(surroundings: &Surroundings) -> Vec<Values> {
             share(own().filter(|_| has_rate).map(|sighting| sighting.moving <= SAME)),
             share(others.map(|sighting| sighting.still <= SAME)),
             mean(own().map(|sighting| sighting.still.min(FARTHEST))),
-            excess(surroundings, detection, seen),
+            excess(surroundings.neighbours(), &own_scans, detection, seen),
             aspect(frame, &origins, detection, seen),
             unmoved.excess_at(detection),
         ];
@@ -95,19 +97,23 @@ fn mean(values: impl Iterator<Item = f64>) -> Option<f64> {
     (count > 0).then(|| sum / f64::from(count))
 }
 
-/// Of the radar's own scans around.
-fn excess(surroundings: &Surroundings, detection: &Detection, seen: &[Sighting]) -> Option<f64> {
+/// Of the radar's own scans around, which `own_scans` tells.
+fn excess(
+    around: &NeighbouringDetections,
+    own_scans: &[bool],
+    detection: &Detection,
+    seen: &[Sighting],
+) -> Option<f64> {
     let own: Vec<&Sighting> = seen.iter().filter(|sighting| sighting.own).collect();
     if own.is_empty() {
         return None;
     }
-    let around = surroundings.neighbours();
     let mut near = Vec::new();
     let place = [detection.position.x as f32, detection.position.y as f32];
     around.index.beside(place, AROUND as f32, &mut near);
-    let is_own = |id: &&u32| surroundings.frame.is_own(around.radars[around.scans[**id as usize] as usize]);
+    let near = near.iter().filter(|id| own_scans[around.scans[**id as usize] as usize]).count();
     let hits = own.iter().filter(|sighting| sighting.still <= SAME).count();
-    Some(excess_of(hits, own.len(), near.iter().filter(is_own).count(), detection))
+    Some(excess_of(hits, own.len(), near, detection))
 }
 
 /// Where each scan around was made, in the vehicle frame at the frame's time, m.

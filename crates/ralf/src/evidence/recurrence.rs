@@ -1,6 +1,6 @@
 //! Where the radars' scans around could have seen a detection again, and whether they did.
 
-use super::distance::{ROOM, chi, horizontal_variance};
+use super::distance::{ROOM, chi_within, horizontal_variance};
 use super::rates::{AGREEING, Rates};
 use crate::scene::{Detection, Frame, NeighbouringDetections, NeighbouringScan, Reach, Sight};
 use crate::sensors::{Elevation, Radar};
@@ -80,7 +80,7 @@ impl Sighting {
     /// A detection at a distance `chi` from where this one would be if it moved; `difference` is that of their rates,
     /// in spreads.
     fn meet(&mut self, chi: f64, difference: Option<f64>) {
-        let Some(difference) = difference.filter(|_| chi <= FARTHEST) else { return };
+        let Some(difference) = difference else { return };
         self.rate_difference = self.rate_difference.min(difference);
         if difference <= AGREEING {
             self.moving = self.moving.min(chi);
@@ -126,10 +126,8 @@ impl<'a> Search<'a> {
                 continue;
             };
             let sighting = &mut seen[at];
-            let chi = self.chi(detection, id);
-            if chi <= FARTHEST {
-                sighting.still = sighting.still.min(chi);
-            }
+            let Some(chi) = self.chi(detection, id) else { continue };
+            sighting.still = sighting.still.min(chi);
             if let Some(rates) = self.rates.filter(|rates| sighting.own && rates.motion(i) == 0.0) {
                 sighting.meet(chi, rates.difference(i, self.around.doppler[id]));
             }
@@ -146,8 +144,11 @@ impl<'a> Search<'a> {
             self.find(&moved);
             for &id in &self.found {
                 let id = id as usize;
-                if self.around.scans[id] == sighting.scan {
-                    sighting.meet(self.chi(&moved, id), rates.difference(i, self.around.doppler[id]));
+                if self.around.scans[id] != sighting.scan {
+                    continue;
+                }
+                if let Some(chi) = self.chi(&moved, id) {
+                    sighting.meet(chi, rates.difference(i, self.around.doppler[id]));
                 }
             }
         }
@@ -161,8 +162,8 @@ impl<'a> Search<'a> {
         self.around.index.beside(place, reach as f32, &mut self.found);
     }
 
-    fn chi(&self, detection: &Detection, id: usize) -> f64 {
+    fn chi(&self, detection: &Detection, id: usize) -> Option<f64> {
         let other = &self.around.detections[id];
-        chi(detection, other, self.level[self.around.scans[id] as usize])
+        chi_within(FARTHEST, detection, other, self.level[self.around.scans[id] as usize])
     }
 }

@@ -2,7 +2,7 @@
 //! place of the radar's own frame again and again, however the vehicle moves.
 
 use super::chance::{AROUND, SAME, excess_of};
-use super::distance::{ROOM, chi, horizontal_variance};
+use super::distance::{ROOM, chi_within, horizontal_variance};
 use crate::scene::{Detection, Frame, index_of};
 use crate::sensors::Elevation;
 use crate::space::{NeighborIndex, Transform};
@@ -56,7 +56,7 @@ impl<'a> Unmoved<'a> {
         let mut again = vec![false; moved_on.len()];
         let level = self.frame.radar.elevation == Elevation::None;
         for id in near.iter().map(|id| *id as usize) {
-            again[self.scans[id]] |= chi(detection, self.detections[id], level) <= SAME;
+            again[self.scans[id]] |= chi_within(SAME, detection, self.detections[id], level).is_some();
         }
         let hits = again.iter().filter(|again| **again).count();
         Some(excess_of(hits, scans, near.len(), detection))

@@ -1,6 +1,5 @@
 //! Ranks, quantiles and medians of values of which some may be no number.
 
-use super::ordered::Ordered;
 use crate::scene::median;
 
 /// For each value which share of the others is less, in [0, 1]; equal ones count half. `None` where it is no number,
@@ -32,18 +31,6 @@ pub(super) fn median_of(values: &[f64]) -> Option<f64> {
     median(values.iter().copied().filter(|value| value.is_finite()).collect())
 }
 
-/// For each value how much it is more than the median of those whose place lies at most `reach` from its own, itself
-/// among them; `None` where value or place is no number.
-pub(super) fn over_median_nearby(values: &[f64], places: &[f64], reach: f64) -> Vec<Option<f64>> {
-    let ordered = Ordered::new(places);
-    let over = |(value, place): (&f64, &f64)| {
-        let near = ordered.within(place - reach..=place + reach);
-        let median = median(near.iter().map(|i| values[*i]).filter(|value| value.is_finite()).collect())?;
-        Some(value - median).filter(|over| over.is_finite())
-    };
-    values.iter().zip(places).map(over).collect()
-}
-
 fn sorted(values: &[f64]) -> Vec<f64> {
     let mut finite: Vec<f64> = values.iter().copied().filter(|value| value.is_finite()).collect();
     finite.sort_by(f64::total_cmp);
@@ -70,21 +57,6 @@ mod tests {
                     others.iter().map(|other| f64::from(u8::from(*other < values[i])) + 0.5 * f64::from(u8::from(*other == values[i]))).sum();
                 let expected = (values[i].is_finite() && !others.is_empty()).then(|| points / others.len() as f64);
                 prop_assert_eq!(found, expected);
-            }
-        }
-
-        #[test]
-        fn the_median_nearby_is_what_looking_at_all_gives(
-            rows in prop::collection::vec((value(), value()), 0..40), reach in 0.0..4.0,
-        ) {
-            let (values, places): (Vec<f64>, Vec<f64>) = rows.into_iter().unzip();
-            for (i, found) in over_median_nearby(&values, &places, reach).into_iter().enumerate() {
-                let near: Vec<f64> = (0..values.len())
-                    .filter(|j| (places[*j] - places[i]).abs() <= reach && values[*j].is_finite())
-                    .map(|j| values[j])
-                    .collect();
-                let expected = median_of(&near).filter(|_| values[i].is_finite() && places[i].is_finite());
-                prop_assert_eq!(found, expected.map(|median| values[i] - median));
             }
         }
 

@@ -3,6 +3,7 @@
 use super::probe::{Probe, probes};
 use super::rates::Rates;
 use super::recurrence::{Sighting, sightings};
+use super::way::{Way, ways};
 use crate::config::Config;
 use crate::scene::{Detection, Frame, NeighbouringDetections};
 use crate::space::{NeighborIndex, Point};
@@ -16,6 +17,7 @@ pub struct Surroundings<'a> {
     pub config: &'a Config,
     neighbours: OnceCell<NeighbouringDetections>,
     probes: OnceCell<Vec<Option<Probe>>>,
+    ways: OnceCell<Vec<Option<Way>>>,
     rates: OnceCell<Option<Rates>>,
     sightings: OnceCell<Vec<Vec<Sighting>>>,
     own_index: OnceCell<NeighborIndex>,
@@ -29,6 +31,7 @@ impl<'a> Surroundings<'a> {
             config,
             neighbours: OnceCell::new(),
             probes: OnceCell::new(),
+            ways: OnceCell::new(),
             rates: OnceCell::new(),
             sightings: OnceCell::new(),
             own_index: OnceCell::new(),
@@ -44,6 +47,12 @@ impl<'a> Surroundings<'a> {
     /// at all without a window.
     pub fn probes(&self) -> &[Option<Probe>] {
         self.probes.get_or_init(|| probes(self.frame))
+    }
+
+    /// What stands in the radar's way to each detection, as far as the LiDAR window's map reaches; no entry at all
+    /// without a window.
+    pub(super) fn ways(&self) -> &[Option<Way>] {
+        self.ways.get_or_init(|| ways(self.frame, self.probes()))
     }
 
     /// The compensated range rates of the scan; `None` where the radar measures none.

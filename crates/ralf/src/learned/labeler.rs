@@ -81,8 +81,8 @@ impl<'a> LearnedLabeler<'a> {
 
     /// What the model says of a frame, of which this evidence was gathered.
     ///
-    /// `w` is the probability that a detection is plausible. Where the evidence is too unlike what the model was trained
-    /// on (`learned.max_novelty`), the paper's method answers, and [`flag::PAPER`] says so.
+    /// `w` is the probability that a detection is plausible. Where the evidence is too unlike what the model was
+    /// trained on (`learned.max_novelty`), the paper's method answers, and [`flag::PAPER`] says so.
     pub fn label(&self, frame: &Frame, evidence: &[Column]) -> LearnedScan {
         let mut labels = Labeler::new(self.config).label(frame);
         let mut answers = vec![Answer::default(); labels.len()];

@@ -53,6 +53,15 @@ impl Rows {
         Self { width: self.width, values }
     }
 
+    /// Some of the columns.
+    pub fn pick_columns(&self, columns: &[usize]) -> Self {
+        let mut values = Vec::with_capacity(self.len() * columns.len());
+        for row in 0..self.len() {
+            values.extend(columns.iter().map(|column| self.row(row)[*column]));
+        }
+        Self { width: columns.len(), values }
+    }
+
     /// Sets the features of a column; what is `None` is absent.
     pub fn set_column(&mut self, column: usize, values: &[Option<f64>]) {
         for (row, value) in values.iter().enumerate().take(self.len()) {

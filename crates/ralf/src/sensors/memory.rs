@@ -112,8 +112,8 @@ impl MemorySource {
         self
     }
 
-    /// The same with another radar and its scans: a time (ns) and a column per field of the radar, each with a value per
-    /// detection.
+    /// The same with another radar and its scans: a time (ns) and a column per field of the radar, each with a value
+    /// per detection.
     pub fn with_radar(mut self, radar: Radar, scans: Vec<(i64, Vec<Vec<f32>>)>) -> Result<Self, MemoryError> {
         radar.check().map_err(|reason| refused(&radar.name, "values", &reason))?;
         let mut read = Vec::with_capacity(scans.len());

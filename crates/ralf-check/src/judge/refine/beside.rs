@@ -11,7 +11,8 @@ use ralf::space::{EgoMotion, Point, Transform};
 const TOGETHER_NS: u64 = 80_000_000;
 /// Detections nearer are the vehicle itself, farther ones are smeared by their azimuth, m.
 const RANGES: std::ops::Range<f64> = 1.0..40.0;
-/// A detection is seen again in the scan before or after within this, m, and this share of its range: the noise of both.
+/// A detection is seen again in the scan before or after within this, m, and this share of its range: the noise of
+/// both.
 const AGAIN: (f64, f64) = (0.2, 0.015);
 
 /// A radar's scan, with the detections that were seen again.

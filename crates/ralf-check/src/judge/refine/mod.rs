@@ -31,7 +31,8 @@ pub struct Refinement {
     /// What is likeliest to be added.
     pub change: SensorChange,
     /// Standard deviations of yaw (degrees), of the place forward and to the left (m) and of the clock (ms), each with
-    /// the others unknown, and what more measurements would not take away. NaN of a sensor whose change was found and not refined.
+    /// the others unknown, and with what more measurements would not take away. NaN of a sensor whose change was found
+    /// and not refined.
     pub deviations: [f64; 4],
     /// What is proposed: quantities that are three standard deviations of chance and more than labels notice, and the
     /// likeliest of these with all others left alone.

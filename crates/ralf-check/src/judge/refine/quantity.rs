@@ -12,8 +12,8 @@ pub(super) struct Quantity {
     pub(super) steps: [f64; 2],
     /// What labels notice.
     pub(super) smallest: f64,
-    /// What no amount of measurements takes away: bushes that a LiDAR sees elsewhere than a radar does, azimuths that are
-    /// off by the same everywhere, odometry that holds its samples.
+    /// What no amount of measurements takes away: bushes that a LiDAR sees elsewhere than a radar does, azimuths that
+    /// are off by the same everywhere, odometry that holds its samples.
     pub(super) systematic: f64,
 }
 

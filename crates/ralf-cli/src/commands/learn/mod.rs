@@ -9,6 +9,7 @@ use crate::progress::{Progress, Stages, say};
 use crate::text::print;
 use anyhow::Context;
 use clap::Args;
+use clap::builder::PossibleValuesParser;
 use ralf::learned::Origin;
 use ralf_data::run::NotLabelled;
 use ralf_data::{GroundTruth, TrainingGatherer, TrainingTruth, write_whole};
@@ -45,6 +46,10 @@ pub(crate) struct LearnArgs {
     /// Most leaves of a tree
     #[arg(long, value_name = "N", default_value_t = Parameters::default().leaves)]
     leaves: usize,
+    /// Groups of evidence that the model doesn't read; may be given several times
+    #[arg(long = "without-group", value_name = "GROUP",
+        value_parser = PossibleValuesParser::new(ralf::evidence::GROUPS))]
+    without_groups: Vec<String>,
     /// Leave no group of evidence out of any scan: a model that knows no missing sensor
     #[arg(long)]
     no_blanking: bool,
@@ -78,6 +83,7 @@ pub(crate) fn run(arguments: &LearnArgs) -> anyhow::Result<Outcome> {
     let mut table = gatherer.table();
     let mut outcome = arguments.gather(&gatherer, &settings, &mut table)?;
     outcome = outcome.and(arguments.worlds.gather(&gatherer, &mut table)?);
+    let table = table.without_groups(&arguments.without_groups);
     let fitting = Fitting {
         parameters: Parameters {
             rounds: arguments.rounds,
@@ -125,9 +131,11 @@ impl LearnArgs {
     fn origin(&self) -> Origin {
         let datasets: String =
             self.datasets.iter().map(|dataset| format!(" {}", dataset.display())).collect();
-        let blanking = if self.no_blanking { " --no-blanking" } else { "" };
+        let mut without: String =
+            self.without_groups.iter().map(|group| format!(" --without-group '{group}'")).collect();
+        without += if self.no_blanking { " --no-blanking" } else { "" };
         let command = format!(
-            "ralf learn{datasets}{} --rounds {} --leaves {}{blanking} --seed {}{}",
+            "ralf learn{datasets}{} --rounds {} --leaves {}{without} --seed {}{}",
             self.worlds.told(),
             self.rounds,
             self.leaves,

@@ -38,12 +38,17 @@ pub(super) fn page(fitted: &Fitted) -> String {
             page += &format!("With {}: {}\n", view.name(), Scores::mean(&scores));
         }
     }
+    page + &worth(fitted)
+}
+
+/// What the model asks for most.
+fn worth(fitted: &Fitted) -> String {
     let model = &fitted.model;
     let mut worth: Vec<(&str, f32)> =
         model.inputs.iter().map(|input| (input.name.as_str(), input.seen.gain)).collect();
     worth.sort_by(|a, b| b.1.total_cmp(&a.1));
     let all: f32 = worth.iter().map(|(_, gain)| gain).sum();
-    page += "\nWhat its questions ask for most:\n";
+    let mut page = String::from("\nWhat its questions ask for most:\n");
     for (name, gain) in worth.iter().take(15) {
         line(&mut page, 36, name, &format!("{:5.1} %", 100.0 * gain / all.max(f32::MIN_POSITIVE)));
     }

@@ -1,5 +1,5 @@
-//! What a LAS or LAZ file claims of itself, checked before it is believed: what decompresses takes the memory that a header
-//! asks for, and can't go on without the parts that it takes for granted.
+//! What a LAS or LAZ file claims of itself, checked before it is believed: what decompresses takes the memory that a
+//! header asks for, and can't go on without the parts that it takes for granted.
 
 use crate::error::DataError;
 use std::path::Path;

@@ -6,6 +6,7 @@
 mod mounts;
 mod ranges;
 mod table;
+mod usual;
 
 pub use ranges::Family;
 pub(super) use ranges::{CalibrationRanges, MotionRanges, Mount, PlaceKind, RadarRanges};

@@ -74,6 +74,10 @@ pub(crate) struct WaveRanges {
     pub(crate) asphalt: Span,
     /// Spread of the ground's backscatter from place to place, dB.
     pub(crate) texture: Span,
+    /// How often a square metre of road has a manhole, a joint or a stud in it.
+    pub(crate) lumps: Span,
+    /// What that is worth, dB.
+    pub(crate) lump_strength: Span,
     /// What a facade takes from a mirrored wave, one way, dB.
     pub(crate) mirror_loss: Span,
     /// How often a thing is seen mirrored in the road.

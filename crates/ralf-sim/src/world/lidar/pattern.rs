@@ -92,7 +92,7 @@ pub(crate) const FORWARD: Pattern = Pattern {
 /// A small one at a corner: 16 channels over 30 degrees, nearby.
 pub(crate) const CORNER: Pattern = Pattern {
     channels: 16,
-    elevation: [-22.0, 8.0],
+    elevation: [-21.7, 8.3],
     crowding: 1.0,
     step: 0.4,
     width: 220.0,

@@ -28,7 +28,8 @@ pub(super) fn gain_db(radar: &RadarModel, angles: [f64; 2]) -> f64 {
     -loss(0) - loss(1)
 }
 
-/// The cross-section that a signal to noise ratio means at a range and azimuth, dBsm. A radar knows its pattern in azimuth.
+/// The cross-section that a signal to noise ratio means at a range and azimuth, dBsm: a radar knows its pattern in
+/// azimuth.
 pub(super) fn apparent_rcs_db(radar: &RadarModel, snr_db: f64, range: f64, azimuth: f64) -> f64 {
     snr_db - radar.sensitivity_db + range_loss_db(range) - gain_db(radar, [azimuth, 0.0])
 }

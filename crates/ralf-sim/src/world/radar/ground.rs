@@ -11,11 +11,9 @@ use ralf::space::{Point, Vector};
 /// Side of a piece of ground, m.
 const PIECE: f64 = 1.0;
 /// The ground is heard up to here, m.
-const REACH: f64 = 60.0;
+const REACH: f64 = 80.0;
 /// Grazing angle at which backscatter is stated: sine of 10 degrees.
 const STATED: f64 = 0.1736;
-/// How often a piece of road has a manhole, a joint or a stud in it, and how much that is worth, dB.
-const LUMPS: (f64, f64) = (0.015, 14.0);
 
 /// Along a kerb, m.
 const KERB_STEP: f64 = 0.5;
@@ -56,7 +54,8 @@ fn piece(view: &View<'_>, [i, j]: [i64; 2], speckle: f64) -> Option<Echo> {
     let seen = view.seen(&place)?;
     let grazing = ((view.origin().z - place.z) / seen.range).max(0.005);
     let texture = glint_db(site.seed ^ 0x72, i * 65_536 + j, 0.0, 1.0, view.waves.texture_db);
-    let lump = if patch.surface != Surface::Grass && share(3) < LUMPS.0 { LUMPS.1 } else { 0.0 };
+    let [often, strong_db] = view.waves.lumps;
+    let lump = if patch.surface != Surface::Grass && share(3) < often { strong_db } else { 0.0 };
     let rcs = view.waves.asphalt_db
         + patch.surface.roughness_db()
         + 15.0 * (grazing / STATED).log10()

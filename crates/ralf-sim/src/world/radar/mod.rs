@@ -36,7 +36,7 @@ pub(super) fn scan(
         View { moment, radar, waves, site_from_radar, radar_from_site: site_from_radar.inverse(), velocity };
     let targets = targets::echoes(&view, random);
     let mut echoes: Vec<Echo> = targets.iter().map(|target| target.echo).collect();
-    echoes.extend(multipath::mirrored(&view, &targets, random).into_iter());
+    echoes.extend(multipath::mirrored(&view, &targets, random));
     echoes.extend(multipath::second_trips(&view, &targets, random));
     echoes.extend(ground::pieces(&view, random));
     echoes.extend(ground::kerbs(&view, random));

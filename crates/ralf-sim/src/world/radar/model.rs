@@ -91,6 +91,8 @@ pub(crate) struct Waves {
     pub(crate) asphalt_db: f64,
     /// Its spread from place to place, dB.
     pub(crate) texture_db: f64,
+    /// How often a square metre of road has a manhole, a joint or a stud in it, and what that is worth, dB.
+    pub(crate) lumps: [f64; 2],
     /// What a facade takes from a mirrored wave, one way, dB.
     pub(crate) mirror_loss_db: f64,
     /// How often a thing is seen mirrored in the road.
@@ -147,6 +149,7 @@ pub(super) mod tests {
         Waves {
             asphalt_db: -25.0,
             texture_db: 5.0,
+            lumps: [0.01, 14.0],
             mirror_loss_db: 4.0,
             road_mirror: 0.0,
             window_loss_db: 8.0,

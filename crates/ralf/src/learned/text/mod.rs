@@ -83,6 +83,15 @@ mod tests {
     }
 
     #[test]
+    fn the_shipped_model_can_be_used_and_is_small() {
+        let shipped = Model::shipped().unwrap();
+        assert_eq!(shipped.check(), Ok(()));
+        assert_eq!(shipped.to_text(), SHIPPED);
+        assert!(SHIPPED.len() < 2_000_000, "{} bytes", SHIPPED.len());
+        assert!(!shipped.origin.worlds.is_empty());
+    }
+
+    #[test]
     fn a_text_that_is_cut_short_anywhere_is_refused() {
         let text = model().to_text();
         for end in 0..text.len() - 1 {

@@ -82,10 +82,13 @@ impl Ground {
 mod tests {
     use super::*;
 
-    /// A ramp of 14 % from 10 m to 40 m ahead, level beyond, 0.4 m apart; a car on the ramp, of which the LiDAR sees
-    /// the near side and the roof.
-    fn ramp() -> (Vec<[f32; 3]>, fn(f64) -> f64) {
-        let height = |x: f64| 0.14 * (x - 10.0).clamp(0.0, 30.0);
+    /// A ramp of 14 % from 10 m to 40 m ahead, level beyond.
+    fn ramp_at(x: f64) -> f64 {
+        0.14 * (x - 10.0).clamp(0.0, 30.0)
+    }
+
+    /// Points 0.4 m apart on the ramp, and on a car there, of which the LiDAR sees the near side and the roof.
+    fn ramp() -> Vec<[f32; 3]> {
         let mut points = Vec::new();
         for i in -100..175 {
             for j in -50..50 {
@@ -94,7 +97,7 @@ mod tests {
                 points.push([x as f32, y as f32, (height(x) + if on_car { 1.4 } else { 0.0 }) as f32]);
             }
         }
-        (points, height)
+        points
     }
 
     fn fitted(points: &[[f32; 3]], model: GroundModel) -> Ground {
@@ -103,7 +106,7 @@ mod tests {
 
     #[test]
     fn the_local_ground_follows_a_ramp_where_one_plane_cannot() {
-        let (points, height) = ramp();
+        let points = ramp();
         let worst = |model| {
             let ground = fitted(&points, model);
             let places =
@@ -116,7 +119,7 @@ mod tests {
 
     #[test]
     fn the_local_plane_touches_the_ramp() {
-        let (points, height) = ramp();
+        let points = ramp();
         let ground = fitted(&points, GroundModel::Local);
         let p = Point::new(33.0, -7.0, height(33.0) + 1.0);
         // The normal of a rise of 14 %.

@@ -1,0 +1,73 @@
+//! Echoes of one range: what a radar sees depends on how far away it looks.
+
+use super::Values;
+use super::ordered::Ordered;
+use std::collections::BTreeMap;
+
+/// Echoes whose range differs by at most this stand in the same clutter, m.
+const REACH: f64 = 5.0;
+
+/// Values of echoes by their range.
+pub(super) struct Rings<'a> {
+    values: &'a [f64],
+    by_range: Ordered,
+}
+
+impl<'a> Rings<'a> {
+    /// Echoes' values and ranges, m.
+    pub(super) fn new(values: &'a [f64], ranges: &[f64]) -> Self {
+        Self { values, by_range: Ordered::new(ranges) }
+    }
+
+    /// For each of some values, at its range, how far it is above the level of its ring: the echoes that are within 5 m
+    /// of the whole metre nearest to that range. Every metre's level is worked out once.
+    pub(super) fn over(
+        &self,
+        values: &[f64],
+        ranges: &[f64],
+        level: impl Fn(&[f64]) -> Option<f64>,
+    ) -> Values {
+        let mut levels: BTreeMap<i64, Option<f64>> = BTreeMap::new();
+        let mut over = Vec::with_capacity(values.len());
+        for (value, range) in values.iter().zip(ranges) {
+            // A cast holds at the ends, and takes what is no number to 0.
+            let metre = range.round() as i64;
+            let level = levels.entry(metre).or_insert_with(|| level(&self.ring(metre as f64)));
+            let found = level.map(|level| value - level);
+            over.push(found.filter(|found| found.is_finite() && range.is_finite()));
+        }
+        over
+    }
+
+    fn ring(&self, middle: f64) -> Vec<f64> {
+        self.by_range.within(middle - REACH..=middle + REACH).iter().map(|i| self.values[*i]).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::statistics::median_of;
+    use super::*;
+    use proptest::prelude::*;
+
+    /// Few different values, so that ties are common; some are no numbers.
+    fn value() -> impl Strategy<Value = f64> {
+        prop_oneof![4 => (0..48).prop_map(|v| 0.5 * f64::from(v)), 1 => Just(f64::NAN)]
+    }
+
+    proptest! {
+        #[test]
+        fn the_median_of_a_ring_is_what_looking_at_all_gives(
+            rows in prop::collection::vec((value(), value()), 0..40),
+        ) {
+            let (values, ranges): (Vec<f64>, Vec<f64>) = rows.into_iter().unzip();
+            let found = Rings::new(&values, &ranges).over(&values, &ranges, median_of);
+            for (i, found) in found.into_iter().enumerate() {
+                let near = |j: &usize| (ranges[*j] - ranges[i].round()).abs() <= REACH;
+                let ring: Vec<f64> = (0..values.len()).filter(near).map(|j| values[j]).collect();
+                let expected = median_of(&ring).map(|median| values[i] - median);
+                prop_assert_eq!(found, expected.filter(|over| over.is_finite()));
+            }
+        }
+    }
+}
