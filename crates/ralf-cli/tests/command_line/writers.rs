@@ -28,7 +28,8 @@ fn end(run: Child) -> Ran {
 
 #[test]
 fn the_second_label_run_is_told_and_the_first_ends_as_alone() {
-    let dataset = Dataset::of(&Shape { scans: 60, ..Shape::default() });
+    // So many scans that the first run is surely still at work when the second begins, on a busy machine, too.
+    let dataset = Dataset::of(&Shape { scans: 600, ..Shape::default() });
     let lock = format!("{}/.ralf-lock", dataset.out);
     let first = begin(&["label", &dataset.path, "-o", &dataset.out, "--jobs", "1"], &lock);
     ralf(["label", &dataset.path, "-o", &dataset.out, "--set", "fusion.threshold=0.9"])
