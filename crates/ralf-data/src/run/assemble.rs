@@ -37,6 +37,9 @@ pub(super) fn assemble(
                 observer.advance(1, 0);
                 continue;
             }
+            if observer.stopped() {
+                return Err(DataError::Stopped);
+            }
             let table = workspace.table(index, scan, &task.schema)?;
             let notes = workspace.notes(index, scan)?;
             unreadable.extend(notes.unreadable);
