@@ -22,7 +22,7 @@ from ray.cluster_utils import Cluster
 
 import ralf
 
-SCANS = 64
+SCANS = 16
 
 
 def main() -> None:
@@ -44,7 +44,7 @@ def recordings(folder: Path) -> list[Path]:
     drives = [folder / "drives" / name for name in ("north", "south", "damaged")]
     command = Path(sys.executable).with_name("ralf")
     for seed, drive in enumerate(drives[:2]):
-        arguments = ["--preset", "worlds", "--family", "0", "--seed", str(seed), "-o", drive]
+        arguments = ["--preset", "tiny", "--scans", "24", "--no-images", "--seed", str(seed), "-o", drive]
         subprocess.run([command, "simulate", *arguments], check=True, capture_output=True)
     shutil.copytree(drives[0], drives[2])
     first = min(drives[2].glob("sequences/*"))
