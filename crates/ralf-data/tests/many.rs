@@ -116,7 +116,7 @@ fn a_part_that_was_lost_is_labelled_when_all_is_put_together() {
     let tasks = plan(&job(&drive, &parts), scans(5), ONE, &Silent).unwrap();
     let stopped = label_one(&tasks[0], ONE, &Impatient(AtomicUsize::new(2))).unwrap_err();
     assert!(matches!(stopped, DataError::Stopped), "{stopped}");
-    let kept = content(&parts).into_keys().filter(|name| name.extension().is_some_and(|end| end == "rows"));
+    let kept = content(&parts).into_keys().filter(|name| name.extension().is_some_and(|end| end == "label"));
     assert_eq!(kept.count(), 2);
     assemble(&parts, ONE, &Silent).unwrap();
     assert!(content(&parts) == content(&whole));

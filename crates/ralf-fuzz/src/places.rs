@@ -11,6 +11,15 @@ mod foreign;
 #[allow(dead_code, reason = "the tests of the crate use all of it")]
 #[path = "../../ralf-depth/src/testing.rs"]
 mod network;
+#[allow(dead_code, reason = "the tests of the reader use all of it")]
+#[path = "../../ralf-data/src/read/nvidia/tests/recording.rs"]
+mod nvidia;
+#[allow(dead_code, reason = "the tests of the reader use all of it")]
+#[path = "../../ralf-data/src/read/radar_ghost/tests/recording.rs"]
+mod radar_ghost;
+#[allow(dead_code, reason = "the tests of the reader use all of it")]
+#[path = "../../ralf-data/src/read/radar_scenes/tests/recording.rs"]
+mod radar_scenes;
 #[allow(dead_code, reason = "the tests of the command line use all of it")]
 #[path = "../../ralf-cli/tests/command_line/support/world.rs"]
 mod world;
@@ -37,6 +46,9 @@ pub fn make_places(folder: &Path) {
     foreign::nuscenes(&folder.join("nuscenes/recording"));
     foreign::view_of_delft(&folder.join("view-of-delft/recording"));
     aimotive::write_sequence(&folder.join("aimotive/recording").join(aimotive::SEQUENCE));
+    radar_ghost::write_dataset(&folder.join("radar-ghost/recording"));
+    radar_scenes::write_dataset(&folder.join("radarscenes/recording"));
+    nvidia::write_unzipped(&folder.join("nvidia/recording"));
     let ros = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../testdata/ros");
     for name in ROS {
         let place = folder.join(name);

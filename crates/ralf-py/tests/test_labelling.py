@@ -114,13 +114,15 @@ def test_progress_is_told_and_may_end_it(drive, tmp_path):
 def test_ctrl_c_stops_it_and_it_goes_on(drive, run, tmp_path):
     out = tmp_path / "out"
     program = (
-        "import ralf, sys\n"
+        "import ralf, signal, sys\n"
+        # Who was started in the background was told to ignore it.
+        "signal.signal(signal.SIGINT, signal.default_int_handler)\n"
         "try:\n    ralf.label(sys.argv[1], sys.argv[2], evidence=True, jobs=1)\n"
         "except KeyboardInterrupt:\n    print('stopped')\n"
     )
     process = subprocess.Popen([sys.executable, "-c", program, drive, out], stdout=subprocess.PIPE, text=True)
     deadline = time.monotonic() + 60
-    while not list(out.rglob("*.rows")) and time.monotonic() < deadline and process.poll() is None:
+    while not list(out.rglob("*.label")) and time.monotonic() < deadline and process.poll() is None:
         time.sleep(0.005)
     assert process.poll() is None, "it ended before it could be stopped"
     process.send_signal(signal.SIGINT)

@@ -1,7 +1,8 @@
-//! Rotations out of printed matrices.
+//! Rotations out of printed matrices and angles.
 
 use crate::error::DataError;
-use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
+use nalgebra::{Matrix3, Rotation3, Translation3, UnitQuaternion, Vector3};
+use ralf::space::Transform;
 use std::path::Path;
 
 /// Matrices are printed with a few digits; what is farther from orthonormal than this is no rotation.
@@ -23,6 +24,14 @@ pub(crate) fn rotation(
         format!("a rotation, orthonormal within {ORTHONORMAL_WITHIN}"),
         format!("a matrix off by {off:.3e}, determinant {:.3}", matrix.determinant()),
     ))
+}
+
+/// A place, and what is there turned to the left by so many rad.
+pub(crate) fn turned(translation: [f64; 3], yaw: f64) -> Transform {
+    let turn = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), yaw);
+    // Of length 1 to the last digit, as what is written and read again is.
+    let turn = UnitQuaternion::new_normalize(turn.into_inner());
+    Transform::from_parts(Translation3::from(translation), turn)
 }
 
 /// Columns of unit length at right angles. The first keeps its direction; the others move by less than was refused.

@@ -106,7 +106,7 @@ impl LabelRun<'_> {
     ) -> Result<Vec<NotLabelled>, DataError> {
         let results = Results::new(self.out);
         let folder = unfinished.scans(&stretch.fingerprint, &task.names.sequence)?;
-        let workspace = Workspace::new(&task.names, folder, &results);
+        let workspace = Workspace::open(&task.names, folder, &results)?;
         let times = &task.reader.sequence().times;
         let scans = all_scans(times);
         let scans: Vec<ScanIndex> = in_time(times, &scans).into_iter().map(|place| scans[place]).collect();
