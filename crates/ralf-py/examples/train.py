@@ -19,7 +19,7 @@ import ralf
 from ralf.torch import Batch, ScanDataset, collate
 
 FEATURES = ["range", "azimuth", "elevation", "x", "y", "z", "doppler", "rcs"]
-TRAIN, TEST = [1, 2, 3], 4
+TRAIN, TEST = [1, 2], 3
 EPOCHS = 12
 
 
@@ -65,7 +65,7 @@ def drive(folder: Path, seed: int) -> Path:
     path = folder / f"drive-{seed}"
     if not path.exists():
         command = Path(sys.executable).with_name("ralf")
-        arguments = ["--preset", "paper", "--scans", "220", "--no-images", "--seed", str(seed), "-o", path]
+        arguments = ["--preset", "paper", "--scans", "110", "--no-images", "--seed", str(seed), "-o", path]
         subprocess.run([command, "simulate", *arguments], check=True)
     return path
 
