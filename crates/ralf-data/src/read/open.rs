@@ -2,7 +2,7 @@
 
 use crate::error::DataError;
 use crate::read::ros::Topics;
-use crate::read::{Recording, aimotive, layout, nuscenes, ros, view_of_delft};
+use crate::read::{Recording, aimotive, layout, nuscenes, ros, truckscenes, view_of_delft, zod};
 use std::fs;
 use std::path::Path;
 
@@ -19,12 +19,24 @@ struct Format {
 }
 
 /// In the order in which they are tried.
-const FORMATS: [Format; 5] = [
+const FORMATS: [Format; 7] = [
+    Format {
+        name: zod::NAME,
+        holds: "the lists `trainval-sequences-*.json` or `trainval-drives-*.json`",
+        recognises: zod::recognises,
+        open: |path, _| zod::open(path),
+    },
     Format {
         name: layout::NAME,
         holds: "the folder `sequences`",
         recognises: |path| path.join(layout::SEQUENCES).is_dir(),
         open: |path, _| layout::open(path),
+    },
+    Format {
+        name: truckscenes::NAME,
+        holds: "a folder `v1.2-*` (or an earlier version) with `ego_motion_chassis.json`",
+        recognises: truckscenes::recognises,
+        open: |path, _| truckscenes::open(path),
     },
     Format {
         name: nuscenes::NAME,
