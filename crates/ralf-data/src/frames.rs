@@ -16,7 +16,7 @@ const STRETCH: usize = 64;
 const LONG_STRETCH: usize = 512;
 
 /// A scan of a radar, by their places in the rig and in the radar's timeline.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub(crate) struct ScanIndex {
     pub(crate) radar: usize,
     pub(crate) scan: usize,

@@ -59,7 +59,7 @@ impl TrainingGatherer<'_> {
             let rig = rig_of(recording, reader, self.config)?;
             let causes = match truth {
                 TrainingTruth::Known => None,
-                TrainingTruth::Said(_) => Causes::find(&recording.path, &reader.sequence().name)?,
+                TrainingTruth::Said(truth) => truth.causes(&reader.sequence().name)?,
             };
             let task = Task { gatherer: self, reader, rig, truth, causes };
             let first_scan = table.known.last().map_or(0, |known| known.scan + 1);

@@ -10,6 +10,15 @@
 #[allow(dead_code, reason = "the tests of the reader use all of it")]
 mod aimotive;
 mod dataset;
+#[path = "../src/read/nvidia/tests/recording.rs"]
+#[allow(dead_code, reason = "the tests of the reader use all of it")]
+mod nvidia;
+#[path = "../src/read/radar_ghost/tests/recording.rs"]
+#[allow(dead_code, reason = "the tests of the reader use all of it")]
+mod radar_ghost;
+#[path = "../src/read/radar_scenes/tests/recording.rs"]
+#[allow(dead_code, reason = "the tests of the reader use all of it")]
+mod radar_scenes;
 #[path = "../src/read/truckscenes/tests/recording.rs"]
 #[allow(dead_code, reason = "the tests of the reader use all of it")]
 mod truckscenes;
@@ -64,6 +73,29 @@ fn zod_as_published() {
     let folder = tempfile::tempdir().unwrap();
     zod::write_data_set(folder.path());
     check_and_convert(&ralf_data::open(folder.path(), None).unwrap(), "zod");
+}
+
+#[test]
+fn radar_ghost_as_published() {
+    let folder = tempfile::tempdir().unwrap();
+    radar_ghost::write_dataset(folder.path());
+    check_and_convert(&ralf_data::open(folder.path(), None).unwrap(), "radar-ghost");
+}
+
+#[test]
+fn radar_scenes_as_published() {
+    let folder = tempfile::tempdir().unwrap();
+    radar_scenes::write_dataset(folder.path());
+    check_and_convert(&ralf_data::open(folder.path(), None).unwrap(), "radarscenes");
+}
+
+#[test]
+fn nvidia_as_published() {
+    let folder = tempfile::tempdir().unwrap();
+    nvidia::write_unzipped(folder.path());
+    nvidia::write_clip(&folder.path().join("clips"));
+    check_and_convert(&ralf_data::open(folder.path(), None).unwrap(), "nvidia");
+    check_and_convert(&ralf_data::open(&folder.path().join("clips"), None).unwrap(), "nvidia");
 }
 
 /// Written as bags and MCAP files and read again, with a guess of the topics.

@@ -11,6 +11,15 @@ mod foreign;
 #[allow(dead_code, reason = "the tests of the crate use all of it")]
 #[path = "../../ralf-depth/src/testing.rs"]
 mod network;
+#[allow(dead_code, reason = "the tests of the reader use all of it")]
+#[path = "../../ralf-data/src/read/nvidia/tests/recording.rs"]
+mod nvidia;
+#[allow(dead_code, reason = "the tests of the reader use all of it")]
+#[path = "../../ralf-data/src/read/radar_ghost/tests/recording.rs"]
+mod radar_ghost;
+#[allow(dead_code, reason = "the tests of the reader use all of it")]
+#[path = "../../ralf-data/src/read/radar_scenes/tests/recording.rs"]
+mod radar_scenes;
 #[path = "../../ralf-cli/tests/command_line/support/ros_topics.rs"]
 mod ros_topics;
 #[allow(dead_code, reason = "the tests of the reader use all of it")]
@@ -59,6 +68,9 @@ pub fn make_places(folder: &Path) {
     aimotive::write_sequence(&folder.join("aimotive/recording").join(aimotive::SEQUENCE));
     truckscenes::write_data_set(&folder.join("truckscenes/recording"), &truckscenes::TINY);
     zod::write_data_set(&folder.join("zod/recording"));
+    radar_ghost::write_dataset(&folder.join("radar-ghost/recording"));
+    radar_scenes::write_dataset(&folder.join("radarscenes/recording"));
+    nvidia::write_unzipped(&folder.join("nvidia/recording"));
     let ros = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../testdata/ros");
     let topics = format!("{}{FURTHER_TOPICS}", ros_topics::ROS_TOPICS);
     for name in ROS {

@@ -36,7 +36,7 @@ const fn of_run(name: &'static str, run: fn(&Path, &mut Pcg64Mcg)) -> Verb {
     Verb { name, place: "run", damaged: "out", writes: true, run }
 }
 
-pub(crate) const VERBS: [Verb; 23] = [
+pub(crate) const VERBS: [Verb; 26] = [
     reading("own"),
     reading("own"),
     reading("nuscenes"),
@@ -44,6 +44,9 @@ pub(crate) const VERBS: [Verb; 23] = [
     reading("aimotive"),
     reading("truckscenes"),
     reading("zod"),
+    reading("radar-ghost"),
+    reading("radarscenes"),
+    reading("nvidia"),
     reading("plain.bag"),
     reading("lz4.bag"),
     reading("zstd.mcap"),
@@ -110,7 +113,9 @@ fn read(place: &Path, random: &mut Pcg64Mcg) {
             let _ = write_ros(reader.as_ref(), &new.join("t.bag"), RosFormat::Bag, &|_| {});
         }),
         _ => {
-            let _ = GroundTruth::find(&path);
+            if let Ok(Some(truth)) = GroundTruth::find(&path) {
+                let _ = truth.scans().iter().try_for_each(|scan| truth.labels(scan).map(drop));
+            }
         }
     }
 }

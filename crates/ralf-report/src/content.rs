@@ -147,7 +147,7 @@ impl Counted {
         overall: &mut Separation,
     ) -> Result<Self, ReportError> {
         let (dataset, sequence) = (&report.recording.path, &reader.sequence().name);
-        let causes = Causes::find(dataset, sequence)?;
+        let causes = truth.map_or_else(|| Causes::find(dataset, sequence), |truth| truth.causes(sequence))?;
         findings.groups.name_causes(causes.as_ref().map_or(&[], Causes::names));
         let origin = Origin { dataset, sequence, rig: &labelled.rig, truth, causes: causes.as_ref() };
         let radar = first_radar(reader);

@@ -100,7 +100,7 @@ impl Origin<'_> {
         };
         let labels = truth.labels(scan)?;
         if labels.len() != detections {
-            let file = scan.truth_file(self.dataset);
+            let file = truth.file(scan);
             let expected = format!("{detections} as in the result");
             let found = labels.len().to_string();
             return Err(DataError::content(&file, "number of labels", expected, found).into());

@@ -24,6 +24,7 @@ mod export;
 mod full_disk;
 #[cfg(unix)]
 mod inputs;
+mod known_truth;
 mod learning;
 mod names;
 #[cfg(unix)]

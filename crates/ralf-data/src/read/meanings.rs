@@ -1,7 +1,9 @@
 //! What the columns of each format's radars mean, and what becomes of them: for people, in `ralf inspect` and
 //! `docs/recordings.md`.
 
-use super::{aimotive, layout, nuscenes, ros, truckscenes, view_of_delft, zod};
+use super::{
+    aimotive, layout, nuscenes, nvidia, radar_ghost, radar_scenes, ros, truckscenes, view_of_delft, zod,
+};
 use serde::Serialize;
 
 /// What a format says of its radars' measurements.
@@ -20,7 +22,7 @@ pub struct Meanings {
 
 const OWN: &str = "`doppler` is raw; `doppler_compensated` is RALF's, by the vehicle's motion";
 
-const MEANINGS: [Meanings; 7] = [
+const MEANINGS: [Meanings; 10] = [
     Meanings {
         format: layout::NAME,
         doppler: "`doppler` is raw and `doppler_compensated` without the vehicle's motion, as the fields say; RALF \
@@ -77,6 +79,27 @@ const MEANINGS: [Meanings; 7] = [
             ("quality", "0 low, 1 medium, 2 high"),
             ("mode", "0 to 2 with the vehicle's speed; changes the field of view"),
             ("amplitude", "dB: signal to noise"),
+        ],
+    },
+    Meanings {
+        format: radar_ghost::NAME,
+        doppler: "`doppler` is raw; the vehicle stands, so that the compensated one is the same",
+        lidar: "points are as published; the vehicle stands",
+        quality: &[],
+    },
+    Meanings {
+        format: radar_scenes::NAME,
+        doppler: "`doppler` is raw and `doppler_compensated` without the vehicle's motion, by the data set's authors",
+        lidar: "there is none",
+        quality: &[],
+    },
+    Meanings {
+        format: nvidia::NAME,
+        doppler: OWN,
+        lidar: "it is not read",
+        quality: &[
+            ("exist_probb", "what the radar itself believes, 0 to 100"),
+            ("doppler_ambiguity", "as published; its unit is not documented"),
         ],
     },
     Meanings {

@@ -107,6 +107,31 @@ pub(crate) const UMRR_11: RadarModel = RadarModel {
     sigma_elevation_deg: 0.55,
 };
 
+/// The 77 GHz radars of the Radar Ghost Dataset, which don't measure elevation. Its paper gives a field of view of
+/// 70 deg to either side; accuracies aren't published and are those of [`GENERIC_RADAR`].
+pub(crate) const GHOST_RADAR: RadarModel = RadarModel {
+    elevation: Elevation::None,
+    fov_azimuth_deg: 140.0,
+    fov_elevation_deg: 20.0,
+    sigma_elevation_deg: 0.0,
+    ..GENERIC_RADAR
+};
+
+/// The LiDAR of the Radar Ghost Dataset, behind the bumper: its type isn't published.
+pub(crate) const GHOST_LIDAR: LidarModel = GENERIC_LIDAR;
+
+/// The four radars of RadarScenes, which don't measure elevation. The data set's page gives a field of view of 60 deg
+/// to either side and the resolutions 0.15 m in range and 0.5 deg (ahead) to 2 deg (at the edge) in azimuth, of which
+/// half are taken, in azimuth of 1 deg.
+pub(crate) const RADARSCENES: RadarModel = RadarModel {
+    elevation: Elevation::None,
+    fov_azimuth_deg: 120.0,
+    fov_elevation_deg: 20.0,
+    sigma_range_m: 0.075,
+    sigma_azimuth_deg: 0.5,
+    sigma_elevation_deg: 0.0,
+};
+
 /// A radar of which nothing is known: what most 77 GHz radars for vehicles have or surpass. Whoever has the data sheet
 /// says better in the settings.
 pub(crate) const GENERIC_RADAR: RadarModel = RadarModel {
@@ -118,6 +143,13 @@ pub(crate) const GENERIC_RADAR: RadarModel = RadarModel {
     sigma_elevation_deg: 1.0,
 };
 
+/// The radars of NVIDIA's PhysicalAI-AV, of nineteen names and several makes, which aren't told: see [`GENERIC_RADAR`].
+pub(crate) const NVIDIA_RADAR: RadarModel = GENERIC_RADAR;
+
+/// Those of them that give every detection the elevation 0.
+pub(crate) const NVIDIA_RADAR_2D: RadarModel =
+    RadarModel { elevation: Elevation::None, sigma_elevation_deg: 0.0, ..GENERIC_RADAR };
+
 /// A LiDAR of which nothing is known: a rotating one on a roof.
 pub(crate) const GENERIC_LIDAR: LidarModel =
     LidarModel { sigma_range_m: 0.02, lowest_beam_deg: 25.0, max_range_m: None };
@@ -126,11 +158,13 @@ pub(crate) const GENERIC_LIDAR: LidarModel =
 pub(crate) const GENERIC: &str = "generic";
 
 /// By the names that settings have for them.
-pub(crate) const RADARS: [(&str, RadarModel); 5] = [
+pub(crate) const RADARS: [(&str, RadarModel); 7] = [
     (GENERIC, GENERIC_RADAR),
     ("ars408-21", ARS_408_21),
     ("ars548", ARS_548),
     ("frgen21", ZF_FRGEN21),
+    ("radar-ghost", GHOST_RADAR),
+    ("radarscenes", RADARSCENES),
     ("umrr-11", UMRR_11),
 ];
 

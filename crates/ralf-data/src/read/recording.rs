@@ -76,7 +76,7 @@ pub struct TruthLabels {
     /// As they stand in a `.label` file.
     pub labels: Vec<Label>,
     /// Why each is an artifact: [`ralf::label::Cause`] as a number, 0 of what is plausible. No file that labelling
-    /// reads.
+    /// reads; empty where [no causes](SequenceReader::causes) are told apart.
     pub causes: Vec<u8>,
 }
 

@@ -1,4 +1,4 @@
-//! Rotations and rigid transforms out of printed matrices.
+//! Rotations and rigid transforms out of printed matrices and angles.
 
 use crate::error::DataError;
 use nalgebra::{Matrix3, Rotation3, Translation3, UnitQuaternion, Vector3};
@@ -37,6 +37,14 @@ pub(crate) fn rigid(file: &Path, place: &str, matrix: &Matrix) -> Result<Transfo
     }
     let turn = rotation(file, place, Matrix3::new(a, b, c, d, e, f, g, h, i))?;
     Ok(Transform::from_parts(Translation3::new(x, y, z), turn))
+}
+
+/// A place, and what is there turned to the left by so many rad.
+pub(crate) fn turned(translation: [f64; 3], yaw: f64) -> Transform {
+    let turn = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), yaw);
+    // Of length 1 to the last digit, as what is written and read again is.
+    let turn = UnitQuaternion::new_normalize(turn.into_inner());
+    Transform::from_parts(Translation3::from(translation), turn)
 }
 
 /// Columns of unit length at right angles. The first keeps its direction; the others move by less than was refused.

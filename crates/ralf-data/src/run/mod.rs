@@ -2,15 +2,16 @@
 //! jobs.
 //!
 //! Every scan's label depends on the recording and the settings alone, so that scans may be labelled in any order.
-//! Their tables are kept as files of their own until a sequence is complete, and then put together in the order of the
-//! rig. A run that was killed finds them again by a fingerprint of program, settings and the sequence's inputs, and a
-//! sequence that was labelled before is left as it is.
+//! Their tables are kept in files that only grow until a sequence is complete, and then put together in the order of
+//! the rig. A run that was killed finds them again by a fingerprint of program, settings and the sequence's inputs, and
+//! a sequence that was labelled before is left as it is.
 
 mod assemble;
 mod fingerprint;
 mod inputs;
 mod output_folder;
 mod results;
+mod scan_log;
 mod unfinished;
 mod workers;
 mod workspace;

@@ -118,7 +118,7 @@ impl OutputFolder {
         names: &'a SequenceNames,
     ) -> Result<Workspace<'a>, DataError> {
         let folder = self.unfinished.scans(sequence, &names.sequence)?;
-        Ok(Workspace::new(names, folder, &self.results))
+        Workspace::open(names, folder, &self.results)
     }
 
     /// A sequence's results are in their places.

@@ -1,9 +1,9 @@
 //! Which frames a sequence has, which files belong to them, and when they were.
 
 use super::raw::BoxFile;
+use crate::disk::json;
 use crate::disk::{files, laz};
 use crate::error::DataError;
-use crate::read::json;
 use ralf_files::Kind;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};

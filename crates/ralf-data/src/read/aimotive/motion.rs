@@ -3,8 +3,8 @@
 use super::frames::number;
 use super::raw::{EgoMotion2File, EgoMotionFile};
 use crate::disk::files;
+use crate::disk::json;
 use crate::error::DataError;
-use crate::read::json;
 use crate::read::rotation::{Matrix, rigid};
 use ralf::space::{EgoMotion, PoseSample, Transform};
 use ralf_files::Kind;

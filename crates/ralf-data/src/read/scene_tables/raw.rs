@@ -2,8 +2,8 @@
 //! is larger than most memories hold as JSON values. Keys that aren't needed are skipped.
 
 use crate::disk::files;
+use crate::disk::json;
 use crate::error::DataError;
-use crate::read::json;
 use serde::de::{DeserializeOwned, DeserializeSeed, Error, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer};
 use std::fmt;

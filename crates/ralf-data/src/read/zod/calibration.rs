@@ -1,8 +1,8 @@
 //! Sensors out of a sequence's calibration.
 
 use super::radar::RADAR_FIELDS;
+use crate::disk::json;
 use crate::error::DataError;
-use crate::read::json;
 use crate::read::models::{GENERIC_RADAR, VLS_128};
 use crate::read::rotation::{Matrix, rigid};
 use ralf::sensors::{Camera, Intrinsics, Lidar, Radar};

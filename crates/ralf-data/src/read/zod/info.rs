@@ -1,8 +1,8 @@
 //! The lists of sequences and their files.
 
 use super::time::nanoseconds;
+use crate::disk::json;
 use crate::error::DataError;
-use crate::read::json;
 use ralf_files::Kind;
 use serde::Deserialize;
 use std::collections::BTreeMap;

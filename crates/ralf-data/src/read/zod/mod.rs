@@ -21,6 +21,7 @@ use crate::disk::files;
 use crate::error::DataError;
 use crate::read::{Recording, SequenceReader};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// The format's name.
 pub(crate) const NAME: &str = "zod";
@@ -35,10 +36,11 @@ pub(crate) fn open(path: &Path) -> Result<Recording, DataError> {
     for (list, prefix) in lists(path)? {
         info::read(&list, prefix, &mut listed)?;
     }
+    let radar_files = Arc::new(radar::radar_files());
     let mut sequences: Vec<Box<dyn SequenceReader>> = Vec::new();
     for (name, (list, info)) in listed {
         if files::exists(&path.join(&info.calibration_path))? {
-            sequences.push(Box::new(source::sequence(path, &name, &list, info)?));
+            sequences.push(Box::new(source::sequence(path, &name, &list, info, &radar_files)?));
         }
     }
     if sequences.is_empty() {

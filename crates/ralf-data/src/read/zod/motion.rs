@@ -1,8 +1,8 @@
 //! Where the vehicle was.
 
 use super::calibration::vehicle_from_ego;
+use crate::disk::json;
 use crate::error::DataError;
-use crate::read::json;
 use crate::read::rotation::{Matrix, rigid};
 use ralf::space::{EgoMotion, PoseSample};
 use ralf_files::Kind;

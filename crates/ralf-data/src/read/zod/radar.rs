@@ -2,9 +2,9 @@
 
 use crate::disk::npy::records::Records;
 use crate::error::DataError;
+use crate::read::last_read::LastRead;
 use std::ops::Range;
 use std::path::Path;
-use std::sync::{Mutex, PoisonError};
 
 /// What a row becomes.
 pub(super) const RADAR_FIELDS: [&str; 8] =
@@ -25,9 +25,7 @@ const COLUMNS: [&str; 8] = [
 #[derive(Default)]
 pub(super) struct Scans {
     pub(super) times: Vec<i64>,
-    rows: Vec<Range<usize>>,
-    /// The columns of the file, as long as its scans are asked for in a row.
-    columns: Mutex<Option<Vec<Vec<f32>>>>,
+    pub(super) rows: Vec<Range<usize>>,
 }
 
 impl Scans {
@@ -40,13 +38,9 @@ impl Scans {
         for rows in scan.chunk_by(|a, b| a == b) {
             let t_ns = times[begin];
             if found.times.last().is_some_and(|before| t_ns <= *before) {
-                let expected = "a scan after the one before".to_owned();
-                return Err(DataError::content(
-                    file,
-                    format!("record {begin}"),
-                    expected,
-                    format!("{t_ns} ns"),
-                ));
+                let place = format!("record {begin}");
+                let expected = "a scan after the one before";
+                return Err(DataError::content(file, place, expected, format!("{t_ns} ns")));
             }
             found.times.push(t_ns);
             found.rows.push(begin..begin + rows.len());
@@ -54,26 +48,28 @@ impl Scans {
         }
         Ok(found)
     }
+}
 
-    /// The columns of a scan, as [`RADAR_FIELDS`] has them. A file is read once, and let go with its last scan.
-    pub(super) fn columns(&self, file: &Path, scan: usize) -> Result<Vec<Vec<f32>>, DataError> {
-        let mut known = self.columns.lock().unwrap_or_else(PoisonError::into_inner);
-        let all = match known.take() {
-            Some(all) => all,
-            None => {
-                let records = Records::read(file)?;
-                COLUMNS.iter().map(|name| records.column(name)).collect::<Result<Vec<_>, _>>()?
-            }
-        };
-        let rows = self.rows[scan].clone();
-        let cut = |column: &Vec<f32>| column.get(rows.clone()).map(<[f32]>::to_vec);
-        let scanned: Option<Vec<Vec<f32>>> = all.iter().map(cut).collect();
-        if scan + 1 < self.rows.len() {
-            *known = Some(all);
-        }
-        scanned.ok_or_else(|| {
-            let found = "fewer than when it was opened";
-            DataError::content(file, format!("scan {scan}"), format!("records {rows:?}"), found)
-        })
-    }
+/// The columns of the files that were read last, as [`RADAR_FIELDS`] has them.
+pub(super) type RadarFiles = LastRead<Vec<Vec<f32>>>;
+
+/// Of two sequences, for whoever goes from one to the next.
+pub(super) fn radar_files() -> RadarFiles {
+    LastRead::new(
+        |file| {
+            let records = Records::read(file)?;
+            COLUMNS.iter().map(|name| records.column(name)).collect()
+        },
+        2,
+    )
+}
+
+/// A scan out of its file's columns.
+pub(super) fn scan(file: &Path, all: &[Vec<f32>], rows: &Range<usize>) -> Result<Vec<Vec<f32>>, DataError> {
+    let cut = |column: &Vec<f32>| column.get(rows.clone()).map(<[f32]>::to_vec);
+    let columns: Option<Vec<Vec<f32>>> = all.iter().map(cut).collect();
+    columns.ok_or_else(|| {
+        let found = "fewer than when it was opened";
+        DataError::content(file, "data", format!("records {rows:?}"), found)
+    })
 }

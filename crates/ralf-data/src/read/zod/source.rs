@@ -2,18 +2,22 @@
 
 use super::calibration::Calibration;
 use super::info::{Frame, Info};
-use super::radar::Scans;
-use super::{lidar, motion};
+use super::radar::{RadarFiles, Scans};
+use super::{lidar, motion, radar};
 use crate::disk::files::Folders;
 use crate::error::DataError;
 use crate::read::file_sequence::{FileFormat, FileSequence};
 use crate::read::measured_files::MeasuredFiles;
 use ralf::sensors::{DepthOutput, Lidar, LidarScan, Rig, Sequence, Timelines};
+use std::ops::Range;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// How the files of a sequence are read.
 pub(super) struct Zod {
-    radar: Scans,
+    /// Which rows of the radar's file each scan has.
+    rows: Vec<Range<usize>>,
+    radar_files: Arc<RadarFiles>,
     is_rolling: bool,
 }
 
@@ -32,13 +36,14 @@ pub(super) fn sequence(
     name: &str,
     list: &Path,
     info: Info,
+    radar_files: &Arc<RadarFiles>,
 ) -> Result<FileSequence<Zod>, DataError> {
     let [calibration_file, motion_file] =
         [&info.calibration_path, &info.ego_motion_path].map(|path| dataset.join(path));
     let calibration = Calibration::read(&calibration_file)?;
     let motion = motion::read(&motion_file)?;
     let mut found = Found::default();
-    let radar = found.add_radar(dataset, &calibration, &info)?;
+    let Scans { rows, .. } = found.add_radar(dataset, &calibration, &info)?;
     let mut folders = Folders::default();
     let is_rolling = found.add_lidar(dataset, &calibration, &info, &mut folders)?;
     found.add_camera(dataset, &calibration, &info, &mut folders)?;
@@ -46,7 +51,8 @@ pub(super) fn sequence(
     let (name, title) = (name.to_owned(), "Zenseact Open Dataset".to_owned());
     let sequence = Sequence { name, title, rig, times, motion, depth_output: DepthOutput::default() };
     let further = vec![list.to_owned(), calibration_file, motion_file];
-    Ok(FileSequence { sequence, files, further, warnings, format: Zod { radar, is_rolling } })
+    let format = Zod { rows, radar_files: radar_files.clone(), is_rolling };
+    Ok(FileSequence { sequence, files, further, warnings, format })
 }
 
 impl Found {
@@ -161,7 +167,7 @@ impl FileFormat for Zod {
     }
 
     fn radar_columns(&self, file: &Path, _: usize, scan: usize) -> Result<Vec<Vec<f32>>, DataError> {
-        self.radar.columns(file, scan)
+        radar::scan(file, &*self.radar_files.of(file)?, &self.rows[scan])
     }
 
     fn lidar_scan(&self, file: &Path, _: &Lidar, t_ns: i64) -> Result<LidarScan, DataError> {

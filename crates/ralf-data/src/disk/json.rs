@@ -1,4 +1,4 @@
-//! JSON files that are read as a whole.
+//! JSON files that others made.
 
 use crate::disk::files;
 use crate::error::DataError;
@@ -6,7 +6,7 @@ use ralf_files::Kind;
 use serde::de::DeserializeOwned;
 use std::path::Path;
 
-/// A file of this content; the error names line and column.
+/// A file of this content. An error names line and column.
 pub(crate) fn read<T: DeserializeOwned>(file: &Path, kind: Kind, expected: &str) -> Result<T, DataError> {
     let text = files::read_text(file, kind)?;
     serde_json::from_str(&text).map_err(|error| unreadable(file, expected, &error))
@@ -15,7 +15,7 @@ pub(crate) fn read<T: DeserializeOwned>(file: &Path, kind: Kind, expected: &str)
 /// What is wrong with a file, and where.
 pub(crate) fn unreadable(file: &Path, expected: &str, error: &serde_json::Error) -> DataError {
     let place = format!("line {}, column {}", error.line(), error.column());
-    let text = error.to_string();
-    let found = text.split(" at line ").next().unwrap_or(&text);
+    let told = error.to_string();
+    let found = told.split(" at line ").next().unwrap_or(&told);
     DataError::content(file, place, expected, found)
 }

@@ -1,23 +1,20 @@
-//! The table of one scan in a file of its own: what a run that is killed leaves for the next one.
+//! The table of one scan as bytes: what a run that is killed leaves for the next one.
 
 use super::schema::{Kind, Schema};
 use super::{Table, Values};
-use crate::disk::files::{read, write_whole};
 use crate::error::DataError;
 use std::path::Path;
 use std::sync::Arc;
 
-const MAGIC: &[u8; 8] = b"RALFrow2";
 const NO_CLASS: u32 = u32::MAX;
 
-/// Writes a table, whole or not at all: how many rows, then column by column.
-pub(crate) fn write_rows(file: &Path, table: &Table) -> Result<(), DataError> {
-    let mut bytes = MAGIC.to_vec();
-    bytes.extend_from_slice(&(table.len() as u64).to_le_bytes());
+/// A table's bytes: how many rows, then column by column. `file` is where they go.
+pub(crate) fn row_bytes(file: &Path, table: &Table) -> Result<Vec<u8>, DataError> {
+    let mut bytes = (table.len() as u64).to_le_bytes().to_vec();
     for (column, values) in table.columns() {
         append(&mut bytes, values).ok_or_else(|| no_such_kind(file, &column.name))?;
     }
-    write_whole(file, &bytes)
+    Ok(bytes)
 }
 
 fn append(bytes: &mut Vec<u8>, values: &Values) -> Option<()> {
@@ -42,13 +39,11 @@ fn append(bytes: &mut Vec<u8>, values: &Values) -> Option<()> {
     Some(())
 }
 
-/// Reads what [`write_rows`] wrote of a table with these columns.
-pub(crate) fn read_rows(file: &Path, schema: &Arc<Schema>) -> Result<Table, DataError> {
-    let bytes = read(file)?;
-    let cut = || DataError::content(file, "end", "the rows of one scan", "another file, or one cut short");
-    let (head, mut rest) = bytes.split_at_checked(MAGIC.len() + 8).ok_or_else(cut)?;
-    let rows = head.strip_prefix(MAGIC).and_then(|rows| rows.try_into().ok()).ok_or_else(cut)?;
-    let rows = usize::try_from(u64::from_le_bytes(rows)).map_err(|_| cut())?;
+/// The table with these columns that [`row_bytes`] gave. `file` is where the bytes are from.
+pub(crate) fn table_of_rows(file: &Path, bytes: &[u8], schema: &Arc<Schema>) -> Result<Table, DataError> {
+    let cut = || DataError::content(file, "rows", "those of one scan", "others, or some that are cut short");
+    let (rows, mut rest) = bytes.split_first_chunk().ok_or_else(cut)?;
+    let rows = usize::try_from(u64::from_le_bytes(*rows)).map_err(|_| cut())?;
     let mut values = Vec::with_capacity(schema.columns().len());
     for column in schema.columns() {
         if column.kind == Kind::Text {

@@ -1,0 +1,5 @@
+//! Small files to the letter of the data set's description.
+
+mod reading;
+mod recording;
+mod refusals;

@@ -1,0 +1,5 @@
+//! Small sequences in the published layout.
+
+mod reading;
+mod recording;
+mod refusals;
