@@ -24,6 +24,7 @@ mod error;
 mod evidence;
 mod frames;
 pub mod judge;
+pub mod many;
 pub mod read;
 pub mod realism;
 pub mod result;

@@ -15,6 +15,7 @@ mod bad_images;
 mod bad_recordings;
 mod camera_plot;
 mod check;
+mod cluster;
 mod corrections;
 mod determinism;
 mod evaluation;

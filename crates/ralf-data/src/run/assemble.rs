@@ -37,6 +37,9 @@ pub(super) fn assemble(
                 observer.advance(1, 0);
                 continue;
             }
+            if observer.stopped() {
+                return Err(DataError::Stopped);
+            }
             let (table, notes) = workspace.scan(index, scan, &task.schema)?;
             unreadable.extend(notes.unreadable);
             for (camera, image) in notes.images {
