@@ -31,6 +31,7 @@ pub mod run;
 mod settings;
 #[cfg(test)]
 mod testing;
+pub mod things;
 mod training;
 pub mod truth;
 pub mod write;
