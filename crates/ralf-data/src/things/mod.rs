@@ -145,6 +145,11 @@ mod tests {
         )
     }
 
+    fn pairs(seen: &[Sighting]) -> impl Iterator<Item = (usize, usize)> {
+        let count = seen.len();
+        (0..count).flat_map(move |a| (0..count).map(move |b| (a, b)))
+    }
+
     proptest! {
         /// Against going through all pairs.
         #[test]
@@ -152,19 +157,15 @@ mod tests {
             let things = group(&seen);
             let mut leader: Vec<usize> = (0..seen.len()).collect();
             for _ in 0..seen.len() {
-                for a in 0..seen.len() {
-                    for b in 0..seen.len() {
-                        if seen[a].moves() && seen[b].moves() && moving::follows(&seen[a], &seen[b]) {
-                            let least = leader[a].min(leader[b]);
-                            (leader[a], leader[b]) = (least, least);
-                        }
+                for (a, b) in pairs(&seen) {
+                    if seen[a].moves() && seen[b].moves() && moving::follows(&seen[a], &seen[b]) {
+                        let least = leader[a].min(leader[b]);
+                        (leader[a], leader[b]) = (least, least);
                     }
                 }
             }
-            for a in 0..seen.len() {
-                for b in (0..seen.len()).filter(|b| seen[a].moves() && seen[*b].moves()) {
-                    prop_assert_eq!(things[a] == things[b], leader[a] == leader[b]);
-                }
+            for (a, b) in pairs(&seen).filter(|(a, b)| seen[*a].moves() && seen[*b].moves()) {
+                prop_assert_eq!(things[a] == things[b], leader[a] == leader[b]);
             }
         }
 
@@ -176,14 +177,12 @@ mod tests {
             used.sort_unstable();
             used.dedup();
             prop_assert!(used.iter().copied().eq(0..used.len() as u32));
-            for a in 0..seen.len() {
-                for b in (0..seen.len()).filter(|b| things[a] == things[*b]) {
-                    prop_assert_eq!(seen[a].moves(), seen[b].moves());
-                    let [ax, ay, _] = seen[a].place;
-                    let [bx, by, _] = seen[b].place;
-                    let most = 2.0 * standing::REACH + 3.0 * standing::CELL;
-                    prop_assert!(seen[a].moves() || (ax - bx).hypot(ay - by) <= most);
-                }
+            for (a, b) in pairs(&seen).filter(|(a, b)| things[*a] == things[*b]) {
+                prop_assert_eq!(seen[a].moves(), seen[b].moves());
+                let [ax, ay, _] = seen[a].place;
+                let [bx, by, _] = seen[b].place;
+                let most = 2.0 * standing::REACH + 3.0 * standing::CELL;
+                prop_assert!(seen[a].moves() || (ax - bx).hypot(ay - by) <= most);
             }
         }
     }

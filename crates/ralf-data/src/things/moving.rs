@@ -27,14 +27,14 @@ pub(super) fn follows(a: &Sighting, b: &Sighting) -> bool {
 pub(super) fn join(sightings: &[Sighting], mut rows: Vec<usize>, leader: &mut [usize]) {
     rows.sort_by_key(|row| (sightings[*row].t_ns, *row));
     let mut first = 0;
-    for at in 0..rows.len() {
-        let now = &sightings[rows[at]];
+    for (at, row) in rows.iter().enumerate() {
+        let now = &sightings[*row];
         while now.t_ns - sightings[rows[first]].t_ns > GAP_NS {
             first += 1;
         }
         for before in &rows[first..at] {
             if follows(&sightings[*before], now) {
-                unite(leader, *before, rows[at]);
+                unite(leader, *before, *row);
             }
         }
     }
