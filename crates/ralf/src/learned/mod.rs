@@ -6,6 +6,7 @@
 //! ordinary: every question knows where absence leads. What lies outside of all that a model was trained on
 //! ([`novelty`]) is left to the paper's method.
 
+mod block;
 mod calibration;
 mod familiar;
 mod forest;
