@@ -17,6 +17,8 @@ mod rows;
 mod shapley;
 mod text;
 mod tree;
+mod unconfirmed;
+mod visibility;
 
 pub use calibration::{Calibration, CalibrationError};
 pub use familiar::{Seen, novelty};
@@ -27,3 +29,5 @@ pub use rows::Rows;
 pub use shapley::Explainer;
 pub use text::ReadError;
 pub use tree::{Leaf, Node, Split, Tree, TreeError};
+pub use unconfirmed::{Unconfirmed, with_odds};
+pub use visibility::Visibility;
