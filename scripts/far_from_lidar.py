@@ -30,6 +30,10 @@ FAR = 2.5  # m
 TOLERANCE = 60e6  # ns, between a radar scan and a LiDAR scan
 HEIGHTS = 0.2, 2.5  # m, of points that a radar without elevation is compared with
 MOVES = 3.0  # sigma
+HEADS = [
+    *("recording", "range, m", "detections", "share", "far"),
+    *("of these: plausible", "moving", "seen again", "near ones: plausible"),
+]
 EDGES = 0, 20, 40, 60, 80, 100, 140, 300  # m
 
 
@@ -125,8 +129,7 @@ def main():
     options = parser.parse_args()
     if len(options.pairs) % 2:
         parser.error("pairs of DATASET and OUT expected")
-    heads = "recording | range, m | detections | share | far | plausible | moving | seen again | near: plausible".split(" | ")
-    print("| " + " | ".join(heads) + " |\n" + "| --- " * len(heads) + "|")
+    print("| " + " | ".join(HEADS) + " |\n" + "| --- " * len(HEADS) + "|")
     for dataset, out in zip(options.pairs[::2], options.pairs[1::2]):
         rows = measured(dataset, out, options.every)
         for low, high in [(0, np.inf), *zip(EDGES, EDGES[1:])]:
