@@ -55,6 +55,7 @@ def main():
     write("growing", table(varying=False), maxshape=(None,), fletcher32=True, **packed)
     write("big_endian", table(varying=False, big_endian=True))
     write("latest", table(varying=True), libver="latest", **packed)
+    write("lzf", table(varying=False), chunks=(16,), compression="lzf", shuffle=True)
     write("none", table(varying=False)[:0])
     with h5py.File(OUT / "no_table.h5", "w") as file:
         file["numbers"] = np.arange(3.0)

@@ -32,6 +32,7 @@ pub mod run;
 mod settings;
 #[cfg(test)]
 mod testing;
+pub mod things;
 mod training;
 pub mod truth;
 pub mod write;

@@ -66,6 +66,18 @@ pub(crate) const ZF_FRGEN21: RadarModel = RadarModel {
     sigma_elevation_deg: 0.75,
 };
 
+/// Continental ARS 548, the radars of MAN TruckScenes as far as scans tell. Data sheet, as the Dual-Radar data set
+/// quotes it: 0.22 m, 1.2 deg in azimuth up to 15 deg from the axis and 1.68 deg at 45, 2.3 deg in elevation. They are
+/// resolutions: half of them is taken, of the azimuth's worse one. Fields of view 120 by 28 deg (8 beyond 140 m).
+pub(crate) const ARS_548: RadarModel = RadarModel {
+    elevation: Elevation::Measured,
+    fov_azimuth_deg: 120.0,
+    fov_elevation_deg: 28.0,
+    sigma_range_m: 0.11,
+    sigma_azimuth_deg: 0.84,
+    sigma_elevation_deg: 1.15,
+};
+
 /// Velodyne HDL-32E, the LiDAR of nuScenes. Data sheet: 2 cm accuracy (one standard deviation at 25 m), beams from
 /// +10.67 to -30.67 deg, usable returns up to 100 m.
 pub(crate) const HDL_32E: LidarModel =
@@ -79,6 +91,10 @@ pub(crate) const HDL_64E_S3: LidarModel =
 /// Hesai Pandar64, the LiDAR of aiMotive. Data sheet: 2 cm accuracy, beams from +15 to -25 deg, 200 m at 10 %.
 pub(crate) const PANDAR64: LidarModel =
     LidarModel { sigma_range_m: 0.02, lowest_beam_deg: 25.0, max_range_m: Some(200.0) };
+
+/// Velodyne VLS-128, the LiDAR on the roof of ZOD's cars. Data sheet: 3 cm accuracy, beams from +15 to -25 deg, 245 m.
+pub(crate) const VLS_128: LidarModel =
+    LidarModel { sigma_range_m: 0.03, lowest_beam_deg: 25.0, max_range_m: Some(245.0) };
 
 /// smartmicro UMRR-11 type 132, both radars of aiMotive. Fields of view are those that scans of a motorway fill,
 /// 17.3 deg to either side and 7.8 deg up and down; sigmas what they scatter by about guard rails in the LiDAR's map.
@@ -118,7 +134,7 @@ pub(crate) const RADARSCENES: RadarModel = RadarModel {
 
 /// A radar of which nothing is known: what most 77 GHz radars for vehicles have or surpass. Whoever has the data sheet
 /// says better in the settings.
-const GENERIC_RADAR: RadarModel = RadarModel {
+pub(crate) const GENERIC_RADAR: RadarModel = RadarModel {
     elevation: Elevation::Measured,
     fov_azimuth_deg: 120.0,
     fov_elevation_deg: 30.0,
@@ -135,16 +151,17 @@ pub(crate) const NVIDIA_RADAR_2D: RadarModel =
     RadarModel { elevation: Elevation::None, sigma_elevation_deg: 0.0, ..GENERIC_RADAR };
 
 /// A LiDAR of which nothing is known: a rotating one on a roof.
-const GENERIC_LIDAR: LidarModel =
+pub(crate) const GENERIC_LIDAR: LidarModel =
     LidarModel { sigma_range_m: 0.02, lowest_beam_deg: 25.0, max_range_m: None };
 
 /// What stands for a sensor of which nothing is known.
 pub(crate) const GENERIC: &str = "generic";
 
 /// By the names that settings have for them.
-pub(crate) const RADARS: [(&str, RadarModel); 6] = [
+pub(crate) const RADARS: [(&str, RadarModel); 7] = [
     (GENERIC, GENERIC_RADAR),
     ("ars408-21", ARS_408_21),
+    ("ars548", ARS_548),
     ("frgen21", ZF_FRGEN21),
     ("radar-ghost", GHOST_RADAR),
     ("radarscenes", RADARSCENES),
@@ -152,17 +169,24 @@ pub(crate) const RADARS: [(&str, RadarModel); 6] = [
 ];
 
 /// By the names that settings have for them.
-pub(crate) const LIDARS: [(&str, LidarModel); 4] =
-    [(GENERIC, GENERIC_LIDAR), ("hdl-32e", HDL_32E), ("hdl-64e-s3", HDL_64E_S3), ("pandar64", PANDAR64)];
+pub(crate) const LIDARS: [(&str, LidarModel); 5] = [
+    (GENERIC, GENERIC_LIDAR),
+    ("hdl-32e", HDL_32E),
+    ("hdl-64e-s3", HDL_64E_S3),
+    ("pandar64", PANDAR64),
+    ("vls-128", VLS_128),
+];
 
 /// Parts of names that tell a sensor's type, in small letters and without what separates them, with its model.
-const TELLING: [(&str, &str); 6] = [
+const TELLING: [(&str, &str); 8] = [
     ("ars408", "ars408-21"),
+    ("ars548", "ars548"),
     ("frgen21", "frgen21"),
     ("umrr11", "umrr-11"),
     ("hdl32", "hdl-32e"),
     ("hdl64", "hdl-64e-s3"),
     ("pandar64", "pandar64"),
+    ("vls128", "vls-128"),
 ];
 
 /// The one of these models that a topic's or a frame's name tells of; the generic one where it tells of none.

@@ -3,7 +3,8 @@
 use crate::error::DataError;
 use crate::read::ros::Topics;
 use crate::read::{
-    Recording, aimotive, layout, nuscenes, nvidia, radar_ghost, radar_scenes, ros, view_of_delft,
+    Recording, aimotive, layout, nuscenes, nvidia, radar_ghost, radar_scenes, ros, truckscenes,
+    view_of_delft, zod,
 };
 use std::fs;
 use std::path::Path;
@@ -23,13 +24,27 @@ struct Format {
 }
 
 /// In the order in which they are tried.
-const FORMATS: [Format; 8] = [
+const FORMATS: [Format; 10] = [
+    Format {
+        name: zod::NAME,
+        holds: "the lists `trainval-sequences-*.json` or `trainval-drives-*.json`",
+        knows_truth: false,
+        recognises: zod::recognises,
+        open: |path, _| zod::open(path),
+    },
     Format {
         name: layout::NAME,
         holds: "the folder `sequences`",
         knows_truth: false,
         recognises: |path| path.join(layout::SEQUENCES).is_dir(),
         open: |path, _| layout::open(path),
+    },
+    Format {
+        name: truckscenes::NAME,
+        holds: "a folder `v1.2-*` (or an earlier version) with `ego_motion_chassis.json`",
+        knows_truth: false,
+        recognises: truckscenes::recognises,
+        open: |path, _| truckscenes::open(path),
     },
     Format {
         name: nuscenes::NAME,

@@ -1,9 +1,11 @@
 //! HDF5 files whose data sets are tables: a row is a record of named fields (HDF5 calls that a compound).
 
+mod lzf;
 mod table;
 
 use crate::error::DataError;
-use hdf5_reader::OpenOptions;
+use hdf5_reader::error::Error;
+use hdf5_reader::{FilterRegistry, OpenOptions};
 use ralf_files::Kind;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
@@ -25,9 +27,14 @@ pub(crate) struct Hdf5File {
 impl Hdf5File {
     /// Reads a file. Nothing of its data sets is decompressed yet.
     pub(crate) fn open(path: &Path) -> Result<Self, DataError> {
-        let bytes = ralf_files::read(path, Kind::Table).map_err(DataError::io(path))?;
+        Self::of_bytes(path, ralf_files::read(path, Kind::Table).map_err(DataError::io(path))?)
+    }
+
+    /// The same of a file's bytes.
+    fn of_bytes(path: &Path, bytes: Vec<u8>) -> Result<Self, DataError> {
         let most = bytes.len().saturating_mul(MOST_TIMES_THE_FILE).max(ALWAYS);
         let options = OpenOptions::default()
+            .with_filter_registry(filters(most))
             .with_chunk_cache_bytes(0)
             .with_max_chunk_bytes(most)
             .with_max_read_bytes(most)
@@ -45,13 +52,22 @@ impl Hdf5File {
     }
 }
 
+/// The library's filters and LZF, which gives at most so many bytes.
+fn filters(most: usize) -> FilterRegistry {
+    let mut filters = FilterRegistry::new();
+    let no_lzf = || Error::InvalidData("no LZF, or too much of it".into());
+    let lzf = move |_: &_, packed: &[u8], _| lzf::decompressed(packed, most).ok_or_else(no_lzf);
+    filters.register(lzf::FILTER, Box::new(lzf));
+    filters
+}
+
 /// Asks the HDF5 library, and says what it says of a file. It isn't known to panic whatever a file holds; should it do
 /// so one day, the file is refused all the same.
 fn guarded<T>(
     file: &Path,
     place: &str,
     expected: &str,
-    ask: impl FnOnce() -> Result<T, hdf5_reader::error::Error>,
+    ask: impl FnOnce() -> Result<T, Error>,
 ) -> Result<T, DataError> {
     let refused = |found: String| DataError::content(file, place, expected, found);
     match catch_unwind(AssertUnwindSafe(ask)) {

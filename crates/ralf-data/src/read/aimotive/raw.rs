@@ -1,12 +1,9 @@
 //! The JSON files as they lie on disk. Keys that aren't needed are skipped.
 
-pub(super) use crate::disk::json::read;
+use crate::read::rotation::Matrix;
 use serde::de::Error;
 use serde::{Deserialize, Deserializer};
 use std::collections::BTreeMap;
-
-/// A 4 x 4 matrix, row by row.
-pub(super) type Matrix = [[f64; 4]; 4];
 
 /// `sensor/calibration/calibration.json`: by the sensor's name.
 pub(super) type Calibration = BTreeMap<String, Sensor>;

@@ -11,7 +11,7 @@ pub(super) fn noise(view: &View<'_>, random: &mut Random) -> Vec<Echo> {
     let count = random.poisson(view.radar.false_alarms.min(500.0));
     let alarm = |_| {
         let seen = anywhere(view, random);
-        let [standing, rate] = [random.chance(view.radar.standing_alarms), random.between(-0.5, 0.5)];
+        let (standing, rate) = (random.chance(view.radar.standing_alarms), random.between(-0.5, 0.5));
         let rate = match standing {
             true => view.range_rate(&(view.site_from_radar * seen.to_cartesian()), &Vector::zeros()),
             false => rate * view.radar.doppler_interval,

@@ -1,7 +1,10 @@
-//! Depth images as NumPy stores them: `.npy` of float32, little-endian, in C order, (H, W) or (views, H, W).
+//! Depth images as NumPy stores them: `.npy` of float32, little-endian, in C order, (H, W) or (views, H, W). Tables of
+//! named columns are read by [`records`].
 //!
 //! The file has a short Python dict as its header (NEP 1); anything but this one kind of array is refused, and so is a
 //! shape that isn't the size of the file, before memory is asked for.
+
+pub(crate) mod records;
 
 use crate::disk::files;
 use crate::error::DataError;
