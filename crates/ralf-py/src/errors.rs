@@ -6,7 +6,7 @@ use ralf_data::DataError;
 use std::fmt::Display;
 
 pyo3::create_exception!(
-    _ralf,
+    ralf._ralf,
     RalfError,
     PyException,
     "What RALF refuses: `file`, `place`, `expected`, `found` say what is wrong where; None where that isn't known."

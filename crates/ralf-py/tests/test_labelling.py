@@ -1,6 +1,7 @@
 """Labels by Python are the labels of the command, and errors are exceptions."""
 
 import json
+import pickle
 import signal
 import subprocess
 import sys
@@ -60,6 +61,9 @@ def test_errors_say_file_place_expected_and_found(drive, tmp_path):
     assert error.file.endswith("sequence.toml")
     assert error.place and error.expected and error.found
     assert all(part in str(error) for part in (error.file, error.place, error.expected, error.found))
+    # It comes through from other processes and machines.
+    again = pickle.loads(pickle.dumps(error))
+    assert (str(again), vars(again)) == (str(error), vars(error))
     with pytest.raises(ralf.RalfError, match=r"lidar\.gamma|gamma"):
         ralf.label(drive, tmp_path / "out", settings={"lidar.gamma": 1})
     with pytest.raises(ralf.RalfError, match="no sequence `99`"):
