@@ -7,7 +7,7 @@ const HEADER: &str = "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\nF
 /// Microseconds that float32 doesn't hold.
 const TIMES: [u64; 2] = [1_695_473_372_704_727, 1_695_473_372_704_728];
 
-/// The columns x, t and n.
+/// The columns `x`, `t` and `n`.
 type Columns = (Vec<f32>, Vec<i64>, Vec<f32>);
 
 fn read(storage: &str, body: &[u8]) -> Result<Columns, String> {
