@@ -204,6 +204,7 @@ test("a thing is answered by one key in all its scans, survives a dead server, a
   await page.keyboard.press("p");
   await says(status(page), "1 stroke not saved");
   const back = await serve(context, out, { port: server.port });
+  await says(page.locator(".status-bar"), "undo 1");
   await says(status(page), "saved");
   assert.equal(await correctedIn(back), all);
   await page.keyboard.press("Control+z");
