@@ -129,9 +129,7 @@ fn radar(ranges: &RadarRanges, elevation: bool, random: &mut Random) -> RadarMod
         ambiguity: AMBIGUITY.draw(random),
         room: ranges.room.count(random),
         clearest_first: random.chance(CLEAREST_FIRST),
-        least_rcs_db: ranges.least_rcs.draw(random),
         false_alarms: ranges.false_alarms.draw(random),
-        standing_alarms: ranges.standing_alarms.draw(random),
         rcs_offset_db: 0.0,
         amplitudes: one_of(&AMPLITUDES, random).unwrap_or_default().to_vec(),
     }

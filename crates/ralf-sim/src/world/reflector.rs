@@ -39,9 +39,6 @@ pub(super) struct Wall {
     pub(super) flash_db: f64,
 }
 
-/// Rooms begin so far behind their facade, m: what is nearer can't be told from the facade itself.
-const ROOM: f64 = 1.0;
-
 /// A heap of parts in the making.
 struct Parts<'a> {
     found: Vec<Reflector>,
@@ -229,7 +226,7 @@ fn building(l: f64, w: f64, height: f64, parts: &mut Parts<'_>) {
         for i in 0..2 * count {
             let inside = i >= count;
             let share = (i - if inside { count } else { 0 }) as f64 / count as f64;
-            let depth = if inside { ROOM + 6.0 * share.min(distance / 4.0) } else { 0.0 };
+            let depth = if inside { 0.6 + 6.0 * share.min(distance / 4.0) } else { 0.0 };
             let place = outward * (distance - depth) + along * parts.random.between(-half, half);
             let z = parts.random.between(0.2, top);
             // Balconies, window reveals and drain pipes are corners, and so are shelves and radiators: few, and strong.

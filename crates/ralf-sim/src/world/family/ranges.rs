@@ -63,12 +63,8 @@ pub(crate) struct RadarRanges {
     pub(crate) angle_failure: Span,
     /// Detections that a scan has room for.
     pub(crate) room: Span,
-    /// Echoes of a smaller cross-section are not told, dBsm.
-    pub(crate) least_rcs: Span,
     /// False alarms in a scan.
     pub(crate) false_alarms: Span,
-    /// Share of them that are spikes of clutter, which stands still.
-    pub(crate) standing_alarms: Span,
 }
 
 /// How waves meet the world.

@@ -44,8 +44,6 @@ pub const FAMILIES: [Family; 8] = [
             // Measured, nuScenes: 125 wherever there is enough to see.
             room: span(80.0, 125.0),
             // Measured, nuScenes: what lies in free space persists as often as all else, so not much of it is noise.
-            // Measured, nuScenes: -5 dBsm at all ranges.
-            least_rcs: span(-6.0, -4.0),
             false_alarms: span(4.0, 32.0),
             side_lobe: span(13.0, 22.0),
             ..RADARS
@@ -53,7 +51,7 @@ pub const FAMILIES: [Family; 8] = [
         waves: WaveRanges {
             asphalt: span(-28.0, -14.0),
             lumps: span(0.02, 0.1),
-            mirror_loss: span(2.0, 8.0),
+            mirror_loss: span(1.0, 6.0),
             ..WAVES
         },
         lidars: LidarRanges { layouts: &[ROOF_32], rate: span(20.0, 20.0), ..LIDARS },
@@ -82,8 +80,6 @@ pub const FAMILIES: [Family; 8] = [
             doppler_failure: span(0.03, 0.3),
             // Measured, aiMotive: 26 to 55 in a scan; radars of the next generation give hundreds.
             room: span(60.0, 240.0),
-            // Measured, aiMotive: -8 and -11 dBsm at all ranges.
-            least_rcs: span(-11.0, -6.0),
             false_alarms: span(24.0, 100.0),
             side_lobe: span(13.0, 22.0),
             ..RADARS
@@ -115,7 +111,7 @@ pub const FAMILIES: [Family; 8] = [
         },
         waves: WaveRanges {
             asphalt: span(-26.0, -15.0),
-            mirror_loss: span(2.0, 8.0),
+            mirror_loss: span(1.0, 6.0),
             bumper: span(1.0, 5.0),
             ..WAVES
         },
@@ -151,7 +147,7 @@ pub const FAMILIES: [Family; 8] = [
         waves: WaveRanges { asphalt: span(-27.0, -16.0), strength: span(-8.0, 0.0), ..WAVES },
         lidars: LidarRanges { layouts: &[ROOF_64], sigma: span(0.015, 0.03), rolling: 0.0, ..LIDARS },
         places: &[(PlaceKind::Residential, 2.0), (PlaceKind::Street, 2.0), (PlaceKind::Country, 1.0)],
-        motion: MotionRanges { speed: span(0.4, 0.9), traffic: span(1.0, 3.5), ..MOTION },
+        motion: MotionRanges { speed: span(0.4, 0.9), traffic: span(0.6, 2.5), ..MOTION },
         calibration: CalibrationRanges { poses: 1.0, angle: span(0.05, 0.3), ..CALIBRATION },
     },
     Family {
@@ -172,7 +168,7 @@ pub const FAMILIES: [Family; 8] = [
             false_alarms: span(10.0, 100.0),
             ..RADARS
         },
-        waves: WaveRanges { mirror_loss: span(1.0, 6.0), interference: span(0.0, 0.15), ..WAVES },
+        waves: WaveRanges { mirror_loss: span(0.5, 4.0), interference: span(0.0, 0.15), ..WAVES },
         lidars: LidarRanges { layouts: &[AHEAD, ROOF_128_WIDE, ROOF_64_EVEN], ..LIDARS },
         places: &[(PlaceKind::Industrial, 4.0), (PlaceKind::CarPark, 1.0)],
         motion: MotionRanges { standing: 0.15, reversing: 0.15, ..MOTION },
@@ -196,14 +192,14 @@ pub const FAMILIES: [Family; 8] = [
             // Dry grass and soil: less than in town, or grass alone would be heard.
             asphalt: span(-36.0, -24.0),
             texture: span(5.0, 9.0),
-            mirror_loss: span(2.0, 9.0),
+            mirror_loss: span(1.0, 7.0),
             strength: span(-9.0, 1.0),
             rain: 0.4,
             ..WAVES
         },
         lidars: LidarRanges { layouts: &[ROOF_16, ROOF_32], lost: span(0.0, 0.15), ..LIDARS },
         places: &[(PlaceKind::Country, 4.0), (PlaceKind::Residential, 1.0)],
-        motion: MotionRanges { slope: span(2.0, 9.0), traffic: span(0.4, 2.0), ..MOTION },
+        motion: MotionRanges { slope: span(2.0, 9.0), traffic: span(0.2, 1.0), ..MOTION },
         calibration: CALIBRATION,
     },
     Family {
@@ -228,7 +224,6 @@ pub const FAMILIES: [Family; 8] = [
             side_lobe: span(10.0, 26.0),
             angle_failure: span(0.02, 0.35),
             room: span(50.0, 600.0),
-            least_rcs: span(-50.0, -5.0),
             false_alarms: span(15.0, 110.0),
             ..RADARS
         },

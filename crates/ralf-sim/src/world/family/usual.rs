@@ -42,12 +42,7 @@ pub(super) const RADARS: RadarRanges = RadarRanges {
     angle_failure: span(0.02, 0.15),
     // 1,216 in four radars in the paper's recordings.
     room: span(250.0, 500.0),
-    // Measured, View-of-Delft: down to -49 dBsm.
-    least_rcs: span(-60.0, -45.0),
     false_alarms: span(20.0, 110.0),
-    // Measured, nuScenes and aiMotive: of what lies farther than 2.5 m from all LiDAR points 78 and 75 % stand still,
-    // and some of the rest are movers that the LiDAR missed. CFAR is made for noise; clutter has spikes (Rohling 1983).
-    standing_alarms: span(0.75, 0.95),
 };
 
 /// Waves in a town.
@@ -61,7 +56,7 @@ pub(super) const WAVES: WaveRanges = WaveRanges {
     lumps: span(0.005, 0.05),
     lump_strength: span(10.0, 22.0),
     // Reflection of facades at 77 GHz: glass and metal 0 to 3 dB, plaster and brick 5 to 12 (chosen).
-    mirror_loss: span(3.0, 12.0),
+    mirror_loss: span(2.0, 9.0),
     // Measured, View-of-Delft: 18 % of the detections lie below the road.
     road_mirror: span(0.0, 0.12),
     // Plain glass at 77 GHz takes 1 to 5 dB one-way, insulating glass up to 10, coated panes up to 30 (chosen).
@@ -92,9 +87,7 @@ pub(super) const MOTION: MotionRanges = MotionRanges {
     speed: span(0.5, 1.2),
     standing: 0.1,
     reversing: 0.05,
-    // Measured: 12 % (nuScenes), 17 % (aiMotive) and 18 % (View-of-Delft) of the detections move; with half as much
-    // traffic most of those would be artifacts.
-    traffic: span(0.6, 3.0),
+    traffic: span(0.3, 1.8),
     slope: span(0.0, 3.0),
 };
 

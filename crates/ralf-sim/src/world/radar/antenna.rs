@@ -1,6 +1,6 @@
 //! Angles that are taken for others: side lobes of strong echoes, and ambiguities.
 
-use super::echo::{APART, Echo, View};
+use super::echo::{Echo, View};
 use super::equation::decibel;
 use crate::random::{Random, grain};
 use crate::truth::Truth;
@@ -9,6 +9,8 @@ use ralf::space::{Point, Spherical};
 
 /// How many of the strongest echoes have company.
 const STRONGEST: usize = 40;
+/// A wrong angle that leads less far than this from where the echo comes from is but an inexact one, m.
+const APART: f64 = 1.0;
 
 /// Lobes stand at the antenna's own angles, 1.5, 2.5, ... beam widths off, each with a height of its own: they persist.
 pub(super) fn side_lobes(view: &View<'_>, merged: &[Echo], random: &mut Random) -> Vec<Echo> {

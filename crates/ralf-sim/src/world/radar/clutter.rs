@@ -5,17 +5,12 @@ use crate::random::{Random, grain};
 use ralf::label::Cause;
 use ralf::space::{Spherical, Vector};
 
-/// False alarms: anywhere, just above the threshold. Most are spikes of clutter, which stands still, and some are the
-/// receiver's own, at any range rate.
+/// False alarms: anywhere, at any range rate, just above the threshold.
 pub(super) fn noise(view: &View<'_>, random: &mut Random) -> Vec<Echo> {
     let count = random.poisson(view.radar.false_alarms.min(500.0));
     let alarm = |_| {
         let seen = anywhere(view, random);
-        let (standing, rate) = (random.chance(view.radar.standing_alarms), random.between(-0.5, 0.5));
-        let rate = match standing {
-            true => view.range_rate(&(view.site_from_radar * seen.to_cartesian()), &Vector::zeros()),
-            false => rate * view.radar.doppler_interval,
-        };
+        let rate = random.between(-0.5, 0.5) * view.radar.doppler_interval;
         let level = view.radar.threshold_db + 0.3 + random.exponential(1.5);
         Echo::artifact(seen, rate, level, Cause::Noise)
     };

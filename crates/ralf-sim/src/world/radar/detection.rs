@@ -36,11 +36,8 @@ pub(super) fn detected(
 ) -> Vec<Detection> {
     let radar = view.radar;
     let margin = |echo: &Echo| decibel(echo.power) - floor.level_db(echo) - radar.threshold_db;
-    let rcs_db =
-        |echo: &Echo| apparent_rcs_db(radar, decibel(echo.power), echo.seen.range, echo.seen.azimuth);
-    let told = echoes.iter().filter(|echo| rcs_db(echo) >= radar.least_rcs_db);
     let mut above: Vec<(f64, &Echo)> =
-        told.map(|echo| (margin(echo), echo)).filter(|(margin, _)| *margin > 0.0).collect();
+        echoes.iter().map(|echo| (margin(echo), echo)).filter(|(margin, _)| *margin > 0.0).collect();
     if radar.clearest_first {
         above.sort_by(|a, b| b.0.total_cmp(&a.0));
     } else {

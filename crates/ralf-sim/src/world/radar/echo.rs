@@ -10,8 +10,6 @@ use ralf::space::{Point, Spherical, Transform, Vector};
 
 /// Nothing is detected nearer than this, m.
 pub(super) const NEAREST: f64 = 0.25;
-/// An echo that seems to come from no farther than this from where it does is but an inexact one, m.
-pub(super) const APART: f64 = 1.0;
 /// Echoes so far below the threshold may still add up or be lifted by fluctuation, dB.
 const HOPE_DB: f64 = 6.0;
 

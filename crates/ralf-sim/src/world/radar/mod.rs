@@ -66,10 +66,6 @@ mod tests {
     const STEP: f64 = 1e-4;
 
     fn site(kind: Kind, course: Course, ramp_deg: f64) -> Site {
-        site_of(vec![(kind, kind.usual_size(), course)], ramp_deg)
-    }
-
-    fn site_of(things: Vec<(Kind, [f64; 3], Course)>, ramp_deg: f64) -> Site {
         let base = Patch {
             surface: Surface::Asphalt,
             center: [0.0; 2],
@@ -86,72 +82,8 @@ mod tests {
             slope_deg: ramp_deg,
         };
         let random = &mut Random::new(3, Purpose::Placement, 0, 0);
-        let items = things.into_iter().map(|(kind, size, course)| Item::new(kind, size, course, random));
-        Site::new(Terrain::new(&[ramp], Vec::new(), base, 1), items.collect(), 1)
-    }
-
-    /// A pole 20 m ahead, so far before a long wall.
-    fn pole_before_wall(before: f64) -> (Site, Point) {
-        let pole = Point::new(20.0, 3.85 - before, 0.0);
-        let at = |x: f64, y: f64| Course { start: [x, y, 0.0], ..Course::default() };
-        let things = vec![
-            (Kind::Wall, [60.0, 0.3, 3.0], at(10.0, 4.0)),
-            (Kind::Pole, Kind::Pole.usual_size(), at(pole.x, pole.y)),
-        ];
-        (site_of(things, 0.0), pole)
-    }
-
-    #[test]
-    fn no_way_by_a_mirror_ends_within_a_metre_of_where_it_began() {
-        for (before, fewest) in [(0.6, 1), (3.0, 6)] {
-            let (site, pole) = pole_before_wall(before);
-            let (radar, waves, moment, from_radar) = (radar(), waves(), site.at(0.0), antenna(&site, 0.0));
-            let view = View {
-                moment: &moment,
-                radar: &radar,
-                waves: &waves,
-                site_from_radar: from_radar,
-                radar_from_site: from_radar.inverse(),
-                velocity: Vector::zeros(),
-            };
-            let random = &mut Random::new(1, Purpose::Radar, 0, 0);
-            let of_pole: Vec<_> =
-                targets::echoes(&view, random).into_iter().filter(|target| target.item == 1).collect();
-            let found = multipath::mirrored(&view, &of_pole, random);
-            assert!(found.len() >= fewest, "{before}: {}", found.len());
-            for echo in found {
-                let off = from_radar * echo.seen.to_cartesian() - pole;
-                assert!(off.xy().norm() > 0.85, "{before}: {}", off.xy().norm());
-            }
-        }
-    }
-
-    #[test]
-    fn spikes_of_clutter_stand_still_and_what_is_too_small_is_not_told() {
-        let (site, _) = pole_before_wall(3.0);
-        let (moment, from_radar) = (site.at(0.0), antenna(&site, 0.0));
-        let radar = RadarModel { false_alarms: 100.0, standing_alarms: 1.0, least_rcs_db: -3.0, ..radar() };
-        let velocity = Vector::new(15.0, 0.0, 0.0);
-        let waves = waves();
-        let view = View {
-            moment: &moment,
-            radar: &radar,
-            waves: &waves,
-            site_from_radar: from_radar,
-            radar_from_site: from_radar.inverse(),
-            velocity,
-        };
-        let random = &mut Random::new(1, Purpose::Radar, 0, 0);
-        let alarms = clutter::noise(&view, random);
-        assert!(alarms.len() > 50);
-        for echo in &alarms {
-            let ray = from_radar.rotation * echo.seen.to_cartesian().coords / echo.seen.range;
-            assert!((echo.range_rate + velocity.dot(&ray)).abs() < 1e-9);
-        }
-        let told = scan(&moment, &radar, &waves, from_radar, velocity, random);
-        let all = RadarModel { least_rcs_db: -60.0, ..radar.clone() };
-        let more = scan(&moment, &all, &waves, from_radar, velocity, random);
-        assert!(!told.is_empty() && more.len() > told.len() + 20, "{} {}", told.len(), more.len());
+        let item = Item::new(kind, kind.usual_size(), course, random);
+        Site::new(Terrain::new(&[ramp], Vec::new(), base, 1), vec![item], 1)
     }
 
     /// Where a radar that drives at 15 m/s along a slope is.

@@ -43,12 +43,8 @@ pub(crate) struct RadarModel {
     pub(crate) room: usize,
     /// Whether the clearest are kept where there are more; else the list is filled from the nearest on.
     pub(crate) clearest_first: bool,
-    /// Echoes of a smaller cross-section are not told, dBsm.
-    pub(crate) least_rcs_db: f64,
     /// False alarms in a scan.
     pub(crate) false_alarms: f64,
-    /// Share of them that stand still.
-    pub(crate) standing_alarms: f64,
     /// What its cross-sections are off, dB.
     pub(crate) rcs_offset_db: f64,
     /// Names of the columns that follow x, y, z.
@@ -145,9 +141,7 @@ pub(super) mod tests {
             ambiguity: 0.4,
             room: 500,
             clearest_first: true,
-            least_rcs_db: -60.0,
             false_alarms: 0.0,
-            standing_alarms: 0.8,
             rcs_offset_db: 0.0,
             amplitudes: vec![Amplitude::Rcs],
         }

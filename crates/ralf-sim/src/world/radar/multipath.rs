@@ -1,6 +1,6 @@
 //! Waves that take another way: mirror images, paths that are mirrored on one of their two ways, second trips.
 
-use super::echo::{APART, Echo, View, fluctuation_db};
+use super::echo::{Echo, View, fluctuation_db};
 use super::equation::{decibel, range_loss_db};
 use super::targets::Target;
 use crate::random::Random;
@@ -132,9 +132,9 @@ fn images(
         Echo::artifact(seen, mixed_rate, level_db - way_db, Cause::Mirror)
     };
     let pure = Echo::artifact(around, image_rate, level_db - 2.0 * way_db, Cause::Mirror);
-    // What seems to come from beside its original is on the same surface as good as.
-    let apart = |echo: &Echo| (echo.seen.to_cartesian() - direct.to_cartesian()).norm() > APART;
-    let heard = |echo: Echo| (decibel(echo.power) > hope && apart(&echo)).then_some(echo);
+    // An image beside its original is on the same surface as good as.
+    let apart = (image - target.place).norm() > 1.0;
+    let heard = |echo: Echo| (apart && decibel(echo.power) > hope).then_some(echo);
     Some([heard(pure), heard(mixed(around)), heard(mixed(direct))])
 }
 
@@ -182,7 +182,7 @@ fn triangle(view: &View<'_>, first: &Target, second: &Target, random: &mut Rando
     let mean_db = f64::midpoint(decibel(first.echo.power), decibel(second.echo.power));
     let level = mean_db - 11.0 - 20.0 * between.log10() + random.normal(4.0);
     let off = range - b;
-    let loud = level > view.radar.threshold_db - 3.0 && off > APART && range < view.radar.max_range;
+    let loud = level > view.radar.threshold_db - 3.0 && off > 1.0 && range < view.radar.max_range;
     let rate = f64::midpoint(first.echo.range_rate, second.echo.range_rate);
     loud.then(|| Echo::artifact(seen, rate, level, Cause::DoubleBounce))
 }
