@@ -10,6 +10,9 @@
 #[allow(dead_code, reason = "the tests of the reader use all of it")]
 mod aimotive;
 mod dataset;
+#[path = "../src/disk/hdf5/writing.rs"]
+#[allow(dead_code, reason = "the tests of the reader use all of it")]
+mod hdf5;
 #[path = "../src/read/nvidia/tests/recording.rs"]
 #[allow(dead_code, reason = "the tests of the reader use all of it")]
 mod nvidia;

@@ -8,6 +8,9 @@ mod aimotive;
 mod dataset;
 #[path = "../../ralf-cli/tests/command_line/support/foreign.rs"]
 mod foreign;
+#[allow(dead_code, reason = "the tests of the reader use all of it")]
+#[path = "../../ralf-data/src/disk/hdf5/writing.rs"]
+mod hdf5;
 #[allow(dead_code, reason = "the tests of the crate use all of it")]
 #[path = "../../ralf-depth/src/testing.rs"]
 mod network;

@@ -2,12 +2,10 @@
 //!
 //! How many of the detections that move are real depends on the traffic and on the noise of a recording, and both
 //! differ from place to place: where a simulator has few cars and much noise, *it moves* would mean *it is an
-//! artifact*, and on a real street all cars and people would go. Where scans around tell, the model knows better: a
-//! track is no noise. Of a single scan movers count such that moving by itself says nothing. (To count them so
-//! everywhere cost .014 of F1 in families of worlds that were left out.)
+//! artifact*, and on a real street all cars and people would go. So movers count such that moving by itself says
+//! nothing.
 
 use super::table::TrainingTable;
-use super::view::View;
 
 /// The feature that tells how surely a detection moves.
 const MOVES: &str = "doppler_residual";
@@ -23,8 +21,8 @@ struct Cell {
     all: f64,
 }
 
-/// The weight of each row: where scans around say nothing, as large a share is plausible in every world among those
-/// that stand as among those that move.
+/// The weight of each row: in every world, and among those that stand as among those that move, as large a share is
+/// plausible.
 pub(super) fn weights(table: &TrainingTable) -> Vec<f32> {
     let moves = table.features.iter().position(|feature| feature.name == MOVES);
     let cell_of = |row: usize| {
@@ -44,10 +42,6 @@ pub(super) fn weights(table: &TrainingTable) -> Vec<f32> {
     }
     let mut weights = Vec::with_capacity(table.len());
     for (row, known) in table.known.iter().enumerate() {
-        if !matches!(known.view, View::SingleFrame | View::OneRadarScan) {
-            weights.push(known.weight);
-            continue;
-        }
         let world = usize::from(known.world);
         let share = |cell: &Cell| {
             let plausible = cell.plausible / cell.all;
@@ -74,8 +68,6 @@ mod tests {
             // Of those that move one in five is plausible, of the others four.
             table.known[row].plausible = (row / 30 % 5 == 0) == moving;
         }
-        assert!(weights(&table).iter().all(|weight| *weight == 1.0), "scans around tell");
-        table.known.iter_mut().for_each(|known| known.view = View::SingleFrame);
         let weights = weights(&table);
         let share = |moving: bool| {
             let (mut plausible, mut all) = (0.0, 0.0);

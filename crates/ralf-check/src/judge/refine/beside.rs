@@ -40,13 +40,9 @@ impl<'a> Beside<'a> {
         let mut moments = Vec::new();
         for lidar in &case.lidars {
             let together = |i: &usize| looks[*i].t_ns.abs_diff(lidar.t_ns) <= TOGETHER_NS;
-            let seen = (0..looks.len()).filter(together).map(|i| {
-                let t_ns = looks[i].t_ns;
-                let place = setup.lidar_from_radar(radar, lidar, t_ns, change);
-                let mut positions = seen_again(looks, i, &case.motion, &mount);
-                positions.retain(|position| lidar.sees_down_to_the_foot(&(place * change.place(position))));
-                Seen { t_ns, positions }
-            });
+            let seen = (0..looks.len())
+                .filter(together)
+                .map(|i| Seen { t_ns: looks[i].t_ns, positions: seen_again(looks, i, &case.motion, &mount) });
             let place = setup.lidar_from_radar(radar, lidar, lidar.t_ns, change);
             let fronts = Fronts::of(&lidar.field, place.translation.vector);
             moments.push(Moment { lidar, fronts, seen: seen.collect() });

@@ -2,6 +2,9 @@
 
 mod dataset;
 mod foreign;
+#[path = "../../../../ralf-data/src/disk/hdf5/writing.rs"]
+#[allow(dead_code, reason = "the tests of the reader use all of it")]
+mod hdf5;
 mod program;
 mod python;
 #[path = "../../../../ralf-data/src/read/radar_ghost/tests/recording.rs"]

@@ -2,6 +2,8 @@
 
 mod lzf;
 mod table;
+#[cfg(test)]
+pub(crate) mod writing;
 
 use crate::error::DataError;
 use hdf5_reader::error::Error;

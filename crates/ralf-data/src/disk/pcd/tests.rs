@@ -7,7 +7,10 @@ const HEADER: &str = "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\nF
 /// Microseconds that float32 doesn't hold.
 const TIMES: [u64; 2] = [1_695_473_372_704_727, 1_695_473_372_704_728];
 
-fn read(storage: &str, body: &[u8]) -> Result<(Vec<f32>, Vec<i64>, Vec<f32>), String> {
+/// The columns `x`, `t` and `n`.
+type Columns = (Vec<f32>, Vec<i64>, Vec<f32>);
+
+fn read(storage: &str, body: &[u8]) -> Result<Columns, String> {
     let file = tempfile::NamedTempFile::new().unwrap();
     std::fs::write(file.path(), [HEADER.as_bytes(), storage.as_bytes(), b"\n", body].concat()).unwrap();
     let pcd = Pcd::read(file.path()).map_err(|error| error.to_string())?;

@@ -13,7 +13,15 @@ const POSE: [&str; 7] = ["qx", "qy", "qz", "qw", "x", "y", "z"];
 
 /// Mountings by clip and sensor, out of tables that hold those of many clips: each is read once.
 #[derive(Default)]
-pub(super) struct Extrinsics(RefCell<(BTreeSet<PathBuf>, BTreeMap<[String; 2], Transform>)>);
+pub(super) struct Extrinsics(RefCell<Known>);
+
+#[derive(Default)]
+struct Known {
+    /// The tables that were read.
+    tables: BTreeSet<PathBuf>,
+    /// By clip and sensor.
+    mountings: BTreeMap<[String; 2], Transform>,
+}
 
 impl Extrinsics {
     /// The mounting of a clip's sensor in the first of these tables that has it, and that table.
@@ -25,14 +33,14 @@ impl Extrinsics {
     ) -> Result<Option<Transform>, DataError> {
         let mut known = self.0.borrow_mut();
         for table in tables {
-            if known.0.insert(table.clone()) {
+            if known.tables.insert(table.clone()) {
                 let read = mountings(table, clip)?;
                 for (key, mounting) in read {
-                    known.1.entry(key).or_insert(mounting);
+                    known.mountings.entry(key).or_insert(mounting);
                 }
             }
         }
-        Ok(known.1.get(&[clip.to_owned(), sensor.to_owned()]).copied())
+        Ok(known.mountings.get(&[clip.to_owned(), sensor.to_owned()]).copied())
     }
 }
 

@@ -14,12 +14,13 @@ use ralf::sensors::{
     CameraImage, DepthImage, DepthOutput, LidarScan, RadarScan, Rig, Sequence, Source, SourceError, Timelines,
 };
 use ralf::space::{EgoMotion, OdometrySample, Point, Transform};
+use std::f64::consts::FRAC_PI_6;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// Where the radars are in the car's frame, m and rad.
 const MOUNTINGS: [([f64; 3], f64); 2] =
-    [([3.739, 0.658, 0.0305], 0.523_599), ([3.739, -0.658, 0.0305], -0.523_599)];
+    [([3.739, 0.658, 0.0305], FRAC_PI_6), ([3.739, -0.658, 0.0305], -FRAC_PI_6)];
 /// Where the LiDAR is.
 const LIDAR: [f64; 3] = [3.739, -0.194, 0.2806];
 

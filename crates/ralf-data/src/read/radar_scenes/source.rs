@@ -118,13 +118,12 @@ fn warnings(folder: &Path, without_mountings: bool) -> Result<Vec<String>, DataE
     Ok(warnings)
 }
 
-/// Time and rows of the scans of each radar, in the order of time. Every row has to be of one scan.
-fn scans(
-    file: &Path,
-    scenes: &BTreeMap<String, Scene>,
-    sensors: &[i64],
-) -> Result<BTreeMap<i64, Vec<(i64, Range<usize>)>>, DataError> {
-    let mut found: BTreeMap<i64, Vec<(i64, Range<usize>)>> = BTreeMap::new();
+/// Time, ns, and rows of the scans of each radar, by its number.
+type Scans = BTreeMap<i64, Vec<(i64, Range<usize>)>>;
+
+/// The scans in the order of time. Every row has to be of one scan.
+fn scans(file: &Path, scenes: &BTreeMap<String, Scene>, sensors: &[i64]) -> Result<Scans, DataError> {
+    let mut found = Scans::new();
     let mut ranges = Vec::with_capacity(scenes.len());
     for (time, Scene { sensor_id, radar_indices: [first, end] }) in scenes {
         let error = |expected: &str, found: String| {

@@ -167,7 +167,7 @@ impl FileFormat for Zod {
     }
 
     fn radar_columns(&self, file: &Path, _: usize, scan: usize) -> Result<Vec<Vec<f32>>, DataError> {
-        radar::scan(file, &*self.radar_files.of(file)?, &self.rows[scan])
+        radar::scan(file, &self.radar_files.of(file)?, &self.rows[scan])
     }
 
     fn lidar_scan(&self, file: &Path, _: &Lidar, t_ns: i64) -> Result<LidarScan, DataError> {

@@ -50,8 +50,9 @@ export class Thinging {
       if (store.state.things === null) await this.load();
       else store.set({ doubtful: (await api.doubtful(sequence)).doubtful });
       const next = nextThing(store.state.doubtful, this.seen);
-      if (next === null) return tell(this.world, "Every doubtful thing of this sequence was looked at.");
-      await this.show(next);
+      if (next !== null) return await this.show(next);
+      store.set({ thing: null });
+      tell(this.world, "Every doubtful thing of this sequence was looked at.");
     } catch (error) {
       complain(this.world, error);
     }

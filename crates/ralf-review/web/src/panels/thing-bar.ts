@@ -23,6 +23,7 @@ export function thingBar({ store, actions }: Page): HTMLElement {
     ({ thing, selection, cloud, labels }) => [thing, selection, cloud, labels],
     (thing, selection, cloud, labels) => {
       bar.hidden = thing === null;
+      bar.dataset["thing"] = thing === null ? "" : String(thing.thing);
       if (thing === null || selection.length !== cloud.count) return;
       say(what, selectedText(selection, cloud, labels));
       say(why, [`${thing.expected_errors.toFixed(1)} expected to be wrong`, ...evidence(cloud, selection)].join(" · "));

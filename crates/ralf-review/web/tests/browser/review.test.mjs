@@ -185,11 +185,12 @@ test("a thing is answered by one key in all its scans, survives a dead server, a
   await says(page.locator(".thing-bar"), "expected to be wrong");
   const first = await selected(page);
   assert.ok(first > 0);
+  const thing = await page.locator(".thing-bar").getAttribute("data-thing");
   await page.keyboard.press("a");
   await says(page.locator(".status-bar"), "undo 1");
   await says(status(page), "saved");
   assert.equal(await correctedIn(server), first);
-  await page.waitForFunction((before) => document.querySelector(".work").textContent !== before, "");
+  await page.waitForFunction((before) => document.querySelector(".thing-bar").dataset.thing !== before, thing);
   await page.keyboard.press("Escape");
   await page.keyboard.press("Control+z");
   await says(page.locator(".status-bar"), "redo 1");
@@ -203,6 +204,7 @@ test("a thing is answered by one key in all its scans, survives a dead server, a
   await page.keyboard.press("p");
   await says(status(page), "1 stroke not saved");
   const back = await serve(context, out, { port: server.port });
+  await says(page.locator(".status-bar"), "undo 1");
   await says(status(page), "saved");
   assert.equal(await correctedIn(back), all);
   await page.keyboard.press("Control+z");

@@ -45,7 +45,7 @@ pub(super) const RADARS: RadarRanges = RadarRanges {
     // Measured, View-of-Delft: down to -49 dBsm.
     least_rcs: span(-60.0, -45.0),
     false_alarms: span(20.0, 110.0),
-    // Measured, nuScenes and aiMotive: of what lies farther than 2.5 m from all LiDAR points 81 and 75 % stand still,
+    // Measured, nuScenes and aiMotive: of what lies farther than 2.5 m from all LiDAR points 78 and 75 % stand still,
     // and some of the rest are movers that the LiDAR missed. CFAR is made for noise; clutter has spikes (Rohling 1983).
     standing_alarms: span(0.75, 0.95),
 };

@@ -3,3 +3,5 @@
 mod reading;
 mod recording;
 mod refusals;
+
+use crate::disk::hdf5::writing as hdf5;

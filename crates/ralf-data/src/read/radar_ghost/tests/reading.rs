@@ -1,6 +1,6 @@
 //! What is read of a good recording, and what is true of it.
 
-use super::recording::hdf5::Values;
+use super::hdf5::Values;
 use super::recording::{FILE, FRAMES, LATER, lidar, radar, write_dataset, write_sequence};
 use crate::judge::Comparison;
 use crate::read::radar_ghost::{open, recognises};

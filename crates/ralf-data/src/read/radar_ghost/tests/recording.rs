@@ -1,10 +1,8 @@
 //! Sequences in the Radar Ghost Dataset's layout: a standing vehicle before a wall on the left, in which a walking
 //! person is mirrored.
 
-#[path = "../../../disk/hdf5/writing.rs"]
-pub(crate) mod hdf5;
-
-use hdf5::{Columns, Values, write_tables};
+use super::hdf5::{Columns, Values, write_tables};
+use std::f64::consts::FRAC_PI_6;
 use std::path::Path;
 
 /// Frames of a sequence, of 60 ms.
@@ -12,8 +10,8 @@ pub(crate) const FRAMES: usize = 5;
 /// The right radar measures this much later than the left one, s.
 pub(crate) const LATER: f64 = 0.004;
 /// Where the radars and the LiDAR are: x, y, z, m, and yaw, rad.
-const LEFT: [f64; 4] = [3.739, 0.658, 0.0305, 0.523599];
-const RIGHT: [f64; 4] = [3.739, -0.658, 0.0305, -0.523599];
+const LEFT: [f64; 4] = [3.739, 0.658, 0.0305, FRAC_PI_6];
+const RIGHT: [f64; 4] = [3.739, -0.658, 0.0305, -FRAC_PI_6];
 /// Where the wall is, m to the left.
 const WALL: f64 = 6.0;
 

@@ -1,6 +1,6 @@
 //! What is refused, and how it is named.
 
-use super::recording::hdf5::{Columns, Values};
+use super::hdf5::{Columns, Values};
 use super::recording::{lidar, radar, write_sequence};
 use crate::read::radar_ghost::open;
 use std::fs;

@@ -69,7 +69,7 @@ fn places_speeds_and_poses_agree() {
         }
         let computed = ralf::scene::Doppler::new(radar, &scan, motion).unwrap();
         assert!((computed.raw[0] + computed.raw[0].abs()).abs() < 1e-9, "posts come nearer");
-        let [raw, compensated] = ["doppler", "doppler_compensated"].map(|name| column(name));
+        let [raw, compensated] = ["doppler", "doppler_compensated"].map(&column);
         assert!(raw[3].abs() < 1e-6 && (compensated[3] - 8.0).abs() < 0.2 && compensated[0] == 0.0);
     }
 }

@@ -1,9 +1,6 @@
 //! A sequence in RadarScenes' layout: a car that drives past posts, and one that it follows.
 
-#[path = "../../../disk/hdf5/writing.rs"]
-pub(crate) mod hdf5;
-
-use hdf5::{Columns, Values, write_tables};
+use super::hdf5::{Columns, Values, write_tables};
 use serde_json::{Value, json};
 use std::fs;
 use std::path::Path;

@@ -1,6 +1,6 @@
 //! What is refused, and how it is named.
 
-use super::recording::hdf5::Values;
+use super::hdf5::Values;
 use super::recording::{Sequence, sensors, sequence, write_dataset, write_sequence};
 use crate::read::radar_scenes::open;
 use std::fs;
