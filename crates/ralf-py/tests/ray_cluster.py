@@ -108,20 +108,18 @@ def compare(folder: Path, done: ralf.Assembled) -> None:
 
 def kill(cluster: Cluster) -> list[str]:
     """SIGKILL a worker that labels, then a node whose worker labels."""
-    killed = []
-    worker = labelling(set())[0]
-    os.kill(worker, signal.SIGKILL)
-    killed.append(f"worker {worker}")
+    first = labelling(set())[0]
+    os.kill(first, signal.SIGKILL)
     node, worker = next(
         (node, worker)
         for _ in range(600)
-        for worker in labelling({worker})
+        for worker in labelling({first})
         for node in cluster.worker_nodes
         if parent(worker) == raylet(node)
     )
+    pid = raylet(node)
     cluster.remove_node(node, allow_graceful=False)
-    killed.append(f"node {raylet(node)} with worker {worker}")
-    return killed
+    return [f"worker {first}", f"node {pid} with worker {worker}"]
 
 
 def labelling(others: set[int]) -> list[int]:
