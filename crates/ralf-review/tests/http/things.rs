@@ -3,8 +3,11 @@
 use crate::support::{Out, SEQUENCE, Serving};
 use serde_json::{Value, json};
 
-/// The most doubtful things, and the thing of each detection by radar and scan.
-fn things(server: &Serving) -> (Vec<Value>, Vec<(String, u64, Vec<u32>)>) {
+/// A radar, a scan, and the thing of each of its detections.
+type ThingsOfScan = (String, u64, Vec<u32>);
+
+/// The most doubtful things, and the thing of each detection.
+fn things(server: &Serving) -> (Vec<Value>, Vec<ThingsOfScan>) {
     let table = server.of_sequence("things").table();
     let ids = table.u32("thing");
     let mut begin = 0;
@@ -20,7 +23,7 @@ fn things(server: &Serving) -> (Vec<Value>, Vec<(String, u64, Vec<u32>)>) {
 }
 
 /// The stroke that answers a thing, in all scans that it was seen in.
-fn answer(thing: u64, scans: &[(String, u64, Vec<u32>)], label: u16) -> Value {
+fn answer(thing: u64, scans: &[ThingsOfScan], label: u16) -> Value {
     let (mut base, mut points) = (Vec::new(), Vec::new());
     for (radar, scan, ids) in scans {
         let of_thing: Vec<usize> = (0..ids.len()).filter(|point| u64::from(ids[*point]) == thing).collect();
