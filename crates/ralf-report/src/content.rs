@@ -154,7 +154,7 @@ impl Counted {
         let (dataset, sequence) = (&report.recording.path, &reader.sequence().name);
         let causes = truth.map_or_else(|| Causes::find(dataset, sequence), |truth| truth.causes(sequence))?;
         findings.groups.name_causes(causes.as_ref().map_or(&[], Causes::names));
-        let origin = Origin { dataset, sequence, rig: &labelled.rig, truth, causes: causes.as_ref() };
+        let origin = Origin { sequence, rig: &labelled.rig, truth, causes: causes.as_ref() };
         let radar = first_radar(reader);
         let (mut balance, mut shares) = (Separation::default(), Vec::new());
         let threshold = labelled.settings.fusion.threshold as f32;

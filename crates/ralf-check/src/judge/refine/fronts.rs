@@ -110,11 +110,8 @@ mod tests {
 
     #[test]
     fn clutter_that_thins_out_evenly_pulls_nothing_across_a_front() {
-        let fronts = Fronts::of(
-            &PlanField::new((-150..150).map(|i| [8.0, f64::from(i) * 0.1, 1.0])),
-            Vector::zeros(),
-            ALL,
-        );
+        let fronts =
+            Fronts::of(&PlanField::new((-150..150).map(|i| [8.0, f64::from(i) * 0.1, 1.0])), Vector::zeros());
         // Few detections on the wall among clutter, from 3 m before the wall to 3 m behind it.
         let score = |shift: f64| {
             let clutter =
