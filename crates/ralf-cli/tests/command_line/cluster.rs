@@ -21,7 +21,7 @@ fn three_steps_make_what_one_command_makes() {
     ralf(["cluster", "assemble", "--quiet", &out]).exits(3).says(["no labels: ", "sequence.toml"]);
     ralf(["label", "--quiet", &dataset.path, "-o", &dataset.out]).exits(0);
     let name = std::path::Path::new(&dataset.path).file_name().unwrap().to_str().unwrap();
-    let mut found = without_timings(&format!("{out}/{name}"));
+    let mut found = without_timings(format!("{out}/{name}"));
     assert!(found.remove("plan.json").is_some());
     assert!(found == without_timings(&dataset.out));
     // All is done: there is nothing left to plan.
