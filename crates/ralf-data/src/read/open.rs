@@ -151,7 +151,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let error = |format| open(folder.path(), format).unwrap_err().to_string();
         assert!(error(None).contains("the folder `sequences` (ralf)"), "{}", error(None));
-        assert!(error(Some("kitti")).contains("expected one of ralf"), "{}", error(Some("kitti")));
+        assert!(error(Some("kitti")).contains("expected one of zod, ralf, "), "{}", error(Some("kitti")));
         assert!(error(Some("ralf")).contains("sequences"), "{}", error(Some("ralf")));
         let missing = open(&folder.path().join("nowhere"), None).unwrap_err();
         assert!(matches!(missing, DataError::Io { .. }) && missing.to_string().contains("nowhere"));

@@ -133,6 +133,7 @@ test("61 large strokes that wait for the server outlive a reload, and a window t
   const { page } = tab;
   await page.keyboard.press("f");
   await page.keyboard.press("o");
+  const scan = await current(page);
   await server.kill("SIGKILL");
   for (let stroke = 0; stroke < 61; stroke += 1) {
     await page.keyboard.press("Control+a");
@@ -146,7 +147,8 @@ test("61 large strokes that wait for the server outlive a reload, and a window t
   const next = await open(context, browser, back, own);
   await says(next.page.locator(".status-bar"), "undo 61");
   await says(status(next.page), /^saved$/);
-  const labels = (await scanOf(back, await current(next.page))).label;
+  // Another scan waits first now that this one is answered.
+  const labels = (await scanOf(back, scan)).label;
   assert.ok(labels.every((label) => label === 1));
   clean(next, GONE);
 });
