@@ -9,6 +9,9 @@ left out and on average: plausible F1 (at the threshold that is best on the fami
 precision, accuracy and calibration error (isotonic, fitted there, too): from all evidence, from the paper's columns alone,
 by the paper's method itself; and what is lost where one group of evidence is missing. Groups are those of docs/evidence.md.
 
+With --corrected SHARE instead: what it brings to correct so many of a family's scans, by weight of a corrected detection,
+beside a model that knows half of its scans; judged on the other half, in which nothing was corrected.
+
 Needs lightgbm, numpy, pyarrow and scikit-learn.
 """
 
@@ -43,8 +46,9 @@ def groups_of_features():
 
 
 def read_world(dataset, out, names):
-    """Features (absent: NaN), the paper's columns, labels of the paper's method, and truth, of all its sequences."""
-    parts = []
+    """Features (absent: NaN), the paper's columns, labels of the paper's method, truth, and the scan of each, of all its
+    sequences."""
+    parts, scans = [], 0
     for file in sorted(Path(out).glob("sequences/*/plausibility.parquet")):
         table = pyarrow.parquet.read_table(file)
         missing = [name for name in names if name not in table.column_names]
@@ -52,9 +56,10 @@ def read_world(dataset, out, names):
             sys.exit(f"{file}: no column {', '.join(missing)}: label with --evidence")
         truth_folder = Path(dataset) / "sequences" / file.parent.name / "ground_truth"
         radar, scan = table["radar"].to_numpy(zero_copy_only=False), table["scan"].to_numpy()
-        truth = numpy.full(len(table), -1)
+        truth, number = numpy.full(len(table), -1), numpy.zeros(len(table), int)
         begins = numpy.flatnonzero(numpy.r_[True, (radar[1:] != radar[:-1]) | (scan[1:] != scan[:-1])])
         for begin, end in zip(begins, numpy.r_[begins[1:], len(table)]):
+            number[begin:end], scans = scans, scans + 1
             labels = truth_folder / radar[begin] / f"{scan[begin]:06}.label"
             if labels.exists():
                 ids = numpy.fromfile(labels, "<u4") & 0xFFFF
@@ -64,7 +69,7 @@ def read_world(dataset, out, names):
         known = truth >= 0
         features = numpy.column_stack([column(name) for name in names])[known]
         paper = numpy.column_stack([column(name) for name in PAPER])[known]
-        parts.append((features, paper, table["label"].to_numpy()[known], truth[known]))
+        parts.append((features, paper, table["label"].to_numpy()[known], truth[known], number[known]))
     if not parts:
         sys.exit(f"{out}: no sequences/*/plausibility.parquet")
     return [numpy.concatenate(part) for part in zip(*parts)]
@@ -113,6 +118,26 @@ def judge(scores, truth, family):
     return numpy.array(rows)
 
 
+def corrected(features, truth, family, scan, options):
+    """Average precision and F1 (at even odds) of each family by a model of the others, with some scans of its own."""
+    draw = numpy.random.default_rng(options.seed)
+    known_half, drawn = draw.random(scan.max() + 1) < 0.5, draw.random(scan.max() + 1)
+    rows = []
+    for left_out in numpy.unique(family):
+        here, half = family == left_out, known_half[scan]
+        others, test = numpy.flatnonzero(~here), here & ~half
+        others = draw.choice(others, min(options.rows, len(others)), replace=False)
+        some = numpy.flatnonzero(here & half & (drawn[scan] < 2 * options.corrected))
+        row = []
+        for own, weight in [(some[:0], 1), (some, 1), (some, 5), (some, 20), (numpy.flatnonzero(here & half), 1)]:
+            train, weights = numpy.r_[others, own], numpy.r_[numpy.ones(len(others)), numpy.full(len(own), weight)]
+            data = lightgbm.Dataset(features[train], truth[train], weight=weights)
+            scores = lightgbm.train(dict(PARAMETERS, seed=options.seed), data, options.rounds).predict(features[test])
+            row += [average_precision_score(truth[test], scores), f1_of(scores >= 0.5, truth[test] == 1)]
+        rows.append(row)
+    return numpy.array(rows)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--world", nargs=3, action="append", required=True, metavar=("FAMILY", "DATASET", "OUT"))
@@ -120,15 +145,25 @@ def main():
     parser.add_argument("--rows", type=int, default=200_000, help="most rows that a model is trained on")
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--no-groups", action="store_true", help="leave out the table of groups")
+    parser.add_argument("--corrected", type=float, metavar="SHARE", help="what corrections of so many scans bring")
     options = parser.parse_args()
     groups = groups_of_features()
     names = list(groups)
     worlds = [(name, *read_world(dataset, out, names)) for name, dataset, out in options.world]
     features, paper, labels, truth = (numpy.concatenate([world[i] for world in worlds]) for i in range(1, 5))
+    firsts = numpy.cumsum([0] + [world[5].max() + 1 for world in worlds])
+    scan = numpy.concatenate([world[5] + first for world, first in zip(worlds, firsts)])
     families = sorted({world[0] for world in worlds})
     family = numpy.concatenate([numpy.full(len(world[4]), families.index(world[0])) for world in worlds])
     if len(families) < 2:
         sys.exit("two families or more, so that one can be left out")
+    if options.corrected:
+        print("| family | none: AP | F1 | weight 1: AP | F1 | 5: AP | F1 | 20: AP | F1 | half of all scans: AP | F1 |")
+        print("| --- " * 11 + "|")
+        rows = corrected(features, truth, family, scan, options)
+        for name, row in zip([*families, "mean"], [*rows, rows.mean(0)]):
+            print(f"| {name} | {' | '.join(f'{value:.3f}' for value in row)} |")
+        return
     every = judge(out_of_fold(features, truth, family, options), truth, family)
     of_paper = judge(out_of_fold(paper, truth, family, options), truth, family)
     print(f"{len(truth)} detections, {truth.mean():.1%} plausible, {len(names)} columns of evidence, seed {options.seed}\n")

@@ -5,7 +5,7 @@ pub(crate) const CELL: f64 = 0.2;
 /// Cells from the centre to the border: 50 m.
 const REACH: usize = 250;
 /// Cells of a side.
-pub(crate) const SIDE: usize = 2 * REACH + 1;
+const SIDE: usize = 2 * REACH + 1;
 /// Distances are known up to this many cells.
 const DISC: i64 = 5;
 /// The distance of what is farther from every obstacle, m.
@@ -68,9 +68,9 @@ impl PlanField {
         Some(if distance == u8::MAX { FAR } else { f64::from(distance) * STEP })
     }
 
-    /// Of all cells, row by row, x along a row: the distance to the nearest obstacle, m, at most [`FAR`].
-    pub(crate) fn distances(&self) -> impl Iterator<Item = f64> {
-        self.distance.iter().map(|steps| if *steps == u8::MAX { FAR } else { f64::from(*steps) * STEP })
+    /// Whether there is an obstacle at a place.
+    pub(crate) fn is_obstacle(&self, x: f64, y: f64) -> bool {
+        cell(x, y).is_some_and(|cell| self.distance[cell] == 0)
     }
 
     /// The distance from a place, linear between the middles of cells, so that small moves are felt.

@@ -1,7 +1,7 @@
 //! Which scans are looked at, and what is kept of them: enough to judge, far less than labelling reads.
 
 use crate::ground::{self, GroundFit};
-use crate::picture::{CameraLook, DepthEdge, Moment, depth_edges};
+use crate::picture::{CameraLook, DepthEdge, FEWEST_IMAGES, Moment, depth_edges};
 use crate::plan_field::PlanField;
 use ralf::sensors::Source;
 use ralf::sensors::{Elevation, Radar};
@@ -54,7 +54,7 @@ pub(crate) struct LidarLook {
     /// The same, all of them, by distance.
     pub(crate) field: PlanField,
     pub(crate) ground: Option<GroundFit>,
-    /// Where things end, for images; empty without cameras.
+    /// Where things end, for images; empty where there are too few of them.
     pub(crate) edges: Vec<DepthEdge>,
     /// Figures of its numbers, which a wrong data type gives away.
     pub(crate) shape: CloudShape,
@@ -216,9 +216,9 @@ impl LidarLook {
         let ground = ground::fit(&points, &mount.translation.vector.into());
         let height = |p: &Point| ground.as_ref().map_or(p.z, |ground| ground.height(p));
         let obstacles: Vec<&Point> = points.iter().filter(|p| OBSTACLES.contains(&height(p))).collect();
-        let has_cameras = !source.sequence().rig.cameras.is_empty();
+        let images = source.sequence().times.cameras.iter().map(Vec::len).max().unwrap_or(0);
         let stands = |p: &Point| height(p) > OBSTACLES.start;
-        let edges = if has_cameras { depth_edges(&points, &mount, stands) } else { Vec::new() };
+        let edges = if images >= FEWEST_IMAGES { depth_edges(&points, &mount, stands) } else { Vec::new() };
         let step = obstacles.len().div_ceil(PROBES).max(1);
         Self {
             lidar,

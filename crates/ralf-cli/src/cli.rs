@@ -5,7 +5,8 @@ use crate::commands::depth;
 #[cfg(feature = "review")]
 use crate::commands::review;
 use crate::commands::{
-    ablate, check, convert, demo, evaluate, export, inspect, label, learn, plot, report, simulate, tune,
+    ablate, check, cluster, convert, demo, evaluate, export, inspect, label, learn, plot, report, simulate,
+    tune,
 };
 use crate::outcome::Outcome;
 use crate::text::print;
@@ -47,6 +48,8 @@ enum Command {
     Check(check::CheckArgs),
     /// Label every radar detection of a recording
     Label(label::LabelArgs),
+    /// Label many recordings on many machines, in three steps
+    Cluster(cluster::ClusterArgs),
     #[cfg(feature = "depth")]
     /// Compute the depth of every camera image once for all, or check it against the LiDAR
     Depth(depth::DepthArgs),
@@ -87,6 +90,7 @@ impl Cli {
             Command::Inspect(arguments) => inspect::run(&arguments),
             Command::Check(arguments) => check::run(&arguments),
             Command::Label(arguments) => label::run(&arguments),
+            Command::Cluster(arguments) => cluster::run(&arguments),
             #[cfg(feature = "depth")]
             Command::Depth(arguments) => depth::run(&arguments),
             Command::Evaluate(arguments) => evaluate::run(&arguments),

@@ -8,7 +8,7 @@ use proptest::prelude::*;
 use ralf_corrections::{Outcome, ScanContent, ScanEdit, ScanKey, ScanVersion, Store, Stroke, Who};
 use std::collections::{BTreeMap, BTreeSet};
 
-const SCANS: u32 = 2;
+const SCANS: u32 = 5;
 const POINTS: u32 = 4;
 const SEQUENCE: &str = "00";
 
@@ -214,7 +214,12 @@ fn compare(store: &Store, model: &Model) {
 }
 
 fn op() -> impl Strategy<Value = Op> {
-    let points = proptest::collection::btree_set((0..SCANS, 0..POINTS), 1..4);
+    let few = proptest::collection::btree_set((0..2u32, 0..POINTS), 1..4);
+    // A thing is seen in every scan, now and then twice.
+    let thing = (0..POINTS, proptest::collection::btree_set((0..SCANS, 0..POINTS), 0..3)).prop_map(
+        |(point, twice)| (0..SCANS).map(|scan| (scan, point)).chain(twice).collect::<BTreeSet<Place>>(),
+    );
+    let points = prop_oneof![2 => few, 1 => thing];
     let label = prop_oneof![Just(None), Just(Some(1)), Just(Some(99))];
     let group = prop_oneof![3 => Just(None), 1 => (0..2u8).prop_map(Some)];
     let stroke = (points, label, any::<bool>(), group, proptest::bool::weighted(0.1));

@@ -90,6 +90,9 @@ pub enum DataError {
         /// The file or folder.
         place: PathBuf,
     },
+    /// Somebody wanted the work to end. What is done is kept, and found again.
+    #[error("stopped")]
+    Stopped,
     /// The store of corrections.
     #[error(transparent)]
     Corrections(#[from] StoreError),

@@ -16,7 +16,7 @@ const STRETCH: usize = 64;
 const LONG_STRETCH: usize = 512;
 
 /// A scan of a radar, by their places in the rig and in the radar's timeline.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub(crate) struct ScanIndex {
     pub(crate) radar: usize,
     pub(crate) scan: usize,
@@ -42,12 +42,8 @@ impl Frames<'_> {
         scans: &[ScanIndex],
         work: impl Fn(&mut FrameWindow, usize) -> Result<R, E> + Sync,
     ) -> Result<Vec<R>, E> {
-        let times = &self.reader.sequence().times.radars;
-        let mut order: Vec<usize> = (0..scans.len()).collect();
-        order.sort_by_key(|place| {
-            let ScanIndex { radar, scan } = scans[*place];
-            (times[radar][scan], radar, scan)
-        });
+        let times = &self.reader.sequence().times;
+        let order = in_time(times, scans);
         let stretches: Vec<&[usize]> = order.chunks(self.stretch(scans.len())).collect();
         let stop = AtomicBool::new(false);
         let worked = side_by_side(&stretches, self.jobs, |stretch| {
@@ -76,6 +72,16 @@ impl Frames<'_> {
         let window = FrameWindow::new(self.reader, self.rig, self.config);
         if self.evidence { window.with_evidence() } else { window }
     }
+}
+
+/// The places of these scans, in the order of time.
+pub(crate) fn in_time(times: &Timelines, scans: &[ScanIndex]) -> Vec<usize> {
+    let mut order: Vec<usize> = (0..scans.len()).collect();
+    order.sort_by_key(|place| {
+        let ScanIndex { radar, scan } = scans[*place];
+        (times.radars[radar][scan], radar, scan)
+    });
+    order
 }
 
 /// All scans of all radars, radar by radar.

@@ -24,6 +24,7 @@ mod error;
 mod evidence;
 mod frames;
 pub mod judge;
+pub mod many;
 pub mod read;
 pub mod realism;
 pub mod result;
@@ -31,6 +32,7 @@ pub mod run;
 mod settings;
 #[cfg(test)]
 mod testing;
+pub mod things;
 mod training;
 pub mod truth;
 pub mod write;

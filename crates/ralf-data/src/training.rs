@@ -20,6 +20,8 @@ pub struct TrainingGatherer<'a> {
     pub config: &'a Config,
     /// Of what is drawn: which scans are also seen as if less could be observed.
     pub seed: u64,
+    /// How much each detection counts; above 0.
+    pub weight: f32,
     /// Threads; the result doesn't depend on it.
     pub jobs: usize,
     /// Is told how it gets on.
@@ -59,7 +61,7 @@ impl TrainingGatherer<'_> {
             let rig = rig_of(recording, reader, self.config)?;
             let causes = match truth {
                 TrainingTruth::Known => None,
-                TrainingTruth::Said(_) => Causes::find(&recording.path, &reader.sequence().name)?,
+                TrainingTruth::Said(truth) => truth.causes(&reader.sequence().name)?,
             };
             let task = Task { gatherer: self, reader, rig, truth, causes };
             let first_scan = table.known.last().map_or(0, |known| known.scan + 1);
@@ -164,7 +166,7 @@ impl Task<'_> {
                 cause: truth.cause,
                 paper: label.w as f32,
                 paper_label: label.plausible,
-                weight: 1.0,
+                weight: self.gatherer.weight,
             });
         }
         Part { rows: rows.pick(kept.into_iter()), known }

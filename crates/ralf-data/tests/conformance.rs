@@ -10,7 +10,26 @@
 #[allow(dead_code, reason = "the tests of the reader use all of it")]
 mod aimotive;
 mod dataset;
+#[path = "../src/disk/hdf5/writing.rs"]
+#[allow(dead_code, reason = "the tests of the reader use all of it")]
+mod hdf5;
+#[path = "../src/read/nvidia/tests/recording.rs"]
+#[allow(dead_code, reason = "the tests of the reader use all of it")]
+mod nvidia;
+#[path = "../src/read/radar_ghost/tests/recording.rs"]
+#[allow(dead_code, reason = "the tests of the reader use all of it")]
+mod radar_ghost;
+#[path = "../src/read/radar_scenes/tests/recording.rs"]
+#[allow(dead_code, reason = "the tests of the reader use all of it")]
+mod radar_scenes;
+#[path = "../src/read/truckscenes/tests/recording.rs"]
+#[allow(dead_code, reason = "the tests of the reader use all of it")]
+mod truckscenes;
+#[path = "../src/read/zod/tests/recording.rs"]
+#[allow(dead_code, reason = "the tests of the reader use all of it")]
+mod zod;
 
+use ralf::scene::Doppler;
 use ralf::sensors::SourceError;
 use ralf_data::write::export::{RosFormat, write_ros};
 use ralf_data::{Recording, SequenceReader};
@@ -43,6 +62,43 @@ fn aimotive_as_published() {
     let folder = tempfile::tempdir().unwrap();
     aimotive::write_sequence(&folder.path().join("train/highway").join(aimotive::SEQUENCE));
     check_and_convert(&ralf_data::open(folder.path(), None).unwrap(), "aimotive");
+}
+
+#[test]
+fn truckscenes_as_published() {
+    let folder = tempfile::tempdir().unwrap();
+    truckscenes::write_data_set(folder.path(), &truckscenes::TINY);
+    check_and_convert(&ralf_data::open(folder.path(), None).unwrap(), "truckscenes");
+}
+
+#[test]
+fn zod_as_published() {
+    let folder = tempfile::tempdir().unwrap();
+    zod::write_data_set(folder.path());
+    check_and_convert(&ralf_data::open(folder.path(), None).unwrap(), "zod");
+}
+
+#[test]
+fn radar_ghost_as_published() {
+    let folder = tempfile::tempdir().unwrap();
+    radar_ghost::write_dataset(folder.path());
+    check_and_convert(&ralf_data::open(folder.path(), None).unwrap(), "radar-ghost");
+}
+
+#[test]
+fn radar_scenes_as_published() {
+    let folder = tempfile::tempdir().unwrap();
+    radar_scenes::write_dataset(folder.path());
+    check_and_convert(&ralf_data::open(folder.path(), None).unwrap(), "radarscenes");
+}
+
+#[test]
+fn nvidia_as_published() {
+    let folder = tempfile::tempdir().unwrap();
+    nvidia::write_unzipped(folder.path());
+    nvidia::write_clip(&folder.path().join("clips"));
+    check_and_convert(&ralf_data::open(folder.path(), None).unwrap(), "nvidia");
+    check_and_convert(&ralf_data::open(&folder.path().join("clips"), None).unwrap(), "nvidia");
 }
 
 /// Written as bags and MCAP files and read again, with a guess of the topics.
@@ -209,6 +265,10 @@ fn check_radars(reader: &dyn SequenceReader) {
             assert_eq!((scan.t_ns, scan.columns.len()), (t_ns, radar.fields.len()));
             assert!(scan.columns.iter().all(|column| column.len() == scan.len()));
             assert_eq!(scan.spherical.len(), scan.len());
+            // Where the motion is known there is a range rate without it.
+            let rates = Doppler::new(radar, &scan, &sequence.motion);
+            assert_eq!(rates.is_some(), radar.fields.iter().any(|field| field.starts_with("doppler")));
+            assert!(rates.is_none_or(|rates| rates.compensated.len() == scan.len()));
         }
         assert!(reader.radar_scan(r, times.len()).is_err());
     }

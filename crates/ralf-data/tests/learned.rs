@@ -30,7 +30,7 @@ fn recording(seed: u64) -> Recording {
 
 fn table(jobs: usize) -> TrainingTable {
     let config = Config::default();
-    let gatherer = TrainingGatherer { config: &config, seed: 1, jobs, observer: &Silent };
+    let gatherer = TrainingGatherer { config: &config, seed: 1, weight: 1.0, jobs, observer: &Silent };
     let mut table = gatherer.table();
     for (world, seed) in [("one", 1), ("two", 2)] {
         let left_out = gatherer.add(&mut table, Some(world), &recording(seed), TrainingTruth::Known).unwrap();
@@ -41,7 +41,8 @@ fn table(jobs: usize) -> TrainingTable {
 
 fn model(table: &TrainingTable) -> Model {
     let parameters = Parameters { rounds: 20, leaves: 8, rows_per_leaf: 30, ..Parameters::default() };
-    let fitting = Fitting { parameters, blanking: true, causes: true, threshold: 0.5, jobs: 2 };
+    let fitting =
+        Fitting { parameters, blanking: true, causes: true, threshold: 0.5, unconfirmed: 0.1, jobs: 2 };
     fit(table, &fitting, Origin::default(), &|_, _| {}).unwrap().model
 }
 

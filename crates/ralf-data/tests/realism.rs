@@ -6,7 +6,6 @@ use ralf::space::Spherical;
 use ralf_data::SequenceReader;
 use ralf_data::realism::{Compared, Distributions, Quantity, Realism};
 use ralf_sim::{SimulatedSequence, presets};
-use std::path::PathBuf;
 
 /// What is told by way of which a simulated sequence is another one's.
 struct Changed {
@@ -65,19 +64,7 @@ impl Source for Changed {
     }
 }
 
-impl SequenceReader for Changed {
-    fn inputs(&self) -> Vec<PathBuf> {
-        Vec::new()
-    }
-
-    fn warnings(&self) -> &[String] {
-        &[]
-    }
-
-    fn image_file(&self, _camera: usize, _image: usize) -> Option<PathBuf> {
-        None
-    }
-}
+impl SequenceReader for Changed {}
 
 fn gathered(changed: &Changed, jobs: usize) -> Distributions {
     Distributions::gather(&[changed], jobs, &|_, _| ())

@@ -8,15 +8,35 @@ mod aimotive;
 mod dataset;
 #[path = "../../ralf-cli/tests/command_line/support/foreign.rs"]
 mod foreign;
+#[allow(dead_code, reason = "the tests of the reader use all of it")]
+#[path = "../../ralf-data/src/disk/hdf5/writing.rs"]
+mod hdf5;
 #[allow(dead_code, reason = "the tests of the crate use all of it")]
 #[path = "../../ralf-depth/src/testing.rs"]
 mod network;
+#[allow(dead_code, reason = "the tests of the reader use all of it")]
+#[path = "../../ralf-data/src/read/nvidia/tests/recording.rs"]
+mod nvidia;
+#[allow(dead_code, reason = "the tests of the reader use all of it")]
+#[path = "../../ralf-data/src/read/radar_ghost/tests/recording.rs"]
+mod radar_ghost;
+#[allow(dead_code, reason = "the tests of the reader use all of it")]
+#[path = "../../ralf-data/src/read/radar_scenes/tests/recording.rs"]
+mod radar_scenes;
+#[path = "../../ralf-cli/tests/command_line/support/ros_topics.rs"]
+mod ros_topics;
+#[allow(dead_code, reason = "the tests of the reader use all of it")]
+#[path = "../../ralf-data/src/read/truckscenes/tests/recording.rs"]
+mod truckscenes;
 #[allow(dead_code, reason = "the tests of the command line use all of it")]
 #[path = "../../ralf-cli/tests/command_line/support/world.rs"]
 mod world;
+#[allow(dead_code, reason = "the tests of the reader use all of it")]
+#[path = "../../ralf-data/src/read/zod/tests/recording.rs"]
+mod zod;
 
 use crate::tree::copy;
-use crate::verbs::{TOPICS, label};
+use crate::verbs::label;
 use ralf::config::Config;
 use ralf::sensors::DepthOutput;
 use ralf_corrections::{Mark, ScanKey, Store, Who};
@@ -26,6 +46,18 @@ use ralf_data::result::Component;
 use std::fs;
 use std::path::Path;
 
+/// What the recordings in `testdata/ros` have besides.
+const FURTHER_TOPICS: &str = "
+[topics.imu]
+topic = '/imu'
+kind = 'imu'
+frame = 'base_link'
+[topics.cam]
+topic = '/cam/image_raw'
+kind = 'camera'
+info = '/cam/camera_info'
+frame = 'radar'
+";
 const ROS: [&str; 4] = ["plain.bag", "lz4.bag", "zstd.mcap", "lz4.mcap"];
 const CARD: &str = "input = { size = 16, multiple_of = 4, side = \"short\" }\nfit = \"stretch\"\nchannels = \"rgb\"\n\
     divide_by = 255\nmean = [0, 0, 0]\nstd = [1, 1, 1]\noutput = \"disparity\"\nflip = true\n";
@@ -37,15 +69,21 @@ pub fn make_places(folder: &Path) {
     foreign::nuscenes(&folder.join("nuscenes/recording"));
     foreign::view_of_delft(&folder.join("view-of-delft/recording"));
     aimotive::write_sequence(&folder.join("aimotive/recording").join(aimotive::SEQUENCE));
+    truckscenes::write_data_set(&folder.join("truckscenes/recording"), &truckscenes::TINY);
+    zod::write_data_set(&folder.join("zod/recording"));
+    radar_ghost::write_dataset(&folder.join("radar-ghost/recording"));
+    radar_scenes::write_dataset(&folder.join("radarscenes/recording"));
+    nvidia::write_unzipped(&folder.join("nvidia/recording"));
     let ros = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../testdata/ros");
+    let topics = format!("{}{FURTHER_TOPICS}", ros_topics::ROS_TOPICS);
     for name in ROS {
         let place = folder.join(name);
-        put(&place.join("topics.toml"), TOPICS);
+        put(&place.join("topics.toml"), &topics);
         fs::copy(ros.join(name), place.join("recording")).unwrap();
     }
     for name in ["db3", "db3_zstd", "folder"] {
         copy(&ros.join(name), &folder.join(name).join("recording"));
-        put(&folder.join(name).join("topics.toml"), TOPICS);
+        put(&folder.join(name).join("topics.toml"), &topics);
     }
     make_run(Path::new(&own.path), &folder.join("run"));
     make_depth(Path::new(&own.path), &folder.join("depth"));

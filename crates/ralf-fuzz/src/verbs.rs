@@ -36,12 +36,17 @@ const fn of_run(name: &'static str, run: fn(&Path, &mut Pcg64Mcg)) -> Verb {
     Verb { name, place: "run", damaged: "out", writes: true, run }
 }
 
-pub(crate) const VERBS: [Verb; 21] = [
+pub(crate) const VERBS: [Verb; 26] = [
     reading("own"),
     reading("own"),
     reading("nuscenes"),
     reading("view-of-delft"),
     reading("aimotive"),
+    reading("truckscenes"),
+    reading("zod"),
+    reading("radar-ghost"),
+    reading("radarscenes"),
+    reading("nvidia"),
     reading("plain.bag"),
     reading("lz4.bag"),
     reading("zstd.mcap"),
@@ -59,29 +64,6 @@ pub(crate) const VERBS: [Verb; 21] = [
     Verb { name: "settings", place: "settings", damaged: "file", writes: false, run: settings },
     Verb { name: "scenario", place: "scenario", damaged: "", writes: false, run: scenario },
 ];
-
-/// Which topic of the recordings in `testdata/ros` is which sensor.
-pub(crate) const TOPICS: &str = "
-[topics.radar]
-topic = '/radar/points'
-kind = 'radar'
-model = 'ars408-21'
-[topics.odom]
-topic = '/odom'
-kind = 'odometry'
-[topics.imu]
-topic = '/imu'
-kind = 'imu'
-frame = 'base_link'
-[topics.tf]
-topic = '/tf_static'
-kind = 'tf_static'
-[topics.cam]
-topic = '/cam/image_raw'
-kind = 'camera'
-info = '/cam/camera_info'
-frame = 'radar'
-";
 
 /// Is told of progress, and wants none.
 struct Nobody;
@@ -131,7 +113,9 @@ fn read(place: &Path, random: &mut Pcg64Mcg) {
             let _ = write_ros(reader.as_ref(), &new.join("t.bag"), RosFormat::Bag, &|_| {});
         }),
         _ => {
-            let _ = GroundTruth::find(&path);
+            if let Ok(Some(truth)) = GroundTruth::find(&path) {
+                let _ = truth.scans().iter().try_for_each(|scan| truth.labels(scan).map(drop));
+            }
         }
     }
 }

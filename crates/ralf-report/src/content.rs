@@ -3,6 +3,7 @@
 use crate::evidence::{self, Observed};
 use crate::findings::Findings;
 use crate::scored::{COLUMNS, Origin, Scored};
+use crate::told::{self, Told};
 use crate::{Detections, Pictures, Report, ReportError};
 use ralf::metrics::Separation;
 use ralf_data::judge::is_uncertain;
@@ -27,6 +28,8 @@ pub(crate) struct Content {
     pub(crate) findings: Findings,
     /// What each column of evidence says, where evidence was gathered.
     pub(crate) evidence: Vec<Observed>,
+    /// What a model tells in words, where one was asked.
+    pub(crate) told: Vec<Told>,
     /// Labels against truth, where there is some.
     pub(crate) comparison: Option<Comparison>,
     /// Of all sequences together.
@@ -97,7 +100,7 @@ impl Content {
             GroundTruth::find_merged(dataset, corrections)?.and_then(|truth| truth.of_sequences(&names));
         let comparison = truth.as_ref().map(|truth| Comparison::new(report.out, truth)).transpose()?;
         let (mut findings, mut overall) = (Findings::default(), Separation::default());
-        let (mut sequences, mut evidence) = (Vec::new(), Vec::new());
+        let (mut sequences, mut evidence, mut told) = (Vec::new(), Vec::new(), Vec::new());
         let drawn = evenly(readers.len(), MOST_DRAWN);
         for (index, reader) in readers.iter().enumerate() {
             progress(&format!("sequence {}", reader.sequence().name));
@@ -105,6 +108,7 @@ impl Content {
             let counted =
                 Counted::gather(report, *reader, &labelled, truth.as_ref(), &mut findings, &mut overall)?;
             evidence::add(&mut evidence, &labelled.tables)?;
+            told::add(&mut told, &labelled.tables)?;
             let wanted = drawn.contains(&index).then_some(report.scans_per_sequence);
             let draw = |wanted| DrawnSequence::draw(*reader, &labelled, &counted.uncertain, wanted);
             let drawn = wanted.map(draw).transpose()?;
@@ -119,6 +123,7 @@ impl Content {
             record,
             findings,
             evidence,
+            told,
             comparison,
             balance: overall.into(),
             sequences,
@@ -147,9 +152,9 @@ impl Counted {
         overall: &mut Separation,
     ) -> Result<Self, ReportError> {
         let (dataset, sequence) = (&report.recording.path, &reader.sequence().name);
-        let causes = Causes::find(dataset, sequence)?;
+        let causes = truth.map_or_else(|| Causes::find(dataset, sequence), |truth| truth.causes(sequence))?;
         findings.groups.name_causes(causes.as_ref().map_or(&[], Causes::names));
-        let origin = Origin { dataset, sequence, rig: &labelled.rig, truth, causes: causes.as_ref() };
+        let origin = Origin { sequence, rig: &labelled.rig, truth, causes: causes.as_ref() };
         let radar = first_radar(reader);
         let (mut balance, mut shares) = (Separation::default(), Vec::new());
         let threshold = labelled.settings.fusion.threshold as f32;

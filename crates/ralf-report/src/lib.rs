@@ -17,6 +17,7 @@ mod pictures;
 mod realism;
 mod scored;
 mod settings_map;
+mod told;
 
 pub use error::ReportError;
 pub use pictures::{Detections, Pictures, mark_label};

@@ -5,7 +5,6 @@ use ralf::label::{flag, truth_of};
 use ralf::sensors::Rig;
 use ralf_data::result::{RadarScanKey, Table};
 use ralf_data::{Causes, DataError, GroundTruth, ScanId};
-use std::path::Path;
 
 /// The columns that are needed.
 pub(crate) const COLUMNS: [&str; 7] = ["range", "azimuth", "w_opt", "w_tr", "w", "label", "flags"];
@@ -45,8 +44,6 @@ impl Scored {
 /// Where a sequence's tables come from.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Origin<'a> {
-    /// The dataset's folder.
-    pub(crate) dataset: &'a Path,
     /// The sequence's name.
     pub(crate) sequence: &'a str,
     /// Its sensors with the settings of the run.
@@ -100,7 +97,7 @@ impl Origin<'_> {
         };
         let labels = truth.labels(scan)?;
         if labels.len() != detections {
-            let file = scan.truth_file(self.dataset);
+            let file = truth.file(scan);
             let expected = format!("{detections} as in the result");
             let found = labels.len().to_string();
             return Err(DataError::content(&file, "number of labels", expected, found).into());

@@ -1,6 +1,6 @@
 //! Causes of artifacts, numbered alike in all sequences.
 
-use ralf_data::{Causes, DataError, Recording, ScanId};
+use ralf_data::{Causes, DataError, GroundTruth, Recording, ScanId};
 
 /// The names of all causes of all sequences, and what each sequence's codes mean.
 pub(crate) struct CauseNames {
@@ -15,8 +15,11 @@ impl CauseNames {
         // Number 0 is no cause, and the page shows nothing for it.
         let mut names = vec![String::new()];
         let mut sequences = Vec::new();
+        let truth = GroundTruth::find(&recording.path)?;
         for reader in &recording.sequences {
-            let Some(causes) = Causes::find(&recording.path, &reader.sequence().name)? else {
+            let name = &reader.sequence().name;
+            let of_files = || Causes::find(&recording.path, name);
+            let Some(causes) = truth.as_ref().map_or_else(of_files, |truth| truth.causes(name))? else {
                 sequences.push(None);
                 continue;
             };

@@ -2,7 +2,7 @@
 
 use crate::cache::Cache;
 use crate::http::ApiError;
-use crate::need::{Doubts, ScanNeed};
+use crate::need::{Certainty, Doubts, ScanNeed};
 use ralf::config::{Config, nanoseconds};
 use ralf::scene::ViewState;
 use ralf::sensors::{Rig, Sequence};
@@ -10,6 +10,7 @@ use ralf::space::sync;
 use ralf_data::result::{
     CameraRecord, ImageRecord, LabelledRun, LabelledSequence, PlausibilityReader, RadarScanKey, Table,
 };
+use ralf_data::things::SequenceThings;
 use ralf_data::{DataError, SequenceReader};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -33,6 +34,7 @@ pub(crate) struct SequenceLabels {
     /// Why scans could not be labelled, by radar and number.
     not_labelled: BTreeMap<(String, usize), String>,
     needs: OnceLock<Arc<Vec<ScanNeed>>>,
+    things: OnceLock<Arc<SequenceThings>>,
 }
 
 /// What changes when a sequence is labelled again: sizes and times of the files.
@@ -75,6 +77,7 @@ impl SequenceLabels {
             images,
             not_labelled,
             needs: OnceLock::new(),
+            things: OnceLock::new(),
             rig,
         })
     }
@@ -99,21 +102,25 @@ impl SequenceLabels {
         self.not_labelled.get(&(radar.to_owned(), scan)).map(String::as_str)
     }
 
-    /// The cameras (by their place in the rig) whose image nearest to a time was asked, and those of them with
-    /// a failed view.
-    pub(crate) fn cameras_at(&self, times: &[Vec<i64>], t_ns: i64) -> (BTreeSet<usize>, BTreeSet<usize>) {
+    /// The cameras (by their place in the rig) whose image nearest to a time was asked, and of which a view has failed.
+    pub(crate) fn failed_cameras_at(&self, times: &[Vec<i64>], t_ns: i64) -> BTreeSet<usize> {
         let tolerance = nanoseconds(self.settings.sync.camera_tolerance_ms);
-        let (mut asked, mut failed) = (BTreeSet::new(), BTreeSet::new());
-        for (camera, (times, images)) in times.iter().zip(&self.images).enumerate() {
+        let cameras = times.iter().zip(&self.images).enumerate();
+        let failed = cameras.filter(|(_, (times, images))| {
             let image = sync::nearest(times, t_ns, tolerance);
-            if let Some(has_failed) = image.and_then(|image| images.get(&image)) {
-                asked.insert(camera);
-                if *has_failed {
-                    failed.insert(camera);
-                }
-            }
+            image.is_some_and(|image| images.get(&image) == Some(&true))
+        });
+        failed.map(|(camera, _)| camera).collect()
+    }
+
+    /// What belongs together in the sequence; found out once.
+    pub(crate) fn things(&self, reader: &dyn SequenceReader) -> Result<Arc<SequenceThings>, ApiError> {
+        if let Some(known) = self.things.get() {
+            return Ok(known.clone());
         }
-        (asked, failed)
+        let certainty = Certainty::of(&self.settings);
+        let things = Arc::new(SequenceThings::of(reader, &self.rig, &certainty, &self.reader)?);
+        Ok(self.things.get_or_init(|| things).clone())
     }
 
     /// How much each scan needs a person, in the order of the rig.
@@ -135,9 +142,8 @@ impl SequenceLabels {
                     continue;
                 }
                 let doubts = doubts.remove(&name).unwrap_or_default();
-                let (asked, failed) = self.cameras_at(&sequence.times.cameras, t_ns);
-                let (cameras_asked, cameras_failed) = (asked.len(), failed.len());
-                needs.push(ScanNeed { radar, scan, t_ns, doubts, cameras_failed, cameras_asked });
+                let cameras_failed = self.failed_cameras_at(&sequence.times.cameras, t_ns).len();
+                needs.push(ScanNeed { radar, scan, t_ns, doubts, cameras_failed });
             }
         }
         Ok(needs)
@@ -145,10 +151,10 @@ impl SequenceLabels {
 
     /// The doubts of every scan that has detections; no more than one row group is in memory.
     fn doubts(&self) -> Result<BTreeMap<(String, usize), Doubts>, DataError> {
-        let threshold = self.settings.fusion.threshold as f32;
+        let certainty = Certainty::of(&self.settings);
         let mut doubts = BTreeMap::new();
         self.reader.each(&Doubts::COLUMNS, |key, table| {
-            doubts.insert((key.radar.to_string(), key.scan), Doubts::of(table, threshold)?);
+            doubts.insert((key.radar.to_string(), key.scan), Doubts::of(table, &certainty)?);
             Ok::<_, DataError>(())
         })?;
         Ok(doubts)

@@ -35,6 +35,6 @@ mod shared_store;
 
 pub use error::ReviewError;
 pub use http::MAX_BODY;
-pub use need::{CAMERA_WEIGHT, DISAGREEING, Doubts, ScanNeed, UNCERTAIN};
+pub use need::{Certainty, DISAGREEING, Doubts, ScanNeed, UNCERTAIN};
 pub use options::Options;
 pub use server::Server;

@@ -19,6 +19,8 @@ type Shared = State<Arc<App>>;
 pub(crate) fn router(app: Arc<App>, guarded_by: Arc<Guard>) -> Router {
     let sequence = Router::new()
         .route("/queue", get(queue))
+        .route("/things", get(things))
+        .route("/things/doubtful", get(doubtful))
         .route("/radars/{radar}/scans/{scan}", get(detections))
         .route("/radars/{radar}/scans/{scan}/reviewed", put(mark))
         .route("/lidars/{lidar}/scans/{scan}", get(cloud))
@@ -55,6 +57,14 @@ async fn recording(State(app): Shared) -> Answer {
 
 async fn queue(State(app): Shared, Place(sequence): Place<String>) -> Answer {
     app.blocking(move |app| reading::queue(app, &sequence)).await
+}
+
+async fn things(State(app): Shared, Place(sequence): Place<String>) -> Answer {
+    app.blocking(move |app| reading::things(app, &sequence)).await
+}
+
+async fn doubtful(State(app): Shared, Place(sequence): Place<String>) -> Answer {
+    app.blocking(move |app| reading::doubtful(app, &sequence)).await
 }
 
 async fn detections(

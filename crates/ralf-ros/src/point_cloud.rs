@@ -102,6 +102,15 @@ impl<'a> PointTable<'a> {
     /// A column, row by row of the cloud. Integers beyond 2^24 and floats of 8 bytes are rounded to the nearest
     /// float32.
     pub fn column(&self, name: &str) -> Option<Vec<f32>> {
+        self.values(name, value)
+    }
+
+    /// The same without rounding.
+    pub fn wide_column(&self, name: &str) -> Option<Vec<f64>> {
+        self.values(name, wide_value)
+    }
+
+    fn values<T>(&self, name: &str, value: fn(Datatype, &[u8]) -> T) -> Option<Vec<T>> {
         let Column { offset, datatype, .. } = *self.columns.iter().find(|column| column.name == name)?;
         let cloud = self.cloud;
         // Billions of rows may hold no point.
@@ -111,11 +120,16 @@ impl<'a> PointTable<'a> {
         let (step, width) = (cloud.point_step as usize, cloud.width as usize);
         let rows = (0..cloud.height as usize).map(|row| row * cloud.row_step as usize);
         let points = rows.flat_map(|row| (0..width).map(move |point| row + point * step + offset));
-        Some(
-            points
-                .map(|at| value(datatype, cloud.is_bigendian, &cloud.data[at..][..datatype.size()]))
-                .collect(),
-        )
+        let read = |at: usize| {
+            let mut first = [0; 8];
+            let little = &mut first[..datatype.size()];
+            little.copy_from_slice(&cloud.data[at..][..datatype.size()]);
+            if cloud.is_bigendian {
+                little.reverse();
+            }
+            value(datatype, little)
+        };
+        Some(points.map(read).collect())
     }
 }
 
@@ -149,25 +163,27 @@ fn check_lengths(cloud: &PointCloud2) -> Result<(), PointCloudError> {
     Err(PointCloudError::new("data", expected, found.to_string()))
 }
 
-/// From as many bytes as the type has.
-fn value(datatype: Datatype, big_endian: bool, bytes: &[u8]) -> f32 {
-    let mut first = [0; 8];
-    let first = &mut first[..bytes.len()];
-    first.copy_from_slice(bytes);
-    if big_endian {
-        first.reverse();
-    }
-    match (datatype, &*first) {
-        (Datatype::Int8, &[a]) => f32::from(a.cast_signed()),
-        (Datatype::Uint8, &[a]) => f32::from(a),
-        (Datatype::Int16, &[a, b]) => f32::from(i16::from_le_bytes([a, b])),
-        (Datatype::Uint16, &[a, b]) => f32::from(u16::from_le_bytes([a, b])),
-        (Datatype::Int32, &[a, b, c, d]) => i32::from_le_bytes([a, b, c, d]) as f32,
-        (Datatype::Uint32, &[a, b, c, d]) => u32::from_le_bytes([a, b, c, d]) as f32,
+/// From as many little-endian bytes as the type has.
+fn value(datatype: Datatype, bytes: &[u8]) -> f32 {
+    match (datatype, bytes) {
         (Datatype::Float32, &[a, b, c, d]) => f32::from_le_bytes([a, b, c, d]),
-        (Datatype::Float64, &[a, b, c, d, e, f, g, h]) => f64::from_le_bytes([a, b, c, d, e, f, g, h]) as f32,
+        _ => wide_value(datatype, bytes) as f32,
+    }
+}
+
+/// The same without rounding.
+fn wide_value(datatype: Datatype, bytes: &[u8]) -> f64 {
+    match (datatype, bytes) {
+        (Datatype::Int8, &[a]) => f64::from(a.cast_signed()),
+        (Datatype::Uint8, &[a]) => f64::from(a),
+        (Datatype::Int16, &[a, b]) => f64::from(i16::from_le_bytes([a, b])),
+        (Datatype::Uint16, &[a, b]) => f64::from(u16::from_le_bytes([a, b])),
+        (Datatype::Int32, &[a, b, c, d]) => f64::from(i32::from_le_bytes([a, b, c, d])),
+        (Datatype::Uint32, &[a, b, c, d]) => f64::from(u32::from_le_bytes([a, b, c, d])),
+        (Datatype::Float32, &[a, b, c, d]) => f64::from(f32::from_le_bytes([a, b, c, d])),
+        (Datatype::Float64, &[a, b, c, d, e, f, g, h]) => f64::from_le_bytes([a, b, c, d, e, f, g, h]),
         // The bytes are as many as the type has.
-        _ => f32::NAN,
+        _ => f64::NAN,
     }
 }
 
@@ -232,13 +248,14 @@ mod tests {
             assert_eq!((table.len(), table.is_empty()), (4, false));
             assert_eq!(table.column("x").unwrap(), [-300.0, -301.0, -310.0, -311.0]);
             assert_eq!(table.column("y").unwrap(), [0.25, 1.25, 10.25, 11.25]);
+            assert_eq!(table.wide_column("y").unwrap(), [0.25, 1.25, 10.25, 11.25]);
             assert_eq!(table.column("bits_1").unwrap(), [2.0; 4]);
             assert_eq!(table.column("z"), None);
         }
     }
 
     #[test]
-    fn every_type_in_either_order() {
+    fn every_type() {
         use Datatype::{Float32, Float64, Int8, Int16, Int32, Uint8, Uint16, Uint32};
         for (datatype, little, expected) in [
             (Int8, vec![0xfe], -2.0),
@@ -250,10 +267,11 @@ mod tests {
             (Float32, vec![0, 0, 0xc0, 0x3f], 1.5),
             (Float64, vec![0, 0, 0, 0, 0, 0, 0xf8, 0x3f], 1.5),
         ] {
-            let mut big = little.clone();
-            big.reverse();
             assert_eq!(little.len(), datatype.size());
-            assert_eq!((value(datatype, false, &little), value(datatype, true, &big)), (expected, expected));
+            assert_eq!(
+                (value(datatype, &little), wide_value(datatype, &little)),
+                (expected as f32, expected)
+            );
             assert_eq!(Datatype::from_code(datatype as u8), Some(datatype));
         }
         assert_eq!((Datatype::from_code(0), Datatype::from_code(9)), (None, None));

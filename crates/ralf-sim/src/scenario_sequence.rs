@@ -146,6 +146,10 @@ impl Simulation for ScenarioSequence {
         self.rays.clear();
     }
 
+    fn true_radar(&self, radar: usize) -> Option<(Transform, i64)> {
+        self.sequence.rig.radars.get(radar).map(|radar| (radar.vehicle_from_radar, 0))
+    }
+
     fn true_pose(&self, t_ns: i64) -> Transform {
         self.pose(START_NS).inv_mul(&self.pose(t_ns))
     }

@@ -50,6 +50,12 @@ impl SimulatedSequence {
         self.inner.causes()
     }
 
+    /// A radar's true mounting, and what its clock is ahead of the true time, ns: what the rig and the timeline say may
+    /// be wrong on purpose. `None` of a radar that doesn't exist.
+    pub fn true_radar(&self, radar: usize) -> Option<(Transform, i64)> {
+        self.inner.true_radar(radar)
+    }
+
     /// The vehicle's true pose, in its frame at the start: what odometry and poses are measured against.
     pub fn true_pose(&self, t_ns: i64) -> Transform {
         self.inner.true_pose(t_ns)

@@ -17,6 +17,9 @@ pub(super) trait Simulation: Source + Debug {
     /// Takes the cameras off the vehicle; all other measurements stay as they are.
     fn remove_cameras(&mut self);
 
+    /// A radar's true mounting, and what its clock is ahead of the true time, ns.
+    fn true_radar(&self, radar: usize) -> Option<(Transform, i64)>;
+
     /// The vehicle's true pose, in its frame at the start.
     fn true_pose(&self, t_ns: i64) -> Transform;
 

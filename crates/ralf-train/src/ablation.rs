@@ -18,10 +18,14 @@ pub struct Variant {
     pub config: Config,
 }
 
+/// What anybody would try first: a detection is plausible where the nearest LiDAR point lies within so many standard
+/// deviations. It has one neighbour, whatever else is tuned.
+const BASELINE: &str = "nearest LiDAR point";
+
 type Change = fn(&mut Config);
 
 /// What makes each variant differ from the paper's method; the first one is that.
-const VARIANTS: [(&str, Change); 14] = [
+const VARIANTS: [(&str, Change); 15] = [
     ("paper", |_| {}),
     ("without LiDAR", |config| config.lidar.enabled = false),
     ("without camera", |config| config.camera.enabled = false),
@@ -29,6 +33,7 @@ const VARIANTS: [(&str, Change); 14] = [
     ("LiDAR alone", |config| (config.camera.enabled, config.tracking.enabled) = (false, false)),
     ("camera alone", |config| (config.lidar.enabled, config.tracking.enabled) = (false, false)),
     ("tracking alone", |config| (config.lidar.enabled, config.camera.enabled) = (false, false)),
+    (BASELINE, |config| (config.camera.enabled, config.tracking.enabled) = (false, false)),
     ("tracking.sources=all", |config| config.tracking.sources = TrackingSources::All),
     ("tracking.dynamic=true", |config| config.tracking.dynamic = true),
     ("ground.radar_sigmas=2", |config| config.ground.radar_sigmas = RADAR_SIGMAS),
@@ -67,7 +72,12 @@ impl Variant {
         (train, test): (&[&EvidenceTable], &[&EvidenceTable]),
         progress: &mut dyn FnMut(usize, &Found),
     ) -> Result<Judged, TuneError> {
-        let found = Search { base: &self.config, ..search.clone() }.run(train, progress)?;
+        let (mut config, mut held) = (self.config.clone(), search.held.clone());
+        if self.name == BASELINE {
+            config.lidar.neighbours = 1;
+            held.push("lidar.neighbours".to_owned());
+        }
+        let found = Search { base: &config, held, ..search.clone() }.run(train, progress)?;
         let scores = |tables: &[&EvidenceTable]| scores(tables, &found.settings);
         Ok(Judged { name: self.name, found, train: scores(train)?, test: scores(test)? })
     }

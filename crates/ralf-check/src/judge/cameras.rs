@@ -2,7 +2,7 @@
 
 use super::case::Case;
 use crate::change::SensorChange;
-use crate::picture::CameraLook;
+use crate::picture::{CameraLook, FEWEST_IMAGES};
 use crate::remedy::Remedy;
 use crate::statistics::paired_sigmas;
 use crate::verdict::{Question, State, Verdict};
@@ -18,8 +18,6 @@ const STEPS: (f64, f64) = (0.25, 12.5);
 /// A change is better by this factor and by so many standard errors over the images.
 const GAIN: f64 = 1.06;
 const SIGMAS: f64 = 4.5;
-/// Fewer images tell no standard error.
-const FEWEST: usize = 6;
 
 /// Judges each camera of which images were read.
 pub(super) fn judge(case: &Case, known: &[Verdict]) -> Vec<Verdict> {
@@ -62,10 +60,9 @@ fn name<'a>(case: &'a Case, camera: usize) -> &'a str {
 fn one(case: &Case, camera: usize) -> Verdict {
     let name = name(case, camera);
     let now = scores(case, camera, &SensorChange::default(), camera);
-    let known = now.iter().flatten().count();
-    if known < FEWEST {
+    if now.iter().flatten().count() < FEWEST_IMAGES {
         let missing = format!(
-            "{known} images beside LiDAR scans show 25 ends of things that the LiDAR sees: {FEWEST} are needed"
+            "{FEWEST_IMAGES} images beside LiDAR scans are needed that show 25 ends of things that the LiDAR sees"
         );
         return Verdict::cannot_judge(name, Question::Camera, missing);
     }
@@ -178,7 +175,7 @@ impl Compared {
     }
 
     fn is_clear(&self) -> bool {
-        self.images >= FEWEST && self.then > GAIN * self.now && self.sigmas > SIGMAS
+        self.images >= FEWEST_IMAGES && self.then > GAIN * self.now && self.sigmas > SIGMAS
     }
 
     fn in_words(&self) -> String {

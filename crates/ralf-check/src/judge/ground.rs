@@ -1,6 +1,7 @@
 //! Whether the plane that a LiDAR sees is the vehicle's z = 0.
 
 use super::case::Case;
+use super::places::{PLACE, PLACES, by_place};
 use crate::change::SensorChange;
 use crate::ground::GroundFit;
 use crate::remedy::Remedy;
@@ -17,11 +18,6 @@ const OFFSET: f64 = 0.2;
 const SUPPORT: f64 = 0.15;
 /// Scans that are needed: one may stand on a kerb.
 const FEWEST: usize = 3;
-/// After so much way the road under the vehicle is another one, m.
-const PLACE: f64 = 10.0;
-/// A tilt that is the mounting's goes along: it is seen from so many places. On a ramp, or before one, the ground is
-/// tilted as well.
-const PLACES: usize = 3;
 /// No road is that steep, degrees, and no ramp that high, m: one place is enough.
 const NO_RAMP: (f64, f64) = (12.0, 1.5);
 
@@ -74,10 +70,13 @@ struct Seen {
 impl Seen {
     /// The median of what is seen from each place: scans of one place see one road.
     fn of(looks: &[&LidarLook], motion: &EgoMotion) -> Self {
-        let places = by_place(looks, motion);
+        let with_ground = looks.iter().copied().filter(|look| look.ground.is_some());
+        let places = by_place(with_ground, motion);
         let over = |figure: fn(&GroundFit) -> f64| {
-            let of_place =
-                |fits: &Vec<&GroundFit>| median(&fits.iter().map(|fit| figure(fit)).collect::<Vec<_>>());
+            let of_place = |looks: &Vec<&LidarLook>| {
+                let fits = looks.iter().filter_map(|look| look.ground.as_ref());
+                median(&fits.map(figure).collect::<Vec<_>>())
+            };
             let values: Vec<f64> = places.iter().filter_map(of_place).collect();
             estimate(&values).unwrap_or(Estimate { value: 0.0, error: f64::INFINITY })
         };
@@ -121,24 +120,4 @@ impl Seen {
 
 fn is_beyond(estimate: &Estimate, limit: f64) -> bool {
     estimate.value.abs() > limit && estimate.value.abs() - 4.0 * estimate.error > limit / 2.0
-}
-
-/// What was seen of the ground, one list per stretch of [`PLACE`] metres on the way.
-fn by_place<'a>(looks: &[&'a LidarLook], motion: &EgoMotion) -> Vec<Vec<&'a GroundFit>> {
-    let mut places: Vec<Vec<&GroundFit>> = Vec::new();
-    let (mut way, mut begun) = (0.0, 0.0);
-    let mut before: Option<i64> = None;
-    for look in looks {
-        way += before.map_or(0.0, |t_ns| motion.between(t_ns, look.t_ns).translation.vector.norm());
-        before = Some(look.t_ns);
-        let Some(fit) = &look.ground else { continue };
-        match places.last_mut() {
-            Some(place) if way - begun < PLACE => place.push(fit),
-            _ => {
-                begun = way;
-                places.push(vec![fit]);
-            }
-        }
-    }
-    places
 }

@@ -12,6 +12,7 @@ mod ground;
 mod lidar;
 mod motion;
 mod neighbours;
+mod places;
 mod radar;
 mod refine;
 mod swapped;

@@ -1,6 +1,7 @@
 //! Roll and pitch of a radar that measures elevation: its detections are as high as what they lie on.
 
 use super::case::Case;
+use super::places::{PLACE, PLACES, by_place};
 use crate::change::SensorChange;
 use crate::overlap::Measure;
 use crate::remedy::Remedy;
@@ -10,15 +11,24 @@ use ralf::sensors::Elevation;
 /// Degrees that are tried.
 const TILTS: [f64; 6] = [-6.0, -4.0, -2.0, 2.0, 4.0, 6.0];
 
-/// Judges each radar that measures elevation; nothing is said of those in order.
+/// Judges each radar that measures elevation; nothing is said of those in order. From one place it sees the same few
+/// low things in every scan, and how high their strongest spots are is theirs: several places are needed.
 pub(super) fn judge(case: &Case) -> Vec<Verdict> {
-    case.radars().filter_map(|radar| one(case, radar)).collect()
+    let places = by_place(case.lidars.iter().filter(|look| look.lidar == 0), &case.motion).len();
+    case.radars().filter_map(|radar| one(case, radar, places)).collect()
 }
 
-fn one(case: &Case, radar: usize) -> Option<Verdict> {
+fn one(case: &Case, radar: usize, places: usize) -> Option<Verdict> {
     let sensor = &case.sequence.rig.radars[radar];
     if sensor.elevation == Elevation::None {
         return None;
+    }
+    if places < PLACES {
+        let missing = format!(
+            "its roll and pitch are judged by low things seen from {PLACES} places: {:.0} m of driving are needed",
+            PLACE * PLACES as f64
+        );
+        return Some(Verdict::cannot_judge(&sensor.name, Question::Lidar, missing));
     }
     let tally = |change: &SensorChange| case.overlap(radar, change, Measure::AsHigh);
     let now = tally(&SensorChange::default());

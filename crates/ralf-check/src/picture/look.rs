@@ -5,8 +5,9 @@ use super::edge_map::EdgeMap;
 use ralf::sensors::{Camera, Source};
 use ralf::space::Transform;
 
-/// Images of a camera that are looked at.
+/// Images of a camera that are looked at, and how few tell nothing: those are not read.
 const IMAGES: usize = 12;
+pub(crate) const FEWEST_IMAGES: usize = 6;
 /// An image belongs to a LiDAR's scan within this, ns.
 const TOGETHER_NS: u64 = 60_000_000;
 /// Fewer edges in an image say nothing.
@@ -40,6 +41,9 @@ pub(crate) fn read(source: &dyn Source, moments: &[Moment]) -> Vec<CameraLook> {
             let distance = |image: &usize| times[*image].abs_diff(moment.t_ns);
             let image = (0..times.len()).min_by_key(distance).filter(|i| distance(i) <= TOGETHER_NS);
             beside.extend(image.map(|image| (image, *moment)));
+        }
+        if beside.len() < FEWEST_IMAGES {
+            continue;
         }
         let step = beside.len().div_ceil(IMAGES).max(1);
         for (image, moment) in beside.into_iter().step_by(step) {

@@ -11,6 +11,7 @@ mod recording;
 mod refinement;
 mod sweep;
 mod table;
+mod worlds;
 
 use nalgebra::UnitQuaternion;
 use ralf::sensors::Source;

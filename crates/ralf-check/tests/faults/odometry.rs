@@ -3,7 +3,7 @@
 use crate::{STRAIGHT, TURNING};
 use ralf::sensors::Source;
 use ralf_check::odometry::from_lidar;
-use ralf_sim::{Scenario, SimulatedSequence, presets};
+use ralf_sim::{Scenario, SimulatedSequence};
 
 /// Of the way driven, the end may be off by so much, and in degrees per 10 m.
 const DRIFT: f64 = 0.01;
@@ -40,12 +40,7 @@ fn a_lidar_alone_tells_where_the_vehicle_was() {
 #[ignore = "takes minutes"]
 fn a_lidar_alone_tells_where_the_vehicle_was_in_the_sequences_of_the_paper() {
     let mut worst = 0.0_f64;
-    for sequence in presets::find("paper")
-        .unwrap()
-        .sequences
-        .iter()
-        .filter(|s| std::env::var("ONLY").is_err() || s.name >= "09")
-    {
+    for sequence in crate::sweep::sequences() {
         let [share, degrees, way] = drift(&sequence.simulate(1, sequence.scans.min(200)).unwrap());
         println!("{}: {:.2} % and {degrees:.2} degrees off after {way:.0} m", sequence.name, share * 100.0);
         worst = worst.max(share);

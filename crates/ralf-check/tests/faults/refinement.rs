@@ -10,7 +10,6 @@ use ralf::paper::Labeler;
 use ralf::scene::FrameWindow;
 use ralf::sensors::Source;
 use ralf_check::{Refinement, SensorChange, check_and_refine};
-use ralf_sim::presets;
 use std::sync::Arc;
 
 /// Labels with the corrections are as good as with the true calibration within this F1.
@@ -139,9 +138,9 @@ fn labels_with_corrections_are_those_of_the_true_calibration() {
 #[ignore = "takes minutes"]
 fn corrections_win_back_the_labels_of_the_sequences_of_the_paper() {
     let mut outcomes = Vec::new();
-    for sequence in presets::find("paper").unwrap().sequences {
+    for sequence in crate::sweep::sequences() {
         for seed in SEEDS {
-            let simulated = sequence.simulate(seed, sequence.scans.min(240)).unwrap();
+            let simulated = sequence.simulate(seed, sequence.scans.min(240)).unwrap().without_cameras();
             outcomes.push(refine(sequence.name, &Recording::simulated(simulated), seed));
         }
     }

@@ -3,7 +3,7 @@
 use crate::progress::say;
 use clap::Args;
 use ralf_data::Recording;
-use ralf_data::result::{Change, LabelledRun};
+use ralf_data::result::LabelledRun;
 
 /// What to do where labels belong to another recording.
 #[derive(Debug, Clone, Default, Args)]
@@ -21,12 +21,8 @@ impl ChangedArgs {
         let texts: Vec<String> = changes
             .iter()
             .map(|changed| {
-                let found = match changed.change {
-                    Change::Content => "another content",
-                    Change::Missing => "no such file",
-                    Change::New => "a file that wasn't there",
-                };
-                format!("{}: expected what was labelled, found {found}", changed.file.display())
+                let (file, found) = (changed.file.display(), changed.change.told());
+                format!("{file}: expected what was labelled, found {found}")
             })
             .collect();
         if self.changed_recording {

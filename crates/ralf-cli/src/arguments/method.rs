@@ -1,11 +1,9 @@
 //! Which method answers, and by which model.
 
-use anyhow::Context;
 use clap::{Args, ValueEnum};
 use ralf::config::{Config, Method};
 use ralf::learned::Model;
-use ralf_files::Kind;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 /// Who answers.
 #[derive(Debug, Args)]
@@ -15,7 +13,7 @@ pub(crate) struct MethodArgs {
     method: Option<TypedMethod>,
     /// The model that answers with the method that learns, as `ralf learn` wrote it; the shipped one if not given
     #[arg(long, value_name = "MODEL")]
-    model: Option<PathBuf>,
+    pub(crate) model: Option<PathBuf>,
 }
 
 /// A [`Method`], typed.
@@ -37,17 +35,7 @@ impl MethodArgs {
         }
         match (config.method, &self.model) {
             (Method::Paper, _) => Ok(None),
-            (Method::Learned, Some(file)) => read_model(file).map(Some),
-            (Method::Learned, None) => Ok(Some(Model::shipped()?)),
+            (Method::Learned, file) => Ok(Some(ralf_data::many::read_model(file.as_deref())?)),
         }
     }
-}
-
-/// The model of a file.
-fn read_model(file: &Path) -> anyhow::Result<Model> {
-    let name = || file.display().to_string();
-    let text = ralf_files::read_text(file, Kind::Settings).with_context(name)?;
-    let model = Model::from_text(&text).with_context(name)?;
-    model.check().with_context(name)?;
-    Ok(model)
 }

@@ -1,6 +1,7 @@
 //! `ralf evaluate`: the labels of a run against corrected ones, or what they say by themselves.
 
 mod balance;
+mod queue;
 mod table;
 
 use crate::arguments::ChangedArgs;
@@ -8,6 +9,7 @@ use crate::corrections::merged_truth;
 use crate::outcome::Outcome;
 use crate::progress::say;
 use crate::text::print;
+use ralf_data::judge::QueueCurve;
 use ralf_data::result::LabelledRun;
 use ralf_data::{Balances, Comparison, Recording};
 use std::path::{Path, PathBuf};
@@ -23,6 +25,7 @@ Examples:
   ralf evaluate out --truth recordings/city
   ralf evaluate out --truth recordings/city --json
   ralf evaluate other --truth recordings/city --corrections out
+  ralf evaluate out --truth recordings/city --queue
   ralf evaluate out")]
 pub(crate) struct EvaluateArgs {
     /// What `ralf label` wrote
@@ -41,6 +44,9 @@ pub(crate) struct EvaluateArgs {
     /// Add a row for every scan to the tables
     #[arg(long, conflicts_with = "json", requires = "truth")]
     scans: bool,
+    /// Print how soon the review's queue leads to wrong labels, in place of tables
+    #[arg(long, conflicts_with_all = ["json", "scans"], requires = "truth")]
+    queue: bool,
 }
 
 /// Prints how good the labels are.
@@ -59,7 +65,9 @@ fn compare(args: &EvaluateArgs, dataset: &Path) -> anyhow::Result<Outcome> {
     let truth = merged_truth(dataset, recording.as_ref(), out, corrections.is_some())?;
     let comparison = Comparison::new(&args.out, &truth)?;
     name_what_is_left_out(&comparison, args);
-    let text = if args.json {
+    let text = if args.queue {
+        queue::table(&QueueCurve::of_run(&args.out, &comparison)?)
+    } else if args.json {
         serde_json::to_string_pretty(&comparison.evaluation())?
     } else {
         let scans = if args.scans { table::of_scans(&comparison) + "\n" } else { String::new() };
@@ -123,7 +131,8 @@ mod tests {
         put(&dataset, "sequences/00/ground_truth/front/000000.label", &[1, 10]);
         let truth = Some(dataset.clone());
         let changed = ChangedArgs::default();
-        let mut args = EvaluateArgs { out, truth, corrections: None, changed, json: true, scans: false };
+        let mut args =
+            EvaluateArgs { out, truth, corrections: None, changed, json: true, scans: false, queue: false };
         assert_eq!(run(&args).unwrap(), Outcome::Done);
         put(&dataset, "sequences/00/ground_truth/front/000001.label", &[1]);
         assert_eq!(run(&args).unwrap(), Outcome::Partial);

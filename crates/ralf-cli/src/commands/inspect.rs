@@ -14,8 +14,10 @@ use ralf::config::Config;
 use ralf::sensors::Timelines;
 use ralf_check::SequenceCheck;
 use ralf_data::read::inspection::{Inspection, SensorInspection, Unreadable};
+use ralf_data::read::meanings;
 use ralf_data::run::{RunRecord, read_record};
 use ralf_data::{Recording, SequenceReader};
+use serde_json::json;
 use std::path::{Path, PathBuf};
 
 /// Arguments of `ralf inspect`.
@@ -71,19 +73,20 @@ pub(crate) fn run(arguments: &InspectArgs) -> anyhow::Result<Outcome> {
         return distributions::show(&recording, threads(None), arguments.json);
     }
     let looks = looks(&recording, &settings.method, arguments.quick);
+    let checks = checks(&recording, arguments.quick);
     if arguments.json {
-        let checks = checks(&recording, arguments.quick);
-        let mut look = serde_json::json!({ "format": recording.format, "sequences": looks, "check": checks });
+        let format = recording.format;
+        let meanings = meanings(format);
+        let mut look = json!({ "format": format, "sequences": looks, "check": checks, "meanings": meanings });
         if let Some(topics) = topics {
             look["ros"] = serde_json::to_value(topics.inspection)?;
         }
         print(&serde_json::to_string_pretty(&look)?)?;
     } else {
         let head = topics.map_or(Ok(String::new()), |topics| topics.page(&settings.topics))?;
-        let (path, format, count) = (recording.path.display(), recording.format, looks.len());
-        let head = format!("{head}{path} ({format}), {count} sequence(s)\n");
+        let head = head + &meanings_page(&recording, looks.len());
         print(&looks.iter().fold(head, |text, look| text + "\n" + &page(look)))?;
-        for check in checks(&recording, arguments.quick) {
+        for check in checks {
             print(&("\n".to_owned() + &check_page(&check, false)))?;
         }
     }
@@ -145,6 +148,25 @@ fn page(look: &Inspection) -> String {
         grouped(look.odometry_samples as u64),
         aligned(&rows),
     )
+}
+
+/// What was opened: which range rate it has, whether LiDAR points are of one time, and what the fields of quality mean.
+fn meanings_page(recording: &Recording, count: usize) -> String {
+    let (path, format) = (recording.path.display(), recording.format);
+    let mut page = format!("{path} ({format}), {count} sequence(s)\n");
+    let Some(found) = meanings(format) else { return page };
+    let rigs = || recording.sequences.iter().map(|reader| &reader.sequence().rig);
+    let has = |name: &str| rigs().flat_map(|rig| &rig.radars).any(|radar| radar.column(name).is_some());
+    if has("doppler") || has("doppler_compensated") {
+        page += &format!("  - range rates: {}\n", found.doppler);
+    }
+    if rigs().any(|rig| !rig.lidars.is_empty()) {
+        page += &format!("  - LiDAR: {}\n", found.lidar);
+    }
+    for (name, meaning) in found.quality.iter().filter(|(name, _)| has(name)) {
+        page += &format!("  - {name}: {meaning}; kept, and nothing is filtered by it\n");
+    }
+    page
 }
 
 /// The first scans that can't be read, and how many more there are.

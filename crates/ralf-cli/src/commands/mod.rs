@@ -2,6 +2,7 @@
 
 pub(crate) mod ablate;
 pub(crate) mod check;
+pub(crate) mod cluster;
 pub(crate) mod convert;
 pub(crate) mod demo;
 #[cfg(feature = "depth")]

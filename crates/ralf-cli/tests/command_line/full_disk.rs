@@ -16,9 +16,11 @@ fn a_run_says_where_it_stopped_and_goes_on_later() {
     let whole = dataset.beside("whole");
     ralf(["label", &dataset.path, "-o", &whole]).exits(0);
     let expected = without_timings(&whole);
-    // Nothing fits, then no scan's table, then not the sequence's.
-    for (kib, named) in [(0, ".rows"), (1, ".rows"), (7, "plausibility.parquet")] {
-        let ran = with_files_up_to(kib, &["label", &dataset.path, "-o", &dataset.out]);
+    // Nothing fits, then no scan, then some of them in each run, and when all are labelled not the sequence's table.
+    for (kib, named) in [(0, ".scans"), (1, ".scans"), (7, "plausibility.parquet")] {
+        let run = || with_files_up_to(kib, &["label", &dataset.path, "-o", &dataset.out]);
+        let runs = || (0..30).map(|_| run());
+        let ran = runs().find(|ran| ran.stderr.contains(named)).unwrap();
         ran.exits(1).prints_nothing().says([named, "File too large"]);
         for (name, content) in tree(&dataset.out) {
             assert!(!name.ends_with(".part") && name != "run.json", "{name}");

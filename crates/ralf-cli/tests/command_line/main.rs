@@ -15,6 +15,7 @@ mod bad_images;
 mod bad_recordings;
 mod camera_plot;
 mod check;
+mod cluster;
 mod corrections;
 mod determinism;
 mod evaluation;
@@ -24,6 +25,7 @@ mod export;
 mod full_disk;
 #[cfg(unix)]
 mod inputs;
+mod known_truth;
 mod learning;
 mod names;
 #[cfg(unix)]

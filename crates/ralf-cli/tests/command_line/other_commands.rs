@@ -30,6 +30,8 @@ fn inspect_tells_what_is_there_and_what_is_missing() {
         "no camera",
         "no 6-DoF poses",
         "a street",
+        "range rates: `doppler` is raw",
+        "LiDAR: points are motion-corrected to the scan's time",
     ]);
 }
 

@@ -6,18 +6,10 @@ use std::path::Path;
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
-/// How many scans a run under way has kept so far. Its files come and go.
-fn kept(folder: &Path) -> usize {
-    let entries = fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path());
-    entries
-        .map(|path| {
-            if path.is_dir() {
-                kept(&path)
-            } else {
-                usize::from(path.extension().is_some_and(|e| e == "rows"))
-            }
-        })
-        .sum()
+/// How many scans of a sequence a run under way has labelled so far.
+fn labelled(dataset: &Dataset) -> usize {
+    let labels = fs::read_dir(dataset.result("radar_front")).into_iter().flatten().flatten();
+    labels.filter(|file| file.path().extension().is_some_and(|ending| ending == "label")).count()
 }
 
 /// Starts a run and kills it as soon as some scans are labelled.
@@ -27,7 +19,7 @@ fn kill_midway(dataset: &Dataset) {
         .spawn()
         .unwrap();
     let begun = Instant::now();
-    while kept(&Path::new(&dataset.out).join(".ralf-run")) < 10 {
+    while labelled(dataset) < 10 {
         assert!(run.try_wait().unwrap().is_none(), "it ended before it could be killed");
         assert!(begun.elapsed() < Duration::from_secs(60), "it labels nothing");
         sleep(Duration::from_millis(2));
@@ -68,14 +60,16 @@ fn what_a_power_cut_spoiled_is_made_again() {
     ralf(["label", "--no-check", &dataset.path, "-o", &whole]).exits(0);
     kill_midway(&dataset);
     let unfinished = Path::new(&dataset.out).join(".ralf-run");
-    let kept: Vec<_> = tree(&unfinished).into_keys().filter(|name| name.ends_with(".rows")).collect();
-    fs::write(unfinished.join(&kept[0]), "").unwrap();
-    // RUN/FINGERPRINT/00/radar_front/000001.rows
-    let label = kept[1].splitn(3, '/').nth(2).unwrap().replace(".rows", ".label");
-    fs::write(Path::new(&dataset.out).join("sequences").join(label), "").unwrap();
-    // What the monitor found about the images of a scan, and the record of a finished sequence.
-    fs::write(unfinished.join(&kept[2]).with_extension("json"), "").unwrap();
-    fs::write(unfinished.join(&kept[0]).ancestors().nth(3).unwrap().with_extension("json"), "{").unwrap();
+    let log = tree(&unfinished).into_keys().find(|name| name.ends_with(".scans")).unwrap();
+    // RUN/FINGERPRINT/00/0.scans: a byte of some scan, and the last one not whole.
+    let log = unfinished.join(log);
+    let mut bytes = fs::read(&log).unwrap();
+    let length = bytes.len();
+    bytes[length / 2] ^= 1;
+    fs::write(&log, &bytes[..length - 3]).unwrap();
+    fs::write(dataset.result("radar_front/000001.label"), "").unwrap();
+    // The record of a finished sequence.
+    fs::write(log.ancestors().nth(2).unwrap().with_extension("json"), "{").unwrap();
     ralf(["label", "--no-check", &dataset.path, "-o", &dataset.out]).exits(0).says_nothing();
     assert!(without_timings(&dataset.out) == without_timings(&whole));
     fs::write(format!("{}/run.json", dataset.out), "{").unwrap();

@@ -1,6 +1,8 @@
 //! `ralf demo`, and its steps: `ralf simulate`, `label`, `evaluate`, and the report about it.
 
 use crate::support::{Dataset, ralf, tree};
+use ralf_data::judge::QueueCurve;
+use ralf_data::{Comparison, GroundTruth};
 use std::fs;
 
 #[test]
@@ -10,6 +12,11 @@ fn the_demonstration_shows_its_commands_a_table_and_a_page() {
     first.prints(["F1 plausible", "report.html in a browser"]);
     assert!(fs::read_to_string(format!("{folder}/report.html")).unwrap().contains("Labels of"));
     ralf(["demo", &folder]).exits(0).says(["is there already", "nothing to do"]);
+}
+
+fn queue_of(dataset: &str, out: &str) -> QueueCurve {
+    let truth = GroundTruth::open(dataset.as_ref()).unwrap();
+    QueueCurve::of_run(out.as_ref(), &Comparison::new(out.as_ref(), &truth).unwrap()).unwrap()
 }
 
 #[test]
@@ -27,6 +34,12 @@ fn a_simulated_recording_is_labelled_evaluated_and_reported() {
     let scores = ralf(["evaluate", &out, "--truth", &made, "--json"]).exits(0).json();
     let accuracy = scores["overall"]["pooled"]["accuracy"].as_f64().unwrap();
     assert!((0.6..0.999).contains(&accuracy), "neither hopeless nor trivial: {accuracy}");
+
+    ralf(["evaluate", &out, "--truth", &made, "--queue"]).exits(0).prints(["at best", "wrong labels in"]);
+    // The first half of the queue has nearly all that any half of these few scans can have.
+    let curve = queue_of(&made, &out);
+    assert!(curve.correlation.unwrap() > 0.3, "{curve:?}");
+    assert!(curve.found[4] > 0.9 * curve.ideal[4] && curve.found[4] > 0.53, "{curve:?}");
 
     ralf(["report", &made, &out, "-o", &page, "--scans-per-sequence", "1"]).exits(0);
     let html = fs::read_to_string(&page).unwrap();

@@ -138,11 +138,15 @@ impl Folders {
 
 /// Writes a file whole or not at all: beside its place first, then renamed. Folders are made as needed.
 pub fn write_whole(file: &Path, bytes: &[u8]) -> Result<(), DataError> {
-    if let Some(folder) = file.parent() {
-        fs::create_dir_all(folder).map_err(DataError::io(folder))?;
-    }
     let beside = beside(file);
-    let written = create_new(&beside).and_then(|mut open| open.write_all(bytes));
+    let created = match (create_new(&beside), file.parent()) {
+        (Err(error), Some(folder)) if error.kind() == ErrorKind::NotFound => {
+            fs::create_dir_all(folder).map_err(DataError::io(folder))?;
+            create_new(&beside)
+        }
+        (created, _) => created,
+    };
+    let written = created.and_then(|mut open| open.write_all(bytes));
     if let Err(error) = written.and_then(|()| fs::rename(&beside, file)) {
         // The half-written file is of no use to anyone; the error that matters is the first one.
         let _ = fs::remove_file(&beside);
@@ -153,9 +157,12 @@ pub fn write_whole(file: &Path, bytes: &[u8]) -> Result<(), DataError> {
 
 /// Creates a file. What lies there is removed first: through a link, what it leads to would be overwritten.
 pub(crate) fn create_new(file: &Path) -> std::io::Result<fs::File> {
-    match fs::remove_file(file) {
-        Err(error) if error.kind() != ErrorKind::NotFound => Err(error),
-        _ => fs::File::options().write(true).create_new(true).open(file),
+    let create = || fs::File::options().write(true).create_new(true).open(file);
+    match create() {
+        Err(error) if error.kind() == ErrorKind::AlreadyExists => {
+            fs::remove_file(file).and_then(|()| create())
+        }
+        created => created,
     }
 }
 

@@ -1,7 +1,12 @@
-//! Bytes on disk: whole files, `.npy` arrays, LAZ point clouds, images and `.label` files.
+//! Bytes on disk: whole files, `.npy` arrays, HDF5 and Parquet tables, LAZ and PCD clouds, images and `.label` files.
 
 pub(crate) mod files;
+pub(crate) mod hdf5;
 pub(crate) mod images;
+pub(crate) mod json;
 pub(crate) mod label_file;
 pub(crate) mod laz;
 pub(crate) mod npy;
+pub(crate) mod number;
+pub(crate) mod parquet_table;
+pub(crate) mod pcd;

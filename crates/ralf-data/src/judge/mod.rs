@@ -3,7 +3,9 @@
 mod balance;
 mod doubt;
 mod evaluation;
+mod queue;
 
 pub use balance::{Balance, Balances};
-pub use doubt::{DISAGREEING, Doubts, UNCERTAIN, is_uncertain};
+pub use doubt::{Certainty, DISAGREEING, Doubts, SURE, UNCERTAIN, is_uncertain};
 pub use evaluation::Comparison;
+pub use queue::{QueueCurve, TENTHS};

@@ -3,21 +3,8 @@
 
 use crate::read::SequenceReader;
 use ralf::sensors::{MemorySource, Source};
-use std::path::PathBuf;
 
 impl SequenceReader for MemorySource {
-    fn inputs(&self) -> Vec<PathBuf> {
-        Vec::new()
-    }
-
-    fn warnings(&self) -> &[String] {
-        &[]
-    }
-
-    fn image_file(&self, _camera: usize, _image: usize) -> Option<PathBuf> {
-        None
-    }
-
     fn has_depth(&self, camera: usize) -> bool {
         let images = self.sequence().times.cameras.get(camera).map_or(0, Vec::len);
         (0..images).any(|image| self.depth(camera, image).is_ok_and(|depth| depth.is_some()))

@@ -66,6 +66,18 @@ pub(crate) const ZF_FRGEN21: RadarModel = RadarModel {
     sigma_elevation_deg: 0.75,
 };
 
+/// Continental ARS 548, the radars of MAN TruckScenes as far as scans tell. Data sheet, as the Dual-Radar data set
+/// quotes it: 0.22 m, 1.2 deg in azimuth up to 15 deg from the axis and 1.68 deg at 45, 2.3 deg in elevation. They are
+/// resolutions: half of them is taken, of the azimuth's worse one. Fields of view 120 by 28 deg (8 beyond 140 m).
+pub(crate) const ARS_548: RadarModel = RadarModel {
+    elevation: Elevation::Measured,
+    fov_azimuth_deg: 120.0,
+    fov_elevation_deg: 28.0,
+    sigma_range_m: 0.11,
+    sigma_azimuth_deg: 0.84,
+    sigma_elevation_deg: 1.15,
+};
+
 /// Velodyne HDL-32E, the LiDAR of nuScenes. Data sheet: 2 cm accuracy (one standard deviation at 25 m), beams from
 /// +10.67 to -30.67 deg, usable returns up to 100 m.
 pub(crate) const HDL_32E: LidarModel =
@@ -80,6 +92,10 @@ pub(crate) const HDL_64E_S3: LidarModel =
 pub(crate) const PANDAR64: LidarModel =
     LidarModel { sigma_range_m: 0.02, lowest_beam_deg: 25.0, max_range_m: Some(200.0) };
 
+/// Velodyne VLS-128, the LiDAR on the roof of ZOD's cars. Data sheet: 3 cm accuracy, beams from +15 to -25 deg, 245 m.
+pub(crate) const VLS_128: LidarModel =
+    LidarModel { sigma_range_m: 0.03, lowest_beam_deg: 25.0, max_range_m: Some(245.0) };
+
 /// smartmicro UMRR-11 type 132, both radars of aiMotive. Fields of view are those that scans of a motorway fill,
 /// 17.3 deg to either side and 7.8 deg up and down; sigmas what they scatter by about guard rails in the LiDAR's map.
 pub(crate) const UMRR_11: RadarModel = RadarModel {
@@ -91,9 +107,34 @@ pub(crate) const UMRR_11: RadarModel = RadarModel {
     sigma_elevation_deg: 0.55,
 };
 
+/// The 77 GHz radars of the Radar Ghost Dataset, which don't measure elevation. Its paper gives a field of view of
+/// 70 deg to either side; accuracies aren't published and are those of [`GENERIC_RADAR`].
+pub(crate) const GHOST_RADAR: RadarModel = RadarModel {
+    elevation: Elevation::None,
+    fov_azimuth_deg: 140.0,
+    fov_elevation_deg: 20.0,
+    sigma_elevation_deg: 0.0,
+    ..GENERIC_RADAR
+};
+
+/// The LiDAR of the Radar Ghost Dataset, behind the bumper: its type isn't published.
+pub(crate) const GHOST_LIDAR: LidarModel = GENERIC_LIDAR;
+
+/// The four radars of RadarScenes, which don't measure elevation. The data set's page gives a field of view of 60 deg
+/// to either side and the resolutions 0.15 m in range and 0.5 deg (ahead) to 2 deg (at the edge) in azimuth, of which
+/// half are taken, in azimuth of 1 deg.
+pub(crate) const RADARSCENES: RadarModel = RadarModel {
+    elevation: Elevation::None,
+    fov_azimuth_deg: 120.0,
+    fov_elevation_deg: 20.0,
+    sigma_range_m: 0.075,
+    sigma_azimuth_deg: 0.5,
+    sigma_elevation_deg: 0.0,
+};
+
 /// A radar of which nothing is known: what most 77 GHz radars for vehicles have or surpass. Whoever has the data sheet
 /// says better in the settings.
-const GENERIC_RADAR: RadarModel = RadarModel {
+pub(crate) const GENERIC_RADAR: RadarModel = RadarModel {
     elevation: Elevation::Measured,
     fov_azimuth_deg: 120.0,
     fov_elevation_deg: 30.0,
@@ -102,29 +143,50 @@ const GENERIC_RADAR: RadarModel = RadarModel {
     sigma_elevation_deg: 1.0,
 };
 
+/// The radars of NVIDIA's PhysicalAI-AV, of nineteen names and several makes, which aren't told: see [`GENERIC_RADAR`].
+pub(crate) const NVIDIA_RADAR: RadarModel = GENERIC_RADAR;
+
+/// Those of them that give every detection the elevation 0.
+pub(crate) const NVIDIA_RADAR_2D: RadarModel =
+    RadarModel { elevation: Elevation::None, sigma_elevation_deg: 0.0, ..GENERIC_RADAR };
+
 /// A LiDAR of which nothing is known: a rotating one on a roof.
-const GENERIC_LIDAR: LidarModel =
+pub(crate) const GENERIC_LIDAR: LidarModel =
     LidarModel { sigma_range_m: 0.02, lowest_beam_deg: 25.0, max_range_m: None };
 
 /// What stands for a sensor of which nothing is known.
 pub(crate) const GENERIC: &str = "generic";
 
 /// By the names that settings have for them.
-pub(crate) const RADARS: [(&str, RadarModel); 4] =
-    [(GENERIC, GENERIC_RADAR), ("ars408-21", ARS_408_21), ("frgen21", ZF_FRGEN21), ("umrr-11", UMRR_11)];
+pub(crate) const RADARS: [(&str, RadarModel); 7] = [
+    (GENERIC, GENERIC_RADAR),
+    ("ars408-21", ARS_408_21),
+    ("ars548", ARS_548),
+    ("frgen21", ZF_FRGEN21),
+    ("radar-ghost", GHOST_RADAR),
+    ("radarscenes", RADARSCENES),
+    ("umrr-11", UMRR_11),
+];
 
 /// By the names that settings have for them.
-pub(crate) const LIDARS: [(&str, LidarModel); 4] =
-    [(GENERIC, GENERIC_LIDAR), ("hdl-32e", HDL_32E), ("hdl-64e-s3", HDL_64E_S3), ("pandar64", PANDAR64)];
+pub(crate) const LIDARS: [(&str, LidarModel); 5] = [
+    (GENERIC, GENERIC_LIDAR),
+    ("hdl-32e", HDL_32E),
+    ("hdl-64e-s3", HDL_64E_S3),
+    ("pandar64", PANDAR64),
+    ("vls-128", VLS_128),
+];
 
 /// Parts of names that tell a sensor's type, in small letters and without what separates them, with its model.
-const TELLING: [(&str, &str); 6] = [
+const TELLING: [(&str, &str); 8] = [
     ("ars408", "ars408-21"),
+    ("ars548", "ars548"),
     ("frgen21", "frgen21"),
     ("umrr11", "umrr-11"),
     ("hdl32", "hdl-32e"),
     ("hdl64", "hdl-64e-s3"),
     ("pandar64", "pandar64"),
+    ("vls128", "vls-128"),
 ];
 
 /// The one of these models that a topic's or a frame's name tells of; the generic one where it tells of none.

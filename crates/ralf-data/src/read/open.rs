@@ -2,7 +2,10 @@
 
 use crate::error::DataError;
 use crate::read::ros::Topics;
-use crate::read::{Recording, aimotive, layout, nuscenes, ros, view_of_delft};
+use crate::read::{
+    Recording, aimotive, layout, nuscenes, nvidia, radar_ghost, radar_scenes, ros, truckscenes,
+    view_of_delft, zod,
+};
 use std::fs;
 use std::path::Path;
 
@@ -12,6 +15,8 @@ struct Format {
     name: &'static str,
     /// What a folder of this format holds, or which file it is, for people.
     holds: &'static str,
+    /// Whether its readers know the truth of detections without files of labels.
+    knows_truth: bool,
     /// Whether it is one.
     recognises: fn(&Path) -> bool,
     /// Reads it. The topics are of those formats that have some.
@@ -19,34 +24,74 @@ struct Format {
 }
 
 /// In the order in which they are tried.
-const FORMATS: [Format; 5] = [
+const FORMATS: [Format; 10] = [
+    Format {
+        name: zod::NAME,
+        holds: "the lists `trainval-sequences-*.json` or `trainval-drives-*.json`",
+        knows_truth: false,
+        recognises: zod::recognises,
+        open: |path, _| zod::open(path),
+    },
     Format {
         name: layout::NAME,
         holds: "the folder `sequences`",
+        knows_truth: false,
         recognises: |path| path.join(layout::SEQUENCES).is_dir(),
         open: |path, _| layout::open(path),
     },
     Format {
+        name: truckscenes::NAME,
+        holds: "a folder `v1.2-*` (or an earlier version) with `ego_motion_chassis.json`",
+        knows_truth: false,
+        recognises: truckscenes::recognises,
+        open: |path, _| truckscenes::open(path),
+    },
+    Format {
         name: nuscenes::NAME,
         holds: "a folder `v1.0-*` with `sample_data.json`",
+        knows_truth: false,
         recognises: nuscenes::recognises,
         open: |path, _| nuscenes::open(path),
     },
     Format {
         name: view_of_delft::NAME,
         holds: "the folders `radar/training/velodyne` and `radar/training/calib`",
+        knows_truth: false,
         recognises: view_of_delft::recognises,
         open: |path, _| view_of_delft::open(path),
     },
     Format {
         name: aimotive::NAME,
         holds: "a sequence's `sensor/calibration/calibration.json` and `sensor/radar`, or folders of such sequences",
+        knows_truth: false,
         recognises: aimotive::recognises,
         open: |path, _| aimotive::open(path),
     },
     Format {
+        name: radar_ghost::NAME,
+        holds: "HDF5 files `scenario-*.h5`, or the folders `original` or `virtual` with such files",
+        knows_truth: true,
+        recognises: radar_ghost::recognises,
+        open: |path, _| radar_ghost::open(path),
+    },
+    Format {
+        name: radar_scenes::NAME,
+        holds: "folders with `radar_data.h5` and `scenes.json`",
+        knows_truth: true,
+        recognises: radar_scenes::recognises,
+        open: |path, _| radar_scenes::open(path),
+    },
+    Format {
+        name: nvidia::NAME,
+        holds: "radars' tables `radar/NAME/CLIP.NAME.parquet`, or folders of clips with such",
+        knows_truth: false,
+        recognises: nvidia::recognises,
+        open: |path, _| nvidia::open(path),
+    },
+    Format {
         name: ros::NAME,
         holds: "a ROS 1 bag, an MCAP file, an SQLite file of ROS 2, or a folder with `metadata.yaml`",
+        knows_truth: false,
         recognises: ralf_ros::container::recognises,
         open: ros::open,
     },
@@ -90,6 +135,11 @@ pub fn open_with(path: &Path, format: Option<&str>, topics: &Topics) -> Result<R
         }),
     }?;
     (found.open)(path, topics)
+}
+
+/// Whether a folder or file is of a format whose readers know the truth of detections.
+pub(crate) fn knows_truth(path: &Path) -> bool {
+    FORMATS.iter().find(|format| (format.recognises)(path)).is_some_and(|format| format.knows_truth)
 }
 
 #[cfg(test)]

@@ -10,14 +10,21 @@ use std::path::PathBuf;
 
 /// One sequence of a recording, and the files it is read from.
 pub trait SequenceReader: Source {
-    /// Every file that labelling reads, in a fixed order: what a run records with sizes and hashes.
-    fn inputs(&self) -> Vec<PathBuf>;
+    /// Every file that labelling reads, in a fixed order: what a run records with sizes and hashes. None of what has no
+    /// files.
+    fn inputs(&self) -> Vec<PathBuf> {
+        Vec::new()
+    }
 
     /// What was ignored or is missing, a sentence each, for people.
-    fn warnings(&self) -> &[String];
+    fn warnings(&self) -> &[String] {
+        &[]
+    }
 
-    /// The file of a camera's image, to be copied as it is.
-    fn image_file(&self, camera: usize, image: usize) -> Option<PathBuf>;
+    /// The file of a camera's image, to be copied as it is; `None` where an image has no file of its own.
+    fn image_file(&self, _camera: usize, _image: usize) -> Option<PathBuf> {
+        None
+    }
 
     /// The `.label` file of a LiDAR's scan, to be copied as it is: it also numbers instances.
     fn lidar_label_file(&self, _lidar: usize, _scan: usize) -> Option<PathBuf> {
@@ -69,7 +76,7 @@ pub struct TruthLabels {
     /// As they stand in a `.label` file.
     pub labels: Vec<Label>,
     /// Why each is an artifact: [`ralf::label::Cause`] as a number, 0 of what is plausible. No file that labelling
-    /// reads.
+    /// reads; empty where [no causes](SequenceReader::causes) are told apart.
     pub causes: Vec<u8>,
 }
 

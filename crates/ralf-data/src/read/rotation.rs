@@ -1,7 +1,8 @@
-//! Rotations out of printed matrices.
+//! Rotations and rigid transforms out of printed matrices and angles.
 
 use crate::error::DataError;
-use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
+use nalgebra::{Matrix3, Rotation3, Translation3, UnitQuaternion, Vector3};
+use ralf::space::Transform;
 use std::path::Path;
 
 /// Matrices are printed with a few digits; what is farther from orthonormal than this is no rotation.
@@ -23,6 +24,27 @@ pub(crate) fn rotation(
         format!("a rotation, orthonormal within {ORTHONORMAL_WITHIN}"),
         format!("a matrix off by {off:.3e}, determinant {:.3}", matrix.determinant()),
     ))
+}
+
+/// A 4 x 4 matrix, row by row.
+pub(crate) type Matrix = [[f64; 4]; 4];
+
+/// The rigid transform that a matrix is, up to its printed digits.
+pub(crate) fn rigid(file: &Path, place: &str, matrix: &Matrix) -> Result<Transform, DataError> {
+    let [[a, b, c, x], [d, e, f, y], [g, h, i, z], last] = *matrix;
+    if last != [0.0, 0.0, 0.0, 1.0] || ![x, y, z].iter().all(|value| value.is_finite()) {
+        return Err(DataError::content(file, place, "a last row of 0 0 0 1", format!("{last:?}")));
+    }
+    let turn = rotation(file, place, Matrix3::new(a, b, c, d, e, f, g, h, i))?;
+    Ok(Transform::from_parts(Translation3::new(x, y, z), turn))
+}
+
+/// A place, and what is there turned to the left by so many rad.
+pub(crate) fn turned(translation: [f64; 3], yaw: f64) -> Transform {
+    let turn = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), yaw);
+    // Of length 1 to the last digit, as what is written and read again is.
+    let turn = UnitQuaternion::new_normalize(turn.into_inner());
+    Transform::from_parts(Translation3::from(translation), turn)
 }
 
 /// Columns of unit length at right angles. The first keeps its direction; the others move by less than was refused.

@@ -58,6 +58,17 @@ pub enum Change {
     New,
 }
 
+impl Change {
+    /// In words.
+    pub fn told(self) -> &'static str {
+        match self {
+            Self::Content => "another content",
+            Self::Missing => "no such file",
+            Self::New => "a file that wasn't there",
+        }
+    }
+}
+
 impl LabelledRun {
     /// Opens an output folder by its `run.json`.
     ///
@@ -125,6 +136,20 @@ impl LabelledRun {
         Ok(changes.into_iter().collect())
     }
 
+    /// Refuses a recording that is not what was labelled, by the first file that differs.
+    ///
+    /// # Errors
+    /// Such a file, and one that can't be read.
+    pub fn refuse_changes(&self, recording: &Recording) -> Result<(), DataError> {
+        match self.changes(recording)?.first() {
+            None => Ok(()),
+            Some(changed) => {
+                let found = changed.change.told();
+                Err(DataError::content(&changed.file, "content", "what was labelled", found))
+            }
+        }
+    }
+
     /// A sequence as it was labelled.
     ///
     /// # Errors
@@ -162,6 +187,19 @@ impl LabelledRun {
         let file = self.table_file(record)?;
         let unlike = |found| DataError::content(&file, "columns", "those of a result", found);
         PlausibilityReader::open(&file, &Schema::of(&Rig::default(), &[]).map_err(unlike)?)
+    }
+
+    /// The table of a sequence with all columns that it holds, for whoever doesn't have the recording at hand.
+    ///
+    /// # Errors
+    /// A sequence that was not labelled; a table that is damaged.
+    pub fn whole_table(&self, sequence: &str) -> Result<PlausibilityReader, DataError> {
+        let names = || self.record.sequences.iter().map(|record| record.name.as_str()).collect::<Vec<_>>();
+        let record = self.record.sequence(sequence).ok_or_else(|| DataError::UnknownSequence {
+            name: sequence.to_owned(),
+            known: names().join(", "),
+        })?;
+        PlausibilityReader::open_all(&self.table_file(record)?)
     }
 
     /// Where the table of a sequence lies, once it is found to be as it was written.

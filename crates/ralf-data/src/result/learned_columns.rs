@@ -9,6 +9,8 @@ const NOVELTY: &str = "novelty";
 const CAUSE: &str = "cause";
 const CAUSE_PROBABILITY: &str = "cause_probability";
 const REASON: &str = "reason";
+const VISIBILITY: &str = "visibility";
+const LACKING: &str = "lacking";
 /// Before the name of a group.
 const SHARE: &str = "reason_";
 
@@ -21,13 +23,6 @@ pub(crate) fn learned_columns() -> Vec<Column> {
         meaning,
         group: Group::Evidence,
     };
-    let text = |name: &'static str, meaning| Column {
-        name: name.into(),
-        kind: Kind::Text,
-        unit: "",
-        meaning,
-        group: Group::Words,
-    };
     let mut columns = vec![number(
         NOVELTY.to_owned(),
         "1",
@@ -39,12 +34,28 @@ pub(crate) fn learned_columns() -> Vec<Column> {
     }
     let meaning = "The share of the cause among all causes.";
     columns.push(number(CAUSE_PROBABILITY.to_owned(), "1", meaning));
-    columns.push(text(
-        CAUSE,
-        "Why the detection is an artifact, or that it is unclear; empty where it is none.",
-    ));
-    columns.push(text(REASON, "What adds most to the log odds that the detection is plausible, in words."));
+    columns.extend(words_told());
     columns
+}
+
+/// The columns of words.
+fn words_told() -> Vec<Column> {
+    let text = |name: &'static str, meaning| Column {
+        name: name.into(),
+        kind: Kind::Text,
+        unit: "",
+        meaning,
+        group: Group::Words,
+    };
+    vec![
+        text(CAUSE, "Why the detection is an artifact, or that it is unclear; empty where it is none."),
+        text(
+            VISIBILITY,
+            "How most of the LiDAR scans around see its place: free space, on a surface, occluded, or not looked at.",
+        ),
+        text(LACKING, "Groups of evidence of which nothing was observed; empty where the model had all."),
+        text(REASON, "What adds most to the log odds that the detection is plausible, in words."),
+    ]
 }
 
 /// `LiDAR rays` is `reason_lidar_rays`.
@@ -76,8 +87,16 @@ pub(crate) fn words(name: &str, answers: &[Answer]) -> Option<Vec<Arc<str>>> {
         match name {
             CAUSE => Some(answer.cause.as_ref().map_or("", |cause| &cause.name).into()),
             REASON => Some(answer.reason.as_str().into()),
+            VISIBILITY => Some(answer.visibility.map_or("", |visibility| visibility.name()).into()),
+            LACKING => Some(names_of(&answer.lacking).into()),
             _ => None,
         }
     };
     answers.iter().map(of).collect()
+}
+
+/// Names of groups, by their places.
+fn names_of(groups: &[usize]) -> String {
+    let names: Vec<&str> = groups.iter().filter_map(|group| GROUPS.get(*group).copied()).collect();
+    names.join(", ")
 }

@@ -13,6 +13,8 @@ pub(crate) struct WriterLock {
     made: Vec<PathBuf>,
     /// The lock is on the open file, so that it ends with the process.
     _open: File,
+    /// Whether others may hold it, too.
+    shared: bool,
 }
 
 impl WriterLock {
@@ -21,6 +23,19 @@ impl WriterLock {
     /// # Errors
     /// [`DataError::Busy`] where another writer is at work.
     pub(crate) fn take(file: PathBuf, place: &Path) -> Result<Self, DataError> {
+        Self::lock(file, place, false)
+    }
+
+    /// Takes part in writing to `place`, beside others that do so by this function: who [takes](Self::take) it keeps
+    /// all of them out, and they keep him out.
+    ///
+    /// # Errors
+    /// [`DataError::Busy`] where a writer is at work that is alone.
+    pub(crate) fn share(file: PathBuf, place: &Path) -> Result<Self, DataError> {
+        Self::lock(file, place, true)
+    }
+
+    fn lock(file: PathBuf, place: &Path, shared: bool) -> Result<Self, DataError> {
         let folder = file.parent().unwrap_or(Path::new("."));
         let missing =
             folder.ancestors().take_while(|folder| !folder.as_os_str().is_empty() && !folder.exists());
@@ -33,16 +48,17 @@ impl WriterLock {
             return Err(DataError::content(&file, "lock", "a file, or nothing yet", "a link"));
         }
         loop {
-            let open = File::options().create(true).truncate(false).write(true).open(&file);
+            // To be read, too: network file systems share no lock of a file that is only written.
+            let open = File::options().create(true).truncate(false).read(true).write(true).open(&file);
             let open = open.map_err(DataError::io(&file))?;
-            match open.try_lock() {
+            match if shared { open.try_lock_shared() } else { open.try_lock() } {
                 // Another writer may have ended, and removed the file, between the two lines above.
                 Ok(()) if !is_at(&open, &file) => {}
-                Ok(()) => return Ok(Self { file, made, _open: open }),
+                Ok(()) => return Ok(Self { file, made, shared, _open: open }),
                 Err(TryLockError::WouldBlock) => return Err(DataError::Busy { place: place.to_owned() }),
                 // A file system without locks: its users go on as they did without.
                 Err(TryLockError::Error(error)) if error.kind() == ErrorKind::Unsupported => {
-                    return Ok(Self { file, made, _open: open });
+                    return Ok(Self { file, made, shared, _open: open });
                 }
                 Err(TryLockError::Error(error)) => return Err(DataError::Io { file, error }),
             }
@@ -59,6 +75,11 @@ impl WriterLock {
 impl Drop for WriterLock {
     /// Nothing is left of the lock. A folder that holds something stays: that is no failure.
     fn drop(&mut self) {
+        // Who shares leaves the file to the one who will be alone: to take it away from under another who is just
+        // opening it would let that one share with nobody.
+        if self.shared {
+            return;
+        }
         let _ = fs::remove_file(&self.file);
         self.made.iter().all(|folder| fs::remove_dir(folder).is_ok());
     }
@@ -93,6 +114,24 @@ mod tests {
         fs::create_dir_all(&out).unwrap();
         drop(WriterLock::take(out.join(".lock"), &out).unwrap());
         assert!(out.exists() && fs::read_dir(&out).unwrap().next().is_none());
+    }
+
+    #[test]
+    fn those_who_share_are_many_and_who_is_alone_waits_for_all_of_them() {
+        let root = tempfile::tempdir().unwrap();
+        let out = root.path().join("out");
+        let file = out.join(".lock");
+        let busy = |lock: Result<WriterLock, DataError>| matches!(lock, Err(DataError::Busy { .. }));
+        let first = WriterLock::share(file.clone(), &out).unwrap();
+        let second = WriterLock::share(file.clone(), &out).unwrap();
+        assert!(busy(WriterLock::take(file.clone(), &out)));
+        drop(first);
+        assert!(busy(WriterLock::take(file.clone(), &out)));
+        drop(second);
+        let alone = WriterLock::take(file.clone(), &out).unwrap();
+        assert!(busy(WriterLock::share(file.clone(), &out)));
+        drop(alone);
+        assert!(!file.exists());
     }
 
     /// Many threads lock, count without an atomic step, and unlock: no two are at work at once.

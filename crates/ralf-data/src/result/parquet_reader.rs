@@ -2,7 +2,7 @@
 
 use super::learned_columns::learned_columns;
 use super::parquet_columns::read_values;
-use super::schema::{Column, Group, Kind, SCAN, Schema, evidence_columns};
+use super::schema::{Column, Group, Kind, SCAN, Schema, evidence_columns, field};
 use super::table::Value;
 use super::{RadarScanKey, Table};
 use crate::error::DataError;
@@ -56,6 +56,22 @@ impl PlausibilityReader {
         Ok(Self { file: file.to_owned(), schema, reader, scans, places })
     }
 
+    /// Opens a result with all columns that it holds, whichever fields the radars have.
+    ///
+    /// # Errors
+    /// Those of [`Self::open`].
+    pub fn open_all(file: &Path) -> Result<Self, DataError> {
+        let open = File::open(file).map_err(DataError::io(file))?;
+        let reader = SerializedFileReader::new(open).map_err(|error| unreadable(file, error))?;
+        let columns = reader.metadata().file_metadata().schema_descr().columns();
+        let place = |name: &str| columns.iter().position(|column| column.name() == name);
+        let further = match (place("elevation"), place("d_lm")) {
+            (Some(before), Some(after)) => columns.get(before + 1..after).unwrap_or_default(),
+            _ => &[],
+        };
+        Self::open(file, &Schema::around(further.iter().map(|column| field(column.name())).collect(), &[]))
+    }
+
     /// Where it lies.
     pub fn file(&self) -> &Path {
         &self.file
@@ -79,6 +95,25 @@ impl PlausibilityReader {
     /// How many detections of a scan there are.
     pub fn detections(&self, key: &RadarScanKey) -> usize {
         self.places.get(key).map_or(0, |place| place.rows)
+    }
+
+    /// All rows of a row group as the file has them: `radar` and `scan`, and then the columns of [`Self::schema`].
+    ///
+    /// # Errors
+    /// A file that can't be read.
+    pub fn group(&self, group: usize) -> Result<Table, DataError> {
+        let refused = |error| unreadable(&self.file, error);
+        let rows = self.reader.get_row_group(group).map_err(refused)?;
+        let schema = Arc::new(self.schema.with_scan());
+        let values = schema.columns().iter().map(|column| read_values(rows.as_ref(), column));
+        let values = values.collect::<Result<_, _>>().map_err(refused)?;
+        Table::new(schema, values)
+    }
+
+    /// The scans of a row group in the order of its rows, with the number of rows of each.
+    pub fn scans_of_group(&self, group: usize) -> impl Iterator<Item = (&RadarScanKey, usize)> {
+        let here = self.scans.iter().filter(move |(_, place)| place.group == group);
+        here.map(|(key, place)| (key, place.rows))
     }
 
     /// The tables of all scans in a row group, in the order of its rows, with all columns.

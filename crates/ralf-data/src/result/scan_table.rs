@@ -43,6 +43,24 @@ pub(crate) struct ScanParts<'a> {
 }
 
 impl Table {
+    /// One table of several scans, in their order, with the columns `radar` and `scan` before the others.
+    ///
+    /// # Errors
+    /// Scans with other columns than the first one's.
+    pub fn of_scans(scans: &[(RadarScanKey, Self)]) -> Result<Self, DataError> {
+        let Some((_, first)) = scans.first() else { return Ok(Self::empty(Arc::default())) };
+        let mut all = Self::empty(first.schema().clone());
+        let (mut radars, mut numbers) = (Vec::new(), Vec::new());
+        for (key, table) in scans {
+            all.append(table)?;
+            radars.resize(all.len(), key.radar.clone());
+            numbers.resize(all.len(), key.scan as u32);
+        }
+        let schema = Arc::new(all.schema().with_scan());
+        let values = [Values::Text(radars), Values::U32(numbers)].into_iter().chain(all.into_values());
+        Self::new(schema, values.collect())
+    }
+
     /// The table of a scan, a row per detection.
     ///
     /// # Errors

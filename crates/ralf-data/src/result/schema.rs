@@ -149,7 +149,6 @@ impl Schema {
     /// # Errors
     /// A further field that has the name of another column.
     pub fn of(rig: &Rig, evidence: &[Column]) -> Result<Self, String> {
-        let mut columns: Vec<Column> = IDENTITY.into_iter().chain(PLACE).collect();
         let own = || columns_of_the_method().chain(evidence.iter().cloned());
         let mut further: Vec<Column> = Vec::new();
         for radar in &rig.radars {
@@ -166,9 +165,19 @@ impl Schema {
                 }
             }
         }
-        columns.extend(further);
-        columns.extend(own());
-        Ok(Self { columns })
+        Ok(Self::around(further, evidence))
+    }
+
+    /// The columns of a scan's table around the further fields of radars.
+    pub(crate) fn around(further: Vec<Column>, evidence: &[Column]) -> Self {
+        let before = IDENTITY.into_iter().chain(PLACE);
+        let after = columns_of_the_method().chain(evidence.iter().cloned());
+        Self { columns: before.chain(further).chain(after).collect() }
+    }
+
+    /// These columns after those that say which scan a row belongs to: those of a table of several scans.
+    pub fn with_scan(&self) -> Self {
+        Self { columns: SCAN.iter().chain(&self.columns).cloned().collect() }
     }
 
     /// The columns, in order.

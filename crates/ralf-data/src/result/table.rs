@@ -209,6 +209,11 @@ impl Table {
         self.schema.columns().iter().zip(&self.values)
     }
 
+    /// The values of all columns, in order.
+    pub fn into_values(self) -> Vec<Values> {
+        self.values
+    }
+
     /// The values of a column.
     ///
     /// # Errors

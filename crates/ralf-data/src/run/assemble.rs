@@ -37,8 +37,10 @@ pub(super) fn assemble(
                 observer.advance(1, 0);
                 continue;
             }
-            let table = workspace.table(index, scan, &task.schema)?;
-            let notes = workspace.notes(index, scan)?;
+            if observer.stopped() {
+                return Err(DataError::Stopped);
+            }
+            let (table, notes) = workspace.scan(index, scan, &task.schema)?;
             unreadable.extend(notes.unreadable);
             for (camera, image) in notes.images {
                 images.entry(camera).or_default().insert(image.image, image);

@@ -1,11 +1,11 @@
 //! Sizes and hashes of everything that a run reads, and what they make of its sequences.
 
 use super::{Observer, Stage, fingerprint};
+use crate::error::DataError;
 use crate::frames::side_by_side;
 use crate::read::{Recording, SequenceReader};
 use crate::result::{Input, changed_ns, hash_file};
 use std::collections::{BTreeMap, BTreeSet};
-use std::convert::Infallible;
 use std::path::{Path, PathBuf};
 
 /// What makes a sequence's results what they are.
@@ -18,14 +18,16 @@ pub(super) struct Identity {
     pub(super) inputs: Vec<Input>,
 }
 
-/// The recording's sequences in a run of this fingerprint.
+/// The recording's sequences in a run of this fingerprint. A file that is known by name, size and time is not read
+/// again.
 pub(super) fn identify(
     recording: &Recording,
     run: &str,
+    known: &[Input],
     jobs: usize,
     observer: &dyn Observer,
-) -> Vec<Identity> {
-    let hashes = hash_inputs(recording, jobs, observer);
+) -> Result<Vec<Identity>, DataError> {
+    let hashes = hash_inputs(recording, known, jobs, observer)?;
     let identity = |reader: &dyn SequenceReader| {
         let name = reader.sequence().name.clone();
         // Sorted, and each but once.
@@ -35,28 +37,44 @@ pub(super) fn identify(
         let fingerprint = fingerprint::of_sequence(run, &name, &inputs);
         Identity { name, fingerprint, inputs }
     };
-    recording.sequences.iter().map(|reader| identity(reader.as_ref())).collect()
+    Ok(recording.sequences.iter().map(|reader| identity(reader.as_ref())).collect())
 }
 
 /// Hashes every input of the recording's sequences: each file once, for sequences may share some.
-fn hash_inputs(recording: &Recording, jobs: usize, observer: &dyn Observer) -> BTreeMap<PathBuf, Input> {
+fn hash_inputs(
+    recording: &Recording,
+    known: &[Input],
+    jobs: usize,
+    observer: &dyn Observer,
+) -> Result<BTreeMap<PathBuf, Input>, DataError> {
+    let known: BTreeMap<&str, &Input> = known.iter().map(|input| (input.file.as_str(), input)).collect();
     let files: BTreeSet<PathBuf> = recording.sequences.iter().flat_map(|reader| reader.inputs()).collect();
     let files: Vec<PathBuf> = files.into_iter().collect();
     let sizes = files.iter().filter_map(|file| std::fs::metadata(file).ok());
     observer.begin(Stage::Inputs, sizes.map(|data| data.len()).sum());
     let hashed = side_by_side(&files, jobs, |file| {
-        Ok::<_, Infallible>((file.clone(), input(file, &recording.path, observer)))
+        if observer.stopped() {
+            return Err(DataError::Stopped);
+        }
+        Ok((file.clone(), input(file, &recording.path, &known, observer)))
     });
     observer.end();
-    hashed.unwrap_or_default().into_iter().collect()
+    Ok(hashed?.into_iter().collect())
 }
 
 /// What the record keeps of a file. One that can't be read has no hash and costs the run nothing: a scan that needs it
 /// is named when it is read.
-fn input(file: &Path, root: &Path, observer: &dyn Observer) -> Input {
+fn input(file: &Path, root: &Path, known: &BTreeMap<&str, &Input>, observer: &dyn Observer) -> Input {
     let name = file.strip_prefix(root).unwrap_or(file).to_string_lossy().into_owned();
     // The time before the content: what is changed meanwhile counts as changed later.
-    let mtime_ns = std::fs::metadata(file).ok().and_then(|meta| changed_ns(&meta));
+    let meta = std::fs::metadata(file).ok();
+    let (size, mtime_ns) = (meta.as_ref().map(|meta| meta.len()), meta.as_ref().and_then(changed_ns));
+    let same =
+        |known: &&&Input| mtime_ns.is_some() && (Some(known.bytes), known.mtime_ns) == (size, mtime_ns);
+    if let Some(known) = known.get(name.as_str()).filter(same) {
+        observer.advance(known.bytes, 0);
+        return (*known).clone();
+    }
     let found = hash_file(file, &|bytes| observer.advance(bytes, 0)).unwrap_or_default();
     Input { sequence: String::new(), file: name, bytes: found.bytes, mtime_ns, blake3: found.blake3 }
 }

@@ -2,15 +2,18 @@
 //! jobs.
 //!
 //! Every scan's label depends on the recording and the settings alone, so that scans may be labelled in any order.
-//! Their tables are kept as files of their own until a sequence is complete, and then put together in the order of the
-//! rig. A run that was killed finds them again by a fingerprint of program, settings and the sequence's inputs, and a
-//! sequence that was labelled before is left as it is.
+//! Their tables are kept in files that only grow until a sequence is complete, and then put together in the order of
+//! the rig. A run that was killed finds them again by a fingerprint of program, settings and the sequence's inputs, and
+//! a sequence that was labelled before is left as it is.
 
 mod assemble;
 mod fingerprint;
+mod in_memory;
 mod inputs;
 mod output_folder;
 mod results;
+mod scan_log;
+mod stretch;
 mod unfinished;
 mod workers;
 mod workspace;
@@ -20,9 +23,14 @@ pub use crate::result::{
     SequenceRecord, Timings, UnlikeSisters, UnreadableScan, read_record,
 };
 
+pub use stretch::Stretch;
+
 use crate::error::DataError;
+use crate::frames::all_scans;
 use crate::read::{Recording, SequenceReader, layout};
-use crate::result::{Schema, SequenceNames, WriterLock, evidence_columns, learned_columns, refuse_links_out};
+use crate::result::{
+    OutFolder, Schema, SequenceNames, WriterLock, evidence_columns, learned_columns, refuse_links_out,
+};
 use crate::settings::Settings;
 use inputs::Identity;
 use output_folder::OutputFolder;
@@ -32,6 +40,8 @@ use ralf::sensors::Rig;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Instant;
+use unfinished::Unfinished;
+use workers::Labelling;
 
 /// In the output folder while a run writes to it.
 const LOCK: &str = ".ralf-lock";
@@ -77,6 +87,10 @@ pub trait Observer: Sync {
     fn advance(&self, steps: u64, detections: u64);
     /// The stage is over.
     fn end(&self);
+    /// Whether somebody wants the work to end: it then ends with [`DataError::Stopped`], and what is done is kept.
+    fn stopped(&self) -> bool {
+        false
+    }
 }
 
 /// How a run ended.
@@ -121,18 +135,11 @@ impl LabelRun<'_> {
     /// written, end it, and so does another run that writes to the same folder ([`DataError::Busy`]).
     pub fn execute(&self, observer: &dyn Observer) -> Result<Outcome, DataError> {
         let begun = Instant::now();
-        self.refuse_to_write_into_the_recording()?;
-        let names = SequenceNames::all(self.recording.sequences.iter().map(AsRef::as_ref))?;
+        refuse_to_write_into(&self.recording.path, self.out)?;
         let labeler = self.labeler()?;
-        let tasks = self.recording.sequences.iter().zip(names);
-        let tasks = tasks.map(|(reader, names)| self.task(reader.as_ref(), names, labeler.as_ref()));
-        let tasks = tasks.collect::<Result<Vec<_>, _>>()?;
-        refuse_links_out(self.out, "sequences", 2)?;
-        refuse_links_out(self.out, unfinished::FOLDER, 4)?;
-        let _lock = WriterLock::take(self.out.join(LOCK), self.out)?;
-        let run = RunRecord::new(self.recording, self.settings, self.evidence, self.asked_model());
-        let asked = inputs::identify(self.recording, &fingerprint::of_run(&run), self.jobs, observer);
-        let folder = OutputFolder::open(self.out, run, &asked)?;
+        let tasks = self.tasks(labeler.as_ref())?;
+        let _lock = self.lock()?;
+        let (folder, asked) = self.open_folder(observer)?;
         let mut finished = Vec::new();
         for (task, identity) in tasks.iter().zip(&asked).filter(|(_, asked)| !folder.holds(&asked.name)) {
             let sequence = self.label_sequence(task, identity, &folder, observer)?;
@@ -146,6 +153,38 @@ impl LabelRun<'_> {
         let (mut record, removed) = folder.finish(finished, timings, self.checks)?;
         record.retain(|sequence| asked.iter().any(|asked| asked.name == sequence.name));
         Ok(Outcome { record, labelled, damaged, removed })
+    }
+
+    /// Every sequence, with the sensors as the settings have them.
+    fn tasks<'a>(&'a self, labeler: Option<&'a LearnedLabeler<'a>>) -> Result<Vec<Task<'a>>, DataError> {
+        let names = SequenceNames::all(self.recording.sequences.iter().map(AsRef::as_ref))?;
+        let tasks = self.recording.sequences.iter().zip(names);
+        tasks.map(|(reader, names)| self.task(reader.as_ref(), names, labeler)).collect()
+    }
+
+    /// The right to write to the output folder, alone.
+    fn lock(&self) -> Result<WriterLock, DataError> {
+        self.refuse_links()?;
+        WriterLock::take(self.out.join(LOCK), self.out)
+    }
+
+    fn refuse_links(&self) -> Result<(), DataError> {
+        refuse_links_out(self.out, "sequences", 2)?;
+        refuse_links_out(self.out, unfinished::FOLDER, 4)
+    }
+
+    /// The output folder, ready for the sequences that are asked for.
+    fn open_folder(&self, observer: &dyn Observer) -> Result<(OutputFolder, Vec<Identity>), DataError> {
+        let run = self.record();
+        let known = Unfinished::of(&OutFolder::new(self.out), &run)?.inputs()?;
+        let asked =
+            inputs::identify(self.recording, &fingerprint::of_run(&run), &known, self.jobs, observer)?;
+        Ok((OutputFolder::open(self.out, run, &asked)?, asked))
+    }
+
+    /// What `run.json` tells before a sequence is labelled.
+    fn record(&self) -> RunRecord {
+        RunRecord::new(self.recording, self.settings, self.evidence, self.asked_model())
     }
 
     /// The model, where the method is one that asks it.
@@ -198,24 +237,21 @@ impl LabelRun<'_> {
         observer: &dyn Observer,
     ) -> Result<SequenceRecord, DataError> {
         let workspace = folder.workspace(identity, &task.names)?;
-        let not_labelled =
-            workers::label_scans(task, &self.settings.method, &workspace, self.jobs, observer)?;
+        let scans = all_scans(&task.reader.sequence().times);
+        let labelling = Labelling { task, config: &self.settings.method, observer };
+        let not_labelled = labelling.label_scans(&scans, &workspace, self.jobs)?;
         assemble::assemble(task, &identity.fingerprint, &workspace, not_labelled, observer)
     }
+}
 
-    /// Inputs are only read: results beside them would be taken for a part of the recording.
-    fn refuse_to_write_into_the_recording(&self) -> Result<(), DataError> {
-        let (out, recording) = (real_path(self.out), real_path(&self.recording.path));
-        if out != recording && !out.starts_with(recording.join(layout::SEQUENCES)) {
-            return Ok(());
-        }
-        Err(DataError::content(
-            self.out,
-            "output folder",
-            "another folder than the recording's own",
-            "a part of the recording",
-        ))
+/// Inputs are only read: results beside them would be taken for a part of the recording.
+pub(crate) fn refuse_to_write_into(recording: &Path, out: &Path) -> Result<(), DataError> {
+    let (place, recording) = (real_path(out), real_path(recording));
+    if place != recording && !place.starts_with(recording.join(layout::SEQUENCES)) {
+        return Ok(());
     }
+    let expected = "another folder than the recording's own";
+    Err(DataError::content(out, "output folder", expected, "a part of the recording"))
 }
 
 /// The sensors of a sequence as the settings have them.

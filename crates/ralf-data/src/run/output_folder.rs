@@ -11,8 +11,8 @@ use crate::disk::files;
 use crate::error::DataError;
 use crate::result::json::write_json;
 use crate::result::{
-    CheckRecord, OutFolder, RECORD, RunRecord, SequenceNames, SequenceRecord, Timings, damaged_result,
-    read_record,
+    CheckRecord, Component, OutFolder, RECORD, RunRecord, SequenceNames, SequenceRecord, Timings,
+    damaged_result, read_record,
 };
 use std::path::{Path, PathBuf};
 
@@ -111,14 +111,19 @@ impl OutputFolder {
         self.record.sequence(name).is_some()
     }
 
+    /// Keeps what a sequence is read from, for those that label parts of it.
+    pub(super) fn remember(&self, sequence: &Identity, name: &Component) -> Result<(), DataError> {
+        self.unfinished.remember(sequence, name)
+    }
+
     /// Where a sequence is labelled.
     pub(super) fn workspace<'a>(
         &'a self,
         sequence: &Identity,
         names: &'a SequenceNames,
     ) -> Result<Workspace<'a>, DataError> {
-        let folder = self.unfinished.scans(sequence, &names.sequence)?;
-        Ok(Workspace::new(names, folder, &self.results))
+        let folder = self.unfinished.scans(&sequence.fingerprint, &names.sequence)?;
+        Workspace::open(names, folder, &self.results)
     }
 
     /// A sequence's results are in their places.

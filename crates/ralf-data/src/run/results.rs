@@ -1,8 +1,10 @@
 //! How a run's results go once others take their places.
 
+use super::scan_log::scans_in;
 use crate::disk::files;
 use crate::error::DataError;
 use crate::result::{Component, Places, SequenceRecord};
+use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 
@@ -37,18 +39,15 @@ impl Results {
         self.remove_folders(&sequence, &radars)
     }
 
-    /// Removes what was labelled of sequences, by the scans that are kept as `SEQUENCE/RADAR/000000.rows`.
+    /// Removes what was labelled of the sequences that are under way in a folder.
     pub(super) fn remove_unfinished(&self, kept: &Path) -> Result<(), DataError> {
         for sequence in components(kept)? {
-            let kept = kept.join(sequence.as_str());
-            let radars = components(&kept)?;
-            for radar in &radars {
-                let names = files::names(&kept.join(radar.as_str()))?;
-                for scan in names.iter().filter_map(|name| name.strip_suffix(".rows")?.parse().ok()) {
-                    self.remove_label(&sequence, radar, scan)?;
-                }
+            let mut radars = BTreeSet::new();
+            for (radar, scan) in scans_in(&kept.join(sequence.as_str()))? {
+                self.remove_label(&sequence, &radar, scan)?;
+                radars.insert(radar);
             }
-            self.remove_folders(&sequence, &radars)?;
+            self.remove_folders(&sequence, &Vec::from_iter(radars))?;
         }
         Ok(())
     }

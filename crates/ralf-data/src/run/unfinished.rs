@@ -1,7 +1,8 @@
 //! What runs keep in the output folder until `run.json` tells of it.
 //!
 //! `OUT/.ralf-run/RUN/FINGERPRINT/` holds a sequence under way, `FINGERPRINT.json` a finished one. Both names are
-//! fingerprints: of program and settings, and of the sequence.
+//! fingerprints: of program and settings, and of the sequence. `FINGERPRINT/inputs.json` tells of a sequence that is
+//! labelled in parts what it was read from.
 
 use super::fingerprint;
 use super::inputs::Identity;
@@ -16,6 +17,8 @@ use std::path::Path;
 
 /// Of all runs.
 pub(super) const FOLDER: &str = ".ralf-run";
+/// Of a sequence that is labelled in parts.
+const INPUTS: &str = "inputs.json";
 
 /// A finished sequence and what it was read from.
 pub(super) type Finished = (SequenceRecord, Vec<Input>);
@@ -38,9 +41,32 @@ impl Unfinished {
     }
 
     /// The scans of a sequence under way.
-    pub(super) fn scans(&self, sequence: &Identity, name: &Component) -> Result<OutFolder, DataError> {
-        let fingerprint = checked("fingerprint of a sequence", &sequence.fingerprint)?;
-        Ok(self.folder().folder(&fingerprint).folder(name))
+    pub(super) fn scans(&self, fingerprint: &str, name: &Component) -> Result<OutFolder, DataError> {
+        Ok(self.sequence(fingerprint)?.folder(name))
+    }
+
+    fn sequence(&self, fingerprint: &str) -> Result<OutFolder, DataError> {
+        Ok(self.folder().folder(&checked("fingerprint of a sequence", fingerprint)?))
+    }
+
+    /// Keeps what a sequence is read from, and makes room for its scans.
+    pub(super) fn remember(&self, sequence: &Identity, name: &Component) -> Result<(), DataError> {
+        let scans = self.scans(&sequence.fingerprint, name)?;
+        fs::create_dir_all(scans.path()).map_err(DataError::io(scans.path()))?;
+        write_json(&self.sequence(&sequence.fingerprint)?.own_file(INPUTS), &sequence.inputs)
+    }
+
+    /// Whether a sequence is remembered.
+    pub(super) fn is_planned(&self, fingerprint: &str) -> Result<bool, DataError> {
+        files::exists(&self.sequence(fingerprint)?.own_file(INPUTS))
+    }
+
+    /// All inputs that are remembered; a list that is not whole is none.
+    pub(super) fn inputs(&self) -> Result<Vec<Input>, DataError> {
+        let folder = self.folder();
+        let lists = files::folders(folder.path())?.into_iter();
+        let lists = lists.filter_map(|name| read_json(&folder.path().join(name).join(INPUTS)).ok());
+        Ok(lists.flat_map(|inputs: Vec<Input>| inputs).collect())
     }
 
     /// Sequences that were finished by runs which were killed later; a record that is not whole is none.

@@ -3,72 +3,89 @@
 use super::workspace::Workspace;
 use super::{Observer, Stage, Task};
 use crate::error::DataError;
-use crate::frames::{Frames, ScanIndex, all_scans};
+use crate::frames::{Frames, ScanIndex};
 use crate::result::{NotLabelled, ScanNotes, ScanParts, Table};
 use ralf::config::Config;
 use ralf::evidence;
 use ralf::learned::LearnedScan;
 use ralf::paper::Labeler;
-use ralf::scene::FrameWindow;
+use ralf::scene::{Frame, FrameWindow};
 
-/// Labels all scans of a sequence that an earlier run has not. Returns those that could not be labelled.
-pub(super) fn label_scans(
-    task: &Task,
-    config: &Config,
-    workspace: &Workspace,
-    jobs: usize,
-    observer: &dyn Observer,
-) -> Result<Vec<NotLabelled>, DataError> {
-    let scans = all_scans(&task.reader.sequence().times);
-    observer.begin(Stage::Labelling(&task.reader.sequence().name), scans.len() as u64);
-    let labelling = Labelling { task, config, workspace };
-    let frames =
-        Frames { reader: task.reader, rig: &task.rig, config, evidence: task.gathers_evidence(), jobs };
-    let labelled = frames.each(&scans, |window, place| {
-        let ScanIndex { radar, scan } = scans[place];
-        let labelled = labelling.label_scan(window, radar, scan)?;
-        observer.advance(1, labelled.as_ref().map_or(0, |detections| *detections));
-        Ok::<_, DataError>(labelled.err())
-    });
-    observer.end();
-    let mut failed: Vec<NotLabelled> = labelled?.into_iter().flatten().collect();
-    failed.sort();
-    Ok(failed)
-}
-
-/// What all workers share.
-struct Labelling<'a> {
-    task: &'a Task<'a>,
-    config: &'a Config,
-    workspace: &'a Workspace<'a>,
+/// What all workers on a sequence share.
+pub(super) struct Labelling<'a> {
+    pub(super) task: &'a Task<'a>,
+    pub(super) config: &'a Config,
+    pub(super) observer: &'a dyn Observer,
 }
 
 impl Labelling<'_> {
+    /// Labels these scans of a sequence, as far as an earlier run has not. Returns those that could not be labelled.
+    pub(super) fn label_scans(
+        &self,
+        scans: &[ScanIndex],
+        workspace: &Workspace,
+        jobs: usize,
+    ) -> Result<Vec<NotLabelled>, DataError> {
+        let labelled = self.each(scans, jobs, |window, scan| {
+            let labelled = self.label_scan(workspace, window, scan)?;
+            self.observer.advance(1, labelled.as_ref().map_or(0, |detections| *detections));
+            Ok(labelled.err())
+        });
+        let mut failed: Vec<NotLabelled> = labelled?.into_iter().flatten().collect();
+        failed.sort();
+        Ok(failed)
+    }
+
+    /// Works on these scans with windows, until somebody wants it to end. Results are in the scans' order.
+    pub(super) fn each<R: Send>(
+        &self,
+        scans: &[ScanIndex],
+        jobs: usize,
+        work: impl Fn(&mut FrameWindow, ScanIndex) -> Result<R, DataError> + Sync,
+    ) -> Result<Vec<R>, DataError> {
+        let Task { reader, rig, .. } = self.task;
+        self.observer.begin(Stage::Labelling(&reader.sequence().name), scans.len() as u64);
+        let evidence = self.task.gathers_evidence();
+        let frames = Frames { reader: *reader, rig, config: self.config, evidence, jobs };
+        let worked = frames.each(scans, |window, place| match self.observer.stopped() {
+            true => Err(DataError::Stopped),
+            false => work(window, scans[place]),
+        });
+        self.observer.end();
+        worked
+    }
+
     /// Labels one scan, unless that was done before. Returns how many detections are new, or why it can't be labelled.
     fn label_scan(
         &self,
+        workspace: &Workspace,
         window: &mut FrameWindow,
-        radar: usize,
-        scan: usize,
+        ScanIndex { radar, scan }: ScanIndex,
     ) -> Result<Result<u64, NotLabelled>, DataError> {
-        let Task { rig, schema, .. } = self.task;
-        let name = &rig.radars[radar].name;
-        if self.workspace.has_kept(radar, scan, schema) {
+        if workspace.has_kept(radar, scan, &self.task.schema) {
             return Ok(Ok(0));
         }
         let frame = match window.frame(radar, scan) {
             Ok(frame) => frame,
             Err(error) => {
-                let failed = NotLabelled { radar: name.clone(), scan, reason: error.to_string() };
-                self.workspace.forget(radar, scan)?;
-                return Ok(Err(failed));
+                let name = self.task.rig.radars[radar].name.clone();
+                workspace.forget(radar, scan)?;
+                return Ok(Err(NotLabelled { radar: name, scan, reason: error.to_string() }));
             }
         };
+        let table = self.table(radar, &frame)?;
+        workspace.keep(radar, scan, &ScanNotes::new(&frame), &table)?;
+        Ok(Ok(table.len() as u64))
+    }
+
+    /// What is said of the detections of a radar's frame.
+    pub(super) fn table(&self, radar: usize, frame: &Frame) -> Result<Table, DataError> {
+        let Task { rig, schema, labeler, .. } = self.task;
         let gathers = self.task.gathers_evidence();
-        let evidence = if gathers { evidence::observe(&frame, self.config) } else { Vec::new() };
-        let LearnedScan { labels, answers } = match self.task.labeler {
-            Some(labeler) => labeler.label(&frame, &evidence),
-            None => LearnedScan { labels: Labeler::new(self.config).label(&frame), answers: Vec::new() },
+        let evidence = if gathers { evidence::observe(frame, self.config) } else { Vec::new() };
+        let LearnedScan { labels, answers } = match labeler {
+            Some(labeler) => labeler.label(frame, &evidence),
+            None => LearnedScan { labels: Labeler::new(self.config).label(frame), answers: Vec::new() },
         };
         let parts = ScanParts {
             radar: &rig.radars[radar],
@@ -77,8 +94,6 @@ impl Labelling<'_> {
             evidence: &evidence,
             answers: &answers,
         };
-        let table = Table::of_scan(schema, &parts)?;
-        self.workspace.keep(radar, scan, &ScanNotes::new(&frame), &table)?;
-        Ok(Ok(labels.len() as u64))
+        Table::of_scan(schema, &parts)
     }
 }

@@ -1,12 +1,11 @@
-//! A sequence while it is labelled: its scans, each in files of its own, that a run which was killed finds again.
-//!
-//! `FINGERPRINT/SEQUENCE/RADAR/000000.rows` holds a labelled scan, `000000.json` what is told of it beside that.
+//! A sequence while it is labelled: its scans, which a run that was killed finds again.
 
 use super::results::Results;
+use super::scan_log::ScanLog;
 use crate::disk::label_file::write_labels;
 use crate::error::DataError;
-use crate::result::json::{read_json, write_json};
-use crate::result::{Component, OutFolder, ScanNotes, Schema, SequenceNames, Table, read_rows, write_rows};
+use crate::frames::ScanIndex;
+use crate::result::{OutFolder, ScanNotes, Schema, SequenceNames, Table, row_bytes, table_of_rows};
 use std::fs;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -14,14 +13,18 @@ use std::sync::Arc;
 /// The scans of a sequence.
 pub(super) struct Workspace<'a> {
     names: &'a SequenceNames,
-    folder: OutFolder,
+    log: ScanLog,
     results: &'a Results,
 }
 
 impl<'a> Workspace<'a> {
     /// The scans that are kept in this folder.
-    pub(super) fn new(names: &'a SequenceNames, folder: OutFolder, results: &'a Results) -> Self {
-        Self { names, folder, results }
+    pub(super) fn open(
+        names: &'a SequenceNames,
+        folder: OutFolder,
+        results: &'a Results,
+    ) -> Result<Self, DataError> {
+        Ok(Self { names, log: ScanLog::open(folder, &names.radars)?, results })
     }
 
     /// Where the sequence's table goes.
@@ -37,26 +40,36 @@ impl<'a> Workspace<'a> {
         notes: &ScanNotes,
         table: &Table,
     ) -> Result<(), DataError> {
-        write_rows(&self.file(radar, scan, "rows"), table)?;
-        write_json(&self.file(radar, scan, "json"), notes)?;
-        write_labels(&self.label_file(radar, scan), &table.labels()?)
+        let file = self.label_file(radar, scan);
+        let notes = serde_json::to_vec(notes).map_err(|error| DataError::io(&file)(error.into()))?;
+        let body = [&(notes.len() as u64).to_le_bytes()[..], &notes, &row_bytes(&file, table)?].concat();
+        self.log.append(ScanIndex { radar, scan }, &body)?;
+        write_labels(&file, &table.labels()?)
     }
 
-    /// Whether a scan was labelled before, and all its files are whole: a power cut may leave empty ones.
+    /// Whether a scan was labelled before, and all of it is whole: a power cut may leave empty files.
     pub(super) fn has_kept(&self, radar: usize, scan: usize, schema: &Arc<Schema>) -> bool {
+        let Ok((table, _)) = self.scan(radar, scan, schema) else { return false };
         let label = fs::metadata(self.label_file(radar, scan));
-        let Ok(table) = self.table(radar, scan, schema) else { return false };
-        label.is_ok_and(|label| label.len() == 4 * table.len() as u64) && self.notes(radar, scan).is_ok()
+        label.is_ok_and(|label| label.len() == 4 * table.len() as u64)
     }
 
-    /// The table of a scan.
-    pub(super) fn table(&self, radar: usize, scan: usize, schema: &Arc<Schema>) -> Result<Table, DataError> {
-        read_rows(&self.file(radar, scan, "rows"), schema)
-    }
-
-    /// What is told of a scan beside its detections.
-    pub(super) fn notes(&self, radar: usize, scan: usize) -> Result<ScanNotes, DataError> {
-        read_json(&self.file(radar, scan, "json"))
+    /// The table of a scan, and what is told of it beside its detections.
+    pub(super) fn scan(
+        &self,
+        radar: usize,
+        scan: usize,
+        schema: &Arc<Schema>,
+    ) -> Result<(Table, ScanNotes), DataError> {
+        let place = || format!("scan {scan} of {}", self.names.radars[radar].as_str());
+        let lost =
+            || DataError::content(self.log.folder(), place(), "what was labelled", "nothing that is whole");
+        let (file, body) = self.log.read(ScanIndex { radar, scan }).ok_or_else(lost)?;
+        let (notes, rest) = body.split_first_chunk().ok_or_else(lost)?;
+        let length = usize::try_from(u64::from_le_bytes(*notes)).map_err(|_| lost())?;
+        let (notes, rows) = rest.split_at_checked(length).ok_or_else(lost)?;
+        let notes = serde_json::from_slice(notes).map_err(|_| lost())?;
+        Ok((table_of_rows(&file, rows, schema)?, notes))
     }
 
     /// Removes the `.label` file that an earlier run made of a scan that can't be labelled now.
@@ -67,9 +80,5 @@ impl<'a> Workspace<'a> {
     /// The labels of a scan.
     pub(super) fn label_file(&self, radar: usize, scan: usize) -> PathBuf {
         self.results.places().label_file(&self.names.sequence, &self.names.radars[radar], scan)
-    }
-
-    fn file(&self, radar: usize, scan: usize, kind: &'static str) -> PathBuf {
-        self.folder.folder(&self.names.radars[radar]).file(&Component::numbered(scan, kind))
     }
 }

@@ -2,8 +2,9 @@
 //!
 //! `sequences/NAME/ground_truth/causes.txt` names the causes, one per line: line n (from 0) is code n, and line 0 is
 //! `none`. `sequences/NAME/ground_truth/RADAR/NNNNNN.cause` beside a `.label` file holds one uint8 per detection, the
-//! code.
+//! code. Formats that tell causes have [numbers of their own](ralf::label::Cause) for them.
 
+use super::known::KnownTruth;
 use crate::disk::files;
 use crate::error::DataError;
 use crate::truth::scan_id::ScanId;
@@ -15,10 +16,19 @@ const NAMES: &str = "causes.txt";
 const NONE: &str = "none";
 
 /// The causes of one sequence's artifacts.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone)]
 pub struct Causes {
-    dataset: PathBuf,
+    told: Told,
     names: Vec<String>,
+}
+
+/// Who tells the codes.
+#[derive(Debug, Clone)]
+enum Told {
+    /// Files below this dataset.
+    Files(PathBuf),
+    /// The recording's format.
+    Format(KnownTruth),
 }
 
 impl Causes {
@@ -46,7 +56,13 @@ impl Causes {
         if let Some(name) = names.get(usize::from(u8::MAX) + 1) {
             return refuse(257, "at most 256 names", name);
         }
-        Ok(Some(Self { dataset: dataset.to_owned(), names }))
+        Ok(Some(Self { told: Told::Files(dataset.to_owned()), names }))
+    }
+
+    /// The causes that a format tells; `None` of a sequence in which it tells none apart.
+    pub(super) fn known(known: &KnownTruth, sequence: &str) -> Option<Self> {
+        let names = known.causes(sequence);
+        (!names.is_empty()).then(|| Self { told: Told::Format(known.clone()), names })
     }
 
     /// The name of each code; that of code 0 is `none`.
@@ -59,11 +75,20 @@ impl Causes {
     /// # Errors
     /// Another number of codes, or a code without a name.
     pub fn of_scan(&self, scan: &ScanId, detections: usize) -> Result<Option<Vec<u8>>, DataError> {
-        let file = scan.truth_file(&self.dataset).with_extension("cause");
-        if !files::exists(&file)? {
-            return Ok(None);
-        }
-        let codes = files::read(&file)?;
+        let (file, codes) = match &self.told {
+            Told::Files(dataset) => {
+                let file = scan.truth_file(dataset).with_extension("cause");
+                if !files::exists(&file)? {
+                    return Ok(None);
+                }
+                let codes = files::read(&file)?;
+                (file, codes)
+            }
+            Told::Format(known) => {
+                let Some(truth) = known.of_scan(scan)? else { return Ok(None) };
+                (known.file(&scan.sequence), truth.causes)
+            }
+        };
         if codes.len() != detections {
             let expected = format!("{detections} as in its ground truth");
             return Err(DataError::content(&file, "number of codes", expected, codes.len().to_string()));
@@ -90,7 +115,7 @@ mod tests {
     #[test]
     fn codes_have_names() {
         let folder = tempfile::tempdir().unwrap();
-        assert_eq!(Causes::find(folder.path(), "00").unwrap(), None);
+        assert!(Causes::find(folder.path(), "00").unwrap().is_none());
         let truth = folder.path().join("sequences/00/ground_truth");
         write(&truth.join("causes.txt"), b"none\nclutter\nmultipath\n");
         write(&truth.join("front/000003.cause"), &[0, 2, 1]);

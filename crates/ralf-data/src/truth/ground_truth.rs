@@ -1,7 +1,9 @@
-//! The corrected labels of a dataset: `sequences/NAME/ground_truth/RADAR/NNNNNN.label` (docs/formats.md, section 1),
-//! and above them the corrections of a review.
+//! The corrected labels of a dataset: `sequences/NAME/ground_truth/RADAR/NNNNNN.label` (docs/formats.md, section 1), or
+//! what a format of its own says of its detections; and above them the corrections of a review.
 
+use super::causes::Causes;
 use super::corrections::Corrections;
+use super::known::KnownTruth;
 use super::scan_id::{EXTENSION, ScanId, label_name};
 use crate::disk::files;
 use crate::disk::label_file::{Label, read_labels};
@@ -15,8 +17,10 @@ pub struct GroundTruth {
     dataset: PathBuf,
     /// With a file of their own, with corrections, or both.
     scans: Vec<ScanId>,
-    /// With a file of their own.
+    /// With a file of their own, or told by their format.
     files: BTreeSet<ScanId>,
+    /// The format that tells.
+    known: Option<KnownTruth>,
     corrections: Option<Corrections>,
 }
 
@@ -42,11 +46,15 @@ impl GroundTruth {
     }
 
     fn gather(dataset: &Path, corrections: Option<Corrections>) -> Result<Option<Self>, DataError> {
-        let files = scans_with_files(dataset)?;
+        let known = KnownTruth::find(dataset)?;
+        let files = match &known {
+            Some(known) => known.scans()?.into_iter().collect(),
+            None => scans_with_files(dataset)?,
+        };
         let corrected = corrections.iter().flat_map(Corrections::scans);
         let scans: BTreeSet<ScanId> = files.iter().chain(corrected).cloned().collect();
         let scans: Vec<ScanId> = scans.into_iter().collect();
-        let found = Self { dataset: dataset.to_owned(), scans, files, corrections };
+        let found = Self { dataset: dataset.to_owned(), scans, files, known, corrections };
         Ok((!found.scans.is_empty()).then_some(found))
     }
 
@@ -64,16 +72,31 @@ impl GroundTruth {
     /// What people say of a scan, one label per detection: its correction, else what its file says, else what was
     /// accepted when it was marked as reviewed, else 0 (unlabeled).
     pub fn labels(&self, scan: &ScanId) -> Result<Vec<Label>, DataError> {
-        let on_file = || read_labels(&scan.truth_file(&self.dataset));
+        let on_file = || match self.known.as_ref().map(|known| known.of_scan(scan)).transpose()?.flatten() {
+            Some(truth) => Ok(truth.labels),
+            None => read_labels(&scan.truth_file(&self.dataset)),
+        };
         let Some(corrections) = &self.corrections else { return on_file() };
         let file = if self.files.contains(scan) { Some(on_file()?) } else { None };
         corrections.truth(scan, file)?.map_or_else(on_file, Ok)
     }
 
+    /// Why the artifacts of a sequence are such, where its format or files of causes tell it.
+    ///
+    /// # Errors
+    /// Those of [`Causes::find`].
+    pub fn causes(&self, sequence: &str) -> Result<Option<Causes>, DataError> {
+        match &self.known {
+            Some(known) => Ok(Causes::known(known, sequence)),
+            None => Causes::find(&self.dataset, sequence),
+        }
+    }
+
     /// Where most of it is read from.
-    pub(crate) fn file(&self, scan: &ScanId) -> PathBuf {
-        match &self.corrections {
-            Some(corrections) if !self.files.contains(scan) => corrections.file().to_owned(),
+    pub fn file(&self, scan: &ScanId) -> PathBuf {
+        match (&self.corrections, &self.known) {
+            (Some(corrections), _) if !self.files.contains(scan) => corrections.file().to_owned(),
+            (_, Some(known)) => known.file(&scan.sequence),
             _ => scan.truth_file(&self.dataset),
         }
     }

@@ -6,6 +6,7 @@ mod content;
 mod corrections;
 mod effective;
 mod ground_truth;
+mod known;
 mod scan_id;
 
 pub use causes::Causes;

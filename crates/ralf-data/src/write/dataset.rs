@@ -162,7 +162,9 @@ impl Writer<'_> {
             files::write_whole(&truth_file, &files::read(&truth)?)?;
         } else if let Some(truth) = self.reader.truth(radar, scan)? {
             write_labels(&truth_file, &truth.labels)?;
-            files::write_whole(&truth_file.with_extension("cause"), &truth.causes)?;
+            if !self.reader.causes().is_empty() {
+                files::write_whole(&truth_file.with_extension("cause"), &truth.causes)?;
+            }
         }
         Ok(())
     }

@@ -11,7 +11,7 @@ use crate::read::{SequenceReader, TruthLabels};
 use ralf::label::Cause;
 use ralf::sensors::{Source, SourceError};
 use ralf_sim::SimulatedSequence;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// Writes simulated sequences into a dataset, one after the other, each with so many threads as
 /// [`write_sequence_with`] does it. `progress` is told how many measurements of all sequences are done.
@@ -34,18 +34,6 @@ pub fn write_simulated(
 }
 
 impl SequenceReader for SimulatedSequence {
-    fn inputs(&self) -> Vec<PathBuf> {
-        Vec::new()
-    }
-
-    fn warnings(&self) -> &[String] {
-        &[]
-    }
-
-    fn image_file(&self, _camera: usize, _image: usize) -> Option<PathBuf> {
-        None
-    }
-
     fn truth(&self, radar: usize, scan: usize) -> Result<Option<TruthLabels>, SourceError> {
         let truth = SimulatedSequence::truth(self, radar, scan)?;
         Ok(Some(TruthLabels {

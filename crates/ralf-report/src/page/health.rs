@@ -9,11 +9,12 @@ use ralf::scene::{Failure, ViewState};
 use ralf_data::run::{CameraRecord, RadarRecord};
 
 /// Flags that tell of something missing in a whole scan, then those that are everyday.
-const FLAGS: [(u16, &str); 7] = [
+const FLAGS: [(u16, &str); 8] = [
     (flag::NO_LIDAR, "no LiDAR scan near in time"),
     (flag::NO_NEIGHBOURS, "no neighbouring radar scan"),
     (flag::CAMERA_FAILED, "in a failed camera view"),
     (flag::UNOBSERVED, "seen by no branch"),
+    (flag::UNCONFIRMED, "told of by the radar alone, beyond the LiDAR's map"),
     (flag::PAPER, "unlike what the model knows, answered by the paper's method"),
     (flag::BLIND_SPOT, "in the LiDAR’s blind spot"),
     (flag::GROUND, "on the ground"),

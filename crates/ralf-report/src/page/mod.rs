@@ -11,6 +11,7 @@ mod provenance;
 mod realism;
 mod score;
 mod tables;
+mod told;
 
 pub(crate) use realism::render as realism;
 
@@ -46,6 +47,7 @@ pub(crate) fn render(content: &Content) -> Result<String, ReportError> {
         (score::score(content)?)
         (errors::errors(content)?)
         (balance::balance(content)?)
+        (told::told(content))
         (evidence::evidence(content))
         (pictures::pictures(content))
         (health::health(content))

@@ -43,6 +43,11 @@ impl Table {
         self.column(name, "u16", values.into_iter().map(u16::to_le_bytes));
     }
 
+    /// Adds a column of larger numbers.
+    pub(crate) fn u32(&mut self, name: &str, values: impl IntoIterator<Item = u32>) {
+        self.column(name, "u32", values.into_iter().map(u32::to_le_bytes));
+    }
+
     fn column<const N: usize>(&mut self, name: &str, kind: &str, values: impl Iterator<Item = [u8; N]>) {
         self.columns.push(json!({ "name": name, "type": kind, "offset": self.bytes.len() }));
         let begin = self.bytes.len();

@@ -95,7 +95,7 @@ fn corrected(detections: usize, said: &ScanState) -> Vec<u8> {
 
 fn header(place: &ScanPlace, labels: &SequenceLabels, said: &ScanState) -> Map<String, Value> {
     let sequence = place.reader.sequence();
-    let (_, failed) = labels.cameras_at(&sequence.times.cameras, place.t_ns);
+    let failed = labels.failed_cameras_at(&sequence.times.cameras, place.t_ns);
     let failed: Vec<&str> =
         failed.into_iter().map(|camera| sequence.rig.cameras[camera].name.as_str()).collect();
     Map::from_iter([

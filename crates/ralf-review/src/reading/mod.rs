@@ -7,6 +7,8 @@ mod moment;
 mod projection;
 mod queue;
 mod recording;
+mod said;
+mod things;
 
 pub(crate) use camera::image;
 pub(crate) use detections::{check_size, detections, machine_labels, reviewed, stamp};
@@ -15,6 +17,7 @@ pub(crate) use moment::{Moment, moment};
 pub(crate) use projection::{Projection, projection};
 pub(crate) use queue::{progress, queue};
 pub(crate) use recording::recording;
+pub(crate) use things::{doubtful, things};
 
 use ralf::space::Transform;
 use serde_json::{Value, json};

@@ -10,7 +10,7 @@ use ralf_data::run::read_record;
 use serde_json::{Value, json};
 
 /// The bits of a detection's flags (docs/formats.md, section 2).
-const FLAGS: [(u16, &str); 7] = [
+const FLAGS: [(u16, &str); 8] = [
     (flag::GROUND, "ground"),
     (flag::BLIND_SPOT, "blind spot"),
     (flag::CAMERA_FAILED, "camera failed"),
@@ -18,6 +18,7 @@ const FLAGS: [(u16, &str); 7] = [
     (flag::NO_NEIGHBOURS, "no neighbouring radar scan"),
     (flag::UNOBSERVED, "unobserved"),
     (flag::PAPER, "paper"),
+    (flag::UNCONFIRMED, "unconfirmed"),
 ];
 
 /// SemanticKITTI's ids end here.

@@ -7,3 +7,4 @@ mod harm;
 mod reading;
 mod safety;
 mod support;
+mod things;

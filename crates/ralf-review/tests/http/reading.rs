@@ -223,7 +223,7 @@ fn a_moment_has_the_scans_around_it() {
 }
 
 #[test]
-fn the_queue_begins_with_the_most_needy() {
+fn the_queue_begins_with_the_most_expected_errors() {
     let out = Out::new();
     let server = out.serve();
     let queue = server.of_sequence("queue").json();
@@ -232,9 +232,8 @@ fn the_queue_begins_with_the_most_needy() {
         queue["progress"],
         json!({ "scans": 12, "reviewed": 0, "corrected_detections": 0, "orphaned_scans": 0 })
     );
-    let need = |scan: &Value| scan["need"].as_f64().unwrap();
-    assert!(scans.iter().all(|scan| (0.0..=1.0).contains(&need(scan))));
-    assert!(scans.is_sorted_by(|a, b| need(a) >= need(b)) && need(&scans[0]) > need(&scans[11]));
+    let left = |scan: &Value| scan["expected_errors"].as_f64().unwrap();
+    assert!(scans.is_sorted_by(|a, b| left(a) >= left(b)) && left(&scans[0]) > left(&scans[11]));
     let all = Rows::read(&out);
     let threshold = Config::default().fusion.threshold;
     for scan in scans {
@@ -243,6 +242,9 @@ fn the_queue_begins_with_the_most_needy() {
             (0..all.w.len()).filter(|r| scan["radar"] == *all.radar[*r] && all.scan[*r] == number).collect();
         let on_floor = |row: &usize| all.flags[*row] & ralf::label::flag::GROUND != 0;
         let is_near = |row: &usize| (f64::from(all.w[*row]) - threshold).abs() <= 0.1;
+        let doubt = |row: &usize| (1.0 - (f64::from(all.w[*row]) - threshold).abs() / 0.3).max(0.0);
+        let expected: f64 = rows.iter().filter(|row| !on_floor(row)).map(doubt).sum();
+        assert!((left(scan) - expected).abs() < 1e-3, "{} {expected}", left(scan));
         let uncertain = rows.iter().filter(|row| is_near(row) && !on_floor(row)).count();
         assert_eq!((&scan["detections"], &scan["uncertain"]), (&json!(rows.len()), &json!(uncertain)));
     }

@@ -303,6 +303,10 @@ impl Table {
         self.column(name, "f32").into_iter().map(f32::from_le_bytes).collect()
     }
 
+    pub(crate) fn u32(&self, name: &str) -> Vec<u32> {
+        self.column(name, "u32").into_iter().map(u32::from_le_bytes).collect()
+    }
+
     pub(crate) fn u16(&self, name: &str) -> Vec<u16> {
         self.column(name, "u16").into_iter().map(u16::from_le_bytes).collect()
     }

@@ -26,6 +26,7 @@ import { legendPanel } from "./panels/legend.js";
 import { QueuePanel } from "./panels/queue-panel.js";
 import { scanBar, scanTitle } from "./panels/scan-bar.js";
 import { statusBar } from "./panels/status-bar.js";
+import { thingBar } from "./panels/thing-bar.js";
 import { Timeline } from "./panels/timeline.js";
 import { toolbar } from "./panels/toolbar.js";
 import { keepPreferences } from "./preferences.js";
@@ -82,7 +83,7 @@ function build(page: Page): void {
   listenToKeys(table, page.store);
   keepFocus(viewport.element);
   const overlays = [legendPanel(page), scanTitle(page), painting(page), notice(page)];
-  const asked = [banner(page), acceptBar(page, home), conflictDialog(page)];
+  const asked = [banner(page), acceptBar(page, home), thingBar(page), conflictDialog(page)];
   const stage = h("div", { class: "stage" }, viewport.element, centreCamera.element, ...overlays, ...asked);
   document.body.append(
     h(

@@ -1,10 +1,10 @@
 /** How a person looks at a dataset: colours, filters and the like, kept in the browser over a reload. */
 
-import { everything, type Filter, type Origin, type Span } from "./data/filter.js";
+import { type ColumnSpan, everything, type Filter, type Origin, type Span } from "./data/filter.js";
 import type { State } from "./state.js";
 import type { Store } from "./store.js";
 
-const KEPT = ["colour", "filter", "lidarShown", "groundHidden", "dotSize", "queueView"] as const;
+const KEPT = ["colour", "filter", "lidarShown", "groundHidden", "light", "dotSize", "queueView"] as const;
 type Preferences = Pick<State, (typeof KEPT)[number]>;
 
 /** Takes up what was kept of the dataset, and keeps every change from now on. */
@@ -18,10 +18,18 @@ export function keepPreferences(store: Store<State>): void {
 }
 
 export function writtenPreferences(state: Preferences): string {
-  const { filter } = state;
-  const { colour, lidarShown, groundHidden, dotSize, queueView } = state;
-  const plain = { ...filter, hiddenRadars: [...filter.hiddenRadars] };
-  return JSON.stringify({ colour, lidarShown, groundHidden, dotSize, queueView, filter: plain });
+  const { colour, lidarShown, groundHidden, light, dotSize, queueView } = state;
+  const filter = plainFilter(state.filter);
+  return JSON.stringify({ colour, lidarShown, groundHidden, light, dotSize, queueView, filter });
+}
+
+/** A filter as JSON can hold it; `filterFrom` takes it back. */
+export function plainFilter(filter: Filter): object {
+  const columns = filter.columns.map(({ name, span }) => ({
+    name,
+    span: span.map((end) => (isFinite(end) ? end : null)),
+  }));
+  return { ...filter, hiddenRadars: [...filter.hiddenRadars], columns };
 }
 
 /** What is kept as far as it makes sense; the rest is as it is. */
@@ -40,13 +48,15 @@ export function read(text: string | null, now: Preferences): Partial<Preferences
     ...same("colour"),
     ...same("lidarShown"),
     ...same("groundHidden"),
+    ...same("light"),
     ...same("dotSize"),
     queueView: { ...now.queueView, ...(found["queueView"] as object | undefined) },
     filter: filterFrom(found["filter"]),
   };
 }
 
-function filterFrom(kept: unknown): Filter {
+/** A filter as far as what was kept makes sense. */
+export function filterFrom(kept: unknown): Filter {
   if (typeof kept !== "object" || kept === null) return everything;
   const found = kept as Record<string, unknown>;
   const flag = (name: "plausible" | "artifact" | "unlabelled" | "uncertain"): boolean =>
@@ -63,7 +73,15 @@ function filterFrom(kept: unknown): Filter {
     height: spanFrom(found["height"], everything.height),
     flags: typeof found["flags"] === "number" ? found["flags"] : everything.flags,
     hiddenRadars: new Set(Array.isArray(found["hiddenRadars"]) ? found["hiddenRadars"].map(String) : []),
+    columns: columnsFrom(found["columns"]),
   };
+}
+
+function columnsFrom(kept: unknown): readonly ColumnSpan[] {
+  if (!Array.isArray(kept)) return [];
+  return kept.flatMap((one: { readonly name?: unknown; readonly span?: unknown } | null) =>
+    typeof one?.name === "string" ? [{ name: one.name, span: spanFrom(one.span, [-Infinity, Infinity]) }] : [],
+  );
 }
 
 /** JSON knows no infinity: an end that isn't a number is the whole span's. */

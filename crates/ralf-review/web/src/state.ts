@@ -1,12 +1,14 @@
 /** Everything the page knows and shows. */
 
-import type { ScanId, History, Progress, QueueScan, Recording } from "./api/types.js";
+import type { DoubtfulThing, ScanId, History, Progress, QueueScan, Recording } from "./api/types.js";
 import type { CameraMoment } from "./data/camera-moment.js";
 import { buildCloud, type Cloud } from "./data/cloud.js";
 import { everything, type Filter } from "./data/filter.js";
 import { type Choice, LabelBook } from "./data/labels.js";
+import type { Rule } from "./data/rules.js";
 import type { Lidar } from "./data/lidar.js";
 import type { Unseen } from "./data/sight.js";
+import type { Things } from "./data/things.js";
 import type { OutboxStatus, Pending } from "./history/outbox.js";
 import type { QueueView } from "./queue/queue.js";
 import type { Tool } from "./selection/tools.js";
@@ -27,6 +29,13 @@ export interface Notice {
   readonly kind: "told" | "problem";
 }
 
+/** A place that the picture is to show: x, y, m, vehicle frame, and how many metres around it. */
+export interface Focus {
+  readonly x: number;
+  readonly y: number;
+  readonly span: number;
+}
+
 export interface State {
   readonly recording: Recording;
   readonly labels: LabelBook;
@@ -38,6 +47,13 @@ export interface State {
   /** Of other sequences, as far as somebody asked. */
   readonly progressElsewhere: ReadonlyMap<string, Progress>;
   readonly queueView: QueueView;
+
+  /** What belongs together over the sequence; `null` until somebody asks. */
+  readonly things: Things | null;
+  readonly doubtful: readonly DoubtfulThing[];
+  /** The thing that wants an answer, while somebody goes from thing to thing. */
+  readonly thing: DoubtfulThing | null;
+  readonly focus: Focus | null;
 
   /** The scan under review. */
   readonly current: ScanId | null;
@@ -51,9 +67,13 @@ export interface State {
   readonly accumulate: number;
   readonly lidarShown: boolean;
   readonly groundHidden: boolean;
+  /** A light background in the picture. */
+  readonly light: boolean;
   /** Diameter of a detection, px. */
   readonly dotSize: number;
   readonly filter: Filter;
+  /** Filters that were kept under a name. */
+  readonly rules: readonly Rule[];
   /** The camera a person chose to see large; `null`: the one that sees most. */
   readonly chosenCamera: string | null;
 
@@ -89,7 +109,7 @@ export interface State {
   readonly busy: boolean;
   readonly notice: Notice | null;
   readonly dialog: Dialog;
-  /** JavaScript time of the last drawn frame, ms. */
+  /** From the change until the picture was drawn, ms: the graphics card's work is part of it. */
   readonly frameTime: number;
 }
 
@@ -129,6 +149,10 @@ export function initialState(recording: Recording, name: string): State {
     progress: { scans: 0, reviewed: 0, corrected_detections: 0, orphaned_scans: 0 },
     progressElsewhere: new Map(),
     queueView: { order: "need", hideReviewed: false, radar: null },
+    things: null,
+    doubtful: [],
+    thing: null,
+    focus: null,
     current: null,
     loading: true,
     cloud: buildCloud([]),
@@ -139,8 +163,10 @@ export function initialState(recording: Recording, name: string): State {
     accumulate: 0,
     lidarShown: true,
     groundHidden: true,
+    light: false,
     dotSize: 8,
     filter: everything,
+    rules: [],
     chosenCamera: null,
     shown: new Uint8Array(0),
     eligible: new Uint8Array(0),

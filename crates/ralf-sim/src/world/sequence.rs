@@ -175,6 +175,10 @@ impl Simulation for WorldSequence {
 
     fn remove_cameras(&mut self) {}
 
+    fn true_radar(&self, radar: usize) -> Option<(Transform, i64)> {
+        self.world.radars.get(radar).map(|model| (model.vehicle_from_radar, model.clock_ns))
+    }
+
     fn true_pose(&self, t_ns: i64) -> Transform {
         let pose = |t: f64| self.ride.pose(&self.site.terrain, t);
         pose(0.0).inv_mul(&pose(seconds(t_ns)))

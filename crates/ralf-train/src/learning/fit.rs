@@ -11,7 +11,7 @@ use super::scores::{Judged, Scores, best_threshold};
 use super::side_by_side::side_by_side;
 use super::table::TrainingTable;
 use super::view::View;
-use ralf::learned::{Input, Model, Origin, Rows, Seen, World};
+use ralf::learned::{Input, Model, Origin, Rows, Seen, Unconfirmed, World, with_odds};
 use thiserror::Error;
 
 /// A model with what it is worth.
@@ -95,7 +95,7 @@ pub fn fit(
     });
     let Some(whole) = grown.pop() else { return Err(LearnError::TooFewWorlds(0)) };
     let log_odds = out_of_fold(table, &grown);
-    let left_out = judge(table, &log_odds, fitting.threshold);
+    let left_out = judge(table, &log_odds, fitting);
     let everywhere = calibration(&answered(table, &log_odds, |_| true));
     let causes =
         if fitting.causes { cause_forests(table, &ground.rows, &ground.bins, fitting) } else { Vec::new() };
@@ -179,16 +179,18 @@ fn answered(table: &TrainingTable, log_odds: &[f64], of: impl Fn(u16) -> bool) -
 }
 
 /// Every world by the others' calibration and threshold.
-fn judge(table: &TrainingTable, log_odds: &[f64], threshold: f64) -> Vec<LeftOut> {
+fn judge(table: &TrainingTable, log_odds: &[f64], fitting: &Fitting) -> Vec<LeftOut> {
+    let unconfirmed = Unconfirmed::among(table.features.iter().map(|feature| feature.name));
+    let factor = |row: usize| if unconfirmed.is(table.rows.row(row)) { fitting.unconfirmed } else { 1.0 };
     let mut all = Vec::new();
     for (number, name) in table.worlds.iter().enumerate() {
         let number = number as u16;
         let line = calibration(&answered(table, log_odds, |world| world != number));
         let judged = |here: &dyn Fn(u16) -> bool, view: View| -> Vec<Judged> {
-            let rows = table.known.iter().zip(log_odds);
-            let rows = rows.filter(|(known, _)| here(known.world) && known.view == view);
-            rows.map(|(known, log_odds)| Judged {
-                score: line.probability(*log_odds),
+            let rows = table.known.iter().zip(log_odds).enumerate();
+            let rows = rows.filter(|(_, (known, _))| here(known.world) && known.view == view);
+            rows.map(|(row, (known, log_odds))| Judged {
+                score: with_odds(line.probability(*log_odds), factor(row)),
                 plausible: known.plausible,
             })
             .collect()
@@ -207,7 +209,7 @@ fn judge(table: &TrainingTable, log_odds: &[f64], threshold: f64) -> Vec<LeftOut
             detections: here.len(),
             plausible: here.iter().filter(|row| row.plausible).count(),
             learned: Scores::new(&here, elsewhere),
-            at_threshold: Scores::new(&here, threshold),
+            at_threshold: Scores::new(&here, fitting.threshold),
             paper: paper(table, number),
             views,
         });
@@ -275,7 +277,7 @@ mod tests {
 
     fn fitting(jobs: usize) -> Fitting {
         let parameters = Parameters { rounds: 30, rows_per_leaf: 20, ..Parameters::default() };
-        Fitting { parameters, blanking: true, causes: true, threshold: 0.5, jobs }
+        Fitting { parameters, blanking: true, causes: true, threshold: 0.5, unconfirmed: 0.1, jobs }
     }
 
     fn fitted(table: &TrainingTable, jobs: usize) -> Result<Fitted, LearnError> {

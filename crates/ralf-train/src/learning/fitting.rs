@@ -13,6 +13,8 @@ pub struct Fitting {
     pub causes: bool,
     /// `w0`: what is labelled plausible.
     pub threshold: f64,
+    /// What the odds of detections that only the radar tells of are multiplied by, as `learned.unconfirmed` says.
+    pub unconfirmed: f64,
     /// Forests grown side by side; the result doesn't depend on it.
     pub jobs: usize,
 }

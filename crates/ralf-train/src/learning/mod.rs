@@ -9,6 +9,7 @@
 //! The same table and seed give the same model to the byte.
 
 mod balance;
+mod before;
 mod blanking;
 mod boosting;
 mod calibrate;
@@ -24,6 +25,7 @@ mod table;
 mod testing;
 mod view;
 
+pub use before::worth_in;
 pub use boosting::{Bins, Examples, Grown, Parameters, boost};
 pub use fit::{Fitted, LearnError, LeftOut, fit};
 pub use fitting::Fitting;

@@ -94,6 +94,8 @@ pub enum Method {
 pub struct LearnedConfig {
     /// Where a larger share of the evidence is unlike what the model was trained on, the paper's method answers.
     pub max_novelty: f64,
+    /// The odds of what only the radar tells of are multiplied by this.
+    pub unconfirmed: f64,
     /// Whether it is told what each group of evidence adds.
     pub reasons: bool,
 }

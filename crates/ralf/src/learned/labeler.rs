@@ -6,6 +6,8 @@ use super::model::{Model, UseError};
 use super::reason::reason;
 use super::rows::Rows;
 use super::shapley::Explainer;
+use super::unconfirmed::{Unconfirmed, with_odds};
+use super::visibility::Visibility;
 use crate::config::Config;
 use crate::evidence::{Column, Feature, GROUPS, features};
 use crate::label::flag;
@@ -20,6 +22,7 @@ pub struct LearnedLabeler<'a> {
     /// What the model reads, in its order.
     inputs: Vec<&'static Feature>,
     seen: Vec<Seen>,
+    unconfirmed: Unconfirmed,
     /// `None` where reasons are not wanted.
     explainer: Option<Explainer>,
 }
@@ -45,6 +48,10 @@ pub struct Answer {
     pub reason: String,
     /// Why it is an artifact, where it is called one and a cause stands out.
     pub cause: Option<ToldCause>,
+    /// How the LiDARs see its place; `None` of a detection without a place.
+    pub visibility: Option<Visibility>,
+    /// The groups of evidence, as places in [`GROUPS`], that the model reads and of which nothing was observed.
+    pub lacking: Vec<usize>,
 }
 
 /// A cause with how sure the model is.
@@ -76,13 +83,15 @@ impl<'a> LearnedLabeler<'a> {
         let explain = config.learned.reasons;
         let explainer = explain.then(|| Explainer::new(&model.plausible, &group_of, GROUPS.len()));
         let seen = model.inputs.iter().map(|input| input.seen).collect();
-        Ok(Self { config, model, inputs, seen, explainer })
+        let unconfirmed = Unconfirmed::among(inputs.iter().map(|input| input.name));
+        Ok(Self { config, model, inputs, seen, unconfirmed, explainer })
     }
 
     /// What the model says of a frame, of which this evidence was gathered.
     ///
     /// `w` is the probability that a detection is plausible. Where the evidence is too unlike what the model was
-    /// trained on (`learned.max_novelty`), the paper's method answers, and [`flag::PAPER`] says so.
+    /// trained on (`learned.max_novelty`), the paper's method answers, and [`flag::PAPER`] says so. What nobody but the
+    /// radar tells of counts less (`learned.unconfirmed`), and has the flag [`flag::UNCONFIRMED`].
     pub fn label(&self, frame: &Frame, evidence: &[Column]) -> LearnedScan {
         let mut labels = Labeler::new(self.config).label(frame);
         let mut answers = vec![Answer::default(); labels.len()];
@@ -92,13 +101,21 @@ impl<'a> LearnedLabeler<'a> {
             frame.scan.detections[row].is_some() && novelties[row] <= self.config.learned.max_novelty
         };
         let asked: Vec<usize> = (0..labels.len()).filter(|row| is_asked(*row)).collect();
+        let seen_as = Visibility::of_scan(evidence, labels.len());
         for (row, detection) in frame.scan.detections.iter().enumerate() {
             answers[row].novelty = detection.as_ref().map(|_| novelties[row]);
+            answers[row].visibility = detection.as_ref().map(|_| seen_as[row]);
+            answers[row].lacking = self.lacking(rows.row(row));
             labels[row].flags |= flag::when(detection.is_some() && !is_asked(row), flag::PAPER);
         }
         let rows = rows.pick(asked.iter().copied());
-        for (row, log_odds) in asked.iter().zip(self.model.plausible.log_odds(&rows)) {
+        for (at, log_odds) in self.model.plausible.log_odds(&rows).into_iter().enumerate() {
+            let row = &asked[at];
             labels[*row].w = self.model.calibration.probability(log_odds);
+            if self.unconfirmed.is(rows.row(at)) {
+                labels[*row].w = with_odds(labels[*row].w, self.config.learned.unconfirmed);
+                labels[*row].flags |= flag::UNCONFIRMED;
+            }
             labels[*row].plausible = labels[*row].w >= self.config.fusion.threshold;
             labels[*row].flags &= !flag::UNOBSERVED;
         }
@@ -116,6 +133,17 @@ impl<'a> LearnedLabeler<'a> {
             }
         }
         rows
+    }
+
+    /// The groups that the model reads and of which a row holds nothing.
+    fn lacking(&self, row: &[f32]) -> Vec<usize> {
+        let (mut read, mut observed) = ([false; GROUPS.len()], [false; GROUPS.len()]);
+        for (input, value) in self.inputs.iter().zip(row) {
+            let group = group_of(input);
+            read[group] = true;
+            observed[group] |= !value.is_nan();
+        }
+        (0..GROUPS.len()).filter(|group| read[*group] && !observed[*group]).collect()
     }
 
     fn explain(&self, rows: &Rows, asked: &[usize], answers: &mut [Answer]) {

@@ -6,6 +6,7 @@
 //! ordinary: every question knows where absence leads. What lies outside of all that a model was trained on
 //! ([`novelty`]) is left to the paper's method.
 
+mod block;
 mod calibration;
 mod familiar;
 mod forest;
@@ -16,6 +17,8 @@ mod rows;
 mod shapley;
 mod text;
 mod tree;
+mod unconfirmed;
+mod visibility;
 
 pub use calibration::{Calibration, CalibrationError};
 pub use familiar::{Seen, novelty};
@@ -26,3 +29,5 @@ pub use rows::Rows;
 pub use shapley::Explainer;
 pub use text::ReadError;
 pub use tree::{Leaf, Node, Split, Tree, TreeError};
+pub use unconfirmed::{Unconfirmed, with_odds};
+pub use visibility::Visibility;

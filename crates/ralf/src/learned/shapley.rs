@@ -2,43 +2,56 @@
 //!
 //! A group is a player; without it, a tree's answer is the mean over both ways of each of its questions, weighed by
 //! the training rows that went there (path-dependent TreeSHAP: Lundberg et al., *From local explanations to global
-//! understanding with explainable AI for trees*, Nature Machine Intelligence 2020). With groups for features, a leaf
-//! has as many players as groups are asked on the way to it, mostly three or four: what each adds in every case is
-//! worked out once.
+//! understanding with explainable AI for trees*, Nature Machine Intelligence 2020). With groups for features, few
+//! players are asked on the way to a leaf, and leaves that hang together share most of them: what each adds in every
+//! case of such a bundle is worked out once, so that a row costs a look into a table per bundle.
 
+use super::block::{BLOCK, Block};
 use super::forest::Forest;
 use super::rows::Rows;
 use super::tree::{Node, Tree};
 
-/// Rows that are worked on together: one bit each.
-const BLOCK: usize = 64;
-/// Players up to which a leaf keeps what they add in every case.
-const MOST_KEPT: usize = 6;
+/// Bits of a bundle's cases: twice as many cases each.
+const MOST_BITS: usize = 8;
 
 /// A forest, prepared for telling what each group adds to its answers.
 #[derive(Debug, Clone)]
 pub struct Explainer {
     groups: usize,
     expected: f64,
-    trees: Vec<(Tree, Vec<Path>)>,
+    trees: Vec<(Tree, Vec<Bundle>)>,
 }
+
+/// Leaves that hang together, with what the groups that are asked on the way to any of them add in every case.
+#[derive(Debug, Clone)]
+struct Bundle {
+    /// What a case is made of, a bit each: whether all of these questions lead on. First the groups that were asked
+    /// before, then the questions among the leaves.
+    bits: Vec<Vec<Question>>,
+    /// The groups that are asked.
+    groups: Vec<usize>,
+    /// What each of these adds, case by case; none where there are too many cases.
+    table: Vec<f32>,
+    /// Of the leaves, for where there is no table.
+    ways: Vec<Way>,
+}
+
+/// A question's node, and whether a yes leads on.
+type Question = (usize, bool);
 
 /// The way to a leaf.
 #[derive(Debug, Clone)]
-struct Path {
+struct Way {
     /// The leaf's answer.
     value: f64,
     players: Vec<Player>,
-    /// What each player adds for each set of players whose questions lead here, by the set's bits; of few players.
-    table: Vec<f32>,
 }
 
 /// A group that is asked on the way to a leaf.
 #[derive(Debug, Clone)]
 struct Player {
     group: usize,
-    /// Nodes of its questions, and whether a yes leads on.
-    questions: Vec<(usize, bool)>,
+    questions: Vec<Question>,
     /// The share of the training rows that its questions let through.
     share: f64,
 }
@@ -49,11 +62,11 @@ impl Explainer {
         let mut expected = forest.base;
         let mut trees = Vec::with_capacity(forest.trees.len());
         for tree in &forest.trees {
-            let paths = paths(tree, group_of);
-            for path in &paths {
-                expected += path.value * path.players.iter().map(|player| player.share).product::<f64>();
+            let bundles = Plan { tree, group_of, covers: tree.covers() }.bundles();
+            for way in bundles.iter().flat_map(|bundle| &bundle.ways) {
+                expected += way.value * way.players.iter().map(|player| player.share).product::<f64>();
             }
-            trees.push((tree.clone(), paths));
+            trees.push((tree.clone(), bundles));
         }
         Self { groups, expected, trees }
     }
@@ -68,54 +81,86 @@ impl Explainer {
     pub fn explain(&self, rows: &Rows) -> Vec<Vec<f64>> {
         let mut added = vec![vec![0.0; self.groups]; rows.len()];
         let mut yes = Vec::new();
-        for (block, added) in added.chunks_mut(BLOCK).enumerate() {
-            for (tree, paths) in &self.trees {
-                answers(tree, rows, block * BLOCK, added.len(), &mut yes);
-                for path in paths {
-                    path.add(&yes, added);
-                }
+        for (at, added) in added.chunks_mut(BLOCK).enumerate() {
+            let block = Block::of(rows, at * BLOCK);
+            for (tree, bundles) in &self.trees {
+                yes.clear();
+                yes.extend(tree.nodes().iter().map(|node| match node {
+                    Node::Split(split) => block.answers(split),
+                    Node::Leaf(_) => [false; BLOCK],
+                }));
+                bundles.iter().for_each(|bundle| bundle.add(&yes, added));
             }
         }
         added
     }
 }
 
-/// The bits of each node's yes over the rows of a block.
-fn answers(tree: &Tree, rows: &Rows, begin: usize, count: usize, yes: &mut Vec<u64>) {
-    yes.clear();
-    for node in tree.nodes() {
-        let mut bits = 0;
-        if let Node::Split(split) = node {
-            for at in 0..count {
-                bits |= u64::from(split.is_yes(rows.row(begin + at))) << at;
-            }
-        }
-        yes.push(bits);
-    }
+/// A tree that is put into bundles.
+struct Plan<'a> {
+    tree: &'a Tree,
+    group_of: &'a [usize],
+    covers: Vec<f64>,
 }
 
-/// The ways to all leaves of a tree.
-fn paths(tree: &Tree, group_of: &[usize]) -> Vec<Path> {
-    let covers = tree.covers();
-    let mut found = Vec::new();
-    let mut open: Vec<(usize, Vec<Player>)> = vec![(0, Vec::new())];
-    while let Some((at, players)) = open.pop() {
-        match &tree.nodes()[at] {
-            Node::Leaf(leaf) => found.push(Path::new(f64::from(leaf.value), players)),
-            Node::Split(split) => {
-                let group = group_of[usize::from(split.feature)];
-                for (next, is_yes) in [(at + 1, true), (usize::from(split.right), false)] {
-                    let share = if covers[at] > 0.0 { covers[next] / covers[at] } else { 0.5 };
-                    open.push((next, asked(&players, group, (at, is_yes), share)));
-                }
+impl Plan<'_> {
+    /// Bundles as large as the bits allow.
+    fn bundles(&self) -> Vec<Bundle> {
+        let mut found = Vec::new();
+        let mut open: Vec<(usize, Vec<Player>)> = vec![(0, Vec::new())];
+        while let Some((at, before)) = open.pop() {
+            let inside = self.questions_from(at);
+            if inside.is_empty() || before.len() + inside.len() <= MOST_BITS {
+                found.push(Bundle::new(self, at, &before, &inside));
+            } else {
+                open.extend(self.further(at, &before));
             }
         }
+        found
     }
-    found
+
+    /// The questions of the part of the tree that begins at a node.
+    fn questions_from(&self, at: usize) -> Vec<usize> {
+        let (mut questions, mut open, mut node) = (Vec::new(), 1, at);
+        while open > 0 {
+            if matches!(self.tree.nodes()[node], Node::Split(_)) {
+                questions.push(node);
+                open += 1;
+            } else {
+                open -= 1;
+            }
+            node += 1;
+        }
+        questions
+    }
+
+    /// Where a question leads, with the players on the way there; nowhere from a leaf.
+    fn further(&self, at: usize, before: &[Player]) -> Vec<(usize, Vec<Player>)> {
+        let Node::Split(split) = &self.tree.nodes()[at] else { return Vec::new() };
+        let group = self.group_of[usize::from(split.feature)];
+        let lead = |(next, is_yes): (usize, bool)| {
+            let share = if self.covers[at] > 0.0 { self.covers[next] / self.covers[at] } else { 0.5 };
+            (next, asked(before, group, (at, is_yes), share))
+        };
+        [(at + 1, true), (usize::from(split.right), false)].map(lead).into()
+    }
+
+    /// The ways to the leaves of the part that begins at a node.
+    fn ways(&self, at: usize, before: &[Player]) -> Vec<Way> {
+        let mut found = Vec::new();
+        let mut open = vec![(at, before.to_vec())];
+        while let Some((at, players)) = open.pop() {
+            match &self.tree.nodes()[at] {
+                Node::Leaf(leaf) => found.push(Way { value: f64::from(leaf.value), players }),
+                Node::Split(_) => open.extend(self.further(at, &players)),
+            }
+        }
+        found
+    }
 }
 
 /// The players of a way that has one question more.
-fn asked(players: &[Player], group: usize, question: (usize, bool), share: f64) -> Vec<Player> {
+fn asked(players: &[Player], group: usize, question: Question, share: f64) -> Vec<Player> {
     let mut players = players.to_vec();
     match players.iter_mut().find(|player| player.group == group) {
         Some(known) => {
@@ -127,17 +172,96 @@ fn asked(players: &[Player], group: usize, question: (usize, bool), share: f64) 
     players
 }
 
-impl Path {
-    fn new(value: f64, players: Vec<Player>) -> Self {
-        let mut path = Self { value, players, table: Vec::new() };
-        if path.players.len() <= MOST_KEPT {
-            for leading in 0..1_usize << path.players.len() {
-                path.table.extend(path.shares(leading).iter().map(|share| *share as f32));
-            }
+impl Bundle {
+    fn new(plan: &Plan, at: usize, before: &[Player], inside: &[usize]) -> Self {
+        let ways = plan.ways(at, before);
+        let mut bits: Vec<Vec<Question>> = before.iter().map(|player| player.questions.clone()).collect();
+        bits.extend(inside.iter().map(|node| vec![(*node, true)]));
+        let mut groups: Vec<usize> =
+            ways.iter().flat_map(|way| &way.players).map(|player| player.group).collect();
+        groups.sort_unstable();
+        groups.dedup();
+        let mut bundle = Self { bits, groups, table: Vec::new(), ways };
+        if bundle.bits.len() <= MOST_BITS {
+            bundle.table = bundle.all_cases(before, inside);
         }
-        path
+        bundle
     }
 
+    /// What the groups add in every case.
+    fn all_cases(&self, before: &[Player], inside: &[usize]) -> Vec<f32> {
+        let width = self.groups.len();
+        let mut table = vec![0.0; width << self.bits.len()];
+        for way in &self.ways {
+            let cases: Vec<(usize, usize)> =
+                way.players.iter().map(|player| leading_cases(player, before, inside)).collect();
+            let shares: Vec<Vec<f64>> =
+                (0..1 << way.players.len()).map(|leading| way.shares(leading)).collect();
+            for (case, sums) in table.chunks_mut(width.max(1)).enumerate() {
+                let leads = |place: usize| case & cases[place].0 == cases[place].1;
+                let leading =
+                    (0..cases.len()).fold(0, |bits, place| bits | usize::from(leads(place)) << place);
+                for (player, share) in way.players.iter().zip(&shares[leading]) {
+                    sums[self.place_of(player.group)] += *share;
+                }
+            }
+        }
+        table.into_iter().map(|sum| sum as f32).collect()
+    }
+
+    fn place_of(&self, group: usize) -> usize {
+        self.groups.partition_point(|known| *known < group)
+    }
+
+    /// Adds what the groups of these leaves add for each row of a block.
+    fn add(&self, yes: &[[bool; BLOCK]], added: &mut [Vec<f64>]) {
+        if self.table.is_empty() {
+            return self.ways.iter().for_each(|way| way.add(yes, added));
+        }
+        let mut cases = [0_u8; BLOCK];
+        for (bit, questions) in self.bits.iter().enumerate() {
+            for (case, leads) in cases.iter_mut().zip(all_lead(yes, questions)) {
+                *case |= u8::from(leads) << bit;
+            }
+        }
+        let width = self.groups.len();
+        for (added, case) in added.iter_mut().zip(cases) {
+            let shares = &self.table[usize::from(case) * width..][..width];
+            for (group, share) in self.groups.iter().zip(shares) {
+                added[*group] += f64::from(*share);
+            }
+        }
+    }
+}
+
+/// The bits of a bundle's cases that a player depends on, and what they are where its questions lead on.
+fn leading_cases(player: &Player, before: &[Player], inside: &[usize]) -> (usize, usize) {
+    let (mut mask, mut value) = (0, 0);
+    if let Some(place) = before.iter().position(|known| known.group == player.group) {
+        mask |= 1 << place;
+        value |= 1 << place;
+    }
+    for (node, is_yes) in &player.questions {
+        if let Some(place) = inside.iter().position(|known| known == node) {
+            mask |= 1 << (before.len() + place);
+            value |= usize::from(*is_yes) << (before.len() + place);
+        }
+    }
+    (mask, value)
+}
+
+/// Whether all of these questions lead on, for each row.
+fn all_lead(yes: &[[bool; BLOCK]], questions: &[Question]) -> [bool; BLOCK] {
+    let mut lead = [true; BLOCK];
+    for (node, is_yes) in questions {
+        for (lead, yes) in lead.iter_mut().zip(&yes[*node]) {
+            *lead &= yes == is_yes;
+        }
+    }
+    lead
+}
+
+impl Way {
     /// What each player adds where the players of these bits are those whose questions lead here.
     fn shares(&self, leading: usize) -> Vec<f64> {
         let leads = |player: usize| if leading >> player & 1 == 1 { 1.0 } else { 0.0 };
@@ -167,30 +291,13 @@ impl Path {
     }
 
     /// Adds what the players of this way add for each row of a block.
-    fn add(&self, yes: &[u64], added: &mut [Vec<f64>]) {
-        let mut leading = Vec::with_capacity(self.players.len());
-        for player in &self.players {
-            let all = player
-                .questions
-                .iter()
-                .fold(u64::MAX, |bits, (node, is_yes)| bits & if *is_yes { yes[*node] } else { !yes[*node] });
-            leading.push(all);
-        }
-        let count = self.players.len();
+    fn add(&self, yes: &[[bool; BLOCK]], added: &mut [Vec<f64>]) {
+        let leading: Vec<[bool; BLOCK]> =
+            self.players.iter().map(|player| all_lead(yes, &player.questions)).collect();
         for (row, added) in added.iter_mut().enumerate() {
-            let mut pattern = 0;
-            for (player, bits) in leading.iter().enumerate() {
-                pattern |= ((bits >> row & 1) as usize) << player;
-            }
-            if count <= MOST_KEPT {
-                let shares = &self.table[pattern * count..][..count];
-                for (player, share) in self.players.iter().zip(shares) {
-                    added[player.group] += f64::from(*share);
-                }
-            } else {
-                for (player, share) in self.players.iter().zip(self.shares(pattern)) {
-                    added[player.group] += share;
-                }
+            let bits = leading.iter().rev().fold(0, |bits, leads| bits << 1 | usize::from(leads[row]));
+            for (player, share) in self.players.iter().zip(self.shares(bits)) {
+                added[player.group] += share;
             }
         }
     }
@@ -199,21 +306,9 @@ impl Path {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::learned::tree::tests::{leaf, split};
+    use crate::learned::tree::tests::grow;
     use rand::RngExt;
     use rand::SeedableRng;
-
-    /// A random tree of some depth over features.
-    fn grow(random: &mut rand_pcg::Pcg64, depth: usize, features: u16, nodes: &mut Vec<Node>) {
-        if depth == 0 || random.random_bool(0.15) {
-            nodes.push(leaf(random.random_range(-1.0..1.0), random.random_range(1.0..9.0)));
-            return;
-        }
-        let threshold = random.random_range(-0.5..0.5);
-        nodes.push(split(random.random_range(0..features), threshold, random.random()));
-        grow(random, depth - 1, features, nodes);
-        grow(random, depth - 1, features, nodes);
-    }
 
     /// The mean answer where only the features of these groups are known.
     fn conditional(tree: &Tree, covers: &[f64], at: usize, row: &[f32], known: &dyn Fn(u16) -> bool) -> f64 {
@@ -253,7 +348,7 @@ mod tests {
     #[test]
     fn groups_get_what_shapleys_definition_gives_them() {
         let mut random = rand_pcg::Pcg64::seed_from_u64(3);
-        for (groups, depth) in [(1, 3), (3, 5), (5, 6), (8, 9)] {
+        for (groups, depth) in [(1, 3), (3, 5), (5, 6), (8, 9), (11, 9)] {
             let group_of: Vec<usize> = (0..16).map(|feature| feature % groups).collect();
             let mut nodes = Vec::new();
             grow(&mut random, depth, 16, &mut nodes);

@@ -151,6 +151,7 @@ impl Tree {
 #[cfg(test)]
 pub(super) mod tests {
     use super::*;
+    use rand::RngExt;
 
     pub(in crate::learned) fn split(feature: u16, threshold: f32, absent_is_yes: bool) -> Node {
         Node::Split(Split { feature, threshold, absent_is_yes, right: 0 })
@@ -158,6 +159,23 @@ pub(super) mod tests {
 
     pub(in crate::learned) fn leaf(value: f32, cover: f32) -> Node {
         Node::Leaf(Leaf { value, cover })
+    }
+
+    /// A random tree of some depth over features.
+    pub(in crate::learned) fn grow(
+        random: &mut rand_pcg::Pcg64,
+        depth: usize,
+        features: u16,
+        nodes: &mut Vec<Node>,
+    ) {
+        if depth == 0 || random.random_bool(0.15) {
+            nodes.push(leaf(random.random_range(-1.0..1.0), random.random_range(1.0..9.0)));
+            return;
+        }
+        let threshold = random.random_range(-0.5..0.5);
+        nodes.push(split(random.random_range(0..features), threshold, random.random()));
+        grow(random, depth - 1, features, nodes);
+        grow(random, depth - 1, features, nodes);
     }
 
     #[test]

@@ -1,7 +1,7 @@
-//! What a radar saw again and again beside a LiDAR's scans, and how likely it lies on the LiDAR's points.
+//! What a radar saw again and again beside a LiDAR's scans, and how likely it lies where the LiDAR sees things begin.
 
 use super::super::case::Case;
-use super::contrast::Contrast;
+use super::fronts::Fronts;
 use crate::change::SensorChange;
 use crate::overlap::Setup;
 use crate::sample::{LidarLook, RadarLook};
@@ -29,34 +29,37 @@ pub(super) struct Beside<'a> {
 /// A LiDAR's scan, and the radar's about its time.
 struct Moment<'a> {
     lidar: &'a LidarLook,
-    contrast: &'a Contrast,
+    fronts: Fronts,
     seen: Vec<Seen>,
 }
 
 impl<'a> Beside<'a> {
-    pub(super) fn of(case: &'a Case, contrasts: &'a [Contrast], radar: usize) -> Self {
+    pub(super) fn of(case: &'a Case, radar: usize) -> Self {
         let (looks, mount) = (&case.sample.radars[radar], case.mount(radar));
+        let (setup, change) = (case.setup(), &case.radar_changes[radar]);
         let mut moments = Vec::new();
-        for (lidar, contrast) in case.lidars.iter().zip(contrasts) {
+        for lidar in &case.lidars {
             let together = |i: &usize| looks[*i].t_ns.abs_diff(lidar.t_ns) <= TOGETHER_NS;
             let seen = (0..looks.len())
                 .filter(together)
                 .map(|i| Seen { t_ns: looks[i].t_ns, positions: seen_again(looks, i, &case.motion, &mount) });
-            moments.push(Moment { lidar, contrast, seen: seen.collect() });
+            let place = setup.lidar_from_radar(radar, lidar, lidar.t_ns, change);
+            let fronts = Fronts::of(&lidar.field, place.translation.vector);
+            moments.push(Moment { lidar, fronts, seen: seen.collect() });
         }
         Self { moments }
     }
 
-    /// By moment: how many detections lie on things where a change puts them, beyond those that any place has.
-    pub(super) fn on_things(&self, setup: &Setup, radar: usize, change: &SensorChange) -> Vec<f64> {
+    /// By moment: how many detections lie on the fronts of things where a change puts them.
+    pub(super) fn on_fronts(&self, setup: &Setup, radar: usize, change: &SensorChange) -> Vec<f64> {
         let mut found = Vec::with_capacity(self.moments.len());
-        for Moment { lidar, contrast, seen } in &self.moments {
+        for Moment { lidar, fronts, seen } in &self.moments {
             let mut sum = 0.0;
             for scan in seen {
                 let place = setup.lidar_from_radar(radar, lidar, scan.t_ns, change);
                 for position in &scan.positions {
                     let p = place * change.place(position);
-                    sum += contrast.at(p.x, p.y);
+                    sum += fronts.at(p.x, p.y);
                 }
             }
             found.push(sum);

@@ -2,7 +2,6 @@
 
 use super::super::case::Case;
 use super::beside::Beside;
-use super::contrast::Contrast;
 use super::quantity::{Values, values, with_values};
 use crate::change::SensorChange;
 use crate::doppler::predicted;
@@ -33,16 +32,10 @@ pub(super) struct Evidence<'a> {
 }
 
 impl<'a> Evidence<'a> {
-    pub(super) fn of(case: &'a Case<'a>, contrasts: &'a [Contrast], radar: usize) -> Self {
+    pub(super) fn of(case: &'a Case<'a>, radar: usize) -> Self {
         let figures = case.doppler(radar, &case.motion, &case.mount(radar));
         let ratio = figures.map_or(1.0, |figures| figures.ratio.value);
-        Self {
-            case,
-            radar,
-            beside: Beside::of(case, contrasts, radar),
-            base: case.radar_changes[radar],
-            ratio,
-        }
+        Self { case, radar, beside: Beside::of(case, radar), base: case.radar_changes[radar], ratio }
     }
 
     /// What was found before.
@@ -66,7 +59,7 @@ impl<'a> Evidence<'a> {
         let Self { case, radar, .. } = *self;
         let change = self.change(values);
         let mut found = [0.0; STRETCHES];
-        let moments = self.beside.on_things(&case.setup(), radar, &change);
+        let moments = self.beside.on_fronts(&case.setup(), radar, &change);
         let count = moments.len().max(1);
         for (i, beside) in moments.into_iter().enumerate() {
             found[i * STRETCHES / count] += LIDAR_WEIGHT * beside;

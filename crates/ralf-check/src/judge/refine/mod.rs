@@ -5,8 +5,8 @@
 //! and small corrections are likelier than large ones.
 
 mod beside;
-mod contrast;
 mod evidence;
+mod fronts;
 mod quantity;
 mod search;
 
@@ -14,7 +14,6 @@ use super::case::Case;
 use crate::change::SensorChange;
 use crate::doppler::clock;
 use crate::overlap::Measure;
-use contrast::Contrast;
 use evidence::Evidence;
 use quantity::{QUANTITIES, Values};
 use search::{Open, deviations, likeliest};
@@ -50,13 +49,12 @@ pub(super) fn refine(case: &Case) -> Vec<Refinement> {
         deviations: [f64::NAN; 4],
         proposed: *change,
     });
-    let contrasts: Vec<Contrast> = case.lidars.iter().map(|look| Contrast::of(&look.field)).collect();
-    let radars = case.radars().map(|radar| of_radar(case, &contrasts, radar));
+    let radars = case.radars().map(|radar| of_radar(case, radar));
     found.chain(radars).collect()
 }
 
-fn of_radar(case: &Case, contrasts: &[Contrast], radar: usize) -> Refinement {
-    let evidence = Evidence::of(case, contrasts, radar);
+fn of_radar(case: &Case, radar: usize) -> Refinement {
+    let evidence = Evidence::of(case, radar);
     let open = judgeable(case, radar);
     let values = likeliest(&evidence, &evidence.start(), open);
     let deviations = deviations(&evidence, &values, open);

@@ -20,6 +20,17 @@ pub(super) struct Quantity {
 const NOTHING: SensorChange =
     SensorChange { turn_deg: [0.0; 3], shift_m: [0.0; 3], clock_ms: 0.0, mirrored: false };
 
+/// A place along an axis of the vehicle.
+const fn place(shift_m: [f64; 3]) -> Quantity {
+    Quantity {
+        unit: SensorChange { shift_m, ..NOTHING },
+        prior: 0.3,
+        steps: [0.1, 0.005],
+        smallest: 0.05,
+        systematic: 0.05,
+    }
+}
+
 /// In the order of [`Values`].
 pub(super) const QUANTITIES: [Quantity; 4] = [
     Quantity {
@@ -29,20 +40,8 @@ pub(super) const QUANTITIES: [Quantity; 4] = [
         smallest: 0.3,
         systematic: 0.1,
     },
-    Quantity {
-        unit: SensorChange { shift_m: [1.0, 0.0, 0.0], ..NOTHING },
-        prior: 0.3,
-        steps: [0.1, 0.005],
-        smallest: 0.05,
-        systematic: 0.05,
-    },
-    Quantity {
-        unit: SensorChange { shift_m: [0.0, 1.0, 0.0], ..NOTHING },
-        prior: 0.3,
-        steps: [0.1, 0.005],
-        smallest: 0.05,
-        systematic: 0.05,
-    },
+    place([1.0, 0.0, 0.0]),
+    place([0.0, 1.0, 0.0]),
     Quantity {
         unit: SensorChange { clock_ms: 1.0, ..NOTHING },
         prior: 200.0,

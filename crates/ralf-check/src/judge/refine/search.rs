@@ -10,6 +10,8 @@ use nalgebra::{Matrix4, SymmetricEigen};
 
 /// Rounds over each quantity for itself, and over the axes of the bend.
 const ROUNDS: usize = 3;
+/// Of its prior standard deviation, a quantity is looked for within so much.
+const WIDEST: f64 = 2.0;
 /// Differences are taken over so much of each quantity: degrees, m, ms. Less is lost in the steps of the LiDAR's grid.
 const REACH: [f64; 4] = [0.5, 0.08, 0.08, 20.0];
 /// Along an axis of the bend a search ends at this part of a standard deviation.
@@ -21,6 +23,9 @@ pub(super) type Open = [bool; 4];
 /// The likeliest values near a start.
 pub(super) fn likeliest(evidence: &Evidence, start: &Values, open: Open) -> Values {
     let mut best = Values::from_fn(|i, _| if open[i] { start[i] } else { 0.0 });
+    for (i, quantity) in QUANTITIES.iter().enumerate().filter(|(i, _)| open[*i]) {
+        best = anywhere(evidence, best, i, quantity.steps[0] / quantity.prior);
+    }
     for _ in 0..ROUNDS {
         for (i, quantity) in QUANTITIES.iter().enumerate().filter(|(i, _)| open[*i]) {
             let mut axis = Values::zeros();
@@ -36,6 +41,20 @@ pub(super) fn likeliest(evidence: &Evidence, start: &Values, open: Open) -> Valu
         }
     }
     best
+}
+
+/// The best value of one quantity within [`WIDEST`], in steps: rows of things stand one behind the other, and the wrong
+/// one may be nearer.
+fn anywhere(evidence: &Evidence, start: Values, quantity: usize, step: f64) -> Values {
+    let steps = (WIDEST / step).ceil() as i32;
+    let mut tried = vec![start];
+    tried.extend((-steps..=steps).map(|i| {
+        let mut values = start;
+        values[quantity] = f64::from(i) * step;
+        values
+    }));
+    let scored = tried.into_iter().map(|values| (evidence.posterior(&values), values));
+    scored.max_by(|a, b| a.0.total_cmp(&b.0)).map_or(start, |(_, values)| values)
 }
 
 /// The best along a direction: in steps that are halved from the first to the last.

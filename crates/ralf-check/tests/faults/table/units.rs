@@ -6,6 +6,11 @@ use super::{ALL_RADARS, FRONT, Fault};
 use ralf_check::Remedy;
 
 pub(super) fn faults() -> Vec<Fault> {
+    [of_lengths(), of_speeds(), of_angles()].into_iter().flatten().collect()
+}
+
+/// What is measured in metres.
+fn of_lengths() -> Vec<Fault> {
     vec![
         fault!("positions in cm", ["radar_front"], true, |p| times(p, Some(FRONT), &[0, 1, 2], 100.0), |r| {
             matches!(r, Remedy::Positions(f) if near(*f, 0.01, 1e-9))
@@ -19,6 +24,19 @@ pub(super) fn faults() -> Vec<Fault> {
             }),
             |r| matches!(r, Remedy::Positions(f) if near(*f, 0.01, 1e-9))
         ),
+        fault!(
+            "sigma of range in cm",
+            ["radar_front"],
+            true,
+            |p| p.sequence.rig.radars[FRONT].sigma_range *= 100.0,
+            |r| { matches!(r, Remedy::Value { key: "sigma_range_m", value } if near(*value, 0.1, 0.01)) }
+        ),
+    ]
+}
+
+/// Speeds, and what turns.
+fn of_speeds() -> Vec<Fault> {
+    vec![
         fault!("Doppler in km/h, one radar", ["radar_rear"], true, |p| times(p, Some(3), &[3], 3.6), |r| {
             matches!(r, Remedy::Doppler(f) if near(*f, 1.0 / 3.6, 0.02))
         }),
@@ -38,6 +56,12 @@ pub(super) fn faults() -> Vec<Fault> {
             |p| p.edit_odometry(|s| s.yaw_rate = s.yaw_rate.to_degrees()),
             |r| { matches!(r, Remedy::YawRate(f) if near(*f, 1.0_f64.to_radians(), 1e-6)) }
         ),
+    ]
+}
+
+/// Angles of detections and of the rig.
+fn of_angles() -> Vec<Fault> {
+    vec![
         fault!("azimuth in degrees", ["radar_front"], true, |p| spherical(p, 57.2958, 1.0), |r| {
             matches!(r, Remedy::InDegrees("azimuth"))
         }),
@@ -63,13 +87,6 @@ pub(super) fn faults() -> Vec<Fault> {
                 radar.sigma_azimuth = radar.sigma_azimuth.to_radians();
             },
             |r| matches!(r, Remedy::Value { key: "sigma_azimuth_deg", value } if near(*value, 0.6, 0.05))
-        ),
-        fault!(
-            "sigma of range in cm",
-            ["radar_front"],
-            true,
-            |p| p.sequence.rig.radars[FRONT].sigma_range *= 100.0,
-            |r| { matches!(r, Remedy::Value { key: "sigma_range_m", value } if near(*value, 0.1, 0.01)) }
         ),
     ]
 }

@@ -1,18 +1,21 @@
 //! `ralf learn`: a model from recordings whose truth is known.
 
+mod own;
 mod text;
 mod worlds;
 
 use crate::arguments::{SettingsArgs, threads};
+use crate::corrections::merged_truth;
 use crate::outcome::{Outcome, UsageError};
 use crate::progress::{Progress, Stages, say};
 use crate::text::print;
 use anyhow::Context;
 use clap::Args;
 use clap::builder::PossibleValuesParser;
+use ralf::config::Config;
 use ralf::learned::Origin;
 use ralf_data::run::NotLabelled;
-use ralf_data::{GroundTruth, TrainingGatherer, TrainingTruth, write_whole};
+use ralf_data::{TrainingGatherer, TrainingTruth, write_whole};
 use ralf_train::learning::{Fitting, Parameters, TrainingTable, fit};
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
@@ -30,6 +33,7 @@ Examples:
   ralf learn town motorway yard -o model.txt           recordings in RALF's layout, with ground_truth
   ralf learn --preset worlds -o model.txt              simulated on the way: the shipped model
   ralf learn --preset worlds --seeds 1 --scans 40 -o quick.txt
+  ralf learn recordings/city --from out -o own.txt     worlds, and what people corrected in the review of out
   ralf label recordings/city -o out --method learned --model model.txt")]
 pub(crate) struct LearnArgs {
     /// Recordings with corrected labels; each is a world
@@ -38,6 +42,10 @@ pub(crate) struct LearnArgs {
     /// The model's file
     #[arg(short, long = "output", visible_alias = "out", value_name = "MODEL")]
     output: PathBuf,
+    /// Learn the corrections of a review in OUT, too, beside worlds as of `--preset worlds`; every sequence of DATASET
+    /// is a world then
+    #[arg(long, value_name = "OUT", requires = "datasets")]
+    from: Option<PathBuf>,
     #[command(flatten)]
     worlds: WorldArgs,
     /// Trees
@@ -78,34 +86,47 @@ pub(crate) fn run(arguments: &LearnArgs) -> anyhow::Result<Outcome> {
     let settings = arguments.settings.resolve()?;
     let stages = Stages::new(arguments.quiet);
     let jobs = threads(arguments.jobs);
-    let gatherer =
-        TrainingGatherer { config: &settings.method, seed: arguments.seed, jobs, observer: &stages };
+    let (config, seed) = (&settings.method, arguments.seed);
+    let gatherer = TrainingGatherer { config, seed, weight: 1.0, jobs, observer: &stages };
     let mut table = gatherer.table();
     let mut outcome = arguments.gather(&gatherer, &settings, &mut table)?;
-    outcome = outcome.and(arguments.worlds.gather(&gatherer, &mut table)?);
+    let own = 0..table.worlds.len() as u16;
+    if arguments.from.is_some() || arguments.worlds.are_asked() {
+        outcome = outcome.and(arguments.worlds.gather(&gatherer, &mut table)?);
+    }
     let table = table.without_groups(&arguments.without_groups);
-    let fitting = Fitting {
-        parameters: Parameters {
-            rounds: arguments.rounds,
-            leaves: arguments.leaves,
-            seed: arguments.seed,
-            ..Parameters::default()
-        },
-        blanking: !arguments.no_blanking,
-        causes: true,
-        threshold: settings.method.fusion.threshold,
-        jobs,
-    };
+    let fitting = arguments.fitting(config, jobs);
     let progress = if arguments.quiet { Progress::hidden() } else { Progress::of_steps(0, "fitting") };
     let fitted =
         fit(&table, &fitting, arguments.origin(), &|done, of| progress.reached_of(done as u64, of as u64))?;
     drop(progress);
     write_whole(&arguments.output, fitted.model.to_text().as_bytes())?;
-    print(&if arguments.json { text::json(&fitted)? } else { text::page(&fitted) })?;
+    let before = if arguments.from.is_some() { own::before(&table, own, config)? } else { Vec::new() };
+    print(&if arguments.json {
+        text::json(&fitted, &before)?
+    } else {
+        text::page(&fitted) + &own::told(&before)
+    })?;
     Ok(outcome)
 }
 
 impl LearnArgs {
+    fn fitting(&self, config: &Config, jobs: usize) -> Fitting {
+        Fitting {
+            parameters: Parameters {
+                rounds: self.rounds,
+                leaves: self.leaves,
+                seed: self.seed,
+                ..Parameters::default()
+            },
+            blanking: !self.no_blanking,
+            causes: true,
+            threshold: config.fusion.threshold,
+            unconfirmed: config.learned.unconfirmed,
+            jobs,
+        }
+    }
+
     /// Adds what the recordings hold.
     fn gather(
         &self,
@@ -116,11 +137,14 @@ impl LearnArgs {
         let mut outcome = Outcome::Done;
         for dataset in &self.datasets {
             let recording = settings.correct(ralf_data::open_with(dataset, None, &settings.topics)?)?;
-            let truth = GroundTruth::open(&recording.path)?;
+            let from = self.from.as_deref();
+            let truth = merged_truth(&recording.path, Some(&recording), from, from.is_some())?;
+            let gatherer = &TrainingGatherer { weight: own::weight(from), ..*gatherer };
             let name = dataset.canonicalize().unwrap_or_else(|_| dataset.clone());
             let name = name.file_name().map(|name| name.to_string_lossy().into_owned());
             let name = name.with_context(|| dataset.display().to_string())?;
-            let world = (self.datasets.len() > 1 || self.worlds.are_asked()).then_some(name.as_str());
+            let one_world = from.is_none() && (self.datasets.len() > 1 || self.worlds.are_asked());
+            let world = one_world.then_some(name.as_str());
             let left_out = gatherer.add(table, world, &recording, TrainingTruth::Said(&truth))?;
             outcome = outcome.and(named(&left_out));
         }
@@ -134,9 +158,10 @@ impl LearnArgs {
         let mut without: String =
             self.without_groups.iter().map(|group| format!(" --without-group '{group}'")).collect();
         without += if self.no_blanking { " --no-blanking" } else { "" };
+        let from: String = self.from.iter().map(|out| format!(" --from {}", out.display())).collect();
         let command = format!(
-            "ralf learn{datasets}{} --rounds {} --leaves {}{without} --seed {}{}",
-            self.worlds.told(),
+            "ralf learn{datasets}{from}{} --rounds {} --leaves {}{without} --seed {}{}",
+            self.worlds.told(self.from.is_some()),
             self.rounds,
             self.leaves,
             self.seed,

@@ -55,7 +55,7 @@ fn worth(fitted: &Fitted) -> String {
     page
 }
 
-fn line(page: &mut String, width: usize, name: &str, rest: &str) {
+pub(super) fn line(page: &mut String, width: usize, name: &str, rest: &str) {
     // A string takes everything.
     let _ = writeln!(page, "  {name:width$} {rest}");
 }
@@ -66,8 +66,8 @@ fn three(scores: &Scores) -> String {
     parts.map(|value| value.map_or("    -".to_owned(), |value| format!("{value:.3}"))).join("  ")
 }
 
-/// The same as JSON.
-pub(super) fn json(fitted: &Fitted) -> serde_json::Result<String> {
+/// The same as JSON; `shipped` holds what the shipped model is worth in own sequences.
+pub(super) fn json(fitted: &Fitted, before: &[(String, Scores)]) -> serde_json::Result<String> {
     let mut worlds = Map::new();
     for world in &fitted.left_out {
         let views: Map<String, Value> =
@@ -82,7 +82,9 @@ pub(super) fn json(fitted: &Fitted) -> serde_json::Result<String> {
         });
         worlds.insert(world.world.clone(), told);
     }
-    serde_json::to_string_pretty(&json!({ "left_out": worlds }))
+    let before: Map<String, Value> =
+        before.iter().map(|(sequence, scores)| (sequence.clone(), scores_json(scores))).collect();
+    serde_json::to_string_pretty(&json!({ "left_out": worlds, "shipped": before }))
 }
 
 fn scores_json(scores: &Scores) -> Value {

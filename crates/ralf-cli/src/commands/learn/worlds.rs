@@ -16,10 +16,10 @@ pub(super) struct WorldArgs {
     #[arg(long, value_parser = PossibleValuesParser::new(["worlds"]))]
     preset: Option<String>,
     /// Worlds of each family
-    #[arg(long, value_name = "N", default_value_t = 2, requires = "preset")]
+    #[arg(long, value_name = "N", default_value_t = 4, requires = "preset")]
     seeds: u64,
     /// Scans of each radar in each world, over all of its sequences
-    #[arg(long, value_name = "N", default_value_t = 24, requires = "preset",
+    #[arg(long, value_name = "N", default_value_t = 16, requires = "preset",
         value_parser = clap::value_parser!(u32).range(1..))]
     scans: u32,
     /// Leave these families out, to judge the model in them
@@ -34,9 +34,9 @@ impl WorldArgs {
         self.preset.is_some()
     }
 
-    /// As they were typed.
-    pub(super) fn told(&self) -> String {
-        if !self.are_asked() {
+    /// As they were typed, where they are asked or needed.
+    pub(super) fn told(&self, needed: bool) -> String {
+        if !needed && !self.are_asked() {
             return String::new();
         }
         let without = if self.without.is_empty() {
@@ -54,9 +54,6 @@ impl WorldArgs {
         table: &mut TrainingTable,
     ) -> anyhow::Result<Outcome> {
         let mut outcome = Outcome::Done;
-        if !self.are_asked() {
-            return Ok(outcome);
-        }
         for family in FAMILIES.iter().filter(|family| !self.without.iter().any(|name| name == family.name)) {
             for seed in 0..self.seeds {
                 let recording = self.recording(family, seed)?;

@@ -48,6 +48,27 @@ fn a_file_is_replaced_like_a_folder() {
 }
 
 #[test]
+fn a_layout_for_foxglove_lies_beside_mcap_files() {
+    let dataset = small();
+    let folder = export(&dataset, "mcap", "all", &["--sensors"]);
+    let text = fs::read_to_string(format!("{folder}/foxglove.json")).unwrap();
+    let layout: serde_json::Value = serde_json::from_str(&text).unwrap();
+    let scene = &layout["configById"]["3D!ralf"];
+    assert_eq!((&layout["layout"], &scene["followTf"]), (&"3D!ralf".into(), &"base_link".into()));
+    let topics = &scene["topics"];
+    assert_eq!(topics["/radar_front/points_labelled"]["colorField"], "plausibility");
+    assert_eq!(topics["/lidar_top/points"]["visible"], true);
+    // Beside an only file, and never in the place of one's own.
+    let file = export(&dataset, "mcap", "labels.mcap", &[]);
+    let beside = file.replace(".mcap", ".foxglove.json");
+    assert!(fs::read_to_string(&beside).unwrap().contains("points_labelled"));
+    fs::write(&beside, "mine").unwrap();
+    run(&dataset, "mcap", &file, &["--force"]).exits(0);
+    assert_eq!(fs::read_to_string(&beside).unwrap(), "mine");
+    assert!(!fs::exists(format!("{}/foxglove.json", export(&dataset, "rosbag1", "bags", &[]))).unwrap());
+}
+
+#[test]
 fn nothing_else_is_ever_replaced() {
     let dataset = small();
     let recording = tree(&dataset.path);

@@ -2,8 +2,17 @@
 
 mod dataset;
 mod foreign;
+#[path = "../../../../ralf-data/src/disk/hdf5/writing.rs"]
+#[allow(dead_code, reason = "the tests of the reader use all of it")]
+mod hdf5;
 mod program;
 mod python;
+#[path = "../../../../ralf-data/src/read/radar_ghost/tests/recording.rs"]
+#[allow(dead_code, reason = "the tests of the reader use all of it")]
+pub(crate) mod radar_ghost;
+#[path = "../../../../ralf-data/src/read/radar_scenes/tests/recording.rs"]
+#[allow(dead_code, reason = "the tests of the reader use all of it")]
+pub(crate) mod radar_scenes;
 mod ros_topics;
 mod table;
 mod tree;

@@ -1,11 +1,10 @@
 //! Sensors out of `calibration.json`.
 
-use super::raw::{Calibration, Matrix, Sensor};
+use super::raw::{Calibration, Sensor};
 use crate::error::DataError;
 use crate::read::layout::is_folder_name;
 use crate::read::models::{PANDAR64, UMRR_11};
-use crate::read::rotation::rotation;
-use nalgebra::{Matrix3, Translation3};
+use crate::read::rotation::rigid;
 use ralf::sensors::{Camera, Intrinsics, Lidar, Radar};
 use ralf::space::Transform;
 use std::path::Path;
@@ -13,16 +12,6 @@ use std::path::Path;
 /// The columns of a radar's scan, in the order in which the source gives them.
 const RADAR_FIELDS: [&str; 9] =
     ["azimuth", "elevation", "range", "doppler", "rcs_linear", "power", "noise", "rcs", "snr"];
-
-/// A rigid transform out of a 4 x 4 matrix.
-pub(super) fn transform(file: &Path, place: &str, matrix: &Matrix) -> Result<Transform, DataError> {
-    let [[a, b, c, x], [d, e, f, y], [g, h, i, z], last] = *matrix;
-    if last != [0.0, 0.0, 0.0, 1.0] || ![x, y, z].iter().all(|value| value.is_finite()) {
-        return Err(DataError::content(file, place, "a last row of 0 0 0 1", format!("{last:?}")));
-    }
-    let turn = rotation(file, place, Matrix3::new(a, b, c, d, e, f, g, h, i))?;
-    Ok(Transform::from_parts(Translation3::new(x, y, z), turn))
-}
 
 /// The calibration of one sensor, and what to call it in errors.
 pub(super) struct Calibrated<'a> {
@@ -102,7 +91,7 @@ impl<'a> Calibrated<'a> {
 
     fn vehicle_from_sensor(&self) -> Result<Transform, DataError> {
         let matrix = self.present("RT_body_from_sensor", self.sensor.body_from_sensor)?;
-        transform(self.file, &format!("{}, RT_body_from_sensor", self.name), &matrix)
+        rigid(self.file, &format!("{}, RT_body_from_sensor", self.name), &matrix)
     }
 
     fn present<T>(&self, key: &str, value: Option<T>) -> Result<T, DataError> {

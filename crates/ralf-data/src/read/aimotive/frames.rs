@@ -1,6 +1,7 @@
 //! Which frames a sequence has, which files belong to them, and when they were.
 
-use super::raw::{self, BoxFile};
+use super::raw::BoxFile;
+use crate::disk::json;
 use crate::disk::{files, laz};
 use crate::error::DataError;
 use ralf_files::Kind;
@@ -73,7 +74,7 @@ impl FrameTimes {
             .collect();
         let mut times = BTreeMap::new();
         for (frame, file) in &used {
-            let BoxFile { t_ns } = raw::read(file, Kind::Measurement, "boxes with a Timestamp in ns")?;
+            let BoxFile { t_ns } = json::read(file, Kind::Measurement, "boxes with a Timestamp in ns")?;
             times.insert(*frame, t_ns);
         }
         Ok(Self { times, boxes: used.into_iter().map(|(_, file)| file).collect(), warning: None })

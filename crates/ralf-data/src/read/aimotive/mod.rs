@@ -45,7 +45,7 @@ pub(crate) fn open(path: &Path) -> Result<Recording, DataError> {
     }
     let mut sequences: Vec<Box<dyn SequenceReader>> = Vec::with_capacity(folders.len());
     for folder in &folders {
-        sequences.push(Box::new(source::Drive::new(folder)?));
+        sequences.push(Box::new(source::drive(folder)?));
     }
     if sequences.is_empty() {
         return Err(DataError::content(path, "folders", format!("sequences with `{CALIBRATION}`"), "none"));

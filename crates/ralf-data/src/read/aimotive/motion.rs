@@ -1,10 +1,11 @@
 //! Where the vehicle was: poses in the frame of the earth's centre.
 
-use super::calibration::transform;
 use super::frames::number;
-use super::raw::{self, EgoMotion2File, EgoMotionFile, Matrix};
+use super::raw::{EgoMotion2File, EgoMotionFile};
 use crate::disk::files;
+use crate::disk::json;
 use crate::error::DataError;
+use crate::read::rotation::{Matrix, rigid};
 use ralf::space::{EgoMotion, PoseSample, Transform};
 use ralf_files::Kind;
 use std::collections::BTreeMap;
@@ -19,14 +20,14 @@ pub(super) fn read(
     let expected = "poses by frame";
     let both = folder.join("egomotion2.json");
     let (file, matrices) = if files::exists(&both)? {
-        let poses: EgoMotion2File = raw::read(&both, Kind::Table, expected)?;
+        let poses: EgoMotion2File = json::read(&both, Kind::Table, expected)?;
         (both, poses.into_iter().map(|(frame, pose)| (frame, pose.ecef_from_body)).collect())
     } else {
         let file = folder.join("egomotion.json");
         if !files::exists(&file)? {
             return Ok(None);
         }
-        let matrices: EgoMotionFile = raw::read(&file, Kind::Table, expected)?;
+        let matrices: EgoMotionFile = json::read(&file, Kind::Table, expected)?;
         (file, matrices)
     };
     let poses = poses(&file, &matrices, times)?;
@@ -46,7 +47,7 @@ fn poses(
         let found = || format!("`{frame}`");
         let n =
             number(frame).ok_or_else(|| DataError::content(file, "keys", "numbers of frames", found()))?;
-        by_frame.insert(n, transform(file, &format!("frame {frame}"), matrix)?);
+        by_frame.insert(n, rigid(file, &format!("frame {frame}"), matrix)?);
     }
     let known = by_frame.iter().filter_map(|(frame, pose)| Some((*times.get(frame)?, pose)));
     let known: Vec<(i64, &Transform)> = known.collect();

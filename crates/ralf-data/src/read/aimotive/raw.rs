@@ -1,15 +1,9 @@
 //! The JSON files as they lie on disk. Keys that aren't needed are skipped.
 
-use crate::disk::files;
-use crate::error::DataError;
-use ralf_files::Kind;
-use serde::de::{DeserializeOwned, Error};
+use crate::read::rotation::Matrix;
+use serde::de::Error;
 use serde::{Deserialize, Deserializer};
 use std::collections::BTreeMap;
-use std::path::Path;
-
-/// A 4 x 4 matrix, row by row.
-pub(super) type Matrix = [[f64; 4]; 4];
 
 /// `sensor/calibration/calibration.json`: by the sensor's name.
 pub(super) type Calibration = BTreeMap<String, Sensor>;
@@ -94,15 +88,4 @@ fn nanoseconds<'de, D: Deserializer<'de>>(deserializer: D) -> Result<i64, D::Err
             t_ns.ok_or_else(|| D::Error::custom(format!("`{text}` as Timestamp")))
         }
     }
-}
-
-/// A file of this content.
-pub(super) fn read<T: DeserializeOwned>(file: &Path, kind: Kind, expected: &str) -> Result<T, DataError> {
-    let text = files::read_text(file, kind)?;
-    serde_json::from_str(&text).map_err(|error| {
-        let place = format!("line {}, column {}", error.line(), error.column());
-        let told = error.to_string();
-        let found = told.split(" at line ").next().unwrap_or(&told);
-        DataError::content(file, place, expected, found)
-    })
 }

@@ -3,29 +3,21 @@
 use super::calibration::Calibrated;
 use super::cloud::rolling_scan;
 use super::frames::{FrameTimes, Frames, list};
-use super::raw::{self, Calibration, RadarFile, Target};
+use super::raw::{Calibration, RadarFile, Target};
 use super::{CALIBRATION, RADARS, motion};
 use crate::disk::files;
+use crate::disk::json;
 use crate::error::DataError;
-use crate::read::SequenceReader;
+use crate::read::file_sequence::{FileFormat, FileSequence};
 use crate::read::measured_files::MeasuredFiles;
-use crate::read::recording::measurement;
-use ralf::sensors::{
-    CameraImage, DepthImage, DepthOutput, LidarScan, RadarScan, Rig, Sequence, Source, SourceError, Timelines,
-};
+use ralf::sensors::{DepthOutput, Lidar, LidarScan, Rig, Sequence, Timelines};
 use ralf::space::EgoMotion;
 use ralf_files::Kind;
 use std::collections::{BTreeMap, BTreeSet};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-/// A sequence's folder, opened.
-pub(super) struct Drive {
-    sequence: Sequence,
-    files: MeasuredFiles,
-    /// Calibration, poses, and the boxes that tell the frames' times.
-    further: Vec<PathBuf>,
-    warnings: Vec<String>,
-}
+/// How the files of a sequence are read.
+pub(super) struct Drive;
 
 /// The files of all sensors, by the sensor's name where there can be several of a kind.
 struct Listed {
@@ -34,38 +26,36 @@ struct Listed {
     cameras: BTreeMap<String, Frames>,
 }
 
-impl Drive {
-    /// Reads the names of all measurements, the calibration, the frames' times and the vehicle's poses.
-    pub(super) fn new(folder: &Path) -> Result<Self, DataError> {
-        let calibration_file = folder.join(CALIBRATION);
-        let calibration: Calibration = raw::read(&calibration_file, Kind::Settings, "the sensors by name")?;
-        let listed = Listed::new(folder)?;
-        let frames = listed.frames(folder)?;
-        let told = FrameTimes::read(folder, &frames, &listed.lidar)?;
-        let mut warnings: Vec<String> = told.warning.into_iter().collect();
-        let (rig, sensors) = listed.rig(&calibration_file, &calibration, &mut warnings)?;
-        let (times, files) = timelines(&rig, &sensors, &told.times, &mut warnings);
-        let poses = motion::read(folder, &told.times)?;
-        if poses.is_none() {
-            warnings.push(
-                "no poses (sensor/gnssins/egomotion.json): the vehicle's motion has to come from a \
-                 trajectory or from range rates, and only with it are LiDAR points motion-corrected"
-                    .into(),
-            );
-        }
-        let (motion, pose_file) =
-            poses.map_or((EgoMotion::unknown(), None), |(motion, file)| (motion, Some(file)));
-        let further = [calibration_file].into_iter().chain(pose_file).chain(told.boxes).collect();
-        let sequence = Sequence {
-            name: name_of(folder),
-            title: format!("aiMotive, {}", folder.parent().map(name_of).unwrap_or_default()),
-            rig,
-            times,
-            motion,
-            depth_output: DepthOutput::default(),
-        };
-        Ok(Self { sequence, files, further, warnings })
+/// A sequence's folder: reads the names of all measurements, the calibration, the frames' times and the poses.
+pub(super) fn drive(folder: &Path) -> Result<FileSequence<Drive>, DataError> {
+    let calibration_file = folder.join(CALIBRATION);
+    let calibration: Calibration = json::read(&calibration_file, Kind::Settings, "the sensors by name")?;
+    let listed = Listed::new(folder)?;
+    let frames = listed.frames(folder)?;
+    let told = FrameTimes::read(folder, &frames, &listed.lidar)?;
+    let mut warnings: Vec<String> = told.warning.into_iter().collect();
+    let (rig, sensors) = listed.rig(&calibration_file, &calibration, &mut warnings)?;
+    let (times, files) = timelines(&rig, &sensors, &told.times, &mut warnings);
+    let poses = motion::read(folder, &told.times)?;
+    if poses.is_none() {
+        warnings.push(
+            "no poses (sensor/gnssins/egomotion.json): the vehicle's motion has to come from a \
+             trajectory or from range rates, and only with it are LiDAR points motion-corrected"
+                .into(),
+        );
     }
+    let (motion, pose_file) =
+        poses.map_or((EgoMotion::unknown(), None), |(motion, file)| (motion, Some(file)));
+    let further = [calibration_file].into_iter().chain(pose_file).chain(told.boxes).collect();
+    let sequence = Sequence {
+        name: name_of(folder),
+        title: format!("aiMotive, {}", folder.parent().map(name_of).unwrap_or_default()),
+        rig,
+        times,
+        motion,
+        depth_output: DepthOutput::default(),
+    };
+    Ok(FileSequence { sequence, files, further, warnings, format: Drive })
 }
 
 fn name_of(folder: &Path) -> String {
@@ -168,7 +158,7 @@ fn timelines(
 /// The columns of a radar's file: as published, then what is derived.
 fn columns(file: &Path) -> Result<Vec<Vec<f32>>, DataError> {
     let expected = "`targets`, each with azimuth, elevation, range, speed, rcs, power, noise";
-    let RadarFile { targets } = raw::read(file, Kind::Measurement, expected)?;
+    let RadarFile { targets } = json::read(file, Kind::Measurement, expected)?;
     let column = |value: fn(&Target) -> f64| targets.iter().map(|target| value(target) as f32).collect();
     Ok(vec![
         column(|target| target.azimuth),
@@ -183,56 +173,16 @@ fn columns(file: &Path) -> Result<Vec<Vec<f32>>, DataError> {
     ])
 }
 
-impl Source for Drive {
-    fn sequence(&self) -> &Sequence {
-        &self.sequence
+impl FileFormat for Drive {
+    fn is_rolling(&self) -> bool {
+        true
     }
 
-    fn radar_scan(&self, radar: usize, scan: usize) -> Result<RadarScan, SourceError> {
-        self.files.radar_scan(&self.sequence, radar, scan, columns)
+    fn radar_columns(&self, file: &Path, _: usize, _: usize) -> Result<Vec<Vec<f32>>, DataError> {
+        columns(file)
     }
 
-    fn lidar_scan(&self, lidar: usize, scan: usize) -> Result<LidarScan, SourceError> {
-        let Sequence { rig, motion, .. } = &self.sequence;
-        let rolling = self.measured(lidar, scan)?;
-        Ok(if motion.is_known() {
-            rolling.motion_corrected(&rig.lidars[lidar].vehicle_from_lidar, motion)
-        } else {
-            rolling
-        })
-    }
-
-    fn image(&self, camera: usize, image: usize) -> Result<CameraImage, SourceError> {
-        self.files.image(&self.sequence, camera, image)
-    }
-
-    fn depth(&self, camera: usize, image: usize) -> Result<Option<Vec<DepthImage>>, SourceError> {
-        self.files.image_file(camera, image)?;
-        Ok(None)
-    }
-}
-
-impl Drive {
-    fn measured(&self, lidar: usize, scan: usize) -> Result<LidarScan, DataError> {
-        let file = measurement("lidar", &self.files.lidars, lidar, scan)?;
-        rolling_scan(file, &self.sequence.rig.lidars[lidar], self.sequence.times.lidars[lidar][scan])
-    }
-}
-
-impl SequenceReader for Drive {
-    fn inputs(&self) -> Vec<PathBuf> {
-        self.further.iter().chain(self.files.all()).cloned().collect()
-    }
-
-    fn warnings(&self) -> &[String] {
-        &self.warnings
-    }
-
-    fn image_file(&self, camera: usize, image: usize) -> Option<PathBuf> {
-        self.files.image_file(camera, image).ok().cloned()
-    }
-
-    fn rolling_scan(&self, lidar: usize, scan: usize) -> Result<Option<LidarScan>, SourceError> {
-        Ok(Some(self.measured(lidar, scan)?))
+    fn lidar_scan(&self, file: &Path, lidar: &Lidar, t_ns: i64) -> Result<LidarScan, DataError> {
+        rolling_scan(file, lidar, t_ns)
     }
 }

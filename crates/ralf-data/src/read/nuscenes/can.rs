@@ -1,7 +1,8 @@
 //! Wheel odometry from the CAN bus expansion.
 
-use super::raw::{CanPoseRow, for_each_row};
+use super::raw::CanPoseRow;
 use crate::error::DataError;
+use crate::read::scene_tables::for_each_row;
 use ralf::space::OdometrySample;
 use std::path::{Path, PathBuf};
 

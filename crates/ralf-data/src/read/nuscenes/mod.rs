@@ -6,74 +6,71 @@
 //!   `ambig_state`) all values pass, and all fields are kept. Two columns are appended, `doppler` and
 //!   `doppler_compensated`: the radial parts of (`vx`, `vy`) and (`vx_comp`, `vy_comp`), for only these are measured.
 //! - The vehicle frame is nuScenes' ego frame (rear axle, on the ground, x forward), odom its global frame.
-//! - LiDAR points stay in nuScenes' LiDAR frame (x right, y forward), which the mounting takes care of. They are as
-//!   published, not motion-corrected.
+//! - LiDAR points stay in nuScenes' LiDAR frame (x right, y forward), which the mounting takes care of. They are
+//!   published motion-corrected to the end of the revolution, which is the scan's time, and without times of their own:
+//!   `docs/recordings.md` tells how that is seen.
 //! - Measurements that the tables list but the disk lacks (parts of the data set are published one by one) are left out
 //!   of the timelines, with a warning.
 
 mod can;
-mod join;
-mod pcd;
 mod raw;
 mod rig;
 mod source;
 
-pub(crate) use source::NuScenesOrigin;
-
 use crate::disk::files::Folders;
 use crate::error::DataError;
-use crate::read::{Recording, SequenceReader};
-use std::fs;
+use crate::read::scene_tables::{self, Scenes, lookup};
+use crate::read::{Recording, SequenceReader, truckscenes};
+use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
 /// The format's name.
 pub(crate) const NAME: &str = "nuscenes";
+/// The table that tells when and where scenes were recorded.
+const LOG: &str = "log.json";
 
 /// Opens the data set at the folder that holds `v1.0-*`, `samples` and `sweeps`.
 ///
 /// Errors: no version folder or several, tables that are damaged or contradict each other, a sensor whose calibration
 /// changes inside a scene, a scene without ego poses.
 pub(crate) fn open(path: &Path) -> Result<Recording, DataError> {
-    let version = version_folder(path)?;
-    let tables: Vec<PathBuf> = join::TABLES.iter().map(|name| version.join(name)).collect();
+    let version = scene_tables::only_folder(path, is_version, "v1.0-*")?;
+    if version.join(truckscenes::TELLING).is_file() {
+        let found = format!("{}, of MAN TruckScenes (--format {})", truckscenes::TELLING, truckscenes::NAME);
+        return Err(DataError::content(&version, "tables", "those of nuScenes alone", found));
+    }
+    let mut tables: Vec<PathBuf> = scene_tables::TABLES.iter().map(|name| version.join(name)).collect();
+    tables.push(version.join(LOG));
+    tables.sort();
     let mut folders = Folders::default();
     let mut sequences: Vec<Box<dyn SequenceReader>> = Vec::new();
-    for scene in join::read_scenes(&version)? {
-        sequences.push(Box::new(source::Scene::new(path, &tables, scene, &mut folders)?));
+    for record in scenes(&version)?.finish(&version)? {
+        sequences.push(Box::new(source::scene(path, &version, &tables, record, &mut folders)?));
     }
     Ok(Recording { path: path.to_owned(), format: NAME, sequences })
 }
 
 /// Whether a folder looks like nuScenes.
 pub(crate) fn recognises(path: &Path) -> bool {
-    version_folders(path)
-        .is_ok_and(|found| found.iter().any(|folder| folder.join("sample_data.json").is_file()))
+    scene_tables::is_one(path, is_version, "sample_data.json")
 }
 
-/// The only folder `v1.0-*`.
-fn version_folder(path: &Path) -> Result<PathBuf, DataError> {
-    let mut found = version_folders(path)?;
-    if let (1, Some(only)) = (found.len(), found.pop()) {
-        return Ok(only);
-    }
-    let names: Vec<_> = version_folders(path)?
-        .iter()
-        .filter_map(|f| Some(f.file_name()?.to_string_lossy().into_owned()))
-        .collect();
-    let found = if names.is_empty() { "none".to_owned() } else { names.join(", ") };
-    Err(DataError::content(path, "folders", "exactly one version folder `v1.0-*`", found))
+fn is_version(folder: &str) -> bool {
+    folder.starts_with("v1.0-")
 }
 
-fn version_folders(path: &Path) -> Result<Vec<PathBuf>, DataError> {
-    let mut found = Vec::new();
-    for entry in fs::read_dir(path).map_err(DataError::io(path))? {
-        let entry = entry.map_err(DataError::io(path))?;
-        if entry.file_name().to_string_lossy().starts_with("v1.0-") && entry.path().is_dir() {
-            found.push(entry.path());
-        }
-    }
-    found.sort();
-    Ok(found)
+/// The scenes with their poses; their titles tell place and date.
+fn scenes(version: &Path) -> Result<Scenes, DataError> {
+    let mut logs = HashMap::new();
+    scene_tables::for_each_row(&version.join(LOG), |row: raw::LogRow| {
+        logs.insert(row.token, format!("{}, {}", row.location, row.date_captured));
+        Ok(())
+    })?;
+    let mut scenes = scene_tables::read_scenes(version, |description, log| {
+        Ok(format!("{description} ({})", lookup(&logs, log, LOG)?))
+    })?;
+    scenes.take_named_poses(version)?;
+    Ok(scenes)
 }
 
 #[cfg(test)]

@@ -1,6 +1,7 @@
 //! Radar and LiDAR scans from messages, by the names of their fields.
 
 use super::messages::Messages;
+use super::point_clock::PointClock;
 use crate::error::DataError;
 use crate::read::radial::radial;
 use ralf::sensors::LidarScan;
@@ -40,11 +41,12 @@ pub(super) fn radar_columns(messages: &Messages, message: &MessageRef) -> Result
     Ok(columns)
 }
 
-/// A LiDAR's scan: x, y, z, and the intensity where there is one.
+/// A LiDAR's scan: x, y, z, the intensity where there is one, and the points' times if a field tells them.
 pub(super) fn lidar_scan(
     messages: &Messages,
     message: &MessageRef,
     t_ns: i64,
+    clock: Option<&PointClock>,
 ) -> Result<LidarScan, DataError> {
     let cloud: PointCloud2 = messages.decode(message)?;
     let table = table(messages, message, &cloud)?;
@@ -57,7 +59,22 @@ pub(super) fn lidar_scan(
     let [x, y, z] = [column("x")?, column("y")?, column("z")?];
     let points: Vec<[f32; 3]> = x.into_iter().zip(y).zip(z).map(|((x, y), z)| [x, y, z]).collect();
     let intensity = table.column("intensity").unwrap_or_else(|| vec![0.0; points.len()]);
-    Ok(LidarScan { t_ns, points, times: None, intensity, classes: None })
+    let wrong = |(n, expected, found): (usize, String, String)| {
+        messages.error(message, &format!("point {n}, times"), expected, found)
+    };
+    let times = clock.map(|clock| clock.times(&table, &points, t_ns).map_err(wrong)).transpose()?;
+    Ok(LidarScan { t_ns, points, times, intensity, classes: None })
+}
+
+/// How a LiDAR's points tell their times, after its first scan. The error is a sentence, of times in no unit.
+pub(super) fn point_clock(
+    messages: &Messages,
+    message: &MessageRef,
+    t_ns: i64,
+) -> Result<Option<PointClock>, String> {
+    let cloud: PointCloud2 = messages.decode(message).map_err(|error| error.to_string())?;
+    let table = table(messages, message, &cloud).map_err(|error| error.to_string())?;
+    PointClock::find(&table, t_ns)
 }
 
 impl Columns {

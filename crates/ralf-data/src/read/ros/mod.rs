@@ -11,6 +11,7 @@ mod messages;
 mod motion;
 mod mounting;
 mod pixels;
+mod point_clock;
 mod source;
 mod survey;
 #[cfg(test)]

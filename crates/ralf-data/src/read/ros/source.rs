@@ -1,11 +1,12 @@
 //! A recording as a source: measurements typed.
 
 use super::camera::intrinsics;
-use super::cloud::{lidar_scan, radar_columns};
+use super::cloud::{lidar_scan, point_clock, radar_columns};
 use super::messages::Messages;
 use super::motion::motion;
 use super::mounting::{mounting, sensor_frame, vehicle_frame};
 use super::pixels;
+use super::point_clock::PointClock;
 use super::survey::{Survey, Track, info_topic, survey};
 use super::topics::{TopicConfig, TopicKind, Topics};
 use crate::error::DataError;
@@ -48,8 +49,16 @@ pub(super) struct Drive {
     origin: RosOrigin,
     radars: MessagesPerSensor,
     lidars: MessagesPerSensor,
+    clocks: Vec<LidarClock>,
     cameras: MessagesPerSensor,
     warnings: Vec<String>,
+}
+
+/// How a LiDAR's points tell when they were measured.
+struct LidarClock {
+    clock: Option<PointClock>,
+    /// Whether they lie where they were measured.
+    is_rolling: bool,
 }
 
 impl Drive {
@@ -69,7 +78,8 @@ impl Drive {
         let sequence = Sequence { name, title, rig, times, motion, depth_output };
         let [radars, lidars, cameras] = [const { Vec::new() }; 3];
         let origin = RosOrigin { messages, radar_frames: Vec::new() };
-        let mut drive = Self { sequence, origin, radars, lidars, cameras, warnings };
+        let clocks = Vec::new();
+        let mut drive = Self { sequence, origin, radars, lidars, clocks, cameras, warnings };
         for (name, topic) in topics {
             if let Some(track) = survey.sensors.get(name) {
                 drive.add(name, topic, track, &survey, &vehicle)?;
@@ -110,6 +120,8 @@ impl Drive {
             }
             TopicKind::Lidar => {
                 let model = self.model(name, topic, &LIDARS)?;
+                let clock = self.clock(name, topic, first.0, &first.1);
+                self.clocks.push(clock);
                 self.sequence.rig.lidars.push(model.mounted(name, vehicle_from_sensor));
                 self.sequence.times.lidars.push(times);
                 self.lidars.push(messages);
@@ -124,6 +136,32 @@ impl Drive {
             },
         }
         Ok(())
+    }
+
+    /// How a LiDAR's first scan tells times, with a warning of what is done with them.
+    fn clock(&mut self, name: &str, topic: &TopicConfig, t_ns: i64, first: &MessageRef) -> LidarClock {
+        let found = point_clock(&self.origin.messages, first, t_ns);
+        let clock = found.unwrap_or_else(|sentence| {
+            self.warnings.push(format!("{name}: {sentence}"));
+            None
+        });
+        let is_rolling = clock.is_some() && topic.motion_corrected != Some(true);
+        if let Some(PointClock { field, unit, .. }) =
+            clock.as_ref().filter(|_| topic.motion_corrected.is_none())
+        {
+            self.warnings.push(format!(
+                "{name}: points carry their times (`{field}`, {unit}) and are moved to the scan's with the vehicle's \
+                 motion; `topics.{name}.motion_corrected = true` if the recorder has done so, `false` if not"
+            ));
+        }
+        LidarClock { clock, is_rolling }
+    }
+
+    /// A LiDAR's scan as its message has it.
+    fn recorded(&self, lidar: usize, scan: usize) -> Result<LidarScan, DataError> {
+        let message = measurement("lidar", &self.lidars, lidar, scan)?;
+        let t_ns = self.sequence.times.lidars[lidar][scan];
+        lidar_scan(&self.origin.messages, message, t_ns, self.clocks[lidar].clock.as_ref())
     }
 
     /// The fields are those of the first scan.
@@ -218,8 +256,13 @@ impl Source for Drive {
     }
 
     fn lidar_scan(&self, lidar: usize, scan: usize) -> Result<LidarScan, SourceError> {
-        let message = measurement("lidar", &self.lidars, lidar, scan)?;
-        Ok(lidar_scan(&self.origin.messages, message, self.sequence.times.lidars[lidar][scan])?)
+        let recorded = self.recorded(lidar, scan)?;
+        let Sequence { rig, motion, .. } = &self.sequence;
+        Ok(if self.clocks[lidar].is_rolling && motion.is_known() {
+            recorded.motion_corrected(&rig.lidars[lidar].vehicle_from_lidar, motion)
+        } else {
+            recorded
+        })
     }
 
     fn image(&self, camera: usize, image: usize) -> Result<CameraImage, SourceError> {
@@ -251,6 +294,11 @@ impl SequenceReader for Drive {
 
     fn image_file(&self, _camera: usize, _image: usize) -> Option<PathBuf> {
         None
+    }
+
+    fn rolling_scan(&self, lidar: usize, scan: usize) -> Result<Option<LidarScan>, SourceError> {
+        let recorded = self.recorded(lidar, scan)?;
+        Ok(Some(recorded).filter(|_| self.clocks[lidar].is_rolling))
     }
 
     fn origin(&self) -> Option<&dyn Any> {

@@ -27,6 +27,9 @@ pub struct TopicConfig {
     /// Camera: whether its images were rectified, so that the projection `P` holds for them, and no distortion.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rectified: Option<bool>,
+    /// LiDAR: whether points that carry a time were moved to the header's time already; `false`, if not given.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub motion_corrected: Option<bool>,
     /// Sensor: its frame; that of the messages, if not given.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub frame: Option<String>,
@@ -80,6 +83,7 @@ impl TopicConfig {
             elevation: None,
             info: None,
             rectified: None,
+            motion_corrected: None,
             frame: None,
             vehicle_frame: None,
             stamps: None,
@@ -94,6 +98,7 @@ impl TopicConfig {
             ("elevation", self.elevation.is_some(), &[Radar]),
             ("info", self.info.is_some(), &[Camera]),
             ("rectified", self.rectified.is_some(), &[Camera]),
+            ("motion_corrected", self.motion_corrected.is_some(), &[Lidar]),
             ("frame", self.frame.is_some(), &[Radar, Lidar, Camera, Imu]),
             ("vehicle_frame", self.vehicle_frame.is_some(), &[Odometry, Twist, Imu]),
         ];

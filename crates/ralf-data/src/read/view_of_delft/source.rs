@@ -6,12 +6,10 @@ use crate::disk::files;
 use crate::disk::files::Folders;
 use crate::disk::images;
 use crate::error::DataError;
-use crate::read::SequenceReader;
-use crate::read::measured_files::MeasuredFiles;
+use crate::read::file_sequence::{FileFormat, FileSequence};
+use crate::read::measured_files::{MeasuredFiles, lidar_rows};
 use crate::read::models::{HDL_64E_S3, ZF_FRGEN21};
-use ralf::sensors::{
-    CameraImage, DepthImage, DepthOutput, LidarScan, RadarScan, Rig, Sequence, Source, SourceError, Timelines,
-};
+use ralf::sensors::{DepthOutput, Lidar, LidarScan, Rig, Sequence, Timelines};
 use ralf::space::{EgoMotion, PoseSample};
 use std::path::{Path, PathBuf};
 
@@ -24,14 +22,8 @@ const IMAGE_SIZE: [usize; 2] = [1936, 1216];
 /// A pose this far from the frame before belongs to another drive, m: half of it would be 25 m/s.
 const LARGEST_STEP: f64 = 5.0;
 
-/// The sequence `training`.
-pub(super) struct Training {
-    sequence: Sequence,
-    files: MeasuredFiles,
-    /// Calibrations and poses.
-    further: Vec<PathBuf>,
-    warnings: Vec<String>,
-}
+/// How the files of the sequence `training` are read.
+pub(super) struct Training;
 
 /// The frames and where their files are.
 struct Layout {
@@ -41,40 +33,38 @@ struct Layout {
     folders: Folders,
 }
 
-impl Training {
-    /// Reads the names of all measurements, and all calibrations and poses.
-    pub(super) fn new(dataset: &Path) -> Result<Self, DataError> {
-        let [radar, lidar] = ["radar", "lidar"].map(|sensor| dataset.join(sensor).join("training"));
-        let frames = frames(&radar.join("velodyne"))?;
-        let mut layout = Layout { radar, lidar, frames, folders: Folders::default() };
-        let mut warnings = Vec::new();
-        let mounting = layout.mounting(&layout.frames[0])?;
-        let further = layout.further_files();
-        layout.compare_mountings(&mounting, &mut warnings)?;
-        let poses = layout.poses(&mounting)?;
-        warn_of_jumps(&poses, &mut warnings);
-        let motion = EgoMotion::new(Vec::new(), poses)
-            .ok_or_else(|| DataError::content(&layout.radar, "poses", "one per frame", "none"))?;
-        let (radar_times, radar_files) = layout.present("radar", "velodyne", "bin", &mut warnings)?;
-        let (lidar_times, lidar_files) = layout.present("lidar", "velodyne", "bin", &mut warnings)?;
-        let (camera_times, camera_files) = layout.present("camera", "image_2", "jpg", &mut warnings)?;
-        let image_size = camera_files.first().map_or(Ok(IMAGE_SIZE), |file| images::size(file))?;
-        let sequence = Sequence {
-            name: "training".to_owned(),
-            title: "View-of-Delft, training".to_owned(),
-            rig: layout.rig(&mounting, image_size)?,
-            times: Timelines {
-                radars: vec![radar_times],
-                lidars: vec![lidar_times],
-                cameras: vec![camera_times],
-            },
-            motion,
-            depth_output: DepthOutput::default(),
-        };
-        let [radars, lidars, cameras] = [radar_files, lidar_files, camera_files].map(|files| vec![files]);
-        let files = MeasuredFiles { radars, lidars, cameras };
-        Ok(Self { sequence, files, further, warnings })
-    }
+/// The sequence: reads the names of all measurements, and all calibrations and poses.
+pub(super) fn training(dataset: &Path) -> Result<FileSequence<Training>, DataError> {
+    let [radar, lidar] = ["radar", "lidar"].map(|sensor| dataset.join(sensor).join("training"));
+    let frames = frames(&radar.join("velodyne"))?;
+    let mut layout = Layout { radar, lidar, frames, folders: Folders::default() };
+    let mut warnings = Vec::new();
+    let mounting = layout.mounting(&layout.frames[0])?;
+    let further = layout.further_files();
+    layout.compare_mountings(&mounting, &mut warnings)?;
+    let poses = layout.poses(&mounting)?;
+    warn_of_jumps(&poses, &mut warnings);
+    let motion = EgoMotion::new(Vec::new(), poses)
+        .ok_or_else(|| DataError::content(&layout.radar, "poses", "one per frame", "none"))?;
+    let (radar_times, radar_files) = layout.present("radar", "velodyne", "bin", &mut warnings)?;
+    let (lidar_times, lidar_files) = layout.present("lidar", "velodyne", "bin", &mut warnings)?;
+    let (camera_times, camera_files) = layout.present("camera", "image_2", "jpg", &mut warnings)?;
+    let image_size = camera_files.first().map_or(Ok(IMAGE_SIZE), |file| images::size(file))?;
+    let sequence = Sequence {
+        name: "training".to_owned(),
+        title: "View-of-Delft, training".to_owned(),
+        rig: layout.rig(&mounting, image_size)?,
+        times: Timelines {
+            radars: vec![radar_times],
+            lidars: vec![lidar_times],
+            cameras: vec![camera_times],
+        },
+        motion,
+        depth_output: DepthOutput::default(),
+    };
+    let [radars, lidars, cameras] = [radar_files, lidar_files, camera_files].map(|files| vec![files]);
+    let files = MeasuredFiles { radars, lidars, cameras };
+    Ok(FileSequence { sequence, files, further, warnings, format: Training })
 }
 
 impl Layout {
@@ -184,40 +174,12 @@ fn warn_of_jumps(poses: &[PoseSample], warnings: &mut Vec<String>) {
     }
 }
 
-impl Source for Training {
-    fn sequence(&self) -> &Sequence {
-        &self.sequence
+impl FileFormat for Training {
+    fn radar_columns(&self, file: &Path, _: usize, _: usize) -> Result<Vec<Vec<f32>>, DataError> {
+        files::read_f32_columns(file, RADAR_FIELDS.len())
     }
 
-    fn radar_scan(&self, radar: usize, scan: usize) -> Result<RadarScan, SourceError> {
-        let read = |file: &Path| files::read_f32_columns(file, RADAR_FIELDS.len());
-        self.files.radar_scan(&self.sequence, radar, scan, read)
-    }
-
-    fn lidar_scan(&self, lidar: usize, scan: usize) -> Result<LidarScan, SourceError> {
-        self.files.lidar_scan(&self.sequence, lidar, scan, 4)
-    }
-
-    fn image(&self, camera: usize, image: usize) -> Result<CameraImage, SourceError> {
-        self.files.image(&self.sequence, camera, image)
-    }
-
-    fn depth(&self, camera: usize, image: usize) -> Result<Option<Vec<DepthImage>>, SourceError> {
-        self.files.image_file(camera, image)?;
-        Ok(None)
-    }
-}
-
-impl SequenceReader for Training {
-    fn inputs(&self) -> Vec<PathBuf> {
-        self.further.iter().chain(self.files.all()).cloned().collect()
-    }
-
-    fn warnings(&self) -> &[String] {
-        &self.warnings
-    }
-
-    fn image_file(&self, camera: usize, image: usize) -> Option<PathBuf> {
-        self.files.image_file(camera, image).ok().cloned()
+    fn lidar_scan(&self, file: &Path, _: &Lidar, t_ns: i64) -> Result<LidarScan, DataError> {
+        lidar_rows(file, 4, t_ns)
     }
 }

@@ -47,13 +47,13 @@ static FORMATS: [Format; 7] = [
         name: "mcap",
         sensors: Sensors::ALL,
         single_file: Some(SingleFile { ending: RosFormat::Mcap.ending(), is_export: ros::is_labelled }),
-        writer: |_| Box::new(Ros(RosFormat::Mcap)),
+        writer: |_| Box::new(Ros::new(RosFormat::Mcap)),
     },
     Format {
         name: "rosbag1",
         sensors: Sensors::ALL,
         single_file: Some(SingleFile { ending: RosFormat::Bag.ending(), is_export: ros::is_labelled }),
-        writer: |_| Box::new(Ros(RosFormat::Bag)),
+        writer: |_| Box::new(Ros::new(RosFormat::Bag)),
     },
     Format {
         name: "semantickitti",

@@ -8,7 +8,7 @@ use super::Writer;
 use super::labelled::LabelledSequence;
 use crate::disk::files;
 use crate::error::DataError;
-use crate::read::nuscenes::NuScenesOrigin;
+use crate::read::scene_tables::TableOrigin;
 use crate::result::{Component, OutFolder, checked};
 use ralf::label::{PLAUSIBLE, class_name, truth_of};
 use serde::Serialize;
@@ -74,7 +74,7 @@ impl Writer for NuScenes {
     }
 }
 
-fn origin<'a>(sequence: &LabelledSequence<'a, '_>) -> Result<&'a NuScenesOrigin, DataError> {
+fn origin<'a>(sequence: &LabelledSequence<'a, '_>) -> Result<&'a TableOrigin, DataError> {
     let origin = sequence.reader.origin().and_then(<dyn Any>::downcast_ref);
     origin.ok_or_else(|| no_tokens(sequence.name()))
 }

@@ -2,6 +2,7 @@
 
 use super::ExportOptions;
 use super::formats::SingleFile;
+use super::ros::foxglove::FILE as LAYOUT;
 use crate::disk::files;
 use crate::error::DataError;
 use crate::result::{Component, OutFolder, WriterLock};
@@ -77,11 +78,21 @@ impl Place {
         &self.part
     }
 
+    /// Puts the layout of an only file beside it. One that is there already may be somebody's own, and stays.
+    fn keep_layout(&self) -> Result<(), DataError> {
+        let (from, to) = (self.part.own_file(LAYOUT), self.path.with_extension(LAYOUT));
+        if !from.exists() || to.exists() {
+            return Ok(());
+        }
+        fs::rename(from, &to).map_err(DataError::io(&to))
+    }
+
     /// Puts the export in its place.
     pub(super) fn finish(self) -> Result<(), DataError> {
         let refused = || DataError::io(&self.path);
         if let Some(file) = &self.file {
-            return fs::rename(self.part.file(file), &self.path).map_err(refused());
+            fs::rename(self.part.file(file), &self.path).map_err(refused())?;
+            return self.keep_layout();
         }
         remove_folder(&self.earlier)?;
         if self.path.exists() {

@@ -8,8 +8,10 @@ import { Moment } from "./moment.js";
 import { Navigation } from "./navigation.js";
 import { Picking } from "./picking.js";
 import { Reviewing } from "./reviewing.js";
+import { Ruling } from "./ruling.js";
 import { Selecting } from "./selecting.js";
 import { Stepping } from "./stepping.js";
+import { Thinging } from "./thinging.js";
 import { Viewing } from "./viewing.js";
 import type { World } from "./world.js";
 
@@ -22,20 +24,26 @@ export interface Actions {
   readonly pick: Picking;
   readonly view: Viewing;
   readonly hear: Hearing;
+  readonly thing: Thinging;
+  readonly rule: Ruling;
 }
 
 export function actionsOn(world: World, keeper: Keeper): Actions {
   const go = new Navigation(world, new Moment(world));
   const adopting = new Adopting(world);
+  const thing = new Thinging(world, go);
   const correct = new Correcting(world, go, adopting, keeper);
+  const select = new Selecting(world, correct, thing);
   return {
     go,
     correct,
     review: new Reviewing(world, go, adopting, correct),
     step: new Stepping(world, go, adopting, correct),
-    select: new Selecting(world, correct),
+    select,
     pick: new Picking(world),
     view: new Viewing(world),
     hear: new Hearing(world, adopting, correct),
+    thing,
+    rule: new Ruling(world, go, select),
   };
 }

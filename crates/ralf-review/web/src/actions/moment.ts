@@ -71,7 +71,9 @@ export class Moment {
       (error: unknown) => update({ problem: messageOf(error) }),
     );
     const places = withoutPlaces(cloud.count);
+    const near = nearInTime(cloud);
     const read = cloud.scans.map(async (scan, index) => {
+      if (!near[index]) return;
       placeScan(places, cloud, index, await loader.projections(sequence, name, camera.image, scan));
       if (index === 0) update({ places: places.slice() });
     });
@@ -88,6 +90,18 @@ export class Moment {
   shows(id: ScanId): boolean {
     return this.world.store.state.cloud.scans.some((scan) => sameScan(scan, id));
   }
+}
+
+/** How far in time a scan may be from the current one to be shown in an image, ns. */
+const NEAR_NS = 150_000_000n;
+
+/** Which scans belong into the images of this moment: not those of a whole sequence. */
+function nearInTime({ scans }: Cloud): readonly boolean[] {
+  const now = BigInt(scans[0].table.header.t_ns);
+  return scans.map(({ table }) => {
+    const apart = BigInt(table.header.t_ns) - now;
+    return apart <= NEAR_NS && apart >= -NEAR_NS;
+  });
 }
 
 /** The picture that is on screen already stays there while its projections are read anew. */

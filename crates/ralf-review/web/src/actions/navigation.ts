@@ -8,9 +8,15 @@ import { type Address, addressText } from "./address.js";
 import type { Moment } from "./moment.js";
 import { complain, tell, type World } from "./world.js";
 
-const MOST_ACCUMULATED = 20;
+/** As many as the server tells of at once. */
+const MOST_ACCUMULATED = 100;
+
+/** How long a scan stays on screen at least while the recording plays, ms. */
+const LEAST_SHOWN = 150;
 
 export class Navigation {
+  private playing = false;
+
   constructor(
     private readonly world: World,
     private readonly moment: Moment,
@@ -88,6 +94,19 @@ export class Navigation {
     if (next !== null) await this.goTo(next);
   }
 
+  /** Goes from scan to scan of the radar by itself, until it is asked again or the last one is there. */
+  async play(): Promise<void> {
+    this.playing = !this.playing;
+    while (this.playing) {
+      const { current, sequence } = this.world.store.state;
+      const shown = new Promise((resolve) => setTimeout(resolve, LEAST_SHOWN));
+      await this.step(1);
+      await shown;
+      const now = this.world.store.state;
+      if (sameScan(current, now.current) || sequence !== now.sequence) this.playing = false;
+    }
+  }
+
   /** Along the list as it's shown. */
   async stepInList(by: number): Promise<void> {
     const { scans, current, queueView } = this.world.store.state;
@@ -114,6 +133,26 @@ export class Navigation {
     const wanted = Math.min(Math.max(accumulate + by, 0), MOST_ACCUMULATED);
     if (wanted === accumulate || current === null) return;
     store.set({ accumulate: wanted });
+    await this.moment.show(current);
+  }
+
+  /** All scans around one (a hundred of each radar before and after it) on screen, and strokes that may change them. */
+  async wholeSequence(at: ScanId): Promise<void> {
+    const { store } = this.world;
+    const { accumulate, scope, current, cloud } = store.state;
+    if (scope !== "shown") store.set({ scope: "shown" });
+    if (accumulate !== MOST_ACCUMULATED) store.set({ accumulate: MOST_ACCUMULATED });
+    const there = accumulate === MOST_ACCUMULATED && sameScan(current, at) && cloud.count > 0;
+    if (!there) await this.goTo(at);
+  }
+
+  /** Between all scans around the current one, and it alone. */
+  async toggleWhole(): Promise<void> {
+    const { store } = this.world;
+    const { accumulate, current } = store.state;
+    if (current === null) return;
+    if (accumulate < MOST_ACCUMULATED) return this.wholeSequence(current);
+    store.set({ accumulate: 0, scope: "scan" });
     await this.moment.show(current);
   }
 

@@ -2,8 +2,9 @@
 
 import type { Choice } from "../data/labels.js";
 import { combine, type Combination, countOf, inverted } from "../selection/mask.js";
-import type { Tool } from "../selection/tools.js";
+import { isPress, type Tool } from "../selection/tools.js";
 import type { Correcting } from "./correcting.js";
+import type { Thinging } from "./thinging.js";
 import { complain, tell, type World } from "./world.js";
 
 const BRUSHES = [6, 9, 13, 18, 26, 38, 54, 80] as const;
@@ -15,6 +16,7 @@ export class Selecting {
   constructor(
     private readonly world: World,
     private readonly correcting: Correcting,
+    private readonly things: Thinging,
   ) {}
 
   hover(index: number): void {
@@ -22,12 +24,15 @@ export class Selecting {
   }
 
   /** A finished gesture of a tool: selects, or sets the armed label at once. */
-  gesture(tool: Tool, mask: Uint8Array, how: Combination): void {
+  gesture(tool: Tool, drawn: Uint8Array, how: Combination): void {
     const { store } = this.world;
     const { armed, selection, outbox } = store.state;
     if (outbox.kind === "conflict") return;
     this.lastTool = tool;
-    if (countOf(mask) === 0 && tool !== "click") this.explainNothing();
+    const mask = tool === "thing" && countOf(drawn) > 0 ? this.things.whole(drawn) : drawn;
+    if (countOf(mask) === 0 && !isPress(tool)) this.explainNothing();
+    // Whoever chooses something else isn't answering the queue any more.
+    if (store.state.thing !== null) store.set({ thing: null });
     if (armed !== undefined && how === "replace") {
       store.set({ selection: mask });
       this.begin(this.correcting.apply(armed, tool));
@@ -41,9 +46,16 @@ export class Selecting {
   /** A label was chosen: it's set on what is selected; with nothing selected, on every stroke from now on. */
   choose(choice: Choice): void {
     const { store } = this.world;
-    const { selection, armed } = store.state;
-    if (countOf(selection) > 0) this.begin(this.correcting.apply(choice, this.lastTool));
+    const { selection, armed, thing } = store.state;
+    if (countOf(selection) > 0 && thing !== null) this.begin(this.answer(choice));
+    else if (countOf(selection) > 0) this.begin(this.correcting.apply(choice, this.lastTool));
     else store.set({ armed: armed === choice ? undefined : choice });
+  }
+
+  /** What a person says of the thing that wants an answer; then to the next one. */
+  private async answer(choice: Choice): Promise<void> {
+    await this.correcting.apply(choice, "thing");
+    if (this.world.store.state.outbox.kind === "idle") await this.things.next();
   }
 
   disarm(): void {
@@ -60,22 +72,23 @@ export class Selecting {
     this.lastTool = "invert";
   }
 
-  all(): void {
+  all(tool = "all"): void {
     const { store } = this.world;
     store.set({ selection: store.state.eligible.slice() });
-    this.lastTool = "all";
+    this.lastTool = tool;
   }
 
   /** Clears the selection, else what is armed. */
   escape(): void {
     const { store } = this.world;
     const { selection } = store.state;
-    if (countOf(selection) > 0) store.set({ selection: new Uint8Array(selection.length) });
+    if (countOf(selection) > 0) store.set({ selection: new Uint8Array(selection.length), thing: null });
     else store.set({ armed: undefined, notice: null, accepting: null });
   }
 
   tool(tool: Tool): void {
     this.world.store.set({ tool });
+    if (tool === "thing") this.begin(this.things.load().then(() => undefined));
   }
 
   brush(step: 1 | -1): void {

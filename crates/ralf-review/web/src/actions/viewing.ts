@@ -68,6 +68,11 @@ export class Viewing {
     store.set({ lidarShown: !store.state.lidarShown });
   }
 
+  toggleLight(): void {
+    const { store } = this.world;
+    store.set({ light: !store.state.light });
+  }
+
   toggleGround(): void {
     const { store } = this.world;
     store.set({ groundHidden: !store.state.groundHidden });

@@ -6,6 +6,7 @@ import { decodeTable, type Table } from "./table.js";
 import type {
   Changes,
   ConflictBody,
+  Doubtful,
   MarkRequest,
   History,
   LidarHeader,
@@ -16,6 +17,7 @@ import type {
   ScanId,
   StrokeAnswer,
   StrokeRequest,
+  ThingsHeader,
   TimedScan,
 } from "./types.js";
 
@@ -32,6 +34,15 @@ export class Api {
 
   queue(sequence: string): Promise<Queue> {
     return this.json("GET", `${inSequence(sequence)}/queue`);
+  }
+
+  /** The thing of every detection, and the doubtful things. */
+  things(sequence: string): Promise<Table<ThingsHeader>> {
+    return this.table(`${inSequence(sequence)}/things`);
+  }
+
+  doubtful(sequence: string): Promise<Doubtful> {
+    return this.json("GET", `${inSequence(sequence)}/things/doubtful`);
   }
 
   history(sequence: string): Promise<History> {

@@ -66,8 +66,8 @@ export interface ScanId {
 export interface QueueScan extends ScanId {
   readonly t_ns: string;
   readonly detections: number;
-  /** 0 to 1: how much the scan needs a person. */
-  readonly need: number;
+  /** How many of its labels are expected to be wrong, as far as nobody has said so yet. */
+  readonly expected_errors: number;
   readonly uncertain: number;
   readonly disagreeing: number;
   readonly cameras_failed: number;
@@ -75,6 +75,33 @@ export interface QueueScan extends ScanId {
   readonly reviewed: Reviewed | null;
   /** Corrections and marks of other detections than the scan has now; kept, and never applied. */
   readonly orphaned: number;
+}
+
+/** Detections that belong together in the world, of which some are expected to be labelled wrongly. */
+export interface DoubtfulThing extends ScanId {
+  readonly thing: number;
+  /** The middle in the odometry frame, m. */
+  readonly place: readonly [x: number | null, y: number | null, z: number | null];
+  readonly radius: number | null;
+  readonly detections: number;
+  readonly scans: number;
+  /** How many the machine calls plausible. */
+  readonly plausible: number;
+  readonly answered: number;
+  readonly expected_errors: number;
+  /** A detection of it, in the scan that the id names. */
+  readonly point: number;
+}
+
+export interface Doubtful {
+  /** Those with the most expected errors first. */
+  readonly doubtful: readonly DoubtfulThing[];
+  readonly things: number;
+  readonly expected_errors: number;
+}
+
+export interface ThingsHeader extends Doubtful {
+  readonly scans: readonly (ScanId & { readonly rows: number })[];
 }
 
 export interface Progress {

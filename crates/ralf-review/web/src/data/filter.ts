@@ -7,6 +7,12 @@ import type { LabelBook } from "./labels.js";
 export type Span = readonly [least: number, most: number];
 export type Origin = "any" | "corrected" | "machine";
 
+/** Values of a column; a detection without one doesn't pass. */
+export interface ColumnSpan {
+  readonly name: string;
+  readonly span: Span;
+}
+
 export interface Filter {
   readonly plausible: boolean;
   readonly artifact: boolean;
@@ -21,6 +27,8 @@ export interface Filter {
   /** Flags of which a detection must have at least one; 0: whatever they are. */
   readonly flags: number;
   readonly hiddenRadars: ReadonlySet<string>;
+  /** Whatever else is asked of numbers. */
+  readonly columns: readonly ColumnSpan[];
 }
 
 export const everything: Filter = {
@@ -34,6 +42,7 @@ export const everything: Filter = {
   height: [-Infinity, Infinity],
   flags: 0,
   hiddenRadars: new Set(),
+  columns: [],
 };
 
 /** Scores no farther from the threshold than this are uncertain, as in the queue. */
@@ -59,6 +68,7 @@ export function certaintyOf({ threshold, flags }: Pick<Recording, "threshold" | 
 export function visible(cloud: Cloud, filter: Filter, labels: LabelBook, certainty: Certainty): Uint8Array {
   const shown = new Uint8Array(cloud.count);
   const [score, range, flags] = ["w", "range", "flags"].map((name) => gather(cloud, name));
+  const columns = filter.columns.map(({ name, span }) => ({ values: gather(cloud, name), span }));
   const shownScans = cloud.scans.map(({ radar }) => !filter.hiddenRadars.has(radar));
   const anyScore = filter.score[0] <= 0 && filter.score[1] >= 1;
   for (let i = 0; i < cloud.count; i++) {
@@ -71,7 +81,8 @@ export function visible(cloud: Cloud, filter: Filter, labels: LabelBook, certain
         (anyScore || within(score[i], filter.score)) &&
         within(range[i], filter.range) &&
         within(cloud.positions[3 * i + 2], filter.height) &&
-        (filter.flags === 0 || (flags[i] & filter.flags) !== 0),
+        (filter.flags === 0 || (flags[i] & filter.flags) !== 0) &&
+        columns.every(({ values, span }) => within(values[i], span)),
     );
   }
   return shown;
@@ -82,6 +93,7 @@ export function hides(filter: Filter): boolean {
   return (Object.keys(everything) as (keyof Filter)[]).some((key) => {
     const [now, whole] = [filter[key], everything[key]];
     if (now instanceof Set) return now.size > 0;
+    if (key === "columns") return filter.columns.length > 0;
     return Array.isArray(now) ? String(now) !== String(whole) : now !== whole;
   });
 }

@@ -9,7 +9,7 @@ import { type Lidar, lidarFromTable } from "./lidar.js";
 import { sameScan, type Scan, scanFromTable, scanKey } from "./scan.js";
 
 export class Loader {
-  private readonly scans = new Cache<Scan>(400);
+  private readonly scans = new Cache<Scan>(1200);
   private readonly lidars = new Cache<Table<LidarHeader>>(6);
   private readonly images = new Cache<ImageBitmap>(36);
   private readonly places = new Cache<Table<object>>(600);

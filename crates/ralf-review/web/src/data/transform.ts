@@ -2,6 +2,8 @@
 
 export type Matrix = readonly number[];
 
+export type Vector = readonly [x: number, y: number, z: number];
+
 export const IDENTITY: Matrix = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1];
 
 /** `a_from_b` and `b_from_c` give `a_from_c`. */
@@ -25,6 +27,13 @@ export function inverse(m: Matrix): Matrix {
 export function targetFromSource(odomFromTarget: Matrix | null, odomFromSource: Matrix | null): Matrix {
   if (odomFromTarget === null || odomFromSource === null) return IDENTITY;
   return compose(inverse(odomFromTarget), odomFromSource);
+}
+
+/** A place of the odometry frame in that of the vehicle; stays put where the vehicle's isn't known. */
+export function movePlace(odomFromVehicle: Matrix | null, [x, y, z]: readonly [number, number, number]): Vector {
+  const m = targetFromSource(odomFromVehicle, odomFromVehicle === null ? null : IDENTITY);
+  const row = (i: number): number => m[i] * x + m[i + 1] * y + m[i + 2] * z + m[i + 3];
+  return [row(0), row(4), row(8)];
 }
 
 /** Moves columns of coordinates into `out`, three numbers a point, from point `first` on. */

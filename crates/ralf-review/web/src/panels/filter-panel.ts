@@ -4,6 +4,7 @@ import { everything, type Filter, hides, type Origin, type Span } from "../data/
 import { h, pressed, say, select } from "../dom.js";
 import { shortName } from "../format.js";
 import type { Page } from "../page.js";
+import { rulesPanel } from "./rules-panel.js";
 
 export function filterPanel(page: Page): HTMLElement {
   const { store, actions } = page;
@@ -33,6 +34,7 @@ export function filterPanel(page: Page): HTMLElement {
     span(page, "height", "z / m", "0.5", everything.height),
     flags(page),
     radars(page),
+    rulesPanel(page),
   );
 }
 

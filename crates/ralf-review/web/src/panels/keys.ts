@@ -61,8 +61,15 @@ function correct({ actions, cancelGesture }: KeyContext): readonly Key[] {
 function tools({ actions, closePolygon }: KeyContext): readonly Key[] {
   const { select } = actions;
   const key = (keys: readonly string[], text: string, run: () => void): Key => ({ keys, group: "Tools", text, run });
-  const letters = ["v", "b", "l", "g", "u"];
-  const names = ["Click; drag moves the view", "Box", "Lasso", "Polygon", "Brush"];
+  const letters = ["v", "h", "b", "l", "g", "u"];
+  const names = [
+    "Click; drag moves the view",
+    "Thing: all that belongs together over the sequence",
+    "Box",
+    "Lasso",
+    "Polygon",
+    "Brush",
+  ];
   return [
     ...TOOLS.map((tool, i) => key([letters[i]], names[i], () => select.tool(tool))),
     repeating(key(["d"], "Choose the next detection, from left to right", () => actions.pick.step(1))),
@@ -78,9 +85,16 @@ function go({ actions }: KeyContext): readonly Key[] {
   const key = (keys: readonly string[], text: string, run: () => void): Key => ({ keys, group: "Go", text, run });
   return [
     key(["n"], "To the next scan that needs a person", () => void going.nextNeedy()),
+    key(
+      ["shift+n"],
+      "To the next doubtful thing; P, A or a class answer it and go on",
+      () => void actions.thing.next(),
+    ),
+    key(["z"], "The whole sequence at once, or this scan alone", () => void going.toggleWhole()),
     key(["enter"], "Mark as reviewed and go to the next needy scan", () => review.accept(true)),
     repeating(key(["arrowright"], "To the radar's next scan", () => void going.step(1))),
     repeating(key(["arrowleft"], "To the radar's previous scan", () => void going.step(-1))),
+    key(["shift+arrowright"], "Play: from scan to scan, until pressed again", () => void going.play()),
     repeating(key(["arrowdown"], "To the next scan of the list", () => void going.stepInList(1))),
     repeating(key(["arrowup"], "To the previous scan of the list", () => void going.stepInList(-1))),
     key(["s"], "To the next radar at this moment", () => void going.nextRadar()),
@@ -99,6 +113,7 @@ function view({ actions, home, seenCamera }: KeyContext): readonly Key[] {
     key([","], "Accumulate one fewer", () => void going.accumulate(-1)),
     key(["k"], "LiDAR on or off", () => viewing.toggleLidar()),
     key(["j"], "LiDAR's ground on or off", () => viewing.toggleGround()),
+    key(["shift+l"], "Light or dark background", () => viewing.toggleLight()),
     key(["?"], "This list", () => viewing.dialog("help")),
   ];
 }

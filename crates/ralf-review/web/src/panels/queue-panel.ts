@@ -16,6 +16,8 @@ export class QueuePanel {
   private readonly list = h("div", { class: "queue-list", role: "listbox", "aria-label": "Scans", tabindex: "0" });
   private readonly room = h("div", { class: "queue-room" });
   private rows: readonly QueueScan[] = [];
+  /** The most errors that are expected of any scan. */
+  private most = 1;
 
   constructor(private readonly page: Page) {
     this.list.append(this.room);
@@ -27,6 +29,7 @@ export class QueuePanel {
       ({ scans, queueView }) => [scans, queueView],
       (scans, view) => {
         this.rows = listed(scans, view);
+        this.most = scans.reduce((most, { expected_errors: errors }) => Math.max(most, errors), 1);
         this.room.style.setProperty("height", `${this.rows.length * ROW}px`);
         this.draw();
       },
@@ -55,7 +58,10 @@ export class QueuePanel {
   private row(entry: QueueScan, place: number): HTMLElement {
     const current = sameScan(entry, this.page.store.state.current);
     const bar = h("span", { class: "need-bar" }, h("span"));
-    (bar.firstElementChild as HTMLElement).style.setProperty("width", `${Math.round(100 * entry.need)}%`);
+    (bar.firstElementChild as HTMLElement).style.setProperty(
+      "width",
+      `${Math.round((100 * entry.expected_errors) / this.most)}%`,
+    );
     const row = h(
       "div",
       {
@@ -71,7 +77,7 @@ export class QueuePanel {
         h("span", {}, shortName(entry.radar)),
         h("b", { class: "number" }, String(entry.scan)),
       ),
-      h("span", { class: "queue-need" }, bar, h("b", { class: "number" }, entry.need.toFixed(2))),
+      h("span", { class: "queue-need" }, bar, h("b", { class: "number" }, entry.expected_errors.toFixed(1))),
       h("span", { class: "queue-reasons" }, ...said(entry)),
     );
     row.style.setProperty("top", `${place * ROW}px`);
@@ -96,9 +102,9 @@ function said(entry: QueueScan): HTMLElement[] {
   return parts;
 }
 
-function tooltip({ detections, reviewed }: QueueScan): string {
+function tooltip({ detections, reviewed, expected_errors: errors }: QueueScan): string {
   const by = reviewed === null ? "" : `, reviewed by ${reviewed.author}`;
-  return `${counted(detections, "detection")}${by}`;
+  return `${counted(detections, "detection")}, ${errors.toFixed(1)} expected to be wrong${by}`;
 }
 
 /** The list of sequences; how far each is stands there once somebody looks into it. */
@@ -204,10 +210,24 @@ function order({ store, actions }: Page): HTMLElement {
       radars.value = radar ?? "";
     },
   );
+  const things = h(
+    "button",
+    {
+      class: "segment",
+      type: "button",
+      title: "To the next doubtful thing (Shift N)",
+      on: { click: () => void actions.thing.next() },
+    },
+    "Things",
+  );
+  store.watch(
+    ({ thing }) => [thing],
+    (thing) => pressed(things, thing !== null),
+  );
   return h(
     "div",
     { class: "queue-order" },
-    h("div", { class: "segments", role: "group", "aria-label": "Order" }, ...buttons, open),
+    h("div", { class: "segments", role: "group", "aria-label": "Order" }, ...buttons, open, things),
     radars,
   );
 }

@@ -3,7 +3,10 @@
 import { h, say } from "../dom.js";
 import { counted, decimal } from "../format.js";
 import type { Page } from "../page.js";
+import type { Cloud } from "../data/cloud.js";
+import type { LabelBook } from "../data/labels.js";
 import { countOf } from "../selection/mask.js";
+import { isPress } from "../selection/tools.js";
 import type { State } from "../state.js";
 
 export function statusBar(page: Page): HTMLElement {
@@ -50,7 +53,7 @@ function history({ store }: Page): HTMLElement {
 function work({ store }: Page): HTMLElement {
   const text = h("span", { class: "work" });
   store.watch(
-    ({ selection, armed, tool }) => [selection, armed, tool],
+    ({ selection, armed, tool, cloud }) => [selection, armed, tool, cloud],
     () => say(text, workText(store.state)),
   );
   return text;
@@ -76,7 +79,7 @@ function cursor({ store }: Page): HTMLElement {
 }
 
 function frame({ store }: Page): HTMLElement {
-  const time = h("span", { class: "number faint frame", title: "JavaScript time of the last drawn frame" });
+  const time = h("span", { class: "number faint frame", title: "From a change until the picture was painted" });
   store.watch(
     ({ frameTime }) => [frameTime],
     (now) => say(time, `${decimal(now, 1)} ms/frame`),
@@ -109,9 +112,25 @@ export function savedState({
   return connected ? ["saved", "fine"] : ["offline", "alarm"];
 }
 
-function workText({ selection, armed, labels, tool }: Readonly<State>): string {
-  const selected = countOf(selection);
-  if (selected > 0) return `${counted(selected, "detection")} selected`;
+function workText({ selection, armed, labels, tool, cloud }: Readonly<State>): string {
+  if (countOf(selection) > 0) return selectedText(selection, cloud, labels);
   if (armed !== undefined) return `Painting: every stroke sets ${labels.choiceName(armed)} (Esc ends it)`;
-  return tool === "click" ? "Click selects, Shift adds, Ctrl takes away" : "Drag selects, Shift adds, Ctrl takes away";
+  return isPress(tool) ? "Click selects, Shift adds, Ctrl takes away" : "Drag selects, Shift adds, Ctrl takes away";
+}
+
+/** How much is selected, over how many scans, and how many of it say otherwise than most. */
+export function selectedText(selection: Uint8Array, cloud: Cloud, labels: LabelBook): string {
+  const scans = new Set<number>();
+  let [selected, plausible] = [0, 0];
+  selection.forEach((is, index) => {
+    if (is === 0) return;
+    selected += 1;
+    scans.add(cloud.scanOf[index]);
+    if (labels.truth(cloud.label[index]) === "plausible") plausible += 1;
+  });
+  const text = `${counted(selected, "detection")} selected`;
+  if (scans.size < 2) return text;
+  const otherwise = Math.min(plausible, selected - plausible);
+  const most = 2 * plausible >= selected ? "plausible" : "artifact";
+  return `${text} in ${scans.size} scans, most ${most}, ${otherwise.toLocaleString("en")} say otherwise`;
 }

@@ -58,7 +58,7 @@ export class Timeline {
     const at = decimal(secondsBetween(this.rows[0].t_ns, row.t_ns), 2);
     return [
       `${row.radar} ${row.scan}, ${at} s`,
-      `need ${row.need.toFixed(2)}`,
+      `${row.expected_errors.toFixed(1)} wrong labels expected`,
       ...reasons(row),
       row.reviewed === null ? "open" : "reviewed",
     ].join(" · ");
@@ -79,8 +79,9 @@ export class Timeline {
     const { current } = this.page.store.state;
     const { step } = this;
     const gap = step > 4 ? 1 : 0;
+    const most = this.rows.reduce((highest, row) => Math.max(highest, row.expected_errors), 1);
     this.rows.forEach((row, i) => {
-      const bar = LEAST_BAR + row.need * (height - LEAST_BAR - 8);
+      const bar = LEAST_BAR + (row.expected_errors / most) * (height - LEAST_BAR - 8);
       if (sameScan(row, current)) {
         context.fillStyle = "rgb(94 234 166 / 18%)";
         context.fillRect(i * step, 0, Math.max(step, 3), height);

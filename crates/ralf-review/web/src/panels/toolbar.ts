@@ -8,6 +8,7 @@ import { TOOLS, type Tool } from "../selection/tools.js";
 
 const TOOL_NAMES: Readonly<Record<Tool, string>> = {
   click: "Click (V)",
+  thing: "Thing: what belongs together over the sequence (H)",
   box: "Box (B)",
   lasso: "Lasso (L)",
   polygon: "Polygon (G)",

@@ -12,7 +12,7 @@ export interface QueueView {
   readonly radar: string | null;
 }
 
-/** The scans as listed; the server sends them most needy first. */
+/** The scans as listed; the server sends those with the most expected errors first. */
 export function listed(scans: readonly QueueScan[], view: QueueView): readonly QueueScan[] {
   const kept = scans.filter(
     ({ radar, reviewed }) => (view.radar === null || radar === view.radar) && !(view.hideReviewed && reviewed !== null),

@@ -5,7 +5,7 @@ import type { State } from "../state.js";
 import type { Store } from "../store.js";
 import { collect, nearest, type Point } from "./geometry.js";
 import type { Combination } from "./mask.js";
-import { begun, type Gesture, moved, pressedAgain, shapeOf } from "./tools.js";
+import { begun, type Gesture, isPress, moved, pressedAgain, shapeOf } from "./tools.js";
 
 export interface Picture {
   /** Gets the pointer's events; its upper left corner is the origin of pixels. */
@@ -64,7 +64,7 @@ export class Surface {
     const { tool } = this.store.state;
     this.picture.element.setPointerCapture(event.pointerId);
     this.dragged = false;
-    if (tool === "click") this.panning = at;
+    if (isPress(tool)) this.panning = at;
     else if (tool === "polygon" && this.gesture !== null) this.addCorner(at, event);
     else this.show(begun(tool, at), at);
   }
@@ -79,9 +79,15 @@ export class Surface {
   private move(event: PointerEvent): void {
     const at = this.pixel(event);
     if (this.panning !== null) return this.drag(at);
-    if (this.gesture !== null) return this.show(moved(this.gesture, at), at);
+    if (this.gesture !== null) return this.show(this.along(event).reduce(moved, this.gesture), at);
     if (event.buttons === 0) this.hover(at);
     this.picture.showGesture(null, at);
+  }
+
+  /** Where the pointer was since the last picture: with a slow one a lasso would cut its corners. */
+  private along(event: PointerEvent): readonly Point[] {
+    const all = event.getCoalescedEvents();
+    return (all.length > 0 ? all : [event]).map((one) => this.pixel(one));
   }
 
   private drag(at: Point): void {
@@ -114,11 +120,11 @@ export class Surface {
   }
 
   private choose(at: Point, how: Combination): void {
-    const { eligible } = this.store.state;
+    const { eligible, tool } = this.store.state;
     const found = nearest(this.picture.places(), eligible, at, REACH);
     const mask = new Uint8Array(eligible.length);
     if (found >= 0) mask[found] = 1;
-    this.actions.select.gesture("click", mask, how);
+    this.actions.select.gesture(isPress(tool) ? tool : "click", mask, how);
   }
 
   private finish(how: Combination): void {

@@ -2,8 +2,13 @@
 
 import type { Point, Shape } from "./geometry.js";
 
-export const TOOLS = ["click", "box", "lasso", "polygon", "brush"] as const;
+export const TOOLS = ["click", "thing", "box", "lasso", "polygon", "brush"] as const;
 export type Tool = (typeof TOOLS)[number];
+
+/** Whether a tool chooses what is pressed; dragging moves the picture. */
+export function isPress(tool: Tool): boolean {
+  return tool === "click" || tool === "thing";
+}
 
 /** A gesture under way. */
 export interface Gesture {
@@ -25,7 +30,7 @@ export function begun(tool: Tool, at: Point): Gesture {
 export function moved(gesture: Gesture, at: Point): Gesture {
   const { tool, path } = gesture;
   if (tool === "polygon") return { ...gesture, pointer: at };
-  if (tool === "box" || tool === "click") return { ...gesture, path: [path[0], at], pointer: at };
+  if (tool === "box" || isPress(tool)) return { ...gesture, path: [path[0], at], pointer: at };
   const last = path[path.length - 1];
   const far = Math.hypot(at[0] - last[0], at[1] - last[1]) >= LEAST_STEP;
   return { ...gesture, path: far ? [...path, at] : path, pointer: at };
@@ -43,6 +48,7 @@ export function pressedAgain(gesture: Gesture, at: Point): { readonly gesture: G
 export function shapeOf({ tool, path, pointer }: Gesture, brush: number): Shape | null {
   switch (tool) {
     case "click":
+    case "thing":
       return null;
     case "box":
       return path.length < 2 ? null : { kind: "box", from: path[0], to: path[1] };

@@ -19,6 +19,7 @@ import { RadarCloud } from "./radar-cloud.js";
 import { eye, eyeDistance, FIELD_OF_VIEW, HOME, type Rig } from "./rig.js";
 
 const BACKGROUND = 0x0b0e13;
+const LIGHT_BACKGROUND = 0xe9edf2;
 const FAR_ABOVE = 500;
 
 export class SceneView {
@@ -36,7 +37,7 @@ export class SceneView {
   private height = 1;
   private asked = 0;
 
-  /** `drawOver` draws what lies over the picture; `timed` hears how many milliseconds of JavaScript both took. */
+  /** `drawOver` draws what lies over it, `timed` hears how many milliseconds passed until both were painted. */
   constructor(
     canvas: HTMLCanvasElement,
     private readonly drawOver: () => void,
@@ -68,6 +69,11 @@ export class SceneView {
     this.aim();
   }
 
+  setLight(light: boolean): void {
+    this.scene.background = new Color(light ? LIGHT_BACKGROUND : BACKGROUND);
+    this.invalidate();
+  }
+
   resize(width: number, height: number): void {
     [this.width, this.height] = [Math.max(width, 1), Math.max(height, 1)];
     this.renderer.setSize(this.width, this.height, false);
@@ -86,7 +92,8 @@ export class SceneView {
       const began = performance.now();
       this.renderer.render(this.scene, this.camera);
       this.drawOver();
-      this.timed(performance.now() - began);
+      // A frame isn't done before the graphics card is: what was asked of it is waited for with the next one.
+      requestAnimationFrame(() => this.timed(performance.now() - began));
     });
   }
 

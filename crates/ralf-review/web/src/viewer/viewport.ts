@@ -122,6 +122,18 @@ export class Viewport {
       () => this.drawOverlay(),
     );
     store.watch(
+      ({ focus }) => [focus],
+      (focus) => {
+        if (focus === null) return;
+        const { rig } = this.view;
+        this.aim({ ...rig, target: [focus.x, focus.y, rig.target[2]], span: focus.span });
+      },
+    );
+    store.watch(
+      ({ light }) => [light],
+      (light) => view.setLight(light),
+    );
+    store.watch(
       ({ picked, announced }) => [picked, announced],
       (picked) => this.bringIntoView(picked),
     );

@@ -1,5 +1,4 @@
-// 200,000 LiDAR points and twenty radar scans: drawn only when something changes, and what JavaScript a frame costs
-// then.
+// 200,000 LiDAR points and twenty radar scans: drawn only when something changes, and how long a frame takes then.
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { clean, freshOut, launch, open, serve } from "./support.mjs";
@@ -56,7 +55,7 @@ test("200,000 LiDAR points and twenty radar scans are drawn when the view moves,
   await page.mouse.up({ button: "right" });
   times.sort((a, b) => a - b);
   const [middle, slow] = [times[30], times[57]];
-  console.log(`JavaScript per frame: median ${middle} ms, 95th percentile ${slow} ms`);
+  console.log(`Until a frame is painted: median ${middle} ms, 95th percentile ${slow} ms`);
   await page.evaluate(() => {
     const ask = window.requestAnimationFrame.bind(window);
     document.body.dataset.asked = "0";

@@ -49,6 +49,11 @@ test("nothing that axe calls serious is wrong with the page, its dialogs and bar
   await page.keyboard.press("a");
   await says(page.locator(".status-bar"), "undo 1");
   await faults("a correction");
+  await page.keyboard.press("Shift+N");
+  await page.locator(".thing-bar").waitFor();
+  await faults("a thing");
+  await picture(page, "thing");
+  await page.keyboard.press("Escape");
   for (const key of ["?", "c"]) {
     await page.keyboard.press(key);
     await page.locator("dialog[open]").waitFor();

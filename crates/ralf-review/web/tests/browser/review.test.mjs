@@ -172,6 +172,47 @@ test("killed without warning, the server loses nothing: strokes wait in the page
   clean(tab, GONE);
 });
 
+test("a thing is answered by one key in all its scans, survives a dead server, and is undone by one", async (context) => {
+  const out = await freshOut(context);
+  const server = await serve(context, out);
+  const tab = await open(context, browser, server);
+  const { page } = tab;
+  const correctedIn = async (asked) => {
+    const { scans } = await queueOf(asked);
+    return scans.reduce((sum, { corrected }) => sum + corrected, 0);
+  };
+  await page.keyboard.press("Shift+N");
+  await says(page.locator(".thing-bar"), "expected to be wrong");
+  const first = await selected(page);
+  assert.ok(first > 0);
+  const thing = await page.locator(".thing-bar").getAttribute("data-thing");
+  await page.keyboard.press("a");
+  await says(page.locator(".status-bar"), "undo 1");
+  await says(status(page), "saved");
+  assert.equal(await correctedIn(server), first);
+  await page.waitForFunction((before) => document.querySelector(".thing-bar").dataset.thing !== before, thing);
+  await page.keyboard.press("Escape");
+  await page.keyboard.press("Control+z");
+  await says(page.locator(".status-bar"), "redo 1");
+  assert.equal(await correctedIn(server), 0);
+  // The whole sequence is on screen: a lasso draws on all of its scans.
+  await lassoAll(page);
+  const all = await selected(page);
+  assert.ok(all > first);
+  assert.match(await page.locator(".work").textContent(), /in \d+ scans, most \w+, [\d,]+ say otherwise/);
+  await server.kill("SIGKILL");
+  await page.keyboard.press("p");
+  await says(status(page), "1 stroke not saved");
+  const back = await serve(context, out, { port: server.port });
+  await says(page.locator(".status-bar"), "undo 1");
+  await says(status(page), "saved");
+  assert.equal(await correctedIn(back), all);
+  await page.keyboard.press("Control+z");
+  await says(page.locator(".status-bar"), "undo 0");
+  assert.equal(await correctedIn(back), 0);
+  clean(tab, GONE);
+});
+
 test("two tabs on one scan: the second is told, sees the newer state, and decides", async (context) => {
   const server = await serve(context, await freshOut(context));
   const own = await anotherBrowser(context, browser);

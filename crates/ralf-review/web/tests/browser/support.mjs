@@ -37,8 +37,8 @@ export async function freshOut(context) {
 }
 
 /** `ralf review`, until the test ends or `kill` is called. */
-export async function serve(context, out, { author = "ada", port = 0 } = {}) {
-  const child = spawn(RALF_PROGRAM, ["review", RALF_DATASET, out, "--port", String(port), "--author", author], {
+export async function serve(context, out, { author = "ada", port = 0, dataset = RALF_DATASET } = {}) {
+  const child = spawn(RALF_PROGRAM, ["review", dataset, out, "--port", String(port), "--author", author], {
     stdio: ["ignore", "pipe", "inherit"],
     env: { ...process.env, XDG_STATE_HOME: join(out, "..", "state") },
   });

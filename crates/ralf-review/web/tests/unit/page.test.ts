@@ -54,12 +54,21 @@ test("addresses come back as they were, whatever the names", () => {
 
 test("preferences come back as they were, and nonsense changes nothing", () => {
   const queueView = { order: "need", hideReviewed: false, radar: null } as const;
-  const now = { colour: "label", filter: everything, lidarShown: true, groundHidden: true, dotSize: 8, queueView };
+  const now = {
+    colour: "label",
+    filter: everything,
+    lidarShown: true,
+    groundHidden: true,
+    light: false,
+    dotSize: 8,
+    queueView,
+  };
   const filter = { ...everything, range: [0, 30] as const, hiddenRadars: new Set(["rear"]), uncertain: true };
   const changed = {
     ...now,
     colour: "column w",
     filter,
+    light: true,
     dotSize: 12,
     queueView: { ...queueView, order: "time" } as const,
   };

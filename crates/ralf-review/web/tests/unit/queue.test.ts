@@ -8,7 +8,7 @@ const ADA = { author: "ada", at: "2024-01-01T00:00:00Z" };
 function entry(radar: string, scan: number, patch: Partial<QueueScan> = {}): QueueScan {
   const whole = {
     detections: 10,
-    need: 0.5,
+    expected_errors: 4.5,
     uncertain: 0,
     disagreeing: 0,
     cameras_failed: 0,

@@ -105,7 +105,7 @@ fn bad_scans_are_named_when_they_are_read_and_the_others_are_read() {
     let lidar = folder.path().join("dynamic/raw-revolutions/frame_0033644.laz");
     fs::write(&lidar, laz(&[(Point3::origin(), T0 + 3_000_000_000)])).unwrap();
     let error = reader.lidar_scan(0, 1).unwrap_err().to_string();
-    assert!(error.contains("point 0, gps_time: expected a time within 1 s of the frame's"), "{error}");
+    assert!(error.contains("point 0, gps_time: expected a time within 1 s of the scan's"), "{error}");
     fs::remove_file(&lidar).unwrap();
     assert!(reader.lidar_scan(0, 1).unwrap_err().to_string().contains("frame_0033644.laz"));
     assert!(reader.radar_scan(1, 2).is_ok() && reader.lidar_scan(0, 2).is_ok());

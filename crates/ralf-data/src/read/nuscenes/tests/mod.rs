@@ -5,16 +5,20 @@ mod reading;
 mod refusals;
 
 use super::*;
+use crate::read::scene_tables::TableOrigin;
 use crate::testing;
 use ralf::sensors::Intrinsics;
 use ralf::space::Point;
 use serde_json::{Value, json};
+use std::fs;
 use tempfile::TempDir;
 
 /// Microseconds of the first measurement.
 const T0: i64 = 1_532_402_927_600_000;
 const MS: i64 = 1000;
 const VERSION: &str = "v1.0-test";
+/// No turn, w x y z.
+const AHEAD: [f64; 4] = [1.0, 0.0, 0.0, 0.0];
 
 const HEADER: &str = "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\n\
     FIELDS x y z dyn_prop id rcs vx vy vx_comp vy_comp is_quality_valid ambig_state x_rms y_rms \
@@ -64,7 +68,26 @@ impl DataSet {
     }
 
     fn write_tables(&self) {
-        let turn = [1.0, 0.0, 0.0, 0.0];
+        self.write_sensors();
+        self.table(
+            "log",
+            json!([{"token": "l", "location": "boston", "date_captured": "2018-07-24", "vehicle": "n"}]),
+        );
+        self.table(
+            "scene",
+            json!([{"token": "s", "log_token": "l", "name": "scene-0001", "description": "Turn", "nbr_samples": 1}]),
+        );
+        self.table("sample", json!([{"token": "x", "scene_token": "s", "timestamp": T0}]));
+        self.write_measurements();
+        let can = |ms: i64, v: f64| {
+            json!({"utime": T0 + ms * MS, "vel": [v, 0.0, 0.0],
+                   "rotation_rate": [9.0, 9.0, 0.25], "pos": [0, 0, 0]})
+        };
+        let rows = json!([can(20, 10.0), can(0, 9.0)]);
+        self.write("can_bus/scene-0001_pose.json", rows.to_string().as_bytes());
+    }
+
+    fn write_sensors(&self) {
         let sensor = |channel: &str, modality: &str| {
             json!({"modality": modality, "token": channel,
                    "channel": channel})
@@ -86,21 +109,15 @@ impl DataSet {
         self.table(
             "calibrated_sensor",
             json!([
-                mounted("RADAR_FRONT", turn, json!([])),
+                mounted("RADAR_FRONT", AHEAD, json!([])),
                 mounted("RADAR_BACK_LEFT", [half, 0.0, 0.0, half], json!([])),
-                mounted("LIDAR_TOP", turn, json!([])),
-                mounted("CAM_FRONT", turn, json!([[10.0, 0.0, 1.5], [0.0, 11.0, 0.5], [0.0, 0.0, 1.0]]))
+                mounted("LIDAR_TOP", AHEAD, json!([])),
+                mounted("CAM_FRONT", AHEAD, json!([[10.0, 0.0, 1.5], [0.0, 11.0, 0.5], [0.0, 0.0, 1.0]]))
             ]),
         );
-        self.table(
-            "log",
-            json!([{"token": "l", "location": "boston", "date_captured": "2018-07-24", "vehicle": "n"}]),
-        );
-        self.table(
-            "scene",
-            json!([{"token": "s", "log_token": "l", "name": "scene-0001", "description": "Turn", "nbr_samples": 1}]),
-        );
-        self.table("sample", json!([{"token": "x", "scene_token": "s", "timestamp": T0}]));
+    }
+
+    fn write_measurements(&self) {
         let data = [
             ("RADAR_FRONT", "sweeps/RADAR_FRONT/c.pcd", 150, [0, 0]),
             ("CAM_FRONT", "samples/CAM_FRONT/a.png", 30, [4, 2]),
@@ -117,18 +134,10 @@ impl DataSet {
         });
         self.table("sample_data", rows.collect());
         let poses = data.iter().map(|(_, _, ms, _)| {
-            json!({"token": format!("{ms}"), "timestamp": T0 + ms * MS, "rotation": turn,
+            json!({"token": format!("{ms}"), "timestamp": T0 + ms * MS, "rotation": AHEAD,
                    "translation": [0.01 * *ms as f64, 7.0, 0.0]})
         });
         self.table("ego_pose", poses.collect());
-        let can = |ms: i64, v: f64| {
-            json!({"utime": T0 + ms * MS, "vel": [v, 0.0, 0.0],
-                   "rotation_rate": [9.0, 9.0, 0.25], "pos": [0, 0, 0]})
-        };
-        self.write(
-            "can_bus/scene-0001_pose.json",
-            json!([can(20, 10.0), can(0, 9.0)]).to_string().as_bytes(),
-        );
     }
 
     fn folder(&self, name: &str) -> PathBuf {

@@ -85,7 +85,7 @@ fn measurements_are_read_to_the_last_field() {
 fn scans_keep_their_names_in_the_tables() {
     let set = DataSet::new();
     let scene = set.open().unwrap();
-    let origin = scene.origin().and_then(|origin| origin.downcast_ref::<super::NuScenesOrigin>()).unwrap();
+    let origin = scene.origin().and_then(|origin| origin.downcast_ref::<TableOrigin>()).unwrap();
     let token = |scan| origin.sample_data_token(0, scan).map(|token| (origin.version.clone(), token));
     // Of the fixture's tables: a token is the file's name.
     for (scan, file) in [(0, "samples/RADAR_FRONT/a.pcd"), (2, "sweeps/RADAR_FRONT/c.pcd")] {

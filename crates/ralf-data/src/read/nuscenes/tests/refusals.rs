@@ -16,14 +16,17 @@ fn scans_that_are_damaged_name_the_place() {
             whole[..data + 42].to_vec(),
             format!("byte {}: expected 1 records of 43 bytes from byte {data}", data + 42),
         ),
-        (whole[..data - 15].to_vec(), "expected a PCD header up to `DATA binary`".into()),
+        (whole[..data - 15].to_vec(), "expected a PCD header up to `DATA`".into()),
         (vec![0xff; 40], "byte 0".into()),
         (vec![], "byte 0: expected a PCD header".into()),
-        (text("DATA binary", "DATA ascii"), "DATA: expected binary, found ascii".into()),
+        (
+            text("DATA binary", "DATA zip"),
+            "DATA: expected binary, binary_compressed or ascii, found zip".into(),
+        ),
         (text(" vy_rms", ""), "SIZE: expected 17 entries, one per field, found 18".into()),
         (text("invalid_state", "state"), "a field `invalid_state`".into()),
         (text("COUNT 1 1 1 1 1", "COUNT 1 1 1 1 2"), "field `id`".into()),
-        (text("SIZE 4", "SIZE 8"), "field `x`: expected one value of type F 4".into()),
+        (text("SIZE 4", "SIZE 2"), "field `x`: expected one value of type F 4".into()),
         (text("WIDTH 1", "WIDTH -1"), "WIDTH: expected a whole number, found -1".into()),
         (text("WIDTH 1", "WIDTH 2"), "POINTS: expected WIDTH x HEIGHT = 2 x 1, found 1".into()),
         (text("POINTS 1\n", ""), "header: expected a line `POINTS`".into()),
@@ -74,7 +77,7 @@ fn tables_that_contradict_each_other_are_refused() {
     change("calibrated_sensor", "sensor_token", json!("?"), &["calibrated_sensor.json", "sensor.json lacks"]);
     change("calibrated_sensor", "rotation", json!([0, 0, 0, 0]), &["no unit quaternion w x y z"]);
     change("ego_pose", "rotation", json!([1, 0, 0]), &["ego_pose.json", "invalid length 3"]);
-    change("sensor", "modality", json!("sonar"), &["sensor.json", "unknown variant `sonar`"]);
+    change("sensor", "modality", json!("sonar"), &["sample_data.json", "CAM_FRONT, which is neither radar"]);
     change("sensor", "token", json!("x".repeat(33)), &["sensor.json", "at most 32 characters"]);
     change("sample", "scene_token", json!("?"), &["sample.json", "scene.json lacks"]);
     change("scene", "log_token", json!("?"), &["scene.json", "log.json lacks"]);
@@ -116,6 +119,17 @@ fn cut_and_missing_tables_are_named() {
     set.refused(&["ego_pose.json: line 1", "EOF"]);
     fs::remove_file(set.0.path().join(VERSION).join("log.json")).unwrap();
     set.refused(&["log.json"]);
+}
+
+#[test]
+fn a_lorry_is_sent_to_its_own_reader() {
+    let set = DataSet::new();
+    set.table("ego_motion_chassis", json!([]));
+    set.refused(&["found ego_motion_chassis.json, of MAN TruckScenes (--format truckscenes)"]);
+    let rows = set.folder("v1.0-mini");
+    fs::remove_dir(&rows).unwrap();
+    fs::rename(set.0.path().join(VERSION), rows).unwrap();
+    assert_eq!(crate::read::open(set.0.path(), None).unwrap().format, "truckscenes");
 }
 
 #[test]

@@ -33,6 +33,8 @@ struct Drive {
     radar: &'static str,
     /// The vehicle is parked, and says nothing of it.
     parked: bool,
+    /// The LiDAR's points: x, y, z and what the field of this name holds.
+    lidar: (Vec<[f32; 4]>, &'static str),
 }
 
 impl Default for Drive {
@@ -41,7 +43,8 @@ impl Default for Drive {
         let (camera_frame, infos) = ("camera", vec![100.0]);
         let (vehicle, radar_fields) = ("base", ["vx", "vx"]);
         let (radar, parked) = ("radar", false);
-        Self { bag, stamped, camera_frame, infos, mast_moves, vehicle, radar_fields, radar, parked }
+        let lidar = (vec![[1.0, 2.0, 3.0, 0.0]], "other");
+        Self { bag, stamped, camera_frame, infos, mast_moves, vehicle, radar_fields, radar, parked, lidar }
     }
 }
 
@@ -119,7 +122,9 @@ impl Drive {
         let returns = vec![detection, RadarReturn { elevation: 0.0, ..detection }];
         to.write(&scans, T0 + 30 * MS, &RadarScan { header: self.header(20, self.radar), returns }).unwrap();
         let lidar: Topic<PointCloud2> = to.topic("/roof/points", Delivery::Live).unwrap();
-        let cloud = self.cloud(60, &[[1.0, 2.0, 3.0, 0.0, 0.0]], "other");
+        let (points, field) = &self.lidar;
+        let points: Vec<[f32; 5]> = points.iter().map(|[x, y, z, value]| [*x, *y, *z, *value, 0.0]).collect();
+        let cloud = self.cloud(60, &points, field);
         to.write(&lidar, T0 + 70 * MS, &PointCloud2 { header: self.header(60, "lidar"), ..cloud }).unwrap();
         let odometry: Topic<Odometry> = to.topic("/odom", Delivery::Live).unwrap();
         let samples = if self.parked { 0 } else { 8 };

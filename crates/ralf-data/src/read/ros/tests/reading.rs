@@ -1,6 +1,7 @@
 //! What is whole is read.
 
 use super::*;
+use ralf::sensors::LidarScan;
 
 #[test]
 fn measurements_come_in_the_order_of_their_stamps() {
@@ -155,4 +156,38 @@ fn a_camera_that_can_not_be_placed_or_calibrated_is_left_out() {
         assert_eq!(drive.sequence().rig.radars.len(), 2);
         assert!(drive.warnings().iter().any(|warning| warning.starts_with("the camera cam is left out: ")));
     }
+}
+
+/// At 8 m/s a post ahead is measured 40 ms before the scan's time, and another 40 ms after it.
+#[test]
+fn lidar_points_with_times_are_brought_to_the_time_of_their_scan() {
+    let points = vec![[10.0, 0.0, 0.0, -0.04], [20.0, 0.0, 0.0, 0.04]];
+    let (_folder, path) = Drive { lidar: (points, "time"), ..Drive::default() }.write();
+    let drive = open_file(&path, TABLE).unwrap();
+    let ahead = |scan: LidarScan| scan.points.iter().map(|point| point[0]).collect::<Vec<_>>();
+    let near = |found: Vec<f32>, expected: [f32; 2]| {
+        assert!(found.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-4), "{found:?}");
+    };
+    near(ahead(drive.lidar_scan(0, 0).unwrap()), [9.68, 20.32]);
+    near(ahead(drive.rolling_scan(0, 0).unwrap().unwrap()), [10.0, 20.0]);
+    assert_eq!(drive.lidar_scan(0, 0).unwrap().times.unwrap(), [-0.04, 0.04]);
+    assert!(
+        drive.warnings()[0].contains("roof: points carry their times (`time`, s)"),
+        "{:?}",
+        drive.warnings()
+    );
+    // The recorder has done so already.
+    let done = TABLE.replace("model = 'hdl-32e'", "model = 'hdl-32e', motion_corrected = true");
+    let drive = open_file(&path, &done).unwrap();
+    near(ahead(drive.lidar_scan(0, 0).unwrap()), [10.0, 20.0]);
+    assert!(drive.rolling_scan(0, 0).unwrap().is_none() && drive.warnings().is_empty());
+}
+
+#[test]
+fn times_in_no_unit_are_told_and_left_alone() {
+    let points = vec![[10.0, 0.0, 0.0, 3e30], [20.0, 0.0, 0.0, 4e30]];
+    let (_folder, path) = Drive { lidar: (points, "timestamp"), ..Drive::default() }.write();
+    let drive = open_file(&path, TABLE).unwrap();
+    assert!(drive.warnings()[0].starts_with("roof: `timestamp` from 3"), "{:?}", drive.warnings());
+    assert!(drive.lidar_scan(0, 0).unwrap().times.is_none());
 }

@@ -17,6 +17,7 @@
 //! recorded at the time of its measurement, so that they lie in order.
 
 mod cloud;
+pub(super) mod foxglove;
 mod images;
 mod motion;
 mod names;
@@ -33,6 +34,7 @@ use crate::error::DataError;
 use crate::read::SequenceReader;
 use crate::read::recording::check_motion_corrected;
 use crate::result::{OutFolder, WriterLock};
+use foxglove::Layout;
 use ralf_ros::container::{Container, recognises};
 use ralf_ros::writer::{Compression, MessageWriter, WriteError};
 use recorder::Recorder;
@@ -86,15 +88,35 @@ impl RosFormat {
     }
 }
 
-/// Writes the labels of sequences.
-pub(super) struct Ros(pub(super) RosFormat);
+/// Writes the labels of sequences, and for MCAP files a layout of Foxglove beside them.
+pub(super) struct Ros {
+    format: RosFormat,
+    layout: Layout,
+}
+
+impl Ros {
+    pub(super) fn new(format: RosFormat) -> Self {
+        Self { format, layout: Layout::default() }
+    }
+}
 
 impl Writer for Ros {
     fn sequence(&mut self, folder: &OutFolder, sequence: &mut LabelledSequence) -> Result<(), DataError> {
-        let file = folder.file(&sequence.names.sequence.and(self.0.ending()));
+        let file = folder.file(&sequence.names.sequence.and(self.format.ending()));
         let (reader, sensors) = (sequence.reader, sequence.sensors);
-        let recorder = Recorder::new(self.0.create(&file)?, &file, reader, sensors, true)?;
+        let recorder = Recorder::new(self.format.create(&file)?, &file, reader, sensors, true)?;
+        // Of a copied recording the other topics have their own names.
+        let shown =
+            if recorder.copies() { Sensors { lidar: false, camera: false, ..sensors } } else { sensors };
+        self.layout.add(recorder.names(), shown);
         recorder.record(Some(sequence), &|_| {})
+    }
+
+    fn finish(&mut self, folder: &OutFolder) -> Result<(), DataError> {
+        match self.format {
+            RosFormat::Mcap => self.layout.write(&folder.own_file(foxglove::FILE)),
+            RosFormat::Bag => Ok(()),
+        }
     }
 }
 

@@ -78,6 +78,11 @@ impl<'a> Recorder<'a> {
         Ok(Self { writer, file, reader, names, topics, originals })
     }
 
+    /// What the sensors are called in the topics.
+    pub(super) fn names(&self) -> &Names {
+        &self.names
+    }
+
     /// Whether the messages of another recording are copied.
     pub(super) fn copies(&self) -> bool {
         self.originals.is_some()

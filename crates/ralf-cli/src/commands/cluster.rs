@@ -1,0 +1,201 @@
+//! `ralf cluster`: many recordings on many machines, by three steps that anything can start.
+
+use crate::arguments::{MethodArgs, SettingsArgs, threads};
+use crate::outcome::Outcome;
+use crate::progress::{Stages, say};
+use crate::text::{grouped, print};
+use anyhow::{Context, bail};
+use clap::{Args, Subcommand};
+use ralf_data::many::{self, Job, Task};
+use ralf_files::Kind;
+use std::num::NonZeroUsize;
+use std::path::{Path, PathBuf};
+
+/// In the output folder: a task per line.
+const TASKS: &str = "tasks.jsonl";
+
+/// What `ralf cluster` takes.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Machines share the folders of recordings and results, and nothing else. Every step may be done again, and every task \
+twice or by two machines at once; what is done is left alone. The results are those of `ralf label` on one machine, to \
+the byte (docs/cluster.md).
+
+Examples:
+  ralf cluster plan drives/* -o out               a folder per recording in OUT; prints how many tasks there are
+  ralf cluster label out --task 17                one of them, anywhere, by its number from 0
+  ralf cluster assemble out                       tables and run.json of each recording
+
+With Slurm:
+  n=$(ralf cluster plan drives/* -o out)
+  sbatch --wait --array=0-$((n - 1)) --wrap 'ralf cluster label out --task $SLURM_ARRAY_TASK_ID'
+  ralf cluster assemble out")]
+pub(crate) struct ClusterArgs {
+    #[command(subcommand)]
+    step: Step,
+}
+
+#[derive(Debug, Subcommand)]
+enum Step {
+    /// Find out what is to be done, and write it down in OUT
+    Plan(PlanArgs),
+    /// Do one task
+    Label(TaskArgs),
+    /// Put together what tasks have labelled
+    Assemble(AssembleArgs),
+}
+
+#[derive(Debug, Args)]
+struct PlanArgs {
+    /// The recordings
+    #[arg(required = true, value_name = "DATASET")]
+    recordings: Vec<PathBuf>,
+    /// Folder for the results: one in it for each recording
+    #[arg(short, long, value_name = "OUT")]
+    output: PathBuf,
+    #[command(flatten)]
+    settings: SettingsArgs,
+    #[command(flatten)]
+    method: MethodArgs,
+    /// Take depth images from this folder, as `ralf depth -o` wrote them
+    #[arg(long, value_name = "FOLDER")]
+    depth: Option<PathBuf>,
+    /// Gather what else is known of each detection (docs/evidence.md)
+    #[arg(long)]
+    evidence: bool,
+    /// Leave out the check of the recordings
+    #[arg(long)]
+    no_check: bool,
+    /// Radar scans of a task
+    #[arg(long, value_name = "N", default_value = "2048")]
+    scans: NonZeroUsize,
+    /// Files that are read side by side
+    #[arg(long, value_name = "N")]
+    jobs: Option<NonZeroUsize>,
+    /// No progress
+    #[arg(short, long)]
+    quiet: bool,
+}
+
+#[derive(Debug, Args)]
+struct TaskArgs {
+    /// The folder that was planned
+    out: PathBuf,
+    /// The task's number, from 0
+    #[arg(long, value_name = "N")]
+    task: usize,
+    /// Scans side by side
+    #[arg(long, value_name = "N", default_value = "1")]
+    jobs: NonZeroUsize,
+}
+
+#[derive(Debug, Args)]
+struct AssembleArgs {
+    /// The folder that was planned
+    out: PathBuf,
+    /// Scans side by side, of those that nobody has labelled
+    #[arg(long, value_name = "N")]
+    jobs: Option<NonZeroUsize>,
+    /// No progress
+    #[arg(short, long)]
+    quiet: bool,
+}
+
+/// Does a step.
+pub(crate) fn run(arguments: &ClusterArgs) -> anyhow::Result<Outcome> {
+    match &arguments.step {
+        Step::Plan(arguments) => plan(arguments),
+        Step::Label(arguments) => label(arguments),
+        Step::Assemble(arguments) => assemble(arguments),
+    }
+}
+
+/// A recording that can't be planned is named, and costs the others nothing.
+fn plan(arguments: &PlanArgs) -> anyhow::Result<Outcome> {
+    let mut settings = arguments.settings.resolve()?;
+    arguments.method.apply(&mut settings.method)?;
+    let (mut tasks, mut outcome) = (Vec::new(), Outcome::Done);
+    let folders = many::folders(&arguments.recordings, &arguments.output)?;
+    for (recording, out) in arguments.recordings.iter().zip(&folders) {
+        let job = Job {
+            settings: settings.clone(),
+            evidence: arguments.evidence,
+            model: arguments.method.model.clone(),
+            depth: arguments.depth.clone(),
+            check: !arguments.no_check,
+            ..Job::new(recording, out)
+        };
+        let jobs = NonZeroUsize::new(threads(arguments.jobs)).unwrap_or(NonZeroUsize::MIN);
+        match many::plan(&job, arguments.scans, jobs, &Stages::new(arguments.quiet)) {
+            Ok(found) => tasks.extend(found),
+            Err(error) => {
+                say(&format!("not planned: {}: {error}", recording.display()));
+                outcome = Outcome::Partial;
+            }
+        }
+    }
+    write_tasks(&arguments.output, &tasks)?;
+    print(&tasks.len().to_string())?;
+    Ok(outcome)
+}
+
+fn write_tasks(out: &Path, tasks: &[Task]) -> anyhow::Result<()> {
+    let mut text = String::new();
+    for task in tasks {
+        text += &serde_json::to_string(task)?;
+        text.push('\n');
+    }
+    Ok(ralf_data::write_whole(&out.join(TASKS), text.as_bytes())?)
+}
+
+fn label(arguments: &TaskArgs) -> anyhow::Result<Outcome> {
+    let file = arguments.out.join(TASKS);
+    let name = || file.display().to_string();
+    let text = ralf_files::read_text(&file, Kind::Stream).with_context(name)?;
+    let Some(line) = text.lines().nth(arguments.task) else {
+        bail!("{}: expected a task below {}, found {}", name(), text.lines().count(), arguments.task);
+    };
+    let task =
+        serde_json::from_str(line).with_context(|| format!("{}, line {}", name(), arguments.task + 1))?;
+    let failed = many::label_one(&task, arguments.jobs, &Stages::new(true))?;
+    for scan in &failed {
+        say(&format!(
+            "not labelled: {} {} scan {}: {}",
+            task.stretch.sequence, scan.radar, scan.scan, scan.reason
+        ));
+    }
+    Ok(if failed.is_empty() { Outcome::Done } else { Outcome::Partial })
+}
+
+/// A recording that can't be put together is named, and costs the others nothing.
+fn assemble(arguments: &AssembleArgs) -> anyhow::Result<Outcome> {
+    let folders = many::planned(&arguments.out)?;
+    if folders.is_empty() {
+        bail!("{}: expected what `ralf cluster plan` wrote, found nothing", arguments.out.display());
+    }
+    let jobs = NonZeroUsize::new(threads(arguments.jobs)).unwrap_or(NonZeroUsize::MIN);
+    let (mut recordings, mut detections, mut outcome) = (0, 0, Outcome::Done);
+    for folder in &folders {
+        match many::assemble(folder, jobs, &Stages::new(arguments.quiet)) {
+            Ok(done) => {
+                recordings += 1;
+                let radars = done.record.radars().flat_map(|radar| &radar.detections);
+                detections += radars.map(|count| u64::from(*count)).sum::<u64>();
+                for (sequence, scan) in done.record.not_labelled() {
+                    let (radar, number, reason) = (&scan.radar, scan.scan, &scan.reason);
+                    say(&format!(
+                        "not labelled: {}: {sequence} {radar} scan {number}: {reason}",
+                        folder.display()
+                    ));
+                    outcome = Outcome::Partial;
+                }
+            }
+            Err(error) => {
+                say(&format!("no labels: {}: {error}", folder.display()));
+                outcome = Outcome::Partial;
+            }
+        }
+    }
+    print(&format!("{} of {} recordings, {} detections", recordings, folders.len(), grouped(detections)))?;
+    Ok(outcome)
+}

@@ -1,0 +1,45 @@
+//! Data sets that say themselves what is true of their detections: from a first look to a report, without label files.
+
+use crate::support::{radar_ghost, radar_scenes, ralf};
+use std::fs;
+
+#[test]
+fn ghosts_are_labelled_evaluated_and_reported() {
+    let folder = tempfile::tempdir().unwrap();
+    let [data, out, page] = ["ghosts", "out", "report.html"].map(|name| folder.path().join(name));
+    radar_ghost::write_dataset(&data);
+    let [data, out, page] = [&data, &out, &page].map(|path| path.to_str().unwrap());
+    ralf(["inspect", data]).exits(0).prints(["scenario-01_sequence-01_ped_test", "left", "lidar"]);
+    ralf(["label", data, "-o", out, "--jobs", "2"]).exits(0);
+    let scores = ralf(["evaluate", out, "--truth", data, "--json"]).exits(0).json();
+    let counts = &scores["overall"]["pooled"];
+    let total: f64 = ["tp", "fp", "tn", "fn"].iter().map(|name| counts[name].as_f64().unwrap()).sum();
+    // Of eight detections in each of ten scans two are real, one is a ghost and one noise; of the others nothing is said.
+    assert_eq!(total, 40.0, "{scores}");
+    ralf(["report", data, out, "-o", page]).exits(0);
+    let html = fs::read_to_string(page).unwrap();
+    assert!(html.contains("mirror") && html.contains("noise"));
+    // The same numbers from the own layout.
+    let own = folder.path().join("own");
+    let own = own.to_str().unwrap();
+    ralf(["convert", data, "-o", own]).exits(0);
+    let converted = ralf(["evaluate", out, "--truth", own, "--json"]).exits(0).json();
+    assert_eq!(converted, scores);
+}
+
+#[test]
+fn without_a_lidar_tracking_labels_and_says_that_it_is_alone() {
+    let folder = tempfile::tempdir().unwrap();
+    let [data, out] = ["scenes", "out"].map(|name| folder.path().join(name));
+    radar_scenes::write_dataset(&data);
+    let [data, out] = [&data, &out].map(|path| path.to_str().unwrap());
+    ralf(["inspect", data]).exits(0).prints(["no LiDAR"]);
+    ralf(["label", data, "-o", out]).exits(0);
+    let scores = ralf(["evaluate", out, "--truth", data, "--json"]).exits(0).json();
+    let counts = &scores["overall"]["pooled"];
+    assert_eq!(
+        counts["tp"].as_f64().unwrap() + counts["fn"].as_f64().unwrap(),
+        7.0,
+        "the car in seven scans"
+    );
+}

@@ -1,0 +1,173 @@
+//! Parquet files that others made: columns by name, whatever type of number they are stored in.
+
+use crate::disk::files;
+use crate::error::DataError;
+use parquet::basic::Type as Physical;
+use parquet::column::reader::{ColumnReader, ColumnReaderImpl, get_typed_column_reader};
+use parquet::data_type::{ByteArrayType, DataType, DoubleType, FloatType, Int32Type, Int64Type};
+use parquet::errors::ParquetError;
+use parquet::file::reader::{FileReader, SerializedFileReader};
+use std::fs::File;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// The most rows that a file can have. A damaged file claims any number.
+const MOST_ROWS: i64 = 1 << 26;
+/// Values that are decoded at once, so that a claim of many takes no memory for them.
+const BATCH: usize = 1 << 16;
+
+/// A file, opened.
+pub(crate) struct ParquetTable {
+    file: PathBuf,
+    reader: SerializedFileReader<File>,
+    rows: usize,
+}
+
+impl ParquetTable {
+    /// Opens a file, and reads what it says of its columns.
+    pub(crate) fn open(file: &Path) -> Result<Self, DataError> {
+        let open = files::open(file)?;
+        let reader = guarded(file, "content", "a Parquet file", || SerializedFileReader::new(open))?;
+        let rows = reader.metadata().file_metadata().num_rows();
+        let within = (0..=MOST_ROWS).contains(&rows).then_some(rows as usize);
+        let expected = format!("at most {MOST_ROWS} rows");
+        let rows = within.ok_or_else(|| DataError::content(file, "rows", expected, rows.to_string()))?;
+        Ok(Self { file: file.to_owned(), reader, rows })
+    }
+
+    /// Whether there is a column of this name.
+    pub(crate) fn has(&self, column: &str) -> bool {
+        self.place(column).is_some()
+    }
+
+    /// A column of numbers; absent values are not a number.
+    pub(crate) fn numbers(&self, column: &str) -> Result<Vec<f64>, DataError> {
+        let absent = f64::NAN;
+        match self.physical(column)? {
+            Physical::INT32 => self.values::<Int32Type, _>(column, |value| f64::from(*value), absent),
+            Physical::INT64 => self.values::<Int64Type, _>(column, |value| *value as f64, absent),
+            Physical::FLOAT => self.values::<FloatType, _>(column, |value| f64::from(*value), absent),
+            Physical::DOUBLE => self.values::<DoubleType, _>(column, |value| *value, absent),
+            other => Err(self.error(column, "numbers", other.to_string())),
+        }
+    }
+
+    /// The same as float32, which is what measurements are kept in.
+    pub(crate) fn floats(&self, column: &str) -> Result<Vec<f32>, DataError> {
+        Ok(self.numbers(column)?.into_iter().map(|value| value as f32).collect())
+    }
+
+    /// A column of whole numbers, of which none is absent.
+    pub(crate) fn integers(&self, column: &str) -> Result<Vec<i64>, DataError> {
+        let values = match self.physical(column)? {
+            Physical::INT32 => self.values::<Int32Type, _>(column, |value| Some(i64::from(*value)), None)?,
+            Physical::INT64 => self.values::<Int64Type, _>(column, |value| Some(*value), None)?,
+            other => return Err(self.error(column, "whole numbers", other.to_string())),
+        };
+        self.all(column, values)
+    }
+
+    /// A column of texts, of which none is absent.
+    pub(crate) fn texts(&self, column: &str) -> Result<Vec<Arc<str>>, DataError> {
+        let Physical::BYTE_ARRAY = self.physical(column)? else {
+            return Err(self.error(column, "texts", self.physical(column)?.to_string()));
+        };
+        let text = |value: &parquet::data_type::ByteArray| value.as_utf8().ok().map(Arc::from);
+        let values = self.values::<ByteArrayType, _>(column, text, None)?;
+        self.all(column, values)
+    }
+
+    fn all<T>(&self, column: &str, values: Vec<Option<T>>) -> Result<Vec<T>, DataError> {
+        let found = || format!("none in row {}", values.iter().position(Option::is_none).unwrap_or_default());
+        if values.iter().any(Option::is_none) {
+            return Err(self.error(column, "a value in every row", found()));
+        }
+        Ok(values.into_iter().flatten().collect())
+    }
+
+    fn place(&self, column: &str) -> Option<usize> {
+        let schema = self.reader.metadata().file_metadata().schema_descr();
+        schema.columns().iter().position(|found| found.name() == column && found.max_rep_level() == 0)
+    }
+
+    fn physical(&self, column: &str) -> Result<Physical, DataError> {
+        let schema = self.reader.metadata().file_metadata().schema_descr();
+        self.place(column).map(|place| schema.column(place).physical_type()).ok_or_else(|| {
+            let found: Vec<&str> = schema.columns().iter().map(|column| column.name()).collect();
+            DataError::content(&self.file, "columns", format!("a column `{column}`"), found.join(", "))
+        })
+    }
+
+    /// The values of a column in all row groups.
+    fn values<T: DataType, V: Clone>(
+        &self,
+        column: &str,
+        value: impl Fn(&T::T) -> V,
+        absent: V,
+    ) -> Result<Vec<V>, DataError> {
+        let Some(place) = self.place(column) else { return Ok(Vec::new()) };
+        let present = self.reader.metadata().file_metadata().schema_descr().column(place).max_def_level();
+        let read = || {
+            let mut found = Vec::new();
+            for group in 0..self.reader.num_row_groups() {
+                let reader = self.reader.get_row_group(group)?.get_column_reader(place)?;
+                read_group::<T, V>(reader, present, &value, &absent, &mut found, self.rows)?;
+            }
+            Ok(found)
+        };
+        let found = guarded(&self.file, column, "values", read)?;
+        if found.len() == self.rows {
+            return Ok(found);
+        }
+        Err(self.error(column, &format!("{} rows", self.rows), found.len().to_string()))
+    }
+
+    fn error(&self, column: &str, expected: &str, found: String) -> DataError {
+        DataError::content(&self.file, column, expected, found)
+    }
+}
+
+/// The values of a column in one row group; those above `present` levels of definition are there.
+fn read_group<T: DataType, V: Clone>(
+    reader: ColumnReader,
+    present: i16,
+    value: &impl Fn(&T::T) -> V,
+    absent: &V,
+    found: &mut Vec<V>,
+    most: usize,
+) -> Result<(), ParquetError> {
+    let mut reader: ColumnReaderImpl<T> = get_typed_column_reader(reader);
+    loop {
+        let (mut values, mut levels) = (Vec::new(), Vec::new());
+        let (records, _, _) =
+            reader.read_records(BATCH, (present > 0).then_some(&mut levels), None, &mut values)?;
+        if records == 0 || found.len() > most {
+            return Ok(());
+        }
+        if present == 0 {
+            found.extend(values.iter().map(value));
+            continue;
+        }
+        let mut values = values.iter();
+        let of_level = |level: &i16| {
+            let there = if *level == present { values.next() } else { None };
+            there.map_or_else(|| absent.clone(), value)
+        };
+        found.extend(levels.iter().map(of_level));
+    }
+}
+
+/// Asks the Parquet library. Should it panic over a damaged file, the file is refused all the same.
+fn guarded<T>(
+    file: &Path,
+    place: &str,
+    expected: &str,
+    ask: impl FnOnce() -> Result<T, ParquetError>,
+) -> Result<T, DataError> {
+    let refused = |found: String| DataError::content(file, place, expected, found);
+    match catch_unwind(AssertUnwindSafe(ask)) {
+        Ok(answer) => answer.map_err(|error| refused(error.to_string())),
+        Err(_) => Err(refused("bytes that can't be read".to_owned())),
+    }
+}

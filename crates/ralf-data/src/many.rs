@@ -1,0 +1,225 @@
+//! Many recordings on many machines: [`plan`] what is to be done, label each part of it anywhere ([`label_one`]), and
+//! [`assemble`] the results.
+//!
+//! Machines share the folders of recordings and results, and nothing else: whatever starts processes can start these
+//! three. Each may be done again after it was killed. What is assembled is what one machine would have written, to the
+//! byte, but for the timings in `run.json`.
+
+use crate::depth::DepthStore;
+use crate::disk::files;
+use crate::error::DataError;
+use crate::read::{Recording, open_with};
+use crate::result::json::{read_json, write_json};
+use crate::result::{CheckRecord, Component, NotLabelled};
+use crate::run::{LabelRun, Observer, Outcome, Stretch, refuse_to_write_into};
+use crate::settings::Settings;
+use ralf::config::Method;
+use ralf::learned::Model;
+use ralf_files::Kind;
+use serde::{Deserialize, Serialize};
+use std::num::NonZeroUsize;
+use std::path::{Path, PathBuf, absolute};
+
+/// In the output folder: the [`Job`] that was planned.
+const PLAN: &str = "plan.json";
+
+/// How a recording is labelled, and where to.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Job {
+    /// What is labelled.
+    pub recording: PathBuf,
+    /// Where the results go.
+    pub out: PathBuf,
+    /// Its format, where it is not to be recognised.
+    #[serde(default)]
+    pub format: Option<String>,
+    /// These sequences alone; all of them if empty.
+    #[serde(default)]
+    pub sequences: Vec<String>,
+    /// With these settings.
+    #[serde(default)]
+    pub settings: Settings,
+    /// Whether evidence is gathered, too.
+    #[serde(default)]
+    pub evidence: bool,
+    /// The file of the model that answers where the method is the learned one; the shipped one if there is none.
+    #[serde(default)]
+    pub model: Option<PathBuf>,
+    /// A folder of depth images, as `ralf depth` wrote them.
+    #[serde(default)]
+    pub depth: Option<PathBuf>,
+    /// Whether the record tells what a check says of the recording.
+    #[serde(default)]
+    pub check: bool,
+}
+
+/// Part of a job that one machine does by itself.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Task {
+    /// The whole.
+    pub job: Job,
+    /// Which part.
+    pub stretch: Stretch,
+}
+
+impl Job {
+    /// A recording as `ralf label RECORDING -o OUT` labels it.
+    pub fn new(recording: &Path, out: &Path) -> Self {
+        Self {
+            recording: recording.to_owned(),
+            out: out.to_owned(),
+            format: None,
+            sequences: Vec::new(),
+            settings: Settings::default(),
+            evidence: false,
+            model: None,
+            depth: None,
+            check: true,
+        }
+    }
+
+    /// Opens the recording, as the settings correct it.
+    ///
+    /// # Errors
+    /// What can't be read, and sequences that aren't there.
+    pub fn open(&self) -> Result<Recording, DataError> {
+        let recording = open_with(&self.recording, self.format.as_deref(), &self.settings.topics)?;
+        let recording = self.settings.correct(recording.select(&self.sequences)?)?;
+        Ok(match &self.depth {
+            Some(folder) => DepthStore::open(folder)?.attach(recording),
+            None => recording,
+        })
+    }
+
+    /// Labels the recording, on this machine alone.
+    ///
+    /// # Errors
+    /// Those of [`LabelRun::execute`] and [`Self::open`].
+    pub fn label(&self, jobs: NonZeroUsize, observer: &dyn Observer) -> Result<Outcome, DataError> {
+        self.with_run(jobs, self.check, |run| run.execute(observer))
+    }
+
+    fn with_run<T>(
+        &self,
+        jobs: NonZeroUsize,
+        check: bool,
+        work: impl FnOnce(&LabelRun) -> Result<T, DataError>,
+    ) -> Result<T, DataError> {
+        let recording = self.open()?;
+        let model = self.model()?;
+        let checked = recording.sequences.iter().filter(|_| check);
+        let checks: Vec<_> =
+            checked.map(|reader| CheckRecord::of(&ralf_check::check(reader.as_ref()))).collect();
+        work(&LabelRun {
+            recording: &recording,
+            settings: &self.settings,
+            out: &self.out,
+            jobs: jobs.get(),
+            checks: &checks,
+            evidence: self.evidence,
+            model: model.as_ref(),
+        })
+    }
+
+    fn model(&self) -> Result<Option<Model>, DataError> {
+        match self.settings.method.method {
+            Method::Paper => Ok(None),
+            Method::Learned => read_model(self.model.as_deref()).map(Some),
+        }
+    }
+}
+
+/// The model of a file, or the shipped one.
+///
+/// # Errors
+/// A file that can't be read or holds no model that this version can use.
+pub fn read_model(file: Option<&Path>) -> Result<Model, DataError> {
+    let refused = |reason: String| DataError::Unsuitable {
+        file: file.unwrap_or(Path::new("the shipped model")).to_owned(),
+        place: "model".to_owned(),
+        reason,
+    };
+    let Some(path) = file else { return Model::shipped().map_err(|error| refused(error.to_string())) };
+    let model = Model::from_text(&files::read_text(path, Kind::Settings)?);
+    let model = model.map_err(|error| refused(error.to_string()))?;
+    model.check().map_err(|error| refused(error.to_string()))?;
+    Ok(model)
+}
+
+/// The parts of a job that are not done yet, of so many scans at most. They say where everything lies, so that any
+/// machine that sees the same folders can do them, in any order.
+///
+/// # Errors
+/// What [`LabelRun::plan`] refuses. [`assemble`] names the recording again.
+pub fn plan(
+    job: &Job,
+    scans: NonZeroUsize,
+    jobs: NonZeroUsize,
+    observer: &dyn Observer,
+) -> Result<Vec<Task>, DataError> {
+    let whole = |path: &Path| absolute(path).map_err(DataError::io(path));
+    let further = |path: &Option<PathBuf>| path.as_deref().map(whole).transpose();
+    let job = Job {
+        recording: whole(&job.recording)?,
+        out: whole(&job.out)?,
+        model: further(&job.model)?,
+        depth: further(&job.depth)?,
+        ..job.clone()
+    };
+    refuse_to_write_into(&job.recording, &job.out)?;
+    write_json(&job.out.join(PLAN), &job)?;
+    let stretches = job.with_run(jobs, false, |run| run.plan(scans, observer))?;
+    Ok(stretches.into_iter().map(|stretch| Task { job: job.clone(), stretch }).collect())
+}
+
+/// Does a part of a job. Returns the scans that can't be labelled.
+///
+/// # Errors
+/// What [`LabelRun::label_stretch`] refuses.
+pub fn label_one(
+    task: &Task,
+    jobs: NonZeroUsize,
+    observer: &dyn Observer,
+) -> Result<Vec<NotLabelled>, DataError> {
+    task.job.with_run(jobs, false, |run| run.label_stretch(&task.stretch, observer))
+}
+
+/// The output folders in `out` for which something was planned: `out` itself, or folders in it.
+///
+/// # Errors
+/// A folder that can't be read.
+pub fn planned(out: &Path) -> Result<Vec<PathBuf>, DataError> {
+    if files::exists(&out.join(PLAN))? {
+        return Ok(vec![out.to_owned()]);
+    }
+    let folders = files::folders(out)?.into_iter().map(|name| out.join(name));
+    Ok(folders.filter(|folder| folder.join(PLAN).exists()).collect())
+}
+
+/// Puts the parts of a job together that was planned for this folder. Scans that nobody has labelled are labelled now.
+///
+/// # Errors
+/// A folder that nothing was planned for, and those of [`Job::label`].
+pub fn assemble(out: &Path, jobs: NonZeroUsize, observer: &dyn Observer) -> Result<Outcome, DataError> {
+    let job: Job = read_json(&out.join(PLAN))?;
+    // The folder may have another name on this machine.
+    Job { out: out.to_owned(), ..job }.label(jobs, observer)
+}
+
+/// A folder in `out` for each recording, by the last part of its path.
+///
+/// # Errors
+/// A name that no folder can have, or that two of them have.
+pub fn folders(recordings: &[PathBuf], out: &Path) -> Result<Vec<PathBuf>, DataError> {
+    let mut found: Vec<PathBuf> = Vec::new();
+    for recording in recordings {
+        let name = recording.file_name().unwrap_or_default().to_string_lossy();
+        let refused = |found| DataError::Name { kind: "recording".into(), name: name.to_string(), found };
+        let folder = out.join(Component::new(&name).map_err(refused)?.as_str());
+        if found.contains(&folder) {
+            return Err(refused("one that another recording has"));
+        }
+        found.push(folder);
+    }
+    Ok(found)
+}

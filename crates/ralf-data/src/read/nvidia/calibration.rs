@@ -1,0 +1,85 @@
+//! How sensors are mounted, and how the vehicle moved.
+
+use crate::disk::parquet_table::ParquetTable;
+use crate::error::DataError;
+use crate::read::nvidia::tables::nanoseconds;
+use ralf::space::{EgoMotion, PoseSample, Transform, transform_from_parts};
+use std::cell::RefCell;
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::{Path, PathBuf};
+
+/// Names of the columns of a pose: a quaternion with its scalar last, and a place, m.
+const POSE: [&str; 7] = ["qx", "qy", "qz", "qw", "x", "y", "z"];
+
+/// Mountings by clip and sensor, out of tables that hold those of many clips: each is read once.
+#[derive(Default)]
+pub(super) struct Extrinsics(RefCell<Known>);
+
+#[derive(Default)]
+struct Known {
+    /// The tables that were read.
+    tables: BTreeSet<PathBuf>,
+    /// By clip and sensor.
+    mountings: BTreeMap<[String; 2], Transform>,
+}
+
+impl Extrinsics {
+    /// The mounting of a clip's sensor in the first of these tables that has it, and that table.
+    pub(super) fn find(
+        &self,
+        clip: &str,
+        sensor: &str,
+        tables: &[PathBuf],
+    ) -> Result<Option<Transform>, DataError> {
+        let mut known = self.0.borrow_mut();
+        for table in tables {
+            if known.tables.insert(table.clone()) {
+                let read = mountings(table, clip)?;
+                for (key, mounting) in read {
+                    known.mountings.entry(key).or_insert(mounting);
+                }
+            }
+        }
+        Ok(known.mountings.get(&[clip.to_owned(), sensor.to_owned()]).copied())
+    }
+}
+
+/// All mountings of a table; those of one that names no clips are of `clip`.
+fn mountings(file: &Path, clip: &str) -> Result<Vec<([String; 2], Transform)>, DataError> {
+    let table = ParquetTable::open(file)?;
+    let poses = poses(file, &table)?;
+    let sensors = table.texts("sensor_name")?;
+    let clips = if table.has("clip_id") { table.texts("clip_id")? } else { vec![clip.into(); sensors.len()] };
+    let named = clips.into_iter().zip(sensors).map(|(clip, sensor)| [clip.to_string(), sensor.to_string()]);
+    Ok(named.zip(poses).collect())
+}
+
+/// The poses of a table's rows.
+fn poses(file: &Path, table: &ParquetTable) -> Result<Vec<Transform>, DataError> {
+    let columns = POSE.iter().map(|name| table.numbers(name)).collect::<Result<Vec<_>, _>>()?;
+    let pose = |row: usize| {
+        let [qx, qy, qz, qw, x, y, z] = std::array::from_fn(|column| columns[column][row]);
+        transform_from_parts([x, y, z], [qx, qy, qz, qw]).ok_or_else(|| {
+            let expected = "finite numbers, and a quaternion of length 1";
+            let found = format!("{:?}", [qx, qy, qz, qw, x, y, z]);
+            DataError::content(file, format!("{}, row {row}", POSE.join(" ")), expected, found)
+        })
+    };
+    (0..columns[0].len()).map(pose).collect()
+}
+
+/// The vehicle's poses in the frame that it has at the clip's begin.
+pub(super) fn motion(file: &Path) -> Result<EgoMotion, DataError> {
+    let table = ParquetTable::open(file)?;
+    let times = table.integers("timestamp")?;
+    let mut samples: Vec<PoseSample> = Vec::with_capacity(times.len());
+    for (row, (time, odom_from_vehicle)) in times.into_iter().zip(poses(file, &table)?).enumerate() {
+        let t_ns = nanoseconds(file, row, time)?;
+        if samples.last().is_some_and(|before| before.t_ns >= t_ns) {
+            let place = format!("timestamp, row {row}");
+            return Err(DataError::content(file, place, "times that ascend, us", time.to_string()));
+        }
+        samples.push(PoseSample { t_ns, odom_from_vehicle });
+    }
+    EgoMotion::new(Vec::new(), samples).ok_or_else(|| DataError::content(file, "rows", "poses", "none"))
+}

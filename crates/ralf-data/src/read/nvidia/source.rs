@@ -1,0 +1,146 @@
+//! A clip as a source: measurements typed.
+
+use super::calibration::{Extrinsics, motion};
+use super::layout::Clip;
+use super::tables::{COLUMNS, Scans};
+use crate::error::DataError;
+use crate::read::SequenceReader;
+use crate::read::last_read::LastRead;
+use crate::read::models::{NVIDIA_RADAR, NVIDIA_RADAR_2D};
+use crate::read::recording::measurement;
+use ralf::sensors::{
+    CameraImage, DepthImage, DepthOutput, LidarScan, RadarScan, Rig, Sequence, Source, SourceError, Timelines,
+};
+use ralf::space::EgoMotion;
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// What the clips of a recording have in common.
+pub(super) struct Shared<'a> {
+    pub(super) scans: Arc<LastRead<Scans>>,
+    pub(super) extrinsics: &'a Extrinsics,
+}
+
+/// A clip, opened.
+pub(super) struct Drive {
+    sequence: Sequence,
+    /// One per radar.
+    files: Vec<PathBuf>,
+    /// Poses and mountings.
+    further: Vec<PathBuf>,
+    tables: Arc<LastRead<Scans>>,
+    /// The rows of each scan of each radar.
+    radars: Vec<Vec<Range<usize>>>,
+    warnings: Vec<String>,
+}
+
+impl Drive {
+    /// Reads mountings, poses, and which rows are which scan.
+    pub(super) fn new(name: &str, clip: &Clip, shared: &Shared) -> Result<Self, DataError> {
+        let mut warnings = left_out(clip);
+        let extrinsics = clip.extrinsics(name)?;
+        let mut further = extrinsics.clone();
+        let motion = match clip.label(name, "egomotion.offline")?.or(clip.label(name, "egomotion")?) {
+            Some(file) => {
+                let motion = motion(&file)?;
+                further.push(file);
+                motion
+            }
+            None => {
+                warnings.push(
+                    "no egomotion: the motion has to come from a trajectory or from range rates".to_owned(),
+                );
+                EgoMotion::unknown()
+            }
+        };
+        let (rig, times, depth_output) = (Rig::default(), Timelines::default(), DepthOutput::default());
+        let title = format!("PhysicalAI-AV, {} radars", clip.radars.len());
+        let sequence = Sequence { name: name.to_owned(), title, rig, times, motion, depth_output };
+        let (files, tables, radars) = (Vec::new(), shared.scans.clone(), Vec::new());
+        let mut drive = Self { sequence, files, further, tables, radars, warnings };
+        for (sensor, file) in &clip.radars {
+            drive.add(sensor, file, &extrinsics, shared)?;
+        }
+        Ok(drive)
+    }
+
+    fn add(
+        &mut self,
+        sensor: &str,
+        file: &Path,
+        extrinsics: &[PathBuf],
+        shared: &Shared,
+    ) -> Result<(), DataError> {
+        let name = &self.sequence.name;
+        let mounting = shared.extrinsics.find(name, sensor, extrinsics)?;
+        let mounting = mounting.ok_or_else(|| {
+            let expected = format!("a mounting of the clip {name} in calibration/sensor_extrinsics");
+            DataError::content(file, sensor, expected, "none")
+        })?;
+        let table = self.tables.of(file)?;
+        let model = if table.has_elevation { NVIDIA_RADAR } else { NVIDIA_RADAR_2D };
+        let fields = COLUMNS.map(|(_, field)| field);
+        self.sequence.rig.radars.push(model.mounted(sensor, &fields, mounting));
+        self.sequence.times.radars.push(table.scans.iter().map(|(t_ns, _)| *t_ns).collect());
+        self.radars.push(table.scans.iter().map(|(_, rows)| rows.clone()).collect());
+        self.files.push(file.to_owned());
+        Ok(())
+    }
+}
+
+/// A sentence for each kind of sensor that isn't read.
+fn left_out(clip: &Clip) -> Vec<String> {
+    let mut sentences = Vec::new();
+    if clip.has("lidar") {
+        sentences.push("the LiDAR's points are compressed with Draco, which isn't read: left out".to_owned());
+    }
+    if clip.has("camera") {
+        sentences.push("the cameras are films behind f-theta lenses, which aren't read: left out".to_owned());
+    }
+    sentences
+}
+
+impl Source for Drive {
+    fn sequence(&self) -> &Sequence {
+        &self.sequence
+    }
+
+    fn radar_scan(&self, radar: usize, scan: usize) -> Result<RadarScan, SourceError> {
+        let rows = measurement("radar", &self.radars, radar, scan)?;
+        let file = &self.files[radar];
+        let table = self.tables.of(file)?;
+        let values = |column: &Vec<f32>| column.get(rows.clone()).map(<[f32]>::to_vec);
+        let columns = table.columns.iter().map(values).collect::<Option<Vec<_>>>().ok_or_else(|| {
+            DataError::content(file, "rows", "as many as when the file was opened", "fewer")
+        })?;
+        let t_ns = self.sequence.times.radars[radar][scan];
+        Ok(RadarScan::new(&self.sequence.rig.radars[radar], t_ns, columns)?)
+    }
+
+    fn lidar_scan(&self, lidar: usize, scan: usize) -> Result<LidarScan, SourceError> {
+        Err(DataError::NoMeasurement { kind: "lidar", sensor: lidar, index: scan }.into())
+    }
+
+    fn image(&self, camera: usize, image: usize) -> Result<CameraImage, SourceError> {
+        Err(DataError::NoMeasurement { kind: "camera", sensor: camera, index: image }.into())
+    }
+
+    fn depth(&self, camera: usize, image: usize) -> Result<Option<Vec<DepthImage>>, SourceError> {
+        Err(DataError::NoMeasurement { kind: "camera", sensor: camera, index: image }.into())
+    }
+}
+
+impl SequenceReader for Drive {
+    fn inputs(&self) -> Vec<PathBuf> {
+        self.further.iter().chain(&self.files).cloned().collect()
+    }
+
+    fn warnings(&self) -> &[String] {
+        &self.warnings
+    }
+
+    fn image_file(&self, _camera: usize, _image: usize) -> Option<PathBuf> {
+        None
+    }
+}

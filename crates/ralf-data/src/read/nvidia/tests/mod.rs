@@ -1,0 +1,5 @@
+//! Small clips in the published layout.
+
+mod reading;
+mod recording;
+mod refusals;

@@ -1,0 +1,117 @@
+//! What is read of good clips.
+
+use super::recording::{CLIP, FRONT, REAR, extrinsics, radar, write, write_clip, write_unzipped};
+use crate::read::nvidia::{open, recognises};
+use crate::read::{Recording, SequenceReader};
+use ralf::sensors::Elevation;
+use ralf::space::Point;
+use std::fs;
+
+fn unzipped() -> (tempfile::TempDir, Recording) {
+    let folder = tempfile::tempdir().unwrap();
+    write_unzipped(folder.path());
+    let recording = open(folder.path()).unwrap();
+    (folder, recording)
+}
+
+fn only(recording: &Recording) -> &dyn SequenceReader {
+    recording.sequences[0].as_ref()
+}
+
+fn text(recording: &Recording) -> String {
+    let reader = only(recording);
+    let scans: Vec<_> = (0..2).map(|radar| reader.radar_scan(radar, 1).unwrap()).collect();
+    format!("{:?} {scans:?}", reader.sequence())
+}
+
+#[test]
+fn unzipped_chunks_and_folders_of_clips_are_the_same() {
+    let (folder, recording) = unzipped();
+    assert!(recognises(folder.path()));
+    assert_eq!(crate::read::open(folder.path(), None).unwrap().format, "nvidia");
+    let clips = tempfile::tempdir().unwrap();
+    write_clip(clips.path());
+    for path in [clips.path().to_owned(), clips.path().join(CLIP)] {
+        assert!(recognises(&path));
+        assert_eq!(text(&open(&path).unwrap()), text(&recording));
+    }
+    assert!(!recognises(tempfile::tempdir().unwrap().path()));
+}
+
+#[test]
+fn rows_of_a_scan_index_are_a_scan_and_none_is_dropped() {
+    let (_folder, recording) = unzipped();
+    let reader = only(&recording);
+    let rig = &reader.sequence().rig;
+    let names: Vec<&str> = rig.radars.iter().map(|radar| radar.name.as_str()).collect();
+    assert_eq!((reader.sequence().name.as_str(), names), (CLIP, vec![FRONT, REAR]));
+    assert_eq!(reader.sequence().times.radars, [[-50_000_000, 0, 50_000_000]; 2]);
+    let counts: Vec<usize> = (0..3).map(|scan| reader.radar_scan(0, scan).unwrap().len()).collect();
+    assert_eq!(counts, [2, 3, 1]);
+    let scan = reader.radar_scan(0, 1).unwrap();
+    let row: Vec<_> =
+        rig.radars[0].fields.iter().zip(&scan.columns).map(|(name, column)| (&**name, column[0])).collect();
+    let expected = [
+        ("azimuth", 0.0),
+        ("elevation", 0.02),
+        ("range", 20.0),
+        ("doppler", -9.5),
+        ("rcs", -3.0),
+        ("snr", 14.5),
+        ("exist_probb", 99.0),
+        ("doppler_ambiguity", 62.5),
+    ];
+    assert_eq!(row, expected);
+    assert_eq!(
+        rig.radars.iter().map(|radar| radar.elevation).collect::<Vec<_>>(),
+        [Elevation::Measured, Elevation::None]
+    );
+}
+
+#[test]
+fn mountings_and_poses_are_where_they_should_be() {
+    let (_folder, recording) = unzipped();
+    let sequence = only(&recording).sequence();
+    let ahead = Point::new(10.0, 0.0, 0.0);
+    let seen = sequence.rig.radars.iter().map(|radar| radar.vehicle_from_radar * ahead);
+    let off: f64 = seen
+        .zip([Point::new(13.9, 0.0, 0.5), Point::new(-10.8, 0.6, 0.7)])
+        .map(|(a, b)| (a - b).norm())
+        .sum();
+    assert!(off < 1e-9, "{off}");
+    let driven = sequence.motion.between(-50_000_000, 50_000_000).translation.x;
+    assert!((driven - 1.0).abs() < 1e-9, "{driven}");
+    assert!(only(&recording).warnings().is_empty());
+}
+
+#[test]
+fn what_is_better_is_preferred_and_what_is_left_out_is_told() {
+    let (folder, _) = unzipped();
+    let mut better = super::recording::egomotion();
+    better[5].1 = super::recording::Values::Double(vec![3.0; 30]);
+    write(&folder.path().join(format!("labels/egomotion.offline/{CLIP}.egomotion.offline.parquet")), &better);
+    for name in ["lidar", "camera"] {
+        fs::create_dir(folder.path().join(name)).unwrap();
+    }
+    let recording = open(folder.path()).unwrap();
+    assert_eq!(only(&recording).sequence().motion.between(0, 50_000_000).translation.x, 0.0);
+    let [lidar, cameras] = only(&recording).warnings() else { panic!("two warnings") };
+    assert!(lidar.contains("Draco") && cameras.contains("f-theta"));
+    fs::remove_dir_all(folder.path().join("labels")).unwrap();
+    let recording = open(folder.path()).unwrap();
+    assert!(!only(&recording).sequence().motion.is_known());
+    assert!(only(&recording).warnings()[2].contains("no egomotion"));
+}
+
+/// What pandas writes of an index without a name; and the mountings of several chunks.
+#[test]
+fn other_names_of_the_index_and_other_chunks() {
+    let (folder, recording) = unzipped();
+    let mut rows = radar(true);
+    rows[0].0 = "__index_level_0__";
+    write(&folder.path().join(format!("radar/{FRONT}/{CLIP}.{FRONT}.parquet")), &rows);
+    let calibration = folder.path().join("calibration/sensor_extrinsics");
+    write(&calibration.join("sensor_extrinsics.chunk_0001.parquet"), &extrinsics(CLIP));
+    write(&calibration.join("sensor_extrinsics.chunk_0000.parquet"), &extrinsics("another"));
+    assert_eq!(text(&open(folder.path()).unwrap()), text(&recording));
+}

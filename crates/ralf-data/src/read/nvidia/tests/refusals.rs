@@ -1,0 +1,94 @@
+//! What is refused, and how it is named.
+
+use super::recording::{CLIP, Columns, FRONT, Values, egomotion, extrinsics, radar, write, write_unzipped};
+use crate::read::nvidia::{open, recognises};
+use std::fs;
+
+const RADAR: &str = "radar/radar_front_center_imaging_lrr_1";
+const CHUNK: &str = "calibration/sensor_extrinsics/sensor_extrinsics.chunk_0000.parquet";
+
+/// What opening a clip says in which this table is another one.
+fn refused(file: &str, columns: &Columns) -> String {
+    let folder = tempfile::tempdir().unwrap();
+    write_unzipped(folder.path());
+    write(&folder.path().join(file), columns);
+    let error = open(folder.path()).map(drop).unwrap_err().to_string();
+    assert!(error.starts_with(folder.path().to_str().unwrap()), "{error}");
+    error
+}
+
+fn changed(mut columns: Columns, name: &str, values: Values) -> Columns {
+    columns.iter_mut().filter(|(column, _)| *column == name).for_each(|(_, old)| *old = values.clone());
+    columns
+}
+
+#[test]
+fn tables_that_do_not_fit_are_named() {
+    let front = format!("{RADAR}/{CLIP}.{FRONT}.parquet");
+    let motion = format!("labels/egomotion/{CLIP}.egomotion.parquet");
+    let without = |mut columns: Columns, name: &str| {
+        columns.retain(|(column, _)| *column != name);
+        columns
+    };
+    let text = |rows: usize| Values::Text(vec!["a".to_owned(); rows]);
+    let mut times: Vec<i64> = (-20..10).map(|n| 10_000 * n).collect();
+    times[7] = times[6];
+    for (error, words) in [
+        (
+            refused(&front, &without(radar(true), "rcs")),
+            "columns: expected a column `rcs`, found scan_index, timestamp",
+        ),
+        (refused(&front, &without(radar(true), "scan_index")), "expected a column `__index_level_0__`"),
+        (
+            refused(&front, &changed(radar(true), "distance", text(6))),
+            "distance: expected numbers, found BYTE_ARRAY",
+        ),
+        (
+            refused(&front, &changed(radar(true), "timestamp", Values::Float(vec![0.0; 6]))),
+            "timestamp: expected whole numbers, found FLOAT",
+        ),
+        (
+            refused(&front, &changed(radar(true), "timestamp", Values::Long(vec![0, 1, 2, 2, 2, 3]))),
+            "timestamp, row 1: expected 0 us, as of the scan's first row, found 1",
+        ),
+        (
+            refused(&front, &changed(radar(true), "timestamp", Values::Long(vec![i64::MIN; 6]))),
+            "timestamp, row 0: expected a time in us",
+        ),
+        (
+            refused(&motion, &changed(egomotion(), "timestamp", Values::Long(times))),
+            "timestamp, row 7: expected times that ascend",
+        ),
+        (
+            refused(&motion, &changed(egomotion(), "qw", Values::Double(vec![0.0; 30]))),
+            "row 0: expected finite numbers, and a quaternion of length 1",
+        ),
+        (
+            refused(CHUNK, &extrinsics("another")),
+            "radar_front_center_imaging_lrr_1: expected a mounting of the clip 0a1b",
+        ),
+        (
+            refused(CHUNK, &changed(extrinsics(CLIP), "sensor_name", Values::Long(vec![1, 2]))),
+            "sensor_name: expected texts, found INT64",
+        ),
+    ] {
+        assert!(error.contains(words), "{error} lacks {words}");
+    }
+}
+
+#[test]
+fn damaged_and_zipped_files_are_named() {
+    let folder = tempfile::tempdir().unwrap();
+    write_unzipped(folder.path());
+    let file = folder.path().join(format!("{RADAR}/{CLIP}.{FRONT}.parquet"));
+    let whole = fs::read(&file).unwrap();
+    fs::write(&file, &whole[..whole.len() - 9]).unwrap();
+    let error = open(folder.path()).map(drop).unwrap_err().to_string();
+    assert!(error.contains("content: expected a Parquet file, found"), "{error}");
+    let zipped = tempfile::tempdir().unwrap();
+    fs::create_dir_all(zipped.path().join(RADAR)).unwrap();
+    fs::write(zipped.path().join(RADAR).join("a.chunk_0000.zip"), "PK").unwrap();
+    assert!(recognises(zipped.path()));
+    let error = open(zipped.path()).map(drop).unwrap_err().to_string();
+    assert!(error.ends_with("found zip files: unzip them where they lie"), "{error}");
+}

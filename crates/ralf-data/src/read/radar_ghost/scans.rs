@@ -1,0 +1,118 @@
+//! Which rows of a table are one scan, and when it was.
+
+use crate::error::DataError;
+use std::collections::BTreeMap;
+use std::ops::Range;
+use std::path::Path;
+
+/// A scan: its time, ns, and its rows, in the order of the table.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) struct Scan {
+    pub(super) t_ns: i64,
+    runs: Vec<Range<usize>>,
+}
+
+impl Scan {
+    /// Its rows.
+    pub(super) fn rows(&self) -> impl Iterator<Item = usize> {
+        self.runs.iter().cloned().flatten()
+    }
+
+    /// Its values of a column; `None` of a column that ends before its last row.
+    pub(super) fn of<T: Clone>(&self, column: &[T]) -> Option<Vec<T>> {
+        let runs = self.runs.iter().map(|run| column.get(run.clone()));
+        Some(runs.collect::<Option<Vec<&[T]>>>()?.concat())
+    }
+}
+
+/// The rows of each key.
+fn runs<K: Ord + Copy>(keys: impl Iterator<Item = K>) -> BTreeMap<K, Vec<Range<usize>>> {
+    let mut found: BTreeMap<K, Vec<Range<usize>>> = BTreeMap::new();
+    for (row, key) in keys.enumerate() {
+        let runs = found.entry(key).or_default();
+        match runs.last_mut() {
+            Some(run) if run.end == row => run.end += 1,
+            _ => runs.push(row..row + 1),
+        }
+    }
+    found
+}
+
+/// The scans of rows of which each has a key, in the order of time; a scan's time is that of its first row.
+pub(super) fn scans<K: Ord + Copy>(keys: impl Iterator<Item = K>, times: &[i64]) -> Vec<(K, Scan)> {
+    let scan = |(key, runs): (K, Vec<Range<usize>>)| (key, Scan { t_ns: times[runs[0].start], runs });
+    let mut found: Vec<(K, Scan)> = runs(keys).into_iter().map(scan).collect();
+    found.sort_by_key(|(_, scan)| scan.t_ns);
+    found
+}
+
+/// Units that times may be in, as nanoseconds, with what a step from scan to scan can be in each. Sensors take 10 ms to
+/// 1 s for a scan, so that no step fits two of them.
+const UNITS: [(f64, Range<f64>); 4] =
+    [(1e9, 0.0099..0.99), (1e6, 9.9..990.0), (1e3, 9.9e3..9.9e5), (1.0, 9.9e6..9.9e8)];
+/// Times lie within 146 years of 0, so that the difference of two is a time as well.
+const LATEST_NS: f64 = i64::MAX as f64 / 2.0;
+
+/// The unit of a sensor's times, as nanoseconds: the one in which the usual step from one to the next is a scan's.
+pub(super) fn unit(file: &Path, table: &str, times: impl Iterator<Item = f64>) -> Result<f64, DataError> {
+    let mut distinct: Vec<f64> = times.collect();
+    distinct.sort_unstable_by(f64::total_cmp);
+    distinct.dedup();
+    let mut steps: Vec<f64> = distinct.windows(2).map(|pair| pair[1] - pair[0]).collect();
+    steps.sort_unstable_by(f64::total_cmp);
+    // A single moment is the begin, in whatever unit.
+    let Some(usual) = steps.get(steps.len() / 2) else { return Ok(UNITS[0].0) };
+    let found = UNITS.iter().find(|(_, steps)| steps.contains(usual)).map(|(unit, _)| *unit);
+    found.ok_or_else(|| {
+        let expected = "times of 10 ms to 1 s from scan to scan, in s, ms, us or ns";
+        let place = format!("{table}, timestamp");
+        DataError::content(file, place, expected, format!("a step of {usual}"))
+    })
+}
+
+/// Times of this unit as nanoseconds.
+pub(super) fn nanoseconds(file: &Path, table: &str, times: &[f64], unit: f64) -> Result<Vec<i64>, DataError> {
+    let time = |(row, value): (usize, &f64)| {
+        let t_ns = value * unit;
+        (t_ns.abs() < LATEST_NS).then(|| t_ns.round() as i64).ok_or_else(|| {
+            let place = format!("{table}, timestamp, row {row}");
+            DataError::content(file, place, "a time", value.to_string())
+        })
+    };
+    times.iter().enumerate().map(time).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rows_of_one_key_are_one_scan_wherever_they_lie() {
+        let keys = [("a", 1), ("b", 1), ("a", 1), ("a", 1), ("a", 0)];
+        let found = scans(keys.into_iter(), &[50, 51, 50, 50, 7]);
+        let told: Vec<_> =
+            found.iter().map(|(key, scan)| (*key, scan.t_ns, scan.rows().collect::<Vec<_>>())).collect();
+        assert_eq!(told, [(("a", 0), 7, vec![4]), (("a", 1), 50, vec![0, 2, 3]), (("b", 1), 51, vec![1])]);
+        assert_eq!(found[1].1.of(&["p", "q", "r", "s", "t"]), Some(vec!["p", "r", "s"]));
+        assert_eq!(found[1].1.of(&["p", "q", "r"]), None);
+    }
+
+    #[test]
+    fn the_step_from_scan_to_scan_tells_the_unit() {
+        let file = Path::new("a.h5");
+        let told = |times: &[f64]| unit(file, "lidar", times.iter().copied());
+        for expected in [1.0, 1e3, 1e6, 1e9] {
+            let times = [0.0, 0.0, 0.07, 0.01, 0.13].map(|t| t * 1e9 / expected);
+            assert_eq!(told(&times).unwrap(), expected);
+            let found = nanoseconds(file, "lidar", &times, expected).unwrap();
+            assert_eq!(found, [0, 0, 70_000_000, 10_000_000, 130_000_000]);
+        }
+        assert_eq!([told(&[3.0, 3.0]).unwrap(), told(&[]).unwrap()], [1e9; 2]);
+        let error = told(&[0.0, 3.0]).unwrap_err().to_string();
+        assert!(error.starts_with("a.h5: lidar, timestamp: expected times of 10 ms to 1 s"), "{error}");
+        for never in [f64::NAN, 1e300] {
+            let error = nanoseconds(file, "lidar", &[0.0, never], 1e9).unwrap_err().to_string();
+            assert!(error.contains("row 1: expected a time, found"), "{error}");
+        }
+    }
+}

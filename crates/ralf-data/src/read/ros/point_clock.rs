@@ -1,0 +1,160 @@
+//! When the points of a LiDAR's clouds were measured: drivers agree neither on the field nor on its unit.
+//!
+//! The first scan tells the unit. Times are either on the header's clock, and lie within a second of its stamp in one
+//! unit, or relative to the stamp, and then their spread tells it: no scan is shorter than a millisecond or longer than
+//! a second, and units are a thousand apart.
+
+use crate::read::point_times::LONGEST;
+use ralf::sensors::is_return;
+use ralf_ros::point_cloud::PointTable;
+
+/// What drivers call the time of a point.
+const FIELDS: [&str; 5] = ["t", "time", "timestamp", "time_stamp", "offset_time"];
+/// Seconds in a unit.
+const UNITS: [(&str, f64); 4] = [("s", 1.0), ("ms", 1e-3), ("us", 1e-6), ("ns", 1e-9)];
+/// No LiDAR scans faster, s.
+const SHORTEST: f64 = 1e-3;
+
+/// A field of times.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct PointClock {
+    pub(super) field: &'static str,
+    pub(super) unit: &'static str,
+    /// Its length, s.
+    seconds: f64,
+    /// Whether times are on the clock of the stamps; else they are relative to the scan's.
+    is_absolute: bool,
+}
+
+impl PointClock {
+    /// The field of a cloud that tells its points' times; `None` where there is none, or all times are the same.
+    /// The error is a sentence, of a field in no unit.
+    pub(super) fn find(table: &PointTable, t_ns: i64) -> Result<Option<Self>, String> {
+        let Some(field) = FIELDS.into_iter().find(|field| table.names().any(|name| name == *field)) else {
+            return Ok(None);
+        };
+        let times = table.wide_column(field).unwrap_or_default();
+        let times: Vec<f64> = times.into_iter().filter(|time| time.is_finite()).collect();
+        let (first, last) = times.iter().fold((f64::MAX, f64::MIN), |(a, b), t| (a.min(*t), b.max(*t)));
+        if first >= last {
+            return Ok(None);
+        }
+        let stamp = t_ns as f64 * 1e-9;
+        let fits = |(seconds, is_absolute): (f64, bool)| {
+            let [begin, end] = [first, last].map(|t| t * seconds - if is_absolute { stamp } else { 0.0 });
+            begin.abs() <= LONGEST && end.abs() <= LONGEST && (SHORTEST..LONGEST).contains(&(end - begin))
+        };
+        let clock = |is_absolute| {
+            let unit = UNITS.into_iter().find(|(_, seconds)| fits((*seconds, is_absolute)));
+            unit.map(|(unit, seconds)| Self { field, unit, seconds, is_absolute })
+        };
+        clock(false).or_else(|| clock(true)).map(Some).ok_or_else(|| {
+            format!("`{field}` from {first} to {last} is a time of points in no known unit, and is not used")
+        })
+    }
+
+    /// Seconds after the scan's time, point by point; 0 of what is no return. The error is a point whose time lies more
+    /// than a second away: what was expected and what was found.
+    pub(super) fn times(
+        &self,
+        table: &PointTable,
+        points: &[[f32; 3]],
+        t_ns: i64,
+    ) -> Result<Vec<f32>, (usize, String, String)> {
+        let found = table.wide_column(self.field).unwrap_or_else(|| vec![f64::NAN; points.len()]);
+        let offset = |(n, (time, point)): (usize, (&f64, &[f32; 3]))| {
+            if !is_return(point) {
+                return Ok(0.0);
+            }
+            let seconds = self.after(*time, t_ns);
+            if seconds.abs() <= LONGEST {
+                return Ok(seconds as f32);
+            }
+            Err((n, format!("a time within {LONGEST} s of the scan's"), format!("{time} {}", self.unit)))
+        };
+        found.iter().zip(points).enumerate().map(offset).collect()
+    }
+
+    fn after(&self, time: f64, t_ns: i64) -> f64 {
+        if !self.is_absolute {
+            return time * self.seconds;
+        }
+        // In whole seconds first, which keeps the digits.
+        let unit_s = 1.0 / self.seconds;
+        let whole = (t_ns / 1_000_000_000) as f64;
+        (time - whole * unit_s) * self.seconds - (t_ns % 1_000_000_000) as f64 * 1e-9
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use ralf_ros::message::{Datatype, PointCloud2, PointField};
+
+    /// 1.6e9 s and a quarter.
+    const T_NS: i64 = 1_600_000_000_250_000_000;
+
+    fn cloud(field: &str, datatype: Datatype, times: &[f64]) -> PointCloud2 {
+        let bytes = |time: &f64| match datatype {
+            Datatype::Float64 => time.to_le_bytes().to_vec(),
+            Datatype::Float32 => (*time as f32).to_le_bytes().to_vec(),
+            _ => (*time as u32).to_le_bytes().to_vec(),
+        };
+        let step = datatype.size() as u32;
+        let data: Vec<u8> = times.iter().flat_map(bytes).collect();
+        PointCloud2 {
+            height: 1,
+            width: times.len() as u32,
+            fields: vec![PointField::new(field, 0, datatype)],
+            point_step: step,
+            row_step: data.len() as u32,
+            data,
+            ..PointCloud2::default()
+        }
+    }
+
+    #[test]
+    fn what_drivers_write_is_understood() {
+        for (driver, field, datatype, times, expected, unit) in [
+            ("Ouster", "t", Datatype::Uint32, [0.0, 99_000_000.0], [0.0, 0.099], "ns"),
+            ("Velodyne", "time", Datatype::Float32, [-0.099, 0.0], [-0.099, 0.0], "s"),
+            ("Hesai", "timestamp", Datatype::Float64, [1.6e9 + 0.26, 1.6e9 + 0.35], [0.01, 0.1], "s"),
+            ("Livox", "timestamp", Datatype::Float64, [1.6e18 + 2.5e8, 1.6e18 + 3.4e8], [0.0, 0.09], "ns"),
+            ("us", "offset_time", Datatype::Uint32, [0.0, 99_000.0], [0.0, 0.099], "us"),
+        ] {
+            let cloud = cloud(field, datatype, &times);
+            let table = PointTable::new(&cloud).unwrap();
+            let clock = PointClock::find(&table, T_NS).unwrap().unwrap();
+            assert_eq!(clock.unit, unit, "{driver}");
+            let found = clock.times(&table, &[[1.0; 3]; 2], T_NS).unwrap();
+            assert!(
+                found.iter().zip(expected).all(|(a, b): (&f32, f64)| (f64::from(*a) - b).abs() < 1e-6),
+                "{found:?}"
+            );
+        }
+    }
+
+    #[test]
+    fn times_that_tell_nothing_are_none_and_strange_ones_are_named() {
+        let find = |field: &str, times: &[f64]| {
+            let cloud = cloud(field, Datatype::Float64, times);
+            PointClock::find(&PointTable::new(&cloud).unwrap(), T_NS)
+        };
+        assert_eq!(find("t", &[0.0, 0.0]), Ok(None));
+        assert_eq!(find("t", &[f64::NAN]), Ok(None));
+        assert_eq!(find("ring", &[0.0, 0.1]), Ok(None));
+        let error = find("time", &[1.0e9, 1.0e9 + 0.1]).unwrap_err();
+        assert!(error.contains("`time` from 1000000000 to"), "{error}");
+    }
+
+    #[test]
+    fn a_point_of_another_day_is_refused_unless_it_is_no_return() {
+        let first = cloud("time", Datatype::Float64, &[0.0, 0.1]);
+        let clock = PointClock::find(&PointTable::new(&first).unwrap(), T_NS).unwrap().unwrap();
+        let later = cloud("time", Datatype::Float64, &[0.05, 7.0]);
+        let table = PointTable::new(&later).unwrap();
+        assert_eq!(clock.times(&table, &[[1.0; 3], [0.0; 3]], T_NS).unwrap(), [0.05, 0.0]);
+        let (point, expected, found) = clock.times(&table, &[[1.0; 3]; 2], T_NS).unwrap_err();
+        assert_eq!((point, expected.as_str(), found.as_str()), (1, "a time within 1 s of the scan's", "7 s"));
+    }
+}

@@ -1,0 +1,73 @@
+//! Zenseact Open Dataset, its Sequences and Drives as published: one front radar, LiDARs merged to one, one fisheye
+//! camera. What is read and derived: `docs/zod.md`. The Frames have no radar and are not read.
+//!
+//! - The path holds `trainval-sequences-*.json` or `trainval-drives-*.json`, which list the files of each sequence;
+//!   those whose calibration is on disk are read. A sequence has its number for a name, a drive `drive_` before it.
+//! - The vehicle frame is ZOD's ego frame, lowered from the rear axle to the road.
+//! - All scans of the radar lie in one file, and are rows with the same `scan_index`; a scan's time is its first row's.
+//!   No row is dropped, whatever its `validity`; `range_rate` is `doppler`, the raw range rate.
+//! - LiDAR points carry the time at which each was measured and are moved to the scan's with the poses, unless the list
+//!   says that they are compensated. Points on the own roof, which ZOD's own tools leave out, are no returns.
+
+mod calibration;
+mod info;
+mod lidar;
+mod motion;
+mod radar;
+mod source;
+mod time;
+
+use crate::disk::files;
+use crate::error::DataError;
+use crate::read::{Recording, SequenceReader};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// The format's name.
+pub(crate) const NAME: &str = "zod";
+/// What the lists' names begin with, and what stands before the name of a sequence out of them.
+const LISTS: [(&str, &str); 2] = [("trainval-sequences-", ""), ("trainval-drives-", "drive_")];
+
+/// Opens the data set at the folder that holds the lists.
+///
+/// Errors: no list or damaged ones, none of the listed sequences on disk, calibrations and poses that are none.
+pub(crate) fn open(path: &Path) -> Result<Recording, DataError> {
+    let mut listed = info::Listed::default();
+    for (list, prefix) in lists(path)? {
+        info::read(&list, prefix, &mut listed)?;
+    }
+    let radar_files = Arc::new(radar::radar_files());
+    let mut sequences: Vec<Box<dyn SequenceReader>> = Vec::new();
+    for (name, (list, info)) in listed {
+        if files::exists(&path.join(&info.calibration_path))? {
+            sequences.push(Box::new(source::sequence(path, &name, &list, info, &radar_files)?));
+        }
+    }
+    if sequences.is_empty() {
+        return Err(DataError::content(
+            path,
+            "sequences",
+            "the files of at least one that is listed",
+            "none",
+        ));
+    }
+    Ok(Recording { path: path.to_owned(), format: NAME, sequences })
+}
+
+/// Whether a folder looks like ZOD's Sequences or Drives.
+pub(crate) fn recognises(path: &Path) -> bool {
+    lists(path).is_ok_and(|found| !found.is_empty())
+}
+
+/// The lists, and what stands before the names of their sequences.
+fn lists(path: &Path) -> Result<Vec<(PathBuf, &'static str)>, DataError> {
+    let names = files::names(path)?;
+    let list = |name: &String| {
+        let (_, prefix) = LISTS.iter().find(|(begin, _)| name.starts_with(begin))?;
+        name.ends_with(".json").then(|| (path.join(name), *prefix))
+    };
+    Ok(names.iter().filter_map(list).collect())
+}
+
+#[cfg(test)]
+mod tests;

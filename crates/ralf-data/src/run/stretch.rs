@@ -1,0 +1,130 @@
+//! A run in parts, for several machines that share the output folder.
+//!
+//! A part is a stretch of a sequence. Labelling one leaves exactly what a run that was killed leaves of these scans, so
+//! that putting the parts together is nothing but to let the run go on: its results are those of one machine, to the
+//! byte, whatever became of single parts. Every part may be done twice, and by two machines at once.
+
+use super::results::Results;
+use super::unfinished::Unfinished;
+use super::workers::Labelling;
+use super::workspace::Workspace;
+use super::{LOCK, LabelRun, Observer, Task, refuse_to_write_into};
+use crate::error::DataError;
+use crate::frames::{ScanIndex, all_scans, in_time};
+use crate::result::{NotLabelled, OutFolder, RunRecord, SequenceNames, WriterLock, read_record};
+use serde::{Deserialize, Serialize};
+use std::num::NonZeroUsize;
+
+/// Part of a run that one machine does by itself: scans of a sequence that follow each other in time.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Stretch {
+    /// Name of the sequence.
+    pub sequence: String,
+    /// Which of its stretches, from 0.
+    pub number: usize,
+    /// How many there are.
+    pub of: usize,
+    /// Of program, settings and the sequence's inputs when it was planned.
+    fingerprint: String,
+}
+
+impl Stretch {
+    /// The scans that belong to it, of all that a sequence has.
+    fn scans<'a>(&self, in_time: &'a [ScanIndex]) -> &'a [ScanIndex] {
+        // 128 bits hold the product of any two lengths.
+        let at = |number: usize| (in_time.len() as u128 * number as u128 / self.of.max(1) as u128) as usize;
+        in_time.get(at(self.number)..at(self.number.saturating_add(1))).unwrap_or_default()
+    }
+}
+
+impl LabelRun<'_> {
+    /// Parts of the work, of so many scans at most, for all sequences that are not labelled yet. The output folder is
+    /// made ready as by [`Self::execute`], and the inputs' hashes are kept there, so that no part has to read all of
+    /// them.
+    ///
+    /// # Errors
+    /// Those of [`Self::execute`].
+    pub fn plan(&self, scans: NonZeroUsize, observer: &dyn Observer) -> Result<Vec<Stretch>, DataError> {
+        refuse_to_write_into(&self.recording.path, self.out)?;
+        let labeler = self.labeler()?;
+        let tasks = self.tasks(labeler.as_ref())?;
+        let _lock = self.lock()?;
+        let (folder, asked) = self.open_folder(observer)?;
+        let mut stretches = Vec::new();
+        for (task, identity) in tasks.iter().zip(&asked).filter(|(_, asked)| !folder.holds(&asked.name)) {
+            folder.remember(identity, &task.names.sequence)?;
+            let of = all_scans(&task.reader.sequence().times).len().div_ceil(scans.get());
+            stretches.extend((0..of).map(|number| Stretch {
+                sequence: identity.name.clone(),
+                number,
+                of,
+                fingerprint: identity.fingerprint.clone(),
+            }));
+        }
+        Ok(stretches)
+    }
+
+    /// Labels the scans of a stretch that were not labelled before, and leaves them in the output folder. Others may
+    /// label stretches of the same run at the same time. Returns scans that can't be labelled; [`Self::execute`] names
+    /// them again.
+    ///
+    /// # Errors
+    /// A sequence that the recording doesn't hold; a stretch that was planned by another version of the program or with
+    /// other settings, or for other inputs; results that can't be written; a run that is being put together
+    /// ([`DataError::Busy`]).
+    pub fn label_stretch(
+        &self,
+        stretch: &Stretch,
+        observer: &dyn Observer,
+    ) -> Result<Vec<NotLabelled>, DataError> {
+        let readers = &self.recording.sequences;
+        let reader = readers.iter().find(|reader| reader.sequence().name == stretch.sequence);
+        let known = || readers.iter().map(|reader| reader.sequence().name.as_str()).collect::<Vec<_>>();
+        let reader = reader.ok_or_else(|| DataError::UnknownSequence {
+            name: stretch.sequence.clone(),
+            known: known().join(", "),
+        })?;
+        let labeler = self.labeler()?;
+        let names = SequenceNames::new(reader.sequence())?;
+        let task = self.task(reader.as_ref(), names, labeler.as_ref())?;
+        self.refuse_links()?;
+        let run = self.record();
+        let unfinished = Unfinished::of(&OutFolder::new(self.out), &run)?;
+        if !unfinished.is_planned(&stretch.fingerprint)? {
+            return self.check_done(&run, stretch).map(|()| Vec::new());
+        }
+        let _lock = WriterLock::share(self.out.join(LOCK), self.out)?;
+        self.label_planned(&task, stretch, &unfinished, observer)
+    }
+
+    fn label_planned(
+        &self,
+        task: &Task,
+        stretch: &Stretch,
+        unfinished: &Unfinished,
+        observer: &dyn Observer,
+    ) -> Result<Vec<NotLabelled>, DataError> {
+        let results = Results::new(self.out);
+        let folder = unfinished.scans(&stretch.fingerprint, &task.names.sequence)?;
+        let workspace = Workspace::open(&task.names, folder, &results)?;
+        let times = &task.reader.sequence().times;
+        let scans = all_scans(times);
+        let scans: Vec<ScanIndex> = in_time(times, &scans).into_iter().map(|place| scans[place]).collect();
+        let labelling = Labelling { task, config: &self.settings.method, observer };
+        labelling.label_scans(stretch.scans(&scans), &workspace, self.jobs)
+    }
+
+    /// Refuses a stretch that nobody planned, unless its sequence is labelled already.
+    fn check_done(&self, run: &RunRecord, stretch: &Stretch) -> Result<(), DataError> {
+        let done = read_record(self.out).is_ok_and(|found| {
+            let sequence = found.sequence(&stretch.sequence).map(|sequence| &sequence.fingerprint);
+            found.is_like(run) && sequence == Some(&stretch.fingerprint)
+        });
+        if done {
+            return Ok(());
+        }
+        let place = format!("stretch {} of sequence {}", stretch.number, stretch.sequence);
+        let expected = "one that was planned here by this program with these settings";
+        Err(DataError::content(self.out, place, expected, "another plan, or none: plan again"))
+    }
+}

@@ -1,0 +1,111 @@
+//! Which things are worth an answer of a person.
+
+use super::SequenceThings;
+use std::collections::BTreeSet;
+
+/// How many answers the machine's own doubt is worth beside those of people about the same thing.
+const OWN_ANSWERS: f64 = 2.0;
+
+/// What a person said of a detection.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Answer {
+    /// The machine is right.
+    Right,
+    /// It is wrong.
+    Wrong,
+}
+
+/// A thing, as the queue shows it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Thing {
+    /// Its number.
+    pub number: u32,
+    /// The middle of its detections in the odometry frame, m.
+    pub place: [f64; 3],
+    /// How far its detections lie from there at most, in the plane, m.
+    pub radius: f64,
+    /// How many detections it has.
+    pub detections: usize,
+    /// In how many scans.
+    pub scans: usize,
+    /// How many of them the machine calls plausible.
+    pub plausible: usize,
+    /// How many have an answer.
+    pub answered: usize,
+    /// How many wrong labels are expected among those without an answer.
+    pub expected_errors: f64,
+    /// A detection near the middle of its life: the radar's place in the rig, the scan, and its place in the scan.
+    pub seen: (usize, usize, usize),
+}
+
+impl SequenceThings {
+    /// What is left to ask of each detection: the machine's own doubt, and what people said of others of the thing.
+    /// With `k` of `m` answers that the machine was wrong, an `e` becomes `(2 e + k) / (2 + m)`; nothing is left of a
+    /// detection that has an answer.
+    pub fn expected_errors(&self, answers: &[Option<Answer>]) -> Vec<f64> {
+        let mut said = vec![(0.0, 0.0); self.count()];
+        for (thing, answer) in self.things().iter().zip(answers) {
+            let (all, wrong) = &mut said[*thing as usize];
+            *all += f64::from(u8::from(answer.is_some()));
+            *wrong += f64::from(u8::from(*answer == Some(Answer::Wrong)));
+        }
+        let own = self.things().iter().zip(self.own_doubt()).zip(answers);
+        own.map(|((thing, own), answer)| {
+            let (all, wrong) = said[*thing as usize];
+            let left = (OWN_ANSWERS * f64::from(*own) + wrong) / (OWN_ANSWERS + all);
+            if answer.is_some() { 0.0 } else { left }
+        })
+        .collect()
+    }
+
+    /// All things of which something is left to ask, those with the most expected errors first.
+    pub fn doubtful(&self, answers: &[Option<Answer>]) -> Vec<Thing> {
+        let mut members: Vec<Vec<usize>> = vec![Vec::new(); self.count()];
+        for (row, thing) in self.things().iter().enumerate() {
+            members[*thing as usize].push(row);
+        }
+        let errors = self.expected_errors(answers);
+        let things = members.iter().enumerate().map(|(number, rows)| {
+            let left = rows.iter().map(|row| errors[*row]).sum();
+            (number as u32, rows, left)
+        });
+        let mut doubtful: Vec<Thing> = things
+            .filter(|(_, _, left)| *left > 0.0)
+            .map(|(number, rows, left)| self.thing(number, rows, left, answers))
+            .collect();
+        doubtful.sort_by(|a, b| {
+            b.expected_errors.total_cmp(&a.expected_errors).then_with(|| a.number.cmp(&b.number))
+        });
+        doubtful
+    }
+
+    fn thing(&self, number: u32, rows: &[usize], expected_errors: f64, answers: &[Option<Answer>]) -> Thing {
+        let sightings = self.sightings();
+        let mut place = [0.0; 3];
+        for row in rows {
+            for (sum, metres) in place.iter_mut().zip(sightings[*row].place) {
+                *sum += metres / rows.len() as f64;
+            }
+        }
+        let apart = |row: &usize| {
+            let [x, y, _] = sightings[*row].place;
+            (x - place[0]).hypot(y - place[1])
+        };
+        let mut by_time: Vec<usize> = rows.to_vec();
+        by_time.sort_by_key(|row| (sightings[*row].t_ns, *row));
+        let scans: BTreeSet<(usize, usize)> = rows.iter().map(|row| self.scan_of(*row)).collect();
+        let middle = by_time[rows.len() / 2];
+        let (radar, scan) = self.scan_of(middle);
+        Thing {
+            number,
+            place,
+            radius: rows.iter().map(apart).fold(0.0, f64::max),
+            detections: rows.len(),
+            scans: scans.len(),
+            plausible: rows.iter().filter(|row| sightings[**row].plausible).count(),
+            answered: rows.iter().filter(|row| answers[**row].is_some()).count(),
+            expected_errors,
+            seen: (radar, scan, middle - self.rows_of(radar, scan).start),
+        }
+    }
+}

@@ -1,0 +1,77 @@
+//! Truth that a recording's own files hold beside its detections, in formats that have such.
+
+use super::scan_id::ScanId;
+use crate::error::DataError;
+use crate::read::open::{knows_truth, open};
+use crate::read::{Recording, SequenceReader, TruthLabels};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// A recording whose readers know what is true.
+#[derive(Debug, Clone)]
+pub(super) struct KnownTruth(Arc<Recording>);
+
+impl KnownTruth {
+    /// Opens a dataset of a format that has truth; `None` of any other.
+    pub(super) fn find(dataset: &Path) -> Result<Option<Self>, DataError> {
+        if !knows_truth(dataset) {
+            return Ok(None);
+        }
+        Ok(Some(Self(Arc::new(open(dataset, None)?))))
+    }
+
+    /// All scans of the sequences that have truth, in order.
+    pub(super) fn scans(&self) -> Result<Vec<ScanId>, DataError> {
+        let mut scans = Vec::new();
+        for reader in &self.0.sequences {
+            if !has_truth(reader.as_ref())? {
+                continue;
+            }
+            let sequence = reader.sequence();
+            for (radar, times) in sequence.rig.radars.iter().zip(&sequence.times.radars) {
+                let id = |scan| ScanId { sequence: sequence.name.clone(), radar: radar.name.clone(), scan };
+                scans.extend((0..times.len() as u32).map(id));
+            }
+        }
+        scans.sort_unstable();
+        Ok(scans)
+    }
+
+    /// What is true of a scan's detections; `None` of a scan that the recording doesn't have.
+    pub(super) fn of_scan(&self, scan: &ScanId) -> Result<Option<TruthLabels>, DataError> {
+        let Some(reader) = self.reader(&scan.sequence) else { return Ok(None) };
+        let radars = &reader.sequence().rig.radars;
+        let Some(radar) = radars.iter().position(|radar| radar.name == scan.radar) else { return Ok(None) };
+        truth(reader, radar, scan.scan as usize)
+    }
+
+    /// The names of a sequence's causes, by their numbers; empty where none are told apart.
+    pub(super) fn causes(&self, sequence: &str) -> Vec<String> {
+        let causes = self.reader(sequence).map_or(&[][..], SequenceReader::causes);
+        causes.iter().map(|cause| cause.name().to_owned()).collect()
+    }
+
+    /// The file that a sequence's truth is read from.
+    pub(super) fn file(&self, sequence: &str) -> PathBuf {
+        let first = self.reader(sequence).and_then(|reader| reader.inputs().into_iter().next());
+        first.unwrap_or_else(|| self.0.path.clone())
+    }
+
+    fn reader(&self, sequence: &str) -> Option<&dyn SequenceReader> {
+        let mut readers = self.0.sequences.iter().map(AsRef::as_ref);
+        readers.find(|reader| reader.sequence().name == sequence)
+    }
+}
+
+/// Whether anything is true of the first scan that a sequence has.
+fn has_truth(reader: &dyn SequenceReader) -> Result<bool, DataError> {
+    let first = reader.sequence().times.radars.iter().position(|times| !times.is_empty());
+    first.map_or(Ok(false), |radar| Ok(truth(reader, radar, 0)?.is_some()))
+}
+
+fn truth(reader: &dyn SequenceReader, radar: usize, scan: usize) -> Result<Option<TruthLabels>, DataError> {
+    reader.truth(radar, scan).map_err(|error| {
+        let sensor = reader.sequence().rig.radars[radar].name.clone();
+        DataError::Measurement { sensor, index: scan, error }
+    })
+}

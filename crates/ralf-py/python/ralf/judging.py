@@ -1,0 +1,77 @@
+"""How good labels are, and what they look like."""
+
+from __future__ import annotations
+
+import json
+import os
+from pathlib import Path
+from typing import Any
+
+from ralf import _ralf
+from ralf.run import Run
+
+
+class Evaluation(dict[str, Any]):
+    """What `ralf evaluate --json` prints; a table in a notebook."""
+
+    def _repr_html_(self) -> str:
+        overall = self.get("overall", {})
+        columns = overall if all(isinstance(value, dict) for value in overall.values()) else {"overall": overall}
+        names = list(dict.fromkeys(name for column in columns.values() for name in column))
+        head = "".join(f"<th>{name}</th>" for name in ["", *columns])
+        rows = [
+            f"<tr><th>{name}</th>"
+            + "".join(f"<td>{_told(column.get(name))}</td>" for column in columns.values())
+            + "</tr>"
+            for name in names
+        ]
+        return f"<table><thead><tr>{head}</tr></thead><tbody>{''.join(rows)}</tbody></table>"
+
+
+def _told(value: object) -> str:
+    return f"{value:.3f}" if isinstance(value, float) else str(value)
+
+
+def evaluate(run: Run | str | os.PathLike[str], truth: str | os.PathLike[str] | None = None) -> Evaluation:
+    """Compare labels with the corrected ones of a dataset, as `ralf evaluate`; without a truth, how balanced they are.
+
+    Corrections of a review in the run's folder count above the dataset's.
+    """
+    out = run.out if isinstance(run, Run) else run
+    return Evaluation(json.loads(_ralf.evaluate(out, truth)))
+
+
+class Picture:
+    """A PNG that notebooks show."""
+
+    def __init__(self, png: bytes) -> None:
+        self.png = png
+
+    def save(self, file: str | os.PathLike[str]) -> None:
+        """Write it to a file."""
+        Path(file).write_bytes(self.png)
+
+    def _repr_png_(self) -> bytes:
+        return self.png
+
+
+def plot(
+    run: Run,
+    sequence: str,
+    scan: int | None = None,
+    *,
+    radar: str | None = None,
+    radius: float | None = None,
+    color_by: str | None = None,
+    recording: str | os.PathLike[str] | None = None,
+    width: int = 1200,
+) -> Picture:
+    """Draw a labelled scan from above, or the whole sequence where no scan is given.
+
+    Without `radar` all radars are drawn: the first one's scan, and the others' nearest to it in time. `radius` is in m;
+    `color_by` names a column of numbers. The recording is the run's own if not given.
+    """
+    source = recording or run.recording
+    if source is None:
+        raise ValueError("expected a recording: plot(..., recording=...) or load(out, recording)")
+    return Picture(_ralf.plot(run.out, source, sequence, scan, radar, radius, color_by, width))

@@ -1,0 +1,141 @@
+"""Many recordings on many machines: what is to be done, one part of it, and putting the parts together.
+
+tasks = ralf.plan(["recordings/a", "recordings/b"], "out")
+for task in tasks:                       # in any order, on any machine that sees the same folders, twice if need be
+    ralf.label_one(task)
+ralf.assemble("out")                     # what one machine would have written, to the byte
+"""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from ralf import _ralf
+from ralf._jobs import Settings, job
+from ralf._progress import Progress, listener
+from ralf.run import Run
+
+Path_ = str | os.PathLike[str]
+
+SCANS = 2048
+"""Radar scans of a task, if not said: some ten seconds of work for one core."""
+
+
+class Task(str):
+    """A stretch of a sequence of a recording, as JSON: it can be sent anywhere."""
+
+    @property
+    def told(self) -> dict[str, Any]:
+        """What it is."""
+        told: dict[str, Any] = json.loads(self)
+        return told
+
+    @property
+    def name(self) -> str:
+        """Recording, sequence and stretch, for people."""
+        told = self.told
+        stretch = told["stretch"]
+        name = Path(told["job"]["out"]).name
+        return f"{name}/{stretch['sequence']} {stretch['number'] + 1} of {stretch['of']}"
+
+    @property
+    def out(self) -> Path:
+        """Where its recording's results go."""
+        return Path(self.told["job"]["out"])
+
+
+@dataclass
+class Plan(Sequence[Task]):
+    """The tasks of recordings, and those recordings that can't be planned, with the reason."""
+
+    tasks: list[Task] = field(default_factory=list)
+    failed: dict[str, str] = field(default_factory=dict)
+
+    def __getitem__(self, index: Any) -> Any:
+        return self.tasks[index]
+
+    def __len__(self) -> int:
+        return len(self.tasks)
+
+
+@dataclass
+class Assembled:
+    """What became of recordings, by the names of their folders."""
+
+    runs: dict[str, Run] = field(default_factory=dict)
+    failed: dict[str, str] = field(default_factory=dict)
+    """Recordings without results, with the reason."""
+
+
+def plan(
+    recordings: Sequence[Path_],
+    out: Path_,
+    *,
+    settings: Settings = None,
+    method: str | None = None,
+    model: Path_ | None = None,
+    depth: Path_ | None = None,
+    evidence: bool = False,
+    check: bool = True,
+    scans: int = SCANS,
+    jobs: int | None = None,
+    progress: Progress = None,
+) -> Plan:
+    """Plan what is left to be done of recordings: tasks of so many radar scans at most, for `label_one`.
+
+    The results of a recording go to a folder of its name in `out`. Every file is read once, for its hash. A recording
+    that can't be opened is named in `failed`, and costs the others nothing.
+    """
+    found = Plan()
+    for recording, folder in zip(recordings, _ralf.folders(recordings, out), strict=True):
+        told = job(
+            recording,
+            folder,
+            settings=settings,
+            method=method,
+            model=model,
+            depth=depth,
+            evidence=evidence,
+            check=check,
+        )
+        try:
+            found.tasks += [Task(task) for task in _ralf.plan(told, scans, jobs, listener(progress))]
+        except _ralf.RalfError as error:
+            found.failed[Path(folder).name] = str(error)
+    return found
+
+
+def label_one(task: str, *, jobs: int | None = 1, progress: Progress = None) -> list[dict[str, Any]]:
+    """Label a task's scans, as far as nobody has. Returns the scans that can't be labelled, with the reason."""
+    failed: list[dict[str, Any]] = json.loads(_ralf.label_one(task, jobs, listener(progress)))
+    return failed
+
+
+def assemble(out: Path_, *, jobs: int | None = None, progress: Progress = None) -> Assembled:
+    """Put together what tasks have labelled, recording by recording. Scans that nobody has labelled are labelled now.
+
+    A recording that can't be read is named in `failed`, and costs the others nothing.
+    """
+    found = Assembled()
+    for folder in _ralf.planned(out):
+        name = Path(folder).name
+        try:
+            outcome = json.loads(_ralf.assemble(folder, jobs, listener(progress)))
+        except _ralf.RalfError as error:
+            found.failed[name] = str(error)
+            continue
+        run = Run(folder, recording_of(folder))
+        run.labelled = outcome["labelled"]
+        found.runs[name] = run
+    return found
+
+
+def recording_of(out: Path_) -> str:
+    """Where the recording lies that was planned for this folder."""
+    told: dict[str, Any] = json.loads((Path(out) / "plan.json").read_text(encoding="utf-8"))
+    return str(told["recording"])

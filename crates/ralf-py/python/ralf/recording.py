@@ -1,0 +1,113 @@
+"""Recordings: what was measured."""
+
+from __future__ import annotations
+
+import json
+import os
+import warnings
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ralf import _ralf
+from ralf._jobs import Settings, job
+
+
+@dataclass(frozen=True)
+class RadarScan:
+    """A scan of a radar, each field as the recording has it."""
+
+    t_ns: int
+    fields: dict[str, NDArray[np.float32]]
+
+    def __getitem__(self, field: str) -> NDArray[np.float32]:
+        return self.fields[field]
+
+
+@dataclass(frozen=True)
+class LidarScan:
+    """A revolution of a LiDAR, motion-corrected to its time: x, y, z (m, in its own frame), and intensities."""
+
+    t_ns: int
+    points: NDArray[np.float32]
+    intensity: NDArray[np.float32]
+
+
+@dataclass(frozen=True)
+class SequenceInfo:
+    """A sequence: its sensors by name, each with the times of its measurements in ns."""
+
+    name: str
+    title: str
+    radars: dict[str, NDArray[np.int64]]
+    lidars: dict[str, NDArray[np.int64]]
+    cameras: dict[str, NDArray[np.int64]]
+    fields: dict[str, list[str]]
+    """The fields of each radar."""
+    warnings: list[str]
+
+
+class Recording:
+    """A recording of any format. Its tables are read, its measurements are not until they are asked for."""
+
+    def __init__(self, path: str | os.PathLike[str], told: str) -> None:
+        self.path = os.fspath(path)
+        self._told = told
+        self._recording = _ralf.Recording(told)
+
+    @property
+    def format(self) -> str:
+        """The name of its format."""
+        return self._recording.format
+
+    @property
+    def sequences(self) -> list[str]:
+        """The names of its sequences."""
+        return self._recording.sequences
+
+    def __getitem__(self, sequence: str) -> SequenceInfo:
+        told: dict[str, Any] = json.loads(self._recording.sequence(sequence))
+        times = {
+            kind: {sensor["name"]: np.array(sensor["times_ns"], dtype=np.int64) for sensor in told[kind]}
+            for kind in ("radars", "lidars", "cameras")
+        }
+        fields = {sensor["name"]: sensor["fields"] for sensor in told["radars"]}
+        return SequenceInfo(told["name"], told["title"], **times, fields=fields, warnings=told["warnings"])
+
+    def radar_scan(self, sequence: str, radar: str, scan: int) -> RadarScan:
+        """A scan of a radar."""
+        t_ns, columns = self._recording.radar_scan(sequence, radar, scan)
+        return RadarScan(t_ns, {name: np.asarray(column) for name, column in columns})
+
+    def lidar_scan(self, sequence: str, lidar: str, scan: int) -> LidarScan:
+        """A revolution of a LiDAR."""
+        t_ns, points, intensity = self._recording.lidar_scan(sequence, lidar, scan)
+        return LidarScan(t_ns, np.asarray(points), np.asarray(intensity))
+
+    def __repr__(self) -> str:
+        return f"Recording({self.path!r}, format={self.format!r}, sequences={self.sequences})"
+
+    # Where it lies is enough to open it again, in another process or on another machine.
+    def __reduce__(self) -> tuple[type[Recording], tuple[str, str]]:
+        return Recording, (self.path, self._told)
+
+
+def open(  # noqa: A001
+    path: str | os.PathLike[str],
+    *,
+    format: str | None = None,  # noqa: A002
+    sequences: list[str] | None = None,
+    settings: Settings = None,
+) -> Recording:
+    """Open a recording: a folder, or a ROS bag or MCAP file; its format is recognised by what it holds.
+
+    What its reader ignored or misses is a warning each. `settings` may correct mountings, clocks and motion.
+    """
+    told = job(path, "", format=format, sequences=sequences, settings=settings)
+    recording = Recording(path, told)
+    for name in recording.sequences:
+        for warning in recording[name].warnings:
+            warnings.warn(f"{name}: {warning}", stacklevel=2)
+    return recording

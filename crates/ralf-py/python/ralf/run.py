@@ -1,0 +1,195 @@
+"""Labelling, and what it leaves."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ralf import _ralf
+from ralf._jobs import Settings, job
+from ralf._progress import Progress, listener
+from ralf.recording import Recording
+
+
+@dataclass(frozen=True)
+class Scan:
+    """A labelled scan. Columns are views into the sequence's table, in the order of the scan's detections."""
+
+    radar: str
+    number: int
+    table: _ralf.Table
+    _rows: tuple[int, slice]
+
+    def __getitem__(self, column: str) -> NDArray[Any]:
+        batch, rows = self._rows
+        whole: NDArray[Any] = np.asarray(self.table.column(column, batch))
+        return whole[rows]
+
+    def __len__(self) -> int:
+        rows = self._rows[1]
+        return int(rows.stop - rows.start)
+
+    @property
+    def t_ns(self) -> int:
+        """The time of the scan, ns."""
+        return int(self["t_ns"][0])
+
+    @property
+    def xyz(self) -> NDArray[np.float32]:
+        """Positions in the vehicle's frame at the scan's time, m; n x 3. Columns lie apart, so that this is a copy."""
+        return np.stack([self["x"], self["y"], self["z"]], axis=1)
+
+    @property
+    def w(self) -> NDArray[np.float32]:
+        """Plausibilities in [0, 1]."""
+        return self["w"]
+
+    @property
+    def label(self) -> NDArray[np.uint8]:
+        """1 plausible, 0 artifact."""
+        return self["label"]
+
+    @property
+    def flags(self) -> NDArray[np.uint16]:
+        """What was special about each detection, as bits."""
+        return self["flags"]
+
+    @property
+    def evidence(self) -> dict[str, NDArray[np.float32]]:
+        """What else is known of each detection, where it was gathered."""
+        columns = self.table.columns
+        after = columns[columns.index("semantic") + 1 :]
+        found = {}
+        for name in after:
+            try:
+                found[name] = self[name]
+            except TypeError:  # Words are no numbers.
+                continue
+        return found
+
+
+def scans_of(table: _ralf.Table, radar: str | None = None) -> Iterator[Scan]:
+    """The scans of a table, in its order; of one radar, or of all."""
+    for name, number, batch, first, rows in table.scans:
+        if radar is None or name == radar:
+            yield Scan(name, number, table, (batch, slice(first, first + rows)))
+
+
+class Run:
+    """What labelling left in a folder: a table per sequence, and a record."""
+
+    def __init__(self, out: str | os.PathLike[str], recording: str | os.PathLike[str] | None = None) -> None:
+        self.out = Path(out)
+        self.recording = None if recording is None else Path(recording)
+        """Where the recording lies, as far as it is known."""
+        self.labelled: list[str] = []
+        """Sequences that this call has labelled; the others were labelled before."""
+        self._told = _ralf.record(self.out)
+
+    @cached_property
+    def record(self) -> dict[str, Any]:
+        """What run.json tells: version, settings, inputs, flags, timings."""
+        record: dict[str, Any] = json.loads(self._told)
+        return record
+
+    @property
+    def sequences(self) -> list[str]:
+        """The names of the labelled sequences."""
+        return [sequence["name"] for sequence in self.record["sequences"]]
+
+    @property
+    def not_labelled(self) -> list[tuple[str, str, int, str]]:
+        """Scans that can't be labelled: sequence, radar, scan, reason."""
+        return [
+            (sequence["name"], scan["radar"], scan["scan"], scan["reason"])
+            for sequence in self.record["sequences"]
+            for scan in sequence["not_labelled"]
+        ]
+
+    def __getitem__(self, sequence: str) -> _ralf.Table:
+        """All labelled detections of a sequence; Arrow libraries read them without a copy."""
+        return _ralf.table(self.out, sequence)
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self.sequences)
+
+    def __len__(self) -> int:
+        return len(self.sequences)
+
+    def scans(self, sequence: str, radar: str | None = None) -> Iterator[Scan]:
+        """The scans of a sequence, radar by radar; of one radar, or of all."""
+        return scans_of(self[sequence], radar)
+
+    def __repr__(self) -> str:
+        return f"Run({str(self.out)!r}, sequences={self.sequences})"
+
+    def _repr_html_(self) -> str:
+        rows = []
+        for sequence in self.record["sequences"]:
+            for radar in sequence["radars"]:
+                detections, plausible = sum(radar["detections"]), sum(radar["plausible"])
+                share = f"{plausible / detections:.1%}" if detections else "-"
+                cells = [sequence["name"], radar["name"], len(radar["detections"]), detections, share]
+                rows.append("<tr>" + "".join(f"<td>{_escaped(cell)}</td>" for cell in cells) + "</tr>")
+        head = "".join(f"<th>{name}</th>" for name in ("sequence", "radar", "scans", "detections", "plausible"))
+        return f"<table><thead><tr>{head}</tr></thead><tbody>{''.join(rows)}</tbody></table>"
+
+
+def _escaped(value: object) -> str:
+    return str(value).replace("&", "&amp;").replace("<", "&lt;").replace(">", "&gt;")
+
+
+def label(
+    recording: Recording | str | os.PathLike[str],
+    out: str | os.PathLike[str],
+    *,
+    settings: Settings = None,
+    method: str | None = None,
+    model: str | os.PathLike[str] | None = None,
+    format: str | None = None,  # noqa: A002
+    sequences: list[str] | None = None,
+    depth: str | os.PathLike[str] | None = None,
+    evidence: bool = False,
+    check: bool = True,
+    jobs: int | None = None,
+    progress: Progress = None,
+) -> Run:
+    """Label every radar detection of a recording, as `ralf label` does: the same bytes, and resumable like it.
+
+    `settings` is a mapping (`{"lidar.beta": 0.5}`) or a TOML file; `method` is "paper" or "learned"; `depth` a folder
+    of depth images; `jobs` the number of threads, as many as there are processors if not given. Ctrl-C stops it, and
+    what is done is kept.
+    """
+    path = recording.path if isinstance(recording, Recording) else recording
+    if isinstance(recording, Recording):
+        format = format or recording.format  # noqa: A001
+        sequences = sequences or recording.sequences
+    told = job(
+        path,
+        out,
+        settings=settings,
+        method=method,
+        model=model,
+        format=format,
+        sequences=sequences,
+        depth=depth,
+        evidence=evidence,
+        check=check,
+    )
+    outcome = json.loads(_ralf.label(told, jobs, listener(progress)))
+    run = Run(out, path)
+    run.labelled = outcome["labelled"]
+    return run
+
+
+def load(out: str | os.PathLike[str], recording: str | os.PathLike[str] | None = None) -> Run:
+    """Open what `ralf label` wrote; `recording` is needed for pictures."""
+    return Run(out, recording)

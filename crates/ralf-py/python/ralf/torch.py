@@ -1,0 +1,175 @@
+"""Labelled scans for training: `pip install ralf-radar[torch]`.
+
+data = ralf.torch.ScanDataset(run, features=["x", "y", "z", "doppler"])
+loader = torch.utils.data.DataLoader(data, batch_size=16, shuffle=True, num_workers=4, collate_fn=collate)
+"""
+
+from __future__ import annotations
+
+import os
+from bisect import bisect_right
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from typing import TypedDict
+
+import numpy as np
+import torch
+from torch.utils.data import Dataset, IterableDataset, get_worker_info
+
+from ralf.run import Run, Scan, load
+
+_Out = Run | str | os.PathLike[str]
+
+
+class Sample(TypedDict):
+    """A scan."""
+
+    features: torch.Tensor
+    """n x the number of features, float32; absent values are 0."""
+    label: torch.Tensor
+    """n, int64: 1 plausible, 0 artifact, -1 unknown."""
+    w: torch.Tensor
+    """n, float32: RALF's plausibility, as a soft target or a weight."""
+
+
+class Batch(Sample):
+    """Several scans, one after the other: clouds are ragged, and nothing is padded."""
+
+    scan: torch.Tensor
+    """n, int64: which scan of the batch a row belongs to."""
+
+
+class ScanDataset(Dataset[Sample]):
+    """The scans of runs, by number. Tables are read when they are first asked for, in each worker by itself.
+
+    `truth` is the dataset whose corrected labels are taken in place of RALF's; a scan without them is all unknown.
+    """
+
+    def __init__(
+        self,
+        runs: _Out | Sequence[_Out],
+        features: Sequence[str] = ("x", "y", "z"),
+        *,
+        radars: Sequence[str] | None = None,
+        sequences: Sequence[str] | None = None,
+        truth: str | os.PathLike[str] | None = None,
+    ) -> None:
+        self.features = list(features)
+        self._truth = None if truth is None else Path(truth)
+        self._scans: list[tuple[Path, str, list[int]]] = []
+        self._ends: list[int] = []
+        self._open: tuple[int, list[Scan]] | None = None
+        for run in [runs] if isinstance(runs, Run | str | os.PathLike) else runs:
+            opened = run if isinstance(run, Run) else load(run)
+            for sequence in opened.record["sequences"]:
+                if sequences is None or sequence["name"] in sequences:
+                    self._add(opened.out, sequence, radars)
+
+    def _add(self, out: Path, sequence: dict[str, object], radars: Sequence[str] | None) -> None:
+        """Count a sequence's scans that hold detections, without reading its table."""
+        held: list[int] = []
+        place = 0
+        for radar in sequence["radars"]:  # type: ignore[attr-defined]
+            for detections in radar["detections"]:
+                if detections > 0:
+                    if radars is None or radar["name"] in radars:
+                        held.append(place)
+                    place += 1
+        self._scans.append((out, str(sequence["name"]), held))
+        self._ends.append((self._ends[-1] if self._ends else 0) + len(held))
+
+    def __len__(self) -> int:
+        return self._ends[-1] if self._ends else 0
+
+    def __getitem__(self, index: int) -> Sample:
+        if index < 0:
+            index += len(self)
+        if not 0 <= index < len(self):
+            raise IndexError(f"expected a scan below {len(self)}, found {index}")
+        part = bisect_right(self._ends, index)
+        held = self._scans[part][2]
+        return self.sample(part, self.read(part)[held[index - (self._ends[part] - len(held))]])
+
+    def read(self, part: int) -> list[Scan]:
+        """All scans of a sequence that hold detections; the last sequence that was asked for stays in memory."""
+        if self._open is None or self._open[0] != part:
+            out, sequence, _ = self._scans[part]
+            self._open = (part, list(load(out).scans(sequence)))
+        return self._open[1]
+
+    def sample(self, part: int, scan: Scan) -> Sample:
+        """A scan as tensors."""
+        columns = [np.nan_to_num(scan[name], nan=0.0, posinf=0.0, neginf=0.0) for name in self.features]
+        label = scan.label.astype(np.int64)
+        if self._truth is not None:
+            label = self._true_labels(self._scans[part][1], scan)
+        features = np.stack(columns, axis=1).astype(np.float32)
+        return {
+            "features": torch.from_numpy(features),
+            "label": torch.from_numpy(label),
+            "w": torch.from_numpy(scan.w.copy()),
+        }
+
+    def _true_labels(self, sequence: str, scan: Scan) -> np.ndarray[tuple[int], np.dtype[np.int64]]:
+        """Of the project's own layout: SemanticKITTI's ids, 0 unknown, 1 and whatever is driven on artifacts."""
+        assert self._truth is not None
+        folder = self._truth / "sequences" / sequence / "ground_truth" / scan.radar
+        file = folder / f"{scan.number:06}.label"
+        if not file.is_file():
+            return np.full(len(scan), -1, np.int64)
+        ids = np.fromfile(file, dtype="<u4") & 0xFFFF
+        if len(ids) != len(scan):
+            raise ValueError(f"{file}: expected {len(scan)} labels, found {len(ids)}")
+        label = np.where(np.isin(ids, _ARTIFACTS), 0, 1).astype(np.int64)
+        label[ids == 0] = -1
+        return label
+
+    # What is open stays behind when a loader sends the dataset to its workers.
+    def __getstate__(self) -> dict[str, object]:
+        return self.__dict__ | {"_open": None}
+
+    @property
+    def parts(self) -> list[list[int]]:
+        """The scans of each sequence, by their places in it."""
+        return [held for _, _, held in self._scans]
+
+
+_ARTIFACTS = [1, 40, 44, 48, 49, 60]
+
+
+class ScanStream(IterableDataset[Sample]):
+    """The same scans in order, sequence by sequence: a table is read once, and workers share the sequences out.
+
+    With `shuffle` the sequences and the scans of each are in another order with every seed.
+    """
+
+    def __init__(self, dataset: ScanDataset, *, shuffle: bool = False, seed: int = 0) -> None:
+        self._dataset = dataset
+        self._shuffle = shuffle
+        self.seed = seed
+
+    def __iter__(self) -> Iterator[Sample]:
+        worker = get_worker_info()
+        number, of = (0, 1) if worker is None else (worker.id, worker.num_workers)
+        parts = list(range(len(self._dataset.parts)))
+        chance = np.random.default_rng(self.seed)
+        if self._shuffle:
+            chance.shuffle(parts)
+        for part in parts[number::of]:
+            places = list(self._dataset.parts[part])
+            if self._shuffle:
+                chance.shuffle(places)
+            scans = self._dataset.read(part)
+            for place in places:
+                yield self._dataset.sample(part, scans[place])
+
+
+def collate(samples: Sequence[Sample]) -> Batch:
+    """Scans of different sizes, one after the other."""
+    sizes = torch.tensor([len(sample["label"]) for sample in samples])
+    return {
+        "features": torch.cat([sample["features"] for sample in samples]),
+        "label": torch.cat([sample["label"] for sample in samples]),
+        "w": torch.cat([sample["w"] for sample in samples]),
+        "scan": torch.repeat_interleave(torch.arange(len(samples)), sizes),
+    }

@@ -1,0 +1,124 @@
+//! Labelling, on one machine and on many, and what it leaves.
+
+use crate::errors::{data, other};
+use crate::table::{Table, table_of};
+use crate::watch::watched;
+use pyo3::prelude::*;
+use ralf_data::many::{self, Job, Task};
+use ralf_data::result::LabelledRun;
+use ralf_data::run::{Outcome, read_record};
+use ralf_data::{DataError, Settings};
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+use std::num::NonZeroUsize;
+use std::path::PathBuf;
+use std::thread::available_parallelism;
+
+/// As many threads as asked for, or as there are processors.
+fn threads(jobs: Option<NonZeroUsize>) -> NonZeroUsize {
+    jobs.or_else(|| available_parallelism().ok()).unwrap_or(NonZeroUsize::MIN)
+}
+
+pub(crate) fn to_json(value: &impl Serialize) -> PyResult<String> {
+    serde_json::to_string(value).map_err(other)
+}
+
+pub(crate) fn from_json<T: DeserializeOwned>(text: &str) -> PyResult<T> {
+    serde_json::from_str(text).map_err(other)
+}
+
+fn told(outcome: &Outcome) -> PyResult<String> {
+    let damaged: Vec<_> = outcome.damaged.iter().map(|(sequence, _)| sequence).collect();
+    to_json(&serde_json::json!({
+        "record": outcome.record,
+        "labelled": outcome.labelled,
+        "damaged": damaged,
+        "removed": outcome.removed,
+    }))
+}
+
+/// All settings, from a TOML text and assignments `key=value` that win over it; JSON.
+#[pyfunction]
+pub(crate) fn settings(text: &str, assignments: Vec<String>) -> PyResult<String> {
+    let assignments: Vec<&str> = assignments.iter().map(String::as_str).collect();
+    to_json(&Settings::from_toml(text, &assignments).map_err(other)?)
+}
+
+/// Labels a recording. `job` is JSON, and so is what comes back.
+#[pyfunction]
+#[pyo3(signature = (job, jobs=None, progress=None))]
+pub(crate) fn label(
+    py: Python<'_>,
+    job: &str,
+    jobs: Option<NonZeroUsize>,
+    progress: Option<Py<PyAny>>,
+) -> PyResult<String> {
+    let job: Job = from_json(job)?;
+    told(&watched(py, progress.as_ref(), |watch| job.label(threads(jobs), watch))?)
+}
+
+/// The parts of a job, of so many scans at most; JSON each.
+#[pyfunction]
+#[pyo3(signature = (job, scans, jobs=None, progress=None))]
+pub(crate) fn plan(
+    py: Python<'_>,
+    job: &str,
+    scans: NonZeroUsize,
+    jobs: Option<NonZeroUsize>,
+    progress: Option<Py<PyAny>>,
+) -> PyResult<Vec<String>> {
+    let job: Job = from_json(job)?;
+    let tasks = watched(py, progress.as_ref(), |watch| many::plan(&job, scans, threads(jobs), watch))?;
+    tasks.iter().map(to_json).collect()
+}
+
+/// Does a part of a job. Returns the scans that can't be labelled; JSON.
+#[pyfunction]
+#[pyo3(signature = (task, jobs=None, progress=None))]
+pub(crate) fn label_one(
+    py: Python<'_>,
+    task: &str,
+    jobs: Option<NonZeroUsize>,
+    progress: Option<Py<PyAny>>,
+) -> PyResult<String> {
+    let task: Task = from_json(task)?;
+    to_json(&watched(py, progress.as_ref(), |watch| many::label_one(&task, threads(jobs), watch))?)
+}
+
+/// Puts the parts of a job together.
+#[pyfunction]
+#[pyo3(signature = (out, jobs=None, progress=None))]
+pub(crate) fn assemble(
+    py: Python<'_>,
+    out: PathBuf,
+    jobs: Option<NonZeroUsize>,
+    progress: Option<Py<PyAny>>,
+) -> PyResult<String> {
+    told(&watched(py, progress.as_ref(), |watch| many::assemble(&out, threads(jobs), watch))?)
+}
+
+/// The output folders for which something was planned.
+#[pyfunction]
+pub(crate) fn planned(out: PathBuf) -> PyResult<Vec<PathBuf>> {
+    many::planned(&out).map_err(data)
+}
+
+/// A folder in `out` for each recording.
+#[pyfunction]
+pub(crate) fn folders(recordings: Vec<PathBuf>, out: PathBuf) -> PyResult<Vec<PathBuf>> {
+    many::folders(&recordings, &out).map_err(data)
+}
+
+/// What `run.json` tells; JSON.
+#[pyfunction]
+pub(crate) fn record(out: PathBuf) -> PyResult<String> {
+    to_json(&read_record(&out).map_err(data)?)
+}
+
+/// The labelled detections of a sequence.
+#[pyfunction]
+pub(crate) fn table(py: Python<'_>, out: PathBuf, sequence: &str) -> PyResult<Table> {
+    let read = || LabelledRun::open(&out)?.whole_table(sequence);
+    let reader = py.detach(read).map_err(|error: DataError| data(error))?;
+    py.detach(|| table_of(&reader))
+}

@@ -1,0 +1,64 @@
+//! Pictures of labelled scans.
+
+use crate::errors::{data, other};
+use pyo3::prelude::*;
+use pyo3::types::PyBytes;
+use ralf_data::result::LabelledRun;
+use ralf_data::{DataError, open_with};
+use ralf_plot::Extent;
+use ralf_report::{Detections, Pictures, ReportError};
+use std::path::{Path, PathBuf};
+
+/// What is drawn.
+struct Wish<'a> {
+    scan: Option<usize>,
+    radar: Option<&'a str>,
+    radius: Option<f64>,
+    color_by: Option<&'a str>,
+    width: u32,
+}
+
+/// A scan from above, or a whole sequence where no scan is named, as PNG.
+#[pyfunction]
+#[pyo3(signature = (out, recording, sequence, scan=None, radar=None, radius=None, color_by=None, width=1200))]
+#[expect(clippy::too_many_arguments, reason = "Python names them")]
+pub(crate) fn plot<'py>(
+    py: Python<'py>,
+    out: PathBuf,
+    recording: PathBuf,
+    sequence: String,
+    scan: Option<usize>,
+    radar: Option<&str>,
+    radius: Option<f64>,
+    color_by: Option<&str>,
+    width: u32,
+) -> PyResult<Bound<'py, PyBytes>> {
+    let wish = Wish { scan, radar, radius, color_by, width };
+    let png = py.detach(|| draw(&out, &recording, sequence, &wish))?;
+    Ok(PyBytes::new(py, &png))
+}
+
+fn draw(out: &Path, recording: &Path, sequence: String, wish: &Wish<'_>) -> PyResult<Vec<u8>> {
+    let open = || {
+        let run = LabelledRun::open(out)?;
+        let recording = open_with(recording, None, &run.settings().topics)?;
+        let recording = run.settings().correct(recording.select(&[sequence])?)?;
+        run.refuse_changes(&recording)?;
+        Ok::<_, DataError>((run, recording))
+    };
+    let (run, recording) = open().map_err(data)?;
+    let [reader] = recording.sequences.as_slice() else { return Err(other("expected one sequence")) };
+    let labelled = run.sequence(reader.as_ref()).map_err(data)?;
+    let Wish { scan, radar, radius, color_by, width } = *wish;
+    let extent = radius.map_or(Extent::Fit, Extent::Radius);
+    let pictures = Pictures { reader: reader.as_ref(), tables: &labelled.tables, radar, extent };
+    let drawn = match (scan, color_by) {
+        (Some(scan), Some(column)) => pictures.scan_by(scan, column, width),
+        (Some(scan), None) => pictures.scan(scan, Detections::Labelled, width),
+        (None, _) => pictures.overview(width),
+    };
+    drawn.map_err(|error| match error {
+        ReportError::Data(error) => data(error),
+        error => other(error),
+    })
+}

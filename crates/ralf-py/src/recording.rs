@@ -1,0 +1,136 @@
+//! A recording, and what its sensors measured.
+
+use crate::arrays::Column;
+use crate::errors::{data, other};
+use crate::labelling::{from_json, to_json};
+use arrow_buffer::Buffer;
+use pyo3::prelude::*;
+use ralf::sensors::Sequence;
+use ralf_data::many::Job;
+use ralf_data::{DataError, SequenceReader};
+use serde::Serialize;
+use std::sync::Arc;
+
+/// A recording: its tables are read, its measurements are not until they are asked for.
+#[pyclass(frozen, module = "ralf._ralf")]
+pub(crate) struct Recording {
+    recording: Arc<ralf_data::Recording>,
+}
+
+/// A sensor for people.
+#[derive(Serialize)]
+struct Sensor<'a> {
+    name: &'a str,
+    /// Of a radar.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    fields: Option<&'a [String]>,
+    /// Of each measurement, ns.
+    times_ns: &'a [i64],
+}
+
+/// A sequence for people.
+#[derive(Serialize)]
+struct Told<'a> {
+    name: &'a str,
+    title: &'a str,
+    radars: Vec<Sensor<'a>>,
+    lidars: Vec<Sensor<'a>>,
+    cameras: Vec<Sensor<'a>>,
+    warnings: &'a [String],
+}
+
+/// The time of a scan in ns, and its columns by name.
+type RadarScan = (i64, Vec<(String, Column)>);
+
+#[pymethods]
+impl Recording {
+    /// Opens the recording of a job (JSON).
+    #[new]
+    fn new(py: Python<'_>, job: &str) -> PyResult<Self> {
+        let job: Job = from_json(job)?;
+        let recording = py.detach(|| job.open()).map_err(data)?;
+        Ok(Self { recording: Arc::new(recording) })
+    }
+
+    /// The name of its format.
+    #[getter]
+    fn format(&self) -> &'static str {
+        self.recording.format
+    }
+
+    /// The names of its sequences.
+    #[getter]
+    fn sequences(&self) -> Vec<&str> {
+        self.recording.sequences.iter().map(|reader| reader.sequence().name.as_str()).collect()
+    }
+
+    /// Sensors, times and warnings of a sequence; JSON.
+    fn sequence(&self, name: &str) -> PyResult<String> {
+        let reader = self.reader(name)?;
+        let Sequence { name, title, rig, times, .. } = reader.sequence();
+        let radars = rig.radars.iter().zip(&times.radars);
+        to_json(&Told {
+            name,
+            title,
+            radars: radars
+                .map(|(radar, times_ns)| Sensor { name: &radar.name, fields: Some(&radar.fields), times_ns })
+                .collect(),
+            lidars: plain(rig.lidars.iter().map(|lidar| lidar.name.as_str()), &times.lidars),
+            cameras: plain(rig.cameras.iter().map(|camera| camera.name.as_str()), &times.cameras),
+            warnings: reader.warnings(),
+        })
+    }
+
+    /// A scan of a radar: its time in ns, and each field as the recording has it.
+    fn radar_scan(&self, py: Python<'_>, sequence: &str, radar: &str, scan: usize) -> PyResult<RadarScan> {
+        let reader = self.reader(sequence)?;
+        let radars = &reader.sequence().rig.radars;
+        let index = place(radars.iter().map(|known| known.name.as_str()), radar)?;
+        let read = py
+            .detach(|| reader.radar_scan(index, scan))
+            .map_err(|error| data(DataError::Measurement { sensor: radar.to_owned(), index: scan, error }))?;
+        let columns = radars[index].fields.iter().zip(read.columns);
+        let columns = columns.map(|(name, values)| (name.clone(), decimals(values, 1)));
+        Ok((read.t_ns, columns.collect()))
+    }
+
+    /// A scan of a LiDAR: its time in ns, points (rows of x, y, z in the LiDAR's frame) and intensities.
+    fn lidar_scan(
+        &self,
+        py: Python<'_>,
+        sequence: &str,
+        lidar: &str,
+        scan: usize,
+    ) -> PyResult<(i64, Column, Column)> {
+        let reader = self.reader(sequence)?;
+        let index = place(reader.sequence().rig.lidars.iter().map(|known| known.name.as_str()), lidar)?;
+        let read = py
+            .detach(|| reader.lidar_scan(index, scan))
+            .map_err(|error| data(DataError::Measurement { sensor: lidar.to_owned(), index: scan, error }))?;
+        Ok((read.t_ns, decimals(read.points.into_flattened(), 3), decimals(read.intensity, 1)))
+    }
+}
+
+impl Recording {
+    fn reader(&self, name: &str) -> PyResult<&dyn SequenceReader> {
+        let readers = &self.recording.sequences;
+        let index = place(readers.iter().map(|reader| reader.sequence().name.as_str()), name)?;
+        Ok(readers[index].as_ref())
+    }
+}
+
+fn plain<'a>(names: impl Iterator<Item = &'a str>, times: &'a [Vec<i64>]) -> Vec<Sensor<'a>> {
+    names.zip(times).map(|(name, times_ns)| Sensor { name, fields: None, times_ns }).collect()
+}
+
+fn decimals(values: Vec<f32>, width: usize) -> Column {
+    let rows = values.len() / width;
+    Column::new(Buffer::from_vec(values), "<f4", rows, width)
+}
+
+/// The place of a name among those that there are.
+fn place<'a>(names: impl Iterator<Item = &'a str>, wanted: &str) -> PyResult<usize> {
+    let names: Vec<&str> = names.collect();
+    let found = names.iter().position(|name| *name == wanted);
+    found.ok_or_else(|| other(format!("expected one of {}, found {wanted}", names.join(", "))))
+}

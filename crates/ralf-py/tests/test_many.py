@@ -1,0 +1,49 @@
+"""Parts on several machines make what one makes."""
+
+import pickle
+import shutil
+from concurrent.futures import ProcessPoolExecutor
+
+import pytest
+from conftest import tree
+
+import ralf
+
+
+def test_three_plain_functions_make_what_one_call_makes(drive, tmp_path):
+    other = tmp_path / "other"
+    shutil.copytree(drive, other)
+    damaged = tmp_path / "damaged"
+    (damaged / "sequences/00").mkdir(parents=True)
+    (damaged / "sequences/00/sequence.toml").write_text("[[")
+    out = tmp_path / "out"
+    plan = ralf.plan([drive, damaged, other], out, scans=6)
+    assert list(plan.failed) == ["damaged"]
+    assert "sequence.toml" in plan.failed["damaged"]
+    assert len(plan) > 4
+    tasks = pickle.loads(pickle.dumps(plan.tasks))
+    assert tasks[0].name == f"drive/{ralf.open(drive).sequences[0]} 1 of {len(plan) // 2}"
+    with ProcessPoolExecutor(2) as pool:
+        assert list(pool.map(ralf.label_one, tasks)) == [[]] * len(tasks)
+    done = ralf.assemble(out)
+    assert list(done.failed) == ["damaged"]
+    assert done.failed["damaged"] == plan.failed["damaged"]
+    assert sorted(done.runs) == ["drive", "other"]
+    for name, recording in (("drive", drive), ("other", other)):
+        whole = ralf.label(recording, tmp_path / "whole" / name)
+        assert tree(done.runs[name].out) == tree(whole.out)
+        assert done.runs[name].recording == recording
+    assert list(ralf.plan([drive, other], out, scans=6)) == []
+
+
+def test_two_recordings_of_one_name_are_refused(drive, tmp_path):
+    with pytest.raises(ralf.RalfError, match="another recording"):
+        ralf.plan([drive, drive], tmp_path)
+
+
+def test_a_task_of_another_plan_is_refused(drive, tmp_path):
+    task = ralf.plan([drive], tmp_path / "a")[0]
+    shutil.rmtree(tmp_path / "a")
+    with pytest.raises(ralf.RalfError, match="plan again") as raised:
+        ralf.label_one(task)
+    assert raised.value.place.startswith("stretch 0")

@@ -1,0 +1,60 @@
+"""Scans for training, where PyTorch is at hand."""
+
+import numpy as np
+import pytest
+
+torch = pytest.importorskip("torch")
+from torch.utils.data import DataLoader  # noqa: E402
+
+from ralf.torch import ScanDataset, ScanStream, collate  # noqa: E402
+
+FEATURES = ["x", "y", "z", "doppler", "d_lm"]
+
+
+def all_rows(loader):
+    return np.concatenate([batch["features"].numpy() for batch in loader])
+
+
+def in_order(rows):
+    return rows[np.lexsort(rows.T)]
+
+
+@pytest.fixture(scope="module")
+def expected(run):
+    scans = [scan for sequence in run for scan in run.scans(sequence)]
+    return np.concatenate([np.stack([np.nan_to_num(scan[name]) for name in FEATURES], 1) for scan in scans])
+
+
+@pytest.mark.parametrize("workers", [0, 2])
+def test_every_scan_is_seen_once_whatever_the_workers(run, expected, workers):
+    data = ScanDataset(run, FEATURES)
+    loader = DataLoader(data, batch_size=5, num_workers=workers, collate_fn=collate)
+    assert np.array_equal(all_rows(loader), expected)
+    stream = ScanStream(data, shuffle=True, seed=3)
+    streamed = all_rows(DataLoader(stream, batch_size=5, num_workers=workers, collate_fn=collate))
+    assert not np.array_equal(streamed, expected)
+    assert np.array_equal(in_order(streamed), in_order(expected))
+
+
+def test_a_batch_says_which_scan_a_row_belongs_to(run):
+    data = ScanDataset(run.out, FEATURES, radars=[next(run.scans(run.sequences[0])).radar])
+    batch = collate([data[0], data[-1]])
+    sizes = [len(data[0]["label"]), len(data[-1]["label"])]
+    assert torch.bincount(batch["scan"]).tolist() == sizes
+    assert torch.equal(batch["w"][: sizes[0]], data[0]["w"])
+    with pytest.raises(IndexError):
+        data[len(data)]
+
+
+def test_truth_takes_the_place_of_labels(run, drive):
+    import ralf
+
+    truth = ScanDataset(run, FEATURES, truth=drive)
+    labels = ScanDataset(run, FEATURES)
+    pairs = [(truth[i]["label"], labels[i]["label"]) for i in range(len(truth))]
+    right, known = (
+        sum(int(((a == b) & (a >= 0)).sum()) for a, b in pairs),
+        sum(int((a >= 0).sum()) for a, b in pairs),
+    )
+    assert right / known == pytest.approx(ralf.evaluate(run, truth=drive)["overall"]["pooled"]["accuracy"])
+    assert set(torch.unique(ScanDataset(run, truth=run.out)[0]["label"]).tolist()) == {-1}

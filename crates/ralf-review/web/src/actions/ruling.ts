@@ -1,0 +1,52 @@
+/** Rules: filters with a name, which choose everything they let through, in this sequence and in others. */
+
+import { keepRules, readRules } from "../data/rules.js";
+import type { Navigation } from "./navigation.js";
+import type { Selecting } from "./selecting.js";
+import { complain, tell, type World } from "./world.js";
+
+const LONGEST_NAME = 64;
+
+export class Ruling {
+  constructor(
+    private readonly world: World,
+    private readonly navigation: Navigation,
+    private readonly selecting: Selecting,
+  ) {
+    world.store.set({ rules: readRules() });
+  }
+
+  /** Keeps what the filter asks now under a name, in place of what had it before. */
+  save(typed: string): void {
+    const { store } = this.world;
+    const name = typed.trim().slice(0, LONGEST_NAME);
+    if (name === "") return;
+    const others = readRules().filter((rule) => rule.name !== name);
+    this.keep([...others, { name, filter: store.state.filter }]);
+    tell(this.world, `The rule ${name} is kept in this browser.`);
+  }
+
+  forget(name: string): void {
+    this.keep(readRules().filter((rule) => rule.name !== name));
+  }
+
+  /** Shows what a rule lets through in the whole sequence, and selects it: a label may follow, or not. */
+  async choose(name: string): Promise<void> {
+    const { store } = this.world;
+    const rule = readRules().find((known) => known.name === name);
+    const { current } = store.state;
+    if (rule === undefined || current === null) return;
+    try {
+      await this.navigation.wholeSequence(current);
+      store.set({ filter: rule.filter, thing: null });
+      this.selecting.all("rule");
+    } catch (error) {
+      complain(this.world, error);
+    }
+  }
+
+  private keep(rules: ReturnType<typeof readRules>): void {
+    keepRules(rules);
+    this.world.store.set({ rules: readRules() });
+  }
+}

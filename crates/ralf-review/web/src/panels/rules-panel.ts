@@ -1,0 +1,130 @@
+/** What is asked of columns, and the rules that were kept of it. */
+
+import { columnsOf } from "../data/cloud.js";
+import type { ColumnSpan } from "../data/filter.js";
+import { h, say, select, setOptions } from "../dom.js";
+import type { Page } from "../page.js";
+
+export function rulesPanel(page: Page): HTMLElement {
+  const count = h("span", { class: "faint" });
+  page.store.watch(
+    ({ filter, rules }) => [filter.columns, rules],
+    (columns, rules) => say(count, `${columns.length} columns, ${rules.length} kept`),
+  );
+  const summary = h("summary", { title: "Filters on every column, kept by name" }, "Rules ", count);
+  return h(
+    "details",
+    {},
+    summary,
+    h("div", { class: "rules" }, columnList(page), spans(page), saving(page), kept(page)),
+  );
+}
+
+/** Adds a column to what is asked. */
+function columnList({ store, actions }: Page): HTMLSelectElement {
+  const list = select("Column to filter by", [], (name) => {
+    const { columns } = store.state.filter;
+    if (name !== "" && columns.every((known) => known.name !== name))
+      actions.view.filter({ columns: [...columns, { name, span: [-Infinity, Infinity] }] });
+    list.value = "";
+  });
+  store.watch(
+    ({ cloud }) => [cloud.scans[0]?.table],
+    () => {
+      const columns = columnsOf(store.state.cloud);
+      const options = columns.map(({ name, unit, meaning }) => ({ value: name, text: named(name, unit), meaning }));
+      setOptions(list, [{ value: "", text: "add a column…" }, ...options]);
+    },
+  );
+  return list;
+}
+
+function named(name: string, unit: string): string {
+  return unit === "" ? name : `${name} / ${unit}`;
+}
+
+function spans({ store, actions }: Page): HTMLElement {
+  const rows = h("div", {});
+  const set = (name: string, span: ColumnSpan["span"] | null): void => {
+    const others = store.state.filter.columns.flatMap((one) =>
+      one.name !== name ? [one] : span === null ? [] : [{ name, span }],
+    );
+    actions.view.filter({ columns: others });
+  };
+  store.watch(
+    ({ filter }) => [filter.columns],
+    (columns) => rows.replaceChildren(...columns.map((column) => row(column, (span) => set(column.name, span)))),
+  );
+  return rows;
+}
+
+function row({ name, span }: ColumnSpan, set: (span: ColumnSpan["span"] | null) => void): HTMLElement {
+  const end = (index: 0 | 1, label: string): HTMLInputElement => {
+    const field = h("input", {
+      type: "number",
+      step: "any",
+      "aria-label": `${name}: ${label}`,
+      placeholder: label,
+      value: Number.isFinite(span[index]) ? String(span[index]) : "",
+      on: {
+        change: () => {
+          const open = index === 0 ? -Infinity : Infinity;
+          const now: [number, number] = [...span];
+          now[index] = Number.isNaN(field.valueAsNumber) ? open : field.valueAsNumber;
+          set(now);
+        },
+      },
+    });
+    return field;
+  };
+  const away = h("button", {
+    class: "link",
+    type: "button",
+    title: `Ask nothing of ${name}`,
+    on: { click: () => set(null) },
+  });
+  away.append("×");
+  return h("div", { class: "row rule" }, h("span", { class: "faint" }, name), end(0, "least"), end(1, "most"), away);
+}
+
+function saving({ actions }: Page): HTMLElement {
+  const name = h("input", { type: "text", "aria-label": "Name of the rule", placeholder: "name", maxlength: "64" });
+  const save = h("button", { class: "chip small", type: "submit" }, "Keep");
+  const form = h("form", { class: "row" }, name, save);
+  form.addEventListener("submit", (event) => {
+    event.preventDefault();
+    actions.rule.save(name.value);
+    name.value = "";
+  });
+  return form;
+}
+
+/** The rules that were kept: each can be asked of the sequence on screen. */
+function kept({ store, actions }: Page): HTMLElement {
+  const list = h("div", { class: "row wrap", role: "group", "aria-label": "Rules" });
+  store.watch(
+    ({ rules }) => [rules],
+    (rules) =>
+      list.replaceChildren(
+        ...rules.map(({ name }) => {
+          const title = `Select what ${name} lets through in the whole sequence`;
+          const use = h("button", {
+            class: "chip small",
+            type: "button",
+            title,
+            on: { click: () => void actions.rule.choose(name) },
+          });
+          use.append(name);
+          const away = h("button", {
+            class: "link",
+            type: "button",
+            title: `Forget ${name}`,
+            on: { click: () => actions.rule.forget(name) },
+          });
+          away.append("×");
+          return h("span", { class: "row" }, use, away);
+        }),
+      ),
+  );
+  return list;
+}

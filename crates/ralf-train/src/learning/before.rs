@@ -1,0 +1,51 @@
+//! What a model is worth where it was not asked yet: before somebody's own corrections are learned.
+
+use super::scores::{Judged, Scores};
+use super::table::TrainingTable;
+use super::view::View;
+use ralf::config::Config;
+use ralf::learned::{Model, Unconfirmed, with_odds};
+
+/// What a model is worth in a world of a table, with the settings' threshold. `None` where it reads what the table
+/// doesn't hold.
+pub fn worth_in(model: &Model, table: &TrainingTable, world: u16, config: &Config) -> Option<Scores> {
+    let place = |name: &str| table.features.iter().position(|feature| feature.name == name);
+    let columns: Vec<usize> = model.inputs.iter().map(|input| place(&input.name)).collect::<Option<_>>()?;
+    let is_here = |row: &usize| table.known[*row].world == world && table.known[*row].view == View::Whole;
+    let here: Vec<usize> = (0..table.len()).filter(is_here).collect();
+    let rows = table.rows.pick(here.iter().copied()).pick_columns(&columns);
+    let unconfirmed = Unconfirmed::among(model.inputs.iter().map(|input| input.name.as_str()));
+    let mut judged = Vec::with_capacity(here.len());
+    for (at, log_odds) in model.plausible.log_odds(&rows).into_iter().enumerate() {
+        let factor = if unconfirmed.is(rows.row(at)) { config.learned.unconfirmed } else { 1.0 };
+        let score = with_odds(model.calibration.probability(log_odds), factor);
+        judged.push(Judged { score, plausible: table.known[here[at]].plausible });
+    }
+    Some(Scores::new(&judged, config.fusion.threshold))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::testing::table;
+    use super::super::{Fitting, Parameters, fit};
+    use super::*;
+    use ralf::learned::Origin;
+
+    #[test]
+    fn a_model_is_judged_by_the_columns_that_it_reads_whatever_their_order() {
+        let (config, whole) = (Config::default(), table(120, 10));
+        let parameters = Parameters { rounds: 20, rows_per_leaf: 20, ..Parameters::default() };
+        let fitting =
+            Fitting { parameters, blanking: false, causes: false, threshold: 0.5, unconfirmed: 0.1, jobs: 2 };
+        let model = fit(&whole, &fitting, Origin::default(), &|_, _| {}).unwrap().model;
+        let found = worth_in(&model, &whole, 0, &config).unwrap();
+        assert!(found.average_precision.unwrap() > 0.9, "{found:?}");
+        let mut turned = whole.clone();
+        let order: Vec<usize> = (0..turned.features.len()).rev().collect();
+        turned.rows = whole.rows.pick_columns(&order);
+        turned.features.reverse();
+        assert_eq!(worth_in(&model, &turned, 0, &config), Some(found));
+        turned.features.remove(0);
+        assert_eq!(worth_in(&model, &turned, 0, &config), None);
+    }
+}
