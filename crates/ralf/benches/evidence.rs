@@ -8,10 +8,7 @@ use divan::{Bencher, black_box};
 use ralf::config::Config;
 use ralf::evidence::{PIECES, Surroundings, observe};
 use ralf::scene::{Frame, FrameWindow, LidarSnapshot, LidarWindow};
-use ralf::sensors::{
-    CameraImage, DepthImage, DepthOutput, Elevation, Lidar, LidarScan, Radar, RadarScan, Reliability, Rig,
-    Sequence, Source, SourceError, Timelines,
-};
+use ralf::sensors::{Elevation, Lidar, LidarScan, MemorySource, Radar, Reliability, Source};
 use ralf::space::{EgoMotion, OdometrySample, Spherical, Transform};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
@@ -64,7 +61,7 @@ fn lidar_scan(scan: usize) -> LidarScan {
 }
 
 /// One in five detections on walls and cars, the others anywhere.
-fn radar_scan(radar: &Radar, scan: usize) -> RadarScan {
+fn radar_scan(scan: usize) -> (i64, Vec<Vec<f32>>) {
     let mut random = Pcg64Mcg::seed_from_u64(1000 + scan as u64);
     let t_ns = scan as i64 * RADAR_NS;
     let driven = SPEED * t_ns as f64 * 1e-9;
@@ -81,7 +78,7 @@ fn radar_scan(radar: &Radar, scan: usize) -> RadarScan {
             [p.x, p.y, p.z + LIDAR_HEIGHT, random.random_range(-3.0..3.0), random.random_range(-20.0..20.0)];
         columns.iter_mut().zip(values).for_each(|(column, value)| column.push(value as f32));
     }
-    RadarScan::new(radar, t_ns, columns).expect("columns fit the radar")
+    (t_ns, columns)
 }
 
 fn radar() -> Radar {
@@ -109,57 +106,20 @@ fn lidar() -> Lidar {
     }
 }
 
-struct Street {
-    sequence: Sequence,
-    lidar_scans: Vec<LidarScan>,
-    radar_scans: Vec<RadarScan>,
+fn street() -> MemorySource {
+    let odometry = OdometrySample { t_ns: 0, velocity: SPEED, yaw_rate: 0.0 };
+    let motion = EgoMotion::new(vec![odometry], vec![]).expect("there is odometry");
+    let street = MemorySource::new("street", motion);
+    let street = street.with_radar(radar(), (0..RADAR_SCANS).map(radar_scan).collect());
+    let lidar_scans = (0..LIDAR_SCANS).map(lidar_scan).collect();
+    street.and_then(|street| street.with_lidar(lidar(), lidar_scans)).expect("scans in order")
 }
 
-impl Street {
-    fn new() -> Self {
-        let odometry = OdometrySample { t_ns: 0, velocity: SPEED, yaw_rate: 0.0 };
-        let radar_scans: Vec<_> = (0..RADAR_SCANS).map(|scan| radar_scan(&radar(), scan)).collect();
-        let lidar_scans: Vec<_> = (0..LIDAR_SCANS).map(lidar_scan).collect();
-        let times = Timelines {
-            radars: vec![radar_scans.iter().map(|scan| scan.t_ns).collect()],
-            lidars: vec![lidar_scans.iter().map(|scan| scan.t_ns).collect()],
-            cameras: vec![],
-        };
-        let sequence = Sequence {
-            name: "street".into(),
-            title: String::new(),
-            rig: Rig { radars: vec![radar()], lidars: vec![lidar()], cameras: vec![] },
-            times,
-            motion: EgoMotion::new(vec![odometry], vec![]).expect("there is odometry"),
-            depth_output: DepthOutput::Depth,
-        };
-        Self { sequence, lidar_scans, radar_scans }
-    }
-}
-
-impl Source for Street {
-    fn sequence(&self) -> &Sequence {
-        &self.sequence
-    }
-    fn radar_scan(&self, _: usize, scan: usize) -> Result<RadarScan, SourceError> {
-        Ok(self.radar_scans[scan].clone())
-    }
-    fn lidar_scan(&self, _: usize, scan: usize) -> Result<LidarScan, SourceError> {
-        Ok(self.lidar_scans[scan].clone())
-    }
-    fn image(&self, _: usize, _: usize) -> Result<CameraImage, SourceError> {
-        Err("no camera".into())
-    }
-    fn depth(&self, _: usize, _: usize) -> Result<Option<Vec<DepthImage>>, SourceError> {
-        Ok(None)
-    }
-}
-
-static STREET: LazyLock<Street> = LazyLock::new(Street::new);
+static STREET: LazyLock<MemorySource> = LazyLock::new(street);
 static CONFIG: LazyLock<Config> = LazyLock::new(Config::default);
 
 fn frame() -> Frame<'static> {
-    let mut window = FrameWindow::new(&*STREET, &STREET.sequence.rig, &CONFIG).with_evidence();
+    let mut window = FrameWindow::new(&*STREET, &STREET.sequence().rig, &CONFIG).with_evidence();
     window.frame(0, RADAR_SCANS / 2).expect("the street can be read")
 }
 
@@ -184,7 +144,7 @@ fn lidar_scan_once(bencher: Bencher) {
     let lidar = lidar();
     bencher
         .with_inputs(|| {
-            let scan = Arc::new(STREET.lidar_scans[LIDAR_SCANS / 2].clone());
+            let scan = Arc::new(STREET.lidar_scan(0, LIDAR_SCANS / 2).expect("a scan"));
             let parts = vec![(&lidar, scan, Transform::identity())];
             LidarSnapshot::new(0, parts, &CONFIG.ground, 0)
         })
@@ -221,7 +181,7 @@ fn whole_scan(bencher: Bencher) {
 #[divan::bench(sample_count = 10)]
 fn twenty_scans(bencher: Bencher) {
     bencher.bench_local(|| {
-        let mut window = FrameWindow::new(&*STREET, &STREET.sequence.rig, &CONFIG).with_evidence();
+        let mut window = FrameWindow::new(&*STREET, &STREET.sequence().rig, &CONFIG).with_evidence();
         for scan in 8..28 {
             let frame = window.frame(0, scan).expect("the street can be read");
             black_box(observe(&frame, &CONFIG));

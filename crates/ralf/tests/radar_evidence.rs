@@ -271,7 +271,7 @@ fn chi(frame: &Frame, around: &NeighbouringDetections, i: usize, j: usize, way: 
 /// Shares of persistence, and the mean distance, by going through everything.
 fn brute_force(frame: &Frame, i: usize) -> [Option<f64>; 4] {
     let around = NeighbouringDetections::around(frame);
-    let rates = frame.doppler().unwrap().compensated;
+    let rates = &frame.doppler().unwrap().compensated;
     // Made of so few different rates that the spread is at its lower bound, or its upper.
     let finite: Vec<f64> = rates.iter().copied().filter(|rate| rate.is_finite()).collect();
     let middle = ralf::scene::median(finite.clone()).unwrap_or(0.0);

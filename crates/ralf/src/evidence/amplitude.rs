@@ -8,7 +8,7 @@ use super::columns::unobserved;
 use super::rings::Rings;
 use super::statistics::{median_of, quantile, ranks};
 use super::{Feature, Piece, Surroundings, Values};
-use crate::scene::{Frame, Strength};
+use crate::scene::Frame;
 use crate::sensors::RadarScan;
 
 pub(super) const PIECE: Piece = Piece {
@@ -54,7 +54,7 @@ fn observe(surroundings: &Surroundings) -> Vec<Values> {
         return unobserved(PIECE.features, frame.scan.len());
     };
     let ranges = ranges(&frame.scan.measured);
-    let around = EchoesAround::new(frame, &strength, &ranges);
+    let around = EchoesAround::new(frame);
     vec![
         ranks(&strength.cross_section),
         ranks(&strength.power),
@@ -85,12 +85,14 @@ struct EchoesAround {
 }
 
 impl EchoesAround {
-    fn new(frame: &Frame, strength: &Strength, own_ranges: &[f64]) -> Self {
-        let (mut powers, mut all_ranges) = (strength.power.clone(), own_ranges.to_vec());
-        for neighbour in frame.own_scans_around() {
-            if let Some(strength) = Strength::new(frame.radar, &neighbour.scan.measured) {
-                powers.extend(strength.power);
-                all_ranges.extend(ranges(&neighbour.scan.measured));
+    fn new(frame: &Frame) -> Self {
+        let scans =
+            [&frame.scan].into_iter().chain(frame.own_scans_around().map(|neighbour| &neighbour.scan));
+        let (mut powers, mut all_ranges) = (Vec::new(), Vec::new());
+        for scan in scans {
+            if let Some(strength) = scan.strength(frame.radar) {
+                powers.extend_from_slice(&strength.power);
+                all_ranges.extend(ranges(&scan.measured));
             }
         }
         Self { powers, ranges: all_ranges }

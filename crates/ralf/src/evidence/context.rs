@@ -102,13 +102,11 @@ fn crowd(surroundings: &Surroundings) -> Vec<f64> {
 /// around.
 fn crowd_around(surroundings: &Surroundings) -> Vec<f64> {
     let around = surroundings.neighbours();
-    let mut near = Vec::new();
     let mut crowd = Vec::with_capacity(surroundings.frame.scan.len());
     for detection in &surroundings.frame.scan.detections {
         let found = detection.as_ref().filter(|_| !around.radars.is_empty()).map(|detection| {
             let place = [detection.position.x as f32, detection.position.y as f32];
-            around.index.beside(place, NEAR as f32, &mut near);
-            near.len() as f64
+            around.index.count_beside(place, NEAR as f32) as f64
         });
         crowd.push(found.unwrap_or(f64::NAN));
     }

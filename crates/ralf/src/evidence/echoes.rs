@@ -12,9 +12,9 @@ const SAME: f64 = 2.0;
 
 /// What the scan's echoes are: one entry per detection of each list.
 pub(super) struct Echoes<'a> {
-    strength: Strength,
+    strength: &'a Strength,
     /// As the radar measured them, m/s, and how well.
-    rates: Option<(Vec<f64>, &'a Rates)>,
+    rates: Option<(&'a [f64], &'a Rates)>,
     /// m
     ranges: Vec<f64>,
     /// rad
@@ -58,7 +58,7 @@ impl<'a> Echoes<'a> {
         let azimuths: Vec<f64> = places.iter().map(|place| place.azimuth).collect();
         Some(Self {
             strength: frame.strength()?,
-            rates: frame.doppler().map(|doppler| doppler.raw).zip(surroundings.rates()),
+            rates: frame.doppler().map(|doppler| doppler.raw.as_slice()).zip(surroundings.rates()),
             by_range: Ordered::new(&ranges),
             by_azimuth: Ordered::new(&azimuths),
             ranges,

@@ -80,8 +80,8 @@ fn observe(surroundings: &Surroundings) -> Vec<Values> {
     let Some(lidar) = &frame.lidar_window else { return columns };
     let map = lidar.window.map();
     let mut found = Vec::new();
-    for (i, probe) in surroundings.probes().iter().enumerate() {
-        let Some(probe) = probe else { continue };
+    for (i, _) in surroundings.rows_by_place() {
+        let Some(probe) = &surroundings.probes()[i] else { continue };
         let p = probe.detection.position;
         if !ColumnGrid::covers(p.x, p.y) {
             continue;

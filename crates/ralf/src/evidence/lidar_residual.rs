@@ -41,8 +41,7 @@ fn observe(surroundings: &Surroundings) -> Vec<Values> {
     let cloud = LidarCloud::new(view, frame.radar);
     let mut association = cloud.association(config.lidar.neighbours);
     association.set_reach(NEAR);
-    for (i, detection) in frame.scan.detections.iter().enumerate() {
-        let Some(detection) = detection else { continue };
+    for (i, detection) in surroundings.rows_by_place() {
         let spread = detection.spread();
         let (mut across, mut up) = (0.0, 0.0);
         let mut nearest = cloud.nearest(&mut association, detection);

@@ -1,7 +1,7 @@
 //! Mirror images: radar waves that a wall turns back show what stands before it as if it stood behind.
 
 use super::columns::{set, unobserved};
-use super::distance::chi;
+use super::distance::{Spot, chi};
 use super::way::TALL;
 use super::{Feature, Piece, Surroundings, Values};
 use crate::scene::{Detection, StaticMap};
@@ -44,12 +44,13 @@ fn observe(surroundings: &Surroundings) -> Vec<Values> {
         let behind = surroundings.ways()[i].map_or(0.0, |way| way.behind_first_tall);
         let Some(wall) = Wall::before(map, &radar, &moved.position, behind) else { continue };
         let image = wall.reflect(&moved).moved(&lidar.vehicle_from_window);
+        let image_spot = Spot::new(&image);
         surroundings.beside(&image.position, REACH, &mut near);
         let mut least: Option<f64> = None;
         for other in near.iter().map(|other| *other as usize) {
             let stronger = strength.cross_section[other] > strength.cross_section[i];
             if let Some(partner) = frame.scan.detections[other].as_ref().filter(|_| stronger) {
-                let distance = chi(&image, partner, level);
+                let distance = chi(&image_spot, &Spot::new(partner), level);
                 least = Some(least.map_or(distance, |least| least.min(distance)));
             }
         }

@@ -6,8 +6,10 @@ use super::columns::{set, unobserved};
 use super::recurrence::{FARTHEST, Sighting};
 use super::sensor_frame::Unmoved;
 use super::{Feature, Piece, Surroundings, Values};
-use crate::scene::{Detection, Frame, NeighbouringDetections, NeighbouringScan};
-use crate::space::Vector;
+use crate::scene::{Detection, Frame, NeighbouringDetections, NeighbouringScan, index_of};
+use crate::sensors::Elevation;
+use crate::space::{NeighborIndex, Vector};
+use std::borrow::Cow;
 
 pub(super) const PIECE: Piece = Piece {
     features: &[
@@ -65,11 +67,9 @@ const fn feature(name: &'static str, unit: &'static str, meaning: &'static str) 
 fn observe(surroundings: &Surroundings) -> Vec<Values> {
     let frame = surroundings.frame;
     let (origins, unmoved) = (origins(frame), Unmoved::new(frame));
-    let own_scans: Vec<bool> =
-        surroundings.neighbours().radars.iter().map(|radar| frame.is_own(*radar)).collect();
+    let own_around = own_around(surroundings.neighbours());
     let mut columns = unobserved(PIECE.features, frame.scan.len());
-    for (i, detection) in frame.scan.detections.iter().enumerate() {
-        let Some(detection) = detection else { continue };
+    for (i, detection) in surroundings.rows_by_place() {
         let seen = surroundings.sightings()[i].as_slice();
         let own = || seen.iter().filter(|sighting| sighting.own);
         let others = seen.iter().filter(|sighting| !sighting.own);
@@ -79,7 +79,7 @@ fn observe(surroundings: &Surroundings) -> Vec<Values> {
             share(own().filter(|_| has_rate).map(|sighting| sighting.moving <= SAME)),
             share(others.map(|sighting| sighting.still <= SAME)),
             mean(own().map(|sighting| sighting.still.min(FARTHEST))),
-            excess(surroundings.neighbours(), &own_scans, detection, seen),
+            excess(&own_around, detection, seen),
             aspect(frame, &origins, detection, seen),
             unmoved.excess_at(detection),
         ];
@@ -97,23 +97,26 @@ fn mean(values: impl Iterator<Item = f64>) -> Option<f64> {
     (count > 0).then(|| sum / f64::from(count))
 }
 
-/// Of the radar's own scans around, which `own_scans` tells.
-fn excess(
-    around: &NeighbouringDetections,
-    own_scans: &[bool],
-    detection: &Detection,
-    seen: &[Sighting],
-) -> Option<f64> {
-    let own: Vec<&Sighting> = seen.iter().filter(|sighting| sighting.own).collect();
-    if own.is_empty() {
+/// An index of the radar's own detections alone.
+fn own_around(around: &NeighbouringDetections) -> Cow<'_, NeighborIndex> {
+    if around.own.iter().all(|own| *own) {
+        return Cow::Borrowed(&around.index);
+    }
+    let detections = around.detections.iter().zip(&around.scans);
+    let own = detections.filter(|(_, scan)| around.own[**scan as usize]);
+    Cow::Owned(index_of(own.map(|(detection, _)| &detection.position), Elevation::None))
+}
+
+/// `own_around` holds the detections of the radar's own scans around.
+fn excess(own_around: &NeighborIndex, detection: &Detection, seen: &[Sighting]) -> Option<f64> {
+    let own = seen.iter().filter(|sighting| sighting.own).count();
+    if own == 0 {
         return None;
     }
-    let mut near = Vec::new();
     let place = [detection.position.x as f32, detection.position.y as f32];
-    around.index.beside(place, AROUND as f32, &mut near);
-    let near = near.iter().filter(|id| own_scans[around.scans[**id as usize] as usize]).count();
-    let hits = own.iter().filter(|sighting| sighting.still <= SAME).count();
-    Some(excess_of(hits, own.len(), near, detection))
+    let near = own_around.count_beside(place, AROUND as f32);
+    let hits = seen.iter().filter(|sighting| sighting.own && sighting.still <= SAME).count();
+    Some(excess_of(hits, own, near, detection))
 }
 
 /// Where each scan around was made, in the vehicle frame at the frame's time, m.
@@ -125,10 +128,20 @@ fn origins(frame: &Frame) -> Vec<Vector> {
 
 /// `None` where no scan could have seen it from elsewhere.
 fn aspect(frame: &Frame, origins: &[Vector], detection: &Detection, seen: &[Sighting]) -> Option<f64> {
-    let ray = detection.position.coords - frame.radar.vehicle_from_radar.translation.vector;
-    let angle =
-        |sighting: &Sighting| ray.angle(&(detection.position.coords - origins[sighting.scan as usize]));
-    let largest = seen.iter().map(angle).fold(0.0, f64::max);
-    let again = seen.iter().filter(|sighting| sighting.still <= SAME).map(angle).fold(0.0, f64::max);
+    let place = &detection.position.coords;
+    let ray = place - frame.radar.vehicle_from_radar.translation.vector;
+    let length = ray.norm();
+    // The least cosines: of all, and of those that saw it again.
+    let (mut largest, mut again) = (1.0f64, 1.0f64);
+    for sighting in seen {
+        let other = place - origins[sighting.scan as usize];
+        let cosine = ray.dot(&other) / (length * other.norm());
+        // Of a scan that was made at the very place `min` passes over the quotient, which is no number.
+        largest = largest.min(cosine);
+        if sighting.still <= SAME {
+            again = again.min(cosine);
+        }
+    }
+    let [largest, again] = [largest, again].map(|cosine| cosine.max(-1.0).acos());
     (largest > ELSEWHERE).then(|| again / largest)
 }

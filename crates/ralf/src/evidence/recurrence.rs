@@ -1,15 +1,19 @@
 //! Where the radars' scans around could have seen a detection again, and whether they did.
 
-use super::distance::{ROOM, chi_within, horizontal_variance};
+use super::distance::{Spot, chi_within, farthest_within};
 use super::rates::{AGREEING, Rates};
 use crate::scene::{Detection, Frame, NeighbouringDetections, NeighbouringScan, Reach, Sight};
 use crate::sensors::{Elevation, Radar};
-use crate::space::Point;
+use crate::space::{NeighborIndex, Point};
+use std::borrow::Cow;
 
 /// Nothing farther is looked for, in standard deviations.
 pub(super) const FARTHEST: f64 = 3.0;
 /// Nor anything farther than this, m, whatever the radar's uncertainty is said to be.
-const REACH: f64 = 8.0;
+const REACH: f32 = 8.0;
+/// Of a scan that can't have seen a detection there is no sighting.
+const UNSEEN: u32 = u32::MAX;
+
 /// One detection in one scan around that could have seen it. Distances are those to the nearest detection there,
 /// infinite where none is nearer than [`FARTHEST`].
 #[derive(Debug, Clone, Copy)]
@@ -28,33 +32,31 @@ pub(super) struct Sighting {
     pub(super) rate_difference: f64,
 }
 
-/// The sightings of each detection of a frame, in the order of the scans; none of a detection without a place. `rates`
-/// are those of the frame's scan.
-pub(super) fn sightings(
+/// The sightings of each detection of a frame, in the order of the scans around; none of a detection without a place.
+/// `rates` are those of the frame's scan, `rows` its detections that have a place.
+pub(super) fn sightings<'a>(
     frame: &Frame,
     around: &NeighbouringDetections,
     rates: Option<&Rates>,
+    rows: impl Iterator<Item = (usize, &'a Detection)>,
 ) -> Vec<Vec<Sighting>> {
     let reaches = reaches(frame);
     let sight =
         |scan: &NeighbouringScan| Sight::new(&frame.rig.radars[scan.radar], scan, &reaches[scan.radar]);
     let sights: Vec<Sight> = frame.radar_window.iter().map(sight).collect();
     let mut search = Search::new(frame, around, rates);
-    let mut all = Vec::with_capacity(frame.scan.len());
-    for (i, detection) in frame.scan.detections.iter().enumerate() {
-        let Some(detection) = detection else {
-            all.push(Vec::new());
-            continue;
-        };
-        let mut seen: Vec<Sighting> = Vec::new();
+    let mut all = vec![Vec::new(); frame.scan.len()];
+    for (i, detection) in rows {
+        let mut seen: Vec<Sighting> = Vec::with_capacity(sights.len());
         for (scan, sight) in (0u32..).zip(&sights) {
-            if sight.covers(&detection.position) {
-                seen.push(Sighting::nothing(scan, frame.is_own(around.radars[scan as usize])));
+            let covered = sight.covers(&detection.position);
+            search.places[scan as usize] = if covered { seen.len() as u32 } else { UNSEEN };
+            if covered {
+                seen.push(Sighting::nothing(scan, around.own[scan as usize]));
             }
         }
-        search.still(i, detection, &mut seen);
-        search.moving(i, detection, &mut seen);
-        all.push(seen);
+        search.compare(i, detection, &mut seen);
+        all[i] = seen;
     }
     all
 }
@@ -90,16 +92,18 @@ impl Sighting {
 
 /// The search for a frame's detections among those around.
 struct Search<'a> {
-    around: &'a NeighbouringDetections,
     rates: Option<&'a Rates>,
     /// The frame's radar, m.
     origin: Point,
-    /// Of each scan around: whether distances from its detections are horizontal, for either radar measures no
-    /// elevation.
-    level: Vec<bool>,
-    /// Of the detections around: no horizontal variance is larger, m^2.
+    around: Cloud<'a>,
+    /// Of each scan around: its own detections, if the same radar made it and range rates tell what moves.
+    scans: Vec<Option<Cloud<'a>>>,
+    /// Of each scan around: its time after the frame's, s.
+    seconds: &'a [f64],
+    /// No horizontal variance of the detections around is larger, m^2.
     max_variance: f64,
-    found: Vec<u32>,
+    /// Of each scan around, for the detection at hand: which of its sightings is that in this scan, or [`UNSEEN`].
+    places: Vec<u32>,
 }
 
 impl<'a> Search<'a> {
@@ -107,63 +111,107 @@ impl<'a> Search<'a> {
         let is_level = |radar: &Radar| radar.elevation == Elevation::None;
         let level =
             around.radars.iter().map(|radar| is_level(frame.radar) || is_level(&frame.rig.radars[*radar]));
+        let level: Vec<bool> = level.collect();
+        let all = Cloud::new(Cow::Borrowed(&around.index), around, &level);
         Self {
-            around,
             rates,
             origin: Point::from(frame.radar.vehicle_from_radar.translation.vector),
-            level: level.collect(),
-            max_variance: around.detections.iter().map(horizontal_variance).fold(0.0, f64::max),
-            found: Vec::new(),
+            max_variance: all.others.iter().map(|other| other.spot.variance).fold(0.0, f64::max),
+            around: all,
+            scans: if rates.is_some() { own_scans(around, &level) } else { Vec::new() },
+            seconds: &around.seconds,
+            places: vec![UNSEEN; around.radars.len()],
         }
     }
 
-    /// Compares a detection with those that lie where it would be if it stood still.
-    fn still(&mut self, i: usize, detection: &Detection, seen: &mut [Sighting]) {
-        self.find(detection);
-        for &id in &self.found {
-            let id = id as usize;
-            let Ok(at) = seen.binary_search_by_key(&self.around.scans[id], |sighting| sighting.scan) else {
-                continue;
-            };
-            let sighting = &mut seen[at];
-            let Some(chi) = self.chi(detection, id) else { continue };
+    /// Compares a detection with those that lie where it would be.
+    fn compare(&self, i: usize, detection: &Detection, seen: &mut [Sighting]) {
+        let spot = Spot::new(detection);
+        let reach = farthest_within(FARTHEST, &spot, self.max_variance).min(REACH);
+        self.still(i, &detection.position, &spot, reach, seen);
+        self.moving(i, &detection.position, &spot, reach, seen);
+    }
+
+    /// As if it stood still.
+    fn still(&self, i: usize, p: &Point, spot: &Spot, reach: f32, seen: &mut [Sighting]) {
+        let standing = self.rates.filter(|rates| rates.motion(i) == 0.0);
+        self.around.each_near(p, spot, reach, |other, chi| {
+            let Some(sighting) = seen.get_mut(self.places[other.scan as usize] as usize) else { return };
             sighting.still = sighting.still.min(chi);
-            if let Some(rates) = self.rates.filter(|rates| sighting.own && rates.motion(i) == 0.0) {
-                sighting.meet(chi, rates.difference(i, self.around.doppler[id]));
+            if let Some(rates) = standing.filter(|_| sighting.own) {
+                sighting.meet(chi, rates.difference(i, other.rate));
             }
-        }
+        });
     }
 
-    /// Compares a detection that moves with those that lie where it would be then.
-    fn moving(&mut self, i: usize, detection: &Detection, seen: &mut [Sighting]) {
+    /// Where it would be if it moved, of one that moves.
+    fn moving(&self, i: usize, p: &Point, spot: &Spot, reach: f32, seen: &mut [Sighting]) {
         let Some(rates) = self.rates.filter(|rates| rates.motion(i) != 0.0) else { return };
-        let ray = (detection.position - self.origin).try_normalize(0.0).unwrap_or_default();
-        for sighting in seen.iter_mut().filter(|sighting| sighting.own) {
-            let way = rates.motion(i) * self.around.seconds[sighting.scan as usize];
-            let moved = Detection { position: detection.position + ray * way, axes: detection.axes };
-            self.find(&moved);
-            for &id in &self.found {
-                let id = id as usize;
-                if self.around.scans[id] != sighting.scan {
-                    continue;
-                }
-                if let Some(chi) = self.chi(&moved, id) {
-                    sighting.meet(chi, rates.difference(i, self.around.doppler[id]));
-                }
-            }
+        let ray = (p - self.origin).try_normalize(0.0).unwrap_or_default();
+        for sighting in seen {
+            let scan = sighting.scan as usize;
+            let Some(cloud) = &self.scans[scan] else { continue };
+            let way = ray * (rates.motion(i) * self.seconds[scan]);
+            cloud.each_near(&(p + way), &spot.moved(&way), reach, |other, chi| {
+                sighting.meet(chi, rates.difference(i, other.rate));
+            });
         }
     }
+}
 
-    /// Finds all that can lie within [`FARTHEST`].
-    fn find(&mut self, detection: &Detection) {
-        let variance = horizontal_variance(detection) + self.max_variance + ROOM * ROOM;
-        let reach = (FARTHEST * variance.sqrt()).min(REACH);
-        let place = [detection.position.x as f32, detection.position.y as f32];
-        self.around.index.beside(place, reach as f32, &mut self.found);
+/// A detection around.
+struct Other {
+    spot: Spot,
+    /// Which scan of the frame's `radar_window`.
+    scan: u32,
+    /// Whether distances from it are horizontal, for either radar measures no elevation.
+    level: bool,
+    /// Compensated range rate, m/s; NaN where none was measured.
+    rate: f64,
+}
+
+/// Detections around, to be searched.
+struct Cloud<'a> {
+    index: Cow<'a, NeighborIndex>,
+    /// In the order of the index.
+    others: Vec<Other>,
+}
+
+impl<'a> Cloud<'a> {
+    /// The identities of the index are places in the lists of the detections around.
+    fn new(index: Cow<'a, NeighborIndex>, around: &NeighbouringDetections, level: &[bool]) -> Self {
+        let other = |id: &u32| {
+            let (id, scan) = (*id as usize, around.scans[*id as usize]);
+            let spot = Spot::new(&around.detections[id]);
+            Other { spot, scan, level: level[scan as usize], rate: around.doppler[id] }
+        };
+        Self { others: index.ids().iter().map(other).collect(), index }
     }
 
-    fn chi(&self, detection: &Detection, id: usize) -> Option<f64> {
-        let other = &self.around.detections[id];
-        chi_within(FARTHEST, detection, other, self.level[self.around.scans[id] as usize])
+    /// Visits what lies within [`FARTHEST`] of a detection at a place, and within `reach`, m, with its distance.
+    fn each_near(&self, p: &Point, spot: &Spot, reach: f32, mut visit: impl FnMut(&Other, f64)) {
+        self.index.each_beside([p.x as f32, p.y as f32], reach, |at, _| {
+            let other = &self.others[at];
+            if let Some(chi) = chi_within(FARTHEST, spot, &other.spot, other.level) {
+                visit(other, chi);
+            }
+        });
     }
+}
+
+/// The detections of each scan that the frame's own radar made.
+fn own_scans<'a>(around: &NeighbouringDetections, level: &[bool]) -> Vec<Option<Cloud<'a>>> {
+    let mut begin = 0;
+    let mut scans = Vec::with_capacity(around.own.len());
+    for (scan, own) in (0u32..).zip(&around.own) {
+        let end = begin + around.scans[begin..].partition_point(|of| *of <= scan);
+        scans.push(own.then(|| {
+            let place = |detection: &Detection| detection.position.coords.cast::<f32>().into();
+            let places: Vec<[f32; 3]> = around.detections[begin..end].iter().map(place).collect();
+            let ids: Vec<u32> = (begin as u32..end as u32).collect();
+            Cloud::new(Cow::Owned(NeighborIndex::new(&places, &ids)), around, level)
+        }));
+        begin = end;
+    }
+    scans
 }

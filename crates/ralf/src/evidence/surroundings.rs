@@ -58,18 +58,30 @@ impl<'a> Surroundings<'a> {
     /// The compensated range rates of the scan; `None` where the radar measures none.
     pub(super) fn rates(&self) -> Option<&Rates> {
         self.rates
-            .get_or_init(|| self.frame.doppler().map(|doppler| Rates::new(doppler.compensated)))
+            .get_or_init(|| self.frame.doppler().map(|doppler| Rates::new(doppler.compensated.clone())))
             .as_ref()
     }
 
     /// Of each detection of the scan, in which scans around it could have been seen again, and whether it was.
     pub(super) fn sightings(&self) -> &[Vec<Sighting>] {
-        self.sightings.get_or_init(|| sightings(self.frame, self.neighbours(), self.rates()))
+        self.sightings
+            .get_or_init(|| sightings(self.frame, self.neighbours(), self.rates(), self.rows_by_place()))
+    }
+
+    /// The scan's detections that have a place, with their rows, in an order in which neighbours mostly follow each
+    /// other: whoever searches around each of them finds what is needed still at hand.
+    pub(super) fn rows_by_place(&self) -> impl Iterator<Item = (usize, &Detection)> {
+        let rows = self.own_index().ids().iter().map(|row| *row as usize);
+        rows.filter_map(|row| Some((row, self.frame.scan.detections[row].as_ref()?)))
     }
 
     /// Finds the scan's own detections at most `radius`, m, from a point, seen from above.
     pub(super) fn beside(&self, p: &Point, radius: f64, found: &mut Vec<u32>) {
-        let index = self.own_index.get_or_init(|| {
+        self.own_index().beside([p.x as f32, p.y as f32], radius as f32, found);
+    }
+
+    fn own_index(&self) -> &NeighborIndex {
+        self.own_index.get_or_init(|| {
             let (mut places, mut rows) = (Vec::new(), Vec::new());
             for (row, detection) in (0u32..).zip(&self.frame.scan.detections) {
                 if let Some(Detection { position, .. }) = detection {
@@ -78,7 +90,6 @@ impl<'a> Surroundings<'a> {
                 }
             }
             NeighborIndex::new(&places, &rows)
-        });
-        index.beside([p.x as f32, p.y as f32], radius as f32, found);
+        })
     }
 }

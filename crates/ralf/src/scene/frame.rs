@@ -70,17 +70,17 @@ impl Frame<'_> {
     }
 
     /// The range rates of the scan's detections; `None` where the radar measures none.
-    pub fn doppler(&self) -> Option<Doppler> {
-        Doppler::new(self.radar, &self.scan.measured, self.motion)
+    pub fn doppler(&self) -> Option<&Doppler> {
+        self.scan.doppler(self.radar, self.motion)
     }
 
     /// The scan's detections with the velocity that their range rates tell; `None` without a position.
     pub fn movers(&self) -> Vec<Option<Mover>> {
-        let rates = self.doppler().map(|doppler| doppler.compensated);
+        let rates = self.doppler().map(|doppler| &doppler.compensated);
         let of_radar = radar_velocity(self.radar, self.scan.t_ns(), self.motion);
         let mut movers = Vec::with_capacity(self.scan.len());
         for (i, detection) in self.scan.detections.iter().enumerate() {
-            let rate = rates.as_ref().map_or(f64::NAN, |rates| rates[i]);
+            let rate = rates.map_or(f64::NAN, |rates| rates[i]);
             let mover = |detection| Mover::new(self.radar, detection, rate, &of_radar);
             movers.push(detection.as_ref().map(mover));
         }
@@ -98,7 +98,7 @@ impl Frame<'_> {
     }
 
     /// How strong the echoes of the scan's detections were; `None` where the radar doesn't measure it.
-    pub fn strength(&self) -> Option<Strength> {
-        Strength::new(self.radar, &self.scan.measured)
+    pub fn strength(&self) -> Option<&Strength> {
+        self.scan.strength(self.radar)
     }
 }

@@ -1,9 +1,12 @@
 //! A radar scan's detections with their uncertainty, moved into the vehicle frame.
 
+use super::doppler::Doppler;
 use super::mismatch::Spread;
+use super::strength::Strength;
 use crate::sensors::{Elevation, Radar, RadarScan};
-use crate::space::{Point, Spherical, Transform, Vector};
+use crate::space::{EgoMotion, Point, Spherical, Transform, Vector};
 use nalgebra::{Matrix3, Vector3};
+use std::sync::OnceLock;
 
 /// A detection: where it lies, and how well that is known.
 #[derive(Debug, Clone, Copy)]
@@ -17,8 +20,12 @@ pub struct Detection {
 impl Detection {
     /// The same detection in another frame.
     pub fn moved(&self, to_from_here: &Transform) -> Self {
-        let rotation = to_from_here.rotation.to_rotation_matrix();
-        Self { position: to_from_here * self.position, axes: rotation.matrix() * self.axes }
+        self.turned(to_from_here, to_from_here.rotation.to_rotation_matrix().matrix())
+    }
+
+    /// The same with the transform's rotation, which is worked out once for many.
+    fn turned(&self, to_from_here: &Transform, rotation: &Matrix3<f64>) -> Self {
+        Self { position: to_from_here * self.position, axes: rotation * self.axes }
     }
 
     /// The covariance `Sigma_i`.
@@ -44,6 +51,8 @@ pub struct LocatedScan {
     pub measured: RadarScan,
     /// One per row of the scan, in the vehicle frame; `None` where the coordinates are not finite.
     pub detections: Vec<Option<Detection>>,
+    doppler: OnceLock<Option<Doppler>>,
+    strength: OnceLock<Option<Strength>>,
 }
 
 impl LocatedScan {
@@ -64,7 +73,26 @@ impl LocatedScan {
             })
         };
         let detections = scan.positions.iter().zip(&scan.spherical).map(locate).collect();
-        Self { measured: scan, detections }
+        Self { measured: scan, detections, doppler: OnceLock::new(), strength: OnceLock::new() }
+    }
+
+    /// The range rates of the detections, worked out once for all frames that the scan belongs to; `None` where the
+    /// radar, which is that of the scan, measures none.
+    pub fn doppler(&self, radar: &Radar, motion: &EgoMotion) -> Option<&Doppler> {
+        self.doppler.get_or_init(|| Doppler::new(radar, &self.measured, motion)).as_ref()
+    }
+
+    /// How strong the echoes were, worked out once; `None` where the radar, which is that of the scan, doesn't measure
+    /// it.
+    pub fn strength(&self, radar: &Radar) -> Option<&Strength> {
+        self.strength.get_or_init(|| Strength::new(radar, &self.measured)).as_ref()
+    }
+
+    /// The detections in another frame; `None` where the coordinates are not finite.
+    pub fn moved(&self, to_from_here: &Transform) -> impl Iterator<Item = Option<Detection>> {
+        let rotation = to_from_here.rotation.to_rotation_matrix().into_inner();
+        let moved = move |detection: &Detection| detection.turned(to_from_here, &rotation);
+        self.detections.iter().map(move |detection| detection.as_ref().map(&moved))
     }
 
     /// Time of the scan, ns.

@@ -3,6 +3,7 @@
 
 mod association;
 mod camera;
+mod cells;
 mod doppler;
 mod floor;
 mod frame;

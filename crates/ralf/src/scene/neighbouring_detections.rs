@@ -1,7 +1,6 @@
 //! The detections of all radars around a scan, in its frame.
 
 use super::association::index_of;
-use super::doppler::Doppler;
 use super::frame::Frame;
 use super::located::Detection;
 use crate::space::NeighborIndex;
@@ -23,6 +22,8 @@ pub struct NeighbouringDetections {
     pub index: NeighborIndex,
     /// Of each scan of the window: the radar that made it, as its place in the rig.
     pub radars: Vec<usize>,
+    /// Of each scan of the window: whether the frame's own radar made it.
+    pub own: Vec<bool>,
     /// Of each scan of the window: its time after the frame's scan, s.
     pub seconds: Vec<f64>,
 }
@@ -34,21 +35,21 @@ impl NeighbouringDetections {
         let mut doppler = Vec::new();
         for (scan, neighbour) in (0u32..).zip(&frame.radar_window) {
             let radar = &frame.rig.radars[neighbour.radar];
-            let measured = &neighbour.scan.measured;
-            let rates = Doppler::new(radar, measured, frame.motion);
-            for (row, detection) in neighbour.scan.detections.iter().enumerate() {
+            let rates = neighbour.scan.doppler(radar, frame.motion);
+            for (row, detection) in neighbour.scan.moved(&neighbour.vehicle_from_scan).enumerate() {
                 let Some(detection) = detection else { continue };
-                detections.push(detection.moved(&neighbour.vehicle_from_scan));
+                detections.push(detection);
                 scans.push(scan);
                 rows.push(row as u32);
-                doppler.push(rates.as_ref().map_or(f64::NAN, |rates| rates.compensated[row]));
+                doppler.push(rates.map_or(f64::NAN, |rates| rates.compensated[row]));
             }
         }
         let index = index_of(detections.iter().map(|detection| &detection.position), frame.radar.elevation);
+        let own = frame.radar_window.iter().map(|neighbour| frame.is_own(neighbour.radar)).collect();
         let radars = frame.radar_window.iter().map(|neighbour| neighbour.radar).collect();
         let after = |t_ns: i64| (t_ns - frame.scan.t_ns()) as f64 * 1e-9;
         let seconds = frame.radar_window.iter().map(|neighbour| after(neighbour.scan.t_ns())).collect();
-        Self { detections, scans, rows, doppler, index, radars, seconds }
+        Self { detections, scans, rows, doppler, index, radars, own, seconds }
     }
 
     /// How many detections.

@@ -4,6 +4,7 @@
 //! reach in a direction is taken from what it detected there in the scans at hand.
 
 use super::neighbouring::NeighbouringScan;
+use super::rays::direction_of;
 use crate::sensors::{Radar, RadarScan};
 use crate::space::{Point, Transform};
 use std::f64::consts::PI;
@@ -53,12 +54,50 @@ impl<'a> Sight<'a> {
     /// Whether it could have seen a place, if something was there.
     pub fn covers(&self, p: &Point) -> bool {
         let p = self.radar_from_vehicle * p;
-        self.reach.0[sector(p.y.atan2(p.x))].is_some_and(|reach| p.coords.norm_squared() <= reach * reach)
+        self.reach.0[sector_of(&p)].is_some_and(|reach| p.coords.norm_squared() <= reach * reach)
     }
 }
 
 /// The sector of an azimuth, rad.
 fn sector(azimuth: f64) -> usize {
-    let turn = (azimuth + PI) / (2.0 * PI);
-    ((turn * SECTORS as f64) as usize).min(SECTORS - 1)
+    (sectors(azimuth) as usize).min(SECTORS - 1)
+}
+
+/// From the first sector's begin to an azimuth, rad, in sectors.
+fn sectors(azimuth: f64) -> f64 {
+    (azimuth + PI) / (2.0 * PI) * SECTORS as f64
+}
+
+/// The sector of a place as the radar sees it: by its exact azimuth where the quick one lies at a sector's border.
+fn sector_of(p: &Point) -> usize {
+    /// More than the quick azimuth is off by, in sectors.
+    const BORDER: f64 = 1e-3;
+    let quick = sectors(direction_of(p.x as f32, p.y as f32, 0.0).0.into());
+    let inside = quick > BORDER && (quick.fract() - 0.5).abs() < 0.5 - BORDER;
+    if inside { quick as usize } else { sector(p.y.atan2(p.x)) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn a_sector_is_that_of_the_exact_azimuth(
+            x in -9.0f64..9.0, y in -9.0f64..9.0, border in -18i32..19, aside in -1e-5f64..1e-5,
+        ) {
+            let azimuth = f64::from(border) * PI / 18.0 + aside;
+            for (x, y) in [(x, y), (0.0, y), (x, 0.0), (-x, -0.0), (20.0 * azimuth.cos(), 20.0 * azimuth.sin())] {
+                prop_assert_eq!(sector_of(&Point::new(x, y, 1.0)), sector(y.atan2(x)));
+            }
+        }
+    }
+
+    #[test]
+    fn what_is_no_direction_has_a_sector_all_the_same() {
+        for (x, y) in [(0.0f64, 0.0f64), (-0.0, 0.0), (-0.0, -0.0), (f64::NAN, 1.0), (1e300, -1e300)] {
+            assert_eq!(sector_of(&Point::new(x, y, 0.0)), sector(y.atan2(x)));
+        }
+    }
 }

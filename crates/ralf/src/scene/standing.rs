@@ -21,7 +21,7 @@ pub(super) fn standing_points(points: &[[f32; 3]], floor: &Floor) -> Vec<[f32; 3
         let [x, y, z] = point;
         // What is not finite, or lies beyond the floor's border, has no floor.
         let Some(below) = floor.at(x, y) else { continue };
-        if x.hypot(y) < DENSE && z - below < GROUND_BAND {
+        if x * x + y * y < DENSE * DENSE && z - below < GROUND_BAND {
             continue;
         }
         let voxel = point.map(|v| (v / VOXEL).floor() as i16);

@@ -1,5 +1,6 @@
 //! What the ground is like: how bright it is to the LiDAR, and how rough. Grass differs from asphalt in both.
 
+use super::cells::Cells;
 use super::ground::Floor;
 use crate::space::Transform;
 use nalgebra::{Isometry3, Point3};
@@ -8,8 +9,7 @@ use nalgebra::{Isometry3, Point3};
 const CELL: f32 = 0.5;
 /// Farther than this beams meet the ground too seldom, m.
 const REACH: f32 = 40.0;
-/// Cells along an edge.
-const CELLS: usize = (2.0 * REACH / CELL) as usize;
+const CELLS: Cells = Cells::new(REACH, CELL);
 /// A point lower than this above the lowest one near by is ground, m.
 const GROUND_BAND: f32 = 0.15;
 /// Brightness is told apart within rings of this width, m: it falls with range and with the angle of incidence.
@@ -62,12 +62,12 @@ pub struct Terrain {
 impl Terrain {
     /// The terrain of the patches of LiDAR scans, each with the way to one frame.
     pub(super) fn new<'a>(scans: impl Iterator<Item = (Transform, &'a [Patch])>) -> Self {
-        let mut cells = vec![Sums::default(); CELLS * CELLS];
+        let mut cells = vec![Sums::default(); CELLS.count()];
         for (to_from_scan, patches) in scans {
             let to_from_scan: Isometry3<f32> = to_from_scan.cast();
             for patch in patches {
                 let place = to_from_scan * Point3::from(patch.place);
-                if let Some(cell) = cell_of(place.x, place.y) {
+                if let Some(cell) = CELLS.at(place.x, place.y) {
                     cells[cell].add(&patch.sums);
                 }
             }
@@ -78,12 +78,12 @@ impl Terrain {
     /// What the ground within about a metre of a place is like; `None` where it was not seen, or all of it is as
     /// bright.
     pub fn at(&self, x: f64, y: f64) -> Option<Texture> {
-        let cell = cell_of(x as f32, y as f32)?;
-        let (row, column) = (cell / CELLS, cell % CELLS);
+        let cell = CELLS.at(x as f32, y as f32)?;
+        let (row, column) = (cell / CELLS.along, cell % CELLS.along);
         let mut sums = Sums::default();
-        for row in row.saturating_sub(AROUND)..=(row + AROUND).min(CELLS - 1) {
-            for column in column.saturating_sub(AROUND)..=(column + AROUND).min(CELLS - 1) {
-                sums.add(&self.cells[row * CELLS + column]);
+        for row in row.saturating_sub(AROUND)..=(row + AROUND).min(CELLS.along - 1) {
+            for column in column.saturating_sub(AROUND)..=(column + AROUND).min(CELLS.along - 1) {
+                sums.add(&self.cells[row * CELLS.along + column]);
             }
         }
         sums.texture()
@@ -114,7 +114,7 @@ impl Sums {
 pub(super) fn patches(points: &[[f32; 3]], intensity: &[f32], floor: &Floor) -> Vec<Patch> {
     let ground = ground_points(points, intensity, floor);
     let rings = Rings::new(&ground);
-    let mut cells = vec![Cell::default(); CELLS * CELLS];
+    let mut cells = vec![Cell::default(); CELLS.count()];
     for point in &ground {
         if let Some(brightness) = rings.brightness(point) {
             cells[point.cell].add(point.height, brightness);
@@ -133,9 +133,14 @@ struct GroundPoint {
 fn ground_points(points: &[[f32; 3]], intensity: &[f32], floor: &Floor) -> Vec<GroundPoint> {
     let mut ground = Vec::new();
     for (&[x, y, z], &intensity) in points.iter().zip(intensity) {
-        let Some((cell, below)) = cell_of(x, y).zip(floor.at(x, y)) else { continue };
+        let Some((cell, below)) = CELLS.at(x, y).zip(floor.at(x, y)) else { continue };
         if (z - below).abs() < GROUND_BAND && intensity.is_finite() {
-            ground.push(GroundPoint { cell, ring: (x.hypot(y) / RING) as usize, height: z, intensity });
+            ground.push(GroundPoint {
+                cell,
+                ring: ((x * x + y * y).sqrt() / RING) as usize,
+                height: z,
+                intensity,
+            });
         }
     }
     ground
@@ -214,14 +219,8 @@ impl Cell {
             rough_points: if rough { self.points - 1.0 } else { 0.0 },
             rough: if rough { squares } else { 0.0 },
         };
-        Some(Patch { place: [middle(cell % CELLS), middle(cell / CELLS), self.first], sums })
+        Some(Patch { place: [middle(cell % CELLS.along), middle(cell / CELLS.along), self.first], sums })
     }
-}
-
-fn cell_of(x: f32, y: f32) -> Option<usize> {
-    let [column, row] = [x, y].map(|v| (v + REACH) / CELL);
-    let inside = |v: f32| (0.0..CELLS as f32).contains(&v);
-    (inside(column) && inside(row)).then(|| row as usize * CELLS + column as usize)
 }
 
 #[cfg(test)]

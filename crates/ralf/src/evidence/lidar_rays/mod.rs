@@ -4,12 +4,13 @@
 //! Each scan of the LiDAR window votes, weighted towards the middle of the cone in which the detection can lie. *In
 //! free space*, *on a surface*, *occluded* and *not looked at* follow from the votes.
 
+mod tally;
 mod votes;
 
 use super::columns::{set, unobserved};
 use super::probe::Probe;
 use super::{Feature, Piece, Surroundings, Values};
-use crate::scene::LidarSnapshot;
+use crate::scene::{LidarSnapshot, direction_of};
 use crate::space::Transform;
 use votes::{Sweep, Votes};
 
@@ -141,14 +142,15 @@ fn observe(surroundings: &Surroundings) -> Vec<Values> {
     let Some(window) = &frame.lidar_window else { return columns };
     let window_from_vehicle = window.vehicle_from_window.inverse();
     let probes = surroundings.probes();
+    let order = by_direction(probes);
     let nearest = frame.lidar.as_ref().map(|view| {
         let window_from_moment = window_from_vehicle * view.vehicle_from_moment;
-        vote(&sweeps_of(&view.moment, window_from_moment, RAYS_NEAREST), probes)
+        vote(sweeps_of(&view.moment, window_from_moment, RAYS_NEAREST), probes, &order)
     });
     // Scan by scan, so that the rays of one stay at hand.
     let mut around = Vec::with_capacity(window.window.views.len());
     for view in &window.window.views {
-        around.push(vote(&sweeps_of(&view.moment, view.vehicle_from_moment, RAYS), probes));
+        around.push(vote(sweeps_of(&view.moment, view.vehicle_from_moment, RAYS), probes, &order));
     }
     for (i, _) in probes.iter().enumerate().filter(|(_, probe)| probe.is_some()) {
         let around: Vec<Votes> = around.iter().map(|votes| votes[i]).collect();
@@ -163,15 +165,23 @@ fn sweeps_of(moment: &LidarSnapshot, window_from_moment: Transform, rays: usize)
     sweeps.map(|sweep| Sweep::new(sweep, window_from_moment * sweep.moment_from_lidar, rays)).collect()
 }
 
+/// The probes that have a place in the order of their azimuth: rays in one direction lie side by side in memory.
+fn by_direction(probes: &[Option<Probe>]) -> Vec<usize> {
+    let azimuth = |probe: &Probe| {
+        let p = probe.detection.position;
+        direction_of(p.x as f32, p.y as f32, 0.0).0
+    };
+    let known = probes.iter().enumerate().filter_map(|(i, probe)| Some((azimuth(probe.as_ref()?), i)));
+    let mut order: Vec<(f32, usize)> = known.collect();
+    order.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
+    order.into_iter().map(|(_, i)| i).collect()
+}
+
 /// The votes of all LiDARs of one moment on each of the detections; nobody votes on one without a position.
-fn vote(sweeps: &[Sweep], probes: &[Option<Probe>]) -> Vec<Votes> {
-    let mut all = Vec::with_capacity(probes.len());
-    for probe in probes {
-        let mut votes = Votes::default();
-        if let Some(probe) = probe {
-            sweeps.iter().for_each(|sweep| votes.add(&sweep.vote(probe)));
-        }
-        all.push(votes);
+fn vote(mut sweeps: Vec<Sweep>, probes: &[Option<Probe>], order: &[usize]) -> Vec<Votes> {
+    let mut all = vec![Votes::default(); probes.len()];
+    for (i, probe) in order.iter().filter_map(|i| Some((*i, probes[*i].as_ref()?))) {
+        sweeps.iter_mut().for_each(|sweep| all[i].add(&sweep.vote(probe)));
     }
     all
 }

@@ -20,8 +20,7 @@ impl MovedCloud {
     pub(super) fn new(step: &ScanStep, elevation: Elevation, sources: TrackingSources) -> Self {
         let mut points = Vec::new();
         for NeighbouringScan { scan, vehicle_from_scan, .. } in scans_of(step, sources) {
-            points
-                .extend(scan.detections.iter().flatten().map(|detection| detection.moved(vehicle_from_scan)));
+            points.extend(scan.moved(vehicle_from_scan).flatten());
         }
         let index = index_of(points.iter().map(|point| &point.position), elevation);
         let max_variance = points.iter().map(Detection::total_variance).fold(0.0, f64::max);

@@ -1,14 +1,21 @@
 //! What stands above each place.
 
+use super::super::cells::Cells;
 use super::super::standing::VOXEL;
 use super::{LOWEST, REACH};
 
 /// Edge of a column, m.
 const CELL: f32 = 0.25;
+pub(super) const GRID: Cells = Cells::new(REACH, CELL);
 /// Columns along an edge.
-const CELLS: usize = (2.0 * REACH / CELL) as usize;
+const CELLS: usize = GRID.along;
 /// Words of a row of bits.
 const WORDS: usize = CELLS.div_ceil(64);
+
+/// Columns along the edge of a block, which is a metre long.
+const BLOCK: usize = 4;
+/// Blocks along an edge.
+const BLOCKS: usize = CELLS / BLOCK;
 
 /// What fills a column.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -28,6 +35,8 @@ pub struct ColumnGrid {
     voxels: Vec<u64>,
     /// A bit for each column that has any.
     filled: Vec<u64>,
+    /// Of each block: how many blocks away, in row or column, the next is in which something stands.
+    away: Vec<u8>,
 }
 
 impl ColumnGrid {
@@ -35,7 +44,11 @@ impl ColumnGrid {
     pub const CELL: f64 = CELL as f64;
 
     pub(super) fn empty() -> Self {
-        Self { voxels: vec![0; CELLS * CELLS], filled: vec![0; CELLS * WORDS] }
+        Self {
+            voxels: vec![0; CELLS * CELLS],
+            filled: vec![0; CELLS * WORDS],
+            away: vec![0; BLOCKS * BLOCKS],
+        }
     }
 
     /// Fills the voxel of a column at a level.
@@ -50,16 +63,47 @@ impl ColumnGrid {
         self.filled[cell / CELLS * WORDS + cell % CELLS / 64] &= !(1 << (cell % 64));
     }
 
+    /// To be called when nothing more is filled or emptied: [`Self::clearance`] is 0 before.
+    pub(super) fn finish(&mut self) {
+        self.away = vec![u8::MAX; BLOCKS * BLOCKS];
+        for row in 0..CELLS {
+            for column in Bits::of(&self.filled[row * WORDS..][..WORDS], 0, CELLS) {
+                self.away[row / BLOCK * BLOCKS + column / BLOCK] = 0;
+            }
+        }
+        // There and back, as ways lead from block to block.
+        let mut pull = |row: usize, column: usize, [down, right]: [isize; 2]| {
+            let block = row * BLOCKS + column;
+            for [row_step, column_step] in [[0, right], [down, right], [down, 0], [down, -right]] {
+                let beside = row.checked_add_signed(row_step).zip(column.checked_add_signed(column_step));
+                if let Some((row, column)) = beside.filter(|(row, column)| *row.max(column) < BLOCKS) {
+                    let next = self.away[row * BLOCKS + column].saturating_add(1);
+                    self.away[block] = self.away[block].min(next);
+                }
+            }
+        };
+        let blocks = || (0..BLOCKS).flat_map(|row| (0..BLOCKS).map(move |column| (row, column)));
+        blocks().for_each(|(row, column)| pull(row, column, [-1, -1]));
+        blocks().rev().for_each(|(row, column)| pull(row, column, [1, 1]));
+    }
+
+    /// No column is filled within this of a place along each axis, m; it may be more. 0 beyond the map.
+    pub fn clearance(&self, x: f64, y: f64) -> f64 {
+        let Some(cell) = GRID.at(x as f32, y as f32) else { return 0.0 };
+        let away = self.away[cell / CELLS / BLOCK * BLOCKS + cell % CELLS / BLOCK];
+        f64::from(away.saturating_sub(1)) * BLOCK as f64 * Self::CELL
+    }
+
     /// What stands at a place; `None` beyond the map, and where nothing stands.
     pub fn at(&self, x: f64, y: f64) -> Option<Column> {
-        let cell = cell_of(x as f32, y as f32)?;
+        let cell = GRID.at(x as f32, y as f32)?;
         let filled = self.filled[cell / CELLS * WORDS + cell % CELLS / 64] >> (cell % 64) & 1;
         (filled != 0).then(|| column(self.voxels[cell]))
     }
 
     /// Whether the map reaches to a place.
     pub fn covers(x: f64, y: f64) -> bool {
-        cell_of(x as f32, y as f32).is_some()
+        GRID.at(x as f32, y as f32).is_some()
     }
 
     /// The filled columns whose middle is at most a distance from a place along each axis, m, with the way there.
@@ -126,13 +170,3 @@ fn column(voxels: u64) -> Column {
 fn middle(cell: usize) -> f64 {
     (cell as f64 + 0.5) * ColumnGrid::CELL - f64::from(REACH)
 }
-
-/// The column at a place; `None` beyond the map.
-pub(super) fn cell_of(x: f32, y: f32) -> Option<usize> {
-    let [column, row] = [x, y].map(|v| (v + REACH) / CELL);
-    let inside = |v: f32| (0.0..CELLS as f32).contains(&v);
-    (inside(column) && inside(row)).then(|| row as usize * CELLS + column as usize)
-}
-
-/// How many columns there are.
-pub(super) const COLUMNS: usize = CELLS * CELLS;

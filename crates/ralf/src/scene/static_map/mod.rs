@@ -52,6 +52,7 @@ impl StaticMap {
         for cell in &moved {
             columns.clear(*cell as usize);
         }
+        columns.finish();
         let mut cells = cells.iter();
         points.retain(|_| cells.next().is_none_or(|cell| moved.binary_search(cell).is_err()));
         let ids: Vec<u32> = (0..points.len() as u32).collect();
@@ -87,7 +88,7 @@ impl Voxels {
             return;
         }
         *filled |= 1 << level;
-        if let Some(cell) = columns::cell_of(point[0], point[1]) {
+        if let Some(cell) = columns::GRID.at(point[0], point[1]) {
             self.points.push(point);
             self.cells.push(cell as u32);
             self.columns.add(cell, level);

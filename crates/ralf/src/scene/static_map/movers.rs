@@ -1,7 +1,7 @@
 //! What moved while the scans of a map were made: other scans look through where it was.
 
 use super::super::lidar::LidarView;
-use super::super::rays::{RayTable, direction_of};
+use super::super::rays::{RayTable, directions_of};
 use super::columns;
 use nalgebra::{Isometry3, Point3};
 use std::collections::BTreeSet;
@@ -17,35 +17,37 @@ const BEYOND_SHARE: f32 = 0.02;
 /// The columns whose lowest point at least two scans of the window look through, or the only other one; ascending.
 /// `cells` gives each point's column.
 pub(super) fn moved_columns(points: &[[f32; 3]], cells: &[u32], views: &[LidarView]) -> Vec<u32> {
-    let witnesses = witnesses(views);
-    let enough = AGREEING.min(views.len().saturating_sub(1)).max(1);
-    let mut moved = Vec::new();
-    for (cell, point) in lowest_points(points, cells) {
-        let through = witnesses.iter().filter(|witness| witness.looks_through(&point)).count();
-        if through >= enough {
-            moved.push(cell);
+    let (columns, lowest) = lowest_points(points, cells);
+    let mut through = vec![0; lowest.len()];
+    for witness in witnesses(views) {
+        for (count, looks) in through.iter_mut().zip(witness.looks_through(&lowest)) {
+            *count += usize::from(looks);
         }
     }
+    let enough = AGREEING.min(views.len().saturating_sub(1)).max(1);
+    let moved = columns.into_iter().zip(through).filter(|(_, through)| *through >= enough);
+    let mut moved: Vec<u32> = moved.map(|(column, _)| column).collect();
     moved.sort_unstable();
     moved
 }
 
-/// The lowest point of each column.
-fn lowest_points(points: &[[f32; 3]], cells: &[u32]) -> Vec<(u32, Point3<f32>)> {
-    let mut places = vec![0u32; columns::COLUMNS];
-    let mut lowest: Vec<(u32, Point3<f32>)> = Vec::new();
+/// The columns that have points, and the lowest one of each.
+fn lowest_points(points: &[[f32; 3]], cells: &[u32]) -> (Vec<u32>, Vec<Point3<f32>>) {
+    let mut places = vec![0u32; columns::GRID.count()];
+    let (mut found, mut lowest): (Vec<u32>, Vec<Point3<f32>>) = (Vec::new(), Vec::new());
     for (point, &cell) in points.iter().zip(cells) {
         let place = &mut places[cell as usize];
         if *place == 0 {
-            lowest.push((cell, Point3::from(*point)));
+            found.push(cell);
+            lowest.push(Point3::from(*point));
             *place = lowest.len() as u32;
         }
-        let known = &mut lowest[*place as usize - 1].1;
+        let known = &mut lowest[*place as usize - 1];
         if point[2] < known.z {
             *known = Point3::from(*point);
         }
     }
-    lowest
+    (found, lowest)
 }
 
 /// The LiDARs of one scan.
@@ -69,14 +71,17 @@ fn witnesses(views: &[LidarView]) -> Vec<Witness<'_>> {
 }
 
 impl Witness<'_> {
-    /// Whether all rays of one of the LiDARs in the direction of a point end beyond it.
-    fn looks_through(&self, point: &Point3<f32>) -> bool {
-        self.lidars.iter().any(|(lidar_from_map, rays)| {
-            let p = lidar_from_map * point;
-            let (azimuth, elevation, range) = direction_of(p.x, p.y, p.z);
-            let there = rays.bin(azimuth, elevation);
-            let far = range * (1.0 + BEYOND_SHARE) + BEYOND;
-            !there.is_empty() && there.iter().all(|ray| ray.range > far)
-        })
+    /// Of each point, whether all rays of one of the LiDARs in its direction end beyond it.
+    fn looks_through(&self, points: &[Point3<f32>]) -> Vec<bool> {
+        let mut all = vec![false; points.len()];
+        for (lidar_from_map, rays) in &self.lidars {
+            let moved: Vec<[f32; 3]> = points.iter().map(|point| (lidar_from_map * point).into()).collect();
+            for (looks, (azimuth, elevation, range)) in all.iter_mut().zip(directions_of(&moved)) {
+                let there = rays.bin(azimuth, elevation);
+                let far = range * (1.0 + BEYOND_SHARE) + BEYOND;
+                *looks |= !there.is_empty() && there.iter().all(|ray| ray.range > far);
+            }
+        }
+        all
     }
 }

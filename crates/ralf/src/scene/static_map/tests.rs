@@ -93,7 +93,7 @@ fn columns_around_a_place_are_all_that_are_near() {
     let places: Vec<[f32; 2]> =
         (0..200).map(|i| [((i * 37) % 83) as f32 * 0.3 - 80.0, ((i * 53) % 97) as f32 * 0.2 - 5.0]).collect();
     for [x, y] in &places {
-        grid.add(columns::cell_of(*x, *y).unwrap(), 5);
+        grid.add(columns::GRID.at(*x, *y).unwrap(), 5);
     }
     let filled = grid.around(0.0, 0.0, 200.0).count();
     assert!(filled > 100);
@@ -107,4 +107,26 @@ fn columns_around_a_place_are_all_that_are_near() {
         expected.sort_by(|a, b| a.partial_cmp(b).unwrap());
         assert_eq!(near.len(), expected.len());
     }
+}
+
+#[test]
+fn nothing_stands_within_the_clearance() {
+    let mut grid = ColumnGrid::empty();
+    assert_eq!(grid.clearance(0.0, 0.0), 0.0, "nothing is known before the end");
+    for i in 0..60 {
+        let (x, y) = (((i * 37) % 83) as f32 * 0.9 - 40.0, ((i * 53) % 97) as f32 * 0.8 - 35.0);
+        grid.add(columns::GRID.at(x, y).unwrap(), 5);
+    }
+    grid.finish();
+    let filled: Vec<[f64; 2]> = grid.around(0.0, 0.0, 200.0).map(|(place, _)| place).collect();
+    for i in 0..4000 {
+        let (x, y) = (f64::from(i % 160) - 79.87, f64::from(i * 7 % 1600) * 0.1 - 79.93);
+        // A column reaches half its edge beyond its middle.
+        let away = |[a, b]: &[f64; 2]| (a - x).abs().max((b - y).abs()) - 0.5 * ColumnGrid::CELL;
+        let nearest = filled.iter().map(away).fold(f64::INFINITY, f64::min).max(0.0);
+        let clearance = grid.clearance(x, y);
+        // What is known to a block on either side is off by two metres at most.
+        assert!(clearance <= nearest + 1e-4 && clearance > nearest - 2.3, "{x} {y}: {clearance} {nearest}");
+    }
+    assert_eq!(grid.clearance(90.0, 0.0), 0.0);
 }

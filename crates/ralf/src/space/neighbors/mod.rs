@@ -131,24 +131,54 @@ impl NeighborIndex {
         }
     }
 
+    /// The identities of all points in the order in which they are searched: what lies side by side is mostly near.
+    pub fn ids(&self) -> &[u32] {
+        &self.ids
+    }
+
     /// The identities of all points at most `radius`, m, from a place, seen from above, in an order that depends on the
     /// points alone. `found` is overwritten.
-    pub fn beside(&self, [x, y]: [f32; 2], radius: f32, found: &mut Vec<u32>) {
+    pub fn beside(&self, place: [f32; 2], radius: f32, found: &mut Vec<u32>) {
         found.clear();
-        if self.is_empty() || !(x.is_finite() && y.is_finite() && radius >= 0.0) {
-            return;
-        }
-        let wide = radius + SLACK;
-        let [left, bottom] = self.place_of(x - wide, y - wide).cell;
-        let [right, top] = self.place_of(x + wide, y + wide).cell;
-        for row in bottom..=top {
-            for place in self.run(row, left, right) {
-                let [dx, dy] = [self.xs[place] - x, self.ys[place] - y];
-                if dx * dx + dy * dy <= radius * radius {
-                    found.push(self.ids[place]);
+        self.each_beside(place, radius, |at, _| found.push(self.ids[at]));
+    }
+
+    /// Visits what [`Self::beside`] finds: each point's place in [`Self::ids`], and its squared distance, m^2.
+    pub fn each_beside(&self, [x, y]: [f32; 2], radius: f32, mut visit: impl FnMut(usize, f32)) {
+        for run in self.runs_around([x, y], radius) {
+            let points = self.xs[run.clone()].iter().zip(&self.ys[run.clone()]);
+            for (at, (px, py)) in run.zip(points) {
+                let [dx, dy] = [px - x, py - y];
+                let distance_squared = dx * dx + dy * dy;
+                if distance_squared <= radius * radius {
+                    visit(at, distance_squared);
                 }
             }
         }
+    }
+
+    /// How many points [`Self::beside`] finds.
+    pub fn count_beside(&self, [x, y]: [f32; 2], radius: f32) -> usize {
+        let mut count = 0;
+        for run in self.runs_around([x, y], radius) {
+            let points = self.xs[run.clone()].iter().zip(&self.ys[run]);
+            let within = points.map(|(px, py)| {
+                let [dx, dy] = [px - x, py - y];
+                u32::from(dx * dx + dy * dy <= radius * radius)
+            });
+            count += within.sum::<u32>() as usize;
+        }
+        count
+    }
+
+    /// Points of all cells that reach within a distance, m, of a place, row by row; none around what is no place.
+    fn runs_around(&self, [x, y]: [f32; 2], radius: f32) -> impl Iterator<Item = Range<usize>> {
+        let anywhere = !self.is_empty() && x.is_finite() && y.is_finite() && radius >= 0.0;
+        let wide = radius + SLACK;
+        let [left, bottom] = self.place_of(x - wide, y - wide).cell;
+        let [right, top] = self.place_of(x + wide, y + wide).cell;
+        let rows = if anywhere { bottom..top + 1 } else { 0..0 };
+        rows.map(move |row| self.run(row, left, right))
     }
 
     /// Points of the cells `left..=right` of a row.

@@ -123,11 +123,10 @@ impl<'a> Search<'a> {
         if run.len() < FEW {
             return self.scan_few(index, run);
         }
-        let mut begin = run.start;
-        while begin < run.end {
-            let end = (begin + LANES).min(run.end);
-            self.scan_some(index, begin..end);
-            begin = end;
+        let points = index.xs[run.clone()].chunks(LANES).zip(index.ys[run.clone()].chunks(LANES));
+        let points = points.zip(index.zs[run.clone()].chunks(LANES));
+        for (((xs, ys), zs), ids) in points.zip(index.ids[run.clone()].chunks(LANES)) {
+            self.scan_some(xs, ys, zs, ids);
         }
     }
 
@@ -147,17 +146,16 @@ impl<'a> Search<'a> {
     }
 
     /// At most [`LANES`] points: all distances first, which the compiler turns into vector instructions.
-    fn scan_some(&mut self, index: &NeighborIndex, run: Range<usize>) {
+    fn scan_some(&mut self, xs: &[f32], ys: &[f32], zs: &[f32], ids: &[u32]) {
         let mut distances = [f32::INFINITY; LANES];
-        let points = index.xs[run.clone()].iter().zip(&index.ys[run.clone()]).zip(&index.zs[run.clone()]);
-        for (distance, ((x, y), z)) in distances.iter_mut().zip(points) {
+        for (distance, ((x, y), z)) in distances.iter_mut().zip(xs.iter().zip(ys).zip(zs)) {
             *distance = self.distance_squared(*x, *y, *z);
         }
         let hits = distances.iter().fold(0, |hits, distance| hits | u32::from(*distance <= self.worst));
         if hits == 0 {
             return;
         }
-        for (distance_squared, id) in distances.into_iter().zip(&index.ids[run]) {
+        for (distance_squared, id) in distances.into_iter().zip(ids) {
             if distance_squared <= self.worst {
                 self.enter(Neighbor { id: *id, distance_squared });
             }

@@ -77,6 +77,7 @@ fn check_beside(points: &[[f32; 3]], queries: &[[f32; 3]], radius: f32) {
     let mut found = Vec::new();
     for &[x, y, _] in queries {
         index.beside([x, y], radius, &mut found);
+        assert_eq!(index.count_beside([x, y], radius), found.len());
         found.sort_unstable();
         assert_eq!(found, beside(points, [x, y], radius), "query {x} {y}, radius {radius}");
     }

@@ -6,6 +6,7 @@
 
 mod raster;
 
+use super::super::cells::Cells;
 use super::plane::Plane;
 use crate::space::{Point, Vector};
 use raster::Raster;
@@ -14,8 +15,7 @@ use raster::Raster;
 const CELL: f32 = 0.5;
 /// The surface reaches so far from the frame's origin in x and in y, m.
 const REACH: f32 = 80.0;
-/// Cells along an edge.
-const CELLS: usize = (2.0 * REACH / CELL) as usize;
+const CELLS: Cells = Cells::new(REACH, CELL);
 /// No ground rises or falls by more than this at the vehicle, m, and besides by so much per metre of distance.
 const MAX_OFFSET: f32 = 2.0;
 const MAX_SLOPE: f32 = 0.2;
@@ -43,12 +43,12 @@ pub struct GroundSurface {
 impl GroundSurface {
     /// The surface below points (m, z up; those that are not finite are skipped). `None` where none can be ground.
     pub fn fit(points: &[[f32; 3]]) -> Option<Self> {
-        let mut lowest = Raster::filled(CELLS, f32::INFINITY);
+        let mut lowest = Raster::filled(CELLS.along, f32::INFINITY);
         for &point in points {
-            let Some(cell) = admissible(point).and_then(|[x, y, _]| cell_of(x, y)) else { continue };
+            let Some(cell) = admissible(point).and_then(|[x, y, _]| CELLS.at(x, y)) else { continue };
             lowest.values[cell] = lowest.values[cell].min(point[2]);
         }
-        let known: Vec<usize> = (0..CELLS * CELLS).filter(|cell| lowest.values[*cell].is_finite()).collect();
+        let known: Vec<usize> = (0..CELLS.count()).filter(|cell| lowest.values[*cell].is_finite()).collect();
         if known.is_empty() {
             return None;
         }
@@ -62,9 +62,9 @@ impl GroundSurface {
     /// The lowest of the points that lie in the same cell, one for each cell that has any: a surface fitted to these is
     /// the one fitted to all.
     pub fn lowest_points(points: &[[f32; 3]]) -> Vec<[f32; 3]> {
-        let mut lowest = vec![u32::MAX; CELLS * CELLS];
+        let mut lowest = vec![u32::MAX; CELLS.count()];
         for (id, &point) in (0u32..).zip(points) {
-            let Some(cell) = admissible(point).and_then(|[x, y, _]| cell_of(x, y)) else { continue };
+            let Some(cell) = admissible(point).and_then(|[x, y, _]| CELLS.at(x, y)) else { continue };
             if lowest[cell] == u32::MAX || point[2] < points[lowest[cell] as usize][2] {
                 lowest[cell] = id;
             }
@@ -74,9 +74,9 @@ impl GroundSurface {
 
     /// The lowest of all points within about a metre, everywhere.
     pub(crate) fn lowest_within_a_metre(lowest: &[[f32; 3]]) -> Floor {
-        let mut raster = Raster::filled(CELLS, f32::INFINITY);
+        let mut raster = Raster::filled(CELLS.along, f32::INFINITY);
         for &[x, y, z] in lowest {
-            if let Some(cell) = cell_of(x, y) {
+            if let Some(cell) = CELLS.at(x, y) {
                 raster.values[cell] = raster.values[cell].min(z);
             }
         }
@@ -85,7 +85,7 @@ impl GroundSurface {
 
     /// Height of the ground in the cell of a place, m; `None` far from all ground that was seen.
     pub(crate) fn cell_height(&self, x: f32, y: f32) -> Option<f32> {
-        let cell = cell_of(x, y)?;
+        let cell = CELLS.at(x, y)?;
         (self.unseen.values[cell] <= KNOWN_WITHIN).then(|| self.heights.values[cell])
     }
 
@@ -102,13 +102,13 @@ impl GroundSurface {
     /// The difference of the highest and the lowest ground within a cell of a place, m: kerbs, walls' feet, slopes.
     /// `None` far from all ground that was seen.
     pub fn step_at(&self, x: f64, y: f64) -> Option<f64> {
-        let cell = cell_of(x as f32, y as f32)?;
+        let cell = CELLS.at(x as f32, y as f32)?;
         self.is_known(x, y).then(|| f64::from(self.steps.values[cell]))
     }
 
     /// How far a place is from the nearest cell whose ground was seen, m; `None` beyond the surface.
     pub fn unseen_at(&self, x: f64, y: f64) -> Option<f64> {
-        cell_of(x as f32, y as f32).map(|cell| f64::from(self.unseen.values[cell]))
+        CELLS.at(x as f32, y as f32).map(|cell| f64::from(self.unseen.values[cell]))
     }
 
     /// The plane that touches the ground at a place; `None` far from all ground that was seen.
@@ -124,7 +124,7 @@ impl GroundSurface {
     }
 
     fn is_known(&self, x: f64, y: f64) -> bool {
-        cell_of(x as f32, y as f32).is_some_and(|cell| self.unseen.values[cell] <= KNOWN_WITHIN)
+        CELLS.at(x as f32, y as f32).is_some_and(|cell| self.unseen.values[cell] <= KNOWN_WITHIN)
     }
 }
 
@@ -137,25 +137,19 @@ pub(crate) struct Floor {
 impl Floor {
     /// The lowest height near a place, m; infinite where there is none, `None` beyond the border.
     pub(crate) fn at(&self, x: f32, y: f32) -> Option<f32> {
-        cell_of(x, y).map(|cell| self.heights.values[cell])
+        CELLS.at(x, y).map(|cell| self.heights.values[cell])
     }
 }
 
 /// The point, if it can be ground.
 fn admissible(point: [f32; 3]) -> Option<[f32; 3]> {
     let [x, y, z] = point;
-    (z.abs() <= MAX_OFFSET + MAX_SLOPE * x.hypot(y)).then_some(point)
+    (z.abs() <= MAX_OFFSET + MAX_SLOPE * (x * x + y * y).sqrt()).then_some(point)
 }
 
 /// Where a coordinate lies, in cells from the middle of the first one.
 fn place(coordinate: f64) -> f64 {
     (coordinate + f64::from(REACH)) / f64::from(CELL) - 0.5
-}
-
-fn cell_of(x: f32, y: f32) -> Option<usize> {
-    let [column, row] = [x, y].map(|v| (v + REACH) / CELL);
-    let inside = |v: f32| (0.0..CELLS as f32).contains(&v);
-    (inside(column) && inside(row)).then(|| row as usize * CELLS + column as usize)
 }
 
 #[cfg(test)]

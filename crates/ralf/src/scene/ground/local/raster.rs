@@ -20,16 +20,18 @@ impl Raster {
         let mut around: Vec<f32> = Vec::new();
         for &cell in known {
             let (row, column) = (cell / self.size, cell % self.size);
-            around.clear();
-            for row in row.saturating_sub(radius)..=(row + radius).min(self.size - 1) {
-                let begin = row * self.size + column.saturating_sub(radius);
-                let end = row * self.size + (column + radius).min(self.size - 1);
-                around.extend(self.values[begin..=end].iter().filter(|value| value.is_finite()));
-            }
             let value = self.values[cell];
-            // No median of values that are all near is far.
-            if around.iter().all(|other| (other - value).abs() <= slack) {
+            let columns = column.saturating_sub(radius)..(column + radius).min(self.size - 1) + 1;
+            let rows = row.saturating_sub(radius)..(row + radius).min(self.size - 1) + 1;
+            let row_of = |row: usize| &self.values[row * self.size..][columns.clone()];
+            // No median of values that are all near is far. What is not known is infinite.
+            let far = |other: &&f32| (**other - value).abs() > slack && other.is_finite();
+            if rows.clone().all(|row| row_of(row).iter().filter(far).count() == 0) {
                 continue;
+            }
+            around.clear();
+            for row in rows {
+                around.extend(row_of(row).iter().filter(|value| value.is_finite()));
             }
             let middle = around.len() / 2;
             let median = *around.select_nth_unstable_by(middle, f32::total_cmp).1;
@@ -41,21 +43,32 @@ impl Raster {
     /// Every cell with the value of the finite one nearest to it, and how far that is away, in cells. Ways lead from
     /// cell to cell, so that distances are up to 8 % too long.
     pub(super) fn filled_from_nearest(&self) -> (Self, Self) {
-        let away = |value: &f32| if value.is_finite() { 0.0 } else { f32::INFINITY };
-        let away = Self { size: self.size, values: self.values.iter().map(away).collect() };
-        let mut spread = Spread { value: self.clone(), away };
+        // With a border of cells that know nothing.
+        let wide = self.size + 2;
+        let mut spread =
+            Spread { values: vec![f32::INFINITY; wide * wide], away: vec![f32::INFINITY; wide * wide] };
+        for (row, values) in self.values.chunks(self.size).enumerate() {
+            let begin = (row + 1) * wide + 1;
+            spread.values[begin..begin + self.size].copy_from_slice(values);
+            for (away, value) in spread.away[begin..].iter_mut().zip(values) {
+                *away = if value.is_finite() { 0.0 } else { f32::INFINITY };
+            }
+        }
         let diagonal = std::f32::consts::SQRT_2;
-        for row in 0..self.size {
-            for column in 0..self.size {
-                spread.pull(row, column, [(0, -1, 1.0), (-1, -1, diagonal), (-1, 0, 1.0), (-1, 1, diagonal)]);
-            }
+        for cell in spread.inner(self.size) {
+            let above = cell - wide;
+            spread.pull(cell, [(cell - 1, 1.0), (above - 1, diagonal), (above, 1.0), (above + 1, diagonal)]);
         }
-        for row in (0..self.size).rev() {
-            for column in (0..self.size).rev() {
-                spread.pull(row, column, [(0, 1, 1.0), (1, 1, diagonal), (1, 0, 1.0), (1, -1, diagonal)]);
-            }
+        for cell in spread.inner(self.size).rev() {
+            let below = cell + wide;
+            spread.pull(cell, [(cell + 1, 1.0), (below + 1, diagonal), (below, 1.0), (below - 1, diagonal)]);
         }
-        (spread.value, spread.away)
+        let inner = |values: &[f32]| {
+            let rows = values[wide..wide * (self.size + 1)].chunks(wide);
+            let values = rows.flat_map(|row| &row[1..=self.size]).copied().collect();
+            Self { size: self.size, values }
+        };
+        (inner(&spread.values), inner(&spread.away))
     }
 
     /// The least value within `radius` cells in row and column.
@@ -126,30 +139,26 @@ impl Raster {
 
 /// Values on their way from known cells to the others.
 struct Spread {
-    value: Raster,
-    away: Raster,
+    values: Vec<f32>,
+    away: Vec<f32>,
 }
 
 impl Spread {
-    /// Takes the value of the neighbour that is nearest to a known cell: steps in row and column, and their length.
-    fn pull(&mut self, row: usize, column: usize, neighbours: [(isize, isize, f32); 4]) {
-        let size = self.value.size;
-        let cell = row * size + column;
-        for (down, right, length) in neighbours {
-            let (Some(row), Some(column)) = (row.checked_add_signed(down), column.checked_add_signed(right))
-            else {
-                continue;
-            };
-            if row >= size || column >= size {
-                continue;
-            }
-            let neighbour = row * size + column;
-            let away = self.away.values[neighbour] + length;
-            if away < self.away.values[cell] {
-                self.away.values[cell] = away;
-                self.value.values[cell] = self.value.values[neighbour];
+    /// The cells within the border, row by row.
+    fn inner(&self, size: usize) -> impl DoubleEndedIterator<Item = usize> + use<> {
+        (1..=size).flat_map(move |row| row * (size + 2) + 1..(row + 1) * (size + 2) - 1)
+    }
+
+    /// Takes the value of the neighbour that is nearest to a known cell: neighbours and how far they are.
+    fn pull(&mut self, cell: usize, neighbours: [(usize, f32); 4]) {
+        let (mut value, mut away) = (self.values[cell], self.away[cell]);
+        for (neighbour, length) in neighbours {
+            let longer = self.away[neighbour] + length;
+            if longer < away {
+                (value, away) = (self.values[neighbour], longer);
             }
         }
+        (self.values[cell], self.away[cell]) = (value, away);
     }
 }
 

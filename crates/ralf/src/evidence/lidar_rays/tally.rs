@@ -1,0 +1,148 @@
+//! Counting where rays end: some at a time, so that the compiler makes vector instructions of it.
+
+use crate::scene::{Cone, TableRay};
+use nalgebra::{Matrix3, RowVector3, Vector3};
+use std::f32::consts::TAU;
+
+/// Rays within so many standard deviations of a detection's direction vote.
+pub(super) const CONE_SIGMAS: f32 = 2.5;
+/// A ray that ends lower than this above the ground ends on it, m.
+const GROUND_BAND: f32 = 0.2;
+/// No Mahalanobis distance is larger.
+const LARGEST_CHI: f32 = 10.0;
+/// Rays that are counted together.
+const LANES: usize = 8;
+/// So far away and so high nothing counts.
+const NOWHERE: f32 = 1e9;
+
+/// A detection as seen from the LiDAR.
+pub(super) struct Target {
+    pub(super) position: Vector3<f32>,
+    pub(super) range: f32,
+    pub(super) cone: Cone,
+    /// A ray ends in it within this, m.
+    pub(super) depth: f32,
+    /// `(Sigma + (0.1 m)^2 I)^-1`.
+    pub(super) precision: Matrix3<f32>,
+    /// A point's height above the ground is this times it ...
+    pub(super) up: RowVector3<f32>,
+    /// ... and this, m.
+    pub(super) origin_height: f32,
+}
+
+/// A few rays, each number apart.
+#[derive(Default)]
+struct Few {
+    azimuth: [f32; LANES],
+    elevation: [f32; LANES],
+    range: [f32; LANES],
+    x: [f32; LANES],
+    y: [f32; LANES],
+    z: [f32; LANES],
+}
+
+/// Sums over the rays towards a detection.
+#[derive(Default)]
+pub(super) struct Tally {
+    few: Few,
+    filled: usize,
+    inside: [f32; LANES],
+    ground: [f32; LANES],
+    beyond: [f32; LANES],
+    before: [f32; LANES],
+    least: [f32; LANES],
+}
+
+impl Tally {
+    pub(super) fn new() -> Self {
+        Self { least: [LARGEST_CHI * LARGEST_CHI; LANES], ..Self::default() }
+    }
+
+    pub(super) fn add(&mut self, target: &Target, ray: &TableRay) {
+        self.put(ray.azimuth, ray.elevation, ray.range, ray.point);
+        if self.filled == LANES {
+            self.count(target);
+        }
+    }
+
+    fn put(&mut self, azimuth: f32, elevation: f32, range: f32, [x, y, z]: [f32; 3]) {
+        let (few, lane) = (&mut self.few, self.filled % LANES);
+        few.azimuth[lane] = azimuth;
+        few.elevation[lane] = elevation;
+        few.range[lane] = range;
+        [few.x[lane], few.y[lane], few.z[lane]] = [x, y, z];
+        self.filled += 1;
+    }
+
+    /// The weights of the rays that end in the detection, on the ground there, beyond and before it, and the least
+    /// Mahalanobis distance of the detection from a ray's end, with `Sigma + (0.1 m)^2 I`.
+    pub(super) fn finish(mut self, target: &Target) -> ([f64; 4], f64) {
+        if self.filled > 0 {
+            while self.filled < LANES {
+                self.put(0.0, NOWHERE, 0.0, [NOWHERE; 3]);
+            }
+            self.count(target);
+        }
+        let sum = |lanes: [f32; LANES]| f64::from(lanes.iter().sum::<f32>());
+        let least = self.least.into_iter().fold(f32::INFINITY, f32::min);
+        let sums = [self.inside, self.ground, self.beyond, self.before].map(sum);
+        (sums, f64::from(least.max(0.0).sqrt()))
+    }
+
+    fn count(&mut self, target: &Target) {
+        let weights = self.few.weights(&target.cone);
+        let squares = self.few.squared_distances(target);
+        let heights = self.few.heights(target);
+        for lane in 0..LANES {
+            let (weight, past) = (weights[lane], self.few.range[lane] - target.range);
+            let (beyond, before) = (past >= target.depth, past <= -target.depth);
+            let (there, low) = (!(beyond | before), heights[lane] < GROUND_BAND);
+            self.inside[lane] += if there & !low { weight } else { 0.0 };
+            self.ground[lane] += if there & low { weight } else { 0.0 };
+            self.beyond[lane] += if beyond { weight } else { 0.0 };
+            self.before[lane] += if before { weight } else { 0.0 };
+            self.least[lane] =
+                if squares[lane] < self.least[lane] { squares[lane] } else { self.least[lane] };
+        }
+        self.filled = 0;
+    }
+}
+
+impl Few {
+    /// A Gaussian of the way from the cone's middle, whose borders lie at 2.5 sigmas; 0 outside.
+    fn weights(&self, cone: &Cone) -> [f32; LANES] {
+        let [per_azimuth, per_elevation] = [cone.half_azimuth, cone.half_elevation].map(f32::recip);
+        std::array::from_fn(|lane| {
+            let beside = (self.azimuth[lane] - cone.azimuth).abs();
+            let around = TAU - beside;
+            let beside = if around < beside { around } else { beside } * per_azimuth;
+            let above = (self.elevation[lane] - cone.elevation).abs() * per_elevation;
+            let exponent = (beside * beside + above * above) * (CONE_SIGMAS * CONE_SIGMAS / 2.0);
+            // exp(-x) as (1 - x / 64)^64: six products, and a third off at most, in the corners, where it is 0.002.
+            let mut weight = 1.0 - exponent / 64.0;
+            for _ in 0..6 {
+                weight *= weight;
+            }
+            if (beside > 1.0) | (above > 1.0) { 0.0 } else { weight }
+        })
+    }
+
+    /// Mahalanobis distances of the detection from the rays' ends, squared.
+    fn squared_distances(&self, target: &Target) -> [f32; LANES] {
+        let (p, m) = (&target.position, &target.precision);
+        std::array::from_fn(|lane| {
+            let [x, y, z] = [self.x[lane] - p.x, self.y[lane] - p.y, self.z[lane] - p.z];
+            x * (m.m11 * x + m.m12 * y + m.m13 * z)
+                + y * (m.m21 * x + m.m22 * y + m.m23 * z)
+                + z * (m.m31 * x + m.m32 * y + m.m33 * z)
+        })
+    }
+
+    /// Heights of the rays' ends above the ground below the detection, m.
+    fn heights(&self, target: &Target) -> [f32; LANES] {
+        let up = &target.up;
+        std::array::from_fn(|lane| {
+            up.x * self.x[lane] + up.y * self.y[lane] + up.z * self.z[lane] + target.origin_height
+        })
+    }
+}
