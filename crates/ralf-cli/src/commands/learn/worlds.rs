@@ -16,10 +16,10 @@ pub(super) struct WorldArgs {
     #[arg(long, value_parser = PossibleValuesParser::new(["worlds"]))]
     preset: Option<String>,
     /// Worlds of each family
-    #[arg(long, value_name = "N", default_value_t = 4, requires = "preset")]
+    #[arg(long, value_name = "N", default_value_t = 2, requires = "preset")]
     seeds: u64,
     /// Scans of each radar in each world, over all of its sequences
-    #[arg(long, value_name = "N", default_value_t = 16, requires = "preset",
+    #[arg(long, value_name = "N", default_value_t = 24, requires = "preset",
         value_parser = clap::value_parser!(u32).range(1..))]
     scans: u32,
     /// Leave these families out, to judge the model in them
