@@ -1,7 +1,7 @@
 //! MAN TruckScenes end to end: a lorry in a bend, whose six LiDARs are brought to one time and say of each detection of
 //! six radars whether there is something.
 //!
-//!     cargo test -p ralf-data --test lorry -- --ignored --nocapture
+//!     cargo test -p ralf-data --test lorry -- --nocapture
 
 #![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a measurement, which prints what it found")]
 
@@ -40,7 +40,6 @@ fn rates(reader: &dyn SequenceReader, rig: &Rig) -> Rates {
 }
 
 #[test]
-#[ignore = "a measurement, run by hand with the command above"]
 fn six_lidars_tell_what_is_real() {
     let folder = tempfile::tempdir().unwrap();
     write_data_set(folder.path(), &SHAPE);

@@ -1,6 +1,6 @@
 //! What bringing LiDAR points to one time is worth: labels in a turn, of revolutions as a LiDAR measures them.
 //!
-//!     cargo test -p ralf-data --test rolling -- --ignored --nocapture
+//!     cargo test -p ralf-data --test rolling -- --nocapture
 
 #![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a measurement, which prints what it found")]
 
@@ -126,7 +126,6 @@ fn f1(points: Points) -> f64 {
 }
 
 #[test]
-#[ignore = "a measurement, run by hand with the command above"]
 fn correction_gives_back_most_of_what_turning_costs() {
     let [ideal, measured, corrected] =
         [Points::OneMoment, Points::AsMeasured, Points::Corrected].map(|points| (points, f1(points)));
