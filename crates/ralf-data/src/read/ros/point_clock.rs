@@ -49,7 +49,7 @@ impl PointClock {
             unit.map(|(unit, seconds)| Self { field, unit, seconds, is_absolute })
         };
         clock(false).or_else(|| clock(true)).map(Some).ok_or_else(|| {
-            format!("`{field}` from {first:.3e} to {last:.3e} is a time of points in no known unit, and is not used")
+            format!("`{field}` from {first} to {last} is a time of points in no known unit, and is not used")
         })
     }
 

@@ -188,6 +188,6 @@ fn times_in_no_unit_are_told_and_left_alone() {
     let points = vec![[10.0, 0.0, 0.0, 3e30], [20.0, 0.0, 0.0, 4e30]];
     let (_folder, path) = Drive { lidar: (points, "timestamp"), ..Drive::default() }.write();
     let drive = open_file(&path, TABLE).unwrap();
-    assert!(drive.warnings()[0].starts_with("roof: `timestamp` from 3"), "{:?}", drive.warnings());
+    assert!(drive.warnings()[0].starts_with("roof: `timestamp` from 2999999"), "{:?}", drive.warnings());
     assert!(drive.lidar_scan(0, 0).unwrap().times.is_none());
 }
