@@ -6,6 +6,7 @@ pub(crate) mod images;
 pub(crate) mod json;
 pub(crate) mod label_file;
 pub(crate) mod laz;
+pub(crate) mod lzf;
 pub(crate) mod npy;
 pub(crate) mod number;
 pub(crate) mod parquet_table;

@@ -1,10 +1,10 @@
 //! HDF5 files whose data sets are tables: a row is a record of named fields (HDF5 calls that a compound).
 
-mod lzf;
 mod table;
 #[cfg(test)]
 pub(crate) mod writing;
 
+use crate::disk::lzf;
 use crate::error::DataError;
 use hdf5_reader::error::Error;
 use hdf5_reader::{FilterRegistry, OpenOptions};
@@ -13,6 +13,8 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 pub(crate) use table::Table;
 
+/// The number of LZF, the compression that h5py has of its own, among HDF5's registered filters.
+const LZF: u16 = 32_000;
 /// Nobody's tables are compressed better than this; a damaged file claims any size.
 const MOST_TIMES_THE_FILE: usize = 64;
 /// What a small file may hold all the same, bytes.
@@ -58,8 +60,8 @@ impl Hdf5File {
 fn filters(most: usize) -> FilterRegistry {
     let mut filters = FilterRegistry::new();
     let no_lzf = || Error::InvalidData("no LZF, or too much of it".into());
-    let lzf = move |_: &_, packed: &[u8], _| lzf::decompressed(packed, most).ok_or_else(no_lzf);
-    filters.register(lzf::FILTER, Box::new(lzf));
+    let lzf = move |_: &_, packed: &[u8], _| lzf::at_most(packed, most).ok_or_else(no_lzf);
+    filters.register(LZF, Box::new(lzf));
     filters
 }
 

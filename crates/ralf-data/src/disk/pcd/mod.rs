@@ -2,9 +2,8 @@
 //! read by the names of their fields, as the header declares them.
 
 mod header;
-mod lzf;
 
-use crate::disk::files;
+use crate::disk::{files, lzf};
 use crate::error::DataError;
 use header::{Data, Field, Header};
 use std::path::Path;
@@ -117,7 +116,7 @@ fn compressed(file: &Path, start: usize, body: &[u8], size: usize) -> Result<Vec
     let Some(packed) = rest.get(..packed) else {
         return wrong(body.len(), &format!("{packed} compressed bytes"), format!("{} of them", rest.len()));
     };
-    match lzf::decompress(packed, size) {
+    match lzf::exactly(packed, size) {
         Some(points) => Ok(points),
         None => wrong(8, &format!("{size} bytes, compressed by LZF"), "others".to_owned()),
     }
