@@ -1,5 +1,6 @@
 //! What the tests of several readers share.
 
+use crate::read::{Recording, SequenceReader};
 use std::path::{Path, PathBuf};
 
 /// A folder of the real recordings, where the environment names them; else the test says that it is skipped.
@@ -14,4 +15,9 @@ pub(crate) fn data(name: &str) -> Option<PathBuf> {
 /// Writes a file, with its folders.
 pub(crate) fn write(file: &Path, bytes: &[u8]) {
     crate::disk::files::write_whole(file, bytes).unwrap();
+}
+
+/// The sequence of a recording that has one.
+pub(crate) fn only(recording: &Recording) -> &dyn SequenceReader {
+    recording.sequences[0].as_ref()
 }

@@ -115,6 +115,11 @@ pub(crate) fn measurement<'a, T>(
     found.ok_or(DataError::NoMeasurement { kind, sensor, index })
 }
 
+/// What a reader answers whose recordings have no sensors of a kind.
+pub(crate) fn no_measurement<T>(kind: &'static str, sensor: usize, index: usize) -> Result<T, SourceError> {
+    Err(DataError::NoMeasurement { kind, sensor, index }.into())
+}
+
 /// A recording, opened: cheap, for measurements are read on demand.
 pub struct Recording {
     /// The folder or file that was opened.

@@ -7,7 +7,7 @@ use crate::error::DataError;
 use crate::read::SequenceReader;
 use crate::read::last_read::LastRead;
 use crate::read::models::{NVIDIA_RADAR, NVIDIA_RADAR_2D};
-use crate::read::recording::measurement;
+use crate::read::recording::{measurement, no_measurement};
 use ralf::sensors::{
     CameraImage, DepthImage, DepthOutput, LidarScan, RadarScan, Rig, Sequence, Source, SourceError, Timelines,
 };
@@ -119,15 +119,15 @@ impl Source for Drive {
     }
 
     fn lidar_scan(&self, lidar: usize, scan: usize) -> Result<LidarScan, SourceError> {
-        Err(DataError::NoMeasurement { kind: "lidar", sensor: lidar, index: scan }.into())
+        no_measurement("lidar", lidar, scan)
     }
 
     fn image(&self, camera: usize, image: usize) -> Result<CameraImage, SourceError> {
-        Err(DataError::NoMeasurement { kind: "camera", sensor: camera, index: image }.into())
+        no_measurement("camera", camera, image)
     }
 
     fn depth(&self, camera: usize, image: usize) -> Result<Option<Vec<DepthImage>>, SourceError> {
-        Err(DataError::NoMeasurement { kind: "camera", sensor: camera, index: image }.into())
+        no_measurement("camera", camera, image)
     }
 }
 
@@ -138,9 +138,5 @@ impl SequenceReader for Drive {
 
     fn warnings(&self) -> &[String] {
         &self.warnings
-    }
-
-    fn image_file(&self, _camera: usize, _image: usize) -> Option<PathBuf> {
-        None
     }
 }

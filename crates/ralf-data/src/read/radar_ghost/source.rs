@@ -6,7 +6,7 @@ use super::tables::{COLUMNS, Detections, Points, RADARS, detections, points};
 use crate::error::DataError;
 use crate::read::last_read::LastRead;
 use crate::read::models::{GHOST_LIDAR, GHOST_RADAR};
-use crate::read::recording::measurement;
+use crate::read::recording::{measurement, no_measurement};
 use crate::read::rotation::turned;
 use crate::read::{SequenceReader, TruthLabels};
 use ralf::label::Cause;
@@ -140,11 +140,11 @@ impl Source for Standing {
     }
 
     fn image(&self, camera: usize, image: usize) -> Result<CameraImage, SourceError> {
-        Err(DataError::NoMeasurement { kind: "camera", sensor: camera, index: image }.into())
+        no_measurement("camera", camera, image)
     }
 
     fn depth(&self, camera: usize, image: usize) -> Result<Option<Vec<DepthImage>>, SourceError> {
-        Err(DataError::NoMeasurement { kind: "camera", sensor: camera, index: image }.into())
+        no_measurement("camera", camera, image)
     }
 }
 
@@ -155,10 +155,6 @@ impl SequenceReader for Standing {
 
     fn warnings(&self) -> &[String] {
         &self.warnings
-    }
-
-    fn image_file(&self, _camera: usize, _image: usize) -> Option<PathBuf> {
-        None
     }
 
     fn truth(&self, radar: usize, scan: usize) -> Result<Option<TruthLabels>, SourceError> {

@@ -9,7 +9,7 @@ use crate::disk::{files, json};
 use crate::error::DataError;
 use crate::read::last_read::LastRead;
 use crate::read::models::RADARSCENES;
-use crate::read::recording::measurement;
+use crate::read::recording::{measurement, no_measurement};
 use crate::read::rotation::turned;
 use crate::read::{SequenceReader, TruthLabels};
 use ralf::label::UNLABELED;
@@ -177,15 +177,15 @@ impl Source for Drive {
     }
 
     fn lidar_scan(&self, lidar: usize, scan: usize) -> Result<LidarScan, SourceError> {
-        Err(DataError::NoMeasurement { kind: "lidar", sensor: lidar, index: scan }.into())
+        no_measurement("lidar", lidar, scan)
     }
 
     fn image(&self, camera: usize, image: usize) -> Result<CameraImage, SourceError> {
-        Err(DataError::NoMeasurement { kind: "camera", sensor: camera, index: image }.into())
+        no_measurement("camera", camera, image)
     }
 
     fn depth(&self, camera: usize, image: usize) -> Result<Option<Vec<DepthImage>>, SourceError> {
-        Err(DataError::NoMeasurement { kind: "camera", sensor: camera, index: image }.into())
+        no_measurement("camera", camera, image)
     }
 }
 
@@ -196,10 +196,6 @@ impl SequenceReader for Drive {
 
     fn warnings(&self) -> &[String] {
         &self.warnings
-    }
-
-    fn image_file(&self, _camera: usize, _image: usize) -> Option<PathBuf> {
-        None
     }
 
     fn truth(&self, radar: usize, scan: usize) -> Result<Option<TruthLabels>, SourceError> {

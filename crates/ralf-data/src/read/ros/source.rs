@@ -292,10 +292,6 @@ impl SequenceReader for Drive {
         &self.warnings
     }
 
-    fn image_file(&self, _camera: usize, _image: usize) -> Option<PathBuf> {
-        None
-    }
-
     fn rolling_scan(&self, lidar: usize, scan: usize) -> Result<Option<LidarScan>, SourceError> {
         let recorded = self.recorded(lidar, scan)?;
         Ok(Some(recorded).filter(|_| self.clocks[lidar].is_rolling))

@@ -1,8 +1,9 @@
 //! What is read of good clips.
 
 use super::recording::{CLIP, FRONT, REAR, extrinsics, radar, write, write_clip, write_unzipped};
+use crate::read::Recording;
 use crate::read::nvidia::{open, recognises};
-use crate::read::{Recording, SequenceReader};
+use crate::testing::only;
 use ralf::sensors::Elevation;
 use ralf::space::Point;
 use std::fs;
@@ -12,10 +13,6 @@ fn unzipped() -> (tempfile::TempDir, Recording) {
     write_unzipped(folder.path());
     let recording = open(folder.path()).unwrap();
     (folder, recording)
-}
-
-fn only(recording: &Recording) -> &dyn SequenceReader {
-    recording.sequences[0].as_ref()
 }
 
 fn text(recording: &Recording) -> String {

@@ -3,8 +3,9 @@
 use super::hdf5::Values;
 use super::recording::{FILE, FRAMES, LATER, lidar, radar, write_dataset, write_sequence};
 use crate::judge::Comparison;
+use crate::read::Recording;
 use crate::read::radar_ghost::{open, recognises};
-use crate::read::{Recording, SequenceReader};
+use crate::testing::only;
 use crate::truth::{GroundTruth, ScanId};
 use crate::{Label, write_labels};
 
@@ -13,10 +14,6 @@ fn dataset() -> (tempfile::TempDir, Recording) {
     write_dataset(folder.path());
     let recording = open(folder.path()).unwrap();
     (folder, recording)
-}
-
-fn only(recording: &Recording) -> &dyn SequenceReader {
-    recording.sequences[0].as_ref()
 }
 
 #[test]

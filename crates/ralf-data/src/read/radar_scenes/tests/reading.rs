@@ -2,8 +2,9 @@
 
 use super::recording::{SCANS, SPEED, T0, sequence, write_dataset, write_sequence};
 use crate::Label;
+use crate::read::Recording;
 use crate::read::radar_scenes::{open, recognises};
-use crate::read::{Recording, SequenceReader};
+use crate::testing::only;
 use crate::truth::GroundTruth;
 use std::fs;
 
@@ -12,10 +13,6 @@ fn dataset() -> (tempfile::TempDir, Recording) {
     write_dataset(folder.path());
     let recording = open(folder.path()).unwrap();
     (folder, recording)
-}
-
-fn only(recording: &Recording) -> &dyn SequenceReader {
-    recording.sequences[0].as_ref()
 }
 
 #[test]
