@@ -1,7 +1,7 @@
 /** Filters with a name, kept in the browser for every recording: what was asked of one sequence is asked of others. */
 
-import { filterFrom, plainFilter } from "../preferences.js";
 import type { Filter } from "./filter.js";
+import { filterFrom, plainFilter } from "./kept-filter.js";
 
 const KEY = "ralf-rules";
 
