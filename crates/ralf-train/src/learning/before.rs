@@ -4,7 +4,7 @@ use super::scores::{Judged, Scores};
 use super::table::TrainingTable;
 use super::view::View;
 use ralf::config::Config;
-use ralf::learned::{Model, Unconfirmed, with_odds};
+use ralf::learned::{Model, Unconfirmed};
 
 /// What a model is worth in a world of a table, with the settings' threshold. `None` where it reads what the table
 /// doesn't hold.
@@ -17,8 +17,8 @@ pub fn worth_in(model: &Model, table: &TrainingTable, world: u16, config: &Confi
     let unconfirmed = Unconfirmed::among(model.inputs.iter().map(|input| input.name.as_str()));
     let mut judged = Vec::with_capacity(here.len());
     for (at, log_odds) in model.plausible.log_odds(&rows).into_iter().enumerate() {
-        let factor = if unconfirmed.is(rows.row(at)) { config.learned.unconfirmed } else { 1.0 };
-        let score = with_odds(model.calibration.probability(log_odds), factor);
+        let probability = model.calibration.probability(log_odds);
+        let score = unconfirmed.weighed(rows.row(at), probability, config.learned.unconfirmed);
         judged.push(Judged { score, plausible: table.known[here[at]].plausible });
     }
     Some(Scores::new(&judged, config.fusion.threshold))

@@ -11,7 +11,7 @@ use super::scores::{Judged, Scores, best_threshold};
 use super::side_by_side::side_by_side;
 use super::table::TrainingTable;
 use super::view::View;
-use ralf::learned::{Input, Model, Origin, Rows, Seen, Unconfirmed, World, with_odds};
+use ralf::learned::{Input, Model, Origin, Rows, Seen, Unconfirmed, World};
 use thiserror::Error;
 
 /// A model with what it is worth.
@@ -181,7 +181,6 @@ fn answered(table: &TrainingTable, log_odds: &[f64], of: impl Fn(u16) -> bool) -
 /// Every world by the others' calibration and threshold.
 fn judge(table: &TrainingTable, log_odds: &[f64], fitting: &Fitting) -> Vec<LeftOut> {
     let unconfirmed = Unconfirmed::among(table.features.iter().map(|feature| feature.name));
-    let factor = |row: usize| if unconfirmed.is(table.rows.row(row)) { fitting.unconfirmed } else { 1.0 };
     let mut all = Vec::new();
     for (number, name) in table.worlds.iter().enumerate() {
         let number = number as u16;
@@ -189,9 +188,10 @@ fn judge(table: &TrainingTable, log_odds: &[f64], fitting: &Fitting) -> Vec<Left
         let judged = |here: &dyn Fn(u16) -> bool, view: View| -> Vec<Judged> {
             let rows = table.known.iter().zip(log_odds).enumerate();
             let rows = rows.filter(|(_, (known, _))| here(known.world) && known.view == view);
-            rows.map(|(row, (known, log_odds))| Judged {
-                score: with_odds(line.probability(*log_odds), factor(row)),
-                plausible: known.plausible,
+            rows.map(|(row, (known, log_odds))| {
+                let probability = line.probability(*log_odds);
+                let score = unconfirmed.weighed(table.rows.row(row), probability, fitting.unconfirmed);
+                Judged { score, plausible: known.plausible }
             })
             .collect()
         };

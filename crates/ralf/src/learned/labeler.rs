@@ -6,7 +6,7 @@ use super::model::{Model, UseError};
 use super::reason::reason;
 use super::rows::Rows;
 use super::shapley::Explainer;
-use super::unconfirmed::{Unconfirmed, with_odds};
+use super::unconfirmed::Unconfirmed;
 use super::visibility::Visibility;
 use crate::config::Config;
 use crate::evidence::{Column, Feature, GROUPS, features};
@@ -21,6 +21,8 @@ pub struct LearnedLabeler<'a> {
     model: &'a Model,
     /// What the model reads, in its order.
     inputs: Vec<&'static Feature>,
+    /// The group of each, as a place in [`GROUPS`].
+    group_of: Vec<usize>,
     seen: Vec<Seen>,
     unconfirmed: Unconfirmed,
     /// `None` where reasons are not wanted.
@@ -84,7 +86,7 @@ impl<'a> LearnedLabeler<'a> {
         let explainer = explain.then(|| Explainer::new(&model.plausible, &group_of, GROUPS.len()));
         let seen = model.inputs.iter().map(|input| input.seen).collect();
         let unconfirmed = Unconfirmed::among(inputs.iter().map(|input| input.name));
-        Ok(Self { config, model, inputs, seen, unconfirmed, explainer })
+        Ok(Self { config, model, inputs, group_of, seen, unconfirmed, explainer })
     }
 
     /// What the model says of a frame, of which this evidence was gathered.
@@ -110,14 +112,12 @@ impl<'a> LearnedLabeler<'a> {
         }
         let rows = rows.pick(asked.iter().copied());
         for (at, log_odds) in self.model.plausible.log_odds(&rows).into_iter().enumerate() {
-            let row = &asked[at];
-            labels[*row].w = self.model.calibration.probability(log_odds);
-            if self.unconfirmed.is(rows.row(at)) {
-                labels[*row].w = with_odds(labels[*row].w, self.config.learned.unconfirmed);
-                labels[*row].flags |= flag::UNCONFIRMED;
-            }
-            labels[*row].plausible = labels[*row].w >= self.config.fusion.threshold;
-            labels[*row].flags &= !flag::UNOBSERVED;
+            let (label, row) = (&mut labels[asked[at]], rows.row(at));
+            let probability = self.model.calibration.probability(log_odds);
+            label.w = self.unconfirmed.weighed(row, probability, self.config.learned.unconfirmed);
+            label.plausible = label.w >= self.config.fusion.threshold;
+            label.flags |= flag::when(self.unconfirmed.is(row), flag::UNCONFIRMED);
+            label.flags &= !flag::UNOBSERVED;
         }
         self.explain(&rows, &asked, &mut answers);
         self.tell_causes(&rows, &asked, &labels, &mut answers);
@@ -138,10 +138,9 @@ impl<'a> LearnedLabeler<'a> {
     /// The groups that the model reads and of which a row holds nothing.
     fn lacking(&self, row: &[f32]) -> Vec<usize> {
         let (mut read, mut observed) = ([false; GROUPS.len()], [false; GROUPS.len()]);
-        for (input, value) in self.inputs.iter().zip(row) {
-            let group = group_of(input);
-            read[group] = true;
-            observed[group] |= !value.is_nan();
+        for (group, value) in self.group_of.iter().zip(row) {
+            read[*group] = true;
+            observed[*group] |= !value.is_nan();
         }
         (0..GROUPS.len()).filter(|group| read[*group] && !observed[*group]).collect()
     }

@@ -29,5 +29,5 @@ pub use rows::Rows;
 pub use shapley::Explainer;
 pub use text::ReadError;
 pub use tree::{Leaf, Node, Split, Tree, TreeError};
-pub use unconfirmed::{Unconfirmed, with_odds};
+pub use unconfirmed::Unconfirmed;
 pub use visibility::Visibility;

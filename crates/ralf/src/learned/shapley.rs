@@ -32,7 +32,7 @@ struct Bundle {
     groups: Vec<usize>,
     /// What each of these adds, case by case; none where there are too many cases.
     table: Vec<f32>,
-    /// Of the leaves, for where there is no table.
+    /// Of the leaves, where there is no table.
     ways: Vec<Way>,
 }
 
@@ -62,10 +62,14 @@ impl Explainer {
         let mut expected = forest.base;
         let mut trees = Vec::with_capacity(forest.trees.len());
         for tree in &forest.trees {
-            let bundles = Plan { tree, group_of, covers: tree.covers() }.bundles();
+            let mut bundles = Plan { tree, group_of, covers: tree.covers() }.bundles();
             for way in bundles.iter().flat_map(|bundle| &bundle.ways) {
                 expected += way.value * way.players.iter().map(|player| player.share).product::<f64>();
             }
+            bundles
+                .iter_mut()
+                .filter(|bundle| !bundle.table.is_empty())
+                .for_each(|bundle| bundle.ways = Vec::new());
             trees.push((tree.clone(), bundles));
         }
         Self { groups, expected, trees }
@@ -197,12 +201,13 @@ impl Bundle {
                 way.players.iter().map(|player| leading_cases(player, before, inside)).collect();
             let shares: Vec<Vec<f64>> =
                 (0..1 << way.players.len()).map(|leading| way.shares(leading)).collect();
+            let places: Vec<usize> = way.players.iter().map(|player| self.place_of(player.group)).collect();
             for (case, sums) in table.chunks_mut(width.max(1)).enumerate() {
                 let leads = |place: usize| case & cases[place].0 == cases[place].1;
                 let leading =
                     (0..cases.len()).fold(0, |bits, place| bits | usize::from(leads(place)) << place);
-                for (player, share) in way.players.iter().zip(&shares[leading]) {
-                    sums[self.place_of(player.group)] += *share;
+                for (place, share) in places.iter().zip(&shares[leading]) {
+                    sums[*place] += *share;
                 }
             }
         }
@@ -266,17 +271,17 @@ impl Way {
     fn shares(&self, leading: usize) -> Vec<f64> {
         let leads = |player: usize| if leading >> player & 1 == 1 { 1.0 } else { 0.0 };
         let count = self.players.len();
-        let mut shares = Vec::with_capacity(count);
+        let (mut shares, mut coefficients) = (Vec::with_capacity(count), vec![0.0; count]);
         for (own, player) in self.players.iter().enumerate() {
             // By the number of the others that are asked: the sum of what the rest lets through.
-            let mut coefficients = vec![1.0];
-            for (other, rival) in self.players.iter().enumerate().filter(|(other, _)| *other != own) {
-                let mut next = vec![0.0; coefficients.len() + 1];
-                for (asked, coefficient) in coefficients.iter().enumerate() {
-                    next[asked] += coefficient * rival.share;
-                    next[asked + 1] += coefficient * leads(other);
+            coefficients.fill(0.0);
+            coefficients[0] = 1.0;
+            let rivals = self.players.iter().enumerate().filter(|(other, _)| *other != own);
+            for (done, (other, rival)) in rivals.enumerate() {
+                for asked in (0..=done).rev() {
+                    coefficients[asked + 1] += coefficients[asked] * leads(other);
+                    coefficients[asked] *= rival.share;
                 }
-                coefficients = next;
             }
             let mut weight = 1.0 / count as f64;
             let mut sum = 0.0;

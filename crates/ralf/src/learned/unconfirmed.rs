@@ -30,10 +30,15 @@ impl Unconfirmed {
         let near = value(self.chi).is_some_and(|chi| chi < NEAR);
         observed(self.looks) && self.chi.is_some() && self.map.is_some() && !observed(self.map) && !near
     }
+
+    /// The probability of a row; of one that is unconfirmed, with its odds multiplied by the factor.
+    pub fn weighed(&self, row: &[f32], probability: f64, factor: f64) -> f64 {
+        if self.is(row) { with_odds(probability, factor) } else { probability }
+    }
 }
 
 /// A probability whose odds are multiplied.
-pub fn with_odds(probability: f64, factor: f64) -> f64 {
+fn with_odds(probability: f64, factor: f64) -> f64 {
     let scaled = probability * factor;
     scaled / (1.0 - probability + scaled).max(f64::MIN_POSITIVE)
 }
