@@ -86,13 +86,11 @@ fn observe(surroundings: &Surroundings) -> Vec<Values> {
 
 /// How many others of the scan lie near each detection; NaN for one without a place.
 fn crowd(surroundings: &Surroundings) -> Vec<f64> {
-    let mut near = Vec::new();
     let mut crowd = Vec::with_capacity(surroundings.frame.scan.len());
     for detection in &surroundings.frame.scan.detections {
-        let others = detection.as_ref().map(|detection| {
-            surroundings.beside(&detection.position, CROWD, &mut near);
-            near.len() as f64 - 1.0
-        });
+        let others = detection
+            .as_ref()
+            .map(|detection| surroundings.count_beside(&detection.position, CROWD) as f64 - 1.0);
         crowd.push(others.unwrap_or(f64::NAN));
     }
     crowd

@@ -73,8 +73,8 @@ pub(super) fn chi_within(limit: f64, a: &Spot, b: &Spot, level: bool) -> Option<
 }
 
 /// No horizontal variance of these detections is larger, m^2.
-pub(super) fn largest_variance(spots: &[Spot]) -> f64 {
-    spots.iter().map(|spot| spot.variance).fold(0.0, f64::max)
+pub(super) fn largest_variance<'a>(spots: impl Iterator<Item = &'a Spot>) -> f64 {
+    spots.map(|spot| spot.variance).fold(0.0, f64::max)
 }
 
 /// No detection is within a distance `chi` that is farther away than this, m, seen from above, and whose horizontal

@@ -1,6 +1,6 @@
 //! Where the radars' scans around could have seen a detection again, and whether they did.
 
-use super::distance::{Spot, chi_within, farthest_within};
+use super::distance::{Spot, chi_within, farthest_within, largest_variance};
 use super::rates::{AGREEING, Rates};
 use crate::scene::{Detection, Frame, NeighbouringDetections, NeighbouringScan, Reach, Sight};
 use crate::sensors::{Elevation, Radar};
@@ -116,7 +116,7 @@ impl<'a> Search<'a> {
         Self {
             rates,
             origin: Point::from(frame.radar.vehicle_from_radar.translation.vector),
-            max_variance: all.others.iter().map(|other| other.spot.variance).fold(0.0, f64::max),
+            max_variance: largest_variance(all.others.iter().map(|other| &other.spot)),
             around: all,
             scans: if rates.is_some() { own_scans(around, &level) } else { Vec::new() },
             seconds: &around.seconds,

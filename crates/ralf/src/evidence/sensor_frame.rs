@@ -49,7 +49,7 @@ impl Unmoved {
         Self {
             level: frame.radar.elevation == Elevation::None,
             scans: in_order().map(|id| scans[id]).collect(),
-            max_variance: largest_variance(&spots),
+            max_variance: largest_variance(spots.iter()),
             spots,
             scans_from_vehicle,
             index,

@@ -80,6 +80,11 @@ impl<'a> Surroundings<'a> {
         self.own_index().beside([p.x as f32, p.y as f32], radius as f32, found);
     }
 
+    /// How many [`Self::beside`] finds.
+    pub(super) fn count_beside(&self, p: &Point, radius: f64) -> usize {
+        self.own_index().count_beside([p.x as f32, p.y as f32], radius as f32)
+    }
+
     fn own_index(&self) -> &NeighborIndex {
         self.own_index.get_or_init(|| {
             let (mut places, mut rows) = (Vec::new(), Vec::new());
