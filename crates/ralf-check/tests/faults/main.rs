@@ -28,6 +28,11 @@ const STRAIGHT: &str = "ego = { start = [0, -1.5, 0], speed_kmh = 30, leg = [{ l
 const TURNING: &str = "ego = { start = [0, -2, 0], speed_kmh = 18, leg = [{ length = 6, turn_deg = 35 }, \
     { length = 14, turn_deg = -70 }, { length = 14, turn_deg = 70 }, { length = 14, turn_deg = -60 }, { length = 60, turn_deg = 20 }] }";
 
+/// Whether an environment variable names this, as one of several between commas, or isn't set.
+fn is_asked_for(variable: &str, name: &str) -> bool {
+    std::env::var(variable).ok().is_none_or(|named| named.split(',').any(|one| one == name))
+}
+
 /// What a check says of a fault.
 struct Row {
     noticed: bool,

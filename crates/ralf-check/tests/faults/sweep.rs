@@ -1,7 +1,7 @@
 //! Good recordings: the sequences of the simulator's preset `paper`, whole and in short, with three seeds.
 
 use crate::recording::{Planted, Recording};
-use crate::told;
+use crate::{is_asked_for, told};
 use ralf::config::Config;
 use ralf::paper::Labeler;
 use ralf::scene::FrameWindow;
@@ -16,9 +16,8 @@ const SHORT: [usize; 2] = [60, 20];
 
 /// The sequences of the preset `paper`, or those that `RALF_SEQUENCES` names: `RALF_SEQUENCES=03,07`.
 pub fn sequences() -> Vec<&'static PresetSequence> {
-    let named = std::env::var("RALF_SEQUENCES").ok();
-    let is_named = |name: &str| named.as_ref().is_none_or(|named| named.split(',').any(|one| one == name));
-    presets::find("paper").unwrap().sequences.iter().filter(|sequence| is_named(sequence.name)).collect()
+    let sequences = presets::find("paper").unwrap().sequences.iter();
+    sequences.filter(|sequence| is_asked_for("RALF_SEQUENCES", sequence.name)).collect()
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! Worlds whose mountings and clocks are off by what a good calibration leaves: no sensor of these is in any other test.
 
-use crate::told;
+use crate::{is_asked_for, told};
 use ralf::sensors::Source;
 use ralf_check::{Refinement, check_and_refine};
 use ralf_sim::SimulatedSequence;
@@ -14,10 +14,7 @@ const COVERED: f64 = 0.95;
 
 /// All families, or those that `RALF_FAMILIES` names: `RALF_FAMILIES=city,yard`.
 fn families() -> impl Iterator<Item = &'static Family> {
-    let named = std::env::var("RALF_FAMILIES").ok();
-    let is_named =
-        move |name: &str| named.as_ref().is_none_or(|named| named.split(',').any(|one| one == name));
-    FAMILIES.iter().filter(move |family| is_named(family.name))
+    FAMILIES.iter().filter(|family| is_asked_for("RALF_FAMILIES", family.name))
 }
 
 /// What should be added to yaw (degrees), place forward and to the left (m) and clock (ms) of a radar.
