@@ -1,6 +1,7 @@
 //! Bytes on disk: whole files, `.npy` arrays, HDF5 and Parquet tables, LAZ and PCD clouds, images and `.label` files.
 
 pub(crate) mod files;
+mod guarded;
 pub(crate) mod hdf5;
 pub(crate) mod images;
 pub(crate) mod json;

@@ -1,6 +1,7 @@
 //! Parquet files that others made: columns by name, whatever type of number they are stored in.
 
 use crate::disk::files;
+use crate::disk::guarded::guarded;
 use crate::error::DataError;
 use parquet::basic::Type as Physical;
 use parquet::column::reader::{ColumnReader, ColumnReaderImpl, get_typed_column_reader};
@@ -8,7 +9,6 @@ use parquet::data_type::{ByteArrayType, DataType, DoubleType, FloatType, Int32Ty
 use parquet::errors::ParquetError;
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use std::fs::File;
-use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -114,7 +114,7 @@ impl ParquetTable {
                 let reader = self.reader.get_row_group(group)?.get_column_reader(place)?;
                 read_group::<T, V>(reader, present, &value, &absent, &mut found, self.rows)?;
             }
-            Ok(found)
+            Ok::<_, ParquetError>(found)
         };
         let found = guarded(&self.file, column, "values", read)?;
         if found.len() == self.rows {
@@ -155,19 +155,5 @@ fn read_group<T: DataType, V: Clone>(
             there.map_or_else(|| absent.clone(), value)
         };
         found.extend(levels.iter().map(of_level));
-    }
-}
-
-/// Asks the Parquet library. Should it panic over a damaged file, the file is refused all the same.
-fn guarded<T>(
-    file: &Path,
-    place: &str,
-    expected: &str,
-    ask: impl FnOnce() -> Result<T, ParquetError>,
-) -> Result<T, DataError> {
-    let refused = |found: String| DataError::content(file, place, expected, found);
-    match catch_unwind(AssertUnwindSafe(ask)) {
-        Ok(answer) => answer.map_err(|error| refused(error.to_string())),
-        Err(_) => Err(refused("bytes that can't be read".to_owned())),
     }
 }

@@ -1,5 +1,6 @@
 //! Where a sequence's measurements lie, in formats that keep them in files.
 
+use crate::disk::files::Folders;
 use crate::disk::{files, images};
 use crate::error::DataError;
 use crate::read::recording::measurement;
@@ -36,6 +37,27 @@ impl MeasuredFiles {
     pub(crate) fn image_file(&self, camera: usize, image: usize) -> Result<&PathBuf, DataError> {
         measurement("camera", &self.cameras, camera, image)
     }
+}
+
+/// Those of a sensor's listed files that are on disk, in their order, with a warning of the others.
+pub(crate) fn present<T>(
+    sensor: &str,
+    listed: Vec<(T, PathBuf)>,
+    folders: &mut Folders,
+    warnings: &mut Vec<String>,
+) -> Result<Vec<(T, PathBuf)>, DataError> {
+    let all = listed.len();
+    let mut found = Vec::with_capacity(all);
+    for (what, file) in listed {
+        if folders.hold(&file)? {
+            found.push((what, file));
+        }
+    }
+    let missing = all - found.len();
+    if missing > 0 {
+        warnings.push(format!("{missing} of {all} files of {sensor} are not there and were left out"));
+    }
+    Ok(found)
 }
 
 /// A LiDAR's scan from a file of float32 rows of so many values, which begin with x, y, z and intensity.

@@ -1,7 +1,15 @@
-//! When a LiDAR's points were measured.
+//! Times as files tell them: of measurements, and of a LiDAR's points.
 
 /// A point farther in time from its scan is of another clock or unit, s.
 pub(crate) const LONGEST: f64 = 1.0;
+
+/// Times lie within 146 years of 0, so that the difference of two is a time as well.
+const LATEST_US: u64 = i64::MAX as u64 / 2000;
+
+/// A time in us as ns; `None` of one that nothing can have.
+pub(crate) fn nanoseconds(t_us: i64) -> Option<i64> {
+    (t_us.unsigned_abs() <= LATEST_US).then(|| t_us * 1000)
+}
 
 /// How long after its scan a point was measured, s and negative before it. The error says what was expected.
 pub(crate) fn seconds_after(point_ns: i64, scan_ns: i64) -> Result<f32, String> {

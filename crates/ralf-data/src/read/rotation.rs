@@ -2,7 +2,7 @@
 
 use crate::error::DataError;
 use nalgebra::{Matrix3, Rotation3, Translation3, UnitQuaternion, Vector3};
-use ralf::space::Transform;
+use ralf::space::{PoseSample, Transform};
 use std::path::Path;
 
 /// Matrices are printed with a few digits; what is farther from orthonormal than this is no rotation.
@@ -45,6 +45,14 @@ pub(crate) fn turned(translation: [f64; 3], yaw: f64) -> Transform {
     // Of length 1 to the last digit, as what is written and read again is.
     let turn = UnitQuaternion::new_normalize(turn.into_inner());
     Transform::from_parts(Translation3::from(translation), turn)
+}
+
+/// Poses in the frame that the vehicle has at the first.
+pub(crate) fn relative_to_first(poses: &mut [PoseSample]) {
+    let Some(first) = poses.first().map(|pose| pose.odom_from_vehicle) else { return };
+    for pose in poses {
+        pose.odom_from_vehicle = first.inv_mul(&pose.odom_from_vehicle);
+    }
 }
 
 /// Columns of unit length at right angles. The first keeps its direction; the others move by less than was refused.

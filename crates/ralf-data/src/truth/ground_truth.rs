@@ -48,7 +48,7 @@ impl GroundTruth {
     fn gather(dataset: &Path, corrections: Option<Corrections>) -> Result<Option<Self>, DataError> {
         let known = KnownTruth::find(dataset)?;
         let files = match &known {
-            Some(known) => known.scans()?.into_iter().collect(),
+            Some(known) => known.scans().into_iter().collect(),
             None => scans_with_files(dataset)?,
         };
         let corrected = corrections.iter().flat_map(Corrections::scans);

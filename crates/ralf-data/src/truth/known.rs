@@ -20,13 +20,10 @@ impl KnownTruth {
         Ok(Some(Self(Arc::new(open(dataset, None)?))))
     }
 
-    /// All scans of the sequences that have truth, in order.
-    pub(super) fn scans(&self) -> Result<Vec<ScanId>, DataError> {
+    /// All scans, in order: formats that have truth have it of each.
+    pub(super) fn scans(&self) -> Vec<ScanId> {
         let mut scans = Vec::new();
         for reader in &self.0.sequences {
-            if !has_truth(reader.as_ref())? {
-                continue;
-            }
             let sequence = reader.sequence();
             for (radar, times) in sequence.rig.radars.iter().zip(&sequence.times.radars) {
                 let id = |scan| ScanId { sequence: sequence.name.clone(), radar: radar.name.clone(), scan };
@@ -34,7 +31,7 @@ impl KnownTruth {
             }
         }
         scans.sort_unstable();
-        Ok(scans)
+        scans
     }
 
     /// What is true of a scan's detections; `None` of a scan that the recording doesn't have.
@@ -61,12 +58,6 @@ impl KnownTruth {
         let mut readers = self.0.sequences.iter().map(AsRef::as_ref);
         readers.find(|reader| reader.sequence().name == sequence)
     }
-}
-
-/// Whether anything is true of the first scan that a sequence has.
-fn has_truth(reader: &dyn SequenceReader) -> Result<bool, DataError> {
-    let first = reader.sequence().times.radars.iter().position(|times| !times.is_empty());
-    first.map_or(Ok(false), |radar| Ok(truth(reader, radar, 0)?.is_some()))
 }
 
 fn truth(reader: &dyn SequenceReader, radar: usize, scan: usize) -> Result<Option<TruthLabels>, DataError> {

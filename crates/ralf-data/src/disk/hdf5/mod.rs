@@ -4,12 +4,12 @@ mod table;
 #[cfg(test)]
 pub(crate) mod writing;
 
+use crate::disk::guarded::guarded;
 use crate::disk::lzf;
 use crate::error::DataError;
 use hdf5_reader::error::Error;
 use hdf5_reader::{FilterRegistry, OpenOptions};
 use ralf_files::Kind;
-use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 pub(crate) use table::Table;
 
@@ -63,21 +63,6 @@ fn filters(most: usize) -> FilterRegistry {
     let lzf = move |_: &_, packed: &[u8], _| lzf::at_most(packed, most).ok_or_else(no_lzf);
     filters.register(LZF, Box::new(lzf));
     filters
-}
-
-/// Asks the HDF5 library, and says what it says of a file. It isn't known to panic whatever a file holds; should it do
-/// so one day, the file is refused all the same.
-fn guarded<T>(
-    file: &Path,
-    place: &str,
-    expected: &str,
-    ask: impl FnOnce() -> Result<T, Error>,
-) -> Result<T, DataError> {
-    let refused = |found: String| DataError::content(file, place, expected, found);
-    match catch_unwind(AssertUnwindSafe(ask)) {
-        Ok(answer) => answer.map_err(|error| refused(error.to_string())),
-        Err(_) => Err(refused("bytes that can't be read".to_owned())),
-    }
 }
 
 #[cfg(test)]

@@ -5,42 +5,38 @@ use crate::error::DataError;
 use crate::read::nvidia::tables::nanoseconds;
 use ralf::space::{EgoMotion, PoseSample, Transform, transform_from_parts};
 use std::cell::RefCell;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 /// Names of the columns of a pose: a quaternion with its scalar last, and a place, m.
 const POSE: [&str; 7] = ["qx", "qy", "qz", "qw", "x", "y", "z"];
 
-/// Mountings by clip and sensor, out of tables that hold those of many clips: each is read once.
+/// Mountings by clip and sensor, of each table that was read: those of many clips are in one, and it is read once.
 #[derive(Default)]
-pub(super) struct Extrinsics(RefCell<Known>);
+pub(super) struct Extrinsics(RefCell<BTreeMap<PathBuf, Mountings>>);
 
-#[derive(Default)]
-struct Known {
-    /// The tables that were read.
-    tables: BTreeSet<PathBuf>,
-    /// By clip and sensor.
-    mountings: BTreeMap<[String; 2], Transform>,
-}
+type Mountings = BTreeMap<[String; 2], Transform>;
 
 impl Extrinsics {
     /// The mounting of a clip's sensor in the first of these tables that has it, and that table.
-    pub(super) fn find(
+    pub(super) fn find<'a>(
         &self,
         clip: &str,
         sensor: &str,
-        tables: &[PathBuf],
-    ) -> Result<Option<Transform>, DataError> {
+        tables: &'a [PathBuf],
+    ) -> Result<Option<(Transform, &'a Path)>, DataError> {
+        let key = [clip.to_owned(), sensor.to_owned()];
         let mut known = self.0.borrow_mut();
         for table in tables {
-            if known.tables.insert(table.clone()) {
-                let read = mountings(table, clip)?;
-                for (key, mounting) in read {
-                    known.mountings.entry(key).or_insert(mounting);
-                }
+            if !known.contains_key(table) {
+                // Of rows that name the same the first counts.
+                known.insert(table.clone(), mountings(table, clip)?.into_iter().rev().collect());
+            }
+            if let Some(mounting) = known.get(table).and_then(|mountings| mountings.get(&key)) {
+                return Ok(Some((*mounting, table)));
             }
         }
-        Ok(known.mountings.get(&[clip.to_owned(), sensor.to_owned()]).copied())
+        Ok(None)
     }
 }
 

@@ -40,7 +40,7 @@ impl Drive {
     pub(super) fn new(name: &str, clip: &Clip, shared: &Shared) -> Result<Self, DataError> {
         let mut warnings = left_out(clip);
         let extrinsics = clip.extrinsics(name)?;
-        let mut further = extrinsics.clone();
+        let mut further = Vec::new();
         let motion = match clip.label(name, "egomotion.offline")?.or(clip.label(name, "egomotion")?) {
             Some(file) => {
                 let motion = motion(&file)?;
@@ -74,10 +74,13 @@ impl Drive {
     ) -> Result<(), DataError> {
         let name = &self.sequence.name;
         let mounting = shared.extrinsics.find(name, sensor, extrinsics)?;
-        let mounting = mounting.ok_or_else(|| {
+        let (mounting, table) = mounting.ok_or_else(|| {
             let expected = format!("a mounting of the clip {name} in calibration/sensor_extrinsics");
             DataError::content(file, sensor, expected, "none")
         })?;
+        if !self.further.iter().any(|known| known == table) {
+            self.further.push(table.to_owned());
+        }
         let table = self.tables.of(file)?;
         let model = if table.has_elevation { NVIDIA_RADAR } else { NVIDIA_RADAR_2D };
         let fields = COLUMNS.map(|(_, field)| field);

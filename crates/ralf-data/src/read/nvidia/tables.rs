@@ -2,6 +2,7 @@
 
 use crate::disk::parquet_table::ParquetTable;
 use crate::error::DataError;
+use crate::read::point_times;
 use std::ops::Range;
 use std::path::Path;
 
@@ -16,8 +17,6 @@ pub(super) const COLUMNS: [(&str, &str); 8] = [
     ("exist_probb", "exist_probb"),
     ("doppler_ambiguity", "doppler_ambiguity"),
 ];
-/// Times lie within 146 years of 0, so that the difference of two is a time as well.
-const LATEST_US: i64 = i64::MAX / 2000;
 
 /// All scans of a radar.
 pub(super) struct Scans {
@@ -58,8 +57,7 @@ pub(super) fn scans(file: &Path) -> Result<Scans, DataError> {
 
 /// A time of a row as ns.
 pub(super) fn nanoseconds(file: &Path, row: usize, time_us: i64) -> Result<i64, DataError> {
-    if time_us.unsigned_abs() <= LATEST_US.unsigned_abs() {
-        return Ok(time_us * 1000);
-    }
-    Err(DataError::content(file, format!("timestamp, row {row}"), "a time in us", time_us.to_string()))
+    point_times::nanoseconds(time_us).ok_or_else(|| {
+        DataError::content(file, format!("timestamp, row {row}"), "a time in us", time_us.to_string())
+    })
 }

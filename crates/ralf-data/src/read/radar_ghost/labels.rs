@@ -21,8 +21,9 @@ pub(super) fn truth(label_id: i64, is_group: bool) -> Option<(u16, Cause)> {
         -2 => return Some((ARTIFACT, Cause::Noise)),
         _ => {}
     }
-    let digit = |place: i64| label_id.abs() / place % 10;
-    let class = class_of(digit(1000)).filter(|_| label_id.abs() < 10_000)?;
+    let number = label_id.unsigned_abs();
+    let digit = |place: u64| number / place % 10;
+    let class = class_of(digit(1000)).filter(|_| number < 10_000)?;
     let (main, last, order) = (digit(100), digit(10), digit(1));
     if main > 1 || last > 3 || !matches!(order, 0..=4 | 6) {
         return None;
@@ -37,7 +38,7 @@ pub(super) fn truth(label_id: i64, is_group: bool) -> Option<(u16, Cause)> {
 }
 
 /// SemanticKITTI's id of a class.
-fn class_of(digit: i64) -> Option<u16> {
+fn class_of(digit: u64) -> Option<u16> {
     const CLASSES: [u16; 5] = [30, 31, 10, 18, 32];
     CLASSES.get(usize::try_from(digit).ok()?.checked_sub(1)?).copied()
 }

@@ -2,13 +2,14 @@
 
 use super::labels::Convention;
 use super::raw::{Mounting, Scene, SceneFile, Sensors};
-use super::tables::{COLUMNS, Detections, motion, nanoseconds};
+use super::tables::{COLUMNS, Detections};
 use super::{SCENES, TABLES};
 use crate::disk::label_file::Label;
 use crate::disk::{files, json};
 use crate::error::DataError;
 use crate::read::last_read::LastRead;
 use crate::read::models::RADARSCENES;
+use crate::read::point_times::nanoseconds;
 use crate::read::recording::{measurement, no_measurement};
 use crate::read::rotation::turned;
 use crate::read::{SequenceReader, TruthLabels};
@@ -74,7 +75,7 @@ impl Drive {
             title: format!("RadarScenes{category}{whose}"),
             rig,
             times,
-            motion: motion(&file)?,
+            motion: detections.motion.clone(),
             depth_output: DepthOutput::default(),
         };
         let warnings = warnings(folder, sensor_file.is_none())?;
@@ -129,7 +130,7 @@ fn scans(file: &Path, scenes: &BTreeMap<String, Scene>, sensors: &[i64]) -> Resu
         let error = |expected: &str, found: String| {
             Err(DataError::content(file, format!("scene {time}"), expected, found))
         };
-        let Some(t_ns) = nanoseconds(time) else {
+        let Some(t_ns) = time.parse().ok().and_then(nanoseconds) else {
             return error("a time in us as its name", format!("`{time}`"));
         };
         let Some(rows) = sensors.get(*first..*end) else {

@@ -4,6 +4,7 @@ use super::labels::Convention;
 use crate::disk::hdf5::Hdf5File;
 use crate::error::DataError;
 use crate::read::instances::numbered;
+use crate::read::point_times::nanoseconds;
 use crate::read::rotation::turned;
 use ralf::space::{EgoMotion, OdometrySample, PoseSample, Transform};
 use std::path::Path;
@@ -20,9 +21,6 @@ pub(super) const COLUMNS: [(&str, &str); 9] = [
     ("x_seq", "x_seq"),
     ("y_seq", "y_seq"),
 ];
-/// Times lie within 146 years of 0, so that the difference of two is a time as well.
-const LATEST_US: i64 = i64::MAX / 2000;
-
 /// All detections of a sequence.
 pub(super) struct Detections {
     /// In the order of [`COLUMNS`].
@@ -35,11 +33,14 @@ pub(super) struct Detections {
     pub(super) convention: Convention,
     /// Which object each belongs to, 0 for none.
     pub(super) instances: Vec<u16>,
+    /// How the vehicle moved.
+    pub(super) motion: EgoMotion,
 }
 
-/// Reads the table of detections.
+/// Reads both tables.
 pub(super) fn detections(file: &Path) -> Result<Detections, DataError> {
-    let table = Hdf5File::open(file)?.table("radar_data")?;
+    let opened = Hdf5File::open(file)?;
+    let table = opened.table("radar_data")?;
     let columns = COLUMNS.iter().map(|(name, _)| table.floats(name)).collect::<Result<_, _>>()?;
     let sensors = table.integers("sensor_id")?;
     let ids = table.integers("label_id")?;
@@ -47,12 +48,12 @@ pub(super) fn detections(file: &Path) -> Result<Detections, DataError> {
     let class = |(row, id): (usize, &i64)| convention.class(*id).ok_or_else(|| format!("{id} in row {row}"));
     let classes = ids.iter().enumerate().map(class).collect();
     let instances = numbered(table.texts("track_id")?);
-    Ok(Detections { columns, sensors, classes, convention, instances })
+    let motion = motion(file, &opened)?;
+    Ok(Detections { columns, sensors, classes, convention, instances, motion })
 }
 
-/// Reads the table of the vehicle's motion.
-pub(super) fn motion(file: &Path) -> Result<EgoMotion, DataError> {
-    let table = Hdf5File::open(file)?.table("odometry")?;
+fn motion(file: &Path, opened: &Hdf5File) -> Result<EgoMotion, DataError> {
+    let table = opened.table("odometry")?;
     let times = table.integers("timestamp")?;
     let [x, y, yaw] = [table.numbers("x_seq")?, table.numbers("y_seq")?, table.numbers("yaw_seq")?];
     let [speed, yaw_rate] = [table.numbers("vx")?, table.numbers("yaw_rate")?];
@@ -63,24 +64,18 @@ pub(super) fn motion(file: &Path) -> Result<EgoMotion, DataError> {
             Err(DataError::content(file, format!("odometry, {name}, row {row}"), expected, found))
         };
         let after = row.checked_sub(1).map(|before| times[before]);
-        if times[row].abs() > LATEST_US || after.is_some_and(|before| times[row] <= before) {
+        let ascends = after.is_none_or(|before| times[row] > before);
+        let Some(t_ns) = nanoseconds(times[row]).filter(|_| ascends) else {
             return error("timestamp", "times that ascend, us", times[row].to_string());
-        }
+        };
         let values = [x[row], y[row], yaw[row], speed[row], yaw_rate[row]];
         if values.iter().any(|value| !value.is_finite()) {
             return error("x_seq, y_seq, yaw_seq, vx, yaw_rate", "numbers", format!("{values:?}"));
         }
-        let t_ns = times[row] * 1000;
         let pose = turned([x[row], y[row], 0.0], yaw[row]);
         let odom_from_vehicle = first.get_or_insert(pose).inv_mul(&pose);
         odometry.push(OdometrySample { t_ns, velocity: speed[row], yaw_rate: yaw_rate[row] });
         poses.push(PoseSample { t_ns, odom_from_vehicle });
     }
     EgoMotion::new(odometry, poses).ok_or_else(|| DataError::content(file, "odometry", "rows", "none"))
-}
-
-/// A time of the data set as ns; `None` of one that nothing can have.
-pub(super) fn nanoseconds(microseconds: &str) -> Option<i64> {
-    let t_us: i64 = microseconds.parse().ok()?;
-    (t_us.unsigned_abs() <= LATEST_US.unsigned_abs()).then(|| t_us * 1000)
 }

@@ -293,8 +293,8 @@ impl SequenceReader for Drive {
     }
 
     fn rolling_scan(&self, lidar: usize, scan: usize) -> Result<Option<LidarScan>, SourceError> {
-        let recorded = self.recorded(lidar, scan)?;
-        Ok(Some(recorded).filter(|_| self.clocks[lidar].is_rolling))
+        let is_rolling = self.clocks.get(lidar).is_some_and(|clock| clock.is_rolling);
+        Ok(if is_rolling { Some(self.recorded(lidar, scan)?) } else { None })
     }
 
     fn origin(&self) -> Option<&dyn Any> {

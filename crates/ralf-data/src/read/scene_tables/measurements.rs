@@ -4,7 +4,7 @@ use super::join::{Channel, Measurement};
 use super::raw::{Modality, Token};
 use crate::disk::files::Folders;
 use crate::error::DataError;
-use crate::read::measured_files::MeasuredFiles;
+use crate::read::measured_files::{MeasuredFiles, present};
 use ralf::sensors::Timelines;
 use std::path::Path;
 
@@ -55,22 +55,12 @@ impl Measurements {
     }
 
     fn add(&mut self, dataset: &Path, channel: Channel, folders: &mut Folders) -> Result<(), DataError> {
-        let listed = channel.measurements.len();
-        let (mut times, mut files) = (Vec::with_capacity(listed), Vec::with_capacity(listed));
-        let mut tokens = Vec::new();
-        for Measurement { token, t_ns, file } in channel.measurements {
-            let file = dataset.join(&*file);
-            if folders.hold(&file)? {
-                times.push(t_ns);
-                files.push(file);
-                tokens.push(token);
-            }
-        }
-        if files.len() < listed {
-            let (name, missing) = (&channel.calibration.name, listed - files.len());
-            self.warnings
-                .push(format!("{missing} of {listed} files of {name} are not there and were left out"));
-        }
+        let listed = channel.measurements.into_iter();
+        let listed = listed.map(|Measurement { token, t_ns, file }| ((t_ns, token), dataset.join(&*file)));
+        let name = &channel.calibration.name;
+        let found = present(name, listed.collect(), folders, &mut self.warnings)?;
+        let (named, files): (Vec<_>, Vec<_>) = found.into_iter().unzip();
+        let (times, tokens): (Vec<_>, Vec<_>) = named.into_iter().unzip();
         let (timelines, place) = match channel.calibration.modality {
             Modality::Radar => {
                 self.radar_tokens.push(tokens);

@@ -3,6 +3,7 @@
 use super::TELLING;
 use crate::disk::files;
 use crate::error::DataError;
+use crate::read::rotation::relative_to_first;
 use crate::read::scene_tables::{EgoPoseRow, SceneRecord, for_each_row, nanoseconds};
 use ralf::space::OdometrySample;
 use serde::Deserialize;
@@ -45,12 +46,7 @@ impl Motion {
         })?;
         for scene in scenes.iter_mut() {
             scene.poses.sort_by_key(|pose| pose.t_ns);
-            if let Some(first) = scene.poses.first().map(|pose| pose.odom_from_vehicle) {
-                let relative = |pose: &mut ralf::space::PoseSample| {
-                    pose.odom_from_vehicle = first.inv_mul(&pose.odom_from_vehicle);
-                };
-                scene.poses.iter_mut().for_each(relative);
-            }
+            relative_to_first(&mut scene.poses);
         }
         let mut samples: Vec<Vec<OdometrySample>> = vec![Vec::new(); scenes.len()];
         let table = table(version)?;

@@ -7,7 +7,7 @@ use crate::disk::files::Folders;
 use crate::disk::images;
 use crate::error::DataError;
 use crate::read::file_sequence::{FileFormat, FileSequence};
-use crate::read::measured_files::{MeasuredFiles, lidar_rows};
+use crate::read::measured_files::{MeasuredFiles, lidar_rows, present};
 use crate::read::models::{HDL_64E_S3, ZF_FRGEN21};
 use ralf::sensors::{DepthOutput, Lidar, LidarScan, Rig, Sequence, Timelines};
 use ralf::space::{EgoMotion, PoseSample};
@@ -127,19 +127,9 @@ impl Layout {
         warnings: &mut Vec<String>,
     ) -> Result<(Vec<i64>, Vec<PathBuf>), DataError> {
         let root = if sensor == "lidar" { &self.lidar } else { &self.radar };
-        let (mut times, mut files) = (Vec::new(), Vec::new());
-        for frame in &self.frames {
-            let file = root.join(folder).join(&frame.stem).with_extension(extension);
-            if self.folders.hold(&file)? {
-                times.push(time(frame));
-                files.push(file);
-            }
-        }
-        let (frames, missing) = (self.frames.len(), self.frames.len() - files.len());
-        if missing > 0 {
-            warnings.push(format!("{missing} of {frames} files of {sensor} are not there and were left out"));
-        }
-        Ok((times, files))
+        let file = |frame: &Frame| root.join(folder).join(&frame.stem).with_extension(extension);
+        let listed = self.frames.iter().map(|frame| (time(frame), file(frame))).collect();
+        Ok(present(sensor, listed, &mut self.folders, warnings)?.into_iter().unzip())
     }
 
     fn rig(&self, mounting: &Mounting, image_size: [usize; 2]) -> Result<Rig, DataError> {

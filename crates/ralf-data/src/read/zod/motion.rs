@@ -3,7 +3,7 @@
 use super::calibration::vehicle_from_ego;
 use crate::disk::json;
 use crate::error::DataError;
-use crate::read::rotation::{Matrix, rigid};
+use crate::read::rotation::{Matrix, relative_to_first, rigid};
 use ralf::space::{EgoMotion, PoseSample};
 use ralf_files::Kind;
 use serde::Deserialize;
@@ -36,11 +36,7 @@ pub(super) fn read(file: &Path) -> Result<EgoMotion, DataError> {
         let odom_from_vehicle = rigid(file, &format!("poses, {n}"), pose)? * ego_from_vehicle;
         samples.push(PoseSample { t_ns, odom_from_vehicle });
     }
-    if let Some(first) = samples.first().map(|sample| sample.odom_from_vehicle) {
-        for sample in &mut samples {
-            sample.odom_from_vehicle = first.inv_mul(&sample.odom_from_vehicle);
-        }
-    }
+    relative_to_first(&mut samples);
     EgoMotion::new(Vec::new(), samples)
         .ok_or_else(|| DataError::content(file, "poses", "at least one", "none"))
 }

@@ -7,7 +7,7 @@ use super::{lidar, motion, radar};
 use crate::disk::files::Folders;
 use crate::error::DataError;
 use crate::read::file_sequence::{FileFormat, FileSequence};
-use crate::read::measured_files::MeasuredFiles;
+use crate::read::measured_files::{MeasuredFiles, present};
 use ralf::sensors::{DepthOutput, Lidar, LidarScan, Rig, Sequence, Timelines};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -144,19 +144,9 @@ impl Found {
         frames: &[Frame],
         folders: &mut Folders,
     ) -> Result<(Vec<i64>, Vec<PathBuf>), DataError> {
-        let mut found = Vec::with_capacity(frames.len());
-        for frame in frames {
-            let file = dataset.join(&frame.filepath);
-            if folders.hold(&file)? {
-                found.push((frame.t_ns, file));
-            }
-        }
+        let listed = frames.iter().map(|frame| (frame.t_ns, dataset.join(&frame.filepath)));
+        let mut found = present(sensor, listed.collect(), folders, &mut self.warnings)?;
         found.sort();
-        let (all, missing) = (frames.len(), frames.len() - found.len());
-        if missing > 0 {
-            self.warnings
-                .push(format!("{missing} of {all} files of {sensor} are not there and were left out"));
-        }
         Ok(found.into_iter().unzip())
     }
 }
