@@ -27,17 +27,22 @@ impl Contents {
         found
     }
 
+    /// What a scan holds as it was read last, for lists of many scans; read now if it never was. `None` of one that
+    /// can't be read.
+    pub(crate) fn known(&self, reader: &dyn SequenceReader, place: Place) -> Option<ScanContent> {
+        let known = self.0.lock().unwrap_or_else(PoisonError::into_inner).get(&place).copied();
+        known.unwrap_or_else(|| self.read(reader, place).ok())
+    }
+
     /// Whether something was said of what the scan holds, and not of something else. `place` is `None` where
-    /// the recording has no such scan. Read once, for lists of many scans.
+    /// the recording has no such scan.
     pub(crate) fn holds(
         &self,
         reader: &dyn SequenceReader,
         place: Option<Place>,
         said: &ScanSummary,
     ) -> bool {
-        let Some(place) = place else { return false };
-        let known = self.0.lock().unwrap_or_else(PoisonError::into_inner).get(&place).copied();
-        let content = known.unwrap_or_else(|| self.read(reader, place).ok());
+        let content = place.and_then(|place| self.known(reader, place));
         content.is_some_and(|content| content.find_in(&[said.content]).is_some())
     }
 }

@@ -15,7 +15,7 @@ use ralf_data::{DataError, SequenceReader};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::sync::{Arc, OnceLock};
+use std::sync::Arc;
 use std::time::SystemTime;
 
 /// Row groups that are kept: some 15 MB each, and several radars may be looked at together.
@@ -33,8 +33,8 @@ pub(crate) struct SequenceLabels {
     images: Vec<BTreeMap<usize, bool>>,
     /// Why scans could not be labelled, by radar and number.
     not_labelled: BTreeMap<(String, usize), String>,
-    needs: OnceLock<Arc<Vec<ScanNeed>>>,
-    things: OnceLock<Arc<SequenceThings>>,
+    needs: Cache<(), Vec<ScanNeed>>,
+    things: Cache<(), SequenceThings>,
 }
 
 /// What changes when a sequence is labelled again: sizes and times of the files.
@@ -76,8 +76,8 @@ impl SequenceLabels {
             groups: Cache::new(GROUPS_KEPT),
             images,
             not_labelled,
-            needs: OnceLock::new(),
-            things: OnceLock::new(),
+            needs: Cache::new(1),
+            things: Cache::new(1),
             rig,
         })
     }
@@ -115,21 +115,14 @@ impl SequenceLabels {
 
     /// What belongs together in the sequence; found out once.
     pub(crate) fn things(&self, reader: &dyn SequenceReader) -> Result<Arc<SequenceThings>, ApiError> {
-        if let Some(known) = self.things.get() {
-            return Ok(known.clone());
-        }
         let certainty = Certainty::of(&self.settings);
-        let things = Arc::new(SequenceThings::of(reader, &self.rig, &certainty, &self.reader)?);
-        Ok(self.things.get_or_init(|| things).clone())
+        let find = || SequenceThings::of(reader, &self.rig, &certainty, &self.reader);
+        Ok(self.things.get((), |_| true, find)?)
     }
 
     /// How much each scan needs a person, in the order of the rig.
     pub(crate) fn needs(&self, reader: &dyn SequenceReader) -> Result<Arc<Vec<ScanNeed>>, ApiError> {
-        if let Some(known) = self.needs.get() {
-            return Ok(known.clone());
-        }
-        let needs = Arc::new(self.count_needs(reader.sequence())?);
-        Ok(self.needs.get_or_init(|| needs).clone())
+        self.needs.get((), |_| true, || self.count_needs(reader.sequence()))
     }
 
     fn count_needs(&self, sequence: &Sequence) -> Result<Vec<ScanNeed>, ApiError> {

@@ -12,13 +12,21 @@ use serde_json::{Value, json};
 pub(crate) fn queue(app: &App, sequence: &str) -> Answer {
     let (index, reader) = app.sequence(sequence)?;
     let labels = app.labels(index)?;
-    let (needs, things) = (labels.needs(reader)?, labels.things(reader)?);
+    let needs = labels.needs(reader)?;
     let said = Said::of(app, index, reader)?;
-    let errors = things.expected_errors(&said.answers(app, &things)?);
-    let left = |need: &ScanNeed| errors[things.rows_of(need.radar, need.scan)].iter().sum::<f64>();
+    let left: Vec<f64> = if said.holding.is_empty() {
+        // While nobody has said anything the machine's own doubt is what is left: no scan is read for that.
+        needs.iter().map(|need| need.doubts.expected_errors).collect()
+    } else {
+        let things = labels.things(reader)?;
+        let errors = things.expected_errors(&said.answers(app, &things)?);
+        let of =
+            |need: &ScanNeed| errors[things.rows_of(need.radar, need.scan)].iter().fold(0.0, |a, b| a + b);
+        needs.iter().map(of).collect()
+    };
     let key = |need: &ScanNeed| (reader.sequence().rig.radars[need.radar].name.clone(), need.scan);
     let mut order: Vec<(&ScanNeed, f64, (String, usize))> =
-        needs.iter().map(|need| (need, left(need), key(need))).collect();
+        needs.iter().zip(left).map(|(need, left)| (need, left, key(need))).collect();
     order.sort_by(|(a, a_left, a_key), (b, b_left, b_key)| {
         let reviewed = |key| said.holding.get(key).is_some_and(|said| said.reviewed.is_some());
         let by_place = || (a.t_ns, a.radar, a.scan).cmp(&(b.t_ns, b.radar, b.scan));

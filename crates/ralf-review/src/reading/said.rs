@@ -3,9 +3,10 @@
 use crate::app::App;
 use crate::http::ApiError;
 use ralf::label::truth_of;
-use ralf_corrections::ScanSummary;
-use ralf_data::SequenceReader;
+use ralf_corrections::{ScanSummary, ScanVersion};
 use ralf_data::things::{Answer, SequenceThings};
+use ralf_data::truth::effective_labels;
+use ralf_data::{Label, SequenceReader};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 
@@ -57,18 +58,16 @@ impl Said {
         for summary in self.holding.values() {
             let key = &summary.key;
             let place = app.scan(&key.sequence, &key.radar, key.scan as usize)?;
-            let version = app.version(&place)?;
-            let said = app.said(|store| store.scan(&version))?;
+            let at = (place.sequence, place.radar, place.scan);
+            let Some(content) = app.contents.known(place.reader, at) else { continue };
             let rows = things.rows_of(place.radar, place.scan);
-            let of_scan = rows.clone().zip(&mut answers[rows]);
-            let corrections: BTreeMap<u32, u16> = said.corrections.into_iter().collect();
-            let accepted = said.review.map(|mark| mark.accepted).unwrap_or_default();
-            for (point, (row, answer)) in of_scan.enumerate() {
-                let id = corrections.get(&(point as u32)).or(accepted.get(point)).copied();
+            let said = app.said(|store| store.scan(&ScanVersion { key: place.key, content }))?;
+            let accepted = said.review.as_ref().map(|mark| mark.accepted.as_slice());
+            let labels = effective_labels(vec![Label::default(); rows.len()], accepted, &said.corrections);
+            for (row, label) in rows.zip(labels) {
                 let right = things.sightings()[row].plausible;
-                *answer = id
-                    .and_then(truth_of)
-                    .map(|truth| if truth == right { Answer::Right } else { Answer::Wrong });
+                let judged = |truth| if truth == right { Answer::Right } else { Answer::Wrong };
+                answers[row] = truth_of(label.id).map(judged);
             }
         }
         Ok(answers)

@@ -4,15 +4,21 @@ use super::said::Said;
 use crate::app::App;
 use crate::http::{self, ApiError, Table, content};
 use ralf::sensors::Sequence;
-use ralf_data::things::Thing;
+use ralf_data::things::{SequenceThings, Thing};
 use serde_json::{Map, Value, json};
+use std::sync::Arc;
 
 /// The most things of the queue that are told at once.
 const MOST: usize = 500;
 
 /// The thing of every detection of a sequence, scan by scan, and the things with the most expected errors.
 pub(crate) fn things(app: &App, sequence: &str) -> http::Answer {
-    let (known, header) = asked(app, sequence)?;
+    let (sequence, known, mut header) = asked(app, sequence)?;
+    let scans = known.scans().iter().map(|(radar, scan)| {
+        let rows = known.rows_of(*radar, *scan).len();
+        json!({ "radar": sequence.rig.radars[*radar].name, "scan": scan, "rows": rows })
+    });
+    header.insert("scans".to_owned(), scans.collect());
     let mut table = Table::new(known.things().len());
     table.u32("thing", known.things().iter().copied());
     Ok(content("application/octet-stream", table.finish(header)))
@@ -20,31 +26,26 @@ pub(crate) fn things(app: &App, sequence: &str) -> http::Answer {
 
 /// The things with the most expected errors alone: they are others after each answer.
 pub(crate) fn doubtful(app: &App, sequence: &str) -> http::Answer {
-    let (_, mut header) = asked(app, sequence)?;
-    header.remove("scans");
+    let (_, _, header) = asked(app, sequence)?;
     http::json(&Value::Object(header))
 }
 
-type Asked = (std::sync::Arc<ralf_data::things::SequenceThings>, Map<String, Value>);
+/// A sequence, what belongs together in it, and what is told of that.
+type Asked<'a> = (&'a Sequence, Arc<SequenceThings>, Map<String, Value>);
 
-fn asked(app: &App, name: &str) -> Result<Asked, ApiError> {
+fn asked<'a>(app: &'a App, name: &str) -> Result<Asked<'a>, ApiError> {
     let (index, reader) = app.sequence(name)?;
     let things = app.labels(index)?.things(reader)?;
     let sequence = reader.sequence();
     let answers = Said::of(app, index, reader)?.answers(app, &things)?;
     let doubtful = things.doubtful(&answers);
-    let scans = things.scans().iter().map(|(radar, scan)| {
-        let rows = things.rows_of(*radar, *scan).len();
-        json!({ "radar": sequence.rig.radars[*radar].name, "scan": scan, "rows": rows })
-    });
     let left: f64 = doubtful.iter().map(|thing| thing.expected_errors).sum();
     let header = Map::from_iter([
-        ("scans".to_owned(), scans.collect()),
         ("doubtful".to_owned(), doubtful.iter().take(MOST).map(|thing| row(sequence, thing)).collect()),
         ("things".to_owned(), json!(things.count())),
         ("expected_errors".to_owned(), json!(left)),
     ]);
-    Ok((things, header))
+    Ok((sequence, things, header))
 }
 
 fn row(sequence: &Sequence, thing: &Thing) -> Value {
