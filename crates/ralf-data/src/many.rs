@@ -122,18 +122,22 @@ impl Job {
     }
 
     fn model(&self) -> Result<Option<Model>, DataError> {
-        match self.settings.method.method {
-            Method::Paper => Ok(None),
-            Method::Learned => read_model(self.model.as_deref()).map(Some),
-        }
+        model_of(self.settings.method.method, self.model.as_deref())
     }
 }
 
-/// The model of a file, or the shipped one.
+/// The model that answers with a method: a file's, or the shipped one; `None` where none is asked.
 ///
 /// # Errors
 /// A file that can't be read or holds no model that this version can use.
-pub fn read_model(file: Option<&Path>) -> Result<Model, DataError> {
+pub fn model_of(method: Method, file: Option<&Path>) -> Result<Option<Model>, DataError> {
+    match method {
+        Method::Paper => Ok(None),
+        Method::Learned => read_model(file).map(Some),
+    }
+}
+
+fn read_model(file: Option<&Path>) -> Result<Model, DataError> {
     let refused = |reason: String| DataError::Unsuitable {
         file: file.unwrap_or(Path::new("the shipped model")).to_owned(),
         place: "model".to_owned(),

@@ -6,7 +6,7 @@ use crate::watch::watched;
 use pyo3::prelude::*;
 use ralf_data::many::{self, Job, Task};
 use ralf_data::result::LabelledRun;
-use ralf_data::run::{Outcome, read_record};
+use ralf_data::run::read_record;
 use ralf_data::{DataError, Settings};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -15,7 +15,7 @@ use std::path::PathBuf;
 use std::thread::available_parallelism;
 
 /// As many threads as asked for, or as there are processors.
-fn threads(jobs: Option<NonZeroUsize>) -> NonZeroUsize {
+pub(crate) fn threads(jobs: Option<NonZeroUsize>) -> NonZeroUsize {
     jobs.or_else(|| available_parallelism().ok()).unwrap_or(NonZeroUsize::MIN)
 }
 
@@ -27,16 +27,6 @@ pub(crate) fn from_json<T: DeserializeOwned>(text: &str) -> PyResult<T> {
     serde_json::from_str(text).map_err(other)
 }
 
-fn told(outcome: &Outcome) -> PyResult<String> {
-    let damaged: Vec<_> = outcome.damaged.iter().map(|(sequence, _)| sequence).collect();
-    to_json(&serde_json::json!({
-        "record": outcome.record,
-        "labelled": outcome.labelled,
-        "damaged": damaged,
-        "removed": outcome.removed,
-    }))
-}
-
 /// All settings, from a TOML text and assignments `key=value` that win over it; JSON.
 #[pyfunction]
 pub(crate) fn settings(text: &str, assignments: Vec<String>) -> PyResult<String> {
@@ -44,7 +34,7 @@ pub(crate) fn settings(text: &str, assignments: Vec<String>) -> PyResult<String>
     to_json(&Settings::from_toml(text, &assignments).map_err(other)?)
 }
 
-/// Labels a recording. `job` is JSON, and so is what comes back.
+/// Labels a recording by a job (JSON). Returns the sequences that this call has labelled.
 #[pyfunction]
 #[pyo3(signature = (job, jobs=None, progress=None))]
 pub(crate) fn label(
@@ -52,9 +42,9 @@ pub(crate) fn label(
     job: &str,
     jobs: Option<NonZeroUsize>,
     progress: Option<Py<PyAny>>,
-) -> PyResult<String> {
+) -> PyResult<Vec<String>> {
     let job: Job = from_json(job)?;
-    told(&watched(py, progress.as_ref(), |watch| job.label(threads(jobs), watch))?)
+    Ok(watched(py, progress.as_ref(), |watch| job.label(threads(jobs), watch))?.labelled)
 }
 
 /// The parts of a job, of so many scans at most; JSON each.
@@ -85,7 +75,7 @@ pub(crate) fn label_one(
     to_json(&watched(py, progress.as_ref(), |watch| many::label_one(&task, threads(jobs), watch))?)
 }
 
-/// Puts the parts of a job together.
+/// Puts the parts of a job together. Returns the sequences that this call has finished.
 #[pyfunction]
 #[pyo3(signature = (out, jobs=None, progress=None))]
 pub(crate) fn assemble(
@@ -93,8 +83,8 @@ pub(crate) fn assemble(
     out: PathBuf,
     jobs: Option<NonZeroUsize>,
     progress: Option<Py<PyAny>>,
-) -> PyResult<String> {
-    told(&watched(py, progress.as_ref(), |watch| many::assemble(&out, threads(jobs), watch))?)
+) -> PyResult<Vec<String>> {
+    Ok(watched(py, progress.as_ref(), |watch| many::assemble(&out, threads(jobs), watch))?.labelled)
 }
 
 /// The output folders for which something was planned.

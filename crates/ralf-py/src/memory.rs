@@ -2,20 +2,19 @@
 
 use crate::arrays::{numbers, rows};
 use crate::errors::{data, other};
-use crate::labelling::from_json;
+use crate::labelling::{from_json, threads};
 use crate::table::Table;
 use crate::watch::watched;
 use pyo3::prelude::*;
 use ralf::sensors::{Elevation, Lidar, LidarScan, MemorySource, Radar, Reliability, Sequence, Source};
 use ralf::space::{EgoMotion, OdometrySample, PoseSample, Transform, transform_from_parts};
-use ralf_data::many::{Job, read_model};
+use ralf_data::many::{Job, model_of};
 use ralf_data::result::{RadarScanKey, Table as ResultTable};
 use ralf_data::run::LabelRun;
 use ralf_data::{Recording, write_sequence};
 use serde::Deserialize;
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
-use std::thread::available_parallelism;
 
 /// Where a sensor sits, or the vehicle is: metres, and a quaternion in the order x, y, z, w.
 #[derive(Deserialize)]
@@ -118,18 +117,16 @@ impl MemorySequence {
         progress: Option<Py<PyAny>>,
     ) -> PyResult<Table> {
         let job: Job = from_json(job)?;
-        let jobs = jobs.or_else(|| available_parallelism().ok()).map_or(1, NonZeroUsize::get);
         let sequence = Box::new(self.source.clone());
         let recording =
             Recording { path: PathBuf::from("memory"), format: "memory", sequences: vec![sequence] };
         let tables = watched(py, progress.as_ref(), |watch| {
-            let model = job.settings.method.method == ralf::config::Method::Learned;
-            let model = model.then(|| read_model(job.model.as_deref())).transpose()?;
+            let model = model_of(job.settings.method.method, job.model.as_deref())?;
             let run = LabelRun {
                 recording: &recording,
                 settings: &job.settings,
                 out: Path::new(""),
-                jobs,
+                jobs: threads(jobs).get(),
                 checks: &[],
                 evidence: job.evidence,
                 model: model.as_ref(),

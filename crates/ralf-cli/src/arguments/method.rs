@@ -33,9 +33,6 @@ impl MethodArgs {
             Some(TypedMethod::Learned) => config.method = Method::Learned,
             None => {}
         }
-        match (config.method, &self.model) {
-            (Method::Paper, _) => Ok(None),
-            (Method::Learned, file) => Ok(Some(ralf_data::many::read_model(file.as_deref())?)),
-        }
+        Ok(ralf_data::many::model_of(config.method, self.model.as_deref())?)
     }
 }

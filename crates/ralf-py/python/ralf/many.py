@@ -125,12 +125,12 @@ def assemble(out: Path_, *, jobs: int | None = None, progress: Progress = None) 
     for folder in _ralf.planned(out):
         name = Path(folder).name
         try:
-            outcome = json.loads(_ralf.assemble(folder, jobs, listener(progress)))
+            labelled = _ralf.assemble(folder, jobs, listener(progress))
         except _ralf.RalfError as error:
             found.failed[name] = str(error)
             continue
         run = Run(folder, recording_of(folder))
-        run.labelled = outcome["labelled"]
+        run.labelled = labelled
         found.runs[name] = run
     return found
 

@@ -184,9 +184,9 @@ def label(
         evidence=evidence,
         check=check,
     )
-    outcome = json.loads(_ralf.label(told, jobs, listener(progress)))
+    labelled = _ralf.label(told, jobs, listener(progress))
     run = Run(out, path)
-    run.labelled = outcome["labelled"]
+    run.labelled = labelled
     return run
 
 
