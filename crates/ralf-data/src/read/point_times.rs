@@ -19,3 +19,17 @@ pub(crate) fn seconds_after(point_ns: i64, scan_ns: i64) -> Result<f32, String> 
     }
     Err(format!("a time within {LONGEST} s of the scan's, {scan_ns} ns"))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::nanoseconds;
+
+    #[test]
+    fn times_that_nothing_can_have_are_none() {
+        assert_eq!(nanoseconds(-1_500_000), Some(-1_500_000_000));
+        assert_eq!(nanoseconds(i64::MAX / 2000), Some(i64::MAX / 2000 * 1000));
+        for t_us in [i64::MAX / 2000 + 1, i64::MAX, i64::MIN + 1, i64::MIN] {
+            assert_eq!(nanoseconds(t_us), None, "{t_us}");
+        }
+    }
+}

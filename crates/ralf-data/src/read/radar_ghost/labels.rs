@@ -86,7 +86,9 @@ mod tests {
             assert_eq!(said(label_id), expected, "{label_id}");
         }
         assert_eq!(truth(1111, true), truth(0, false));
-        for unknown in [-3, 1, 11, 999, 6111, 1211, 1141, 1115, 1117, 11_111, i64::MAX, i64::MIN + 1] {
+        for unknown in
+            [-3, 1, 11, 999, 6111, 1211, 1141, 1115, 1117, 11_111, i64::MAX, i64::MIN + 1, i64::MIN]
+        {
             assert_eq!(truth(unknown, false), None, "{unknown}");
         }
     }

@@ -10,6 +10,7 @@ import { bestLasso, inside } from "./annotator.mjs";
 import {
   anotherBrowser,
   ask,
+  atEnd,
   clean,
   current,
   launch,
@@ -106,7 +107,7 @@ async function labelled(context) {
     return { dataset, out };
   }
   const folder = await mkdtemp(join(tmpdir(), "ralf-annotator-"));
-  context.after(() => rm(folder, { recursive: true, force: true }));
+  atEnd(context, () => rm(folder, { recursive: true, force: true }));
   const [dataset, out] = ["recording", "out"].map((name) => join(folder, name));
   const scans = ["--scans", RALF_ANNOTATE_SCANS, "--sequence", "00", "--no-images"];
   ralf("simulate", "-o", dataset, ...scans, "--quiet");

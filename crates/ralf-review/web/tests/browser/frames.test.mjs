@@ -1,7 +1,7 @@
 // 200,000 LiDAR points and twenty radar scans: drawn only when something changes, and how long a frame takes then.
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { clean, freshOut, launch, open, serve } from "./support.mjs";
+import { atEnd, clean, freshOut, launch, open, serve } from "./support.mjs";
 
 const POINTS = 200_000;
 
@@ -29,7 +29,7 @@ function lidarTable() {
 
 test("200,000 LiDAR points and twenty radar scans are drawn when the view moves, and only then", async (context) => {
   const browser = await launch();
-  context.after(() => browser.close());
+  atEnd(context, () => browser.close());
   const server = await serve(context, await freshOut(context));
   const tab = await open(context, browser, server);
   const { page } = tab;

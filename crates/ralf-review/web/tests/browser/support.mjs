@@ -28,10 +28,23 @@ export function launch() {
   return chromium.launch({ executablePath: RALF_CHROMIUM, args: CHROMIUM });
 }
 
+const endings = new WeakMap();
+
+/** Does this when the test ends, what was begun last first: no page may ask a server whose files are gone. */
+export function atEnd(context, action) {
+  const before = endings.get(context);
+  if (before) return void before.push(action);
+  const actions = [action];
+  endings.set(context, actions);
+  context.after(async () => {
+    while (actions.length > 0) await actions.pop()();
+  });
+}
+
 /** A copy of the labels, so that every test begins with none corrected. */
 export async function freshOut(context) {
   const folder = await mkdtemp(join(tmpdir(), "ralf-review-"));
-  context.after(() => rm(folder, { recursive: true, force: true }));
+  atEnd(context, () => rm(folder, { recursive: true, force: true }));
   await cp(RALF_OUT, join(folder, "out"), { recursive: true });
   return join(folder, "out");
 }
@@ -47,7 +60,7 @@ export async function serve(context, out, { author = "ada", port = 0, dataset = 
     child.kill(signal);
     await once(child, "exit");
   };
-  context.after(() => kill());
+  atEnd(context, () => kill());
   const lines = createInterface({ input: child.stdout });
   const [line] = await once(lines, "line");
   const url = line.match(/http:\/\/\S+/)[0];
@@ -58,7 +71,11 @@ export async function serve(context, out, { author = "ada", port = 0, dataset = 
 /** A browser of its own: another person. */
 export async function anotherBrowser(context, browser, viewport = { width: 1600, height: 1000 }) {
   const own = await browser.newContext({ viewport });
-  context.after(() => own.close());
+  atEnd(context, async () => {
+    // A request that a test answers itself may be under way.
+    for (const page of own.pages()) await page.unrouteAll({ behavior: "ignoreErrors" });
+    await own.close();
+  });
   return own;
 }
 
