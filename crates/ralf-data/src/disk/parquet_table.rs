@@ -4,10 +4,10 @@ use crate::disk::files;
 use crate::disk::guarded::guarded;
 use crate::error::DataError;
 use parquet::basic::Type as Physical;
-use parquet::column::reader::{ColumnReader, ColumnReaderImpl, get_typed_column_reader};
+use parquet::column::reader::{ColumnReaderImpl, get_typed_column_reader};
 use parquet::data_type::{ByteArrayType, DataType, DoubleType, FloatType, Int32Type, Int64Type};
 use parquet::errors::ParquetError;
-use parquet::file::reader::{FileReader, SerializedFileReader};
+use parquet::file::reader::{FileReader, RowGroupReader, SerializedFileReader};
 use std::fs::File;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -107,12 +107,11 @@ impl ParquetTable {
         absent: V,
     ) -> Result<Vec<V>, DataError> {
         let Some(place) = self.place(column) else { return Ok(Vec::new()) };
-        let present = self.reader.metadata().file_metadata().schema_descr().column(place).max_def_level();
         let read = || {
             let mut found = Vec::new();
             for group in 0..self.reader.num_row_groups() {
-                let reader = self.reader.get_row_group(group)?.get_column_reader(place)?;
-                read_group::<T, V>(reader, present, &value, &absent, &mut found, self.rows)?;
+                let group = self.reader.get_row_group(group)?;
+                read_group::<T, V>(group.as_ref(), place, &value, &absent, &mut found, self.rows)?;
             }
             Ok::<_, ParquetError>(found)
         };
@@ -128,16 +127,18 @@ impl ParquetTable {
     }
 }
 
-/// The values of a column in one row group; those above `present` levels of definition are there.
-fn read_group<T: DataType, V: Clone>(
-    reader: ColumnReader,
-    present: i16,
+/// The values of the column at `place` of a row group are put behind those in `found`, of which there may be `most`.
+pub(crate) fn read_group<T: DataType, V: Clone>(
+    group: &dyn RowGroupReader,
+    place: usize,
     value: &impl Fn(&T::T) -> V,
     absent: &V,
     found: &mut Vec<V>,
     most: usize,
 ) -> Result<(), ParquetError> {
-    let mut reader: ColumnReaderImpl<T> = get_typed_column_reader(reader);
+    // Values of this level of definition are there.
+    let present = group.metadata().schema_descr().column(place).max_def_level();
+    let mut reader: ColumnReaderImpl<T> = get_typed_column_reader(group.get_column_reader(place)?);
     loop {
         let (mut values, mut levels) = (Vec::new(), Vec::new());
         let (records, _, _) =

@@ -2,8 +2,8 @@
 
 use super::schema::{Column, Kind};
 use super::table::Values;
+use crate::disk::parquet_table::read_group;
 use parquet::basic::{Compression, LogicalType, Repetition, Type as Physical, ZstdLevel};
-use parquet::column::reader::get_typed_column_reader;
 use parquet::data_type::{BoolType, ByteArray, ByteArrayType, DataType, FloatType, Int32Type, Int64Type};
 use parquet::errors::ParquetError;
 use parquet::file::properties::WriterProperties;
@@ -148,22 +148,12 @@ fn read_column<T: DataType>(
     if schema.column(at).physical_type() != T::get_physical_type() {
         return Err(ParquetError::General(format!("column `{name}` has another type")));
     }
-    let optional = schema.column(at).max_def_level() > 0;
     let rows = usize::try_from(group.metadata().num_rows()).unwrap_or(0);
-    let mut reader = get_typed_column_reader::<T>(group.get_column_reader(at)?);
-    let (mut values, mut levels) = (Vec::new(), Vec::new());
-    let (mut read, mut wanted) = (0, rows);
-    while wanted > 0 {
-        let (records, _, _) =
-            reader.read_records(wanted, optional.then_some(&mut levels), None, &mut values)?;
-        if records == 0 {
-            return Err(ParquetError::General(format!("column `{name}` ends after {read} of {rows} rows")));
-        }
-        (read, wanted) = (read + records, wanted - records);
+    let mut values = Vec::new();
+    read_group::<T, _>(group, at, &|value| Some(value.clone()), &None, &mut values, rows)?;
+    if values.len() == rows {
+        return Ok(values);
     }
-    let mut values = values.into_iter();
-    Ok(match optional {
-        true => levels.into_iter().map(|level| if level > 0 { values.next() } else { None }).collect(),
-        false => values.map(Some).collect(),
-    })
+    let found = values.len();
+    Err(ParquetError::General(format!("column `{name}` has {found} of {rows} rows")))
 }

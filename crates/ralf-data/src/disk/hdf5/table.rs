@@ -1,6 +1,7 @@
 //! A table's columns by name, whatever width and order their numbers are stored in.
 
 use super::guarded;
+use crate::disk::number::Number;
 use crate::error::DataError;
 use hdf5_reader::error::ByteOrder;
 use hdf5_reader::{CompoundField, Dataset, Datatype, StringSize, VarLenKind};
@@ -25,9 +26,9 @@ struct Column<'a> {
 
 /// A number as it is stored.
 #[derive(Clone, Copy)]
-enum Number {
-    Whole { signed: bool, order: ByteOrder },
-    Float(ByteOrder),
+struct Stored {
+    number: Number,
+    order: ByteOrder,
 }
 
 impl Table {
@@ -60,12 +61,7 @@ impl Table {
     pub(crate) fn numbers(&self, column: &str) -> Result<Vec<f64>, DataError> {
         let found = self.column(column)?;
         let number = self.number(&found, "numbers of at most 8 bytes")?;
-        self.values(&found, |(_, bytes)| {
-            Ok(match number {
-                Number::Whole { signed, order } => whole(bytes, signed, order) as f64,
-                Number::Float(order) => float(bytes, order),
-            })
-        })
+        self.values(&found, |(_, bytes)| Ok(number.read(bytes, Number::value)))
     }
 
     /// The same as float32, which is what measurements are kept in.
@@ -77,15 +73,11 @@ impl Table {
     pub(crate) fn integers(&self, column: &str) -> Result<Vec<i64>, DataError> {
         let found = self.column(column)?;
         let number = self.number(&found, "whole numbers of at most 8 bytes")?;
-        self.values(&found, |(row, bytes)| match number {
-            Number::Whole { signed, order } => self.in_range(column, row, whole(bytes, signed, order)),
-            Number::Float(order) => {
-                let value = float(bytes, order);
-                let is_whole = value.fract() == 0.0 && value.abs() < i64::MAX as f64;
-                is_whole.then_some(value as i64).ok_or_else(|| {
-                    self.error(&format!("{column}, row {row}"), "a whole number", value.to_string())
-                })
-            }
+        self.values(&found, |(row, bytes)| {
+            let expected = "a whole number of at most 63 bits";
+            number
+                .read(bytes, Number::integer)
+                .map_err(|found| self.error(&format!("{column}, row {row}"), expected, found))
         })
     }
 
@@ -149,24 +141,25 @@ impl Table {
         rows.enumerate().map(value).collect()
     }
 
-    fn number(&self, column: &Column, expected: &str) -> Result<Number, DataError> {
+    fn number(&self, column: &Column, expected: &str) -> Result<Stored, DataError> {
         let datatype = match &column.field.datatype {
             Datatype::Enum { base, .. } => base,
             other => other,
         };
-        match *datatype {
-            Datatype::FixedPoint { size: 1..=8, signed, byte_order } => {
-                Ok(Number::Whole { signed, order: byte_order })
+        let stored = match *datatype {
+            Datatype::FixedPoint { size, signed: true, byte_order } => {
+                (Number::signed(usize::from(size)), byte_order)
             }
-            Datatype::FloatingPoint { size: 4 | 8, byte_order } => Ok(Number::Float(byte_order)),
+            Datatype::FixedPoint { size, byte_order, .. } => {
+                (Number::unsigned(usize::from(size)), byte_order)
+            }
+            Datatype::FloatingPoint { size, byte_order } => (Number::float(usize::from(size)), byte_order),
+            _ => (None, ByteOrder::LittleEndian),
+        };
+        match stored {
+            (Some(number), order) => Ok(Stored { number, order }),
             _ => Err(self.error(&column.field.name, expected, format!("{datatype:?}"))),
         }
-    }
-
-    fn in_range(&self, column: &str, row: usize, value: i128) -> Result<i64, DataError> {
-        i64::try_from(value).map_err(|_| {
-            self.error(&format!("{column}, row {row}"), "a number of 64 bits with a sign", value.to_string())
-        })
     }
 
     /// A text of its own length, which a row only points to.
@@ -180,6 +173,19 @@ impl Table {
     }
 }
 
+impl Stored {
+    /// What `read` makes of a number's bytes, lowest first.
+    fn read<T>(self, bytes: &[u8], read: impl Fn(Number, &[u8]) -> T) -> T {
+        if self.order == ByteOrder::LittleEndian {
+            return read(self.number, bytes);
+        }
+        let mut lowest_first = [0; 8];
+        let lowest_first = &mut lowest_first[..self.number.size()];
+        lowest_first.iter_mut().zip(bytes.iter().rev()).for_each(|(to, from)| *to = *from);
+        read(self.number, lowest_first)
+    }
+}
+
 /// The size of a number or text that lies in the row, bytes.
 fn size(datatype: &Datatype) -> Option<usize> {
     match datatype {
@@ -187,24 +193,4 @@ fn size(datatype: &Datatype) -> Option<usize> {
         Datatype::String { size: StringSize::Fixed(size), .. } => Some(*size as usize),
         _ => None,
     }
-}
-
-/// A number's bits, at most 8 bytes of them.
-fn bits(bytes: &[u8], order: ByteOrder) -> u64 {
-    let mut lowest_first = [0; 8];
-    for (at, byte) in bytes.iter().take(8).enumerate() {
-        let place = if order == ByteOrder::LittleEndian { at } else { bytes.len() - 1 - at };
-        lowest_first[place] = *byte;
-    }
-    u64::from_le_bytes(lowest_first)
-}
-
-fn whole(bytes: &[u8], signed: bool, order: ByteOrder) -> i128 {
-    let (value, unused) = (bits(bytes, order), 64 - 8 * bytes.len());
-    if signed { i128::from((value << unused).cast_signed() >> unused) } else { i128::from(value) }
-}
-
-fn float(bytes: &[u8], order: ByteOrder) -> f64 {
-    let bits = bits(bytes, order);
-    if bytes.len() == 4 { f64::from(f32::from_bits(bits as u32)) } else { f64::from_bits(bits) }
 }

@@ -62,7 +62,10 @@ fn what_is_no_table_or_column_of_this_kind_is_named() {
     for (error, words) in [
         (table.numbers("fixed").err(), "rows, fixed: expected numbers of at most 8 bytes, found String"),
         (table.texts("whole").err(), "rows, whole: expected texts, found FixedPoint"),
-        (table.integers("double").err(), "rows, double, row 1: expected a whole number, found -0.125"),
+        (
+            table.integers("double").err(),
+            "rows, double, row 1: expected a whole number of at most 63 bits, found -0.125",
+        ),
         (
             table.numbers("w").err(),
             "rows, columns: expected a column `w`, found whole, large, single, double, truth, fixed",

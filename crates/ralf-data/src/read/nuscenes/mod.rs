@@ -14,7 +14,6 @@
 
 mod can;
 mod raw;
-mod rig;
 mod source;
 
 use crate::disk::files::Folders;

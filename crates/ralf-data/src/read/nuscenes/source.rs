@@ -1,18 +1,43 @@
 //! A scene as a sequence: what its files hold.
 
 use super::can;
-use super::rig::{PCD_FIELDS, rig};
 use crate::disk::files::Folders;
 use crate::disk::pcd::Pcd;
 use crate::error::DataError;
 use crate::read::file_sequence::{FileFormat, FileSequence};
 use crate::read::measured_files::lidar_rows;
+use crate::read::models::{ARS_408_21, HDL_32E};
 use crate::read::radial::radial;
-use crate::read::scene_tables::{Measurements, SceneRecord, TableOrigin};
+use crate::read::scene_tables::{Measurements, Models, SceneRecord, TableOrigin};
 use ralf::sensors::{DepthOutput, Lidar, LidarScan, Sequence};
 use ralf::space::EgoMotion;
 use std::any::Any;
 use std::path::{Path, PathBuf};
+
+/// What a radar record holds, under the names of the file.
+const PCD_FIELDS: [&str; 18] = [
+    "x",
+    "y",
+    "z",
+    "dyn_prop",
+    "id",
+    "rcs",
+    "vx",
+    "vy",
+    "vx_comp",
+    "vy_comp",
+    "is_quality_valid",
+    "ambig_state",
+    "x_rms",
+    "y_rms",
+    "invalid_state",
+    "pdh0",
+    "vx_rms",
+    "vy_rms",
+];
+
+/// What is derived from them: the radial parts of the two velocities, m/s.
+const DERIVED_FIELDS: [&str; 2] = ["doppler", "doppler_compensated"];
 
 /// How the files of a scene are read, and what the tables call its scans.
 pub(super) struct NuScenes(TableOrigin);
@@ -26,7 +51,8 @@ pub(super) fn scene(
     folders: &mut Folders,
 ) -> Result<FileSequence<NuScenes>, DataError> {
     let SceneRecord { name, title, channels, poses } = record;
-    let rig = rig(version, &channels)?;
+    let fields = [&PCD_FIELDS[..], &DERIVED_FIELDS].concat();
+    let rig = Models { radar: ARS_408_21, fields: &fields, lidar: HDL_32E }.rig(version, &channels)?;
     let can = can::file(dataset, &name);
     let odometry = can.as_deref().map(can::read).transpose()?.unwrap_or_default();
     let motion = EgoMotion::new(odometry, poses)

@@ -1,16 +1,16 @@
 //! Tables of scenes as nuScenes brought them up and others took them over: JSON arrays whose rows name each other by
 //! tokens. Here is what formats of this kind share; what is theirs alone stands in their own folders.
 
-mod camera;
 mod join;
 mod measurements;
 mod raw;
+mod rig;
 mod version;
 
-pub(crate) use camera::pinhole;
-pub(crate) use join::{Channel, SceneRecord, Scenes, lookup, read_scenes};
+pub(crate) use join::{SceneRecord, Scenes, lookup, read_scenes};
 pub(crate) use measurements::{Measurements, TableOrigin};
-pub(crate) use raw::{EgoPoseRow, Modality, Token, for_each_row, nanoseconds};
+pub(crate) use raw::{EgoPoseRow, Token, for_each_row, nanoseconds};
+pub(crate) use rig::Models;
 pub(crate) use version::{is_one, only_folder};
 
 /// The tables that all of these formats have.

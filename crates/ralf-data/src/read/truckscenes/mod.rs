@@ -13,7 +13,6 @@
 //! - There is no log, and no map. A trailer (`vehicle.ego_trailer`) is part of what the sensors see.
 
 mod motion;
-mod rig;
 mod source;
 
 use crate::disk::files::Folders;

@@ -1,18 +1,20 @@
 //! A scene as a sequence: what its files hold.
 
-use super::rig::{PCD_FIELDS, rig};
 use crate::disk::files::Folders;
 use crate::disk::pcd::Pcd;
 use crate::error::DataError;
 use crate::read::file_sequence::{FileFormat, FileSequence};
+use crate::read::models::{ARS_548, GENERIC_LIDAR};
 use crate::read::point_times::seconds_after;
 use crate::read::radial::radial_3d;
-use crate::read::scene_tables::{Measurements, SceneRecord, TableOrigin};
+use crate::read::scene_tables::{Measurements, Models, SceneRecord, TableOrigin};
 use ralf::sensors::{DepthOutput, Lidar, LidarScan, Sequence, is_return};
 use ralf::space::{EgoMotion, OdometrySample};
 use std::any::Any;
 use std::path::{Path, PathBuf};
 
+/// What a radar record holds, under the names of the file.
+const PCD_FIELDS: [&str; 7] = ["x", "y", "z", "vrel_x", "vrel_y", "vrel_z", "rcs"];
 /// The times of LiDAR points, microseconds of Unix.
 const TIMESTAMP: &str = "timestamp";
 
@@ -29,7 +31,8 @@ pub(super) fn scene(
     folders: &mut Folders,
 ) -> Result<FileSequence<TruckScenes>, DataError> {
     let SceneRecord { name, title, channels, poses } = record;
-    let rig = rig(version, &channels)?;
+    let fields = [&PCD_FIELDS[..], &["doppler"]].concat();
+    let rig = Models { radar: ARS_548, fields: &fields, lidar: GENERIC_LIDAR }.rig(version, &channels)?;
     let motion = EgoMotion::new(odometry, poses)
         .ok_or_else(|| DataError::content(dataset, format!("scene `{name}`"), "ego poses", "none"))?;
     let mut found = Measurements::find(dataset, channels, folders)?;
