@@ -22,7 +22,18 @@ const FIRST_BAND: f64 = 8.0;
 /// A radar's scan, with the detections that were seen again.
 struct Seen {
     t_ns: i64,
+    /// Where the LiDAR sees down to the foot of things.
     positions: Vec<Point>,
+    /// Nearer, where it looks over the noses of cars that a radar sees.
+    looked_over: Vec<Point>,
+}
+
+/// How many detections lie on the fronts of things.
+pub(super) struct OnFronts {
+    /// Of the positions, by band of range.
+    pub(super) bands: [f64; BANDS],
+    /// Of those that are looked over: of no use for more than a first guess.
+    pub(super) looked_over: f64,
 }
 
 /// Scans of a radar beside each scan of the LiDARs.
@@ -47,9 +58,11 @@ impl<'a> Beside<'a> {
             let seen = (0..looks.len()).filter(together).map(|i| {
                 let t_ns = looks[i].t_ns;
                 let place = setup.lidar_from_radar(radar, lidar, t_ns, change);
-                let mut positions = seen_again(looks, i, &case.motion, &mount);
-                positions.retain(|position| lidar.sees_down_to_the_foot(&(place * change.place(position))));
-                Seen { t_ns, positions }
+                let is_seen_whole =
+                    |position: &Point| lidar.sees_down_to_the_foot(&(place * change.place(position)));
+                let again = seen_again(looks, i, &case.motion, &mount).into_iter();
+                let (positions, looked_over) = again.partition(is_seen_whole);
+                Seen { t_ns, positions, looked_over }
             });
             let place = setup.lidar_from_radar(radar, lidar, lidar.t_ns, change);
             let fronts = Fronts::of(&lidar.field, place.translation.vector);
@@ -58,17 +71,19 @@ impl<'a> Beside<'a> {
         Self { moments }
     }
 
-    /// By moment and band of range: how many detections lie on the fronts of things where a change puts them.
-    pub(super) fn on_fronts(&self, setup: &Setup, radar: usize, change: &SensorChange) -> Vec<[f64; BANDS]> {
+    /// By moment: how many detections lie on the fronts of things where a change puts them.
+    pub(super) fn on_fronts(&self, setup: &Setup, radar: usize, change: &SensorChange) -> Vec<OnFronts> {
         let mut found = Vec::with_capacity(self.moments.len());
         for Moment { lidar, fronts, seen } in &self.moments {
-            let mut sums = [0.0; BANDS];
+            let mut sums = OnFronts { bands: [0.0; BANDS], looked_over: 0.0 };
             for scan in seen {
                 let place = setup.lidar_from_radar(radar, lidar, scan.t_ns, change);
-                for position in &scan.positions {
+                let at = |position: &Point| {
                     let p = place * change.place(position);
-                    sums[band(position)] += fronts.at(p.x, p.y);
-                }
+                    fronts.at(p.x, p.y)
+                };
+                scan.positions.iter().for_each(|position| sums.bands[band(position)] += at(position));
+                sums.looked_over += scan.looked_over.iter().map(at).sum::<f64>();
             }
             found.push(sums);
         }

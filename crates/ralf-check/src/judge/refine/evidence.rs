@@ -1,7 +1,7 @@
 //! What a correction rests on: how likely the measurements are under it.
 
 use super::super::case::Case;
-use super::beside::{BANDS, Beside};
+use super::beside::{BANDS, Beside, OnFronts};
 use super::quantity::{Values, values, with_values};
 use crate::change::SensorChange;
 use crate::doppler::predicted;
@@ -61,13 +61,29 @@ impl<'a> Evidence<'a> {
 
     /// The likelihood of each part of the evidence.
     pub(super) fn likelihoods(&self, values: &Values) -> Parts {
+        self.parts(values, &self.on_fronts(values))
+    }
+
+    /// The posterior with what a LiDAR looks over as well: it may be off by a quarter of a metre, but knows one row of
+    /// things from the next.
+    pub(super) fn rough_posterior(&self, values: &Values) -> f64 {
+        let moments = self.on_fronts(values);
+        let looked_over = moments.iter().map(|moment| moment.looked_over).sum::<f64>();
+        let parts = self.parts(values, &moments);
+        parts.iter().flatten().sum::<f64>() + LIDAR_WEIGHT * looked_over - values.norm_squared() / 2.0
+    }
+
+    fn on_fronts(&self, values: &Values) -> Vec<OnFronts> {
+        self.beside.on_fronts(&self.case.setup(), self.radar, &self.change(values))
+    }
+
+    fn parts(&self, values: &Values, moments: &[OnFronts]) -> Parts {
         let Self { case, radar, .. } = *self;
         let change = self.change(values);
         let mut found = [[0.0; KINDS]; STRETCHES];
-        let moments = self.beside.on_fronts(&case.setup(), radar, &change);
         let count = moments.len().max(1);
-        for (i, bands) in moments.into_iter().enumerate() {
-            for (sum, beside) in found[i * STRETCHES / count][1..].iter_mut().zip(bands) {
+        for (i, moment) in moments.iter().enumerate() {
+            for (sum, beside) in found[i * STRETCHES / count][1..].iter_mut().zip(moment.bands) {
                 *sum += LIDAR_WEIGHT * beside;
             }
         }

@@ -44,7 +44,7 @@ pub(super) fn likeliest(evidence: &Evidence, start: &Values, open: Open) -> Valu
 }
 
 /// The best value of one quantity within [`WIDEST`], in steps: rows of things stand one behind the other, and the wrong
-/// one may be nearer.
+/// one may be nearer. What tells the rows apart counts here, though it may be off.
 fn anywhere(evidence: &Evidence, start: Values, quantity: usize, step: f64) -> Values {
     let steps = (WIDEST / step).ceil() as i32;
     let mut tried = vec![start];
@@ -53,7 +53,7 @@ fn anywhere(evidence: &Evidence, start: Values, quantity: usize, step: f64) -> V
         values[quantity] = f64::from(i) * step;
         values
     }));
-    let scored = tried.into_iter().map(|values| (evidence.posterior(&values), values));
+    let scored = tried.into_iter().map(|values| (evidence.rough_posterior(&values), values));
     scored.max_by(|a, b| a.0.total_cmp(&b.0)).map_or(start, |(_, values)| values)
 }
 
