@@ -20,6 +20,8 @@ const RADAR_SCANS: usize = 120;
 const LIDAR_POINTS: usize = 60_000;
 /// What stands between these heights above the ground is an obstacle that a radar sees as well, m.
 const OBSTACLES: std::ops::Range<f64> = 0.4..3.0;
+/// Of the points, this share lies below less steep beams than the steepest ones; so many are looked at.
+const STEEPEST: (f64, usize) = (0.98, 2000);
 /// Obstacles kept to be sought in another scan.
 const PROBES: usize = 800;
 
@@ -54,6 +56,9 @@ pub(crate) struct LidarLook {
     /// The same, all of them, by distance.
     pub(crate) field: PlanField,
     pub(crate) ground: Option<GroundFit>,
+    /// The LiDAR's place (vehicle frame as recorded), and the distance from it in plan, m, at which its steepest beams
+    /// come down to where obstacles begin.
+    blind: (Point, f64),
     /// Where things end, for images; empty where there are too few of them.
     pub(crate) edges: Vec<DepthEdge>,
     /// Figures of its numbers, which a wrong data type gives away.
@@ -205,6 +210,13 @@ impl RadarLook {
 }
 
 impl LidarLook {
+    /// Whether a thing at a place (vehicle frame as recorded) is so far away that no lower part of it, such as the nose
+    /// of a car, is nearer than what the beams meet.
+    pub(crate) fn sees_down_to_the_foot(&self, place: &Point) -> bool {
+        let (lidar, blind) = &self.blind;
+        (place - lidar).xy().norm() > *blind
+    }
+
     fn of(source: &dyn Source, lidar: usize, read: &LidarScan) -> Self {
         let mut hasher = DefaultHasher::new();
         read.points.iter().flatten().for_each(|value| value.to_bits().hash(&mut hasher));
@@ -226,11 +238,20 @@ impl LidarLook {
             probes: obstacles.iter().step_by(step).map(|p| **p).collect(),
             field: PlanField::new(obstacles.iter().map(|p| [p.x, p.y, p.z])),
             edges,
+            blind: (mount.translation.vector.into(), blind(&points, &mount.translation.vector.into())),
             ground,
             shape: CloudShape::of(&read.points),
             digest: hasher.finish(),
         }
     }
+}
+
+/// The distance at which the steepest beams come down to where obstacles begin, m.
+fn blind(points: &[Point], lidar: &Point) -> f64 {
+    let looked = points.iter().step_by(points.len().div_ceil(STEEPEST.1).max(1));
+    let slopes: Vec<f64> = looked.map(|p| (lidar.z - p.z) / (p - lidar).xy().norm().max(1e-3)).collect();
+    let steepest = crate::statistics::quantile(&slopes, STEEPEST.0).filter(|slope| *slope > 0.0);
+    steepest.map_or(f64::INFINITY, |slope| (lidar.z - OBSTACLES.start) / slope)
 }
 
 impl CloudShape {
@@ -271,6 +292,15 @@ mod tests {
         assert_eq!(paired(&times), BTreeSet::from([0, 1, 2, 5, 6, 7]));
         assert_eq!(paired(&times[..1]), BTreeSet::from([0]));
         assert!(paired(&[]).is_empty());
+    }
+
+    #[test]
+    fn beams_that_reach_a_road_at_eight_metres_reach_the_height_of_obstacles_before() {
+        let lidar = Point::new(0.0, 0.0, 2.0);
+        let ring =
+            (0..2000).map(|i| f64::from(i) * 0.01).map(|a| Point::new(8.0 * a.cos(), 8.0 * a.sin(), 0.0));
+        assert!((blind(&ring.collect::<Vec<_>>(), &lidar) - 8.0 * 1.6 / 2.0).abs() < 1e-9);
+        assert_eq!(blind(&[], &lidar), f64::INFINITY);
     }
 
     #[test]

@@ -6,6 +6,8 @@
     reason = "tests fail as tests do, and print a table for people"
 )]
 
+mod cut;
+mod labels;
 mod odometry;
 mod recording;
 mod refinement;

@@ -14,11 +14,26 @@ const RANGES: std::ops::Range<f64> = 1.0..40.0;
 /// A detection is seen again in the scan before or after within this, m, and this share of its range: the noise of
 /// both.
 const AGAIN: (f64, f64) = (0.2, 0.015);
+/// Bands of range: nearer than 8 m, than 16 m, and farther. What deceives a measure, deceives it in one of them.
+pub(super) const BANDS: usize = 3;
+/// Where the first ends, m; each is as deep as all before it.
+const FIRST_BAND: f64 = 8.0;
 
 /// A radar's scan, with the detections that were seen again.
 struct Seen {
     t_ns: i64,
+    /// Where the LiDAR sees down to the foot of things.
     positions: Vec<Point>,
+    /// Nearer, where it looks over the noses of cars that a radar sees.
+    looked_over: Vec<Point>,
+}
+
+/// How many detections lie on the fronts of things.
+pub(super) struct OnFronts {
+    /// Of the positions, by band of range.
+    pub(super) bands: [f64; BANDS],
+    /// Of those that are looked over: of no use for more than a first guess.
+    pub(super) looked_over: f64,
 }
 
 /// Scans of a radar beside each scan of the LiDARs.
@@ -40,9 +55,15 @@ impl<'a> Beside<'a> {
         let mut moments = Vec::new();
         for lidar in &case.lidars {
             let together = |i: &usize| looks[*i].t_ns.abs_diff(lidar.t_ns) <= TOGETHER_NS;
-            let seen = (0..looks.len())
-                .filter(together)
-                .map(|i| Seen { t_ns: looks[i].t_ns, positions: seen_again(looks, i, &case.motion, &mount) });
+            let seen = (0..looks.len()).filter(together).map(|i| {
+                let t_ns = looks[i].t_ns;
+                let place = setup.lidar_from_radar(radar, lidar, t_ns, change);
+                let is_seen_whole =
+                    |position: &Point| lidar.sees_down_to_the_foot(&(place * change.place(position)));
+                let again = seen_again(looks, i, &case.motion, &mount).into_iter();
+                let (positions, looked_over) = again.partition(is_seen_whole);
+                Seen { t_ns, positions, looked_over }
+            });
             let place = setup.lidar_from_radar(radar, lidar, lidar.t_ns, change);
             let fronts = Fronts::of(&lidar.field, place.translation.vector);
             moments.push(Moment { lidar, fronts, seen: seen.collect() });
@@ -51,21 +72,28 @@ impl<'a> Beside<'a> {
     }
 
     /// By moment: how many detections lie on the fronts of things where a change puts them.
-    pub(super) fn on_fronts(&self, setup: &Setup, radar: usize, change: &SensorChange) -> Vec<f64> {
+    pub(super) fn on_fronts(&self, setup: &Setup, radar: usize, change: &SensorChange) -> Vec<OnFronts> {
         let mut found = Vec::with_capacity(self.moments.len());
         for Moment { lidar, fronts, seen } in &self.moments {
-            let mut sum = 0.0;
+            let mut sums = OnFronts { bands: [0.0; BANDS], looked_over: 0.0 };
             for scan in seen {
                 let place = setup.lidar_from_radar(radar, lidar, scan.t_ns, change);
-                for position in &scan.positions {
+                let at = |position: &Point| {
                     let p = place * change.place(position);
-                    sum += fronts.at(p.x, p.y);
-                }
+                    fronts.at(p.x, p.y)
+                };
+                scan.positions.iter().for_each(|position| sums.bands[band(position)] += at(position));
+                sums.looked_over += scan.looked_over.iter().map(at).sum::<f64>();
             }
-            found.push(sum);
+            found.push(sums);
         }
         found
     }
+}
+
+fn band(position: &Point) -> usize {
+    let range = position.coords.norm();
+    (0..BANDS - 1).find(|band| range < FIRST_BAND * f64::from(1 << band)).unwrap_or(BANDS - 1)
 }
 
 /// Detections of a scan that the scan before or after has as well: clutter comes and goes.

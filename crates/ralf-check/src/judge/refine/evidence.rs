@@ -1,7 +1,7 @@
 //! What a correction rests on: how likely the measurements are under it.
 
 use super::super::case::Case;
-use super::beside::Beside;
+use super::beside::{BANDS, Beside, OnFronts};
 use super::quantity::{Values, values, with_values};
 use crate::change::SensorChange;
 use crate::doppler::predicted;
@@ -18,6 +18,11 @@ const VELOCITY_SIGMA: (f64, f64) = (0.02, 0.01);
 const VELOCITY_CAP: f64 = 4.0;
 /// Stretches of time, whose measurements have little to do with each other.
 pub(super) const STRETCHES: usize = 8;
+/// Kinds of evidence: range rates, and the LiDAR by bands of range.
+pub(super) const KINDS: usize = 1 + BANDS;
+
+/// The logarithm of a likelihood, but for a constant, by stretch of time and kind of evidence.
+pub(super) type Parts = [[f64; KINDS]; STRETCHES];
 
 /// Range rates of a radar, and its detections beside the LiDAR's points.
 pub(super) struct Evidence<'a> {
@@ -51,23 +56,41 @@ impl<'a> Evidence<'a> {
     /// The logarithm of the likelihood of everything, small corrections being likelier than large ones; but for a
     /// constant.
     pub(super) fn posterior(&self, values: &Values) -> f64 {
-        self.likelihoods(values).iter().sum::<f64>() - values.norm_squared() / 2.0
+        self.likelihoods(values).iter().flatten().sum::<f64>() - values.norm_squared() / 2.0
     }
 
-    /// The logarithm of the likelihood of each stretch of time, but for a constant.
-    pub(super) fn likelihoods(&self, values: &Values) -> [f64; STRETCHES] {
+    /// The likelihood of each part of the evidence.
+    pub(super) fn likelihoods(&self, values: &Values) -> Parts {
+        self.parts(values, &self.on_fronts(values))
+    }
+
+    /// The posterior with what a LiDAR looks over as well: it may be off by a quarter of a metre, but knows one row of
+    /// things from the next.
+    pub(super) fn rough_posterior(&self, values: &Values) -> f64 {
+        let moments = self.on_fronts(values);
+        let looked_over = moments.iter().map(|moment| moment.looked_over).sum::<f64>();
+        let parts = self.parts(values, &moments);
+        parts.iter().flatten().sum::<f64>() + LIDAR_WEIGHT * looked_over - values.norm_squared() / 2.0
+    }
+
+    fn on_fronts(&self, values: &Values) -> Vec<OnFronts> {
+        self.beside.on_fronts(&self.case.setup(), self.radar, &self.change(values))
+    }
+
+    fn parts(&self, values: &Values, moments: &[OnFronts]) -> Parts {
         let Self { case, radar, .. } = *self;
         let change = self.change(values);
-        let mut found = [0.0; STRETCHES];
-        let moments = self.beside.on_fronts(&case.setup(), radar, &change);
+        let mut found = [[0.0; KINDS]; STRETCHES];
         let count = moments.len().max(1);
-        for (i, beside) in moments.into_iter().enumerate() {
-            found[i * STRETCHES / count] += LIDAR_WEIGHT * beside;
+        for (i, moment) in moments.iter().enumerate() {
+            for (sum, beside) in found[i * STRETCHES / count][1..].iter_mut().zip(moment.bands) {
+                *sum += LIDAR_WEIGHT * beside;
+            }
         }
         let mount = change.mount(&case.sequence.rig.radars[radar].vehicle_from_radar);
         let scans = case.fits[radar].len().max(1);
         for i in 0..case.fits[radar].len() {
-            found[i * STRETCHES / scans] -= self.misfit(i, &change, &mount);
+            found[i * STRETCHES / scans][0] -= self.misfit(i, &change, &mount);
         }
         found
     }

@@ -62,9 +62,10 @@ fn of_radar(case: &Case, radar: usize) -> Refinement {
         name: case.name(radar).to_owned(),
         change: evidence.change(&values),
         deviations: std::array::from_fn(|i| {
-            (deviations[i] * QUANTITIES[i].prior).hypot(QUANTITIES[i].systematic)
+            let measured = deviations.chance[i].hypot(deviations.contradiction[i]).min(1.0);
+            (measured * QUANTITIES[i].prior).hypot(QUANTITIES[i].systematic)
         }),
-        proposed: evidence.change(&proposed(&evidence, values, &deviations, open)),
+        proposed: evidence.change(&proposed(&evidence, values, &deviations.chance, open)),
     }
 }
 

@@ -4,7 +4,7 @@
 //! the speed is the same. So after each quantity for itself the search follows the axes of the likelihood's own bend,
 //! and the standard deviations are those of all quantities together.
 
-use super::evidence::{Evidence, STRETCHES};
+use super::evidence::{Evidence, KINDS, STRETCHES};
 use super::quantity::{QUANTITIES, Values};
 use nalgebra::{Matrix4, SymmetricEigen};
 
@@ -44,7 +44,7 @@ pub(super) fn likeliest(evidence: &Evidence, start: &Values, open: Open) -> Valu
 }
 
 /// The best value of one quantity within [`WIDEST`], in steps: rows of things stand one behind the other, and the wrong
-/// one may be nearer.
+/// one may be nearer. What tells the rows apart counts here, though it may be off.
 fn anywhere(evidence: &Evidence, start: Values, quantity: usize, step: f64) -> Values {
     let steps = (WIDEST / step).ceil() as i32;
     let mut tried = vec![start];
@@ -53,7 +53,7 @@ fn anywhere(evidence: &Evidence, start: Values, quantity: usize, step: f64) -> V
         values[quantity] = f64::from(i) * step;
         values
     }));
-    let scored = tried.into_iter().map(|values| (evidence.posterior(&values), values));
+    let scored = tried.into_iter().map(|values| (evidence.rough_posterior(&values), values));
     scored.max_by(|a, b| a.0.total_cmp(&b.0)).map_or(start, |(_, values)| values)
 }
 
@@ -114,30 +114,48 @@ fn reach(quantity: usize) -> Values {
     step
 }
 
-/// Standard deviations of values that are the likeliest: from how the likelihood falls off about them, which knows
-/// what goes together, and from how much stretches of time disagree (the sandwich of White, *Econometrica* 50, 1982),
-/// which knows what the model doesn't. Of what isn't open, those before anything was measured.
-pub(super) fn deviations(evidence: &Evidence, values: &Values, open: Open) -> Values {
-    let covariance = Bend::at(evidence, values, open).covariance();
-    let mut disagreement = Matrix4::zeros();
-    for slope in slopes(evidence, values, open) {
-        disagreement += slope * slope.transpose();
-    }
-    let sandwich = covariance * disagreement * covariance;
-    Values::from_fn(
-        |i, _| if open[i] { (covariance[(i, i)] + sandwich[(i, i)]).sqrt().min(1.0) } else { 1.0 },
-    )
+/// How well values are known, in standard deviations; of what isn't open, those before anything was measured.
+pub(super) struct Deviations {
+    /// By chance: what measurements of the same kind scatter by.
+    pub(super) chance: Values,
+    /// By kinds of evidence that contradict each other: more of the same takes nothing from it.
+    pub(super) contradiction: Values,
 }
 
-/// How each stretch of time would have the values changed, beside what all would.
-fn slopes(evidence: &Evidence, values: &Values, open: Open) -> [Values; STRETCHES] {
-    let mut slopes = [Values::zeros(); STRETCHES];
+/// Standard deviations of values that are the likeliest: from how the likelihood falls off about them, which knows
+/// what goes together, and from how much parts of the evidence disagree (the sandwich of White, *Econometrica* 50,
+/// 1982), which knows what the model doesn't: stretches of time, and kinds.
+pub(super) fn deviations(evidence: &Evidence, values: &Values, open: Open) -> Deviations {
+    let covariance = Bend::at(evidence, values, open).covariance();
+    let slopes = slopes(evidence, values, open);
+    let by_stretch = slopes.map(|kinds| kinds.iter().sum::<Values>());
+    let by_kind: [Values; KINDS] =
+        std::array::from_fn(|kind| slopes.iter().map(|kinds| kinds[kind]).sum::<Values>());
+    let [stretches, kinds] =
+        [&by_stretch[..], &by_kind[..]].map(|slopes| covariance * disagreement(slopes) * covariance);
+    let of = |variances: Matrix4<f64>| {
+        Values::from_fn(|i, _| if open[i] { variances[(i, i)].sqrt().min(1.0) } else { 1.0 })
+    };
+    Deviations { chance: of(covariance + stretches), contradiction: of(kinds) }
+}
+
+/// How far parts of the evidence pull apart: the covariance of a sum of as many that are drawn as these were.
+fn disagreement(slopes: &[Values]) -> Matrix4<f64> {
+    let count = slopes.len() as f64;
+    let mean = slopes.iter().sum::<Values>() / count;
+    let about_mean = slopes.iter().map(|slope| (slope - mean) * (slope - mean).transpose());
+    about_mean.sum::<Matrix4<f64>>() * (count / (count - 1.0))
+}
+
+/// How each part of the evidence would have the values changed.
+fn slopes(evidence: &Evidence, values: &Values, open: Open) -> [[Values; KINDS]; STRETCHES] {
+    let mut slopes = [[Values::zeros(); KINDS]; STRETCHES];
     for i in (0..4).filter(|i| open[*i]) {
         let [behind, ahead] = [-1.0, 1.0].map(|side| evidence.likelihoods(&(values + reach(i) * side)));
-        for (slope, (behind, ahead)) in slopes.iter_mut().zip(behind.iter().zip(&ahead)) {
+        let ends = behind.iter().flatten().zip(ahead.iter().flatten());
+        for (slope, (behind, ahead)) in slopes.iter_mut().flatten().zip(ends) {
             slope[i] = (ahead - behind) / (2.0 * reach(i)[i]);
         }
     }
-    let mean = slopes.iter().sum::<Values>() / STRETCHES as f64;
-    slopes.map(|slope| slope - mean)
+    slopes
 }
