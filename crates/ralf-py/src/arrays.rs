@@ -5,6 +5,7 @@ use pyo3::buffer::{Element, PyBuffer};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
+use ralf::sensors::{CameraImage, DepthImage};
 
 /// Numbers in memory that NumPy looks into without a copy: `numpy.asarray(column)`. They can't be changed.
 #[pyclass(frozen, module = "ralf._ralf")]
@@ -20,6 +21,18 @@ impl Column {
     pub(crate) fn new(buffer: Buffer, typestr: &'static str, rows: usize, width: usize) -> Self {
         let shape = if width == 1 { vec![rows] } else { vec![rows, width] };
         Self { buffer, typestr, shape }
+    }
+
+    /// The pixels of an image, row by row: red, green, blue each.
+    pub(crate) fn of_image(image: CameraImage) -> Self {
+        let shape = vec![image.height, image.width, 3];
+        Self { buffer: Buffer::from_vec(image.rgb.into_flattened()), typestr: "|u1", shape }
+    }
+
+    /// The values of a depth image, row by row.
+    pub(crate) fn of_depth(depth: DepthImage) -> Self {
+        let shape = vec![depth.height, depth.width];
+        Self { buffer: Buffer::from_vec(depth.values), typestr: "<f4", shape }
     }
 }
 
@@ -60,4 +73,20 @@ pub(crate) fn rows<T: Element, const N: usize>(array: &Bound<'_, PyAny>) -> PyRe
         return Ok(rows.to_vec());
     }
     Err(PyValueError::new_err(format!("expected rows of {N}, found {} numbers", numbers.len())))
+}
+
+/// An image of bytes: height x width x 3.
+pub(crate) fn image(array: &Bound<'_, PyAny>) -> PyResult<CameraImage> {
+    let [height, width, 3] = PyBuffer::<u8>::get(array)?.shape()[..] else {
+        return Err(PyValueError::new_err("expected an image of height x width x 3, found another shape"));
+    };
+    Ok(CameraImage { width, height, rgb: rows(array)? })
+}
+
+/// A depth image: height x width.
+pub(crate) fn depth(array: &Bound<'_, PyAny>) -> PyResult<DepthImage> {
+    let [height, width] = PyBuffer::<f32>::get(array)?.shape()[..] else {
+        return Err(PyValueError::new_err("expected depth of height x width, found another shape"));
+    };
+    Ok(DepthImage { width, height, values: numbers(array)? })
 }

@@ -1,11 +1,13 @@
 //! How good labels are.
 
+use crate::arrays::Column;
 use crate::errors::data;
 use crate::labelling::to_json;
+use arrow_buffer::Buffer;
 use pyo3::prelude::*;
-
+use ralf::label::truth_of;
 use ralf_data::result::LabelledRun;
-use ralf_data::{Balances, Comparison, Corrections, DataError, GroundTruth, open_with};
+use ralf_data::{Balances, Comparison, Corrections, DataError, GroundTruth, ScanId, open_with};
 use std::path::{Path, PathBuf};
 
 /// As `ralf evaluate OUT --truth TRUTH --json` prints it; without a truth how balanced the labels are.
@@ -20,6 +22,11 @@ pub(crate) fn evaluate(py: Python<'_>, out: PathBuf, truth: Option<PathBuf>) -> 
 
 /// Against the truth of a dataset, with what people corrected above it.
 fn compare(out: &Path, dataset: &Path) -> Result<Comparison, DataError> {
+    Comparison::new(out, &corrected(out, dataset)?)
+}
+
+/// The truth of a dataset, with what people corrected of a run above it.
+fn corrected(out: &Path, dataset: &Path) -> Result<GroundTruth, DataError> {
     let run = LabelledRun::open(out)?;
     let recording = open_with(dataset, None, &run.settings().topics).ok();
     // Labels of one format may be compared with truth that is kept in another.
@@ -32,9 +39,40 @@ fn compare(out: &Path, dataset: &Path) -> Result<Comparison, DataError> {
         }
         None => Corrections::open(out)?,
     };
-    let truth = match corrections.is_empty() {
-        true => GroundTruth::open(dataset)?,
-        false => GroundTruth::merged(dataset, corrections)?,
-    };
-    Comparison::new(out, &truth)
+    match corrections.is_empty() {
+        true => GroundTruth::open(dataset),
+        false => GroundTruth::merged(dataset, corrections),
+    }
+}
+
+/// What is true of a dataset's detections, as far as anybody says it.
+#[pyclass(frozen, module = "ralf._ralf")]
+pub(crate) struct Truth {
+    truth: GroundTruth,
+}
+
+#[pymethods]
+impl Truth {
+    /// The truth of a dataset, with what people corrected of a run above it.
+    #[new]
+    #[pyo3(signature = (dataset, out=None))]
+    fn new(py: Python<'_>, dataset: PathBuf, out: Option<PathBuf>) -> PyResult<Self> {
+        let open = || match &out {
+            Some(out) => corrected(out, &dataset),
+            None => GroundTruth::open(&dataset),
+        };
+        Ok(Self { truth: py.detach(open).map_err(data)? })
+    }
+
+    /// Of each detection of a scan 1 plausible, 0 artifact, -1 unknown; `None` where nothing is known of the scan.
+    fn labels(&self, py: Python<'_>, sequence: String, radar: String, scan: u32) -> PyResult<Option<Column>> {
+        let scan = ScanId { sequence, radar, scan };
+        if self.truth.scans().binary_search(&scan).is_err() {
+            return Ok(None);
+        }
+        let labels = py.detach(|| self.truth.labels(&scan)).map_err(data)?;
+        let told: Vec<i8> = labels.iter().map(|label| truth_of(label.id).map_or(-1, i8::from)).collect();
+        let rows = told.len();
+        Ok(Some(Column::new(Buffer::from_vec(told), "|i1", rows, 1)))
+    }
 }

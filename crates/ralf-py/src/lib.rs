@@ -30,7 +30,7 @@ mod _ralf {
     #[pymodule_export]
     use super::errors::RalfError;
     #[pymodule_export]
-    use super::evaluation::evaluate;
+    use super::evaluation::{Truth, evaluate};
     #[pymodule_export]
     use super::labelling::{assemble, folders, label, label_one, plan, planned, record, settings, table};
     #[pymodule_export]

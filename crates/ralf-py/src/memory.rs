@@ -1,14 +1,15 @@
 //! A sequence of arrays, without files.
 
-use crate::arrays::{numbers, rows};
+use crate::arrays::{depth, image, numbers, rows};
 use crate::errors::{data, other};
 use crate::labelling::{from_json, threads};
 use crate::table::Table;
 use crate::watch::watched;
 use pyo3::prelude::*;
-use ralf::sensors::{Elevation, Lidar, LidarScan, MemorySource, Radar, Reliability, Sequence, Source};
+use ralf::sensors::{LidarScan, MemorySource, Sequence, Source, TimedImage};
 use ralf::space::{EgoMotion, OdometrySample, PoseSample, Transform, transform_from_parts};
 use ralf_data::many::{Job, model_of};
+use ralf_data::read::rig_from_json;
 use ralf_data::result::{RadarScanKey, Table as ResultTable};
 use ralf_data::run::LabelRun;
 use ralf_data::{Recording, write_sequence};
@@ -16,49 +17,22 @@ use serde::Deserialize;
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
-/// Where a sensor sits, or the vehicle is: metres, and a quaternion in the order x, y, z, w.
+/// Where the vehicle is: metres, and a quaternion in the order x, y, z, w.
 #[derive(Deserialize)]
 struct Pose {
     translation: [f64; 3],
-    rotation: [f64; 4],
+    quaternion_xyzw: [f64; 4],
 }
 
 impl Pose {
     fn transform(&self) -> PyResult<Transform> {
-        let found = || {
-            format!(
-                "expected finite numbers and a rotation, found {:?}, {:?}",
-                self.translation, self.rotation
-            )
-        };
-        transform_from_parts(self.translation, self.rotation).ok_or_else(|| other(found()))
+        let Self { translation, quaternion_xyzw } = self;
+        transform_from_parts(*translation, *quaternion_xyzw).ok_or_else(|| {
+            other(format!(
+                "expected finite numbers and a rotation, found {translation:?}, {quaternion_xyzw:?}"
+            ))
+        })
     }
-}
-
-/// A radar, as the Python package tells of it; angles in degrees.
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct RadarTold {
-    name: String,
-    fields: Vec<String>,
-    mounting: Pose,
-    elevation: bool,
-    fov_azimuth_deg: f64,
-    fov_elevation_deg: f64,
-    sigma_range_m: f64,
-    sigma_azimuth_deg: f64,
-    sigma_elevation_deg: f64,
-}
-
-/// A LiDAR, as the Python package tells of it; angles in degrees.
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct LidarTold {
-    name: String,
-    mounting: Pose,
-    sigma_range_m: f64,
-    lowest_beam_deg: f64,
-    max_range_m: Option<f64>,
 }
 
 /// The vehicle's motion, as the Python package tells of it.
@@ -74,8 +48,10 @@ struct MotionTold {
 type RadarScans<'py> = Vec<(i64, Vec<Bound<'py, PyAny>>)>;
 /// Scans of a LiDAR: a time (ns), points, intensities, and times of the points where they are known.
 type LidarScans<'py> = Vec<(i64, Bound<'py, PyAny>, Bound<'py, PyAny>, Option<Bound<'py, PyAny>>)>;
+/// Images of a camera: a time (ns), pixels, and depth of each view where it is known.
+type Images<'py> = Vec<(i64, Bound<'py, PyAny>, Option<Vec<Bound<'py, PyAny>>>)>;
 
-/// A sequence in memory: sensors (JSON) with all their measurements.
+/// A sequence in memory: sensors (JSON, with the keys of `sequence.toml`) with all their measurements, in their order.
 #[pyclass(frozen, module = "ralf._ralf")]
 pub(crate) struct MemorySequence {
     source: MemorySource,
@@ -86,23 +62,26 @@ impl MemorySequence {
     #[new]
     fn new(
         name: &str,
+        sensors: &str,
         motion: &str,
-        radars: Vec<(String, RadarScans<'_>)>,
-        lidars: Vec<(String, LidarScans<'_>)>,
+        radars: Vec<RadarScans<'_>>,
+        lidars: Vec<LidarScans<'_>>,
+        cameras: Vec<Images<'_>>,
     ) -> PyResult<Self> {
-        let mut source = MemorySource::new(name, motion_of(from_json(motion)?)?);
-        for (radar, scans) in radars {
-            let radar = radar_of(from_json(&radar)?)?;
-            let scans = scans.iter().map(|(t_ns, fields)| {
-                let columns = fields.iter().map(numbers::<f32>).collect::<PyResult<_>>()?;
-                Ok((*t_ns, columns))
-            });
-            source = source.with_radar(radar, scans.collect::<PyResult<_>>()?).map_err(other)?;
+        let (rig, depth_output) = rig_from_json(sensors).map_err(data)?;
+        let source = MemorySource::new(name, motion_of(from_json(motion)?)?);
+        let mut source = source.with_depth_output(depth_output);
+        for (radar, scans) in rig.radars.into_iter().zip(radars) {
+            let scans = scans.iter().map(radar_scan).collect::<PyResult<_>>()?;
+            source = source.with_radar(radar, scans).map_err(other)?;
         }
-        for (lidar, scans) in lidars {
-            let lidar = lidar_of(from_json(&lidar)?)?;
+        for (lidar, scans) in rig.lidars.into_iter().zip(lidars) {
             let scans = scans.into_iter().map(lidar_scan).collect::<PyResult<_>>()?;
             source = source.with_lidar(lidar, scans).map_err(other)?;
+        }
+        for (camera, images) in rig.cameras.into_iter().zip(cameras) {
+            let images = images.into_iter().map(timed_image).collect::<PyResult<_>>()?;
+            source = source.with_camera(camera, images).map_err(other)?;
         }
         Ok(Self { source })
     }
@@ -165,29 +144,8 @@ fn motion_of(told: MotionTold) -> PyResult<EgoMotion> {
         .ok_or_else(|| other("motion: expected odometry or poses, found neither"))
 }
 
-fn radar_of(told: RadarTold) -> PyResult<Radar> {
-    Ok(Radar {
-        vehicle_from_radar: told.mounting.transform()?,
-        name: told.name,
-        fields: told.fields,
-        elevation: if told.elevation { Elevation::Measured } else { Elevation::None },
-        fov_azimuth: told.fov_azimuth_deg.to_radians(),
-        fov_elevation: told.fov_elevation_deg.to_radians(),
-        sigma_range: told.sigma_range_m,
-        sigma_azimuth: told.sigma_azimuth_deg.to_radians(),
-        sigma_elevation: told.sigma_elevation_deg.to_radians(),
-        reliability: Reliability::default(),
-    })
-}
-
-fn lidar_of(told: LidarTold) -> PyResult<Lidar> {
-    Ok(Lidar {
-        vehicle_from_lidar: told.mounting.transform()?,
-        name: told.name,
-        sigma_range: told.sigma_range_m,
-        lowest_beam: told.lowest_beam_deg.to_radians(),
-        max_range: told.max_range_m,
-    })
+fn radar_scan((t_ns, fields): &(i64, Vec<Bound<'_, PyAny>>)) -> PyResult<(i64, Vec<Vec<f32>>)> {
+    Ok((*t_ns, fields.iter().map(numbers).collect::<PyResult<_>>()?))
 }
 
 fn lidar_scan(
@@ -195,4 +153,11 @@ fn lidar_scan(
 ) -> PyResult<LidarScan> {
     let times = times.as_ref().map(numbers::<f32>).transpose()?;
     Ok(LidarScan { t_ns, points: rows(&points)?, times, intensity: numbers(&intensity)?, classes: None })
+}
+
+fn timed_image(
+    (t_ns, pixels, views): (i64, Bound<'_, PyAny>, Option<Vec<Bound<'_, PyAny>>>),
+) -> PyResult<TimedImage> {
+    let depth = views.map(|views| views.iter().map(depth).collect()).transpose()?;
+    Ok(TimedImage { t_ns, image: image(&pixels)?, depth })
 }

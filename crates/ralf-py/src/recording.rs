@@ -41,6 +41,8 @@ struct Told<'a> {
 
 /// The time of a scan in ns, and its columns by name.
 type RadarScan = (i64, Vec<(String, Column)>);
+/// The time of an image in ns, its pixels, and the depth of each view where it is known.
+type Image = (i64, Column, Option<Vec<Column>>);
 
 #[pymethods]
 impl Recording {
@@ -108,6 +110,23 @@ impl Recording {
             .detach(|| reader.lidar_scan(index, scan))
             .map_err(|error| data(DataError::Measurement { sensor: lidar.to_owned(), index: scan, error }))?;
         Ok((read.t_ns, decimals(read.points.into_flattened(), 3), decimals(read.intensity, 1)))
+    }
+
+    /// An image of a camera: its time in ns, its pixels (height x width x 3), and depth (height x width per view).
+    fn image(&self, py: Python<'_>, sequence: &str, camera: &str, image: usize) -> PyResult<Image> {
+        let reader = self.reader(sequence)?;
+        let Sequence { rig, times, .. } = reader.sequence();
+        let index = place(rig.cameras.iter().map(|known| known.name.as_str()), camera)?;
+        let times = &times.cameras[index];
+        let t_ns = times.get(image).copied().ok_or_else(|| {
+            other(format!("{camera}: expected an image below {}, found {image}", times.len()))
+        })?;
+        let read = || Ok((reader.image(index, image)?, reader.depth(index, image)?));
+        let (pixels, depth) = py.detach(read).map_err(|error| {
+            data(DataError::Measurement { sensor: camera.to_owned(), index: image, error })
+        })?;
+        let depth = depth.map(|views| views.into_iter().map(Column::of_depth).collect());
+        Ok((t_ns, Column::of_image(pixels), depth))
     }
 }
 

@@ -10,6 +10,7 @@ import time
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
+import numpy as np
 import pytest
 from conftest import real_recordings, tree
 
@@ -73,13 +74,14 @@ def test_errors_say_file_place_expected_and_found(drive, tmp_path):
     assert raised.value.place == "run.json"
 
 
-def test_ten_threads_label_at_once(drive, run, tmp_path):
-    def work(number):
-        return tree(ralf.label(drive, tmp_path / str(number), evidence=True, jobs=1).out)
+def test_ten_threads_label_at_once(drive, tmp_path):
+    def work(name):
+        return tree(ralf.label(drive, tmp_path / name, jobs=1).out)
 
+    alone = work("alone")
     with ThreadPoolExecutor(10) as threads:
-        results = list(threads.map(work, range(10)))
-    assert all(result == tree(run.out) for result in results)
+        results = list(threads.map(work, map(str, range(10))))
+    assert all(result == alone for result in results)
 
 
 def test_others_run_while_labels_are_made(drive, tmp_path):
@@ -150,6 +152,26 @@ def test_evaluation_and_pictures_are_those_of_the_command(drive, run, cli, tmp_p
     assert picture._repr_png_() == (tmp_path / "scan.png").read_bytes()
     with pytest.raises(ralf.RalfError, match="expected a scan"):
         ralf.plot(run, name, scan=999)
+
+
+def test_truth_is_what_evaluation_goes_by(drive, run, tmp_path):
+    truth = pickle.loads(pickle.dumps(ralf.Truth(drive, run)))
+    (name,) = run.sequences
+    pairs = [(truth.labels(name, scan), scan.label) for scan in run.scans(name)]
+    true, labels = (np.concatenate(columns) for columns in zip(*pairs, strict=True))
+    pooled = ralf.evaluate(run, truth=drive)["overall"]["pooled"]
+    assert np.sum((true == 1) & (labels == 1)) == pooled["tp"]
+    assert np.sum((true == 0) & (labels == 0)) == pooled["tn"]
+    assert np.sum(true >= 0) == sum(pooled[count] for count in ("tp", "fp", "tn", "fn"))
+    with pytest.raises(ralf.RalfError, match="expected files of corrected labels"):
+        ralf.Truth(run.out)
+    scan = next(run.scans(name))
+    assert set(truth.labels("elsewhere", scan)) == {-1}
+    file = tmp_path / f"sequences/{name}/ground_truth/{scan.radar}/{scan.number:06}.label"
+    file.parent.mkdir(parents=True)
+    file.write_bytes(bytes(4))
+    with pytest.raises(ValueError, match=f"scan 0: expected the truth of {len(scan)} detections, found 1"):
+        ralf.Truth(tmp_path).labels(name, scan)
 
 
 def test_the_wheel_carries_the_command():

@@ -1,5 +1,8 @@
 """Arrays in memory are labelled as files are."""
 
+import dataclasses
+import tomllib
+
 import numpy as np
 import pytest
 
@@ -69,6 +72,101 @@ def test_spherical_coordinates_and_poses_are_taken():
     assert len(labels.scans("front").__next__()) == 1
 
 
+LENSES = {"pinhole": ralf.Pinhole, "kannala-brandt": ralf.KannalaBrandt}
+
+
+def placed(told):
+    return [*told["translation"], *told["quaternion_xyzw"]]
+
+
+def lens(told):
+    return LENSES[told["model"]](*(told[key] for key in ("fx", "fy", "cx", "cy", "distortion")))
+
+
+def in_memory(drive):
+    """The only sequence of a recording in the own layout, as arrays."""
+    recording = ralf.open(drive)
+    (name,) = recording.sequences
+    folder = drive / "sequences" / name
+    told = tomllib.loads((folder / "sequence.toml").read_text())
+    rows = [line.split(",") for line in (folder / "odometry.csv").read_text().splitlines()[1:]]
+    radar = {"fov_azimuth_deg", "fov_elevation_deg", "sigma_range_m", "sigma_azimuth_deg", "sigma_elevation_deg"}
+    lidar = {"sigma_range_m", "lowest_beam_deg", "max_range_m"}
+    sequence = ralf.Sequence(
+        radars=[
+            ralf.Radar(s["name"], placed(s), reliability=s["reliability"], **{key: s[key] for key in radar})
+            for s in told["radar"]
+        ],
+        lidars=[ralf.Lidar(s["name"], placed(s), **{key: s[key] for key in lidar}) for s in told["lidar"]],
+        cameras=[
+            ralf.Camera(s["name"], placed(s), s["width"], s["height"], lens(s), [ralf.View(**v) for v in s["view"]])
+            for s in told["camera"]
+        ],
+        motion=ralf.Odometry([int(t_ns) for t_ns, *_ in rows], *np.array(rows, dtype=float).T[1:]),
+        name=name,
+        depth_output=told["depth"]["output"],
+    )
+    info = recording[name]
+    for sensor, times in info.radars.items():
+        for number in range(len(times)):
+            scan = recording.radar_scan(name, sensor, number)
+            sequence.add_radar_scan(sensor, scan.t_ns, **scan.fields)
+    for sensor, times in info.lidars.items():
+        for number in range(len(times)):
+            revolution = recording.lidar_scan(name, sensor, number)
+            sequence.add_lidar_scan(sensor, revolution.t_ns, revolution.points, revolution.intensity)
+    for sensor, times in info.cameras.items():
+        for number in range(len(times)):
+            image = recording.image(name, sensor, number)
+            assert image.t_ns == times[number]
+            sequence.add_image(sensor, image.t_ns, image.rgb, image.depth)
+    return sequence
+
+
+def test_cameras_and_depth_in_memory_are_labelled_as_the_command_labels_files(cli, tmp_path):
+    import pyarrow as pa
+    import pyarrow.parquet as pq
+
+    cli("simulate", "--preset", "tiny", "--scans", 4, "-o", tmp_path / "drive")
+    cli("label", "--quiet", tmp_path / "drive", "-o", tmp_path / "out")
+    sequence = in_memory(tmp_path / "drive")
+    labels = pa.table(sequence.label())
+    assert labels["w_cm"].null_count < len(labels)
+    assert labels.equals(pq.read_table(tmp_path / "out/sequences/tiny/plausibility.parquet"))
+    # Images and depth are written without loss, too.
+    sequence.write(tmp_path / "again")
+    cli("label", "--quiet", tmp_path / "again", "-o", tmp_path / "out2")
+    assert labels.equals(pq.read_table(tmp_path / "out2/sequences/tiny/plausibility.parquet"))
+
+
+def test_cameras_that_do_not_fit_are_refused():
+    lens = ralf.Pinhole(fx=40, fy=np.float32(40), cx=31.5, cy=23.5)
+    eye = ralf.Camera("eye", (0.0, 0.0, 1.0), 64, 48, lens)
+    image = np.zeros((48, 64, 3), np.uint8)
+
+    def with_image(camera, *arrays):
+        sequence = ralf.Sequence(radars=[ralf.Radar("front")], cameras=[camera])
+        sequence.add_radar_scan("front", 0, xyz=[[9.0, 0.0, 0.0]])
+        sequence.add_image("eye", 0, *arrays)
+        return sequence.label()
+
+    assert len(with_image(eye, image[::-1], np.ones((48, 64)))) == 1
+    with pytest.raises(TypeError, match="expected an image of uint8, found float64"):
+        with_image(eye, image / 255)
+    with pytest.raises(ralf.RalfError, match="eye: image 0: expected 64 x 48 px, found 48 x 64 px"):
+        with_image(eye, image.transpose(1, 0, 2))
+    with pytest.raises(ValueError, match="expected an image of height x width x 3"):
+        with_image(eye, image[..., 0])
+    with pytest.raises(ralf.RalfError, match="expected depth of 1 views, found 2"):
+        with_image(eye, image, np.ones((2, 48, 64)))
+    with pytest.raises(ValueError, match="expected depth of height x width"):
+        with_image(eye, image, [np.ones(3)])
+    with pytest.raises(ralf.RalfError, match=r"\[\[camera\]\] eye: fx, fy: expected values above 0, found 0"):
+        with_image(dataclasses.replace(eye, lens=ralf.KannalaBrandt(0, 40, 31.5, 23.5)), image)
+    with pytest.raises(ralf.RalfError, match="inverse_polynomial: expected coefficients, found none"):
+        with_image(dataclasses.replace(eye, lens=ralf.Scaramuzza([], [], (1, 1))), image)
+
+
 def test_what_does_not_fit_is_refused():
     sequence = street(1)
     with pytest.raises(KeyError, match="expected a radar of left, found front"):
@@ -85,7 +183,7 @@ def test_what_does_not_fit_is_refused():
 
 
 def test_rotations_become_quaternions_and_back():
-    from ralf.memory import _quaternion
+    from ralf.sensors import _quaternion
 
     chance = np.random.default_rng(1)
     for _ in range(100):

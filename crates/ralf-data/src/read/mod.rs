@@ -29,7 +29,7 @@ mod zod;
 
 pub(crate) use corrected::corrected;
 pub use corrections::{MotionSettings, MotionSource, SensorCorrection};
-pub use layout::LayoutSequence;
+pub use layout::{LayoutSequence, rig_from_json};
 pub use meanings::{Meanings, meanings};
 pub use open::{formats, open, open_with};
 pub use recording::{Recording, SequenceReader, TruthLabels};

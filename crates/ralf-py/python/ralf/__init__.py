@@ -10,19 +10,25 @@ found.
 """
 
 from ralf._ralf import RalfError, Table
-from ralf.judging import Evaluation, Picture, evaluate, plot
+from ralf.judging import Evaluation, Picture, Truth, evaluate, plot
 from ralf.many import Assembled, Task, assemble, label_one, plan
-from ralf.memory import Lidar, Odometry, Poses, Radar, Sequence
-from ralf.recording import LidarScan, RadarScan, Recording, SequenceInfo, open  # noqa: A004
+from ralf.memory import Labels, Sequence
+from ralf.recording import Image, LidarScan, RadarScan, Recording, SequenceInfo, open  # noqa: A004
 from ralf.run import Run, Scan, label, load
+from ralf.sensors import Camera, KannalaBrandt, Lidar, Odometry, Pinhole, Poses, Radar, Scaramuzza, View
 
 __all__ = [
     "Assembled",
+    "Camera",
     "Evaluation",
+    "Image",
+    "KannalaBrandt",
+    "Labels",
     "Lidar",
     "LidarScan",
     "Odometry",
     "Picture",
+    "Pinhole",
     "Poses",
     "Radar",
     "RadarScan",
@@ -30,10 +36,13 @@ __all__ = [
     "Recording",
     "Run",
     "Scan",
+    "Scaramuzza",
     "Sequence",
     "SequenceInfo",
     "Table",
     "Task",
+    "Truth",
+    "View",
     "assemble",
     "evaluate",
     "label",

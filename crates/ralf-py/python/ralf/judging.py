@@ -7,8 +7,11 @@ import os
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
+
 from ralf import _ralf
-from ralf.run import Run
+from ralf.run import Run, Scan
 
 
 class Evaluation(dict[str, Any]):
@@ -39,6 +42,30 @@ def evaluate(run: Run | str | os.PathLike[str], truth: str | os.PathLike[str] | 
     """
     out = run.out if isinstance(run, Run) else run
     return Evaluation(json.loads(_ralf.evaluate(out, truth)))
+
+
+class Truth:
+    """What is true of a dataset's detections, as far as people, a simulator or its format say it.
+
+    With a `run`, what people corrected in its review counts above that.
+    """
+
+    def __init__(self, dataset: str | os.PathLike[str], run: Run | str | os.PathLike[str] | None = None) -> None:
+        self._told = (os.fspath(dataset), os.fspath(run.out) if isinstance(run, Run) else run)
+        self._truth = _ralf.Truth(*self._told)
+
+    def labels(self, sequence: str, scan: Scan) -> NDArray[np.int8]:
+        """Of each detection of a labelled scan: 1 plausible, 0 artifact, -1 unknown."""
+        column = self._truth.labels(sequence, scan.radar, scan.number)
+        if column is None:
+            return np.full(len(scan), -1, np.int8)
+        if len(column) != len(scan):
+            place = f"{sequence}, {scan.radar}, scan {scan.number}"
+            raise ValueError(f"{place}: expected the truth of {len(scan)} detections, found {len(column)}")
+        return np.asarray(column)
+
+    def __reduce__(self) -> tuple[type[Truth], tuple[Any, ...]]:
+        return Truth, self._told
 
 
 class Picture:

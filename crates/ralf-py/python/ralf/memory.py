@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-import json
 import os
-from collections.abc import Iterator
-from collections.abc import Sequence as Items
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, Generic, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -16,52 +14,9 @@ from ralf import _ralf
 from ralf._jobs import Settings, job
 from ralf._progress import Progress, listener
 from ralf.run import Scan, scans_of
+from ralf.sensors import Camera, DepthOutput, Lidar, Odometry, Poses, Radar, motion_json, sensors_json
 
-
-@dataclass(frozen=True)
-class Radar:
-    """A radar: where it sits, and how well it measures.
-
-    `mounting` is vehicle_from_radar: a 4 x 4 matrix, or x, y, z in m of one that looks straight ahead. A radar without
-    `elevation` measures range and azimuth alone. The defaults are those of a 77 GHz radar of which nothing is known.
-    """
-
-    name: str
-    mounting: ArrayLike = (0.0, 0.0, 0.0)
-    elevation: bool = True
-    fov_azimuth_deg: float = 120.0
-    fov_elevation_deg: float = 30.0
-    sigma_range_m: float = 0.2
-    sigma_azimuth_deg: float = 1.0
-    sigma_elevation_deg: float = 1.0
-
-
-@dataclass(frozen=True)
-class Lidar:
-    """A LiDAR: where it sits (vehicle_from_lidar, as of a `Radar`), and how well it measures."""
-
-    name: str
-    mounting: ArrayLike = (0.0, 0.0, 0.0)
-    sigma_range_m: float = 0.02
-    lowest_beam_deg: float = 25.0
-    max_range_m: float | None = None
-
-
-@dataclass(frozen=True)
-class Odometry:
-    """What the wheels measured: times in ns, velocities in m/s, yaw rates in rad/s (positive to the left)."""
-
-    t_ns: ArrayLike
-    velocity: ArrayLike
-    yaw_rate: ArrayLike
-
-
-@dataclass(frozen=True)
-class Poses:
-    """Where the vehicle was: times in ns, and poses in any fixed frame, n x 4 x 4."""
-
-    t_ns: ArrayLike
-    poses: ArrayLike
+Told = TypeVar("Told", Radar, Lidar, Camera)
 
 
 class Labels:
@@ -86,29 +41,34 @@ class Labels:
 
 
 @dataclass
-class _Sensor:
-    told: Radar | Lidar
+class _Sensor(Generic[Told]):
+    told: Told
     fields: list[str] = field(default_factory=list)
-    scans: list[tuple[Any, ...]] = field(default_factory=list)
+    measured: list[tuple[Any, ...]] = field(default_factory=list)
 
 
 class Sequence:
-    """A sequence of arrays. Scans of a sensor are added in the order of time.
+    """A sequence of arrays. Measurements of a sensor are added in the order of time.
 
     A LiDAR's points lie in its own frame and are motion-corrected to the scan's time.
     """
 
     def __init__(
         self,
-        radars: Items[Radar],
-        lidars: Items[Lidar] = (),
+        radars: Iterable[Radar],
+        lidars: Iterable[Lidar] = (),
         motion: Odometry | Poses | None = None,
         name: str = "00",
+        *,
+        cameras: Iterable[Camera] = (),
+        depth_output: DepthOutput = "depth",
     ) -> None:
         self.name = name
-        self._motion = _motion(motion)
+        self._motion = motion_json(motion)
+        self._depth_output: DepthOutput = depth_output
         self._radars = {radar.name: _Sensor(radar) for radar in radars}
         self._lidars = {lidar.name: _Sensor(lidar) for lidar in lidars}
+        self._cameras = {camera.name: _Sensor(camera) for camera in cameras}
 
     def add_radar_scan(self, radar: str, t_ns: int, xyz: ArrayLike | None = None, **fields: ArrayLike) -> None:
         """Add a scan: `xyz` (n x 3, in the radar's frame, m), or `range`, `azimuth` and `elevation` (m, rad) each.
@@ -121,10 +81,10 @@ class Sequence:
             points = np.asarray(xyz, dtype=np.float32).reshape(-1, 3)
             columns = {name: _column(points[:, axis]) for axis, name in enumerate("xyz")} | columns
         names = list(columns)
-        if sensor.scans and names != sensor.fields:
+        if sensor.measured and names != sensor.fields:
             raise ValueError(f"{radar}: expected the fields {sensor.fields}, found {names}")
         sensor.fields = names
-        sensor.scans.append((int(t_ns), list(columns.values())))
+        sensor.measured.append((int(t_ns), list(columns.values())))
 
     def add_lidar_scan(
         self,
@@ -138,7 +98,22 @@ class Sequence:
         sensor = _known(self._lidars, lidar, "LiDAR")
         rows = np.ascontiguousarray(np.asarray(points, dtype=np.float32).reshape(-1, 3))
         strengths = np.zeros(len(rows), np.float32) if intensity is None else _column(intensity)
-        sensor.scans.append((int(t_ns), rows, strengths, None if times is None else _column(times)))
+        sensor.measured.append((int(t_ns), rows, strengths, None if times is None else _column(times)))
+
+    def add_image(
+        self, camera: str, t_ns: int, rgb: ArrayLike, depth: NDArray[Any] | Iterable[NDArray[Any]] | None = None
+    ) -> None:
+        """Add an image: height x width x 3 bytes, and what a depth network gave for it, if it was asked.
+
+        `depth` is an array of height x width, or one for each of the camera's views; NaN, 0 and below mean no depth.
+        """
+        sensor = _known(self._cameras, camera, "camera")
+        pixels = np.asarray(rgb)
+        if pixels.dtype != np.uint8:
+            raise TypeError(f"{camera}: expected an image of uint8, found {pixels.dtype}")
+        views = [depth] if isinstance(depth, np.ndarray) and depth.ndim == 2 else depth
+        told = None if views is None else [np.asarray(view, dtype=np.float32) for view in views]
+        sensor.measured.append((int(t_ns), pixels, told))
 
     def label(
         self,
@@ -159,12 +134,24 @@ class Sequence:
         self._built().write(dataset)
 
     def _built(self) -> _ralf.MemorySequence:
-        radars = [(_radar(sensor), sensor.scans) for sensor in self._radars.values()]
-        lidars = [(_lidar(sensor), sensor.scans) for sensor in self._lidars.values()]
-        return _ralf.MemorySequence(self.name, self._motion, radars, lidars)
+        radars, lidars, cameras = self._radars.values(), self._lidars.values(), self._cameras.values()
+        sensors = sensors_json(
+            [(sensor.told, sensor.fields) for sensor in radars],
+            [sensor.told for sensor in lidars],
+            [sensor.told for sensor in cameras],
+            self._depth_output,
+        )
+        return _ralf.MemorySequence(
+            self.name,
+            sensors,
+            self._motion,
+            [sensor.measured for sensor in radars],
+            [sensor.measured for sensor in lidars],
+            [sensor.measured for sensor in cameras],
+        )
 
 
-def _known(sensors: dict[str, _Sensor], name: str, kind: str) -> _Sensor:
+def _known(sensors: dict[str, _Sensor[Told]], name: str, kind: str) -> _Sensor[Told]:
     if name not in sensors:
         raise KeyError(f"expected a {kind} of {', '.join(sensors)}, found {name}")
     return sensors[name]
@@ -172,56 +159,3 @@ def _known(sensors: dict[str, _Sensor], name: str, kind: str) -> _Sensor:
 
 def _column(values: ArrayLike) -> NDArray[np.float32]:
     return np.ascontiguousarray(np.asarray(values, dtype=np.float32).ravel())
-
-
-def _radar(sensor: _Sensor) -> str:
-    told = vars(sensor.told) | {"mounting": _pose(sensor.told.mounting)}
-    # Without a scan, nothing is known of a radar's fields but that it has some.
-    return json.dumps(told | {"fields": sensor.fields or ["x", "y", "z"]})
-
-
-def _lidar(sensor: _Sensor) -> str:
-    return json.dumps(vars(sensor.told) | {"mounting": _pose(sensor.told.mounting)})
-
-
-def _motion(motion: Odometry | Poses | None) -> str:
-    told: dict[str, Any] = {"odometry": [], "poses": []}
-    if isinstance(motion, Poses):
-        times = np.asarray(motion.t_ns, dtype=np.int64).tolist()
-        told["poses"] = [[t_ns, _pose(pose)] for t_ns, pose in zip(times, np.asarray(motion.poses), strict=True)]
-    else:
-        standing = Odometry([0], [0.0], [0.0])
-        wheels = motion or standing
-        times = np.asarray(wheels.t_ns, dtype=np.int64).tolist()
-        rates = [np.asarray(values, dtype=np.float64).tolist() for values in (wheels.velocity, wheels.yaw_rate)]
-        told["odometry"] = list(zip(times, *rates, strict=True))
-    return json.dumps(told)
-
-
-def _pose(mounting: ArrayLike) -> dict[str, list[float]]:
-    """A translation and a quaternion (x, y, z, w) of a 4 x 4 matrix, or of x, y, z."""
-    matrix = np.asarray(mounting, dtype=np.float64)
-    if matrix.shape == (3,):
-        return {"translation": matrix.tolist(), "rotation": [0.0, 0.0, 0.0, 1.0]}
-    if matrix.shape != (4, 4):
-        raise ValueError(f"expected a 4 x 4 matrix or x, y, z, found an array of shape {matrix.shape}")
-    rotation = matrix[:3, :3]
-    if not np.allclose(rotation @ rotation.T, np.eye(3), atol=1e-3) or np.linalg.det(rotation) < 0:
-        raise ValueError("expected a rotation in the upper left 3 x 3 of the matrix, found something else")
-    return {"translation": matrix[:3, 3].tolist(), "rotation": _quaternion(rotation)}
-
-
-def _quaternion(r: NDArray[np.float64]) -> list[float]:
-    """The unit quaternion (x, y, z, w) of a rotation matrix: the eigenvector of the largest eigenvalue.
-
-    Bar-Itzhack, "New method for extracting the quaternion from a rotation matrix", 2000.
-    """
-    k = np.array(
-        [
-            [r[0, 0] - r[1, 1] - r[2, 2], r[1, 0] + r[0, 1], r[2, 0] + r[0, 2], r[2, 1] - r[1, 2]],
-            [r[1, 0] + r[0, 1], r[1, 1] - r[0, 0] - r[2, 2], r[2, 1] + r[1, 2], r[0, 2] - r[2, 0]],
-            [r[2, 0] + r[0, 2], r[2, 1] + r[1, 2], r[2, 2] - r[0, 0] - r[1, 1], r[1, 0] - r[0, 1]],
-            [r[2, 1] - r[1, 2], r[0, 2] - r[2, 0], r[1, 0] - r[0, 1], r[0, 0] + r[1, 1] + r[2, 2]],
-        ]
-    )
-    return [float(value) for value in np.linalg.eigh(k / 3.0)[1][:, -1]]

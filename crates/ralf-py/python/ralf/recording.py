@@ -36,6 +36,15 @@ class LidarScan:
 
 
 @dataclass(frozen=True)
+class Image:
+    """An image of a camera: height x width x 3 bytes, and the depth of each of its views (height x width), if known."""
+
+    t_ns: int
+    rgb: NDArray[np.uint8]
+    depth: list[NDArray[np.float32]] | None
+
+
+@dataclass(frozen=True)
 class SequenceInfo:
     """A sequence: its sensors by name, each with the times of its measurements in ns."""
 
@@ -85,6 +94,11 @@ class Recording:
         """A revolution of a LiDAR."""
         t_ns, points, intensity = self._recording.lidar_scan(sequence, lidar, scan)
         return LidarScan(t_ns, np.asarray(points), np.asarray(intensity))
+
+    def image(self, sequence: str, camera: str, image: int) -> Image:
+        """An image of a camera, decoded; its depth is in metres where the recording says so, else relative."""
+        t_ns, rgb, depth = self._recording.image(sequence, camera, image)
+        return Image(t_ns, np.asarray(rgb), None if depth is None else [np.asarray(view) for view in depth])
 
     def __repr__(self) -> str:
         return f"Recording({self.path!r}, format={self.format!r}, sequences={self.sequences})"

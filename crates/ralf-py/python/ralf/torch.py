@@ -16,6 +16,7 @@ import numpy as np
 import torch
 from torch.utils.data import Dataset, IterableDataset, get_worker_info
 
+from ralf.judging import Truth
 from ralf.run import Run, Scan, load
 
 _Out = Run | str | os.PathLike[str]
@@ -42,7 +43,7 @@ class Batch(Sample):
 class ScanDataset(Dataset[Sample]):
     """The scans of runs, by number. Tables are read when they are first asked for, in each worker by itself.
 
-    `truth` is the dataset whose corrected labels are taken in place of RALF's; a scan without them is all unknown.
+    `truth` is the dataset whose truth is taken in place of RALF's labels; a scan without it is all unknown.
     """
 
     def __init__(
@@ -52,10 +53,10 @@ class ScanDataset(Dataset[Sample]):
         *,
         radars: Sequence[str] | None = None,
         sequences: Sequence[str] | None = None,
-        truth: str | os.PathLike[str] | None = None,
+        truth: Truth | str | os.PathLike[str] | None = None,
     ) -> None:
         self.features = list(features)
-        self._truth = None if truth is None else Path(truth)
+        self._truth = truth if isinstance(truth, Truth | None) else Truth(truth)
         self._scans: list[tuple[Path, str, list[int]]] = []
         self._ends: list[int] = []
         self._open: tuple[int, list[Scan]] | None = None
@@ -100,29 +101,13 @@ class ScanDataset(Dataset[Sample]):
     def sample(self, part: int, scan: Scan) -> Sample:
         """A scan as tensors."""
         columns = [np.nan_to_num(scan[name], nan=0.0, posinf=0.0, neginf=0.0) for name in self.features]
-        label = scan.label.astype(np.int64)
-        if self._truth is not None:
-            label = self._true_labels(self._scans[part][1], scan)
+        label = scan.label if self._truth is None else self._truth.labels(self._scans[part][1], scan)
         features = np.stack(columns, axis=1).astype(np.float32)
         return {
             "features": torch.from_numpy(features),
-            "label": torch.from_numpy(label),
+            "label": torch.from_numpy(label.astype(np.int64)),
             "w": torch.from_numpy(scan.w.copy()),
         }
-
-    def _true_labels(self, sequence: str, scan: Scan) -> np.ndarray[tuple[int], np.dtype[np.int64]]:
-        """Of the project's own layout: SemanticKITTI's ids, 0 unknown, 1 and whatever is driven on artifacts."""
-        assert self._truth is not None
-        folder = self._truth / "sequences" / sequence / "ground_truth" / scan.radar
-        file = folder / f"{scan.number:06}.label"
-        if not file.is_file():
-            return np.full(len(scan), -1, np.int64)
-        ids = np.fromfile(file, dtype="<u4") & 0xFFFF
-        if len(ids) != len(scan):
-            raise ValueError(f"{file}: expected {len(scan)} labels, found {len(ids)}")
-        label = np.where(np.isin(ids, _ARTIFACTS), 0, 1).astype(np.int64)
-        label[ids == 0] = -1
-        return label
 
     # What is open stays behind when a loader sends the dataset to its workers.
     def __getstate__(self) -> dict[str, object]:
@@ -132,9 +117,6 @@ class ScanDataset(Dataset[Sample]):
     def parts(self) -> list[list[int]]:
         """The scans of each sequence, by their places in it."""
         return [held for _, _, held in self._scans]
-
-
-_ARTIFACTS = [1, 40, 44, 48, 49, 60]
 
 
 class ScanStream(IterableDataset[Sample]):

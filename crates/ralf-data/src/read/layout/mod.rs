@@ -16,6 +16,7 @@ pub(crate) use values::degrees;
 
 use crate::error::DataError;
 use crate::read::{Recording, SequenceReader};
+use ralf::sensors::{DepthOutput, Rig};
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -35,6 +36,18 @@ pub(crate) fn open(dataset: &Path) -> Result<Recording, DataError> {
         return Err(DataError::content(&folder, "folder", "a folder per sequence", "none"));
     }
     Ok(Recording { path: dataset.to_owned(), format: NAME, sequences })
+}
+
+/// Sensors, and what depth images mean, told as JSON with the keys of `sequence.toml`, and checked as that is.
+///
+/// # Errors
+/// What the file would be refused for; it is called `sequence.toml`.
+pub fn rig_from_json(told: &str) -> Result<(Rig, DepthOutput), DataError> {
+    let file = Path::new("sequence.toml");
+    let told: raw::SequenceToml = serde_json::from_str(told).map_err(|error| {
+        DataError::content(file, "sensors", "the keys of docs/formats.md", error.to_string())
+    })?;
+    Ok((rig::rig(file, &told)?, told.depth.output))
 }
 
 /// The folders in a folder by name, hidden ones left out: a conversion under way is one.
