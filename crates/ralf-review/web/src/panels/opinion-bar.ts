@@ -23,7 +23,7 @@ export function opinionBar({ store, actions }: Page): HTMLElement {
   const drop = button("Drop ", "Esc", () => actions.select.escape());
   const bar = h(
     "div",
-    { class: "thing-bar opinion-bar", role: "group", "aria-label": "What would change by what was said" },
+    { class: "opinion-bar", role: "group", "aria-label": "What would change by what was said" },
     h("div", { class: "thing-words", role: "status" }, what, which),
     accept,
     next,
