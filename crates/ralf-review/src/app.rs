@@ -19,6 +19,9 @@ const SEQUENCES_KEPT: usize = 2;
 /// LiDAR scans that are kept as they are sent: some 2 MB each.
 const CLOUDS_KEPT: usize = 24;
 
+/// Maps that are kept, some 4 MB each.
+const MAPS_KEPT: usize = 8;
+
 /// The recording, its labels and its corrections.
 pub(crate) struct App {
     pub(crate) recording: Recording,
@@ -33,6 +36,8 @@ pub(crate) struct App {
     labels: Cache<usize, SequenceLabels>,
     /// Tables by sequence, LiDAR and scan, and the labels whose ground is in them.
     pub(crate) clouds: Cache<(usize, usize, usize), (Stamp, Vec<u8>)>,
+    /// The same of what several scans have seen.
+    pub(crate) maps: Cache<(usize, usize, usize), (Stamp, Vec<u8>)>,
     /// Rung when something was written.
     pub(crate) news: watch::Sender<()>,
     /// Rung when the server ends.
@@ -64,6 +69,7 @@ impl App {
             writing: Semaphore::new(1),
             labels: Cache::new(SEQUENCES_KEPT),
             clouds: Cache::new(CLOUDS_KEPT),
+            maps: Cache::new(MAPS_KEPT),
             news: watch::Sender::new(()),
             closing: watch::Sender::new(false),
         })

@@ -4,13 +4,14 @@ use crate::cache::Cache;
 use crate::http::ApiError;
 use crate::need::{Certainty, Doubts, ScanNeed};
 use ralf::config::{Config, nanoseconds};
+use ralf::learned::Model;
 use ralf::scene::ViewState;
 use ralf::sensors::{Rig, Sequence};
 use ralf::space::sync;
 use ralf_data::result::{
     CameraRecord, ImageRecord, LabelledRun, LabelledSequence, PlausibilityReader, RadarScanKey, Table,
 };
-use ralf_data::things::SequenceThings;
+use ralf_data::things::{Observed, SequenceThings};
 use ralf_data::{DataError, SequenceReader};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -35,6 +36,7 @@ pub(crate) struct SequenceLabels {
     not_labelled: BTreeMap<(String, usize), String>,
     needs: Cache<(), Vec<ScanNeed>>,
     things: Cache<(), SequenceThings>,
+    observed: Cache<(), Observed>,
 }
 
 /// What changes when a sequence is labelled again: sizes and times of the files.
@@ -78,6 +80,7 @@ impl SequenceLabels {
             not_labelled,
             needs: Cache::new(1),
             things: Cache::new(1),
+            observed: Cache::new(1),
             rig,
         })
     }
@@ -118,6 +121,20 @@ impl SequenceLabels {
         let certainty = Certainty::of(&self.settings);
         let find = || SequenceThings::of(reader, &self.rig, &certainty, &self.reader);
         Ok(self.things.get((), |_| true, find)?)
+    }
+
+    /// All evidence on these things; gathered once, by so many threads.
+    pub(crate) fn observed(
+        &self,
+        reader: &dyn SequenceReader,
+        things: &SequenceThings,
+        jobs: usize,
+    ) -> Result<Arc<Observed>, ApiError> {
+        let gather = || {
+            let model = Model::shipped().map_err(|error| ApiError::Broken(error.to_string()))?;
+            Ok(Observed::of(reader, (&self.rig, &self.settings), &model, things, jobs))
+        };
+        self.observed.get((), |_| true, gather)
     }
 
     /// How much each scan needs a person, in the order of the rig.

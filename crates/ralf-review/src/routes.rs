@@ -2,7 +2,7 @@
 
 use crate::app::App;
 use crate::correcting::{self, MarkRequest, Since, StepRequest, StrokeRequest};
-use crate::http::{Answer, ApiError, Asked, Body, Guard, MAX_BODY, Person, Place, guard};
+use crate::http::{Answer, ApiError, Asked, Body, Guard, MAX_BODY, Person, Place, guard, json};
 use crate::page;
 use crate::reading::{self, Moment, Projection};
 use axum::Router;
@@ -19,11 +19,14 @@ type Shared = State<Arc<App>>;
 pub(crate) fn router(app: Arc<App>, guarded_by: Arc<Guard>) -> Router {
     let sequence = Router::new()
         .route("/queue", get(queue))
+        .route("/progress", get(progress))
         .route("/things", get(things))
         .route("/things/doubtful", get(doubtful))
+        .route("/opinion", get(opinion))
         .route("/radars/{radar}/scans/{scan}", get(detections))
         .route("/radars/{radar}/scans/{scan}/reviewed", put(mark))
         .route("/lidars/{lidar}/scans/{scan}", get(cloud))
+        .route("/lidars/{lidar}/scans/{scan}/around", get(map))
         .route("/cameras/{camera}/images/{image}", get(image))
         .route("/cameras/{camera}/images/{image}/detections", get(projection))
         .route("/moment", get(moment))
@@ -59,12 +62,20 @@ async fn queue(State(app): Shared, Place(sequence): Place<String>) -> Answer {
     app.blocking(move |app| reading::queue(app, &sequence)).await
 }
 
+async fn progress(State(app): Shared, Place(sequence): Place<String>) -> Answer {
+    app.blocking(move |app| json(&reading::progress(app, &sequence)?)).await
+}
+
 async fn things(State(app): Shared, Place(sequence): Place<String>) -> Answer {
     app.blocking(move |app| reading::things(app, &sequence)).await
 }
 
 async fn doubtful(State(app): Shared, Place(sequence): Place<String>) -> Answer {
     app.blocking(move |app| reading::doubtful(app, &sequence)).await
+}
+
+async fn opinion(State(app): Shared, Place(sequence): Place<String>) -> Answer {
+    app.blocking(move |app| reading::opinion(app, &sequence)).await
 }
 
 async fn detections(
@@ -76,6 +87,10 @@ async fn detections(
 
 async fn cloud(State(app): Shared, Place((sequence, lidar, scan)): Place<(String, String, usize)>) -> Answer {
     app.blocking(move |app| reading::cloud(app, &sequence, &lidar, scan)).await
+}
+
+async fn map(State(app): Shared, Place((sequence, lidar, scan)): Place<(String, String, usize)>) -> Answer {
+    app.blocking(move |app| reading::map(app, &sequence, &lidar, scan)).await
 }
 
 async fn image(

@@ -1,5 +1,6 @@
 //! `ralf evaluate`: the labels of a run against corrected ones, or what they say by themselves.
 
+mod agreement;
 mod balance;
 mod queue;
 mod table;
@@ -26,6 +27,7 @@ Examples:
   ralf evaluate out --truth recordings/city --json
   ralf evaluate other --truth recordings/city --corrections out
   ralf evaluate out --truth recordings/city --queue
+  ralf evaluate out --truth recordings/city --agreement other    two people's corrections, made without each other
   ralf evaluate out")]
 pub(crate) struct EvaluateArgs {
     /// What `ralf label` wrote
@@ -47,13 +49,17 @@ pub(crate) struct EvaluateArgs {
     /// Print how soon the review's queue leads to wrong labels, in place of tables
     #[arg(long, conflicts_with_all = ["json", "scans"], requires = "truth")]
     queue: bool,
+    /// Print how far the corrections in OUT and those in this folder agree: Cohen's kappa, and where they don't
+    #[arg(long, value_name = "OTHER", conflicts_with_all = ["queue", "scans", "corrections"], requires = "truth")]
+    agreement: Option<PathBuf>,
 }
 
 /// Prints how good the labels are.
 pub(crate) fn run(args: &EvaluateArgs) -> anyhow::Result<Outcome> {
-    match &args.truth {
-        Some(dataset) => compare(args, dataset),
-        None => balance(args),
+    match (&args.truth, &args.agreement) {
+        (Some(dataset), Some(other)) => agreement::run(&args.out, other, dataset, args.json),
+        (Some(dataset), None) => compare(args, dataset),
+        (None, _) => balance(args),
     }
 }
 

@@ -1,10 +1,12 @@
 //! How good a run's labels are: against a truth, and without one.
 
+mod agreement;
 mod balance;
 mod doubt;
 mod evaluation;
 mod queue;
 
+pub use agreement::{Agreement, disagreements, kappa};
 pub use balance::{Balance, Balances};
 pub use doubt::{Certainty, DISAGREEING, Doubts, SURE, UNCERTAIN, is_uncertain};
 pub use evaluation::Comparison;

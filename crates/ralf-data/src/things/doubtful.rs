@@ -38,6 +38,15 @@ pub struct Thing {
     pub seen: (usize, usize, usize),
 }
 
+/// What wants an answer.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Doubtful {
+    /// Those with the most expected errors first.
+    pub things: Vec<Thing>,
+    /// Of all things, those that are not among these too.
+    pub expected_errors: f64,
+}
+
 impl SequenceThings {
     /// What is left to ask of each detection: the machine's own doubt, and what people said of others of the thing.
     /// With `k` of `m` answers that the machine was wrong, an `e` becomes `(2 e + k) / (2 + m)`; nothing is left of a
@@ -58,28 +67,37 @@ impl SequenceThings {
         .collect()
     }
 
-    /// All things of which something is left to ask, those with the most expected errors first.
-    pub fn doubtful(&self, answers: &[Option<Answer>]) -> Vec<Thing> {
+    /// The things of which something is left to ask, at most so many, those with the most expected errors first.
+    pub fn doubtful(&self, answers: &[Option<Answer>], most: usize) -> Doubtful {
+        let errors = self.expected_errors(answers);
+        let mut left = vec![0.0; self.count()];
+        for (thing, error) in self.things().iter().zip(&errors) {
+            left[*thing as usize] += error;
+        }
+        let mut numbers: Vec<usize> = (0..self.count()).filter(|number| left[*number] > 0.0).collect();
+        numbers.sort_by(|a, b| left[*b].total_cmp(&left[*a]).then(a.cmp(b)));
+        numbers.truncate(most);
+        let members = self.members();
+        let thing = |number: &usize| self.thing(*number as u32, &members[*number], left[*number], answers);
+        Doubtful { things: numbers.iter().map(thing).collect(), expected_errors: left.iter().sum() }
+    }
+
+    /// The detections of each thing, in rising order.
+    pub(super) fn members(&self) -> Vec<Vec<usize>> {
         let mut members: Vec<Vec<usize>> = vec![Vec::new(); self.count()];
         for (row, thing) in self.things().iter().enumerate() {
             members[*thing as usize].push(row);
         }
-        let errors = self.expected_errors(answers);
-        let things = members.iter().enumerate().map(|(number, rows)| {
-            let left = rows.iter().map(|row| errors[*row]).sum();
-            (number as u32, rows, left)
-        });
-        let mut doubtful: Vec<Thing> = things
-            .filter(|(_, _, left)| *left > 0.0)
-            .map(|(number, rows, left)| self.thing(number, rows, left, answers))
-            .collect();
-        doubtful.sort_by(|a, b| {
-            b.expected_errors.total_cmp(&a.expected_errors).then_with(|| a.number.cmp(&b.number))
-        });
-        doubtful
+        members
     }
 
-    fn thing(&self, number: u32, rows: &[usize], expected_errors: f64, answers: &[Option<Answer>]) -> Thing {
+    pub(super) fn thing(
+        &self,
+        number: u32,
+        rows: &[usize],
+        expected_errors: f64,
+        answers: &[Option<Answer>],
+    ) -> Thing {
         let sightings = self.sightings();
         let mut place = [0.0; 3];
         for row in rows {

@@ -6,10 +6,14 @@
 
 mod doubtful;
 mod moving;
+mod observed;
+mod opinion;
 mod sequence;
 mod standing;
 
-pub use doubtful::{Answer, Thing};
+pub use doubtful::{Answer, Doubtful, Thing};
+pub use observed::Observed;
+pub use opinion::Change;
 pub use sequence::SequenceThings;
 
 /// A detection, as far as it matters to what it belongs.

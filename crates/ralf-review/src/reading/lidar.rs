@@ -28,28 +28,54 @@ fn table(
     (lidar, scan): (usize, usize),
     t_ns: i64,
 ) -> Result<Vec<u8>, ApiError> {
-    let cloud = reader.lidar_scan(lidar, scan)?;
-    let vehicle_from_lidar = &labels.rig.lidars[lidar].vehicle_from_lidar;
-    let place =
-        |point: &[f32; 3]| is_return(point).then(|| vehicle_from_lidar * Point::from(point.map(f64::from)));
-    let places: Vec<Option<Point>> = cloud.points.iter().map(place).collect();
-    let view = FrameWindow::new(reader, &labels.rig, &labels.settings).lidar_view(t_ns)?;
-    let is_ground = |place: &Option<Point>| {
-        let height = place.as_ref().zip(view.as_ref()).and_then(|(p, view)| height(view, p));
-        u8::from(height.is_some_and(|height| height < labels.settings.ground.lidar_margin))
-    };
-    let mut table = Table::new(places.len());
-    for (axis, name) in ["x", "y", "z"].into_iter().enumerate() {
-        table.f32(name, places.iter().map(|place| place.as_ref().map_or(f32::NAN, |p| p[axis] as f32)));
-    }
-    let intensity = |row: usize| cloud.intensity.get(row).copied().unwrap_or(f32::NAN);
-    table.f32("intensity", (0..places.len()).map(intensity));
-    table.u8("ground", places.iter().map(is_ground));
+    let found = seen(reader, labels, (lidar, scan), t_ns)?;
     let more = Map::from_iter([
         ("t_ns".to_owned(), time(t_ns)),
         ("odom_from_vehicle".to_owned(), matrix(&reader.sequence().motion.odom_from_vehicle(t_ns))),
     ]);
-    Ok(table.finish(more))
+    Ok(points(&found, Table::new(found.len())).finish(more))
+}
+
+/// A return of a LiDAR.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Seen {
+    /// In the vehicle frame, m.
+    pub(super) place: Point,
+    pub(super) intensity: f32,
+    /// Whether it lies on the ground, as the run saw it.
+    pub(super) ground: bool,
+}
+
+/// The returns of a scan in the vehicle frame at its time; `None` of a ray without one.
+pub(super) fn seen(
+    reader: &dyn SequenceReader,
+    labels: &SequenceLabels,
+    (lidar, scan): (usize, usize),
+    t_ns: i64,
+) -> Result<Vec<Option<Seen>>, ApiError> {
+    let cloud = reader.lidar_scan(lidar, scan)?;
+    let vehicle_from_lidar = &labels.rig.lidars[lidar].vehicle_from_lidar;
+    let view = FrameWindow::new(reader, &labels.rig, &labels.settings).lidar_view(t_ns)?;
+    let of_ray = |(row, point): (usize, &[f32; 3])| {
+        let place = is_return(point).then(|| vehicle_from_lidar * Point::from(point.map(f64::from)))?;
+        let height = view.as_ref().and_then(|view| height(view, &place));
+        let ground = height.is_some_and(|height| height < labels.settings.ground.lidar_margin);
+        Some(Seen { place, intensity: cloud.intensity.get(row).copied().unwrap_or(f32::NAN), ground })
+    };
+    Ok(cloud.points.iter().enumerate().map(of_ray).collect())
+}
+
+/// Returns as columns; those that are none are absent.
+pub(super) fn points(found: &[Option<Seen>], mut table: Table) -> Table {
+    let number = |of: &dyn Fn(&Seen) -> f32| -> Vec<f32> {
+        found.iter().map(|seen| seen.as_ref().map_or(f32::NAN, of)).collect()
+    };
+    for (axis, name) in ["x", "y", "z"].into_iter().enumerate() {
+        table.f32(name, number(&|seen| seen.place[axis] as f32).into_iter());
+    }
+    table.f32("intensity", number(&|seen| seen.intensity).into_iter());
+    table.u8("ground", found.iter().map(|seen| u8::from(seen.is_some_and(|seen| seen.ground))));
+    table
 }
 
 /// Height above the ground, m; `None` where there is no ground.

@@ -38,17 +38,16 @@ fn asked<'a>(app: &'a App, name: &str) -> Result<Asked<'a>, ApiError> {
     let things = app.labels(index)?.things(reader)?;
     let sequence = reader.sequence();
     let answers = Said::of(app, index, reader)?.answers(app, &things)?;
-    let doubtful = things.doubtful(&answers);
-    let left: f64 = doubtful.iter().map(|thing| thing.expected_errors).sum();
+    let doubtful = things.doubtful(&answers, MOST);
     let header = Map::from_iter([
-        ("doubtful".to_owned(), doubtful.iter().take(MOST).map(|thing| row(sequence, thing)).collect()),
+        ("doubtful".to_owned(), doubtful.things.iter().map(|thing| row(sequence, thing)).collect()),
         ("things".to_owned(), json!(things.count())),
-        ("expected_errors".to_owned(), json!(left)),
+        ("expected_errors".to_owned(), json!(doubtful.expected_errors)),
     ]);
     Ok((sequence, things, header))
 }
 
-fn row(sequence: &Sequence, thing: &Thing) -> Value {
+pub(super) fn row(sequence: &Sequence, thing: &Thing) -> Value {
     let (radar, scan, point) = thing.seen;
     json!({
         "thing": thing.number,

@@ -98,3 +98,76 @@ fn what_was_said_of_some_of_a_thing_is_heard_for_the_rest() {
     assert!(each(1, 0) > own, "the machine was wrong: it may be so for the rest");
     assert!(each(99, 1) < own + 1e-9 + own / 3.0, "the machine was right");
 }
+
+/// The strokes that accept all changes of an opinion, as one step.
+fn accepted(opinion: &Value) -> Vec<Value> {
+    let stroke = |label: u16| {
+        let mut points: std::collections::BTreeMap<(String, u64), Vec<Value>> =
+            std::collections::BTreeMap::new();
+        for change in opinion["changes"].as_array().unwrap().iter().filter(|change| change["label"] == label)
+        {
+            for part in change["points"].as_array().unwrap() {
+                let scan = (part["radar"].as_str().unwrap().to_owned(), part["scan"].as_u64().unwrap());
+                points.entry(scan).or_default().extend(part["points"].as_array().unwrap().clone());
+            }
+        }
+        let points: Vec<Value> = points
+            .into_iter()
+            .map(|((radar, scan), points)| json!({ "radar": radar, "scan": scan, "points": points }))
+            .collect();
+        json!({ "tool": "opinion", "protect": true, "label": label, "group": "g", "points": points })
+    };
+    [1, 99].map(stroke).into_iter().filter(|stroke| stroke["points"] != json!([])).collect()
+}
+
+#[test]
+fn an_opinion_changes_nothing_until_it_is_accepted_and_is_one_step_then() {
+    let out = Out::new();
+    let server = out.serve();
+    let nothing = server.of_sequence("opinion").json();
+    assert_eq!(nothing, json!({ "answered": 0, "changes": [], "base": [] }));
+    let (_, scans) = things(&server);
+    // Somebody says that everything in the first scan is an artifact.
+    let (radar, scan, ids) = &scans[0];
+    let base = json!([{ "radar": radar, "scan": scan, "revision": 0 }]);
+    let all: Vec<usize> = (0..ids.len()).collect();
+    let points = json!([{ "radar": radar, "scan": scan, "points": all }]);
+    let stroke = json!({ "tool": "lasso", "label": 1, "base": base, "points": points });
+    server.edit("POST", "strokes", &stroke, "one").json();
+    let before = server.of_sequence("progress").json();
+    let opinion = server.of_sequence("opinion").json();
+    assert_eq!(opinion["answered"], ids.len());
+    assert_eq!(server.of_sequence("opinion").json(), opinion, "the same answers give the same opinion");
+    assert_eq!(server.of_sequence("progress").json(), before);
+    let changes = opinion["changes"].as_array().unwrap();
+    assert!(!changes.is_empty());
+    for change in changes {
+        let likely = change["probability"].as_f64().unwrap();
+        assert!((0.5..=1.0).contains(&likely) && [1, 99].contains(&change["label"].as_u64().unwrap()));
+        let is_said = |part: &Value| part["radar"] == *radar && part["scan"] == *scan;
+        assert!(
+            !change["points"].as_array().unwrap().iter().any(is_said),
+            "of what was said nothing is proposed"
+        );
+    }
+    let mut changed = 0;
+    let mut base = opinion["base"].clone();
+    for mut stroke in accepted(&opinion) {
+        stroke["base"] = base.clone();
+        let made = server.edit("POST", "strokes", &stroke, "one").json();
+        changed += made["changed"].as_u64().unwrap();
+        // The halves of one step meet in scans: the second rests on what the first led to.
+        for now in made["scans"].as_array().unwrap() {
+            let is_now = |one: &&mut Value| one["radar"] == now["radar"] && one["scan"] == now["scan"];
+            base.as_array_mut().unwrap().iter_mut().find(is_now).unwrap()["revision"] =
+                now["revision"].clone();
+        }
+    }
+    let after = server.of_sequence("progress").json();
+    assert_eq!(
+        after["corrected_detections"].as_u64(),
+        before["corrected_detections"].as_u64().map(|n| n + changed)
+    );
+    server.edit("POST", "undo", &json!({}), "one").json();
+    assert_eq!(server.of_sequence("progress").json(), before);
+}

@@ -20,6 +20,7 @@ import { detailsPanel } from "./panels/details-panel.js";
 import { classesDialog } from "./panels/classes-dialog.js";
 import { helpDialog } from "./panels/help-dialog.js";
 import { nameDialog } from "./panels/name-dialog.js";
+import { opinionBar } from "./panels/opinion-bar.js";
 import { filterPanel } from "./panels/filter-panel.js";
 import { keyTable, listenToKeys } from "./panels/keys.js";
 import { legendPanel } from "./panels/legend.js";
@@ -83,7 +84,7 @@ function build(page: Page): void {
   listenToKeys(table, page.store);
   keepFocus(viewport.element);
   const overlays = [legendPanel(page), scanTitle(page), painting(page), notice(page)];
-  const asked = [banner(page), acceptBar(page, home), thingBar(page), conflictDialog(page)];
+  const asked = [banner(page), acceptBar(page, home), thingBar(page), opinionBar(page), conflictDialog(page)];
   const stage = h("div", { class: "stage" }, viewport.element, centreCamera.element, ...overlays, ...asked);
   document.body.append(
     h(

@@ -1,6 +1,7 @@
 /** Everything the page knows and shows. */
 
-import type { DoubtfulThing, ScanId, History, Progress, QueueScan, Recording } from "./api/types.js";
+import type { DoubtfulThing, ScanId, History, Opinion, Progress, QueueScan, Recording } from "./api/types.js";
+import type { AreaKind } from "./data/area.js";
 import type { CameraMoment } from "./data/camera-moment.js";
 import { buildCloud, type Cloud } from "./data/cloud.js";
 import { everything, type Filter } from "./data/filter.js";
@@ -8,11 +9,13 @@ import { type Choice, LabelBook } from "./data/labels.js";
 import type { Rule } from "./data/rules.js";
 import type { Lidar } from "./data/lidar.js";
 import type { Unseen } from "./data/sight.js";
-import type { Things } from "./data/things.js";
 import type { OutboxStatus, Pending } from "./history/outbox.js";
 import type { QueueView } from "./queue/queue.js";
 import type { Tool } from "./selection/tools.js";
 import type { ColourMode, Painting } from "./viewer/colours.js";
+
+/** The most scans before and after the current one that are on screen: as many as the server tells of at once. */
+export const MOST_ACCUMULATED = 100;
 
 export type ViewMode = "bird" | "free" | "camera";
 /** What a stroke may change: the scan under review alone, or everything shown. */
@@ -48,12 +51,15 @@ export interface State {
   readonly progressElsewhere: ReadonlyMap<string, Progress>;
   readonly queueView: QueueView;
 
-  /** What belongs together over the sequence; `null` until somebody asks. */
-  readonly things: Things | null;
-  readonly doubtful: readonly DoubtfulThing[];
   /** The thing that wants an answer, while somebody goes from thing to thing. */
   readonly thing: DoubtfulThing | null;
   readonly focus: Focus | null;
+  /** What would change by what was said, until somebody accepts or drops it. */
+  readonly opinion: Opinion | null;
+  /** The place of the change that is looked at, or -1. */
+  readonly opinionAt: number;
+  /** True while the server thinks it over. */
+  readonly thinking: boolean;
 
   /** The scan under review. */
   readonly current: ScanId | null;
@@ -83,6 +89,8 @@ export interface State {
   readonly painting: Painting;
 
   readonly tool: Tool;
+  /** What the next stroke in the scene adds to the filter; `null`: strokes choose detections. */
+  readonly drawing: AreaKind | null;
   /** Radius of the brush, px. */
   readonly brush: number;
   readonly scope: Scope;
@@ -118,6 +126,7 @@ const NO_HISTORY: History = { undo: null, redo: null, undo_depth: 0, redo_depth:
 /** What a person does, before anything is done. */
 const NOTHING_DONE = {
   tool: "click",
+  drawing: null,
   brush: 18,
   scope: "scan",
   protect: true,
@@ -149,10 +158,11 @@ export function initialState(recording: Recording, name: string): State {
     progress: { scans: 0, reviewed: 0, corrected_detections: 0, orphaned_scans: 0 },
     progressElsewhere: new Map(),
     queueView: { order: "need", hideReviewed: false, radar: null },
-    things: null,
-    doubtful: [],
     thing: null,
     focus: null,
+    opinion: null,
+    opinionAt: -1,
+    thinking: false,
     current: null,
     loading: true,
     cloud: buildCloud([]),

@@ -6,6 +6,8 @@
 //!    they never saw, and grows the one that stays on everything.
 //! 3. [`boost`] grows a forest.
 //!
+//! [`second_opinion`] learns within a sequence, from what a person said of some of its detections.
+//!
 //! The same table and seed give the same model to the byte.
 
 mod balance;
@@ -17,6 +19,7 @@ mod causes;
 mod fit;
 mod fitting;
 mod monotone;
+mod opinion;
 mod random;
 mod scores;
 mod side_by_side;
@@ -29,6 +32,8 @@ pub use before::worth_in;
 pub use boosting::{Bins, Examples, Grown, Parameters, boost};
 pub use fit::{Fitted, LearnError, LeftOut, fit};
 pub use fitting::Fitting;
+pub use monotone::direction;
+pub use opinion::{Believed, second_opinion};
 pub use scores::{Judged, Scores, best_threshold};
 pub use table::{Known, TrainingTable};
 pub use view::View;

@@ -38,7 +38,7 @@ const AGAINST: &[&str] = &[
 
 /// The direction of a feature: 1 where more of it never speaks against a detection, -1 where it never speaks for it, 0
 /// where it may point either way.
-pub(super) fn direction(feature: &str) -> i8 {
+pub fn direction(feature: &str) -> i8 {
     if FOR.contains(&feature) {
         1
     } else if AGAINST.contains(&feature) {

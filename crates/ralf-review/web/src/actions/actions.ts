@@ -5,6 +5,7 @@ import { Adopting } from "./adopting.js";
 import { Correcting } from "./correcting.js";
 import { Hearing } from "./hearing.js";
 import { Moment } from "./moment.js";
+import { Opining } from "./opining.js";
 import { Navigation } from "./navigation.js";
 import { Picking } from "./picking.js";
 import { Reviewing } from "./reviewing.js";
@@ -26,6 +27,7 @@ export interface Actions {
   readonly hear: Hearing;
   readonly thing: Thinging;
   readonly rule: Ruling;
+  readonly opine: Opining;
 }
 
 export function actionsOn(world: World, keeper: Keeper): Actions {
@@ -45,5 +47,6 @@ export function actionsOn(world: World, keeper: Keeper): Actions {
     hear: new Hearing(world, adopting, correct),
     thing,
     rule: new Ruling(world, go, select),
+    opine: new Opining(world, go, correct),
   };
 }

@@ -1,9 +1,10 @@
 /** Strokes: what is selected gets a label. Nothing counts before the server has said so. */
 
 import { randomName } from "../api/session.js";
-import type { StrokeAnswer, StrokeRequest } from "../api/types.js";
+import type { Opinion, StrokeAnswer, StrokeRequest } from "../api/types.js";
 import { findScan, maskOf, pointsByScan } from "../data/cloud.js";
 import { ARTIFACT, type Choice, PLAUSIBLE } from "../data/labels.js";
+import { baseOf, pointsOf } from "../data/opinion.js";
 import { sameScan } from "../data/scan.js";
 import type { Keeper } from "../history/keep.js";
 import { Outbox, type OutboxStatus, type Pending } from "../history/outbox.js";
@@ -60,6 +61,22 @@ export class Correcting {
       .filter(({ half }) => countOf(half) > 0)
       .map(({ label, half }) => this.strokeOf(half, label, tool, group));
     store.set({ selection: new Uint8Array(selection.length) });
+    await this.outbox.add(strokes);
+  }
+
+  /** Makes what an opinion would change so, as one step. What somebody has said meanwhile stays. */
+  async applyOpinion(opinion: Opinion): Promise<void> {
+    const { store } = this.world;
+    const { cloud, sequence, outbox } = store.state;
+    if (opinion.changes.length === 0 || outbox.kind === "conflict" || readOnly(this.world)) return;
+    const group = randomName();
+    const strokes = [PLAUSIBLE, ARTIFACT].flatMap((label) => {
+      const points = pointsOf(opinion.changes.filter((change) => change.label === label));
+      const base = baseOf(opinion, cloud, points);
+      const stroke = { id: randomName(), tool: "opinion", protect: true, label, base, points, group };
+      return points.length === 0 ? [] : [{ sequence, stroke }];
+    });
+    store.set({ selection: new Uint8Array(cloud.count) });
     await this.outbox.add(strokes);
   }
 

@@ -4,13 +4,20 @@ import { messageOf } from "../api/errors.js";
 import type { ScanId } from "../api/types.js";
 import { type CameraMoment, placeScan, withoutPlaces } from "../data/camera-moment.js";
 import type { Cloud } from "../data/cloud.js";
-import { sameScan } from "../data/scan.js";
+import type { Lidar } from "../data/lidar.js";
+import { sameScan, type Scan } from "../data/scan.js";
+import { MOST_ACCUMULATED } from "../state.js";
 import { complain, type World } from "./world.js";
 
 export class Moment {
   private generation = 0;
 
-  constructor(private readonly world: World) {}
+  constructor(private readonly world: World) {
+    world.store.watch(
+      ({ lidarShown }) => [lidarShown],
+      () => void this.readLidar().catch((error: unknown) => complain(world, error)),
+    );
+  }
 
   /** Resolves once the scan is on screen, or another one was asked for. */
   async show(id: ScanId): Promise<void> {
@@ -21,7 +28,7 @@ export class Moment {
     try {
       const [cloud, lidar] = await Promise.all([
         loader.cloud(sequence, id, accumulate),
-        loader.scan(sequence, id).then((scan) => loader.lidar(sequence, scan)),
+        loader.scan(sequence, id).then((scan) => this.lidarOf(scan)),
       ]);
       if (generation !== this.generation) return;
       const before = store.state.cameras;
@@ -41,7 +48,23 @@ export class Moment {
     const { loader, store } = this.world;
     const { sequence, accumulate } = store.state;
     const scan = await loader.scan(sequence, id);
-    await Promise.all([loader.cloud(sequence, id, accumulate), loader.lidar(sequence, scan)]);
+    await Promise.all([loader.cloud(sequence, id, accumulate), this.lidarOf(scan)]);
+  }
+
+  /** What is drawn of the LiDAR: nothing is read of what isn't shown. */
+  private async lidarOf(scan: Scan): Promise<Lidar | null> {
+    const { lidarShown, accumulate, sequence } = this.world.store.state;
+    return lidarShown ? this.world.loader.lidar(sequence, scan, accumulate === MOST_ACCUMULATED) : null;
+  }
+
+  /** Reads the LiDAR of the scan on screen, where it wasn't shown. */
+  private async readLidar(): Promise<void> {
+    const { store } = this.world;
+    const [scan] = store.state.cloud.scans;
+    if (scan === undefined || store.state.lidar !== null) return;
+    const { generation } = this;
+    const lidar = await this.lidarOf(scan);
+    if (generation === this.generation) store.set({ lidar });
   }
 
   private camerasOf(cloud: Cloud): readonly CameraMoment[] {

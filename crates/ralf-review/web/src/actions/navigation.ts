@@ -4,12 +4,10 @@ import type { ScanId } from "../api/types.js";
 import { buildCloud } from "../data/cloud.js";
 import { sameScan } from "../data/scan.js";
 import { listed, neighbour, nextNeedy, type QueueView } from "../queue/queue.js";
+import { MOST_ACCUMULATED } from "../state.js";
 import { type Address, addressText } from "./address.js";
 import type { Moment } from "./moment.js";
 import { complain, tell, type World } from "./world.js";
-
-/** As many as the server tells of at once. */
-const MOST_ACCUMULATED = 100;
 
 /** How long a scan stays on screen at least while the recording plays, ms. */
 const LEAST_SHOWN = 150;
@@ -62,7 +60,7 @@ export class Navigation {
     );
     try {
       for (const { name } of others) {
-        const { progress } = await api.queue(name);
+        const progress = await api.progress(name);
         store.set({ progressElsewhere: new Map(store.state.progressElsewhere).set(name, progress) });
       }
     } catch (error) {

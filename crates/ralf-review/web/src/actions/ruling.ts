@@ -34,8 +34,11 @@ export class Ruling {
   async choose(name: string): Promise<void> {
     const { store } = this.world;
     const rule = readRules().find((known) => known.name === name);
-    const { current } = store.state;
+    const { current, sequence } = store.state;
     if (rule === undefined || current === null) return;
+    const elsewhere = rule.filter.areas.find((area) => area.sequence !== sequence);
+    if (elsewhere !== undefined)
+      return tell(this.world, `${name} asks for places of sequence ${elsewhere.sequence}: it chooses nothing here.`);
     try {
       await this.navigation.wholeSequence(current);
       store.set({ filter: rule.filter, thing: null });

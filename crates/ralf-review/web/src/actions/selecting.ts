@@ -33,6 +33,7 @@ export class Selecting {
     if (countOf(mask) === 0 && !isPress(tool)) this.explainNothing();
     // Whoever chooses something else isn't answering the queue any more.
     if (store.state.thing !== null) store.set({ thing: null });
+    if (store.state.opinion !== null && how === "replace") store.set({ opinion: null });
     if (armed !== undefined && how === "replace") {
       store.set({ selection: mask });
       this.begin(this.correcting.apply(armed, tool));
@@ -47,6 +48,7 @@ export class Selecting {
   choose(choice: Choice): void {
     const { store } = this.world;
     const { selection, armed, thing } = store.state;
+    if (store.state.opinion !== null) store.set({ opinion: null });
     if (countOf(selection) > 0 && thing !== null) this.begin(this.answer(choice));
     else if (countOf(selection) > 0) this.begin(this.correcting.apply(choice, this.lastTool));
     else store.set({ armed: armed === choice ? undefined : choice });
@@ -82,12 +84,12 @@ export class Selecting {
   escape(): void {
     const { store } = this.world;
     const { selection } = store.state;
-    if (countOf(selection) > 0) store.set({ selection: new Uint8Array(selection.length), thing: null });
-    else store.set({ armed: undefined, notice: null, accepting: null });
+    if (countOf(selection) > 0) store.set({ selection: new Uint8Array(selection.length), thing: null, opinion: null });
+    else store.set({ armed: undefined, notice: null, accepting: null, opinion: null, drawing: null });
   }
 
   tool(tool: Tool): void {
-    this.world.store.set({ tool });
+    this.world.store.set({ tool, drawing: null });
     if (tool === "thing") this.begin(this.things.load().then(() => undefined));
   }
 

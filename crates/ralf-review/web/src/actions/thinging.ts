@@ -12,6 +12,9 @@ const AROUND = 24;
 
 export class Thinging {
   private loading: Promise<Things> | null = null;
+  /** What belongs together over the sequence; `null` until somebody asks. */
+  private things: Things | null = null;
+  private doubtful: readonly DoubtfulThing[] = [];
   /** Places that were looked at since the sequence was opened. */
   private seen: Place[] = [];
 
@@ -22,9 +25,9 @@ export class Thinging {
     world.store.watch(
       ({ sequence }) => [sequence],
       () => {
-        this.loading = null;
-        this.seen = [];
-        world.store.set({ things: null, doubtful: [], thing: null });
+        [this.loading, this.things] = [null, null];
+        [this.doubtful, this.seen] = [[], []];
+        world.store.set({ thing: null });
       },
     );
   }
@@ -35,7 +38,7 @@ export class Thinging {
     const { sequence } = store.state;
     const reading = (this.loading ??= api.things(sequence).then((table) => {
       const things = new Things(table);
-      if (sequence === store.state.sequence) store.set({ things, doubtful: table.header.doubtful });
+      if (sequence === store.state.sequence) [this.things, this.doubtful] = [things, table.header.doubtful];
       return things;
     }));
     reading.catch(() => (this.loading = null));
@@ -47,9 +50,9 @@ export class Thinging {
     const { store, api } = this.world;
     const { sequence } = store.state;
     try {
-      if (store.state.things === null) await this.load();
-      else store.set({ doubtful: (await api.doubtful(sequence)).doubtful });
-      const next = nextThing(store.state.doubtful, this.seen);
+      if (this.things === null) await this.load();
+      else this.doubtful = (await api.doubtful(sequence)).doubtful;
+      const next = nextThing(this.doubtful, this.seen);
       if (next !== null) return await this.show(next);
       store.set({ thing: null });
       tell(this.world, "Every doubtful thing of this sequence was looked at.");
@@ -63,26 +66,30 @@ export class Thinging {
     const { store } = this.world;
     const things = await this.load();
     await this.navigation.wholeSequence(thing);
-    const { cloud } = store.state;
     const at = placeOf(thing);
-    if (at !== null) {
-      this.seen.push(at);
-      const from = cloud.scans[0]?.table.header.odom_from_vehicle ?? null;
-      const [x, y] = movePlace(from, [at[0], at[1], thing.place[2] ?? 0]);
-      store.set({ focus: { x, y, span: Math.max(AROUND, 4 * (thing.radius ?? 0)) } });
-    }
+    if (at !== null) this.seen.push(at);
+    lookAt(this.world, thing);
     // Whoever paints goes on painting there.
     if (store.state.armed !== undefined) return;
-    const selection = maskOf(cloud, things.members(thing.thing));
-    store.set({ thing, selection, tool: "thing" });
+    const selection = maskOf(store.state.cloud, things.members(thing.thing));
+    store.set({ thing, selection, tool: "thing", opinion: null });
   }
 
   /** The things of what was chosen, as far as they are shown. */
   whole(chosen: Uint8Array): Uint8Array {
-    const { things, cloud, shown } = this.world.store.state;
-    if (things !== null) return wholeThings(things, cloud, chosen, shown);
+    const { cloud, shown } = this.world.store.state;
+    if (this.things !== null) return wholeThings(this.things, cloud, chosen, shown);
     void this.load().catch((error: unknown) => complain(this.world, error));
     tell(this.world, "Finding out what belongs together; choose again in a moment.");
     return chosen;
   }
+}
+
+/** Has the picture show the place of a thing, as far as it's known. */
+export function lookAt({ store }: World, thing: DoubtfulThing): void {
+  const at = placeOf(thing);
+  if (at === null) return;
+  const from = store.state.cloud.scans[0]?.table.header.odom_from_vehicle ?? null;
+  const [x, y] = movePlace(from, [at[0], at[1], thing.place[2] ?? 0]);
+  store.set({ focus: { x, y, span: Math.max(AROUND, 4 * (thing.radius ?? 0)) } });
 }

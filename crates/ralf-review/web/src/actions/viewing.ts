@@ -1,9 +1,11 @@
 /** How things are shown. */
 
+import { type AreaKind, areaOf } from "../data/area.js";
 import { everything, type Filter } from "../data/filter.js";
+import type { Point } from "../selection/geometry.js";
 import type { Dialog, ViewMode } from "../state.js";
 import { type ColourMode, colourModes } from "../viewer/colours.js";
-import type { World } from "./world.js";
+import { tell, type World } from "./world.js";
 
 const LONGEST_NAME = 64;
 const LEAST_DOT = 3;
@@ -51,6 +53,24 @@ export class Viewing {
   filter(patch: Partial<Filter>): void {
     const { store } = this.world;
     store.set({ filter: { ...store.state.filter, ...patch } });
+  }
+
+  /** Has the next stroke in the scene say where; asked for again, it doesn't. */
+  draw(kind: AreaKind): void {
+    const { store } = this.world;
+    const { drawing, mode } = store.state;
+    if (drawing === kind) return store.set({ drawing: null });
+    store.set({ drawing: kind, tool: "lasso", mode: mode === "camera" ? "bird" : mode });
+    tell(this.world, `Draw ${kind === "inside" ? "an outline" : "along the surface"}; Esc gives it up.`);
+  }
+
+  /** A stroke that says where was drawn: x, y in the frame of the scan under review, m. */
+  drew(path: readonly Point[]): void {
+    const { store } = this.world;
+    const { drawing, cloud, sequence, filter } = store.state;
+    const area = drawing === null ? null : areaOf(drawing, path, cloud, sequence);
+    store.set({ drawing: null });
+    if (area !== null) this.filter({ areas: [...filter.areas, area] });
   }
 
   showEverything(): void {

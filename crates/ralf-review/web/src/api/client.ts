@@ -10,6 +10,8 @@ import type {
   MarkRequest,
   History,
   LidarHeader,
+  Opinion,
+  Progress,
   Queue,
   Recording,
   ReviewedAnswer,
@@ -45,6 +47,15 @@ export class Api {
     return this.json("GET", `${inSequence(sequence)}/things/doubtful`);
   }
 
+  /** What the labels would be, after what people said; the first time it takes a while. */
+  opinion(sequence: string): Promise<Opinion> {
+    return this.json("GET", `${inSequence(sequence)}/opinion`);
+  }
+
+  progress(sequence: string): Promise<Progress> {
+    return this.json("GET", `${inSequence(sequence)}/progress`);
+  }
+
   history(sequence: string): Promise<History> {
     return this.json("GET", `${inSequence(sequence)}/history`);
   }
@@ -55,6 +66,11 @@ export class Api {
 
   lidar(sequence: string, name: string, scan: number, call?: Call): Promise<Table<LidarHeader>> {
     return this.table(`${inSequence(sequence)}/lidars/${part(name)}/scans/${scan}`, call);
+  }
+
+  /** What several scans around one have seen stand still. */
+  lidarMap(sequence: string, name: string, scan: number, call?: Call): Promise<Table<LidarHeader>> {
+    return this.table(`${inSequence(sequence)}/lidars/${part(name)}/scans/${scan}/around`, call);
   }
 
   async image(sequence: string, camera: string, image: number, call?: Call): Promise<Blob> {

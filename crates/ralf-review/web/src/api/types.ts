@@ -100,6 +100,25 @@ export interface Doubtful {
   readonly expected_errors: number;
 }
 
+/** A thing that would be called otherwise, after what people said of others. */
+export interface ProposedChange extends DoubtfulThing {
+  /** What it would be, as a label id, and how probable that is. */
+  readonly label: number;
+  readonly probability: number;
+  /** The detections that this would change, wherever they are. */
+  readonly points: readonly ScanPoints[];
+}
+
+/** What the labels would be, after what people said of some of them. */
+export interface Opinion {
+  /** How many detections people said something of. */
+  readonly answered: number;
+  /** Those of the most detections first. */
+  readonly changes: readonly ProposedChange[];
+  /** Of every scan that would change. */
+  readonly base: readonly BaseRevision[];
+}
+
 export interface ThingsHeader extends Doubtful {
   readonly scans: readonly (ScanId & { readonly rows: number })[];
 }
@@ -132,6 +151,8 @@ export interface ScanHeader {
   readonly reviewed: Reviewed | null;
   /** Row-major 4 by 4, `null` where the recording has neither poses nor odometry. */
   readonly odom_from_vehicle: readonly number[] | null;
+  /** Where the radar is in the vehicle frame, m. */
+  readonly origin?: readonly [x: number, y: number, z: number];
   readonly lidar: { readonly name: string; readonly scan: number } | null;
   readonly cameras: readonly CameraImageId[];
   readonly failed_cameras: readonly string[];

@@ -1,6 +1,7 @@
 /** Which detections are shown. */
 
 import type { Recording } from "../api/types.js";
+import type { Area } from "./area.js";
 import { gather, type Cloud } from "./cloud.js";
 import type { LabelBook } from "./labels.js";
 
@@ -29,6 +30,8 @@ export interface Filter {
   readonly hiddenRadars: ReadonlySet<string>;
   /** Whatever else is asked of numbers. */
   readonly columns: readonly ColumnSpan[];
+  /** Places in the world; all of them must hold. */
+  readonly areas: readonly Area[];
 }
 
 export const everything: Filter = {
@@ -43,6 +46,7 @@ export const everything: Filter = {
   flags: 0,
   hiddenRadars: new Set(),
   columns: [],
+  areas: [],
 };
 
 /** Scores no farther from the threshold than this are uncertain, as in the queue. */
@@ -93,7 +97,7 @@ export function hides(filter: Filter): boolean {
   return (Object.keys(everything) as (keyof Filter)[]).some((key) => {
     const [now, whole] = [filter[key], everything[key]];
     if (now instanceof Set) return now.size > 0;
-    if (key === "columns") return filter.columns.length > 0;
+    if (key === "columns" || key === "areas") return filter[key].length > 0;
     return Array.isArray(now) ? String(now) !== String(whole) : now !== whole;
   });
 }

@@ -1,5 +1,6 @@
 /** A filter as JSON, to be kept in the browser, and taken back. */
 
+import { areasFrom } from "./area.js";
 import { type ColumnSpan, everything, type Filter, type Origin, type Span } from "./filter.js";
 
 /** A filter as JSON can hold it; `filterFrom` takes it back. */
@@ -30,6 +31,7 @@ export function filterFrom(kept: unknown): Filter {
     flags: typeof found["flags"] === "number" ? found["flags"] : everything.flags,
     hiddenRadars: new Set(Array.isArray(found["hiddenRadars"]) ? found["hiddenRadars"].map(String) : []),
     columns: columnsFrom(found["columns"]),
+    areas: areasFrom(found["areas"]),
   };
 }
 

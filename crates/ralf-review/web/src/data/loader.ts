@@ -8,9 +8,13 @@ import { Cache } from "./cache.js";
 import { type Lidar, lidarFromTable } from "./lidar.js";
 import { sameScan, type Scan, scanFromTable, scanKey } from "./scan.js";
 
+/** Scans that have the same map. */
+const MAP_STEP = 50;
+
 export class Loader {
   private readonly scans = new Cache<Scan>(1200);
   private readonly lidars = new Cache<Table<LidarHeader>>(6);
+  private readonly maps = new Cache<Table<LidarHeader>>(4);
   private readonly images = new Cache<ImageBitmap>(36);
   private readonly places = new Cache<Table<object>>(600);
 
@@ -44,10 +48,16 @@ export class Loader {
     return buildCloud([first, ...read]);
   }
 
-  async lidar(sequence: string, { table }: Scan): Promise<Lidar | null> {
+  /** The LiDAR scan of a radar's; `around`: what those around it have seen stand still, where the motion is known. */
+  async lidar(sequence: string, { table }: Scan, around: boolean): Promise<Lidar | null> {
     const { lidar } = table.header;
     if (lidar === null) return null;
     const { name, scan } = lidar;
+    if (around && table.header.odom_from_vehicle !== null) {
+      const middle = scan - (scan % MAP_STEP);
+      const map = await this.maps.get(key(sequence, name, middle), () => this.api.lidarMap(sequence, name, middle));
+      return lidarFromTable(name, scan, map, table.header);
+    }
     const read = await this.lidars.get(key(sequence, name, scan), () => this.api.lidar(sequence, name, scan));
     return lidarFromTable(name, scan, read, table.header);
   }

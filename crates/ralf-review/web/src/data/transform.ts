@@ -30,8 +30,12 @@ export function targetFromSource(odomFromTarget: Matrix | null, odomFromSource: 
 }
 
 /** A place of the odometry frame in that of the vehicle; stays put where the vehicle's isn't known. */
-export function movePlace(odomFromVehicle: Matrix | null, [x, y, z]: readonly [number, number, number]): Vector {
-  const m = targetFromSource(odomFromVehicle, odomFromVehicle === null ? null : IDENTITY);
+export function movePlace(odomFromVehicle: Matrix | null, at: Vector): Vector {
+  return place(targetFromSource(odomFromVehicle, odomFromVehicle === null ? null : IDENTITY), at);
+}
+
+/** A place moved. */
+export function place(m: Matrix, [x, y, z]: Vector): Vector {
   const row = (i: number): number => m[i] * x + m[i + 1] * y + m[i + 2] * z + m[i + 3];
   return [row(0), row(4), row(8)];
 }

@@ -90,6 +90,11 @@ function go({ actions }: KeyContext): readonly Key[] {
       "To the next doubtful thing; P, A or a class answer it and go on",
       () => void actions.thing.next(),
     ),
+    key(
+      ["shift+r"],
+      "Relabel with what you said: a proposal; again accepts it, Esc drops it",
+      () => void actions.opine.askOrAccept(),
+    ),
     key(["z"], "The whole sequence at once, or this scan alone", () => void going.toggleWhole()),
     key(["enter"], "Mark as reviewed and go to the next needy scan", () => review.accept(true)),
     repeating(key(["arrowright"], "To the radar's next scan", () => void going.step(1))),

@@ -1,22 +1,23 @@
 /** What is asked of columns, and the rules that were kept of it. */
 
+import { AREAS, type Area, type AreaKind } from "../data/area.js";
 import { columnsOf } from "../data/cloud.js";
 import type { ColumnSpan } from "../data/filter.js";
-import { h, say, select, setOptions } from "../dom.js";
+import { h, pressed, say, select, setOptions } from "../dom.js";
 import type { Page } from "../page.js";
 
 export function rulesPanel(page: Page): HTMLElement {
   const count = h("span", { class: "faint" });
   page.store.watch(
-    ({ filter, rules }) => [filter.columns, rules],
-    (columns, rules) => say(count, `${columns.length} columns, ${rules.length} kept`),
+    ({ filter, rules }) => [filter, rules],
+    ({ columns, areas: places }, rules) => say(count, `${columns.length + places.length} asked, ${rules.length} kept`),
   );
-  const summary = h("summary", { title: "Filters on every column, kept by name" }, "Rules ", count);
+  const summary = h("summary", { title: "Filters on every column and on places, kept by name" }, "Rules ", count);
   return h(
     "details",
     {},
     summary,
-    h("div", { class: "rules" }, columnList(page), spans(page), saving(page), kept(page)),
+    h("div", { class: "rules" }, columnList(page), spans(page), drawing(page), areas(page), saving(page), kept(page)),
   );
 }
 
@@ -85,6 +86,56 @@ function row({ name, span }: ColumnSpan, set: (span: ColumnSpan["span"] | null) 
   });
   away.append("×");
   return h("div", { class: "row rule" }, h("span", { class: "faint" }, name), end(0, "least"), end(1, "most"), away);
+}
+
+const DRAWN: Readonly<Record<AreaKind, readonly [text: string, title: string]>> = {
+  inside: ["Inside", "Draw an outline: only what lies inside"],
+  behind: ["Behind", "Draw along a surface: only what its radar sees behind it"],
+  mirror: ["Mirrored", "Draw along a surface: only what lies behind it where it mirrors something plausible"],
+};
+
+/** Says by a stroke in the scene where something is asked for. */
+function drawing({ store, actions }: Page): HTMLElement {
+  const chips = AREAS.map((kind) => {
+    const [text, title] = DRAWN[kind];
+    const chip = h("button", {
+      class: "chip small",
+      type: "button",
+      title,
+      on: { click: () => actions.view.draw(kind) },
+    });
+    chip.append(text);
+    return chip;
+  });
+  store.watch(
+    ({ drawing: now }) => [now],
+    (now) => AREAS.forEach((kind, i) => pressed(chips[i], kind === now)),
+  );
+  return h("div", { class: "row", role: "group", "aria-label": "Draw where" }, ...chips);
+}
+
+function areas({ store, actions }: Page): HTMLElement {
+  const rows = h("div", {});
+  const without = (area: Area): void =>
+    actions.view.filter({ areas: store.state.filter.areas.filter((other) => other !== area) });
+  store.watch(
+    ({ filter }) => [filter.areas],
+    (now) =>
+      rows.replaceChildren(
+        ...now.map((area) => {
+          const text = `${DRAWN[area.kind][0].toLowerCase()} in ${area.sequence}`;
+          const away = h("button", {
+            class: "link",
+            type: "button",
+            title: `Ask nothing of the place ${text}`,
+            on: { click: () => without(area) },
+          });
+          away.append("×");
+          return h("div", { class: "row" }, h("span", { class: "faint" }, text), away);
+        }),
+      ),
+  );
+  return rows;
 }
 
 function saving({ actions }: Page): HTMLElement {

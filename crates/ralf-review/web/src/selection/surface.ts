@@ -14,6 +14,8 @@ export interface Picture {
   places(): Float32Array;
   /** Shows the gesture, and the brush where the pointer is. */
   showGesture(gesture: Gesture | null, pointer: Point | null): void;
+  /** Where on the plane a pixel lies, x, y, m; only of pictures that show the plane. */
+  groundAt?(at: Point): Point | null;
   /** Moves the picture by so many pixels. */
   pan(right: number, down: number): void;
 }
@@ -131,11 +133,19 @@ export class Surface {
     const { brush, eligible } = this.store.state;
     const shape = this.gesture === null ? null : shapeOf(this.gesture, brush);
     const tool = this.gesture?.tool ?? "click";
+    const path = this.gesture?.path ?? [];
     this.cancel();
+    if (this.store.state.drawing !== null) return this.draw(path);
     if (shape === null) return;
     const mask = new Uint8Array(eligible.length);
     collect(shape, this.picture.places(), eligible, mask);
     this.actions.select.gesture(tool, mask, how);
+  }
+
+  /** A stroke that says where, and chooses nothing. */
+  private draw(path: readonly Point[]): void {
+    const places = path.map((at) => this.picture.groundAt?.(at) ?? null).filter((at) => at !== null);
+    this.actions.view.drew(places);
   }
 
   private show(gesture: Gesture, pointer: Point): void {

@@ -4,6 +4,7 @@ import type { Point, Shape } from "../selection/geometry.js";
 import { CLOSING_REACH, type Gesture, shapeOf } from "../selection/tools.js";
 
 const LINE = "#5eeaa6";
+const AREA = "#f5c451";
 const FILL = "rgb(94 234 166 / 12%)";
 
 /** Fits a canvas to its element; returns its context in CSS pixels, wiped. */
@@ -44,6 +45,18 @@ export function drawHover(context: CanvasRenderingContext2D, x: number, y: numbe
     context.strokeStyle = colour;
     context.beginPath();
     context.arc(x, y, radius, 0, 2 * Math.PI);
+    context.stroke();
+  }
+}
+
+/** Outlines and surfaces that a filter asks for; what isn't all in the picture is left out. */
+export function drawAreas(context: CanvasRenderingContext2D, areas: readonly (readonly Point[])[]): void {
+  context.strokeStyle = AREA;
+  context.lineWidth = 2;
+  for (const corners of areas.filter((area) => area.every(([x]) => !Number.isNaN(x)))) {
+    context.beginPath();
+    trace(context, corners);
+    if (corners.length > 2) context.closePath();
     context.stroke();
   }
 }

@@ -1,5 +1,6 @@
 /** The centre of the page: the WebGL picture, what is drawn over it, and the pointer on it. */
 
+import { cornersHere } from "../data/area.js";
 import { maskOf } from "../data/cloud.js";
 import { h } from "../dom.js";
 import { pointsOf } from "../history/outbox.js";
@@ -7,7 +8,7 @@ import type { Page } from "../page.js";
 import type { Point } from "../selection/geometry.js";
 import { Surface } from "../selection/surface.js";
 import type { Gesture } from "../selection/tools.js";
-import { cleared, drawBrushCursor, drawGesture, drawHover } from "./drawing.js";
+import { cleared, drawAreas, drawBrushCursor, drawGesture, drawHover } from "./drawing.js";
 import { certaintyOf } from "../data/filter.js";
 import { marksOf } from "./marks.js";
 import { navigate } from "./navigate.js";
@@ -45,6 +46,7 @@ export class Viewport {
         this.tellCursor();
         this.drawOverlay();
       },
+      groundAt: (at) => this.view.groundAt(...at),
       pan: (right, down) => this.aim(panned(this.view.rig, right, down, this.view.size[1], this.above)),
     });
     navigate(
@@ -118,7 +120,7 @@ export class Viewport {
       },
     );
     store.watch(
-      ({ hover, tool }) => [hover, tool],
+      ({ hover, tool, filter }) => [hover, tool, filter.areas],
       () => this.drawOverlay(),
     );
     store.watch(
@@ -176,6 +178,18 @@ export class Viewport {
     return this.places;
   }
 
+  /** Where the filter asks for something. */
+  private drawAreas(context: CanvasRenderingContext2D): void {
+    const { filter, cloud, sequence } = this.page.store.state;
+    const here = filter.areas.filter((area) => area.sequence === sequence);
+    const pixels = here.map((area) => {
+      const corners = cornersHere(area, cloud);
+      const places = this.view.project(new Float32Array(corners.flatMap(([x, y]) => [x, y, 0])));
+      return corners.map((_, i): Point => [places[2 * i], places[2 * i + 1]]);
+    });
+    drawAreas(context, pixels);
+  }
+
   private tellCursor(): void {
     this.page.actions.view.cursor(this.pointer === null ? null : this.view.groundAt(...this.pointer));
   }
@@ -186,6 +200,7 @@ export class Viewport {
     if (context === null) return;
     const { hover, dotSize, tool, brush, mode, cloud, shown } = this.page.store.state;
     if (mode !== "camera" && shown.length === cloud.count) this.page.actions.review.saw(this.placed());
+    this.drawAreas(context);
     drawRingLabels(context, (positions) => this.view.project(positions));
     if (this.above) {
       drawScaleBar(context, this.view.rig.span / height, width, height);

@@ -7,8 +7,10 @@ import {
   clean,
   current,
   freshOut,
+  lassoAll,
   launch,
   open,
+  picture,
   ready,
   says,
   scanOf,
@@ -23,11 +25,6 @@ before(async () => {
   browser = await launch();
 });
 after(() => browser.close());
-
-/** Sees the page as a person would: RALF_PICTURES names a folder for pictures of it. */
-async function picture(page, name) {
-  if (process.env.RALF_PICTURES) await page.screenshot({ path: `${process.env.RALF_PICTURES}/${name}.png` });
-}
 
 test("nothing that axe calls serious is wrong with the page, its dialogs and bars", async (context) => {
   const server = await serve(context, await freshOut(context));
@@ -53,7 +50,23 @@ test("nothing that axe calls serious is wrong with the page, its dialogs and bar
   await page.locator(".thing-bar").waitFor();
   await faults("a thing");
   await picture(page, "thing");
+  await page.keyboard.press("a");
+  await says(page.locator(".status-bar"), "undo 2");
+  await page.keyboard.press("Shift+R");
+  await says(page.locator(".opinion-bar"), "would become");
+  await faults("a proposal");
+  await picture(page, "proposal");
   await page.keyboard.press("Escape");
+  await page
+    .locator(".filters details")
+    .last()
+    .evaluate((rules) => (rules.open = true));
+  await page.getByRole("button", { name: "Inside" }).click();
+  await lassoAll(page);
+  await says(page.locator(".rules"), "inside in");
+  await faults("a place");
+  await picture(page, "place");
+  await page.keyboard.press("0");
   for (const key of ["?", "c"]) {
     await page.keyboard.press(key);
     await page.locator("dialog[open]").waitFor();
@@ -77,6 +90,7 @@ async function axe() {
 for (const [width, height] of [
   [1280, 720],
   [1920, 1080],
+  [3840, 2160],
 ]) {
   test(`on ${width} x ${height} each toolbar is one line, and all numbers can be read`, async (context) => {
     const server = await serve(context, await freshOut(context));

@@ -192,8 +192,9 @@ test("a thing is answered by one key in all its scans, survives a dead server, a
   assert.equal(await correctedIn(server), first);
   await page.waitForFunction((before) => document.querySelector(".thing-bar").dataset.thing !== before, thing);
   await page.keyboard.press("Escape");
+  await proposalIsDroppedAndAccepted(page, () => correctedIn(server));
   await page.keyboard.press("Control+z");
-  await says(page.locator(".status-bar"), "redo 1");
+  await says(page.locator(".status-bar"), "redo 2");
   assert.equal(await correctedIn(server), 0);
   // The whole sequence is on screen: a lasso draws on all of its scans.
   await lassoAll(page);
@@ -212,6 +213,26 @@ test("a thing is answered by one key in all its scans, survives a dead server, a
   assert.equal(await correctedIn(back), 0);
   clean(tab, GONE);
 });
+
+/** After one answer: what is proposed changes nothing when it's dropped, and is one step when it's accepted. */
+async function proposalIsDroppedAndAccepted(page, corrected) {
+  const before = await corrected();
+  const bar = page.locator(".opinion-bar");
+  for (const key of ["Escape", "Shift+R"]) {
+    await page.keyboard.press("Shift+R");
+    await says(bar, "would become");
+    assert.ok((await selected(page)) > 0);
+    await page.keyboard.press(key);
+    await bar.waitFor({ state: "hidden" });
+    if (key === "Escape") assert.equal(await corrected(), before);
+  }
+  await says(page.locator(".status-bar"), "undo 2");
+  await says(status(page), /^saved$/);
+  assert.ok((await corrected()) > before);
+  await page.keyboard.press("Control+z");
+  await says(page.locator(".status-bar"), "undo 1");
+  assert.equal(await corrected(), before);
+}
 
 test("two tabs on one scan: the second is told, sees the newer state, and decides", async (context) => {
   const server = await serve(context, await freshOut(context));

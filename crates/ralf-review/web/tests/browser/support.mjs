@@ -24,6 +24,11 @@ const CHROMIUM = [
   "--enable-unsafe-swiftshader",
 ];
 
+/** Sees the page as a person would: RALF_PICTURES names a folder for pictures of it. */
+export async function picture(page, name) {
+  if (process.env.RALF_PICTURES) await page.screenshot({ path: `${process.env.RALF_PICTURES}/${name}.png` });
+}
+
 export function launch() {
   return chromium.launch({ executablePath: RALF_CHROMIUM, args: CHROMIUM });
 }

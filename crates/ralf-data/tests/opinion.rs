@@ -1,0 +1,129 @@
+//! What a second opinion is worth: somebody who knows the truth answers a few things, and the rest is thought over.
+
+#![allow(clippy::unwrap_used, clippy::print_stdout, reason = "of tests alone")]
+
+use ralf::label::truth_of;
+use ralf::learned::Model;
+use ralf_data::judge::Certainty;
+use ralf_data::result::{LabelledRun, LabelledSequence};
+use ralf_data::run::{LabelRun, Observer, Stage};
+use ralf_data::things::{Answer, Change, Observed, SequenceThings};
+use ralf_data::{Recording, SequenceReader, Settings};
+use ralf_sim::{SimulatedSequence, presets, world};
+use std::path::PathBuf;
+
+struct Silent;
+
+impl Observer for Silent {
+    fn begin(&self, _: Stage, _: u64) {}
+    fn advance(&self, _: u64, _: u64) {}
+    fn end(&self) {}
+}
+
+/// A labelled sequence whose truth is known.
+struct Known {
+    things: SequenceThings,
+    observed: Observed,
+    /// By detection; `None` of what has no truth.
+    truth: Vec<Option<bool>>,
+}
+
+impl Known {
+    fn new(sequence: SimulatedSequence, jobs: usize) -> Self {
+        let recording = Recording {
+            path: PathBuf::from("simulated"),
+            format: "simulated",
+            sequences: vec![Box::new(sequence)],
+        };
+        let reader = recording.sequences[0].as_ref();
+        let (settings, out) = (Settings::default(), tempfile::tempdir().unwrap());
+        LabelRun {
+            recording: &recording,
+            settings: &settings,
+            out: out.path(),
+            jobs,
+            evidence: false,
+            checks: &[],
+            model: None,
+        }
+        .execute(&Silent)
+        .unwrap();
+        let LabelledSequence { rig, settings, tables, .. } =
+            LabelledRun::open(out.path()).unwrap().sequence(reader).unwrap();
+        let things = SequenceThings::of(reader, &rig, &Certainty::of(&settings), &tables).unwrap();
+        let observed = Observed::of(reader, (&rig, &settings), &Model::shipped().unwrap(), &things, jobs);
+        let truth = truth(reader, &things);
+        Self { things, observed, truth }
+    }
+
+    fn is_wrong(&self, row: usize) -> bool {
+        self.truth[row].is_some_and(|truth| truth != self.things.sightings()[row].plausible)
+    }
+
+    /// What somebody says who is asked of so many things in turn, most expected errors first: each gets the label that
+    /// most of it should have.
+    fn answered(&self, count: usize) -> Vec<Option<Answer>> {
+        let mut answers = vec![None; self.truth.len()];
+        for _ in 0..count {
+            let Some(asked) = self.things.doubtful(&answers, 1).things.pop() else { break };
+            let rows: Vec<usize> =
+                (0..answers.len()).filter(|row| self.things.things()[*row] == asked.number).collect();
+            let plausible =
+                rows.iter().filter(|row| self.truth[**row] == Some(true)).count() * 2 > rows.len();
+            for row in rows {
+                let right = self.things.sightings()[row].plausible == plausible;
+                answers[row] = Some(if right { Answer::Right } else { Answer::Wrong });
+            }
+        }
+        answers
+    }
+
+    /// How many labels are wrong once answers and changes count.
+    fn wrong(&self, answers: &[Option<Answer>], changes: &[Change]) -> usize {
+        let mut flipped: Vec<bool> = answers.iter().map(|answer| *answer == Some(Answer::Wrong)).collect();
+        changes.iter().flat_map(|change| &change.rows).for_each(|row| flipped[*row] = true);
+        (0..flipped.len())
+            .filter(|row| self.truth[*row].is_some() && self.is_wrong(*row) != flipped[*row])
+            .count()
+    }
+}
+
+fn truth(reader: &dyn SequenceReader, things: &SequenceThings) -> Vec<Option<bool>> {
+    let mut all = Vec::new();
+    for (radar, scan) in things.scans() {
+        let labels = reader.truth(*radar, *scan).unwrap().unwrap().labels;
+        all.extend(labels.iter().map(|label| truth_of(label.id)));
+    }
+    all
+}
+
+fn told(name: &str, known: &Known, jobs: usize) -> String {
+    let before = (0..known.truth.len()).filter(|row| known.is_wrong(*row)).count();
+    let mut line = format!("{name:12} {:6} {before:6}", known.truth.len());
+    for count in [3, 10, 30] {
+        let answers = known.answered(count);
+        let changes = known.things.second_opinion(&known.observed, &answers, jobs);
+        let proposed: usize = changes.iter().map(|change| change.rows.len()).sum();
+        let (own, after) = (known.wrong(&answers, &[]), known.wrong(&answers, &changes));
+        line += &format!("   {count:3}: {own:5} -> {after:5} ({proposed:5})");
+    }
+    line
+}
+
+/// Families of worlds and the preset `paper`: wrong labels before, after 3, 10 and 30 answers, and once the proposal
+/// was accepted too, unseen (how many labels it changed). With
+/// `cargo test --release -p ralf-data --test opinion -- --ignored --nocapture`.
+#[test]
+#[ignore = "takes minutes"]
+fn what_a_second_opinion_is_worth() {
+    let jobs = 2;
+    println!("sequence     labels  wrong   answers: wrong labels without and with the proposal");
+    for family in &world::FAMILIES {
+        let world = world::Recording::new(family, 5);
+        println!("{}", told(family.name, &Known::new(world.sequence(0, 12).unwrap(), jobs), jobs));
+    }
+    for (place, scans) in [(0, 25), (2, 25), (7, 25)] {
+        let sequence = &presets::find("paper").unwrap().sequences[place];
+        println!("{}", told(sequence.name, &Known::new(sequence.simulate(0, scans).unwrap(), jobs), jobs));
+    }
+}

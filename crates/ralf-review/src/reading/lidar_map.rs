@@ -1,0 +1,91 @@
+//! What several LiDAR scans around one have seen stand still.
+
+use super::lidar::{Seen, seen};
+use super::{matrix, time};
+use crate::app::{App, measurement};
+use crate::http::{Answer, ApiError, Table, content};
+use crate::labelled::SequenceLabels;
+use ralf_data::SequenceReader;
+use serde_json::{Map, json};
+use std::ops::RangeInclusive;
+
+/// Scans before and after that are taken part of, as many as radar scans may be accumulated.
+const AROUND: usize = 100;
+/// At most so many of them are read.
+const READ: usize = 20;
+/// Of each cell this wide one point is kept, m.
+const CELL: f64 = 0.25;
+/// What fewer scans have seen moves, or is noise.
+const LEAST_SCANS: usize = 2;
+
+/// A cell that a scan has seen something in: its place, the scan, and a point of it.
+type Visited = ([i32; 3], usize, Seen);
+
+/// One point for each cell of the world that several of the scans around one have seen something in, in the vehicle
+/// frame at its time.
+pub(crate) fn map(app: &App, sequence: &str, lidar: &str, scan: usize) -> Answer {
+    let (index, reader) = app.sequence(sequence)?;
+    let known = reader.sequence();
+    let names = known.rig.lidars.iter().map(|lidar| lidar.name.as_str());
+    let (lidar, _) = measurement("lidar", names, &known.times.lidars, lidar, scan)?;
+    let labels = app.labels(index)?;
+    let make = || table(reader, &labels, (lidar, scan)).map(|bytes| (labels.stamp.clone(), bytes));
+    let made = app.maps.get((index, lidar, scan), |(stamp, _)| labels.is_of(stamp), make)?;
+    Ok(content("application/octet-stream", made.1.clone()))
+}
+
+fn table(
+    reader: &dyn SequenceReader,
+    labels: &SequenceLabels,
+    (lidar, scan): (usize, usize),
+) -> Result<Vec<u8>, ApiError> {
+    let (motion, times) = (&reader.sequence().motion, &reader.sequence().times.lidars[lidar]);
+    let odom_from_vehicle = motion.odom_from_vehicle(times[scan]);
+    let mut visited: Vec<Visited> = Vec::new();
+    let around = scan.saturating_sub(AROUND)..=(scan + AROUND).min(times.len() - 1);
+    let scans = spread(around);
+    for scan in &scans {
+        let here_from_there = odom_from_vehicle.inv_mul(&motion.odom_from_vehicle(times[*scan]));
+        let mut of_scan: Vec<Visited> = Vec::new();
+        for point in seen(reader, labels, (lidar, *scan), times[*scan])?.into_iter().flatten() {
+            let place = here_from_there * point.place;
+            of_scan.push((cell(&place.coords.into()), *scan, Seen { place, ..point }));
+        }
+        of_scan.sort_by_key(|(cell, ..)| *cell);
+        of_scan.dedup_by_key(|(cell, ..)| *cell);
+        visited.append(&mut of_scan);
+    }
+    visited.sort_by_key(|(cell, scan, _)| (*cell, *scan));
+    let least = LEAST_SCANS.min(scans.len());
+    let cells = visited.chunk_by(|a, b| a.0 == b.0).filter(|visits| visits.len() >= least);
+    let kept: Vec<Option<Seen>> = cells.map(|visits| Some(visits[0].2)).collect();
+    let more = Map::from_iter([
+        ("t_ns".to_owned(), time(times[scan])),
+        ("odom_from_vehicle".to_owned(), matrix(&odom_from_vehicle)),
+        ("scans".to_owned(), json!(scans.len())),
+    ]);
+    Ok(super::lidar::points(&kept, Table::new(kept.len())).finish(more))
+}
+
+/// So many of them that are read, as far apart from each other as may be.
+fn spread(scans: RangeInclusive<usize>) -> Vec<usize> {
+    let step = (scans.end() - scans.start() + 1).div_ceil(READ);
+    scans.step_by(step).collect()
+}
+
+fn cell(place: &[f64; 3]) -> [i32; 3] {
+    place.map(|metres| (metres / CELL).floor() as i32)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn scans_are_read_from_all_along() {
+        assert_eq!(spread(3..=6), [3, 4, 5, 6]);
+        let many = spread(0..=200);
+        assert!(many.len() <= READ && many.len() > READ / 2);
+        assert!(many.windows(2).all(|pair| pair[1] - pair[0] == many[1]) && many[0] == 0);
+    }
+}

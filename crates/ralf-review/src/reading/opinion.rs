@@ -1,0 +1,63 @@
+//! What the labels would be, after what people said of some of them.
+
+use super::said::Said;
+use super::things;
+use crate::app::App;
+use crate::http::{Answer, ApiError, json};
+use ralf::label::{ARTIFACT, PLAUSIBLE};
+use ralf::sensors::Sequence;
+use ralf_corrections::ScanVersion;
+use ralf_data::things::{Change, SequenceThings};
+use serde_json::{Value, json};
+use std::collections::{BTreeMap, BTreeSet};
+use std::thread::available_parallelism;
+
+/// Which things would be called otherwise by who has learned from what was said; nothing is changed by that. The first
+/// time all evidence is gathered, which takes a while.
+pub(crate) fn opinion(app: &App, sequence: &str) -> Answer {
+    let (index, reader) = app.sequence(sequence)?;
+    let labels = app.labels(index)?;
+    let things = labels.things(reader)?;
+    // Somebody goes on working meanwhile: half of the machine is theirs.
+    let jobs = available_parallelism().map_or(1, |threads| threads.get().div_ceil(2));
+    let answers = Said::of(app, index, reader)?.answers(app, &things)?;
+    let answered = answers.iter().filter(|answer| answer.is_some()).count();
+    let changes = if answered == 0 {
+        Vec::new()
+    } else {
+        things.second_opinion(&*labels.observed(reader, &things, jobs)?, &answers, jobs)
+    };
+    let sequence = reader.sequence();
+    let scans: BTreeSet<(usize, usize)> =
+        changes.iter().flat_map(|change| &change.rows).map(|row| things.scan_of(*row)).collect();
+    let base: Vec<Value> =
+        scans.into_iter().map(|scan| base(app, sequence, scan)).collect::<Result<_, ApiError>>()?;
+    let changes: Vec<Value> = changes.iter().map(|change| row(sequence, &things, change)).collect();
+    json(&json!({ "answered": answered, "changes": changes, "base": base }))
+}
+
+/// What a stroke on a scan rests on.
+fn base(app: &App, sequence: &Sequence, (radar, scan): (usize, usize)) -> Result<Value, ApiError> {
+    let place = app.scan(&sequence.name, &sequence.rig.radars[radar].name, scan)?;
+    let content = app.content(&place)?;
+    let revision = app.said(|store| store.scan(&ScanVersion { key: place.key.clone(), content }))?.revision;
+    let content = content.hash.map(|hash| hash.to_string());
+    Ok(json!({ "radar": place.key.radar, "scan": scan, "revision": revision, "content": content }))
+}
+
+/// A thing with what it would be, and the detections that this would change.
+fn row(sequence: &Sequence, known: &SequenceThings, change: &Change) -> Value {
+    let mut points: BTreeMap<(usize, usize), Vec<usize>> = BTreeMap::new();
+    for row in &change.rows {
+        let (radar, scan) = known.scan_of(*row);
+        points.entry((radar, scan)).or_default().push(row - known.rows_of(radar, scan).start);
+    }
+    let points = points.into_iter().map(
+        |((radar, scan), points)| json!({ "radar": sequence.rig.radars[radar].name, "scan": scan, "points": points }),
+    );
+    let mut row = things::row(sequence, &change.thing);
+    row["label"] = json!(if change.plausible { PLAUSIBLE } else { ARTIFACT });
+    row["probability"] = json!(change.probability);
+    row["points"] = points.collect();
+    row
+}

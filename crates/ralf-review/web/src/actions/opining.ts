@@ -1,0 +1,113 @@
+/** What the labels would be after what was said: asked for, looked at, and accepted as one step or dropped. */
+
+import type { ProposedChange } from "../api/types.js";
+import { maskOf } from "../data/cloud.js";
+import { countOfPoints, kept, pointsOf } from "../data/opinion.js";
+import { sameScan } from "../data/scan.js";
+import { counted } from "../format.js";
+import { intersection } from "../selection/mask.js";
+import type { Correcting } from "./correcting.js";
+import type { Navigation } from "./navigation.js";
+import { lookAt } from "./thinging.js";
+import { complain, tell, type World } from "./world.js";
+
+export class Opining {
+  constructor(
+    private readonly world: World,
+    private readonly navigation: Navigation,
+    private readonly correcting: Correcting,
+  ) {
+    world.store.watch(
+      ({ sequence }) => [sequence],
+      () => this.drop(),
+    );
+  }
+
+  /** Asks for it; what was asked for and is on screen is accepted. */
+  async askOrAccept(): Promise<void> {
+    const { opinion, thinking } = this.world.store.state;
+    if (thinking) return;
+    await (opinion === null ? this.ask() : this.accept()).catch((error: unknown) => complain(this.world, error));
+  }
+
+  /** Nothing of it is done. */
+  drop(): void {
+    this.world.store.set({ opinion: null, opinionAt: -1 });
+  }
+
+  /** To the next change of a thing, the largest first. */
+  async next(): Promise<void> {
+    const { opinion, opinionAt } = this.world.store.state;
+    if (opinion === null || opinion.changes.length === 0) return;
+    const at = (opinionAt + 1) % opinion.changes.length;
+    this.world.store.set({ opinionAt: at });
+    await this.show(opinion.changes[at]).catch((error: unknown) => complain(this.world, error));
+  }
+
+  /** Leaves the change that is looked at out. */
+  leaveOut(): void {
+    const { store } = this.world;
+    const { opinion, opinionAt, cloud, selection } = store.state;
+    const change = opinion?.changes[opinionAt];
+    if (opinion === null || change === undefined) return;
+    const out = maskOf(cloud, change.points);
+    const changes = opinion.changes.filter((other) => other !== change);
+    store.set({
+      opinion: { ...opinion, changes },
+      opinionAt: Math.min(opinionAt, changes.length - 1),
+      selection: selection.map((is, i) => is & (1 - out[i])),
+    });
+  }
+
+  private async ask(): Promise<void> {
+    const { store, api } = this.world;
+    const { sequence, current } = store.state;
+    if (current === null || !this.correcting.free("thinking it over")) return;
+    store.set({ thinking: true, thing: null });
+    try {
+      const opinion = await api.opinion(sequence);
+      if (sequence !== store.state.sequence) return;
+      if (opinion.answered === 0)
+        return tell(this.world, "Correct or review something first: there is nothing to learn from.");
+      if (opinion.changes.length === 0)
+        return tell(
+          this.world,
+          `Nothing else would change by what was said of ${counted(opinion.answered, "detection")}.`,
+        );
+      await this.navigation.wholeSequence(store.state.current ?? current);
+      store.set({ opinion, opinionAt: -1 });
+      this.select();
+    } finally {
+      store.set({ thinking: false });
+    }
+  }
+
+  private async accept(): Promise<void> {
+    const { store } = this.world;
+    const { opinion, cloud, selection } = store.state;
+    if (opinion === null) return;
+    const accepted = kept(opinion, cloud, selection);
+    this.drop();
+    await this.correcting.applyOpinion(accepted);
+    tell(this.world, `${counted(countOfPoints(pointsOf(accepted.changes)), "label")} changed; Ctrl+Z takes them back.`);
+  }
+
+  private async show(change: ProposedChange): Promise<void> {
+    const { store } = this.world;
+    const { opinion, cloud, selection } = store.state;
+    if (opinion !== null && !cloud.scans.some((scan) => sameScan(scan, change))) {
+      store.set({ opinion: kept(opinion, cloud, selection) });
+      await this.navigation.wholeSequence(change);
+      this.select();
+    }
+    lookAt(this.world, change);
+  }
+
+  /** Everything that would change and may be changed is selected. */
+  private select(): void {
+    const { store } = this.world;
+    const { opinion, cloud, eligible } = store.state;
+    if (opinion === null) return;
+    store.set({ selection: intersection(maskOf(cloud, pointsOf(opinion.changes)), eligible) });
+  }
+}

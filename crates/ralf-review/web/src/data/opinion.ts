@@ -1,0 +1,44 @@
+/** What the labels would be, after what people said: what of it stays when somebody leaves some out. */
+
+import type { BaseRevision, Opinion, ProposedChange, ScanPoints } from "../api/types.js";
+import { type Cloud, findScan } from "./cloud.js";
+import { scanKey } from "./scan.js";
+
+/** All detections that would change, scan by scan. */
+export function pointsOf(changes: readonly ProposedChange[]): readonly ScanPoints[] {
+  const byScan = new Map<string, ScanPoints>();
+  for (const { radar, scan, points } of changes.flatMap((change) => change.points)) {
+    const known = byScan.get(scanKey({ radar, scan }))?.points ?? [];
+    byScan.set(scanKey({ radar, scan }), { radar, scan, points: [...known, ...points] });
+  }
+  return [...byScan.values()];
+}
+
+export function countOfPoints(points: readonly ScanPoints[]): number {
+  return points.reduce((sum, one) => sum + one.points.length, 0);
+}
+
+/** The same without what is on screen and isn't selected any more. */
+export function kept(opinion: Opinion, cloud: Cloud, selection: Uint8Array): Opinion {
+  const selected = (part: ScanPoints): ScanPoints => {
+    const at = findScan(cloud, part);
+    if (at < 0) return part;
+    return { ...part, points: part.points.filter((point) => selection[cloud.starts[at] + point] === 1) };
+  };
+  const changes = opinion.changes.flatMap((change) => {
+    const points = change.points.map(selected).filter((part) => part.points.length > 0);
+    return points.length === 0 ? [] : [{ ...change, points }];
+  });
+  return { ...opinion, changes };
+}
+
+/** What a stroke on these scans rests on: what is on screen is what was looked at. */
+export function baseOf({ base }: Opinion, cloud: Cloud, points: readonly ScanPoints[]): readonly BaseRevision[] {
+  const wanted = new Set(points.map(scanKey));
+  return base
+    .filter((one) => wanted.has(scanKey(one)))
+    .map((one) => {
+      const at = findScan(cloud, one);
+      return at < 0 ? one : { ...one, revision: cloud.scans[at].revision };
+    });
+}
