@@ -90,6 +90,18 @@ fn without_elevation_the_height_is_supposed() {
     close(column(&found, "lidar_free")[1], 1.0, 0.0);
 }
 
+/// What stands for exp(-x) in the votes.
+fn weight(x: f64) -> f64 {
+    (1.0 - x / 64.0).powi(64)
+}
+
+#[test]
+fn weights_are_nearly_a_gaussian() {
+    for x in (0..=625).map(|x| f64::from(x) / 100.0) {
+        assert!((0.0..0.005).contains(&((-x).exp() - weight(x))), "{x}");
+    }
+}
+
 /// Shares and chi of one scan as they are defined, from all of its points.
 fn from_all_points(points: &[[f32; 3]], detection: [f32; 3], ground: f64) -> ([f64; 4], Option<f64>) {
     let up = Vector3::new(0.0, 0.0, 2.0);
@@ -125,7 +137,7 @@ fn from_all_points(points: &[[f32; 3]], detection: [f32; 3], ground: f64) -> ([f
             _ if past <= -depth => 3,
             _ => usize::from(q.z + 2.0 < ground + 0.2),
         };
-        sums[ending] += (-3.125 * (beside * beside + above * above)).exp();
+        sums[ending] += weight(3.125 * (beside * beside + above * above));
     }
     (sums, Some(chi.min(10.0)).filter(|_| chi.is_finite()))
 }
@@ -160,7 +172,7 @@ proptest! {
         for (name, sum) in NAMES.into_iter().zip(sums) {
             for prefix in ["lidar_rays", "lidar_window"] {
                 if let Some(share) = column(&found, &format!("{prefix}_{name}"))[0] {
-                    prop_assert!((share - sum / total).abs() < 0.02, "{prefix}_{name} {share} {sums:?}");
+                    prop_assert!((share - sum / total).abs() < 1e-3, "{prefix}_{name} {share} {sums:?}");
                 } else {
                     prop_assert!(total < 0.01, "{sums:?}");
                 }
