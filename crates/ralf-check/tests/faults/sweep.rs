@@ -22,8 +22,11 @@ pub fn sequences() -> Vec<&'static PresetSequence> {
     sequences.filter(|sequence| is_asked_for("RALF_SEQUENCES", sequence.name)).collect()
 }
 
+/// From the number of a sequence's scans to those of a stretch.
+type Stretch = fn(usize) -> Range<usize>;
+
 /// Of a sequence's scans: all, and short stretches at the begin and in the middle.
-fn stretches() -> Vec<(&'static str, fn(usize) -> Range<usize>)> {
+fn stretches() -> Vec<(&'static str, Stretch)> {
     vec![
         ("whole", |scans| 0..scans),
         ("first 3 s", |_| 0..SHORT[0]),
