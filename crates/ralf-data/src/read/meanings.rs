@@ -89,7 +89,8 @@ const MEANINGS: [Meanings; 10] = [
     },
     Meanings {
         format: radar_scenes::NAME,
-        doppler: "`doppler` is raw and `doppler_compensated` without the vehicle's motion, by the data set's authors",
+        doppler: "`doppler` is raw and `doppler_compensated` without the vehicle's motion, by the data set's authors; \
+                  by RALF where they give none, while the vehicle stands",
         lidar: "there is none",
         quality: &[],
     },
@@ -115,4 +116,20 @@ const MEANINGS: [Meanings; 10] = [
 /// What a format says of its radars' measurements; `None` of one that isn't listed.
 pub fn meanings(format: &str) -> Option<Meanings> {
     MEANINGS.into_iter().find(|meanings| meanings.format == format)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_format_tells_and_the_documents_have_every_field() {
+        let page = include_str!("../../../../docs/recordings.md");
+        for format in crate::formats() {
+            let told = meanings(format).unwrap();
+            for (name, _) in told.quality {
+                assert!(page.contains(&format!("`{name}`")), "{format}: {name}");
+            }
+        }
+    }
 }

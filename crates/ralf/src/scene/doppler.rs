@@ -14,26 +14,26 @@ pub struct Doppler {
 
 impl Doppler {
     /// The range rates of a radar's scan: the fields `doppler` and `doppler_compensated`, each derived from the other
-    /// where the radar has but one. `None` where it has neither.
+    /// where the radar has but one, or a detection (some recordings have no compensated one while the vehicle stands).
+    /// `None` where it has neither.
     ///
     /// The difference is the radial part of the radar's own velocity, `u . (v + omega x t)`: `u` is the unit ray to the
     /// detection, `t` the radar's lever arm from the vehicle's origin.
     pub fn new(radar: &Radar, scan: &RadarScan, motion: &EgoMotion) -> Option<Self> {
-        let (raw, compensated) = (radar.column("doppler"), radar.column("doppler_compensated"));
-        let along = own_motion(radar, scan, motion);
-        let column = |place: usize| scan.columns[place].iter().copied().map(f64::from).collect::<Vec<_>>();
-        Some(match (raw.map(column), compensated.map(column)) {
-            (Some(raw), Some(compensated)) => Self { raw, compensated },
-            (Some(raw), None) => {
-                let compensated = raw.iter().zip(along).map(|(raw, along)| raw + along).collect();
-                Self { raw, compensated }
+        let column = |name: &str| radar.column(name).map(|place| &scan.columns[place]);
+        let (raw, compensated) = (column("doppler"), column("doppler_compensated"));
+        raw.or(compensated)?;
+        let rate = |column: Option<&Vec<f32>>, at: usize| column.map_or(f64::NAN, |rates| rates[at].into());
+        let rates = own_motion(radar, scan, motion).enumerate().map(|(at, along)| {
+            let (raw, compensated) = (rate(raw, at), rate(compensated, at));
+            match (raw.is_nan(), compensated.is_nan()) {
+                (false, true) => (raw, raw + along),
+                (true, false) => (compensated - along, compensated),
+                _ => (raw, compensated),
             }
-            (None, Some(compensated)) => {
-                let raw = compensated.iter().zip(along).map(|(rate, along)| rate - along).collect();
-                Self { raw, compensated }
-            }
-            (None, None) => return None,
-        })
+        });
+        let (raw, compensated) = rates.unzip();
+        Some(Self { raw, compensated })
     }
 }
 
@@ -105,6 +105,16 @@ mod tests {
         close(&found.raw, [-2.5, -1.2]);
         let both = doppler(&["doppler", "doppler_compensated"], &[[7.0, 8.0], [1.0, 2.0]]).unwrap();
         assert_eq!((both.raw, both.compensated), (vec![7.0, 8.0], vec![1.0, 2.0]));
+    }
+
+    #[test]
+    fn a_detection_may_lack_one_of_them() {
+        let found =
+            doppler(&["doppler", "doppler_compensated"], &[[-5.0, f32::NAN], [f32::NAN, 2.0]]).unwrap();
+        close(&found.raw, [-5.0, 0.8]);
+        close(&found.compensated, [0.0, 2.0]);
+        let none = doppler(&["doppler", "doppler_compensated"], &[[f32::NAN; 2]; 2]).unwrap();
+        assert!(none.raw.iter().chain(&none.compensated).all(|rate| rate.is_nan()));
     }
 
     #[test]

@@ -38,6 +38,12 @@ fn labelled_clouds_hold_fields_and_answers() {
                     [found.label, found.flags].map(Some)
                 );
                 assert_eq!(row["plausibility"].as_f64(), found.w);
+                let colour = match found.label {
+                    0 => 0x8b96_a5ff,
+                    1 => 0xf080_3cff_u32,
+                    _ => 0x4ba8_eaff,
+                };
+                assert_eq!(row["colors"], colour);
                 assert_eq!(BRANCHES.map(|name| row[name].as_f64()), found.branches);
                 let value = |name: &str| row[name].as_f64().unwrap();
                 if radar == "radar_front" {
@@ -53,6 +59,7 @@ fn labelled_clouds_hold_fields_and_answers() {
         assert_eq!(read["frames"]["/radar_left/points_labelled"], "radar_left");
         assert_eq!(read["mounted"]["radar_front"], json!(["base_link", [3.6, 0.0, 0.5, 0.0, 0.0, 0.0, 1.0]]));
         assert_eq!(read["types"]["points_labelled/label"], "uint32");
+        assert_eq!(read["types"]["points_labelled/colors"], "uint32");
     }
 }
 

@@ -50,25 +50,22 @@ pub(super) fn table_columns(sequence: &LabelledSequence, scan: &LabelledScan) ->
 /// Answers of the method that a labelled cloud has, and what they are called there.
 const ANSWERS: [(&str, &str); 4] = [("w_lm", "w_lm"), ("w_cm", "w_cm"), ("w_tr", "w_tr"), ("w_opt", "w_opt")];
 
+/// What viewers draw labels in, as `0xRRGGBBAA`: the review page's blue and orange, which are told apart with any
+/// colour vision, and its grey.
+pub(super) const PLAUSIBLE: u32 = 0x4b_a8_ea_ff;
+pub(super) const ARTIFACT: u32 = 0xf0_80_3c_ff;
+const UNLABELLED: u32 = 0x8b_96_a5_ff;
+
 /// The columns of a labelled cloud: where the radar saw the detections (its own frame, m), its further fields as they
-/// are, and what was found about them. The one of 2 bytes is last, so that all lie aligned.
+/// are, and what was found about them; with `drawn`, also the colours by which Rerun shows the labels.
 pub(super) fn cloud_columns(
     sequence: &LabelledSequence,
     scan: &LabelledScan,
     measured: &RadarScan,
+    drawn: bool,
 ) -> Result<Table, DataError> {
     let radar = &sequence.reader.sequence().rig.radars[scan.radar];
-    let mut added = Columns::default();
-    let decimals = |name: &str| Ok::<_, DataError>(Values::F32(kept(scan, scan.table.get::<f32>(name)?)));
-    added.add(plain("plausibility", Kind::F32, "The plausibility.", Group::Answers), decimals("w")?);
-    let ids = scan.kept.iter().map(|row| scan.labels[*row].id.into()).collect();
-    let meaning = "SemanticKITTI id of the label that counts.";
-    added.add(plain("label", Kind::U32, meaning, Group::Verdict), Values::U32(ids));
-    for (name, of) in ANSWERS {
-        added.add(plain(name, Kind::F32, "A branch's plausibility.", Group::Answers), decimals(of)?);
-    }
-    add_group(&mut added, scan, Group::Evidence);
-    added.add(flags(), flags_of(scan)?);
+    let added = found_columns(scan, drawn)?;
     let taken = |name: &&String| added.columns.iter().any(|column| column.name == **name);
     if let Some(name) = radar.fields.iter().find(taken) {
         let reason = format!("field `{name}` of the radar has the name of one that the export adds");
@@ -87,6 +84,36 @@ pub(super) fn cloud_columns(
     columns.columns.extend(added.columns);
     columns.values.extend(added.values);
     columns.table()
+}
+
+/// What was found about a scan's detections. The column of 2 bytes is last, so that all lie aligned.
+fn found_columns(scan: &LabelledScan, drawn: bool) -> Result<Columns, DataError> {
+    let mut found = Columns::default();
+    let decimals = |name: &str| Ok::<_, DataError>(Values::F32(kept(scan, scan.table.get::<f32>(name)?)));
+    found.add(plain("plausibility", Kind::F32, "The plausibility.", Group::Answers), decimals("w")?);
+    let ids: Vec<u16> = scan.kept.iter().map(|row| scan.labels[*row].id).collect();
+    let colours = ids.iter().copied().map(colour).collect();
+    let meaning = "SemanticKITTI id of the label that counts.";
+    let label = Values::U32(ids.into_iter().map(u32::from).collect());
+    found.add(plain("label", Kind::U32, meaning, Group::Verdict), label);
+    for (name, of) in ANSWERS {
+        found.add(plain(name, Kind::F32, "A branch's plausibility.", Group::Answers), decimals(of)?);
+    }
+    add_group(&mut found, scan, Group::Evidence);
+    if drawn {
+        // Under this name Rerun takes them for the points' own.
+        found.add(plain("colors", Kind::U32, "The label's colour.", Group::Verdict), Values::U32(colours));
+    }
+    found.add(flags(), flags_of(scan)?);
+    Ok(found)
+}
+
+fn colour(label: u16) -> u32 {
+    match truth_of(label) {
+        Some(true) => PLAUSIBLE,
+        Some(false) => ARTIFACT,
+        None => UNLABELLED,
+    }
 }
 
 /// A table of decimals under these names.

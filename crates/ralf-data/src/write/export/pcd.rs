@@ -21,7 +21,7 @@ impl Writer for Pcd {
         for (radar, sensor) in sequence.reader.sequence().rig.radars.iter().enumerate() {
             for scan in 0..sequence.scans(radar) {
                 let labelled = sequence.scan(radar, scan)?;
-                let columns = cloud_columns(sequence, &labelled, &sequence.measured_of(&labelled)?)?;
+                let columns = cloud_columns(sequence, &labelled, &sequence.measured_of(&labelled)?, false)?;
                 let file =
                     folder.folder(&sequence.names.radars[radar]).file(&Component::numbered(scan, "pcd"));
                 files::write_whole(&file, &cloud(&columns, &sensor.vehicle_from_radar))?;

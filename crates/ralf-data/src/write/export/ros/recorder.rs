@@ -189,7 +189,7 @@ impl<'a> Recorder<'a> {
             Some(sequence) => {
                 let found = sequence.scan(radar, scan)?;
                 let measured = sequence.measured_of(&found)?;
-                let columns = cloud_columns(sequence, &found, &measured)?;
+                let columns = cloud_columns(sequence, &found, &measured, true)?;
                 let cloud = cloud::of_columns(header.clone(), &columns);
                 let topic = &self.topics.labelled[radar];
                 self.writer.write(topic, t_ns, &cloud).map_err(written(self.file))?;
