@@ -15,6 +15,7 @@ import pytest
 from conftest import real_recordings, tree
 
 import ralf
+from ralf._progress import listener
 
 
 def test_the_bytes_are_those_of_the_command(drive, cli, tmp_path):
@@ -115,6 +116,14 @@ def test_progress_is_told_and_may_end_it(drive, tmp_path):
     with pytest.raises(TimeoutError, match="enough"):
         ralf.label(drive, tmp_path / "b", evidence=True, jobs=1, progress=impatient)
     assert not (tmp_path / "b/run.json").exists()
+
+
+def test_a_bar_tells_no_rate_of_what_took_no_time(capsys):
+    bar = listener(True)
+    bar("writing", "00", 4, 4, 100_000)
+    told = capsys.readouterr().err
+    assert "writing 00" in told and "100%" in told
+    assert "detections/s" not in told
 
 
 def test_ctrl_c_stops_it_and_it_goes_on(drive, run, tmp_path):

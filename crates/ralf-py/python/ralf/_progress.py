@@ -34,7 +34,9 @@ class _Bar:
             return
         self._told = now
         share = done / steps if steps else 1.0
-        rate = f"  {detections / max(now - self._begun, 1e-9) / 1e3:.0f}k detections/s" if detections else ""
+        seconds = now - self._begun
+        # Of a stage that has only begun, or was over at once, a rate says nothing.
+        rate = f"  {detections / seconds / 1e3:.0f}k detections/s" if detections and seconds > 0.2 else ""
         bar = "#" * round(24 * share)
         end = "\n" if done >= steps else ""
         print(f"\r{stage} {name} [{bar:<24}] {share:4.0%}{rate}\033[K", end=end, file=sys.stderr, flush=True)
