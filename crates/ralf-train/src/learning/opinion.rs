@@ -91,20 +91,18 @@ mod tests {
     fn where_nobody_contradicts_the_machine_it_is_believed() {
         let (rows, believed) = things();
         let opinion = second_opinion(&rows, &[0, 0], &believed, 2);
-        for (one, p) in
-            believed.iter().zip(&opinion).filter(|(one, _)| (one.thing as f32 * 0.618).fract() != 0.5)
-        {
+        for (one, p) in believed.iter().zip(&opinion) {
             assert!(one.plausible == (*p > 0.5) || (0.2..0.8).contains(p), "{one:?}: {p}");
         }
     }
 
-    /// What has a second feature above 0.5 is no target, and a person says so of one thing in three.
+    /// What has a second feature above 0.5 is no target, and a person says so of two things in three.
     #[test]
     fn what_was_said_of_some_is_heard_for_those_like_them() {
         let (rows, mut believed) = things();
         let is_wrong = |row: usize| rows.row(row)[0] > 0.0 && rows.row(row)[1] > 0.5;
         for (row, one) in believed.iter_mut().enumerate() {
-            if is_wrong(row) && one.thing % 3 == 0 {
+            if is_wrong(row) && one.thing % 3 != 0 {
                 (one.plausible, one.said) = (false, true);
             }
         }
