@@ -16,8 +16,8 @@ pub struct Change {
     pub rows: Vec<usize>,
 }
 
-/// A thing is proposed only where its other label is this probable.
-const PROPOSED: f64 = 0.65;
+/// A thing is proposed only where its other label is this probable: most of what is looked at shall be right.
+const PROPOSED: f64 = 0.85;
 
 impl SequenceThings {
     /// Which things would be called otherwise by who has learned from these answers, those with the most detections

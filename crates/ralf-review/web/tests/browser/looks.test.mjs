@@ -11,6 +11,7 @@ import {
   launch,
   open,
   picture,
+  proposing,
   ready,
   says,
   scanOf,
@@ -52,6 +53,7 @@ test("nothing that axe calls serious is wrong with the page, its dialogs and bar
   await picture(page, "thing");
   await page.keyboard.press("a");
   await says(page.locator(".status-bar"), "undo 2");
+  await proposing(page, server);
   await page.keyboard.press("Shift+R");
   await says(page.locator(".opinion-bar"), "would become");
   await faults("a proposal");

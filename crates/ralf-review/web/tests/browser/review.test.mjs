@@ -15,6 +15,7 @@ import {
   open,
   pixel,
   planted,
+  proposing,
   queueOf,
   ready,
   says,
@@ -192,6 +193,7 @@ test("a thing is answered by one key in all its scans, survives a dead server, a
   assert.equal(await correctedIn(server), first);
   await page.waitForFunction((before) => document.querySelector(".thing-bar").dataset.thing !== before, thing);
   await page.keyboard.press("Escape");
+  await proposing(page, server);
   await proposalIsDroppedAndAccepted(page, () => correctedIn(server));
   await page.keyboard.press("Control+z");
   await says(page.locator(".status-bar"), "redo 2");

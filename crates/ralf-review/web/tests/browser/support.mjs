@@ -237,3 +237,18 @@ export function relabel(out, setting) {
   });
   assert.equal(ran.status, 0, ran.stderr);
 }
+
+/** Has the page be told that one detection each of the five most doubtful things would be an artifact. */
+export async function proposing(page, server) {
+  await page.route("**/opinion", async (route) => {
+    const { doubtful } = await (await ask(server, `sequences/${await sequenceOf(server)}/things/doubtful`)).json();
+    const [changes, base] = [[], new Map()];
+    for (const thing of doubtful.slice(0, 5)) {
+      const { radar, scan, point } = thing;
+      const { revision, content } = (await scanOf(server, { radar, scan })).header;
+      base.set(`${radar}/${scan}`, { radar, scan, revision, content });
+      changes.push({ ...thing, label: 1, probability: 0.9, points: [{ radar, scan, points: [point] }] });
+    }
+    return route.fulfill({ json: { answered: 40, changes, base: [...base.values()] } });
+  });
+}
