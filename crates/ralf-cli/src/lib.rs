@@ -11,6 +11,7 @@ mod depth_model;
 mod outcome;
 mod progress;
 mod run_summary;
+mod spent;
 mod text;
 
 use clap::Parser;

@@ -1,10 +1,12 @@
 //! How far the work has got: a bar with rate and remaining time where standard error is a terminal.
 
+use crate::spent::{Spent, Work};
 use indicatif::{ProgressBar, ProgressStyle};
-use ralf_data::run::{Observer, Stage};
+use ralf_data::run::{Observer, Part, Stage};
 use std::io::Write;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, Ordering};
+use std::time::{Duration, Instant};
 
 /// Says something to people, on standard error. Nobody has to listen.
 pub(crate) fn say(message: &str) {
@@ -84,12 +86,26 @@ pub(crate) struct Stages {
     quiet: bool,
     current: Mutex<Option<Progress>>,
     detections: AtomicU64,
+    /// Work whose end is told, since when.
+    under_way: Mutex<Option<(Work, Instant)>>,
+    /// Where the time went.
+    pub(crate) spent: Spent,
 }
 
 impl Stages {
     /// Shows nothing where `quiet`.
     pub(crate) fn new(quiet: bool) -> Self {
         Self { quiet, ..Self::default() }
+    }
+
+    /// Ends what was under way.
+    fn begin_work(&self, work: Option<Work>) {
+        if let Ok(mut under_way) = self.under_way.lock() {
+            if let Some((work, begun)) = under_way.take() {
+                self.spent.add(work, begun.elapsed());
+            }
+            *under_way = work.map(|work| (work, Instant::now()));
+        }
     }
 
     fn show(&self, progress: Option<Progress>) {
@@ -101,6 +117,11 @@ impl Stages {
 
 impl Observer for Stages {
     fn begin(&self, stage: Stage, steps: u64) {
+        self.begin_work(match stage {
+            Stage::Inputs => Some(Work::Hashing),
+            Stage::Writing(_) => Some(Work::Writing),
+            Stage::Matching(_) | Stage::Gathering(_) | Stage::Labelling(_) => None,
+        });
         if self.quiet {
             return;
         }
@@ -128,6 +149,11 @@ impl Observer for Stages {
     }
 
     fn end(&self) {
+        self.begin_work(None);
         self.show(None);
+    }
+
+    fn spent(&self, part: Part, time: Duration) {
+        self.spent.add(Work::Scan(part), time);
     }
 }

@@ -164,7 +164,7 @@ proptest! {
         let radar_from_vehicle = radar.vehicle_from_radar.inverse();
         let mut all = Vec::new();
         for id in 0..count {
-            let reference = moment.reference(id, &view.vehicle_from_moment);
+            let reference = moment.reference(id, &moment.vehicle_from_lidars(&view.vehicle_from_moment));
             if !measured && !radar.sees_height_of(&(radar_from_vehicle * reference.position)) {
                 continue;
             }

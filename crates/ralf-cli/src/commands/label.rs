@@ -7,6 +7,7 @@ use crate::depth_model::{DepthModelArgs, depth_for_labelling};
 use crate::outcome::Outcome;
 use crate::progress::{Stages, say};
 use crate::run_summary::run_summary;
+use crate::spent::Work;
 use crate::text::{grouped, print};
 use clap::Args;
 use ralf_data::Recording;
@@ -14,6 +15,7 @@ use ralf_data::depth::DepthStore;
 use ralf_data::run::{CheckRecord, LabelRun, Outcome as RunOutcome, RunRecord, SequenceRecord};
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
+use std::time::Instant;
 
 /// Arguments of `ralf label`.
 #[derive(Debug, Args)]
@@ -63,6 +65,9 @@ pub(crate) struct LabelArgs {
     /// Print the record of these sequences as JSON
     #[arg(long)]
     json: bool,
+    /// Say where the time went, as all threads together spent it
+    #[arg(long)]
+    timings: bool,
     /// No progress
     #[arg(short, long)]
     quiet: bool,
@@ -70,6 +75,7 @@ pub(crate) struct LabelArgs {
 
 /// Labels a recording.
 pub(crate) fn run(arguments: &LabelArgs) -> anyhow::Result<Outcome> {
+    let begun = Instant::now();
     let mut settings = arguments.settings.resolve()?;
     let model = arguments.method.apply(&mut settings.method)?;
     let jobs = threads(arguments.jobs);
@@ -80,10 +86,7 @@ pub(crate) fn run(arguments: &LabelArgs) -> anyhow::Result<Outcome> {
         say("nothing is labelled, for the recording is doubted (--strict)");
         return Ok(Outcome::Partial);
     }
-    let recording = match &arguments.depth {
-        Some(folder) => DepthStore::open(folder)?.attach(recording),
-        None => recording,
-    };
+    let recording = arguments.with_stored_depth(recording)?;
     #[cfg(feature = "depth")]
     let recording = match arguments.depth_model.load()? {
         Some(model) => depth_for_labelling(recording, &model, &arguments.output, &settings.method, jobs)?,
@@ -98,10 +101,15 @@ pub(crate) fn run(arguments: &LabelArgs) -> anyhow::Result<Outcome> {
         model: model.as_ref(),
         checks: &checks,
     };
-    let done = run.execute(&Stages::new(arguments.quiet))?;
+    let stages = Stages::new(arguments.quiet);
+    stages.spent.add(Work::Opening, begun.elapsed());
+    let done = run.execute(&stages)?;
     say_what_changed(&done);
     let record = &done.record;
     print(&if arguments.json { serde_json::to_string_pretty(record)? } else { summary(&done) })?;
+    if arguments.timings {
+        say(&stages.spent.table());
+    }
     Ok(told_of_scans(record))
 }
 
@@ -120,6 +128,14 @@ fn told_of_scans(record: &RunRecord) -> Outcome {
 }
 
 impl LabelArgs {
+    /// The recording with the depth images of a folder, where one is named.
+    fn with_stored_depth(&self, recording: Recording) -> anyhow::Result<Recording> {
+        Ok(match &self.depth {
+            Some(folder) => DepthStore::open(folder)?.attach(recording),
+            None => recording,
+        })
+    }
+
     /// What `ralf check` says of the recording; doubts are told.
     fn checks(&self, recording: &Recording) -> Vec<CheckRecord> {
         let mut checks = Vec::new();

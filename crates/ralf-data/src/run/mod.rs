@@ -39,7 +39,7 @@ use ralf::learned::{LearnedLabeler, Model};
 use ralf::sensors::Rig;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 use unfinished::Unfinished;
 use workers::Labelling;
 
@@ -79,6 +79,19 @@ pub enum Stage<'a> {
     Writing(&'a str),
 }
 
+/// Part of what a worker does for a scan, for whoever counts where time goes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Part {
+    /// Reading what belongs to it, with what scans share: the ground, calibrated images.
+    Gathering,
+    /// Gathering its evidence, where that is asked for.
+    Evidence,
+    /// Labelling it.
+    Labelling,
+    /// Keeping its table until the sequence is complete.
+    Keeping,
+}
+
 /// Is told how a run gets on. Called from several threads.
 pub trait Observer: Sync {
     /// A stage of so many steps begins.
@@ -87,6 +100,8 @@ pub trait Observer: Sync {
     fn advance(&self, steps: u64, detections: u64);
     /// The stage is over.
     fn end(&self);
+    /// A worker was so long at a part of a scan.
+    fn spent(&self, _part: Part, _time: Duration) {}
     /// Whether somebody wants the work to end: it then ends with [`DataError::Stopped`], and what is done is kept.
     fn stopped(&self) -> bool {
         false

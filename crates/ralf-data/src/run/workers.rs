@@ -1,7 +1,7 @@
 //! Labelling scans, several at a time.
 
 use super::workspace::Workspace;
-use super::{Observer, Stage, Task};
+use super::{Observer, Part, Stage, Task};
 use crate::error::DataError;
 use crate::frames::{Frames, ScanIndex};
 use crate::result::{NotLabelled, ScanNotes, ScanParts, Table};
@@ -10,6 +10,7 @@ use ralf::evidence;
 use ralf::learned::LearnedScan;
 use ralf::paper::Labeler;
 use ralf::scene::{Frame, FrameWindow};
+use std::time::Instant;
 
 /// What all workers on a sequence share.
 pub(super) struct Labelling<'a> {
@@ -65,7 +66,7 @@ impl Labelling<'_> {
         if workspace.has_kept(radar, scan, &self.task.schema) {
             return Ok(Ok(0));
         }
-        let frame = match window.frame(radar, scan) {
+        let frame = match self.timed(Part::Gathering, || window.frame(radar, scan)) {
             Ok(frame) => frame,
             Err(error) => {
                 let name = self.task.rig.radars[radar].name.clone();
@@ -74,7 +75,7 @@ impl Labelling<'_> {
             }
         };
         let table = self.table(radar, &frame)?;
-        workspace.keep(radar, scan, &ScanNotes::new(&frame), &table)?;
+        self.timed(Part::Keeping, || workspace.keep(radar, scan, &ScanNotes::new(&frame), &table))?;
         Ok(Ok(table.len() as u64))
     }
 
@@ -82,11 +83,12 @@ impl Labelling<'_> {
     pub(super) fn table(&self, radar: usize, frame: &Frame) -> Result<Table, DataError> {
         let Task { rig, schema, labeler, .. } = self.task;
         let gathers = self.task.gathers_evidence();
-        let evidence = if gathers { evidence::observe(frame, self.config) } else { Vec::new() };
-        let LearnedScan { labels, answers } = match labeler {
+        let observe = || if gathers { evidence::observe(frame, self.config) } else { Vec::new() };
+        let evidence = self.timed(Part::Evidence, observe);
+        let LearnedScan { labels, answers } = self.timed(Part::Labelling, || match labeler {
             Some(labeler) => labeler.label(frame, &evidence),
             None => LearnedScan { labels: Labeler::new(self.config).label(frame), answers: Vec::new() },
-        };
+        });
         let parts = ScanParts {
             radar: &rig.radars[radar],
             scan: &frame.scan,
@@ -95,5 +97,13 @@ impl Labelling<'_> {
             answers: &answers,
         };
         Table::of_scan(schema, &parts)
+    }
+
+    /// Does a part of the work, and tells the observer how long it took.
+    fn timed<R>(&self, part: Part, work: impl FnOnce() -> R) -> R {
+        let begun = Instant::now();
+        let done = work();
+        self.observer.spent(part, begun.elapsed());
+        done
     }
 }

@@ -8,8 +8,7 @@ use super::columns::unobserved;
 use super::rings::Rings;
 use super::statistics::{median_of, quantile, ranks};
 use super::{Feature, Piece, Surroundings, Values};
-use crate::scene::Frame;
-use crate::sensors::RadarScan;
+use crate::scene::{ByRange, Frame, Strength};
 
 pub(super) const PIECE: Piece = Piece {
     features: &[
@@ -53,15 +52,24 @@ fn observe(surroundings: &Surroundings) -> Vec<Values> {
     let Some(strength) = frame.strength() else {
         return unobserved(PIECE.features, frame.scan.len());
     };
-    let ranges = ranges(&frame.scan.measured);
-    let around = EchoesAround::new(frame);
+    let ranges: Vec<f64> = frame.scan.measured.spherical.iter().map(|place| place.range).collect();
+    let around = around(frame);
+    let powers: Vec<f64> = around.iter().flat_map(|scan| &scan.power).copied().collect();
+    let own = ByRange::new(&strength.cross_section, ranges.iter().copied());
+    let rings = Rings::new(around.iter().map(|scan| &scan.power_by_range));
     vec![
         ranks(&strength.cross_section),
         ranks(&strength.power),
-        Rings::new(&strength.cross_section, &ranges).over(&strength.cross_section, &ranges, median_of),
-        over(&strength.power, quantile(&around.powers, FLOOR)),
-        Rings::new(&around.powers, &around.ranges).over(&strength.power, &ranges, ring_floor),
+        Rings::new([&own].into_iter()).over(&strength.cross_section, &ranges, median_of),
+        over(&strength.power, quantile(&powers, FLOOR)),
+        rings.over(&strength.power, &ranges, ring_floor),
     ]
+}
+
+/// The strengths of all echoes of one radar in the scan and those around.
+fn around<'a>(frame: &'a Frame) -> Vec<&'a Strength> {
+    let around = frame.own_scans_around().map(|neighbour| &neighbour.scan);
+    [&frame.scan].into_iter().chain(around).filter_map(|scan| scan.strength(frame.radar)).collect()
 }
 
 fn over(values: &[f64], level: Option<f64>) -> Values {
@@ -70,31 +78,4 @@ fn over(values: &[f64], level: Option<f64>) -> Values {
 
 fn ring_floor(powers: &[f64]) -> Option<f64> {
     quantile(powers, RING_FLOOR)
-}
-
-fn ranges(scan: &RadarScan) -> Vec<f64> {
-    scan.spherical.iter().map(|place| place.range).collect()
-}
-
-/// All echoes of one radar in the scan and those around.
-struct EchoesAround {
-    /// dB.
-    powers: Vec<f64>,
-    /// m.
-    ranges: Vec<f64>,
-}
-
-impl EchoesAround {
-    fn new(frame: &Frame) -> Self {
-        let scans =
-            [&frame.scan].into_iter().chain(frame.own_scans_around().map(|neighbour| &neighbour.scan));
-        let (mut powers, mut all_ranges) = (Vec::new(), Vec::new());
-        for scan in scans {
-            if let Some(strength) = scan.strength(frame.radar) {
-                powers.extend_from_slice(&strength.power);
-                all_ranges.extend(ranges(&scan.measured));
-            }
-        }
-        Self { powers, ranges: all_ranges }
-    }
 }

@@ -11,9 +11,10 @@ pub(super) const ROOM: f64 = 0.1;
 /// A detection as distances see it: its place, and its covariance worked out once.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Spot {
-    place: Vector,
+    /// m
+    pub(super) place: Vector,
     /// xx, xy and yy, m^2.
-    horizontal: [f64; 3],
+    pub(super) horizontal: [f64; 3],
     /// xz, yz and zz, m^2.
     vertical: [f64; 3],
     /// No variance in a horizontal direction is larger, m^2.
@@ -70,11 +71,6 @@ pub(super) fn chi_within(limit: f64, a: &Spot, b: &Spot, level: bool) -> Option<
     }
     let chi = Some(squared).filter(|squared| squared.is_finite()).map(|squared| squared.max(0.0).sqrt());
     chi.filter(|chi| *chi <= limit)
-}
-
-/// No horizontal variance of these detections is larger, m^2.
-pub(super) fn largest_variance<'a>(spots: impl Iterator<Item = &'a Spot>) -> f64 {
-    spots.map(|spot| spot.variance).fold(0.0, f64::max)
 }
 
 /// No detection is within a distance `chi` that is farther away than this, m, seen from above, and whose horizontal

@@ -78,8 +78,12 @@ impl Agreement {
     /// `near` are detections of the same scan, itself perhaps among them.
     fn new(rates: &Rates, i: usize, near: &[u32]) -> Self {
         let others = near.iter().map(|other| *other as usize).filter(|other| *other != i);
-        let answers: Vec<bool> = others.filter_map(|other| rates.agrees(i, rates.values[other])).collect();
-        Self { agreeing: answers.iter().filter(|agrees| **agrees).count(), measured: answers.len() }
+        let mut agreement = Self { agreeing: 0, measured: 0 };
+        for agrees in others.filter_map(|other| rates.agrees(i, rates.values[other])) {
+            agreement.agreeing += usize::from(agrees);
+            agreement.measured += 1;
+        }
+        agreement
     }
 
     fn share(self) -> Option<f64> {

@@ -4,7 +4,7 @@
 //! ghosts below the road or above a wall are far off in height alone.
 
 use super::{Feature, Piece, Surroundings, Values};
-use crate::scene::{LidarCloud, mismatch};
+use crate::scene::mismatch;
 use crate::sensors::Elevation;
 use crate::space::Vector;
 
@@ -37,8 +37,7 @@ fn observe(surroundings: &Surroundings) -> Vec<Values> {
     let (frame, config) = (surroundings.frame, surroundings.config);
     let mut horizontal = vec![None; frame.scan.len()];
     let mut vertical = vec![None; frame.scan.len()];
-    let Some(view) = &frame.lidar else { return vec![horizontal, vertical] };
-    let cloud = LidarCloud::new(view, frame.radar);
+    let Some(cloud) = frame.lidar_cloud() else { return vec![horizontal, vertical] };
     let mut association = cloud.association(config.lidar.neighbours);
     association.set_reach(NEAR);
     for (i, detection) in surroundings.rows_by_place() {

@@ -10,6 +10,7 @@
 mod amplitude;
 mod camera;
 mod chance;
+mod cloud;
 mod columns;
 mod context;
 mod distance;

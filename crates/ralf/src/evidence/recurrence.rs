@@ -1,11 +1,13 @@
 //! Where the radars' scans around could have seen a detection again, and whether they did.
 
-use super::distance::{Spot, chi_within, farthest_within, largest_variance};
+use super::cloud::{Cloud, Variances};
+use super::distance::{Spot, chi_within};
 use super::rates::{AGREEING, Rates};
 use crate::scene::{Detection, Frame, NeighbouringDetections, NeighbouringScan, Reach, Sight};
 use crate::sensors::{Elevation, Radar};
 use crate::space::{NeighborIndex, Point};
 use std::borrow::Cow;
+use std::rc::Rc;
 
 /// Nothing farther is looked for, in standard deviations.
 pub(super) const FARTHEST: f64 = 3.0;
@@ -44,7 +46,8 @@ pub(super) fn sightings<'a>(
     let sight =
         |scan: &NeighbouringScan| Sight::new(&frame.rig.radars[scan.radar], scan, &reaches[scan.radar]);
     let sights: Vec<Sight> = frame.radar_window.iter().map(sight).collect();
-    let mut search = Search::new(frame, around, rates);
+    let spots: Vec<Spot> = around.detections.iter().map(Spot::new).collect();
+    let mut search = Search::new(frame, around, &spots, rates);
     let mut all = vec![Vec::new(); frame.scan.len()];
     for (i, detection) in rows {
         let mut seen: Vec<Sighting> = Vec::with_capacity(sights.len());
@@ -95,31 +98,39 @@ struct Search<'a> {
     rates: Option<&'a Rates>,
     /// The frame's radar, m.
     origin: Point,
-    around: Cloud<'a>,
+    around: &'a NeighbouringDetections,
+    /// Of the detections around.
+    spots: &'a [Spot],
+    cloud: Cloud<'a>,
+    /// Of each scan around: whether distances from its detections are horizontal, for either radar measures no
+    /// elevation.
+    level: Vec<bool>,
     /// Of each scan around: its own detections, if the same radar made it and range rates tell what moves.
     scans: Vec<Option<Cloud<'a>>>,
-    /// Of each scan around: its time after the frame's, s.
-    seconds: &'a [f64],
-    /// No horizontal variance of the detections around is larger, m^2.
-    max_variance: f64,
     /// Of each scan around, for the detection at hand: which of its sightings is that in this scan, or [`UNSEEN`].
     places: Vec<u32>,
 }
 
 impl<'a> Search<'a> {
-    fn new(frame: &Frame, around: &'a NeighbouringDetections, rates: Option<&'a Rates>) -> Self {
+    /// `spots` are those of the detections around.
+    fn new(
+        frame: &Frame,
+        around: &'a NeighbouringDetections,
+        spots: &'a [Spot],
+        rates: Option<&'a Rates>,
+    ) -> Self {
         let is_level = |radar: &Radar| radar.elevation == Elevation::None;
         let level =
             around.radars.iter().map(|radar| is_level(frame.radar) || is_level(&frame.rig.radars[*radar]));
-        let level: Vec<bool> = level.collect();
-        let all = Cloud::new(Cow::Borrowed(&around.index), around, &level);
+        let variances = Rc::new(Variances::new(spots));
         Self {
             rates,
             origin: Point::from(frame.radar.vehicle_from_radar.translation.vector),
-            max_variance: largest_variance(all.others.iter().map(|other| &other.spot)),
-            around: all,
-            scans: if rates.is_some() { own_scans(around, &level) } else { Vec::new() },
-            seconds: &around.seconds,
+            around,
+            spots,
+            cloud: Cloud::new(Cow::Borrowed(&around.index), spots, variances.clone()),
+            level: level.collect(),
+            scans: if rates.is_some() { own_scans(around, spots, &variances) } else { Vec::new() },
             places: vec![UNSEEN; around.radars.len()],
         }
     }
@@ -127,80 +138,50 @@ impl<'a> Search<'a> {
     /// Compares a detection with those that lie where it would be.
     fn compare(&self, i: usize, detection: &Detection, seen: &mut [Sighting]) {
         let spot = Spot::new(detection);
-        let reach = farthest_within(FARTHEST, &spot, self.max_variance).min(REACH);
-        self.still(i, &detection.position, &spot, reach, seen);
-        self.moving(i, &detection.position, &spot, reach, seen);
+        self.still(i, &spot, seen);
+        self.moving(i, &spot, seen);
     }
 
     /// As if it stood still.
-    fn still(&self, i: usize, p: &Point, spot: &Spot, reach: f32, seen: &mut [Sighting]) {
+    fn still(&self, i: usize, spot: &Spot, seen: &mut [Sighting]) {
         let standing = self.rates.filter(|rates| rates.motion(i) == 0.0);
-        self.around.each_near(p, spot, reach, |other, chi| {
-            let Some(sighting) = seen.get_mut(self.places[other.scan as usize] as usize) else { return };
+        self.cloud.each_near(spot, FARTHEST, REACH, |id| {
+            let scan = self.around.scans[id] as usize;
+            let Some(sighting) = seen.get_mut(self.places[scan] as usize) else { return };
+            let standing = standing.filter(|_| sighting.own);
+            // All count whose rate is asked, of the others only what is nearer than what is known.
+            let limit = if standing.is_some() { FARTHEST } else { sighting.still.min(FARTHEST) };
+            let Some(chi) = chi_within(limit, spot, &self.spots[id], self.level[scan]) else { return };
             sighting.still = sighting.still.min(chi);
-            if let Some(rates) = standing.filter(|_| sighting.own) {
-                sighting.meet(chi, rates.difference(i, other.rate));
+            if let Some(rates) = standing {
+                sighting.meet(chi, rates.difference(i, self.around.doppler[id]));
             }
         });
     }
 
     /// Where it would be if it moved, of one that moves.
-    fn moving(&self, i: usize, p: &Point, spot: &Spot, reach: f32, seen: &mut [Sighting]) {
+    fn moving(&self, i: usize, spot: &Spot, seen: &mut [Sighting]) {
         let Some(rates) = self.rates.filter(|rates| rates.motion(i) != 0.0) else { return };
-        let ray = (p - self.origin).try_normalize(0.0).unwrap_or_default();
+        let ray = (spot.place - self.origin.coords).try_normalize(0.0).unwrap_or_default();
         for sighting in seen {
             let scan = sighting.scan as usize;
             let Some(cloud) = &self.scans[scan] else { continue };
-            let way = ray * (rates.motion(i) * self.seconds[scan]);
-            cloud.each_near(&(p + way), &spot.moved(&way), reach, |other, chi| {
-                sighting.meet(chi, rates.difference(i, other.rate));
+            let there = spot.moved(&(ray * (rates.motion(i) * self.around.seconds[scan])));
+            cloud.each_near(&there, FARTHEST, REACH, |id| {
+                if let Some(chi) = chi_within(FARTHEST, &there, &self.spots[id], self.level[scan]) {
+                    sighting.meet(chi, rates.difference(i, self.around.doppler[id]));
+                }
             });
         }
     }
 }
 
-/// A detection around.
-struct Other {
-    spot: Spot,
-    /// Which scan of the frame's `radar_window`.
-    scan: u32,
-    /// Whether distances from it are horizontal, for either radar measures no elevation.
-    level: bool,
-    /// Compensated range rate, m/s; NaN where none was measured.
-    rate: f64,
-}
-
-/// Detections around, to be searched.
-struct Cloud<'a> {
-    index: Cow<'a, NeighborIndex>,
-    /// In the order of the index.
-    others: Vec<Other>,
-}
-
-impl<'a> Cloud<'a> {
-    /// The identities of the index are places in the lists of the detections around.
-    fn new(index: Cow<'a, NeighborIndex>, around: &NeighbouringDetections, level: &[bool]) -> Self {
-        let other = |id: &u32| {
-            let (id, scan) = (*id as usize, around.scans[*id as usize]);
-            let spot = Spot::new(&around.detections[id]);
-            Other { spot, scan, level: level[scan as usize], rate: around.doppler[id] }
-        };
-        Self { others: index.ids().iter().map(other).collect(), index }
-    }
-
-    /// Visits what lies within [`FARTHEST`] of a detection at a place, and within `reach`, m, with its distance.
-    fn each_near(&self, p: &Point, spot: &Spot, reach: f32, mut visit: impl FnMut(&Other, f64)) {
-        self.index.each_beside([p.x as f32, p.y as f32], reach, |at, _| {
-            let other = &self.others[at];
-            if let Some(chi) = chi_within(FARTHEST, spot, &other.spot, other.level) {
-                visit(other, chi);
-            }
-        });
-    }
-}
-
 /// The detections of each scan that the frame's own radar made.
-fn own_scans<'a>(around: &NeighbouringDetections, level: &[bool]) -> Vec<Option<Cloud<'a>>> {
+fn own_scans<'a>(
+    around: &NeighbouringDetections,
+    spots: &[Spot],
+    variances: &Rc<Variances>,
+) -> Vec<Option<Cloud<'a>>> {
     let mut begin = 0;
     let mut scans = Vec::with_capacity(around.own.len());
     for (scan, own) in (0u32..).zip(&around.own) {
@@ -209,7 +190,7 @@ fn own_scans<'a>(around: &NeighbouringDetections, level: &[bool]) -> Vec<Option<
             let place = |detection: &Detection| detection.position.coords.cast::<f32>().into();
             let places: Vec<[f32; 3]> = around.detections[begin..end].iter().map(place).collect();
             let ids: Vec<u32> = (begin as u32..end as u32).collect();
-            Cloud::new(Cow::Owned(NeighborIndex::new(&places, &ids)), around, level)
+            Cloud::new(Cow::Owned(NeighborIndex::new(&places, &ids)), spots, variances.clone())
         }));
         begin = end;
     }

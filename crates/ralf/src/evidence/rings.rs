@@ -1,22 +1,20 @@
 //! Echoes of one range: what a radar sees depends on how far away it looks.
 
 use super::Values;
-use super::ordered::Ordered;
+use crate::scene::ByRange;
 use std::collections::BTreeMap;
 
 /// Echoes whose range differs by at most this stand in the same clutter, m.
 const REACH: f64 = 5.0;
 
-/// Values of echoes by their range.
+/// Values of the echoes of some scans by their range.
 pub(super) struct Rings<'a> {
-    values: &'a [f64],
-    by_range: Ordered,
+    scans: Vec<&'a ByRange>,
 }
 
 impl<'a> Rings<'a> {
-    /// Echoes' values and ranges, m.
-    pub(super) fn new(values: &'a [f64], ranges: &[f64]) -> Self {
-        Self { values, by_range: Ordered::new(ranges) }
+    pub(super) fn new(scans: impl Iterator<Item = &'a ByRange>) -> Self {
+        Self { scans: scans.collect() }
     }
 
     /// For each of some values, at its range, how far it is above the level of its ring: the echoes that are within 5 m
@@ -40,7 +38,8 @@ impl<'a> Rings<'a> {
     }
 
     fn ring(&self, middle: f64) -> Vec<f64> {
-        self.by_range.within(middle - REACH..=middle + REACH).iter().map(|i| self.values[*i]).collect()
+        let of_scans = self.scans.iter().map(|scan| scan.within(middle - REACH..=middle + REACH));
+        of_scans.collect::<Vec<_>>().concat()
     }
 }
 
@@ -58,10 +57,13 @@ mod tests {
     proptest! {
         #[test]
         fn the_median_of_a_ring_is_what_looking_at_all_gives(
-            rows in prop::collection::vec((value(), value()), 0..40),
+            rows in prop::collection::vec((value(), value()), 0..40), first in 0usize..40,
         ) {
             let (values, ranges): (Vec<f64>, Vec<f64>) = rows.into_iter().unzip();
-            let found = Rings::new(&values, &ranges).over(&values, &ranges, median_of);
+            let first = first.min(values.len());
+            let scans = [0..first, first..values.len()];
+            let scans = scans.map(|rows| ByRange::new(&values[rows.clone()], ranges[rows].iter().copied()));
+            let found = Rings::new(scans.iter()).over(&values, &ranges, median_of);
             for (i, found) in found.into_iter().enumerate() {
                 let near = |j: &usize| (ranges[*j] - ranges[i].round()).abs() <= REACH;
                 let ring: Vec<f64> = (0..values.len()).filter(near).map(|j| values[j]).collect();

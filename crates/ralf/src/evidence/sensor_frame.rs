@@ -2,10 +2,13 @@
 //! place of the radar's own frame again and again, however the vehicle moves.
 
 use super::chance::{AROUND, SAME, excess_of};
-use super::distance::{ROOM, Spot, chi_within, farthest_within, largest_variance};
+use super::cloud::{Cloud, Variances};
+use super::distance::{ROOM, Spot, chi_within};
 use crate::scene::{Detection, Frame, index_of};
 use crate::sensors::Elevation;
-use crate::space::{NeighborIndex, Transform};
+use crate::space::Transform;
+use std::borrow::Cow;
+use std::rc::Rc;
 
 /// What stands still has moved on if it is farther than this from its old place, in standard deviations.
 const MOVED_ON: f64 = 3.0;
@@ -15,14 +18,14 @@ const MOVED_ON: f64 = 3.0;
 pub(super) struct Unmoved {
     /// Whether the radar measures no elevation.
     level: bool,
-    /// In the order of the index: each detection, and its scan among the radar's own.
+    /// Each detection, and its scan among the radar's own.
     spots: Vec<Spot>,
     scans: Vec<u32>,
-    /// No horizontal variance of these is larger, m^2.
-    max_variance: f64,
+    /// The scans in the order of the cloud's index.
+    scan_at: Vec<u32>,
+    cloud: Cloud<'static>,
     /// Of each of the radar's own scans: the way from the vehicle frame at the frame's time to that at its own.
     scans_from_vehicle: Vec<Transform>,
-    index: NeighborIndex,
 }
 
 /// What is known of each scan, for the detection at hand.
@@ -44,16 +47,11 @@ impl Unmoved {
             scans_from_vehicle.push(neighbour.vehicle_from_scan.inverse());
         }
         let index = index_of(detections.iter().map(|detection| &detection.position), Elevation::None);
-        let in_order = || index.ids().iter().map(|id| *id as usize);
-        let spots: Vec<Spot> = in_order().map(|id| Spot::new(detections[id])).collect();
-        Self {
-            level: frame.radar.elevation == Elevation::None,
-            scans: in_order().map(|id| scans[id]).collect(),
-            max_variance: largest_variance(spots.iter()),
-            spots,
-            scans_from_vehicle,
-            index,
-        }
+        let scan_at = index.ids().iter().map(|id| scans[*id as usize]).collect();
+        let spots: Vec<Spot> = detections.into_iter().map(Spot::new).collect();
+        let cloud = Cloud::new(Cow::Owned(index), &spots, Rc::new(Variances::new(&spots)));
+        let level = frame.radar.elevation == Elevation::None;
+        Self { level, spots, scans, scan_at, cloud, scans_from_vehicle }
     }
 
     /// How many of the scans in which what stands still had moved on have a detection at the same place of the radar's
@@ -66,18 +64,28 @@ impl Unmoved {
         if scans == 0 {
             return None;
         }
-        let mut near = 0;
-        let place = [detection.position.x as f32, detection.position.y as f32];
-        let reach = farthest_within(SAME, &spot, self.max_variance);
-        self.index.each_beside(place, AROUND as f32, |at, distance_squared| {
-            let scan = &mut known[self.scans[at] as usize];
-            near += usize::from(scan.moved_on);
-            if scan.moved_on && !scan.again && distance_squared <= reach * reach {
-                scan.again = chi_within(SAME, &spot, &self.spots[at], self.level).is_some();
+        let near = self.count_around(detection, &known);
+        self.cloud.each_near(&spot, SAME, AROUND as f32, |id| {
+            let scan = &mut known[self.scans[id] as usize];
+            if scan.moved_on && !scan.again {
+                scan.again = chi_within(SAME, &spot, &self.spots[id], self.level).is_some();
             }
         });
         let hits = known.iter().filter(|scan| scan.again).count();
         Some(excess_of(hits, scans, near, detection))
+    }
+
+    /// How many detections of the scans in which it had moved on lie around a place.
+    fn count_around(&self, detection: &Detection, known: &[Known]) -> usize {
+        let place = [detection.position.x as f32, detection.position.y as f32];
+        let (index, radius) = (self.cloud.index(), AROUND as f32);
+        if known.iter().all(|scan| scan.moved_on) {
+            return index.count_beside(place, radius);
+        }
+        let mut near = 0;
+        index
+            .each_beside(place, radius, |at, _| near += u32::from(known[self.scan_at[at] as usize].moved_on));
+        near as usize
     }
 }
 

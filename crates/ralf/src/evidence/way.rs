@@ -59,11 +59,12 @@ impl Way {
         while step < steps {
             let gone = OWN + step as f64 * STEP;
             let place = radar.coords.xy() + along * (gone / length);
-            if let Some(column) = map.columns.at(place.x, place.y) {
+            let (column, clearance) = map.columns.at(place.x, place.y);
+            if let Some(column) = column {
                 way.meet(&column, length - gone);
             }
             // Steps through nothing, a hair fewer so that rounding never decides.
-            step += 1 + (0.99 * map.columns.clearance(place.x, place.y) / STEP) as usize;
+            step += 1 + (0.99 * clearance / STEP) as usize;
         }
         way
     }

@@ -57,7 +57,8 @@ fn reference_cloud(radar: &Radar, images: &[ImageView], depth_sigma: f64) -> Vec
         }
     }
     if radar.elevation == Elevation::None {
-        points.retain(|point| radar.sees_height_of(&(radar_from_vehicle * point.position)));
+        let sees = radar.sees_heights_of();
+        points.retain(|point| sees(&(radar_from_vehicle * point.position)));
     }
     points
 }

@@ -22,7 +22,7 @@ pub struct LidarMatch {
 pub fn match_detections(frame: &Frame, config: &LidarConfig) -> Vec<Option<LidarMatch>> {
     let mut matches = vec![None; frame.scan.len()];
     let Some(view) = frame.lidar.as_ref().filter(|_| config.enabled) else { return matches };
-    let cloud = LidarCloud::new(view, frame.radar);
+    let Some(cloud) = frame.lidar_cloud() else { return matches };
     if cloud.is_empty() {
         return matches;
     }

@@ -51,7 +51,7 @@ impl<'a> Association<'a> {
     /// The nearest points, nearest first; none where the cloud is empty. `query` lies in the frame of the index.
     pub fn nearest(&mut self, query: &Point) -> &[Neighbor] {
         let query = searched_at(query, self.elevation);
-        self.index.nearest_within(query, self.neighbours, self.reach, &mut self.found);
+        self.index.nearest_if_within(query, self.neighbours, self.reach, &mut self.found);
         &self.found
     }
 

@@ -4,15 +4,17 @@ use super::camera::ImageView;
 use super::doppler::{Doppler, radar_velocity};
 use super::floor::LocalGround;
 use super::lidar::LidarView;
+use super::lidar_cloud::LidarCloud;
 use super::lidar_window::LidarWindowView;
 use super::located::{Detection, LocatedScan};
 use super::mover::Mover;
 use super::neighbouring::{NeighbouringScan, ScanStep};
 use super::strength::Strength;
 use crate::config::GroundConfig;
-use crate::sensors::{Radar, Rig};
-use crate::space::EgoMotion;
-use std::sync::Arc;
+use crate::sensors::{Elevation, Radar, Rig};
+use crate::space::{EgoMotion, NeighborIndex};
+use std::borrow::Cow;
+use std::sync::{Arc, OnceLock};
 
 /// One radar scan with what the other sensors and the neighbouring scans saw.
 ///
@@ -43,6 +45,8 @@ pub struct Frame<'a> {
     pub steps: Vec<ScanStep>,
     /// LiDAR scans that belong to it and can't be read: the scan is labelled without them.
     pub unreadable: Vec<Unreadable>,
+    /// Of the LiDAR's points, for a radar that measures no elevation: made where [`Self::lidar_cloud`] is first asked.
+    pub(super) horizontal_index: OnceLock<NeighborIndex>,
 }
 
 /// A measurement that can't be read.
@@ -67,6 +71,17 @@ impl Frame<'_> {
     /// Whether a detection of the scan lies on the floor; none does where there is no ground.
     pub fn is_on_floor(&self, detection: &Detection, config: &GroundConfig) -> bool {
         self.ground.as_ref().is_some_and(|ground| ground.is_floor_detection(self.radar, detection, config))
+    }
+
+    /// The LiDAR points above the ground, to be searched; `None` without any LiDAR scan.
+    pub fn lidar_cloud(&self) -> Option<LidarCloud<'_>> {
+        let view = self.lidar.as_ref()?;
+        if self.radar.elevation == Elevation::Measured {
+            return Some(LidarCloud::new(view, self.radar));
+        }
+        let index = || view.moment.horizontal_index(self.radar, &view.vehicle_from_moment);
+        let index = self.horizontal_index.get_or_init(index);
+        Some(LidarCloud::horizontal(view, Cow::Borrowed(index)))
     }
 
     /// The range rates of the scan's detections; `None` where the radar measures none.

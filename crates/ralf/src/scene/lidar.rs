@@ -204,11 +204,11 @@ impl LidarSnapshot {
     /// Points above the ground within a radar's vertical field of view, in the horizontal plane of the vehicle frame
     /// that `vehicle_from_moment` leads to: the reference cloud for a radar that measures no elevation.
     pub fn horizontal_index(&self, radar: &Radar, vehicle_from_moment: &Transform) -> NeighborIndex {
-        let radar_from_vehicle = radar.vehicle_from_radar.inverse();
+        let (radar_from_vehicle, sees) = (radar.vehicle_from_radar.inverse(), radar.sees_heights_of());
         let (mut points, mut ids) = (Vec::new(), Vec::new());
         for &id in self.above_ground() {
             let in_vehicle = vehicle_from_moment * Point::from(self.points[id as usize].map(f64::from));
-            if radar.sees_height_of(&(radar_from_vehicle * in_vehicle)) {
+            if sees(&(radar_from_vehicle * in_vehicle)) {
                 points.push([in_vehicle.x as f32, in_vehicle.y as f32, 0.0]);
                 ids.push(id);
             }
@@ -216,11 +216,16 @@ impl LidarSnapshot {
         NeighborIndex::new(&points, &ids)
     }
 
+    /// From each sweep's LiDAR to the frame that `vehicle_from_moment` leads to.
+    pub fn vehicle_from_lidars(&self, vehicle_from_moment: &Transform) -> Vec<Transform> {
+        self.sweeps.iter().map(|sweep| vehicle_from_moment * sweep.moment_from_lidar).collect()
+    }
+
     /// A point with its uncertainty along its own ray (docs/method.md, section 4), in the frame that
-    /// `vehicle_from_moment` leads to.
-    pub fn reference(&self, id: u32, vehicle_from_moment: &Transform) -> Reference {
+    /// [`Self::vehicle_from_lidars`] leads to.
+    pub fn reference(&self, id: u32, vehicle_from_lidars: &[Transform]) -> Reference {
         let (sweep, point) = self.find(id);
-        let vehicle_from_lidar = vehicle_from_moment * sweep.moment_from_lidar;
+        let (sweep, vehicle_from_lidar) = (&self.sweeps[sweep], &vehicle_from_lidars[sweep]);
         let p = Point::from(sweep.scan.points[point].map(f64::from));
         let ray = p.coords.normalize() * sweep.sigma_range;
         Reference { position: vehicle_from_lidar * p, spread: Spread::Ray(vehicle_from_lidar.rotation * ray) }
@@ -229,7 +234,7 @@ impl LidarSnapshot {
     /// From a time to when a point was measured, s; to its scan's time where the recording doesn't tell.
     pub fn seconds_after(&self, t_ns: i64, id: u32) -> f64 {
         let (sweep, point) = self.find(id);
-        sweep.seconds_after(t_ns, point)
+        self.sweeps[sweep].seconds_after(t_ns, point)
     }
 
     /// From a time to when the first and the last point were measured, s.
@@ -255,7 +260,7 @@ impl LidarSnapshot {
     /// The SemanticKITTI id of a point, 0 where it has none.
     pub fn class(&self, id: u32) -> u16 {
         let (sweep, point) = self.find(id);
-        sweep.scan.classes.as_ref().and_then(|classes| classes.get(point)).copied().unwrap_or(0)
+        self.sweeps[sweep].scan.classes.as_ref().and_then(|classes| classes.get(point)).copied().unwrap_or(0)
     }
 
     /// Identities of the returns that lie at least the margin above the ground.
@@ -270,10 +275,10 @@ impl LidarSnapshot {
         })
     }
 
-    /// The sweep that a point belongs to, and the point's index in that sweep's scan.
-    fn find(&self, id: u32) -> (&LidarSweep, usize) {
+    /// Which sweep a point belongs to, and the point's index in that sweep's scan.
+    fn find(&self, id: u32) -> (usize, usize) {
         let sweep = self.sweeps.partition_point(|sweep| sweep.first_id <= id as usize) - 1;
-        (&self.sweeps[sweep], id as usize - self.sweeps[sweep].first_id)
+        (sweep, id as usize - self.sweeps[sweep].first_id)
     }
 }
 

@@ -13,6 +13,8 @@ use std::borrow::Cow;
 /// view's [`LidarSnapshot`](super::LidarSnapshot).
 pub struct LidarCloud<'a> {
     view: &'a LidarView,
+    /// One per sweep of the view.
+    vehicle_from_lidars: Vec<Transform>,
     elevation: Elevation,
     index: Cow<'a, NeighborIndex>,
     index_from_vehicle: Transform,
@@ -22,17 +24,26 @@ impl<'a> LidarCloud<'a> {
     /// The cloud of a view for a radar. One that measures no elevation searches in the horizontal plane, among the
     /// points within its vertical field of view.
     pub fn new(view: &'a LidarView, radar: &Radar) -> Self {
-        let elevation = radar.elevation;
-        // Distances in space are the same in every frame, so the shared index is asked in its own. Horizontal ones are
-        // not.
-        let (index, index_from_vehicle) = match elevation {
-            Elevation::Measured => (Cow::Borrowed(view.moment.index()), view.vehicle_from_moment.inverse()),
+        match radar.elevation {
+            // Distances in space are the same in every frame, so the shared index is asked in its own. Horizontal ones
+            // are not.
+            Elevation::Measured => Self {
+                index_from_vehicle: view.vehicle_from_moment.inverse(),
+                elevation: Elevation::Measured,
+                ..Self::horizontal(view, Cow::Borrowed(view.moment.index()))
+            },
             Elevation::None => {
                 let index = view.moment.horizontal_index(radar, &view.vehicle_from_moment);
-                (Cow::Owned(index), Transform::identity())
+                Self::horizontal(view, Cow::Owned(index))
             }
-        };
-        Self { view, elevation, index, index_from_vehicle }
+        }
+    }
+
+    /// The cloud for a radar that measures no elevation, whose horizontal index is known.
+    pub(super) fn horizontal(view: &'a LidarView, index: Cow<'a, NeighborIndex>) -> Self {
+        let vehicle_from_lidars = view.moment.vehicle_from_lidars(&view.vehicle_from_moment);
+        let index_from_vehicle = Transform::identity();
+        Self { view, vehicle_from_lidars, elevation: Elevation::None, index, index_from_vehicle }
     }
 
     /// Whether there is nothing to compare with.
@@ -96,6 +107,6 @@ impl<'a> LidarCloud<'a> {
     }
 
     fn reference(&self, id: u32) -> Reference {
-        self.view.moment.reference(id, &self.view.vehicle_from_moment)
+        self.view.moment.reference(id, &self.vehicle_from_lidars)
     }
 }

@@ -44,6 +44,6 @@ pub use neighbouring_detections::NeighbouringDetections;
 pub use rays::{Cone, RayTable, TableRay, direction_of};
 pub use sight::{Reach, Sight};
 pub use static_map::{Column, ColumnGrid, StaticMap};
-pub use strength::Strength;
+pub use strength::{ByRange, Strength};
 pub use terrain::{Terrain, Texture};
 pub use window::FrameWindow;

@@ -51,14 +51,18 @@ pub struct Cone {
 impl RayTable {
     /// Sorts the returns of a scan (LiDAR frame, m); points that are none are left out.
     pub fn new(points: &[[f32; 3]]) -> Self {
-        let (rays, bins) = directions(points);
-        let first_row = bins.iter().min().map_or(0, |bin| *bin as usize / COLUMNS);
-        let last_row = bins.iter().max().map_or(0, |bin| *bin as usize / COLUMNS);
+        let directions = Directions::of(points);
+        let bins = directions.bins();
+        let returns = || (0u32..).zip(&bins).filter(|(_, bin)| **bin != NO_BIN);
+        let first_row = returns().map(|(_, bin)| *bin).min().map_or(0, |bin| bin as usize / COLUMNS);
+        let last_row = returns().map(|(_, bin)| *bin).max().map_or(0, |bin| bin as usize / COLUMNS);
         let rows = last_row - first_row + 1;
         let first_bin = first_row * COLUMNS;
         let mut starts = vec![0u32; rows * COLUMNS + 1];
-        for bin in &bins {
+        let mut count = 0;
+        for (_, bin) in returns() {
             starts[*bin as usize - first_bin + 1] += 1;
+            count += 1;
         }
         let mut total = 0;
         for start in &mut starts {
@@ -66,13 +70,14 @@ impl RayTable {
             *start = total;
         }
         let mut next = starts.clone();
-        let mut sorted = vec![TableRay::default(); rays.len()];
-        for (ray, bin) in rays.iter().zip(bins) {
-            let next = &mut next[bin as usize - first_bin];
-            sorted[*next as usize] = *ray;
+        let mut rays = vec![TableRay::default(); count];
+        for (id, bin) in returns() {
+            let next = &mut next[*bin as usize - first_bin];
+            let (azimuth, elevation, range) = directions.at(id as usize);
+            rays[*next as usize] = TableRay { azimuth, elevation, range, point: points[id as usize], id };
             *next += 1;
         }
-        Self { first_row, rows, starts, rays: sorted }
+        Self { first_row, rows, starts, rays }
     }
 
     /// All returns, bin by bin.
@@ -116,30 +121,61 @@ impl RayTable {
     }
 }
 
-/// The returns, and the bin of each.
-fn directions(points: &[[f32; 3]]) -> (Vec<TableRay>, Vec<u32>) {
-    let (mut rays, mut bins) = (Vec::with_capacity(points.len()), Vec::with_capacity(points.len()));
-    for ((id, &point), (azimuth, elevation, range)) in (0u32..).zip(points).zip(directions_of(points)) {
-        // What is not finite fails the comparison, too.
-        if range > 0.0 && range < f32::INFINITY {
-            rays.push(TableRay { azimuth, elevation, range, point, id });
-            bins.push((row_of(elevation) * COLUMNS + column_of(azimuth)) as u32);
-        }
-    }
-    (rays, bins)
+/// The bin of what is no return.
+const NO_BIN: u32 = u32::MAX;
+/// Directions that are worked out together.
+const LANES: usize = 16;
+
+/// Azimuth, elevation and range of many points, each apart; see [`direction_of`].
+pub(super) struct Directions {
+    azimuth: Vec<f32>,
+    elevation: Vec<f32>,
+    range: Vec<f32>,
 }
 
-/// [`direction_of`] many points: some at a time, which the compiler turns into vector instructions.
-pub(super) fn directions_of(points: &[[f32; 3]]) -> impl Iterator<Item = (f32, f32, f32)> {
-    const LANES: usize = 16;
-    points.chunks(LANES).flat_map(|points| {
-        let (mut xs, mut ys, mut zs) = ([0.0; LANES], [0.0; LANES], [0.0; LANES]);
-        for (lane, point) in points.iter().enumerate() {
-            [xs[lane], ys[lane], zs[lane]] = *point;
+impl Directions {
+    /// Some at a time, which the compiler turns into vector instructions.
+    pub(super) fn of(points: &[[f32; 3]]) -> Self {
+        let room = || Vec::with_capacity(points.len().next_multiple_of(LANES));
+        let mut all = Self { azimuth: room(), elevation: room(), range: room() };
+        for points in points.chunks(LANES) {
+            let mut axes = [[0.0; LANES]; 3];
+            for (lane, point) in points.iter().enumerate() {
+                [axes[0][lane], axes[1][lane], axes[2][lane]] = *point;
+            }
+            let [x, y, z] = axes;
+            let across_squared: [f32; LANES] =
+                std::array::from_fn(|lane| x[lane] * x[lane] + y[lane] * y[lane]);
+            let azimuth: [f32; LANES] = std::array::from_fn(|lane| arc_tangent(y[lane], x[lane]));
+            let elevation: [f32; LANES] =
+                std::array::from_fn(|lane| arc_tangent(z[lane], across_squared[lane].sqrt()));
+            let range: [f32; LANES] =
+                std::array::from_fn(|lane| (across_squared[lane] + z[lane] * z[lane]).sqrt());
+            all.azimuth.extend_from_slice(&azimuth);
+            all.elevation.extend_from_slice(&elevation);
+            all.range.extend_from_slice(&range);
         }
-        let found: [_; LANES] = std::array::from_fn(|lane| direction_of(xs[lane], ys[lane], zs[lane]));
-        found.into_iter().take(points.len())
-    })
+        for column in [&mut all.azimuth, &mut all.elevation, &mut all.range] {
+            column.truncate(points.len());
+        }
+        all
+    }
+
+    /// Azimuth, elevation and range of a point.
+    pub(super) fn at(&self, point: usize) -> (f32, f32, f32) {
+        (self.azimuth[point], self.elevation[point], self.range[point])
+    }
+
+    /// The bin of each.
+    fn bins(&self) -> Vec<u32> {
+        let directions = self.azimuth.iter().zip(&self.elevation).zip(&self.range);
+        let bin = |((azimuth, elevation), range): ((&f32, &f32), &f32)| {
+            // What is not finite fails the comparison, too.
+            let came_back = *range > 0.0 && *range < f32::INFINITY;
+            if came_back { (row_of(*elevation) * COLUMNS + column_of(*azimuth)) as u32 } else { NO_BIN }
+        };
+        directions.map(bin).collect()
+    }
 }
 
 /// Azimuth and elevation, rad, to 1e-5, and range, m, of a point in the LiDAR's frame.

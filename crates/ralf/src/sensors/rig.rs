@@ -123,6 +123,20 @@ impl Radar {
         Spherical::from_cartesian(p).elevation.abs() <= self.fov_elevation / 2.0
     }
 
+    /// [`Self::sees_height_of`], for many points: the exact angle is asked only near the border.
+    pub fn sees_heights_of(&self) -> impl Fn(&Point) -> bool {
+        /// More than angles and sines are rounded by, as a share; steeper than this, rad, they don't tell each other.
+        const BORDER: f64 = 1e-9;
+        const STEEP: f64 = 1.5;
+        let half = self.fov_elevation / 2.0;
+        let sine = if half < STEEP { half.sin() } else { f64::NAN };
+        move |p| {
+            let (height, limit) = (p.z.abs(), sine * p.coords.norm());
+            let (inside, outside) = (height < limit * (1.0 - BORDER), height > limit * (1.0 + BORDER));
+            if inside | outside { inside } else { self.sees_height_of(p) }
+        }
+    }
+
     /// Refuses, with what was expected and found, values that no radar has.
     pub fn check(&self) -> Result<(), String> {
         let measured = self.elevation == Elevation::Measured;
@@ -161,6 +175,34 @@ fn angle(key: &str, radians: f64, limit: f64) -> Result<(), String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::sensors::Elevation;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn many_heights_are_seen_as_one_is(
+            half in 0.001f64..1.57, [x, y, z] in prop::array::uniform3(-40.0f64..40.0), ulps in -3i64..4,
+        ) {
+            let radar = Radar {
+                name: "radar".into(),
+                fields: vec![],
+                vehicle_from_radar: Transform::identity(),
+                elevation: Elevation::None,
+                fov_azimuth: 2.0,
+                fov_elevation: 2.0 * half,
+                sigma_range: 0.1,
+                sigma_azimuth: 0.01,
+                sigma_elevation: 0.0,
+                reliability: Reliability::default(),
+            };
+            let border = half.tan() * x.hypot(y);
+            let border = f64::from_bits((border.to_bits() as i64 + ulps) as u64);
+            for z in [z, border, -border, 0.0, f64::NAN, f64::INFINITY] {
+                let p = Point::new(x, y, z);
+                prop_assert_eq!(radar.sees_heights_of()(&p), radar.sees_height_of(&p));
+            }
+        }
+    }
 
     #[test]
     fn reliability_is_linear_between_its_rows_and_held_at_its_ends() {

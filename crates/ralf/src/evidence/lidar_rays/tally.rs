@@ -14,6 +14,8 @@ const LARGEST_CHI: f32 = 10.0;
 const LANES: usize = 8;
 /// So far away and so high nothing counts.
 const NOWHERE: f32 = 1e9;
+const NO_RAY: TableRay =
+    TableRay { azimuth: 0.0, elevation: NOWHERE, range: 0.0, point: [NOWHERE; 3], id: u32::MAX };
 
 /// A detection as seen from the LiDAR.
 pub(super) struct Target {
@@ -31,7 +33,6 @@ pub(super) struct Target {
 }
 
 /// A few rays, each number apart.
-#[derive(Default)]
 struct Few {
     azimuth: [f32; LANES],
     elevation: [f32; LANES],
@@ -42,9 +43,9 @@ struct Few {
 }
 
 /// Sums over the rays towards a detection.
-#[derive(Default)]
-pub(super) struct Tally {
-    few: Few,
+pub(super) struct Tally<'a> {
+    /// Those that wait to be counted together.
+    rays: [&'a TableRay; LANES],
     filled: usize,
     inside: [f32; LANES],
     ground: [f32; LANES],
@@ -53,34 +54,33 @@ pub(super) struct Tally {
     least: [f32; LANES],
 }
 
-impl Tally {
+impl<'a> Tally<'a> {
     pub(super) fn new() -> Self {
-        Self { least: [LARGEST_CHI * LARGEST_CHI; LANES], ..Self::default() }
-    }
-
-    pub(super) fn add(&mut self, target: &Target, ray: &TableRay) {
-        self.put(ray.azimuth, ray.elevation, ray.range, ray.point);
-        if self.filled == LANES {
-            self.count(target);
+        let none = [0.0; LANES];
+        Self {
+            rays: [&NO_RAY; LANES],
+            filled: 0,
+            inside: none,
+            ground: none,
+            beyond: none,
+            before: none,
+            least: [LARGEST_CHI * LARGEST_CHI; LANES],
         }
     }
 
-    fn put(&mut self, azimuth: f32, elevation: f32, range: f32, [x, y, z]: [f32; 3]) {
-        let (few, lane) = (&mut self.few, self.filled % LANES);
-        few.azimuth[lane] = azimuth;
-        few.elevation[lane] = elevation;
-        few.range[lane] = range;
-        [few.x[lane], few.y[lane], few.z[lane]] = [x, y, z];
+    pub(super) fn add(&mut self, target: &Target, ray: &'a TableRay) {
+        self.rays[self.filled] = ray;
         self.filled += 1;
+        if self.filled == LANES {
+            self.count(target);
+        }
     }
 
     /// The weights of the rays that end in the detection, on the ground there, beyond and before it, and the least
     /// Mahalanobis distance of the detection from a ray's end, with `Sigma + (0.1 m)^2 I`.
     pub(super) fn finish(mut self, target: &Target) -> ([f64; 4], f64) {
         if self.filled > 0 {
-            while self.filled < LANES {
-                self.put(0.0, NOWHERE, 0.0, [NOWHERE; 3]);
-            }
+            self.rays[self.filled..].fill(&NO_RAY);
             self.count(target);
         }
         let sum = |lanes: [f32; LANES]| f64::from(lanes.iter().sum::<f32>());
@@ -90,11 +90,12 @@ impl Tally {
     }
 
     fn count(&mut self, target: &Target) {
-        let weights = self.few.weights(&target.cone);
-        let squares = self.few.squared_distances(target);
-        let heights = self.few.heights(target);
+        let few = Few::of(self.rays);
+        let weights = few.weights(&target.cone);
+        let squares = few.squared_distances(target);
+        let heights = few.heights(target);
         for lane in 0..LANES {
-            let (weight, past) = (weights[lane], self.few.range[lane] - target.range);
+            let (weight, past) = (weights[lane], few.range[lane] - target.range);
             let (beyond, before) = (past >= target.depth, past <= -target.depth);
             let (there, low) = (!(beyond | before), heights[lane] < GROUND_BAND);
             self.inside[lane] += if there & !low { weight } else { 0.0 };
@@ -109,6 +110,17 @@ impl Tally {
 }
 
 impl Few {
+    fn of(rays: [&TableRay; LANES]) -> Self {
+        Self {
+            azimuth: rays.map(|ray| ray.azimuth),
+            elevation: rays.map(|ray| ray.elevation),
+            range: rays.map(|ray| ray.range),
+            x: rays.map(|ray| ray.point[0]),
+            y: rays.map(|ray| ray.point[1]),
+            z: rays.map(|ray| ray.point[2]),
+        }
+    }
+
     /// A Gaussian of the way from the cone's middle, whose borders lie at 2.5 sigmas; 0 outside.
     fn weights(&self, cone: &Cone) -> [f32; LANES] {
         let [per_azimuth, per_elevation] = [cone.half_azimuth, cone.half_elevation].map(f32::recip);

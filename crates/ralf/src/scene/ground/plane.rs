@@ -40,14 +40,18 @@ impl Plane {
 pub(super) struct PlaneSums {
     count: f64,
     sum: Vector,
-    squares: Matrix3<f64>,
+    /// Of xx, yy and zz.
+    squares: Vector,
+    /// Of xy, yz and zx.
+    products: Vector,
 }
 
 impl PlaneSums {
     pub(super) fn add(&mut self, p: Vector) {
         self.count += 1.0;
         self.sum += p;
-        self.squares += p * p.transpose();
+        self.squares += p.component_mul(&p);
+        self.products += p.component_mul(&p.yzx());
     }
 
     /// The plane whose summed squared distances from the points are least. `None` for fewer than three points.
@@ -56,7 +60,9 @@ impl PlaneSums {
             return None;
         }
         let mean = self.sum / self.count;
-        let covariance = self.squares / self.count - mean * mean.transpose();
+        let ([xx, yy, zz], [xy, yz, zx]) = (self.squares.into(), self.products.into());
+        let squares: Matrix3<f64> = Matrix3::new(xx, xy, zx, xy, yy, yz, zx, yz, zz);
+        let covariance = squares / self.count - mean * mean.transpose();
         let eigen = covariance.symmetric_eigen();
         let least = eigen.eigenvalues.imin();
         Plane::through(&Point::from(mean), eigen.eigenvectors.column(least).into_owned())

@@ -77,9 +77,18 @@ impl Candidates {
 
     /// The plane of orthogonal least squares through the points within `distance` of a plane.
     fn refit(&self, plane: &Plane, distance: f64) -> Option<Plane> {
+        const BLOCK: usize = 256;
         let mut sums = PlaneSums::default();
-        let points = (0..self.len()).map(|i| self.point(i));
-        points.filter(|p| plane.height(&Point::from(*p)).abs() <= distance).for_each(|p| sums.add(p));
+        let mut inliers = [0; BLOCK];
+        for begin in (0..self.len()).step_by(BLOCK) {
+            // Which points are inliers is hard to foretell: a list without a branch, and then the sums.
+            let mut count = 0;
+            for i in begin..self.len().min(begin + BLOCK) {
+                inliers[count] = i;
+                count += usize::from(plane.height(&Point::from(self.point(i))).abs() <= distance);
+            }
+            inliers[..count].iter().for_each(|i| sums.add(self.point(*i)));
+        }
         sums.plane()
     }
 }
@@ -105,14 +114,15 @@ pub(super) fn fit(candidates: &Candidates, config: &GroundConfig, seed: u64) -> 
     // The first of equally good ones, whatever their number.
     let (mut inliers, mut best) =
         finalists.rev().map(|plane| (score(&plane), plane)).max_by_key(|(n, _)| *n)?;
+    let mut refitted = refit(&best);
     for _ in 0..CLIMBS {
-        let Some(higher) = refit(&best).map(|plane| (score(&plane), plane)).filter(|(n, _)| *n > inliers)
-        else {
+        let Some(higher) = refitted.map(|plane| (score(&plane), plane)).filter(|(n, _)| *n > inliers) else {
             break;
         };
         (inliers, best) = higher;
+        refitted = refit(&best);
     }
-    Some(refit(&best).unwrap_or(best))
+    Some(refitted.unwrap_or(best))
 }
 
 /// Admissible planes through three random points each.

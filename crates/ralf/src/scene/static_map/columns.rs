@@ -63,7 +63,7 @@ impl ColumnGrid {
         self.filled[cell / CELLS * WORDS + cell % CELLS / 64] &= !(1 << (cell % 64));
     }
 
-    /// To be called when nothing more is filled or emptied: [`Self::clearance`] is 0 before.
+    /// To be called when nothing more is filled or emptied, before [`Self::at`].
     pub(super) fn finish(&mut self) {
         self.away = vec![u8::MAX; BLOCKS * BLOCKS];
         for row in 0..CELLS {
@@ -87,18 +87,19 @@ impl ColumnGrid {
         blocks().rev().for_each(|(row, column)| pull(row, column, [1, 1]));
     }
 
-    /// No column is filled within this of a place along each axis, m; it may be more. 0 beyond the map.
-    pub fn clearance(&self, x: f64, y: f64) -> f64 {
-        let Some(cell) = GRID.at(x as f32, y as f32) else { return 0.0 };
-        let away = self.away[cell / CELLS / BLOCK * BLOCKS + cell % CELLS / BLOCK];
-        f64::from(away.saturating_sub(1)) * BLOCK as f64 * Self::CELL
+    /// What stands at a place, `None` beyond the map and where nothing stands; and how much is free around: no column
+    /// is filled within this of the place along each axis, m, and perhaps farther. 0 beyond the map.
+    pub fn at(&self, x: f64, y: f64) -> (Option<Column>, f64) {
+        let Some(cell) = GRID.at(x as f32, y as f32) else { return (None, 0.0) };
+        let (row, place) = (cell / CELLS, cell % CELLS);
+        let away = self.away[row / BLOCK * BLOCKS + place / BLOCK];
+        let clearance = f64::from(away.saturating_sub(1)) * BLOCK as f64 * Self::CELL;
+        (if away == 0 { self.in_cell(row, place) } else { None }, clearance)
     }
 
-    /// What stands at a place; `None` beyond the map, and where nothing stands.
-    pub fn at(&self, x: f64, y: f64) -> Option<Column> {
-        let cell = GRID.at(x as f32, y as f32)?;
-        let filled = self.filled[cell / CELLS * WORDS + cell % CELLS / 64] >> (cell % 64) & 1;
-        (filled != 0).then(|| column(self.voxels[cell]))
+    fn in_cell(&self, row: usize, place: usize) -> Option<Column> {
+        let filled = self.filled[row * WORDS + place / 64] >> (place % 64) & 1;
+        (filled != 0).then(|| column(self.voxels[row * CELLS + place]))
     }
 
     /// Whether the map reaches to a place.

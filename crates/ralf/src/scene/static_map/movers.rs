@@ -1,7 +1,7 @@
 //! What moved while the scans of a map were made: other scans look through where it was.
 
 use super::super::lidar::LidarView;
-use super::super::rays::{RayTable, directions_of};
+use super::super::rays::{Directions, RayTable};
 use super::columns;
 use nalgebra::{Isometry3, Point3};
 use std::collections::BTreeSet;
@@ -76,7 +76,9 @@ impl Witness<'_> {
         let mut all = vec![false; points.len()];
         for (lidar_from_map, rays) in &self.lidars {
             let moved: Vec<[f32; 3]> = points.iter().map(|point| (lidar_from_map * point).into()).collect();
-            for (looks, (azimuth, elevation, range)) in all.iter_mut().zip(directions_of(&moved)) {
+            let directions = Directions::of(&moved);
+            for (place, looks) in all.iter_mut().enumerate() {
+                let (azimuth, elevation, range) = directions.at(place);
                 let there = rays.bin(azimuth, elevation);
                 let far = range * (1.0 + BEYOND_SHARE) + BEYOND;
                 *looks |= !there.is_empty() && there.iter().all(|ray| ray.range > far);

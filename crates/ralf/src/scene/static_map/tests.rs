@@ -54,7 +54,7 @@ fn what_stands_still_is_kept_and_what_moved_is_not() {
         [15.0, 0.0, 0.0],
         [20.0, 0.0, 0.0],
     ]);
-    let column = |views: &[LidarView], x: f64| StaticMap::new(views, ground.as_ref()).columns.at(x, 0.1);
+    let column = |views: &[LidarView], x: f64| StaticMap::new(views, ground.as_ref()).columns.at(x, 0.1).0;
     let wall = column(&passing, 20.1).unwrap();
     // To a voxel; the box hides the wall's foot in every scan.
     assert!((wall.top - 2.95).abs() < 0.15 && wall.bottom < 0.7 && wall.voxels >= 12, "{wall:?}");
@@ -112,7 +112,7 @@ fn columns_around_a_place_are_all_that_are_near() {
 #[test]
 fn nothing_stands_within_the_clearance() {
     let mut grid = ColumnGrid::empty();
-    assert_eq!(grid.clearance(0.0, 0.0), 0.0, "nothing is known before the end");
+    assert_eq!(grid.at(0.0, 0.0).1, 0.0, "nothing is known before the end");
     for i in 0..60 {
         let (x, y) = (((i * 37) % 83) as f32 * 0.9 - 40.0, ((i * 53) % 97) as f32 * 0.8 - 35.0);
         grid.add(columns::GRID.at(x, y).unwrap(), 5);
@@ -124,9 +124,9 @@ fn nothing_stands_within_the_clearance() {
         // A column reaches half its edge beyond its middle.
         let away = |[a, b]: &[f64; 2]| (a - x).abs().max((b - y).abs()) - 0.5 * ColumnGrid::CELL;
         let nearest = filled.iter().map(away).fold(f64::INFINITY, f64::min).max(0.0);
-        let clearance = grid.clearance(x, y);
+        let clearance = grid.at(x, y).1;
         // What is known to a block on either side is off by two metres at most.
         assert!(clearance <= nearest + 1e-4 && clearance > nearest - 2.3, "{x} {y}: {clearance} {nearest}");
     }
-    assert_eq!(grid.clearance(90.0, 0.0), 0.0);
+    assert_eq!(grid.at(90.0, 0.0).1, 0.0);
 }

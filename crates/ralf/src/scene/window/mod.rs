@@ -12,7 +12,7 @@ use super::neighbouring::{NeighbouringScan, ScanStep};
 use crate::config::{Config, GroundModel, TrackingSources, nanoseconds};
 use crate::sensors::{LidarScan, Rig, Source, SourceError};
 use crate::space::{Recent, sync};
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 /// Moments of the LiDARs that may be the nearest ones of radar scans that are asked for in turn.
 const MOMENTS: usize = 2;
@@ -98,6 +98,7 @@ impl<'a> FrameWindow<'a> {
             steps: if self.config.tracking.enabled { self.steps(radar, scan, t_ns) } else { Vec::new() },
             scan: located,
             unreadable,
+            horizontal_index: OnceLock::new(),
         })
     }
 

@@ -1,14 +1,16 @@
 //! The only nearest-neighbour search: exact, over a bird's-eye grid that is cheap to build.
 //!
 //! A LiDAR scan is asked some thousand questions and thrown away, so the build decides. Points are sorted by counting
-//! into square cells of the ground plane; a search looks at rings of cells around the query's until no nearer point can
-//! follow.
+//! into square cells of the ground plane; a search looks at rings of cells around the query's, from the first that may
+//! hold a point, until no nearer one can follow.
 //!
 //! Points beyond the grid are clamped into its border cells. Clamping to a box never lengthens a distance, so the bound
 //! that ends a search holds for them too, and a few points far away cannot blow up the grid.
 
+mod occupancy;
 mod search;
 
+use occupancy::Occupancy;
 use search::Search;
 use std::ops::Range;
 
@@ -43,6 +45,7 @@ pub struct NeighborIndex {
     /// How many points lie in the cells before each one, column by column: tells at once that a stretch of a column is
     /// empty.
     before: Vec<u32>,
+    occupancy: Occupancy,
     xs: Vec<f32>,
     ys: Vec<f32>,
     zs: Vec<f32>,
@@ -60,6 +63,8 @@ impl NeighborIndex {
         }
         running_sum(&mut index.starts);
         index.count_columns();
+        index.occupancy =
+            Occupancy::new(index.columns, index.rows, |cell| index.starts[cell] < index.starts[cell + 1]);
         let mut next = index.starts.clone();
         for ((point, id), cell) in points.iter().zip(ids).zip(cells) {
             let place = next[cell as usize] as usize;
@@ -82,6 +87,7 @@ impl NeighborIndex {
             rows,
             starts: vec![0; columns * rows + 1],
             before: vec![0; columns * rows + 1],
+            occupancy: Occupancy::default(),
             xs: vec![0.0; n],
             ys: vec![0.0; n],
             zs: vec![0.0; n],
@@ -92,7 +98,7 @@ impl NeighborIndex {
     fn count_columns(&mut self) {
         for row in 0..self.rows {
             for column in 0..self.columns {
-                self.before[column * self.rows + row + 1] = self.run(row, column, column).len() as u32;
+                self.before[column * self.rows + row + 1] = self.cells(row, column, column).len() as u32;
             }
         }
         running_sum(&mut self.before);
@@ -116,14 +122,28 @@ impl NeighborIndex {
 
     /// As [`Self::nearest`], but finds nothing where it can tell that no point lies within `reach`, m.
     pub fn nearest_within(&self, query: [f32; 3], k: usize, reach: f32, found: &mut Vec<Neighbor>) {
-        found.clear();
-        if self.is_empty() || k == 0 {
+        self.search(Search::new(self, query, k, found), reach);
+    }
+
+    /// As [`Self::nearest`], but finds nothing unless a point lies within `reach`, m, or a hair farther. That is told
+    /// first, among what lies there alone.
+    pub fn nearest_if_within(&self, query: [f32; 3], k: usize, reach: f32, found: &mut Vec<Neighbor>) {
+        self.search(Search::new(self, query, k, found).limited(reach), reach);
+        if !found.is_empty() && found.len() < k.min(self.len()) {
+            self.nearest(query, k, found);
+        }
+    }
+
+    fn search(&self, mut search: Search, reach: f32) {
+        if search.k == 0 {
             return;
         }
-        let at = self.place_of(query[0], query[1]);
-        let mut search = Search::new(self, query, k, found);
-        search.middle(self, &at);
-        for ring in 2..self.columns.max(self.rows) {
+        let at = self.place_of(search.query[0], search.query[1]);
+        let first = self.occupancy.first_ring(at.cell);
+        if first == 0 {
+            search.middle(self, &at);
+        }
+        for ring in first.max(2)..self.columns.max(self.rows) {
             if search.is_done(self.bound(&at, ring), reach) {
                 break;
             }
@@ -171,18 +191,19 @@ impl NeighborIndex {
         count
     }
 
-    /// Points of all cells that reach within a distance, m, of a place, row by row; none around what is no place.
-    fn runs_around(&self, [x, y]: [f32; 2], radius: f32) -> impl Iterator<Item = Range<usize>> {
+    /// Stretches of [`Self::ids`], row by row, that hold all points within a distance, m, of a place, seen from above,
+    /// and some beside them; none around what is no place.
+    pub fn runs_around(&self, [x, y]: [f32; 2], radius: f32) -> impl Iterator<Item = Range<usize>> + use<'_> {
         let anywhere = !self.is_empty() && x.is_finite() && y.is_finite() && radius >= 0.0;
         let wide = radius + SLACK;
         let [left, bottom] = self.place_of(x - wide, y - wide).cell;
         let [right, top] = self.place_of(x + wide, y + wide).cell;
         let rows = if anywhere { bottom..top + 1 } else { 0..0 };
-        rows.map(move |row| self.run(row, left, right))
+        rows.map(move |row| self.cells(row, left, right))
     }
 
     /// Points of the cells `left..=right` of a row.
-    fn run(&self, row: usize, left: usize, right: usize) -> Range<usize> {
+    fn cells(&self, row: usize, left: usize, right: usize) -> Range<usize> {
         let first = row * self.columns;
         self.starts[first + left] as usize..self.starts[first + right + 1] as usize
     }

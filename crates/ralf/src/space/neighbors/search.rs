@@ -12,8 +12,9 @@ const FEW: usize = 8;
 
 /// A search under way: the best points so far, in order.
 pub(super) struct Search<'a> {
-    query: [f32; 3],
-    k: usize,
+    pub(super) query: [f32; 3],
+    /// How many are wanted: no more than there are.
+    pub(super) k: usize,
     /// Edge of a cell, m.
     cell: f32,
     /// Only points at most this far can still enter, m^2.
@@ -33,13 +34,18 @@ impl<'a> Search<'a> {
         Self { query, k: k.min(index.len()), cell: index.cell, worst: f32::INFINITY, found }
     }
 
+    /// The same among the points within a reach, m, and a hair more.
+    pub(super) fn limited(mut self, reach: f32) -> Self {
+        /// Squared distances are rounded by less.
+        const ROUNDING: f32 = 1.000_01;
+        self.worst = ROUNDING * reach * reach;
+        self
+    }
+
     /// Whether no better point can follow where all that are left lie at least `bound` away; or, with nothing found so
     /// far, beyond `reach`, m.
     pub(super) fn is_done(&self, bound: f32, reach: f32) -> bool {
-        match self.found.len() {
-            0 => bound > reach,
-            found => found == self.k && bound * bound > self.worst,
-        }
+        bound * bound > self.worst || (self.found.is_empty() && bound > reach)
     }
 
     /// Looks through the query's own cell and those around it, as three runs of points.
@@ -47,7 +53,7 @@ impl<'a> Search<'a> {
         let [column, row] = at.cell;
         let (left, right) = (column.saturating_sub(1), (column + 1).min(index.columns - 1));
         for row in row.saturating_sub(1)..=(row + 1).min(index.rows - 1) {
-            self.scan(index, index.run(row, left, right));
+            self.scan(index, index.cells(row, left, right));
         }
     }
 
@@ -76,17 +82,17 @@ impl<'a> Search<'a> {
         let column = at.cell[0];
         let (first, last) = stretch(at.x, column, ring.min(MIDDLE), self.reach_beside(away), index.columns);
         if first <= last {
-            self.scan(index, index.run(row, first, last));
+            self.scan(index, index.cells(row, first, last));
         }
         if ring <= MIDDLE {
             return;
         }
         let (left, right) = stretch(at.x, column, ring, self.reach_beside(away), index.columns);
         if left + MIDDLE < column {
-            self.scan(index, index.run(row, left, column - MIDDLE - 1));
+            self.scan(index, index.cells(row, left, column - MIDDLE - 1));
         }
         if column + MIDDLE < right {
-            self.scan(index, index.run(row, column + MIDDLE + 1, right));
+            self.scan(index, index.cells(row, column + MIDDLE + 1, right));
         }
     }
 
@@ -104,10 +110,10 @@ impl<'a> Search<'a> {
             }
             let row = at.cell[1];
             if step <= row {
-                self.scan(index, index.run(row - step, column, column));
+                self.scan(index, index.cells(row - step, column, column));
             }
             if step > 0 && row + step < index.rows {
-                self.scan(index, index.run(row + step, column, column));
+                self.scan(index, index.cells(row + step, column, column));
             }
         }
     }

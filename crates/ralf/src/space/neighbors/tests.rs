@@ -21,8 +21,33 @@ fn check(points: &[[f32; 3]], queries: &[[f32; 3]]) {
     for &query in queries {
         for k in [1, 3, 10] {
             index.nearest(query, k, &mut found);
-            assert_eq!(found, brute_force(points, query, k), "query {query:?}, k {k}");
+            let expected = brute_force(points, query, k);
+            assert_eq!(found, expected, "query {query:?}, k {k}");
+            check_within(&index, query, k, &expected);
         }
+    }
+}
+
+/// Reaches on both sides of the nearest point: all that are wanted, or none.
+fn check_within(index: &NeighborIndex, query: [f32; 3], k: usize, expected: &[Neighbor]) {
+    let nearest = expected.first().map_or(5.0, |nearest| nearest.distance_squared.sqrt());
+    let mut found = Vec::new();
+    for reach in [f32::INFINITY, 1.001 * nearest + 0.001, 1.4 * nearest, 3.0 * nearest] {
+        index.nearest_if_within(query, k, reach, &mut found);
+        let none = reach < nearest;
+        assert_eq!(
+            found,
+            if none { &expected[..0] } else { expected },
+            "query {query:?}, k {k}, reach {reach}"
+        );
+    }
+    for reach in [0.0, 0.5 * nearest, 0.999 * nearest] {
+        index.nearest_if_within(query, k, reach, &mut found);
+        assert_eq!(
+            found,
+            if nearest > 0.0 { &expected[..0] } else { expected },
+            "query {query:?}, k {k}, reach {reach}"
+        );
     }
 }
 

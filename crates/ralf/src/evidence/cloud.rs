@@ -1,0 +1,256 @@
+//! Detections to be searched for those within a few standard deviations of a place.
+//!
+//! Most that are near in metres are far in standard deviations. Numbers of half the precision, some at a time, tell
+//! these apart; what they leave is for [`chi_within`](super::distance::chi_within) to decide.
+
+use super::distance::{ROOM, Spot, farthest_within};
+use crate::space::NeighborIndex;
+use std::borrow::Cow;
+use std::rc::Rc;
+
+/// Detections that are looked at together.
+const LANES: usize = 8;
+/// Distances of so much more than wanted, squared, are left for a closer look: coordinates are rounded.
+const ROUNDED: f32 = 1.02;
+/// Sums and products are rounded by less than this share of their parts.
+const ROUNDING: f32 = 1e-6;
+
+/// Detections, to be searched.
+pub(super) struct Cloud<'a> {
+    index: Cow<'a, NeighborIndex>,
+    flat: Flat,
+    variances: Rc<Variances>,
+}
+
+impl<'a> Cloud<'a> {
+    /// The detections of an index, whose identities are places in a list of spots, and the variances of these.
+    pub(super) fn new(index: Cow<'a, NeighborIndex>, spots: &[Spot], variances: Rc<Variances>) -> Self {
+        let flat = Flat::new(index.ids().iter().map(|id| &spots[*id as usize]));
+        Self { index, flat, variances }
+    }
+
+    /// Visits the identities of all within a distance `limit` of a spot, in standard deviations, and of some beyond;
+    /// but of none farther than `most`, m, seen from above.
+    pub(super) fn each_near(&self, spot: &Spot, limit: f64, most: f32, mut visit: impl FnMut(usize)) {
+        let place = [spot.place.x as f32, spot.place.y as f32];
+        let reach = self.variances.farthest(spot, limit, most);
+        let seeker = Seeker::new(spot, limit, reach);
+        for run in self.index.runs_around(place, reach) {
+            let ids = &self.index.ids()[run.clone()];
+            for (begin, ids) in run.step_by(LANES).zip(ids.chunks(LANES)) {
+                let met = self.flat.meet(begin, &seeker);
+                if met.any(&seeker) {
+                    let near = ids.iter().enumerate().filter(|(lane, _)| met.is_near(*lane, &seeker));
+                    near.for_each(|(_, id)| visit(*id as usize));
+                }
+            }
+        }
+    }
+
+    /// The detections' places, to be searched in metres.
+    pub(super) fn index(&self) -> &NeighborIndex {
+        &self.index
+    }
+}
+
+/// Places, m, and horizontal covariances, m^2, each number apart; with a few more at the end, so that some can be taken
+/// together anywhere.
+struct Flat {
+    x: Vec<f32>,
+    y: Vec<f32>,
+    xx: Vec<f32>,
+    xy: Vec<f32>,
+    yy: Vec<f32>,
+}
+
+impl Flat {
+    fn new<'a>(spots: impl ExactSizeIterator<Item = &'a Spot>) -> Self {
+        let [x, y, xx, xy, yy] = [(); 5].map(|()| Vec::with_capacity(spots.len() + LANES));
+        let mut flat = Self { x, y, xx, xy, yy };
+        spots.for_each(|spot| flat.push(spot.place.x, spot.place.y, spot.horizontal));
+        (0..LANES).for_each(|_| flat.push(0.0, 0.0, [0.0; 3]));
+        flat
+    }
+
+    fn push(&mut self, x: f64, y: f64, [xx, xy, yy]: [f64; 3]) {
+        let columns = [&mut self.x, &mut self.y, &mut self.xx, &mut self.xy, &mut self.yy];
+        columns.into_iter().zip([x, y, xx, xy, yy]).for_each(|(column, value)| column.push(value as f32));
+    }
+
+    /// How those that begin at a place lie to a seeker.
+    fn meet(&self, begin: usize, seeker: &Seeker) -> Met {
+        let columns = [&self.x, &self.y, &self.xx, &self.xy, &self.yy];
+        let [x, y, xx, xy, yy] = columns.map(|column| column[begin..].first_chunk::<LANES>());
+        let mut met = Met { distance_squared: [f32::INFINITY; LANES], over: [f32::INFINITY; LANES] };
+        let (Some(x), Some(y), Some(xx), Some(xy), Some(yy)) = (x, y, xx, xy, yy) else { return met };
+        for lane in 0..LANES {
+            let horizontal = [xx[lane], xy[lane], yy[lane]];
+            [met.distance_squared[lane], met.over[lane]] = seeker.meet(x[lane], y[lane], horizontal);
+        }
+        met
+    }
+}
+
+/// How some detections lie to a seeker.
+struct Met {
+    /// m^2
+    distance_squared: [f32; LANES],
+    /// By how much a distance in standard deviations is over the limit, in some unit; not where it isn't above 0.
+    over: [f32; LANES],
+}
+
+impl Met {
+    /// Whether one may lie within limit and reach, seen from above; what can't be told may.
+    fn is_near(&self, lane: usize, seeker: &Seeker) -> bool {
+        let is_far = self.over[lane] > 0.0;
+        !is_far & (self.distance_squared[lane] <= seeker.reach_squared)
+    }
+
+    fn any(&self, seeker: &Seeker) -> bool {
+        (0..LANES).fold(0, |any, lane| any | u32::from(self.is_near(lane, seeker))) != 0
+    }
+}
+
+/// A spot whose neighbours are sought.
+struct Seeker {
+    x: f32,
+    y: f32,
+    /// xx, xy and yy with the room that all have, m^2.
+    horizontal: [f32; 3],
+    limit_squared: f32,
+    reach_squared: f32,
+}
+
+impl Seeker {
+    fn new(spot: &Spot, limit: f64, reach: f32) -> Self {
+        let [xx, xy, yy] = spot.horizontal;
+        Self {
+            x: spot.place.x as f32,
+            y: spot.place.y as f32,
+            horizontal: [xx + ROOM * ROOM, xy, yy + ROOM * ROOM].map(|v| v as f32),
+            limit_squared: (limit * limit) as f32 * ROUNDED,
+            reach_squared: reach * reach,
+        }
+    }
+
+    /// The squared distance, m^2, and by how much that in standard deviations is over the limit.
+    fn meet(&self, x: f32, y: f32, [xx, xy, yy]: [f32; 3]) -> [f32; 2] {
+        let [x, y] = [x - self.x, y - self.y];
+        let [xx, xy, yy] = [self.horizontal[0] + xx, self.horizontal[1] + xy, self.horizontal[2] + yy];
+        let (distance_squared, trace) = (x * x + y * y, xx + yy);
+        let determinant = xx * yy - xy * xy;
+        let by_determinant = x * x * yy - 2.0 * x * y * xy + y * y * xx;
+        let slack = ROUNDING * trace * (distance_squared + self.limit_squared * trace);
+        [distance_squared, by_determinant - (self.limit_squared * determinant + slack)]
+    }
+}
+
+/// How uncertain detections are by how far they lie from the frame's origin.
+pub(super) struct Variances {
+    /// No horizontal variance within this many metres and one is larger, m^2.
+    within: Vec<f64>,
+}
+
+impl Variances {
+    /// Farther than this all are taken together, m.
+    const FARTHEST: usize = 400;
+
+    pub(super) fn new(spots: &[Spot]) -> Self {
+        let mut within = vec![0.0f64; Self::FARTHEST + 1];
+        for spot in spots {
+            let metre = &mut within[metre(spot.place.xy().norm())];
+            *metre = metre.max(spot.variance);
+        }
+        let mut largest = 0.0f64;
+        for metre in &mut within {
+            largest = largest.max(*metre);
+            *metre = largest;
+        }
+        Self { within }
+    }
+
+    /// Nothing is within a distance `limit` of a spot that is farther away than this, m, seen from above, or it is
+    /// farther than `most`.
+    fn farthest(&self, spot: &Spot, limit: f64, most: f32) -> f32 {
+        let away = spot.place.xy().norm();
+        let within = |reach: f32| {
+            let largest = self.within[metre(away + SLACK + f64::from(reach))];
+            farthest_within(limit, spot, largest).min(reach)
+        };
+        // What is as near as that asks for is perhaps less uncertain than what is farther.
+        within(within(most))
+    }
+}
+
+/// Places are rounded by less than this, m.
+const SLACK: f64 = 0.01;
+
+/// The entry of a distance, m.
+fn metre(distance: f64) -> usize {
+    (distance as usize).min(Variances::FARTHEST)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::distance::chi_within;
+    use super::*;
+    use crate::scene::Detection;
+    use crate::space::Point;
+    use nalgebra::Matrix3;
+    use proptest::prelude::*;
+
+    /// Some long and thin, as azimuths far away make them.
+    fn spot() -> impl Strategy<Value = Spot> {
+        let sigmas = (0.001f64..0.4, 0.001f64..9.0, 0.0f64..6.3);
+        (-30.0f64..30.0, -30.0f64..30.0, 0i32..4, sigmas).prop_map(|(x, y, far, (thin, long, angle))| {
+            let far = 10f64.powi(far);
+            let (sin, cos) = angle.sin_cos();
+            let axes = Matrix3::new(cos * thin, -sin * long, 0.0, sin * thin, cos * long, 0.0, 0.0, 0.0, 0.3);
+            Spot::new(&Detection { position: Point::new(far + x, y, 0.0), axes })
+        })
+    }
+
+    proptest! {
+        #[test]
+        fn all_that_are_near_are_visited_once(
+            spots in prop::collection::vec(spot(), 0..200), seekers in prop::collection::vec(spot(), 5),
+            limit in 0.5f64..4.0, most in 0.1f32..40.0,
+        ) {
+            let places: Vec<[f32; 3]> = spots.iter().map(|spot| spot.place.cast::<f32>().into()).collect();
+            let ids: Vec<u32> = (0..spots.len() as u32).collect();
+            let cloud = Cloud::new(Cow::Owned(NeighborIndex::new(&places, &ids)), &spots, Rc::new(Variances::new(&spots)));
+            for seeker in &seekers {
+                let (mut found, mut beside) = (Vec::new(), Vec::new());
+                cloud.each_near(seeker, limit, most, |id| found.push(id as u32));
+                found.sort_unstable();
+                prop_assert!(found.windows(2).all(|pair| pair[0] < pair[1]), "none twice");
+                cloud.index().beside([seeker.place.x as f32, seeker.place.y as f32], most, &mut beside);
+                prop_assert!(found.iter().all(|id| beside.contains(id)), "none farther than that");
+                for id in beside {
+                    let is_near = chi_within(limit, seeker, &spots[id as usize], true).is_some();
+                    prop_assert!(!is_near || found.contains(&id), "{seeker:?} {:?}", spots[id as usize]);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn what_is_far_in_standard_deviations_is_passed_over() {
+        let at = |x: f64, y: f64| {
+            let axes = Matrix3::from_diagonal(&nalgebra::Vector3::new(0.1, 1.0, 0.1));
+            Spot::new(&Detection { position: Point::new(x, y, 0.0), axes })
+        };
+        // Variances of 0.03 and 2.01: three standard deviations are 0.52 m along x and 4.25 m along y.
+        let spots = [at(10.5, 0.0), at(10.55, 0.0), at(10.0, 4.2), at(10.0, 4.35)];
+        let places = spots.map(|spot| spot.place.cast::<f32>().into());
+        let cloud = Cloud::new(
+            Cow::Owned(NeighborIndex::new(&places, &[0, 1, 2, 3])),
+            &spots,
+            Rc::new(Variances::new(&spots)),
+        );
+        let mut found = Vec::new();
+        cloud.each_near(&at(10.0, 0.0), 3.0, 8.0, |id| found.push(id));
+        found.sort_unstable();
+        assert_eq!(found, [0, 2]);
+    }
+}

@@ -1,0 +1,91 @@
+//! Where a search may begin: how many rings of cells around each cell are surely empty.
+
+/// Shifts that make of what lies within 0 cells what lies within 1, 2, 4, 8 and 16, each from the one before.
+const SHIFTS: [usize; 5] = [1, 1, 2, 4, 8];
+
+/// For each cell of a grid, whether anything lies within 1, 2, 4, 8 and 16 cells in row and column.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Occupancy {
+    /// Words of a row.
+    words: usize,
+    /// A bit for each cell, row by row; nearest first.
+    within: [Vec<u64>; SHIFTS.len()],
+}
+
+impl Occupancy {
+    /// Of a grid of cells, numbered row by row, of which some are filled.
+    pub(super) fn new(columns: usize, rows: usize, is_filled: impl Fn(usize) -> bool) -> Self {
+        let words = columns.div_ceil(64);
+        let mut filled = vec![0; words * rows];
+        for row in 0..rows {
+            for column in 0..columns {
+                filled[row * words + column / 64] |=
+                    u64::from(is_filled(row * columns + column)) << (column % 64);
+            }
+        }
+        let within = SHIFTS.map(|shift| {
+            filled = spread(&filled, words, shift);
+            filled.clone()
+        });
+        Self { words, within }
+    }
+
+    /// No ring of cells before this one around a cell holds any point.
+    pub(super) fn first_ring(&self, [column, row]: [usize; 2]) -> usize {
+        let (word, bit) = (row * self.words + column / 64, column % 64);
+        let is_near = |within: &Vec<u64>| within[word] >> bit & 1 != 0;
+        match self.within.iter().position(is_near).unwrap_or(SHIFTS.len()) {
+            0 => 0,
+            farther => (1 << (farther - 1)) + 1,
+        }
+    }
+}
+
+/// Bits with those so many columns and rows away, rows of so many words.
+fn spread(bits: &[u64], words: usize, shift: usize) -> Vec<u64> {
+    let mut along = bits.to_vec();
+    for (along, row) in along.chunks_mut(words).zip(bits.chunks(words)) {
+        for (at, word) in along.iter_mut().enumerate() {
+            let before = at.checked_sub(1).map_or(0, |before| row[before]);
+            let after = row.get(at + 1).copied().unwrap_or(0);
+            *word |= row[at] << shift | before >> (64 - shift) | row[at] >> shift | after << (64 - shift);
+        }
+    }
+    let mut spread = along.clone();
+    let away = (shift * words).min(along.len());
+    spread[away..].iter_mut().zip(&along).for_each(|(word, below)| *word |= below);
+    spread.iter_mut().zip(&along[away..]).for_each(|(word, above)| *word |= above);
+    spread
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn rings_before_the_first_are_empty_and_few_are_left_over(
+            columns in 1usize..150, rows in 1usize..40, filled in prop::collection::vec((0usize..150, 0usize..40), 0..6),
+        ) {
+            let filled: Vec<[usize; 2]> =
+                filled.into_iter().filter(|(x, y)| *x < columns && *y < rows).map(|(x, y)| [x, y]).collect();
+            let is_filled = |cell: usize| filled.contains(&[cell % columns, cell / columns]);
+            let occupancy = Occupancy::new(columns, rows, is_filled);
+            for cell in 0..columns * rows {
+                let [column, row] = [cell % columns, cell / columns];
+                let ring = |[x, y]: &[usize; 2]| x.abs_diff(column).max(y.abs_diff(row));
+                let nearest = filled.iter().map(ring).min().unwrap_or(usize::MAX);
+                let expected = match nearest {
+                    0 | 1 => 0,
+                    2 => 2,
+                    3 | 4 => 3,
+                    5..=8 => 5,
+                    9..=16 => 9,
+                    _ => 17,
+                };
+                prop_assert_eq!(occupancy.first_ring([column, row]), expected);
+            }
+        }
+    }
+}
