@@ -4,7 +4,7 @@ use crate::remedy::Remedy;
 use crate::statistics::{median, quantile};
 use crate::verdict::{Question, Verdict};
 use ralf::sensors::Sequence;
-use ralf::space::{EgoMotion, PoseSample};
+use ralf::space::{EgoMotion, OdometrySample, PoseSample};
 
 /// Faster than any road vehicle in traffic, m/s.
 const FASTEST: f64 = 70.0;
@@ -52,7 +52,16 @@ fn times(motion: &EgoMotion) -> Vec<i64> {
     motion.poses().iter().map(|pose| pose.t_ns).collect()
 }
 
+/// Whether the motion is that of a parked vehicle, of which one sample says all.
+fn is_parked(motion: &EgoMotion) -> bool {
+    let stands = |sample: &OdometrySample| sample.velocity == 0.0 && sample.yaw_rate == 0.0;
+    motion.poses().is_empty() && matches!(motion.odometry(), [only] if stands(only))
+}
+
 fn coverage(sequence: &Sequence) -> Option<Verdict> {
+    if is_parked(&sequence.motion) {
+        return None;
+    }
     let own = times(&sequence.motion);
     let (first, last) = (own.first()?, own.last()?);
     let scans: Vec<i64> = sequence.times.radars.iter().flatten().copied().collect();
@@ -110,10 +119,10 @@ fn twist(pair: &[PoseSample]) -> Option<[f64; 2]> {
 
 fn stuck(motion: &EgoMotion) -> Option<Verdict> {
     let samples = motion.odometry();
-    let moving = |pair: &&[ralf::space::OdometrySample]| pair[1].velocity.abs() > 0.5;
+    let moving = |pair: &&[OdometrySample]| pair[1].velocity.abs() > 0.5;
     let pairs: Vec<_> = samples.windows(2).filter(moving).collect();
     let seconds = pairs.iter().map(|pair| (pair[1].t_ns - pair[0].t_ns) as f64 * 1e-9).sum::<f64>();
-    let same = |pair: &&&[ralf::space::OdometrySample]| {
+    let same = |pair: &&&[OdometrySample]| {
         (pair[0].velocity, pair[0].yaw_rate) == (pair[1].velocity, pair[1].yaw_rate)
     };
     let repeated = pairs.iter().filter(same).count() as f64 / pairs.len().max(1) as f64;

@@ -51,6 +51,13 @@ fn each_radar_has_a_scan_per_frame_at_its_own_time() {
 }
 
 #[test]
+fn that_the_vehicle_stands_is_doubted_by_nothing() {
+    let (_folder, recording) = dataset();
+    let check = ralf_check::check(only(&recording));
+    assert!(check.doubts().all(|verdict| verdict.subject != "motion"), "{:?}", check.verdicts);
+}
+
+#[test]
 fn places_in_the_cars_frame_are_where_the_mountings_bring_them() {
     let (_folder, recording) = dataset();
     let reader = only(&recording);
