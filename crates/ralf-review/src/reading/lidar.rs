@@ -71,9 +71,9 @@ pub(super) fn points(found: &[Option<Seen>], mut table: Table) -> Table {
         found.iter().map(|seen| seen.as_ref().map_or(f32::NAN, of)).collect()
     };
     for (axis, name) in ["x", "y", "z"].into_iter().enumerate() {
-        table.f32(name, number(&|seen| seen.place[axis] as f32).into_iter());
+        table.f32(name, number(&|seen| seen.place[axis] as f32));
     }
-    table.f32("intensity", number(&|seen| seen.intensity).into_iter());
+    table.f32("intensity", number(&|seen| seen.intensity));
     table.u8("ground", found.iter().map(|seen| u8::from(seen.is_some_and(|seen| seen.ground))));
     table
 }
