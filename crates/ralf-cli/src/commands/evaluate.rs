@@ -137,8 +137,16 @@ mod tests {
         put(&dataset, "sequences/00/ground_truth/front/000000.label", &[1, 10]);
         let truth = Some(dataset.clone());
         let changed = ChangedArgs::default();
-        let mut args =
-            EvaluateArgs { out, truth, corrections: None, changed, json: true, scans: false, queue: false };
+        let mut args = EvaluateArgs {
+            out,
+            truth,
+            corrections: None,
+            changed,
+            json: true,
+            scans: false,
+            queue: false,
+            agreement: None,
+        };
         assert_eq!(run(&args).unwrap(), Outcome::Done);
         put(&dataset, "sequences/00/ground_truth/front/000001.label", &[1]);
         assert_eq!(run(&args).unwrap(), Outcome::Partial);
