@@ -117,7 +117,9 @@ mod tests {
     fn what_both_said_is_counted_by_hand_and_what_one_alone_said_is_not() {
         let folder = tempfile::tempdir().unwrap();
         let [one, other] = ["one", "other"].map(|name| folder.path().join(name));
-        [&one, &other].into_iter().for_each(|out| std::fs::create_dir(out).unwrap());
+        for out in [&one, &other] {
+            std::fs::create_dir(out).unwrap();
+        }
         // In scan 1 a car and a plausible one are both plausible; in scan 2 they differ twice, and nobody else saw 5.
         let ada = said(&one, &[(1, 10, &[0]), (2, 1, &[0, 1, 2]), (3, 99, &[4])]);
         let bob = said(&other, &[(1, 99, &[0, 3]), (2, 99, &[1, 2, 5])]);

@@ -25,7 +25,8 @@ pub(crate) fn opinion(app: &App, sequence: &str) -> Answer {
     let changes = if answered == 0 {
         Vec::new()
     } else {
-        things.second_opinion(&*labels.observed(reader, &things, jobs)?, &answers, jobs)
+        let observed = labels.observed(reader, &things, jobs)?;
+        things.second_opinion(&observed, &answers, jobs)
     };
     let sequence = reader.sequence();
     let scans: BTreeSet<(usize, usize)> =
