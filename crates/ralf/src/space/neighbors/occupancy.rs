@@ -4,7 +4,7 @@
 const SHIFTS: [usize; 5] = [1, 1, 2, 4, 8];
 
 /// For each cell of a grid, whether anything lies within 1, 2, 4, 8 and 16 cells in row and column.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone)]
 pub(super) struct Occupancy {
     /// Words of a row.
     words: usize,
