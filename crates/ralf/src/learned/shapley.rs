@@ -30,7 +30,7 @@ struct Bundle {
     bits: Vec<Vec<Question>>,
     /// The groups that are asked.
     groups: Vec<usize>,
-    /// What each of these adds, case by case; none where there are too many cases.
+    /// What each of these adds in each case, group by group; none where there are too many cases.
     table: Vec<f32>,
     /// Of the leaves, where there is no table.
     ways: Vec<Way>,
@@ -83,20 +83,24 @@ impl Explainer {
     /// What each group adds to the answer for each row, log odds, row by row. A row's values and
     /// [`expected`](Self::expected) sum up to the forest's answer.
     pub fn explain(&self, rows: &Rows) -> Vec<Vec<f64>> {
-        let mut added = vec![vec![0.0; self.groups]; rows.len()];
+        let mut all = Vec::with_capacity(rows.len());
         let mut yes = Vec::new();
-        for (at, added) in added.chunks_mut(BLOCK).enumerate() {
-            let block = Block::of(rows, at * BLOCK);
+        for begin in (0..rows.len()).step_by(BLOCK) {
+            let (block, count) = (Block::of(rows, begin), BLOCK.min(rows.len() - begin));
+            let mut added = vec![[0.0; BLOCK]; self.groups];
             for (tree, bundles) in &self.trees {
                 yes.clear();
                 yes.extend(tree.nodes().iter().map(|node| match node {
                     Node::Split(split) => block.answers(split),
                     Node::Leaf(_) => [false; BLOCK],
                 }));
-                bundles.iter().for_each(|bundle| bundle.add(&yes, added));
+                bundles.iter().for_each(|bundle| bundle.add(&yes, count, &mut added));
             }
+            all.extend(
+                (0..count).map(|row| added.iter().map(|of_group| of_group[row]).collect::<Vec<f64>>()),
+            );
         }
-        added
+        all
     }
 }
 
@@ -211,17 +215,18 @@ impl Bundle {
                 }
             }
         }
-        table.into_iter().map(|sum| sum as f32).collect()
+        let of_group = |place: usize| table.iter().skip(place).step_by(width);
+        (0..width).flat_map(of_group).map(|sum| *sum as f32).collect()
     }
 
     fn place_of(&self, group: usize) -> usize {
         self.groups.partition_point(|known| *known < group)
     }
 
-    /// Adds what the groups of these leaves add for each row of a block.
-    fn add(&self, yes: &[[bool; BLOCK]], added: &mut [Vec<f64>]) {
+    /// Adds what the groups of these leaves add for each row of a block, of which so many count.
+    fn add(&self, yes: &[[bool; BLOCK]], count: usize, added: &mut [[f64; BLOCK]]) {
         if self.table.is_empty() {
-            return self.ways.iter().for_each(|way| way.add(yes, added));
+            return self.ways.iter().for_each(|way| way.add(yes, count, added));
         }
         let mut cases = [0_u8; BLOCK];
         for (bit, questions) in self.bits.iter().enumerate() {
@@ -229,11 +234,9 @@ impl Bundle {
                 *case |= u8::from(leads) << bit;
             }
         }
-        let width = self.groups.len();
-        for (added, case) in added.iter_mut().zip(cases) {
-            let shares = &self.table[usize::from(case) * width..][..width];
-            for (group, share) in self.groups.iter().zip(shares) {
-                added[*group] += f64::from(*share);
+        for (group, shares) in self.groups.iter().zip(self.table.chunks_exact(1 << self.bits.len())) {
+            for (sum, case) in added[*group].iter_mut().zip(cases).take(count) {
+                *sum += f64::from(shares[usize::from(case)]);
             }
         }
     }
@@ -295,14 +298,14 @@ impl Way {
         shares
     }
 
-    /// Adds what the players of this way add for each row of a block.
-    fn add(&self, yes: &[[bool; BLOCK]], added: &mut [Vec<f64>]) {
+    /// Adds what the players of this way add for each row of a block, of which so many count.
+    fn add(&self, yes: &[[bool; BLOCK]], count: usize, added: &mut [[f64; BLOCK]]) {
         let leading: Vec<[bool; BLOCK]> =
             self.players.iter().map(|player| all_lead(yes, &player.questions)).collect();
-        for (row, added) in added.iter_mut().enumerate() {
+        for row in 0..count {
             let bits = leading.iter().rev().fold(0, |bits, leads| bits << 1 | usize::from(leads[row]));
             for (player, share) in self.players.iter().zip(self.shares(bits)) {
-                added[player.group] += share;
+                added[player.group][row] += share;
             }
         }
     }

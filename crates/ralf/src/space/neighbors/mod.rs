@@ -18,6 +18,8 @@ use std::ops::Range;
 const CELL: f32 = 1.0;
 /// Cells per point at most: more would cost more to make than they save.
 const CELLS_PER_POINT: usize = 1;
+/// A grid of so many cells along an edge has room for rings that are worth passing over.
+const WIDE: usize = 24;
 /// The grid covers at most this far from the frame's origin in x and in y, m.
 const REACH: f32 = 256.0;
 /// Rounding may put a point that lies on a cell's border into the next one; bounds are loosened by this, m.
@@ -45,7 +47,8 @@ pub struct NeighborIndex {
     /// How many points lie in the cells before each one, column by column: tells at once that a stretch of a column is
     /// empty.
     before: Vec<u32>,
-    occupancy: Occupancy,
+    /// Where searches may begin, of a wide grid.
+    occupancy: Option<Occupancy>,
     xs: Vec<f32>,
     ys: Vec<f32>,
     zs: Vec<f32>,
@@ -63,8 +66,10 @@ impl NeighborIndex {
         }
         running_sum(&mut index.starts);
         index.count_columns();
-        index.occupancy =
-            Occupancy::new(index.columns, index.rows, |cell| index.starts[cell] < index.starts[cell + 1]);
+        if index.columns.max(index.rows) >= WIDE {
+            let is_filled = |cell| index.starts[cell] < index.starts[cell + 1];
+            index.occupancy = Some(Occupancy::new(index.columns, index.rows, is_filled));
+        }
         let mut next = index.starts.clone();
         for ((point, id), cell) in points.iter().zip(ids).zip(cells) {
             let place = next[cell as usize] as usize;
@@ -87,7 +92,7 @@ impl NeighborIndex {
             rows,
             starts: vec![0; columns * rows + 1],
             before: vec![0; columns * rows + 1],
-            occupancy: Occupancy::default(),
+            occupancy: None,
             xs: vec![0.0; n],
             ys: vec![0.0; n],
             zs: vec![0.0; n],
@@ -139,7 +144,7 @@ impl NeighborIndex {
             return;
         }
         let at = self.place_of(search.query[0], search.query[1]);
-        let first = self.occupancy.first_ring(at.cell);
+        let first = self.occupancy.as_ref().map_or(0, |occupancy| occupancy.first_ring(at.cell));
         if first == 0 {
             search.middle(self, &at);
         }

@@ -4,58 +4,63 @@
 const SHIFTS: [usize; 5] = [1, 1, 2, 4, 8];
 
 /// For each cell of a grid, whether anything lies within 1, 2, 4, 8 and 16 cells in row and column.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone)]
 pub(super) struct Occupancy {
     /// Words of a row.
     words: usize,
-    /// A bit for each cell, row by row; nearest first.
-    within: [Vec<u64>; SHIFTS.len()],
+    /// Words of a distance.
+    size: usize,
+    /// A bit for each cell, row by row, for each distance, nearest first.
+    within: Vec<u64>,
 }
 
 impl Occupancy {
     /// Of a grid of cells, numbered row by row, of which some are filled.
     pub(super) fn new(columns: usize, rows: usize, is_filled: impl Fn(usize) -> bool) -> Self {
         let words = columns.div_ceil(64);
-        let mut filled = vec![0; words * rows];
+        let size = words * rows;
+        let mut bits = vec![0; size];
         for row in 0..rows {
             for column in 0..columns {
-                filled[row * words + column / 64] |=
+                bits[row * words + column / 64] |=
                     u64::from(is_filled(row * columns + column)) << (column % 64);
             }
         }
-        let within = SHIFTS.map(|shift| {
-            filled = spread(&filled, words, shift);
-            filled.clone()
-        });
-        Self { words, within }
+        let mut within = Vec::with_capacity(size * SHIFTS.len());
+        for shift in SHIFTS {
+            spread_along(&mut bits, words, shift);
+            let away = (shift * words).min(size);
+            let begin = within.len();
+            within.extend_from_slice(&bits);
+            within[begin + away..].iter_mut().zip(&bits).for_each(|(word, below)| *word |= below);
+            within[begin..].iter_mut().zip(&bits[away..]).for_each(|(word, above)| *word |= above);
+            bits.copy_from_slice(&within[begin..]);
+        }
+        Self { words, size, within }
     }
 
     /// No ring of cells before this one around a cell holds any point.
     pub(super) fn first_ring(&self, [column, row]: [usize; 2]) -> usize {
         let (word, bit) = (row * self.words + column / 64, column % 64);
-        let is_near = |within: &Vec<u64>| within[word] >> bit & 1 != 0;
-        match self.within.iter().position(is_near).unwrap_or(SHIFTS.len()) {
+        let is_near = |distance: &usize| self.within[distance * self.size + word] >> bit & 1 != 0;
+        match (0..SHIFTS.len()).find(is_near).unwrap_or(SHIFTS.len()) {
             0 => 0,
             farther => (1 << (farther - 1)) + 1,
         }
     }
 }
 
-/// Bits with those so many columns and rows away, rows of so many words.
-fn spread(bits: &[u64], words: usize, shift: usize) -> Vec<u64> {
-    let mut along = bits.to_vec();
-    for (along, row) in along.chunks_mut(words).zip(bits.chunks(words)) {
-        for (at, word) in along.iter_mut().enumerate() {
-            let before = at.checked_sub(1).map_or(0, |before| row[before]);
+/// Joins bits with those so many columns away, rows of so many words.
+fn spread_along(bits: &mut [u64], words: usize, shift: usize) {
+    for row in bits.chunks_mut(words) {
+        let mut before = 0;
+        for at in 0..row.len() {
+            let here = row[at];
             let after = row.get(at + 1).copied().unwrap_or(0);
-            *word |= row[at] << shift | before >> (64 - shift) | row[at] >> shift | after << (64 - shift);
+            row[at] |= here << shift | before >> (64 - shift) | here >> shift | after << (64 - shift);
+            before = here;
         }
     }
-    let mut spread = along.clone();
-    let away = (shift * words).min(along.len());
-    spread[away..].iter_mut().zip(&along).for_each(|(word, below)| *word |= below);
-    spread.iter_mut().zip(&along[away..]).for_each(|(word, above)| *word |= above);
-    spread
 }
 
 #[cfg(test)]
