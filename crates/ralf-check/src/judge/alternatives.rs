@@ -8,6 +8,12 @@ const YAWS: [f64; 13] = [-10.0, -7.0, -5.0, -3.0, -2.0, 2.0, 3.0, 5.0, 7.0, 10.0
 const CLOCKS: [f64; 8] = [-400.0, -300.0, -200.0, -100.0, 100.0, 200.0, 300.0, 400.0];
 const SHIFTS: [f64; 4] = [-1.0, -0.5, 0.5, 1.0];
 
+/// Turned farther, a radar's detections lie among other things altogether: more of them there may be beside some,
+/// degrees.
+const FAR_TURN: f64 = 45.0;
+/// So far to either side of a place that is the right one much less fits, degrees.
+const FOOT: f64 = 10.0;
+
 /// Yaws that are tried.
 pub(super) fn yaws() -> impl Iterator<Item = SensorChange> {
     YAWS.into_iter().map(SensorChange::yaw)
@@ -46,7 +52,14 @@ pub(super) fn best(
     }
     let tried = changes.map(|change| (change, tally(&change)));
     let beating = tried.filter(|(change, then)| now.is_beaten_by_factor(then, gain(change)));
+    let beating = beating.filter(|(change, then)| is_peak(change, then, &tally));
     beating.max_by(|a, b| a.1.share().total_cmp(&b.1.share()))
+}
+
+/// Whether a turn that is large fits better than those to either side of it: among trees beside a road any does.
+fn is_peak(change: &SensorChange, then: &Tally, tally: impl Fn(&SensorChange) -> Tally) -> bool {
+    let beats = |side: f64| tally(&change.and(&SensorChange::yaw(side))).is_beaten_by(then);
+    change.turn_deg[2].abs() < FAR_TURN || [-FOOT, FOOT].into_iter().all(beats)
 }
 
 /// A change of one quantity made exact: the smooth score is climbed in steps that are halved until they matter no more.
@@ -83,6 +96,22 @@ pub(super) fn exact(found: SensorChange, score: impl Fn(&SensorChange) -> f64) -
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// A tally of six moments, of which so many percent lie on something.
+    fn percent(share: f64) -> Tally {
+        Tally { moments: (0..6).map(|i| [share + f64::from(i % 2), 100.0]).collect() }
+    }
+
+    #[test]
+    fn a_large_turn_is_a_peak_and_no_thicket() {
+        let best_of = |beside: f64| {
+            let tally =
+                |change: &SensorChange| percent(if change.turn_deg[2] == 90.0 { 64.0 } else { beside });
+            best(&percent(45.0), yaws().filter(|yaw| yaw.turn_deg[2] == 90.0), |_| GAIN, tally)
+        };
+        assert_eq!(best_of(62.0), None, "as much of it at 80 and at 100 degrees");
+        assert_eq!(best_of(30.0).map(|(change, _)| change), Some(SensorChange::yaw(90.0)));
+    }
 
     #[test]
     fn a_yaw_is_made_exact() {

@@ -110,7 +110,10 @@ impl<'a> Case<'a> {
                 let (seen, told) = (timed.fit.velocity, predicted(&recorded, &mount, timed.t_ns));
                 [(timed.t_ns - first) as f64 * 1e-9, seen.x, seen.y, told.x, told.y]
             };
-            let share = |change: SensorChange| self.overlap(radar, &change, Measure::Beside).share();
+            let setup = Setup { motion: &recorded, lidar_changes: &[], ..self.setup() };
+            let looks = &self.sample.radars[radar];
+            let share =
+                |change: SensorChange| overlap(&setup, radar, looks, &change, Measure::Beside).share();
             let yaws = (-10..=10).map(f64::from).map(|yaw| [yaw, share(SensorChange::yaw(yaw))]);
             let clocks = (-8..=8).map(|i| f64::from(i) * 50.0).map(|ms| [ms, share(SensorChange::clock(ms))]);
             RadarFigures {

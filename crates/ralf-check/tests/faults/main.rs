@@ -78,11 +78,13 @@ fn told(found: &SequenceCheck) -> String {
         .join("; ")
 }
 
+/// All faults that are wanted, or those whose numbers `RALF_FAULTS` names.
 fn run(title: &str, base: &Arc<Recording>, wanted: impl Fn(&Fault) -> bool) {
     let mut failed = Vec::new();
     let (mut noticed, mut remedies) = ([0; 2], [0; 2]);
     println!("{title}\n{:>3}  {:<40} {:<8} {:<7} says", "", "fault", "noticed", "remedy");
-    for (i, fault) in faults().iter().enumerate().filter(|(_, fault)| wanted(fault)) {
+    let asked = |i: usize| is_asked_for("RALF_FAULTS", &(i + 1).to_string());
+    for (i, fault) in faults().iter().enumerate().filter(|(i, fault)| asked(*i) && wanted(fault)) {
         let row = judge(base, fault);
         let mark = |good| if good { "yes" } else { "NO" };
         let remedy = row.right_remedy.map_or("-", mark);

@@ -22,12 +22,12 @@ pub fn sequences() -> Vec<&'static PresetSequence> {
     sequences.filter(|sequence| is_asked_for("RALF_SEQUENCES", sequence.name)).collect()
 }
 
-/// From the number of a sequence's scans to those of a stretch.
-type Stretch = fn(usize) -> Range<usize>;
+/// What it is called, and which of so many scans it holds.
+type Stretch = (&'static str, fn(usize) -> Range<usize>);
 
 /// Of a sequence's scans: all, and short stretches at the begin and in the middle.
-fn stretches() -> Vec<(&'static str, Stretch)> {
-    vec![
+fn stretches() -> [Stretch; 5] {
+    [
         ("whole", |scans| 0..scans),
         ("first 3 s", |_| 0..SHORT[0]),
         ("first 1 s", |_| 0..SHORT[1]),

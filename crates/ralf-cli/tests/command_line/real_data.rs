@@ -1,6 +1,6 @@
 //! Whole runs on real recordings.
 
-use crate::support::ralf;
+use crate::support::{ralf, rows};
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::fs;
@@ -48,6 +48,27 @@ fn a_scene_of_nuscenes() {
     assert_eq!(lists("detections").iter().sum::<u64>(), 126_749);
     // There is but one LiDAR revolution: flag 8 everywhere else.
     assert_eq!(lists("flags").iter().filter(|flags| *flags & 8 == 0).count(), 6);
+}
+
+/// Whoever has no poses of this scene gets nearly the same labels.
+#[test]
+#[ignore = "labels a scene twice: cargo test -p ralf-cli --test command_line -- --ignored --nocapture range_rates"]
+fn range_rates_in_place_of_poses_give_a_scene_of_nuscenes_nearly_the_same_labels() {
+    let Some(data) = data("nuscenes") else { return };
+    let folder = tempfile::tempdir().unwrap();
+    let labels = |source: &str| -> Vec<Option<i64>> {
+        let out = folder.path().join(source);
+        let setting = format!("motion.source={source}");
+        ralf(["label", &data, "-o", out.to_str().unwrap(), "--no-check", "--quiet", "--set", &setting])
+            .exits(0);
+        let table = rows(out.join("sequences/scene-0061/plausibility.parquet"));
+        table.iter().map(|row| row.whole("label")).collect()
+    };
+    let [with, without] = ["recorded", "radar"].map(labels);
+    let alike = with.iter().zip(&without).filter(|(one, other)| one == other).count();
+    let share = alike as f64 / with.len() as f64;
+    println!("{:.2} % of {} labels agree", share * 100.0, with.len());
+    assert!(with.len() == without.len() && share >= 0.97, "{share}");
 }
 
 /// A sidecar has as many values as the cloud that its token leads to has points, by the data set's own tables.
