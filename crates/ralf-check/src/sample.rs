@@ -20,7 +20,7 @@ const RADAR_SCANS: usize = 120;
 const LIDAR_POINTS: usize = 60_000;
 /// What stands between these heights above the ground is an obstacle that a radar sees as well, m.
 const OBSTACLES: std::ops::Range<f64> = 0.4..3.0;
-/// Of the points, this share lies below less steep beams than the steepest ones; so many are looked at.
+/// Which quantile of the beams' slopes counts as the steepest, so that a few odd points don't; of about so many points.
 const STEEPEST: (f64, usize) = (0.98, 2000);
 /// Obstacles kept to be sought in another scan.
 const PROBES: usize = 800;
@@ -225,7 +225,8 @@ impl LidarLook {
         let kept = read.points.iter().step_by(step).filter(|point| is_return(point));
         let points: Vec<Point> =
             kept.map(|[x, y, z]| mount * Point::new((*x).into(), (*y).into(), (*z).into())).collect();
-        let ground = ground::fit(&points, &mount.translation.vector.into());
+        let lidar_at: Point = mount.translation.vector.into();
+        let ground = ground::fit(&points, &lidar_at);
         let height = |p: &Point| ground.as_ref().map_or(p.z, |ground| ground.height(p));
         let obstacles: Vec<&Point> = points.iter().filter(|p| OBSTACLES.contains(&height(p))).collect();
         let images = source.sequence().times.cameras.iter().map(Vec::len).max().unwrap_or(0);
@@ -238,7 +239,7 @@ impl LidarLook {
             probes: obstacles.iter().step_by(step).map(|p| **p).collect(),
             field: PlanField::new(obstacles.iter().map(|p| [p.x, p.y, p.z])),
             edges,
-            blind: (mount.translation.vector.into(), blind(&points, &mount.translation.vector.into())),
+            blind: (lidar_at, blind(&points, &lidar_at, height(&lidar_at))),
             ground,
             shape: CloudShape::of(&read.points),
             digest: hasher.finish(),
@@ -246,12 +247,17 @@ impl LidarLook {
     }
 }
 
-/// The distance at which the steepest beams come down to where obstacles begin, m.
-fn blind(points: &[Point], lidar: &Point) -> f64 {
-    let looked = points.iter().step_by(points.len().div_ceil(STEEPEST.1).max(1));
+/// The distance at which the steepest beams of a LiDAR so high above the ground come down to where obstacles begin, m:
+/// 0 where no beam looks down, for nothing is looked over then.
+fn blind(points: &[Point], lidar: &Point, height: f64) -> f64 {
+    // Rows of beams are powers of two: an odd step meets all of them.
+    let looked = points.iter().step_by(points.len().div_ceil(STEEPEST.1) | 1);
     let slopes: Vec<f64> = looked.map(|p| (lidar.z - p.z) / (p - lidar).xy().norm().max(1e-3)).collect();
-    let steepest = crate::statistics::quantile(&slopes, STEEPEST.0).filter(|slope| *slope > 0.0);
-    steepest.map_or(f64::INFINITY, |slope| (lidar.z - OBSTACLES.start) / slope)
+    match crate::statistics::quantile(&slopes, STEEPEST.0) {
+        None => f64::INFINITY,
+        Some(steepest) if steepest > 0.0 => (height - OBSTACLES.start).max(0.0) / steepest,
+        Some(_) => 0.0,
+    }
 }
 
 impl CloudShape {
@@ -296,11 +302,17 @@ mod tests {
 
     #[test]
     fn beams_that_reach_a_road_at_eight_metres_reach_the_height_of_obstacles_before() {
-        let lidar = Point::new(0.0, 0.0, 2.0);
-        let ring =
-            (0..2000).map(|i| f64::from(i) * 0.01).map(|a| Point::new(8.0 * a.cos(), 8.0 * a.sin(), 0.0));
-        assert!((blind(&ring.collect::<Vec<_>>(), &lidar) - 8.0 * 1.6 / 2.0).abs() < 1e-9);
-        assert_eq!(blind(&[], &lidar), f64::INFINITY);
+        // Wherever the vehicle frame has its zero.
+        for road in [0.0, -2.0, 1.0] {
+            let lidar = Point::new(0.0, 0.0, road + 2.0);
+            let ring = |z: f64| {
+                let angles = (0..2000).map(|i| f64::from(i) * 0.01);
+                angles.map(|a| Point::new(8.0 * a.cos(), 8.0 * a.sin(), z)).collect::<Vec<_>>()
+            };
+            assert!((blind(&ring(road), &lidar, 2.0) - 8.0 * 1.6 / 2.0).abs() < 1e-9);
+            assert_eq!(blind(&ring(road + 2.0), &lidar, 2.0), 0.0);
+            assert_eq!(blind(&[], &lidar, 2.0), f64::INFINITY);
+        }
     }
 
     #[test]

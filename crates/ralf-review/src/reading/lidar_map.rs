@@ -22,7 +22,7 @@ const LEAST_SCANS: usize = 2;
 type Visited = ([i32; 3], usize, Seen);
 
 /// One point for each cell of the world that several of the scans around one have seen something in, in the vehicle
-/// frame at its time.
+/// frame at its time. Scans that can't be read are left out, as labelling leaves them out.
 pub(crate) fn map(app: &App, sequence: &str, lidar: &str, scan: usize) -> Answer {
     let (index, reader) = app.sequence(sequence)?;
     let known = reader.sequence();
@@ -43,28 +43,42 @@ fn table(
     let odom_from_vehicle = motion.odom_from_vehicle(times[scan]);
     let mut visited: Vec<Visited> = Vec::new();
     let around = scan.saturating_sub(AROUND)..=(scan + AROUND).min(times.len() - 1);
-    let scans = spread(around);
-    for scan in &scans {
-        let here_from_there = odom_from_vehicle.inv_mul(&motion.odom_from_vehicle(times[*scan]));
-        let mut of_scan: Vec<Visited> = Vec::new();
-        for point in seen(reader, labels, (lidar, *scan), times[*scan])?.into_iter().flatten() {
-            let place = here_from_there * point.place;
-            of_scan.push((cell(&place.coords.into()), *scan, Seen { place, ..point }));
-        }
-        of_scan.sort_by_key(|(cell, ..)| *cell);
-        of_scan.dedup_by_key(|(cell, ..)| *cell);
-        visited.append(&mut of_scan);
+    let (mut read, mut problem) = (0, None);
+    for scan in spread(around) {
+        let points = match seen(reader, labels, (lidar, scan), times[scan]) {
+            Ok(points) => points.into_iter().flatten(),
+            Err(error) => {
+                problem = Some(error);
+                continue;
+            }
+        };
+        read += 1;
+        let here_from_there = odom_from_vehicle.inv_mul(&motion.odom_from_vehicle(times[scan]));
+        let moved = points.map(|seen| Seen { place: here_from_there * seen.place, ..seen });
+        visited.append(&mut one_each(moved, scan));
+    }
+    if let Some(problem) = problem.filter(|_| read == 0) {
+        return Err(problem);
     }
     visited.sort_by_key(|(cell, scan, _)| (*cell, *scan));
-    let least = LEAST_SCANS.min(scans.len());
+    let least = LEAST_SCANS.min(read);
     let cells = visited.chunk_by(|a, b| a.0 == b.0).filter(|visits| visits.len() >= least);
     let kept: Vec<Option<Seen>> = cells.map(|visits| Some(visits[0].2)).collect();
     let more = Map::from_iter([
         ("t_ns".to_owned(), time(times[scan])),
         ("odom_from_vehicle".to_owned(), matrix(&odom_from_vehicle)),
-        ("scans".to_owned(), json!(scans.len())),
+        ("scans".to_owned(), json!(read)),
     ]);
     Ok(super::lidar::points(&kept, Table::new(kept.len())).finish(more))
+}
+
+/// One of a scan's points for each cell.
+fn one_each(points: impl Iterator<Item = Seen>, scan: usize) -> Vec<Visited> {
+    let mut visited: Vec<Visited> =
+        points.map(|seen| (cell(&seen.place.coords.into()), scan, seen)).collect();
+    visited.sort_by_key(|(cell, ..)| *cell);
+    visited.dedup_by_key(|(cell, ..)| *cell);
+    visited
 }
 
 /// So many of them that are read, as far apart from each other as may be.

@@ -4,13 +4,18 @@ use super::said::Said;
 use super::things;
 use crate::app::App;
 use crate::http::{Answer, ApiError, json};
+use crate::labelled::SequenceLabels;
 use ralf::label::{ARTIFACT, PLAUSIBLE};
 use ralf::sensors::Sequence;
 use ralf_corrections::ScanVersion;
-use ralf_data::things::{Change, SequenceThings};
-use serde_json::{Value, json};
+use ralf_data::SequenceReader;
+use ralf_data::things::{self as data, Change, SequenceThings};
+use serde_json::{Map, Value, json};
 use std::collections::{BTreeMap, BTreeSet};
 use std::thread::available_parallelism;
+
+/// It's thought over again so often where people say more meanwhile.
+const ROUNDS: usize = 3;
 
 /// Which things would be called otherwise by who has learned from what was said; nothing is changed by that. The first
 /// time all evidence is gathered, which takes a while.
@@ -18,23 +23,45 @@ pub(crate) fn opinion(app: &App, sequence: &str) -> Answer {
     let (index, reader) = app.sequence(sequence)?;
     let labels = app.labels(index)?;
     let things = labels.things(reader)?;
+    let said = || Said::of(app, index, reader)?.answers(app, &things);
+    let mut answers = said()?;
+    for _ in 0..ROUNDS {
+        let opinion = learned(app, reader, &labels, &things, &answers)?;
+        // Scans' revisions were read after the answers: they belong to these only if nobody has said more since.
+        let now = said()?;
+        if now == answers {
+            return json(&opinion);
+        }
+        answers = now;
+    }
+    let sentence = "somebody says more all the time: ask again when that is done";
+    Err(ApiError::Conflict(sentence.into(), Map::new()))
+}
+
+/// What would change by these answers, and what strokes on those scans rest on.
+fn learned(
+    app: &App,
+    reader: &dyn SequenceReader,
+    labels: &SequenceLabels,
+    things: &SequenceThings,
+    answers: &[Option<data::Answer>],
+) -> Result<Value, ApiError> {
     // Somebody goes on working meanwhile: half of the machine is theirs.
     let jobs = available_parallelism().map_or(1, |threads| threads.get().div_ceil(2));
-    let answers = Said::of(app, index, reader)?.answers(app, &things)?;
     let answered = answers.iter().filter(|answer| answer.is_some()).count();
     let changes = if answered == 0 {
         Vec::new()
     } else {
-        let observed = labels.observed(reader, &things, jobs)?;
-        things.second_opinion(&observed, &answers, jobs)
+        let observed = labels.observed(reader, things, jobs)?;
+        things.second_opinion(&observed, answers, jobs)
     };
     let sequence = reader.sequence();
     let scans: BTreeSet<(usize, usize)> =
         changes.iter().flat_map(|change| &change.rows).map(|row| things.scan_of(*row)).collect();
     let base: Vec<Value> =
         scans.into_iter().map(|scan| base(app, sequence, scan)).collect::<Result<_, ApiError>>()?;
-    let changes: Vec<Value> = changes.iter().map(|change| row(sequence, &things, change)).collect();
-    json(&json!({ "answered": answered, "changes": changes, "base": base }))
+    let changes: Vec<Value> = changes.iter().map(|change| row(sequence, things, change)).collect();
+    Ok(json!({ "answered": answered, "changes": changes, "base": base }))
 }
 
 /// What a stroke on a scan rests on.

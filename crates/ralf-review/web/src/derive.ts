@@ -3,7 +3,7 @@
 import { inAreas } from "./data/area.js";
 import { certaintyOf, visible } from "./data/filter.js";
 import { intersection } from "./selection/mask.js";
-import type { State } from "./state.js";
+import { homeOf, type State } from "./state.js";
 import type { Store } from "./store.js";
 import { paint } from "./viewer/colours.js";
 
@@ -11,9 +11,9 @@ export function deriveAlways(store: Store<State>): void {
   store.watch(
     ({ cloud, filter, scope }) => [cloud, filter, scope],
     (cloud, filter, scope) => {
-      const { labels, recording, selection, sequence } = store.state;
+      const { labels, recording, selection } = store.state;
       const passed = visible(cloud, filter, labels, certaintyOf(recording));
-      const shown = intersection(passed, inAreas(cloud, filter.areas, sequence, labels));
+      const shown = intersection(passed, inAreas(cloud, filter.areas, homeOf(store.state), labels));
       const eligible = scope === "shown" ? shown : shown.map((value, i) => value & Number(cloud.scanOf[i] === 0));
       const same = selection.length === cloud.count;
       store.set({ shown, eligible, selection: same ? intersection(selection, eligible) : new Uint8Array(cloud.count) });

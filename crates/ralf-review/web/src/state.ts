@@ -1,7 +1,7 @@
 /** Everything the page knows and shows. */
 
 import type { DoubtfulThing, ScanId, History, Opinion, Progress, QueueScan, Recording } from "./api/types.js";
-import type { AreaKind } from "./data/area.js";
+import type { AreaKind, Home } from "./data/area.js";
 import type { CameraMoment } from "./data/camera-moment.js";
 import { buildCloud, type Cloud } from "./data/cloud.js";
 import { everything, type Filter } from "./data/filter.js";
@@ -146,6 +146,11 @@ const NOTHING_DONE = {
   dialog: "none",
   frameTime: 0,
 } as const satisfies Partial<State>;
+
+/** Whose places are on screen. */
+export function homeOf({ recording, sequence }: Readonly<State>): Home {
+  return { dataset: recording.dataset, sequence };
+}
 
 export function initialState(recording: Recording, name: string): State {
   return {

@@ -134,7 +134,7 @@ pub(super) fn deviations(evidence: &Evidence, values: &Values, open: Open) -> De
     let [stretches, kinds] =
         [&by_stretch[..], &by_kind[..]].map(|slopes| covariance * disagreement(slopes) * covariance);
     let of = |variances: Matrix4<f64>| {
-        Values::from_fn(|i, _| if open[i] { variances[(i, i)].sqrt().min(1.0) } else { 1.0 })
+        Values::from_fn(|i, _| if open[i] { variances[(i, i)].max(0.0).sqrt().min(1.0) } else { 1.0 })
     };
     Deviations { chance: of(covariance + stretches), contradiction: of(kinds) }
 }

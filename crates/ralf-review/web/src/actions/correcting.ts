@@ -64,20 +64,25 @@ export class Correcting {
     await this.outbox.add(strokes);
   }
 
-  /** Makes what an opinion would change so, as one step. What somebody has said meanwhile stays. */
-  async applyOpinion(opinion: Opinion): Promise<void> {
+  /**
+   * Makes what an opinion would change so, as one step, and says whether it does. It rests on what was said when the
+   * opinion was made: whatever was said since is a conflict.
+   */
+  async applyOpinion(opinion: Opinion, begin: () => void): Promise<boolean> {
     const { store } = this.world;
     const { cloud, sequence, outbox } = store.state;
-    if (opinion.changes.length === 0 || outbox.kind === "conflict" || readOnly(this.world)) return;
+    if (opinion.changes.length === 0 || outbox.kind === "conflict" || readOnly(this.world)) return false;
+    begin();
     const group = randomName();
     const strokes = [PLAUSIBLE, ARTIFACT].flatMap((label) => {
       const points = pointsOf(opinion.changes.filter((change) => change.label === label));
-      const base = baseOf(opinion, cloud, points);
+      const base = baseOf(opinion, points);
       const stroke = { id: randomName(), tool: "opinion", protect: true, label, base, points, group };
       return points.length === 0 ? [] : [{ sequence, stroke }];
     });
     store.set({ selection: new Uint8Array(cloud.count) });
     await this.outbox.add(strokes);
+    return true;
   }
 
   retry(): Promise<void> {

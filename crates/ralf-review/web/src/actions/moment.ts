@@ -28,7 +28,7 @@ export class Moment {
     try {
       const [cloud, lidar] = await Promise.all([
         loader.cloud(sequence, id, accumulate),
-        loader.scan(sequence, id).then((scan) => this.lidarOf(scan)),
+        loader.scan(sequence, id).then((scan) => this.lidarOrNone(scan)),
       ]);
       if (generation !== this.generation) return;
       const before = store.state.cameras;
@@ -55,6 +55,14 @@ export class Moment {
   private async lidarOf(scan: Scan): Promise<Lidar | null> {
     const { lidarShown, accumulate, sequence } = this.world.store.state;
     return lidarShown ? this.world.loader.lidar(sequence, scan, accumulate === MOST_ACCUMULATED) : null;
+  }
+
+  /** Detections are shown without a LiDAR scan that can't be read. */
+  private async lidarOrNone(scan: Scan): Promise<Lidar | null> {
+    return this.lidarOf(scan).catch((error: unknown) => {
+      complain(this.world, error);
+      return null;
+    });
   }
 
   /** Reads the LiDAR of the scan on screen, where it wasn't shown. */

@@ -1,17 +1,21 @@
 /** What the labels would be after what was said: asked for, looked at, and accepted as one step or dropped. */
 
 import type { ProposedChange } from "../api/types.js";
-import { maskOf } from "../data/cloud.js";
+import { type Cloud, maskOf } from "../data/cloud.js";
 import { countOfPoints, kept, pointsOf } from "../data/opinion.js";
-import { sameScan } from "../data/scan.js";
+import { sameScan, scanKey } from "../data/scan.js";
 import { counted } from "../format.js";
-import { intersection } from "../selection/mask.js";
+import { countOf, intersection } from "../selection/mask.js";
 import type { Correcting } from "./correcting.js";
 import type { Navigation } from "./navigation.js";
 import { lookAt } from "./thinging.js";
 import { complain, tell, type World } from "./world.js";
 
 export class Opining {
+  /** The scans that the proposal is looked at in, and whether others are being fetched for it. */
+  private seen = "";
+  private moving = false;
+
   constructor(
     private readonly world: World,
     private readonly navigation: Navigation,
@@ -20,6 +24,10 @@ export class Opining {
     world.store.watch(
       ({ sequence }) => [sequence],
       () => this.drop(),
+    );
+    world.store.watch(
+      ({ cloud }) => [cloud],
+      (cloud) => this.left(cloud),
     );
   }
 
@@ -44,7 +52,7 @@ export class Opining {
     await this.show(opinion.changes[at]).catch((error: unknown) => complain(this.world, error));
   }
 
-  /** Leaves the change that is looked at out. */
+  /** Leaves the change that is looked at out, and goes to the one after it. */
   leaveOut(): void {
     const { store } = this.world;
     const { opinion, opinionAt, cloud, selection } = store.state;
@@ -54,9 +62,10 @@ export class Opining {
     const changes = opinion.changes.filter((other) => other !== change);
     store.set({
       opinion: { ...opinion, changes },
-      opinionAt: Math.min(opinionAt, changes.length - 1),
+      opinionAt: opinionAt - 1,
       selection: selection.map((is, i) => is & (1 - out[i])),
     });
+    void this.next();
   }
 
   private async ask(): Promise<void> {
@@ -74,8 +83,11 @@ export class Opining {
           this.world,
           `Nothing else would change by what was said of ${counted(opinion.answered, "detection")}.`,
         );
+      const { thing, selection } = store.state;
+      if (thing !== null || countOf(selection) > 0)
+        return tell(this.world, "What would change is known, but you are at something: Shift+R shows it after that.");
       await this.navigation.wholeSequence(store.state.current ?? current);
-      store.set({ opinion, opinionAt: -1 });
+      store.set({ opinion, opinionAt: -1, thing: null });
       this.select();
     } finally {
       store.set({ thinking: false });
@@ -87,8 +99,7 @@ export class Opining {
     const { opinion, cloud, selection } = store.state;
     if (opinion === null) return;
     const accepted = kept(opinion, cloud, selection);
-    this.drop();
-    await this.correcting.applyOpinion(accepted);
+    if (!(await this.correcting.applyOpinion(accepted, () => this.drop()))) return;
     tell(this.world, `${counted(countOfPoints(pointsOf(accepted.changes)), "label")} changed; Ctrl+Z takes them back.`);
   }
 
@@ -96,11 +107,21 @@ export class Opining {
     const { store } = this.world;
     const { opinion, cloud, selection } = store.state;
     if (opinion !== null && !cloud.scans.some((scan) => sameScan(scan, change))) {
-      store.set({ opinion: kept(opinion, cloud, selection) });
-      await this.navigation.wholeSequence(change);
+      const still = kept(opinion, cloud, selection);
+      const at = still.changes.findIndex(({ thing }) => thing === change.thing);
+      store.set({ opinion: still, opinionAt: at });
+      this.moving = true;
+      await this.navigation.wholeSequence(change).finally(() => (this.moving = false));
       this.select();
     }
     lookAt(this.world, change);
+  }
+
+  /** Whoever looks at other scans doesn't look at the proposal any more: what is left out of it would be lost. */
+  private left(cloud: Cloud): void {
+    if (this.world.store.state.opinion === null || this.moving || scansOf(cloud) === this.seen) return;
+    this.drop();
+    tell(this.world, "The proposal is dropped, for you look at something else: Shift+R asks again.");
   }
 
   /** Everything that would change and may be changed is selected. */
@@ -108,6 +129,11 @@ export class Opining {
     const { store } = this.world;
     const { opinion, cloud, eligible } = store.state;
     if (opinion === null) return;
+    this.seen = scansOf(cloud);
     store.set({ selection: intersection(maskOf(cloud, pointsOf(opinion.changes)), eligible) });
   }
+}
+
+function scansOf({ scans }: Cloud): string {
+  return scans.map(scanKey).join();
 }

@@ -1,6 +1,8 @@
 /** Rules: filters with a name, which choose everything they let through, in this sequence and in others. */
 
+import { liesIn } from "../data/area.js";
 import { keepRules, readRules } from "../data/rules.js";
+import { homeOf } from "../state.js";
 import type { Navigation } from "./navigation.js";
 import type { Selecting } from "./selecting.js";
 import { complain, tell, type World } from "./world.js";
@@ -34,11 +36,14 @@ export class Ruling {
   async choose(name: string): Promise<void> {
     const { store } = this.world;
     const rule = readRules().find((known) => known.name === name);
-    const { current, sequence } = store.state;
+    const { current } = store.state;
     if (rule === undefined || current === null) return;
-    const elsewhere = rule.filter.areas.find((area) => area.sequence !== sequence);
+    const elsewhere = rule.filter.areas.find((area) => !liesIn(area, homeOf(store.state)));
     if (elsewhere !== undefined)
-      return tell(this.world, `${name} asks for places of sequence ${elsewhere.sequence}: it chooses nothing here.`);
+      return tell(
+        this.world,
+        `${name} asks for places of sequence ${elsewhere.sequence} of ${elsewhere.dataset}: it chooses nothing here.`,
+      );
     try {
       await this.navigation.wholeSequence(current);
       store.set({ filter: rule.filter, thing: null });

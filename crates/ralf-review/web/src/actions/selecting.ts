@@ -48,7 +48,7 @@ export class Selecting {
   choose(choice: Choice): void {
     const { store } = this.world;
     const { selection, armed, thing } = store.state;
-    if (store.state.opinion !== null) store.set({ opinion: null });
+    if (this.proposed()) return;
     if (countOf(selection) > 0 && thing !== null) this.begin(this.answer(choice));
     else if (countOf(selection) > 0) this.begin(this.correcting.apply(choice, this.lastTool));
     else store.set({ armed: armed === choice ? undefined : choice });
@@ -60,11 +60,19 @@ export class Selecting {
     if (this.world.store.state.outbox.kind === "idle") await this.things.next();
   }
 
+  /** Whether what is selected is what a proposal would change: that is accepted or dropped, never all one class. */
+  private proposed(): boolean {
+    if (this.world.store.state.opinion === null) return false;
+    tell(this.world, "A proposal is looked at: Shift+R accepts it, Esc drops it.");
+    return true;
+  }
+
   disarm(): void {
     this.world.store.set({ armed: undefined });
   }
 
   flip(): void {
+    if (this.proposed()) return;
     this.begin(this.correcting.flip(this.lastTool));
   }
 

@@ -3,7 +3,7 @@
 import { type AreaKind, areaOf } from "../data/area.js";
 import { everything, type Filter } from "../data/filter.js";
 import type { Point } from "../selection/geometry.js";
-import type { Dialog, ViewMode } from "../state.js";
+import { type Dialog, homeOf, type ViewMode } from "../state.js";
 import { type ColourMode, colourModes } from "../viewer/colours.js";
 import { tell, type World } from "./world.js";
 
@@ -67,8 +67,8 @@ export class Viewing {
   /** A stroke that says where was drawn: x, y in the frame of the scan under review, m. */
   drew(path: readonly Point[]): void {
     const { store } = this.world;
-    const { drawing, cloud, sequence, filter } = store.state;
-    const area = drawing === null ? null : areaOf(drawing, path, cloud, sequence);
+    const { drawing, cloud, filter } = store.state;
+    const area = drawing === null ? null : areaOf(drawing, path, cloud, homeOf(store.state));
     store.set({ drawing: null });
     if (area !== null) this.filter({ areas: [...filter.areas, area] });
   }

@@ -8,10 +8,14 @@ import { movePlace, place, targetFromSource } from "./transform.js";
 export const AREAS = ["inside", "behind", "mirror"] as const;
 export type AreaKind = (typeof AREAS)[number];
 
-export interface Area {
-  readonly kind: AreaKind;
-  /** The odometry frame is this sequence's. */
+/** Whose odometry frame it is: many recordings have a sequence 00. */
+export interface Home {
+  readonly dataset: string;
   readonly sequence: string;
+}
+
+export interface Area extends Home {
+  readonly kind: AreaKind;
   /** An outline's corners, or the two ends of a surface, x, y in the odometry frame, m. */
   readonly corners: readonly Point[];
 }
@@ -22,7 +26,7 @@ const MIRRORED_WITHIN = 1;
 const LEAST_SIDE = 0.1;
 
 /** The area that was drawn, as a path in the frame of the scan under review; `null` where it has no extent. */
-export function areaOf(kind: AreaKind, path: readonly Point[], cloud: Cloud, sequence: string): Area | null {
+export function areaOf(kind: AreaKind, path: readonly Point[], cloud: Cloud, home: Home): Area | null {
   const from = cloud.scans[0]?.table.header.odom_from_vehicle ?? null;
   const apart = (a: Point, b: Point): number => Math.hypot(a[0] - b[0], a[1] - b[1]);
   const steps = path.filter((point, i) => i === 0 || apart(point, path[i - 1]) > 0);
@@ -33,7 +37,11 @@ export function areaOf(kind: AreaKind, path: readonly Point[], cloud: Cloud, seq
     const [ox, oy] = from === null ? [x, y] : place(from, [x, y, 0]);
     return [ox, oy];
   });
-  return { kind, sequence, corners };
+  return { kind, ...home, corners };
+}
+
+export function liesIn(area: Area, { dataset, sequence }: Home): boolean {
+  return area.dataset === dataset && area.sequence === sequence;
 }
 
 /** The corners in the frame of the scan under review. */
@@ -46,10 +54,10 @@ export function cornersHere({ corners }: Area, cloud: Cloud): readonly Point[] {
 }
 
 /** 1 for each detection that lies in all of the areas; those of another sequence have nothing in them. */
-export function inAreas(cloud: Cloud, areas: readonly Area[], sequence: string, labels: LabelBook): Uint8Array {
+export function inAreas(cloud: Cloud, areas: readonly Area[], home: Home, labels: LabelBook): Uint8Array {
   const inside = new Uint8Array(cloud.count).fill(1);
   for (const area of areas) {
-    const has = area.sequence === sequence ? asked(area, cloud, labels) : (): boolean => false;
+    const has = liesIn(area, home) ? asked(area, cloud, labels) : (): boolean => false;
     for (let i = 0; i < cloud.count; i++) {
       const at: Point = [cloud.positions[3 * i], cloud.positions[3 * i + 1]];
       if (inside[i] === 1 && !has(at, i)) inside[i] = 0;
@@ -105,7 +113,9 @@ function plausibleCells(
     const at: Point = [cloud.positions[3 * i], cloud.positions[3 * i + 1]];
     if (labels.truth(cloud.label[i]) !== "plausible" || behind(at, i)) continue;
     const name = key(cell(at[0]), cell(at[1]));
-    cells.set(name, [...(cells.get(name) ?? []), at]);
+    const there = cells.get(name);
+    if (there === undefined) cells.set(name, [at]);
+    else there.push(at);
   }
   return ([x, y]) =>
     [-1, 0, 1].some((di) =>
@@ -124,8 +134,8 @@ export function areasFrom(kept: unknown): readonly Area[] {
     const kind = AREAS.find((name) => name === one?.kind);
     const corners = Array.isArray(one?.corners) ? one.corners.filter(isPoint) : [];
     const whole = corners.length >= (kind === "inside" ? 3 : 2);
-    return kind !== undefined && typeof one?.sequence === "string" && whole
-      ? [{ kind, sequence: one.sequence, corners }]
+    return kind !== undefined && typeof one?.dataset === "string" && typeof one.sequence === "string" && whole
+      ? [{ kind, dataset: one.dataset, sequence: one.sequence, corners }]
       : [];
   });
 }

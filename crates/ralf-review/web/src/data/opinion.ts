@@ -32,13 +32,13 @@ export function kept(opinion: Opinion, cloud: Cloud, selection: Uint8Array): Opi
   return { ...opinion, changes };
 }
 
-/** What a stroke on these scans rests on: what is on screen is what was looked at. */
-export function baseOf({ base }: Opinion, cloud: Cloud, points: readonly ScanPoints[]): readonly BaseRevision[] {
+/** How many of the detections that would change are in scans that aren't on screen. */
+export function countElsewhere({ changes }: Opinion, cloud: Cloud): number {
+  return countOfPoints(pointsOf(changes).filter((part) => findScan(cloud, part) < 0));
+}
+
+/** What a stroke on these scans rests on: what was said when the opinion was made. */
+export function baseOf({ base }: Opinion, points: readonly ScanPoints[]): readonly BaseRevision[] {
   const wanted = new Set(points.map(scanKey));
-  return base
-    .filter((one) => wanted.has(scanKey(one)))
-    .map((one) => {
-      const at = findScan(cloud, one);
-      return at < 0 ? one : { ...one, revision: cloud.scans[at].revision };
-    });
+  return base.filter((one) => wanted.has(scanKey(one)));
 }

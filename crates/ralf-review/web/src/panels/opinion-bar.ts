@@ -1,7 +1,7 @@
 /** What would change by what was said: how much, where, and whether it shall. */
 
 import type { Opinion } from "../api/types.js";
-import { countOfPoints, kept, pointsOf } from "../data/opinion.js";
+import { countElsewhere, countOfPoints, kept, pointsOf } from "../data/opinion.js";
 import type { LabelBook } from "../data/labels.js";
 import { h, say } from "../dom.js";
 import { counted } from "../format.js";
@@ -49,7 +49,9 @@ function proposal({ cloud, selection, labels }: Readonly<State>, opinion: Opinio
   const become = (truth: "plausible" | "artifact"): number =>
     countOfPoints(pointsOf(changes.filter(({ label }) => labels.truth(label) === truth)));
   const [artifacts, plausible] = [counted(become("artifact"), "label"), become("plausible").toLocaleString("en")];
-  return `${artifacts} would become artifact, ${plausible} plausible, in ${counted(changes.length, "thing")}`;
+  const elsewhere = countElsewhere({ ...opinion, changes }, cloud);
+  const beyond = elsewhere === 0 ? "" : `, ${elsewhere.toLocaleString("en")} of them not on screen`;
+  return `${artifacts} would become artifact, ${plausible} plausible, in ${counted(changes.length, "thing")}${beyond}`;
 }
 
 function looked({ answered, changes }: Opinion, at: number, labels: LabelBook): string {

@@ -1,10 +1,11 @@
 /** The centre of the page: the WebGL picture, what is drawn over it, and the pointer on it. */
 
-import { cornersHere } from "../data/area.js";
+import { cornersHere, liesIn } from "../data/area.js";
 import { maskOf } from "../data/cloud.js";
 import { h } from "../dom.js";
 import { pointsOf } from "../history/outbox.js";
 import type { Page } from "../page.js";
+import { homeOf } from "../state.js";
 import type { Point } from "../selection/geometry.js";
 import { Surface } from "../selection/surface.js";
 import type { Gesture } from "../selection/tools.js";
@@ -180,8 +181,8 @@ export class Viewport {
 
   /** Where the filter asks for something. */
   private drawAreas(context: CanvasRenderingContext2D): void {
-    const { filter, cloud, sequence } = this.page.store.state;
-    const here = filter.areas.filter((area) => area.sequence === sequence);
+    const { filter, cloud } = this.page.store.state;
+    const here = filter.areas.filter((area) => liesIn(area, homeOf(this.page.store.state)));
     const pixels = here.map((area) => {
       const corners = cornersHere(area, cloud);
       const places = this.view.project(new Float32Array(corners.flatMap(([x, y]) => [x, y, 0])));

@@ -9,8 +9,10 @@ const labels = new LabelBook([]);
 /** The vehicle at (100, 50), turned to the left by a right angle: what is ahead of it lies in +y. */
 const turned = [0, -1, 0, 100, 1, 0, 0, 50, 0, 0, 1, 0, 0, 0, 0, 1];
 
+const home = { dataset: "city", sequence: "00" };
+
 function area(kind: Area["kind"], corners: Area["corners"]): Area {
-  return { kind, sequence: "00", corners };
+  return { kind, ...home, corners };
 }
 
 test("an outline is kept in the world and comes back where it was drawn", () => {
@@ -21,20 +23,21 @@ test("an outline is kept in the world and comes back where it was drawn", () => 
     [3, 1],
     [1, 1],
   ] as const;
-  const found = areaOf("inside", drawn, cloud, "00");
+  const found = areaOf("inside", drawn, cloud, home);
   assert.ok(found !== null);
   assert.deepEqual(found.corners[0], [101, 51]);
   assert.deepEqual(
     cornersHere(found, cloud).map(([x, y]) => [Math.round(x), Math.round(y)]),
     drawn,
   );
-  assert.deepEqual([...inAreas(cloud, [found], "00", labels)], [1, 0]);
-  assert.deepEqual([...inAreas(cloud, [found], "01", labels)], [0, 0], "another sequence has other places");
+  assert.deepEqual([...inAreas(cloud, [found], home, labels)], [1, 0]);
+  for (const other of [{ sequence: "01" }, { dataset: "country" }])
+    assert.deepEqual([...inAreas(cloud, [found], { ...home, ...other }, labels)], [0, 0], "elsewhere are other places");
 });
 
 test("what has no extent is no area", () => {
   const cloud = buildCloud([made("front", 0, { x: [1] })]);
-  assert.equal(areaOf("inside", [[1, 1]], cloud, "00"), null);
+  assert.equal(areaOf("inside", [[1, 1]], cloud, home), null);
   assert.equal(
     areaOf(
       "behind",
@@ -43,7 +46,7 @@ test("what has no extent is no area", () => {
         [1.01, 1],
       ],
       cloud,
-      "00",
+      home,
     ),
     null,
   );
@@ -55,13 +58,13 @@ test("behind a surface lies what the radar sees through it, from where it was", 
     [5, 2],
   ]);
   const cloud = buildCloud([made("front", 0, { x: [3, 7] })]);
-  assert.deepEqual([...inAreas(cloud, [wall], "00", labels)], [0, 1]);
+  assert.deepEqual([...inAreas(cloud, [wall], home, labels)], [0, 1]);
   const beyond = [1, 0, 0, 6, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1];
   const passed = buildCloud([
     made("front", 0, { x: [3, 7], odom: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1] }),
     made("front", 1, { x: [1], odom: beyond }),
   ]);
-  assert.deepEqual([...inAreas(passed, [wall], "00", labels)], [0, 1, 0], "the vehicle is past it by then");
+  assert.deepEqual([...inAreas(passed, [wall], home, labels)], [0, 1, 0], "the vehicle is past it by then");
 });
 
 test("a surface mirrors what is plausible before it, and nothing else behind it counts", () => {
@@ -72,7 +75,7 @@ test("a surface mirrors what is plausible before it, and nothing else behind it 
   // 7 is the image of 3, 12 of -2, where nothing is; 9 of 1, which is an artifact.
   const cloud = buildCloud([made("front", 0, { x: [3, 7, 12, 1, 9], machine: [99, 1, 1, 1, 1] })]);
   const book = new LabelBook([{ id: 1, name: "outlier", cluster: null, plausible: false }]);
-  assert.deepEqual([...inAreas(cloud, [wall], "00", book)], [0, 1, 0, 0, 0]);
+  assert.deepEqual([...inAreas(cloud, [wall], home, book)], [0, 1, 0, 0, 0]);
 });
 
 test("lines cross only between their ends, and mirror images are as far behind as the place is before", () => {

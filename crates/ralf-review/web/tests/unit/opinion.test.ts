@@ -2,7 +2,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import type { Opinion, ProposedChange, ScanPoints } from "../../src/api/types.js";
 import { buildCloud } from "../../src/data/cloud.js";
-import { baseOf, countOfPoints, kept, pointsOf } from "../../src/data/opinion.js";
+import { baseOf, countElsewhere, countOfPoints, kept, pointsOf } from "../../src/data/opinion.js";
 import { made } from "./scans.js";
 
 function change(thing: number, label: number, points: readonly ScanPoints[]): ProposedChange {
@@ -32,19 +32,20 @@ test("what is left out on screen isn't changed, and what isn't on screen is", ()
   );
 });
 
-test("changes of several things in a scan are one part of the stroke, on the revision that was looked at", () => {
+test("changes of several things in a scan are one part of the stroke, on the revision that was learned from", () => {
   const points = pointsOf(opinion.changes);
   assert.deepEqual(points, [front(0, 0, 2, 1), front(7, 5)]);
   assert.equal(countOfPoints(points), 4);
+  assert.equal(countElsewhere(opinion, cloud), 1);
   assert.deepEqual(
-    baseOf(opinion, cloud, [front(7, 5), front(0, 1)]).map(({ scan, revision }) => [scan, revision]),
+    baseOf(opinion, [front(7, 5), front(0, 1)]).map(({ scan, revision }) => [scan, revision]),
     [
-      [0, 0],
+      [0, 3],
       [7, 4],
     ],
   );
   assert.deepEqual(
-    baseOf(opinion, cloud, [front(7, 5)]).map(({ scan }) => scan),
+    baseOf(opinion, [front(7, 5)]).map(({ scan }) => scan),
     [7],
   );
 });
