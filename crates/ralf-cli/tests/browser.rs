@@ -45,7 +45,7 @@ fn people_correct_labels_in_a_browser() {
     fs::write(&planted, Value::from(plant(&dataset, &out)).to_string()).unwrap();
     let mut tests = Command::new("node");
     tests
-        .args(["--test", "--test-concurrency=2", "--test-reporter=tap", "tests/browser"])
+        .args(["--test", "--test-concurrency=1", "--test-reporter=tap", "tests/browser"])
         .current_dir(page)
         .env("RALF_PROGRAM", PROGRAM)
         .env("RALF_DATASET", &dataset)

@@ -72,7 +72,7 @@ export class Opining {
     const { store, api } = this.world;
     const { sequence, current } = store.state;
     if (current === null || !this.correcting.free("thinking it over")) return;
-    store.set({ thinking: true, thing: null });
+    store.set({ thinking: true, thing: null, selection: new Uint8Array(store.state.selection.length) });
     try {
       const opinion = await api.opinion(sequence);
       if (sequence !== store.state.sequence) return;
@@ -83,6 +83,7 @@ export class Opining {
           this.world,
           `Nothing else would change by what was said of ${counted(opinion.answered, "detection")}.`,
         );
+      // Nobody's work is taken over: what was begun meanwhile comes first.
       const { thing, selection } = store.state;
       if (thing !== null || countOf(selection) > 0)
         return tell(this.world, "What would change is known, but you are at something: Shift+R shows it after that.");

@@ -180,8 +180,8 @@ async function relabelled(server, page, press, all) {
   const bar = page.locator(".opinion-bar");
   await page.waitForFunction(
     () => {
-      const said = document.querySelector(".opinion-bar b")?.textContent ?? "";
-      return document.querySelector(".notice:not([hidden])") !== null || said.includes("would become");
+      const bar = document.querySelector(".opinion-bar");
+      return bar.hidden || bar.textContent.includes("would become");
     },
     null,
     { timeout: 300_000 },
