@@ -3,7 +3,7 @@
 use super::Quantity;
 use super::free_space::{Heights, RayFan};
 use super::values::Values;
-use ralf::scene::{Association, Detection, Frame, LidarCloud, Strength, index_of};
+use ralf::scene::{Association, Detection, Frame, Strength, index_of};
 use ralf::sensors::Elevation;
 use ralf::space::{NeighborIndex, Point};
 
@@ -127,8 +127,7 @@ fn persistence(frame: &Frame, located: &[&Detection]) -> Vec<Option<f64>> {
 
 /// What the LiDAR sees where the detections are.
 fn surroundings(frame: &Frame, located: &[&Detection], persistence: &[Option<f64>], values: &mut Values) {
-    let Some(view) = &frame.lidar else { return };
-    let cloud = LidarCloud::new(view, frame.radar);
+    let Some((view, cloud)) = frame.lidar.as_ref().zip(frame.lidar_cloud()) else { return };
     let mut association = cloud.association(1);
     for detection in located {
         if let Some(nearest) = cloud.nearest(&mut association, detection).first() {

@@ -8,7 +8,7 @@ use super::columns::unobserved;
 use super::rings::Rings;
 use super::statistics::{median_of, quantile, ranks};
 use super::{Feature, Piece, Surroundings, Values};
-use crate::scene::{ByRange, Frame, Strength};
+use crate::scene::{Frame, Ordered, Strength};
 
 pub(super) const PIECE: Piece = Piece {
     features: &[
@@ -55,7 +55,7 @@ fn observe(surroundings: &Surroundings) -> Vec<Values> {
     let ranges: Vec<f64> = frame.scan.measured.spherical.iter().map(|place| place.range).collect();
     let around = around(frame);
     let powers: Vec<f64> = around.iter().flat_map(|scan| &scan.power).copied().collect();
-    let own = ByRange::new(&strength.cross_section, ranges.iter().copied());
+    let own = Ordered::new(ranges.iter().copied(), strength.cross_section.iter().copied());
     let rings = Rings::new(around.iter().map(|scan| &scan.power_by_range));
     vec![
         ranks(&strength.cross_section),

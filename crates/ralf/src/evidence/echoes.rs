@@ -2,9 +2,8 @@
 
 use super::Surroundings;
 use super::distance::ROOM;
-use super::ordered::Ordered;
 use super::rates::Rates;
-use crate::scene::Strength;
+use crate::scene::{Ordered, Strength};
 use std::f64::consts::SQRT_2;
 
 /// Ranges and azimuths are the same if they differ by no more, in standard deviations of such a difference.
@@ -19,8 +18,8 @@ pub(super) struct Echoes<'a> {
     ranges: Vec<f64>,
     /// rad
     azimuths: Vec<f64>,
-    by_range: Ordered,
-    by_azimuth: Ordered,
+    by_range: Ordered<usize>,
+    by_azimuth: Ordered<usize>,
     /// Standard deviation of a range, m.
     sigma_range: f64,
     /// Standard deviation of an azimuth, rad.
@@ -59,8 +58,8 @@ impl<'a> Echoes<'a> {
         Some(Self {
             strength: frame.strength()?,
             rates: frame.doppler().map(|doppler| doppler.raw.as_slice()).zip(surroundings.rates()),
-            by_range: Ordered::new(&ranges),
-            by_azimuth: Ordered::new(&azimuths),
+            by_range: Ordered::new(ranges.iter().copied(), 0..),
+            by_azimuth: Ordered::new(azimuths.iter().copied(), 0..),
             ranges,
             azimuths,
             sigma_range: frame.radar.sigma_range.hypot(ROOM),

@@ -23,7 +23,6 @@ mod lidar_rays;
 mod lidar_residual;
 mod line_of_sight;
 mod mirror;
-mod ordered;
 mod persistence;
 mod probe;
 mod rates;

@@ -1,7 +1,7 @@
 //! Echoes of one range: what a radar sees depends on how far away it looks.
 
 use super::Values;
-use crate::scene::ByRange;
+use crate::scene::Ordered;
 use std::collections::BTreeMap;
 
 /// Echoes whose range differs by at most this stand in the same clutter, m.
@@ -9,11 +9,11 @@ const REACH: f64 = 5.0;
 
 /// Values of the echoes of some scans by their range.
 pub(super) struct Rings<'a> {
-    scans: Vec<&'a ByRange>,
+    scans: Vec<&'a Ordered<f64>>,
 }
 
 impl<'a> Rings<'a> {
-    pub(super) fn new(scans: impl Iterator<Item = &'a ByRange>) -> Self {
+    pub(super) fn new(scans: impl Iterator<Item = &'a Ordered<f64>>) -> Self {
         Self { scans: scans.collect() }
     }
 
@@ -62,7 +62,7 @@ mod tests {
             let (values, ranges): (Vec<f64>, Vec<f64>) = rows.into_iter().unzip();
             let first = first.min(values.len());
             let scans = [0..first, first..values.len()];
-            let scans = scans.map(|rows| ByRange::new(&values[rows.clone()], ranges[rows].iter().copied()));
+            let scans = scans.map(|rows| Ordered::new(ranges[rows.clone()].iter().copied(), values[rows].iter().copied()));
             let found = Rings::new(scans.iter()).over(&values, &ranges, median_of);
             for (i, found) in found.into_iter().enumerate() {
                 let near = |j: &usize| (ranges[*j] - ranges[i].round()).abs() <= REACH;

@@ -83,8 +83,7 @@ impl Unmoved {
             return index.count_beside(place, radius);
         }
         let mut near = 0;
-        index
-            .each_beside(place, radius, |at, _| near += u32::from(known[self.scan_at[at] as usize].moved_on));
+        index.each_beside(place, radius, |at| near += u32::from(known[self.scan_at[at] as usize].moved_on));
         near as usize
     }
 }

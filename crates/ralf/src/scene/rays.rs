@@ -144,13 +144,10 @@ impl Directions {
                 [axes[0][lane], axes[1][lane], axes[2][lane]] = *point;
             }
             let [x, y, z] = axes;
-            let across_squared: [f32; LANES] =
-                std::array::from_fn(|lane| x[lane] * x[lane] + y[lane] * y[lane]);
+            let across: [f32; LANES] = std::array::from_fn(|lane| across_squared(x[lane], y[lane]));
             let azimuth: [f32; LANES] = std::array::from_fn(|lane| arc_tangent(y[lane], x[lane]));
-            let elevation: [f32; LANES] =
-                std::array::from_fn(|lane| arc_tangent(z[lane], across_squared[lane].sqrt()));
-            let range: [f32; LANES] =
-                std::array::from_fn(|lane| (across_squared[lane] + z[lane] * z[lane]).sqrt());
+            let elevation: [f32; LANES] = std::array::from_fn(|lane| elevation_of(z[lane], across[lane]));
+            let range: [f32; LANES] = std::array::from_fn(|lane| range_of(z[lane], across[lane]));
             all.azimuth.extend_from_slice(&azimuth);
             all.elevation.extend_from_slice(&elevation);
             all.range.extend_from_slice(&range);
@@ -180,8 +177,21 @@ impl Directions {
 
 /// Azimuth and elevation, rad, to 1e-5, and range, m, of a point in the LiDAR's frame.
 pub fn direction_of(x: f32, y: f32, z: f32) -> (f32, f32, f32) {
-    let across_squared = x * x + y * y;
-    (arc_tangent(y, x), arc_tangent(z, across_squared.sqrt()), (across_squared + z * z).sqrt())
+    let across = across_squared(x, y);
+    (arc_tangent(y, x), elevation_of(z, across), range_of(z, across))
+}
+
+/// The squared distance from the LiDAR's axis, m^2.
+fn across_squared(x: f32, y: f32) -> f32 {
+    x * x + y * y
+}
+
+fn elevation_of(z: f32, across_squared: f32) -> f32 {
+    arc_tangent(z, across_squared.sqrt())
+}
+
+fn range_of(z: f32, across_squared: f32) -> f32 {
+    (across_squared + z * z).sqrt()
 }
 
 /// The bins of azimuth that a cone touches; the second stretch is empty unless it lies across the back.

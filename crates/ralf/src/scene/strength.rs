@@ -1,7 +1,7 @@
 //! How strong the echoes of a scan were, with and without what distance does to them.
 
+use super::ordered::Ordered;
 use crate::sensors::{AmplitudeKind, Radar, RadarScan};
-use std::ops::RangeInclusive;
 
 /// An echo from nearer than this is taken for one from there, m: a range of zero has no logarithm.
 const NEAREST: f64 = 0.1;
@@ -13,34 +13,8 @@ pub struct Strength {
     pub cross_section: Vec<f64>,
     /// What came back, but for a constant of the radar.
     pub power: Vec<f64>,
-    /// The power by range.
-    pub power_by_range: ByRange,
-}
-
-/// Values of echoes from near to far; without those whose range is no number.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct ByRange {
-    /// m, ascending.
-    ranges: Vec<f64>,
-    values: Vec<f64>,
-}
-
-impl ByRange {
-    /// Echoes' values and ranges, m.
-    pub fn new(values: &[f64], ranges: impl Iterator<Item = f64>) -> Self {
-        let echoes = ranges.zip(values.iter().copied()).filter(|(range, _)| range.is_finite());
-        let mut echoes: Vec<(f64, f64)> = echoes.collect();
-        echoes.sort_by(|(a, _), (b, _)| a.total_cmp(b));
-        let (ranges, values) = echoes.into_iter().unzip();
-        Self { ranges, values }
-    }
-
-    /// The values of the echoes whose range is in an interval.
-    pub fn within(&self, interval: RangeInclusive<f64>) -> &[f64] {
-        let first = self.ranges.partition_point(|range| range < interval.start());
-        let end = self.ranges.partition_point(|range| range <= interval.end());
-        self.values.get(first..end).unwrap_or_default()
-    }
+    /// The power by range, m.
+    pub power_by_range: Ordered<f64>,
 }
 
 impl Strength {
@@ -61,7 +35,8 @@ impl Strength {
                 (cross_section, measured)
             }
         };
-        let power_by_range = ByRange::new(&power, scan.spherical.iter().map(|place| place.range));
+        let power_by_range =
+            Ordered::new(scan.spherical.iter().map(|place| place.range), power.iter().copied());
         Some(Self { cross_section, power, power_by_range })
     }
 }

@@ -165,18 +165,17 @@ impl NeighborIndex {
     /// points alone. `found` is overwritten.
     pub fn beside(&self, place: [f32; 2], radius: f32, found: &mut Vec<u32>) {
         found.clear();
-        self.each_beside(place, radius, |at, _| found.push(self.ids[at]));
+        self.each_beside(place, radius, |at| found.push(self.ids[at]));
     }
 
-    /// Visits what [`Self::beside`] finds: each point's place in [`Self::ids`], and its squared distance, m^2.
-    pub fn each_beside(&self, [x, y]: [f32; 2], radius: f32, mut visit: impl FnMut(usize, f32)) {
+    /// Visits what [`Self::beside`] finds: each point's place in [`Self::ids`].
+    pub fn each_beside(&self, [x, y]: [f32; 2], radius: f32, mut visit: impl FnMut(usize)) {
         for run in self.runs_around([x, y], radius) {
             let points = self.xs[run.clone()].iter().zip(&self.ys[run.clone()]);
             for (at, (px, py)) in run.zip(points) {
                 let [dx, dy] = [px - x, py - y];
-                let distance_squared = dx * dx + dy * dy;
-                if distance_squared <= radius * radius {
-                    visit(at, distance_squared);
+                if dx * dx + dy * dy <= radius * radius {
+                    visit(at);
                 }
             }
         }
