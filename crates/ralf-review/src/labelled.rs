@@ -132,7 +132,8 @@ impl SequenceLabels {
     ) -> Result<Arc<Observed>, ApiError> {
         let gather = || {
             let model = Model::shipped().map_err(|error| ApiError::Broken(error.to_string()))?;
-            Ok(Observed::of(reader, (&self.rig, &self.settings), &model, things, jobs))
+            Observed::of(reader, (&self.rig, &self.settings), &model, things, jobs)
+                .map_err(|error| ApiError::Broken(error.to_string()))
         };
         self.observed.get((), |_| true, gather)
     }

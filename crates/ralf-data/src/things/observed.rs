@@ -5,7 +5,7 @@ use crate::frames::{Frames, ScanIndex};
 use crate::read::SequenceReader;
 use ralf::config::Config;
 use ralf::evidence::{features, observe};
-use ralf::learned::{Model, Rows};
+use ralf::learned::{Model, Rows, UseError};
 use ralf::scene::FrameWindow;
 use ralf::sensors::Rig;
 use ralf_train::learning::direction;
@@ -21,16 +21,20 @@ pub struct Observed {
 }
 
 impl Observed {
-    /// Gathers it from a recording; `rig` and `config` are those with which it was labelled, and `model` must be one
-    /// that this program can use. Of a scan that can't be read nothing is observed. The result is the same for any
-    /// `jobs`.
+    /// Gathers it from a recording; `rig` and `config` are those with which it was labelled. Of a scan that can't be
+    /// read nothing is observed. The result is the same for any `jobs`.
+    ///
+    /// # Errors
+    /// A model that this program can't use.
     pub fn of(
         reader: &dyn SequenceReader,
         (rig, config): (&Rig, &Config),
         model: &Model,
         things: &SequenceThings,
         jobs: usize,
-    ) -> Self {
+    ) -> Result<Self, UseError> {
+        model.check()?;
+        let columns = model.places_among(features().map(|feature| feature.name))?;
         let scans: Vec<ScanIndex> =
             things.scans().iter().map(|(radar, scan)| ScanIndex { radar: *radar, scan: *scan }).collect();
         let frames = Frames { reader, rig, config, evidence: true, jobs };
@@ -44,7 +48,7 @@ impl Observed {
         for rows in &gathered {
             evidence.append(rows);
         }
-        let log_odds = log_odds(model, &evidence);
+        let log_odds = model.plausible.log_odds(&evidence.pick_columns(&columns));
         let mut rows = Rows::absent(evidence.len(), width + 2);
         for (row, (log_odds, sighting)) in log_odds.into_iter().zip(things.sightings()).enumerate() {
             let to = rows.row_mut(row);
@@ -52,7 +56,7 @@ impl Observed {
             (to[width], to[width + 1]) = (log_odds as f32, sighting.w);
         }
         let monotone = features().map(|feature| direction(feature.name)).chain([1, 0]).collect();
-        Self { rows, monotone }
+        Ok(Self { rows, monotone })
     }
 }
 
@@ -70,13 +74,4 @@ fn observed(
         }
     }
     rows
-}
-
-/// What a model says of each row.
-fn log_odds(model: &Model, evidence: &Rows) -> Vec<f64> {
-    let mut columns = Vec::with_capacity(model.inputs.len());
-    for input in &model.inputs {
-        columns.extend(features().position(|feature| feature.name == input.name));
-    }
-    model.plausible.log_odds(&evidence.pick_columns(&columns))
 }

@@ -9,8 +9,7 @@ use ralf::learned::{Model, Unconfirmed};
 /// What a model is worth in a world of a table, with the settings' threshold. `None` where it reads what the table
 /// doesn't hold.
 pub fn worth_in(model: &Model, table: &TrainingTable, world: u16, config: &Config) -> Option<Scores> {
-    let place = |name: &str| table.features.iter().position(|feature| feature.name == name);
-    let columns: Vec<usize> = model.inputs.iter().map(|input| place(&input.name)).collect::<Option<_>>()?;
+    let columns = model.places_among(table.features.iter().map(|feature| feature.name)).ok()?;
     let is_here = |row: &usize| table.known[*row].world == world && table.known[*row].view == View::Whole;
     let here: Vec<usize> = (0..table.len()).filter(is_here).collect();
     let rows = table.rows.pick(here.iter().copied()).pick_columns(&columns);

@@ -77,10 +77,9 @@ impl<'a> LearnedLabeler<'a> {
     /// A model that this program can't use.
     pub fn new(config: &'a Config, model: &'a Model) -> Result<Self, UseError> {
         model.check()?;
-        let mut inputs: Vec<&'static Feature> = Vec::with_capacity(model.inputs.len());
-        for input in &model.inputs {
-            inputs.extend(features().find(|feature| feature.name == input.name));
-        }
+        let known: Vec<&'static Feature> = features().collect();
+        let places = model.places_among(known.iter().map(|feature| feature.name))?;
+        let inputs: Vec<&'static Feature> = places.into_iter().map(|place| known[place]).collect();
         let group_of: Vec<usize> = inputs.iter().map(|feature| group_of(feature)).collect();
         let explain = config.learned.reasons;
         let explainer = explain.then(|| Explainer::new(&model.plausible, &group_of, GROUPS.len()));

@@ -87,11 +87,7 @@ impl Model {
     /// # Errors
     /// The first feature that is not known, or not named.
     pub fn check(&self) -> Result<(), UseError> {
-        if let Some(unknown) =
-            self.inputs.iter().find(|input| features().all(|known| known.name != input.name))
-        {
-            return Err(UseError::UnknownFeature(unknown.name.clone()));
-        }
+        self.places_among(features().map(|feature| feature.name))?;
         let known = self.inputs.len();
         for forest in self.causes.iter().map(|cause| &cause.forest).chain([&self.plausible]) {
             let width = forest.width();
@@ -100,5 +96,18 @@ impl Model {
             }
         }
         Ok(())
+    }
+
+    /// Where each feature that the model reads stands among some, by their names.
+    ///
+    /// # Errors
+    /// The first feature that isn't among them.
+    pub fn places_among<'a>(&self, names: impl Iterator<Item = &'a str>) -> Result<Vec<usize>, UseError> {
+        let names: Vec<&str> = names.collect();
+        let place = |input: &Input| {
+            let found = names.iter().position(|name| *name == input.name);
+            found.ok_or_else(|| UseError::UnknownFeature(input.name.clone()))
+        };
+        self.inputs.iter().map(place).collect()
     }
 }
