@@ -11,7 +11,7 @@ mod dataset;
 use dataset::{SEQUENCE_TOML, tiny, write};
 use ralf::sensors::{Rig, Source};
 use ralf::space::Transform;
-use ralf_data::run::{LabelRun, Observer, Stage};
+use ralf_data::run::{LabelRun, Unwatched};
 use ralf_data::write::export::{Export, ExportFormat, ExportOptions, RosFormat, Sensors, Split, write_ros};
 use ralf_data::{LayoutSequence, Recording, Settings, open, open_with, write_sequence};
 use ralf_ros::container::Container;
@@ -130,14 +130,6 @@ fn what_ros_can_not_hold_is_refused_and_nothing_stays() {
     assert_eq!(names, ["sequences"]);
 }
 
-struct Quiet;
-
-impl Observer for Quiet {
-    fn begin(&self, _: Stage, _: u64) {}
-    fn advance(&self, _: u64, _: u64) {}
-    fn end(&self) {}
-}
-
 /// Every message of a recording, in the order of topics and times.
 fn messages(file: &Path, keep: impl Fn(&str) -> bool) -> Vec<(String, String, i64, Vec<u8>)> {
     let container = Container::open(file).unwrap();
@@ -176,7 +168,7 @@ fn original_messages_are_copied_beside_the_labelled_clouds() {
             checks: &[],
             model: None,
         }
-        .execute(&Quiet)
+        .execute(&Unwatched)
         .unwrap();
         let format = ExportFormat::named(format).unwrap();
         let options = ExportOptions { format, split: Split::All, sensors: Sensors::ALL, replace: false };

@@ -6,19 +6,11 @@ use ralf::config::{Config, Method};
 use ralf::label::flag;
 use ralf::learned::{Model, Origin};
 use ralf_data::result::{LabelledRun, Table};
-use ralf_data::run::{LabelRun, Observer, Stage};
+use ralf_data::run::{LabelRun, Unwatched};
 use ralf_data::{Recording, SequenceReader, Settings, TrainingGatherer, TrainingTruth};
 use ralf_sim::SimulatedSequence;
 use ralf_train::learning::{Fitting, Parameters, TrainingTable, View, fit};
 use std::path::{Path, PathBuf};
-
-struct Silent;
-
-impl Observer for Silent {
-    fn begin(&self, _: Stage, _: u64) {}
-    fn advance(&self, _: u64, _: u64) {}
-    fn end(&self) {}
-}
 
 /// A simulated recording of one short sequence.
 fn recording(seed: u64) -> Recording {
@@ -30,7 +22,7 @@ fn recording(seed: u64) -> Recording {
 
 fn table(jobs: usize) -> TrainingTable {
     let config = Config::default();
-    let gatherer = TrainingGatherer { config: &config, seed: 1, weight: 1.0, jobs, observer: &Silent };
+    let gatherer = TrainingGatherer { config: &config, seed: 1, weight: 1.0, jobs, observer: &Unwatched };
     let mut table = gatherer.table();
     for (world, seed) in [("one", 1), ("two", 2)] {
         let left_out = gatherer.add(&mut table, Some(world), &recording(seed), TrainingTruth::Known).unwrap();
@@ -61,7 +53,7 @@ fn label(out: &Path, assignments: &[&str], model: Option<&Model>, jobs: usize) -
         checks: &[],
         model,
     };
-    run.execute(&Silent).map_err(|error| error.to_string())?;
+    run.execute(&Unwatched).map_err(|error| error.to_string())?;
     let reader = recording.sequences[0].as_ref();
     let sequence = LabelledRun::open(out).unwrap().sequence(reader).unwrap();
     let mut scans = sequence.tables.tables(0).unwrap().into_iter().map(|(_, table)| table);

@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, reason = "of tests alone")]
 
 use ralf_data::many::{Job, Task, assemble, folders, label_one, plan, planned};
-use ralf_data::run::{Observer, Stage};
+use ralf_data::run::{Observer, Unwatched};
 use ralf_data::{DataError, Settings, write_simulated};
 use std::collections::BTreeMap;
 use std::fs;
@@ -13,25 +13,15 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 const ONE: NonZeroUsize = NonZeroUsize::MIN;
 
-struct Silent;
-
-impl Observer for Silent {
-    fn begin(&self, _: Stage, _: u64) {}
-    fn advance(&self, _: u64, _: u64) {}
-    fn end(&self) {}
-}
-
 /// Wants the work to end after so many scans.
 struct Impatient(AtomicUsize);
 
 impl Observer for Impatient {
-    fn begin(&self, _: Stage, _: u64) {}
     fn advance(&self, _: u64, detections: u64) {
         if detections > 0 {
             let _ = self.0.fetch_update(Ordering::Relaxed, Ordering::Relaxed, |left| left.checked_sub(1));
         }
     }
-    fn end(&self) {}
     fn stopped(&self) -> bool {
         self.0.load(Ordering::Relaxed) == 0
     }
@@ -83,8 +73,8 @@ fn parts_in_any_order_and_twice_make_what_one_machine_makes() {
     let root = tempfile::tempdir().unwrap();
     let drive = recording(root.path(), 1);
     let (whole, parts) = (root.path().join("whole"), root.path().join("parts"));
-    job(&drive, &whole).label(ONE, &Silent).unwrap();
-    let mut tasks = plan(&job(&drive, &parts), scans(5), ONE, &Silent).unwrap();
+    job(&drive, &whole).label(ONE, &Unwatched).unwrap();
+    let mut tasks = plan(&job(&drive, &parts), scans(5), ONE, &Unwatched).unwrap();
     assert!(tasks.len() > 1, "{}", tasks.len());
     tasks.reverse();
     // They cross to other machines as text.
@@ -93,17 +83,17 @@ fn parts_in_any_order_and_twice_make_what_one_machine_makes() {
     std::thread::scope(|scope| {
         for half in [&tasks[..], &tasks[tasks.len() / 2..]] {
             scope.spawn(move || {
-                half.iter().for_each(|task| assert_eq!(label_one(task, ONE, &Silent).unwrap(), []))
+                half.iter().for_each(|task| assert_eq!(label_one(task, ONE, &Unwatched).unwrap(), []))
             });
         }
     });
     assert_eq!(planned(root.path()).unwrap(), std::slice::from_ref(&parts));
-    let done = assemble(&parts, ONE, &Silent).unwrap();
+    let done = assemble(&parts, ONE, &Unwatched).unwrap();
     assert_eq!(done.labelled.len(), 1);
     assert!(content(&parts) == content(&whole));
     // What is done is not planned again, and a task that comes late does nothing.
-    assert_eq!(plan(&job(&drive, &parts), scans(5), ONE, &Silent).unwrap(), []);
-    assert_eq!(label_one(&tasks[0], ONE, &Silent).unwrap(), []);
+    assert_eq!(plan(&job(&drive, &parts), scans(5), ONE, &Unwatched).unwrap(), []);
+    assert_eq!(label_one(&tasks[0], ONE, &Unwatched).unwrap(), []);
     assert!(content(&parts) == content(&whole));
 }
 
@@ -112,13 +102,13 @@ fn a_part_that_was_lost_is_labelled_when_all_is_put_together() {
     let root = tempfile::tempdir().unwrap();
     let drive = recording(root.path(), 1);
     let (whole, parts) = (root.path().join("whole"), root.path().join("parts"));
-    job(&drive, &whole).label(ONE, &Silent).unwrap();
-    let tasks = plan(&job(&drive, &parts), scans(5), ONE, &Silent).unwrap();
+    job(&drive, &whole).label(ONE, &Unwatched).unwrap();
+    let tasks = plan(&job(&drive, &parts), scans(5), ONE, &Unwatched).unwrap();
     let stopped = label_one(&tasks[0], ONE, &Impatient(AtomicUsize::new(2))).unwrap_err();
     assert!(matches!(stopped, DataError::Stopped), "{stopped}");
     let kept = content(&parts).into_keys().filter(|name| name.extension().is_some_and(|end| end == "label"));
     assert_eq!(kept.count(), 2);
-    assemble(&parts, ONE, &Silent).unwrap();
+    assemble(&parts, ONE, &Unwatched).unwrap();
     assert!(content(&parts) == content(&whole));
 }
 
@@ -127,11 +117,11 @@ fn a_run_that_is_stopped_keeps_what_it_has_done() {
     let root = tempfile::tempdir().unwrap();
     let drive = recording(root.path(), 1);
     let (whole, out) = (root.path().join("whole"), root.path().join("out"));
-    job(&drive, &whole).label(ONE, &Silent).unwrap();
+    job(&drive, &whole).label(ONE, &Unwatched).unwrap();
     let stopped = job(&drive, &out).label(ONE, &Impatient(AtomicUsize::new(3))).unwrap_err();
     assert!(matches!(stopped, DataError::Stopped), "{stopped}");
     assert!(!out.join("run.json").exists());
-    job(&drive, &out).label(ONE, &Silent).unwrap();
+    job(&drive, &out).label(ONE, &Unwatched).unwrap();
     assert!(content(&out) == content(&whole));
 }
 
@@ -141,14 +131,14 @@ fn a_recording_that_changes_after_its_plan_is_labelled_as_it_is() {
     let root = tempfile::tempdir().unwrap();
     let drive = recording(root.path(), 1);
     let parts = root.path().join("parts");
-    let tasks = plan(&job(&drive, &parts), scans(1000), ONE, &Silent).unwrap();
-    label_one(&tasks[0], ONE, &Silent).unwrap();
+    let tasks = plan(&job(&drive, &parts), scans(1000), ONE, &Unwatched).unwrap();
+    label_one(&tasks[0], ONE, &Unwatched).unwrap();
     let file = first_radar_file(&drive);
     let bytes = fs::read(&file).unwrap();
     fs::write(&file, &bytes[..bytes.len() / 2 / 32 * 32]).unwrap();
-    assemble(&parts, ONE, &Silent).unwrap();
+    assemble(&parts, ONE, &Unwatched).unwrap();
     let whole = root.path().join("whole");
-    job(&drive, &whole).label(ONE, &Silent).unwrap();
+    job(&drive, &whole).label(ONE, &Unwatched).unwrap();
     assert!(content(&parts) == content(&whole));
 }
 
@@ -170,11 +160,11 @@ fn what_nobody_planned_is_refused() {
     let root = tempfile::tempdir().unwrap();
     let drive = recording(root.path(), 1);
     let [parts, other] = ["parts", "other"].map(|name| root.path().join(name));
-    let tasks = plan(&job(&drive, &parts), scans(5), ONE, &Silent).unwrap();
+    let tasks = plan(&job(&drive, &parts), scans(5), ONE, &Unwatched).unwrap();
     let with = |change: &dyn Fn(&mut Task)| {
         let mut task = tasks[0].clone();
         change(&mut task);
-        label_one(&task, ONE, &Silent).unwrap_err().to_string()
+        label_one(&task, ONE, &Unwatched).unwrap_err().to_string()
     };
     let elsewhere = with(&|task| task.job.out.clone_from(&other));
     assert!(elsewhere.contains("plan again"), "{elsewhere}");
@@ -183,9 +173,9 @@ fn what_nobody_planned_is_refused() {
     assert!(changed.contains("plan again"), "{changed}");
     let unknown = with(&|task| task.stretch.sequence = "99".into());
     assert!(unknown.contains("no sequence `99`"), "{unknown}");
-    let nothing = assemble(&other, ONE, &Silent).unwrap_err().to_string();
+    let nothing = assemble(&other, ONE, &Unwatched).unwrap_err().to_string();
     assert!(nothing.contains("plan.json"), "{nothing}");
-    let beside = plan(&job(&drive, &drive), scans(5), ONE, &Silent).unwrap_err().to_string();
+    let beside = plan(&job(&drive, &drive), scans(5), ONE, &Unwatched).unwrap_err().to_string();
     assert!(beside.contains("a part of the recording") && !drive.join("plan.json").exists(), "{beside}");
 }
 
@@ -200,10 +190,10 @@ fn a_damaged_recording_is_named() {
         "[[",
     )
     .unwrap();
-    let first = plan(&job(&drive, &out), scans(5), ONE, &Silent).unwrap_err().to_string();
+    let first = plan(&job(&drive, &out), scans(5), ONE, &Unwatched).unwrap_err().to_string();
     assert!(first.contains("sequence.toml"), "{first}");
     assert_eq!(planned(&out).unwrap(), std::slice::from_ref(&out));
-    assert_eq!(assemble(&out, ONE, &Silent).unwrap_err().to_string(), first);
+    assert_eq!(assemble(&out, ONE, &Unwatched).unwrap_err().to_string(), first);
 }
 
 #[test]

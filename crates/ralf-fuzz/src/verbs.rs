@@ -5,7 +5,7 @@ use ralf::sensors::{CameraImage, Source};
 use ralf_data::depth::DepthStore;
 use ralf_data::read::inspection::Inspection;
 use ralf_data::read::ros::Topics;
-use ralf_data::run::{LabelRun, Observer, Stage, read_record};
+use ralf_data::run::{LabelRun, Unwatched, read_record};
 use ralf_data::write::export::{Export, ExportFormat, ExportOptions, RosFormat, Sensors, Split, write_ros};
 use ralf_data::{Balances, Comparison, Corrections, DataError, GroundTruth, Recording, Settings};
 use ralf_depth::{DepthEstimator, OnnxModel};
@@ -65,19 +65,10 @@ pub(crate) const VERBS: [Verb; 26] = [
     Verb { name: "scenario", place: "scenario", damaged: "", writes: false, run: scenario },
 ];
 
-/// Is told of progress, and wants none.
-struct Nobody;
-
-impl Observer for Nobody {
-    fn begin(&self, _: Stage, _: u64) {}
-    fn advance(&self, _: u64, _: u64) {}
-    fn end(&self) {}
-}
-
 /// Labels a recording.
 pub(crate) fn label(recording: &Recording, settings: &Settings, out: &Path) -> Result<(), DataError> {
     LabelRun { recording, settings, out, jobs: 1, evidence: false, checks: &[], model: None }
-        .execute(&Nobody)
+        .execute(&Unwatched)
         .map(drop)
 }
 

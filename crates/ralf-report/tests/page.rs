@@ -1,20 +1,11 @@
 //! The page of small recordings, labelled for the test.
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
-use ralf_data::run::{LabelRun, Observer, Stage};
+use ralf_data::run::{LabelRun, Unwatched};
 use ralf_data::{Comparison, GroundTruth, Settings};
 use ralf_report::Report;
 use std::fs;
 use std::path::{Path, PathBuf};
-
-/// Says nothing of how a run gets on.
-struct Silent;
-
-impl Observer for Silent {
-    fn begin(&self, _: Stage, _: u64) {}
-    fn advance(&self, _: u64, _: u64) {}
-    fn end(&self) {}
-}
 
 /// One radar without LiDAR: three scans of a wall that stays, and of one detection that is somewhere else each time.
 struct Tiny(tempfile::TempDir);
@@ -89,7 +80,7 @@ fn label(dataset: &Path, out: &Path, evidence: bool) {
         checks: &[],
         model: None,
     };
-    run.execute(&Silent).unwrap();
+    run.execute(&Unwatched).unwrap();
 }
 
 #[test]
@@ -219,7 +210,7 @@ fn a_recording_of_another_format_without_truth() {
         checks: &[],
         model: None,
     };
-    run.execute(&Silent).unwrap();
+    run.execute(&Unwatched).unwrap();
     let page = Report { recording: &recording, out: &out, scans_per_sequence: 1 }.page(&|_| ()).unwrap().html;
     assert!(page.contains("This recording has no corrected labels") && page.contains("RADAR_FRONT"));
 }

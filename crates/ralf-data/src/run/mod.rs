@@ -95,11 +95,11 @@ pub enum Part {
 /// Is told how a run gets on. Called from several threads.
 pub trait Observer: Sync {
     /// A stage of so many steps begins.
-    fn begin(&self, stage: Stage, steps: u64);
+    fn begin(&self, _stage: Stage, _steps: u64) {}
     /// Some more steps of the stage are done, with so many detections in them.
-    fn advance(&self, steps: u64, detections: u64);
+    fn advance(&self, _steps: u64, _detections: u64) {}
     /// The stage is over.
-    fn end(&self);
+    fn end(&self) {}
     /// A worker was so long at a part of a scan.
     fn spent(&self, _part: Part, _time: Duration) {}
     /// Whether somebody wants the work to end: it then ends with [`DataError::Stopped`], and what is done is kept.
@@ -107,6 +107,12 @@ pub trait Observer: Sync {
         false
     }
 }
+
+/// Is told, and tells nobody.
+#[derive(Debug, Clone, Copy)]
+pub struct Unwatched;
+
+impl Observer for Unwatched {}
 
 /// How a run ended.
 #[derive(Debug)]

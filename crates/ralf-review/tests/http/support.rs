@@ -1,6 +1,6 @@
 //! A recording with labels, a server on it, and a client.
 
-use ralf_data::run::{LabelRun, Observer, Stage};
+use ralf_data::run::{LabelRun, Unwatched};
 use ralf_data::{Recording, Settings, open, write_sequence};
 use ralf_review::{Options, ReviewError, Server};
 use ralf_sim::presets;
@@ -19,14 +19,6 @@ pub(crate) const SEQUENCE: &str = "tiny";
 pub(crate) const RADAR: &str = "radar_front";
 pub(crate) const LIDAR: &str = "lidar_top";
 pub(crate) const CAMERA: &str = "camera_front";
-
-struct Silent;
-
-impl Observer for Silent {
-    fn begin(&self, _stage: Stage, _steps: u64) {}
-    fn advance(&self, _steps: u64, _detections: u64) {}
-    fn end(&self) {}
-}
 
 /// A recording of three scans per radar and its labels, made once.
 struct Made {
@@ -56,7 +48,7 @@ pub(crate) fn recording() -> Recording {
 /// Labels a recording.
 pub(crate) fn label(recording: &Recording, out: &Path, settings: &Settings) {
     LabelRun { recording, settings, out, jobs: 1, evidence: false, checks: &[], model: None }
-        .execute(&Silent)
+        .execute(&Unwatched)
         .unwrap();
 }
 
