@@ -2,8 +2,9 @@
 
 use super::{matrix, time};
 use crate::app::{App, measurement};
+use crate::cache::Cache;
 use crate::http::{Answer, ApiError, Table, content};
-use crate::labelled::SequenceLabels;
+use crate::labelled::{SequenceLabels, Stamp};
 use ralf::scene::{FrameWindow, LidarView};
 use ralf::sensors::is_return;
 use ralf::space::Point;
@@ -12,13 +13,23 @@ use serde_json::Map;
 
 /// The points of a scan in the vehicle frame at its time; those without return are absent.
 pub(crate) fn cloud(app: &App, sequence: &str, lidar: &str, scan: usize) -> Answer {
+    kept(app, &app.clouds, (sequence, lidar, scan), table)
+}
+
+/// What is made of a LiDAR and its scan, out of a cache or for it, as long as the labels are the same.
+pub(super) fn kept(
+    app: &App,
+    cache: &Cache<(usize, usize, usize), (Stamp, Vec<u8>)>,
+    (sequence, lidar, scan): (&str, &str, usize),
+    table: impl FnOnce(&dyn SequenceReader, &SequenceLabels, (usize, usize)) -> Result<Vec<u8>, ApiError>,
+) -> Answer {
     let (index, reader) = app.sequence(sequence)?;
     let known = reader.sequence();
     let names = known.rig.lidars.iter().map(|lidar| lidar.name.as_str());
-    let (lidar, t_ns) = measurement("lidar", names, &known.times.lidars, lidar, scan)?;
+    let (lidar, _) = measurement("lidar", names, &known.times.lidars, lidar, scan)?;
     let labels = app.labels(index)?;
-    let make = || table(reader, &labels, (lidar, scan), t_ns).map(|bytes| (labels.stamp.clone(), bytes));
-    let made = app.clouds.get((index, lidar, scan), |(stamp, _)| labels.is_of(stamp), make)?;
+    let make = || table(reader, &labels, (lidar, scan)).map(|bytes| (labels.stamp.clone(), bytes));
+    let made = cache.get((index, lidar, scan), |(stamp, _)| labels.is_of(stamp), make)?;
     Ok(content("application/octet-stream", made.1.clone()))
 }
 
@@ -26,8 +37,8 @@ fn table(
     reader: &dyn SequenceReader,
     labels: &SequenceLabels,
     (lidar, scan): (usize, usize),
-    t_ns: i64,
 ) -> Result<Vec<u8>, ApiError> {
+    let t_ns = reader.sequence().times.lidars[lidar][scan];
     let found = seen(reader, labels, (lidar, scan), t_ns)?;
     let more = Map::from_iter([
         ("t_ns".to_owned(), time(t_ns)),

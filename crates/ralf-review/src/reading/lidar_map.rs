@@ -1,9 +1,9 @@
 //! What several LiDAR scans around one have seen stand still.
 
-use super::lidar::{Seen, seen};
+use super::lidar::{Seen, kept, seen};
 use super::{matrix, time};
-use crate::app::{App, measurement};
-use crate::http::{Answer, ApiError, Table, content};
+use crate::app::App;
+use crate::http::{Answer, ApiError, Table};
 use crate::labelled::SequenceLabels;
 use ralf_data::SequenceReader;
 use serde_json::{Map, json};
@@ -24,14 +24,7 @@ type Visited = ([i32; 3], usize, Seen);
 /// One point for each cell of the world that several of the scans around one have seen something in, in the vehicle
 /// frame at its time. Scans that can't be read are left out, as labelling leaves them out.
 pub(crate) fn map(app: &App, sequence: &str, lidar: &str, scan: usize) -> Answer {
-    let (index, reader) = app.sequence(sequence)?;
-    let known = reader.sequence();
-    let names = known.rig.lidars.iter().map(|lidar| lidar.name.as_str());
-    let (lidar, _) = measurement("lidar", names, &known.times.lidars, lidar, scan)?;
-    let labels = app.labels(index)?;
-    let make = || table(reader, &labels, (lidar, scan)).map(|bytes| (labels.stamp.clone(), bytes));
-    let made = app.maps.get((index, lidar, scan), |(stamp, _)| labels.is_of(stamp), make)?;
-    Ok(content("application/octet-stream", made.1.clone()))
+    kept(app, &app.maps, (sequence, lidar, scan), table)
 }
 
 fn table(
@@ -40,12 +33,11 @@ fn table(
     (lidar, scan): (usize, usize),
 ) -> Result<Vec<u8>, ApiError> {
     let (motion, times) = (&reader.sequence().motion, &reader.sequence().times.lidars[lidar]);
-    let odom_from_vehicle = motion.odom_from_vehicle(times[scan]);
     let mut visited: Vec<Visited> = Vec::new();
     let around = scan.saturating_sub(AROUND)..=(scan + AROUND).min(times.len() - 1);
     let (mut read, mut problem) = (0, None);
-    for scan in spread(around) {
-        let points = match seen(reader, labels, (lidar, scan), times[scan]) {
+    for there in spread(around) {
+        let points = match seen(reader, labels, (lidar, there), times[there]) {
             Ok(points) => points.into_iter().flatten(),
             Err(error) => {
                 problem = Some(error);
@@ -53,9 +45,9 @@ fn table(
             }
         };
         read += 1;
-        let here_from_there = odom_from_vehicle.inv_mul(&motion.odom_from_vehicle(times[scan]));
+        let here_from_there = motion.between(times[scan], times[there]);
         let moved = points.map(|seen| Seen { place: here_from_there * seen.place, ..seen });
-        visited.append(&mut one_each(moved, scan));
+        visited.append(&mut one_each(moved, there));
     }
     if let Some(problem) = problem.filter(|_| read == 0) {
         return Err(problem);
@@ -63,13 +55,13 @@ fn table(
     visited.sort_by_key(|(cell, scan, _)| (*cell, *scan));
     let least = LEAST_SCANS.min(read);
     let cells = visited.chunk_by(|a, b| a.0 == b.0).filter(|visits| visits.len() >= least);
-    let kept: Vec<Option<Seen>> = cells.map(|visits| Some(visits[0].2)).collect();
+    let found: Vec<Option<Seen>> = cells.map(|visits| Some(visits[0].2)).collect();
     let more = Map::from_iter([
         ("t_ns".to_owned(), time(times[scan])),
-        ("odom_from_vehicle".to_owned(), matrix(&odom_from_vehicle)),
+        ("odom_from_vehicle".to_owned(), matrix(&motion.odom_from_vehicle(times[scan]))),
         ("scans".to_owned(), json!(read)),
     ]);
-    Ok(super::lidar::points(&kept, Table::new(kept.len())).finish(more))
+    Ok(super::lidar::points(&found, Table::new(found.len())).finish(more))
 }
 
 /// One of a scan's points for each cell.

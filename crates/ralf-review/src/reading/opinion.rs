@@ -67,7 +67,8 @@ fn learned(
 /// What a stroke on a scan rests on.
 fn base(app: &App, sequence: &Sequence, (radar, scan): (usize, usize)) -> Result<Value, ApiError> {
     let place = app.scan(&sequence.name, &sequence.rig.radars[radar].name, scan)?;
-    let content = app.content(&place)?;
+    let at = (place.sequence, place.radar, place.scan);
+    let content = app.contents.known(place.reader, at).map_or_else(|| app.content(&place), Ok)?;
     let revision = app.said(|store| store.scan(&ScanVersion { key: place.key.clone(), content }))?.revision;
     let content = content.hash.map(|hash| hash.to_string());
     Ok(json!({ "radar": place.key.radar, "scan": scan, "revision": revision, "content": content }))
