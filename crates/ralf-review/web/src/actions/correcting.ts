@@ -68,11 +68,10 @@ export class Correcting {
    * Makes what an opinion would change so, as one step, and says whether it does. It rests on what was said when the
    * opinion was made: whatever was said since is a conflict.
    */
-  async applyOpinion(opinion: Opinion, begin: () => void): Promise<boolean> {
+  async applyOpinion(opinion: Opinion): Promise<boolean> {
     const { store } = this.world;
     const { cloud, sequence, outbox } = store.state;
     if (opinion.changes.length === 0 || outbox.kind === "conflict" || readOnly(this.world)) return false;
-    begin();
     const group = randomName();
     const strokes = [PLAUSIBLE, ARTIFACT].flatMap((label) => {
       const points = pointsOf(opinion.changes.filter((change) => change.label === label));
@@ -80,7 +79,7 @@ export class Correcting {
       const stroke = { id: randomName(), tool: "opinion", protect: true, label, base, points, group };
       return points.length === 0 ? [] : [{ sequence, stroke }];
     });
-    store.set({ selection: new Uint8Array(cloud.count) });
+    store.set({ selection: new Uint8Array(cloud.count), opinion: null, opinionAt: -1 });
     await this.outbox.add(strokes);
     return true;
   }

@@ -100,7 +100,7 @@ export class Opining {
     const { opinion, cloud, selection } = store.state;
     if (opinion === null) return;
     const accepted = kept(opinion, cloud, selection);
-    if (!(await this.correcting.applyOpinion(accepted, () => this.drop()))) return;
+    if (!(await this.correcting.applyOpinion(accepted))) return;
     tell(this.world, `${counted(countOfPoints(pointsOf(accepted.changes)), "label")} changed; Ctrl+Z takes them back.`);
   }
 

@@ -152,7 +152,7 @@ export interface ScanHeader {
   /** Row-major 4 by 4, `null` where the recording has neither poses nor odometry. */
   readonly odom_from_vehicle: readonly number[] | null;
   /** Where the radar is in the vehicle frame, m. */
-  readonly origin?: readonly [x: number, y: number, z: number];
+  readonly origin: readonly [x: number, y: number, z: number];
   readonly lidar: { readonly name: string; readonly scan: number } | null;
   readonly cameras: readonly CameraImageId[];
   readonly failed_cameras: readonly string[];

@@ -81,7 +81,7 @@ function asked(area: Area, cloud: Cloud, labels: LabelBook): (at: Point, index: 
 function origins({ scans }: Cloud): readonly Point[] {
   const target = scans[0]?.table.header.odom_from_vehicle ?? null;
   return scans.map(({ table }): Point => {
-    const { odom_from_vehicle: source, origin = [0, 0, 0] } = table.header;
+    const { odom_from_vehicle: source, origin } = table.header;
     const [x, y] = place(targetFromSource(target, source), origin);
     return [x, y];
   });

@@ -84,10 +84,13 @@ export async function anotherBrowser(context, browser, viewport = { width: 1600,
   return own;
 }
 
-/** A page on the server; `complaints` are console errors, `strangers` are requests to anywhere else. */
+/**
+ * A page on the server; `complaints` are console errors, `strangers` are requests to anywhere else, `pending` those that
+ * are not answered yet, but for the one that waits for news.
+ */
 export async function open(context, browser, server, own) {
   const page = await (own ?? (await anotherBrowser(context, browser))).newPage();
-  const told = { page, complaints: [], strangers: [] };
+  const told = { page, complaints: [], strangers: [], pending: new Set() };
   const { origin } = new URL(server.url);
   page.on("console", (message) => {
     if (message.type() === "error" || message.type() === "warning") told.complaints.push(message.text());
@@ -96,7 +99,9 @@ export async function open(context, browser, server, own) {
   page.on("request", (request) => {
     const { protocol, origin: asked } = new URL(request.url());
     if (protocol !== "blob:" && asked !== origin) told.strangers.push(request.url());
+    if (!request.url().includes("/changes")) told.pending.add(request);
   });
+  for (const end of ["requestfinished", "requestfailed"]) page.on(end, (request) => told.pending.delete(request));
   await page.goto(server.url);
   await ready(page);
   return told;
@@ -107,6 +112,11 @@ export async function ready(page) {
   await page.waitForFunction(() =>
     / detections?$/.test(document.querySelector(".scan-title .faint")?.textContent ?? ""),
   );
+}
+
+/** Waits until the page has asked for nothing for a while. */
+export async function settled({ page, pending }) {
+  for (let quiet = 0; quiet < 10; quiet = pending.size === 0 ? quiet + 1 : 0) await page.waitForTimeout(30);
 }
 
 export function clean({ complaints, strangers }, expected = /$^/) {

@@ -38,6 +38,7 @@ export function made(
     revision: 0,
     reviewed: reviewed === true ? { author: "ada", at: "" } : null,
     odom_from_vehicle: odom,
+    origin: [0, 0, 0] as const,
     lidar: null,
     cameras: [],
     failed_cameras: [],
