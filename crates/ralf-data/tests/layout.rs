@@ -111,70 +111,61 @@ fn wanted_sequences_are_kept_and_unknown_ones_are_named() {
     assert_eq!(names(&["07"]).unwrap_err(), "no sequence `07` in the recording, which holds 00, 01");
 }
 
+/// What of the sequence's settings is replaced, by what, and what is said of it.
+const WRONG_SETTINGS: &[(&str, &str, &str)] = &[
+    ("format = 1", "format = 2", "format: expected 1, found 2"),
+    (
+        "0.0, 0.0, 0.38268343, 0.92387953",
+        "0, 0, 0, 0",
+        "[[radar]] radar_front: quaternion_xyzw: expected a length of 1",
+    ),
+    (
+        "[3.6, 0.0, 0.5]",
+        "[nan, 0.0, 0.5]",
+        "[[radar]] radar_front: translation: expected finite numbers, found NaN",
+    ),
+    ("translation = [3.6, 0.0, 0.5]", "", "[[radar]]: expected the key `translation`, found none"),
+    ("sigma_elevation_deg = 1.2", "", "[[radar]] radar_front: sigma_elevation_deg: expected a value where"),
+    ("\"measured\"", "\"some\"", "[[radar]]: expected `measured` or `none`, found unknown variant `some`"),
+    ("sigma_range_m = 0.10", "sigma_range_m = -0.1", "`sigma_range_m` of at least 0, found -0.1"),
+    ("fov_azimuth_deg = 160.0", "fov_azimuth_deg = 361", "`fov_azimuth_deg` above 0 and up to 360"),
+    ("[-80.0, 1.5]", "[-80.0, 0.5]", "reliability: expected values of at least 1, found 0.5 at -80 deg"),
+    (
+        "\"radar_rear\"",
+        "\"radar_front\"",
+        "name: expected a name that no other sensor has, found `radar_front`",
+    ),
+    (
+        "\"radar_rear\"",
+        "\"../radar_rear\"",
+        "expected the plain name of the sensor's own folder, found `../radar_rear`",
+    ),
+    ("\"radar_rear\"", "\"ground_truth\"", "expected the plain name"),
+    ("\"rcs\"", "\"w_lm\"", "fields: expected names that no column of the output has, found `w_lm`"),
+    ("\"rcs\"", "\"doppler\"", "fields: expected each name once, found `doppler`"),
+    ("\"x\", \"y\", \"z\"", "\"x\", \"y\", \"z\", \"range\", \"azimuth\", \"elevation\"", "found both in"),
+    ("\"x\", \"y\", \"z\"", "\"x\", \"y\"", "found neither in"),
+    ("lowest_beam_deg = 25.0", "lowest_beam_deg = 0", "`lowest_beam_deg` above 0 and up to 90, found 0"),
+    (
+        "lowest_beam_deg = 25.0",
+        "lowest_beam_deg = 25.0\nmax_range_m = -1",
+        "max_range_m: expected a finite number",
+    ),
+    (
+        "distortion = [0.05, -0.01]",
+        "distortion = [0, 0, 0, 0, 0]",
+        "distortion: expected up to 4 coefficients, found 5",
+    ),
+    ("fx = 3.3", "", "[[camera]] camera_front: fx: expected a value for this model, found none"),
+    ("fx = 3.3", "fx = 0", "fx, fy: expected values above 0, found 0"),
+    ("\"kannala-brandt\"", "\"scaramuzza\"", "inverse_polynomial: expected coefficients, found none"),
+    ("width = 4", "width = 0", "expected at least 1 x 1 pixels, found 0 x 2"),
+    ("horizontal_fov_deg = 100.0", "horizontal_fov_deg = 180", "expected an angle above 0 and below 180"),
+];
+
 #[test]
 fn settings_that_no_sensor_has_are_refused() {
-    for (from, to, expected) in [
-        ("format = 1", "format = 2", "format: expected 1, found 2"),
-        (
-            "0.0, 0.0, 0.38268343, 0.92387953",
-            "0, 0, 0, 0",
-            "[[radar]] radar_front: quaternion_xyzw: expected a length of 1",
-        ),
-        (
-            "[3.6, 0.0, 0.5]",
-            "[nan, 0.0, 0.5]",
-            "[[radar]] radar_front: translation: expected finite numbers, found NaN",
-        ),
-        ("translation = [3.6, 0.0, 0.5]", "", "[[radar]]: expected the key `translation`, found none"),
-        (
-            "sigma_elevation_deg = 1.2",
-            "",
-            "[[radar]] radar_front: sigma_elevation_deg: expected a value where",
-        ),
-        (
-            "\"measured\"",
-            "\"some\"",
-            "[[radar]]: expected `measured` or `none`, found unknown variant `some`",
-        ),
-        ("sigma_range_m = 0.10", "sigma_range_m = -0.1", "`sigma_range_m` of at least 0, found -0.1"),
-        ("fov_azimuth_deg = 160.0", "fov_azimuth_deg = 361", "`fov_azimuth_deg` above 0 and up to 360"),
-        ("[-80.0, 1.5]", "[-80.0, 0.5]", "reliability: expected values of at least 1, found 0.5 at -80 deg"),
-        (
-            "\"radar_rear\"",
-            "\"radar_front\"",
-            "name: expected a name that no other sensor has, found `radar_front`",
-        ),
-        (
-            "\"radar_rear\"",
-            "\"../radar_rear\"",
-            "expected the plain name of the sensor's own folder, found `../radar_rear`",
-        ),
-        ("\"radar_rear\"", "\"ground_truth\"", "expected the plain name"),
-        ("\"rcs\"", "\"w_lm\"", "fields: expected names that no column of the output has, found `w_lm`"),
-        ("\"rcs\"", "\"doppler\"", "fields: expected each name once, found `doppler`"),
-        (
-            "\"x\", \"y\", \"z\"",
-            "\"x\", \"y\", \"z\", \"range\", \"azimuth\", \"elevation\"",
-            "found both in",
-        ),
-        ("\"x\", \"y\", \"z\"", "\"x\", \"y\"", "found neither in"),
-        ("lowest_beam_deg = 25.0", "lowest_beam_deg = 0", "`lowest_beam_deg` above 0 and up to 90, found 0"),
-        (
-            "lowest_beam_deg = 25.0",
-            "lowest_beam_deg = 25.0\nmax_range_m = -1",
-            "max_range_m: expected a finite number",
-        ),
-        (
-            "distortion = [0.05, -0.01]",
-            "distortion = [0, 0, 0, 0, 0]",
-            "distortion: expected up to 4 coefficients, found 5",
-        ),
-        ("fx = 3.3", "", "[[camera]] camera_front: fx: expected a value for this model, found none"),
-        ("fx = 3.3", "fx = 0", "fx, fy: expected values above 0, found 0"),
-        ("\"kannala-brandt\"", "\"scaramuzza\"", "inverse_polynomial: expected coefficients, found none"),
-        ("width = 4", "width = 0", "expected at least 1 x 1 pixels, found 0 x 2"),
-        ("horizontal_fov_deg = 100.0", "horizontal_fov_deg = 180", "expected an angle above 0 and below 180"),
-    ] {
+    for (from, to, expected) in WRONG_SETTINGS {
         let (_folder, path) = tiny();
         assert!(dataset::SEQUENCE_TOML.contains(from), "{from}");
         write(&path.join("sequence.toml"), dataset::SEQUENCE_TOML.replacen(from, to, 1));
