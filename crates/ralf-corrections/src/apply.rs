@@ -1,6 +1,7 @@
 //! Writing a stroke.
 
 use crate::answered::{Asked, Made};
+use crate::causes::{causes, say};
 use crate::conflict::{Attempt, Refusal, overtaken_base};
 use crate::error::StoreError;
 use crate::model::{ScanEdit, ScanVersion, Stroke, Who};
@@ -75,9 +76,15 @@ fn changes(
 ) -> rusqlite::Result<Vec<(u32, Option<u16>)>> {
     let known: BTreeMap<u32, u16> = corrections(on, scan)?.into_iter().collect();
     let points: BTreeSet<u32> = edit.points.iter().copied().collect();
+    let why: BTreeMap<u32, String> = match &stroke.cause {
+        Some(_) => causes(on, scan)?.into_iter().collect(),
+        None => BTreeMap::new(),
+    };
     let with_before = points.into_iter().map(|point| (point, known.get(&point).copied()));
-    let changed =
-        with_before.filter(|(_, before)| *before != stroke.label && !(stroke.protect && before.is_some()));
+    let is_new = |point: &u32| stroke.cause.is_some() && why.get(point) != stroke.cause.as_ref();
+    let changed = with_before.filter(|(point, before)| {
+        (*before != stroke.label || is_new(point)) && !(stroke.protect && before.is_some())
+    });
     Ok(changed.collect())
 }
 
@@ -91,6 +98,9 @@ fn write(on: &Connection, stroke: &Stroke, who: &Who, parts: &[Part]) -> rusqlit
     let Stroke { sequence, tool, group, label, .. } = stroke;
     let new = NewStroke { event, sequence, tool, group: group.as_deref(), label: *label };
     let id = add_stroke(on, who, &new)?;
+    if let Some(cause) = &stroke.cause {
+        say(on, id, cause)?;
+    }
     let mut change =
         on.prepare_cached("INSERT INTO change (stroke, scan, point, before, after) VALUES (?, ?, ?, ?, ?)")?;
     for part in parts.iter().filter(|part| !part.changes.is_empty()) {

@@ -47,6 +47,7 @@
 
 mod answered;
 mod apply;
+mod causes;
 mod changes;
 mod conflict;
 mod content;

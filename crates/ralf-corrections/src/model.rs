@@ -54,6 +54,8 @@ pub struct Stroke {
     pub protect: bool,
     /// SemanticKITTI id; `None` takes corrections away.
     pub label: Option<u16>,
+    /// Why it is so. Detections that have the label already are told the cause, too.
+    pub cause: Option<String>,
     /// The detections.
     pub scans: Vec<ScanEdit>,
 }

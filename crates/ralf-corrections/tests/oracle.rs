@@ -183,7 +183,15 @@ fn step(store: &mut Store, model: &mut Model, author: u8, op: &Op) {
             let (label, protect) = (*label, *protect);
             let group_name = group.map(|group| group.to_string());
             let tool = "lasso".to_owned();
-            let stroke = Stroke { sequence: SEQUENCE.into(), tool, group: group_name, protect, label, scans };
+            let stroke = Stroke {
+                sequence: SEQUENCE.into(),
+                tool,
+                group: group_name,
+                protect,
+                label,
+                cause: None,
+                scans,
+            };
             let expected = (!stale).then(|| model.stroke(author, points, (label, protect, *group)));
             assert_eq!(changed(store.apply(&stroke, &who(author)).unwrap()), expected);
         }

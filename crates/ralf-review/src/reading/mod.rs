@@ -17,18 +17,24 @@ pub(crate) use detections::{check_size, detections, machine_labels, reviewed, st
 pub(crate) use lidar::cloud;
 pub(crate) use lidar_map::map;
 pub(crate) use moment::{Moment, moment};
-pub(crate) use opinion::opinion;
-pub(crate) use projection::{Projection, projection};
+pub(crate) use opinion::{Around, opinion};
+pub(crate) use projection::{LidarProjection, Projection, lidar_projection, projection, thing_projection};
 pub(crate) use queue::{progress, queue};
 pub(crate) use recording::recording;
 pub(crate) use things::{doubtful, things};
 
+use crate::http::ApiError;
 use ralf::space::Transform;
 use serde_json::{Value, json};
 
 /// A time, which may be more than a JavaScript number can hold.
 fn time(t_ns: i64) -> Value {
     Value::String(t_ns.to_string())
+}
+
+/// A time, as a query has it.
+fn read_time(text: &str) -> Result<i64, ApiError> {
+    text.parse().map_err(|error| ApiError::Malformed(format!("query: t_ns: expected nanoseconds: {error}")))
 }
 
 fn times(times: &[i64]) -> Vec<Value> {

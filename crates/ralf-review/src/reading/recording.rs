@@ -2,6 +2,7 @@
 
 use super::times;
 use crate::app::App;
+use crate::causes::sayable;
 use crate::http::{Answer, json};
 use crate::labelled::is_labelled;
 use ralf::label::{class_name, cluster_of, flag, truth_of};
@@ -44,6 +45,7 @@ pub(crate) fn recording(app: &App) -> Answer {
         "sequences": sequences,
         "classes": (0..=LAST_CLASS).filter_map(class).collect::<Vec<_>>(),
         "causes": app.causes.names(),
+        "sayable_causes": sayable(),
         "flags": flags,
     }))
 }

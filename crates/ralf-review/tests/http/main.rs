@@ -4,6 +4,7 @@
 mod correcting;
 mod ending;
 mod harm;
+mod images;
 mod reading;
 mod safety;
 mod support;

@@ -158,48 +158,6 @@ fn a_cloud_is_the_lidars_with_its_ground() {
 }
 
 #[test]
-fn an_image_is_the_file_and_detections_are_where_the_camera_sees_them() {
-    let out = Out::new();
-    let server = out.serve();
-    let image = server.of_sequence(&format!("cameras/{CAMERA}/images/1"));
-    let reader = &recording().sequences[0];
-    assert_eq!(image.body, std::fs::read(reader.image_file(0, 1).unwrap()).unwrap());
-    assert_eq!(image.headers["content-type"], "image/png");
-    let table =
-        server.of_sequence(&format!("cameras/{CAMERA}/images/1/detections?radar={RADAR}&scan=2")).table();
-    let sequence = reader.sequence();
-    let camera = &sequence.rig.cameras[0];
-    let (scan_ns, image_ns) = (sequence.times.radars[0][2], sequence.times.cameras[0][1]);
-    assert_ne!(scan_ns, image_ns);
-    let places = server.table(2);
-    let [x, y, z] = ["x", "y", "z"].map(|name| places.f32(name));
-    let [u, v, depth] = ["u", "v", "depth"].map(|name| table.f32(name));
-    let mut seen = 0;
-    for row in 0..places.rows() {
-        let at_scan = Point::from([x[row], y[row], z[row]].map(f64::from));
-        // By way of the world: the vehicle's pose at either time.
-        let in_world = sequence.motion.odom_from_vehicle(scan_ns) * at_scan;
-        let at_image = sequence.motion.odom_from_vehicle(image_ns).inverse() * in_world;
-        let p = camera.vehicle_from_camera.inverse() * at_image;
-        if u[row].is_nan() {
-            let outside = camera.intrinsics.project(&p).is_none_or(|[u, v]| {
-                !(-0.49..camera.width as f64 - 0.51).contains(&u)
-                    || !(-0.49..camera.height as f64 - 0.51).contains(&v)
-            });
-            assert!(outside && v[row].is_nan() && depth[row].is_nan());
-            continue;
-        }
-        let expected = camera.intrinsics.project(&p).unwrap();
-        assert!(
-            (expected[0] - f64::from(u[row])).abs() < 0.01 && (expected[1] - f64::from(v[row])).abs() < 0.01
-        );
-        assert!((p.z - f64::from(depth[row])).abs() < 1e-3);
-        seen += 1;
-    }
-    assert!(seen > 10, "{seen}");
-}
-
-#[test]
 fn a_moment_has_the_scans_around_it() {
     let out = Out::new();
     let server = out.serve();

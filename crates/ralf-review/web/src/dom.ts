@@ -33,6 +33,11 @@ export function h<Tag extends keyof HTMLElementTagNameMap>(
   return element;
 }
 
+/** How much larger text is than on a small screen. */
+export function textScale(): number {
+  return Number(getComputedStyle(document.documentElement).getPropertyValue("--scale")) || 1;
+}
+
 /** Puts other children in; leaves the element alone where its text would stay the same. */
 export function say(element: HTMLElement, text: string): void {
   if (element.textContent !== text) element.textContent = text;

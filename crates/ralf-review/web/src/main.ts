@@ -25,6 +25,7 @@ import { filterPanel } from "./panels/filter-panel.js";
 import { keyTable, listenToKeys } from "./panels/keys.js";
 import { legendPanel } from "./panels/legend.js";
 import { QueuePanel } from "./panels/queue-panel.js";
+import { ruleBar } from "./panels/rule-bar.js";
 import { scanBar, scanTitle } from "./panels/scan-bar.js";
 import { statusBar } from "./panels/status-bar.js";
 import { thingBar } from "./panels/thing-bar.js";
@@ -84,7 +85,14 @@ function build(page: Page): void {
   listenToKeys(table, page.store);
   keepFocus(viewport.element);
   const overlays = [legendPanel(page), scanTitle(page), painting(page), notice(page)];
-  const asked = [banner(page), acceptBar(page, home), thingBar(page), opinionBar(page), conflictDialog(page)];
+  const asked = [
+    banner(page),
+    acceptBar(page, home),
+    thingBar(page),
+    opinionBar(page),
+    ruleBar(page),
+    conflictDialog(page),
+  ];
   const stage = h("div", { class: "stage" }, viewport.element, centreCamera.element, ...overlays, ...asked);
   document.body.append(
     h(

@@ -73,6 +73,8 @@ export interface State {
   readonly accumulate: number;
   readonly lidarShown: boolean;
   readonly groundHidden: boolean;
+  /** The LiDAR's points are drawn into the cameras' images. */
+  readonly lidarInImages: boolean;
   /** A light background in the picture. */
   readonly light: boolean;
   /** Diameter of a detection, px. */
@@ -80,6 +82,8 @@ export interface State {
   readonly filter: Filter;
   /** Filters that were kept under a name. */
   readonly rules: readonly Rule[];
+  /** The rule whose selection is looked at, until it is applied or dropped. */
+  readonly rule: Rule | null;
   /** The camera a person chose to see large; `null`: the one that sees most. */
   readonly chosenCamera: string | null;
 
@@ -147,6 +151,11 @@ const NOTHING_DONE = {
   frameTime: 0,
 } as const satisfies Partial<State>;
 
+/** The thing that is looked at: the one that wants an answer, or that would change. */
+export function lookedAt({ thing, opinion, opinionAt }: Readonly<State>): DoubtfulThing | null {
+  return thing ?? opinion?.changes[opinionAt] ?? null;
+}
+
 /** Whose places are on screen. */
 export function homeOf({ recording, sequence }: Readonly<State>): Home {
   return { dataset: recording.dataset, sequence };
@@ -178,10 +187,12 @@ export function initialState(recording: Recording, name: string): State {
     accumulate: 0,
     lidarShown: true,
     groundHidden: true,
+    lidarInImages: false,
     light: false,
     dotSize: 8,
     filter: everything,
     rules: [],
+    rule: null,
     chosenCamera: null,
     shown: new Uint8Array(0),
     eligible: new Uint8Array(0),

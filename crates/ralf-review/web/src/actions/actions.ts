@@ -46,7 +46,7 @@ export function actionsOn(world: World, keeper: Keeper): Actions {
     view: new Viewing(world),
     hear: new Hearing(world, adopting, correct),
     thing,
-    rule: new Ruling(world, go, select),
+    rule: new Ruling(world, go, select, correct),
     opine: new Opining(world, go, correct),
   };
 }

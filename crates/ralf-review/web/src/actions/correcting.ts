@@ -36,14 +36,14 @@ export class Correcting {
     );
   }
 
-  /** Sets the selected detections to a label (`null`: the machine's guess). */
-  async apply(choice: Choice, tool: string): Promise<void> {
+  /** Sets the selected detections to a label (`null`: the machine's guess), and says why it is so. */
+  async apply(choice: Choice, tool: string, cause: string | null = null): Promise<void> {
     const { store } = this.world;
     const { selection, outbox } = store.state;
     if (countOf(selection) === 0 || outbox.kind === "conflict" || readOnly(this.world)) return;
-    const stroke = this.strokeOf(selection, choice, tool);
+    const { sequence, stroke } = this.strokeOf(selection, choice, tool);
     store.set({ selection: new Uint8Array(selection.length) });
-    await this.outbox.add([stroke]);
+    await this.outbox.add([{ sequence, stroke: cause === null ? stroke : { ...stroke, cause } }]);
   }
 
   /** Makes the selected plausible ones artifacts and the other way round, as one step. */

@@ -34,6 +34,7 @@ export class Selecting {
     // Whoever chooses something else isn't answering the queue any more.
     if (store.state.thing !== null) store.set({ thing: null });
     if (store.state.opinion !== null && how === "replace") store.set({ opinion: null });
+    if (store.state.rule !== null && how === "replace") store.set({ rule: null });
     if (armed !== undefined && how === "replace") {
       store.set({ selection: mask });
       this.begin(this.correcting.apply(armed, tool));
@@ -92,8 +93,9 @@ export class Selecting {
   escape(): void {
     const { store } = this.world;
     const { selection } = store.state;
-    if (countOf(selection) > 0) store.set({ selection: new Uint8Array(selection.length), thing: null, opinion: null });
-    else store.set({ armed: undefined, notice: null, accepting: null, opinion: null, drawing: null });
+    if (countOf(selection) > 0)
+      store.set({ selection: new Uint8Array(selection.length), thing: null, opinion: null, rule: null });
+    else store.set({ armed: undefined, notice: null, accepting: null, opinion: null, rule: null, drawing: null });
   }
 
   tool(tool: Tool): void {

@@ -19,6 +19,7 @@ import type {
   ScanId,
   StrokeAnswer,
   StrokeRequest,
+  ThingInImageHeader,
   ThingsHeader,
   TimedScan,
 } from "./types.js";
@@ -48,8 +49,8 @@ export class Api {
   }
 
   /** What the labels would be, after what people said; the first time it takes a while. */
-  opinion(sequence: string): Promise<Opinion> {
-    return this.json("GET", `${inSequence(sequence)}/opinion`);
+  opinion(sequence: string, tNs: string): Promise<Opinion> {
+    return this.json("GET", `${inSequence(sequence)}/opinion?${new URLSearchParams({ t_ns: tNs })}`);
   }
 
   progress(sequence: string): Promise<Progress> {
@@ -87,6 +88,22 @@ export class Api {
   ): Promise<Table<object>> {
     const query = new URLSearchParams({ radar, scan: String(scan) });
     return this.table(`${inSequence(sequence)}/cameras/${part(camera)}/images/${image}/detections?${query}`, call);
+  }
+
+  /** The points of a LiDAR scan that lie in an image, the farthest first. */
+  lidarInImage(
+    sequence: string,
+    camera: string,
+    image: number,
+    { name, scan }: { readonly name: string; readonly scan: number },
+  ): Promise<Table<object>> {
+    const query = new URLSearchParams({ lidar: name, scan: String(scan) });
+    return this.table(`${inSequence(sequence)}/cameras/${part(camera)}/images/${image}/lidar?${query}`);
+  }
+
+  /** The detections of a thing that lie in an image. */
+  thingInImage(sequence: string, camera: string, image: number, thing: number): Promise<Table<ThingInImageHeader>> {
+    return this.table(`${inSequence(sequence)}/cameras/${part(camera)}/images/${image}/things/${thing}`);
   }
 
   async moment(sequence: string, tNs: string, accumulate: number, call?: Call): Promise<readonly TimedScan[]> {

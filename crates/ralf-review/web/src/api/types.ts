@@ -50,6 +50,8 @@ export interface Recording {
   readonly sequences: readonly SequenceInfo[];
   readonly classes: readonly LabelClass[];
   readonly causes: readonly string[] | null;
+  /** The causes that a stroke may say, by number; 0 is none. */
+  readonly sayable_causes: readonly string[];
   readonly flags: readonly FlagInfo[];
 }
 
@@ -115,6 +117,8 @@ export interface Opinion {
   readonly answered: number;
   /** Those of the most detections first. */
   readonly changes: readonly ProposedChange[];
+  /** How many scans were learned from and looked at, of all that have detections; `null` where nobody said anything. */
+  readonly scans: { readonly looked_at: number; readonly all: number } | null;
   /** Of every scan that would change. */
   readonly base: readonly BaseRevision[];
 }
@@ -163,6 +167,11 @@ export interface LidarHeader {
   readonly odom_from_vehicle: readonly number[] | null;
 }
 
+/** Which scans the detections of a thing that lie in an image are of. */
+export interface ThingInImageHeader {
+  readonly scans: readonly ScanId[];
+}
+
 export interface TimedScan extends ScanId {
   readonly t_ns: string;
 }
@@ -184,6 +193,8 @@ export interface StrokeRequest {
   readonly protect: boolean;
   /** `null`: back to the machine's guess. */
   readonly label: number | null;
+  /** Why it is an artifact. */
+  readonly cause?: string;
   readonly base: readonly BaseRevision[];
   readonly points: readonly ScanPoints[];
   /** Strokes of one group are undone together. */
@@ -203,6 +214,7 @@ export interface ScanCorrections extends ScanId {
   readonly revision: number;
   readonly reviewed: Reviewed | null;
   readonly corrections: readonly (readonly [point: number, label: number])[];
+  readonly causes: readonly (readonly [point: number, cause: number])[];
 }
 
 export interface PastStroke {

@@ -18,6 +18,12 @@ export function countOfPoints(points: readonly ScanPoints[]): number {
   return points.reduce((sum, one) => sum + one.points.length, 0);
 }
 
+/** Which part of a long sequence it is about, in words; nothing of a whole one. */
+export function partOf({ scans }: Pick<Opinion, "scans">): string {
+  if (scans === null || scans.looked_at === scans.all) return "";
+  return ` in the ${scans.looked_at.toLocaleString("en")} of ${scans.all.toLocaleString("en")} scans around this one`;
+}
+
 /** The same without what is on screen and isn't selected any more. */
 export function kept(opinion: Opinion, cloud: Cloud, selection: Uint8Array): Opinion {
   const selected = (part: ScanPoints): ScanPoints => {

@@ -89,7 +89,8 @@ function said({ labels, recording }: Readonly<State>, cloud: Cloud, index: numbe
   const machine = cloud.corrected[index] === 1 ? fact("machine", labels.name(scan.machine[point])) : [];
   const { causes } = recording;
   const cause = causes === null ? [] : fact("cause", causes[columnOf(cloud, index, "cause")] || "none");
-  return [...machine, ...cause];
+  const why = recording.sayable_causes[cloud.saidCause[index]] ?? "";
+  return [...machine, ...cause, ...(why === "" ? [] : fact("cause said", why))];
 }
 
 /** The fused plausibility (the shortest name) first. */

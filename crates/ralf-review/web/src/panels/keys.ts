@@ -117,7 +117,9 @@ function view({ actions, home, seenCamera }: KeyContext): readonly Key[] {
     key(["."], "Accumulate one more scan before and after", () => void going.accumulate(1)),
     key([","], "Accumulate one fewer", () => void going.accumulate(-1)),
     key(["k"], "LiDAR on or off", () => viewing.toggleLidar()),
+    key(["shift+k"], "LiDAR in the cameras' images, or not", () => viewing.toggleLidarInImages()),
     key(["j"], "LiDAR's ground on or off", () => viewing.toggleGround()),
+    key(["shift+h"], "Hold what is selected still over the scans, or let it go", () => viewing.toggleHeld()),
     key(["shift+l"], "Light or dark background", () => viewing.toggleLight()),
     key(["?"], "This list", () => viewing.dialog("help")),
   ];

@@ -250,7 +250,7 @@ export function relabel(out, setting) {
 
 /** Has the page be told that one detection each of the five most doubtful things would be an artifact. */
 export async function proposing(page, server) {
-  await page.route("**/opinion", async (route) => {
+  await page.route("**/opinion?*", async (route) => {
     const { doubtful } = await (await ask(server, `sequences/${await sequenceOf(server)}/things/doubtful`)).json();
     const [changes, base] = [[], new Map()];
     for (const thing of doubtful.slice(0, 5)) {
@@ -259,6 +259,6 @@ export async function proposing(page, server) {
       base.set(`${radar}/${scan}`, { radar, scan, revision, content });
       changes.push({ ...thing, label: 1, probability: 0.9, points: [{ radar, scan, points: [point] }] });
     }
-    return route.fulfill({ json: { answered: 40, changes, base: [...base.values()] } });
+    return route.fulfill({ json: { answered: 40, changes, base: [...base.values()], scans: null } });
   });
 }
