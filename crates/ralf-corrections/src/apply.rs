@@ -14,7 +14,7 @@ use std::collections::{BTreeMap, BTreeSet};
 /// A stroke's part in a scan, in the store's terms.
 struct Part {
     scan: i64,
-    /// Detections, with the correction before, where it differs from the stroke's label.
+    /// Detections, with the correction before.
     changes: Vec<(u32, Option<u16>)>,
 }
 
@@ -66,7 +66,7 @@ fn apply(on: &Transaction, stroke: &Stroke, who: &Who) -> rusqlite::Result<Attem
     asked.answer(on, made, &scans).map(Attempt::Done)
 }
 
-/// The detections of a scan that the stroke gives another label.
+/// The detections of a scan that the stroke says something of, with the corrections before.
 fn changes(
     on: &Connection,
     scan: i64,
@@ -76,9 +76,9 @@ fn changes(
     let known: BTreeMap<u32, u16> = corrections(on, scan)?.into_iter().collect();
     let points: BTreeSet<u32> = edit.points.iter().copied().collect();
     let with_before = points.into_iter().map(|point| (point, known.get(&point).copied()));
-    let changed =
-        with_before.filter(|(_, before)| *before != stroke.label && !(stroke.protect && before.is_some()));
-    Ok(changed.collect())
+    let is_said = |before: &Option<u16>| stroke.confirm || *before != stroke.label;
+    let is_free = |before: &Option<u16>| !(stroke.protect && before.is_some());
+    Ok(with_before.filter(|(_, before)| is_said(before) && is_free(before)).collect())
 }
 
 /// Writes what is changed, if anything is.
