@@ -7,4 +7,5 @@ mod harm;
 mod reading;
 mod safety;
 mod support;
+mod team;
 mod things;
