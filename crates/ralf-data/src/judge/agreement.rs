@@ -120,13 +120,10 @@ fn each_pair(
     mut work: impl FnMut(&ScanId, usize, (u16, u16), bool),
 ) -> Result<(), DataError> {
     for scan in first.scans() {
-        let (Some((ones, settled)), Some((others, _))) = (first.unsettled(scan)?, second.unsettled(scan)?)
-        else {
-            continue;
-        };
-        for (point, (one, other)) in ones.iter().zip(&others).enumerate() {
+        let (Some(ones), Some(others)) = (first.unsettled(scan)?, second.unsettled(scan)?) else { continue };
+        for (point, (one, other)) in ones.labels.iter().zip(&others.labels).enumerate() {
             if truth_of(one.id).is_some() && truth_of(other.id).is_some() {
-                let is_settled = u32::try_from(point).is_ok_and(|point| settled.contains(&point));
+                let is_settled = u32::try_from(point).is_ok_and(|point| ones.settled.contains(&point));
                 work(scan, point, (one.id, other.id), is_settled);
             }
         }

@@ -20,6 +20,14 @@ pub struct Corrections {
     orphaned: Vec<ScanId>,
 }
 
+/// A scan as it was before anybody settled what others said of it.
+pub(crate) struct Unsettled {
+    /// A label per detection, 0 (unlabeled) where nobody said anything.
+    pub(crate) labels: Vec<Label>,
+    /// Detections that were settled.
+    pub(crate) settled: BTreeSet<u32>,
+}
+
 impl From<&ScanId> for ScanKey {
     fn from(id: &ScanId) -> Self {
         Self { sequence: id.sequence.clone(), radar: id.radar.clone(), scan: id.scan }
@@ -143,15 +151,14 @@ impl Corrections {
         Ok(Some(said(layer, file)))
     }
 
-    /// What a scan's labels were before anybody settled what others said of it, 0 (unlabeled) where nobody said
-    /// anything, and which detections were settled. `None` of a scan that nobody knows.
+    /// What a scan's labels were before anybody settled what others said of it. `None` of a scan that nobody knows.
     ///
     /// # Errors
     /// Several contents of the scan, of which nothing says which is meant.
-    pub(crate) fn unsettled(&self, scan: &ScanId) -> Result<Option<(Vec<Label>, BTreeSet<u32>)>, DataError> {
+    pub(crate) fn unsettled(&self, scan: &ScanId) -> Result<Option<Unsettled>, DataError> {
         let Some(layer) = self.layer(scan)? else { return Ok(None) };
         let settled = layer.settled.iter().map(|(point, _)| *point).collect();
-        Ok(Some((said(&layer.before_settling(), None), settled)))
+        Ok(Some(Unsettled { labels: said(&layer.before_settling(), None), settled }))
     }
 
     /// What is said of a scan. Which of several contents is meant must have been told before.

@@ -97,9 +97,9 @@ export class Selecting {
   escape(): void {
     const { store } = this.world;
     const { selection } = store.state;
-    if (countOf(selection) > 0)
-      store.set({ selection: new Uint8Array(selection.length), thing: null, opinion: null, rule: null, disputed: null });
-    else store.set({ armed: undefined, notice: null, accepting: null, opinion: null, rule: null, disputed: null, drawing: null });
+    const nothing = { opinion: null, rule: null, disputed: null };
+    if (countOf(selection) > 0) store.set({ selection: new Uint8Array(selection.length), thing: null, ...nothing });
+    else store.set({ armed: undefined, notice: null, accepting: null, drawing: null, ...nothing });
   }
 
   tool(tool: Tool): void {
