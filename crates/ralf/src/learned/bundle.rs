@@ -74,7 +74,7 @@ fn counts_with_last(
 ) -> [usize; PLAYERS] {
     let mut counts = *counts;
     for player in &ways[leaves.end - 1].players {
-        counts[player.group] = part.outcomes(player.group, leaves).map_or(1, |outcomes| outcomes.count());
+        counts[player.group] = part.count(player.group, leaves).unwrap_or(1);
     }
     counts
 }
