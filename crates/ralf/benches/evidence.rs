@@ -7,6 +7,7 @@
 use divan::{Bencher, black_box};
 use ralf::config::Config;
 use ralf::evidence::{PIECES, Surroundings, observe};
+use ralf::learned::{LearnedLabeler, Model};
 use ralf::scene::{Frame, FrameWindow, LidarSnapshot, LidarWindow};
 use ralf::sensors::{Elevation, Lidar, LidarScan, MemorySource, Radar, Reliability, Source};
 use ralf::space::{EgoMotion, OdometrySample, Spherical, Transform};
@@ -175,6 +176,20 @@ fn whole_scan(bencher: Bencher) {
     let frame = frame();
     observe(&frame, &CONFIG);
     bencher.bench_local(|| observe(black_box(&frame), &CONFIG));
+}
+
+/// What the shipped model makes of the evidence, the paper's method with it; evidence is there. It is asked about all
+/// detections, though the street is unlike what it knows.
+#[divan::bench(args = ["without reasons", "with reasons"])]
+fn learned(bencher: Bencher, reasons: &str) {
+    let frame = frame();
+    let columns = observe(&frame, &CONFIG);
+    let mut config = Config::default();
+    config.learned.max_novelty = 1.0;
+    config.learned.reasons = reasons == "with reasons";
+    let model = Model::shipped().expect("a model");
+    let labeler = LearnedLabeler::new(&config, &model).expect("a model of this program");
+    bencher.bench_local(|| labeler.label(black_box(&frame), &columns));
 }
 
 /// Twenty scans in a row with all that is made for them, LiDAR scans and windows too: twenty times what a scan costs.

@@ -17,7 +17,8 @@ pub(super) fn ranks(values: &[f64]) -> Vec<Option<f64>> {
 
 /// The least value that at least this share of the values doesn't exceed; `None` where there is no number.
 pub(super) fn quantile(values: &[f64], share: f64) -> Option<f64> {
-    let mut finite: Vec<f64> = values.iter().copied().filter(|value| value.is_finite()).collect();
+    let mut finite = Vec::with_capacity(values.len());
+    finite.extend(values.iter().copied().filter(|value| value.is_finite()));
     if finite.is_empty() {
         return None;
     }

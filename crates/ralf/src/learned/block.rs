@@ -6,6 +6,9 @@ use super::tree::Split;
 /// Rows of a block.
 pub(super) const BLOCK: usize = 64;
 
+/// Of each row of a block all bits, or none.
+pub(super) type Mask = [u8; BLOCK];
+
 /// The features of up to [`BLOCK`] rows. What lies behind the last row is absent.
 pub(super) struct Block {
     columns: Vec<[f32; BLOCK]>,
@@ -23,13 +26,14 @@ impl Block {
         Self { columns }
     }
 
-    /// Whether each row gets a yes to a question; as [`Split::is_yes`] says, without a branch per row.
-    pub(super) fn answers(&self, split: &Split) -> [bool; BLOCK] {
+    /// The rows that get a yes to a question; as [`Split::is_yes`] says, without a branch per row.
+    pub(super) fn answers(&self, split: &Split) -> Mask {
         let column = &self.columns[usize::from(split.feature)];
-        let mut yes = [false; BLOCK];
-        for (yes, value) in yes.iter_mut().zip(column) {
-            *yes = (*value <= split.threshold) | (value.is_nan() & split.absent_is_yes);
+        // What is absent is neither above the threshold nor not.
+        if split.absent_is_yes {
+            std::array::from_fn(|row| if column[row] > split.threshold { 0 } else { u8::MAX })
+        } else {
+            std::array::from_fn(|row| if column[row] <= split.threshold { u8::MAX } else { 0 })
         }
-        yes
     }
 }

@@ -3,9 +3,7 @@
 use super::block::{BLOCK, Block};
 use super::rows::Rows;
 use super::tree::{Node, Tree};
-
-/// Leaves up to which a tree is asked about a whole block at a time: a bit each.
-const LEAVES: usize = 32;
+use super::walk::{Questions, Term, Walk, sums};
 
 /// Trees whose answers, added to a base, are log odds.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -17,22 +15,9 @@ pub struct Forest {
 }
 
 impl Forest {
-    /// The log odds of each row.
+    /// The log odds of each row. Who asks again and again prepares an [`Inference`].
     pub fn log_odds(&self, rows: &Rows) -> Vec<f64> {
-        let mut sums = vec![self.base; rows.len()];
-        for (at, sums) in sums.chunks_mut(BLOCK).enumerate() {
-            let block = Block::of(rows, at * BLOCK);
-            for tree in &self.trees {
-                if tree.nodes().len() < 2 * LEAVES {
-                    add_answers(tree, &block, sums);
-                } else {
-                    for (row, sum) in sums.iter_mut().enumerate() {
-                        *sum += f64::from(tree.answer(rows.row(at * BLOCK + row)));
-                    }
-                }
-            }
-        }
-        sums
+        Inference::new(self).log_odds(rows)
     }
 
     /// The largest place of a feature that is asked for, and 1 more.
@@ -41,30 +26,62 @@ impl Forest {
     }
 }
 
-/// Adds a tree's answers to a block's sums. Every question is asked of every row: a no takes away the leaves behind the
-/// yes, and the first leaf that is left is the row's (QuickScorer: Lucchese et al., SIGIR 2015).
-fn add_answers(tree: &Tree, block: &Block, sums: &mut [f64]) {
-    let mut left = [u32::MAX; BLOCK];
-    let mut values = [0.0; LEAVES];
-    let mut leaf = 0;
-    for (at, node) in tree.nodes().iter().enumerate() {
-        match node {
-            Node::Leaf(end) => {
-                values[leaf] = end.value;
-                leaf += 1;
-            }
-            Node::Split(split) => {
-                // A tree of n nodes has (n + 1) / 2 leaves, and those of a yes come next.
-                let behind_yes = (usize::from(split.right) - at) / 2;
-                let without = !(((1_u64 << behind_yes) - 1) << leaf) as u32;
-                for (left, yes) in left.iter_mut().zip(block.answers(split)) {
-                    *left &= without | u32::from(yes).wrapping_neg();
+/// A forest, prepared for being asked.
+#[derive(Debug, Clone)]
+pub struct Inference {
+    base: f64,
+    questions: Questions,
+    trees: Vec<Leaves>,
+}
+
+/// A tree's leaves, from left to right, and how a row gets to its own.
+#[derive(Debug, Clone)]
+struct Leaves {
+    walk: Walk,
+    /// A no passes over the leaves behind the yes.
+    passed: Vec<Term>,
+    values: Vec<f32>,
+}
+
+impl Inference {
+    /// Prepares a forest.
+    pub fn new(forest: &Forest) -> Self {
+        let mut questions = Questions::default();
+        let trees = forest.trees.iter().map(|tree| Leaves::new(tree, &mut questions)).collect();
+        Self { base: forest.base, questions, trees }
+    }
+
+    /// The log odds of each row.
+    pub fn log_odds(&self, rows: &Rows) -> Vec<f64> {
+        let mut log_odds = vec![self.base; rows.len()];
+        let mut masks = Vec::new();
+        for (at, log_odds) in log_odds.chunks_mut(BLOCK).enumerate() {
+            let answers = self.questions.answers(&Block::of(rows, at * BLOCK));
+            for tree in &self.trees {
+                tree.walk.masks(&answers, &mut masks);
+                for (sum, leaf) in log_odds.iter_mut().zip(sums(&tree.passed, &masks)) {
+                    *sum += f64::from(tree.values[usize::from(leaf)]);
                 }
             }
         }
+        log_odds
     }
-    for (sum, left) in sums.iter_mut().zip(left) {
-        *sum += f64::from(values[left.trailing_zeros() as usize]);
+}
+
+impl Leaves {
+    fn new(tree: &Tree, questions: &mut Questions) -> Self {
+        let (mut passed, mut values) = (Vec::new(), Vec::new());
+        for (at, node) in tree.nodes().iter().enumerate() {
+            match node {
+                // A tree of n nodes has (n + 1) / 2 leaves, and those of a yes come next.
+                Node::Split(split) => {
+                    let no = usize::from(split.right);
+                    passed.push(Term { mask: no, weight: ((no - at) / 2) as u8 });
+                }
+                Node::Leaf(leaf) => values.push(leaf.value),
+            }
+        }
+        Self { walk: Walk::new(tree, questions, |_| 0), passed, values }
     }
 }
 

@@ -1,9 +1,9 @@
 //! A model, asked about radar scans.
 
 use super::familiar::{Seen, novelty};
-use super::forest::{Forest, probability};
+use super::forest::{Inference, probability};
 use super::model::{Model, UseError};
-use super::reason::reason;
+use super::reason::Telling;
 use super::rows::Rows;
 use super::shapley::Explainer;
 use super::unconfirmed::Unconfirmed;
@@ -24,7 +24,11 @@ pub struct LearnedLabeler<'a> {
     /// The group of each, as a place in [`GROUPS`].
     group_of: Vec<usize>,
     seen: Vec<Seen>,
+    telling: Telling,
     unconfirmed: Unconfirmed,
+    plausible: Inference,
+    /// One for each of the model's causes.
+    causes: Vec<Inference>,
     /// `None` where reasons are not wanted.
     explainer: Option<Explainer>,
 }
@@ -82,10 +86,22 @@ impl<'a> LearnedLabeler<'a> {
         let inputs: Vec<&'static Feature> = places.into_iter().map(|place| known[place]).collect();
         let group_of: Vec<usize> = inputs.iter().map(|feature| group_of(feature)).collect();
         let explain = config.learned.reasons;
-        let explainer = explain.then(|| Explainer::new(&model.plausible, &group_of, GROUPS.len()));
-        let seen = model.inputs.iter().map(|input| input.seen).collect();
+        let explainer = explain.then(|| Explainer::new(&model.plausible, &group_of));
+        let seen: Vec<Seen> = model.inputs.iter().map(|input| input.seen).collect();
+        let telling = Telling::new(&inputs, &group_of, &seen);
         let unconfirmed = Unconfirmed::among(inputs.iter().map(|input| input.name));
-        Ok(Self { config, model, inputs, group_of, seen, unconfirmed, explainer })
+        Ok(Self {
+            config,
+            model,
+            inputs,
+            group_of,
+            seen,
+            telling,
+            unconfirmed,
+            plausible: Inference::new(&model.plausible),
+            causes: model.causes.iter().map(|cause| Inference::new(&cause.forest)).collect(),
+            explainer,
+        })
     }
 
     /// What the model says of a frame, of which this evidence was gathered.
@@ -110,7 +126,7 @@ impl<'a> LearnedLabeler<'a> {
             labels[row].flags |= flag::when(detection.is_some() && !is_asked(row), flag::PAPER);
         }
         let rows = rows.pick(asked.iter().copied());
-        for (at, log_odds) in self.model.plausible.log_odds(&rows).into_iter().enumerate() {
+        for (at, log_odds) in self.plausible.log_odds(&rows).into_iter().enumerate() {
             let (label, row) = (&mut labels[asked[at]], rows.row(at));
             let probability = self.model.calibration.probability(log_odds);
             label.w = self.unconfirmed.weighed(row, probability, self.config.learned.unconfirmed);
@@ -148,20 +164,19 @@ impl<'a> LearnedLabeler<'a> {
         let Some(explainer) = &self.explainer else { return };
         for (at, shares) in explainer.explain(rows).into_iter().enumerate() {
             let answer = &mut answers[asked[at]];
-            answer.reason = reason(&shares, &self.inputs, &self.seen, rows.row(at));
-            answer.shares = shares;
+            answer.reason = self.telling.reason(&shares, rows.row(at));
+            answer.shares = shares.to_vec();
         }
     }
 
     /// The likeliest cause of each artifact.
     fn tell_causes(&self, rows: &Rows, asked: &[usize], labels: &[DetectionLabel], answers: &mut [Answer]) {
         let artifacts: Vec<usize> = (0..asked.len()).filter(|at| !labels[asked[*at]].plausible).collect();
-        if self.model.causes.is_empty() {
+        if self.causes.is_empty() {
             return;
         }
         let rows = rows.pick(artifacts.iter().copied());
-        let forests: Vec<&Forest> = self.model.causes.iter().map(|cause| &cause.forest).collect();
-        let odds: Vec<Vec<f64>> = forests.iter().map(|forest| forest.log_odds(&rows)).collect();
+        let odds: Vec<Vec<f64>> = self.causes.iter().map(|forest| forest.log_odds(&rows)).collect();
         for (row, at) in artifacts.into_iter().enumerate() {
             let likely: Vec<f64> = odds.iter().map(|odds| probability(odds[row])).collect();
             answers[asked[at]].cause = Some(self.likeliest(&likely));

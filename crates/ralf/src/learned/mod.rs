@@ -7,11 +7,13 @@
 //! ([`novelty`]) is left to the paper's method.
 
 mod block;
+mod bundle;
 mod calibration;
 mod familiar;
 mod forest;
 mod labeler;
 mod model;
+mod outcomes;
 mod reason;
 mod rows;
 mod shapley;
@@ -19,10 +21,12 @@ mod text;
 mod tree;
 mod unconfirmed;
 mod visibility;
+mod walk;
+mod way;
 
 pub use calibration::{Calibration, CalibrationError};
 pub use familiar::{Seen, novelty};
-pub use forest::{Forest, probability};
+pub use forest::{Forest, Inference, probability};
 pub use labeler::{Answer, LearnedLabeler, LearnedScan, ToldCause, UNCLEAR};
 pub use model::{CauseForest, Input, Model, Origin, UseError, World};
 pub use rows::Rows;

@@ -8,32 +8,47 @@ const MOST: usize = 3;
 /// Log odds below which a group's share isn't worth a word.
 const LEAST: f64 = 0.05;
 
-/// The groups that add most to a detection's log odds, largest first, each with its most telling feature:
-/// `LiDAR rays -2.31 (rays_beyond 0.93)`.
-pub(super) fn reason(shares: &[f64], inputs: &[&Feature], seen: &[Seen], row: &[f32]) -> String {
-    let mut order: Vec<usize> = (0..shares.len()).filter(|group| shares[*group].abs() >= LEAST).collect();
-    order.sort_by(|a, b| shares[*b].abs().total_cmp(&shares[*a].abs()));
-    let mut parts = Vec::with_capacity(MOST);
-    for group in order.into_iter().take(MOST) {
-        let mut part = format!("{} {:+.2}", GROUPS[group], shares[group]);
-        if let Some(place) = most_telling(GROUPS[group], inputs, seen, row) {
-            part += &format!(" ({} {})", inputs[place].name, short(row[place]));
-        }
-        parts.push(part);
-    }
-    parts.join("; ")
+/// The features that a model reads, by how much they tell of their groups.
+#[derive(Debug, Clone)]
+pub(super) struct Telling {
+    /// Of each of [`GROUPS`] the places of its features, what is worth most to the model first.
+    by_group: [Vec<usize>; GROUPS.len()],
+    inputs: Vec<&'static Feature>,
 }
 
-/// The feature of a group that was observed and is worth most to the model.
-fn most_telling(group: &str, inputs: &[&Feature], seen: &[Seen], row: &[f32]) -> Option<usize> {
-    let mut best: Option<usize> = None;
-    for (place, feature) in inputs.iter().enumerate() {
-        let worth_more = best.is_none_or(|best| seen[place].gain > seen[best].gain);
-        if feature.group == group && !row[place].is_nan() && worth_more {
-            best = Some(place);
+impl Telling {
+    /// `group_of` gives the place of each feature's group, `seen` what it is worth.
+    pub(super) fn new(inputs: &[&'static Feature], group_of: &[usize], seen: &[Seen]) -> Self {
+        let mut by_group = std::array::from_fn(|_| Vec::new());
+        for (place, group) in group_of.iter().enumerate() {
+            by_group[*group].push(place);
         }
+        for places in &mut by_group {
+            places.sort_by(|a, b| seen[*b].gain.total_cmp(&seen[*a].gain));
+        }
+        Self { by_group, inputs: inputs.to_vec() }
     }
-    best
+
+    /// The groups that add most to a detection's log odds, largest first, each with its most telling feature:
+    /// `LiDAR rays -2.31 (rays_beyond 0.93)`.
+    pub(super) fn reason(&self, shares: &[f64], row: &[f32]) -> String {
+        let mut order: Vec<usize> = (0..shares.len()).filter(|group| shares[*group].abs() >= LEAST).collect();
+        order.sort_by(|a, b| shares[*b].abs().total_cmp(&shares[*a].abs()));
+        let mut parts = Vec::with_capacity(MOST);
+        for group in order.into_iter().take(MOST) {
+            let share = format!("{} {:+.2}", GROUPS[group], shares[group]);
+            parts.push(match self.most_telling(group, row) {
+                Some(place) => format!("{share} ({} {})", self.inputs[place].name, short(row[place])),
+                None => share,
+            });
+        }
+        parts.join("; ")
+    }
+
+    /// The feature of a group that was observed and is worth most to the model.
+    fn most_telling(&self, group: usize, row: &[f32]) -> Option<usize> {
+        self.by_group[group].iter().copied().find(|place| !row[*place].is_nan())
+    }
 }
 
 /// A value with three digits or so.
@@ -51,7 +66,7 @@ mod tests {
 
     #[test]
     fn the_largest_shares_come_first_with_what_tells_most_of_them() {
-        const RAYS: [Feature; 3] = [
+        static RAYS: [Feature; 3] = [
             Feature { name: "rays_in", unit: "1", group: GROUPS[0], meaning: "" },
             Feature { name: "rays_beyond", unit: "1", group: GROUPS[0], meaning: "" },
             Feature { name: "speed", unit: "m/s", group: GROUPS[6], meaning: "" },
@@ -59,10 +74,11 @@ mod tests {
         let seen = [1.0, 2.0, 3.0].map(|gain| Seen { low: 0.0, high: 0.0, absent: 0.0, gain });
         let mut shares = [0.0; GROUPS.len()];
         (shares[0], shares[6], shares[1]) = (-0.5, 2.0, 0.01);
-        let inputs: Vec<&Feature> = RAYS.iter().collect();
-        let words = reason(&shares, &inputs, &seen, &[0.25, 0.93, 123.4]);
+        let inputs: Vec<&'static Feature> = RAYS.iter().collect();
+        let telling = Telling::new(&inputs, &[0, 0, 6], &seen);
+        let words = telling.reason(&shares, &[0.25, 0.93, 123.4]);
         assert_eq!(words, "Doppler +2.00 (speed 123); LiDAR rays -0.50 (rays_beyond 0.93)");
-        let words = reason(&shares, &inputs, &seen, &[0.25, f32::NAN, f32::NAN]);
+        let words = telling.reason(&shares, &[0.25, f32::NAN, f32::NAN]);
         assert_eq!(words, "Doppler +2.00; LiDAR rays -0.50 (rays_in 0.25)");
     }
 }

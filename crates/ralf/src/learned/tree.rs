@@ -135,6 +135,17 @@ impl Tree {
         }
     }
 
+    /// The question before each node; of the first one itself.
+    pub(super) fn parents(&self) -> Vec<usize> {
+        let mut parents = vec![0; self.nodes.len()];
+        for (at, node) in self.nodes.iter().enumerate() {
+            if let Node::Split(split) = node {
+                (parents[at + 1], parents[usize::from(split.right)]) = (at, at);
+            }
+        }
+        parents
+    }
+
     /// The cover of every node: what came to its leaves.
     pub fn covers(&self) -> Vec<f64> {
         let mut covers = vec![0.0; self.nodes.len()];

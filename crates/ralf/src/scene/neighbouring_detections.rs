@@ -31,8 +31,9 @@ pub struct NeighbouringDetections {
 impl NeighbouringDetections {
     /// The detections around a frame's scan.
     pub fn around(frame: &Frame) -> Self {
-        let (mut detections, mut scans, mut rows) = (Vec::new(), Vec::new(), Vec::new());
-        let mut doppler = Vec::new();
+        let most = frame.radar_window.iter().map(|neighbour| neighbour.scan.len()).sum();
+        let (mut detections, mut doppler) = (Vec::with_capacity(most), Vec::with_capacity(most));
+        let (mut scans, mut rows) = (Vec::with_capacity(most), Vec::with_capacity(most));
         for (scan, neighbour) in (0u32..).zip(&frame.radar_window) {
             let radar = &frame.rig.radars[neighbour.radar];
             let rates = neighbour.scan.doppler(radar, frame.motion);

@@ -1,0 +1,171 @@
+//! Leaves that lie side by side, with what the groups that are asked on the way to any of them add in every case.
+
+use super::block::{BLOCK, Mask};
+use super::outcomes::{Outcomes, Part};
+use super::walk::{Term, sums};
+use super::way::{PLAYERS, Way};
+use std::ops::Range;
+
+/// Cases of a bundle at most: more of them would make fewer bundles, but tables that leave the cache.
+const MOST_CASES: usize = 512;
+/// Cases that one digit can count.
+const MOST_OF_DIGIT: usize = 256;
+/// Leaves of a bundle at most, a bit each.
+const MOST_LEAVES: usize = u64::BITS as usize;
+
+/// Leaves that lie side by side.
+#[derive(Debug, Clone)]
+pub(super) struct Bundle {
+    /// What a row's case is made of: two digits, each a sum of weights.
+    digits: [Vec<Term>; 2],
+    /// Cases that the first digit counts.
+    low: u16,
+    /// What each group adds in each case, in some unit; none where there are too many cases.
+    table: Vec<[i32; PLAYERS]>,
+    /// The way to the only leaf, where there is no table, with what makes of log odds that unit.
+    way: Option<(Way, f64)>,
+}
+
+/// What the questions of all groups can come to on the ways to some leaves.
+struct Cases {
+    players: Vec<Asked>,
+    /// How many each digit counts.
+    counts: [usize; 2],
+}
+
+/// A group that is asked on the way to some leaves.
+struct Asked {
+    group: usize,
+    outcomes: Outcomes,
+    digit: usize,
+    /// By so much the digit rises from one outcome to the next.
+    stride: usize,
+}
+
+/// The bundles of a tree, as large as they may be. `ways` are those to its leaves; log odds times `scale` are the unit
+/// of the tables.
+pub(super) fn bundles(part: &Part, ways: &[Way], scale: f64) -> Vec<Bundle> {
+    let mut found = Vec::new();
+    let mut leaves = 0..0;
+    while leaves.end < ways.len() {
+        leaves = leaves.end..leaves.end + 1;
+        let mut counts = counts_with_last(part, ways, &leaves, &[1; PLAYERS]);
+        while leaves.end < ways.len() && leaves.len() < MOST_LEAVES {
+            let longer = leaves.start..leaves.end + 1;
+            counts = counts_with_last(part, ways, &longer, &counts);
+            let most = counts.iter().max().is_some_and(|most| *most > MOST_OF_DIGIT);
+            if most || counts.iter().product::<usize>() > MOST_CASES {
+                break;
+            }
+            leaves = longer;
+        }
+        found.push(Bundle::new(&Cases::of(part, &leaves), &ways[leaves.clone()], scale));
+    }
+    found
+}
+
+/// How many outcomes each group has on the ways to some leaves; `counts` are those without the last leaf, whose way
+/// changes them only for the groups that it asks.
+fn counts_with_last(
+    part: &Part,
+    ways: &[Way],
+    leaves: &Range<usize>,
+    counts: &[usize; PLAYERS],
+) -> [usize; PLAYERS] {
+    let mut counts = *counts;
+    for player in &ways[leaves.end - 1].players {
+        counts[player.group] = part.count(player.group, leaves).unwrap_or(1);
+    }
+    counts
+}
+
+impl Cases {
+    fn of(part: &Part, leaves: &Range<usize>) -> Self {
+        let (mut players, mut counts) = (Vec::new(), [1, 1]);
+        let asked = (0..PLAYERS).filter_map(|group| Some((group, part.outcomes(group, leaves)?)));
+        for (group, outcomes) in asked.filter(|(_, outcomes)| outcomes.count() > 1) {
+            // What the first digit has no room for, the second has: see the limits above.
+            let digit = usize::from(counts[0] * outcomes.count() > MOST_OF_DIGIT);
+            let stride = counts[digit];
+            counts[digit] *= outcomes.count();
+            players.push(Asked { group, outcomes, digit, stride });
+        }
+        Self { players, counts }
+    }
+
+    fn count(&self) -> usize {
+        self.counts[0] * self.counts[1]
+    }
+
+    /// The leaves that a player's questions lead to in each case, a bit each.
+    fn leads(&self, player: &Asked) -> Vec<u64> {
+        let stride = player.stride * if player.digit == 0 { 1 } else { self.counts[0] };
+        let in_turn = player.outcomes.leads().iter().flat_map(|leads| std::iter::repeat_n(*leads, stride));
+        let mut all: Vec<u64> = in_turn.collect();
+        while all.len() < self.count() {
+            all.extend_from_within(..);
+        }
+        all.truncate(self.count());
+        all
+    }
+}
+
+impl Bundle {
+    fn new(cases: &Cases, ways: &[Way], scale: f64) -> Self {
+        let mut digits = [Vec::new(), Vec::new()];
+        for player in &cases.players {
+            digits[player.digit].extend(player.outcomes.terms(player.stride));
+        }
+        let (table, way) = match ways {
+            [way] if cases.count() > MOST_CASES => (Vec::new(), Some((way.clone(), scale))),
+            _ => (table(cases, ways, scale), None),
+        };
+        Self { digits, low: cases.counts[0] as u16, table, way }
+    }
+
+    /// Adds what the groups of these leaves add for each row of a block. `masks` are those of the tree.
+    pub(super) fn add(&self, masks: &[Mask], added: &mut [[i32; PLAYERS]]) {
+        let [low, high] = self.digits.each_ref().map(|terms| sums(terms, masks));
+        let cases: [u16; BLOCK] =
+            std::array::from_fn(|row| u16::from(low[row]) + self.low * u16::from(high[row]));
+        for (sums, case) in added.iter_mut().zip(cases) {
+            match &self.way {
+                None => add(sums, &self.table[usize::from(case)]),
+                Some((way, scale)) => add(sums, &in_units(way, usize::from(case), *scale)),
+            }
+        }
+    }
+}
+
+fn add(sums: &mut [i32; PLAYERS], shares: &[i32; PLAYERS]) {
+    *sums = std::array::from_fn(|group| sums[group] + shares[group]);
+}
+
+/// What each group adds in each case.
+fn table(cases: &Cases, ways: &[Way], scale: f64) -> Vec<[i32; PLAYERS]> {
+    let mut table = vec![[0.0; PLAYERS]; cases.count()];
+    let leads: Vec<Vec<u64>> = cases.players.iter().map(|player| cases.leads(player)).collect();
+    for (leaf, way) in ways.iter().enumerate() {
+        let shares: Vec<Vec<(usize, f64)>> =
+            (0..1 << way.players.len()).map(|leading| way.shares(leading).collect()).collect();
+        let asked = cases.players.iter().zip(&leads);
+        let of_way = |group: usize| way.players.iter().any(|player| player.group == group);
+        let leads: Vec<&Vec<u64>> =
+            asked.filter(|(asked, _)| of_way(asked.group)).map(|(_, leads)| leads).collect();
+        for (case, sums) in table.iter_mut().enumerate() {
+            let leading =
+                leads.iter().rev().fold(0, |bits, leads| bits << 1 | (leads[case] >> leaf & 1) as usize);
+            shares[leading].iter().for_each(|(group, share)| sums[*group] += share);
+        }
+    }
+    table.into_iter().map(|sums| sums.map(|sum| (sum * scale).round() as i32)).collect()
+}
+
+/// What each group adds on the only way of a bundle: each player has two outcomes, so that a case is a bit for each.
+fn in_units(way: &Way, case: usize, scale: f64) -> [i32; PLAYERS] {
+    let mut added = [0; PLAYERS];
+    for (group, share) in way.shares(case) {
+        added[group] = (share * scale).round() as i32;
+    }
+    added
+}

@@ -1,0 +1,103 @@
+//! A tree, asked about a block of rows at a time, without a branch per row.
+//!
+//! Every question is asked of every row, and which rows it leads on is a mask. Where a row belongs in a table that is
+//! made for a tree, such as that of its leaves, is a sum of weights, each of which counts for the rows of a mask.
+
+use super::block::{BLOCK, Block, Mask};
+use super::tree::{Node, Split, Tree};
+use std::collections::HashMap;
+
+/// The questions of many trees, each of them once.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Questions {
+    asked: Vec<Split>,
+    places: HashMap<(u16, u32, bool), usize>,
+}
+
+impl Questions {
+    /// The place of a question, which is added if it is new.
+    fn place_of(&mut self, split: &Split) -> usize {
+        let next = self.asked.len();
+        let key = (split.feature, split.threshold.to_bits(), split.absent_is_yes);
+        let place = *self.places.entry(key).or_insert(next);
+        if place == next {
+            self.asked.push(*split);
+        }
+        place
+    }
+
+    /// The rows of a block that get a yes to each question.
+    pub(super) fn answers(&self, block: &Block) -> Vec<Mask> {
+        self.asked.iter().map(|split| block.answers(split)).collect()
+    }
+}
+
+/// A weight that counts for the rows of a mask.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Term {
+    /// The mask's place among [`Walk::masks`].
+    pub(super) mask: usize,
+    pub(super) weight: u8,
+}
+
+/// The sum of the weights that count for each row.
+pub(super) fn sums(terms: &[Term], masks: &[Mask]) -> [u8; BLOCK] {
+    let mut sums = [0; BLOCK];
+    for term in terms {
+        let mask = &masks[term.mask];
+        sums = std::array::from_fn(|row| sums[row] + (mask[row] & term.weight));
+    }
+    sums
+}
+
+/// The questions of a tree in preorder, told apart by groups.
+#[derive(Debug, Clone)]
+pub(super) struct Walk {
+    nodes: usize,
+    steps: Vec<Step>,
+}
+
+#[derive(Debug, Clone)]
+struct Step {
+    /// Its place among the [`Questions`].
+    question: usize,
+    /// The node behind the last question of its group before it; the tree's first node where there is none.
+    behind: usize,
+    /// The nodes that yes and no lead to.
+    yes: usize,
+    no: usize,
+}
+
+impl Walk {
+    /// The questions of a tree, which are added to those of others; a feature belongs to the group `group_of` it.
+    pub(super) fn new(tree: &Tree, questions: &mut Questions, group_of: impl Fn(u16) -> usize) -> Self {
+        let (nodes, parents) = (tree.nodes(), tree.parents());
+        let mut steps = Vec::with_capacity(nodes.len() / 2);
+        for (at, node) in nodes.iter().enumerate() {
+            let Node::Split(split) = node else { continue };
+            let is_other = |node: usize| match &nodes[parents[node]] {
+                Node::Split(parent) => group_of(parent.feature) != group_of(split.feature),
+                Node::Leaf(_) => true,
+            };
+            let mut behind = at;
+            while behind > 0 && is_other(behind) {
+                behind = parents[behind];
+            }
+            let question = questions.place_of(split);
+            steps.push(Step { question, behind, yes: at + 1, no: usize::from(split.right) });
+        }
+        Self { nodes: nodes.len(), steps }
+    }
+
+    /// Of each node, the rows that the question before it and the earlier ones of its group all lead towards it; of the
+    /// first node all rows. `answers` are those to the [`Questions`]; `masks` is overwritten.
+    pub(super) fn masks(&self, answers: &[Mask], masks: &mut Vec<Mask>) {
+        masks.clear();
+        masks.resize(self.nodes, [u8::MAX; BLOCK]);
+        for step in &self.steps {
+            let (behind, answer) = (masks[step.behind], answers[step.question]);
+            masks[step.yes] = std::array::from_fn(|row| behind[row] & answer[row]);
+            masks[step.no] = std::array::from_fn(|row| behind[row] & !answer[row]);
+        }
+    }
+}
