@@ -1,6 +1,7 @@
 //! Writing a stroke.
 
 use crate::answered::{Asked, Made};
+use crate::causes::{causes, say};
 use crate::conflict::{Attempt, Refusal, overtaken_base};
 use crate::error::StoreError;
 use crate::model::{ScanEdit, ScanVersion, Stroke, Who};
@@ -14,7 +15,7 @@ use std::collections::{BTreeMap, BTreeSet};
 /// A stroke's part in a scan, in the store's terms.
 struct Part {
     scan: i64,
-    /// Detections, with the correction before, where it differs from the stroke's label.
+    /// Detections, with the correction before.
     changes: Vec<(u32, Option<u16>)>,
 }
 
@@ -66,7 +67,7 @@ fn apply(on: &Transaction, stroke: &Stroke, who: &Who) -> rusqlite::Result<Attem
     asked.answer(on, made, &scans).map(Attempt::Done)
 }
 
-/// The detections of a scan that the stroke gives another label.
+/// The detections of a scan that the stroke says something of, with the corrections before.
 fn changes(
     on: &Connection,
     scan: i64,
@@ -75,9 +76,16 @@ fn changes(
 ) -> rusqlite::Result<Vec<(u32, Option<u16>)>> {
     let known: BTreeMap<u32, u16> = corrections(on, scan)?.into_iter().collect();
     let points: BTreeSet<u32> = edit.points.iter().copied().collect();
+    let why: BTreeMap<u32, String> = match &stroke.cause {
+        Some(_) => causes(on, scan)?.into_iter().collect(),
+        None => BTreeMap::new(),
+    };
     let with_before = points.into_iter().map(|point| (point, known.get(&point).copied()));
-    let changed =
-        with_before.filter(|(_, before)| *before != stroke.label && !(stroke.protect && before.is_some()));
+    let is_new = |point: &u32| stroke.cause.is_some() && why.get(point) != stroke.cause.as_ref();
+    let changed = with_before.filter(|(point, before)| {
+        let is_said = stroke.confirm || *before != stroke.label || is_new(point);
+        is_said && !(stroke.protect && before.is_some())
+    });
     Ok(changed.collect())
 }
 
@@ -91,6 +99,9 @@ fn write(on: &Connection, stroke: &Stroke, who: &Who, parts: &[Part]) -> rusqlit
     let Stroke { sequence, tool, group, label, .. } = stroke;
     let new = NewStroke { event, sequence, tool, group: group.as_deref(), label: *label };
     let id = add_stroke(on, who, &new)?;
+    if let Some(cause) = &stroke.cause {
+        say(on, id, cause)?;
+    }
     let mut change =
         on.prepare_cached("INSERT INTO change (stroke, scan, point, before, after) VALUES (?, ?, ?, ?, ?)")?;
     for part in parts.iter().filter(|part| !part.changes.is_empty()) {

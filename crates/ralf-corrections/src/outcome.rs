@@ -53,6 +53,8 @@ pub struct ScanState {
     pub revision: u64,
     /// Detections that a person has labelled, ascending, with the label's id.
     pub corrections: Vec<(u32, u16)>,
+    /// Of these the ones whose cause somebody has said, ascending.
+    pub causes: Vec<(u32, String)>,
     /// Where a person has marked the scan.
     pub review: Option<Review>,
 }

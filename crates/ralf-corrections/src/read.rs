@@ -1,5 +1,6 @@
 //! What the tables say of scans.
 
+use crate::causes::causes;
 use crate::content::{ContentHash, ScanContent};
 use crate::model::{ScanKey, ScanVersion};
 use crate::outcome::{Review, ScanState};
@@ -63,10 +64,11 @@ pub(crate) fn version_of(on: &Connection, scan: i64) -> rusqlite::Result<ScanVer
 pub(crate) fn scan_state(on: &Connection, version: &ScanVersion) -> rusqlite::Result<ScanState> {
     let (key, content) = (version.key.clone(), version.content.hash);
     let Some(row) = find_scan(on, version)? else {
-        return Ok(ScanState { key, content, revision: 0, corrections: Vec::new(), review: None });
+        let (corrections, causes) = (Vec::new(), Vec::new());
+        return Ok(ScanState { key, content, revision: 0, corrections, causes, review: None });
     };
-    let (corrections, review) = (corrections(on, row.id)?, review(on, row.id)?);
-    Ok(ScanState { key, content: row.content.hash, revision: row.revision, corrections, review })
+    let (corrections, causes, review) = (corrections(on, row.id)?, causes(on, row.id)?, review(on, row.id)?);
+    Ok(ScanState { key, content: row.content.hash, revision: row.revision, corrections, causes, review })
 }
 
 /// The corrections of a scan, by detection.

@@ -1,5 +1,6 @@
 //! Opening a file that has the tables, and making one.
 
+use crate::causes;
 use crate::error::{StoreError, WAIT_SECONDS, told};
 use crate::identity::journal;
 use crate::tables::{self, APPLICATION, FIRST_VERSION, VERSION};
@@ -25,6 +26,7 @@ pub(crate) fn open(file: &Path) -> Result<Connection, StoreError> {
     if found == FIRST_VERSION {
         tables::migrate(&mut connection).map_err(told(file))?;
     }
+    causes::make_room(&connection).map_err(told(file))?;
     connection.pragma_update(None, "foreign_keys", "ON").map_err(told(file))?;
     Ok(connection)
 }

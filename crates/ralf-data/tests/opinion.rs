@@ -7,7 +7,7 @@ use ralf::learned::Model;
 use ralf_data::judge::Certainty;
 use ralf_data::result::{LabelledRun, LabelledSequence};
 use ralf_data::run::{LabelRun, Unwatched};
-use ralf_data::things::{Answer, Change, Observed, SequenceThings};
+use ralf_data::things::{Answer, Change, Extent, Observed, SequenceThings};
 use ralf_data::{Recording, SequenceReader, Settings};
 use ralf_sim::{SimulatedSequence, presets, world};
 use std::path::PathBuf;
@@ -44,7 +44,8 @@ impl Known {
             LabelledRun::open(out.path()).unwrap().sequence(reader).unwrap();
         let things = SequenceThings::of(reader, &rig, &Certainty::of(&settings), &tables).unwrap();
         let model = Model::shipped().unwrap();
-        let observed = Observed::of(reader, (&rig, &settings), &model, &things, jobs).unwrap();
+        let whole = Extent { t_ns: 0, scans: usize::MAX, detections: usize::MAX };
+        let observed = Observed::of(reader, (&rig, &settings), &model, &things, (whole, jobs)).unwrap();
         let truth = truth(reader, &things);
         Self { things, observed, truth }
     }

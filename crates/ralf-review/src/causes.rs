@@ -1,6 +1,33 @@
 //! Causes of artifacts, numbered alike in all sequences.
 
+use ralf::label::Cause;
+use ralf_corrections::ScanState;
 use ralf_data::{Causes, DataError, GroundTruth, Recording, ScanId};
+
+/// The causes that people may say, by number; 0 is none.
+pub(crate) fn sayable() -> [&'static str; Cause::ALL.len()] {
+    Cause::ALL.map(|cause| if cause == Cause::Plausible { "" } else { cause.name() })
+}
+
+/// What people said is the cause of each detection, by number.
+pub(crate) fn said(detections: usize, state: &ScanState) -> Vec<u8> {
+    let mut numbers = vec![0; detections];
+    for (point, number) in numbered(state) {
+        if let Some(said) = numbers.get_mut(point as usize) {
+            *said = number;
+        }
+    }
+    numbers
+}
+
+/// The detections of which people said a cause, with its number. One that this program doesn't know is none.
+pub(crate) fn numbered(state: &ScanState) -> impl Iterator<Item = (u32, u8)> {
+    state.causes.iter().filter_map(|(point, name)| {
+        let known =
+            Cause::ALL.into_iter().find(|cause| *cause != Cause::Plausible && cause.name() == name)?;
+        Some((*point, known as u8))
+    })
+}
 
 /// The names of all causes of all sequences, and what each sequence's codes mean.
 pub(crate) struct CauseNames {

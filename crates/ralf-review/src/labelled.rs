@@ -11,7 +11,7 @@ use ralf::space::sync;
 use ralf_data::result::{
     CameraRecord, ImageRecord, LabelledRun, LabelledSequence, PlausibilityReader, RadarScanKey, Table,
 };
-use ralf_data::things::{Observed, SequenceThings};
+use ralf_data::things::{Extent, Observed, SequenceThings};
 use ralf_data::{DataError, SequenceReader};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -21,6 +21,10 @@ use std::time::SystemTime;
 
 /// Row groups that are kept: some 15 MB each, and several radars may be looked at together.
 const GROUPS_KEPT: usize = 12;
+
+/// At most so much of a sequence is learned from at once: some minutes of one processor, and 200 MB.
+const MOST_SCANS: usize = 2000;
+const MOST_DETECTIONS: usize = 200_000;
 
 /// The labels of one sequence, and the settings that they were made with.
 pub(crate) struct SequenceLabels {
@@ -123,19 +127,21 @@ impl SequenceLabels {
         Ok(self.things.get((), |_| true, find)?)
     }
 
-    /// All evidence on these things; gathered once, by so many threads.
+    /// All evidence on these things around a time, as far as [`MOST_SCANS`] and [`MOST_DETECTIONS`] let; gathered once,
+    /// by so many threads, and again where somebody looks at another part of a long sequence.
     pub(crate) fn observed(
         &self,
         reader: &dyn SequenceReader,
         things: &SequenceThings,
-        jobs: usize,
+        (t_ns, jobs): (i64, usize),
     ) -> Result<Arc<Observed>, ApiError> {
+        let extent = Extent { t_ns, scans: MOST_SCANS, detections: MOST_DETECTIONS };
         let gather = || {
             let model = Model::shipped().map_err(|error| ApiError::Broken(error.to_string()))?;
-            Observed::of(reader, (&self.rig, &self.settings), &model, things, jobs)
+            Observed::of(reader, (&self.rig, &self.settings), &model, things, (extent, jobs))
                 .map_err(|error| ApiError::Broken(error.to_string()))
         };
-        self.observed.get((), |_| true, gather)
+        self.observed.get((), |observed| observed.serves(t_ns), gather)
     }
 
     /// How much each scan needs a person, in the order of the rig.

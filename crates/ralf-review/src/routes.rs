@@ -4,7 +4,7 @@ use crate::app::App;
 use crate::correcting::{self, MarkRequest, Since, StepRequest, StrokeRequest};
 use crate::http::{Answer, ApiError, Asked, Body, Guard, MAX_BODY, Person, Place, guard, json};
 use crate::page;
-use crate::reading::{self, Moment, Projection};
+use crate::reading::{self, About, Around, LidarProjection, Moment, Projection};
 use axum::Router;
 use axum::extract::{DefaultBodyLimit, State};
 use axum::http::Uri;
@@ -23,12 +23,16 @@ pub(crate) fn router(app: Arc<App>, guarded_by: Arc<Guard>) -> Router {
         .route("/things", get(things))
         .route("/things/doubtful", get(doubtful))
         .route("/opinion", get(opinion))
+        .route("/disagreements", get(disagreements))
         .route("/radars/{radar}/scans/{scan}", get(detections))
+        .route("/radars/{radar}/scans/{scan}/detections/{point}/said", get(said))
         .route("/radars/{radar}/scans/{scan}/reviewed", put(mark))
         .route("/lidars/{lidar}/scans/{scan}", get(cloud))
         .route("/lidars/{lidar}/scans/{scan}/around", get(map))
         .route("/cameras/{camera}/images/{image}", get(image))
         .route("/cameras/{camera}/images/{image}/detections", get(projection))
+        .route("/cameras/{camera}/images/{image}/lidar", get(lidar_projection))
+        .route("/cameras/{camera}/images/{image}/things/{thing}", get(thing_projection))
         .route("/moment", get(moment))
         .route("/strokes", post(stroke))
         .route("/undo", post(undo))
@@ -37,6 +41,7 @@ pub(crate) fn router(app: Arc<App>, guarded_by: Arc<Guard>) -> Router {
         .route("/changes", get(changes));
     Router::new()
         .route("/api/recording", get(recording))
+        .route("/api/people", get(people))
         .nest("/api/sequences/{sequence}", sequence)
         .fallback(elsewhere)
         .method_not_allowed_fallback(async || ApiError::Method)
@@ -74,8 +79,24 @@ async fn doubtful(State(app): Shared, Place(sequence): Place<String>) -> Answer 
     app.blocking(move |app| reading::doubtful(app, &sequence)).await
 }
 
-async fn opinion(State(app): Shared, Place(sequence): Place<String>) -> Answer {
-    app.blocking(move |app| reading::opinion(app, &sequence)).await
+async fn opinion(State(app): Shared, Place(sequence): Place<String>, Asked(asked): Asked<Around>) -> Answer {
+    app.blocking(move |app| reading::opinion(app, &sequence, &asked)).await
+}
+
+async fn people(State(app): Shared) -> Answer {
+    app.blocking(reading::people).await
+}
+
+async fn disagreements(State(app): Shared, Place(sequence): Place<String>) -> Answer {
+    app.blocking(move |app| reading::disagreements(app, &sequence)).await
+}
+
+async fn said(
+    State(app): Shared,
+    Place((sequence, radar, scan, point)): Place<(String, String, usize, usize)>,
+    Asked(about): Asked<About>,
+) -> Answer {
+    app.blocking(move |app| reading::said(app, (&sequence, &radar, scan, point), &about)).await
 }
 
 async fn detections(
@@ -105,7 +126,22 @@ async fn projection(
     Place((sequence, camera, image)): Place<(String, String, usize)>,
     Asked(asked): Asked<Projection>,
 ) -> Answer {
-    app.blocking(move |app| reading::projection(app, &sequence, &camera, image, &asked)).await
+    app.blocking(move |app| reading::projection(app, (&sequence, &camera, image), &asked)).await
+}
+
+async fn lidar_projection(
+    State(app): Shared,
+    Place((sequence, camera, image)): Place<(String, String, usize)>,
+    Asked(asked): Asked<LidarProjection>,
+) -> Answer {
+    app.blocking(move |app| reading::lidar_projection(app, (&sequence, &camera, image), &asked)).await
+}
+
+async fn thing_projection(
+    State(app): Shared,
+    Place((sequence, camera, image, thing)): Place<(String, String, usize, u32)>,
+) -> Answer {
+    app.blocking(move |app| reading::thing_projection(app, (&sequence, &camera, image), thing)).await
 }
 
 async fn moment(State(app): Shared, Place(sequence): Place<String>, Asked(asked): Asked<Moment>) -> Answer {

@@ -12,7 +12,7 @@ mod sequence;
 mod standing;
 
 pub use doubtful::{Answer, Doubtful, Thing};
-pub use observed::Observed;
+pub use observed::{Extent, Observed};
 pub use opinion::Change;
 pub use sequence::SequenceThings;
 
@@ -35,7 +35,8 @@ pub struct Sighting {
 pub const MOVING: f64 = 0.7;
 
 impl Sighting {
-    fn moves(&self) -> bool {
+    /// Whether it moves: faster than [`MOVING`].
+    pub fn moves(&self) -> bool {
         self.rate.abs() > MOVING
     }
 

@@ -21,25 +21,30 @@ const PROPOSED: f64 = 0.85;
 
 impl SequenceThings {
     /// Which things would be called otherwise by who has learned from these answers, those with the most detections
-    /// first. Nothing where nobody has said anything. The result doesn't depend on `jobs`.
+    /// first; of what wasn't observed nothing is said or learned. Nothing where nobody has said anything of the rest.
+    /// The result doesn't depend on `jobs`.
     pub fn second_opinion(
         &self,
         observed: &Observed,
         answers: &[Option<Answer>],
         jobs: usize,
     ) -> Vec<Change> {
-        if answers.iter().all(Option::is_none) {
+        if self.answered(observed, answers) == 0 {
             return Vec::new();
         }
         let believed: Vec<Believed> =
-            (0..answers.len()).map(|row| self.believed(row, answers[row])).collect();
-        let opinion = second_opinion(&observed.rows, &observed.monotone, &believed, jobs);
+            observed.of.iter().map(|row| self.believed(*row, answers[*row])).collect();
+        let thought = second_opinion(&observed.rows, &observed.monotone, &believed, jobs);
+        let mut opinion = vec![None; answers.len()];
+        for (row, probability) in observed.of.iter().zip(thought) {
+            opinion[*row] = Some(probability);
+        }
         let left = self.expected_errors(answers);
         let mut changes: Vec<Change> = Vec::new();
         for (number, members) in self.members().into_iter().enumerate() {
             let Some((plausible, probability)) = judged(&members, answers, &opinion) else { continue };
-            let is_other =
-                |row: &usize| answers[*row].is_none() && self.sightings()[*row].plausible != plausible;
+            let is_open = |row: usize| answers[row].is_none() && opinion[row].is_some();
+            let is_other = |row: &usize| is_open(*row) && self.sightings()[*row].plausible != plausible;
             let rows: Vec<usize> = members.iter().copied().filter(is_other).collect();
             if probability >= PROPOSED && !rows.is_empty() {
                 let expected_errors = members.iter().map(|row| left[*row]).sum();
@@ -49,6 +54,11 @@ impl SequenceThings {
         }
         changes.sort_by(|a, b| b.rows.len().cmp(&a.rows.len()).then(a.thing.number.cmp(&b.thing.number)));
         changes
+    }
+
+    /// How many detections people said something of, among those that were observed.
+    pub fn answered(&self, observed: &Observed, answers: &[Option<Answer>]) -> usize {
+        observed.of.iter().filter(|row| answers[**row].is_some()).count()
     }
 
     fn believed(&self, row: usize, answer: Option<Answer>) -> Believed {
@@ -63,8 +73,8 @@ impl SequenceThings {
 }
 
 /// What those of a thing are on average of which nobody said anything, and how probable that is.
-fn judged(members: &[usize], answers: &[Option<Answer>], opinion: &[f64]) -> Option<(bool, f64)> {
-    let open = || members.iter().filter(|row| answers[**row].is_none());
-    let mean = open().map(|row| opinion[*row]).sum::<f64>() / open().count() as f64;
+fn judged(members: &[usize], answers: &[Option<Answer>], opinion: &[Option<f64>]) -> Option<(bool, f64)> {
+    let open = || members.iter().filter(|row| answers[**row].is_none()).filter_map(|row| opinion[*row]);
+    let mean = open().sum::<f64>() / open().count() as f64;
     mean.is_finite().then_some(if mean >= 0.5 { (true, mean) } else { (false, 1.0 - mean) })
 }

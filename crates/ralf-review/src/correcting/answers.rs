@@ -1,6 +1,7 @@
 //! What the store says, in the words of the interface.
 
 use crate::app::App;
+use crate::causes;
 use crate::http::{Answer, ApiError, json};
 use crate::reading::reviewed;
 use ralf_corrections::{Conflict, Edit, History, Outcome, ScanState, Step};
@@ -67,6 +68,7 @@ fn scan(state: &ScanState) -> Value {
         "scan": state.key.scan,
         "revision": state.revision,
         "corrections": state.corrections,
+        "causes": causes::numbered(state).collect::<Vec<_>>(),
         "reviewed": reviewed(state),
     })
 }

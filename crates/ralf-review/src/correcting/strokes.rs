@@ -2,8 +2,9 @@
 
 use super::answers;
 use crate::app::App;
+use crate::causes::sayable;
 use crate::http::{Answer, ApiError, EditId, Person, json};
-use ralf::label::class_name;
+use ralf::label::{class_name, truth_of};
 use ralf_corrections::{ScanEdit, Stroke};
 use serde::{Deserialize, Deserializer};
 use std::collections::{BTreeMap, BTreeSet};
@@ -22,9 +23,14 @@ pub(crate) struct StrokeRequest {
     group: Option<String>,
     #[serde(default)]
     protect: bool,
+    #[serde(default)]
+    confirm: bool,
     /// Must be there: its absence is no wish to take corrections away.
     #[serde(deserialize_with = "present")]
     label: Option<u16>,
+    /// Why it is so.
+    #[serde(default)]
+    cause: Option<String>,
     base: Vec<Base>,
     points: Vec<Points>,
 }
@@ -64,7 +70,7 @@ fn present<'de, D: Deserializer<'de>>(value: D) -> Result<Option<u16>, D::Error>
 
 /// Writes a stroke.
 pub(crate) fn stroke(app: &App, sequence: &str, asked: StrokeRequest, person: Person) -> Answer {
-    let who = person.who(&app.author, asked.id.clone());
+    let who = app.who(person, asked.id.clone());
     let stroke = checked(app, sequence, asked)?;
     answers::outcome(app, app.edit(|store| store.apply(&stroke, &who))?)
 }
@@ -72,21 +78,21 @@ pub(crate) fn stroke(app: &App, sequence: &str, asked: StrokeRequest, person: Pe
 /// Takes the person's own last step back.
 pub(crate) fn undo(app: &App, sequence: &str, asked: StepRequest, person: Person) -> Answer {
     app.sequence(sequence)?;
-    let who = person.who(&app.author, asked.id);
+    let who = app.who(person, asked.id);
     answers::outcome(app, app.edit(|store| store.undo(sequence, &who))?)
 }
 
 /// Sets the step again that the person took back last.
 pub(crate) fn redo(app: &App, sequence: &str, asked: StepRequest, person: Person) -> Answer {
     app.sequence(sequence)?;
-    let who = person.who(&app.author, asked.id);
+    let who = app.who(person, asked.id);
     answers::outcome(app, app.edit(|store| store.redo(sequence, &who))?)
 }
 
 /// What the person can undo and redo.
 pub(crate) fn history(app: &App, sequence: &str, person: Person) -> Answer {
     app.sequence(sequence)?;
-    let who = person.who(&app.author, None);
+    let who = app.who(person, None);
     let found = app.said(|store| store.history(sequence, &who.author))?;
     json(&answers::history(&found))
 }
@@ -98,6 +104,7 @@ fn checked(app: &App, sequence: &str, asked: StrokeRequest) -> Result<Stroke, Ap
     if let Some(unknown) = asked.label.filter(|id| class_name(*id).is_none()) {
         return Err(malformed(format!("label: expected an id of SemanticKITTI, found {unknown}")));
     }
+    check_cause(asked.cause.as_deref(), asked.label)?;
     let bases: BTreeMap<(&str, usize), &Base> =
         asked.base.iter().map(|base| ((base.radar.as_str(), base.scan), base)).collect();
     let mut seen = BTreeSet::new();
@@ -113,8 +120,8 @@ fn checked(app: &App, sequence: &str, asked: StrokeRequest) -> Result<Stroke, Ap
         scans.push(edit(app, sequence, part, base)?);
     }
     app.sequence(sequence)?;
-    let StrokeRequest { tool, group, protect, label, .. } = asked;
-    Ok(Stroke { sequence: sequence.to_owned(), tool, group, protect, label, scans })
+    let StrokeRequest { tool, group, protect, confirm, label, cause, .. } = asked;
+    Ok(Stroke { sequence: sequence.to_owned(), tool, group, protect, confirm, label, cause, scans })
 }
 
 /// A stroke's part in a scan, which must hold what was on screen.
@@ -134,6 +141,19 @@ fn edit(app: &App, sequence: &str, part: &Points, base: &Base) -> Result<ScanEdi
         base: base.revision,
         points: points.clone(),
     })
+}
+
+/// Only an artifact has a cause, and one that is known.
+fn check_cause(cause: Option<&str>, label: Option<u16>) -> Result<(), ApiError> {
+    let Some(cause) = cause else { return Ok(()) };
+    if cause.is_empty() || !sayable().contains(&cause) {
+        let known = sayable()[1..].join(", ");
+        return Err(malformed(format!("cause: expected one of {known}, found `{cause}`")));
+    }
+    match label.and_then(truth_of) {
+        Some(false) => Ok(()),
+        _ => Err(malformed(format!("label: expected an artifact's where a cause is said, found {label:?}"))),
+    }
 }
 
 fn check_name(what: &str, name: &str) -> Result<(), ApiError> {

@@ -2,6 +2,7 @@
 
 use super::{matrix, time};
 use crate::app::{App, ScanPlace};
+use crate::causes;
 use crate::columns::meaning;
 use crate::http::{Answer, ApiError, Table, content};
 use crate::labelled::SequenceLabels;
@@ -25,7 +26,7 @@ pub(crate) fn detections(app: &App, sequence: &str, radar: &str, scan: usize) ->
     let version = app.version(&place)?;
     check_size(&version, &rows)?;
     let said = app.said(|store| store.scan(&version))?;
-    let causes = app.causes.of_scan(place.sequence, &place.key.clone().into(), rows.len())?;
+    let known = app.causes.of_scan(place.sequence, &place.key.clone().into(), rows.len())?;
     let mut table = Table::new(rows.len());
     let shown = |group| matches!(group, Group::Measured | Group::Answers | Group::Evidence);
     for (column, values) in rows.columns().filter(|(column, _)| shown(column.group)) {
@@ -40,8 +41,9 @@ pub(crate) fn detections(app: &App, sequence: &str, radar: &str, scan: usize) ->
     let stamp = stamp(version.content.hash.as_ref(), &machine);
     table.u16("label", effective(rows.labels()?, &said));
     table.u8("corrected", corrected(rows.len(), &said));
-    if let Some(causes) = causes {
-        table.u8("cause", causes);
+    table.u8("said_cause", causes::said(rows.len(), &said));
+    if let Some(known) = known {
+        table.u8("cause", known);
     }
     let mut header = header(&place, &labels, &said);
     header.insert("content".to_owned(), json!(version.content.hash.map(|hash| hash.to_string())));

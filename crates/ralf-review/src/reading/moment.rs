@@ -1,6 +1,6 @@
 //! Which scans belong on the screen.
 
-use super::time;
+use super::{read_time, time};
 use crate::app::App;
 use crate::http::{Answer, ApiError, json};
 use ralf::space::sync;
@@ -23,8 +23,7 @@ pub(crate) struct Moment {
 pub(crate) fn moment(app: &App, sequence: &str, asked: &Moment) -> Answer {
     let (_, reader) = app.sequence(sequence)?;
     let malformed = |what: &str| ApiError::Malformed(format!("query: {what}"));
-    let t_ns: i64 =
-        asked.t_ns.parse().map_err(|error| malformed(&format!("t_ns: expected nanoseconds: {error}")))?;
+    let t_ns = read_time(&asked.t_ns)?;
     if asked.accumulate > MOST_ACCUMULATED {
         let found = asked.accumulate;
         return Err(malformed(&format!("accumulate: expected at most {MOST_ACCUMULATED}, found {found}")));

@@ -1,32 +1,41 @@
 //! What the labels would be, after what people said of some of them.
 
 use super::said::Said;
-use super::things;
+use super::{read_time, things};
 use crate::app::App;
 use crate::http::{Answer, ApiError, json};
 use crate::labelled::SequenceLabels;
 use ralf::label::{ARTIFACT, PLAUSIBLE};
 use ralf::sensors::Sequence;
-use ralf_corrections::ScanVersion;
 use ralf_data::SequenceReader;
 use ralf_data::things::{self as data, Change, SequenceThings};
+use serde::Deserialize;
 use serde_json::{Map, Value, json};
 use std::collections::{BTreeMap, BTreeSet};
 use std::thread::available_parallelism;
+
+/// Around which moment, where a sequence is too long to be learned from as a whole.
+#[derive(Debug, Deserialize)]
+pub(crate) struct Around {
+    /// ns
+    #[serde(default)]
+    t_ns: Option<String>,
+}
 
 /// It's thought over again so often where people say more meanwhile.
 const ROUNDS: usize = 3;
 
 /// Which things would be called otherwise by who has learned from what was said; nothing is changed by that. The first
 /// time all evidence is gathered, which takes a while.
-pub(crate) fn opinion(app: &App, sequence: &str) -> Answer {
+pub(crate) fn opinion(app: &App, sequence: &str, asked: &Around) -> Answer {
+    let t_ns = asked.t_ns.as_deref().map_or(Ok(0), read_time)?;
     let (index, reader) = app.sequence(sequence)?;
     let labels = app.labels(index)?;
     let things = labels.things(reader)?;
     let said = || Said::of(app, index, reader)?.answers(app, &things);
     let mut answers = said()?;
     for _ in 0..ROUNDS {
-        let opinion = learned(app, reader, &labels, &things, &answers)?;
+        let opinion = learned(app, (reader, &labels, &things), t_ns, &answers)?;
         // Scans' revisions were read after the answers: they belong to these only if nobody has said more since.
         let now = said()?;
         if now == answers {
@@ -41,37 +50,36 @@ pub(crate) fn opinion(app: &App, sequence: &str) -> Answer {
 /// What would change by these answers, and what strokes on those scans rest on.
 fn learned(
     app: &App,
-    reader: &dyn SequenceReader,
-    labels: &SequenceLabels,
-    things: &SequenceThings,
+    (reader, labels, things): (&dyn SequenceReader, &SequenceLabels, &SequenceThings),
+    t_ns: i64,
     answers: &[Option<data::Answer>],
 ) -> Result<Value, ApiError> {
     // Somebody goes on working meanwhile: half of the machine is theirs.
     let jobs = available_parallelism().map_or(1, |threads| threads.get().div_ceil(2));
-    let answered = answers.iter().filter(|answer| answer.is_some()).count();
-    let changes = if answered == 0 {
-        Vec::new()
-    } else {
-        let observed = labels.observed(reader, things, jobs)?;
-        things.second_opinion(&observed, answers, jobs)
-    };
+    if answers.iter().all(Option::is_none) {
+        return Ok(json!({ "answered": 0, "changes": [], "base": [], "scans": null }));
+    }
+    let observed = labels.observed(reader, things, (t_ns, jobs))?;
+    let answered = things.answered(&observed, answers);
+    let changes = things.second_opinion(&observed, answers, jobs);
+    let (looked_at, all) = observed.scans();
     let sequence = reader.sequence();
     let scans: BTreeSet<(usize, usize)> =
         changes.iter().flat_map(|change| &change.rows).map(|row| things.scan_of(*row)).collect();
     let base: Vec<Value> =
         scans.into_iter().map(|scan| base(app, sequence, scan)).collect::<Result<_, ApiError>>()?;
     let changes: Vec<Value> = changes.iter().map(|change| row(sequence, things, change)).collect();
-    Ok(json!({ "answered": answered, "changes": changes, "base": base }))
+    let scans = json!({ "looked_at": looked_at, "all": all });
+    Ok(json!({ "answered": answered, "changes": changes, "base": base, "scans": scans }))
 }
 
 /// What a stroke on a scan rests on.
-fn base(app: &App, sequence: &Sequence, (radar, scan): (usize, usize)) -> Result<Value, ApiError> {
+pub(super) fn base(app: &App, sequence: &Sequence, (radar, scan): (usize, usize)) -> Result<Value, ApiError> {
     let place = app.scan(&sequence.name, &sequence.rig.radars[radar].name, scan)?;
-    let at = (place.sequence, place.radar, place.scan);
-    let content = app.contents.known(place.reader, at).map_or_else(|| app.content(&place), Ok)?;
-    let revision = app.said(|store| store.scan(&ScanVersion { key: place.key.clone(), content }))?.revision;
-    let content = content.hash.map(|hash| hash.to_string());
-    Ok(json!({ "radar": place.key.radar, "scan": scan, "revision": revision, "content": content }))
+    let version = app.known_version(place)?;
+    let revision = app.said(|store| store.scan(&version))?.revision;
+    let content = version.content.hash.map(|hash| hash.to_string());
+    Ok(json!({ "radar": version.key.radar, "scan": scan, "revision": revision, "content": content }))
 }
 
 /// A thing with what it would be, and the detections that this would change.

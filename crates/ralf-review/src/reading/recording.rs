@@ -2,6 +2,7 @@
 
 use super::times;
 use crate::app::App;
+use crate::causes::sayable;
 use crate::http::{Answer, json};
 use crate::labelled::is_labelled;
 use ralf::label::{class_name, cluster_of, flag, truth_of};
@@ -38,12 +39,15 @@ pub(crate) fn recording(app: &App) -> Answer {
         "dataset": name(&app.recording.path),
         "out": name(&app.out),
         "author": app.author,
+        "second": app.team.second,
+        "people": app.team.people(),
         "store": app.said(ralf_corrections::Reader::id)?,
         "read_only": app.store.read_only(),
         "threshold": read_record(&app.out)?.settings.method.fusion.threshold,
         "sequences": sequences,
         "classes": (0..=LAST_CLASS).filter_map(class).collect::<Vec<_>>(),
         "causes": app.causes.names(),
+        "sayable_causes": sayable(),
         "flags": flags,
     }))
 }
@@ -62,6 +66,7 @@ fn sequence(app: &App, reader: &dyn SequenceReader) -> Value {
         "name": sequence.name,
         "title": sequence.title,
         "labelled": is_labelled(&app.out, &sequence.name),
+        "assigned": app.team.of_sequence(&sequence.name),
         "radars": radars.map(|(radar, scans)| json!({ "name": radar.name, "scans": times(scans) })).collect::<Vec<_>>(),
         "lidars": lidars.map(|(lidar, scans)| json!({ "name": lidar.name, "scans": times(scans) })).collect::<Vec<_>>(),
         "cameras": cameras.map(camera).collect::<Vec<_>>(),

@@ -21,7 +21,9 @@ fn a_stroke_is_on_disk_and_the_machines_labels_stay() {
     assert_eq!(answer["changed"], 2);
     assert_eq!(
         answer["scans"],
-        json!([{ "radar": RADAR, "scan": 1, "revision": 1, "corrections": [[3, 10], [5, 10]], "reviewed": null }])
+        json!([{
+            "radar": RADAR, "scan": 1, "revision": 1, "corrections": [[3, 10], [5, 10]], "causes": [], "reviewed": null
+        }])
     );
     let history = &answer["history"];
     assert_eq!(
@@ -225,4 +227,33 @@ fn malformed_edits_are_refused_and_leave_nothing() {
     assert!(server.edit("POST", "strokes", &whole(), &"t".repeat(65)).refused(400).contains("x-ralf-tab"));
     assert!(Corrections::open(out.path()).unwrap().is_empty());
     assert_eq!(server.of_sequence("history").json()["undo_depth"], 0);
+}
+
+#[test]
+fn a_cause_is_said_with_an_artifact_and_goes_with_its_stroke() {
+    let out = Out::new();
+    let server = out.serve();
+    let recording = server.get("/api/recording").json();
+    let known = recording["sayable_causes"].as_array().unwrap();
+    let mirror = known.iter().position(|name| name == "mirror").unwrap() as u8;
+    let stroke = |label: u16, cause: &str, revision: u64| {
+        let base = json!([{ "radar": RADAR, "scan": 1, "revision": revision }]);
+        let points = json!([{ "radar": RADAR, "scan": 1, "points": [2, 5] }]);
+        json!({ "tool": "rule", "label": label, "cause": cause, "base": base, "points": points })
+    };
+    let plausible = server.edit("POST", "strokes", &stroke(99, "mirror", 0), "one");
+    assert!(plausible.refused(400).contains("expected an artifact's"));
+    let unknown = server.edit("POST", "strokes", &stroke(1, "moonlight", 0), "one");
+    assert!(unknown.refused(400).contains("`moonlight`"));
+    let made = server.edit("POST", "strokes", &stroke(1, "mirror", 0), "one").json();
+    assert_eq!(made["scans"][0]["causes"], json!([[2, mirror], [5, mirror]]));
+    // The same label again, for another reason: that is something else to say.
+    let again = server.edit("POST", "strokes", &stroke(1, "road", 1), "one").json();
+    assert_eq!(again["changed"], 2);
+    server.edit("POST", "undo", &json!({}), "one").json();
+    let now = server.table(1);
+    let said: Vec<usize> = (0..now.rows()).filter(|row| now.u8("said_cause")[*row] != 0).collect();
+    assert_eq!((said, now.u8("said_cause")[2]), (vec![2, 5], mirror));
+    server.edit("POST", "undo", &json!({}), "one").json();
+    assert!(server.table(1).u8("said_cause").iter().all(|cause| *cause == 0));
 }

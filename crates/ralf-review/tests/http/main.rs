@@ -4,7 +4,9 @@
 mod correcting;
 mod ending;
 mod harm;
+mod images;
 mod reading;
 mod safety;
 mod support;
+mod team;
 mod things;

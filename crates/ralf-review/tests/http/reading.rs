@@ -2,12 +2,13 @@
 
 use crate::support::{CAMERA, LIDAR, Out, RADAR, SEQUENCE, recording};
 use ralf::config::Config;
-use ralf::sensors::Rig;
+use ralf::sensors::{Rig, is_return};
 use ralf::space::Point;
 use ralf_data::DataError;
 use ralf_data::result::{PlausibilityReader, Schema};
 use ralf_data::{Causes, ScanId, read_labels};
 use serde_json::{Value, json};
+use std::collections::BTreeMap;
 
 fn scan_id(scan: u32) -> ScanId {
     ScanId { sequence: SEQUENCE.into(), radar: RADAR.into(), scan }
@@ -157,46 +158,44 @@ fn a_cloud_is_the_lidars_with_its_ground() {
     assert!((0.1..0.95).contains(&share), "{share}");
 }
 
+/// Against going through all points of all scans: a point of each cell that two scans have seen, and none of another.
 #[test]
-fn an_image_is_the_file_and_detections_are_where_the_camera_sees_them() {
+fn a_map_is_what_two_scans_have_seen() {
     let out = Out::new();
     let server = out.serve();
-    let image = server.of_sequence(&format!("cameras/{CAMERA}/images/1"));
-    let reader = &recording().sequences[0];
-    assert_eq!(image.body, std::fs::read(reader.image_file(0, 1).unwrap()).unwrap());
-    assert_eq!(image.headers["content-type"], "image/png");
-    let table =
-        server.of_sequence(&format!("cameras/{CAMERA}/images/1/detections?radar={RADAR}&scan=2")).table();
-    let sequence = reader.sequence();
-    let camera = &sequence.rig.cameras[0];
-    let (scan_ns, image_ns) = (sequence.times.radars[0][2], sequence.times.cameras[0][1]);
-    assert_ne!(scan_ns, image_ns);
-    let places = server.table(2);
-    let [x, y, z] = ["x", "y", "z"].map(|name| places.f32(name));
-    let [u, v, depth] = ["u", "v", "depth"].map(|name| table.f32(name));
-    let mut seen = 0;
-    for row in 0..places.rows() {
-        let at_scan = Point::from([x[row], y[row], z[row]].map(f64::from));
-        // By way of the world: the vehicle's pose at either time.
-        let in_world = sequence.motion.odom_from_vehicle(scan_ns) * at_scan;
-        let at_image = sequence.motion.odom_from_vehicle(image_ns).inverse() * in_world;
-        let p = camera.vehicle_from_camera.inverse() * at_image;
-        if u[row].is_nan() {
-            let outside = camera.intrinsics.project(&p).is_none_or(|[u, v]| {
-                !(-0.49..camera.width as f64 - 0.51).contains(&u)
-                    || !(-0.49..camera.height as f64 - 0.51).contains(&v)
-            });
-            assert!(outside && v[row].is_nan() && depth[row].is_nan());
-            continue;
+    let table = server.of_sequence(&format!("lidars/{LIDAR}/scans/1/around")).table();
+    let recording = recording();
+    let sequence = recording.sequences[0].sequence();
+    let (times, mounted) = (&sequence.times.lidars[0], &sequence.rig.lidars[0].vehicle_from_lidar);
+    let mut cells: BTreeMap<[i32; 3], BTreeMap<usize, Vec<Point>>> = BTreeMap::new();
+    for (number, time) in times.iter().enumerate() {
+        let moved = sequence.motion.between(times[1], *time);
+        let points = recording.sequences[0].lidar_scan(0, number).unwrap().points;
+        for point in points.iter().filter(|point| is_return(point)) {
+            let place = moved * (mounted * Point::from(point.map(f64::from)));
+            let cell: [i32; 3] = place.coords.map(|metres| (metres / 0.25).floor() as i32).into();
+            cells.entry(cell).or_default().entry(number).or_default().push(place);
         }
-        let expected = camera.intrinsics.project(&p).unwrap();
-        assert!(
-            (expected[0] - f64::from(u[row])).abs() < 0.01 && (expected[1] - f64::from(v[row])).abs() < 0.01
-        );
-        assert!((p.z - f64::from(depth[row])).abs() < 1e-3);
-        seen += 1;
     }
-    assert!(seen > 10, "{seen}");
+    cells.retain(|_, scans| scans.len() >= 2);
+    assert_eq!(table.header["scans"], times.len());
+    let [x, y, z] = ["x", "y", "z"].map(|name| table.f32(name));
+    let near = |row: usize, place: &Point| {
+        let apart = [x[row], y[row], z[row]].map(f64::from);
+        (place - Point::from(apart)).norm() < 1e-3
+    };
+    let matched = |(row, scans): (usize, &BTreeMap<usize, Vec<Point>>)| {
+        scans.values().flatten().any(|place| near(row, place))
+    };
+    // Both are in the order of cells.
+    assert!(cells.len() > 100 && table.rows() == cells.len(), "{} of {}", table.rows(), cells.len());
+    assert!(cells.values().enumerate().all(matched));
+    assert!(
+        server
+            .of_sequence(&format!("lidars/{LIDAR}/scans/{}/around", times.len()))
+            .refused(404)
+            .contains(LIDAR)
+    );
 }
 
 #[test]

@@ -17,6 +17,7 @@ export interface Attributes {
   readonly min?: string;
   readonly max?: string;
   readonly for?: string;
+  readonly scope?: string;
   readonly maxlength?: string;
   readonly method?: string;
 }
@@ -31,6 +32,11 @@ export function h<Tag extends keyof HTMLElementTagNameMap>(
   for (const [kind, listener] of Object.entries(on ?? {})) element.addEventListener(kind, listener as EventListener);
   for (const child of children) if (child !== null) element.append(child);
   return element;
+}
+
+/** How much larger text is than on a small screen. */
+export function textScale(): number {
+  return Number(getComputedStyle(document.documentElement).getPropertyValue("--scale")) || 1;
 }
 
 /** Puts other children in; leaves the element alone where its text would stay the same. */

@@ -17,6 +17,7 @@ const PATHS = {
   next: "M5 4l6 6-6 6M14 4v12",
   lidar: "M4 13h.2M7 11h.2M10 9.500h.2M13 11h.2M16 13h.2M6 15h.2M10 13.500h.2M14 15h.2M8 7h.2M12 7h.2",
   ground: "M3 13h14M6 16h8M10 4v6M7.5 7.500L10 10l2.5-2.5",
+  overlay: "M3 5h14v10H3zM6 12h.2M8.500 9.500h.2M11 11h.2M13.500 8.500h.2M14 12.500h.2",
   grow: "M12 4h4v4M16 4l-5 5M8 16H4v-4M4 16l5-5",
   home: "M4 8V4h4M12 4h4v4M16 12v4h-4M8 16H4v-4",
 } as const;

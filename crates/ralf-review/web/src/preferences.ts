@@ -4,7 +4,16 @@ import { filterFrom, plainFilter } from "./data/kept-filter.js";
 import type { State } from "./state.js";
 import type { Store } from "./store.js";
 
-const KEPT = ["colour", "filter", "lidarShown", "groundHidden", "light", "dotSize", "queueView"] as const;
+const KEPT = [
+  "colour",
+  "filter",
+  "lidarShown",
+  "groundHidden",
+  "lidarInImages",
+  "light",
+  "dotSize",
+  "queueView",
+] as const;
 type Preferences = Pick<State, (typeof KEPT)[number]>;
 
 /** Takes up what was kept of the dataset, and keeps every change from now on. */
@@ -18,9 +27,9 @@ export function keepPreferences(store: Store<State>): void {
 }
 
 export function writtenPreferences(state: Preferences): string {
-  const { colour, lidarShown, groundHidden, light, dotSize, queueView } = state;
+  const { colour, lidarShown, groundHidden, lidarInImages, light, dotSize, queueView } = state;
   const filter = plainFilter(state.filter);
-  return JSON.stringify({ colour, lidarShown, groundHidden, light, dotSize, queueView, filter });
+  return JSON.stringify({ colour, lidarShown, groundHidden, lidarInImages, light, dotSize, queueView, filter });
 }
 
 /** What is kept as far as it makes sense; the rest is as it is. */
@@ -39,6 +48,7 @@ export function read(text: string | null, now: Preferences): Partial<Preferences
     ...same("colour"),
     ...same("lidarShown"),
     ...same("groundHidden"),
+    ...same("lidarInImages"),
     ...same("light"),
     ...same("dotSize"),
     queueView: { ...now.queueView, ...(found["queueView"] as object | undefined) },

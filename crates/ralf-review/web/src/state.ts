@@ -1,6 +1,18 @@
 /** Everything the page knows and shows. */
 
-import type { DoubtfulThing, ScanId, History, Opinion, Progress, QueueScan, Recording } from "./api/types.js";
+import type {
+  Disagreement,
+  Disagreements,
+  DoubtfulThing,
+  History,
+  Opinion,
+  Past,
+  Progress,
+  QueueScan,
+  Recording,
+  ScanId,
+  Workday,
+} from "./api/types.js";
 import type { AreaKind, Home } from "./data/area.js";
 import type { CameraMoment } from "./data/camera-moment.js";
 import { buildCloud, type Cloud } from "./data/cloud.js";
@@ -20,7 +32,7 @@ export const MOST_ACCUMULATED = 100;
 export type ViewMode = "bird" | "free" | "camera";
 /** What a stroke may change: the scan under review alone, or everything shown. */
 export type Scope = "scan" | "shown";
-export type Dialog = "none" | "help" | "classes" | "name";
+export type Dialog = "none" | "help" | "classes" | "name" | "team";
 
 /** Detections that would be accepted unseen; a second time accepts them. */
 export interface Accepting extends Unseen {
@@ -61,6 +73,15 @@ export interface State {
   /** True while the server thinks it over. */
   readonly thinking: boolean;
 
+  /** How far people agree in this sequence; `null` until somebody asks. */
+  readonly disagreements: Disagreements | null;
+  /** What two people said differently, while it is looked at. */
+  readonly disputed: Disagreement | null;
+  /** Who has done how much, as far as somebody asked. */
+  readonly workdays: readonly Workday[];
+  /** What was said of the chosen detection, or of the thing. */
+  readonly past: Past | null;
+
   /** The scan under review. */
   readonly current: ScanId | null;
   readonly loading: boolean;
@@ -73,6 +94,8 @@ export interface State {
   readonly accumulate: number;
   readonly lidarShown: boolean;
   readonly groundHidden: boolean;
+  /** The LiDAR's points are drawn into the cameras' images. */
+  readonly lidarInImages: boolean;
   /** A light background in the picture. */
   readonly light: boolean;
   /** Diameter of a detection, px. */
@@ -80,6 +103,8 @@ export interface State {
   readonly filter: Filter;
   /** Filters that were kept under a name. */
   readonly rules: readonly Rule[];
+  /** The rule whose selection is looked at, until it is applied or dropped. */
+  readonly rule: Rule | null;
   /** The camera a person chose to see large; `null`: the one that sees most. */
   readonly chosenCamera: string | null;
 
@@ -147,6 +172,11 @@ const NOTHING_DONE = {
   frameTime: 0,
 } as const satisfies Partial<State>;
 
+/** The thing that is looked at: the one that wants an answer, or that would change. */
+export function lookedAt({ thing, opinion, opinionAt }: Readonly<State>): DoubtfulThing | null {
+  return thing ?? opinion?.changes[opinionAt] ?? null;
+}
+
 /** Whose places are on screen. */
 export function homeOf({ recording, sequence }: Readonly<State>): Home {
   return { dataset: recording.dataset, sequence };
@@ -168,6 +198,10 @@ export function initialState(recording: Recording, name: string): State {
     opinion: null,
     opinionAt: -1,
     thinking: false,
+    disagreements: null,
+    disputed: null,
+    workdays: [],
+    past: null,
     current: null,
     loading: true,
     cloud: buildCloud([]),
@@ -178,10 +212,12 @@ export function initialState(recording: Recording, name: string): State {
     accumulate: 0,
     lidarShown: true,
     groundHidden: true,
+    lidarInImages: false,
     light: false,
     dotSize: 8,
     filter: everything,
     rules: [],
+    rule: null,
     chosenCamera: null,
     shown: new Uint8Array(0),
     eligible: new Uint8Array(0),

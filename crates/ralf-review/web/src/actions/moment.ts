@@ -1,18 +1,20 @@
 /** Puts a scan on screen: its detections and LiDAR first, the cameras as they come. */
 
-import { messageOf } from "../api/errors.js";
 import type { ScanId } from "../api/types.js";
-import { type CameraMoment, placeScan, withoutPlaces } from "../data/camera-moment.js";
+import { type CameraMoment, withoutPlaces } from "../data/camera-moment.js";
 import type { Cloud } from "../data/cloud.js";
 import type { Lidar } from "../data/lidar.js";
 import { sameScan, type Scan } from "../data/scan.js";
 import { MOST_ACCUMULATED } from "../state.js";
+import { Imagery } from "./imagery.js";
 import { complain, type World } from "./world.js";
 
 export class Moment {
   private generation = 0;
+  private readonly imagery: Imagery;
 
   constructor(private readonly world: World) {
+    this.imagery = new Imagery(world);
     world.store.watch(
       ({ lidarShown }) => [lidarShown],
       () => void this.readLidar().catch((error: unknown) => complain(world, error)),
@@ -34,7 +36,7 @@ export class Moment {
       const before = store.state.cameras;
       const cameras = this.camerasOf(cloud).map((camera) => withKnownPicture(camera, before));
       store.set({ cloud, lidar, cameras, selection: new Uint8Array(cloud.count), loading: false });
-      await Promise.all(cameras.map((camera) => this.complete(generation, cloud, camera)));
+      await Promise.all(cameras.map((camera) => this.imagery.complete(cloud, camera)));
     } catch (error) {
       if (generation !== this.generation) return;
       const { scans } = store.state.cloud;
@@ -83,56 +85,15 @@ export class Moment {
       const at = near.find(({ name }) => name === info.name);
       if (at === undefined) return [];
       const places = withoutPlaces(cloud.count);
-      return [{ info, image: at.image, failed: failed.includes(info.name), picture: null, problem: null, places }];
+      const failing = failed.includes(info.name);
+      return [{ info, image: at.image, failed: failing, picture: null, problem: null, places, lidar: null }];
     });
-  }
-
-  private async complete(generation: number, cloud: Cloud, camera: CameraMoment): Promise<void> {
-    const { loader, store } = this.world;
-    const { sequence } = store.state;
-    const name = camera.info.name;
-    const update = (patch: Partial<CameraMoment>): void => {
-      if (generation !== this.generation) return;
-      store.set({
-        cameras: store.state.cameras.map((other) => (other.info.name === name ? { ...other, ...patch } : other)),
-      });
-    };
-    const picture = loader.image(sequence, name, camera.image).then(
-      (image) => update({ picture: image, problem: null }),
-      (error: unknown) => update({ problem: messageOf(error) }),
-    );
-    const places = withoutPlaces(cloud.count);
-    const near = nearInTime(cloud);
-    const read = cloud.scans.map(async (scan, index) => {
-      if (!near[index]) return;
-      placeScan(places, cloud, index, await loader.projections(sequence, name, camera.image, scan));
-      if (index === 0) update({ places: places.slice() });
-    });
-    await Promise.all([
-      picture,
-      Promise.all(read).then(
-        () => update({ places }),
-        (error: unknown) => update({ problem: messageOf(error) }),
-      ),
-    ]);
   }
 
   /** Whether the scan is among those on screen. */
   shows(id: ScanId): boolean {
     return this.world.store.state.cloud.scans.some((scan) => sameScan(scan, id));
   }
-}
-
-/** How far in time a scan may be from the current one to be shown in an image, ns. */
-const NEAR_NS = 150_000_000n;
-
-/** Which scans belong into the images of this moment: not those of a whole sequence. */
-function nearInTime({ scans }: Cloud): readonly boolean[] {
-  const now = BigInt(scans[0].table.header.t_ns);
-  return scans.map(({ table }) => {
-    const apart = BigInt(table.header.t_ns) - now;
-    return apart <= NEAR_NS && apart >= -NEAR_NS;
-  });
 }
 
 /** The picture that is on screen already stays there while its projections are read anew. */

@@ -2,7 +2,7 @@
 
 import type { ProposedChange } from "../api/types.js";
 import { type Cloud, maskOf } from "../data/cloud.js";
-import { countOfPoints, kept, pointsOf } from "../data/opinion.js";
+import { countOfPoints, kept, partOf, pointsOf } from "../data/opinion.js";
 import { sameScan, scanKey } from "../data/scan.js";
 import { counted } from "../format.js";
 import { countOf, intersection } from "../selection/mask.js";
@@ -74,14 +74,14 @@ export class Opining {
     if (current === null || !this.correcting.free("thinking it over")) return;
     store.set({ thinking: true, thing: null, selection: new Uint8Array(store.state.selection.length) });
     try {
-      const opinion = await api.opinion(sequence);
+      const opinion = await api.opinion(sequence, store.state.cloud.scans[0]?.table.header.t_ns ?? "0");
       if (sequence !== store.state.sequence) return;
       if (opinion.answered === 0)
-        return tell(this.world, "Correct or review something first: there is nothing to learn from.");
+        return tell(this.world, `Correct or review something${partOf(opinion)} first: there is nothing to learn from.`);
       if (opinion.changes.length === 0)
         return tell(
           this.world,
-          `Nothing else would change by what was said of ${counted(opinion.answered, "detection")}.`,
+          `Nothing else would change by what was said of ${counted(opinion.answered, "detection")}${partOf(opinion)}.`,
         );
       // Nobody's work is taken over: what was begun meanwhile comes first.
       const { thing, selection } = store.state;

@@ -1,8 +1,9 @@
 /** Rules: filters with a name, which choose everything they let through, in this sequence and in others. */
 
 import { liesIn } from "../data/area.js";
-import { keepRules, readRules } from "../data/rules.js";
+import { keepRules, readRules, type Verdict } from "../data/rules.js";
 import { homeOf } from "../state.js";
+import type { Correcting } from "./correcting.js";
 import type { Navigation } from "./navigation.js";
 import type { Selecting } from "./selecting.js";
 import { complain, tell, type World } from "./world.js";
@@ -14,17 +15,18 @@ export class Ruling {
     private readonly world: World,
     private readonly navigation: Navigation,
     private readonly selecting: Selecting,
+    private readonly correcting: Correcting,
   ) {
     world.store.set({ rules: readRules() });
   }
 
   /** Keeps what the filter asks now under a name, in place of what had it before. */
-  save(typed: string): void {
+  save(typed: string, sets: Verdict | null): void {
     const { store } = this.world;
     const name = typed.trim().slice(0, LONGEST_NAME);
     if (name === "") return;
     const others = readRules().filter((rule) => rule.name !== name);
-    this.keep([...others, { name, filter: store.state.filter }]);
+    this.keep([...others, { name, filter: store.state.filter, sets }]);
     tell(this.world, `The rule ${name} is kept in this browser.`);
   }
 
@@ -46,11 +48,21 @@ export class Ruling {
       );
     try {
       await this.navigation.wholeSequence(current);
-      store.set({ filter: rule.filter, thing: null });
+      store.set({ filter: rule.filter, thing: null, opinion: null });
       this.selecting.all("rule");
+      store.set({ rule: rule.sets === null ? null : rule });
     } catch (error) {
       complain(this.world, error);
     }
+  }
+
+  /** Does what the rule says, to what is still selected, as one stroke. */
+  async apply(): Promise<void> {
+    const { store } = this.world;
+    const { rule } = store.state;
+    if (rule === null || rule.sets === null) return;
+    store.set({ rule: null });
+    await this.correcting.apply(rule.sets.label, "rule", rule.sets.cause);
   }
 
   private keep(rules: ReturnType<typeof readRules>): void {

@@ -6,11 +6,13 @@ import { decodeTable, type Table } from "./table.js";
 import type {
   Changes,
   ConflictBody,
+  Disagreements,
   Doubtful,
   MarkRequest,
   History,
   LidarHeader,
   Opinion,
+  Past,
   Progress,
   Queue,
   Recording,
@@ -19,8 +21,10 @@ import type {
   ScanId,
   StrokeAnswer,
   StrokeRequest,
+  ThingInImageHeader,
   ThingsHeader,
   TimedScan,
+  Workday,
 } from "./types.js";
 
 export interface Call {
@@ -48,8 +52,24 @@ export class Api {
   }
 
   /** What the labels would be, after what people said; the first time it takes a while. */
-  opinion(sequence: string): Promise<Opinion> {
-    return this.json("GET", `${inSequence(sequence)}/opinion`);
+  opinion(sequence: string, tNs: string): Promise<Opinion> {
+    return this.json("GET", `${inSequence(sequence)}/opinion?${new URLSearchParams({ t_ns: tNs })}`);
+  }
+
+  /** How far people agree who labelled the same scans, and where they don't. */
+  disagreements(sequence: string): Promise<Disagreements> {
+    return this.json("GET", `${inSequence(sequence)}/disagreements`);
+  }
+
+  /** Who has done how much, in all sequences. */
+  people(): Promise<{ readonly days: readonly Workday[] }> {
+    return this.json("GET", "people");
+  }
+
+  /** What was ever said of a detection, or of all that belong together with it. */
+  past(sequence: string, { radar, scan }: ScanId, point: number, thing: boolean): Promise<Past> {
+    const path = `${inSequence(sequence)}/radars/${part(radar)}/scans/${scan}/detections/${point}/said`;
+    return this.json("GET", `${path}?thing=${thing}`);
   }
 
   progress(sequence: string): Promise<Progress> {
@@ -87,6 +107,22 @@ export class Api {
   ): Promise<Table<object>> {
     const query = new URLSearchParams({ radar, scan: String(scan) });
     return this.table(`${inSequence(sequence)}/cameras/${part(camera)}/images/${image}/detections?${query}`, call);
+  }
+
+  /** The points of a LiDAR scan that lie in an image, the farthest first. */
+  lidarInImage(
+    sequence: string,
+    camera: string,
+    image: number,
+    { name, scan }: { readonly name: string; readonly scan: number },
+  ): Promise<Table<object>> {
+    const query = new URLSearchParams({ lidar: name, scan: String(scan) });
+    return this.table(`${inSequence(sequence)}/cameras/${part(camera)}/images/${image}/lidar?${query}`);
+  }
+
+  /** The detections of a thing that lie in an image. */
+  thingInImage(sequence: string, camera: string, image: number, thing: number): Promise<Table<ThingInImageHeader>> {
+    return this.table(`${inSequence(sequence)}/cameras/${part(camera)}/images/${image}/things/${thing}`);
   }
 
   async moment(sequence: string, tNs: string, accumulate: number, call?: Call): Promise<readonly TimedScan[]> {

@@ -5,12 +5,14 @@ import { maskOf } from "../data/cloud.js";
 import { h, say } from "../dom.js";
 import { pointsOf } from "../history/outbox.js";
 import type { Page } from "../page.js";
+import { lookedAt } from "../state.js";
 import type { Point } from "../selection/geometry.js";
 import { Surface } from "../selection/surface.js";
 import type { Gesture } from "../selection/tools.js";
 import { cleared, drawBrushCursor, drawGesture, drawHover } from "../viewer/drawing.js";
 import { drawDetections, LAYERS } from "./detections.js";
-import { fitted, type Frame, movedBy, toScreen, zoomedAt } from "./frame.js";
+import { around, fitted, type Frame, movedBy, regionOf, toScreen, zoomedAt } from "./frame.js";
+import { LidarLayer } from "./lidar-layer.js";
 
 /** Narrower than this, px, an image would vanish behind the detections of other scans. */
 const SMALL = 260;
@@ -28,6 +30,8 @@ export class CameraView {
   private pointer: Point | null = null;
   private places: Float32Array | null = null;
   private asked = 0;
+  private readonly lidar = new LidarLayer();
+  private aimed: Uint8Array | null = null;
 
   /** `watched`: what is drawn here counts as seen. */
   constructor(
@@ -49,13 +53,15 @@ export class CameraView {
     new ResizeObserver(() => this.fit()).observe(this.element);
     const { store } = page;
     store.watch(
-      ({ painting, shown, eligible, selection, dotSize, waiting }) => [
-        painting,
-        shown,
-        eligible,
-        selection,
-        dotSize,
-        waiting,
+      (state) => [
+        state.painting,
+        state.shown,
+        state.eligible,
+        state.selection,
+        state.dotSize,
+        state.waiting,
+        state.lidarInImages,
+        lookedAt(state),
       ],
       () => this.invalidate(),
     );
@@ -65,7 +71,10 @@ export class CameraView {
     );
   }
 
-  show(camera: CameraMoment | null): void {
+  /** `aimed`: detections that the picture shows large, in place of the whole image. */
+  show(camera: CameraMoment | null, aimed: Uint8Array | null = null): void {
+    if (aimed !== this.aimed) this.touched = false;
+    this.aimed = aimed;
     const other = camera?.info.name !== this.camera?.info.name;
     this.camera = camera;
     this.places = null;
@@ -119,13 +128,39 @@ export class CameraView {
     const context = cleared(this.picture, width, height);
     const { camera } = this;
     if (context === null || camera === null) return;
-    if (!this.touched) this.frame = fitted([camera.info.width, camera.info.height], [width, height]);
+    if (!this.touched) this.frame = this.untouched(camera, [width, height]);
     const { left, top, scale } = this.frame;
     if (camera.picture !== null) {
       context.imageSmoothingEnabled = scale < 3;
       context.drawImage(camera.picture, left, top, camera.info.width * scale, camera.info.height * scale);
     }
-    const { cloud, painting, shown, eligible, selection, dotSize, waiting: strokes } = this.page.store.state;
+    this.drawLidar(context, camera, [width, height]);
+    this.drawDots(context, width);
+    if (this.watched) this.page.actions.review.saw(within(this.placed(), width, height));
+    this.drawOverlay();
+  }
+
+  /** How an image lies there that nobody has moved. */
+  private untouched({ info, places }: CameraMoment, size: readonly [number, number]): Frame {
+    const region = this.aimed === null ? null : regionOf(places, this.aimed);
+    return region === null ? fitted([info.width, info.height], size) : around(region, [info.width, info.height], size);
+  }
+
+  private drawLidar(
+    context: CanvasRenderingContext2D,
+    { lidar, info }: CameraMoment,
+    size: readonly [number, number],
+  ): void {
+    const { lidarInImages, colour } = this.page.store.state;
+    if (!lidarInImages || lidar === null) return;
+    this.lidar.drawOn(context, lidar, info.width, this.frame, size, colour === "height" ? "height" : "depth");
+  }
+
+  private drawDots(context: CanvasRenderingContext2D, width: number): void {
+    const { state } = this.page.store;
+    const { cloud, painting, shown, selection, dotSize, waiting: strokes } = state;
+    // Beside the thing that is looked at everything else is faint.
+    const eligible = lookedAt(state) === null ? state.eligible : selection;
     const radius = dotSize * Math.min(0.5, Math.max(0.28, width / 1400));
     if (shown.length === cloud.count && painting.colours.length === 3 * cloud.count) {
       drawDetections(
@@ -136,8 +171,6 @@ export class CameraView {
         width < SMALL ? LAYERS.slice(1) : LAYERS,
       );
     }
-    if (this.watched) this.page.actions.review.saw(within(this.placed(), width, height));
-    this.drawOverlay();
   }
 
   private drawOverlay(): void {

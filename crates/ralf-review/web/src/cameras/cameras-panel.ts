@@ -1,7 +1,7 @@
 /** All cameras of the moment: one large, the others small beside it. */
 
 import { busiest } from "../data/camera-moment.js";
-import { h } from "../dom.js";
+import { h, pressed } from "../dom.js";
 import { icon } from "../icons.js";
 import type { Page } from "../page.js";
 import { CameraView } from "./camera-view.js";
@@ -27,7 +27,7 @@ export class CamerasPanel {
       },
       icon("grow"),
     );
-    const stage = h("div", { class: "camera-stage" }, this.large.element, grow);
+    const stage = h("div", { class: "camera-stage" }, this.large.element, grow, lidarButton(page));
     this.element = h("section", { class: "cameras", "aria-label": "Cameras" }, stage, this.strip);
     store.watch(
       ({ cameras, chosenCamera }) => [cameras, chosenCamera],
@@ -81,6 +81,27 @@ export class CamerasPanel {
     this.strip.append(thumb);
     return { thumb, view };
   }
+}
+
+/** Whether the LiDAR is drawn into the images. */
+function lidarButton({ store, actions }: Page): HTMLElement {
+  const title = "LiDAR in the cameras' images (Shift K)";
+  const button = h(
+    "button",
+    {
+      class: "tool over-image",
+      type: "button",
+      title,
+      "aria-label": title,
+      on: { click: () => actions.view.toggleLidarInImages() },
+    },
+    icon("overlay"),
+  );
+  store.watch(
+    ({ lidarInImages }) => [lidarInImages],
+    (on) => pressed(button, on),
+  );
+  return button;
 }
 
 interface Thumb {

@@ -2,8 +2,9 @@
 
 import type { Table } from "../api/table.js";
 import { floats } from "../api/table.js";
-import type { CameraInfo } from "../api/types.js";
-import type { Cloud } from "./cloud.js";
+import type { CameraInfo, ThingInImageHeader } from "../api/types.js";
+import { type Cloud, findScan } from "./cloud.js";
+import type { LidarInImage } from "./lidar-image.js";
 
 export interface CameraMoment {
   readonly info: CameraInfo;
@@ -16,6 +17,8 @@ export interface CameraMoment {
   readonly problem: string | null;
   /** u, v of each detection on screen, px; NaN where it isn't in the image. */
   readonly places: Float32Array;
+  /** `null` where it isn't shown, or has not come. */
+  readonly lidar: LidarInImage | null;
 }
 
 export function withoutPlaces(count: number): Float32Array {
@@ -30,6 +33,24 @@ export function placeScan(places: Float32Array, cloud: Cloud, scan: number, tabl
     places[first + 2 * i] = u[i];
     places[first + 2 * i + 1] = v[i];
   }
+}
+
+/** The places with those of a thing, from whatever scans on screen. */
+export function placeThing(places: Float32Array, cloud: Cloud, table: Table<ThingInImageHeader>): Float32Array {
+  const [u, v] = [floats(table, "u"), floats(table, "v")];
+  const [scan, point] = ["scan", "point"].map((name) => table.columns.get(name) ?? new Uint32Array(0));
+  const starts = table.header.scans.map((id) => cloud.starts[findScan(cloud, id)] ?? -1);
+  const placed = places.slice();
+  for (let i = 0; i < table.rows; i++) {
+    const start = starts[scan[i]];
+    if (start >= 0) placed.set([u[i], v[i]], 2 * (start + point[i]));
+  }
+  return placed;
+}
+
+/** How many of the chosen detections lie in the image. */
+export function countIn({ places }: CameraMoment, chosen: Uint8Array): number {
+  return chosen.reduce((sum, is, i) => sum + (is === 1 && !Number.isNaN(places[2 * i]) ? 1 : 0), 0);
 }
 
 /** The camera in which most of the first scan's detections lie. */

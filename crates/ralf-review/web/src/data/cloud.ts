@@ -17,8 +17,12 @@ export interface Cloud {
   readonly positions: Float32Array;
   readonly label: Uint16Array;
   readonly corrected: Uint8Array;
+  /** The number of the cause that a person said, or 0. */
+  readonly saidCause: Uint8Array;
   /** False where the scans lie in different places and nothing says how the vehicle moved between them. */
   readonly compensated: boolean;
+  /** True where scans are moved so that something that moves stays in its place. */
+  readonly held: boolean;
 }
 
 const TOGETHER_NS = 1_000n;
@@ -40,13 +44,40 @@ export function buildCloud(scans: readonly Scan[]): Cloud {
   });
   const compensated =
     target !== null || scans.every(({ table }) => together(table.header.t_ns, scans[0].table.header.t_ns));
-  return { ...labelsOf(scans, count), scans, count, starts, scanOf, positions, compensated };
+  return { ...labelsOf(scans, count), scans, count, starts, scanOf, positions, compensated, held: false };
 }
 
 /** The same cloud where some scans' labels are others. */
 export function withScans(cloud: Cloud, changed: readonly Scan[]): Cloud {
   const scans = cloud.scans.map((scan) => changed.find((other) => sameScan(scan, other)) ?? scan);
   return { ...cloud, scans, ...labelsOf(scans, cloud.count) };
+}
+
+/**
+ * The scans moved (and not turned) so that the middle of what is chosen is always where it is in the first scan that
+ * has some of it. Those without any of it have no place. The same cloud where nothing is chosen.
+ */
+export function heldStill(cloud: Cloud, chosen: Uint8Array): Cloud {
+  const middles = cloud.scans.map((_, scan) => middleOf(cloud, scan, chosen));
+  const first = middles.find((middle) => middle !== null);
+  if (first === undefined || first === null) return cloud;
+  const moved = cloud.positions.map((value, at) => {
+    const middle = middles[cloud.scanOf[Math.floor(at / 3)]];
+    return middle === null ? Number.NaN : value - middle[at % 3] + first[at % 3];
+  });
+  return { ...cloud, positions: moved, held: true };
+}
+
+/** Where the chosen detections of a scan lie on average, m; `null` where none is chosen. */
+function middleOf({ starts, scans, positions }: Cloud, scan: number, chosen: Uint8Array): readonly number[] | null {
+  const sum = [0, 0, 0];
+  let count = 0;
+  for (let i = starts[scan]; i < starts[scan] + scans[scan].table.rows; i++) {
+    if (chosen[i] === 0) continue;
+    count += 1;
+    for (const axis of [0, 1, 2]) sum[axis] += positions[3 * i + axis];
+  }
+  return count === 0 ? null : sum.map((value) => value / count);
 }
 
 /** A column of every scan, one after the other; NaN where a scan doesn't have it. */
@@ -116,16 +147,18 @@ export function findScan(cloud: Cloud, id: ScanId): number {
   return cloud.scans.findIndex((scan) => sameScan(scan, id));
 }
 
-function labelsOf(scans: readonly Scan[], count: number): Pick<Cloud, "label" | "corrected"> {
+function labelsOf(scans: readonly Scan[], count: number): Pick<Cloud, "label" | "corrected" | "saidCause"> {
   const label = new Uint16Array(count);
   const corrected = new Uint8Array(count);
+  const saidCause = new Uint8Array(count);
   let start = 0;
   for (const scan of scans) {
     label.set(scan.label, start);
     corrected.set(scan.corrected, start);
+    saidCause.set(scan.saidCause, start);
     start += scan.table.rows;
   }
-  return { label, corrected };
+  return { label, corrected, saidCause };
 }
 
 function together(a: string, b: string): boolean {

@@ -2,10 +2,11 @@
 
 import type { Api } from "../api/client.js";
 import type { Table } from "../api/table.js";
-import type { LidarHeader, ScanId } from "../api/types.js";
+import type { LidarHeader, ScanId, ThingInImageHeader } from "../api/types.js";
 import { buildCloud, type Cloud } from "./cloud.js";
 import { Cache } from "./cache.js";
 import { type Lidar, lidarFromTable } from "./lidar.js";
+import { type LidarInImage, lidarInImage } from "./lidar-image.js";
 import { sameScan, type Scan, scanFromTable, scanKey } from "./scan.js";
 
 /** Scans that have the same map. */
@@ -17,6 +18,8 @@ export class Loader {
   private readonly maps = new Cache<Table<LidarHeader>>(4);
   private readonly images = new Cache<ImageBitmap>(36);
   private readonly places = new Cache<Table<object>>(600);
+  private readonly things = new Cache<Table<ThingInImageHeader>>(100);
+  private readonly overlays = new Cache<LidarInImage>(16);
 
   constructor(private readonly api: Api) {}
 
@@ -33,8 +36,10 @@ export class Loader {
     this.scans.forget(key(sequence, scanKey(id)));
   }
 
+  /** Other labels make other things. */
   forgetScans(): void {
     this.scans.clear();
+    this.things.clear();
   }
 
   /** The detections around the scan, of every radar, with so many neighbouring scans. */
@@ -70,6 +75,22 @@ export class Loader {
   projections(sequence: string, camera: string, image: number, id: ScanId): Promise<Table<object>> {
     const read = (): Promise<Table<object>> => this.api.projections(sequence, camera, image, id);
     return this.places.get(key(sequence, camera, image, scanKey(id)), read);
+  }
+
+  thingInImage(sequence: string, camera: string, image: number, thing: number): Promise<Table<ThingInImageHeader>> {
+    const read = (): Promise<Table<ThingInImageHeader>> => this.api.thingInImage(sequence, camera, image, thing);
+    return this.things.get(key(sequence, camera, image, thing), read);
+  }
+
+  lidarInImage(
+    sequence: string,
+    camera: string,
+    image: number,
+    lidar: { readonly name: string; readonly scan: number },
+  ): Promise<LidarInImage> {
+    const read = async (): Promise<LidarInImage> =>
+      lidarInImage(await this.api.lidarInImage(sequence, camera, image, lidar));
+    return this.overlays.get(key(sequence, camera, image, lidar.name, lidar.scan), read);
   }
 }
 

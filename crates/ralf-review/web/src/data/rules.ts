@@ -1,13 +1,23 @@
 /** Filters with a name, kept in the browser for every recording: what was asked of one sequence is asked of others. */
 
+import type { Cloud } from "./cloud.js";
 import type { Filter } from "./filter.js";
 import { filterFrom, plainFilter } from "./kept-filter.js";
 
 const KEY = "ralf-rules";
 
+/** What a rule says of what it lets through. */
+export interface Verdict {
+  readonly label: number;
+  /** Why it is an artifact. */
+  readonly cause: string | null;
+}
+
 export interface Rule {
   readonly name: string;
   readonly filter: Filter;
+  /** `null`: it only chooses. */
+  readonly sets: Verdict | null;
 }
 
 /** The rules that a text holds, as far as it makes sense, by name. */
@@ -16,15 +26,44 @@ export function rulesFrom(text: string | null): readonly Rule[] {
     const kept: unknown = JSON.parse(text ?? "{}");
     if (typeof kept !== "object" || kept === null) return [];
     return Object.entries(kept)
-      .map(([name, filter]) => ({ name, filter: filterFrom(filter) }))
+      .map(([name, rule]) => ({ name, filter: filterFrom(rule), sets: verdictFrom(rule) }))
       .sort((a, b) => a.name.localeCompare(b.name));
   } catch {
     return [];
   }
 }
 
+function verdictFrom(kept: unknown): Verdict | null {
+  const { sets } = (kept ?? {}) as { readonly sets?: { readonly label?: unknown; readonly cause?: unknown } | null };
+  if (typeof sets?.label !== "number") return null;
+  return { label: sets.label, cause: typeof sets.cause === "string" ? sets.cause : null };
+}
+
+/** A verdict as a choice in a list has it: `1/mirror`, `99`; `verdictOf` takes it back, nothing of an empty text. */
+export function verdictText(sets: Verdict | null): string {
+  return sets === null ? "" : sets.cause === null ? String(sets.label) : `${sets.label}/${sets.cause}`;
+}
+
+export function verdictOf(text: string): Verdict | null {
+  const [label, cause] = text.split("/");
+  return label === "" ? null : { label: Number(label), cause: cause ?? null };
+}
+
+/** How many of the chosen detections a verdict leaves as they are. */
+export function countAlready(
+  cloud: Cloud,
+  chosen: Uint8Array,
+  { label, cause }: Verdict,
+  causes: readonly string[],
+): number {
+  const is = (i: number): boolean =>
+    cloud.label[i] === label && (cause === null || causes[cloud.saidCause[i]] === cause);
+  return chosen.reduce((sum, one, i) => sum + (one === 1 && is(i) ? 1 : 0), 0);
+}
+
 export function rulesText(rules: readonly Rule[]): string {
-  return JSON.stringify(Object.fromEntries(rules.map(({ name, filter }) => [name, plainFilter(filter)])));
+  const kept = rules.map(({ name, filter, sets }) => [name, { ...plainFilter(filter), sets }] as const);
+  return JSON.stringify(Object.fromEntries(kept));
 }
 
 export function readRules(): readonly Rule[] {

@@ -13,6 +13,8 @@ export interface Scan extends ScanId {
   readonly label: Uint16Array;
   /** 1 where a person set the label. */
   readonly corrected: Uint8Array;
+  /** The number of the cause that a person said, or 0. */
+  readonly saidCause: Uint8Array;
 }
 
 export function scanKey({ radar, scan }: ScanId): string {
@@ -34,6 +36,7 @@ export function scanFromTable({ radar, scan }: ScanId, table: Table<ScanHeader>)
     machine: ids(table, "machine"),
     label: ids(table, "label"),
     corrected: bytes(table, "corrected"),
+    saidCause: bytes(table, "said_cause"),
   };
 }
 
@@ -42,7 +45,7 @@ export function scanFromTable({ radar, scan }: ScanId, table: Table<ScanHeader>)
  * back from a correction in a scan that was accepted: what was accepted is the server's to say, so the scan must be
  * read anew.
  */
-export function withCorrections(scan: Scan, { revision, corrections, reviewed }: ScanCorrections): Scan | null {
+export function withCorrections(scan: Scan, { revision, corrections, causes, reviewed }: ScanCorrections): Scan | null {
   if ((reviewed === null) !== (scan.reviewed === null)) return null;
   const corrected = new Uint8Array(scan.corrected.length);
   for (const [point] of corrections) corrected[point] = 1;
@@ -53,7 +56,9 @@ export function withCorrections(scan: Scan, { revision, corrections, reviewed }:
     label[i] = scan.machine[i];
   }
   for (const [point, id] of corrections) label[point] = id;
-  return { ...scan, revision, label, corrected, reviewed };
+  const saidCause = new Uint8Array(scan.corrected.length);
+  for (const [point, cause] of causes) saidCause[point] = cause;
+  return { ...scan, revision, label, corrected, saidCause, reviewed };
 }
 
 function ids(table: Table<ScanHeader>, name: string): Uint16Array {

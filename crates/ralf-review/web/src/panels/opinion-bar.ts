@@ -1,14 +1,17 @@
 /** What would change by what was said: how much, where, and whether it shall. */
 
-import type { Opinion } from "../api/types.js";
-import { countElsewhere, countOfPoints, kept, pointsOf } from "../data/opinion.js";
+import type { Opinion, ProposedChange } from "../api/types.js";
+import { thingCrops } from "../cameras/thing-crops.js";
+import { maskOf } from "../data/cloud.js";
+import { countElsewhere, countOfPoints, kept, partOf, pointsOf } from "../data/opinion.js";
 import type { LabelBook } from "../data/labels.js";
 import { h, say } from "../dom.js";
 import { counted } from "../format.js";
 import type { Page } from "../page.js";
 import type { State } from "../state.js";
 
-export function opinionBar({ store, actions }: Page): HTMLElement {
+export function opinionBar(page: Page): HTMLElement {
+  const { store, actions } = page;
   const [what, which] = [h("b"), h("span", { class: "faint" })];
   const button = (text: string, key: string, run: () => void): HTMLButtonElement =>
     h(
@@ -24,11 +27,16 @@ export function opinionBar({ store, actions }: Page): HTMLElement {
   const bar = h(
     "div",
     { class: "opinion-bar", role: "group", "aria-label": "What would change by what was said" },
-    h("div", { class: "thing-words", role: "status" }, what, which),
-    accept,
-    next,
-    leave,
-    drop,
+    changeCrops(page),
+    h(
+      "div",
+      { class: "bar-row" },
+      h("div", { class: "thing-words", role: "status" }, what, which),
+      accept,
+      next,
+      leave,
+      drop,
+    ),
   );
   store.watch(
     ({ opinion, opinionAt, thinking, selection, cloud }) => [opinion, opinionAt, thinking, selection, cloud],
@@ -43,6 +51,13 @@ export function opinionBar({ store, actions }: Page): HTMLElement {
   return bar;
 }
 
+/** The change that is looked at, in the cameras. */
+function changeCrops(page: Page): HTMLElement {
+  const change = ({ opinion, opinionAt }: Readonly<State>): ProposedChange | null =>
+    opinion?.changes[opinionAt] ?? null;
+  return thingCrops(page, change, (state) => maskOf(state.cloud, change(state)?.points ?? []));
+}
+
 /** What would change, as far as it's still wanted. */
 function proposal({ cloud, selection, labels }: Readonly<State>, opinion: Opinion): string {
   const { changes } = selection.length === cloud.count ? kept(opinion, cloud, selection) : opinion;
@@ -54,9 +69,10 @@ function proposal({ cloud, selection, labels }: Readonly<State>, opinion: Opinio
   return `${artifacts} would become artifact, ${plausible} plausible, in ${counted(changes.length, "thing")}${beyond}`;
 }
 
-function looked({ answered, changes }: Opinion, at: number, labels: LabelBook): string {
+function looked(opinion: Opinion, at: number, labels: LabelBook): string {
+  const { answered, changes } = opinion;
   const change = changes[at];
-  const said = `learned from ${counted(answered, "detection")}`;
+  const said = `learned from ${counted(answered, "detection")}${partOf(opinion)}`;
   if (change === undefined) return `${said}; selected is what would change, Ctrl with a tool leaves some out`;
   const { label, probability, detections } = change;
   const count = `${countOfPoints(change.points).toLocaleString("en")} of its ${counted(detections, "detection")}`;

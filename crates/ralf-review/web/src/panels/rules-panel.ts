@@ -3,8 +3,11 @@
 import { AREAS, type Area, type AreaKind } from "../data/area.js";
 import { columnsOf } from "../data/cloud.js";
 import type { ColumnSpan } from "../data/filter.js";
-import { h, pressed, say, select, setOptions } from "../dom.js";
+import { ARTIFACT, PLAUSIBLE, UNLABELLED } from "../data/labels.js";
+import { type Verdict, verdictOf, verdictText } from "../data/rules.js";
+import { h, type Option, pressed, say, select, setOptions } from "../dom.js";
 import type { Page } from "../page.js";
+import type { State } from "../state.js";
 
 export function rulesPanel(page: Page): HTMLElement {
   const count = h("span", { class: "faint" });
@@ -138,16 +141,30 @@ function areas({ store, actions }: Page): HTMLElement {
   return rows;
 }
 
-function saving({ actions }: Page): HTMLElement {
+function saving({ store, actions }: Page): HTMLElement {
+  const sets = select("What the rule sets", verdicts(store.state), () => undefined);
   const name = h("input", { type: "text", "aria-label": "Name of the rule", placeholder: "name", maxlength: "64" });
   const save = h("button", { class: "chip small", type: "submit" }, "Keep");
-  const form = h("form", { class: "row" }, name, save);
+  const form = h("form", { class: "row keep-rule" }, name, sets, save);
   form.addEventListener("submit", (event) => {
     event.preventDefault();
-    actions.rule.save(name.value);
-    name.value = "";
+    actions.rule.save(name.value, verdictOf(sets.value));
+    [name.value, sets.value] = ["", ""];
   });
   return form;
+}
+
+/** Everything that a rule may say: nothing, a label, an artifact and its cause, a class. */
+function verdicts({ labels, recording }: Readonly<State>): readonly Option[] {
+  const option = (sets: Verdict | null, text: string): Option => ({ value: verdictText(sets), text });
+  const causes = recording.sayable_causes.filter((cause) => cause !== "");
+  const classes = labels.classes.filter(({ id }) => ![UNLABELLED, ARTIFACT, PLAUSIBLE].includes(id));
+  return [
+    option(null, "only selects"),
+    ...[PLAUSIBLE, ARTIFACT].map((label) => option({ label, cause: null }, `sets ${labels.name(label)}`)),
+    ...causes.map((cause) => option({ label: ARTIFACT, cause }, `sets artifact: ${cause}`)),
+    ...classes.map(({ id, name }) => option({ label: id, cause: null }, `sets ${name}`)),
+  ];
 }
 
 /** The rules that were kept: each can be asked of the sequence on screen. */

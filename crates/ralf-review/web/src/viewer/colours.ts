@@ -36,6 +36,7 @@ export function colourModes(cloud: Cloud, { causes }: Pick<Recording, "causes">)
     option("class", "Class"),
     ...columns,
     ...cause,
+    option("said cause", "Cause said", "why people said that it is an artifact"),
     option("radar", "Radar"),
     option("height", "Height"),
     option("age", "Time"),
@@ -78,7 +79,9 @@ export function paint(cloud: Cloud, mode: ColourMode, labels: LabelBook, recordi
     case "class":
       return paintClasses(cloud, labels);
     case "cause":
-      return paintCauses(cloud, recording.causes ?? []);
+      return paintCauses(gather(cloud, "cause"), recording.causes ?? []);
+    case "said cause":
+      return paintCauses(cloud.saidCause, recording.sayable_causes);
     case "radar":
       return paintRadars(cloud);
     case "height":
@@ -122,11 +125,10 @@ function paintClasses(cloud: Cloud, labels: LabelBook): Painting {
   return { colours: paintEach(cloud.count, (i) => colour(cloud.label[i])), legend: { kind: "categories", entries } };
 }
 
-function paintCauses(cloud: Cloud, names: readonly string[]): Painting {
-  const causes = gather(cloud, "cause");
+function paintCauses(causes: ArrayLike<number>, names: readonly string[]): Painting {
   const colour = (cause: number): Rgb => (cause > 0 ? CATEGORIES[(cause - 1) % CATEGORIES.length] : ABSENT_RGB);
   const entries = names.map((name, cause) => [name === "" ? "none" : name, colour(cause)] as const);
-  return { colours: paintEach(cloud.count, (i) => colour(causes[i])), legend: { kind: "categories", entries } };
+  return { colours: paintEach(causes.length, (i) => colour(causes[i])), legend: { kind: "categories", entries } };
 }
 
 function paintRadars(cloud: Cloud): Painting {

@@ -1,9 +1,11 @@
 /** Labels of the range rings, the axes, and the bar that shows how long a stretch on screen is. */
 
+import { textScale } from "../dom.js";
 import { RINGS } from "./ground.js";
 
 const FAINT = "#7d8898";
-const FONT = "11px system-ui, sans-serif";
+/** The height of letters, px. */
+const LETTERS = 11;
 
 /** The roundest length (1, 2 or 5 times a power of ten) that is no longer than `most`. */
 export function roundLength(most: number): number {
@@ -69,7 +71,7 @@ function text(
   align: CanvasTextAlign,
   colour: string,
 ): void {
-  context.font = FONT;
+  context.font = `${LETTERS * textScale()}px system-ui, sans-serif`;
   context.textAlign = align;
   context.lineWidth = 3;
   context.strokeStyle = "rgb(11 14 19 / 80%)";

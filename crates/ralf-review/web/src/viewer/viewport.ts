@@ -112,7 +112,13 @@ export class Viewport {
     const { store } = this.page;
     const { view } = this;
     store.watch(
-      ({ lidarShown, groundHidden, dotSize, mode, lidar }) => [lidarShown, groundHidden, dotSize, mode, lidar],
+      ({ lidarShown, groundHidden, dotSize, mode, lidar, cloud }) => [
+        lidarShown && !cloud.held,
+        groundHidden,
+        dotSize,
+        mode,
+        lidar,
+      ],
       (lidarShown, groundHidden, dotSize) => {
         view.lidar.setLook(lidarShown, groundHidden, view.pixelRatio);
         view.radar.setSize(dotSize * view.pixelRatio);

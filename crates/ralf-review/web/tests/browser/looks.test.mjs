@@ -3,11 +3,13 @@ import assert from "node:assert/strict";
 import { createRequire } from "node:module";
 import { after, before, test } from "node:test";
 import {
+  accept,
   anotherBrowser,
   clean,
   current,
   drag,
   freshOut,
+  historyOf,
   launch,
   open,
   picture,
@@ -17,6 +19,7 @@ import {
   scanOf,
   selected,
   serve,
+  settled,
 } from "./support.mjs";
 
 const AXE = createRequire(import.meta.url).resolve("axe-core/axe.min.js");
@@ -31,16 +34,7 @@ test("nothing that axe calls serious is wrong with the page, its dialogs and bar
   const server = await serve(context, await freshOut(context));
   const tab = await open(context, browser, server);
   const { page } = tab;
-  // The page forbids scripts of others; a test may still bring one along.
-  const faults = async (where) => {
-    await page.evaluate(await axe());
-    const { violations } = await page.evaluate(() => window.axe.run());
-    const serious = violations.filter(({ impact }) => impact === "serious" || impact === "critical");
-    const said = serious.map(
-      ({ id, nodes }) => `${where}: ${id}: ${nodes.map(({ html }) => html.slice(0, 120)).join(" | ")}`,
-    );
-    assert.deepEqual(said, []);
-  };
+  const faults = (where) => faultsOf(page, where);
   await faults("the page");
   await page.keyboard.press("d");
   await faults("a detection");
@@ -49,6 +43,9 @@ test("nothing that axe calls serious is wrong with the page, its dialogs and bar
   await faults("a correction");
   await page.keyboard.press("Shift+N");
   await page.locator(".thing-bar").waitFor();
+  await page.keyboard.press("Shift+K");
+  await page.locator('.over-image[aria-pressed="true"]').waitFor();
+  await settled(tab);
   await faults("a thing");
   await picture(page, "thing");
   await page.keyboard.press("a");
@@ -72,6 +69,19 @@ test("nothing that axe calls serious is wrong with the page, its dialogs and bar
   await says(page.locator(".rules"), "inside in");
   await faults("a place");
   await picture(page, "place");
+  const depth = (await historyOf(server, page)).undo_depth;
+  await page.getByLabel("Name of the rule").fill("yard");
+  await page.getByLabel("What the rule sets").selectOption({ label: "sets artifact: mirror" });
+  await page.getByRole("button", { name: "Keep" }).click();
+  await page.getByRole("button", { name: "yard", exact: true }).click();
+  await says(page.locator(".rule-bar"), /would become artifact \(mirror\)/);
+  await faults("a rule");
+  await picture(page, "rule");
+  await page.getByRole("button", { name: "Apply" }).click();
+  await says(page.locator(".status-bar"), `undo ${depth + 1}`);
+  await page.locator(".scan-bar select").selectOption({ label: "Cause said" });
+  await says(page.locator(".legend"), "mirror");
+  await picture(page, "cause");
   await page.keyboard.press("0");
   for (const key of ["?", "c"]) {
     await page.keyboard.press(key);
@@ -87,6 +97,55 @@ test("nothing that axe calls serious is wrong with the page, its dialogs and bar
   await faults("the question");
   clean(tab);
 });
+
+test("what two people said differently is told once both are through, and settled by a key", async (context) => {
+  const out = await freshOut(context);
+  const servers = [await serve(context, out), await serve(context, out, { second: "bob" })];
+  const tabs = [];
+  for (const server of servers) tabs.push(await open(context, browser, server));
+  const [ada, bob] = tabs.map(({ page }) => page);
+  const id = await current(ada);
+  await ada.keyboard.press("d");
+  const wrong = (await scanOf(servers[0], id)).label[0] === 1 ? "p" : "a";
+  const right = wrong === "p" ? "artifact" : "plausible";
+  await ada.keyboard.press(wrong);
+  await says(ada.locator(".status-bar"), "undo 1");
+  await says(bob.locator(".status-bar"), "second labels of bob");
+  assert.deepEqual(await current(bob), id);
+  for (const page of [ada, bob]) {
+    await accept(page);
+    await says(page.locator(".queue-head"), "1 of");
+  }
+  await ada.keyboard.press("Shift+T");
+  await says(ada.locator("dialog.team"), "κ");
+  await faultsOf(ada, "the team");
+  await picture(ada, "team");
+  await ada.keyboard.press("Escape");
+  await ada.keyboard.press("Shift+S");
+  await says(ada.locator(".settle"), `bob: ${right}`);
+  await says(ada.locator(".past"), "ada");
+  await faultsOf(ada, "a disagreement");
+  await picture(ada, "disagreement");
+  await ada.keyboard.press("6");
+  await says(ada.locator(".notice"), "Nothing is left");
+  await says(ada.locator(".status-bar"), "undo 3");
+  await ada.keyboard.press("Control+z");
+  await says(ada.locator(".status-bar"), "redo 1");
+  await ada.keyboard.press("Shift+S");
+  await says(ada.locator(".settle"), `bob: ${right}`);
+  for (const tab of tabs) clean(tab);
+});
+
+/** The page forbids scripts of others; a test may still bring one along. */
+async function faultsOf(page, where) {
+  await page.evaluate(await axe());
+  const { violations } = await page.evaluate(() => window.axe.run());
+  const serious = violations.filter(({ impact }) => impact === "serious" || impact === "critical");
+  const said = serious.map(
+    ({ id, nodes }) => `${where}: ${id}: ${nodes.map(({ html }) => html.slice(0, 120)).join(" | ")}`,
+  );
+  assert.deepEqual(said, []);
+}
 
 async function axe() {
   const { readFile } = await import("node:fs/promises");
@@ -107,7 +166,10 @@ for (const [width, height] of [
     await picture(page, `page-${width}`);
     for (const bar of [".toolbar", ".scan-bar"]) {
       const box = await page.locator(bar).boundingBox();
-      assert.ok(box.height < 50, `${bar} is ${box.height} px high`);
+      const scale = await page.evaluate(() =>
+        Number(getComputedStyle(document.documentElement).getPropertyValue("--scale")),
+      );
+      assert.ok(box.height < 50 * scale, `${bar} is ${box.height} px high`);
       const over = await page.locator(bar).evaluate((element) => element.scrollWidth - element.clientWidth);
       assert.ok(over <= 0, `${bar} is ${over} px too wide`);
     }

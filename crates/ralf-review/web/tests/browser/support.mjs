@@ -55,8 +55,9 @@ export async function freshOut(context) {
 }
 
 /** `ralf review`, until the test ends or `kill` is called. */
-export async function serve(context, out, { author = "ada", port = 0, dataset = RALF_DATASET } = {}) {
-  const child = spawn(RALF_PROGRAM, ["review", dataset, out, "--port", String(port), "--author", author], {
+export async function serve(context, out, { author = "ada", second, port = 0, dataset = RALF_DATASET } = {}) {
+  const who = second === undefined ? ["--author", author] : ["--second", second];
+  const child = spawn(RALF_PROGRAM, ["review", dataset, out, "--port", String(port), ...who], {
     stdio: ["ignore", "pipe", "inherit"],
     env: { ...process.env, XDG_STATE_HOME: join(out, "..", "state") },
   });
@@ -250,7 +251,7 @@ export function relabel(out, setting) {
 
 /** Has the page be told that one detection each of the five most doubtful things would be an artifact. */
 export async function proposing(page, server) {
-  await page.route("**/opinion", async (route) => {
+  await page.route("**/opinion?*", async (route) => {
     const { doubtful } = await (await ask(server, `sequences/${await sequenceOf(server)}/things/doubtful`)).json();
     const [changes, base] = [[], new Map()];
     for (const thing of doubtful.slice(0, 5)) {
@@ -259,6 +260,6 @@ export async function proposing(page, server) {
       base.set(`${radar}/${scan}`, { radar, scan, revision, content });
       changes.push({ ...thing, label: 1, probability: 0.9, points: [{ radar, scan, points: [point] }] });
     }
-    return route.fulfill({ json: { answered: 40, changes, base: [...base.values()] } });
+    return route.fulfill({ json: { answered: 40, changes, base: [...base.values()], scans: null } });
   });
 }

@@ -1,6 +1,15 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { buildCloud, columnOf, gather, maskOf, pointOf, pointsByScan, withScans } from "../../src/data/cloud.js";
+import {
+  buildCloud,
+  columnOf,
+  gather,
+  heldStill,
+  maskOf,
+  pointOf,
+  pointsByScan,
+  withScans,
+} from "../../src/data/cloud.js";
 import { certaintyOf, everything, hides, isUncertain, visible } from "../../src/data/filter.js";
 import { LabelBook } from "../../src/data/labels.js";
 import { withCorrections } from "../../src/data/scan.js";
@@ -57,10 +66,24 @@ test("detections keep the names under which the server knows them", () => {
 
 test("a correction sets its detection alone, and its end gives the machine's label back", () => {
   const scan = made("front", 0, { x: [1, 2], machine: [99, 99] });
-  const after = withCorrections(scan, { radar: "front", scan: 0, revision: 1, corrections: [[1, 10]], reviewed: null });
+  const after = withCorrections(scan, {
+    radar: "front",
+    scan: 0,
+    revision: 1,
+    causes: [],
+    corrections: [[1, 10]],
+    reviewed: null,
+  });
   assert.ok(after !== null);
   assert.deepEqual([[...after.label], [...after.corrected], after.revision], [[99, 10], [0, 1], 1]);
-  const back = withCorrections(after, { radar: "front", scan: 0, revision: 2, corrections: [], reviewed: null });
+  const back = withCorrections(after, {
+    radar: "front",
+    scan: 0,
+    revision: 2,
+    causes: [],
+    corrections: [],
+    reviewed: null,
+  });
   assert.deepEqual(
     [[...(back?.label ?? [])], [...(back?.corrected ?? [])]],
     [
@@ -74,10 +97,10 @@ test("a correction sets its detection alone, and its end gives the machine's lab
 
 test("what a scan was accepted with is the server's to say", () => {
   const scan = made("front", 0, { x: [1], corrected: [1], reviewed: true });
-  const now = { radar: "front", scan: 0, revision: 2, corrections: [] };
+  const now = { radar: "front", scan: 0, revision: 2, causes: [], corrections: [] };
   assert.equal(withCorrections(scan, { ...now, reviewed: scan.reviewed }), null);
   // A mark that was taken away, by undo or by somebody else.
-  assert.equal(withCorrections(scan, { ...now, corrections: [[0, 99]], reviewed: null }), null);
+  assert.equal(withCorrections(scan, { ...now, causes: [], corrections: [[0, 99]], reviewed: null }), null);
 });
 
 test("every filter lets through what it says", () => {
@@ -130,4 +153,18 @@ test("what was never on screen is counted until it was, and another scan begins 
   assert.deepEqual(sight.unseen(cloud, all), { all: 0, hidden: 0 });
   const next = buildCloud([made("front", 1, { x: [1, 2] })]);
   assert.equal(sight.unseen(next, new Uint8Array([1, 1])).all, 2);
+});
+
+test("what moves is held where it was first, and scans without it have no place", () => {
+  const scans = [
+    made("front", 0, { x: [1, 10, 12] }),
+    made("front", 1, { x: [5, 20, 22] }),
+    made("front", 2, { x: [7, 30] }),
+  ];
+  const cloud = buildCloud(scans);
+  const held = heldStill(cloud, new Uint8Array([0, 1, 1, 0, 1, 1, 0, 0]));
+  const x = [...held.positions].filter((_, at) => at % 3 === 0);
+  assert.deepEqual(x, [1, 10, 12, -5, 10, 12, Number.NaN, Number.NaN]);
+  assert.ok(held.held && !cloud.held && cloud.positions[9] === 5);
+  assert.equal(heldStill(cloud, new Uint8Array(8)), cloud, "nothing is chosen");
 });

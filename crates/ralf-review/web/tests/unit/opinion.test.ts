@@ -14,6 +14,7 @@ function change(thing: number, label: number, points: readonly ScanPoints[]): Pr
 const front = (scan: number, ...points: number[]): ScanPoints => ({ radar: "front", scan, points });
 const opinion: Opinion = {
   answered: 4,
+  scans: { looked_at: 20, all: 20 },
   changes: [change(1, 1, [front(0, 0, 2), front(7, 5)]), change(2, 99, [front(0, 1)])],
   base: [
     { radar: "front", scan: 0, revision: 3 },

@@ -48,7 +48,7 @@ class FakeServer {
     if (this.trouble !== null) throw this.trouble;
     const corrections = points[0].points.map((point) => [point, label ?? 0] as const);
     if (base[0].revision !== this.revision) {
-      const scans = [{ radar: "front", scan: 3, revision: this.revision, corrections: [], reviewed: null }];
+      const scans = [{ radar: "front", scan: 3, revision: this.revision, causes: [], corrections: [], reviewed: null }];
       throw new Conflict({
         error: "changed",
         stale: this.stale,
@@ -60,7 +60,7 @@ class FakeServer {
     this.written.push([...points[0].points]);
     return {
       changed: points[0].points.length,
-      scans: [{ radar: "front", scan: 3, revision: this.revision, corrections, reviewed: null }],
+      scans: [{ radar: "front", scan: 3, revision: this.revision, causes: [], corrections, reviewed: null }],
       history: HISTORY,
     };
   }
@@ -162,7 +162,7 @@ test("a stroke on detections that aren't there any more can only be dropped", as
 
 test("strokes that wait are the same objects until they rest on another revision, so that each is kept once", () => {
   const [first, second, elsewhere] = [stroke([1], 0), stroke([2], 0), { ...stroke([3], 0), sequence: "01" }];
-  const answered = [{ radar: "front", scan: 3, revision: 1, corrections: [], reviewed: null }];
+  const answered = [{ radar: "front", scan: 3, revision: 1, causes: [], corrections: [], reviewed: null }];
   const after = afterOwn([second, elsewhere, stroke([4], 7)], first, answered);
   assert.deepEqual(
     after.map(({ stroke: { base } }) => base[0].revision),

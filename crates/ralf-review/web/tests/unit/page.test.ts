@@ -59,6 +59,7 @@ test("preferences come back as they were, and nonsense changes nothing", () => {
     filter: everything,
     lidarShown: true,
     groundHidden: true,
+    lidarInImages: false,
     light: false,
     dotSize: 8,
     queueView,
@@ -69,6 +70,7 @@ test("preferences come back as they were, and nonsense changes nothing", () => {
     colour: "column w",
     filter,
     light: true,
+    lidarInImages: true,
     dotSize: 12,
     queueView: { ...queueView, order: "time" } as const,
   };

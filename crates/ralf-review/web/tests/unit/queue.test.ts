@@ -78,6 +78,7 @@ test("progress follows what is done", () => {
       scan: 7,
       revision: 1,
       reviewed: ADA,
+      causes: [],
       corrections: [
         [0, 1],
         [4, 99],
@@ -91,6 +92,8 @@ test("progress follows what is done", () => {
     corrected_detections: 2,
     orphaned_scans: 3,
   });
-  const undone = withAnswers(marked, [{ radar: "rear", scan: 2, revision: 0, reviewed: null, corrections: [] }]);
+  const undone = withAnswers(marked, [
+    { radar: "rear", scan: 2, revision: 0, reviewed: null, causes: [], corrections: [] },
+  ]);
   assert.equal(progressOf(undone, before).reviewed, 1, "undo takes a mark back");
 });

@@ -30,6 +30,7 @@ export function made(
     ["machine", labels],
     ["label", labels.slice()],
     ["corrected", new Uint8Array(corrected ?? x.map(() => 0))],
+    ["said_cause", new Uint8Array(x.length)],
   ]);
   const header = {
     t_ns: time,
