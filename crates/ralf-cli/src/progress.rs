@@ -108,6 +108,14 @@ impl Stages {
         }
     }
 
+    /// Says something while work is shown.
+    pub(crate) fn say(&self, message: &str) {
+        match self.current.lock().as_deref() {
+            Ok(Some(progress)) => progress.bar.suspend(|| say(message)),
+            _ => say(message),
+        }
+    }
+
     fn show(&self, progress: Option<Progress>) {
         if let Ok(mut current) = self.current.lock() {
             *current = progress;

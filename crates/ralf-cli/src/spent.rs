@@ -8,17 +8,18 @@ use std::time::Duration;
 /// What is told apart, in the order in which it is printed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Work {
-    /// `ralf check`, and opening the recording.
+    /// Opening the recording; with `--strict` checking it, too.
     Opening,
     /// Hashing the inputs.
     Hashing,
-    /// Part of what workers do for each scan, and at the end of a sequence.
+    /// Part of what workers do for each scan or sequence.
     Worker(Part),
 }
 
-const ALL: [(Work, &str); 7] = [
-    (Work::Opening, "opening and check"),
+const ALL: [(Work, &str); 8] = [
+    (Work::Opening, "opening"),
     (Work::Hashing, "hashing inputs"),
+    (Work::Worker(Part::Checking), "check"),
     (Work::Worker(Part::Gathering), "scans: reading, ground, images"),
     (Work::Worker(Part::Evidence), "scans: evidence"),
     (Work::Worker(Part::Labelling), "scans: labels"),
@@ -45,7 +46,10 @@ impl Spent {
         let mut rows = vec![["work", "s", "ms per scan"].map(str::to_owned).to_vec()];
         for ((work, name), (time, count)) in ALL.iter().zip(all) {
             let seconds = time.as_secs_f64();
-            let is_of_scans = matches!(work, Work::Worker(part) if *part != Part::Writing) && count > 0;
+            let is_of_scans = match work {
+                Work::Worker(Part::Checking | Part::Writing) | Work::Opening | Work::Hashing => false,
+                Work::Worker(_) => count > 0,
+            };
             let each =
                 if is_of_scans { format!("{:.3}", 1e3 * seconds / count as f64) } else { String::new() };
             rows.push(vec![(*name).to_owned(), format!("{seconds:.3}"), each]);

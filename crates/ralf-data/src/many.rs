@@ -11,7 +11,7 @@ use crate::error::DataError;
 use crate::read::{Recording, open_with};
 use crate::result::json::{read_json, write_json};
 use crate::result::{Component, NotLabelled};
-use crate::run::{LabelRun, Observer, Outcome, Stretch, check_all, refuse_to_write_into};
+use crate::run::{LabelRun, Observer, Outcome, Stretch, refuse_to_write_into};
 use crate::settings::Settings;
 use ralf::config::Method;
 use ralf::learned::Model;
@@ -96,24 +96,25 @@ impl Job {
     /// # Errors
     /// Those of [`LabelRun::execute`] and [`Self::open`].
     pub fn label(&self, jobs: NonZeroUsize, observer: &dyn Observer) -> Result<Outcome, DataError> {
-        self.with_run(jobs, self.check, |run| run.execute(observer))
+        self.with_run(jobs, |run| match self.check {
+            true => run.execute_and_check(observer, &|_| {}),
+            false => run.execute(observer),
+        })
     }
 
     fn with_run<T>(
         &self,
         jobs: NonZeroUsize,
-        check: bool,
         work: impl FnOnce(&LabelRun) -> Result<T, DataError>,
     ) -> Result<T, DataError> {
         let recording = self.open()?;
         let model = self.model()?;
-        let checks = if check { check_all(&recording, jobs.get()) } else { Vec::new() };
         work(&LabelRun {
             recording: &recording,
             settings: &self.settings,
             out: &self.out,
             jobs: jobs.get(),
-            checks: &checks,
+            checks: &[],
             evidence: self.evidence,
             model: model.as_ref(),
         })
@@ -170,7 +171,7 @@ pub fn plan(
     };
     refuse_to_write_into(&job.recording, &job.out)?;
     write_json(&job.out.join(PLAN), &job)?;
-    let stretches = job.with_run(jobs, false, |run| run.plan(scans, observer))?;
+    let stretches = job.with_run(jobs, |run| run.plan(scans, observer))?;
     Ok(stretches.into_iter().map(|stretch| Task { job: job.clone(), stretch }).collect())
 }
 
@@ -183,7 +184,7 @@ pub fn label_one(
     jobs: NonZeroUsize,
     observer: &dyn Observer,
 ) -> Result<Vec<NotLabelled>, DataError> {
-    task.job.with_run(jobs, false, |run| run.label_stretch(&task.stretch, observer))
+    task.job.with_run(jobs, |run| run.label_stretch(&task.stretch, observer))
 }
 
 /// The output folders in `out` for which something was planned: `out` itself, or folders in it.

@@ -81,8 +81,8 @@ pub(crate) fn run(arguments: &LabelArgs) -> anyhow::Result<Outcome> {
     let jobs = threads(arguments.jobs);
     settings.topics = arguments.dataset.topics_or(&settings.topics)?;
     let recording = arguments.dataset.open_corrected(&settings)?;
-    let checks = arguments.checks(&recording, jobs);
-    if arguments.strict && checks.iter().any(|check| !check.doubts.is_empty()) {
+    let checks = arguments.checks_before(&recording, jobs);
+    if checks.iter().any(|check| !check.doubts.is_empty()) {
         say("nothing is labelled, for the recording is doubted (--strict)");
         return Ok(Outcome::Partial);
     }
@@ -103,14 +103,16 @@ pub(crate) fn run(arguments: &LabelArgs) -> anyhow::Result<Outcome> {
     };
     let stages = Stages::new(arguments.quiet);
     stages.spent.add(Work::Opening, begun.elapsed());
-    let done = run.execute(&stages)?;
+    let done = match arguments.strict || arguments.no_check {
+        true => run.execute(&stages)?,
+        false => run.execute_and_check(&stages, &|check| doubts(check).for_each(|line| stages.say(&line)))?,
+    };
     say_what_changed(&done);
-    let record = &done.record;
-    print(&if arguments.json { serde_json::to_string_pretty(record)? } else { summary(&done) })?;
+    print(&if arguments.json { serde_json::to_string_pretty(&done.record)? } else { summary(&done) })?;
     if arguments.timings {
         say(&stages.spent.table());
     }
-    Ok(told_of_scans(record))
+    Ok(told_of_scans(&done.record))
 }
 
 /// Says which scans were left out, and how it ended by that.
@@ -135,10 +137,9 @@ impl LabelArgs {
             None => recording,
         })
     }
-
-    /// What `ralf check` says of the recording; doubts are told.
-    fn checks(&self, recording: &Recording, jobs: usize) -> Vec<CheckRecord> {
-        let checks = if self.no_check { Vec::new() } else { check_all(recording, jobs) };
+    /// What is to be known before anything is labelled; doubts are told. Without `--strict` checks go on meanwhile.
+    fn checks_before(&self, recording: &Recording, jobs: usize) -> Vec<CheckRecord> {
+        let checks = if self.strict { check_all(recording, jobs) } else { Vec::new() };
         checks.iter().flat_map(doubts).for_each(|line| say(&line));
         checks
     }

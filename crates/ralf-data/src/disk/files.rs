@@ -4,7 +4,7 @@ use crate::error::DataError;
 use ralf_files::Kind;
 use std::collections::HashMap;
 use std::fs;
-use std::io::{ErrorKind, Write};
+use std::io::{Error, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
 /// A whole measurement, or what belongs to one. Everything in this crate that reads a file does so through this module:
@@ -136,23 +136,37 @@ impl Folders {
     }
 }
 
+/// How often a file is written that others write at the same time.
+const TRIES: usize = 20;
+
 /// Writes a file whole or not at all: beside its place first, then renamed. Folders are made as needed.
 pub fn write_whole(file: &Path, bytes: &[u8]) -> Result<(), DataError> {
+    // Who writes the same at the same time takes what lies beside the file for left over, or renames it.
+    let disturbed = |error: &Error| matches!(error.kind(), ErrorKind::NotFound | ErrorKind::AlreadyExists);
+    let mut written = write_once(file, bytes);
+    for _ in 1..TRIES {
+        if written.as_ref().is_err_and(disturbed) {
+            let is_there = fs::read(file).is_ok_and(|found| found == bytes);
+            written = if is_there { Ok(()) } else { write_once(file, bytes) };
+        }
+    }
+    written.map_err(DataError::io(file))
+}
+
+fn write_once(file: &Path, bytes: &[u8]) -> std::io::Result<()> {
     let beside = beside(file);
     let created = match (create_new(&beside), file.parent()) {
         (Err(error), Some(folder)) if error.kind() == ErrorKind::NotFound => {
-            fs::create_dir_all(folder).map_err(DataError::io(folder))?;
+            fs::create_dir_all(folder)?;
             create_new(&beside)
         }
         (created, _) => created,
     };
     let written = created.and_then(|mut open| open.write_all(bytes));
-    if let Err(error) = written.and_then(|()| fs::rename(&beside, file)) {
+    written.and_then(|()| fs::rename(&beside, file)).inspect_err(|_| {
         // The half-written file is of no use to anyone; the error that matters is the first one.
         let _ = fs::remove_file(&beside);
-        return Err(DataError::Io { file: file.to_owned(), error });
-    }
-    Ok(())
+    })
 }
 
 /// Creates a file. What lies there is removed first: through a link, what it leads to would be overwritten.
@@ -203,6 +217,19 @@ mod tests {
             );
             fs::remove_file(&file).unwrap();
         }
+    }
+
+    /// Parts of a run may be done twice at the same time.
+    #[test]
+    fn two_who_write_the_same_file_at_once_both_succeed() {
+        let folder = tempfile::tempdir().unwrap();
+        let file = folder.path().join("a/000000.label");
+        std::thread::scope(|scope| {
+            for _ in 0..2 {
+                scope.spawn(|| (0..300).for_each(|_| write_whole(&file, b"the same").unwrap()));
+            }
+        });
+        assert_eq!(fs::read(&file).unwrap(), b"the same");
     }
 
     #[test]

@@ -17,7 +17,9 @@ const CHUNK: usize = 1 << 20;
 pub(crate) fn hash_file(file: &Path, advance: &dyn Fn(u64)) -> Result<FileRecord, DataError> {
     let mut open = files::open_input(file)?;
     let mut hasher = blake3::Hasher::new();
-    let mut buffer = vec![0; CHUNK];
+    // Most files are far smaller than a chunk; one byte more, for they end with a read that finds nothing.
+    let length = open.metadata().map_err(DataError::io(file))?.len();
+    let mut buffer = vec![0; usize::try_from(length).map_or(CHUNK, |length| CHUNK.min(length + 1))];
     let mut bytes = 0;
     loop {
         let read = open.read(&mut buffer).map_err(DataError::io(file))?;

@@ -84,7 +84,9 @@ pub enum Stage<'a> {
 /// Part of what a worker does for a scan or a sequence, for whoever counts where time goes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Part {
-    /// Reading what belongs to it, with what scans share: the ground, calibrated images.
+    /// Checking a sequence: told once for each.
+    Checking,
+    /// Reading what belongs to a scan, with what scans share: the ground, calibrated images.
     Gathering,
     /// Gathering its evidence, where that is asked for.
     Evidence,
@@ -117,6 +119,9 @@ pub trait Observer: Sync {
 pub struct Unwatched;
 
 impl Observer for Unwatched {}
+
+/// Is told what a check says of a sequence.
+pub type Checked<'a> = dyn Fn(&CheckRecord) + Sync + 'a;
 
 /// How a run ended.
 #[derive(Debug)]
@@ -171,6 +176,23 @@ impl LabelRun<'_> {
     /// are named in the record, and the run goes on; settings that don't fit the recording, and results that can't be
     /// written, end it, and so does another run that writes to the same folder ([`DataError::Busy`]).
     pub fn execute(&self, observer: &dyn Observer) -> Result<Outcome, DataError> {
+        self.run(observer, None)
+    }
+
+    /// The same, and checks all sequences meanwhile ([`ralf_check::check`]), which the record tells of in place of
+    /// `checks`. `told` hears of each as soon as it is known, from several threads.
+    ///
+    /// # Errors
+    /// Those of [`Self::execute`].
+    pub fn execute_and_check(
+        &self,
+        observer: &dyn Observer,
+        told: &Checked<'_>,
+    ) -> Result<Outcome, DataError> {
+        self.run(observer, Some(told))
+    }
+
+    fn run(&self, observer: &dyn Observer, told: Option<&Checked<'_>>) -> Result<Outcome, DataError> {
         let begun = Instant::now();
         refuse_to_write_into(&self.recording.path, self.out)?;
         let labeler = self.labeler()?;
@@ -179,11 +201,12 @@ impl LabelRun<'_> {
         let (folder, asked) = self.open_folder(observer)?;
         let pending: Vec<_> =
             tasks.iter().zip(&asked).filter(|(_, asked)| !folder.holds(&asked.name)).collect();
-        let finished = self.label_sequences(&pending, &folder, observer)?;
+        let (finished, checks) = self.label_sequences(&pending, &folder, observer, told)?;
+        let checks = if told.is_some() { &checks } else { self.checks };
         let labelled = finished.iter().map(|(sequence, _)| sequence.name.clone()).collect();
         let timings = Timings { seconds: begun.elapsed().as_secs_f64(), jobs: self.jobs };
         let damaged = folder.damaged().to_vec();
-        let (mut record, removed) = folder.finish(finished, timings, self.checks)?;
+        let (mut record, removed) = folder.finish(finished, timings, checks)?;
         record.retain(|sequence| asked.iter().any(|asked| asked.name == sequence.name));
         Ok(Outcome { record, labelled, damaged, removed })
     }

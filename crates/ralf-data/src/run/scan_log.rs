@@ -112,10 +112,10 @@ impl ScanLog {
         let (name, file) = kept.files.get_mut(file)?;
         file.seek(SeekFrom::Start(offset)).ok()?;
         // A length that is wrong takes no more memory than there is in the file.
-        let mut body = Vec::new();
-        file.take(head.bytes).read_to_end(&mut body).ok()?;
-        let whole = body.len() as u64 == head.bytes && u64::from(crc32fast::hash(&body)) == head.checksum;
-        whole.then(|| (name.clone(), body))
+        let rest = file.metadata().ok()?.len().saturating_sub(offset);
+        let mut body = vec![0; usize::try_from(head.bytes).ok().filter(|_| head.bytes <= rest)?];
+        file.read_exact(&mut body).ok()?;
+        (u64::from(crc32fast::hash(&body)) == head.checksum).then(|| (name.clone(), body))
     }
 
     fn kept(&self) -> MutexGuard<'_, Kept> {

@@ -1,5 +1,5 @@
 //! Several sequences at once: a worker takes the next stretch of whichever sequence it is of, so that none is idle
-//! while another labels the end of a sequence or puts it together.
+//! while another labels the end of a sequence or puts it together. Checks of sequences stand in the same queue.
 //!
 //! Stretches are taken in the order of the sequences, so that no more sequences are under way than there are workers.
 
@@ -8,12 +8,28 @@ use super::output_folder::OutputFolder;
 use super::unfinished::Finished;
 use super::workers::Labelling;
 use super::workspace::Workspace;
-use super::{LabelRun, Observer, Part, Stage, Task, assemble};
+use super::{CheckRecord, Checked, LabelRun, Observer, Part, Stage, Task, assemble};
 use crate::error::DataError;
 use crate::frames::{ScanIndex, Stretch, side_by_side, stretches};
 use crate::result::NotLabelled;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::time::Instant;
+
+/// What one worker does at a time.
+enum Item {
+    /// Checking the sequence of this number in the recording.
+    Check(usize),
+    /// Labelling a stretch.
+    Label(Stretch),
+}
+
+/// What came of it.
+enum Done {
+    Checked(CheckRecord),
+    /// That stretch was the last of a sequence.
+    Finished(Finished),
+}
 
 /// What all workers share.
 struct Queue<'a> {
@@ -25,6 +41,7 @@ struct Queue<'a> {
     /// Somebody has failed.
     stop: AtomicBool,
     observer: &'a dyn Observer,
+    told: Option<&'a Checked<'a>>,
 }
 
 /// A sequence that is to be labelled.
@@ -58,47 +75,84 @@ impl Observer for Silent<'_> {
 }
 
 impl LabelRun<'_> {
-    /// Labels these sequences and puts each together as soon as all of it is labelled. Results are in their order.
+    /// Labels these sequences and puts each together as soon as all of it is labelled; checks all of the recording
+    /// meanwhile, where somebody wants to be told. Results are in the order of the sequences.
     pub(super) fn label_sequences(
         &self,
         sequences: &[(&Task, &Identity)],
         folder: &OutputFolder,
         observer: &dyn Observer,
-    ) -> Result<Vec<Finished>, DataError> {
-        let Some((first, _)) = sequences.first() else { return Ok(Vec::new()) };
+        told: Option<&Checked<'_>>,
+    ) -> Result<(Vec<Finished>, Vec<CheckRecord>), DataError> {
         let counts: Vec<usize> = sequences.iter().map(|(task, _)| task.scans()).collect();
-        let stretches = stretches(&counts, first.gathers_evidence(), self.jobs);
-        let sequence = |(number, &(task, identity)): (usize, &(_, _))| {
-            let left = stretches.iter().filter(|stretch| stretch.sequence == number).count();
-            let state = State { left, under_way: None, not_labelled: Vec::new() };
-            Sequence { task, identity, state: Mutex::new(state) }
-        };
-        let queue = Queue {
-            run: self,
-            folder,
-            sequences: sequences.iter().enumerate().map(sequence).collect(),
-            left: AtomicUsize::new(stretches.len()),
-            stop: AtomicBool::new(false),
-            observer,
-        };
+        let gathers_evidence = sequences.iter().any(|(task, _)| task.gathers_evidence());
+        let stretches = stretches(&counts, gathers_evidence, self.jobs);
+        let queue = Queue::new(self, sequences, &stretches, (folder, observer, told));
         let name = match sequences {
             [(only, _)] => only.reader.sequence().name.clone(),
             several => format!("{} sequences", several.len()),
         };
-        observer.begin(Stage::Labelling(&name), counts.iter().sum::<usize>() as u64);
-        let finished = side_by_side(&stretches, self.jobs, |stretch| queue.work_off(stretch));
+        // A check takes longer than a stretch: begun first, it is over first.
+        let checks = (0..self.recording.sequences.len()).filter(|_| told.is_some()).map(Item::Check);
+        let items: Vec<Item> = checks.chain(stretches.into_iter().map(Item::Label)).collect();
+        if !sequences.is_empty() {
+            observer.begin(Stage::Labelling(&name), counts.iter().sum::<usize>() as u64);
+        }
+        let done = side_by_side(&items, self.jobs, |item| queue.work_off(item));
         observer.end();
-        Ok(finished?.into_iter().flatten().collect())
+        let (mut finished, mut checks) = (Vec::new(), Vec::new());
+        for done in done?.into_iter().flatten() {
+            match done {
+                Done::Checked(check) => checks.push(check),
+                Done::Finished(sequence) => finished.push(sequence),
+            }
+        }
+        Ok((finished, checks))
     }
 }
 
 impl<'a> Queue<'a> {
-    /// Labels a stretch. With the last one of a sequence the sequence is put together.
-    fn work_off(&self, stretch: &Stretch) -> Result<Option<Finished>, DataError> {
-        let done = self.label(&self.sequences[stretch.sequence], stretch);
+    fn new(
+        run: &'a LabelRun<'a>,
+        sequences: &[(&'a Task<'a>, &'a Identity)],
+        stretches: &[Stretch],
+        (folder, observer, told): (&'a OutputFolder, &'a dyn Observer, Option<&'a Checked<'a>>),
+    ) -> Self {
+        let sequence = |(number, &(task, identity)): (usize, &(&'a Task<'a>, &'a Identity))| {
+            let left = stretches.iter().filter(|stretch| stretch.sequence == number).count();
+            let state = State { left, under_way: None, not_labelled: Vec::new() };
+            Sequence { task, identity, state: Mutex::new(state) }
+        };
+        let sequences = sequences.iter().enumerate().map(sequence).collect();
+        let (left, stop) = (AtomicUsize::new(stretches.len()), AtomicBool::new(false));
+        Self { run, folder, sequences, left, stop, observer, told }
+    }
+
+    fn work_off(&self, item: &Item) -> Result<Option<Done>, DataError> {
+        let done = match item {
+            Item::Check(sequence) => self.check(*sequence).map(Done::Checked).map(Some),
+            Item::Label(stretch) => {
+                let finished = self.label(&self.sequences[stretch.sequence], stretch);
+                finished.map(|finished| finished.map(Done::Finished))
+            }
+        };
         done.inspect_err(|_| self.stop.store(true, Ordering::Relaxed))
     }
 
+    fn check(&self, sequence: usize) -> Result<CheckRecord, DataError> {
+        if self.observer.stopped() {
+            return Err(DataError::Stopped);
+        }
+        let begun = Instant::now();
+        let check = CheckRecord::of(&ralf_check::check(self.run.recording.sequences[sequence].as_ref()));
+        self.observer.spent(Part::Checking, begun.elapsed());
+        if let Some(told) = self.told {
+            told(&check);
+        }
+        Ok(check)
+    }
+
+    /// Labels a stretch. With the last one of a sequence the sequence is put together.
     fn label(&self, sequence: &Sequence<'a>, stretch: &Stretch) -> Result<Option<Finished>, DataError> {
         let task = sequence.task;
         let under_way = sequence.open(self.folder)?;

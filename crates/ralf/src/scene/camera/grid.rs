@@ -5,6 +5,8 @@
 pub(super) struct PixelGrid {
     origin: [f64; 2],
     cell: f64,
+    /// `1 / cell`, for a product is quicker than a quotient.
+    per_px: f64,
     columns: usize,
     rows: usize,
     /// Where each bucket begins among the places, and the end of the last.
@@ -23,10 +25,12 @@ impl PixelGrid {
     /// Sorts finite places into buckets of a width, px, above 0.
     pub(super) fn new(pixels: &[[f64; 2]], cell: f64) -> Self {
         let ([left, top], [right, bottom]) = bounds(pixels);
-        let count = |extent: f64| (extent / cell) as usize + 1;
+        let per_px = 1.0 / cell;
+        let count = |extent: f64| (extent * per_px) as usize + 1;
         let mut grid = Self {
             origin: [left, top],
             cell,
+            per_px,
             columns: count(right - left),
             rows: count(bottom - top),
             starts: vec![],
@@ -75,11 +79,11 @@ impl PixelGrid {
     /// The row of buckets of a place, the nearest where it lies outside.
     pub(super) fn row(&self, v: f64) -> usize {
         // A cast holds at 0.
-        (((v - self.origin[1]) / self.cell) as usize).min(self.rows - 1)
+        (((v - self.origin[1]) * self.per_px) as usize).min(self.rows - 1)
     }
 
     fn column(&self, u: f64) -> usize {
-        (((u - self.origin[0]) / self.cell) as usize).min(self.columns - 1)
+        (((u - self.origin[0]) * self.per_px) as usize).min(self.columns - 1)
     }
 
     /// The bucket of a place.

@@ -85,11 +85,26 @@ fn residual(samples: &[ScaleSample], config: &CameraConfig) -> Option<f64> {
 /// Mean luminance (BT.601: 0.299 R + 0.587 G + 0.114 B) of an image, 0 to 255; 0 of an empty one.
 pub fn luminance(image: &CameraImage) -> f64 {
     // Whole numbers add up exactly and fast; the weights come last.
-    let sums = image.rgb.iter().fold([0_u64; 3], |[r, g, b], pixel| {
-        [r + u64::from(pixel[0]), g + u64::from(pixel[1]), b + u64::from(pixel[2])]
-    });
-    let [red, green, blue] = sums.map(|sum| sum as f64 / image.rgb.len().max(1) as f64);
+    let [red, green, blue] = sums(&image.rgb).map(|sum| sum as f64 / image.rgb.len().max(1) as f64);
     0.299 * red + 0.587 * green + 0.114 * blue
+}
+
+/// The sums of red, green and blue.
+fn sums(pixels: &[[u8; 3]]) -> [u64; 3] {
+    let mut sums = [0; 3];
+    // Each byte of sixteen pixels has a sum of its own, so that they add up side by side; none overflows in a part.
+    for part in pixels.chunks(1 << 20) {
+        let (blocks, rest) = part.as_chunks::<16>();
+        let mut lanes = [0_u32; 48];
+        for block in blocks {
+            lanes.iter_mut().zip(block.as_flattened()).for_each(|(lane, value)| *lane += u32::from(*value));
+        }
+        let rest = rest.as_flattened().iter().copied().map(u32::from);
+        for (place, value) in lanes.into_iter().chain(rest).enumerate() {
+            sums[place % 3] += u64::from(value);
+        }
+    }
+    sums
 }
 
 #[cfg(test)]
@@ -196,5 +211,16 @@ mod tests {
         let image = CameraImage { width: 2, height: 1, rgb: vec![[255, 0, 0], [0, 100, 50]] };
         assert!((luminance(&image) - (0.299 * 255.0 + 0.587 * 100.0 + 0.114 * 50.0) / 2.0).abs() < 1e-12);
         assert_eq!(luminance(&CameraImage { width: 0, height: 0, rgb: vec![] }), 0.0);
+    }
+
+    #[test]
+    fn colours_add_up_whatever_the_number_of_pixels() {
+        for count in [0, 1, 15, 16, 17, 100, (1 << 20) + 19] {
+            let pixels: Vec<[u8; 3]> = (0..count).map(|i| [i as u8, 255, (i / 7) as u8]).collect();
+            let expected = pixels.iter().fold([0; 3], |sums: [u64; 3], pixel| {
+                std::array::from_fn(|channel| sums[channel] + u64::from(pixel[channel]))
+            });
+            assert_eq!(sums(&pixels), expected);
+        }
     }
 }

@@ -18,10 +18,16 @@ pub(in crate::scene::camera) struct LocalScale {
 }
 
 /// A sample and its squared distance, px^2. Equal distances are ordered by index.
-#[derive(Debug, Clone, Copy, PartialEq, PartialOrd)]
+#[derive(Debug, Clone, Copy)]
 struct Neighbor {
     square: f64,
     index: usize,
+}
+
+impl Neighbor {
+    fn is_before(&self, other: &Self) -> bool {
+        self.square < other.square || (self.square == other.square && self.index < other.index)
+    }
 }
 
 impl LocalScale {
@@ -101,11 +107,14 @@ fn squared([u, v]: [f64; 2], [at_u, at_v]: [f64; 2]) -> f64 {
 #[inline]
 fn insert(nearest: &mut [Neighbor], neighbor: Neighbor) {
     let mut at = nearest.len();
-    while at > 0 && neighbor < nearest[at - 1] {
+    while at > 0 && neighbor.is_before(&nearest[at - 1]) {
+        // Those behind it move up by one as it passes; the last one drops out.
+        if at < nearest.len() {
+            nearest[at] = nearest[at - 1];
+        }
         at -= 1;
     }
     if at < nearest.len() {
-        nearest[at..].rotate_right(1);
         nearest[at] = neighbor;
     }
 }
