@@ -117,11 +117,7 @@ impl Stages {
 
 impl Observer for Stages {
     fn begin(&self, stage: Stage, steps: u64) {
-        self.begin_work(match stage {
-            Stage::Inputs => Some(Work::Hashing),
-            Stage::Writing(_) => Some(Work::Writing),
-            Stage::Matching(_) | Stage::Gathering(_) | Stage::Labelling(_) => None,
-        });
+        self.begin_work((stage == Stage::Inputs).then_some(Work::Hashing));
         if self.quiet {
             return;
         }
@@ -154,6 +150,6 @@ impl Observer for Stages {
     }
 
     fn spent(&self, part: Part, time: Duration) {
-        self.spent.add(Work::Scan(part), time);
+        self.spent.add(Work::Worker(part), time);
     }
 }

@@ -12,20 +12,18 @@ pub(crate) enum Work {
     Opening,
     /// Hashing the inputs.
     Hashing,
-    /// Part of what workers do for each scan.
-    Scan(Part),
-    /// Putting the results together.
-    Writing,
+    /// Part of what workers do for each scan, and at the end of a sequence.
+    Worker(Part),
 }
 
 const ALL: [(Work, &str); 7] = [
     (Work::Opening, "opening and check"),
     (Work::Hashing, "hashing inputs"),
-    (Work::Scan(Part::Gathering), "scans: reading, ground, images"),
-    (Work::Scan(Part::Evidence), "scans: evidence"),
-    (Work::Scan(Part::Labelling), "scans: labels"),
-    (Work::Scan(Part::Keeping), "scans: keeping"),
-    (Work::Writing, "writing results"),
+    (Work::Worker(Part::Gathering), "scans: reading, ground, images"),
+    (Work::Worker(Part::Evidence), "scans: evidence"),
+    (Work::Worker(Part::Labelling), "scans: labels"),
+    (Work::Worker(Part::Keeping), "scans: keeping"),
+    (Work::Worker(Part::Writing), "writing results"),
 ];
 
 /// Times of several threads, summed up, and how often each was told.
@@ -46,7 +44,8 @@ impl Spent {
         let all = self.0.lock().map(|all| *all).unwrap_or_default();
         let mut rows = vec![["work", "s", "ms per scan"].map(str::to_owned).to_vec()];
         for ((work, name), (time, count)) in ALL.iter().zip(all) {
-            let (seconds, is_of_scans) = (time.as_secs_f64(), matches!(work, Work::Scan(_)) && count > 0);
+            let seconds = time.as_secs_f64();
+            let is_of_scans = matches!(work, Work::Worker(part) if *part != Part::Writing) && count > 0;
             let each =
                 if is_of_scans { format!("{:.3}", 1e3 * seconds / count as f64) } else { String::new() };
             rows.push(vec![(*name).to_owned(), format!("{seconds:.3}"), each]);

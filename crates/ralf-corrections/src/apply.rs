@@ -15,7 +15,7 @@ use std::collections::{BTreeMap, BTreeSet};
 /// A stroke's part in a scan, in the store's terms.
 struct Part {
     scan: i64,
-    /// Detections, with the correction before, where it differs from the stroke's label.
+    /// Detections, with the correction before.
     changes: Vec<(u32, Option<u16>)>,
 }
 
@@ -67,7 +67,7 @@ fn apply(on: &Transaction, stroke: &Stroke, who: &Who) -> rusqlite::Result<Attem
     asked.answer(on, made, &scans).map(Attempt::Done)
 }
 
-/// The detections of a scan that the stroke gives another label.
+/// The detections of a scan that the stroke says something of, with the corrections before.
 fn changes(
     on: &Connection,
     scan: i64,
@@ -83,7 +83,8 @@ fn changes(
     let with_before = points.into_iter().map(|point| (point, known.get(&point).copied()));
     let is_new = |point: &u32| stroke.cause.is_some() && why.get(point) != stroke.cause.as_ref();
     let changed = with_before.filter(|(point, before)| {
-        (*before != stroke.label || is_new(point)) && !(stroke.protect && before.is_some())
+        let is_said = stroke.confirm || *before != stroke.label || is_new(point);
+        is_said && !(stroke.protect && before.is_some())
     });
     Ok(changed.collect())
 }

@@ -5,6 +5,7 @@ use crate::error::{StoreError, told};
 use crate::model::ScanKey;
 use crate::read::{content, corrections, review};
 use crate::schema::open_read_only;
+use crate::settled::settled;
 use rusqlite::Connection;
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -18,6 +19,8 @@ pub struct ScanLayer {
     pub corrections: Vec<(u32, u16)>,
     /// The machine's labels that were accepted, one per detection, where the scan is marked as reviewed.
     pub accepted: Option<Vec<u16>>,
+    /// Detections that were settled, ascending, with the correction that each had before.
+    pub settled: Vec<(u32, Option<u16>)>,
 }
 
 impl ScanLayer {
@@ -25,6 +28,22 @@ impl ScanLayer {
     pub fn find_in<'a>(said: &'a [ScanLayer], content: &ScanContent) -> Option<&'a ScanLayer> {
         let contents: Vec<ScanContent> = said.iter().map(|layer| layer.content).collect();
         content.find_in(&contents).map(|at| &said[at])
+    }
+
+    /// What was said before anybody settled anything: the corrections of those who saw nobody else's.
+    pub fn before_settling(&self) -> Self {
+        let mut corrections: BTreeMap<u32, u16> = self.corrections.iter().copied().collect();
+        for (point, before) in &self.settled {
+            match before {
+                Some(label) => drop(corrections.insert(*point, *label)),
+                None => drop(corrections.remove(point)),
+            }
+        }
+        Self { corrections: corrections.into_iter().collect(), settled: Vec::new(), ..self.clone() }
+    }
+
+    fn is_empty(&self) -> bool {
+        self.corrections.is_empty() && self.accepted.is_none() && self.settled.is_empty()
     }
 }
 
@@ -38,7 +57,7 @@ pub fn read_layer(file: &Path) -> Result<BTreeMap<ScanKey, Vec<ScanLayer>>, Stor
     let moment = connection.transaction().map_err(told(file))?;
     let mut layers: BTreeMap<ScanKey, Vec<ScanLayer>> = BTreeMap::new();
     for (key, layer) in read(&moment).map_err(told(file))? {
-        if layer.corrections.is_empty() && layer.accepted.is_none() {
+        if layer.is_empty() {
             continue;
         }
         check(file, &key, &layer)?;
@@ -70,7 +89,8 @@ fn read(on: &Connection) -> rusqlite::Result<Vec<(ScanKey, ScanLayer)>> {
         .map(|scan| {
             let (id, key, content) = scan?;
             let (corrections, review) = (corrections(on, id)?, review(on, id)?);
-            Ok((key, ScanLayer { content, corrections, accepted: review.map(|mark| mark.accepted) }))
+            let accepted = review.map(|mark| mark.accepted);
+            Ok((key, ScanLayer { content, corrections, accepted, settled: settled(on, id)? }))
         })
         .collect()
 }

@@ -16,6 +16,9 @@
 //!   is kept and never applied, until that content is back.
 //! - **Reviewed marks** keep the machine's labels of that moment, so that labelling again changes nothing that
 //!   was accepted.
+//! - **Disagreements.** Who labels a second time without seeing the first labels has a store of its own. Strokes
+//!   of the tool [`SETTLE`] in the store that counts say which of both is right; what was said before them is
+//!   never lost ([`ScanLayer::before_settling`]), so that agreement can be told for ever.
 //! - **The file** is made and moved to its place whole. One that is empty, damaged or another program's is
 //!   refused; one that is deleted or replaced while it is open is noticed with the next question, and nothing
 //!   counts as saved any more.
@@ -60,10 +63,13 @@ mod outcome;
 mod read;
 mod reader;
 mod review;
+mod sayings;
 mod schema;
+mod settled;
 mod steps;
 mod store;
 mod tables;
+mod workday;
 mod write;
 
 pub use changes::{Change, Changes};
@@ -74,7 +80,10 @@ pub use model::{Mark, ScanEdit, ScanKey, ScanVersion, Stroke, Who};
 pub use outcome::{Conflict, Edit, History, Outcome, Review, ScanState, Step};
 pub use read::ScanSummary;
 pub use reader::Reader;
+pub use sayings::Saying;
+pub use settled::SETTLE;
 pub use store::Store;
+pub use workday::{PAUSE_S, Workday};
 
 /// The file's name in an output folder.
 pub const FILE: &str = "corrections.sqlite";

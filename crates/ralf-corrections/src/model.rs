@@ -52,6 +52,8 @@ pub struct Stroke {
     pub group: Option<String>,
     /// Leave detections as they are that a person has corrected before.
     pub protect: bool,
+    /// Write down detections that have this label already, too: somebody looked, and said the same.
+    pub confirm: bool,
     /// SemanticKITTI id; `None` takes corrections away.
     pub label: Option<u16>,
     /// Why it is so. Detections that have the label already are told the cause, too.

@@ -7,8 +7,11 @@ use crate::identity::Identity;
 use crate::model::ScanVersion;
 use crate::outcome::{History, ScanState};
 use crate::read::{ScanSummary, scan_state, summaries};
+use crate::sayings::{Saying, sayings};
 use crate::schema;
+use crate::workday::{Workday, workdays};
 use rusqlite::Connection;
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 /// The corrections of one output folder, to be read. Whoever writes meanwhile, even for long, is not waited for.
@@ -63,6 +66,17 @@ impl Reader {
     /// said while it held something else is there once per content.
     pub fn summaries(&self, sequence: &str) -> Result<Vec<ScanSummary>, StoreError> {
         self.read(|on| summaries(on, sequence))
+    }
+
+    /// Who said what of these detections of these scans, and when, the last first: each stroke and mark once,
+    /// those that were taken back too.
+    pub fn sayings(&self, of: &[(ScanVersion, BTreeSet<u32>)]) -> Result<Vec<Saying>, StoreError> {
+        self.read(|on| sayings(on, of))
+    }
+
+    /// Who has done how much, in all sequences: by person, and then by day.
+    pub fn workdays(&self) -> Result<Vec<Workday>, StoreError> {
+        self.read(workdays)
     }
 
     /// The number of the last thing done, by anyone, in any sequence; 0 before the first.

@@ -5,7 +5,9 @@
 #![expect(clippy::unwrap_used, reason = "helpers of tests fail as tests do")]
 
 use proptest::prelude::*;
-use ralf_corrections::{Outcome, ScanContent, ScanEdit, ScanKey, ScanVersion, Store, Stroke, Who};
+use ralf_corrections::{
+    Mark, Outcome, SETTLE, ScanContent, ScanEdit, ScanKey, ScanVersion, Store, Stroke, Who, read_layer,
+};
 use std::collections::{BTreeMap, BTreeSet};
 
 const SCANS: u32 = 5;
@@ -17,18 +19,37 @@ type Values = BTreeMap<Place, u16>;
 
 #[derive(Debug, Clone)]
 enum Op {
-    Stroke { points: BTreeSet<Place>, label: Option<u16>, protect: bool, group: Option<u8>, stale: bool },
+    Stroke { points: BTreeSet<Place>, how: How, group: Option<u8>, stale: bool },
+    Mark { scan: u32, reviewed: bool },
     Undo,
     Redo,
     Reopen,
 }
 
-#[derive(Debug, Clone)]
+/// What a stroke says, and of which detections.
+#[derive(Debug, Clone, Copy)]
+struct How {
+    label: Option<u16>,
+    protect: bool,
+    /// It settles a disagreement, and says again what was said already.
+    settles: bool,
+}
+
+#[derive(Debug, Clone, Default)]
 struct Done {
     author: u8,
     group: Option<u8>,
+    settles: bool,
     /// Correction before and after.
     changes: BTreeMap<Place, (Option<u16>, Option<u16>)>,
+    /// A scan's mark before and after, each by the number of the edit that made it.
+    mark: Option<(u32, Option<usize>, Option<usize>)>,
+}
+
+impl Done {
+    fn changed(&self) -> usize {
+        self.changes.len() + usize::from(self.mark.is_some())
+    }
 }
 
 /// A step that was taken back, and how many edits there had been by then.
@@ -39,6 +60,9 @@ struct Model {
     /// Strokes that hold, with the number of the edit that set them.
     holding: Vec<(Done, usize)>,
     undone: BTreeMap<u8, Vec<Undone>>,
+    marks: BTreeMap<u32, usize>,
+    /// All that was ever done, whether it holds or not.
+    made: Vec<Done>,
     revisions: [u64; SCANS as usize],
     edits: usize,
 }
@@ -59,26 +83,71 @@ impl Model {
         scans.into_iter().for_each(|scan| self.revisions[scan as usize] += 1);
     }
 
+    fn hold(&mut self, done: Done) {
+        self.count(std::slice::from_ref(&done));
+        self.undone.remove(&done.author);
+        self.made.push(done.clone());
+        self.holding.push((done, self.edits));
+    }
+
     /// How many corrections changed.
-    fn stroke(
-        &mut self,
-        author: u8,
-        points: &BTreeSet<Place>,
-        (label, protect, group): (Option<u16>, bool, Option<u8>),
-    ) -> usize {
+    fn stroke(&mut self, author: u8, points: &BTreeSet<Place>, how: How, group: Option<u8>) -> usize {
+        let How { label, protect, settles } = how;
         let values = self.values();
         let before = |place: &Place| values.get(place).copied();
-        let free = |place: &&Place| before(place) != label && !(protect && before(place).is_some());
-        let changes: BTreeMap<_, _> =
-            points.iter().filter(free).map(|place| (*place, (before(place), label))).collect();
+        let said = |place: &Place| settles || before(place) != label;
+        let free = |place: &Place| !(protect && before(place).is_some());
+        let places = points.iter().filter(|place| said(place) && free(place));
+        let changes: BTreeMap<_, _> = places.map(|place| (*place, (before(place), label))).collect();
         let changed = changes.len();
         if changed > 0 {
-            let done = Done { author, group, changes };
-            self.count(std::slice::from_ref(&done));
-            self.undone.remove(&author);
-            self.holding.push((done, self.edits));
+            self.hold(Done { author, group, settles, changes, ..Done::default() });
         }
         changed
+    }
+
+    /// How many marks changed.
+    fn mark(&mut self, author: u8, scan: u32, reviewed: bool) -> usize {
+        let before = self.marks.get(&scan).copied();
+        if !reviewed && before.is_none() {
+            return 0;
+        }
+        let after = reviewed.then_some(self.edits + 1);
+        self.hold(Done { author, mark: Some((scan, before, after)), ..Done::default() });
+        self.move_mark(scan, after);
+        1
+    }
+
+    fn move_mark(&mut self, scan: u32, to: Option<usize>) {
+        match to {
+            Some(mark) => self.marks.insert(scan, mark),
+            None => self.marks.remove(&scan),
+        };
+    }
+
+    /// Moves the marks of a step, unless one of them is another one now.
+    fn move_marks(&mut self, step: &[Done], back: bool) -> bool {
+        let moves = step.iter().filter_map(|stroke| stroke.mark);
+        let turned = moves
+            .map(|(scan, before, after)| if back { (scan, after, before) } else { (scan, before, after) });
+        let moves: Vec<_> = turned.collect();
+        if moves.iter().any(|(scan, from, _)| self.marks.get(scan).copied() != *from) {
+            return false;
+        }
+        moves.into_iter().for_each(|(scan, _, to)| self.move_mark(scan, to));
+        true
+    }
+
+    /// What was said of each detection before it was settled first, as far as that holds.
+    fn settled(&self) -> BTreeMap<Place, Option<u16>> {
+        let mut first = BTreeMap::new();
+        for (stroke, _) in self.holding.iter().filter(|(stroke, _)| stroke.settles) {
+            stroke
+                .changes
+                .iter()
+                .for_each(|(place, (before, _))| drop(first.entry(*place).or_insert(*before)));
+        }
+        first
     }
 
     /// How many corrections changed; `None` is a conflict.
@@ -101,9 +170,12 @@ impl Model {
             return Some(0);
         }
         step.reverse();
+        if !self.move_marks(&step, true) {
+            return None;
+        }
         self.holding = rest;
         self.count(&step);
-        let changed = step.iter().map(|stroke| stroke.changes.len()).sum();
+        let changed = step.iter().map(Done::changed).sum();
         self.undone.entry(author).or_default().push((step, self.edits));
         Some(changed)
     }
@@ -123,9 +195,12 @@ impl Model {
             }
             set(&mut values, stroke, |(_, after)| *after);
         }
+        if !self.move_marks(&step, false) {
+            return None;
+        }
         self.undone.get_mut(&author)?.pop();
         self.count(&step);
-        let changed = step.iter().map(|stroke| stroke.changes.len()).sum();
+        let changed = step.iter().map(Done::changed).sum();
         let edit = self.edits;
         self.holding.extend(step.into_iter().map(|stroke| (stroke, edit)));
         Some(changed)
@@ -178,22 +253,30 @@ fn edits(model: &Model, points: &BTreeSet<Place>, stale: bool) -> Vec<ScanEdit> 
 
 fn step(store: &mut Store, model: &mut Model, author: u8, op: &Op) {
     match op {
-        Op::Stroke { points, label, protect, group, stale } => {
+        Op::Stroke { points, how, group, stale } => {
             let scans = edits(model, points, *stale);
-            let (label, protect) = (*label, *protect);
+            let How { label, protect, settles } = *how;
             let group_name = group.map(|group| group.to_string());
-            let tool = "lasso".to_owned();
+            let tool = if settles { SETTLE } else { "lasso" }.to_owned();
             let stroke = Stroke {
-                sequence: SEQUENCE.into(),
+                sequence: SEQUENCE.to_owned(),
                 tool,
                 group: group_name,
                 protect,
+                confirm: settles,
                 label,
                 cause: None,
                 scans,
             };
-            let expected = (!stale).then(|| model.stroke(author, points, (label, protect, *group)));
+            let expected = (!stale).then(|| model.stroke(author, points, *how, *group));
             assert_eq!(changed(store.apply(&stroke, &who(author)).unwrap()), expected);
+        }
+        Op::Mark { scan, reviewed } => {
+            let ScanVersion { key, .. } = version(*scan);
+            let (machine, base) = (vec![99; POINTS as usize], model.revisions[*scan as usize]);
+            let mark = Mark { key, content: None, base, machine, reviewed: *reviewed };
+            let expected = Some(model.mark(author, *scan, *reviewed));
+            assert_eq!(changed(store.mark(&mark, &who(author)).unwrap()), expected);
         }
         Op::Undo => assert_eq!(changed(store.undo(SEQUENCE, &who(author)).unwrap()), model.undo(author)),
         Op::Redo => assert_eq!(changed(store.redo(SEQUENCE, &who(author)).unwrap()), model.redo(author)),
@@ -206,6 +289,7 @@ fn compare(store: &Store, model: &Model) {
     for scan in 0..SCANS {
         let state = store.scan(&version(scan)).unwrap();
         assert_eq!(state.revision, model.revisions[scan as usize]);
+        assert_eq!(state.review.is_some(), model.marks.contains_key(&scan));
         found.extend(state.corrections.into_iter().map(|(point, label)| ((scan, point), label)));
     }
     assert_eq!(found, model.values());
@@ -221,6 +305,59 @@ fn compare(store: &Store, model: &Model) {
     }
 }
 
+/// What is told of the past: who said what of each detection, and what was said before anything was settled.
+fn compare_past(store: &Store, model: &Model) {
+    let layers = read_layer(store.file()).unwrap();
+    let layers =
+        layers.into_iter().flat_map(|(key, said)| said.into_iter().map(move |layer| (key.scan, layer)));
+    let settled = layers.flat_map(|(scan, layer)| {
+        layer.settled.into_iter().map(move |(point, before)| ((scan, point), before))
+    });
+    assert_eq!(settled.collect::<BTreeMap<_, _>>(), model.settled());
+    let concerns = |done: &Done, (scan, point): Place| {
+        done.changes.contains_key(&(scan, point)) || done.mark.is_some_and(|(of, _, _)| of == scan)
+    };
+    for place in (0..SCANS).flat_map(|scan| (0..POINTS).map(move |point| (scan, point))) {
+        let asked = [(version(place.0), BTreeSet::from([place.1]))];
+        let told = store.sayings(&asked).unwrap();
+        let names: Vec<&str> = told.iter().rev().map(|saying| saying.author.as_str()).collect();
+        let expected = model.made.iter().filter(|done| concerns(done, place));
+        assert_eq!(names, expected.map(|done| ["ada", "bob"][usize::from(done.author)]).collect::<Vec<_>>());
+        let holding = model.holding.iter().filter(|(done, _)| concerns(done, place)).count();
+        assert_eq!(told.iter().filter(|saying| saying.holds).count(), holding);
+    }
+    let thing: Vec<_> = (0..SCANS).map(|scan| (version(scan), (0..POINTS).collect())).collect();
+    let told: u64 = store.sayings(&thing).unwrap().iter().map(|saying| saying.detections).sum();
+    let marked = |done: &Done| if done.mark.is_some() { POINTS as usize } else { 0 };
+    let said: usize = model.made.iter().map(|done| done.changes.len() + marked(done)).sum();
+    assert_eq!(told, said as u64);
+    compare_work(store, model);
+}
+
+/// All of it was done today, or at midnight; what holds is counted once for each person and day.
+fn compare_work(store: &Store, model: &Model) {
+    let days = store.workdays().unwrap();
+    if days.iter().any(|day| day.day != days[0].day) {
+        return;
+    }
+    for (author, name) in ["ada", "bob"].into_iter().enumerate() {
+        let own =
+            || model.holding.iter().map(|(done, _)| done).filter(|done| usize::from(done.author) == author);
+        let labelled: BTreeSet<&Place> = own()
+            .flat_map(|done| {
+                done.changes.iter().filter(|(_, (_, after))| after.is_some()).map(|(place, _)| place)
+            })
+            .collect();
+        let marked: BTreeSet<u32> =
+            own().filter_map(|done| done.mark.and_then(|(scan, _, after)| after.map(|_| scan))).collect();
+        let day = days.iter().find(|day| day.author == name);
+        let told = day.map_or((0, 0), |day| (day.detections as usize, day.scans as usize));
+        assert_eq!(told, (labelled.len(), marked.len()), "{name}");
+    }
+    let edits: u64 = days.iter().map(|day| day.edits).sum();
+    assert_eq!(edits as usize, model.edits);
+}
+
 fn op() -> impl Strategy<Value = Op> {
     let few = proptest::collection::btree_set((0..2u32, 0..POINTS), 1..4);
     // A thing is seen in every scan, now and then twice.
@@ -230,11 +367,12 @@ fn op() -> impl Strategy<Value = Op> {
     let points = prop_oneof![2 => few, 1 => thing];
     let label = prop_oneof![Just(None), Just(Some(1)), Just(Some(99))];
     let group = prop_oneof![3 => Just(None), 1 => (0..2u8).prop_map(Some)];
-    let stroke = (points, label, any::<bool>(), group, proptest::bool::weighted(0.1));
+    let how = (label, any::<bool>(), proptest::bool::weighted(0.2))
+        .prop_map(|(label, protect, settles)| How { label, protect, settles });
+    let stroke = (points, how, group, proptest::bool::weighted(0.1));
     prop_oneof![
-        5 => stroke.prop_map(|(points, label, protect, group, stale)| {
-            Op::Stroke { points, label, protect, group, stale }
-        }),
+        5 => stroke.prop_map(|(points, how, group, stale)| Op::Stroke { points, how, group, stale }),
+        1 => (0..2u32, any::<bool>()).prop_map(|(scan, reviewed)| Op::Mark { scan, reviewed }),
         4 => Just(Op::Undo),
         3 => Just(Op::Redo),
         1 => Just(Op::Reopen),
@@ -253,6 +391,7 @@ proptest! {
             step(&mut store, &mut model, *author, op);
             compare(&store, &model);
         }
+        compare_past(&store, &model);
     }
 
     #[test]

@@ -3,17 +3,20 @@
 //!
 //! Labelling and tuning go through it. Scans that follow each other in time are one worker's, whose window reads their
 //! neighbours but once; no more than the windows of all workers are in memory, beside what the work itself returns.
+//! Stretches may be of several sequences, and the last ones are short, so that all workers end at nearly the same time.
 
 use crate::read::SequenceReader;
 use ralf::config::Config;
 use ralf::scene::FrameWindow;
 use ralf::sensors::{Rig, Timelines};
+use std::ops::Range;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
-/// Scans that follow each other in time and are worked on with one window.
-const STRETCH: usize = 64;
-/// At most so many where evidence is asked for: each window then begins with seconds of LiDAR scans.
-const LONG_STRETCH: usize = 512;
+/// How many scans that follow each other in time are worked on with one window: the least of the last stretches, and
+/// the most. A window begins with some ten scans of each radar.
+const STRETCH: [usize; 2] = [16, 64];
+/// The same where evidence is asked for: each window then begins with seconds of LiDAR scans.
+const LONG_STRETCH: [usize; 2] = [64, 512];
 
 /// A scan of a radar, by their places in the rig and in the radar's timeline.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -34,6 +37,38 @@ pub(crate) struct Frames<'a> {
     pub(crate) jobs: usize,
 }
 
+/// Scans of a sequence that one worker works on with one window.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct Stretch {
+    /// The sequence's number.
+    pub(crate) sequence: usize,
+    /// Which of its scans, in the order of time; none of a sequence that has none.
+    pub(crate) scans: Range<usize>,
+}
+
+/// Cuts sequences of so many scans into stretches, each sequence into one at least. They get shorter as less is left,
+/// so that no worker waits long for the last one.
+pub(crate) fn stretches(scans: &[usize], evidence: bool, jobs: usize) -> Vec<Stretch> {
+    let [least, most] = if evidence { LONG_STRETCH } else { STRETCH };
+    let mut left: usize = scans.iter().sum();
+    let mut stretches = Vec::new();
+    for (sequence, count) in scans.iter().copied().enumerate() {
+        let mut begin = 0;
+        loop {
+            let wanted = if jobs > 1 { left.div_ceil(2 * jobs).clamp(least, most) } else { most };
+            // What is left of it is cut evenly: a window for two scans would cost more than they do.
+            let end = begin + (count - begin).div_ceil((count - begin).div_ceil(wanted).max(1));
+            stretches.push(Stretch { sequence, scans: begin..end });
+            left -= end - begin;
+            begin = end;
+            if begin == count {
+                break;
+            }
+        }
+    }
+    stretches
+}
+
 impl Frames<'_> {
     /// Works on each of these scans with a window from which its frame can be asked; `work` is told the scan's place in
     /// the list. Results are in the list's order. An error ends the work.
@@ -42,30 +77,29 @@ impl Frames<'_> {
         scans: &[ScanIndex],
         work: impl Fn(&mut FrameWindow, usize) -> Result<R, E> + Sync,
     ) -> Result<Vec<R>, E> {
-        let times = &self.reader.sequence().times;
-        let order = in_time(times, scans);
-        let stretches: Vec<&[usize]> = order.chunks(self.stretch(scans.len())).collect();
+        let order = in_time(&self.reader.sequence().times, scans);
         let stop = AtomicBool::new(false);
-        let worked = side_by_side(&stretches, self.jobs, |stretch| {
-            let mut window = self.window();
-            let mut done = Vec::with_capacity(stretch.len());
-            for place in stretch.iter().copied() {
-                // Another worker has failed, so that more work would be lost, too.
-                if stop.load(Ordering::Relaxed) {
-                    break;
-                }
-                let result = work(&mut window, place);
-                done.push((place, result.inspect_err(|_| stop.store(true, Ordering::Relaxed))?));
-            }
-            Ok(done)
+        let stretches = stretches(&[scans.len()], self.evidence, self.jobs);
+        let worked = side_by_side(&stretches, self.jobs, |Stretch { scans, .. }| {
+            let places = order[scans.clone()].iter().copied();
+            self.one_by_one(places, &stop, |window, place| Ok((place, work(window, place)?)))
         })?;
         let mut done: Vec<(usize, R)> = worked.into_iter().flatten().collect();
         done.sort_by_key(|(place, _)| *place);
         Ok(done.into_iter().map(|(_, result)| result).collect())
     }
 
-    fn stretch(&self, scans: usize) -> usize {
-        if self.evidence { (scans / self.jobs.max(1)).clamp(STRETCH, LONG_STRETCH) } else { STRETCH }
+    /// Works on what a stretch consists of, with one window, until somebody has failed: more work would be lost, too.
+    pub(crate) fn one_by_one<T, R, E>(
+        &self,
+        stretch: impl Iterator<Item = T>,
+        stop: &AtomicBool,
+        work: impl Fn(&mut FrameWindow, T) -> Result<R, E>,
+    ) -> Result<Vec<R>, E> {
+        let mut window = self.window();
+        let going = stretch.take_while(|_| !stop.load(Ordering::Relaxed));
+        let done = going.map(|scan| work(&mut window, scan)).collect::<Result<Vec<_>, _>>();
+        done.inspect_err(|_| stop.store(true, Ordering::Relaxed))
     }
 
     fn window(&self) -> FrameWindow<'_> {
@@ -142,6 +176,35 @@ pub(crate) fn side_by_side<T: Sync, R: Send, E: Send>(
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn stretches_hold_every_scan_once_and_are_short_at_the_end() {
+        for (counts, evidence, jobs) in [
+            (vec![0], false, 2),
+            (vec![1, 0, 200, 40], false, 1),
+            (vec![40; 30], false, 2),
+            (vec![20_000, 3], true, 7),
+            (vec![110], false, 2),
+            (vec![], false, 3),
+        ] {
+            let [least, most] = if evidence { LONG_STRETCH } else { STRETCH };
+            let stretches = stretches(&counts, evidence, jobs);
+            for (sequence, count) in counts.iter().enumerate() {
+                let own: Vec<_> = stretches.iter().filter(|stretch| stretch.sequence == sequence).collect();
+                let scans: Vec<usize> = own.iter().flat_map(|stretch| stretch.scans.clone()).collect();
+                assert!(!own.is_empty() && scans.into_iter().eq(0..*count));
+                let shortest = own.iter().map(|stretch| stretch.scans.len()).min();
+                assert!(shortest >= Some(least.div_ceil(2).min(*count)), "{own:?}");
+            }
+            assert!(stretches.is_sorted_by_key(|stretch| stretch.sequence));
+            assert!(stretches.iter().all(|stretch| stretch.scans.len() <= most));
+        }
+        // 110 scans for two: 28 of 110, 21 of the 82 left, and then short ones.
+        let lengths =
+            stretches(&[110], false, 2).iter().map(|stretch| stretch.scans.len()).collect::<Vec<_>>();
+        assert_eq!(lengths, [28, 21, 16, 15, 15, 15]);
+        assert_eq!(stretches(&[110], false, 1).len(), 2);
+    }
 
     #[test]
     fn results_are_in_the_items_order_whatever_the_number_of_jobs() {

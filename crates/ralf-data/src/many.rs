@@ -10,8 +10,8 @@ use crate::disk::files;
 use crate::error::DataError;
 use crate::read::{Recording, open_with};
 use crate::result::json::{read_json, write_json};
-use crate::result::{CheckRecord, Component, NotLabelled};
-use crate::run::{LabelRun, Observer, Outcome, Stretch, refuse_to_write_into};
+use crate::result::{Component, NotLabelled};
+use crate::run::{LabelRun, Observer, Outcome, Stretch, check_all, refuse_to_write_into};
 use crate::settings::Settings;
 use ralf::config::Method;
 use ralf::learned::Model;
@@ -107,9 +107,7 @@ impl Job {
     ) -> Result<T, DataError> {
         let recording = self.open()?;
         let model = self.model()?;
-        let checked = recording.sequences.iter().filter(|_| check);
-        let checks: Vec<_> =
-            checked.map(|reader| CheckRecord::of(&ralf_check::check(reader.as_ref()))).collect();
+        let checks = if check { check_all(&recording, jobs.get()) } else { Vec::new() };
         work(&LabelRun {
             recording: &recording,
             settings: &self.settings,

@@ -12,7 +12,7 @@ use crate::text::{grouped, print};
 use clap::Args;
 use ralf_data::Recording;
 use ralf_data::depth::DepthStore;
-use ralf_data::run::{CheckRecord, LabelRun, Outcome as RunOutcome, RunRecord, SequenceRecord};
+use ralf_data::run::{CheckRecord, LabelRun, Outcome as RunOutcome, RunRecord, SequenceRecord, check_all};
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 use std::time::Instant;
@@ -81,7 +81,7 @@ pub(crate) fn run(arguments: &LabelArgs) -> anyhow::Result<Outcome> {
     let jobs = threads(arguments.jobs);
     settings.topics = arguments.dataset.topics_or(&settings.topics)?;
     let recording = arguments.dataset.open_corrected(&settings)?;
-    let checks = arguments.checks(&recording);
+    let checks = arguments.checks(&recording, jobs);
     if arguments.strict && checks.iter().any(|check| !check.doubts.is_empty()) {
         say("nothing is labelled, for the recording is doubted (--strict)");
         return Ok(Outcome::Partial);
@@ -137,13 +137,9 @@ impl LabelArgs {
     }
 
     /// What `ralf check` says of the recording; doubts are told.
-    fn checks(&self, recording: &Recording) -> Vec<CheckRecord> {
-        let mut checks = Vec::new();
-        for reader in recording.sequences.iter().filter(|_| !self.no_check) {
-            let check = CheckRecord::of(&ralf_check::check(reader.as_ref()));
-            doubts(&check).for_each(|line| say(&line));
-            checks.push(check);
-        }
+    fn checks(&self, recording: &Recording, jobs: usize) -> Vec<CheckRecord> {
+        let checks = if self.no_check { Vec::new() } else { check_all(recording, jobs) };
+        checks.iter().flat_map(doubts).for_each(|line| say(&line));
         checks
     }
 }

@@ -2,15 +2,31 @@
 
 use crate::support::{Dataset, Shape, ralf, tree, without_timings};
 use std::fs;
+use std::path::Path;
 
 #[test]
 fn the_number_of_jobs_changes_no_byte() {
-    // Three stretches of 64 scans, so that several threads have work.
+    // Several stretches, so that several threads have work.
     let dataset = Dataset::of(&Shape { scans: 70, ..Shape::default() });
     let other = dataset.beside("other");
     ralf(["label", &dataset.path, "-o", &dataset.out, "--jobs", "1"]).exits(0);
     ralf(["label", &dataset.path, "-o", &other, "--jobs", "4"]).exits(0);
     assert!(without_timings(&dataset.out) == without_timings(&other));
+}
+
+/// Shorter than a stretch, so that several are under way at a time; one has a scan that can't be labelled.
+#[test]
+fn sequences_side_by_side_are_what_one_after_the_other_gives() {
+    let dataset = Dataset::of(&Shape { scans: 9, sequences: &["00", "01", "02", "03"], ..Shape::default() });
+    fs::write(Path::new(&dataset.path).join("sequences/01/radar_left/000003.bin"), "cut").unwrap();
+    let other = dataset.beside("other");
+    let label = |out: &str, jobs: &str| {
+        ralf(["label", &dataset.path, "-o", out, "--jobs", jobs, "--json"]).exits(3).stdout
+    };
+    label(&dataset.out, "1");
+    label(&other, "3");
+    assert!(without_timings(&dataset.out) == without_timings(&other));
+    assert!(!Path::new(&other).join(".ralf-run").exists());
 }
 
 #[test]

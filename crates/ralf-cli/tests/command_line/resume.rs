@@ -13,9 +13,9 @@ fn labelled(dataset: &Dataset) -> usize {
 }
 
 /// Starts a run and kills it as soon as some scans are labelled.
-fn kill_midway(dataset: &Dataset) {
+fn kill_midway(dataset: &Dataset, jobs: &str) {
     let mut run = program()
-        .args(["label", "--no-check", &dataset.path, "-o", &dataset.out, "--jobs", "1"])
+        .args(["label", "--no-check", &dataset.path, "-o", &dataset.out, "--jobs", jobs])
         .spawn()
         .unwrap();
     let begun = Instant::now();
@@ -43,7 +43,7 @@ fn run_folder(dataset: &Dataset) -> String {
 #[test]
 fn a_run_that_was_killed_goes_on_and_ends_the_same() {
     let dataset = Dataset::of(&Shape { scans: 60, ..Shape::default() });
-    kill_midway(&dataset);
+    kill_midway(&dataset, "1");
     let kept = dataset.result("radar_front/000000.label");
     let written = fs::metadata(&kept).unwrap().modified().unwrap();
     ralf(["label", "--no-check", &dataset.path, "-o", &dataset.out]).exits(0).says_nothing();
@@ -54,11 +54,21 @@ fn a_run_that_was_killed_goes_on_and_ends_the_same() {
 }
 
 #[test]
+fn sequences_under_way_side_by_side_go_on_and_end_the_same() {
+    let dataset = Dataset::of(&Shape { scans: 20, sequences: &["00", "01", "02", "03"], ..Shape::default() });
+    kill_midway(&dataset, "3");
+    ralf(["label", "--no-check", &dataset.path, "-o", &dataset.out, "--jobs", "2"]).exits(0).says_nothing();
+    let whole = dataset.beside("whole");
+    ralf(["label", "--no-check", &dataset.path, "-o", &whole, "--jobs", "1"]).exits(0);
+    assert!(without_timings(&dataset.out) == without_timings(&whole));
+}
+
+#[test]
 fn what_a_power_cut_spoiled_is_made_again() {
     let dataset = Dataset::of(&Shape { scans: 60, ..Shape::default() });
     let whole = dataset.beside("whole");
     ralf(["label", "--no-check", &dataset.path, "-o", &whole]).exits(0);
-    kill_midway(&dataset);
+    kill_midway(&dataset, "1");
     let unfinished = Path::new(&dataset.out).join(".ralf-run");
     let log = tree(&unfinished).into_keys().find(|name| name.ends_with(".scans")).unwrap();
     // RUN/FINGERPRINT/00/0.scans: a byte of some scan, and the last one not whole.
@@ -132,7 +142,7 @@ fn other_settings_replace_everything() {
 #[test]
 fn other_settings_replace_what_a_killed_run_left() {
     let dataset = Dataset::of(&Shape { scans: 60, sequences: &["00", "01"], ..Shape::default() });
-    kill_midway(&dataset);
+    kill_midway(&dataset, "1");
     // A kill may fall into the writing of a file.
     fs::write(dataset.result("radar_front/000000.label.part"), "half").unwrap();
     fs::write(dataset.result("plausibility.parquet.part"), "half").unwrap();

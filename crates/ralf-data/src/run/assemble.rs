@@ -23,8 +23,7 @@ pub(super) fn assemble(
 ) -> Result<SequenceRecord, DataError> {
     let sequence = task.reader.sequence();
     let missing: BTreeSet<_> = not_labelled.iter().map(|scan| (scan.radar.as_str(), scan.scan)).collect();
-    let scans = sequence.times.radars.iter().map(Vec::len).sum::<usize>();
-    observer.begin(Stage::Writing(&sequence.name), scans as u64);
+    observer.begin(Stage::Writing(&sequence.name), task.scans() as u64);
     let mut writer = PlausibilityWriter::create(&workspace.plausibility_file(), &task.schema)?;
     let mut radars = Vec::with_capacity(task.rig.radars.len());
     let mut images = Images::new();

@@ -7,12 +7,14 @@
 //! a sequence that was labelled before is left as it is.
 
 mod assemble;
+mod checks;
 mod fingerprint;
 mod in_memory;
 mod inputs;
 mod output_folder;
 mod results;
 mod scan_log;
+mod sequences;
 mod stretch;
 mod unfinished;
 mod workers;
@@ -23,10 +25,11 @@ pub use crate::result::{
     SequenceRecord, Timings, UnlikeSisters, UnreadableScan, read_record,
 };
 
+pub use checks::check_all;
 pub use stretch::Stretch;
 
 use crate::error::DataError;
-use crate::frames::all_scans;
+use crate::frames::{ScanIndex, all_scans, in_time};
 use crate::read::{Recording, SequenceReader, layout};
 use crate::result::{
     OutFolder, Schema, SequenceNames, WriterLock, evidence_columns, learned_columns, refuse_links_out,
@@ -41,7 +44,6 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 use unfinished::Unfinished;
-use workers::Labelling;
 
 /// In the output folder while a run writes to it.
 const LOCK: &str = ".ralf-lock";
@@ -73,13 +75,13 @@ pub enum Stage<'a> {
     Matching(&'a str),
     /// Gathering a sequence's evidence for learning; counted in scans.
     Gathering(&'a str),
-    /// Labelling a sequence; counted in scans.
+    /// Labelling a sequence, or several, which this then tells; counted in scans.
     Labelling(&'a str),
-    /// Writing a sequence's result; counted in scans.
+    /// Writing a sequence's result when all are labelled; counted in scans.
     Writing(&'a str),
 }
 
-/// Part of what a worker does for a scan, for whoever counts where time goes.
+/// Part of what a worker does for a scan or a sequence, for whoever counts where time goes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Part {
     /// Reading what belongs to it, with what scans share: the ground, calibrated images.
@@ -90,6 +92,8 @@ pub enum Part {
     Labelling,
     /// Keeping its table until the sequence is complete.
     Keeping,
+    /// Putting a sequence's scans together: told once for each sequence.
+    Writing,
 }
 
 /// Is told how a run gets on. Called from several threads.
@@ -144,6 +148,18 @@ struct Task<'a> {
 }
 
 impl Task<'_> {
+    /// All scans of all radars, in the order of time.
+    fn in_time(&self) -> Vec<ScanIndex> {
+        let times = &self.reader.sequence().times;
+        let scans = all_scans(times);
+        in_time(times, &scans).into_iter().map(|place| scans[place]).collect()
+    }
+
+    /// How many they are.
+    fn scans(&self) -> usize {
+        self.reader.sequence().times.radars.iter().map(Vec::len).sum()
+    }
+
     /// Whether evidence is gathered: to be kept, or for a model.
     fn gathers_evidence(&self) -> bool {
         self.evidence || self.labeler.is_some()
@@ -161,13 +177,9 @@ impl LabelRun<'_> {
         let tasks = self.tasks(labeler.as_ref())?;
         let _lock = self.lock()?;
         let (folder, asked) = self.open_folder(observer)?;
-        let mut finished = Vec::new();
-        for (task, identity) in tasks.iter().zip(&asked).filter(|(_, asked)| !folder.holds(&asked.name)) {
-            let sequence = self.label_sequence(task, identity, &folder, observer)?;
-            let sequence = (sequence, identity.inputs.clone());
-            folder.finish_sequence(&sequence)?;
-            finished.push(sequence);
-        }
+        let pending: Vec<_> =
+            tasks.iter().zip(&asked).filter(|(_, asked)| !folder.holds(&asked.name)).collect();
+        let finished = self.label_sequences(&pending, &folder, observer)?;
         let labelled = finished.iter().map(|(sequence, _)| sequence.name.clone()).collect();
         let timings = Timings { seconds: begun.elapsed().as_secs_f64(), jobs: self.jobs };
         let damaged = folder.damaged().to_vec();
@@ -248,20 +260,6 @@ impl LabelRun<'_> {
         let schema =
             Schema::of(&rig, &further).map_err(|reason| unsuitable(self.recording, reader, reason))?;
         Ok(Task { reader, names, rig, schema: Arc::new(schema), evidence: self.evidence, labeler })
-    }
-
-    fn label_sequence(
-        &self,
-        task: &Task,
-        identity: &Identity,
-        folder: &OutputFolder,
-        observer: &dyn Observer,
-    ) -> Result<SequenceRecord, DataError> {
-        let workspace = folder.workspace(identity, &task.names)?;
-        let scans = all_scans(&task.reader.sequence().times);
-        let labelling = Labelling { task, config: &self.settings.method, observer };
-        let not_labelled = labelling.label_scans(&scans, &workspace, self.jobs)?;
-        assemble::assemble(task, &identity.fingerprint, &workspace, not_labelled, observer)
     }
 }
 

@@ -10,7 +10,7 @@ use super::workers::Labelling;
 use super::workspace::Workspace;
 use super::{LOCK, LabelRun, Observer, Task, refuse_to_write_into};
 use crate::error::DataError;
-use crate::frames::{ScanIndex, all_scans, in_time};
+use crate::frames::ScanIndex;
 use crate::result::{NotLabelled, OutFolder, RunRecord, SequenceNames, WriterLock, read_record};
 use serde::{Deserialize, Serialize};
 use std::num::NonZeroUsize;
@@ -53,7 +53,7 @@ impl LabelRun<'_> {
         let mut stretches = Vec::new();
         for (task, identity) in tasks.iter().zip(&asked).filter(|(_, asked)| !folder.holds(&asked.name)) {
             folder.remember(identity, &task.names.sequence)?;
-            let of = all_scans(&task.reader.sequence().times).len().div_ceil(scans.get());
+            let of = task.scans().div_ceil(scans.get());
             stretches.extend((0..of).map(|number| Stretch {
                 sequence: identity.name.clone(),
                 number,
@@ -107,11 +107,8 @@ impl LabelRun<'_> {
         let results = Results::new(self.out);
         let folder = unfinished.scans(&stretch.fingerprint, &task.names.sequence)?;
         let workspace = Workspace::open(&task.names, folder, &results)?;
-        let times = &task.reader.sequence().times;
-        let scans = all_scans(times);
-        let scans: Vec<ScanIndex> = in_time(times, &scans).into_iter().map(|place| scans[place]).collect();
         let labelling = Labelling { task, config: &self.settings.method, observer };
-        labelling.label_scans(stretch.scans(&scans), &workspace, self.jobs)
+        labelling.label_scans(stretch.scans(&task.in_time()), &workspace, self.jobs)
     }
 
     /// Refuses a stretch that nobody planned, unless its sequence is labelled already.

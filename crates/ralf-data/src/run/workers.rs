@@ -10,6 +10,7 @@ use ralf::evidence;
 use ralf::learned::LearnedScan;
 use ralf::paper::Labeler;
 use ralf::scene::{Frame, FrameWindow};
+use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
 /// What all workers on a sequence share.
@@ -27,14 +28,24 @@ impl Labelling<'_> {
         workspace: &Workspace,
         jobs: usize,
     ) -> Result<Vec<NotLabelled>, DataError> {
-        let labelled = self.each(scans, jobs, |window, scan| {
-            let labelled = self.label_scan(workspace, window, scan)?;
-            self.observer.advance(1, labelled.as_ref().map_or(0, |detections| *detections));
-            Ok(labelled.err())
-        });
-        let mut failed: Vec<NotLabelled> = labelled?.into_iter().flatten().collect();
+        let failed = self.each(scans, jobs, |window, scan| self.label_next(workspace, window, scan))?;
+        let mut failed: Vec<NotLabelled> = failed.into_iter().flatten().collect();
         failed.sort();
         Ok(failed)
+    }
+
+    /// The same for scans that follow each other in time, one by one, until `stop` says that more would be of no use.
+    pub(super) fn label_stretch(
+        &self,
+        scans: &[ScanIndex],
+        workspace: &Workspace,
+        stop: &AtomicBool,
+    ) -> Result<Vec<NotLabelled>, DataError> {
+        let frames = self.frames(1);
+        let failed = frames.one_by_one(scans.iter().copied(), stop, |window, scan| {
+            self.while_wanted(|| self.label_next(workspace, window, scan))
+        });
+        Ok(failed?.into_iter().flatten().collect())
     }
 
     /// Works on these scans with windows, until somebody wants it to end. Results are in the scans' order.
@@ -44,16 +55,33 @@ impl Labelling<'_> {
         jobs: usize,
         work: impl Fn(&mut FrameWindow, ScanIndex) -> Result<R, DataError> + Sync,
     ) -> Result<Vec<R>, DataError> {
-        let Task { reader, rig, .. } = self.task;
-        self.observer.begin(Stage::Labelling(&reader.sequence().name), scans.len() as u64);
-        let evidence = self.task.gathers_evidence();
-        let frames = Frames { reader: *reader, rig, config: self.config, evidence, jobs };
-        let worked = frames.each(scans, |window, place| match self.observer.stopped() {
-            true => Err(DataError::Stopped),
-            false => work(window, scans[place]),
-        });
+        self.observer.begin(Stage::Labelling(&self.task.reader.sequence().name), scans.len() as u64);
+        let worked =
+            self.frames(jobs).each(scans, |window, place| self.while_wanted(|| work(window, scans[place])));
         self.observer.end();
         worked
+    }
+
+    fn frames(&self, jobs: usize) -> Frames<'_> {
+        let Task { reader, rig, .. } = self.task;
+        Frames { reader: *reader, rig, config: self.config, evidence: self.task.gathers_evidence(), jobs }
+    }
+
+    /// Does the work unless somebody wants all of it to end.
+    fn while_wanted<R>(&self, work: impl FnOnce() -> Result<R, DataError>) -> Result<R, DataError> {
+        if self.observer.stopped() { Err(DataError::Stopped) } else { work() }
+    }
+
+    /// Labels one scan and tells of it. Returns it where it can't be labelled.
+    fn label_next(
+        &self,
+        workspace: &Workspace,
+        window: &mut FrameWindow,
+        scan: ScanIndex,
+    ) -> Result<Option<NotLabelled>, DataError> {
+        let labelled = self.label_scan(workspace, window, scan)?;
+        self.observer.advance(1, labelled.as_ref().map_or(0, |detections| *detections));
+        Ok(labelled.err())
     }
 
     /// Labels one scan, unless that was done before. Returns how many detections are new, or why it can't be labelled.
@@ -100,7 +128,7 @@ impl Labelling<'_> {
     }
 
     /// Does a part of the work, and tells the observer how long it took.
-    fn timed<R>(&self, part: Part, work: impl FnOnce() -> R) -> R {
+    pub(super) fn timed<R>(&self, part: Part, work: impl FnOnce() -> R) -> R {
         let begun = Instant::now();
         let done = work();
         self.observer.spent(part, begun.elapsed());

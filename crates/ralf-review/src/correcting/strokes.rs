@@ -23,6 +23,8 @@ pub(crate) struct StrokeRequest {
     group: Option<String>,
     #[serde(default)]
     protect: bool,
+    #[serde(default)]
+    confirm: bool,
     /// Must be there: its absence is no wish to take corrections away.
     #[serde(deserialize_with = "present")]
     label: Option<u16>,
@@ -118,8 +120,8 @@ fn checked(app: &App, sequence: &str, asked: StrokeRequest) -> Result<Stroke, Ap
         scans.push(edit(app, sequence, part, base)?);
     }
     app.sequence(sequence)?;
-    let StrokeRequest { tool, group, protect, label, cause, .. } = asked;
-    Ok(Stroke { sequence: sequence.to_owned(), tool, group, protect, label, cause, scans })
+    let StrokeRequest { tool, group, protect, confirm, label, cause, .. } = asked;
+    Ok(Stroke { sequence: sequence.to_owned(), tool, group, protect, confirm, label, cause, scans })
 }
 
 /// A stroke's part in a scan, which must hold what was on screen.
