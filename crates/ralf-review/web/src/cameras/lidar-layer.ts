@@ -23,11 +23,10 @@ const COLOURS = Uint32Array.from({ length: STEPS }, (_, step) => {
 
 /** What is near is bright: depths go by their logarithm. */
 export function shareOf(lidar: LidarInImage, i: number, by: LidarColour): number {
-  const [least, most] = by === "depth" ? DEPTHS : HEIGHTS;
   const share =
     by === "depth"
-      ? 1 - Math.log(lidar.depth[i] / least) / Math.log(most / least)
-      : (lidar.z[i] - least) / (most - least);
+      ? 1 - Math.log(lidar.depth[i] / DEPTHS[0]) / Math.log(DEPTHS[1] / DEPTHS[0])
+      : (lidar.z[i] - HEIGHTS[0]) / (HEIGHTS[1] - HEIGHTS[0]);
   return Math.min(Math.max(share, 0), 1);
 }
 
@@ -50,9 +49,11 @@ export function setPoints(
     const y = Math.round((lidar.v[i] + 0.5) * scale + top - size / 2);
     if (x + size <= 0 || y + size <= 0 || x >= width || y >= height) continue;
     const colour = COLOURS[Math.round(shareOf(lidar, i, by) * (STEPS - 1))];
-    const [first, last] = [Math.max(x, 0), Math.min(x + size, width)];
-    for (let row = Math.max(y, 0); row < Math.min(y + size, height); row++)
-      pixels.fill(colour, row * width + first, row * width + last);
+    const first = Math.max(x, 0);
+    const last = Math.min(x + size, width);
+    const end = Math.min(y + size, height);
+    for (let row = Math.max(y, 0); row < end; row++)
+      for (let at = row * width + first; at < row * width + last; at++) pixels[at] = colour;
   }
 }
 
