@@ -5,8 +5,8 @@ use crate::commands::depth;
 #[cfg(feature = "review")]
 use crate::commands::review;
 use crate::commands::{
-    ablate, check, cluster, convert, demo, evaluate, export, inspect, label, learn, plot, report, simulate,
-    tune,
+    ablate, assign, check, cluster, convert, demo, evaluate, export, inspect, label, learn, plot, report,
+    simulate, tune,
 };
 use crate::outcome::Outcome;
 use crate::text::print;
@@ -65,6 +65,8 @@ enum Command {
     Plot(plot::PlotArgs),
     /// Write one page about a labelled recording: figures, curves, pictures
     Report(report::ReportArgs),
+    /// Deal labelled sequences to people, and scans that are labelled twice
+    Assign(assign::AssignArgs),
     #[cfg(feature = "review")]
     /// Correct labels by hand, on a page in the browser
     Review(review::ReviewArgs),
@@ -99,6 +101,7 @@ impl Cli {
             Command::Ablate(arguments) => ablate::run(&arguments),
             Command::Plot(arguments) => plot::run(&arguments),
             Command::Report(arguments) => report::run(&arguments),
+            Command::Assign(arguments) => assign::run(&arguments),
             #[cfg(feature = "review")]
             Command::Review(arguments) => review::run(&arguments),
             Command::Export(arguments) => export::run(&arguments),

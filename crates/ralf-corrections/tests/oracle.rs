@@ -142,10 +142,9 @@ impl Model {
     fn settled(&self) -> BTreeMap<Place, Option<u16>> {
         let mut first = BTreeMap::new();
         for (stroke, _) in self.holding.iter().filter(|(stroke, _)| stroke.settles) {
-            stroke
-                .changes
-                .iter()
-                .for_each(|(place, (before, _))| drop(first.entry(*place).or_insert(*before)));
+            for (place, (before, _)) in &stroke.changes {
+                first.entry(*place).or_insert(*before);
+            }
         }
         first
     }

@@ -162,7 +162,7 @@ fn review(place: &Path, _: &mut Pcg64Mcg) {
         host: "127.0.0.1".into(),
         port: Some(0),
         author: "ada".into(),
-        token_folder: None,
+        ..Default::default()
     };
     let _ = ralf_review::Server::bind(recording, &place.join("out"), &options);
 }

@@ -4,10 +4,12 @@ use crate::cache::Cache;
 use crate::causes::CauseNames;
 use crate::contents::Contents;
 use crate::error::ReviewError;
-use crate::http::{Answer, ApiError};
+use crate::http::{Answer, ApiError, EditId, Person};
 use crate::labelled::{SequenceLabels, Stamp};
+use crate::options::Options;
 use crate::shared_store::SharedStore;
-use ralf_corrections::{Outcome, Reader, ScanContent, ScanKey, ScanVersion, Store, StoreError};
+use crate::team::Team;
+use ralf_corrections::{Outcome, Reader, ScanContent, ScanKey, ScanVersion, Store, StoreError, Who};
 use ralf_data::run::read_record;
 use ralf_data::{Recording, SequenceReader};
 use std::path::{Path, PathBuf};
@@ -30,6 +32,7 @@ pub(crate) struct App {
     pub(crate) author: String,
     pub(crate) causes: CauseNames,
     pub(crate) contents: Contents,
+    pub(crate) team: Team,
     pub(crate) store: SharedStore,
     /// Who writes has it; who waits for it keeps no thread that others could read with.
     writing: Semaphore,
@@ -56,16 +59,18 @@ pub(crate) struct ScanPlace<'a> {
 
 impl App {
     /// Opens all that is needed. Labels must be there; the store is made if it isn't.
-    pub(crate) fn open(recording: Recording, out: &Path, author: &str) -> Result<Self, ReviewError> {
+    pub(crate) fn open(recording: Recording, out: &Path, options: &Options) -> Result<Self, ReviewError> {
         // Without labels there is nothing to review, and no store is made.
         read_record(out)?;
+        let team = Team::open(out, options.second.clone())?;
         Ok(Self {
-            store: SharedStore::open(out)?,
+            store: SharedStore::open(&team.store(out)?)?,
+            team,
             causes: CauseNames::of(&recording)?,
             contents: Contents::default(),
             recording,
             out: out.to_owned(),
-            author: author.to_owned(),
+            author: options.second.as_ref().unwrap_or(&options.author).clone(),
             writing: Semaphore::new(1),
             labels: Cache::new(SEQUENCES_KEPT),
             clouds: Cache::new(CLOUDS_KEPT),
@@ -95,6 +100,15 @@ impl App {
         self.clone().blocking(work).await
     }
 
+    /// Who makes an edit. Second labels are those of one person, whatever the browser calls whoever gives them.
+    pub(crate) fn who(&self, person: Person, edit: Option<EditId>) -> Who {
+        let who = person.who(&self.author, edit);
+        match &self.team.second {
+            Some(name) => Who { name: name.clone(), ..who },
+            None => who,
+        }
+    }
+
     /// Asks the corrections.
     pub(crate) fn said<T>(&self, ask: impl FnOnce(&Reader) -> Result<T, StoreError>) -> Result<T, ApiError> {
         Ok(self.store.read(ask)?)
@@ -117,6 +131,13 @@ impl App {
     pub(crate) fn version(&self, place: &ScanPlace) -> Result<ScanVersion, ApiError> {
         let content = self.content(place)?;
         Ok(ScanVersion { key: place.key.clone(), content })
+    }
+
+    /// What a scan holds as it was read last, for answers about many scans.
+    pub(crate) fn known_version(&self, place: ScanPlace) -> Result<ScanVersion, ApiError> {
+        let at = (place.sequence, place.radar, place.scan);
+        let content = self.contents.known(place.reader, at).map_or_else(|| self.content(&place), Ok)?;
+        Ok(ScanVersion { key: place.key, content })
     }
 
     pub(crate) fn content(&self, place: &ScanPlace) -> Result<ScanContent, ApiError> {

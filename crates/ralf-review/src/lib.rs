@@ -9,6 +9,7 @@
 //!   answer means that the edit is on disk.
 //! - `http/` says who may ask and how answers look: other hosts, origins and sites are refused, and requests
 //!   without the server's token: others may work on the same machine.
+//! - `team` knows who labels what: who labels a second time writes to a file of its own, and sees nobody else's.
 //! - `need` orders scans by how much they want a person.
 //!
 //! Requests name sequences, sensors and measurements by what the recording holds and never by a path, so that
@@ -32,6 +33,7 @@ mod reading;
 mod routes;
 mod server;
 mod shared_store;
+mod team;
 
 pub use error::ReviewError;
 pub use http::MAX_BODY;

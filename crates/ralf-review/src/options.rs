@@ -11,6 +11,9 @@ pub struct Options {
     pub port: Option<u16>,
     /// What people are called who say no name of their own.
     pub author: String,
+    /// Who labels a second time, without seeing what others said: all of it goes to a file of its own (see
+    /// [`ralf_data::team`]). `None`: to the corrections that count.
+    pub second: Option<String>,
     /// A folder of the user's own, in which the token is kept, so that pages stay open over a restart. `None`:
     /// a new token each time.
     pub token_folder: Option<PathBuf>,

@@ -4,7 +4,7 @@ use crate::app::App;
 use crate::correcting::{self, MarkRequest, Since, StepRequest, StrokeRequest};
 use crate::http::{Answer, ApiError, Asked, Body, Guard, MAX_BODY, Person, Place, guard, json};
 use crate::page;
-use crate::reading::{self, Around, LidarProjection, Moment, Projection};
+use crate::reading::{self, About, Around, LidarProjection, Moment, Projection};
 use axum::Router;
 use axum::extract::{DefaultBodyLimit, State};
 use axum::http::Uri;
@@ -23,7 +23,9 @@ pub(crate) fn router(app: Arc<App>, guarded_by: Arc<Guard>) -> Router {
         .route("/things", get(things))
         .route("/things/doubtful", get(doubtful))
         .route("/opinion", get(opinion))
+        .route("/disagreements", get(disagreements))
         .route("/radars/{radar}/scans/{scan}", get(detections))
+        .route("/radars/{radar}/scans/{scan}/detections/{point}/said", get(said))
         .route("/radars/{radar}/scans/{scan}/reviewed", put(mark))
         .route("/lidars/{lidar}/scans/{scan}", get(cloud))
         .route("/lidars/{lidar}/scans/{scan}/around", get(map))
@@ -39,6 +41,7 @@ pub(crate) fn router(app: Arc<App>, guarded_by: Arc<Guard>) -> Router {
         .route("/changes", get(changes));
     Router::new()
         .route("/api/recording", get(recording))
+        .route("/api/people", get(people))
         .nest("/api/sequences/{sequence}", sequence)
         .fallback(elsewhere)
         .method_not_allowed_fallback(async || ApiError::Method)
@@ -78,6 +81,22 @@ async fn doubtful(State(app): Shared, Place(sequence): Place<String>) -> Answer 
 
 async fn opinion(State(app): Shared, Place(sequence): Place<String>, Asked(asked): Asked<Around>) -> Answer {
     app.blocking(move |app| reading::opinion(app, &sequence, &asked)).await
+}
+
+async fn people(State(app): Shared) -> Answer {
+    app.blocking(reading::people).await
+}
+
+async fn disagreements(State(app): Shared, Place(sequence): Place<String>) -> Answer {
+    app.blocking(move |app| reading::disagreements(app, &sequence)).await
+}
+
+async fn said(
+    State(app): Shared,
+    Place((sequence, radar, scan, point)): Place<(String, String, usize, usize)>,
+    Asked(about): Asked<About>,
+) -> Answer {
+    app.blocking(move |app| reading::said(app, (&sequence, &radar, scan, point), &about)).await
 }
 
 async fn detections(

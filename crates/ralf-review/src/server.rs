@@ -39,7 +39,7 @@ impl Server {
     /// # Errors
     /// No labels, a store that is none, an address that can't be listened on.
     pub fn bind(recording: Recording, out: &Path, options: &Options) -> Result<Self, ReviewError> {
-        let app = App::open(recording, out, &options.author)?;
+        let app = App::open(recording, out, options)?;
         let listener = listen(&options.host, options.port)?;
         let address = listener.local_addr().map_err(ReviewError::system("local address"))?;
         listener.set_nonblocking(true).map_err(ReviewError::system("listening"))?;

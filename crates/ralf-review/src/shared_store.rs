@@ -1,13 +1,13 @@
 //! The corrections, for many requests at once: one writes at a time, and nobody who reads waits for it.
 
-use ralf_corrections::{FILE, Outcome, Reader, Store, StoreError};
+use ralf_corrections::{Outcome, Reader, Store, StoreError};
 use std::path::Path;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 /// Requests that read at once without waiting for each other.
 const READERS: usize = 8;
 
-/// The store of an output folder.
+/// A store of corrections.
 pub(crate) struct SharedStore {
     /// At least one. They are closed before the writer, which clears the journal away when it is the last.
     readers: Vec<Mutex<Reader>>,
@@ -21,18 +21,16 @@ enum Writer {
 }
 
 impl SharedStore {
-    /// Opens the store of an output folder; makes it if there is none. Where nothing can be written it is open
-    /// for reading.
-    pub(crate) fn open(out: &Path) -> Result<Self, StoreError> {
-        let file = out.join(FILE);
-        match Store::open(&file) {
+    /// Opens a store; makes it if there is none. Where nothing can be written it is open for reading.
+    pub(crate) fn open(file: &Path) -> Result<Self, StoreError> {
+        match Store::open(file) {
             Ok(store) => {
                 let readers =
                     (0..READERS).map(|_| store.reader().map(Mutex::new)).collect::<Result<_, _>>()?;
                 Ok(Self { writer: Writer::Open(Box::new(Mutex::new(store))), readers })
             }
             Err(error @ StoreError::ReadOnly { .. }) => {
-                let reader = if file.exists() { Reader::open(&file)? } else { Reader::empty(&file)? };
+                let reader = if file.exists() { Reader::open(file)? } else { Reader::empty(file)? };
                 Ok(Self { writer: Writer::ReadOnly(error.to_string()), readers: vec![Mutex::new(reader)] })
             }
             Err(error) => Err(error),

@@ -2,6 +2,7 @@
 
 mod agreement;
 mod balance;
+mod progress;
 mod queue;
 mod table;
 
@@ -28,6 +29,8 @@ Examples:
   ralf evaluate other --truth recordings/city --corrections out
   ralf evaluate out --truth recordings/city --queue
   ralf evaluate out --truth recordings/city --agreement other    two people's corrections, made without each other
+  ralf evaluate out --truth recordings/city --agreement out/second/bob.sqlite
+  ralf evaluate out --progress                                   who has done how much
   ralf evaluate out")]
 pub(crate) struct EvaluateArgs {
     /// What `ralf label` wrote
@@ -49,15 +52,25 @@ pub(crate) struct EvaluateArgs {
     /// Print how soon the review's queue leads to wrong labels, in place of tables
     #[arg(long, conflicts_with_all = ["json", "scans"], requires = "truth")]
     queue: bool,
-    /// Print how far the corrections in OUT and those in this folder agree: Cohen's kappa, and where they don't
+    /// Print how far the corrections in OUT and those in this folder or file agree: Cohen's kappa, and where they don't
     #[arg(long, value_name = "OTHER", conflicts_with_all = ["queue", "scans", "corrections"], requires = "truth")]
     agreement: Option<PathBuf>,
+    /// Print what people have corrected and reviewed, day by day, and how fast
+    #[arg(long, conflicts_with_all = ["truth", "queue", "scans"])]
+    progress: bool,
 }
 
 /// Prints how good the labels are.
 pub(crate) fn run(args: &EvaluateArgs) -> anyhow::Result<Outcome> {
+    if args.progress {
+        return progress::run(&args.out, args.json);
+    }
     match (&args.truth, &args.agreement) {
-        (Some(dataset), Some(other)) => agreement::run(&args.out, other, dataset, args.json),
+        (Some(dataset), Some(other)) => {
+            let recording =
+                recording_of(args, dataset)?.map_or_else(|| ralf_data::open(dataset, None), Ok)?;
+            agreement::run(&recording, [&args.out, other], args.json)
+        }
         (Some(dataset), None) => compare(args, dataset),
         (None, _) => balance(args),
     }
@@ -146,6 +159,7 @@ mod tests {
             scans: false,
             queue: false,
             agreement: None,
+            progress: false,
         };
         assert_eq!(run(&args).unwrap(), Outcome::Done);
         put(&dataset, "sequences/00/ground_truth/front/000001.label", &[1]);

@@ -1,6 +1,7 @@
 //! One module per verb: thin, for what they do is done by the libraries.
 
 pub(crate) mod ablate;
+pub(crate) mod assign;
 pub(crate) mod check;
 pub(crate) mod cluster;
 pub(crate) mod convert;

@@ -23,6 +23,7 @@ Ctrl-C ends it.
 Examples:
   ralf review recordings/city out
   ralf review recordings/city out --sequence 00 --author ada --open
+  ralf review recordings/city out --second bob      bob's second labels, in out/second/bob.sqlite
   ralf review recordings/city out --host 0.0.0.0    for others in a network that you trust: it is not encrypted")]
 pub(crate) struct ReviewArgs {
     #[command(flatten)]
@@ -41,6 +42,9 @@ pub(crate) struct ReviewArgs {
     /// What people are called who give no name in the page; the user's name if not given
     #[arg(long, value_name = "NAME", value_parser = clap::builder::NonEmptyStringValueParser::new())]
     author: Option<String>,
+    /// Label a second time, in a file of your own, without seeing what others said; the scans that `ralf assign` dealt
+    #[arg(long, value_name = "NAME", conflicts_with = "author")]
+    second: Option<String>,
     /// Open the page in the browser
     #[arg(long)]
     open: bool,
@@ -53,6 +57,7 @@ pub(crate) fn run(arguments: &ReviewArgs) -> anyhow::Result<Outcome> {
         host: arguments.host.clone(),
         port: arguments.port,
         author: arguments.author(),
+        second: arguments.second.clone(),
         token_folder: token_folder(),
     };
     let server = Server::bind(recording, &arguments.out, &options)?;
@@ -64,6 +69,9 @@ pub(crate) fn run(arguments: &ReviewArgs) -> anyhow::Result<Outcome> {
     }
     match server.read_only() {
         Some(reason) => say(&format!("read-only, nothing can be corrected: {reason}")),
+        None if arguments.second.is_some() => {
+            say("second labels: nobody else's are shown; Ctrl-C ends the review")
+        }
         None => say("Ctrl-C ends the review; every edit is on disk when the page shows it as saved"),
     }
     if let Some(url) = server.urls().first().filter(|_| arguments.open) {

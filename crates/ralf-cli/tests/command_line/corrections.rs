@@ -2,7 +2,8 @@
 
 use crate::support::{Dataset, Shape, ralf};
 use ralf_corrections::{Mark, Outcome, ScanEdit, ScanKey, Store, Stroke, Who};
-use serde_json::Value;
+use ralf_data::team::Assignment;
+use serde_json::{Value, json};
 use std::fs;
 use std::path::Path;
 
@@ -94,6 +95,78 @@ fn corrections_are_enough_to_evaluate_and_to_tune() {
     tune(&[]).exits(1).says(["expected files of corrected labels, found none"]);
     tune(&["--corrections", &dataset.out]).exits(0).says(["16 reviewed scans are merged into the truth"]);
     assert!(fs::read_to_string(&file).unwrap().contains("--corrections"));
+}
+
+/// Says these labels of the first detections of the front radar's first scan.
+fn say(out: &str, detections: u32, labels: &[u16]) {
+    let mut store = store(out);
+    for (base, label) in labels.iter().enumerate() {
+        let (radar, points) = (RADAR.to_owned(), vec![base as u32]);
+        let edit = ScanEdit { radar, scan: 0, detections, content: None, base: base as u64, points };
+        let stroke = Stroke { label: Some(*label), scans: vec![edit], ..Stroke::of_sequence("00") };
+        assert!(matches!(store.apply(&stroke, &who()).unwrap(), Outcome::Done(_)));
+    }
+}
+
+/// They agree on three of four; by chance they would on two: of the first's labels half are plausible, of the second's
+/// three quarters. A car is what both call one once, and the second alone once.
+#[test]
+fn two_people_agree_as_far_as_it_is_by_hand() {
+    let dataset = labelled();
+    let detections =
+        ids(&Path::new(&dataset.out).join("sequences/00").join(RADAR).join("000000.label")).len();
+    let other = dataset.beside("other");
+    fs::create_dir(&other).unwrap();
+    say(&dataset.out, detections as u32, &[1, 1, 10, 99]);
+    let asked = ["evaluate", &dataset.out, "--truth", &dataset.path, "--agreement", &other];
+    ralf(asked).exits(1).says(["expected detections of which both say something, found none"]);
+    say(&other, detections as u32, &[1, 10, 10, 99, 99]);
+    ralf(asked).exits(0).prints(["They disagree in 1 scans", "00/radar_front/000000: 1 of 4", "car"]);
+    let [command, out, truth, path, agreement, _] = asked;
+    let file = format!("{other}/corrections.sqlite");
+    let found = ralf([command, out, truth, path, agreement, &file, "--json"]).exits(0).json();
+    let all = json!({ "labelled_by_both": 4, "both_plausible": 2, "both_artifact": 1, "disagree": 1, "kappa": 0.5 });
+    assert_eq!((&found["overall"], &found["sequences"]["00"], &found["radars"][RADAR]), (&all, &all, &all));
+    let car = json!({ "both": 1, "first_alone": 0, "second_alone": 1, "kappa": 0.5 });
+    assert_eq!(found["classes"]["car"], car);
+    let scan = json!([{ "sequence": "00", "radar": RADAR, "scan": 0, "labelled_by_both": 4, "disagree": 1 }]);
+    assert_eq!(found["disagreements"], scan);
+}
+
+#[test]
+fn work_is_dealt_once_and_what_people_did_is_told() {
+    let dataset = labelled();
+    let deal = |people: &str, twice: &str| ralf(["assign", &dataset.out, "--to", people, "--twice", twice]);
+    deal("ada", "0.5").exits(1).says(["--twice: expected two people or more"]);
+    deal("ada,ada", "0").exits(1).says(["--to: expected each name once"]);
+    deal("ada,b/b", "0").exits(2).says(["one with a separator"]);
+    deal("ada,bob", "2").exits(2).says(["expected a number from 0 to 1"]);
+    // Two sequences of two radars with eight scans each: one for each person, and a quarter of the other's.
+    deal("ada,bob", "0.25").exits(0).prints(["ada", "bob", "team.toml"]);
+    let dealt = Assignment::open(Path::new(&dataset.out)).unwrap().unwrap();
+    for (name, own, other) in [("ada", "00", "01"), ("bob", "01", "00")] {
+        let share = &dealt.0[name];
+        assert_eq!(share.sequences, [own]);
+        assert!(share.twice.len() == 4 && share.twice.iter().all(|scan| scan.sequence == other));
+    }
+    deal("ada,bob", "0.25").exits(1).says(["team.toml: file: expected none, for people may have begun"]);
+
+    let asked = ["evaluate", &dataset.out, "--progress"];
+    ralf(asked).exits(1).says(["expected corrections, found none"]);
+    say(&dataset.out, 9, &[1, 99, 10]);
+    store(&dataset.out).undo("00", &who()).unwrap();
+    let second = Path::new(&dataset.out).join("second");
+    fs::create_dir(&second).unwrap();
+    let bob = Store::open(&second.join("bob.sqlite")).unwrap();
+    drop(bob);
+    ralf(asked).exits(0).prints(["detections/h", "ada"]);
+    let [command, out, progress] = asked;
+    let days = ralf([command, out, progress, "--json"]).exits(0).json();
+    let days = days.as_array().unwrap();
+    assert!(days.iter().all(|day| day["author"] == "ada" && day["second"] == false));
+    // It may be midnight.
+    let sum = |name: &str| days.iter().map(|day| day[name].as_u64().unwrap()).sum::<u64>();
+    assert_eq!((sum("edits"), sum("detections"), sum("scans")), (4, 2, 0));
 }
 
 #[test]

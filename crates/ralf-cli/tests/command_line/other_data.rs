@@ -36,7 +36,26 @@ fn readers(dataset: &Dataset) -> Vec<Vec<String>> {
     readers.push(["plot", data, out, "--all", "-o", &place("all.png")].map(str::to_owned).to_vec());
     readers.push(["report", data, out, "-o", &place("report.html")].map(str::to_owned).to_vec());
     readers.push(["evaluate", out, "--truth", data].map(str::to_owned).to_vec());
+    readers.push(
+        ["evaluate", out, "--truth", data, "--agreement", &agreeing(dataset)].map(str::to_owned).to_vec(),
+    );
     readers
+}
+
+/// What somebody and somebody else said of a detection: here, and in the folder that is named.
+fn agreeing(dataset: &Dataset) -> String {
+    let other = dataset.beside("other");
+    fs::create_dir_all(&other).unwrap();
+    for folder in [&dataset.out, &other] {
+        let edit =
+            ScanEdit { radar: "radar_front".into(), detections: 1000, points: vec![0], ..Default::default() };
+        let measured =
+            ralf_data::open(Path::new(&dataset.path), None).unwrap().sequences[0].radar_scan(0, 0).unwrap();
+        let edit = ScanEdit { detections: measured.len() as u32, ..edit };
+        let stroke = Stroke { label: Some(99), scans: vec![edit], ..Stroke::of_sequence("00") };
+        Store::open(&Path::new(folder).join(FILE)).unwrap().apply(&stroke, &Who::named("ada")).unwrap();
+    }
+    other
 }
 
 #[track_caller]

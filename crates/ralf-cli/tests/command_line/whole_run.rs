@@ -36,6 +36,37 @@ fn exactly_these_files_appear() {
     assert_eq!(tree(&dataset.out).into_keys().collect::<Vec<_>>(), expected);
 }
 
+/// All work is named in its order, and what a scan costs is that of all of them divided by their number: two radars
+/// with eight scans each.
+#[test]
+fn where_the_time_went_is_said_and_changes_no_result() {
+    let [dataset, plain] = [Dataset::new(), Dataset::new()];
+    ralf(["label", &plain.path, "-o", &plain.out]).exits(0).says_nothing();
+    let said = ralf(["label", &dataset.path, "-o", &dataset.out, "--timings"]).exits(0).stderr;
+    let rows: Vec<&str> = said.lines().filter(|line| !line.is_empty()).collect();
+    let names = [
+        "work",
+        "opening and check",
+        "hashing inputs",
+        "scans: reading, ground, images",
+        "scans: evidence",
+        "scans: labels",
+        "scans: keeping",
+        "writing results",
+    ];
+    assert!(
+        rows.len() == names.len() && rows.iter().zip(names).all(|(row, name)| row.starts_with(name)),
+        "{said}"
+    );
+    let [seconds, each] =
+        [1, 0].map(|place| rows[5].split_whitespace().nth_back(place).unwrap().parse::<f64>());
+    let (seconds, each) = (seconds.unwrap(), each.unwrap());
+    assert!(seconds > 0.0 && (each * 16.0 - 1e3 * seconds).abs() <= 0.5 + 16.0 * 0.0005, "{said}");
+    let [timed, plain] =
+        [&dataset, &plain].map(|dataset| fs::read(dataset.result("plausibility.parquet")).unwrap());
+    assert!(timed == plain);
+}
+
 #[test]
 fn the_table_has_the_columns_of_the_contract() {
     let dataset = Dataset::new();

@@ -4,47 +4,84 @@ use crate::error::DataError;
 use crate::truth::{Corrections, ScanId};
 use ralf::label::truth_of;
 use ralf::metrics::Confusion;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
-/// What two people said, scan by scan. Only counts are kept.
-#[derive(Debug, Clone, PartialEq)]
+/// What two people said, in counts.
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct Agreement {
     /// Every scan of which both said something of the same detections, in order; what the first said counts as truth.
     pub scans: Vec<(ScanId, Confusion)>,
+    /// How many detections the first and the second gave these labels (SemanticKITTI ids).
+    pub pairs: BTreeMap<(u16, u16), u64>,
+}
+
+/// A detection that two people labelled differently, which nobody has settled.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Difference {
+    /// The scan.
+    pub scan: ScanId,
+    /// The detection's place in it.
+    pub point: usize,
+    /// What the first said, a SemanticKITTI id.
+    pub first: u16,
+    /// What the second said.
+    pub second: u16,
 }
 
 impl Agreement {
-    /// Of the corrections in two output folders, each [bound](Corrections::bound) to what the recording holds. What
-    /// somebody corrected or accepted counts, and nothing that the machine alone says.
+    /// Of two people's corrections, each [bound](Corrections::bound) to what the recording holds. What somebody
+    /// corrected or accepted counts, before anything was settled, and nothing that the machine alone says.
     ///
     /// # Errors
     /// Corrections of several contents of a scan, of which nothing says which is meant.
     pub fn of(first: &Corrections, second: &Corrections) -> Result<Self, DataError> {
-        let mut scans = Vec::new();
-        for scan in first.scans() {
-            let (Some(one), Some(other)) = (first.truth(scan, None)?, second.truth(scan, None)?) else {
-                continue;
-            };
-            let mut counts = Confusion::default();
-            for (one, other) in one.iter().zip(&other) {
-                if let (Some(one), Some(other)) = (truth_of(one.id), truth_of(other.id)) {
-                    counts.add(one, other);
-                }
-            }
-            if counts.total() > 0 {
-                scans.push((scan.clone(), counts));
-            }
+        let mut found = Self::default();
+        each_pair(first, second, |scan, _, ids, _| found.count(scan, ids))?;
+        Ok(found)
+    }
+
+    fn count(&mut self, scan: &ScanId, (first, second): (u16, u16)) {
+        let (Some(one), Some(other)) = (truth_of(first), truth_of(second)) else { return };
+        *self.pairs.entry((first, second)).or_default() += 1;
+        if self.scans.last().is_none_or(|(known, _)| known != scan) {
+            self.scans.push((scan.clone(), Confusion::default()));
         }
-        Ok(Self { scans })
+        if let Some((_, counts)) = self.scans.last_mut() {
+            counts.add(one, other);
+        }
     }
 
     /// Over all scans of each sequence.
     pub fn sequences(&self) -> BTreeMap<&str, Confusion> {
-        let mut sequences: BTreeMap<&str, Confusion> = BTreeMap::new();
+        self.by(|scan| &scan.sequence)
+    }
+
+    /// Over all scans of each radar.
+    pub fn radars(&self) -> BTreeMap<&str, Confusion> {
+        self.by(|scan| &scan.radar)
+    }
+
+    fn by<'a>(&'a self, name: impl Fn(&'a ScanId) -> &'a str) -> BTreeMap<&'a str, Confusion> {
+        let mut found: BTreeMap<&str, Confusion> = BTreeMap::new();
         for (scan, counts) in &self.scans {
-            *sequences.entry(&scan.sequence).or_default() += *counts;
+            *found.entry(name(scan)).or_default() += *counts;
         }
-        sequences
+        found
+    }
+
+    /// For each label (SemanticKITTI id) that one of them gave: it against all others, as if these were one.
+    pub fn classes(&self) -> BTreeMap<u16, Confusion> {
+        let ids: BTreeSet<u16> = self.pairs.keys().flat_map(|(first, second)| [*first, *second]).collect();
+        let of_class = |id: u16| {
+            let counts = |is: (bool, bool)| {
+                let same = |ids: &(u16, u16)| (ids.0 == id, ids.1 == id) == is;
+                self.pairs.iter().filter(|(ids, _)| same(ids)).map(|(_, count)| count).sum()
+            };
+            let [tp, r#fn] = [counts((true, true)), counts((true, false))];
+            let [fp, tn] = [counts((false, true)), counts((false, false))];
+            (id, Confusion { tp, fp, tn, r#fn })
+        };
+        ids.into_iter().map(of_class).collect()
     }
 
     /// Over all scans.
@@ -59,6 +96,44 @@ impl Agreement {
         scans.sort_by_key(|(_, counts)| std::cmp::Reverse(disagreements(counts)));
         scans
     }
+}
+
+/// The detections to which two people gave different labels, as [`Agreement::of`] reads them, but for those that
+/// somebody has settled in the first's store. In the order of scans and detections.
+///
+/// # Errors
+/// Those of [`Agreement::of`].
+pub fn differences(first: &Corrections, second: &Corrections) -> Result<Vec<Difference>, DataError> {
+    let mut found = Vec::new();
+    each_pair(first, second, |scan, point, (first, second), settled| {
+        if first != second && !settled {
+            found.push(Difference { scan: scan.clone(), point, first, second });
+        }
+    })?;
+    Ok(found)
+}
+
+/// Goes through the detections that both labelled: scan, place, both labels, whether it is settled.
+fn each_pair(
+    first: &Corrections,
+    second: &Corrections,
+    mut work: impl FnMut(&ScanId, usize, (u16, u16), bool),
+) -> Result<(), DataError> {
+    for scan in first.scans() {
+        let (Some(ones), Some(others)) = (first.unsettled(scan)?, second.unsettled(scan)?) else { continue };
+        for (point, (one, other)) in ones.labels.iter().zip(&others.labels).enumerate() {
+            if truth_of(one.id).is_some() && truth_of(other.id).is_some() {
+                let is_settled = u32::try_from(point).is_ok_and(|point| ones.settled.contains(&point));
+                work(scan, point, (one.id, other.id), is_settled);
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Whether only one of two labels (SemanticKITTI ids) says plausible.
+pub fn is_about_plausibility(first: u16, second: u16) -> bool {
+    truth_of(first) != truth_of(second)
 }
 
 /// How many detections one calls plausible and the other doesn't.
@@ -82,7 +157,7 @@ pub fn kappa(counts: &Confusion) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use ralf_corrections::{FILE, ScanEdit, Store, Stroke, Who};
+    use ralf_corrections::{FILE, SETTLE, ScanEdit, Store, Stroke, Who};
     use std::path::Path;
 
     /// Somebody's corrections: by scan, detections with labels.
@@ -131,5 +206,50 @@ mod tests {
         assert_eq!(counts, [(1, alike), (2, unlike)]);
         assert_eq!((found.overall().total(), found.sequences()["00"]), (3, found.overall()));
         assert_eq!(found.disagreements().iter().map(|(scan, _)| scan.scan).collect::<Vec<_>>(), [2]);
+    }
+
+    #[test]
+    fn each_class_is_told_against_all_others() {
+        let pairs = BTreeMap::from([((10, 10), 4), ((10, 1), 1), ((30, 10), 2), ((1, 1), 3)]);
+        let found = Agreement { pairs, ..Agreement::default() }.classes();
+        assert_eq!(found[&10], Confusion { tp: 4, r#fn: 1, fp: 2, tn: 3 });
+        assert_eq!(found[&30], Confusion { tp: 0, r#fn: 2, fp: 0, tn: 8 });
+        assert_eq!(found[&1], Confusion { tp: 3, r#fn: 0, fp: 1, tn: 6 });
+    }
+
+    /// Who settles says who is right; how far both agreed stays what it was.
+    #[test]
+    fn what_is_settled_is_no_difference_any_more_and_agreement_stays() {
+        let folder = tempfile::tempdir().unwrap();
+        let [one, other] = ["one", "other"].map(|name| folder.path().join(name));
+        for out in [&one, &other] {
+            std::fs::create_dir(out).unwrap();
+        }
+        let ada = said(&one, &[(1, 1, &[0, 1, 2])]);
+        let bob = said(&other, &[(1, 99, &[1, 2, 3])]);
+        let before = Agreement::of(&ada, &bob).unwrap();
+        let points = |found: &[Difference]| found.iter().map(|one| one.point).collect::<Vec<_>>();
+        assert_eq!(points(&differences(&ada, &bob).unwrap()), [1, 2]);
+        // The first is right about one of them, the second about the other.
+        let mut store = Store::open(&one.join(FILE)).unwrap();
+        for (base, (label, point)) in [(1, (1, 1)), (2, (99, 2))] {
+            let radar = "front".to_owned();
+            let edit = ScanEdit { radar, scan: 1, detections: 6, content: None, base, points: vec![point] };
+            let stroke = Stroke {
+                tool: SETTLE.into(),
+                confirm: true,
+                label: Some(label),
+                ..Stroke::of_sequence("00")
+            };
+            store.apply(&Stroke { scans: vec![edit], ..stroke }, &Who::named("cem")).unwrap();
+        }
+        let settled = Corrections::open(&one.join(FILE)).unwrap();
+        assert!(differences(&settled, &bob).unwrap().is_empty());
+        assert_eq!(Agreement::of(&settled, &bob).unwrap(), before);
+        let ids: Vec<u16> =
+            settled.truth(&before.scans[0].0, None).unwrap().unwrap().iter().map(|l| l.id).collect();
+        assert_eq!(ids, [1, 1, 99, 0, 0, 0]);
+        store.undo("00", &Who::named("cem")).unwrap();
+        assert_eq!(points(&differences(&Corrections::open(&one).unwrap(), &bob).unwrap()), [2]);
     }
 }

@@ -5,9 +5,11 @@ mod balance;
 mod doubt;
 mod evaluation;
 mod queue;
+mod told;
 
-pub use agreement::{Agreement, disagreements, kappa};
+pub use agreement::{Agreement, Difference, differences, disagreements, is_about_plausibility, kappa};
 pub use balance::{Balance, Balances};
 pub use doubt::{Certainty, DISAGREEING, Doubts, SURE, UNCERTAIN, is_uncertain};
 pub use evaluation::Comparison;
 pub use queue::{QueueCurve, TENTHS};
+pub use told::label_name;

@@ -68,10 +68,10 @@ impl LabelRun<'_> {
         let Some((first, _)) = sequences.first() else { return Ok(Vec::new()) };
         let counts: Vec<usize> = sequences.iter().map(|(task, _)| task.scans()).collect();
         let stretches = stretches(&counts, first.gathers_evidence(), self.jobs);
-        let sequence = |(number, (task, identity)): (usize, &(_, _))| {
+        let sequence = |(number, &(task, identity)): (usize, &(_, _))| {
             let left = stretches.iter().filter(|stretch| stretch.sequence == number).count();
             let state = State { left, under_way: None, not_labelled: Vec::new() };
-            Sequence { task: *task, identity: *identity, state: Mutex::new(state) }
+            Sequence { task, identity, state: Mutex::new(state) }
         };
         let queue = Queue {
             run: self,

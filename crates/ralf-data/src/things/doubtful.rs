@@ -82,6 +82,13 @@ impl SequenceThings {
         Doubtful { things: numbers.iter().map(thing).collect(), expected_errors: left.iter().sum() }
     }
 
+    /// A thing as it is before anybody has said anything.
+    pub fn described(&self, number: u32) -> Thing {
+        let rows: Vec<usize> = (0..self.things().len()).filter(|row| self.things()[*row] == number).collect();
+        let doubt = rows.iter().map(|row| f64::from(self.own_doubt()[*row])).sum();
+        self.thing(number, &rows, doubt, &vec![None; self.things().len()])
+    }
+
     /// The detections of each thing, in rising order.
     pub(super) fn members(&self) -> Vec<Vec<usize>> {
         let mut members: Vec<Vec<usize>> = vec![Vec::new(); self.count()];

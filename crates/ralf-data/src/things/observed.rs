@@ -149,7 +149,7 @@ mod tests {
         assert_eq!(nearest(&scans, &extent(-7, 4, 40)), [0, 1, 2, 3]);
         assert_eq!(nearest(&scans, &extent(210, 2, 40)), [2, 3]);
         assert_eq!(nearest(&scans, &extent(90, 4, 25)), [0, 1]);
-        assert_eq!(nearest(&scans, &extent(i64::MAX, 1, 9)), []);
+        assert!(nearest(&scans, &extent(i64::MAX, 1, 9)).is_empty());
     }
 
     proptest! {

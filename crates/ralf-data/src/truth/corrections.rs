@@ -7,7 +7,7 @@ use crate::read::Recording;
 use crate::truth::effective::{correct, effective_labels, say};
 use crate::truth::scan_id::ScanId;
 use ralf_corrections::{FILE, ScanContent, ScanKey, ScanLayer, read_layer};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 /// The corrections of one output folder, as they were at one moment.
@@ -18,6 +18,14 @@ pub struct Corrections {
     scans: BTreeMap<ScanId, Vec<ScanLayer>>,
     /// The scans of which something was said while they held something else.
     orphaned: Vec<ScanId>,
+}
+
+/// A scan as it was before anybody settled what others said of it.
+pub(crate) struct Unsettled {
+    /// A label per detection, 0 (unlabeled) where nobody said anything.
+    pub(crate) labels: Vec<Label>,
+    /// Detections that were settled.
+    pub(crate) settled: BTreeSet<u32>,
 }
 
 impl From<&ScanId> for ScanKey {
@@ -33,12 +41,12 @@ impl From<ScanKey> for ScanId {
 }
 
 impl Corrections {
-    /// Reads what is said below an output folder; nothing where it has no such file.
+    /// Reads what is said below an output folder, or in a store's file itself; nothing where there is no such file.
     ///
     /// # Errors
     /// A file that is no store of corrections, or one of another version of the program.
     pub fn open(out: &Path) -> Result<Self, DataError> {
-        let file = out.join(FILE);
+        let file = if out.is_file() { out.to_owned() } else { out.join(FILE) };
         let there = files::exists(&file)?;
         let scans = if there { read_layer(&file)? } else { BTreeMap::new() };
         let scans = scans.into_iter().map(|(key, said)| (key.into(), said)).collect();
@@ -73,6 +81,12 @@ impl Corrections {
         let names: Vec<&str> =
             recording.sequences.iter().map(|reader| reader.sequence().name.as_str()).collect();
         self.scans.retain(|scan, _| names.contains(&scan.sequence.as_str()));
+        self
+    }
+
+    /// Those of scans that are marked as reviewed alone: whoever labels them is through with these.
+    pub fn of_reviewed_scans(mut self) -> Self {
+        self.scans.retain(|_, said| said.iter().any(|layer| layer.accepted.is_some()));
         self
     }
 
@@ -131,16 +145,20 @@ impl Corrections {
         file: Option<Vec<Label>>,
     ) -> Result<Option<Vec<Label>>, DataError> {
         let Some(layer) = self.layer(scan)? else { return Ok(file) };
-        let detections = layer.content.detections as usize;
-        let mut labels = file.unwrap_or_else(|| vec![Label::default(); detections]);
-        self.check_size(scan, layer, labels.len())?;
-        for (label, accepted) in labels.iter_mut().zip(layer.accepted.iter().flatten()) {
-            if label.id == Label::default().id {
-                say(label, *accepted);
-            }
+        if let Some(file) = &file {
+            self.check_size(scan, layer, file.len())?;
         }
-        correct(&mut labels, &layer.corrections);
-        Ok(Some(labels))
+        Ok(Some(said(layer, file)))
+    }
+
+    /// What a scan's labels were before anybody settled what others said of it. `None` of a scan that nobody knows.
+    ///
+    /// # Errors
+    /// Several contents of the scan, of which nothing says which is meant.
+    pub(crate) fn unsettled(&self, scan: &ScanId) -> Result<Option<Unsettled>, DataError> {
+        let Some(layer) = self.layer(scan)? else { return Ok(None) };
+        let settled = layer.settled.iter().map(|(point, _)| *point).collect();
+        Ok(Some(Unsettled { labels: said(&layer.before_settling(), None), settled }))
     }
 
     /// What is said of a scan. Which of several contents is meant must have been told before.
@@ -171,6 +189,18 @@ impl Corrections {
         let (expected, found) = (format!("{labels} detections"), format!("corrections of {detections}"));
         Err(DataError::content(&self.file, format!("scan {scan}"), expected, found))
     }
+}
+
+/// A correction, else what the file says, else what was accepted.
+fn said(layer: &ScanLayer, file: Option<Vec<Label>>) -> Vec<Label> {
+    let mut labels = file.unwrap_or_else(|| vec![Label::default(); layer.content.detections as usize]);
+    for (label, accepted) in labels.iter_mut().zip(layer.accepted.iter().flatten()) {
+        if label.id == Label::default().id {
+            say(label, *accepted);
+        }
+    }
+    correct(&mut labels, &layer.corrections);
+    labels
 }
 
 #[cfg(test)]

@@ -42,7 +42,7 @@ pub(crate) fn mark(
         answers::check_seen(&format!("{radar} scan {scan}"), "the labels", seen, &now)?;
     }
     let mark = Mark { key: place.key, content, base: asked.revision, machine, reviewed: asked.reviewed };
-    let who = person.who(&app.author, asked.id);
+    let who = app.who(person, asked.id);
     match app.edit(|store| store.mark(&mark, &who))? {
         Outcome::Conflict(found) => Err(answers::conflict(app, &found)),
         Outcome::Done(edit) => {

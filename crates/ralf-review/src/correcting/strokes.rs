@@ -70,7 +70,7 @@ fn present<'de, D: Deserializer<'de>>(value: D) -> Result<Option<u16>, D::Error>
 
 /// Writes a stroke.
 pub(crate) fn stroke(app: &App, sequence: &str, asked: StrokeRequest, person: Person) -> Answer {
-    let who = person.who(&app.author, asked.id.clone());
+    let who = app.who(person, asked.id.clone());
     let stroke = checked(app, sequence, asked)?;
     answers::outcome(app, app.edit(|store| store.apply(&stroke, &who))?)
 }
@@ -78,21 +78,21 @@ pub(crate) fn stroke(app: &App, sequence: &str, asked: StrokeRequest, person: Pe
 /// Takes the person's own last step back.
 pub(crate) fn undo(app: &App, sequence: &str, asked: StepRequest, person: Person) -> Answer {
     app.sequence(sequence)?;
-    let who = person.who(&app.author, asked.id);
+    let who = app.who(person, asked.id);
     answers::outcome(app, app.edit(|store| store.undo(sequence, &who))?)
 }
 
 /// Sets the step again that the person took back last.
 pub(crate) fn redo(app: &App, sequence: &str, asked: StepRequest, person: Person) -> Answer {
     app.sequence(sequence)?;
-    let who = person.who(&app.author, asked.id);
+    let who = app.who(person, asked.id);
     answers::outcome(app, app.edit(|store| store.redo(sequence, &who))?)
 }
 
 /// What the person can undo and redo.
 pub(crate) fn history(app: &App, sequence: &str, person: Person) -> Answer {
     app.sequence(sequence)?;
-    let who = person.who(&app.author, None);
+    let who = app.who(person, None);
     let found = app.said(|store| store.history(sequence, &who.author))?;
     json(&answers::history(&found))
 }

@@ -2,10 +2,12 @@
 
 mod camera;
 mod detections;
+mod disagreements;
 mod lidar;
 mod lidar_map;
 mod moment;
 mod opinion;
+mod past;
 mod projection;
 mod queue;
 mod recording;
@@ -14,10 +16,12 @@ mod things;
 
 pub(crate) use camera::image;
 pub(crate) use detections::{check_size, detections, machine_labels, reviewed, stamp};
+pub(crate) use disagreements::disagreements;
 pub(crate) use lidar::cloud;
 pub(crate) use lidar_map::map;
 pub(crate) use moment::{Moment, moment};
 pub(crate) use opinion::{Around, opinion};
+pub(crate) use past::{About, people, said};
 pub(crate) use projection::{LidarProjection, Projection, lidar_projection, projection, thing_projection};
 pub(crate) use queue::{progress, queue};
 pub(crate) use recording::recording;

@@ -7,7 +7,6 @@ use crate::http::{Answer, ApiError, json};
 use crate::labelled::SequenceLabels;
 use ralf::label::{ARTIFACT, PLAUSIBLE};
 use ralf::sensors::Sequence;
-use ralf_corrections::ScanVersion;
 use ralf_data::SequenceReader;
 use ralf_data::things::{self as data, Change, SequenceThings};
 use serde::Deserialize;
@@ -75,13 +74,12 @@ fn learned(
 }
 
 /// What a stroke on a scan rests on.
-fn base(app: &App, sequence: &Sequence, (radar, scan): (usize, usize)) -> Result<Value, ApiError> {
+pub(super) fn base(app: &App, sequence: &Sequence, (radar, scan): (usize, usize)) -> Result<Value, ApiError> {
     let place = app.scan(&sequence.name, &sequence.rig.radars[radar].name, scan)?;
-    let at = (place.sequence, place.radar, place.scan);
-    let content = app.contents.known(place.reader, at).map_or_else(|| app.content(&place), Ok)?;
-    let revision = app.said(|store| store.scan(&ScanVersion { key: place.key.clone(), content }))?.revision;
-    let content = content.hash.map(|hash| hash.to_string());
-    Ok(json!({ "radar": place.key.radar, "scan": scan, "revision": revision, "content": content }))
+    let version = app.known_version(place)?;
+    let revision = app.said(|store| store.scan(&version))?.revision;
+    let content = version.content.hash.map(|hash| hash.to_string());
+    Ok(json!({ "radar": version.key.radar, "scan": scan, "revision": revision, "content": content }))
 }
 
 /// A thing with what it would be, and the detections that this would change.

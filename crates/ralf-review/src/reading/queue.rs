@@ -5,6 +5,7 @@ use super::time;
 use crate::app::App;
 use crate::http::{Answer, ApiError, json};
 use crate::need::ScanNeed;
+use ralf_data::SequenceReader;
 use serde_json::{Value, json};
 
 /// Every labelled radar scan of a sequence: those that nobody has reviewed first, and of these the ones with the most
@@ -13,6 +14,7 @@ pub(crate) fn queue(app: &App, sequence: &str) -> Answer {
     let (index, reader) = app.sequence(sequence)?;
     let labels = app.labels(index)?;
     let needs = labels.needs(reader)?;
+    let needs = queued(app, reader, &needs);
     let said = Said::of(app, index, reader)?;
     let left: Vec<f64> = if said.holding.is_empty() {
         // While nobody has said anything the machine's own doubt is what is left: no scan is read for that.
@@ -21,12 +23,12 @@ pub(crate) fn queue(app: &App, sequence: &str) -> Answer {
         let things = labels.things(reader)?;
         let errors = things.expected_errors(&said.answers(app, &things)?);
         let of =
-            |need: &ScanNeed| errors[things.rows_of(need.radar, need.scan)].iter().fold(0.0, |a, b| a + b);
+            |need: &&ScanNeed| errors[things.rows_of(need.radar, need.scan)].iter().fold(0.0, |a, b| a + b);
         needs.iter().map(of).collect()
     };
     let key = |need: &ScanNeed| (reader.sequence().rig.radars[need.radar].name.clone(), need.scan);
     let mut order: Vec<(&ScanNeed, f64, (String, usize))> =
-        needs.iter().zip(left).map(|(need, left)| (need, left, key(need))).collect();
+        needs.iter().zip(left).map(|(need, left)| (*need, left, key(need))).collect();
     order.sort_by(|(a, a_left, a_key), (b, b_left, b_key)| {
         let reviewed = |key| said.holding.get(key).is_some_and(|said| said.reviewed.is_some());
         let by_place = || (a.t_ns, a.radar, a.scan).cmp(&(b.t_ns, b.radar, b.scan));
@@ -57,6 +59,17 @@ fn row(need: &ScanNeed, left: f64, key: &(String, usize), said: &Said) -> Value 
 /// How far a sequence is.
 pub(crate) fn progress(app: &App, sequence: &str) -> Result<Value, ApiError> {
     let (index, reader) = app.sequence(sequence)?;
-    let scans = app.labels(index)?.needs(reader)?.len();
-    Ok(Said::of(app, index, reader)?.progress(scans))
+    let needs = app.labels(index)?.needs(reader)?;
+    Ok(Said::of(app, index, reader)?.progress(queued(app, reader, &needs).len()))
+}
+
+/// The scans that the queue is about: all, but for somebody who labels some of them a second time.
+fn queued<'a>(app: &App, reader: &dyn SequenceReader, needs: &'a [ScanNeed]) -> Vec<&'a ScanNeed> {
+    let sequence = reader.sequence();
+    let wanted = app.team.queued(&sequence.name);
+    let is_wanted = |need: &&ScanNeed| {
+        let scan = (sequence.rig.radars[need.radar].name.as_str(), need.scan);
+        wanted.as_ref().is_none_or(|wanted| wanted.contains(&scan))
+    };
+    needs.iter().filter(is_wanted).collect()
 }

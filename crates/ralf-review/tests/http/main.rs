@@ -8,4 +8,5 @@ mod images;
 mod reading;
 mod safety;
 mod support;
+mod team;
 mod things;

@@ -2,12 +2,13 @@
 
 use crate::support::{CAMERA, LIDAR, Out, RADAR, SEQUENCE, recording};
 use ralf::config::Config;
-use ralf::sensors::Rig;
+use ralf::sensors::{Rig, is_return};
 use ralf::space::Point;
 use ralf_data::DataError;
 use ralf_data::result::{PlausibilityReader, Schema};
 use ralf_data::{Causes, ScanId, read_labels};
 use serde_json::{Value, json};
+use std::collections::BTreeMap;
 
 fn scan_id(scan: u32) -> ScanId {
     ScanId { sequence: SEQUENCE.into(), radar: RADAR.into(), scan }
@@ -155,6 +156,46 @@ fn a_cloud_is_the_lidars_with_its_ground() {
     }
     let share = ground.iter().map(|flag| f64::from(*flag)).sum::<f64>() / ground.len() as f64;
     assert!((0.1..0.95).contains(&share), "{share}");
+}
+
+/// Against going through all points of all scans: a point of each cell that two scans have seen, and none of another.
+#[test]
+fn a_map_is_what_two_scans_have_seen() {
+    let out = Out::new();
+    let server = out.serve();
+    let table = server.of_sequence(&format!("lidars/{LIDAR}/scans/1/around")).table();
+    let recording = recording();
+    let sequence = recording.sequences[0].sequence();
+    let (times, mounted) = (&sequence.times.lidars[0], &sequence.rig.lidars[0].vehicle_from_lidar);
+    let mut cells: BTreeMap<[i32; 3], BTreeMap<usize, Vec<Point>>> = BTreeMap::new();
+    for (number, time) in times.iter().enumerate() {
+        let moved = sequence.motion.between(times[1], *time);
+        let points = recording.sequences[0].lidar_scan(0, number).unwrap().points;
+        for point in points.iter().filter(|point| is_return(point)) {
+            let place = moved * (mounted * Point::from(point.map(f64::from)));
+            let cell: [i32; 3] = place.coords.map(|metres| (metres / 0.25).floor() as i32).into();
+            cells.entry(cell).or_default().entry(number).or_default().push(place);
+        }
+    }
+    cells.retain(|_, scans| scans.len() >= 2);
+    assert_eq!(table.header["scans"], times.len());
+    let [x, y, z] = ["x", "y", "z"].map(|name| table.f32(name));
+    let near = |row: usize, place: &Point| {
+        let apart = [x[row], y[row], z[row]].map(f64::from);
+        (place - Point::from(apart)).norm() < 1e-3
+    };
+    let matched = |(row, scans): (usize, &BTreeMap<usize, Vec<Point>>)| {
+        scans.values().flatten().any(|place| near(row, place))
+    };
+    // Both are in the order of cells.
+    assert!(cells.len() > 100 && table.rows() == cells.len(), "{} of {}", table.rows(), cells.len());
+    assert!(cells.values().enumerate().all(matched));
+    assert!(
+        server
+            .of_sequence(&format!("lidars/{LIDAR}/scans/{}/around", times.len()))
+            .refused(404)
+            .contains(LIDAR)
+    );
 }
 
 #[test]

@@ -78,7 +78,13 @@ fn a_server_that_is_started_again_keeps_its_token() {
     let kept = tempfile::tempdir().unwrap();
     let bind = || {
         let token_folder = Some(kept.path().to_owned());
-        let options = Options { host: "127.0.0.1".into(), port: Some(0), author: "ada".into(), token_folder };
+        let options = Options {
+            host: "127.0.0.1".into(),
+            port: Some(0),
+            author: "ada".into(),
+            token_folder,
+            ..Options::default()
+        };
         Server::bind(recording(), out.path(), &options).unwrap().urls()[0]
             .split_once("token=")
             .unwrap()
@@ -132,7 +138,7 @@ fn a_port_in_use_is_told_and_without_one_the_next_free_one_is_taken() {
     let taken = TcpListener::bind("127.0.0.1:0").unwrap();
     let port = taken.local_addr().unwrap().port();
     let bind = |host: &str, port| {
-        let options = Options { host: host.into(), port, author: "ada".into(), token_folder: None };
+        let options = Options { host: host.into(), port, author: "ada".into(), ..Options::default() };
         Server::bind(recording(), out.path(), &options)
     };
     let error = bind("127.0.0.1", Some(port)).err().unwrap().to_string();

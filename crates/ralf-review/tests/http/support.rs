@@ -103,6 +103,12 @@ impl Serving {
         Self::of_recording(recording(), out, host, author)
     }
 
+    /// A server for somebody who labels a second time.
+    pub(crate) fn second(out: &Path, name: &str) -> Result<Self, ReviewError> {
+        let (host, second) = ("127.0.0.1".to_owned(), Some(name.to_owned()));
+        Self::with(recording(), out, &Options { host, port: Some(0), second, ..Options::default() })
+    }
+
     /// The same of another recording.
     pub(crate) fn of_recording(
         recording: Recording,
@@ -110,8 +116,13 @@ impl Serving {
         host: &str,
         author: &str,
     ) -> Result<Self, ReviewError> {
-        let options = Options { host: host.into(), port: Some(0), author: author.into(), token_folder: None };
-        let server = Server::bind(recording, out, &options)?;
+        let options =
+            Options { host: host.into(), port: Some(0), author: author.into(), ..Options::default() };
+        Self::with(recording, out, &options)
+    }
+
+    fn with(recording: Recording, out: &Path, options: &Options) -> Result<Self, ReviewError> {
+        let server = Server::bind(recording, out, options)?;
         let url = server.urls()[0].clone();
         let (end, ended) = oneshot::channel::<()>();
         let until = async { drop(ended.await) };

@@ -17,6 +17,7 @@ export interface Attributes {
   readonly min?: string;
   readonly max?: string;
   readonly for?: string;
+  readonly scope?: string;
   readonly maxlength?: string;
   readonly method?: string;
 }

@@ -21,6 +21,8 @@ import { detailsPanel } from "./panels/details-panel.js";
 import { classesDialog } from "./panels/classes-dialog.js";
 import { helpDialog } from "./panels/help-dialog.js";
 import { nameDialog } from "./panels/name-dialog.js";
+import { settleBar } from "./panels/settle-bar.js";
+import { teamDialog } from "./panels/team-dialog.js";
 import { opinionBar } from "./panels/opinion-bar.js";
 import { filterPanel } from "./panels/filter-panel.js";
 import { keyTable, listenToKeys } from "./panels/keys.js";
@@ -41,7 +43,7 @@ async function start(): Promise<void> {
   const session = openSession();
   const api = new Api(session);
   const recording = await api.recording();
-  const store = new Store(initialState(recording, session.name() ?? recording.author));
+  const store = new Store(initialState(recording, recording.second ?? session.name() ?? recording.author));
   keepPreferences(store);
   deriveAlways(store);
   const keeper = await openKeeper(recording.store, randomName).catch(keepNothing);
@@ -51,17 +53,20 @@ async function start(): Promise<void> {
   window.addEventListener("beforeunload", (event) => {
     if (store.state.waiting.length > 0) event.preventDefault();
   });
-  const first = firstSequence(recording);
+  // Who works with others is asked once who it is.
+  if (recording.people.length > 0 && recording.second === null && session.name() === null) actions.view.dialog("name");
+  const first = firstSequence(recording, store.state.name);
   if (first === null) return store.set({ loading: false });
   await actions.correct.retry();
   actions.hear.listen(first.sequence);
   await actions.go.open(first.sequence, first.scan);
 }
 
-function firstSequence({ sequences }: Recording): ReturnType<typeof addressFrom> {
+function firstSequence({ sequences }: Recording, person: string): ReturnType<typeof addressFrom> {
   const asked = addressFrom(location.hash);
   if (asked !== null && sequences.some(({ name }) => name === asked.sequence)) return asked;
-  const first = sequences.find(({ labelled }) => labelled) ?? sequences[0];
+  const labelled = sequences.filter((one) => one.labelled);
+  const first = labelled.find(({ assigned }) => assigned === person) ?? labelled[0] ?? sequences[0];
   return first === undefined ? null : { sequence: first.name, scan: null };
 }
 
@@ -90,6 +95,7 @@ function build(page: Page): void {
     banner(page),
     acceptBar(page, home),
     thingBar(page),
+    settleBar(page),
     opinionBar(page),
     ruleBar(page),
     conflictDialog(page),
@@ -113,6 +119,7 @@ function build(page: Page): void {
     helpDialog(page, table),
     classesDialog(page),
     nameDialog(page),
+    teamDialog(page),
   );
 }
 

@@ -1,6 +1,18 @@
 /** Everything the page knows and shows. */
 
-import type { DoubtfulThing, ScanId, History, Opinion, Progress, QueueScan, Recording } from "./api/types.js";
+import type {
+  Disagreement,
+  Disagreements,
+  DoubtfulThing,
+  History,
+  Opinion,
+  Past,
+  Progress,
+  QueueScan,
+  Recording,
+  ScanId,
+  Workday,
+} from "./api/types.js";
 import type { AreaKind, Home } from "./data/area.js";
 import type { CameraMoment } from "./data/camera-moment.js";
 import { buildCloud, type Cloud } from "./data/cloud.js";
@@ -20,7 +32,7 @@ export const MOST_ACCUMULATED = 100;
 export type ViewMode = "bird" | "free" | "camera";
 /** What a stroke may change: the scan under review alone, or everything shown. */
 export type Scope = "scan" | "shown";
-export type Dialog = "none" | "help" | "classes" | "name";
+export type Dialog = "none" | "help" | "classes" | "name" | "team";
 
 /** Detections that would be accepted unseen; a second time accepts them. */
 export interface Accepting extends Unseen {
@@ -60,6 +72,15 @@ export interface State {
   readonly opinionAt: number;
   /** True while the server thinks it over. */
   readonly thinking: boolean;
+
+  /** How far people agree in this sequence; `null` until somebody asks. */
+  readonly disagreements: Disagreements | null;
+  /** What two people said differently, while it is looked at. */
+  readonly disputed: Disagreement | null;
+  /** Who has done how much, as far as somebody asked. */
+  readonly workdays: readonly Workday[];
+  /** What was said of the chosen detection, or of the thing. */
+  readonly past: Past | null;
 
   /** The scan under review. */
   readonly current: ScanId | null;
@@ -177,6 +198,10 @@ export function initialState(recording: Recording, name: string): State {
     opinion: null,
     opinionAt: -1,
     thinking: false,
+    disagreements: null,
+    disputed: null,
+    workdays: [],
+    past: null,
     current: null,
     loading: true,
     cloud: buildCloud([]),

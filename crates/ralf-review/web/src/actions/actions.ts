@@ -9,8 +9,10 @@ import { Opining } from "./opining.js";
 import { Navigation } from "./navigation.js";
 import { Picking } from "./picking.js";
 import { Reviewing } from "./reviewing.js";
+import { Recalling } from "./recalling.js";
 import { Ruling } from "./ruling.js";
 import { Selecting } from "./selecting.js";
+import { Settling } from "./settling.js";
 import { Stepping } from "./stepping.js";
 import { Thinging } from "./thinging.js";
 import { Viewing } from "./viewing.js";
@@ -28,6 +30,8 @@ export interface Actions {
   readonly thing: Thinging;
   readonly rule: Ruling;
   readonly opine: Opining;
+  readonly settle: Settling;
+  readonly recall: Recalling;
 }
 
 export function actionsOn(world: World, keeper: Keeper): Actions {
@@ -35,7 +39,8 @@ export function actionsOn(world: World, keeper: Keeper): Actions {
   const adopting = new Adopting(world);
   const thing = new Thinging(world, go);
   const correct = new Correcting(world, go, adopting, keeper);
-  const select = new Selecting(world, correct, thing);
+  const settle = new Settling(world, go, correct);
+  const select = new Selecting(world, correct, thing, settle);
   return {
     go,
     correct,
@@ -48,5 +53,7 @@ export function actionsOn(world: World, keeper: Keeper): Actions {
     thing,
     rule: new Ruling(world, go, select, correct),
     opine: new Opining(world, go, correct),
+    settle,
+    recall: new Recalling(world),
   };
 }

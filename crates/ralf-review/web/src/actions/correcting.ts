@@ -1,7 +1,7 @@
 /** Strokes: what is selected gets a label. Nothing counts before the server has said so. */
 
 import { randomName } from "../api/session.js";
-import type { Opinion, StrokeAnswer, StrokeRequest } from "../api/types.js";
+import type { BaseRevision, Opinion, ScanPoints, StrokeAnswer, StrokeRequest } from "../api/types.js";
 import { findScan, maskOf, pointsByScan } from "../data/cloud.js";
 import { ARTIFACT, type Choice, PLAUSIBLE } from "../data/labels.js";
 import { baseOf, pointsOf } from "../data/opinion.js";
@@ -12,6 +12,9 @@ import { countOf } from "../selection/mask.js";
 import type { Adopting } from "./adopting.js";
 import type { Navigation } from "./navigation.js";
 import { complain, readOnly, tell, type World } from "./world.js";
+
+/** The tool by which the server knows that a disagreement is settled. */
+const SETTLE = "settle";
 
 export class Correcting {
   private readonly outbox: Outbox;
@@ -81,6 +84,17 @@ export class Correcting {
     });
     store.set({ selection: new Uint8Array(cloud.count), opinion: null, opinionAt: -1 });
     await this.outbox.add(strokes);
+    return true;
+  }
+
+  /** Says who is right where two people said different things: those who have said so before say it again. */
+  async settle(points: readonly ScanPoints[], base: readonly BaseRevision[], label: Choice): Promise<boolean> {
+    const { store } = this.world;
+    const { sequence, outbox, cloud } = store.state;
+    if (points.length === 0 || outbox.kind === "conflict" || readOnly(this.world)) return false;
+    const stroke = { id: randomName(), tool: SETTLE, protect: false, confirm: true, label, base, points };
+    store.set({ selection: new Uint8Array(cloud.count) });
+    await this.outbox.add([{ sequence, stroke }]);
     return true;
   }
 

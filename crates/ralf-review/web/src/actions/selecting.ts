@@ -4,6 +4,7 @@ import type { Choice } from "../data/labels.js";
 import { combine, type Combination, countOf, inverted } from "../selection/mask.js";
 import { isPress, type Tool } from "../selection/tools.js";
 import type { Correcting } from "./correcting.js";
+import type { Settling } from "./settling.js";
 import type { Thinging } from "./thinging.js";
 import { complain, tell, type World } from "./world.js";
 
@@ -17,6 +18,7 @@ export class Selecting {
     private readonly world: World,
     private readonly correcting: Correcting,
     private readonly things: Thinging,
+    private readonly settling: Settling,
   ) {}
 
   hover(index: number): void {
@@ -35,6 +37,7 @@ export class Selecting {
     if (store.state.thing !== null) store.set({ thing: null });
     if (store.state.opinion !== null && how === "replace") store.set({ opinion: null });
     if (store.state.rule !== null && how === "replace") store.set({ rule: null });
+    if (store.state.disputed !== null && how === "replace") store.set({ disputed: null });
     if (armed !== undefined && how === "replace") {
       store.set({ selection: mask });
       this.begin(this.correcting.apply(armed, tool));
@@ -48,8 +51,9 @@ export class Selecting {
   /** A label was chosen: it's set on what is selected; with nothing selected, on every stroke from now on. */
   choose(choice: Choice): void {
     const { store } = this.world;
-    const { selection, armed, thing } = store.state;
+    const { selection, armed, thing, disputed } = store.state;
     if (this.proposed()) return;
+    if (disputed !== null) return this.settling.answer(choice);
     if (countOf(selection) > 0 && thing !== null) this.begin(this.answer(choice));
     else if (countOf(selection) > 0) this.begin(this.correcting.apply(choice, this.lastTool));
     else store.set({ armed: armed === choice ? undefined : choice });
@@ -73,7 +77,7 @@ export class Selecting {
   }
 
   flip(): void {
-    if (this.proposed()) return;
+    if (this.proposed() || this.world.store.state.disputed !== null) return;
     this.begin(this.correcting.flip(this.lastTool));
   }
 
@@ -93,9 +97,9 @@ export class Selecting {
   escape(): void {
     const { store } = this.world;
     const { selection } = store.state;
-    if (countOf(selection) > 0)
-      store.set({ selection: new Uint8Array(selection.length), thing: null, opinion: null, rule: null });
-    else store.set({ armed: undefined, notice: null, accepting: null, opinion: null, rule: null, drawing: null });
+    const nothing = { opinion: null, rule: null, disputed: null };
+    if (countOf(selection) > 0) store.set({ selection: new Uint8Array(selection.length), thing: null, ...nothing });
+    else store.set({ armed: undefined, notice: null, accepting: null, drawing: null, ...nothing });
   }
 
   tool(tool: Tool): void {

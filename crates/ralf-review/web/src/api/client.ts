@@ -6,11 +6,13 @@ import { decodeTable, type Table } from "./table.js";
 import type {
   Changes,
   ConflictBody,
+  Disagreements,
   Doubtful,
   MarkRequest,
   History,
   LidarHeader,
   Opinion,
+  Past,
   Progress,
   Queue,
   Recording,
@@ -22,6 +24,7 @@ import type {
   ThingInImageHeader,
   ThingsHeader,
   TimedScan,
+  Workday,
 } from "./types.js";
 
 export interface Call {
@@ -51,6 +54,22 @@ export class Api {
   /** What the labels would be, after what people said; the first time it takes a while. */
   opinion(sequence: string, tNs: string): Promise<Opinion> {
     return this.json("GET", `${inSequence(sequence)}/opinion?${new URLSearchParams({ t_ns: tNs })}`);
+  }
+
+  /** How far people agree who labelled the same scans, and where they don't. */
+  disagreements(sequence: string): Promise<Disagreements> {
+    return this.json("GET", `${inSequence(sequence)}/disagreements`);
+  }
+
+  /** Who has done how much, in all sequences. */
+  people(): Promise<{ readonly days: readonly Workday[] }> {
+    return this.json("GET", "people");
+  }
+
+  /** What was ever said of a detection, or of all that belong together with it. */
+  past(sequence: string, { radar, scan }: ScanId, point: number, thing: boolean): Promise<Past> {
+    const path = `${inSequence(sequence)}/radars/${part(radar)}/scans/${scan}/detections/${point}/said`;
+    return this.json("GET", `${path}?thing=${thing}`);
   }
 
   progress(sequence: string): Promise<Progress> {

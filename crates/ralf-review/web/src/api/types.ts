@@ -17,6 +17,8 @@ export interface SequenceInfo {
   readonly name: string;
   readonly title: string;
   readonly labelled: boolean;
+  /** Whose labels these are, where somebody has dealt them. */
+  readonly assigned: string | null;
   readonly radars: readonly SensorScans[];
   readonly lidars: readonly SensorScans[];
   readonly cameras: readonly CameraInfo[];
@@ -41,6 +43,10 @@ export interface Recording {
   readonly out: string;
   /** What people are called who give no name. */
   readonly author: string;
+  /** Who labels a second time here, and sees nothing that others said. */
+  readonly second: string | null;
+  /** Who works on these labels, where somebody has said so. */
+  readonly people: readonly string[];
   /** Of the corrections: another store has another one. */
   readonly store: string;
   /** Why nothing can be corrected; `null` where it can. */
@@ -123,6 +129,74 @@ export interface Opinion {
   readonly base: readonly BaseRevision[];
 }
 
+/** Detections of a thing to which two people gave different labels, neither of whom saw the other's. */
+export interface Disagreement extends DoubtfulThing {
+  readonly first: number;
+  readonly second: number;
+  /** Who labelled them a second time. */
+  readonly by: string;
+  readonly points: readonly ScanPoints[];
+}
+
+export interface Agreed {
+  readonly labelled_by_both: number;
+  readonly disagree: number;
+  /** Cohen's; `null` where chance alone would have both always agree. */
+  readonly kappa: number | null;
+}
+
+/** How far two people agree in the scans that both are through with. */
+export interface Agreement {
+  readonly second: string;
+  readonly scans: number;
+  readonly agreement: {
+    readonly overall: Agreed;
+    readonly radars: Readonly<Record<string, Agreed>>;
+    /** By the label's name: how often both gave it, and each alone. */
+    readonly classes: Readonly<
+      Record<string, { both: number; first_alone: number; second_alone: number; kappa: number | null }>
+    >;
+  };
+}
+
+export interface Disagreements {
+  readonly people: readonly Agreement[];
+  /** Scans that are to be labelled twice and aren't yet; `null` where nobody has dealt any. */
+  readonly waiting: number | null;
+  /** Those about plausibility first, and of these the largest. */
+  readonly changes: readonly Disagreement[];
+  readonly base: readonly BaseRevision[];
+}
+
+/** What one person did on one day. */
+export interface Workday {
+  readonly author: string;
+  readonly second: boolean;
+  readonly day: string;
+  readonly edits: number;
+  readonly detections: number;
+  readonly scans: number;
+  readonly worked_s: number;
+}
+
+/** What somebody said once. */
+export interface Saying {
+  readonly author: string;
+  readonly at: string;
+  readonly tool: string;
+  readonly label: number | null;
+  /** Of how many of the detections that were asked about. */
+  readonly detections: number;
+  /** False where it was taken back. */
+  readonly holds: boolean;
+}
+
+/** What was ever said of a detection or a thing, the last first. */
+export interface Past {
+  readonly detections: number;
+  readonly said: readonly Saying[];
+}
+
 export interface ThingsHeader extends Doubtful {
   readonly scans: readonly (ScanId & { readonly rows: number })[];
 }
@@ -191,6 +265,8 @@ export interface StrokeRequest {
   readonly id: string;
   readonly tool: string;
   readonly protect: boolean;
+  /** Detections that have the label already are noted, too. */
+  readonly confirm?: boolean;
   /** `null`: back to the machine's guess. */
   readonly label: number | null;
   /** Why it is an artifact. */

@@ -26,16 +26,21 @@ export function partOf({ scans }: Pick<Opinion, "scans">): string {
 
 /** The same without what is on screen and isn't selected any more. */
 export function kept(opinion: Opinion, cloud: Cloud, selection: Uint8Array): Opinion {
+  const changes = opinion.changes.flatMap((change) => {
+    const points = keptPoints(change.points, cloud, selection);
+    return points.length === 0 ? [] : [{ ...change, points }];
+  });
+  return { ...opinion, changes };
+}
+
+/** Of these, what isn't on screen, and what is and is selected. */
+export function keptPoints(points: readonly ScanPoints[], cloud: Cloud, selection: Uint8Array): readonly ScanPoints[] {
   const selected = (part: ScanPoints): ScanPoints => {
     const at = findScan(cloud, part);
     if (at < 0) return part;
     return { ...part, points: part.points.filter((point) => selection[cloud.starts[at] + point] === 1) };
   };
-  const changes = opinion.changes.flatMap((change) => {
-    const points = change.points.map(selected).filter((part) => part.points.length > 0);
-    return points.length === 0 ? [] : [{ ...change, points }];
-  });
-  return { ...opinion, changes };
+  return points.map(selected).filter((part) => part.points.length > 0);
 }
 
 /** How many of the detections that would change are in scans that aren't on screen. */
@@ -44,7 +49,7 @@ export function countElsewhere({ changes }: Opinion, cloud: Cloud): number {
 }
 
 /** What a stroke on these scans rests on: what was said when the opinion was made. */
-export function baseOf({ base }: Opinion, points: readonly ScanPoints[]): readonly BaseRevision[] {
+export function baseOf({ base }: Pick<Opinion, "base">, points: readonly ScanPoints[]): readonly BaseRevision[] {
   const wanted = new Set(points.map(scanKey));
   return base.filter((one) => wanted.has(scanKey(one)));
 }

@@ -1,10 +1,11 @@
 /** Every number of the detection under the pointer; without one, of the one selected. */
 
 import type { ColumnGroup } from "../api/table.js";
+import type { Past, Saying } from "../api/types.js";
 import { type Cloud, columnOf, columnsOf, type NumberColumn, pointOf } from "../data/cloud.js";
 import type { LabelBook } from "../data/labels.js";
 import { h } from "../dom.js";
-import { counted, decimal, degrees } from "../format.js";
+import { clock, counted, decimal, degrees } from "../format.js";
 import type { Page } from "../page.js";
 import { countOf } from "../selection/mask.js";
 import type { State } from "../state.js";
@@ -12,13 +13,14 @@ import type { State } from "../state.js";
 export function detailsPanel({ store }: Page): HTMLElement {
   const body = h("div", { class: "details-body" });
   store.watch(
-    ({ hover, cloud, selection }) => [hover, cloud, selection],
-    (hover, cloud, selection) => {
+    ({ hover, cloud, selection, past }) => [hover, cloud, selection, past],
+    (hover, cloud, selection, past) => {
       const selected = countOf(selection);
       const index = hover >= 0 ? hover : selected === 1 ? selection.indexOf(1) : -1;
       if (index < 0 || index >= cloud.count)
-        body.replaceChildren(overview(cloud, selection, selected, store.state.labels));
-      else body.replaceChildren(...about(store.state, cloud, index));
+        body.replaceChildren(overview(cloud, selection, selected, store.state.labels), ...recalled(store.state, past));
+      else
+        body.replaceChildren(...about(store.state, cloud, index), ...(hover >= 0 ? [] : recalled(store.state, past)));
     },
   );
   return h("section", { class: "details", "aria-label": "Detection", tabindex: "0" }, body);
@@ -91,6 +93,27 @@ function said({ labels, recording }: Readonly<State>, cloud: Cloud, index: numbe
   const cause = causes === null ? [] : fact("cause", causes[columnOf(cloud, index, "cause")] || "none");
   const why = recording.sayable_causes[cloud.saidCause[index]] ?? "";
   return [...machine, ...cause, ...(why === "" ? [] : fact("cause said", why))];
+}
+
+/** Who said what, and when; the last first. */
+function recalled({ labels }: Readonly<State>, past: Past | null): HTMLElement[] {
+  if (past === null || past.said.length === 0) return [];
+  const what = ({ tool, label }: Saying): string => {
+    if (tool === "reviewed" || tool === "unreviewed") return tool;
+    return `${labels.choiceName(label)} (${tool})`;
+  };
+  const rows = past.said.map((saying) => {
+    const of = past.detections === 1 ? "" : ` · ${saying.detections} of ${past.detections}`;
+    const gone = saying.holds ? "" : " · taken back";
+    return h(
+      "li",
+      { class: saying.holds ? "saying" : "saying gone" },
+      h("span", {}, h("b", {}, saying.author), ` ${what(saying)}`),
+      h("span", { class: "faint" }, `${clock(saying.at)}${of}${gone}`),
+    );
+  });
+  const title = past.detections === 1 ? "What was said of it" : "What was said of the thing";
+  return [h("h3", {}, title), h("ul", { class: "past" }, ...rows)];
 }
 
 /** The fused plausibility (the shortest name) first. */

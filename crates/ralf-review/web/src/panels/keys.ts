@@ -33,7 +33,7 @@ export function keyTable(context: KeyContext): readonly Key[] {
 }
 
 function correct({ actions, cancelGesture }: KeyContext): readonly Key[] {
-  const { select, step, review, view: viewing } = actions;
+  const { select, step, review, settle, view: viewing } = actions;
   const key = (keys: readonly string[], text: string, run: () => void): Key => ({ keys, group: "Correct", text, run });
   return [
     key(["p", "1"], "Selected are plausible; with none selected: every stroke sets plausible", () =>
@@ -41,6 +41,8 @@ function correct({ actions, cancelGesture }: KeyContext): readonly Key[] {
     ),
     key(["a", "2"], "Selected are artifacts", () => select.choose(ARTIFACT)),
     key(["c", "3"], "Choose a class", () => viewing.dialog("classes")),
+    key(["5"], "Where two people differ: the first is right", () => settle.take("first")),
+    key(["6"], "Where two people differ: the second is right", () => settle.take("second")),
     key(["m", "4", "backspace"], "Back to the machine's guess", () => select.choose(null)),
     key(["x"], "Flip: plausible becomes artifact and the other way round", () => select.flip()),
     key(["i"], "Invert the selection", () => select.invert()),
@@ -95,6 +97,8 @@ function go({ actions }: KeyContext): readonly Key[] {
       "Relabel with what you said: a proposal; again accepts it, Esc drops it",
       () => void actions.opine.askOrAccept(),
     ),
+    key(["shift+s"], "To the next detections that two people labelled differently", () => void actions.settle.next()),
+    key(["shift+t"], "The team: who has done how much, and how far people agree", () => void actions.settle.open()),
     key(["z"], "The whole sequence at once, or this scan alone", () => void going.toggleWhole()),
     key(["enter"], "Mark as reviewed and go to the next needy scan", () => review.accept(true)),
     repeating(key(["arrowright"], "To the radar's next scan", () => void going.step(1))),

@@ -7,8 +7,12 @@ import { openWith } from "./dialog.js";
 export function nameDialog(page: Page): HTMLDialogElement {
   const { store, actions } = page;
   const name = h("input", { type: "text", "aria-label": "Your name", maxlength: "64" });
+  // Whoever works here with others is one of those who were named.
+  const { people } = store.state.recording;
+  const known = h("datalist", { id: "people" }, ...people.map((value) => h("option", { value })));
+  name.setAttribute("list", "people");
   const save = h("button", { class: "button", type: "submit" }, "Save");
-  const form = h("form", { method: "dialog" }, h("h2", {}, "Your name"), name, save);
+  const form = h("form", { method: "dialog" }, h("h2", {}, "Your name"), name, known, save);
   form.addEventListener("submit", () => {
     actions.view.rename(name.value);
     // The browser tells of the closing with its next picture alone; keys count at once.

@@ -127,10 +127,12 @@ function sequenceList({ store, actions }: Page): HTMLElement {
   store.watch(
     ({ recording, sequence, progress, progressElsewhere }) => [recording, sequence, progress, progressElsewhere],
     ({ sequences }, sequence, progress, elsewhere) => {
-      sequences.forEach(({ name, title, labelled }, i) => {
+      sequences.forEach(({ name, title, labelled, assigned }, i) => {
         const known = name === sequence ? progress : elsewhere.get(name);
         const done = known === undefined ? "" : ` · ${known.reviewed}/${known.scans}`;
-        list.options[i].text = `${name}${title === "" ? "" : ` · ${title}`}${labelled ? done : " (not labelled)"}`;
+        const whose = assigned === null ? "" : ` · ${assigned}`;
+        list.options[i].text =
+          `${name}${title === "" ? "" : ` · ${title}`}${whose}${labelled ? done : " (not labelled)"}`;
       });
       list.value = sequence;
     },

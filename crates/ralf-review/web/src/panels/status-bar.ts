@@ -10,7 +10,16 @@ import { isPress } from "../selection/tools.js";
 import type { State } from "../state.js";
 
 export function statusBar(page: Page): HTMLElement {
-  const parts = [saving(page), author(page), history(page), work(page), announced(page), cursor(page), frame(page)];
+  const parts = [
+    saving(page),
+    author(page),
+    team(page),
+    history(page),
+    work(page),
+    announced(page),
+    cursor(page),
+    frame(page),
+  ];
   return h("footer", { class: "status-bar" }, ...parts, help(page));
 }
 
@@ -38,7 +47,15 @@ function author({ store, actions }: Page): HTMLElement {
     ({ name: now }) => [now],
     (now) => say(name, now),
   );
-  return name;
+  const { second } = store.state.recording;
+  if (second === null) return name;
+  const title = "They go to a file of your own, and nobody else's are shown";
+  return h("span", { class: "second", title }, `second labels of ${second}`);
+}
+
+function team({ actions }: Page): HTMLElement {
+  const title = "Who has done how much, and how far people agree (Shift T)";
+  return h("button", { class: "link", type: "button", title, on: { click: () => void actions.settle.open() } }, "Team");
 }
 
 function history({ store }: Page): HTMLElement {

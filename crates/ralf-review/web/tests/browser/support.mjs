@@ -55,8 +55,9 @@ export async function freshOut(context) {
 }
 
 /** `ralf review`, until the test ends or `kill` is called. */
-export async function serve(context, out, { author = "ada", port = 0, dataset = RALF_DATASET } = {}) {
-  const child = spawn(RALF_PROGRAM, ["review", dataset, out, "--port", String(port), "--author", author], {
+export async function serve(context, out, { author = "ada", second, port = 0, dataset = RALF_DATASET } = {}) {
+  const who = second === undefined ? ["--author", author] : ["--second", second];
+  const child = spawn(RALF_PROGRAM, ["review", dataset, out, "--port", String(port), ...who], {
     stdio: ["ignore", "pipe", "inherit"],
     env: { ...process.env, XDG_STATE_HOME: join(out, "..", "state") },
   });

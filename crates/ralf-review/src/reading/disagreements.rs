@@ -1,0 +1,122 @@
+//! Where two people said different things of the same detections, neither of whom saw what the other said.
+
+use super::opinion::base;
+use super::things;
+use crate::app::App;
+use crate::http::{Answer, ApiError, json};
+use ralf::sensors::Sequence;
+use ralf_corrections::FILE;
+use ralf_data::judge::{Agreement, Difference, differences, is_about_plausibility};
+use ralf_data::team::second_labellers;
+use ralf_data::things::SequenceThings;
+use ralf_data::{Corrections, SequenceReader};
+use serde_json::{Value, json};
+use std::cmp::Reverse;
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::Path;
+
+/// By radar, scan and detection.
+type Place = (usize, usize, usize);
+
+/// A thing that two people labelled differently: its number, what the first and the second said, and who the second is.
+type Key = (u32, u16, u16, String);
+
+/// How far people agree who labelled scans of a sequence twice, and where they don't. Only scans that both are through
+/// with are told: nobody is influenced by what another said.
+pub(crate) fn disagreements(app: &App, sequence: &str) -> Answer {
+    let (index, reader) = app.sequence(sequence)?;
+    if app.team.second.is_some() {
+        let sentence = "who labels a second time sees nobody else's labels: open the review without --second";
+        return Err(ApiError::Forbidden(sentence.into()));
+    }
+    let known = app.labels(index)?.things(reader)?;
+    let first = through(app, (index, reader), &app.out.join(FILE))?;
+    let (mut told, mut found, mut both) = (Vec::new(), BTreeMap::new(), BTreeSet::new());
+    for (name, file) in second_labellers(&app.out)? {
+        let second = through(app, (index, reader), &file)?;
+        let agreement = Agreement::of(&first, &second)?;
+        both.extend(agreement.scans.iter().map(|(scan, _)| (scan.radar.clone(), scan.scan as usize)));
+        told.push(json!({ "second": name, "scans": agreement.scans.len(), "agreement": agreement.json() }));
+        gather(reader.sequence(), &known, &differences(&first, &second)?, &name, &mut found);
+    }
+    let scans: BTreeSet<(usize, usize)> =
+        found.values().flatten().map(|(radar, scan, _)| (*radar, *scan)).collect();
+    let base = scans.into_iter().map(|scan| base(app, reader.sequence(), scan));
+    let waiting = app.team.twice(sequence).map(|twice| {
+        twice.iter().filter(|(radar, scan)| !both.contains(&((*radar).to_owned(), *scan))).count()
+    });
+    json(&json!({
+        "people": told,
+        "waiting": waiting,
+        "changes": rows(reader.sequence(), &known, found),
+        "base": base.collect::<Result<Vec<Value>, _>>()?,
+    }))
+}
+
+/// What somebody said of the scans of a sequence that it is through with.
+fn through(
+    app: &App,
+    (index, reader): (usize, &dyn SequenceReader),
+    file: &Path,
+) -> Result<Corrections, ApiError> {
+    let sequence = reader.sequence();
+    let all = Corrections::open(file)?;
+    Ok(all.of_reviewed_scans().bound(|scan| {
+        let radar = sequence.rig.radars.iter().position(|radar| radar.name == scan.radar);
+        let number = scan.scan as usize;
+        let there = radar
+            .filter(|radar| scan.sequence == sequence.name && number < sequence.times.radars[*radar].len());
+        Ok::<_, ApiError>(there.and_then(|radar| app.contents.known(reader, (index, radar, number))))
+    })?)
+}
+
+/// Adds differences to those of the same thing, of which the same was said.
+fn gather(
+    sequence: &Sequence,
+    known: &SequenceThings,
+    differences: &[Difference],
+    name: &str,
+    found: &mut BTreeMap<Key, Vec<Place>>,
+) {
+    for difference in differences {
+        let Some(radar) = sequence.rig.radars.iter().position(|radar| radar.name == difference.scan.radar)
+        else {
+            continue;
+        };
+        let scan = difference.scan.scan as usize;
+        let Some(row) = known.rows_of(radar, scan).nth(difference.point) else { continue };
+        let key = (known.things()[row], difference.first, difference.second, name.to_owned());
+        found.entry(key).or_default().push((radar, scan, difference.point));
+    }
+}
+
+/// Those first of which only one says that they are plausible, and of these the largest.
+fn rows(sequence: &Sequence, known: &SequenceThings, found: BTreeMap<Key, Vec<Place>>) -> Vec<Value> {
+    let mut order: Vec<(Key, Vec<Place>)> = found.into_iter().collect();
+    order.sort_by_key(|((_, first, second, _), places)| {
+        (!is_about_plausibility(*first, *second), Reverse(places.len()))
+    });
+    order.into_iter().map(|(key, places)| row(sequence, known, key, &places)).collect()
+}
+
+fn row(
+    sequence: &Sequence,
+    known: &SequenceThings,
+    (thing, first, second, name): Key,
+    places: &[Place],
+) -> Value {
+    let mut row = things::row(sequence, &known.described(thing));
+    let parts = places.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1));
+    row["points"] = parts.map(|part| part_of(sequence, part)).collect();
+    // The thing itself may have been seen elsewhere only: what is in question is looked at.
+    let (radar, scan, point) = places[places.len() / 2];
+    row["radar"] = json!(sequence.rig.radars[radar].name);
+    (row["scan"], row["point"]) = (json!(scan), json!(point));
+    (row["first"], row["second"], row["by"]) = (json!(first), json!(second), json!(name));
+    row
+}
+
+fn part_of(sequence: &Sequence, part: &[Place]) -> Value {
+    let points: Vec<usize> = part.iter().map(|(_, _, point)| *point).collect();
+    json!({ "radar": sequence.rig.radars[part[0].0].name, "scan": part[0].1, "points": points })
+}

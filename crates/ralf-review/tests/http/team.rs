@@ -1,0 +1,164 @@
+//! People who label together: nobody sees what another said before both are through, and then they settle it.
+
+use crate::support::{Out, RADAR, SEQUENCE, Serving};
+use serde_json::{Value, json};
+use std::fs;
+
+/// The stroke that takes a side of a disagreement, as the page sends it.
+fn settled(disagreements: &Value, side: &str) -> Value {
+    let change = &disagreements["changes"][0];
+    let scans: Vec<&Value> = change["points"].as_array().unwrap().iter().map(|part| &part["scan"]).collect();
+    let base = disagreements["base"].as_array().unwrap();
+    let base: Vec<&Value> = base.iter().filter(|base| scans.contains(&&base["scan"])).collect();
+    json!({ "tool": "settle", "protect": false, "confirm": true, "label": change[side], "base": base,
+        "points": change["points"] })
+}
+
+/// The places of all disagreements of the first scan.
+fn points(disagreements: &Value) -> Vec<u64> {
+    let changes = disagreements["changes"].as_array().unwrap();
+    let parts = changes.iter().flat_map(|change| change["points"].as_array().unwrap());
+    let mut points: Vec<u64> = parts
+        .flat_map(|part| part["points"].as_array().unwrap().iter().map(|p| p.as_u64().unwrap()))
+        .collect();
+    points.sort_unstable();
+    points
+}
+
+#[test]
+fn nobody_sees_what_another_said_before_both_are_through() {
+    let out = Out::new();
+    let first = out.serve();
+    let machine = first.table(0).u16("machine");
+    let plausible: Vec<u32> =
+        (0..machine.len() as u32).filter(|point| machine[*point as usize] == 99).take(2).collect();
+    first.stroke(0, 0, Some(1), &plausible).json();
+    let second = Serving::second(out.path(), "bob").unwrap();
+    let recording = second.get("/api/recording").json();
+    assert_eq!((&recording["second"], &recording["author"]), (&json!("bob"), &json!("bob")));
+    assert_ne!(recording["store"], first.get("/api/recording").json()["store"]);
+    assert_eq!(second.table(0).u16("label"), machine, "bob doesn't see what ada said");
+    second.accept(0, 0).json();
+    // Ada isn't through: nothing of what bob said is told, and nothing that ada said to bob.
+    let none = first.of_sequence("disagreements").json();
+    assert_eq!((&none["changes"], &none["people"][0]["scans"]), (&json!([]), &json!(0)));
+    assert!(second.of_sequence("disagreements").refused(403).contains("sees nobody else's labels"));
+    first.accept(0, 1).json();
+    let told = first.of_sequence("disagreements").json();
+    assert_eq!(points(&told), plausible.iter().map(|point| u64::from(*point)).collect::<Vec<_>>());
+    assert_eq!(told["people"][0]["agreement"]["overall"]["disagree"], 2);
+    let sides = [&told["changes"][0]["first"], &told["changes"][0]["second"], &told["changes"][0]["by"]];
+    assert_eq!(sides, [&json!(1), &json!(99), &json!("bob")]);
+    let names = |server: &Serving| -> Vec<(Value, Value)> {
+        let people = server.get("/api/people").json();
+        people["days"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .map(|day| (day["author"].clone(), day["second"].clone()))
+            .collect()
+    };
+    assert_eq!(names(&first), [(json!("ada"), json!(false)), (json!("bob"), json!(true))]);
+    assert_eq!(names(&second), [(json!("bob"), json!(true))]);
+}
+
+#[test]
+fn a_side_is_taken_by_a_stroke_that_can_be_undone_and_agreement_stays() {
+    let out = Out::new();
+    let first = out.serve();
+    let machine = first.table(0).u16("machine");
+    let point = machine.iter().position(|label| *label == 99).unwrap() as u32;
+    first.stroke(0, 0, Some(1), &[point]).json();
+    first.accept(0, 1).json();
+    Serving::second(out.path(), "bob").unwrap().accept(0, 0).json();
+    let told = first.of_sequence("disagreements").json();
+    for side in ["first", "second"] {
+        let now = first.of_sequence("disagreements").json();
+        let done = first.edit("POST", "strokes", &settled(&now, side), "one").json();
+        assert_eq!(done["changed"], 1, "the first is right about what it said already, too");
+        assert_eq!(json!(first.table(0).u16("label")[point as usize]), told["changes"][0][side]);
+        let now = first.of_sequence("disagreements").json();
+        assert_eq!((&now["changes"], &now["people"]), (&json!([]), &told["people"]));
+        first.edit("POST", "undo", &json!({}), "one").json();
+        assert_eq!(points(&first.of_sequence("disagreements").json()), [u64::from(point)]);
+    }
+    // Who rests on what was there before somebody else's stroke is told so.
+    assert!(first.edit("POST", "strokes", &settled(&told, "first"), "one").refused(409).contains("ada"));
+}
+
+#[test]
+fn what_was_said_of_a_detection_and_of_its_thing_is_told_with_who_and_when() {
+    let out = Out::new();
+    let server = out.serve();
+    server.stroke(0, 0, Some(1), &[0, 1]).json();
+    server.stroke(0, 1, Some(10), &[0]).json();
+    server.edit("POST", "undo", &json!({}), "one").json();
+    server.accept(0, 3).json();
+    let said = |path: &str| server.of_sequence(&format!("radars/{RADAR}/scans/0/detections/{path}"));
+    let found = said("0/said").json();
+    let told: Vec<(&Value, &Value, &Value)> = found["said"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|one| (&one["tool"], &one["label"], &one["holds"]))
+        .collect();
+    let (lasso, yes, no) = (json!("lasso"), json!(true), json!(false));
+    assert_eq!(
+        told,
+        [(&json!("reviewed"), &Value::Null, &yes), (&lasso, &json!(10), &no), (&lasso, &json!(1), &yes)]
+    );
+    assert!(
+        found["said"].as_array().unwrap().iter().all(|one| one["author"] == "ada" && one["at"].is_string())
+    );
+    assert_eq!(found["detections"], 1);
+    // Of the thing at least as much was said.
+    let things = server.of_sequence("things").table().u32("thing");
+    let thing = said("0/said?thing=true").json();
+    let scans = server.of_sequence("things").table().header["scans"].clone();
+    let row: u64 = scans
+        .as_array()
+        .unwrap()
+        .iter()
+        .take_while(|scan| scan["radar"] != RADAR || scan["scan"] != 0)
+        .map(|scan| scan["rows"].as_u64().unwrap())
+        .sum();
+    let number = things[row as usize];
+    assert_eq!(thing["detections"], things.iter().filter(|other| **other == number).count());
+    assert_eq!(thing["said"].as_array().unwrap().len(), 3);
+    assert!(said("100000/said").refused(404).contains("detection: expected a number below"));
+}
+
+#[test]
+fn who_labels_a_second_time_has_those_scans_in_the_queue_that_were_dealt() {
+    let out = Out::new();
+    let team =
+        format!("[ada]\nsequences = [\"{SEQUENCE}\"]\n[bob]\ntwice = [\"{SEQUENCE}/{RADAR}/000001\"]\n");
+    fs::write(out.path().join("team.toml"), team).unwrap();
+    let (first, second) = (out.serve(), Serving::second(out.path(), "bob").unwrap());
+    let recording = first.get("/api/recording").json();
+    assert_eq!(
+        (&recording["people"], &recording["sequences"][0]["assigned"]),
+        (&json!(["ada", "bob"]), &json!("ada"))
+    );
+    assert!(first.of_sequence("queue").json()["scans"].as_array().unwrap().len() > 1);
+    let queue = second.of_sequence("queue").json();
+    let scans: Vec<(&Value, &Value)> =
+        queue["scans"].as_array().unwrap().iter().map(|scan| (&scan["radar"], &scan["scan"])).collect();
+    assert_eq!(scans, [(&json!(RADAR), &json!(1))]);
+    assert_eq!(queue["progress"]["scans"], 1);
+    assert_eq!(first.of_sequence("disagreements").json()["waiting"], 1);
+    for server in [&first, &second] {
+        server.accept(1, 0).json();
+    }
+    assert_eq!(first.of_sequence("disagreements").json()["waiting"], 0);
+    fs::write(out.path().join("team.toml"), "ada = 1").unwrap();
+    assert!(Serving::second(out.path(), "bob").err().unwrap().to_string().contains("team.toml"));
+    fs::remove_file(out.path().join("team.toml")).unwrap();
+    assert!(
+        Serving::second(out.path(), "../bob")
+            .err()
+            .unwrap()
+            .to_string()
+            .contains("a name that a file can have")
+    );
+}

@@ -1,0 +1,47 @@
+/** What people who label together have done, and where they disagree. */
+
+import type { Disagreement, Workday } from "../api/types.js";
+
+/** What tells one disagreement from all others of the sequence. */
+export function keyOf({ thing, first, second, by }: Disagreement): string {
+  return [thing, first, second, by].join();
+}
+
+/** The first that wasn't looked at yet; when all were, the first of those that are left. */
+export function nextDisagreement(all: readonly Disagreement[], seen: Set<string>): Disagreement | null {
+  const fresh = all.find((one) => !seen.has(keyOf(one)));
+  if (fresh === undefined) seen.clear();
+  return fresh ?? all[0] ?? null;
+}
+
+/** What somebody has done over all days. */
+export interface Person {
+  readonly name: string;
+  readonly second: boolean;
+  readonly days: number;
+  readonly detections: number;
+  readonly scans: number;
+  readonly hours: number;
+}
+
+/** Each person once for first labels and once for second ones, in the order in which they come. */
+export function peopleOf(days: readonly Workday[]): readonly Person[] {
+  const people = new Map<string, Person>();
+  for (const { author, second, detections, scans, worked_s } of days) {
+    const key = `${second} ${author}`;
+    const known = people.get(key) ?? { name: author, second, days: 0, detections: 0, scans: 0, hours: 0 };
+    people.set(key, {
+      ...known,
+      days: known.days + 1,
+      detections: known.detections + detections,
+      scans: known.scans + scans,
+      hours: known.hours + worked_s / 3600,
+    });
+  }
+  return [...people.values()];
+}
+
+/** How many in an hour; NaN where nobody knows how long it took. */
+export function perHour(count: number, hours: number): number {
+  return hours > 0 ? count / hours : Number.NaN;
+}

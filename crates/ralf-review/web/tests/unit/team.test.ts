@@ -1,0 +1,50 @@
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import type { Disagreement, Workday } from "../../src/api/types.js";
+import { keyOf, nextDisagreement, peopleOf, perHour } from "../../src/data/team.js";
+
+function disagreement(thing: number, by = "bob"): Disagreement {
+  const counts = { detections: 9, scans: 2, plausible: 9, answered: 0, expected_errors: 1 };
+  const where = { place: [0, 0, 0], radius: 1, radar: "front", scan: 0, point: 0 } as const;
+  return { thing, first: 1, second: 99, by, points: [], ...counts, ...where };
+}
+
+test("disagreements are looked at one after the other, and those that were passed over come again", () => {
+  const all = [disagreement(1), disagreement(1, "cem"), disagreement(2)];
+  const seen = new Set<string>();
+  const visited = [0, 1, 2, 3].map(() => {
+    const next = nextDisagreement(all, seen);
+    assert.ok(next !== null);
+    seen.add(keyOf(next));
+    return [next.thing, next.by];
+  });
+  assert.deepEqual(visited, [
+    [1, "bob"],
+    [1, "cem"],
+    [2, "bob"],
+    [1, "bob"],
+  ]);
+  assert.equal(nextDisagreement([], seen), null);
+});
+
+test("a person's days are summed up, first and second labels apart", () => {
+  const day = (author: string, second: boolean, worked_s: number): Workday => ({
+    author,
+    second,
+    day: "2026-01-31",
+    edits: 3,
+    detections: 40,
+    scans: 2,
+    worked_s,
+  });
+  const people = peopleOf([day("ada", false, 1800), day("ada", false, 1800), day("ada", true, 0)]);
+  assert.deepEqual(
+    people.map(({ name, second, days, detections, hours }) => [name, second, days, detections, hours]),
+    [
+      ["ada", false, 2, 80, 1],
+      ["ada", true, 1, 40, 0],
+    ],
+  );
+  assert.equal(perHour(people[0].detections, people[0].hours), 80);
+  assert.ok(Number.isNaN(perHour(40, 0)));
+});
