@@ -1,8 +1,8 @@
 //! Why detections are artifacts, as far as a stroke said so.
 //!
 //! A cause is a stroke's. A detection has that of the stroke that said something of it last, of those that hold: where
-//! that is taken back, what the one before it said is there again. So nothing else is kept of it, and a program that
-//! knows no causes reads and writes the same store.
+//! that is taken back, what the one before it said is there again. Who confirms a label leaves its cause. So nothing
+//! else is kept of it, and a program that knows no causes reads and writes the same store.
 
 use rusqlite::{Connection, params};
 use std::collections::BTreeMap;
@@ -31,16 +31,22 @@ pub(crate) fn causes(on: &Connection, scan: i64) -> rusqlite::Result<Vec<(u32, S
         return Ok(Vec::new());
     }
     let mut query = on.prepare_cached(
-        "SELECT point, cause FROM change JOIN stroke ON stroke.id = change.stroke
+        "SELECT point, cause, before IS after FROM change JOIN stroke ON stroke.id = change.stroke
          LEFT JOIN stroke_cause ON stroke_cause.stroke = stroke.id
          WHERE scan = ? AND applied IS NOT NULL ORDER BY applied, stroke.id",
     )?;
     let mut last = BTreeMap::new();
-    for row in query.query_map([scan], |row| Ok((row.get(0)?, row.get::<_, Option<String>>(1)?)))? {
-        let (point, cause) = row?;
-        last.insert(point, cause);
+    let rows =
+        query.query_map([scan], |row| Ok((row.get(0)?, row.get::<_, Option<String>>(1)?, row.get(2)?)))?;
+    for row in rows {
+        let (point, cause, says_the_same): (u32, _, bool) = row?;
+        match cause {
+            Some(cause) => drop(last.insert(point, cause)),
+            None if says_the_same => (),
+            None => drop(last.remove(&point)),
+        }
     }
-    Ok(last.into_iter().filter_map(|(point, cause)| Some((point, cause?))).collect())
+    Ok(last.into_iter().collect())
 }
 
 /// Whether a cause was ever said: most stores hold none, and are read without looking further.
@@ -186,6 +192,14 @@ mod tests {
         store.apply(&with_cause, &Who::named("ada")).unwrap();
         let told = [(1, "noise".to_owned()), (2, "noise".to_owned())];
         assert_eq!(store.scan(&version()).unwrap().causes, told);
+        let confirmed = Stroke { confirm: true, ..stroke(&store, vec![1], Some(1), None) };
+        store.apply(&confirmed, &Who::named("bob")).unwrap();
+        assert_eq!(
+            store.scan(&version()).unwrap().causes,
+            told,
+            "the label is confirmed, and with it its cause"
+        );
+        store.undo("00", &Who::named("bob")).unwrap();
         store.undo("00", &Who::named("ada")).unwrap();
         assert_eq!(store.scan(&version()).unwrap().causes, []);
     }

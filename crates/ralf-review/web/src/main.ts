@@ -8,6 +8,7 @@ import { openSession, randomName } from "./api/session.js";
 import type { Recording } from "./api/types.js";
 import { CameraView } from "./cameras/camera-view.js";
 import { CamerasPanel } from "./cameras/cameras-panel.js";
+import { thingCrops } from "./cameras/thing-crops.js";
 import { Loader } from "./data/loader.js";
 import { deriveAlways } from "./derive.js";
 import { h } from "./dom.js";
@@ -106,7 +107,13 @@ function build(page: Page): void {
       { class: "layout" },
       h("aside", { class: "left", "aria-label": "Scans" }, new QueuePanel(page).element, filterPanel(page)),
       h("main", { class: "centre-column" }, toolbar(page), scanBar(page), stage, new Timeline(page).element),
-      h("aside", { class: "right", "aria-label": "Cameras and numbers" }, cameras.element, detailsPanel(page)),
+      h(
+        "aside",
+        { class: "right", "aria-label": "Cameras and numbers" },
+        cameras.element,
+        thingCrops(page),
+        detailsPanel(page),
+      ),
       statusBar(page),
     ),
     helpDialog(page, table),

@@ -48,7 +48,7 @@ export class Ruling {
       );
     try {
       await this.navigation.wholeSequence(current);
-      store.set({ filter: rule.filter, thing: null, opinion: null });
+      store.set({ filter: rule.filter, thing: null, opinion: null, notice: null });
       this.selecting.all("rule");
       store.set({ rule: rule.sets === null ? null : rule });
     } catch (error) {

@@ -153,7 +153,14 @@ export class CameraView {
   ): void {
     const { lidarInImages, colour } = this.page.store.state;
     if (!lidarInImages || lidar === null) return;
-    this.lidar.drawOn(context, lidar, info.width, this.frame, size, colour === "height" ? "height" : "depth");
+    this.lidar.drawOn(
+      context,
+      lidar,
+      [info.width, info.height],
+      this.frame,
+      size,
+      colour === "height" ? "height" : "depth",
+    );
   }
 
   private drawDots(context: CanvasRenderingContext2D, width: number): void {

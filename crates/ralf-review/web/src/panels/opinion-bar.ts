@@ -1,8 +1,6 @@
 /** What would change by what was said: how much, where, and whether it shall. */
 
-import type { Opinion, ProposedChange } from "../api/types.js";
-import { thingCrops } from "../cameras/thing-crops.js";
-import { maskOf } from "../data/cloud.js";
+import type { Opinion } from "../api/types.js";
 import { countElsewhere, countOfPoints, kept, partOf, pointsOf } from "../data/opinion.js";
 import type { LabelBook } from "../data/labels.js";
 import { h, say } from "../dom.js";
@@ -10,8 +8,7 @@ import { counted } from "../format.js";
 import type { Page } from "../page.js";
 import type { State } from "../state.js";
 
-export function opinionBar(page: Page): HTMLElement {
-  const { store, actions } = page;
+export function opinionBar({ store, actions }: Page): HTMLElement {
   const [what, which] = [h("b"), h("span", { class: "faint" })];
   const button = (text: string, key: string, run: () => void): HTMLButtonElement =>
     h(
@@ -27,16 +24,11 @@ export function opinionBar(page: Page): HTMLElement {
   const bar = h(
     "div",
     { class: "opinion-bar", role: "group", "aria-label": "What would change by what was said" },
-    changeCrops(page),
-    h(
-      "div",
-      { class: "bar-row" },
-      h("div", { class: "thing-words", role: "status" }, what, which),
-      accept,
-      next,
-      leave,
-      drop,
-    ),
+    h("div", { class: "thing-words", role: "status" }, what, which),
+    accept,
+    next,
+    leave,
+    drop,
   );
   store.watch(
     ({ opinion, opinionAt, thinking, selection, cloud }) => [opinion, opinionAt, thinking, selection, cloud],
@@ -49,13 +41,6 @@ export function opinionBar(page: Page): HTMLElement {
     },
   );
   return bar;
-}
-
-/** The change that is looked at, in the cameras. */
-function changeCrops(page: Page): HTMLElement {
-  const change = ({ opinion, opinionAt }: Readonly<State>): ProposedChange | null =>
-    opinion?.changes[opinionAt] ?? null;
-  return thingCrops(page, change, (state) => maskOf(state.cloud, change(state)?.points ?? []));
 }
 
 /** What would change, as far as it's still wanted. */

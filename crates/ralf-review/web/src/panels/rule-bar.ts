@@ -20,7 +20,9 @@ export function ruleBar({ store, actions }: Page): HTMLElement {
   const bar = h(
     "div",
     { class: "rule-bar", role: "group", "aria-label": "What the rule would change" },
-    h("div", { class: "bar-row" }, words, apply, drop),
+    words,
+    apply,
+    drop,
   );
   store.watch(
     ({ rule, selection, cloud, thing, opinion }) => [rule, selection, cloud, thing, opinion],

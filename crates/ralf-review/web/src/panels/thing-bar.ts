@@ -1,6 +1,5 @@
 /** The thing that wants an answer: what it is, what speaks for and against it, and the two answers. */
 
-import { thingCrops } from "../cameras/thing-crops.js";
 import { type Cloud, gather } from "../data/cloud.js";
 import { ARTIFACT, PLAUSIBLE } from "../data/labels.js";
 import { h, say } from "../dom.js";
@@ -8,27 +7,17 @@ import { counted, decimal } from "../format.js";
 import type { Page } from "../page.js";
 import { selectedText } from "./status-bar.js";
 
-export function thingBar(page: Page): HTMLElement {
-  const { store, actions } = page;
+export function thingBar({ store, actions }: Page): HTMLElement {
   const [what, why] = [h("b"), h("span", { class: "faint" })];
   const button = (text: string, key: string, run: () => void): HTMLElement =>
     h("button", { class: "button", type: "button", on: { click: run } }, `${text} `, h("kbd", {}, key));
   const bar = h(
     "div",
     { class: "thing-bar", role: "group", "aria-label": "The thing that wants an answer" },
-    thingCrops(
-      page,
-      ({ thing }) => thing,
-      ({ selection }) => selection,
-    ),
-    h(
-      "div",
-      { class: "bar-row" },
-      h("div", { class: "thing-words" }, what, why),
-      button("Plausible", "P", () => actions.select.choose(PLAUSIBLE)),
-      button("Artifact", "A", () => actions.select.choose(ARTIFACT)),
-      button("Skip", "Shift N", () => void actions.thing.next()),
-    ),
+    h("div", { class: "thing-words" }, what, why),
+    button("Plausible", "P", () => actions.select.choose(PLAUSIBLE)),
+    button("Artifact", "A", () => actions.select.choose(ARTIFACT)),
+    button("Skip", "Shift N", () => void actions.thing.next()),
   );
   store.watch(
     ({ thing, selection, cloud, labels }) => [thing, selection, cloud, labels],

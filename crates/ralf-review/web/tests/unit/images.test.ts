@@ -49,6 +49,16 @@ test("a point at the edge is cut off there, and never on the other side", () => 
   );
 });
 
+test("of too many points only some are drawn", () => {
+  const pixels = new Uint32Array(8);
+  const points = lidar([0, 1, 2, 3, 4, 5, 6, 7].map((u) => [u, 0, 9, 0] as const));
+  setPoints(pixels, 8, points, { scale: 1, left: 0, top: 0 }, 1, "depth", 3);
+  assert.deepEqual(
+    [...pixels.keys()].filter((at) => pixels[at] !== 0),
+    [0, 3, 6],
+  );
+});
+
 test("what is near is bright by depth, what is high by height", () => {
   const points = lidar([
     [0, 0, 1, 9],
