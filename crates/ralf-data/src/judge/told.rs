@@ -1,7 +1,7 @@
 //! How far two people agree, in JSON (docs/formats.md, section 3).
 
 use super::agreement::{Agreement, disagreements, kappa};
-use ralf::label::class_name;
+use ralf::label::{ARTIFACT, PLAUSIBLE, class_name};
 use ralf::metrics::Confusion;
 use serde_json::{Map, Value, json};
 use std::collections::BTreeMap;
@@ -24,9 +24,14 @@ impl Agreement {
     }
 }
 
-/// The name of a label, or its number where it has none.
+/// What the page calls a label, or its number where it has no name.
 pub fn label_name(id: u16) -> String {
-    class_name(id).map_or_else(|| id.to_string(), str::to_owned)
+    let own = match id {
+        ARTIFACT => Some("artifact"),
+        PLAUSIBLE => Some("plausible"),
+        _ => class_name(id),
+    };
+    own.map_or_else(|| id.to_string(), str::to_owned)
 }
 
 fn named(counts: BTreeMap<&str, Confusion>) -> Map<String, Value> {

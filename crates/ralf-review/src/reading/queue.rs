@@ -26,16 +26,17 @@ pub(crate) fn queue(app: &App, sequence: &str) -> Answer {
             |need: &&ScanNeed| errors[things.rows_of(need.radar, need.scan)].iter().fold(0.0, |a, b| a + b);
         needs.iter().map(of).collect()
     };
-    let key = |need: &ScanNeed| (reader.sequence().rig.radars[need.radar].name.clone(), need.scan);
-    let mut order: Vec<(&ScanNeed, f64, (String, usize))> =
-        needs.iter().zip(left).map(|(need, left)| (*need, left, key(need))).collect();
+    let keys = keys(reader, &needs);
+    let mut order: Vec<(&ScanNeed, f64, &(String, usize))> =
+        needs.iter().zip(left).zip(&keys).map(|((need, left), key)| (*need, left, key)).collect();
     order.sort_by(|(a, a_left, a_key), (b, b_left, b_key)| {
-        let reviewed = |key| said.holding.get(key).is_some_and(|said| said.reviewed.is_some());
+        let reviewed =
+            |key: &(String, usize)| said.holding.get(key).is_some_and(|said| said.reviewed.is_some());
         let by_place = || (a.t_ns, a.radar, a.scan).cmp(&(b.t_ns, b.radar, b.scan));
         reviewed(a_key).cmp(&reviewed(b_key)).then(b_left.total_cmp(a_left)).then_with(by_place)
     });
-    let scans: Vec<Value> = order.into_iter().map(|(need, left, key)| row(need, left, &key, &said)).collect();
-    json(&json!({ "scans": scans, "progress": said.progress(needs.len()) }))
+    let scans: Vec<Value> = order.into_iter().map(|(need, left, key)| row(need, left, key, &said)).collect();
+    json(&json!({ "scans": scans, "progress": said.progress(&keys) }))
 }
 
 fn row(need: &ScanNeed, left: f64, key: &(String, usize), said: &Said) -> Value {
@@ -60,7 +61,14 @@ fn row(need: &ScanNeed, left: f64, key: &(String, usize), said: &Said) -> Value 
 pub(crate) fn progress(app: &App, sequence: &str) -> Result<Value, ApiError> {
     let (index, reader) = app.sequence(sequence)?;
     let needs = app.labels(index)?.needs(reader)?;
-    Ok(Said::of(app, index, reader)?.progress(queued(app, reader, &needs).len()))
+    let keys = keys(reader, &queued(app, reader, &needs));
+    Ok(Said::of(app, index, reader)?.progress(&keys))
+}
+
+/// Scans by radar and number.
+fn keys(reader: &dyn SequenceReader, needs: &[&ScanNeed]) -> Vec<(String, usize)> {
+    let radars = &reader.sequence().rig.radars;
+    needs.iter().map(|need| (radars[need.radar].name.clone(), need.scan)).collect()
 }
 
 /// The scans that the queue is about: all, but for somebody who labels some of them a second time.

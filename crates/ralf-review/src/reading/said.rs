@@ -38,12 +38,14 @@ impl Said {
         Ok(said)
     }
 
-    pub(super) fn progress(&self, scans: usize) -> Value {
-        let holding = || self.holding.values();
+    /// How far these scans are, and what is corrected of all.
+    pub(super) fn progress(&self, scans: &[(String, usize)]) -> Value {
+        let is_reviewed =
+            |scan: &&(String, usize)| self.holding.get(*scan).is_some_and(|said| said.reviewed.is_some());
         json!({
-            "scans": scans,
-            "reviewed": holding().filter(|said| said.reviewed.is_some()).count(),
-            "corrected_detections": holding().map(|said| said.corrected).sum::<u64>(),
+            "scans": scans.len(),
+            "reviewed": scans.iter().filter(is_reviewed).count(),
+            "corrected_detections": self.holding.values().map(|said| said.corrected).sum::<u64>(),
             "orphaned_scans": self.orphaned.len(),
         })
     }

@@ -145,7 +145,12 @@ fn who_labels_a_second_time_has_those_scans_in_the_queue_that_were_dealt() {
     let scans: Vec<(&Value, &Value)> =
         queue["scans"].as_array().unwrap().iter().map(|scan| (&scan["radar"], &scan["scan"])).collect();
     assert_eq!(scans, [(&json!(RADAR), &json!(1))]);
-    assert_eq!(queue["progress"]["scans"], 1);
+    second.accept(0, 0).json();
+    let progress = second.of_sequence("progress").json();
+    assert_eq!(
+        (&queue["progress"]["scans"], &progress["scans"], &progress["reviewed"]),
+        (&json!(1), &json!(1), &json!(0))
+    );
     assert_eq!(first.of_sequence("disagreements").json()["waiting"], 1);
     for server in [&first, &second] {
         server.accept(1, 0).json();

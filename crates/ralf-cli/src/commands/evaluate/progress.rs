@@ -7,6 +7,9 @@ use ralf_data::team::Worked;
 use serde_json::Value;
 use std::path::Path;
 
+/// What was done in less says nothing of an hour, h.
+const LEAST_HOURS: f64 = 0.05;
+
 /// Prints what everybody has done, day by day, and how fast.
 pub(super) fn run(out: &Path, as_json: bool) -> anyhow::Result<Outcome> {
     let worked = Worked::below(out)?;
@@ -27,7 +30,9 @@ fn table(worked: &[Worked]) -> String {
 
 fn row(Worked { second, on }: &Worked) -> Vec<String> {
     let hours = on.worked_s / 3600.0;
-    let rate = |count: u64| if hours > 0.0 { format!("{:.0}", count as f64 / hours) } else { "-".to_owned() };
+    let rate = |count: u64| {
+        if hours >= LEAST_HOURS { format!("{:.0}", count as f64 / hours) } else { "-".to_owned() }
+    };
     let name = if *second { format!("{} (second)", on.author) } else { on.author.clone() };
     let mut row = vec![name, on.day.clone()];
     row.extend([on.edits, on.detections, on.scans].map(grouped));

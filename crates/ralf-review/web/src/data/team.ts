@@ -1,6 +1,6 @@
 /** What people who label together have done, and where they disagree. */
 
-import type { Disagreement, Workday } from "../api/types.js";
+import type { Disagreement, Saying, Workday } from "../api/types.js";
 
 /** What tells one disagreement from all others of the sequence. */
 export function keyOf({ thing, first, second, by }: Disagreement): string {
@@ -12,6 +12,24 @@ export function nextDisagreement(all: readonly Disagreement[], seen: Set<string>
   const fresh = all.find((one) => !seen.has(keyOf(one)));
   if (fresh === undefined) seen.clear();
   return fresh ?? all[0] ?? null;
+}
+
+/** Whether it marks a scan, and says nothing of single detections. */
+export function isMark({ tool }: Saying): boolean {
+  return tool === "reviewed" || tool === "unreviewed";
+}
+
+/** The same with marks that somebody set one after the other told as one. */
+export function withMarksTogether(said: readonly Saying[]): readonly Saying[] {
+  const told: Saying[] = [];
+  for (const saying of said) {
+    const last = told.at(-1);
+    const same = last !== undefined && last.author === saying.author && last.tool === saying.tool;
+    if (same && isMark(saying) && last.holds === saying.holds)
+      told[told.length - 1] = { ...last, detections: last.detections + saying.detections };
+    else told.push(saying);
+  }
+  return told;
 }
 
 /** What somebody has done over all days. */
@@ -41,7 +59,10 @@ export function peopleOf(days: readonly Workday[]): readonly Person[] {
   return [...people.values()];
 }
 
-/** How many in an hour; NaN where nobody knows how long it took. */
+/** What was done in less says nothing of an hour, h. */
+const LEAST_HOURS = 0.05;
+
+/** How many in an hour; NaN where it took too little time to tell. */
 export function perHour(count: number, hours: number): number {
-  return hours > 0 ? count / hours : Number.NaN;
+  return hours >= LEAST_HOURS ? count / hours : Number.NaN;
 }

@@ -4,6 +4,7 @@ import type { ColumnGroup } from "../api/table.js";
 import type { Past, Saying } from "../api/types.js";
 import { type Cloud, columnOf, columnsOf, type NumberColumn, pointOf } from "../data/cloud.js";
 import type { LabelBook } from "../data/labels.js";
+import { isMark, withMarksTogether } from "../data/team.js";
 import { h } from "../dom.js";
 import { clock, counted, decimal, degrees } from "../format.js";
 import type { Page } from "../page.js";
@@ -98,11 +99,9 @@ function said({ labels, recording }: Readonly<State>, cloud: Cloud, index: numbe
 /** Who said what, and when; the last first. */
 function recalled({ labels }: Readonly<State>, past: Past | null): HTMLElement[] {
   if (past === null || past.said.length === 0) return [];
-  const what = ({ tool, label }: Saying): string => {
-    if (tool === "reviewed" || tool === "unreviewed") return tool;
-    return `${labels.choiceName(label)} (${tool})`;
-  };
-  const rows = past.said.map((saying) => {
+  const what = (saying: Saying): string =>
+    isMark(saying) ? saying.tool : `${labels.choiceName(saying.label)} (${saying.tool})`;
+  const rows = withMarksTogether(past.said).map((saying) => {
     const of = past.detections === 1 ? "" : ` · ${saying.detections} of ${past.detections}`;
     const gone = saying.holds ? "" : " · taken back";
     return h(

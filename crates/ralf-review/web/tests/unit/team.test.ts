@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import type { Disagreement, Workday } from "../../src/api/types.js";
-import { keyOf, nextDisagreement, peopleOf, perHour } from "../../src/data/team.js";
+import type { Disagreement, Saying, Workday } from "../../src/api/types.js";
+import { keyOf, nextDisagreement, peopleOf, perHour, withMarksTogether } from "../../src/data/team.js";
 
 function disagreement(thing: number, by = "bob"): Disagreement {
   const counts = { detections: 9, scans: 2, plausible: 9, answered: 0, expected_errors: 1 };
@@ -47,4 +47,33 @@ test("a person's days are summed up, first and second labels apart", () => {
   );
   assert.equal(perHour(people[0].detections, people[0].hours), 80);
   assert.ok(Number.isNaN(perHour(40, 0)));
+});
+
+test("marks of a thing's scans are told as one, and strokes each by itself", () => {
+  const saying = (author: string, tool: string, holds = true): Saying => ({
+    author,
+    at: "2026-01-31T12:00:00.000Z",
+    tool,
+    label: null,
+    detections: 2,
+    holds,
+  });
+  const said = [
+    saying("ada", "reviewed"),
+    saying("ada", "reviewed"),
+    saying("ada", "reviewed", false),
+    saying("bob", "reviewed"),
+    saying("bob", "lasso"),
+    saying("bob", "lasso"),
+  ];
+  assert.deepEqual(
+    withMarksTogether(said).map(({ author, tool, detections }) => [author, tool, detections]),
+    [
+      ["ada", "reviewed", 4],
+      ["ada", "reviewed", 2],
+      ["bob", "reviewed", 2],
+      ["bob", "lasso", 2],
+      ["bob", "lasso", 2],
+    ],
+  );
 });
