@@ -109,7 +109,11 @@ impl ScenarioSequence {
     }
 
     /// A camera, and what surrounds it at the time of an image.
-    fn moment(&self, camera: usize, image: usize) -> Result<(&Camera, Moment<'_>, i64), SourceError> {
+    fn moment(
+        &self,
+        camera: usize,
+        image: usize,
+    ) -> Result<(&Camera, Moment<'_, Scene<'_>>, i64), SourceError> {
         let t_ns = time("camera", &self.sequence.times.cameras, camera, image)?;
         let sensor = &self.sequence.rig.cameras[camera];
         let scene = Scene::new(&self.site, seconds(t_ns));

@@ -6,9 +6,10 @@ mod support;
 
 use proptest::prelude::*;
 use ralf::config::{Config, GroundConfig, GroundModel};
+use ralf::evidence::observe;
 use ralf::label::flag;
 use ralf::paper::DetectionLabel;
-use ralf::scene::{LidarCloud, LidarSnapshot, LidarView, LocatedScan, Mover, mismatch};
+use ralf::scene::{FrameWindow, LidarCloud, LidarSnapshot, LidarView, LocatedScan, Mover, mismatch};
 use ralf::sensors::{Elevation, LidarScan, Radar, RadarScan};
 use ralf::space::{Transform, Vector};
 use std::sync::Arc;
@@ -132,6 +133,39 @@ fn a_lidar_point_is_compared_with_where_the_mover_was_at_its_time() {
         standing[0].d_lm,
         Some(0.0).filter(|d| standing[0].d_lm.unwrap() < 1e-3 || *d > 0.0).and(standing[0].d_lm)
     );
+}
+
+/// A column of evidence on the first scan.
+fn evidence_on(memory: &Memory, name: &str) -> Vec<Option<f64>> {
+    let config = Config::default();
+    let mut window = FrameWindow::new(memory, &memory.sequence.rig, &config).with_evidence();
+    let columns = observe(&window.frame(0, 0).unwrap(), &config);
+    columns.into_iter().find(|column| column.feature.name == name).unwrap().values
+}
+
+#[test]
+fn rays_are_asked_where_what_moves_is_when_they_are_sent() {
+    let mut radar = radar(Elevation::Measured);
+    radar.fields.push("doppler_compensated".into());
+    let look = |point: [f32; 3], times: Option<Vec<f32>>| Memory {
+        point_times: times,
+        ..Memory::new(0.0)
+            .measured(radar.clone(), vec![(0, vec![[20.0, 0.0, 0.0, 30.0], [20.0, 0.0, 0.0, 0.5]])])
+            .lidar(lidar(), vec![(50 * MS, vec![point])])
+    };
+    // As above: 0.9 m farther when the ray is sent, or 0.6 m off where nobody tells when that was. Range is known by
+    // 0.3 m, and 0.1 m besides.
+    for (times, expected) in [(Some(vec![-0.02]), 0.0), (None, 0.6 / 0.1f64.sqrt())] {
+        let memory = look([20.9, 0.0, -2.0], times);
+        let [chi, standing] = evidence_on(&memory, "lidar_moving_chi")[..] else { panic!("two detections") };
+        assert!((chi.unwrap() - expected).abs() < 1e-3 && standing.is_none(), "{chi:?}");
+        assert_eq!(evidence_on(&memory, "lidar_moving_near"), [Some(1.0), None]);
+        assert!(evidence_on(&memory, "lidar_chi")[0].unwrap() > 2.8, "as if it stood");
+    }
+    // A ray that passes through where it has gone by then: at 23 m it is 2.1 m beyond.
+    let through = look([23.0, 0.0, -2.0 / 20.9 * 23.0], Some(vec![-0.02]));
+    assert_eq!(evidence_on(&through, "lidar_moving_beyond"), [Some(1.0), None]);
+    assert_eq!(evidence_on(&through, "lidar_moving_in"), [Some(0.0), None]);
 }
 
 proptest! {

@@ -32,7 +32,7 @@ RALF's own layout. A sequence that is there already is never overwritten. The sa
 same bytes.
 
 With `--preset worlds` a seed draws sensors, places and physics from a family of worlds (docs/worlds.md): radars and \
-LiDARs of other kinds, four to six sequences of 40 scans, and no cameras. Families, by number: city, survey, \
+LiDARs of other kinds, cameras or none, and four to six sequences of 40 scans. Families, by number: city, survey, \
 motorway, carpark, imaging, yard, country, anything.
 
 Examples:

@@ -1,7 +1,7 @@
 //! What a monocular depth network would give: relative depth of an unknown scale, bent a little over the view, that
 //! bleeds over edges, and that is nonsense at times.
 
-use super::{HORIZON, Moment};
+use super::{HORIZON, Moment, Visible};
 use crate::random::Random;
 use crate::scenario::FailureKind;
 use crate::shape::Ray;
@@ -25,8 +25,8 @@ const SCALE_SIGMA: f64 = 0.3;
 const NONSENSE_SIGMA: f64 = 2.0;
 
 /// The relative depth of each view.
-pub(crate) fn depth(
-    moment: &Moment<'_>,
+pub(crate) fn depth<S: Visible>(
+    moment: &Moment<'_, S>,
     failure: Option<FailureKind>,
     random: &mut Random,
 ) -> Vec<DepthImage> {
@@ -35,7 +35,7 @@ pub(crate) fn depth(
 }
 
 /// The true depth of each view, m.
-pub(crate) fn true_depth(moment: &Moment<'_>) -> Vec<DepthImage> {
+pub(crate) fn true_depth<S: Visible>(moment: &Moment<'_, S>) -> Vec<DepthImage> {
     let metric = |view: &StraightView| DepthImage {
         width: view.width,
         height: view.height,
@@ -50,7 +50,7 @@ fn size(view: &StraightView, step: usize) -> [usize; 2] {
 }
 
 /// The true depth along the view's axis, m, row by row, at the centres of squares of `step` x `step` pixels.
-fn exact(moment: &Moment<'_>, view: &StraightView, step: usize) -> Vec<f64> {
+fn exact<S: Visible>(moment: &Moment<'_, S>, view: &StraightView, step: usize) -> Vec<f64> {
     let origin = Point::from(moment.site_from_camera.translation.vector);
     let site_from_view = moment.site_from_camera.rotation * view.camera_from_view;
     let [columns, rows] = size(view, step);
@@ -59,8 +59,8 @@ fn exact(moment: &Moment<'_>, view: &StraightView, step: usize) -> Vec<f64> {
     let depth = |pixel| {
         let along = view.ray(pixel);
         let ray = Ray { origin, direction: (site_from_view * along).normalize() };
-        let hit = moment.scene.cast(&ray, HORIZON);
-        hit.map_or(FARTHEST, |hit| hit.distance / along.norm()).min(FARTHEST)
+        let distance = moment.scene.distance(&ray, HORIZON);
+        distance.map_or(FARTHEST, |distance| distance / along.norm()).min(FARTHEST)
     };
     pixels.map(depth).collect()
 }

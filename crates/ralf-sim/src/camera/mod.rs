@@ -5,15 +5,35 @@ mod paint;
 mod render;
 
 pub(super) use depth::{depth, true_depth};
+pub(super) use paint::{asphalt, gravel, leaves, slabs, solid_colour};
 pub(super) use render::{Rays, image, rays};
 
-use super::scene::Scene;
+use super::shape::Ray;
 use ralf::sensors::Camera;
-use ralf::space::Transform;
+use ralf::space::{Transform, Vector};
+
+/// What cameras look at, at one moment.
+pub(super) trait Visible {
+    /// How far away the first surface is that a ray meets within `limit`, m.
+    fn distance(&self, ray: &Ray, limit: f64) -> Option<f64>;
+
+    /// That surface.
+    fn surface(&self, ray: &Ray, limit: f64) -> Option<Painted>;
+}
+
+/// A surface that a ray meets.
+pub(super) struct Painted {
+    /// m.
+    pub(super) distance: f64,
+    /// Outward, in the site's frame.
+    pub(super) normal: Vector,
+    /// In full light, 0 to 255.
+    pub(super) colour: [f64; 3],
+}
 
 /// A camera at a moment.
-pub(super) struct Moment<'a> {
-    pub(super) scene: Scene<'a>,
+pub(super) struct Moment<'a, S> {
+    pub(super) scene: S,
     pub(super) camera: &'a Camera,
     pub(super) site_from_camera: Transform,
 }

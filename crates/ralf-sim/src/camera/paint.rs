@@ -1,7 +1,8 @@
 //! Colours: enough of walls, windows, paint and leaves that straight edges and textures are there to be seen.
 
+use super::{Painted, Visible};
 use crate::kind::Kind;
-use crate::scene::{Hit, Scene};
+use crate::scene::Scene;
 use crate::shape::{Ray, Shape};
 use crate::solid::Solid;
 use ralf::space::{Point, Vector};
@@ -26,29 +27,39 @@ pub(super) fn sky(ray: &Ray) -> [f64; 3] {
     mixed([205.0, 215.0, 228.0], [110.0, 155.0, 215.0], up)
 }
 
-/// The colour of a surface, 0 to 255.
-pub(super) fn paint(scene: &Scene<'_>, light: &Light, ray: &Ray, hit: &Hit<'_>) -> [f64; 3] {
-    let p = ray.origin + ray.direction * hit.distance;
-    let base = match hit.solid {
-        None => asphalt(&p),
-        Some(solid) => solid_colour(scene, solid, &p, &hit.normal),
-    };
-    let facing = hit.normal.dot(&light.0).max(0.0);
+/// The colour of a surface as it is lit, 0 to 255.
+pub(super) fn lit(scene: &impl Visible, light: &Light, ray: &Ray, surface: &Painted) -> [f64; 3] {
+    let facing = surface.normal.dot(&light.0).max(0.0);
     // Just off the surface, so that it does not shade itself.
-    let lifted = Ray { origin: p + hit.normal * 1e-3, direction: light.0 };
-    let sunny = facing > 0.0 && scene.cast(&lifted, 60.0).is_none();
+    let origin = ray.origin + ray.direction * surface.distance + surface.normal * 1e-3;
+    let sunny = facing > 0.0 && scene.distance(&Ray { origin, direction: light.0 }, 60.0).is_none();
     let brightness = AMBIENT + if sunny { (1.0 - AMBIENT) * facing * 1.3 } else { 0.0 };
-    let haze = 1.0 - 0.5_f64.powf(hit.distance / HAZE);
-    mixed(base.map(|value| value * brightness), [205.0, 215.0, 228.0], haze)
+    let haze = 1.0 - 0.5_f64.powf(surface.distance / HAZE);
+    mixed(surface.colour.map(|value| value * brightness), [205.0, 215.0, 228.0], haze)
 }
 
-fn solid_colour(scene: &Scene<'_>, solid: &Solid, p: &Point, normal: &Vector) -> [f64; 3] {
+impl Visible for Scene<'_> {
+    fn distance(&self, ray: &Ray, limit: f64) -> Option<f64> {
+        self.cast(ray, limit).map(|hit| hit.distance)
+    }
+
+    fn surface(&self, ray: &Ray, limit: f64) -> Option<Painted> {
+        let hit = self.cast(ray, limit)?;
+        let p = ray.origin + ray.direction * hit.distance;
+        let height = p.z - self.site.ground.height(p.x, p.y);
+        let colour =
+            hit.solid.map_or_else(|| asphalt(&p), |solid| solid_colour(solid, &p, height, &hit.normal));
+        Some(Painted { distance: hit.distance, normal: hit.normal, colour })
+    }
+}
+
+/// The colour of a body at a place of its surface, so high above the ground.
+pub(crate) fn solid_colour(solid: &Solid, p: &Point, height: f64, normal: &Vector) -> [f64; 3] {
     let own = solid.local(p);
     let half = solid.shape.half_size();
     let tint = grain(solid.object as f64, 3.0, 7.0);
     // Along the wall, whichever of the four it is.
     let along = if half.x - own.x.abs() < 0.01 { own.y } else { own.x };
-    let height = p.z - scene.site.ground.height(p.x, p.y);
     match solid.kind {
         Kind::Building => facade(along, height, normal, tint),
         Kind::Car => car(solid, height, normal, tint),
@@ -57,13 +68,7 @@ fn solid_colour(scene: &Scene<'_>, solid: &Solid, p: &Point, normal: &Vector) ->
         Kind::Grass => leaves(p, [92.0, 142.0, 70.0]),
         Kind::Fence => striped(along, 0.16, 0.75, [[150.0, 112.0, 76.0], [70.0, 54.0, 40.0]]),
         Kind::Garage => striped(height, 0.5, 0.95, [[150.0, 148.0, 142.0], [120.0, 118.0, 112.0]]),
-        Kind::Sidewalk => {
-            if repeats(p.x, 0.6, 0.95) && repeats(p.y, 0.6, 0.95) {
-                [172.0; 3]
-            } else {
-                [140.0; 3]
-            }
-        }
+        Kind::Sidewalk => slabs(p),
         Kind::Pedestrian if height > 1.5 => [214.0, 172.0, 146.0],
         Kind::Pedestrian => mixed([176.0, 48.0, 44.0], [44.0, 66.0, 150.0], tint),
         Kind::Pole => [138.0, 140.0, 144.0],
@@ -107,15 +112,24 @@ fn car(solid: &Solid, height: f64, normal: &Vector, tint: f64) -> [f64; 3] {
     }
 }
 
-fn asphalt(p: &Point) -> [f64; 3] {
+pub(crate) fn asphalt(p: &Point) -> [f64; 3] {
     let coarse = grain((p.x * 2.0).floor(), (p.y * 2.0).floor(), 0.0);
     let fine = grain((p.x * 16.0).floor(), (p.y * 16.0).floor(), 1.0);
     [92.0, 93.0, 96.0].map(|value| value + 8.0 * coarse + 14.0 * fine)
 }
 
-fn leaves(p: &Point, base: [f64; 3]) -> [f64; 3] {
+pub(crate) fn leaves(p: &Point, base: [f64; 3]) -> [f64; 3] {
     let value = grain((p.x * 7.0).floor(), (p.y * 7.0).floor(), (p.z * 7.0).floor());
     base.map(|channel| channel * (0.6 + 0.8 * value))
+}
+
+pub(crate) fn slabs(p: &Point) -> [f64; 3] {
+    if repeats(p.x, 0.6, 0.95) && repeats(p.y, 0.6, 0.95) { [172.0; 3] } else { [140.0; 3] }
+}
+
+pub(crate) fn gravel(p: &Point) -> [f64; 3] {
+    let stone = grain((p.x * 25.0).floor(), (p.y * 25.0).floor(), 2.0);
+    [150.0, 142.0, 130.0].map(|channel| channel * (0.8 + 0.4 * stone))
 }
 
 /// One colour in the first `share` of each period, and another in the rest.

@@ -1,7 +1,7 @@
 //! The raw image.
 
-use super::paint::{Light, paint, sky};
-use super::{HORIZON, Moment};
+use super::paint::{Light, lit, sky};
+use super::{HORIZON, Moment, Visible};
 use crate::random::Random;
 use crate::scenario::FailureKind;
 use crate::shape::Ray;
@@ -25,8 +25,8 @@ pub(crate) fn rays(camera: &Camera) -> Rays {
 }
 
 /// What the camera sees.
-pub(crate) fn image(
-    moment: &Moment<'_>,
+pub(crate) fn image<S: Visible>(
+    moment: &Moment<'_, S>,
     rays: &Rays,
     failure: Option<FailureKind>,
     random: &mut Random,
@@ -50,11 +50,11 @@ pub(crate) fn image(
 }
 
 /// The colour in a direction, 0 to 255.
-fn seen(moment: &Moment<'_>, light: &Light, own: &Vector) -> [f64; 3] {
+fn seen<S: Visible>(moment: &Moment<'_, S>, light: &Light, own: &Vector) -> [f64; 3] {
     let origin = Point::from(moment.site_from_camera.translation.vector);
     let ray = Ray { origin, direction: moment.site_from_camera.rotation * own };
-    match moment.scene.cast(&ray, HORIZON) {
-        Some(hit) => paint(&moment.scene, light, &ray, &hit),
+    match moment.scene.surface(&ray, HORIZON) {
+        Some(surface) => lit(&moment.scene, light, &ray, &surface),
         None => sky(&ray),
     }
 }

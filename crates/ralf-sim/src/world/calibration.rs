@@ -116,7 +116,7 @@ impl Calibration {
 }
 
 /// A mounting that is off by at most so much, each way.
-fn off(mount: &Transform, angle_deg: f64, place: f64, random: &mut Random) -> Transform {
+pub(super) fn off(mount: &Transform, angle_deg: f64, place: f64, random: &mut Random) -> Transform {
     let mut angle = || (random.between(-1.0, 1.0) * angle_deg).to_radians();
     let turn = UnitQuaternion::from_euler_angles(angle(), angle(), angle());
     let mut shift = || random.between(-1.0, 1.0) * place;

@@ -1,8 +1,9 @@
 //! One world: the numbers that a seed draws from a family's ranges.
 
 use super::calibration::Calibration;
+use super::camera::{CameraModel, cameras};
 use super::family::{Family, Mount, PlaceKind, RadarRanges};
-use super::lidar::{LidarModel, Optics};
+use super::lidar::{LidarModel, Optics, Pattern};
 use super::radar::{Amplitude, Cell, RadarModel, Waves, sensitivity_db};
 use super::span::{Span, one_of, span};
 use crate::random::{Purpose, Random};
@@ -28,6 +29,7 @@ pub(super) struct World {
     pub(super) seed: u64,
     pub(super) radars: Vec<RadarModel>,
     pub(super) lidars: Vec<LidarModel>,
+    pub(super) cameras: Vec<CameraModel>,
     pub(super) waves: Waves,
     pub(super) calibration: Calibration,
 }
@@ -39,9 +41,11 @@ impl World {
         let random = &mut random;
         let waves = waves(family, random);
         let radars = radars(family, random);
-        let lidars = lidars(family, seed, random);
-        let calibration = Calibration::new(&family.calibration, &radars, &lidars, seed);
-        Self { family, seed, radars, lidars, waves, calibration }
+        let lidars = lidars(family, seed, &radars, random);
+        let cameras = cameras(&family.calibration, seed);
+        let mut calibration = Calibration::new(&family.calibration, &radars, &lidars, seed);
+        calibration.rig.cameras = cameras.iter().map(|camera| camera.declared.clone()).collect();
+        Self { family, seed, radars, lidars, cameras, waves, calibration }
     }
 
     /// Where a sequence is driven.
@@ -135,9 +139,20 @@ fn radar(ranges: &RadarRanges, elevation: bool, random: &mut Random) -> RadarMod
     }
 }
 
-fn lidars(family: &Family, seed: u64, random: &mut Random) -> Vec<LidarModel> {
+/// Whether LiDARs look where each radar does: nobody records radars whose surroundings nothing else sees.
+fn look_along(layout: &[(Mount, Pattern)], radars: &[RadarModel]) -> bool {
+    let sees = |(mount, pattern): &(Mount, Pattern), radar: &RadarModel| {
+        let yaw = radar.vehicle_from_radar.rotation.euler_angles().2.to_degrees();
+        let aside = (yaw - mount.2 + 180.0).rem_euclid(360.0) - 180.0;
+        aside.abs() <= pattern.width / 2.0
+    };
+    radars.iter().all(|radar| layout.iter().any(|lidar| sees(lidar, radar)))
+}
+
+fn lidars(family: &Family, seed: u64, radars: &[RadarModel], random: &mut Random) -> Vec<LidarModel> {
     let ranges = &family.lidars;
-    let layouts: Vec<_> = ranges.layouts.iter().map(|layout| (*layout, 1.0)).collect();
+    let layouts = ranges.layouts.iter().filter(|layout| look_along(layout, radars));
+    let layouts: Vec<_> = layouts.map(|layout| (*layout, 1.0)).collect();
     let layout = one_of(&layouts, random).unwrap_or_default();
     let period_ns = (1e9 / ranges.rate.draw(random)).round() as i64;
     let rolling = random.chance(ranges.rolling);

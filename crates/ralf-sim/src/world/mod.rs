@@ -6,6 +6,7 @@
 //! detections a scan has and which share of them is plausible follows. docs/worlds.md tells what each family is like.
 
 mod calibration;
+mod camera;
 mod draw;
 mod family;
 mod item;

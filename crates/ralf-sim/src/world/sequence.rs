@@ -4,8 +4,9 @@ use super::draw::World;
 use super::lidar::{self, LidarModel, Sweep};
 use super::place::{Plan, plan};
 use super::radar::{self, Detection, Waves};
-use super::scene::Site;
+use super::scene::{Moment, Site};
 use super::terrain::Terrain;
+use crate::camera;
 use crate::path::Path;
 use crate::random::{Purpose, Random};
 use crate::scenario::ScenarioError;
@@ -109,6 +110,18 @@ impl WorldSequence {
         Ok(Self { sequence, site: Site::new(terrain, plan.items, seed), world, ride, waves, rain, seed })
     }
 
+    /// A camera, and what surrounds it at the time of an image.
+    fn seen_by(&self, camera: usize, image: usize) -> Result<camera::Moment<'_, Moment<'_>>, SourceError> {
+        let t_ns = time("camera", &self.sequence.times.cameras, camera, image)?;
+        let model = &self.world.cameras[camera];
+        let pose = self.ride.pose(&self.site.terrain, seconds(t_ns));
+        Ok(camera::Moment {
+            scene: self.site.at(seconds(t_ns)),
+            camera: &model.declared,
+            site_from_camera: pose * model.vehicle_from_camera,
+        })
+    }
+
     fn detections(&self, radar: usize, scan: usize) -> Result<Vec<Detection>, SourceError> {
         let t_ns = time("radar", &self.sequence.times.radars, radar, scan)?;
         let model = &self.world.radars[radar];
@@ -133,7 +146,11 @@ fn timelines(world: &World, scans: usize) -> Timelines {
         let times = (0..).map(|scan| START_NS + scan * lidar.period_ns);
         times.take_while(|t| *t < end + lidar.period_ns / 2).collect()
     };
-    Timelines { radars, lidars: world.lidars.iter().map(of_lidar).collect(), cameras: Vec::new() }
+    let cameras = world.cameras.iter().map(|camera| {
+        let times = (0..).map(|image| START_NS + camera.first_ns + image * camera.period_ns);
+        times.take_while(|t| *t < end + camera.period_ns / 2).collect()
+    });
+    Timelines { radars, lidars: world.lidars.iter().map(of_lidar).collect(), cameras: cameras.collect() }
 }
 
 fn path(plan: &Plan, seconds: f64, phase: f64) -> Path {
@@ -173,7 +190,10 @@ impl Simulation for WorldSequence {
         &Cause::ALL
     }
 
-    fn remove_cameras(&mut self) {}
+    fn remove_cameras(&mut self) {
+        self.sequence.rig.cameras.clear();
+        self.sequence.times.cameras.clear();
+    }
 
     fn true_radar(&self, radar: usize) -> Option<(Transform, i64)> {
         self.world.radars.get(radar).map(|model| (model.vehicle_from_radar, model.clock_ns))
@@ -185,7 +205,7 @@ impl Simulation for WorldSequence {
     }
 
     fn true_depth(&self, camera: usize, image: usize) -> Result<Vec<DepthImage>, SourceError> {
-        time("camera", &self.sequence.times.cameras, camera, image).map(|_| Vec::new())
+        Ok(camera::true_depth(&self.seen_by(camera, image)?))
     }
 }
 
@@ -213,11 +233,13 @@ impl Source for WorldSequence {
     }
 
     fn image(&self, camera: usize, image: usize) -> Result<CameraImage, SourceError> {
-        let missing = time("camera", &self.sequence.times.cameras, camera, image);
-        Err(missing.err().unwrap_or_else(|| "worlds have no cameras".into()))
+        let seen = self.seen_by(camera, image)?;
+        let random = &mut Random::new(self.seed, Purpose::Image, camera, image);
+        Ok(camera::image(&seen, &camera::rays(seen.camera), None, random))
     }
 
     fn depth(&self, camera: usize, image: usize) -> Result<Option<Vec<DepthImage>>, SourceError> {
-        time("camera", &self.sequence.times.cameras, camera, image).map(|_| None)
+        let random = &mut Random::new(self.seed, Purpose::Depth, camera, image);
+        Ok(Some(camera::depth(&self.seen_by(camera, image)?, None, random)))
     }
 }

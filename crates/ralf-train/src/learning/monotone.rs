@@ -3,6 +3,8 @@
 /// More of these never speaks against a detection.
 const FOR: &[&str] = &[
     "lidar_rays_in",
+    "lidar_moving_in",
+    "lidar_moving_near",
     "lidar_window_in",
     "lidar_window_odds",
     "lidar_window_near",
@@ -17,6 +19,8 @@ const AGAINST: &[&str] = &[
     "lidar_residual_horizontal",
     "lidar_rays_beyond",
     "lidar_chi",
+    "lidar_moving_beyond",
+    "lidar_moving_chi",
     "lidar_window_beyond",
     "lidar_window_chi_least",
     "lidar_window_chi_quartile",

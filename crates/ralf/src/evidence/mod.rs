@@ -45,6 +45,7 @@ pub const PIECES: &[Piece] = &[
     lidar_residual::PIECE,
     ground::PIECE,
     lidar_rays::PIECE,
+    lidar_rays::MOVING,
     lidar_map::PIECE,
     line_of_sight::PIECE,
     terrain::PIECE,

@@ -1,6 +1,6 @@
 //! Detections as the LiDAR window's scans are asked about them.
 
-use crate::scene::{Detection, Frame};
+use crate::scene::{Detection, Frame, LidarWindowView};
 use crate::sensors::Elevation;
 use nalgebra::{Matrix3, Vector3};
 
@@ -39,22 +39,18 @@ impl Probe {
 /// window.
 pub(super) fn probes(frame: &Frame) -> Vec<Option<Probe>> {
     let Some(lidar) = &frame.lidar_window else { return Vec::new() };
-    let window_from_vehicle = lidar.vehicle_from_window.inverse();
-    let surface = lidar.window.ground();
-    let mut probes = Vec::with_capacity(frame.scan.len());
-    for detection in &frame.scan.detections {
-        let Some(detection) = detection else {
-            probes.push(None);
-            continue;
-        };
-        let mut detection = detection.moved(&window_from_vehicle);
-        let p = detection.position;
-        let ground = surface.and_then(|surface| surface.height_at(p.x, p.y)).unwrap_or(0.0);
-        if frame.radar.elevation == Elevation::None {
-            detection.position.z = ground + SUPPOSED_HEIGHT;
-            detection.axes.set_column(2, &Vector3::new(0.0, 0.0, SUPPOSED_SIGMA));
-        }
-        probes.push(Some(Probe::new(detection, ground)));
+    let detections = frame.scan.detections.iter();
+    detections.map(|detection| detection.as_ref().map(|detection| probe(frame, lidar, detection))).collect()
+}
+
+/// A detection of the frame's radar (vehicle frame) in the frame of a LiDAR window.
+pub(super) fn probe(frame: &Frame, lidar: &LidarWindowView, detection: &Detection) -> Probe {
+    let mut detection = detection.moved(&lidar.vehicle_from_window.inverse());
+    let p = detection.position;
+    let ground = lidar.window.ground().and_then(|surface| surface.height_at(p.x, p.y)).unwrap_or(0.0);
+    if frame.radar.elevation == Elevation::None {
+        detection.position.z = ground + SUPPOSED_HEIGHT;
+        detection.axes.set_column(2, &Vector3::new(0.0, 0.0, SUPPOSED_SIGMA));
     }
-    probes
+    Probe::new(detection, ground)
 }

@@ -1,4 +1,5 @@
-//! What nobody but the radar tells of: beyond the reach of the LiDAR's map, with no LiDAR point near.
+//! What nobody but the radar tells of: beyond the reach of the LiDAR's map, with no LiDAR point near; and where no ray
+//! goes and nothing of the map is near, either.
 //!
 //! In simulated worlds most of the strong, standing detections out there are real, so that a model believes the radar.
 //! On a real motorway nobody can check it. As the paper does, what no other sensor confirms counts less: the setting
@@ -6,6 +7,8 @@
 
 /// A LiDAR point so near confirms, sigmas.
 const NEAR: f32 = 3.0;
+/// Nothing of the map is near, m: farther points are not told apart.
+const NOTHING_NEAR: f32 = 3.0;
 
 /// Where to look in a row of evidence.
 #[derive(Debug, Clone, Copy)]
@@ -22,13 +25,16 @@ impl Unconfirmed {
         Self { looks: place("lidar_unseen"), chi: place("lidar_chi"), map: place("map_distance") }
     }
 
-    /// Whether there is a LiDAR, the detection lies beyond its map, and no point of the nearest scan within 3 sigmas.
+    /// Whether there is a LiDAR, and the detection lies either beyond its map and no point of the nearest scan within 3
+    /// sigmas, or where no ray of that scan goes and no point of the map is within 3 m.
     pub fn is(&self, row: &[f32]) -> bool {
-        let value = |place: Option<usize>| place.map(|place| row[place]);
-        let observed = |place| value(place).is_some_and(|value| !value.is_nan());
+        let value = |place: Option<usize>| place.map_or(f32::NAN, |place| row[place]);
+        let (looks, chi, map) = (value(self.looks), value(self.chi), value(self.map));
         // What is absent is no point near.
-        let near = value(self.chi).is_some_and(|chi| chi < NEAR);
-        observed(self.looks) && self.chi.is_some() && self.map.is_some() && !observed(self.map) && !near
+        let near = chi < NEAR;
+        let beyond = map.is_nan() && !near;
+        let unseen = map >= NOTHING_NEAR && chi.is_nan();
+        !looks.is_nan() && self.chi.is_some() && self.map.is_some() && (beyond || unseen)
     }
 
     /// The probability of a row; of one that is unconfirmed, with its odds multiplied by the factor.
@@ -57,6 +63,8 @@ mod tests {
             ([absent, absent, 1.0], true),
             ([absent, 1.0, 0.5], false),
             ([3.0, 9.0, 0.5], false),
+            ([3.0, absent, 1.0], true),
+            ([2.9, absent, 1.0], false),
             ([absent, absent, absent], false),
         ] {
             assert_eq!(unconfirmed.is(&row), expected, "{row:?}");

@@ -4,8 +4,11 @@
 //! Each scan of the LiDAR window votes, weighted towards the middle of the cone in which the detection can lie. *In
 //! free space*, *on a surface*, *occluded* and *not looked at* follow from the votes.
 
+mod moving;
 mod tally;
 mod votes;
+
+pub(super) use moving::PIECE as MOVING;
 
 use super::columns::{set, unobserved};
 use super::probe::Probe;

@@ -104,6 +104,13 @@ impl<'a> Sweep<'a> {
         Votes { inside, ground, beyond, before, chi: Some(chi) }
     }
 
+    /// The place in the scan of a ray towards a detection.
+    pub(super) fn towards(&self, probe: &Probe) -> Option<u32> {
+        let target = self.target(probe)?;
+        let mut runs = self.table.runs(&target.cone).filter(|run| !run.is_empty());
+        runs.next().map(|run| self.table.rays()[run.start.midpoint(run.end)].id)
+    }
+
     /// `None` where the detection lies in the LiDAR itself.
     fn target(&self, probe: &Probe) -> Option<Target> {
         let detection = &probe.detection;

@@ -1,0 +1,114 @@
+//! What the LiDARs' rays say of a detection that moves: each scan is asked where the detection's range rate takes it
+//! by the time at which the rays towards it were sent.
+
+use super::super::probe::{Probe, probe};
+use super::super::{Feature, Piece, Surroundings, Values, columns};
+use super::votes::{Sweep, Votes};
+use super::{GROUP, NEAR, RAYS};
+use crate::scene::{LidarSweep, LidarView, LidarWindowView, Mover, median};
+
+pub(in super::super) const PIECE: Piece = Piece { features: FEATURES, observe };
+
+const FEATURES: &[Feature] = &[
+    Feature {
+        name: "lidar_moving_in",
+        unit: "1",
+        group: GROUP,
+        meaning: "of what moves: share of the rays of half a second around that end in it, where its range rate takes \
+                  it along the ray by the time of the rays",
+    },
+    Feature {
+        name: "lidar_moving_beyond",
+        unit: "1",
+        group: GROUP,
+        meaning: "of what moves: share of these rays that pass through and end beyond",
+    },
+    Feature {
+        name: "lidar_moving_chi",
+        unit: "sigma",
+        group: GROUP,
+        meaning: "of what moves: median over these scans of the Mahalanobis distance from the closest point, with an \
+                  uncertainty across the ray that grows with the way",
+    },
+    Feature {
+        name: "lidar_moving_near",
+        unit: "1",
+        group: GROUP,
+        meaning: "of what moves: share of these scans that look there with a point within 2 sigmas",
+    },
+];
+
+/// Scans farther off in time say little of a thing whose motion across the ray nobody measures, s.
+const AROUND: f64 = 0.5;
+
+fn observe(surroundings: &Surroundings) -> Vec<Values> {
+    let frame = surroundings.frame;
+    let mut columns = columns::unobserved(FEATURES, frame.scan.len());
+    let (Some(lidar), Some(rates)) = (&frame.lidar_window, surroundings.rates()) else { return columns };
+    let moves = |i: &usize| rates.motion(*i) != 0.0;
+    let movers: Vec<(usize, Mover)> = frame
+        .movers()
+        .into_iter()
+        .enumerate()
+        .filter_map(|(i, mover)| Some((i, mover?)))
+        .filter(|(i, _)| moves(i))
+        .collect();
+    let mut votes: Vec<Vec<Votes>> = vec![Vec::new(); movers.len()];
+    for view in &lidar.window.views {
+        let seconds = (view.moment.t_ns - frame.scan.t_ns()) as f64 * 1e-9;
+        if seconds.abs() <= AROUND {
+            let asked = Asked { surroundings, lidar, view };
+            asked.vote(&movers, &mut votes);
+        }
+    }
+    for ((i, _), votes) in movers.iter().zip(votes) {
+        columns::set(&mut columns, *i, answers(&votes));
+    }
+    columns
+}
+
+fn answers(scans: &[Votes]) -> [Option<f64>; 4] {
+    let mut all = Votes::default();
+    scans.iter().for_each(|votes| all.add(votes));
+    let chis: Vec<f64> = scans.iter().filter_map(|votes| votes.chi).collect();
+    let near = chis.iter().filter(|chi| **chi < NEAR).count();
+    let share = (!chis.is_empty()).then(|| near as f64 / chis.len() as f64);
+    [all.share(all.inside), all.share(all.beyond), median(chis), share]
+}
+
+/// The scans of one moment.
+struct Asked<'a> {
+    surroundings: &'a Surroundings<'a>,
+    lidar: &'a LidarWindowView,
+    view: &'a LidarView,
+}
+
+impl Asked<'_> {
+    /// Adds the moment's votes on each of the movers.
+    fn vote(&self, movers: &[(usize, Mover)], votes: &mut [Vec<Votes>]) {
+        let mut sums = vec![Votes::default(); movers.len()];
+        for sweep in self.view.moment.sweeps() {
+            let mut rays = Sweep::new(sweep, self.view.vehicle_from_moment * sweep.moment_from_lidar, RAYS);
+            for (sum, (_, mover)) in sums.iter_mut().zip(movers) {
+                sum.add(&rays.vote(&self.at_time_of(sweep, &rays, mover)));
+            }
+        }
+        for (votes, sum) in votes.iter_mut().zip(sums) {
+            votes.push(sum);
+        }
+    }
+
+    /// Where a mover is when the rays towards it are sent.
+    fn at_time_of(&self, sweep: &LidarSweep, rays: &Sweep, mover: &Mover) -> Probe {
+        let frame = self.surroundings.frame;
+        let seconds = (sweep.scan.t_ns - frame.scan.t_ns()) as f64 * 1e-9;
+        let at = |seconds: f64| probe(frame, self.lidar, &mover.after(seconds));
+        let there = at(seconds);
+        let Some(times) = &sweep.scan.times else { return there };
+        // The rays turn far faster than things move: where it is at the scan's time tells which of them meet it.
+        match rays.towards(&there) {
+            Some(ray) => at(seconds + f64::from(times[ray as usize])),
+            None => there,
+        }
+    }
+}
