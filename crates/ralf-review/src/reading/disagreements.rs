@@ -61,13 +61,13 @@ fn through(
 ) -> Result<Corrections, ApiError> {
     let sequence = reader.sequence();
     let all = Corrections::open(file)?;
-    Ok(all.of_reviewed_scans().bound(|scan| {
+    all.of_reviewed_scans().bound(|scan| {
         let radar = sequence.rig.radars.iter().position(|radar| radar.name == scan.radar);
         let number = scan.scan as usize;
         let there = radar
             .filter(|radar| scan.sequence == sequence.name && number < sequence.times.radars[*radar].len());
         Ok::<_, ApiError>(there.and_then(|radar| app.contents.known(reader, (index, radar, number))))
-    })?)
+    })
 }
 
 /// Adds differences to those of the same thing, of which the same was said.
