@@ -14,7 +14,7 @@ export function settleBar({ store, actions }: Page): HTMLElement {
     h("button", { class: "button", type: "button", on: { click: run } }, text, " ", h("kbd", {}, key));
   const bar = h(
     "div",
-    { class: "thing-bar settle", role: "group", "aria-label": "What two people said differently" },
+    { class: "settle-bar", role: "group", "aria-label": "What two people said differently" },
     h("div", { class: "thing-words", role: "status" }, what, left),
     button(first, "5", () => actions.settle.take("first")),
     button(second, "6", () => actions.settle.take("second")),

@@ -122,7 +122,7 @@ test("what two people said differently is told once both are through, and settle
   await picture(ada, "team");
   await ada.keyboard.press("Escape");
   await ada.keyboard.press("Shift+S");
-  await says(ada.locator(".settle"), `bob: ${right}`);
+  await says(ada.locator(".settle-bar"), `bob: ${right}`);
   await says(ada.locator(".past"), "ada");
   await faultsOf(ada, "a disagreement");
   await picture(ada, "disagreement");
@@ -132,7 +132,7 @@ test("what two people said differently is told once both are through, and settle
   await ada.keyboard.press("Control+z");
   await says(ada.locator(".status-bar"), "redo 1");
   await ada.keyboard.press("Shift+S");
-  await says(ada.locator(".settle"), `bob: ${right}`);
+  await says(ada.locator(".settle-bar"), `bob: ${right}`);
   for (const tab of tabs) clean(tab);
 });
 
