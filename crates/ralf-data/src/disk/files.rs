@@ -140,6 +140,8 @@ impl Folders {
 const TRIES: usize = 20;
 
 /// Writes a file whole or not at all: beside its place first, then renamed. Folders are made as needed.
+///
+/// Where others write the same file at the same time, less than the whole may be there until the last of them is done.
 pub fn write_whole(file: &Path, bytes: &[u8]) -> Result<(), DataError> {
     // Who writes the same at the same time takes what lies beside the file for left over, or renames it.
     let disturbed = |error: &Error| matches!(error.kind(), ErrorKind::NotFound | ErrorKind::AlreadyExists);

@@ -36,7 +36,7 @@ struct Queue<'a> {
     run: &'a LabelRun<'a>,
     folder: &'a OutputFolder,
     sequences: Vec<Sequence<'a>>,
-    /// Stretches that are not labelled yet.
+    /// Sequences that are not labelled yet.
     left: AtomicUsize,
     /// Somebody has failed.
     stop: AtomicBool,
@@ -64,6 +64,9 @@ struct UnderWay<'a> {
     workspace: Workspace<'a>,
     in_time: Vec<ScanIndex>,
 }
+
+/// What is left of a sequence that is labelled: nobody else holds the first, and these scans could not be labelled.
+type Ended<'a> = (Arc<UnderWay<'a>>, Vec<NotLabelled>);
 
 /// Is asked whether to end, and told nothing: others tell meanwhile how they get on.
 struct Silent<'a>(&'a dyn Observer);
@@ -123,8 +126,8 @@ impl<'a> Queue<'a> {
             let state = State { left, under_way: None, not_labelled: Vec::new() };
             Sequence { task, identity, state: Mutex::new(state) }
         };
-        let sequences = sequences.iter().enumerate().map(sequence).collect();
-        let (left, stop) = (AtomicUsize::new(stretches.len()), AtomicBool::new(false));
+        let sequences: Vec<_> = sequences.iter().enumerate().map(sequence).collect();
+        let (left, stop) = (AtomicUsize::new(sequences.len()), AtomicBool::new(false));
         Self { run, folder, sequences, left, stop, observer, told }
     }
 
@@ -163,17 +166,17 @@ impl<'a> Queue<'a> {
         if self.stop.load(Ordering::Relaxed) {
             return Ok(None);
         }
+        drop(under_way);
+        let Some(ended) = sequence.end(failed) else { return Ok(None) };
         let is_last = self.left.fetch_sub(1, Ordering::Relaxed) == 1;
-        let Some(not_labelled) = sequence.end(failed) else { return Ok(None) };
-        labelling.timed(Part::Writing, || self.finish(sequence, &under_way, not_labelled, is_last)).map(Some)
+        labelling.timed(Part::Writing, || self.finish(sequence, ended, is_last)).map(Some)
     }
 
     /// Puts a sequence together that is labelled.
     fn finish(
         &self,
         Sequence { task, identity, .. }: &Sequence,
-        under_way: &UnderWay,
-        not_labelled: Vec<NotLabelled>,
+        (under_way, not_labelled): Ended,
         is_last: bool,
     ) -> Result<Finished, DataError> {
         let silent = Silent(self.observer);
@@ -181,6 +184,8 @@ impl<'a> Queue<'a> {
         told.end();
         let record =
             assemble::assemble(task, &identity.fingerprint, &under_way.workspace, not_labelled, told)?;
+        // Its files are closed before they are removed: some file systems keep the folder of a removed open file.
+        drop(under_way);
         let finished = (record, identity.inputs.clone());
         self.folder.finish_sequence(&finished)?;
         Ok(finished)
@@ -200,17 +205,17 @@ impl<'a> Sequence<'a> {
         Ok(under_way)
     }
 
-    /// A stretch is labelled but for these scans. With the last one: all that could not be labelled.
-    fn end(&self, not_labelled: Vec<NotLabelled>) -> Option<Vec<NotLabelled>> {
+    /// A stretch is labelled but for these scans. With the last one: all that could not be labelled, and what its
+    /// stretches shared.
+    fn end(&self, not_labelled: Vec<NotLabelled>) -> Option<Ended<'a>> {
         let mut state = self.state();
         state.left -= 1;
         state.not_labelled.extend(not_labelled);
         if state.left > 0 {
             return None;
         }
-        state.under_way = None;
         state.not_labelled.sort();
-        Some(std::mem::take(&mut state.not_labelled))
+        Some((state.under_way.take()?, std::mem::take(&mut state.not_labelled)))
     }
 
     fn state(&self) -> MutexGuard<'_, State<'a>> {

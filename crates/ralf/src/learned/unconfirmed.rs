@@ -13,7 +13,7 @@ const NOTHING_NEAR: f32 = 3.0;
 /// Where to look in a row of evidence.
 #[derive(Debug, Clone, Copy)]
 pub struct Unconfirmed {
-    looks: Option<usize>,
+    unseen: Option<usize>,
     chi: Option<usize>,
     map: Option<usize>,
 }
@@ -22,19 +22,20 @@ impl Unconfirmed {
     /// For rows of features of these names.
     pub fn among<'a>(names: impl Iterator<Item = &'a str> + Clone) -> Self {
         let place = |wanted: &str| names.clone().position(|name| name == wanted);
-        Self { looks: place("lidar_unseen"), chi: place("lidar_chi"), map: place("map_distance") }
+        Self { unseen: place("lidar_unseen"), chi: place("lidar_chi"), map: place("map_distance") }
     }
 
     /// Whether there is a LiDAR, and the detection lies either beyond its map and no point of the nearest scan within 3
-    /// sigmas, or where no ray of that scan goes and no point of the map is within 3 m.
+    /// sigmas, or where no ray of any scan around goes and no point of the map is within 3 m.
     pub fn is(&self, row: &[f32]) -> bool {
         let value = |place: Option<usize>| place.map_or(f32::NAN, |place| row[place]);
-        let (looks, chi, map) = (value(self.looks), value(self.chi), value(self.map));
+        let (unseen, chi, map) = (value(self.unseen), value(self.chi), value(self.map));
+        let is_looked_for = !unseen.is_nan();
         // What is absent is no point near.
         let near = chi < NEAR;
         let beyond = map.is_nan() && !near;
-        let unseen = map >= NOTHING_NEAR && chi.is_nan();
-        !looks.is_nan() && self.chi.is_some() && self.map.is_some() && (beyond || unseen)
+        let unseen = map >= NOTHING_NEAR && unseen >= 1.0;
+        is_looked_for && self.chi.is_some() && self.map.is_some() && (beyond || unseen)
     }
 
     /// The probability of a row; of one that is unconfirmed, with its odds multiplied by the factor.
@@ -64,6 +65,7 @@ mod tests {
             ([absent, 1.0, 0.5], false),
             ([3.0, 9.0, 0.5], false),
             ([3.0, absent, 1.0], true),
+            ([3.0, absent, 0.9], false),
             ([2.9, absent, 1.0], false),
             ([absent, absent, absent], false),
         ] {

@@ -124,7 +124,7 @@ pub const FAMILIES: [Family; 8] = [
     },
     Family {
         name: "imaging",
-        about: "one 4D radar and 64 beams, as in View-of-Delft: grass, hedges, cyclists, much noise",
+        about: "one 4D radar and 64 beams, as in View-of-Delft: grass, hedges, cyclists",
         radars: RadarRanges {
             layouts: &[ONE],
             fov_azimuth: span(100.0, 120.0),

@@ -43,7 +43,7 @@ pub(super) const RADARS: RadarRanges = RadarRanges {
     // 1,216 in four radars in the paper's recordings.
     room: span(250.0, 500.0),
     // Measured, nuScenes, View-of-Delft and aiMotive (`scripts/false_alarms.py`): 1 to 3 detections of a scan move, lie
-    // far from the LiDAR's points, are weak and never seen again: 1 to 3 % of all.
+    // far from the LiDAR's points, are weak and never seen again: 1 to 2 % of all.
     false_alarms: span(0.5, 12.0),
 };
 
