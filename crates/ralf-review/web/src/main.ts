@@ -1,11 +1,10 @@
 /** Starts the page: reads the recording, builds the views, opens the first scan. */
 
 import { actionsOn } from "./actions/actions.js";
-import { addressFrom } from "./actions/address.js";
+import { closed, firstAddress } from "./actions/starting.js";
 import { Api } from "./api/client.js";
 import { messageOf } from "./api/errors.js";
 import { openSession, randomName } from "./api/session.js";
-import type { Recording } from "./api/types.js";
 import { CameraView } from "./cameras/camera-view.js";
 import { CamerasPanel } from "./cameras/cameras-panel.js";
 import { thingCrops } from "./cameras/thing-crops.js";
@@ -53,21 +52,16 @@ async function start(): Promise<void> {
   window.addEventListener("beforeunload", (event) => {
     if (store.state.waiting.length > 0) event.preventDefault();
   });
-  // Who works with others is asked once who it is.
-  if (recording.people.length > 0 && recording.second === null && session.name() === null) actions.view.dialog("name");
-  const first = firstSequence(recording, store.state.name);
+  // Who works with others is asked once who it is, before anything is opened: each has sequences of its own.
+  if (recording.people.length > 0 && recording.second === null && session.name() === null) {
+    actions.view.dialog("name");
+    await closed(store, "name");
+  }
+  const first = await firstAddress(recording, store.state.name, location.hash, (name) => api.progress(name));
   if (first === null) return store.set({ loading: false });
   await actions.correct.retry();
   actions.hear.listen(first.sequence);
   await actions.go.open(first.sequence, first.scan);
-}
-
-function firstSequence({ sequences }: Recording, person: string): ReturnType<typeof addressFrom> {
-  const asked = addressFrom(location.hash);
-  if (asked !== null && sequences.some(({ name }) => name === asked.sequence)) return asked;
-  const labelled = sequences.filter((one) => one.labelled);
-  const first = labelled.find(({ assigned }) => assigned === person) ?? labelled[0] ?? sequences[0];
-  return first === undefined ? null : { sequence: first.name, scan: null };
 }
 
 function build(page: Page): void {

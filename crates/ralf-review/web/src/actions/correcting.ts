@@ -93,7 +93,8 @@ export class Correcting {
     const { sequence, outbox, cloud } = store.state;
     if (points.length === 0 || outbox.kind === "conflict" || readOnly(this.world)) return false;
     const stroke = { id: randomName(), tool: SETTLE, protect: false, confirm: true, label, base, points };
-    store.set({ selection: new Uint8Array(cloud.count) });
+    // It is answered: a second press must not answer what isn't on screen once more.
+    store.set({ selection: new Uint8Array(cloud.count), disputed: null });
     await this.outbox.add([{ sequence, stroke }]);
     return true;
   }

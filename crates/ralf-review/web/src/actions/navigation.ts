@@ -44,12 +44,21 @@ export class Navigation {
       });
       const asked = queue.scans.find((scan) => scan.radar === at?.radar && scan.scan === at.scan);
       const first = asked ?? nextNeedy(queue.scans, null) ?? queue.scans[0];
-      if (first === undefined) store.set({ loading: false, current: null });
+      if (first === undefined) this.nothing(sequence);
       else await this.goTo(first);
     } catch (error) {
       store.set({ loading: false });
       complain(this.world, error);
     }
+  }
+
+  /** A sequence without a scan for this person, which is said. */
+  private nothing(sequence: string): void {
+    const { store } = this.world;
+    const { second } = store.state.recording;
+    store.set({ loading: false, current: null });
+    const whose = second === null ? "has no labelled scans" : `has no scans for ${second} to label a second time`;
+    tell(this.world, `Sequence ${sequence} ${whose}.`);
   }
 
   /** Reads how far the labelled sequences are, one after the other. */

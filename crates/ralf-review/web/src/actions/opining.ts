@@ -1,9 +1,9 @@
 /** What the labels would be after what was said: asked for, looked at, and accepted as one step or dropped. */
 
 import type { ProposedChange } from "../api/types.js";
-import { type Cloud, maskOf } from "../data/cloud.js";
+import { type Cloud, maskOf, scansOf } from "../data/cloud.js";
 import { countOfPoints, kept, partOf, pointsOf } from "../data/opinion.js";
-import { sameScan, scanKey } from "../data/scan.js";
+import { sameScan } from "../data/scan.js";
 import { counted } from "../format.js";
 import { countOf, intersection } from "../selection/mask.js";
 import type { Correcting } from "./correcting.js";
@@ -72,7 +72,8 @@ export class Opining {
     const { store, api } = this.world;
     const { sequence, current } = store.state;
     if (current === null || !this.correcting.free("thinking it over")) return;
-    store.set({ thinking: true, thing: null, selection: new Uint8Array(store.state.selection.length) });
+    const selection = new Uint8Array(store.state.selection.length);
+    store.set({ thinking: true, thing: null, disputed: null, selection });
     try {
       const opinion = await api.opinion(sequence, store.state.cloud.scans[0]?.table.header.t_ns ?? "0");
       if (sequence !== store.state.sequence) return;
@@ -133,8 +134,4 @@ export class Opining {
     this.seen = scansOf(cloud);
     store.set({ selection: intersection(maskOf(cloud, pointsOf(opinion.changes)), eligible) });
   }
-}
-
-function scansOf({ scans }: Cloud): string {
-  return scans.map(scanKey).join();
 }

@@ -1,6 +1,7 @@
 /** Rules: filters with a name, which choose everything they let through, in this sequence and in others. */
 
 import { liesIn } from "../data/area.js";
+import { type Cloud, scansOf } from "../data/cloud.js";
 import { keepRules, readRules, type Verdict } from "../data/rules.js";
 import { homeOf } from "../state.js";
 import type { Correcting } from "./correcting.js";
@@ -11,6 +12,9 @@ import { complain, tell, type World } from "./world.js";
 const LONGEST_NAME = 64;
 
 export class Ruling {
+  /** The scans that the rule chose in. */
+  private seen = "";
+
   constructor(
     private readonly world: World,
     private readonly navigation: Navigation,
@@ -18,6 +22,10 @@ export class Ruling {
     private readonly correcting: Correcting,
   ) {
     world.store.set({ rules: readRules() });
+    world.store.watch(
+      ({ cloud }) => [cloud],
+      (cloud) => this.left(cloud),
+    );
   }
 
   /** Keeps what the filter asks now under a name, in place of what had it before. */
@@ -48,8 +56,9 @@ export class Ruling {
       );
     try {
       await this.navigation.wholeSequence(current);
-      store.set({ filter: rule.filter, thing: null, opinion: null, notice: null });
+      store.set({ filter: rule.filter, thing: null, opinion: null, disputed: null, notice: null });
       this.selecting.all("rule");
+      this.seen = scansOf(store.state.cloud);
       store.set({ rule: rule.sets === null ? null : rule });
     } catch (error) {
       complain(this.world, error);
@@ -63,6 +72,12 @@ export class Ruling {
     if (rule === null || rule.sets === null) return;
     store.set({ rule: null });
     await this.correcting.apply(rule.sets.label, "rule", rule.sets.cause);
+  }
+
+  /** What a rule chose was chosen in the scans that were on screen: in others it has chosen nothing. */
+  private left(cloud: Cloud): void {
+    const { store } = this.world;
+    if (store.state.rule !== null && scansOf(cloud) !== this.seen) store.set({ rule: null });
   }
 
   private keep(rules: ReturnType<typeof readRules>): void {

@@ -1,9 +1,10 @@
 /** Where two people said different things: looked at one after the other, and settled by taking a side. */
 
 import type { Disagreement } from "../api/types.js";
-import { maskOf } from "../data/cloud.js";
+import { type Cloud, maskOf, scansOf } from "../data/cloud.js";
 import type { Choice } from "../data/labels.js";
 import { baseOf, keptPoints } from "../data/opinion.js";
+import { sameScan } from "../data/scan.js";
 import { keyOf, nextDisagreement } from "../data/team.js";
 import { intersection } from "../selection/mask.js";
 import type { Correcting } from "./correcting.js";
@@ -14,7 +15,8 @@ import { complain, tell, type World } from "./world.js";
 export class Settling {
   /** Those that were looked at since the sequence was opened. */
   private seen = new Set<string>();
-  private moving = false;
+  /** The scans that the disagreement is looked at in. */
+  private shown = "";
 
   constructor(
     private readonly world: World,
@@ -32,9 +34,11 @@ export class Settling {
     // Whoever looks at something else doesn't settle this one any more.
     store.watch(
       ({ current, thing, opinion }) => [current, thing, opinion],
-      () => {
-        if (!this.moving && store.state.disputed !== null) store.set({ disputed: null });
-      },
+      () => this.drop(),
+    );
+    store.watch(
+      ({ cloud }) => [cloud],
+      (cloud) => this.left(cloud),
     );
   }
 
@@ -82,6 +86,11 @@ export class Settling {
     const { disputed, disagreements, cloud, selection } = store.state;
     if (disputed === null || disagreements === null) return;
     const points = keptPoints(disputed.points, cloud, selection);
+    if (points.length === 0)
+      return tell(
+        this.world,
+        "None of these is selected, so nothing is settled: they are spared, or the filter hides them.",
+      );
     if (!(await this.correcting.settle(points, baseOf(disagreements, points), choice))) return;
     if (store.state.outbox.kind === "idle") await this.next();
   }
@@ -96,16 +105,30 @@ export class Settling {
 
   private async show(disagreement: Disagreement): Promise<void> {
     const { store } = this.world;
+    const { sequence } = store.state;
     this.seen.add(keyOf(disagreement));
-    this.moving = true;
-    try {
-      await this.navigation.wholeSequence(disagreement);
-      const { cloud, eligible } = store.state;
-      const selection = intersection(maskOf(cloud, disagreement.points), eligible);
-      store.set({ thing: null, opinion: null, disputed: disagreement, selection, armed: undefined });
-    } finally {
-      this.moving = false;
-    }
+    const nothing = { thing: null, opinion: null, rule: null, disputed: null };
+    // Until the next one is on screen no key settles anything, or labels what the one before had selected.
+    store.set({ ...nothing, selection: new Uint8Array(store.state.cloud.count) });
+    await this.navigation.wholeSequence(disagreement);
+    const { cloud, eligible, current } = store.state;
+    // Somebody went elsewhere meanwhile, or the scan can't be read.
+    if (sequence !== store.state.sequence || !sameScan(current, disagreement)) return;
+    const selection = intersection(maskOf(cloud, disagreement.points), eligible);
+    this.shown = scansOf(cloud);
+    store.set(nothing);
+    store.set({ disputed: disagreement, selection, armed: undefined });
     lookAt(this.world, disagreement);
+  }
+
+  /** Whoever looks at other scans doesn't see any more what is spared, and what isn't. */
+  private left(cloud: Cloud): void {
+    if (this.world.store.state.disputed === null || scansOf(cloud) === this.shown) return;
+    this.drop();
+    tell(this.world, "The disagreement is left, for you look at something else: Shift+S goes on.");
+  }
+
+  private drop(): void {
+    if (this.world.store.state.disputed !== null) this.world.store.set({ disputed: null });
   }
 }

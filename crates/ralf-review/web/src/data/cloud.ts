@@ -2,7 +2,7 @@
 
 import { type Column, type ColumnGroup, floats } from "../api/table.js";
 import type { ScanId, ScanPoints } from "../api/types.js";
-import { sameScan, type Scan } from "./scan.js";
+import { sameScan, type Scan, scanKey } from "./scan.js";
 import { movePoints, targetFromSource } from "./transform.js";
 
 export interface Cloud {
@@ -141,6 +141,11 @@ export function maskOf(cloud: Cloud, named: readonly ScanPoints[]): Uint8Array {
     if (index >= 0) for (const point of points) mask[cloud.starts[index] + point] = 1;
   }
   return mask;
+}
+
+/** Which scans are on screen, and which of them is under review. */
+export function scansOf({ scans }: Cloud): string {
+  return scans.map(scanKey).join();
 }
 
 export function findScan(cloud: Cloud, id: ScanId): number {

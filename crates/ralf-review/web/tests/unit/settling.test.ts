@@ -1,0 +1,186 @@
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import type { Adopting } from "../../src/actions/adopting.js";
+import { Correcting } from "../../src/actions/correcting.js";
+import type { Navigation } from "../../src/actions/navigation.js";
+import { Opining } from "../../src/actions/opining.js";
+import { Ruling } from "../../src/actions/ruling.js";
+import { Selecting } from "../../src/actions/selecting.js";
+import { Settling } from "../../src/actions/settling.js";
+import type { Thinging } from "../../src/actions/thinging.js";
+import type { World } from "../../src/actions/world.js";
+import type { Disagreement, ScanId, ScanPoints, StrokeAnswer, StrokeRequest } from "../../src/api/types.js";
+import { buildCloud, type Cloud, withScans } from "../../src/data/cloud.js";
+import { everything } from "../../src/data/filter.js";
+import { rulesText } from "../../src/data/rules.js";
+import { sameScan } from "../../src/data/scan.js";
+import { deriveAlways } from "../../src/derive.js";
+import { initialState, type State } from "../../src/state.js";
+import { Store } from "../../src/store.js";
+import { recordingOf, sequence } from "./recordings.js";
+import { made } from "./scans.js";
+
+const HERE = { radar: "front", scan: 0 };
+const [THIS, NEXT] = [made("front", 0, { x: [1, 2, 3] }), made("front", 1, { x: [4, 5] })];
+const [ALONE, WHOLE] = [buildCloud([THIS]), buildCloud([THIS, NEXT])];
+const front = (scan: number, ...points: number[]): ScanPoints => ({ radar: "front", scan, points });
+
+function disagreement(thing: number, points: readonly ScanPoints[]): Disagreement {
+  const counts = { detections: 9, scans: 2, plausible: 9, answered: 0, expected_errors: 1 };
+  return { thing, first: 1, second: 99, by: "bob", points, ...counts, place: [0, 0, 0], radius: 1, ...HERE, point: 0 };
+}
+
+/** The last of it is in a scan that is never on screen. */
+const DISPUTED = disagreement(1, [front(0, 0, 1), front(1, 0), front(9, 4)]);
+const RULE = { name: "ghosts", filter: everything, sets: { label: 1, cause: null } };
+
+/** A page without a picture: what settles is noted, and every scan is there at once. */
+class Table {
+  readonly store = new Store<State>(initialState(recordingOf([sequence("00", "ada")]), "ada"));
+  readonly settled: (readonly ScanPoints[])[] = [];
+  readonly settling: Settling;
+  readonly selecting: Selecting;
+  readonly ruling: Ruling;
+  readonly opining: Opining;
+
+  constructor() {
+    const { store } = this;
+    deriveAlways(store);
+    const api = {
+      disagreements: () => Promise.resolve({ people: [], waiting: null, changes: [DISPUTED], base: [] }),
+      opinion: () => Promise.resolve({ answered: 0, scans: null, changes: [], base: [] }),
+    };
+    const world = { store, api } as unknown as World;
+    const go = { wholeSequence: (at: ScanId) => Promise.resolve(this.goTo(at)) } as unknown as Navigation;
+    const settle = (points: readonly ScanPoints[]): Promise<boolean> => {
+      this.settled.push(points);
+      return Promise.resolve(false);
+    };
+    const correct = { settle, free: () => true } as unknown as Correcting;
+    this.settling = new Settling(world, go, correct);
+    this.selecting = new Selecting(world, correct, {} as Thinging, this.settling);
+    this.ruling = new Ruling(world, go, this.selecting, correct);
+    this.opining = new Opining(world, go, correct);
+    store.set({ sequence: "00", current: HERE, cloud: ALONE, scope: "shown" });
+  }
+
+  /** Nothing is fetched anew where it is on screen. */
+  private goTo(at: ScanId): void {
+    const { cloud, current } = this.store.state;
+    if (cloud.scans !== WHOLE.scans || !sameScan(current, at)) this.arrive(at);
+  }
+
+  arrive({ radar, scan }: ScanId): void {
+    this.store.set({ current: { radar, scan } });
+    this.picture(WHOLE);
+  }
+
+  /** Other scans of the same moment come on screen, as with Z. */
+  picture(cloud: Cloud): void {
+    this.store.set({ cloud, selection: new Uint8Array(cloud.count) });
+  }
+}
+
+/** With a disagreement on screen. */
+async function looking(): Promise<Table> {
+  const table = new Table();
+  await table.settling.next();
+  assert.deepEqual([...table.store.state.selection], [1, 1, 0, 1, 0]);
+  return table;
+}
+
+/** A browser's storage that holds a rule. */
+function keepingRule(): void {
+  const kept = { getItem: () => rulesText([RULE]), setItem: () => undefined };
+  Object.defineProperty(globalThis, "localStorage", { value: kept, configurable: true });
+}
+keepingRule();
+
+test("a side is taken of what is selected, and of what isn't on screen", async () => {
+  const { store, settling, settled } = await looking();
+  store.set({ selection: new Uint8Array([1, 0, 0, 1, 0]) });
+  settling.take("first");
+  assert.deepEqual(settled, [[front(0, 0), front(1, 0), front(9, 4)]]);
+});
+
+test("whoever puts other scans on screen settles nothing, for what was spared isn't seen any more", async () => {
+  const table = await looking();
+  table.picture(ALONE);
+  assert.equal(table.store.state.disputed, null);
+  assert.match(table.store.state.notice?.text ?? "", /disagreement is left/);
+  for (const side of ["first", "second"] as const) table.settling.take(side);
+  assert.deepEqual(table.settled, []);
+});
+
+test("the same scans with other labels are still the same picture", async () => {
+  const { store, settling, settled } = await looking();
+  store.set({ cloud: withScans(WHOLE, [{ ...THIS, label: THIS.label.map(() => 1) }]) });
+  assert.equal(store.state.disputed, DISPUTED);
+  settling.take("second");
+  assert.equal(settled.length, 1);
+});
+
+test("where nothing of it is selected, that is said and nothing is settled", async () => {
+  const table = new Table();
+  const near = disagreement(2, [front(0, 0)]);
+  await table.settling.next();
+  table.store.set({ disputed: near, filter: { ...everything, plausible: false } });
+  table.settling.take("first");
+  assert.deepEqual(table.settled, []);
+  assert.match(table.store.state.notice?.text ?? "", /nothing is settled/);
+});
+
+test("who goes elsewhere while the next disagreement is fetched doesn't get it", async () => {
+  const table = new Table();
+  table.arrive = () => table.store.set({ current: { radar: "rear", scan: 3 } });
+  await table.settling.next();
+  assert.equal(table.store.state.disputed, null);
+});
+
+test("a side is taken once, however long the server takes and however often a key is pressed", async () => {
+  const { store } = await looking();
+  const sent: StrokeRequest[] = [];
+  const stroke = (_: string, asked: StrokeRequest): Promise<StrokeAnswer> => {
+    sent.push(asked);
+    return new Promise(() => undefined);
+  };
+  const world = { store, api: { stroke } } as unknown as World;
+  const keeper = { found: [], keep: () => Promise.resolve() };
+  const correct = new Correcting(world, {} as Navigation, {} as Adopting, keeper);
+  const settling = new Settling(world, {} as Navigation, correct);
+  store.set({ disagreements: { people: [], waiting: null, changes: [DISPUTED], base: [] } });
+  store.set({ disputed: DISPUTED, selection: new Uint8Array([1, 1, 0, 1, 0]) });
+  for (const side of ["second", "second", "first"] as const) settling.take(side);
+  assert.deepEqual(
+    sent.map(({ label, points }) => [label, points]),
+    [[99, DISPUTED.points]],
+  );
+  assert.equal(store.state.waiting.length, 1);
+});
+
+test("asking for a proposal empties the selection, and ends the disagreement", async () => {
+  const { store, opining, settling, settled } = await looking();
+  await opining.askOrAccept();
+  assert.equal(store.state.disputed, null);
+  settling.take("second");
+  assert.deepEqual(settled, []);
+});
+
+test("a rule that is chosen ends the disagreement, and a disagreement ends the rule", async () => {
+  const { store, ruling, settling } = await looking();
+  await ruling.choose("ghosts");
+  assert.deepEqual([store.state.rule?.name, store.state.disputed], ["ghosts", null]);
+  await settling.next();
+  assert.deepEqual([store.state.rule, store.state.disputed], [null, DISPUTED]);
+});
+
+test("a rule chooses in the scans on screen, and is gone with them", async () => {
+  for (const cloud of [ALONE, buildCloud([]), buildCloud([NEXT, THIS])]) {
+    const table = new Table();
+    await table.ruling.choose("ghosts");
+    table.store.set({ cloud: withScans(WHOLE, [THIS]) });
+    assert.notEqual(table.store.state.rule, null);
+    table.picture(cloud);
+    assert.equal(table.store.state.rule, null);
+  }
+});
