@@ -84,9 +84,13 @@ impl Corrections {
         self
     }
 
-    /// Those of scans that are marked as reviewed alone: whoever labels them is through with these.
+    /// Those of scans that are marked as reviewed alone: whoever labels them is through with these. Of a scan with
+    /// several contents that of what was marked is left.
     pub fn of_reviewed_scans(mut self) -> Self {
-        self.scans.retain(|_, said| said.iter().any(|layer| layer.accepted.is_some()));
+        self.scans.retain(|_, said| {
+            said.retain(|layer| layer.accepted.is_some());
+            !said.is_empty()
+        });
         self
     }
 
@@ -275,6 +279,30 @@ mod tests {
             assert_eq!(other.truth(&scan(), None).unwrap(), None);
         }
         assert_eq!(open().corrected_detections(), 1, "kept");
+    }
+
+    #[test]
+    fn who_is_through_with_what_a_scan_held_before_is_not_through_with_what_it_holds_now() {
+        let out = tempfile::tempdir().unwrap();
+        drop(store(out.path()));
+        let content = Some(hash(2));
+        let edit =
+            ScanEdit { radar: "front".into(), scan: 3, detections: 4, content, base: 0, points: vec![2] };
+        let stroke = Stroke { label: Some(48), scans: vec![edit], ..Stroke::of_sequence("00") };
+        Store::open(&out.path().join(FILE)).unwrap().apply(&stroke, &Who::named("ada")).unwrap();
+        let open = || Corrections::open(out.path()).unwrap();
+        let now =
+            |byte| move |_: &ScanId| Ok::<_, ()>(Some(ScanContent { detections: 4, hash: Some(hash(byte)) }));
+        assert_eq!(open().bound(now(2)).unwrap().corrected_detections(), 1);
+        for (byte, through) in [(1, 1), (2, 0)] {
+            let either = [
+                open().bound(now(byte)).unwrap().of_reviewed_scans(),
+                open().of_reviewed_scans().bound(now(byte)).unwrap(),
+            ];
+            for found in either {
+                assert_eq!((found.scans().count(), found.corrected_detections()), (through, through));
+            }
+        }
     }
 
     #[test]

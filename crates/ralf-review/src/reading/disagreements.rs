@@ -60,14 +60,15 @@ fn through(
     file: &Path,
 ) -> Result<Corrections, ApiError> {
     let sequence = reader.sequence();
-    let all = Corrections::open(file)?;
-    all.of_reviewed_scans().bound(|scan| {
+    let bound = Corrections::open(file)?.bound(|scan| {
         let radar = sequence.rig.radars.iter().position(|radar| radar.name == scan.radar);
         let number = scan.scan as usize;
         let there = radar
             .filter(|radar| scan.sequence == sequence.name && number < sequence.times.radars[*radar].len());
         Ok::<_, ApiError>(there.and_then(|radar| app.contents.known(reader, (index, radar, number))))
-    })
+    });
+    // Who was through with what a scan held before may not be through with what it holds now.
+    bound.map(Corrections::of_reviewed_scans)
 }
 
 /// Adds differences to those of the same thing, of which the same was said.
