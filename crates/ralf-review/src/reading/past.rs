@@ -59,8 +59,9 @@ fn thing(app: &App, place: &ScanPlace, point: usize) -> Result<Vec<(ScanVersion,
 }
 
 fn saying(saying: &Saying) -> Value {
-    let Saying { author, at, tool, label, detections, holds } = saying;
-    json!({ "author": author, "at": at, "tool": tool, "label": label, "detections": detections, "holds": holds })
+    let Saying { author, at, tool, label, cause, detections, holds } = saying;
+    json!({ "author": author, "at": at, "tool": tool, "label": label, "cause": cause, "detections": detections,
+        "holds": holds })
 }
 
 /// How much everybody has done, day by day; who labels a second time is told of itself alone.
