@@ -106,11 +106,17 @@ impl Corrections {
 
     /// Whether nobody said anything.
     pub fn is_empty(&self) -> bool {
-        self.scans.is_empty()
+        self.scans().next().is_none()
     }
 
     /// The scans with corrections or a reviewed mark, in order.
     pub fn scans(&self) -> impl Iterator<Item = &ScanId> {
+        let spoken = self.scans.iter().filter(|(_, said)| !said.iter().all(ScanLayer::says_nothing));
+        spoken.map(|(scan, _)| scan)
+    }
+
+    /// These, and those that were settled so that nothing is said of them any more.
+    pub(crate) fn scans_ever(&self) -> impl Iterator<Item = &ScanId> {
         self.scans.keys()
     }
 
@@ -148,7 +154,7 @@ impl Corrections {
         scan: &ScanId,
         file: Option<Vec<Label>>,
     ) -> Result<Option<Vec<Label>>, DataError> {
-        let Some(layer) = self.layer(scan)? else { return Ok(file) };
+        let Some(layer) = self.layer(scan)?.filter(|layer| !layer.says_nothing()) else { return Ok(file) };
         if let Some(file) = &file {
             self.check_size(scan, layer, file.len())?;
         }
@@ -210,7 +216,7 @@ fn said(layer: &ScanLayer, file: Option<Vec<Label>>) -> Vec<Label> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use ralf_corrections::{ContentHash, Mark, ScanEdit, Store, Stroke, Who};
+    use ralf_corrections::{ContentHash, Mark, SETTLE, ScanEdit, Store, Stroke, Who};
 
     fn scan() -> ScanId {
         ScanId { sequence: "00".into(), radar: "front".into(), scan: 3 }
@@ -303,6 +309,22 @@ mod tests {
                 assert_eq!((found.scans().count(), found.corrected_detections()), (through, through));
             }
         }
+    }
+
+    #[test]
+    fn what_was_settled_to_be_the_machines_again_is_no_word_and_was_one() {
+        let out = tempfile::tempdir().unwrap();
+        let mut store = Store::open(&out.path().join(FILE)).unwrap();
+        for (base, tool, label) in [(0, "lasso", Some(10)), (1, SETTLE, None)] {
+            let radar = "front".to_owned();
+            let edit = ScanEdit { radar, scan: 3, detections: 4, content: None, base, points: vec![1] };
+            let stroke = Stroke { tool: tool.into(), label, scans: vec![edit], ..Stroke::of_sequence("00") };
+            store.apply(&stroke, &Who::named("ada")).unwrap();
+        }
+        let corrections = Corrections::open(out.path()).unwrap();
+        assert!(corrections.is_empty() && corrections.truth(&scan(), None).unwrap().is_none());
+        assert_eq!(corrections.scans_ever().collect::<Vec<_>>(), [&scan()]);
+        assert_eq!(ids(&corrections.unsettled(&scan()).unwrap().unwrap().labels), [0, 10, 0, 0]);
     }
 
     #[test]
