@@ -50,7 +50,7 @@ pub(crate) fn causes(on: &Connection, scan: i64) -> rusqlite::Result<Vec<(u32, S
 }
 
 /// Whether a cause was ever said: most stores hold none, and are read without looking further.
-fn any(on: &Connection) -> rusqlite::Result<bool> {
+pub(crate) fn any(on: &Connection) -> rusqlite::Result<bool> {
     let tables = "SELECT count(*) FROM sqlite_master WHERE type = 'table' AND name = 'stroke_cause'";
     let found: i64 = on.prepare_cached(tables)?.query_row([], |row| row.get(0))?;
     Ok(found > 0 && on.prepare_cached("SELECT 1 FROM stroke_cause LIMIT 1")?.exists([])?)
@@ -58,9 +58,9 @@ fn any(on: &Connection) -> rusqlite::Result<bool> {
 
 #[cfg(test)]
 mod tests {
-    use crate::{ScanContent, ScanEdit, ScanKey, ScanVersion, Store, Stroke, Who, read_layer};
+    use crate::{Reader, ScanContent, ScanEdit, ScanKey, ScanVersion, Store, Stroke, Who, read_layer};
     use proptest::prelude::*;
-    use std::collections::BTreeMap;
+    use std::collections::{BTreeMap, BTreeSet};
 
     const POINTS: u32 = 4;
 
@@ -187,20 +187,27 @@ mod tests {
         rusqlite::Connection::open(&file).unwrap().execute_batch("DROP TABLE stroke_cause").unwrap();
         let said = read_layer(&file).unwrap();
         assert_eq!(said[&version().key][0].corrections, [(1, 1)]);
+        let asked = [(version(), BTreeSet::from([1, 2]))];
+        let told = |store: &Reader| -> Vec<(Option<String>, bool)> {
+            store.sayings(&asked).unwrap().into_iter().map(|saying| (saying.cause, saying.holds)).collect()
+        };
+        assert_eq!(told(&Reader::open(&file).unwrap()), [(None, true)], "read where nothing can be written");
         let mut store = open(&folder);
         let with_cause = stroke(&store, vec![1, 2], Some(1), Some("noise"));
         store.apply(&with_cause, &Who::named("ada")).unwrap();
-        let told = [(1, "noise".to_owned()), (2, "noise".to_owned())];
-        assert_eq!(store.scan(&version()).unwrap().causes, told);
+        let noise = [(1, "noise".to_owned()), (2, "noise".to_owned())];
+        assert_eq!(store.scan(&version()).unwrap().causes, noise);
+        assert_eq!(told(&store), [(Some("noise".to_owned()), true), (None, true)]);
         let confirmed = Stroke { confirm: true, ..stroke(&store, vec![1], Some(1), None) };
         store.apply(&confirmed, &Who::named("bob")).unwrap();
         assert_eq!(
             store.scan(&version()).unwrap().causes,
-            told,
+            noise,
             "the label is confirmed, and with it its cause"
         );
         store.undo("00", &Who::named("bob")).unwrap();
         store.undo("00", &Who::named("ada")).unwrap();
         assert_eq!(store.scan(&version()).unwrap().causes, []);
+        assert_eq!(told(&store), [(None, false), (Some("noise".to_owned()), false), (None, true)]);
     }
 }

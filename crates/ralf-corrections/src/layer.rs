@@ -42,12 +42,13 @@ impl ScanLayer {
         Self { corrections: corrections.into_iter().collect(), settled: Vec::new(), ..self.clone() }
     }
 
-    fn is_empty(&self) -> bool {
-        self.corrections.is_empty() && self.accepted.is_none() && self.settled.is_empty()
+    /// Whether nothing is said of it now. It may have been settled all the same, so that it is the machine's again.
+    pub fn says_nothing(&self) -> bool {
+        self.corrections.is_empty() && self.accepted.is_none()
     }
 }
 
-/// Reads a store: every scan of which something is said, once per content that it had.
+/// Reads a store: every scan of which something is said or was settled, once per content that it had.
 ///
 /// # Errors
 /// A file that is no store, or one of another version; a mark of another size than its scan.
@@ -57,7 +58,7 @@ pub fn read_layer(file: &Path) -> Result<BTreeMap<ScanKey, Vec<ScanLayer>>, Stor
     let moment = connection.transaction().map_err(told(file))?;
     let mut layers: BTreeMap<ScanKey, Vec<ScanLayer>> = BTreeMap::new();
     for (key, layer) in read(&moment).map_err(told(file))? {
-        if layer.is_empty() {
+        if layer.says_nothing() && layer.settled.is_empty() {
             continue;
         }
         check(file, &key, &layer)?;

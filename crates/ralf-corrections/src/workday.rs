@@ -34,7 +34,7 @@ pub(crate) fn workdays(on: &Connection) -> rusqlite::Result<Vec<Workday>> {
                    FROM done),
          worked AS (SELECT name, day, count(*) AS edits, total(CASE WHEN s <= ?1 THEN s END) AS s
                     FROM apart GROUP BY name, day),
-         held AS (SELECT stroke.id, name, day, tool, label FROM stroke JOIN done ON done.id = stroke.made
+         held AS (SELECT stroke.id, name, day FROM stroke JOIN done ON done.id = stroke.made
                   WHERE applied IS NOT NULL),
          labelled AS (SELECT name, day, count(*) AS detections
                       FROM (SELECT DISTINCT name, day, scan, point FROM held JOIN change ON change.stroke = held.id

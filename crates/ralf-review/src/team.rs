@@ -40,16 +40,18 @@ impl Team {
         self.assignment.as_ref()?.of_sequence(name)
     }
 
-    /// The scans of a sequence, by radar and number, that the queue is about; `None`: all of them.
+    /// The scans of a sequence, by radar and number, that the queue is about; `None`: all of them, as for who labels a
+    /// second time and was dealt no scans in any sequence.
     pub(crate) fn queued(&self, sequence: &str) -> Option<BTreeSet<(&str, usize)>> {
         let share = self.assignment.as_ref()?.0.get(self.second.as_ref()?)?;
-        Some(scans(share.twice.iter(), sequence))
+        (!share.twice.is_empty()).then(|| scans(share.twice.iter(), sequence))
     }
 
-    /// The scans of a sequence that somebody is to label a second time; `None` where nothing was dealt.
+    /// The scans of a sequence that somebody is to label a second time; `None` where none were dealt in any.
     pub(crate) fn twice(&self, sequence: &str) -> Option<BTreeSet<(&str, usize)>> {
-        let shares = self.assignment.as_ref()?.0.values();
-        Some(scans(shares.flat_map(|share| &share.twice), sequence))
+        let mut dealt = self.assignment.as_ref()?.0.values().flat_map(|share| &share.twice).peekable();
+        dealt.peek()?;
+        Some(scans(dealt, sequence))
     }
 }
 

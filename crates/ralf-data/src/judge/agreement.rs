@@ -119,7 +119,7 @@ fn each_pair(
     second: &Corrections,
     mut work: impl FnMut(&ScanId, usize, (u16, u16), bool),
 ) -> Result<(), DataError> {
-    for scan in first.scans() {
+    for scan in first.scans_ever() {
         let (Some(ones), Some(others)) = (first.unsettled(scan)?, second.unsettled(scan)?) else { continue };
         for (point, (one, other)) in ones.labels.iter().zip(&others.labels).enumerate() {
             if truth_of(one.id).is_some() && truth_of(other.id).is_some() {

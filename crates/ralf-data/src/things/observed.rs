@@ -10,6 +10,7 @@ use ralf::scene::FrameWindow;
 use ralf::sensors::Rig;
 use ralf_train::learning::direction;
 use std::convert::Infallible;
+use std::ops::RangeInclusive;
 
 /// How much of a sequence is looked at: what lies nearest in time, as far as it is no more than that.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -29,8 +30,8 @@ pub struct Observed {
     pub(super) of: Vec<usize>,
     /// How many scans were looked at, and how many have detections.
     scans: (usize, usize),
-    /// From when to when, ns.
-    span: (i64, i64),
+    /// The times at which it serves, ns.
+    serves: RangeInclusive<i64>,
     /// [`features`], what a model makes of them (log odds), and the plausibility that the run found.
     pub(super) rows: Rows,
     /// By column: 1 where more of it never makes a detection less plausible, -1 where never more, else 0.
@@ -52,7 +53,7 @@ impl Observed {
     ) -> Result<Self, UseError> {
         model.check()?;
         let columns = model.places_among(features().map(|feature| feature.name))?;
-        let (scans, span) = looked_at(things, &extent);
+        let (scans, serves) = looked_at(things, &extent);
         let all = things.scans().iter().filter(|(radar, scan)| !things.rows_of(*radar, *scan).is_empty());
         let counts = (scans.len(), all.count());
         let of: Vec<usize> = scans.iter().flat_map(|at| things.rows_of(at.radar, at.scan)).collect();
@@ -75,7 +76,7 @@ impl Observed {
             (to[width], to[width + 1]) = (log_odds as f32, things.sightings()[*at].w);
         }
         let monotone = features().map(|feature| direction(feature.name)).chain([1, 0]).collect();
-        Ok(Self { of, scans: counts, span, rows, monotone })
+        Ok(Self { of, scans: counts, serves, rows, monotone })
     }
 
     /// How many scans were looked at, and how many of the sequence have detections.
@@ -83,16 +84,15 @@ impl Observed {
         self.scans
     }
 
-    /// Whether it serves at a time, too: it is of the whole sequence, or that time lies in its middle half.
+    /// Whether it serves at a time, too: as much was looked at before it and after it as half of what was looked at on
+    /// either side of the time that it is of, or all that there is.
     pub fn serves(&self, t_ns: i64) -> bool {
-        let (first, last) = self.span;
-        let edge = (last - first) / 4;
-        self.scans.0 == self.scans.1 || (first + edge..=last - edge).contains(&t_ns)
+        self.serves.contains(&t_ns)
     }
 }
 
-/// The scans of a sequence within an extent that have detections, in their order, and from when to when they are, ns.
-fn looked_at(things: &SequenceThings, extent: &Extent) -> (Vec<ScanIndex>, (i64, i64)) {
+/// The scans of a sequence within an extent that have detections, in their order, and when they [serve](served).
+fn looked_at(things: &SequenceThings, extent: &Extent) -> (Vec<ScanIndex>, RangeInclusive<i64>) {
     let measured = things.scans().iter().filter_map(|(radar, scan)| {
         let rows = things.rows_of(*radar, *scan);
         let t_ns = things.sightings()[rows.clone().next()?].t_ns;
@@ -100,11 +100,21 @@ fn looked_at(things: &SequenceThings, extent: &Extent) -> (Vec<ScanIndex>, (i64,
     });
     let all: Vec<(ScanIndex, i64, usize)> = measured.collect();
     let sizes: Vec<(i64, usize)> = all.iter().map(|(_, t_ns, detections)| (*t_ns, *detections)).collect();
-    let near: Vec<&(ScanIndex, i64, usize)> =
-        nearest(&sizes, extent).into_iter().map(|at| &all[at]).collect();
-    let times = || near.iter().map(|(_, t_ns, _)| *t_ns);
-    let span = (times().min().unwrap_or(extent.t_ns), times().max().unwrap_or(extent.t_ns));
-    (near.iter().map(|(scan, ..)| *scan).collect(), span)
+    let near = nearest(&sizes, extent);
+    let serves = served(&sizes, &near, extent.t_ns);
+    (near.into_iter().map(|at| all[at].0).collect(), serves)
+}
+
+/// The times, ns, at which those of all scans serve that were looked at for one time: as far from it as half the way
+/// to the farthest of them. On a side on which none is left out there is no such end.
+fn served(all: &[(i64, usize)], near: &[usize], t_ns: i64) -> RangeInclusive<i64> {
+    let times = || near.iter().map(|at| all[*at].0);
+    let half = times().map(|time| time.abs_diff(t_ns)).max().unwrap_or(0) / 2;
+    let is_first = times().min() == all.iter().map(|(time, _)| *time).min();
+    let is_last = times().max() == all.iter().map(|(time, _)| *time).max();
+    let from = if is_first { i64::MIN } else { t_ns.saturating_sub_unsigned(half) };
+    let to = if is_last { i64::MAX } else { t_ns.saturating_add_unsigned(half) };
+    from..=to
 }
 
 /// Which scans, each with its time and its number of detections, are within an extent, in rising order.
@@ -152,7 +162,40 @@ mod tests {
         assert!(nearest(&scans, &extent(i64::MAX, 1, 9)).is_empty());
     }
 
+    /// Some of a hundred scans, one in each nanosecond.
+    #[test]
+    fn what_was_looked_at_serves_to_the_ends_of_the_sequence_and_half_way_to_its_own() {
+        let all: Vec<(i64, usize)> = (0..100).map(|t_ns| (t_ns, 1)).collect();
+        let of =
+            |t_ns, scans| served(&all, &nearest(&all, &Extent { t_ns, scans, detections: usize::MAX }), t_ns);
+        assert_eq!(of(0, 5), i64::MIN..=2);
+        assert_eq!(of(50, 9), 48..=52);
+        assert_eq!(of(99, 5), 97..=i64::MAX);
+        assert_eq!(of(50, 100), i64::MIN..=i64::MAX);
+        assert_eq!(of(50, 0), 50..=50);
+        assert_eq!(served(&[], &[], 50), i64::MIN..=i64::MAX);
+    }
+
     proptest! {
+        /// Asked again for the same time, nothing is gathered anew; where much is left out, it is for a far one.
+        #[test]
+        fn what_was_looked_at_serves_at_the_time_that_it_is_of(
+            scans in proptest::collection::vec((0..60i64, 1..9usize), 0..20),
+            (t_ns, most, detections) in (-10..70i64, 0..12usize, 0..60usize),
+        ) {
+            let near = nearest(&scans, &Extent { t_ns, scans: most, detections });
+            let serves = served(&scans, &near, t_ns);
+            prop_assert!(serves.contains(&t_ns));
+            // A scan that was left out is asked for anew, but where others of the very end were looked at.
+            let ends = |time: i64| near.iter().any(|at| scans[*at].0 == time);
+            let nearest_out = (0..scans.len()).filter(|at| !near.contains(at));
+            for (time, _) in nearest_out.map(|at| scans[at]) {
+                let half = near.iter().map(|at| scans[*at].0.abs_diff(t_ns)).max().unwrap_or(0) / 2;
+                let is_far = time.abs_diff(t_ns) > half;
+                prop_assert!(!is_far || ends(time) || !serves.contains(&time));
+            }
+        }
+
         /// Nothing left out is nearer than what is looked at, and one scan more would be too much.
         #[test]
         fn what_is_looked_at_is_the_nearest_and_as_much_as_fits(

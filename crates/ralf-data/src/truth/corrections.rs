@@ -84,9 +84,13 @@ impl Corrections {
         self
     }
 
-    /// Those of scans that are marked as reviewed alone: whoever labels them is through with these.
+    /// Those of scans that are marked as reviewed alone: whoever labels them is through with these. Of a scan with
+    /// several contents that of what was marked is left.
     pub fn of_reviewed_scans(mut self) -> Self {
-        self.scans.retain(|_, said| said.iter().any(|layer| layer.accepted.is_some()));
+        self.scans.retain(|_, said| {
+            said.retain(|layer| layer.accepted.is_some());
+            !said.is_empty()
+        });
         self
     }
 
@@ -102,11 +106,17 @@ impl Corrections {
 
     /// Whether nobody said anything.
     pub fn is_empty(&self) -> bool {
-        self.scans.is_empty()
+        self.scans().next().is_none()
     }
 
     /// The scans with corrections or a reviewed mark, in order.
     pub fn scans(&self) -> impl Iterator<Item = &ScanId> {
+        let spoken = self.scans.iter().filter(|(_, said)| !said.iter().all(ScanLayer::says_nothing));
+        spoken.map(|(scan, _)| scan)
+    }
+
+    /// These, and those that were settled so that nothing is said of them any more.
+    pub(crate) fn scans_ever(&self) -> impl Iterator<Item = &ScanId> {
         self.scans.keys()
     }
 
@@ -144,7 +154,7 @@ impl Corrections {
         scan: &ScanId,
         file: Option<Vec<Label>>,
     ) -> Result<Option<Vec<Label>>, DataError> {
-        let Some(layer) = self.layer(scan)? else { return Ok(file) };
+        let Some(layer) = self.layer(scan)?.filter(|layer| !layer.says_nothing()) else { return Ok(file) };
         if let Some(file) = &file {
             self.check_size(scan, layer, file.len())?;
         }
@@ -206,7 +216,7 @@ fn said(layer: &ScanLayer, file: Option<Vec<Label>>) -> Vec<Label> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use ralf_corrections::{ContentHash, Mark, ScanEdit, Store, Stroke, Who};
+    use ralf_corrections::{ContentHash, Mark, SETTLE, ScanEdit, Store, Stroke, Who};
 
     fn scan() -> ScanId {
         ScanId { sequence: "00".into(), radar: "front".into(), scan: 3 }
@@ -275,6 +285,46 @@ mod tests {
             assert_eq!(other.truth(&scan(), None).unwrap(), None);
         }
         assert_eq!(open().corrected_detections(), 1, "kept");
+    }
+
+    #[test]
+    fn who_is_through_with_what_a_scan_held_before_is_not_through_with_what_it_holds_now() {
+        let out = tempfile::tempdir().unwrap();
+        drop(store(out.path()));
+        let content = Some(hash(2));
+        let edit =
+            ScanEdit { radar: "front".into(), scan: 3, detections: 4, content, base: 0, points: vec![2] };
+        let stroke = Stroke { label: Some(48), scans: vec![edit], ..Stroke::of_sequence("00") };
+        Store::open(&out.path().join(FILE)).unwrap().apply(&stroke, &Who::named("ada")).unwrap();
+        let open = || Corrections::open(out.path()).unwrap();
+        let now =
+            |byte| move |_: &ScanId| Ok::<_, ()>(Some(ScanContent { detections: 4, hash: Some(hash(byte)) }));
+        assert_eq!(open().bound(now(2)).unwrap().corrected_detections(), 1);
+        for (byte, through) in [(1, 1), (2, 0)] {
+            let either = [
+                open().bound(now(byte)).unwrap().of_reviewed_scans(),
+                open().of_reviewed_scans().bound(now(byte)).unwrap(),
+            ];
+            for found in either {
+                assert_eq!((found.scans().count(), found.corrected_detections()), (through, through));
+            }
+        }
+    }
+
+    #[test]
+    fn what_was_settled_to_be_the_machines_again_is_no_word_and_was_one() {
+        let out = tempfile::tempdir().unwrap();
+        let mut store = Store::open(&out.path().join(FILE)).unwrap();
+        for (base, tool, label) in [(0, "lasso", Some(10)), (1, SETTLE, None)] {
+            let radar = "front".to_owned();
+            let edit = ScanEdit { radar, scan: 3, detections: 4, content: None, base, points: vec![1] };
+            let stroke = Stroke { tool: tool.into(), label, scans: vec![edit], ..Stroke::of_sequence("00") };
+            store.apply(&stroke, &Who::named("ada")).unwrap();
+        }
+        let corrections = Corrections::open(out.path()).unwrap();
+        assert!(corrections.is_empty() && corrections.truth(&scan(), None).unwrap().is_none());
+        assert_eq!(corrections.scans_ever().collect::<Vec<_>>(), [&scan()]);
+        assert_eq!(ids(&corrections.unsettled(&scan()).unwrap().unwrap().labels), [0, 10, 0, 0]);
     }
 
     #[test]

@@ -5,11 +5,11 @@ use super::things;
 use crate::app::App;
 use crate::http::{Answer, ApiError, json};
 use ralf::sensors::Sequence;
-use ralf_corrections::FILE;
+use ralf_corrections::{FILE, Reader};
 use ralf_data::judge::{Agreement, Difference, differences, is_about_plausibility};
 use ralf_data::team::second_labellers;
 use ralf_data::things::SequenceThings;
-use ralf_data::{Corrections, SequenceReader};
+use ralf_data::{Corrections, ScanId, SequenceReader};
 use serde_json::{Value, json};
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet};
@@ -29,13 +29,18 @@ pub(crate) fn disagreements(app: &App, sequence: &str) -> Answer {
         let sentence = "who labels a second time sees nobody else's labels: open the review without --second";
         return Err(ApiError::Forbidden(sentence.into()));
     }
+    // What is read below is opened anew: a store that was deleted under the server is noticed here.
+    app.said(Reader::counter)?;
     let known = app.labels(index)?.things(reader)?;
     let first = through(app, (index, reader), &app.out.join(FILE))?;
     let (mut told, mut found, mut both) = (Vec::new(), BTreeMap::new(), BTreeSet::new());
     for (name, file) in second_labellers(&app.out)? {
         let second = through(app, (index, reader), &file)?;
         let agreement = Agreement::of(&first, &second)?;
-        both.extend(agreement.scans.iter().map(|(scan, _)| (scan.radar.clone(), scan.scan as usize)));
+        // Of a scan without detections nobody labels anything, and people are through with it all the same.
+        let theirs: BTreeSet<&ScanId> = second.scans().collect();
+        let common = first.scans().filter(|scan| theirs.contains(scan));
+        both.extend(common.map(|scan| (scan.radar.clone(), scan.scan as usize)));
         told.push(json!({ "second": name, "scans": agreement.scans.len(), "agreement": agreement.json() }));
         gather(reader.sequence(), &known, &differences(&first, &second)?, &name, &mut found);
     }
@@ -60,14 +65,15 @@ fn through(
     file: &Path,
 ) -> Result<Corrections, ApiError> {
     let sequence = reader.sequence();
-    let all = Corrections::open(file)?;
-    all.of_reviewed_scans().bound(|scan| {
+    let bound = Corrections::open(file)?.bound(|scan| {
         let radar = sequence.rig.radars.iter().position(|radar| radar.name == scan.radar);
         let number = scan.scan as usize;
         let there = radar
             .filter(|radar| scan.sequence == sequence.name && number < sequence.times.radars[*radar].len());
         Ok::<_, ApiError>(there.and_then(|radar| app.contents.known(reader, (index, radar, number))))
-    })
+    });
+    // Who was through with what a scan held before may not be through with what it holds now.
+    bound.map(Corrections::of_reviewed_scans)
 }
 
 /// Adds differences to those of the same thing, of which the same was said.

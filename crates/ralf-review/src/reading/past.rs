@@ -2,7 +2,7 @@
 
 use crate::app::{App, ScanPlace};
 use crate::http::{Answer, ApiError, json};
-use ralf_corrections::{Saying, ScanVersion};
+use ralf_corrections::{Reader, Saying, ScanVersion};
 use ralf_data::team::Worked;
 use serde::Deserialize;
 use serde_json::{Value, json};
@@ -59,14 +59,19 @@ fn thing(app: &App, place: &ScanPlace, point: usize) -> Result<Vec<(ScanVersion,
 }
 
 fn saying(saying: &Saying) -> Value {
-    let Saying { author, at, tool, label, detections, holds } = saying;
-    json!({ "author": author, "at": at, "tool": tool, "label": label, "detections": detections, "holds": holds })
+    let Saying { author, at, tool, label, cause, detections, holds } = saying;
+    json!({ "author": author, "at": at, "tool": tool, "label": label, "cause": cause, "detections": detections,
+        "holds": holds })
 }
 
 /// How much everybody has done, day by day; who labels a second time is told of itself alone.
 pub(crate) fn people(app: &App) -> Answer {
     let worked = match app.team.second {
-        None => Worked::below(&app.out)?,
+        None => {
+            // The files are opened anew: a store that was deleted under the server is noticed here.
+            app.said(Reader::counter)?;
+            Worked::below(&app.out)?
+        }
         Some(_) => app.said(|store| Ok(Worked::of(store, true)))??,
     };
     json(&json!({ "days": worked.iter().map(Worked::json).collect::<Vec<_>>() }))

@@ -254,6 +254,8 @@ fn a_cause_is_said_with_an_artifact_and_goes_with_its_stroke() {
     let now = server.table(1);
     let said: Vec<usize> = (0..now.rows()).filter(|row| now.u8("said_cause")[*row] != 0).collect();
     assert_eq!((said, now.u8("said_cause")[2]), (vec![2, 5], mirror));
+    let past = server.of_sequence(&format!("radars/{RADAR}/scans/1/detections/2/said")).json();
+    assert_eq!([&past["said"][0]["cause"], &past["said"][1]["cause"]], [&json!("road"), &json!("mirror")]);
     server.edit("POST", "undo", &json!({}), "one").json();
     assert!(server.table(1).u8("said_cause").iter().all(|cause| *cause == 0));
 }

@@ -96,7 +96,10 @@ fn a_store_that_is_deleted_under_the_server_is_told() {
     fs::rename(&file, &away).unwrap();
     let gone = "found that it was deleted; nothing is saved any more";
     assert!(server.stroke(1, 1, Some(99), &[1]).refused(500).contains(gone));
-    assert!(server.of_sequence("queue").refused(500).contains(gone));
+    for asked in ["queue", "disagreements"] {
+        assert!(server.of_sequence(asked).refused(500).contains(gone));
+    }
+    assert!(server.get("/api/people").refused(500).contains(gone));
     fs::rename(&away, &file).unwrap();
     server.stroke(1, 1, Some(99), &[1]).json();
 }

@@ -156,6 +156,12 @@ fn who_labels_a_second_time_has_those_scans_in_the_queue_that_were_dealt() {
         server.accept(1, 0).json();
     }
     assert_eq!(first.of_sequence("disagreements").json()["waiting"], 0);
+    let without = format!("[ada]\nsequences = [\"{SEQUENCE}\"]\n[bob]\n");
+    fs::write(out.path().join("team.toml"), without).unwrap();
+    let (first, second) = (out.serve(), Serving::second(out.path(), "bob").unwrap());
+    let scans = |server: &Serving| server.of_sequence("queue").json()["progress"]["scans"].clone();
+    assert_eq!(scans(&second), scans(&first), "bob was dealt none, and may choose");
+    assert_eq!(first.of_sequence("disagreements").json()["waiting"], Value::Null);
     fs::write(out.path().join("team.toml"), "ada = 1").unwrap();
     assert!(Serving::second(out.path(), "bob").err().unwrap().to_string().contains("team.toml"));
     fs::remove_file(out.path().join("team.toml")).unwrap();

@@ -185,6 +185,7 @@ export interface Saying {
   readonly at: string;
   readonly tool: string;
   readonly label: number | null;
+  readonly cause: string | null;
   /** Of how many of the detections that were asked about. */
   readonly detections: number;
   /** False where it was taken back. */

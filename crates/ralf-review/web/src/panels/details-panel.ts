@@ -99,8 +99,9 @@ function said({ labels, recording }: Readonly<State>, cloud: Cloud, index: numbe
 /** Who said what, and when; the last first. */
 function recalled({ labels }: Readonly<State>, past: Past | null): HTMLElement[] {
   if (past === null || past.said.length === 0) return [];
+  const why = ({ cause }: Saying): string => (cause === null ? "" : `, ${cause}`);
   const what = (saying: Saying): string =>
-    isMark(saying) ? saying.tool : `${labels.choiceName(saying.label)} (${saying.tool})`;
+    isMark(saying) ? saying.tool : `${labels.choiceName(saying.label)}${why(saying)} (${saying.tool})`;
   const rows = withMarksTogether(past.said).map((saying) => {
     const of = past.detections === 1 ? "" : ` · ${saying.detections} of ${past.detections}`;
     const gone = saying.holds ? "" : " · taken back";

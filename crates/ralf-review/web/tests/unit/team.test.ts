@@ -55,6 +55,7 @@ test("marks of a thing's scans are told as one, and strokes each by itself", () 
     at: "2026-01-31T12:00:00.000Z",
     tool,
     label: null,
+    cause: null,
     detections: 2,
     holds,
   });
