@@ -178,15 +178,7 @@ mod tests {
 
     /// A container of 4 m stands with its middle at x = 22 m, on grass.
     fn site() -> Site {
-        let base = Patch {
-            surface: Surface::Grass,
-            center: [0.0; 2],
-            turn: [0.0, 1.0],
-            half: [0.0; 2],
-            rise: 0.0,
-            pile: 0.0,
-            reflectance: 0.2,
-        };
+        let base = Patch::base(Surface::Grass, 0.2);
         let random = &mut Random::new(1, Purpose::Placement, 0, 0);
         let course = Course { start: [22.0, 0.0, 0.0], ..Course::default() };
         let item = Item::new(Kind::Container, [4.0, 8.0, 3.0], course, random);

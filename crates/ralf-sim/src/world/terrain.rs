@@ -52,6 +52,19 @@ pub(super) struct Patch {
 }
 
 impl Patch {
+    /// What lies wherever nothing else does: level and bare.
+    pub(super) fn base(surface: Surface, reflectance: f64) -> Self {
+        Self {
+            surface,
+            center: [0.0; 2],
+            turn: [0.0, 1.0],
+            half: [0.0; 2],
+            rise: 0.0,
+            pile: 0.0,
+            reflectance,
+        }
+    }
+
     /// A place in the patch's own frame.
     pub(super) fn own(&self, x: f64, y: f64) -> [f64; 2] {
         let [dx, dy] = [x - self.center[0], y - self.center[1]];
@@ -168,20 +181,12 @@ mod tests {
     use super::*;
 
     fn patch(surface: Surface, rise: f64) -> Patch {
-        Patch {
-            surface,
-            center: [10.0, 0.0],
-            turn: [0.0, 1.0],
-            half: [3.0, 2.0],
-            rise,
-            pile: 0.0,
-            reflectance: 0.2,
-        }
+        Patch { center: [10.0, 0.0], half: [3.0, 2.0], rise, ..Patch::base(surface, 0.2) }
     }
 
     #[test]
     fn a_kerb_stands_up_and_has_a_face() {
-        let base = Patch { half: [0.0; 2], ..patch(Surface::Asphalt, 0.0) };
+        let base = Patch::base(Surface::Asphalt, 0.2);
         let terrain = Terrain::new(&[], vec![patch(Surface::Pavement, 0.12)], base, 1);
         let toward = |x: f64, z: f64| Vector::new(x, 0.0, z - 1.0).normalize();
         let ray = |direction| Ray { origin: Point::new(0.0, 0.0, 1.0), direction };

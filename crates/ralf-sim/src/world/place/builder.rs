@@ -44,15 +44,7 @@ pub(super) struct Builder<'a> {
 impl<'a> Builder<'a> {
     pub(super) fn new(motion: &'a MotionRanges, random: &'a mut Random) -> Self {
         let reflectance = random.between(0.06, 0.3);
-        let base = Patch {
-            surface: Surface::Asphalt,
-            center: [0.0; 2],
-            turn: [0.0, 1.0],
-            half: [0.0; 2],
-            rise: 0.0,
-            pile: 0.0,
-            reflectance,
-        };
+        let base = Patch::base(Surface::Asphalt, reflectance);
         let drive = DrivePlan { start: [0.0; 3], legs: Vec::new(), speed: 5.0, swing: (0.0, 7.0) };
         let plan = Plan { title: "", items: Vec::new(), patches: Vec::new(), base, ramps: Vec::new(), drive };
         Self { plan, motion, random }

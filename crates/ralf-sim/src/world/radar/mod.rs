@@ -66,15 +66,7 @@ mod tests {
     const STEP: f64 = 1e-4;
 
     fn site(kind: Kind, course: Course, ramp_deg: f64) -> Site {
-        let base = Patch {
-            surface: Surface::Asphalt,
-            center: [0.0; 2],
-            turn: [0.0, 1.0],
-            half: [0.0; 2],
-            rise: 0.0,
-            pile: 0.0,
-            reflectance: 0.2,
-        };
+        let base = Patch::base(Surface::Asphalt, 0.2);
         let ramp = crate::scenario::Ramp {
             at: [-500.0, 0.0],
             direction_deg: 0.0,
