@@ -172,6 +172,15 @@ const NOTHING_DONE = {
   frameTime: 0,
 } as const satisfies Partial<State>;
 
+/** One is looked at at a time: what begins drops the rest. */
+export const NOTHING_LOOKED_AT = {
+  thing: null,
+  opinion: null,
+  opinionAt: -1,
+  rule: null,
+  disputed: null,
+} as const satisfies Partial<State>;
+
 /** The thing that is looked at: the one that wants an answer, or that would change. */
 export function lookedAt({ thing, opinion, opinionAt }: Readonly<State>): DoubtfulThing | null {
   return thing ?? opinion?.changes[opinionAt] ?? null;
@@ -185,6 +194,7 @@ export function homeOf({ recording, sequence }: Readonly<State>): Home {
 export function initialState(recording: Recording, name: string): State {
   return {
     ...NOTHING_DONE,
+    ...NOTHING_LOOKED_AT,
     recording,
     labels: new LabelBook(recording.classes),
     name,
@@ -193,13 +203,9 @@ export function initialState(recording: Recording, name: string): State {
     progress: { scans: 0, reviewed: 0, corrected_detections: 0, orphaned_scans: 0 },
     progressElsewhere: new Map(),
     queueView: { order: "need", hideReviewed: false, radar: null },
-    thing: null,
     focus: null,
-    opinion: null,
-    opinionAt: -1,
     thinking: false,
     disagreements: null,
-    disputed: null,
     workdays: [],
     past: null,
     current: null,
@@ -217,7 +223,6 @@ export function initialState(recording: Recording, name: string): State {
     dotSize: 8,
     filter: everything,
     rules: [],
-    rule: null,
     chosenCamera: null,
     shown: new Uint8Array(0),
     eligible: new Uint8Array(0),

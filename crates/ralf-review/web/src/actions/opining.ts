@@ -1,19 +1,21 @@
 /** What the labels would be after what was said: asked for, looked at, and accepted as one step or dropped. */
 
 import type { ProposedChange } from "../api/types.js";
-import { type Cloud, maskOf, scansOf } from "../data/cloud.js";
+import { maskOf } from "../data/cloud.js";
 import { countOfPoints, kept, partOf, pointsOf } from "../data/opinion.js";
 import { sameScan } from "../data/scan.js";
 import { counted } from "../format.js";
 import { countOf, intersection } from "../selection/mask.js";
+import { NOTHING_LOOKED_AT } from "../state.js";
 import type { Correcting } from "./correcting.js";
+import { LookedIn } from "./looked-in.js";
 import type { Navigation } from "./navigation.js";
 import { lookAt } from "./thinging.js";
 import { complain, tell, type World } from "./world.js";
 
 export class Opining {
-  /** The scans that the proposal is looked at in, and whether others are being fetched for it. */
-  private seen = "";
+  private readonly lookedIn: LookedIn;
+  /** True while other scans are being fetched for the proposal. */
   private moving = false;
 
   constructor(
@@ -25,10 +27,7 @@ export class Opining {
       ({ sequence }) => [sequence],
       () => this.drop(),
     );
-    world.store.watch(
-      ({ cloud }) => [cloud],
-      (cloud) => this.left(cloud),
-    );
+    this.lookedIn = new LookedIn(world.store, () => this.left());
   }
 
   /** Asks for it; what was asked for and is on screen is accepted. */
@@ -73,7 +72,7 @@ export class Opining {
     const { sequence, current } = store.state;
     if (current === null || !this.correcting.free("thinking it over")) return;
     const selection = new Uint8Array(store.state.selection.length);
-    store.set({ thinking: true, thing: null, disputed: null, selection });
+    store.set({ ...NOTHING_LOOKED_AT, thinking: true, selection });
     try {
       const opinion = await api.opinion(sequence, store.state.cloud.scans[0]?.table.header.t_ns ?? "0");
       if (sequence !== store.state.sequence) return;
@@ -89,7 +88,7 @@ export class Opining {
       if (thing !== null || countOf(selection) > 0)
         return tell(this.world, "What would change is known, but you are at something: Shift+R shows it after that.");
       await this.navigation.wholeSequence(store.state.current ?? current);
-      store.set({ opinion, opinionAt: -1, thing: null });
+      store.set({ ...NOTHING_LOOKED_AT, opinion });
       this.select();
     } finally {
       store.set({ thinking: false });
@@ -120,8 +119,8 @@ export class Opining {
   }
 
   /** Whoever looks at other scans doesn't look at the proposal any more: what is left out of it would be lost. */
-  private left(cloud: Cloud): void {
-    if (this.world.store.state.opinion === null || this.moving || scansOf(cloud) === this.seen) return;
+  private left(): void {
+    if (this.world.store.state.opinion === null || this.moving) return;
     this.drop();
     tell(this.world, "The proposal is dropped, for you look at something else: Shift+R asks again.");
   }
@@ -131,7 +130,7 @@ export class Opining {
     const { store } = this.world;
     const { opinion, cloud, eligible } = store.state;
     if (opinion === null) return;
-    this.seen = scansOf(cloud);
+    this.lookedIn.here();
     store.set({ selection: intersection(maskOf(cloud, pointsOf(opinion.changes)), eligible) });
   }
 }

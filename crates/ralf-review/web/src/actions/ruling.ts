@@ -1,10 +1,10 @@
 /** Rules: filters with a name, which choose everything they let through, in this sequence and in others. */
 
 import { liesIn } from "../data/area.js";
-import { type Cloud, scansOf } from "../data/cloud.js";
 import { keepRules, readRules, type Verdict } from "../data/rules.js";
-import { homeOf } from "../state.js";
+import { homeOf, NOTHING_LOOKED_AT } from "../state.js";
 import type { Correcting } from "./correcting.js";
+import { LookedIn } from "./looked-in.js";
 import type { Navigation } from "./navigation.js";
 import type { Selecting } from "./selecting.js";
 import { complain, tell, type World } from "./world.js";
@@ -12,8 +12,7 @@ import { complain, tell, type World } from "./world.js";
 const LONGEST_NAME = 64;
 
 export class Ruling {
-  /** The scans that the rule chose in. */
-  private seen = "";
+  private readonly lookedIn: LookedIn;
 
   constructor(
     private readonly world: World,
@@ -22,10 +21,8 @@ export class Ruling {
     private readonly correcting: Correcting,
   ) {
     world.store.set({ rules: readRules() });
-    world.store.watch(
-      ({ cloud }) => [cloud],
-      (cloud) => this.left(cloud),
-    );
+    // What a rule chose was chosen in the scans that were on screen: in others it has chosen nothing.
+    this.lookedIn = new LookedIn(world.store, () => world.store.set({ rule: null }));
   }
 
   /** Keeps what the filter asks now under a name, in place of what had it before. */
@@ -56,9 +53,9 @@ export class Ruling {
       );
     try {
       await this.navigation.wholeSequence(current);
-      store.set({ filter: rule.filter, thing: null, opinion: null, disputed: null, notice: null });
+      store.set({ ...NOTHING_LOOKED_AT, filter: rule.filter, notice: null });
       this.selecting.all("rule");
-      this.seen = scansOf(store.state.cloud);
+      this.lookedIn.here();
       store.set({ rule: rule.sets === null ? null : rule });
     } catch (error) {
       complain(this.world, error);
@@ -72,12 +69,6 @@ export class Ruling {
     if (rule === null || rule.sets === null) return;
     store.set({ rule: null });
     await this.correcting.apply(rule.sets.label, "rule", rule.sets.cause);
-  }
-
-  /** What a rule chose was chosen in the scans that were on screen: in others it has chosen nothing. */
-  private left(cloud: Cloud): void {
-    const { store } = this.world;
-    if (store.state.rule !== null && scansOf(cloud) !== this.seen) store.set({ rule: null });
   }
 
   private keep(rules: ReturnType<typeof readRules>): void {

@@ -3,6 +3,7 @@
 import type { Choice } from "../data/labels.js";
 import { combine, type Combination, countOf, inverted } from "../selection/mask.js";
 import { isPress, type Tool } from "../selection/tools.js";
+import { NOTHING_LOOKED_AT } from "../state.js";
 import type { Correcting } from "./correcting.js";
 import type { Settling } from "./settling.js";
 import type { Thinging } from "./thinging.js";
@@ -34,10 +35,7 @@ export class Selecting {
     const mask = tool === "thing" && countOf(drawn) > 0 ? this.things.whole(drawn) : drawn;
     if (countOf(mask) === 0 && !isPress(tool)) this.explainNothing();
     // Whoever chooses something else isn't answering the queue any more.
-    if (store.state.thing !== null) store.set({ thing: null });
-    if (store.state.opinion !== null && how === "replace") store.set({ opinion: null });
-    if (store.state.rule !== null && how === "replace") store.set({ rule: null });
-    if (store.state.disputed !== null && how === "replace") store.set({ disputed: null });
+    store.set(how === "replace" ? NOTHING_LOOKED_AT : { thing: null });
     if (armed !== undefined && how === "replace") {
       store.set({ selection: mask });
       this.begin(this.correcting.apply(armed, tool));
@@ -96,10 +94,9 @@ export class Selecting {
   /** Clears the selection, else what is armed. */
   escape(): void {
     const { store } = this.world;
-    const { selection } = store.state;
-    const nothing = { opinion: null, rule: null, disputed: null };
-    if (countOf(selection) > 0) store.set({ selection: new Uint8Array(selection.length), thing: null, ...nothing });
-    else store.set({ armed: undefined, notice: null, accepting: null, drawing: null, ...nothing });
+    const { selection, thing } = store.state;
+    if (countOf(selection) > 0) store.set({ ...NOTHING_LOOKED_AT, selection: new Uint8Array(selection.length) });
+    else store.set({ ...NOTHING_LOOKED_AT, thing, armed: undefined, notice: null, accepting: null, drawing: null });
   }
 
   tool(tool: Tool): void {

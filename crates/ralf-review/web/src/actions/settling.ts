@@ -1,13 +1,15 @@
 /** Where two people said different things: looked at one after the other, and settled by taking a side. */
 
 import type { Disagreement } from "../api/types.js";
-import { type Cloud, maskOf, scansOf } from "../data/cloud.js";
+import { maskOf } from "../data/cloud.js";
 import type { Choice } from "../data/labels.js";
 import { baseOf, keptPoints } from "../data/opinion.js";
 import { sameScan } from "../data/scan.js";
 import { keyOf, nextDisagreement } from "../data/team.js";
 import { intersection } from "../selection/mask.js";
+import { NOTHING_LOOKED_AT } from "../state.js";
 import type { Correcting } from "./correcting.js";
+import { LookedIn } from "./looked-in.js";
 import type { Navigation } from "./navigation.js";
 import { lookAt } from "./thinging.js";
 import { complain, tell, type World } from "./world.js";
@@ -15,8 +17,7 @@ import { complain, tell, type World } from "./world.js";
 export class Settling {
   /** Those that were looked at since the sequence was opened. */
   private seen = new Set<string>();
-  /** The scans that the disagreement is looked at in. */
-  private shown = "";
+  private readonly lookedIn: LookedIn;
 
   constructor(
     private readonly world: World,
@@ -31,15 +32,12 @@ export class Settling {
         store.set({ disagreements: null, disputed: null });
       },
     );
-    // Whoever looks at something else doesn't settle this one any more.
+    // Whoever goes to another scan doesn't settle this one any more.
     store.watch(
-      ({ current, thing, opinion }) => [current, thing, opinion],
+      ({ current }) => [current],
       () => this.drop(),
     );
-    store.watch(
-      ({ cloud }) => [cloud],
-      (cloud) => this.left(cloud),
-    );
+    this.lookedIn = new LookedIn(store, () => this.left());
   }
 
   /** Who has done how much, how far people agree, and where they don't. */
@@ -107,23 +105,21 @@ export class Settling {
     const { store } = this.world;
     const { sequence } = store.state;
     this.seen.add(keyOf(disagreement));
-    const nothing = { thing: null, opinion: null, rule: null, disputed: null };
     // Until the next one is on screen no key settles anything, or labels what the one before had selected.
-    store.set({ ...nothing, selection: new Uint8Array(store.state.cloud.count) });
+    store.set({ ...NOTHING_LOOKED_AT, selection: new Uint8Array(store.state.cloud.count) });
     await this.navigation.wholeSequence(disagreement);
     const { cloud, eligible, current } = store.state;
     // Somebody went elsewhere meanwhile, or the scan can't be read.
     if (sequence !== store.state.sequence || !sameScan(current, disagreement)) return;
     const selection = intersection(maskOf(cloud, disagreement.points), eligible);
-    this.shown = scansOf(cloud);
-    store.set(nothing);
-    store.set({ disputed: disagreement, selection, armed: undefined });
+    this.lookedIn.here();
+    store.set({ ...NOTHING_LOOKED_AT, disputed: disagreement, selection, armed: undefined });
     lookAt(this.world, disagreement);
   }
 
   /** Whoever looks at other scans doesn't see any more what is spared, and what isn't. */
-  private left(cloud: Cloud): void {
-    if (this.world.store.state.disputed === null || scansOf(cloud) === this.shown) return;
+  private left(): void {
+    if (this.world.store.state.disputed === null) return;
     this.drop();
     tell(this.world, "The disagreement is left, for you look at something else: Shift+S goes on.");
   }

@@ -4,6 +4,7 @@ import type { DoubtfulThing } from "../api/types.js";
 import { maskOf } from "../data/cloud.js";
 import { nextThing, placeOf, type Place, Things, wholeThings } from "../data/things.js";
 import { movePlace } from "../data/transform.js";
+import { NOTHING_LOOKED_AT } from "../state.js";
 import type { Navigation } from "./navigation.js";
 import { complain, tell, type World } from "./world.js";
 
@@ -72,7 +73,7 @@ export class Thinging {
     // Whoever paints goes on painting there.
     if (store.state.armed !== undefined) return;
     const selection = maskOf(store.state.cloud, things.members(thing.thing));
-    store.set({ thing, selection, tool: "thing", opinion: null });
+    store.set({ ...NOTHING_LOOKED_AT, thing, selection, tool: "thing" });
   }
 
   /** The things of what was chosen, as far as they are shown. */

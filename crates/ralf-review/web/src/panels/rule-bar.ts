@@ -1,5 +1,6 @@
 /** A rule that sets something: what it would change, before it does. */
 
+import { pointsByScan } from "../data/cloud.js";
 import { countAlready } from "../data/rules.js";
 import { h, say } from "../dom.js";
 import { counted } from "../format.js";
@@ -25,9 +26,9 @@ export function ruleBar({ store, actions }: Page): HTMLElement {
     drop,
   );
   store.watch(
-    ({ rule, selection, cloud, thing, opinion }) => [rule, selection, cloud, thing, opinion],
-    (rule, selection, cloud, thing, opinion) => {
-      bar.hidden = rule === null || thing !== null || opinion !== null || selection.length !== cloud.count;
+    ({ rule, selection, cloud }) => [rule, selection, cloud],
+    (rule, selection, cloud) => {
+      bar.hidden = rule === null || selection.length !== cloud.count;
       if (!bar.hidden) say(what, proposal(store.state));
     },
   );
@@ -35,14 +36,14 @@ export function ruleBar({ store, actions }: Page): HTMLElement {
 }
 
 /** What the rule would make of what is selected. */
-export function proposal({ rule, selection, cloud, labels, recording }: Readonly<State>): string {
+function proposal({ rule, selection, cloud, labels, recording }: Readonly<State>): string {
   const sets = rule?.sets ?? null;
   if (rule === null || sets === null) return "";
   const already = countAlready(cloud, selection, sets, recording.sayable_causes);
   const count = countOf(selection) - already;
-  const scans = new Set([...selection.keys()].filter((i) => selection[i] === 1).map((i) => cloud.scanOf[i]));
+  const scans = pointsByScan(cloud, selection).length;
   const label = labels.name(sets.label) + (sets.cause === null ? "" : ` (${sets.cause})`);
   const others = already === 0 ? "" : `, ${already.toLocaleString("en")} are so already`;
-  const where = `${counted(count, "detection")} in ${counted(scans.size, "scan")}`;
+  const where = `${counted(count, "detection")} in ${counted(scans, "scan")}`;
   return `${rule.name}: ${where} would become ${label}${others}`;
 }

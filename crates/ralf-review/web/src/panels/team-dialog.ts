@@ -44,10 +44,12 @@ function agreements({ people, waiting, changes }: Disagreements, first: string):
 /** Kappa first of all, then by radar and by label. */
 function agreed({ second, scans, agreement }: Agreement, first: string): HTMLElement {
   const { overall, radars, classes } = agreement;
-  const rows = [
-    ["plausible or not", overall] as const,
-    ...Object.entries(radars).map(([name, counts]) => [name, counts] as const),
-  ].map(([name, counts]) => [name, whole(counts.labelled_by_both), whole(counts.disagree), decimal2(counts.kappa)]);
+  const rows = [["plausible or not", overall] as const, ...Object.entries(radars)].map(([name, counts]) => [
+    name,
+    whole(counts.labelled_by_both),
+    whole(counts.disagree),
+    decimal2(counts.kappa),
+  ]);
   const labels = Object.entries(classes).map(([name, { both, first_alone, second_alone, kappa }]) => [
     name,
     whole(both + first_alone + second_alone),
