@@ -86,12 +86,14 @@ fn read(on: &Connection) -> rusqlite::Result<Vec<(ScanKey, ScanLayer)>> {
         let key = ScanKey { sequence: row.get(1)?, radar: row.get(2)?, scan: row.get(3)? };
         Ok((row.get::<_, i64>(0)?, key, content(row, 4, 5)?))
     })?;
+    let mut settled = settled(on)?;
     scans
         .map(|scan| {
             let (id, key, content) = scan?;
             let (corrections, review) = (corrections(on, id)?, review(on, id)?);
             let accepted = review.map(|mark| mark.accepted);
-            Ok((key, ScanLayer { content, corrections, accepted, settled: settled(on, id)? }))
+            let settled = settled.remove(&id).unwrap_or_default().into_iter().collect();
+            Ok((key, ScanLayer { content, corrections, accepted, settled }))
         })
         .collect()
 }

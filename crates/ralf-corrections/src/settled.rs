@@ -1,22 +1,25 @@
 //! Disagreements that were settled.
 
-use rusqlite::{Connection, params};
+use rusqlite::Connection;
 use std::collections::BTreeMap;
 
 /// The tool of strokes that settle what two people, neither of whom saw the other's labels, said of a detection.
 pub const SETTLE: &str = "settle";
 
-/// The detections of a scan that were settled, and the correction that each had before the first time.
-pub(crate) fn settled(on: &Connection, scan: i64) -> rusqlite::Result<Vec<(u32, Option<u16>)>> {
+/// By scan: the detections that were settled, and the correction that each had before the first time.
+pub(crate) type Settled = BTreeMap<i64, BTreeMap<u32, Option<u16>>>;
+
+/// Everything that was settled: strokes that did are few, changes of scans are many.
+pub(crate) fn settled(on: &Connection) -> rusqlite::Result<Settled> {
     let mut query = on.prepare_cached(
-        "SELECT point, before FROM change JOIN stroke ON stroke.id = change.stroke
-         WHERE scan = ? AND tool = ? AND applied IS NOT NULL ORDER BY applied, stroke.id",
+        "SELECT scan, point, before FROM stroke CROSS JOIN change ON change.stroke = stroke.id
+         WHERE tool = ? AND applied IS NOT NULL ORDER BY applied, stroke.id",
     )?;
-    let rows = query.query_map(params![scan, SETTLE], |row| Ok((row.get(0)?, row.get(1)?)))?;
-    let mut first = BTreeMap::new();
+    let rows = query.query_map([SETTLE], |row| Ok((row.get(0)?, row.get(1)?, row.get(2)?)))?;
+    let mut settled = Settled::new();
     for row in rows {
-        let (point, before) = row?;
-        first.entry(point).or_insert(before);
+        let (scan, point, before) = row?;
+        settled.entry(scan).or_default().entry(point).or_insert(before);
     }
-    Ok(first.into_iter().collect())
+    Ok(settled)
 }

@@ -35,14 +35,12 @@ impl Agreement {
     /// # Errors
     /// Corrections of several contents of a scan, of which nothing says which is meant.
     pub fn of(first: &Corrections, second: &Corrections) -> Result<Self, DataError> {
-        let mut found = Self::default();
-        each_pair(first, second, |scan, _, ids, _| found.count(scan, ids))?;
-        Ok(found)
+        Ok(compare(first, second)?.0)
     }
 
-    fn count(&mut self, scan: &ScanId, (first, second): (u16, u16)) {
-        let (Some(one), Some(other)) = (truth_of(first), truth_of(second)) else { return };
-        *self.pairs.entry((first, second)).or_default() += 1;
+    /// Counts what both said of a detection: the labels, and whether these are plausible.
+    fn count(&mut self, scan: &ScanId, labels: (u16, u16), (one, other): (bool, bool)) {
+        *self.pairs.entry(labels).or_default() += 1;
         if self.scans.last().is_none_or(|(known, _)| known != scan) {
             self.scans.push((scan.clone(), Confusion::default()));
         }
@@ -98,37 +96,25 @@ impl Agreement {
     }
 }
 
-/// The detections to which two people gave different labels, as [`Agreement::of`] reads them, but for those that
-/// somebody has settled in the first's store. In the order of scans and detections.
+/// How far two people agree, as [`Agreement::of`] has it, and the detections to which they gave different labels, but
+/// for those that somebody has settled in the first's store, in the order of scans and detections.
 ///
 /// # Errors
 /// Those of [`Agreement::of`].
-pub fn differences(first: &Corrections, second: &Corrections) -> Result<Vec<Difference>, DataError> {
-    let mut found = Vec::new();
-    each_pair(first, second, |scan, point, (first, second), settled| {
-        if first != second && !settled {
-            found.push(Difference { scan: scan.clone(), point, first, second });
-        }
-    })?;
-    Ok(found)
-}
-
-/// Goes through the detections that both labelled: scan, place, both labels, whether it is settled.
-fn each_pair(
-    first: &Corrections,
-    second: &Corrections,
-    mut work: impl FnMut(&ScanId, usize, (u16, u16), bool),
-) -> Result<(), DataError> {
+pub fn compare(first: &Corrections, second: &Corrections) -> Result<(Agreement, Vec<Difference>), DataError> {
+    let (mut agreement, mut differences) = (Agreement::default(), Vec::new());
     for scan in first.scans_ever() {
         let (Some(ones), Some(others)) = (first.unsettled(scan)?, second.unsettled(scan)?) else { continue };
         for (point, (one, other)) in ones.labels.iter().zip(&others.labels).enumerate() {
-            if truth_of(one.id).is_some() && truth_of(other.id).is_some() {
-                let is_settled = u32::try_from(point).is_ok_and(|point| ones.settled.contains(&point));
-                work(scan, point, (one.id, other.id), is_settled);
+            let (Some(a), Some(b)) = (truth_of(one.id), truth_of(other.id)) else { continue };
+            agreement.count(scan, (one.id, other.id), (a, b));
+            let is_settled = u32::try_from(point).is_ok_and(|point| ones.settled.contains(&point));
+            if one.id != other.id && !is_settled {
+                differences.push(Difference { scan: scan.clone(), point, first: one.id, second: other.id });
             }
         }
     }
-    Ok(())
+    Ok((agreement, differences))
 }
 
 /// Whether only one of two labels (SemanticKITTI ids) says plausible.
@@ -229,7 +215,7 @@ mod tests {
         let bob = said(&other, &[(1, 99, &[1, 2, 3])]);
         let before = Agreement::of(&ada, &bob).unwrap();
         let points = |found: &[Difference]| found.iter().map(|one| one.point).collect::<Vec<_>>();
-        assert_eq!(points(&differences(&ada, &bob).unwrap()), [1, 2]);
+        assert_eq!(points(&compare(&ada, &bob).unwrap().1), [1, 2]);
         // The first is right about one of them, the second about the other.
         let mut store = Store::open(&one.join(FILE)).unwrap();
         for (base, (label, point)) in [(1, (1, 1)), (2, (99, 2))] {
@@ -244,12 +230,12 @@ mod tests {
             store.apply(&Stroke { scans: vec![edit], ..stroke }, &Who::named("cem")).unwrap();
         }
         let settled = Corrections::open(&one.join(FILE)).unwrap();
-        assert!(differences(&settled, &bob).unwrap().is_empty());
+        assert!(compare(&settled, &bob).unwrap().1.is_empty());
         assert_eq!(Agreement::of(&settled, &bob).unwrap(), before);
         let ids: Vec<u16> =
             settled.truth(&before.scans[0].0, None).unwrap().unwrap().iter().map(|l| l.id).collect();
         assert_eq!(ids, [1, 1, 99, 0, 0, 0]);
         store.undo("00", &Who::named("cem")).unwrap();
-        assert_eq!(points(&differences(&Corrections::open(&one).unwrap(), &bob).unwrap()), [2]);
+        assert_eq!(points(&compare(&Corrections::open(&one).unwrap(), &bob).unwrap().1), [2]);
     }
 }

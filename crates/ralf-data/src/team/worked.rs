@@ -31,11 +31,7 @@ impl Worked {
         Ok(found)
     }
 
-    /// What a store tells.
-    ///
-    /// # Errors
-    /// A file that was deleted or replaced.
-    pub fn of(store: &Reader, second: bool) -> Result<Vec<Self>, DataError> {
+    fn of(store: &Reader, second: bool) -> Result<Vec<Self>, DataError> {
         Ok(store.workdays()?.into_iter().map(|on| Self { second, on }).collect())
     }
 

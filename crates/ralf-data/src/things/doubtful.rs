@@ -82,11 +82,14 @@ impl SequenceThings {
         Doubtful { things: numbers.iter().map(thing).collect(), expected_errors: left.iter().sum() }
     }
 
-    /// A thing as it is before anybody has said anything.
-    pub fn described(&self, number: u32) -> Thing {
-        let rows: Vec<usize> = (0..self.things().len()).filter(|row| self.things()[*row] == number).collect();
-        let doubt = rows.iter().map(|row| f64::from(self.own_doubt()[*row])).sum();
-        self.thing(number, &rows, doubt, &vec![None; self.things().len()])
+    /// Tells of things, by their numbers, as they are before anybody has said anything.
+    pub fn described(&self) -> impl Fn(u32) -> Thing {
+        let (members, nobody) = (self.members(), vec![None; self.things().len()]);
+        move |number| {
+            let rows = &members[number as usize];
+            let doubt = rows.iter().map(|row| f64::from(self.own_doubt()[*row])).sum();
+            self.thing(number, rows, doubt, &nobody)
+        }
     }
 
     /// The detections of each thing, in rising order.

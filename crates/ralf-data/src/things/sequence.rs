@@ -111,6 +111,17 @@ impl SequenceThings {
         self.rows.get(&(radar, scan)).cloned().unwrap_or_default()
     }
 
+    /// The radar, the scan and the place in it of a detection.
+    pub fn place_of(&self, row: usize) -> (usize, usize, usize) {
+        let (radar, scan) = self.scan_of(row);
+        (radar, scan, row - self.rows_of(radar, scan).start)
+    }
+
+    /// The detections of a thing, in rising order.
+    pub fn rows_of_thing(&self, thing: u32) -> impl Iterator<Item = usize> {
+        (0..self.things.len()).filter(move |row| self.things[*row] == thing)
+    }
+
     /// The radar's place and the scan's number of a detection.
     pub fn scan_of(&self, row: usize) -> (usize, usize) {
         self.scans[self.scan_of[row] as usize]

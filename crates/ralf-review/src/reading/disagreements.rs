@@ -1,22 +1,19 @@
 //! Where two people said different things of the same detections, neither of whom saw what the other said.
 
-use super::opinion::base;
+use super::opinion::bases;
 use super::things;
 use crate::app::App;
 use crate::http::{Answer, ApiError, json};
 use ralf::sensors::Sequence;
 use ralf_corrections::{FILE, Reader};
-use ralf_data::judge::{Agreement, Difference, differences, is_about_plausibility};
+use ralf_data::judge::{Difference, compare, is_about_plausibility};
 use ralf_data::team::second_labellers;
-use ralf_data::things::SequenceThings;
+use ralf_data::things::{SequenceThings, Thing};
 use ralf_data::{Corrections, ScanId, SequenceReader};
 use serde_json::{Value, json};
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
-
-/// By radar, scan and detection.
-type Place = (usize, usize, usize);
 
 /// A thing that two people labelled differently: its number, what the first and the second said, and who the second is.
 type Key = (u32, u16, u16, String);
@@ -36,17 +33,15 @@ pub(crate) fn disagreements(app: &App, sequence: &str) -> Answer {
     let (mut told, mut found, mut both) = (Vec::new(), BTreeMap::new(), BTreeSet::new());
     for (name, file) in second_labellers(&app.out)? {
         let second = through(app, (index, reader), &file)?;
-        let agreement = Agreement::of(&first, &second)?;
+        let (agreement, differences) = compare(&first, &second)?;
         // Of a scan without detections nobody labels anything, and people are through with it all the same.
         let theirs: BTreeSet<&ScanId> = second.scans().collect();
         let common = first.scans().filter(|scan| theirs.contains(scan));
         both.extend(common.map(|scan| (scan.radar.clone(), scan.scan as usize)));
         told.push(json!({ "second": name, "scans": agreement.scans.len(), "agreement": agreement.json() }));
-        gather(reader.sequence(), &known, &differences(&first, &second)?, &name, &mut found);
+        gather(reader.sequence(), &known, &differences, &name, &mut found);
     }
-    let scans: BTreeSet<(usize, usize)> =
-        found.values().flatten().map(|(radar, scan, _)| (*radar, *scan)).collect();
-    let base = scans.into_iter().map(|scan| base(app, reader.sequence(), scan));
+    let base = bases(app, (reader.sequence(), &known), found.values().flatten())?;
     let waiting = app.team.twice(sequence).map(|twice| {
         twice.iter().filter(|(radar, scan)| !both.contains(&((*radar).to_owned(), *scan))).count()
     });
@@ -54,7 +49,7 @@ pub(crate) fn disagreements(app: &App, sequence: &str) -> Answer {
         "people": told,
         "waiting": waiting,
         "changes": rows(reader.sequence(), &known, found),
-        "base": base.collect::<Result<Vec<Value>, _>>()?,
+        "base": base,
     }))
 }
 
@@ -82,7 +77,7 @@ fn gather(
     known: &SequenceThings,
     differences: &[Difference],
     name: &str,
-    found: &mut BTreeMap<Key, Vec<Place>>,
+    found: &mut BTreeMap<Key, Vec<usize>>,
 ) {
     for difference in differences {
         let Some(radar) = sequence.rig.radars.iter().position(|radar| radar.name == difference.scan.radar)
@@ -92,37 +87,33 @@ fn gather(
         let scan = difference.scan.scan as usize;
         let Some(row) = known.rows_of(radar, scan).nth(difference.point) else { continue };
         let key = (known.things()[row], difference.first, difference.second, name.to_owned());
-        found.entry(key).or_default().push((radar, scan, difference.point));
+        found.entry(key).or_default().push(row);
     }
 }
 
 /// Those first of which only one says that they are plausible, and of these the largest.
-fn rows(sequence: &Sequence, known: &SequenceThings, found: BTreeMap<Key, Vec<Place>>) -> Vec<Value> {
-    let mut order: Vec<(Key, Vec<Place>)> = found.into_iter().collect();
-    order.sort_by_key(|((_, first, second, _), places)| {
-        (!is_about_plausibility(*first, *second), Reverse(places.len()))
+fn rows(sequence: &Sequence, known: &SequenceThings, found: BTreeMap<Key, Vec<usize>>) -> Vec<Value> {
+    let mut order: Vec<(Key, Vec<usize>)> = found.into_iter().collect();
+    order.sort_by_key(|((_, first, second, _), rows)| {
+        (!is_about_plausibility(*first, *second), Reverse(rows.len()))
     });
-    order.into_iter().map(|(key, places)| row(sequence, known, key, &places)).collect()
+    let described = known.described();
+    let told = |(key, rows): (Key, Vec<usize>)| row((sequence, known), described(key.0), key, &rows);
+    order.into_iter().map(told).collect()
 }
 
 fn row(
-    sequence: &Sequence,
-    known: &SequenceThings,
-    (thing, first, second, name): Key,
-    places: &[Place],
+    (sequence, known): (&Sequence, &SequenceThings),
+    thing: Thing,
+    (_, first, second, name): Key,
+    rows: &[usize],
 ) -> Value {
-    let mut row = things::row(sequence, &known.described(thing));
-    let parts = places.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1));
-    row["points"] = parts.map(|part| part_of(sequence, part)).collect();
+    let mut row = things::row(sequence, &thing);
+    row["points"] = things::points(sequence, known, rows);
     // The thing itself may have been seen elsewhere only: what is in question is looked at.
-    let (radar, scan, point) = places[places.len() / 2];
+    let (radar, scan, point) = known.place_of(rows[rows.len() / 2]);
     row["radar"] = json!(sequence.rig.radars[radar].name);
     (row["scan"], row["point"]) = (json!(scan), json!(point));
     (row["first"], row["second"], row["by"]) = (json!(first), json!(second), json!(name));
     row
-}
-
-fn part_of(sequence: &Sequence, part: &[Place]) -> Value {
-    let points: Vec<usize> = part.iter().map(|(_, _, point)| *point).collect();
-    json!({ "radar": sequence.rig.radars[part[0].0].name, "scan": part[0].1, "points": points })
 }

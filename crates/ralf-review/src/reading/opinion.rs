@@ -11,7 +11,7 @@ use ralf_data::SequenceReader;
 use ralf_data::things::{self as data, Change, SequenceThings};
 use serde::Deserialize;
 use serde_json::{Map, Value, json};
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 use std::thread::available_parallelism;
 
 /// Around which moment, where a sequence is too long to be learned from as a whole.
@@ -64,17 +64,24 @@ fn learned(
     let changes = things.second_opinion(&observed, answers, jobs);
     let (looked_at, all) = observed.scans();
     let sequence = reader.sequence();
-    let scans: BTreeSet<(usize, usize)> =
-        changes.iter().flat_map(|change| &change.rows).map(|row| things.scan_of(*row)).collect();
-    let base: Vec<Value> =
-        scans.into_iter().map(|scan| base(app, sequence, scan)).collect::<Result<_, ApiError>>()?;
+    let base = bases(app, (sequence, things), changes.iter().flat_map(|change| &change.rows))?;
     let changes: Vec<Value> = changes.iter().map(|change| row(sequence, things, change)).collect();
     let scans = json!({ "looked_at": looked_at, "all": all });
     Ok(json!({ "answered": answered, "changes": changes, "base": base, "scans": scans }))
 }
 
+/// What strokes on the scans of these detections rest on.
+pub(super) fn bases<'a>(
+    app: &App,
+    (sequence, things): (&Sequence, &SequenceThings),
+    rows: impl Iterator<Item = &'a usize>,
+) -> Result<Vec<Value>, ApiError> {
+    let scans: BTreeSet<(usize, usize)> = rows.map(|row| things.scan_of(*row)).collect();
+    scans.into_iter().map(|scan| base(app, sequence, scan)).collect()
+}
+
 /// What a stroke on a scan rests on.
-pub(super) fn base(app: &App, sequence: &Sequence, (radar, scan): (usize, usize)) -> Result<Value, ApiError> {
+fn base(app: &App, sequence: &Sequence, (radar, scan): (usize, usize)) -> Result<Value, ApiError> {
     let place = app.scan(&sequence.name, &sequence.rig.radars[radar].name, scan)?;
     let version = app.known_version(place)?;
     let revision = app.said(|store| store.scan(&version))?.revision;
@@ -84,17 +91,9 @@ pub(super) fn base(app: &App, sequence: &Sequence, (radar, scan): (usize, usize)
 
 /// A thing with what it would be, and the detections that this would change.
 fn row(sequence: &Sequence, known: &SequenceThings, change: &Change) -> Value {
-    let mut points: BTreeMap<(usize, usize), Vec<usize>> = BTreeMap::new();
-    for row in &change.rows {
-        let (radar, scan) = known.scan_of(*row);
-        points.entry((radar, scan)).or_default().push(row - known.rows_of(radar, scan).start);
-    }
-    let points = points.into_iter().map(
-        |((radar, scan), points)| json!({ "radar": sequence.rig.radars[radar].name, "scan": scan, "points": points }),
-    );
     let mut row = things::row(sequence, &change.thing);
     row["label"] = json!(if change.plausible { PLAUSIBLE } else { ARTIFACT });
     row["probability"] = json!(change.probability);
-    row["points"] = points.collect();
+    row["points"] = things::points(sequence, known, &change.rows);
     row
 }

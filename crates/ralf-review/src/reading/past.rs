@@ -43,11 +43,9 @@ fn thing(app: &App, place: &ScanPlace, point: usize) -> Result<Vec<(ScanVersion,
     let things = app.labels(place.sequence)?.things(place.reader)?;
     let numbers = things.things();
     let of_point = things.rows_of(place.radar, place.scan).nth(point);
-    let wanted = of_point.map(|row| numbers[row]);
     let mut scans: BTreeMap<(usize, usize), BTreeSet<u32>> = BTreeMap::new();
-    for row in (0..numbers.len()).filter(|row| Some(numbers[*row]) == wanted) {
-        let (radar, scan) = things.scan_of(row);
-        let point = row - things.rows_of(radar, scan).start;
+    for row in of_point.into_iter().flat_map(|row| things.rows_of_thing(numbers[row])) {
+        let (radar, scan, point) = things.place_of(row);
         scans.entry((radar, scan)).or_default().extend(u32::try_from(point).ok());
     }
     let sequence = place.reader.sequence();
@@ -72,7 +70,7 @@ pub(crate) fn people(app: &App) -> Answer {
             app.said(Reader::counter)?;
             Worked::below(&app.out)?
         }
-        Some(_) => app.said(|store| Ok(Worked::of(store, true)))??,
+        Some(_) => app.said(Reader::workdays)?.into_iter().map(|on| Worked { second: true, on }).collect(),
     };
     json(&json!({ "days": worked.iter().map(Worked::json).collect::<Vec<_>>() }))
 }

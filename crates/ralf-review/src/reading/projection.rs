@@ -125,18 +125,18 @@ pub(crate) fn thing_projection(app: &App, name: ImageName, thing: u32) -> Answer
     let sees = shot.sees_in_world();
     let mut scans: Vec<(usize, usize)> = Vec::new();
     let (mut scan_of, mut points, mut seen) = (Vec::new(), Vec::new(), Vec::new());
-    for (row, _) in things.things().iter().enumerate().filter(|(_, number)| **number == thing) {
+    for row in things.rows_of_thing(thing) {
         let sighting = &things.sightings()[row];
         let is_near = (sighting.t_ns - shot.t_ns).abs() <= NEAR_NS;
         let Some(place) = sees(&Point::from(sighting.place)).filter(|_| is_near || !sighting.moves()) else {
             continue;
         };
-        let (radar, scan) = things.scan_of(row);
+        let (radar, scan, point) = things.place_of(row);
         if scans.last() != Some(&(radar, scan)) {
             scans.push((radar, scan));
         }
         scan_of.push(scans.len() as u32 - 1);
-        points.push((row - things.rows_of(radar, scan).start) as u32);
+        points.push(point as u32);
         seen.push(Some(place));
     }
     let radars = &scene.reader.sequence().rig.radars;

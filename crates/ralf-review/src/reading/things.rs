@@ -47,6 +47,16 @@ fn asked<'a>(app: &'a App, name: &str) -> Result<Asked<'a>, ApiError> {
     Ok((sequence, things, header))
 }
 
+/// Which detections these are, scan by scan.
+pub(super) fn points(sequence: &Sequence, known: &SequenceThings, rows: &[usize]) -> Value {
+    let part = |rows: &[usize]| {
+        let (radar, scan, _) = known.place_of(rows[0]);
+        let points: Vec<usize> = rows.iter().map(|row| known.place_of(*row).2).collect();
+        json!({ "radar": sequence.rig.radars[radar].name, "scan": scan, "points": points })
+    };
+    rows.chunk_by(|a, b| known.scan_of(*a) == known.scan_of(*b)).map(part).collect()
+}
+
 pub(super) fn row(sequence: &Sequence, thing: &Thing) -> Value {
     let (radar, scan, point) = thing.seen;
     json!({
