@@ -1,13 +1,18 @@
 //! What a check says of a recording's sequences, several at a time.
 
 use crate::frames::side_by_side;
-use crate::read::Recording;
+use crate::read::{Recording, SequenceReader};
 use crate::result::CheckRecord;
 
 /// What [`ralf_check::check`] says of each sequence, in the recording's order, by so many threads.
 pub fn check_all(recording: &Recording, jobs: usize) -> Vec<CheckRecord> {
     let Ok(checks) = side_by_side(&recording.sequences, jobs, |reader| {
-        Ok::<_, std::convert::Infallible>(CheckRecord::of(&ralf_check::check(reader.as_ref())))
+        Ok::<_, std::convert::Infallible>(check_one(reader.as_ref()))
     });
     checks
+}
+
+/// What it says of one sequence.
+pub(super) fn check_one(reader: &dyn SequenceReader) -> CheckRecord {
+    CheckRecord::of(&ralf_check::check(reader))
 }

@@ -3,10 +3,11 @@
 //!
 //! Stretches are taken in the order of the sequences, so that no more sequences are under way than there are workers.
 
+use super::checks::check_one;
 use super::inputs::Identity;
 use super::output_folder::OutputFolder;
 use super::unfinished::Finished;
-use super::workers::Labelling;
+use super::workers::{Labelling, timed};
 use super::workspace::Workspace;
 use super::{CheckRecord, Checked, LabelRun, Observer, Part, Stage, Task, assemble};
 use crate::error::DataError;
@@ -14,7 +15,6 @@ use crate::frames::{ScanIndex, Stretch, side_by_side, stretches};
 use crate::result::NotLabelled;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
-use std::time::Instant;
 
 /// What one worker does at a time.
 enum Item {
@@ -146,9 +146,8 @@ impl<'a> Queue<'a> {
         if self.observer.stopped() {
             return Err(DataError::Stopped);
         }
-        let begun = Instant::now();
-        let check = CheckRecord::of(&ralf_check::check(self.run.recording.sequences[sequence].as_ref()));
-        self.observer.spent(Part::Checking, begun.elapsed());
+        let reader = self.run.recording.sequences[sequence].as_ref();
+        let check = timed(self.observer, Part::Checking, || check_one(reader));
         if let Some(told) = self.told {
             told(&check);
         }
@@ -169,7 +168,7 @@ impl<'a> Queue<'a> {
         drop(under_way);
         let Some(ended) = sequence.end(failed) else { return Ok(None) };
         let is_last = self.left.fetch_sub(1, Ordering::Relaxed) == 1;
-        labelling.timed(Part::Writing, || self.finish(sequence, ended, is_last)).map(Some)
+        timed(self.observer, Part::Writing, || self.finish(sequence, ended, is_last)).map(Some)
     }
 
     /// Puts a sequence together that is labelled.

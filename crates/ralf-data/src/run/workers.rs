@@ -94,7 +94,7 @@ impl Labelling<'_> {
         if workspace.has_kept(radar, scan, &self.task.schema) {
             return Ok(Ok(0));
         }
-        let frame = match self.timed(Part::Gathering, || window.frame(radar, scan)) {
+        let frame = match timed(self.observer, Part::Gathering, || window.frame(radar, scan)) {
             Ok(frame) => frame,
             Err(error) => {
                 let name = self.task.rig.radars[radar].name.clone();
@@ -103,7 +103,7 @@ impl Labelling<'_> {
             }
         };
         let table = self.table(radar, &frame)?;
-        self.timed(Part::Keeping, || workspace.keep(radar, scan, &ScanNotes::new(&frame), &table))?;
+        timed(self.observer, Part::Keeping, || workspace.keep(radar, scan, &ScanNotes::new(&frame), &table))?;
         Ok(Ok(table.len() as u64))
     }
 
@@ -112,8 +112,8 @@ impl Labelling<'_> {
         let Task { rig, schema, labeler, .. } = self.task;
         let gathers = self.task.gathers_evidence();
         let observe = || if gathers { evidence::observe(frame, self.config) } else { Vec::new() };
-        let evidence = self.timed(Part::Evidence, observe);
-        let LearnedScan { labels, answers } = self.timed(Part::Labelling, || match labeler {
+        let evidence = timed(self.observer, Part::Evidence, observe);
+        let LearnedScan { labels, answers } = timed(self.observer, Part::Labelling, || match labeler {
             Some(labeler) => labeler.label(frame, &evidence),
             None => LearnedScan { labels: Labeler::new(self.config).label(frame), answers: Vec::new() },
         });
@@ -126,12 +126,12 @@ impl Labelling<'_> {
         };
         Table::of_scan(schema, &parts)
     }
+}
 
-    /// Does a part of the work, and tells the observer how long it took.
-    pub(super) fn timed<R>(&self, part: Part, work: impl FnOnce() -> R) -> R {
-        let begun = Instant::now();
-        let done = work();
-        self.observer.spent(part, begun.elapsed());
-        done
-    }
+/// Does a part of the work, and tells the observer how long it took.
+pub(super) fn timed<R>(observer: &dyn Observer, part: Part, work: impl FnOnce() -> R) -> R {
+    let begun = Instant::now();
+    let done = work();
+    observer.spent(part, begun.elapsed());
+    done
 }
