@@ -51,8 +51,7 @@ impl Observed {
         things: &SequenceThings,
         (extent, jobs): (Extent, usize),
     ) -> Result<Self, UseError> {
-        model.check()?;
-        let columns = model.places_among(features().map(|feature| feature.name))?;
+        let columns = model.places()?;
         let (scans, serves) = looked_at(things, &extent);
         let all = things.scans().iter().filter(|(radar, scan)| !things.rows_of(*radar, *scan).is_empty());
         let counts = (scans.len(), all.count());

@@ -80,10 +80,8 @@ impl<'a> LearnedLabeler<'a> {
     /// # Errors
     /// A model that this program can't use.
     pub fn new(config: &'a Config, model: &'a Model) -> Result<Self, UseError> {
-        model.check()?;
         let known: Vec<&'static Feature> = features().collect();
-        let places = model.places_among(known.iter().map(|feature| feature.name))?;
-        let inputs: Vec<&'static Feature> = places.into_iter().map(|place| known[place]).collect();
+        let inputs: Vec<&'static Feature> = model.places()?.into_iter().map(|place| known[place]).collect();
         let group_of: Vec<usize> = inputs.iter().map(|feature| group_of(feature)).collect();
         let explain = config.learned.reasons;
         let explainer = explain.then(|| Explainer::new(&model.plausible, &group_of));

@@ -87,7 +87,15 @@ impl Model {
     /// # Errors
     /// The first feature that is not known, or not named.
     pub fn check(&self) -> Result<(), UseError> {
-        self.places_among(features().map(|feature| feature.name))?;
+        self.places().map(drop)
+    }
+
+    /// Where each feature that the model reads stands among [`features`].
+    ///
+    /// # Errors
+    /// Those of [`Self::check`].
+    pub fn places(&self) -> Result<Vec<usize>, UseError> {
+        let places = self.places_among(features().map(|feature| feature.name))?;
         let known = self.inputs.len();
         for forest in self.causes.iter().map(|cause| &cause.forest).chain([&self.plausible]) {
             let width = forest.width();
@@ -95,7 +103,7 @@ impl Model {
                 return Err(UseError::NoSuchFeature { asked: width - 1, known });
             }
         }
-        Ok(())
+        Ok(places)
     }
 
     /// Where each feature that the model reads stands among some, by their names.

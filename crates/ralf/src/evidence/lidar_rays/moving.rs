@@ -4,8 +4,8 @@
 use super::super::probe::{Probe, probe};
 use super::super::{Feature, Piece, Surroundings, Values, columns};
 use super::votes::{Sweep, Votes};
-use super::{GROUP, NEAR, RAYS};
-use crate::scene::{LidarSweep, LidarView, LidarWindowView, Mover, median};
+use super::{GROUP, NEAR, RAYS, sweeps_of};
+use crate::scene::{Frame, LidarSweep, LidarView, LidarWindowView, Mover, median};
 
 pub(in super::super) const PIECE: Piece = Piece { features: FEATURES, observe };
 
@@ -53,15 +53,14 @@ fn observe(surroundings: &Surroundings) -> Vec<Values> {
         .filter_map(|(i, mover)| Some((i, mover?)))
         .filter(|(i, _)| moves(i))
         .collect();
-    let mut votes: Vec<Vec<Votes>> = vec![Vec::new(); movers.len()];
-    for view in &lidar.window.views {
+    let is_near = |view: &&LidarView| {
         let seconds = (view.moment.t_ns - frame.scan.t_ns()) as f64 * 1e-9;
-        if seconds.abs() <= AROUND {
-            let asked = Asked { surroundings, lidar, view };
-            asked.vote(&movers, &mut votes);
-        }
-    }
-    for ((i, _), votes) in movers.iter().zip(votes) {
+        seconds.abs() <= AROUND
+    };
+    let views = lidar.window.views.iter().filter(is_near);
+    let around: Vec<Vec<Votes>> = views.map(|view| Asked { frame, lidar, view }.vote(&movers)).collect();
+    for (place, (i, _)) in movers.iter().enumerate() {
+        let votes: Vec<Votes> = around.iter().map(|votes| votes[place]).collect();
         columns::set(&mut columns, *i, answers(&votes));
     }
     columns
@@ -78,31 +77,28 @@ fn answers(scans: &[Votes]) -> [Option<f64>; 4] {
 
 /// The scans of one moment.
 struct Asked<'a> {
-    surroundings: &'a Surroundings<'a>,
+    frame: &'a Frame<'a>,
     lidar: &'a LidarWindowView,
     view: &'a LidarView,
 }
 
 impl Asked<'_> {
-    /// Adds the moment's votes on each of the movers.
-    fn vote(&self, movers: &[(usize, Mover)], votes: &mut [Vec<Votes>]) {
+    /// The moment's votes on each of the movers.
+    fn vote(&self, movers: &[(usize, Mover)]) -> Vec<Votes> {
+        let LidarView { moment, vehicle_from_moment, .. } = self.view;
         let mut sums = vec![Votes::default(); movers.len()];
-        for sweep in self.view.moment.sweeps() {
-            let mut rays = Sweep::new(sweep, self.view.vehicle_from_moment * sweep.moment_from_lidar, RAYS);
+        for (sweep, mut rays) in moment.sweeps().iter().zip(sweeps_of(moment, *vehicle_from_moment, RAYS)) {
             for (sum, (_, mover)) in sums.iter_mut().zip(movers) {
                 sum.add(&rays.vote(&self.at_time_of(sweep, &rays, mover)));
             }
         }
-        for (votes, sum) in votes.iter_mut().zip(sums) {
-            votes.push(sum);
-        }
+        sums
     }
 
     /// Where a mover is when the rays towards it are sent.
     fn at_time_of(&self, sweep: &LidarSweep, rays: &Sweep, mover: &Mover) -> Probe {
-        let frame = self.surroundings.frame;
-        let seconds = (sweep.scan.t_ns - frame.scan.t_ns()) as f64 * 1e-9;
-        let at = |seconds: f64| probe(frame, self.lidar, &mover.after(seconds));
+        let seconds = (sweep.scan.t_ns - self.frame.scan.t_ns()) as f64 * 1e-9;
+        let at = |seconds: f64| probe(self.frame, self.lidar, &mover.after(seconds));
         let there = at(seconds);
         let Some(times) = &sweep.scan.times else { return there };
         // The rays turn far faster than things move: where it is at the scan's time tells which of them meet it.
