@@ -203,7 +203,7 @@ impl Task<'_> {
         let codes = causes.of_scan(id, detections)?.unwrap_or_default();
         let number = |code: &u8| {
             let name = &causes.names()[usize::from(*code)];
-            Cause::ALL.iter().find(|cause| cause.name() == name).map_or(0, |cause| *cause as u8)
+            Cause::named(name).map_or(0, |cause| cause as u8)
         };
         Ok(codes.iter().map(number).collect())
     }

@@ -23,8 +23,7 @@ pub(crate) fn said(detections: usize, state: &ScanState) -> Vec<u8> {
 /// The detections of which people said a cause, with its number. One that this program doesn't know is none.
 pub(crate) fn numbered(state: &ScanState) -> impl Iterator<Item = (u32, u8)> {
     state.causes.iter().filter_map(|(point, name)| {
-        let known =
-            Cause::ALL.into_iter().find(|cause| *cause != Cause::Plausible && cause.name() == name)?;
+        let known = Cause::named(name).filter(|cause| *cause != Cause::Plausible)?;
         Some((*point, known as u8))
     })
 }

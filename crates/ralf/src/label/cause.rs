@@ -56,4 +56,9 @@ impl Cause {
             Self::Interference => "interference",
         }
     }
+
+    /// The cause that [`Self::name`] calls so.
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|cause| cause.name() == name)
+    }
 }
