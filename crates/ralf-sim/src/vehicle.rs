@@ -24,6 +24,13 @@ fn turned(place: [f64; 3], yaw_deg: f64, pitch_deg: f64) -> Transform {
     Transform::from_parts(Translation3::from(place), rotation)
 }
 
+/// A camera's mounting: it looks along its yaw, so many degrees down.
+pub(super) fn camera_mounting(place: [f64; 3], yaw_deg: f64, down_deg: f64) -> Transform {
+    let level_from_optical = UnitQuaternion::from_quaternion(Quaternion::new(0.5, -0.5, 0.5, -0.5));
+    let pose = turned(place, yaw_deg, down_deg);
+    Transform::from_parts(pose.translation, pose.rotation * level_from_optical)
+}
+
 fn radar(side: &str, yaw_deg: f64) -> Radar {
     let place = match side {
         "front" => [3.7, 0.0, 0.5],
@@ -68,8 +75,6 @@ fn camera(side: &str, yaw_deg: f64) -> Camera {
     };
     let (size, fov_deg): ((usize, usize), f64) =
         if yaws_deg.len() == 1 { (VIEW, 110.0) } else { (HALF_VIEW, 84.0) };
-    let vehicle_from_level_optical = UnitQuaternion::from_quaternion(Quaternion::new(0.5, -0.5, 0.5, -0.5));
-    let pose = turned(place, yaw_deg, pitch_deg);
     let (width, height) = IMAGE;
     // Turned up again, so that the horizon lies in the middle.
     let pitch = -pitch_deg.to_radians() * 0.7;
@@ -82,10 +87,7 @@ fn camera(side: &str, yaw_deg: f64) -> Camera {
     };
     Camera {
         name: format!("camera_{side}"),
-        vehicle_from_camera: Transform::from_parts(
-            pose.translation,
-            pose.rotation * vehicle_from_level_optical,
-        ),
+        vehicle_from_camera: camera_mounting(place, yaw_deg, pitch_deg),
         width,
         height,
         intrinsics: Intrinsics::KannalaBrandt {

@@ -8,7 +8,7 @@ use super::terrain::{Patch, Surface};
 use crate::camera::{self, Painted, Visible};
 use crate::random::{Purpose, Random, grain};
 use crate::shape::Ray;
-use nalgebra::{Quaternion, Translation3, UnitQuaternion};
+use crate::vehicle::camera_mounting;
 use ralf::sensors::{Camera, Intrinsics, View};
 use ralf::space::{Point, Transform};
 
@@ -90,12 +90,9 @@ fn fisheye(layout: Layout) -> bool {
     matches!(layout, Layout::Fisheyes)
 }
 
-/// Looks so many degrees down.
+/// Looks about so many degrees down.
 fn mounted((_, place, yaw): &Mount, down_deg: f64, random: &mut Random) -> Transform {
-    let level_from_optical = UnitQuaternion::from_quaternion(Quaternion::new(0.5, -0.5, 0.5, -0.5));
-    let pitch = (down_deg + random.between(-1.0, 1.0)).to_radians();
-    let turned = UnitQuaternion::from_euler_angles(0.0, pitch, yaw.to_radians());
-    Transform::from_parts(Translation3::from(*place), turned * level_from_optical)
+    camera_mounting(*place, *yaw, down_deg + random.between(-1.0, 1.0))
 }
 
 fn middle((width, height): (usize, usize)) -> [f64; 2] {

@@ -1,7 +1,7 @@
 //! A sequence of a world as a source of measurements.
 
 use super::draw::World;
-use super::lidar::{self, LidarModel, Sweep};
+use super::lidar::{self, Sweep};
 use super::place::{Plan, plan};
 use super::radar::{self, Detection, Waves};
 use super::scene::{Moment, Site};
@@ -19,7 +19,7 @@ use ralf::sensors::{
 };
 use ralf::space::{EgoMotion, Transform, Vector};
 use std::f64::consts::TAU;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 /// Time of the start, ns.
 const START_NS: i64 = 1_700_000_000_000_000_000;
@@ -41,6 +41,8 @@ pub(super) struct WorldSequence {
     site: Site,
     ride: Ride,
     waves: Waves,
+    /// Where each pixel of each camera looks, once it is known.
+    rays: Vec<OnceLock<camera::Rays>>,
     /// Share of a LiDAR's rays that meet a drop.
     rain: f64,
     seed: u64,
@@ -107,7 +109,17 @@ impl WorldSequence {
         };
         let waves = Waves { rain: rains, ..world.waves };
         let rain = if rains { random.between(0.002, 0.02) } else { 0.0 };
-        Ok(Self { sequence, site: Site::new(terrain, plan.items, seed), world, ride, waves, rain, seed })
+        let rays = sequence.rig.cameras.iter().map(|_| OnceLock::new()).collect();
+        Ok(Self {
+            sequence,
+            site: Site::new(terrain, plan.items, seed),
+            world,
+            ride,
+            waves,
+            rays,
+            rain,
+            seed,
+        })
     }
 
     /// A camera, and what surrounds it at the time of an image.
@@ -142,15 +154,13 @@ fn timelines(world: &World, scans: usize) -> Timelines {
     };
     let radars: Vec<Vec<i64>> = world.radars.iter().map(of_radar).collect();
     let end = radars.iter().flatten().max().copied().unwrap_or(START_NS);
-    let of_lidar = |lidar: &LidarModel| {
-        let times = (0..).map(|scan| START_NS + scan * lidar.period_ns);
-        times.take_while(|t| *t < end + lidar.period_ns / 2).collect()
+    let until_end = |first_ns: i64, period_ns: i64| -> Vec<i64> {
+        let times = (0..).map(|i| START_NS + first_ns + i * period_ns);
+        times.take_while(|t| *t < end + period_ns / 2).collect()
     };
-    let cameras = world.cameras.iter().map(|camera| {
-        let times = (0..).map(|image| START_NS + camera.first_ns + image * camera.period_ns);
-        times.take_while(|t| *t < end + camera.period_ns / 2).collect()
-    });
-    Timelines { radars, lidars: world.lidars.iter().map(of_lidar).collect(), cameras: cameras.collect() }
+    let lidars = world.lidars.iter().map(|lidar| until_end(0, lidar.period_ns)).collect();
+    let cameras = world.cameras.iter().map(|camera| until_end(camera.first_ns, camera.period_ns)).collect();
+    Timelines { radars, lidars, cameras }
 }
 
 fn path(plan: &Plan, seconds: f64, phase: f64) -> Path {
@@ -193,6 +203,7 @@ impl Simulation for WorldSequence {
     fn remove_cameras(&mut self) {
         self.sequence.rig.cameras.clear();
         self.sequence.times.cameras.clear();
+        self.rays.clear();
     }
 
     fn true_radar(&self, radar: usize) -> Option<(Transform, i64)> {
@@ -235,7 +246,8 @@ impl Source for WorldSequence {
     fn image(&self, camera: usize, image: usize) -> Result<CameraImage, SourceError> {
         let seen = self.seen_by(camera, image)?;
         let random = &mut Random::new(self.seed, Purpose::Image, camera, image);
-        Ok(camera::image(&seen, &camera::rays(seen.camera), None, random))
+        let rays = self.rays[camera].get_or_init(|| camera::rays(seen.camera));
+        Ok(camera::image(&seen, rays, None, random))
     }
 
     fn depth(&self, camera: usize, image: usize) -> Result<Option<Vec<DepthImage>>, SourceError> {
