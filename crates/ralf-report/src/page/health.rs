@@ -14,7 +14,7 @@ const FLAGS: [(u16, &str); 8] = [
     (flag::NO_NEIGHBOURS, "no neighbouring radar scan"),
     (flag::CAMERA_FAILED, "in a failed camera view"),
     (flag::UNOBSERVED, "seen by no branch"),
-    (flag::UNCONFIRMED, "told of by the radar alone, beyond the LiDAR's map"),
+    (flag::UNCONFIRMED, "told of by the radar alone"),
     (flag::PAPER, "unlike what the model knows, answered by the paper's method"),
     (flag::BLIND_SPOT, "in the LiDAR’s blind spot"),
     (flag::GROUND, "on the ground"),
@@ -42,7 +42,7 @@ pub(super) fn health(content: &Content) -> Markup {
     }
 }
 
-/// What the check at the head of the run doubted.
+/// What the check of the recording doubted.
 fn check(content: &Content) -> Markup {
     let lines =
         content.record.check.iter().flat_map(|check| check.doubts.iter().map(|line| (&check.sequence, line)));
