@@ -66,8 +66,8 @@ export class Imagery {
 
   private update(cloud: Cloud, name: string, patch: (camera: CameraMoment) => Partial<CameraMoment>): void {
     const { store } = this.world;
-    // Labels may be others meanwhile; the detections are the same.
-    if (store.state.cloud.positions !== cloud.positions) return;
+    // Labels may be others meanwhile, and something may be held still; the detections are the same.
+    if (store.state.cloud.measured !== cloud.measured) return;
     const changed = (camera: CameraMoment): CameraMoment =>
       camera.info.name === name ? { ...camera, ...patch(camera) } : camera;
     store.set({ cameras: store.state.cameras.map(changed) });

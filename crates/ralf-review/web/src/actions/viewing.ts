@@ -1,7 +1,7 @@
 /** How things are shown. */
 
 import { type AreaKind, areaOf } from "../data/area.js";
-import { buildCloud, heldStill } from "../data/cloud.js";
+import { heldStill, letGo } from "../data/cloud.js";
 import { everything, type Filter } from "../data/filter.js";
 import type { Point } from "../selection/geometry.js";
 import { type Dialog, homeOf, type ViewMode } from "../state.js";
@@ -103,7 +103,7 @@ export class Viewing {
   toggleHeld(): void {
     const { store } = this.world;
     const { cloud, selection } = store.state;
-    const next = cloud.held ? buildCloud(cloud.scans) : heldStill(cloud, selection);
+    const next = cloud.held ? letGo(cloud) : heldStill(cloud, selection);
     if (next === cloud) return tell(this.world, "Select what moves first: it is held still over the scans on screen.");
     store.set({ cloud: next });
     tell(

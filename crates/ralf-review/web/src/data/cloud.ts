@@ -15,6 +15,8 @@ export interface Cloud {
   readonly scanOf: Uint16Array;
   /** x, y, z of each detection, m, in the vehicle frame at the time of the scan under review. */
   readonly positions: Float32Array;
+  /** The same as it was measured, whatever is held still: as long as this is the same, so are the detections. */
+  readonly measured: Float32Array;
   readonly label: Uint16Array;
   readonly corrected: Uint8Array;
   /** The number of the cause that a person said, or 0. */
@@ -44,7 +46,8 @@ export function buildCloud(scans: readonly Scan[]): Cloud {
   });
   const compensated =
     target !== null || scans.every(({ table }) => together(table.header.t_ns, scans[0].table.header.t_ns));
-  return { ...labelsOf(scans, count), scans, count, starts, scanOf, positions, compensated, held: false };
+  const places = { positions, measured: positions, compensated, held: false };
+  return { ...labelsOf(scans, count), ...places, scans, count, starts, scanOf };
 }
 
 /** The same cloud where some scans' labels are others. */
@@ -66,6 +69,11 @@ export function heldStill(cloud: Cloud, chosen: Uint8Array): Cloud {
     return middle === null ? Number.NaN : value - middle[at % 3] + first[at % 3];
   });
   return { ...cloud, positions: moved, held: true };
+}
+
+/** The same detections where they were measured. */
+export function letGo(cloud: Cloud): Cloud {
+  return { ...cloud, positions: cloud.measured, held: false };
 }
 
 /** Where the chosen detections of a scan lie on average, m; `null` where none is chosen. */

@@ -5,6 +5,7 @@ import {
   columnOf,
   gather,
   heldStill,
+  letGo,
   maskOf,
   pointOf,
   pointsByScan,
@@ -167,4 +168,6 @@ test("what moves is held where it was first, and scans without it have no place"
   assert.deepEqual(x, [1, 10, 12, -5, 10, 12, Number.NaN, Number.NaN]);
   assert.ok(held.held && !cloud.held && cloud.positions[9] === 5);
   assert.equal(heldStill(cloud, new Uint8Array(8)), cloud, "nothing is chosen");
+  assert.deepEqual(letGo(held), cloud);
+  assert.ok(held.measured === cloud.measured && letGo(held).measured === cloud.measured, "the same detections");
 });
