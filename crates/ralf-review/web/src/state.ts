@@ -181,9 +181,9 @@ export const NOTHING_LOOKED_AT = {
   disputed: null,
 } as const satisfies Partial<State>;
 
-/** The thing that is looked at: the one that wants an answer, or that would change. */
-export function lookedAt({ thing, opinion, opinionAt }: Readonly<State>): DoubtfulThing | null {
-  return thing ?? opinion?.changes[opinionAt] ?? null;
+/** The thing that is looked at: the one that wants an answer, that two people labelled differently, or that would change. */
+export function lookedAt({ thing, disputed, opinion, opinionAt }: Readonly<State>): DoubtfulThing | null {
+  return thing ?? disputed ?? opinion?.changes[opinionAt] ?? null;
 }
 
 /** Whose places are on screen. */

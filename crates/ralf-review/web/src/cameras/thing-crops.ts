@@ -34,7 +34,7 @@ export function thingCrops(page: Page): HTMLElement {
 }
 
 /** The detections of the thing that is looked at, 1 each. */
-function chosenOf({ thing, opinion, opinionAt, cloud, selection }: Readonly<State>): Uint8Array {
+function chosenOf({ thing, disputed, opinion, opinionAt, cloud, selection }: Readonly<State>): Uint8Array {
   if (thing !== null) return selection;
-  return maskOf(cloud, opinion?.changes[opinionAt]?.points ?? []);
+  return maskOf(cloud, (disputed ?? opinion?.changes[opinionAt])?.points ?? []);
 }
