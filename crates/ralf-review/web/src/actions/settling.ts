@@ -1,16 +1,17 @@
 /** Where two people said different things: looked at one after the other, and settled by taking a side. */
 
 import type { Disagreement } from "../api/types.js";
-import { maskOf } from "../data/cloud.js";
+import { everything } from "../data/filter.js";
 import type { Choice } from "../data/labels.js";
-import { baseOf, keptPoints } from "../data/opinion.js";
+import { baseOf, countOfPoints, keptPoints } from "../data/opinion.js";
 import { sameScan } from "../data/scan.js";
-import { keyOf, nextDisagreement } from "../data/team.js";
-import { intersection } from "../selection/mask.js";
+import { keyOf, nextDisagreement, outlookOf } from "../data/team.js";
+import { counted } from "../format.js";
 import { NOTHING_LOOKED_AT } from "../state.js";
 import type { Correcting } from "./correcting.js";
 import { LookedIn } from "./looked-in.js";
 import type { Navigation } from "./navigation.js";
+import { Sparing } from "./sparing.js";
 import { lookAt } from "./thinging.js";
 import { complain, tell, type World } from "./world.js";
 
@@ -18,6 +19,7 @@ export class Settling {
   /** Those that were looked at since the sequence was opened. */
   private seen = new Set<string>();
   private readonly lookedIn: LookedIn;
+  private readonly sparing: Sparing;
 
   constructor(
     private readonly world: World,
@@ -38,6 +40,7 @@ export class Settling {
       () => this.drop(),
     );
     this.lookedIn = new LookedIn(store, () => this.left());
+    this.sparing = new Sparing(store);
   }
 
   /** Who has done how much, how far people agree, and where they don't. */
@@ -79,17 +82,26 @@ export class Settling {
     void this.settle(choice).catch((error: unknown) => complain(this.world, error));
   }
 
+  /** Shows all of the disagreement, and lets all of it be settled. */
+  showAll(): void {
+    this.world.store.set({ filter: everything, scope: "shown" });
+  }
+
   private async settle(choice: Choice): Promise<void> {
     const { store } = this.world;
     const { disputed, disagreements, cloud, selection } = store.state;
     if (disputed === null || disagreements === null) return;
     const points = keptPoints(disputed.points, cloud, selection);
+    const { unshown, unreached } = outlookOf(disputed, store.state);
     if (points.length === 0)
       return tell(
         this.world,
         "None of these is selected, so nothing is settled: they are spared, or the filter hides them.",
       );
     if (!(await this.correcting.settle(points, baseOf(disagreements, points), choice))) return;
+    const left = unshown + unreached;
+    if (left > 0)
+      tell(this.world, `${counted(countOfPoints(points), "detection")} settled; ${left} that were hidden are left.`);
     if (store.state.outbox.kind === "idle") await this.next();
   }
 
@@ -108,12 +120,11 @@ export class Settling {
     // Until the next one is on screen no key settles anything, or labels what the one before had selected.
     store.set({ ...NOTHING_LOOKED_AT, selection: new Uint8Array(store.state.cloud.count) });
     await this.navigation.wholeSequence(disagreement);
-    const { cloud, eligible, current } = store.state;
     // Somebody went elsewhere meanwhile, or the scan can't be read.
-    if (sequence !== store.state.sequence || !sameScan(current, disagreement)) return;
-    const selection = intersection(maskOf(cloud, disagreement.points), eligible);
+    if (sequence !== store.state.sequence || !sameScan(store.state.current, disagreement)) return;
     this.lookedIn.here();
-    store.set({ ...NOTHING_LOOKED_AT, disputed: disagreement, selection, armed: undefined });
+    store.set({ ...NOTHING_LOOKED_AT, disputed: disagreement, armed: undefined });
+    store.set({ selection: this.sparing.begin() });
     lookAt(this.world, disagreement);
   }
 

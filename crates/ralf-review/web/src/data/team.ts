@@ -1,6 +1,8 @@
 /** What people who label together have done, and where they disagree. */
 
 import type { Disagreement, Saying, Workday } from "../api/types.js";
+import { type Cloud, findScan, maskOf } from "./cloud.js";
+import { countOfPoints, keptPoints } from "./opinion.js";
 
 /** What tells one disagreement from all others of the sequence. */
 export function keyOf({ thing, first, second, by }: Disagreement): string {
@@ -12,6 +14,34 @@ export function nextDisagreement(all: readonly Disagreement[], seen: Set<string>
   const fresh = all.find((one) => !seen.has(keyOf(one)));
   if (fresh === undefined) seen.clear();
   return fresh ?? all[0] ?? null;
+}
+
+/** How many detections of a disagreement would be settled now, and how many not. */
+export interface Outlook {
+  readonly all: number;
+  readonly settled: number;
+  /** Of these, the ones in scans that aren't on screen. */
+  readonly elsewhere: number;
+  /** Left, for the filter hides them. */
+  readonly unshown: number;
+  /** Left, for strokes change the scan under review alone. */
+  readonly unreached: number;
+}
+
+export function outlookOf(
+  { points }: Disagreement,
+  screen: Readonly<Record<"shown" | "eligible" | "selection", Uint8Array>> & { readonly cloud: Cloud },
+): Outlook {
+  const { cloud, shown, eligible, selection } = screen;
+  const elsewhere = countOfPoints(points.filter((part) => findScan(cloud, part) < 0));
+  const [all, settled] = [countOfPoints(points), countOfPoints(keptPoints(points, cloud, selection))];
+  let [unshown, unreached] = [0, 0];
+  maskOf(cloud, points).forEach((is, i) => {
+    if (is === 0 || eligible[i] === 1) return;
+    if (shown[i] === 1) unreached += 1;
+    else unshown += 1;
+  });
+  return { all, settled, elsewhere, unshown, unreached };
 }
 
 /** Whether it marks a scan, and says nothing of single detections. */

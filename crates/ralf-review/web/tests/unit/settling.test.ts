@@ -14,8 +14,9 @@ import { buildCloud, type Cloud, withScans } from "../../src/data/cloud.js";
 import { everything } from "../../src/data/filter.js";
 import { rulesText } from "../../src/data/rules.js";
 import { sameScan } from "../../src/data/scan.js";
+import { outlookOf } from "../../src/data/team.js";
 import { deriveAlways } from "../../src/derive.js";
-import { initialState, type State } from "../../src/state.js";
+import { initialState, lookedAt, type State } from "../../src/state.js";
 import { Store } from "../../src/store.js";
 import { recordingOf, sequence } from "./recordings.js";
 import { made } from "./scans.js";
@@ -118,6 +119,46 @@ test("the same scans with other labels are still the same picture", async () => 
   assert.equal(store.state.disputed, DISPUTED);
   settling.take("second");
   assert.equal(settled.length, 1);
+});
+
+/** Lets plausible ones through that are no farther than this, m. */
+const within = (most: number) => ({ ...everything, range: [0, most] as const });
+
+test("what the filter hides of it is left, which is said, and is selected again once it is shown", async () => {
+  const { store, settling, settled } = await looking();
+  store.set({ filter: within(3) });
+  assert.deepEqual([...store.state.selection], [1, 1, 0, 0, 0]);
+  assert.deepEqual(outlookOf(DISPUTED, store.state), { all: 4, settled: 3, elsewhere: 1, unshown: 1, unreached: 0 });
+  settling.showAll();
+  assert.deepEqual([...store.state.selection], [1, 1, 0, 1, 0]);
+  store.set({ filter: within(3), scope: "scan" });
+  settling.take("first");
+  await Promise.resolve();
+  assert.deepEqual(settled, [[front(0, 0, 1), front(9, 4)]]);
+});
+
+test("what was spared by hand stays spared, however often the filter hides and shows it", async () => {
+  const { store, settling, settled } = await looking();
+  store.set({ selection: new Uint8Array([0, 1, 0, 1, 0]) });
+  for (const filter of [within(1), within(3), everything]) store.set({ filter });
+  assert.deepEqual([...store.state.selection], [0, 1, 0, 1, 0]);
+  settling.take("first");
+  assert.deepEqual(settled, [[front(0, 1), front(1, 0), front(9, 4)]]);
+});
+
+test("a disagreement that is hidden when it comes is selected once it is shown", async () => {
+  const table = new Table();
+  table.store.set({ filter: { ...everything, plausible: false } });
+  await table.settling.next();
+  assert.deepEqual([...table.store.state.selection], [0, 0, 0, 0, 0]);
+  assert.equal(outlookOf(DISPUTED, table.store.state).unshown, 3);
+  table.settling.showAll();
+  assert.deepEqual([...table.store.state.selection], [1, 1, 0, 1, 0]);
+});
+
+test("a disagreement is what is looked at, as a thing is", async () => {
+  const { store } = await looking();
+  assert.equal(lookedAt(store.state), DISPUTED);
 });
 
 test("where nothing of it is selected, that is said and nothing is settled", async () => {
