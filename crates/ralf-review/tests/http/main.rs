@@ -5,6 +5,7 @@ mod correcting;
 mod ending;
 mod harm;
 mod images;
+mod killed;
 mod reading;
 mod safety;
 mod support;

@@ -121,6 +121,11 @@ impl Serving {
         Self::with(recording, out, &options)
     }
 
+    /// A client of a server that is another process's.
+    pub(crate) fn elsewhere(url: String) -> Self {
+        Self { url, end: None, thread: None }
+    }
+
     fn with(recording: Recording, out: &Path, options: &Options) -> Result<Self, ReviewError> {
         let server = Server::bind(recording, out, options)?;
         let url = server.urls()[0].clone();
