@@ -1,5 +1,6 @@
 //! All that is said, at one moment: what evaluating and exporting read.
 
+use crate::causes::causes;
 use crate::content::ScanContent;
 use crate::error::{StoreError, told};
 use crate::model::ScanKey;
@@ -17,6 +18,8 @@ pub struct ScanLayer {
     pub content: ScanContent,
     /// Detections that a person has labelled, ascending, with the label's id.
     pub corrections: Vec<(u32, u16)>,
+    /// Detections of which a stroke that holds said why they are artifacts, ascending, with the cause.
+    pub causes: Vec<(u32, String)>,
     /// The machine's labels that were accepted, one per detection, where the scan is marked as reviewed.
     pub accepted: Option<Vec<u16>>,
     /// Detections that were settled, ascending, with the correction that each had before.
@@ -30,7 +33,8 @@ impl ScanLayer {
         content.find_in(&contents).map(|at| &said[at])
     }
 
-    /// What was said before anybody settled anything: the corrections of those who saw nobody else's.
+    /// What was said before anybody settled anything: the corrections of those who saw nobody else's. What was the cause
+    /// of detections that were settled is not told.
     pub fn before_settling(&self) -> Self {
         let mut corrections: BTreeMap<u32, u16> = self.corrections.iter().copied().collect();
         for (point, before) in &self.settled {
@@ -39,7 +43,11 @@ impl ScanLayer {
                 None => drop(corrections.remove(point)),
             }
         }
-        Self { corrections: corrections.into_iter().collect(), settled: Vec::new(), ..self.clone() }
+        let mut causes = self.causes.clone();
+        causes
+            .retain(|(point, _)| self.settled.binary_search_by_key(point, |(settled, _)| *settled).is_err());
+        let corrections = corrections.into_iter().collect();
+        Self { corrections, causes, settled: Vec::new(), ..self.clone() }
     }
 
     /// Whether nothing is said of it now. It may have been settled all the same, so that it is the machine's again.
@@ -90,10 +98,10 @@ fn read(on: &Connection) -> rusqlite::Result<Vec<(ScanKey, ScanLayer)>> {
     scans
         .map(|scan| {
             let (id, key, content) = scan?;
-            let (corrections, review) = (corrections(on, id)?, review(on, id)?);
+            let (corrections, causes, review) = (corrections(on, id)?, causes(on, id)?, review(on, id)?);
             let accepted = review.map(|mark| mark.accepted);
             let settled = settled.remove(&id).unwrap_or_default().into_iter().collect();
-            Ok((key, ScanLayer { content, corrections, accepted, settled }))
+            Ok((key, ScanLayer { content, corrections, causes, accepted, settled }))
         })
         .collect()
 }

@@ -9,17 +9,6 @@ pub(crate) fn sayable() -> [&'static str; Cause::ALL.len()] {
     Cause::ALL.map(|cause| if cause == Cause::Plausible { "" } else { cause.name() })
 }
 
-/// What people said is the cause of each detection, by number.
-pub(crate) fn said(detections: usize, state: &ScanState) -> Vec<u8> {
-    let mut numbers = vec![0; detections];
-    for (point, number) in numbered(state) {
-        if let Some(said) = numbers.get_mut(point as usize) {
-            *said = number;
-        }
-    }
-    numbers
-}
-
 /// The detections of which people said a cause, with its number. One that this program doesn't know is none.
 pub(crate) fn numbered(state: &ScanState) -> impl Iterator<Item = (u32, u8)> {
     state.causes.iter().filter_map(|(point, name)| {

@@ -15,7 +15,8 @@ pub struct Agreement {
     pub pairs: BTreeMap<(u16, u16), u64>,
 }
 
-/// A detection that two people labelled differently, which nobody has settled.
+/// A detection of which two people said different labels, or different causes where both said one, and which nobody
+/// has settled.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Difference {
     /// The scan.
@@ -26,6 +27,10 @@ pub struct Difference {
     pub first: u16,
     /// What the second said.
     pub second: u16,
+    /// Why the first calls it an artifact, where that was said.
+    pub first_cause: Option<String>,
+    /// Why the second does.
+    pub second_cause: Option<String>,
 }
 
 impl Agreement {
@@ -96,8 +101,8 @@ impl Agreement {
     }
 }
 
-/// How far two people agree, as [`Agreement::of`] has it, and the detections to which they gave different labels, but
-/// for those that somebody has settled in the first's store, in the order of scans and detections.
+/// How far two people agree, as [`Agreement::of`] has it, and the detections to which they gave different labels, or of
+/// which both said a cause and not the same, but for those that somebody has settled in the first's store, in the order of scans and detections.
 ///
 /// # Errors
 /// Those of [`Agreement::of`].
@@ -108,9 +113,13 @@ pub fn compare(first: &Corrections, second: &Corrections) -> Result<(Agreement, 
         for (point, (one, other)) in ones.labels.iter().zip(&others.labels).enumerate() {
             let (Some(a), Some(b)) = (truth_of(one.id), truth_of(other.id)) else { continue };
             agreement.count(scan, (one.id, other.id), (a, b));
-            let is_settled = u32::try_from(point).is_ok_and(|point| ones.settled.contains(&point));
-            if one.id != other.id && !is_settled {
-                differences.push(Difference { scan: scan.clone(), point, first: one.id, second: other.id });
+            let Ok(number) = u32::try_from(point) else { continue };
+            let causes = [&ones, &others].map(|said| said.causes.get(&number));
+            let other_cause = matches!(causes, [Some(one), Some(other)] if one != other);
+            if (one.id != other.id || other_cause) && !ones.settled.contains(&number) {
+                let [first_cause, second_cause] = causes.map(Option::<&String>::cloned);
+                let (first, second, scan) = (one.id, other.id, scan.clone());
+                differences.push(Difference { scan, point, first, second, first_cause, second_cause });
             }
         }
     }

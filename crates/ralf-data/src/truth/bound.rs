@@ -23,12 +23,7 @@ impl Corrections {
 /// What a scan of a recording holds; `None` of one that isn't there or can't be read.
 fn content_now(recording: &Recording, scan: &ScanId) -> Option<ScanContent> {
     let reader = recording.sequences.iter().find(|reader| reader.sequence().name == scan.sequence)?;
-    let sequence = reader.sequence();
-    let radar = sequence.rig.radars.iter().position(|radar| radar.name == scan.radar)?;
-    let number = scan.scan as usize;
-    if number >= sequence.times.radars[radar].len() {
-        return None;
-    }
+    let (radar, number) = scan.place_in(reader.sequence())?;
     let measured = reader.radar_scan(radar, number).ok()?;
     let detections = u32::try_from(measured.len()).ok()?;
     Some(ScanContent { detections, hash: Some(scan_content(&measured)) })

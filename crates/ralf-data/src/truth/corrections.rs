@@ -26,6 +26,8 @@ pub(crate) struct Unsettled {
     pub(crate) labels: Vec<Label>,
     /// Detections that were settled.
     pub(crate) settled: BTreeSet<u32>,
+    /// Why detections that were not settled are artifacts, of those of which somebody said it.
+    pub(crate) causes: BTreeMap<u32, String>,
 }
 
 impl From<&ScanId> for ScanKey {
@@ -168,7 +170,9 @@ impl Corrections {
     pub(crate) fn unsettled(&self, scan: &ScanId) -> Result<Option<Unsettled>, DataError> {
         let Some(layer) = self.layer(scan)? else { return Ok(None) };
         let settled = layer.settled.iter().map(|(point, _)| *point).collect();
-        Ok(Some(Unsettled { labels: said(&layer.before_settling(), None), settled }))
+        let before = layer.before_settling();
+        let labels = said(&before, None);
+        Ok(Some(Unsettled { labels, settled, causes: before.causes.into_iter().collect() }))
     }
 
     /// What is said of a scan. Which of several contents is meant must have been told before.

@@ -1,5 +1,6 @@
 //! Which scan, and where its labels lie.
 
+use ralf::sensors::Sequence;
 use std::fmt;
 use std::path::{Path, PathBuf};
 
@@ -21,6 +22,13 @@ impl ScanId {
     /// Where the labels that a run gave this scan lie below its folder.
     pub fn label_file(&self, out: &Path) -> PathBuf {
         out.join("sequences").join(&self.sequence).join(&self.radar).join(label_name(self.scan))
+    }
+
+    /// The radar's place in the rig of its sequence and the scan's number; `None` where it isn't there.
+    pub fn place_in(&self, sequence: &Sequence) -> Option<(usize, usize)> {
+        let radar = sequence.rig.radars.iter().position(|radar| radar.name == self.radar)?;
+        let (scan, times) = (self.scan as usize, sequence.times.radars.get(radar)?);
+        (self.sequence == sequence.name && scan < times.len()).then_some((radar, scan))
     }
 
     /// Where its corrected labels lie below the dataset's folder.

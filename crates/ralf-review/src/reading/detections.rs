@@ -40,8 +40,8 @@ pub(crate) fn detections(app: &App, sequence: &str, radar: &str, scan: usize) ->
     table.u16("machine", machine.iter().copied());
     let stamp = stamp(version.content.hash.as_ref(), &machine);
     table.u16("label", effective(rows.labels()?, &said));
-    table.u8("corrected", corrected(rows.len(), &said));
-    table.u8("said_cause", causes::said(rows.len(), &said));
+    table.u8("corrected", numbers(rows.len(), said.corrections.iter().map(|(point, _)| (*point, 1))));
+    table.u8("said_cause", numbers(rows.len(), causes::numbered(&said)));
     if let Some(known) = known {
         table.u8("cause", known);
     }
@@ -84,15 +84,15 @@ fn effective(machine: Vec<Label>, said: &ScanState) -> Vec<u16> {
     effective_labels(machine, accepted, &said.corrections).into_iter().map(|label| label.id).collect()
 }
 
-/// 1 for each detection that a person has labelled, else 0.
-fn corrected(detections: usize, said: &ScanState) -> Vec<u8> {
-    let mut corrected = vec![0; detections];
-    for (point, _) in &said.corrections {
-        if let Some(flag) = corrected.get_mut(*point as usize) {
-            *flag = 1;
+/// The number of each detection of which something is said, else 0.
+fn numbers(detections: usize, said: impl Iterator<Item = (u32, u8)>) -> Vec<u8> {
+    let mut numbers = vec![0; detections];
+    for (point, number) in said {
+        if let Some(told) = numbers.get_mut(point as usize) {
+            *told = number;
         }
     }
-    corrected
+    numbers
 }
 
 fn header(place: &ScanPlace, labels: &SequenceLabels, said: &ScanState) -> Map<String, Value> {

@@ -3,6 +3,7 @@
 use super::opinion::bases;
 use super::things;
 use crate::app::App;
+use crate::causes::sayable;
 use crate::http::{Answer, ApiError, json};
 use ralf::sensors::Sequence;
 use ralf_corrections::{FILE, Reader};
@@ -15,8 +16,10 @@ use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
+/// What somebody said of a detection: the label, and why it is an artifact where that was said, too.
+type Said = (u16, Option<&'static str>);
 /// A thing that two people labelled differently: its number, what the first and the second said, and who the second is.
-type Key = (u32, u16, u16, String);
+type Key = (u32, Said, Said, String);
 
 /// How far people agree who labelled scans of a sequence twice, and where they don't. Only scans that both are through
 /// with are told: nobody is influenced by what another said.
@@ -61,11 +64,8 @@ fn through(
 ) -> Result<Corrections, ApiError> {
     let sequence = reader.sequence();
     let bound = Corrections::open(file)?.bound(|scan| {
-        let radar = sequence.rig.radars.iter().position(|radar| radar.name == scan.radar);
-        let number = scan.scan as usize;
-        let there = radar
-            .filter(|radar| scan.sequence == sequence.name && number < sequence.times.radars[*radar].len());
-        Ok::<_, ApiError>(there.and_then(|radar| app.contents.known(reader, (index, radar, number))))
+        let there = scan.place_in(sequence);
+        Ok::<_, ApiError>(there.and_then(|(radar, scan)| app.contents.known(reader, (index, radar, scan))))
     });
     // Who was through with what a scan held before may not be through with what it holds now.
     bound.map(Corrections::of_reviewed_scans)
@@ -80,22 +80,29 @@ fn gather(
     found: &mut BTreeMap<Key, Vec<usize>>,
 ) {
     for difference in differences {
-        let Some(radar) = sequence.rig.radars.iter().position(|radar| radar.name == difference.scan.radar)
-        else {
-            continue;
-        };
-        let scan = difference.scan.scan as usize;
+        let Some((radar, scan)) = difference.scan.place_in(sequence) else { continue };
         let Some(row) = known.rows_of(radar, scan).nth(difference.point) else { continue };
-        let key = (known.things()[row], difference.first, difference.second, name.to_owned());
-        found.entry(key).or_default().push(row);
+        let first = (difference.first, known_cause(difference.first_cause.as_deref()));
+        let second = (difference.second, known_cause(difference.second_cause.as_deref()));
+        // Of a cause that this program doesn't know nothing can be said.
+        if first.0 == second.0 && (first.1.is_none() || second.1.is_none()) {
+            continue;
+        }
+        found.entry((known.things()[row], first, second, name.to_owned())).or_default().push(row);
     }
 }
 
-/// Those first of which only one says that they are plausible, and of these the largest.
+/// A cause that a stroke may say.
+fn known_cause(name: Option<&str>) -> Option<&'static str> {
+    sayable().into_iter().find(|known| !known.is_empty() && Some(*known) == name)
+}
+
+/// Those first of which only one says that they are plausible, then those about labels, then those about causes alone;
+/// and of these the largest.
 fn rows(sequence: &Sequence, known: &SequenceThings, found: BTreeMap<Key, Vec<usize>>) -> Vec<Value> {
     let mut order: Vec<(Key, Vec<usize>)> = found.into_iter().collect();
-    order.sort_by_key(|((_, first, second, _), rows)| {
-        (!is_about_plausibility(*first, *second), Reverse(rows.len()))
+    order.sort_by_key(|((_, (first, _), (second, _), _), rows)| {
+        (!is_about_plausibility(*first, *second), first == second, Reverse(rows.len()))
     });
     let described = known.described();
     let told = |(key, rows): (Key, Vec<usize>)| row((sequence, known), described(key.0), key, &rows);
@@ -105,7 +112,7 @@ fn rows(sequence: &Sequence, known: &SequenceThings, found: BTreeMap<Key, Vec<us
 fn row(
     (sequence, known): (&Sequence, &SequenceThings),
     thing: Thing,
-    (_, first, second, name): Key,
+    (_, (first, first_cause), (second, second_cause), name): Key,
     rows: &[usize],
 ) -> Value {
     let mut row = things::row(sequence, &thing);
@@ -115,5 +122,6 @@ fn row(
     row["radar"] = json!(sequence.rig.radars[radar].name);
     (row["scan"], row["point"]) = (json!(scan), json!(point));
     (row["first"], row["second"], row["by"]) = (json!(first), json!(second), json!(name));
+    (row["first_cause"], row["second_cause"]) = (json!(first_cause), json!(second_cause));
     row
 }

@@ -6,7 +6,7 @@ use ralf::label::truth_of;
 use ralf_corrections::{ScanSummary, ScanVersion};
 use ralf_data::things::{Answer, SequenceThings};
 use ralf_data::truth::effective_labels;
-use ralf_data::{Label, SequenceReader};
+use ralf_data::{Label, ScanId, SequenceReader};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 
@@ -24,11 +24,9 @@ impl Said {
         let sequence = reader.sequence();
         let mut said = Self::default();
         for summary in app.said(|store| store.summaries(&sequence.name))? {
-            let scan = summary.key.scan as usize;
-            let radar = sequence.rig.radars.iter().position(|radar| radar.name == summary.key.radar);
-            let there = radar.filter(|radar| scan < sequence.times.radars[*radar].len());
-            let key = (summary.key.radar.clone(), scan);
-            if app.contents.holds(reader, there.map(|radar| (index, radar, scan)), &summary) {
+            let there = ScanId::from(summary.key.clone()).place_in(sequence);
+            let key = (summary.key.radar.clone(), summary.key.scan as usize);
+            if app.contents.holds(reader, there.map(|(radar, scan)| (index, radar, scan)), &summary) {
                 said.holding.insert(key, summary);
             } else {
                 *said.orphaned.entry(key).or_default() +=

@@ -1,6 +1,6 @@
 //! People who label together: nobody sees what another said before both are through, and then they settle it.
 
-use crate::support::{Out, RADAR, SEQUENCE, Serving};
+use crate::support::{Out, RADAR, SEQUENCE, Serving, stroke};
 use serde_json::{Value, json};
 use std::fs;
 
@@ -10,8 +10,13 @@ fn settled(disagreements: &Value, side: &str) -> Value {
     let scans: Vec<&Value> = change["points"].as_array().unwrap().iter().map(|part| &part["scan"]).collect();
     let base = disagreements["base"].as_array().unwrap();
     let base: Vec<&Value> = base.iter().filter(|base| scans.contains(&&base["scan"])).collect();
-    json!({ "tool": "settle", "protect": false, "confirm": true, "label": change[side], "base": base,
-        "points": change["points"] })
+    let mut stroke = json!({ "tool": "settle", "protect": false, "confirm": true, "label": change[side],
+        "base": base, "points": change["points"] });
+    let cause = &change[format!("{side}_cause")];
+    if cause.is_string() {
+        stroke["cause"] = cause.clone();
+    }
+    stroke
 }
 
 /// The places of all disagreements of the first scan.
@@ -84,6 +89,63 @@ fn a_side_is_taken_by_a_stroke_that_can_be_undone_and_agreement_stays() {
     }
     // Who rests on what was there before somebody else's stroke is told so.
     assert!(first.edit("POST", "strokes", &settled(&told, "first"), "one").refused(409).contains("ada"));
+}
+
+/// A stroke that says why detections are artifacts.
+fn because(revision: u64, cause: &str, points: &[u32]) -> Value {
+    let mut stroke = stroke(0, revision, Some(1), points);
+    stroke["cause"] = json!(cause);
+    stroke
+}
+
+#[test]
+fn causes_of_which_both_said_one_are_compared_and_go_with_the_side_that_is_taken() {
+    let out = Out::new();
+    let [first, second] = [out.serve(), Serving::second(out.path(), "bob").unwrap()];
+    // Of 0 they say different causes, of 1 the same, of 2 only one says one, of 3 the second alone says artifact.
+    first.edit("POST", "strokes", &because(0, "mirror", &[0, 1]), "one").json();
+    first.stroke(0, 1, Some(1), &[2]).json();
+    first.stroke(0, 2, Some(99), &[3]).json();
+    second.edit("POST", "strokes", &because(0, "road", &[0, 2, 3]), "one").json();
+    second.edit("POST", "strokes", &because(1, "mirror", &[1]), "one").json();
+    first.accept(0, 3).json();
+    second.accept(0, 2).json();
+    let side = |change: &Value, side: &str| {
+        (change[side].as_u64().unwrap(), change[format!("{side}_cause")].as_str().map(str::to_owned))
+    };
+    let told = |server: &Serving| -> Vec<_> {
+        let told = server.of_sequence("disagreements").json();
+        let changes = told["changes"].as_array().unwrap();
+        changes
+            .iter()
+            .map(|change| {
+                (side(change, "first"), side(change, "second"), change["points"][0]["points"].clone())
+            })
+            .collect()
+    };
+    let (mirror, road) = ((1, Some("mirror".to_owned())), (1, Some("road".to_owned())));
+    let about_causes = (mirror, road.clone(), json!([0]));
+    let before = [((99, None), road, json!([3])), about_causes.clone()];
+    assert_eq!(told(&first), before, "those about plausibility first, those about causes last");
+    let sayable = first.get("/api/recording").json()["sayable_causes"].clone();
+    let cause_of = |point: usize| sayable[usize::from(first.table(0).u8("said_cause")[point])].clone();
+    let settle = |side: &str| {
+        let now = first.of_sequence("disagreements").json();
+        first.edit("POST", "strokes", &settled(&now, side), "one").json();
+    };
+    settle("second");
+    assert_eq!((first.table(0).u16("label")[3], cause_of(3)), (1, json!("road")));
+    assert_eq!(told(&first), [about_causes]);
+    settle("second");
+    assert_eq!((first.table(0).u16("label")[0], cause_of(0)), (1, json!("road")));
+    assert_eq!(told(&first), []);
+    for _ in 0..2 {
+        first.edit("POST", "undo", &json!({}), "one").json();
+    }
+    assert_eq!((told(&first), cause_of(0)), (before.to_vec(), json!("mirror")));
+    settle("first");
+    settle("first");
+    assert_eq!((cause_of(0), cause_of(3), told(&first)), (json!("mirror"), json!(""), Vec::new()));
 }
 
 #[test]

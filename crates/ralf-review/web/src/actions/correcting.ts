@@ -46,7 +46,7 @@ export class Correcting {
     if (countOf(selection) === 0 || outbox.kind === "conflict" || readOnly(this.world)) return;
     const { sequence, stroke } = this.strokeOf(selection, choice, tool);
     store.set({ selection: new Uint8Array(selection.length) });
-    await this.outbox.add([{ sequence, stroke: cause === null ? stroke : { ...stroke, cause } }]);
+    await this.outbox.add([{ sequence, stroke: because(stroke, cause) }]);
   }
 
   /** Makes the selected plausible ones artifacts and the other way round, as one step. */
@@ -88,14 +88,19 @@ export class Correcting {
   }
 
   /** Says who is right where two people said different things: those who have said so before say it again. */
-  async settle(points: readonly ScanPoints[], base: readonly BaseRevision[], label: Choice): Promise<boolean> {
+  async settle(
+    points: readonly ScanPoints[],
+    base: readonly BaseRevision[],
+    label: Choice,
+    cause: string | null = null,
+  ): Promise<boolean> {
     const { store } = this.world;
     const { sequence, outbox, cloud } = store.state;
     if (points.length === 0 || outbox.kind === "conflict" || readOnly(this.world)) return false;
     const stroke = { id: randomName(), tool: SETTLE, protect: false, confirm: true, label, base, points };
     // It is answered: a second press must not answer what isn't on screen once more.
     store.set({ selection: new Uint8Array(cloud.count), disputed: null });
-    await this.outbox.add([{ sequence, stroke }]);
+    await this.outbox.add([{ sequence, stroke: because(stroke, cause) }]);
     return true;
   }
 
@@ -160,4 +165,9 @@ export class Correcting {
     if (!base.some((scan) => findScan(store.state.cloud, scan) >= 0)) await this.navigation.goTo(base[0]);
     store.set({ selection: maskOf(store.state.cloud, points) });
   }
+}
+
+/** The stroke with why detections are artifacts, where that is said. */
+function because(stroke: StrokeRequest, cause: string | null): StrokeRequest {
+  return cause === null ? stroke : { ...stroke, cause };
 }

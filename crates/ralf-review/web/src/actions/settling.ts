@@ -71,15 +71,15 @@ export class Settling {
     }
   }
 
-  /** Takes the first's side or the second's, and goes on. */
+  /** Takes the first's side or the second's, with the cause that was said, and goes on. */
   take(side: "first" | "second"): void {
     const { disputed } = this.world.store.state;
-    if (disputed !== null) this.answer(disputed[side]);
+    if (disputed !== null) this.answer(disputed[side], disputed[`${side}_cause`]);
   }
 
   /** Says what it is, whoever said so, and goes on. */
-  answer(choice: Choice): void {
-    void this.settle(choice).catch((error: unknown) => complain(this.world, error));
+  answer(choice: Choice, cause: string | null = null): void {
+    void this.settle(choice, cause).catch((error: unknown) => complain(this.world, error));
   }
 
   /** Shows all of the disagreement, and lets all of it be settled. */
@@ -87,7 +87,7 @@ export class Settling {
     this.world.store.set({ filter: everything, scope: "shown" });
   }
 
-  private async settle(choice: Choice): Promise<void> {
+  private async settle(choice: Choice, cause: string | null): Promise<void> {
     const { store } = this.world;
     const { disputed, disagreements, cloud, selection } = store.state;
     if (disputed === null || disagreements === null) return;
@@ -98,7 +98,7 @@ export class Settling {
         this.world,
         "None of these is selected, so nothing is settled: they are spared, or the filter hides them.",
       );
-    if (!(await this.correcting.settle(points, baseOf(disagreements, points), choice))) return;
+    if (!(await this.correcting.settle(points, baseOf(disagreements, points), choice, cause))) return;
     const left = unshown + unreached;
     if (left > 0)
       tell(this.world, `${counted(countOfPoints(points), "detection")} settled; ${left} that were hidden are left.`);

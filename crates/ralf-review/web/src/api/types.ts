@@ -129,10 +129,16 @@ export interface Opinion {
   readonly base: readonly BaseRevision[];
 }
 
-/** Detections of a thing to which two people gave different labels, neither of whom saw the other's. */
+/**
+ * Detections of a thing to which two people, neither of whom saw the other's, gave different labels, or of which both
+ * said why they are artifacts, and not the same.
+ */
 export interface Disagreement extends DoubtfulThing {
   readonly first: number;
   readonly second: number;
+  /** Why they are artifacts, where that was said, too. */
+  readonly first_cause: string | null;
+  readonly second_cause: string | null;
   /** Who labelled them a second time. */
   readonly by: string;
   readonly points: readonly ScanPoints[];

@@ -30,6 +30,11 @@ export class LabelBook {
     return this.byId.get(id)?.name ?? `class ${id}`;
   }
 
+  /** With why it is an artifact, where that is said. */
+  nameWith(id: number, cause: string | null): string {
+    return this.name(id) + (cause === null ? "" : ` (${cause})`);
+  }
+
   cluster(id: number): string | null {
     return this.byId.get(id)?.cluster ?? null;
   }

@@ -5,8 +5,8 @@ import { type Cloud, findScan, maskOf } from "./cloud.js";
 import { countOfPoints, keptPoints } from "./opinion.js";
 
 /** What tells one disagreement from all others of the sequence. */
-export function keyOf({ thing, first, second, by }: Disagreement): string {
-  return [thing, first, second, by].join();
+export function keyOf({ thing, first, second, first_cause, second_cause, by }: Disagreement): string {
+  return [thing, first, second, first_cause, second_cause, by].join();
 }
 
 /** The first that wasn't looked at yet; when all were, the first of those that are left. */

@@ -28,7 +28,19 @@ const front = (scan: number, ...points: number[]): ScanPoints => ({ radar: "fron
 
 function disagreement(thing: number, points: readonly ScanPoints[]): Disagreement {
   const counts = { detections: 9, scans: 2, plausible: 9, answered: 0, expected_errors: 1 };
-  return { thing, first: 1, second: 99, by: "bob", points, ...counts, place: [0, 0, 0], radius: 1, ...HERE, point: 0 };
+  return {
+    ...{ first_cause: null, second_cause: null },
+    thing,
+    first: 1,
+    second: 99,
+    by: "bob",
+    points,
+    ...counts,
+    place: [0, 0, 0],
+    radius: 1,
+    ...HERE,
+    point: 0,
+  };
 }
 
 /** The last of it is in a scan that is never on screen. */
@@ -39,6 +51,7 @@ const RULE = { name: "ghosts", filter: everything, sets: { label: 1, cause: null
 class Table {
   readonly store = new Store<State>(initialState(recordingOf([sequence("00", "ada")]), "ada"));
   readonly settled: (readonly ScanPoints[])[] = [];
+  readonly world: World;
   readonly settling: Settling;
   readonly selecting: Selecting;
   readonly ruling: Ruling;
@@ -51,7 +64,7 @@ class Table {
       disagreements: () => Promise.resolve({ people: [], waiting: null, changes: [DISPUTED], base: [] }),
       opinion: () => Promise.resolve({ answered: 0, scans: null, changes: [], base: [] }),
     };
-    const world = { store, api } as unknown as World;
+    const world = (this.world = { store, api } as unknown as World);
     const go = { wholeSequence: (at: ScanId) => Promise.resolve(this.goTo(at)) } as unknown as Navigation;
     const settle = (points: readonly ScanPoints[]): Promise<boolean> => {
       this.settled.push(points);
@@ -197,6 +210,25 @@ test("a side is taken once, however long the server takes and however often a ke
     [[99, DISPUTED.points]],
   );
   assert.equal(store.state.waiting.length, 1);
+});
+
+test("the cause that a side has said goes with it, and none with another answer", async () => {
+  const table = await looking();
+  const causes: (string | null)[] = [];
+  const settle = (
+    ...[, , , cause = null]: readonly [unknown, unknown, unknown, (string | null)?]
+  ): Promise<boolean> => {
+    causes.push(cause);
+    return Promise.resolve(false);
+  };
+  const settling = new Settling(table.world, {} as Navigation, { settle } as unknown as Correcting);
+  const selection = new Uint8Array([1, 1, 0, 1, 0]);
+  const disagreements = { people: [], waiting: null, changes: [], base: [] };
+  table.store.set({ disagreements, disputed: { ...DISPUTED, first_cause: "mirror" }, selection });
+  settling.take("first");
+  settling.take("second");
+  settling.answer(1);
+  assert.deepEqual(causes, ["mirror", null, null]);
 });
 
 test("asking for a proposal empties the selection, and ends the disagreement", async () => {

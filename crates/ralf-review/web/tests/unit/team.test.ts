@@ -6,7 +6,7 @@ import { keyOf, nextDisagreement, peopleOf, perHour, withMarksTogether } from ".
 function disagreement(thing: number, by = "bob"): Disagreement {
   const counts = { detections: 9, scans: 2, plausible: 9, answered: 0, expected_errors: 1 };
   const where = { place: [0, 0, 0], radius: 1, radar: "front", scan: 0, point: 0 } as const;
-  return { thing, first: 1, second: 99, by, points: [], ...counts, ...where };
+  return { thing, first: 1, second: 99, first_cause: null, second_cause: null, by, points: [], ...counts, ...where };
 }
 
 test("disagreements are looked at one after the other, and those that were passed over come again", () => {
