@@ -4,7 +4,7 @@ use crate::app::App;
 use crate::correcting::{self, MarkRequest, Since, StepRequest, StrokeRequest};
 use crate::http::{Answer, ApiError, Asked, Body, Guard, MAX_BODY, Person, Place, guard, json};
 use crate::page;
-use crate::reading::{self, About, Around, LidarProjection, Moment, Projection};
+use crate::reading::{self, About, Around, LidarProjection, Moment, Near, Projection};
 use axum::Router;
 use axum::extract::{DefaultBodyLimit, State};
 use axum::http::Uri;
@@ -29,6 +29,7 @@ pub(crate) fn router(app: Arc<App>, guarded_by: Arc<Guard>) -> Router {
         .route("/radars/{radar}/scans/{scan}/reviewed", put(mark))
         .route("/lidars/{lidar}/scans/{scan}", get(cloud))
         .route("/lidars/{lidar}/scans/{scan}/around", get(map))
+        .route("/lidars/{lidar}/scans/{scan}/near", get(near))
         .route("/cameras/{camera}/images/{image}", get(image))
         .route("/cameras/{camera}/images/{image}/detections", get(projection))
         .route("/cameras/{camera}/images/{image}/lidar", get(lidar_projection))
@@ -112,6 +113,14 @@ async fn cloud(State(app): Shared, Place((sequence, lidar, scan)): Place<(String
 
 async fn map(State(app): Shared, Place((sequence, lidar, scan)): Place<(String, String, usize)>) -> Answer {
     app.blocking(move |app| reading::map(app, &sequence, &lidar, scan)).await
+}
+
+async fn near(
+    State(app): Shared,
+    Place((sequence, lidar, scan)): Place<(String, String, usize)>,
+    Asked(place): Asked<Near>,
+) -> Answer {
+    app.blocking(move |app| reading::near(app, (&sequence, &lidar, scan), place)).await
 }
 
 async fn image(

@@ -9,6 +9,7 @@ use ralf::scene::{FrameWindow, LidarView};
 use ralf::sensors::is_return;
 use ralf::space::Point;
 use ralf_data::SequenceReader;
+use serde::Deserialize;
 use serde_json::Map;
 
 /// The points of a scan in the vehicle frame at its time; those without return are absent.
@@ -24,13 +25,51 @@ pub(super) fn kept(
     table: impl FnOnce(&dyn SequenceReader, &SequenceLabels, (usize, usize)) -> Result<Vec<u8>, ApiError>,
 ) -> Answer {
     let (index, reader) = app.sequence(sequence)?;
-    let known = reader.sequence();
-    let names = known.rig.lidars.iter().map(|lidar| lidar.name.as_str());
-    let (lidar, _) = measurement("lidar", names, &known.times.lidars, lidar, scan)?;
+    let (lidar, _) = lidar_scan(reader, lidar, scan)?;
     let labels = app.labels(index)?;
     let make = || table(reader, &labels, (lidar, scan)).map(|bytes| (labels.stamp.clone(), bytes));
     let made = cache.get((index, lidar, scan), |(stamp, _)| labels.is_of(stamp), make)?;
     Ok(content("application/octet-stream", made.1.clone()))
+}
+
+/// A place of the world, and how far around it is looked.
+#[derive(Debug, Clone, Copy, Deserialize)]
+pub(crate) struct Near {
+    /// In the odometry frame, m.
+    x: f64,
+    y: f64,
+    /// Level with the ground, m.
+    radius: f64,
+}
+
+/// As far as anything is looked at that moves, m.
+const FARTHEST: f64 = 30.0;
+
+/// The points of a scan that lie near a place, as [`cloud`] has all of them.
+pub(crate) fn near(app: &App, (sequence, lidar, scan): (&str, &str, usize), near: Near) -> Answer {
+    let Near { x, y, radius } = near;
+    if !(x.is_finite() && y.is_finite() && radius > 0.0 && radius <= FARTHEST) {
+        return Err(ApiError::Malformed(format!(
+            "query: expected a place and a radius up to {FARTHEST} m, found {x}, {y}, {radius}"
+        )));
+    }
+    let (index, reader) = app.sequence(sequence)?;
+    let (lidar, t_ns) = lidar_scan(reader, lidar, scan)?;
+    let labels = app.labels(index)?;
+    let found = seen(reader, &labels, (lidar, scan), t_ns)?;
+    let odom_from_vehicle = reader.sequence().motion.odom_from_vehicle(t_ns);
+    let is_near = |seen: &Seen| {
+        let place = odom_from_vehicle * seen.place;
+        (place.x - x).hypot(place.y - y) <= radius
+    };
+    let kept: Vec<Option<Seen>> = found.into_iter().flatten().filter(is_near).map(Some).collect();
+    Ok(content("application/octet-stream", finished(reader, &kept, t_ns)))
+}
+
+fn lidar_scan(reader: &dyn SequenceReader, lidar: &str, scan: usize) -> Result<(usize, i64), ApiError> {
+    let known = reader.sequence();
+    let names = known.rig.lidars.iter().map(|lidar| lidar.name.as_str());
+    measurement("lidar", names, &known.times.lidars, lidar, scan)
 }
 
 fn table(
@@ -39,12 +78,16 @@ fn table(
     (lidar, scan): (usize, usize),
 ) -> Result<Vec<u8>, ApiError> {
     let t_ns = reader.sequence().times.lidars[lidar][scan];
-    let found = seen(reader, labels, (lidar, scan), t_ns)?;
+    Ok(finished(reader, &seen(reader, labels, (lidar, scan), t_ns)?, t_ns))
+}
+
+/// Returns as a table, with where the vehicle was.
+fn finished(reader: &dyn SequenceReader, found: &[Option<Seen>], t_ns: i64) -> Vec<u8> {
     let more = Map::from_iter([
         ("t_ns".to_owned(), time(t_ns)),
         ("odom_from_vehicle".to_owned(), matrix(&reader.sequence().motion.odom_from_vehicle(t_ns))),
     ]);
-    Ok(points(&found, Table::new(found.len())).finish(more))
+    points(found, Table::new(found.len())).finish(more)
 }
 
 /// A return of a LiDAR.

@@ -17,7 +17,7 @@ mod things;
 pub(crate) use camera::image;
 pub(crate) use detections::{check_size, detections, machine_labels, reviewed, stamp};
 pub(crate) use disagreements::disagreements;
-pub(crate) use lidar::cloud;
+pub(crate) use lidar::{Near, cloud, near};
 pub(crate) use lidar_map::map;
 pub(crate) use moment::{Moment, moment};
 pub(crate) use opinion::{Around, opinion};

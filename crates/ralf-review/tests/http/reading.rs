@@ -1,6 +1,6 @@
 //! What the page sees is what the files hold.
 
-use crate::support::{CAMERA, LIDAR, Out, RADAR, SEQUENCE, recording};
+use crate::support::{CAMERA, LIDAR, Out, RADAR, SEQUENCE, Table, recording};
 use ralf::config::Config;
 use ralf::sensors::{Rig, is_return};
 use ralf::space::Point;
@@ -156,6 +156,37 @@ fn a_cloud_is_the_lidars_with_its_ground() {
     }
     let share = ground.iter().map(|flag| f64::from(*flag)).sum::<f64>() / ground.len() as f64;
     assert!((0.1..0.95).contains(&share), "{share}");
+}
+
+/// Against going through all points of the scan.
+#[test]
+fn the_points_near_a_place_of_the_world_are_those_of_the_scan() {
+    let out = Out::new();
+    let server = out.serve();
+    let scan = format!("lidars/{LIDAR}/scans/1");
+    let (whole, recording) = (server.of_sequence(&scan).table(), recording());
+    let sequence = recording.sequences[0].sequence();
+    let odom_from_vehicle = sequence.motion.odom_from_vehicle(sequence.times.lidars[0][1]);
+    let columns = |table: &Table| ["x", "y", "z", "intensity"].map(|name| table.f32(name));
+    let all = columns(&whole);
+    let place = |row: usize| odom_from_vehicle * Point::from([0, 1, 2].map(|axis| f64::from(all[axis][row])));
+    let some = (whole.rows() / 2..).find(|row| all[0][*row].is_finite()).unwrap();
+    let (middle, radius) = (place(some), 6.0);
+    let wanted: Vec<usize> = (0..whole.rows())
+        .filter(|row| (place(*row) - middle).xy().norm() <= radius && all[0][*row].is_finite())
+        .collect();
+    assert!(wanted.len() > 10 && wanted.len() < whole.rows() / 2, "{}", wanted.len());
+    let near = |x: f64, radius: f64| {
+        server.of_sequence(&format!("{scan}/near?x={x}&y={}&radius={radius}", middle.y))
+    };
+    let found = near(middle.x, radius).table();
+    let expected = all.map(|column| wanted.iter().map(|row| column[*row]).collect::<Vec<f32>>());
+    assert_eq!(columns(&found), expected);
+    assert_eq!(found.header["odom_from_vehicle"], whole.header["odom_from_vehicle"]);
+    assert_eq!(near(1e6, radius).table().rows(), 0);
+    for (x, radius) in [(f64::NAN, 5.0), (middle.x, 0.0), (middle.x, 1000.0)] {
+        assert!(near(x, radius).refused(400).contains("a radius up to"));
+    }
 }
 
 /// Against going through all points of all scans: a point of each cell that two scans have seen, and none of another.

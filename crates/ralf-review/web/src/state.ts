@@ -87,6 +87,8 @@ export interface State {
   readonly loading: boolean;
   readonly cloud: Cloud;
   readonly lidar: Lidar | null;
+  /** The LiDAR's points around what is held still; `null` where nothing is, or they have not come. */
+  readonly heldLidar: Lidar | null;
   readonly cameras: readonly CameraMoment[];
 
   readonly mode: ViewMode;
@@ -212,6 +214,7 @@ export function initialState(recording: Recording, name: string): State {
     loading: true,
     cloud: buildCloud([]),
     lidar: null,
+    heldLidar: null,
     cameras: [],
     mode: "bird",
     colour: "label",

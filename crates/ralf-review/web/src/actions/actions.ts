@@ -4,6 +4,7 @@ import type { Keeper } from "../history/keep.js";
 import { Adopting } from "./adopting.js";
 import { Correcting } from "./correcting.js";
 import { Hearing } from "./hearing.js";
+import { Holding } from "./holding.js";
 import { Moment } from "./moment.js";
 import { Opining } from "./opining.js";
 import { Navigation } from "./navigation.js";
@@ -27,6 +28,7 @@ export interface Actions {
   readonly pick: Picking;
   readonly view: Viewing;
   readonly hear: Hearing;
+  readonly hold: Holding;
   readonly thing: Thinging;
   readonly rule: Ruling;
   readonly opine: Opining;
@@ -50,6 +52,7 @@ export function actionsOn(world: World, keeper: Keeper): Actions {
     pick: new Picking(world),
     view: new Viewing(world),
     hear: new Hearing(world, adopting, correct),
+    hold: new Holding(world),
     thing,
     rule: new Ruling(world, go, select, correct),
     opine: new Opining(world, go, correct),

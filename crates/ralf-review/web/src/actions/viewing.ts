@@ -1,7 +1,6 @@
 /** How things are shown. */
 
 import { type AreaKind, areaOf } from "../data/area.js";
-import { heldStill, letGo } from "../data/cloud.js";
 import { everything, type Filter } from "../data/filter.js";
 import type { Point } from "../selection/geometry.js";
 import { type Dialog, homeOf, type ViewMode } from "../state.js";
@@ -97,19 +96,6 @@ export class Viewing {
   toggleLight(): void {
     const { store } = this.world;
     store.set({ light: !store.state.light });
-  }
-
-  /** Holds what is selected still over the scans on screen, or lets it go. */
-  toggleHeld(): void {
-    const { store } = this.world;
-    const { cloud, selection } = store.state;
-    const next = cloud.held ? letGo(cloud) : heldStill(cloud, selection);
-    if (next === cloud) return tell(this.world, "Select what moves first: it is held still over the scans on screen.");
-    store.set({ cloud: next });
-    tell(
-      this.world,
-      next.held ? "Held still: the scans are moved. Shift+H lets it go." : "As the vehicle measured it.",
-    );
   }
 
   toggleGround(): void {

@@ -31,6 +31,13 @@ export interface Call {
   readonly signal?: AbortSignal | undefined;
 }
 
+/** A place of the odometry frame and how far around it is looked, m. */
+export interface Near {
+  readonly x: number;
+  readonly y: number;
+  readonly radius: number;
+}
+
 export class Api {
   constructor(private readonly session: Session) {}
 
@@ -91,6 +98,12 @@ export class Api {
   /** What several scans around one have seen stand still. */
   lidarMap(sequence: string, name: string, scan: number, call?: Call): Promise<Table<LidarHeader>> {
     return this.table(`${inSequence(sequence)}/lidars/${part(name)}/scans/${scan}/around`, call);
+  }
+
+  /** The points of a scan near a place. */
+  lidarNear(sequence: string, name: string, scan: number, near: Near): Promise<Table<LidarHeader>> {
+    const query = new URLSearchParams(Object.entries(near).map(([key, value]) => [key, String(value)]));
+    return this.table(`${inSequence(sequence)}/lidars/${part(name)}/scans/${scan}/near?${query}`);
   }
 
   async image(sequence: string, camera: string, image: number, call?: Call): Promise<Blob> {

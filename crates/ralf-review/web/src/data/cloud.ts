@@ -56,38 +56,6 @@ export function withScans(cloud: Cloud, changed: readonly Scan[]): Cloud {
   return { ...cloud, scans, ...labelsOf(scans, cloud.count) };
 }
 
-/**
- * The scans moved (and not turned) so that the middle of what is chosen is always where it is in the first scan that
- * has some of it. Those without any of it have no place. The same cloud where nothing is chosen.
- */
-export function heldStill(cloud: Cloud, chosen: Uint8Array): Cloud {
-  const middles = cloud.scans.map((_, scan) => middleOf(cloud, scan, chosen));
-  const first = middles.find((middle) => middle !== null);
-  if (first === undefined || first === null) return cloud;
-  const moved = cloud.positions.map((value, at) => {
-    const middle = middles[cloud.scanOf[Math.floor(at / 3)]];
-    return middle === null ? Number.NaN : value - middle[at % 3] + first[at % 3];
-  });
-  return { ...cloud, positions: moved, held: true };
-}
-
-/** The same detections where they were measured. */
-export function letGo(cloud: Cloud): Cloud {
-  return { ...cloud, positions: cloud.measured, held: false };
-}
-
-/** Where the chosen detections of a scan lie on average, m; `null` where none is chosen. */
-function middleOf({ starts, scans, positions }: Cloud, scan: number, chosen: Uint8Array): readonly number[] | null {
-  const sum = [0, 0, 0];
-  let count = 0;
-  for (let i = starts[scan]; i < starts[scan] + scans[scan].table.rows; i++) {
-    if (chosen[i] === 0) continue;
-    count += 1;
-    for (const axis of [0, 1, 2]) sum[axis] += positions[3 * i + axis];
-  }
-  return count === 0 ? null : sum.map((value) => value / count);
-}
-
 /** A column of every scan, one after the other; NaN where a scan doesn't have it. */
 export function gather(cloud: Cloud, name: string): Float32Array {
   const values = new Float32Array(cloud.count).fill(Number.NaN);

@@ -1,6 +1,6 @@
 /** Reads what a moment needs, and remembers the last of it. */
 
-import type { Api } from "../api/client.js";
+import type { Api, Near } from "../api/client.js";
 import type { Table } from "../api/table.js";
 import type { LidarHeader, ScanId, ThingInImageHeader } from "../api/types.js";
 import { buildCloud, type Cloud } from "./cloud.js";
@@ -16,6 +16,7 @@ export class Loader {
   private readonly scans = new Cache<Scan>(1200);
   private readonly lidars = new Cache<Table<LidarHeader>>(6);
   private readonly maps = new Cache<Table<LidarHeader>>(4);
+  private readonly near = new Cache<Table<LidarHeader>>(100);
   private readonly images = new Cache<ImageBitmap>(36);
   private readonly places = new Cache<Table<object>>(600);
   private readonly things = new Cache<Table<ThingInImageHeader>>(100);
@@ -65,6 +66,16 @@ export class Loader {
     }
     const read = await this.lidars.get(key(sequence, name, scan), () => this.api.lidar(sequence, name, scan));
     return lidarFromTable(name, scan, read, table.header);
+  }
+
+  /** The points of a LiDAR scan near a place of the odometry frame. */
+  lidarNear(
+    sequence: string,
+    { name, scan }: { readonly name: string; readonly scan: number },
+    near: Near,
+  ): Promise<Table<LidarHeader>> {
+    const read = (): Promise<Table<LidarHeader>> => this.api.lidarNear(sequence, name, scan, near);
+    return this.near.get(key(sequence, name, scan, near.x, near.y, near.radius), read);
   }
 
   image(sequence: string, camera: string, image: number): Promise<ImageBitmap> {

@@ -123,7 +123,7 @@ function view({ actions, home, seenCamera }: KeyContext): readonly Key[] {
     key(["k"], "LiDAR on or off", () => viewing.toggleLidar()),
     key(["shift+k"], "LiDAR in the cameras' images, or not", () => viewing.toggleLidarInImages()),
     key(["j"], "LiDAR's ground on or off", () => viewing.toggleGround()),
-    key(["shift+h"], "Hold what is selected still over the scans, or let it go", () => viewing.toggleHeld()),
+    key(["shift+h"], "Hold what is selected still over the scans, or let it go", () => actions.hold.toggle()),
     key(["shift+l"], "Light or dark background", () => viewing.toggleLight()),
     key(["?"], "This list", () => viewing.dialog("help")),
   ];

@@ -1,6 +1,6 @@
 /** All detections on screen as one buffer of points: colour inside, state as the rim. */
 
-import { BufferAttribute, BufferGeometry, Points, ShaderMaterial } from "three";
+import { BufferAttribute, BufferGeometry, Points, ShaderMaterial, Sphere } from "three";
 import { Mark, type Marks } from "./marks.js";
 import { CORRECTED_RGB, type Rgb, SELECTED_RGB, UNCERTAIN_RGB, WAITING_RGB } from "./palette.js";
 
@@ -76,6 +76,8 @@ export class RadarCloud {
     geometry.setAttribute("position", new BufferAttribute(positions, 3));
     geometry.setAttribute("tint", new BufferAttribute(new Uint8Array(3 * count), 3, true));
     geometry.setAttribute("mark", new BufferAttribute(new Uint8Array(count).fill(Mark.hidden), 1));
+    // It would be worked out for an order of drawing that is given; places that are none have none.
+    geometry.boundingSphere = new Sphere();
     this.points.geometry = geometry;
   }
 

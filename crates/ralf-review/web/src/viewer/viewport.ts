@@ -84,8 +84,11 @@ export class Viewport {
       },
     );
     store.watch(
-      ({ lidar }) => [lidar],
-      (lidar) => view.lidar.set(lidar),
+      ({ lidar, heldLidar, cloud }) => [cloud.held ? heldLidar : lidar],
+      (lidar) => {
+        view.lidar.set(lidar);
+        this.element.dataset["lidarPoints"] = String(lidar?.count ?? 0);
+      },
     );
     store.watch(
       ({ painting }) => [painting],
@@ -112,12 +115,12 @@ export class Viewport {
     const { store } = this.page;
     const { view } = this;
     store.watch(
-      ({ lidarShown, groundHidden, dotSize, mode, lidar, cloud }) => [
-        lidarShown && !cloud.held,
+      ({ lidarShown, groundHidden, dotSize, mode, lidar, heldLidar, cloud }) => [
+        lidarShown,
         groundHidden,
         dotSize,
         mode,
-        lidar,
+        cloud.held ? heldLidar : lidar,
       ],
       (lidarShown, groundHidden, dotSize) => {
         view.lidar.setLook(lidarShown, groundHidden, view.pixelRatio);

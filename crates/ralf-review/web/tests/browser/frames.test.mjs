@@ -1,28 +1,52 @@
 // 200,000 LiDAR points and twenty radar scans: drawn only when something changes, and how long a frame takes then.
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { atEnd, clean, freshOut, launch, open, serve } from "./support.mjs";
+import {
+  anotherBrowser,
+  ask,
+  atEnd,
+  clean,
+  current,
+  freshOut,
+  launch,
+  open,
+  picture,
+  says,
+  scanOf,
+  serve,
+  settled,
+} from "./support.mjs";
 
 const POINTS = 200_000;
 
 /** A LiDAR scan made up on rings, as the server would send it. */
-function lidarTable() {
+const onRings = (i) => {
+  const [range, angle] = [3 + (i % 64) * 1.2, (2 * Math.PI * i) / (POINTS / 64)];
+  return [range * Math.cos(angle), range * Math.sin(angle), (i % 7) * 0.5];
+};
+
+/** Points of a grid of 10 cm around a place. */
+const around = (x, y) => (i) => [
+  x + 0.1 * ((i % 100) - 50),
+  y + 0.1 * ((Math.floor(i / 100) % 100) - 50),
+  0.1 * Math.floor(i / 10_000),
+];
+
+/** A table as the server sends it, of so many places. */
+function lidarTable(count, placeOf, more) {
   const names = ["x", "y", "z", "intensity"];
   const columns = [
-    ...names.map((name, i) => ({ name, type: "f32", offset: 4 * POINTS * i })),
-    { name: "ground", type: "u8", offset: 16 * POINTS },
+    ...names.map((name, i) => ({ name, type: "f32", offset: 4 * count * i })),
+    { name: "ground", type: "u8", offset: 16 * count },
   ];
-  let header = JSON.stringify({ rows: POINTS, columns, t_ns: "0", odom_from_vehicle: null });
+  let header = JSON.stringify({ rows: count, columns, t_ns: "0", odom_from_vehicle: null, ...more });
   while ((4 + header.length) % 8 !== 0) header += " ";
-  const body = Buffer.alloc(4 + header.length + 17 * POINTS);
+  const body = Buffer.alloc(4 + header.length + 17 * count);
   body.writeUInt32LE(header.length);
   body.write(header, 4);
-  const floats = new Float32Array(body.buffer, body.byteOffset + 4 + header.length, 4 * POINTS);
-  for (let i = 0; i < POINTS; i += 1) {
-    const [range, angle] = [3 + (i % 64) * 1.2, (2 * Math.PI * i) / (POINTS / 64)];
-    floats.set([range * Math.cos(angle)], i);
-    floats.set([range * Math.sin(angle)], POINTS + i);
-    floats.set([(i % 7) * 0.5], 2 * POINTS + i);
+  const floats = new Float32Array(body.buffer, body.byteOffset + 4 + header.length, 4 * count);
+  for (let i = 0; i < count; i += 1) {
+    placeOf(i).forEach((value, axis) => floats.set([value], axis * count + i));
   }
   return body;
 }
@@ -34,7 +58,7 @@ test("200,000 LiDAR points and twenty radar scans are drawn when the view moves,
   const tab = await open(context, browser, server);
   const { page } = tab;
   await page.route("**/lidars/*/scans/*", (route) =>
-    route.fulfill({ contentType: "application/octet-stream", body: lidarTable() }),
+    route.fulfill({ contentType: "application/octet-stream", body: lidarTable(POINTS, onRings) }),
   );
   await page.reload();
   await page.waitForFunction(() =>
@@ -43,17 +67,7 @@ test("200,000 LiDAR points and twenty radar scans are drawn when the view moves,
   for (let more = 0; more < 2; more += 1) await page.keyboard.press(".");
   await page.waitForTimeout(1500);
   await page.keyboard.press("t");
-  const box = await page.locator(".viewport").boundingBox();
-  const times = [];
-  await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
-  await page.mouse.down({ button: "right" });
-  for (let step = 0; step < 60; step += 1) {
-    await page.mouse.move(box.x + box.width / 2 + 4 * step, box.y + box.height / 2);
-    await page.evaluate(() => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve))));
-    times.push(Number.parseFloat(await page.locator(".status-bar .frame").textContent()));
-  }
-  await page.mouse.up({ button: "right" });
-  times.sort((a, b) => a - b);
+  const times = await turning(page);
   const [middle, slow] = [times[30], times[57]];
   console.log(`Until a frame is painted: median ${middle} ms, 95th percentile ${slow} ms`);
   await page.evaluate(() => {
@@ -70,5 +84,66 @@ test("200,000 LiDAR points and twenty radar scans are drawn when the view moves,
   await page.mouse.wheel(0, 120);
   await page.waitForTimeout(300);
   assert.ok((await asked()) > 0, "no frame drawn after zooming");
+  clean(tab);
+});
+
+/** How long each of sixty frames took while the view is turned, ms, ascending. */
+async function turning(page) {
+  const box = await page.locator(".viewport").boundingBox();
+  const times = [];
+  await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
+  await page.mouse.down({ button: "right" });
+  for (let step = 0; step < 60; step += 1) {
+    await page.mouse.move(box.x + box.width / 2 + 4 * step, box.y + box.height / 2);
+    await page.evaluate(() => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve))));
+    times.push(Number.parseFloat(await page.locator(".status-bar .frame").textContent()));
+  }
+  await page.mouse.up({ button: "right" });
+  return times.sort((a, b) => a - b);
+}
+
+test("what is held still has the LiDAR's points of all its scans around it, and lets them go", async (context) => {
+  const browser = await launch();
+  atEnd(context, () => browser.close());
+  const server = await serve(context, await freshOut(context));
+  const own = await anotherBrowser(context, browser, { width: 1280, height: 720 });
+  const tab = await open(context, browser, server, own);
+  const { page } = tab;
+  const { sequences } = await (await ask(server, "recording")).json();
+  const [{ name, lidars }] = sequences;
+  const asked = [];
+  await page.route("**/lidars/*/scans/*/near?*", async (route) => {
+    const url = new URL(route.request().url());
+    const scan = Number(url.pathname.split("/").at(-2));
+    asked.push(scan);
+    const { odom_from_vehicle } = (await scanOf(server, await current(page))).header;
+    const [x, y] = ["x", "y"].map((axis) => Number(url.searchParams.get(axis)));
+    // Where the vehicle was when the scan on screen was made: its frame is that of the place then, up to its turn.
+    const [east, north] = [x - odom_from_vehicle[3], y - odom_from_vehicle[7]];
+    const m = odom_from_vehicle;
+    const place = around(m[0] * east + m[4] * north, m[1] * east + m[5] * north);
+    const header = { t_ns: lidars[0].scans[scan], odom_from_vehicle };
+    return route.fulfill({ contentType: "application/octet-stream", body: lidarTable(180_000, place, header) });
+  });
+  const points = async () => Number(await page.locator(".viewport").getAttribute("data-lidar-points"));
+  const before = await points();
+  await page.keyboard.press("z");
+  await says(page.locator(".stepper output"), "±100");
+  await settled(tab);
+  await page.keyboard.press("Control+a");
+  await page.keyboard.press("Shift+H");
+  await says(page.locator(".notice"), "Held still");
+  await settled(tab);
+  const read = [...new Set(asked)];
+  assert.ok(read.length > 1 && read.length === asked.length, `${name}: ${asked}`);
+  const held = await points();
+  assert.ok(held > 100_000 && held <= 180_000 * read.length, `${held} points`);
+  await page.keyboard.press("t");
+  const times = await turning(page);
+  console.log(`With ${held} points around what is held: median ${times[30]} ms, 95th percentile ${times[57]} ms`);
+  await picture(page, "held");
+  await page.keyboard.press("Shift+H");
+  await settled(tab);
+  assert.ok((await points()) > 0 && before > 0);
   clean(tab);
 });

@@ -1,16 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import {
-  buildCloud,
-  columnOf,
-  gather,
-  heldStill,
-  letGo,
-  maskOf,
-  pointOf,
-  pointsByScan,
-  withScans,
-} from "../../src/data/cloud.js";
+import { buildCloud, columnOf, gather, maskOf, pointOf, pointsByScan, withScans } from "../../src/data/cloud.js";
 import { certaintyOf, everything, hides, isUncertain, visible } from "../../src/data/filter.js";
 import { LabelBook } from "../../src/data/labels.js";
 import { withCorrections } from "../../src/data/scan.js";
@@ -154,20 +144,4 @@ test("what was never on screen is counted until it was, and another scan begins 
   assert.deepEqual(sight.unseen(cloud, all), { all: 0, hidden: 0 });
   const next = buildCloud([made("front", 1, { x: [1, 2] })]);
   assert.equal(sight.unseen(next, new Uint8Array([1, 1])).all, 2);
-});
-
-test("what moves is held where it was first, and scans without it have no place", () => {
-  const scans = [
-    made("front", 0, { x: [1, 10, 12] }),
-    made("front", 1, { x: [5, 20, 22] }),
-    made("front", 2, { x: [7, 30] }),
-  ];
-  const cloud = buildCloud(scans);
-  const held = heldStill(cloud, new Uint8Array([0, 1, 1, 0, 1, 1, 0, 0]));
-  const x = [...held.positions].filter((_, at) => at % 3 === 0);
-  assert.deepEqual(x, [1, 10, 12, -5, 10, 12, Number.NaN, Number.NaN]);
-  assert.ok(held.held && !cloud.held && cloud.positions[9] === 5);
-  assert.equal(heldStill(cloud, new Uint8Array(8)), cloud, "nothing is chosen");
-  assert.deepEqual(letGo(held), cloud);
-  assert.ok(held.measured === cloud.measured && letGo(held).measured === cloud.measured, "the same detections");
 });
