@@ -2,8 +2,8 @@
 
 import { busiest } from "../data/camera-moment.js";
 import { h, pressed } from "../dom.js";
-import { icon } from "../icons.js";
 import type { Page } from "../page.js";
+import { iconButton } from "../panels/buttons.js";
 import { CameraView } from "./camera-view.js";
 
 export class CamerasPanel {
@@ -16,16 +16,11 @@ export class CamerasPanel {
     const { store, actions } = page;
     this.large = new CameraView(page);
     this.large.element.classList.add("large");
-    const grow = h(
-      "button",
-      {
-        class: "tool grow",
-        type: "button",
-        title: "Show in the centre (W)",
-        "aria-label": "Show this camera in the centre",
-        on: { click: () => actions.view.toggleCameraMode() },
-      },
-      icon("grow"),
+    const grow = iconButton(
+      "grow",
+      "Show this camera in the centre (W)",
+      () => actions.view.toggleCameraMode(),
+      "grow",
     );
     const stage = h("div", { class: "camera-stage" }, this.large.element, grow, lidarButton(page));
     this.element = h("section", { class: "cameras", "aria-label": "Cameras" }, stage, this.strip);
@@ -66,17 +61,7 @@ export class CamerasPanel {
       if (camera !== undefined) this.page.actions.view.camera(camera.info.name);
     };
     const view = new CameraView(this.page);
-    const button = h(
-      "button",
-      {
-        class: "tool grow",
-        type: "button",
-        title: "Show large (Q: next)",
-        "aria-label": "Show this camera large",
-        on: { click: choose },
-      },
-      icon("grow"),
-    );
+    const button = iconButton("grow", "Show this camera large (Q: next)", choose, "grow");
     const thumb = h("div", { class: "camera-thumb" }, view.element, button);
     this.strip.append(thumb);
     return { thumb, view };
@@ -85,18 +70,8 @@ export class CamerasPanel {
 
 /** Whether the LiDAR is drawn into the images. */
 function lidarButton({ store, actions }: Page): HTMLElement {
-  const title = "LiDAR in the cameras' images (Shift K)";
-  const button = h(
-    "button",
-    {
-      class: "tool over-image",
-      type: "button",
-      title,
-      "aria-label": title,
-      on: { click: () => actions.view.toggleLidarInImages() },
-    },
-    icon("overlay"),
-  );
+  const toggle = (): void => actions.view.toggleLidarInImages();
+  const button = iconButton("overlay", "LiDAR in the cameras' images (Shift K)", toggle, "over-image");
   store.watch(
     ({ lidarInImages }) => [lidarInImages],
     (on) => pressed(button, on),

@@ -4,20 +4,13 @@ import { h, say } from "../dom.js";
 import { counted } from "../format.js";
 import type { Page } from "../page.js";
 import type { Accepting } from "../state.js";
+import { keyButton } from "./buttons.js";
 
 export function acceptBar({ store, actions }: Page, show: () => void): HTMLElement {
   const text = h("span", { class: "accept-text" });
-  const look = h("button", { class: "button", type: "button", on: { click: show } }, "Show them ", h("kbd", {}, "F"));
-  const accept = h(
-    "button",
-    {
-      class: "button quiet",
-      type: "button",
-      on: { click: () => actions.review.accept(store.state.accepting?.goOn === true) },
-    },
-    "Accept them ",
-    h("kbd", {}, "Enter"),
-  );
+  const look = keyButton("Show them", "F", show);
+  const goOn = (): void => actions.review.accept(store.state.accepting?.goOn === true);
+  const accept = keyButton("Accept them", "Enter", goOn, "quiet");
   const bar = h("div", { class: "accept", role: "alert" }, text, look, accept);
   store.watch(
     ({ accepting }) => [accepting],

@@ -5,19 +5,12 @@ import { h, say } from "../dom.js";
 import { counted } from "../format.js";
 import type { Page } from "../page.js";
 import type { State } from "../state.js";
+import { keyButton } from "./buttons.js";
 
 export function banner({ store, actions }: Page): HTMLElement {
   const text = h("span", { class: "banner-text" });
-  const retry = h(
-    "button",
-    { class: "button", type: "button", on: { click: () => void actions.correct.retry() } },
-    "Try again",
-  );
-  const drop = h(
-    "button",
-    { class: "button quiet", type: "button", on: { click: () => void actions.correct.dropWaiting() } },
-    "Drop the stroke",
-  );
+  const retry = keyButton("Try again", "", () => void actions.correct.retry());
+  const drop = keyButton("Drop the stroke", "", () => void actions.correct.dropWaiting(), "quiet");
   const bar = h("div", { class: "banner", role: "alert" }, text, retry, drop);
   store.watch(
     ({ outbox, waiting, connected, recording, progress }) => [outbox, waiting, connected, recording, progress],

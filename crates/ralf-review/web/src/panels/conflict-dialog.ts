@@ -9,6 +9,7 @@ import { clock, counted } from "../format.js";
 import type { OutboxStatus } from "../history/outbox.js";
 import type { Page } from "../page.js";
 import type { State } from "../state.js";
+import { keyButton } from "./buttons.js";
 
 type Met = Extract<OutboxStatus, { kind: "conflict" }>;
 
@@ -16,16 +17,8 @@ export function conflictDialog({ store, actions }: Page): HTMLElement {
   const body = h("div", { class: "conflict-body" });
   const spare = h("input", { type: "checkbox", id: "spare" });
   const spareLabel = h("label", { class: "check", for: "spare" }, spare, "Leave alone what is corrected already");
-  const apply = h(
-    "button",
-    { class: "button", type: "button", on: { click: () => void actions.correct.applyAnyway(spare.checked) } },
-    "Apply my stroke to it",
-  );
-  const drop = h(
-    "button",
-    { class: "button quiet", type: "button", on: { click: () => void actions.correct.dropWaiting() } },
-    "Drop my stroke",
-  );
+  const apply = keyButton("Apply my stroke to it", "", () => void actions.correct.applyAnyway(spare.checked));
+  const drop = keyButton("Drop my stroke", "", () => void actions.correct.dropWaiting(), "quiet");
   const box = h(
     "section",
     { class: "conflict", role: "alertdialog", "aria-label": "Conflict", tabindex: "-1" },

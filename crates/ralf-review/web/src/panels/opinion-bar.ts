@@ -7,20 +7,14 @@ import { h, say } from "../dom.js";
 import { counted } from "../format.js";
 import type { Page } from "../page.js";
 import type { State } from "../state.js";
+import { keyButton } from "./buttons.js";
 
 export function opinionBar({ store, actions }: Page): HTMLElement {
   const [what, which] = [h("b"), h("span", { class: "faint" })];
-  const button = (text: string, key: string, run: () => void): HTMLButtonElement =>
-    h(
-      "button",
-      { class: "button", type: "button", on: { click: run } },
-      text,
-      ...(key === "" ? [] : [h("kbd", {}, key)]),
-    );
-  const accept = button("Accept ", "Shift R", () => void actions.opine.askOrAccept());
-  const next = button("Next thing", "", () => void actions.opine.next());
-  const leave = button("Leave it out", "", () => actions.opine.leaveOut());
-  const drop = button("Drop ", "Esc", () => actions.select.escape());
+  const accept = keyButton("Accept", "Shift R", () => void actions.opine.askOrAccept());
+  const next = keyButton("Next thing", "", () => void actions.opine.next());
+  const leave = keyButton("Leave it out", "", () => actions.opine.leaveOut());
+  const drop = keyButton("Drop", "Esc", () => actions.select.escape());
   const bar = h(
     "div",
     { class: "opinion-bar", role: "group", "aria-label": "What would change by what was said" },

@@ -7,16 +7,12 @@ import { counted } from "../format.js";
 import type { Page } from "../page.js";
 import { countOf } from "../selection/mask.js";
 import type { State } from "../state.js";
+import { keyButton } from "./buttons.js";
 
 export function ruleBar({ store, actions }: Page): HTMLElement {
   const [what, how] = [h("b"), h("span", { class: "faint" }, "Ctrl with a tool leaves some out")];
-  const apply = h(
-    "button",
-    { class: "button", type: "button", on: { click: () => void actions.rule.apply() } },
-    "Apply",
-  );
-  const drop = h("button", { class: "button", type: "button", on: { click: () => actions.select.escape() } }, "Drop ");
-  drop.append(h("kbd", {}, "Esc"));
+  const apply = keyButton("Apply", "", () => void actions.rule.apply());
+  const drop = keyButton("Drop", "Esc", () => actions.select.escape());
   const words = h("div", { class: "thing-words", role: "status" }, what, how);
   const bar = h(
     "div",
@@ -42,7 +38,7 @@ function proposal({ rule, selection, cloud, labels, recording }: Readonly<State>
   const already = countAlready(cloud, selection, sets, recording.sayable_causes);
   const count = countOf(selection) - already;
   const scans = pointsByScan(cloud, selection).length;
-  const label = labels.name(sets.label) + (sets.cause === null ? "" : ` (${sets.cause})`);
+  const label = labels.nameWith(sets.label, sets.cause);
   const others = already === 0 ? "" : `, ${already.toLocaleString("en")} are so already`;
   const where = `${counted(count, "detection")} in ${counted(scans, "scan")}`;
   return `${rule.name}: ${where} would become ${label}${others}`;

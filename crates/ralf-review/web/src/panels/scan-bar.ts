@@ -3,9 +3,10 @@
 import type { Page } from "../page.js";
 import { h, pressed, say, select, setOptions } from "../dom.js";
 import { counted, decimal, secondsBetween } from "../format.js";
-import { icon, type IconName } from "../icons.js";
+import { icon } from "../icons.js";
 import type { ViewMode } from "../state.js";
 import { colourModes } from "../viewer/colours.js";
+import { iconButton } from "./buttons.js";
 
 const MODES: readonly (readonly [ViewMode, string, string])[] = [
   ["bird", "Bird's eye", "T"],
@@ -103,10 +104,8 @@ function accumulation({ store, actions }: Page): HTMLElement {
 }
 
 function lidar({ store, actions }: Page): HTMLElement {
-  const toggle = (name: IconName, title: string, run: () => void): HTMLButtonElement =>
-    h("button", { class: "tool", type: "button", title, "aria-label": title, on: { click: run } }, icon(name));
-  const points = toggle("lidar", "LiDAR (K)", () => actions.view.toggleLidar());
-  const ground = toggle("ground", "LiDAR's ground (J)", () => actions.view.toggleGround());
+  const points = iconButton("lidar", "LiDAR (K)", () => actions.view.toggleLidar());
+  const ground = iconButton("ground", "LiDAR's ground (J)", () => actions.view.toggleGround());
   store.watch(
     ({ lidarShown, groundHidden }) => [lidarShown, groundHidden],
     (shown, hidden) => {
@@ -132,17 +131,7 @@ function review({ store, actions }: Page): HTMLElement {
     icon("check"),
     text,
   );
-  const next = h(
-    "button",
-    {
-      class: "tool",
-      type: "button",
-      title: "Next scan that needs a person (N)",
-      "aria-label": "Next scan that needs a person (N)",
-      on: { click: () => void actions.go.nextNeedy() },
-    },
-    icon("next"),
-  );
+  const next = iconButton("next", "Next scan that needs a person (N)", () => void actions.go.nextNeedy());
   store.watch(
     ({ cloud }) => [cloud.scans[0]?.reviewed ?? null],
     (reviewed) => {

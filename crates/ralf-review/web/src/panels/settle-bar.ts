@@ -4,23 +4,22 @@ import type { Disagreement } from "../api/types.js";
 import { type Outlook, outlookOf } from "../data/team.js";
 import { h, say } from "../dom.js";
 import { counted } from "../format.js";
+import { keyButton } from "./buttons.js";
 import type { Page } from "../page.js";
 import type { State } from "../state.js";
 
 export function settleBar({ store, actions }: Page): HTMLElement {
   const [what, left, spared] = [h("b"), h("span", { class: "faint" }), h("span", { class: "spared" })];
   const [first, second] = [h("span"), h("span")];
-  const button = (text: HTMLElement | string, key: string, run: () => void): HTMLElement =>
-    h("button", { class: "button", type: "button", on: { click: run } }, text, " ", h("kbd", {}, key));
-  const showAll = button("Show them", "0", () => actions.settle.showAll());
+  const showAll = keyButton("Show them", "0", () => actions.settle.showAll());
   const bar = h(
     "div",
     { class: "settle-bar", role: "group", "aria-label": "What two people said differently" },
     h("div", { class: "thing-words", role: "status" }, what, spared, left),
     showAll,
-    button(first, "5", () => actions.settle.take("first")),
-    button(second, "6", () => actions.settle.take("second")),
-    button("Skip", "Shift S", () => void actions.settle.next()),
+    keyButton(first, "5", () => actions.settle.take("first")),
+    keyButton(second, "6", () => actions.settle.take("second")),
+    keyButton("Skip", "Shift S", () => void actions.settle.next()),
   );
   store.watch(
     ({ disputed, disagreements, cloud, selection, shown, eligible }) => [
@@ -40,8 +39,8 @@ export function settleBar({ store, actions }: Page): HTMLElement {
       say(spared, sparedOf(outlook));
       for (const one of [spared, showAll]) one.hidden = sparedOf(outlook) === "";
       say(left, `${counted(disagreements?.changes.length ?? 0, "disagreement")} left in this sequence`);
-      say(first, `${firstOf(store.state)}: ${labels.name(disputed.first)}`);
-      say(second, `${disputed.by}: ${labels.name(disputed.second)}`);
+      say(first, `${firstOf(store.state)}: ${labels.nameWith(disputed.first, disputed.first_cause)}`);
+      say(second, `${disputed.by}: ${labels.nameWith(disputed.second, disputed.second_cause)}`);
     },
   );
   return bar;

@@ -5,17 +5,15 @@ import { peopleOf, perHour, type Person } from "../data/team.js";
 import { h } from "../dom.js";
 import { counted, decimal } from "../format.js";
 import type { Page } from "../page.js";
+import { keyButton } from "./buttons.js";
 import { openWith } from "./dialog.js";
 import { firstOf } from "./settle-bar.js";
 
 export function teamDialog(page: Page): HTMLDialogElement {
   const { store, actions } = page;
   const body = h("div", { class: "team-body" });
-  const button = (text: string, run: () => void): HTMLButtonElement =>
-    h("button", { class: "button", type: "button", on: { click: run } }, text);
-  const next = button("Next disagreement ", () => void actions.settle.next());
-  next.append(h("kbd", {}, "Shift S"));
-  const close = button("Close", () => actions.view.dialog("none"));
+  const next = keyButton("Next disagreement", "Shift S", () => void actions.settle.next());
+  const close = keyButton("Close", "", () => actions.view.dialog("none"));
   const head = h("header", {}, h("h2", {}, "Team"), h("div", { class: "row" }, next, close));
   const dialog = h("dialog", { class: "help team", "aria-label": "Team" }, head, body);
   openWith(page, dialog, "team");

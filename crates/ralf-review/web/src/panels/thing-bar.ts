@@ -5,19 +5,18 @@ import { ARTIFACT, PLAUSIBLE } from "../data/labels.js";
 import { h, say } from "../dom.js";
 import { counted, decimal } from "../format.js";
 import type { Page } from "../page.js";
+import { keyButton } from "./buttons.js";
 import { selectedText } from "./status-bar.js";
 
 export function thingBar({ store, actions }: Page): HTMLElement {
   const [what, why] = [h("b"), h("span", { class: "faint" })];
-  const button = (text: string, key: string, run: () => void): HTMLElement =>
-    h("button", { class: "button", type: "button", on: { click: run } }, `${text} `, h("kbd", {}, key));
   const bar = h(
     "div",
     { class: "thing-bar", role: "group", "aria-label": "The thing that wants an answer" },
     h("div", { class: "thing-words" }, what, why),
-    button("Plausible", "P", () => actions.select.choose(PLAUSIBLE)),
-    button("Artifact", "A", () => actions.select.choose(ARTIFACT)),
-    button("Skip", "Shift N", () => void actions.thing.next()),
+    keyButton("Plausible", "P", () => actions.select.choose(PLAUSIBLE)),
+    keyButton("Artifact", "A", () => actions.select.choose(ARTIFACT)),
+    keyButton("Skip", "Shift N", () => void actions.thing.next()),
   );
   store.watch(
     ({ thing, selection, cloud, labels }) => [thing, selection, cloud, labels],

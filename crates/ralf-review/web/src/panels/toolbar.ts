@@ -2,9 +2,9 @@
 
 import { ARTIFACT, type Choice, PLAUSIBLE } from "../data/labels.js";
 import { h, pressed, say } from "../dom.js";
-import { icon, type IconName } from "../icons.js";
 import type { Page } from "../page.js";
 import { TOOLS, type Tool } from "../selection/tools.js";
+import { iconButton } from "./buttons.js";
 
 const TOOL_NAMES: Readonly<Record<Tool, string>> = {
   click: "Click (V)",
@@ -24,10 +24,6 @@ export function toolbar(page: Page): HTMLElement {
     selectionGroup(page),
     historyGroup(page),
   );
-}
-
-function iconButton(name: IconName, title: string, run: () => void): HTMLButtonElement {
-  return h("button", { class: "tool", type: "button", title, "aria-label": title, on: { click: run } }, icon(name));
 }
 
 function group(label: string, ...children: readonly HTMLElement[]): HTMLElement {
