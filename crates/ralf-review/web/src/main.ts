@@ -84,17 +84,18 @@ function build(page: Page): void {
   });
   listenToKeys(table, page.store);
   keepFocus(viewport.element);
-  const overlays = [legendPanel(page), scanTitle(page), painting(page), notice(page)];
-  const asked = [
-    banner(page),
-    acceptBar(page, home),
-    thingBar(page),
-    settleBar(page),
-    opinionBar(page),
-    ruleBar(page),
+  const overlays = [legendPanel(page), scanTitle(page), painting(page)];
+  const asked = [acceptBar(page, home), thingBar(page), settleBar(page), opinionBar(page), ruleBar(page)];
+  const told = h("div", { class: "told" }, notice(page), ...asked, banner(page));
+  const stage = h(
+    "div",
+    { class: "stage" },
+    viewport.element,
+    centreCamera.element,
+    ...overlays,
+    told,
     conflictDialog(page),
-  ];
-  const stage = h("div", { class: "stage" }, viewport.element, centreCamera.element, ...overlays, ...asked);
+  );
   document.body.append(
     h(
       "div",

@@ -1,6 +1,5 @@
 // How the page stands on small and large screens, for keyboards, and for those who don't see it all.
 import assert from "node:assert/strict";
-import { createRequire } from "node:module";
 import { after, before, test } from "node:test";
 import {
   accept,
@@ -21,8 +20,7 @@ import {
   serve,
   settled,
 } from "./support.mjs";
-
-const AXE = createRequire(import.meta.url).resolve("axe-core/axe.min.js");
+import { faultsOf } from "./faults.mjs";
 
 let browser;
 before(async () => {
@@ -97,62 +95,6 @@ test("nothing that axe calls serious is wrong with the page, its dialogs and bar
   await faults("the question");
   clean(tab);
 });
-
-test("what two people said differently is told once both are through, and settled by a key", async (context) => {
-  const out = await freshOut(context);
-  const servers = [await serve(context, out), await serve(context, out, { second: "bob" })];
-  const tabs = [];
-  for (const server of servers) tabs.push(await open(context, browser, server));
-  const [ada, bob] = tabs.map(({ page }) => page);
-  const id = await current(ada);
-  await ada.keyboard.press("d");
-  const announced = ada.locator(".status-bar .unseen");
-  await says(announced, /^Detection 1 of /);
-  const wrong = (await announced.innerText()).includes("artifact") ? "p" : "a";
-  const right = wrong === "p" ? "artifact" : "plausible";
-  await ada.keyboard.press(wrong);
-  await says(ada.locator(".status-bar"), "undo 1");
-  await says(bob.locator(".status-bar"), "second labels of bob");
-  assert.deepEqual(await current(bob), id);
-  for (const page of [ada, bob]) {
-    await accept(page);
-    await says(page.locator(".queue-head"), "1 of");
-  }
-  await ada.keyboard.press("Shift+T");
-  await says(ada.locator("dialog.team"), "κ");
-  await faultsOf(ada, "the team");
-  await picture(ada, "team");
-  await ada.keyboard.press("Escape");
-  await ada.keyboard.press("Shift+S");
-  await says(ada.locator(".settle-bar"), `bob: ${right}`);
-  await says(ada.locator(".past"), "ada");
-  await faultsOf(ada, "a disagreement");
-  await picture(ada, "disagreement");
-  await ada.keyboard.press("6");
-  await says(ada.locator(".notice"), "Nothing is left");
-  await says(ada.locator(".status-bar"), "undo 3");
-  await ada.keyboard.press("Control+z");
-  await says(ada.locator(".status-bar"), "redo 1");
-  await ada.keyboard.press("Shift+S");
-  await says(ada.locator(".settle-bar"), `bob: ${right}`);
-  for (const tab of tabs) clean(tab);
-});
-
-/** The page forbids scripts of others; a test may still bring one along. */
-async function faultsOf(page, where) {
-  await page.evaluate(await axe());
-  const { violations } = await page.evaluate(() => window.axe.run());
-  const serious = violations.filter(({ impact }) => impact === "serious" || impact === "critical");
-  const said = serious.map(
-    ({ id, nodes }) => `${where}: ${id}: ${nodes.map(({ html }) => html.slice(0, 120)).join(" | ")}`,
-  );
-  assert.deepEqual(said, []);
-}
-
-async function axe() {
-  const { readFile } = await import("node:fs/promises");
-  return readFile(AXE, "utf8");
-}
 
 for (const [width, height] of [
   [1280, 720],
