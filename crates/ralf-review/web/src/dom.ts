@@ -34,9 +34,14 @@ export function h<Tag extends keyof HTMLElementTagNameMap>(
   return element;
 }
 
-/** How much larger text is than on a small screen. */
+let knownScale: number | null = null;
+
+/** How much larger text is than on a small screen. Styles are asked once for each size of the window. */
 export function textScale(): number {
-  return Number(getComputedStyle(document.documentElement).getPropertyValue("--scale")) || 1;
+  if (knownScale !== null) return knownScale;
+  window.addEventListener("resize", () => (knownScale = null), { once: true });
+  knownScale = Number(getComputedStyle(document.documentElement).getPropertyValue("--scale")) || 1;
+  return knownScale;
 }
 
 /** Puts other children in; leaves the element alone where its text would stay the same. */
