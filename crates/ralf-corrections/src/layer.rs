@@ -33,8 +33,8 @@ impl ScanLayer {
         content.find_in(&contents).map(|at| &said[at])
     }
 
-    /// What was said before anybody settled anything: the corrections of those who saw nobody else's. What was the cause
-    /// of detections that were settled is not told.
+    /// What was said before anybody settled anything: the corrections of those who saw nobody else's. The causes of
+    /// detections that were settled are not told.
     pub fn before_settling(&self) -> Self {
         let mut corrections: BTreeMap<u32, u16> = self.corrections.iter().copied().collect();
         for (point, before) in &self.settled {

@@ -102,7 +102,8 @@ impl Agreement {
 }
 
 /// How far two people agree, as [`Agreement::of`] has it, and the detections to which they gave different labels, or of
-/// which both said a cause and not the same, but for those that somebody has settled in the first's store, in the order of scans and detections.
+/// which both said a cause and not the same, but for those that somebody has settled in the first's store, in the order
+/// of scans and detections.
 ///
 /// # Errors
 /// Those of [`Agreement::of`].

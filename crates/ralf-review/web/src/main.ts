@@ -27,6 +27,7 @@ import { filterPanel } from "./panels/filter-panel.js";
 import { keyTable, listenToKeys } from "./panels/keys.js";
 import { legendPanel } from "./panels/legend.js";
 import { QueuePanel } from "./panels/queue-panel.js";
+import { replayDialog } from "./panels/replay-dialog.js";
 import { ruleBar } from "./panels/rule-bar.js";
 import { scanBar, scanTitle } from "./panels/scan-bar.js";
 import { statusBar } from "./panels/status-bar.js";
@@ -115,6 +116,7 @@ function build(page: Page): void {
     classesDialog(page),
     nameDialog(page),
     teamDialog(page),
+    replayDialog(page),
   );
 }
 

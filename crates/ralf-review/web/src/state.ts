@@ -18,7 +18,8 @@ import type { CameraMoment } from "./data/camera-moment.js";
 import { buildCloud, type Cloud } from "./data/cloud.js";
 import { everything, type Filter } from "./data/filter.js";
 import { type Choice, LabelBook } from "./data/labels.js";
-import type { Rule } from "./data/rules.js";
+import type { ReplayPart } from "./data/replay.js";
+import type { Rule, Verdict } from "./data/rules.js";
 import type { Lidar } from "./data/lidar.js";
 import type { Unseen } from "./data/sight.js";
 import type { OutboxStatus, Pending } from "./history/outbox.js";
@@ -32,11 +33,20 @@ export const MOST_ACCUMULATED = 100;
 export type ViewMode = "bird" | "free" | "camera";
 /** What a stroke may change: the scan under review alone, or everything shown. */
 export type Scope = "scan" | "shown";
-export type Dialog = "none" | "help" | "classes" | "name" | "team";
+export type Dialog = "none" | "help" | "classes" | "name" | "team" | "replay";
 
 /** Detections that would be accepted unseen; a second time accepts them. */
 export interface Accepting extends Unseen {
   readonly goOn: boolean;
+}
+
+/** What a rule would change in sequence after sequence. */
+export interface Replay {
+  readonly name: string;
+  readonly sets: Verdict;
+  /** Those that were read, of so many. */
+  readonly parts: readonly ReplayPart[];
+  readonly all: number;
 }
 
 export interface Notice {
@@ -107,6 +117,8 @@ export interface State {
   readonly rules: readonly Rule[];
   /** The rule whose selection is looked at, until it is applied or dropped. */
   readonly rule: Rule | null;
+  /** What a rule would change in all sequences, while that is looked at. */
+  readonly replay: Replay | null;
   /** The camera a person chose to see large; `null`: the one that sees most. */
   readonly chosenCamera: string | null;
 
@@ -183,7 +195,7 @@ export const NOTHING_LOOKED_AT = {
   disputed: null,
 } as const satisfies Partial<State>;
 
-/** The thing that is looked at: the one that wants an answer, that two people labelled differently, or that would change. */
+/** The thing that is looked at: it wants an answer, two people labelled it differently, or it would change. */
 export function lookedAt({ thing, disputed, opinion, opinionAt }: Readonly<State>): DoubtfulThing | null {
   return thing ?? disputed ?? opinion?.changes[opinionAt] ?? null;
 }
@@ -226,6 +238,7 @@ export function initialState(recording: Recording, name: string): State {
     dotSize: 8,
     filter: everything,
     rules: [],
+    replay: null,
     chosenCamera: null,
     shown: new Uint8Array(0),
     eligible: new Uint8Array(0),

@@ -11,6 +11,7 @@ import { Navigation } from "./navigation.js";
 import { Picking } from "./picking.js";
 import { Reviewing } from "./reviewing.js";
 import { Recalling } from "./recalling.js";
+import { Replaying } from "./replaying.js";
 import { Ruling } from "./ruling.js";
 import { Selecting } from "./selecting.js";
 import { Settling } from "./settling.js";
@@ -31,6 +32,7 @@ export interface Actions {
   readonly hold: Holding;
   readonly thing: Thinging;
   readonly rule: Ruling;
+  readonly replay: Replaying;
   readonly opine: Opining;
   readonly settle: Settling;
   readonly recall: Recalling;
@@ -55,6 +57,7 @@ export function actionsOn(world: World, keeper: Keeper): Actions {
     hold: new Holding(world),
     thing,
     rule: new Ruling(world, go, select, correct),
+    replay: new Replaying(world, correct),
     opine: new Opining(world, go, correct),
     settle,
     recall: new Recalling(world),

@@ -5,6 +5,8 @@ import type { BaseRevision, Opinion, ScanPoints, StrokeAnswer, StrokeRequest } f
 import { findScan, maskOf, pointsByScan } from "../data/cloud.js";
 import { ARTIFACT, type Choice, PLAUSIBLE } from "../data/labels.js";
 import { baseOf, pointsOf } from "../data/opinion.js";
+import type { ReplayPart } from "../data/replay.js";
+import type { Verdict } from "../data/rules.js";
 import { sameScan } from "../data/scan.js";
 import type { Keeper } from "../history/keep.js";
 import { Outbox, type OutboxStatus, type Pending } from "../history/outbox.js";
@@ -102,6 +104,15 @@ export class Correcting {
     store.set({ selection: new Uint8Array(cloud.count), disputed: null });
     await this.outbox.add([{ sequence, stroke: because(stroke, cause) }]);
     return true;
+  }
+
+  /** Makes what a rule would change so, in each sequence as one stroke. */
+  async replay(parts: readonly ReplayPart[], { label, cause }: Verdict): Promise<void> {
+    const strokes = parts.map(({ sequence, points, base }) => {
+      const stroke = { id: randomName(), tool: "rule", protect: true, label, base, points };
+      return { sequence, stroke: because(stroke, cause) };
+    });
+    await this.outbox.add(strokes);
   }
 
   retry(): Promise<void> {

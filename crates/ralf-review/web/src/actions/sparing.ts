@@ -20,7 +20,7 @@ export class Sparing {
     );
   }
 
-  /** All that is on screen of the disagreement that is looked at from now on is wanted; returns what can be selected. */
+  /** All that is on screen of the disagreement that is looked at is wanted; returns what of it can be selected. */
   begin(): Uint8Array {
     const { cloud, eligible, disputed } = this.store.state;
     this.all = maskOf(cloud, disputed?.points ?? []);

@@ -49,16 +49,14 @@ export function verdictOf(text: string): Verdict | null {
   return label === "" ? null : { label: Number(label), cause: cause ?? null };
 }
 
+/** Whether a detection is already what a verdict says. */
+export function isAlready(cloud: Cloud, i: number, { label, cause }: Verdict, causes: readonly string[]): boolean {
+  return cloud.label[i] === label && (cause === null || causes[cloud.saidCause[i]] === cause);
+}
+
 /** How many of the chosen detections a verdict leaves as they are. */
-export function countAlready(
-  cloud: Cloud,
-  chosen: Uint8Array,
-  { label, cause }: Verdict,
-  causes: readonly string[],
-): number {
-  const is = (i: number): boolean =>
-    cloud.label[i] === label && (cause === null || causes[cloud.saidCause[i]] === cause);
-  return chosen.reduce((sum, one, i) => sum + (one === 1 && is(i) ? 1 : 0), 0);
+export function countAlready(cloud: Cloud, chosen: Uint8Array, sets: Verdict, causes: readonly string[]): number {
+  return chosen.reduce((sum, one, i) => sum + (one === 1 && isAlready(cloud, i, sets, causes) ? 1 : 0), 0);
 }
 
 export function rulesText(rules: readonly Rule[]): string {

@@ -174,7 +174,7 @@ function kept({ store, actions }: Page): HTMLElement {
     ({ rules }) => [rules],
     (rules) =>
       list.replaceChildren(
-        ...rules.map(({ name }) => {
+        ...rules.map(({ name, sets }) => {
           const title = `Select what ${name} lets through in the whole sequence`;
           const use = h("button", {
             class: "chip small",
@@ -190,7 +190,14 @@ function kept({ store, actions }: Page): HTMLElement {
             on: { click: () => actions.rule.forget(name) },
           });
           away.append("×");
-          return h("span", { class: "row" }, use, away);
+          const everywhere = h("button", {
+            class: "link",
+            type: "button",
+            title: `What ${name} would change in all of your sequences`,
+            on: { click: () => void actions.replay.start(name) },
+          });
+          everywhere.append("all");
+          return h("span", { class: "row" }, use, sets === null ? null : everywhere, away);
         }),
       ),
   );
