@@ -31,6 +31,8 @@ enum Op {
 struct How {
     label: Option<u16>,
     protect: bool,
+    /// It says again what was said already, as the answer about a kind does.
+    confirms: bool,
     /// It settles a disagreement, and says again what was said already.
     settles: bool,
 }
@@ -92,10 +94,10 @@ impl Model {
 
     /// How many corrections changed.
     fn stroke(&mut self, author: u8, points: &BTreeSet<Place>, how: How, group: Option<u8>) -> usize {
-        let How { label, protect, settles } = how;
+        let How { label, protect, confirms, settles } = how;
         let values = self.values();
         let before = |place: &Place| values.get(place).copied();
-        let said = |place: &Place| settles || before(place) != label;
+        let said = |place: &Place| confirms || settles || before(place) != label;
         let free = |place: &Place| !(protect && before(place).is_some());
         let places = points.iter().filter(|place| said(place) && free(place));
         let changes: BTreeMap<_, _> = places.map(|place| (*place, (before(place), label))).collect();
@@ -254,15 +256,16 @@ fn step(store: &mut Store, model: &mut Model, author: u8, op: &Op) {
     match op {
         Op::Stroke { points, how, group, stale } => {
             let scans = edits(model, points, *stale);
-            let How { label, protect, settles } = *how;
+            let How { label, protect, confirms, settles } = *how;
             let group_name = group.map(|group| group.to_string());
-            let tool = if settles { SETTLE } else { "lasso" }.to_owned();
+            let by_hand = if confirms { "kind" } else { "lasso" };
+            let tool = if settles { SETTLE } else { by_hand }.to_owned();
             let stroke = Stroke {
                 sequence: SEQUENCE.to_owned(),
                 tool,
                 group: group_name,
                 protect,
-                confirm: settles,
+                confirm: confirms || settles,
                 label,
                 cause: None,
                 scans,
@@ -366,8 +369,8 @@ fn op() -> impl Strategy<Value = Op> {
     let points = prop_oneof![2 => few, 1 => thing];
     let label = prop_oneof![Just(None), Just(Some(1)), Just(Some(99))];
     let group = prop_oneof![3 => Just(None), 1 => (0..2u8).prop_map(Some)];
-    let how = (label, any::<bool>(), proptest::bool::weighted(0.2))
-        .prop_map(|(label, protect, settles)| How { label, protect, settles });
+    let how = (label, any::<bool>(), proptest::bool::weighted(0.3), proptest::bool::weighted(0.2))
+        .prop_map(|(label, protect, confirms, settles)| How { label, protect, confirms, settles });
     let stroke = (points, how, group, proptest::bool::weighted(0.1));
     prop_oneof![
         5 => stroke.prop_map(|(points, how, group, stale)| Op::Stroke { points, how, group, stale }),

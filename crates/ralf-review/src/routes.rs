@@ -4,7 +4,7 @@ use crate::app::App;
 use crate::correcting::{self, MarkRequest, Since, StepRequest, StrokeRequest};
 use crate::http::{Answer, ApiError, Asked, Body, Guard, MAX_BODY, Person, Place, guard, json};
 use crate::page;
-use crate::reading::{self, About, Around, LidarProjection, Moment, Near, Projection};
+use crate::reading::{self, About, Around, AskedKinds, LidarProjection, Moment, Near, Projection};
 use axum::Router;
 use axum::extract::{DefaultBodyLimit, State};
 use axum::http::Uri;
@@ -23,6 +23,7 @@ pub(crate) fn router(app: Arc<App>, guarded_by: Arc<Guard>) -> Router {
         .route("/things", get(things))
         .route("/things/doubtful", get(doubtful))
         .route("/opinion", get(opinion))
+        .route("/kinds", get(kinds))
         .route("/disagreements", get(disagreements))
         .route("/radars/{radar}/scans/{scan}", get(detections))
         .route("/radars/{radar}/scans/{scan}/detections/{point}/said", get(said))
@@ -78,6 +79,14 @@ async fn things(State(app): Shared, Place(sequence): Place<String>) -> Answer {
 
 async fn doubtful(State(app): Shared, Place(sequence): Place<String>) -> Answer {
     app.blocking(move |app| reading::doubtful(app, &sequence)).await
+}
+
+async fn kinds(
+    State(app): Shared,
+    Place(sequence): Place<String>,
+    Asked(asked): Asked<AskedKinds>,
+) -> Answer {
+    app.blocking(move |app| reading::kinds(app, &sequence, &asked)).await
 }
 
 async fn opinion(State(app): Shared, Place(sequence): Place<String>, Asked(asked): Asked<Around>) -> Answer {

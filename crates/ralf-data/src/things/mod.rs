@@ -2,19 +2,25 @@
 //!
 //! A *thing* is either part of what stands still (neighbouring cells of the world whose detections the machine mostly
 //! calls alike), or the track of something that moves. [`group`] is a pure function of places, times, range rates and
-//! labels; [`SequenceThings`] asks a recording and its labels for these.
+//! labels; [`SequenceThings`] asks a recording and its labels for these. A [`Kind`] is wider: detections all over a
+//! sequence whose evidence says the same against their label.
 
 mod doubtful;
+mod heard;
+mod kinds;
 mod moving;
 mod observed;
 mod opinion;
 mod sequence;
+mod sign;
 mod standing;
 
 pub use doubtful::{Answer, Doubtful, Thing};
+pub use kinds::{Kind, KindName};
 pub use observed::{Extent, Observed};
 pub use opinion::Change;
 pub use sequence::SequenceThings;
+pub use sign::Sign;
 
 /// A detection, as far as it matters to what it belongs.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -5,7 +5,7 @@ use crate::frames::{Frames, ScanIndex};
 use crate::read::SequenceReader;
 use ralf::config::Config;
 use ralf::evidence::{features, observe};
-use ralf::learned::{Model, Rows, UseError};
+use ralf::learned::{Model, Rows, Unconfirmed, UseError};
 use ralf::scene::FrameWindow;
 use ralf::sensors::Rig;
 use ralf_train::learning::direction;
@@ -34,9 +34,14 @@ pub struct Observed {
     serves: RangeInclusive<i64>,
     /// [`features`], what a model makes of them (log odds), and the plausibility that the run found.
     pub(super) rows: Rows,
+    /// What the model's answer makes of each row: how probably it is plausible, as a run of the learned method has it.
+    pub(super) probability: Vec<f64>,
     /// By column: 1 where more of it never makes a detection less plausible, -1 where never more, else 0.
     pub(super) monotone: Vec<i8>,
 }
+
+/// No model is believed to be surer than this.
+const SUREST: f64 = 1e-3;
 
 impl Observed {
     /// Gathers it from a recording, within an extent; `rig` and `config` are those with which it was labelled. Of a
@@ -68,19 +73,35 @@ impl Observed {
             evidence.append(rows);
         }
         let log_odds = model.plausible.log_odds(&evidence.pick_columns(&columns));
+        let names: Vec<&str> = features().map(|feature| feature.name).collect();
+        let unconfirmed = Unconfirmed::among(names.iter().copied());
         let mut rows = Rows::absent(evidence.len(), width + 2);
+        let mut probability = Vec::with_capacity(evidence.len());
         for (row, (log_odds, at)) in log_odds.into_iter().zip(&of).enumerate() {
+            let calibrated = model.calibration.probability(log_odds);
+            probability.push(unconfirmed.weighed(evidence.row(row), calibrated, config.learned.unconfirmed));
             let to = rows.row_mut(row);
             to[..width].copy_from_slice(evidence.row(row));
             (to[width], to[width + 1]) = (log_odds as f32, things.sightings()[*at].w);
         }
         let monotone = features().map(|feature| direction(feature.name)).chain([1, 0]).collect();
-        Ok(Self { of, scans: counts, serves, rows, monotone })
+        Ok(Self { of, scans: counts, serves, rows, probability, monotone })
     }
 
     /// How many scans were looked at, and how many of the sequence have detections.
     pub fn scans(&self) -> (usize, usize) {
         self.scans
+    }
+
+    /// The model's log odds that the detection of a row is plausible; never so sure that no answer could turn it.
+    pub(super) fn log_odds(&self, row: usize) -> f64 {
+        let p = self.probability[row].clamp(SUREST, 1.0 - SUREST);
+        (p / (1.0 - p)).ln()
+    }
+
+    /// The column of a feature.
+    pub(super) fn place_of(&self, name: &str) -> Option<usize> {
+        features().position(|feature| feature.name == name)
     }
 
     /// Whether it serves at a time, too: as much was looked at before it and after it as half of what was looked at on

@@ -3,6 +3,7 @@
 mod camera;
 mod detections;
 mod disagreements;
+mod kinds;
 mod lidar;
 mod lidar_map;
 mod moment;
@@ -17,6 +18,7 @@ mod things;
 pub(crate) use camera::image;
 pub(crate) use detections::{check_size, detections, machine_labels, reviewed, stamp};
 pub(crate) use disagreements::disagreements;
+pub(crate) use kinds::{AskedKinds, kinds};
 pub(crate) use lidar::{Near, cloud, near};
 pub(crate) use lidar_map::map;
 pub(crate) use moment::{Moment, moment};

@@ -54,8 +54,7 @@ fn learned(
     t_ns: i64,
     answers: &[Option<data::Answer>],
 ) -> Result<Value, ApiError> {
-    // Somebody goes on working meanwhile: half of the machine is theirs.
-    let jobs = available_parallelism().map_or(1, |threads| threads.get().div_ceil(2));
+    let jobs = half_of_the_machine();
     if answers.iter().all(Option::is_none) {
         return Ok(json!({ "answered": 0, "changes": [], "base": [], "scans": null }));
     }
@@ -68,6 +67,11 @@ fn learned(
     let changes: Vec<Value> = changes.iter().map(|change| row(sequence, things, change)).collect();
     let scans = json!({ "looked_at": looked_at, "all": all });
     Ok(json!({ "answered": answered, "changes": changes, "base": base, "scans": scans }))
+}
+
+/// So many threads: somebody goes on working meanwhile, and the other half is theirs.
+pub(super) fn half_of_the_machine() -> usize {
+    available_parallelism().map_or(1, |threads| threads.get().div_ceil(2))
 }
 
 /// What strokes on the scans of these detections rest on.

@@ -175,3 +175,61 @@ fn an_opinion_changes_nothing_until_it_is_accepted_and_is_one_step_then() {
     server.edit("POST", "undo", &json!({}), "one").json();
     assert_eq!(server.of_sequence("progress").json(), before);
 }
+
+/// The stroke that says of all of a kind that it is the other.
+fn contradicted(asked: &Value) -> Value {
+    let label = if asked["next"]["label"] == 1 { 99 } else { 1 };
+    json!({ "tool": "kind", "protect": true, "confirm": true, "label": label, "base": asked["base"],
+        "points": asked["next"]["points"] })
+}
+
+#[test]
+fn a_kind_is_answered_by_one_stroke_over_the_whole_sequence_and_is_not_asked_about_again() {
+    let out = Out::new();
+    let server = out.serve();
+    let before = server.of_sequence("progress").json();
+    let asked = server.of_sequence("kinds").json();
+    assert_eq!(server.of_sequence("kinds").json(), asked, "the same answers give the same question");
+    assert_eq!(server.of_sequence("progress").json(), before, "asking changes nothing");
+    let next = &asked["next"];
+    let parts = next["points"].as_array().unwrap();
+    let detections: usize = parts.iter().map(|part| part["points"].as_array().unwrap().len()).sum();
+    assert_eq!(next["detections"], json!(detections));
+    assert_eq!(asked["base"].as_array().unwrap().len(), parts.len());
+    assert!(next["worth"].as_f64().unwrap() >= 1.0);
+    // Each has the label that the question says it has.
+    let (radar, scan) = (parts[0]["radar"].as_str().unwrap(), &parts[0]["scan"]);
+    let table = server.of_sequence(&format!("radars/{radar}/scans/{scan}")).table();
+    for point in parts[0]["points"].as_array().unwrap() {
+        assert_eq!(
+            u64::from(table.u16("label")[point.as_u64().unwrap() as usize]),
+            next["label"].as_u64().unwrap()
+        );
+    }
+    let made = server.edit("POST", "strokes", &contradicted(&asked), "one").json();
+    assert_eq!(made["changed"], json!(detections));
+    let now = server.of_sequence("kinds").json();
+    assert_ne!(now["next"]["kind"], next["kind"]);
+    // One step back takes all of it back, and the question is the same again.
+    server.edit("POST", "undo", &json!({}), "one").json();
+    assert_eq!(server.of_sequence("progress").json(), before);
+    assert_eq!(server.of_sequence("kinds").json()["next"]["kind"], next["kind"]);
+}
+
+#[test]
+fn kinds_that_were_passed_over_are_heard_and_others_are_refused() {
+    let out = Out::new();
+    let server = out.serve();
+    let mut passed: Vec<String> = Vec::new();
+    loop {
+        let asked = server.of_sequence(&format!("kinds?passed={}", passed.join(","))).json();
+        let Some(kind) = asked["next"]["kind"].as_str() else {
+            assert_eq!((&asked["kinds"], &asked["base"]), (&json!(0), &json!([])));
+            break;
+        };
+        assert!(!passed.iter().any(|other| other == kind), "{kind} is asked about again");
+        passed.push(kind.to_owned());
+    }
+    assert!(!passed.is_empty());
+    server.of_sequence("kinds?passed=weak").refused(400);
+}
