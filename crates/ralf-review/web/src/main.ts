@@ -26,6 +26,7 @@ import { opinionBar } from "./panels/opinion-bar.js";
 import { filterPanel } from "./panels/filter-panel.js";
 import { keyTable, listenToKeys } from "./panels/keys.js";
 import { legendPanel } from "./panels/legend.js";
+import { kindBar } from "./panels/kind-bar.js";
 import { QueuePanel } from "./panels/queue-panel.js";
 import { replayDialog } from "./panels/replay-dialog.js";
 import { ruleBar } from "./panels/rule-bar.js";
@@ -86,7 +87,14 @@ function build(page: Page): void {
   listenToKeys(table, page.store);
   keepFocus(viewport.element);
   const overlays = [legendPanel(page), scanTitle(page), painting(page)];
-  const asked = [acceptBar(page, home), thingBar(page), settleBar(page), opinionBar(page), ruleBar(page)];
+  const asked = [
+    acceptBar(page, home),
+    thingBar(page),
+    settleBar(page),
+    opinionBar(page),
+    ruleBar(page),
+    kindBar(page),
+  ];
   const told = h("div", { class: "told" }, notice(page), ...asked, banner(page));
   const stage = h(
     "div",

@@ -13,6 +13,7 @@ import type {
   ScanId,
   Workday,
 } from "./api/types.js";
+import type { Kind } from "./api/kinds.js";
 import type { AreaKind, Home } from "./data/area.js";
 import type { CameraMoment } from "./data/camera-moment.js";
 import { buildCloud, type Cloud } from "./data/cloud.js";
@@ -115,6 +116,8 @@ export interface State {
   readonly filter: Filter;
   /** Filters that were kept under a name. */
   readonly rules: readonly Rule[];
+  /** The many detections that a question is asked about, or `null`. */
+  readonly kind: Kind | null;
   /** The rule whose selection is looked at, until it is applied or dropped. */
   readonly rule: Rule | null;
   /** What a rule would change in all sequences, while that is looked at. */
@@ -192,6 +195,7 @@ export const NOTHING_LOOKED_AT = {
   opinion: null,
   opinionAt: -1,
   rule: null,
+  kind: null,
   disputed: null,
 } as const satisfies Partial<State>;
 

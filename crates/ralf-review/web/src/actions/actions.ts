@@ -5,6 +5,7 @@ import { Adopting } from "./adopting.js";
 import { Correcting } from "./correcting.js";
 import { Hearing } from "./hearing.js";
 import { Holding } from "./holding.js";
+import { Kinding } from "./kinding.js";
 import { Moment } from "./moment.js";
 import { Opining } from "./opining.js";
 import { Navigation } from "./navigation.js";
@@ -34,6 +35,7 @@ export interface Actions {
   readonly rule: Ruling;
   readonly replay: Replaying;
   readonly opine: Opining;
+  readonly kind: Kinding;
   readonly settle: Settling;
   readonly recall: Recalling;
 }
@@ -44,7 +46,8 @@ export function actionsOn(world: World, keeper: Keeper): Actions {
   const thing = new Thinging(world, go);
   const correct = new Correcting(world, go, adopting, keeper);
   const settle = new Settling(world, go, correct);
-  const select = new Selecting(world, correct, thing, settle);
+  const kind = new Kinding(world, go, correct);
+  const select = new Selecting(world, correct, thing, settle, kind);
   return {
     go,
     correct,
@@ -59,6 +62,7 @@ export function actionsOn(world: World, keeper: Keeper): Actions {
     rule: new Ruling(world, go, select, correct),
     replay: new Replaying(world, correct),
     opine: new Opining(world, go, correct),
+    kind,
     settle,
     recall: new Recalling(world),
   };

@@ -90,18 +90,33 @@ export class Correcting {
   }
 
   /** Says who is right where two people said different things: those who have said so before say it again. */
-  async settle(
+  settle(
     points: readonly ScanPoints[],
     base: readonly BaseRevision[],
     label: Choice,
     cause: string | null = null,
   ): Promise<boolean> {
+    return this.answerAll(points, base, { label, tool: SETTLE, protect: false }, cause);
+  }
+
+  /** Says what many detections are that one question was about; nobody's corrections are among them. */
+  answerKind(points: readonly ScanPoints[], base: readonly BaseRevision[], label: Choice): Promise<boolean> {
+    return this.answerAll(points, base, { label, tool: "kind", protect: true });
+  }
+
+  /** One stroke on detections wherever they are; those that have the label already are noted, too. */
+  private async answerAll(
+    points: readonly ScanPoints[],
+    base: readonly BaseRevision[],
+    said: Pick<StrokeRequest, "label" | "tool" | "protect">,
+    cause: string | null = null,
+  ): Promise<boolean> {
     const { store } = this.world;
     const { sequence, outbox, cloud } = store.state;
     if (points.length === 0 || outbox.kind === "conflict" || readOnly(this.world)) return false;
-    const stroke = { id: randomName(), tool: SETTLE, protect: false, confirm: true, label, base, points };
+    const stroke = { ...said, id: randomName(), confirm: true, base: baseOf({ base }, points), points };
     // It is answered: a second press must not answer what isn't on screen once more.
-    store.set({ selection: new Uint8Array(cloud.count), disputed: null });
+    store.set({ selection: new Uint8Array(cloud.count), disputed: null, kind: null });
     await this.outbox.add([{ sequence, stroke: because(stroke, cause) }]);
     return true;
   }

@@ -5,6 +5,7 @@ import { combine, type Combination, countOf, inverted } from "../selection/mask.
 import { isPress, type Tool } from "../selection/tools.js";
 import { NOTHING_LOOKED_AT } from "../state.js";
 import type { Correcting } from "./correcting.js";
+import type { Kinding } from "./kinding.js";
 import type { Settling } from "./settling.js";
 import type { Thinging } from "./thinging.js";
 import { complain, tell, type World } from "./world.js";
@@ -20,6 +21,7 @@ export class Selecting {
     private readonly correcting: Correcting,
     private readonly things: Thinging,
     private readonly settling: Settling,
+    private readonly kinds: Kinding,
   ) {}
 
   hover(index: number): void {
@@ -49,9 +51,10 @@ export class Selecting {
   /** A label was chosen: it's set on what is selected; with nothing selected, on every stroke from now on. */
   choose(choice: Choice): void {
     const { store } = this.world;
-    const { selection, armed, thing, disputed } = store.state;
+    const { selection, armed, thing, disputed, kind } = store.state;
     if (this.proposed()) return;
     if (disputed !== null) return this.settling.answer(choice);
+    if (kind !== null) return this.kinds.answer(choice);
     if (countOf(selection) > 0 && thing !== null) this.begin(this.answer(choice));
     else if (countOf(selection) > 0) this.begin(this.correcting.apply(choice, this.lastTool));
     else store.set({ armed: armed === choice ? undefined : choice });
@@ -75,7 +78,8 @@ export class Selecting {
   }
 
   flip(): void {
-    if (this.proposed() || this.world.store.state.disputed !== null) return;
+    const { disputed, kind } = this.world.store.state;
+    if (this.proposed() || disputed !== null || kind !== null) return;
     this.begin(this.correcting.flip(this.lastTool));
   }
 

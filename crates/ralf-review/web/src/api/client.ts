@@ -1,6 +1,7 @@
 /** The server's interface, typed; every failure is one of `errors.ts` or an abort. */
 
 import { Conflict, Refused, ServerGone, TokenMissing } from "./errors.js";
+import type { Kinds } from "./kinds.js";
 import type { Session } from "./session.js";
 import { decodeTable, type Table } from "./table.js";
 import type {
@@ -61,6 +62,12 @@ export class Api {
   /** What the labels would be, after what people said; the first time it takes a while. */
   opinion(sequence: string, tNs: string): Promise<Opinion> {
     return this.json("GET", `${inSequence(sequence)}/opinion?${new URLSearchParams({ t_ns: tNs })}`);
+  }
+
+  /** Which detections all over the sequence one question can be about; `passed`: which have been passed over. */
+  kinds(sequence: string, tNs: string, passed: readonly string[]): Promise<Kinds> {
+    const query = new URLSearchParams({ t_ns: tNs, passed: passed.join(",") });
+    return this.json("GET", `${inSequence(sequence)}/kinds?${query}`);
   }
 
   /** How far people agree who labelled the same scans, and where they don't. */

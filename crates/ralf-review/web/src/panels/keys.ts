@@ -97,6 +97,11 @@ function go({ actions }: KeyContext): readonly Key[] {
       "Relabel with what you said: a proposal; again accepts it, Esc drops it",
       () => void actions.opine.askOrAccept(),
     ),
+    key(
+      ["shift+g"],
+      "To the next kind of detections that are probably wrong; P, A or a class answer all of it, again leaves it",
+      () => void actions.kind.next(),
+    ),
     key(["shift+s"], "To the next detections that two people labelled differently", () => void actions.settle.next()),
     key(["shift+t"], "The team: who has done how much, and how far people agree", () => void actions.settle.open()),
     key(["z"], "The whole sequence at once, or this scan alone", () => void going.toggleWhole()),

@@ -2,6 +2,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import type { Adopting } from "../../src/actions/adopting.js";
 import { Correcting } from "../../src/actions/correcting.js";
+import type { Kinding } from "../../src/actions/kinding.js";
 import type { Navigation } from "../../src/actions/navigation.js";
 import { Opining } from "../../src/actions/opining.js";
 import { Ruling } from "../../src/actions/ruling.js";
@@ -72,7 +73,7 @@ class Table {
     };
     const correct = { settle, free: () => true } as unknown as Correcting;
     this.settling = new Settling(world, go, correct);
-    this.selecting = new Selecting(world, correct, {} as Thinging, this.settling);
+    this.selecting = new Selecting(world, correct, {} as Thinging, this.settling, {} as Kinding);
     this.ruling = new Ruling(world, go, this.selecting, correct);
     this.opining = new Opining(world, go, correct);
     store.set({ sequence: "00", current: HERE, cloud: ALONE, scope: "shown" });

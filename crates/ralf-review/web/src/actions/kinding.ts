@@ -1,0 +1,130 @@
+/** Kinds: detections all over a sequence that one question is about, the one whose answer is worth most first. */
+
+import type { Kind } from "../api/kinds.js";
+import { type Cloud, findScan, maskOf } from "../data/cloud.js";
+import type { Choice } from "../data/labels.js";
+import { countOfPoints, keptPoints } from "../data/opinion.js";
+import { countOf, intersection } from "../selection/mask.js";
+import { type Focus, NOTHING_LOOKED_AT } from "../state.js";
+import type { Correcting } from "./correcting.js";
+import { LookedIn } from "./looked-in.js";
+import type { Navigation } from "./navigation.js";
+import { complain, tell, type World } from "./world.js";
+
+/** How much of the world is shown around a kind at least, m. */
+const LEAST_SHOWN = 24;
+
+export class Kinding {
+  /** Kinds that were passed over since the sequence was opened: most of them are right. */
+  private passed = new Set<string>();
+  private readonly lookedIn: LookedIn;
+  /** True while scans are being fetched for a kind. */
+  private moving = false;
+
+  constructor(
+    private readonly world: World,
+    private readonly navigation: Navigation,
+    private readonly correcting: Correcting,
+  ) {
+    const { store } = world;
+    store.watch(
+      ({ sequence }) => [sequence],
+      () => {
+        this.passed = new Set();
+        store.set({ kind: null });
+      },
+    );
+    this.lookedIn = new LookedIn(store, () => this.left());
+  }
+
+  /** To the kind that is worth most; the one that is looked at is passed over. */
+  async next(): Promise<void> {
+    const { store } = this.world;
+    if (store.state.thinking || store.state.current === null || !this.correcting.free("asking about kinds")) return;
+    const passed = store.state.kind;
+    if (passed !== null) this.passed.add(passed.kind);
+    try {
+      await this.ask();
+    } catch (error) {
+      complain(this.world, error);
+    }
+  }
+
+  /** Says what all that is selected of it is, as one step, and goes on. */
+  answer(choice: Choice): void {
+    this.say(choice).catch((error: unknown) => complain(this.world, error));
+  }
+
+  private async say(choice: Choice): Promise<void> {
+    const { store } = this.world;
+    const { kind, cloud, selection } = store.state;
+    if (kind === null) return;
+    const points = keptPoints(kind.points, cloud, selection);
+    if (points.length === 0) return tell(this.world, "None of these is selected, so nothing is said of them.");
+    // What was spared stays as it is, which is an answer, too.
+    if (countOfPoints(points) < kind.detections) this.passed.add(kind.kind);
+    if (!(await this.correcting.answerKind(points, kind.base, choice))) return;
+    if (store.state.outbox.kind === "idle") await this.ask();
+  }
+
+  private async ask(): Promise<void> {
+    const { store, api } = this.world;
+    const { sequence } = store.state;
+    // Until the next one is on screen no key says anything of the one before.
+    store.set({ ...NOTHING_LOOKED_AT, thinking: true, selection: new Uint8Array(store.state.cloud.count) });
+    try {
+      const tNs = store.state.cloud.scans[0]?.table.header.t_ns ?? "0";
+      const { next, kinds, base, scans } = await api.kinds(sequence, tNs, [...this.passed]);
+      if (sequence !== store.state.sequence) return;
+      if (next === null) return tell(this.world, "No other kind of detection is probably wrong in this sequence.");
+      // Nobody's work is taken over: what was begun meanwhile comes first.
+      const { thing, opinion, selection } = store.state;
+      if (thing !== null || opinion !== null || countOf(selection) > 0)
+        return tell(this.world, "A kind is known that may be wrong, but you are at something: Shift+G shows it.");
+      await this.show({ ...next, base, left: kinds - 1, scans });
+    } finally {
+      store.set({ thinking: false });
+    }
+  }
+
+  private async show(kind: Kind): Promise<void> {
+    const { store } = this.world;
+    const { sequence, current } = store.state;
+    this.moving = true;
+    try {
+      await this.navigation.wholeSequence(current ?? kind);
+      const isHere = kind.points.some((part) => findScan(store.state.cloud, part) >= 0);
+      if (!isHere) await this.navigation.wholeSequence(kind);
+    } finally {
+      this.moving = false;
+    }
+    if (sequence !== store.state.sequence) return;
+    const { cloud, eligible } = store.state;
+    const selection = intersection(maskOf(cloud, kind.points), eligible);
+    this.lookedIn.here();
+    store.set({ ...NOTHING_LOOKED_AT, kind, selection, armed: undefined, focus: around(cloud, selection) });
+  }
+
+  /** Whoever looks at other scans doesn't see any more what is spared, and what isn't. */
+  private left(): void {
+    if (this.world.store.state.kind === null || this.moving) return;
+    this.world.store.set({ kind: null });
+    tell(this.world, "The question is left, for you look at something else: Shift+G asks again.");
+  }
+}
+
+/** All of the chosen in one picture; `null` where none is on screen. */
+function around({ positions }: Cloud, chosen: Uint8Array): Focus | null {
+  const axis = (at: 0 | 1): readonly [number, number] => {
+    let [least, most] = [Infinity, -Infinity];
+    chosen.forEach((is, i) => {
+      const value = positions[3 * i + at];
+      if (is === 0 || !Number.isFinite(value)) return;
+      [least, most] = [Math.min(least, value), Math.max(most, value)];
+    });
+    return [least, most];
+  };
+  const [[left, right], [low, high]] = [axis(0), axis(1)];
+  if (left > right) return null;
+  return { x: (left + right) / 2, y: (low + high) / 2, span: Math.max(LEAST_SHOWN, right - left, high - low) };
+}

@@ -1,0 +1,59 @@
+/** A question about many detections: what they have in common, what they are called, and the answers. */
+
+import type { Kind, Sign } from "../api/kinds.js";
+import { findScan } from "../data/cloud.js";
+import { ARTIFACT, PLAUSIBLE } from "../data/labels.js";
+import { countOfPoints, keptPoints, partOf } from "../data/opinion.js";
+import { h, say } from "../dom.js";
+import { counted } from "../format.js";
+import type { Page } from "../page.js";
+import type { State } from "../state.js";
+import { keyButton } from "./buttons.js";
+
+const SIGNS: Readonly<Record<Sign, string>> = {
+  moves: "by their Doppler velocity they move",
+  weak: "four in five detections of their scans are stronger",
+  ground: "they lie no higher than the ground may",
+  behind: "something tall stands in the radar's way to them",
+  free: "most LiDAR scans look through the place",
+  again: "scan after scan sees them again",
+  rest: "by all evidence together",
+};
+
+export function kindBar({ store, actions }: Page): HTMLElement {
+  const [what, why] = [h("b"), h("span", { class: "faint" })];
+  const bar = h(
+    "div",
+    { class: "kind-bar", role: "group", "aria-label": "A question about many detections" },
+    h("div", { class: "thing-words", role: "status" }, what, why),
+    keyButton("Plausible", "P", () => actions.select.choose(PLAUSIBLE)),
+    keyButton("Artifact", "A", () => actions.select.choose(ARTIFACT)),
+    keyButton("Leave as they are", "Shift G", () => void actions.kind.next()),
+  );
+  store.watch(
+    ({ kind, selection, cloud }) => [kind, selection, cloud],
+    (kind, selection, cloud) => {
+      bar.hidden = kind === null;
+      bar.dataset["kind"] = kind?.kind ?? "";
+      if (kind === null || selection.length !== cloud.count) return;
+      say(what, question(store.state, kind));
+      say(why, reasons(kind));
+    },
+  );
+  return bar;
+}
+
+function question({ cloud, selection, labels }: Readonly<State>, kind: Kind): string {
+  const points = keptPoints(kind.points, cloud, selection);
+  const elsewhere = countOfPoints(points.filter((part) => findScan(cloud, part) < 0));
+  const beyond = elsewhere === 0 ? "" : ` (${elsewhere.toLocaleString("en")} of them not on screen)`;
+  const where = `${counted(countOfPoints(points), "detection")} in ${counted(points.length, "scan")}`;
+  return `${where}${beyond} are called ${labels.name(kind.label)}: ${SIGNS[kind.sign]}`;
+}
+
+function reasons(kind: Kind): string {
+  const { expected_errors: errors, things, left } = kind;
+  const wrong = `some ${Math.round(errors).toLocaleString("en")} expected to be wrong${partOf(kind)}`;
+  const more = `${counted(left, "other question")} after this`;
+  return `${wrong} · ${counted(things, "thing")} · Ctrl with a tool leaves some out · ${more}`;
+}
