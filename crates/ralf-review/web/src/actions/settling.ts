@@ -3,7 +3,7 @@
 import type { Disagreement } from "../api/types.js";
 import { everything } from "../data/filter.js";
 import type { Choice } from "../data/labels.js";
-import { baseOf, countOfPoints, keptPoints } from "../data/opinion.js";
+import { countOfPoints, keptPoints } from "../data/opinion.js";
 import { sameScan } from "../data/scan.js";
 import { keyOf, nextDisagreement, outlookOf } from "../data/team.js";
 import { counted } from "../format.js";
@@ -98,7 +98,7 @@ export class Settling {
         this.world,
         "None of these is selected, so nothing is settled: they are spared, or the filter hides them.",
       );
-    if (!(await this.correcting.settle(points, baseOf(disagreements, points), choice, cause))) return;
+    if (!(await this.correcting.settle(points, disagreements.base, choice, cause))) return;
     const left = unshown + unreached;
     if (left > 0)
       tell(this.world, `${counted(countOfPoints(points), "detection")} settled; ${left} that were hidden are left.`);

@@ -17,7 +17,7 @@ const SIGNS: Readonly<Record<Sign, string>> = {
   behind: "something tall stands in the radar's way to them",
   free: "most LiDAR scans look through the place",
   again: "scan after scan sees them again",
-  rest: "by all evidence together",
+  rest: "all evidence together says otherwise",
 };
 
 export function kindBar({ store, actions }: Page): HTMLElement {
@@ -28,7 +28,7 @@ export function kindBar({ store, actions }: Page): HTMLElement {
     h("div", { class: "thing-words", role: "status" }, what, why),
     keyButton("Plausible", "P", () => actions.select.choose(PLAUSIBLE)),
     keyButton("Artifact", "A", () => actions.select.choose(ARTIFACT)),
-    keyButton("Leave as they are", "Shift G", () => void actions.kind.next()),
+    keyButton("Leave", "Shift G", () => void actions.kind.next()),
   );
   store.watch(
     ({ kind, selection, cloud }) => [kind, selection, cloud],
@@ -48,12 +48,11 @@ function question({ cloud, selection, labels }: Readonly<State>, kind: Kind): st
   const elsewhere = countOfPoints(points.filter((part) => findScan(cloud, part) < 0));
   const beyond = elsewhere === 0 ? "" : ` (${elsewhere.toLocaleString("en")} of them not on screen)`;
   const where = `${counted(countOfPoints(points), "detection")} in ${counted(points.length, "scan")}`;
-  return `${where}${beyond} are called ${labels.name(kind.label)}: ${SIGNS[kind.sign]}`;
+  return `${where}${beyond} are called ${labels.name(kind.label)}: are they?`;
 }
 
 function reasons(kind: Kind): string {
-  const { expected_errors: errors, things, left } = kind;
+  const { sign, expected_errors: errors, left } = kind;
   const wrong = `some ${Math.round(errors).toLocaleString("en")} expected to be wrong${partOf(kind)}`;
-  const more = `${counted(left, "other question")} after this`;
-  return `${wrong} · ${counted(things, "thing")} · Ctrl with a tool leaves some out · ${more}`;
+  return [SIGNS[sign], wrong, `${counted(left, "question")} after this`].join(" · ");
 }

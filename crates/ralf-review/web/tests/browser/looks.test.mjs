@@ -56,6 +56,18 @@ test("nothing that axe calls serious is wrong with the page, its dialogs and bar
   await faults("a proposal");
   await picture(page, "proposal");
   await page.keyboard.press("Escape");
+  await page.keyboard.press("Shift+G");
+  await page.locator(".kind-bar:not([hidden])").waitFor({ timeout: 300_000 });
+  await faults("a question about many");
+  await picture(page, "kind");
+  const before = (await historyOf(server, page)).undo_depth;
+  await page.keyboard.press("p");
+  await says(page.locator(".status-bar"), `undo ${before + 1}`);
+  // The next question comes by itself, or there is none.
+  await page.locator(".opinion-bar").waitFor({ state: "hidden" });
+  await page.keyboard.press("Control+z");
+  await says(page.locator(".status-bar"), `undo ${before} `);
+  await page.keyboard.press("Escape");
   await page
     .locator(".filters details")
     .last()
