@@ -4,7 +4,7 @@ use super::calibration::Calibration;
 use super::camera::{CameraModel, cameras};
 use super::family::{Family, Mount, PlaceKind, RadarRanges};
 use super::lidar::{LidarModel, Optics, Pattern};
-use super::radar::{Amplitude, Cell, RadarModel, Waves, sensitivity_db};
+use super::radar::{Amplitude, Cell, Keeps, RadarModel, Spikiness, Waves, sensitivity_db};
 use super::span::{Span, one_of, span};
 use crate::random::{Purpose, Random};
 use nalgebra::{Translation3, UnitQuaternion};
@@ -12,8 +12,6 @@ use ralf::space::Transform;
 
 /// By how much the sine of an ambiguous angle is off: wavelength over the spacing of an array with gaps.
 const AMBIGUITY: Span = span(0.25, 0.7);
-/// How likely a radar that finds more than it has room for keeps the clearest (chosen).
-const CLEAREST_FIRST: f64 = 0.4;
 /// What radars tell of an echo's strength, and how likely.
 const AMPLITUDES: [(&[Amplitude], f64); 4] = [
     (&[Amplitude::Rcs], 0.5),
@@ -60,7 +58,15 @@ fn waves(family: &Family, random: &mut Random) -> Waves {
         asphalt_db: ranges.asphalt.draw(random),
         texture_db: ranges.texture.draw(random),
         lumps: [ranges.lumps.draw(random), ranges.lump_strength.draw(random)],
+        spikes: Spikiness {
+            mean_db: ranges.spike_mean.draw(random),
+            scale_db: ranges.spike_scale.draw(random),
+            staying: ranges.spikes_stay.draw(random),
+        },
         mirror_loss_db: ranges.mirror_loss.draw(random),
+        own_front_db: ranges.own_front.draw(random),
+        floor: ranges.floor.draw(random),
+        floor_way: ranges.floor_way.draw(random),
         road_mirror: ranges.road_mirror.draw(random),
         window_loss_db: ranges.window_loss.draw(random),
         leaf_loss_db: ranges.leaf_loss.draw(random),
@@ -123,6 +129,7 @@ fn radar(ranges: &RadarRanges, elevation: bool, random: &mut Random) -> RadarMod
             elevation: ranges.elevation_cell.draw(random).to_radians(),
             doppler: ranges.doppler_cell.draw(random),
         },
+        grouping: ranges.grouping.draw(random),
         accuracy: ranges.accuracy.draw(random),
         threshold_db: ranges.threshold.draw(random),
         doppler_interval: ranges.doppler_interval.draw(random),
@@ -132,7 +139,8 @@ fn radar(ranges: &RadarRanges, elevation: bool, random: &mut Random) -> RadarMod
         angle_failure: ranges.angle_failure.draw(random),
         ambiguity: AMBIGUITY.draw(random),
         room: ranges.room.count(random),
-        clearest_first: random.chance(CLEAREST_FIRST),
+        keeps: one_of(ranges.keeps, random).unwrap_or(Keeps::Clearest),
+        least_rcs_db: ranges.least_rcs.draw(random),
         false_alarms: ranges.false_alarms.draw(random),
         rcs_offset_db: 0.0,
         amplitudes: one_of(&AMPLITUDES, random).unwrap_or_default().to_vec(),

@@ -4,6 +4,8 @@ use crate::ground::Ground;
 use crate::random::grain;
 use crate::scenario::Ramp;
 use crate::shape::Ray;
+use crate::truth::Truth;
+use ralf::label::Cause;
 use ralf::space::{Point, Transform, Vector};
 
 /// What the ground is covered with.
@@ -23,13 +25,21 @@ impl Surface {
         if self == Self::Grass { 72 } else { 1 }
     }
 
+    /// What is true of a detection of it.
+    pub(super) fn truth(self) -> Truth {
+        match self {
+            Self::Grass => Truth { class: self.class(), cause: Cause::Plausible },
+            _ => Truth::artifact(Cause::Road),
+        }
+    }
+
     /// Backscatter beyond asphalt's, dB. Grass and gravel are rough for waves of 4 mm (Ulaby and Dobson 1989).
     pub(super) fn roughness_db(self) -> f64 {
         match self {
             Self::Asphalt => 0.0,
             Self::Pavement => 3.0,
             Self::Gravel => 8.0,
-            Self::Grass => 12.0,
+            Self::Grass => 10.0,
         }
     }
 }

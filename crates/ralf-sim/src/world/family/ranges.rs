@@ -1,6 +1,7 @@
 //! What a family says of its worlds.
 
 use crate::world::lidar::Pattern;
+use crate::world::radar::Keeps;
 use crate::world::span::Span;
 
 /// A family of worlds: ranges of everything that differs between recordings.
@@ -47,6 +48,8 @@ pub(crate) struct RadarRanges {
     pub(crate) elevation_cell: Span,
     /// m/s.
     pub(crate) doppler_cell: Span,
+    /// Within so many cells of a stronger echo there is no peak of its own.
+    pub(crate) grouping: Span,
     /// Standard deviation at 20 dB, as a share of the cell.
     pub(crate) accuracy: Span,
     /// Above the floor, dB.
@@ -63,6 +66,10 @@ pub(crate) struct RadarRanges {
     pub(crate) angle_failure: Span,
     /// Detections that a scan has room for.
     pub(crate) room: Span,
+    /// Which are kept where there are more, with how likely each is.
+    pub(crate) keeps: &'static [(Keeps, f64)],
+    /// Smaller cross-sections are left out, dBsm.
+    pub(crate) least_rcs: Span,
     /// False alarms in a scan.
     pub(crate) false_alarms: Span,
 }
@@ -78,8 +85,20 @@ pub(crate) struct WaveRanges {
     pub(crate) lumps: Span,
     /// What that is worth, dB.
     pub(crate) lump_strength: Span,
+    /// What spikes add to the ground's backscatter, dB (m2 per m2).
+    pub(crate) spike_mean: Span,
+    /// Cross-section of a spike, dBsm: the larger, the fewer there are.
+    pub(crate) spike_scale: Span,
+    /// Share of the spikes that belong to the place.
+    pub(crate) spikes_stay: Span,
     /// What a facade takes from a mirrored wave, one way, dB.
     pub(crate) mirror_loss: Span,
+    /// Cross-section of the own front to a wave that comes back, dBsm.
+    pub(crate) own_front: Span,
+    /// How often a low part of a vehicle sends a wave under the floor.
+    pub(crate) floor: Span,
+    /// How much longer the way is there on average, m.
+    pub(crate) floor_way: Span,
     /// How often a thing is seen mirrored in the road.
     pub(crate) road_mirror: Span,
     /// What a window or door takes, there and back, dB.

@@ -10,7 +10,7 @@ use ralf::space::{Point, Spherical};
 /// How many of the strongest echoes have company.
 const STRONGEST: usize = 40;
 /// A wrong angle that leads less far than this from where the echo comes from is but an inexact one, m.
-const APART: f64 = 1.0;
+pub(super) const APART: f64 = 1.0;
 
 /// Lobes stand at the antenna's own angles, 1.5, 2.5, ... beam widths off, each with a height of its own: they persist.
 pub(super) fn side_lobes(view: &View<'_>, merged: &[Echo], random: &mut Random) -> Vec<Echo> {
@@ -84,6 +84,6 @@ pub(super) fn reflected_by_road(view: &View<'_>, echo: Echo, random: &mut Random
     }
 }
 
-fn displaced(echo: &Echo, seen: &Spherical) -> f64 {
+pub(super) fn displaced(echo: &Echo, seen: &Spherical) -> f64 {
     (echo.seen.to_cartesian() - seen.to_cartesian()).norm()
 }

@@ -4,23 +4,29 @@
 use super::echo::Echo;
 use super::equation::{decibel, ratio};
 use super::model::RadarModel;
+use std::collections::HashMap;
 use std::f64::consts::PI;
 
-/// Cells of range on each side that are looked at, and those next to the one asked about that are not.
-const WINDOW: (usize, usize) = (8, 1);
+/// Cells of range on each side that are not looked at, next to the one asked about, and how far those reach that are.
+const WINDOW: (i64, i64) = (1, 8);
 /// Which of them, in order, tells the floor.
 const RANK: f64 = 0.7;
 /// Sectors of azimuth.
-const SECTORS: usize = 16;
+const SECTORS: f64 = 16.0;
+
+/// A cell of range and range rate, and a sector.
+type Cell = [i64; 3];
 
 /// The floor of a scan.
 pub(super) struct Floor {
-    /// Power by sector and range.
-    sums: Vec<Vec<f64>>,
-    /// Power by range over all sectors.
-    ring: Vec<f64>,
+    /// Power by cell and sector.
+    sums: HashMap<Cell, f64>,
+    /// Power by cell from all angles.
+    rings: HashMap<[i64; 2], f64>,
+    /// Of a cell: m, and m/s.
     width: f64,
-    /// Cells that share a sector and a range.
+    doppler: f64,
+    /// Cells of the radar that share a sector and a range.
     cells: f64,
     leak: f64,
     noise: f64,
@@ -31,42 +37,43 @@ impl Floor {
     pub(super) fn new(radar: &RadarModel, echoes: &[Echo], noise: f64) -> Self {
         // Coarser than a cell, so that windows reach over some metres.
         let width = (2.0 * radar.cell.range).max(0.4);
-        let bins = (radar.max_range / width).ceil() as usize + 1;
-        let cells = (2.0 * PI / SECTORS as f64 / radar.cell.azimuth).max(1.0) * width / radar.cell.range;
+        let cells = (2.0 * PI / SECTORS / radar.cell.azimuth).max(1.0) * width / radar.cell.range;
         let mut floor = Self {
-            sums: vec![vec![0.0; bins]; SECTORS],
-            ring: vec![0.0; bins],
+            sums: HashMap::new(),
+            rings: HashMap::new(),
             width,
+            doppler: radar.cell.doppler,
             cells,
             leak: ratio(-1.6 * radar.side_lobe_db - 6.0),
             noise,
         };
         for echo in echoes {
-            let [sector, bin] = floor.place(echo);
-            floor.sums[sector][bin] += echo.power;
-            floor.ring[bin] += echo.power;
+            let cell @ [range, rate, _] = floor.cell(echo);
+            *floor.sums.entry(cell).or_default() += echo.power;
+            *floor.rings.entry([range, rate]).or_default() += echo.power;
         }
         floor
     }
 
-    fn place(&self, echo: &Echo) -> [usize; 2] {
-        let turn = (echo.seen.azimuth / (2.0 * PI) + 0.5).clamp(0.0, 0.999_999);
-        let bin = ((echo.seen.range / self.width) as usize).min(self.ring.len() - 1);
-        [(turn * SECTORS as f64) as usize, bin]
+    fn cell(&self, echo: &Echo) -> Cell {
+        let turn = echo.seen.azimuth / (2.0 * PI) * SECTORS;
+        [echo.seen.range / self.width, echo.range_rate / self.doppler, turn].map(|value| value.floor() as i64)
     }
 
-    /// Around an echo, dB above the receiver's usual noise. What leaks over comes from the other angles of its range.
+    /// Around an echo, dB above the receiver's usual noise: what the cells before and behind it hold at its own range
+    /// rate, for radars look there before they look for angles. What leaks over comes from the other angles of its cell.
     pub(super) fn level_db(&self, echo: &Echo) -> f64 {
-        let [sector, bin] = self.place(echo);
-        let sums = &self.sums[sector];
-        let mut around = Vec::with_capacity(2 * WINDOW.0);
-        for distance in WINDOW.1 + 1..=WINDOW.0 {
-            let near = [bin.checked_sub(distance), Some(bin + distance)];
-            around.extend(near.into_iter().flatten().filter_map(|bin| sums.get(bin)));
+        let [range, rate, sector] = self.cell(echo);
+        let mut around = Vec::with_capacity(2 * WINDOW.1 as usize);
+        for distance in WINDOW.0 + 1..=WINDOW.1 {
+            let near = [range - distance, range + distance].into_iter().filter(|range| *range >= 0);
+            let power = |range| self.sums.get(&[range, rate, sector]).copied().unwrap_or(0.0);
+            around.extend(near.map(power));
         }
         around.sort_by(f64::total_cmp);
         let ranked = around.get((RANK * around.len() as f64) as usize).copied().unwrap_or(0.0);
-        let others = (self.ring[bin] - sums[bin]).max(0.0);
+        let ring = self.rings.get(&[range, rate]).copied().unwrap_or(0.0);
+        let others = (ring - echo.power).max(0.0);
         decibel(self.noise + ranked / self.cells + self.leak * others)
     }
 }

@@ -1,9 +1,13 @@
 //! Noise, rain, interference, and the own bumper.
 
 use super::echo::{Echo, NEAREST, View};
+use super::equation::snr_db;
 use crate::random::{Random, grain};
 use ralf::label::Cause;
 use ralf::space::{Spherical, Vector};
+
+/// Cross-sections of clips, brackets and number plates, dBsm (chosen).
+const BUMPER_DB: (f64, f64) = (-40.0, 0.0);
 
 /// False alarms: anywhere, at any range rate, just above the threshold.
 pub(super) fn noise(view: &View<'_>, random: &mut Random) -> Vec<Echo> {
@@ -71,7 +75,8 @@ pub(super) fn bumper(view: &View<'_>, random: &mut Random) -> Vec<Echo> {
                 azimuth: (share(3) - 0.5) * view.radar.fov[0],
                 elevation: (share(4) - 0.5) * view.radar.fov[1],
             };
-            let level = view.radar.threshold_db + 25.0 * share(5) + random.normal(2.0);
+            let rcs = BUMPER_DB.0 + (BUMPER_DB.1 - BUMPER_DB.0) * share(5) + random.normal(2.0);
+            let level = snr_db(view.radar, rcs, seen.range, [seen.azimuth, seen.elevation]);
             found.push(Echo::artifact(seen, random.normal(0.02), level, Cause::OwnVehicle));
         }
     }

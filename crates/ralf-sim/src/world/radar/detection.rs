@@ -4,7 +4,7 @@ use super::antenna::{confused, reflected_by_road};
 use super::cfar::Floor;
 use super::echo::{Echo, NEAREST, View};
 use super::equation::{apparent_rcs_db, decibel, folded};
-use super::model::{Amplitude, RadarModel};
+use super::model::{Amplitude, Keeps, RadarModel};
 use crate::random::Random;
 use crate::truth::Truth;
 use ralf::sensors::{Radar, RadarScan};
@@ -36,12 +36,15 @@ pub(super) fn detected(
 ) -> Vec<Detection> {
     let radar = view.radar;
     let margin = |echo: &Echo| decibel(echo.power) - floor.level_db(echo) - radar.threshold_db;
-    let mut above: Vec<(f64, &Echo)> =
-        echoes.iter().map(|echo| (margin(echo), echo)).filter(|(margin, _)| *margin > 0.0).collect();
-    if radar.clearest_first {
-        above.sort_by(|a, b| b.0.total_cmp(&a.0));
-    } else {
-        above.sort_by(|a, b| a.1.seen.range.total_cmp(&b.1.seen.range));
+    let mut above: Vec<(f64, &Echo)> = echoes
+        .iter()
+        .map(|echo| (margin(echo), echo))
+        .filter(|(margin, echo)| *margin > 0.0 && rcs_db(radar, echo) > radar.least_rcs_db)
+        .collect();
+    match radar.keeps {
+        Keeps::Clearest => above.sort_by(|a, b| b.0.total_cmp(&a.0)),
+        Keeps::Nearest => above.sort_by(|a, b| a.1.seen.range.total_cmp(&b.1.seen.range)),
+        Keeps::Largest => above.sort_by(|a, b| rcs_db(radar, b.1).total_cmp(&rcs_db(radar, a.1))),
     }
     above.truncate(radar.room);
     let mut found = Vec::new();
@@ -51,6 +54,10 @@ pub(super) fn detected(
     }
     found.sort_by(|a, b| a.seen.range.total_cmp(&b.seen.range));
     found
+}
+
+fn rcs_db(radar: &RadarModel, echo: &Echo) -> f64 {
+    apparent_rcs_db(radar, decibel(echo.power), echo.seen.range, echo.seen.azimuth)
 }
 
 /// Angles and ranges scatter with the root of the signal to noise ratio.

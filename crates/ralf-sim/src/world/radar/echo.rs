@@ -11,7 +11,7 @@ use ralf::space::{Point, Spherical, Transform, Vector};
 /// Nothing is detected nearer than this, m.
 pub(super) const NEAREST: f64 = 0.25;
 /// Echoes so far below the threshold may still add up or be lifted by fluctuation, dB.
-const HOPE_DB: f64 = 6.0;
+pub(super) const HOPE_DB: f64 = 6.0;
 
 /// What arrives from a direction, in the radar's frame.
 #[derive(Debug, Clone, Copy)]

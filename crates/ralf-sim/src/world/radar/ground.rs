@@ -3,7 +3,6 @@
 use super::echo::{Echo, View, fluctuation_db, glint_db};
 use super::equation::decibel;
 use crate::random::{Random, grain};
-use crate::truth::Truth;
 use crate::world::terrain::{Patch, Surface};
 use ralf::label::Cause;
 use ralf::space::{Point, Vector};
@@ -65,11 +64,7 @@ fn piece(view: &View<'_>, [i, j]: [i64; 2], speckle: f64) -> Option<Echo> {
         + decibel(speckle.max(1e-3));
     let level = view.level_db(&seen, rcs)?;
     let loss = view.loss_db(&(place + Vector::z() * 0.05), None)?;
-    let truth = match patch.surface {
-        Surface::Grass => Truth { class: patch.surface.class(), cause: Cause::Plausible },
-        _ => Truth::artifact(Cause::Road),
-    };
-    Some(Echo::new(seen, view.range_rate(&place, &Vector::zeros()), level - loss, truth))
+    Some(Echo::new(seen, view.range_rate(&place, &Vector::zeros()), level - loss, patch.surface.truth()))
 }
 
 /// The faces of kerbs, half a metre at a time: each with a strength of its own.

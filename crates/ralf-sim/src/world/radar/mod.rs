@@ -2,6 +2,7 @@
 //! measured. How many detections there are, and which share of them is plausible, follows.
 
 mod antenna;
+mod bounces;
 mod cells;
 mod cfar;
 mod clutter;
@@ -11,11 +12,14 @@ mod equation;
 mod ground;
 mod model;
 mod multipath;
+mod spikes;
 mod targets;
+mod unresolved;
 
 pub(super) use detection::{Detection, radar_scan};
 pub(super) use equation::sensitivity_db;
-pub(super) use model::{Amplitude, Cell, RadarModel, Waves};
+pub(in crate::world) use model::{Amplitude, Cell, Keeps, RadarModel, Waves};
+pub(super) use spikes::Spikiness;
 
 use super::scene::Moment;
 use crate::random::Random;
@@ -37,14 +41,17 @@ pub(super) fn scan(
     let targets = targets::echoes(&view, random);
     let mut echoes: Vec<Echo> = targets.iter().map(|target| target.echo).collect();
     echoes.extend(multipath::mirrored(&view, &targets, random));
-    echoes.extend(multipath::second_trips(&view, &targets, random));
+    echoes.extend(bounces::bounces(&view, &targets, random));
     echoes.extend(ground::pieces(&view, random));
     echoes.extend(ground::kerbs(&view, random));
+    echoes.extend(spikes::staying(&view, random));
+    echoes.extend(spikes::passing(&view, random));
     echoes.extend(clutter::rain(&view, random));
     echoes.extend(clutter::bumper(&view, random));
     let (burst, noise_db) = clutter::interference(&view, random);
     echoes.extend(burst);
-    let mut merged = cells::merged(radar, &echoes, random);
+    let merged = cells::merged(radar, &echoes, random);
+    let mut merged = unresolved::peaks(radar, unresolved::pairs(radar, merged, random));
     merged.extend(antenna::side_lobes(&view, &merged, random));
     merged.extend(clutter::noise(&view, random));
     let floor = Floor::new(radar, &merged, equation::ratio(noise_db));

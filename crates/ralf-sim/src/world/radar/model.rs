@@ -1,5 +1,6 @@
 //! A radar as it really is, and how waves meet the world.
 
+use super::spikes::Spikiness;
 use ralf::space::Transform;
 
 /// A radar.
@@ -23,6 +24,8 @@ pub(crate) struct RadarModel {
     /// m.
     pub(crate) max_range: f64,
     pub(crate) cell: Cell,
+    /// Within so many cells of a stronger echo there is no peak of its own.
+    pub(crate) grouping: f64,
     /// Standard deviation at 20 dB as a share of the cell.
     pub(crate) accuracy: f64,
     /// Above the floor, dB.
@@ -41,14 +44,27 @@ pub(crate) struct RadarModel {
     pub(crate) ambiguity: f64,
     /// Detections that a scan has room for.
     pub(crate) room: usize,
-    /// Whether the clearest are kept where there are more; else the list is filled from the nearest on.
-    pub(crate) clearest_first: bool,
+    /// Which are kept where there are more.
+    pub(crate) keeps: Keeps,
+    /// Smaller cross-sections are left out, dBsm.
+    pub(crate) least_rcs_db: f64,
     /// False alarms in a scan.
     pub(crate) false_alarms: f64,
     /// What its cross-sections are off, dB.
     pub(crate) rcs_offset_db: f64,
     /// Names of the columns that follow x, y, z.
     pub(crate) amplitudes: Vec<Amplitude>,
+}
+
+/// Which detections a radar keeps that finds more than it has room for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Keeps {
+    /// Those that rise highest above the floor.
+    Clearest,
+    /// The list is filled from the nearest on.
+    Nearest,
+    /// Those of the largest cross-section.
+    Largest,
 }
 
 /// What a radar tells of an echo's strength.
@@ -95,8 +111,16 @@ pub(crate) struct Waves {
     pub(crate) texture_db: f64,
     /// How often a square metre of road has a manhole, a joint or a stud in it, and what that is worth, dB.
     pub(crate) lumps: [f64; 2],
+    /// What is heard of the ground seldom and strongly.
+    pub(crate) spikes: Spikiness,
     /// What a facade takes from a mirrored wave, one way, dB.
     pub(crate) mirror_loss_db: f64,
+    /// Cross-section of the own front to a wave that comes back, dBsm.
+    pub(crate) own_front_db: f64,
+    /// How often a low part of a vehicle sends a wave under the floor.
+    pub(crate) floor: f64,
+    /// How much longer the way is there on average, m.
+    pub(crate) floor_way: f64,
     /// How often a thing is seen mirrored in the road.
     pub(crate) road_mirror: f64,
     /// What a window takes, there and back, dB.
@@ -131,6 +155,7 @@ pub(super) mod tests {
             sensitivity_db: sensitivity_db(100.0),
             max_range: 100.0,
             cell: Cell { range: 0.3, azimuth: 0.03, elevation: 0.08, doppler: 0.1 },
+            grouping: 1.0,
             accuracy: 0.2,
             threshold_db: 12.0,
             doppler_interval: 100.0,
@@ -140,7 +165,8 @@ pub(super) mod tests {
             angle_failure: 0.0,
             ambiguity: 0.4,
             room: 500,
-            clearest_first: true,
+            keeps: Keeps::Clearest,
+            least_rcs_db: -99.0,
             false_alarms: 0.0,
             rcs_offset_db: 0.0,
             amplitudes: vec![Amplitude::Rcs],
@@ -153,7 +179,11 @@ pub(super) mod tests {
             asphalt_db: -25.0,
             texture_db: 5.0,
             lumps: [0.01, 14.0],
+            spikes: Spikiness { mean_db: -99.0, scale_db: -10.0, staying: 0.5 },
             mirror_loss_db: 4.0,
+            own_front_db: 8.0,
+            floor: 0.0,
+            floor_way: 2.0,
             road_mirror: 0.0,
             window_loss_db: 8.0,
             leaf_loss_db: 3.0,

@@ -1,4 +1,4 @@
-//! Waves that take another way: mirror images, paths that are mirrored on one of their two ways, second trips.
+//! Waves that take another way: mirror images, and paths that are mirrored on one of their two ways.
 
 use super::echo::{Echo, View, fluctuation_db};
 use super::equation::{decibel, range_loss_db};
@@ -11,12 +11,6 @@ use ralf::space::{Point, Spherical, Vector};
 
 /// Farther mirrors, and things farther from a mirror, are left out, m.
 const REACH: f64 = 45.0;
-/// A second trip is lost beyond this first one, m.
-const FARTHEST_BOUNCE: f64 = 30.0;
-/// How many of the strongest echoes have a second trip.
-const STRONGEST: usize = 24;
-/// Cross-section of the own front to a wave that comes back, dBsm.
-const OWN_FRONT_DB: f64 = 8.0;
 
 /// A mirror in its place that faces the radar.
 struct Mirror {
@@ -136,53 +130,4 @@ fn images(
     let apart = (image - target.place).norm() > 1.0;
     let heard = |echo: Echo| (apart && decibel(echo.power) > hope).then_some(echo);
     Some([heard(pure), heard(mixed(around)), heard(mixed(direct))])
-}
-
-/// To a thing, back to the own front, and the same way again: twice the range, twice the range rate. And from one thing
-/// to another and back.
-pub(super) fn second_trips(view: &View<'_>, targets: &[Target], random: &mut Random) -> Vec<Echo> {
-    let mut strongest: Vec<&Target> = targets.iter().collect();
-    strongest.sort_by(|a, b| b.echo.power.total_cmp(&a.echo.power));
-    strongest.truncate(STRONGEST);
-    let mut found = Vec::new();
-    for target in &strongest {
-        found.extend(twice(view, target, random));
-    }
-    for (number, first) in strongest.iter().enumerate() {
-        for second in strongest[number + 1..].iter().filter(|second| second.item != first.item) {
-            found.extend(triangle(view, first, second, random));
-        }
-    }
-    found
-}
-
-fn twice(view: &View<'_>, target: &Target, random: &mut Random) -> Option<Echo> {
-    let Spherical { range, azimuth, elevation } = target.echo.seen;
-    let seen = Spherical { range: 2.0 * range, azimuth, elevation };
-    if range > FARTHEST_BOUNCE || seen.range > view.radar.max_range {
-        return None;
-    }
-    // Radar equation twice: each trip spreads by 4 pi r^2, and the thing's own cross-section counts again.
-    let strength_db = decibel(target.echo.power) - view.radar.sensitivity_db + range_loss_db(range);
-    let again_db = strength_db + OWN_FRONT_DB - 22.0 - 40.0 * range.max(1.0).log10();
-    let level = decibel(target.echo.power) + again_db.min(-8.0) + random.normal(3.0);
-    (level > view.radar.threshold_db - 3.0)
-        .then(|| Echo::artifact(seen, 2.0 * target.echo.range_rate, level, Cause::DoubleBounce))
-}
-
-/// Radar, one thing, another thing, radar: it seems to come from the second, half the detour farther.
-fn triangle(view: &View<'_>, first: &Target, second: &Target, random: &mut Random) -> Option<Echo> {
-    let between = (first.place - second.place).norm();
-    if !(0.5..20.0).contains(&between) {
-        return None;
-    }
-    let [a, b] = [first.echo.seen.range, second.echo.seen.range];
-    let range = (a + between + b) / 2.0;
-    let seen = Spherical { range, ..second.echo.seen };
-    let mean_db = f64::midpoint(decibel(first.echo.power), decibel(second.echo.power));
-    let level = mean_db - 11.0 - 20.0 * between.log10() + random.normal(4.0);
-    let off = range - b;
-    let loud = level > view.radar.threshold_db - 3.0 && off > 1.0 && range < view.radar.max_range;
-    let rate = f64::midpoint(first.echo.range_rate, second.echo.range_rate);
-    loud.then(|| Echo::artifact(seen, rate, level, Cause::DoubleBounce))
 }
