@@ -4,8 +4,9 @@
 //! these apart; what they leave is for [`chi_within`](super::distance::chi_within) to decide.
 
 use super::distance::{ROOM, Spot, farthest_within};
-use crate::space::NeighborIndex;
+use crate::space::{NeighborIndex, Vector};
 use std::borrow::Cow;
+use std::ops::Range;
 use std::rc::Rc;
 
 /// Detections that are looked at together.
@@ -25,26 +26,68 @@ pub(super) struct Cloud<'a> {
 impl<'a> Cloud<'a> {
     /// The detections of an index, whose identities are places in a list of spots, and the variances of these.
     pub(super) fn new(index: Cow<'a, NeighborIndex>, spots: &[Spot], variances: Rc<Variances>) -> Self {
-        let flat = Flat::new(index.ids().iter().map(|id| &spots[*id as usize]));
+        let flat = Flat::new(spots, index.ids());
         Self { index, flat, variances }
     }
 
     /// Visits the identities of all within a distance `limit` of a spot, in standard deviations, and of some beyond;
     /// but of none farther than `most`, m, seen from above.
     pub(super) fn each_near(&self, spot: &Spot, limit: f64, most: f32, mut visit: impl FnMut(usize)) {
-        let place = [spot.place.x as f32, spot.place.y as f32];
         let reach = self.variances.farthest(spot, limit, most);
         let seeker = Seeker::new(spot, limit, reach);
-        for run in self.index.runs_around(place, reach) {
-            let ids = &self.index.ids()[run.clone()];
-            for (begin, ids) in run.step_by(LANES).zip(ids.chunks(LANES)) {
-                let met = self.flat.meet(begin, &seeker);
-                if met.any(&seeker) {
-                    let near = ids.iter().enumerate().filter(|(lane, _)| met.is_near(*lane, &seeker));
-                    near.for_each(|(_, id)| visit(*id as usize));
-                }
+        for run in self.index.runs_around([seeker.x, seeker.y], reach) {
+            self.visit_run(run, &seeker, |begin| self.flat.meet(begin, &seeker), &mut visit);
+        }
+    }
+
+    /// The same around where a moving spot is at the time of each detection: `times` are these, s, in the order of
+    /// the index, not a number of those that are out of the question. Of all times `span` is the first and the last,
+    /// and `velocity` is horizontal, m/s. Some may be a hair farther than `most`.
+    pub(super) fn each_met(
+        &self,
+        spot: &Spot,
+        velocity: [f64; 2],
+        (times, span): (&[f32], [f64; 2]),
+        (limit, most): (f64, f32),
+        mut visit: impl FnMut(usize),
+    ) {
+        let [from, to] =
+            span.map(|time| spot.moved(&Vector::new(velocity[0] * time, velocity[1] * time, 0.0)));
+        let farther = if to.place.xy().norm() > from.place.xy().norm() { &to } else { &from };
+        let reach = self.variances.farthest(farther, limit, most) + SLACK as f32;
+        let seeker = Seeker::new(spot, limit, reach);
+        let velocity = velocity.map(|v| v as f32);
+        let way = [from, to].map(|end| [end.place.x as f32, end.place.y as f32]);
+        for run in self.index.runs_along(way, reach) {
+            let meet = |begin| self.flat.meet_moving(begin, &seeker, velocity, times);
+            self.visit_run(run, &seeker, meet, &mut visit);
+        }
+    }
+
+    /// Visits those of a stretch of the index that are near, by how each few of them lie to a seeker.
+    #[inline]
+    fn visit_run(
+        &self,
+        run: Range<usize>,
+        seeker: &Seeker,
+        meet: impl Fn(usize) -> Met,
+        visit: &mut impl FnMut(usize),
+    ) {
+        let ids = &self.index.ids()[run.clone()];
+        for (begin, ids) in run.step_by(LANES).zip(ids.chunks(LANES)) {
+            let met = meet(begin);
+            if met.any(seeker) {
+                let near = ids.iter().enumerate().filter(|(lane, _)| met.is_near(*lane, seeker));
+                near.for_each(|(_, id)| visit(*id as usize));
             }
         }
+    }
+
+    /// A number of each detection, by its identity, in the order of the index, with as many more as [`Self::each_met`]
+    /// may look at.
+    pub(super) fn in_order(&self, number: impl Fn(usize) -> f32) -> Vec<f32> {
+        let numbers = self.index.ids().iter().map(|id| number(*id as usize));
+        numbers.chain(std::iter::repeat_n(f32::NAN, LANES)).collect()
     }
 
     /// The detections' places, to be searched in metres.
@@ -64,30 +107,57 @@ struct Flat {
 }
 
 impl Flat {
-    fn new<'a>(spots: impl ExactSizeIterator<Item = &'a Spot>) -> Self {
-        let [x, y, xx, xy, yy] = [(); 5].map(|()| Vec::with_capacity(spots.len() + LANES));
-        let mut flat = Self { x, y, xx, xy, yy };
-        spots.for_each(|spot| flat.push(spot.place.x, spot.place.y, spot.horizontal));
-        (0..LANES).for_each(|_| flat.push(0.0, 0.0, [0.0; 3]));
-        flat
-    }
-
-    fn push(&mut self, x: f64, y: f64, [xx, xy, yy]: [f64; 3]) {
-        let columns = [&mut self.x, &mut self.y, &mut self.xx, &mut self.xy, &mut self.yy];
-        columns.into_iter().zip([x, y, xx, xy, yy]).for_each(|(column, value)| column.push(value as f32));
+    /// The spots of these places in a list.
+    fn new(spots: &[Spot], ids: &[u32]) -> Self {
+        let column = |number: fn(&Spot) -> f64| {
+            let mut column = Vec::with_capacity(ids.len() + LANES);
+            column.extend(ids.iter().map(|id| number(&spots[*id as usize]) as f32));
+            column.resize(ids.len() + LANES, 0.0);
+            column
+        };
+        Self {
+            x: column(|spot| spot.place.x),
+            y: column(|spot| spot.place.y),
+            xx: column(|spot| spot.horizontal[0]),
+            xy: column(|spot| spot.horizontal[1]),
+            yy: column(|spot| spot.horizontal[2]),
+        }
     }
 
     /// How those that begin at a place lie to a seeker.
+    #[inline]
     fn meet(&self, begin: usize, seeker: &Seeker) -> Met {
-        let columns = [&self.x, &self.y, &self.xx, &self.xy, &self.yy];
-        let [x, y, xx, xy, yy] = columns.map(|column| column[begin..].first_chunk::<LANES>());
-        let mut met = Met { distance_squared: [f32::INFINITY; LANES], over: [f32::INFINITY; LANES] };
-        let (Some(x), Some(y), Some(xx), Some(xy), Some(yy)) = (x, y, xx, xy, yy) else { return met };
+        let Some([x, y]) = self.places(begin) else { return Met::NONE };
+        self.meet_at(begin, x, y, seeker)
+    }
+
+    /// The same where the seeker moves: each of them meets it at its own time.
+    #[inline]
+    fn meet_moving(&self, begin: usize, seeker: &Seeker, velocity: [f32; 2], times: &[f32]) -> Met {
+        let times = times[begin..].first_chunk::<LANES>();
+        let Some(([x, y], times)) = self.places(begin).zip(times) else { return Met::NONE };
+        let x = std::array::from_fn(|lane| x[lane] - velocity[0] * times[lane]);
+        let y = std::array::from_fn(|lane| y[lane] - velocity[1] * times[lane]);
+        self.meet_at(begin, &x, &y, seeker)
+    }
+
+    /// How those that begin at a place of the index would lie to a seeker at these places.
+    #[inline]
+    fn meet_at(&self, begin: usize, x: &[f32; LANES], y: &[f32; LANES], seeker: &Seeker) -> Met {
+        let columns = [&self.xx, &self.xy, &self.yy];
+        let [xx, xy, yy] = columns.map(|column| column[begin..].first_chunk::<LANES>());
+        let mut met = Met::NONE;
+        let (Some(xx), Some(xy), Some(yy)) = (xx, xy, yy) else { return met };
         for lane in 0..LANES {
             let horizontal = [xx[lane], xy[lane], yy[lane]];
             [met.distance_squared[lane], met.over[lane]] = seeker.meet(x[lane], y[lane], horizontal);
         }
         met
+    }
+
+    #[inline]
+    fn places(&self, begin: usize) -> Option<[&[f32; LANES]; 2]> {
+        Some([self.x[begin..].first_chunk()?, self.y[begin..].first_chunk()?])
     }
 }
 
@@ -100,6 +170,9 @@ struct Met {
 }
 
 impl Met {
+    /// Nothing is near.
+    const NONE: Self = Self { distance_squared: [f32::INFINITY; LANES], over: [f32::INFINITY; LANES] };
+
     /// Whether one may lie within limit and reach, seen from above; what can't be told may.
     fn is_near(&self, lane: usize, seeker: &Seeker) -> bool {
         let is_far = self.over[lane] > 0.0;
@@ -134,6 +207,7 @@ impl Seeker {
     }
 
     /// The squared distance, m^2, and by how much that in standard deviations is over the limit.
+    #[inline]
     fn meet(&self, x: f32, y: f32, [xx, xy, yy]: [f32; 3]) -> [f32; 2] {
         let [x, y] = [x - self.x, y - self.y];
         let [xx, xy, yy] = [self.horizontal[0] + xx, self.horizontal[1] + xy, self.horizontal[2] + yy];
@@ -229,6 +303,34 @@ mod tests {
                 for id in beside {
                     let is_near = chi_within(limit, seeker, &spots[id as usize], true).is_some();
                     prop_assert!(!is_near || found.contains(&id), "{seeker:?} {:?}", spots[id as usize]);
+                }
+            }
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn all_that_are_near_a_moving_spot_at_their_time_are_visited_once(
+            spots in prop::collection::vec((spot(), prop_oneof![3 => -0.7f64..0.7, 1 => Just(f64::NAN)]), 0..200),
+            seekers in prop::collection::vec(spot(), 5), velocity in prop::array::uniform2(-40f64..40.0),
+            limit in 0.5f64..4.0, most in 0.1f32..40.0,
+        ) {
+            let (spots, times): (Vec<Spot>, Vec<f64>) = spots.into_iter().unzip();
+            let places: Vec<[f32; 3]> = spots.iter().map(|spot| spot.place.cast::<f32>().into()).collect();
+            let ids: Vec<u32> = (0..spots.len() as u32).collect();
+            let cloud = Cloud::new(Cow::Owned(NeighborIndex::new(&places, &ids)), &spots, Rc::new(Variances::new(&spots)));
+            let in_order = cloud.in_order(|id| times[id] as f32);
+            for seeker in &seekers {
+                let mut found = Vec::new();
+                cloud.each_met(seeker, velocity, (&in_order, [-0.7, 0.7]), (limit, most), |id| found.push(id));
+                found.sort_unstable();
+                prop_assert!(found.windows(2).all(|pair| pair[0] < pair[1]), "none twice");
+                prop_assert!(found.iter().all(|id| times[*id].is_finite()), "none that is out of the question");
+                for (id, spot) in spots.iter().enumerate().filter(|(id, _)| times[*id].is_finite()) {
+                    let there = seeker.moved(&Vector::new(velocity[0] * times[id], velocity[1] * times[id], 0.0));
+                    let distance = (there.place - spot.place).xy().norm();
+                    let is_near = chi_within(limit, &there, spot, true).is_some() && distance <= f64::from(most);
+                    prop_assert!(!is_near || found.binary_search(&id).is_ok(), "{there:?} {spot:?}");
                 }
             }
         }

@@ -5,7 +5,7 @@ use super::distance::{Spot, chi_within};
 use super::rates::{AGREEING, Rates};
 use crate::scene::{Detection, Frame, NeighbouringDetections, NeighbouringScan, Reach, Sight};
 use crate::sensors::{Elevation, Radar};
-use crate::space::{NeighborIndex, Point};
+use crate::space::Point;
 use std::borrow::Cow;
 use std::rc::Rc;
 
@@ -105,8 +105,11 @@ struct Search<'a> {
     /// Of each scan around: whether distances from its detections are horizontal, for either radar measures no
     /// elevation.
     level: Vec<bool>,
-    /// Of each scan around: its own detections, if the same radar made it and range rates tell what moves.
-    scans: Vec<Option<Cloud<'a>>>,
+    /// When each detection around was made, s after the frame's scan, in the order of the cloud's index; not a number
+    /// of other radars' detections. None at all where no range rates tell what moves.
+    times: Vec<f32>,
+    /// The first and the last of them.
+    span: [f64; 2],
     /// Of each scan around, for the detection at hand: which of its sightings is that in this scan, or [`UNSEEN`].
     places: Vec<u32>,
 }
@@ -122,15 +125,23 @@ impl<'a> Search<'a> {
         let is_level = |radar: &Radar| radar.elevation == Elevation::None;
         let level =
             around.radars.iter().map(|radar| is_level(frame.radar) || is_level(&frame.rig.radars[*radar]));
-        let variances = Rc::new(Variances::new(spots));
+        let cloud = Cloud::new(Cow::Borrowed(&around.index), spots, Rc::new(Variances::new(spots)));
+        let time = |id: usize| {
+            let scan = around.scans[id] as usize;
+            if around.own[scan] { around.seconds[scan] as f32 } else { f32::NAN }
+        };
+        let times = if rates.is_some() { cloud.in_order(time) } else { Vec::new() };
+        let earliest = around.seconds.iter().copied().fold(0.0, f64::min);
+        let latest = around.seconds.iter().copied().fold(0.0, f64::max);
         Self {
             rates,
             origin: Point::from(frame.radar.vehicle_from_radar.translation.vector),
             around,
             spots,
-            cloud: Cloud::new(Cow::Borrowed(&around.index), spots, variances.clone()),
+            cloud,
             level: level.collect(),
-            scans: if rates.is_some() { own_scans(around, spots, &variances) } else { Vec::new() },
+            times,
+            span: [earliest, latest],
             places: vec![UNSEEN; around.radars.len()],
         }
     }
@@ -163,36 +174,24 @@ impl<'a> Search<'a> {
     fn moving(&self, i: usize, spot: &Spot, seen: &mut [Sighting]) {
         let Some(rates) = self.rates.filter(|rates| rates.motion(i) != 0.0) else { return };
         let ray = (spot.place - self.origin.coords).try_normalize(0.0).unwrap_or_default();
-        for sighting in seen {
-            let scan = sighting.scan as usize;
-            let Some(cloud) = &self.scans[scan] else { continue };
-            let there = spot.moved(&(ray * (rates.motion(i) * self.around.seconds[scan])));
-            cloud.each_near(&there, FARTHEST, REACH, |id| {
-                if let Some(chi) = chi_within(FARTHEST, &there, &self.spots[id], self.level[scan]) {
-                    sighting.meet(chi, rates.difference(i, self.around.doppler[id]));
-                }
-            });
-        }
+        let rate = rates.motion(i);
+        let velocity = [rate * ray.x, rate * ray.y];
+        self.cloud.each_met(spot, velocity, (&self.times, self.span), (FARTHEST, REACH), |id| {
+            let scan = self.around.scans[id] as usize;
+            let Some(sighting) = seen.get_mut(self.places[scan] as usize) else { return };
+            let there = spot.moved(&(ray * (rate * self.around.seconds[scan])));
+            if !is_in_reach(&there, &self.spots[id]) {
+                return;
+            }
+            if let Some(chi) = chi_within(FARTHEST, &there, &self.spots[id], self.level[scan]) {
+                sighting.meet(chi, rates.difference(i, self.around.doppler[id]));
+            }
+        });
     }
 }
 
-/// The detections of each scan that the frame's own radar made.
-fn own_scans<'a>(
-    around: &NeighbouringDetections,
-    spots: &[Spot],
-    variances: &Rc<Variances>,
-) -> Vec<Option<Cloud<'a>>> {
-    let mut begin = 0;
-    let mut scans = Vec::with_capacity(around.own.len());
-    for (scan, own) in (0u32..).zip(&around.own) {
-        let end = begin + around.scans[begin..].partition_point(|of| *of <= scan);
-        scans.push(own.then(|| {
-            let place = |detection: &Detection| detection.position.coords.cast::<f32>().into();
-            let places: Vec<[f32; 3]> = around.detections[begin..end].iter().map(place).collect();
-            let ids: Vec<u32> = (begin as u32..end as u32).collect();
-            Cloud::new(Cow::Owned(NeighborIndex::new(&places, &ids)), spots, variances.clone())
-        }));
-        begin = end;
-    }
-    scans
+/// Whether two spots lie no farther apart than [`REACH`], seen from above, as the search of those that stand sees them.
+fn is_in_reach(a: &Spot, b: &Spot) -> bool {
+    let [dx, dy] = [0, 1].map(|axis| b.place[axis] as f32 - a.place[axis] as f32);
+    dx * dx + dy * dy <= REACH * REACH
 }

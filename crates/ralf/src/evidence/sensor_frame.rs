@@ -82,9 +82,8 @@ impl Unmoved {
         if known.iter().all(|scan| scan.moved_on) {
             return index.count_beside(place, radius);
         }
-        let mut near = 0;
-        index.each_beside(place, radius, |at| near += u32::from(known[self.scan_at[at] as usize].moved_on));
-        near as usize
+        let counts: Vec<u32> = known.iter().map(|scan| u32::from(scan.moved_on)).collect();
+        index.count_beside_of(place, radius, &self.scan_at, &counts)
     }
 }
 

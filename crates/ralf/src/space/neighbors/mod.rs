@@ -165,20 +165,30 @@ impl NeighborIndex {
     /// points alone. `found` is overwritten.
     pub fn beside(&self, place: [f32; 2], radius: f32, found: &mut Vec<u32>) {
         found.clear();
-        self.each_beside(place, radius, |at| found.push(self.ids[at]));
-    }
-
-    /// Visits what [`Self::beside`] finds: each point's place in [`Self::ids`].
-    pub fn each_beside(&self, [x, y]: [f32; 2], radius: f32, mut visit: impl FnMut(usize)) {
-        for run in self.runs_around([x, y], radius) {
-            let points = self.xs[run.clone()].iter().zip(&self.ys[run.clone()]);
-            for (at, (px, py)) in run.zip(points) {
+        let [x, y] = place;
+        for run in self.runs_around(place, radius) {
+            let points = self.xs[run.clone()].iter().zip(&self.ys[run.clone()]).zip(&self.ids[run]);
+            for ((px, py), id) in points {
                 let [dx, dy] = [px - x, py - y];
                 if dx * dx + dy * dy <= radius * radius {
-                    visit(at);
+                    found.push(*id);
                 }
             }
         }
+    }
+
+    /// How many points [`Self::beside`] finds whose kind counts: `kinds` are those of the points in the order of
+    /// [`Self::ids`], and `counts` says of each kind whether it does, 1, or not, 0.
+    pub fn count_beside_of(&self, [x, y]: [f32; 2], radius: f32, kinds: &[u32], counts: &[u32]) -> usize {
+        let mut count = 0;
+        for run in self.runs_around([x, y], radius) {
+            let points = self.xs[run.clone()].iter().zip(&self.ys[run.clone()]).zip(&kinds[run]);
+            for ((px, py), kind) in points {
+                let [dx, dy] = [px - x, py - y];
+                count += u32::from(dx * dx + dy * dy <= radius * radius) & counts[*kind as usize];
+            }
+        }
+        count as usize
     }
 
     /// How many points [`Self::beside`] finds.
@@ -204,6 +214,33 @@ impl NeighborIndex {
         let [right, top] = self.place_of(x + wide, y + wide).cell;
         let rows = if anywhere { bottom..top + 1 } else { 0..0 };
         rows.map(move |row| self.cells(row, left, right))
+    }
+
+    /// Stretches of [`Self::ids`], row by row, that hold all points within a distance, m, of the way from one place
+    /// straight to another, seen from above, and some beside them; none where either is no place.
+    pub fn runs_along(
+        &self,
+        [from, to]: [[f32; 2]; 2],
+        radius: f32,
+    ) -> impl Iterator<Item = Range<usize>> + use<'_> {
+        let anywhere = !self.is_empty() && from.into_iter().chain(to).all(f32::is_finite) && radius >= 0.0;
+        let wide = radius + SLACK;
+        let [low, high] = [from[1].min(to[1]) - wide, from[1].max(to[1]) + wide];
+        let [bottom, top] = [low, high].map(|y| self.place_of(from[0], y).cell[1]);
+        let rows = if anywhere { bottom..top + 1 } else { 0..0 };
+        let [dx, dy] = [to[0] - from[0], to[1] - from[1]];
+        rows.map(move |row| {
+            // Points beyond the grid lie in its border. A hair more, so that rounding never decides.
+            let [below, above] = [row, row + 1].map(|row| self.origin[1] + row as f32 * self.cell);
+            let below = if row == 0 { f32::NEG_INFINITY } else { below - wide - SLACK };
+            let above = if row + 1 == self.rows { f32::INFINITY } else { above + wide + SLACK };
+            // The part of the way that is near the row; of a way along the row all of it.
+            let begin = ((below - from[1]) / dy).max(0.0).min(1.0);
+            let end = ((above - from[1]) / dy).min(1.0).max(0.0);
+            let [a, b] = [from[0] + begin * dx, from[0] + end * dx];
+            let [left, right] = [a.min(b) - wide, a.max(b) + wide].map(|x| self.place_of(x, from[1]).cell[0]);
+            self.cells(row, left, right)
+        })
     }
 
     /// Points of the cells `left..=right` of a row.

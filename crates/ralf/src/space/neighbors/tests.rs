@@ -103,6 +103,9 @@ fn check_beside(points: &[[f32; 3]], queries: &[[f32; 3]], radius: f32) {
     for &[x, y, _] in queries {
         index.beside([x, y], radius, &mut found);
         assert_eq!(index.count_beside([x, y], radius), found.len());
+        let kinds: Vec<u32> = index.ids().iter().map(|id| id % 3).collect();
+        let of_two = found.iter().filter(|id| **id % 3 != 1).count();
+        assert_eq!(index.count_beside_of([x, y], radius, &kinds, &[1, 0, 1]), of_two);
         found.sort_unstable();
         assert_eq!(found, beside(points, [x, y], radius), "query {x} {y}, radius {radius}");
     }
@@ -123,7 +126,46 @@ fn all_beside_far_away_and_of_no_number() {
     }
 }
 
+/// All within a radius of the way from one place to another are in the stretches along it, and none twice.
+fn check_along(points: &[[f32; 3]], [from, to]: [[f32; 2]; 2], radius: f32) {
+    let ids: Vec<u32> = (0..points.len() as u32).collect();
+    let index = NeighborIndex::new(points, &ids);
+    let mut found: Vec<u32> =
+        index.runs_along([from, to], radius).flatten().map(|at| index.ids()[at]).collect();
+    found.sort_unstable();
+    assert!(found.windows(2).all(|pair| pair[0] < pair[1]), "none twice");
+    let [dx, dy] = [to[0] - from[0], to[1] - from[1]];
+    for (id, [x, y, _]) in (0u32..).zip(points) {
+        let gone = ((x - from[0]) * dx + (y - from[1]) * dy) / (dx * dx + dy * dy).max(f32::MIN_POSITIVE);
+        let gone = gone.clamp(0.0, 1.0);
+        let distance = (x - from[0] - gone * dx).hypot(y - from[1] - gone * dy);
+        assert!(distance > radius || found.binary_search(&id).is_ok(), "{from:?} {to:?} {radius}: {x} {y}");
+    }
+}
+
+#[test]
+fn all_along_ways_that_are_points_rows_and_columns() {
+    let lattice: Vec<_> = (0..400).map(|i| [(i % 20) as f32, (i / 20) as f32 - 7.5, 0.0]).collect();
+    for to in [[4.0, 2.0], [9.0, 2.0], [4.0, 11.5], [4.0, -30.0], [-300.0, 2.0], [500.0, 400.0]] {
+        for radius in [0.0, 1.0, 3.5] {
+            check_along(&lattice, [[4.0, 2.0], to], radius);
+            check_along(&[], [[4.0, 2.0], to], radius);
+        }
+    }
+    let index = NeighborIndex::new(&lattice, &(0..400).collect::<Vec<u32>>());
+    assert!(index.runs_along([[0.0; 2], [f32::NAN, 0.0]], 9.0).next().is_none());
+}
+
 proptest! {
+    #[test]
+    fn all_along_as_brute_force(
+        points in prop::collection::vec(prop::array::uniform3(-60f32..60.0), 0..400),
+        from in prop::array::uniform2(-90f32..90.0), to in prop::array::uniform2(-90f32..90.0),
+        radius in 0f32..20.0,
+    ) {
+        check_along(&points, [from, to], radius);
+    }
+
     #[test]
     fn all_beside_as_brute_force(
         points in prop::collection::vec(prop::array::uniform3(-60f32..60.0), 0..400),
