@@ -1,7 +1,8 @@
 //! Detections as the LiDAR window's scans are asked about them.
 
-use crate::scene::{Detection, Frame, LidarWindowView};
+use crate::scene::{Detection, Frame, GroundSurface, LidarWindowView};
 use crate::sensors::Elevation;
+use crate::space::Transform;
 use nalgebra::{Matrix3, Vector3};
 
 /// A radar without elevation is taken to have seen what it saw so high above the ground, m: the middle of what stands
@@ -39,18 +40,37 @@ impl Probe {
 /// window.
 pub(super) fn probes(frame: &Frame) -> Vec<Option<Probe>> {
     let Some(lidar) = &frame.lidar_window else { return Vec::new() };
+    let probing = Probing::new(frame, lidar);
     let detections = frame.scan.detections.iter();
-    detections.map(|detection| detection.as_ref().map(|detection| probe(frame, lidar, detection))).collect()
+    detections.map(|detection| detection.as_ref().map(|detection| probing.probe(detection))).collect()
 }
 
-/// A detection of the frame's radar (vehicle frame) in the frame of a LiDAR window.
-pub(super) fn probe(frame: &Frame, lidar: &LidarWindowView, detection: &Detection) -> Probe {
-    let mut detection = detection.moved(&lidar.vehicle_from_window.inverse());
-    let p = detection.position;
-    let ground = lidar.window.ground().and_then(|surface| surface.height_at(p.x, p.y)).unwrap_or(0.0);
-    if frame.radar.elevation == Elevation::None {
-        detection.position.z = ground + SUPPOSED_HEIGHT;
-        detection.axes.set_column(2, &Vector3::new(0.0, 0.0, SUPPOSED_SIGMA));
+/// What makes probes of detections.
+pub(super) struct Probing<'a> {
+    ground: Option<&'a GroundSurface>,
+    elevation: Elevation,
+    window_from_vehicle: Transform,
+    rotation: Matrix3<f64>,
+}
+
+impl<'a> Probing<'a> {
+    /// For detections of a frame's radar, to be asked about in a LiDAR window.
+    pub(super) fn new(frame: &Frame, lidar: &'a LidarWindowView) -> Self {
+        let window_from_vehicle = lidar.vehicle_from_window.inverse();
+        let rotation = window_from_vehicle.rotation.to_rotation_matrix().into_inner();
+        let ground = lidar.window.ground();
+        Self { ground, elevation: frame.radar.elevation, window_from_vehicle, rotation }
     }
-    Probe::new(detection, ground)
+
+    /// A detection of the vehicle frame in the window's.
+    pub(super) fn probe(&self, detection: &Detection) -> Probe {
+        let mut detection = detection.turned(&self.window_from_vehicle, &self.rotation);
+        let p = detection.position;
+        let ground = self.ground.and_then(|surface| surface.height_at(p.x, p.y)).unwrap_or(0.0);
+        if self.elevation == Elevation::None {
+            detection.position.z = ground + SUPPOSED_HEIGHT;
+            detection.axes.set_column(2, &Vector3::new(0.0, 0.0, SUPPOSED_SIGMA));
+        }
+        Probe::new(detection, ground)
+    }
 }

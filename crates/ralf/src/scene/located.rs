@@ -24,7 +24,7 @@ impl Detection {
     }
 
     /// The same with the transform's rotation, which is worked out once for many.
-    fn turned(&self, to_from_here: &Transform, rotation: &Matrix3<f64>) -> Self {
+    pub(crate) fn turned(&self, to_from_here: &Transform, rotation: &Matrix3<f64>) -> Self {
         Self { position: to_from_here * self.position, axes: rotation * self.axes }
     }
 

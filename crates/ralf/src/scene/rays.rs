@@ -49,20 +49,27 @@ pub struct Cone {
 }
 
 impl RayTable {
+    /// No return that is found beside a cone lies farther beside it, rad.
+    pub const BESIDE: f32 = 1.01 * BIN;
+
     /// Sorts the returns of a scan (LiDAR frame, m); points that are none are left out.
     pub fn new(points: &[[f32; 3]]) -> Self {
         let directions = Directions::of(points);
         let bins = directions.bins();
-        let returns = || (0u32..).zip(&bins).filter(|(_, bin)| **bin != NO_BIN);
-        let first_row = returns().map(|(_, bin)| *bin).min().map_or(0, |bin| bin as usize / COLUMNS);
-        let last_row = returns().map(|(_, bin)| *bin).max().map_or(0, |bin| bin as usize / COLUMNS);
-        let rows = last_row - first_row + 1;
-        let first_bin = first_row * COLUMNS;
+        let (mut first, mut last) = (NO_BIN, 0);
+        for bin in &bins {
+            first = first.min(*bin);
+            last = last.max(if *bin == NO_BIN { 0 } else { *bin });
+        }
+        let first_row = first.min(last) as usize / COLUMNS;
+        let rows = last as usize / COLUMNS - first_row + 1;
+        let first_bin = (first_row * COLUMNS) as u32;
         let mut starts = vec![0u32; rows * COLUMNS + 1];
-        let mut count = 0;
-        for (_, bin) in returns() {
-            starts[*bin as usize - first_bin + 1] += 1;
-            count += 1;
+        // What is no return leads beyond the end.
+        for bin in &bins {
+            if let Some(start) = starts.get_mut(bin.wrapping_sub(first_bin).saturating_add(1) as usize) {
+                *start += 1;
+            }
         }
         let mut total = 0;
         for start in &mut starts {
@@ -70,12 +77,15 @@ impl RayTable {
             *start = total;
         }
         let mut next = starts.clone();
-        let mut rays = vec![TableRay::default(); count];
-        for (id, bin) in returns() {
-            let next = &mut next[*bin as usize - first_bin];
-            let (azimuth, elevation, range) = directions.at(id as usize);
-            rays[*next as usize] = TableRay { azimuth, elevation, range, point: points[id as usize], id };
-            *next += 1;
+        let mut rays = vec![TableRay::default(); total as usize];
+        let directions = directions.azimuth.iter().zip(&directions.elevation).zip(&directions.range);
+        for (((id, bin), point), direction) in (0u32..).zip(&bins).zip(points).zip(directions) {
+            let ((azimuth, elevation), range) = direction;
+            if let Some(next) = next.get_mut(bin.wrapping_sub(first_bin) as usize) {
+                rays[*next as usize] =
+                    TableRay { azimuth: *azimuth, elevation: *elevation, range: *range, point: *point, id };
+                *next += 1;
+            }
         }
         Self { first_row, rows, starts, rays }
     }
@@ -85,20 +95,26 @@ impl RayTable {
         &self.rays
     }
 
-    /// The returns of all bins that a cone touches, as stretches of [`Self::rays`]: every return within the cone is
-    /// among them, and some beside it.
-    pub fn runs(&self, cone: &Cone) -> impl Iterator<Item = Range<usize>> {
+    /// The returns of all bins that a cone touches, as stretches of [`Self::rays`] none of which is empty: every return
+    /// within the cone is among them, and some beside it. `runs` is overwritten, so that many cones share one
+    /// allocation.
+    pub fn runs(&self, cone: &Cone, runs: &mut Vec<Range<usize>>) {
+        runs.clear();
         // A row below or above all that there are stays outside, so that nothing is found in it.
         let row = |elevation: f32| (row_of(elevation) + 1).saturating_sub(self.first_row).min(self.rows + 1);
         let low = row(cone.elevation - cone.half_elevation).max(1);
         let high = row(cone.elevation + cone.half_elevation).min(self.rows);
         let columns = columns_of(cone);
-        (low..=high).flat_map(move |row| {
-            let begin = (row - 1) * COLUMNS;
-            columns.clone().into_iter().map(move |columns| {
-                self.starts[begin + columns.start] as usize..self.starts[begin + columns.end] as usize
-            })
-        })
+        let columns = if columns[1].is_empty() { &columns[..1] } else { &columns[..] };
+        for row in low..=high {
+            let starts = &self.starts[(row - 1) * COLUMNS..][..=COLUMNS];
+            for columns in columns {
+                let run = starts[columns.start] as usize..starts[columns.end] as usize;
+                if !run.is_empty() {
+                    runs.push(run);
+                }
+            }
+        }
     }
 
     /// The returns in the bin of a direction.
@@ -256,7 +272,9 @@ mod tests {
         ) {
             let table = RayTable::new(&points);
             let cone = Cone { azimuth, elevation, half_azimuth, half_elevation };
-            let mut found: Vec<u32> = table.runs(&cone).flatten().map(|place| table.rays()[place].id).collect();
+            let mut runs = Vec::new();
+            table.runs(&cone, &mut runs);
+            let mut found: Vec<u32> = runs.into_iter().flatten().map(|place| table.rays()[place].id).collect();
             found.sort_unstable();
             prop_assert!(found.windows(2).all(|pair| pair[0] < pair[1]), "none twice");
             for (id, &[x, y, z]) in (0u32..).zip(&points) {
@@ -279,7 +297,10 @@ mod tests {
             RayTable::new(&[[0.0; 3], [f32::NAN, 1.0, 1.0], [f32::INFINITY, 0.0, 0.0], [0.0, 0.0, -2.0]]);
         assert_eq!((table.len(), table.rays()[0].id, table.rays()[0].range), (1, 3, 2.0));
         let everywhere = Cone { azimuth: 0.0, elevation: 0.0, half_azimuth: 9.0, half_elevation: 9.0 };
-        assert_eq!(table.runs(&everywhere).flatten().count(), 1);
-        assert!(RayTable::new(&[]).runs(&everywhere).flatten().next().is_none());
+        let mut runs = Vec::new();
+        table.runs(&everywhere, &mut runs);
+        assert_eq!(runs, [0..1]);
+        RayTable::new(&[]).runs(&everywhere, &mut runs);
+        assert!(runs.is_empty());
     }
 }

@@ -1,11 +1,11 @@
 //! What the LiDARs' rays say of a detection that moves: each scan is asked where the detection's range rate takes it
 //! by the time at which the rays towards it were sent.
 
-use super::super::probe::{Probe, probe};
+use super::super::probe::{Probe, Probing};
 use super::super::{Feature, Piece, Surroundings, Values, columns};
 use super::votes::{Sweep, Votes};
 use super::{GROUP, NEAR, RAYS, sweeps_of};
-use crate::scene::{Frame, LidarSweep, LidarView, LidarWindowView, Mover, median};
+use crate::scene::{Frame, LidarSweep, LidarView, Mover, median};
 
 pub(in super::super) const PIECE: Piece = Piece { features: FEATURES, observe };
 
@@ -58,7 +58,9 @@ fn observe(surroundings: &Surroundings) -> Vec<Values> {
         seconds.abs() <= AROUND
     };
     let views = lidar.window.views.iter().filter(is_near);
-    let around: Vec<Vec<Votes>> = views.map(|view| Asked { frame, lidar, view }.vote(&movers)).collect();
+    let probing = Probing::new(frame, lidar);
+    let around: Vec<Vec<Votes>> =
+        views.map(|view| Asked { frame, probing: &probing, view }.vote(&movers)).collect();
     for (place, (i, _)) in movers.iter().enumerate() {
         let votes: Vec<Votes> = around.iter().map(|votes| votes[place]).collect();
         columns::set(&mut columns, *i, answers(&votes));
@@ -78,7 +80,7 @@ fn answers(scans: &[Votes]) -> [Option<f64>; 4] {
 /// The scans of one moment.
 struct Asked<'a> {
     frame: &'a Frame<'a>,
-    lidar: &'a LidarWindowView,
+    probing: &'a Probing<'a>,
     view: &'a LidarView,
 }
 
@@ -89,16 +91,17 @@ impl Asked<'_> {
         let mut sums = vec![Votes::default(); movers.len()];
         for (sweep, mut rays) in moment.sweeps().iter().zip(sweeps_of(moment, *vehicle_from_moment, RAYS)) {
             for (sum, (_, mover)) in sums.iter_mut().zip(movers) {
-                sum.add(&rays.vote(&self.at_time_of(sweep, &rays, mover)));
+                let there = self.at_time_of(sweep, &mut rays, mover);
+                sum.add(&rays.vote(&there));
             }
         }
         sums
     }
 
     /// Where a mover is when the rays towards it are sent.
-    fn at_time_of(&self, sweep: &LidarSweep, rays: &Sweep, mover: &Mover) -> Probe {
+    fn at_time_of(&self, sweep: &LidarSweep, rays: &mut Sweep, mover: &Mover) -> Probe {
         let seconds = (sweep.scan.t_ns - self.frame.scan.t_ns()) as f64 * 1e-9;
-        let at = |seconds: f64| probe(self.frame, self.lidar, &mover.after(seconds));
+        let at = |seconds: f64| self.probing.probe(&mover.after(seconds));
         let there = at(seconds);
         let Some(times) = &sweep.scan.times else { return there };
         // The rays turn far faster than things move: where it is at the scan's time tells which of them meet it.

@@ -2,6 +2,7 @@
 
 use crate::scene::{Cone, TableRay};
 use nalgebra::{Matrix3, RowVector3, Vector3};
+use std::cell::OnceCell;
 use std::f32::consts::TAU;
 
 /// Rays within so many standard deviations of a detection's direction vote.
@@ -9,12 +10,13 @@ pub(super) const CONE_SIGMAS: f32 = 2.5;
 /// A ray that ends lower than this above the ground ends on it, m.
 const GROUND_BAND: f32 = 0.2;
 /// No Mahalanobis distance is larger.
-const LARGEST_CHI: f32 = 10.0;
+pub(super) const LARGEST_CHI: f32 = 10.0;
 /// Rays that are counted together.
-const LANES: usize = 8;
+pub(super) const LANES: usize = 8;
 /// So far away and so high nothing counts.
 const NOWHERE: f32 = 1e9;
-const NO_RAY: TableRay =
+/// What counts nowhere.
+pub(super) const NO_RAY: TableRay =
     TableRay { azimuth: 0.0, elevation: NOWHERE, range: 0.0, point: [NOWHERE; 3], id: u32::MAX };
 
 /// A detection as seen from the LiDAR.
@@ -24,29 +26,58 @@ pub(super) struct Target {
     pub(super) cone: Cone,
     /// A ray ends in it within this, m.
     pub(super) depth: f32,
-    /// `(Sigma + (0.1 m)^2 I)^-1`.
-    pub(super) precision: Matrix3<f32>,
+    /// A ray that ends nearer to the LiDAR or farther from it by more than this, m, along the detection's own ray, ends
+    /// outside of it, and no less than [`LARGEST_CHI`] away.
+    pub(super) reach: f32,
+    /// A ray of the cone goes at least this share of its length along the detection's own ray.
+    pub(super) least_cosine: f32,
+    /// `(Sigma + (0.1 m)^2 I)^-1`, worked out where it is first asked for.
+    pub(super) precision: Precision,
     /// A point's height above the ground is this times it ...
     pub(super) up: RowVector3<f32>,
     /// ... and this, m.
     pub(super) origin_height: f32,
 }
 
-/// A few rays, each number apart.
+/// `(Sigma + (0.1 m)^2 I)^-1` of a detection in the LiDAR's frame: few rays end so near that it is asked for.
+pub(super) struct Precision {
+    /// In the window's frame.
+    pub(super) in_window: Matrix3<f64>,
+    pub(super) window_from_lidar: Matrix3<f32>,
+    pub(super) in_lidar: OnceCell<Matrix3<f32>>,
+}
+
+impl Precision {
+    fn in_lidar(&self) -> &Matrix3<f32> {
+        let turn = &self.window_from_lidar;
+        self.in_lidar.get_or_init(|| turn.tr_mul(&self.in_window.cast()) * turn)
+    }
+}
+
+impl Target {
+    /// By how much a ray of this range ends beyond it, m, and whether it surely ends far from it.
+    fn past(&self, range: f32) -> (f32, bool) {
+        let past = range - self.range;
+        (past, (past < -self.reach) | (range * self.least_cosine - self.range > self.reach))
+    }
+}
+
+/// Directions and ranges of a few rays, each number apart.
 struct Few {
     azimuth: [f32; LANES],
     elevation: [f32; LANES],
     range: [f32; LANES],
+}
+
+/// Where a few rays end, each number apart.
+struct Ends {
     x: [f32; LANES],
     y: [f32; LANES],
     z: [f32; LANES],
 }
 
 /// Sums over the rays towards a detection.
-pub(super) struct Tally<'a> {
-    /// Those that wait to be counted together.
-    rays: [&'a TableRay; LANES],
-    filled: usize,
+pub(super) struct Tally {
     inside: [f32; LANES],
     ground: [f32; LANES],
     beyond: [f32; LANES],
@@ -54,70 +85,61 @@ pub(super) struct Tally<'a> {
     least: [f32; LANES],
 }
 
-impl<'a> Tally<'a> {
+impl Tally {
     pub(super) fn new() -> Self {
         let none = [0.0; LANES];
-        Self {
-            rays: [&NO_RAY; LANES],
-            filled: 0,
-            inside: none,
-            ground: none,
-            beyond: none,
-            before: none,
-            least: [LARGEST_CHI * LARGEST_CHI; LANES],
-        }
-    }
-
-    pub(super) fn add(&mut self, target: &Target, ray: &'a TableRay) {
-        self.rays[self.filled] = ray;
-        self.filled += 1;
-        if self.filled == LANES {
-            self.count(target);
-        }
+        let least = [LARGEST_CHI * LARGEST_CHI; LANES];
+        Self { inside: none, ground: none, beyond: none, before: none, least }
     }
 
     /// The weights of the rays that end in the detection, on the ground there, beyond and before it, and the least
     /// Mahalanobis distance of the detection from a ray's end, with `Sigma + (0.1 m)^2 I`.
-    pub(super) fn finish(mut self, target: &Target) -> ([f64; 4], f64) {
-        if self.filled > 0 {
-            self.rays[self.filled..].fill(&NO_RAY);
-            self.count(target);
-        }
+    pub(super) fn finish(self) -> ([f64; 4], f64) {
         let sum = |lanes: [f32; LANES]| f64::from(lanes.iter().sum::<f32>());
         let least = self.least.into_iter().fold(f32::INFINITY, f32::min);
         let sums = [self.inside, self.ground, self.beyond, self.before].map(sum);
         (sums, f64::from(least.max(0.0).sqrt()))
     }
 
-    fn count(&mut self, target: &Target) {
-        let few = Few::of(self.rays);
+    /// Counts some rays of the target's cone.
+    pub(super) fn count(&mut self, target: &Target, rays: &[&TableRay; LANES]) {
+        let few = Few::of(rays);
         let weights = few.weights(&target.cone);
-        let squares = few.squared_distances(target);
-        let heights = few.heights(target);
+        let mut past = [0.0; LANES];
+        let mut near = false;
         for lane in 0..LANES {
-            let (weight, past) = (weights[lane], few.range[lane] - target.range);
-            let (beyond, before) = (past >= target.depth, past <= -target.depth);
-            let (there, low) = (!(beyond | before), heights[lane] < GROUND_BAND);
-            self.inside[lane] += if there & !low { weight } else { 0.0 };
-            self.ground[lane] += if there & low { weight } else { 0.0 };
-            self.beyond[lane] += if beyond { weight } else { 0.0 };
-            self.before[lane] += if before { weight } else { 0.0 };
+            let is_far;
+            (past[lane], is_far) = target.past(few.range[lane]);
+            near |= !is_far;
+            self.beyond[lane] += if past[lane] >= target.depth { weights[lane] } else { 0.0 };
+            self.before[lane] += if past[lane] <= -target.depth { weights[lane] } else { 0.0 };
+        }
+        if near {
+            self.count_near(target, &Ends::of(rays), &past, &weights);
+        }
+    }
+
+    /// What only rays can change that end near the detection.
+    fn count_near(&mut self, target: &Target, ends: &Ends, past: &[f32; LANES], weights: &[f32; LANES]) {
+        let squares = ends.squared_distances(target);
+        let heights = ends.heights(target);
+        for lane in 0..LANES {
+            let there = !((past[lane] >= target.depth) | (past[lane] <= -target.depth));
+            let low = heights[lane] < GROUND_BAND;
+            self.inside[lane] += if there & !low { weights[lane] } else { 0.0 };
+            self.ground[lane] += if there & low { weights[lane] } else { 0.0 };
             self.least[lane] =
                 if squares[lane] < self.least[lane] { squares[lane] } else { self.least[lane] };
         }
-        self.filled = 0;
     }
 }
 
 impl Few {
-    fn of(rays: [&TableRay; LANES]) -> Self {
+    fn of(rays: &[&TableRay; LANES]) -> Self {
         Self {
             azimuth: rays.map(|ray| ray.azimuth),
             elevation: rays.map(|ray| ray.elevation),
             range: rays.map(|ray| ray.range),
-            x: rays.map(|ray| ray.point[0]),
-            y: rays.map(|ray| ray.point[1]),
-            z: rays.map(|ray| ray.point[2]),
         }
     }
 
@@ -138,10 +160,20 @@ impl Few {
             if (beside > 1.0) | (above > 1.0) { 0.0 } else { weight }
         })
     }
+}
+
+impl Ends {
+    fn of(rays: &[&TableRay; LANES]) -> Self {
+        Self {
+            x: rays.map(|ray| ray.point[0]),
+            y: rays.map(|ray| ray.point[1]),
+            z: rays.map(|ray| ray.point[2]),
+        }
+    }
 
     /// Mahalanobis distances of the detection from the rays' ends, squared.
     fn squared_distances(&self, target: &Target) -> [f32; LANES] {
-        let (p, m) = (&target.position, &target.precision);
+        let (p, m) = (&target.position, target.precision.in_lidar());
         std::array::from_fn(|lane| {
             let [x, y, z] = [self.x[lane] - p.x, self.y[lane] - p.y, self.z[lane] - p.z];
             x * (m.m11 * x + m.m12 * y + m.m13 * z)

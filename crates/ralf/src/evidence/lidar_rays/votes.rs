@@ -1,10 +1,11 @@
 //! The votes of one LiDAR scan on one detection.
 
 use super::super::probe::{Probe, SAME_SPOT};
-use super::tally::{CONE_SIGMAS, Tally, Target};
+use super::tally::{CONE_SIGMAS, LANES, LARGEST_CHI, NO_RAY, Precision, Tally, Target};
 use crate::scene::{Cone, LidarSweep, RayTable, direction_of};
 use crate::space::Transform;
 use nalgebra::{Isometry3, Matrix3, Vector3};
+use std::cell::OnceCell;
 use std::ops::Range;
 
 /// The cone reaches at least so far to each side, rad.
@@ -13,6 +14,8 @@ const LEAST_CONE: f32 = 0.7 * std::f32::consts::PI / 180.0;
 const LARGEST_CONE: f32 = 0.35;
 /// A ray ends in a detection within so many standard deviations of its range.
 const RANGE_SIGMAS: f32 = 3.0;
+/// What is surely farther than this share of a distance is farther than the distance, however sums are rounded.
+const ROUNDING: f32 = 1.05;
 
 /// Weights of the rays towards a detection by where they end, and the distance from their points.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -62,6 +65,8 @@ pub(super) struct Sweep<'a> {
     rays: usize,
     /// Stretches of the table that the last cone touched.
     runs: Vec<Range<usize>>,
+    /// The rays of these that were looked at, as places in the table.
+    places: Vec<u32>,
 }
 
 impl<'a> Sweep<'a> {
@@ -76,39 +81,49 @@ impl<'a> Sweep<'a> {
             sigma_range: sweep.sigma_range,
             rays,
             runs: Vec::new(),
+            places: Vec::new(),
         }
     }
 
     /// Where the rays towards a detection end.
     pub(super) fn vote(&mut self, probe: &Probe) -> Votes {
         let Some(target) = self.target(probe) else { return Votes::default() };
-        self.runs.clear();
-        self.runs.extend(self.table.runs(&target.cone).filter(|run| !run.is_empty()));
+        self.table.runs(&target.cone, &mut self.runs);
         let towards: usize = self.runs.iter().map(Range::len).sum();
         if towards == 0 {
             return Votes::default();
         }
         let step = towards.div_ceil(self.rays);
-        let mut tally = Tally::new();
+        self.places.clear();
         let mut skip = 0;
         for run in &self.runs {
             let mut place = run.start + skip;
             while place < run.end {
-                tally.add(&target, &self.table.rays()[place]);
+                self.places.push(place as u32);
                 place += step;
             }
             skip = place - run.end;
         }
-        let (sums, chi) = tally.finish(&target);
+        let rays = self.table.rays();
+        let mut tally = Tally::new();
+        let (whole, rest) = self.places.as_chunks::<LANES>();
+        for places in whole {
+            tally.count(&target, &places.map(|place| &rays[place as usize]));
+        }
+        if !rest.is_empty() {
+            let ray = |lane: usize| rest.get(lane).map_or(&NO_RAY, |place| &rays[*place as usize]);
+            tally.count(&target, &std::array::from_fn(ray));
+        }
+        let (sums, chi) = tally.finish();
         let [inside, ground, beyond, before] = sums.map(|sum| sum * step as f64);
         Votes { inside, ground, beyond, before, chi: Some(chi) }
     }
 
     /// The place in the scan of a ray towards a detection.
-    pub(super) fn towards(&self, probe: &Probe) -> Option<u32> {
+    pub(super) fn towards(&mut self, probe: &Probe) -> Option<u32> {
         let target = self.target(probe)?;
-        let mut runs = self.table.runs(&target.cone).filter(|run| !run.is_empty());
-        runs.next().map(|run| self.table.rays()[run.start.midpoint(run.end)].id)
+        self.table.runs(&target.cone, &mut self.runs);
+        self.runs.first().map(|run| self.table.rays()[run.start.midpoint(run.end)].id)
     }
 
     /// `None` where the detection lies in the LiDAR itself.
@@ -130,15 +145,26 @@ impl<'a> Sweep<'a> {
         let half_azimuth = angle(detection.sigma_along(&aside), distance * across);
         let half_elevation = angle(detection.sigma_along(&ray.cross(&aside)), distance);
         let along = detection.sigma_along(&ray);
+        let own = along * along + SAME_SPOT * SAME_SPOT;
         let spread = (along * along + self.sigma_range * self.sigma_range + SAME_SPOT * SAME_SPOT).sqrt();
-        let (turn, precision) = (self.rotation, probe.precision.cast());
+        let depth = RANGE_SIGMAS * spread as f32;
+        // Of a way `h` that leads so far along a direction `u`, h^T S^-1 h is at least (h u)^2 / (u^T S u).
+        let reach = depth.max(ROUNDING * LARGEST_CHI * own.sqrt() as f32);
+        let [beside, above] = [half_azimuth, half_elevation].map(|half| half + RayTable::BESIDE);
         Some(Target {
             position: position.coords,
             range,
             cone: Cone { azimuth, elevation, half_azimuth, half_elevation },
-            depth: RANGE_SIGMAS * spread as f32,
-            precision: turn.tr_mul(&precision) * turn,
-            up: turn.row(2).into_owned(),
+            depth,
+            reach,
+            // cos x is at least 1 - x^2 / 2.
+            least_cosine: 1.0 - ROUNDING * 0.5 * (beside * beside + above * above),
+            precision: Precision {
+                in_window: probe.precision,
+                window_from_lidar: self.rotation,
+                in_lidar: OnceCell::new(),
+            },
+            up: self.rotation.row(2).into_owned(),
             origin_height: (self.origin.z - probe.ground) as f32,
         })
     }
