@@ -6,7 +6,7 @@
 
 use super::columns::unobserved;
 use super::rings::Rings;
-use super::statistics::{median_of, quantile, ranks};
+use super::statistics::{median_of, quantile, quantile_guessed, ranks};
 use super::{Feature, Piece, Surroundings, Values};
 use crate::scene::{Frame, Ordered, Strength};
 
@@ -60,7 +60,7 @@ fn observe(surroundings: &Surroundings) -> Vec<Values> {
     vec![
         ranks(&strength.cross_section),
         ranks(&strength.power),
-        Rings::new([&own].into_iter()).over(&strength.cross_section, &ranges, median_of),
+        Rings::new([&own].into_iter()).over(&strength.cross_section, &ranges, |ring, _| median_of(ring)),
         over(&strength.power, quantile(&powers, FLOOR)),
         rings.over(&strength.power, &ranges, ring_floor),
     ]
@@ -76,6 +76,7 @@ fn over(values: &[f64], level: Option<f64>) -> Values {
     values.iter().map(|value| Some(value - level?)).collect()
 }
 
-fn ring_floor(powers: &[f64]) -> Option<f64> {
-    quantile(powers, RING_FLOOR)
+/// `nearer` is that of a ring nearer by: mostly no lower, since power falls with range.
+fn ring_floor(powers: &[f64], nearer: Option<f64>) -> Option<f64> {
+    quantile_guessed(powers, RING_FLOOR, nearer.unwrap_or(f64::INFINITY))
 }

@@ -18,20 +18,25 @@ impl<'a> Rings<'a> {
     }
 
     /// For each of some values, at its range, how far it is above the level of its ring: the echoes that are within 5 m
-    /// of the whole metre nearest to that range. Every metre's level is worked out once.
+    /// of the whole metre nearest to that range. Every metre's level is worked out once, from near to far; `level` is
+    /// told of the one before.
     pub(super) fn over(
         &self,
         values: &[f64],
         ranges: &[f64],
-        level: impl Fn(&[f64]) -> Option<f64>,
+        level: impl Fn(&[f64], Option<f64>) -> Option<f64>,
     ) -> Values {
-        let mut levels: BTreeMap<i64, Option<f64>> = BTreeMap::new();
+        // A cast holds at the ends, and takes what is no number to 0.
+        let metres: Vec<i64> = ranges.iter().map(|range| range.round() as i64).collect();
+        let mut levels: BTreeMap<i64, Option<f64>> = metres.iter().map(|metre| (*metre, None)).collect();
+        let mut before = None;
+        for (metre, known) in &mut levels {
+            *known = level(&self.ring(*metre as f64), before);
+            before = known.or(before);
+        }
         let mut over = Vec::with_capacity(values.len());
-        for (value, range) in values.iter().zip(ranges) {
-            // A cast holds at the ends, and takes what is no number to 0.
-            let metre = range.round() as i64;
-            let level = levels.entry(metre).or_insert_with(|| level(&self.ring(metre as f64)));
-            let found = level.map(|level| value - level);
+        for ((value, range), metre) in values.iter().zip(ranges).zip(&metres) {
+            let found = levels.get(metre).copied().flatten().map(|level| value - level);
             over.push(found.filter(|found| found.is_finite() && range.is_finite()));
         }
         over
@@ -63,7 +68,7 @@ mod tests {
             let first = first.min(values.len());
             let scans = [0..first, first..values.len()];
             let scans = scans.map(|rows| Ordered::new(ranges[rows.clone()].iter().copied(), values[rows].iter().copied()));
-            let found = Rings::new(scans.iter()).over(&values, &ranges, median_of);
+            let found = Rings::new(scans.iter()).over(&values, &ranges, |ring, _| median_of(ring));
             for (i, found) in found.into_iter().enumerate() {
                 let near = |j: &usize| (ranges[*j] - ranges[i].round()).abs() <= REACH;
                 let ring: Vec<f64> = (0..values.len()).filter(near).map(|j| values[j]).collect();

@@ -43,32 +43,16 @@ impl Raster {
     /// Every cell with the value of the finite one nearest to it, and how far that is away, in cells. Ways lead from
     /// cell to cell, so that distances are up to 8 % too long.
     pub(super) fn filled_from_nearest(&self) -> (Self, Self) {
-        // With a border of cells that know nothing.
-        let wide = self.size + 2;
-        let mut spread =
-            Spread { values: vec![f32::INFINITY; wide * wide], away: vec![f32::INFINITY; wide * wide] };
-        for (row, values) in self.values.chunks(self.size).enumerate() {
-            let begin = (row + 1) * wide + 1;
-            spread.values[begin..begin + self.size].copy_from_slice(values);
-            for (away, value) in spread.away[begin..].iter_mut().zip(values) {
-                *away = if value.is_finite() { 0.0 } else { f32::INFINITY };
-            }
+        let away = |value: &f32| if value.is_finite() { 0.0 } else { f32::INFINITY };
+        let mut spread = Spread { values: self.values.clone(), away: self.values.iter().map(away).collect() };
+        // There and back: backward is forward in a raster whose last cell is the first.
+        for _ in 0..2 {
+            spread.forward(self.size);
+            spread.values.reverse();
+            spread.away.reverse();
         }
-        let diagonal = std::f32::consts::SQRT_2;
-        for cell in spread.inner(self.size) {
-            let above = cell - wide;
-            spread.pull(cell, [(cell - 1, 1.0), (above - 1, diagonal), (above, 1.0), (above + 1, diagonal)]);
-        }
-        for cell in spread.inner(self.size).rev() {
-            let below = cell + wide;
-            spread.pull(cell, [(cell + 1, 1.0), (below + 1, diagonal), (below, 1.0), (below - 1, diagonal)]);
-        }
-        let inner = |values: &[f32]| {
-            let rows = values[wide..wide * (self.size + 1)].chunks(wide);
-            let values = rows.flat_map(|row| &row[1..=self.size]).copied().collect();
-            Self { size: self.size, values }
-        };
-        (inner(&spread.values), inner(&spread.away))
+        let raster = |values| Self { size: self.size, values };
+        (raster(spread.values), raster(spread.away))
     }
 
     /// The least value within `radius` cells in row and column.
@@ -144,21 +128,62 @@ struct Spread {
 }
 
 impl Spread {
-    /// The cells within the border, row by row.
-    fn inner(&self, size: usize) -> impl DoubleEndedIterator<Item = usize> + use<> {
-        (1..=size).flat_map(move |row| row * (size + 2) + 1..(row + 1) * (size + 2) - 1)
+    /// Every cell takes the value of the one before it or of the three above it that is nearest to a known cell, if
+    /// that is nearer than its own; of equally near ones the first. What the row above offers is told for all cells of
+    /// a row at once.
+    fn forward(&mut self, size: usize) {
+        let mut above = Above::nothing(size);
+        let rows = self.values.chunks_exact_mut(size).zip(self.away.chunks_exact_mut(size));
+        for (values, aways) in rows {
+            above.offer();
+            let mut before = (f32::INFINITY, f32::INFINITY);
+            let offers = above.offered.values.iter().zip(&above.offered.away);
+            for ((value, away), offer) in values.iter_mut().zip(aways.iter_mut()).zip(offers) {
+                let mut nearest = (*value, *away);
+                if before.1 + 1.0 < nearest.1 {
+                    nearest = (before.0, before.1 + 1.0);
+                }
+                if *offer.1 < nearest.1 {
+                    nearest = (*offer.0, *offer.1);
+                }
+                (*value, *away) = nearest;
+                before = nearest;
+            }
+            above.row.values[1..=size].copy_from_slice(values);
+            above.row.away[1..=size].copy_from_slice(aways);
+        }
+    }
+}
+
+/// The row above another one.
+struct Above {
+    /// With a border of cells that know nothing.
+    row: Spread,
+    /// What each cell of the row below gets of it.
+    offered: Spread,
+}
+
+impl Above {
+    fn nothing(size: usize) -> Self {
+        let row = |size| Spread { values: vec![f32::INFINITY; size], away: vec![f32::INFINITY; size] };
+        Self { row: row(size + 2), offered: row(size) }
     }
 
-    /// Takes the value of the neighbour that is nearest to a known cell: neighbours and how far they are.
-    fn pull(&mut self, cell: usize, neighbours: [(usize, f32); 4]) {
-        let (mut value, mut away) = (self.values[cell], self.away[cell]);
-        for (neighbour, length) in neighbours {
-            let longer = self.away[neighbour] + length;
-            if longer < away {
-                (value, away) = (self.values[neighbour], longer);
-            }
+    fn offer(&mut self) {
+        let size = self.offered.values.len();
+        let (values, away) = (&self.row.values[..size + 2], &self.row.away[..size + 2]);
+        let offered = self.offered.values.iter_mut().zip(&mut self.offered.away);
+        for (column, (value, least)) in offered.enumerate() {
+            let diagonal = std::f32::consts::SQRT_2;
+            let [left, middle, right] =
+                [away[column] + diagonal, away[column + 1] + 1.0, away[column + 2] + diagonal];
+            let is_middle = middle < left;
+            let first = if is_middle { middle } else { left };
+            let is_right = right < first;
+            let of_first = if is_middle { values[column + 1] } else { values[column] };
+            *least = if is_right { right } else { first };
+            *value = if is_right { values[column + 2] } else { of_first };
         }
-        (self.values[cell], self.away[cell]) = (value, away);
     }
 }
 
