@@ -1,11 +1,14 @@
 //! The search: a tree-structured Parzen estimator over `alpha`, the three `beta`, `K` and `n_b`.
 
+mod thinned;
+
 use super::threshold::{Cut, Weighed};
 use super::{EvidenceTable, Objective, TuneError, TunedSettings};
 use ralf::config::Config;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 use std::fmt::Display;
+use thinned::Thinned;
 use tpe::TpeOptimizer;
 
 /// Trials at random before the estimator has something to go by.
@@ -196,7 +199,7 @@ impl Dials {
 
 /// One searched value.
 struct Dial {
-    optimiser: TpeOptimizer,
+    optimiser: TpeOptimizer<Thinned>,
     range: (f64, f64),
     value: f64,
 }
@@ -205,7 +208,7 @@ impl Dial {
     fn number((low, high): (f64, f64)) -> Result<Self, TuneError> {
         let range = tpe::range(low, high).map_err(refused)?;
         Ok(Self {
-            optimiser: TpeOptimizer::new(tpe::parzen_estimator(), range),
+            optimiser: TpeOptimizer::new(Thinned(tpe::parzen_estimator()), range),
             range: (low, high),
             value: low,
         })
@@ -213,7 +216,7 @@ impl Dial {
 
     fn choice(count: usize) -> Result<Self, TuneError> {
         let range = tpe::categorical_range(count).map_err(refused)?;
-        let optimiser = TpeOptimizer::new(tpe::histogram_estimator(), range);
+        let optimiser = TpeOptimizer::new(Thinned(tpe::histogram_estimator()), range);
         Ok(Self { optimiser, range: (0.0, count as f64), value: 0.0 })
     }
 
