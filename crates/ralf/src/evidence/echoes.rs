@@ -124,6 +124,6 @@ impl<'a> Echoes<'a> {
     }
 
     fn at_same_rate(&self, i: usize, j: usize) -> bool {
-        self.rates.as_ref().is_some_and(|(raw, rates)| rates.are_alike(raw[i], raw[j]))
+        self.rates.as_ref().is_some_and(|(raw, rates)| rates.are_of_one_echo(raw[i], raw[j]))
     }
 }

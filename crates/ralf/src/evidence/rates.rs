@@ -7,6 +7,9 @@ use std::f64::consts::SQRT_2;
 
 /// The spread is never taken for less or more, m/s: no radar is better, and above is a scan of movers.
 const SPREADS: [f64; 2] = [0.12, 0.30];
+/// The same for the rates of one echo at two angles, m/s: below, nothing tells its detections apart from those of the next
+/// cell of range rates, which of a radar that measures for some 30 ms is 0.06 m/s wide.
+const NOISES: [f64; 2] = [0.03, 0.30];
 /// What differs from standing still by more, in spreads, moves.
 const MOVING: f64 = 3.0;
 /// Rates of two detections agree if they differ by no more, in spreads of such a difference.
@@ -19,6 +22,8 @@ pub(super) struct Rates {
     pub(super) values: Vec<f64>,
     /// m/s.
     spread: f64,
+    /// How much rates of one echo scatter at most, m/s.
+    noise: f64,
 }
 
 impl Rates {
@@ -28,7 +33,8 @@ impl Rates {
         let middle = median_of(&values).unwrap_or(0.0);
         let distances: Vec<f64> = values.iter().map(|value| (value - middle).abs()).collect();
         let spread = 1.48 * median_of(&distances).unwrap_or(0.0);
-        Self { values, spread: spread.clamp(SPREADS[0], SPREADS[1]) }
+        let [spread, noise] = [SPREADS, NOISES].map(|[least, most]| spread.clamp(least, most));
+        Self { values, spread, noise }
     }
 
     /// How far a detection is from standing still, in spreads; `None` without a rate.
@@ -42,9 +48,11 @@ impl Rates {
         if moves { self.values[detection] } else { 0.0 }
     }
 
-    /// Whether two rates differ by no more than they scatter; not where either was not measured.
-    pub(super) fn are_alike(&self, a: f64, b: f64) -> bool {
-        (a - b).abs() <= AGREEING * SQRT_2 * self.spread
+    /// Whether two measured rates differ by no more than those of one echo, seen at two angles; not where either was not
+    /// measured. What a radar tells apart doesn't hang on how well the vehicle's motion is known: the spread's lower
+    /// bound doesn't count.
+    pub(super) fn are_of_one_echo(&self, a: f64, b: f64) -> bool {
+        (a - b).abs() <= AGREEING * SQRT_2 * self.noise
     }
 
     /// How far a detection's rate is from another rate, in spreads of such a difference; `None` where either was not
@@ -76,6 +84,18 @@ mod tests {
         assert_eq!((rates.motion(5), rates.motion(4), rates.motion(3)), (10.0, 0.0, 0.0));
         // 2 spreads of a difference are 0.4186 m/s.
         assert_eq!((rates.agrees(0, 0.418), rates.agrees(0, -0.419)), (Some(true), Some(false)));
+    }
+
+    #[test]
+    fn a_radar_that_measures_finely_tells_echoes_apart() {
+        // All stand still but for 0.01 m/s: 2 spreads of a difference are 0.085 m/s, and not 0.34.
+        let fine = Rates::new(vec![0.0, 0.01, -0.01, 0.01, -0.01]);
+        assert!(fine.are_of_one_echo(-4.0, -4.08) && !fine.are_of_one_echo(-4.0, -4.09));
+        assert_eq!(fine.agrees(0, 0.33), Some(true), "things move less finely");
+        // Where rates scatter by 0.148 m/s they do so at every angle.
+        let coarse = Rates::new(vec![0.0, 0.1, -0.1, 0.1, -0.1]);
+        assert!(coarse.are_of_one_echo(-4.0, -4.41) && !coarse.are_of_one_echo(-4.0, -4.42));
+        assert!(!coarse.are_of_one_echo(f64::NAN, 0.0));
     }
 
     #[test]
