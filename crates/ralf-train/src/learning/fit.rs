@@ -9,7 +9,8 @@ use super::fitting::Fitting;
 use super::monotone::direction;
 use super::scores::{Judged, Scores, best_threshold};
 use super::side_by_side::side_by_side;
-use super::table::TrainingTable;
+use super::suite::{SUITES, SuiteScores, suites_of};
+use super::table::{Known, TrainingTable};
 use super::view::View;
 use ralf::learned::{Input, Model, Origin, Rows, Seen, Unconfirmed, World};
 use thiserror::Error;
@@ -38,8 +39,8 @@ pub struct LeftOut {
     pub at_threshold: Scores,
     /// What the paper's method is worth, with its settings.
     pub paper: Scores,
-    /// What the model is worth where less can be observed.
-    pub views: Vec<(View, Scores)>,
+    /// What the model and the paper's method are worth where less can be observed, and by sensors.
+    pub suites: Vec<SuiteScores>,
 }
 
 /// Why no model can be fitted.
@@ -181,53 +182,60 @@ fn answered(table: &TrainingTable, log_odds: &[f64], of: impl Fn(u16) -> bool) -
 /// Every world by the others' calibration and threshold.
 fn judge(table: &TrainingTable, log_odds: &[f64], fitting: &Fitting) -> Vec<LeftOut> {
     let unconfirmed = Unconfirmed::among(table.features.iter().map(|feature| feature.name));
+    let suites_of = suites_of(table);
     let mut all = Vec::new();
     for (number, name) in table.worlds.iter().enumerate() {
         let number = number as u16;
         let line = calibration(&answered(table, log_odds, |world| world != number));
-        let judged = |here: &dyn Fn(u16) -> bool, view: View| -> Vec<Judged> {
-            let rows = table.known.iter().zip(log_odds).enumerate();
-            let rows = rows.filter(|(_, (known, _))| here(known.world) && known.view == view);
-            rows.map(|(row, (known, log_odds))| {
-                let probability = line.probability(*log_odds);
-                let score = unconfirmed.weighed(table.rows.row(row), probability, fitting.unconfirmed);
-                Judged { score, plausible: known.plausible }
-            })
-            .collect()
+        let judged = |rows: &[usize]| -> Vec<Judged> {
+            let score = |row: usize| {
+                let probability = line.probability(log_odds[row]);
+                unconfirmed.weighed(table.rows.row(row), probability, fitting.unconfirmed)
+            };
+            rows.iter()
+                .map(|row| Judged { score: score(*row), plausible: table.known[*row].plausible })
+                .collect()
         };
-        let elsewhere = best_threshold(&judged(&|world| world != number, View::Whole));
-        let here = judged(&|world| world == number, View::Whole);
-        let mut views = Vec::new();
-        for view in View::ALL.into_iter().filter(|view| *view != View::Whole) {
-            let rows = judged(&|world| world == number, view);
+        let whole: Vec<usize> =
+            (0..table.len()).filter(|row| table.known[*row].view == View::Whole).collect();
+        let (here, others): (Vec<usize>, Vec<usize>) =
+            whole.into_iter().partition(|row| table.known[*row].world == number);
+        let elsewhere = best_threshold(&judged(&others));
+        let mut suites = Vec::new();
+        for (bit, name) in SUITES.into_iter().enumerate() {
+            let is_of = |row: &usize| table.known[*row].world == number && suites_of[*row] >> bit & 1 == 1;
+            let rows: Vec<usize> = (0..table.len()).filter(is_of).collect();
             if !rows.is_empty() {
-                views.push((view, Scores::new(&rows, elsewhere)));
+                let learned = Scores::new(&judged(&rows), elsewhere);
+                suites.push(SuiteScores {
+                    name,
+                    detections: rows.len(),
+                    learned,
+                    paper: paper(table, &rows),
+                });
             }
         }
         all.push(LeftOut {
             world: name.clone(),
             detections: here.len(),
-            plausible: here.iter().filter(|row| row.plausible).count(),
-            learned: Scores::new(&here, elsewhere),
-            at_threshold: Scores::new(&here, fitting.threshold),
-            paper: paper(table, number),
-            views,
+            plausible: here.iter().filter(|row| table.known[**row].plausible).count(),
+            learned: Scores::new(&judged(&here), elsewhere),
+            at_threshold: Scores::new(&judged(&here), fitting.threshold),
+            paper: paper(table, &here),
+            suites,
         });
     }
     all
 }
 
-/// What the paper's method is worth in a world.
-fn paper(table: &TrainingTable, world: u16) -> Scores {
-    let rows = || table.known.iter().filter(|known| known.world == world && known.view == View::Whole);
-    let score =
-        |known: &super::table::Known| Judged { score: known.paper.into(), plausible: known.plausible };
-    let label = |known: &super::table::Known| Judged {
-        score: if known.paper_label { 1.0 } else { 0.0 },
-        plausible: known.plausible,
+/// What the paper's method is worth in some rows.
+fn paper(table: &TrainingTable, rows: &[usize]) -> Scores {
+    let judged = |score: fn(&Known) -> f64| -> Vec<Judged> {
+        let known = rows.iter().map(|row| &table.known[*row]);
+        known.map(|known| Judged { score: score(known), plausible: known.plausible }).collect()
     };
-    let by_label = Scores::new(&rows().map(label).collect::<Vec<_>>(), 0.5);
-    let by_w = Scores::new(&rows().map(score).collect::<Vec<_>>(), 0.5);
+    let by_label = Scores::new(&judged(|known| if known.paper_label { 1.0 } else { 0.0 }), 0.5);
+    let by_w = Scores::new(&judged(|known| known.paper.into()), 0.5);
     Scores { f1: by_label.f1, accuracy: by_label.accuracy, ..by_w }
 }
 

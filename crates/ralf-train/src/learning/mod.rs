@@ -23,6 +23,7 @@ mod opinion;
 mod random;
 mod scores;
 mod side_by_side;
+mod suite;
 mod table;
 #[cfg(test)]
 mod testing;
@@ -35,5 +36,6 @@ pub use fitting::Fitting;
 pub use monotone::direction;
 pub use opinion::{Believed, second_opinion};
 pub use scores::{Judged, Scores, best_threshold};
+pub use suite::{SUITES, SuiteScores};
 pub use table::{Known, TrainingTable};
 pub use view::View;

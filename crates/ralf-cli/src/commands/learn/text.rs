@@ -1,6 +1,6 @@
 //! What a model is worth, for people and for machines.
 
-use ralf_train::learning::{Fitted, LeftOut, Scores, View};
+use ralf_train::learning::{Fitted, LeftOut, SUITES, Scores, SuiteScores};
 use serde_json::{Map, Value, json};
 use std::fmt::Write;
 
@@ -27,18 +27,28 @@ pub(super) fn page(fitted: &Fitted) -> String {
     line(&mut page, width, "mean", &format!("{:38}{learned}          {}", "", three(&paper)));
     let at_threshold = mean(|world| world.at_threshold);
     page += &format!("\nAt the threshold of the settings: {at_threshold}\n");
-    for view in View::ALL {
-        let scores: Vec<Scores> = rows
-            .iter()
-            .flat_map(|world| &world.views)
-            .filter(|(seen, _)| *seen == view)
-            .map(|(_, scores)| *scores)
-            .collect();
-        if !scores.is_empty() {
-            page += &format!("With {}: {}\n", view.name(), Scores::mean(&scores));
-        }
-    }
+    page += &suites(rows);
     page + &worth(fitted)
+}
+
+/// By what could be observed: the mean over the worlds in which there is such a thing.
+fn suites(rows: &[LeftOut]) -> String {
+    let all = || rows.iter().flat_map(|world| &world.suites);
+    let mut page = String::from("\nBy what could be observed, means over the worlds that have it:\n");
+    for name in SUITES {
+        let here: Vec<&SuiteScores> = all().filter(|suite| suite.name == name).collect();
+        if here.is_empty() {
+            continue;
+        }
+        let mean = |of: fn(&SuiteScores) -> Scores| {
+            Scores::mean(&here.iter().map(|suite| of(suite)).collect::<Vec<_>>())
+        };
+        let detections: usize = here.iter().map(|suite| suite.detections).sum();
+        let (learned, paper) = (mean(|suite| suite.learned), mean(|suite| suite.paper));
+        let scores = format!("learned: {learned}    paper: {}", three(&paper));
+        line(&mut page, 26, name, &format!("{:>2} worlds {detections:>7}   {scores}", here.len()));
+    }
+    page
 }
 
 /// What the model asks for most.
@@ -70,21 +80,26 @@ fn three(scores: &Scores) -> String {
 pub(super) fn json(fitted: &Fitted, before: &[(String, Scores)]) -> serde_json::Result<String> {
     let mut worlds = Map::new();
     for world in &fitted.left_out {
-        let views: Map<String, Value> =
-            world.views.iter().map(|(view, scores)| (view.name().to_owned(), scores_json(scores))).collect();
+        let suites: Map<String, Value> =
+            world.suites.iter().map(|suite| (suite.name.to_owned(), suite_json(suite))).collect();
         let told = json!({
             "detections": world.detections,
             "plausible": world.plausible,
             "learned": scores_json(&world.learned),
             "at_threshold": scores_json(&world.at_threshold),
             "paper": scores_json(&world.paper),
-            "views": views,
+            "suites": suites,
         });
         worlds.insert(world.world.clone(), told);
     }
     let before: Map<String, Value> =
         before.iter().map(|(sequence, scores)| (sequence.clone(), scores_json(scores))).collect();
     serde_json::to_string_pretty(&json!({ "left_out": worlds, "shipped": before }))
+}
+
+fn suite_json(suite: &SuiteScores) -> Value {
+    let (learned, paper) = (scores_json(&suite.learned), scores_json(&suite.paper));
+    json!({ "detections": suite.detections, "learned": learned, "paper": paper })
 }
 
 fn scores_json(scores: &Scores) -> Value {
