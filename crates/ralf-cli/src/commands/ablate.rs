@@ -31,7 +31,7 @@ pub(crate) struct AblateArgs {
 pub(crate) fn run(arguments: &AblateArgs) -> anyhow::Result<Outcome> {
     let search = &arguments.search;
     search.check(&arguments.test)?;
-    let base = search.settings.resolve()?;
+    let base = search.base()?;
     let variants = Variant::all(&base.method);
     let (recording, truth) = search.open(&base, &arguments.test)?;
     let mut judged = Vec::with_capacity(variants.len());

@@ -6,7 +6,7 @@ use crate::outcome::{Outcome, UsageError};
 use crate::progress::{Progress, Stages, say};
 use clap::Args;
 use clap::builder::PossibleValuesParser;
-use ralf::config::Config;
+use ralf::config::{Config, Method};
 use ralf_data::{GroundTruth, Recording, SequenceEvidence, Settings, gather_evidence};
 use ralf_train::{EvidenceTable, Found, Objective, Search, TunedSettings};
 use std::num::NonZeroUsize;
@@ -71,6 +71,20 @@ impl SearchArgs {
             return Err(UsageError(format!("--train and --test both name {both}: {reason}")));
         }
         Ok(())
+    }
+
+    /// The settings to start from, which are those of the paper's method: a model is fitted and not searched for.
+    pub(super) fn base(&self) -> anyhow::Result<Settings> {
+        let base = self.settings.resolve()?;
+        match base.method.method {
+            Method::Paper => Ok(base),
+            Method::Learned => Err(UsageError(
+                "method = \"learned\": only the paper's method has settings to search for; `ralf learn` fits a model \
+                 to corrected labels (--from OUT), and its --without-group tells what a group of evidence is good for"
+                    .into(),
+            )
+            .into()),
+        }
     }
 
     /// The recording of these sequences alone, and its truth.

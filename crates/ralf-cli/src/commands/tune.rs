@@ -43,7 +43,7 @@ pub(crate) struct TuneArgs {
 pub(crate) fn run(arguments: &TuneArgs) -> anyhow::Result<Outcome> {
     arguments.check()?;
     let search = &arguments.search;
-    let base = search.settings.resolve()?;
+    let base = search.base()?;
     let (recording, truth) = search.open(&base, &arguments.test)?;
     let evidence = search.gather((&recording, &truth), &base.method)?;
     let outcome = name_what_is_left_out(&evidence);

@@ -186,3 +186,14 @@ fn the_comment_repeats_the_settings_that_were_given() {
     assert!(text.contains("--hold lidar.beta --set lidar.beta=0.3 --set seed=4"), "{text}");
     assert!(text.contains("beta = 0.3\n"), "{text}");
 }
+
+#[test]
+fn a_method_that_is_fitted_and_not_searched_for_is_refused_with_what_to_do_instead() {
+    let dataset = two_sequences();
+    let file = dataset.beside("ralf.toml");
+    let learned = ["--train", "00", "--test", "01", "--set", "method=learned"];
+    let [a, b, c, d, e, f] = learned;
+    ralf(["tune", &dataset.path, "-o", &file, a, b, c, d, e, f]).exits(2).says(["ralf learn"]);
+    ralf(["ablate", &dataset.path, a, b, c, d, e, f]).exits(2).says(["--without-group"]);
+    assert!(!fs::exists(&file).unwrap());
+}
