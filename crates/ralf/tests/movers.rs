@@ -9,7 +9,9 @@ use ralf::config::{Config, GroundConfig, GroundModel};
 use ralf::evidence::observe;
 use ralf::label::flag;
 use ralf::paper::DetectionLabel;
-use ralf::scene::{FrameWindow, LidarCloud, LidarSnapshot, LidarView, LocatedScan, Mover, mismatch};
+use ralf::scene::{
+    FrameWindow, LidarCloud, LidarSearch, LidarSnapshot, LidarView, LocatedScan, Mover, mismatch,
+};
 use ralf::sensors::{Elevation, LidarScan, Radar, RadarScan};
 use ralf::space::{Transform, Vector};
 use std::sync::Arc;
@@ -169,53 +171,74 @@ fn rays_are_asked_where_what_moves_is_when_they_are_sent() {
 }
 
 proptest! {
-    /// All points, each with the detection moved to its time.
+    /// All points of all LiDAR scans: each with the detection as it is, and moved to the point's time.
     #[test]
     fn nearest_points_at_their_own_times_as_by_brute_force(
-        points in prop::collection::vec(([5f32..60.0, -20f32..20.0, -2f32..1.0], -0.06f32..0.06), 1..120),
+        scans in prop::collection::vec(
+            (prop::collection::vec(([5f32..60.0, -20f32..20.0, -2f32..1.0], -0.06f32..0.06), 0..60), -60i64..60), 1..4,
+        ),
         place in [8f32..50.0, -15f32..15.0, -1f32..1.0],
         rate in -40f64..40.0,
         measured in any::<bool>(),
         neighbours in 1usize..4,
-        lidar_ms in -60i64..60,
+        cap in 0.5f64..60.0,
     ) {
         let radar = radar(if measured { Elevation::Measured } else { Elevation::None });
         let columns = place.map(|value| vec![value]).to_vec();
         let scan = LocatedScan::new(&radar, RadarScan::new(&radar, 0, columns).unwrap());
-        let mover = Mover::new(&radar, &scan.detections[0].unwrap(), rate, &Vector::zeros());
+        let detection = scan.detections[0].unwrap();
+        let mover = Mover::new(&radar, &detection, rate, &Vector::zeros());
 
-        let (points, times): (Vec<_>, Vec<_>) = points.into_iter().unzip();
-        let count = points.len() as u32;
-        let scan = LidarScan { t_ns: lidar_ms * MS, points, times: Some(times), ..LidarScan::default() };
         let ground = GroundConfig { model: GroundModel::None, ..GroundConfig::default() };
-        let roof = lidar();
-        let parts = vec![(&roof, Arc::new(scan), Transform::translation(0.3, 0.0, 0.0))];
-        let moment = Arc::new(LidarSnapshot::new(lidar_ms * MS, parts, &ground, 0));
-        let view = LidarView { moment: moment.clone(), vehicle_from_moment: Transform::translation(0.4, -0.2, 0.0) };
-        let cloud = LidarCloud::new(&view, &radar);
-        let found = cloud.mean_mismatch_of_mover(&mut cloud.association(neighbours), &mover, 0);
+        let view = |(points, lidar_ms): (Vec<([f32; 3], f32)>, i64)| {
+            let (points, times): (Vec<_>, Vec<_>) = points.into_iter().unzip();
+            let scan = LidarScan { t_ns: lidar_ms * MS, points, times: Some(times), ..LidarScan::default() };
+            let roof = lidar();
+            let parts = vec![(&roof, Arc::new(scan), Transform::translation(0.3, 0.0, 0.0))];
+            let moment = Arc::new(LidarSnapshot::new(lidar_ms * MS, parts, &ground, 0));
+            LidarView { moment, vehicle_from_moment: Transform::translation(0.004 * lidar_ms as f64, -0.2, 0.0) }
+        };
+        let views: Vec<LidarView> = scans.into_iter().map(view).collect();
+        let clouds: Vec<LidarCloud> = views.iter().map(|view| LidarCloud::new(view, &radar)).collect();
+        let mut search = LidarSearch::new(&clouds, neighbours);
+        let found = [
+            search.mean_mismatch(&detection, clouds.len(), cap).map(|d| d.min(cap)),
+            search.mean_mismatch(&detection, 1, f64::INFINITY),
+            search.mean_mismatch_of_mover(&mover, 0),
+        ];
 
         let radar_from_vehicle = radar.vehicle_from_radar.inverse();
-        let mut all = Vec::new();
-        for id in 0..count {
-            let reference = moment.reference(id, &moment.vehicle_from_lidars(&view.vehicle_from_moment));
-            if !measured && !radar.sees_height_of(&(radar_from_vehicle * reference.position)) {
-                continue;
+        let nearest = |views: &[LidarView], moves: bool| {
+            let mut all = Vec::new();
+            for view in views {
+                let moment = &view.moment;
+                for id in 0..moment.sweeps()[0].scan.points.len() as u32 {
+                    let reference = moment.reference(id, &moment.vehicle_from_lidars(&view.vehicle_from_moment));
+                    if !measured && !radar.sees_height_of(&(radar_from_vehicle * reference.position)) {
+                        continue;
+                    }
+                    let there = if moves { mover.after(moment.seconds_after(0, id)) } else { detection };
+                    let mut h = there.position - reference.position;
+                    if !measured {
+                        h.z = 0.0;
+                    }
+                    all.push((h.norm(), mismatch(&h, &there.spread(), &reference.spread)));
+                }
             }
-            let there = mover.after(moment.seconds_after(0, id));
-            let mut h = there.position - reference.position;
-            if !measured {
-                h.z = 0.0;
-            }
-            all.push((h.norm(), mismatch(&h, &there.spread(), &reference.spread)));
+            all.sort_by(|a, b| a.0.total_cmp(&b.0));
+            all.truncate(neighbours);
+            (!all.is_empty()).then(|| all.iter().map(|(_, m)| m).sum::<f64>() / all.len() as f64)
+        };
+        let all = nearest(&views, false);
+        // Where every point is beyond the cap, it isn't told by how much.
+        let capped = found[0].or(all.map(|_| cap));
+        let expected = [all.map(|d| d.min(cap)), nearest(&views[..1], false), nearest(&views, true)];
+        for (found, expected) in [capped, found[1], found[2]].into_iter().zip(expected) {
+            prop_assert!(
+                found == expected || (found.unwrap() - expected.unwrap()).abs() < 1e-6 * expected.unwrap().max(1.0),
+                "{found:?} {expected:?}"
+            );
         }
-        all.sort_by(|a, b| a.0.total_cmp(&b.0));
-        all.truncate(neighbours);
-        let expected = (!all.is_empty()).then(|| all.iter().map(|(_, m)| m).sum::<f64>() / all.len() as f64);
-        prop_assert!(
-            found == expected || (found.unwrap() - expected.unwrap()).abs() < 1e-6 * expected.unwrap().max(1.0),
-            "{found:?} {expected:?}"
-        );
     }
 
     /// All detections of all scans, by the sentences of the method's page.

@@ -162,6 +162,10 @@ pub struct LidarConfig {
     pub max_mismatch: f64,
     /// Also compare each detection with every point where its Doppler velocity takes it at the point's own time.
     pub dynamic: bool,
+    /// So many LiDAR scans, the nearest in time, make the reference cloud of what stands still.
+    pub scans: usize,
+    /// None of these is farther than this from the nearest one, ms.
+    pub reach_ms: f64,
 }
 
 /// How relative depth becomes metric.

@@ -2,8 +2,7 @@
 
 use crate::config::LidarConfig;
 use crate::label::UNLABELED;
-use crate::scene::{Association, Frame, LidarCloud, LidarSnapshot, LidarView};
-use crate::space::Neighbor;
+use crate::scene::{Frame, LidarCloud, LidarSearch};
 
 /// What the LiDAR says of one detection.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -17,63 +16,42 @@ pub struct LidarMatch {
 /// The mismatch of each detection with its `K` nearest LiDAR points above the ground. `None` for all where the branch
 /// is off or there is no such point, and for detections without a position.
 ///
-/// With `lidar.dynamic`, which the paper doesn't have, a detection is also compared with each point where its Doppler
-/// velocity takes it at the time of the point; the smaller mismatch counts.
+/// Two things the paper doesn't have. With `lidar.scans` these are points of several scans; what moves by its Doppler
+/// velocity was elsewhere in all but the nearest, so that it is compared with that one alone. With `lidar.dynamic` what
+/// moves is also compared with each point of all of them where its Doppler velocity takes it at the time of the point;
+/// the smaller mismatch counts. A detection that moves less in that time than its own range is uncertain by stands.
 pub fn match_detections(frame: &Frame, config: &LidarConfig) -> Vec<Option<LidarMatch>> {
     let mut matches = vec![None; frame.scan.len()];
-    let Some(view) = frame.lidar.as_ref().filter(|_| config.enabled) else { return matches };
-    let Some(cloud) = frame.lidar_cloud() else { return matches };
-    if cloud.is_empty() {
+    let clouds = if config.enabled { frame.lidar_clouds() } else { Vec::new() };
+    if clouds.iter().all(LidarCloud::is_empty) {
         return matches;
     }
-    let mut association = cloud.association(config.neighbours);
-    for (found, detection) in matches.iter_mut().zip(&frame.scan.detections) {
+    let (t_ns, sigma_range) = (frame.scan.t_ns(), frame.radar.sigma_range);
+    let mut search = LidarSearch::new(&clouds, config.neighbours);
+    let movers = if config.dynamic || clouds.len() > 1 { frame.movers() } else { Vec::new() };
+    for (i, detection) in frame.scan.detections.iter().enumerate() {
         let Some(detection) = detection else { continue };
-        // A point beyond the cap says nothing but its class.
-        if !view.moment.has_classes() {
-            association.set_reach(cloud.reach(detection, config.max_mismatch));
-        }
-        let d = cloud.mean_mismatch(&mut association, detection);
+        let mover = movers.get(i).and_then(Option::as_ref);
+        let mover = mover.filter(|mover| search.farthest_move(mover, t_ns) > sigma_range);
+        let as_standing = if mover.is_some() { 1 } else { clouds.len() };
+        let d = search.mean_mismatch(detection, as_standing, config.max_mismatch);
         let d = d.map_or(config.max_mismatch, |d| d.min(config.max_mismatch));
-        *found = Some(LidarMatch { d, semantic: majority(&view.moment, association.found()) });
-    }
-    if config.dynamic {
-        association.set_reach(f64::INFINITY);
-        match_movers(frame, view, &cloud, &mut association, &mut matches);
+        let mut found = LidarMatch { d, semantic: majority(search.classes()) };
+        if let Some(mover) = mover.filter(|_| config.dynamic) {
+            let d = search.mean_mismatch_of_mover(mover, t_ns);
+            if let Some(d) = d.filter(|d| *d < found.d) {
+                found = LidarMatch { d, semantic: majority(search.classes()) };
+            }
+        }
+        matches[i] = Some(found);
     }
     matches
 }
 
-/// Compares the detections that move with each point at the point's own time, and keeps the smaller mismatch. A
-/// detection that moves less in that time than its own range is uncertain by stays as it is.
-fn match_movers(
-    frame: &Frame,
-    view: &LidarView,
-    cloud: &LidarCloud,
-    association: &mut Association,
-    matches: &mut [Option<LidarMatch>],
-) {
-    let t_ns = frame.scan.t_ns();
-    for (found, mover) in matches.iter_mut().zip(frame.movers()) {
-        let (Some(found), Some(mover)) = (found, mover) else { continue };
-        if cloud.farthest_move(&mover, t_ns) <= frame.radar.sigma_range {
-            continue;
-        }
-        let d = cloud.mean_mismatch_of_mover(association, &mover, t_ns);
-        if let Some(d) = d.filter(|d| *d < found.d) {
-            *found = LidarMatch { d, semantic: majority(&view.moment, association.found()) };
-        }
-    }
-}
-
 /// The class of most neighbours; of equally frequent ones the one that comes nearer. Unlabeled points don't vote.
-fn majority(moment: &LidarSnapshot, found: &[Neighbor]) -> Option<u16> {
+fn majority(classes: impl Iterator<Item = u16>) -> Option<u16> {
     let mut votes: Vec<(u16, usize)> = Vec::new();
-    for neighbor in found {
-        let class = moment.class(neighbor.id);
-        if class == UNLABELED {
-            continue;
-        }
+    for class in classes.filter(|class| *class != UNLABELED) {
         match votes.iter_mut().find(|(voted, _)| *voted == class) {
             Some((_, count)) => *count += 1,
             None => votes.push((class, 1)),

@@ -31,6 +31,8 @@ pub struct Frame<'a> {
     pub scan: Arc<LocatedScan>,
     /// The LiDAR scans nearest in time; `None` where there is none within the tolerance.
     pub lidar: Option<LidarView>,
+    /// The other LiDAR scans of `lidar.scans`, in time order.
+    pub lidar_neighbours: Vec<LidarView>,
     /// The LiDAR scans of the seconds around, accumulated; `None` where there are none, and unless the
     /// [`FrameWindow`](super::FrameWindow) gathers what evidence looks at.
     pub lidar_window: Option<LidarWindowView>,
@@ -82,6 +84,13 @@ impl Frame<'_> {
         let index = || view.moment.horizontal_index(self.radar, &view.vehicle_from_moment);
         let index = self.horizontal_index.get_or_init(index);
         Some(LidarCloud::horizontal(view, Cow::Borrowed(index)))
+    }
+
+    /// The clouds of all scans of `lidar.scans`: that of the nearest ones, which is [`Self::lidar_cloud`], and then the
+    /// others in time order. None without any LiDAR scan.
+    pub fn lidar_clouds(&self) -> Vec<LidarCloud<'_>> {
+        let others = self.lidar_neighbours.iter().map(|view| LidarCloud::new(view, self.radar));
+        self.lidar_cloud().into_iter().chain(others).collect()
     }
 
     /// The range rates of the scan's detections; `None` where the radar measures none.

@@ -62,10 +62,14 @@ impl<'a> LidarCloud<'a> {
         Association::new(&self.index, self.elevation, neighbours)
     }
 
-    /// The mean mismatch of a detection with its nearest points; `None` where the cloud is empty.
-    pub fn mean_mismatch(&self, association: &mut Association, detection: &Detection) -> Option<f64> {
-        let query = self.index_from_vehicle * detection.position;
-        association.mean_mismatch(detection, &query, |id| self.reference(id))
+    /// Whether points carry classes.
+    pub fn has_classes(&self) -> bool {
+        self.view.moment.has_classes()
+    }
+
+    /// The SemanticKITTI id of a point, 0 where it has none.
+    pub fn class(&self, id: u32) -> u16 {
+        self.view.moment.class(id)
     }
 
     /// How far something moves, at most, m, from where it is at a time to where it was when a point was measured.
@@ -74,39 +78,42 @@ impl<'a> LidarCloud<'a> {
         mover.rate().abs() * span.start.abs().max(span.end.abs())
     }
 
-    /// The mean mismatch of a detection that moves with the nearest points, each compared with where the detection was
-    /// when the point was measured; `None` where the cloud is empty. `t_ns` is the time of the detection.
+    /// Associates a detection that moves with the points that are nearest to where the detection was when the point was
+    /// measured; with none where the cloud is empty. `t_ns` is the time of the detection.
     ///
     /// That is exact: a point lies as far from the detection at the middle of the LiDAR's time as from the detection at
     /// the point's own time, to within the way that lies between. So all points that can be among the nearest are found
     /// around the middle, once some points bound the distance.
-    pub fn mean_mismatch_of_mover(
-        &self,
-        association: &mut Association,
-        mover: &Mover,
-        t_ns: i64,
-    ) -> Option<f64> {
+    pub(super) fn associate_mover(&self, association: &mut Association, mover: &Mover, t_ns: i64) {
         const ROUNDING: f64 = 1e-3;
         let span = self.view.moment.span_after(t_ns);
         let middle = mover.along_ray((span.start + span.end) / 2.0).position;
         let half_way = mover.rate().abs() * (span.end - span.start) / 2.0;
-        let at_time_of = |id| mover.after(self.view.moment.seconds_after(t_ns, id));
-        let offset = |id| at_time_of(id).position - self.reference(id).position;
+        let offset = |id| self.at_time_of(id, mover, t_ns).position - self.reference(id).position;
 
         let query = self.index_from_vehicle * middle;
         let some = association.nearest(&query).iter().map(|neighbor| offset(neighbor.id).norm());
         let bound = some.fold(0.0, f64::max);
         association.nearest_by(&query, bound + half_way + ROUNDING, |id| Some(offset(id)));
-        association.mean_over_found(|id| association.mismatch(&at_time_of(id), &self.reference(id)))
+    }
+
+    /// Where something that moves is when a point is measured. `t_ns` is the time of the detection.
+    pub(super) fn at_time_of(&self, id: u32, mover: &Mover, t_ns: i64) -> Detection {
+        mover.after(self.view.moment.seconds_after(t_ns, id))
+    }
+
+    /// Associates a detection with its nearest points; with none where the cloud is empty.
+    pub(super) fn associate(&self, association: &mut Association, detection: &Detection) {
+        association.nearest(&(self.index_from_vehicle * detection.position));
     }
 
     /// The points nearest to a detection, in the vehicle frame at hand, nearest first; none where the cloud is empty.
     pub fn nearest(&self, association: &mut Association, detection: &Detection) -> Vec<Reference> {
-        let nearest = association.nearest(&(self.index_from_vehicle * detection.position));
-        nearest.iter().map(|neighbor| self.reference(neighbor.id)).collect()
+        self.associate(association, detection);
+        association.found().iter().map(|neighbor| self.reference(neighbor.id)).collect()
     }
 
-    fn reference(&self, id: u32) -> Reference {
+    pub(super) fn reference(&self, id: u32) -> Reference {
         self.view.moment.reference(id, &self.vehicle_from_lidars)
     }
 }

@@ -3,7 +3,7 @@
 
 use super::super::lidar_window::{LidarWindow, LidarWindowView};
 use super::super::neighbouring::NeighbouringScan;
-use super::{FrameWindow, MOMENTS, NearLidars};
+use super::{FrameWindow, MOMENTS, NearLidars, moments_at_once};
 use crate::config::{EvidenceConfig, nanoseconds};
 use crate::space::{Recent, sync};
 use std::sync::Arc;
@@ -16,7 +16,7 @@ impl FrameWindow<'_> {
         let settings = &self.config.evidence;
         let times = &self.source.sequence().times;
         let scans: usize = times.radars.iter().map(|times| settings.radar_scans_at_most(times)).sum();
-        let moments = settings.lidar_scans + 2 * MOMENTS;
+        let moments = settings.lidar_scans + MOMENTS + moments_at_once(self.config);
         self.radar_scans = Recent::new(self.radar_scans.capacity() + scans);
         self.lidar_scans = Recent::new(moments * self.rig.lidars.len());
         self.moments = Recent::new(moments + self.rig.cameras.len());

@@ -9,7 +9,7 @@ use super::lidar::{LidarSnapshot, LidarView};
 use super::lidar_window::LidarWindow;
 use super::located::LocatedScan;
 use super::neighbouring::{NeighbouringScan, ScanStep};
-use crate::config::{Config, GroundModel, TrackingSources, nanoseconds};
+use crate::config::{Config, GroundModel, LidarConfig, TrackingSources, nanoseconds};
 use crate::sensors::{LidarScan, Rig, Source, SourceError};
 use crate::space::{Recent, sync};
 use std::sync::{Arc, OnceLock};
@@ -17,11 +17,18 @@ use std::sync::{Arc, OnceLock};
 /// Moments of the LiDARs that may be the nearest ones of radar scans that are asked for in turn.
 const MOMENTS: usize = 2;
 
+/// Moments of the LiDARs that are held at once: those, and what `lidar.scans` adds to the nearest one.
+fn moments_at_once(config: &Config) -> usize {
+    MOMENTS + config.lidar.scans - 1
+}
+
 /// Names a measurement: sensor and number.
 type Key = (usize, usize);
 
 /// The LiDAR scans nearest to a time.
 struct NearLidars {
+    /// Those that can be read.
+    scans: Vec<Key>,
     view: Option<LidarView>,
     unreadable: Vec<Unreadable>,
 }
@@ -62,15 +69,16 @@ impl<'a> FrameWindow<'a> {
         let batch = config.tracking.scans.saturating_mul(2).saturating_add(2);
         // A batch can't be longer than the sequence.
         let longest = source.sequence().times.radars.iter().map(Vec::len).max().unwrap_or(0);
+        let moments = moments_at_once(config);
         Self {
             source,
             config,
             rig,
             evidence: false,
             radar_scans: Recent::new(batch.min(longest) * rig.radars.len()),
-            lidar_scans: Recent::new(MOMENTS * rig.lidars.len()),
+            lidar_scans: Recent::new(moments * rig.lidars.len()),
             // The images around a radar scan may have other LiDAR scans nearest to them.
-            moments: Recent::new(MOMENTS + rig.cameras.len()),
+            moments: Recent::new(moments + rig.cameras.len()),
             lidar_windows: Recent::new(MOMENTS),
             images: Recent::new(2 * rig.cameras.len()),
         }
@@ -85,13 +93,15 @@ impl<'a> FrameWindow<'a> {
         };
         self.radar_scans.insert((radar, scan), Some(located.clone()));
         let t_ns = located.t_ns();
-        let NearLidars { view: lidar, unreadable } = self.near_lidars(t_ns);
+        let NearLidars { scans, view: lidar, mut unreadable } = self.near_lidars(t_ns);
+        let lidar_neighbours = self.lidar_neighbours(scans, t_ns, &mut unreadable);
         Ok(Frame {
             rig: self.rig,
             radar: &self.rig.radars[radar],
             motion: &self.source.sequence().motion,
             ground: LocalGround::around(lidar.as_ref(), &self.config.ground),
             lidar,
+            lidar_neighbours,
             lidar_window: if self.evidence { self.lidar_window(t_ns) } else { None },
             radar_window: if self.evidence { self.radar_window(radar, scan, t_ns) } else { Vec::new() },
             images: if self.config.camera.enabled { self.images(t_ns) } else { Vec::new() },
@@ -145,7 +155,7 @@ impl<'a> FrameWindow<'a> {
     /// The LiDAR scans nearest to a time, with their ground; `None` where there is none within the tolerance. Fails
     /// where one of them can't be read.
     pub fn lidar_view(&mut self, t_ns: i64) -> Result<Option<LidarView>, SourceError> {
-        let NearLidars { view, unreadable } = self.near_lidars(t_ns);
+        let NearLidars { view, unreadable, .. } = self.near_lidars(t_ns);
         match unreadable.into_iter().next() {
             Some(Unreadable { reason, .. }) => Err(reason.into()),
             None => Ok(view),
@@ -168,7 +178,36 @@ impl<'a> FrameWindow<'a> {
 
     /// The LiDAR scans nearest to a time but those that can't be read, which are named.
     fn near_lidars(&mut self, t_ns: i64) -> NearLidars {
-        let mut keys = self.nearest_lidar_scans(t_ns);
+        let nearest = self.nearest_lidar_scans(t_ns);
+        self.readable(nearest, t_ns)
+    }
+
+    /// The other scans of `lidar.scans` around the nearest ones, as seen at a time: a moment of all LiDARs for each
+    /// scan of the first one, no scan twice. Those that can't be read are left out and named.
+    fn lidar_neighbours(
+        &mut self,
+        nearest: Vec<Key>,
+        t_ns: i64,
+        unreadable: &mut Vec<Unreadable>,
+    ) -> Vec<LidarView> {
+        let (mut views, mut taken) = (Vec::new(), nearest);
+        let Some(&(lidar, middle)) = taken.first() else { return views };
+        let times = &self.source.sequence().times.lidars[lidar];
+        let LidarConfig { scans, reach_ms, .. } = self.config.lidar;
+        let around = sync::around(times, times[middle], nanoseconds(reach_ms), scans);
+        for scan in around.filter(|scan| *scan != middle) {
+            let mut together = self.nearest_lidar_scans(times[scan]);
+            together.retain(|key| !taken.contains(key));
+            let found = self.readable(together, t_ns);
+            taken.extend(found.scans);
+            views.extend(found.view);
+            unreadable.extend(found.unreadable);
+        }
+        views
+    }
+
+    /// Of scans that belong together, as seen at a time, those that can be read; the others are named.
+    fn readable(&mut self, mut keys: Vec<Key>, t_ns: i64) -> NearLidars {
         let mut unreadable = Vec::new();
         // What a moment was made of could be read, and is perhaps no longer at hand.
         if self.moments.get(&(self.moment_time(t_ns, &keys), keys.clone())).is_none() {
@@ -181,7 +220,7 @@ impl<'a> FrameWindow<'a> {
                 }
             });
         }
-        NearLidars { view: self.view(keys, t_ns), unreadable }
+        NearLidars { view: self.view(keys.clone(), t_ns), scans: keys, unreadable }
     }
 
     /// The time of the ground: `flat` is z = 0 of the vehicle frame at the radar scan's time, any other belongs to the
