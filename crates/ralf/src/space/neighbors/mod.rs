@@ -235,9 +235,8 @@ impl NeighborIndex {
             let below = if row == 0 { f32::NEG_INFINITY } else { below - wide - SLACK };
             let above = if row + 1 == self.rows { f32::INFINITY } else { above + wide + SLACK };
             // The part of the way that is near the row; of a way along the row all of it.
-            let begin = ((below - from[1]) / dy).max(0.0).min(1.0);
-            let end = ((above - from[1]) / dy).min(1.0).max(0.0);
-            let [a, b] = [from[0] + begin * dx, from[0] + end * dx];
+            let parts = [below, above].map(|y| ((y - from[1]) / dy).clamp(0.0, 1.0));
+            let [a, b] = if dy == 0.0 { [0.0, 1.0] } else { parts }.map(|part| from[0] + part * dx);
             let [left, right] = [a.min(b) - wide, a.max(b) + wide].map(|x| self.place_of(x, from[1]).cell[0]);
             self.cells(row, left, right)
         })
