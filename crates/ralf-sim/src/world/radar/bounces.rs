@@ -50,7 +50,7 @@ pub(super) fn bounces(view: &View<'_>, targets: &[Target], random: &mut Random) 
 fn trips(view: &View<'_>, target: &Target, random: &mut Random) -> [Option<Echo>; 2] {
     let Spherical { range, azimuth, elevation } = target.echo.seen;
     let first_db = decibel(target.echo.power);
-    // Radar equation once more: each trip spreads by 4 pi r^2 on either way, and the thing's cross-section counts again.
+    // Radar equation once more: each trip spreads by 4 pi r^2 either way, and the thing's cross-section counts again.
     let again_db =
         rcs_db(view, target) + view.waves.own_front_db - 2.0 * SPREAD_DB - 40.0 * range.max(1.0).log10();
     [2.0, 3.0].map(|times| {

@@ -61,7 +61,7 @@ impl Floor {
     }
 
     /// Around an echo, dB above the receiver's usual noise: what the cells before and behind it hold at its own range
-    /// rate, for radars look there before they look for angles. What leaks over comes from the other angles of its cell.
+    /// rate, for radars look there before they look for angles. What leaks over comes from other angles of its cell.
     pub(super) fn level_db(&self, echo: &Echo) -> f64 {
         let [range, rate, sector] = self.cell(echo);
         let mut around = Vec::with_capacity(2 * WINDOW.1 as usize);

@@ -18,8 +18,7 @@ mod unresolved;
 
 pub(super) use detection::{Detection, radar_scan};
 pub(super) use equation::sensitivity_db;
-pub(in crate::world) use model::{Amplitude, Cell, Keeps, RadarModel, Waves};
-pub(super) use spikes::Spikiness;
+pub(in crate::world) use model::{Amplitude, Cell, Keeps, RadarModel, Spikiness, Waves};
 
 use super::scene::Moment;
 use crate::random::Random;

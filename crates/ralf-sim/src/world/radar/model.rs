@@ -1,6 +1,5 @@
 //! A radar as it really is, and how waves meet the world.
 
-use super::spikes::Spikiness;
 use ralf::space::Transform;
 
 /// A radar.
@@ -100,6 +99,17 @@ pub(crate) struct Cell {
     pub(crate) elevation: f64,
     /// m/s.
     pub(crate) doppler: f64,
+}
+
+/// How spiky the ground of a world is.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Spikiness {
+    /// What they add to the ground's backscatter, dB (m2 per m2).
+    pub(crate) mean_db: f64,
+    /// Scale of their texture's gamma distribution, dBsm.
+    pub(crate) scale_db: f64,
+    /// Share that belongs to the place.
+    pub(crate) staying: f64,
 }
 
 /// How waves meet a world.

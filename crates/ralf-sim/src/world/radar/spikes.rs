@@ -2,13 +2,14 @@
 //!
 //! At low grazing angles a surface is no even rug: the spread between its cells grows, and what is heard are spikes
 //! (Billingsley 2002, Low-Angle Radar Land Clutter; Kulemin 2003, millimetre waves). Such clutter is compound Gaussian:
-//! speckle times a texture, which is gamma distributed in K-distributed clutter (Ward, Tough and Watts 2013). Texture
-//! that is gamma distributed on every area, whatever its size, is a Poisson process of spikes whose strengths lie as
-//! `exp(-x) / x`. A part of the spikes belongs to the place: edges, stones, studs. The others are facets that shine into
+//! speckle times a texture, gamma distributed where clutter is K-distributed (Ward, Tough and Watts 2013). Texture that
+//! is gamma distributed on every area, whatever its size, is a Poisson process of spikes whose strengths lie as
+//! `exp(-x) / x`. A part of the spikes belongs to the place: edges, stones, studs. Others are facets that shine into
 //! a few milliradians (wavelength over twice their size), and are gone in the next scan.
 
 use super::echo::{Echo, HOPE_DB, View};
 use super::equation::{REFERENCE_RANGE, decibel, ratio, snr_db};
+use super::model::Spikiness;
 use crate::random::{Random, grain};
 use crate::world::terrain::Surface;
 use ralf::space::{Point, Vector};
@@ -26,24 +27,11 @@ const HALF_RING: f64 = 2.5;
 /// Blades are many in a cell, and even out: so many of the spikes are left on grass (chosen).
 const ON_GRASS: f64 = 0.2;
 
-/// How spiky the ground of a world is.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Spikiness {
-    /// What they add to the ground's backscatter, dB (m2 per m2).
-    pub(crate) mean_db: f64,
-    /// Scale of their texture's gamma distribution, dBsm.
-    pub(crate) scale_db: f64,
-    /// Share that belongs to the place.
-    pub(crate) staying: f64,
-}
-
-impl Spikiness {
-    /// Candidates on a square metre of a strength from `least` on: they lie as `1 / x`, and `exp(-x)` of them are kept.
-    fn density(&self, least: f64) -> f64 {
-        // The mean of a gamma distribution is its shape times its scale.
-        let shape = ratio(self.mean_db - self.scale_db);
-        shape * (STRONGEST / least).ln()
-    }
+/// Candidates on a square metre of a strength from `least` on: they lie as `1 / x`, and `exp(-x)` of them are kept.
+fn density(spikes: &Spikiness, least: f64) -> f64 {
+    // The mean of a gamma distribution is its shape times its scale.
+    let shape = ratio(spikes.mean_db - spikes.scale_db);
+    shape * (STRONGEST / least).ln()
 }
 
 /// A candidate's strength from two even numbers, in units of the scale, if it is kept.
@@ -56,7 +44,7 @@ fn strength(least: f64, which: f64, kept: f64) -> Option<f64> {
 pub(super) fn staying(view: &View<'_>, random: &mut Random) -> Vec<Echo> {
     let spikes = view.waves.spikes;
     let seed = view.moment.site.seed ^ 0x73_7069_6b65;
-    let often = spikes.density(WEAKEST_STAYING) * spikes.staying * SQUARE * SQUARE;
+    let often = density(&spikes, WEAKEST_STAYING) * spikes.staying * SQUARE * SQUARE;
     let origin = view.origin();
     let reach = reach(view);
     let steps = (reach / SQUARE).ceil() as i64;
@@ -89,7 +77,7 @@ pub(super) fn passing(view: &View<'_>, random: &mut Random) -> Vec<Echo> {
         // The area of a piece of a ring, and the weakest spike that could be heard from it.
         let area = 2.0 * HALF_RING * middle * view.radar.fov[0];
         let least = ratio(-margin_db(view, 0.0, middle)).clamp(WEAKEST, 0.5 * STRONGEST);
-        let density = spikes.density(least) * (1.0 - spikes.staying);
+        let density = density(&spikes, least) * (1.0 - spikes.staying);
         for _ in 0..random.poisson((density * area).min(500.0)) {
             let [along, across, which, kept, green] = [(); 5].map(|()| random.uniform());
             let range = middle + (2.0 * along - 1.0) * HALF_RING;
@@ -140,7 +128,7 @@ mod tests {
         let random = &mut Random::new(1, Purpose::Radar, 0, 0);
         let (mut sum, mut squares) = (0.0, 0.0);
         let square_metres = 40_000.0;
-        for _ in 0..(square_metres * spikes.density(WEAKEST)) as usize {
+        for _ in 0..(square_metres * density(&spikes, WEAKEST)) as usize {
             let x = strength(WEAKEST, random.uniform(), random.uniform()).unwrap_or(0.0);
             sum += x;
             squares += x * x;

@@ -1,5 +1,5 @@
-//! Two things in one cell of range and range rate whose angles lie closer than a beam is wide: one angle is told, and it
-//! need be that of neither.
+//! Two things in one cell of range and range rate whose angles lie closer than a beam is wide: one angle is told, and
+//! it need be that of neither.
 
 use super::antenna::{APART, displaced};
 use super::echo::Echo;
