@@ -12,7 +12,7 @@ use super::side_by_side::side_by_side;
 use super::suite::{SUITES, SuiteScores, suites_of};
 use super::table::{Known, TrainingTable};
 use super::view::View;
-use ralf::learned::{Input, Model, Origin, Rows, Seen, Unconfirmed, World};
+use ralf::learned::{Calibration, Input, Model, Origin, Rows, Seen, Unconfirmed, World};
 use thiserror::Error;
 
 /// A model with what it is worth.
@@ -181,32 +181,20 @@ fn answered(table: &TrainingTable, log_odds: &[f64], of: impl Fn(u16) -> bool) -
 
 /// Every world by the others' calibration and threshold.
 fn judge(table: &TrainingTable, log_odds: &[f64], fitting: &Fitting) -> Vec<LeftOut> {
-    let unconfirmed = Unconfirmed::among(table.features.iter().map(|feature| feature.name));
     let suites_of = suites_of(table);
+    let whole: Vec<usize> = (0..table.len()).filter(|row| table.known[*row].view == View::Whole).collect();
     let mut all = Vec::new();
     for (number, name) in table.worlds.iter().enumerate() {
-        let number = number as u16;
-        let line = calibration(&answered(table, log_odds, |world| world != number));
-        let judged = |rows: &[usize]| -> Vec<Judged> {
-            let score = |row: usize| {
-                let probability = line.probability(log_odds[row]);
-                unconfirmed.weighed(table.rows.row(row), probability, fitting.unconfirmed)
-            };
-            rows.iter()
-                .map(|row| Judged { score: score(*row), plausible: table.known[*row].plausible })
-                .collect()
-        };
-        let whole: Vec<usize> =
-            (0..table.len()).filter(|row| table.known[*row].view == View::Whole).collect();
-        let (here, others): (Vec<usize>, Vec<usize>) =
-            whole.into_iter().partition(|row| table.known[*row].world == number);
-        let elsewhere = best_threshold(&judged(&others));
+        let is_here = |row: &usize| usize::from(table.known[*row].world) == number;
+        let (here, others): (Vec<usize>, Vec<usize>) = whole.iter().copied().partition(is_here);
+        let stranger = Stranger::new(table, log_odds, number as u16, fitting);
+        let elsewhere = best_threshold(&stranger.judged(&others));
         let mut suites = Vec::new();
         for (bit, name) in SUITES.into_iter().enumerate() {
-            let is_of = |row: &usize| table.known[*row].world == number && suites_of[*row] >> bit & 1 == 1;
+            let is_of = |row: &usize| is_here(row) && suites_of[*row] >> bit & 1 == 1;
             let rows: Vec<usize> = (0..table.len()).filter(is_of).collect();
             if !rows.is_empty() {
-                let learned = Scores::new(&judged(&rows), elsewhere);
+                let learned = Scores::new(&stranger.judged(&rows), elsewhere);
                 suites.push(SuiteScores {
                     name,
                     detections: rows.len(),
@@ -215,17 +203,48 @@ fn judge(table: &TrainingTable, log_odds: &[f64], fitting: &Fitting) -> Vec<Left
                 });
             }
         }
+        let judged = stranger.judged(&here);
         all.push(LeftOut {
             world: name.clone(),
             detections: here.len(),
-            plausible: here.iter().filter(|row| table.known[**row].plausible).count(),
-            learned: Scores::new(&judged(&here), elsewhere),
-            at_threshold: Scores::new(&judged(&here), fitting.threshold),
+            plausible: judged.iter().filter(|row| row.plausible).count(),
+            learned: Scores::new(&judged, elsewhere),
+            at_threshold: Scores::new(&judged, fitting.threshold),
             paper: paper(table, &here),
             suites,
         });
     }
     all
+}
+
+/// What is said of rows by models and a calibration that know nothing of a world.
+struct Stranger<'a> {
+    table: &'a TrainingTable,
+    log_odds: &'a [f64],
+    line: Calibration,
+    unconfirmed: Unconfirmed,
+    factor: f64,
+}
+
+impl<'a> Stranger<'a> {
+    fn new(table: &'a TrainingTable, log_odds: &'a [f64], world: u16, fitting: &Fitting) -> Self {
+        Self {
+            table,
+            log_odds,
+            line: calibration(&answered(table, log_odds, |other| other != world)),
+            unconfirmed: Unconfirmed::among(table.features.iter().map(|feature| feature.name)),
+            factor: fitting.unconfirmed,
+        }
+    }
+
+    fn judged(&self, rows: &[usize]) -> Vec<Judged> {
+        let judge = |row: &usize| {
+            let probability = self.line.probability(self.log_odds[*row]);
+            let score = self.unconfirmed.weighed(self.table.rows.row(*row), probability, self.factor);
+            Judged { score, plausible: self.table.known[*row].plausible }
+        };
+        rows.iter().map(judge).collect()
+    }
 }
 
 /// What the paper's method is worth in some rows.

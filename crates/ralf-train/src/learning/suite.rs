@@ -1,5 +1,5 @@
-//! What a model is worth by what could be observed: with all evidence and with less, by radars that measure elevation and
-//! by others, where a camera sees something and where none does.
+//! What a model is worth by what could be observed: with all evidence and with less, by radars that measure elevation
+//! and by others, where a camera sees something and where none does.
 
 use super::scores::Scores;
 use super::table::TrainingTable;

@@ -7,8 +7,8 @@ use std::f64::consts::SQRT_2;
 
 /// The spread is never taken for less or more, m/s: no radar is better, and above is a scan of movers.
 const SPREADS: [f64; 2] = [0.12, 0.30];
-/// The same for the rates of one echo at two angles, m/s: below, nothing tells its detections apart from those of the next
-/// cell of range rates, which of a radar that measures for some 30 ms is 0.06 m/s wide.
+/// The same for the rates of one echo at two angles, m/s: below, nothing tells its detections apart from those of the
+/// next cell of range rates, which of a radar that measures for some 30 ms is 0.06 m/s wide.
 const NOISES: [f64; 2] = [0.03, 0.30];
 /// What differs from standing still by more, in spreads, moves.
 const MOVING: f64 = 3.0;
@@ -48,9 +48,9 @@ impl Rates {
         if moves { self.values[detection] } else { 0.0 }
     }
 
-    /// Whether two measured rates differ by no more than those of one echo, seen at two angles; not where either was not
-    /// measured. What a radar tells apart doesn't hang on how well the vehicle's motion is known: the spread's lower
-    /// bound doesn't count.
+    /// Whether two measured rates differ by no more than those of one echo, seen at two angles; not where either was
+    /// not measured. What a radar tells apart doesn't hang on how well the vehicle's motion is known: the spread's
+    /// lower bound doesn't count.
     pub(super) fn are_of_one_echo(&self, a: f64, b: f64) -> bool {
         (a - b).abs() <= AGREEING * SQRT_2 * self.noise
     }
