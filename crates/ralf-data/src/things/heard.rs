@@ -16,6 +16,8 @@ const OWN: f64 = 0.7;
 const TELLING: f64 = 30.0;
 /// Steps of Newton's method: it is there after some five.
 const STEPS: usize = 15;
+/// A step is halved so often at most.
+const HALVINGS: usize = 12;
 
 /// One offset for all, and one for each sign.
 const OFFSETS: usize = 1 + Sign::ALL.len();
@@ -53,8 +55,8 @@ impl Heard {
             }
             // What is on the diagonal makes it definite.
             let Some(solved) = bend.cholesky() else { break };
-            offsets -= solved.solve(&slope);
             covariance = solved.inverse();
+            offsets = descended(lessons, &offsets, &solved.solve(&slope));
         }
         Self { offsets, covariance }
     }
@@ -76,7 +78,9 @@ impl Heard {
             errors += weight * wrong;
             worth += weight * (2.0 * wrong - contrary.len() as f64).max(0.0);
         }
-        (errors / all, worth / all)
+        // Rounding must not make them more than there are.
+        let count = contrary.len() as f64;
+        ((errors / all).min(count), (worth / all).min(count))
     }
 }
 
@@ -84,9 +88,36 @@ fn place(sign: Sign) -> usize {
     1 + sign as usize
 }
 
+/// As far along a step of Newton's method as it leads downhill: all of it near the least loss, less where that is far
+/// and the whole step would lead beyond it, to and fro.
+fn descended(lessons: &[Lesson], offsets: &Vector, step: &Vector) -> Vector {
+    let before = loss(lessons, offsets);
+    let parts = std::iter::successors(Some(1.0), |part| Some(part / 2.0)).take(HALVINGS);
+    let mut tried = parts.map(|part| offsets - step * part);
+    tried.find(|there| loss(lessons, there) < before).unwrap_or(*offsets)
+}
+
+/// The negative logarithm of what the answers and the offsets are worth together, but for a constant.
+fn loss(lessons: &[Lesson], offsets: &Vector) -> f64 {
+    let of_lesson = |lesson: &Lesson| {
+        let offset = offsets[0] + offsets[place(lesson.sign)];
+        let of_answer = |(log_odds, plausible): &(f64, bool)| {
+            let contrary = if *plausible { -log_odds - offset } else { log_odds + offset };
+            contrary.max(0.0) + (-contrary.abs()).exp().ln_1p()
+        };
+        weight(lesson) * lesson.answers.iter().map(of_answer).sum::<f64>()
+    };
+    offsets.norm_squared() / (2.0 * WIDE * WIDE) + lessons.iter().map(of_lesson).sum::<f64>()
+}
+
+/// What each answer of a lesson counts.
+fn weight(lesson: &Lesson) -> f64 {
+    (TELLING / lesson.answers.len() as f64).min(1.0)
+}
+
 /// The first and the second derivative of the loss of a lesson by its log odds.
 fn told(lesson: &Lesson, offsets: &Vector) -> (f64, f64) {
-    let weight = (TELLING / lesson.answers.len() as f64).min(1.0);
+    let weight = weight(lesson);
     let offset = offsets[0] + offsets[place(lesson.sign)];
     let derivatives = lesson.answers.iter().map(|(log_odds, plausible)| {
         let p = probability(log_odds + offset);
@@ -118,6 +149,17 @@ mod tests {
         assert!(errors(&heard, Sign::Moves) > 2.0 * errors(&nothing, Sign::Moves));
         assert!(errors(&heard, Sign::Weak) > errors(&nothing, Sign::Weak));
         assert!(errors(&heard, Sign::Moves) > errors(&heard, Sign::Weak));
+    }
+
+    /// Newton's method alone leaps to and fro here, and ends where the slope isn't nothing.
+    #[test]
+    fn offsets_are_where_the_loss_is_least_however_far_that_is() {
+        let answers = vec![(-6.0, true); 30];
+        let lessons = [Lesson { sign: Sign::Weak, answers }];
+        let offsets = Heard::of(&lessons).offsets;
+        let (slope, _) = told(&lessons[0], &offsets);
+        assert!((offsets[0] / (WIDE * WIDE) + slope).abs() < 1e-6, "{offsets} {slope}");
+        assert!(offsets[0] > 2.0 && (offsets[0] - offsets[place(Sign::Weak)]).abs() < 1e-9);
     }
 
     proptest! {
