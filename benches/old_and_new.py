@@ -34,8 +34,12 @@ class Build:
         (self.program,) = self.executables(cargo).values()
         names = [argument for bench in BENCHES for argument in ("--bench", bench)]
         self.benches = self.executables(["cargo", "bench", "--workspace", "--no-run", *names])
-        usage = subprocess.run([self.program, "label", "--help"], capture_output=True, text=True, check=True).stdout
-        self.checks = "--no-check" in usage
+        self.checks = self.knows("label", "--no-check")
+
+    def knows(self, verb, option):
+        """Whether a command has an option."""
+        usage = subprocess.run([self.program, verb, "--help"], capture_output=True, text=True, check=True).stdout
+        return option in usage
 
     def executables(self, cargo):
         """What a command of cargo built, by target."""
@@ -76,25 +80,26 @@ def process(command):
 
 
 def processes(recordings):
-    """Commands by name; `{out}` is a new folder, `--no-check` is left out where a program knows no check."""
+    """Commands by name; `{out}` is a new folder. Those with options that a program doesn't know are left out but for `--no-check`."""
     for name, path in recordings.items():
         for jobs in (1, 2):
             label = ["label", path, "-o", "{out}", "--jobs", str(jobs)]
             yield f"label {name}, --jobs {jobs}", [*label, "--no-check"]
             yield f"label {name}, --jobs {jobs}, checked", label
     paper = ["simulate", "-o", "{out}", "--preset", "paper", "--sequence", "00"]
-    yield "simulate 20 scans with images", [*paper, "--scans", "20"]
-    yield "simulate 200 scans without images", [*paper, "--scans", "200", "--no-images"]
+    yield "simulate --scans 220", [*paper, "--scans", "220"]
+    yield "simulate --scans 2200 --no-images", [*paper, "--scans", "2200", "--no-images"]
 
 
 def measured(build, name, command):
     """One round of one process; nothing where a build can't do it."""
-    if name.endswith("checked") and not build.checks:
+    if not build.checks:
+        command = [a for a in command if a != "--no-check"]
+    options = [a for a in command if a.startswith("--")]
+    if (name.endswith("checked") and not build.checks) or not all(build.knows(command[0], a) for a in options):
         return {}
     with tempfile.TemporaryDirectory() as folder:
         arguments = [str(Path(folder) / "out") if a == "{out}" else a for a in command]
-        if not build.checks:
-            arguments = [a for a in arguments if a != "--no-check"]
         return {f"{name}: {unit}": value for unit, value in process([build.program, *arguments]).items()}
 
 
