@@ -34,12 +34,15 @@ class Build:
         (self.program,) = self.executables(cargo).values()
         names = [argument for bench in BENCHES for argument in ("--bench", bench)]
         self.benches = self.executables(["cargo", "bench", "--workspace", "--no-run", *names])
+        self.usage = {}
         self.checks = self.knows("label", "--no-check")
 
     def knows(self, verb, option):
         """Whether a command has an option."""
-        usage = subprocess.run([self.program, verb, "--help"], capture_output=True, text=True, check=True).stdout
-        return option in usage
+        if verb not in self.usage:
+            asked = subprocess.run([self.program, verb, "--help"], capture_output=True, text=True, check=True)
+            self.usage[verb] = asked.stdout
+        return option in self.usage[verb]
 
     def executables(self, cargo):
         """What a command of cargo built, by target."""

@@ -90,9 +90,8 @@ impl Task<'_> {
 
     /// Radar and scan, where the recording holds them.
     fn place_of(&self, id: &ScanId) -> Option<ScanIndex> {
-        let radar = self.rig.radars.iter().position(|radar| radar.name == id.radar)?;
-        let scan = id.scan as usize;
-        (scan < self.reader.sequence().times.radars[radar].len()).then_some(ScanIndex { radar, scan })
+        let (radar, scan) = id.place_in(self.reader.sequence())?;
+        Some(ScanIndex { radar, scan })
     }
 
     fn match_scan(

@@ -18,8 +18,6 @@ export class Kinding {
   /** Kinds that were passed over since the sequence was opened: most of them are right. */
   private passed = new Set<string>();
   private readonly lookedIn: LookedIn;
-  /** True while scans are being fetched for a kind. */
-  private moving = false;
 
   constructor(
     private readonly world: World,
@@ -90,14 +88,11 @@ export class Kinding {
   private async show(kind: Kind): Promise<void> {
     const { store } = this.world;
     const { sequence, current } = store.state;
-    this.moving = true;
-    try {
+    await this.lookedIn.elsewhere(async () => {
       await this.navigation.wholeSequence(current ?? kind);
       const isHere = kind.points.some((part) => findScan(store.state.cloud, part) >= 0);
       if (!isHere) await this.navigation.wholeSequence(kind);
-    } finally {
-      this.moving = false;
-    }
+    });
     if (sequence !== store.state.sequence) return;
     const { cloud, eligible } = store.state;
     const selection = intersection(maskOf(cloud, kind.points), eligible);
@@ -107,7 +102,7 @@ export class Kinding {
 
   /** Whoever looks at other scans doesn't see any more what is spared, and what isn't. */
   private left(): void {
-    if (this.world.store.state.kind === null || this.moving) return;
+    if (this.world.store.state.kind === null) return;
     this.world.store.set({ kind: null });
     tell(this.world, "The question is left, for you look at something else: Shift+G asks again.");
   }

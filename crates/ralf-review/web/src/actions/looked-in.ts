@@ -6,6 +6,8 @@ import type { Store } from "../store.js";
 
 export class LookedIn {
   private scans = "";
+  /** True while other scans are being fetched for what is looked at. */
+  private moving = false;
 
   constructor(
     private readonly store: Store<State>,
@@ -14,9 +16,15 @@ export class LookedIn {
     store.watch(
       ({ cloud }) => [cloud],
       (cloud) => {
-        if (scansOf(cloud) !== this.scans) left();
+        if (!this.moving && scansOf(cloud) !== this.scans) left();
       },
     );
+  }
+
+  /** Puts other scans on screen for it, which is not leaving it. */
+  async elsewhere(move: () => Promise<void>): Promise<void> {
+    this.moving = true;
+    await move().finally(() => (this.moving = false));
   }
 
   /** It is looked at in the scans that are on screen now. */

@@ -15,8 +15,6 @@ import { complain, tell, type World } from "./world.js";
 
 export class Opining {
   private readonly lookedIn: LookedIn;
-  /** True while other scans are being fetched for the proposal. */
-  private moving = false;
 
   constructor(
     private readonly world: World,
@@ -111,8 +109,7 @@ export class Opining {
       const still = kept(opinion, cloud, selection);
       const at = still.changes.findIndex(({ thing }) => thing === change.thing);
       store.set({ opinion: still, opinionAt: at });
-      this.moving = true;
-      await this.navigation.wholeSequence(change).finally(() => (this.moving = false));
+      await this.lookedIn.elsewhere(() => this.navigation.wholeSequence(change));
       this.select();
     }
     lookAt(this.world, change);
@@ -120,7 +117,7 @@ export class Opining {
 
   /** Whoever looks at other scans doesn't look at the proposal any more: what is left out of it would be lost. */
   private left(): void {
-    if (this.world.store.state.opinion === null || this.moving) return;
+    if (this.world.store.state.opinion === null) return;
     this.drop();
     tell(this.world, "The proposal is dropped, for you look at something else: Shift+R asks again.");
   }
