@@ -161,3 +161,49 @@ fn images(
     };
     Some([pure, mixed(around), mixed(direct)])
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What an upright mirror at x = 10 m takes from a wave that leaves it as steeply as it came.
+    fn taken_db(roughness: f64, bulge: [f64; 2], aside: f64) -> f64 {
+        let mirror = Mirror {
+            item: 0,
+            center: Point::new(10.0, 0.0, 0.0),
+            normal: -Vector::x(),
+            half: [100.0, 2.0],
+            loss_db: 3.0,
+            roughness,
+            bulge,
+            distance: 10.0,
+            velocity: Vector::zeros(),
+        };
+        let (origin, other) = (Point::origin(), Point::new(0.0, 2.0 * aside, 0.0));
+        let at = mirror.point_of_reflection(&origin, &other).unwrap();
+        assert!((at - Point::new(10.0, aside, 0.0)).norm() < 1e-9);
+        mirror.takes_db(&origin, &at, &other)
+    }
+
+    #[test]
+    fn a_smooth_flat_mirror_takes_what_its_material_does() {
+        for aside in [0.0, 5.0, 30.0] {
+            assert!((taken_db(0.0, [0.0; 2], aside) - 3.0).abs() < 1e-9);
+        }
+    }
+
+    #[test]
+    fn a_rough_mirror_is_one_to_grazing_waves_alone() {
+        let [ahead, grazing] = [0.0, 60.0].map(|aside| taken_db(1e-3, [0.0; 2], aside));
+        // (4 pi 1 mm / 3.9 mm)^2 is 10.4: 45 dB.
+        assert!((ahead - 48.1).abs() < 0.2 && grazing < 5.0, "{ahead} {grazing}");
+    }
+
+    #[test]
+    fn a_bent_mirror_spreads_a_wave() {
+        // At right angles both axes do alike: 1 + 2 * 5 m / 5 m.
+        for bulge in [[0.2, 0.0], [0.0, 0.2]] {
+            assert!((taken_db(0.0, bulge, 0.0) - 3.0 - decibel(3.0)).abs() < 1e-9);
+        }
+    }
+}
