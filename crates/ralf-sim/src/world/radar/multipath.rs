@@ -146,13 +146,8 @@ fn images(
     let behind_db = target.other_way_db(view, &at, &at);
     let image_rate = view.range_rate(&image, &mirror.mirrored(&target.velocity));
     let mixed_rate = f64::midpoint(image_rate, target.echo.range_rate);
-    // An image beside its original is on the same surface as good as.
-    let truth = |seen: &Spherical| match displaced(&target.echo, seen) > APART {
-        true => Truth::artifact(Cause::Mirror),
-        false => target.echo.truth,
-    };
     let heard = |seen: Spherical, rate: f64, level_db: f64| {
-        (level_db > hope).then(|| Echo::new(seen, rate, level_db, truth(&seen)))
+        (level_db > hope).then(|| Echo::new(seen, rate, level_db, truth(&target.echo, &seen)))
     };
     let pure = behind_db.and_then(|more| heard(around, image_rate, level_db - 2.0 * way_db + more));
     let mixed = |seen: Spherical| {
@@ -160,6 +155,11 @@ fn images(
         heard(seen, mixed_rate, level_db - way_db + aside_db?)
     };
     Some([pure, mixed(around), mixed(direct)])
+}
+
+/// An image beside its original is on the same surface as good as.
+fn truth(original: &Echo, seen: &Spherical) -> Truth {
+    if displaced(original, seen) > APART { Truth::artifact(Cause::Mirror) } else { original.truth }
 }
 
 #[cfg(test)]

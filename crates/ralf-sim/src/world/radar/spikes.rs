@@ -56,11 +56,17 @@ pub(super) fn staying(view: &View<'_>, random: &mut Random) -> Vec<Echo> {
     for (i, j) in (-steps..=steps).flat_map(|i| (-steps..=steps).map(move |j| (i0 + i, j0 + j))) {
         // As many as there are on average, one more or less.
         let count = (often + grain(seed, [i, j, 0])) as i64;
+        let [dx, dy] = [(i as f64 + 0.5) * SQUARE - origin.x, (j as f64 + 0.5) * SQUARE - origin.y];
+        // Nothing of a square is nearer, and weaker ones aren't heard from there.
+        let nearest = (dx.hypot(dy) - SQUARE).max(0.1);
+        let least = ratio(-margin_db(view, 0.0, nearest));
         for number in 0..count {
             let share = |k: i64| grain(seed, [i, j, 8 * number + k]);
-            if let Some(x) = strength(WEAKEST_STAYING, share(1), share(2)) {
+            let Some(x) = strength(WEAKEST_STAYING, share(1), share(2)) else { continue };
+            let x = x * random.exponential(1.0);
+            if x > least && share(6) * nearest <= SHADOW {
                 let place = [(i as f64 + share(3)) * SQUARE, (j as f64 + share(4)) * SQUARE];
-                found.extend(spike(view, place, x * random.exponential(1.0), [share(5), share(6)]));
+                found.extend(spike(view, place, x, [share(5), share(6)]));
             }
         }
     }
