@@ -33,6 +33,9 @@ const STEP: f64 = 0.1;
 const ALONG: [f64; 4] = [-0.8, 0.7, 2.2, 3.6];
 const HALF_WIDTH: f64 = 1.15;
 
+/// Radar, scan and its detections.
+type Asked = (usize, usize, Arc<Vec<Detection>>);
+
 /// A sequence of a world.
 #[derive(Debug)]
 pub(super) struct WorldSequence {
@@ -43,8 +46,8 @@ pub(super) struct WorldSequence {
     waves: Waves,
     /// Where each pixel of each camera looks, once it is known.
     rays: Vec<OnceLock<camera::Rays>>,
-    /// Radar, scan and detections that were asked for last: who writes a scan asks for its truth, too.
-    last: Mutex<Option<(usize, usize, Arc<Vec<Detection>>)>>,
+    /// What was asked for last: who writes a scan asks for its truth, too.
+    last: Mutex<Option<Asked>>,
     /// Share of a LiDAR's rays that meet a drop.
     rain: f64,
     seed: u64,
