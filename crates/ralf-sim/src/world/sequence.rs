@@ -19,7 +19,7 @@ use ralf::sensors::{
 };
 use ralf::space::{EgoMotion, Transform, Vector};
 use std::f64::consts::TAU;
-use std::sync::{Arc, OnceLock};
+use std::sync::{Arc, Mutex, OnceLock};
 
 /// Time of the start, ns.
 const START_NS: i64 = 1_700_000_000_000_000_000;
@@ -33,6 +33,9 @@ const STEP: f64 = 0.1;
 const ALONG: [f64; 4] = [-0.8, 0.7, 2.2, 3.6];
 const HALF_WIDTH: f64 = 1.15;
 
+/// Radar, scan and its detections.
+type Asked = (usize, usize, Arc<Vec<Detection>>);
+
 /// A sequence of a world.
 #[derive(Debug)]
 pub(super) struct WorldSequence {
@@ -43,6 +46,8 @@ pub(super) struct WorldSequence {
     waves: Waves,
     /// Where each pixel of each camera looks, once it is known.
     rays: Vec<OnceLock<camera::Rays>>,
+    /// What was asked for last: who writes a scan asks for its truth, too.
+    last: Mutex<Option<Asked>>,
     /// Share of a LiDAR's rays that meet a drop.
     rain: f64,
     seed: u64,
@@ -117,6 +122,7 @@ impl WorldSequence {
             ride,
             waves,
             rays,
+            last: Mutex::new(None),
             rain,
             seed,
         })
@@ -134,7 +140,20 @@ impl WorldSequence {
         })
     }
 
-    fn detections(&self, radar: usize, scan: usize) -> Result<Vec<Detection>, SourceError> {
+    fn detections(&self, radar: usize, scan: usize) -> Result<Arc<Vec<Detection>>, SourceError> {
+        if let Ok(last) = self.last.lock()
+            && let Some((.., found)) = last.as_ref().filter(|last| (last.0, last.1) == (radar, scan))
+        {
+            return Ok(found.clone());
+        }
+        let found = Arc::new(self.measured(radar, scan)?);
+        if let Ok(mut last) = self.last.lock() {
+            *last = Some((radar, scan, found.clone()));
+        }
+        Ok(found)
+    }
+
+    fn measured(&self, radar: usize, scan: usize) -> Result<Vec<Detection>, SourceError> {
         let t_ns = time("radar", &self.sequence.times.radars, radar, scan)?;
         let model = &self.world.radars[radar];
         let seconds = seconds(t_ns - model.clock_ns);
