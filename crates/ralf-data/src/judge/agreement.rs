@@ -13,6 +13,8 @@ pub struct Agreement {
     pub scans: Vec<(ScanId, Confusion)>,
     /// How many detections the first and the second gave these labels (SemanticKITTI ids).
     pub pairs: BTreeMap<(u16, u16), u64>,
+    /// Of detections of which both said why they are artifacts: how many the first and the second gave these causes.
+    pub causes: BTreeMap<(String, String), u64>,
 }
 
 /// A detection of which two people said different labels, or different causes where both said one, and which nobody
@@ -74,17 +76,12 @@ impl Agreement {
 
     /// For each label (SemanticKITTI id) that one of them gave: it against all others, as if these were one.
     pub fn classes(&self) -> BTreeMap<u16, Confusion> {
-        let ids: BTreeSet<u16> = self.pairs.keys().flat_map(|(first, second)| [*first, *second]).collect();
-        let of_class = |id: u16| {
-            let counts = |is: (bool, bool)| {
-                let same = |ids: &(u16, u16)| (ids.0 == id, ids.1 == id) == is;
-                self.pairs.iter().filter(|(ids, _)| same(ids)).map(|(_, count)| count).sum()
-            };
-            let [tp, r#fn] = [counts((true, true)), counts((true, false))];
-            let [fp, tn] = [counts((false, true)), counts((false, false))];
-            (id, Confusion { tp, fp, tn, r#fn })
-        };
-        ids.into_iter().map(of_class).collect()
+        against_others(&self.pairs)
+    }
+
+    /// For each cause that one of them gave where both gave one: it against all others.
+    pub fn each_cause(&self) -> BTreeMap<String, Confusion> {
+        against_others(&self.causes)
     }
 
     /// Over all scans.
@@ -99,6 +96,21 @@ impl Agreement {
         scans.sort_by_key(|(_, counts)| std::cmp::Reverse(disagreements(counts)));
         scans
     }
+}
+
+/// Each of what two people said against all else, as if that were one.
+fn against_others<T: Ord + Clone>(pairs: &BTreeMap<(T, T), u64>) -> BTreeMap<T, Confusion> {
+    let names: BTreeSet<&T> = pairs.keys().flat_map(|(first, second)| [first, second]).collect();
+    let of_one = |name: &T| {
+        let counts = |is: (bool, bool)| {
+            let same = |said: &(T, T)| (said.0 == *name, said.1 == *name) == is;
+            pairs.iter().filter(|(said, _)| same(said)).map(|(_, count)| count).sum()
+        };
+        let [tp, r#fn] = [counts((true, true)), counts((true, false))];
+        let [fp, tn] = [counts((false, true)), counts((false, false))];
+        (name.clone(), Confusion { tp, fp, tn, r#fn })
+    };
+    names.into_iter().map(of_one).collect()
 }
 
 /// How far two people agree, as [`Agreement::of`] has it, and the detections to which they gave different labels, or of
@@ -116,6 +128,9 @@ pub fn compare(first: &Corrections, second: &Corrections) -> Result<(Agreement, 
             agreement.count(scan, (one.id, other.id), (a, b));
             let Ok(number) = u32::try_from(point) else { continue };
             let causes = [&ones, &others].map(|said| said.causes.get(&number));
+            if let [Some(one), Some(other)] = causes {
+                *agreement.causes.entry((one.clone(), other.clone())).or_default() += 1;
+            }
             let other_cause = matches!(causes, [Some(one), Some(other)] if one != other);
             if (one.id != other.id || other_cause) && !ones.settled.contains(&number) {
                 let [first_cause, second_cause] = causes.map(Option::<&String>::cloned);
@@ -146,6 +161,22 @@ pub fn kappa(counts: &Confusion) -> Option<f64> {
     let agreed = share(counts.tp + counts.tn);
     let (first, second) = (share(counts.tp + counts.r#fn), share(counts.tp + counts.fp));
     let by_chance = first * second + (1.0 - first) * (1.0 - second);
+    let kappa = (agreed - by_chance) / (1.0 - by_chance);
+    kappa.is_finite().then_some(kappa)
+}
+
+/// Cohen's kappa of any number of names: `(p_o - p_e) / (1 - p_e)` with the share `p_o` of detections to which both
+/// gave the same, and the sum `p_e` over all names of the product of the shares that each gave them. `None` as of
+/// [`kappa`].
+pub fn kappa_of_names<T: Ord + Clone>(pairs: &BTreeMap<(T, T), u64>) -> Option<f64> {
+    let total = pairs.values().sum::<u64>() as f64;
+    let each = against_others(pairs);
+    let agreed = each.values().map(|counts| counts.tp as f64).sum::<f64>() / total;
+    let shares = |counts: &Confusion| {
+        let (first, second) = (counts.tp + counts.r#fn, counts.tp + counts.fp);
+        (first as f64 / total) * (second as f64 / total)
+    };
+    let by_chance: f64 = each.values().map(shares).sum();
     let kappa = (agreed - by_chance) / (1.0 - by_chance);
     kappa.is_finite().then_some(kappa)
 }
@@ -182,6 +213,23 @@ mod tests {
         assert!((found - 0.4).abs() < 1e-12);
         assert_eq!(kappa(&Confusion { tp: 3, ..Confusion::default() }), None);
         assert_eq!(kappa(&Confusion::default()), None);
+    }
+
+    /// Of ten they agree on four and three, where chance would have them agree on 0.5 0.5 + 0.3 0.4 + 0.2 0.1 = 0.39.
+    #[test]
+    fn kappa_of_three_names_is_what_it_is_by_hand_and_of_two_that_of_a_table() {
+        let pairs = BTreeMap::from([
+            (("a", "a"), 4),
+            (("a", "b"), 1),
+            (("b", "b"), 3),
+            (("c", "a"), 1),
+            (("c", "c"), 1),
+        ]);
+        assert!((kappa_of_names(&pairs).unwrap() - 0.41 / 0.61).abs() < 1e-12);
+        let two = BTreeMap::from([(("a", "a"), 20), (("a", "b"), 5), (("b", "a"), 10), (("b", "b"), 15)]);
+        assert!((kappa_of_names(&two).unwrap() - 0.4).abs() < 1e-12);
+        assert_eq!(kappa_of_names(&BTreeMap::from([(("a", "a"), 3)])), None);
+        assert_eq!(kappa_of_names::<u16>(&BTreeMap::new()), None);
     }
 
     #[test]

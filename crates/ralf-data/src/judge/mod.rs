@@ -7,7 +7,9 @@ mod evaluation;
 mod queue;
 mod told;
 
-pub use agreement::{Agreement, Difference, compare, disagreements, is_about_plausibility, kappa};
+pub use agreement::{
+    Agreement, Difference, compare, disagreements, is_about_plausibility, kappa, kappa_of_names,
+};
 pub use balance::{Balance, Balances};
 pub use doubt::{Certainty, DISAGREEING, Doubts, SURE, UNCERTAIN, is_uncertain};
 pub use evaluation::Comparison;

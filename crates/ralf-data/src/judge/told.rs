@@ -1,13 +1,14 @@
 //! How far two people agree, in JSON (docs/formats.md, section 3).
 
-use super::agreement::{Agreement, disagreements, kappa};
+use super::agreement::{Agreement, disagreements, kappa, kappa_of_names};
 use ralf::label::{ARTIFACT, PLAUSIBLE, class_name};
 use ralf::metrics::Confusion;
 use serde_json::{Map, Value, json};
 use std::collections::BTreeMap;
 
 impl Agreement {
-    /// All of it, with kappa over all, by sequence, by radar, and of each label against all others.
+    /// All of it, with kappa over all, by sequence, by radar, of each label against all others,
+    /// and of causes where both said one.
     pub fn json(&self) -> Value {
         let scans = self.disagreements().into_iter().map(|(scan, counts)| {
             json!({ "sequence": scan.sequence, "radar": scan.radar, "scan": scan.scan,
@@ -19,7 +20,17 @@ impl Agreement {
             "sequences": named(self.sequences()),
             "radars": named(self.radars()),
             "classes": classes.collect::<Map<_, _>>(),
+            "causes": self.causes_json(),
             "disagreements": scans.collect::<Vec<_>>(),
+        })
+    }
+
+    fn causes_json(&self) -> Value {
+        let each = self.each_cause().into_iter().map(|(cause, counts)| (cause, class(&counts)));
+        json!({
+            "said_by_both": self.causes.values().sum::<u64>(),
+            "kappa": kappa_of_names(&self.causes),
+            "each": each.collect::<Map<_, _>>(),
         })
     }
 }

@@ -1,21 +1,20 @@
 //! Kinds: detections all over a sequence that one answer can be about, however far apart they lie.
 //!
-//! A kind has one label by the machine, one [`Sign`] in its evidence, and contradicts the [shipped
-//! model](ralf::learned::Model), which has read all evidence, about as much. So a question about it is short: "these
-//! are weaker than most of their scan, and are called plausible: are they?" Nothing is changed by asking.
+//! A kind has one label by the machine and one [`Sign`] in its evidence. So a question about it is short: "these are
+//! weaker than most of their scan, and are called plausible: are they?" It is asked of those that the [shipped
+//! model](ralf::learned::Model), which has read all evidence, contradicts the most; who is asked may draw the line
+//! between these and the others elsewhere. Nothing is changed by asking.
 
-use super::heard::{Heard, Lesson};
+use super::heard::{Heard, Lesson, usual};
 use super::sign::{Sign, Signs};
 use super::{Answer, Observed, SequenceThings};
+use ralf::learned::probability;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::{self, Display};
 use std::str::FromStr;
 
-/// What is the other with a lower probability isn't asked about: of what is called plausible, and of what is called an
-/// artifact. Beside the paper's method, which needs other sensors to believe a detection, a model that doesn't is bold.
-const ASKED: [f64; 2] = [0.15, 0.5];
-/// From this probability on the model contradicts the label surely: of what is called plausible, and of an artifact.
-const SURELY: [f64; 2] = [0.5, 0.85];
+/// What is the other with a lower probability is of no kind.
+const ASKED: f64 = 0.05;
 /// A question that is expected to mend fewer labels isn't worth an answer.
 const WORTH: f64 = 1.0;
 
@@ -26,23 +25,24 @@ pub struct KindName {
     pub plausible: bool,
     /// What its evidence shows.
     pub sign: Sign,
-    /// Whether the model contradicts the label surely.
-    pub surely: bool,
 }
 
 impl KindName {
-    /// Of a detection that the model calls the other with this probability; `None` of one that isn't asked about.
-    fn of(plausible: bool, contrary: f64, sign: Sign) -> Option<Self> {
-        let by_label = usize::from(!plausible);
-        let surely = contrary >= SURELY[by_label];
-        (contrary >= ASKED[by_label]).then_some(Self { plausible, sign, surely })
+    /// Of a detection that the model calls plausible with these log odds; `None` of one that isn't asked about.
+    fn of(plausible: bool, log_odds: f64, sign: Sign) -> Option<Self> {
+        let name = Self { plausible, sign };
+        (probability(name.way() * (log_odds + usual(sign))) >= ASKED).then_some(name)
+    }
+
+    /// 1 where the other label would be plausible, else -1.
+    fn way(self) -> f64 {
+        if self.plausible { -1.0 } else { 1.0 }
     }
 }
 
 impl Display for KindName {
     fn fmt(&self, to: &mut fmt::Formatter) -> fmt::Result {
-        let label = if self.plausible { "plausible" } else { "artifact" };
-        write!(to, "{label}-{}-{}", self.sign.name(), if self.surely { "surely" } else { "perhaps" })
+        write!(to, "{}-{}", if self.plausible { "plausible" } else { "artifact" }, self.sign.name())
     }
 }
 
@@ -50,11 +50,9 @@ impl FromStr for KindName {
     type Err = ();
 
     fn from_str(text: &str) -> Result<Self, ()> {
-        let all = [true, false].into_iter().flat_map(|plausible| {
-            let signs = Sign::ALL.into_iter();
-            signs.flat_map(move |sign| [true, false].map(|surely| Self { plausible, sign, surely }))
-        });
-        all.into_iter().find(|name| name.to_string() == text).ok_or(())
+        let all = [true, false].into_iter();
+        let mut all = all.flat_map(|plausible| Sign::ALL.map(|sign| Self { plausible, sign }));
+        all.find(|name| name.to_string() == text).ok_or(())
     }
 }
 
@@ -65,9 +63,14 @@ pub struct Kind {
     pub name: KindName,
     /// They, in rising order.
     pub rows: Vec<usize>,
-    /// How many of them are expected to be wrong, after what was said of others.
+    /// Of each of them, how many are contradicted more: the order in which they are wrong more and more rarely.
+    pub ranks: Vec<usize>,
+    /// How many of the first in that order are more probably wrong than right, after what was said of others: at least
+    /// one.
+    pub asked: usize,
+    /// How many of all are expected to be wrong, after what was said of others.
     pub expected_errors: f64,
-    /// How many wrong labels fewer are expected once it is answered: more than nothing, for it can be passed over.
+    /// How many wrong labels fewer are expected once it is answered with the line where it should be.
     pub worth: f64,
 }
 
@@ -79,9 +82,9 @@ struct Members {
 }
 
 impl SequenceThings {
-    /// The kinds that want an answer, those first that are worth most; one of which the model isn't sure comes after
-    /// the one like it of which it is. `passed`: kinds whose label is right for most, as somebody said by passing over
-    /// them; they aren't asked about again, and are heard as an answer is for kinds that are like them.
+    /// The kinds that want an answer, those first that are worth most. `passed`: kinds that somebody was asked about:
+    /// what nobody said anything of is right for most, and heard as an answer is for kinds that are like them; they
+    /// aren't asked about again.
     pub fn kinds(
         &self,
         observed: &Observed,
@@ -103,22 +106,10 @@ impl SequenceThings {
             }
         }
         let heard = Heard::of(&lessons);
-        let is_asked = |name: &KindName| {
-            !passed.contains(name) && members.get(name).is_some_and(|members| !members.open.is_empty())
-        };
-        // Where the model is surer comes first: the answer there tells whether the rest is worth one.
-        let is_next = |name: &KindName| {
-            is_asked(name) && (name.surely || !is_asked(&KindName { surely: true, ..*name }))
-        };
-        let kind = |(name, members): (&KindName, &Members)| {
-            let way = if name.plausible { -1.0 } else { 1.0 };
-            let contrary: Vec<f64> = members.open.iter().map(|at| way * observed.log_odds(*at)).collect();
-            let (expected_errors, worth) = heard.worth(name.sign, way, &contrary);
-            let rows = members.open.iter().map(|at| observed.of[*at]).collect();
-            Kind { name: *name, rows, expected_errors, worth }
-        };
-        let asked = members.iter().filter(|(name, _)| is_next(name));
-        let mut kinds: Vec<Kind> = asked.map(kind).filter(|kind| kind.worth >= WORTH).collect();
+        let asked =
+            members.iter().filter(|(name, members)| !passed.contains(name) && !members.open.is_empty());
+        let kinds = asked.map(|(name, members)| kind(*name, &members.open, observed, &heard));
+        let mut kinds: Vec<Kind> = kinds.filter(|kind| kind.worth >= WORTH).collect();
         kinds.sort_by(|a, b| b.worth.total_cmp(&a.worth).then(a.name.cmp(&b.name)));
         kinds
     }
@@ -132,15 +123,32 @@ impl SequenceThings {
         let mut members: BTreeMap<KindName, Members> = BTreeMap::new();
         for (at, row) in observed.of.iter().enumerate() {
             let plausible = self.sightings()[*row].plausible;
-            let probability = observed.probability[at];
-            let contrary = if plausible { 1.0 - probability } else { probability };
             let sign = signs.sign(&observed.rows, at, plausible);
-            let Some(name) = KindName::of(plausible, contrary, sign) else { continue };
+            let Some(name) = KindName::of(plausible, observed.log_odds(at), sign) else { continue };
             let members = members.entry(name).or_default();
             if answers[*row].is_some() { members.said.push(at) } else { members.open.push(at) }
         }
         members
     }
+}
+
+/// A question about detections by their places in what was observed.
+fn kind(name: KindName, open: &[usize], observed: &Observed, heard: &Heard) -> Kind {
+    let way = name.way();
+    let contrary: Vec<f64> = open.iter().map(|at| way * observed.log_odds(*at)).collect();
+    let (expected_errors, worth) = heard.worth(name.sign, way, &contrary);
+    let asked = contrary.iter().filter(|l| *l + heard.offset(name.sign, way) >= 0.0).count();
+    let rows = open.iter().map(|at| observed.of[*at]).collect();
+    Kind { name, rows, ranks: ranks(&contrary), asked: asked.max(1), expected_errors, worth }
+}
+
+/// The place of each value in falling order; of equal ones the first comes first.
+fn ranks(values: &[f64]) -> Vec<usize> {
+    let mut order: Vec<usize> = (0..values.len()).collect();
+    order.sort_by(|a, b| values[*b].total_cmp(&values[*a]).then(a.cmp(b)));
+    let mut ranks = vec![0; values.len()];
+    order.into_iter().enumerate().for_each(|(rank, at)| ranks[at] = rank);
+    ranks
 }
 
 #[cfg(test)]
@@ -153,25 +161,26 @@ mod tests {
         let mut names = BTreeSet::new();
         for plausible in [true, false] {
             for sign in Sign::ALL {
-                for surely in [true, false] {
-                    let name = KindName { plausible, sign, surely };
-                    assert_eq!(name.to_string().parse(), Ok(name));
-                    names.insert(name.to_string());
-                }
+                let name = KindName { plausible, sign };
+                assert_eq!(name.to_string().parse(), Ok(name));
+                names.insert(name.to_string());
             }
         }
-        assert_eq!(names.len(), 28);
-        assert_eq!("plausible-weak".parse::<KindName>(), Err(()));
+        assert_eq!(names.len(), 14);
+        assert_eq!("plausible".parse::<KindName>(), Err(()));
     }
 
     #[test]
-    fn what_the_model_hardly_contradicts_is_not_asked_about() {
-        let name = |plausible, contrary| KindName::of(plausible, contrary, Sign::Weak);
-        assert_eq!(name(true, 0.1), None);
-        assert_eq!(name(false, 0.4), None);
-        assert_eq!(name(true, 0.4).map(|name| name.surely), Some(false));
-        assert_eq!(name(true, 0.6).map(|name| name.surely), Some(true));
-        assert_eq!(name(false, 0.6).map(|name| name.surely), Some(false));
-        assert_eq!(name(false, 0.9).map(|name| name.surely), Some(true));
+    fn what_the_model_hardly_contradicts_is_of_no_kind() {
+        // It is more probably an artifact than the model says: 5 % is a log odds of -2.94.
+        let is_asked = |plausible, log_odds| KindName::of(plausible, log_odds, Sign::Weak).is_some();
+        assert!(!is_asked(true, 5.0) && is_asked(true, 4.9));
+        assert!(!is_asked(false, -1.0) && is_asked(false, -0.9));
+    }
+
+    #[test]
+    fn what_is_contradicted_most_comes_first() {
+        assert_eq!(ranks(&[0.5, 2.0, -1.0, 2.0]), [2, 0, 3, 1]);
+        assert!(ranks(&[]).is_empty());
     }
 }

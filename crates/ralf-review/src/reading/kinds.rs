@@ -1,6 +1,6 @@
 //! Which detections all over a sequence one question can be about.
 
-use super::opinion::{bases, half_of_the_machine};
+use super::opinion::{bases, by_all_that_is_said, half_of_the_machine};
 use super::said::Said;
 use super::{read_time, things};
 use crate::app::App;
@@ -32,23 +32,19 @@ pub(crate) fn kinds(app: &App, sequence: &str, asked: &AskedKinds) -> Answer {
     let labels = app.labels(index)?;
     let things = labels.things(reader)?;
     let observed = labels.observed(reader, &things, (t_ns, half_of_the_machine()))?;
-    // Revisions belong to these answers only if nobody has said more since.
-    let first_said = Said::of(app, index, reader)?.answers(app, &things)?;
-    let found = things.kinds(&observed, &first_said, &passed);
-    let sequence = reader.sequence();
-    let rows = found.first().map(|kind| kind.rows.as_slice()).unwrap_or_default();
-    let base = bases(app, (sequence, &things), rows.iter())?;
-    if Said::of(app, index, reader)?.answers(app, &things)? != first_said {
-        let sentence = "somebody says more at this moment: ask again when that is done";
-        return Err(ApiError::Conflict(sentence.into(), serde_json::Map::new()));
-    }
-    let (looked_at, all) = observed.scans();
-    json(&json!({
-        "kinds": found.len(),
-        "next": found.first().map(|kind| row(sequence, &things, kind)),
-        "base": base,
-        "scans": { "looked_at": looked_at, "all": all },
-    }))
+    let said = || Said::of(app, index, reader)?.answers(app, &things);
+    let question = by_all_that_is_said(said, |answers| {
+        let found = things.kinds(&observed, answers, &passed);
+        let rows = found.first().map(|kind| kind.rows.as_slice()).unwrap_or_default();
+        let (looked_at, all) = observed.scans();
+        Ok(json!({
+            "kinds": found.len(),
+            "next": found.first().map(|kind| row(reader.sequence(), &things, kind)),
+            "base": bases(app, (reader.sequence(), &things), rows.iter())?,
+            "scans": { "looked_at": looked_at, "all": all },
+        }))
+    });
+    question.and_then(|question| json(&question))
 }
 
 fn passed(names: &str) -> Result<BTreeSet<KindName>, ApiError> {
@@ -77,5 +73,7 @@ fn row(sequence: &Sequence, known: &SequenceThings, kind: &Kind) -> Value {
         "radar": sequence.rig.radars[radar].name,
         "scan": scan,
         "points": things::points(sequence, known, &kind.rows),
+        "ranks": kind.ranks,
+        "asked": kind.asked,
     })
 }

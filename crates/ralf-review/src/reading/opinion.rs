@@ -33,13 +33,23 @@ pub(crate) fn opinion(app: &App, sequence: &str, asked: &Around) -> Answer {
     let labels = app.labels(index)?;
     let things = labels.things(reader)?;
     let said = || Said::of(app, index, reader)?.answers(app, &things);
+    let opinion =
+        by_all_that_is_said(said, |answers| learned(app, (reader, &labels, &things), t_ns, answers));
+    opinion.and_then(|opinion| json(&opinion))
+}
+
+/// What is found by the answers of people; found again where somebody says more meanwhile, for revisions that are read
+/// after the answers belong to these only if nobody has.
+pub(super) fn by_all_that_is_said(
+    said: impl Fn() -> Result<Vec<Option<data::Answer>>, ApiError>,
+    find: impl Fn(&[Option<data::Answer>]) -> Result<Value, ApiError>,
+) -> Result<Value, ApiError> {
     let mut answers = said()?;
     for _ in 0..ROUNDS {
-        let opinion = learned(app, (reader, &labels, &things), t_ns, &answers)?;
-        // Scans' revisions were read after the answers: they belong to these only if nobody has said more since.
+        let found = find(&answers)?;
         let now = said()?;
         if now == answers {
-            return json(&opinion);
+            return Ok(found);
         }
         answers = now;
     }

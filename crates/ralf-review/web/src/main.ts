@@ -146,14 +146,17 @@ function centreCameraOf(page: Page, viewport: Viewport, cameras: CamerasPanel): 
 /** After a press on a button or a choice in a list, keys are for the picture again. */
 function keepFocus(picture: HTMLElement): void {
   const back = (target: EventTarget | null): void => {
-    const control = target instanceof Element ? target.closest("button, select") : null;
+    const control = target instanceof Element ? target.closest("button, select, input[type=range]") : null;
     if (control !== null && control.closest("dialog, .conflict, .accept") === null)
       picture.focus({ preventScroll: true });
   };
   document.addEventListener("click", (event) => {
     if (event.detail > 0 && !(event.target instanceof HTMLSelectElement)) back(event.target);
   });
-  document.addEventListener("change", (event) => back(event.target));
+  // Arrow keys change a slider again and again.
+  document.addEventListener("change", (event) => {
+    if (!(event.target instanceof HTMLInputElement)) back(event.target);
+  });
 }
 
 start().catch((error: unknown) => {

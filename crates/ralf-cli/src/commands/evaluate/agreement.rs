@@ -6,7 +6,7 @@ use crate::progress::say;
 use crate::text::{aligned, decimal, grouped, print};
 use anyhow::bail;
 use ralf::metrics::Confusion;
-use ralf_data::judge::{Agreement, disagreements, kappa, label_name};
+use ralf_data::judge::{Agreement, disagreements, kappa, kappa_of_names, label_name};
 use ralf_data::{Corrections, Recording};
 use std::path::Path;
 
@@ -40,7 +40,7 @@ fn table(agreement: &Agreement) -> String {
     rows.extend(all.map(|(name, counts)| row(name, &counts)));
     rows.extend(agreement.radars().into_iter().map(|(name, counts)| row(name, &counts)));
     let named = agreement.disagreements();
-    let mut text = aligned(&rows) + "\n" + &classes(agreement);
+    let mut text = aligned(&rows) + "\n" + &classes(agreement) + &causes(agreement);
     if !named.is_empty() {
         text += &format!("\nThey disagree in {} scans, most in:\n", grouped(named.len() as u64));
     }
@@ -52,12 +52,29 @@ fn table(agreement: &Agreement) -> String {
 
 /// Each label against all others.
 fn classes(agreement: &Agreement) -> String {
-    let mut rows = vec![["", "both", "first alone", "second alone", "kappa"].map(str::to_owned).to_vec()];
-    rows.extend(agreement.classes().into_iter().map(|(id, counts)| {
-        let numbers = [counts.tp, counts.r#fn, counts.fp].map(grouped);
-        [vec![label_name(id)], numbers.to_vec(), vec![decimal(kappa(&counts))]].concat()
-    }));
+    let mut rows = vec![heads("")];
+    rows.extend(agreement.classes().iter().map(|(id, counts)| against(&label_name(*id), counts)));
     aligned(&rows)
+}
+
+/// Each cause against all others, where both said one; nothing where nobody did.
+fn causes(agreement: &Agreement) -> String {
+    if agreement.causes.is_empty() {
+        return String::new();
+    }
+    let mut rows = vec![heads("cause")];
+    rows.extend(agreement.each_cause().iter().map(|(cause, counts)| against(cause, counts)));
+    let (said, all) = (agreement.causes.values().sum(), decimal(kappa_of_names(&agreement.causes)));
+    format!("\n{}Both said a cause of {}: kappa {all}\n", aligned(&rows), grouped(said))
+}
+
+fn heads(first: &str) -> Vec<String> {
+    [first, "both", "first alone", "second alone", "kappa"].map(str::to_owned).to_vec()
+}
+
+fn against(name: &str, counts: &Confusion) -> Vec<String> {
+    let numbers = [counts.tp, counts.r#fn, counts.fp].map(grouped);
+    [vec![name.to_owned()], numbers.to_vec(), vec![decimal(kappa(counts))]].concat()
 }
 
 fn row(name: &str, counts: &Confusion) -> Vec<String> {

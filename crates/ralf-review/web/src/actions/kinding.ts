@@ -3,7 +3,8 @@
 import type { Kind } from "../api/kinds.js";
 import { type Cloud, findScan, maskOf } from "../data/cloud.js";
 import type { Choice } from "../data/labels.js";
-import { countOfPoints, keptPoints } from "../data/opinion.js";
+import { lineAt, linesOf, within } from "../data/kinds.js";
+import { keptPoints } from "../data/opinion.js";
 import { countOf, intersection } from "../selection/mask.js";
 import { type Focus, NOTHING_LOOKED_AT } from "../state.js";
 import type { Correcting } from "./correcting.js";
@@ -15,7 +16,7 @@ import { complain, tell, type World } from "./world.js";
 const LEAST_SHOWN = 24;
 
 export class Kinding {
-  /** Kinds that were passed over since the sequence was opened: most of them are right. */
+  /** Kinds that were asked about since the sequence was opened: what is left of them is right for most. */
   private passed = new Set<string>();
   private readonly lookedIn: LookedIn;
 
@@ -48,6 +49,26 @@ export class Kinding {
     }
   }
 
+  /** Draws the line between what is asked about and what isn't elsewhere: at one of `linesOf`. */
+  draw(line: number): void {
+    const { store } = this.world;
+    const { kind, cloud, selection, eligible } = store.state;
+    if (kind === null || selection.length !== cloud.count) return;
+    const lines = linesOf(kind.detections);
+    const other = { ...kind, asked: lines[Math.max(0, Math.min(lines.length - 1, line))] };
+    // What was spared with a tool stays spared.
+    const before = maskOf(cloud, within(kind));
+    const spared = selection.map((is, i) => before[i] & eligible[i] & (1 - is));
+    const wanted = intersection(maskOf(cloud, within(other)), eligible);
+    store.set({ kind: other, selection: wanted.map((is, i) => is & (1 - spared[i])) });
+  }
+
+  /** Draws the line a step farther on, or back. */
+  move(step: number): void {
+    const { kind } = this.world.store.state;
+    if (kind !== null) this.draw(lineAt(linesOf(kind.detections), kind.asked) + step);
+  }
+
   /** Says what all that is selected of it is, as one step, and goes on. */
   answer(choice: Choice): void {
     this.say(choice).catch((error: unknown) => complain(this.world, error));
@@ -57,10 +78,10 @@ export class Kinding {
     const { store } = this.world;
     const { kind, cloud, selection } = store.state;
     if (kind === null) return;
-    const points = keptPoints(kind.points, cloud, selection);
+    const points = keptPoints(within(kind), cloud, selection);
     if (points.length === 0) return tell(this.world, "None of these is selected, so nothing is said of them.");
-    // What was spared stays as it is, which is an answer, too.
-    if (countOfPoints(points) < kind.detections) this.passed.add(kind.kind);
+    // What was spared and what lies beyond the line stays as it is, which is an answer, too.
+    this.passed.add(kind.kind);
     if (!(await this.correcting.answerKind(points, kind.base, choice))) return;
     if (store.state.outbox.kind === "idle") await this.ask();
   }
@@ -79,7 +100,8 @@ export class Kinding {
       const { thing, opinion, selection } = store.state;
       if (thing !== null || opinion !== null || countOf(selection) > 0)
         return tell(this.world, "A kind is known that may be wrong, but you are at something: Shift+G shows it.");
-      await this.show({ ...next, base, left: kinds - 1, scans });
+      const lines = linesOf(next.detections);
+      await this.show({ ...next, asked: lines[lineAt(lines, next.asked)], base, left: kinds - 1, scans });
     } finally {
       store.set({ thinking: false });
     }
@@ -95,7 +117,7 @@ export class Kinding {
     });
     if (sequence !== store.state.sequence) return;
     const { cloud, eligible } = store.state;
-    const selection = intersection(maskOf(cloud, kind.points), eligible);
+    const selection = intersection(maskOf(cloud, within(kind)), eligible);
     this.lookedIn.here();
     store.set({ ...NOTHING_LOOKED_AT, kind, selection, armed: undefined, focus: around(cloud, selection) });
   }

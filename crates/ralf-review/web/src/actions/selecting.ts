@@ -108,8 +108,10 @@ export class Selecting {
     if (tool === "thing") this.begin(this.things.load().then(() => undefined));
   }
 
+  /** The next larger or smaller brush; while a kind is looked at, more or fewer of it. */
   brush(step: 1 | -1): void {
     const { store } = this.world;
+    if (store.state.kind !== null) return this.kinds.move(step);
     const now = BRUSHES.findIndex((radius) => radius >= store.state.brush);
     store.set({ brush: BRUSHES[Math.min(Math.max(now + step, 0), BRUSHES.length - 1)] });
   }

@@ -18,6 +18,10 @@ export interface AskedKind extends ScanId {
   /** How many wrong labels fewer are expected once it is answered. */
   readonly worth: number;
   readonly points: readonly ScanPoints[];
+  /** Of each detection of `points` in turn: how many of them all evidence contradicts more. */
+  readonly ranks: readonly number[];
+  /** So many of the first ranks are more probably wrong than right; once it is looked at, so many are asked about. */
+  readonly asked: number;
 }
 
 /** The kind whose answer is worth most, and how many there are. */

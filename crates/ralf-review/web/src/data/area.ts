@@ -53,13 +53,16 @@ export function cornersHere({ corners }: Area, cloud: Cloud): readonly Point[] {
   });
 }
 
-/** 1 for each detection that lies in all of the areas; those of another sequence have nothing in them. */
+/**
+ * 1 for each detection that lies in all of the areas, where it was measured, whatever is held still; those of another
+ * sequence have nothing in them.
+ */
 export function inAreas(cloud: Cloud, areas: readonly Area[], home: Home, labels: LabelBook): Uint8Array {
   const inside = new Uint8Array(cloud.count).fill(1);
   for (const area of areas) {
     const has = liesIn(area, home) ? asked(area, cloud, labels) : (): boolean => false;
     for (let i = 0; i < cloud.count; i++) {
-      const at: Point = [cloud.positions[3 * i], cloud.positions[3 * i + 1]];
+      const at: Point = [cloud.measured[3 * i], cloud.measured[3 * i + 1]];
       if (inside[i] === 1 && !has(at, i)) inside[i] = 0;
     }
   }
@@ -110,7 +113,7 @@ function plausibleCells(
   const key = (i: number, j: number): string => `${i},${j}`;
   const cell = (metres: number): number => Math.floor(metres / MIRRORED_WITHIN);
   for (let i = 0; i < cloud.count; i++) {
-    const at: Point = [cloud.positions[3 * i], cloud.positions[3 * i + 1]];
+    const at: Point = [cloud.measured[3 * i], cloud.measured[3 * i + 1]];
     if (labels.truth(cloud.label[i]) !== "plausible" || behind(at, i)) continue;
     const name = key(cell(at[0]), cell(at[1]));
     const there = cells.get(name);

@@ -76,8 +76,8 @@ function tools({ actions, closePolygon }: KeyContext): readonly Key[] {
     ...TOOLS.map((tool, i) => key([letters[i]], names[i], () => select.tool(tool))),
     repeating(key(["d"], "Choose the next detection, from left to right", () => actions.pick.step(1))),
     repeating(key(["shift+d"], "Choose the detection before", () => actions.pick.step(-1))),
-    repeating(key(["["], "Smaller brush", () => select.brush(-1))),
-    repeating(key(["]"], "Larger brush", () => select.brush(1))),
+    repeating(key(["["], "Smaller brush; fewer of a kind", () => select.brush(-1))),
+    repeating(key(["]"], "Larger brush; more of a kind", () => select.brush(1))),
     key([" "], "Close the polygon", () => void closePolygon()),
   ];
 }
@@ -194,7 +194,7 @@ export function listenToKeys(table: readonly Key[], store: Store<State>): void {
   const byName = new Map(table.flatMap((key) => key.keys.map((name) => [name, key] as const)));
   document.addEventListener("keydown", (event) => {
     const { dialog, outbox } = store.state;
-    if (dialog !== "none" || outbox.kind === "conflict" || typing(event.target)) return;
+    if (dialog !== "none" || outbox.kind === "conflict" || typing(event)) return;
     const name = keyName(event);
     if ((name === "enter" || name === " ") && event.target instanceof HTMLButtonElement) {
       // Held down, a button would be pressed again and again.
@@ -208,7 +208,11 @@ export function listenToKeys(table: readonly Key[], store: Store<State>): void {
   });
 }
 
-function typing(target: EventTarget | null): boolean {
+/** A slider's own keys. */
+const SLIDING = ["ArrowLeft", "ArrowRight", "ArrowUp", "ArrowDown", "Home", "End", "PageUp", "PageDown"];
+
+function typing({ target, key }: KeyboardEvent): boolean {
+  if (target instanceof HTMLInputElement && target.type === "range") return SLIDING.includes(key);
   return (
     target instanceof HTMLInputElement || target instanceof HTMLSelectElement || target instanceof HTMLTextAreaElement
   );

@@ -3,6 +3,7 @@
 import type { Kind, Sign } from "../api/kinds.js";
 import { findScan } from "../data/cloud.js";
 import { ARTIFACT, PLAUSIBLE } from "../data/labels.js";
+import { lineAt, linesOf, within } from "../data/kinds.js";
 import { countOfPoints, keptPoints, partOf } from "../data/opinion.js";
 import { h, say } from "../dom.js";
 import { counted } from "../format.js";
@@ -17,15 +18,24 @@ const SIGNS: Readonly<Record<Sign, string>> = {
   behind: "something tall stands in the radar's way to them",
   free: "most LiDAR scans look through the place",
   again: "scan after scan sees them again",
-  rest: "all evidence together says otherwise",
+  rest: "neither of them nor beside them is anything conspicuous",
 };
 
 export function kindBar({ store, actions }: Page): HTMLElement {
   const [what, why] = [h("b"), h("span", { class: "faint" })];
+  const line = h("input", {
+    type: "range",
+    class: "line",
+    min: "0",
+    title: "How many of them: first those that all evidence contradicts most ([ and ])",
+    "aria-label": "How many of them",
+    on: { input: () => actions.kind.draw(Number(line.value)) },
+  });
   const bar = h(
     "div",
     { class: "kind-bar", role: "group", "aria-label": "A question about many detections" },
     h("div", { class: "thing-words", role: "status" }, what, why),
+    line,
     keyButton("Plausible", "P", () => actions.select.choose(PLAUSIBLE)),
     keyButton("Artifact", "A", () => actions.select.choose(ARTIFACT)),
     keyButton("Leave", "Shift G", () => void actions.kind.next()),
@@ -38,13 +48,22 @@ export function kindBar({ store, actions }: Page): HTMLElement {
       if (kind === null || selection.length !== cloud.count) return;
       say(what, question(store.state, kind));
       say(why, reasons(kind));
+      drawn(line, kind);
     },
   );
   return bar;
 }
 
+/** The line where it is now. */
+function drawn(line: HTMLInputElement, { asked, detections }: Kind): void {
+  const lines = linesOf(detections);
+  line.max = String(lines.length - 1);
+  line.value = String(lineAt(lines, asked));
+  line.setAttribute("aria-valuetext", `${asked.toLocaleString("en")} of ${counted(detections, "detection")}`);
+}
+
 function question({ cloud, selection, labels }: Readonly<State>, kind: Kind): string {
-  const points = keptPoints(kind.points, cloud, selection);
+  const points = keptPoints(within(kind), cloud, selection);
   const elsewhere = countOfPoints(points.filter((part) => findScan(cloud, part) < 0));
   const beyond = elsewhere === 0 ? "" : ` (${elsewhere.toLocaleString("en")} of them not on screen)`;
   const where = `${counted(countOfPoints(points), "detection")} in ${counted(points.length, "scan")}`;
@@ -52,7 +71,8 @@ function question({ cloud, selection, labels }: Readonly<State>, kind: Kind): st
 }
 
 function reasons(kind: Kind): string {
-  const { sign, expected_errors: errors, left } = kind;
-  const wrong = `some ${Math.round(errors).toLocaleString("en")} expected to be wrong${partOf(kind)}`;
+  const { sign, detections, expected_errors: errors, left } = kind;
+  const [all, some] = [detections, Math.round(errors)].map((count) => count.toLocaleString("en"));
+  const wrong = `of all ${all} some ${some} expected to be wrong${partOf(kind)}`;
   return [SIGNS[sign], wrong, `${counted(left, "question")} after this`].join(" · ");
 }

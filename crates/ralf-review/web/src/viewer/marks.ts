@@ -12,7 +12,8 @@ export function marksOf(
   cloud: Cloud,
   masks: {
     readonly shown: Uint8Array;
-    readonly eligible: Uint8Array;
+    /** What strokes may change, or what is asked about: all else is faint. */
+    readonly near: Uint8Array;
     readonly selection: Uint8Array;
     /** Those of strokes that aren't saved yet. */
     readonly waiting: Uint8Array;
@@ -24,7 +25,7 @@ export function marksOf(
     if (masks.shown[i] === 0) return Mark.hidden;
     if (masks.selection[i] === 1) return Mark.selected;
     if (masks.waiting[i] === 1) return Mark.waiting;
-    if (masks.eligible[i] === 0) return Mark.context;
+    if (masks.near[i] === 0) return Mark.context;
     if (cloud.corrected[i] === 1) return Mark.corrected;
     return isUncertain(score[i], flags[i], certainty) ? Mark.uncertain : Mark.plain;
   });

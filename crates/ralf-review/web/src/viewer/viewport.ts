@@ -98,13 +98,20 @@ export class Viewport {
       },
     );
     store.watch(
-      ({ cloud, shown, eligible, selection, waiting: strokes }) => [cloud, shown, eligible, selection, strokes],
-      (cloud, shown, eligible, selection, strokes) => {
+      ({ cloud, shown, eligible, selection, waiting, kind }) => [
+        cloud,
+        shown,
+        eligible,
+        selection,
+        waiting,
+        kind === null,
+      ],
+      (cloud, shown, eligible, selection, strokes, nothingAsked) => {
         if (shown.length !== cloud.count || selection.length !== cloud.count) return;
         const waiting = maskOf(cloud, pointsOf(strokes));
-        view.radar.setMarks(
-          marksOf(cloud, { shown, eligible, selection, waiting }, certaintyOf(store.state.recording)),
-        );
+        // Beside what is asked about everything else is faint.
+        const near = nothingAsked ? eligible : selection;
+        view.radar.setMarks(marksOf(cloud, { shown, near, selection, waiting }, certaintyOf(store.state.recording)));
         this.changed();
       },
     );

@@ -30,14 +30,16 @@ const { RALF_ANNOTATE, RALF_PROGRAM, RALF_ANNOTATE_SCANS = "275", RALF_ANNOTATE_
 /** At most so many gestures for each corrected detection; without things, maps and kinds it was 1.5. */
 const EACH = 0.03;
 /** A tenth of the scans' worth of gestures, and at least this share of the wrong labels is gone after them. */
-const [FEW, GONE] = [10, 0.42];
+const [FEW, GONE] = [10, 0.5];
 /** Half of the wrong labels are gone after this many at most. */
-const HALF = 35;
+const HALF = 15;
 /** The share of wrong labels at which it is enough. */
 const ENOUGH = Number(RALF_ANNOTATE_UNTIL);
 /** A lasso that corrects fewer isn't worth the way. */
 const WORTH = 7;
 const PLACES = 150;
+/** The line between what is asked about and what isn't is drawn elsewhere where this share of a kind more is right then. */
+const CLEARLY = 0.05;
 /** Who has left so many kinds as they are in turn looks for something else to do. */
 const VAIN = Number(process.env.RALF_ANNOTATE_KINDS ?? 4);
 /** After so many gestures, and then after each half as many again, the page is asked to relabel by what was said. */
@@ -189,7 +191,8 @@ async function nextPlace(page, press) {
 
 /**
  * Goes through the kinds that the page asks about, until so many in turn were left as they are or none is left: each is
- * answered where that makes more labels right than wrong. Gives the number of gestures.
+ * answered where that makes more labels right than wrong; where that is clearly better the line is drawn elsewhere first,
+ * by one drag of the slider. Gives the number of gestures.
  */
 async function answeredKinds(server, page, all, after) {
   const labels = new Map(
@@ -210,21 +213,69 @@ async function answeredKinds(server, page, all, after) {
       points.map((point) => all[all.starts.get(`${radar}/${scan}`) + point]),
     );
     const called = labels.get(next.label);
-    const gain = rows.reduce((sum, { truth }) => sum + (truth === called ? -1 : 1), 0);
-    console.log(`${next.kind}: ${rows.length} detections, ${gain} more are right if it's said`);
-    if (gain < WORTH) {
+    const gains = gainsAt(rows, next.ranks, called);
+    const line = page.locator(".kind-bar .line");
+    let at = Number(await line.inputValue());
+    assert.equal(Number(await line.getAttribute("max")), gains.length - 1);
+    const best = gains.indexOf(Math.max(...gains));
+    const [gain, more] = [gains[best], gains[best] - Math.max(0, gains[at])];
+    const drawn = gain >= WORTH && more >= Math.max(WORTH, CLEARLY * rows.length);
+    if (drawn) {
+      gestures += 1;
+      await slide(page, line, best);
+      at = best;
+    }
+    const chosen = rows.filter((_, i) => next.ranks[i] < linesOf(rows.length)[at]);
+    console.log(
+      `${next.kind}: ${chosen.length} of ${rows.length} detections${drawn ? ", by a drag" : ""}, ${gains[at]} more are right if it's said`,
+    );
+    if (gains[at] < WORTH) {
       key = "Shift+G";
       inVain += 1;
       continue;
     }
     inVain = 0;
     key = called ? "a" : "p";
-    for (const row of rows) row.label = !called;
+    for (const row of chosen) row.label = !called;
     after(gestures + 1);
   }
   // What is looked at last is neither answered nor in the way.
   await page.keyboard.press("Escape");
   return gestures + 1;
+}
+
+/** How many more labels are right once all up to each line have the other label. */
+function gainsAt(rows, ranks, called) {
+  const byRank = [];
+  rows.forEach(({ truth }, i) => (byRank[ranks[i]] = truth === called ? -1 : 1));
+  let gain = 0;
+  const sums = byRank.map((one) => (gain += one));
+  return linesOf(rows.length).map((count) => sums[count - 1]);
+}
+
+/** How many detections lie before each line that the slider can stand at. */
+function linesOf(detections) {
+  return [...new Set(Array.from({ length: 20 }, (_, i) => Math.max(1, Math.round((detections * (i + 1)) / 20))))];
+}
+
+/** Drags a slider until it stands at a line, with an eye on where it stands. */
+async function slide(page, slider, wanted) {
+  const box = await slider.boundingBox();
+  const last = Number(await slider.getAttribute("max"));
+  const stands = async () => Number(await slider.inputValue());
+  const [y, step] = [box.y + box.height / 2, box.width / last];
+  const place = (at) => box.x + step * at;
+  await page.mouse.move(place(await stands()), y);
+  await page.mouse.down();
+  let x = place(wanted);
+  for (let moves = 0; moves < 40; moves += 1) {
+    await page.mouse.move(x, y);
+    const off = wanted - (await stands());
+    if (off === 0) break;
+    x += (off * step) / 4;
+  }
+  await page.mouse.up();
+  assert.equal(await stands(), wanted);
 }
 
 /** Asks what would change by what was said, looks at it, and accepts it where it's more right than wrong. */

@@ -1,21 +1,7 @@
 // 200,000 LiDAR points and twenty radar scans: drawn only when something changes, and how long a frame takes then.
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import {
-  anotherBrowser,
-  ask,
-  atEnd,
-  clean,
-  current,
-  freshOut,
-  launch,
-  open,
-  picture,
-  says,
-  scanOf,
-  serve,
-  settled,
-} from "./support.mjs";
+import { ask, atEnd, clean, current, launch, opened, picture, says, scanOf, settled } from "./support.mjs";
 
 const POINTS = 200_000;
 
@@ -54,9 +40,7 @@ function lidarTable(count, placeOf, more) {
 test("200,000 LiDAR points and twenty radar scans are drawn when the view moves, and only then", async (context) => {
   const browser = await launch();
   atEnd(context, () => browser.close());
-  const server = await serve(context, await freshOut(context));
-  const tab = await open(context, browser, server);
-  const { page } = tab;
+  const { tab, page } = await opened(context, browser);
   await page.route("**/lidars/*/scans/*", (route) =>
     route.fulfill({ contentType: "application/octet-stream", body: lidarTable(POINTS, onRings) }),
   );
@@ -105,10 +89,7 @@ async function turning(page) {
 test("what is held still has the LiDAR's points of all its scans around it, and lets them go", async (context) => {
   const browser = await launch();
   atEnd(context, () => browser.close());
-  const server = await serve(context, await freshOut(context));
-  const own = await anotherBrowser(context, browser, { width: 1280, height: 720 });
-  const tab = await open(context, browser, server, own);
-  const { page } = tab;
+  const { server, tab, page } = await opened(context, browser, { width: 1280, height: 720 });
   const { sequences } = await (await ask(server, "recording")).json();
   const [{ name, lidars }] = sequences;
   const asked = [];

@@ -10,14 +10,15 @@ import {
   historyOf,
   launch,
   open,
+  opened,
   queueOf,
   ready,
   relabel,
-  settled,
   says,
   scanOf,
   selected,
   serve,
+  settled,
   status,
 } from "./support.mjs";
 
@@ -34,9 +35,7 @@ after(() => browser.close());
 const reviewed = async (server) => (await queueOf(server)).progress.reviewed;
 
 test("Enter that is held down accepts one scan, and none unseen", async (context) => {
-  const server = await serve(context, await freshOut(context));
-  const tab = await open(context, browser, server);
-  const { page } = tab;
+  const { server, tab, page } = await opened(context, browser);
   await page.keyboard.press("f");
   await page.waitForTimeout(300);
   for (let repeat = 0; repeat < 30; repeat += 1) {
@@ -52,9 +51,7 @@ test("Enter that is held down accepts one scan, and none unseen", async (context
 });
 
 test("what was never on screen is counted before it is accepted; F shows it; undo takes the mark back", async (context) => {
-  const server = await serve(context, await freshOut(context));
-  const tab = await open(context, browser, server);
-  const { page } = tab;
+  const { server, tab, page } = await opened(context, browser);
   const id = await current(page);
   await page.keyboard.press("Shift+P");
   // Nearer, so that some are beside the picture.
@@ -157,9 +154,7 @@ test("61 large strokes that wait for the server outlive a reload, and a window t
 });
 
 test("an answer that is lost makes neither a conflict nor a second stroke", async (context) => {
-  const server = await serve(context, await freshOut(context));
-  const tab = await open(context, browser, server);
-  const { page } = tab;
+  const { server, tab, page } = await opened(context, browser);
   let lost = 0;
   await page.route(/\/(strokes|undo)$/, async (route) => {
     if (lost >= 2) return route.continue();

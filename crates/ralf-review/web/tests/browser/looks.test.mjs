@@ -3,21 +3,19 @@ import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
 import {
   accept,
-  anotherBrowser,
   clean,
   current,
   drag,
-  freshOut,
   historyOf,
   launch,
   open,
+  opened,
   picture,
   proposing,
   ready,
   says,
   scanOf,
   selected,
-  serve,
   settled,
 } from "./support.mjs";
 import { faultsOf } from "./faults.mjs";
@@ -29,9 +27,7 @@ before(async () => {
 after(() => browser.close());
 
 test("nothing that axe calls serious is wrong with the page, its dialogs and bars", async (context) => {
-  const server = await serve(context, await freshOut(context));
-  const tab = await open(context, browser, server);
-  const { page } = tab;
+  const { server, tab, page } = await opened(context, browser);
   const faults = (where) => faultsOf(page, where);
   await faults("the page");
   await page.keyboard.press("d");
@@ -114,9 +110,7 @@ for (const [width, height] of [
   [3840, 2160],
 ]) {
   test(`on ${width} x ${height} each toolbar is one line, and all numbers can be read`, async (context) => {
-    const server = await serve(context, await freshOut(context));
-    const tab = await open(context, browser, server, await anotherBrowser(context, browser, { width, height }));
-    const { page } = tab;
+    const { tab, page } = await opened(context, browser, { width, height });
     await page.keyboard.press("d");
     await page.waitForTimeout(400);
     await picture(page, `page-${width}`);
@@ -138,9 +132,7 @@ for (const [width, height] of [
 }
 
 test("single detections are chosen by keyboard, one after the other, and announced", async (context) => {
-  const server = await serve(context, await freshOut(context));
-  const tab = await open(context, browser, server);
-  const { page } = tab;
+  const { server, tab, page } = await opened(context, browser);
   const scan = await scanOf(server, await current(page));
   const count = scan.x.length;
   await page.keyboard.press("d");
@@ -156,9 +148,7 @@ test("single detections are chosen by keyboard, one after the other, and announc
 });
 
 test("filters and colours outlive a reload, and an odd address stops nothing", async (context) => {
-  const server = await serve(context, await freshOut(context));
-  const tab = await open(context, browser, server);
-  const { page } = tab;
+  const { server, tab, page } = await opened(context, browser);
   await page.keyboard.press("y");
   await page.keyboard.press("y");
   const colour = await page.locator(".scan-bar select").inputValue();
@@ -173,9 +163,7 @@ test("filters and colours outlive a reload, and an odd address stops nothing", a
 });
 
 test("a column that the server adds is shown and can be coloured by, without anybody naming it", async (context) => {
-  const server = await serve(context, await freshOut(context));
-  const tab = await open(context, browser, server);
-  const { page } = tab;
+  const { tab, page } = await opened(context, browser);
   await page.route("**/radars/*/scans/*", async (route) => {
     const answer = await route.fetch();
     return route.fulfill({ response: answer, body: withColumn(await answer.body()) });
@@ -191,9 +179,7 @@ test("a column that the server adds is shown and can be coloured by, without any
 });
 
 test("what is not saved has a rim of another shape than anything else", async (context) => {
-  const server = await serve(context, await freshOut(context));
-  const tab = await open(context, browser, server);
-  const { page } = tab;
+  const { tab, page } = await opened(context, browser);
   await page.route("**/strokes", () => undefined);
   await page.keyboard.press("d");
   await page.keyboard.press("a");

@@ -13,6 +13,7 @@ import {
   lassoAll,
   launch,
   open,
+  opened,
   pixel,
   planted,
   proposing,
@@ -36,9 +37,7 @@ before(async () => {
 after(() => browser.close());
 
 test("the page loads from its server alone, and shows the neediest scan with cameras and queue", async (context) => {
-  const server = await serve(context, await freshOut(context));
-  const tab = await open(context, browser, server);
-  const { page } = tab;
+  const { server, tab, page } = await opened(context, browser);
   const [first] = (await queueOf(server)).scans;
   assert.deepEqual(await current(page), { radar: first.radar, scan: first.scan });
   assert.equal(await page.locator(".queue-row[aria-selected=true]").count(), 1);
@@ -48,8 +47,7 @@ test("the page loads from its server alone, and shows the neediest scan with cam
 });
 
 test("hovering a detection shows its numbers", async (context) => {
-  const server = await serve(context, await freshOut(context));
-  const tab = await open(context, browser, server);
+  const { server, tab } = await opened(context, browser);
   const scan = await scanOf(server, await current(tab.page));
   const point = scan.range.findIndex((range) => range > 5 && range < 40);
   await tab.page.mouse.move(...(await pixel(tab.page, scan.x[point], scan.y[point])));
@@ -59,9 +57,7 @@ test("hovering a detection shows its numbers", async (context) => {
 });
 
 test("a lasso corrects, undo takes it back, redo sets it again, and a reload knows it all", async (context) => {
-  const server = await serve(context, await freshOut(context));
-  const tab = await open(context, browser, server);
-  const { page } = tab;
+  const { server, tab, page } = await opened(context, browser);
   const id = await current(page);
   await lassoAll(page);
   const count = await selected(page);
@@ -84,9 +80,7 @@ test("a lasso corrects, undo takes it back, redo sets it again, and a reload kno
 });
 
 test("what is corrected is protected until that is turned off; flipping is one step", async (context) => {
-  const server = await serve(context, await freshOut(context));
-  const tab = await open(context, browser, server);
-  const { page } = tab;
+  const { server, tab, page } = await opened(context, browser);
   const id = await current(page);
   await lassoAll(page);
   await page.keyboard.press("p");
@@ -108,9 +102,7 @@ test("what is corrected is protected until that is turned off; flipping is one s
 });
 
 test("a box in a camera's image and a brush in the free view select, and a class is found by typing", async (context) => {
-  const server = await serve(context, await freshOut(context));
-  const tab = await open(context, browser, server);
-  const { page } = tab;
+  const { server, tab, page } = await opened(context, browser);
   const camera = await page.locator(".camera.large").boundingBox();
   await page.waitForTimeout(500);
   await page.keyboard.press("b");

@@ -24,10 +24,7 @@ before(async () => {
 after(() => browser.close());
 
 test("what two people said differently is told once both are through, and settled by a key", async (context) => {
-  const out = await freshOut(context);
-  const servers = [await serve(context, out), await serve(context, out, { second: "bob" })];
-  const tabs = [];
-  for (const server of servers) tabs.push(await open(context, browser, server));
+  const tabs = await openedTwice(context);
   const [ada, bob] = tabs.map(({ page }) => page);
   const id = await current(ada);
   await ada.keyboard.press("d");
@@ -63,13 +60,20 @@ test("what two people said differently is told once both are through, and settle
   for (const tab of tabs) clean(tab);
 });
 
+/** The page of who labels, and that of bob, who labels the same a second time. */
+async function openedTwice(context, viewport) {
+  const out = await freshOut(context);
+  const tabs = [];
+  for (const who of [{}, { second: "bob" }]) {
+    const server = await serve(context, out, who);
+    tabs.push(await open(context, browser, server, await anotherBrowser(context, browser, viewport)));
+  }
+  return tabs;
+}
+
 /** A page on labels of which ada calls all of a scan an artifact and bob says what the machine says. */
 async function disagreeing(context, viewport) {
-  const out = await freshOut(context);
-  const servers = [await serve(context, out), await serve(context, out, { second: "bob" })];
-  const tabs = [];
-  for (const server of servers)
-    tabs.push(await open(context, browser, server, await anotherBrowser(context, browser, viewport)));
+  const tabs = await openedTwice(context, viewport);
   await tabs[0].page.keyboard.press("Control+a");
   await tabs[0].page.keyboard.press("a");
   await says(tabs[0].page.locator(".status-bar"), "undo 1");

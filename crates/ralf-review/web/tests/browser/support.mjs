@@ -108,6 +108,13 @@ export async function open(context, browser, server, own) {
   return told;
 }
 
+/** A page of its own on labels of which none is corrected; with a viewport, in a window of that size. */
+export async function opened(context, browser, viewport) {
+  const server = await serve(context, await freshOut(context));
+  const tab = await open(context, browser, server, await anotherBrowser(context, browser, viewport));
+  return { server, tab, page: tab.page };
+}
+
 /** Waits until a scan is on screen. */
 export async function ready(page) {
   await page.waitForFunction(() =>

@@ -2,6 +2,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { type Area, areaOf, areasFrom, cornersHere, crosses, inAreas, mirrored } from "../../src/data/area.js";
 import { buildCloud } from "../../src/data/cloud.js";
+import { heldStill } from "../../src/data/held.js";
 import { LabelBook } from "../../src/data/labels.js";
 import { made } from "./scans.js";
 
@@ -33,6 +34,19 @@ test("an outline is kept in the world and comes back where it was drawn", () => 
   assert.deepEqual([...inAreas(cloud, [found], home, labels)], [1, 0]);
   for (const other of [{ sequence: "01" }, { dataset: "country" }])
     assert.deepEqual([...inAreas(cloud, [found], { ...home, ...other }, labels)], [0, 0], "elsewhere are other places");
+});
+
+test("places are the world's while something is held still", () => {
+  const cloud = buildCloud([made("front", 0, { x: [2, 4] }), made("front", 1, { x: [3, 4], time: "100000000" })]);
+  const outline = area("inside", [
+    [3.5, -1],
+    [4.5, -1],
+    [4.5, 1],
+    [3.5, 1],
+  ]);
+  const held = heldStill(cloud, new Uint8Array([1, 0, 1, 0]));
+  assert.notDeepEqual(held.positions, held.measured);
+  assert.deepEqual([...inAreas(held, [outline], home, labels)], [0, 1, 0, 1]);
 });
 
 test("what has no extent is no area", () => {

@@ -10,6 +10,7 @@ import type { World } from "../../src/actions/world.js";
 import type { AskedKind, Kinds } from "../../src/api/kinds.js";
 import type { BaseRevision, ScanId, ScanPoints } from "../../src/api/types.js";
 import { buildCloud, type Cloud } from "../../src/data/cloud.js";
+import { lineAt, linesOf } from "../../src/data/kinds.js";
 import type { Choice } from "../../src/data/labels.js";
 import { deriveAlways } from "../../src/derive.js";
 import { initialState, type State } from "../../src/state.js";
@@ -25,12 +26,13 @@ const front = (scan: number, ...points: number[]): ScanPoints => ({ radar: "fron
 function asked(kind: string, points: readonly ScanPoints[]): AskedKind {
   const detections = points.reduce((sum, part) => sum + part.points.length, 0);
   const told = { label: 99, things: 2, expected_errors: 3, worth: 2, sign: "weak" } as const;
-  return { kind, points, detections, ...told, radar: "front", scan: 1 };
+  const ranks = Array.from({ length: detections }, (_, i) => i);
+  return { kind, points, detections, ranks, asked: detections, ...told, radar: "front", scan: 1 };
 }
 
 /** The last of the first is in a scan that is never on screen. */
-const FIRST = asked("plausible-weak-surely", [front(0, 0, 1), front(1, 0), front(9, 4)]);
-const SECOND = asked("plausible-moves-surely", [front(1, 1)]);
+const FIRST = asked("plausible-weak", [front(0, 0, 1), front(1, 0), front(9, 4)]);
+const SECOND = asked("plausible-moves", [front(1, 1)]);
 
 /** A page without a picture: what is said is noted, and every scan is there at once. */
 class Table {
@@ -89,7 +91,7 @@ test("one key answers all of a kind, on screen and elsewhere, and goes on to the
   await turn();
   assert.deepEqual(said, [{ points: FIRST.points, choice: 1 }]);
   assert.equal(store.state.kind?.kind, SECOND.kind);
-  assert.deepEqual(passed, [[], []]);
+  assert.deepEqual(passed, [[], [FIRST.kind]]);
 });
 
 test("what is spared isn't changed, and counts as right for the kinds after it", async () => {
@@ -99,6 +101,36 @@ test("what is spared isn't changed, and counts as right for the kinds after it",
   await turn();
   assert.deepEqual(said[0].points, [front(0, 0), front(1, 0), front(9, 4)]);
   assert.deepEqual(passed, [[], [FIRST.kind]]);
+});
+
+test("the line is drawn elsewhere: what lies beyond it isn't changed, and what was spared stays so", async () => {
+  const { store, kinding, selecting, said } = await looking();
+  store.set({ selection: new Uint8Array([0, 1, 0, 1, 0]) });
+  kinding.draw(1);
+  assert.deepEqual([...store.state.selection], [0, 1, 0, 0, 0]);
+  selecting.brush(1);
+  assert.deepEqual([...store.state.selection], [0, 1, 0, 1, 0]);
+  assert.equal(store.state.kind?.asked, 3);
+  selecting.choose(1);
+  await turn();
+  assert.deepEqual(said, [{ points: [front(0, 1), front(1, 0)], choice: 1 }]);
+});
+
+test("the line stays among the detections of a kind", async () => {
+  const { store, kinding } = await looking();
+  kinding.move(9);
+  assert.equal(store.state.kind?.asked, 4);
+  kinding.draw(-3);
+  assert.equal(store.state.kind?.asked, 1);
+  assert.deepEqual([...store.state.selection], [1, 0, 0, 0, 0]);
+});
+
+test("a kind of many has twenty lines, a small one has one for each detection", () => {
+  assert.deepEqual(linesOf(3), [1, 2, 3]);
+  assert.equal(linesOf(571).length, 20);
+  assert.equal(linesOf(571)[19], 571);
+  assert.equal(lineAt(linesOf(100), 41), 8);
+  assert.equal(lineAt(linesOf(3), 1), 0);
 });
 
 test("a kind that is passed over isn't asked about again, and nothing is said of it", async () => {
