@@ -73,6 +73,6 @@ function question({ cloud, selection, labels }: Readonly<State>, kind: Kind): st
 function reasons(kind: Kind): string {
   const { sign, detections, expected_errors: errors, left } = kind;
   const [all, some] = [detections, Math.round(errors)].map((count) => count.toLocaleString("en"));
-  const wrong = `of all ${all} some ${some} expected to be wrong${partOf(kind)}`;
+  const wrong = `some ${some} of all ${all} expected to be wrong${partOf(kind)}`;
   return [SIGNS[sign], wrong, `${counted(left, "question")} after this`].join(" · ");
 }
