@@ -143,19 +143,31 @@ const TRIES: usize = 20;
 ///
 /// Where others write the same file at the same time, less than the whole may be there until the last of them is done.
 pub fn write_whole(file: &Path, bytes: &[u8]) -> Result<(), DataError> {
+    write_whole_with(file, &|out| out.write_all(bytes))
+}
+
+/// The same with content that is made while it is written, so that it need not be in memory at once. It may be asked
+/// for again, and is the same then.
+pub(crate) fn write_whole_with(file: &Path, content: &Content) -> Result<(), DataError> {
     // Who writes the same at the same time takes what lies beside the file for left over, or renames it.
     let disturbed = |error: &Error| matches!(error.kind(), ErrorKind::NotFound | ErrorKind::AlreadyExists);
-    let mut written = write_once(file, bytes);
+    let is_there = || {
+        let mut bytes = Vec::new();
+        content(&mut bytes).is_ok() && fs::read(file).is_ok_and(|found| found == bytes)
+    };
+    let mut written = write_once(file, content);
     for _ in 1..TRIES {
         if written.as_ref().is_err_and(disturbed) {
-            let is_there = fs::read(file).is_ok_and(|found| found == bytes);
-            written = if is_there { Ok(()) } else { write_once(file, bytes) };
+            written = if is_there() { Ok(()) } else { write_once(file, content) };
         }
     }
     written.map_err(DataError::io(file))
 }
 
-fn write_once(file: &Path, bytes: &[u8]) -> std::io::Result<()> {
+/// Writes what a file holds.
+type Content<'a> = dyn Fn(&mut dyn Write) -> std::io::Result<()> + 'a;
+
+fn write_once(file: &Path, content: &Content) -> std::io::Result<()> {
     let beside = beside(file);
     let created = match (create_new(&beside), file.parent()) {
         (Err(error), Some(folder)) if error.kind() == ErrorKind::NotFound => {
@@ -164,7 +176,7 @@ fn write_once(file: &Path, bytes: &[u8]) -> std::io::Result<()> {
         }
         (created, _) => created,
     };
-    let written = created.and_then(|mut open| open.write_all(bytes));
+    let written = created.and_then(|mut open| content(&mut open));
     written.and_then(|()| fs::rename(&beside, file)).inspect_err(|_| {
         // The half-written file is of no use to anyone; the error that matters is the first one.
         let _ = fs::remove_file(&beside);

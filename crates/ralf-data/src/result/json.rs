@@ -1,9 +1,10 @@
 //! Records as JSON.
 
-use crate::disk::files::{read, write_whole};
+use crate::disk::files::{read, write_whole_with};
 use crate::error::DataError;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
+use std::io::{BufWriter, Write};
 use std::path::Path;
 
 /// A record that [`write_json`] has written.
@@ -14,9 +15,12 @@ pub(crate) fn read_json<T: DeserializeOwned>(file: &Path) -> Result<T, DataError
     })
 }
 
-/// Writes a record, whole or not at all.
+/// Writes a record, whole or not at all. It is put into words while it is written: that of a long run has megabytes.
 pub(crate) fn write_json<T: Serialize>(file: &Path, value: &T) -> Result<(), DataError> {
-    let mut text = serde_json::to_vec_pretty(value).map_err(|error| DataError::io(file)(error.into()))?;
-    text.push(b'\n');
-    write_whole(file, &text)
+    write_whole_with(file, &|out| {
+        let mut out = BufWriter::new(out);
+        serde_json::to_writer_pretty(&mut out, value)?;
+        out.write_all(b"\n")?;
+        out.flush()
+    })
 }

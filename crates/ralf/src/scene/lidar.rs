@@ -1,7 +1,7 @@
 //! The LiDAR scans of one moment: their rays, their ground and their reference cloud, shared by all radars that use
 //! them.
 
-use super::ground::{Floor, Ground, GroundSurface};
+use super::ground::{Floor, Ground, GroundSurface, ids_where};
 use super::mismatch::{Reference, Spread};
 use super::rays::RayTable;
 use super::standing::standing_points;
@@ -265,13 +265,9 @@ impl LidarSnapshot {
 
     /// Identities of the returns that lie at least the margin above the ground.
     fn above_ground(&self) -> &[u32] {
-        self.above_ground.get_or_init(|| {
-            let (ground, margin) = (self.ground(), self.config.lidar_margin);
-            let stays = |point: &[f32; 3]| {
-                point[0].is_finite()
-                    && ground.is_none_or(|ground| ground.height(&Point::from(point.map(f64::from))) >= margin)
-            };
-            (0u32..).zip(&self.points).filter(|(_, point)| stays(point)).map(|(id, _)| id).collect()
+        self.above_ground.get_or_init(|| match self.ground() {
+            None => ids_where(&self.points, |point| point[0].is_finite()),
+            Some(ground) => ground.ids_above(&self.points, self.config.lidar_margin),
         })
     }
 

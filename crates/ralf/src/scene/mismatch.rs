@@ -24,6 +24,7 @@ pub enum Spread {
 
 impl Spread {
     /// `h^T Sigma h`.
+    #[inline]
     fn along(&self, h: &Vector) -> f64 {
         match self {
             Self::Ray(ray) => ray.dot(h).powi(2),
@@ -51,6 +52,7 @@ pub struct Reference {
 /// let reference = Spread::Ray(Vector3::new(0.4, 0.0, 0.0));
 /// assert!((mismatch(&Vector3::new(2.0, 0.0, 0.0), &detection, &reference) - 4.0).abs() < 1e-4);
 /// ```
+#[inline]
 pub fn mismatch(h: &Vector, detection: &Spread, reference: &Spread) -> f64 {
     let distance_squared = h.norm_squared();
     if distance_squared < SAME_PLACE * SAME_PLACE {

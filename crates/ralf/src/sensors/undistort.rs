@@ -5,6 +5,7 @@ use super::image::CameraImage;
 use super::intrinsics::Intrinsics;
 use super::view::StraightView;
 use crate::space::Point;
+use wide::{i16x8, i32x4, u8x16};
 
 /// For every pixel of a view where it lies in the raw image.
 #[derive(Debug, Clone)]
@@ -77,32 +78,42 @@ impl Tap {
     #[inline]
     fn sample(self, bytes: &[u8], row: usize) -> [u8; 3] {
         let place = 3 * self.place as usize;
-        let upper = bytes.get(place..).and_then(<[u8]>::first_chunk);
-        let lower = bytes.get(place + row..).and_then(<[u8]>::first_chunk);
-        let (Some(upper), Some(lower)) = (upper, lower) else { return [0; 3] };
-        let ([a, b], [c, d]) = (lanes(upper), lanes(lower));
-        // The four weights add up to LANE_ONE whatever is rounded, so that even areas stay as they are.
-        let (right, down) = (u64::from(self.right), u64::from(self.down));
+        let (Some(upper), Some(lower)) = (pixels(bytes, place), pixels(bytes, place + row)) else {
+            return [0; 3];
+        };
+        // The four weights add up to WEIGHTS whatever is rounded, so that even areas stay as they are.
+        let (right, down) = (i32::from(self.right), i32::from(self.down));
         let both = (right * down + 4) >> 3;
         let (right, down) = (32 * right - both, 32 * down - both);
-        let sum = a * (LANE_ONE - right - down - both) + b * right + c * down + d * both + HALVES;
-        [(sum >> 13) as u8, (sum >> 34) as u8, (sum >> 55) as u8]
+        let sum = upper.dot(in_turn(WEIGHTS - right - down - both, right)) + lower.dot(in_turn(down, both));
+        let [red, green, blue, _] = ((sum + i32x4::splat(WEIGHTS / 2)) >> WEIGHT_BITS).to_array();
+        [red as u8, green as u8, blue as u8]
     }
 }
 
-/// 13 bits of weight and 8 of colour fill a lane of 21 bits, of which a word holds three.
-const LANE_ONE: u64 = 1 << 13;
-/// What rounds each lane to the nearest.
-const HALVES: u64 = (LANE_ONE / 2) * (1 | 1 << 21 | 1 << 42);
+/// The weights of four pixels together; each fits 16 bits with a sign.
+const WEIGHTS: i32 = 1 << WEIGHT_BITS;
+const WEIGHT_BITS: i32 = 13;
 
-/// Two neighbouring pixels, each spread over three lanes.
+/// Two neighbouring pixels, channel by channel: red of both, green of both, blue of both, and what doesn't matter.
 #[inline]
-fn lanes(&[r0, g0, b0, r1, g1, b1]: &[u8; 6]) -> [u64; 2] {
-    let spread = |pixel: u32| {
-        let pixel = u64::from(pixel);
-        (pixel & 0xff) | (pixel & 0xff00) << 13 | (pixel & 0x00ff_0000) << 26
+fn pixels(bytes: &[u8], place: usize) -> Option<i16x8> {
+    let bytes = bytes.get(place..)?;
+    // Two bytes more than there need be, unless the image ends there.
+    let both = match (bytes.first_chunk(), bytes.first_chunk()) {
+        (Some(eight), _) => u64::from_le_bytes(*eight),
+        (None, Some(&[r0, g0, b0, r1, g1, b1])) => u64::from_le_bytes([r0, g0, b0, r1, g1, b1, 0, 0]),
+        (None, None) => return None,
     };
-    [spread(u32::from_le_bytes([r0, g0, b0, r1])), spread(u32::from_le_bytes([b0, r1, g1, b1]) >> 8)]
+    let [left, right] = [both, both >> 24].map(|pixels| u8x16::new(u128::from(pixels).to_le_bytes()));
+    Some(i16x8::from_u8x16_low(u8x16::unpack_low(left, right)))
+}
+
+/// Two weights in turn.
+#[inline]
+fn in_turn(left: i32, right: i32) -> i16x8 {
+    let both: i32 = bytemuck::cast([left as i16, right as i16]);
+    bytemuck::cast(i32x4::splat(both))
 }
 
 /// The pixel before a coordinate that has a successor, and the successor's share; `None` outside the image, and where

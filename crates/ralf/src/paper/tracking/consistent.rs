@@ -1,23 +1,24 @@
 //! Doppler-consistent tracking, which the paper leaves out: what moves is sought where its own range rate takes it,
 //! among detections with the same range rate, in the scans that could have seen it there (docs/method.md, section 7).
 
+use super::mismatches::Mismatches;
 use super::moved_cloud::{MovedCloud, scans_of};
 use crate::config::TrackingConfig;
 use crate::scene::{Association, Doppler, Frame, NeighbouringScan, Reach, ScanStep, Sight};
 use crate::space::Point;
 
 /// The mismatch of each detection with the nearest agreeing ones of each neighbouring scan that could have seen it.
-pub(super) fn with_agreeing(frame: &Frame, config: &TrackingConfig) -> Vec<Vec<f64>> {
+pub(super) fn with_agreeing(frame: &Frame, config: &TrackingConfig) -> Mismatches {
     let steps = if config.enabled { frame.steps_within(config.scans) } else { &[] };
     let movers = frame.movers();
     let reaches = reaches(frame, steps);
-    let mut mismatches = vec![Vec::with_capacity(steps.len()); frame.scan.len()];
+    let mut mismatches = Mismatches::new(frame.scan.len(), steps.len());
     for step in steps {
         let seen = Seen::new(frame, step, config, &reaches);
         let cloud = &seen.cloud;
         let mut association = Association::new(&cloud.index, frame.radar.elevation, config.neighbours);
         let dt = (step.t_ns - frame.scan.t_ns()) as f64 * 1e-9;
-        for (of_steps, mover) in mismatches.iter_mut().zip(&movers) {
+        for (i, mover) in movers.iter().enumerate() {
             let Some(mover) = mover else { continue };
             let expected = mover.after(dt);
             if !seen.covers(&expected.position) {
@@ -34,7 +35,7 @@ pub(super) fn with_agreeing(frame: &Frame, config: &TrackingConfig) -> Vec<Vec<f
                 association.nearest_by(&expected.position, f64::INFINITY, offset);
             }
             let d = association.mean_over_found(|id| association.mismatch(&expected, &cloud.reference(id)));
-            of_steps.push(d.map_or(config.absence, |d| d.min(config.absence)));
+            mismatches.push(i, d.map_or(config.absence, |d| d.min(config.absence)));
         }
     }
     mismatches

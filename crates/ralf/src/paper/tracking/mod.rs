@@ -2,10 +2,12 @@
 //! docs/method.md, section 7).
 
 mod consistent;
+mod mismatches;
 mod moved_cloud;
 
 use crate::config::TrackingConfig;
 use crate::scene::{Association, Frame};
+use mismatches::Mismatches;
 use moved_cloud::MovedCloud;
 
 /// The mismatch `d` of each detection with the neighbouring scans, sorted and weighted; `None` for all where the branch
@@ -14,14 +16,14 @@ use moved_cloud::MovedCloud;
 pub fn match_detections(frame: &Frame, config: &TrackingConfig) -> Vec<Option<f64>> {
     let mut mismatches =
         if config.doppler { consistent::with_agreeing(frame, config) } else { with_nearest(frame, config) };
-    mismatches.iter_mut().map(|of_steps| sorted_mean(of_steps)).collect()
+    (0..frame.scan.len()).map(|i| sorted_mean(mismatches.of(i))).collect()
 }
 
 /// The mismatch of each detection with the nearest ones of each neighbouring scan: the paper's.
-fn with_nearest(frame: &Frame, config: &TrackingConfig) -> Vec<Vec<f64>> {
+fn with_nearest(frame: &Frame, config: &TrackingConfig) -> Mismatches {
     let steps = if config.enabled { frame.steps_within(config.scans) } else { &[] };
     let movers = if config.dynamic { frame.movers() } else { Vec::new() };
-    let mut mismatches = vec![Vec::with_capacity(steps.len()); frame.scan.len()];
+    let mut mismatches = Mismatches::new(frame.scan.len(), steps.len());
     for step in steps {
         let cloud = MovedCloud::new(step, frame.radar.elevation, config.sources);
         let mut association = Association::new(&cloud.index, frame.radar.elevation, config.neighbours);
@@ -33,7 +35,7 @@ fn with_nearest(frame: &Frame, config: &TrackingConfig) -> Vec<Vec<f64>> {
             if let Some(mover) = movers.get(i).and_then(Option::as_ref) {
                 d = d.min(cloud.mismatch(&mut association, &mover.along_ray(dt)));
             }
-            mismatches[i].push(d.min(config.max_mismatch));
+            mismatches.push(i, d.min(config.max_mismatch));
         }
     }
     mismatches

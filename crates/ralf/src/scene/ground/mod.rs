@@ -76,6 +76,29 @@ impl Ground {
             Self::Local { surface, elsewhere } => surface.height(p).unwrap_or_else(|| elsewhere.height(p)),
         }
     }
+
+    /// Which points lie at least so high above the ground, m; those that are not finite don't.
+    pub fn ids_above(&self, points: &[[f32; 3]], margin: f64) -> Vec<u32> {
+        let place = |point: &[f32; 3]| Point::from(point.map(f64::from));
+        match self {
+            // Of the one plane it is told in a loop of its own, for it is the usual ground.
+            Self::Plane(plane) => ids_where(points, |point| plane.height(&place(point)) >= margin),
+            _ => ids_where(points, |point| point[0].is_finite() && self.height(&place(point)) >= margin),
+        }
+    }
+}
+
+/// The places in a list of those points that something holds of.
+pub(super) fn ids_where(points: &[[f32; 3]], holds: impl Fn(&[f32; 3]) -> bool) -> Vec<u32> {
+    // It is hard to foretell of which: each is written down, and the next one over it unless it holds.
+    let mut ids = vec![0; points.len()];
+    let mut count = 0;
+    for (id, point) in (0u32..).zip(points) {
+        ids[count] = id;
+        count += usize::from(holds(point));
+    }
+    ids.truncate(count);
+    ids
 }
 
 #[cfg(test)]

@@ -1,5 +1,6 @@
 //! RANSAC for one ground plane, seeded, so that a run repeats itself bit for bit.
 
+use super::ids_where;
 use super::plane::{Plane, PlaneSums};
 use crate::config::GroundConfig;
 use crate::space::{Point, Vector};
@@ -33,21 +34,12 @@ impl Candidates {
         let tilt = config.max_tilt_deg.to_radians();
         let reach = ((config.max_offset + config.inlier_distance) / tilt.cos()) as f32;
         let slope = tilt.tan() as f32;
-        let room = || Vec::with_capacity(points.len());
-        let mut kept = Self { xs: room(), ys: room(), zs: room() };
-        for &[x, y, z] in points {
+        let kept = ids_where(points, |[x, y, z]| {
             let rho = (x * x + y * y).sqrt();
-            if z.abs() <= reach + slope * rho {
-                kept.push([x, y, z]);
-            }
-        }
-        kept
-    }
-
-    pub(super) fn push(&mut self, [x, y, z]: [f32; 3]) {
-        self.xs.push(x);
-        self.ys.push(y);
-        self.zs.push(z);
+            z.abs() <= reach + slope * rho
+        });
+        let column = |axis: usize| kept.iter().map(|id| points[*id as usize][axis]).collect();
+        Self { xs: column(0), ys: column(1), zs: column(2) }
     }
 
     pub(super) fn len(&self) -> usize {

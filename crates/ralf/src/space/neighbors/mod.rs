@@ -5,11 +5,16 @@
 //! hold a point, until no nearer one can follow.
 //!
 //! Points beyond the grid are clamped into its border cells. Clamping to a box never lengthens a distance, so the bound
-//! that ends a search holds for them too, and a few points far away cannot blow up the grid.
+//! that ends a search holds for them too, and a few points far away cannot blow up the grid. A query beyond the points
+//! is as far from all of them as it is from the grid.
 
+mod best;
+mod grid;
 mod occupancy;
 mod search;
 
+use best::{Best, Few, LANES, Many, One};
+use grid::span;
 use occupancy::Occupancy;
 use search::Search;
 use std::ops::Range;
@@ -38,6 +43,8 @@ pub struct Neighbor {
 #[derive(Debug, Clone)]
 pub struct NeighborIndex {
     origin: [f32; 2],
+    /// What lies farther is clamped to here, m: [`REACH`], or the border of the grid where that lies beyond.
+    ends: [f32; 2],
     /// Edge of a cell, m.
     cell: f32,
     columns: usize,
@@ -49,6 +56,9 @@ pub struct NeighborIndex {
     before: Vec<u32>,
     /// Where searches may begin, of a wide grid.
     occupancy: Option<Occupancy>,
+    /// How many points.
+    points: usize,
+    /// Where they lie, m, cell by cell; what pads the end is infinitely far.
     xs: Vec<f32>,
     ys: Vec<f32>,
     zs: Vec<f32>,
@@ -60,7 +70,7 @@ impl NeighborIndex {
     pub fn new(points: &[[f32; 3]], ids: &[u32]) -> Self {
         debug_assert_eq!(points.len(), ids.len());
         let mut index = Self::empty_grid(points);
-        let cells: Vec<u32> = points.iter().map(|[x, y, _]| index.cell_of(*x, *y)).collect();
+        let cells = index.cells_of(points);
         for &cell in &cells {
             index.starts[cell as usize + 1] += 1;
         }
@@ -70,33 +80,58 @@ impl NeighborIndex {
             let is_filled = |cell| index.starts[cell] < index.starts[cell + 1];
             index.occupancy = Some(Occupancy::new(index.columns, index.rows, is_filled));
         }
-        let mut next = index.starts.clone();
-        for ((point, id), cell) in points.iter().zip(ids).zip(cells) {
-            let place = next[cell as usize] as usize;
-            next[cell as usize] += 1;
-            [index.xs[place], index.ys[place], index.zs[place]] = *point;
-            index.ids[place] = *id;
-        }
+        index.sort(points, ids, cells);
         index
+    }
+
+    /// Puts the points in the order of their cells, those of a cell in the order in which they come.
+    fn sort(&mut self, points: &[[f32; 3]], ids: &[u32], cells: Vec<u32>) {
+        // The order first and then column by column: columns that are written here and there at once cost more.
+        let mut order = self.order_of(cells);
+        let column = |axis: usize| {
+            let mut values = Vec::with_capacity(order.len() + LANES);
+            values.extend(order.iter().map(|i| points[*i as usize][axis]));
+            values.extend([f32::INFINITY; LANES]);
+            values
+        };
+        [self.xs, self.ys, self.zs] = [0, 1, 2].map(column);
+        order.iter_mut().for_each(|i| *i = ids[*i as usize]);
+        order.extend([u32::MAX; LANES]);
+        self.ids = order;
+    }
+
+    /// Which point stands at each place.
+    fn order_of(&self, cells: Vec<u32>) -> Vec<u32> {
+        let mut next = self.starts.clone();
+        let mut order = Vec::with_capacity(cells.len() + LANES);
+        order.resize(cells.len(), 0);
+        for (i, cell) in (0u32..).zip(cells) {
+            let place = &mut next[cell as usize];
+            order[*place as usize] = i;
+            *place += 1;
+        }
+        order
     }
 
     fn empty_grid(points: &[[f32; 3]]) -> Self {
         let n = points.len();
-        let [(x, width), (y, height)] = [0, 1].map(|axis| span(points, axis));
+        let [(x, width), (y, height)] = span(points);
         let cell = (width * height / (CELLS_PER_POINT * n).max(1) as f32).sqrt().max(CELL);
         let [columns, rows] = [width, height].map(|size| (size / cell) as usize + 1);
         Self {
             origin: [x, y],
+            ends: [(x, columns), (y, rows)].map(|(begin, cells)| REACH.max(begin + cells as f32 * cell)),
             cell,
             columns,
             rows,
             starts: vec![0; columns * rows + 1],
             before: vec![0; columns * rows + 1],
             occupancy: None,
-            xs: vec![0.0; n],
-            ys: vec![0.0; n],
-            zs: vec![0.0; n],
-            ids: vec![0; n],
+            points: n,
+            xs: Vec::new(),
+            ys: Vec::new(),
+            zs: Vec::new(),
+            ids: Vec::new(),
         }
     }
 
@@ -111,12 +146,12 @@ impl NeighborIndex {
 
     /// How many points.
     pub fn len(&self) -> usize {
-        self.ids.len()
+        self.points
     }
 
     /// Whether there is nothing to find.
     pub fn is_empty(&self) -> bool {
-        self.ids.is_empty()
+        self.points == 0
     }
 
     /// The `k` points nearest to the query, nearest first, fewer when the cloud has fewer. Of equal distances the
@@ -127,38 +162,37 @@ impl NeighborIndex {
 
     /// As [`Self::nearest`], but finds nothing where it can tell that no point lies within `reach`, m.
     pub fn nearest_within(&self, query: [f32; 3], k: usize, reach: f32, found: &mut Vec<Neighbor>) {
-        self.search(Search::new(self, query, k, found), reach);
+        self.search(query, k, [f32::INFINITY, reach], found);
     }
 
     /// As [`Self::nearest`], but finds nothing unless a point lies within `reach`, m, or a hair farther. That is told
     /// first, among what lies there alone.
     pub fn nearest_if_within(&self, query: [f32; 3], k: usize, reach: f32, found: &mut Vec<Neighbor>) {
-        self.search(Search::new(self, query, k, found).limited(reach), reach);
+        /// Squared distances are rounded by less.
+        const ROUNDING: f32 = 1.000_01;
+        self.search(query, k, [ROUNDING * reach * reach, reach], found);
         if !found.is_empty() && found.len() < k.min(self.len()) {
             self.nearest(query, k, found);
         }
     }
 
-    fn search(&self, mut search: Search, reach: f32) {
-        if search.k == 0 {
-            return;
-        }
-        let at = self.place_of(search.query[0], search.query[1]);
-        let first = self.occupancy.as_ref().map_or(0, |occupancy| occupancy.first_ring(at.cell));
-        if first == 0 {
-            search.middle(self, &at);
-        }
-        for ring in first.max(2)..self.columns.max(self.rows) {
-            if search.is_done(self.bound(&at, ring), reach) {
-                break;
-            }
-            search.ring(self, &at, ring);
+    /// The `k` nearest points of those at most as far as the limit, m^2; none where the first that is looked at would
+    /// lie beyond the reach, m.
+    fn search(&self, query: [f32; 3], k: usize, [limit, reach]: [f32; 2], found: &mut Vec<Neighbor>) {
+        found.clear();
+        match k.min(self.len()) {
+            0 => (),
+            1 => Search::new(self, query, One::within(limit)).run(reach).give(found),
+            k @ 2..=3 => Search::new(self, query, Few::<3>::within(limit, k)).run(reach).give(found),
+            k @ 4..=5 => Search::new(self, query, Few::<5>::within(limit, k)).run(reach).give(found),
+            k @ 6..=10 => Search::new(self, query, Few::<10>::within(limit, k)).run(reach).give(found),
+            k => Search::new(self, query, Many::within(limit, k)).run(reach).give(found),
         }
     }
 
     /// The identities of all points in the order in which they are searched: what lies side by side is mostly near.
     pub fn ids(&self) -> &[u32] {
-        &self.ids
+        &self.ids[..self.points]
     }
 
     /// The identities of all points at most `radius`, m, from a place, seen from above, in an order that depends on the
@@ -247,47 +281,6 @@ impl NeighborIndex {
         let first = row * self.columns;
         self.starts[first + left] as usize..self.starts[first + right + 1] as usize
     }
-
-    /// No point of this ring or a later one lies nearer than this, m. Sides beyond the grid hold no points.
-    fn bound(&self, at: &GridPoint, ring: usize) -> f32 {
-        let side = |place: f32, cell: usize, cells: usize| {
-            let below = if cell >= ring { place - (cell + 1) as f32 + ring as f32 } else { f32::INFINITY };
-            let above = if cell + ring < cells { (cell + ring) as f32 - place } else { f32::INFINITY };
-            below.min(above)
-        };
-        let nearest = side(at.x, at.cell[0], self.columns).min(side(at.y, at.cell[1], self.rows));
-        (nearest * self.cell - SLACK).max(0.0)
-    }
-
-    fn place_of(&self, x: f32, y: f32) -> GridPoint {
-        let place = |value: f32, origin: f32, cells: usize| {
-            let place = ((value - origin) / self.cell).clamp(0.0, cells as f32);
-            (place, (place as usize).min(cells - 1))
-        };
-        let ((x, column), (y, row)) =
-            (place(x, self.origin[0], self.columns), place(y, self.origin[1], self.rows));
-        GridPoint { x, y, cell: [column, row] }
-    }
-
-    fn cell_of(&self, x: f32, y: f32) -> u32 {
-        let [column, row] = self.place_of(x, y).cell;
-        (row * self.columns + column) as u32
-    }
-}
-
-/// The least coordinate of the points along an axis, and how far they reach from there, m; clamped to [`REACH`].
-fn span(points: &[[f32; 3]], axis: usize) -> (f32, f32) {
-    let values = points.iter().map(|point| point[axis].clamp(-REACH, REACH));
-    let (low, high) = values.fold((REACH, -REACH), |(low, high), v| (v.min(low), v.max(high)));
-    (low.min(high), (high - low).max(0.0))
-}
-
-/// Where a point lies in the grid, in cells; points outside are clamped to its border.
-struct GridPoint {
-    x: f32,
-    y: f32,
-    /// Column and row.
-    cell: [usize; 2],
 }
 
 fn running_sum(counts: &mut [u32]) {

@@ -3,6 +3,9 @@
 /// Shifts that make of what lies within 0 cells what lies within 1, 2, 4, 8 and 16, each from the one before.
 const SHIFTS: [usize; 5] = [1, 1, 2, 4, 8];
 
+/// The first ring that may hold a point, by how many of these distances hold one.
+const FIRST_RINGS: [usize; SHIFTS.len() + 1] = [17, 9, 5, 3, 2, 0];
+
 /// For each cell of a grid, whether anything lies within 1, 2, 4, 8 and 16 cells in row and column.
 #[derive(Debug, Clone)]
 pub(super) struct Occupancy {
@@ -42,11 +45,9 @@ impl Occupancy {
     /// No ring of cells before this one around a cell holds any point.
     pub(super) fn first_ring(&self, [column, row]: [usize; 2]) -> usize {
         let (word, bit) = (row * self.words + column / 64, column % 64);
-        let is_near = |distance: &usize| self.within[distance * self.size + word] >> bit & 1 != 0;
-        match (0..SHIFTS.len()).find(is_near).unwrap_or(SHIFTS.len()) {
-            0 => 0,
-            farther => (1 << (farther - 1)) + 1,
-        }
+        // What lies within one distance lies within the larger ones, too, so that counting tells the first.
+        let is_near = |distance: usize| self.within[distance * self.size + word] >> bit & 1;
+        FIRST_RINGS[(0..SHIFTS.len()).map(is_near).sum::<u64>() as usize]
     }
 }
 

@@ -1,185 +1,168 @@
-//! One search: which cells are looked at, in which order, and the best points so far.
+//! One search: which cells are looked at, and in which order.
 
-use super::{GridPoint, Neighbor, NeighborIndex, SLACK};
+use super::best::{Best, LANES};
+use super::grid::GridPoint;
+use super::{NeighborIndex, SLACK};
 use std::ops::Range;
 
 /// Cells to each side of the query's column that are searched first in a row.
 const MIDDLE: usize = 2;
-/// Distances are computed for this many points at a time.
-const LANES: usize = 16;
-/// Runs shorter than this are looked through one by one.
-const FEW: usize = 8;
+/// Then so many times as many.
+const WIDER: usize = 3;
+/// So many points around a query are all looked at.
+const FEW: usize = 48;
 
-/// A search under way: the best points so far, in order.
-pub(super) struct Search<'a> {
-    pub(super) query: [f32; 3],
-    /// How many are wanted: no more than there are.
-    pub(super) k: usize,
-    /// Edge of a cell, m.
-    cell: f32,
-    /// Only points at most this far can still enter, m^2.
-    worst: f32,
-    found: &'a mut Vec<Neighbor>,
+/// A search under way.
+pub(super) struct Search<'a, B> {
+    index: &'a NeighborIndex,
+    query: [f32; 3],
+    /// The nearest points so far.
+    best: B,
 }
 
-impl<'a> Search<'a> {
-    /// For the `k` points of an index nearest to a query.
-    pub(super) fn new(
-        index: &NeighborIndex,
-        query: [f32; 3],
-        k: usize,
-        found: &'a mut Vec<Neighbor>,
-    ) -> Self {
-        found.clear();
-        Self { query, k: k.min(index.len()), cell: index.cell, worst: f32::INFINITY, found }
+impl<'a, B: Best> Search<'a, B> {
+    /// For the points of an index nearest to a query.
+    pub(super) fn new(index: &'a NeighborIndex, query: [f32; 3], best: B) -> Self {
+        Self { index, query, best }
     }
 
-    /// The same among the points within a reach, m, and a hair more.
-    pub(super) fn limited(mut self, reach: f32) -> Self {
-        /// Squared distances are rounded by less.
-        const ROUNDING: f32 = 1.000_01;
-        self.worst = ROUNDING * reach * reach;
-        self
+    /// Looks at rings of cells until no nearer point can follow, or until all that are left lie beyond `reach`, m, with
+    /// nothing found so far.
+    pub(super) fn run(mut self, reach: f32) -> B {
+        let index = self.index;
+        let at = index.place_of(self.query[0], self.query[1]);
+        let first = index.occupancy.as_ref().map_or(0, |occupancy| occupancy.first_ring(at.cell));
+        if first == 0 {
+            self.middle(&at);
+        }
+        for ring in first.max(2)..index.columns.max(index.rows) {
+            let is_beyond_reach = || self.best.is_empty() && index.bound_within(&at, ring) > reach;
+            if index.bound_squared(&at, ring) > self.best.worst() || is_beyond_reach() {
+                break;
+            }
+            self.ring(&at, ring);
+        }
+        self.best
     }
 
-    /// Whether no better point can follow where all that are left lie at least `bound` away; or, with nothing found so
-    /// far, beyond `reach`, m.
-    pub(super) fn is_done(&self, bound: f32, reach: f32) -> bool {
-        bound * bound > self.worst || (self.found.is_empty() && bound > reach)
-    }
-
-    /// Looks through the query's own cell and those around it, as three runs of points.
-    pub(super) fn middle(&mut self, index: &NeighborIndex, at: &GridPoint) {
+    /// Looks through the query's own cell and those around it.
+    fn middle(&mut self, at: &GridPoint) {
+        let index = self.index;
         let [column, row] = at.cell;
         let (left, right) = (column.saturating_sub(1), (column + 1).min(index.columns - 1));
-        for row in row.saturating_sub(1)..=(row + 1).min(index.rows - 1) {
-            self.scan(index, index.cells(row, left, right));
+        let (bottom, top) = (row.saturating_sub(1), (row + 1).min(index.rows - 1));
+        // A few points are looked through sooner than it is told which of them need not be.
+        if (bottom..=top).map(|row| index.cells(row, left, right).len()).sum::<usize>() <= FEW {
+            (bottom..=top).for_each(|row| self.scan(index.cells(row, left, right)));
+        } else {
+            self.scan(index.cells(row, column, column));
+            self.ring(at, 1);
         }
     }
 
     /// Looks through the cells at so many cells, at least one, from the query's own.
-    pub(super) fn ring(&mut self, index: &NeighborIndex, at: &GridPoint, ring: usize) {
-        let [cx, cy] = at.cell;
+    fn ring(&mut self, at: &GridPoint, ring: usize) {
+        let (index, [cx, cy]) = (self.index, at.cell);
         // The cells of a row lie side by side, so that the ring's lower and upper edge are one run of points each.
         if ring <= cy {
-            self.row(index, at, ring, cy - ring);
+            self.row(at, ring, cy - ring);
         }
         if cy + ring < index.rows {
-            self.row(index, at, ring, cy + ring);
+            self.row(at, ring, cy + ring);
         }
         if ring <= cx {
-            self.column(index, at, ring, cx - ring);
+            self.column(at, ring, cx - ring);
         }
         if cx + ring < index.columns {
-            self.column(index, at, ring, cx + ring);
+            self.column(at, ring, cx + ring);
         }
     }
 
-    /// The ring's cells in a row, as far as they can hold a point that is near enough: the middle ones first, for what
-    /// they hold leaves less of the others.
-    fn row(&mut self, index: &NeighborIndex, at: &GridPoint, ring: usize, row: usize) {
+    /// The ring's cells in a row, as far as they can hold a point that is near enough, from the middle outward: what
+    /// the middle holds leaves less of the others.
+    fn row(&mut self, at: &GridPoint, ring: usize, row: usize) {
+        let (index, column) = (self.index, at.cell[0]);
         let away = distance_to_cell(at.y, row);
-        let column = at.cell[0];
-        let (first, last) = stretch(at.x, column, ring.min(MIDDLE), self.reach_beside(away), index.columns);
-        if first <= last {
-            self.scan(index, index.cells(row, first, last));
-        }
-        if ring <= MIDDLE {
+        let (mut left, mut right) = stretch(at.x, column, ring, self.reach_beside(away), index.columns);
+        if left > right || index.cells(row, left, right).is_empty() {
             return;
         }
-        let (left, right) = stretch(at.x, column, ring, self.reach_beside(away), index.columns);
-        if left + MIDDLE < column {
-            self.scan(index, index.cells(row, left, column - MIDDLE - 1));
-        }
-        if column + MIDDLE < right {
-            self.scan(index, index.cells(row, column + MIDDLE + 1, right));
+        // Columns that were looked at: none.
+        let begin = left.max(column.saturating_sub(MIDDLE));
+        let mut seen = begin..begin;
+        let mut width = MIDDLE;
+        loop {
+            (left, right) = stretch(at.x, column, ring.min(width), self.reach_beside(away), index.columns);
+            if left < seen.start {
+                self.scan(index.cells(row, left, seen.start - 1));
+            }
+            if right >= seen.end {
+                self.scan(index.cells(row, seen.end, right));
+            }
+            if width >= ring {
+                return;
+            }
+            seen = left.min(seen.start)..seen.end.max(right + 1);
+            width *= WIDER;
         }
     }
 
     /// The ring's cells in a column, its corners apart, from the middle outward.
-    fn column(&mut self, index: &NeighborIndex, at: &GridPoint, ring: usize, column: usize) {
+    fn column(&mut self, at: &GridPoint, ring: usize, column: usize) {
+        let index = self.index;
         let away = distance_to_cell(at.x, column);
         let (low, high) = stretch(at.y, at.cell[1], ring - 1, self.reach_beside(away), index.rows);
         let first = column * index.rows;
         if low > high || index.before[first + low] == index.before[first + high + 1] {
             return;
         }
-        for step in 0..ring {
-            if step as f32 > self.reach_beside(away) + 1.0 {
-                break;
+        let middle = at.cell[1];
+        self.up_or_down(at, column, (low..=middle.min(high)).rev());
+        self.up_or_down(at, column, (middle + 1).max(low)..=high);
+    }
+
+    /// Cells of a column, each farther from the query than the one before, as far as they can hold a point that is near
+    /// enough.
+    fn up_or_down(&mut self, at: &GridPoint, column: usize, rows: impl Iterator<Item = usize>) {
+        let away = distance_to_cell(at.x, column);
+        for row in rows {
+            if !self.reaches(away, distance_to_cell(at.y, row)) {
+                return;
             }
-            let row = at.cell[1];
-            if step <= row {
-                self.scan(index, index.cells(row - step, column, column));
-            }
-            if step > 0 && row + step < index.rows {
-                self.scan(index, index.cells(row + step, column, column));
-            }
+            self.scan(self.index.cells(row, column, column));
         }
+    }
+
+    /// Whether a point can still be near enough whose cell lies so many cells away in column and row.
+    fn reaches(&self, columns: f32, rows: f32) -> bool {
+        let [x, y] = [columns, rows].map(|cells| (cells * self.index.cell - SLACK).max(0.0));
+        x * x + y * y <= self.best.worst()
     }
 
     /// How far to the side, in cells, a point can still be near enough whose cell lies this many cells away.
     fn reach_beside(&self, cells_away: f32) -> f32 {
-        let away = (cells_away * self.cell - SLACK).max(0.0);
-        let left = self.worst - away * away;
-        if left < 0.0 { -1.0 } else { (left.sqrt() + SLACK) / self.cell }
+        let away = (cells_away * self.index.cell - SLACK).max(0.0);
+        let left = self.best.worst() - away * away;
+        if left < 0.0 { -1.0 } else { (left.sqrt() + SLACK) / self.index.cell }
     }
 
-    fn scan(&mut self, index: &NeighborIndex, run: Range<usize>) {
-        if run.len() < FEW {
-            return self.scan_few(index, run);
-        }
-        let points = index.xs[run.clone()].chunks(LANES).zip(index.ys[run.clone()].chunks(LANES));
-        let points = points.zip(index.zs[run.clone()].chunks(LANES));
-        for (((xs, ys), zs), ids) in points.zip(index.ids[run.clone()].chunks(LANES)) {
-            self.scan_some(xs, ys, zs, ids);
-        }
-    }
-
-    /// One point after the other: for runs too short for vector instructions.
-    fn scan_few(&mut self, index: &NeighborIndex, run: Range<usize>) {
-        for place in run {
-            let distance_squared = self.distance_squared(index.xs[place], index.ys[place], index.zs[place]);
-            if distance_squared <= self.worst {
-                self.enter(Neighbor { id: index.ids[place], distance_squared });
+    /// Looks at a run of points, so many at a time: what follows the run are points, too, or infinitely far.
+    fn scan(&mut self, mut run: Range<usize>) {
+        let NeighborIndex { xs, ys, zs, ids, .. } = self.index;
+        let [x, y, z] = self.query;
+        while !run.is_empty() {
+            let some = run.start..run.start + LANES;
+            let points = [xs, ys, zs].map(|values| values[some.clone()].first_chunk::<LANES>());
+            let ([Some(xs), Some(ys), Some(zs)], Some(ids)) = (points, ids[some].first_chunk()) else {
+                return;
+            };
+            let mut distances = [0.0; LANES];
+            for (distance, ((px, py), pz)) in distances.iter_mut().zip(xs.iter().zip(ys).zip(zs)) {
+                let [dx, dy, dz] = [px - x, py - y, pz - z];
+                *distance = dx * dx + dy * dy + dz * dz;
             }
-        }
-    }
-
-    fn distance_squared(&self, x: f32, y: f32, z: f32) -> f32 {
-        let [dx, dy, dz] = [x - self.query[0], y - self.query[1], z - self.query[2]];
-        dx * dx + dy * dy + dz * dz
-    }
-
-    /// At most [`LANES`] points: all distances first, which the compiler turns into vector instructions.
-    fn scan_some(&mut self, xs: &[f32], ys: &[f32], zs: &[f32], ids: &[u32]) {
-        let mut distances = [f32::INFINITY; LANES];
-        for (distance, ((x, y), z)) in distances.iter_mut().zip(xs.iter().zip(ys).zip(zs)) {
-            *distance = self.distance_squared(*x, *y, *z);
-        }
-        let hits = distances.iter().fold(0, |hits, distance| hits | u32::from(*distance <= self.worst));
-        if hits == 0 {
-            return;
-        }
-        for (distance_squared, id) in distances.into_iter().zip(ids) {
-            if distance_squared <= self.worst {
-                self.enter(Neighbor { id: *id, distance_squared });
-            }
-        }
-    }
-
-    fn enter(&mut self, candidate: Neighbor) {
-        let before = |other: &Neighbor| {
-            (other.distance_squared, other.id) < (candidate.distance_squared, candidate.id)
-        };
-        let place = self.found.partition_point(before);
-        if place == self.k {
-            return;
-        }
-        self.found.truncate(self.k - 1);
-        self.found.insert(place, candidate);
-        if self.found.len() == self.k {
-            self.worst = self.found[self.k - 1].distance_squared;
+            self.best.take(&distances, ids, run.len());
+            run.start += LANES;
         }
     }
 }

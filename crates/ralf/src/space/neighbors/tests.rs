@@ -19,7 +19,7 @@ fn check(points: &[[f32; 3]], queries: &[[f32; 3]]) {
     let index = NeighborIndex::new(points, &ids);
     let mut found = Vec::new();
     for &query in queries {
-        for k in [1, 3, 10] {
+        for k in [1, 3, 5, 10, 12] {
             index.nearest(query, k, &mut found);
             let expected = brute_force(points, query, k);
             assert_eq!(found, expected, "query {query:?}, k {k}");

@@ -1,0 +1,166 @@
+//! The nearest points that a search has met so far.
+
+use super::Neighbor;
+
+/// Distances are computed for so many points at a time, which the compiler turns into vector instructions.
+pub(super) const LANES: usize = 8;
+/// The identity of nothing: what holds the place of a point that isn't found yet.
+const NOTHING: u32 = u32::MAX;
+
+/// The nearest points so far, as keys that grow with the distance and, of equal distances, with the identity. Those
+/// that aren't found yet are nothing, as far away as a point may be.
+pub(super) trait Best {
+    /// As many as are wanted, nearest first.
+    fn keys(&self) -> &[u64];
+
+    /// A point takes its place, unless as many are nearer.
+    fn enter(&mut self, key: u64);
+
+    /// Points at most this far, m^2, can still enter.
+    #[inline]
+    fn worst(&self) -> f32 {
+        self.keys().last().map_or(0.0, |key| distance_squared(*key))
+    }
+
+    /// Whether nothing was found.
+    #[inline]
+    fn is_empty(&self) -> bool {
+        self.keys().first().is_none_or(|key| neighbor(*key).is_none())
+    }
+
+    /// Gives what was found, nearest first.
+    fn give(&self, found: &mut Vec<Neighbor>) {
+        found.extend(self.keys().iter().map_while(|key| neighbor(*key)));
+    }
+
+    /// Looks at some points side by side, of which the first so many count.
+    #[inline]
+    fn take(&mut self, distances: &[f32; LANES], ids: &[u32; LANES], count: usize) {
+        let mut hits = self.hits(distances, count);
+        while hits != 0 {
+            let lane = hits.trailing_zeros() as usize % LANES;
+            self.enter(key(distances[lane], ids[lane]));
+            hits &= hits - 1;
+        }
+    }
+
+    /// A bit for each of the first so many points that may enter.
+    #[inline]
+    fn hits(&self, distances: &[f32; LANES], count: usize) -> u32 {
+        let hits = those_within(distances, self.worst());
+        if count < LANES { hits & ((1 << count) - 1) } else { hits }
+    }
+}
+
+/// One.
+pub(super) struct One {
+    key: u64,
+}
+
+impl One {
+    /// The nearest among the points at most so far away, m^2.
+    pub(super) fn within(limit: f32) -> Self {
+        Self { key: key(limit, NOTHING) }
+    }
+}
+
+impl Best for One {
+    #[inline]
+    fn keys(&self) -> &[u64] {
+        std::slice::from_ref(&self.key)
+    }
+
+    #[inline]
+    fn enter(&mut self, entering: u64) {
+        self.key = self.key.min(entering);
+    }
+
+    /// Of several the nearest alone can enter, which is mostly one. All of them count: what follows a run are points,
+    /// too, and to meet the nearest point twice does no harm.
+    #[inline]
+    fn hits(&self, distances: &[f32; LANES], _: usize) -> u32 {
+        let nearest = distances.iter().fold(self.worst(), |a, b| if *b < a { *b } else { a });
+        those_within(distances, nearest)
+    }
+}
+
+/// A few, no more than `N`.
+pub(super) struct Few<const N: usize> {
+    keys: [u64; N],
+    k: usize,
+}
+
+impl<const N: usize> Few<N> {
+    /// The `k` nearest among the points at most so far away, m^2.
+    pub(super) fn within(limit: f32, k: usize) -> Self {
+        Self { keys: [key(limit, NOTHING); N], k: k.min(N) }
+    }
+}
+
+impl<const N: usize> Best for Few<N> {
+    #[inline]
+    fn keys(&self) -> &[u64] {
+        &self.keys[..self.k]
+    }
+
+    #[inline]
+    fn worst(&self) -> f32 {
+        distance_squared(self.keys[self.k - 1])
+    }
+
+    /// All are moved or not without a branch, for which of them move is hard to foretell.
+    #[inline]
+    fn enter(&mut self, entering: u64) {
+        for at in (1..N).rev() {
+            self.keys[at] = self.keys[at].min(self.keys[at - 1].max(entering));
+        }
+        self.keys[0] = self.keys[0].min(entering);
+    }
+}
+
+/// Any number.
+pub(super) struct Many {
+    keys: Vec<u64>,
+}
+
+impl Many {
+    /// The `k` nearest among the points at most so far away, m^2.
+    pub(super) fn within(limit: f32, k: usize) -> Self {
+        Self { keys: vec![key(limit, NOTHING); k] }
+    }
+}
+
+impl Best for Many {
+    fn keys(&self) -> &[u64] {
+        &self.keys
+    }
+
+    fn enter(&mut self, entering: u64) {
+        let place = self.keys.partition_point(|key| *key < entering);
+        let last = self.keys.len() - 1;
+        if place <= last {
+            self.keys.copy_within(place..last, place + 1);
+            self.keys[place] = entering;
+        }
+    }
+}
+
+/// Squared distances are never negative, and the bits of such numbers grow with them.
+fn key(distance_squared: f32, id: u32) -> u64 {
+    u64::from(distance_squared.to_bits()) << 32 | u64::from(id)
+}
+
+fn distance_squared(key: u64) -> f32 {
+    f32::from_bits((key >> 32) as u32)
+}
+
+fn neighbor(key: u64) -> Option<Neighbor> {
+    let id = key as u32;
+    (id != NOTHING).then(|| Neighbor { id, distance_squared: distance_squared(key) })
+}
+
+/// A bit for each of the points that is at most so far away, m^2.
+#[inline]
+fn those_within(distances: &[f32; LANES], limit: f32) -> u32 {
+    (0..LANES).fold(0, |bits, lane| bits | u32::from(distances[lane] <= limit) << lane)
+}
