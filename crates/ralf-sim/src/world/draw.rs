@@ -113,6 +113,7 @@ fn radars(family: &Family, random: &mut Random) -> Vec<RadarModel> {
 
 /// A model of radar; name and place come later.
 fn radar(ranges: &RadarRanges, elevation: bool, random: &mut Random) -> RadarModel {
+    let side_lobe_db = ranges.side_lobe.draw(random);
     RadarModel {
         name: String::new(),
         vehicle_from_radar: Transform::identity(),
@@ -134,8 +135,8 @@ fn radar(ranges: &RadarRanges, elevation: bool, random: &mut Random) -> RadarMod
         threshold_db: ranges.threshold.draw(random),
         doppler_interval: ranges.doppler_interval.draw(random),
         doppler_failure: ranges.doppler_failure.draw(random),
-        side_lobe_db: ranges.side_lobe.draw(random),
-        accepted_db: ranges.accepted.draw(random),
+        side_lobe_db,
+        accepted_db: side_lobe_db - ranges.accepted.draw(random),
         angle_failure: ranges.angle_failure.draw(random),
         ambiguity: AMBIGUITY.draw(random),
         room: ranges.room.count(random),

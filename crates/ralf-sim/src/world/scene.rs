@@ -133,7 +133,7 @@ impl Moment<'_> {
 
     /// What lies between two points takes from a radar wave, there and back, dB; `None` where nothing comes through.
     /// The bodies of `own` don't count, nor does the ground.
-    pub(super) fn loss_db(&self, from: &Point, to: &Point, own: Option<usize>, leaf_db: f64) -> Option<f64> {
+    pub(super) fn loss_db(&self, from: &Point, to: &Point, own: &[usize], leaf_db: f64) -> Option<f64> {
         let way = to - from;
         let length = way.norm();
         if length < 1e-6 {
@@ -142,7 +142,7 @@ impl Moment<'_> {
         let ray = Ray { origin: *from, direction: way / length };
         let mut loss = Some(0.0);
         let mut meet = |solid: &Solid, limit: f64| {
-            if own != Some(solid.object)
+            if !own.contains(&solid.object)
                 && let Some(met) = crossing(solid, &ray, length - 0.05)
             {
                 loss = loss
@@ -178,8 +178,8 @@ fn through_db(kind: Kind, metres: f64, leaf_db: f64) -> Option<f64> {
         Kind::Building | Kind::Garage | Kind::Container => None,
         // Over its top edge waves are bent.
         Kind::Wall => Some(25.0),
-        Kind::Truck => Some(9.0),
-        Kind::Car => Some(4.5),
+        Kind::Truck => Some(14.0),
+        Kind::Car => Some(8.0),
         Kind::Tree | Kind::Hedge => Some(leaf_db * metres),
         Kind::Rail | Kind::Sign | Kind::Fence | Kind::Cyclist => Some(3.0),
         Kind::Pedestrian => Some(5.0),

@@ -39,7 +39,7 @@ impl Surface {
             Self::Asphalt => 0.0,
             Self::Pavement => 3.0,
             Self::Gravel => 8.0,
-            Self::Grass => 10.0,
+            Self::Grass => 7.0,
         }
     }
 }

@@ -60,7 +60,7 @@ pub(crate) struct RadarRanges {
     pub(crate) doppler_failure: Span,
     /// Level of the highest side lobe below the main one (two-way), dB.
     pub(crate) side_lobe: Span,
-    /// Peaks of the angle's spectrum down to so far below the highest are taken for things of their own, dB.
+    /// Peaks of the angle's spectrum so far above the highest side lobe are taken for things of their own, dB.
     pub(crate) accepted: Span,
     /// How often an angle is taken for another, near the threshold.
     pub(crate) angle_failure: Span,

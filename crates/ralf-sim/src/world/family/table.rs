@@ -33,8 +33,9 @@ pub const FAMILIES: [Family; 8] = [
             fov_azimuth: span(90.0, 120.0),
             fov_elevation: span(14.0, 20.0),
             rate: span(13.0, 14.0),
-            // Measured, nuScenes: a scan is full (125) more often than not, and its detections are 50 m away (median).
-            car_range: span(140.0, 230.0),
+            // Measured, nuScenes: a scan is full (125) more often than not, its detections are 50 m away (median), and
+            // -4.5 dBsm are heard at 100 to 140 m: 10 dBsm would be 13 dB above noise at 260 m.
+            car_range: span(160.0, 280.0),
             // Measured, nuScenes: 95 % within 91 to 108 m, the farthest at 193 m.
             max_range: span(100.0, 190.0),
             // ARS 408-21: 0.39 m near, 1.79 m far; angles 3.2 to 12.3 degrees near; 0.37 km/h.
@@ -46,15 +47,15 @@ pub const FAMILIES: [Family; 8] = [
             room: span(80.0, 125.0),
             // Measured, nuScenes: 5 % of what stands still lies below -4.5 dBsm near by and below -2.5 beyond 100 m.
             keeps: &[(Keeps::Largest, 1.0)],
-            least_rcs: span(-12.0, -3.0),
+            least_rcs: span(-9.0, -2.0),
             false_alarms: span(0.5, 6.0),
             side_lobe: span(13.0, 22.0),
             ..RADARS
         },
         waves: WaveRanges {
             asphalt: span(-28.0, -14.0),
-            spike_mean: span(-15.0, -7.0),
-            spike_scale: span(-3.0, 6.0),
+            spike_mean: span(-7.0, 0.0),
+            spike_scale: span(-1.0, 7.0),
             lumps: span(0.02, 0.1),
             mirror_loss: span(1.0, 6.0),
             ..WAVES
@@ -68,13 +69,14 @@ pub const FAMILIES: [Family; 8] = [
         name: "motorway",
         about: "long range ahead and behind at up to 35 m/s, guard rails, a LiDAR that turns while the world moves",
         radars: RadarRanges {
-            layouts: &[FRONT_REAR, SIX],
+            layouts: &[FRONT_REAR, FRONT_REAR, SIX],
             elevation: 0.7,
             // Measured, aiMotive: azimuths within 17, elevations within 7.8 degrees to a side.
-            fov_azimuth: span(30.0, 100.0),
+            fov_azimuth: span(30.0, 90.0),
             fov_elevation: span(12.0, 18.0),
             rate: span(15.0, 18.2),
-            car_range: span(130.0, 220.0),
+            // Measured, aiMotive: at 150 m -0.5 dBsm are 14.5 dB above noise, as 10 dBsm would be at 300 m.
+            car_range: span(160.0, 320.0),
             // Measured, aiMotive: 13 to 180 m.
             max_range: span(150.0, 200.0),
             range_cell: span(0.4, 1.5),
@@ -84,17 +86,17 @@ pub const FAMILIES: [Family; 8] = [
             doppler_interval: span(55.0, 90.0),
             doppler_failure: span(0.03, 0.3),
             // Measured, aiMotive: 26 to 55 in a scan; radars of the next generation give hundreds.
-            room: span(60.0, 240.0),
+            room: span(40.0, 240.0),
             keeps: &[(Keeps::Largest, 0.7), (Keeps::Clearest, 0.3)],
-            // As in nuScenes at most; chosen.
-            least_rcs: span(-30.0, -4.0),
+            // Measured, aiMotive: 5 % lie below -7 to -4 dBsm from 20 to 140 m.
+            least_rcs: span(-16.0, -2.0),
             false_alarms: span(0.5, 6.0),
             side_lobe: span(13.0, 22.0),
             ..RADARS
         },
         waves: WaveRanges {
             asphalt: span(-36.0, -24.0),
-            spike_mean: span(-12.0, -5.0),
+            spike_mean: span(-5.0, 3.0),
             spike_scale: span(-3.0, 8.0),
             mirror_loss: span(1.0, 6.0),
             interference: span(0.0, 0.1),
@@ -125,6 +127,7 @@ pub const FAMILIES: [Family; 8] = [
         },
         waves: WaveRanges {
             asphalt: span(-26.0, -15.0),
+            spike_mean: span(-4.0, 3.0),
             // Sheet metal of cars' sides, close by.
             mirror_loss: span(0.5, 4.0),
             bumper: span(1.0, 5.0),
@@ -146,8 +149,9 @@ pub const FAMILIES: [Family; 8] = [
             layouts: &[ONE],
             fov_azimuth: span(100.0, 120.0),
             rate: span(10.0, 13.0),
-            // Measured, View-of-Delft: half of the detections within 23 m, the farthest at 100 m.
-            car_range: span(60.0, 100.0),
+            // Measured, View-of-Delft: half of the detections within 23 m, the farthest at 100 m; -20 dBsm are heard at
+            // 80 to 100 m, by its own calibration. How far that is off is chosen.
+            car_range: span(80.0, 240.0),
             max_range: span(80.0, 105.0),
             range_cell: span(0.1, 0.3),
             azimuth_cell: span(1.0, 2.2),
@@ -162,7 +166,12 @@ pub const FAMILIES: [Family; 8] = [
             false_alarms: span(1.0, 20.0),
             ..RADARS
         },
-        waves: WaveRanges { asphalt: span(-27.0, -16.0), strength: span(-8.0, 0.0), ..WAVES },
+        waves: WaveRanges {
+            asphalt: span(-27.0, -16.0),
+            spike_mean: span(-6.0, 1.0),
+            strength: span(-8.0, 0.0),
+            ..WAVES
+        },
         lidars: LidarRanges { layouts: &[ROOF_64], sigma: span(0.015, 0.03), rolling: 0.0, ..LIDARS },
         places: &[(PlaceKind::Residential, 2.0), (PlaceKind::Street, 2.0), (PlaceKind::Country, 1.0)],
         motion: MotionRanges { speed: span(0.4, 0.9), traffic: span(0.6, 2.5), ..MOTION },
@@ -179,13 +188,15 @@ pub const FAMILIES: [Family; 8] = [
             max_range: span(60.0, 120.0),
             azimuth_cell: span(0.8, 2.5),
             side_lobe: span(9.0, 18.0),
+            // So few elements leave no room above the lobes: chosen.
+            accepted: span(0.0, 6.0),
             angle_failure: span(0.1, 0.35),
             // A cascade of chips with long chirps: the interval shrinks to a few tens of m/s.
             doppler_interval: span(20.0, 60.0),
             room: span(200.0, 800.0),
             ..RADARS
         },
-        waves: WaveRanges { mirror_loss: span(0.5, 4.0), interference: span(0.0, 0.15), ..WAVES },
+        waves: WaveRanges { mirror_loss: span(1.0, 6.0), interference: span(0.0, 0.15), ..WAVES },
         lidars: LidarRanges { layouts: &[AHEAD, ROOF_128_WIDE, ROOF_64_EVEN], ..LIDARS },
         places: &[(PlaceKind::Industrial, 4.0), (PlaceKind::CarPark, 1.0)],
         motion: MotionRanges { standing: 0.15, reversing: 0.15, ..MOTION },
@@ -207,6 +218,7 @@ pub const FAMILIES: [Family; 8] = [
         waves: WaveRanges {
             // Dry grass and soil: less than in town, or grass alone would be heard.
             asphalt: span(-36.0, -26.0),
+            spike_mean: span(-7.0, 1.0),
             texture: span(5.0, 9.0),
             mirror_loss: span(1.0, 7.0),
             strength: span(-9.0, 1.0),
@@ -242,7 +254,7 @@ pub const FAMILIES: [Family; 8] = [
             room: span(50.0, 600.0),
             least_rcs: span(-60.0, -4.0),
             // A threshold of 9 to 10 dB above noise lets some tens of a hundred thousand cells pass.
-            false_alarms: span(0.5, 60.0),
+            false_alarms: span(0.5, 20.0),
             ..RADARS
         },
         waves: WaveRanges {

@@ -19,9 +19,10 @@ pub(super) const RADARS: RadarRanges = RadarRanges {
     fov_elevation: span(16.0, 30.0),
     // 13 Hz in nuScenes and View-of-Delft, 18 in aiMotive, 20 in the paper.
     rate: span(12.0, 20.0),
-    // A car of 10 dBsm is seen up to so far (data sheets: corner radars 70 to 100 m, mid-range ones 160 m).
-    car_range: span(70.0, 130.0),
-    max_range: span(60.0, 100.0),
+    // A car of 10 dBsm is seen up to so far (data sheets: corner radars 70 to 100 m, mid-range ones 160 m, imaging ones
+    // 250 m and more).
+    car_range: span(80.0, 200.0),
+    max_range: span(60.0, 130.0),
     // c / (2 B): 0.15 m at 1 GHz, 0.5 m at 300 MHz.
     range_cell: span(0.15, 0.5),
     // Data sheets of imaging radars: 1 to 2 degrees; of corner radars 3 to 6.
@@ -38,17 +39,20 @@ pub(super) const RADARS: RadarRanges = RadarRanges {
     // Wider than any closing speed: chirps of several repetition times.
     doppler_interval: span(80.0, 140.0),
     doppler_failure: span(0.0, 0.05),
-    // Tapered arrays: 20 to 30 dB one-way; calibration errors raise them. Two-way with a uniform transmitter.
-    side_lobe: span(12.0, 24.0),
-    // Chosen: radars that tell two things in one cell of range and range rate accept peaks 10 to 20 dB below another.
-    accepted: span(12.0, 22.0),
+    // The pattern of a virtual array, there and back: 13 dB if it is filled evenly, 20 to 30 if it is tapered (Harris
+    // 1978); errors of calibration raise the latter.
+    side_lobe: span(13.0, 25.0),
+    // Chosen: who builds a radar knows its lobes, and takes for another thing in the same cell of range and range rate
+    // what stands above them.
+    accepted: span(1.0, 7.0),
     angle_failure: span(0.02, 0.15),
     // 1,216 in four radars in the paper's recordings.
     room: span(250.0, 500.0),
-    // Chosen.
-    keeps: &[(Keeps::Clearest, 0.3), (Keeps::Nearest, 0.3), (Keeps::Largest, 0.4)],
-    // Measured, View-of-Delft: 5 % lie below -39 dBsm.
-    least_rcs: span(-60.0, -25.0),
+    // Measured, nuScenes, View-of-Delft and aiMotive: the smallest cross-sections of a scan are the same within 5 dB
+    // from 15 m to 80 m and beyond, as if the largest were kept. How many radars do otherwise is chosen.
+    keeps: &[(Keeps::Clearest, 0.25), (Keeps::Nearest, 0.1), (Keeps::Largest, 0.65)],
+    // Measured, View-of-Delft: 5 % lie below -24 dBsm from 15 to 60 m, and below -42 nearer than 10 m; nuScenes: -4.5.
+    least_rcs: span(-36.0, -6.0),
     // Measured, nuScenes, View-of-Delft and aiMotive (`scripts/false_alarms.py`): 1 to 3 detections of a scan move, lie
     // far from the LiDAR's points, are weak and never seen again: 1 to 2 % of all.
     false_alarms: span(0.5, 12.0),
@@ -65,11 +69,12 @@ pub(super) const WAVES: WaveRanges = WaveRanges {
     lumps: span(0.005, 0.05),
     lump_strength: span(10.0, 22.0),
     // Measured, nuScenes: some 40 detections of a scan stand still far from every LiDAR point, of 2 to 7 dBsm (median),
-    // in a sector of 5,000 square metres: -17 dB. How much more lies below its threshold of -4.5 dBsm is chosen.
-    spike_mean: span(-14.0, -6.0),
+    // in a sector of 5,000 square metres: -17 dB. How much more lies below its threshold of -4.5 dBsm, and nearer than
+    // where LiDAR sees nothing else, is chosen.
+    spike_mean: span(-9.0, -1.0),
     spike_scale: span(-7.0, 6.0),
     // Measured: what lies far from every LiDAR point is seen again in .11 (aiMotive) to .46 (nuScenes) of the scans.
-    spikes_stay: span(0.0, 0.6),
+    spikes_stay: span(0.0, 0.8),
     // Reflection of facades at 77 GHz: glass and metal 0 to 3 dB, plaster and brick 5 to 12 (chosen).
     mirror_loss: span(1.0, 8.0),
     // Chosen: from a bumper of plastic to a plate of a square metre that looks ahead.

@@ -170,6 +170,11 @@ impl<'a> Builder<'a> {
         speed.abs() * LASTING
     }
 
+    /// From where to where along x a place goes on about a drive of so many metres: until it bends away or ends.
+    pub(super) fn sight(&mut self, way: f64, [near, far]: [f64; 2]) -> [f64; 2] {
+        [-self.between(near, far), way + self.between(near, far)]
+    }
+
     /// How many of what is usual for a place.
     pub(super) fn traffic(&mut self, usual: f64) -> usize {
         let mean = usual * self.motion.traffic.draw(self.random);

@@ -9,7 +9,7 @@ use crate::world::terrain::Surface;
 pub(super) fn country(builder: &mut Builder<'_>) {
     builder.plan.title = "country road";
     let way = builder.drive([0.0, -1.6, 0.0], 18.0);
-    let reach = [-80.0, way + 120.0];
+    let reach = builder.sight(way, [80.0, 220.0]);
     let half = builder.between(2.7, 3.8);
     builder.hills(way);
     for side in [1.0, -1.0] {
@@ -22,9 +22,9 @@ pub(super) fn country(builder: &mut Builder<'_>) {
         builder.bank(side * (half + 1.0), slope);
         verge(builder, side, half, reach);
     }
-    let road = Road { reach, lanes: vec![-1.6, 1.6], speed: 20.0, cars: 4.0, trucks: 0.15 };
+    let road = Road { reach, lanes: vec![-1.6, 1.6], speed: 20.0, cars: 30.0, trucks: 0.15 };
     on_road(builder, &road);
-    on_bicycles(builder, 1.0, reach, 2.3);
+    on_bicycles(builder, 4.0, reach, 2.3);
 }
 
 fn verge(builder: &mut Builder<'_>, side: f64, half: f64, [from, to]: [f64; 2]) {

@@ -9,7 +9,7 @@ use crate::world::terrain::Surface;
 pub(super) fn yard(builder: &mut Builder<'_>) {
     builder.plan.title = "industrial yard";
     let way = builder.drive([0.0, -1.8, 0.0], 5.0);
-    let reach = [-45.0, way + 60.0];
+    let reach = builder.sight(way, [45.0, 120.0]);
     builder.hills(way);
     let half = builder.between(4.0, 8.0);
     for side in [1.0, -1.0] {
@@ -23,9 +23,9 @@ pub(super) fn yard(builder: &mut Builder<'_>) {
             builder.line(Kind::Fence, reach, side * (half + 8.5), [4.0, 0.06, 2.0]);
         }
     }
-    let road = Road { reach, lanes: vec![-1.8, 1.8], speed: 6.0, cars: 2.5, trucks: 0.5 };
+    let road = Road { reach, lanes: vec![-1.8, 1.8], speed: 6.0, cars: 30.0, trucks: 0.5 };
     on_road(builder, &road);
-    on_foot(builder, 4.0, reach, half - 0.5);
+    on_foot(builder, 50.0, reach, half - 0.5);
 }
 
 fn stacks(builder: &mut Builder<'_>, y: f64, [from, to]: [f64; 2]) {

@@ -17,7 +17,7 @@ pub(super) fn motorway(builder: &mut Builder<'_>) {
     let own = (builder.random.uniform() * f64::from(lanes)) as i32;
     let center = |lane: i32| median / 2.0 + 0.5 + LANE * (f64::from(lane) + 0.5);
     let way = builder.drive([0.0, -center(own), 0.0], 31.0);
-    let reach = [-180.0, way + 220.0];
+    let reach = builder.sight(way, [180.0, 260.0]);
     builder.hills(way);
     middle(builder, median, reach);
     let outer = median / 2.0 + 0.5 + LANE * f64::from(lanes) + SHOULDER;
@@ -29,7 +29,7 @@ pub(super) fn motorway(builder: &mut Builder<'_>) {
     // Drivers of the inner lanes are faster; what is drawn per car is spread enough.
     let jam = builder.chance(0.15);
     let speed = if jam { builder.between(0.5, 5.0) } else { 31.0 };
-    on_road(builder, &Road { reach, lanes: centers, speed, cars: 22.0, trucks: 0.3 });
+    on_road(builder, &Road { reach, lanes: centers, speed, cars: 45.0, trucks: 0.3 });
 }
 
 /// Between the carriageways: rails, a wall of concrete, bushes on grass.

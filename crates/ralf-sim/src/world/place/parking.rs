@@ -9,7 +9,7 @@ use crate::world::terrain::Surface;
 pub(super) fn car_park(builder: &mut Builder<'_>) {
     builder.plan.title = "car park";
     let way = builder.drive([0.0, -1.3, 0.0], 2.6);
-    let reach = [-35.0, way + 40.0];
+    let reach = builder.sight(way, [35.0, 100.0]);
     builder.hills(way);
     let [full, lane] = [builder.between(0.35, 0.95), builder.between(5.5, 7.5)];
     let mut y = lane / 2.0;
@@ -26,9 +26,9 @@ pub(super) fn car_park(builder: &mut Builder<'_>) {
         edge(builder, side * (y + 3.0), reach);
     }
     manoeuvre(builder);
-    let road = Road { reach, lanes: vec![-1.3, 1.3], speed: 3.0, cars: 1.0, trucks: 0.0 };
+    let road = Road { reach, lanes: vec![-1.3, 1.3], speed: 3.0, cars: 10.0, trucks: 0.0 };
     on_road(builder, &road);
-    on_foot(builder, 5.0, reach, lane / 2.0 - 0.4);
+    on_foot(builder, 50.0, reach, lane / 2.0 - 0.4);
 }
 
 /// A turn into a space, or around the end of a row.

@@ -9,16 +9,16 @@ use crate::world::terrain::Surface;
 pub(super) fn residential(builder: &mut Builder<'_>) {
     builder.plan.title = "residential street";
     let way = builder.drive([0.0, -1.1, 0.0], 6.5);
-    let reach = [-50.0, way + 70.0];
+    let reach = builder.sight(way, [50.0, 160.0]);
     let half = builder.between(2.8, 4.6);
     builder.hills(way);
     for side in [1.0, -1.0] {
         gardens(builder, side, half, reach);
     }
-    let road = Road { reach, lanes: vec![-1.1, 1.4], speed: 8.0, cars: 2.5, trucks: 0.1 };
+    let road = Road { reach, lanes: vec![-1.1, 1.4], speed: 8.0, cars: 30.0, trucks: 0.1 };
     on_road(builder, &road);
-    on_foot(builder, 4.0, reach, half + 0.8);
-    on_bicycles(builder, 3.0, reach, 2.2);
+    on_foot(builder, 45.0, reach, half + 0.8);
+    on_bicycles(builder, 20.0, reach, 2.2);
 }
 
 /// Plot by plot: a verge, an enclosure, a lawn or gravel, a house, a drive with a car.

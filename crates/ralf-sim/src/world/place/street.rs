@@ -5,10 +5,15 @@ use super::traffic::{Road, on_bicycles, on_foot, on_road};
 use crate::kind::Kind;
 use crate::world::terrain::Surface;
 
+/// What usually moves in a kilometre of a lane.
+const CARS_IN_LANE: f64 = 30.0;
+
 /// What a street is like across.
 struct Profile {
     /// Half the roadway's width, with the cars that park on it, m.
     road: f64,
+    /// Centre lines of its lanes, m.
+    lanes: Vec<f64>,
     /// Width of the sidewalk, m.
     walk: f64,
     /// Height of the kerb, m.
@@ -20,15 +25,16 @@ pub(super) fn street(builder: &mut Builder<'_>) {
     builder.plan.title = "street";
     let way = builder.drive([0.0, -1.7, 0.0], 9.0);
     let profile = profile(builder);
-    let reach = [-60.0, way + 80.0];
+    let reach = builder.sight(way, [60.0, 220.0]);
     builder.hills(way);
     for side in [1.0, -1.0] {
         flank(builder, &profile, side, reach, None);
     }
-    let road = Road { reach, lanes: vec![-1.7, 1.7], speed: 10.0, cars: 5.0, trucks: 0.1 };
+    let cars = CARS_IN_LANE * profile.lanes.len() as f64;
+    let road = Road { reach, lanes: profile.lanes.clone(), speed: 10.0, cars, trucks: 0.1 };
     on_road(builder, &road);
-    on_foot(builder, 6.0, reach, profile.road + 1.0);
-    on_bicycles(builder, 2.0, reach, 3.2);
+    on_foot(builder, 60.0, reach, profile.road + 1.0);
+    on_bicycles(builder, 12.0, reach, 3.2);
 }
 
 /// Two streets that cross.
@@ -36,7 +42,7 @@ pub(super) fn crossing(builder: &mut Builder<'_>) {
     builder.plan.title = "crossing";
     let way = builder.drive([0.0, -1.7, 0.0], 7.0);
     let profile = profile(builder);
-    let reach = [-50.0, way + 70.0];
+    let reach = builder.sight(way, [50.0, 200.0]);
     let at = (0.6 * way).max(builder.between(8.0, 30.0));
     let half = profile.road + profile.walk + 1.0;
     builder.hills(way);
@@ -45,10 +51,11 @@ pub(super) fn crossing(builder: &mut Builder<'_>) {
         corner(builder, at, side, &profile);
     }
     crossing_traffic(builder, at);
-    let road = Road { reach, lanes: vec![-1.7, 1.7], speed: 7.0, cars: 4.0, trucks: 0.1 };
+    let cars = CARS_IN_LANE * profile.lanes.len() as f64;
+    let road = Road { reach, lanes: profile.lanes.clone(), speed: 7.0, cars, trucks: 0.1 };
     on_road(builder, &road);
-    on_foot(builder, 7.0, [at - 30.0, at + 30.0], profile.road + 1.0);
-    on_bicycles(builder, 2.0, reach, 3.2);
+    on_foot(builder, 120.0, [at - 30.0, at + 30.0], profile.road + 1.0);
+    on_bicycles(builder, 12.0, reach, 3.2);
     if way < 5.0 {
         return;
     }
@@ -60,8 +67,10 @@ pub(super) fn crossing(builder: &mut Builder<'_>) {
 }
 
 fn profile(builder: &mut Builder<'_>) -> Profile {
+    let wide = builder.chance(0.35);
     Profile {
-        road: builder.between(4.2, 7.5),
+        road: if wide { builder.between(8.0, 13.0) } else { builder.between(4.2, 7.5) },
+        lanes: if wide { vec![-5.2, -1.7, 1.7, 5.2] } else { vec![-1.7, 1.7] },
         walk: builder.between(1.5, 4.0),
         kerb: if builder.chance(0.85) { builder.between(0.04, 0.16) } else { 0.0 },
     }
@@ -96,7 +105,7 @@ fn flank(
         }
     }
     furniture(builder, side * (profile.road + 0.6), [from, to], &free);
-    let setback = side * (profile.road + profile.walk + builder.between(0.0, 6.0));
+    let setback = side * (profile.road + profile.walk + builder.between(0.0, 10.0));
     buildings(builder, setback, side, [from, to], &free);
 }
 
@@ -166,7 +175,7 @@ fn corner(builder: &mut Builder<'_>, at: f64, side: f64, profile: &Profile) {
 
 /// What drives across, and what waits or turns.
 fn crossing_traffic(builder: &mut Builder<'_>, at: f64) {
-    for _ in 0..builder.traffic(3.0) {
+    for _ in 0..builder.traffic(4.0) {
         let up = builder.chance(0.5);
         let (x, yaw) = if up { (at + 1.7, 90.0) } else { (at - 1.7, -90.0) };
         let distance = builder.between(10.0, 60.0);

@@ -11,7 +11,7 @@ pub(super) struct Road {
     pub(super) lanes: Vec<f64>,
     /// m/s, usually.
     pub(super) speed: f64,
-    /// How many usually move on it.
+    /// How many usually move on a kilometre of it.
     pub(super) cars: f64,
     /// Which share of them are lorries.
     pub(super) trucks: f64,
@@ -25,7 +25,7 @@ pub(super) fn on_road(builder: &mut Builder<'_>, road: &Road) {
     let [own_x, own_y, _] = builder.plan.drive.start;
     let own_speed = builder.plan.drive.speed;
     let mut taken: Vec<[f64; 2]> = Vec::new();
-    for _ in 0..builder.traffic(road.cars) {
+    for _ in 0..builder.traffic(per_kilometre(road.cars, road.reach)) {
         let lane = road.lanes[(builder.random.uniform() * road.lanes.len() as f64) as usize];
         let x = builder.between(road.reach[0], road.reach[1]);
         let own_lane = (lane - own_y).abs() < 2.0;
@@ -46,9 +46,14 @@ pub(super) fn on_road(builder: &mut Builder<'_>, road: &Road) {
     }
 }
 
-/// People on foot along x, or across it.
+/// How many there are on a stretch of so many on a kilometre.
+fn per_kilometre(usual: f64, [from, to]: [f64; 2]) -> f64 {
+    usual * (to - from) / 1000.0
+}
+
+/// People on foot along x, or across it: so many on a kilometre.
 pub(super) fn on_foot(builder: &mut Builder<'_>, usual: f64, [from, to]: [f64; 2], y: f64) {
-    for _ in 0..builder.traffic(usual) {
+    for _ in 0..builder.traffic(per_kilometre(usual, [from, to])) {
         let side = if builder.chance(0.5) { 1.0 } else { -1.0 };
         let at = [builder.between(from, to), side * y + builder.normal(0.5)];
         let across = builder.chance(0.2);
@@ -67,9 +72,9 @@ pub(super) fn on_foot(builder: &mut Builder<'_>, usual: f64, [from, to]: [f64; 2
     }
 }
 
-/// Cyclists along x.
+/// Cyclists along x: so many on a kilometre.
 pub(super) fn on_bicycles(builder: &mut Builder<'_>, usual: f64, [from, to]: [f64; 2], y: f64) {
-    for _ in 0..builder.traffic(usual) {
+    for _ in 0..builder.traffic(per_kilometre(usual, [from, to])) {
         let along = builder.chance(0.5);
         let at = [builder.between(from, to), if along { -y } else { y }];
         let yaw = if along { 0.0 } else { 180.0 } + builder.normal(2.0);

@@ -17,14 +17,12 @@ const FARTHEST: f64 = 30.0;
 const STRONGEST: usize = 32;
 /// `4 pi`, of a wave that spreads once more, dB.
 const SPREAD_DB: f64 = 11.0;
-/// What a thing sends to another is less than what it sends back where it came from: corners do that (chosen).
-const ASIDE_DB: f64 = 6.0;
 /// Farther from each other, two things don't throw waves to each other, m.
 const NEIGHBOURS: f64 = 25.0;
 /// Parts of vehicles below this height send waves under the floor, m.
 const FLOOR: f64 = 1.0;
 /// What a metre of way under a floor takes, dB (chosen).
-const UNDER_FLOOR_DB: f64 = 2.0;
+const UNDER_FLOOR_DB: f64 = 3.0;
 /// What is so near to a vehicle's outline belongs to it, m.
 const OUTLINE: f64 = 1.0;
 
@@ -38,7 +36,8 @@ pub(super) fn bounces(view: &View<'_>, targets: &[Target], random: &mut Random) 
         found.extend(trips(view, target, random).into_iter().flatten());
     }
     for (number, first) in strongest.iter().enumerate() {
-        for second in strongest[number + 1..].iter().filter(|second| second.item != first.item) {
+        let others = strongest[number + 1..].iter().filter(|second| second.item != first.item);
+        for second in others.filter(|second| !first.flash && !second.flash) {
             found.extend(triangle(view, first, second, random).into_iter().flatten());
         }
     }
@@ -80,8 +79,8 @@ fn triangle(view: &View<'_>, first: &Target, second: &Target, random: &mut Rando
     let mean = |value: fn(&View<'_>, &Target) -> f64| f64::midpoint(value(view, first), value(view, second));
     let level = mean(|_, target| decibel(target.echo.power)) + mean(rcs_db).min(20.0)
         - SPREAD_DB
-        - ASIDE_DB
         - 20.0 * between.log10();
+    let Some(level) = on_the_way_db(view, first, second, level) else { return [None, None] };
     let range = (first.echo.seen.range + between + second.echo.seen.range) / 2.0;
     let rate = f64::midpoint(first.echo.range_rate, second.echo.range_rate);
     [first, second].map(|last| {
@@ -91,6 +90,18 @@ fn triangle(view: &View<'_>, first: &Target, second: &Target, random: &mut Rando
         let seen = Spherical { range, ..last.echo.seen };
         heard.then(|| Echo::artifact(seen, rate, level, Cause::DoubleBounce))
     })
+}
+
+/// What is left where two things throw a wave of so much power to each other, if it is heard.
+fn on_the_way_db(view: &View<'_>, first: &Target, second: &Target, level_db: f64) -> Option<f64> {
+    let origin = view.origin();
+    let level = level_db
+        + first.other_way_db(view, &origin, &second.place)?
+        + second.other_way_db(view, &origin, &first.place)?;
+    if !is_heard(view, level + 12.0) {
+        return None;
+    }
+    Some(level - view.between_db(&first.place, &second.place, &[first.item, second.item])? / 2.0)
 }
 
 /// To and fro between a vehicle's floor and the road: as fast as the vehicle, and some metres behind what was hit

@@ -67,12 +67,12 @@ impl View<'_> {
     }
 
     /// What lies between the radar and a place takes, there and back, dB.
-    pub(super) fn loss_db(&self, place: &Point, own: Option<usize>) -> Option<f64> {
+    pub(super) fn loss_db(&self, place: &Point, own: &[usize]) -> Option<f64> {
         self.between_db(&self.origin(), place, own)
     }
 
     /// What lies between two places takes, there and back, dB.
-    pub(super) fn between_db(&self, from: &Point, to: &Point, own: Option<usize>) -> Option<f64> {
+    pub(super) fn between_db(&self, from: &Point, to: &Point, own: &[usize]) -> Option<f64> {
         self.moment.loss_db(from, to, own, self.waves.leaf_loss_db)
     }
 }

@@ -18,7 +18,7 @@ const STATED: f64 = 0.1736;
 const KERB_STEP: f64 = 0.5;
 /// Cross-section of half a metre of kerb seen at right angles, dBsm, and its spread: an edge of stone of 10 cm (chosen
 /// between asphalt and a post).
-const KERB_DB: (f64, f64) = (-13.0, 6.0);
+const KERB_DB: (f64, f64) = (-10.0, 6.0);
 
 /// The ground, piece by piece: each has a place where it reflects best and a strength, and both stay from scan to scan;
 /// speckle is new in each.
@@ -63,7 +63,7 @@ fn piece(view: &View<'_>, [i, j]: [i64; 2], speckle: f64) -> Option<Echo> {
         + lump
         + decibel(speckle.max(1e-3));
     let level = view.level_db(&seen, rcs)?;
-    let loss = view.loss_db(&(place + Vector::z() * 0.05), None)?;
+    let loss = view.loss_db(&(place + Vector::z() * 0.05), &[])?;
     Some(Echo::new(seen, view.range_rate(&place, &Vector::zeros()), level - loss, patch.surface.truth()))
 }
 
@@ -112,6 +112,6 @@ fn kerb(
     let facing = (across / seen.range).clamp(0.05, 1.0);
     let height_db = 20.0 * (patch.rise / 0.1).log10();
     let rcs = KERB_DB.0 + own + height_db + decibel(facing) + fluctuation_db(random);
-    let level = view.level_db(&seen, rcs)? - view.loss_db(&(place + Vector::z() * 0.1), None)?;
+    let level = view.level_db(&seen, rcs)? - view.loss_db(&(place + Vector::z() * 0.1), &[])?;
     Some(Echo::artifact(seen, view.range_rate(&place, &Vector::zeros()), level, Cause::Road))
 }

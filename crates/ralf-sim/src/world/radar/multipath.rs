@@ -1,16 +1,21 @@
 //! Waves that take another way: mirror images, and paths that are mirrored on one of their two ways.
 
+use super::antenna::{APART, displaced};
 use super::echo::{Echo, View, fluctuation_db};
 use super::equation::{decibel, range_loss_db};
 use super::targets::Target;
 use crate::random::Random;
+use crate::truth::Truth;
 use crate::world::reflector::Wall;
 use nalgebra::Isometry3;
 use ralf::label::Cause;
 use ralf::space::{Point, Spherical, Vector};
+use std::f64::consts::{LOG10_E, PI};
 
 /// Farther mirrors, and things farther from a mirror, are left out, m.
 const REACH: f64 = 45.0;
+/// Of 77 GHz, m.
+const WAVELENGTH: f64 = 3.9e-3;
 
 /// A mirror in its place that faces the radar.
 struct Mirror {
@@ -18,7 +23,10 @@ struct Mirror {
     center: Point,
     normal: Vector,
     half: [f64; 2],
+    /// Of its material, one way, dB.
     loss_db: f64,
+    roughness: f64,
+    bulge: [f64; 2],
     /// How far the radar is before it, m.
     distance: f64,
     /// In the site's frame.
@@ -43,6 +51,8 @@ impl Mirror {
             normal,
             half: wall.half,
             loss_db: (view.waves.mirror_loss_db + wall.loss_db).max(0.3),
+            roughness: wall.roughness,
+            bulge: wall.bulge,
             distance,
             velocity,
         })
@@ -64,6 +74,19 @@ impl Mirror {
         (along.abs() <= self.half[0] && offset.z.abs() <= self.half[1]).then_some(at)
     }
 
+    /// What it takes from a wave to `p` that it reflects at `at`, one way, dB. Roughness takes
+    /// `exp(-(4 pi s cos / wavelength)^2)` of what goes on in one direction (Ament 1953), and what bulges spreads it,
+    /// by `1 + 2 d / (r cos)` in the plane of incidence and `1 + 2 d cos / r` across it, where `1 / d` is the sum of
+    /// both ways' inverses (Kerr 1951).
+    fn takes_db(&self, origin: &Point, at: &Point, p: &Point) -> f64 {
+        let [before, after] = [(at - origin).norm(), (p - at).norm()];
+        let cosine = (self.distance / before).clamp(0.01, 1.0);
+        let rough = 4.0 * PI * self.roughness * cosine / WAVELENGTH;
+        let way = 2.0 * before * after / (before + after);
+        let spread = (1.0 + way * self.bulge[0] / cosine) * (1.0 + way * self.bulge[1] * cosine);
+        self.loss_db + 10.0 * LOG10_E * rough * rough + decibel(spread)
+    }
+
     /// How an image moves whose original moves.
     fn mirrored(&self, velocity: &Vector) -> Vector {
         velocity - self.normal * (2.0 * self.normal.dot(&(velocity - self.velocity)))
@@ -74,7 +97,7 @@ impl Mirror {
 pub(super) fn mirrored(view: &View<'_>, targets: &[Target], random: &mut Random) -> Vec<Echo> {
     let mut found = Vec::new();
     for mirror in mirrors(view) {
-        for target in targets.iter().filter(|target| target.item != mirror.item) {
+        for target in targets.iter().filter(|target| target.item != mirror.item && !target.flash) {
             found.extend(images(view, &mirror, target, random).into_iter().flatten().flatten());
         }
     }
@@ -109,25 +132,32 @@ fn images(
     }
     let level_db = decibel(target.echo.power) + fluctuation_db(random);
     let spread_db = range_loss_db(around.range) - range_loss_db(direct.range);
+    let origin = view.origin();
     // The way by the mirror, once.
-    let longer_db = mirror.loss_db + spread_db / 2.0;
+    let longer_db = mirror.takes_db(&origin, &at, &target.place) + spread_db / 2.0;
     let hope = view.radar.threshold_db - 3.0;
     if level_db - longer_db < hope {
         return None;
     }
-    let origin = view.origin();
-    let on_db = view.between_db(&(at + mirror.normal * 0.02), &target.place, Some(target.item))?;
-    let there_db = view.between_db(&origin, &at, Some(mirror.item))?;
+    let on_db = view.between_db(&(at + mirror.normal * 0.02), &target.place, &[target.item])?;
+    let there_db = view.between_db(&origin, &at, &[mirror.item])?;
     let way_db = longer_db + (on_db + there_db) / 2.0;
+    let aside_db = target.other_way_db(view, &at, &origin);
+    let behind_db = target.other_way_db(view, &at, &at);
     let image_rate = view.range_rate(&image, &mirror.mirrored(&target.velocity));
     let mixed_rate = f64::midpoint(image_rate, target.echo.range_rate);
+    // An image beside its original is on the same surface as good as.
+    let truth = |seen: &Spherical| match displaced(&target.echo, seen) > APART {
+        true => Truth::artifact(Cause::Mirror),
+        false => target.echo.truth,
+    };
+    let heard = |seen: Spherical, rate: f64, level_db: f64| {
+        (level_db > hope).then(|| Echo::new(seen, rate, level_db, truth(&seen)))
+    };
+    let pure = behind_db.and_then(|more| heard(around, image_rate, level_db - 2.0 * way_db + more));
     let mixed = |seen: Spherical| {
         let seen = Spherical { range: f64::midpoint(around.range, direct.range), ..seen };
-        Echo::artifact(seen, mixed_rate, level_db - way_db, Cause::Mirror)
+        heard(seen, mixed_rate, level_db - way_db + aside_db?)
     };
-    let pure = Echo::artifact(around, image_rate, level_db - 2.0 * way_db, Cause::Mirror);
-    // An image beside its original is on the same surface as good as.
-    let apart = (image - target.place).norm() > 1.0;
-    let heard = |echo: Echo| (apart && decibel(echo.power) > hope).then_some(echo);
-    Some([heard(pure), heard(mixed(around)), heard(mixed(direct))])
+    Some([pure, mixed(around), mixed(direct)])
 }

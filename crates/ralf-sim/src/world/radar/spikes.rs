@@ -24,8 +24,11 @@ const WEAKEST_STAYING: f64 = 0.01;
 const SQUARE: f64 = 2.0;
 /// Half the depth of a ring in which new ones are drawn, m.
 const HALF_RING: f64 = 2.5;
+/// From here on unevenness hides some of the ground, m: what is left falls with the range as the grazing angle does
+/// (the lower a wave comes, the more lies in shadow, Billingsley 2002; from where on is chosen).
+const SHADOW: f64 = 25.0;
 /// Blades are many in a cell, and even out: so many of the spikes are left on grass (chosen).
-const ON_GRASS: f64 = 0.2;
+const ON_GRASS: f64 = 0.08;
 
 /// Candidates on a square metre of a strength from `least` on: they lie as `1 / x`, and `exp(-x)` of them are kept.
 fn density(spikes: &Spikiness, least: f64) -> f64 {
@@ -57,7 +60,7 @@ pub(super) fn staying(view: &View<'_>, random: &mut Random) -> Vec<Echo> {
             let share = |k: i64| grain(seed, [i, j, 8 * number + k]);
             if let Some(x) = strength(WEAKEST_STAYING, share(1), share(2)) {
                 let place = [(i as f64 + share(3)) * SQUARE, (j as f64 + share(4)) * SQUARE];
-                found.extend(spike(view, place, x * random.exponential(1.0), share(5)));
+                found.extend(spike(view, place, x * random.exponential(1.0), [share(5), share(6)]));
             }
         }
     }
@@ -79,12 +82,14 @@ pub(super) fn passing(view: &View<'_>, random: &mut Random) -> Vec<Echo> {
         let least = ratio(-margin_db(view, 0.0, middle)).clamp(WEAKEST, 0.5 * STRONGEST);
         let density = density(&spikes, least) * (1.0 - spikes.staying);
         for _ in 0..random.poisson((density * area).min(500.0)) {
-            let [along, across, which, kept, green] = [(); 5].map(|()| random.uniform());
+            let [along, across, which, kept, green, hidden] = [(); 6].map(|()| random.uniform());
             let range = middle + (2.0 * along - 1.0) * HALF_RING;
             let angle = heading + (across - 0.5) * view.radar.fov[0];
             let place = [origin.x + range * angle.cos(), origin.y + range * angle.sin()];
             let speckle = random.exponential(1.0);
-            found.extend(strength(least, which, kept).and_then(|x| spike(view, place, x * speckle, green)));
+            found.extend(
+                strength(least, which, kept).and_then(|x| spike(view, place, x * speckle, [green, hidden])),
+            );
         }
         middle += 2.0 * HALF_RING;
     }
@@ -103,7 +108,7 @@ fn reach(view: &View<'_>) -> f64 {
     (REFERENCE_RANGE * 10.0_f64.powf(margin / 40.0)).min(view.radar.max_range)
 }
 
-fn spike(view: &View<'_>, [x, y]: [f64; 2], strength: f64, green: f64) -> Option<Echo> {
+fn spike(view: &View<'_>, [x, y]: [f64; 2], strength: f64, [green, hidden]: [f64; 2]) -> Option<Echo> {
     let terrain = &view.moment.site.terrain;
     let surface = terrain.patch(x, y).surface;
     if surface == Surface::Grass && green > ON_GRASS {
@@ -112,8 +117,11 @@ fn spike(view: &View<'_>, [x, y]: [f64; 2], strength: f64, green: f64) -> Option
     let rcs = view.waves.spikes.scale_db + decibel(strength.max(1e-6));
     let place = Point::new(x, y, terrain.height(x, y));
     let seen = view.seen(&place)?;
+    if hidden * seen.range > SHADOW {
+        return None;
+    }
     let level = view.level_db(&seen, rcs)?;
-    let loss = view.loss_db(&(place + Vector::z() * 0.05), None)?;
+    let loss = view.loss_db(&(place + Vector::z() * 0.05), &[])?;
     Some(Echo::new(seen, view.range_rate(&place, &Vector::zeros()), level - loss, surface.truth()))
 }
 

@@ -16,6 +16,10 @@ use std::f64::consts::PI;
 const OWN_BODY_DB: f64 = 10.0;
 /// Parts are told apart by lobes of so many radians: wavelength over twice a part's size of 10 cm.
 const LOBE: f64 = 0.03;
+/// Corners and edges throw a wave back; what goes elsewhere is less by so much, dB, some tens of degrees from the way
+/// back on. Ships lose 5 to 15 dB so (Ewell and Zehner 1980; Willis 1991); how soon is chosen, in radians.
+const ASIDE_DB: f64 = 12.0;
+const ASIDE: f64 = 0.35;
 
 /// An echo and the place that sent it: what mirrors can show again.
 #[derive(Debug, Clone, Copy)]
@@ -24,6 +28,35 @@ pub(super) struct Target {
     pub(super) place: Point,
     pub(super) velocity: Vector,
     pub(super) item: usize,
+    /// Where it looks, in the site's frame; `None` everywhere.
+    facing: Option<Vector>,
+    /// A smooth wall that is seen at right angles: its other ways are those of mirrors.
+    pub(super) flash: bool,
+}
+
+impl Target {
+    /// What there is more of its echo on a way that comes from one place and goes on to another, dB; `None` where it
+    /// isn't seen from there.
+    pub(super) fn other_way_db(&self, view: &View<'_>, from: &Point, to: &Point) -> Option<f64> {
+        let kind = view.moment.site.items[self.item].kind;
+        let seen_db = |from: &Point| {
+            let way = (from - self.place).normalize();
+            facing_db(kind, self.facing.map_or(1.0, |facing| facing.dot(&way)))
+        };
+        let apart = (from - self.place).angle(&(to - self.place));
+        let other = f64::midpoint(seen_db(from)?, seen_db(to)?) - seen_db(&view.origin())?;
+        Some(other - ASIDE_DB * (1.0 - (-apart / ASIDE).exp()))
+    }
+}
+
+/// What a part loses by where it looks, dB: nothing but vehicles lets it be seen from its back.
+fn facing_db(kind: Kind, facing: f64) -> Option<f64> {
+    match (kind, facing < 0.05) {
+        (Kind::Car | Kind::Truck, true) => Some(-OWN_BODY_DB),
+        (_, true) => None,
+        // Corners and edges don't follow Lambert; half of it is enough.
+        _ => Some(0.5 * decibel(facing)),
+    }
 }
 
 /// Every part that could be heard.
@@ -80,30 +113,16 @@ impl Thing<'_> {
         let rcs = part.strength_db
             + glint_db(view.moment.site.seed, name, aspect, LOBE, part.spread_db)
             + fluctuation_db(random)
-            + self.facing_db(facing, part.inside)?;
+            + facing_db(self.item.kind, facing)?
+            - if part.inside { view.waves.window_loss_db } else { 0.0 };
         let level = view.level_db(&seen, rcs)?;
-        let loss = view.loss_db(&place, Some(self.index))?;
+        let loss = view.loss_db(&place, &[self.index])?;
         let swing =
             if part.swings { self.item.course.speed * random.between(-1.0, 1.0) * own.x } else { 0.0 };
-        Some(self.target(
-            place,
-            seen,
-            level - loss,
-            view.range_rate(&place, &self.velocity) + swing,
-            part.inside,
-        ))
-    }
-
-    /// What a part loses by looking away, dB.
-    fn facing_db(&self, facing: f64, inside: bool) -> Option<f64> {
-        let away = facing < 0.05;
-        match (self.item.kind, away) {
-            (Kind::Car | Kind::Truck, true) => Some(-OWN_BODY_DB),
-            (_, true) => None,
-            _ if inside => Some(-self.view.waves.window_loss_db),
-            // Corners and edges don't follow Lambert; half of it is enough.
-            _ => Some(0.5 * decibel(facing.max(0.05))),
-        }
+        let range_rate = view.range_rate(&place, &self.velocity) + swing;
+        let echo = Echo::new(seen, range_rate, level - loss, self.truth(part.inside));
+        let facing = part.facing.map(|facing| self.pose.rotation * facing);
+        Some(self.target(echo, place, facing, false))
     }
 
     /// A smooth wall shows the radar to itself at the foot of its perpendicular: the cross-section of a large plate is
@@ -128,19 +147,12 @@ impl Thing<'_> {
             + wall.flash_db
             - wall.loss_db.max(0.0)
             + fluctuation_db(random);
-        let level = view.level_db(&seen, rcs)? - view.loss_db(&foot, Some(self.index))?;
-        Some(self.target(foot, seen, level, view.range_rate(&foot, &self.velocity), false))
+        let level = view.level_db(&seen, rcs)? - view.loss_db(&foot, &[self.index])?;
+        let echo = Echo::new(seen, view.range_rate(&foot, &self.velocity), level, self.truth(false));
+        Some(self.target(echo, foot, Some(normal), true))
     }
 
-    fn target(
-        &self,
-        place: Point,
-        seen: ralf::space::Spherical,
-        level_db: f64,
-        range_rate: f64,
-        inside: bool,
-    ) -> Target {
-        let echo = Echo::new(seen, range_rate, level_db, self.truth(inside));
-        Target { echo, place, velocity: self.velocity, item: self.index }
+    fn target(&self, echo: Echo, place: Point, facing: Option<Vector>, flash: bool) -> Target {
+        Target { echo, place, velocity: self.velocity, item: self.index, facing, flash }
     }
 }
