@@ -56,9 +56,13 @@ mod tests {
     #[test]
     fn a_course_by_hand() {
         // 10 m/s and 0.5 rad/s: a circle of 20 m around (0, 20).
-        for (place, beside) in
-            [([0.0, 0.0], 0.0), ([20.0, 20.0], 0.0), ([0.0, 20.0], 20.0), ([0.0, -3.0], 3.0), ([0.0, 43.0], 3.0)]
-        {
+        for (place, beside) in [
+            ([0.0, 0.0], 0.0),
+            ([20.0, 20.0], 0.0),
+            ([0.0, 20.0], 20.0),
+            ([0.0, -3.0], 3.0),
+            ([0.0, 43.0], 3.0),
+        ] {
             let found = course(10.0, 0.5).beside(&Point::new(place[0], place[1], 7.0));
             assert!((found - beside).abs() < 1e-12, "{place:?}: {found}");
         }
