@@ -25,8 +25,8 @@ pub(super) const PIECE: Piece = Piece {
         feature(
             "geometry_beside_course",
             "m",
-            "horizontal distance from the arc on which the vehicle moves, which is straight where it stands; null where \
-             its motion isn't known",
+            "horizontal distance from the arc on which the vehicle moves, which is straight where it stands; null \
+             where its motion isn't known",
         ),
     ],
     observe,
