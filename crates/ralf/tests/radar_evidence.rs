@@ -105,6 +105,7 @@ fn a_radar_that_measures_place_alone_has_geometry_and_no_amplitude_or_doppler() 
     close(&column(&found, "geometry_azimuth"), &[Some((4.0f64 / 3.0).atan() / 1.25)]);
     close(&column(&found, "geometry_elevation"), &[None]);
     close(&column(&found, "geometry_sigma_across"), &[Some(0.05)]);
+    close(&column(&found, "geometry_beside_course"), &[Some(4.0)]);
 }
 
 #[test]

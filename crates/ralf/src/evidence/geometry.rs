@@ -2,6 +2,7 @@
 //! and low.
 
 use super::columns::{set, unobserved};
+use super::course::Course;
 use super::{Feature, Piece, Surroundings, Values};
 use crate::sensors::{Elevation, Radar};
 use crate::space::Spherical;
@@ -21,6 +22,12 @@ pub(super) const PIECE: Piece = Piece {
              elevation",
         ),
         feature("geometry_sigma_across", "m", "standard deviation of the place across the ray, horizontally"),
+        feature(
+            "geometry_beside_course",
+            "m",
+            "horizontal distance from the arc on which the vehicle moves, which is straight where it stands; null \
+             where its motion isn't known",
+        ),
     ],
     observe,
 };
@@ -32,15 +39,18 @@ const fn feature(name: &'static str, unit: &'static str, meaning: &'static str) 
 fn observe(surroundings: &Surroundings) -> Vec<Values> {
     let frame = surroundings.frame;
     let mut columns = unobserved(PIECE.features, frame.scan.len());
+    let course = Course::of(frame);
     for (i, place) in frame.scan.measured.spherical.iter().enumerate() {
-        if frame.scan.detections[i].is_some() {
-            set(&mut columns, i, of_place(frame.radar, place));
+        if let Some(detection) = &frame.scan.detections[i] {
+            let beside = course.map(|course| course.beside(&detection.position));
+            let [range, azimuth, elevation, across] = of_place(frame.radar, place);
+            set(&mut columns, i, [range, azimuth, elevation, across, beside]);
         }
     }
     columns
 }
 
-/// One value per feature.
+/// What the radar's own frame tells.
 fn of_place(radar: &Radar, place: &Spherical) -> [Option<f64>; 4] {
     let elevation = place.elevation / (0.5 * radar.fov_elevation);
     [

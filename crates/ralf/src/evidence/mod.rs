@@ -13,6 +13,7 @@ mod chance;
 mod cloud;
 mod columns;
 mod context;
+mod course;
 mod distance;
 mod doppler;
 mod echoes;
