@@ -52,10 +52,7 @@ pub(crate) fn write_values<W: Write + Send>(
 ) -> Result<(), ParquetError> {
     let whole = |values: &mut dyn Iterator<Item = i32>| values.collect::<Vec<i32>>();
     match values {
-        Values::Text(values) => {
-            let values: Vec<ByteArray> = values.iter().map(|text| ByteArray::from(text.as_ref())).collect();
-            write_column::<ByteArrayType, _>(group, &values, None)
-        }
+        Values::Text(values) => write_texts(group, values),
         Values::U8(values) => write_whole::<W>(group, &whole(&mut values.iter().map(|v| i32::from(*v)))),
         Values::U16(values) => write_whole::<W>(group, &whole(&mut values.iter().map(|v| i32::from(*v)))),
         Values::U32(values) => write_whole::<W>(group, &whole(&mut values.iter().map(|v| v.cast_signed()))),
@@ -85,16 +82,34 @@ fn write_whole<W: Write + Send>(
     write_column::<Int32Type, _>(group, values, None)
 }
 
+/// Some at a time: each is a piece of memory of its own, of which a whole group has megabytes.
+fn write_texts<W: Write + Send>(
+    group: &mut SerializedRowGroupWriter<W>,
+    texts: &[Arc<str>],
+) -> Result<(), ParquetError> {
+    /// What the writer takes at a time anyway.
+    const AT_ONCE: usize = 1024;
+    let mut column = group.next_column()?.ok_or_else(none_left)?;
+    for texts in texts.chunks(AT_ONCE) {
+        let texts: Vec<ByteArray> = texts.iter().map(|text| ByteArray::from(text.as_ref())).collect();
+        column.typed::<ByteArrayType>().write_batch(&texts, None, None)?;
+    }
+    column.close()
+}
+
 /// `levels` say of each row whether it has a value.
 fn write_column<T: DataType, W: Write + Send>(
     group: &mut SerializedRowGroupWriter<W>,
     values: &[T::T],
     levels: Option<&[i16]>,
 ) -> Result<(), ParquetError> {
-    let none_left = || ParquetError::General("more columns than the schema has".into());
     let mut column = group.next_column()?.ok_or_else(none_left)?;
     column.typed::<T>().write_batch(values, levels, None)?;
     column.close()
+}
+
+fn none_left() -> ParquetError {
+    ParquetError::General("more columns than the schema has".into())
 }
 
 /// Reads a column of a row group.
