@@ -263,8 +263,10 @@ async function slide(page, slider, wanted) {
   const box = await slider.boundingBox();
   const last = Number(await slider.getAttribute("max"));
   const stands = async () => Number(await slider.inputValue());
-  const [y, step] = [box.y + box.height / 2, box.width / last];
-  const place = (at) => box.x + step * at;
+  // The thumb's middle stays half of its width from either end.
+  const half = box.height / 2;
+  const [y, step] = [box.y + half, (box.width - 2 * half) / last];
+  const place = (at) => box.x + half + step * at;
   await page.mouse.move(place(await stands()), y);
   await page.mouse.down();
   let x = place(wanted);
