@@ -35,10 +35,14 @@ export function kindBar({ store, actions }: Page): HTMLElement {
     "div",
     { class: "kind-bar", role: "group", "aria-label": "A question about many detections" },
     h("div", { class: "thing-words", role: "status" }, what, why),
-    line,
-    keyButton("Plausible", "P", () => actions.select.choose(PLAUSIBLE)),
-    keyButton("Artifact", "A", () => actions.select.choose(ARTIFACT)),
-    keyButton("Leave", "Shift G", () => void actions.kind.next()),
+    h(
+      "div",
+      { class: "answers" },
+      line,
+      keyButton("Plausible", "P", () => actions.select.choose(PLAUSIBLE)),
+      keyButton("Artifact", "A", () => actions.select.choose(ARTIFACT)),
+      keyButton("Leave", "Shift G", () => void actions.kind.next()),
+    ),
   );
   store.watch(
     ({ kind, selection, cloud }) => [kind, selection, cloud],
