@@ -160,7 +160,11 @@ pub fn kappa(counts: &Confusion) -> Option<f64> {
     let share = |count: u64| count as f64 / counts.total() as f64;
     let agreed = share(counts.tp + counts.tn);
     let (first, second) = (share(counts.tp + counts.r#fn), share(counts.tp + counts.fp));
-    let by_chance = first * second + (1.0 - first) * (1.0 - second);
+    beyond_chance(agreed, first * second + (1.0 - first) * (1.0 - second))
+}
+
+/// The share of agreement beyond what chance alone leads to.
+fn beyond_chance(agreed: f64, by_chance: f64) -> Option<f64> {
     let kappa = (agreed - by_chance) / (1.0 - by_chance);
     kappa.is_finite().then_some(kappa)
 }
@@ -176,9 +180,7 @@ pub fn kappa_of_names<T: Ord + Clone>(pairs: &BTreeMap<(T, T), u64>) -> Option<f
         let (first, second) = (counts.tp + counts.r#fn, counts.tp + counts.fp);
         (first as f64 / total) * (second as f64 / total)
     };
-    let by_chance: f64 = each.values().map(shares).sum();
-    let kappa = (agreed - by_chance) / (1.0 - by_chance);
-    kappa.is_finite().then_some(kappa)
+    beyond_chance(agreed, each.values().map(shares).sum())
 }
 
 #[cfg(test)]

@@ -137,7 +137,8 @@ fn kind(name: KindName, open: &[usize], observed: &Observed, heard: &Heard) -> K
     let way = name.way();
     let contrary: Vec<f64> = open.iter().map(|at| way * observed.log_odds(*at)).collect();
     let (expected_errors, worth) = heard.worth(name.sign, way, &contrary);
-    let asked = contrary.iter().filter(|l| *l + heard.offset(name.sign, way) >= 0.0).count();
+    let offset = heard.offset(name.sign, way);
+    let asked = contrary.iter().filter(|l| *l + offset >= 0.0).count();
     let rows = open.iter().map(|at| observed.of[*at]).collect();
     Kind { name, rows, ranks: ranks(&contrary), asked: asked.max(1), expected_errors, worth }
 }

@@ -20,6 +20,14 @@ struct Profile {
     kerb: f64,
 }
 
+impl Profile {
+    /// What traffic makes of it, usually so fast (m/s).
+    fn roadway(&self, reach: [f64; 2], speed: f64) -> Road {
+        let cars = CARS_IN_LANE * self.lanes.len() as f64;
+        Road { reach, lanes: self.lanes.clone(), speed, cars, trucks: 0.1 }
+    }
+}
+
 /// A street between buildings, with parked cars.
 pub(super) fn street(builder: &mut Builder<'_>) {
     builder.plan.title = "street";
@@ -30,9 +38,7 @@ pub(super) fn street(builder: &mut Builder<'_>) {
     for side in [1.0, -1.0] {
         flank(builder, &profile, side, reach, None);
     }
-    let cars = CARS_IN_LANE * profile.lanes.len() as f64;
-    let road = Road { reach, lanes: profile.lanes.clone(), speed: 10.0, cars, trucks: 0.1 };
-    on_road(builder, &road);
+    on_road(builder, &profile.roadway(reach, 10.0));
     on_foot(builder, 60.0, reach, profile.road + 1.0);
     on_bicycles(builder, 12.0, reach, 3.2);
 }
@@ -51,9 +57,7 @@ pub(super) fn crossing(builder: &mut Builder<'_>) {
         corner(builder, at, side, &profile);
     }
     crossing_traffic(builder, at);
-    let cars = CARS_IN_LANE * profile.lanes.len() as f64;
-    let road = Road { reach, lanes: profile.lanes.clone(), speed: 7.0, cars, trucks: 0.1 };
-    on_road(builder, &road);
+    on_road(builder, &profile.roadway(reach, 7.0));
     on_foot(builder, 120.0, [at - 30.0, at + 30.0], profile.road + 1.0);
     on_bicycles(builder, 12.0, reach, 3.2);
     if way < 5.0 {

@@ -79,13 +79,16 @@ impl Ground {
 
     /// Which points lie at least so high above the ground, m; those that are not finite don't.
     pub fn ids_above(&self, points: &[[f32; 3]], margin: f64) -> Vec<u32> {
-        let place = |point: &[f32; 3]| Point::from(point.map(f64::from));
         match self {
             // Of the one plane it is told in a loop of its own, for it is the usual ground.
-            Self::Plane(plane) => ids_where(points, |point| plane.height(&place(point)) >= margin),
-            _ => ids_where(points, |point| point[0].is_finite() && self.height(&place(point)) >= margin),
+            Self::Plane(plane) => ids_as_high(points, margin, |p| plane.height(p)),
+            _ => ids_as_high(points, margin, |p| self.height(p)),
         }
     }
+}
+
+fn ids_as_high(points: &[[f32; 3]], margin: f64, height: impl Fn(&Point) -> f64) -> Vec<u32> {
+    ids_where(points, |point| point[0].is_finite() && height(&Point::from(point.map(f64::from))) >= margin)
 }
 
 /// The places in a list of those points that something holds of.
@@ -104,6 +107,14 @@ pub(super) fn ids_where(points: &[[f32; 3]], holds: impl Fn(&[f32; 3]) -> bool) 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn what_is_not_finite_lies_above_no_ground() {
+        let tilted = Plane::through(&Point::origin(), crate::space::Vector::new(0.1, 0.0, 1.0)).unwrap();
+        let points =
+            [[0.0, 0.0, 1.0], [f32::INFINITY, 0.0, 1.0], [f32::NAN; 3], [0.0, 0.0, 0.1], [5.0, 0.0, 0.5]];
+        assert_eq!(Ground::Plane(tilted).ids_above(&points, 0.3), [0, 4]);
+    }
 
     /// A ramp of 14 % from 10 m to 40 m ahead, level beyond.
     fn ramp_at(x: f64) -> f64 {
