@@ -65,8 +65,8 @@ impl<'a> Cloud<'a> {
         }
     }
 
-    /// Visits those of a stretch of the index that are near; `meet` tells which of a few that begin at a place are, a bit
-    /// each.
+    /// Visits those of a stretch of the index that are near; `meet` tells which of a few that begin at a place are, a
+    /// bit each.
     #[inline]
     fn visit_run(&self, run: Range<usize>, meet: impl Fn(usize) -> u32, visit: &mut impl FnMut(usize)) {
         let ids = &self.index.ids()[run.clone()];

@@ -15,8 +15,8 @@ use super::tree::{Node, Tree};
 use super::walk::{Questions, Walk};
 use super::way::{PLAYERS, Way};
 
-/// Blocks that a tree is asked about before the next one: the tables of one tree stay in a cache, those of all don't, and
-/// neither would the answers of more blocks.
+/// Blocks that a tree is asked about before the next one: the tables of one tree stay in a cache, those of all don't,
+/// and neither would the answers of more blocks.
 const TOGETHER: usize = 8;
 
 /// A forest, prepared for telling what each group adds to its answers.
