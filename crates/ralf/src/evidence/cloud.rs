@@ -8,6 +8,7 @@ use crate::space::{NeighborIndex, Vector};
 use std::borrow::Cow;
 use std::ops::Range;
 use std::rc::Rc;
+use wide::f32x8;
 
 /// Detections that are looked at together.
 const LANES: usize = 8;
@@ -35,8 +36,8 @@ impl<'a> Cloud<'a> {
     pub(super) fn each_near(&self, spot: &Spot, limit: f64, most: f32, mut visit: impl FnMut(usize)) {
         let reach = self.variances.farthest(spot, limit, most);
         let seeker = Seeker::new(spot, limit, reach);
-        for run in self.index.runs_around([seeker.x, seeker.y], reach) {
-            self.visit_run(run, &seeker, |begin| self.flat.meet(begin, &seeker), &mut visit);
+        for run in self.index.runs_around([spot.place.x as f32, spot.place.y as f32], reach) {
+            self.visit_run(run, |begin| self.flat.meet(begin, &seeker), &mut visit);
         }
     }
 
@@ -60,25 +61,20 @@ impl<'a> Cloud<'a> {
         let way = [from, to].map(|end| [end.place.x as f32, end.place.y as f32]);
         for run in self.index.runs_along(way, reach) {
             let meet = |begin| self.flat.meet_moving(begin, &seeker, velocity, times);
-            self.visit_run(run, &seeker, meet, &mut visit);
+            self.visit_run(run, meet, &mut visit);
         }
     }
 
-    /// Visits those of a stretch of the index that are near, by how each few of them lie to a seeker.
+    /// Visits those of a stretch of the index that are near; `meet` tells which of a few that begin at a place are, a
+    /// bit each.
     #[inline]
-    fn visit_run(
-        &self,
-        run: Range<usize>,
-        seeker: &Seeker,
-        meet: impl Fn(usize) -> Met,
-        visit: &mut impl FnMut(usize),
-    ) {
+    fn visit_run(&self, run: Range<usize>, meet: impl Fn(usize) -> u32, visit: &mut impl FnMut(usize)) {
         let ids = &self.index.ids()[run.clone()];
         for (begin, ids) in run.step_by(LANES).zip(ids.chunks(LANES)) {
-            let met = meet(begin);
-            if met.any(seeker) {
-                let near = ids.iter().enumerate().filter(|(lane, _)| met.is_near(*lane, seeker));
-                near.for_each(|(_, id)| visit(*id as usize));
+            let mut near = meet(begin);
+            while let Some(id) = ids.get(near.trailing_zeros() as usize) {
+                visit(*id as usize);
+                near &= near - 1;
             }
         }
     }
@@ -124,98 +120,69 @@ impl Flat {
         }
     }
 
-    /// How those that begin at a place lie to a seeker.
+    /// Which of those that begin at a place may be near a seeker, a bit each.
     #[inline]
-    fn meet(&self, begin: usize, seeker: &Seeker) -> Met {
-        let Some([x, y]) = self.places(begin) else { return Met::NONE };
-        self.meet_at(begin, x, y, seeker)
+    fn meet(&self, begin: usize, seeker: &Seeker) -> u32 {
+        let [Some(x), Some(y)] = [&self.x, &self.y].map(|column| few(column, begin)) else { return 0 };
+        self.meet_at(begin, [x, y], seeker)
     }
 
     /// The same where the seeker moves: each of them meets it at its own time.
     #[inline]
-    fn meet_moving(&self, begin: usize, seeker: &Seeker, velocity: [f32; 2], times: &[f32]) -> Met {
-        let times = times[begin..].first_chunk::<LANES>();
-        let Some(([x, y], times)) = self.places(begin).zip(times) else { return Met::NONE };
-        let x = std::array::from_fn(|lane| x[lane] - velocity[0] * times[lane]);
-        let y = std::array::from_fn(|lane| y[lane] - velocity[1] * times[lane]);
-        self.meet_at(begin, &x, &y, seeker)
+    fn meet_moving(&self, begin: usize, seeker: &Seeker, velocity: [f32; 2], times: &[f32]) -> u32 {
+        let [Some(x), Some(y)] = [&self.x, &self.y].map(|column| few(column, begin)) else { return 0 };
+        let Some(times) = few(times, begin) else { return 0 };
+        let [along_x, along_y] = velocity.map(|velocity| f32x8::splat(velocity) * times);
+        self.meet_at(begin, [x - along_x, y - along_y], seeker)
     }
 
-    /// How those that begin at a place of the index would lie to a seeker at these places.
+    /// Which of those that begin at a place of the index would be near a seeker if they were at these places.
     #[inline]
-    fn meet_at(&self, begin: usize, x: &[f32; LANES], y: &[f32; LANES], seeker: &Seeker) -> Met {
-        let columns = [&self.xx, &self.xy, &self.yy];
-        let [xx, xy, yy] = columns.map(|column| column[begin..].first_chunk::<LANES>());
-        let mut met = Met::NONE;
-        let (Some(xx), Some(xy), Some(yy)) = (xx, xy, yy) else { return met };
-        for lane in 0..LANES {
-            let horizontal = [xx[lane], xy[lane], yy[lane]];
-            [met.distance_squared[lane], met.over[lane]] = seeker.meet(x[lane], y[lane], horizontal);
-        }
-        met
-    }
-
-    #[inline]
-    fn places(&self, begin: usize) -> Option<[&[f32; LANES]; 2]> {
-        Some([self.x[begin..].first_chunk()?, self.y[begin..].first_chunk()?])
+    fn meet_at(&self, begin: usize, place: [f32x8; 2], seeker: &Seeker) -> u32 {
+        let columns = [&self.xx, &self.xy, &self.yy].map(|column| few(column, begin));
+        let [Some(xx), Some(xy), Some(yy)] = columns else { return 0 };
+        seeker.meet(place, [xx, xy, yy])
     }
 }
 
-/// How some detections lie to a seeker.
-struct Met {
-    /// m^2
-    distance_squared: [f32; LANES],
-    /// By how much a distance in standard deviations is over the limit, in some unit; not where it isn't above 0.
-    over: [f32; LANES],
+/// Numbers that follow each other in a column.
+#[inline]
+fn few(column: &[f32], begin: usize) -> Option<f32x8> {
+    column.get(begin..)?.first_chunk::<LANES>().map(|few| f32x8::from(*few))
 }
 
-impl Met {
-    /// Nothing is near.
-    const NONE: Self = Self { distance_squared: [f32::INFINITY; LANES], over: [f32::INFINITY; LANES] };
-
-    /// Whether one may lie within limit and reach, seen from above; what can't be told may.
-    fn is_near(&self, lane: usize, seeker: &Seeker) -> bool {
-        let is_far = self.over[lane] > 0.0;
-        !is_far & (self.distance_squared[lane] <= seeker.reach_squared)
-    }
-
-    fn any(&self, seeker: &Seeker) -> bool {
-        (0..LANES).fold(0, |any, lane| any | u32::from(self.is_near(lane, seeker))) != 0
-    }
-}
-
-/// A spot whose neighbours are sought.
+/// A spot whose neighbours are sought: the same numbers for each of a few.
 struct Seeker {
-    x: f32,
-    y: f32,
+    place: [f32x8; 2],
     /// xx, xy and yy with the room that all have, m^2.
-    horizontal: [f32; 3],
-    limit_squared: f32,
-    reach_squared: f32,
+    horizontal: [f32x8; 3],
+    limit_squared: f32x8,
+    reach_squared: f32x8,
 }
 
 impl Seeker {
     fn new(spot: &Spot, limit: f64, reach: f32) -> Self {
         let [xx, xy, yy] = spot.horizontal;
+        let all = |v: f64| f32x8::splat(v as f32);
         Self {
-            x: spot.place.x as f32,
-            y: spot.place.y as f32,
-            horizontal: [xx + ROOM * ROOM, xy, yy + ROOM * ROOM].map(|v| v as f32),
-            limit_squared: (limit * limit) as f32 * ROUNDED,
-            reach_squared: reach * reach,
+            place: [spot.place.x, spot.place.y].map(all),
+            horizontal: [xx + ROOM * ROOM, xy, yy + ROOM * ROOM].map(all),
+            limit_squared: f32x8::splat((limit * limit) as f32 * ROUNDED),
+            reach_squared: f32x8::splat(reach * reach),
         }
     }
 
-    /// The squared distance, m^2, and by how much that in standard deviations is over the limit.
+    /// Which of a few may lie within limit and reach, seen from above, a bit each; what can't be told may.
     #[inline]
-    fn meet(&self, x: f32, y: f32, [xx, xy, yy]: [f32; 3]) -> [f32; 2] {
-        let [x, y] = [x - self.x, y - self.y];
+    fn meet(&self, [x, y]: [f32x8; 2], [xx, xy, yy]: [f32x8; 3]) -> u32 {
+        let [x, y] = [x - self.place[0], y - self.place[1]];
         let [xx, xy, yy] = [self.horizontal[0] + xx, self.horizontal[1] + xy, self.horizontal[2] + yy];
         let (distance_squared, trace) = (x * x + y * y, xx + yy);
         let determinant = xx * yy - xy * xy;
-        let by_determinant = x * x * yy - 2.0 * x * y * xy + y * y * xx;
-        let slack = ROUNDING * trace * (distance_squared + self.limit_squared * trace);
-        [distance_squared, by_determinant - (self.limit_squared * determinant + slack)]
+        let by_determinant = x * x * yy - f32x8::splat(2.0) * x * y * xy + y * y * xx;
+        let slack = f32x8::splat(ROUNDING) * trace * (distance_squared + self.limit_squared * trace);
+        let is_far = by_determinant.simd_gt(self.limit_squared * determinant + slack);
+        distance_squared.simd_le(self.reach_squared).to_bitmask() & !is_far.to_bitmask()
     }
 }
 

@@ -42,12 +42,8 @@ impl Spot {
 }
 
 /// The Mahalanobis distance of two detections, `sqrt(h^T (Sigma_i + Sigma_j + (0.1 m)^2 I)^-1 h)`; of their horizontal
-/// parts where `level`. Infinite where it can't be told.
-pub(super) fn chi(a: &Spot, b: &Spot, level: bool) -> f64 {
-    chi_within(f64::INFINITY, a, b, level).unwrap_or(f64::INFINITY)
-}
-
-/// [`chi`] where it is no more than a limit. It mostly tells from the plane alone that it is more.
+/// parts where `level`. `None` where it is more than a limit, which it mostly tells from the plane alone, and where it
+/// can't be told.
 pub(super) fn chi_within(limit: f64, a: &Spot, b: &Spot, level: bool) -> Option<f64> {
     // A hair more, so that rounding never decides.
     let most = 1.000_001 * limit * limit;
@@ -94,6 +90,10 @@ mod tests {
     use crate::space::Point;
     use nalgebra::{Matrix3, Vector3};
     use proptest::prelude::*;
+
+    fn chi(a: &Spot, b: &Spot, level: bool) -> f64 {
+        chi_within(f64::INFINITY, a, b, level).unwrap_or(f64::INFINITY)
+    }
 
     fn detection(place: [f64; 3], sigmas: [f64; 3]) -> Detection {
         Detection { position: Point::from(place), axes: Matrix3::from_diagonal(&Vector3::from(sigmas)) }

@@ -1,7 +1,7 @@
 //! Mirror images: radar waves that a wall turns back show what stands before it as if it stood behind.
 
 use super::columns::{set, unobserved};
-use super::distance::{Spot, chi};
+use super::distance::{Spot, chi_within};
 use super::way::TALL;
 use super::{Feature, Piece, Surroundings, Values};
 use crate::scene::{Detection, StaticMap};
@@ -38,6 +38,8 @@ fn observe(surroundings: &Surroundings) -> Vec<Values> {
     let window_from_vehicle = lidar.vehicle_from_window.inverse();
     let radar = window_from_vehicle * Point::from(frame.radar.vehicle_from_radar.translation.vector);
     let level = frame.radar.elevation == Elevation::None;
+    let spots: Vec<Option<Spot>> =
+        frame.scan.detections.iter().map(|detection| detection.as_ref().map(Spot::new)).collect();
     let mut near = Vec::new();
     for (i, detection) in frame.scan.detections.iter().enumerate() {
         let Some(moved) = detection.map(|detection| detection.moved(&window_from_vehicle)) else { continue };
@@ -49,9 +51,9 @@ fn observe(surroundings: &Surroundings) -> Vec<Values> {
         let mut least: Option<f64> = None;
         for other in near.iter().map(|other| *other as usize) {
             let stronger = strength.cross_section[other] > strength.cross_section[i];
-            if let Some(partner) = frame.scan.detections[other].as_ref().filter(|_| stronger) {
-                let distance = chi(&image_spot, &Spot::new(partner), level);
-                least = Some(least.map_or(distance, |least| least.min(distance)));
+            if let Some(partner) = spots[other].as_ref().filter(|_| stronger) {
+                let known = least.unwrap_or(f64::INFINITY);
+                least = Some(chi_within(known, &image_spot, partner, level).unwrap_or(known));
             }
         }
         set(&mut columns, i, [least]);

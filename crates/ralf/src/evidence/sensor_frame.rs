@@ -79,11 +79,19 @@ impl Unmoved {
     fn count_around(&self, detection: &Detection, known: &[Known]) -> usize {
         let place = [detection.position.x as f32, detection.position.y as f32];
         let (index, radius) = (self.cloud.index(), AROUND as f32);
-        if known.iter().all(|scan| scan.moved_on) {
+        let is_left_out = |scan: &Known| !scan.moved_on;
+        let Some(first) = known.iter().position(is_left_out) else {
             return index.count_beside(place, radius);
+        };
+        // Scans are in time order, so that those in which it had not moved on mostly follow each other.
+        let left_out = known[first..].iter().take_while(|scan| is_left_out(scan)).count();
+        if known[first + left_out..].iter().any(is_left_out) {
+            let counts = |scan: u32| known[scan as usize].moved_on;
+            return index.count_beside_where(place, radius, &self.scan_at, counts);
         }
-        let counts: Vec<u32> = known.iter().map(|scan| u32::from(scan.moved_on)).collect();
-        index.count_beside_of(place, radius, &self.scan_at, &counts)
+        let (first, left_out) = (first as u32, left_out as u32);
+        let counts = |scan: u32| scan.wrapping_sub(first) >= left_out;
+        index.count_beside_where(place, radius, &self.scan_at, counts)
     }
 }
 

@@ -55,16 +55,18 @@ impl Way {
         let end = length - slack.max(STEP);
         let mut way = Self::default();
         let steps = ((end - OWN) / STEP).max(0.0) as usize;
+        // Of a way of no length there is no step, so that this is a number where it is asked for.
+        let lengths = [along.x, along.y].map(|component| length / component);
         let mut step = 0;
         while step < steps {
             let gone = OWN + step as f64 * STEP;
             let place = radar.coords.xy() + along * (gone / length);
-            let (column, clearance) = map.columns.at(place.x, place.y);
+            let (column, free) = map.columns.at(place.x, place.y, lengths);
             if let Some(column) = column {
                 way.meet(&column, length - gone);
             }
             // Steps through nothing, a hair fewer so that rounding never decides.
-            step += 1 + (0.99 * clearance / STEP) as usize;
+            step += 1 + (0.99 / STEP * free) as usize;
         }
         way
     }

@@ -6,7 +6,7 @@
 //! players are asked on the way to a leaf, and leaves that lie side by side share most of them: what each adds in every
 //! case of such a bundle is worked out once, so that a row costs a look into a table per bundle.
 
-use super::block::{BLOCK, Block};
+use super::block::{BLOCK, Block, Mask};
 use super::bundle::{Bundle, bundles};
 use super::forest::Forest;
 use super::outcomes::Part;
@@ -14,6 +14,10 @@ use super::rows::Rows;
 use super::tree::{Node, Tree};
 use super::walk::{Questions, Walk};
 use super::way::{PLAYERS, Way};
+
+/// Blocks that a tree is asked about before the next one: the tables of one tree stay in a cache, those of all don't,
+/// and neither would the answers of more blocks.
+const TOGETHER: usize = 8;
 
 /// A forest, prepared for telling what each group adds to its answers.
 #[derive(Debug, Clone)]
@@ -53,11 +57,15 @@ impl Explainer {
     pub fn explain(&self, rows: &Rows) -> Vec<[f64; PLAYERS]> {
         let mut all = vec![[0; PLAYERS]; rows.len()];
         let mut masks = Vec::new();
-        for (at, added) in all.chunks_mut(BLOCK).enumerate() {
-            let answers = self.questions.answers(&Block::of(rows, at * BLOCK));
+        for (at, added) in all.chunks_mut(TOGETHER * BLOCK).enumerate() {
+            let begins = (0..added.len()).step_by(BLOCK).map(|begin| at * TOGETHER * BLOCK + begin);
+            let blocks: Vec<Vec<Mask>> =
+                begins.map(|begin| self.questions.answers(&Block::of(rows, begin))).collect();
             for (walk, bundles) in &self.trees {
-                walk.masks(&answers, &mut masks);
-                bundles.iter().for_each(|bundle| bundle.add(&masks, added));
+                for (answers, added) in blocks.iter().zip(added.chunks_mut(BLOCK)) {
+                    walk.masks(answers, &mut masks);
+                    bundles.iter().for_each(|bundle| bundle.add(&masks, added));
+                }
             }
         }
         all.into_iter().map(|units| units.map(|units| f64::from(units) * self.unit)).collect()

@@ -25,7 +25,8 @@ impl Cells {
     pub(super) fn at(&self, x: f32, y: f32) -> Option<usize> {
         let [column, row] = [x, y].map(|v| (v + self.reach) / self.edge);
         let inside = |v: f32| (0.0..self.along as f32).contains(&v);
-        (inside(column) && inside(row)).then(|| row as usize * self.along + column as usize)
+        // By way of `i32`, which is a cast at half the cost.
+        (inside(column) && inside(row)).then(|| row as i32 as usize * self.along + column as i32 as usize)
     }
 }
 

@@ -101,7 +101,9 @@ impl RayTable {
     pub fn runs(&self, cone: &Cone, runs: &mut Vec<Range<usize>>) {
         runs.clear();
         // A row below or above all that there are stays outside, so that nothing is found in it.
-        let row = |elevation: f32| (row_of(elevation) + 1).saturating_sub(self.first_row).min(self.rows + 1);
+        let row = |elevation: f32| {
+            (row_of(elevation) as usize + 1).saturating_sub(self.first_row).min(self.rows + 1)
+        };
         let low = row(cone.elevation - cone.half_elevation).max(1);
         let high = row(cone.elevation + cone.half_elevation).min(self.rows);
         let columns = columns_of(cone);
@@ -119,10 +121,9 @@ impl RayTable {
 
     /// The returns in the bin of a direction.
     pub fn bin(&self, azimuth: f32, elevation: f32) -> &[TableRay] {
-        let Some(row) = row_of(elevation).checked_sub(self.first_row).filter(|row| *row < self.rows) else {
-            return &[];
-        };
-        let bin = row * COLUMNS + column_of(azimuth);
+        let row = (row_of(elevation) as usize).checked_sub(self.first_row);
+        let Some(row) = row.filter(|row| *row < self.rows) else { return &[] };
+        let bin = row * COLUMNS + column_of(azimuth) as usize;
         &self.rays[self.starts[bin] as usize..self.starts[bin + 1] as usize]
     }
 
@@ -185,7 +186,8 @@ impl Directions {
         let bin = |((azimuth, elevation), range): ((&f32, &f32), &f32)| {
             // What is not finite fails the comparison, too.
             let came_back = *range > 0.0 && *range < f32::INFINITY;
-            if came_back { (row_of(*elevation) * COLUMNS + column_of(*azimuth)) as u32 } else { NO_BIN }
+            let bin = row_of(*elevation) * COLUMNS as u32 + column_of(*azimuth);
+            if came_back { bin } else { NO_BIN }
         };
         directions.map(bin).collect()
     }
@@ -217,17 +219,19 @@ fn columns_of(cone: &Cone) -> [Range<usize>; 2] {
     }
     let [left, right] = [-1.0, 1.0].map(|side| {
         let azimuth = cone.azimuth + side * cone.half_azimuth;
-        column_of(azimuth - TAU * (azimuth / TAU).round())
+        column_of(azimuth - TAU * (azimuth / TAU).round()) as usize
     });
     if left <= right { [left..right + 1, 0..0] } else { [0..right + 1, left..COLUMNS] }
 }
 
-fn column_of(azimuth: f32) -> usize {
-    (((azimuth + PI) / BIN) as usize).min(COLUMNS - 1)
+// Casts to `i32` become vector instructions, unlike those to numbers without a sign.
+
+fn column_of(azimuth: f32) -> u32 {
+    (((azimuth + PI) / BIN) as i32).clamp(0, COLUMNS as i32 - 1) as u32
 }
 
-fn row_of(elevation: f32) -> usize {
-    ((elevation + FRAC_PI_2) / BIN) as usize
+fn row_of(elevation: f32) -> u32 {
+    (((elevation + FRAC_PI_2) / BIN) as i32).max(0) as u32
 }
 
 /// `atan2(y, x)` to 1e-5 rad, at a fraction of its cost: the polynomial of Abramowitz and Stegun, 4.4.49, on [0, 1].

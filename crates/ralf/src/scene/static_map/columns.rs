@@ -17,6 +17,9 @@ const BLOCK: usize = 4;
 /// Blocks along an edge.
 const BLOCKS: usize = CELLS / BLOCK;
 
+/// A place is told to be in a cell that it is at most so far beside, m.
+const ROUNDING: f64 = 1e-3;
+
 /// What fills a column.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Column {
@@ -42,6 +45,8 @@ pub struct ColumnGrid {
 impl ColumnGrid {
     /// Edge of a column, m.
     pub const CELL: f64 = CELL as f64;
+    /// Edge of a block, m.
+    const BLOCK: f64 = BLOCK as f64 * Self::CELL;
 
     pub(super) fn empty() -> Self {
         Self {
@@ -52,7 +57,7 @@ impl ColumnGrid {
     }
 
     /// Fills the voxel of a column at a level.
-    pub(super) fn add(&mut self, cell: usize, level: u32) {
+    pub(super) fn add(&mut self, cell: usize, level: i32) {
         self.voxels[cell] |= 1 << level;
         self.filled[cell / CELLS * WORDS + cell % CELLS / 64] |= 1 << (cell % 64);
     }
@@ -87,14 +92,26 @@ impl ColumnGrid {
         blocks().rev().for_each(|(row, column)| pull(row, column, [1, 1]));
     }
 
-    /// What stands at a place, `None` beyond the map and where nothing stands; and how much is free around: no column
-    /// is filled within this of the place along each axis, m, and perhaps farther. 0 beyond the map.
-    pub fn at(&self, x: f64, y: f64) -> (Option<Column>, f64) {
+    /// What stands at a place, `None` beyond the map and where nothing stands; and how far a way goes on from there,
+    /// m, through nothing at all, and perhaps farther. 0 beyond the map. `lengths` tell where the way leads: how long
+    /// it is for each metre along x and along y, infinite where it leads nowhere along one of them.
+    pub fn at(&self, x: f64, y: f64, lengths: [f64; 2]) -> (Option<Column>, f64) {
         let Some(cell) = GRID.at(x as f32, y as f32) else { return (None, 0.0) };
         let (row, place) = (cell / CELLS, cell % CELLS);
-        let away = self.away[row / BLOCK * BLOCKS + place / BLOCK];
-        let clearance = f64::from(away.saturating_sub(1)) * BLOCK as f64 * Self::CELL;
-        (if away == 0 { self.in_cell(row, place) } else { None }, clearance)
+        let block = [place / BLOCK, row / BLOCK];
+        let away = self.away[block[1] * BLOCKS + block[0]];
+        if away == 0 {
+            return (self.in_cell(row, place), 0.0);
+        }
+        // The square of empty blocks around this one ends at that border to which the way comes first.
+        let to_border = |v: f64, block: usize, length: f64| {
+            let [before, behind] = [f64::from(away - 1), f64::from(away)];
+            let border = block as f64 + if length > 0.0 { behind } else { -before };
+            (border * Self::BLOCK - f64::from(REACH) - v) * length
+        };
+        let free = to_border(x, block[0], lengths[0]).min(to_border(y, block[1], lengths[1]));
+        // Places are rounded to cells by less than this.
+        (None, (free - ROUNDING).max(0.0))
     }
 
     fn in_cell(&self, row: usize, place: usize) -> Option<Column> {

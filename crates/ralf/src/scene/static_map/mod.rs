@@ -82,8 +82,8 @@ impl Voxels {
         if !(inside(column) && inside(row) && (LOWEST..HIGHEST).contains(&height)) {
             return;
         }
-        let filled = &mut self.filled[row as usize * VOXELS + column as usize];
-        let level = ((height - LOWEST) / VOXEL) as u32;
+        let filled = &mut self.filled[row as i32 as usize * VOXELS + column as i32 as usize];
+        let level = ((height - LOWEST) / VOXEL) as i32;
         if *filled & (1 << level) != 0 {
             return;
         }

@@ -3,6 +3,7 @@ use crate::config::GroundConfig;
 use crate::scene::LidarSnapshot;
 use crate::sensors::{Lidar, LidarScan};
 use crate::space::Transform;
+use std::f64::consts::FRAC_PI_4;
 use std::sync::Arc;
 
 /// Scans of a LiDAR 2 m above the origin, which stands still.
@@ -54,7 +55,9 @@ fn what_stands_still_is_kept_and_what_moved_is_not() {
         [15.0, 0.0, 0.0],
         [20.0, 0.0, 0.0],
     ]);
-    let column = |views: &[LidarView], x: f64| StaticMap::new(views, ground.as_ref()).columns.at(x, 0.1).0;
+    let column = |views: &[LidarView], x: f64| {
+        StaticMap::new(views, ground.as_ref()).columns.at(x, 0.1, [1.0, f64::INFINITY]).0
+    };
     let wall = column(&passing, 20.1).unwrap();
     // To a voxel; the box hides the wall's foot in every scan.
     assert!((wall.top - 2.95).abs() < 0.15 && wall.bottom < 0.7 && wall.voxels >= 12, "{wall:?}");
@@ -110,9 +113,9 @@ fn columns_around_a_place_are_all_that_are_near() {
 }
 
 #[test]
-fn nothing_stands_within_the_clearance() {
+fn a_way_goes_through_nothing_as_far_as_is_told() {
     let mut grid = ColumnGrid::empty();
-    assert_eq!(grid.at(0.0, 0.0).1, 0.0, "nothing is known before the end");
+    assert_eq!(grid.at(0.0, 0.0, [1.0, f64::INFINITY]).1, 0.0, "nothing is known before the end");
     for i in 0..60 {
         let (x, y) = (((i * 37) % 83) as f32 * 0.9 - 40.0, ((i * 53) % 97) as f32 * 0.8 - 35.0);
         grid.add(columns::GRID.at(x, y).unwrap(), 5);
@@ -124,9 +127,15 @@ fn nothing_stands_within_the_clearance() {
         // A column reaches half its edge beyond its middle.
         let away = |[a, b]: &[f64; 2]| (a - x).abs().max((b - y).abs()) - 0.5 * ColumnGrid::CELL;
         let nearest = filled.iter().map(away).fold(f64::INFINITY, f64::min).max(0.0);
-        let clearance = grid.at(x, y).1;
+        let angle = f64::from(i % 8) * FRAC_PI_4 + f64::from(i / 8 % 3);
+        let [along_x, along_y] = if i % 5 == 0 { [0.0, -1.0] } else { [angle.cos(), angle.sin()] };
+        let at =
+            |gone: f64| grid.at(x + gone * along_x, y + gone * along_y, [along_x.recip(), along_y.recip()]);
+        let free = at(0.0).1;
         // What is known to a block on either side is off by two metres at most.
-        assert!(clearance <= nearest + 1e-4 && clearance > nearest - 2.3, "{x} {y}: {clearance} {nearest}");
+        assert!(free > nearest - 2.3, "{x} {y}: {free} {nearest}");
+        let steps = (free.min(200.0) / 0.05) as usize;
+        assert!((0..steps).all(|step| at(0.05 * step as f64).0.is_none()), "{x} {y}: {free}");
     }
-    assert_eq!(grid.at(90.0, 0.0).1, 0.0);
+    assert_eq!(grid.at(90.0, 0.0, [1.0, f64::INFINITY]).1, 0.0);
 }

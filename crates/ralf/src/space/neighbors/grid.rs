@@ -44,7 +44,8 @@ impl NeighborIndex {
         let place =
             |value: f32, axis: usize| (value.clamp(-REACH, self.ends[axis]) - self.origin[axis]) / self.cell;
         let [x, y] = [place(x, 0), place(y, 1)];
-        let cell = [(x as usize).min(self.columns - 1), (y as usize).min(self.rows - 1)];
+        let cell_of = |place: f32, cells: usize| (place as i32).clamp(0, cells as i32 - 1) as usize;
+        let cell = [cell_of(x, self.columns), cell_of(y, self.rows)];
         let is_inside = x >= 0.0 && y >= 0.0 && x <= self.columns as f32 && y <= self.rows as f32;
         GridPoint { x, y, cell, is_inside }
     }

@@ -212,17 +212,24 @@ impl NeighborIndex {
     }
 
     /// How many points [`Self::beside`] finds whose kind counts: `kinds` are those of the points in the order of
-    /// [`Self::ids`], and `counts` says of each kind whether it does, 1, or not, 0.
-    pub fn count_beside_of(&self, [x, y]: [f32; 2], radius: f32, kinds: &[u32], counts: &[u32]) -> usize {
+    /// [`Self::ids`]. What is compared alone, and looked up nowhere, is asked of several points at once.
+    pub fn count_beside_where(
+        &self,
+        [x, y]: [f32; 2],
+        radius: f32,
+        kinds: &[u32],
+        counts: impl Fn(u32) -> bool,
+    ) -> usize {
         let mut count = 0;
         for run in self.runs_around([x, y], radius) {
             let points = self.xs[run.clone()].iter().zip(&self.ys[run.clone()]).zip(&kinds[run]);
-            for ((px, py), kind) in points {
+            let within = points.map(|((px, py), kind)| {
                 let [dx, dy] = [px - x, py - y];
-                count += u32::from(dx * dx + dy * dy <= radius * radius) & counts[*kind as usize];
-            }
+                u32::from((dx * dx + dy * dy <= radius * radius) & counts(*kind))
+            });
+            count += within.sum::<u32>() as usize;
         }
-        count as usize
+        count
     }
 
     /// How many points [`Self::beside`] finds.

@@ -57,12 +57,12 @@ impl Raster {
 
     /// The least value within `radius` cells in row and column.
     pub(super) fn eroded(&self, radius: usize) -> Self {
-        self.within(radius, |a, b| if b < a { b } else { a })
+        self.extreme(radius, |a, b| if b < a { b } else { a })
     }
 
     /// The largest value within `radius` cells in row and column.
     pub(super) fn dilated(&self, radius: usize) -> Self {
-        self.within(radius, |a, b| if b > a { b } else { a })
+        self.extreme(radius, |a, b| if b > a { b } else { a })
     }
 
     /// The mean within `radius` cells in row and column; beyond the border its cells go on.
@@ -89,6 +89,29 @@ impl Raster {
         let at = |row: usize, column: usize| f64::from(self.values[row * self.size + column]);
         let along = |row: usize| at(row, left) * (1.0 - right) + at(row, left + 1) * right;
         along(low) * (1.0 - up) + along(low + 1) * up
+    }
+
+    /// The same as [`Self::within`] with what may take a value twice: from pairs of cells, pairs of pairs and so on.
+    fn extreme(&self, radius: usize, join: impl Fn(f32, f32) -> f32) -> Self {
+        let (size, last, width) = (self.size, self.size - 1, 2 * radius + 1);
+        let mut padded = Vec::with_capacity(size * (size + 2 * radius));
+        for row in 0..size + 2 * radius {
+            let row = row.saturating_sub(radius).min(last);
+            padded.extend_from_slice(&self.values[row * size..][..size]);
+        }
+        let mut spare = Vec::with_capacity(padded.len());
+        widen(&mut padded, &mut spare, width, size, &join);
+        let mut joined = Self { size, values: padded };
+        let mut padded = Vec::with_capacity(size + 2 * radius);
+        for row in joined.values.chunks_mut(size) {
+            padded.clear();
+            padded.resize(radius, row[0]);
+            padded.extend_from_slice(row);
+            padded.resize(size + 2 * radius, row[last]);
+            widen(&mut padded, &mut spare, width, 1, &join);
+            row.copy_from_slice(&padded);
+        }
+        joined
     }
 
     /// All values within `radius` cells of each one taken together, first in its column and then in its row.
@@ -118,6 +141,25 @@ impl Raster {
             }
         }
         joined
+    }
+}
+
+/// Takes each value together with those that follow it at a stride, as many as the width says, itself among them; those
+/// that fewer follow fall away. `spare` is for use on the way.
+fn widen(
+    values: &mut Vec<f32>,
+    spare: &mut Vec<f32>,
+    width: usize,
+    stride: usize,
+    join: impl Fn(f32, f32) -> f32,
+) {
+    let mut joined = 1;
+    while joined < width {
+        let more = joined.min(width - joined);
+        spare.clear();
+        spare.extend(values.iter().zip(&values[more * stride..]).map(|(a, b)| join(*a, *b)));
+        std::mem::swap(values, spare);
+        joined += more;
     }
 }
 
