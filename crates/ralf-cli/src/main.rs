@@ -14,8 +14,8 @@ fn main() -> ExitCode {
 /// Memory that a scan gives back stays with the program for the next one.
 ///
 /// The C library of Linux gives free memory back to the system as soon as it is more than twice the largest piece that
-/// was ever freed, and gets it anew, page by page, for the next scan: half of the time that labelling spent in the
-/// kernel. Such a piece is taken once and freed, untouched. Other systems' libraries don't mind.
+/// was ever freed, and gets it anew, page by page, for the next scan: up to half of the time that labelling spent
+/// in the kernel. Such a piece is taken once and freed, untouched. Other systems' libraries don't mind.
 fn keep_memory() {
     drop(black_box(Vec::<u8>::with_capacity(LARGEST_PIECE)));
 }
