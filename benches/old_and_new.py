@@ -94,19 +94,20 @@ def processes(recordings):
     yield "simulate --scans 2200 --no-images", [*paper, "--scans", "2200", "--no-images"]
 
 
-def measured(build, name, command):
-    """One round of one process; nothing where a build can't do it."""
+def measured(build, name, command, kept):
+    """One round of one process; nothing where a build can't do it. What it writes stays in a folder: a file system that has
+    just removed thousands of files takes longer to make new ones, which told as time in the kernel."""
     if not build.checks:
         command = [a for a in command if a != "--no-check"]
     options = [a for a in command if a.startswith("--")]
     if (name.endswith("checked") and not build.checks) or not all(build.knows(command[0], a) for a in options):
         return {}
-    with tempfile.TemporaryDirectory() as folder:
-        arguments = [str(Path(folder) / "out") if a == "{out}" else a for a in command]
-        return {f"{name}: {unit}": value for unit, value in process([build.program, *arguments]).items()}
+    folder = tempfile.mkdtemp(dir=kept)
+    arguments = [str(Path(folder) / "out") if a == "{out}" else a for a in command]
+    return {f"{name}: {unit}": value for unit, value in process([build.program, *arguments]).items()}
 
 
-def one_round(build, recordings, only):
+def one_round(build, recordings, only, kept):
     """All that is measured, by name."""
     found = {}
     for target in BENCHES:
@@ -114,7 +115,7 @@ def one_round(build, recordings, only):
             found |= {f"bench {target}: {name}, ms": ms for name, ms in bench(build.benches[target]).items()}
     for name, command in processes(recordings):
         if only in name:
-            found |= measured(build, name, command)
+            found |= measured(build, name, command, kept)
     return found
 
 
@@ -133,11 +134,12 @@ def main():
         recordings[name or Path(path).name] = path
     old, new = Build(arguments.old), Build(arguments.new)
     values = {"old": defaultdict(list), "new": defaultdict(list)}
-    for k in range(arguments.rounds):
-        for which, build in (("old", old), ("new", new)) if k % 2 == 0 else (("new", new), ("old", old)):
-            for name, value in one_round(build, recordings, arguments.only).items():
-                values[which][name].append(value)
-        print(f"round {k + 1} of {arguments.rounds}", file=sys.stderr)
+    with tempfile.TemporaryDirectory() as kept:
+        for k in range(arguments.rounds):
+            for which, build in (("old", old), ("new", new)) if k % 2 == 0 else (("new", new), ("old", old)):
+                for name, value in one_round(build, recordings, arguments.only, kept).items():
+                    values[which][name].append(value)
+            print(f"round {k + 1} of {arguments.rounds}", file=sys.stderr)
     print("| | old | new | old / new |\n| --- | --- | --- | --- |")
     for name in values["new"]:
         before, now = (statistics.median(values[which].get(name) or [float("nan")]) for which in ("old", "new"))

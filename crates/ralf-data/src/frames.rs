@@ -6,17 +6,11 @@
 //! Stretches may be of several sequences, and the last ones are short, so that all workers end at nearly the same time.
 
 use crate::read::SequenceReader;
+use crate::stretches::{Stretch, shared, stretches};
 use ralf::config::Config;
 use ralf::scene::FrameWindow;
 use ralf::sensors::{Rig, Timelines};
-use std::ops::Range;
-use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
-
-/// How many scans that follow each other in time are worked on with one window: the least of the last stretches, and
-/// the most. A window begins with some ten scans of each radar.
-const STRETCH: [usize; 2] = [16, 64];
-/// The same where evidence is asked for: each window then begins with seconds of LiDAR scans.
-const LONG_STRETCH: [usize; 2] = [64, 512];
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// A scan of a radar, by their places in the rig and in the radar's timeline.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -37,38 +31,6 @@ pub(crate) struct Frames<'a> {
     pub(crate) jobs: usize,
 }
 
-/// Scans of a sequence that one worker works on with one window.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct Stretch {
-    /// The sequence's number.
-    pub(crate) sequence: usize,
-    /// Which of its scans, in the order of time; none of a sequence that has none.
-    pub(crate) scans: Range<usize>,
-}
-
-/// Cuts sequences of so many scans into stretches, each sequence into one at least. They get shorter as less is left,
-/// so that no worker waits long for the last one.
-pub(crate) fn stretches(scans: &[usize], evidence: bool, jobs: usize) -> Vec<Stretch> {
-    let [least, most] = if evidence { LONG_STRETCH } else { STRETCH };
-    let mut left: usize = scans.iter().sum();
-    let mut stretches = Vec::new();
-    for (sequence, count) in scans.iter().copied().enumerate() {
-        let mut begin = 0;
-        loop {
-            let wanted = if jobs > 1 { left.div_ceil(2 * jobs).clamp(least, most) } else { most };
-            // What is left of it is cut evenly: a window for two scans would cost more than they do.
-            let end = begin + (count - begin).div_ceil((count - begin).div_ceil(wanted).max(1));
-            stretches.push(Stretch { sequence, scans: begin..end });
-            left -= end - begin;
-            begin = end;
-            if begin == count {
-                break;
-            }
-        }
-    }
-    stretches
-}
-
 impl Frames<'_> {
     /// Works on each of these scans with a window from which its frame can be asked; `work` is told the scan's place in
     /// the list. Results are in the list's order. An error ends the work.
@@ -77,29 +39,28 @@ impl Frames<'_> {
         scans: &[ScanIndex],
         work: impl Fn(&mut FrameWindow, usize) -> Result<R, E> + Sync,
     ) -> Result<Vec<R>, E> {
-        let order = in_time(&self.reader.sequence().times, scans);
-        let stop = AtomicBool::new(false);
-        let stretches = stretches(&[scans.len()], self.evidence, self.jobs);
-        let worked = side_by_side(&stretches, self.jobs, |Stretch { scans, .. }| {
+        let times = &self.reader.sequence().times;
+        let order = in_time(times, scans);
+        let shared = shared(times, self.config, order.iter().map(|place| time_of(times, scans[*place])));
+        let stretches = stretches(&[shared], self.evidence, self.jobs);
+        let worked = side_by_side_while(&stretches, self.jobs, |Stretch { scans, .. }, wanted| {
             let places = order[scans.clone()].iter().copied();
-            self.one_by_one(places, &stop, |window, place| Ok((place, work(window, place)?)))
+            self.one_by_one(places, wanted, |window, place| Ok((place, work(window, place)?)))
         })?;
         let mut done: Vec<(usize, R)> = worked.into_iter().flatten().collect();
         done.sort_by_key(|(place, _)| *place);
         Ok(done.into_iter().map(|(_, result)| result).collect())
     }
 
-    /// Works on what a stretch consists of, with one window, until somebody has failed: more work would be lost, too.
+    /// Works on what a stretch consists of, with one window, as long as it is wanted.
     pub(crate) fn one_by_one<T, R, E>(
         &self,
         stretch: impl Iterator<Item = T>,
-        stop: &AtomicBool,
+        wanted: &Wanted,
         work: impl Fn(&mut FrameWindow, T) -> Result<R, E>,
     ) -> Result<Vec<R>, E> {
         let mut window = self.window();
-        let going = stretch.take_while(|_| !stop.load(Ordering::Relaxed));
-        let done = going.map(|scan| work(&mut window, scan)).collect::<Result<Vec<_>, _>>();
-        done.inspect_err(|_| stop.store(true, Ordering::Relaxed))
+        stretch.take_while(|_| wanted.still()).map(|scan| work(&mut window, scan)).collect()
     }
 
     fn window(&self) -> FrameWindow<'_> {
@@ -113,9 +74,14 @@ pub(crate) fn in_time(times: &Timelines, scans: &[ScanIndex]) -> Vec<usize> {
     let mut order: Vec<usize> = (0..scans.len()).collect();
     order.sort_by_key(|place| {
         let ScanIndex { radar, scan } = scans[*place];
-        (times.radars[radar][scan], radar, scan)
+        (time_of(times, scans[*place]), radar, scan)
     });
     order
+}
+
+/// When a scan was made, ns.
+pub(crate) fn time_of(times: &Timelines, ScanIndex { radar, scan }: ScanIndex) -> i64 {
+    times.radars[radar][scan]
 }
 
 /// All scans of all radars, radar by radar.
@@ -130,6 +96,20 @@ pub(crate) fn all_scans(times: &Timelines) -> Vec<ScanIndex> {
 /// What one worker did: a result for each item it took, or the item that failed and why.
 type Worked<R, E> = Result<Vec<(usize, R)>, (usize, E)>;
 
+/// Tells whoever works on an item whether that is of use.
+pub(crate) struct Wanted<'a> {
+    place: usize,
+    /// The first item that has failed.
+    failed: &'a AtomicUsize,
+}
+
+impl Wanted<'_> {
+    /// Whether no item before it has failed.
+    pub(crate) fn still(&self) -> bool {
+        self.place < self.failed.load(Ordering::Relaxed)
+    }
+}
+
 /// Works on all items, several at a time. Results are in the items' order. An error ends the work; of several it is
 /// that of the first item, whatever the number of jobs.
 pub(crate) fn side_by_side<T: Sync, R: Send, E: Send>(
@@ -137,27 +117,41 @@ pub(crate) fn side_by_side<T: Sync, R: Send, E: Send>(
     jobs: usize,
     work: impl Fn(&T) -> Result<R, E> + Sync,
 ) -> Result<Vec<R>, E> {
-    let next = AtomicUsize::new(0);
+    side_by_side_while(items, jobs, |item, _| work(item))
+}
+
+/// The same, where work on an item may end early once it isn't wanted any more: what it returns then is lost.
+///
+/// Items before one that failed are wanted still, for one of them may fail, too: so the error is the same each time.
+pub(crate) fn side_by_side_while<T: Sync, R: Send, E: Send>(
+    items: &[T],
+    jobs: usize,
+    work: impl Fn(&T, &Wanted) -> Result<R, E> + Sync,
+) -> Result<Vec<R>, E> {
+    let (next, failed) = (AtomicUsize::new(0), AtomicUsize::new(usize::MAX));
     let work_off = || {
         let mut done = Vec::new();
         loop {
             let place = next.fetch_add(1, Ordering::Relaxed);
-            let Some(item) = items.get(place) else { return Ok(done) };
-            match work(item) {
+            let wanted = Wanted { place, failed: &failed };
+            let Some(item) = items.get(place).filter(|_| wanted.still()) else { return Ok(done) };
+            match work(item, &wanted) {
                 Ok(result) => done.push((place, result)),
                 Err(error) => {
                     // The others find no more items; those before this one are somebody's already.
-                    next.store(items.len(), Ordering::Relaxed);
+                    failed.fetch_min(place, Ordering::Relaxed);
                     return Err((place, error));
                 }
             }
         }
     };
     let results: Vec<Worked<R, E>> = std::thread::scope(|scope| {
-        let workers: Vec<_> = (0..jobs.clamp(1, items.len().max(1))).map(|_| scope.spawn(work_off)).collect();
+        // The thread that asks is one of the workers: memory that it has freed serves it again.
+        let others: Vec<_> = (1..jobs.min(items.len())).map(|_| scope.spawn(work_off)).collect();
+        let own = work_off();
         let joined =
-            workers.into_iter().map(|w| w.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)));
-        joined.collect()
+            others.into_iter().map(|w| w.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)));
+        std::iter::once(own).chain(joined).collect()
     });
     let (mut done, mut failed) = (Vec::new(), Vec::new());
     for result in results {
@@ -176,35 +170,6 @@ pub(crate) fn side_by_side<T: Sync, R: Send, E: Send>(
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn stretches_hold_every_scan_once_and_are_short_at_the_end() {
-        for (counts, evidence, jobs) in [
-            (vec![0], false, 2),
-            (vec![1, 0, 200, 40], false, 1),
-            (vec![40; 30], false, 2),
-            (vec![20_000, 3], true, 7),
-            (vec![110], false, 2),
-            (vec![], false, 3),
-        ] {
-            let [least, most] = if evidence { LONG_STRETCH } else { STRETCH };
-            let stretches = stretches(&counts, evidence, jobs);
-            for (sequence, count) in counts.iter().enumerate() {
-                let own: Vec<_> = stretches.iter().filter(|stretch| stretch.sequence == sequence).collect();
-                let scans: Vec<usize> = own.iter().flat_map(|stretch| stretch.scans.clone()).collect();
-                assert!(!own.is_empty() && scans.into_iter().eq(0..*count));
-                let shortest = own.iter().map(|stretch| stretch.scans.len()).min();
-                assert!(shortest >= Some(least.div_ceil(2).min(*count)), "{own:?}");
-            }
-            assert!(stretches.is_sorted_by_key(|stretch| stretch.sequence));
-            assert!(stretches.iter().all(|stretch| stretch.scans.len() <= most));
-        }
-        // 110 scans for two: 28 of 110, 21 of the 82 left, and then short ones.
-        let lengths =
-            stretches(&[110], false, 2).iter().map(|stretch| stretch.scans.len()).collect::<Vec<_>>();
-        assert_eq!(lengths, [28, 21, 16, 15, 15, 15]);
-        assert_eq!(stretches(&[110], false, 1).len(), 2);
-    }
 
     #[test]
     fn results_are_in_the_items_order_whatever_the_number_of_jobs() {
@@ -228,18 +193,22 @@ mod tests {
         assert!(seen.into_inner() < items.len());
     }
 
-    /// The second item fails at once, the first one only when it has.
+    /// The second item fails at once; the first one, which then is still wanted, and the third, which isn't, only when
+    /// it has.
     #[test]
     fn of_several_errors_the_first_items_is_told() {
-        let second_failed = AtomicBool::new(false);
-        let found = side_by_side(&[0, 1], 2, |item| {
-            if *item == 1 {
-                second_failed.store(true, Ordering::SeqCst);
-            }
-            while !second_failed.load(Ordering::SeqCst) {
+        let failed = AtomicUsize::new(usize::MAX);
+        let [first, second, third] = [0, 1, 2].map(|place| Wanted { place, failed: &failed });
+        assert!(first.still() && second.still() && third.still());
+        failed.store(1, Ordering::SeqCst);
+        assert!(first.still() && !second.still() && !third.still());
+        let second_failed = AtomicUsize::new(0);
+        let found = side_by_side_while(&[0, 1], 2, |item, wanted| {
+            second_failed.fetch_add(*item, Ordering::SeqCst);
+            while second_failed.load(Ordering::SeqCst) == 0 {
                 std::thread::yield_now();
             }
-            Err::<(), _>(*item)
+            if wanted.still() { Err(*item) } else { Ok(()) }
         });
         assert_eq!(found, Err(0));
     }

@@ -30,6 +30,7 @@ pub mod realism;
 pub mod result;
 pub mod run;
 mod settings;
+mod stretches;
 pub mod team;
 #[cfg(test)]
 mod testing;

@@ -26,13 +26,14 @@ pub(crate) fn open(file: &Path) -> Result<fs::File, DataError> {
     ralf_files::open(file, Kind::Stream).map_err(DataError::io(file))
 }
 
-/// Opens an input to be read piece by piece, however large a file of its kind may be.
-pub(crate) fn open_input(file: &Path) -> Result<fs::File, DataError> {
+/// Opens an input to be read piece by piece, however large a file of its kind may be, and tells its size.
+pub(crate) fn open_input(file: &Path) -> Result<(fs::File, u64), DataError> {
     const MEASUREMENTS: [&str; 9] = ["bin", "pcd", "laz", "npy", "label", "time", "jpg", "jpeg", "png"];
     let extension = file.extension().unwrap_or_default();
     let is_measurement = MEASUREMENTS.iter().any(|known| extension.eq_ignore_ascii_case(known));
     let kind = if is_measurement { Kind::Measurement } else { Kind::Stream };
-    ralf_files::open(file, kind).map_err(DataError::io(file))
+    let size = ralf_files::check(file, kind).map_err(DataError::io(file))?;
+    Ok((fs::File::open(file).map_err(DataError::io(file))?, size))
 }
 
 /// The whole file as UTF-8 text.
@@ -57,12 +58,14 @@ pub(crate) fn read_f32_columns(file: &Path, columns: usize) -> Result<Vec<Vec<f3
     Ok((0..columns).map(column).collect())
 }
 
-/// A file of packed little-endian float32 rows of `N`.
-pub(crate) fn read_f32_rows<const N: usize>(file: &Path) -> Result<Vec<[f32; N]>, DataError> {
-    let bytes = read(file)?;
+/// The packed little-endian float32 rows of `N` that a file's content holds.
+pub(crate) fn f32_rows<'a, const N: usize>(
+    file: &Path,
+    bytes: &'a [u8],
+) -> Result<impl ExactSizeIterator<Item = [f32; N]> + Clone + use<'a, N>, DataError> {
     check_rows(file, bytes.len(), N)?;
     let rows = bytes.as_chunks::<4>().0.as_chunks::<N>().0;
-    Ok(rows.iter().map(|row| row.map(f32::from_le_bytes)).collect())
+    Ok(rows.iter().map(|row| row.map(f32::from_le_bytes)))
 }
 
 /// The bytes of packed little-endian float32.
@@ -253,7 +256,7 @@ mod tests {
         let bytes: Vec<u8> = [1.0f32, 2.0, 3.0, 4.0].iter().flat_map(|v| v.to_le_bytes()).collect();
         write_whole(&file, &bytes).unwrap();
         assert_eq!(read_f32_columns(&file, 2).unwrap(), [[1.0, 3.0], [2.0, 4.0]]);
-        assert_eq!(read_f32_rows::<2>(&file).unwrap(), [[1.0, 2.0], [3.0, 4.0]]);
+        assert!(f32_rows::<2>(&file, &bytes).unwrap().eq([[1.0, 2.0], [3.0, 4.0]]));
         write_whole(&file, &bytes[..15]).unwrap();
         let error = read_f32_columns(&file, 2).unwrap_err().to_string();
         assert!(error.contains("000000.bin: byte 8: expected rows of 2 float32"), "{error}");

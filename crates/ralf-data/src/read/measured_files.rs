@@ -60,10 +60,10 @@ pub(crate) fn present<T>(
     Ok(found)
 }
 
-/// A LiDAR's scan from a file of float32 rows of so many values, which begin with x, y, z and intensity.
-pub(crate) fn lidar_rows(file: &Path, row: usize, t_ns: i64) -> Result<LidarScan, DataError> {
-    let mut columns = files::read_f32_columns(file, row)?;
-    let intensity = columns.swap_remove(3);
-    let points = (0..intensity.len()).map(|n| [columns[0][n], columns[1][n], columns[2][n]]).collect();
-    Ok(LidarScan { t_ns, points, times: None, intensity, classes: None })
+/// A LiDAR's scan from a file of float32 rows of `N`, at least four, which begin with x, y, z and intensity.
+pub(crate) fn lidar_rows<const N: usize>(file: &Path, t_ns: i64) -> Result<LidarScan, DataError> {
+    let bytes = files::read(file)?;
+    let rows = files::f32_rows::<N>(file, &bytes)?;
+    let points = rows.clone().map(|row| [row[0], row[1], row[2]]).collect();
+    Ok(LidarScan { t_ns, points, times: None, intensity: rows.map(|row| row[3]).collect(), classes: None })
 }

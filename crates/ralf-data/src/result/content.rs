@@ -15,10 +15,9 @@ const CHUNK: usize = 1 << 20;
 
 /// Hashes a file. `advance` is told how many bytes more are done.
 pub(crate) fn hash_file(file: &Path, advance: &dyn Fn(u64)) -> Result<FileRecord, DataError> {
-    let mut open = files::open_input(file)?;
+    let (mut open, length) = files::open_input(file)?;
     let mut hasher = blake3::Hasher::new();
     // Most files are far smaller than a chunk; one byte more, for they end with a read that finds nothing.
-    let length = open.metadata().map_err(DataError::io(file))?.len();
     let mut buffer = vec![0; usize::try_from(length).map_or(CHUNK, |length| CHUNK.min(length + 1))];
     let mut bytes = 0;
     loop {

@@ -3,30 +3,172 @@
 use super::schema::{Column, Kind};
 use super::table::Values;
 use crate::disk::parquet_table::read_group;
+use bytes::Bytes;
 use parquet::basic::{Compression, LogicalType, Repetition, Type as Physical, ZstdLevel};
+use parquet::column::writer::{ColumnCloseResult, ColumnWriterImpl};
 use parquet::data_type::{BoolType, ByteArray, ByteArrayType, DataType, FloatType, Int32Type, Int64Type};
 use parquet::errors::ParquetError;
-use parquet::file::properties::WriterProperties;
+use parquet::file::properties::{EnabledStatistics, WriterProperties, WriterPropertiesPtr};
 use parquet::file::reader::RowGroupReader;
-use parquet::file::writer::{SerializedFileWriter, SerializedRowGroupWriter};
-use parquet::schema::types::Type;
+use parquet::file::writer::{SerializedFileWriter, SerializedPageWriter, TrackedWrite};
+use parquet::schema::types::{ColumnDescPtr, ColumnPath, SchemaDescriptor, Type};
 use std::io::Write;
 use std::sync::Arc;
 
-/// Rows are written in groups of at least this many.
-pub(crate) const GROUP_ROWS: usize = 1 << 17;
+/// Rows are written in groups of at least this many: what is in memory at a time.
+pub(crate) const GROUP_ROWS: usize = 1 << 15;
 
-/// Begins a file with these columns, which is called `name` in its schema.
-pub(crate) fn begin<'a, W: Write + Send>(
-    file: W,
-    name: &str,
-    columns: impl IntoIterator<Item = &'a Column>,
-) -> Result<SerializedFileWriter<W>, ParquetError> {
-    let fields = columns.into_iter().map(field).collect::<Result<Vec<_>, _>>()?;
-    let schema = Type::group_type_builder(name).with_fields(fields).build()?;
-    let compression = Compression::ZSTD(ZstdLevel::try_new(3)?);
-    let properties = WriterProperties::builder().set_compression(compression).build();
-    SerializedFileWriter::new(file, Arc::new(schema), Arc::new(properties))
+/// The columns of a file, and how each is stored.
+pub(crate) struct Layout {
+    schema: Arc<Type>,
+    columns: Vec<ColumnDescPtr>,
+    properties: WriterPropertiesPtr,
+}
+
+/// A row group in memory, byte for byte as it will lie in the file.
+pub(crate) struct EncodedGroup {
+    bytes: Bytes,
+    columns: Vec<ColumnCloseResult>,
+}
+
+impl Layout {
+    /// A file with these columns, which is called `name` in its schema.
+    ///
+    /// Decimals are stored as they are: hardly two are the same, so that a dictionary costs more than it saves.
+    pub(crate) fn new<'a>(
+        name: &str,
+        columns: impl IntoIterator<Item = &'a Column>,
+    ) -> Result<Self, ParquetError> {
+        let compression = Compression::ZSTD(ZstdLevel::try_new(3)?);
+        // A group has a page or two of each column: what there is to say of pages, the group says.
+        let mut properties = WriterProperties::builder()
+            .set_compression(compression)
+            .set_statistics_enabled(EnabledStatistics::Chunk)
+            .set_offset_index_disabled(true);
+        let mut fields = Vec::new();
+        for column in columns {
+            fields.push(field(column)?);
+            if column.kind == Kind::F32 {
+                let path = ColumnPath::from(vec![column.name.to_string()]);
+                properties = properties.set_column_dictionary_enabled(path, false);
+            }
+        }
+        let schema = Arc::new(Type::group_type_builder(name).with_fields(fields).build()?);
+        let columns = SchemaDescriptor::new(schema.clone()).columns().to_vec();
+        Ok(Self { schema, columns, properties: Arc::new(properties.build()) })
+    }
+
+    /// Begins a file.
+    pub(crate) fn begin<W: Write + Send>(&self, file: W) -> Result<SerializedFileWriter<W>, ParquetError> {
+        SerializedFileWriter::new(file, self.schema.clone(), self.properties.clone())
+    }
+
+    /// A row group of these values, column by column.
+    pub(crate) fn encode<'a>(
+        &self,
+        values: impl IntoIterator<Item = &'a Values>,
+    ) -> Result<EncodedGroup, ParquetError> {
+        let mut sink = TrackedWrite::new(Vec::new());
+        let columns = self.columns.iter().zip(values);
+        let columns = columns.map(|(column, values)| self.encode_column(column, values, &mut sink));
+        let columns = columns.collect::<Result<_, _>>()?;
+        Ok(EncodedGroup { bytes: sink.into_inner()?.into(), columns })
+    }
+
+    fn encode_column(
+        &self,
+        column: &ColumnDescPtr,
+        values: &Values,
+        sink: &mut Sink,
+    ) -> Result<ColumnCloseResult, ParquetError> {
+        let column = NewColumn { column: column.clone(), properties: self.properties.clone(), sink };
+        let whole = |values: &mut dyn Iterator<Item = i32>| values.collect::<Vec<i32>>();
+        match values {
+            Values::Text(values) => column.texts(values),
+            Values::U8(values) => column.whole(&whole(&mut values.iter().map(|v| i32::from(*v)))),
+            Values::U16(values) => column.whole(&whole(&mut values.iter().map(|v| i32::from(*v)))),
+            Values::U32(values) => column.whole(&whole(&mut values.iter().map(|v| v.cast_signed()))),
+            Values::I64(values) => column.write::<Int64Type>(values, None),
+            Values::F32(values) => {
+                let present: Vec<f32> = values.iter().copied().filter(|value| value.is_finite()).collect();
+                let levels: Vec<i16> = values.iter().map(|value| i16::from(value.is_finite())).collect();
+                column.write::<FloatType>(&present, Some(&levels))
+            }
+            Values::Class(values) => {
+                let present: Vec<i32> = values.iter().flatten().map(|class| i32::from(*class)).collect();
+                let levels: Vec<i16> = values.iter().map(|class| i16::from(class.is_some())).collect();
+                column.write::<Int32Type>(&present, Some(&levels))
+            }
+            Values::Truth(values) => {
+                let present: Vec<bool> = values.iter().flatten().copied().collect();
+                let levels: Vec<i16> = values.iter().map(|value| i16::from(value.is_some())).collect();
+                column.write::<BoolType>(&present, Some(&levels))
+            }
+        }
+    }
+}
+
+impl EncodedGroup {
+    /// Writes it behind the groups that a file has.
+    pub(crate) fn append_to<W: Write + Send>(
+        self,
+        file: &mut SerializedFileWriter<W>,
+    ) -> Result<(), ParquetError> {
+        let mut group = file.next_row_group()?;
+        for column in self.columns {
+            group.append_column(&self.bytes, column)?;
+        }
+        group.close().map(drop)
+    }
+}
+
+/// Where columns are encoded, one after the other.
+type Sink = TrackedWrite<Vec<u8>>;
+
+/// A column without values.
+struct NewColumn<'a> {
+    column: ColumnDescPtr,
+    properties: WriterPropertiesPtr,
+    sink: &'a mut Sink,
+}
+
+impl<'a> NewColumn<'a> {
+    fn begin<T: DataType>(self) -> ColumnWriterImpl<'a, T> {
+        let pages = Box::new(SerializedPageWriter::new(self.sink));
+        ColumnWriterImpl::new(self.column, self.properties, pages)
+    }
+
+    fn whole(self, values: &[i32]) -> Result<ColumnCloseResult, ParquetError> {
+        self.write::<Int32Type>(values, None)
+    }
+
+    /// `levels` say of each row whether it has a value.
+    fn write<T: DataType>(
+        self,
+        values: &[T::T],
+        levels: Option<&[i16]>,
+    ) -> Result<ColumnCloseResult, ParquetError> {
+        let mut column = self.begin::<T>();
+        column.write_batch(values, levels, None)?;
+        column.close()
+    }
+
+    /// Some at a time: many are a piece of memory of their own, of which a whole group has megabytes.
+    fn texts(self, texts: &[Arc<str>]) -> Result<ColumnCloseResult, ParquetError> {
+        /// What the writer takes at a time anyway.
+        const AT_ONCE: usize = 1024;
+        let mut column = self.begin::<ByteArrayType>();
+        for texts in texts.chunks(AT_ONCE) {
+            let mut batch: Vec<ByteArray> = Vec::with_capacity(texts.len());
+            for (place, text) in texts.iter().enumerate() {
+                // Of a text that stands in many rows, such as a radar's name, one piece is enough.
+                let same = batch.last().filter(|_| Arc::ptr_eq(text, &texts[place - 1])).cloned();
+                batch.push(same.unwrap_or_else(|| ByteArray::from(text.as_ref())));
+            }
+            column.write_batch(&batch, None, None)?;
+        }
+        column.close()
+    }
 }
 
 fn field(column: &Column) -> Result<Arc<Type>, ParquetError> {
@@ -43,73 +185,6 @@ fn field(column: &Column) -> Result<Arc<Type>, ParquetError> {
     };
     let builder = Type::primitive_type_builder(&column.name, physical);
     builder.with_logical_type(logical).with_repetition(repetition).build().map(Arc::new)
-}
-
-/// Writes the values of the next column of a row group.
-pub(crate) fn write_values<W: Write + Send>(
-    group: &mut SerializedRowGroupWriter<W>,
-    values: &Values,
-) -> Result<(), ParquetError> {
-    let whole = |values: &mut dyn Iterator<Item = i32>| values.collect::<Vec<i32>>();
-    match values {
-        Values::Text(values) => write_texts(group, values),
-        Values::U8(values) => write_whole::<W>(group, &whole(&mut values.iter().map(|v| i32::from(*v)))),
-        Values::U16(values) => write_whole::<W>(group, &whole(&mut values.iter().map(|v| i32::from(*v)))),
-        Values::U32(values) => write_whole::<W>(group, &whole(&mut values.iter().map(|v| v.cast_signed()))),
-        Values::I64(values) => write_column::<Int64Type, _>(group, values, None),
-        Values::F32(values) => {
-            let present: Vec<f32> = values.iter().copied().filter(|value| value.is_finite()).collect();
-            let levels: Vec<i16> = values.iter().map(|value| i16::from(value.is_finite())).collect();
-            write_column::<FloatType, _>(group, &present, Some(&levels))
-        }
-        Values::Class(values) => {
-            let present: Vec<i32> = values.iter().flatten().map(|class| i32::from(*class)).collect();
-            let levels: Vec<i16> = values.iter().map(|class| i16::from(class.is_some())).collect();
-            write_column::<Int32Type, _>(group, &present, Some(&levels))
-        }
-        Values::Truth(values) => {
-            let present: Vec<bool> = values.iter().flatten().copied().collect();
-            let levels: Vec<i16> = values.iter().map(|value| i16::from(value.is_some())).collect();
-            write_column::<BoolType, _>(group, &present, Some(&levels))
-        }
-    }
-}
-
-fn write_whole<W: Write + Send>(
-    group: &mut SerializedRowGroupWriter<W>,
-    values: &[i32],
-) -> Result<(), ParquetError> {
-    write_column::<Int32Type, _>(group, values, None)
-}
-
-/// Some at a time: each is a piece of memory of its own, of which a whole group has megabytes.
-fn write_texts<W: Write + Send>(
-    group: &mut SerializedRowGroupWriter<W>,
-    texts: &[Arc<str>],
-) -> Result<(), ParquetError> {
-    /// What the writer takes at a time anyway.
-    const AT_ONCE: usize = 1024;
-    let mut column = group.next_column()?.ok_or_else(none_left)?;
-    for texts in texts.chunks(AT_ONCE) {
-        let texts: Vec<ByteArray> = texts.iter().map(|text| ByteArray::from(text.as_ref())).collect();
-        column.typed::<ByteArrayType>().write_batch(&texts, None, None)?;
-    }
-    column.close()
-}
-
-/// `levels` say of each row whether it has a value.
-fn write_column<T: DataType, W: Write + Send>(
-    group: &mut SerializedRowGroupWriter<W>,
-    values: &[T::T],
-    levels: Option<&[i16]>,
-) -> Result<(), ParquetError> {
-    let mut column = group.next_column()?.ok_or_else(none_left)?;
-    column.typed::<T>().write_batch(values, levels, None)?;
-    column.close()
-}
-
-fn none_left() -> ParquetError {
-    ParquetError::General("more columns than the schema has".into())
 }
 
 /// Reads a column of a row group.

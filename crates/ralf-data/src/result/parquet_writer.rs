@@ -1,6 +1,6 @@
 //! Writing `plausibility.parquet`.
 
-use super::parquet_columns::{GROUP_ROWS, begin, write_values};
+use super::parquet_columns::{EncodedGroup, GROUP_ROWS, Layout};
 use super::schema::{SCAN, Schema};
 use super::{FileRecord, RadarScanKey, Table, Values};
 use crate::disk::files::{beside, create_new};
@@ -8,15 +8,23 @@ use crate::error::DataError;
 use parquet::errors::ParquetError;
 use parquet::file::writer::SerializedFileWriter;
 use std::fs::File;
-use std::io::Write;
+use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+
+/// Bytes that are written at a time: hashing fewer takes longer.
+const AT_ONCE: usize = 1 << 18;
 
 /// Writes the tables of a sequence, in the order (radar, scan), as one file that appears whole or not at all.
 pub struct PlausibilityWriter {
     file: PathBuf,
-    writer: SerializedFileWriter<HashedFile>,
-    /// Rows that are still to be written, and the scans that they belong to.
+    writer: SerializedFileWriter<BufWriter<HashedFile>>,
+    layout: Arc<Layout>,
+    rows: RowGroup,
+}
+
+/// Rows of scans that follow each other, which are to be written together.
+pub(crate) struct RowGroup {
     rows: Table,
     radars: Vec<Arc<str>>,
     scans: Vec<u32>,
@@ -42,6 +50,31 @@ impl Write for HashedFile {
     }
 }
 
+impl RowGroup {
+    /// No rows, and room for so many.
+    pub(crate) fn with_room(schema: &Arc<Schema>, rows: usize) -> Self {
+        let table = Table::with_room(schema.clone(), rows);
+        Self { rows: table, radars: Vec::with_capacity(rows), scans: Vec::with_capacity(rows) }
+    }
+
+    /// Adds a scan's rows.
+    ///
+    /// # Errors
+    /// A table with other columns.
+    pub(crate) fn append(&mut self, key: &RadarScanKey, table: &Table) -> Result<(), DataError> {
+        self.rows.append(table)?;
+        self.radars.extend(std::iter::repeat_n(key.radar.clone(), table.len()));
+        self.scans.extend(std::iter::repeat_n(key.scan as u32, table.len()));
+        Ok(())
+    }
+
+    /// The bytes that these rows are in a file of this layout.
+    pub(crate) fn encode(self, layout: &Layout) -> Result<EncodedGroup, ParquetError> {
+        let scan = [Values::Text(self.radars), Values::U32(self.scans)];
+        layout.encode(scan.iter().chain(self.rows.columns().map(|(_, values)| values)))
+    }
+}
+
 impl PlausibilityWriter {
     /// Begins the file. Its place stays untouched until [`Self::finish`].
     pub fn create(file: &Path, schema: &Arc<Schema>) -> Result<Self, DataError> {
@@ -50,10 +83,12 @@ impl PlausibilityWriter {
         }
         let open = create_new(&beside(file)).map_err(DataError::io(file))?;
         let hashed = HashedFile { file: open, hasher: blake3::Hasher::new(), bytes: 0 };
-        let columns = SCAN.iter().chain(schema.columns());
-        let writer = begin(hashed, "plausibility", columns).map_err(|error| written(file, error))?;
-        let (rows, file) = (Table::empty(schema.clone()), file.to_owned());
-        Ok(Self { file, writer, rows, radars: Vec::new(), scans: Vec::new() })
+        let layout = Layout::new("plausibility", SCAN.iter().chain(schema.columns()));
+        let layout = layout.map_err(|error| written(file, error))?;
+        let writer = layout.begin(BufWriter::with_capacity(AT_ONCE, hashed));
+        let writer = writer.map_err(|error| written(file, error))?;
+        let rows = RowGroup::with_room(schema, 0);
+        Ok(Self { file: file.to_owned(), writer, layout: Arc::new(layout), rows })
     }
 
     /// Adds a scan's rows.
@@ -61,17 +96,27 @@ impl PlausibilityWriter {
     /// # Errors
     /// A table with other columns, or what the system refuses.
     pub fn append(&mut self, key: &RadarScanKey, table: &Table) -> Result<(), DataError> {
-        self.rows.append(table)?;
-        self.radars.extend(std::iter::repeat_n(key.radar.clone(), table.len()));
-        self.scans.extend(std::iter::repeat_n(key.scan as u32, table.len()));
-        if self.rows.len() >= GROUP_ROWS { self.flush() } else { Ok(()) }
+        self.rows.append(key, table)?;
+        if self.rows.rows.len() >= GROUP_ROWS { self.flush() } else { Ok(()) }
+    }
+
+    /// How the file's columns are stored, for those who encode whole groups of it ([`Self::append_group`]).
+    pub(crate) fn layout(&self) -> &Arc<Layout> {
+        &self.layout
+    }
+
+    /// Adds a group of rows; those that were added before are written first.
+    pub(crate) fn append_group(&mut self, group: EncodedGroup) -> Result<(), DataError> {
+        self.flush()?;
+        group.append_to(&mut self.writer).map_err(|error| written(&self.file, error))
     }
 
     /// Ends the file and puts it in its place. Returns its size and hash.
     pub fn finish(mut self) -> Result<FileRecord, DataError> {
         self.flush()?;
         self.writer.finish().map_err(|error| written(&self.file, error))?;
-        let open = self.writer.inner();
+        self.writer.inner_mut().flush().map_err(DataError::io(&self.file))?;
+        let open = self.writer.inner().get_ref();
         open.file.sync_all().map_err(DataError::io(&self.file))?;
         let record = FileRecord { bytes: open.bytes, blake3: open.hasher.finalize().to_hex().to_string() };
         std::fs::rename(beside(&self.file), &self.file).map_err(DataError::io(&self.file))?;
@@ -79,22 +124,13 @@ impl PlausibilityWriter {
     }
 
     fn flush(&mut self) -> Result<(), DataError> {
-        if self.rows.is_empty() {
+        if self.rows.rows.is_empty() {
             return Ok(());
         }
-        self.write_group().map_err(|error| written(&self.file, error))?;
-        self.rows.clear();
-        Ok(())
-    }
-
-    fn write_group(&mut self) -> Result<(), ParquetError> {
-        let mut group = self.writer.next_row_group()?;
-        write_values(&mut group, &Values::Text(std::mem::take(&mut self.radars)))?;
-        write_values(&mut group, &Values::U32(std::mem::take(&mut self.scans)))?;
-        for (_, values) in self.rows.columns() {
-            write_values(&mut group, values)?;
-        }
-        group.close().map(drop)
+        let empty = RowGroup::with_room(self.rows.rows.schema(), 0);
+        let group = std::mem::replace(&mut self.rows, empty).encode(&self.layout);
+        let group = group.and_then(|group| group.append_to(&mut self.writer));
+        group.map_err(|error| written(&self.file, error))
     }
 }
 

@@ -170,6 +170,14 @@ impl RadarRecord {
         self.labels.get(scan).is_none_or(|written| written.is_empty() || *written == hash_of_labels(bytes))
     }
 
+    /// Adds the scans that follow.
+    pub(crate) fn append(&mut self, more: Self) {
+        self.detections.extend(more.detections);
+        self.plausible.extend(more.plausible);
+        self.flags.extend(more.flags);
+        self.labels.extend(more.labels);
+    }
+
     /// Adds the next scan; one that could not be labelled has no table.
     ///
     /// # Errors

@@ -148,10 +148,6 @@ impl Values {
         }
         true
     }
-
-    fn clear(&mut self) {
-        each_kind!(self, values => values.clear());
-    }
 }
 
 /// Columns by name. Asking for one that isn't there, or for another type than it has, is an error.
@@ -166,6 +162,13 @@ impl Table {
     pub fn empty(schema: Arc<Schema>) -> Self {
         let values = schema.columns().iter().map(|column| Values::none(column.kind)).collect();
         Self { schema, values }
+    }
+
+    /// The same with room for so many.
+    pub(crate) fn with_room(schema: Arc<Schema>, rows: usize) -> Self {
+        let mut table = Self::empty(schema);
+        table.values.iter_mut().for_each(|values| each_kind!(values, values => values.reserve_exact(rows)));
+        table
     }
 
     /// The values of all columns in their order.
@@ -248,11 +251,6 @@ impl Table {
         }
         Ok(())
     }
-
-    /// Removes all rows, and keeps their room.
-    pub(crate) fn clear(&mut self) {
-        self.values.iter_mut().for_each(Values::clear);
-    }
 }
 
 #[cfg(test)]
@@ -270,8 +268,6 @@ mod tests {
         all.append(&table(vec![3.0]).slice(0..1)).unwrap();
         assert_eq!(all.get::<f32>("a").unwrap(), [1.0, 2.0, 3.0]);
         assert_eq!(all.slice(1..3), table(vec![2.0, 3.0]));
-        all.clear();
-        assert!(all.is_empty());
     }
 
     #[test]

@@ -5,7 +5,7 @@ use crate::error::DataError;
 use crate::frames::side_by_side;
 use crate::read::{Recording, SequenceReader};
 use crate::result::{Input, changed_ns, hash_file};
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
 /// What makes a sequence's results what they are.
@@ -14,8 +14,21 @@ pub(super) struct Identity {
     pub(super) name: String,
     /// Equal where the results are equal.
     pub(super) fingerprint: String,
-    /// By name.
+    /// What it is read from, by name.
     pub(super) inputs: Vec<Input>,
+}
+
+/// What the system tells of a file; nothing of one that isn't there.
+struct Found {
+    size: Option<u64>,
+    mtime_ns: Option<i64>,
+}
+
+impl Found {
+    fn of(file: &Path) -> Self {
+        let meta = std::fs::metadata(file).ok();
+        Self { size: meta.as_ref().map(|meta| meta.len()), mtime_ns: meta.as_ref().and_then(changed_ns) }
+    }
 }
 
 /// The recording's sequences in a run of this fingerprint. A file that is known by name, size and time is not read
@@ -27,48 +40,61 @@ pub(super) fn identify(
     jobs: usize,
     observer: &dyn Observer,
 ) -> Result<Vec<Identity>, DataError> {
-    let hashes = hash_inputs(recording, known, jobs, observer)?;
-    let identity = |reader: &dyn SequenceReader| {
+    let readers = || recording.sequences.iter().map(AsRef::as_ref);
+    let lists: Vec<Vec<PathBuf>> = readers().map(|reader| in_order(reader.inputs())).collect();
+    let all = in_order(lists.iter().flatten().cloned().collect());
+    let hashes = hash_inputs(&all, &recording.path, known, jobs, observer)?;
+    let hashes: HashMap<&Path, Input> = all.iter().map(PathBuf::as_path).zip(hashes).collect();
+    let identity = |(reader, files): (&dyn SequenceReader, &Vec<PathBuf>)| {
         let name = reader.sequence().name.clone();
-        // Sorted, and each but once.
-        let files: BTreeSet<PathBuf> = reader.inputs().into_iter().collect();
-        let hashes = files.iter().filter_map(|file| hashes.get(file));
+        let hashes = files.iter().filter_map(|file| hashes.get(file.as_path()));
         let inputs: Vec<_> = hashes.map(|input| Input { sequence: name.clone(), ..input.clone() }).collect();
         let fingerprint = fingerprint::of_sequence(run, &name, &inputs);
         Identity { name, fingerprint, inputs }
     };
-    Ok(recording.sequences.iter().map(|reader| identity(reader.as_ref())).collect())
+    Ok(readers().zip(&lists).map(identity).collect())
 }
 
-/// Hashes every input of the recording's sequences: each file once, for sequences may share some.
+/// Files by name, each but once. A sensor's follow each other already, which sorting makes use of.
+fn in_order(mut files: Vec<PathBuf>) -> Vec<PathBuf> {
+    files.sort();
+    files.dedup();
+    files
+}
+
+/// Hashes files, in their order: each once, for sequences may share some.
 fn hash_inputs(
-    recording: &Recording,
+    files: &[PathBuf],
+    root: &Path,
     known: &[Input],
     jobs: usize,
     observer: &dyn Observer,
-) -> Result<BTreeMap<PathBuf, Input>, DataError> {
-    let known: BTreeMap<&str, &Input> = known.iter().map(|input| (input.file.as_str(), input)).collect();
-    let files: BTreeSet<PathBuf> = recording.sequences.iter().flat_map(|reader| reader.inputs()).collect();
-    let files: Vec<PathBuf> = files.into_iter().collect();
-    let sizes = files.iter().filter_map(|file| std::fs::metadata(file).ok());
-    observer.begin(Stage::Inputs, sizes.map(|data| data.len()).sum());
-    let hashed = side_by_side(&files, jobs, |file| {
+) -> Result<Vec<Input>, DataError> {
+    let known: HashMap<&str, &Input> = known.iter().map(|input| (input.file.as_str(), input)).collect();
+    // The time before the content: what is changed meanwhile counts as changed later.
+    let files: Vec<_> = files.iter().map(|file| (file, Found::of(file))).collect();
+    observer.begin(Stage::Inputs, files.iter().filter_map(|(_, found)| found.size).sum());
+    let hashed = side_by_side(&files, jobs, |(file, found)| {
         if observer.stopped() {
             return Err(DataError::Stopped);
         }
-        Ok((file.clone(), input(file, &recording.path, &known, observer)))
+        Ok(input(file, found, root, &known, observer))
     });
     observer.end();
-    Ok(hashed?.into_iter().collect())
+    hashed
 }
 
 /// What the record keeps of a file. One that can't be read has no hash and costs the run nothing: a scan that needs it
 /// is named when it is read.
-fn input(file: &Path, root: &Path, known: &BTreeMap<&str, &Input>, observer: &dyn Observer) -> Input {
+fn input(
+    file: &Path,
+    found: &Found,
+    root: &Path,
+    known: &HashMap<&str, &Input>,
+    observer: &dyn Observer,
+) -> Input {
     let name = file.strip_prefix(root).unwrap_or(file).to_string_lossy().into_owned();
-    // The time before the content: what is changed meanwhile counts as changed later.
-    let meta = std::fs::metadata(file).ok();
-    let (size, mtime_ns) = (meta.as_ref().map(|meta| meta.len()), meta.as_ref().and_then(changed_ns));
+    let Found { size, mtime_ns } = *found;
     let same =
         |known: &&&Input| mtime_ns.is_some() && (Some(known.bytes), known.mtime_ns) == (size, mtime_ns);
     if let Some(known) = known.get(name.as_str()).filter(same) {

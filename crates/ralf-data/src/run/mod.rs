@@ -29,7 +29,7 @@ pub use checks::check_all;
 pub use stretch::Stretch;
 
 use crate::error::DataError;
-use crate::frames::{ScanIndex, all_scans, in_time};
+use crate::frames::{ScanIndex, all_scans, in_time, time_of};
 use crate::read::{Recording, SequenceReader, layout};
 use crate::result::{
     OutFolder, Schema, SequenceNames, WriterLock, evidence_columns, learned_columns, refuse_links_out,
@@ -39,7 +39,7 @@ use inputs::Identity;
 use output_folder::OutputFolder;
 use ralf::config::{Config, Method};
 use ralf::learned::{LearnedLabeler, Model};
-use ralf::sensors::Rig;
+use ralf::sensors::{Rig, Timelines};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -155,14 +155,23 @@ struct Task<'a> {
 impl Task<'_> {
     /// All scans of all radars, in the order of time.
     fn in_time(&self) -> Vec<ScanIndex> {
-        let times = &self.reader.sequence().times;
+        let times = self.times();
         let scans = all_scans(times);
         in_time(times, &scans).into_iter().map(|place| scans[place]).collect()
     }
 
+    /// When each of these was made, ns.
+    fn times_of_scans(&self) -> Vec<i64> {
+        self.in_time().into_iter().map(|scan| time_of(self.times(), scan)).collect()
+    }
+
+    fn times(&self) -> &Timelines {
+        &self.reader.sequence().times
+    }
+
     /// How many they are.
     fn scans(&self) -> usize {
-        self.reader.sequence().times.radars.iter().map(Vec::len).sum()
+        self.times().radars.iter().map(Vec::len).sum()
     }
 
     /// Whether evidence is gathered: to be kept, or for a model.
@@ -199,15 +208,16 @@ impl LabelRun<'_> {
         let tasks = self.tasks(labeler.as_ref())?;
         let _lock = self.lock()?;
         let (folder, asked) = self.open_folder(observer)?;
+        let names: Vec<String> = asked.iter().map(|asked| asked.name.clone()).collect();
         let pending: Vec<_> =
-            tasks.iter().zip(&asked).filter(|(_, asked)| !folder.holds(&asked.name)).collect();
-        let (finished, checks) = self.label_sequences(&pending, &folder, observer, told)?;
+            tasks.iter().zip(asked).filter(|(_, asked)| !folder.holds(&asked.name)).collect();
+        let (finished, checks) = self.label_sequences(pending, &folder, observer, told)?;
         let checks = if told.is_some() { &checks } else { self.checks };
         let labelled = finished.iter().map(|(sequence, _)| sequence.name.clone()).collect();
         let timings = Timings { seconds: begun.elapsed().as_secs_f64(), jobs: self.jobs };
         let damaged = folder.damaged().to_vec();
         let (mut record, removed) = folder.finish(finished, timings, checks)?;
-        record.retain(|sequence| asked.iter().any(|asked| asked.name == sequence.name));
+        record.retain(|sequence| names.contains(&sequence.name));
         Ok(Outcome { record, labelled, damaged, removed })
     }
 

@@ -15,7 +15,7 @@ use std::io::{ErrorKind, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-const MAGIC: &[u8; 8] = b"RALFlog1";
+const MAGIC: &[u8; 8] = b"RALFlog2";
 const ENDING: &str = ".scans";
 /// Of the list of names, bytes: no rig has so many radars.
 const LONGEST_NAMES: u32 = 1 << 24;
@@ -42,7 +42,10 @@ struct Kept {
 struct Place {
     file: usize,
     offset: u64,
-    head: Head,
+    rows: u32,
+    /// Of the body.
+    bytes: u64,
+    checksum: u32,
 }
 
 /// What stands before each body, as little-endian uint64 in this order, and then the CRC-32 of these.
@@ -51,13 +54,15 @@ struct Head {
     /// The radar's place in the list of names.
     radar: u64,
     scan: u64,
+    /// Its detections.
+    rows: u64,
     /// Of the body.
     bytes: u64,
     /// CRC-32 of the body.
     checksum: u64,
 }
 
-const HEAD: usize = 5 * size_of::<u64>();
+const HEAD: usize = 6 * size_of::<u64>();
 
 impl ScanLog {
     /// What was kept in a folder, of radars with these names.
@@ -80,11 +85,12 @@ impl ScanLog {
         self.folder.path()
     }
 
-    /// Keeps a scan.
-    pub(super) fn append(&self, scan: ScanIndex, body: &[u8]) -> Result<(), DataError> {
+    /// Keeps a scan of so many detections.
+    pub(super) fn append(&self, scan: ScanIndex, rows: usize, body: &[u8]) -> Result<(), DataError> {
         let head = Head {
             radar: scan.radar as u64,
             scan: scan.scan as u64,
+            rows: rows as u64,
             bytes: body.len() as u64,
             checksum: u64::from(crc32fast::hash(body)),
         };
@@ -101,21 +107,26 @@ impl ScanLog {
             let _ = file.set_len(end);
             return Err(DataError::Io { file: name.clone(), error });
         }
-        kept.places.insert(scan, Place { file: own, offset: end + HEAD as u64, head });
+        kept.places.insert(scan, head.place(own, end + HEAD as u64));
         Ok(())
+    }
+
+    /// How many detections a scan that was kept has.
+    pub(super) fn rows(&self, scan: ScanIndex) -> Option<usize> {
+        Some(self.kept().places.get(&scan)?.rows as usize)
     }
 
     /// A scan's body and the file that it lies in; `None` where it wasn't kept, or is not as it was written.
     pub(super) fn read(&self, scan: ScanIndex) -> Option<(PathBuf, Vec<u8>)> {
         let mut kept = self.kept();
-        let Place { file, offset, head } = *kept.places.get(&scan)?;
+        let Place { file, offset, bytes, checksum, .. } = *kept.places.get(&scan)?;
         let (name, file) = kept.files.get_mut(file)?;
         file.seek(SeekFrom::Start(offset)).ok()?;
-        // A length that is wrong takes no more memory than there is in the file.
-        let rest = file.metadata().ok()?.len().saturating_sub(offset);
-        let mut body = vec![0; usize::try_from(head.bytes).ok().filter(|_| head.bytes <= rest)?];
-        file.read_exact(&mut body).ok()?;
-        (u64::from(crc32fast::hash(&body)) == head.checksum).then(|| (name.clone(), body))
+        let mut body = Vec::with_capacity(usize::try_from(bytes).ok()?);
+        file.take(bytes).read_to_end(&mut body).ok()?;
+        let name = name.clone();
+        drop(kept);
+        (body.len() as u64 == bytes && crc32fast::hash(&body) == checksum).then_some((name, body))
     }
 
     fn kept(&self) -> MutexGuard<'_, Kept> {
@@ -128,9 +139,12 @@ impl Kept {
     /// Adds the scans of a file, which has been read up to its first head.
     fn add(&mut self, name: PathBuf, mut file: File) {
         let index = self.files.len();
+        // A length that is wrong takes no more memory than there is in the file.
+        let end = file.metadata().map_or(0, |data| data.len());
         for (head, offset) in heads(&mut file) {
-            if let Some(scan) = head.index() {
-                self.places.insert(scan, Place { file: index, offset, head });
+            let is_there = offset.checked_add(head.bytes).is_some_and(|after| after <= end);
+            if let Some(scan) = head.index().filter(|_| is_there) {
+                self.places.insert(scan, head.place(index, offset));
             }
         }
         self.files.push((name, file));
@@ -160,7 +174,7 @@ impl Kept {
 impl Head {
     fn to_bytes(self) -> [u8; HEAD] {
         let mut bytes = [0; HEAD];
-        let fields = [self.radar, self.scan, self.bytes, self.checksum];
+        let fields = [self.radar, self.scan, self.rows, self.bytes, self.checksum];
         for (place, field) in bytes.as_chunks_mut::<8>().0.iter_mut().zip(fields) {
             *place = field.to_le_bytes();
         }
@@ -172,10 +186,17 @@ impl Head {
     /// `None` where the checksum is another.
     fn from_bytes(bytes: &[u8; HEAD]) -> Option<Self> {
         let fields = bytes.as_chunks::<8>().0;
-        let &[radar, scan, length, body, own] = fields.first_chunk::<5>()?;
+        let &[radar, scan, rows, length, body, own] = fields.first_chunk::<6>()?;
         let whole = u64::from_le_bytes(own) == u64::from(crc32fast::hash(&bytes[..HEAD - 8]));
-        let [radar, scan, bytes, checksum] = [radar, scan, length, body].map(u64::from_le_bytes);
-        whole.then_some(Self { radar, scan, bytes, checksum })
+        let [radar, scan, rows, bytes, checksum] = [radar, scan, rows, length, body].map(u64::from_le_bytes);
+        whole.then_some(Self { radar, scan, rows, bytes, checksum })
+    }
+
+    /// With a body that lies here.
+    fn place(&self, file: usize, offset: u64) -> Place {
+        // Both have 32 bits in a head that fits its checksum.
+        let (rows, checksum) = (self.rows as u32, self.checksum as u32);
+        Place { file, offset, rows, bytes: self.bytes, checksum }
     }
 
     fn index(&self) -> Option<ScanIndex> {
@@ -257,8 +278,9 @@ mod tests {
         for scans in [[at(0, 7), at(1, 0)], [at(1, 0), at(1, 1)]] {
             let log = ScanLog::open(folder.clone(), &names()).unwrap();
             for scan in scans {
-                log.append(scan, &[scan.radar as u8; 100]).unwrap();
+                log.append(scan, 5, &[scan.radar as u8; 100]).unwrap();
                 assert_eq!(log.read(scan).unwrap().1, [scan.radar as u8; 100]);
+                assert_eq!(log.rows(scan), Some(5));
             }
         }
         (place, folder)

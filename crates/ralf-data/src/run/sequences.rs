@@ -11,9 +11,11 @@ use super::workers::{Labelling, timed};
 use super::workspace::Workspace;
 use super::{CheckRecord, Checked, LabelRun, Observer, Part, Stage, Task, assemble};
 use crate::error::DataError;
-use crate::frames::{ScanIndex, Stretch, side_by_side, stretches};
-use crate::result::NotLabelled;
-use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use crate::frames::{ScanIndex, Wanted, side_by_side_while};
+use crate::result::{Input, NotLabelled};
+use crate::stretches::{Stretch, shared, stretches};
+use std::mem::take;
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 /// What one worker does at a time.
@@ -38,8 +40,6 @@ struct Queue<'a> {
     sequences: Vec<Sequence<'a>>,
     /// Sequences that are not labelled yet.
     left: AtomicUsize,
-    /// Somebody has failed.
-    stop: AtomicBool,
     observer: &'a dyn Observer,
     told: Option<&'a Checked<'a>>,
 }
@@ -47,7 +47,7 @@ struct Queue<'a> {
 /// A sequence that is to be labelled.
 struct Sequence<'a> {
     task: &'a Task<'a>,
-    identity: &'a Identity,
+    identity: Identity,
     state: Mutex<State<'a>>,
 }
 
@@ -57,6 +57,8 @@ struct State<'a> {
     left: usize,
     under_way: Option<Arc<UnderWay<'a>>>,
     not_labelled: Vec<NotLabelled>,
+    /// What it is read from: for its record.
+    inputs: Vec<Input>,
 }
 
 /// What a sequence needs from its first stretch to its last.
@@ -65,8 +67,9 @@ struct UnderWay<'a> {
     in_time: Vec<ScanIndex>,
 }
 
-/// What is left of a sequence that is labelled: nobody else holds the first, and these scans could not be labelled.
-type Ended<'a> = (Arc<UnderWay<'a>>, Vec<NotLabelled>);
+/// What is left of a sequence that is labelled: nobody else holds the first, these scans could not be labelled, and it
+/// was read from these.
+type Ended<'a> = (Arc<UnderWay<'a>>, Vec<NotLabelled>, Vec<Input>);
 
 /// Is asked whether to end, and told nothing: others tell meanwhile how they get on.
 struct Silent<'a>(&'a dyn Observer);
@@ -82,26 +85,28 @@ impl LabelRun<'_> {
     /// meanwhile, where somebody wants to be told. Results are in the order of the sequences.
     pub(super) fn label_sequences(
         &self,
-        sequences: &[(&Task, &Identity)],
+        sequences: Vec<(&Task, Identity)>,
         folder: &OutputFolder,
         observer: &dyn Observer,
         told: Option<&Checked<'_>>,
     ) -> Result<(Vec<Finished>, Vec<CheckRecord>), DataError> {
-        let counts: Vec<usize> = sequences.iter().map(|(task, _)| task.scans()).collect();
+        let config = &self.settings.method;
+        let shared: Vec<_> =
+            sequences.iter().map(|(task, _)| shared(task.times(), config, task.times_of_scans())).collect();
         let gathers_evidence = sequences.iter().any(|(task, _)| task.gathers_evidence());
-        let stretches = stretches(&counts, gathers_evidence, self.jobs);
-        let queue = Queue::new(self, sequences, &stretches, (folder, observer, told));
-        let name = match sequences {
+        let stretches = stretches(&shared, gathers_evidence, self.jobs);
+        let name = match sequences.as_slice() {
             [(only, _)] => only.reader.sequence().name.clone(),
             several => format!("{} sequences", several.len()),
         };
+        let queue = Queue::new(self, sequences, &stretches, (folder, observer, told));
         // A check takes longer than a stretch: begun first, it is over first.
         let checks = (0..self.recording.sequences.len()).filter(|_| told.is_some()).map(Item::Check);
         let items: Vec<Item> = checks.chain(stretches.into_iter().map(Item::Label)).collect();
-        if !sequences.is_empty() {
-            observer.begin(Stage::Labelling(&name), counts.iter().sum::<usize>() as u64);
+        if !shared.is_empty() {
+            observer.begin(Stage::Labelling(&name), shared.iter().map(|scans| scans.len() as u64).sum());
         }
-        let done = side_by_side(&items, self.jobs, |item| queue.work_off(item));
+        let done = side_by_side_while(&items, self.jobs, |item, wanted| queue.work_off(item, wanted));
         observer.end();
         let (mut finished, mut checks) = (Vec::new(), Vec::new());
         for done in done?.into_iter().flatten() {
@@ -117,29 +122,29 @@ impl LabelRun<'_> {
 impl<'a> Queue<'a> {
     fn new(
         run: &'a LabelRun<'a>,
-        sequences: &[(&'a Task<'a>, &'a Identity)],
+        sequences: Vec<(&'a Task<'a>, Identity)>,
         stretches: &[Stretch],
         (folder, observer, told): (&'a OutputFolder, &'a dyn Observer, Option<&'a Checked<'a>>),
     ) -> Self {
-        let sequence = |(number, &(task, identity)): (usize, &(&'a Task<'a>, &'a Identity))| {
+        let sequence = |(number, (task, mut identity)): (usize, (&'a Task<'a>, Identity))| {
             let left = stretches.iter().filter(|stretch| stretch.sequence == number).count();
-            let state = State { left, under_way: None, not_labelled: Vec::new() };
+            let inputs = take(&mut identity.inputs);
+            let state = State { left, under_way: None, not_labelled: Vec::new(), inputs };
             Sequence { task, identity, state: Mutex::new(state) }
         };
-        let sequences: Vec<_> = sequences.iter().enumerate().map(sequence).collect();
-        let (left, stop) = (AtomicUsize::new(sequences.len()), AtomicBool::new(false));
-        Self { run, folder, sequences, left, stop, observer, told }
+        let sequences: Vec<_> = sequences.into_iter().enumerate().map(sequence).collect();
+        let left = AtomicUsize::new(sequences.len());
+        Self { run, folder, sequences, left, observer, told }
     }
 
-    fn work_off(&self, item: &Item) -> Result<Option<Done>, DataError> {
-        let done = match item {
+    fn work_off(&self, item: &Item, wanted: &Wanted) -> Result<Option<Done>, DataError> {
+        match item {
             Item::Check(sequence) => self.check(*sequence).map(Done::Checked).map(Some),
             Item::Label(stretch) => {
-                let finished = self.label(&self.sequences[stretch.sequence], stretch);
-                finished.map(|finished| finished.map(Done::Finished))
+                let finished = self.label(&self.sequences[stretch.sequence], stretch, wanted)?;
+                Ok(finished.map(Done::Finished))
             }
-        };
-        done.inspect_err(|_| self.stop.store(true, Ordering::Relaxed))
+        }
     }
 
     fn check(&self, sequence: usize) -> Result<CheckRecord, DataError> {
@@ -155,14 +160,19 @@ impl<'a> Queue<'a> {
     }
 
     /// Labels a stretch. With the last one of a sequence the sequence is put together.
-    fn label(&self, sequence: &Sequence<'a>, stretch: &Stretch) -> Result<Option<Finished>, DataError> {
+    fn label(
+        &self,
+        sequence: &Sequence<'a>,
+        stretch: &Stretch,
+        wanted: &Wanted,
+    ) -> Result<Option<Finished>, DataError> {
         let task = sequence.task;
         let under_way = sequence.open(self.folder)?;
         let labelling = Labelling { task, config: &self.run.settings.method, observer: self.observer };
         let scans = &under_way.in_time[stretch.scans.clone()];
-        let failed = labelling.label_stretch(scans, &under_way.workspace, &self.stop)?;
-        // Another worker has failed meanwhile: some of these scans may not be labelled.
-        if self.stop.load(Ordering::Relaxed) {
+        let failed = labelling.label_stretch(scans, &under_way.workspace, wanted)?;
+        // Another worker has failed at an earlier stretch: some of these scans may not be labelled.
+        if !wanted.still() {
             return Ok(None);
         }
         drop(under_way);
@@ -175,17 +185,19 @@ impl<'a> Queue<'a> {
     fn finish(
         &self,
         Sequence { task, identity, .. }: &Sequence,
-        (under_way, not_labelled): Ended,
+        (under_way, not_labelled, inputs): Ended,
         is_last: bool,
     ) -> Result<Finished, DataError> {
         let silent = Silent(self.observer);
         let told = if is_last { self.observer } else { &silent };
         told.end();
-        let record =
-            assemble::assemble(task, &identity.fingerprint, &under_way.workspace, not_labelled, told)?;
+        // The other workers are done with all but their own sequences.
+        let jobs = if is_last { self.run.jobs } else { 1 };
+        let workspace = &under_way.workspace;
+        let record = assemble::assemble(task, &identity.fingerprint, workspace, not_labelled, jobs, told)?;
         // Its files are closed before they are removed: some file systems keep the folder of a removed open file.
         drop(under_way);
-        let finished = (record, identity.inputs.clone());
+        let finished = (record, inputs);
         self.folder.finish_sequence(&finished)?;
         Ok(finished)
     }
@@ -198,7 +210,7 @@ impl<'a> Sequence<'a> {
         if let Some(under_way) = &state.under_way {
             return Ok(under_way.clone());
         }
-        let workspace = folder.workspace(self.identity, &self.task.names)?;
+        let workspace = folder.workspace(&self.identity, &self.task.names)?;
         let under_way = Arc::new(UnderWay { workspace, in_time: self.task.in_time() });
         state.under_way = Some(under_way.clone());
         Ok(under_way)
@@ -214,7 +226,8 @@ impl<'a> Sequence<'a> {
             return None;
         }
         state.not_labelled.sort();
-        Some((state.under_way.take()?, std::mem::take(&mut state.not_labelled)))
+        let (not_labelled, inputs) = (take(&mut state.not_labelled), take(&mut state.inputs));
+        Some((state.under_way.take()?, not_labelled, inputs))
     }
 
     fn state(&self) -> MutexGuard<'_, State<'a>> {

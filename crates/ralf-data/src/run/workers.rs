@@ -3,14 +3,13 @@
 use super::workspace::Workspace;
 use super::{Observer, Part, Stage, Task};
 use crate::error::DataError;
-use crate::frames::{Frames, ScanIndex};
+use crate::frames::{Frames, ScanIndex, Wanted};
 use crate::result::{NotLabelled, ScanNotes, ScanParts, Table};
 use ralf::config::Config;
 use ralf::evidence;
 use ralf::learned::LearnedScan;
 use ralf::paper::Labeler;
 use ralf::scene::{Frame, FrameWindow};
-use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
 /// What all workers on a sequence share.
@@ -34,15 +33,15 @@ impl Labelling<'_> {
         Ok(failed)
     }
 
-    /// The same for scans that follow each other in time, one by one, until `stop` says that more would be of no use.
+    /// The same for scans that follow each other in time, one by one, as long as it is wanted.
     pub(super) fn label_stretch(
         &self,
         scans: &[ScanIndex],
         workspace: &Workspace,
-        stop: &AtomicBool,
+        wanted: &Wanted,
     ) -> Result<Vec<NotLabelled>, DataError> {
         let frames = self.frames(1);
-        let failed = frames.one_by_one(scans.iter().copied(), stop, |window, scan| {
+        let failed = frames.one_by_one(scans.iter().copied(), wanted, |window, scan| {
             self.while_wanted(|| self.label_next(workspace, window, scan))
         });
         Ok(failed?.into_iter().flatten().collect())

@@ -43,7 +43,7 @@ impl<'a> Workspace<'a> {
         let file = self.label_file(radar, scan);
         let notes = serde_json::to_vec(notes).map_err(|error| DataError::io(&file)(error.into()))?;
         let body = [&(notes.len() as u64).to_le_bytes()[..], &notes, &row_bytes(&file, table)?].concat();
-        self.log.append(ScanIndex { radar, scan }, &body)?;
+        self.log.append(ScanIndex { radar, scan }, table.len(), &body)?;
         write_labels(&file, &table.labels()?)
     }
 
@@ -52,6 +52,11 @@ impl<'a> Workspace<'a> {
         let Ok((table, _)) = self.scan(radar, scan, schema) else { return false };
         let label = fs::metadata(self.label_file(radar, scan));
         label.is_ok_and(|label| label.len() == 4 * table.len() as u64)
+    }
+
+    /// How many detections a scan has that was labelled.
+    pub(super) fn rows(&self, scan: ScanIndex) -> usize {
+        self.log.rows(scan).unwrap_or_default()
     }
 
     /// The table of a scan, and what is told of it beside its detections.

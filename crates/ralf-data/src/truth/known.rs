@@ -37,9 +37,8 @@ impl KnownTruth {
     /// What is true of a scan's detections; `None` of a scan that the recording doesn't have.
     pub(super) fn of_scan(&self, scan: &ScanId) -> Result<Option<TruthLabels>, DataError> {
         let Some(reader) = self.reader(&scan.sequence) else { return Ok(None) };
-        let radars = &reader.sequence().rig.radars;
-        let Some(radar) = radars.iter().position(|radar| radar.name == scan.radar) else { return Ok(None) };
-        truth(reader, radar, scan.scan as usize)
+        let place = scan.place_in(reader.sequence());
+        place.map_or(Ok(None), |(radar, scan)| truth(reader, radar, scan))
     }
 
     /// The names of a sequence's causes, by their numbers; empty where none are told apart.

@@ -7,6 +7,7 @@ use crate::disk::label_file::read_labels;
 use crate::disk::{files, images, npy};
 use crate::error::DataError;
 use crate::read::SequenceReader;
+use crate::read::measured_files::lidar_rows;
 use ralf::sensors::{
     Camera, CameraImage, DepthImage, Lidar, LidarScan, Radar, RadarScan, Rig, Sequence, Source, SourceError,
     Timelines,
@@ -143,13 +144,11 @@ impl Source for LayoutSequence {
 
     fn lidar_scan(&self, lidar: usize, scan: usize) -> Result<LidarScan, SourceError> {
         let (sensor, file) = measurement("lidar", &self.lidars, lidar, scan)?;
-        let rows = files::read_f32_rows::<4>(file)?;
-        let points = rows.iter().map(|[x, y, z, _]| [*x, *y, *z]).collect();
-        let intensity = rows.iter().map(|row| row[3]).collect();
-        let classes = sensor.partner(FIRST, scan).map(|file| classes(file, rows.len())).transpose()?;
-        let times =
-            sensor.partner(POINT_TIMES, scan).map(|file| point_times(file, rows.len())).transpose()?;
-        Ok(LidarScan { t_ns: sensor.times[scan], points, times, intensity, classes })
+        let recorded = lidar_rows::<4>(file, sensor.times[scan])?;
+        let points = recorded.points.len();
+        let classes = sensor.partner(FIRST, scan).map(|file| classes(file, points)).transpose()?;
+        let times = sensor.partner(POINT_TIMES, scan).map(|file| point_times(file, points)).transpose()?;
+        Ok(LidarScan { times, classes, ..recorded })
     }
 
     fn image(&self, camera: usize, image: usize) -> Result<CameraImage, SourceError> {

@@ -72,7 +72,7 @@ impl FileFormat for NuScenes {
 
     fn lidar_scan(&self, file: &Path, _: &Lidar, t_ns: i64) -> Result<LidarScan, DataError> {
         // The fifth column is the ring.
-        lidar_rows(file, 5, t_ns)
+        lidar_rows::<5>(file, t_ns)
     }
 
     fn origin(&self) -> Option<&dyn Any> {

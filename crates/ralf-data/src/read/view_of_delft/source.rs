@@ -170,6 +170,6 @@ impl FileFormat for Training {
     }
 
     fn lidar_scan(&self, file: &Path, _: &Lidar, t_ns: i64) -> Result<LidarScan, DataError> {
-        lidar_rows(file, 4, t_ns)
+        lidar_rows::<4>(file, t_ns)
     }
 }

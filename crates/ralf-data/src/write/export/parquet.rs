@@ -5,9 +5,8 @@ use super::columns::table_columns;
 use super::labelled::LabelledSequence;
 use crate::error::DataError;
 use crate::result::schema::SCAN;
-use crate::result::{Column, GROUP_ROWS, OutFolder, Table, Values, begin, checked, write_values, written};
-use parquet::errors::ParquetError;
-use parquet::file::writer::{SerializedFileWriter, SerializedRowGroupWriter};
+use crate::result::{Column, GROUP_ROWS, Layout, OutFolder, Table, Values, checked, written};
+use parquet::file::writer::SerializedFileWriter;
 use std::fs::{self, File};
 use std::path::Path;
 use std::sync::Arc;
@@ -51,7 +50,7 @@ struct RadarFile<'a> {
     radar: Arc<str>,
     /// Rows that are still to be written.
     rows: Option<Table>,
-    writer: Option<SerializedFileWriter<File>>,
+    writer: Option<(SerializedFileWriter<File>, Layout)>,
 }
 
 impl RadarFile<'_> {
@@ -68,35 +67,25 @@ impl RadarFile<'_> {
     fn flush(&mut self) -> Result<(), DataError> {
         let Some(rows) = self.rows.take() else { return Ok(()) };
         let refused = |error| written(self.file, error);
-        let writer = match &mut self.writer {
-            Some(writer) => writer,
+        let (writer, layout) = match &mut self.writer {
+            Some(begun) => begun,
             none => {
                 let open = File::create(self.file).map_err(DataError::io(self.file))?;
                 let columns = std::iter::once(RADAR).chain(rows.schema().columns());
-                none.insert(begin(open, "labels", columns).map_err(refused)?)
+                let layout = Layout::new("labels", columns).map_err(refused)?;
+                none.insert((layout.begin(open).map_err(refused)?, layout))
             }
         };
-        let group = writer.next_row_group();
-        group.and_then(|group| write_group(group, &self.radar, &rows)).map_err(refused)
+        let radar = Values::Text(vec![self.radar.clone(); rows.len()]);
+        let group = layout.encode(std::iter::once(&radar).chain(rows.columns().map(|(_, values)| values)));
+        group.and_then(|group| group.append_to(writer)).map_err(refused)
     }
 
     fn finish(mut self) -> Result<(), DataError> {
         self.flush()?;
-        let finished = self.writer.map(|mut writer| writer.finish().map(drop)).transpose();
+        let finished = self.writer.map(|(mut writer, _)| writer.finish().map(drop)).transpose();
         finished.map(drop).map_err(|error| written(self.file, error))
     }
-}
-
-fn write_group(
-    mut group: SerializedRowGroupWriter<File>,
-    radar: &Arc<str>,
-    rows: &Table,
-) -> Result<(), ParquetError> {
-    write_values(&mut group, &Values::Text(vec![radar.clone(); rows.len()]))?;
-    for (_, values) in rows.columns() {
-        write_values(&mut group, values)?;
-    }
-    group.close().map(drop)
 }
 
 #[cfg(test)]
