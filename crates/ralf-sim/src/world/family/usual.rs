@@ -78,6 +78,11 @@ pub(super) const WAVES: WaveRanges = WaveRanges {
     spikes_stay: span(0.0, 0.8),
     // Reflection of facades at 77 GHz: glass and metal 0 to 3 dB, plaster and brick 5 to 12 (chosen).
     mirror_loss: span(1.0, 8.0),
+    // Chosen: from panes and paint everywhere to what is usual.
+    mirror_heights: span(0.1, 1.2),
+    // Ships lose 5 to 15 dB, some tens of degrees from the way back on (Ewell and Zehner 1980; Willis 1991); what is round
+    // loses nothing.
+    aside: span(0.0, 15.0),
     // Chosen: from a bumper of plastic to a plate of a square metre that looks ahead.
     own_front: span(3.0, 15.0),
     // Kopp et al. 2021 name it first of three causes of clutter on roads; how often is chosen.
