@@ -64,6 +64,8 @@ fn waves(family: &Family, random: &mut Random) -> Waves {
             staying: ranges.spikes_stay.draw(random),
         },
         mirror_loss_db: ranges.mirror_loss.draw(random),
+        mirror_heights: ranges.mirror_heights.draw(random),
+        aside_db: ranges.aside.draw(random),
         own_front_db: ranges.own_front.draw(random),
         floor: ranges.floor.draw(random),
         floor_way: ranges.floor_way.draw(random),

@@ -93,6 +93,10 @@ pub(crate) struct WaveRanges {
     pub(crate) spikes_stay: Span,
     /// What a facade takes from a mirrored wave, one way, dB.
     pub(crate) mirror_loss: Span,
+    /// Heights of mirrors, as a share of what is usual of their material.
+    pub(crate) mirror_heights: Span,
+    /// What corners and edges send aside less than back, dB.
+    pub(crate) aside: Span,
     /// Cross-section of the own front to a wave that comes back, dBsm.
     pub(crate) own_front: Span,
     /// How often a low part of a vehicle sends a wave under the floor.

@@ -54,7 +54,7 @@ pub const FAMILIES: [Family; 8] = [
         },
         waves: WaveRanges {
             asphalt: span(-28.0, -14.0),
-            spike_mean: span(-7.0, 0.0),
+            spike_mean: span(-22.0, 0.0),
             spike_scale: span(-1.0, 7.0),
             lumps: span(0.02, 0.1),
             mirror_loss: span(1.0, 6.0),
@@ -96,7 +96,7 @@ pub const FAMILIES: [Family; 8] = [
         },
         waves: WaveRanges {
             asphalt: span(-36.0, -24.0),
-            spike_mean: span(-5.0, 3.0),
+            spike_mean: span(-25.0, 3.0),
             spike_scale: span(-3.0, 8.0),
             mirror_loss: span(1.0, 6.0),
             interference: span(0.0, 0.1),
@@ -127,7 +127,7 @@ pub const FAMILIES: [Family; 8] = [
         },
         waves: WaveRanges {
             asphalt: span(-26.0, -15.0),
-            spike_mean: span(-4.0, 3.0),
+            spike_mean: span(-20.0, 3.0),
             // Sheet metal of cars' sides, close by.
             mirror_loss: span(0.5, 4.0),
             bumper: span(1.0, 5.0),
@@ -168,7 +168,7 @@ pub const FAMILIES: [Family; 8] = [
         },
         waves: WaveRanges {
             asphalt: span(-27.0, -16.0),
-            spike_mean: span(-6.0, 1.0),
+            spike_mean: span(-22.0, 1.0),
             strength: span(-8.0, 0.0),
             ..WAVES
         },
@@ -218,7 +218,7 @@ pub const FAMILIES: [Family; 8] = [
         waves: WaveRanges {
             // Dry grass and soil: less than in town, or grass alone would be heard.
             asphalt: span(-36.0, -26.0),
-            spike_mean: span(-7.0, 1.0),
+            spike_mean: span(-22.0, 1.0),
             texture: span(5.0, 9.0),
             mirror_loss: span(1.0, 7.0),
             strength: span(-9.0, 1.0),

@@ -7,7 +7,7 @@ pub(crate) struct Pattern {
     pub(crate) channels: usize,
     /// Lowest and highest channel, degrees.
     pub(crate) elevation: [f64; 2],
-    /// Below 1 channels crowd about the horizon; 1 is even.
+    /// Between channels about the horizon, as a share of their mean spacing: 1 is even.
     pub(crate) crowding: f64,
     /// Between firings, degrees.
     pub(crate) step: f64,
@@ -44,11 +44,11 @@ pub(crate) const HDL_64: Pattern = Pattern {
     width: 360.0,
     max_range: 120.0,
 };
-/// Hesai Pandar40P: -25 to 15 degrees, a third of a degree apart about the horizon.
+/// Hesai Pandar40P: -25 to 15 degrees, a third of a degree apart about the horizon (of 1.03 on average).
 pub(crate) const PANDAR_40: Pattern = Pattern {
     channels: 40,
     elevation: [-25.0, 15.0],
-    crowding: 0.45,
+    crowding: 0.32,
     step: 0.25,
     width: 360.0,
     max_range: 160.0,
@@ -62,12 +62,13 @@ pub(crate) const OS1_64: Pattern = Pattern {
     width: 360.0,
     max_range: 100.0,
 };
-/// Velodyne VLS-128 as on aiMotive's roof: -25 to 15 degrees, dense about the horizon; every third firing.
+/// Velodyne VLS-128 as on aiMotive's roof: -25 to 15 degrees, 0.11 apart about the horizon (of 0.31 on average); one of
+/// two firings.
 pub(crate) const VLS_128: Pattern = Pattern {
     channels: 128,
     elevation: [-25.0, 15.0],
-    crowding: 0.4,
-    step: 0.6,
+    crowding: 0.35,
+    step: 0.42,
     width: 360.0,
     max_range: 220.0,
 };
@@ -104,12 +105,12 @@ impl Pattern {
     pub(super) fn elevations(&self) -> Vec<f64> {
         let [low, high] = self.elevation;
         let last = (self.channels - 1).max(1) as f64;
-        // The share of the way from the horizon to either end.
-        let bent = |x: f64| x.signum() * x.abs().powf(1.0 / self.crowding);
+        // The share of the way from the horizon to either end: so dense about the horizon, ever less beyond.
+        let bent = |x: f64| x * (self.crowding + (1.0 - self.crowding) * x * x);
         let angle = |i: usize| {
             let even = low + (high - low) * i as f64 / last;
             let end = if even < 0.0 { -low } else { high };
-            end.abs() * bent(even / end.abs())
+            end * bent(even / end)
         };
         (0..self.channels).map(|i| angle(i).to_radians()).collect()
     }

@@ -125,6 +125,10 @@ pub(crate) struct Waves {
     pub(crate) spikes: Spikiness,
     /// What a facade takes from a mirrored wave, one way, dB.
     pub(crate) mirror_loss_db: f64,
+    /// Heights of mirrors, as a share of what is usual of their material.
+    pub(crate) mirror_heights: f64,
+    /// What corners and edges send aside less than back, dB.
+    pub(crate) aside_db: f64,
     /// Cross-section of the own front to a wave that comes back, dBsm.
     pub(crate) own_front_db: f64,
     /// How often a low part of a vehicle sends a wave under the floor.
@@ -191,6 +195,8 @@ pub(super) mod tests {
             lumps: [0.01, 14.0],
             spikes: Spikiness { mean_db: -99.0, scale_db: -10.0, staying: 0.5 },
             mirror_loss_db: 4.0,
+            mirror_heights: 1.0,
+            aside_db: 12.0,
             own_front_db: 8.0,
             floor: 0.0,
             floor_way: 2.0,

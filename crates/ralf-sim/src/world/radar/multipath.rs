@@ -51,7 +51,7 @@ impl Mirror {
             normal,
             half: wall.half,
             loss_db: (view.waves.mirror_loss_db + wall.loss_db).max(0.3),
-            roughness: wall.roughness,
+            roughness: wall.roughness * view.waves.mirror_heights,
             bulge: wall.bulge,
             distance,
             velocity,

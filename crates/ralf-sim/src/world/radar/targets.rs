@@ -16,9 +16,7 @@ use std::f64::consts::PI;
 const OWN_BODY_DB: f64 = 10.0;
 /// Parts are told apart by lobes of so many radians: wavelength over twice a part's size of 10 cm.
 const LOBE: f64 = 0.03;
-/// Corners and edges throw a wave back; what goes elsewhere is less by so much, dB, some tens of degrees from the way
-/// back on. Ships lose 5 to 15 dB so (Ewell and Zehner 1980; Willis 1991); how soon is chosen, in radians.
-const ASIDE_DB: f64 = 12.0;
+/// Corners and edges throw a wave back; so far from the way back most of the world's loss is reached, rad (chosen).
 const ASIDE: f64 = 0.35;
 
 /// An echo and the place that sent it: what mirrors can show again.
@@ -45,7 +43,7 @@ impl Target {
         };
         let apart = (from - self.place).angle(&(to - self.place));
         let other = f64::midpoint(seen_db(from)?, seen_db(to)?) - seen_db(&view.origin())?;
-        Some(other - ASIDE_DB * (1.0 - (-apart / ASIDE).exp()))
+        Some(other - view.waves.aside_db * (1.0 - (-apart / ASIDE).exp()))
     }
 }
 
