@@ -1,5 +1,5 @@
-//! What nobody but the radar tells of: beyond the reach of the LiDAR's map, or where no ray goes, and no LiDAR point near,
-//! neither where it would be if it stood still nor where its range rate takes it.
+//! What nobody but the radar tells of: beyond the reach of the LiDAR's map, or where no ray goes, and no LiDAR point
+//! near, neither where it would be if it stood still nor where its range rate takes it.
 //!
 //! A world has as much clutter out there as somebody thought of, and a model believes a radar as far as that goes. On a
 //! real road nobody can check it. As the paper does, what no other sensor confirms counts less: the setting

@@ -68,10 +68,10 @@ pub(super) const WAVES: WaveRanges = WaveRanges {
     // Manholes, gratings, joints, studs: one in 20 to 200 square metres; -15 to 0 dBsm (chosen).
     lumps: span(0.005, 0.05),
     lump_strength: span(10.0, 22.0),
-    // Measured above the sensor's threshold, where what stands still lies far from every LiDAR point: nuScenes -17 dB (some
-    // 40 detections of a scan, 2 to 7 dBsm in a sector of 5,000 square metres), aiMotive -31 (3 of 5 dBsm in 10,000). How much
-    // more lies below the threshold, and nearer than where LiDAR sees nothing else, is chosen: up to what leaves a fifth
-    // of the detections plausible, as in the paper's recordings.
+    // Measured above the sensor's threshold, where what stands still lies far from every LiDAR point: nuScenes -17 dB
+    // (some 40 detections of a scan, 2 to 7 dBsm in a sector of 5,000 square metres), aiMotive -31 (3 of 5 dBsm in
+    // 10,000). How much more lies below the threshold, and nearer than where LiDAR sees nothing else, is chosen: up to
+    // what leaves a fifth of the detections plausible, as in the paper's recordings.
     spike_mean: span(-25.0, -1.0),
     spike_scale: span(-7.0, 6.0),
     // Measured: what lies far from every LiDAR point is seen again in .11 (aiMotive) to .46 (nuScenes) of the scans.
@@ -80,8 +80,8 @@ pub(super) const WAVES: WaveRanges = WaveRanges {
     mirror_loss: span(1.0, 8.0),
     // Chosen: from panes and paint everywhere to what is usual.
     mirror_heights: span(0.1, 1.2),
-    // Ships lose 5 to 15 dB, some tens of degrees from the way back on (Ewell and Zehner 1980; Willis 1991); what is round
-    // loses nothing.
+    // Ships lose 5 to 15 dB, some tens of degrees from the way back on (Ewell and Zehner 1980; Willis 1991); what is
+    // round loses nothing.
     aside: span(0.0, 15.0),
     // Chosen: from a bumper of plastic to a plate of a square metre that looks ahead.
     own_front: span(3.0, 15.0),

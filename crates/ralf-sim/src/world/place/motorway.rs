@@ -64,11 +64,7 @@ fn beside(builder: &mut Builder<'_>, side: f64, outer: f64, [from, to]: [f64; 2]
         let height = builder.between(2.0, 5.0);
         builder.line(Kind::Wall, [rail_from, rail_to], side * (outer + 2.2), [6.0, 0.2, height]);
     }
-    // Measured, aiMotive: seven of ten LiDAR points lie above the ground, most of them on what grows beside the road.
-    if builder.chance(0.5) {
-        let [near, height] = [builder.between(4.0, 9.0), builder.between(2.0, 7.0)];
-        builder.line(Kind::Hedge, [from, to], side * (outer + near), [6.0, 3.0, height]);
-    }
+    thicket(builder, side, outer, [from, to]);
     let mut x = from;
     let green = builder.between(0.1, 0.8);
     while x < to {
@@ -94,5 +90,14 @@ fn beside(builder: &mut Builder<'_>, side: f64, outer: f64, [from, to]: [f64; 2]
                 size,
             );
         }
+    }
+}
+
+/// On every other side. Measured, aiMotive: seven of ten LiDAR points lie above the ground, most of them on what grows
+/// beside the road.
+fn thicket(builder: &mut Builder<'_>, side: f64, outer: f64, reach: [f64; 2]) {
+    if builder.chance(0.5) {
+        let [near, height] = [builder.between(4.0, 9.0), builder.between(2.0, 7.0)];
+        builder.line(Kind::Hedge, reach, side * (outer + near), [6.0, 3.0, height]);
     }
 }
