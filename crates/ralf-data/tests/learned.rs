@@ -111,6 +111,26 @@ fn a_model_labels_with_reasons_and_the_same_to_the_byte_whatever_the_number_of_j
 }
 
 #[test]
+fn as_many_are_plausible_as_are_said_to_be_expected() {
+    let model = model(&table(2));
+    let labelled = |assignments: &[&str]| {
+        let out = tempfile::tempdir().unwrap();
+        label(out.path(), assignments, Some(&model), 2).unwrap().get::<f32>("w").unwrap().to_vec()
+    };
+    let odds = |share: f64| share / (1.0 - share);
+    let (as_trained, few) =
+        (labelled(&["learned.unconfirmed=1"]), labelled(&["learned.unconfirmed=1", "learned.share=0.1"]));
+    let factor = odds(0.1) / odds(model.share());
+    let mut moved = 0;
+    for (before, now) in as_trained.iter().zip(&few).filter(|(before, _)| (0.01..0.99).contains(*before)) {
+        let expected = odds(f64::from(*before)) * factor;
+        assert!((odds(f64::from(*now)) / expected - 1.0).abs() < 1e-4, "{before} became {now}");
+        moved += 1;
+    }
+    assert!(moved > 100, "{moved} of {}", few.len());
+}
+
+#[test]
 fn what_is_unlike_anything_the_model_knows_is_answered_by_the_paper_and_says_so() {
     let mut model = model(&table(2));
     for input in &mut model.inputs {

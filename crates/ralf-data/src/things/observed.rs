@@ -5,7 +5,7 @@ use crate::frames::{Frames, ScanIndex};
 use crate::read::SequenceReader;
 use ralf::config::Config;
 use ralf::evidence::{features, observe};
-use ralf::learned::{Model, Rows, Unconfirmed, UseError};
+use ralf::learned::{Model, Rows, UseError, Weighing};
 use ralf::scene::FrameWindow;
 use ralf::sensors::Rig;
 use ralf_train::learning::direction;
@@ -74,12 +74,11 @@ impl Observed {
         }
         let log_odds = model.plausible.log_odds(&evidence.pick_columns(&columns));
         let names: Vec<&str> = features().map(|feature| feature.name).collect();
-        let unconfirmed = Unconfirmed::among(names.iter().copied());
+        let weighing = Weighing::new(model, names.iter().copied(), &config.learned);
         let mut rows = Rows::absent(evidence.len(), width + 2);
         let mut probability = Vec::with_capacity(evidence.len());
         for (row, (log_odds, at)) in log_odds.into_iter().zip(&of).enumerate() {
-            let calibrated = model.calibration.probability(log_odds);
-            probability.push(unconfirmed.weighed(evidence.row(row), calibrated, config.learned.unconfirmed));
+            probability.push(weighing.plausibility(evidence.row(row), log_odds));
             let to = rows.row_mut(row);
             to[..width].copy_from_slice(evidence.row(row));
             (to[width], to[width + 1]) = (log_odds as f32, things.sightings()[*at].w);

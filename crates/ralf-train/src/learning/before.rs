@@ -4,7 +4,7 @@ use super::scores::{Judged, Scores};
 use super::table::TrainingTable;
 use super::view::View;
 use ralf::config::Config;
-use ralf::learned::{Model, Unconfirmed};
+use ralf::learned::{Model, Weighing};
 
 /// What a model is worth in a world of a table, with the settings' threshold. `None` where it reads what the table
 /// doesn't hold.
@@ -13,11 +13,11 @@ pub fn worth_in(model: &Model, table: &TrainingTable, world: u16, config: &Confi
     let is_here = |row: &usize| table.known[*row].world == world && table.known[*row].view == View::Whole;
     let here: Vec<usize> = (0..table.len()).filter(is_here).collect();
     let rows = table.rows.pick(here.iter().copied()).pick_columns(&columns);
-    let unconfirmed = Unconfirmed::among(model.inputs.iter().map(|input| input.name.as_str()));
+    let weighing =
+        Weighing::new(model, model.inputs.iter().map(|input| input.name.as_str()), &config.learned);
     let mut judged = Vec::with_capacity(here.len());
     for (at, log_odds) in model.plausible.log_odds(&rows).into_iter().enumerate() {
-        let probability = model.calibration.probability(log_odds);
-        let score = unconfirmed.weighed(rows.row(at), probability, config.learned.unconfirmed);
+        let score = weighing.plausibility(rows.row(at), log_odds);
         judged.push(Judged { score, plausible: table.known[here[at]].plausible });
     }
     Some(Scores::new(&judged, config.fusion.threshold))

@@ -91,11 +91,13 @@ fn assigned(text: &str, assignments: &[&str]) -> Result<Table, ConfigError> {
     Ok(table)
 }
 
-/// Puts `key=value` into the table. The value is TOML; what is no TOML is a string, so that quotes may be left out.
+/// Puts `key=value` into the table. The value is TOML, or a number such as `.5`; what is neither is a string, so that
+/// quotes may be left out.
 fn assign(table: &mut Table, assignment: &str) -> Result<(), ConfigError> {
     let refused = || ConfigError::Assignment(assignment.to_owned());
     let (key, text) = assignment.split_once('=').ok_or_else(refused)?;
     let value = format!("value = {text}").parse::<Table>().ok().and_then(|mut parsed| parsed.remove("value"));
+    let value = value.or_else(|| bare_number(text.trim()).map(Value::Float));
     let value = value.unwrap_or_else(|| Value::String(text.trim().to_owned()));
     let mut names: Vec<&str> = key.split('.').map(str::trim).collect();
     let last = names.pop().filter(|name| !name.is_empty()).ok_or_else(refused)?;
@@ -106,6 +108,12 @@ fn assign(table: &mut Table, assignment: &str) -> Result<(), ConfigError> {
     }
     place.insert(last.to_owned(), value);
     Ok(())
+}
+
+/// A number that begins or ends with its point, which TOML doesn't know.
+fn bare_number(text: &str) -> Option<f64> {
+    let is_plain = text.chars().all(|character| character.is_ascii_digit() || "+-.".contains(character));
+    if is_plain { text.parse().ok() } else { None }
 }
 
 #[cfg(test)]
@@ -135,6 +143,8 @@ mod tests {
     #[test]
     fn whole_numbers_are_decimals_where_those_are_wanted() {
         assert_eq!(Config::from_toml("[lidar]\nbeta = 1", &["tracking.beta=2"]).unwrap().tracking.beta, 2.0);
+        assert_eq!(Config::from_toml("", &["fusion.alpha= .5"]).unwrap().fusion.alpha, 0.5);
+        assert!(refusal("", &["fusion.alpha=1.2.3"]).contains("1.2.3"));
     }
 
     #[test]

@@ -6,8 +6,8 @@ use super::model::{Model, UseError};
 use super::reason::Telling;
 use super::rows::Rows;
 use super::shapley::Explainer;
-use super::unconfirmed::Unconfirmed;
 use super::visibility::Visibility;
+use super::weighing::Weighing;
 use crate::config::Config;
 use crate::evidence::{Column, Feature, GROUPS, features};
 use crate::label::flag;
@@ -25,7 +25,7 @@ pub struct LearnedLabeler<'a> {
     group_of: Vec<usize>,
     seen: Vec<Seen>,
     telling: Telling,
-    unconfirmed: Unconfirmed,
+    weighing: Weighing,
     plausible: Inference,
     /// One for each of the model's causes.
     causes: Vec<Inference>,
@@ -87,7 +87,7 @@ impl<'a> LearnedLabeler<'a> {
         let explainer = explain.then(|| Explainer::new(&model.plausible, &group_of));
         let seen: Vec<Seen> = model.inputs.iter().map(|input| input.seen).collect();
         let telling = Telling::new(&inputs, &group_of, &seen);
-        let unconfirmed = Unconfirmed::among(inputs.iter().map(|input| input.name));
+        let weighing = Weighing::new(model, inputs.iter().map(|input| input.name), &config.learned);
         Ok(Self {
             config,
             model,
@@ -95,7 +95,7 @@ impl<'a> LearnedLabeler<'a> {
             group_of,
             seen,
             telling,
-            unconfirmed,
+            weighing,
             plausible: Inference::new(&model.plausible),
             causes: model.causes.iter().map(|cause| Inference::new(&cause.forest)).collect(),
             explainer,
@@ -104,7 +104,7 @@ impl<'a> LearnedLabeler<'a> {
 
     /// What the model says of a frame, of which this evidence was gathered.
     ///
-    /// `w` is the probability that a detection is plausible. Where the evidence is too unlike what the model was
+    /// `w` is the probability that a detection is plausible, where as many are as `learned.share` says. Where the evidence is too unlike what the model was
     /// trained on (`learned.max_novelty`), the paper's method answers, and [`flag::PAPER`] says so. What nobody but the
     /// radar tells of counts less (`learned.unconfirmed`), and has the flag [`flag::UNCONFIRMED`].
     pub fn label(&self, frame: &Frame, evidence: &[Column]) -> LearnedScan {
@@ -126,10 +126,9 @@ impl<'a> LearnedLabeler<'a> {
         let rows = rows.pick(asked.iter().copied());
         for (at, log_odds) in self.plausible.log_odds(&rows).into_iter().enumerate() {
             let (label, row) = (&mut labels[asked[at]], rows.row(at));
-            let probability = self.model.calibration.probability(log_odds);
-            label.w = self.unconfirmed.weighed(row, probability, self.config.learned.unconfirmed);
+            label.w = self.weighing.plausibility(row, log_odds);
             label.plausible = label.w >= self.config.fusion.threshold;
-            label.flags |= flag::when(self.unconfirmed.is(row), flag::UNCONFIRMED);
+            label.flags |= flag::when(self.weighing.is_unconfirmed(row), flag::UNCONFIRMED);
             label.flags &= !flag::UNOBSERVED;
         }
         self.explain(&rows, &asked, &mut answers);

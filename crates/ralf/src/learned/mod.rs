@@ -23,6 +23,7 @@ mod unconfirmed;
 mod visibility;
 mod walk;
 mod way;
+mod weighing;
 
 pub use calibration::{Calibration, CalibrationError};
 pub use familiar::{Seen, novelty};
@@ -35,3 +36,4 @@ pub use text::ReadError;
 pub use tree::{Leaf, Node, Split, Tree, TreeError};
 pub use unconfirmed::Unconfirmed;
 pub use visibility::Visibility;
+pub use weighing::Weighing;

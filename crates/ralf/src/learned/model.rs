@@ -90,6 +90,16 @@ impl Model {
         self.places().map(drop)
     }
 
+    /// The share of detections that is plausible where it was trained, in [0, 1]: the mean of its worlds, which count alike
+    /// in its calibration; 0 where it names none.
+    pub fn share(&self) -> f64 {
+        let filled = self.origin.worlds.iter().filter(|world| world.detections > 0);
+        let (worlds, sum) = filled.fold((0.0, 0.0), |(worlds, sum), world| {
+            (worlds + 1.0, sum + world.plausible as f64 / world.detections as f64)
+        });
+        if worlds > 0.0 { sum / worlds } else { 0.0 }
+    }
+
     /// Where each feature that the model reads stands among [`features`].
     ///
     /// # Errors

@@ -5,6 +5,8 @@
 //! real road nobody can check it. As the paper does, what no other sensor confirms counts less: the setting
 //! `learned.unconfirmed` says by how much.
 
+use super::weighing::with_odds;
+
 /// A point of the nearest LiDAR scan so near confirms, sigmas.
 const NEAR: f32 = 3.0;
 /// Nothing of the map is near, m: farther points are not told apart.
@@ -49,12 +51,6 @@ impl Unconfirmed {
     }
 }
 
-/// A probability whose odds are multiplied.
-fn with_odds(probability: f64, factor: f64) -> f64 {
-    let scaled = probability * factor;
-    scaled / (1.0 - probability + scaled).max(f64::MIN_POSITIVE)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -83,12 +79,5 @@ mod tests {
             !Unconfirmed::among(["map_distance"].into_iter()).is(&[absent]),
             "a model that reads none of it"
         );
-    }
-
-    #[test]
-    fn odds_are_multiplied() {
-        assert!((with_odds(0.75, 0.1) - 0.3 / 1.3).abs() < 1e-12, "3 to 1 becomes 3 to 10");
-        assert_eq!([0.0, 1.0].map(|p| with_odds(p, 0.1)), [0.0, 1.0]);
-        assert_eq!(with_odds(0.25, 1.0), 0.25);
     }
 }

@@ -8,7 +8,7 @@ use std::ops::Range;
 use std::path::Path;
 
 /// How many simulated detections one counts as that somebody has looked at (docs/learned.md).
-const WEIGHT: f32 = 5.0;
+const WEIGHT: f32 = 20.0;
 
 /// How much each detection of a recording counts.
 pub(super) fn weight(from: Option<&Path>) -> f32 {

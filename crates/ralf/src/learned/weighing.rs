@@ -1,0 +1,77 @@
+//! From a model's log odds to the plausibility of a detection: calibrated, for as many plausible ones as are expected,
+//! and less where nobody but the radar speaks.
+
+use super::calibration::Calibration;
+use super::model::Model;
+use super::unconfirmed::Unconfirmed;
+use crate::config::LearnedConfig;
+
+/// What a model's log odds are worth with some settings.
+#[derive(Debug, Clone)]
+pub struct Weighing {
+    calibration: Calibration,
+    /// What the odds of every detection are multiplied by.
+    expected: f64,
+    unconfirmed: Unconfirmed,
+    /// What those of an unconfirmed one are multiplied by besides.
+    factor: f64,
+}
+
+impl Weighing {
+    /// Of a model with settings, for rows of features of these names.
+    pub fn new<'a>(
+        model: &Model,
+        names: impl Iterator<Item = &'a str> + Clone,
+        config: &LearnedConfig,
+    ) -> Self {
+        Self {
+            calibration: model.calibration.clone(),
+            expected: expected(model.share(), config.share),
+            unconfirmed: Unconfirmed::among(names),
+            factor: config.unconfirmed,
+        }
+    }
+
+    /// Whether nobody but the radar tells of the detection of a row.
+    pub fn is_unconfirmed(&self, row: &[f32]) -> bool {
+        self.unconfirmed.is(row)
+    }
+
+    /// The plausibility of the detection of a row whose log odds the model says.
+    pub fn plausibility(&self, row: &[f32], log_odds: f64) -> f64 {
+        let calibrated = self.calibration.probability(log_odds);
+        self.unconfirmed.weighed(row, with_odds(calibrated, self.expected), self.factor)
+    }
+}
+
+/// What turns odds where so large a share is plausible into those where another is: Bayes' rule, with whatever makes
+/// plausible ones look as they do unchanged (label shift). 1 where either is not known, which 0 says.
+fn expected(known: f64, wanted: f64) -> f64 {
+    if known * wanted > 0.0 { (wanted / (1.0 - wanted)) / (known / (1.0 - known)) } else { 1.0 }
+}
+
+/// A probability whose odds are multiplied.
+pub(super) fn with_odds(probability: f64, factor: f64) -> f64 {
+    let scaled = probability * factor;
+    scaled / (1.0 - probability + scaled).max(f64::MIN_POSITIVE)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn odds_are_multiplied() {
+        assert!((with_odds(0.75, 0.1) - 0.3 / 1.3).abs() < 1e-12, "3 to 1 becomes 3 to 10");
+        assert_eq!([0.0, 1.0].map(|p| with_odds(p, 0.1)), [0.0, 1.0]);
+        assert_eq!(with_odds(0.25, 1.0), 0.25);
+    }
+
+    #[test]
+    fn of_what_says_nothing_as_many_are_plausible_as_expected() {
+        for (known, wanted) in [(0.41, 0.2), (0.41, 0.41), (0.1, 0.6)] {
+            assert!((with_odds(known, expected(known, wanted)) - wanted).abs() < 1e-12, "{known} {wanted}");
+        }
+        assert_eq!([expected(0.41, 0.0), expected(0.0, 0.2)], [1.0, 1.0]);
+    }
+}
