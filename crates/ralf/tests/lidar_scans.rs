@@ -79,6 +79,24 @@ fn what_moves_is_compared_with_other_scans_at_their_times_alone() {
     assert!((before - 0.2 / 0.3f64.hypot(0.04 * 17.2 / 17.2f64.hypot(2.0))).abs() < 1e-3, "{before}");
 }
 
+#[test]
+fn a_scan_without_points_has_no_time_that_counts() {
+    let mut radar = radar(Elevation::Measured);
+    radar.fields.push("doppler_compensated".into());
+    // Within 12 ms it moves by 0.24 m, less than its range is uncertain by; within 60 ms by 1.2 m.
+    let beside = |points: Vec<[f32; 3]>| {
+        let memory = Memory::new(0.0)
+            .measured(radar.clone(), vec![(60 * MS, vec![[20.0, 0.0, 0.0, 20.0]])])
+            .lidar(lidar(), vec![(48 * MS, vec![[19.8, 0.0, -2.0]])])
+            .lidar(lidar(), vec![(0, points)]);
+        d_lm(&memory, &["lidar.dynamic=true"])[0].unwrap()
+    };
+    let alone = 0.2 / 0.3f64.hypot(0.04 * 19.8 / 19.8f64.hypot(2.0));
+    assert!((beside(vec![]) - alone).abs() < 1e-3, "{} {alone}", beside(vec![]));
+    // With a point there it moves; 12 ms before it was at 19.76 m.
+    assert!(beside(vec![[40.0, 0.0, -2.0]]) < alone / 2.0);
+}
+
 /// Writes down which LiDAR scans are read.
 struct Counted(Memory, Mutex<Vec<usize>>);
 
@@ -190,7 +208,10 @@ fn by_brute_force(
         moment.iter().flat_map(of_scan).filter(|(_, p, _)| measured || sees(p)).collect()
     };
     let filled = moments.iter().filter(|moment| !points(moment).is_empty());
-    let times = filled.flatten().map(|&(lidar, scan)| sequence.times.lidars[lidar][scan] as f64 * 1e-9);
+    // An empty scan beside another has no points whose time could count.
+    let has_points = |&&(lidar, scan): &&Key| !memory.lidar_scans[lidar][scan].is_empty();
+    let scans = filled.flatten().filter(has_points);
+    let times = scans.map(|&(lidar, scan)| sequence.times.lidars[lidar][scan] as f64 * 1e-9);
     let farthest = times.map(f64::abs).fold(f64::NEG_INFINITY, f64::max);
     let level = |h: Vector| if measured { h } else { Vector::new(h.x, h.y, 0.0) };
     let located = LocatedScan::new(radar, memory.radar_scan(0, 0).unwrap());

@@ -47,6 +47,12 @@ impl Calibration {
     }
 }
 
+/// A probability whose odds are multiplied.
+pub(super) fn with_odds(probability: f64, factor: f64) -> f64 {
+    let scaled = probability * factor;
+    scaled / (1.0 - probability + scaled).max(f64::MIN_POSITIVE)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -59,6 +65,13 @@ mod tests {
             assert!((line.probability(log_odds) - p).abs() < 1e-12, "{log_odds}");
         }
         assert_eq!(Calibration::new(vec![(0.0, 0.25)]).unwrap().probability(3.0), 0.25);
+    }
+
+    #[test]
+    fn odds_are_multiplied() {
+        assert!((with_odds(0.75, 0.1) - 0.3 / 1.3).abs() < 1e-12, "3 to 1 becomes 3 to 10");
+        assert_eq!([0.0, 1.0].map(|p| with_odds(p, 0.1)), [0.0, 1.0]);
+        assert_eq!(with_odds(0.25, 1.0), 0.25);
     }
 
     #[test]

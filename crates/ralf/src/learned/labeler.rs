@@ -104,9 +104,10 @@ impl<'a> LearnedLabeler<'a> {
 
     /// What the model says of a frame, of which this evidence was gathered.
     ///
-    /// `w` is the probability that a detection is plausible, where as many are as `learned.share` says. Where the evidence is too unlike what the model was
-    /// trained on (`learned.max_novelty`), the paper's method answers, and [`flag::PAPER`] says so. What nobody but the
-    /// radar tells of counts less (`learned.unconfirmed`), and has the flag [`flag::UNCONFIRMED`].
+    /// `w` is the probability that a detection is plausible, where as many are as `learned.share` says. Where the
+    /// evidence is too unlike what the model was trained on (`learned.max_novelty`), the paper's method answers: flag
+    /// [`flag::PAPER`]. What nobody but the radar tells of counts less (`learned.unconfirmed`): flag
+    /// [`flag::UNCONFIRMED`].
     pub fn label(&self, frame: &Frame, evidence: &[Column]) -> LearnedScan {
         let mut labels = Labeler::new(self.config).label(frame);
         let mut answers = vec![Answer::default(); labels.len()];

@@ -90,8 +90,8 @@ impl Model {
         self.places().map(drop)
     }
 
-    /// The share of detections that is plausible where it was trained, in [0, 1]: the mean of its worlds, which count alike
-    /// in its calibration; 0 where it names none.
+    /// The share of detections that is plausible where it was trained, in [0, 1]: the mean of its worlds, which count
+    /// alike in its calibration; 0 where it names none.
     pub fn share(&self) -> f64 {
         let filled = self.origin.worlds.iter().filter(|world| world.detections > 0);
         let (worlds, sum) = filled.fold((0.0, 0.0), |(worlds, sum), world| {

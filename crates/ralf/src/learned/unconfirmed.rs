@@ -5,7 +5,7 @@
 //! real road nobody can check it. As the paper does, what no other sensor confirms counts less: the setting
 //! `learned.unconfirmed` says by how much.
 
-use super::weighing::with_odds;
+use super::calibration::with_odds;
 
 /// A point of the nearest LiDAR scan so near confirms, sigmas.
 const NEAR: f32 = 3.0;

@@ -1,7 +1,7 @@
 //! From a model's log odds to the plausibility of a detection: calibrated, for as many plausible ones as are expected,
 //! and less where nobody but the radar speaks.
 
-use super::calibration::Calibration;
+use super::calibration::{Calibration, with_odds};
 use super::model::Model;
 use super::unconfirmed::Unconfirmed;
 use crate::config::LearnedConfig;
@@ -50,22 +50,9 @@ fn expected(known: f64, wanted: f64) -> f64 {
     if known * wanted > 0.0 { (wanted / (1.0 - wanted)) / (known / (1.0 - known)) } else { 1.0 }
 }
 
-/// A probability whose odds are multiplied.
-pub(super) fn with_odds(probability: f64, factor: f64) -> f64 {
-    let scaled = probability * factor;
-    scaled / (1.0 - probability + scaled).max(f64::MIN_POSITIVE)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn odds_are_multiplied() {
-        assert!((with_odds(0.75, 0.1) - 0.3 / 1.3).abs() < 1e-12, "3 to 1 becomes 3 to 10");
-        assert_eq!([0.0, 1.0].map(|p| with_odds(p, 0.1)), [0.0, 1.0]);
-        assert_eq!(with_odds(0.25, 1.0), 0.25);
-    }
 
     #[test]
     fn of_what_says_nothing_as_many_are_plausible_as_expected() {

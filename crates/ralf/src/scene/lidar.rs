@@ -247,7 +247,7 @@ impl LidarSnapshot {
     /// From the moment to when the first and the last point were measured, s.
     fn span(&self) -> Range<f64> {
         let mut span = f64::INFINITY..f64::NEG_INFINITY;
-        for sweep in &self.sweeps {
+        for sweep in self.sweeps.iter().filter(|sweep| !sweep.scan.points.is_empty()) {
             let seconds = sweep.seconds_to_scan(self.t_ns);
             for time in sweep.scan.times.as_deref().unwrap_or(&[0.0]) {
                 span.start = span.start.min(seconds + f64::from(*time));
