@@ -32,7 +32,7 @@ class Settings:
     tracking_cap: float = 20.0
     max_gap_ns: int = 500_000_000
     alpha: float = 0.554
-    threshold: float = 0.441048
+    threshold: float = 0.4
 
 
 @dataclass(frozen=True)
