@@ -34,6 +34,10 @@ impl<'a, B: Best> Search<'a, B> {
         let first = index.occupancy.as_ref().map_or(0, |occupancy| occupancy.first_ring(at.cell));
         if first == 0 {
             self.middle(&at);
+            // A whole cell lies between the query's, or the one nearest to it, and the next ring.
+            if (index.cell - SLACK).max(0.0).powi(2) > self.best.worst() {
+                return self.best;
+            }
         }
         for ring in first.max(2)..index.columns.max(index.rows) {
             let is_beyond_reach = || self.best.is_empty() && index.bound_within(&at, ring) > reach;
