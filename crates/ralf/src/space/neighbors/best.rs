@@ -23,8 +23,8 @@ pub(super) trait Best {
     fn take(&mut self, distances: &[f32; LANES], ids: &[u32; LANES], count: usize);
 }
 
-/// One: the nearest of each lane. Which of the lanes has it is asked no sooner than it must be known, for whether a point
-/// is the nearest so far is hard to foretell.
+/// One: the nearest of each lane. Which of the lanes has it is asked no sooner than it must be known, for whether a
+/// point is the nearest so far is hard to foretell.
 pub(super) struct One {
     /// Keys, whose bits are taken for those of numbers: of positive ones they grow with the number, and numbers are
     /// compared side by side. Distances have fewer bits for an exponent, so that all of these numbers are finite.
