@@ -5,7 +5,8 @@ use super::image::CameraImage;
 use super::intrinsics::Intrinsics;
 use super::view::StraightView;
 use crate::space::Point;
-use wide::{i16x8, i32x4, u8x16};
+use std::array;
+use wide::{i16x8, i32x4, i32x8, u8x16};
 
 /// For every pixel of a view where it lies in the raw image.
 #[derive(Debug, Clone)]
@@ -14,9 +15,12 @@ pub struct UndistortMap {
     source: [usize; 2],
     /// Size of the view, px.
     target: [usize; 2],
-    /// One per pixel of the view, row by row.
-    taps: Vec<Tap>,
+    /// One per pixel of the view, row by row; what fills up the last group lies nowhere.
+    taps: Vec<[Tap; LANES]>,
 }
+
+/// So many pixels are interpolated side by side.
+const LANES: usize = 4;
 
 /// The four raw pixels around a place, and how much of the right and the lower ones.
 #[derive(Debug, Clone, Copy)]
@@ -40,12 +44,15 @@ impl UndistortMap {
     /// lens doesn't see, becomes black. An image needs two rows and two columns for anything to lie between.
     pub fn new(intrinsics: &Intrinsics, width: usize, height: usize, view: &StraightView) -> Self {
         let limit = intrinsics.limit();
-        let pixels = (0..view.height).flat_map(|row| (0..view.width).map(move |column| [column, row]));
-        let taps = pixels.map(|[column, row]| {
+        let count = view.width * view.height;
+        let tap = |pixel: usize| {
+            let [column, row] = [pixel % view.width, pixel / view.width];
             let ray = view.camera_from_view * view.ray([column as f64, row as f64]);
             let place = intrinsics.project_within(&Point::from(ray), limit);
             place.and_then(|[u, v]| Tap::new(u, v, width, height)).unwrap_or(Tap::NOTHING)
-        });
+        };
+        let in_view = |pixel: usize| if pixel < count { tap(pixel) } else { Tap::NOTHING };
+        let taps = (0..count).step_by(LANES).map(|first| array::from_fn(|lane| in_view(first + lane)));
         let taps = taps.collect();
         Self { source: [width, height], target: [view.width, view.height], taps }
     }
@@ -58,8 +65,9 @@ impl UndistortMap {
             let (found, pixels) = ([image.width, image.height], image.rgb.len());
             return Err(format!("an image of {width} x {height} px, found {found:?} with {pixels} pixels"));
         }
-        let bytes = image.rgb.as_flattened();
-        let rgb = self.taps.iter().map(|tap| tap.sample(bytes, 3 * width)).collect();
+        let rows = Rows::new(image.rgb.as_flattened(), 3 * width);
+        let mut rgb = self.taps.iter().map(|taps| rows.sample(taps)).collect::<Vec<_>>().into_flattened();
+        rgb.truncate(self.target[0] * self.target[1]);
         Ok(CameraImage { width: self.target[0], height: self.target[1], rgb })
     }
 }
@@ -73,47 +81,120 @@ impl Tap {
         let place = u32::try_from(row * width + column).ok()?;
         Some(Self { place, right, down })
     }
-
-    /// The interpolated pixel of an image whose rows are `row` bytes long; black outside.
-    #[inline]
-    fn sample(self, bytes: &[u8], row: usize) -> [u8; 3] {
-        let place = 3 * self.place as usize;
-        let (Some(upper), Some(lower)) = (pixels(bytes, place), pixels(bytes, place + row)) else {
-            return [0; 3];
-        };
-        // The four weights add up to WEIGHTS whatever is rounded, so that even areas stay as they are.
-        let (right, down) = (i32::from(self.right), i32::from(self.down));
-        let both = (right * down + 4) >> 3;
-        let (right, down) = (32 * right - both, 32 * down - both);
-        let sum = upper.dot(in_turn(WEIGHTS - right - down - both, right)) + lower.dot(in_turn(down, both));
-        let [red, green, blue, _] = ((sum + i32x4::splat(WEIGHTS / 2)) >> WEIGHT_BITS).to_array();
-        [red as u8, green as u8, blue as u8]
-    }
 }
 
 /// The weights of four pixels together; each fits 16 bits with a sign.
 const WEIGHTS: i32 = 1 << WEIGHT_BITS;
 const WEIGHT_BITS: i32 = 13;
 
-/// Two neighbouring pixels, channel by channel: red of both, green of both, blue of both, and what doesn't matter.
+/// How much the four pixels around each of some places count.
+struct Weights {
+    /// Of the two left ones: the upper one's in the lower half of a number, the lower one's in the upper half.
+    left: [i32; LANES],
+    /// Of the two right ones.
+    right: [i32; LANES],
+}
+
+impl Weights {
+    #[inline]
+    fn new(taps: &[Tap; LANES]) -> Self {
+        let right = i32x4::new(taps.map(|tap| i32::from(tap.right)));
+        let down = i32x4::new(taps.map(|tap| i32::from(tap.down)));
+        // The four weights add up to WEIGHTS whatever is rounded, so that even areas stay as they are.
+        let [right_halves, down_halves]: [i16x8; 2] = bytemuck::cast([right, down]);
+        let both = (right_halves.dot(down_halves) + i32x4::splat(4)) >> 3_i32;
+        let (right, down) = ((right << 5_i32) - both, (down << 5_i32) - both);
+        let upper_left = i32x4::splat(WEIGHTS) - right - down - both;
+        Self { left: (upper_left | down << 16_i32).to_array(), right: (right | both << 16_i32).to_array() }
+    }
+}
+
+/// The bytes of a raw image, and the same from the second row on: a pixel and the one below it have the same place.
+struct Rows<'a> {
+    upper: &'a [u8],
+    lower: &'a [u8],
+}
+
+impl<'a> Rows<'a> {
+    /// Of an image whose rows are so many bytes long.
+    fn new(bytes: &'a [u8], row: usize) -> Self {
+        let lower = bytes.get(row..).unwrap_or_default();
+        Self { upper: &bytes[..lower.len()], lower }
+    }
+
+    /// The interpolated pixels at some places; black outside.
+    #[inline]
+    fn sample(&self, taps: &[Tap; LANES]) -> [[u8; 3]; LANES] {
+        let around = |lane: usize| self.around(taps[lane].place);
+        let all = || Some([around(0)?, around(1)?, around(2)?, around(3)?]);
+        all().map_or_else(|| self.sample_at_the_border(taps), |around| blended(taps, around))
+    }
+
+    /// Two neighbouring pixels and a byte more, and the same below them; `None` outside, and where the image ends with
+    /// these pixels.
+    #[inline]
+    fn around(&self, place: u32) -> Option<[&'a [u8; 7]; 2]> {
+        let first = 3 * place as usize;
+        let upper = self.upper.get(first..first + 7)?;
+        let lower = self.lower.get(first..first + 7)?;
+        Some([upper.first_chunk()?, lower.first_chunk()?])
+    }
+
+    /// As [`Self::sample`], where some of the places lie outside or at the image's end.
+    #[cold]
+    #[inline(never)]
+    fn sample_at_the_border(&self, taps: &[Tap; LANES]) -> [[u8; 3]; LANES] {
+        let around = taps.map(|tap| {
+            let first = 3 * tap.place as usize;
+            [self.upper, self.lower].map(|row| {
+                let mut pixels = [0; 7];
+                if let Some(found) = row.get(first..first + 6) {
+                    pixels[..6].copy_from_slice(found);
+                }
+                pixels
+            })
+        });
+        blended(taps, around.each_ref().map(|[upper, lower]| [upper, lower]))
+    }
+}
+
+/// The interpolated pixels at some places, each of the two pixels above and the two below.
 #[inline]
-fn pixels(bytes: &[u8], place: usize) -> Option<i16x8> {
-    let bytes = bytes.get(place..)?;
-    // Two bytes more than there need be, unless the image ends there.
-    let both = match (bytes.first_chunk(), bytes.first_chunk()) {
-        (Some(eight), _) => u64::from_le_bytes(*eight),
-        (None, Some(&[r0, g0, b0, r1, g1, b1])) => u64::from_le_bytes([r0, g0, b0, r1, g1, b1, 0, 0]),
-        (None, None) => return None,
+fn blended(taps: &[Tap; LANES], around: [[&[u8; 7]; 2]; LANES]) -> [[u8; 3]; LANES] {
+    let Weights { left, right } = Weights::new(taps);
+    let sum = |lane: usize| {
+        let left = above_one_another::<0>(around[lane]).dot(halves(left[lane]));
+        let right = above_one_another::<3>(around[lane]).dot(halves(right[lane]));
+        (left + right + i32x4::splat(WEIGHTS / 2)) >> WEIGHT_BITS
     };
-    let [left, right] = [both, both >> 24].map(|pixels| u8x16::new(u128::from(pixels).to_le_bytes()));
-    Some(i16x8::from_u8x16_low(u8x16::unpack_low(left, right)))
+    side_by_side([sum(0), sum(1), sum(2), sum(3)])
+}
+
+/// A pixel and the one below it channel by channel, from a byte on: red of both, green of both, blue of both, and what
+/// doesn't matter.
+#[inline]
+fn above_one_another<const FIRST: usize>(rows: [&[u8; 7]; 2]) -> i16x8 {
+    let [upper, lower] = rows.map(|row| {
+        let pixel = [row[FIRST], row[FIRST + 1], row[FIRST + 2], row[FIRST + 3]];
+        bytemuck::cast::<_, u8x16>([u32::from_ne_bytes(pixel), 0, 0, 0])
+    });
+    i16x8::from_u8x16_low(u8x16::unpack_low(upper, lower))
 }
 
 /// Two weights in turn.
 #[inline]
-fn in_turn(left: i32, right: i32) -> i16x8 {
-    let both: i32 = bytemuck::cast([left as i16, right as i16]);
+fn halves(both: i32) -> i16x8 {
     bytemuck::cast(i32x4::splat(both))
+}
+
+/// Pixels side by side, of numbers that fit a byte, three of four.
+#[inline]
+fn side_by_side([a, b, c, d]: [i32x4; LANES]) -> [[u8; 3]; LANES] {
+    let two = |a, b| i16x8::from_i32x8_saturate(bytemuck::cast::<_, i32x8>([a, b]));
+    let bytes = u8x16::narrow_i16x8(two(a, b), two(c, d));
+    let [a, b, c, d] = bytemuck::cast::<_, [u32; LANES]>(bytes).map(u32::from_le);
+    let words = [a & 0xff_ffff | b << 24, b >> 8 & 0xffff | c << 16, c >> 16 & 0xff | d << 8];
+    bytemuck::cast(words.map(u32::to_le))
 }
 
 /// The pixel before a coordinate that has a successor, and the successor's share; `None` outside the image, and where
@@ -169,11 +250,11 @@ mod tests {
         ) {
             let center = [width as f64 / 2.1, height as f64 / 1.9];
             let lens = Intrinsics::KannalaBrandt { focal: [focal; 2], center, distortion: [k, 0.0, 0.0, 0.0] };
-            let (image, view) = (noise(width, height), straight(30, 20, fov));
+            let (image, view) = (noise(width, height), straight(31, 21, fov));
             let found = UndistortMap::new(&lens, width, height, &view).apply(&image).unwrap();
-            prop_assert_eq!((found.width, found.height, found.rgb.len()), (30, 20, 600));
+            prop_assert_eq!((found.width, found.height, found.rgb.len()), (31, 21, 651));
             for (i, pixel) in found.rgb.iter().enumerate() {
-                let ray = view.camera_from_view * view.ray([(i % 30) as f64, (i / 30) as f64]);
+                let ray = view.camera_from_view * view.ray([(i % 31) as f64, (i / 31) as f64]);
                 let expected = naive(&image, lens.project(&Point::from(ray)));
                 for (a, b) in pixel.iter().zip(expected) {
                     // Rounded to a whole number, from weights that are rounded to 1/8192.

@@ -1,10 +1,12 @@
 //! The ground under the vehicle (docs/method.md, sections 4 and 13).
 
+mod chosen;
 mod local;
 mod plane;
 mod polar;
 mod ransac;
 
+pub(super) use chosen::ids_where;
 pub(super) use local::Floor;
 pub use local::GroundSurface;
 pub use plane::Plane;
@@ -89,19 +91,6 @@ impl Ground {
 
 fn ids_as_high(points: &[[f32; 3]], margin: f64, height: impl Fn(&Point) -> f64) -> Vec<u32> {
     ids_where(points, |point| point[0].is_finite() && height(&Point::from(point.map(f64::from))) >= margin)
-}
-
-/// The places in a list of those points that something holds of.
-pub(super) fn ids_where(points: &[[f32; 3]], holds: impl Fn(&[f32; 3]) -> bool) -> Vec<u32> {
-    // It is hard to foretell of which: each is written down, and the next one over it unless it holds.
-    let mut ids = vec![0; points.len()];
-    let mut count = 0;
-    for (id, point) in (0u32..).zip(points) {
-        ids[count] = id;
-        count += usize::from(holds(point));
-    }
-    ids.truncate(count);
-    ids
 }
 
 #[cfg(test)]

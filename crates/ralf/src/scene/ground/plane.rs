@@ -48,10 +48,18 @@ pub(super) struct PlaneSums {
 
 impl PlaneSums {
     pub(super) fn add(&mut self, p: Vector) {
-        self.count += 1.0;
-        self.sum += p;
-        self.squares += p.component_mul(&p);
-        self.products += p.component_mul(&p.yzx());
+        *self = self.with(p);
+    }
+
+    /// With one point more.
+    #[inline]
+    pub(super) fn with(&self, p: Vector) -> Self {
+        Self {
+            count: self.count + 1.0,
+            sum: self.sum + p,
+            squares: self.squares + p.component_mul(&p),
+            products: self.products + p.component_mul(&p.yzx()),
+        }
     }
 
     /// The plane whose summed squared distances from the points are least. `None` for fewer than three points.

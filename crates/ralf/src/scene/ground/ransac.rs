@@ -1,6 +1,6 @@
 //! RANSAC for one ground plane, seeded, so that a run repeats itself bit for bit.
 
-use super::ids_where;
+use super::chosen::{BLOCK, extend_where, places_where};
 use super::plane::{Plane, PlaneSums};
 use crate::config::GroundConfig;
 use crate::space::{Point, Vector};
@@ -34,12 +34,14 @@ impl Candidates {
         let tilt = config.max_tilt_deg.to_radians();
         let reach = ((config.max_offset + config.inlier_distance) / tilt.cos()) as f32;
         let slope = tilt.tan() as f32;
-        let kept = ids_where(points, |[x, y, z]| {
+        let is_admissible = |[x, y, z]: &[f32; 3]| {
             let rho = (x * x + y * y).sqrt();
             z.abs() <= reach + slope * rho
-        });
-        let column = |axis: usize| kept.iter().map(|id| points[*id as usize][axis]).collect();
-        Self { xs: column(0), ys: column(1), zs: column(2) }
+        };
+        let mut columns = [(); 3].map(|()| Vec::with_capacity(points.len()));
+        points.chunks(BLOCK).for_each(|block| extend_where(&mut columns, block, is_admissible));
+        let [xs, ys, zs] = columns;
+        Self { xs, ys, zs }
     }
 
     pub(super) fn len(&self) -> usize {
@@ -57,32 +59,51 @@ impl Candidates {
         Self { xs: thin(&self.xs), ys: thin(&self.ys), zs: thin(&self.zs) }
     }
 
-    /// How many points lie within `distance` of the plane.
-    fn count_inliers(&self, plane: &Plane, distance: f64) -> usize {
-        let [nx, ny, nz] = [plane.normal.x as f32, plane.normal.y as f32, plane.normal.z as f32];
-        let (offset, distance) = (plane.offset as f32, distance as f32);
-        let points = self.xs.iter().zip(&self.ys).zip(&self.zs);
-        points
-            .map(|((x, y), z)| u32::from((nx * x + ny * y + nz * z - offset).abs() <= distance))
-            .sum::<u32>() as usize
+    /// How many points lie within `distance` of the plane; `None` as soon as it is told that they are fewer than the
+    /// least number.
+    fn inliers_if_at_least(&self, least: usize, plane: &Plane, distance: f64) -> Option<usize> {
+        let mut inliers = 0;
+        let mut left = self.len();
+        for (xs, ys, zs) in self.blocks() {
+            inliers += count_inliers((xs, ys, zs), plane, distance);
+            left -= xs.len();
+            if inliers + left < least {
+                return None;
+            }
+        }
+        Some(inliers)
     }
 
     /// The plane of orthogonal least squares through the points within `distance` of a plane.
     fn refit(&self, plane: &Plane, distance: f64) -> Option<Plane> {
-        const BLOCK: usize = 256;
         let mut sums = PlaneSums::default();
-        let mut inliers = [0; BLOCK];
-        for begin in (0..self.len()).step_by(BLOCK) {
-            // Which points are inliers is hard to foretell: a list without a branch, and then the sums.
-            let mut count = 0;
-            for i in begin..self.len().min(begin + BLOCK) {
-                inliers[count] = i;
-                count += usize::from(plane.height(&Point::from(self.point(i))).abs() <= distance);
+        let mut room = [0; BLOCK];
+        for (xs, ys, zs) in self.blocks() {
+            let point = |x: &f32, y: &f32, z: &f32| Vector::new((*x).into(), (*y).into(), (*z).into());
+            let points = xs.iter().zip(ys).zip(zs).map(|((x, y), z)| point(x, y, z));
+            let is_inlier = |p| plane.height(&Point::from(p)).abs() <= distance;
+            for place in places_where(&mut room, points.map(is_inlier)) {
+                let place = *place as usize;
+                sums = sums.with(point(&xs[place], &ys[place], &zs[place]));
             }
-            inliers[..count].iter().for_each(|i| sums.add(self.point(*i)));
         }
         sums.plane()
     }
+
+    /// Coordinates of points that are looked at together.
+    fn blocks(&self) -> impl Iterator<Item = (&[f32], &[f32], &[f32])> {
+        let blocks = self.xs.chunks(BLOCK).zip(self.ys.chunks(BLOCK)).zip(self.zs.chunks(BLOCK));
+        blocks.map(|((xs, ys), zs)| (xs, ys, zs))
+    }
+}
+
+/// How many points of a block lie within `distance` of a plane.
+fn count_inliers((xs, ys, zs): (&[f32], &[f32], &[f32]), plane: &Plane, distance: f64) -> usize {
+    let [nx, ny, nz] = [plane.normal.x as f32, plane.normal.y as f32, plane.normal.z as f32];
+    let (offset, distance) = (plane.offset as f32, distance as f32);
+    let points = xs.iter().zip(ys).zip(zs);
+    points.map(|((x, y), z)| u32::from((nx * x + ny * y + nz * z - offset).abs() <= distance)).sum::<u32>()
+        as usize
 }
 
 /// The admissible plane with the most points within `inlier_distance`, refitted once on these.
@@ -90,31 +111,43 @@ impl Candidates {
 /// Hypotheses are scored on a part of the points, and the best of them on all. The winner climbs: as long as the plane
 /// fitted to its points has more of them, that one takes its place, so that little depends on the seed.
 pub(super) fn fit(candidates: &Candidates, config: &GroundConfig, seed: u64) -> Option<Plane> {
-    let first_look = candidates.thinned();
-    let hypotheses = draw(candidates, config, seed);
-    let mut ranked: Vec<_> = hypotheses
-        .iter()
-        .map(|plane| first_look.count_inliers(plane, config.inlier_distance))
-        .enumerate()
-        .collect();
-    ranked.sort_by_key(|(drawn, inliers)| (std::cmp::Reverse(*inliers), *drawn));
-    let finalists = ranked.iter().take(FINALISTS).map(|(drawn, _)| hypotheses[*drawn]);
-    let score = |plane: &Plane| candidates.count_inliers(plane, config.inlier_distance);
+    let least_inliers =
+        |least: usize, plane: &Plane| candidates.inliers_if_at_least(least, plane, config.inlier_distance);
     let refit = |plane: &Plane| {
         candidates.refit(plane, config.inlier_distance).filter(|refitted| refitted.is_admissible(config))
     };
     // The first of equally good ones, whatever their number.
-    let (mut inliers, mut best) =
-        finalists.rev().map(|plane| (score(&plane), plane)).max_by_key(|(n, _)| *n)?;
+    let mut best = None;
+    for plane in finalists(candidates, config, seed) {
+        let least = best.map_or(0, |(inliers, _)| inliers + 1);
+        best = least_inliers(least, &plane).map(|inliers| (inliers, plane)).or(best);
+    }
+    let (mut inliers, mut best) = best?;
     let mut refitted = refit(&best);
     for _ in 0..CLIMBS {
-        let Some(higher) = refitted.map(|plane| (score(&plane), plane)).filter(|(n, _)| *n > inliers) else {
-            break;
-        };
-        (inliers, best) = higher;
+        let higher = |plane: Plane| least_inliers(inliers + 1, &plane).map(|inliers| (inliers, plane));
+        let Some(found) = refitted.and_then(higher) else { break };
+        (inliers, best) = found;
         refitted = refit(&best);
     }
     Some(refitted.unwrap_or(best))
+}
+
+/// The hypotheses with the most inliers among a part of the points, the best first, of equally good ones the one drawn
+/// first.
+fn finalists(candidates: &Candidates, config: &GroundConfig, seed: u64) -> impl Iterator<Item = Plane> {
+    let first_look = candidates.thinned();
+    let mut ranked: Vec<(usize, Plane)> = Vec::with_capacity(FINALISTS + 1);
+    for plane in draw(candidates, config, seed) {
+        let least = ranked.get(FINALISTS - 1).map_or(0, |(inliers, _)| inliers + 1);
+        let Some(inliers) = first_look.inliers_if_at_least(least, &plane, config.inlier_distance) else {
+            continue;
+        };
+        let place = ranked.partition_point(|(better, _)| *better >= inliers);
+        ranked.insert(place, (inliers, plane));
+        ranked.truncate(FINALISTS);
+    }
+    ranked.into_iter().map(|(_, plane)| plane)
 }
 
 /// Admissible planes through three random points each.

@@ -1,86 +1,118 @@
 //! The nearest points that a search has met so far.
 
 use super::Neighbor;
+use wide::f64x4;
 
 /// Distances are computed for so many points at a time, which the compiler turns into vector instructions.
 pub(super) const LANES: usize = 8;
 /// The identity of nothing: what holds the place of a point that isn't found yet.
 const NOTHING: u32 = u32::MAX;
 
-/// The nearest points so far, as keys that grow with the distance and, of equal distances, with the identity. Those
-/// that aren't found yet are nothing, as far away as a point may be.
+/// The nearest points so far, of those at most as far away as a point may be.
 pub(super) trait Best {
-    /// As many as are wanted, nearest first.
-    fn keys(&self) -> &[u64];
-
-    /// A point takes its place, unless as many are nearer.
-    fn enter(&mut self, key: u64);
-
     /// Points at most this far, m^2, can still enter.
-    #[inline]
-    fn worst(&self) -> f32 {
-        self.keys().last().map_or(0.0, |key| distance_squared(*key))
-    }
+    fn worst(&self) -> f32;
 
     /// Whether nothing was found.
-    #[inline]
-    fn is_empty(&self) -> bool {
-        self.keys().first().is_none_or(|key| neighbor(*key).is_none())
-    }
+    fn is_empty(&self) -> bool;
 
     /// Gives what was found, nearest first.
-    fn give(&self, found: &mut Vec<Neighbor>) {
-        found.extend(self.keys().iter().map_while(|key| neighbor(*key)));
-    }
+    fn give(&self, found: &mut Vec<Neighbor>);
 
     /// Looks at some points side by side, of which the first so many count.
-    #[inline]
-    fn take(&mut self, distances: &[f32; LANES], ids: &[u32; LANES], count: usize) {
-        let mut hits = self.hits(distances, count);
-        while hits != 0 {
-            let lane = hits.trailing_zeros() as usize % LANES;
-            self.enter(key(distances[lane], ids[lane]));
-            hits &= hits - 1;
-        }
-    }
-
-    /// A bit for each of the first so many points that may enter.
-    #[inline]
-    fn hits(&self, distances: &[f32; LANES], count: usize) -> u32 {
-        let hits = those_within(distances, self.worst());
-        if count < LANES { hits & ((1 << count) - 1) } else { hits }
-    }
+    fn take(&mut self, distances: &[f32; LANES], ids: &[u32; LANES], count: usize);
 }
 
-/// One.
+/// One: the nearest of each lane. Which of the lanes has it is asked no sooner than it must be known, for whether a
+/// point is the nearest so far is hard to foretell.
 pub(super) struct One {
-    key: u64,
+    /// Keys, whose bits are taken for those of numbers: of positive ones they grow with the number, and numbers are
+    /// compared side by side. Distances have fewer bits for an exponent, so that all of these numbers are finite.
+    nearest: f64x4,
 }
+
+const ONE_LANES: usize = 4;
 
 impl One {
     /// The nearest among the points at most so far away, m^2.
     pub(super) fn within(limit: f32) -> Self {
-        Self { key: key(limit, NOTHING) }
+        Self { nearest: f64x4::splat(f64::from_bits(key(limit, NOTHING))) }
+    }
+
+    #[inline]
+    fn key(&self) -> u64 {
+        let [a, b, c, d] = self.nearest.to_array();
+        a.min(b).min(c.min(d)).to_bits()
     }
 }
 
 impl Best for One {
     #[inline]
-    fn keys(&self) -> &[u64] {
-        std::slice::from_ref(&self.key)
+    fn worst(&self) -> f32 {
+        distance_squared(self.key())
     }
 
     #[inline]
-    fn enter(&mut self, entering: u64) {
-        self.key = self.key.min(entering);
+    fn is_empty(&self) -> bool {
+        neighbor(self.key()).is_none()
     }
 
-    /// Of several the nearest alone can enter, which is mostly one. All of them count: what follows a run are points,
-    /// too, and to meet the nearest point twice does no harm.
+    fn give(&self, found: &mut Vec<Neighbor>) {
+        found.extend(neighbor(self.key()));
+    }
+
+    /// All of them count: what follows a run are points, too, and to meet the nearest point twice does no harm.
     #[inline]
-    fn hits(&self, distances: &[f32; LANES], _: usize) -> u32 {
-        let nearest = distances.iter().fold(self.worst(), |a, b| if *b < a { *b } else { a });
-        those_within(distances, nearest)
+    fn take(&mut self, distances: &[f32; LANES], ids: &[u32; LANES], _: usize) {
+        let (distances, _) = distances.as_chunks::<ONE_LANES>();
+        let (ids, _) = ids.as_chunks::<ONE_LANES>();
+        for (distances, ids) in distances.iter().zip(ids) {
+            // Without a sign what is no number is farther than everything.
+            let key_of = |lane: usize| f64::from_bits(key(distances[lane].abs(), ids[lane]));
+            let keys = f64x4::new([key_of(0), key_of(1), key_of(2), key_of(3)]);
+            self.nearest = self.nearest.fast_min(keys);
+        }
+    }
+}
+
+/// Several, as keys in order. Those that aren't found yet are nothing, as far away as a point may be.
+trait Sorted {
+    /// As many as are wanted, nearest first.
+    fn keys(&self) -> &[u64];
+
+    /// The last of them.
+    fn last(&self) -> u64;
+
+    /// A point takes its place, unless as many are nearer.
+    fn enter(&mut self, key: u64);
+}
+
+impl<S: Sorted> Best for S {
+    #[inline]
+    fn worst(&self) -> f32 {
+        distance_squared(self.last())
+    }
+
+    #[inline]
+    fn is_empty(&self) -> bool {
+        self.keys().first().is_none_or(|key| neighbor(*key).is_none())
+    }
+
+    fn give(&self, found: &mut Vec<Neighbor>) {
+        found.extend(self.keys().iter().map_while(|key| neighbor(*key)));
+    }
+
+    #[inline]
+    fn take(&mut self, distances: &[f32; LANES], ids: &[u32; LANES], count: usize) {
+        let mut hits = those_within(distances, self.worst());
+        if count < LANES {
+            hits &= (1 << count) - 1;
+        }
+        while hits != 0 {
+            let lane = hits.trailing_zeros() as usize % LANES;
+            self.enter(key(distances[lane], ids[lane]));
+            hits &= hits - 1;
+        }
     }
 }
 
@@ -97,15 +129,15 @@ impl<const N: usize> Few<N> {
     }
 }
 
-impl<const N: usize> Best for Few<N> {
+impl<const N: usize> Sorted for Few<N> {
     #[inline]
     fn keys(&self) -> &[u64] {
         &self.keys[..self.k]
     }
 
     #[inline]
-    fn worst(&self) -> f32 {
-        distance_squared(self.keys[self.k - 1])
+    fn last(&self) -> u64 {
+        self.keys[self.k - 1]
     }
 
     /// All are moved or not without a branch, for which of them move is hard to foretell.
@@ -130,9 +162,13 @@ impl Many {
     }
 }
 
-impl Best for Many {
+impl Sorted for Many {
     fn keys(&self) -> &[u64] {
         &self.keys
+    }
+
+    fn last(&self) -> u64 {
+        self.keys.last().copied().unwrap_or_default()
     }
 
     fn enter(&mut self, entering: u64) {

@@ -34,6 +34,10 @@ impl<'a, B: Best> Search<'a, B> {
         let first = index.occupancy.as_ref().map_or(0, |occupancy| occupancy.first_ring(at.cell));
         if first == 0 {
             self.middle(&at);
+            // A whole cell lies between the query's, or the one nearest to it, and the next ring.
+            if (index.cell - SLACK).max(0.0).powi(2) > self.best.worst() {
+                return self.best;
+            }
         }
         for ring in first.max(2)..index.columns.max(index.rows) {
             let is_beyond_reach = || self.best.is_empty() && index.bound_within(&at, ring) > reach;
@@ -82,9 +86,14 @@ impl<'a, B: Best> Search<'a, B> {
     /// the middle holds leaves less of the others.
     fn row(&mut self, at: &GridPoint, ring: usize, row: usize) {
         let (index, column) = (self.index, at.cell[0]);
+        // Most are empty, which is told sooner than how much of them can be near enough.
+        let whole = (column.saturating_sub(ring), (column + ring).min(index.columns - 1));
+        if index.cells(row, whole.0, whole.1).is_empty() {
+            return;
+        }
         let away = distance_to_cell(at.y, row);
         let (mut left, mut right) = stretch(at.x, column, ring, self.reach_beside(away), index.columns);
-        if left > right || index.cells(row, left, right).is_empty() {
+        if left > right {
             return;
         }
         // Columns that were looked at: none.
@@ -110,10 +119,14 @@ impl<'a, B: Best> Search<'a, B> {
     /// The ring's cells in a column, its corners apart, from the middle outward.
     fn column(&mut self, at: &GridPoint, ring: usize, column: usize) {
         let index = self.index;
+        let first = column * index.rows;
+        let (low, high) = (at.cell[1].saturating_sub(ring - 1), (at.cell[1] + ring - 1).min(index.rows - 1));
+        if index.before[first + low] == index.before[first + high + 1] {
+            return;
+        }
         let away = distance_to_cell(at.x, column);
         let (low, high) = stretch(at.y, at.cell[1], ring - 1, self.reach_beside(away), index.rows);
-        let first = column * index.rows;
-        if low > high || index.before[first + low] == index.before[first + high + 1] {
+        if low > high {
             return;
         }
         let middle = at.cell[1];
