@@ -116,12 +116,17 @@ impl Labelling<'_> {
             Some(labeler) => labeler.label(frame, &evidence),
             None => LearnedScan { labels: Labeler::new(self.config).label(frame), answers: Vec::new() },
         });
+        let without_class = |i: usize| labels[i].plausible && labels[i].semantic.is_none();
+        let seen = timed(self.observer, Part::Labelling, || {
+            evidence::seen_classes(frame, self.config.camera.stride, without_class)
+        });
         let parts = ScanParts {
             radar: &rig.radars[radar],
             scan: &frame.scan,
             labels: Some(&labels),
             evidence: &evidence,
             answers: &answers,
+            seen: &seen,
         };
         Table::of_scan(schema, &parts)
     }
