@@ -1,13 +1,13 @@
 //! What can be typed, and what then runs.
 
-#[cfg(feature = "depth")]
-use crate::commands::depth;
 #[cfg(feature = "review")]
 use crate::commands::review;
 use crate::commands::{
     ablate, assign, check, cluster, convert, demo, evaluate, export, inspect, label, learn, plot, report,
     simulate, tune,
 };
+#[cfg(feature = "depth")]
+use crate::commands::{depth, segment};
 use crate::outcome::Outcome;
 use crate::text::print;
 use clap::{CommandFactory, Parser, Subcommand};
@@ -53,6 +53,9 @@ enum Command {
     #[cfg(feature = "depth")]
     /// Compute the depth of every camera image once for all, or check it against the LiDAR
     Depth(depth::DepthArgs),
+    #[cfg(feature = "depth")]
+    /// Compute the class of every pixel of every camera image once for all
+    Segment(segment::SegmentArgs),
     /// Compare labels with corrected ones, or tell what they say by themselves
     Evaluate(evaluate::EvaluateArgs),
     /// Find the settings that come nearest to corrected labels
@@ -95,6 +98,8 @@ impl Cli {
             Command::Cluster(arguments) => cluster::run(&arguments),
             #[cfg(feature = "depth")]
             Command::Depth(arguments) => depth::run(&arguments),
+            #[cfg(feature = "depth")]
+            Command::Segment(arguments) => segment::run(&arguments),
             Command::Evaluate(arguments) => evaluate::run(&arguments),
             Command::Tune(arguments) => tune::run(&arguments),
             Command::Learn(arguments) => learn::run(&arguments),

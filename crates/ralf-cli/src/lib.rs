@@ -7,7 +7,7 @@ mod cli;
 mod commands;
 mod corrections;
 #[cfg(feature = "depth")]
-mod depth_model;
+mod network;
 mod outcome;
 mod progress;
 mod run_summary;

@@ -18,7 +18,6 @@
 //! # }
 //! ```
 
-pub mod depth;
 mod disk;
 mod error;
 mod evidence;
@@ -37,6 +36,7 @@ mod testing;
 pub mod things;
 mod training;
 pub mod truth;
+pub mod views;
 pub mod write;
 
 pub use disk::files::write_whole;

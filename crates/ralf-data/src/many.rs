@@ -5,7 +5,6 @@
 //! three. Each may be done again after it was killed. What is assembled is what one machine would have written, to the
 //! byte, but for the timings in `run.json`.
 
-use crate::depth::DepthStore;
 use crate::disk::files;
 use crate::error::DataError;
 use crate::read::{Recording, open_with};
@@ -13,6 +12,7 @@ use crate::result::json::{read_json, write_json};
 use crate::result::{Component, NotLabelled};
 use crate::run::{LabelRun, Observer, Outcome, Stretch, refuse_to_write_into};
 use crate::settings::Settings;
+use crate::views::{DepthStore, SegmentationStore};
 use ralf::config::Method;
 use ralf::learned::Model;
 use ralf_files::Kind;
@@ -48,6 +48,9 @@ pub struct Job {
     /// A folder of depth images, as `ralf depth` wrote them.
     #[serde(default)]
     pub depth: Option<PathBuf>,
+    /// A folder of segmentations, as `ralf segment` wrote them.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub segmentation: Option<PathBuf>,
     /// Whether the record tells what a check says of the recording.
     #[serde(default)]
     pub check: bool,
@@ -74,6 +77,7 @@ impl Job {
             evidence: false,
             model: None,
             depth: None,
+            segmentation: None,
             check: true,
         }
     }
@@ -85,8 +89,12 @@ impl Job {
     pub fn open(&self) -> Result<Recording, DataError> {
         let recording = open_with(&self.recording, self.format.as_deref(), &self.settings.topics)?;
         let recording = self.settings.correct(recording.select(&self.sequences)?)?;
-        Ok(match &self.depth {
+        let recording = match &self.depth {
             Some(folder) => DepthStore::open(folder)?.attach(recording),
+            None => recording,
+        };
+        Ok(match &self.segmentation {
+            Some(folder) => SegmentationStore::open(folder)?.attach(recording),
             None => recording,
         })
     }

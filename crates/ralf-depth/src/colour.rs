@@ -1,6 +1,6 @@
 //! A colour image on its way into a network.
 
-use crate::DepthError;
+use crate::NetworkError;
 use crate::plane::Plane;
 use ralf::sensors::CameraImage;
 use std::array::from_fn;
@@ -12,11 +12,11 @@ pub(crate) struct Colour(pub(crate) [Plane; 3]);
 
 impl Colour {
     /// The pixels of a view.
-    pub(crate) fn from_view(view: &CameraImage) -> Result<Self, DepthError> {
+    pub(crate) fn from_view(view: &CameraImage) -> Result<Self, NetworkError> {
         let CameraImage { width, height, rgb } = view;
         if rgb.is_empty() || Some(rgb.len()) != width.checked_mul(*height) {
             let found = format!("{} pixels in {width} x {height}", rgb.len());
-            return Err(DepthError::View { expected: "width x height pixels".to_owned(), found });
+            return Err(NetworkError::View { expected: "width x height pixels".to_owned(), found });
         }
         let plane = |channel: usize| rgb.iter().map(|pixel| f32::from(pixel[channel])).collect();
         Ok(Self(from_fn(|channel| Plane { width: *width, height: *height, values: plane(channel) })))

@@ -1,11 +1,11 @@
-//! What can go wrong with a depth network: every error names the file, the place in it, what was expected and found.
+//! What can go wrong with a network: every error names the file, the place in it, what was expected and found.
 
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
-/// Why a network could not be loaded, or gave no depth.
+/// Why a network could not be loaded, or gave nothing.
 #[derive(Debug, Error)]
-pub enum DepthError {
+pub enum NetworkError {
     /// The system refused.
     #[error("{}: {error}", file.display())]
     Io {
@@ -86,7 +86,7 @@ pub enum DepthError {
     },
 }
 
-impl DepthError {
+impl NetworkError {
     /// For `map_err`: the system refused to read `file`.
     pub(crate) fn io(file: &Path) -> impl FnOnce(std::io::Error) -> Self {
         let file = file.to_owned();

@@ -1,6 +1,6 @@
 //! What the rest of the program knows of a depth network.
 
-use crate::DepthError;
+use crate::NetworkError;
 use ralf::sensors::{CameraImage, DepthImage, DepthOutput};
 
 /// Estimates the depth of a view from its colours alone.
@@ -11,7 +11,7 @@ pub trait DepthEstimator: Send + Sync {
     ///
     /// Networks that were trained for one focal length ([`crate::Card::canonical_focal`]) turn their depth metric with
     /// it; others don't look at it.
-    fn estimate(&self, view: &CameraImage, focal: f64) -> Result<DepthImage, DepthError>;
+    fn estimate(&self, view: &CameraImage, focal: f64) -> Result<DepthImage, NetworkError>;
 
     /// What the values mean.
     fn output(&self) -> DepthOutput;

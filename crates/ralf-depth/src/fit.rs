@@ -1,59 +1,48 @@
-//! Views of any proportions through networks of few: see [`Fit`].
+//! Whole views of any proportions through networks of few, and back: see [`Fit`].
 
 use crate::colour::Colour;
 use crate::plane::Plane;
-use crate::runner::Runner;
-use crate::squares;
-use crate::{Card, DepthError, Fit};
-use ralf::sensors::DepthOutput;
+use crate::{Feed, Fit};
 
-/// The depth of a view, in the view's size.
-pub(crate) fn depth(runner: &Runner<'_>, view: &Colour) -> Result<Plane, DepthError> {
-    let [width, height] = view.size();
-    let input = runner.card.input.of_view(width, height);
-    match runner.card.fit {
-        Fit::Stretch => {
-            let depth = runner.run(&view.resized(input[0], input[1]))?;
-            Ok(depth.resized(width, height))
-        }
-        Fit::Squares => in_squares(runner, view, input),
-        Fit::Pad(colour) => {
-            let [inner_width, inner_height] = inner_size([width, height], input);
-            let inner = view.resized(inner_width, inner_height);
-            let (padded, [left, top]) = inner.padded(input[0], input[1], colour);
-            let depth = runner.run(&padded)?.resized(input[0], input[1]);
-            let kept = depth.cut(left..left + inner_width, top..top + inner_height);
-            Ok(kept.resized(width, height))
-        }
-    }
+/// Where a whole view lies in an image of the network's size.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Framed {
+    /// Size of the view, px.
+    view: [usize; 2],
+    /// Size of the network's input, px.
+    input: [usize; 2],
+    /// Where the view begins in it, and its size there; `None` where it fills it.
+    inner: Option<([usize; 2], [usize; 2])>,
 }
 
-/// How many pixels of the network one pixel of the view becomes, where both sides scale alike.
-pub(crate) fn zoom(card: &Card, view: [usize; 2]) -> f64 {
-    let [width, height] = card.input.of_view(view[0], view[1]);
-    let [across, down] = [width as f64 / view[0] as f64, height as f64 / view[1] as f64];
-    match card.fit {
-        Fit::Pad(_) => across.min(down),
-        Fit::Squares | Fit::Stretch => down,
-    }
-}
+/// Brings a plane to a width and a height.
+pub(crate) type Resize = fn(&Plane, usize, usize) -> Plane;
 
-fn in_squares(runner: &Runner<'_>, view: &Colour, input: [usize; 2]) -> Result<Plane, DepthError> {
-    let [width, height] = view.size();
-    if width < height {
-        let expected = "at least as wide as high, for fit = \"squares\"".to_owned();
-        return Err(DepthError::View { expected, found: format!("{width} x {height} px") });
+impl Framed {
+    /// The image of a view that a network is fed.
+    pub(crate) fn new(feed: &Feed, view: &Colour) -> (Self, Colour) {
+        let [width, height] = view.size();
+        let input = feed.input.of_view(width, height);
+        let framed = Self { view: [width, height], input, inner: None };
+        match feed.fit {
+            Fit::Pad(colour) => {
+                let size = inner_size([width, height], input);
+                let (padded, place) = view.resized(size[0], size[1]).padded(input[0], input[1], colour);
+                (Self { inner: Some((place, size)), ..framed }, padded)
+            }
+            Fit::Stretch | Fit::Squares => (framed, view.resized(input[0], input[1])),
+        }
     }
-    let estimated = squares::places(width, height).into_iter().map(|left| {
-        let square = view.columns(left..left + height).resized(input[0], input[1]);
-        Ok((left, runner.run(&square)?.resized(height, height)))
-    });
-    let estimated: Vec<_> = estimated.collect::<Result<_, DepthError>>()?;
-    let scales = match runner.card.output {
-        DepthOutput::Metric => vec![1.0; estimated.len()],
-        DepthOutput::Depth | DepthOutput::Disparity => squares::scales(&estimated)?,
-    };
-    Ok(squares::blended(width, &estimated, &scales))
+
+    /// What a network gave for that image, in the view's size.
+    pub(crate) fn back(&self, plane: Plane, resize: Resize) -> Plane {
+        let [width, height] = self.view;
+        let Some(([left, top], [inner_width, inner_height])) = self.inner else {
+            return resize(&plane, width, height);
+        };
+        let whole = resize(&plane, self.input[0], self.input[1]);
+        resize(&whole.cut(left..left + inner_width, top..top + inner_height), width, height)
+    }
 }
 
 /// The largest size in the view's proportions that fits into the network's.

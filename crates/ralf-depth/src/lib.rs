@@ -1,7 +1,9 @@
-//! Monocular depth networks: one view of a camera in, one depth image of the same size out (docs/method.md, section 5).
+//! Networks that look at images: one straight view of a camera in, its depth (docs/method.md, section 5) or the class
+//! of each pixel (section 11) of the same size out.
 //!
 //! An [`OnnxModel`] is an `.onnx` file with a [`Card`] beside it: a small TOML file that says how the network is fed
-//! and what comes out. [`Card`] lists its keys; [`presets`] are cards of public networks, to build on. Nothing is
+//! and what comes out. [`Card`] lists its keys; [`presets`] are cards of public networks, to build on. A
+//! [`SegmentationModel`] is the same with a [`SegmentationCard`]. Nothing is
 //! guessed: a card that doesn't go with its network is refused when the two are loaded.
 //!
 //! An image takes this way: view -> [`Fit`] -> resize (antialiased) -> normalise -> network, and once more mirrored if
@@ -13,7 +15,7 @@
 //! ```no_run
 //! use ralf_depth::{DepthEstimator, OnnxModel};
 //!
-//! # fn main() -> Result<(), ralf_depth::DepthError> {
+//! # fn main() -> Result<(), ralf_depth::NetworkError> {
 //! # let view = ralf::sensors::CameraImage { width: 0, height: 0, rgb: vec![] };
 //! // Reads the card models/midas.toml.
 //! let model = OnnxModel::load("models/midas.onnx".as_ref(), None)?;
@@ -25,6 +27,7 @@
 
 mod card;
 mod colour;
+mod depth;
 mod error;
 mod estimator;
 mod fit;
@@ -35,6 +38,9 @@ mod ort_backend;
 mod plane;
 mod rten_backend;
 mod runner;
+mod segmentation;
+#[cfg(test)]
+mod segmentation_tests;
 mod spares;
 mod squares;
 #[cfg(test)]
@@ -43,7 +49,8 @@ mod testing;
 mod tests;
 mod wire;
 
-pub use card::{Card, Channels, Fit, InputSize, Side, presets};
-pub use error::DepthError;
+pub use card::{Card, Channels, Feed, Fit, InputSize, OutputClass, SegmentationCard, Side, presets};
+pub use error::NetworkError;
 pub use estimator::DepthEstimator;
 pub use model::{OnnxModel, Runtime};
+pub use segmentation::SegmentationModel;

@@ -1,6 +1,6 @@
 //! A loaded network, whatever runs it, and whether it goes with its card.
 
-use crate::{Card, DepthError, InputSize};
+use crate::{Card, Feed, InputSize, NetworkError, SegmentationCard};
 use std::path::Path;
 
 /// An input or output of a network.
@@ -9,11 +9,22 @@ pub(crate) struct Port {
     pub(crate) name: String,
     /// `None` where the file leaves a size, or all of them, to be seen.
     pub(crate) shape: Option<Vec<Option<usize>>>,
-    /// Whether it holds 32-bit floats, as far as the file says.
-    pub(crate) float: bool,
+    /// What it holds, as far as the file says.
+    pub(crate) element: Element,
 }
 
-/// An array of floats.
+/// Elements of an input or output.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Element {
+    /// 32-bit floats.
+    Float,
+    /// Whole numbers that count something.
+    Whole,
+    /// Anything else.
+    Other,
+}
+
+/// An array of numbers.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Tensor {
     pub(crate) shape: Vec<usize>,
@@ -37,17 +48,58 @@ pub(crate) trait Network: Send + Sync {
 }
 
 /// The index of the output that holds depth. Refuses networks that the card doesn't describe.
-pub(crate) fn depth_output(file: &Path, network: &dyn Network, card: &Card) -> Result<usize, DepthError> {
-    check_input(file, &network.inputs(), card)?;
-    let outputs = network.outputs();
-    let index = choose_output(file, &outputs, card)?;
-    let port = &outputs[index];
+pub(crate) fn depth_output(file: &Path, network: &dyn Network, card: &Card) -> Result<usize, NetworkError> {
+    let (index, port) = output(file, network, &card.feed, card.output_name.as_deref())?;
     let possible = port.shape.as_ref().is_none_or(|shape| depth_size(shape).is_some());
-    if port.float && possible {
+    if port.element == Element::Float && possible {
         return Ok(index);
     }
-    let place = format!("output `{}`", port.name);
-    Err(DepthError::content(file, place, "float32 [1, 1, H, W], [1, H, W] or [H, W]", described(port)))
+    Err(wrong_output(file, &port, "float32 [1, 1, H, W], [1, H, W] or [H, W]"))
+}
+
+/// The index of the output that holds classes. Refuses networks that the card doesn't describe.
+pub(crate) fn classes_output(
+    file: &Path,
+    network: &dyn Network,
+    card: &SegmentationCard,
+) -> Result<usize, NetworkError> {
+    let (index, port) = output(file, network, &card.feed, card.output_name.as_deref())?;
+    let classes = card.classes.len();
+    let scores = |shape: &[Option<usize>]| score_size(shape, classes).is_some();
+    let possible = |shape: &Vec<_>| match port.element {
+        Element::Float => scores(shape) || depth_size(shape).is_some(),
+        Element::Whole => depth_size(shape).is_some(),
+        Element::Other => false,
+    };
+    if port.element != Element::Other && port.shape.as_ref().is_none_or(possible) {
+        return Ok(index);
+    }
+    let expected = format!("scores, float32 [1, {classes}, H, W] as the card says, or places, [1, H, W]");
+    Err(wrong_output(file, &port, &expected))
+}
+
+/// Height and width of an output's shape that holds a score for each of so many classes; `None` if it doesn't.
+pub(crate) fn score_size(shape: &[Option<usize>], classes: usize) -> Option<[Option<usize>; 2]> {
+    let [images, found, height, width] = *<&[_; 4]>::try_from(shape).ok()?;
+    let fits = images.is_none_or(|images| images == 1) && found.is_none_or(|found| found == classes);
+    fits.then_some([height, width])
+}
+
+/// The output that the card means, of a network whose input is as the card says.
+fn output(
+    file: &Path,
+    network: &dyn Network,
+    feed: &Feed,
+    name: Option<&str>,
+) -> Result<(usize, Port), NetworkError> {
+    check_input(file, &network.inputs(), feed)?;
+    let mut outputs = network.outputs();
+    let index = choose_output(file, &outputs, name)?;
+    Ok((index, outputs.swap_remove(index)))
+}
+
+fn wrong_output(file: &Path, port: &Port, expected: &str) -> NetworkError {
+    NetworkError::content(file, format!("output `{}`", port.name), expected, described(port))
 }
 
 /// Height and width of an output's shape, which may begin with sizes of 1; `None` if it is no image.
@@ -57,12 +109,12 @@ pub(crate) fn depth_size(shape: &[Option<usize>]) -> Option<[Option<usize>; 2]> 
     single.then_some(*size)
 }
 
-fn check_input(file: &Path, inputs: &[Port], card: &Card) -> Result<(), DepthError> {
+fn check_input(file: &Path, inputs: &[Port], feed: &Feed) -> Result<(), NetworkError> {
     let [input] = inputs else {
         let found = format!("{}: {}", inputs.len(), names(inputs));
-        return Err(DepthError::content(file, "inputs", "one, the image", found));
+        return Err(NetworkError::content(file, "inputs", "one, the image", found));
     };
-    let (expected, size) = match card.input {
+    let (expected, size) = match feed.input {
         InputSize::Fixed { width, height } => {
             (format!("float32 [1, 3, {height}, {width}]"), [Some(height), Some(width)])
         }
@@ -73,20 +125,20 @@ fn check_input(file: &Path, inputs: &[Port], card: &Card) -> Result<(), DepthErr
     let goes = |(found, wanted): (&Option<usize>, &Option<usize>)| found.is_none() || found == wanted;
     let fits =
         input.shape.as_ref().is_none_or(|shape| shape.len() == 4 && shape.iter().zip(&wanted).all(goes));
-    if input.float && fits {
+    if input.element == Element::Float && fits {
         return Ok(());
     }
     let place = format!("input `{}`", input.name);
-    Err(DepthError::content(file, place, format!("{expected}, as the card says"), described(input)))
+    Err(NetworkError::content(file, place, format!("{expected}, as the card says"), described(input)))
 }
 
-fn choose_output(file: &Path, outputs: &[Port], card: &Card) -> Result<usize, DepthError> {
+fn choose_output(file: &Path, outputs: &[Port], name: Option<&str>) -> Result<usize, NetworkError> {
     let wrong = |expected: String| {
         let found = if outputs.is_empty() { "none".to_owned() } else { names(outputs) };
-        Err(DepthError::content(file, "outputs", expected, found))
+        Err(NetworkError::content(file, "outputs", expected, found))
     };
-    match (&card.output_name, outputs) {
-        (Some(name), _) => match outputs.iter().position(|port| port.name == *name) {
+    match (name, outputs) {
+        (Some(name), _) => match outputs.iter().position(|port| port.name == name) {
             Some(index) => Ok(index),
             None => wrong(format!("`{name}`, as the card says")),
         },
@@ -104,5 +156,5 @@ fn described(port: &Port) -> String {
     let shape = port.shape.as_ref().map_or("of any shape".to_owned(), |shape| {
         format!("[{}]", shape.iter().map(size).collect::<Vec<_>>().join(", "))
     });
-    format!("{} {shape}", if port.float { "float32" } else { "other than float32" })
+    format!("{} {shape}", if port.element == Element::Float { "float32" } else { "other than float32" })
 }

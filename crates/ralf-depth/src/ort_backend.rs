@@ -1,7 +1,7 @@
 //! Networks run by ONNX Runtime, from its shared library.
 
-use crate::DepthError;
-use crate::network::{Network, Port, Tensor};
+use crate::NetworkError;
+use crate::network::{Element, Network, Port, Tensor};
 use crate::spares::Spares;
 use ort::environment::Environment;
 use ort::session::Session;
@@ -26,8 +26,8 @@ pub(crate) struct OrtNetwork {
 }
 
 /// Loads the library, once per process.
-pub(crate) fn require_library() -> Result<(), DepthError> {
-    environment().map(drop).map_err(|reason| DepthError::NoRuntime { runtime: NAME, reason })
+pub(crate) fn require_library() -> Result<(), NetworkError> {
+    environment().map(drop).map_err(|reason| NetworkError::NoRuntime { runtime: NAME, reason })
 }
 
 fn environment() -> Result<&'static Environment, String> {
@@ -93,19 +93,41 @@ fn run(session: &mut Session, input: &Tensor, output: usize) -> Result<Tensor, o
     let shape = input.shape.iter().map(|size| *size as i64).collect::<Vec<_>>();
     let view = TensorRef::from_array_view((shape, input.values.as_slice()))?;
     let outputs = session.run(ort::inputs![view])?;
-    let (shape, values) = outputs[output].try_extract_tensor::<f32>()?;
-    Ok(Tensor { shape: shape.iter().map(|size| *size as usize).collect(), values: values.to_vec() })
+    let found = &outputs[output];
+    let sizes = |shape: &[i64]| shape.iter().map(|size| *size as usize).collect();
+    if let Ok((shape, places)) = found.try_extract_tensor::<i64>() {
+        return Ok(Tensor {
+            shape: sizes(shape),
+            values: places.iter().map(|place| *place as f32).collect(),
+        });
+    }
+    if let Ok((shape, places)) = found.try_extract_tensor::<i32>() {
+        return Ok(Tensor {
+            shape: sizes(shape),
+            values: places.iter().map(|place| *place as f32).collect(),
+        });
+    }
+    let (shape, values) = found.try_extract_tensor::<f32>()?;
+    Ok(Tensor { shape: sizes(shape), values: values.to_vec() })
 }
 
 fn port(outlet: &Outlet) -> Port {
-    let (float, shape) = match outlet.dtype() {
+    let (element, shape) = match outlet.dtype() {
         ValueType::Tensor { ty, shape, .. } => {
             let sizes = shape.iter().map(|size| usize::try_from(*size).ok()).collect();
-            (*ty == TensorElementType::Float32, Some(sizes))
+            (element(*ty), Some(sizes))
         }
-        _ => (false, None),
+        _ => (Element::Other, None),
     };
-    Port { name: outlet.name().to_owned(), shape, float }
+    Port { name: outlet.name().to_owned(), shape, element }
+}
+
+fn element(ty: TensorElementType) -> Element {
+    match ty {
+        TensorElementType::Float32 => Element::Float,
+        TensorElementType::Int64 | TensorElementType::Int32 => Element::Whole,
+        _ => Element::Other,
+    }
 }
 
 #[cfg(test)]

@@ -35,6 +35,15 @@ impl Plane {
         self.resized_across(width).resized_down(height)
     }
 
+    /// The nearest pixel's value, for numbers that have no mean.
+    pub(crate) fn nearest(&self, width: usize, height: usize) -> Self {
+        let from = |place: usize, own: usize, other: usize| (2 * place + 1) * own / (2 * other);
+        let row = |row: usize| &self.values[from(row, self.height, height) * self.width..][..self.width];
+        let values = (0..height)
+            .flat_map(|place| (0..width).map(move |column| row(place)[from(column, self.width, width)]));
+        Self { width, height, values: values.collect() }
+    }
+
     fn resized_across(&self, width: usize) -> Self {
         if width == self.width {
             return self.clone();
@@ -132,6 +141,14 @@ mod tests {
                 );
             }
         }
+    }
+
+    #[test]
+    fn the_nearest_pixel_keeps_its_value() {
+        let plane = Plane { width: 3, height: 2, values: vec![1.0, 2.0, 3.0, 4.0, 5.0, 6.0] };
+        assert_eq!(plane.nearest(6, 2).values[..6], [1.0, 1.0, 2.0, 2.0, 3.0, 3.0]);
+        assert_eq!(plane.nearest(1, 1).values, [5.0]);
+        assert_eq!(plane.nearest(3, 2), plane);
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! Networks run by rten: in Rust throughout, on the processor, nothing to install.
 
-use crate::network::{Network, Port, Tensor};
+use crate::network::{Element, Network, Port, Tensor};
 use crate::spares::Spares;
 use crate::wire;
 use rten::{DataType, Dimension, Model, NodeId, RunOptions, ThreadPool, Value, ValueType};
@@ -37,11 +37,15 @@ impl RtenNetwork {
             Dimension::Symbolic(_) => None,
         };
         let shape = info.as_ref().and_then(|info| info.shape());
-        let float = ValueType::Tensor(DataType::Float);
+        let element = match info.as_ref().and_then(|info| info.dtype()) {
+            Some(ValueType::Tensor(DataType::Float)) | None => Element::Float,
+            Some(ValueType::Tensor(DataType::Int32)) => Element::Whole,
+            Some(_) => Element::Other,
+        };
         Port {
             name: info.as_ref().and_then(|info| info.name()).unwrap_or_default().to_owned(),
             shape: shape.map(|shape| shape.into_iter().map(size).collect()),
-            float: info.and_then(|info| info.dtype()).is_none_or(|dtype| dtype == float),
+            element,
         }
     }
 
@@ -52,9 +56,18 @@ impl RtenNetwork {
         let options = RunOptions::default().with_thread_pool(Some(Arc::clone(pool)));
         let outputs = self.model.run(vec![(feed, input.into())], &[node], Some(options));
         let value = outputs.map_err(|error| error.to_string())?.pop().ok_or("no output")?;
-        let tensor = value.into_tensor::<f32>().ok_or("an output other than float32")?;
-        Ok(Tensor { shape: tensor.shape().to_vec(), values: tensor.to_vec() })
+        numbers(value).ok_or_else(|| "an output other than float32 or int".to_owned())
     }
+}
+
+/// An output's numbers; rten's whole ones have 32 bits, whatever the file says.
+fn numbers(value: Value) -> Option<Tensor> {
+    if let Value::Int32Tensor(tensor) = &value {
+        let values = tensor.iter().map(|value| *value as f32).collect();
+        return Some(Tensor { shape: tensor.shape().to_vec(), values });
+    }
+    let tensor = value.into_tensor::<f32>()?;
+    Some(Tensor { shape: tensor.shape().to_vec(), values: tensor.to_vec() })
 }
 
 impl Network for RtenNetwork {

@@ -1,9 +1,8 @@
 //! One image of the network's size through the network.
 
 use crate::colour::Colour;
-use crate::network::{Network, Tensor, depth_size};
-use crate::plane::Plane;
-use crate::{Card, Channels, DepthError};
+use crate::network::{Network, Tensor};
+use crate::{Channels, Feed, NetworkError};
 use std::path::Path;
 
 /// A network that goes with its card.
@@ -11,40 +10,40 @@ use std::path::Path;
 pub(crate) struct Runner<'a> {
     /// For errors.
     pub(crate) file: &'a Path,
-    pub(crate) card: &'a Card,
+    pub(crate) feed: &'a Feed,
     pub(crate) network: &'a dyn Network,
-    /// Index of the depth among the network's outputs.
+    /// Index of what is wanted among the network's outputs.
     pub(crate) output: usize,
 }
 
 impl Runner<'_> {
-    /// The network's depth for an image of its input's size, in a size of the network's own; averaged with the mirror
-    /// image's where the card says so.
-    pub(crate) fn run(&self, image: &Colour) -> Result<Plane, DepthError> {
-        let mut depth = self.run_once(image)?;
-        if self.card.flip {
-            let mirrored = self.run_once(&image.mirrored())?.mirrored();
-            for (value, other) in depth.values.iter_mut().zip(mirrored.values) {
-                *value = 0.5 * (*value + other);
-            }
-        }
-        Ok(depth)
-    }
-
-    fn run_once(&self, image: &Colour) -> Result<Plane, DepthError> {
+    /// The network's output for an image of its input's size.
+    pub(crate) fn run(&self, image: &Colour) -> Result<Tensor, NetworkError> {
         let [width, height] = image.size();
         let input = Tensor { shape: vec![1, 3, height, width], values: self.normalised(image) };
-        let output = self.network.run(input, self.output).map_err(|reason| DepthError::Failed {
+        self.network.run(input, self.output).map_err(|reason| NetworkError::Failed {
             file: self.file.to_owned(),
             runtime: self.network.runtime(),
             reason,
-        })?;
-        self.checked(output, [width, height])
+        })
+    }
+
+    /// An output that isn't what it should be.
+    pub(crate) fn wrong(&self, expected: &str, found: impl Into<String>) -> NetworkError {
+        let port = self.network.outputs().swap_remove(self.output);
+        NetworkError::content(self.file, format!("output `{}`", port.name), expected, found)
+    }
+
+    /// Refuses values that aren't finite; rows are `width` long.
+    pub(crate) fn finite(&self, values: &[f32], width: usize) -> Result<(), NetworkError> {
+        let Some(index) = values.iter().position(|value| !value.is_finite()) else { return Ok(()) };
+        let found = format!("{} in row {}, column {}", values[index], index / width, index % width);
+        Err(self.wrong("finite values", found))
     }
 
     /// Channel by channel in the network's order, row by row.
     fn normalised(&self, image: &Colour) -> Vec<f32> {
-        let Card { channels, divide_by, mean, std, .. } = self.card;
+        let Feed { channels, divide_by, mean, std, .. } = self.feed;
         let order = match channels {
             Channels::Rgb => [0, 1, 2],
             Channels::Bgr => [2, 1, 0],
@@ -55,29 +54,15 @@ impl Runner<'_> {
         });
         values.collect()
     }
+}
 
-    /// The output as an image, refused unless it has the input's proportions and is finite everywhere.
-    fn checked(&self, output: Tensor, input: [usize; 2]) -> Result<Plane, DepthError> {
-        let wrong = |expected: &str, found: String| {
-            let port = self.network.outputs().swap_remove(self.output);
-            DepthError::content(self.file, format!("output `{}`", port.name), expected, found)
-        };
-        let shape: Vec<_> = output.shape.iter().copied().map(Some).collect();
-        let [width, height] = match depth_size(&shape) {
-            // Networks may answer in a fraction of the input's resolution, but of all of it.
-            Some([Some(height), Some(width)]) if width > 0 && width * input[1] == height * input[0] => {
-                [width, height]
-            }
-            _ => {
-                let expected = format!("[1, 1, {}, {}] or the same smaller", input[1], input[0]);
-                return Err(wrong(&expected, format!("{:?}", output.shape)));
-            }
-        };
-        if let Some(index) = output.values.iter().position(|value| !value.is_finite()) {
-            let found =
-                format!("{} in row {}, column {}", output.values[index], index / width, index % width);
-            return Err(wrong("finite values", found));
+/// Width and height of an output for an input of a size, where it has all of it: networks may answer in a fraction of
+/// the input's resolution.
+pub(crate) fn whole(size: Option<[Option<usize>; 2]>, input: [usize; 2]) -> Option<[usize; 2]> {
+    match size {
+        Some([Some(height), Some(width)]) if width > 0 && width * input[1] == height * input[0] => {
+            Some([width, height])
         }
-        Ok(Plane { width, height, values: output.values })
+        _ => None,
     }
 }

@@ -1,6 +1,6 @@
 //! A wide view covered with squares of its full height, and their depths made one: see [`crate::Fit::Squares`].
 
-use crate::DepthError;
+use crate::NetworkError;
 use crate::plane::Plane;
 
 /// First columns of the squares that cover a view, evenly spread; neighbours share at least half of their columns.
@@ -15,7 +15,7 @@ pub(crate) fn places(width: usize, height: usize) -> Vec<usize> {
 /// neighbours.
 ///
 /// Squares come with their first column, from left to right, in the view's resolution.
-pub(crate) fn scales(squares: &[(usize, Plane)]) -> Result<Vec<f32>, DepthError> {
+pub(crate) fn scales(squares: &[(usize, Plane)]) -> Result<Vec<f32>, NetworkError> {
     let mut scales = vec![1.0; squares.len()];
     let middle = squares.len() / 2;
     for right in middle + 1..squares.len() {
@@ -54,14 +54,14 @@ fn weight(column: usize, width: usize) -> f32 {
 }
 
 /// Median of left / right over the pixels of which both have depth.
-fn median_ratio(left: &(usize, Plane), right: &(usize, Plane)) -> Result<f32, DepthError> {
+fn median_ratio(left: &(usize, Plane), right: &(usize, Plane)) -> Result<f32, NetworkError> {
     let (start, shared) = (right.0 - left.0, (left.0 + left.1.width).saturating_sub(right.0));
     let rows = left.1.rows().zip(right.1.rows());
     let pairs = rows.flat_map(|(left, right)| left[start..].iter().zip(&right[..shared]));
     let mut ratios: Vec<f32> = pairs.filter(|(l, r)| **l > 0.0 && **r > 0.0).map(|(l, r)| l / r).collect();
     let middle = ratios.len() / 2;
     if ratios.is_empty() {
-        return Err(DepthError::Seam { left: left.0, right: right.0 });
+        return Err(NetworkError::Seam { left: left.0, right: right.0 });
     }
     Ok(*ratios.select_nth_unstable_by(middle, f32::total_cmp).1)
 }

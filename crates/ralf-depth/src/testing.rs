@@ -31,10 +31,20 @@ pub(crate) fn node(operator: &str, inputs: &[&str], output: &str, attributes: &[
         let values: Vec<u8> = values.iter().flat_map(|value| number(8, *value)).collect();
         bytes(5, &[bytes(1, name.as_bytes()), values, number(20, 7)].concat())
     };
-    let inputs = inputs.iter().flat_map(|name| bytes(1, name.as_bytes())).collect();
-    let attributes = attributes.iter().flat_map(attribute).collect();
-    let names = [bytes(2, output.as_bytes()), bytes(3, output.as_bytes()), bytes(4, operator.as_bytes())];
-    [inputs, names.concat(), attributes].concat()
+    [named(operator, inputs, output), attributes.iter().flat_map(attribute).collect()].concat()
+}
+
+fn named(operator: &str, inputs: &[&str], output: &str) -> Vec<u8> {
+    let inputs: Vec<u8> = inputs.iter().flat_map(|name| bytes(1, name.as_bytes())).collect();
+    [inputs, bytes(2, output.as_bytes()), bytes(3, output.as_bytes()), bytes(4, operator.as_bytes())].concat()
+}
+
+/// An operator of one input; attributes are whole numbers.
+pub(crate) fn flagged(operator: &str, input: &str, output: &str, attributes: &[(&str, u64)]) -> Vec<u8> {
+    let attribute = |(name, value): &(&str, u64)| {
+        bytes(5, &[bytes(1, name.as_bytes()), number(3, *value), number(20, 2)].concat())
+    };
+    [named(operator, &[input], output), attributes.iter().flat_map(attribute).collect()].concat()
 }
 
 /// A convolution of `image` with the weights `w`, `margin` columns of zeros to either side.

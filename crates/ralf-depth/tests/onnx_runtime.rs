@@ -7,7 +7,7 @@
 )]
 
 use ralf::sensors::CameraImage;
-use ralf_depth::{DepthError, DepthEstimator, OnnxModel, Runtime};
+use ralf_depth::{DepthEstimator, NetworkError, OnnxModel, Runtime};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 use tempfile::TempDir;
@@ -26,7 +26,7 @@ fn data() -> Option<PathBuf> {
     std::env::var_os("RALF_TEST_DATA").map(PathBuf::from)
 }
 
-fn load(runtime: Runtime, network: &Path) -> Result<OnnxModel, DepthError> {
+fn load(runtime: Runtime, network: &Path) -> Result<OnnxModel, NetworkError> {
     let folder = TempDir::new().unwrap();
     let card = folder.path().join("card.toml");
     std::fs::write(&card, CARD).unwrap();

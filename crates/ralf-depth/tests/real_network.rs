@@ -9,7 +9,7 @@ use ralf::scene::project_points;
 use ralf::sensors::{CameraImage, StraightView, UndistortMap, ViewPoint, is_return};
 use ralf::space::Point;
 use ralf_data::{Recording, SequenceReader};
-use ralf_depth::{DepthError, DepthEstimator, OnnxModel};
+use ralf_depth::{DepthEstimator, NetworkError, OnnxModel};
 use std::path::{Path, PathBuf};
 use tempfile::TempDir;
 
@@ -73,7 +73,7 @@ impl Real {
 }
 
 /// The network with a card that lies elsewhere.
-fn load(network: &Path, card: &str) -> Result<OnnxModel, DepthError> {
+fn load(network: &Path, card: &str) -> Result<OnnxModel, NetworkError> {
     let folder = TempDir::new().unwrap();
     let file = folder.path().join("card.toml");
     std::fs::write(&file, card).unwrap();

@@ -41,8 +41,8 @@ use ralf::config::Config;
 use ralf::sensors::DepthOutput;
 use ralf_corrections::{Mark, ScanKey, Store, Who};
 use ralf_data::Settings;
-use ralf_data::depth::DepthStore;
 use ralf_data::result::Component;
+use ralf_data::views::DepthStore;
 use std::fs;
 use std::path::Path;
 

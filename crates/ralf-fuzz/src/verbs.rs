@@ -2,10 +2,10 @@
 
 use ralf::config::Config;
 use ralf::sensors::{CameraImage, Source};
-use ralf_data::depth::DepthStore;
 use ralf_data::read::inspection::Inspection;
 use ralf_data::read::ros::Topics;
 use ralf_data::run::{LabelRun, Unwatched, read_record};
+use ralf_data::views::DepthStore;
 use ralf_data::write::export::{Export, ExportFormat, ExportOptions, RosFormat, Sensors, Split, write_ros};
 use ralf_data::{Balances, Comparison, Corrections, DataError, GroundTruth, Recording, Settings};
 use ralf_depth::{DepthEstimator, OnnxModel};

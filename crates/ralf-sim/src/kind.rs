@@ -63,6 +63,16 @@ impl Kind {
         }
     }
 
+    /// SemanticKITTI id of what a camera sees: other than a radar detection, it may be ground.
+    pub(super) fn seen_class(self) -> u16 {
+        match self {
+            Self::Road => 40,
+            Self::Sidewalk => 48,
+            Self::Marking => 60,
+            other => other.class(),
+        }
+    }
+
     /// Length, width and height where the scenario gives none, m.
     pub(super) fn usual_size(self) -> [f64; 3] {
         match self {

@@ -14,8 +14,8 @@ use super::truth::Truth;
 use super::vehicle::rig;
 use ralf::label::Cause;
 use ralf::sensors::{
-    Camera, CameraImage, DepthImage, DepthOutput, LidarScan, RadarScan, Sequence, Source, SourceError,
-    Timelines,
+    Camera, CameraImage, ClassImage, DepthImage, DepthOutput, LidarScan, RadarScan, Sequence, Source,
+    SourceError, Timelines,
 };
 use ralf::space::{EgoMotion, Transform, Vector};
 use std::sync::OnceLock;
@@ -160,6 +160,10 @@ impl Simulation for ScenarioSequence {
 
     fn true_depth(&self, camera: usize, image: usize) -> Result<Vec<DepthImage>, SourceError> {
         Ok(camera::true_depth(&self.moment(camera, image)?.1))
+    }
+
+    fn true_classes(&self, camera: usize, image: usize) -> Result<Vec<ClassImage>, SourceError> {
+        Ok(camera::true_classes(&self.moment(camera, image)?.1))
     }
 }
 

@@ -5,7 +5,9 @@ use super::scenario_sequence::ScenarioSequence;
 use super::simulation::Simulation;
 use super::truth::Truth;
 use ralf::label::Cause;
-use ralf::sensors::{CameraImage, DepthImage, LidarScan, RadarScan, Sequence, Source, SourceError};
+use ralf::sensors::{
+    CameraImage, ClassImage, DepthImage, LidarScan, RadarScan, Sequence, Source, SourceError,
+};
 use ralf::space::Transform;
 
 /// A sequence made from a scenario and a seed, or one of a [`crate::world::Recording`].
@@ -22,6 +24,8 @@ use ralf::space::Transform;
 #[derive(Debug)]
 pub struct SimulatedSequence {
     inner: Box<dyn Simulation>,
+    /// Whether its images come with their segmentation.
+    segmented: bool,
 }
 
 impl SimulatedSequence {
@@ -31,13 +35,25 @@ impl SimulatedSequence {
     }
 
     pub(super) fn from_simulation(simulation: impl Simulation + 'static) -> Self {
-        Self { inner: Box::new(simulation) }
+        Self { inner: Box::new(simulation), segmented: false }
     }
 
     /// The same sequence from a vehicle without cameras: all other measurements are as they were.
     pub fn without_cameras(mut self) -> Self {
         self.inner.remove_cameras();
         self
+    }
+
+    /// The same sequence whose images come with what a faultless segmentation network gives: all other measurements are
+    /// as they were.
+    pub fn with_segmentation(mut self) -> Self {
+        self.segmented = true;
+        self
+    }
+
+    /// Whether its images come with their segmentation.
+    pub fn is_segmented(&self) -> bool {
+        self.segmented
     }
 
     /// What is true of each detection of a scan, in its order. The error names a scan that doesn't exist.
@@ -86,5 +102,9 @@ impl Source for SimulatedSequence {
 
     fn depth(&self, camera: usize, image: usize) -> Result<Option<Vec<DepthImage>>, SourceError> {
         self.inner.depth(camera, image)
+    }
+
+    fn classes(&self, camera: usize, image: usize) -> Result<Option<Vec<ClassImage>>, SourceError> {
+        self.segmented.then(|| self.inner.true_classes(camera, image)).transpose()
     }
 }

@@ -2,7 +2,7 @@
 
 use super::truth::Truth;
 use ralf::label::Cause;
-use ralf::sensors::{DepthImage, Source, SourceError};
+use ralf::sensors::{ClassImage, DepthImage, Source, SourceError};
 use ralf::space::Transform;
 use std::fmt::Debug;
 
@@ -25,6 +25,9 @@ pub(super) trait Simulation: Source + Debug {
 
     /// The true depth of each straight view of an image along its axis, m.
     fn true_depth(&self, camera: usize, image: usize) -> Result<Vec<DepthImage>, SourceError>;
+
+    /// The true classes of each straight view of an image.
+    fn true_classes(&self, camera: usize, image: usize) -> Result<Vec<ClassImage>, SourceError>;
 }
 
 /// Time of a measurement, ns.

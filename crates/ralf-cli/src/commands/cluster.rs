@@ -38,7 +38,7 @@ pub(crate) struct ClusterArgs {
 #[derive(Debug, Subcommand)]
 enum Step {
     /// Find out what is to be done, and write it down in OUT
-    Plan(PlanArgs),
+    Plan(Box<PlanArgs>),
     /// Do one task
     Label(TaskArgs),
     /// Put together what tasks have labelled
@@ -60,6 +60,9 @@ struct PlanArgs {
     /// Take depth images from this folder, as `ralf depth -o` wrote them
     #[arg(long, value_name = "FOLDER")]
     depth: Option<PathBuf>,
+    /// Take segmentations from this folder, as `ralf segment -o` wrote them
+    #[arg(long, value_name = "FOLDER")]
+    segmentation: Option<PathBuf>,
     /// Gather what else is known of each detection (docs/evidence.md)
     #[arg(long)]
     evidence: bool,
@@ -122,6 +125,7 @@ fn plan(arguments: &PlanArgs) -> anyhow::Result<Outcome> {
             evidence: arguments.evidence,
             model: arguments.method.model.clone(),
             depth: arguments.depth.clone(),
+            segmentation: arguments.segmentation.clone(),
             check: !arguments.no_check,
             ..Job::new(recording, out)
         };

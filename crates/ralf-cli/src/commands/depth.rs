@@ -1,13 +1,13 @@
 //! `ralf depth`: the depth of every image, once for all; and how well it fits the LiDAR.
 
 use crate::arguments::{DatasetArgs, SettingsArgs, threads};
-use crate::depth_model::{DepthModelArgs, all_images, fill};
+use crate::network::{DepthModelArgs, all_images, fill_depth};
 use crate::outcome::{Outcome, UsageError};
 use crate::text::{aligned, grouped, print};
 use anyhow::{Context, ensure};
 use clap::Args;
 use ralf_data::Recording;
-use ralf_data::depth::{CameraCheck, DepthStore, check_scalings};
+use ralf_data::views::{CameraCheck, DepthStore, check_scalings};
 use ralf_depth::{DepthEstimator, OnnxModel};
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
@@ -57,7 +57,7 @@ pub(crate) fn run(arguments: &DepthArgs) -> anyhow::Result<Outcome> {
     if let Some(model) = model {
         let store = arguments.store(&recording, &model)?;
         let jobs = threads(arguments.jobs);
-        if fill(&store, &recording, &model, all_images, jobs)? > 0 {
+        if fill_depth(&store, &recording, &model, all_images, jobs)? > 0 {
             outcome = Outcome::Partial;
         }
         recording = store.attach(recording);

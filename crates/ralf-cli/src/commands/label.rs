@@ -3,7 +3,7 @@
 use super::check::page::doubts;
 use crate::arguments::{DatasetArgs, MethodArgs, SettingsArgs, threads};
 #[cfg(feature = "depth")]
-use crate::depth_model::{DepthModelArgs, depth_for_labelling};
+use crate::network::{DepthModelArgs, depth_for_labelling};
 use crate::outcome::Outcome;
 use crate::progress::{Stages, say};
 use crate::run_summary::run_summary;
@@ -11,8 +11,8 @@ use crate::spent::Work;
 use crate::text::{grouped, print};
 use clap::Args;
 use ralf_data::Recording;
-use ralf_data::depth::DepthStore;
 use ralf_data::run::{CheckRecord, LabelRun, Outcome as RunOutcome, RunRecord, SequenceRecord, check_all};
+use ralf_data::views::{DepthStore, SegmentationStore};
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 use std::time::Instant;
@@ -30,6 +30,7 @@ Examples:
   ralf label nuscenes -o out --sequence scene-0061 --set tracking.sources=all
   ralf label recordings/city -o out --config ralf.toml --set fusion.alpha=0.7 --jobs 4
   ralf label nuscenes -o out --depth-model midas.onnx      cameras, too: depth is stored in OUT/depth
+  ralf label nuscenes -o out --segmentation classes        classes from images (`ralf segment nuscenes -o classes`)
   ralf label recordings/city -o out --method learned       probabilities, with reasons (docs/learned.md)
   ralf label drive -o out --trajectory poses.tum --trajectory-frame lidar_top
   ralf label drive -o out --config fixes.toml              with what `ralf check drive --write fixes.toml` found")]
@@ -50,6 +51,9 @@ pub(crate) struct LabelArgs {
     #[arg(long, value_name = "FOLDER")]
     #[cfg_attr(feature = "depth", arg(conflicts_with = "depth_model"))]
     depth: Option<PathBuf>,
+    /// Take segmentations from this folder, as `ralf segment -o` wrote them: they tell classes (column class_from)
+    #[arg(long, value_name = "FOLDER")]
+    segmentation: Option<PathBuf>,
     /// Gather what else is known of each detection: a column of plausibility.parquet for each piece (docs/evidence.md)
     #[arg(long)]
     evidence: bool,
@@ -86,7 +90,7 @@ pub(crate) fn run(arguments: &LabelArgs) -> anyhow::Result<Outcome> {
         say("nothing is labelled, for the recording is doubted (--strict)");
         return Ok(Outcome::Partial);
     }
-    let recording = arguments.with_stored_depth(recording)?;
+    let recording = arguments.with_stored_views(recording)?;
     #[cfg(feature = "depth")]
     let recording = match arguments.depth_model.load()? {
         Some(model) => depth_for_labelling(recording, &model, &arguments.output, &settings.method, jobs)?,
@@ -130,13 +134,18 @@ fn told_of_scans(record: &RunRecord) -> Outcome {
 }
 
 impl LabelArgs {
-    /// The recording with the depth images of a folder, where one is named.
-    fn with_stored_depth(&self, recording: Recording) -> anyhow::Result<Recording> {
-        Ok(match &self.depth {
+    /// The recording with the depth images and segmentations of folders, where they are named.
+    fn with_stored_views(&self, recording: Recording) -> anyhow::Result<Recording> {
+        let recording = match &self.depth {
             Some(folder) => DepthStore::open(folder)?.attach(recording),
+            None => recording,
+        };
+        Ok(match &self.segmentation {
+            Some(folder) => SegmentationStore::open(folder)?.attach(recording),
             None => recording,
         })
     }
+
     /// What is to be known before anything is labelled; doubts are told. Without `--strict` checks go on meanwhile.
     fn checks_before(&self, recording: &Recording, jobs: usize) -> Vec<CheckRecord> {
         let checks = if self.strict { check_all(recording, jobs) } else { Vec::new() };

@@ -18,5 +18,7 @@ pub(crate) mod report;
 #[cfg(feature = "review")]
 pub(crate) mod review;
 mod search;
+#[cfg(feature = "depth")]
+pub(crate) mod segment;
 pub(crate) mod simulate;
 pub(crate) mod tune;

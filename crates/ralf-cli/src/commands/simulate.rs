@@ -86,6 +86,9 @@ pub(crate) struct SimulateArgs {
     /// No cameras: all other measurements are the same, and made ten times as fast
     #[arg(long)]
     no_images: bool,
+    /// With the segmentation of every image, as a faultless network gives it: CAMERA/segmentation/000000.png
+    #[arg(long, conflicts_with = "no_images")]
+    segmentation: bool,
     /// Measurements side by side; as many as there are processors if not given. The files are the same for any number
     #[arg(long, value_name = "N")]
     jobs: Option<NonZeroUsize>,
@@ -116,6 +119,9 @@ impl SimulateArgs {
         let mut sequences = self.sequences()?;
         if self.no_images {
             sequences = sequences.into_iter().map(SimulatedSequence::without_cameras).collect();
+        }
+        if self.segmentation {
+            sequences = sequences.into_iter().map(SimulatedSequence::with_segmentation).collect();
         }
         let steps: u64 =
             sequences.iter().map(|sequence| sequence.sequence().times.measurements() as u64).sum();

@@ -38,6 +38,8 @@ mod resume;
 #[cfg(unix)]
 mod review;
 mod ros;
+#[cfg(feature = "depth")]
+mod segment;
 mod sequences;
 mod simulation;
 mod streams;

@@ -47,6 +47,11 @@ pub trait SequenceReader: Source {
         false
     }
 
+    /// Whether any image of any camera has a segmentation.
+    fn has_segmentation(&self) -> bool {
+        false
+    }
+
     /// A LiDAR's scan with its points as they were measured, each at its own time, where the recording holds them so;
     /// `None` where it holds scans that are motion-corrected. [`Source::lidar_scan`] corrects them by the recording's
     /// own motion; whoever knows a better one corrects these.

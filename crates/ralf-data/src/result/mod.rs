@@ -48,4 +48,4 @@ pub(crate) use places::Places;
 pub(crate) use record::RECORD;
 pub(crate) use row_bytes::{row_bytes, table_of_rows};
 pub(crate) use scan_table::ScanParts;
-pub(crate) use schema::evidence_columns;
+pub(crate) use schema::{CLASS_FROM, evidence_columns};

@@ -2,7 +2,7 @@
 
 use super::learned_columns::learned_columns;
 use super::parquet_columns::read_values;
-use super::schema::{Column, Group, Kind, SCAN, Schema, evidence_columns, field};
+use super::schema::{CLASS_FROM, Column, Group, Kind, SCAN, Schema, evidence_columns, field};
 use super::table::Value;
 use super::{RadarScanKey, Table};
 use crate::error::DataError;
@@ -204,7 +204,8 @@ fn with_evidence(reader: &SerializedFileReader<File>, needed: &Schema) -> Result
     for column in &columns {
         at(&column.name).ok_or_else(|| ParquetError::General(format!("no column `{}`", column.name)))?;
     }
-    let further: Vec<Column> = evidence_columns().into_iter().chain(learned_columns()).collect();
+    let further: Vec<Column> =
+        evidence_columns().into_iter().chain(learned_columns()).chain([CLASS_FROM]).collect();
     let last = at("semantic").map_or(found.num_columns(), |semantic| semantic + 1);
     for column in &found.columns()[last..] {
         if columns.iter().any(|known| known.name == column.name()) {

@@ -40,6 +40,8 @@ pub(crate) struct ScanParts<'a> {
     pub(crate) evidence: &'a [evidence::Column],
     /// What a model says, one per detection; none where no model was asked.
     pub(crate) answers: &'a [Answer],
+    /// The class of what cameras see at each detection; none at all where no image has a segmentation.
+    pub(crate) seen: &'a [Option<u16>],
 }
 
 impl Table {
@@ -101,7 +103,10 @@ impl ScanParts<'_> {
             }
             (_, Kind::U8, "label") => Values::U8(self.of_labels(0, |label| u8::from(label.plausible))),
             (_, Kind::U16, "flags") => Values::U16(self.of_labels(0, |label| label.flags)),
-            (_, Kind::Class, "semantic") => Values::Class(self.of_labels(None, |label| label.semantic)),
+            (_, Kind::Class, "semantic") => Values::Class(self.classes().map(|(class, _)| class).collect()),
+            (Group::Verdict, Kind::Text, "class_from") => {
+                Values::Text(self.classes().map(|(_, from)| from.into()).collect())
+            }
             (Group::Evidence, Kind::F32, name) => {
                 let told = numbers(name, self.answers).filter(|told| told.len() == rows);
                 Values::F32(told.unwrap_or_else(|| self.evidence(name, rows)))
@@ -111,6 +116,16 @@ impl ScanParts<'_> {
                 Values::Text(told.unwrap_or_else(|| vec!["".into(); rows]))
             }
             _ => return Err(unknown(column)),
+        })
+    }
+
+    /// The class of each detection, and what tells it: a LiDAR's labels before a camera's image.
+    fn classes(&self) -> impl Iterator<Item = (Option<u16>, &'static str)> {
+        let by_lidar = self.of_labels(None, |label| label.semantic).into_iter();
+        by_lidar.enumerate().map(|(i, by_lidar)| match (by_lidar, self.seen.get(i).copied().flatten()) {
+            (Some(class), _) => (Some(class), "lidar"),
+            (None, Some(class)) => (Some(class), "camera"),
+            (None, None) => (None, ""),
         })
     }
 

@@ -137,6 +137,15 @@ const VERDICT: [Column; 3] = [
     column("semantic", Kind::Class, "", "SemanticKITTI id, where one is known.", Group::Verdict),
 ];
 
+/// Where a class is from: a column of recordings whose images have a segmentation.
+pub(crate) const CLASS_FROM: Column = column(
+    "class_from",
+    Kind::Text,
+    "",
+    "What tells the class: `lidar` or `camera`; empty where there is none.",
+    Group::Verdict,
+);
+
 impl Schema {
     /// These columns.
     pub(crate) fn new(columns: Vec<Column>) -> Self {

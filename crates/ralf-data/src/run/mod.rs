@@ -32,7 +32,8 @@ use crate::error::DataError;
 use crate::frames::{ScanIndex, all_scans, in_time, time_of};
 use crate::read::{Recording, SequenceReader, layout};
 use crate::result::{
-    OutFolder, Schema, SequenceNames, WriterLock, evidence_columns, learned_columns, refuse_links_out,
+    CLASS_FROM, OutFolder, Schema, SequenceNames, WriterLock, evidence_columns, learned_columns,
+    refuse_links_out,
 };
 use crate::settings::Settings;
 use inputs::Identity;
@@ -289,6 +290,9 @@ impl LabelRun<'_> {
         let mut further = if self.evidence { evidence_columns() } else { Vec::new() };
         if labeler.is_some() {
             further.extend(learned_columns());
+        }
+        if reader.has_segmentation() {
+            further.push(CLASS_FROM);
         }
         let schema =
             Schema::of(&rig, &further).map_err(|reason| unsuitable(self.recording, reader, reason))?;

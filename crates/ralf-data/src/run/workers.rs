@@ -112,9 +112,14 @@ impl Labelling<'_> {
         let gathers = self.task.gathers_evidence();
         let observe = || if gathers { evidence::observe(frame, self.config) } else { Vec::new() };
         let evidence = timed(self.observer, Part::Evidence, observe);
-        let LearnedScan { labels, answers } = timed(self.observer, Part::Labelling, || match labeler {
-            Some(labeler) => labeler.label(frame, &evidence),
-            None => LearnedScan { labels: Labeler::new(self.config).label(frame), answers: Vec::new() },
+        let (LearnedScan { labels, answers }, seen) = timed(self.observer, Part::Labelling, || {
+            let said = match labeler {
+                Some(labeler) => labeler.label(frame, &evidence),
+                None => LearnedScan { labels: Labeler::new(self.config).label(frame), answers: Vec::new() },
+            };
+            let without_class = |i: usize| said.labels[i].plausible && said.labels[i].semantic.is_none();
+            let seen = evidence::seen_classes(frame, self.config.camera.stride, without_class);
+            (said, seen)
         });
         let parts = ScanParts {
             radar: &rig.radars[radar],
@@ -122,6 +127,7 @@ impl Labelling<'_> {
             labels: Some(&labels),
             evidence: &evidence,
             answers: &answers,
+            seen: &seen,
         };
         Table::of_scan(schema, &parts)
     }

@@ -1,7 +1,7 @@
 //! Writing any sequence in the own layout, without loss.
 
 use crate::disk::label_file::write_labels;
-use crate::disk::{files, images, npy};
+use crate::disk::{class_images, files, images, npy};
 use crate::error::DataError;
 use crate::frames::side_by_side;
 use crate::read::SequenceReader;
@@ -211,10 +211,16 @@ impl Writer<'_> {
                 files::write_whole(&folder.file(&Component::numbered(image, "png")), &png)?;
             }
         }
-        let Some(depth) = self.reader.depth(camera, image)? else { return Ok(()) };
-        let depth =
-            npy::depth_bytes(&depth).ok_or("depth images of different sizes, which one file can't hold")?;
-        let file = folder.own("depth").file(&Component::numbered(image, "npy"));
-        Ok(files::write_whole(&file, &depth)?)
+        if let Some(depth) = self.reader.depth(camera, image)? {
+            let depth = npy::depth_bytes(&depth)
+                .ok_or("depth images of different sizes, which one file can't hold")?;
+            let file = folder.own("depth").file(&Component::numbered(image, "npy"));
+            files::write_whole(&file, &depth)?;
+        }
+        let Some(classes) = self.reader.classes(camera, image)? else { return Ok(()) };
+        let png = class_images::bytes(&classes)
+            .map_err(|(expected, found)| format!("segmentation: expected {expected}, found {found}"))?;
+        let file = folder.own("segmentation").file(&Component::numbered(image, "png"));
+        Ok(files::write_whole(&file, &png)?)
     }
 }

@@ -42,6 +42,10 @@ impl SequenceReader for SimulatedSequence {
         }))
     }
 
+    fn has_segmentation(&self) -> bool {
+        self.is_segmented()
+    }
+
     fn causes(&self) -> &'static [Cause] {
         SimulatedSequence::causes(self)
     }

@@ -1,16 +1,20 @@
 //! The card of a network: how it is fed, and what comes out.
 
+mod feed;
 mod keys;
 pub mod presets;
 mod read;
+mod segmentation;
+
+pub use segmentation::{OutputClass, SegmentationCard};
 
 use ralf::sensors::DepthOutput;
 use serde::{Deserialize, Serialize};
 
-/// What an `.onnx` file doesn't say of itself: a TOML file of the same name, ending in `.toml`.
+/// What the `.onnx` file of a depth network doesn't say of itself: a TOML file of the same name, ending in `.toml`.
 ///
 /// ```toml
-/// preset = "midas-small"               # optional: a card of `presets`, whose keys those below replace
+/// preset = "midas-small"               # optional: a card of `presets::DEPTH`, whose keys those below replace
 ///
 /// input = { width = 48, height = 48 }  # px, or { size = 518, multiple_of = 14, side = "short" }
 /// fit = "squares"                      # "stretch" | "squares" | { pad = [123.675, 116.28, 103.53] }
@@ -28,6 +32,23 @@ use serde::{Deserialize, Serialize};
 /// Keys that aren't optional have no default, and others than these are refused.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Card {
+    /// How it is fed.
+    #[serde(flatten)]
+    pub feed: Feed,
+    /// What the network's values mean.
+    pub output: DepthOutput,
+    /// Which output holds the depth, of a network with several.
+    pub output_name: Option<String>,
+    /// Whether the mirrored image is estimated too, and the mean taken: twice the time, fewer errors.
+    pub flip: bool,
+    /// The focal length, px, of the camera that a metric network takes every image to be from. Depth is multiplied by
+    /// the view's focal length, scaled like the view, over this (Metric3D's canonical camera).
+    pub canonical_focal: Option<f64>,
+}
+
+/// How a network is fed, whatever it gives.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Feed {
     /// Size of the network's input.
     pub input: InputSize,
     /// How a view comes to that size.
@@ -40,15 +61,6 @@ pub struct Card {
     pub mean: [f32; 3],
     /// Divided by last, one per channel.
     pub std: [f32; 3],
-    /// What the network's values mean.
-    pub output: DepthOutput,
-    /// Which output holds the depth, of a network with several.
-    pub output_name: Option<String>,
-    /// Whether the mirrored image is estimated too, and the mean taken: twice the time, fewer errors.
-    pub flip: bool,
-    /// The focal length, px, of the camera that a metric network takes every image to be from. Depth is multiplied by
-    /// the view's focal length, scaled like the view, over this (Metric3D's canonical camera).
-    pub canonical_focal: Option<f64>,
 }
 
 /// Size of a network's input.

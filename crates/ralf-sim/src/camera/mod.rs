@@ -1,9 +1,11 @@
-//! Fisheye cameras: images by ray casting, and what a depth network would make of their straight views.
+//! Fisheye cameras: images by ray casting, and what networks would make of their straight views.
 
+mod classes;
 mod depth;
 mod paint;
 mod render;
 
+pub(super) use classes::true_classes;
 pub(super) use depth::{depth, true_depth};
 pub(super) use paint::{asphalt, gravel, leaves, slabs, solid_colour};
 pub(super) use render::{Rays, image, rays};
@@ -19,6 +21,9 @@ pub(super) trait Visible {
 
     /// That surface.
     fn surface(&self, ray: &Ray, limit: f64) -> Option<Painted>;
+
+    /// The SemanticKITTI id of that surface.
+    fn class(&self, ray: &Ray, limit: f64) -> Option<u16>;
 }
 
 /// A surface that a ray meets.

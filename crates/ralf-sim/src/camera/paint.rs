@@ -51,6 +51,10 @@ impl Visible for Scene<'_> {
             hit.solid.map_or_else(|| asphalt(&p), |solid| solid_colour(solid, &p, height, &hit.normal));
         Some(Painted { distance: hit.distance, normal: hit.normal, colour })
     }
+
+    fn class(&self, ray: &Ray, limit: f64) -> Option<u16> {
+        self.cast(ray, limit).map(|hit| hit.kind().seen_class())
+    }
 }
 
 /// The colour of a body at a place of its surface, so high above the ground.

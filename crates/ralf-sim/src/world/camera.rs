@@ -148,6 +148,15 @@ impl Visible for Moment<'_> {
         };
         Some(Painted { distance: hit.distance, normal: hit.normal, colour })
     }
+
+    fn class(&self, ray: &Ray, limit: f64) -> Option<u16> {
+        let hit = self.cast(ray, limit, |_, crossing| Some(crossing.enter))?;
+        let p = ray.origin + ray.direction * hit.distance;
+        Some(match hit.on {
+            Met::Ground(_) => self.site.terrain.patch(p.x, p.y).surface.seen_class(),
+            Met::Body(solid) => solid.kind.seen_class(),
+        })
+    }
 }
 
 /// Grass is green to dry, each patch as it is.

@@ -15,7 +15,8 @@ use crate::truth::Truth;
 use nalgebra::UnitQuaternion;
 use ralf::label::Cause;
 use ralf::sensors::{
-    CameraImage, DepthImage, DepthOutput, LidarScan, RadarScan, Sequence, Source, SourceError, Timelines,
+    CameraImage, ClassImage, DepthImage, DepthOutput, LidarScan, RadarScan, Sequence, Source, SourceError,
+    Timelines,
 };
 use ralf::space::{EgoMotion, Transform, Vector};
 use std::f64::consts::TAU;
@@ -236,6 +237,10 @@ impl Simulation for WorldSequence {
 
     fn true_depth(&self, camera: usize, image: usize) -> Result<Vec<DepthImage>, SourceError> {
         Ok(camera::true_depth(&self.seen_by(camera, image)?))
+    }
+
+    fn true_classes(&self, camera: usize, image: usize) -> Result<Vec<ClassImage>, SourceError> {
+        Ok(camera::true_classes(&self.seen_by(camera, image)?))
     }
 }
 

@@ -25,6 +25,16 @@ impl Surface {
         if self == Self::Grass { 72 } else { 1 }
     }
 
+    /// SemanticKITTI id of what a camera sees: other than a radar detection, it may be ground.
+    pub(super) fn seen_class(self) -> u16 {
+        match self {
+            Self::Asphalt => 40,
+            Self::Pavement => 48,
+            Self::Gravel => 49,
+            Self::Grass => self.class(),
+        }
+    }
+
     /// What is true of a detection of it.
     pub(super) fn truth(self) -> Truth {
         match self {

@@ -2,11 +2,11 @@
 //! grass grows below it.
 
 use super::columns::{set, unobserved};
+use super::sought::{ON, Sought, Window};
 use super::{Feature, Piece, Surroundings, Values};
 use crate::scene::{Detection, Frame, ImageView, median};
-use crate::sensors::{Camera, Elevation};
-use crate::space::{Point, Transform, Vector};
-use nalgebra::Matrix3;
+use crate::sensors::Camera;
+use crate::space::{Point, Transform};
 
 pub(super) const PIECE: Piece = Piece {
     features: &[
@@ -36,17 +36,6 @@ pub(super) const PIECE: Piece = Piece {
     ],
     observe,
 };
-
-/// Pixels around a detection are looked at as far as so many of its standard deviations.
-const AROUND: f64 = 2.5;
-/// And no farther than so many pixels of the lattice: a near detection fills a view.
-const FARTHEST: f64 = 6.0;
-/// A detection lies at a depth that differs by no more, in standard deviations.
-const ON: f64 = 2.0;
-/// How well a place is known at best, m.
-const ROOM: f64 = 0.1;
-/// What a radar without elevation detects is sought at this height above the ground, m, so far up and down.
-const LEVEL: [f64; 2] = [1.0, 0.4];
 
 const fn feature(name: &'static str, unit: &'static str, meaning: &'static str) -> Feature {
     Feature { name, unit, group: "Camera", meaning }
@@ -86,29 +75,6 @@ fn summary(residuals: &[f64]) -> [Option<f64>; 5] {
     ]
 }
 
-/// A detection, where cameras can look for it.
-struct Sought {
-    /// At a likely height, where the radar measures none.
-    detection: Detection,
-    /// The ground below it.
-    ground: Point,
-}
-
-impl Sought {
-    fn new(frame: &Frame, detection: &Detection) -> Self {
-        let mut ground = detection.position;
-        ground.z = frame.ground.as_ref().map_or(0.0, |surface| ground.z - surface.height(&ground));
-        let mut detection = *detection;
-        if frame.radar.elevation == Elevation::None {
-            detection.position.z = ground.z + LEVEL[0];
-            let up = Vector::z() * LEVEL[1];
-            let [range, azimuth] = [0, 1].map(|axis| detection.axes.column(axis).into_owned());
-            detection.axes = Matrix3::from_columns(&[range, azimuth, up]);
-        }
-        Self { detection, ground }
-    }
-}
-
 /// An image, seen from the frame.
 struct Image<'a> {
     view: &'a ImageView,
@@ -137,16 +103,9 @@ impl<'a> Image<'a> {
     fn add_residuals(&self, detection: &Detection, residuals: &mut Vec<f64>) {
         let seen = detection.moved(&self.camera_from_vehicle);
         for (straight, view) in self.view.moment.calibrated_views() {
-            let Some(at) = straight.project(&seen.position) else { continue };
-            let [right, down, forward] =
-                [Vector::x(), Vector::y(), Vector::z()].map(|axis| straight.camera_from_view * axis);
-            let (stride, sigma) = (view.lattice.stride() as f64, seen.sigma_along(&forward).hypot(ROOM));
-            let half = [right, down].map(|across| {
-                let pixels = AROUND * straight.focal * seen.sigma_along(&across) / at.depth;
-                pixels.clamp(stride, FARTHEST * stride)
-            });
-            for depth in view.lattice.around(at.pixel, half) {
-                residuals.push((at.depth - depth) / sigma.hypot(self.depth_sigma * depth));
+            let Some(window) = Window::new(&seen, straight, view.lattice.stride()) else { continue };
+            for depth in view.lattice.around(window.at.pixel, window.half) {
+                residuals.push(window.behind(depth, self.depth_sigma * depth));
             }
         }
     }

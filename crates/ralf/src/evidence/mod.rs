@@ -29,13 +29,16 @@ mod probe;
 mod rates;
 mod recurrence;
 mod rings;
+mod seen_classes;
 mod sensor_frame;
+mod sought;
 mod statistics;
 mod surroundings;
 mod terrain;
 mod way;
 
 pub use probe::Probe;
+pub use seen_classes::seen_classes;
 pub use surroundings::Surroundings;
 
 use crate::config::Config;

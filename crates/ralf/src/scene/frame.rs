@@ -1,6 +1,6 @@
 //! Everything that is known around one radar scan.
 
-use super::camera::ImageView;
+use super::camera::{ImageView, SegmentedView};
 use super::doppler::{Doppler, radar_velocity};
 use super::floor::LocalGround;
 use super::lidar::LidarView;
@@ -43,9 +43,11 @@ pub struct Frame<'a> {
     pub ground: Option<LocalGround>,
     /// The cameras' images nearest in time for which there is depth.
     pub images: Vec<ImageView>,
+    /// The cameras' images nearest in time for which a segmentation is stored.
+    pub segmented: Vec<SegmentedView>,
     /// The neighbouring radar scans, in time order.
     pub steps: Vec<ScanStep>,
-    /// LiDAR scans that belong to it and can't be read: the scan is labelled without them.
+    /// LiDAR scans and segmentations that belong to it and can't be read: the scan is labelled without them.
     pub unreadable: Vec<Unreadable>,
     /// Of the LiDAR's points, for a radar that measures no elevation: made where [`Self::lidar_cloud`] is first asked.
     pub(super) horizontal_index: OnceLock<NeighborIndex>,

@@ -28,8 +28,9 @@ mod window;
 
 pub use association::{Association, index_of};
 pub use camera::{
-    CalibratedImage, CalibratedView, Calibration, CameraPoint, DepthLattice, Failure, Greenness, ImageId,
-    ImageView, ImageWithDepth, Seen, ViewReport, ViewState, calibrate, luminance, median, project_points,
+    CalibratedImage, CalibratedView, Calibration, CameraPoint, ClassPixel, DepthLattice, Failure, Greenness,
+    ImageId, ImageView, ImageWithDepth, Seen, SegmentedImage, SegmentedStraightView, SegmentedView,
+    ViewReport, ViewState, calibrate, luminance, median, project_points,
 };
 pub use doppler::{Doppler, radar_velocity};
 pub use floor::LocalGround;

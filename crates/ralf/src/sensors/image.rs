@@ -1,4 +1,4 @@
-//! Images, as a camera and as a depth network deliver them.
+//! Images, as a camera and as networks deliver them.
 
 use serde::{Deserialize, Serialize};
 
@@ -22,6 +22,18 @@ pub struct DepthImage {
     pub height: usize,
     /// Row by row from the top; NaN and values of 0 or below mean no depth.
     pub values: Vec<f32>,
+}
+
+/// What a segmentation network gave for one view.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct ClassImage {
+    /// px.
+    pub width: usize,
+    /// px.
+    pub height: usize,
+    /// SemanticKITTI ids, row by row from the top; [`UNLABELED`](crate::label::UNLABELED) where there is none, as in
+    /// the sky.
+    pub ids: Vec<u8>,
 }
 
 /// The meaning of a depth image's values.

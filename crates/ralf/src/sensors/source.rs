@@ -1,6 +1,6 @@
 //! Where measurements come from: one sequence of one recording, read on demand.
 
-use crate::sensors::{CameraImage, DepthImage, DepthOutput, LidarScan, RadarScan, Rig};
+use crate::sensors::{CameraImage, ClassImage, DepthImage, DepthOutput, LidarScan, RadarScan, Rig};
 use crate::space::EgoMotion;
 
 /// Why a measurement could not be had. It names the file, the place in it, what was expected and what was found.
@@ -61,4 +61,9 @@ pub trait Source: Send + Sync {
 
     /// What a depth network gave for each view of an image; `None` where nothing is stored.
     fn depth(&self, camera: usize, image: usize) -> Result<Option<Vec<DepthImage>>, SourceError>;
+
+    /// What a segmentation network gave for each view of an image; `None` where nothing is stored.
+    fn classes(&self, _camera: usize, _image: usize) -> Result<Option<Vec<ClassImage>>, SourceError> {
+        Ok(None)
+    }
 }

@@ -8,8 +8,8 @@ use ralf::scene::{
 };
 use ralf::sensors::{Camera, CameraImage, Sequence, StraightView, UndistortMap};
 use ralf::space::{Point, Transform, sync};
-use ralf_data::depth::DepthStore;
 use ralf_data::result::LabelledSequence;
+use ralf_data::views::DepthStore;
 use ralf_plot::{CameraPicture, MarkLabel, PixelDepth, ViewPicture, camera_picture};
 use ralf_report::{Pictures, mark_label};
 use std::path::PathBuf;

@@ -3,7 +3,9 @@
 use crate::read::corrections::{MotionSource, SensorCorrection};
 use crate::read::recording::{SequenceReader, TruthLabels};
 use ralf::label::Cause;
-use ralf::sensors::{CameraImage, DepthImage, LidarScan, RadarScan, Sequence, Source, SourceError};
+use ralf::sensors::{
+    CameraImage, ClassImage, DepthImage, LidarScan, RadarScan, Sequence, Source, SourceError,
+};
 use ralf::space::EgoMotion;
 use std::any::Any;
 use std::collections::BTreeMap;
@@ -80,6 +82,10 @@ impl Source for Corrected {
     fn depth(&self, camera: usize, image: usize) -> Result<Option<Vec<DepthImage>>, SourceError> {
         self.inner.depth(camera, image)
     }
+
+    fn classes(&self, camera: usize, image: usize) -> Result<Option<Vec<ClassImage>>, SourceError> {
+        self.inner.classes(camera, image)
+    }
 }
 
 impl Corrected {
@@ -135,6 +141,10 @@ impl SequenceReader for Corrected {
 
     fn has_depth(&self, camera: usize) -> bool {
         self.inner.has_depth(camera)
+    }
+
+    fn has_segmentation(&self) -> bool {
+        self.inner.has_segmentation()
     }
 
     fn truth(&self, radar: usize, scan: usize) -> Result<Option<TruthLabels>, SourceError> {

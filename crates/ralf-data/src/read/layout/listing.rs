@@ -19,7 +19,8 @@ pub(super) struct SensorFiles {
     partners: Vec<Vec<Option<PathBuf>>>,
 }
 
-/// Where a file of the same number as a measurement's is looked for: labels, times of points, truth, depth.
+/// Where a file of the same number as a measurement's is looked for: labels, times of points, truth, depth,
+/// segmentation.
 pub(super) struct Partner {
     /// It need not exist.
     pub(super) folder: PathBuf,

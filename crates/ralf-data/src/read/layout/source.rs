@@ -4,21 +4,23 @@ use super::listing::{Partner, SensorFiles};
 use super::raw::SequenceToml;
 use super::{GROUND_TRUTH, rig, tables};
 use crate::disk::label_file::read_labels;
-use crate::disk::{files, images, npy};
+use crate::disk::{class_images, files, images, npy};
 use crate::error::DataError;
 use crate::read::SequenceReader;
 use crate::read::measured_files::lidar_rows;
 use ralf::sensors::{
-    Camera, CameraImage, DepthImage, Lidar, LidarScan, Radar, RadarScan, Rig, Sequence, Source, SourceError,
-    Timelines,
+    Camera, CameraImage, ClassImage, DepthImage, Lidar, LidarScan, Radar, RadarScan, Rig, Sequence, Source,
+    SourceError, Timelines,
 };
 use ralf::space::{EgoMotion, OdometrySample};
 use std::path::{Path, PathBuf};
 
-/// Place of the only kind of partner: a radar's truth, a LiDAR's classes, a camera's depth.
+/// Place of a radar's truth, a LiDAR's classes, a camera's depth among its partners.
 const FIRST: usize = 0;
 /// Place of the times of a LiDAR's points among its partners.
 const POINT_TIMES: usize = 1;
+/// Place of a camera's segmentation among its partners.
+const SEGMENTATION: usize = 1;
 
 /// A sequence's folder, opened: `sequence.toml`, times and motion are read, measurements are listed.
 #[derive(Debug)]
@@ -90,12 +92,16 @@ fn list(folder: &Path, rig: &Rig, warnings: &mut Vec<String>) -> Result<[Vec<Sen
         let times = Partner { folder: folder.join(name), extension: "time" };
         [label(folder.join(name)), times]
     };
-    let depth = |name: &str| [Partner { folder: folder.join(name).join("depth"), extension: "npy" }];
+    let of_images = |name: &str| {
+        let of = |kind, extension| Partner { folder: folder.join(name).join(kind), extension };
+        [of("depth", "npy"), of("segmentation", "png")]
+    };
     let radars = rig.radars.iter().map(|Radar { name, .. }| list(name, &["bin"], &truth(name)));
     let radars = radars.collect::<Result<_, _>>()?;
     let lidars = rig.lidars.iter().map(|Lidar { name, .. }| list(name, &["bin"], &of_points(name)));
     let lidars = lidars.collect::<Result<_, _>>()?;
-    let cameras = rig.cameras.iter().map(|Camera { name, .. }| list(name, &images::EXTENSIONS, &depth(name)));
+    let cameras =
+        rig.cameras.iter().map(|Camera { name, .. }| list(name, &images::EXTENSIONS, &of_images(name)));
     Ok([radars, lidars, cameras.collect::<Result<_, _>>()?])
 }
 
@@ -167,6 +173,12 @@ impl Source for LayoutSequence {
         }
         Ok(Some(depth))
     }
+
+    fn classes(&self, camera: usize, image: usize) -> Result<Option<Vec<ClassImage>>, SourceError> {
+        let (sensor, _) = measurement("camera", &self.cameras, camera, image)?;
+        let read = |file: &PathBuf| class_images::read(file, &self.sequence.rig.cameras[camera]);
+        Ok(sensor.partner(SEGMENTATION, image).map(read).transpose()?)
+    }
 }
 
 impl SequenceReader for LayoutSequence {
@@ -190,6 +202,10 @@ impl SequenceReader for LayoutSequence {
 
     fn has_depth(&self, camera: usize) -> bool {
         self.cameras.get(camera).is_some_and(|files| files.has_partners(FIRST))
+    }
+
+    fn has_segmentation(&self) -> bool {
+        self.cameras.iter().any(|files| files.has_partners(SEGMENTATION))
     }
 
     fn truth_file(&self, radar: usize, scan: usize) -> Option<PathBuf> {

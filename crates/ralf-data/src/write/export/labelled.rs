@@ -166,7 +166,14 @@ impl<'a, 'p> LabelledSequence<'a, 'p> {
             let expected = format!("{found} detections, as in the recording");
             return Err(self.unlike(id, expected, "none".to_owned()));
         }
-        let parts = ScanParts { radar: sensor, scan: &detections, labels: None, evidence: &[], answers: &[] };
+        let parts = ScanParts {
+            radar: sensor,
+            scan: &detections,
+            labels: None,
+            evidence: &[],
+            answers: &[],
+            seen: &[],
+        };
         let table = Table::of_scan(self.tables.reader.schema(), &parts)?;
         Ok((table, vec![Label::default(); found]))
     }

@@ -33,6 +33,12 @@ impl DepthLattice {
         self.depths[row / self.stride * self.columns + column / self.stride] = depth as f32;
     }
 
+    /// The pixels that have a depth, m, row by row.
+    pub(super) fn known(&self) -> impl Iterator<Item = ([f64; 2], f64)> {
+        let all = self.pixels().zip(&self.depths).filter(|(_, depth)| **depth > 0.0);
+        all.map(|([column, row], depth)| ([column as f64, row as f64], f64::from(*depth)))
+    }
+
     /// Pixels from one of the lattice to the next.
     pub fn stride(&self) -> usize {
         self.stride

@@ -14,6 +14,7 @@ mod moment;
 mod monitor;
 mod projection;
 mod scaling;
+mod segmented;
 
 pub use calibrate::{CalibratedView, Calibration, CameraPoint, calibrate};
 pub use greenness::Greenness;
@@ -22,3 +23,4 @@ pub use moment::{CalibratedImage, ImageId, ImageView, ImageWithDepth, Seen};
 pub use monitor::{Failure, ViewReport, ViewState, luminance};
 pub use projection::project_points;
 pub use scaling::median;
+pub use segmented::{ClassPixel, SegmentedImage, SegmentedStraightView, SegmentedView};

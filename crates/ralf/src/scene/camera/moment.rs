@@ -74,6 +74,19 @@ impl CalibratedImage {
         views.filter(|(_, view)| view.report.state == ViewState::Calibrated)
     }
 
+    /// Whether the view of this place is left.
+    pub(super) fn is_left(&self, place: usize) -> bool {
+        self.views.get(place).is_some_and(|view| view.report.state == ViewState::Calibrated)
+    }
+
+    /// The calibrated depths of the views that are left, each with the view's place.
+    pub(super) fn lattices(&self) -> impl Iterator<Item = (usize, &DepthLattice)> {
+        let views = self.views.iter().enumerate();
+        views
+            .filter(|(_, view)| view.report.state == ViewState::Calibrated)
+            .map(|(at, view)| (at, &view.lattice))
+    }
+
     /// From the vehicle frame at the image's time to the camera's optical frame.
     pub fn camera_from_vehicle(&self) -> &Transform {
         &self.camera_from_vehicle

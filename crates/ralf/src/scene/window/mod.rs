@@ -1,8 +1,9 @@
 //! Frames of one sequence, gathered in bounded memory.
 
 mod evidence;
+mod segmentation;
 
-use super::camera::{CalibratedImage, Calibration, ImageId, ImageView};
+use super::camera::{CalibratedImage, Calibration, ImageId, ImageView, SegmentedImage};
 use super::floor::LocalGround;
 use super::frame::{Frame, Unreadable};
 use super::lidar::{LidarSnapshot, LidarView};
@@ -61,6 +62,8 @@ pub struct FrameWindow<'a> {
     /// By the scan of the leading LiDAR in their middle.
     lidar_windows: Recent<Key, Arc<LidarWindow>>,
     images: Recent<Key, Option<Arc<CalibratedImage>>>,
+    /// With the reason where one can't be read.
+    segmented: Recent<Key, Result<Option<Arc<SegmentedImage>>, String>>,
 }
 
 impl<'a> FrameWindow<'a> {
@@ -81,6 +84,7 @@ impl<'a> FrameWindow<'a> {
             moments: Recent::new(moments + rig.cameras.len()),
             lidar_windows: Recent::new(MOMENTS),
             images: Recent::new(2 * rig.cameras.len()),
+            segmented: Recent::new(2 * rig.cameras.len()),
         }
     }
 
@@ -95,6 +99,8 @@ impl<'a> FrameWindow<'a> {
         let t_ns = located.t_ns();
         let NearLidars { scans, view: lidar, mut unreadable } = self.near_lidars(t_ns);
         let lidar_neighbours = self.lidar_neighbours(scans, t_ns, &mut unreadable);
+        let images = if self.config.camera.enabled { self.images(t_ns) } else { Vec::new() };
+        let segmented = self.segmented(t_ns, &mut unreadable);
         Ok(Frame {
             rig: self.rig,
             radar: &self.rig.radars[radar],
@@ -104,7 +110,8 @@ impl<'a> FrameWindow<'a> {
             lidar_neighbours,
             lidar_window: if self.evidence { self.lidar_window(t_ns) } else { None },
             radar_window: if self.evidence { self.radar_window(radar, scan, t_ns) } else { Vec::new() },
-            images: if self.config.camera.enabled { self.images(t_ns) } else { Vec::new() },
+            images,
+            segmented,
             steps: if self.config.tracking.enabled { self.steps(radar, scan, t_ns) } else { Vec::new() },
             scan: located,
             unreadable,
@@ -256,17 +263,20 @@ impl<'a> FrameWindow<'a> {
 
     /// The images nearest to a time, calibrated; those without depth are absent.
     fn images(&mut self, t_ns: i64) -> Vec<ImageView> {
-        let tolerance = nanoseconds(self.config.sync.camera_tolerance_ms);
-        let times = &self.source.sequence().times.cameras;
         let mut images = Vec::new();
-        for (camera, times) in times.iter().enumerate() {
-            let Some(image) = sync::nearest(times, t_ns, tolerance) else { continue };
+        for (camera, image) in self.nearest_images(t_ns) {
             if let Some(moment) = self.image(camera, image) {
                 let vehicle_from_image = self.source.sequence().motion.between(t_ns, moment.id.t_ns);
                 images.push(ImageView { moment, vehicle_from_image });
             }
         }
         images
+    }
+
+    fn nearest_images(&self, t_ns: i64) -> Vec<Key> {
+        let tolerance = nanoseconds(self.config.sync.camera_tolerance_ms);
+        let times = self.source.sequence().times.cameras.iter().enumerate();
+        times.filter_map(|(camera, times)| Some((camera, sync::nearest(times, t_ns, tolerance)?))).collect()
     }
 
     /// An image with its views calibrated by the LiDAR scans nearest to it; `None` where there is no depth. What of it

@@ -1,18 +1,33 @@
-//! Running a depth network over the straight views of a sequence's images.
+//! Running a network over the straight views of a sequence's images.
 
-use super::DepthStore;
 use crate::error::DataError;
 use crate::frames::side_by_side;
 use crate::read::SequenceReader;
-use crate::result::SequenceNames;
-use ralf::sensors::{Camera, CameraImage, DepthImage, StraightView, UndistortMap};
+use crate::result::{Component, SequenceNames, WriterLock};
+use ralf::sensors::{Camera, CameraImage, StraightView, UndistortMap};
+use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
-/// A depth network: the depth of a view with a focal length, px; or why there is none.
-pub type Estimate<'a> = dyn Fn(&CameraImage, f64) -> Result<DepthImage, String> + Sync + 'a;
+/// A network: what it says of a view with a focal length, px; or why it says nothing.
+pub type Estimate<'a, T> = dyn Fn(&CameraImage, f64) -> Result<T, String> + Sync + 'a;
 
 /// Is told how the computation gets on, from several threads.
-pub type DepthObserver<'a> = dyn Fn() + Sync + 'a;
+pub type ViewObserver<'a> = dyn Fn() + Sync + 'a;
+
+/// Where what a network says of the views of images is kept, a file per image.
+pub(super) trait ViewStore: Sync {
+    /// What the network says of a view.
+    type View: Send;
+
+    /// The file of an image's views.
+    fn file(&self, sequence: &Component, camera: &Component, image: usize) -> PathBuf;
+
+    /// Stores an image's views in its file, whole or not at all.
+    fn write(&self, file: &Path, views: &[Self::View]) -> Result<(), DataError>;
+
+    /// The right to write to it; another process may have that.
+    fn lock(&self) -> Result<WriterLock, DataError>;
+}
 
 /// A camera's views with the maps that straighten its images, made when they are first needed.
 struct Straightening<'a> {
@@ -20,17 +35,18 @@ struct Straightening<'a> {
     views: OnceLock<Vec<(StraightView, UndistortMap)>>,
 }
 
-/// Computes and stores the depth of the images (camera, number) that the store doesn't hold yet, several at a time.
+/// Computes and stores what a network says of the images (camera, number) that the store doesn't hold yet, several at a
+/// time.
 ///
-/// Returns the images that have no depth for a reason of their own, which is named, in their order. Depth that can't be
-/// stored is an error, and so is another process that writes to the store.
-pub fn compute_depth(
+/// Returns the images that it can say nothing of for a reason of their own, which is named, in their order. What can't
+/// be stored is an error, and so is another process that writes to the store.
+pub(super) fn compute_views<S: ViewStore>(
     reader: &dyn SequenceReader,
     images: &[(usize, usize)],
-    store: &DepthStore,
-    estimate: &Estimate,
+    store: &S,
+    estimate: &Estimate<S::View>,
     jobs: usize,
-    observer: &DepthObserver,
+    observer: &ViewObserver,
 ) -> Result<Vec<DataError>, DataError> {
     let names = SequenceNames::new(reader.sequence())?;
     let _lock = store.lock()?;
@@ -39,9 +55,10 @@ pub fn compute_depth(
     let without = side_by_side(images, jobs, |&(camera, image)| {
         let (folder, straightening) = (&names.cameras[camera], &cameras[camera]);
         let mut failed = None;
-        if !store.file(&names.sequence, folder, image).exists() {
-            match straightening.depth(reader, (camera, image), estimate) {
-                Ok(views) => store.write(&names.sequence, folder, image, &views)?,
+        let file = store.file(&names.sequence, folder, image);
+        if !file.exists() {
+            match straightening.estimated(reader, (camera, image), estimate) {
+                Ok(views) => store.write(&file, &views)?,
                 Err(error) => {
                     let sensor = straightening.camera.name.clone();
                     failed = Some(((camera, image), DataError::Measurement { sensor, index: image, error }));
@@ -57,21 +74,21 @@ pub fn compute_depth(
 }
 
 impl Straightening<'_> {
-    fn depth(
+    fn estimated<T>(
         &self,
         reader: &dyn SequenceReader,
         (camera, image): (usize, usize),
-        estimate: &Estimate,
-    ) -> Result<Vec<DepthImage>, ralf::sensors::SourceError> {
+        estimate: &Estimate<T>,
+    ) -> Result<Vec<T>, ralf::sensors::SourceError> {
         let Camera { intrinsics, width, height, .. } = self.camera;
         intrinsics.check(*width, *height).map_err(|expected| format!("expected {expected}"))?;
         let raw = reader.image(camera, image)?;
-        let mut depth = Vec::new();
+        let mut estimated = Vec::new();
         for (view, map) in self.views() {
             let straight = map.apply(&raw)?;
-            depth.push(estimate(&straight, view.focal)?);
+            estimated.push(estimate(&straight, view.focal)?);
         }
-        Ok(depth)
+        Ok(estimated)
     }
 
     fn views(&self) -> &[(StraightView, UndistortMap)] {

@@ -1,0 +1,165 @@
+//! Networks from the command line, and running them over a recording's images.
+
+use crate::progress::{Progress, say};
+use anyhow::Context;
+use clap::Args;
+use ralf::config::{Config, nanoseconds};
+use ralf::sensors::Sequence;
+use ralf::space::sync;
+use ralf_data::views::{DepthStore, SegmentationStore, ViewObserver};
+use ralf_data::{DataError, Recording, SequenceReader};
+use ralf_depth::{DepthEstimator, OnnxModel, Runtime, SegmentationModel};
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+
+/// Which network, and what runs it.
+#[derive(Debug, Args)]
+pub(crate) struct DepthModelArgs {
+    /// A monocular depth network (.onnx); a card beside it (.toml) says what it wants and gives
+    #[arg(long, value_name = "FILE")]
+    pub(crate) depth_model: Option<PathBuf>,
+    /// The network's card, where it doesn't lie beside it
+    #[arg(long, value_name = "FILE", requires = "depth_model")]
+    depth_card: Option<PathBuf>,
+    /// Run the network with ONNX Runtime
+    #[cfg(feature = "ort")]
+    #[arg(long, requires = "depth_model")]
+    onnx_runtime: bool,
+}
+
+impl DepthModelArgs {
+    /// Loads the network, where one is given.
+    pub(crate) fn load(&self) -> anyhow::Result<Option<OnnxModel>> {
+        let Some(model) = &self.depth_model else { return Ok(None) };
+        let runtime = runtime(
+            #[cfg(feature = "ort")]
+            self.onnx_runtime,
+        );
+        Ok(Some(OnnxModel::load_with(runtime, model, self.depth_card.as_deref())?))
+    }
+}
+
+/// Which segmentation network, and what runs it.
+#[derive(Debug, Args)]
+pub(crate) struct SegmentationModelArgs {
+    /// A segmentation network (.onnx); a card beside it (.toml) says what it wants and gives
+    #[arg(long, value_name = "FILE")]
+    model: PathBuf,
+    /// The network's card, where it doesn't lie beside it
+    #[arg(long, value_name = "FILE")]
+    card: Option<PathBuf>,
+    /// Run the network with ONNX Runtime
+    #[cfg(feature = "ort")]
+    #[arg(long)]
+    onnx_runtime: bool,
+}
+
+impl SegmentationModelArgs {
+    /// Loads the network.
+    pub(crate) fn load(&self) -> anyhow::Result<SegmentationModel> {
+        let runtime = runtime(
+            #[cfg(feature = "ort")]
+            self.onnx_runtime,
+        );
+        Ok(SegmentationModel::load(runtime, &self.model, self.card.as_deref())?)
+    }
+}
+
+#[cfg(feature = "ort")]
+fn runtime(onnx_runtime: bool) -> Runtime {
+    if onnx_runtime { Runtime::OnnxRuntime } else { Runtime::Rten }
+}
+
+#[cfg(not(feature = "ort"))]
+fn runtime() -> Runtime {
+    Runtime::Rten
+}
+
+/// Images of one sequence: camera and number.
+pub(crate) type Images = Vec<(usize, usize)>;
+
+/// All images of a sequence.
+pub(crate) fn all_images(sequence: &Sequence) -> Images {
+    let cameras = sequence.times.cameras.iter().enumerate();
+    cameras.flat_map(|(camera, times)| (0..times.len()).map(move |image| (camera, image))).collect()
+}
+
+/// The images that are nearest to some radar scan, within a tolerance in ms: those that labelling asks for.
+fn images_of_scans(sequence: &Sequence, tolerance_ms: f64) -> Images {
+    let tolerance = nanoseconds(tolerance_ms);
+    let cameras = sequence.times.cameras.iter().enumerate();
+    let of_camera = |(camera, times): (usize, &Vec<i64>)| {
+        let scans = sequence.times.radars.iter().flatten();
+        let images: BTreeSet<usize> =
+            scans.filter_map(|t_ns| sync::nearest(times, *t_ns, tolerance)).collect();
+        images.into_iter().map(move |image| (camera, image)).collect::<Vec<_>>()
+    };
+    cameras.flat_map(of_camera).collect()
+}
+
+/// The recording with the network's depth, computed now as far as labelling needs it and stored in `OUT/depth`.
+pub(crate) fn depth_for_labelling(
+    recording: Recording,
+    model: &OnnxModel,
+    out: &Path,
+    config: &Config,
+    jobs: usize,
+) -> anyhow::Result<Recording> {
+    let network = model.fingerprint();
+    let folder = out.join("depth").join(&network[..network.len().min(12)]);
+    let store = DepthStore::create(&folder, model.output(), network)?;
+    let tolerance = config.sync.camera_tolerance_ms;
+    fill_depth(&store, &recording, model, |sequence| images_of_scans(sequence, tolerance), jobs)?;
+    Ok(store.attach(recording))
+}
+
+/// Computes what a store lacks of a recording's depth. Images that can't be used are named, and have no depth.
+pub(crate) fn fill_depth(
+    store: &DepthStore,
+    recording: &Recording,
+    model: &OnnxModel,
+    images: impl Fn(&Sequence) -> Images,
+    jobs: usize,
+) -> anyhow::Result<usize> {
+    let estimate = |view: &_, focal| model.estimate(view, focal).map_err(|error| error.to_string());
+    fill("depth", recording, images, &|reader, images, observer| {
+        store.compute(reader, images, &estimate, jobs, observer)
+    })
+}
+
+/// Computes what a store lacks of a recording's segmentations. Images that can't be used are named, and have none.
+pub(crate) fn fill_segmentation(
+    store: &SegmentationStore,
+    recording: &Recording,
+    model: &SegmentationModel,
+    jobs: usize,
+) -> anyhow::Result<usize> {
+    let estimate = |view: &_, _| model.segment(view).map_err(|error| error.to_string());
+    fill("segmentation", recording, all_images, &|reader, images, observer| {
+        store.compute(reader, images, &estimate, jobs, observer)
+    })
+}
+
+/// Runs a network over these images of a sequence, and returns those that can't be used.
+type Compute<'a> =
+    dyn Fn(&dyn SequenceReader, &[(usize, usize)], &ViewObserver) -> Result<Vec<DataError>, DataError> + 'a;
+
+/// Computes what a network says of a recording's images. Those that can't be used are named and counted.
+fn fill(
+    what: &str,
+    recording: &Recording,
+    images: impl Fn(&Sequence) -> Images,
+    compute: &Compute,
+) -> anyhow::Result<usize> {
+    let mut without = 0;
+    for reader in &recording.sequences {
+        let (name, images) = (&reader.sequence().name, images(reader.sequence()));
+        let progress = Progress::of_steps(images.len() as u64, format!("{what} of {name}"));
+        let failed = compute(reader.as_ref(), &images, &|| progress.advance(1));
+        drop(progress);
+        let failed = failed.with_context(|| format!("{what} of {name}"))?;
+        failed.iter().for_each(|error| say(&format!("no {what}: {name}: {error}")));
+        without += failed.len();
+    }
+    Ok(without)
+}

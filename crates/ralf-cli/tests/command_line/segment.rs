@@ -1,0 +1,64 @@
+//! `ralf segment`, and labels with what it stored.
+
+use crate::support::{Dataset, Shape, ralf, schema};
+use std::fs;
+
+#[allow(dead_code, reason = "the tests of the crate use all of it")]
+#[path = "../../../ralf-depth/src/testing.rs"]
+mod network;
+
+const CARD: &str = "input = { width = 32, height = 16 }\nfit = \"stretch\"\nchannels = \"rgb\"\ndivide_by = 255\n\
+                    mean = [0, 0, 0]\nstd = [1, 1, 1]\nclasses = [{ name = \"sky\", id = 0 }, \
+                    { name = \"car\", id = 10 }, { name = \"wall\", id = 51 }]\n";
+
+/// A network whose classes are the colours, beside the dataset.
+fn colours(dataset: &Dataset) -> String {
+    use network::{FLOAT, INT64, flagged, onnx};
+    let largest = flagged("ArgMax", "image", "places", &[("axis", 1), ("keepdims", 0)]);
+    let [image, places] = [("image", FLOAT, &[1, 3, 0, 0][..]), ("places", INT64, &[1, 0, 0][..])];
+    let file = dataset.beside("colours.onnx");
+    fs::write(&file, onnx(&[largest], &[], &[image], &[places])).unwrap();
+    fs::write(dataset.beside("colours.toml"), CARD).unwrap();
+    file
+}
+
+#[test]
+fn images_are_segmented_once_and_tell_where_classes_are_from() {
+    let dataset = Dataset::of(&Shape { scans: 3, ..Shape::default() }).with_camera(3);
+    let model = colours(&dataset);
+    let store = dataset.beside("classes");
+    ralf(["segment", &dataset.path, "--model", &model, "-o", &store]).exits(0).prints_nothing();
+    let first = format!("{store}/sequences/00/camera_front/segmentation/000000.png");
+    let made = fs::metadata(&first).unwrap().modified().unwrap();
+    ralf(["segment", &dataset.path, "--model", &model, "-o", &store]).exits(0);
+    assert_eq!(fs::metadata(&first).unwrap().modified().unwrap(), made, "what is stored is kept");
+    ralf(["label", &dataset.path, "-o", &dataset.out]).exits(0);
+    let plain = dataset.result("plausibility.parquet");
+    assert!(!schema(plain).iter().any(|column| column.contains("class_from")));
+    let out = dataset.beside("with-classes");
+    ralf(["label", &dataset.path, "-o", &out, "--segmentation", &store]).exits(0);
+    let told = schema(format!("{out}/sequences/00/plausibility.parquet"));
+    assert!(told.iter().any(|column| column.contains("class_from")), "{told:?}");
+    // Without -o they lie in the dataset itself, and labelling finds them there.
+    ralf(["segment", &dataset.path, "--model", &model]).exits(0);
+    assert!(dataset.file("camera_front/segmentation/000002.png").exists());
+}
+
+#[test]
+fn what_is_wrong_with_network_card_and_store_is_named() {
+    let dataset = Dataset::of(&Shape { scans: 3, ..Shape::default() }).with_camera(3);
+    let model = colours(&dataset);
+    let card = dataset.beside("colours.toml");
+    let segment = || ralf(["segment", &dataset.path, "--model", &model]).exits(1);
+    fs::write(&card, CARD.replace("id = 51", "id = 7")).unwrap();
+    segment().says(["colours.toml: classes: expected", "found 7 of `wall`"]);
+    fs::remove_file(&card).unwrap();
+    segment().says(["colours.toml: not found", "cityscapes"]);
+    fs::write(&card, CARD).unwrap();
+    let store = dataset.beside("classes");
+    fs::create_dir_all(&store).unwrap();
+    fs::write(format!("{store}/segmentation.toml"), "network = \"another\"\n").unwrap();
+    let refused = ralf(["segment", &dataset.path, "--model", &model, "-o", &store]).exits(1);
+    refused
+        .says(["segmentation.toml: network: expected segmentation of the network", "found that of another"]);
+}

@@ -1,0 +1,153 @@
+//! A recording with what a store holds of its images.
+
+use super::folder::ViewFolder;
+use crate::disk::{class_images, npy};
+use crate::read::{MotionSource, Recording, SequenceReader, TruthLabels};
+use crate::result::SequenceNames;
+use ralf::label::Cause;
+use ralf::sensors::{
+    CameraImage, ClassImage, DepthImage, DepthOutput, LidarScan, RadarScan, Sequence, Source, SourceError,
+};
+use std::any::Any;
+use std::path::PathBuf;
+
+/// Any store.
+#[derive(Debug, Clone)]
+pub(super) enum Stored {
+    Depth(ViewFolder, DepthOutput),
+    Segmentation(ViewFolder),
+}
+
+/// A recording with what a store holds in place of its own.
+pub(super) fn attach(recording: Recording, store: &Stored) -> Recording {
+    let attach = |inner: Box<dyn SequenceReader>| {
+        let mut sequence = inner.sequence().clone();
+        if let Stored::Depth(_, output) = store {
+            sequence.depth_output = *output;
+        }
+        // A store holds nothing of what can't have a folder in it.
+        let names = SequenceNames::new(&sequence).ok();
+        Box::new(WithStore { inner, sequence, names, store: store.clone() }) as Box<dyn SequenceReader>
+    };
+    Recording { sequences: recording.sequences.into_iter().map(attach).collect(), ..recording }
+}
+
+/// A sequence whose depth or segmentation lies in a store.
+struct WithStore {
+    inner: Box<dyn SequenceReader>,
+    sequence: Sequence,
+    names: Option<SequenceNames>,
+    store: Stored,
+}
+
+impl WithStore {
+    fn file(&self, camera: usize, image: usize) -> Option<PathBuf> {
+        let names = self.names.as_ref()?;
+        let camera = names.cameras.get(camera)?;
+        let (Stored::Depth(folder, _) | Stored::Segmentation(folder)) = &self.store;
+        Some(folder.file(&names.sequence, camera, image)).filter(|file| file.exists())
+    }
+
+    fn has_file(&self, camera: usize) -> bool {
+        let images = self.sequence.times.cameras.get(camera).map_or(0, Vec::len);
+        (0..images).any(|image| self.file(camera, image).is_some())
+    }
+}
+
+impl Source for WithStore {
+    fn sequence(&self) -> &Sequence {
+        &self.sequence
+    }
+
+    fn radar_scan(&self, radar: usize, scan: usize) -> Result<RadarScan, SourceError> {
+        self.inner.radar_scan(radar, scan)
+    }
+
+    fn lidar_scan(&self, lidar: usize, scan: usize) -> Result<LidarScan, SourceError> {
+        self.inner.lidar_scan(lidar, scan)
+    }
+
+    fn image(&self, camera: usize, image: usize) -> Result<CameraImage, SourceError> {
+        self.inner.image(camera, image)
+    }
+
+    fn depth(&self, camera: usize, image: usize) -> Result<Option<Vec<DepthImage>>, SourceError> {
+        match &self.store {
+            Stored::Depth(..) => {
+                Ok(self.file(camera, image).map(|file| npy::read_depth(&file)).transpose()?)
+            }
+            Stored::Segmentation(_) => self.inner.depth(camera, image),
+        }
+    }
+
+    fn classes(&self, camera: usize, image: usize) -> Result<Option<Vec<ClassImage>>, SourceError> {
+        match &self.store {
+            Stored::Depth(..) => self.inner.classes(camera, image),
+            Stored::Segmentation(_) => {
+                let read = |file: PathBuf| class_images::read(&file, &self.sequence.rig.cameras[camera]);
+                Ok(self.file(camera, image).map(read).transpose()?)
+            }
+        }
+    }
+}
+
+impl SequenceReader for WithStore {
+    fn inputs(&self) -> Vec<PathBuf> {
+        let cameras = self.sequence.times.cameras.iter().enumerate();
+        let images = cameras.flat_map(|(camera, times)| (0..times.len()).map(move |image| (camera, image)));
+        let stored = images.filter_map(|(camera, image)| self.file(camera, image));
+        self.inner.inputs().into_iter().chain(stored).collect()
+    }
+
+    fn warnings(&self) -> &[String] {
+        self.inner.warnings()
+    }
+
+    fn image_file(&self, camera: usize, image: usize) -> Option<PathBuf> {
+        self.inner.image_file(camera, image)
+    }
+
+    fn lidar_label_file(&self, lidar: usize, scan: usize) -> Option<PathBuf> {
+        self.inner.lidar_label_file(lidar, scan)
+    }
+
+    fn has_depth(&self, camera: usize) -> bool {
+        match &self.store {
+            Stored::Depth(..) => self.has_file(camera),
+            Stored::Segmentation(_) => self.inner.has_depth(camera),
+        }
+    }
+
+    fn has_segmentation(&self) -> bool {
+        match &self.store {
+            Stored::Depth(..) => self.inner.has_segmentation(),
+            Stored::Segmentation(_) => {
+                (0..self.sequence.rig.cameras.len()).any(|camera| self.has_file(camera))
+            }
+        }
+    }
+
+    fn origin(&self) -> Option<&dyn Any> {
+        self.inner.origin()
+    }
+
+    fn rolling_scan(&self, lidar: usize, scan: usize) -> Result<Option<LidarScan>, SourceError> {
+        self.inner.rolling_scan(lidar, scan)
+    }
+
+    fn motion_source(&self) -> MotionSource {
+        self.inner.motion_source()
+    }
+
+    fn truth(&self, radar: usize, scan: usize) -> Result<Option<TruthLabels>, SourceError> {
+        self.inner.truth(radar, scan)
+    }
+
+    fn causes(&self) -> &'static [Cause] {
+        self.inner.causes()
+    }
+
+    fn truth_file(&self, radar: usize, scan: usize) -> Option<PathBuf> {
+        self.inner.truth_file(radar, scan)
+    }
+}

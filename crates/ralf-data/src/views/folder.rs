@@ -1,0 +1,79 @@
+//! Where what a network said of images lies, in the tree of the project's own layout:
+//! `ROOT/sequences/NAME/CAMERA/KIND/000000.EXTENSION`.
+
+use crate::disk::files;
+use crate::error::DataError;
+use crate::result::{Component, OutFolder, WriterLock};
+use ralf_files::Kind;
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+use std::path::{Path, PathBuf};
+
+/// What a store is called.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct StoreKind {
+    /// The folder in that of a camera; with `.toml` the file that says what a store holds.
+    pub(super) name: &'static str,
+    /// How its files end.
+    pub(super) extension: &'static str,
+    /// The command that fills it.
+    pub(super) verb: &'static str,
+}
+
+/// A folder of files of one network, one per image.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) struct ViewFolder {
+    root: PathBuf,
+    kind: StoreKind,
+}
+
+impl ViewFolder {
+    pub(super) fn new(root: &Path, kind: StoreKind) -> Self {
+        Self { root: root.to_owned(), kind }
+    }
+
+    /// Writes what the store holds; where that is known, it has to be the same. `network` tells whose it is.
+    pub(super) fn claim<T: Serialize + DeserializeOwned + PartialEq>(
+        &self,
+        own: &T,
+        network: impl Fn(&T) -> &str,
+    ) -> Result<(), DataError> {
+        let file = self.card();
+        if !file.exists() {
+            let text = toml::to_string(own);
+            let text =
+                text.map_err(|error| DataError::content(&file, "content", "TOML", error.to_string()))?;
+            return files::write_whole(&file, text.as_bytes());
+        }
+        let found: T = self.read_card()?;
+        if found == *own {
+            return Ok(());
+        }
+        let expected = format!("{} of the network {}, or another folder", self.kind.name, network(own));
+        Err(DataError::content(&file, "network", expected, format!("that of {}", network(&found))))
+    }
+
+    /// What the store says that it holds.
+    pub(super) fn read_card<T: DeserializeOwned>(&self) -> Result<T, DataError> {
+        let file = self.card();
+        let expected = format!("what `ralf {}` wrote", self.kind.verb);
+        let refused =
+            |error: toml::de::Error| DataError::content(&file, "content", expected, error.to_string());
+        toml::from_str(&files::read_text(&file, Kind::Settings)?).map_err(refused)
+    }
+
+    /// The file of an image's views.
+    pub(super) fn file(&self, sequence: &Component, camera: &Component, image: usize) -> PathBuf {
+        let camera = OutFolder::new(&self.root).own("sequences").folder(sequence).folder(camera);
+        camera.own(self.kind.name).file(&Component::numbered(image, self.kind.extension))
+    }
+
+    /// The right to write to it; another process may have that.
+    pub(super) fn lock(&self) -> Result<WriterLock, DataError> {
+        WriterLock::take(self.root.join(format!(".{}-lock", self.kind.name)), &self.root)
+    }
+
+    fn card(&self) -> PathBuf {
+        self.root.join(format!("{}.toml", self.kind.name))
+    }
+}

@@ -1,0 +1,58 @@
+//! The segmentations of the images around a radar scan.
+
+use super::super::camera::{ImageId, SegmentedImage, SegmentedView};
+use super::super::frame::Unreadable;
+use super::super::lidar::LidarView;
+use super::{FrameWindow, Key};
+use std::sync::Arc;
+
+impl FrameWindow<'_> {
+    /// The images nearest to a time with their segmentations; those without one are absent, and those whose can't be
+    /// read are named.
+    pub(super) fn segmented(&mut self, t_ns: i64, unreadable: &mut Vec<Unreadable>) -> Vec<SegmentedView> {
+        let mut views = Vec::new();
+        let nearest = if self.config.camera.enabled { self.nearest_images(t_ns) } else { Vec::new() };
+        for (camera, image) in nearest {
+            match self.segmentation((camera, image)) {
+                Ok(Some(moment)) => {
+                    let vehicle_from_image = self.source.sequence().motion.between(t_ns, moment.id.t_ns);
+                    views.push(SegmentedView { moment, vehicle_from_image });
+                }
+                Ok(None) => {}
+                Err(reason) => {
+                    let sensor = self.rig.cameras[camera].name.clone();
+                    unreadable.push(Unreadable { sensor, index: image, reason });
+                }
+            }
+        }
+        views
+    }
+
+    fn segmentation(&mut self, key: Key) -> Result<Option<Arc<SegmentedImage>>, String> {
+        if let Some(known) = self.segmented.get(&key) {
+            return known;
+        }
+        let found = self.read_segmentation(key).map(|found| found.map(Arc::new));
+        self.segmented.insert(key, found.clone());
+        found
+    }
+
+    fn read_segmentation(&mut self, (camera, image): Key) -> Result<Option<SegmentedImage>, String> {
+        let Some(classes) = self.source.classes(camera, image).map_err(|error| error.to_string())? else {
+            return Ok(None);
+        };
+        let t_ns = self.source.sequence().times.cameras[camera][image];
+        let points = self.near_lidars(t_ns).view.as_ref().map(LidarView::all_points).unwrap_or_default();
+        let calibrated = self.image(camera, image);
+        let id = ImageId { camera, image, t_ns };
+        let segmented = SegmentedImage::new(
+            &self.rig.cameras[camera],
+            id,
+            &classes,
+            &points,
+            calibrated.as_deref(),
+            &self.config.camera,
+        );
+        segmented.map(Some)
+    }
+}
