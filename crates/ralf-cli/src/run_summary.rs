@@ -5,7 +5,7 @@ use ralf::label::flag;
 use ralf::scene::{Failure, ViewState};
 use ralf_data::run::{CameraRecord, RadarRecord, RunRecord};
 
-/// So many cameras are named that were not used.
+/// So many cameras are named that were not matched.
 const SHOWN_CAMERAS: usize = 8;
 
 /// The tables of a run.
@@ -44,7 +44,7 @@ fn unused_cameras(record: &RunRecord) -> String {
     let shown = unused.iter().take(SHOWN_CAMERAS).cloned().collect::<Vec<_>>().join(", ");
     let more = if unused.len() > SHOWN_CAMERAS { ", ..." } else { "" };
     format!(
-        "\n{cameras} camera(s) not used, for no image near a radar scan has depth \
+        "\n{cameras} camera(s) not matched, for no image near a radar scan has depth \
          (--depth-model or `ralf depth` makes it): {shown}{more}\n"
     )
 }

@@ -59,7 +59,7 @@ fn without_depth_a_camera_is_absent_and_sets_no_flag() {
     });
     assert!(record.contains("\"images\": []"), "{record}");
     assert!(
-        inspected.contains("1 camera(s) not used, for no image near a radar scan has depth"),
+        inspected.contains("1 camera(s) not matched, for no image near a radar scan has depth"),
         "{inspected}"
     );
 }

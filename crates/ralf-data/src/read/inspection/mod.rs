@@ -159,7 +159,8 @@ fn missing(reader: &dyn SequenceReader, sensors: &[SensorInspection], config: &C
         say(
             !times.cameras[camera].is_empty() && !reader.has_depth(camera),
             format!(
-                "{name}: no depth images, so it is not used: `ralf label --depth-model` or `ralf depth` makes them"
+                "{name}: no depth images, so nothing is matched with it: `ralf label --depth-model` or \
+                 `ralf depth` makes them"
             ),
         );
     }
