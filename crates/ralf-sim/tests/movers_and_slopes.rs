@@ -58,7 +58,7 @@ fn on_a_motorway_far_more_of_the_cars_are_kept_and_hardly_more_of_the_artifacts(
     let paper = labelled(&sequence, &[]);
     let movers = labelled(&sequence, &["tracking.doppler=true", "lidar.dynamic=true"]);
     let recalls = [paper.recall_of_cars, movers.recall_of_cars];
-    assert!(recalls[0] < 0.45 && recalls[1] > recalls[0] + 0.25, "{recalls:?}");
+    assert!(recalls[1] > 0.9 && recalls[1] > recalls[0] + 0.4, "{recalls:?}");
     let precisions = [paper.precision, movers.precision];
     assert!(precisions[1] > precisions[0] - 0.03, "{precisions:?}");
 }
