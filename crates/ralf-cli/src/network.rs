@@ -1,7 +1,8 @@
 //! Networks from the command line, and running them over a recording's images.
 
+use crate::outcome::UsageError;
 use crate::progress::{Progress, say};
-use anyhow::Context;
+use anyhow::{Context, ensure};
 use clap::Args;
 use ralf::config::{Config, nanoseconds};
 use ralf::sensors::Sequence;
@@ -73,6 +74,19 @@ fn runtime(onnx_runtime: bool) -> Runtime {
 #[cfg(not(feature = "ort"))]
 fn runtime() -> Runtime {
     Runtime::Rten
+}
+
+/// The folder of a recording that can keep what a network says of its images: one of the own layout, for others are
+/// only read.
+pub(crate) fn own_folder(recording: &Recording) -> anyhow::Result<&Path> {
+    ensure!(
+        recording.format == "ralf",
+        UsageError(format!(
+            "expected -o FOLDER, for a recording of the format {} is only read",
+            recording.format
+        ))
+    );
+    Ok(&recording.path)
 }
 
 /// Images of one sequence: camera and number.

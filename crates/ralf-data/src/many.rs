@@ -12,7 +12,7 @@ use crate::result::json::{read_json, write_json};
 use crate::result::{Component, NotLabelled};
 use crate::run::{LabelRun, Observer, Outcome, Stretch, refuse_to_write_into};
 use crate::settings::Settings;
-use crate::views::{DepthStore, SegmentationStore};
+use crate::views::with_stored;
 use ralf::config::Method;
 use ralf::learned::Model;
 use ralf_files::Kind;
@@ -89,14 +89,7 @@ impl Job {
     pub fn open(&self) -> Result<Recording, DataError> {
         let recording = open_with(&self.recording, self.format.as_deref(), &self.settings.topics)?;
         let recording = self.settings.correct(recording.select(&self.sequences)?)?;
-        let recording = match &self.depth {
-            Some(folder) => DepthStore::open(folder)?.attach(recording),
-            None => recording,
-        };
-        Ok(match &self.segmentation {
-            Some(folder) => SegmentationStore::open(folder)?.attach(recording),
-            None => recording,
-        })
+        with_stored(recording, self.depth.as_deref(), self.segmentation.as_deref())
     }
 
     /// Labels the recording, on this machine alone.

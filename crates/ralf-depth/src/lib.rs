@@ -31,6 +31,7 @@ mod depth;
 mod error;
 mod estimator;
 mod fit;
+mod loaded;
 mod model;
 mod network;
 #[cfg(feature = "ort")]
@@ -38,6 +39,7 @@ mod ort_backend;
 mod plane;
 mod rten_backend;
 mod runner;
+mod runtime;
 mod segmentation;
 #[cfg(test)]
 mod segmentation_tests;
@@ -52,5 +54,6 @@ mod wire;
 pub use card::{Card, Channels, Feed, Fit, InputSize, OutputClass, SegmentationCard, Side, presets};
 pub use error::NetworkError;
 pub use estimator::DepthEstimator;
-pub use model::{OnnxModel, Runtime};
+pub use model::OnnxModel;
+pub use runtime::Runtime;
 pub use segmentation::SegmentationModel;

@@ -1,16 +1,15 @@
 //! Segmentation networks: the class of each pixel of a view.
 
-use crate::card::{Card, SegmentationCard};
+use crate::card::SegmentationCard;
 use crate::colour::Colour;
 use crate::fit::Framed;
-use crate::model::fingerprint;
-use crate::network::{Network, Tensor, classes_output, depth_size, score_size};
+use crate::loaded::Loaded;
+use crate::network::{Tensor, classes_output, depth_size, score_size};
 use crate::plane::Plane;
 use crate::runner::{Runner, whole};
 use crate::{NetworkError, Runtime};
 use ralf::sensors::{CameraImage, ClassImage};
-use ralf_files::Kind;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// A segmentation network of an `.onnx` file.
 ///
@@ -25,30 +24,19 @@ use std::path::{Path, PathBuf};
 /// # Ok(())
 /// # }
 /// ```
-pub struct SegmentationModel {
-    file: PathBuf,
-    card: SegmentationCard,
-    network: Box<dyn Network>,
-    /// Index of the classes among the network's outputs.
-    output: usize,
-    fingerprint: String,
-}
+#[derive(Debug)]
+pub struct SegmentationModel(Loaded<SegmentationCard>);
 
 impl SegmentationModel {
     /// Loads a network with its card, which lies beside it unless it is given.
     pub fn load(runtime: Runtime, model: &Path, card: Option<&Path>) -> Result<Self, NetworkError> {
-        let bytes = ralf_files::read(model, Kind::Network).map_err(NetworkError::io(model))?;
-        let card = SegmentationCard::read(&card.map_or_else(|| Card::beside(model), Path::to_owned))?;
-        let fingerprint = fingerprint(model, &bytes, &card)?;
-        let network = runtime.network(model, bytes)?;
-        let output = classes_output(model, network.as_ref(), &card)?;
-        Ok(Self { file: model.to_owned(), card, network, output, fingerprint })
+        Loaded::new(runtime, model, card, SegmentationCard::read, classes_output).map(Self)
     }
 
     /// The class of each pixel of a straight view. Deterministic, and may be asked for from several threads at once.
     pub fn segment(&self, view: &CameraImage) -> Result<ClassImage, NetworkError> {
-        let Self { file, card, network, output, .. } = self;
-        let runner = Runner { file, feed: &card.feed, network: network.as_ref(), output: *output };
+        let card = &self.0.card;
+        let runner = self.0.runner(&card.feed);
         let (framed, image) = Framed::new(&card.feed, &Colour::from_view(view)?);
         let given = Given { runner, classes: card.classes.len(), framed, input: image.size() };
         let places = given.places(runner.run(&image)?)?;
@@ -59,17 +47,7 @@ impl SegmentationModel {
     /// Changes with anything that changes the classes: a stored segmentation with the same fingerprint needn't be
     /// computed again.
     pub fn fingerprint(&self) -> &str {
-        &self.fingerprint
-    }
-}
-
-impl std::fmt::Debug for SegmentationModel {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("SegmentationModel")
-            .field("file", &self.file)
-            .field("card", &self.card)
-            .field("runtime", &self.network.runtime())
-            .finish_non_exhaustive()
+        self.0.fingerprint()
     }
 }
 

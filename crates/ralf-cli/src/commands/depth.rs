@@ -1,7 +1,7 @@
 //! `ralf depth`: the depth of every image, once for all; and how well it fits the LiDAR.
 
 use crate::arguments::{DatasetArgs, SettingsArgs, threads};
-use crate::network::{DepthModelArgs, all_images, fill_depth};
+use crate::network::{DepthModelArgs, all_images, fill_depth, own_folder};
 use crate::outcome::{Outcome, UsageError};
 use crate::text::{aligned, grouped, print};
 use anyhow::{Context, ensure};
@@ -81,13 +81,7 @@ impl DepthArgs {
         if let Some(folder) = &self.output {
             return Ok(DepthStore::create(folder, output, model.fingerprint())?);
         }
-        ensure!(
-            recording.format == "ralf",
-            UsageError(format!(
-                "expected -o FOLDER, for a recording of the format {} is only read",
-                recording.format
-            ))
-        );
+        let folder = own_folder(recording)?;
         for reader in &recording.sequences {
             let declared = reader.sequence().depth_output;
             let file = recording.path.join("sequences").join(&reader.sequence().name).join("sequence.toml");
@@ -97,7 +91,7 @@ impl DepthArgs {
                 file.display()
             );
         }
-        Ok(DepthStore::create(&recording.path, output, model.fingerprint())?)
+        Ok(DepthStore::create(folder, output, model.fingerprint())?)
     }
 }
 

@@ -12,7 +12,7 @@ use crate::text::{grouped, print};
 use clap::Args;
 use ralf_data::Recording;
 use ralf_data::run::{CheckRecord, LabelRun, Outcome as RunOutcome, RunRecord, SequenceRecord, check_all};
-use ralf_data::views::{DepthStore, SegmentationStore};
+use ralf_data::views::with_stored;
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 use std::time::Instant;
@@ -90,7 +90,7 @@ pub(crate) fn run(arguments: &LabelArgs) -> anyhow::Result<Outcome> {
         say("nothing is labelled, for the recording is doubted (--strict)");
         return Ok(Outcome::Partial);
     }
-    let recording = arguments.with_stored_views(recording)?;
+    let recording = with_stored(recording, arguments.depth.as_deref(), arguments.segmentation.as_deref())?;
     #[cfg(feature = "depth")]
     let recording = match arguments.depth_model.load()? {
         Some(model) => depth_for_labelling(recording, &model, &arguments.output, &settings.method, jobs)?,
@@ -134,18 +134,6 @@ fn told_of_scans(record: &RunRecord) -> Outcome {
 }
 
 impl LabelArgs {
-    /// The recording with the depth images and segmentations of folders, where they are named.
-    fn with_stored_views(&self, recording: Recording) -> anyhow::Result<Recording> {
-        let recording = match &self.depth {
-            Some(folder) => DepthStore::open(folder)?.attach(recording),
-            None => recording,
-        };
-        Ok(match &self.segmentation {
-            Some(folder) => SegmentationStore::open(folder)?.attach(recording),
-            None => recording,
-        })
-    }
-
     /// What is to be known before anything is labelled; doubts are told. Without `--strict` checks go on meanwhile.
     fn checks_before(&self, recording: &Recording, jobs: usize) -> Vec<CheckRecord> {
         let checks = if self.strict { check_all(recording, jobs) } else { Vec::new() };

@@ -1,9 +1,8 @@
 //! `ralf segment`: the class of every pixel of every image, once for all.
 
 use crate::arguments::{DatasetArgs, SettingsArgs, threads};
-use crate::network::{SegmentationModelArgs, fill_segmentation};
-use crate::outcome::{Outcome, UsageError};
-use anyhow::ensure;
+use crate::network::{SegmentationModelArgs, fill_segmentation, own_folder};
+use crate::outcome::Outcome;
 use clap::Args;
 use ralf_data::Recording;
 use ralf_data::views::SegmentationStore;
@@ -55,14 +54,7 @@ pub(crate) fn run(arguments: &SegmentArgs) -> anyhow::Result<Outcome> {
 
 impl SegmentArgs {
     fn store(&self, recording: &Recording, model: &SegmentationModel) -> anyhow::Result<SegmentationStore> {
-        let folder = self.output.as_deref().unwrap_or(&recording.path);
-        ensure!(
-            self.output.is_some() || recording.format == "ralf",
-            UsageError(format!(
-                "expected -o FOLDER, for a recording of the format {} is only read",
-                recording.format
-            ))
-        );
+        let folder = self.output.as_deref().map_or_else(|| own_folder(recording), Ok)?;
         Ok(SegmentationStore::create(folder, model.fingerprint())?)
     }
 }

@@ -13,7 +13,7 @@ use std::path::PathBuf;
 
 /// Any store.
 #[derive(Debug, Clone)]
-pub(super) enum Stored {
+pub enum Stored {
     Depth(ViewFolder, DepthOutput),
     Segmentation(ViewFolder),
 }

@@ -1,11 +1,12 @@
 //! Running a network over the straight views of a sequence's images.
 
+use super::folder::ViewFolder;
+use super::stored_view::StoredView;
 use crate::error::DataError;
 use crate::frames::side_by_side;
 use crate::read::SequenceReader;
-use crate::result::{Component, SequenceNames, WriterLock};
+use crate::result::SequenceNames;
 use ralf::sensors::{Camera, CameraImage, StraightView, UndistortMap};
-use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
 /// A network: what it says of a view with a focal length, px; or why it says nothing.
@@ -13,21 +14,6 @@ pub type Estimate<'a, T> = dyn Fn(&CameraImage, f64) -> Result<T, String> + Sync
 
 /// Is told how the computation gets on, from several threads.
 pub type ViewObserver<'a> = dyn Fn() + Sync + 'a;
-
-/// Where what a network says of the views of images is kept, a file per image.
-pub(super) trait ViewStore: Sync {
-    /// What the network says of a view.
-    type View: Send;
-
-    /// The file of an image's views.
-    fn file(&self, sequence: &Component, camera: &Component, image: usize) -> PathBuf;
-
-    /// Stores an image's views in its file, whole or not at all.
-    fn write(&self, file: &Path, views: &[Self::View]) -> Result<(), DataError>;
-
-    /// The right to write to it; another process may have that.
-    fn lock(&self) -> Result<WriterLock, DataError>;
-}
 
 /// A camera's views with the maps that straighten its images, made when they are first needed.
 struct Straightening<'a> {
@@ -40,11 +26,11 @@ struct Straightening<'a> {
 ///
 /// Returns the images that it can say nothing of for a reason of their own, which is named, in their order. What can't
 /// be stored is an error, and so is another process that writes to the store.
-pub(super) fn compute_views<S: ViewStore>(
+pub(super) fn compute_views<V: StoredView>(
     reader: &dyn SequenceReader,
     images: &[(usize, usize)],
-    store: &S,
-    estimate: &Estimate<S::View>,
+    store: &ViewFolder,
+    estimate: &Estimate<V>,
     jobs: usize,
     observer: &ViewObserver,
 ) -> Result<Vec<DataError>, DataError> {
@@ -58,7 +44,7 @@ pub(super) fn compute_views<S: ViewStore>(
         let file = store.file(&names.sequence, folder, image);
         if !file.exists() {
             match straightening.estimated(reader, (camera, image), estimate) {
-                Ok(views) => store.write(&file, &views)?,
+                Ok(views) => V::write(&file, &views)?,
                 Err(error) => {
                     let sensor = straightening.camera.name.clone();
                     failed = Some(((camera, image), DataError::Measurement { sensor, index: image, error }));

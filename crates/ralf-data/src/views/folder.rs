@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 
 /// What a store is called.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct StoreKind {
+pub struct StoreKind {
     /// The folder in that of a camera; with `.toml` the file that says what a store holds.
     pub(super) name: &'static str,
     /// How its files end.
@@ -22,7 +22,7 @@ pub(super) struct StoreKind {
 
 /// A folder of files of one network, one per image.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(super) struct ViewFolder {
+pub struct ViewFolder {
     root: PathBuf,
     kind: StoreKind,
 }
@@ -36,7 +36,7 @@ impl ViewFolder {
     pub(super) fn claim<T: Serialize + DeserializeOwned + PartialEq>(
         &self,
         own: &T,
-        network: impl Fn(&T) -> &str,
+        network: fn(&T) -> &str,
     ) -> Result<(), DataError> {
         let file = self.card();
         if !file.exists() {

@@ -7,8 +7,30 @@ mod compute;
 mod depth;
 mod folder;
 mod segmentation;
+mod store;
+mod stored_view;
 
 pub use check::{CameraCheck, SCALINGS, check_scalings};
 pub use compute::{Estimate, ViewObserver};
 pub use depth::DepthStore;
 pub use segmentation::SegmentationStore;
+pub use store::Store;
+
+use crate::error::DataError;
+use crate::read::Recording;
+use std::path::Path;
+
+/// A recording with the depth images and the segmentations of stores, where their folders are named.
+pub fn with_stored(
+    mut recording: Recording,
+    depth: Option<&Path>,
+    segmentation: Option<&Path>,
+) -> Result<Recording, DataError> {
+    if let Some(folder) = depth {
+        recording = DepthStore::open(folder)?.attach(recording);
+    }
+    if let Some(folder) = segmentation {
+        recording = SegmentationStore::open(folder)?.attach(recording);
+    }
+    Ok(recording)
+}

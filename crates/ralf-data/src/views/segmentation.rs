@@ -1,89 +1,49 @@
 //! Stores of segmentations: `ROOT/sequences/NAME/CAMERA/segmentation/000000.png`.
 
-use super::attached::{Stored, attach};
-use super::compute::{Estimate, ViewObserver, ViewStore, compute_views};
+use super::attached::Stored;
 use super::folder::{StoreKind, ViewFolder};
+use super::store::Store;
+use super::stored_view::StoredView;
 use crate::disk::{class_images, files};
 use crate::error::DataError;
-use crate::read::{Recording, SequenceReader};
-use crate::result::{Component, WriterLock};
 use ralf::sensors::ClassImage;
 use serde::{Deserialize, Serialize};
-use std::path::{Path, PathBuf};
-
-/// What a store of segmentations is called.
-const KIND: StoreKind = StoreKind { name: "segmentation", extension: "png", verb: "segment" };
+use std::path::Path;
 
 /// A folder of segmentations of one network.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct SegmentationStore {
-    folder: ViewFolder,
-}
+pub type SegmentationStore = Store<ClassImage>;
 
 /// `segmentation.toml`: which network made a store.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-struct StoreToml {
+pub struct SegmentationToml {
     network: String,
 }
 
 impl SegmentationStore {
     /// The store of a network in a folder, begun if there is none. A store of another network is refused.
     pub fn create(root: &Path, network: &str) -> Result<Self, DataError> {
-        let folder = ViewFolder::new(root, KIND);
-        folder.claim(&StoreToml { network: network.to_owned() }, |toml| &toml.network)?;
-        Ok(Self { folder })
-    }
-
-    /// A store that was made before.
-    pub fn open(root: &Path) -> Result<Self, DataError> {
-        let folder = ViewFolder::new(root, KIND);
-        folder.read_card::<StoreToml>()?;
-        Ok(Self { folder })
-    }
-
-    /// The file of an image's views.
-    pub fn file(&self, sequence: &Component, camera: &Component, image: usize) -> PathBuf {
-        self.folder.file(sequence, camera, image)
-    }
-
-    /// Computes and stores the segmentation of the images (camera, number) that the store doesn't hold yet, several at
-    /// a time.
-    ///
-    /// Returns the images that have none for a reason of their own, which is named, in their order. What can't be
-    /// stored is an error, and so is another process that writes to the store.
-    pub fn compute(
-        &self,
-        reader: &dyn SequenceReader,
-        images: &[(usize, usize)],
-        estimate: &Estimate<ClassImage>,
-        jobs: usize,
-        observer: &ViewObserver,
-    ) -> Result<Vec<DataError>, DataError> {
-        compute_views(reader, images, self, estimate, jobs, observer)
-    }
-
-    /// A recording with the segmentations of this store in place of its own.
-    pub fn attach(&self, recording: Recording) -> Recording {
-        attach(recording, &Stored::Segmentation(self.folder.clone()))
+        Self::begin(root, SegmentationToml { network: network.to_owned() })
     }
 }
 
-impl ViewStore for SegmentationStore {
-    type View = ClassImage;
+impl StoredView for ClassImage {
+    type Card = SegmentationToml;
 
-    fn file(&self, sequence: &Component, camera: &Component, image: usize) -> PathBuf {
-        self.folder.file(sequence, camera, image)
+    const KIND: StoreKind = StoreKind { name: "segmentation", extension: "png", verb: "segment" };
+
+    fn network(card: &SegmentationToml) -> &str {
+        &card.network
     }
 
-    fn write(&self, file: &Path, views: &[ClassImage]) -> Result<(), DataError> {
+    fn stored(folder: ViewFolder, _: &SegmentationToml) -> Stored {
+        Stored::Segmentation(folder)
+    }
+
+    fn write(file: &Path, views: &[Self]) -> Result<(), DataError> {
         let bytes = class_images::bytes(views)
             .map_err(|(expected, found)| DataError::content(file, "views", expected, found))?;
         files::write_whole(file, &bytes)
-    }
-
-    fn lock(&self) -> Result<WriterLock, DataError> {
-        self.folder.lock()
     }
 }
 

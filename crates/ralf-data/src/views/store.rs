@@ -1,0 +1,59 @@
+//! A folder of what one network says of images: `ROOT/sequences/NAME/CAMERA/KIND/000000.EXTENSION`.
+
+use super::attached::attach;
+use super::compute::{Estimate, ViewObserver, compute_views};
+use super::folder::ViewFolder;
+use super::stored_view::StoredView;
+use crate::error::DataError;
+use crate::read::{Recording, SequenceReader};
+use crate::result::Component;
+use std::path::{Path, PathBuf};
+
+/// A folder of what one network says of images.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Store<V: StoredView> {
+    folder: ViewFolder,
+    card: V::Card,
+}
+
+impl<V: StoredView> Store<V> {
+    /// The store that a card tells of, begun if there is none. One of another card is refused.
+    pub(super) fn begin(root: &Path, card: V::Card) -> Result<Self, DataError> {
+        let folder = ViewFolder::new(root, V::KIND);
+        folder.claim(&card, V::network)?;
+        Ok(Self { folder, card })
+    }
+
+    /// A store that was made before.
+    pub fn open(root: &Path) -> Result<Self, DataError> {
+        let folder = ViewFolder::new(root, V::KIND);
+        let card = folder.read_card()?;
+        Ok(Self { folder, card })
+    }
+
+    /// The file of an image's views.
+    pub fn file(&self, sequence: &Component, camera: &Component, image: usize) -> PathBuf {
+        self.folder.file(sequence, camera, image)
+    }
+
+    /// Computes and stores what the network says of the images (camera, number) that the store doesn't hold yet,
+    /// several at a time.
+    ///
+    /// Returns the images of which it says nothing for a reason of their own, which is named, in their order. What
+    /// can't be stored is an error, and so is another process that writes to the store.
+    pub fn compute(
+        &self,
+        reader: &dyn SequenceReader,
+        images: &[(usize, usize)],
+        estimate: &Estimate<V>,
+        jobs: usize,
+        observer: &ViewObserver,
+    ) -> Result<Vec<DataError>, DataError> {
+        compute_views(reader, images, &self.folder, estimate, jobs, observer)
+    }
+
+    /// A recording with what this store holds in place of its own.
+    pub fn attach(&self, recording: Recording) -> Recording {
+        attach(recording, &V::stored(self.folder.clone(), &self.card))
+    }
+}
