@@ -31,7 +31,7 @@ give the same file.
 
 Examples:
   ralf learn town motorway yard -o model.txt           recordings in RALF's layout, with ground_truth
-  ralf learn --preset worlds -o model.txt              simulated on the way, four of each family
+  ralf learn --preset worlds -o model.txt              simulated on the way, eight of each family
   ralf learn --preset worlds --seeds 1 --scans 40 -o quick.txt
   ralf learn recordings/city --from out -o own.txt     worlds, and what people corrected in the review of out
   ralf label recordings/city -o out --method learned --model model.txt")]

@@ -16,7 +16,7 @@ pub(super) struct WorldArgs {
     #[arg(long, value_parser = PossibleValuesParser::new(["worlds"]))]
     preset: Option<String>,
     /// Worlds of each family
-    #[arg(long, value_name = "N", default_value_t = 4, requires = "preset")]
+    #[arg(long, value_name = "N", default_value_t = 8, requires = "preset")]
     seeds: u64,
     /// Scans of each radar in each world, over all of its sequences
     #[arg(long, value_name = "N", default_value_t = 24, requires = "preset",
