@@ -1,9 +1,9 @@
 //! Everything that the page tells, gathered.
 
+use crate::classes::{self, Classes};
 use crate::evidence::{self, Observed};
 use crate::findings::Findings;
 use crate::scored::{COLUMNS, Origin, Scored};
-use crate::classes::{self, Classes};
 use crate::told::{self, Told};
 use crate::{Detections, Pictures, Report, ReportError};
 use ralf::metrics::Separation;
