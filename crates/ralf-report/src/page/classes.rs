@@ -23,21 +23,22 @@ pub(super) fn classes(content: &Content) -> Markup {
 
 fn table(classes: &Classes) -> Markup {
     let all = classes.total();
+    let together = |count: u64| html! { td { (grouped(count)) } td { (percent(count, all)) } };
     html! {
         div.scroll { table.plain {
-            (heads(&["Class", "By LiDAR", "By camera", "Share"]))
+            (heads(&["Class", "By LiDAR", "By camera", "Together", "Share"]))
             tbody {
                 @for (id, counts) in &classes.counts {
                     tr {
                         th scope="row" { (class_name(*id).map_or_else(|| format!("class {id}"), str::to_owned)) }
                         @for source in ClassSource::ALL { td { (grouped(counts[source as usize])) } }
-                        td { (percent(counts.iter().sum(), all)) }
+                        (together(counts.iter().sum()))
                     }
                 }
                 tr {
                     th scope="row" { "no class" }
-                    td colspan="2" { (grouped(classes.without)) }
-                    td { (percent(classes.without, all)) }
+                    @for _ in ClassSource::ALL { td { "–" } }
+                    (together(classes.without))
                 }
             }
         } }

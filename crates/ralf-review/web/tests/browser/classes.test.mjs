@@ -139,5 +139,12 @@ test("classes are coloured, filtered and told with what gave them, and a person'
   await says(facts, "class froma person");
   await settled(tab);
   await picture(page, "class-by-person");
+  // However much of the filters is open, all of it can be reached, and the queue stays.
+  for (const name of ["Flags", "Rules"]) await filters.locator("summary", { hasText: name }).click();
+  const keep = page.getByRole("button", { name: "Keep", exact: true });
+  await keep.evaluate((button) => button.scrollIntoView());
+  const [button, row] = [await keep.boundingBox(), await page.locator(".queue-row").first().boundingBox()];
+  assert.ok(button.y + button.height < 720 && button.y > row.y + row.height, JSON.stringify([button, row]));
+  await picture(page, "filters-open");
   clean(tab);
 });
