@@ -38,11 +38,11 @@ mod zod;
 use crate::tree::copy;
 use crate::verbs::label;
 use ralf::config::Config;
-use ralf::sensors::DepthOutput;
+use ralf::sensors::{CameraImage, ClassImage, DepthOutput};
 use ralf_corrections::{Mark, ScanKey, Store, Who};
 use ralf_data::Settings;
 use ralf_data::result::Component;
-use ralf_data::views::DepthStore;
+use ralf_data::views::{DepthStore, SegmentationStore};
 use std::fs;
 use std::path::Path;
 
@@ -58,6 +58,8 @@ kind = 'camera'
 info = '/cam/camera_info'
 frame = 'radar'
 ";
+/// Of the own recording's camera.
+const IMAGES: usize = 2;
 const ROS: [&str; 4] = ["plain.bag", "lz4.bag", "zstd.mcap", "lz4.mcap"];
 const CARD: &str = "input = { size = 16, multiple_of = 4, side = \"short\" }\nfit = \"stretch\"\nchannels = \"rgb\"\n\
     divide_by = 255\nmean = [0, 0, 0]\nstd = [1, 1, 1]\noutput = \"disparity\"\nflip = true\n";
@@ -87,6 +89,7 @@ pub fn make_places(folder: &Path) {
     }
     make_run(Path::new(&own.path), &folder.join("run"));
     make_depth(Path::new(&own.path), &folder.join("depth"));
+    make_classes(Path::new(&own.path), &folder.join("classes"));
     let tiny = network::channel_sum([0.5, 0.25, 0.125]);
     put(&folder.join("network/net.onnx"), tiny);
     put(&folder.join("network/net.toml"), CARD);
@@ -98,7 +101,9 @@ pub fn make_places(folder: &Path) {
 
 fn own_recording() -> dataset::Dataset {
     let shape = dataset::Shape { scans: 3, classes: true, ..dataset::Shape::default() };
-    dataset::Dataset::of(&shape).with_camera(2)
+    let made = dataset::Dataset::of(&shape).with_camera(IMAGES);
+    segment(Path::new(&made.path), Path::new(&made.path));
+    made
 }
 
 /// A recording with what `ralf label` made of it, and corrections of a scan.
@@ -120,12 +125,30 @@ fn make_depth(recording: &Path, place: &Path) {
     copy(recording, &place.join("recording"));
     let store = DepthStore::create(&place.join("depth"), DepthOutput::Depth, "net").unwrap();
     let depth = place.join("recording/sequences/00/camera_front/depth");
-    for image in 0..2 {
+    for image in 0..IMAGES {
         let [sequence, camera] = ["00", "camera_front"].map(|name| Component::new(name).unwrap());
         let to = store.file(&sequence, &camera, image);
         fs::create_dir_all(to.parent().unwrap()).unwrap();
         fs::copy(depth.join(format!("{image:06}.npy")), to).unwrap();
     }
+}
+
+/// A recording with a store of segmentations beside it.
+fn make_classes(recording: &Path, place: &Path) {
+    copy(recording, &place.join("recording"));
+    segment(recording, &place.join("classes"));
+}
+
+/// Stores what a network says of a recording's images to which everything is a car.
+fn segment(recording: &Path, root: &Path) {
+    let recording = ralf_data::open(recording, None).unwrap();
+    let store = SegmentationStore::create(root, "net").unwrap();
+    let images: Vec<_> = (0..IMAGES).map(|image| (0, image)).collect();
+    let all_cars = |view: &CameraImage, _: f64| {
+        Ok(ClassImage { width: view.width, height: view.height, ids: vec![10; view.width * view.height] })
+    };
+    let reader = recording.sequences[0].as_ref();
+    assert!(store.compute(reader, &images, &all_cars, 1, &|| ()).unwrap().is_empty());
 }
 
 fn put(file: &Path, content: impl AsRef<[u8]>) {

@@ -5,7 +5,7 @@ use ralf::sensors::{CameraImage, Source};
 use ralf_data::read::inspection::Inspection;
 use ralf_data::read::ros::Topics;
 use ralf_data::run::{LabelRun, Unwatched, read_record};
-use ralf_data::views::DepthStore;
+use ralf_data::views::{DepthStore, SegmentationStore};
 use ralf_data::write::export::{Export, ExportFormat, ExportOptions, RosFormat, Sensors, Split, write_ros};
 use ralf_data::{Balances, Comparison, Corrections, DataError, GroundTruth, Recording, Settings};
 use ralf_depth::{DepthEstimator, OnnxModel};
@@ -36,7 +36,7 @@ const fn of_run(name: &'static str, run: fn(&Path, &mut Pcg64Mcg)) -> Verb {
     Verb { name, place: "run", damaged: "out", writes: true, run }
 }
 
-pub(crate) const VERBS: [Verb; 26] = [
+pub(crate) const VERBS: [Verb; 27] = [
     reading("own"),
     reading("own"),
     reading("nuscenes"),
@@ -60,6 +60,7 @@ pub(crate) const VERBS: [Verb; 26] = [
     of_run("report", report),
     of_run("review", review),
     Verb { name: "depth-store", place: "depth", damaged: "depth", writes: false, run: depth },
+    Verb { name: "class-store", place: "classes", damaged: "classes", writes: false, run: classes },
     Verb { name: "network", place: "network", damaged: "", writes: false, run: network },
     Verb { name: "settings", place: "settings", damaged: "file", writes: false, run: settings },
     Verb { name: "scenario", place: "scenario", damaged: "", writes: false, run: scenario },
@@ -116,6 +117,7 @@ fn all_images(source: &dyn Source) {
         for image in 0..times.len() {
             let _ = source.image(camera, image);
             let _ = source.depth(camera, image);
+            let _ = source.classes(camera, image);
         }
     }
 }
@@ -170,9 +172,19 @@ fn review(place: &Path, _: &mut Pcg64Mcg) {
 fn depth(place: &Path, _: &mut Pcg64Mcg) {
     let Ok(recording) = ralf_data::open(&place.join("recording"), None) else { return };
     let Ok(store) = DepthStore::open(&place.join("depth")) else { return };
-    let recording = store.attach(recording);
+    label_views(&store.attach(recording), place);
+}
+
+fn classes(place: &Path, _: &mut Pcg64Mcg) {
+    let Ok(recording) = ralf_data::open(&place.join("recording"), None) else { return };
+    let Ok(store) = SegmentationStore::open(&place.join("classes")) else { return };
+    label_views(&store.attach(recording), place);
+}
+
+/// Reads and labels a recording with what a store says of its images.
+fn label_views(recording: &Recording, place: &Path) {
     recording.sequences.iter().for_each(|reader| all_images(reader.as_ref()));
-    let _ = label(&recording, &Settings::default(), &place.join("new"));
+    let _ = label(recording, &Settings::default(), &place.join("new"));
 }
 
 fn network(place: &Path, _: &mut Pcg64Mcg) {

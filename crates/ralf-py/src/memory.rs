@@ -6,13 +6,13 @@ use crate::labelling::{from_json, threads};
 use crate::table::Table;
 use crate::watch::watched;
 use pyo3::prelude::*;
-use ralf::sensors::{LidarScan, MemorySource, Sequence, Source, TimedImage};
+use ralf::sensors::{LidarScan, MemorySource, Sequence, TimedImage};
 use ralf::space::{EgoMotion, OdometrySample, PoseSample, Transform, transform_from_parts};
 use ralf_data::many::{Job, model_of};
 use ralf_data::read::rig_from_json;
 use ralf_data::result::{RadarScanKey, Table as ResultTable};
 use ralf_data::run::LabelRun;
-use ralf_data::{Recording, write_sequence};
+use ralf_data::{Recording, SequenceReader, write_sequence};
 use serde::Deserialize;
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
@@ -54,7 +54,14 @@ type Images<'py> = Vec<(i64, Bound<'py, PyAny>, Option<Vec<Bound<'py, PyAny>>>)>
 /// A sequence in memory: sensors (JSON, with the keys of `sequence.toml`) with all their measurements, in their order.
 #[pyclass(frozen, module = "ralf._ralf")]
 pub(crate) struct MemorySequence {
-    source: MemorySource,
+    /// Of the one sequence.
+    recording: Recording,
+}
+
+impl MemorySequence {
+    fn sequence(&self) -> &dyn SequenceReader {
+        self.recording.sequences[0].as_ref()
+    }
 }
 
 #[pymethods]
@@ -83,7 +90,8 @@ impl MemorySequence {
             let images = images.into_iter().map(timed_image).collect::<PyResult<_>>()?;
             source = source.with_camera(camera, images).map_err(other)?;
         }
-        Ok(Self { source })
+        let (path, format) = (PathBuf::from("memory"), "memory");
+        Ok(Self { recording: Recording { path, format, sequences: vec![Box::new(source)] } })
     }
 
     /// Labels all scans, with the settings, evidence and model of a job (JSON) whose paths are not looked at.
@@ -96,13 +104,10 @@ impl MemorySequence {
         progress: Option<Py<PyAny>>,
     ) -> PyResult<Table> {
         let job: Job = from_json(job)?;
-        let sequence = Box::new(self.source.clone());
-        let recording =
-            Recording { path: PathBuf::from("memory"), format: "memory", sequences: vec![sequence] };
         let tables = watched(py, progress.as_ref(), |watch| {
             let model = model_of(job.settings.method.method, job.model.as_deref())?;
             let run = LabelRun {
-                recording: &recording,
+                recording: &self.recording,
                 settings: &job.settings,
                 out: Path::new(""),
                 jobs: threads(jobs).get(),
@@ -117,12 +122,12 @@ impl MemorySequence {
 
     /// Writes the sequence in the project's own layout, for every command.
     fn write(&self, py: Python<'_>, dataset: PathBuf) -> PyResult<()> {
-        py.detach(|| write_sequence(&self.source, &dataset, &|_| ())).map_err(data)
+        py.detach(|| write_sequence(self.sequence(), &dataset, &|_| ())).map_err(data)
     }
 
     /// How many scans the radars have, all together.
     fn __len__(&self) -> usize {
-        let Sequence { times, .. } = self.source.sequence();
+        let Sequence { times, .. } = self.sequence().sequence();
         times.radars.iter().map(Vec::len).sum()
     }
 }

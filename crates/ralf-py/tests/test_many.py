@@ -1,5 +1,6 @@
 """Parts on several machines make what one makes."""
 
+import json
 import pickle
 import shutil
 from concurrent.futures import ProcessPoolExecutor
@@ -34,6 +35,32 @@ def test_three_plain_functions_make_what_one_call_makes(drive, tmp_path):
         assert tree(done.runs[name].out) == tree(whole.out)
         assert done.runs[name].recording == recording
     assert list(ralf.plan([drive, other], out, scans=6)) == []
+
+
+def test_a_plan_takes_segmentations_as_the_command_does(cli, tmp_path):
+    import pyarrow as pa
+
+    drive, classes = tmp_path / "drive", tmp_path / "classes"
+    cli("simulate", "--preset", "tiny", "--scans", 2, "--segmentation", "-o", drive)
+    for stored in drive.glob("sequences/*/*/segmentation"):
+        there = classes / stored.relative_to(drive)
+        there.parent.mkdir(parents=True)
+        stored.rename(there)
+    (classes / "segmentation.toml").write_text('network = "a"\n')
+    cli("cluster", "plan", drive, "--segmentation", classes, "-o", tmp_path / "command")
+    plan = ralf.plan([drive], tmp_path / "out", segmentation=classes)
+    planned = [json.loads((tmp_path / name / "drive/plan.json").read_text()) for name in ("command", "out")]
+    for told in planned:
+        del told["out"]
+    assert planned[0] == planned[1]
+    for task in plan:
+        assert ralf.label_one(task) == []
+    labelled = ralf.assemble(tmp_path / "out").runs["drive"]
+    table = pa.table(labelled["tiny"])
+    assert "camera" in table["class_from"].to_pylist()
+    whole = ralf.label(drive, tmp_path / "whole", segmentation=classes)
+    assert tree(whole.out) == tree(labelled.out)
+    assert "class_from" not in ralf.label(drive, tmp_path / "without")["tiny"].columns
 
 
 def test_two_recordings_of_one_name_are_refused(drive, tmp_path):

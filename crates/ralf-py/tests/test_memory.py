@@ -5,6 +5,7 @@ import tomllib
 
 import numpy as np
 import pytest
+from conftest import tree
 
 import ralf
 
@@ -137,6 +138,36 @@ def test_cameras_and_depth_in_memory_are_labelled_as_the_command_labels_files(cl
     sequence.write(tmp_path / "again")
     cli("label", "--quiet", tmp_path / "again", "-o", tmp_path / "out2")
     assert labels.equals(pq.read_table(tmp_path / "out2/sequences/tiny/plausibility.parquet"))
+
+
+def test_what_is_added_is_the_sequence_s_own(tmp_path):
+    import gc
+    import weakref
+
+    eye = ralf.Camera("eye", (0.0, 0.0, 1.0), 64, 48, ralf.Pinhole(fx=40, fy=40, cx=31.5, cy=23.5))
+    told = {"front": np.full((3, 3), 9, np.float32), "top": np.full((20, 3), 7, np.float32)}
+    told["eye"] = np.full((4, 48, 64, 3), 5, np.uint8)
+    told["depth"] = np.full((4, 48, 64), 3, np.float32)
+    told["times"] = np.full((2, 20), 0.01, np.float32)
+
+    def sequence(change):
+        found = ralf.Sequence([ralf.Radar("front")], [ralf.Lidar("top")], cameras=[eye])
+        given = {name: array.copy() for name, array in told.items()}
+        found.add_radar_scan("front", 0, xyz=given["front"], doppler=given["front"][:, 0])
+        found.add_lidar_scan("top", 0, given["top"], given["top"][:, 0], given["times"][0])
+        found.add_image("eye", 0, given["eye"][1], given["depth"][1])
+        if change:
+            for array in given.values():
+                array.fill(1)
+        return found, [weakref.ref(array) for array in given.values()]
+
+    (changed, alive), (kept, _) = sequence(True), sequence(False)
+    gc.collect()
+    assert [array() for array in alive] == [None] * len(told)
+    changed.write(tmp_path / "changed")
+    kept.write(tmp_path / "kept")
+    assert tree(tmp_path / "changed") == tree(tmp_path / "kept")
+    assert len(changed.label()) == 3
 
 
 def test_cameras_that_do_not_fit_are_refused():

@@ -1,5 +1,6 @@
 //! Everything that the page tells, gathered.
 
+use crate::classes::{self, Classes};
 use crate::evidence::{self, Observed};
 use crate::findings::Findings;
 use crate::scored::{COLUMNS, Origin, Scored};
@@ -30,6 +31,8 @@ pub(crate) struct Content {
     pub(crate) evidence: Vec<Observed>,
     /// What a model tells in words, where one was asked.
     pub(crate) told: Vec<Told>,
+    /// Of sequences whose images have segmentations.
+    pub(crate) classes: Option<Classes>,
     /// Labels against truth, where there is some.
     pub(crate) comparison: Option<Comparison>,
     /// Of all sequences together.
@@ -100,7 +103,7 @@ impl Content {
             GroundTruth::find_merged(dataset, corrections)?.and_then(|truth| truth.of_sequences(&names));
         let comparison = truth.as_ref().map(|truth| Comparison::new(report.out, truth)).transpose()?;
         let (mut findings, mut overall) = (Findings::default(), Separation::default());
-        let (mut sequences, mut evidence, mut told) = (Vec::new(), Vec::new(), Vec::new());
+        let (mut sequences, mut evidence, mut told, mut classes) = (Vec::new(), Vec::new(), Vec::new(), None);
         let drawn = evenly(readers.len(), MOST_DRAWN);
         for (index, reader) in readers.iter().enumerate() {
             progress(&format!("sequence {}", reader.sequence().name));
@@ -109,6 +112,7 @@ impl Content {
                 Counted::gather(report, *reader, &labelled, truth.as_ref(), &mut findings, &mut overall)?;
             evidence::add(&mut evidence, &labelled.tables)?;
             told::add(&mut told, &labelled.tables)?;
+            classes::add(&mut classes, &labelled.tables)?;
             let wanted = drawn.contains(&index).then_some(report.scans_per_sequence);
             let draw = |wanted| DrawnSequence::draw(*reader, &labelled, &counted.uncertain, wanted);
             let drawn = wanted.map(draw).transpose()?;
@@ -124,6 +128,7 @@ impl Content {
             findings,
             evidence,
             told,
+            classes,
             comparison,
             balance: overall.into(),
             sequences,

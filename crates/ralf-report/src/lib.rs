@@ -7,6 +7,7 @@
 
 mod breakdown;
 mod chart;
+mod classes;
 mod content;
 mod curves;
 mod error;

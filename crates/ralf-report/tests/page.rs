@@ -1,11 +1,13 @@
 //! The page of small recordings, labelled for the test.
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
+use ralf_data::result::LabelledRun;
 use ralf_data::run::{LabelRun, Unwatched};
-use ralf_data::{Comparison, GroundTruth, Settings};
+use ralf_data::{Comparison, DataError, GroundTruth, Settings};
 use ralf_report::Report;
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// One radar without LiDAR: three scans of a wall that stays, and of one detection that is somewhere else each time.
 struct Tiny(tempfile::TempDir);
@@ -95,6 +97,34 @@ fn every_piece_of_evidence_has_its_line_where_it_was_gathered() {
     for feature in ralf::evidence::features() {
         assert!(page.contains(feature.name) && page.contains(feature.meaning), "{}", feature.name);
     }
+}
+
+#[test]
+fn classes_are_counted_by_what_tells_them_where_images_have_segmentations() {
+    assert!(!Tiny::new().page().contains("id=\"classes\""));
+    let sequence = ralf_sim::presets::find("tiny").unwrap().sequences[0].simulate(4, 1).unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    let [dataset, out] = ["town", "out"].map(|name| folder.path().join(name));
+    ralf_data::write_sequence(&sequence.with_segmentation(), &dataset, &|_| ()).unwrap();
+    let page = page(&dataset, &out, 0);
+    let recording = ralf_data::open(&dataset, None).unwrap();
+    let run = LabelledRun::open(&out).unwrap().sequence(recording.sequences[0].as_ref()).unwrap();
+    let (mut cars, mut by_camera, mut without) = (0, 0, 0);
+    let count = run.tables.each(&["label", "semantic", "class_from"], |_, table| {
+        let classes = table.get::<Option<u16>>("semantic")?.iter().zip(table.get::<Arc<str>>("class_from")?);
+        for ((class, from), label) in classes.zip(table.get::<u8>("label")?) {
+            cars += usize::from(*class == Some(10));
+            by_camera += usize::from(&**from == "camera");
+            without += usize::from(class.is_none() && *label == 1);
+        }
+        Ok::<_, DataError>(())
+    });
+    count.unwrap();
+    assert!(cars > 0 && by_camera > cars && without > 0, "{cars}, {by_camera}, {without}");
+    assert!(page.contains(&format!("car</th><td>0</td><td>{cars}</td>")));
+    let share = 100.0 * without as f64 / (by_camera + without) as f64;
+    let last = format!("no class</th><td>–</td><td>–</td><td>{without}</td><td>{share:.1} %</td>");
+    assert!(page.contains(&last), "{last}");
 }
 
 #[test]

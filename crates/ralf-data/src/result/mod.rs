@@ -1,6 +1,7 @@
 //! What a labelling run leaves: tables, `.label` files and `run.json`, and the one door to them.
 
 mod check_record;
+mod class_source;
 mod content;
 pub(crate) mod json;
 mod label_hash;
@@ -22,6 +23,7 @@ mod sisters;
 mod table;
 
 pub use check_record::{CheckLine, CheckRecord};
+pub use class_source::ClassSource;
 pub use labelled_run::{Change, ChangedInput, LabelledRun, LabelledSequence};
 pub use names::Component;
 pub use parquet_reader::PlausibilityReader;

@@ -1,5 +1,6 @@
 //! The table of one scan: what was measured, what was found, and the labels that come of it.
 
+use super::class_source::ClassSource;
 use super::learned_columns::{numbers, words};
 use super::schema::{Column, Group, Kind, Schema, answer_of};
 use super::table::{Table, Values};
@@ -105,7 +106,8 @@ impl ScanParts<'_> {
             (_, Kind::U16, "flags") => Values::U16(self.of_labels(0, |label| label.flags)),
             (_, Kind::Class, "semantic") => Values::Class(self.classes().map(|(class, _)| class).collect()),
             (Group::Verdict, Kind::Text, "class_from") => {
-                Values::Text(self.classes().map(|(_, from)| from.into()).collect())
+                let name = |from: Option<ClassSource>| from.map_or("", ClassSource::name).into();
+                Values::Text(self.classes().map(|(_, from)| name(from)).collect())
             }
             (Group::Evidence, Kind::F32, name) => {
                 let told = numbers(name, self.answers).filter(|told| told.len() == rows);
@@ -120,12 +122,12 @@ impl ScanParts<'_> {
     }
 
     /// The class of each detection, and what tells it: a LiDAR's labels before a camera's image.
-    fn classes(&self) -> impl Iterator<Item = (Option<u16>, &'static str)> {
+    fn classes(&self) -> impl Iterator<Item = (Option<u16>, Option<ClassSource>)> {
         let by_lidar = self.of_labels(None, |label| label.semantic).into_iter();
         by_lidar.enumerate().map(|(i, by_lidar)| match (by_lidar, self.seen.get(i).copied().flatten()) {
-            (Some(class), _) => (Some(class), "lidar"),
-            (None, Some(class)) => (Some(class), "camera"),
-            (None, None) => (None, ""),
+            (Some(class), _) => (Some(class), Some(ClassSource::Lidar)),
+            (None, Some(class)) => (Some(class), Some(ClassSource::Camera)),
+            (None, None) => (None, None),
         })
     }
 

@@ -59,11 +59,12 @@ def job(
     format: str | None = None,  # noqa: A002
     sequences: list[str] | None = None,
     depth: str | os.PathLike[str] | None = None,
+    segmentation: str | os.PathLike[str] | None = None,
     evidence: bool = False,
     check: bool = True,
 ) -> str:
     """A job, as JSON."""
-    told = {
+    told: dict[str, Any] = {
         "recording": os.fspath(recording),
         "out": os.fspath(out),
         "format": format,
@@ -74,4 +75,7 @@ def job(
         "depth": None if depth is None else os.fspath(depth),
         "check": check,
     }
+    # A plan without one is told as those before there were any.
+    if segmentation is not None:
+        told["segmentation"] = os.fspath(segmentation)
     return json.dumps(told)

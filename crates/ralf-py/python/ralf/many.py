@@ -80,6 +80,7 @@ def plan(
     method: str | None = None,
     model: Path_ | None = None,
     depth: Path_ | None = None,
+    segmentation: Path_ | None = None,
     evidence: bool = False,
     check: bool = True,
     scans: int = SCANS,
@@ -88,7 +89,8 @@ def plan(
 ) -> Plan:
     """Plan what is left to be done of recordings: tasks of so many radar scans at most, for `label_one`.
 
-    The results of a recording go to a folder of its name in `out`. Every file is read once, for its hash. A recording
+    The results of a recording go to a folder of its name in `out`. `depth` and `segmentation` are folders that `ralf
+    depth -o` and `ralf segment -o` wrote. Every file is read once, for its hash. A recording
     that can't be opened is named in `failed`, and costs the others nothing.
     """
     found = Plan()
@@ -100,6 +102,7 @@ def plan(
             method=method,
             model=model,
             depth=depth,
+            segmentation=segmentation,
             evidence=evidence,
             check=check,
         )

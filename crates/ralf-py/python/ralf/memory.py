@@ -50,6 +50,8 @@ class _Sensor(Generic[Told]):
 class Sequence:
     """A sequence of arrays. Measurements of a sensor are added in the order of time.
 
+    What is added is copied: arrays can be used again, and views keep nothing alive.
+
     A LiDAR's points lie in its own frame and are motion-corrected to the scan's time.
     """
 
@@ -96,7 +98,7 @@ class Sequence:
     ) -> None:
         """Add a revolution: n x 3 points (m), intensities, and when each point was measured (s after `t_ns`)."""
         sensor = _known(self._lidars, lidar, "LiDAR")
-        rows = np.ascontiguousarray(np.asarray(points, dtype=np.float32).reshape(-1, 3))
+        rows = _own(points).reshape(-1, 3)
         strengths = np.zeros(len(rows), np.float32) if intensity is None else _column(intensity)
         sensor.measured.append((int(t_ns), rows, strengths, None if times is None else _column(times)))
 
@@ -112,8 +114,8 @@ class Sequence:
         if pixels.dtype != np.uint8:
             raise TypeError(f"{camera}: expected an image of uint8, found {pixels.dtype}")
         views = [depth] if isinstance(depth, np.ndarray) and depth.ndim == 2 else depth
-        told = None if views is None else [np.asarray(view, dtype=np.float32) for view in views]
-        sensor.measured.append((int(t_ns), pixels, told))
+        told = None if views is None else [_own(view) for view in views]
+        sensor.measured.append((int(t_ns), pixels.copy(), told))
 
     def label(
         self,
@@ -158,4 +160,9 @@ def _known(sensors: dict[str, _Sensor[Told]], name: str, kind: str) -> _Sensor[T
 
 
 def _column(values: ArrayLike) -> NDArray[np.float32]:
-    return np.ascontiguousarray(np.asarray(values, dtype=np.float32).ravel())
+    return _own(values).ravel()
+
+
+def _own(values: ArrayLike) -> NDArray[np.float32]:
+    """A copy in one piece, whatever it is a view of."""
+    return np.array(values, dtype=np.float32, order="C")

@@ -157,6 +157,7 @@ def label(
     format: str | None = None,  # noqa: A002
     sequences: list[str] | None = None,
     depth: str | os.PathLike[str] | None = None,
+    segmentation: str | os.PathLike[str] | None = None,
     evidence: bool = False,
     check: bool = True,
     jobs: int | None = None,
@@ -165,8 +166,8 @@ def label(
     """Label every radar detection of a recording, as `ralf label` does: the same bytes, and resumable like it.
 
     `settings` is a mapping (`{"lidar.beta": 0.5}`) or a TOML file; `method` is "paper" or "learned"; `depth` a folder
-    of depth images; `jobs` the number of threads, as many as there are processors if not given. Ctrl-C stops it, and
-    what is done is kept.
+    of depth images, `segmentation` one of segmentations; `jobs` the number of threads, as many as there are processors
+    if not given. Ctrl-C stops it, and what is done is kept.
     """
     path = recording.path if isinstance(recording, Recording) else recording
     if isinstance(recording, Recording):
@@ -181,6 +182,7 @@ def label(
         format=format,
         sequences=sequences,
         depth=depth,
+        segmentation=segmentation,
         evidence=evidence,
         check=check,
     )

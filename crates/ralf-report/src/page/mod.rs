@@ -1,6 +1,7 @@
 //! The page. Everything that comes from data is escaped by the template engine.
 
 mod balance;
+mod classes;
 mod errors;
 mod evidence;
 mod header;
@@ -47,6 +48,7 @@ pub(crate) fn render(content: &Content) -> Result<String, ReportError> {
         (score::score(content)?)
         (errors::errors(content)?)
         (balance::balance(content)?)
+        (classes::classes(content))
         (told::told(content))
         (evidence::evidence(content))
         (pictures::pictures(content))

@@ -11,7 +11,7 @@ use ralf::sensors::Sequence;
 use ralf::space::sync;
 use ralf_corrections::{ContentHash, ScanState, ScanVersion};
 use ralf_data::Label;
-use ralf_data::result::{Group, Table as Rows, Values};
+use ralf_data::result::{ClassSource, Group, Table as Rows, Values};
 use ralf_data::truth::effective_labels;
 use serde_json::{Map, Value, json};
 
@@ -38,6 +38,8 @@ pub(crate) fn detections(app: &App, sequence: &str, radar: &str, scan: usize) ->
     table.u16("flags", rows.get::<u16>("flags")?.iter().copied());
     let machine = machine_labels(&rows)?;
     table.u16("machine", machine.iter().copied());
+    let number = |from: Option<ClassSource>| from.map_or(0, |from| from as u8 + 1);
+    table.u8("class_from", rows.class_sources()?.into_iter().map(number));
     let stamp = stamp(version.content.hash.as_ref(), &machine);
     table.u16("label", effective(rows.labels()?, &said));
     table.u8("corrected", numbers(rows.len(), said.corrections.iter().map(|(point, _)| (*point, 1))));

@@ -7,6 +7,7 @@ use crate::http::{Answer, json};
 use crate::labelled::is_labelled;
 use ralf::label::{class_name, cluster_of, flag, truth_of};
 use ralf_data::SequenceReader;
+use ralf_data::result::ClassSource;
 use ralf_data::run::read_record;
 use serde_json::{Value, json};
 
@@ -46,10 +47,16 @@ pub(crate) fn recording(app: &App) -> Answer {
         "threshold": read_record(&app.out)?.settings.method.fusion.threshold,
         "sequences": sequences,
         "classes": (0..=LAST_CLASS).filter_map(class).collect::<Vec<_>>(),
+        "class_sources": class_sources(),
         "causes": app.causes.names(),
         "sayable_causes": sayable(),
         "flags": flags,
     }))
+}
+
+/// What tells a class, by number; 0 is nothing.
+fn class_sources() -> Vec<&'static str> {
+    std::iter::once("").chain(ClassSource::ALL.map(ClassSource::name)).collect()
 }
 
 fn sequence(app: &App, reader: &dyn SequenceReader) -> Value {

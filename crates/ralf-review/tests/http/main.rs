@@ -1,6 +1,7 @@
 //! The server over real HTTP, on a small simulated recording.
 #![expect(clippy::unwrap_used, clippy::panic, reason = "helpers of tests fail as tests do")]
 
+mod classes;
 mod correcting;
 mod ending;
 mod harm;

@@ -71,6 +71,16 @@ impl<'a> Beside<'a> {
         Self { moments }
     }
 
+    /// By moment: in which bands of range there is any detection.
+    pub(super) fn observed(&self) -> impl ExactSizeIterator<Item = [bool; BANDS]> {
+        self.moments.iter().map(|moment| {
+            let mut found = [false; BANDS];
+            let positions = moment.seen.iter().flat_map(|scan| &scan.positions);
+            positions.for_each(|position| found[band(position)] = true);
+            found
+        })
+    }
+
     /// By moment: how many detections lie on the fronts of things where a change puts them.
     pub(super) fn on_fronts(&self, setup: &Setup, radar: usize, change: &SensorChange) -> Vec<OnFronts> {
         let mut found = Vec::with_capacity(self.moments.len());

@@ -21,8 +21,8 @@ pub(super) const STRETCHES: usize = 8;
 /// Kinds of evidence: range rates, and the LiDAR by bands of range.
 pub(super) const KINDS: usize = 1 + BANDS;
 
-/// The logarithm of a likelihood, but for a constant, by stretch of time and kind of evidence.
-pub(super) type Parts = [[f64; KINDS]; STRETCHES];
+/// Something by stretch of time and kind of evidence.
+pub(super) type Parts<T> = [[T; KINDS]; STRETCHES];
 
 /// Range rates of a radar, and its detections beside the LiDAR's points.
 pub(super) struct Evidence<'a> {
@@ -59,8 +59,22 @@ impl<'a> Evidence<'a> {
         self.likelihoods(values).iter().flatten().sum::<f64>() - values.norm_squared() / 2.0
     }
 
-    /// The likelihood of each part of the evidence.
-    pub(super) fn likelihoods(&self, values: &Values) -> Parts {
+    /// The parts of the evidence in which anything was measured.
+    pub(super) fn observed(&self) -> Parts<bool> {
+        let mut found = [[false; KINDS]; STRETCHES];
+        let moments = self.beside.observed();
+        let count = moments.len();
+        for (i, bands) in moments.enumerate() {
+            let stretch = &mut found[stretch(i, count)][1..];
+            stretch.iter_mut().zip(bands).for_each(|(found, observed)| *found |= observed);
+        }
+        let scans = self.case.fits[self.radar].len();
+        (0..scans).for_each(|i| found[stretch(i, scans)][0] = true);
+        found
+    }
+
+    /// The logarithm of the likelihood of each part of the evidence, but for a constant.
+    pub(super) fn likelihoods(&self, values: &Values) -> Parts<f64> {
         self.parts(values, &self.on_fronts(values))
     }
 
@@ -77,20 +91,19 @@ impl<'a> Evidence<'a> {
         self.beside.on_fronts(&self.case.setup(), self.radar, &self.change(values))
     }
 
-    fn parts(&self, values: &Values, moments: &[OnFronts]) -> Parts {
+    fn parts(&self, values: &Values, moments: &[OnFronts]) -> Parts<f64> {
         let Self { case, radar, .. } = *self;
         let change = self.change(values);
         let mut found = [[0.0; KINDS]; STRETCHES];
-        let count = moments.len().max(1);
         for (i, moment) in moments.iter().enumerate() {
-            for (sum, beside) in found[i * STRETCHES / count][1..].iter_mut().zip(moment.bands) {
+            for (sum, beside) in found[stretch(i, moments.len())][1..].iter_mut().zip(moment.bands) {
                 *sum += LIDAR_WEIGHT * beside;
             }
         }
         let mount = change.mount(&case.sequence.rig.radars[radar].vehicle_from_radar);
-        let scans = case.fits[radar].len().max(1);
-        for i in 0..case.fits[radar].len() {
-            found[i * STRETCHES / scans][0] -= self.misfit(i, &change, &mount);
+        let scans = case.fits[radar].len();
+        for i in 0..scans {
+            found[stretch(i, scans)][0] -= self.misfit(i, &change, &mount);
         }
         found
     }
@@ -105,4 +118,9 @@ impl<'a> Evidence<'a> {
         let squared = covariance.try_inverse().map_or(0.0, |inverse| (off.transpose() * inverse * off)[0]);
         (squared / 2.0).min(VELOCITY_CAP)
     }
+}
+
+/// The stretch of time of one of so many measurements.
+fn stretch(i: usize, count: usize) -> usize {
+    i * STRETCHES / count
 }

@@ -4,7 +4,7 @@
 //! the speed is the same. So after each quantity for itself the search follows the axes of the likelihood's own bend,
 //! and the standard deviations are those of all quantities together.
 
-use super::evidence::{Evidence, KINDS, STRETCHES};
+use super::evidence::{Evidence, KINDS, Parts, STRETCHES};
 use super::quantity::{QUANTITIES, Values};
 use nalgebra::{Matrix4, SymmetricEigen};
 
@@ -128,19 +128,36 @@ pub(super) struct Deviations {
 pub(super) fn deviations(evidence: &Evidence, values: &Values, open: Open) -> Deviations {
     let covariance = Bend::at(evidence, values, open).covariance();
     let slopes = slopes(evidence, values, open);
-    let by_stretch = slopes.map(|kinds| kinds.iter().sum::<Values>());
-    let by_kind: [Values; KINDS] =
-        std::array::from_fn(|kind| slopes.iter().map(|kinds| kinds[kind]).sum::<Values>());
     let [stretches, kinds] =
-        [&by_stretch[..], &by_kind[..]].map(|slopes| covariance * disagreement(slopes) * covariance);
+        draws(&slopes, &evidence.observed()).map(|slopes| covariance * disagreement(&slopes) * covariance);
     let of = |variances: Matrix4<f64>| {
         Values::from_fn(|i, _| if open[i] { variances[(i, i)].max(0.0).sqrt().min(1.0) } else { 1.0 })
     };
     Deviations { chance: of(covariance + stretches), contradiction: of(kinds) }
 }
 
-/// How far parts of the evidence pull apart: the covariance of a sum of as many that are drawn as these were.
+/// What stretches of time, and kinds of evidence, pull at, of those that hold any: what nothing was measured of pulls
+/// nowhere because it says nothing, and not because it agrees.
+fn draws(slopes: &Parts<Values>, observed: &Parts<bool>) -> [Vec<Values>; 2] {
+    let of_stretch = |stretch: usize| (0..KINDS).map(move |kind| (stretch, kind));
+    let of_kind = |kind: usize| (0..STRETCHES).map(move |stretch| (stretch, kind));
+    let is_observed = |(stretch, kind): &(usize, usize)| observed[*stretch][*kind];
+    let sum = |parts: Vec<(usize, usize)>| {
+        let found = parts.into_iter().filter(is_observed).map(|(stretch, kind)| slopes[stretch][kind]);
+        found.reduce(|sum, slope| sum + slope)
+    };
+    [
+        (0..STRETCHES).filter_map(|stretch| sum(of_stretch(stretch).collect())).collect(),
+        (0..KINDS).filter_map(|kind| sum(of_kind(kind).collect())).collect(),
+    ]
+}
+
+/// How far parts of the evidence pull apart: the covariance of a sum of as many that are drawn as these were. A single
+/// one contradicts nothing.
 fn disagreement(slopes: &[Values]) -> Matrix4<f64> {
+    if slopes.len() < 2 {
+        return Matrix4::zeros();
+    }
     let count = slopes.len() as f64;
     let mean = slopes.iter().sum::<Values>() / count;
     let about_mean = slopes.iter().map(|slope| (slope - mean) * (slope - mean).transpose());
@@ -148,7 +165,7 @@ fn disagreement(slopes: &[Values]) -> Matrix4<f64> {
 }
 
 /// How each part of the evidence would have the values changed.
-fn slopes(evidence: &Evidence, values: &Values, open: Open) -> [[Values; KINDS]; STRETCHES] {
+fn slopes(evidence: &Evidence, values: &Values, open: Open) -> Parts<Values> {
     let mut slopes = [[Values::zeros(); KINDS]; STRETCHES];
     for i in (0..4).filter(|i| open[*i]) {
         let [behind, ahead] = [-1.0, 1.0].map(|side| evidence.likelihoods(&(values + reach(i) * side)));
@@ -158,4 +175,46 @@ fn slopes(evidence: &Evidence, values: &Values, open: Open) -> [[Values; KINDS];
         }
     }
     slopes
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Kinds that pull by these slopes at the first quantity in every other stretch of time; nothing else is observed.
+    fn pulling(slopes: &[f64]) -> [Vec<Values>; 2] {
+        let mut parts = [[Values::zeros(); KINDS]; STRETCHES];
+        let mut observed = [[false; KINDS]; STRETCHES];
+        for stretch in (0..STRETCHES).step_by(2) {
+            for (kind, slope) in slopes.iter().enumerate() {
+                parts[stretch][kind][0] = *slope;
+                observed[stretch][kind] = true;
+            }
+        }
+        draws(&parts, &observed)
+    }
+
+    #[test]
+    fn what_nothing_was_measured_of_is_no_draw() {
+        let half = (STRETCHES / 2) as f64;
+        let [stretches, kinds] = pulling(&[3.0, -1.0]);
+        assert_eq!((stretches.len(), kinds.len()), (STRETCHES / 2, 2));
+        assert_eq!(disagreement(&stretches), Matrix4::zeros(), "all stretches pull alike");
+        // Two draws of 3 and -1, each of so many stretches: twice the sum of squares about their mean.
+        assert_eq!(disagreement(&kinds)[(0, 0)], 2.0 * 2.0 * (2.0 * half).powi(2));
+    }
+
+    #[test]
+    fn one_kind_alone_contradicts_nothing() {
+        let [_, kinds] = pulling(&[3.0]);
+        assert_eq!((kinds.len(), disagreement(&kinds)), (1, Matrix4::zeros()));
+        assert_eq!(disagreement(&[]), Matrix4::zeros());
+    }
+
+    #[test]
+    fn a_kind_that_was_observed_and_pulls_nowhere_is_a_draw() {
+        let half = (STRETCHES / 2) as f64;
+        let [_, kinds] = pulling(&[3.0, 0.0, -3.0]);
+        assert_eq!(disagreement(&kinds)[(0, 0)], 1.5 * 2.0 * (3.0 * half).powi(2));
+    }
 }

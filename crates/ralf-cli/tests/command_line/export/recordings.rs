@@ -1,6 +1,6 @@
 //! MCAP files and bags.
 
-use super::{BRANCHES, Found, export, found, labelled, list, recorded};
+use super::{BRANCHES, Found, export, found, labelled, list, recorded, run};
 use crate::support::{Dataset, Row, Shape, ralf, read_export, rows};
 use serde_json::{Value, json};
 
@@ -60,6 +60,26 @@ fn labelled_clouds_hold_fields_and_answers() {
         assert_eq!(read["mounted"]["radar_front"], json!(["base_link", [3.6, 0.0, 0.5, 0.0, 0.0, 0.0, 1.0]]));
         assert_eq!(read["types"]["points_labelled/label"], "uint32");
         assert_eq!(read["types"]["points_labelled/colors"], "uint32");
+    }
+}
+
+#[test]
+fn a_field_of_the_radar_that_has_the_name_of_one_of_the_export_is_refused() {
+    for name in ["colors", "plausibility"] {
+        let dataset = Dataset::of(&Shape { scans: 3, ..Shape::default() });
+        let sensors = std::fs::read_to_string(dataset.file("sequence.toml")).unwrap();
+        dataset.put("sequence.toml", sensors.replace("\"rcs\"", &format!("\"{name}\"")));
+        ralf(["label", &dataset.path, "-o", &dataset.out]).exits(0);
+        for (format, path) in KINDS {
+            let path = dataset.beside(path);
+            let found = format!("that the export adds, found `{name}`");
+            run(&dataset, format, &path, &[]).exits(1).says(["00: radar_front: expected", &found]);
+            assert!(!std::path::Path::new(&path).exists());
+        }
+        // Clouds of PCD files have no colours of labels, so that the radar's own are in nobody's way.
+        if name == "colors" {
+            export(&dataset, "pcd", "clouds", &[]);
+        }
     }
 }
 

@@ -60,7 +60,7 @@ impl Table {
     /// A column of numbers: whole ones, floats, or truth values (0 and 1).
     pub(crate) fn numbers(&self, column: &str) -> Result<Vec<f64>, DataError> {
         let found = self.column(column)?;
-        let number = self.number(&found, "numbers of at most 8 bytes")?;
+        let number = self.number(&found)?;
         self.values(&found, |(_, bytes)| Ok(number.read(bytes, Number::value)))
     }
 
@@ -72,7 +72,7 @@ impl Table {
     /// A column of whole numbers, which may be stored as floats.
     pub(crate) fn integers(&self, column: &str) -> Result<Vec<i64>, DataError> {
         let found = self.column(column)?;
-        let number = self.number(&found, "whole numbers of at most 8 bytes")?;
+        let number = self.number(&found)?;
         self.values(&found, |(row, bytes)| {
             let expected = "a whole number of at most 63 bits";
             number
@@ -141,24 +141,26 @@ impl Table {
         rows.enumerate().map(value).collect()
     }
 
-    fn number(&self, column: &Column, expected: &str) -> Result<Stored, DataError> {
+    /// How the numbers of a column are stored: whole ones may have any size, for HDF5 knows no usual ones.
+    fn number(&self, column: &Column) -> Result<Stored, DataError> {
         let datatype = match &column.field.datatype {
             Datatype::Enum { base, .. } => base,
             other => other,
         };
         let stored = match *datatype {
-            Datatype::FixedPoint { size, signed: true, byte_order } => {
-                (Number::signed(usize::from(size)), byte_order)
-            }
-            Datatype::FixedPoint { size, byte_order, .. } => {
-                (Number::unsigned(usize::from(size)), byte_order)
+            Datatype::FixedPoint { size: size @ 1..=8, signed, byte_order } => {
+                let number = if signed { Number::Signed } else { Number::Unsigned };
+                (Some(number(usize::from(size))), byte_order)
             }
             Datatype::FloatingPoint { size, byte_order } => (Number::float(usize::from(size)), byte_order),
             _ => (None, ByteOrder::LittleEndian),
         };
         match stored {
             (Some(number), order) => Ok(Stored { number, order }),
-            _ => Err(self.error(&column.field.name, expected, format!("{datatype:?}"))),
+            _ => {
+                let expected = "whole numbers of at most 8 bytes, or floats of 4 or 8";
+                Err(self.error(&column.field.name, expected, format!("{datatype:?}")))
+            }
         }
     }
 

@@ -35,6 +35,31 @@ fn a_table_is_the_same_in_whatever_way_it_is_stored() {
 }
 
 #[test]
+fn whole_numbers_may_have_any_size_up_to_eight_bytes() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("sizes.h5");
+    for bytes in 1..=8 {
+        let most = i64::MAX >> (64 - 8 * bytes);
+        let values = vec![0, 1, -1, most, -most - 1];
+        let columns = vec![("whole", writing::Values::Whole(bytes, values.clone()))];
+        writing::write_tables(&file, &[("rows", &columns)], 2);
+        let table = Hdf5File::open(&file).unwrap().table("rows").unwrap();
+        assert_eq!(table.integers("whole").unwrap(), values, "{bytes} bytes");
+        let decimals: Vec<f64> = values.iter().map(|value| *value as f64).collect();
+        assert_eq!(table.numbers("whole").unwrap(), decimals, "{bytes} bytes");
+    }
+    let columns = vec![("whole", writing::Values::Whole(9, vec![0]))];
+    let refused = || {
+        writing::write_tables(&file, &[("rows", &columns)], 2);
+        Hdf5File::open(&file)?.table("rows")?.integers("whole").map(drop)
+    };
+    let error = refused().unwrap_err().to_string();
+    let words =
+        "rows, whole: expected whole numbers of at most 8 bytes, or floats of 4 or 8, found FixedPoint";
+    assert!(error.contains("sizes.h5: ") && error.contains(words), "{error}");
+}
+
+#[test]
 fn a_table_may_have_no_rows() {
     let table = made_by_h5py("none").table("rows").unwrap();
     assert_eq!(
@@ -60,7 +85,10 @@ fn what_is_no_table_or_column_of_this_kind_is_named() {
     assert!(odd.numbers("inside").is_err());
     let table = made_by_h5py("growing").table("rows").unwrap();
     for (error, words) in [
-        (table.numbers("fixed").err(), "rows, fixed: expected numbers of at most 8 bytes, found String"),
+        (
+            table.numbers("fixed").err(),
+            "rows, fixed: expected whole numbers of at most 8 bytes, or floats of 4 or 8, found String",
+        ),
         (table.texts("whole").err(), "rows, whole: expected texts, found FixedPoint"),
         (
             table.integers("double").err(),

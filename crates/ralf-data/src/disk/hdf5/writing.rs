@@ -15,6 +15,8 @@ pub(crate) enum Values {
     Float(Vec<f32>),
     Double(Vec<f64>),
     Byte(Vec<u8>),
+    /// Whole numbers of so many bytes, with a sign.
+    Whole(u8, Vec<i64>),
     /// Of so many bytes.
     Text(u32, Vec<String>),
 }
@@ -66,6 +68,7 @@ impl Values {
             Self::Float(values) => values.len(),
             Self::Double(values) => values.len(),
             Self::Byte(values) => values.len(),
+            Self::Whole(_, values) => values.len(),
             Self::Text(_, values) => values.len(),
         }
     }
@@ -81,6 +84,7 @@ impl Values {
             Self::Float(values) => Self::Float(of(values, rows)),
             Self::Double(values) => Self::Double(of(values, rows)),
             Self::Byte(values) => Self::Byte(of(values, rows)),
+            Self::Whole(bytes, values) => Self::Whole(*bytes, of(values, rows)),
             Self::Text(bytes, values) => Self::Text(*bytes, of(values, rows)),
         }
     }
@@ -90,6 +94,7 @@ impl Values {
             Self::Int(_) | Self::Float(_) => 4,
             Self::Long(_) | Self::Double(_) => 8,
             Self::Byte(_) => 1,
+            Self::Whole(bytes, _) => u32::from(*bytes),
             Self::Text(bytes, _) => *bytes,
         }
     }
@@ -97,7 +102,9 @@ impl Values {
     fn datatype(&self) -> Datatype {
         let (size, byte_order) = (self.bytes() as u8, ByteOrder::LittleEndian);
         match self {
-            Self::Int(_) | Self::Long(_) => Datatype::FixedPoint { size, signed: true, byte_order },
+            Self::Int(_) | Self::Long(_) | Self::Whole(..) => {
+                Datatype::FixedPoint { size, signed: true, byte_order }
+            }
             Self::Byte(_) => Datatype::FixedPoint { size, signed: false, byte_order },
             Self::Float(_) | Self::Double(_) => Datatype::FloatingPoint { size, byte_order },
             Self::Text(bytes, _) => Datatype::String {
@@ -115,6 +122,7 @@ impl Values {
             Self::Float(values) => values[row].to_le_bytes().into(),
             Self::Double(values) => values[row].to_le_bytes().into(),
             Self::Byte(values) => vec![values[row]],
+            Self::Whole(bytes, values) => i128::from(values[row]).to_le_bytes()[..usize::from(*bytes)].into(),
             Self::Text(bytes, values) => {
                 let mut text = values[row].clone().into_bytes();
                 text.resize(*bytes as usize, 0);

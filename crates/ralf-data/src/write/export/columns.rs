@@ -68,7 +68,8 @@ pub(super) fn cloud_columns(
     let added = found_columns(scan, drawn)?;
     let taken = |name: &&String| added.columns.iter().any(|column| column.name == **name);
     if let Some(name) = radar.fields.iter().find(taken) {
-        let reason = format!("field `{name}` of the radar has the name of one that the export adds");
+        let reason =
+            format!("expected fields of other names than those that the export adds, found `{name}`");
         let (file, place) = (sequence.name().into(), radar.name.clone());
         return Err(DataError::Unsuitable { file, place, reason });
     }

@@ -57,6 +57,8 @@ export interface Recording {
   readonly threshold: number;
   readonly sequences: readonly SequenceInfo[];
   readonly classes: readonly LabelClass[];
+  /** What tells a class that the machine gave, by number; 0 is nothing. */
+  readonly class_sources: readonly string[];
   readonly causes: readonly string[] | null;
   /** The causes that a stroke may say, by number; 0 is none. */
   readonly sayable_causes: readonly string[];

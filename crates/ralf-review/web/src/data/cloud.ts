@@ -2,6 +2,7 @@
 
 import { type Column, type ColumnGroup, floats } from "../api/table.js";
 import type { ScanId, ScanPoints } from "../api/types.js";
+import { classSource } from "./classes.js";
 import { sameScan, type Scan, scanKey } from "./scan.js";
 import { movePoints, targetFromSource } from "./transform.js";
 
@@ -19,6 +20,8 @@ export interface Cloud {
   readonly measured: Float32Array;
   readonly label: Uint16Array;
   readonly corrected: Uint8Array;
+  /** Who tells the class of the label, as `classSource` has it. */
+  readonly classFrom: Uint8Array;
   /** The number of the cause that a person said, or 0. */
   readonly saidCause: Uint8Array;
   /** False where the scans lie in different places and nothing says how the vehicle moved between them. */
@@ -128,18 +131,23 @@ export function findScan(cloud: Cloud, id: ScanId): number {
   return cloud.scans.findIndex((scan) => sameScan(scan, id));
 }
 
-function labelsOf(scans: readonly Scan[], count: number): Pick<Cloud, "label" | "corrected" | "saidCause"> {
+function labelsOf(
+  scans: readonly Scan[],
+  count: number,
+): Pick<Cloud, "label" | "corrected" | "classFrom" | "saidCause"> {
   const label = new Uint16Array(count);
   const corrected = new Uint8Array(count);
+  const classFrom = new Uint8Array(count);
   const saidCause = new Uint8Array(count);
   let start = 0;
   for (const scan of scans) {
     label.set(scan.label, start);
     corrected.set(scan.corrected, start);
     saidCause.set(scan.saidCause, start);
+    for (let point = 0; point < scan.table.rows; point++) classFrom[start + point] = classSource(scan, point);
     start += scan.table.rows;
   }
-  return { label, corrected, saidCause };
+  return { label, corrected, classFrom, saidCause };
 }
 
 function together(a: string, b: string): boolean {

@@ -27,6 +27,10 @@ export interface Filter {
   readonly height: Span;
   /** Flags of which a detection must have at least one; 0: whatever they are. */
   readonly flags: number;
+  /** Label ids of which a detection must have one; empty: whatever its class is. */
+  readonly classes: ReadonlySet<number>;
+  /** Who may tell its class, as `classSource` has it; empty: whoever does. */
+  readonly classFrom: ReadonlySet<number>;
   readonly hiddenRadars: ReadonlySet<string>;
   /** Whatever else is asked of numbers. */
   readonly columns: readonly ColumnSpan[];
@@ -44,6 +48,8 @@ export const everything: Filter = {
   range: [0, Infinity],
   height: [-Infinity, Infinity],
   flags: 0,
+  classes: new Set(),
+  classFrom: new Set(),
   hiddenRadars: new Set(),
   columns: [],
   areas: [],
@@ -86,6 +92,8 @@ export function visible(cloud: Cloud, filter: Filter, labels: LabelBook, certain
         within(range[i], filter.range) &&
         within(cloud.positions[3 * i + 2], filter.height) &&
         (filter.flags === 0 || (flags[i] & filter.flags) !== 0) &&
+        (filter.classes.size === 0 || filter.classes.has(cloud.label[i])) &&
+        (filter.classFrom.size === 0 || filter.classFrom.has(cloud.classFrom[i])) &&
         columns.every(({ values, span }) => within(values[i], span)),
     );
   }

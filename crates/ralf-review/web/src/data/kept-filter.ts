@@ -9,7 +9,9 @@ export function plainFilter(filter: Filter): object {
     name,
     span: span.map((end) => (isFinite(end) ? end : null)),
   }));
-  return { ...filter, hiddenRadars: [...filter.hiddenRadars], columns };
+  const { classes, classFrom, hiddenRadars } = filter;
+  const sets = { classes: [...classes], classFrom: [...classFrom], hiddenRadars: [...hiddenRadars] };
+  return { ...filter, ...sets, columns };
 }
 
 /** A filter as far as what was kept makes sense. */
@@ -29,10 +31,17 @@ export function filterFrom(kept: unknown): Filter {
     range: spanFrom(found["range"], everything.range),
     height: spanFrom(found["height"], everything.height),
     flags: typeof found["flags"] === "number" ? found["flags"] : everything.flags,
+    classes: numbersFrom(found["classes"]),
+    classFrom: numbersFrom(found["classFrom"]),
     hiddenRadars: new Set(Array.isArray(found["hiddenRadars"]) ? found["hiddenRadars"].map(String) : []),
     columns: columnsFrom(found["columns"]),
     areas: areasFrom(found["areas"]),
   };
+}
+
+function numbersFrom(kept: unknown): ReadonlySet<number> {
+  const all: readonly unknown[] = Array.isArray(kept) ? kept : [];
+  return new Set(all.filter((one) => typeof one === "number"));
 }
 
 function columnsFrom(kept: unknown): readonly ColumnSpan[] {

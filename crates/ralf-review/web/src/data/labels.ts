@@ -11,6 +11,11 @@ export type Choice = number | null;
 
 export type Truth = "plausible" | "artifact" | "unlabelled";
 
+/** Whether a label says more than whether a detection is plausible. */
+export function isClass(id: number): boolean {
+  return ![UNLABELLED, ARTIFACT, PLAUSIBLE].includes(id);
+}
+
 export class LabelBook {
   private readonly byId: ReadonlyMap<number, LabelClass>;
 
@@ -30,9 +35,9 @@ export class LabelBook {
     return this.byId.get(id)?.name ?? `class ${id}`;
   }
 
-  /** With why it is an artifact, where that is said. */
-  nameWith(id: number, cause: string | null): string {
-    return this.name(id) + (cause === null ? "" : ` (${cause})`);
+  /** With why it is an artifact, or who tells its class, where that is known. */
+  nameWith(id: number, more: string | null): string {
+    return this.name(id) + (more === null ? "" : ` (${more})`);
   }
 
   cluster(id: number): string | null {

@@ -13,6 +13,8 @@ export interface Scan extends ScanId {
   readonly label: Uint16Array;
   /** 1 where a person set the label. */
   readonly corrected: Uint8Array;
+  /** What tells the class of the machine's label: a place in the recording's `class_sources`. */
+  readonly classFrom: Uint8Array;
   /** The number of the cause that a person said, or 0. */
   readonly saidCause: Uint8Array;
 }
@@ -36,6 +38,7 @@ export function scanFromTable({ radar, scan }: ScanId, table: Table<ScanHeader>)
     machine: ids(table, "machine"),
     label: ids(table, "label"),
     corrected: bytes(table, "corrected"),
+    classFrom: bytes(table, "class_from"),
     saidCause: bytes(table, "said_cause"),
   };
 }

@@ -9,6 +9,12 @@ export function iconButton(name: IconName, title: string, run: () => void, look 
   return h("button", { ...attributes, on: { click: run } }, icon(name));
 }
 
+/** A small choice that is made or isn't; `look` says what its dot looks like. */
+export function chip(text: string, look: string, run: () => void): HTMLButtonElement {
+  const attributes = { class: `chip small ${look}`, type: "button" };
+  return h("button", { ...attributes, on: { click: run } }, h("span", { class: "dot" }), text);
+}
+
 /** A button with words, and the key that does the same where there is one. */
 export function keyButton(text: HTMLElement | string, key: string, run: () => void, look = ""): HTMLButtonElement {
   const shown = key === "" ? [] : [" ", h("kbd", {}, key)];

@@ -1,7 +1,8 @@
 /** Every number of the detection under the pointer; without one, of the one selected. */
 
 import type { ColumnGroup } from "../api/table.js";
-import type { Past, Saying } from "../api/types.js";
+import type { Past, Recording, Saying } from "../api/types.js";
+import { sourceName, UNTOLD } from "../data/classes.js";
 import { type Cloud, columnOf, columnsOf, type NumberColumn, pointOf } from "../data/cloud.js";
 import type { LabelBook } from "../data/labels.js";
 import { isMark, withMarksTogether } from "../data/team.js";
@@ -66,10 +67,10 @@ function about(state: Readonly<State>, cloud: Cloud, index: number): HTMLElement
       { class: "branches" },
       ...byName(of("plausibility")).map((column) => branch(column, value(column.name), recording.threshold)),
     ),
+    h("dl", { class: "facts words" }, ...said(state, cloud, index)),
     h(
       "dl",
       { class: "facts" },
-      ...said(state, cloud, index),
       ...numbers.flatMap((column) => fact(column.name, measured(value(column.name), column.unit), column.meaning)),
     ),
   ];
@@ -86,14 +87,21 @@ function heading(cloud: Cloud, index: number, labels: LabelBook): HTMLElement {
   );
 }
 
-/** What the machine said where a person said otherwise, and the cause where it is known. */
+/** What the machine said where a person said otherwise, who tells the class, and the cause where it is known. */
 function said({ labels, recording }: Readonly<State>, cloud: Cloud, index: number): HTMLElement[] {
   const { scan, point } = pointOf(cloud, index);
-  const machine = cloud.corrected[index] === 1 ? fact("machine", labels.name(scan.machine[point])) : [];
+  const named = labels.nameWith(scan.machine[point], tellerOf(scan.classFrom[point], recording));
+  const machine = cloud.corrected[index] === 1 ? fact("machine", named) : [];
+  const teller = tellerOf(cloud.classFrom[index], recording);
+  const from = teller === null ? [] : fact("class from", teller, "what tells the class");
   const { causes } = recording;
   const cause = causes === null ? [] : fact("cause", causes[columnOf(cloud, index, "cause")] || "none");
   const why = recording.sayable_causes[cloud.saidCause[index]] ?? "";
-  return [...machine, ...cause, ...(why === "" ? [] : fact("cause said", why))];
+  return [...machine, ...from, ...cause, ...(why === "" ? [] : fact("cause said", why))];
+}
+
+function tellerOf(source: number, recording: Recording): string | null {
+  return source === UNTOLD ? null : sourceName(source, recording);
 }
 
 /** Who said what, and when; the last first. */

@@ -1,9 +1,11 @@
-/** Which detections are shown: by label, origin, score, range, height, flags and radar. */
+/** Which detections are shown: by label, origin, score, range, height, class, flags and radar. */
 
 import { everything, type Filter, hides, type Origin, type Span } from "../data/filter.js";
 import { h, pressed, say, select } from "../dom.js";
 import { shortName } from "../format.js";
 import type { Page } from "../page.js";
+import { chip } from "./buttons.js";
+import { classFilter } from "./class-filter.js";
 import { rulesPanel } from "./rules-panel.js";
 
 export function filterPanel(page: Page): HTMLElement {
@@ -32,25 +34,17 @@ export function filterPanel(page: Page): HTMLElement {
     span(page, "score", "w", "0.05", everything.score),
     span(page, "range", "range / m", "5", everything.range),
     span(page, "height", "z / m", "0.5", everything.height),
+    classFilter(page),
     flags(page),
     radars(page),
     rulesPanel(page),
   );
 }
 
-function toggle(text: string, look: string, run: () => void): HTMLButtonElement {
-  return h(
-    "button",
-    { class: `chip small ${look}`, type: "button", on: { click: run } },
-    h("span", { class: "dot" }),
-    text,
-  );
-}
-
 function labels({ store, actions }: Page): HTMLElement {
   const names = ["plausible", "artifact", "unlabelled"] as const;
   const buttons = names.map((name) =>
-    toggle(name, name, () => actions.view.filter({ [name]: !store.state.filter[name] })),
+    chip(name, name, () => actions.view.filter({ [name]: !store.state.filter[name] })),
   );
   store.watch(
     ({ filter }) => [filter],
@@ -66,7 +60,7 @@ function origin({ store, actions }: Page): HTMLElement {
     { value: "corrected", text: "corrected" },
   ];
   const list = select("Labelled by", options, (value) => actions.view.filter({ origin: value as Origin }));
-  const uncertain = toggle("only uncertain", "uncertain", () =>
+  const uncertain = chip("only uncertain", "uncertain", () =>
     actions.view.filter({ uncertain: !store.state.filter.uncertain }),
   );
   store.watch(
@@ -112,7 +106,7 @@ function span({ store, actions }: Page, name: SpanName, text: string, step: stri
 function flags({ store, actions }: Page): HTMLElement {
   const buttons = store.state.recording.flags.map(({ bit, name }) => ({
     bit,
-    button: toggle(name, "flag", () => actions.view.filter({ flags: store.state.filter.flags ^ bit })),
+    button: chip(name, "flag", () => actions.view.filter({ flags: store.state.filter.flags ^ bit })),
   }));
   store.watch(
     ({ filter }) => [filter.flags],
@@ -145,7 +139,7 @@ function radars({ store, actions }: Page): HTMLElement {
       const names = recording.sequences.find(({ name }) => name === sequence)?.radars.map(({ name }) => name) ?? [];
       row.replaceChildren(
         ...names.map((name) => {
-          const button = toggle(shortName(name), "radar", () => actions.view.toggleRadar(name));
+          const button = chip(shortName(name), "radar", () => actions.view.toggleRadar(name));
           pressed(button, !hidden.has(name));
           return button;
         }),

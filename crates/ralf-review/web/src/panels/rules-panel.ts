@@ -3,7 +3,7 @@
 import { AREAS, type Area, type AreaKind } from "../data/area.js";
 import { columnsOf } from "../data/cloud.js";
 import type { ColumnSpan } from "../data/filter.js";
-import { ARTIFACT, PLAUSIBLE, UNLABELLED } from "../data/labels.js";
+import { ARTIFACT, isClass, PLAUSIBLE } from "../data/labels.js";
 import { type Verdict, verdictOf, verdictText } from "../data/rules.js";
 import { h, type Option, pressed, say, select, setOptions } from "../dom.js";
 import type { Page } from "../page.js";
@@ -158,7 +158,7 @@ function saving({ store, actions }: Page): HTMLElement {
 function verdicts({ labels, recording }: Readonly<State>): readonly Option[] {
   const option = (sets: Verdict | null, text: string): Option => ({ value: verdictText(sets), text });
   const causes = recording.sayable_causes.filter((cause) => cause !== "");
-  const classes = labels.classes.filter(({ id }) => ![UNLABELLED, ARTIFACT, PLAUSIBLE].includes(id));
+  const classes = labels.classes.filter(({ id }) => isClass(id));
   return [
     option(null, "only selects"),
     ...[PLAUSIBLE, ARTIFACT].map((label) => option({ label, cause: null }, `sets ${labels.name(label)}`)),

@@ -1,12 +1,14 @@
 /** What a detection's colour says, and the legend to it. */
 
 import type { Recording } from "../api/types.js";
+import { allSources, present, sourceName, UNTOLD } from "../data/classes.js";
 import { columnsOf, gather, type Cloud } from "../data/cloud.js";
-import type { LabelBook, Truth } from "../data/labels.js";
+import { isClass, type LabelBook, PLAUSIBLE, type Truth } from "../data/labels.js";
 import {
   ABSENT_RGB,
   ARTIFACT_RGB,
   CATEGORIES,
+  classColour,
   diverging,
   PLAUSIBLE_RGB,
   type Rgb,
@@ -34,6 +36,7 @@ export function colourModes(cloud: Cloud, { causes }: Pick<Recording, "causes">)
   return [
     option("label", "Label"),
     option("class", "Class"),
+    option("class from", "Class from", "what tells the class"),
     ...columns,
     ...cause,
     option("said cause", "Cause said", "why people said that it is an artifact"),
@@ -72,12 +75,20 @@ export function truthColour(truth: Truth): Rgb {
   return TRUTH_COLOURS[truth];
 }
 
+/** A plausible class has a colour of its own; any other label that of its truth. */
+export function labelColour(id: number, labels: LabelBook): Rgb {
+  const truth = labels.truth(id);
+  return isClass(id) && truth === "plausible" ? classColour(labels.name(id)) : TRUTH_COLOURS[truth];
+}
+
 export function paint(cloud: Cloud, mode: ColourMode, labels: LabelBook, recording: Recording): Painting {
   switch (mode) {
     case "label":
       return paintLabels(cloud, labels);
     case "class":
       return paintClasses(cloud, labels);
+    case "class from":
+      return paintSources(cloud, recording);
     case "cause":
       return paintCauses(gather(cloud, "cause"), recording.causes ?? []);
     case "said cause":
@@ -111,18 +122,23 @@ function paintLabels(cloud: Cloud, labels: LabelBook): Painting {
   return { colours, legend: { kind: "categories", entries } };
 }
 
+/** The legend has what is there alone: SemanticKITTI has more classes than anybody tells apart. */
 function paintClasses(cloud: Cloud, labels: LabelBook): Painting {
-  const clusters = [...new Set(labels.classes.map(({ cluster }) => cluster))].filter(
-    (name) => name !== null && name !== "artifact",
-  );
-  const ofCluster = new Map(clusters.map((name, index) => [name, CATEGORIES[(index + 2) % CATEGORIES.length]]));
-  const colour = (id: number): Rgb => ofCluster.get(labels.cluster(id)) ?? TRUTH_COLOURS[labels.truth(id)];
-  const entries: (readonly [string, Rgb])[] = [
-    ["plausible", PLAUSIBLE_RGB],
-    ["artifact", ARTIFACT_RGB],
-  ];
-  for (const [name, rgb] of ofCluster) entries.push([name ?? "", rgb]);
+  const colour = (id: number): Rgb => labelColour(id, labels);
+  const name = (id: number): string => (id === PLAUSIBLE ? "plausible, no class" : labels.name(id));
+  const entries = present(cloud.label).map((id) => [name(id), colour(id)] as const);
   return { colours: paintEach(cloud.count, (i) => colour(cloud.label[i])), legend: { kind: "categories", entries } };
+}
+
+function paintSources({ classFrom, count }: Cloud, recording: Recording): Painting {
+  const known = allSources(recording);
+  const colour = (source: number): Rgb =>
+    source === UNTOLD ? ABSENT_RGB : CATEGORIES[known.indexOf(source) % CATEGORIES.length];
+  const there = new Set(classFrom);
+  const entries = known
+    .filter((source) => there.has(source))
+    .map((source) => [sourceName(source, recording), colour(source)] as const);
+  return { colours: paintEach(count, (i) => colour(classFrom[i])), legend: { kind: "categories", entries } };
 }
 
 function paintCauses(causes: ArrayLike<number>, names: readonly string[]): Painting {

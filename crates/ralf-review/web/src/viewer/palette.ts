@@ -26,6 +26,33 @@ export const CATEGORIES: readonly Rgb[] = [
   [165, 172, 182],
 ];
 
+/** Hues by the paper's cluster: construction is yellow, vegetation green, and so on; `moving-` goes with the rest. */
+const CLASSES: Readonly<Record<string, Rgb>> = {
+  car: [204, 121, 167],
+  bicycle: [246, 190, 220],
+  bus: [150, 70, 120],
+  motorcycle: [232, 84, 160],
+  truck: [172, 96, 190],
+  "other-vehicle": [122, 96, 128],
+  person: [138, 116, 255],
+  bicyclist: [190, 176, 255],
+  motorcyclist: [104, 78, 206],
+  building: [240, 228, 66],
+  fence: [172, 158, 30],
+  vegetation: [0, 178, 131],
+  trunk: [0, 118, 90],
+  terrain: [146, 224, 140],
+  pole: [230, 159, 0],
+  "traffic-sign": [255, 210, 120],
+};
+/** Of a class of no cluster. */
+const OTHER_CLASS: Rgb = [165, 172, 182];
+
+/** The colour of a plausible class. */
+export function classColour(name: string): Rgb {
+  return CLASSES[name.replace(/^moving-/, "")] ?? OTHER_CLASS;
+}
+
 /** Viridis (Smith and van der Walt) at nine even steps; as in `ralf plot`. */
 const VIRIDIS: readonly Rgb[] = [
   [68, 1, 84],

@@ -1,23 +1,22 @@
 // A sequence of a hundred scans, corrected by somebody who knows the truth and has nothing but the page: how many
 // gestures that takes. A gesture is a key, or a press or drag of the mouse.
 import assert from "node:assert/strict";
-import { spawnSync } from "node:child_process";
-import { mkdtemp, readFile, rm } from "node:fs/promises";
-import { tmpdir } from "node:os";
+import { readFile } from "node:fs/promises";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
 import { bestLasso, inside } from "./annotator.mjs";
 import {
   anotherBrowser,
   ask,
-  atEnd,
   clean,
   current,
+  freshFolder,
   launch,
   open,
   picture,
   pixel,
   queueOf,
+  ralf,
   ready,
   says,
   scanOf,
@@ -26,7 +25,7 @@ import {
   status,
 } from "./support.mjs";
 
-const { RALF_ANNOTATE, RALF_PROGRAM, RALF_ANNOTATE_SCANS = "275", RALF_ANNOTATE_UNTIL = "0.45" } = process.env;
+const { RALF_ANNOTATE, RALF_ANNOTATE_SCANS = "275", RALF_ANNOTATE_UNTIL = "0.45" } = process.env;
 /** At most so many gestures for each corrected detection; without things, maps and kinds it was 1.5. */
 const EACH = 0.03;
 /** A tenth of the scans' worth of gestures, and at least this share of the wrong labels is gone after them. */
@@ -132,18 +131,12 @@ async function labelled(context) {
     const [dataset, out] = RALF_ANNOTATE.split(":");
     return { dataset, out };
   }
-  const folder = await mkdtemp(join(tmpdir(), "ralf-annotator-"));
-  atEnd(context, () => rm(folder, { recursive: true, force: true }));
+  const folder = await freshFolder(context);
   const [dataset, out] = ["recording", "out"].map((name) => join(folder, name));
   const scans = ["--scans", RALF_ANNOTATE_SCANS, "--sequence", "00", "--no-images"];
   ralf("simulate", "-o", dataset, ...scans, "--quiet");
   ralf("label", dataset, "-o", out, "--quiet");
   return { dataset, out };
-}
-
-function ralf(...commands) {
-  const ran = spawnSync(RALF_PROGRAM, commands, { encoding: "utf8" });
-  assert.equal(ran.status, 0, ran.stderr);
 }
 
 /** Every detection with its place in the odometry frame, its label and the truth; true is plausible. */

@@ -33,6 +33,19 @@ export function launch() {
   return chromium.launch({ executablePath: RALF_CHROMIUM, args: CHROMIUM });
 }
 
+/** Runs the program to its end. */
+export function ralf(...commands) {
+  const ran = spawnSync(RALF_PROGRAM, commands, { encoding: "utf8" });
+  assert.equal(ran.status, 0, ran.stderr);
+}
+
+/** A folder that is gone when the test has ended. */
+export async function freshFolder(context) {
+  const folder = await mkdtemp(join(tmpdir(), "ralf-review-"));
+  atEnd(context, () => rm(folder, { recursive: true, force: true }));
+  return folder;
+}
+
 const endings = new WeakMap();
 
 /** Does this when the test ends, what was begun last first: no page may ask a server whose files are gone. */
@@ -48,8 +61,7 @@ export function atEnd(context, action) {
 
 /** A copy of the labels, so that every test begins with none corrected. */
 export async function freshOut(context) {
-  const folder = await mkdtemp(join(tmpdir(), "ralf-review-"));
-  atEnd(context, () => rm(folder, { recursive: true, force: true }));
+  const folder = await freshFolder(context);
   await cp(RALF_OUT, join(folder, "out"), { recursive: true });
   return join(folder, "out");
 }
@@ -153,10 +165,7 @@ const ARRAYS = { f32: Float32Array, u8: Uint8Array, u16: Uint16Array, i32: Int32
 /** The labels as `ralf export` hands them on: by "radar/scan", SemanticKITTI ids. */
 export async function exported(out) {
   const folder = join(out, "..", "kitti");
-  const ran = spawnSync(RALF_PROGRAM, ["export", RALF_DATASET, out, "--to", "semantickitti", "-o", folder], {
-    encoding: "utf8",
-  });
-  assert.equal(ran.status, 0, ran.stderr);
+  ralf("export", RALF_DATASET, out, "--to", "semantickitti", "-o", folder);
   const [, ...lines] = (await readFile(join(folder, "sequences.csv"), "utf8")).trim().split("\n");
   const labels = new Map();
   for (const [number, , radar, scans] of lines.map((line) => line.split(","))) {
@@ -250,10 +259,7 @@ export async function selected(page) {
 
 /** Labels the recording again, with another setting. */
 export function relabel(out, setting) {
-  const ran = spawnSync(RALF_PROGRAM, ["label", RALF_DATASET, "-o", out, "--set", setting, "--quiet"], {
-    encoding: "utf8",
-  });
-  assert.equal(ran.status, 0, ran.stderr);
+  ralf("label", RALF_DATASET, "-o", out, "--set", setting, "--quiet");
 }
 
 /** Has the page be told that one detection each of the five most doubtful things would be an artifact. */

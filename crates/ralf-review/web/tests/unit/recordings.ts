@@ -18,6 +18,7 @@ export function recordingOf(sequences: readonly SequenceInfo[], second: string |
     threshold: 0.5,
     sequences,
     classes: [],
+    class_sources: ["", "lidar", "camera"],
     causes: null,
     sayable_causes: [""],
     flags: [],

@@ -7,6 +7,7 @@ export interface Made {
   readonly x: readonly number[];
   readonly w?: readonly number[];
   readonly machine?: readonly number[];
+  readonly classFrom?: readonly number[];
   readonly corrected?: readonly number[];
   readonly reviewed?: boolean;
   readonly odom?: readonly number[] | null;
@@ -16,7 +17,7 @@ export interface Made {
 export function made(
   radar: string,
   scan: number,
-  { x, w, machine, corrected, reviewed, odom = null, time = "0" }: Made,
+  { x, w, machine, classFrom, corrected, reviewed, odom = null, time = "0" }: Made,
 ): Scan {
   const zero = new Float32Array(x.length);
   const labels = new Uint16Array(machine ?? x.map(() => 99));
@@ -30,6 +31,7 @@ export function made(
     ["machine", labels],
     ["label", labels.slice()],
     ["corrected", new Uint8Array(corrected ?? x.map(() => 0))],
+    ["class_from", new Uint8Array(classFrom ?? x.map(() => 0))],
     ["said_cause", new Uint8Array(x.length)],
   ]);
   const header = {
