@@ -1,7 +1,7 @@
 //! NPZ, Parquet, and nuScenes' sidecars.
 
 use super::{BRANCHES, export, found, labelled, list, small};
-use crate::support::{Shape, read_export, tree};
+use crate::support::{Dataset, Shape, ralf, read_export, rows, tree};
 use serde_json::{Value, json};
 
 /// Rows as read hold what was found, in its order.
@@ -76,6 +76,23 @@ fn arrow_reads_a_data_set_partitioned_by_sequence() {
     let read = read_export("parquet", &path).unwrap();
     hold(&read, &dataset, Value::from);
     assert_eq!(list(&read)[0]["rcs"], json!(3.0));
+}
+
+#[test]
+fn what_a_model_says_is_exported_in_its_words() {
+    let dataset = Dataset::of(&Shape { scans: 3, ..Shape::default() });
+    ralf(["label", &dataset.path, "-o", &dataset.out, "--method", "learned"]).exits(0);
+    let said = rows(dataset.result("plausibility.parquet"));
+    let Some(arrays) = read_export("npz", &export(&dataset, "npz", "arrays", &[])) else { return };
+    let data_set = read_export("parquet", &export(&dataset, "parquet", "tables", &[])).unwrap();
+    assert!(said.iter().any(|row| row.text("cause") == Some("road")) && list(&arrays).len() == said.len());
+    for ((said, array), row) in said.iter().zip(list(&arrays)).zip(list(&data_set)) {
+        for name in ["cause", "visibility", "lacking"] {
+            assert_eq!([array[name].as_str(), row[name].as_str()], [said.text(name); 2], "{name}: {array}");
+        }
+        assert_eq!(row["reason"].as_str(), said.text("reason"));
+        assert!(array.get("reason").is_none() && array["reason_doppler"].is_number(), "{array}");
+    }
 }
 
 #[test]

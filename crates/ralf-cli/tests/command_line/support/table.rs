@@ -13,8 +13,17 @@ impl Row {
     /// The radar's name.
     #[track_caller]
     pub(crate) fn radar(&self) -> &str {
-        let Field::Str(name) = &self.0["radar"] else { panic!("{:?}", self.0["radar"]) };
-        name
+        self.text("radar").unwrap()
+    }
+
+    /// A column of texts; `None` is null.
+    #[track_caller]
+    pub(crate) fn text(&self, column: &str) -> Option<&str> {
+        match &self.0[column] {
+            Field::Null => None,
+            Field::Str(value) => Some(value),
+            other => panic!("{column}: {other:?}"),
+        }
     }
 
     /// A column of whole numbers; `None` is null.

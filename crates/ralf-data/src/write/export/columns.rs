@@ -26,8 +26,8 @@ impl Columns {
     }
 }
 
-/// The columns of `plausibility.parquet` but `radar`, with the effective labels; of what was measured only if asked
-/// for.
+/// The columns of `plausibility.parquet` but `radar` and `semantic`, with the effective labels; of what was measured only
+/// if asked for. Words are the machine's, as plausibilities are.
 pub(super) fn table_columns(sequence: &LabelledSequence, scan: &LabelledScan) -> Result<Table, DataError> {
     let mut columns = Columns::default();
     let number = vec![scan.scan as u32; scan.kept.len()];
@@ -43,7 +43,9 @@ pub(super) fn table_columns(sequence: &LabelledSequence, scan: &LabelledScan) ->
     let meaning = "SemanticKITTI id of the label that counts.";
     columns.add(plain("label", Kind::U16, meaning, Group::Verdict), Values::U16(ids));
     columns.add(flags(), flags_of(scan)?);
+    add_where(&mut columns, scan, |column| column.name == "class_from");
     add_group(&mut columns, scan, Group::Evidence);
+    add_group(&mut columns, scan, Group::Words);
     columns.table()
 }
 
@@ -126,7 +128,12 @@ pub(super) fn decimals<'a>(columns: impl Iterator<Item = (&'a str, Vec<f32>)>) -
 
 /// Adds the columns of the result that belong to a group.
 fn add_group(columns: &mut Columns, scan: &LabelledScan, group: Group) {
-    for (column, values) in scan.table.columns().filter(|(column, _)| column.group == group) {
+    add_where(columns, scan, |column| column.group == group);
+}
+
+/// Adds the columns of the result that are asked for.
+fn add_where(columns: &mut Columns, scan: &LabelledScan, is_asked: impl Fn(&Column) -> bool) {
+    for (column, values) in scan.table.columns().filter(|(column, _)| is_asked(column)) {
         columns.add(column.clone(), values.pick(&scan.kept));
     }
 }
