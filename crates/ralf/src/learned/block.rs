@@ -9,6 +9,9 @@ pub(super) const BLOCK: usize = 64;
 /// Of each row of a block all bits, or none.
 pub(super) type Mask = [u8; BLOCK];
 
+/// A bit for each row of a block.
+pub(super) type Bits = u64;
+
 /// The features of up to [`BLOCK`] rows. What lies behind the last row is absent.
 pub(super) struct Block {
     columns: Vec<[f32; BLOCK]>,

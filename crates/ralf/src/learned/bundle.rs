@@ -123,21 +123,36 @@ impl Bundle {
         Self { digits, low: cases.counts[0] as u16, table, way }
     }
 
-    /// Adds what the groups of these leaves add for each row of a block. `masks` are those of the tree.
-    pub(super) fn add(&self, masks: &[Mask], added: &mut [[i32; PLAYERS]]) {
+    /// The case of each row of a block. `masks` are those of the tree.
+    fn cases(&self, masks: &[Mask]) -> [u16; BLOCK] {
         let [low, high] = self.digits.each_ref().map(|terms| sums(terms, masks));
-        let cases: [u16; BLOCK] =
-            std::array::from_fn(|row| u16::from(low[row]) + self.low * u16::from(high[row]));
-        for (sums, case) in added.iter_mut().zip(cases) {
-            match &self.way {
-                None => add(sums, &self.table[usize::from(case)]),
-                Some((way, scale)) => add(sums, &in_units(way, usize::from(case), *scale)),
-            }
+        std::array::from_fn(|row| u16::from(low[row]) + self.low * u16::from(high[row]))
+    }
+
+    /// Adds what the groups of these leaves add in a case.
+    fn add(&self, case: u16, sums: &mut [i32; PLAYERS]) {
+        match &self.way {
+            None => add_shares(sums, &self.table[usize::from(case)]),
+            Some((way, scale)) => add_shares(sums, &in_units(way, usize::from(case), *scale)),
         }
     }
 }
 
-fn add(sums: &mut [i32; PLAYERS], shares: &[i32; PLAYERS]) {
+/// Adds what each group adds to a tree's answer for each row of a block. `masks` are those of the tree, of which these
+/// are all bundles.
+pub(super) fn add(bundles: &[Bundle], masks: &[Mask], added: &mut [[i32; PLAYERS]]) {
+    let cases: Vec<[u16; BLOCK]> = bundles.iter().map(|bundle| bundle.cases(masks)).collect();
+    // Row by row, so that sums are taken and put back once.
+    for (row, added) in added.iter_mut().enumerate() {
+        let mut sums = *added;
+        for (bundle, cases) in bundles.iter().zip(&cases) {
+            bundle.add(cases[row], &mut sums);
+        }
+        *added = sums;
+    }
+}
+
+fn add_shares(sums: &mut [i32; PLAYERS], shares: &[i32; PLAYERS]) {
     *sums = std::array::from_fn(|group| sums[group] + shares[group]);
 }
 

@@ -1,9 +1,9 @@
 //! Many trees, whose answers are added up.
 
-use super::block::{BLOCK, Block};
+use super::block::{BLOCK, Bits, Block};
 use super::rows::Rows;
 use super::tree::{Node, Tree};
-use super::walk::{Questions, Term, Walk, sums};
+use super::walk::{Questions, Walk};
 
 /// Trees whose answers, added to a base, are log odds.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -34,13 +34,12 @@ pub struct Inference {
     trees: Vec<Leaves>,
 }
 
-/// A tree's leaves, from left to right, and how a row gets to its own.
+/// A tree's leaves, and how a row gets to its own.
 #[derive(Debug, Clone)]
 struct Leaves {
     walk: Walk,
-    /// A no passes over the leaves behind the yes.
-    passed: Vec<Term>,
-    values: Vec<f32>,
+    /// The node of each, and what it answers.
+    answers: Vec<(usize, f64)>,
 }
 
 impl Inference {
@@ -54,15 +53,15 @@ impl Inference {
     /// The log odds of each row.
     pub fn log_odds(&self, rows: &Rows) -> Vec<f64> {
         let mut log_odds = vec![self.base; rows.len()];
-        let mut masks = Vec::new();
+        let mut led = Vec::new();
         for (at, log_odds) in log_odds.chunks_mut(BLOCK).enumerate() {
-            let answers = self.questions.answers(&Block::of(rows, at * BLOCK));
+            let answers = self.questions.answers::<Bits>(&Block::of(rows, at * BLOCK));
+            let mut sums = [self.base; BLOCK];
             for tree in &self.trees {
-                tree.walk.masks(&answers, &mut masks);
-                for (sum, leaf) in log_odds.iter_mut().zip(sums(&tree.passed, &masks)) {
-                    *sum += f64::from(tree.values[usize::from(leaf)]);
-                }
+                tree.walk.lead(&answers, &mut led);
+                tree.add(&led, &mut sums);
             }
+            log_odds.copy_from_slice(&sums[..log_odds.len()]);
         }
         log_odds
     }
@@ -70,18 +69,22 @@ impl Inference {
 
 impl Leaves {
     fn new(tree: &Tree, questions: &mut Questions) -> Self {
-        let (mut passed, mut values) = (Vec::new(), Vec::new());
-        for (at, node) in tree.nodes().iter().enumerate() {
-            match node {
-                // A tree of n nodes has (n + 1) / 2 leaves, and those of a yes come next.
-                Node::Split(split) => {
-                    let no = usize::from(split.right);
-                    passed.push(Term { mask: no, weight: ((no - at) / 2) as u8 });
-                }
-                Node::Leaf(leaf) => values.push(leaf.value),
+        let leaves = tree.nodes().iter().enumerate().filter_map(|(at, node)| match node {
+            Node::Leaf(leaf) => Some((at, f64::from(leaf.value))),
+            Node::Split(_) => None,
+        });
+        Self { walk: Walk::new(tree, questions, |_| 0), answers: leaves.collect() }
+    }
+
+    /// Adds each row's answer to its sum. `led` are the rows that come to each node.
+    fn add(&self, led: &[Bits], sums: &mut [f64; BLOCK]) {
+        for (node, answer) in &self.answers {
+            let mut rows = led[*node];
+            while rows != 0 {
+                sums[rows.trailing_zeros() as usize % BLOCK] += answer;
+                rows &= rows - 1;
             }
         }
-        Self { walk: Walk::new(tree, questions, |_| 0), passed, values }
     }
 }
 

@@ -9,6 +9,7 @@
 mod block;
 mod bundle;
 mod calibration;
+mod decimal;
 mod familiar;
 mod forest;
 mod labeler;

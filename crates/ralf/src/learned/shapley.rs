@@ -7,7 +7,7 @@
 //! case of such a bundle is worked out once, so that a row costs a look into a table per bundle.
 
 use super::block::{BLOCK, Block, Mask};
-use super::bundle::{Bundle, bundles};
+use super::bundle::{Bundle, add, bundles};
 use super::forest::Forest;
 use super::outcomes::Part;
 use super::rows::Rows;
@@ -63,8 +63,8 @@ impl Explainer {
                 begins.map(|begin| self.questions.answers(&Block::of(rows, begin))).collect();
             for (walk, bundles) in &self.trees {
                 for (answers, added) in blocks.iter().zip(added.chunks_mut(BLOCK)) {
-                    walk.masks(answers, &mut masks);
-                    bundles.iter().for_each(|bundle| bundle.add(&masks, added));
+                    walk.lead(answers, &mut masks);
+                    add(bundles, &masks, added);
                 }
             }
         }

@@ -1,11 +1,13 @@
 //! A tree, asked about a block of rows at a time, without a branch per row.
 //!
-//! Every question is asked of every row, and which rows it leads on is a mask. Where a row belongs in a table that is
-//! made for a tree, such as that of its leaves, is a sum of weights, each of which counts for the rows of a mask.
+//! Every question is asked of every row, and which rows it leads on is known for all of them together: a bit for each
+//! where it is only asked which rows come to a leaf, all bits of a byte where numbers of rows are summed up. Where a row
+//! belongs in a table that is made for a part of a tree is such a sum of weights, each of which counts for some rows.
 
-use super::block::{BLOCK, Block, Mask};
+use super::block::{BLOCK, Bits, Block, Mask};
 use super::tree::{Node, Split, Tree};
 use std::collections::HashMap;
+use wide::u8x64;
 
 /// The questions of many trees, each of them once.
 #[derive(Debug, Clone, Default)]
@@ -27,8 +29,46 @@ impl Questions {
     }
 
     /// The rows of a block that get a yes to each question.
-    pub(super) fn answers(&self, block: &Block) -> Vec<Mask> {
-        self.asked.iter().map(|split| block.answers(split)).collect()
+    pub(super) fn answers<A: Answered>(&self, block: &Block) -> Vec<A> {
+        self.asked.iter().map(|split| A::of(block.answers(split))).collect()
+    }
+}
+
+/// Which rows of a block are led on.
+pub(super) trait Answered: Copy {
+    /// All of them.
+    const ALL: Self;
+
+    /// Those of a mask.
+    fn of(mask: Mask) -> Self;
+
+    /// Splits them into those that are among others, and those that aren't.
+    fn split(&self, others: &Self, among: &mut Self, left: &mut Self);
+}
+
+impl Answered for Bits {
+    const ALL: Self = Self::MAX;
+
+    fn of(mask: Mask) -> Self {
+        u8x64::from(mask).to_bitmask()
+    }
+
+    fn split(&self, others: &Self, among: &mut Self, left: &mut Self) {
+        (*among, *left) = (self & others, self & !others);
+    }
+}
+
+impl Answered for Mask {
+    const ALL: Self = [u8::MAX; BLOCK];
+
+    fn of(mask: Mask) -> Self {
+        mask
+    }
+
+    fn split(&self, others: &Self, among: &mut Self, left: &mut Self) {
+        for row in 0..BLOCK {
+            (among[row], left[row]) = (self[row] & others[row], self[row] & !others[row]);
+        }
     }
 }
 
@@ -90,14 +130,16 @@ impl Walk {
     }
 
     /// Of each node, the rows that the question before it and the earlier ones of its group all lead towards it; of the
-    /// first node all rows. `answers` are those to the [`Questions`]; `masks` is overwritten.
-    pub(super) fn masks(&self, answers: &[Mask], masks: &mut Vec<Mask>) {
-        masks.clear();
-        masks.resize(self.nodes, [u8::MAX; BLOCK]);
+    /// first node all rows. `answers` are those to the [`Questions`]; `led` is overwritten.
+    pub(super) fn lead<A: Answered>(&self, answers: &[A], led: &mut Vec<A>) {
+        // What an earlier tree left is overwritten: every node but the first is led to.
+        led.resize(self.nodes, A::ALL);
+        led[0] = A::ALL;
         for step in &self.steps {
-            let (behind, answer) = (masks[step.behind], answers[step.question]);
-            masks[step.yes] = std::array::from_fn(|row| behind[row] & answer[row]);
-            masks[step.no] = std::array::from_fn(|row| behind[row] & !answer[row]);
+            // In preorder the nodes of the answers come after the question, and those of a no after those of the yes.
+            let (before, after) = led.split_at_mut(step.yes);
+            let (upto, no) = after.split_at_mut(step.no - step.yes);
+            before[step.behind].split(&answers[step.question], &mut upto[0], &mut no[0]);
         }
     }
 }
