@@ -1,6 +1,6 @@
 //! Many trees, whose answers are added up.
 
-use super::block::{BLOCK, Bits, Block};
+use super::block::{BLOCK, Bits, Blocks};
 use super::rows::Rows;
 use super::tree::{Node, Tree};
 use super::walk::{Questions, Walk};
@@ -17,7 +17,7 @@ pub struct Forest {
 impl Forest {
     /// The log odds of each row. Who asks again and again prepares an [`Inference`].
     pub fn log_odds(&self, rows: &Rows) -> Vec<f64> {
-        Inference::new(self).log_odds(rows)
+        Inference::new(self).log_odds(&Blocks::of(rows))
     }
 
     /// The largest place of a feature that is asked for, and 1 more.
@@ -51,18 +51,19 @@ impl Inference {
     }
 
     /// The log odds of each row.
-    pub fn log_odds(&self, rows: &Rows) -> Vec<f64> {
-        let mut log_odds = vec![self.base; rows.len()];
+    pub fn log_odds(&self, rows: &Blocks) -> Vec<f64> {
+        let mut log_odds = Vec::with_capacity(rows.blocks.len() * BLOCK);
         let mut led = Vec::new();
-        for (at, log_odds) in log_odds.chunks_mut(BLOCK).enumerate() {
-            let answers = self.questions.answers::<Bits>(&Block::of(rows, at * BLOCK));
+        for block in &rows.blocks {
+            let answers: Vec<Bits> = self.questions.answers(block);
             let mut sums = [self.base; BLOCK];
             for tree in &self.trees {
-                tree.walk.lead(&answers, &mut led);
+                tree.walk.lead(|question| answers[question], &mut led);
                 tree.add(&led, &mut sums);
             }
-            log_odds.copy_from_slice(&sums[..log_odds.len()]);
+            log_odds.extend(sums);
         }
+        log_odds.truncate(rows.rows);
         log_odds
     }
 }

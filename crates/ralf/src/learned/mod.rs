@@ -26,6 +26,7 @@ mod walk;
 mod way;
 mod weighing;
 
+pub use block::Blocks;
 pub use calibration::{Calibration, CalibrationError};
 pub use familiar::{Seen, novelty};
 pub use forest::{Forest, Inference, probability};

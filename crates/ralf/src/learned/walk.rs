@@ -7,7 +7,6 @@
 use super::block::{BLOCK, Bits, Block, Mask};
 use super::tree::{Node, Split, Tree};
 use std::collections::HashMap;
-use wide::u8x64;
 
 /// The questions of many trees, each of them once.
 #[derive(Debug, Clone, Default)]
@@ -32,6 +31,11 @@ impl Questions {
     pub(super) fn answers<A: Answered>(&self, block: &Block) -> Vec<A> {
         self.asked.iter().map(|split| A::of(block.answers(split))).collect()
     }
+
+    /// The rows of a block that get a yes to the question at a place.
+    pub(super) fn answer(&self, place: usize, block: &Block) -> Mask {
+        block.answers(&self.asked[place])
+    }
 }
 
 /// Which rows of a block are led on.
@@ -42,33 +46,31 @@ pub(super) trait Answered: Copy {
     /// Those of a mask.
     fn of(mask: Mask) -> Self;
 
-    /// Splits them into those that are among others, and those that aren't.
-    fn split(&self, others: &Self, among: &mut Self, left: &mut Self);
+    /// Those of them that are among others, and those that aren't.
+    fn split(self, others: Self) -> [Self; 2];
 }
 
 impl Answered for Bits {
     const ALL: Self = Self::MAX;
 
     fn of(mask: Mask) -> Self {
-        u8x64::from(mask).to_bitmask()
+        mask.to_bitmask()
     }
 
-    fn split(&self, others: &Self, among: &mut Self, left: &mut Self) {
-        (*among, *left) = (self & others, self & !others);
+    fn split(self, others: Self) -> [Self; 2] {
+        [self & others, self & !others]
     }
 }
 
 impl Answered for Mask {
-    const ALL: Self = [u8::MAX; BLOCK];
+    const ALL: Self = Self::MAX;
 
     fn of(mask: Mask) -> Self {
         mask
     }
 
-    fn split(&self, others: &Self, among: &mut Self, left: &mut Self) {
-        for row in 0..BLOCK {
-            (among[row], left[row]) = (self[row] & others[row], self[row] & !others[row]);
-        }
+    fn split(self, others: Self) -> [Self; 2] {
+        [self & others, self & !others]
     }
 }
 
@@ -82,12 +84,11 @@ pub(super) struct Term {
 
 /// The sum of the weights that count for each row.
 pub(super) fn sums(terms: &[Term], masks: &[Mask]) -> [u8; BLOCK] {
-    let mut sums = [0; BLOCK];
+    let mut sums = Mask::ZERO;
     for term in terms {
-        let mask = &masks[term.mask];
-        sums = std::array::from_fn(|row| sums[row] + (mask[row] & term.weight));
+        sums += masks[term.mask] & Mask::splat(term.weight);
     }
-    sums
+    sums.to_array()
 }
 
 /// The questions of a tree in preorder, told apart by groups.
@@ -130,16 +131,13 @@ impl Walk {
     }
 
     /// Of each node, the rows that the question before it and the earlier ones of its group all lead towards it; of the
-    /// first node all rows. `answers` are those to the [`Questions`]; `led` is overwritten.
-    pub(super) fn lead<A: Answered>(&self, answers: &[A], led: &mut Vec<A>) {
+    /// first node all rows. `answer` gives the rows that get a yes to the question at a place; `led` is overwritten.
+    pub(super) fn lead<A: Answered>(&self, answer: impl Fn(usize) -> A, led: &mut Vec<A>) {
         // What an earlier tree left is overwritten: every node but the first is led to.
         led.resize(self.nodes, A::ALL);
         led[0] = A::ALL;
         for step in &self.steps {
-            // In preorder the nodes of the answers come after the question, and those of a no after those of the yes.
-            let (before, after) = led.split_at_mut(step.yes);
-            let (upto, no) = after.split_at_mut(step.no - step.yes);
-            before[step.behind].split(&answers[step.question], &mut upto[0], &mut no[0]);
+            [led[step.yes], led[step.no]] = led[step.behind].split(answer(step.question));
         }
     }
 }
