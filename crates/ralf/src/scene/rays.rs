@@ -219,7 +219,9 @@ fn columns_of(cone: &Cone) -> [Range<usize>; 2] {
     }
     let [left, right] = [-1.0, 1.0].map(|side| {
         let azimuth = cone.azimuth + side * cone.half_azimuth;
-        column_of(azimuth - TAU * (azimuth / TAU).round()) as usize
+        // Mostly it is no more than half a turn as it is.
+        let turns = if azimuth.abs() < PI { 0.0 } else { (azimuth / TAU).round() };
+        column_of(azimuth - TAU * turns) as usize
     });
     if left <= right { [left..right + 1, 0..0] } else { [0..right + 1, left..COLUMNS] }
 }

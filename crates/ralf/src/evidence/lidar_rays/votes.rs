@@ -65,8 +65,6 @@ pub(super) struct Sweep<'a> {
     rays: usize,
     /// Stretches of the table that the last cone touched.
     runs: Vec<Range<usize>>,
-    /// The rays of these that were looked at, as places in the table.
-    places: Vec<u32>,
 }
 
 impl<'a> Sweep<'a> {
@@ -81,7 +79,6 @@ impl<'a> Sweep<'a> {
             sigma_range: sweep.sigma_range,
             rays,
             runs: Vec::new(),
-            places: Vec::new(),
         }
     }
 
@@ -94,25 +91,26 @@ impl<'a> Sweep<'a> {
             return Votes::default();
         }
         let step = towards.div_ceil(self.rays);
-        self.places.clear();
+        let mut tally = Tally::new();
+        let (mut few, mut taken) = ([&NO_RAY; LANES], 0);
         let mut skip = 0;
         for run in &self.runs {
-            let mut place = run.start + skip;
-            while place < run.end {
-                self.places.push(place as u32);
+            let rays = &self.table.rays()[run.clone()];
+            let mut place = skip;
+            while let Some(ray) = rays.get(place) {
+                few[taken] = ray;
+                taken += 1;
+                if taken == LANES {
+                    tally.count(&target, &few);
+                    taken = 0;
+                }
                 place += step;
             }
-            skip = place - run.end;
+            skip = place - rays.len();
         }
-        let rays = self.table.rays();
-        let mut tally = Tally::new();
-        let (whole, rest) = self.places.as_chunks::<LANES>();
-        for places in whole {
-            tally.count(&target, &places.map(|place| &rays[place as usize]));
-        }
-        if !rest.is_empty() {
-            let ray = |lane: usize| rest.get(lane).map_or(&NO_RAY, |place| &rays[*place as usize]);
-            tally.count(&target, &std::array::from_fn(ray));
+        if taken > 0 {
+            few[taken..].fill(&NO_RAY);
+            tally.count(&target, &few);
         }
         let (sums, chi) = tally.finish();
         let [inside, ground, beyond, before] = sums.map(|sum| sum * step as f64);
