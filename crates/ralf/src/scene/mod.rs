@@ -47,7 +47,7 @@ pub use neighbouring::{NeighbouringScan, ScanStep};
 pub use neighbouring_detections::NeighbouringDetections;
 pub use ordered::Ordered;
 pub use rays::{Cone, RayTable, TableRay, direction_of};
-pub use sight::{Reach, Sight};
+pub use sight::{Reach, Sight, Sights};
 pub use static_map::{Column, ColumnGrid, StaticMap};
 pub use strength::Strength;
 pub use terrain::{Terrain, Texture};

@@ -20,8 +20,9 @@ pub struct RayTable {
     rays: Vec<TableRay>,
 }
 
-/// A return as its LiDAR sees it.
+/// The direction and range of a return as its LiDAR sees it: four numbers, so that one load brings it.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[repr(C)]
 pub struct TableRay {
     /// rad, from -pi to pi.
     pub azimuth: f32,
@@ -29,9 +30,7 @@ pub struct TableRay {
     pub elevation: f32,
     /// From the LiDAR, m.
     pub range: f32,
-    /// In the LiDAR's frame, m.
-    pub point: [f32; 3],
-    /// Its place in the scan.
+    /// The return's place in the scan.
     pub id: u32,
 }
 
@@ -79,11 +78,10 @@ impl RayTable {
         let mut next = starts.clone();
         let mut rays = vec![TableRay::default(); total as usize];
         let directions = directions.azimuth.iter().zip(&directions.elevation).zip(&directions.range);
-        for (((id, bin), point), direction) in (0u32..).zip(&bins).zip(points).zip(directions) {
-            let ((azimuth, elevation), range) = direction;
+        for ((id, bin), ((azimuth, elevation), range)) in (0u32..).zip(&bins).zip(directions) {
             if let Some(next) = next.get_mut(bin.wrapping_sub(first_bin) as usize) {
                 rays[*next as usize] =
-                    TableRay { azimuth: *azimuth, elevation: *elevation, range: *range, point: *point, id };
+                    TableRay { azimuth: *azimuth, elevation: *elevation, range: *range, id };
                 *next += 1;
             }
         }

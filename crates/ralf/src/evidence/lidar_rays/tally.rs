@@ -4,7 +4,7 @@ use crate::scene::{Cone, TableRay};
 use nalgebra::{Matrix3, RowVector3, Vector3};
 use std::cell::OnceCell;
 use std::f32::consts::TAU;
-use wide::f32x8;
+use wide::{f32x4, f32x8};
 
 /// Rays within so many standard deviations of a detection's direction vote.
 pub(super) const CONE_SIGMAS: f32 = 2.5;
@@ -17,8 +17,7 @@ pub(super) const LANES: usize = 8;
 /// So far away and so high nothing counts.
 const NOWHERE: f32 = 1e9;
 /// What counts nowhere.
-pub(super) const NO_RAY: TableRay =
-    TableRay { azimuth: 0.0, elevation: NOWHERE, range: 0.0, point: [NOWHERE; 3], id: u32::MAX };
+pub(super) const NO_RAY: TableRay = TableRay { azimuth: 0.0, elevation: NOWHERE, range: 0.0, id: u32::MAX };
 
 /// A detection as seen from the LiDAR.
 pub(super) struct Target {
@@ -107,7 +106,8 @@ impl Tally {
 
     /// Counts some rays of the target's cone.
     #[inline]
-    pub(super) fn count(&mut self, target: &Target, rays: &[&TableRay; LANES]) {
+    /// `points` are those of the scan, in the LiDAR's frame, m.
+    pub(super) fn count(&mut self, target: &Target, rays: &[&TableRay; LANES], points: &[[f32; 3]]) {
         let few = Few::of(rays);
         let weights = few.weights(&target.cone);
         let (past, is_far) = target.past(few.range);
@@ -115,7 +115,7 @@ impl Tally {
         self.beyond += past.simd_ge(depth) & weights;
         self.before += past.simd_le(-depth) & weights;
         if !is_far.all() {
-            self.count_near(target, &Ends::of(rays), past, weights);
+            self.count_near(target, &Ends::of(rays, points), past, weights);
         }
     }
 
@@ -135,11 +135,13 @@ impl Tally {
 
 impl Few {
     fn of(rays: &[&TableRay; LANES]) -> Self {
-        Self {
-            azimuth: f32x8::new(rays.map(|ray| ray.azimuth)),
-            elevation: f32x8::new(rays.map(|ray| ray.elevation)),
-            range: f32x8::new(rays.map(|ray| ray.range)),
-        }
+        let of_ray =
+            |ray: &TableRay| f32x4::new([ray.azimuth, ray.elevation, ray.range, f32::from_bits(ray.id)]);
+        let [first, second] =
+            [0, 4].map(|begin| f32x4::transpose(std::array::from_fn(|lane| of_ray(rays[begin + lane]))));
+        let [azimuth, elevation, range] =
+            [0, 1, 2].map(|number| bytemuck::cast([first[number], second[number]]));
+        Self { azimuth, elevation, range }
     }
 
     /// A Gaussian of the way from the cone's middle, whose borders lie at 2.5 sigmas; 0 outside.
@@ -162,9 +164,10 @@ impl Few {
 }
 
 impl Ends {
-    fn of(rays: &[&TableRay; LANES]) -> Self {
-        let axis = |axis: usize| f32x8::new(rays.map(|ray| ray.point[axis]));
-        Self { x: axis(0), y: axis(1), z: axis(2) }
+    fn of(rays: &[&TableRay; LANES], points: &[[f32; 3]]) -> Self {
+        let ends = rays.map(|ray| points.get(ray.id as usize).copied().unwrap_or([NOWHERE; 3]));
+        let [x, y, z] = [0, 1, 2].map(|axis| f32x8::new(ends.map(|end| end[axis])));
+        Self { x, y, z }
     }
 
     /// Mahalanobis distances of the detection from the rays' ends, squared.

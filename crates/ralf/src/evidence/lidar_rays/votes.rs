@@ -54,6 +54,8 @@ impl Votes {
 /// One LiDAR's scan, ready to be asked.
 pub(super) struct Sweep<'a> {
     table: &'a RayTable,
+    /// Where the rays end, in the LiDAR's frame, m.
+    points: &'a [[f32; 3]],
     lidar_from_window: Isometry3<f32>,
     window_from_lidar: Matrix3<f64>,
     /// The same.
@@ -72,6 +74,7 @@ impl<'a> Sweep<'a> {
         let rotation = window_from_lidar.rotation.to_rotation_matrix().into_inner();
         Self {
             table: sweep.rays(),
+            points: &sweep.scan.points,
             lidar_from_window: window_from_lidar.inverse().cast(),
             window_from_lidar: rotation,
             rotation: rotation.cast(),
@@ -101,7 +104,7 @@ impl<'a> Sweep<'a> {
                 few[taken] = ray;
                 taken += 1;
                 if taken == LANES {
-                    tally.count(&target, &few);
+                    tally.count(&target, &few, self.points);
                     taken = 0;
                 }
                 place += step;
@@ -110,7 +113,7 @@ impl<'a> Sweep<'a> {
         }
         if taken > 0 {
             few[taken..].fill(&NO_RAY);
-            tally.count(&target, &few);
+            tally.count(&target, &few, self.points);
         }
         let (sums, chi) = tally.finish();
         let [inside, ground, beyond, before] = sums.map(|sum| sum * step as f64);
