@@ -20,9 +20,10 @@ pub struct RayTable {
     rays: Vec<TableRay>,
 }
 
-/// The direction and range of a return as its LiDAR sees it: four numbers, so that one load brings it.
+/// A return as its LiDAR sees it. Its direction and range lie together, so that one load brings them, and no return
+/// lies in two lines of a cache.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-#[repr(C)]
+#[repr(C, align(32))]
 pub struct TableRay {
     /// rad, from -pi to pi.
     pub azimuth: f32,
@@ -30,8 +31,10 @@ pub struct TableRay {
     pub elevation: f32,
     /// From the LiDAR, m.
     pub range: f32,
-    /// The return's place in the scan.
+    /// Its place in the scan.
     pub id: u32,
+    /// In the LiDAR's frame, m.
+    pub point: [f32; 3],
 }
 
 /// Directions around a middle one, rad.
@@ -78,10 +81,11 @@ impl RayTable {
         let mut next = starts.clone();
         let mut rays = vec![TableRay::default(); total as usize];
         let directions = directions.azimuth.iter().zip(&directions.elevation).zip(&directions.range);
-        for ((id, bin), ((azimuth, elevation), range)) in (0u32..).zip(&bins).zip(directions) {
+        for (((id, bin), point), direction) in (0u32..).zip(&bins).zip(points).zip(directions) {
+            let ((azimuth, elevation), range) = direction;
             if let Some(next) = next.get_mut(bin.wrapping_sub(first_bin) as usize) {
                 rays[*next as usize] =
-                    TableRay { azimuth: *azimuth, elevation: *elevation, range: *range, id };
+                    TableRay { azimuth: *azimuth, elevation: *elevation, range: *range, id, point: *point };
                 *next += 1;
             }
         }

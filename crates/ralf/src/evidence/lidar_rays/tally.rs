@@ -17,7 +17,8 @@ pub(super) const LANES: usize = 8;
 /// So far away and so high nothing counts.
 const NOWHERE: f32 = 1e9;
 /// What counts nowhere.
-pub(super) const NO_RAY: TableRay = TableRay { azimuth: 0.0, elevation: NOWHERE, range: 0.0, id: u32::MAX };
+pub(super) const NO_RAY: TableRay =
+    TableRay { azimuth: 0.0, elevation: NOWHERE, range: 0.0, id: u32::MAX, point: [NOWHERE; 3] };
 
 /// A detection as seen from the LiDAR.
 pub(super) struct Target {
@@ -106,8 +107,7 @@ impl Tally {
 
     /// Counts some rays of the target's cone.
     #[inline]
-    /// `points` are those of the scan, in the LiDAR's frame, m.
-    pub(super) fn count(&mut self, target: &Target, rays: &[&TableRay; LANES], points: &[[f32; 3]]) {
+    pub(super) fn count(&mut self, target: &Target, rays: &[&TableRay; LANES]) {
         let few = Few::of(rays);
         let weights = few.weights(&target.cone);
         let (past, is_far) = target.past(few.range);
@@ -115,7 +115,7 @@ impl Tally {
         self.beyond += past.simd_ge(depth) & weights;
         self.before += past.simd_le(-depth) & weights;
         if !is_far.all() {
-            self.count_near(target, &Ends::of(rays, points), past, weights);
+            self.count_near(target, &Ends::of(rays), past, weights);
         }
     }
 
@@ -134,14 +134,11 @@ impl Tally {
 }
 
 impl Few {
-    fn of(rays: &[&TableRay; LANES]) -> Self {
-        let of_ray =
-            |ray: &TableRay| f32x4::new([ray.azimuth, ray.elevation, ray.range, f32::from_bits(ray.id)]);
-        let [first, second] =
-            [0, 4].map(|begin| f32x4::transpose(std::array::from_fn(|lane| of_ray(rays[begin + lane]))));
-        let [azimuth, elevation, range] =
-            [0, 1, 2].map(|number| bytemuck::cast([first[number], second[number]]));
-        Self { azimuth, elevation, range }
+    #[inline]
+    fn of([a, b, c, d, e, f, g, h]: &[&TableRay; LANES]) -> Self {
+        let [first, second] = [[a, b, c, d], [e, f, g, h]].map(numbers_of);
+        let both = |number: usize| bytemuck::cast([first[number], second[number]]);
+        Self { azimuth: both(0), elevation: both(1), range: both(2) }
     }
 
     /// A Gaussian of the way from the cone's middle, whose borders lie at 2.5 sigmas; 0 outside.
@@ -163,10 +160,20 @@ impl Few {
     }
 }
 
+/// Azimuth, elevation and range of four rays, each number apart, and their identities.
+#[inline]
+fn numbers_of([a, b, c, d]: [&&TableRay; 4]) -> [f32x4; 4] {
+    f32x4::transpose([vector_of(a), vector_of(b), vector_of(c), vector_of(d)])
+}
+
+#[inline]
+fn vector_of(ray: &TableRay) -> f32x4 {
+    f32x4::new([ray.azimuth, ray.elevation, ray.range, f32::from_bits(ray.id)])
+}
+
 impl Ends {
-    fn of(rays: &[&TableRay; LANES], points: &[[f32; 3]]) -> Self {
-        let ends = rays.map(|ray| points.get(ray.id as usize).copied().unwrap_or([NOWHERE; 3]));
-        let [x, y, z] = [0, 1, 2].map(|axis| f32x8::new(ends.map(|end| end[axis])));
+    fn of(rays: &[&TableRay; LANES]) -> Self {
+        let [x, y, z] = [0, 1, 2].map(|axis| f32x8::new(rays.map(|ray| ray.point[axis])));
         Self { x, y, z }
     }
 

@@ -54,8 +54,6 @@ impl Votes {
 /// One LiDAR's scan, ready to be asked.
 pub(super) struct Sweep<'a> {
     table: &'a RayTable,
-    /// Where the rays end, in the LiDAR's frame, m.
-    points: &'a [[f32; 3]],
     lidar_from_window: Isometry3<f32>,
     window_from_lidar: Matrix3<f64>,
     /// The same.
@@ -67,6 +65,8 @@ pub(super) struct Sweep<'a> {
     rays: usize,
     /// Stretches of the table that the last cone touched.
     runs: Vec<Range<usize>>,
+    /// Places in the table of the rays of these that are looked at, with room for a few more.
+    places: Vec<u32>,
 }
 
 impl<'a> Sweep<'a> {
@@ -74,7 +74,6 @@ impl<'a> Sweep<'a> {
         let rotation = window_from_lidar.rotation.to_rotation_matrix().into_inner();
         Self {
             table: sweep.rays(),
-            points: &sweep.scan.points,
             lidar_from_window: window_from_lidar.inverse().cast(),
             window_from_lidar: rotation,
             rotation: rotation.cast(),
@@ -82,6 +81,7 @@ impl<'a> Sweep<'a> {
             sigma_range: sweep.sigma_range,
             rays,
             runs: Vec::new(),
+            places: vec![0; rays.next_multiple_of(LANES) + LANES],
         }
     }
 
@@ -95,29 +95,46 @@ impl<'a> Sweep<'a> {
         }
         let step = towards.div_ceil(self.rays);
         let mut tally = Tally::new();
-        let (mut few, mut taken) = ([&NO_RAY; LANES], 0);
-        let mut skip = 0;
-        for run in &self.runs {
-            let rays = &self.table.rays()[run.clone()];
-            let mut place = skip;
-            while let Some(ray) = rays.get(place) {
-                few[taken] = ray;
-                taken += 1;
-                if taken == LANES {
-                    tally.count(&target, &few, self.points);
-                    taken = 0;
-                }
-                place += step;
+        let rays = self.table.rays();
+        for places in self.take_every(step as u32) {
+            let mut few = [&NO_RAY; LANES];
+            for (ray, place) in few.iter_mut().zip(places) {
+                *ray = rays.get(*place as usize).unwrap_or(&NO_RAY);
             }
-            skip = place - rays.len();
-        }
-        if taken > 0 {
-            few[taken..].fill(&NO_RAY);
-            tally.count(&target, &few, self.points);
+            tally.count(&target, &few);
         }
         let (sums, chi) = tally.finish();
         let [inside, ground, beyond, before] = sums.map(|sum| sum * step as f64);
         Votes { inside, ground, beyond, before, chi: Some(chi) }
+    }
+
+    /// The places in the table of every so many rays of the stretches, counted through from the first one, of which
+    /// there are no more than wanted; what fills up the last few is none.
+    fn take_every(&mut self, step: u32) -> &[[u32; LANES]] {
+        let (mut passed, mut taken) = (0, 0);
+        for run in &self.runs {
+            let (begin, end) = (run.start as u32, passed + run.len() as u32);
+            let next = end.div_ceil(step);
+            let mut place = begin + taken * step - passed;
+            // More than there are, which the next ones overwrite: how many there are is hard to foretell.
+            loop {
+                let Some(places) = self.places[taken as usize..].first_chunk_mut() else { break };
+                let places: &mut [u32; LANES] = places;
+                for next in places {
+                    *next = place;
+                    place += step;
+                }
+                taken += LANES as u32;
+                if taken >= next {
+                    break;
+                }
+            }
+            (passed, taken) = (end, next);
+        }
+        if let Some(places) = self.places[taken as usize..].first_chunk_mut() {
+            *places = [u32::MAX; LANES];
+        }
+        &self.places.as_chunks().0[..(taken as usize).div_ceil(LANES)]
     }
 
     /// The place in the scan of a ray towards a detection.
