@@ -38,8 +38,10 @@ pub struct Inference {
 #[derive(Debug, Clone)]
 struct Leaves {
     walk: Walk,
-    /// The node of each, and what it answers.
-    answers: Vec<(usize, f64)>,
+    /// What each answers, from left to right.
+    answers: Vec<f64>,
+    /// For each digit of a leaf's number, in the binary system, the nodes of the leaves that have it.
+    digits: Vec<Vec<usize>>,
 }
 
 impl Inference {
@@ -70,23 +72,48 @@ impl Inference {
 
 impl Leaves {
     fn new(tree: &Tree, questions: &mut Questions) -> Self {
-        let leaves = tree.nodes().iter().enumerate().filter_map(|(at, node)| match node {
-            Node::Leaf(leaf) => Some((at, f64::from(leaf.value))),
-            Node::Split(_) => None,
-        });
-        Self { walk: Walk::new(tree, questions, |_| 0), answers: leaves.collect() }
+        let (mut answers, mut digits) = (Vec::new(), Vec::new());
+        for (at, node) in tree.nodes().iter().enumerate() {
+            let Node::Leaf(leaf) = node else { continue };
+            let number = answers.len();
+            digits.resize((usize::BITS - number.leading_zeros()) as usize, Vec::new());
+            let has = |digit: &usize| number >> digit & 1 == 1;
+            (0..digits.len()).filter(has).for_each(|digit| digits[digit].push(at));
+            answers.push(f64::from(leaf.value));
+        }
+        Self { walk: Walk::new(tree, questions, |_| 0), answers, digits }
     }
 
     /// Adds each row's answer to its sum. `led` are the rows that come to each node.
     fn add(&self, led: &[Bits], sums: &mut [f64; BLOCK]) {
-        for (node, answer) in &self.answers {
-            let mut rows = led[*node];
-            while rows != 0 {
-                sums[rows.trailing_zeros() as usize % BLOCK] += answer;
-                rows &= rows - 1;
+        // Eight rows to a word, without asking how many come to a leaf, which is hard to foretell.
+        let mut numbers = [0; BLOCK / 8];
+        for (digit, nodes) in self.digits.iter().enumerate() {
+            let rows = nodes.iter().fold(0, |rows, node| rows | led[*node]);
+            for (eight, rows) in numbers.iter_mut().zip(rows.to_le_bytes()) {
+                *eight |= BYTES_OF_BITS[usize::from(rows)] << digit;
+            }
+        }
+        for (sums, numbers) in sums.as_chunks_mut::<8>().0.iter_mut().zip(numbers) {
+            for (sum, number) in sums.iter_mut().zip(numbers.to_le_bytes()) {
+                *sum += self.answers[usize::from(number)];
             }
         }
     }
+}
+
+/// For each byte its bits, the lowest first, as bytes of a word.
+static BYTES_OF_BITS: [u64; 256] = bytes_of_bits();
+
+const fn bytes_of_bits() -> [u64; 256] {
+    let mut words = [0; 256];
+    let mut at = 0;
+    while at < 256 * 8 {
+        let (byte, bit) = (at / 8, at % 8);
+        words[byte] |= (byte as u64 >> bit & 1) << (8 * bit);
+        at += 1;
+    }
+    words
 }
 
 /// The probability that log odds stand for.
