@@ -1,8 +1,9 @@
 //! A tree, asked about a block of rows at a time, without a branch per row.
 //!
 //! Every question is asked of every row, and which rows it leads on is known for all of them together: a bit for each
-//! where it is only asked which rows come to a leaf, all bits of a byte where numbers of rows are summed up. Where a row
-//! belongs in a table that is made for a part of a tree is such a sum of weights, each of which counts for some rows.
+//! where it is only asked which rows come to a leaf, all bits of a byte where numbers of rows are summed up. Where a
+//! row belongs in a table that is made for a part of a tree is such a sum of weights, each of which counts for some
+//! rows.
 
 use super::block::{BLOCK, Bits, Block, Mask};
 use super::tree::{Node, Split, Tree};

@@ -1,8 +1,8 @@
 //! A radar scan's detections with their uncertainty, moved into the vehicle frame.
 
 use super::doppler::Doppler;
+use super::farthest::Farthest;
 use super::mismatch::Spread;
-use super::sight::Farthest;
 use super::strength::Strength;
 use crate::sensors::{Elevation, Radar, RadarScan};
 use crate::space::{EgoMotion, Point, Spherical, Transform, Vector};

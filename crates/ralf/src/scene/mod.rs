@@ -5,6 +5,7 @@ mod association;
 mod camera;
 mod cells;
 mod doppler;
+mod farthest;
 mod floor;
 mod frame;
 mod ground;

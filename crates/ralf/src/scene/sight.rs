@@ -3,34 +3,12 @@
 //! Fields of view are stated coarsely, and how far a radar sees depends on the direction and on what is there. So its
 //! reach in a direction is taken from what it detected there in the scans at hand.
 
+use super::farthest::{SECTORS, sector, sectors};
 use super::located::LocatedScan;
 use super::neighbouring::NeighbouringScan;
 use super::rays::direction_of;
-use crate::sensors::{Radar, RadarScan};
+use crate::sensors::Radar;
 use crate::space::{LANES, ManyTransforms, Point, Transform};
-use std::f64::consts::PI;
-
-/// Directions are told apart by so many sectors, of 10 degrees each.
-const SECTORS: usize = 36;
-/// A place as far as the farthest detection may be measured a little farther: by so many standard deviations.
-const SIGMAS: f64 = 3.0;
-
-/// How far a radar saw in each direction in one scan, m; minus infinity where it saw nothing.
-#[derive(Debug, Clone)]
-pub(super) struct Farthest([f64; SECTORS]);
-
-impl Farthest {
-    pub(super) fn new(radar: &Radar, scan: &RadarScan) -> Self {
-        let mut farthest = [f64::NEG_INFINITY; SECTORS];
-        for place in &scan.spherical {
-            if place.range.is_finite() && place.azimuth.is_finite() {
-                let known = &mut farthest[sector(place.azimuth)];
-                *known = known.max(0.0).max(place.range + SIGMAS * radar.sigma_range);
-            }
-        }
-        Self(farthest)
-    }
-}
 
 /// How far a radar reaches in each direction, m; nowhere until it has seen something.
 #[derive(Debug, Clone, PartialEq)]
@@ -42,7 +20,7 @@ impl Reach {
     pub fn of_scans<'a>(radar: &Radar, scans: impl Iterator<Item = &'a LocatedScan>) -> Self {
         let mut farthest = [f64::NEG_INFINITY; SECTORS];
         for scan in scans {
-            for (known, found) in farthest.iter_mut().zip(scan.farthest(radar).0) {
+            for (known, found) in farthest.iter_mut().zip(scan.farthest(radar).by_sector) {
                 *known = known.max(found);
             }
         }
@@ -131,16 +109,6 @@ impl<'a> Sights<'a> {
 /// What is nearer to a radar than so many times what its place may be off by has no sure azimuth.
 const NEAR_SLACKS: f32 = 2e4;
 
-/// The sector of an azimuth, rad.
-fn sector(azimuth: f64) -> usize {
-    (sectors(azimuth) as usize).min(SECTORS - 1)
-}
-
-/// From the first sector's begin to an azimuth, rad, in sectors.
-fn sectors(azimuth: f64) -> f64 {
-    (azimuth + PI) / (2.0 * PI) * SECTORS as f64
-}
-
 /// The sector of a place as the radar sees it: by its exact azimuth where the quick one lies at a sector's border.
 fn sector_of(p: &Point) -> usize {
     let quick = direction_of(p.x as f32, p.y as f32, 0.0).0;
@@ -160,6 +128,7 @@ fn clear_sector(quick: f64) -> Option<usize> {
 mod tests {
     use super::*;
     use proptest::prelude::*;
+    use std::f64::consts::PI;
 
     proptest! {
         #[test]

@@ -117,9 +117,7 @@ impl<'a> Sweep<'a> {
             let next = end.div_ceil(step);
             let mut place = begin + taken * step - passed;
             // More than there are, which the next ones overwrite: how many there are is hard to foretell.
-            loop {
-                let Some(places) = self.places[taken as usize..].first_chunk_mut() else { break };
-                let places: &mut [u32; LANES] = places;
+            while let Some(places) = self.places[taken as usize..].first_chunk_mut::<LANES>() {
                 for next in places {
                     *next = place;
                     place += step;
