@@ -105,19 +105,15 @@ struct Flat {
 impl Flat {
     /// The spots of these places in a list.
     fn new(spots: &[Spot], ids: &[u32]) -> Self {
-        let column = |number: fn(&Spot) -> f64| {
-            let mut column = Vec::with_capacity(ids.len() + LANES);
-            column.extend(ids.iter().map(|id| number(&spots[*id as usize]) as f32));
-            column.resize(ids.len() + LANES, 0.0);
-            column
-        };
-        Self {
-            x: column(|spot| spot.place.x),
-            y: column(|spot| spot.place.y),
-            xx: column(|spot| spot.horizontal[0]),
-            xy: column(|spot| spot.horizontal[1]),
-            yy: column(|spot| spot.horizontal[2]),
+        let [mut x, mut y, mut xx, mut xy, mut yy] = [0; 5].map(|_| vec![0.0; ids.len() + LANES]);
+        // Spot by spot, for spots that follow each other here lie anywhere in the list.
+        let numbers = x.iter_mut().zip(&mut y).zip(&mut xx).zip(&mut xy).zip(&mut yy);
+        for (id, ((((x, y), xx), xy), yy)) in ids.iter().zip(numbers) {
+            let spot = &spots[*id as usize];
+            [*x, *y] = [spot.place.x as f32, spot.place.y as f32];
+            [*xx, *xy, *yy] = spot.horizontal.map(|number| number as f32);
         }
+        Self { x, y, xx, xy, yy }
     }
 
     /// Which of those that begin at a place may be near a seeker, a bit each.

@@ -3,7 +3,7 @@
 use super::cloud::{Cloud, Variances};
 use super::distance::{Spot, chi_within};
 use super::rates::{AGREEING, Rates};
-use crate::scene::{Detection, Frame, NeighbouringDetections, NeighbouringScan, Reach, Sight};
+use crate::scene::{Detection, Frame, NeighbouringDetections, Reach, Sights};
 use crate::sensors::{Elevation, Radar};
 use crate::space::Point;
 use std::borrow::Cow;
@@ -43,21 +43,22 @@ pub(super) fn sightings<'a>(
     rows: impl Iterator<Item = (usize, &'a Detection)>,
 ) -> Vec<Vec<Sighting>> {
     let reaches = reaches(frame);
-    let sight =
-        |scan: &NeighbouringScan| Sight::new(&frame.rig.radars[scan.radar], scan, &reaches[scan.radar]);
-    let sights: Vec<Sight> = frame.radar_window.iter().map(sight).collect();
+    let radars = &frame.rig.radars;
+    let scans = frame.radar_window.iter();
+    let sights = Sights::new(scans.map(|scan| (&radars[scan.radar], scan, &reaches[scan.radar])));
     let spots: Vec<Spot> = around.detections.iter().map(Spot::new).collect();
     let mut search = Search::new(frame, around, &spots, rates);
     let mut all = vec![Vec::new(); frame.scan.len()];
     for (i, detection) in rows {
-        let mut seen: Vec<Sighting> = Vec::with_capacity(sights.len());
-        for (scan, sight) in (0u32..).zip(&sights) {
-            let covered = sight.covers(&detection.position);
-            search.places[scan as usize] = if covered { seen.len() as u32 } else { UNSEEN };
+        let mut seen: Vec<Sighting> = Vec::with_capacity(frame.radar_window.len());
+        let mut scan = 0;
+        sights.each(&detection.position, |covered| {
+            search.places[scan] = if covered { seen.len() as u32 } else { UNSEEN };
             if covered {
-                seen.push(Sighting::nothing(scan, around.own[scan as usize]));
+                seen.push(Sighting::nothing(scan as u32, around.own[scan]));
             }
-        }
+            scan += 1;
+        });
         search.compare(i, detection, &mut seen);
         all[i] = seen;
     }
@@ -68,9 +69,8 @@ pub(super) fn sightings<'a>(
 fn reaches(frame: &Frame) -> Vec<Reach> {
     let mut reaches = Vec::with_capacity(frame.rig.radars.len());
     for (index, radar) in frame.rig.radars.iter().enumerate() {
-        let around =
-            frame.radar_window.iter().filter(|scan| scan.radar == index).map(|scan| &scan.scan.measured);
-        let own = frame.is_own(index).then_some(&frame.scan.measured);
+        let around = frame.radar_window.iter().filter(|scan| scan.radar == index).map(|scan| &*scan.scan);
+        let own = frame.is_own(index).then_some(&*frame.scan);
         reaches.push(Reach::of_scans(radar, around.chain(own)));
     }
     reaches

@@ -5,6 +5,7 @@ use super::outcomes::{Outcomes, Part};
 use super::walk::{Term, sums};
 use super::way::{PLAYERS, Way};
 use std::ops::Range;
+use wide::i32x4;
 
 /// Cases of a bundle at most: more of them would make fewer bundles, but tables that leave the cache.
 const MOST_CASES: usize = 512;
@@ -12,6 +13,10 @@ const MOST_CASES: usize = 512;
 const MOST_OF_DIGIT: usize = 256;
 /// Leaves of a bundle at most, a bit each.
 const MOST_LEAVES: usize = u64::BITS as usize;
+
+/// A number of each group: vectors, so that all of them are added at once.
+pub(super) type Sums = [i32x4; PLAYERS.div_ceil(LANES)];
+const LANES: usize = 4;
 
 /// Leaves that lie side by side.
 #[derive(Debug, Clone)]
@@ -21,7 +26,7 @@ pub(super) struct Bundle {
     /// Cases that the first digit counts.
     low: u16,
     /// What each group adds in each case, in some unit; none where there are too many cases.
-    table: Vec<[i32; PLAYERS]>,
+    table: Vec<Sums>,
     /// The way to the only leaf, where there is no table, with what makes of log odds that unit.
     way: Option<(Way, f64)>,
 }
@@ -123,26 +128,57 @@ impl Bundle {
         Self { digits, low: cases.counts[0] as u16, table, way }
     }
 
-    /// Adds what the groups of these leaves add for each row of a block. `masks` are those of the tree.
-    pub(super) fn add(&self, masks: &[Mask], added: &mut [[i32; PLAYERS]]) {
+    /// The case of each row of a block. `masks` are those of the tree.
+    fn cases(&self, masks: &[Mask]) -> [u16; BLOCK] {
         let [low, high] = self.digits.each_ref().map(|terms| sums(terms, masks));
-        let cases: [u16; BLOCK] =
-            std::array::from_fn(|row| u16::from(low[row]) + self.low * u16::from(high[row]));
-        for (sums, case) in added.iter_mut().zip(cases) {
-            match &self.way {
-                None => add(sums, &self.table[usize::from(case)]),
-                Some((way, scale)) => add(sums, &in_units(way, usize::from(case), *scale)),
-            }
-        }
+        std::array::from_fn(|row| u16::from(low[row]) + self.low * u16::from(high[row]))
     }
 }
 
-fn add(sums: &mut [i32; PLAYERS], shares: &[i32; PLAYERS]) {
-    *sums = std::array::from_fn(|group| sums[group] + shares[group]);
+/// Adds what each group adds to a tree's answer for each row of a block. `masks` are those of the tree, of which these
+/// are all bundles.
+pub(super) fn add(bundles: &[Bundle], masks: &[Mask], added: &mut [Sums; BLOCK]) {
+    let mut looked_up = Vec::with_capacity(bundles.len());
+    for bundle in bundles {
+        let cases = bundle.cases(masks);
+        match &bundle.way {
+            None => looked_up.push((bundle.table.as_slice(), cases)),
+            Some((way, scale)) => {
+                for (sums, case) in added.iter_mut().zip(cases) {
+                    add_shares(sums, &in_units(way, usize::from(case), *scale));
+                }
+            }
+        }
+    }
+    // Row by row, so that sums are taken and put back once.
+    for (row, added) in added.iter_mut().enumerate() {
+        let mut sums = *added;
+        for (table, cases) in &looked_up {
+            add_shares(&mut sums, &table[usize::from(cases[row])]);
+        }
+        *added = sums;
+    }
+}
+
+fn add_shares(sums: &mut Sums, shares: &Sums) {
+    for (sums, shares) in sums.iter_mut().zip(shares) {
+        *sums += *shares;
+    }
+}
+
+/// The number of each group by itself.
+pub(super) fn of_groups(sums: &Sums) -> [i32; PLAYERS] {
+    std::array::from_fn(|group| sums[group / LANES].to_array()[group % LANES])
+}
+
+/// The other way round.
+fn sums_of(groups: &[i32; PLAYERS]) -> Sums {
+    let number = |group: usize| groups.get(group).copied().unwrap_or(0);
+    std::array::from_fn(|at| i32x4::new(std::array::from_fn(|lane| number(at * LANES + lane))))
 }
 
 /// What each group adds in each case.
-fn table(cases: &Cases, ways: &[Way], scale: f64) -> Vec<[i32; PLAYERS]> {
+fn table(cases: &Cases, ways: &[Way], scale: f64) -> Vec<Sums> {
     let mut table = vec![[0.0; PLAYERS]; cases.count()];
     let leads: Vec<Vec<u64>> = cases.players.iter().map(|player| cases.leads(player)).collect();
     for (leaf, way) in ways.iter().enumerate() {
@@ -158,14 +194,15 @@ fn table(cases: &Cases, ways: &[Way], scale: f64) -> Vec<[i32; PLAYERS]> {
             shares[leading].iter().for_each(|(group, share)| sums[*group] += share);
         }
     }
-    table.into_iter().map(|sums| sums.map(|sum| (sum * scale).round() as i32)).collect()
+    let in_units = |sums: [f64; PLAYERS]| sums_of(&sums.map(|sum| (sum * scale).round() as i32));
+    table.into_iter().map(in_units).collect()
 }
 
 /// What each group adds on the only way of a bundle: each player has two outcomes, so that a case is a bit for each.
-fn in_units(way: &Way, case: usize, scale: f64) -> [i32; PLAYERS] {
+fn in_units(way: &Way, case: usize, scale: f64) -> Sums {
     let mut added = [0; PLAYERS];
     for (group, share) in way.shares(case) {
         added[group] = (share * scale).round() as i32;
     }
-    added
+    sums_of(&added)
 }

@@ -27,10 +27,10 @@ impl Seen {
 pub fn novelty(seen: &[Seen], row: &[f32]) -> f64 {
     let (mut strange, mut all) = (0.0, 0.0);
     for (seen, value) in seen.iter().zip(row) {
-        all += f64::from(seen.gain);
-        if seen.is_strange(*value) {
-            strange += f64::from(seen.gain);
-        }
+        let gain = f64::from(seen.gain);
+        all += gain;
+        // A sum rather than a branch, which is hard to foretell.
+        strange += if seen.is_strange(*value) { gain } else { 0.0 };
     }
     if all > 0.0 { strange / all } else { 0.0 }
 }

@@ -1,9 +1,9 @@
 //! Many trees, whose answers are added up.
 
-use super::block::{BLOCK, Block};
+use super::block::{BLOCK, Bits, Blocks};
 use super::rows::Rows;
 use super::tree::{Node, Tree};
-use super::walk::{Questions, Term, Walk, sums};
+use super::walk::{Questions, Walk};
 
 /// Trees whose answers, added to a base, are log odds.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -17,7 +17,7 @@ pub struct Forest {
 impl Forest {
     /// The log odds of each row. Who asks again and again prepares an [`Inference`].
     pub fn log_odds(&self, rows: &Rows) -> Vec<f64> {
-        Inference::new(self).log_odds(rows)
+        Inference::new(self).log_odds(&Blocks::of(rows))
     }
 
     /// The largest place of a feature that is asked for, and 1 more.
@@ -34,13 +34,14 @@ pub struct Inference {
     trees: Vec<Leaves>,
 }
 
-/// A tree's leaves, from left to right, and how a row gets to its own.
+/// A tree's leaves, and how a row gets to its own.
 #[derive(Debug, Clone)]
 struct Leaves {
     walk: Walk,
-    /// A no passes over the leaves behind the yes.
-    passed: Vec<Term>,
-    values: Vec<f32>,
+    /// What each answers, from left to right.
+    answers: Vec<f64>,
+    /// For each digit of a leaf's number, in the binary system, the nodes of the leaves that have it.
+    digits: Vec<Vec<usize>>,
 }
 
 impl Inference {
@@ -52,37 +53,67 @@ impl Inference {
     }
 
     /// The log odds of each row.
-    pub fn log_odds(&self, rows: &Rows) -> Vec<f64> {
-        let mut log_odds = vec![self.base; rows.len()];
-        let mut masks = Vec::new();
-        for (at, log_odds) in log_odds.chunks_mut(BLOCK).enumerate() {
-            let answers = self.questions.answers(&Block::of(rows, at * BLOCK));
+    pub fn log_odds(&self, rows: &Blocks) -> Vec<f64> {
+        let mut log_odds = Vec::with_capacity(rows.blocks.len() * BLOCK);
+        let mut led = Vec::new();
+        for block in &rows.blocks {
+            let answers: Vec<Bits> = self.questions.answers(block);
+            let mut sums = [self.base; BLOCK];
             for tree in &self.trees {
-                tree.walk.masks(&answers, &mut masks);
-                for (sum, leaf) in log_odds.iter_mut().zip(sums(&tree.passed, &masks)) {
-                    *sum += f64::from(tree.values[usize::from(leaf)]);
-                }
+                tree.walk.lead(|question| answers[question], &mut led);
+                tree.add(&led, &mut sums);
             }
+            log_odds.extend(sums);
         }
+        log_odds.truncate(rows.rows);
         log_odds
     }
 }
 
 impl Leaves {
     fn new(tree: &Tree, questions: &mut Questions) -> Self {
-        let (mut passed, mut values) = (Vec::new(), Vec::new());
+        let (mut answers, mut digits) = (Vec::new(), Vec::new());
         for (at, node) in tree.nodes().iter().enumerate() {
-            match node {
-                // A tree of n nodes has (n + 1) / 2 leaves, and those of a yes come next.
-                Node::Split(split) => {
-                    let no = usize::from(split.right);
-                    passed.push(Term { mask: no, weight: ((no - at) / 2) as u8 });
-                }
-                Node::Leaf(leaf) => values.push(leaf.value),
+            let Node::Leaf(leaf) = node else { continue };
+            let number = answers.len();
+            digits.resize((usize::BITS - number.leading_zeros()) as usize, Vec::new());
+            let has = |digit: &usize| number >> digit & 1 == 1;
+            (0..digits.len()).filter(has).for_each(|digit| digits[digit].push(at));
+            answers.push(f64::from(leaf.value));
+        }
+        Self { walk: Walk::new(tree, questions, |_| 0), answers, digits }
+    }
+
+    /// Adds each row's answer to its sum. `led` are the rows that come to each node.
+    fn add(&self, led: &[Bits], sums: &mut [f64; BLOCK]) {
+        // Eight rows to a word, without asking how many come to a leaf, which is hard to foretell.
+        let mut numbers = [0; BLOCK / 8];
+        for (digit, nodes) in self.digits.iter().enumerate() {
+            let rows = nodes.iter().fold(0, |rows, node| rows | led[*node]);
+            for (eight, rows) in numbers.iter_mut().zip(rows.to_le_bytes()) {
+                *eight |= BYTES_OF_BITS[usize::from(rows)] << digit;
             }
         }
-        Self { walk: Walk::new(tree, questions, |_| 0), passed, values }
+        for (sums, numbers) in sums.as_chunks_mut::<8>().0.iter_mut().zip(numbers) {
+            for (sum, number) in sums.iter_mut().zip(numbers.to_le_bytes()) {
+                *sum += self.answers[usize::from(number)];
+            }
+        }
     }
+}
+
+/// For each byte its bits, the lowest first, as bytes of a word.
+static BYTES_OF_BITS: [u64; 256] = bytes_of_bits();
+
+const fn bytes_of_bits() -> [u64; 256] {
+    let mut words = [0; 256];
+    let mut at = 0;
+    while at < 256 * 8 {
+        let (byte, bit) = (at / 8, at % 8);
+        words[byte] |= (byte as u64 >> bit & 1) << (8 * bit);
+        at += 1;
+    }
+    words
 }
 
 /// The probability that log odds stand for.

@@ -1,5 +1,6 @@
 //! A model, asked about radar scans.
 
+use super::block::Blocks;
 use super::familiar::{Seen, novelty};
 use super::forest::{Inference, probability};
 use super::model::{Model, UseError};
@@ -125,14 +126,15 @@ impl<'a> LearnedLabeler<'a> {
             labels[row].flags |= flag::when(detection.is_some() && !is_asked(row), flag::PAPER);
         }
         let rows = rows.pick(asked.iter().copied());
-        for (at, log_odds) in self.plausible.log_odds(&rows).into_iter().enumerate() {
+        let blocks = Blocks::of(&rows);
+        for (at, log_odds) in self.plausible.log_odds(&blocks).into_iter().enumerate() {
             let (label, row) = (&mut labels[asked[at]], rows.row(at));
             label.w = self.weighing.plausibility(row, log_odds);
             label.plausible = label.w >= self.config.fusion.threshold;
             label.flags |= flag::when(self.weighing.is_unconfirmed(row), flag::UNCONFIRMED);
             label.flags &= !flag::UNOBSERVED;
         }
-        self.explain(&rows, &asked, &mut answers);
+        self.explain(&rows, &blocks, &asked, &mut answers);
         self.tell_causes(&rows, &asked, &labels, &mut answers);
         LearnedScan { labels, answers }
     }
@@ -158,9 +160,9 @@ impl<'a> LearnedLabeler<'a> {
         (0..GROUPS.len()).filter(|group| read[*group] && !observed[*group]).collect()
     }
 
-    fn explain(&self, rows: &Rows, asked: &[usize], answers: &mut [Answer]) {
+    fn explain(&self, rows: &Rows, blocks: &Blocks, asked: &[usize], answers: &mut [Answer]) {
         let Some(explainer) = &self.explainer else { return };
-        for (at, shares) in explainer.explain(rows).into_iter().enumerate() {
+        for (at, shares) in explainer.explain(blocks).into_iter().enumerate() {
             let answer = &mut answers[asked[at]];
             answer.reason = self.telling.reason(&shares, rows.row(at));
             answer.shares = shares.to_vec();
@@ -173,7 +175,7 @@ impl<'a> LearnedLabeler<'a> {
         if self.causes.is_empty() {
             return;
         }
-        let rows = rows.pick(artifacts.iter().copied());
+        let rows = Blocks::of(&rows.pick(artifacts.iter().copied()));
         let odds: Vec<Vec<f64>> = self.causes.iter().map(|forest| forest.log_odds(&rows)).collect();
         for (row, at) in artifacts.into_iter().enumerate() {
             let likely: Vec<f64> = odds.iter().map(|odds| probability(odds[row])).collect();

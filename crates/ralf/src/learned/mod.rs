@@ -9,6 +9,7 @@
 mod block;
 mod bundle;
 mod calibration;
+mod decimal;
 mod familiar;
 mod forest;
 mod labeler;
@@ -25,6 +26,7 @@ mod walk;
 mod way;
 mod weighing;
 
+pub use block::Blocks;
 pub use calibration::{Calibration, CalibrationError};
 pub use familiar::{Seen, novelty};
 pub use forest::{Forest, Inference, probability};

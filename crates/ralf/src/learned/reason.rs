@@ -1,10 +1,13 @@
 //! Why a model says what it says, in words.
 
+use super::decimal;
 use super::familiar::Seen;
 use crate::evidence::{Feature, GROUPS};
 
 /// Groups that a reason names.
 const MOST: usize = 3;
+/// Characters that a reason seldom exceeds.
+const ROOM: usize = 120;
 /// Log odds below which a group's share isn't worth a word.
 const LEAST: f64 = 0.05;
 
@@ -34,15 +37,21 @@ impl Telling {
     pub(super) fn reason(&self, shares: &[f64], row: &[f32]) -> String {
         let mut order: Vec<usize> = (0..shares.len()).filter(|group| shares[*group].abs() >= LEAST).collect();
         order.sort_by(|a, b| shares[*b].abs().total_cmp(&shares[*a].abs()));
-        let mut parts = Vec::with_capacity(MOST);
+        let mut words = String::with_capacity(ROOM);
         for group in order.into_iter().take(MOST) {
-            let share = format!("{} {:+.2}", GROUPS[group], shares[group]);
-            parts.push(match self.most_telling(group, row) {
-                Some(place) => format!("{share} ({} {})", self.inputs[place].name, short(row[place])),
-                None => share,
-            });
+            words.push_str(if words.is_empty() { "" } else { "; " });
+            words.push_str(GROUPS[group]);
+            words.push_str(if shares[group].is_sign_negative() { " " } else { " +" });
+            decimal::push(&mut words, shares[group], 2);
+            if let Some(place) = self.most_telling(group, row) {
+                words.push_str(" (");
+                words.push_str(self.inputs[place].name);
+                words.push(' ');
+                push_short(&mut words, row[place]);
+                words.push(')');
+            }
         }
-        parts.join("; ")
+        words
     }
 
     /// The feature of a group that was observed and is worth most to the model.
@@ -51,13 +60,14 @@ impl Telling {
     }
 }
 
-/// A value with three digits or so.
-fn short(value: f32) -> String {
-    match value.abs() {
-        size if size >= 100.0 => format!("{value:.0}"),
-        size if size >= 10.0 => format!("{value:.1}"),
-        _ => format!("{value:.2}"),
-    }
+/// Adds a value with three digits or so.
+fn push_short(words: &mut String, value: f32) {
+    let digits = match value.abs() {
+        size if size >= 100.0 => 0,
+        size if size >= 10.0 => 1,
+        _ => 2,
+    };
+    decimal::push(words, value.into(), digits);
 }
 
 #[cfg(test)]

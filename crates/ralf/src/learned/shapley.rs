@@ -6,18 +6,17 @@
 //! players are asked on the way to a leaf, and leaves that lie side by side share most of them: what each adds in every
 //! case of such a bundle is worked out once, so that a row costs a look into a table per bundle.
 
-use super::block::{BLOCK, Block, Mask};
-use super::bundle::{Bundle, bundles};
+use super::block::{BLOCK, Blocks};
+use super::bundle::{Bundle, Sums, add, bundles, of_groups};
 use super::forest::Forest;
 use super::outcomes::Part;
-use super::rows::Rows;
 use super::tree::{Node, Tree};
 use super::walk::{Questions, Walk};
 use super::way::{PLAYERS, Way};
 
 /// Blocks that a tree is asked about before the next one: the tables of one tree stay in a cache, those of all don't,
-/// and neither would the answers of more blocks.
-const TOGETHER: usize = 8;
+/// and neither would the features of more blocks.
+const TOGETHER: usize = 32;
 
 /// A forest, prepared for telling what each group adds to its answers.
 #[derive(Debug, Clone)]
@@ -54,21 +53,19 @@ impl Explainer {
 
     /// What each group adds to the answer for each row, log odds, row by row. A row's values and
     /// [`expected`](Self::expected) sum up to the forest's answer.
-    pub fn explain(&self, rows: &Rows) -> Vec<[f64; PLAYERS]> {
-        let mut all = vec![[0; PLAYERS]; rows.len()];
+    pub fn explain(&self, rows: &Blocks) -> Vec<[f64; PLAYERS]> {
+        let mut all = vec![Sums::default(); rows.blocks.len() * BLOCK];
         let mut masks = Vec::new();
-        for (at, added) in all.chunks_mut(TOGETHER * BLOCK).enumerate() {
-            let begins = (0..added.len()).step_by(BLOCK).map(|begin| at * TOGETHER * BLOCK + begin);
-            let blocks: Vec<Vec<Mask>> =
-                begins.map(|begin| self.questions.answers(&Block::of(rows, begin))).collect();
+        for (blocks, added) in rows.blocks.chunks(TOGETHER).zip(all.chunks_mut(TOGETHER * BLOCK)) {
             for (walk, bundles) in &self.trees {
-                for (answers, added) in blocks.iter().zip(added.chunks_mut(BLOCK)) {
-                    walk.masks(answers, &mut masks);
-                    bundles.iter().for_each(|bundle| bundle.add(&masks, added));
+                for (block, added) in blocks.iter().zip(added.as_chunks_mut().0) {
+                    walk.lead(|question| self.questions.answer(question, block), &mut masks);
+                    add(bundles, &masks, added);
                 }
             }
         }
-        all.into_iter().map(|units| units.map(|units| f64::from(units) * self.unit)).collect()
+        all.truncate(rows.rows);
+        all.into_iter().map(|units| of_groups(&units).map(|units| f64::from(units) * self.unit)).collect()
     }
 }
 
@@ -83,6 +80,7 @@ fn largest_answer(tree: &Tree) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use super::super::rows::Rows;
     use super::*;
     use crate::learned::tree::tests::{grow, leaf, split};
     use rand::RngExt;
@@ -134,7 +132,7 @@ mod tests {
                 *value = if random.random_bool(0.2) { f32::NAN } else { random.random_range(-1.0..1.0) };
             }
         }
-        let explained = explainer.explain(&rows);
+        let explained = explainer.explain(&Blocks::of(&rows));
         for (row, answer) in forest.log_odds(&rows).into_iter().enumerate() {
             let expected = by_definition(&forest.trees[0], rows.row(row), &group_of, groups);
             for (found, expected) in explained[row].iter().zip(expected) {

@@ -1,9 +1,11 @@
 //! A tree, asked about a block of rows at a time, without a branch per row.
 //!
-//! Every question is asked of every row, and which rows it leads on is a mask. Where a row belongs in a table that is
-//! made for a tree, such as that of its leaves, is a sum of weights, each of which counts for the rows of a mask.
+//! Every question is asked of every row, and which rows it leads on is known for all of them together: a bit for each
+//! where it is only asked which rows come to a leaf, all bits of a byte where numbers of rows are summed up. Where a
+//! row belongs in a table that is made for a part of a tree is such a sum of weights, each of which counts for some
+//! rows.
 
-use super::block::{BLOCK, Block, Mask};
+use super::block::{BLOCK, Bits, Block, Mask};
 use super::tree::{Node, Split, Tree};
 use std::collections::HashMap;
 
@@ -27,8 +29,49 @@ impl Questions {
     }
 
     /// The rows of a block that get a yes to each question.
-    pub(super) fn answers(&self, block: &Block) -> Vec<Mask> {
-        self.asked.iter().map(|split| block.answers(split)).collect()
+    pub(super) fn answers<A: Answered>(&self, block: &Block) -> Vec<A> {
+        self.asked.iter().map(|split| A::of(block.answers(split))).collect()
+    }
+
+    /// The rows of a block that get a yes to the question at a place.
+    pub(super) fn answer(&self, place: usize, block: &Block) -> Mask {
+        block.answers(&self.asked[place])
+    }
+}
+
+/// Which rows of a block are led on.
+pub(super) trait Answered: Copy {
+    /// All of them.
+    const ALL: Self;
+
+    /// Those of a mask.
+    fn of(mask: Mask) -> Self;
+
+    /// Those of them that are among others, and those that aren't.
+    fn split(self, others: Self) -> [Self; 2];
+}
+
+impl Answered for Bits {
+    const ALL: Self = Self::MAX;
+
+    fn of(mask: Mask) -> Self {
+        mask.to_bitmask()
+    }
+
+    fn split(self, others: Self) -> [Self; 2] {
+        [self & others, self & !others]
+    }
+}
+
+impl Answered for Mask {
+    const ALL: Self = Self::MAX;
+
+    fn of(mask: Mask) -> Self {
+        mask
+    }
+
+    fn split(self, others: Self) -> [Self; 2] {
+        [self & others, self & !others]
     }
 }
 
@@ -42,12 +85,11 @@ pub(super) struct Term {
 
 /// The sum of the weights that count for each row.
 pub(super) fn sums(terms: &[Term], masks: &[Mask]) -> [u8; BLOCK] {
-    let mut sums = [0; BLOCK];
+    let mut sums = Mask::ZERO;
     for term in terms {
-        let mask = &masks[term.mask];
-        sums = std::array::from_fn(|row| sums[row] + (mask[row] & term.weight));
+        sums += masks[term.mask] & Mask::splat(term.weight);
     }
-    sums
+    sums.to_array()
 }
 
 /// The questions of a tree in preorder, told apart by groups.
@@ -90,14 +132,13 @@ impl Walk {
     }
 
     /// Of each node, the rows that the question before it and the earlier ones of its group all lead towards it; of the
-    /// first node all rows. `answers` are those to the [`Questions`]; `masks` is overwritten.
-    pub(super) fn masks(&self, answers: &[Mask], masks: &mut Vec<Mask>) {
-        masks.clear();
-        masks.resize(self.nodes, [u8::MAX; BLOCK]);
+    /// first node all rows. `answer` gives the rows that get a yes to the question at a place; `led` is overwritten.
+    pub(super) fn lead<A: Answered>(&self, answer: impl Fn(usize) -> A, led: &mut Vec<A>) {
+        // What an earlier tree left is overwritten: every node but the first is led to.
+        led.resize(self.nodes, A::ALL);
+        led[0] = A::ALL;
         for step in &self.steps {
-            let (behind, answer) = (masks[step.behind], answers[step.question]);
-            masks[step.yes] = std::array::from_fn(|row| behind[row] & answer[row]);
-            masks[step.no] = std::array::from_fn(|row| behind[row] & !answer[row]);
+            [led[step.yes], led[step.no]] = led[step.behind].split(answer(step.question));
         }
     }
 }

@@ -1,6 +1,7 @@
 //! A radar scan's detections with their uncertainty, moved into the vehicle frame.
 
 use super::doppler::Doppler;
+use super::farthest::Farthest;
 use super::mismatch::Spread;
 use super::strength::Strength;
 use crate::sensors::{Elevation, Radar, RadarScan};
@@ -53,6 +54,7 @@ pub struct LocatedScan {
     pub detections: Vec<Option<Detection>>,
     doppler: OnceLock<Option<Doppler>>,
     strength: OnceLock<Option<Strength>>,
+    farthest: OnceLock<Farthest>,
 }
 
 impl LocatedScan {
@@ -73,7 +75,13 @@ impl LocatedScan {
             })
         };
         let detections = scan.positions.iter().zip(&scan.spherical).map(locate).collect();
-        Self { measured: scan, detections, doppler: OnceLock::new(), strength: OnceLock::new() }
+        Self {
+            measured: scan,
+            detections,
+            doppler: OnceLock::new(),
+            strength: OnceLock::new(),
+            farthest: OnceLock::new(),
+        }
     }
 
     /// The range rates of the detections, worked out once for all frames that the scan belongs to; `None` where the
@@ -86,6 +94,11 @@ impl LocatedScan {
     /// it.
     pub fn strength(&self, radar: &Radar) -> Option<&Strength> {
         self.strength.get_or_init(|| Strength::new(radar, &self.measured)).as_ref()
+    }
+
+    /// How far the radar, which is that of the scan, saw in it, worked out once.
+    pub(super) fn farthest(&self, radar: &Radar) -> &Farthest {
+        self.farthest.get_or_init(|| Farthest::new(radar, &self.measured))
     }
 
     /// The detections in another frame; `None` where the coordinates are not finite.

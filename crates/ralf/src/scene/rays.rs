@@ -20,8 +20,10 @@ pub struct RayTable {
     rays: Vec<TableRay>,
 }
 
-/// A return as its LiDAR sees it.
+/// A return as its LiDAR sees it. Its direction and range lie together, so that one load brings them, and no return
+/// lies in two lines of a cache.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[repr(C, align(32))]
 pub struct TableRay {
     /// rad, from -pi to pi.
     pub azimuth: f32,
@@ -29,10 +31,10 @@ pub struct TableRay {
     pub elevation: f32,
     /// From the LiDAR, m.
     pub range: f32,
-    /// In the LiDAR's frame, m.
-    pub point: [f32; 3],
     /// Its place in the scan.
     pub id: u32,
+    /// In the LiDAR's frame, m.
+    pub point: [f32; 3],
 }
 
 /// Directions around a middle one, rad.
@@ -83,7 +85,7 @@ impl RayTable {
             let ((azimuth, elevation), range) = direction;
             if let Some(next) = next.get_mut(bin.wrapping_sub(first_bin) as usize) {
                 rays[*next as usize] =
-                    TableRay { azimuth: *azimuth, elevation: *elevation, range: *range, point: *point, id };
+                    TableRay { azimuth: *azimuth, elevation: *elevation, range: *range, id, point: *point };
                 *next += 1;
             }
         }
@@ -219,7 +221,9 @@ fn columns_of(cone: &Cone) -> [Range<usize>; 2] {
     }
     let [left, right] = [-1.0, 1.0].map(|side| {
         let azimuth = cone.azimuth + side * cone.half_azimuth;
-        column_of(azimuth - TAU * (azimuth / TAU).round()) as usize
+        // Mostly it is no more than half a turn as it is.
+        let turns = if azimuth.abs() < PI { 0.0 } else { (azimuth / TAU).round() };
+        column_of(azimuth - TAU * turns) as usize
     });
     if left <= right { [left..right + 1, 0..0] } else { [0..right + 1, left..COLUMNS] }
 }

@@ -12,12 +12,14 @@
 //! `vehicle_from_radar * p_radar = p_vehicle`.
 
 mod geometry;
+mod many_transforms;
 mod motion;
 mod neighbors;
 mod recent;
 pub mod sync;
 
 pub use geometry::{Point, Spherical, Transform, Vector, transform_from_parts};
+pub(crate) use many_transforms::{LANES, ManyTransforms};
 pub use motion::{EgoMotion, OdometrySample, PoseSample};
 pub use neighbors::{Neighbor, NeighborIndex};
 pub(crate) use recent::Recent;

@@ -65,7 +65,7 @@ pub(super) struct Sweep<'a> {
     rays: usize,
     /// Stretches of the table that the last cone touched.
     runs: Vec<Range<usize>>,
-    /// The rays of these that were looked at, as places in the table.
+    /// Places in the table of the rays of these that are looked at, with room for a few more.
     places: Vec<u32>,
 }
 
@@ -81,7 +81,7 @@ impl<'a> Sweep<'a> {
             sigma_range: sweep.sigma_range,
             rays,
             runs: Vec::new(),
-            places: Vec::new(),
+            places: vec![0; rays.next_multiple_of(LANES) + LANES],
         }
     }
 
@@ -94,29 +94,45 @@ impl<'a> Sweep<'a> {
             return Votes::default();
         }
         let step = towards.div_ceil(self.rays);
-        self.places.clear();
-        let mut skip = 0;
-        for run in &self.runs {
-            let mut place = run.start + skip;
-            while place < run.end {
-                self.places.push(place as u32);
-                place += step;
-            }
-            skip = place - run.end;
-        }
-        let rays = self.table.rays();
         let mut tally = Tally::new();
-        let (whole, rest) = self.places.as_chunks::<LANES>();
-        for places in whole {
-            tally.count(&target, &places.map(|place| &rays[place as usize]));
-        }
-        if !rest.is_empty() {
-            let ray = |lane: usize| rest.get(lane).map_or(&NO_RAY, |place| &rays[*place as usize]);
-            tally.count(&target, &std::array::from_fn(ray));
+        let rays = self.table.rays();
+        for places in self.take_every(step as u32) {
+            let mut few = [&NO_RAY; LANES];
+            for (ray, place) in few.iter_mut().zip(places) {
+                *ray = rays.get(*place as usize).unwrap_or(&NO_RAY);
+            }
+            tally.count(&target, &few);
         }
         let (sums, chi) = tally.finish();
         let [inside, ground, beyond, before] = sums.map(|sum| sum * step as f64);
         Votes { inside, ground, beyond, before, chi: Some(chi) }
+    }
+
+    /// The places in the table of every so many rays of the stretches, counted through from the first one, of which
+    /// there are no more than wanted; what fills up the last few is none.
+    fn take_every(&mut self, step: u32) -> &[[u32; LANES]] {
+        let (mut passed, mut taken) = (0, 0);
+        for run in &self.runs {
+            let (begin, end) = (run.start as u32, passed + run.len() as u32);
+            let next = end.div_ceil(step);
+            let mut place = begin + taken * step - passed;
+            // More than there are, which the next ones overwrite: how many there are is hard to foretell.
+            while let Some(places) = self.places[taken as usize..].first_chunk_mut::<LANES>() {
+                for next in places {
+                    *next = place;
+                    place += step;
+                }
+                taken += LANES as u32;
+                if taken >= next {
+                    break;
+                }
+            }
+            (passed, taken) = (end, next);
+        }
+        if let Some(places) = self.places[taken as usize..].first_chunk_mut() {
+            *places = [u32::MAX; LANES];
+        }
+        &self.places.as_chunks().0[..(taken as usize).div_ceil(LANES)]
     }
 
     /// The place in the scan of a ray towards a detection.

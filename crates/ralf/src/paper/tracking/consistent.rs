@@ -77,9 +77,9 @@ fn rates_of(frame: &Frame, neighbour: &NeighbouringScan) -> impl Iterator<Item =
 fn reaches(frame: &Frame, steps: &[ScanStep]) -> Vec<Reach> {
     let mut reaches = Vec::with_capacity(frame.rig.radars.len());
     for (i, radar) in frame.rig.radars.iter().enumerate() {
-        let own = (radar.name == frame.radar.name).then_some(&frame.scan.measured);
+        let own = (radar.name == frame.radar.name).then_some(&*frame.scan);
         let all = steps.iter().flat_map(|step| [&step.own].into_iter().chain(&step.others));
-        let around = all.filter(|scan| scan.radar == i).map(|scan| &scan.scan.measured);
+        let around = all.filter(|scan| scan.radar == i).map(|scan| &*scan.scan);
         reaches.push(Reach::of_scans(radar, own.into_iter().chain(around)));
     }
     reaches
