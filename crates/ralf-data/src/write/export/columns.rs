@@ -26,8 +26,8 @@ impl Columns {
     }
 }
 
-/// The columns of `plausibility.parquet` but `radar` and `semantic`, with the effective labels; of what was measured only
-/// if asked for. Words are the machine's, as plausibilities are.
+/// The columns of `plausibility.parquet` but `radar` and `semantic`, with the effective labels; of what was measured
+/// only if asked for. Words are the machine's, as plausibilities are.
 pub(super) fn table_columns(sequence: &LabelledSequence, scan: &LabelledScan) -> Result<Table, DataError> {
     let mut columns = Columns::default();
     let number = vec![scan.scan as u32; scan.kept.len()];
