@@ -39,17 +39,8 @@ impl Frames<'_> {
         scans: &[ScanIndex],
         work: impl Fn(&mut FrameWindow, usize) -> Result<R, E> + Sync,
     ) -> Result<Vec<R>, E> {
-        let times = &self.reader.sequence().times;
-        let order = in_time(times, scans);
-        let shared = shared(times, self.config, order.iter().map(|place| time_of(times, scans[*place])));
-        let stretches = stretches(&[shared], self.evidence, self.jobs);
-        let worked = side_by_side_while(&stretches, self.jobs, |Stretch { scans, .. }, wanted| {
-            let places = order[scans.clone()].iter().copied();
-            self.one_by_one(places, wanted, |window, place| Ok((place, work(window, place)?)))
-        })?;
-        let mut done: Vec<(usize, R)> = worked.into_iter().flatten().collect();
-        done.sort_by_key(|(place, _)| *place);
-        Ok(done.into_iter().map(|(_, result)| result).collect())
+        let chosen = Chosen { frames: self, scans };
+        Ok(each_of(&[chosen], self.jobs, |window, _, place| work(window, place))?.pop().unwrap_or_default())
     }
 
     /// Works on what a stretch consists of, with one window, as long as it is wanted.
@@ -67,6 +58,42 @@ impl Frames<'_> {
         let window = FrameWindow::new(self.reader, self.rig, self.config);
         if self.evidence { window.with_evidence() } else { window }
     }
+}
+
+/// Scans of one sequence.
+pub(crate) struct Chosen<'a> {
+    /// What their frames are made of.
+    pub(crate) frames: &'a Frames<'a>,
+    pub(crate) scans: &'a [ScanIndex],
+}
+
+/// Works on chosen scans of several sequences as [`Frames::each`] does, which may be short: workers take stretches of
+/// all of them. `work` is told the sequence's place and the scan's in its list; results are in the same order.
+pub(crate) fn each_of<R: Send, E: Send>(
+    sequences: &[Chosen],
+    jobs: usize,
+    work: impl Fn(&mut FrameWindow, usize, usize) -> Result<R, E> + Sync,
+) -> Result<Vec<Vec<R>>, E> {
+    let (mut orders, mut all_shared, mut evidence) = (Vec::new(), Vec::new(), false);
+    for Chosen { frames, scans } in sequences {
+        let times = &frames.reader.sequence().times;
+        let order = in_time(times, scans);
+        let in_turn = order.iter().map(|place| time_of(times, scans[*place]));
+        all_shared.push(shared(times, frames.config, in_turn));
+        orders.push(order);
+        evidence |= frames.evidence;
+    }
+    let stretches = stretches(&all_shared, evidence, jobs);
+    let worked = side_by_side_while(&stretches, jobs, |Stretch { sequence, scans }, wanted| {
+        let places = orders[*sequence][scans.clone()].iter().copied();
+        let with = |window: &mut FrameWindow, place| Ok((*sequence, place, work(window, *sequence, place)?));
+        sequences[*sequence].frames.one_by_one(places, wanted, with)
+    })?;
+    let mut done: Vec<(usize, usize, R)> = worked.into_iter().flatten().collect();
+    done.sort_by_key(|(sequence, place, _)| (*sequence, *place));
+    let mut results: Vec<Vec<R>> = sequences.iter().map(|_| Vec::new()).collect();
+    done.into_iter().for_each(|(sequence, _, result)| results[sequence].push(result));
+    Ok(results)
 }
 
 /// The places of these scans, in the order of time.

@@ -1,7 +1,7 @@
 //! Evidence and truth of all scans with truth: what a model is fitted to (docs/learned.md).
 
 use crate::error::DataError;
-use crate::frames::{Frames, ScanIndex, all_scans};
+use crate::frames::{Chosen, Frames, ScanIndex, all_scans, each_of};
 use crate::read::{Recording, SequenceReader};
 use crate::run::{NotLabelled, Observer, Stage, rig_of};
 use crate::truth::{Causes, GroundTruth, ScanId};
@@ -55,18 +55,15 @@ impl TrainingGatherer<'_> {
         recording: &Recording,
         truth: TrainingTruth,
     ) -> Result<Vec<NotLabelled>, DataError> {
-        let mut left_out = Vec::new();
+        let mut tasks = Vec::new();
         for reader in &recording.sequences {
-            let reader = reader.as_ref();
-            let rig = rig_of(recording, reader, self.config)?;
-            let causes = match truth {
-                TrainingTruth::Known => None,
-                TrainingTruth::Said(truth) => truth.causes(&reader.sequence().name)?,
-            };
-            let task = Task { gatherer: self, reader, rig, truth, causes };
+            tasks.push(Task::new(self, recording, reader.as_ref(), truth)?);
+        }
+        let mut left_out = Vec::new();
+        for (task, gathered) in tasks.iter().zip(self.gather(recording, &tasks)?) {
             let first_scan = table.known.last().map_or(0, |known| known.scan + 1);
-            let number = table.world(world.unwrap_or(&reader.sequence().name));
-            for (scan, gathered) in task.gather()?.into_iter().enumerate() {
+            let number = table.world(world.unwrap_or(&task.reader.sequence().name));
+            for (scan, gathered) in gathered.into_iter().enumerate() {
                 match gathered {
                     Ok(parts) => {
                         for part in parts {
@@ -82,7 +79,29 @@ impl TrainingGatherer<'_> {
         }
         Ok(left_out)
     }
+
+    /// What all scans of all sequences tell, sequence by sequence.
+    fn gather(&self, recording: &Recording, tasks: &[Task]) -> Result<Vec<Vec<Gathered>>, DataError> {
+        let Self { config, jobs, observer, .. } = *self;
+        let frames: Vec<Frames> = tasks
+            .iter()
+            .map(|task| Frames { reader: task.reader, rig: &task.rig, config, evidence: true, jobs })
+            .collect();
+        let scans: Vec<Vec<ScanIndex>> = tasks.iter().map(Task::scans).collect();
+        let chosen: Vec<Chosen> =
+            frames.iter().zip(&scans).map(|(frames, scans)| Chosen { frames, scans }).collect();
+        let name = recording.path.file_name().unwrap_or_default().to_string_lossy();
+        observer.begin(Stage::Gathering(&name), scans.iter().map(Vec::len).sum::<usize>() as u64);
+        let gathered = each_of(&chosen, jobs, |window, sequence, place| {
+            tasks[sequence].gather_scan(window, scans[sequence][place])
+        });
+        observer.end();
+        gathered
+    }
 }
+
+/// What a scan tells, or why it tells nothing.
+type Gathered = Result<Vec<Part>, NotLabelled>;
 
 /// One sequence.
 struct Task<'a> {
@@ -106,26 +125,31 @@ struct True {
     cause: u8,
 }
 
-impl Task<'_> {
-    fn gather(&self) -> Result<Vec<Result<Vec<Part>, NotLabelled>>, DataError> {
-        let TrainingGatherer { config, jobs, observer, .. } = *self.gatherer;
-        let sequence = self.reader.sequence();
-        let mut scans = all_scans(&sequence.times);
+impl<'a> Task<'a> {
+    fn new(
+        gatherer: &'a TrainingGatherer<'a>,
+        recording: &Recording,
+        reader: &'a dyn SequenceReader,
+        truth: TrainingTruth<'a>,
+    ) -> Result<Self, DataError> {
+        let rig = rig_of(recording, reader, gatherer.config)?;
+        let causes = match truth {
+            TrainingTruth::Known => None,
+            TrainingTruth::Said(truth) => truth.causes(&reader.sequence().name)?,
+        };
+        Ok(Self { gatherer, reader, rig, truth, causes })
+    }
+
+    /// Those that may have truth.
+    fn scans(&self) -> Vec<ScanIndex> {
+        let mut scans = all_scans(&self.reader.sequence().times);
         if let TrainingTruth::Said(truth) = self.truth {
             scans.retain(|scan| truth.scans().contains(&self.id(*scan)));
         }
-        observer.begin(Stage::Gathering(&sequence.name), scans.len() as u64);
-        let frames = Frames { reader: self.reader, rig: &self.rig, config, evidence: true, jobs };
-        let gathered = frames.each(&scans, |window, at| self.gather_scan(window, scans[at]));
-        observer.end();
-        gathered
+        scans
     }
 
-    fn gather_scan(
-        &self,
-        window: &mut FrameWindow,
-        place: ScanIndex,
-    ) -> Result<Result<Vec<Part>, NotLabelled>, DataError> {
+    fn gather_scan(&self, window: &mut FrameWindow, place: ScanIndex) -> Result<Gathered, DataError> {
         let frame = match window.frame(place.radar, place.scan) {
             Ok(frame) => frame,
             Err(error) => return Ok(Err(self.left_out(place, error.to_string()))),
