@@ -1,5 +1,6 @@
 //! What tells the class of a detection.
 
+use super::schema::CLASS_FROM;
 use super::table::Table;
 use crate::error::DataError;
 use ralf::label::{ARTIFACT, PLAUSIBLE};
@@ -32,9 +33,6 @@ impl ClassSource {
     }
 }
 
-/// The name of the column that tells it.
-const COLUMN: &str = "class_from";
-
 impl Table {
     /// What tells the class in each detection's label; `None` where the label has no class. Without a column
     /// `class_from` no camera was asked, and classes are the LiDARs'.
@@ -42,12 +40,13 @@ impl Table {
     /// # Errors
     /// A table that isn't of a labelled scan, or a word in `class_from` that nothing is called by.
     pub fn class_sources(&self) -> Result<Vec<Option<ClassSource>>, DataError> {
-        let told = self.schema().place(COLUMN).is_ok().then(|| self.get::<Arc<str>>(COLUMN)).transpose()?;
+        let column = CLASS_FROM.name;
+        let told = self.schema().place(&column).is_ok().then(|| self.get::<Arc<str>>(&column)).transpose()?;
         let source = |row: usize| match told {
             None => Ok(ClassSource::Lidar),
             Some(told) => ClassSource::named(&told[row]).ok_or_else(|| {
                 let found = format!("`{}` of a detection with a class", told[row]);
-                DataError::WrongColumn { name: COLUMN.to_owned(), found }
+                DataError::WrongColumn { name: column.to_string(), found }
             }),
         };
         let labels = self.labels()?.into_iter().enumerate();
@@ -61,7 +60,7 @@ fn has_class(label: u16) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::super::schema::{CLASS_FROM, Schema};
+    use super::super::schema::Schema;
     use super::super::table::Values;
     use super::*;
     use ralf::sensors::Rig;
@@ -70,7 +69,7 @@ mod tests {
     fn table(rows: &[(u8, Option<u16>, &str)], with_words: bool) -> Table {
         let words: &[_] = if with_words { &[CLASS_FROM] } else { &[] };
         let schema = Schema::of(&Rig::default(), words).unwrap();
-        let names = ["label", "semantic", COLUMN];
+        let names = ["label", "semantic", "class_from"];
         let schema = schema.only(if with_words { &names } else { &names[..2] }).unwrap();
         let mut values = vec![
             Values::U8(rows.iter().map(|row| row.0).collect()),

@@ -8,6 +8,7 @@
 use super::block::{BLOCK, Bits, Block, Mask};
 use super::tree::{Node, Split, Tree};
 use std::collections::HashMap;
+use std::ops::{BitAnd, Not};
 
 /// The questions of many trees, each of them once.
 #[derive(Debug, Clone, Default)]
@@ -40,7 +41,7 @@ impl Questions {
 }
 
 /// Which rows of a block are led on.
-pub(super) trait Answered: Copy {
+pub(super) trait Answered: Copy + BitAnd<Output = Self> + Not<Output = Self> {
     /// All of them.
     const ALL: Self;
 
@@ -48,7 +49,9 @@ pub(super) trait Answered: Copy {
     fn of(mask: Mask) -> Self;
 
     /// Those of them that are among others, and those that aren't.
-    fn split(self, others: Self) -> [Self; 2];
+    fn split(self, others: Self) -> [Self; 2] {
+        [self & others, self & !others]
+    }
 }
 
 impl Answered for Bits {
@@ -57,10 +60,6 @@ impl Answered for Bits {
     fn of(mask: Mask) -> Self {
         mask.to_bitmask()
     }
-
-    fn split(self, others: Self) -> [Self; 2] {
-        [self & others, self & !others]
-    }
 }
 
 impl Answered for Mask {
@@ -68,10 +67,6 @@ impl Answered for Mask {
 
     fn of(mask: Mask) -> Self {
         mask
-    }
-
-    fn split(self, others: Self) -> [Self; 2] {
-        [self & others, self & !others]
     }
 }
 

@@ -3,7 +3,7 @@
 use super::labelled::{LabelledScan, LabelledSequence};
 use crate::error::DataError;
 use crate::result::schema::field;
-use crate::result::{Column, Group, Kind, Schema, Table, Values};
+use crate::result::{CLASS_FROM, Column, Group, Kind, Schema, Table, Values};
 use ralf::label::truth_of;
 use ralf::sensors::{Radar, RadarScan};
 use std::sync::Arc;
@@ -43,7 +43,7 @@ pub(super) fn table_columns(sequence: &LabelledSequence, scan: &LabelledScan) ->
     let meaning = "SemanticKITTI id of the label that counts.";
     columns.add(plain("label", Kind::U16, meaning, Group::Verdict), Values::U16(ids));
     columns.add(flags(), flags_of(scan)?);
-    add_where(&mut columns, scan, |column| column.name == "class_from");
+    add_where(&mut columns, scan, |column| column.name == CLASS_FROM.name);
     add_group(&mut columns, scan, Group::Evidence);
     add_group(&mut columns, scan, Group::Words);
     columns.table()
