@@ -1,10 +1,11 @@
 //! Bytes on disk: reading whole files, rows of float32, and writing so that a file appears whole or not at all.
 
+use super::alone::open_alone;
 use crate::error::DataError;
 use ralf_files::Kind;
 use std::collections::HashMap;
 use std::fs;
-use std::io::{Error, ErrorKind, Write};
+use std::io::{ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
 /// A whole measurement, or what belongs to one. Everything in this crate that reads a file does so through this module:
@@ -139,51 +140,31 @@ impl Folders {
     }
 }
 
-/// How often a file is written that others write at the same time.
-const TRIES: usize = 20;
-
-/// Writes a file whole or not at all: beside its place first, then renamed. Folders are made as needed.
-///
-/// Where others write the same file at the same time, less than the whole may be there until the last of them is done.
+/// Writes a file whole or not at all: beside its place first, then renamed. Folders are made as needed. Who writes the
+/// same file at the same time waits, and writes it again.
 pub fn write_whole(file: &Path, bytes: &[u8]) -> Result<(), DataError> {
-    write_whole_with(file, &|out| out.write_all(bytes))
+    write_whole_with(file, |out| out.write_all(bytes))
 }
 
-/// The same with content that is made while it is written, so that it need not be in memory at once. It may be asked
-/// for again, and is the same then.
-pub(crate) fn write_whole_with(file: &Path, content: &Content) -> Result<(), DataError> {
-    // Who writes the same at the same time takes what lies beside the file for left over, or renames it.
-    let disturbed = |error: &Error| matches!(error.kind(), ErrorKind::NotFound | ErrorKind::AlreadyExists);
-    let is_there = || {
-        let mut bytes = Vec::new();
-        content(&mut bytes).is_ok() && fs::read(file).is_ok_and(|found| found == bytes)
-    };
-    let mut written = write_once(file, content);
-    for _ in 1..TRIES {
-        if written.as_ref().is_err_and(disturbed) {
-            written = if is_there() { Ok(()) } else { write_once(file, content) };
-        }
-    }
-    written.map_err(DataError::io(file))
-}
-
-/// Writes what a file holds.
-type Content<'a> = dyn Fn(&mut dyn Write) -> std::io::Result<()> + 'a;
-
-fn write_once(file: &Path, content: &Content) -> std::io::Result<()> {
+/// The same with content that is made while it is written, so that it need not be in memory at once.
+pub(crate) fn write_whole_with(
+    file: &Path,
+    content: impl FnOnce(&mut dyn Write) -> std::io::Result<()>,
+) -> Result<(), DataError> {
     let beside = beside(file);
-    let created = match (create_new(&beside), file.parent()) {
+    let opened = match (open_alone(&beside), file.parent()) {
         (Err(error), Some(folder)) if error.kind() == ErrorKind::NotFound => {
-            fs::create_dir_all(folder)?;
-            create_new(&beside)
+            fs::create_dir_all(folder).and_then(|()| open_alone(&beside))
         }
-        (created, _) => created,
+        (opened, _) => opened,
     };
-    let written = created.and_then(|mut open| content(&mut open));
-    written.and_then(|()| fs::rename(&beside, file)).inspect_err(|_| {
+    let written = opened.and_then(|mut open| {
+        // The file stays open, and with it locked, until it is in its place or gone.
+        let written = content(&mut open).and_then(|()| fs::rename(&beside, file));
         // The half-written file is of no use to anyone; the error that matters is the first one.
-        let _ = fs::remove_file(&beside);
-    })
+        written.inspect_err(|_| drop(fs::remove_file(&beside)))
+    });
+    written.map_err(DataError::io(file))
 }
 
 /// Creates a file. What lies there is removed first: through a link, what it leads to would be overwritten.
@@ -238,15 +219,19 @@ mod tests {
 
     /// Parts of a run may be done twice at the same time.
     #[test]
-    fn two_who_write_the_same_file_at_once_both_succeed() {
+    fn two_who_write_the_same_file_at_once_both_succeed_and_all_that_is_ever_read_is_whole() {
         let folder = tempfile::tempdir().unwrap();
         let file = folder.path().join("a/000000.label");
+        let content = [vec![b'a'; 100_000], vec![b'b'; 50_000]];
+        write_whole(&file, &content[0]).unwrap();
+        fs::write(beside(&file), "left by a kill").unwrap();
         std::thread::scope(|scope| {
-            for _ in 0..2 {
-                scope.spawn(|| (0..300).for_each(|_| write_whole(&file, b"the same").unwrap()));
+            for content in &content {
+                scope.spawn(|| (0..300).for_each(|_| write_whole(&file, content).unwrap()));
             }
+            scope.spawn(|| (0..300).for_each(|_| assert!(content.contains(&fs::read(&file).unwrap()))));
         });
-        assert_eq!(fs::read(&file).unwrap(), b"the same");
+        assert_eq!(names(&folder.path().join("a")).unwrap(), ["000000.label"]);
     }
 
     #[test]

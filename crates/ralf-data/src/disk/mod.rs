@@ -1,5 +1,6 @@
 //! Bytes on disk: whole files, `.npy` arrays, HDF5 and Parquet tables, LAZ and PCD clouds, images and `.label` files.
 
+pub(crate) mod alone;
 pub(crate) mod class_images;
 pub(crate) mod files;
 mod guarded;

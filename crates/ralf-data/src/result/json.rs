@@ -17,7 +17,7 @@ pub(crate) fn read_json<T: DeserializeOwned>(file: &Path) -> Result<T, DataError
 
 /// Writes a record, whole or not at all. It is put into words while it is written: that of a long run has megabytes.
 pub(crate) fn write_json<T: Serialize>(file: &Path, value: &T) -> Result<(), DataError> {
-    write_whole_with(file, &|out| {
+    write_whole_with(file, |out| {
         let mut out = BufWriter::new(out);
         serde_json::to_writer_pretty(&mut out, value)?;
         out.write_all(b"\n")?;

@@ -1,5 +1,6 @@
 //! One writer at a time: a lock that the system takes back when its holder ends, however it ends.
 
+use crate::disk::alone::is_at;
 use crate::error::DataError;
 use std::fs::{self, File, TryLockError};
 use std::io::ErrorKind;
@@ -83,19 +84,6 @@ impl Drop for WriterLock {
         let _ = fs::remove_file(&self.file);
         self.made.iter().all(|folder| fs::remove_dir(folder).is_ok());
     }
-}
-
-/// Whether the open file is the one that lies at this path.
-#[cfg(unix)]
-fn is_at(open: &File, path: &Path) -> bool {
-    use std::os::unix::fs::MetadataExt;
-    let same = |a: fs::Metadata, b: fs::Metadata| (a.dev(), a.ino()) == (b.dev(), b.ino());
-    open.metadata().is_ok_and(|open| fs::metadata(path).is_ok_and(|found| same(open, found)))
-}
-
-#[cfg(not(unix))]
-fn is_at(_open: &File, path: &Path) -> bool {
-    path.exists()
 }
 
 #[cfg(test)]

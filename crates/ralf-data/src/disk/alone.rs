@@ -1,0 +1,41 @@
+//! A file that one writes at a time, whoever else has it open.
+
+use std::fs::{self, File};
+use std::io::{Error, ErrorKind};
+use std::path::Path;
+
+/// Opens an empty file to be written, and locks it until it is closed: others who open it so wait until then. What a
+/// kill left there is taken over; what is no regular file is removed first: through a link, what it leads to would be
+/// overwritten.
+pub(super) fn open_alone(path: &Path) -> Result<File, Error> {
+    loop {
+        if fs::symlink_metadata(path).is_ok_and(|found| !found.is_file()) {
+            unless(ErrorKind::NotFound, fs::remove_file(path))?;
+        }
+        // To be read, too: network file systems share no lock of a file that is only written.
+        let open = File::options().create(true).truncate(false).read(true).write(true).open(path)?;
+        // A file system without locks: its users go on as they did without.
+        unless(ErrorKind::Unsupported, open.lock())?;
+        // The one before may have put it in its place meanwhile, or removed it.
+        if is_at(&open, path) {
+            return open.set_len(0).map(|()| open);
+        }
+    }
+}
+
+fn unless(harmless: ErrorKind, result: Result<(), Error>) -> Result<(), Error> {
+    if result.as_ref().is_err_and(|error| error.kind() == harmless) { Ok(()) } else { result }
+}
+
+/// Whether the open file is the one that lies at this path.
+#[cfg(unix)]
+pub(crate) fn is_at(open: &File, path: &Path) -> bool {
+    use std::os::unix::fs::MetadataExt;
+    let same = |a: fs::Metadata, b: fs::Metadata| (a.dev(), a.ino()) == (b.dev(), b.ino());
+    open.metadata().is_ok_and(|open| fs::symlink_metadata(path).is_ok_and(|found| same(open, found)))
+}
+
+#[cfg(not(unix))]
+pub(crate) fn is_at(_open: &File, path: &Path) -> bool {
+    path.exists()
+}
