@@ -9,18 +9,32 @@ use std::path::Path;
 /// overwritten.
 pub(super) fn open_alone(path: &Path) -> Result<File, Error> {
     loop {
-        if fs::symlink_metadata(path).is_ok_and(|found| !found.is_file()) {
-            unless(ErrorKind::NotFound, fs::remove_file(path))?;
-        }
-        // To be read, too: network file systems share no lock of a file that is only written.
-        let open = File::options().create(true).truncate(false).read(true).write(true).open(path)?;
+        let open = match options().create_new(true).open(path) {
+            Err(error) if error.kind() == ErrorKind::AlreadyExists => open_existing(path)?,
+            opened => opened?,
+        };
         // A file system without locks: its users go on as they did without.
         unless(ErrorKind::Unsupported, open.lock())?;
         // The one before may have put it in its place meanwhile, or removed it.
         if is_at(&open, path) {
-            return open.set_len(0).map(|()| open);
+            // Emptying one that is empty would cost as much as writing it.
+            return if open.metadata()?.len() == 0 { Ok(open) } else { open.set_len(0).map(|()| open) };
         }
     }
+}
+
+fn open_existing(path: &Path) -> Result<File, Error> {
+    if fs::symlink_metadata(path).is_ok_and(|found| !found.is_file()) {
+        unless(ErrorKind::NotFound, fs::remove_file(path))?;
+    }
+    options().create(true).truncate(false).open(path)
+}
+
+/// To be read, too: network file systems share no lock of a file that is only written.
+fn options() -> fs::OpenOptions {
+    let mut options = File::options();
+    options.read(true).write(true);
+    options
 }
 
 fn unless(harmless: ErrorKind, result: Result<(), Error>) -> Result<(), Error> {

@@ -1,9 +1,10 @@
 //! Labelled scans in files that only grow: what a run that is killed leaves for the next one.
 //!
 //! A file per scan costs the system more than labelling does. `SEQUENCE/0.scans`, `1.scans` and so on belong to a
-//! writer each, for several may work on a sequence; none is ever continued by another. Such a file begins with
-//! [`MAGIC`], the length of a JSON list (uint32), and that list: the radars' names. Then scan follows scan: a [`Head`]
-//! and a body. What doesn't fit its checksum is as if it were not there, and a file ends where a head doesn't.
+//! writer each, for several may work on a sequence, so that none waits while another writes; no run continues those of
+//! another. Such a file begins with [`MAGIC`], the length of a JSON list (uint32), and that list: the radars' names.
+//! Then scan follows scan: a [`Head`] and a body. What doesn't fit its checksum is as if it were not there, and a file
+//! ends where a head doesn't.
 
 use crate::disk::files;
 use crate::error::DataError;
@@ -13,7 +14,7 @@ use std::collections::HashMap;
 use std::fs::File;
 use std::io::{ErrorKind, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
-use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 const MAGIC: &[u8; 8] = b"RALFlog2";
 const ENDING: &str = ".scans";
@@ -29,12 +30,27 @@ pub(super) struct ScanLog {
     kept: Mutex<Kept>,
 }
 
+/// An open file, and its name.
+type Named = (Arc<Path>, Arc<File>);
+
 #[derive(Debug, Default)]
 struct Kept {
-    files: Vec<(PathBuf, File)>,
-    /// The file that this run writes, among those.
-    own: Option<usize>,
+    /// To be read.
+    files: Vec<Named>,
+    /// Those of them that this run writes, as far as nobody writes to them now.
+    own: Vec<Own>,
     places: HashMap<ScanIndex, Place>,
+}
+
+/// A file that this run writes.
+#[derive(Debug)]
+struct Own {
+    /// Its number among all.
+    number: usize,
+    name: Arc<Path>,
+    file: File,
+    /// Where it ends.
+    end: u64,
 }
 
 /// Where a scan's body lies.
@@ -95,20 +111,40 @@ impl ScanLog {
             checksum: u64::from(crc32fast::hash(body)),
         };
         let bytes = [&head.to_bytes()[..], body].concat();
-        let mut kept = self.kept();
-        let own = match kept.own {
-            Some(own) => own,
-            None => kept.begin_own(&self.folder, &self.begin)?,
-        };
-        let (name, file) = &mut kept.files[own];
-        let end = file.seek(SeekFrom::End(0)).map_err(DataError::io(name.as_path()))?;
-        if let Err(error) = file.write_all(&bytes) {
-            // What follows half a scan could not be found again.
-            let _ = file.set_len(end);
-            return Err(DataError::Io { file: name.clone(), error });
+        let own = self.kept().own.pop();
+        let mut own = own.map_or_else(|| self.begin_own(), Ok)?;
+        let end = own.end;
+        if let Err(error) = own.file.write_all(&bytes) {
+            // What follows half a scan could not be found again: nobody writes to this file any more.
+            let _ = own.file.set_len(end);
+            return Err(DataError::Io { file: own.name.to_path_buf(), error });
         }
-        kept.places.insert(scan, head.place(own, end + HEAD as u64));
+        own.end += bytes.len() as u64;
+        let mut kept = self.kept();
+        kept.places.insert(scan, head.place(own.number, end + HEAD as u64));
+        kept.own.push(own);
         Ok(())
+    }
+
+    /// Begins another file of this run, under the first number that is free.
+    fn begin_own(&self) -> Result<Own, DataError> {
+        let folder = self.folder.path();
+        std::fs::create_dir_all(folder).map_err(DataError::io(folder))?;
+        let mut number = self.kept().files.len();
+        let (name, mut file): (Arc<Path>, _) = loop {
+            let name = folder.join(format!("{number}{ENDING}"));
+            // Another writer may take the same number at the same time: one of the two gets it.
+            match File::options().write(true).create_new(true).open(&name) {
+                Err(error) if error.kind() == ErrorKind::AlreadyExists => number += 1,
+                Err(error) => return Err(DataError::Io { file: name, error }),
+                Ok(created) => break (name.into(), created),
+            }
+        };
+        file.write_all(&self.begin).map_err(DataError::io(&*name))?;
+        let to_read = File::open(&*name).map_err(DataError::io(&*name))?;
+        let mut kept = self.kept();
+        kept.files.push((name.clone(), Arc::new(to_read)));
+        Ok(Own { number: kept.files.len() - 1, name, file, end: self.begin.len() as u64 })
     }
 
     /// How many detections a scan that was kept has.
@@ -117,16 +153,18 @@ impl ScanLog {
     }
 
     /// A scan's body and the file that it lies in; `None` where it wasn't kept, or is not as it was written.
-    pub(super) fn read(&self, scan: ScanIndex) -> Option<(PathBuf, Vec<u8>)> {
-        let mut kept = self.kept();
-        let Place { file, offset, bytes, checksum, .. } = *kept.places.get(&scan)?;
-        let (name, file) = kept.files.get_mut(file)?;
-        file.seek(SeekFrom::Start(offset)).ok()?;
-        let mut body = Vec::with_capacity(usize::try_from(bytes).ok()?);
-        file.take(bytes).read_to_end(&mut body).ok()?;
-        let name = name.clone();
-        drop(kept);
-        (body.len() as u64 == bytes && crc32fast::hash(&body) == checksum).then_some((name, body))
+    pub(super) fn read(&self, scan: ScanIndex) -> Option<(Arc<Path>, Vec<u8>)> {
+        let (place, (name, file)) = self.find(scan)?;
+        // No more than the file has: a length that is wrong takes no more memory.
+        let mut body = vec![0; usize::try_from(place.bytes).ok()?];
+        read_at(&file, &mut body, place.offset).ok()?;
+        (crc32fast::hash(&body) == place.checksum).then_some((name, body))
+    }
+
+    fn find(&self, scan: ScanIndex) -> Option<(Place, Named)> {
+        let kept = self.kept();
+        let place = *kept.places.get(&scan)?;
+        Some((place, kept.files.get(place.file)?.clone()))
     }
 
     fn kept(&self) -> MutexGuard<'_, Kept> {
@@ -147,27 +185,7 @@ impl Kept {
                 self.places.insert(scan, head.place(index, offset));
             }
         }
-        self.files.push((name, file));
-    }
-
-    /// Begins the file of this run, under the first number that is free.
-    fn begin_own(&mut self, folder: &OutFolder, begin: &[u8]) -> Result<usize, DataError> {
-        std::fs::create_dir_all(folder.path()).map_err(DataError::io(folder.path()))?;
-        let mut number = self.files.len();
-        loop {
-            let name = folder.path().join(format!("{number}{ENDING}"));
-            // Another process may take the same number at the same time: one of the two gets it.
-            match File::options().read(true).write(true).create_new(true).open(&name) {
-                Err(error) if error.kind() == ErrorKind::AlreadyExists => number += 1,
-                Err(error) => return Err(DataError::Io { file: name, error }),
-                Ok(mut file) => {
-                    file.write_all(begin).map_err(DataError::io(&name))?;
-                    self.files.push((name, file));
-                    self.own = Some(self.files.len() - 1);
-                    return Ok(self.files.len() - 1);
-                }
-            }
-        }
+        self.files.push((name.into(), Arc::new(file)));
     }
 }
 
@@ -203,6 +221,21 @@ impl Head {
         let (radar, scan) = (usize::try_from(self.radar).ok()?, usize::try_from(self.scan).ok()?);
         Some(ScanIndex { radar, scan })
     }
+}
+
+/// Fills the buffer from this offset on, whoever else reads the file.
+#[cfg(unix)]
+fn read_at(file: &File, buffer: &mut [u8], offset: u64) -> std::io::Result<()> {
+    std::os::unix::fs::FileExt::read_exact_at(file, buffer, offset)
+}
+
+#[cfg(not(unix))]
+fn read_at(mut file: &File, buffer: &mut [u8], offset: u64) -> std::io::Result<()> {
+    // They share a place in the file: one at a time.
+    static TURN: Mutex<()> = Mutex::new(());
+    let _turn = TURN.lock().unwrap_or_else(PoisonError::into_inner);
+    file.seek(SeekFrom::Start(offset))?;
+    file.read_exact(buffer)
 }
 
 /// Each radar and scan that a folder's files tell of, for those who know no more than the folder.
@@ -305,6 +338,30 @@ mod tests {
         assert!(other.read(at(0, 7)).is_none(), "of another rig");
         let empty = ScanLog::open(folder.own("empty"), &names()).unwrap();
         assert!(empty.read(at(0, 7)).is_none());
+    }
+
+    #[test]
+    fn writers_have_a_file_each_and_what_they_kept_is_found() {
+        let place = tempfile::tempdir().unwrap();
+        let folder = OutFolder::new(&place.path().join("00"));
+        let log = ScanLog::open(folder.clone(), &names()).unwrap();
+        std::thread::scope(|scope| {
+            for radar in [0, 1] {
+                let log = &log;
+                scope.spawn(move || {
+                    for scan in 0..100 {
+                        log.append(at(radar, scan), scan, &vec![scan as u8; 5000 + radar]).unwrap();
+                    }
+                });
+            }
+        });
+        assert!(logs(folder.path()).unwrap().len() <= 2);
+        for log in [log, ScanLog::open(folder.clone(), &names()).unwrap()] {
+            for (radar, scan) in (0..2).flat_map(|radar| (0..100).map(move |scan| (radar, scan))) {
+                assert_eq!(log.read(at(radar, scan)).unwrap().1, vec![scan as u8; 5000 + radar]);
+                assert_eq!(log.rows(at(radar, scan)), Some(scan));
+            }
+        }
     }
 
     #[test]
