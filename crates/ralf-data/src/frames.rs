@@ -3,10 +3,10 @@
 //!
 //! Labelling and tuning go through it. Scans that follow each other in time are one worker's, whose window reads their
 //! neighbours but once; no more than the windows of all workers are in memory, beside what the work itself returns.
-//! Stretches may be of several sequences, and the last ones are short, so that all workers end at nearly the same time.
+//! Stretches may be of several sequences, and are divided anew as workers end, so that all do at nearly the same time.
 
 use crate::read::SequenceReader;
-use crate::stretches::{Stretch, shared, stretches};
+use crate::stretches::{Stretches, needs};
 use ralf::config::Config;
 use ralf::scene::FrameWindow;
 use ralf::sensors::{Rig, Timelines};
@@ -31,7 +31,7 @@ pub(crate) struct Frames<'a> {
     pub(crate) jobs: usize,
 }
 
-impl Frames<'_> {
+impl<'a> Frames<'a> {
     /// Works on each of these scans with a window from which its frame can be asked; `work` is told the scan's place in
     /// the list. Results are in the list's order. An error ends the work.
     pub(crate) fn each<R: Send, E: Send>(
@@ -43,52 +43,59 @@ impl Frames<'_> {
         Ok(each_of(&[chosen], self.jobs, |window, _, place| work(window, place))?.pop().unwrap_or_default())
     }
 
-    /// Works on what a stretch consists of, with one window, as long as it is wanted.
-    pub(crate) fn one_by_one<T, R, E>(
-        &self,
-        stretch: impl Iterator<Item = T>,
-        wanted: &Wanted,
-        work: impl Fn(&mut FrameWindow, T) -> Result<R, E>,
-    ) -> Result<Vec<R>, E> {
-        let mut window = self.window();
-        stretch.take_while(|_| wanted.still()).map(|scan| work(&mut window, scan)).collect()
-    }
-
-    fn window(&self) -> FrameWindow<'_> {
+    fn window(&self) -> FrameWindow<'a> {
         let window = FrameWindow::new(self.reader, self.rig, self.config);
         if self.evidence { window.with_evidence() } else { window }
     }
 }
 
+/// A worker's window, over the sequence whose scans it works on.
+#[derive(Default)]
+pub(crate) struct OwnWindow<'a>(Option<(usize, FrameWindow<'a>)>);
+
+impl<'a> OwnWindow<'a> {
+    /// Over the sequence of this number, which has such frames.
+    pub(crate) fn over(&mut self, sequence: usize, frames: &Frames<'a>) -> &mut FrameWindow<'a> {
+        let kept = self.0.take().filter(|(known, _)| *known == sequence);
+        &mut self.0.insert(kept.unwrap_or_else(|| (sequence, frames.window()))).1
+    }
+}
+
 /// Scans of one sequence.
-pub(crate) struct Chosen<'a> {
+pub(crate) struct Chosen<'a, 'b> {
     /// What their frames are made of.
-    pub(crate) frames: &'a Frames<'a>,
-    pub(crate) scans: &'a [ScanIndex],
+    pub(crate) frames: &'b Frames<'a>,
+    pub(crate) scans: &'b [ScanIndex],
 }
 
 /// Works on chosen scans of several sequences as [`Frames::each`] does, which may be short: workers take stretches of
 /// all of them. `work` is told the sequence's place and the scan's in its list; results are in the same order.
-pub(crate) fn each_of<R: Send, E: Send>(
-    sequences: &[Chosen],
+pub(crate) fn each_of<'a, R: Send, E: Send>(
+    sequences: &[Chosen<'a, '_>],
     jobs: usize,
     work: impl Fn(&mut FrameWindow, usize, usize) -> Result<R, E> + Sync,
 ) -> Result<Vec<Vec<R>>, E> {
-    let (mut orders, mut all_shared, mut evidence) = (Vec::new(), Vec::new(), false);
+    let (mut orders, mut all_needs, mut evidence) = (Vec::new(), Vec::new(), false);
     for Chosen { frames, scans } in sequences {
         let times = &frames.reader.sequence().times;
         let order = in_time(times, scans);
         let in_turn = order.iter().map(|place| time_of(times, scans[*place]));
-        all_shared.push(shared(times, frames.config, in_turn));
+        all_needs.push(needs(times, frames.config, in_turn));
         orders.push(order);
         evidence |= frames.evidence;
     }
-    let stretches = stretches(&all_shared, evidence, jobs);
-    let worked = side_by_side_while(&stretches, jobs, |Stretch { sequence, scans }, wanted| {
-        let places = orders[*sequence][scans.clone()].iter().copied();
-        let with = |window: &mut FrameWindow, place| Ok((*sequence, place, work(window, *sequence, place)?));
-        sequences[*sequence].frames.one_by_one(places, wanted, with)
-    })?;
+    let stretches = Stretches::new(0, &all_needs, evidence, jobs);
+    let worked = work_off(
+        jobs,
+        OwnWindow::default,
+        |worker| stretches.next(worker),
+        |window, place| {
+            let Some((sequence, scan)) = stretches.scan(place) else { return Ok(None) };
+            let window = window.over(sequence, sequences[sequence].frames);
+            let place = orders[sequence][scan];
+            Ok(Some((sequence, place, work(window, sequence, place)?)))
+        },
+    )?;
     let mut done: Vec<(usize, usize, R)> = worked.into_iter().flatten().collect();
     done.sort_by_key(|(sequence, place, _)| (*sequence, *place));
     let mut results: Vec<Vec<R>> = sequences.iter().map(|_| Vec::new()).collect();
@@ -120,23 +127,6 @@ pub(crate) fn all_scans(times: &Timelines) -> Vec<ScanIndex> {
     scans
 }
 
-/// What one worker did: a result for each item it took, or the item that failed and why.
-type Worked<R, E> = Result<Vec<(usize, R)>, (usize, E)>;
-
-/// Tells whoever works on an item whether that is of use.
-pub(crate) struct Wanted<'a> {
-    place: usize,
-    /// The first item that has failed.
-    failed: &'a AtomicUsize,
-}
-
-impl Wanted<'_> {
-    /// Whether no item before it has failed.
-    pub(crate) fn still(&self) -> bool {
-        self.place < self.failed.load(Ordering::Relaxed)
-    }
-}
-
 /// Works on all items, several at a time. Results are in the items' order. An error ends the work; of several it is
 /// that of the first item, whatever the number of jobs.
 pub(crate) fn side_by_side<T: Sync, R: Send, E: Send>(
@@ -144,38 +134,46 @@ pub(crate) fn side_by_side<T: Sync, R: Send, E: Send>(
     jobs: usize,
     work: impl Fn(&T) -> Result<R, E> + Sync,
 ) -> Result<Vec<R>, E> {
-    side_by_side_while(items, jobs, |item, _| work(item))
+    let next = AtomicUsize::new(0);
+    let take = |_| Some(next.fetch_add(1, Ordering::Relaxed)).filter(|place| *place < items.len());
+    work_off(jobs.min(items.len()), || (), take, |(), place| work(&items[place]))
 }
 
-/// The same, where work on an item may end early once it isn't wanted any more: what it returns then is lost.
-///
-/// Items before one that failed are wanted still, for one of them may fail, too: so the error is the same each time.
-pub(crate) fn side_by_side_while<T: Sync, R: Send, E: Send>(
-    items: &[T],
-    jobs: usize,
-    work: impl Fn(&T, &Wanted) -> Result<R, E> + Sync,
+/// What one worker did: a result for each place it took, or the place that failed and why.
+type Worked<R, E> = Result<Vec<(usize, R)>, (usize, E)>;
+
+/// So many workers, but one at least, take one place of the work after the other, as `next` tells each by its number,
+/// until it tells of none; each begins with a state of its own. Results are in the order of the places. An error ends
+/// the work: of several it is that of the first place, for what comes before a failure is still worked on, if `next`
+/// gives each worker places that ascend as long as he takes none that was another's before.
+pub(crate) fn work_off<S, R: Send, E: Send>(
+    workers: usize,
+    begin: impl Fn() -> S + Sync,
+    next: impl Fn(usize) -> Option<usize> + Sync,
+    work: impl Fn(&mut S, usize) -> Result<R, E> + Sync,
 ) -> Result<Vec<R>, E> {
-    let (next, failed) = (AtomicUsize::new(0), AtomicUsize::new(usize::MAX));
-    let work_off = || {
-        let mut done = Vec::new();
-        loop {
-            let place = next.fetch_add(1, Ordering::Relaxed);
-            let wanted = Wanted { place, failed: &failed };
-            let Some(item) = items.get(place).filter(|_| wanted.still()) else { return Ok(done) };
-            match work(item, &wanted) {
+    let failed = AtomicUsize::new(usize::MAX);
+    let work_off = |worker| {
+        let (mut state, mut done) = (begin(), Vec::new());
+        while let Some(place) = next(worker) {
+            if place > failed.load(Ordering::Relaxed) {
+                continue;
+            }
+            match work(&mut state, place) {
                 Ok(result) => done.push((place, result)),
                 Err(error) => {
-                    // The others find no more items; those before this one are somebody's already.
                     failed.fetch_min(place, Ordering::Relaxed);
                     return Err((place, error));
                 }
             }
         }
+        Ok(done)
     };
+    let work_off = &work_off;
     let results: Vec<Worked<R, E>> = std::thread::scope(|scope| {
         // The thread that asks is one of the workers: memory that it has freed serves it again.
-        let others: Vec<_> = (1..jobs.min(items.len())).map(|_| scope.spawn(work_off)).collect();
-        let own = work_off();
+        let others: Vec<_> = (1..workers).map(|worker| scope.spawn(move || work_off(worker))).collect();
+        let own = work_off(0);
         let joined =
             others.into_iter().map(|w| w.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)));
         std::iter::once(own).chain(joined).collect()
@@ -220,22 +218,16 @@ mod tests {
         assert!(seen.into_inner() < items.len());
     }
 
-    /// The second item fails at once; the first one, which then is still wanted, and the third, which isn't, only when
-    /// it has.
+    /// The second item fails first; the first one, which then is still worked on, afterwards.
     #[test]
     fn of_several_errors_the_first_items_is_told() {
-        let failed = AtomicUsize::new(usize::MAX);
-        let [first, second, third] = [0, 1, 2].map(|place| Wanted { place, failed: &failed });
-        assert!(first.still() && second.still() && third.still());
-        failed.store(1, Ordering::SeqCst);
-        assert!(first.still() && !second.still() && !third.still());
-        let second_failed = AtomicUsize::new(0);
-        let found = side_by_side_while(&[0, 1], 2, |item, wanted| {
-            second_failed.fetch_add(*item, Ordering::SeqCst);
-            while second_failed.load(Ordering::SeqCst) == 0 {
+        let failed = AtomicUsize::new(0);
+        let found = side_by_side(&[0, 1, 2], 2, |item| {
+            failed.fetch_add(*item, Ordering::SeqCst);
+            while failed.load(Ordering::SeqCst) == 0 {
                 std::thread::yield_now();
             }
-            if wanted.still() { Err(*item) } else { Ok(()) }
+            Err::<(), _>(*item)
         });
         assert_eq!(found, Err(0));
     }

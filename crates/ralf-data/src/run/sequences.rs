@@ -1,7 +1,7 @@
 //! Several sequences at once: a worker takes the next stretch of whichever sequence it is of, so that none is idle
-//! while another labels the end of a sequence or puts it together. Checks of sequences stand in the same queue.
+//! while another labels the end of a sequence or puts it together. Checks of sequences come before all stretches.
 //!
-//! Stretches are taken in the order of the sequences, so that no more sequences are under way than there are workers.
+//! Stretches are taken in the order of the sequences, so that hardly more are under way than there are workers.
 
 use super::checks::check_one;
 use super::inputs::Identity;
@@ -11,32 +11,33 @@ use super::workers::{Labelling, timed};
 use super::workspace::Workspace;
 use super::{CheckRecord, Checked, LabelRun, Observer, Part, Stage, Task, assemble};
 use crate::error::DataError;
-use crate::frames::{ScanIndex, Wanted, side_by_side_while};
+use crate::frames::{OwnWindow, ScanIndex, work_off};
 use crate::result::{Input, NotLabelled};
-use crate::stretches::{Stretch, shared, stretches};
+use crate::stretches::{Stretches, needs};
 use std::mem::take;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-/// What one worker does at a time.
-enum Item {
+/// What is done besides labelling scans.
+enum Alone {
     /// Checking the sequence of this number in the recording.
     Check(usize),
-    /// Labelling a stretch.
-    Label(Stretch),
+    /// Putting the sequence of this number, of those that are to be labelled, together, which has no scans.
+    Finish(usize),
 }
 
-/// What came of it.
+/// What came of one place of the work.
 enum Done {
     Checked(CheckRecord),
-    /// That stretch was the last of a sequence.
-    Finished(Finished),
+    /// That scan was the last of the sequence of this number.
+    Finished(usize, Finished),
 }
 
 /// What all workers share.
 struct Queue<'a> {
     run: &'a LabelRun<'a>,
     folder: &'a OutputFolder,
+    alone: Vec<Alone>,
     sequences: Vec<Sequence<'a>>,
     /// Sequences that are not labelled yet.
     left: AtomicUsize,
@@ -53,7 +54,7 @@ struct Sequence<'a> {
 
 /// How far a sequence is.
 struct State<'a> {
-    /// Stretches that are not labelled yet.
+    /// Scans that are not labelled yet.
     left: usize,
     under_way: Option<Arc<UnderWay<'a>>>,
     not_labelled: Vec<NotLabelled>,
@@ -61,7 +62,7 @@ struct State<'a> {
     inputs: Vec<Input>,
 }
 
-/// What a sequence needs from its first stretch to its last.
+/// What a sequence needs from its first scan to its last.
 struct UnderWay<'a> {
     workspace: Workspace<'a>,
     in_time: Vec<ScanIndex>,
@@ -91,31 +92,37 @@ impl LabelRun<'_> {
         told: Option<&Checked<'_>>,
     ) -> Result<(Vec<Finished>, Vec<CheckRecord>), DataError> {
         let config = &self.settings.method;
-        let shared: Vec<_> =
-            sequences.iter().map(|(task, _)| shared(task.times(), config, task.times_of_scans())).collect();
+        let needs: Vec<_> =
+            sequences.iter().map(|(task, _)| needs(task.times(), config, task.times_of_scans())).collect();
         let gathers_evidence = sequences.iter().any(|(task, _)| task.gathers_evidence());
-        let stretches = stretches(&shared, gathers_evidence, self.jobs);
         let name = match sequences.as_slice() {
             [(only, _)] => only.reader.sequence().name.clone(),
             several => format!("{} sequences", several.len()),
         };
-        let queue = Queue::new(self, sequences, &stretches, (folder, observer, told));
-        // A check takes longer than a stretch: begun first, it is over first.
-        let checks = (0..self.recording.sequences.len()).filter(|_| told.is_some()).map(Item::Check);
-        let items: Vec<Item> = checks.chain(stretches.into_iter().map(Item::Label)).collect();
-        if !shared.is_empty() {
-            observer.begin(Stage::Labelling(&name), shared.iter().map(|scans| scans.len() as u64).sum());
+        let queue = Queue::new(self, sequences, (folder, observer, told));
+        let stretches = Stretches::new(queue.alone.len(), &needs, gathers_evidence, self.jobs);
+        if !needs.is_empty() {
+            observer.begin(Stage::Labelling(&name), needs.iter().map(|scans| scans.len() as u64).sum());
         }
-        let done = side_by_side_while(&items, self.jobs, |item, wanted| queue.work_off(item, wanted));
+        let done = work_off(
+            self.jobs,
+            OwnWindow::default,
+            |worker| stretches.next(worker),
+            |own, place| match stretches.scan(place) {
+                Some((sequence, scan)) => queue.label(sequence, scan, own),
+                None => queue.do_alone(&queue.alone[place]),
+            },
+        );
         observer.end();
         let (mut finished, mut checks) = (Vec::new(), Vec::new());
         for done in done?.into_iter().flatten() {
             match done {
                 Done::Checked(check) => checks.push(check),
-                Done::Finished(sequence) => finished.push(sequence),
+                Done::Finished(number, sequence) => finished.push((number, sequence)),
             }
         }
-        Ok((finished, checks))
+        finished.sort_by_key(|(number, _)| *number);
+        Ok((finished.into_iter().map(|(_, sequence)| sequence).collect(), checks))
     }
 }
 
@@ -123,26 +130,29 @@ impl<'a> Queue<'a> {
     fn new(
         run: &'a LabelRun<'a>,
         sequences: Vec<(&'a Task<'a>, Identity)>,
-        stretches: &[Stretch],
         (folder, observer, told): (&'a OutputFolder, &'a dyn Observer, Option<&'a Checked<'a>>),
     ) -> Self {
-        let sequence = |(number, (task, mut identity)): (usize, (&'a Task<'a>, Identity))| {
-            let left = stretches.iter().filter(|stretch| stretch.sequence == number).count();
+        // A check takes longer than a scan: begun first, it is over first.
+        let checks = (0..run.recording.sequences.len()).filter(|_| told.is_some()).map(Alone::Check);
+        let empty = sequences.iter().enumerate().filter(|(_, (task, _))| task.scans() == 0);
+        let alone = checks.chain(empty.map(|(number, _)| Alone::Finish(number))).collect();
+        let sequence = |(task, mut identity): (&'a Task<'a>, Identity)| {
             let inputs = take(&mut identity.inputs);
-            let state = State { left, under_way: None, not_labelled: Vec::new(), inputs };
+            let state = State { left: task.scans(), under_way: None, not_labelled: Vec::new(), inputs };
             Sequence { task, identity, state: Mutex::new(state) }
         };
-        let sequences: Vec<_> = sequences.into_iter().enumerate().map(sequence).collect();
+        let sequences: Vec<_> = sequences.into_iter().map(sequence).collect();
         let left = AtomicUsize::new(sequences.len());
-        Self { run, folder, sequences, left, observer, told }
+        Self { run, folder, alone, sequences, left, observer, told }
     }
 
-    fn work_off(&self, item: &Item, wanted: &Wanted) -> Result<Option<Done>, DataError> {
-        match item {
-            Item::Check(sequence) => self.check(*sequence).map(Done::Checked).map(Some),
-            Item::Label(stretch) => {
-                let finished = self.label(&self.sequences[stretch.sequence], stretch, wanted)?;
-                Ok(finished.map(Done::Finished))
+    fn do_alone(&self, work: &Alone) -> Result<Option<Done>, DataError> {
+        match work {
+            Alone::Check(sequence) => self.check(*sequence).map(Done::Checked).map(Some),
+            Alone::Finish(sequence) => {
+                self.sequences[*sequence].open(self.folder)?;
+                let ended = self.sequences[*sequence].end(None);
+                ended.map(|ended| self.put_together(*sequence, ended)).transpose()
             }
         }
     }
@@ -159,29 +169,29 @@ impl<'a> Queue<'a> {
         Ok(check)
     }
 
-    /// Labels a stretch. With the last one of a sequence the sequence is put together.
-    fn label(
-        &self,
-        sequence: &Sequence<'a>,
-        stretch: &Stretch,
-        wanted: &Wanted,
-    ) -> Result<Option<Finished>, DataError> {
-        let task = sequence.task;
+    /// Labels a scan, by its number in the order of time. With the last one of a sequence the sequence is put together.
+    fn label(&self, number: usize, scan: usize, own: &mut OwnWindow<'a>) -> Result<Option<Done>, DataError> {
+        let sequence = &self.sequences[number];
         let under_way = sequence.open(self.folder)?;
-        let labelling = Labelling { task, config: &self.run.settings.method, observer: self.observer };
-        let scans = &under_way.in_time[stretch.scans.clone()];
-        let failed = labelling.label_stretch(scans, &under_way.workspace, wanted)?;
-        // Another worker has failed at an earlier stretch: some of these scans may not be labelled.
-        if !wanted.still() {
-            return Ok(None);
-        }
+        let labelling =
+            Labelling { task: sequence.task, config: &self.run.settings.method, observer: self.observer };
+        let window = own.over(number, &labelling.frames(1));
+        let failed = labelling
+            .while_wanted(|| labelling.label_next(&under_way.workspace, window, under_way.in_time[scan]))?;
         drop(under_way);
         let Some(ended) = sequence.end(failed) else { return Ok(None) };
-        let is_last = self.left.fetch_sub(1, Ordering::Relaxed) == 1;
-        timed(self.observer, Part::Writing, || self.finish(sequence, ended, is_last)).map(Some)
+        // Nobody needs it any more, and what follows takes memory, too.
+        *own = OwnWindow::default();
+        self.put_together(number, ended).map(Some)
     }
 
-    /// Puts a sequence together that is labelled.
+    /// Puts the sequence of this number together, all of which is labelled.
+    fn put_together(&self, number: usize, ended: Ended) -> Result<Done, DataError> {
+        let is_last = self.left.fetch_sub(1, Ordering::Relaxed) == 1;
+        let finish = || self.finish(&self.sequences[number], ended, is_last);
+        Ok(Done::Finished(number, timed(self.observer, Part::Writing, finish)?))
+    }
+
     fn finish(
         &self,
         Sequence { task, identity, .. }: &Sequence,
@@ -204,7 +214,7 @@ impl<'a> Queue<'a> {
 }
 
 impl<'a> Sequence<'a> {
-    /// What its stretches share; it lives until the last of them is labelled.
+    /// What its scans share; it lives until the last of them is labelled.
     fn open(&self, folder: &'a OutputFolder) -> Result<Arc<UnderWay<'a>>, DataError> {
         let mut state = self.state();
         if let Some(under_way) = &state.under_way {
@@ -216,12 +226,12 @@ impl<'a> Sequence<'a> {
         Ok(under_way)
     }
 
-    /// A stretch is labelled but for these scans. With the last one: all that could not be labelled, and what its
-    /// stretches shared.
-    fn end(&self, not_labelled: Vec<NotLabelled>) -> Option<Ended<'a>> {
+    /// Another scan is labelled, or can't be. With the last one: all that could not be labelled, and what its scans
+    /// shared.
+    fn end(&self, failed: Option<NotLabelled>) -> Option<Ended<'a>> {
         let mut state = self.state();
-        state.left -= 1;
-        state.not_labelled.extend(not_labelled);
+        state.left = state.left.saturating_sub(1);
+        state.not_labelled.extend(failed);
         if state.left > 0 {
             return None;
         }

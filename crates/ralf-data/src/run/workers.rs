@@ -3,7 +3,7 @@
 use super::workspace::Workspace;
 use super::{Observer, Part, Stage, Task};
 use crate::error::DataError;
-use crate::frames::{Frames, ScanIndex, Wanted};
+use crate::frames::{Frames, ScanIndex};
 use crate::result::{NotLabelled, ScanNotes, ScanParts, Table};
 use ralf::config::Config;
 use ralf::evidence;
@@ -19,7 +19,7 @@ pub(super) struct Labelling<'a> {
     pub(super) observer: &'a dyn Observer,
 }
 
-impl Labelling<'_> {
+impl<'a> Labelling<'a> {
     /// Labels these scans of a sequence, as far as an earlier run has not. Returns those that could not be labelled.
     pub(super) fn label_scans(
         &self,
@@ -31,20 +31,6 @@ impl Labelling<'_> {
         let mut failed: Vec<NotLabelled> = failed.into_iter().flatten().collect();
         failed.sort();
         Ok(failed)
-    }
-
-    /// The same for scans that follow each other in time, one by one, as long as it is wanted.
-    pub(super) fn label_stretch(
-        &self,
-        scans: &[ScanIndex],
-        workspace: &Workspace,
-        wanted: &Wanted,
-    ) -> Result<Vec<NotLabelled>, DataError> {
-        let frames = self.frames(1);
-        let failed = frames.one_by_one(scans.iter().copied(), wanted, |window, scan| {
-            self.while_wanted(|| self.label_next(workspace, window, scan))
-        });
-        Ok(failed?.into_iter().flatten().collect())
     }
 
     /// Works on these scans with windows, until somebody wants it to end. Results are in the scans' order.
@@ -61,18 +47,21 @@ impl Labelling<'_> {
         worked
     }
 
-    fn frames(&self, jobs: usize) -> Frames<'_> {
+    pub(super) fn frames(&self, jobs: usize) -> Frames<'a> {
         let Task { reader, rig, .. } = self.task;
         Frames { reader: *reader, rig, config: self.config, evidence: self.task.gathers_evidence(), jobs }
     }
 
     /// Does the work unless somebody wants all of it to end.
-    fn while_wanted<R>(&self, work: impl FnOnce() -> Result<R, DataError>) -> Result<R, DataError> {
+    pub(super) fn while_wanted<R>(
+        &self,
+        work: impl FnOnce() -> Result<R, DataError>,
+    ) -> Result<R, DataError> {
         if self.observer.stopped() { Err(DataError::Stopped) } else { work() }
     }
 
     /// Labels one scan and tells of it. Returns it where it can't be labelled.
-    fn label_next(
+    pub(super) fn label_next(
         &self,
         workspace: &Workspace,
         window: &mut FrameWindow,
