@@ -85,7 +85,7 @@ impl TrainingGatherer<'_> {
         let Self { config, jobs, observer, .. } = *self;
         let frames: Vec<Frames> = tasks
             .iter()
-            .map(|task| Frames { reader: task.reader, rig: &task.rig, config, evidence: true, jobs })
+            .map(|task| Frames { reader: task.reader, rig: &task.rig, config, evidence: true })
             .collect();
         let scans: Vec<Vec<ScanIndex>> = tasks.iter().map(Task::scans).collect();
         let chosen: Vec<Chosen> =

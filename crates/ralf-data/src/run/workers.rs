@@ -3,13 +3,14 @@
 use super::workspace::Workspace;
 use super::{Observer, Part, Stage, Task};
 use crate::error::DataError;
-use crate::frames::{Frames, ScanIndex, Wanted};
+use crate::frames::{Frames, ScanIndex};
 use crate::result::{NotLabelled, ScanNotes, ScanParts, Table};
 use ralf::config::Config;
 use ralf::evidence;
 use ralf::learned::LearnedScan;
 use ralf::paper::Labeler;
 use ralf::scene::{Frame, FrameWindow};
+use ralf_train::Wanted;
 use std::time::Instant;
 
 /// What all workers on a sequence share.
@@ -40,7 +41,7 @@ impl Labelling<'_> {
         workspace: &Workspace,
         wanted: &Wanted,
     ) -> Result<Vec<NotLabelled>, DataError> {
-        let frames = self.frames(1);
+        let frames = self.frames();
         let failed = frames.one_by_one(scans.iter().copied(), wanted, |window, scan| {
             self.while_wanted(|| self.label_next(workspace, window, scan))
         });
@@ -56,14 +57,14 @@ impl Labelling<'_> {
     ) -> Result<Vec<R>, DataError> {
         self.observer.begin(Stage::Labelling(&self.task.reader.sequence().name), scans.len() as u64);
         let worked =
-            self.frames(jobs).each(scans, |window, place| self.while_wanted(|| work(window, scans[place])));
+            self.frames().each(scans, jobs, |window, place| self.while_wanted(|| work(window, scans[place])));
         self.observer.end();
         worked
     }
 
-    fn frames(&self, jobs: usize) -> Frames<'_> {
+    fn frames(&self) -> Frames<'_> {
         let Task { reader, rig, .. } = self.task;
-        Frames { reader: *reader, rig, config: self.config, evidence: self.task.gathers_evidence(), jobs }
+        Frames { reader: *reader, rig, config: self.config, evidence: self.task.gathers_evidence() }
     }
 
     /// Does the work unless somebody wants all of it to end.
