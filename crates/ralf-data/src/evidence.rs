@@ -70,8 +70,8 @@ impl Task<'_> {
             }
         }
         let config = self.gatherer.frame_config();
-        let frames = Frames { reader: self.reader, rig: &self.rig, config, evidence: false, jobs };
-        let matched = frames.each(&there, |window, at| self.match_scan(window, ids[at], there[at]));
+        let frames = Frames { reader: self.reader, rig: &self.rig, config, evidence: false };
+        let matched = frames.each(&there, jobs, |window, at| self.match_scan(window, ids[at], there[at]));
         self.observer.end();
         let mut matched = matched?.into_iter();
         let (mut table, mut left_out) = (self.gatherer.table(), Vec::new());

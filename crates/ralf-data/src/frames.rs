@@ -10,7 +10,9 @@ use crate::stretches::{Stretches, needs};
 use ralf::config::Config;
 use ralf::scene::FrameWindow;
 use ralf::sensors::{Rig, Timelines};
-use std::sync::atomic::{AtomicUsize, Ordering};
+use ralf_train::work_off;
+use std::collections::VecDeque;
+use std::sync::{Mutex, PoisonError};
 
 /// A scan of a radar, by their places in the rig and in the radar's timeline.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -27,8 +29,6 @@ pub(crate) struct Frames<'a> {
     pub(crate) config: &'a Config,
     /// Whether frames carry what evidence looks at.
     pub(crate) evidence: bool,
-    /// Threads.
-    pub(crate) jobs: usize,
 }
 
 impl<'a> Frames<'a> {
@@ -37,10 +37,13 @@ impl<'a> Frames<'a> {
     pub(crate) fn each<R: Send, E: Send>(
         &self,
         scans: &[ScanIndex],
+        jobs: usize,
         work: impl Fn(&mut FrameWindow, usize) -> Result<R, E> + Sync,
     ) -> Result<Vec<R>, E> {
         let chosen = Chosen { frames: self, scans };
-        Ok(each_of(&[chosen], self.jobs, |window, _, place| work(window, place))?.pop().unwrap_or_default())
+        let mut results = Vec::new();
+        each_of(&[chosen], jobs, |window, _, place| work(window, place), |_, of_scans| results = of_scans)?;
+        Ok(results)
     }
 
     fn window(&self) -> FrameWindow<'a> {
@@ -69,12 +72,14 @@ pub(crate) struct Chosen<'a, 'b> {
 }
 
 /// Works on chosen scans of several sequences as [`Frames::each`] does, which may be short: workers take stretches of
-/// all of them. `work` is told the sequence's place and the scan's in its list; results are in the same order.
+/// all of them. `work` is told the sequence's place and the scan's in its list. `hand_on` gets the results of one
+/// sequence after the other, in the same order, each as soon as it and all before it are done; after an error no more.
 pub(crate) fn each_of<'a, R: Send, E: Send>(
     sequences: &[Chosen<'a, '_>],
     jobs: usize,
     work: impl Fn(&mut FrameWindow, usize, usize) -> Result<R, E> + Sync,
-) -> Result<Vec<Vec<R>>, E> {
+    hand_on: impl FnMut(usize, Vec<R>) + Send,
+) -> Result<(), E> {
     let (mut orders, mut all_needs, mut evidence) = (Vec::new(), Vec::new(), false);
     for Chosen { frames, scans } in sequences {
         let times = &frames.reader.sequence().times;
@@ -85,22 +90,57 @@ pub(crate) fn each_of<'a, R: Send, E: Send>(
         evidence |= frames.evidence;
     }
     let stretches = Stretches::new(0, &all_needs, evidence, jobs);
+    let queue = Mutex::new(InTurn::new(orders.iter().map(Vec::len), hand_on));
     let worked = work_off(
         jobs,
         OwnWindow::default,
         |worker| stretches.next(worker),
         |window, place| {
-            let Some((sequence, scan)) = stretches.scan(place) else { return Ok(None) };
+            let Some((sequence, scan)) = stretches.scan(place) else { return Ok(()) };
             let window = window.over(sequence, sequences[sequence].frames);
             let place = orders[sequence][scan];
-            Ok(Some((sequence, place, work(window, sequence, place)?)))
+            let result = work(window, sequence, place)?;
+            // A panic ends all of the work, so that nobody is handed what it left.
+            queue.lock().unwrap_or_else(PoisonError::into_inner).add(sequence, place, result);
+            Ok(())
         },
-    )?;
-    let mut done: Vec<(usize, usize, R)> = worked.into_iter().flatten().collect();
-    done.sort_by_key(|(sequence, place, _)| (*sequence, *place));
-    let mut results: Vec<Vec<R>> = sequences.iter().map(|_| Vec::new()).collect();
-    done.into_iter().for_each(|(sequence, _, result)| results[sequence].push(result));
-    Ok(results)
+    );
+    worked.map(drop)
+}
+
+/// Results of sequences on their way to who asked for them, who gets those of a sequence once he has all before it.
+struct InTurn<R, H> {
+    /// Of the sequences that are not handed on: how many results are missing, and the others with their places.
+    waiting: VecDeque<(usize, Vec<(usize, R)>)>,
+    /// How many sequences are handed on.
+    handed_on: usize,
+    hand_on: H,
+}
+
+impl<R, H: FnMut(usize, Vec<R>)> InTurn<R, H> {
+    /// Sequences of so many results.
+    fn new(counts: impl Iterator<Item = usize>, hand_on: H) -> Self {
+        let waiting = counts.map(|count| (count, Vec::new())).collect();
+        let mut queue = Self { waiting, handed_on: 0, hand_on };
+        queue.hand_on_complete();
+        queue
+    }
+
+    /// Takes one of a sequence's results, and hands on what is complete.
+    fn add(&mut self, sequence: usize, place: usize, result: R) {
+        let (missing, there) = &mut self.waiting[sequence - self.handed_on];
+        *missing -= 1;
+        there.push((place, result));
+        self.hand_on_complete();
+    }
+
+    fn hand_on_complete(&mut self) {
+        while let Some((_, mut results)) = self.waiting.pop_front_if(|(missing, _)| *missing == 0) {
+            results.sort_by_key(|(place, _)| *place);
+            (self.hand_on)(self.handed_on, results.into_iter().map(|(_, result)| result).collect());
+            self.handed_on += 1;
+        }
+    }
 }
 
 /// The places of these scans, in the order of time.
@@ -127,108 +167,21 @@ pub(crate) fn all_scans(times: &Timelines) -> Vec<ScanIndex> {
     scans
 }
 
-/// Works on all items, several at a time. Results are in the items' order. An error ends the work; of several it is
-/// that of the first item, whatever the number of jobs.
-pub(crate) fn side_by_side<T: Sync, R: Send, E: Send>(
-    items: &[T],
-    jobs: usize,
-    work: impl Fn(&T) -> Result<R, E> + Sync,
-) -> Result<Vec<R>, E> {
-    let next = AtomicUsize::new(0);
-    let take = |_| Some(next.fetch_add(1, Ordering::Relaxed)).filter(|place| *place < items.len());
-    work_off(jobs.min(items.len()), || (), take, |(), place| work(&items[place]))
-}
-
-/// What one worker did: a result for each place it took, or the place that failed and why.
-type Worked<R, E> = Result<Vec<(usize, R)>, (usize, E)>;
-
-/// So many workers, but one at least, take one place of the work after the other, as `next` tells each by its number,
-/// until it tells of none; each begins with a state of its own. Results are in the order of the places. An error ends
-/// the work: of several it is that of the first place, for what comes before a failure is still worked on, if `next`
-/// gives each worker places that ascend as long as he takes none that was another's before.
-pub(crate) fn work_off<S, R: Send, E: Send>(
-    workers: usize,
-    begin: impl Fn() -> S + Sync,
-    next: impl Fn(usize) -> Option<usize> + Sync,
-    work: impl Fn(&mut S, usize) -> Result<R, E> + Sync,
-) -> Result<Vec<R>, E> {
-    let failed = AtomicUsize::new(usize::MAX);
-    let work_off = |worker| {
-        let (mut state, mut done) = (begin(), Vec::new());
-        while let Some(place) = next(worker) {
-            if place > failed.load(Ordering::Relaxed) {
-                continue;
-            }
-            match work(&mut state, place) {
-                Ok(result) => done.push((place, result)),
-                Err(error) => {
-                    failed.fetch_min(place, Ordering::Relaxed);
-                    return Err((place, error));
-                }
-            }
-        }
-        Ok(done)
-    };
-    let work_off = &work_off;
-    let results: Vec<Worked<R, E>> = std::thread::scope(|scope| {
-        // The thread that asks is one of the workers: memory that it has freed serves it again.
-        let others: Vec<_> = (1..workers).map(|worker| scope.spawn(move || work_off(worker))).collect();
-        let own = work_off(0);
-        let joined =
-            others.into_iter().map(|w| w.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)));
-        std::iter::once(own).chain(joined).collect()
-    });
-    let (mut done, mut failed) = (Vec::new(), Vec::new());
-    for result in results {
-        match result {
-            Ok(of_worker) => done.extend(of_worker),
-            Err(error) => failed.push(error),
-        }
-    }
-    if let Some((_, error)) = failed.into_iter().min_by_key(|(place, _)| *place) {
-        return Err(error);
-    }
-    done.sort_by_key(|(place, _)| *place);
-    Ok(done.into_iter().map(|(_, result)| result).collect())
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
-    fn results_are_in_the_items_order_whatever_the_number_of_jobs() {
-        let items: Vec<usize> = (0..500).collect();
-        for jobs in [1, 2, 7, 1000] {
-            let found = side_by_side(&items, jobs, |item| Ok::<_, ()>(item * item)).unwrap();
-            assert!(found.into_iter().eq(items.iter().map(|item| item * item)));
+    fn a_sequence_is_handed_on_once_all_before_it_are() {
+        let mut handed_on = Vec::new();
+        let counts = [0, 2, 1, 0].into_iter();
+        let mut queue = InTurn::new(counts, |sequence, results| handed_on.push((sequence, results)));
+        let mut seen = vec![queue.handed_on];
+        for (sequence, place, result) in [(2, 0, "c"), (1, 1, "b"), (1, 0, "a")] {
+            queue.add(sequence, place, result);
+            seen.push(queue.handed_on);
         }
-        assert_eq!(side_by_side(&[] as &[u8], 3, |_| Err::<(), _>("never asked")), Ok(vec![]));
-    }
-
-    #[test]
-    fn an_error_ends_the_work() {
-        let seen = AtomicUsize::new(0);
-        let items: Vec<usize> = (0..10_000).collect();
-        let found = side_by_side(&items, 2, |item| {
-            seen.fetch_add(1, Ordering::Relaxed);
-            if *item == 3 { Err("three") } else { Ok(()) }
-        });
-        assert_eq!(found, Err("three"));
-        assert!(seen.into_inner() < items.len());
-    }
-
-    /// The second item fails first; the first one, which then is still worked on, afterwards.
-    #[test]
-    fn of_several_errors_the_first_items_is_told() {
-        let failed = AtomicUsize::new(0);
-        let found = side_by_side(&[0, 1, 2], 2, |item| {
-            failed.fetch_add(*item, Ordering::SeqCst);
-            while failed.load(Ordering::SeqCst) == 0 {
-                std::thread::yield_now();
-            }
-            Err::<(), _>(*item)
-        });
-        assert_eq!(found, Err(0));
+        assert_eq!(seen, [1, 1, 1, 4]);
+        assert_eq!(handed_on, [(0, vec![]), (1, vec!["a", "b"]), (2, vec!["c"]), (3, vec![])]);
     }
 }

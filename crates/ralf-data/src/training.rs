@@ -47,7 +47,7 @@ impl TrainingGatherer<'_> {
     /// sequence is a world. Scans that can't be read are left out, and told.
     ///
     /// # Errors
-    /// Truth that doesn't fit the recording, or settings that don't.
+    /// Truth that doesn't fit the recording, or settings that don't. The table then holds the sequences before.
     pub fn add(
         &self,
         table: &mut TrainingTable,
@@ -60,44 +60,56 @@ impl TrainingGatherer<'_> {
             tasks.push(Task::new(self, recording, reader.as_ref(), truth)?);
         }
         let mut left_out = Vec::new();
-        for (task, gathered) in tasks.iter().zip(self.gather(recording, &tasks)?) {
-            let first_scan = table.known.last().map_or(0, |known| known.scan + 1);
+        self.gather(recording, &tasks, |task, gathered| {
             let number = table.world(world.unwrap_or(&task.reader.sequence().name));
-            for (scan, gathered) in gathered.into_iter().enumerate() {
-                match gathered {
-                    Ok(parts) => {
-                        for part in parts {
-                            let scan = first_scan + scan as u32;
-                            let known =
-                                part.known.into_iter().map(|known| Known { world: number, scan, ..known });
-                            table.append(&part.rows, known);
-                        }
-                    }
-                    Err(reason) => left_out.push(reason),
-                }
-            }
-        }
+            left_out.extend(append(table, number, gathered));
+        })?;
         Ok(left_out)
     }
 
-    /// What all scans of all sequences tell, sequence by sequence.
-    fn gather(&self, recording: &Recording, tasks: &[Task]) -> Result<Vec<Vec<Gathered>>, DataError> {
+    /// Hands on what all scans of a sequence tell, sequence by sequence: none waits for those after it.
+    fn gather(
+        &self,
+        recording: &Recording,
+        tasks: &[Task],
+        mut hand_on: impl FnMut(&Task, Vec<Gathered>) + Send,
+    ) -> Result<(), DataError> {
         let Self { config, jobs, observer, .. } = *self;
         let frames: Vec<Frames> = tasks
             .iter()
-            .map(|task| Frames { reader: task.reader, rig: &task.rig, config, evidence: true, jobs })
+            .map(|task| Frames { reader: task.reader, rig: &task.rig, config, evidence: true })
             .collect();
         let scans: Vec<Vec<ScanIndex>> = tasks.iter().map(Task::scans).collect();
         let chosen: Vec<Chosen> =
             frames.iter().zip(&scans).map(|(frames, scans)| Chosen { frames, scans }).collect();
         let name = recording.path.file_name().unwrap_or_default().to_string_lossy();
         observer.begin(Stage::Gathering(&name), scans.iter().map(Vec::len).sum::<usize>() as u64);
-        let gathered = each_of(&chosen, jobs, |window, sequence, place| {
-            tasks[sequence].gather_scan(window, scans[sequence][place])
-        });
+        let gathered = each_of(
+            &chosen,
+            jobs,
+            |window, sequence, place| tasks[sequence].gather_scan(window, scans[sequence][place]),
+            |sequence, gathered| hand_on(&tasks[sequence], gathered),
+        );
         observer.end();
         gathered
     }
+}
+
+/// Adds what the scans of a sequence tell to a table, as those of this world. Returns those that tell nothing.
+fn append(table: &mut TrainingTable, world: u16, gathered: Vec<Gathered>) -> Vec<NotLabelled> {
+    let first_scan = table.known.last().map_or(0, |known| known.scan + 1);
+    let mut left_out = Vec::new();
+    for (scan, gathered) in (first_scan..).zip(gathered) {
+        match gathered {
+            Ok(parts) => {
+                for Part { rows, known } in parts {
+                    table.append(&rows, known.into_iter().map(|known| Known { world, scan, ..known }));
+                }
+            }
+            Err(reason) => left_out.push(reason),
+        }
+    }
+    left_out
 }
 
 /// What a scan tells, or why it tells nothing.

@@ -5,7 +5,7 @@ use ralf_data::DataError;
 use ralf_data::result::{ClassSource, PlausibilityReader, Table};
 use std::collections::BTreeMap;
 
-/// Plausible detections by class; of sequences whose images have segmentations.
+/// Plausible detections by class; of sequences in which a sensor tells classes.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub(crate) struct Classes {
     /// By SemanticKITTI id: how many each of [`ClassSource::ALL`] tells.
@@ -20,6 +20,14 @@ impl Classes {
         self.counts.values().flatten().sum::<u64>() + self.without
     }
 
+    fn merge(&mut self, other: Self) {
+        for (class, counts) in other.counts {
+            let mine = self.counts.entry(class).or_default();
+            mine.iter_mut().zip(counts).for_each(|(mine, count)| *mine += count);
+        }
+        self.without += other.without;
+    }
+
     fn add(&mut self, table: &Table) -> Result<(), DataError> {
         let labels = table.get::<u8>("label")?.iter().zip(table.labels()?);
         for ((plausible, label), source) in labels.zip(table.class_sources()?) {
@@ -32,12 +40,16 @@ impl Classes {
     }
 }
 
-/// Adds the classes of a sequence, where it says what tells them.
+/// Adds the classes of a sequence: one whose images have segmentations, or whose LiDARs told some. Results of the
+/// latter have no column that says so.
 pub(crate) fn add(classes: &mut Option<Classes>, tables: &PlausibilityReader) -> Result<(), ReportError> {
     const COLUMNS: [&str; 3] = ["label", "semantic", "class_from"];
-    if tables.schema().only(&COLUMNS).is_err() {
-        return Ok(());
+    let cameras_asked = tables.schema().only(&COLUMNS).is_ok();
+    let columns = if cameras_asked { &COLUMNS[..] } else { &COLUMNS[..2] };
+    let mut found = Classes::default();
+    tables.each(columns, |_, table| Ok::<_, ReportError>(found.add(table)?))?;
+    if cameras_asked || !found.counts.is_empty() {
+        classes.get_or_insert_default().merge(found);
     }
-    let classes = classes.get_or_insert_default();
-    tables.each(&COLUMNS, |_, table| Ok(classes.add(table)?))
+    Ok(())
 }

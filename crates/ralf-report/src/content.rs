@@ -31,7 +31,7 @@ pub(crate) struct Content {
     pub(crate) evidence: Vec<Observed>,
     /// What a model tells in words, where one was asked.
     pub(crate) told: Vec<Told>,
-    /// Of sequences whose images have segmentations.
+    /// Of sequences in which a sensor tells classes.
     pub(crate) classes: Option<Classes>,
     /// Labels against truth, where there is some.
     pub(crate) comparison: Option<Comparison>,

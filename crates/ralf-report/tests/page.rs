@@ -127,6 +127,31 @@ fn classes_are_counted_by_what_tells_them_where_images_have_segmentations() {
     assert!(page.contains(&last), "{last}");
 }
 
+/// So it is with every result of a recording without segmentations, and with those of older programs.
+#[test]
+fn classes_of_the_lidar_are_counted_where_nothing_says_what_tells_them() {
+    let sequence = ralf_sim::presets::find("tiny").unwrap().sequences[0].simulate(4, 1).unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    let [dataset, out] = ["town", "out"].map(|name| folder.path().join(name));
+    ralf_data::write_sequence(&sequence, &dataset, &|_| ()).unwrap();
+    let lidar = dataset.join("sequences/tiny/lidar_top");
+    let points = fs::metadata(lidar.join("000000.bin")).unwrap().len() as usize / 16;
+    fs::write(lidar.join("000000.label"), 50_u32.to_le_bytes().repeat(points)).unwrap();
+    let page = page(&dataset, &out, 0);
+    let recording = ralf_data::open(&dataset, None).unwrap();
+    let run = LabelledRun::open(&out).unwrap().sequence(recording.sequences[0].as_ref()).unwrap();
+    assert!(run.tables.schema().only(&["class_from"]).is_err());
+    let mut buildings = 0;
+    let count = run.tables.each(&["label", "semantic"], |_, table| {
+        let classes = table.get::<Option<u16>>("semantic")?.iter().zip(table.get::<u8>("label")?);
+        buildings += classes.filter(|(class, label)| **class == Some(50) && **label == 1).count();
+        Ok::<_, DataError>(())
+    });
+    count.unwrap();
+    assert!(buildings > 0);
+    assert!(page.contains(&format!("building</th><td>{buildings}</td><td>0</td><td>{buildings}</td>")));
+}
+
 #[test]
 fn the_page_tells_what_evaluate_prints() {
     let tiny = Tiny::new();

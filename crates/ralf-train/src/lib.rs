@@ -18,6 +18,7 @@ mod objective;
 mod observed;
 mod search;
 mod settings;
+mod side_by_side;
 mod table;
 mod threshold;
 
@@ -29,6 +30,7 @@ pub use objective::{Objective, ObjectiveError};
 pub use observed::{Observed, Weights};
 pub use search::{Found, Search};
 pub use settings::{Branches, Space, TunedSettings};
+pub use side_by_side::{side_by_side, work_off};
 pub use table::EvidenceTable;
 
 use thiserror::Error;

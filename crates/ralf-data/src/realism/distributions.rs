@@ -2,9 +2,10 @@
 
 use super::values::Values;
 use super::{Quantity, lidar, radar};
-use crate::frames::{Frames, ScanIndex, side_by_side};
+use crate::frames::{Frames, ScanIndex};
 use crate::read::SequenceReader;
 use ralf::config::Config;
+use ralf_train::side_by_side;
 use std::convert::Infallible;
 
 /// Radar scans that are looked at, of a recording.
@@ -102,8 +103,8 @@ fn look_at_radars(
     jobs: usize,
 ) -> Vec<Looked> {
     let rig = &reader.sequence().rig;
-    let frames = Frames { reader, rig, config, evidence: false, jobs };
-    let Ok(looked) = frames.each(scans, |window, place| {
+    let frames = Frames { reader, rig, config, evidence: false };
+    let Ok(looked) = frames.each(scans, jobs, |window, place| {
         let half = half_of(&reader.sequence().times.radars, scans[place]);
         let frame = window.frame(scans[place].radar, scans[place].scan);
         let values = frame.map(|frame| radar::values(&frame)).map_err(|error| error.to_string());

@@ -4,12 +4,13 @@
 use super::workspace::Workspace;
 use super::{Observer, Stage, Task};
 use crate::error::DataError;
-use crate::frames::{ScanIndex, all_scans, side_by_side};
+use crate::frames::{ScanIndex, all_scans};
 use crate::result::{
     CameraRecord, EncodedGroup, FileRecord, GROUP_ROWS, ImageRecord, Layout, NotLabelled, PlausibilityWriter,
     RadarRecord, RadarScanKey, RowGroup, SequenceRecord, UnlikeSisters, UnreadableScan, written,
 };
 use ralf::sensors::Camera;
+use ralf_train::side_by_side;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 use std::sync::{Mutex, PoisonError};

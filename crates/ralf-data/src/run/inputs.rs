@@ -2,9 +2,9 @@
 
 use super::{Observer, Stage, fingerprint};
 use crate::error::DataError;
-use crate::frames::side_by_side;
 use crate::read::{Recording, SequenceReader};
 use crate::result::{Input, changed_ns, hash_file};
+use ralf_train::side_by_side;
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 

@@ -11,9 +11,10 @@ use super::workers::{Labelling, timed};
 use super::workspace::Workspace;
 use super::{CheckRecord, Checked, LabelRun, Observer, Part, Stage, Task, assemble};
 use crate::error::DataError;
-use crate::frames::{OwnWindow, ScanIndex, work_off};
+use crate::frames::{OwnWindow, ScanIndex};
 use crate::result::{Input, NotLabelled};
 use crate::stretches::{Stretches, needs};
+use ralf_train::work_off;
 use std::mem::take;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -175,7 +176,7 @@ impl<'a> Queue<'a> {
         let under_way = sequence.open(self.folder)?;
         let labelling =
             Labelling { task: sequence.task, config: &self.run.settings.method, observer: self.observer };
-        let window = own.over(number, &labelling.frames(1));
+        let window = own.over(number, &labelling.frames());
         let failed = labelling
             .while_wanted(|| labelling.label_next(&under_way.workspace, window, under_way.in_time[scan]))?;
         drop(under_way);

@@ -42,14 +42,14 @@ impl<'a> Labelling<'a> {
     ) -> Result<Vec<R>, DataError> {
         self.observer.begin(Stage::Labelling(&self.task.reader.sequence().name), scans.len() as u64);
         let worked =
-            self.frames(jobs).each(scans, |window, place| self.while_wanted(|| work(window, scans[place])));
+            self.frames().each(scans, jobs, |window, place| self.while_wanted(|| work(window, scans[place])));
         self.observer.end();
         worked
     }
 
-    pub(super) fn frames(&self, jobs: usize) -> Frames<'a> {
+    pub(super) fn frames(&self) -> Frames<'a> {
         let Task { reader, rig, .. } = self.task;
-        Frames { reader: *reader, rig, config: self.config, evidence: self.task.gathers_evidence(), jobs }
+        Frames { reader: *reader, rig, config: self.config, evidence: self.task.gathers_evidence() }
     }
 
     /// Does the work unless somebody wants all of it to end.

@@ -61,8 +61,8 @@ impl Observed {
         let all = things.scans().iter().filter(|(radar, scan)| !things.rows_of(*radar, *scan).is_empty());
         let counts = (scans.len(), all.count());
         let of: Vec<usize> = scans.iter().flat_map(|at| things.rows_of(at.radar, at.scan)).collect();
-        let frames = Frames { reader, rig, config, evidence: true, jobs };
-        let gathered = frames.each(&scans, |window, at| {
+        let frames = Frames { reader, rig, config, evidence: true };
+        let gathered = frames.each(&scans, jobs, |window, at| {
             let ScanIndex { radar, scan } = scans[at];
             Ok::<_, Infallible>(observed(window, (radar, scan), things.rows_of(radar, scan).len(), config))
         });

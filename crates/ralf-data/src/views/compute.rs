@@ -3,10 +3,10 @@
 use super::folder::ViewFolder;
 use super::stored_view::StoredView;
 use crate::error::DataError;
-use crate::frames::side_by_side;
 use crate::read::SequenceReader;
 use crate::result::SequenceNames;
 use ralf::sensors::{Camera, CameraImage, StraightView, UndistortMap};
+use ralf_train::side_by_side;
 use std::sync::OnceLock;
 
 /// A network: what it says of a view with a focal length, px; or why it says nothing.

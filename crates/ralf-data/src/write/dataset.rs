@@ -3,13 +3,13 @@
 use crate::disk::label_file::write_labels;
 use crate::disk::{class_images, files, images, npy};
 use crate::error::DataError;
-use crate::frames::side_by_side;
 use crate::read::SequenceReader;
 use crate::read::layout::raw::{DepthToml, SequenceToml};
 use crate::read::layout::{GROUND_TRUTH, SEQUENCES, rig, tables};
 use crate::read::recording::check_motion_corrected;
 use crate::result::{Component, OutFolder, SequenceNames, WriterLock, checked, refuse_links_out};
 use ralf::sensors::{Sequence, SourceError, Timelines};
+use ralf_train::side_by_side;
 use std::fs;
 use std::path::Path;
 use std::sync::{Mutex, PoisonError};

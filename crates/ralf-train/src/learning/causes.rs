@@ -2,10 +2,11 @@
 
 use super::boosting::{Bins, Examples, Parameters, boost};
 use super::fitting::Fitting;
-use super::side_by_side::side_by_side;
 use super::table::TrainingTable;
+use crate::side_by_side;
 use ralf::label::Cause;
 use ralf::learned::{CauseForest, Rows};
+use std::convert::Infallible;
 
 /// Rows of a cause from which it can be learned.
 const FEWEST: usize = 100;
@@ -32,9 +33,11 @@ pub(super) fn cause_forests(
         leaves: fitting.parameters.leaves.div_ceil(2).max(2),
         ..fitting.parameters.clone()
     };
-    side_by_side(&causes, fitting.jobs, |cause| {
+    let Ok(forests) = side_by_side(&causes, fitting.jobs, |cause| {
         let target: Vec<bool> = table.known.iter().map(|known| known.cause == *cause as u8).collect();
         let examples = Examples { rows, bins, target: &target, weights: &weights, monotone: &either_way };
-        CauseForest { name: cause.name().to_owned(), forest: boost(&examples, &train, &parameters).forest }
-    })
+        let forest = boost(&examples, &train, &parameters).forest;
+        Ok::<_, Infallible>(CauseForest { name: cause.name().to_owned(), forest })
+    });
+    forests
 }

@@ -8,11 +8,12 @@ use super::causes::cause_forests;
 use super::fitting::Fitting;
 use super::monotone::direction;
 use super::scores::{Judged, Scores, best_threshold};
-use super::side_by_side::side_by_side;
 use super::suite::{SUITES, SuiteScores, suites_of};
 use super::table::{Known, TrainingTable};
 use super::view::View;
+use crate::side_by_side;
 use ralf::learned::{Calibration, Input, Model, Origin, Rows, Seen, Unconfirmed, World};
+use std::convert::Infallible;
 use thiserror::Error;
 
 /// A model with what it is worth.
@@ -89,10 +90,10 @@ pub fn fit(
     // One forest without each world, and the last with all.
     let left_out: Vec<Option<u16>> = (0..worlds).map(|world| Some(world as u16)).chain([None]).collect();
     let done = std::sync::atomic::AtomicUsize::new(0);
-    let mut grown = side_by_side(&left_out, fitting.jobs, |left_out| {
+    let Ok(mut grown) = side_by_side(&left_out, fitting.jobs, |left_out| {
         let grown = ground.grow(*left_out, &fitting.parameters);
         progress(done.fetch_add(1, std::sync::atomic::Ordering::Relaxed) + 1, worlds + 1);
-        grown
+        Ok::<_, Infallible>(grown)
     });
     let Some(whole) = grown.pop() else { return Err(LearnError::TooFewWorlds(0)) };
     let log_odds = out_of_fold(table, &grown);

@@ -22,7 +22,6 @@ mod monotone;
 mod opinion;
 mod random;
 mod scores;
-mod side_by_side;
 mod suite;
 mod table;
 #[cfg(test)]

@@ -1,8 +1,9 @@
 //! A second opinion on the labels of a sequence, once a person has said what some of them should be.
 
 use super::boosting::{Bins, Examples, Parameters, boost};
-use super::side_by_side::side_by_side;
+use crate::side_by_side;
 use ralf::learned::{Rows, probability};
+use std::convert::Infallible;
 
 /// What is believed of a detection before it is thought over.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -43,7 +44,7 @@ pub fn second_opinion(rows: &Rows, monotone: &[i8], believed: &[Believed], jobs:
     let weights: Vec<f32> = believed.iter().map(weight).collect();
     let examples = Examples { rows, bins: &bins, target: &target, weights: &weights, monotone };
     let groups: Vec<u32> = (0..GROUPS).collect();
-    let opinions = side_by_side(&groups, jobs, |group| {
+    let Ok(opinions) = side_by_side(&groups, jobs, |group| {
         let (mut train, mut asked) = (Vec::new(), Vec::new());
         for (row, one) in believed.iter().enumerate() {
             let is_asked = one.thing % GROUPS == *group;
@@ -56,7 +57,7 @@ pub fn second_opinion(rows: &Rows, monotone: &[i8], believed: &[Believed], jobs:
         }
         let forest = boost(&examples, &train, &PARAMETERS).forest;
         let answers = forest.log_odds(&rows.pick(asked.iter().copied()));
-        asked.into_iter().zip(answers).collect::<Vec<(usize, f64)>>()
+        Ok::<_, Infallible>(asked.into_iter().zip(answers).collect::<Vec<(usize, f64)>>())
     });
     let mut probabilities = vec![0.0; believed.len()];
     for (row, log_odds) in opinions.into_iter().flatten() {

@@ -9,7 +9,6 @@
 mod block;
 mod bundle;
 mod calibration;
-mod decimal;
 mod familiar;
 mod forest;
 mod labeler;

@@ -1,8 +1,8 @@
 //! Why a model says what it says, in words.
 
-use super::decimal;
 use super::familiar::Seen;
 use crate::evidence::{Feature, GROUPS};
+use std::fmt::Write;
 
 /// Groups that a reason names.
 const MOST: usize = 3;
@@ -40,15 +40,11 @@ impl Telling {
         let mut words = String::with_capacity(ROOM);
         for group in order.into_iter().take(MOST) {
             words.push_str(if words.is_empty() { "" } else { "; " });
-            words.push_str(GROUPS[group]);
-            words.push_str(if shares[group].is_sign_negative() { " " } else { " +" });
-            decimal::push(&mut words, shares[group], 2);
+            // Writing to a text never fails.
+            _ = write!(words, "{} {:+.2}", GROUPS[group], shares[group]);
             if let Some(place) = self.most_telling(group, row) {
-                words.push_str(" (");
-                words.push_str(self.inputs[place].name);
-                words.push(' ');
-                push_short(&mut words, row[place]);
-                words.push(')');
+                let value = row[place];
+                _ = write!(words, " ({} {value:.*})", self.inputs[place].name, digits(value));
             }
         }
         words
@@ -60,14 +56,13 @@ impl Telling {
     }
 }
 
-/// Adds a value with three digits or so.
-fn push_short(words: &mut String, value: f32) {
-    let digits = match value.abs() {
+/// Digits behind the point, so that a value has three or so.
+fn digits(value: f32) -> usize {
+    match value.abs() {
         size if size >= 100.0 => 0,
         size if size >= 10.0 => 1,
         _ => 2,
-    };
-    decimal::push(words, value.into(), digits);
+    }
 }
 
 #[cfg(test)]

@@ -3,6 +3,8 @@
 use super::{BRANCHES, export, found, labelled, list, small};
 use crate::support::{Dataset, Shape, ralf, read_export, rows, tree};
 use serde_json::{Value, json};
+use std::fs;
+use std::path::Path;
 
 /// Rows as read hold what was found, in its order.
 #[track_caller]
@@ -92,6 +94,37 @@ fn what_a_model_says_is_exported_in_its_words() {
         }
         assert_eq!(row["reason"].as_str(), said.text("reason"));
         assert!(array.get("reason").is_none() && array["reason_doppler"].is_number(), "{array}");
+    }
+}
+
+#[test]
+fn which_sensor_told_a_class_is_exported() {
+    let mut dataset = Dataset::of(&Shape { scans: 1, ..Shape::default() });
+    dataset.path = dataset.beside("simulated");
+    let made = ["simulate", "-o", &dataset.path, "--preset", "tiny", "--scans", "2", "--segmentation"];
+    ralf(made).exits(0);
+    // Of the LiDAR's scans one tells classes, so that cameras are asked in the other alone.
+    let scan = Path::new(&dataset.path).join("sequences/tiny/lidar_top/000000.bin");
+    let points = fs::metadata(&scan).unwrap().len() as usize / 16;
+    fs::write(scan.with_extension("label"), 50_u32.to_le_bytes().repeat(points)).unwrap();
+    ralf(["label", &dataset.path, "-o", &dataset.out]).exits(0);
+    let said = rows(Path::new(&dataset.out).join("sequences/tiny/plausibility.parquet"));
+    for source in [Some("lidar"), Some("camera"), Some("")] {
+        assert!(said.iter().any(|row| row.text("class_from") == source), "{source:?}");
+    }
+    let tables = export(&dataset, "parquet", "tables", &[]);
+    for of_radar in said.chunk_by(|one, next| one.radar() == next.radar()) {
+        let radar = of_radar[0].radar();
+        let exported = rows(format!("{tables}/sequence=tiny/{radar}.parquet"));
+        let [told, exported] =
+            [of_radar, &exported].map(|rows| rows.iter().map(|row| row.text("class_from")));
+        assert!(exported.eq(told), "{radar}");
+    }
+    let Some(arrays) = read_export("npz", &export(&dataset, "npz", "arrays", &[])) else { return };
+    for radar in ["radar_front", "radar_rear"] {
+        let told = said.iter().filter(|row| row.radar() == radar).map(|row| row.text("class_from"));
+        let arrays = list(&arrays).iter().filter(|row| row["radar"] == radar);
+        assert!(arrays.map(|row| row["class_from"].as_str()).eq(told), "{radar}");
     }
 }
 

@@ -1,9 +1,9 @@
 //! Which scans can't be read, found by reading each once.
 
 use crate::read::SequenceReader;
+use ralf_train::side_by_side;
 use serde::Serialize;
-use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::{Mutex, PoisonError};
+use std::convert::Infallible;
 
 /// A scan that can't be read.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Serialize)]
@@ -28,22 +28,12 @@ pub(super) fn unreadable_scans(
     jobs: usize,
     progress: &(dyn Fn() + Sync),
 ) -> Vec<Unreadable> {
-    let scans = all_scans(reader);
-    let next = AtomicUsize::new(0);
-    let found = Mutex::new(Vec::new());
-    std::thread::scope(|scope| {
-        for _ in 0..jobs.max(1) {
-            scope.spawn(|| {
-                while let Some(scan) = scans.get(next.fetch_add(1, Ordering::Relaxed)) {
-                    if let Some(unreadable) = read(reader, scan) {
-                        found.lock().unwrap_or_else(PoisonError::into_inner).push(unreadable);
-                    }
-                    progress();
-                }
-            });
-        }
+    let Ok(told) = side_by_side(&all_scans(reader), jobs, |scan| {
+        let unreadable = read(reader, scan);
+        progress();
+        Ok::<_, Infallible>(unreadable)
     });
-    let mut found = found.into_inner().unwrap_or_else(PoisonError::into_inner);
+    let mut found: Vec<Unreadable> = told.into_iter().flatten().collect();
     found.sort();
     found
 }

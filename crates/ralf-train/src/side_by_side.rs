@@ -1,0 +1,113 @@
+//! Work on several items at a time.
+
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+/// Works on all items, several at a time. Results are in the items' order.
+///
+/// # Errors
+/// An error ends the work; of several it is that of the first item, whatever the number of jobs.
+pub fn side_by_side<T: Sync, R: Send, E: Send>(
+    items: &[T],
+    jobs: usize,
+    work: impl Fn(&T) -> Result<R, E> + Sync,
+) -> Result<Vec<R>, E> {
+    let next = AtomicUsize::new(0);
+    let take = |_| Some(next.fetch_add(1, Ordering::Relaxed)).filter(|place| *place < items.len());
+    work_off(jobs.min(items.len()), || (), take, |(), place| work(&items[place]))
+}
+
+/// What one worker did: a result for each place it took, or the place that failed and why.
+type Worked<R, E> = Result<Vec<(usize, R)>, (usize, E)>;
+
+/// So many workers, but one at least, take one place of the work after the other, as `next` tells each by its number,
+/// until it tells of none; each begins with a state of its own. Results are in the order of the places.
+///
+/// # Errors
+/// An error ends the work: of several it is that of the first place, for what comes before a failure is still worked
+/// on, if `next` gives each worker places that ascend as long as he takes none that was another's before.
+pub fn work_off<S, R: Send, E: Send>(
+    workers: usize,
+    begin: impl Fn() -> S + Sync,
+    next: impl Fn(usize) -> Option<usize> + Sync,
+    work: impl Fn(&mut S, usize) -> Result<R, E> + Sync,
+) -> Result<Vec<R>, E> {
+    let failed = AtomicUsize::new(usize::MAX);
+    let work_off = |worker| {
+        let (mut state, mut done) = (begin(), Vec::new());
+        while let Some(place) = next(worker) {
+            if place > failed.load(Ordering::Relaxed) {
+                continue;
+            }
+            match work(&mut state, place) {
+                Ok(result) => done.push((place, result)),
+                Err(error) => {
+                    failed.fetch_min(place, Ordering::Relaxed);
+                    return Err((place, error));
+                }
+            }
+        }
+        Ok(done)
+    };
+    let work_off = &work_off;
+    let results: Vec<Worked<R, E>> = std::thread::scope(|scope| {
+        // The thread that asks is one of the workers: memory that it has freed serves it again.
+        let others: Vec<_> = (1..workers).map(|worker| scope.spawn(move || work_off(worker))).collect();
+        let own = work_off(0);
+        let joined =
+            others.into_iter().map(|w| w.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)));
+        std::iter::once(own).chain(joined).collect()
+    });
+    let (mut done, mut failed) = (Vec::new(), Vec::new());
+    for result in results {
+        match result {
+            Ok(of_worker) => done.extend(of_worker),
+            Err(error) => failed.push(error),
+        }
+    }
+    if let Some((_, error)) = failed.into_iter().min_by_key(|(place, _)| *place) {
+        return Err(error);
+    }
+    done.sort_by_key(|(place, _)| *place);
+    Ok(done.into_iter().map(|(_, result)| result).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn results_are_in_the_items_order_whatever_the_number_of_jobs() {
+        let items: Vec<usize> = (0..500).collect();
+        for jobs in [1, 2, 7, 1000] {
+            let found = side_by_side(&items, jobs, |item| Ok::<_, ()>(item * item)).unwrap();
+            assert!(found.into_iter().eq(items.iter().map(|item| item * item)));
+        }
+        assert_eq!(side_by_side(&[] as &[u8], 3, |_| Err::<(), _>("never asked")), Ok(vec![]));
+    }
+
+    #[test]
+    fn an_error_ends_the_work() {
+        let seen = AtomicUsize::new(0);
+        let items: Vec<usize> = (0..10_000).collect();
+        let found = side_by_side(&items, 2, |item| {
+            seen.fetch_add(1, Ordering::Relaxed);
+            if *item == 3 { Err("three") } else { Ok(()) }
+        });
+        assert_eq!(found, Err("three"));
+        assert!(seen.into_inner() < items.len());
+    }
+
+    /// The second item fails first; the first one, which then is still worked on, afterwards.
+    #[test]
+    fn of_several_errors_the_first_items_is_told() {
+        let failed = AtomicUsize::new(0);
+        let found = side_by_side(&[0, 1, 2], 2, |item| {
+            failed.fetch_add(*item, Ordering::SeqCst);
+            while failed.load(Ordering::SeqCst) == 0 {
+                std::thread::yield_now();
+            }
+            Err::<(), _>(*item)
+        });
+        assert_eq!(found, Err(0));
+    }
+}
