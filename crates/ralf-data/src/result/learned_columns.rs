@@ -65,7 +65,9 @@ fn share_name(group: &str) -> String {
 
 /// A column's number of each detection; `None` of a column that is no number of a model's.
 pub(crate) fn numbers(name: &str, answers: &[Answer]) -> Option<Vec<f32>> {
-    let group = GROUPS.iter().position(|group| share_name(group) == name);
+    // This is asked of every column of every scan: names are made only where one of them can be meant.
+    let is_share = name.starts_with(SHARE);
+    let group = GROUPS.iter().position(|group| is_share && share_name(group) == name);
     if group.is_none() && name != NOVELTY && name != CAUSE_PROBABILITY {
         return None;
     }
