@@ -46,6 +46,11 @@ enum Step {
 }
 
 #[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  ralf cluster plan drives/* -o out                        prints how many tasks there are
+  ralf cluster plan drives/* -o out --scans 500            smaller tasks
+  ralf cluster plan drives/* -o out --method learned --set fusion.threshold=0.5")]
 struct PlanArgs {
     /// The recordings
     #[arg(required = true, value_name = "DATASET")]
@@ -81,6 +86,11 @@ struct PlanArgs {
 }
 
 #[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  ralf cluster label out --task 17
+  ralf cluster label out --task $SLURM_ARRAY_TASK_ID --jobs 4
+  seq 0 $((n - 1)) | parallel ralf cluster label out --task")]
 struct TaskArgs {
     /// The folder that was planned
     out: PathBuf,
@@ -93,6 +103,12 @@ struct TaskArgs {
 }
 
 #[derive(Debug, Args)]
+#[command(after_help = "\
+What no task has labelled is labelled now. Exit code 3 where some scans can't be.
+
+Examples:
+  ralf cluster assemble out
+  ralf cluster assemble out --jobs 8 -q")]
 struct AssembleArgs {
     /// The folder that was planned
     out: PathBuf,

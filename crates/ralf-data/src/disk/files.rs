@@ -53,7 +53,7 @@ pub(crate) fn read_text(file: &Path, kind: Kind) -> Result<String, DataError> {
 /// A file of packed little-endian float32 rows, as one vector per column; there is at least one.
 pub(crate) fn read_f32_columns(file: &Path, columns: usize) -> Result<Vec<Vec<f32>>, DataError> {
     let bytes = read(file)?;
-    check_rows(file, bytes.len(), columns)?;
+    check_f32_rows(file, bytes.len(), columns)?;
     let values = bytes.as_chunks::<4>().0;
     let column = |first| values.iter().skip(first).step_by(columns).map(|b| f32::from_le_bytes(*b)).collect();
     Ok((0..columns).map(column).collect())
@@ -64,7 +64,7 @@ pub(crate) fn f32_rows<'a, const N: usize>(
     file: &Path,
     bytes: &'a [u8],
 ) -> Result<impl ExactSizeIterator<Item = [f32; N]> + Clone + use<'a, N>, DataError> {
-    check_rows(file, bytes.len(), N)?;
+    check_f32_rows(file, bytes.len(), N)?;
     let rows = bytes.as_chunks::<4>().0.as_chunks::<N>().0;
     Ok(rows.iter().map(|row| row.map(f32::from_le_bytes)))
 }
@@ -74,17 +74,22 @@ pub(crate) fn f32_bytes(values: impl Iterator<Item = f32>) -> Vec<u8> {
     values.flat_map(f32::to_le_bytes).collect()
 }
 
-fn check_rows(file: &Path, size: usize, columns: usize) -> Result<(), DataError> {
-    let row_bytes = columns * size_of::<f32>();
+fn check_f32_rows(file: &Path, size: usize, columns: usize) -> Result<(), DataError> {
+    check_rows(file, size, columns * size_of::<f32>(), &format!("rows of {columns} float32"))
+}
+
+/// Refuses a file that ends within a row, or whatever it consists of.
+pub(crate) fn check_rows(file: &Path, size: usize, row_bytes: usize, rows: &str) -> Result<(), DataError> {
     let left_over = size % row_bytes;
     if left_over == 0 {
         return Ok(());
     }
+    let bytes = if left_over == 1 { "byte" } else { "bytes" };
     Err(DataError::content(
         file,
         format!("byte {}", size - left_over),
-        format!("rows of {columns} float32 ({row_bytes} bytes)"),
-        format!("{left_over} bytes left over at the end"),
+        format!("{rows} ({row_bytes} bytes)"),
+        format!("{left_over} {bytes} left over at the end"),
     ))
 }
 

@@ -41,16 +41,8 @@ pub fn read_labels(file: &Path) -> Result<Vec<Label>, DataError> {
 
 /// The labels that a file's content holds.
 pub(crate) fn labels_of_bytes(file: &Path, bytes: &[u8]) -> Result<Vec<Label>, DataError> {
-    let (values, rest) = bytes.as_chunks::<BYTES>();
-    if rest.is_empty() {
-        return Ok(values.iter().copied().map(Label::from_bytes).collect());
-    }
-    Err(DataError::content(
-        file,
-        format!("byte {}", bytes.len() - rest.len()),
-        format!("values of uint32 ({BYTES} bytes)"),
-        format!("{} bytes left over at the end", rest.len()),
-    ))
+    files::check_rows(file, bytes.len(), BYTES, "values of uint32")?;
+    Ok(bytes.as_chunks().0.iter().copied().map(Label::from_bytes).collect())
 }
 
 /// Writes labels, whole or not at all. Folders are made as needed.
