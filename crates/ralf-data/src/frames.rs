@@ -96,16 +96,16 @@ pub(crate) fn each_of<'a, R: Send, E: Send>(
         OwnWindow::default,
         |worker| stretches.next(worker),
         |window, place| {
-            let Some((sequence, scan)) = stretches.scan(place) else { return Ok(()) };
+            let Some((sequence, scan)) = stretches.scan(place) else { return Ok(None) };
             let window = window.over(sequence, sequences[sequence].frames);
             let place = orders[sequence][scan];
             let result = work(window, sequence, place)?;
             // A panic ends all of the work, so that nobody is handed what it left.
             queue.lock().unwrap_or_else(PoisonError::into_inner).add(sequence, place, result);
-            Ok(())
+            Ok(None)
         },
     );
-    worked.map(drop)
+    worked.map(|_: Vec<()>| ())
 }
 
 /// Results of sequences on their way to who asked for them, who gets those of a sequence once he has all before it.

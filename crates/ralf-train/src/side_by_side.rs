@@ -13,14 +13,15 @@ pub fn side_by_side<T: Sync, R: Send, E: Send>(
 ) -> Result<Vec<R>, E> {
     let next = AtomicUsize::new(0);
     let take = |_| Some(next.fetch_add(1, Ordering::Relaxed)).filter(|place| *place < items.len());
-    work_off(jobs.min(items.len()), || (), take, |(), place| work(&items[place]))
+    work_off(jobs.min(items.len()), || (), take, |(), place| work(&items[place]).map(Some))
 }
 
-/// What one worker did: a result for each place it took, or the place that failed and why.
+/// What one worker did: results of the places it took, or the place that failed and why.
 type Worked<R, E> = Result<Vec<(usize, R)>, (usize, E)>;
 
 /// So many workers, but one at least, take one place of the work after the other, as `next` tells each by its number,
-/// until it tells of none; each begins with a state of its own. Results are in the order of the places.
+/// until it tells of none; each begins with a state of its own. Results are those of places that have one, in their
+/// order.
 ///
 /// # Errors
 /// An error ends the work: of several it is that of the first place, for what comes before a failure is still worked
@@ -29,7 +30,7 @@ pub fn work_off<S, R: Send, E: Send>(
     workers: usize,
     begin: impl Fn() -> S + Sync,
     next: impl Fn(usize) -> Option<usize> + Sync,
-    work: impl Fn(&mut S, usize) -> Result<R, E> + Sync,
+    work: impl Fn(&mut S, usize) -> Result<Option<R>, E> + Sync,
 ) -> Result<Vec<R>, E> {
     let failed = AtomicUsize::new(usize::MAX);
     let work_off = |worker| {
@@ -39,7 +40,7 @@ pub fn work_off<S, R: Send, E: Send>(
                 continue;
             }
             match work(&mut state, place) {
-                Ok(result) => done.push((place, result)),
+                Ok(result) => done.extend(result.map(|result| (place, result))),
                 Err(error) => {
                     failed.fetch_min(place, Ordering::Relaxed);
                     return Err((place, error));

@@ -116,7 +116,7 @@ impl LabelRun<'_> {
         );
         observer.end();
         let (mut finished, mut checks) = (Vec::new(), Vec::new());
-        for done in done?.into_iter().flatten() {
+        for done in done? {
             match done {
                 Done::Checked(check) => checks.push(check),
                 Done::Finished(number, sequence) => finished.push((number, sequence)),
