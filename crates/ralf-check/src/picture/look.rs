@@ -67,9 +67,10 @@ impl CameraLook {
         camera_from_edges: &Transform,
         edges: &[DepthEdge],
     ) -> Option<f64> {
+        let limit = camera.intrinsics.limit();
         let (mut sum, mut count) = (0.0, 0_usize);
         for edge in edges {
-            let pixel = camera.intrinsics.project(&(camera_from_edges * edge.place));
+            let pixel = camera.intrinsics.project_within(&(camera_from_edges * edge.place), limit);
             if let Some(nearness) = pixel.and_then(|pixel| self.edges.at(pixel, edge.is_top)) {
                 sum += nearness;
                 count += 1;

@@ -63,14 +63,16 @@ impl Shot<'_> {
     fn sees(&self, t_ns: i64) -> impl Fn(&Point) -> Option<[f64; 3]> {
         let camera_from_there =
             self.camera.vehicle_from_camera.inverse() * self.motion.between(self.t_ns, t_ns);
-        move |p| see(self.camera, &(camera_from_there * p))
+        let limit = self.camera.intrinsics.limit();
+        move |p| see(self.camera, &(camera_from_there * p), limit)
     }
 
     /// The same of a point of the odometry frame.
     fn sees_in_world(&self) -> impl Fn(&Point) -> Option<[f64; 3]> {
         let odom_from_camera = self.motion.odom_from_vehicle(self.t_ns) * self.camera.vehicle_from_camera;
         let camera_from_odom = odom_from_camera.inverse();
-        move |p| see(self.camera, &(camera_from_odom * p))
+        let limit = self.camera.intrinsics.limit();
+        move |p| see(self.camera, &(camera_from_odom * p), limit)
     }
 }
 
@@ -158,8 +160,9 @@ fn pixels(seen: &[Option<[f64; 3]>], mut table: Table) -> Table {
 }
 
 /// Column, row (px) and depth along the optical axis (m) of a point of the camera's frame; `None` outside the image.
-fn see(camera: &Camera, p: &Point) -> Option<[f64; 3]> {
+/// `limit` is the largest angle that the lens sees, rad.
+fn see(camera: &Camera, p: &Point, limit: f64) -> Option<[f64; 3]> {
     let inside = |value: f64, size: usize| value >= -0.5 && value < size as f64 - 0.5;
-    let [u, v] = camera.intrinsics.project(p)?;
+    let [u, v] = camera.intrinsics.project_within(p, limit)?;
     (inside(u, camera.width) && inside(v, camera.height)).then_some([u, v, p.z])
 }

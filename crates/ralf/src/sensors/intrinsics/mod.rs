@@ -74,8 +74,9 @@ impl Intrinsics {
         self.project_within(p, self.limit())
     }
 
-    /// [`Self::project`] with the limit ([`Self::limit`]) at hand, for many points.
-    pub(crate) fn project_within(&self, p: &Point, limit: f64) -> Option<[f64; 2]> {
+    /// [`Self::project`] with the limit ([`Self::limit`], rad) at hand, for many points: finding it costs as much as
+    /// projecting dozens.
+    pub fn project_within(&self, p: &Point, limit: f64) -> Option<[f64; 2]> {
         let pixel = match *self {
             Self::Pinhole { focal, center, distortion } => {
                 scaled(focal, center, pinhole::project(p, limit, distortion)?)
