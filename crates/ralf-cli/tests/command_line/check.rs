@@ -176,3 +176,25 @@ fn a_field_that_is_never_a_number_is_named_and_a_few_rows_are_not() {
     );
     assert_eq!(record(&out)["sequences"][0].get("without_numbers"), None);
 }
+
+#[test]
+fn scans_of_one_time_are_named() {
+    let dataset = Dataset::new();
+    let made = simulated(&dataset);
+    let file = sequence_file(&made, "radar_left/timestamps.txt");
+    let text = fs::read_to_string(&file).unwrap();
+    let mut times: Vec<&str> = text.lines().collect();
+    times[2] = times[1];
+    fs::write(&file, times.join("\n") + "\n").unwrap();
+    let told = format!(
+        "radar_left (numbers): a measurement may be recorded twice or in parts, or its clock may stand: 1 of its {} measurements have the time of the one before, first number 2",
+        times.len()
+    );
+    ralf(["check", &made]).exits(0).prints([&told]);
+    let out = dataset.beside("labels");
+    ralf(["label", &made, "-o", &out, "-q"]).exits(0).says(["doubt: tiny: radar_left"]);
+
+    times.swap(3, 4);
+    fs::write(&file, times.join("\n") + "\n").unwrap();
+    ralf(["check", &made]).exits(1).says(["timestamps.txt: line 5", "as in the line above"]);
+}
