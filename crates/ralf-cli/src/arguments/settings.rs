@@ -34,7 +34,9 @@ impl SettingsArgs {
     /// The settings, resolved.
     pub(crate) fn resolve(&self) -> anyhow::Result<Settings> {
         // The file by itself first, so that what is wrong with it is said of the file.
-        self.config.as_deref().map(read).transpose()?;
+        self.config.as_deref().map(read).transpose().context("--config")?;
+        let trajectory = self.trajectory.as_deref();
+        trajectory.map_or(Ok(()), is_there).context("--trajectory")?;
         let text = self.config.as_deref().map_or_else(|| Ok(String::new()), text)?;
         let assignments: Vec<&str> = self.assignments.iter().map(String::as_str).collect();
         let settings = Settings::from_toml(&text, &assignments);
@@ -62,6 +64,12 @@ impl SettingsArgs {
 /// The settings of a file.
 pub(super) fn read(file: &Path) -> anyhow::Result<Settings> {
     Settings::from_toml(&text(file)?, &[]).with_context(|| file.display().to_string())
+}
+
+/// Refuses what can't be a file of poses, before anything is read.
+fn is_there(file: &Path) -> anyhow::Result<()> {
+    let found = ralf_files::check(file, Kind::Table).map(drop);
+    found.with_context(|| file.display().to_string())
 }
 
 fn text(file: &Path) -> anyhow::Result<String> {

@@ -14,10 +14,10 @@ mod values;
 pub use source::LayoutSequence;
 pub(crate) use values::degrees;
 
+use crate::disk::files;
 use crate::error::DataError;
 use crate::read::{Recording, SequenceReader};
 use ralf::sensors::{DepthOutput, Rig};
-use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The format's name.
@@ -53,7 +53,7 @@ pub fn rig_from_json(told: &str) -> Result<(Rig, DepthOutput), DataError> {
 /// The folders in a folder by name, hidden ones left out: a conversion under way is one.
 fn folders(parent: &Path) -> Result<Vec<PathBuf>, DataError> {
     let mut found = Vec::new();
-    for entry in fs::read_dir(parent).map_err(DataError::io(parent))? {
+    for entry in files::entries(parent, "a folder per sequence")? {
         let entry = entry.map_err(DataError::io(parent))?;
         let hidden = entry.file_name().as_encoded_bytes().starts_with(b".");
         if !hidden && entry.path().is_dir() {
