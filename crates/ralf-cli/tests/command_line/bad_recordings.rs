@@ -171,6 +171,12 @@ fn what_is_not_there_is_named_with_what_it_was_needed_for() {
         format!("{nowhere}: expected the folder or the file of a recording, found none of this name");
     ralf(["inspect", &nowhere]).exits(1).says([&recording]);
     label(&[]).exits(0);
+    ralf(["label", &dataset.out, "-o", &nowhere])
+        .exits(1)
+        .says([&dataset.out, "content: expected a recording, found the labels of one"]);
+    label(&["--set", "lidar.beta=abc"])
+        .exits(2)
+        .says(["error: --set: invalid type: string \"abc\", expected f64 in `lidar.beta`\n"]);
     ralf(["evaluate", &dataset.out, "--truth", &nowhere])
         .exits(1)
         .says([&nowhere, "expected a folder with corrected labels"]);

@@ -24,12 +24,15 @@ use std::path::{Path, PathBuf};
 pub(crate) const NAME: &str = "ralf";
 /// The folder of a dataset that holds its sequences.
 pub(crate) const SEQUENCES: &str = "sequences";
+/// What lies beside the sequences in an output folder, and in no recording.
+pub(crate) const RECORD: &str = "run.json";
 /// The folder of a sequence that holds corrected labels.
 pub(crate) const GROUND_TRUTH: &str = "ground_truth";
 
 /// Opens a dataset of the own layout: all sequences, with every check that needs no measurement.
 pub(crate) fn open(dataset: &Path) -> Result<Recording, DataError> {
     let folder = dataset.join(SEQUENCES);
+    refuse_results(dataset)?;
     let open = |folder: &PathBuf| Ok(Box::new(LayoutSequence::open(folder)?) as Box<dyn SequenceReader>);
     let sequences = folders(&folder)?.iter().map(open).collect::<Result<Vec<_>, DataError>>()?;
     if sequences.is_empty() {
@@ -48,6 +51,15 @@ pub fn rig_from_json(told: &str) -> Result<(Rig, DepthOutput), DataError> {
         DataError::content(file, "sensors", "the keys of docs/formats.md", error.to_string())
     })?;
     Ok((rig::rig(file, &told)?, told.depth.output))
+}
+
+/// Refuses the folder that `ralf label` wrote, whose own `sequences` are easily taken for those of a recording.
+fn refuse_results(dataset: &Path) -> Result<(), DataError> {
+    let expected = "a recording";
+    let found = "the labels of one, as `ralf label` wrote them";
+    let is_result = dataset.join(RECORD).is_file()
+        && folders(&dataset.join(SEQUENCES))?.iter().all(|folder| !folder.join("sequence.toml").exists());
+    if is_result { Err(DataError::content(dataset, "content", expected, found)) } else { Ok(()) }
 }
 
 /// The folders in a folder by name, hidden ones left out: a conversion under way is one.
