@@ -42,6 +42,8 @@ pub(crate) struct RadarLook {
     /// Rows of the scan, and those among them without finite coordinates.
     pub(crate) rows: usize,
     pub(crate) not_finite: usize,
+    /// Of each column, how many values are finite.
+    pub(crate) numbers: Vec<usize>,
     /// Of all columns: the same scan again has the same.
     pub(crate) digest: u64,
 }
@@ -183,6 +185,7 @@ impl RadarLook {
             t_ns: read.t_ns,
             rows: read.len(),
             not_finite: read.len() - positions.len(),
+            numbers: read.columns.iter().map(|column| count_finite(column)).collect(),
             positions,
             rays: Vec::new(),
             range_rates: Vec::new(),
@@ -207,6 +210,10 @@ impl RadarLook {
             }
         }
     }
+}
+
+fn count_finite(values: &[f32]) -> usize {
+    values.iter().filter(|value| value.is_finite()).count()
 }
 
 impl LidarLook {

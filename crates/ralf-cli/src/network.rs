@@ -36,7 +36,8 @@ impl DepthModelArgs {
             #[cfg(feature = "ort")]
             self.onnx_runtime,
         );
-        Ok(Some(OnnxModel::load_with(runtime, model, self.depth_card.as_deref())?))
+        let loaded = OnnxModel::load_with(runtime, model, self.depth_card.as_deref());
+        loaded.map(Some).context("--depth-model")
     }
 }
 
@@ -62,7 +63,7 @@ impl SegmentationModelArgs {
             #[cfg(feature = "ort")]
             self.onnx_runtime,
         );
-        Ok(SegmentationModel::load(runtime, &self.model, self.card.as_deref())?)
+        SegmentationModel::load(runtime, &self.model, self.card.as_deref()).context("--model")
     }
 }
 

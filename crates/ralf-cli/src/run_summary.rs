@@ -16,7 +16,22 @@ pub(crate) fn run_summary(record: &RunRecord) -> String {
     for sequence in &record.sequences {
         rows.extend(sequence.radars.iter().map(|radar| radar_row(&sequence.name, radar)));
     }
-    aligned(&rows) + &unlike_sisters(record) + &cameras(record) + &unused_cameras(record)
+    aligned(&rows)
+        + &without_numbers(record)
+        + &unlike_sisters(record)
+        + &cameras(record)
+        + &unused_cameras(record)
+}
+
+/// Names the radars that have detections and no numbers.
+fn without_numbers(record: &RunRecord) -> String {
+    let mut text = String::new();
+    for sequence in &record.sequences {
+        for found in &sequence.without_numbers {
+            text += &format!("\n{} {}: {}\n", sequence.name, found.radar, found.words());
+        }
+    }
+    text
 }
 
 /// Names the radars whose share of plausible detections is far from their sisters'.

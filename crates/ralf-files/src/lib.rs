@@ -64,7 +64,7 @@ fn raised() -> u64 {
 /// Refuses what is no regular file, and one that is larger than its kind can be. Returns its size, bytes.
 pub fn check(file: &Path, kind: Kind) -> Result<u64> {
     // Asked before opening: opening a pipe waits for someone to write into it.
-    let found = fs::metadata(file)?;
+    let found = fs::metadata(file).map_err(|error| absent(error, "a regular file"))?;
     if !found.is_file() {
         let found = special(found.file_type());
         return Err(Error::new(ErrorKind::InvalidInput, format!("expected a regular file, found {found}")));
@@ -97,6 +97,24 @@ pub fn read_text(file: &Path, kind: Kind) -> Result<String> {
         let place = error.utf8_error().valid_up_to();
         Error::new(ErrorKind::InvalidData, format!("byte {place}: expected UTF-8 text, found other bytes"))
     })
+}
+
+/// An error of the system as a sentence, where there is no such file or folder; any other stays as it is.
+///
+/// ```
+/// let error = std::fs::read_dir("no folder of this name").unwrap_err();
+/// assert_eq!(ralf_files::absent(error, "a folder").to_string(), "expected a folder, found none of this name");
+/// ```
+pub fn absent(error: Error, expected: &str) -> Error {
+    match error.kind() {
+        kind @ ErrorKind::NotFound => {
+            Error::new(kind, format!("expected {expected}, found none of this name"))
+        }
+        kind @ ErrorKind::NotADirectory => {
+            Error::new(kind, format!("expected {expected}, found a file in the place of a folder"))
+        }
+        _ => error,
+    }
 }
 
 fn refuse_above(limit: Option<u64>, size: u64) -> Result<()> {
@@ -139,7 +157,11 @@ mod tests {
         fs::write(&file, [b'a', 0xff]).unwrap();
         let error = read_text(&file, Kind::Settings).unwrap_err().to_string();
         assert_eq!(error, "byte 1: expected UTF-8 text, found other bytes");
-        assert_eq!(read(&folder.path().join("b"), Kind::Stream).unwrap_err().kind(), ErrorKind::NotFound);
+        let error = read(&folder.path().join("b"), Kind::Stream).unwrap_err();
+        assert_eq!(error.kind(), ErrorKind::NotFound);
+        assert_eq!(error.to_string(), "expected a regular file, found none of this name");
+        let error = read(&file.join("b"), Kind::Stream).unwrap_err().to_string();
+        assert_eq!(error, "expected a regular file, found a file in the place of a folder");
     }
 
     #[test]

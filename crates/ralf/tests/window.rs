@@ -7,7 +7,8 @@ mod support;
 use ralf::config::Config;
 use ralf::paper::Labeler;
 use ralf::scene::{FrameWindow, NeighbouringDetections};
-use ralf::sensors::Elevation;
+use ralf::sensors::{Camera, Elevation, Intrinsics};
+use ralf::space::Transform;
 use support::{MS, Memory, lidar, radar};
 
 const SCANS: i64 = 60;
@@ -72,6 +73,30 @@ fn the_lidar_scans_around_are_spread_and_shared() {
     }
     let next = window.frame(0, 30).unwrap().lidar_window.unwrap();
     assert!(std::sync::Arc::ptr_eq(&around.window, &next.window));
+}
+
+fn camera() -> Camera {
+    Camera {
+        name: "camera".into(),
+        vehicle_from_camera: Transform::identity(),
+        width: 200,
+        height: 120,
+        intrinsics: Intrinsics::Pinhole { focal: [100.0; 2], center: [100.0, 60.0], distortion: [0.0; 5] },
+        views: Vec::new(),
+    }
+}
+
+#[test]
+fn moments_are_let_go_once_no_later_frame_asks_for_them() {
+    let (mut memory, config) = (memory(), Config::default());
+    // Cameras without images leave room for more moments than are needed.
+    memory.sequence.rig.cameras = vec![camera(); 4];
+    memory.sequence.times.cameras = vec![Vec::new(); 4];
+    let mut window = FrameWindow::new(&memory, &memory.sequence.rig, &config);
+    let mut moment = |scan| std::sync::Arc::downgrade(&window.frame(0, scan).unwrap().lidar.unwrap().moment);
+    let (first, same, second) = (moment(10), moment(10), moment(12));
+    assert!(first.ptr_eq(&same) && first.upgrade().is_none() && second.upgrade().is_some());
+    assert_eq!(moment(10).upgrade().unwrap().t_ns, 500 * MS, "whoever goes back gets it anew");
 }
 
 #[test]

@@ -26,6 +26,7 @@ pub(super) fn judge(radar: &Radar, looks: &[RadarLook]) -> Vec<Verdict> {
     let all: Vec<[f64; 3]> = looks.iter().flat_map(|look| &look.spherical).copied().collect();
     verdicts.extend(repeated(&radar.name, looks));
     verdicts.extend(not_finite(&radar.name, looks));
+    verdicts.extend(without_numbers(radar, looks));
     verdicts.extend(sigmas(radar));
     if all.len() < FEWEST {
         let missing = format!("{} detections in {} scans; {FEWEST} are needed", all.len(), looks.len());
@@ -69,6 +70,21 @@ fn not_finite(name: &str, looks: &[RadarLook]) -> Option<Verdict> {
         return Some(doubt(name, evidence, None));
     }
     (share > NOT_FINITE.0).then(|| Verdict::new(name, Question::Bounds, State::Fact, evidence))
+}
+
+/// Fields that hold no number in any detection.
+fn without_numbers(radar: &Radar, looks: &[RadarLook]) -> Option<Verdict> {
+    let rows: usize = looks.iter().map(|look| look.rows).sum();
+    let never = |column: usize| looks.iter().all(|look| look.numbers.get(column) == Some(&0));
+    let fields = radar.fields.iter().enumerate().filter(|(column, _)| never(*column));
+    let names: Vec<String> = fields.map(|(_, name)| format!("`{name}`")).collect();
+    if names.is_empty() || rows < FEWEST {
+        return None;
+    }
+    let verb = if names.len() == 1 { "is" } else { "are" };
+    let evidence = format!("{} {verb} not a finite number in any of {rows} detections", names.join(", "));
+    let remedy = Remedy::LookInto("its fields may lie elsewhere than is said");
+    Some(doubt(&radar.name, evidence, Some(remedy)))
 }
 
 /// Angles that are no radians.
@@ -119,7 +135,7 @@ fn ranges(name: &str, all: &[[f64; 3]]) -> Option<Verdict> {
 
 fn elevation(radar: &Radar, all: &[[f64; 3]]) -> Option<Verdict> {
     let angles: Vec<f64> = all.iter().map(|row| row[2]).filter(|angle| angle.is_finite()).collect();
-    let [low, high] = [0.01, 0.99].map(|share| quantile(&angles, share).unwrap_or(0.0));
+    let [low, high] = [quantile(&angles, 0.01)?, quantile(&angles, 0.99)?];
     if radar.elevation == Elevation::None || high - low > 1e-4 {
         return None;
     }

@@ -35,7 +35,10 @@ impl DatasetArgs {
 
     /// The same with the topics that `ralf label` used. It has to be what was labelled.
     pub(crate) fn open_labelled(&self, out: &Path, changed: &ChangedArgs) -> anyhow::Result<Recording> {
-        std::fs::metadata(&self.dataset).with_context(|| self.dataset.display().to_string())?;
+        let expected = "the folder or the file of the recording that was labelled";
+        std::fs::metadata(&self.dataset)
+            .map_err(|error| ralf_files::absent(error, expected))
+            .with_context(|| self.dataset.display().to_string())?;
         let run = LabelledRun::open(out)?;
         let topics = self.topics_or(&run.settings().topics)?;
         let recording = told(run.settings().correct(self.read(&topics)?)?);
@@ -46,7 +49,7 @@ impl DatasetArgs {
     /// The topics of `--topics`, or else these.
     pub(crate) fn topics_or(&self, topics: &Topics) -> anyhow::Result<Topics> {
         match &self.topics {
-            Some(file) => Ok(settings::read(file)?.topics),
+            Some(file) => Ok(settings::read(file).context("--topics")?.topics),
             None => Ok(topics.clone()),
         }
     }

@@ -1,5 +1,6 @@
 //! Which method answers, and by which model.
 
+use anyhow::Context;
 use clap::{Args, ValueEnum};
 use ralf::config::{Config, Method};
 use ralf::learned::Model;
@@ -33,6 +34,6 @@ impl MethodArgs {
             Some(TypedMethod::Learned) => config.method = Method::Learned,
             None => {}
         }
-        Ok(ralf_data::many::model_of(config.method, self.model.as_deref())?)
+        ralf_data::many::model_of(config.method, self.model.as_deref()).context("--model")
     }
 }

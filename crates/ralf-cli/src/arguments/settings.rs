@@ -34,11 +34,13 @@ impl SettingsArgs {
     /// The settings, resolved.
     pub(crate) fn resolve(&self) -> anyhow::Result<Settings> {
         // The file by itself first, so that what is wrong with it is said of the file.
-        self.config.as_deref().map(read).transpose()?;
+        self.config.as_deref().map(read).transpose().context("--config")?;
+        let trajectory = self.trajectory.as_deref();
+        trajectory.map_or(Ok(()), is_there).context("--trajectory")?;
         let text = self.config.as_deref().map_or_else(|| Ok(String::new()), text)?;
         let assignments: Vec<&str> = self.assignments.iter().map(String::as_str).collect();
         let settings = Settings::from_toml(&text, &assignments);
-        let mut settings = settings.map_err(|error| UsageError(format!("--set: {error}")))?;
+        let mut settings = settings.map_err(|error| UsageError(format!("--set: {}", in_a_line(&error))))?;
         settings.motion.trajectory = self.trajectory.clone().or(settings.motion.trajectory);
         settings.motion.trajectory_frame = self.trajectory_frame.clone().or(settings.motion.trajectory_frame);
         Ok(settings)
@@ -62,6 +64,17 @@ impl SettingsArgs {
 /// The settings of a file.
 pub(super) fn read(file: &Path) -> anyhow::Result<Settings> {
     Settings::from_toml(&text(file)?, &[]).with_context(|| file.display().to_string())
+}
+
+/// What a parser says over several lines.
+fn in_a_line(error: &impl ToString) -> String {
+    error.to_string().split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+/// Refuses what can't be a file of poses, before anything is read.
+fn is_there(file: &Path) -> anyhow::Result<()> {
+    let found = ralf_files::check(file, Kind::Table).map(drop);
+    found.with_context(|| file.display().to_string())
 }
 
 fn text(file: &Path) -> anyhow::Result<String> {

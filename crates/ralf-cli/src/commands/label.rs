@@ -146,7 +146,10 @@ impl LabelArgs {
 fn say_what_changed(done: &RunOutcome) {
     if !done.removed.is_empty() {
         let names = done.removed.join(", ");
-        say(&format!("removed, for they were made by another version or with other settings: {names}"));
+        say(&format!(
+            "removed, for they were made by another version, of a recording of another format or with other settings: \
+             {names}"
+        ));
     }
     for (sequence, file) in &done.damaged {
         let file = file.display();

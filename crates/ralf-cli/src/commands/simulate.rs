@@ -159,7 +159,7 @@ impl SimulateArgs {
 /// The user's scenario.
 fn own(file: &Path, arguments: &SimulateArgs) -> anyhow::Result<SimulatedSequence> {
     let name = || file.display().to_string();
-    let text = ralf_files::read_text(file, Kind::Settings).with_context(name)?;
+    let text = ralf_files::read_text(file, Kind::Settings).with_context(name).context("--scenario")?;
     let scenario = Scenario::from_toml(&text).with_context(name)?;
     let scans = arguments.scans.map_or(USUAL_SCANS, |scans| scans as usize);
     SimulatedSequence::new("00", &scenario, arguments.seed, scans).with_context(name)

@@ -1,6 +1,6 @@
 //! What is wrong with a recording as a whole is said before anything is labelled: file, place, expected, found.
 
-use crate::support::{Dataset, Ran, ralf};
+use crate::support::{Dataset, Ran, program, ralf};
 use std::fs;
 
 /// Labelling fails, and says this.
@@ -72,7 +72,7 @@ fn a_name_that_leads_elsewhere() {
 fn a_sensor_without_its_folder() {
     let dataset = Dataset::new();
     fs::rename(dataset.file("lidar_top"), dataset.file("lidar")).unwrap();
-    refused(&dataset, ["00/lidar_top: No such file"]);
+    refused(&dataset, ["00/lidar_top: expected a folder of measurements, found none of this name"]);
 }
 
 #[test]
@@ -121,7 +121,7 @@ fn a_camera_without_images() {
         quaternion_xyzw = [-0.5, 0.5, -0.5, 0.5]\nwidth = 64\nheight = 48\nmodel = \"pinhole\"\n\
         fx = 50\nfy = 50\ncx = 32\ncy = 24\n";
     dataset.put("sequence.toml", text + camera);
-    refused(&dataset, ["00/camera_front: No such file"]);
+    refused(&dataset, ["00/camera_front: expected a folder of measurements, found none of this name"]);
 }
 
 #[test]
@@ -141,7 +141,7 @@ fn results_in_the_place_of_a_file() {
         .prints_nothing()
         .says([&dataset.out, "expected a folder, or nothing yet, found a file"]);
     let below = format!("{}/out", dataset.out);
-    label(&below).exits(1).prints_nothing().says([&below, "Not a directory"]);
+    label(&below).exits(1).prints_nothing().says([&below, "found a file in the place of a folder"]);
     assert_eq!(fs::read(&dataset.out).unwrap(), b"mine");
 }
 
@@ -151,4 +151,33 @@ fn unknown_keys_are_but_a_warning() {
     dataset.edit("sequence.toml", "max_range_m = 120.0", "max_range_m = 120.0\ncolour = 3");
     let ran = ralf(["label", &dataset.path, "-o", &dataset.out]).exits(0);
     ran.says(["warning: 00: ", "sequence.toml: unknown key `lidar.0.colour` ignored"]);
+}
+
+#[test]
+fn what_is_not_there_is_named_with_what_it_was_needed_for() {
+    let dataset = Dataset::new();
+    let nowhere = dataset.beside("nowhere");
+    let label = |more: &[&str]| {
+        let asked = ["label", &dataset.path, "-o", &dataset.out, "-q", "--no-check"];
+        Ran::of(&program().args(asked).args(more).output().unwrap())
+    };
+    let absent = format!("{nowhere}: expected a regular file, found none of this name");
+    for option in ["--config", "--topics", "--trajectory", "--depth-model"] {
+        label(&[option, &nowhere]).exits(1).says([option, &absent]);
+    }
+    label(&["--method", "learned", "--model", &nowhere]).exits(1).says(["--model", &absent]);
+    ralf(["simulate", "-o", &dataset.out, "--scenario", &nowhere]).exits(1).says(["--scenario", &absent]);
+    let recording =
+        format!("{nowhere}: expected the folder or the file of a recording, found none of this name");
+    ralf(["inspect", &nowhere]).exits(1).says([&recording]);
+    label(&[]).exits(0);
+    ralf(["label", &dataset.out, "-o", &nowhere])
+        .exits(1)
+        .says([&dataset.out, "content: expected a recording, found the labels of one"]);
+    label(&["--set", "lidar.beta=abc"])
+        .exits(2)
+        .says(["error: --set: invalid type: string \"abc\", expected f64 in `lidar.beta`\n"]);
+    ralf(["evaluate", &dataset.out, "--truth", &nowhere])
+        .exits(1)
+        .says([&nowhere, "expected a folder with corrected labels"]);
 }

@@ -112,3 +112,89 @@ fn a_trajectory_takes_the_place_of_odometry() {
         .exits(1)
         .says(["radar_up", "radar_front"]);
 }
+
+/// Makes the values of these columns NaN, in all but the first so many detections of each scan of the front radar.
+fn blank(recording: &str, columns: &[usize], kept: usize) {
+    const FIELDS: usize = 5;
+    for entry in fs::read_dir(sequence_file(recording, "radar_front")).unwrap() {
+        let file = entry.unwrap().path();
+        if file.extension().is_none_or(|extension| extension != "bin") {
+            continue;
+        }
+        let mut bytes = fs::read(&file).unwrap();
+        for (value, place) in bytes.chunks_exact_mut(4).zip(0..) {
+            if place / FIELDS >= kept && columns.contains(&(place % FIELDS)) {
+                value.copy_from_slice(&f32::NAN.to_le_bytes());
+            }
+        }
+        fs::write(&file, bytes).unwrap();
+    }
+}
+
+#[test]
+fn a_radar_without_places_is_named_and_the_others_are_labelled() {
+    let dataset = Dataset::new();
+    let made = simulated(&dataset);
+    blank(&made, &[0, 1, 2, 3, 4], 0);
+    let found = ralf(["check", &made]).exits(0).prints([
+        "radar_front (numbers): 100 % of the detections have no finite coordinates",
+        "`x`, `y`, `z`, `doppler`, `rcs` are not a finite number in any of",
+    ]);
+    assert!(!found.stdout.contains("elevation is said to be measured"), "{}", found.stdout);
+    let out = dataset.beside("labels");
+    let labelled = ralf(["label", &made, "-o", &out, "-q", "--no-check"])
+        .exits(0)
+        .prints(["tiny radar_front: none of its", "detections has a place"]);
+    assert!(!labelled.stdout.contains("of the other radars'"), "{}", labelled.stdout);
+    let told = &record(&out)["sequences"][0]["without_numbers"];
+    assert_eq!((&told[0]["radar"], &told[0]["places"]), (&"radar_front".into(), &true.into()), "{told}");
+    ralf(["inspect", &out]).exits(0).prints(["none of its"]);
+}
+
+#[test]
+fn a_field_that_is_never_a_number_is_named_and_a_few_rows_are_not() {
+    let dataset = Dataset::new();
+    let made = simulated(&dataset);
+    blank(&made, &[3], 0);
+    ralf(["inspect", &made])
+        .exits(0)
+        .prints(["radar_front (numbers)", "`doppler` is not a finite number in any of"]);
+    let out = dataset.beside("labels");
+    ralf(["label", &made, "-o", &out, "-q", "--no-check"])
+        .exits(0)
+        .prints(["tiny radar_front: `doppler` is NaN in all of"]);
+
+    let few = Dataset::new();
+    let made = simulated(&few);
+    blank(&made, &[0, 1, 2, 3, 4], 5);
+    let out = few.beside("labels");
+    let labelled = ralf(["label", &made, "-o", &out, "-q", "--no-check"]).exits(0);
+    assert!(
+        !labelled.stdout.contains("NaN") && !labelled.stdout.contains("has a place"),
+        "{}",
+        labelled.stdout
+    );
+    assert_eq!(record(&out)["sequences"][0].get("without_numbers"), None);
+}
+
+#[test]
+fn scans_of_one_time_are_named() {
+    let dataset = Dataset::new();
+    let made = simulated(&dataset);
+    let file = sequence_file(&made, "radar_left/timestamps.txt");
+    let text = fs::read_to_string(&file).unwrap();
+    let mut times: Vec<&str> = text.lines().collect();
+    times[2] = times[1];
+    fs::write(&file, times.join("\n") + "\n").unwrap();
+    let told = format!(
+        "radar_left (numbers): a measurement may be recorded twice or in parts, or its clock may stand: 1 of its {} measurements have the time of the one before, first number 2",
+        times.len()
+    );
+    ralf(["check", &made]).exits(0).prints([&told]);
+    let out = dataset.beside("labels");
+    ralf(["label", &made, "-o", &out, "-q"]).exits(0).says(["doubt: tiny: radar_left"]);
+
+    times.swap(3, 4);
+    fs::write(&file, times.join("\n") + "\n").unwrap();
+    ralf(["check", &made]).exits(1).says(["timestamps.txt: line 5", "as in the line above"]);
+}

@@ -44,7 +44,9 @@ fn an_unreadable_file_costs_its_scan_and_not_the_run() {
     let file = dataset.file("radar_front/000003.bin");
     fs::remove_file(&file).unwrap();
     std::os::unix::fs::symlink("nowhere", &file).unwrap();
-    let ran = label(&dataset).exits(3).says(["radar_front/000003.bin: No such file"]);
+    let ran = label(&dataset)
+        .exits(3)
+        .says(["radar_front/000003.bin: expected a regular file, found none of this name"]);
     assert_eq!(ran.not_labelled().len(), 1);
     let record = fs::read_to_string(Path::new(&dataset.out).join("run.json")).unwrap();
     assert!(record.contains("\"blake3\": \"\""), "{record}");

@@ -93,6 +93,11 @@ pub(crate) fn check_rows(file: &Path, size: usize, row_bytes: usize, rows: &str)
     ))
 }
 
+/// What lies in a folder, which has to be there; `expected` says what it is looked into for.
+pub(crate) fn entries(folder: &Path, expected: &str) -> Result<fs::ReadDir, DataError> {
+    fs::read_dir(folder).map_err(|error| DataError::io(folder)(ralf_files::absent(error, expected)))
+}
+
 /// The names of all that lies in a folder, sorted, hidden ones left out; empty where there is no such folder (a
 /// recording may be one file).
 pub(crate) fn names(folder: &Path) -> Result<Vec<String>, DataError> {

@@ -118,7 +118,8 @@ pub fn open(path: &Path, format: Option<&str>) -> Result<Recording, DataError> {
 
 /// The same, where these topics of a ROS recording are its sensors; a first guess is made where there are none.
 pub fn open_with(path: &Path, format: Option<&str>, topics: &Topics) -> Result<Recording, DataError> {
-    fs::metadata(path).map_err(DataError::io(path))?;
+    let expected = "the folder or the file of a recording";
+    fs::metadata(path).map_err(|error| DataError::io(path)(ralf_files::absent(error, expected)))?;
     let found = match format {
         Some(name) => FORMATS.iter().find(|format| format.name == name).ok_or_else(|| {
             DataError::content(

@@ -44,7 +44,9 @@ impl WriterLock {
         if folder.exists() && !folder.is_dir() {
             return Err(DataError::content(folder, "path", "a folder, or nothing yet", "a file"));
         }
-        fs::create_dir_all(folder).map_err(DataError::io(folder))?;
+        let made_folder = fs::create_dir_all(folder);
+        made_folder
+            .map_err(|error| DataError::io(folder)(ralf_files::absent(error, "a folder, or nothing yet")))?;
         if file.is_symlink() {
             return Err(DataError::content(&file, "lock", "a file, or nothing yet", "a link"));
         }

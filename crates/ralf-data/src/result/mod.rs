@@ -21,6 +21,7 @@ pub(crate) mod schema;
 mod sequence_record;
 mod sisters;
 mod table;
+mod without_numbers;
 
 pub use check_record::{CheckLine, CheckRecord};
 pub use class_source::ClassSource;
@@ -38,6 +39,8 @@ pub use sequence_record::{
 pub(crate) use sisters::RadarCounts;
 pub use sisters::UnlikeSisters;
 pub use table::{Table, Value, Values};
+pub(crate) use without_numbers::Numbers;
+pub use without_numbers::WithoutNumbers;
 
 pub(crate) use content::{changed_ns, damaged_result, hash_file};
 pub(crate) use learned_columns::learned_columns;

@@ -5,6 +5,7 @@ use super::parquet_columns::read_values;
 use super::schema::{CLASS_FROM, Column, Group, Kind, SCAN, Schema, evidence_columns, field};
 use super::table::Value;
 use super::{RadarScanKey, Table};
+use crate::disk::files;
 use crate::error::DataError;
 use parquet::basic::Type as Physical;
 use parquet::errors::ParquetError;
@@ -39,7 +40,7 @@ impl PlausibilityReader {
     /// # Errors
     /// A file that is no result of `ralf label`, that lacks a column, or whose scans are torn apart.
     pub fn open(file: &Path, schema: &Schema) -> Result<Self, DataError> {
-        let open = File::open(file).map_err(DataError::io(file))?;
+        let open = files::open(file)?;
         let reader = SerializedFileReader::new(open).map_err(|error| unreadable(file, error))?;
         let schema = Arc::new(with_evidence(&reader, schema).map_err(|error| unreadable(file, error))?);
         let (mut scans, mut places) = (Vec::new(), BTreeMap::new());
@@ -61,7 +62,7 @@ impl PlausibilityReader {
     /// # Errors
     /// Those of [`Self::open`].
     pub fn open_all(file: &Path) -> Result<Self, DataError> {
-        let open = File::open(file).map_err(DataError::io(file))?;
+        let open = files::open(file)?;
         let reader = SerializedFileReader::new(open).map_err(|error| unreadable(file, error))?;
         let columns = reader.metadata().file_metadata().schema_descr().columns();
         let place = |name: &str| columns.iter().position(|column| column.name() == name);

@@ -11,8 +11,7 @@ use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
 use std::path::Path;
 
-/// The record of an output folder.
-pub(crate) const RECORD: &str = "run.json";
+pub(crate) use crate::read::layout::RECORD;
 
 /// The content of `run.json`: sequences that were labelled by one version of the program with the same settings, be it
 /// at once or one after the other.

@@ -1,7 +1,7 @@
 //! What `run.json` tells of a sequence.
 
 use super::label_hash::hash_of_labels;
-use super::{RadarCounts, Table, UnlikeSisters};
+use super::{RadarCounts, Table, UnlikeSisters, WithoutNumbers};
 use crate::disk::label_file::label_bytes;
 use crate::error::DataError;
 use crate::read::MotionSource;
@@ -28,6 +28,9 @@ pub struct SequenceRecord {
     /// Radars whose plausible share is far from that of the others.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub unlike_sisters: Vec<UnlikeSisters>,
+    /// Radars whose places, or all values of a field, are no numbers.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub without_numbers: Vec<WithoutNumbers>,
     /// Where the vehicle's motion comes from, if not from the recording.
     #[serde(default, skip_serializing_if = "is_recorded")]
     pub motion: MotionSource,

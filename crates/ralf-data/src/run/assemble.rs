@@ -6,8 +6,9 @@ use super::{Observer, Stage, Task};
 use crate::error::DataError;
 use crate::frames::{ScanIndex, all_scans};
 use crate::result::{
-    CameraRecord, EncodedGroup, FileRecord, GROUP_ROWS, ImageRecord, Layout, NotLabelled, PlausibilityWriter,
-    RadarRecord, RadarScanKey, RowGroup, SequenceRecord, UnlikeSisters, UnreadableScan, written,
+    CameraRecord, EncodedGroup, FileRecord, GROUP_ROWS, ImageRecord, Layout, NotLabelled, Numbers,
+    PlausibilityWriter, RadarRecord, RadarScanKey, RowGroup, SequenceRecord, UnlikeSisters, UnreadableScan,
+    WithoutNumbers, written,
 };
 use ralf::sensors::Camera;
 use ralf_train::side_by_side;
@@ -34,6 +35,8 @@ struct Assembly<'a> {
 struct Told {
     /// In the rig's order.
     radars: Vec<RadarRecord>,
+    /// What these delivered.
+    numbers: Vec<Numbers>,
     images: Images,
     unreadable: BTreeSet<UnreadableScan>,
 }
@@ -64,12 +67,14 @@ pub(super) fn assemble(
     told.into_iter().for_each(|told| all.append(told));
     let table = Some(ordered.finish()?);
     observer.end();
-    let Told { radars, images, unreadable } = all;
+    let (unlike_sisters, without_numbers) = (all.unlike_sisters(), all.without_numbers(task));
+    let Told { radars, images, unreadable, .. } = all;
     Ok(SequenceRecord {
         name: sequence.name.clone(),
         fingerprint: fingerprint.to_owned(),
         table,
-        unlike_sisters: UnlikeSisters::of(&radars.iter().map(RadarRecord::counts).collect::<Vec<_>>()),
+        unlike_sisters,
+        without_numbers,
         radars,
         cameras: cameras(&task.rig.cameras, images),
         not_labelled,
@@ -121,6 +126,7 @@ impl Assembly<'_> {
             }
             group.append(&RadarScanKey::new(&self.task.rig.radars[radar].name, scan), &table)?;
             told.radars[radar].push(Some(&table))?;
+            told.numbers[radar].add(&self.task.rig.radars[radar], &table)?;
             self.observer.advance(1, table.len() as u64);
         }
         if rows == 0 {
@@ -136,7 +142,8 @@ impl Told {
     fn of(task: &Task) -> Self {
         let radar = |name: &String| RadarRecord { name: name.clone(), ..RadarRecord::default() };
         let radars = task.rig.radars.iter().map(|sensor| radar(&sensor.name)).collect();
-        Self { radars, ..Self::default() }
+        let numbers = task.rig.radars.iter().map(Numbers::of).collect();
+        Self { radars, numbers, ..Self::default() }
     }
 
     /// Adds what the scans behind these tell.
@@ -144,10 +151,24 @@ impl Told {
         for (radar, more) in self.radars.iter_mut().zip(more.radars) {
             radar.append(more);
         }
+        for (numbers, more) in self.numbers.iter_mut().zip(&more.numbers) {
+            numbers.append(more);
+        }
         for (camera, images) in more.images {
             self.images.entry(camera).or_default().extend(images);
         }
         self.unreadable.extend(more.unreadable);
+    }
+
+    /// Radars whose labels are unlike those of the others, among those that have places at all.
+    fn unlike_sisters(&self) -> Vec<UnlikeSisters> {
+        let radars = self.radars.iter().zip(&self.numbers).filter(|(_, numbers)| numbers.has_place());
+        UnlikeSisters::of(&radars.map(|(radar, _)| radar.counts()).collect::<Vec<_>>())
+    }
+
+    fn without_numbers(&self, task: &Task) -> Vec<WithoutNumbers> {
+        let radars = self.numbers.iter().zip(&task.rig.radars);
+        radars.filter_map(|(numbers, radar)| numbers.missing(radar)).collect()
     }
 }
 

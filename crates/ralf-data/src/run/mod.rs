@@ -22,7 +22,7 @@ mod workspace;
 
 pub use crate::result::{
     CameraRecord, CheckLine, CheckRecord, ImageRecord, Input, NotLabelled, RadarRecord, RunRecord,
-    SequenceRecord, Timings, UnlikeSisters, UnreadableScan, read_record,
+    SequenceRecord, Timings, UnlikeSisters, UnreadableScan, WithoutNumbers, read_record,
 };
 
 pub use checks::check_all;

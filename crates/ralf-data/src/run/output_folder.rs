@@ -23,7 +23,8 @@ pub(super) struct OutputFolder {
     unfinished: Unfinished,
     /// The sequences that are complete.
     record: RunRecord,
-    /// Sequences that are not asked for and were made by another version or with other settings.
+    /// Sequences that are not asked for and were made by another version, with other settings or of a recording of
+    /// another format.
     removed: Vec<String>,
     /// Sequences with results that are not as they were written, and the first such file.
     damaged: Vec<(String, PathBuf)>,

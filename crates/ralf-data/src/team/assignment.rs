@@ -168,6 +168,7 @@ mod tests {
             cameras: Vec::new(),
             not_labelled: Vec::new(),
             unlike_sisters: Vec::new(),
+            without_numbers: Vec::new(),
             motion: Default::default(),
             unreadable: Vec::new(),
         }

@@ -27,7 +27,7 @@ pub struct GroundTruth {
 impl GroundTruth {
     /// Finds all scans with truth below a dataset's folder; none at all is an error. Only label files are needed.
     pub fn open(dataset: &Path) -> Result<Self, DataError> {
-        Self::find(dataset)?.ok_or_else(|| none(&dataset.join("sequences")))
+        Self::find(dataset)?.ok_or_else(|| none(dataset))
     }
 
     /// Finds all scans with truth below a dataset's folder; `None` where there are none.
@@ -37,7 +37,7 @@ impl GroundTruth {
 
     /// The same with the corrections of a review above it; the dataset's folder need hold no truth of its own.
     pub fn merged(dataset: &Path, corrections: Corrections) -> Result<Self, DataError> {
-        Self::find_merged(dataset, corrections)?.ok_or_else(|| none(&dataset.join("sequences")))
+        Self::find_merged(dataset, corrections)?.ok_or_else(|| none(dataset))
     }
 
     /// The same; `None` where neither says anything.
@@ -102,9 +102,14 @@ impl GroundTruth {
     }
 }
 
-fn none(looked_in: &Path) -> DataError {
+/// What is said of a folder without truth, or of one that isn't there at all.
+fn none(dataset: &Path) -> DataError {
+    if let Err(error) = dataset.metadata() {
+        let expected = "a folder with corrected labels, or a recording whose truth is known";
+        return DataError::io(dataset)(ralf_files::absent(error, expected));
+    }
     let place = format!("*/ground_truth/*/NNNNNN.{EXTENSION}");
-    DataError::content(looked_in, place, "files of corrected labels", "none")
+    DataError::content(&dataset.join("sequences"), place, "files of corrected labels", "none")
 }
 
 fn scans_with_files(dataset: &Path) -> Result<BTreeSet<ScanId>, DataError> {

@@ -32,6 +32,7 @@ pub(super) fn health(content: &Content) -> Markup {
         section #health {
             h2 { "Flagged scans and failed cameras" }
             (check(content))
+            (without_numbers(content))
             (unlike_sisters(content))
             (flags(content))
             (scans_to_look_at(content))
@@ -56,6 +57,22 @@ fn check(content: &Content) -> Markup {
                     @if let Some(remedy) = &line.remedy { strong { (remedy) } ": " }
                     (line.evidence)
                 }
+            } }
+        }
+    }
+}
+
+/// Radars that have detections and no numbers.
+fn without_numbers(content: &Content) -> Markup {
+    let sequences = content.record.sequences.iter();
+    let found: Vec<_> = sequences
+        .flat_map(|sequence| sequence.without_numbers.iter().map(|found| (sequence.name.as_str(), found)))
+        .collect();
+    html! {
+        @if !found.is_empty() {
+            h3 { "Radars without numbers" }
+            ul { @for (sequence, found) in found {
+                li { (sequence) ", " (found.radar) ": " (found.words()) }
             } }
         }
     }

@@ -28,6 +28,11 @@ impl<K: PartialEq, V: Clone> Recent<K, V> {
         Some(value)
     }
 
+    /// Forgets these.
+    pub(crate) fn forget(&mut self, which: impl Fn(&K) -> bool) {
+        self.entries.retain(|(known, _)| !which(known));
+    }
+
     /// Remembers a value.
     pub(crate) fn insert(&mut self, key: K, value: V) {
         self.entries.retain(|(known, _)| *known != key);
@@ -52,5 +57,7 @@ mod tests {
         assert_eq!((recent.get(&2), recent.get(&1), recent.get(&3)), (None, Some("one"), Some("three")));
         recent.insert(1, "uno");
         assert_eq!(recent.get(&1), Some("uno"));
+        recent.forget(|key| *key > 2);
+        assert_eq!((recent.get(&1), recent.get(&3)), (Some("uno"), None));
     }
 }

@@ -1,9 +1,9 @@
 //! A sensor's files: their names are numbers, and line n of `timestamps.txt` belongs to the n-th of them.
 
 use super::tables;
+use crate::disk::files;
 use crate::error::DataError;
 use std::collections::BTreeMap;
-use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The measurements of one sensor.
@@ -78,7 +78,7 @@ impl SensorFiles {
 /// The files of a folder with one of these extensions, by number. Hidden files are none.
 fn numbered(folder: &Path, extensions: &[&str]) -> Result<BTreeMap<u64, PathBuf>, DataError> {
     let mut files = BTreeMap::new();
-    for entry in fs::read_dir(folder).map_err(DataError::io(folder))? {
+    for entry in files::entries(folder, "a folder of measurements")? {
         let file = entry.map_err(DataError::io(folder))?.path();
         let Some(stem) = stem(&file, extensions) else { continue };
         let number = Some(stem).filter(|stem| stem.bytes().all(|b| b.is_ascii_digit()));
@@ -117,6 +117,7 @@ fn stem<'a>(file: &'a Path, extensions: &[&str]) -> Option<&'a str> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::fs;
 
     fn folder(names: &[&str]) -> tempfile::TempDir {
         let folder = tempfile::tempdir().unwrap();

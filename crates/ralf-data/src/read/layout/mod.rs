@@ -14,22 +14,25 @@ mod values;
 pub use source::LayoutSequence;
 pub(crate) use values::degrees;
 
+use crate::disk::files;
 use crate::error::DataError;
 use crate::read::{Recording, SequenceReader};
 use ralf::sensors::{DepthOutput, Rig};
-use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The format's name.
 pub(crate) const NAME: &str = "ralf";
 /// The folder of a dataset that holds its sequences.
 pub(crate) const SEQUENCES: &str = "sequences";
+/// What lies beside the sequences in an output folder, and in no recording.
+pub(crate) const RECORD: &str = "run.json";
 /// The folder of a sequence that holds corrected labels.
 pub(crate) const GROUND_TRUTH: &str = "ground_truth";
 
 /// Opens a dataset of the own layout: all sequences, with every check that needs no measurement.
 pub(crate) fn open(dataset: &Path) -> Result<Recording, DataError> {
     let folder = dataset.join(SEQUENCES);
+    refuse_results(dataset)?;
     let open = |folder: &PathBuf| Ok(Box::new(LayoutSequence::open(folder)?) as Box<dyn SequenceReader>);
     let sequences = folders(&folder)?.iter().map(open).collect::<Result<Vec<_>, DataError>>()?;
     if sequences.is_empty() {
@@ -50,10 +53,19 @@ pub fn rig_from_json(told: &str) -> Result<(Rig, DepthOutput), DataError> {
     Ok((rig::rig(file, &told)?, told.depth.output))
 }
 
+/// Refuses the folder that `ralf label` wrote, whose own `sequences` are easily taken for those of a recording.
+fn refuse_results(dataset: &Path) -> Result<(), DataError> {
+    let expected = "a recording";
+    let found = "the labels of one, as `ralf label` wrote them";
+    let is_result = dataset.join(RECORD).is_file()
+        && folders(&dataset.join(SEQUENCES))?.iter().all(|folder| !folder.join("sequence.toml").exists());
+    if is_result { Err(DataError::content(dataset, "content", expected, found)) } else { Ok(()) }
+}
+
 /// The folders in a folder by name, hidden ones left out: a conversion under way is one.
 fn folders(parent: &Path) -> Result<Vec<PathBuf>, DataError> {
     let mut found = Vec::new();
-    for entry in fs::read_dir(parent).map_err(DataError::io(parent))? {
+    for entry in files::entries(parent, "a folder per sequence")? {
         let entry = entry.map_err(DataError::io(parent))?;
         let hidden = entry.file_name().as_encoded_bytes().starts_with(b".");
         if !hidden && entry.path().is_dir() {

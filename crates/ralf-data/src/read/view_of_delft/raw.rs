@@ -4,7 +4,6 @@ use crate::disk::files;
 use crate::error::DataError;
 use ralf_files::Kind;
 use serde::Deserialize;
-use std::fs;
 use std::path::Path;
 
 /// A frame: its number, and that number as the files have it (`00549`).
@@ -17,7 +16,7 @@ pub(super) struct Frame {
 /// The frames of a folder of `.bin` files, ascending; at least one.
 pub(super) fn frames(folder: &Path) -> Result<Vec<Frame>, DataError> {
     let mut frames = Vec::new();
-    for entry in fs::read_dir(folder).map_err(DataError::io(folder))? {
+    for entry in files::entries(folder, "a folder of frames, NNNNN.bin")? {
         let file = entry.map_err(DataError::io(folder))?.path();
         if file.extension().is_none_or(|extension| extension != "bin") {
             continue;

@@ -1,6 +1,7 @@
 //! Frames of one sequence, gathered in bounded memory.
 
 mod evidence;
+mod forgetting;
 mod segmentation;
 
 use super::camera::{CalibratedImage, Calibration, ImageId, ImageView, SegmentedImage};
@@ -97,6 +98,7 @@ impl<'a> FrameWindow<'a> {
         };
         self.radar_scans.insert((radar, scan), Some(located.clone()));
         let t_ns = located.t_ns();
+        self.forget_what_is_past(t_ns);
         let NearLidars { scans, view: lidar, mut unreadable } = self.near_lidars(t_ns);
         let lidar_neighbours = self.lidar_neighbours(scans, t_ns, &mut unreadable);
         let images = if self.config.camera.enabled { self.images(t_ns) } else { Vec::new() };
