@@ -2,6 +2,7 @@
 //! the detection.
 
 use super::columns::{set, unobserved};
+use super::wall::Wall;
 use super::way::TALL;
 use super::{Feature, Piece, Surroundings, Values};
 use crate::scene::{ColumnGrid, StaticMap};
@@ -50,6 +51,14 @@ const FEATURES: &[Feature] = &[
         meaning: "length of the radar's way to the detection that leads through things over a metre high",
     },
     Feature {
+        name: "sight_wall_length",
+        unit: "m",
+        group: GROUP,
+        meaning: "length of the straight wall that the last thing over a metre high in the radar's way belongs to, at \
+                  most 3 m to each side; null where nothing is",
+    },
+    Feature { name: "sight_wall_top", unit: "m", group: GROUP, meaning: "height of that wall" },
+    Feature {
         name: "sight_footprint_cars",
         unit: "1",
         group: GROUP,
@@ -67,15 +76,19 @@ fn observe(surroundings: &Surroundings) -> Vec<Values> {
     let frame = surroundings.frame;
     let mut columns = unobserved(FEATURES, frame.scan.len());
     let Some(lidar) = &frame.lidar_window else { return columns };
+    let map = lidar.window.map();
     for (i, probe) in surroundings.probes().iter().enumerate() {
         let (Some(probe), Some(way)) = (probe, surroundings.ways()[i]) else { continue };
-        let (cars, tall) = footprint(lidar.window.map(), &probe.detection.position);
+        let (cars, tall) = footprint(map, &probe.detection.position);
+        let wall = way.last_tall.and_then(|place| Wall::at(map, place));
         let values = [
             Some(way.behind_surface),
             way.surface_height,
             Some(way.behind_first_tall),
             Some(way.behind_last_tall),
             Some(way.through),
+            wall.map(|wall| wall.length),
+            wall.map(|wall| wall.top),
             Some(cars),
             Some(tall),
         ];

@@ -2,6 +2,7 @@
 
 use super::columns::{set, unobserved};
 use super::distance::{Spot, chi_within};
+use super::wall::Line;
 use super::way::TALL;
 use super::{Feature, Piece, Surroundings, Values};
 use crate::scene::{Detection, StaticMap};
@@ -44,8 +45,8 @@ fn observe(surroundings: &Surroundings) -> Vec<Values> {
     for (i, detection) in frame.scan.detections.iter().enumerate() {
         let Some(moved) = detection.map(|detection| detection.moved(&window_from_vehicle)) else { continue };
         let behind = surroundings.ways()[i].map_or(0.0, |way| way.behind_first_tall);
-        let Some(wall) = Wall::before(map, &radar, &moved.position, behind) else { continue };
-        let image = wall.reflect(&moved).moved(&lidar.vehicle_from_window);
+        let Some(mirror) = Mirror::before(map, &radar, &moved.position, behind) else { continue };
+        let image = mirror.reflect(&moved).moved(&lidar.vehicle_from_window);
         let image_spot = Spot::new(&image);
         surroundings.beside(&image.position, REACH, &mut near);
         let mut least: Option<f64> = None;
@@ -61,16 +62,16 @@ fn observe(surroundings: &Surroundings) -> Vec<Values> {
     columns
 }
 
-/// A vertical plane.
+/// A vertical plane that turns waves back.
 #[derive(Debug, Clone, Copy, PartialEq)]
-struct Wall {
+struct Mirror {
     /// A point of it, m.
     point: Vector,
     /// Of unit length, horizontal.
     normal: Vector,
 }
 
-impl Wall {
+impl Mirror {
     /// The wall that something tall in the radar's way to a place belongs to, which lies so far behind it, m; `None`
     /// where the place lies behind nothing, or behind nothing flat.
     fn before(map: &StaticMap, radar: &Point, place: &Point, behind: f64) -> Option<Self> {
@@ -81,8 +82,15 @@ impl Wall {
         let met = place - along * behind;
         let columns = map.columns.around(met.x, met.y, AROUND).filter(|(_, column)| column.top >= TALL);
         let places: Vec<[f64; 2]> = columns.map(|(place, _)| place).collect();
-        let (center, normal) = line_through(&places)?;
-        Some(Self { point: met.coords + Vector::new(center[0], center[1], 0.0), normal })
+        if places.len() < COLUMNS {
+            return None;
+        }
+        let Line { middle: [x, y], normal: [across_x, across_y], .. } =
+            Some(Line::through(&places)).filter(|line| line.is_thin(THIN))?;
+        Some(Self {
+            point: met.coords + Vector::new(x, y, 0.0),
+            normal: Vector::new(across_x, across_y, 0.0),
+        })
     }
 
     /// A detection as it lies on the wall's other side.
@@ -93,53 +101,17 @@ impl Wall {
     }
 }
 
-/// The line through places, as their middle and its normal; `None` of too few, and where they are no line.
-fn line_through(places: &[[f64; 2]]) -> Option<([f64; 2], Vector)> {
-    if places.len() < COLUMNS {
-        return None;
-    }
-    let count = places.len() as f64;
-    let middle = [0, 1].map(|axis| places.iter().map(|place| place[axis]).sum::<f64>() / count);
-    let (mut xx, mut xy, mut yy) = (0.0, 0.0, 0.0);
-    for place in places {
-        let [x, y] = [place[0] - middle[0], place[1] - middle[1]];
-        xx += x * x;
-        xy += x * y;
-        yy += y * y;
-    }
-    // The principal axes of the scatter: half the trace, more and less by this.
-    let (half, apart) = (0.5 * (xx + yy), (0.5 * (xx - yy)).hypot(xy));
-    if half - apart > THIN * THIN * (half + apart) {
-        return None;
-    }
-    let angle = 0.5 * (2.0 * xy).atan2(xx - yy);
-    Some((middle, Vector::new(-angle.sin(), angle.cos(), 0.0)))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
-    fn a_line_by_hand() {
-        let slanted: Vec<[f64; 2]> =
-            (0..9).map(|k| [0.25 * f64::from(k), 1.0 + 0.25 * f64::from(k)]).collect();
-        let (middle, normal) = line_through(&slanted).unwrap();
-        assert!((middle[0] - 1.0).abs() < 1e-12 && (middle[1] - 2.0).abs() < 1e-12);
-        assert!((normal - Vector::new(-1.0, 1.0, 0.0).normalize()).norm() < 1e-12);
-        let upright: Vec<[f64; 2]> = (0..9).map(|k| [3.0, f64::from(k)]).collect();
-        assert!((line_through(&upright).unwrap().1.x.abs() - 1.0).abs() < 1e-12);
-        let heap: Vec<[f64; 2]> = (0..9).map(|k| [f64::from(k % 3), f64::from(k / 3)]).collect();
-        assert!(line_through(&heap).is_none() && line_through(&slanted[..5]).is_none());
-    }
-
-    #[test]
     fn a_reflection_is_its_own_inverse_and_keeps_the_wall() {
-        let wall = Wall { point: Vector::new(0.0, 5.0, 0.0), normal: Vector::y() };
+        let mirror = Mirror { point: Vector::new(0.0, 5.0, 0.0), normal: Vector::y() };
         let detection = Detection { position: Point::new(10.0, 8.0, 1.0), axes: Matrix3::identity() };
-        let image = wall.reflect(&detection);
+        let image = mirror.reflect(&detection);
         assert_eq!(image.position, Point::new(10.0, 2.0, 1.0));
-        assert_eq!(wall.reflect(&image).position, detection.position);
+        assert_eq!(mirror.reflect(&image).position, detection.position);
         assert_eq!(image.axes[(1, 1)], -1.0);
     }
 }

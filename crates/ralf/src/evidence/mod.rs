@@ -35,6 +35,7 @@ mod sought;
 mod statistics;
 mod surroundings;
 mod terrain;
+mod wall;
 mod way;
 
 pub use probe::Probe;

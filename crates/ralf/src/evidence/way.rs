@@ -42,6 +42,8 @@ pub(super) struct Way {
     /// From the first tall column to the detection, m; 0 where there is none.
     pub(super) behind_first_tall: f64,
     pub(super) behind_last_tall: f64,
+    /// Where the last tall column was met, m.
+    pub(super) last_tall: Option<[f64; 2]>,
     /// Steps through tall columns, m.
     pub(super) through: f64,
 }
@@ -63,7 +65,7 @@ impl Way {
             let place = radar.coords.xy() + along * (gone / length);
             let (column, free) = map.columns.at(place.x, place.y, lengths);
             if let Some(column) = column {
-                way.meet(&column, length - gone);
+                way.meet(&column, length - gone, place.into());
             }
             // Steps through nothing, a hair fewer so that rounding never decides.
             step += 1 + (0.99 / STEP * free) as usize;
@@ -71,8 +73,8 @@ impl Way {
         way
     }
 
-    /// A column so far before the detection, m.
-    fn meet(&mut self, column: &Column, before: f64) {
+    /// A column so far before the detection, m, that was met at a place.
+    fn meet(&mut self, column: &Column, before: f64, place: [f64; 2]) {
         if column.bottom <= SURFACE[1] && column.top >= SURFACE[0] && self.surface_height.is_none() {
             self.behind_surface = before;
             self.surface_height = Some(column.top);
@@ -82,6 +84,7 @@ impl Way {
                 self.behind_first_tall = before;
             }
             self.behind_last_tall = before;
+            self.last_tall = Some(place);
             self.through += STEP;
         }
     }

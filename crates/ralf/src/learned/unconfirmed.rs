@@ -1,5 +1,5 @@
-//! What nobody but the radar tells of: beyond the reach of the LiDAR's map, or where no ray goes, and no LiDAR point
-//! near, neither where it would be if it stood still nor where its range rate takes it.
+//! What nobody but the radar tells of: beyond the reach of the LiDAR's map, where no ray goes, or behind a wall, and no
+//! LiDAR point near, neither where it would be if it stood still nor where its range rate takes it.
 //!
 //! A world has as much clutter out there as somebody thought of, and a model believes a radar as far as that goes. On a
 //! real road nobody can check it. As the paper does, what no other sensor confirms counts less: the setting
@@ -12,6 +12,12 @@ const NEAR: f32 = 3.0;
 /// Nothing of the map is near, m: farther points are not told apart.
 const NOTHING_NEAR: f32 = 3.0;
 
+/// A wall is higher than cars and longer than what waves find their way around, m.
+const WALL_TOP: f32 = 2.5;
+const WALL_LENGTH: f32 = 4.0;
+/// Shares that are all there is, whatever their sum was rounded to.
+const ALL: f32 = 0.999;
+
 /// Where to look in a row of evidence.
 #[derive(Debug, Clone, Copy)]
 pub struct Unconfirmed {
@@ -19,6 +25,10 @@ pub struct Unconfirmed {
     chi: Option<usize>,
     map: Option<usize>,
     moving: Option<usize>,
+    hidden: Option<usize>,
+    chi_of_all: Option<usize>,
+    wall_top: Option<usize>,
+    wall_length: Option<usize>,
 }
 
 impl Unconfirmed {
@@ -30,19 +40,32 @@ impl Unconfirmed {
             chi: place("lidar_chi"),
             map: place("map_distance"),
             moving: place("lidar_moving_near"),
+            hidden: place("lidar_occluded"),
+            chi_of_all: place("lidar_window_chi_least"),
+            wall_top: place("sight_wall_top"),
+            wall_length: place("sight_wall_length"),
         }
     }
 
-    /// Whether there is a LiDAR that can't speak of the place, for it lies beyond its map or no ray of any scan around
-    /// goes there, and of its points none is near: of the nearest scan within 3 sigmas, of the map within 3 m, and, if
-    /// the detection moves, of the scans around where its range rate takes it by their times.
+    /// Whether there is a LiDAR that can't speak of the place, and of its points none is near. It can't where the place
+    /// lies beyond its map or no ray of any scan around goes there: then none of the nearest scan may be within 3
+    /// sigmas and none of the map within 3 m. Nor can it where all rays end before the place and the last thing in the
+    /// radar's way is a wall, over 2.5 m high and at least 4 m long: then no scan around may have one within 3 sigmas.
+    /// Nor may any scan around have one where its range rate takes the detection, if it moves.
     pub fn is(&self, row: &[f32]) -> bool {
         let value = |place: Option<usize>| place.map_or(f32::NAN, |place| row[place]);
         let (unseen, chi, map) = (value(self.unseen), value(self.chi), value(self.map));
-        let is_looked_for = !unseen.is_nan() && self.chi.is_some() && self.map.is_some();
+        if unseen.is_nan() || self.chi.is_none() || self.map.is_none() {
+            return false;
+        }
         // What is absent is no point near.
-        let near = chi < NEAR || map < NOTHING_NEAR || value(self.moving) > 0.0;
-        is_looked_for && !near && (map.is_nan() || unseen >= 1.0)
+        let near = chi < NEAR || value(self.moving) > 0.0;
+        let near_map = map < NOTHING_NEAR;
+        let near_any = value(self.chi_of_all) < NEAR;
+        let out_of_sight = map.is_nan() || unseen >= 1.0;
+        let walled = value(self.wall_top) > WALL_TOP && value(self.wall_length) >= WALL_LENGTH;
+        let hidden = walled && unseen + value(self.hidden) >= ALL;
+        !near && (out_of_sight && !near_map || hidden && !near_any)
     }
 
     /// The probability of a row; of one that is unconfirmed, with its odds multiplied by the factor.
@@ -72,6 +95,24 @@ mod tests {
             ([3.0, absent, 0.9, absent], false),
             ([2.9, absent, 1.0, absent], false),
             ([absent; 4], false),
+        ] {
+            assert_eq!(unconfirmed.is(&row), expected, "{row:?}");
+        }
+        let names = [
+            ["map_distance", "lidar_chi", "lidar_unseen", "lidar_moving_near"],
+            ["lidar_occluded", "lidar_window_chi_least", "sight_wall_top", "sight_wall_length"],
+        ];
+        let unconfirmed = Unconfirmed::among(names.as_flattened().iter().copied());
+        for (row, expected) in [
+            ([0.6, 9.0, 0.0, 0.0, 1.0, 3.0, 2.6, 4.0], true),
+            ([0.6, 9.0, 0.25, absent, 0.75, absent, 5.9, 6.25], true),
+            ([0.6, 2.9, 0.0, 0.0, 1.0, 3.0, 2.6, 4.0], false),
+            ([0.6, 9.0, 0.0, 0.1, 1.0, 3.0, 2.6, 4.0], false),
+            ([0.6, 9.0, 0.0, 0.0, 0.9, 3.0, 2.6, 4.0], false),
+            ([0.6, 9.0, 0.0, 0.0, 1.0, 2.9, 2.6, 4.0], false),
+            ([0.6, 9.0, 0.0, 0.0, 1.0, 3.0, 2.4, 4.0], false),
+            ([0.6, 9.0, 0.0, 0.0, 1.0, 3.0, 2.6, 3.9], false),
+            ([0.6, 9.0, 0.0, 0.0, 1.0, 3.0, absent, absent], false),
         ] {
             assert_eq!(unconfirmed.is(&row), expected, "{row:?}");
         }

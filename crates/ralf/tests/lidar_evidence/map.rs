@@ -47,6 +47,10 @@ fn the_way_to_a_detection_leads_through_a_wall() {
     assert_eq!(heights[1..], [None, None, None]);
     let through = column(&found, "sight_through");
     assert!((0.2..0.7).contains(&through[0].unwrap()), "{through:?}");
+    // Looked at 3 m to each side of the way: 25 columns of 0.25 m.
+    let length = column(&found, "sight_wall_length");
+    assert_eq!(length, [Some(6.25), None, None, None]);
+    close(column(&found, "sight_wall_top")[0], 3.8, 0.15);
     // On the wall 12 of 12 x 12 columns are filled, or twice as many where it lies between two rows.
     let tall = column(&found, "sight_footprint_tall")[1].unwrap();
     assert!((12.0 / 144.0..=24.0 / 144.0).contains(&tall), "{tall}");
