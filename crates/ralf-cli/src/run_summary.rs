@@ -1,6 +1,6 @@
 //! What a run of `ralf label` made, as tables: a row per radar, and a row per camera whose images have depth.
 
-use crate::text::{aligned, grouped, percent};
+use crate::text::{aligned, counted, grouped, percent};
 use ralf::label::flag;
 use ralf::scene::{Failure, ViewState};
 use ralf_data::run::{CameraRecord, RadarRecord, RunRecord};
@@ -69,7 +69,7 @@ fn radar_row(sequence: &str, radar: &RadarRecord) -> Vec<String> {
     let (detections, plausible) = (total(&radar.detections), total(&radar.plausible));
     let flagged = |flag: u16| match radar.flags.iter().filter(|flags| **flags & flag != 0).count() {
         0 => "-".to_owned(),
-        count => format!("{} scans", grouped(count as u64)),
+        count => counted(count, "scan"),
     };
     vec![
         sequence.to_owned(),

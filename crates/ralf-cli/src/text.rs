@@ -1,6 +1,7 @@
 //! Printing results, and numbers as people read them.
 
 use anyhow::Context;
+pub(crate) use ralf_report::{counted, grouped};
 use std::io::{self, Write};
 
 /// Prints a result to standard output.
@@ -14,20 +15,6 @@ pub(crate) fn print(text: &str) -> anyhow::Result<()> {
 /// Whether an error is that nobody reads our standard output any more.
 pub(crate) fn is_broken_pipe(error: &anyhow::Error) -> bool {
     error.downcast_ref::<io::Error>().is_some_and(|error| error.kind() == io::ErrorKind::BrokenPipe)
-}
-
-/// A whole number with its thousands apart: 1,263.
-pub(crate) fn grouped(number: u64) -> String {
-    let digits = number.to_string();
-    let first = digits.len() % 3;
-    let mut text = digits[..first].to_owned();
-    for group in digits.as_bytes()[first..].chunks(3) {
-        if !text.is_empty() {
-            text.push(',');
-        }
-        text.extend(group.iter().map(|digit| char::from(*digit)));
-    }
-    text
 }
 
 /// A share in percent with one decimal, or a dash of nothing.
@@ -59,13 +46,6 @@ pub(crate) fn aligned(rows: &[Vec<String>]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn numbers_are_grouped_by_thousands() {
-        for (number, text) in [(0, "0"), (999, "999"), (1000, "1,000"), (3_288_803, "3,288,803")] {
-            assert_eq!(grouped(number), text);
-        }
-    }
 
     #[test]
     fn columns_are_aligned() {

@@ -13,6 +13,7 @@ mod curves;
 mod error;
 mod evidence;
 mod findings;
+mod number;
 mod page;
 mod pictures;
 mod realism;
@@ -21,6 +22,7 @@ mod settings_map;
 mod told;
 
 pub use error::ReportError;
+pub use number::{counted, grouped};
 pub use pictures::{Detections, Pictures, mark_label};
 pub use realism::RealismPage;
 

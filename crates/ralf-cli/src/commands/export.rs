@@ -4,7 +4,7 @@ use crate::arguments::{ChangedArgs, DatasetArgs};
 use crate::corrections::orphaned;
 use crate::outcome::{Outcome, UsageError};
 use crate::progress::{Progress, say};
-use crate::text::grouped;
+use crate::text::counted;
 use clap::builder::PossibleValuesParser;
 use clap::{Args, ValueEnum};
 use ralf_data::write::export::{Export, ExportFormat, ExportOptions, Exported, Sensors, Split};
@@ -75,8 +75,8 @@ pub(crate) fn run(arguments: &ExportArgs) -> anyhow::Result<Outcome> {
     let progress = Progress::of_steps(export.scans() as u64, format!("exporting {}", arguments.to));
     let exported = export.write(&arguments.output, &|scans| progress.reached(scans as u64))?;
     drop(progress);
-    let [scans, detections] = [exported.scans, exported.detections].map(|count| grouped(count as u64));
-    say(&format!("wrote {}: {scans} scans, {detections} detections", arguments.output.display()));
+    let (scans, detections) = (counted(exported.scans, "scan"), counted(exported.detections, "detection"));
+    say(&format!("wrote {}: {scans}, {detections}", arguments.output.display()));
     Ok(name_what_is_missing(&exported))
 }
 

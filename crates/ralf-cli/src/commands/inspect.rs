@@ -8,7 +8,7 @@ use crate::arguments::{DatasetArgs, SettingsArgs, threads};
 use crate::outcome::{Outcome, UsageError};
 use crate::progress::Progress;
 use crate::run_summary::run_summary;
-use crate::text::{aligned, grouped, print};
+use crate::text::{aligned, counted, grouped, print};
 use clap::Args;
 use ralf::config::Config;
 use ralf::sensors::Timelines;
@@ -174,7 +174,7 @@ fn unreadable(scans: &[Unreadable]) -> String {
     const SHOWN: usize = 10;
     let mut text = String::new();
     if !scans.is_empty() {
-        text += &format!("{} scans can't be read:\n", grouped(scans.len() as u64));
+        text += &format!("{} can't be read:\n", counted(scans.len(), "scan"));
     }
     for Unreadable { sensor, scan, reason } in scans.iter().take(SHOWN) {
         text += &format!("  - {sensor} scan {scan}: {reason}\n");

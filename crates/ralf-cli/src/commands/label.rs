@@ -8,7 +8,7 @@ use crate::outcome::Outcome;
 use crate::progress::{Stages, say};
 use crate::run_summary::run_summary;
 use crate::spent::Work;
-use crate::text::{grouped, print};
+use crate::text::{counted, grouped, print};
 use clap::Args;
 use ralf_data::Recording;
 use ralf_data::run::{CheckRecord, LabelRun, Outcome as RunOutcome, RunRecord, SequenceRecord, check_all};
@@ -172,15 +172,15 @@ fn speed(done: &RunOutcome) -> String {
         .flat_map(|sequence| &sequence.radars)
         .flat_map(|radar| radar.detections.iter().copied().map(u64::from))
         .collect();
-    let (scans, detections) = (counts.len() as u64, counts.iter().sum());
+    let detections = counts.iter().sum();
     let seconds = done.record.timings.seconds;
     let rate = |count: u64| if seconds > 0.0 { count as f64 / seconds } else { 0.0 };
     format!(
-        "\n{} scans, {} detections in {seconds:.1} s ({:.0} scans/s, {:.0}k detections/s, {} jobs)\n",
-        grouped(scans),
-        grouped(detections),
-        rate(scans),
-        rate(detections) / 1e3,
-        done.record.timings.jobs,
+        "\n{}, {} in {seconds:.1} s ({:.0} scans/s, {} detections/s, {})\n",
+        counted(counts.len(), "scan"),
+        counted(detections as usize, "detection"),
+        rate(counts.len() as u64),
+        grouped(rate(detections) as u64),
+        counted(done.record.timings.jobs, "job"),
     )
 }

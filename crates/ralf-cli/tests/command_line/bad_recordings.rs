@@ -176,7 +176,7 @@ fn what_is_not_there_is_named_with_what_it_was_needed_for() {
         .says([&dataset.out, "content: expected a recording, found the labels of one"]);
     label(&["--set", "lidar.beta=abc"])
         .exits(2)
-        .says(["error: --set: invalid type: string \"abc\", expected f64 in `lidar.beta`\n"]);
+        .says(["error: --set: invalid type: string \"abc\", expected a number in `lidar.beta`\n"]);
     ralf(["evaluate", &dataset.out, "--truth", &nowhere])
         .exits(1)
         .says([&nowhere, "expected a folder with corrected labels"]);

@@ -121,7 +121,7 @@ fn two_people_agree_as_far_as_it_is_by_hand() {
     let asked = ["evaluate", &dataset.out, "--truth", &dataset.path, "--agreement", &other];
     ralf(asked).exits(1).says(["expected detections of which both say something, found none"]);
     say(&other, detections as u32, &[1, 10, 10, 99, 99]);
-    ralf(asked).exits(0).prints(["They disagree in 1 scans", "00/radar_front/000000: 1 of 4", "car"]);
+    ralf(asked).exits(0).prints(["They disagree in 1 scan,", "00/radar_front/000000: 1 of 4", "car"]);
     let [command, out, truth, path, agreement, _] = asked;
     let file = format!("{other}/corrections.sqlite");
     let found = ralf([command, out, truth, path, agreement, &file, "--json"]).exits(0).json();

@@ -2,6 +2,7 @@
 
 use crate::disk::files;
 use crate::error::DataError;
+use ralf::config::in_words;
 use ralf_files::Kind;
 use serde::de::DeserializeOwned;
 use std::path::Path;
@@ -15,7 +16,7 @@ pub(crate) fn read<T: DeserializeOwned>(file: &Path, kind: Kind, expected: &str)
 /// What is wrong with a file, and where.
 pub(crate) fn unreadable(file: &Path, expected: &str, error: &serde_json::Error) -> DataError {
     let place = format!("line {}, column {}", error.line(), error.column());
-    let told = error.to_string();
+    let told = in_words(&error.to_string());
     let found = told.split(" at line ").next().unwrap_or(&told);
     DataError::content(file, place, expected, found)
 }

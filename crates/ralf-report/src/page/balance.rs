@@ -1,8 +1,8 @@
 //! What the labels say by themselves: class balance and distinctiveness.
 
-use super::number::{decimal, grouped, percent};
 use super::{figure, heads, swatch};
 use crate::content::Content;
+use crate::number::{decimal, grouped, percent};
 use crate::{ReportError, chart};
 use maud::{Markup, html};
 use ralf_data::Balance;

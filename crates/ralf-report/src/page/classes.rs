@@ -1,9 +1,9 @@
 //! Which classes plausible detections have, and which sensor tells them.
 
 use super::heads;
-use super::number::{grouped, percent};
 use crate::classes::Classes;
 use crate::content::Content;
+use crate::number::{grouped, percent};
 use maud::{Markup, html};
 use ralf::label::class_name;
 use ralf_data::result::ClassSource;

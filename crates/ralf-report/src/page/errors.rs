@@ -1,9 +1,9 @@
 //! Where the labels are wrong.
 
-use super::number::{grouped, percent};
 use super::{NO_TRUTH, figure, heads, swatch};
 use crate::breakdown::Group;
 use crate::content::Content;
+use crate::number::{grouped, percent};
 use crate::{ReportError, chart};
 use maud::{Markup, html};
 

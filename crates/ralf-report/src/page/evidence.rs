@@ -1,9 +1,9 @@
 //! What was observed besides the paper's answers.
 
 use super::heads;
-use super::number::{decimal, grouped};
 use crate::content::Content;
 use crate::evidence::Observed;
+use crate::number::{decimal, grouped};
 use maud::{Markup, html};
 
 pub(super) fn evidence(content: &Content) -> Markup {

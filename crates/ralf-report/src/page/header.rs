@@ -1,7 +1,7 @@
 //! What the page is about, and its main figures.
 
-use super::number::{counted, decimal, grouped, percent};
 use crate::content::Content;
+use crate::number::{counted, decimal, grouped, percent};
 use maud::{Markup, html};
 
 pub(super) fn header(content: &Content) -> Markup {

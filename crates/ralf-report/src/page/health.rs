@@ -1,8 +1,8 @@
 //! What was missing while the labels were made: flags, failed cameras, scans without labels.
 
 use super::heads;
-use super::number::{grouped, percent, ranges};
 use crate::content::Content;
+use crate::number::{grouped, percent, ranges};
 use maud::{Markup, html};
 use ralf::label::flag;
 use ralf::scene::{Failure, ViewState};

@@ -6,7 +6,6 @@ mod errors;
 mod evidence;
 mod header;
 mod health;
-mod number;
 mod pictures;
 mod provenance;
 mod realism;

@@ -1,7 +1,7 @@
 //! What the labels were made with, so that they can be made again.
 
-use super::number::grouped;
 use crate::content::Content;
+use crate::number::grouped;
 use maud::{Markup, html};
 
 pub(super) fn provenance(content: &Content) -> Markup {

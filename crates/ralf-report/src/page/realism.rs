@@ -1,7 +1,7 @@
 //! A simulated recording beside a real one.
 
-use super::number::grouped;
 use super::{document, figure, heads, swatch};
+use crate::number::grouped;
 use crate::realism::RealismPage;
 use crate::{ReportError, chart};
 use maud::{Markup, html};

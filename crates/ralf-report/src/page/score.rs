@@ -1,10 +1,10 @@
 //! What the plausibility is worth beyond the label, and how the settings matter.
 
-use super::number::decimal;
 use super::{NO_TRUTH, figure, swatch};
 use crate::content::Content;
 use crate::curves::{Point, average_precision, thinned};
 use crate::findings::Findings;
+use crate::number::decimal;
 use crate::{ReportError, chart};
 use maud::{Markup, html};
 use ralf::metrics::Rates;

@@ -1,8 +1,8 @@
 //! Labels against corrected ones: the paper's tables 3 (metrics) and 4 (confusion matrix).
 
 use super::NO_TRUTH;
-use super::number::{decimal, grouped, percent};
 use crate::content::Content;
+use crate::number::{decimal, grouped, percent};
 use maud::{Markup, html};
 use ralf::metrics::{Confusion, Evaluation, Rates, Scores};
 use ralf_data::Comparison;

@@ -1,8 +1,8 @@
 //! What a model tells of detections in words.
 
 use super::heads;
-use super::number::grouped;
 use crate::content::Content;
+use crate::number::grouped;
 use crate::told::Told;
 use maud::{Markup, html};
 

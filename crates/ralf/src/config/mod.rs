@@ -6,7 +6,7 @@ mod page;
 mod read;
 mod sensors;
 
-pub use error::ConfigError;
+pub use error::{ConfigError, in_words};
 pub use read::read_toml;
 pub use sensors::SensorOverride;
 

@@ -1,6 +1,6 @@
 //! Reading settings from TOML.
 
-use super::error::ConfigError;
+use super::error::{ConfigError, in_words};
 use super::{Complete, Config, page};
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
@@ -79,7 +79,7 @@ fn spanned<'a, T>(
 }
 
 fn parse_error(error: &toml::de::Error) -> ConfigError {
-    ConfigError::Parse(error.to_string())
+    ConfigError::Parse(in_words(&error.to_string()))
 }
 
 /// A text's tables with the assignments in them.

@@ -3,7 +3,7 @@
 use crate::corrections::orphaned;
 use crate::outcome::Outcome;
 use crate::progress::say;
-use crate::text::{aligned, decimal, grouped, print};
+use crate::text::{aligned, counted, decimal, grouped, print};
 use anyhow::bail;
 use ralf::metrics::Confusion;
 use ralf_data::judge::{Agreement, disagreements, kappa, kappa_of_names, label_name};
@@ -42,7 +42,7 @@ fn table(agreement: &Agreement) -> String {
     let named = agreement.disagreements();
     let mut text = aligned(&rows) + "\n" + &classes(agreement) + &causes(agreement);
     if !named.is_empty() {
-        text += &format!("\nThey disagree in {} scans, most in:\n", grouped(named.len() as u64));
+        text += &format!("\nThey disagree in {}, most in:\n", counted(named.len(), "scan"));
     }
     for (scan, counts) in named.into_iter().take(NAMED) {
         text += &format!("  {scan}: {} of {}\n", grouped(disagreements(counts)), grouped(counts.total()));

@@ -1,7 +1,7 @@
 //! What tuning has found, as people read it: the printed page, and the comment in the settings file.
 
 use super::report::{Part, Report};
-use crate::text::{aligned, decimal};
+use crate::text::{aligned, counted, decimal};
 use ralf::metrics::{Rates, Scores};
 use ralf_train::Fold;
 
@@ -38,7 +38,7 @@ pub(super) fn comment(report: &Report, command: &str) -> String {
     let about = |what: &str, part: &Part| {
         let names = part.sequences.join(", ");
         let (before, after) = (sentence(&part.base), sentence(&part.tuned));
-        format!("{what} {names} ({} scans):\n  before: {before}\n  after:  {after}\n", part.scans)
+        format!("{what} {names} ({}):\n  before: {before}\n  after:  {after}\n", counted(part.scans, "scan"))
     };
     let mut text = format!("Written by: {command}\n\n{}", about("Tuned on", &report.train));
     if let Some(test) = &report.test {
@@ -63,7 +63,7 @@ fn settings(report: &Report) -> String {
 }
 
 fn part(title: &str, part: &Part) -> String {
-    let title = format!("{title}: {} ({} scans)", part.sequences.join(", "), part.scans);
+    let title = format!("{title}: {} ({})", part.sequences.join(", "), counted(part.scans, "scan"));
     let mut rows = vec![heading("")];
     for (name, rates) in [
         ("mean over scans, before", &part.base.scan_mean.rates),

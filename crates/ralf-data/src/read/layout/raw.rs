@@ -2,6 +2,7 @@
 
 use crate::disk::files;
 use crate::error::DataError;
+use ralf::config::in_words;
 use ralf::sensors::DepthOutput;
 use ralf_files::Kind;
 use serde::{Deserialize, Serialize};
@@ -140,7 +141,7 @@ fn parse_error(file: &Path, text: &str, error: &toml::de::Error) -> DataError {
         Some(table) => format!("line {}, {}", line + 1, table.split('#').next().unwrap_or(table).trim()),
         None => format!("line {}", line + 1),
     };
-    let message = error.message();
+    let message = in_words(error.message());
     if let Some(key) = message.strip_prefix("missing field ") {
         return DataError::content(file, place, format!("the key {key}"), "none");
     }
@@ -181,7 +182,7 @@ mod tests {
                 "",
                 "line 4, [[lidar]]: expected the key `sigma_range_m`, found none",
             ),
-            ("0.03", "\"much\"", "line 8, [[lidar]]: expected f64, found invalid type: string \"much\""),
+            ("0.03", "\"much\"", "line 8, [[lidar]]: expected a number, found invalid type: string \"much\""),
             (
                 "[1, 0, 1.9]",
                 "[1, 0]",

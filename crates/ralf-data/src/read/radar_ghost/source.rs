@@ -57,8 +57,9 @@ impl Standing {
         let mut warnings = Vec::new();
         if detections.torn > 0 {
             let torn = detections.torn;
-            warnings
-                .push(format!("{torn} scans hold detections of several times, and have that of their first"));
+            warnings.push(format!(
+                "detections of several times in {torn} of the scans, which have that of their first"
+            ));
         }
         let sequence = sequence(&file, &radars, &lidar)?;
         Ok(Self { sequence, file, tables, radars, lidar, warnings })

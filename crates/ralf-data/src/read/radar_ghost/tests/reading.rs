@@ -175,7 +175,7 @@ fn a_scan_of_several_times_is_told() {
     }
     write_sequence(&folder.path().join("scenario-01_a.h5"), &rows, &lidar());
     let recording = open(folder.path()).unwrap();
-    assert!(only(&recording).warnings()[0].starts_with("1 scans hold detections of several times"));
+    assert!(only(&recording).warnings()[0].starts_with("detections of several times in 1 of the scans"));
 }
 
 /// The two files that were read last are kept; a third one makes the first forgotten.

@@ -1,7 +1,7 @@
 //! Numbers as people read them.
 
-/// A whole number with its thousands apart.
-pub(super) fn grouped(number: u64) -> String {
+/// A whole number with its thousands apart: 1,263.
+pub fn grouped(number: u64) -> String {
     let digits = number.to_string();
     let mut text = String::with_capacity(digits.len() + digits.len() / 3);
     for (place, digit) in digits.chars().enumerate() {
@@ -14,23 +14,23 @@ pub(super) fn grouped(number: u64) -> String {
 }
 
 /// So many of something: 1 scan, 2 scans.
-pub(super) fn counted(number: usize, what: &str) -> String {
+pub fn counted(number: usize, what: &str) -> String {
     let plural = if number == 1 { "" } else { "s" };
     format!("{} {what}{plural}", grouped(number as u64))
 }
 
 /// Three decimals, as `ralf evaluate` prints them; a dash where there is no value.
-pub(super) fn decimal(value: Option<f64>) -> String {
+pub(crate) fn decimal(value: Option<f64>) -> String {
     value.map_or("–".to_owned(), |value| format!("{value:.3}"))
 }
 
 /// A share in percent; a dash of nothing.
-pub(super) fn percent(part: u64, whole: u64) -> String {
+pub(crate) fn percent(part: u64, whole: u64) -> String {
     if whole == 0 { "–".to_owned() } else { format!("{:.1} %", 100.0 * part as f64 / whole as f64) }
 }
 
 /// Numbers in ascending order as ranges: 0–3, 7.
-pub(super) fn ranges(numbers: &[usize]) -> String {
+pub(crate) fn ranges(numbers: &[usize]) -> String {
     let runs = numbers.chunk_by(|a, b| a + 1 == *b).map(|run| match run {
         [first, .., last] => format!("{first}–{last}"),
         run => run.iter().map(usize::to_string).collect(),
