@@ -11,13 +11,26 @@ const DISC: i64 = 5;
 /// The distance of what is farther from every obstacle, m.
 pub(crate) const FAR: f64 = DISC as f64 * CELL;
 
-/// Distances to the nearest obstacle, and the tops of obstacles, about the vehicle.
+/// Cells of a tile's side.
+const TILE: usize = 16;
+/// Tiles of a side.
+const TILES: usize = SIDE.div_ceil(TILE);
+
+/// Distances to the nearest obstacle, and the tops of obstacles, about the vehicle. Most of the plan is far from every
+/// obstacle and takes no room.
 #[derive(Debug, Clone)]
 pub(crate) struct PlanField {
-    /// In steps of [`STEP`]; row by row, x along a row.
-    distance: Vec<u8>,
-    /// Highest point of the obstacle that is nearest, dm above the vehicle's origin. Same order.
-    tops: Vec<i8>,
+    /// Row by row, x along a row.
+    tiles: Vec<Option<Box<Tile>>>,
+}
+
+/// A square of cells; row by row, x along a row.
+#[derive(Debug, Clone)]
+struct Tile {
+    /// In steps of [`STEP`].
+    distance: [u8; TILE * TILE],
+    /// Highest point of the obstacle that is nearest, dm above the vehicle's origin.
+    tops: [i8; TILE * TILE],
 }
 
 /// Of a distance, m.
@@ -30,47 +43,54 @@ impl PlanField {
         let mut own: Vec<Option<i8>> = vec![None; SIDE * SIDE];
         let mut occupied = Vec::new();
         for [x, y, z] in obstacles {
-            let Some(cell) = cell(x, y) else { continue };
+            let Some([column, row]) = cell(x, y) else { continue };
             let decimetres = (z * 10.0).clamp(-127.0, 127.0) as i8;
-            match &mut own[cell] {
+            match &mut own[row * SIDE + column] {
                 Some(top) => *top = (*top).max(decimetres),
                 empty => {
                     *empty = Some(decimetres);
-                    occupied.push(cell);
+                    occupied.push([column, row]);
                 }
             }
         }
-        let mut field = Self { distance: vec![u8::MAX; SIDE * SIDE], tops: vec![0; SIDE * SIDE] };
+        let mut field = Self { tiles: vec![None; TILES * TILES] };
         let disc = disc();
-        for cell in occupied {
-            field.paint(cell, own[cell].unwrap_or_default(), &disc);
+        for [column, row] in occupied {
+            field.paint([column, row], own[row * SIDE + column].unwrap_or_default(), &disc);
         }
         field
     }
 
-    fn paint(&mut self, cell: usize, top: i8, disc: &[(i64, i64, u8)]) {
-        let (column, row) = ((cell % SIDE) as i64, (cell / SIDE) as i64);
+    fn paint(&mut self, [column, row]: [usize; 2], top: i8, disc: &[(i64, i64, u8)]) {
         for (dx, dy, distance) in disc {
-            let (x, y) = (column + dx, row + dy);
+            let (x, y) = (column as i64 + dx, row as i64 + dy);
             if (0..SIDE as i64).contains(&x) && (0..SIDE as i64).contains(&y) {
-                let at = y as usize * SIDE + x as usize;
-                if *distance < self.distance[at] {
-                    self.distance[at] = *distance;
-                    self.tops[at] = top;
+                let (tile, at) = place([x as usize, y as usize]);
+                let tile = self.tiles[tile].get_or_insert_with(Tile::far);
+                if *distance < tile.distance[at] {
+                    tile.distance[at] = *distance;
+                    tile.tops[at] = top;
                 }
             }
         }
     }
 
+    /// The distance at a place, in steps of [`STEP`], and the top of what is there; of what is far from every obstacle
+    /// the largest number. `None` beyond 50 m.
+    fn at(&self, x: f64, y: f64) -> Option<(u8, i8)> {
+        let (tile, at) = place(cell(x, y)?);
+        Some(self.tiles[tile].as_ref().map_or((u8::MAX, 0), |tile| (tile.distance[at], tile.tops[at])))
+    }
+
     /// Distance from a place to the nearest obstacle, m, at most [`FAR`]; `None` beyond 50 m.
     pub(crate) fn distance(&self, x: f64, y: f64) -> Option<f64> {
-        let distance = self.distance[cell(x, y)?];
+        let (distance, _) = self.at(x, y)?;
         Some(if distance == u8::MAX { FAR } else { f64::from(distance) * STEP })
     }
 
     /// Whether there is an obstacle at a place.
     pub(crate) fn is_obstacle(&self, x: f64, y: f64) -> bool {
-        cell(x, y).is_some_and(|cell| self.distance[cell] == 0)
+        self.at(x, y).is_some_and(|(distance, _)| distance == 0)
     }
 
     /// The distance from a place, linear between the middles of cells, so that small moves are felt.
@@ -85,15 +105,27 @@ impl PlanField {
 
     /// Highest point of the obstacle nearest to a place, m; `None` where there is none near.
     pub(crate) fn top(&self, x: f64, y: f64) -> Option<f64> {
-        let at = cell(x, y)?;
-        (self.distance[at] != u8::MAX).then(|| f64::from(self.tops[at]) * 0.1)
+        let (distance, top) = self.at(x, y)?;
+        (distance != u8::MAX).then(|| f64::from(top) * 0.1)
     }
 }
 
-fn cell(x: f64, y: f64) -> Option<usize> {
+impl Tile {
+    fn far() -> Box<Self> {
+        Box::new(Self { distance: [u8::MAX; TILE * TILE], tops: [0; TILE * TILE] })
+    }
+}
+
+/// The tile of a cell, and where the cell is in it.
+fn place([column, row]: [usize; 2]) -> (usize, usize) {
+    ((row / TILE) * TILES + column / TILE, (row % TILE) * TILE + column % TILE)
+}
+
+/// Column and row of a place; `None` beyond 50 m.
+fn cell(x: f64, y: f64) -> Option<[usize; 2]> {
     let [column, row] = [x, y].map(|value| (value / CELL).round() + REACH as f64);
     let inside = |value: f64| value >= 0.0 && value < SIDE as f64;
-    (inside(column) && inside(row)).then(|| row as usize * SIDE + column as usize)
+    (inside(column) && inside(row)).then_some([column as usize, row as usize])
 }
 
 /// Offsets of the cells about one, and their distances.

@@ -26,7 +26,7 @@ pub(super) struct Case<'a> {
     pub(super) radar_changes: Vec<SensorChange>,
     pub(super) lidar_changes: Vec<SensorChange>,
     /// LiDAR scans of LiDARs that are fit.
-    pub(super) lidars: Vec<LidarLook>,
+    pub(super) lidars: Vec<&'a LidarLook>,
     unfit: Vec<String>,
 }
 
@@ -44,7 +44,7 @@ impl<'a> Case<'a> {
             fits: sample.radars.iter().enumerate().map(one).collect(),
             radar_changes: vec![SensorChange::default(); rig.radars.len()],
             lidar_changes: vec![SensorChange::default(); rig.lidars.len()],
-            lidars: sample.lidars.iter().filter(is_fit).cloned().collect(),
+            lidars: sample.lidars.iter().filter(is_fit).collect(),
             unfit,
         }
     }

@@ -14,7 +14,7 @@ const TILTS: [f64; 6] = [-6.0, -4.0, -2.0, 2.0, 4.0, 6.0];
 /// Judges each radar that measures elevation; nothing is said of those in order. From one place it sees the same few
 /// low things in every scan, and how high their strongest spots are is theirs: several places are needed.
 pub(super) fn judge(case: &Case) -> Vec<Verdict> {
-    let places = by_place(case.lidars.iter().filter(|look| look.lidar == 0), &case.motion).len();
+    let places = by_place(case.lidars.iter().copied().filter(|look| look.lidar == 0), &case.motion).len();
     case.radars().filter_map(|radar| one(case, radar, places)).collect()
 }
 

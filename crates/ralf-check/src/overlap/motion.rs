@@ -12,7 +12,7 @@ const ON: f64 = 0.3;
 const LOOSE: f64 = 0.25;
 
 /// The tally of a LiDAR's obstacles, under a motion.
-pub(crate) fn motion_overlap(looks: &[LidarLook], motion: &EgoMotion) -> Tally {
+pub(crate) fn motion_overlap(looks: &[&LidarLook], motion: &EgoMotion) -> Tally {
     let mut tally = Tally::default();
     for (i, first) in looks.iter().enumerate() {
         let later = looks[i + 1..].iter().filter(|look| look.lidar == first.lidar);

@@ -105,7 +105,7 @@ fn laid_over(side: &Side, mount: &Transform, motion: &EgoMotion, t_ns: i64) -> P
 pub(crate) struct LidarPair<'a> {
     pub(crate) rig: &'a Rig,
     pub(crate) motion: &'a EgoMotion,
-    pub(crate) looks: &'a [LidarLook],
+    pub(crate) looks: &'a [&'a LidarLook],
     pub(crate) asked: usize,
     pub(crate) neighbour: usize,
     pub(crate) neighbour_change: SensorChange,
@@ -114,7 +114,7 @@ pub(crate) struct LidarPair<'a> {
 impl LidarPair<'_> {
     /// Of the first one's obstacles: those beside one of the second's.
     pub(crate) fn tally(&self, change: &SensorChange) -> Tally {
-        let of = |lidar: usize| self.looks.iter().filter(move |look| look.lidar == lidar);
+        let of = |lidar: usize| self.looks.iter().copied().filter(move |look| look.lidar == lidar);
         let neighbours: Vec<&LidarLook> = of(self.neighbour).collect();
         let recorded = |lidar: usize| self.rig.lidars[lidar].vehicle_from_lidar;
         let (own, other) = (recorded(self.asked), recorded(self.neighbour));

@@ -26,7 +26,7 @@ const HEIGHT: f64 = 0.3;
 pub(crate) struct Setup<'a> {
     pub(crate) rig: &'a Rig,
     pub(crate) motion: &'a EgoMotion,
-    pub(crate) lidars: &'a [LidarLook],
+    pub(crate) lidars: &'a [&'a LidarLook],
     /// Changes of the LiDARs that are taken for granted, in the order of the rig.
     pub(crate) lidar_changes: &'a [SensorChange],
 }

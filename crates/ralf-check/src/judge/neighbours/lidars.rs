@@ -81,7 +81,7 @@ fn best(
 
 /// Whether the radars' detections lie on a LiDAR's points with the change, and do not without.
 fn radars_agree(case: &Case, lidar: usize, change: &SensorChange) -> bool {
-    let own: Vec<_> = case.lidars.iter().filter(|look| look.lidar == lidar).cloned().collect();
+    let own: Vec<_> = case.lidars.iter().filter(|look| look.lidar == lidar).copied().collect();
     let tally = |change: SensorChange| {
         let mut changes = case.lidar_changes.clone();
         changes[lidar] = change;
