@@ -9,6 +9,7 @@ use crate::commands::{
 #[cfg(feature = "depth")]
 use crate::commands::{depth, segment};
 use crate::outcome::Outcome;
+use crate::progress;
 use crate::text::print;
 use clap::{CommandFactory, Parser, Subcommand};
 
@@ -36,6 +37,9 @@ Exit status: 0 done; 1 failed; 2 wrong usage; 3 done, but some scans are left ou
 pub(crate) struct Cli {
     #[command(subcommand)]
     command: Command,
+    /// No progress
+    #[arg(short, long, global = true)]
+    quiet: bool,
 }
 
 #[derive(Debug, Subcommand)]
@@ -90,6 +94,9 @@ enum Command {
 impl Cli {
     /// Runs what was typed.
     pub(crate) fn run(self) -> anyhow::Result<Outcome> {
+        if self.quiet {
+            progress::be_quiet();
+        }
         match self.command {
             Command::Demo(arguments) => demo::run(&arguments),
             Command::Inspect(arguments) => inspect::run(&arguments),

@@ -1,16 +1,25 @@
 //! How far the work has got: a bar with rate and remaining time where standard error is a terminal.
 
 use crate::spent::{Spent, Work};
-use indicatif::{ProgressBar, ProgressStyle};
+use crate::text::grouped;
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use ralf_data::run::{Observer, Part, Stage};
 use std::io::Write;
 use std::sync::Mutex;
-use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
 /// Says something to people, on standard error. Nobody has to listen.
 pub(crate) fn say(message: &str) {
     let _ = writeln!(std::io::stderr(), "{message}");
+}
+
+/// Whether no work is shown, whoever does it.
+static QUIET: AtomicBool = AtomicBool::new(false);
+
+/// No work is shown from now on.
+pub(crate) fn be_quiet() {
+    QUIET.store(true, Ordering::Relaxed);
 }
 
 const STEPS: &str = "{prefix} [{bar:30}] {human_pos}/{human_len}  {per_sec}  {eta} left  {msg}";
@@ -29,17 +38,19 @@ impl Progress {
 
     /// Work whose length nobody knows.
     pub(crate) fn spinner() -> Self {
-        Self { bar: ProgressBar::new_spinner() }
-    }
-
-    /// Nothing is shown.
-    pub(crate) fn hidden() -> Self {
-        Self { bar: ProgressBar::hidden() }
+        Self::shown(ProgressBar::new_spinner())
     }
 
     fn with_template(steps: u64, template: &str, name: String) -> Self {
         let style = ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar());
-        Self { bar: ProgressBar::new(steps).with_style(style.progress_chars("=> ")).with_prefix(name) }
+        Self::shown(ProgressBar::new(steps).with_style(style.progress_chars("=> ")).with_prefix(name))
+    }
+
+    fn shown(bar: ProgressBar) -> Self {
+        if QUIET.load(Ordering::Relaxed) {
+            bar.set_draw_target(ProgressDrawTarget::hidden());
+        }
+        Self { bar }
     }
 
     /// So many steps are done.
@@ -83,7 +94,7 @@ impl Drop for Progress {
 /// Shows a run's stages, one after the other.
 #[derive(Default)]
 pub(crate) struct Stages {
-    quiet: bool,
+    silent: bool,
     current: Mutex<Option<Progress>>,
     detections: AtomicU64,
     /// Work whose end is told, since when.
@@ -93,9 +104,9 @@ pub(crate) struct Stages {
 }
 
 impl Stages {
-    /// Shows nothing where `quiet`.
-    pub(crate) fn new(quiet: bool) -> Self {
-        Self { quiet, ..Self::default() }
+    /// Of work beside which others show theirs.
+    pub(crate) fn silent() -> Self {
+        Self { silent: true, ..Self::default() }
     }
 
     /// Ends what was under way.
@@ -126,7 +137,7 @@ impl Stages {
 impl Observer for Stages {
     fn begin(&self, stage: Stage, steps: u64) {
         self.begin_work((stage == Stage::Inputs).then_some(Work::Hashing));
-        if self.quiet {
+        if self.silent {
             return;
         }
         self.detections.store(0, Ordering::Relaxed);
@@ -147,7 +158,7 @@ impl Observer for Stages {
             progress.advance(steps);
             let seconds = progress.seconds();
             if detections > 0 && seconds > 0.0 {
-                progress.tell(format!("{:.0}k detections/s", detections as f64 / seconds / 1e3));
+                progress.tell(format!("{} detections/s", grouped((detections as f64 / seconds) as u64)));
             }
         }
     }

@@ -80,9 +80,6 @@ struct PlanArgs {
     /// Files that are read side by side
     #[arg(long, value_name = "N")]
     jobs: Option<NonZeroUsize>,
-    /// No progress
-    #[arg(short, long)]
-    quiet: bool,
 }
 
 #[derive(Debug, Args)]
@@ -115,9 +112,6 @@ struct AssembleArgs {
     /// Scans side by side, of those that nobody has labelled
     #[arg(long, value_name = "N")]
     jobs: Option<NonZeroUsize>,
-    /// No progress
-    #[arg(short, long)]
-    quiet: bool,
 }
 
 /// Does a step.
@@ -146,7 +140,7 @@ fn plan(arguments: &PlanArgs) -> anyhow::Result<Outcome> {
             ..Job::new(recording, out)
         };
         let jobs = NonZeroUsize::new(threads(arguments.jobs)).unwrap_or(NonZeroUsize::MIN);
-        match many::plan(&job, arguments.scans, jobs, &Stages::new(arguments.quiet)) {
+        match many::plan(&job, arguments.scans, jobs, &Stages::default()) {
             Ok(found) => tasks.extend(found),
             Err(error) => {
                 say(&format!("not planned: {}: {error}", recording.display()));
@@ -177,7 +171,7 @@ fn label(arguments: &TaskArgs) -> anyhow::Result<Outcome> {
     };
     let task =
         serde_json::from_str(line).with_context(|| format!("{}, line {}", name(), arguments.task + 1))?;
-    let failed = many::label_one(&task, arguments.jobs, &Stages::new(true))?;
+    let failed = many::label_one(&task, arguments.jobs, &Stages::silent())?;
     for scan in &failed {
         say(&format!(
             "not labelled: {} {} scan {}: {}",
@@ -196,7 +190,7 @@ fn assemble(arguments: &AssembleArgs) -> anyhow::Result<Outcome> {
     let jobs = NonZeroUsize::new(threads(arguments.jobs)).unwrap_or(NonZeroUsize::MIN);
     let (mut recordings, mut detections, mut outcome) = (0, 0, Outcome::Done);
     for folder in &folders {
-        match many::assemble(folder, jobs, &Stages::new(arguments.quiet)) {
+        match many::assemble(folder, jobs, &Stages::default()) {
             Ok(done) => {
                 recordings += 1;
                 let radars = done.record.radars().flat_map(|radar| &radar.detections);

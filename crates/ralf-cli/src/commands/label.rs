@@ -72,9 +72,6 @@ pub(crate) struct LabelArgs {
     /// Say where the time went, as all threads together spent it
     #[arg(long)]
     timings: bool,
-    /// No progress
-    #[arg(short, long)]
-    quiet: bool,
 }
 
 /// Labels a recording.
@@ -105,7 +102,7 @@ pub(crate) fn run(arguments: &LabelArgs) -> anyhow::Result<Outcome> {
         model: model.as_ref(),
         checks: &checks,
     };
-    let stages = Stages::new(arguments.quiet);
+    let stages = Stages::default();
     stages.spent.add(Work::Opening, begun.elapsed());
     let done = match arguments.strict || arguments.no_check {
         true => run.execute(&stages)?,

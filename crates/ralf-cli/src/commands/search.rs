@@ -47,9 +47,6 @@ pub(super) struct SearchArgs {
     /// Print the result as JSON
     #[arg(long)]
     pub(super) json: bool,
-    /// No progress
-    #[arg(short, long)]
-    quiet: bool,
 }
 
 /// The evidence of the sequences to train on and of those to judge by, each with its name.
@@ -104,7 +101,7 @@ impl SearchArgs {
         (recording, truth): (&Recording, &GroundTruth),
         config: &Config,
     ) -> anyhow::Result<Vec<SequenceEvidence>> {
-        Ok(gather_evidence(recording, truth, config, threads(self.jobs), &Stages::new(self.quiet))?)
+        Ok(gather_evidence(recording, truth, config, threads(self.jobs), &Stages::default())?)
     }
 
     /// Which evidence is for training, and which for judging.
@@ -126,7 +123,7 @@ impl SearchArgs {
 
     /// Of a search's trials.
     pub(super) fn progress(&self, name: &str) -> Progress {
-        if self.quiet { Progress::hidden() } else { Progress::of_steps(self.trials.get() as u64, name) }
+        Progress::of_steps(self.trials.get() as u64, name)
     }
 
     /// How far the search has got, and the best so far.

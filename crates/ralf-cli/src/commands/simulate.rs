@@ -92,9 +92,6 @@ pub(crate) struct SimulateArgs {
     /// Measurements side by side; as many as there are processors if not given. The files are the same for any number
     #[arg(long, value_name = "N")]
     jobs: Option<NonZeroUsize>,
-    /// No progress
-    #[arg(short, long)]
-    quiet: bool,
 }
 
 /// Makes a recording, or compares one.
@@ -125,7 +122,7 @@ impl SimulateArgs {
         }
         let steps: u64 =
             sequences.iter().map(|sequence| sequence.sequence().times.measurements() as u64).sum();
-        let progress = if self.quiet { Progress::hidden() } else { Progress::of_steps(steps, "simulating") };
+        let progress = Progress::of_steps(steps, "simulating");
         write_simulated(&sequences, output, threads(self.jobs), &|done| progress.reached(done as u64))?;
         drop(progress);
         for sequence in &sequences {
@@ -136,7 +133,7 @@ impl SimulateArgs {
     }
 
     fn compare_with(&self, real: &Path) -> anyhow::Result<Outcome> {
-        let told = Told { page: self.output.as_deref(), json: self.json, quiet: self.quiet };
+        let told = Told { page: self.output.as_deref(), json: self.json };
         let recording = ralf_data::open(real, None)?;
         let real = Named::opened(&recording);
         if let Some(other) = &self.with {

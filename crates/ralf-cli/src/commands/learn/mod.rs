@@ -72,9 +72,6 @@ pub(crate) struct LearnArgs {
     /// Print what the model is worth as JSON
     #[arg(long)]
     json: bool,
-    /// No progress
-    #[arg(short, long)]
-    quiet: bool,
 }
 
 /// Gathers, fits, writes and prints what the model is worth.
@@ -84,7 +81,7 @@ pub(crate) fn run(arguments: &LearnArgs) -> anyhow::Result<Outcome> {
         return Err(UsageError(format!("--output: expected a file, found the folder {file}")).into());
     }
     let settings = arguments.settings.resolve()?;
-    let stages = Stages::new(arguments.quiet);
+    let stages = Stages::default();
     let jobs = threads(arguments.jobs);
     let (config, seed) = (&settings.method, arguments.seed);
     let gatherer = TrainingGatherer { config, seed, weight: 1.0, jobs, observer: &stages };
@@ -96,7 +93,7 @@ pub(crate) fn run(arguments: &LearnArgs) -> anyhow::Result<Outcome> {
     }
     let table = table.without_groups(&arguments.without_groups);
     let fitting = arguments.fitting(config, jobs);
-    let progress = if arguments.quiet { Progress::hidden() } else { Progress::of_steps(0, "fitting") };
+    let progress = Progress::of_steps(0, "fitting");
     let fitted =
         fit(&table, &fitting, arguments.origin(), &|done, of| progress.reached_of(done as u64, of as u64))?;
     drop(progress);

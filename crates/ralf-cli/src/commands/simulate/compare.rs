@@ -30,12 +30,11 @@ pub(super) struct Told<'a> {
     /// The page, where one is asked for.
     pub(super) page: Option<&'a Path>,
     pub(super) json: bool,
-    pub(super) quiet: bool,
 }
 
 /// Compares, writes the page and prints the distances.
 pub(super) fn compare(real: &Named, simulated: &Named, jobs: usize, told: &Told) -> anyhow::Result<()> {
-    let gathered = |recording: &Named| (recording.name.clone(), gather(recording, jobs, told.quiet));
+    let gathered = |recording: &Named| (recording.name.clone(), gather(recording, jobs));
     let page = RealismPage::new(gathered(real), gathered(simulated));
     for reason in page.real.unreadable.iter().chain(&page.simulated.unreadable) {
         say(&format!("left out: {reason}"));
@@ -55,8 +54,8 @@ pub(super) fn compare(real: &Named, simulated: &Named, jobs: usize, told: &Told)
     })
 }
 
-fn gather(recording: &Named, jobs: usize, quiet: bool) -> Distributions {
-    let progress = if quiet { Progress::hidden() } else { Progress::spinner() };
+fn gather(recording: &Named, jobs: usize) -> Distributions {
+    let progress = Progress::spinner();
     Distributions::gather(&recording.sequences, jobs, &|done, all| {
         progress.tell(format!("{}: {done} of {all} scans", recording.name));
     })
