@@ -44,7 +44,7 @@ pub(crate) struct Cli {
 
 #[derive(Debug, Subcommand)]
 enum Command {
-    /// The method in one command: simulate, label, evaluate, write a report
+    /// Both methods in one command: simulate, label, evaluate, write a report
     Demo(demo::DemoArgs),
     /// Sensors, rates, gaps, offsets between sensors, what is missing
     Inspect(inspect::InspectArgs),

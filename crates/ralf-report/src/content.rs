@@ -3,6 +3,7 @@
 use crate::classes::{self, Classes};
 use crate::evidence::{self, Observed};
 use crate::findings::Findings;
+use crate::reasons::{self, Weight};
 use crate::scored::{COLUMNS, Origin, Scored};
 use crate::told::{self, Told};
 use crate::{Detections, Pictures, Report, ReportError};
@@ -31,6 +32,8 @@ pub(crate) struct Content {
     pub(crate) evidence: Vec<Observed>,
     /// What a model tells in words, where one was asked.
     pub(crate) told: Vec<Told>,
+    /// What weighs most in its answers.
+    pub(crate) reasons: Vec<Weight>,
     /// Of sequences in which a sensor tells classes.
     pub(crate) classes: Option<Classes>,
     /// Labels against truth, where there is some.
@@ -103,7 +106,8 @@ impl Content {
             GroundTruth::find_merged(dataset, corrections)?.and_then(|truth| truth.of_sequences(&names));
         let comparison = truth.as_ref().map(|truth| Comparison::new(report.out, truth)).transpose()?;
         let (mut findings, mut overall) = (Findings::default(), Separation::default());
-        let (mut sequences, mut evidence, mut told, mut classes) = (Vec::new(), Vec::new(), Vec::new(), None);
+        let (mut sequences, mut evidence, mut classes) = (Vec::new(), Vec::new(), None);
+        let (mut told, mut reasons) = (Vec::new(), Vec::new());
         let drawn = evenly(readers.len(), MOST_DRAWN);
         for (index, reader) in readers.iter().enumerate() {
             progress(&format!("sequence {}", reader.sequence().name));
@@ -112,6 +116,7 @@ impl Content {
                 Counted::gather(report, *reader, &labelled, truth.as_ref(), &mut findings, &mut overall)?;
             evidence::add(&mut evidence, &labelled.tables)?;
             told::add(&mut told, &labelled.tables)?;
+            reasons::add(&mut reasons, &labelled.tables)?;
             classes::add(&mut classes, &labelled.tables)?;
             let wanted = drawn.contains(&index).then_some(report.scans_per_sequence);
             let draw = |wanted| DrawnSequence::draw(*reader, &labelled, &counted.uncertain, wanted);
@@ -128,6 +133,7 @@ impl Content {
             findings,
             evidence,
             told,
+            reasons,
             classes,
             comparison,
             balance: overall.into(),

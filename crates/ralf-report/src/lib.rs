@@ -17,6 +17,7 @@ mod number;
 mod page;
 mod pictures;
 mod realism;
+mod reasons;
 mod scored;
 mod settings_map;
 mod told;

@@ -1,4 +1,4 @@
-//! `ralf demo`: the method in one command, made of the commands that anyone would type.
+//! `ralf demo`: both methods in one command, made of the commands that anyone would type.
 
 use super::{evaluate, label, report, simulate};
 use crate::outcome::Outcome;
@@ -11,8 +11,8 @@ use std::path::PathBuf;
 /// Arguments of `ralf demo`.
 #[derive(Debug, Args)]
 #[command(after_help = "\
-Simulates a small recording whose truth is known, labels it, compares, and writes a report; each command is shown as \
-it runs.
+Simulates a small recording whose truth is known, labels it by the paper's method and by the one that learns, compares \
+both with the truth, and writes a report with causes and reasons; each command is shown as it runs.
 
 Examples:
   ralf demo
@@ -29,7 +29,8 @@ pub(crate) fn run(arguments: &DemoArgs) -> anyhow::Result<Outcome> {
         let path = arguments.folder.join(name);
         path.to_str().map(str::to_owned).with_context(|| format!("{}: expected a UTF-8 path", path.display()))
     };
-    let (recording, labels, report) = (place("recording")?, place("labels")?, place("report.html")?);
+    let [recording, labels, learned, report] = ["recording", "labels", "learned", "report.html"].map(place);
+    let (recording, labels, learned, report) = (recording?, labels?, learned?, report?);
     if arguments.folder.join("recording").exists() {
         say(&format!("{recording} is there already"));
     } else {
@@ -37,11 +38,14 @@ pub(crate) fn run(arguments: &DemoArgs) -> anyhow::Result<Outcome> {
     }
     step(&["label", &recording, "-o", &labels], label::run)?;
     step(&["evaluate", &labels, "--truth", &recording], evaluate::run)?;
-    step(&["report", &recording, &labels, "-o", &report], report::run)?;
+    say("\nThe method that learns: a probability, causes and reasons.");
+    step(&["label", &recording, "-o", &learned, "--method", "learned"], label::run)?;
+    step(&["evaluate", &learned, "--truth", &recording], evaluate::run)?;
+    step(&["report", &recording, &learned, "-o", &report], report::run)?;
     print(&format!(
         "\nOpen {report} in a browser. What to try next, once `cargo install --path crates/ralf-cli` has built \
          all of it:\n  \
-         ralf review {recording} {labels}    correct labels in the browser\n  \
+         ralf review {recording} {learned}    correct labels in the browser\n  \
          ralf plot {recording} {labels} --scan 6 -o scan.png\n  \
          ralf label {recording} -o {labels} --set fusion.alpha=1.0    LiDAR and cameras alone\n  \
          ralf inspect YOUR_RECORDING"

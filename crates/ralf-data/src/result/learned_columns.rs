@@ -30,7 +30,7 @@ pub(crate) fn learned_columns() -> Vec<Column> {
     )];
     for group in GROUPS {
         let meaning = "What the evidence of this group adds to the log odds that the detection is plausible.";
-        columns.push(number(share_name(group), "log odds", meaning));
+        columns.push(number(share_column(group), "log odds", meaning));
     }
     let meaning = "The share of the cause among all causes.";
     columns.push(number(CAUSE_PROBABILITY.to_owned(), "1", meaning));
@@ -58,8 +58,8 @@ fn words_told() -> Vec<Column> {
     ]
 }
 
-/// `LiDAR rays` is `reason_lidar_rays`.
-fn share_name(group: &str) -> String {
+/// The column of what a group of evidence adds to the log odds: that of `LiDAR rays` is `reason_lidar_rays`.
+pub fn share_column(group: &str) -> String {
     format!("{SHARE}{}", group.to_lowercase().replace(' ', "_"))
 }
 
@@ -67,7 +67,7 @@ fn share_name(group: &str) -> String {
 pub(crate) fn numbers(name: &str, answers: &[Answer]) -> Option<Vec<f32>> {
     // This is asked of every column of every scan: names are made only where one of them can be meant.
     let is_share = name.starts_with(SHARE);
-    let group = GROUPS.iter().position(|group| is_share && share_name(group) == name);
+    let group = GROUPS.iter().position(|group| is_share && share_column(group) == name);
     if group.is_none() && name != NOVELTY && name != CAUSE_PROBABILITY {
         return None;
     }

@@ -3,6 +3,7 @@
 use super::heads;
 use crate::content::Content;
 use crate::number::grouped;
+use crate::reasons::Weight;
 use crate::told::Told;
 use maud::{Markup, html};
 
@@ -13,7 +14,35 @@ pub(super) fn told(content: &Content) -> Markup {
                 h2 { "What the model tells" }
                 p { "Why detections are artifacts, and how most of the LiDAR scans around see their places." }
                 @for told in &content.told { (table(told)) }
+                (reasons(&content.reasons))
             }
+        }
+    }
+}
+
+/// The groups of evidence that weigh most in some detection, the most frequent first.
+fn reasons(weights: &[Weight]) -> Markup {
+    let mut weights: Vec<&Weight> = weights.iter().filter(|weight| weight.counts != [0; 2]).collect();
+    weights.sort_by_key(|weight| std::cmp::Reverse(weight.counts[0] + weight.counts[1]));
+    html! {
+        @if !weights.is_empty() {
+            p {
+                "What weighs most: the group of evidence that adds most to the log odds that a detection is plausible, \
+                 up or down; and the reason of the one in which it adds most."
+            }
+            div.scroll { table.plain {
+                (heads(&["largest reason", "Artifacts", "Plausible", "Where it adds most"]))
+                tbody {
+                    @for Weight { group, counts: [artifacts, plausible], most: (_, words) } in weights {
+                        tr {
+                            th scope="row" { (group) }
+                            td { (grouped(*artifacts)) }
+                            td { (grouped(*plausible)) }
+                            td { (words) }
+                        }
+                    }
+                }
+            } }
         }
     }
 }
