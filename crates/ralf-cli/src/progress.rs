@@ -94,7 +94,6 @@ impl Drop for Progress {
 /// Shows a run's stages, one after the other.
 #[derive(Default)]
 pub(crate) struct Stages {
-    silent: bool,
     current: Mutex<Option<Progress>>,
     detections: AtomicU64,
     /// Work whose end is told, since when.
@@ -104,11 +103,6 @@ pub(crate) struct Stages {
 }
 
 impl Stages {
-    /// Of work beside which others show theirs.
-    pub(crate) fn silent() -> Self {
-        Self { silent: true, ..Self::default() }
-    }
-
     /// Ends what was under way.
     fn begin_work(&self, work: Option<Work>) {
         if let Ok(mut under_way) = self.under_way.lock() {
@@ -137,9 +131,6 @@ impl Stages {
 impl Observer for Stages {
     fn begin(&self, stage: Stage, steps: u64) {
         self.begin_work((stage == Stage::Inputs).then_some(Work::Hashing));
-        if self.silent {
-            return;
-        }
         self.detections.store(0, Ordering::Relaxed);
         self.show(Some(match stage {
             Stage::Inputs => Progress::with_template(steps, BYTES, "hashing inputs".into()),

@@ -16,33 +16,13 @@ pub(crate) fn run_summary(record: &RunRecord) -> String {
     for sequence in &record.sequences {
         rows.extend(sequence.radars.iter().map(|radar| radar_row(&sequence.name, radar)));
     }
-    aligned(&rows)
-        + &without_numbers(record)
-        + &unlike_sisters(record)
-        + &cameras(record)
-        + &unused_cameras(record)
+    aligned(&rows) + &doubtful_radars(record) + &cameras(record) + &unused_cameras(record)
 }
 
-/// Names the radars that have detections and no numbers.
-fn without_numbers(record: &RunRecord) -> String {
-    let mut text = String::new();
-    for sequence in &record.sequences {
-        for found in &sequence.without_numbers {
-            text += &format!("\n{} {}: {}\n", sequence.name, found.radar, found.words());
-        }
-    }
-    text
-}
-
-/// Names the radars whose share of plausible detections is far from their sisters'.
-fn unlike_sisters(record: &RunRecord) -> String {
-    let mut text = String::new();
-    for sequence in &record.sequences {
-        for found in &sequence.unlike_sisters {
-            text += &format!("\n{} {}: {}\n", sequence.name, found.radar, found.words());
-        }
-    }
-    text
+/// Names the radars that deliver no numbers, and those whose labels are unlike their sisters'.
+fn doubtful_radars(record: &RunRecord) -> String {
+    let found = record.radars_without_numbers().chain(record.radars_unlike_sisters());
+    found.map(|(sequence, radar, words)| format!("\n{sequence} {radar}: {words}\n")).collect()
 }
 
 /// Names the cameras that labelling was allowed to ask and that had nothing to say.

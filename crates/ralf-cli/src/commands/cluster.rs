@@ -7,6 +7,7 @@ use crate::text::{grouped, print};
 use anyhow::{Context, bail};
 use clap::{Args, Subcommand};
 use ralf_data::many::{self, Job, Task};
+use ralf_data::run::Unwatched;
 use ralf_files::Kind;
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
@@ -171,7 +172,7 @@ fn label(arguments: &TaskArgs) -> anyhow::Result<Outcome> {
     };
     let task =
         serde_json::from_str(line).with_context(|| format!("{}, line {}", name(), arguments.task + 1))?;
-    let failed = many::label_one(&task, arguments.jobs, &Stages::silent())?;
+    let failed = many::label_one(&task, arguments.jobs, &Unwatched)?;
     for scan in &failed {
         say(&format!(
             "not labelled: {} {} scan {}: {}",

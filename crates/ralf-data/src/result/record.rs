@@ -142,6 +142,22 @@ impl RunRecord {
         self.check.retain(|check| left.contains(check.sequence.as_str()));
     }
 
+    /// Radars that have detections and no numbers: sequence, radar, what there is to say.
+    pub fn radars_without_numbers(&self) -> impl Iterator<Item = (&str, &str, String)> {
+        self.sequences.iter().flat_map(|sequence| {
+            let found = sequence.without_numbers.iter();
+            found.map(|found| (sequence.name.as_str(), found.radar.as_str(), found.words()))
+        })
+    }
+
+    /// Radars whose plausible share is far from that of the others: sequence, radar, what there is to say.
+    pub fn radars_unlike_sisters(&self) -> impl Iterator<Item = (&str, &str, String)> {
+        self.sequences.iter().flat_map(|sequence| {
+            let found = sequence.unlike_sisters.iter();
+            found.map(|found| (sequence.name.as_str(), found.radar.as_str(), found.words()))
+        })
+    }
+
     /// Scans that could not be labelled, with their sequence.
     pub fn not_labelled(&self) -> impl Iterator<Item = (&str, &NotLabelled)> {
         self.sequences

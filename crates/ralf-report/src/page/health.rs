@@ -32,8 +32,8 @@ pub(super) fn health(content: &Content) -> Markup {
         section #health {
             h2 { "Flagged scans and failed cameras" }
             (check(content))
-            (without_numbers(content))
-            (unlike_sisters(content))
+            (radars("Radars without numbers", content.record.radars_without_numbers()))
+            (radars("Radars unlike their sisters", content.record.radars_unlike_sisters()))
             (flags(content))
             (scans_to_look_at(content))
             (cameras(content))
@@ -62,33 +62,14 @@ fn check(content: &Content) -> Markup {
     }
 }
 
-/// Radars that have detections and no numbers.
-fn without_numbers(content: &Content) -> Markup {
-    let sequences = content.record.sequences.iter();
-    let found: Vec<_> = sequences
-        .flat_map(|sequence| sequence.without_numbers.iter().map(|found| (sequence.name.as_str(), found)))
-        .collect();
+/// Radars of sequences, with what there is to say of each; nothing where there are none.
+fn radars<'a>(title: &str, found: impl Iterator<Item = (&'a str, &'a str, String)>) -> Markup {
+    let mut found = found.peekable();
     html! {
-        @if !found.is_empty() {
-            h3 { "Radars without numbers" }
-            ul { @for (sequence, found) in found {
-                li { (sequence) ", " (found.radar) ": " (found.words()) }
-            } }
-        }
-    }
-}
-
-/// Radars whose share of plausible detections is far from that of the others.
-fn unlike_sisters(content: &Content) -> Markup {
-    let sequences = content.record.sequences.iter();
-    let found: Vec<_> = sequences
-        .flat_map(|sequence| sequence.unlike_sisters.iter().map(|found| (sequence.name.as_str(), found)))
-        .collect();
-    html! {
-        @if !found.is_empty() {
-            h3 { "Radars unlike their sisters" }
-            ul { @for (sequence, found) in found {
-                li { (sequence) ", " (found.radar) ": " (found.words()) }
+        @if found.peek().is_some() {
+            h3 { (title) }
+            ul { @for (sequence, radar, words) in found {
+                li { (sequence) ", " (radar) ": " (words) }
             } }
         }
     }
