@@ -22,6 +22,9 @@ pub struct TrainingGatherer<'a> {
     pub seed: u64,
     /// How much each detection counts; above 0.
     pub weight: f32,
+    /// One in so many scans of each radar of a simulated recording is learned from, at least one of each sequence; the
+    /// others are what lies around. 0 is 1.
+    pub every: usize,
     /// Threads; the result doesn't depend on it.
     pub jobs: usize,
     /// Is told how it gets on.
@@ -130,6 +133,13 @@ struct Part {
     known: Vec<Known>,
 }
 
+/// Whether a scan is one in so many of its radar: the middle one of each, so that there is something around it; the
+/// middle one of a sequence that is shorter.
+fn is_chosen(scan: usize, scans: usize, every: usize) -> bool {
+    let middle = every / 2;
+    if scans <= middle { scan == scans / 2 } else { scan % every == middle }
+}
+
 /// What is true of a detection.
 #[derive(Debug, Clone, Copy)]
 struct True {
@@ -152,11 +162,15 @@ impl<'a> Task<'a> {
         Ok(Self { gatherer, reader, rig, truth, causes })
     }
 
-    /// Those that may have truth.
+    /// Those that are learned from, and may have truth.
     fn scans(&self) -> Vec<ScanIndex> {
-        let mut scans = all_scans(&self.reader.sequence().times);
-        if let TrainingTruth::Said(truth) = self.truth {
-            scans.retain(|scan| truth.scans().contains(&self.id(*scan)));
+        let times = &self.reader.sequence().times;
+        let mut scans = all_scans(times);
+        match self.truth {
+            TrainingTruth::Known => scans.retain(|place| {
+                is_chosen(place.scan, times.radars[place.radar].len(), self.gatherer.every.max(1))
+            }),
+            TrainingTruth::Said(truth) => scans.retain(|scan| truth.scans().contains(&self.id(*scan))),
         }
         scans
     }
@@ -251,5 +265,23 @@ impl<'a> Task<'a> {
 
     fn left_out(&self, place: ScanIndex, reason: String) -> NotLabelled {
         NotLabelled { radar: self.rig.radars[place.radar].name.clone(), scan: place.scan, reason }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn one_in_so_many_scans_is_chosen_and_at_least_one() {
+        let chosen = |scans: usize, every: usize| -> Vec<usize> {
+            (0..scans).filter(|scan| is_chosen(*scan, scans, every)).collect()
+        };
+        assert_eq!(chosen(40, 8), [4, 12, 20, 28, 36]);
+        assert_eq!(chosen(5, 8), [4]);
+        assert_eq!(chosen(4, 8), [2]);
+        assert_eq!(chosen(1, 8), [0]);
+        assert_eq!(chosen(4, 1), [0, 1, 2, 3]);
+        assert_eq!(chosen(0, 8), [0; 0]);
     }
 }

@@ -156,8 +156,8 @@ fn rays_are_asked_where_what_moves_is_when_they_are_sent() {
             .lidar(lidar(), vec![(50 * MS, vec![point])])
     };
     // As above: 0.9 m farther when the ray is sent, or 0.6 m off where nobody tells when that was. Range is known by
-    // 0.3 m, and 0.1 m besides.
-    for (times, expected) in [(Some(vec![-0.02]), 0.0), (None, 0.6 / 0.1f64.sqrt())] {
+    // 0.3 m, and 0.1 m besides; the speed by 0.3 m/s, which in 50 ms are 0.015 m.
+    for (times, expected) in [(Some(vec![-0.02]), 0.0), (None, 0.6 / (0.1f64 + 0.015 * 0.015).sqrt())] {
         let memory = look([20.9, 0.0, -2.0], times);
         let [chi, standing] = evidence_on(&memory, "lidar_moving_chi")[..] else { panic!("two detections") };
         assert!((chi.unwrap() - expected).abs() < 1e-3 && standing.is_none(), "{chi:?}");
@@ -168,6 +168,20 @@ fn rays_are_asked_where_what_moves_is_when_they_are_sent() {
     let through = look([23.0, 0.0, -2.0 / 20.9 * 23.0], Some(vec![-0.02]));
     assert_eq!(evidence_on(&through, "lidar_moving_beyond"), [Some(1.0), None]);
     assert_eq!(evidence_on(&through, "lidar_moving_in"), [Some(0.0), None]);
+}
+
+#[test]
+fn rays_are_asked_where_the_road_takes_what_drives_beside() {
+    let mut radar = radar(Elevation::Measured);
+    radar.fields.push("doppler_compensated".into());
+    // 15 m away on a ray of slope 3 / 4, 24 m/s away: 30 m/s along the road, 1.5 m in 50 ms. Along the ray it would be
+    // 0.9 m aside.
+    let memory = Memory::new(0.0)
+        .measured(radar, vec![(0, vec![[12.0, 9.0, 0.0, 24.0]])])
+        .lidar(lidar(), vec![(50 * MS, vec![[13.5, 9.0, -2.0]])]);
+    let chi = evidence_on(&memory, "lidar_moving_chi")[0].unwrap();
+    assert!(chi < 1e-3, "{chi}");
+    assert_eq!(evidence_on(&memory, "lidar_moving_near"), [Some(1.0)]);
 }
 
 proptest! {

@@ -4,12 +4,13 @@
 
 mod support;
 
+use nalgebra::Matrix3;
 use proptest::prelude::*;
 use ralf::config::Config;
 use ralf::evidence::{self, Column};
-use ralf::scene::{Frame, FrameWindow, NeighbouringDetections};
+use ralf::scene::{Detection, Frame, FrameWindow, NeighbouringDetections};
 use ralf::sensors::{Elevation, Radar};
-use ralf::space::Transform;
+use ralf::space::{Transform, Vector};
 use std::f64::consts::SQRT_2;
 use support::{MS, Memory, lidar, radar};
 
@@ -150,7 +151,8 @@ fn what_stands_still_what_moves_and_what_moves_along() {
     )]);
     let found = observe(&memory, 6);
     close(&column(&found, "persistence_own"), &[Some(1.0), Some(0.0), Some(0.0)]);
-    close(&column(&found, "persistence_moving"), &[Some(1.0), Some(1.0), Some(0.0)]);
+    // What lies on the bumper drives as the vehicle does.
+    close(&column(&found, "persistence_moving"), &[Some(1.0); 3]);
     close(&column(&found, "persistence_others"), &[None; 3]);
     // What moves along has the range rate of what drives away as fast.
     close(&column(&found, "doppler_track_residual"), &[Some(0.0); 3]);
@@ -170,6 +172,29 @@ fn what_stands_still_what_moves_and_what_moves_along() {
     let area = std::f64::consts::PI * 4.0 * (0.19f64 * 0.012).sqrt();
     let expected = 10.0 * (1.0 - (-area / (std::f64::consts::PI * 25.0)).exp());
     close(&column(&found, "persistence_sensor")[2..], &[Some((10.5 / (expected + 0.5)).ln())]);
+}
+
+#[test]
+fn what_drives_beside_is_sought_along_the_road() {
+    // A car in the next lane, as fast as the vehicle and 2 m/s faster: at 45 degrees and beside the radar. Along the ray
+    // they would be 0.7 and 0.3 m aside in a tenth of a second, and more.
+    let car = |t: f32, ahead: f32, speed: f32| {
+        let x = ahead + (speed - 10.0) * t;
+        [x, 4.0, 0.0, (speed - 10.0) * x / x.hypot(4.0), 0.0]
+    };
+    let rows = |t: f32| vec![car(t, 4.0, 10.0), car(t, 2.0, 12.0), car(t, 12.0, 12.0)];
+    let found = observe(&drive(vec![(front(), scans(13, rows))]), 6);
+    close(&column(&found, "persistence_moving"), &[Some(1.0); 3]);
+    close(&column(&found, "doppler_track_residual"), &[Some(0.0); 3]);
+    // What crosses the road goes along its ray: one of the two ways is enough. In half a second the other would lead 3 m
+    // aside.
+    let crossing = |t: f32| {
+        let range = 30.0 + 8.0 * t;
+        vec![[0.8 * range, 0.6 * range, 0.0, 8.0, 0.0]]
+    };
+    let mut memory = drive(vec![(front(), scans(13, crossing))]);
+    memory.sequence.motion = Memory::new(0.0).sequence.motion;
+    close(&column(&observe(&memory, 6), "persistence_moving"), &[Some(1.0)]);
 }
 
 #[test]
@@ -253,20 +278,51 @@ fn what_a_wall_mirrors_is_found_on_the_radars_side_of_it() {
 
 /// A detection anywhere before the radar, on few places, so that there is something to meet.
 fn row() -> impl Strategy<Value = [f32; 5]> {
-    let place = (0..12, -6..6).prop_map(|(x, y)| [12.0 + x as f32 * 0.5, y as f32 * 0.5]);
-    (place, -2..3, prop_oneof![Just(-10.0f32), Just(-4.0), Just(f32::NAN)])
+    let place = (0..12, -6..6).prop_map(|(x, y)| [12.0 + x as f32 * 0.5, y as f32]);
+    (place, -2..3, prop_oneof![Just(-10.0f32), Just(-4.0), Just(2.0), Just(f32::NAN)])
         .prop_map(|([x, y], z, rate)| [x, y, z as f32 * 0.3, rate, 0.0])
 }
 
 /// `chi` of two detections, by solving a system of equations.
-fn chi(frame: &Frame, around: &NeighbouringDetections, i: usize, j: usize, way: f64) -> f64 {
-    let mut a = frame.scan.detections[i].unwrap();
-    let b = &around.detections[j];
-    a.position += a.position.coords.normalize() * way;
-    let room = nalgebra::Matrix3::identity() * 0.01;
+fn chi(a: &Detection, b: &Detection) -> f64 {
+    let room = Matrix3::identity() * 0.01;
     let covariance = a.axes * a.axes.transpose() + b.axes * b.axes.transpose() + room;
     let h = a.position - b.position;
     h.dot(&covariance.lu().solve(&h).unwrap()).sqrt()
+}
+
+/// Which of the own scans around, by their places, have a detection within 2 sigmas of where one would be that goes a
+/// way at a speed, with a range rate that such a thing has there.
+fn met(frame: &Frame, i: usize, spread: f64, (way, speed, sigma): (Vector, f64, f64)) -> Vec<bool> {
+    let around = NeighbouringDetections::around(frame);
+    let detection = frame.scan.detections[i].unwrap();
+    let ray = detection.position.coords.normalize();
+    // The rate shows as much of how both move across the ray as the place is uncertain there.
+    let across = way * speed - Vector::new(SPEED, 0.0, 0.0);
+    let seen = detection.axes.columns(1, 2).transpose() * across / detection.position.coords.norm();
+    let rate_sigma = spread.hypot(seen.norm());
+    let own = (0..around.radars.len()).filter(|scan| around.radars[*scan] == 0);
+    own.map(|scan| {
+        let seconds = around.seconds[scan];
+        let mut there = detection;
+        there.position += way * speed * seconds;
+        for column in 0..2 {
+            let axis = detection.axes.column(column).into_owned();
+            let share = axis.normalize().dot(&way);
+            let along = rate_sigma / ray.dot(&way) * seconds * share;
+            let beside = sigma * speed * seconds * (1.0 - share * share).max(0.0).sqrt();
+            let length = (axis.norm_squared() + along * along + beside * beside).sqrt();
+            there.axes.set_column(column, &(axis.normalize() * length));
+        }
+        let origin = frame.radar_window[scan].vehicle_from_scan.translation.vector;
+        let agrees = |j: &usize| {
+            let rate = (way * speed).dot(&(around.detections[*j].position.coords - origin).normalize());
+            (around.doppler[*j] - rate).abs() <= 2.0 * SQRT_2 * rate_sigma
+        };
+        let all = (0..around.len()).filter(|j| around.scans[*j] as usize == scan).filter(agrees);
+        all.into_iter().any(|j| chi(&there, &around.detections[j]) <= 2.0)
+    })
+    .collect()
 }
 
 /// Shares of persistence, and the mean distance, by going through everything.
@@ -280,21 +336,29 @@ fn brute_force(frame: &Frame, i: usize) -> [Option<f64>; 4] {
     let spread = (1.48 * ralf::scene::median(distances).unwrap_or(0.0)).clamp(0.12, 0.3);
     let moves = rates[i].abs() > 3.0 * spread;
     let (mut own, mut moving, mut others, mut distance) = (vec![], vec![], vec![], vec![]);
+    let detection = frame.scan.detections[i].unwrap();
     for (scan, radar) in around.radars.iter().enumerate() {
         let there = |j: &usize| around.scans[*j] as usize == scan;
         let all: Vec<usize> = (0..around.len()).filter(there).collect();
-        let still = all.iter().map(|j| chi(frame, &around, i, *j, 0.0)).fold(f64::INFINITY, f64::min);
+        let still = all.iter().map(|j| chi(&detection, &around.detections[*j])).fold(f64::INFINITY, f64::min);
         if *radar != 0 {
             others.push(still <= 2.0);
             continue;
         }
         own.push(still <= 2.0);
         distance.push(still.min(3.0));
-        let way = if moves { rates[i] * around.seconds[scan] } else { 0.0 };
         let agrees = |j: &&usize| (around.doppler[**j] - rates[i]).abs() <= 2.0 * SQRT_2 * spread;
-        if rates[i].is_finite() {
-            moving.push(all.iter().filter(agrees).any(|j| chi(frame, &around, i, *j, way) <= 2.0));
+        if rates[i].is_finite() && !moves {
+            moving.push(all.iter().filter(agrees).any(|j| chi(&detection, &around.detections[*j]) <= 2.0));
         }
+    }
+    if moves {
+        // Along the ray, or along the road; the course is the vehicle's x axis.
+        let ray = detection.position.coords.normalize();
+        let along_ray = met(frame, i, spread, (ray, rates[i], 0.0));
+        let along_road = met(frame, i, spread, (Vector::x(), rates[i] / ray.x, 0.03));
+        let hits = |met: &[bool]| met.iter().filter(|met| **met).count();
+        moving = if hits(&along_road) > hits(&along_ray) { along_road } else { along_ray };
     }
     let share = |hits: Vec<bool>| {
         let count = hits.len();
@@ -319,7 +383,7 @@ proptest! {
             }));
             rows
         };
-        let timed = |scans: Vec<Rows>, first: i64| (0..).map(|k| first + 50 * k).zip(scans.into_iter().map(wide)).collect();
+        let timed = |scans: Vec<Rows>, first: i64| (0..).map(|k| first + 100 * k).zip(scans.into_iter().map(wide)).collect();
         let beside = Radar {
             name: "beside".into(), vehicle_from_radar: Transform::translation(0.5, 0.3, 0.2), ..front()
         };

@@ -19,11 +19,12 @@ pub struct SuiteScores {
 }
 
 /// The parts' names, in the order in which they are told.
-pub const SUITES: [&str; 8] = [
+pub const SUITES: [&str; 9] = [
     "single frame",
     "no LiDAR",
     "no camera",
     "one radar scan",
+    "half a second",
     "radars with elevation",
     "radars without elevation",
     "scans that a camera sees",
@@ -31,7 +32,7 @@ pub const SUITES: [&str; 8] = [
 ];
 
 /// To which of [`SUITES`] each row belongs, a bit for each.
-pub(super) fn suites_of(table: &TrainingTable) -> Vec<u8> {
+pub(super) fn suites_of(table: &TrainingTable) -> Vec<u16> {
     let place = |wanted: &str| table.features.iter().position(|feature| feature.name == wanted);
     let (elevation, camera) = (place("geometry_elevation"), place("camera_residual"));
     let holds = |row: usize, place: Option<usize>| place.is_some_and(|at| !table.rows.row(row)[at].is_nan());
@@ -42,14 +43,15 @@ pub(super) fn suites_of(table: &TrainingTable) -> Vec<u8> {
     }
     let mut suites = Vec::with_capacity(table.len());
     for (row, known) in table.known.iter().enumerate() {
-        let by_radar = if holds(row, elevation) { 1 << 4 } else { 1 << 5 };
-        let by_camera = if is_seen[known.scan as usize] { 1 << 6 } else { 1 << 7 };
+        let by_radar = if holds(row, elevation) { 1 << 5 } else { 1 << 6 };
+        let by_camera = if is_seen[known.scan as usize] { 1 << 7 } else { 1 << 8 };
         suites.push(match known.view {
             View::Whole => by_radar | by_camera,
             View::SingleFrame => 1,
             View::NoLidar => 1 << 1,
             View::NoCamera => 1 << 2,
             View::OneRadarScan => 1 << 3,
+            View::HalfSecond => 1 << 4,
         });
     }
     suites

@@ -22,7 +22,7 @@ impl Course {
         frame.motion.is_known().then(|| Self::at(frame.motion, frame.scan.t_ns()))
     }
 
-    fn at(motion: &EgoMotion, t_ns: i64) -> Self {
+    pub(super) fn at(motion: &EgoMotion, t_ns: i64) -> Self {
         let (velocity, turn) = motion.twist(t_ns);
         let velocity = velocity.xy();
         let speed = velocity.norm();
@@ -41,12 +41,21 @@ impl Course {
         let (a, l) = (self.ahead.dot(&place), self.ahead.perp(&place));
         (k * (a * a + l * l) - 2.0 * l).abs() / ((k * a).hypot(1.0 - k * l) + 1.0)
     }
+
+    /// Where a road leads at a place that is everywhere as far from the arc as there, of unit length: on a circle
+    /// around the same middle, `(1 - k l, k a)` ahead and to the left.
+    pub(super) fn direction_at(&self, place: &Point) -> Vector2<f64> {
+        let (place, k) = (place.coords.xy(), self.curvature);
+        let (a, l) = (self.ahead.dot(&place), self.ahead.perp(&place));
+        let left = Vector2::new(-self.ahead.y, self.ahead.x);
+        (self.ahead * (1.0 - k * l) + left * (k * a)).try_normalize(1e-9).unwrap_or(self.ahead)
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::space::OdometrySample;
+    use crate::space::{OdometrySample, Vector};
     use proptest::prelude::*;
 
     fn course(velocity: f64, yaw_rate: f64) -> Course {
@@ -69,6 +78,35 @@ mod tests {
         let place = Point::new(50.0, -3.0, 0.0);
         for (velocity, yaw_rate) in [(30.0, 0.0), (-2.0, 0.0), (0.3, 1.0), (0.0, 0.0)] {
             assert!((course(velocity, yaw_rate).beside(&place) - 3.0).abs() < 1e-12, "{velocity} {yaw_rate}");
+        }
+    }
+
+    #[test]
+    fn a_road_leads_around_the_same_middle() {
+        // Around (0, 20), to the left; beyond the middle it leads back. The square root of one half is 0.7071.
+        for (place, direction) in [
+            ([0.0, 0.0], [1.0, 0.0]),
+            ([20.0, 20.0], [0.0, 1.0]),
+            ([10.0, 10.0], [0.5f64.sqrt(), 0.5f64.sqrt()]),
+            ([0.0, 43.0], [-1.0, 0.0]),
+            ([0.0, 20.0], [1.0, 0.0]),
+        ] {
+            let found = course(10.0, 0.5).direction_at(&Point::new(place[0], place[1], 7.0));
+            assert!((found - Vector2::from(direction)).norm() < 1e-12, "{place:?}: {found}");
+        }
+        let reversing = course(-3.0, 0.0).direction_at(&Point::new(9.0, 4.0, 0.0));
+        assert_eq!(reversing, Vector2::new(-1.0, 0.0));
+    }
+
+    proptest! {
+        /// Whoever follows a road stays as far from the course as before.
+        #[test]
+        fn a_road_keeps_its_distance(curvature in -0.05..0.05_f64, x in -60.0..60.0_f64, y in -15.0..15.0_f64) {
+            let (course, place) = (course(10.0, 10.0 * curvature), Point::new(x, y, 0.0));
+            let direction = course.direction_at(&place);
+            let step = Vector::new(direction.x, direction.y, 0.0) * 1e-3;
+            let change = course.beside(&(place + step)) - course.beside(&(place - step));
+            prop_assert!(change.abs() < 1e-6, "{}", change);
         }
     }
 

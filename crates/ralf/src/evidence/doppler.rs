@@ -3,7 +3,7 @@
 
 use super::columns::{set, unobserved};
 use super::rates::Rates;
-use super::recurrence::Sighting;
+use super::recurrence::Meeting;
 use super::{Feature, Piece, Surroundings, Values};
 use crate::scene::median;
 
@@ -28,7 +28,8 @@ pub(super) const PIECE: Piece = Piece {
             "doppler_track_residual",
             "sigma",
             "difference of range rates from the radar's detections that lie where this one should be in its scans \
-             around, moved along the ray if it moves; the least of each scan, of which the median",
+             around, moved along the ray or along the vehicle's course if it moves; the least of each scan, of which \
+             the median",
         ),
     ],
     observe,
@@ -59,7 +60,7 @@ fn observe(surroundings: &Surroundings) -> Vec<Values> {
             residual,
             agreement.and_then(|agreement| agreement.share()),
             agreement.map(|agreement| agreement.agreeing as f64),
-            track_residual(&surroundings.sightings()[i]),
+            track_residual(&surroundings.recurrences()[i].met),
         ];
         set(&mut columns, i, values);
     }
@@ -92,6 +93,6 @@ impl Agreement {
 }
 
 /// The median over the scans in which anything lies where the detection should be.
-fn track_residual(seen: &[Sighting]) -> Option<f64> {
-    median(seen.iter().map(|sighting| sighting.rate_difference).filter(|found| found.is_finite()).collect())
+fn track_residual(met: &[Meeting]) -> Option<f64> {
+    median(met.iter().map(|meeting| meeting.rate_difference).filter(|found| found.is_finite()).collect())
 }

@@ -18,6 +18,7 @@ mod distance;
 mod doppler;
 mod echoes;
 mod geometry;
+mod going;
 mod ground;
 mod lidar_map;
 mod lidar_rays;

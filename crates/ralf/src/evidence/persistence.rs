@@ -3,7 +3,7 @@
 
 use super::chance::{AROUND, SAME, excess_of};
 use super::columns::{set, unobserved};
-use super::recurrence::{FARTHEST, Sighting};
+use super::recurrence::{FARTHEST, Recurrence, Sighting};
 use super::sensor_frame::Unmoved;
 use super::{Feature, Piece, Surroundings, Values};
 use crate::scene::{Detection, Frame, NeighbouringDetections, NeighbouringScan, index_of};
@@ -21,7 +21,8 @@ pub(super) const PIECE: Piece = Piece {
         feature(
             "persistence_moving",
             "1",
-            "the same if it moved along its ray at its range rate, by detections whose range rate agrees",
+            "of what moves: the same where its range rate takes it along the ray or along the vehicle's course, \
+             whichever fits better, by detections whose range rate agrees; of what stands still where it stands",
         ),
         feature(
             "persistence_others",
@@ -70,13 +71,12 @@ fn observe(surroundings: &Surroundings) -> Vec<Values> {
     let own_around = own_around(surroundings.neighbours());
     let mut columns = unobserved(PIECE.features, frame.scan.len());
     for (i, detection) in surroundings.rows_by_place() {
-        let seen = surroundings.sightings()[i].as_slice();
+        let Recurrence { seen, met } = &surroundings.recurrences()[i];
         let own = || seen.iter().filter(|sighting| sighting.own);
         let others = seen.iter().filter(|sighting| !sighting.own);
-        let has_rate = surroundings.rates().is_some_and(|rates| rates.residual(i).is_some());
         let values = [
             share(own().map(|sighting| sighting.still <= SAME)),
-            share(own().filter(|_| has_rate).map(|sighting| sighting.moving <= SAME)),
+            share(met.iter().map(|meeting| meeting.chi <= SAME)),
             share(others.map(|sighting| sighting.still <= SAME)),
             mean(own().map(|sighting| sighting.still.min(FARTHEST))),
             excess(&own_around, detection, seen),

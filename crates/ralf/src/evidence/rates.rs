@@ -37,6 +37,11 @@ impl Rates {
         Self { values, spread, noise }
     }
 
+    /// m/s.
+    pub(super) fn spread(&self) -> f64 {
+        self.spread
+    }
+
     /// How far a detection is from standing still, in spreads; `None` without a rate.
     pub(super) fn residual(&self, detection: usize) -> Option<f64> {
         Some(self.values[detection].abs() / self.spread).filter(|residual| residual.is_finite())

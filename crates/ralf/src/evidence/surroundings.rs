@@ -2,7 +2,7 @@
 
 use super::probe::{Probe, probes};
 use super::rates::Rates;
-use super::recurrence::{Sighting, sightings};
+use super::recurrence::{Recurrence, recurrences};
 use super::way::{Way, ways};
 use crate::config::Config;
 use crate::scene::{Detection, Frame, NeighbouringDetections};
@@ -19,7 +19,7 @@ pub struct Surroundings<'a> {
     probes: OnceCell<Vec<Option<Probe>>>,
     ways: OnceCell<Vec<Option<Way>>>,
     rates: OnceCell<Option<Rates>>,
-    sightings: OnceCell<Vec<Vec<Sighting>>>,
+    recurrences: OnceCell<Vec<Recurrence>>,
     own_index: OnceCell<NeighborIndex>,
 }
 
@@ -33,7 +33,7 @@ impl<'a> Surroundings<'a> {
             probes: OnceCell::new(),
             ways: OnceCell::new(),
             rates: OnceCell::new(),
-            sightings: OnceCell::new(),
+            recurrences: OnceCell::new(),
             own_index: OnceCell::new(),
         }
     }
@@ -63,9 +63,9 @@ impl<'a> Surroundings<'a> {
     }
 
     /// Of each detection of the scan, in which scans around it could have been seen again, and whether it was.
-    pub(super) fn sightings(&self) -> &[Vec<Sighting>] {
-        self.sightings
-            .get_or_init(|| sightings(self.frame, self.neighbours(), self.rates(), self.rows_by_place()))
+    pub(super) fn recurrences(&self) -> &[Recurrence] {
+        self.recurrences
+            .get_or_init(|| recurrences(self.frame, self.neighbours(), self.rates(), self.rows_by_place()))
     }
 
     /// The scan's detections that have a place, with their rows, in an order in which neighbours mostly follow each

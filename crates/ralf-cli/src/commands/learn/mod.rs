@@ -84,7 +84,8 @@ pub(crate) fn run(arguments: &LearnArgs) -> anyhow::Result<Outcome> {
     let stages = Stages::default();
     let jobs = threads(arguments.jobs);
     let (config, seed) = (&settings.method, arguments.seed);
-    let gatherer = TrainingGatherer { config, seed, weight: 1.0, jobs, observer: &stages };
+    let every = arguments.worlds.every();
+    let gatherer = TrainingGatherer { config, seed, weight: 1.0, every, jobs, observer: &stages };
     let mut table = gatherer.table();
     let mut outcome = arguments.gather(&gatherer, &settings, &mut table)?;
     let own = 0..table.worlds.len() as u16;

@@ -18,10 +18,15 @@ pub(super) struct WorldArgs {
     /// Worlds of each family
     #[arg(long, value_name = "N", default_value_t = 8, requires = "preset")]
     seeds: u64,
-    /// Scans of each radar in each world, over all of its sequences
-    #[arg(long, value_name = "N", default_value_t = 24, requires = "preset",
+    /// Scans of each radar in each world, over all of its four to six sequences: some 3 s each, so that evidence sees
+    /// as much around a scan as in a real recording
+    #[arg(long, value_name = "N", default_value_t = 200, requires = "preset",
         value_parser = clap::value_parser!(u32).range(1..))]
     scans: u32,
+    /// Learn from one in so many of these
+    #[arg(long, value_name = "N", default_value_t = 8, requires = "preset",
+        value_parser = clap::value_parser!(u32).range(1..))]
+    every: u32,
     /// Leave these families out, to judge the model in them
     #[arg(long, value_name = "FAMILY,...", value_delimiter = ',', requires = "preset",
         value_parser = PossibleValuesParser::new(FAMILIES.iter().map(|family| family.name)))]
@@ -44,7 +49,13 @@ impl WorldArgs {
         } else {
             format!(" --without {}", self.without.join(","))
         };
-        format!(" --preset worlds --seeds {} --scans {}{without}", self.seeds, self.scans)
+        let Self { seeds, scans, every, .. } = self;
+        format!(" --preset worlds --seeds {seeds} --scans {scans} --every {every}{without}")
+    }
+
+    /// One in so many scans is learned from.
+    pub(super) fn every(&self) -> usize {
+        self.every as usize
     }
 
     /// Adds every family's worlds; a family is what is left out at a time.

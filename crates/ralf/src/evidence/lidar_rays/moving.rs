@@ -1,11 +1,12 @@
 //! What the LiDARs' rays say of a detection that moves: each scan is asked where the detection's range rate takes it
-//! by the time at which the rays towards it were sent.
+//! by the time at which the rays towards it were sent, along the ray or along the road, whichever fits better.
 
+use super::super::going::{Going, Goings};
 use super::super::probe::{Probe, Probing};
 use super::super::{Feature, Piece, Surroundings, Values, columns};
 use super::votes::{Sweep, Votes};
 use super::{GROUP, NEAR, RAYS, sweeps_of};
-use crate::scene::{Frame, LidarSweep, LidarView, Mover, median};
+use crate::scene::{Frame, LidarSweep, LidarView, median};
 
 pub(in super::super) const PIECE: Piece = Piece { features: FEATURES, observe };
 
@@ -15,7 +16,7 @@ const FEATURES: &[Feature] = &[
         unit: "1",
         group: GROUP,
         meaning: "of what moves: share of the rays of half a second around that end in it, where its range rate takes \
-                  it along the ray by the time of the rays",
+                  it by the time of the rays, along the ray or along the vehicle's course, whichever fits better",
     },
     Feature {
         name: "lidar_moving_beyond",
@@ -41,18 +42,22 @@ const FEATURES: &[Feature] = &[
 /// Scans farther off in time say little of a thing whose motion across the ray nobody measures, s.
 const AROUND: f64 = 0.5;
 
+/// Across the ray nothing is measured: how far it moves there is taken to be within this share of how far it recedes,
+/// as if it moved within 17 degrees of the ray, two times in three.
+const ACROSS_PER_ALONG: f64 = 0.3;
+
 fn observe(surroundings: &Surroundings) -> Vec<Values> {
     let frame = surroundings.frame;
     let mut columns = columns::unobserved(FEATURES, frame.scan.len());
     let (Some(lidar), Some(rates)) = (&frame.lidar_window, surroundings.rates()) else { return columns };
-    let moves = |i: &usize| rates.motion(*i) != 0.0;
-    let movers: Vec<(usize, Mover)> = frame
-        .movers()
-        .into_iter()
-        .enumerate()
-        .filter_map(|(i, mover)| Some((i, mover?)))
-        .filter(|(i, _)| moves(i))
-        .collect();
+    let goings = Goings::new(frame, rates);
+    let mut ways: Vec<(usize, Going)> = Vec::new();
+    for (i, detection) in frame.scan.detections.iter().enumerate() {
+        let detection = detection.iter();
+        ways.extend(
+            detection.flat_map(|known| goings.of(i, known, ACROSS_PER_ALONG)).map(|going| (i, going)),
+        );
+    }
     let is_near = |view: &&LidarView| {
         let seconds = (view.moment.t_ns - frame.scan.t_ns()) as f64 * 1e-9;
         seconds.abs() <= AROUND
@@ -60,21 +65,53 @@ fn observe(surroundings: &Surroundings) -> Vec<Values> {
     let views = lidar.window.views.iter().filter(is_near);
     let probing = Probing::new(frame, lidar);
     let around: Vec<Vec<Votes>> =
-        views.map(|view| Asked { frame, probing: &probing, view }.vote(&movers)).collect();
-    for (place, (i, _)) in movers.iter().enumerate() {
-        let votes: Vec<Votes> = around.iter().map(|votes| votes[place]).collect();
-        columns::set(&mut columns, *i, answers(&votes));
+        views.map(|view| Asked { frame, probing: &probing, view }.vote(&ways)).collect();
+    let answered = |place: usize| Answers::of(around.iter().map(|votes| &votes[place]));
+    let mut best: Vec<Option<Answers>> = vec![None; frame.scan.len()];
+    for (place, (i, _)) in ways.iter().enumerate() {
+        let answers = answered(place);
+        if best[*i].as_ref().is_none_or(|known| answers.fit() > known.fit()) {
+            best[*i] = Some(answers);
+        }
+    }
+    for (i, answers) in best.into_iter().enumerate() {
+        if let Some(answers) = answers {
+            columns::set(&mut columns, i, answers.values());
+        }
     }
     columns
 }
 
-fn answers(scans: &[Votes]) -> [Option<f64>; 4] {
-    let mut all = Votes::default();
-    scans.iter().for_each(|votes| all.add(votes));
-    let chis: Vec<f64> = scans.iter().filter_map(|votes| votes.chi).collect();
-    let near = chis.iter().filter(|chi| **chi < NEAR).count();
-    let share = (!chis.is_empty()).then(|| near as f64 / chis.len() as f64);
-    [all.share(all.inside), all.share(all.beyond), median(chis), share]
+/// What the scans say of one way to go.
+#[derive(Debug, Clone)]
+struct Answers {
+    all: Votes,
+    chi: Option<f64>,
+    /// How many scans have a point within [`NEAR`], and how many look there.
+    near: [usize; 2],
+}
+
+impl Answers {
+    fn of<'a>(scans: impl Iterator<Item = &'a Votes> + Clone) -> Self {
+        let mut all = Votes::default();
+        scans.clone().for_each(|votes| all.add(votes));
+        let chis: Vec<f64> = scans.filter_map(|votes| votes.chi).collect();
+        let near = [chis.iter().filter(|chi| **chi < NEAR).count(), chis.len()];
+        Self { all, chi: median(chis), near }
+    }
+
+    /// How well the way fits: the share of scans with a point near, as if half of one more had one; of equal ones the
+    /// nearest.
+    fn fit(&self) -> [f64; 2] {
+        let [near, scans] = self.near.map(|count| count as f64);
+        [(near + 0.5) / (scans + 1.0), -self.chi.unwrap_or(f64::INFINITY)]
+    }
+
+    fn values(&self) -> [Option<f64>; 4] {
+        let [near, scans] = self.near;
+        let share = (scans > 0).then(|| near as f64 / scans as f64);
+        [self.all.share(self.all.inside), self.all.share(self.all.beyond), self.chi, share]
+    }
 }
 
 /// The scans of one moment.
@@ -85,13 +122,13 @@ struct Asked<'a> {
 }
 
 impl Asked<'_> {
-    /// The moment's votes on each of the movers.
-    fn vote(&self, movers: &[(usize, Mover)]) -> Vec<Votes> {
+    /// The moment's votes on each of the ways.
+    fn vote(&self, ways: &[(usize, Going)]) -> Vec<Votes> {
         let LidarView { moment, vehicle_from_moment, .. } = self.view;
-        let mut sums = vec![Votes::default(); movers.len()];
+        let mut sums = vec![Votes::default(); ways.len()];
         for (sweep, mut rays) in moment.sweeps().iter().zip(sweeps_of(moment, *vehicle_from_moment, RAYS)) {
-            for (sum, (_, mover)) in sums.iter_mut().zip(movers) {
-                let there = self.at_time_of(sweep, &mut rays, mover);
+            for (sum, (_, going)) in sums.iter_mut().zip(ways) {
+                let there = self.at_time_of(sweep, &mut rays, going);
                 sum.add(&rays.vote(&there));
             }
         }
@@ -99,9 +136,9 @@ impl Asked<'_> {
     }
 
     /// Where a mover is when the rays towards it are sent.
-    fn at_time_of(&self, sweep: &LidarSweep, rays: &mut Sweep, mover: &Mover) -> Probe {
+    fn at_time_of(&self, sweep: &LidarSweep, rays: &mut Sweep, going: &Going) -> Probe {
         let seconds = (sweep.scan.t_ns - self.frame.scan.t_ns()) as f64 * 1e-9;
-        let at = |seconds: f64| self.probing.probe(&mover.after(seconds));
+        let at = |seconds: f64| self.probing.probe(&going.after(seconds));
         let there = at(seconds);
         let Some(times) = &sweep.scan.times else { return there };
         // The rays turn far faster than things move: where it is at the scan's time tells which of them meet it.
