@@ -177,7 +177,7 @@ fn what_stands_still_what_moves_and_what_moves_along() {
 #[test]
 fn what_drives_beside_is_sought_along_the_road() {
     // A car in the next lane, as fast as the vehicle and 2 m/s faster: at 45 degrees and beside the radar. Along the ray
-    // they would be 0.7 and 0.3 m aside in a tenth of a second, and more.
+    // they would be 0.5, 0.5 and 0.4 m aside in a tenth of a second, and more.
     let car = |t: f32, ahead: f32, speed: f32| {
         let x = ahead + (speed - 10.0) * t;
         [x, 4.0, 0.0, (speed - 10.0) * x / x.hypot(4.0), 0.0]

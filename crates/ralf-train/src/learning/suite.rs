@@ -31,6 +31,9 @@ pub const SUITES: [&str; 9] = [
     "scans that no camera sees",
 ];
 
+/// How many of them are views that show less; each other comes after these.
+const LESS: usize = View::ALL.len() - 1;
+
 /// To which of [`SUITES`] each row belongs, a bit for each.
 pub(super) fn suites_of(table: &TrainingTable) -> Vec<u16> {
     let place = |wanted: &str| table.features.iter().position(|feature| feature.name == wanted);
@@ -43,15 +46,11 @@ pub(super) fn suites_of(table: &TrainingTable) -> Vec<u16> {
     }
     let mut suites = Vec::with_capacity(table.len());
     for (row, known) in table.known.iter().enumerate() {
-        let by_radar = if holds(row, elevation) { 1 << 5 } else { 1 << 6 };
-        let by_camera = if is_seen[known.scan as usize] { 1 << 7 } else { 1 << 8 };
+        let by_radar = if holds(row, elevation) { 1 << LESS } else { 2 << LESS };
+        let by_camera = if is_seen[known.scan as usize] { 4 << LESS } else { 8 << LESS };
         suites.push(match known.view {
             View::Whole => by_radar | by_camera,
-            View::SingleFrame => 1,
-            View::NoLidar => 1 << 1,
-            View::NoCamera => 1 << 2,
-            View::OneRadarScan => 1 << 3,
-            View::HalfSecond => 1 << 4,
+            less => 1 << (less as u16 - 1),
         });
     }
     suites

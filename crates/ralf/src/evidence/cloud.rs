@@ -4,10 +4,10 @@
 //! these apart; what they leave is for [`chi_within`](super::distance::chi_within) to decide.
 
 use super::distance::{ROOM, Spot, farthest_within};
-use crate::space::{NeighborIndex, Vector};
+use crate::scene::Detection;
+use crate::space::NeighborIndex;
 use std::borrow::Cow;
 use std::ops::Range;
-use std::rc::Rc;
 use wide::f32x8;
 
 /// Detections that are looked at together.
@@ -17,23 +17,25 @@ const ROUNDED: f32 = 1.02;
 /// Sums and products are rounded by less than this share of their parts.
 const ROUNDING: f32 = 1e-6;
 
-/// Detections, to be searched.
+/// Detections, to be searched. What is visited together lies together: all is in the order of the index.
 pub(super) struct Cloud<'a> {
     index: Cow<'a, NeighborIndex>,
+    spots: Vec<Spot>,
     flat: Flat,
-    variances: Rc<Variances>,
+    variances: Variances,
 }
 
 impl<'a> Cloud<'a> {
-    /// The detections of an index, whose identities are places in a list of spots, and the variances of these.
-    pub(super) fn new(index: Cow<'a, NeighborIndex>, spots: &[Spot], variances: Rc<Variances>) -> Self {
-        let flat = Flat::new(spots, index.ids());
-        Self { index, flat, variances }
+    /// The detections of an index, each of which `detection` tells by its identity.
+    pub(super) fn new<'d>(index: Cow<'a, NeighborIndex>, detection: impl Fn(usize) -> &'d Detection) -> Self {
+        let spots: Vec<Spot> = index.ids().iter().map(|id| Spot::new(detection(*id as usize))).collect();
+        let (flat, variances) = (Flat::new(&spots), Variances::new(&spots));
+        Self { index, spots, flat, variances }
     }
 
-    /// Visits the identities of all within a distance `limit` of a spot, in standard deviations, and of some beyond;
-    /// but of none farther than `most`, m, seen from above.
-    pub(super) fn each_near(&self, spot: &Spot, limit: f64, most: f32, mut visit: impl FnMut(usize)) {
+    /// Visits all within a distance `limit` of a spot, in standard deviations, and some beyond, but none farther than
+    /// `most`, m, seen from above: each with its place in the order of the index.
+    pub(super) fn each_near(&self, spot: &Spot, limit: f64, most: f32, mut visit: impl FnMut(usize, &Spot)) {
         let reach = self.variances.farthest(spot, limit, most);
         let seeker = Seeker::new(spot, limit, reach);
         for run in self.index.runs_around([spot.place.x as f32, spot.place.y as f32], reach) {
@@ -41,26 +43,25 @@ impl<'a> Cloud<'a> {
         }
     }
 
-    /// The same around where a moving spot is at the time of each detection: `times` are these, s, in the order of
-    /// the index, not a number of those that are out of the question. Of all times `span` is the first and the last,
-    /// and `velocity` is horizontal, m/s. Some may be a hair farther than `most`.
+    /// The same around where a spot that drifts ([`Spot::after`]) is at the time of each detection: `times` are these,
+    /// s, in the order of the index, not a number of those that are out of the question. Of all times `span` is the
+    /// first and the last. Some may be a hair farther than `most`.
     pub(super) fn each_met(
         &self,
-        spot: &Spot,
-        velocity: [f64; 2],
+        (spot, drift): (&Spot, &Spot),
         (times, span): (&[f32], [f64; 2]),
         (limit, most): (f64, f32),
-        mut visit: impl FnMut(usize),
+        mut visit: impl FnMut(usize, &Spot),
     ) {
-        let [from, to] =
-            span.map(|time| spot.moved(&Vector::new(velocity[0] * time, velocity[1] * time, 0.0)));
+        let longest = span[1].max(-span[0]);
+        let least_certain = spot.after(drift, longest);
+        let [from, to] = span.map(|time| least_certain.moved(&(drift.place * (time - longest))));
         let farther = if to.place.xy().norm() > from.place.xy().norm() { &to } else { &from };
         let reach = self.variances.farthest(farther, limit, most) + SLACK as f32;
-        let seeker = Seeker::new(spot, limit, reach);
-        let velocity = velocity.map(|v| v as f32);
+        let (seeker, drifting) = (Seeker::new(spot, limit, reach), Drifting::new(drift));
         let way = [from, to].map(|end| [end.place.x as f32, end.place.y as f32]);
         for run in self.index.runs_along(way, reach) {
-            let meet = |begin| self.flat.meet_moving(begin, &seeker, velocity, times);
+            let meet = |begin| self.flat.meet_moving(begin, &seeker, &drifting, times);
             self.visit_run(run, meet, &mut visit);
         }
     }
@@ -68,28 +69,36 @@ impl<'a> Cloud<'a> {
     /// Visits those of a stretch of the index that are near; `meet` tells which of a few that begin at a place are, a
     /// bit each.
     #[inline]
-    fn visit_run(&self, run: Range<usize>, meet: impl Fn(usize) -> u32, visit: &mut impl FnMut(usize)) {
-        let ids = &self.index.ids()[run.clone()];
-        for (begin, ids) in run.step_by(LANES).zip(ids.chunks(LANES)) {
+    fn visit_run(
+        &self,
+        run: Range<usize>,
+        meet: impl Fn(usize) -> u32,
+        visit: &mut impl FnMut(usize, &Spot),
+    ) {
+        let spots = &self.spots[run.clone()];
+        for (begin, spots) in run.step_by(LANES).zip(spots.chunks(LANES)) {
             let mut near = meet(begin);
-            while let Some(id) = ids.get(near.trailing_zeros() as usize) {
-                visit(*id as usize);
+            while let Some(spot) = spots.get(near.trailing_zeros() as usize) {
+                visit(begin + near.trailing_zeros() as usize, spot);
                 near &= near - 1;
             }
         }
     }
 
-    /// A number of each detection, by its identity, in the order of the index, with as many more as [`Self::each_met`]
-    /// may look at.
-    pub(super) fn in_order(&self, number: impl Fn(usize) -> f32) -> Vec<f32> {
-        let numbers = self.index.ids().iter().map(|id| number(*id as usize));
-        numbers.chain(std::iter::repeat_n(f32::NAN, LANES)).collect()
+    /// What is known of each detection by its identity, in the order of the index.
+    pub(super) fn in_order<T>(&self, known: impl Fn(usize) -> T) -> impl Iterator<Item = T> {
+        self.index.ids().iter().map(move |id| known(*id as usize))
     }
 
     /// The detections' places, to be searched in metres.
     pub(super) fn index(&self) -> &NeighborIndex {
         &self.index
     }
+}
+
+/// Numbers with as many more as [`Cloud::each_met`] may look at.
+pub(super) fn padded(numbers: impl Iterator<Item = f32>) -> Vec<f32> {
+    numbers.chain(std::iter::repeat_n(f32::NAN, LANES)).collect()
 }
 
 /// Places, m, and horizontal covariances, m^2, each number apart; with a few more at the end, so that some can be taken
@@ -103,13 +112,10 @@ struct Flat {
 }
 
 impl Flat {
-    /// The spots of these places in a list.
-    fn new(spots: &[Spot], ids: &[u32]) -> Self {
-        let [mut x, mut y, mut xx, mut xy, mut yy] = [0; 5].map(|_| vec![0.0; ids.len() + LANES]);
-        // Spot by spot, for spots that follow each other here lie anywhere in the list.
+    fn new(spots: &[Spot]) -> Self {
+        let [mut x, mut y, mut xx, mut xy, mut yy] = [0; 5].map(|_| vec![0.0; spots.len() + LANES]);
         let numbers = x.iter_mut().zip(&mut y).zip(&mut xx).zip(&mut xy).zip(&mut yy);
-        for (id, ((((x, y), xx), xy), yy)) in ids.iter().zip(numbers) {
-            let spot = &spots[*id as usize];
+        for (spot, ((((x, y), xx), xy), yy)) in spots.iter().zip(numbers) {
             [*x, *y] = [spot.place.x as f32, spot.place.y as f32];
             [*xx, *xy, *yy] = spot.horizontal.map(|number| number as f32);
         }
@@ -120,24 +126,30 @@ impl Flat {
     #[inline]
     fn meet(&self, begin: usize, seeker: &Seeker) -> u32 {
         let [Some(x), Some(y)] = [&self.x, &self.y].map(|column| few(column, begin)) else { return 0 };
-        self.meet_at(begin, [x, y], seeker)
+        let Some(covariance) = self.covariance(begin) else { return 0 };
+        seeker.meet([x, y], covariance)
     }
 
-    /// The same where the seeker moves: each of them meets it at its own time.
+    /// The same where the seeker drifts: each of them meets it at its own time.
     #[inline]
-    fn meet_moving(&self, begin: usize, seeker: &Seeker, velocity: [f32; 2], times: &[f32]) -> u32 {
+    fn meet_moving(&self, begin: usize, seeker: &Seeker, drifting: &Drifting, times: &[f32]) -> u32 {
         let [Some(x), Some(y)] = [&self.x, &self.y].map(|column| few(column, begin)) else { return 0 };
         let Some(times) = few(times, begin) else { return 0 };
-        let [along_x, along_y] = velocity.map(|velocity| f32x8::splat(velocity) * times);
-        self.meet_at(begin, [x - along_x, y - along_y], seeker)
+        let [along_x, along_y] = drifting.velocity.map(|velocity| velocity * times);
+        let place = [x - along_x, y - along_y];
+        // Of a long way most is far from where the seeker is at the time.
+        if !seeker.reaches_any(place) {
+            return 0;
+        }
+        let Some([xx, xy, yy]) = self.covariance(begin) else { return 0 };
+        let [more_xx, more_xy, more_yy] = drifting.horizontal.map(|growth| growth * times * times);
+        seeker.meet(place, [xx + more_xx, xy + more_xy, yy + more_yy])
     }
 
-    /// Which of those that begin at a place of the index would be near a seeker if they were at these places.
+    /// xx, xy and yy of those that begin at a place.
     #[inline]
-    fn meet_at(&self, begin: usize, place: [f32x8; 2], seeker: &Seeker) -> u32 {
-        let columns = [&self.xx, &self.xy, &self.yy].map(|column| few(column, begin));
-        let [Some(xx), Some(xy), Some(yy)] = columns else { return 0 };
-        seeker.meet(place, [xx, xy, yy])
+    fn covariance(&self, begin: usize) -> Option<[f32x8; 3]> {
+        Some([few(&self.xx, begin)?, few(&self.xy, begin)?, few(&self.yy, begin)?])
     }
 }
 
@@ -168,6 +180,13 @@ impl Seeker {
         }
     }
 
+    /// Whether any of a few lies within reach.
+    #[inline]
+    fn reaches_any(&self, [x, y]: [f32x8; 2]) -> bool {
+        let [x, y] = [x - self.place[0], y - self.place[1]];
+        (x * x + y * y).simd_le(self.reach_squared).any()
+    }
+
     /// Which of a few may lie within limit and reach, seen from above, a bit each; what can't be told may.
     #[inline]
     fn meet(&self, [x, y]: [f32x8; 2], [xx, xy, yy]: [f32x8; 3]) -> u32 {
@@ -182,8 +201,23 @@ impl Seeker {
     }
 }
 
+/// How a spot drifts: the same numbers for each of a few.
+struct Drifting {
+    /// m/s
+    velocity: [f32x8; 2],
+    /// How xx, xy and yy grow with the square of the time, m^2/s^2.
+    horizontal: [f32x8; 3],
+}
+
+impl Drifting {
+    fn new(drift: &Spot) -> Self {
+        let all = |v: f64| f32x8::splat(v as f32);
+        Self { velocity: [drift.place.x, drift.place.y].map(all), horizontal: drift.horizontal.map(all) }
+    }
+}
+
 /// How uncertain detections are by how far they lie from the frame's origin.
-pub(super) struct Variances {
+struct Variances {
     /// No horizontal variance within this many metres and one is larger, m^2.
     within: Vec<f64>,
 }
@@ -192,7 +226,7 @@ impl Variances {
     /// Farther than this all are taken together, m.
     const FARTHEST: usize = 400;
 
-    pub(super) fn new(spots: &[Spot]) -> Self {
+    fn new(spots: &[Spot]) -> Self {
         let mut within = vec![0.0f64; Self::FARTHEST + 1];
         for spot in spots {
             let metre = &mut within[metre(spot.place.xy().norm())];
@@ -231,41 +265,46 @@ fn metre(distance: f64) -> usize {
 mod tests {
     use super::super::distance::chi_within;
     use super::*;
-    use crate::scene::Detection;
     use crate::space::Point;
     use nalgebra::Matrix3;
     use proptest::prelude::*;
 
     /// Some long and thin, as azimuths far away make them.
-    fn spot() -> impl Strategy<Value = Spot> {
+    fn detection() -> impl Strategy<Value = Detection> {
         let sigmas = (0.001f64..0.4, 0.001f64..9.0, 0.0f64..6.3);
         (-30.0f64..30.0, -30.0f64..30.0, 0i32..4, sigmas).prop_map(|(x, y, far, (thin, long, angle))| {
             let far = 10f64.powi(far);
             let (sin, cos) = angle.sin_cos();
             let axes = Matrix3::new(cos * thin, -sin * long, 0.0, sin * thin, cos * long, 0.0, 0.0, 0.0, 0.3);
-            Spot::new(&Detection { position: Point::new(far + x, y, 0.0), axes })
+            Detection { position: Point::new(far + x, y, 0.0), axes }
         })
+    }
+
+    fn cloud(detections: &[Detection]) -> Cloud<'static> {
+        let places: Vec<[f32; 3]> =
+            detections.iter().map(|d| d.position.coords.cast::<f32>().into()).collect();
+        let ids: Vec<u32> = (0..places.len() as u32).collect();
+        Cloud::new(Cow::Owned(NeighborIndex::new(&places, &ids)), |id| &detections[id])
     }
 
     proptest! {
         #[test]
         fn all_that_are_near_are_visited_once(
-            spots in prop::collection::vec(spot(), 0..200), seekers in prop::collection::vec(spot(), 5),
-            limit in 0.5f64..4.0, most in 0.1f32..40.0,
+            detections in prop::collection::vec(detection(), 0..200),
+            seekers in prop::collection::vec(detection(), 5), limit in 0.5f64..4.0, most in 0.1f32..40.0,
         ) {
-            let places: Vec<[f32; 3]> = spots.iter().map(|spot| spot.place.cast::<f32>().into()).collect();
-            let ids: Vec<u32> = (0..spots.len() as u32).collect();
-            let cloud = Cloud::new(Cow::Owned(NeighborIndex::new(&places, &ids)), &spots, Rc::new(Variances::new(&spots)));
-            for seeker in &seekers {
+            let cloud = cloud(&detections);
+            for seeker in seekers.iter().map(Spot::new) {
                 let (mut found, mut beside) = (Vec::new(), Vec::new());
-                cloud.each_near(seeker, limit, most, |id| found.push(id as u32));
+                cloud.each_near(&seeker, limit, most, |at, _| found.push(cloud.index().ids()[at]));
                 found.sort_unstable();
                 prop_assert!(found.windows(2).all(|pair| pair[0] < pair[1]), "none twice");
                 cloud.index().beside([seeker.place.x as f32, seeker.place.y as f32], most, &mut beside);
                 prop_assert!(found.iter().all(|id| beside.contains(id)), "none farther than that");
                 for id in beside {
-                    let is_near = chi_within(limit, seeker, &spots[id as usize], true).is_some();
-                    prop_assert!(!is_near || found.contains(&id), "{seeker:?} {:?}", spots[id as usize]);
+                    let spot = Spot::new(&detections[id as usize]);
+                    let is_near = chi_within(limit, &seeker, &spot, true).is_some();
+                    prop_assert!(!is_near || found.contains(&id), "{seeker:?} {spot:?}");
                 }
             }
         }
@@ -273,26 +312,29 @@ mod tests {
 
     proptest! {
         #[test]
-        fn all_that_are_near_a_moving_spot_at_their_time_are_visited_once(
-            spots in prop::collection::vec((spot(), prop_oneof![3 => -0.7f64..0.7, 1 => Just(f64::NAN)]), 0..200),
-            seekers in prop::collection::vec(spot(), 5), velocity in prop::array::uniform2(-40f64..40.0),
-            limit in 0.5f64..4.0, most in 0.1f32..40.0,
+        fn all_that_are_near_a_drifting_spot_at_their_time_are_visited_once(
+            timed in prop::collection::vec((detection(), prop_oneof![3 => -0.7f64..0.7, 1 => Just(f64::NAN)]), 0..200),
+            seekers in prop::collection::vec(detection(), 5), velocity in prop::array::uniform2(-40f64..40.0),
+            growth in prop::array::uniform4(-6f64..6.0), limit in 0.5f64..4.0, most in 0.1f32..40.0,
         ) {
-            let (spots, times): (Vec<Spot>, Vec<f64>) = spots.into_iter().unzip();
-            let places: Vec<[f32; 3]> = spots.iter().map(|spot| spot.place.cast::<f32>().into()).collect();
-            let ids: Vec<u32> = (0..spots.len() as u32).collect();
-            let cloud = Cloud::new(Cow::Owned(NeighborIndex::new(&places, &ids)), &spots, Rc::new(Variances::new(&spots)));
-            let in_order = cloud.in_order(|id| times[id] as f32);
-            for seeker in &seekers {
+            let (detections, times): (Vec<Detection>, Vec<f64>) = timed.into_iter().unzip();
+            let cloud = cloud(&detections);
+            let in_order = padded(cloud.in_order(|id| times[id] as f32));
+            let [a, b, c, d] = growth;
+            let axes = Matrix3::new(a, b, 0.0, c, d, 0.0, 0.0, 0.0, 0.0);
+            let drift = Spot::new(&Detection { position: Point::new(velocity[0], velocity[1], 0.0), axes });
+            for seeker in seekers.iter().map(Spot::new) {
                 let mut found = Vec::new();
-                cloud.each_met(seeker, velocity, (&in_order, [-0.7, 0.7]), (limit, most), |id| found.push(id));
+                cloud.each_met((&seeker, &drift), (&in_order, [-0.7, 0.7]), (limit, most), |at, _| {
+                    found.push(cloud.index().ids()[at] as usize);
+                });
                 found.sort_unstable();
                 prop_assert!(found.windows(2).all(|pair| pair[0] < pair[1]), "none twice");
                 prop_assert!(found.iter().all(|id| times[*id].is_finite()), "none that is out of the question");
-                for (id, spot) in spots.iter().enumerate().filter(|(id, _)| times[*id].is_finite()) {
-                    let there = seeker.moved(&Vector::new(velocity[0] * times[id], velocity[1] * times[id], 0.0));
+                for (id, detection) in detections.iter().enumerate().filter(|(id, _)| times[*id].is_finite()) {
+                    let (there, spot) = (seeker.after(&drift, times[id]), Spot::new(detection));
                     let distance = (there.place - spot.place).xy().norm();
-                    let is_near = chi_within(limit, &there, spot, true).is_some() && distance <= f64::from(most);
+                    let is_near = chi_within(limit, &there, &spot, true).is_some() && distance <= f64::from(most);
                     prop_assert!(!is_near || found.binary_search(&id).is_ok(), "{there:?} {spot:?}");
                 }
             }
@@ -303,18 +345,12 @@ mod tests {
     fn what_is_far_in_standard_deviations_is_passed_over() {
         let at = |x: f64, y: f64| {
             let axes = Matrix3::from_diagonal(&nalgebra::Vector3::new(0.1, 1.0, 0.1));
-            Spot::new(&Detection { position: Point::new(x, y, 0.0), axes })
+            Detection { position: Point::new(x, y, 0.0), axes }
         };
         // Variances of 0.03 and 2.01: three standard deviations are 0.52 m along x and 4.25 m along y.
-        let spots = [at(10.5, 0.0), at(10.55, 0.0), at(10.0, 4.2), at(10.0, 4.35)];
-        let places = spots.map(|spot| spot.place.cast::<f32>().into());
-        let cloud = Cloud::new(
-            Cow::Owned(NeighborIndex::new(&places, &[0, 1, 2, 3])),
-            &spots,
-            Rc::new(Variances::new(&spots)),
-        );
+        let cloud = cloud(&[at(10.5, 0.0), at(10.55, 0.0), at(10.0, 4.2), at(10.0, 4.35)]);
         let mut found = Vec::new();
-        cloud.each_near(&at(10.0, 0.0), 3.0, 8.0, |id| found.push(id));
+        cloud.each_near(&Spot::new(&at(10.0, 0.0)), 3.0, 8.0, |at, _| found.push(cloud.index().ids()[at]));
         found.sort_unstable();
         assert_eq!(found, [0, 2]);
     }

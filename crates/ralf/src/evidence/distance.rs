@@ -39,6 +39,19 @@ impl Spot {
         self.place += way;
         self
     }
+
+    /// The same so many seconds later. `drift` is what changes: its place is a velocity, m/s, and its covariance,
+    /// m^2/s^2, is what is added, times the square of the time.
+    pub(super) fn after(mut self, drift: &Self, seconds: f64) -> Self {
+        let squared = seconds * seconds;
+        self.place += drift.place * seconds;
+        for entry in 0..3 {
+            self.horizontal[entry] += drift.horizontal[entry] * squared;
+            self.vertical[entry] += drift.vertical[entry] * squared;
+        }
+        self.variance = self.horizontal[0] + self.horizontal[2];
+        self
+    }
 }
 
 /// The Mahalanobis distance of two detections, `sqrt(h^T (Sigma_i + Sigma_j + (0.1 m)^2 I)^-1 h)`; of their horizontal

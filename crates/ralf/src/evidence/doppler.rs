@@ -2,8 +2,8 @@
 //! it go where its range rate says it goes?
 
 use super::columns::{set, unobserved};
+use super::meeting::Meeting;
 use super::rates::Rates;
-use super::recurrence::Meeting;
 use super::{Feature, Piece, Surroundings, Values};
 use crate::scene::median;
 

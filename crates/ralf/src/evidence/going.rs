@@ -3,9 +3,11 @@
 //! vehicle drives.
 
 use super::course::Course;
+use super::distance::Spot;
 use super::rates::Rates;
-use crate::scene::{Detection, Frame, radar_velocity};
+use crate::scene::{Detection, Frame, radar_velocity, rate_sigma};
 use crate::space::{Point, Vector};
+use nalgebra::Matrix3;
 use std::f64::consts::SQRT_2;
 
 /// Nothing on a road is faster, m/s.
@@ -29,10 +31,20 @@ pub(super) struct Going {
     detection: Detection,
     /// Horizontal along a road, along the ray otherwise; m/s.
     velocity: Vector,
-    /// How well the velocity is known, along and across itself, m/s.
-    sigmas: [f64; 2],
+    /// The detection's axes but the one that leads up, each with how it grows.
+    axes: [Axis; 2],
     /// How well range rates of it agree at best, m/s.
     rate_sigma: f64,
+}
+
+/// One axis of a detection's uncertainty and how fast it grows.
+#[derive(Debug, Clone, Copy)]
+struct Axis {
+    direction: Vector,
+    /// m^2
+    variance: f64,
+    /// What is open of the velocity, as far as it lies along this axis: m^2/s^2.
+    growth: f64,
 }
 
 impl<'a> Goings<'a> {
@@ -48,7 +60,7 @@ impl<'a> Goings<'a> {
 
     /// The ways in which a detection of the scan may go on that moves; none of one that stands still or has no rate.
     /// What goes along the ray goes across it within `across` of that, two times in three.
-    pub(super) fn of(&self, i: usize, detection: &Detection, across: f64) -> impl Iterator<Item = Going> {
+    pub(super) fn of(&self, i: usize, detection: &Detection, across: f64) -> [Option<Going>; 2] {
         let rate = self.rates.motion(i);
         let ray = (detection.position - self.radar).try_normalize(0.0).unwrap_or_default();
         let along_ray = (rate != 0.0).then(|| self.going(detection, ray, rate, across));
@@ -60,47 +72,65 @@ impl<'a> Goings<'a> {
             let is_told = cosine.abs() >= ACROSS && speed.abs() <= FASTEST;
             is_told.then(|| self.going(detection, direction, speed, DIRECTION_SIGMA))
         });
-        along_ray.into_iter().chain(along_road)
+        [along_ray, along_road]
     }
 
     fn going(&self, detection: &Detection, direction: Vector, speed: f64, direction_sigma: f64) -> Going {
         let from_radar = detection.position - self.radar;
         let range = from_radar.norm();
         let velocity = direction * speed;
-        // As far as its place is uncertain across the ray, so is the part of its motion that the rate shows.
-        let uncertain = detection.axes.columns(1, 2).tr_mul(&(velocity - self.radar_velocity)).norm();
-        let rate_sigma = self.rates.spread().hypot(if range > 0.0 { uncertain / range } else { 0.0 });
+        let seen = velocity - self.radar_velocity;
+        let rate_sigma = self.rates.spread().hypot(rate_sigma(detection, range, &seen));
         let cosine = if range > 0.0 { (from_radar.dot(&direction) / range).abs() } else { 1.0 };
         let sigmas = [rate_sigma / cosine, direction_sigma * speed.abs()];
-        Going { detection: *detection, velocity, sigmas, rate_sigma }
+        let axes = [0, 1].map(|column| Axis::new(detection.axes.column(column).into(), &velocity, sigmas));
+        Going { detection: *detection, velocity, axes, rate_sigma }
     }
 }
 
+impl Axis {
+    /// `sigmas` tell how well the velocity is known along and across itself, m/s.
+    fn new(axis: Vector, velocity: &Vector, sigmas: [f64; 2]) -> Self {
+        let direction = axis.try_normalize(0.0).unwrap_or_default();
+        let ahead = velocity.try_normalize(0.0).unwrap_or_default();
+        let share = direction.dot(&ahead);
+        let aside_squared = (1.0 - share * share).max(0.0);
+        let growth = (sigmas[0] * share).powi(2) + sigmas[1] * sigmas[1] * aside_squared;
+        Self { direction, variance: axis.norm_squared(), growth }
+    }
+
+    fn after(&self, seconds: f64) -> Vector {
+        self.direction * (self.variance + self.growth * seconds * seconds).sqrt()
+    }
+}
+
+/// How well a way to go fits the scans that could have seen it: the share of them that did, as if it had been seen in
+/// half of one more; of equal ones the nearest.
+pub(super) fn fit(again: usize, scans: usize, distance: f64) -> [f64; 2] {
+    [(again as f64 + 0.5) / (scans as f64 + 1.0), -distance]
+}
+
 impl Going {
-    /// m/s, horizontally.
-    pub(super) fn velocity(&self) -> [f64; 2] {
-        [self.velocity.x, self.velocity.y]
+    /// Where it is at its own time, and how that drifts ([`Spot::after`]): as [`Self::after`] has it.
+    pub(super) fn drift(&self) -> (Spot, Spot) {
+        let [first, second] = self.axes.map(|axis| axis.direction * axis.growth.sqrt());
+        let axes = Matrix3::from_columns(&[first, second, Vector::zeros()]);
+        (Spot::new(&self.detection), Spot::new(&Detection { position: Point::from(self.velocity), axes }))
     }
 
     /// The detection so many seconds later: moved, and less certain the longer ago.
     pub(super) fn after(&self, seconds: f64) -> Detection {
         let mut moved = self.detection;
         moved.position += self.velocity * seconds;
-        let along = self.velocity.try_normalize(0.0).unwrap_or_default();
-        let [along_sigma, across_sigma] = self.sigmas.map(|sigma| sigma * seconds);
-        for column in 0..2 {
-            let axis: Vector = moved.axes.column(column).into();
-            let Some(direction) = axis.try_normalize(0.0) else { continue };
-            let share = direction.dot(&along);
-            let drift = (along_sigma * share).hypot(across_sigma * (1.0 - share * share).max(0.0).sqrt());
-            moved.axes.set_column(column, &(direction * axis.norm().hypot(drift)));
+        for (column, axis) in self.axes.iter().enumerate() {
+            moved.axes.set_column(column, &axis.after(seconds));
         }
         moved
     }
 
     /// How far its range rate at a place is from another's, as a radar measures them whose own motion is taken away, in
     /// standard deviations; `None` where the other was not measured.
-    pub(super) fn rate_difference(&self, place: &Point, radar: &Point, other: f64) -> Option<f64> {
+    pub(super) fn rate_difference(&self, place: &Vector, radar: &Vector, other: f64) -> Option<f64> {
         let ray = (place - radar).try_normalize(0.0).unwrap_or_default();
         Some((self.velocity.dot(&ray) - other).abs() / (SQRT_2 * self.rate_sigma))
             .filter(|difference| difference.is_finite())
@@ -111,7 +141,6 @@ impl Going {
 mod tests {
     use super::*;
     use crate::space::{EgoMotion, OdometrySample};
-    use nalgebra::Matrix3;
 
     /// A radar at the vehicle's origin; the vehicle drives straight ahead at 30 m/s. Rates of a spread of 0.12 m/s.
     fn goings(rates: &Rates, course: Option<Course>) -> Goings<'_> {
@@ -134,7 +163,7 @@ mod tests {
     fn along_the_ray_and_along_the_road_by_hand() {
         let rates = Rates::new(vec![16.0, 0.0, 0.0, f64::NAN, 0.0]);
         let goings = goings(&rates, straight());
-        let [ray, road] = goings.of(0, &detection(), 0.3).collect::<Vec<_>>()[..] else { panic!("two ways") };
+        let [Some(ray), Some(road)] = goings.of(0, &detection(), 0.3) else { panic!("two ways") };
         // 16 m/s along (0.8, 0.6); a car at 16 / 0.8 = 20 m/s.
         assert!((ray.velocity - Vector::new(12.8, 9.6, 0.0)).norm() < 1e-12);
         assert!((road.velocity - Vector::new(20.0, 0.0, 0.0)).norm() < 1e-12);
@@ -142,7 +171,6 @@ mod tests {
         // 0.1 / 10 rad: 0.06 m/s. Along the road that is 0.8 of the speed.
         let sigma = 0.12f64.hypot(0.06);
         assert!((road.rate_sigma - sigma).abs() < 1e-12);
-        assert!((road.sigmas[0] - sigma / 0.8).abs() < 1e-12 && (road.sigmas[1] - 0.03 * 20.0).abs() < 1e-12);
         // In half a second 10 m ahead. Its axis along the ray grows by 0.8 of what the speed leaves open and 0.6 of
         // what the direction does, the other the other way round; upward nothing grows.
         let after = road.after(0.5);
@@ -154,22 +182,34 @@ mod tests {
             assert!((after.axes.column(axis).norm() - expected).abs() < 1e-12, "{axis}");
         }
         // There the ray is (18, 6) / 18.97, and 20 m/s ahead are 18.974 m/s along it.
-        let radar = Point::origin();
-        let difference = road.rate_difference(&after.position, &radar, 18.0).unwrap();
+        let (place, radar) = (after.position.coords, Vector::zeros());
+        let difference = road.rate_difference(&place, &radar, 18.0).unwrap();
         let expected = (20.0 * 18.0 / 360f64.sqrt() - 18.0) / (SQRT_2 * sigma);
         assert!((difference - expected).abs() < 1e-9);
-        assert_eq!(road.rate_difference(&after.position, &radar, f64::NAN), None);
+        assert_eq!(road.rate_difference(&place, &radar, f64::NAN), None);
+        // A spot drifts to the same.
+        let (spot, drift) = road.drift();
+        let (drifted, there) = (spot.after(&drift, 0.5), Spot::new(&after));
+        assert!((drifted.place - there.place).norm() < 1e-12);
+        for (a, b) in drifted.horizontal.iter().zip(&there.horizontal) {
+            assert!((a - b).abs() < 1e-12, "{a} {b}");
+        }
     }
 
     #[test]
     fn what_no_speed_explains_goes_along_its_ray_alone() {
         let rates = Rates::new(vec![60.0, 0.0, 0.0, f64::NAN, 9.0]);
-        let count = |i: usize, course| goings(&rates, course).of(i, &detection(), 0.0).count();
+        let count =
+            |i: usize, course| goings(&rates, course).of(i, &detection(), 0.0).iter().flatten().count();
         assert_eq!(count(0, straight()), 1, "75 m/s");
         assert_eq!([count(1, straight()), count(3, straight())], [0, 0], "stands still; no rate");
         assert_eq!([count(4, straight()), count(4, None)], [2, 1]);
         let mut beside = detection();
         beside.position = Point::new(1.0, 9.0, 0.0);
-        assert_eq!(goings(&rates, straight()).of(4, &beside, 0.0).count(), 1, "across the ray");
+        assert_eq!(
+            goings(&rates, straight()).of(4, &beside, 0.0).iter().flatten().count(),
+            1,
+            "across the ray"
+        );
     }
 }

@@ -112,10 +112,11 @@ fn nearest_point(map: &StaticMap, probe: &Probe, found: &mut Vec<Neighbor>) -> (
     let position = probe.detection.position.coords;
     map.index.nearest_within(position.cast::<f32>().into(), CANDIDATES, AROUND as f32, found);
     let nearest = found.first().map_or(AROUND, |neighbor| f64::from(neighbor.distance_squared).sqrt());
+    let precision = probe.precision();
     let mut least = LARGEST_CHI * LARGEST_CHI;
     for neighbor in found.iter() {
         let h = Vector3::from(map.points[neighbor.id as usize].map(f64::from)) - position;
-        least = least.min(h.dot(&(probe.precision * h)));
+        least = least.min(h.dot(&(precision * h)));
     }
     (nearest.min(AROUND), least.max(0.0).sqrt())
 }

@@ -3,7 +3,8 @@
 
 use super::chance::{AROUND, SAME, excess_of};
 use super::columns::{set, unobserved};
-use super::recurrence::{FARTHEST, Recurrence, Sighting};
+use super::meeting::FARTHEST;
+use super::recurrence::{Recurrence, Sighting};
 use super::sensor_frame::Unmoved;
 use super::{Feature, Piece, Surroundings, Values};
 use crate::scene::{Detection, Frame, NeighbouringDetections, NeighbouringScan, index_of};

@@ -21,18 +21,15 @@ pub struct Probe {
     pub detection: Detection,
     /// Height of the ground there, m; that of the vehicle where nobody saw the ground.
     pub ground: f64,
-    /// `(Sigma + (0.1 m)^2 I)^-1`, m^-2: LiDAR and radar don't see the same spot of an object.
-    pub precision: Matrix3<f64>,
 }
 
 impl Probe {
-    /// A detection above a ground.
-    fn new(detection: Detection, ground: f64) -> Self {
-        let covariance =
-            detection.axes * detection.axes.transpose() + Matrix3::identity() * SAME_SPOT.powi(2);
+    /// `(Sigma + (0.1 m)^2 I)^-1`, m^-2: LiDAR and radar don't see the same spot of an object.
+    pub fn precision(&self) -> Matrix3<f64> {
+        let axes = &self.detection.axes;
+        let covariance = axes * axes.transpose() + Matrix3::identity() * SAME_SPOT.powi(2);
         // A covariance that is not finite makes all distances 0 rather than a run end.
-        let precision = covariance.try_inverse().unwrap_or_else(Matrix3::zeros);
-        Self { detection, ground, precision }
+        covariance.try_inverse().unwrap_or_else(Matrix3::zeros)
     }
 }
 
@@ -71,6 +68,6 @@ impl<'a> Probing<'a> {
             detection.position.z = ground + SUPPOSED_HEIGHT;
             detection.axes.set_column(2, &Vector3::new(0.0, 0.0, SUPPOSED_SIGMA));
         }
-        Probe::new(detection, ground)
+        Probe { detection, ground }
     }
 }

@@ -2,13 +2,12 @@
 //! place of the radar's own frame again and again, however the vehicle moves.
 
 use super::chance::{AROUND, SAME, excess_of};
-use super::cloud::{Cloud, Variances};
+use super::cloud::Cloud;
 use super::distance::{ROOM, Spot, chi_within};
 use crate::scene::{Detection, Frame, index_of};
 use crate::sensors::Elevation;
 use crate::space::Transform;
 use std::borrow::Cow;
-use std::rc::Rc;
 
 /// What stands still has moved on if it is farther than this from its old place, in standard deviations.
 const MOVED_ON: f64 = 3.0;
@@ -18,12 +17,9 @@ const MOVED_ON: f64 = 3.0;
 pub(super) struct Unmoved {
     /// Whether the radar measures no elevation.
     level: bool,
-    /// Each detection, and its scan among the radar's own.
-    spots: Vec<Spot>,
-    scans: Vec<u32>,
-    /// The scans in the order of the cloud's index.
-    scan_at: Vec<u32>,
     cloud: Cloud<'static>,
+    /// In the order of the cloud: to which of the radar's own scans a detection belongs.
+    scan_at: Vec<u32>,
     /// Of each of the radar's own scans: the way from the vehicle frame at the frame's time to that at its own.
     scans_from_vehicle: Vec<Transform>,
 }
@@ -47,11 +43,10 @@ impl Unmoved {
             scans_from_vehicle.push(neighbour.vehicle_from_scan.inverse());
         }
         let index = index_of(detections.iter().map(|detection| &detection.position), Elevation::None);
-        let scan_at = index.ids().iter().map(|id| scans[*id as usize]).collect();
-        let spots: Vec<Spot> = detections.into_iter().map(Spot::new).collect();
-        let cloud = Cloud::new(Cow::Owned(index), &spots, Rc::new(Variances::new(&spots)));
+        let cloud = Cloud::new(Cow::Owned(index), |id| detections[id]);
+        let scan_at = cloud.in_order(|id| scans[id]).collect();
         let level = frame.radar.elevation == Elevation::None;
-        Self { level, spots, scans, scan_at, cloud, scans_from_vehicle }
+        Self { level, cloud, scan_at, scans_from_vehicle }
     }
 
     /// How many of the scans in which what stands still had moved on have a detection at the same place of the radar's
@@ -65,10 +60,10 @@ impl Unmoved {
             return None;
         }
         let near = self.count_around(detection, &known);
-        self.cloud.each_near(&spot, SAME, AROUND as f32, |id| {
-            let scan = &mut known[self.scans[id] as usize];
+        self.cloud.each_near(&spot, SAME, AROUND as f32, |at, other| {
+            let scan = &mut known[self.scan_at[at] as usize];
             if scan.moved_on && !scan.again {
-                scan.again = chi_within(SAME, &spot, &self.spots[id], self.level).is_some();
+                scan.again = chi_within(SAME, &spot, other, self.level).is_some();
             }
         });
         let hits = known.iter().filter(|scan| scan.again).count();

@@ -43,7 +43,7 @@ pub use lidar_search::LidarSearch;
 pub use lidar_window::{LidarWindow, LidarWindowView};
 pub use located::{Detection, LocatedScan};
 pub use mismatch::{Reference, Spread, mismatch, plausibility, reach_of_cap};
-pub use mover::Mover;
+pub use mover::{ACROSS_PER_ALONG, Mover, rate_sigma};
 pub use neighbouring::{NeighbouringScan, ScanStep};
 pub use neighbouring_detections::NeighbouringDetections;
 pub use ordered::Ordered;

@@ -6,7 +6,7 @@ use crate::space::Vector;
 
 /// A thing seldom moves along the ray to it. How fast it moves across is not measured; the standard deviation of that
 /// is taken to be this share of its range rate, as if it moved within 17 degrees of the ray, two times in three.
-const ACROSS_PER_ALONG: f64 = 0.3;
+pub const ACROSS_PER_ALONG: f64 = 0.3;
 /// Range rates agree within so many standard deviations of what the azimuth leaves open.
 const SIGMAS: f64 = 2.0;
 
@@ -34,14 +34,12 @@ impl Mover {
         let ray = from_radar.try_normalize(0.0).unwrap_or_default();
         let up = radar.vehicle_from_radar.rotation * Vector::z();
         let across = up.cross(&ray).try_normalize(1e-9).unwrap_or_default();
-        let uncertain = detection.axes.columns(1, 2).tr_mul(radar_velocity).norm();
-        let rate_sigma = if range > 0.0 { uncertain / range } else { 0.0 };
         Self {
             detection: *detection,
             ray,
             across,
             rate: Some(rate).filter(|rate| rate.is_finite()),
-            rate_sigma,
+            rate_sigma: rate_sigma(detection, range, radar_velocity),
         }
     }
 
@@ -73,6 +71,13 @@ impl Mover {
         let Some(rate) = self.rate.filter(|_| other.is_finite()) else { return true };
         (rate - other).abs() <= tolerance.hypot(SIGMAS * std::f64::consts::SQRT_2 * self.rate_sigma)
     }
+}
+
+/// How well the part of a velocity (m/s) is known that lies along the ray to a detection at this range, m: as far as
+/// the place is uncertain across the ray, so is that part. m/s.
+pub fn rate_sigma(detection: &Detection, range: f64, velocity: &Vector) -> f64 {
+    let uncertain = detection.axes.columns(1, 2).tr_mul(velocity).norm();
+    if range > 0.0 { uncertain / range } else { 0.0 }
 }
 
 #[cfg(test)]

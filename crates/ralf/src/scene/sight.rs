@@ -8,7 +8,7 @@ use super::located::LocatedScan;
 use super::neighbouring::NeighbouringScan;
 use super::rays::direction_of;
 use crate::sensors::Radar;
-use crate::space::{LANES, ManyTransforms, Point, Transform};
+use crate::space::{LANES, ManyTransforms, Point, Transform, Vector};
 
 /// How far a radar reaches in each direction, m; nowhere until it has seen something.
 #[derive(Debug, Clone, PartialEq)]
@@ -73,22 +73,26 @@ impl<'a> Sight<'a> {
 #[derive(Debug)]
 pub struct Sights<'a> {
     sights: Vec<Sight<'a>>,
+    /// After the reference scan's time, s.
+    seconds: Vec<f64>,
     radars_from_vehicle: ManyTransforms,
 }
 
 impl<'a> Sights<'a> {
-    /// The radars that made these scans, each with its reach, in the vehicle frame at the reference scan's time.
-    pub fn new(scans: impl Iterator<Item = (&'a Radar, &'a NeighbouringScan, &'a Reach)>) -> Self {
-        let sights: Vec<Sight> = scans.map(|(radar, scan, reach)| Sight::new(radar, scan, reach)).collect();
+    /// Radars at the times of scans, s after the reference scan's.
+    pub fn new(timed: impl Iterator<Item = (Sight<'a>, f64)>) -> Self {
+        let (sights, seconds): (Vec<Sight>, Vec<f64>) = timed.unzip();
         let transforms: Vec<Transform> = sights.iter().map(|sight| sight.radar_from_vehicle).collect();
-        Self { sights, radars_from_vehicle: ManyTransforms::new(&transforms) }
+        let radars_from_vehicle = ManyTransforms::new(&transforms, &seconds);
+        Self { sights, seconds, radars_from_vehicle }
     }
 
-    /// Tells of each scan whether its radar could have seen a place, if something was there: what
-    /// [`Sight::covers`] says, which is only asked where single precision leaves it open.
-    pub fn each(&self, p: &Point, mut tell: impl FnMut(bool)) {
-        let slack = self.radars_from_vehicle.slack(p) as f32;
-        for (sights, [x, y, z]) in self.sights.chunks(LANES).zip(self.radars_from_vehicle.of(p)) {
+    /// Tells of each scan whether its radar could have seen what is at a place at the reference scan's time and moves
+    /// at this velocity, m/s: what [`Sight::covers`] says, which is only asked where single precision leaves it open.
+    pub fn each(&self, p: &Point, velocity: &Vector, mut tell: impl FnMut(bool)) {
+        let slack = self.radars_from_vehicle.slack(p, velocity) as f32;
+        let mut scan = 0;
+        for (sights, [x, y, z]) in self.sights.chunks(LANES).zip(self.radars_from_vehicle.of(p, velocity)) {
             let ranges = (x * x + y * y + z * z).sqrt().to_array();
             let [x, y] = [x, y].map(|axis| axis.to_array());
             let azimuths: [f32; LANES] = std::array::from_fn(|lane| direction_of(x[lane], y[lane], 0.0).0);
@@ -99,8 +103,9 @@ impl<'a> Sights<'a> {
                 tell(
                     known
                         .and_then(|sector| sight.reaches(sector, range, slack))
-                        .unwrap_or_else(|| sight.covers(p)),
+                        .unwrap_or_else(|| sight.covers(&(p + velocity * self.seconds[scan]))),
                 );
+                scan += 1;
             }
         }
     }
@@ -145,28 +150,31 @@ mod tests {
     proptest! {
         #[test]
         fn many_radars_see_what_each_of_them_sees(
-            mountings in prop::collection::vec((prop::array::uniform3(-9f64..9.0), -3f64..3.0), 1..20),
+            mountings in prop::collection::vec((prop::array::uniform3(-9f64..9.0), -3f64..3.0, -1f64..1.0), 1..20),
+            velocity in prop_oneof![Just([0.0; 3]), prop::array::uniform3(-70f64..70.0)],
             reaches in prop::array::uniform12(prop_oneof![1 => Just(None), 3 => (0.0f64..40.0).prop_map(Some)]),
             places in prop::collection::vec((prop::array::uniform3(-30f64..30.0), any::<prop::sample::Index>(), -1e-4f64..1e-4), 20),
         ) {
             let reach = Reach(std::array::from_fn(|sector| reaches[sector / 3]));
-            let sights: Vec<Sight> = mountings.into_iter().map(|(offset, turn)| Sight {
-                radar_from_vehicle: Transform::new(offset.into(), crate::space::Vector::new(0.0, 0.0, turn)),
-                reach: &reach,
+            let sights: Vec<(Sight, f64)> = mountings.into_iter().map(|(offset, turn, seconds)| {
+                let radar_from_vehicle = Transform::new(offset.into(), Vector::new(0.0, 0.0, turn));
+                (Sight { radar_from_vehicle, reach: &reach }, seconds)
             }).collect();
-            let transforms: Vec<Transform> = sights.iter().map(|sight| sight.radar_from_vehicle).collect();
-            let many = Sights { sights: sights.clone(), radars_from_vehicle: ManyTransforms::new(&transforms) };
+            let many = Sights::new(sights.iter().cloned());
+            let velocity = Vector::from(velocity);
             for (place, which, beside) in places {
                 // Anywhere, at the very radar, and at the border of what it reaches.
-                let sight = &sights[which.index(sights.len())];
-                let direction = crate::space::Vector::from(place).normalize();
+                let (sight, seconds) = &sights[which.index(sights.len())];
+                let direction = Vector::from(place).normalize();
                 let border = Point::from(direction * (reaches[3].unwrap_or(7.0) + beside));
                 let at_border = sight.radar_from_vehicle.inverse() * border;
                 let at_radar = Point::from(sight.radar_from_vehicle.inverse().translation.vector + direction * beside);
-                for p in [Point::from(place), at_border, at_radar] {
+                for there in [Point::from(place), at_border, at_radar] {
+                    let p = there - velocity * *seconds;
                     let mut told = Vec::new();
-                    many.each(&p, |covered| told.push(covered));
-                    let expected: Vec<bool> = sights.iter().map(|sight| sight.covers(&p)).collect();
+                    many.each(&p, &velocity, |covered| told.push(covered));
+                    let expected: Vec<bool> =
+                        sights.iter().map(|(sight, seconds)| sight.covers(&(p + velocity * *seconds))).collect();
                     prop_assert_eq!(told, expected);
                 }
             }

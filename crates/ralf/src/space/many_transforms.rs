@@ -1,6 +1,6 @@
 //! One point in many frames at once, to single precision: enough to tell what is surely near and what is surely far.
 
-use super::{Point, Transform};
+use super::{Point, Transform, Vector};
 use wide::f32x8;
 
 /// Frames that a point is moved into together.
@@ -13,29 +13,49 @@ const ROUNDING: f64 = 1e-6;
 pub(crate) struct ManyTransforms {
     /// Some at a time: the rows of their rotations, each with the translation's coordinate.
     rows: Vec<[[f32x8; 4]; 3]>,
+    /// Their times, s.
+    seconds: Vec<f32x8>,
     /// No translation is longer, m.
     longest: f64,
+    /// No time is farther from the first frame's, s.
+    latest: f64,
 }
 
 impl ManyTransforms {
-    pub(crate) fn new(transforms: &[Transform]) -> Self {
+    /// Each with its time after the frame that they come from, s.
+    pub(crate) fn new(transforms: &[Transform], seconds: &[f64]) -> Self {
         let longest =
             transforms.iter().map(|transform| transform.translation.vector.norm()).fold(0.0, f64::max);
-        Self { rows: transforms.chunks(LANES).map(rows_of).collect(), longest }
+        Self {
+            rows: transforms.chunks(LANES).map(rows_of).collect(),
+            seconds: seconds.chunks(LANES).map(lanes_of).collect(),
+            longest,
+            latest: seconds.iter().fold(0.0, |latest, seconds| seconds.abs().max(latest)),
+        }
     }
 
-    /// A point in each of the frames, [`LANES`] at a time; behind the last one follow some that stand for nothing.
-    pub(crate) fn of(&self, p: &Point) -> impl Iterator<Item = [f32x8; 3]> {
-        let [x, y, z] = [p.x, p.y, p.z].map(|coordinate| f32x8::splat(coordinate as f32));
-        self.rows
-            .iter()
-            .map(move |rows| rows.map(|[by_x, by_y, by_z, offset]| by_x * x + by_y * y + by_z * z + offset))
+    /// A point in each of the frames, [`LANES`] at a time; behind the last one follow some that stand for nothing. It
+    /// moves at a velocity, m/s, and is taken where it is at the frame's own time.
+    pub(crate) fn of(&self, p: &Point, velocity: &Vector) -> impl Iterator<Item = [f32x8; 3]> {
+        let [p, velocity] =
+            [p.coords, *velocity].map(|v| [v.x, v.y, v.z].map(|coordinate| f32x8::splat(coordinate as f32)));
+        self.rows.iter().zip(&self.seconds).map(move |(rows, seconds)| {
+            let [x, y, z] = [0, 1, 2].map(|axis| p[axis] + velocity[axis] * *seconds);
+            rows.map(|[by_x, by_y, by_z, offset]| by_x * x + by_y * y + by_z * z + offset)
+        })
     }
 
     /// No coordinate of a point is off by as much, m.
-    pub(crate) fn slack(&self, p: &Point) -> f64 {
-        ROUNDING * (p.x.abs() + p.y.abs() + p.z.abs() + self.longest)
+    pub(crate) fn slack(&self, p: &Point, velocity: &Vector) -> f64 {
+        let farthest = p.coords.abs() + velocity.abs() * self.latest;
+        ROUNDING * (farthest.sum() + self.longest)
     }
+}
+
+fn lanes_of(numbers: &[f64]) -> f32x8 {
+    let mut lanes = [0.0; LANES];
+    lanes.iter_mut().zip(numbers).for_each(|(lane, number)| *lane = *number as f32);
+    f32x8::new(lanes)
 }
 
 fn rows_of(transforms: &[Transform]) -> [[f32x8; 4]; 3] {
@@ -55,25 +75,30 @@ fn rows_of(transforms: &[Transform]) -> [[f32x8; 4]; 3] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::space::Vector;
     use proptest::prelude::*;
 
     proptest! {
         #[test]
         fn a_point_is_where_each_transform_takes_it(
-            frames in prop::collection::vec((prop::array::uniform3(-90f64..90.0), prop::array::uniform3(-3f64..3.0)), 0..20),
-            p in prop::array::uniform3(-400f64..400.0),
+            frames in prop::collection::vec(
+                (prop::array::uniform3(-90f64..90.0), prop::array::uniform3(-3f64..3.0), -1f64..1.0), 0..20,
+            ),
+            p in prop::array::uniform3(-400f64..400.0), velocity in prop::array::uniform3(-70f64..70.0),
         ) {
-            let transforms: Vec<Transform> =
-                frames.into_iter().map(|(offset, turn)| Transform::new(Vector::from(offset), Vector::from(turn))).collect();
-            let (many, p) = (ManyTransforms::new(&transforms), Point::from(p));
-            let moved: Vec<[[f32; LANES]; 3]> = many.of(&p).map(|axes| axes.map(|axis| axis.to_array())).collect();
+            let (transforms, seconds): (Vec<Transform>, Vec<f64>) = frames
+                .into_iter()
+                .map(|(offset, turn, seconds)| (Transform::new(Vector::from(offset), Vector::from(turn)), seconds))
+                .unzip();
+            let (p, velocity) = (Point::from(p), Vector::from(velocity));
+            let many = ManyTransforms::new(&transforms, &seconds);
+            let moved: Vec<[[f32; LANES]; 3]> =
+                many.of(&p, &velocity).map(|axes| axes.map(|axis| axis.to_array())).collect();
             prop_assert_eq!(moved.len(), transforms.len().div_ceil(LANES));
             for (i, transform) in transforms.iter().enumerate() {
-                let exact = transform * p;
+                let exact = transform * (p + velocity * seconds[i]);
                 for axis in 0..3 {
                     let off = f64::from(moved[i / LANES][axis][i % LANES]) - exact[axis];
-                    prop_assert!(off.abs() < many.slack(&p), "{off} of {}", many.slack(&p));
+                    prop_assert!(off.abs() < many.slack(&p, &velocity), "{off} of {}", many.slack(&p, &velocity));
                 }
             }
         }

@@ -1,12 +1,12 @@
 //! What the LiDARs' rays say of a detection that moves: each scan is asked where the detection's range rate takes it
 //! by the time at which the rays towards it were sent, along the ray or along the road, whichever fits better.
 
-use super::super::going::{Going, Goings};
+use super::super::going::{Going, Goings, fit};
 use super::super::probe::{Probe, Probing};
 use super::super::{Feature, Piece, Surroundings, Values, columns};
 use super::votes::{Sweep, Votes};
-use super::{GROUP, NEAR, RAYS, sweeps_of};
-use crate::scene::{Frame, LidarSweep, LidarView, median};
+use super::{GROUP, NEAR, RAYS, by_direction, sweeps_of};
+use crate::scene::{ACROSS_PER_ALONG, Frame, LidarSweep, LidarView, median};
 
 pub(in super::super) const PIECE: Piece = Piece { features: FEATURES, observe };
 
@@ -42,21 +42,15 @@ const FEATURES: &[Feature] = &[
 /// Scans farther off in time say little of a thing whose motion across the ray nobody measures, s.
 const AROUND: f64 = 0.5;
 
-/// Across the ray nothing is measured: how far it moves there is taken to be within this share of how far it recedes,
-/// as if it moved within 17 degrees of the ray, two times in three.
-const ACROSS_PER_ALONG: f64 = 0.3;
-
 fn observe(surroundings: &Surroundings) -> Vec<Values> {
     let frame = surroundings.frame;
     let mut columns = columns::unobserved(FEATURES, frame.scan.len());
     let (Some(lidar), Some(rates)) = (&frame.lidar_window, surroundings.rates()) else { return columns };
     let goings = Goings::new(frame, rates);
     let mut ways: Vec<(usize, Going)> = Vec::new();
-    for (i, detection) in frame.scan.detections.iter().enumerate() {
-        let detection = detection.iter();
-        ways.extend(
-            detection.flat_map(|known| goings.of(i, known, ACROSS_PER_ALONG)).map(|going| (i, going)),
-        );
+    for i in by_direction(surroundings.probes()) {
+        let going = frame.scan.detections[i].map(|known| goings.of(i, &known, ACROSS_PER_ALONG));
+        ways.extend(going.into_iter().flatten().flatten().map(|going| (i, going)));
     }
     let is_near = |view: &&LidarView| {
         let seconds = (view.moment.t_ns - frame.scan.t_ns()) as f64 * 1e-9;
@@ -100,11 +94,9 @@ impl Answers {
         Self { all, chi: median(chis), near }
     }
 
-    /// How well the way fits: the share of scans with a point near, as if half of one more had one; of equal ones the
-    /// nearest.
     fn fit(&self) -> [f64; 2] {
-        let [near, scans] = self.near.map(|count| count as f64);
-        [(near + 0.5) / (scans + 1.0), -self.chi.unwrap_or(f64::INFINITY)]
+        let [near, scans] = self.near;
+        fit(near, scans, self.chi.unwrap_or(f64::INFINITY))
     }
 
     fn values(&self) -> [Option<f64>; 4] {

@@ -1,5 +1,6 @@
 //! Counting where rays end: some at a time, side by side.
 
+use super::super::probe::Probe;
 use crate::scene::{Cone, TableRay};
 use nalgebra::{Matrix3, RowVector3, Vector3};
 use std::cell::OnceCell;
@@ -21,7 +22,7 @@ pub(super) const NO_RAY: TableRay =
     TableRay { azimuth: 0.0, elevation: NOWHERE, range: 0.0, id: u32::MAX, point: [NOWHERE; 3] };
 
 /// A detection as seen from the LiDAR.
-pub(super) struct Target {
+pub(super) struct Target<'a> {
     pub(super) position: Vector3<f32>,
     pub(super) range: f32,
     pub(super) cone: Cone,
@@ -33,7 +34,7 @@ pub(super) struct Target {
     /// A ray of the cone goes at least this share of its length along the detection's own ray.
     pub(super) least_cosine: f32,
     /// `(Sigma + (0.1 m)^2 I)^-1`, worked out where it is first asked for.
-    pub(super) precision: Precision,
+    pub(super) precision: Precision<'a>,
     /// A point's height above the ground is this times it ...
     pub(super) up: RowVector3<f32>,
     /// ... and this, m.
@@ -41,21 +42,20 @@ pub(super) struct Target {
 }
 
 /// `(Sigma + (0.1 m)^2 I)^-1` of a detection in the LiDAR's frame: few rays end so near that it is asked for.
-pub(super) struct Precision {
-    /// In the window's frame.
-    pub(super) in_window: Matrix3<f64>,
+pub(super) struct Precision<'a> {
+    pub(super) probe: &'a Probe,
     pub(super) window_from_lidar: Matrix3<f32>,
     pub(super) in_lidar: OnceCell<Matrix3<f32>>,
 }
 
-impl Precision {
+impl Precision<'_> {
     fn in_lidar(&self) -> &Matrix3<f32> {
         let turn = &self.window_from_lidar;
-        self.in_lidar.get_or_init(|| turn.tr_mul(&self.in_window.cast()) * turn)
+        self.in_lidar.get_or_init(|| turn.tr_mul(&self.probe.precision().cast()) * turn)
     }
 }
 
-impl Target {
+impl Target<'_> {
     /// By how much rays of these ranges end beyond it, m, and which of them surely end far from it.
     #[inline]
     fn past(&self, ranges: f32x8) -> (f32x8, f32x8) {

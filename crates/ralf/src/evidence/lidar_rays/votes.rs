@@ -143,7 +143,7 @@ impl<'a> Sweep<'a> {
     }
 
     /// `None` where the detection lies in the LiDAR itself.
-    fn target(&self, probe: &Probe) -> Option<Target> {
+    fn target<'p>(&self, probe: &'p Probe) -> Option<Target<'p>> {
         let detection = &probe.detection;
         let position = self.lidar_from_window * detection.position.cast::<f32>();
         let (azimuth, elevation, range) = direction_of(position.x, position.y, position.z);
@@ -175,11 +175,7 @@ impl<'a> Sweep<'a> {
             reach,
             // cos x is at least 1 - x^2 / 2.
             least_cosine: 1.0 - ROUNDING * 0.5 * (beside * beside + above * above),
-            precision: Precision {
-                in_window: probe.precision,
-                window_from_lidar: self.rotation,
-                in_lidar: OnceCell::new(),
-            },
+            precision: Precision { probe, window_from_lidar: self.rotation, in_lidar: OnceCell::new() },
             up: self.rotation.row(2).into_owned(),
             origin_height: (self.origin.z - probe.ground) as f32,
         })
