@@ -1,7 +1,7 @@
 // 200,000 LiDAR points and twenty radar scans: drawn only when something changes, and how long a frame takes then.
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { ask, atEnd, clean, current, launch, opened, picture, says, scanOf, settled } from "./support.mjs";
+import { ask, atEnd, clean, current, drawn, launch, opened, picture, says, scanOf, settled } from "./support.mjs";
 
 const POINTS = 200_000;
 
@@ -79,7 +79,7 @@ async function turning(page) {
   await page.mouse.down({ button: "right" });
   for (let step = 0; step < 60; step += 1) {
     await page.mouse.move(box.x + box.width / 2 + 4 * step, box.y + box.height / 2);
-    await page.evaluate(() => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve))));
+    await drawn(page);
     times.push(Number.parseFloat(await page.locator(".status-bar .frame").textContent()));
   }
   await page.mouse.up({ button: "right" });

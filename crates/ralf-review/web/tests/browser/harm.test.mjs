@@ -6,6 +6,7 @@ import {
   anotherBrowser,
   clean,
   current,
+  drawn,
   freshOut,
   historyOf,
   launch,
@@ -37,7 +38,7 @@ const reviewed = async (server) => (await queueOf(server)).progress.reviewed;
 test("Enter that is held down accepts one scan, and none unseen", async (context) => {
   const { server, tab, page } = await opened(context, browser);
   await page.keyboard.press("f");
-  await page.waitForTimeout(300);
+  await drawn(page);
   for (let repeat = 0; repeat < 30; repeat += 1) {
     // Without a release in between, the browser says that these are repeats.
     await page.keyboard.down("Enter");
@@ -89,14 +90,14 @@ test("labels that changed under the page are told, shown, and not accepted", asy
   const tab = await open(context, browser, server);
   const { page } = tab;
   await page.keyboard.press("f");
-  await page.waitForTimeout(300);
+  await drawn(page);
   // What is asked for while the labels are written anew isn't there.
   await settled(tab);
   relabel(out, "fusion.threshold=1.0");
   await page.keyboard.press("r");
   await says(page.locator(".notice"), "expected the labels that were on screen, found others");
   assert.equal(await reviewed(server), 0);
-  await page.waitForTimeout(300);
+  await drawn(page);
   await page.keyboard.press("r");
   await says(page.locator(".review"), "Reviewed by ada");
   clean(tab, REFUSED);

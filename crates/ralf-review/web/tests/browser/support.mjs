@@ -247,8 +247,22 @@ export function status(page) {
   return page.locator(".saved");
 }
 
+/** Where a machine is shared and draws without a graphics card, a frame may take a second. */
+const PATIENCE_MS = 60_000;
+
 export async function says(locator, text) {
-  await locator.filter({ hasText: text }).waitFor({ timeout: 15_000 });
+  try {
+    await locator.filter({ hasText: text }).waitFor({ timeout: PATIENCE_MS });
+  } catch (cause) {
+    const found = await locator.allTextContents();
+    const notices = await locator.page().locator(".notice").allTextContents();
+    throw new Error(`expected ${text}, found ${JSON.stringify(found)}; notices: ${JSON.stringify(notices)}`, { cause });
+  }
+}
+
+/** Waits until what changed before is drawn: what was never on screen is asked about before it is accepted. */
+export async function drawn(page) {
+  await page.evaluate(() => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve))));
 }
 
 /** How many detections the page says are selected. */
