@@ -2,6 +2,7 @@
 """Judges evidence from outside: gradient-boosted trees (LightGBM) that never saw a family of worlds label that family.
 
     judge_families.py --world FAMILY DATASET OUT [--world FAMILY DATASET OUT]... [--rounds N] [--seed S] [--rows N]
+                      [--corrected SHARE [--apart]]
 
 DATASET is a recording with its truth (`ralf simulate --preset worlds --family FAMILY --seed S -o DATASET`), OUT what
 `ralf label DATASET -o OUT --evidence` made of it. Worlds of one FAMILY are left out together. Printed are, for each family
@@ -10,7 +11,8 @@ precision, accuracy and calibration error (isotonic, fitted there, too): from al
 by the paper's method itself; and what is lost where one group of evidence is missing. Groups are those of docs/evidence.md.
 
 With --corrected SHARE instead: what it brings to correct so many of a family's scans, by weight of a corrected detection,
-beside a model that knows half of its scans; judged on the other half, in which nothing was corrected.
+beside a model that knows half of its scans; judged on the other half, in which nothing was corrected. With --apart the
+halves are sequences: none is judged of which a scan is known.
 
 Needs lightgbm, numpy, pyarrow and scikit-learn.
 """
@@ -46,10 +48,10 @@ def groups_of_features():
 
 
 def read_world(dataset, out, names):
-    """Features (absent: NaN), the paper's columns, labels of the paper's method, truth, and the scan of each, of all its
-    sequences."""
+    """Features (absent: NaN), the paper's columns, labels of the paper's method, truth, and the scan and the sequence of
+    each, of all its sequences."""
     parts, scans = [], 0
-    for file in sorted(Path(out).glob("sequences/*/plausibility.parquet")):
+    for sequence, file in enumerate(sorted(Path(out).glob("sequences/*/plausibility.parquet"))):
         table = pyarrow.parquet.read_table(file)
         missing = [name for name in names if name not in table.column_names]
         if missing:
@@ -69,7 +71,8 @@ def read_world(dataset, out, names):
         known = truth >= 0
         features = numpy.column_stack([column(name) for name in names])[known]
         paper = numpy.column_stack([column(name) for name in PAPER])[known]
-        parts.append((features, paper, table["label"].to_numpy()[known], truth[known], number[known]))
+        label, sequences = table["label"].to_numpy(), numpy.full(len(table), sequence)
+        parts.append((features, paper, label[known], truth[known], number[known], sequences[known]))
     if not parts:
         sys.exit(f"{out}: no sequences/*/plausibility.parquet")
     return [numpy.concatenate(part) for part in zip(*parts)]
@@ -118,13 +121,14 @@ def judge(scores, truth, family):
     return numpy.array(rows)
 
 
-def corrected(features, truth, family, scan, options):
+def corrected(features, truth, family, scan, sequence, options):
     """Average precision and F1 (at even odds) of each family by a model of the others, with some scans of its own."""
     draw = numpy.random.default_rng(options.seed)
     known_half, drawn = draw.random(scan.max() + 1) < 0.5, draw.random(scan.max() + 1)
+    half = sequence % 2 == 0 if options.apart else known_half[scan]
     rows = []
     for left_out in numpy.unique(family):
-        here, half = family == left_out, known_half[scan]
+        here = family == left_out
         others, test = numpy.flatnonzero(~here), here & ~half
         others = draw.choice(others, min(options.rows, len(others)), replace=False)
         some = numpy.flatnonzero(here & half & (drawn[scan] < 2 * options.corrected))
@@ -146,6 +150,7 @@ def main():
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--no-groups", action="store_true", help="leave out the table of groups")
     parser.add_argument("--corrected", type=float, metavar="SHARE", help="what corrections of so many scans bring")
+    parser.add_argument("--apart", action="store_true", help="correct in every other sequence, and judge in those between")
     options = parser.parse_args()
     groups = groups_of_features()
     names = list(groups)
@@ -153,6 +158,7 @@ def main():
     features, paper, labels, truth = (numpy.concatenate([world[i] for world in worlds]) for i in range(1, 5))
     firsts = numpy.cumsum([0] + [world[5].max() + 1 for world in worlds])
     scan = numpy.concatenate([world[5] + first for world, first in zip(worlds, firsts)])
+    sequence = numpy.concatenate([world[6] for world in worlds])
     families = sorted({world[0] for world in worlds})
     family = numpy.concatenate([numpy.full(len(world[4]), families.index(world[0])) for world in worlds])
     if len(families) < 2:
@@ -160,7 +166,7 @@ def main():
     if options.corrected:
         print("| family | none: AP | F1 | weight 1: AP | F1 | 5: AP | F1 | 20: AP | F1 | half of all scans: AP | F1 |")
         print("| --- " * 11 + "|")
-        rows = corrected(features, truth, family, scan, options)
+        rows = corrected(features, truth, family, scan, sequence, options)
         for name, row in zip([*families, "mean"], [*rows, rows.mean(0)]):
             print(f"| {name} | {' | '.join(f'{value:.3f}' for value in row)} |")
         return
