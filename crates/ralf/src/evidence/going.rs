@@ -4,11 +4,10 @@
 
 use super::course::Course;
 use super::distance::Spot;
-use super::rates::Rates;
+use super::rates::{Rates, difference};
 use crate::scene::{Detection, Frame, radar_velocity, rate_sigma};
 use crate::space::{Point, Vector};
 use nalgebra::Matrix3;
-use std::f64::consts::SQRT_2;
 
 /// Nothing on a road is faster, m/s.
 const FASTEST: f64 = 70.0;
@@ -132,8 +131,7 @@ impl Going {
     /// standard deviations; `None` where the other was not measured.
     pub(super) fn rate_difference(&self, place: &Vector, radar: &Vector, other: f64) -> Option<f64> {
         let ray = (place - radar).try_normalize(0.0).unwrap_or_default();
-        Some((self.velocity.dot(&ray) - other).abs() / (SQRT_2 * self.rate_sigma))
-            .filter(|difference| difference.is_finite())
+        difference(self.velocity.dot(&ray), other, self.rate_sigma)
     }
 }
 
@@ -141,6 +139,7 @@ impl Going {
 mod tests {
     use super::*;
     use crate::space::{EgoMotion, OdometrySample};
+    use std::f64::consts::SQRT_2;
 
     /// A radar at the vehicle's origin; the vehicle drives straight ahead at 30 m/s. Rates of a spread of 0.12 m/s.
     fn goings(rates: &Rates, course: Option<Course>) -> Goings<'_> {

@@ -38,8 +38,6 @@ pub(super) struct Pursuit<'a> {
 struct OwnScan {
     /// Which of the frame's `radar_window`.
     scan: usize,
-    /// After the frame's scan, s.
-    seconds: f64,
     /// Where the radar was, m.
     origin: Vector,
 }
@@ -150,12 +148,11 @@ impl<'a> Pursuit<'a> {
     fn go(&mut self, spot: &Spot, drift: &Spot) {
         let Self { own, sights, there, places, .. } = self;
         there.clear();
-        let mut scans = own.iter();
-        sights.each(&spot.place.into(), &drift.place, |covered| {
-            let Some(own) = scans.next() else { return };
+        sights.each(&spot.place.into(), &drift.place, |at, covered| {
+            let Some(own) = own.get(at) else { return };
             places[own.scan] = if covered { there.len() as u32 } else { UNSEEN };
             if covered {
-                there.push((spot.after(drift, own.seconds), own.origin));
+                there.push((spot.after(drift, sights.seconds(at)), own.origin));
             }
         });
     }
@@ -166,7 +163,7 @@ fn own_scans(frame: &Frame, around: &NeighbouringDetections) -> Vec<OwnScan> {
     let mut own = Vec::new();
     for (scan, neighbour) in frame.radar_window.iter().enumerate().filter(|(scan, _)| around.own[*scan]) {
         let mounting = neighbour.vehicle_from_scan * frame.radar.vehicle_from_radar;
-        own.push(OwnScan { scan, seconds: around.seconds[scan], origin: mounting.translation.vector });
+        own.push(OwnScan { scan, origin: mounting.translation.vector });
     }
     own
 }

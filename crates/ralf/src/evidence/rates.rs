@@ -15,6 +15,12 @@ const MOVING: f64 = 3.0;
 /// Rates of two detections agree if they differ by no more, in spreads of such a difference.
 pub(super) const AGREEING: f64 = 2.0;
 
+/// How far two range rates lie apart, in standard deviations of such a difference, of which each rate has one of
+/// `sigma`; `None` where either was not measured.
+pub(super) fn difference(a: f64, b: f64, sigma: f64) -> Option<f64> {
+    Some((a - b).abs() / (SQRT_2 * sigma)).filter(|difference| difference.is_finite())
+}
+
 /// The compensated range rates of a scan, with their spread.
 #[derive(Debug)]
 pub(super) struct Rates {
@@ -63,8 +69,7 @@ impl Rates {
     /// How far a detection's rate is from another rate, in spreads of such a difference; `None` where either was not
     /// measured.
     pub(super) fn difference(&self, detection: usize, other: f64) -> Option<f64> {
-        Some((self.values[detection] - other).abs() / (SQRT_2 * self.spread))
-            .filter(|difference| difference.is_finite())
+        difference(self.values[detection], other, self.spread)
     }
 
     /// Whether a detection's rate agrees with another; `None` where either was not measured.

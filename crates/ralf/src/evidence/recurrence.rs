@@ -45,23 +45,23 @@ pub(super) fn recurrences<'a>(
     let reaches = reaches(frame);
     let sight =
         |scan: &NeighbouringScan| Sight::new(&frame.rig.radars[scan.radar], scan, &reaches[scan.radar]);
-    let timed = || frame.radar_window.iter().map(sight).zip(around.seconds.iter().copied());
-    let sights = Sights::new(timed());
-    let own = timed().zip(&around.own).filter_map(|(timed, own)| own.then_some(timed));
+    let timed: Vec<(Sight, f64)> =
+        frame.radar_window.iter().map(sight).zip(around.seconds.iter().copied()).collect();
+    let own = timed.iter().zip(&around.own).filter(|(_, own)| **own);
+    let own = Sights::new(own.map(|(timed, _)| timed.clone()));
+    let sights = Sights::new(timed.into_iter());
     let others = Rc::new(Others::all(around));
     let mut search = Search::new(frame, around, &others, rates);
-    let mut pursuit = rates.map(|rates| Pursuit::new(frame, around, &others, rates, Sights::new(own)));
+    let mut pursuit = rates.map(|rates| Pursuit::new(frame, around, &others, rates, own));
     let mut all = vec![Recurrence::default(); frame.scan.len()];
     for (i, detection) in rows {
         let mut seen: Vec<Sighting> = Vec::with_capacity(frame.radar_window.len());
-        let mut scan = 0;
-        sights.each(&detection.position, &Vector::zeros(), |covered| {
+        sights.each(&detection.position, &Vector::zeros(), |scan, covered| {
             search.places[scan] = if covered { seen.len() as u32 } else { UNSEEN };
             if covered {
                 let own = around.own[scan];
                 seen.push(Sighting { scan: scan as u32, own, still: f64::INFINITY });
             }
-            scan += 1;
         });
         let still = search.still(i, &Spot::new(detection), &mut seen);
         let moving = pursuit.as_mut().and_then(|pursuit| pursuit.met(i, detection));

@@ -87,9 +87,15 @@ impl<'a> Sights<'a> {
         Self { sights, seconds, radars_from_vehicle }
     }
 
-    /// Tells of each scan whether its radar could have seen what is at a place at the reference scan's time and moves
-    /// at this velocity, m/s: what [`Sight::covers`] says, which is only asked where single precision leaves it open.
-    pub fn each(&self, p: &Point, velocity: &Vector, mut tell: impl FnMut(bool)) {
+    /// How long after the reference scan one of the scans was made, s.
+    pub fn seconds(&self, scan: usize) -> f64 {
+        self.seconds[scan]
+    }
+
+    /// Tells of each scan, by its number, whether its radar could have seen what is at a place at the reference
+    /// scan's time and moves at this velocity, m/s: what [`Sight::covers`] says, which is only asked where single
+    /// precision leaves it open.
+    pub fn each(&self, p: &Point, velocity: &Vector, mut tell: impl FnMut(usize, bool)) {
         let slack = self.radars_from_vehicle.slack(p, velocity) as f32;
         let mut scan = 0;
         for (sights, [x, y, z]) in self.sights.chunks(LANES).zip(self.radars_from_vehicle.of(p, velocity)) {
@@ -100,11 +106,10 @@ impl<'a> Sights<'a> {
                 let [x, y, range] = [x[lane], y[lane], ranges[lane]];
                 let is_clear = x * x + y * y > (NEAR_SLACKS * slack) * (NEAR_SLACKS * slack);
                 let known = clear_sector(azimuths[lane].into()).filter(|_| is_clear);
-                tell(
-                    known
-                        .and_then(|sector| sight.reaches(sector, range, slack))
-                        .unwrap_or_else(|| sight.covers(&(p + velocity * self.seconds[scan]))),
-                );
+                let covered = known
+                    .and_then(|sector| sight.reaches(sector, range, slack))
+                    .unwrap_or_else(|| sight.covers(&(p + velocity * self.seconds[scan])));
+                tell(scan, covered);
                 scan += 1;
             }
         }
@@ -172,9 +177,9 @@ mod tests {
                 for there in [Point::from(place), at_border, at_radar] {
                     let p = there - velocity * *seconds;
                     let mut told = Vec::new();
-                    many.each(&p, &velocity, |covered| told.push(covered));
-                    let expected: Vec<bool> =
-                        sights.iter().map(|(sight, seconds)| sight.covers(&(p + velocity * *seconds))).collect();
+                    many.each(&p, &velocity, |scan, covered| told.push((scan, covered)));
+                    let covered = |(sight, seconds): &(Sight, f64)| sight.covers(&(p + velocity * *seconds));
+                    let expected: Vec<(usize, bool)> = sights.iter().map(covered).enumerate().collect();
                     prop_assert_eq!(told, expected);
                 }
             }
