@@ -10,6 +10,9 @@ left out and on average: plausible F1 (at the threshold that is best on the fami
 precision, accuracy and calibration error (isotonic, fitted there, too): from all evidence, from the paper's columns alone,
 by the paper's method itself; and what is lost where one group of evidence is missing. Groups are those of docs/evidence.md.
 
+A FAMILY like survey+yard+motorway is a mixture, as `ralf simulate --family` makes them: it is learned from where none of its
+parts is left out, and never judged.
+
 With --corrected SHARE instead: what it brings to correct so many of a family's scans, by weight of a corrected detection,
 beside a model that knows half of its scans; judged on the other half, in which nothing was corrected. With --apart the
 halves are sequences: none is judged of which a scan is known.
@@ -38,6 +41,8 @@ PAPER = ["d_lm", "d_cm", "d_tr", "w_lm", "w_cm", "w_tr", "w_opt", "w"]
 # SemanticKITTI ids that are artifacts: outlier, road, parking, sidewalk, other-ground, lane-marking.
 ARTIFACTS = [1, 40, 44, 48, 49, 60]
 CELLS = 15
+# The number of every mixture, which is no family.
+MIXTURE = -1
 
 
 def groups_of_features():
@@ -94,11 +99,12 @@ def calibration_error(p, truth):
     return sum(abs((p - truth)[cell == i].sum()) for i in range(CELLS)) / len(truth)
 
 
-def out_of_fold(features, truth, family, options):
-    """Scores of every row by trees that never saw its family."""
-    scores = numpy.zeros(len(truth))
-    for left_out in numpy.unique(family):
-        train = numpy.flatnonzero(family != left_out)
+def out_of_fold(features, truth, family, holds, options):
+    """Scores of every row by trees that never saw its family; none of a mixture's. `holds` tells of each row which families
+    its world has parts of."""
+    scores = numpy.full(len(truth), numpy.nan)
+    for left_out in range(holds.shape[1]):
+        train = numpy.flatnonzero(~holds[:, left_out])
         if len(train) > options.rows:
             train = numpy.sort(numpy.random.default_rng(options.seed).choice(train, options.rows, replace=False))
         parameters = dict(PARAMETERS, seed=options.seed)
@@ -111,25 +117,25 @@ def out_of_fold(features, truth, family, options):
 def judge(scores, truth, family):
     """F1, average precision, accuracy and calibration error of each family, by what the others say."""
     rows = []
-    for left_out in numpy.unique(family):
-        here = family == left_out
-        line = IsotonicRegression(out_of_bounds="clip").fit(scores[~here], truth[~here])
-        p, labels = line.predict(scores[here]), scores[here] >= best_threshold(scores[~here], truth[~here])
+    for left_out in range(family.max() + 1):
+        here, others = family == left_out, (family != left_out) & (family != MIXTURE)
+        line = IsotonicRegression(out_of_bounds="clip").fit(scores[others], truth[others])
+        p, labels = line.predict(scores[here]), scores[here] >= best_threshold(scores[others], truth[others])
         right = (labels == (truth[here] == 1)).mean()
         precision = average_precision_score(truth[here], scores[here])
         rows.append([f1_of(labels, truth[here] == 1), precision, right, calibration_error(p, truth[here])])
     return numpy.array(rows)
 
 
-def corrected(features, truth, family, scan, sequence, options):
+def corrected(features, truth, family, holds, scan, sequence, options):
     """Average precision and F1 (at even odds) of each family by a model of the others, with some scans of its own."""
     draw = numpy.random.default_rng(options.seed)
     known_half, drawn = draw.random(scan.max() + 1) < 0.5, draw.random(scan.max() + 1)
     half = sequence % 2 == 0 if options.apart else known_half[scan]
     rows = []
-    for left_out in numpy.unique(family):
+    for left_out in range(family.max() + 1):
         here = family == left_out
-        others, test = numpy.flatnonzero(~here), here & ~half
+        others, test = numpy.flatnonzero(~holds[:, left_out]), here & ~half
         others = draw.choice(others, min(options.rows, len(others)), replace=False)
         some = numpy.flatnonzero(here & half & (drawn[scan] < 2 * options.corrected))
         row = []
@@ -159,19 +165,22 @@ def main():
     firsts = numpy.cumsum([0] + [world[5].max() + 1 for world in worlds])
     scan = numpy.concatenate([world[5] + first for world, first in zip(worlds, firsts)])
     sequence = numpy.concatenate([world[6] for world in worlds])
-    families = sorted({world[0] for world in worlds})
-    family = numpy.concatenate([numpy.full(len(world[4]), families.index(world[0])) for world in worlds])
+    families = sorted({world[0] for world in worlds if "+" not in world[0]})
+    number = lambda name: families.index(name) if name in families else MIXTURE
+    family = numpy.concatenate([numpy.full(len(world[4]), number(world[0])) for world in worlds])
+    of_world = [[name in world[0].split("+") for name in families] for world in worlds]
+    holds = numpy.repeat(of_world, [len(world[4]) for world in worlds], axis=0)
     if len(families) < 2:
         sys.exit("two families or more, so that one can be left out")
     if options.corrected:
         print("| family | none: AP | F1 | weight 1: AP | F1 | 5: AP | F1 | 20: AP | F1 | half of all scans: AP | F1 |")
         print("| --- " * 11 + "|")
-        rows = corrected(features, truth, family, scan, sequence, options)
+        rows = corrected(features, truth, family, holds, scan, sequence, options)
         for name, row in zip([*families, "mean"], [*rows, rows.mean(0)]):
             print(f"| {name} | {' | '.join(f'{value:.3f}' for value in row)} |")
         return
-    every = judge(out_of_fold(features, truth, family, options), truth, family)
-    of_paper = judge(out_of_fold(paper, truth, family, options), truth, family)
+    every = judge(out_of_fold(features, truth, family, holds, options), truth, family)
+    of_paper = judge(out_of_fold(paper, truth, family, holds, options), truth, family)
     print(f"{len(truth)} detections, {truth.mean():.1%} plausible, {len(names)} columns of evidence, seed {options.seed}\n")
     print("| family left out | detections | plausible | F1 | AP | accuracy | ECE | paper's columns: F1 | AP | paper's method: F1 | AP |")
     print("| --- " * 11 + "|")
@@ -190,7 +199,7 @@ def main():
         kept = [i for i, name in enumerate(names) if groups[name] != group]
         if not kept:
             continue
-        rows = judge(out_of_fold(features[:, kept], truth, family, options), truth, family)
+        rows = judge(out_of_fold(features[:, kept], truth, family, holds, options), truth, family)
         (f1, precision), change = rows[:, :2].mean(0), (rows - every)[:, :2].mean(0)
         columns = len(names) - len(kept)
         print(f"| {group} | {columns} | {f1:.3f} | {change[0]:+.3f} | {precision:.3f} | {change[1]:+.3f} |", flush=True)

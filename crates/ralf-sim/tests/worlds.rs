@@ -4,7 +4,7 @@
 use ralf::label::Cause;
 use ralf::sensors::{DepthImage, Elevation, Source};
 use ralf_sim::SimulatedSequence;
-use ralf_sim::world::{FAMILIES, Family, Recording};
+use ralf_sim::world::{FAMILIES, Family, Mixture, Recording};
 use std::thread;
 
 /// How many detections have which cause, over the first scans of all sequences of a recording.
@@ -132,6 +132,28 @@ fn families_go_by_name_and_by_number_and_have_names_of_their_own() {
         assert!(FAMILIES[..number].iter().all(|other| other.name != family.name));
     }
     assert!(Family::find("8").is_none() && Family::find("moon").is_none());
+}
+
+#[test]
+fn a_mixture_has_the_sensors_of_one_family_at_the_places_of_another() {
+    let own =
+        |mixture: &str, seed| Recording::new(Mixture::find(mixture).unwrap(), seed).sequence(0, 3).unwrap();
+    for seed in 0..6 {
+        let mixed = own("imaging+yard+motorway", seed);
+        let sequence = mixed.sequence();
+        assert!(sequence.title.starts_with("imaging+yard+motorway: "), "{}", sequence.title);
+        // One radar that measures elevation, as of `imaging`; driven as on the roads of `motorway`.
+        let [radar] = sequence.rig.radars.as_slice() else { panic!("one radar") };
+        assert_ne!(radar.elevation, Elevation::None);
+        let fastest = sequence.motion.odometry().iter().map(|sample| sample.velocity).fold(0.0, f64::max);
+        assert!(fastest > 14.0, "{fastest} m/s");
+        let still = own("imaging+yard+yard", seed);
+        let fastest =
+            still.sequence().motion.odometry().iter().map(|sample| sample.velocity).fold(0.0, f64::max);
+        assert!(fastest < 14.0, "{fastest} m/s");
+    }
+    let [whole, thrice] = ["yard", "yard+yard+yard"].map(|name| own(name, 3));
+    assert_eq!(whole.radar_scan(0, 1).unwrap().columns, thrice.radar_scan(0, 1).unwrap().columns);
 }
 
 #[test]

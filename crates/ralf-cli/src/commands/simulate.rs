@@ -13,7 +13,7 @@ use ralf::sensors::Source;
 use ralf_data::{SequenceReader, write_simulated};
 use ralf_files::Kind;
 use ralf_sim::presets::{self, Preset};
-use ralf_sim::world::{FAMILIES, Family, Recording};
+use ralf_sim::world::{FAMILIES, Mixture, Recording};
 use ralf_sim::{Scenario, SimulatedSequence};
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
@@ -33,13 +33,15 @@ same bytes.
 
 With `--preset worlds` a seed draws sensors, places and physics from a family of worlds (docs/worlds.md): radars and \
 LiDARs of other kinds, cameras or none, and four to six sequences of 40 scans. Families, by number: city, survey, \
-motorway, carpark, imaging, yard, country, anything.
+motorway, carpark, imaging, yard, country, anything. A+B+C has the sensors of A at the places of C, where waves behave \
+as in B.
 
 Examples:
   ralf simulate -o recordings/sim --scans 300         the paper's eleven sequences, each shorter
   ralf simulate -o recordings/sim                     all 2,704 scans of each radar: minutes, and some 6 GB
   ralf simulate -o recordings/tiny --preset tiny      in a second
   ralf simulate -o recordings/motorway --preset worlds --family motorway --seed 3
+  ralf simulate -o recordings/mixed --preset worlds --family survey+yard+motorway --seed 3
   ralf simulate -o recordings/city5 --preset worlds --family 0 --seed 5 --scans 200 --sequence 01
   ralf simulate -o recordings/mine --scenario yard.toml --scans 200 --seed 3
 
@@ -68,9 +70,9 @@ pub(crate) struct SimulateArgs {
     #[arg(long, default_value = "paper", conflicts_with = "scenario",
         value_parser = PossibleValuesParser::new(presets::ALL.iter().map(|preset| preset.name).chain([WORLDS])))]
     preset: String,
-    /// The family of the worlds, by name or number
+    /// The family of the worlds, by name or number, or three: SENSORS+WAVES+PLACES
     #[arg(long, value_name = "FAMILY", default_value = "0", value_parser = family)]
-    family: &'static Family,
+    family: Mixture,
     /// A scenario of your own (TOML), as sequence 00
     #[arg(long, value_name = "FILE")]
     scenario: Option<PathBuf>,
@@ -144,7 +146,7 @@ impl SimulateArgs {
         let made = self.sequences()?;
         let name = match &self.scenario {
             Some(file) => file.display().to_string(),
-            None if self.preset == WORLDS => format!("{}, seed {}", self.family.name, self.seed),
+            None if self.preset == WORLDS => format!("{}, seed {}", self.family, self.seed),
             None => format!("{}, seed {}", self.preset, self.seed),
         };
         let sequences = made.iter().map(|sequence| sequence as &dyn SequenceReader).collect();
@@ -163,10 +165,12 @@ fn own(file: &Path, arguments: &SimulateArgs) -> anyhow::Result<SimulatedSequenc
 }
 
 /// What `--family` names.
-fn family(text: &str) -> Result<&'static Family, String> {
+fn family(text: &str) -> Result<Mixture, String> {
     let known: Vec<&str> = FAMILIES.iter().map(|family| family.name).collect();
-    Family::find(text)
-        .ok_or_else(|| format!("one of {}, or a number below {}", known.join(", "), known.len()))
+    Mixture::find(text).ok_or_else(|| {
+        let [known, count] = [known.join(", "), known.len().to_string()];
+        format!("expected one of {known}, a number below {count}, or three of them as A+B+C")
+    })
 }
 
 /// The sequences of a world that are asked for.

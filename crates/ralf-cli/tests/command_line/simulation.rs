@@ -138,7 +138,11 @@ fn a_world_is_simulated_the_same_again_and_labelled() {
     assert!(scores["overall"]["pooled"]["tp"].as_u64().unwrap() > 0);
 
     let none = dataset.beside("none");
-    ralf(["simulate", "-o", &none, "--preset", "worlds", "--family", "moon"]).exits(2).says(["city", "moon"]);
+    for wrong in ["moon", "city+moon+yard", "city+yard"] {
+        ralf(["simulate", "-o", &none, "--preset", "worlds", "--family", wrong])
+            .exits(2)
+            .says(["city", "A+B+C", wrong]);
+    }
     ralf(["simulate", "-o", &none, "--preset", "worlds", "--sequence", "09"])
         .exits(2)
         .says(["expected one of 00"]);

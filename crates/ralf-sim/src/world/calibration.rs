@@ -161,7 +161,7 @@ mod tests {
     #[test]
     fn what_is_said_of_mountings_is_wrong_by_what_the_family_says_at_most() {
         for (family, seed) in FAMILIES.iter().zip(0..) {
-            let world = World::new(family, seed);
+            let world = World::new(family.into(), seed);
             let [angle, place] = [family.calibration.angle.high, family.calibration.place.high];
             let pairs = world.radars.iter().zip(&world.calibration.rig.radars);
             for (real, said) in pairs {

@@ -4,6 +4,7 @@ use super::calibration::Calibration;
 use super::camera::{CameraModel, cameras};
 use super::family::{Family, Mount, PlaceKind, RadarRanges};
 use super::lidar::{LidarModel, Optics, Pattern};
+use super::mixture::Mixture;
 use super::radar::{Amplitude, Cell, Keeps, RadarModel, Spikiness, Waves, sensitivity_db};
 use super::span::{Span, one_of, span};
 use crate::random::{Purpose, Random};
@@ -23,7 +24,7 @@ const AMPLITUDES: [(&[Amplitude], f64); 4] = [
 /// A vehicle with its sensors, and how the waves of its world behave. All sequences of a recording share it.
 #[derive(Debug, Clone)]
 pub(super) struct World {
-    pub(super) family: &'static Family,
+    pub(super) mixture: Mixture,
     pub(super) seed: u64,
     pub(super) radars: Vec<RadarModel>,
     pub(super) lidars: Vec<LidarModel>,
@@ -34,21 +35,22 @@ pub(super) struct World {
 
 impl World {
     /// The world of a seed.
-    pub(super) fn new(family: &'static Family, seed: u64) -> Self {
+    pub(super) fn new(mixture: Mixture, seed: u64) -> Self {
         let mut random = Random::new(seed, Purpose::World, 0, 0);
         let random = &mut random;
-        let waves = waves(family, random);
-        let radars = radars(family, random);
-        let lidars = lidars(family, seed, &radars, random);
-        let cameras = cameras(&family.calibration, seed);
-        let mut calibration = Calibration::new(&family.calibration, &radars, &lidars, seed);
+        let sensors = mixture.sensors;
+        let waves = waves(mixture.waves, random);
+        let radars = radars(sensors, random);
+        let lidars = lidars(sensors, seed, &radars, random);
+        let cameras = cameras(&sensors.calibration, seed);
+        let mut calibration = Calibration::new(&sensors.calibration, &radars, &lidars, seed);
         calibration.rig.cameras = cameras.iter().map(|camera| camera.declared.clone()).collect();
-        Self { family, seed, radars, lidars, cameras, waves, calibration }
+        Self { mixture, seed, radars, lidars, cameras, waves, calibration }
     }
 
     /// Where a sequence is driven.
     pub(super) fn place(&self, random: &mut Random) -> PlaceKind {
-        one_of(self.family.places, random).unwrap_or(PlaceKind::Street)
+        one_of(self.mixture.places.places, random).unwrap_or(PlaceKind::Street)
     }
 }
 

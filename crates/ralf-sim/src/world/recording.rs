@@ -1,7 +1,7 @@
 //! A recording: one world, some sequences.
 
 use super::draw::World;
-use super::family::Family;
+use super::mixture::Mixture;
 use super::sequence::WorldSequence;
 use crate::random::{Purpose, Random};
 use crate::scenario::ScenarioError;
@@ -11,7 +11,7 @@ use std::sync::Arc;
 /// Scans of each radar in a sequence, where no number is given: some 3 s.
 const USUAL_SCANS: usize = 40;
 
-/// A world that a seed drew from a family, with its sequences.
+/// A world that a seed drew from a family or from parts of several, with its sequences.
 ///
 /// ```
 /// use ralf::sensors::Source;
@@ -29,12 +29,13 @@ pub struct Recording {
 
 impl Recording {
     /// The world of a seed.
-    pub fn new(family: &'static Family, seed: u64) -> Self {
+    pub fn new(ranges: impl Into<Mixture>, seed: u64) -> Self {
+        let mixture: Mixture = ranges.into();
         // The same seed gives unrelated worlds in two families.
-        let own =
-            family.name.bytes().fold(seed, |seed, byte| seed.wrapping_mul(257).wrapping_add(byte.into()));
+        let name = mixture.to_string();
+        let own = name.bytes().fold(seed, |seed, byte| seed.wrapping_mul(257).wrapping_add(byte.into()));
         let count = 4 + (3.0 * Random::new(own, Purpose::World, 1, 0).uniform()) as usize;
-        Self { world: Arc::new(World::new(family, own)), count }
+        Self { world: Arc::new(World::new(mixture, own)), count }
     }
 
     /// The sequences' names: `00`, `01` and so on, four to six of them.

@@ -89,8 +89,8 @@ impl WorldSequence {
         let mut random = Random::new(seed, Purpose::Placement, 0, 0);
         let random = &mut random;
         let kind = world.place(random);
-        let mut plan = plan(kind, &world.family.motion, random);
-        let rains = random.chance(world.family.waves.rain);
+        let mut plan = plan(kind, &world.mixture.places.motion, random);
+        let rains = random.chance(world.mixture.waves.waves.rain);
         let sway = [random.between(0.0, 0.006), random.between(0.0, 0.004), random.between(0.0, TAU)];
         let times = timelines(&world, scans);
         let seconds =
@@ -98,7 +98,7 @@ impl WorldSequence {
         let phase = random.between(0.0, TAU);
         let ride = Ride { path: path(&plan, seconds, phase), sway };
         clear_the_way(&mut plan, phase);
-        let title = format!("{}: {}{}", world.family.name, plan.title, if rains { ", rain" } else { "" });
+        let title = format!("{}: {}{}", world.mixture, plan.title, if rains { ", rain" } else { "" });
         let terrain = Terrain::new(&plan.ramps, plan.patches, plan.base, seed);
         let motion = motion(&world, &ride, &terrain, seconds, seed).ok_or(ScenarioError::Value {
             key: "scans",
