@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Judges evidence from outside: gradient-boosted trees (LightGBM) that never saw a family of worlds label that family.
 
-    judge_families.py --world FAMILY DATASET OUT [--world FAMILY DATASET OUT]... [--rounds N] [--seed S] [--rows N]
-                      [--corrected SHARE [--apart]]
+    judge_families.py --world FAMILY DATASET OUT [--world FAMILY DATASET OUT]... [--rounds N] [--leaves N] [--rate R]
+                      [--rows N] [--of-world N] [--seed S] [--no-groups] [--corrected SHARE [--apart]]
 
 DATASET is a recording with its truth (`ralf simulate --preset worlds --family FAMILY --seed S -o DATASET`), OUT what
 `ralf label DATASET -o OUT --evidence` made of it. Worlds of one FAMILY are left out together. Printed are, for each family
@@ -33,7 +33,7 @@ from sklearn.metrics import average_precision_score
 
 # As the experiments had it that the project's learner starts from.
 PARAMETERS = dict(
-    objective="binary", num_leaves=31, learning_rate=0.1, feature_fraction=0.5, bagging_fraction=0.7, bagging_freq=1,
+    objective="binary", feature_fraction=0.5, bagging_fraction=0.7, bagging_freq=1,
     lambda_l2=5.0, min_data_in_leaf=150, max_bin=63, deterministic=True, force_row_wise=True, verbose=-1,
 )
 # What the paper's method says, as columns of every result.
@@ -83,6 +83,19 @@ def read_world(dataset, out, names):
     return [numpy.concatenate(part) for part in zip(*parts)]
 
 
+def some_of(world, most, seed):
+    """A draw of a world's rows, in their order; all where there are no more."""
+    rows = len(world[0])
+    if most is None or rows <= most:
+        return world
+    drawn = numpy.sort(numpy.random.default_rng(seed).choice(rows, most, replace=False))
+    return [column[drawn] for column in world]
+
+
+def parameters(options):
+    return dict(PARAMETERS, num_leaves=options.leaves, learning_rate=options.rate, seed=options.seed)
+
+
 def best_threshold(scores, truth):
     order = numpy.argsort(-scores, kind="stable")
     found = numpy.cumsum(truth[order])
@@ -107,8 +120,8 @@ def out_of_fold(features, truth, family, holds, options):
         train = numpy.flatnonzero(~holds[:, left_out])
         if len(train) > options.rows:
             train = numpy.sort(numpy.random.default_rng(options.seed).choice(train, options.rows, replace=False))
-        parameters = dict(PARAMETERS, seed=options.seed)
-        model = lightgbm.train(parameters, lightgbm.Dataset(features[train], truth[train]), options.rounds)
+        data = lightgbm.Dataset(features[train], truth[train])
+        model = lightgbm.train(parameters(options), data, options.rounds)
         here = family == left_out
         scores[here] = model.predict(features[here])
     return scores
@@ -142,7 +155,7 @@ def corrected(features, truth, family, holds, scan, sequence, options):
         for own, weight in [(some[:0], 1), (some, 1), (some, 5), (some, 20), (numpy.flatnonzero(here & half), 1)]:
             train, weights = numpy.r_[others, own], numpy.r_[numpy.ones(len(others)), numpy.full(len(own), weight)]
             data = lightgbm.Dataset(features[train], truth[train], weight=weights)
-            scores = lightgbm.train(dict(PARAMETERS, seed=options.seed), data, options.rounds).predict(features[test])
+            scores = lightgbm.train(parameters(options), data, options.rounds).predict(features[test])
             row += [average_precision_score(truth[test], scores), f1_of(scores >= 0.5, truth[test] == 1)]
         rows.append(row)
     return numpy.array(rows)
@@ -151,8 +164,11 @@ def corrected(features, truth, family, holds, scan, sequence, options):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--world", nargs=3, action="append", required=True, metavar=("FAMILY", "DATASET", "OUT"))
-    parser.add_argument("--rounds", type=int, default=220)
+    parser.add_argument("--rounds", type=int, default=220, help="trees")
+    parser.add_argument("--leaves", type=int, default=31, help="most leaves of a tree")
+    parser.add_argument("--rate", type=float, default=0.1, help="how much of each tree counts")
     parser.add_argument("--rows", type=int, default=200_000, help="most rows that a model is trained on")
+    parser.add_argument("--of-world", type=int, metavar="N", help="most rows of each world, to learn from and to judge")
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--no-groups", action="store_true", help="leave out the table of groups")
     parser.add_argument("--corrected", type=float, metavar="SHARE", help="what corrections of so many scans bring")
@@ -160,7 +176,8 @@ def main():
     options = parser.parse_args()
     groups = groups_of_features()
     names = list(groups)
-    worlds = [(name, *read_world(dataset, out, names)) for name, dataset, out in options.world]
+    read = lambda dataset, out: some_of(read_world(dataset, out, names), options.of_world, options.seed)
+    worlds = [(name, *read(dataset, out)) for name, dataset, out in options.world]
     features, paper, labels, truth = (numpy.concatenate([world[i] for world in worlds]) for i in range(1, 5))
     firsts = numpy.cumsum([0] + [world[5].max() + 1 for world in worlds])
     scan = numpy.concatenate([world[5] + first for world, first in zip(worlds, firsts)])
