@@ -175,6 +175,30 @@ fn what_stands_still_what_moves_and_what_moves_along() {
 }
 
 #[test]
+fn scans_together_place_what_stands() {
+    // A post that is told 0.4 m to the left, to the right, and where it is, in turn; a car that drives ahead.
+    let memory = drive(vec![(
+        front(),
+        scans(13, |t| {
+            let post = [40.0 - 10.0 * t, 0.0];
+            let aside = [0.4, 0.0, -0.4][(t * 10.0).round() as usize % 3];
+            vec![[post[0], post[1] + aside, 0.0, -10.0, 0.0], [20.0 + 15.0 * t, 5.0, 0.0, 14.5, 0.0]]
+        }),
+    )]);
+    let found = observe(&memory, 6);
+    // At 34 m it is told 0.4 m aside, where it is known to 0.34 m; of all 13 scans five tell it so and four each of the
+    // other two ways. Nearer ones know it better.
+    let [post, car] = column(&found, "persistence_shift")[..] else { panic!("two detections") };
+    assert!((post.unwrap() - 0.4 / 0.34f64.hypot(0.1)).abs() < 0.2, "{post:?}");
+    assert_eq!(car, Some(0.0), "what moves stays where it was measured");
+    let scatter = column(&found, "persistence_scatter");
+    // Across the ray 0.4^2 2 / 3 over some 0.34^2 + 0.01, along the other axes nearly nothing.
+    let expected = (0.4f64.powi(2) * 2.0 / 3.0 / (0.34f64.powi(2) + 0.01) / 3.0).sqrt();
+    assert!((scatter[0].unwrap() - expected).abs() < 0.15, "{scatter:?}, {expected}");
+    assert_eq!(scatter[1], None);
+}
+
+#[test]
 fn what_drives_beside_is_sought_along_the_road() {
     // A car in the next lane, as fast as the vehicle and 2 m/s faster: at 45 degrees and beside the radar. Along the ray
     // they would be 0.5, 0.5 and 0.4 m aside in a tenth of a second, and more.
@@ -325,8 +349,28 @@ fn met(frame: &Frame, i: usize, spread: f64, (way, speed, sigma): (Vector, f64, 
     .collect()
 }
 
-/// Shares of persistence, and the mean distance, by going through everything.
-fn brute_force(frame: &Frame, i: usize) -> [Option<f64>; 4] {
+/// How far the joint place of a detection and of the nearest ones that it meets where it stands lies from its own, and
+/// how far they scatter about it, by solving one system of equations for all of them.
+fn joint(detection: &Detection, met: &[&Detection]) -> [Option<f64>; 2] {
+    let weight = |detection: &Detection| {
+        let covariance = detection.axes * detection.axes.transpose() + Matrix3::identity() * 0.01;
+        covariance.try_inverse().unwrap()
+    };
+    let all: Vec<&Detection> = std::iter::once(detection).chain(met.iter().copied()).collect();
+    let weights: Matrix3<f64> = all.iter().map(|detection| weight(detection)).sum();
+    let pull: Vector = all.iter().map(|detection| weight(detection) * detection.position.coords).sum();
+    let place = weights.lu().solve(&pull).unwrap();
+    let squared = |detection: &Detection| {
+        let h = detection.position.coords - place;
+        h.dot(&(weight(detection) * h))
+    };
+    let scatter: f64 = all.iter().map(|detection| squared(detection)).sum();
+    let scatter = (!met.is_empty()).then(|| (scatter / (3 * met.len()) as f64).sqrt());
+    [Some(squared(detection).sqrt()), scatter]
+}
+
+/// Shares of persistence, the mean distance, and the shift and scatter of the joint place, by going through everything.
+fn brute_force(frame: &Frame, i: usize) -> [Option<f64>; 6] {
     let around = NeighbouringDetections::around(frame);
     let rates = &frame.doppler().unwrap().compensated;
     // Made of so few different rates that the spread is at its lower bound, or its upper.
@@ -337,6 +381,7 @@ fn brute_force(frame: &Frame, i: usize) -> [Option<f64>; 4] {
     let moves = rates[i].abs() > 3.0 * spread;
     let (mut own, mut moving, mut others, mut distance) = (vec![], vec![], vec![], vec![]);
     let detection = frame.scan.detections[i].unwrap();
+    let mut met_again = Vec::new();
     for (scan, radar) in around.radars.iter().enumerate() {
         let there = |j: &usize| around.scans[*j] as usize == scan;
         let all: Vec<usize> = (0..around.len()).filter(there).collect();
@@ -349,7 +394,11 @@ fn brute_force(frame: &Frame, i: usize) -> [Option<f64>; 4] {
         distance.push(still.min(3.0));
         let agrees = |j: &&usize| (around.doppler[**j] - rates[i]).abs() <= 2.0 * SQRT_2 * spread;
         if rates[i].is_finite() && !moves {
-            moving.push(all.iter().filter(agrees).any(|j| chi(&detection, &around.detections[*j]) <= 2.0));
+            let agreeing = all.iter().filter(agrees).map(|j| &around.detections[*j]);
+            let distances = agreeing.map(|other| (chi(&detection, other), other));
+            let nearest = distances.min_by(|a, b| a.0.total_cmp(&b.0)).filter(|(chi, _)| *chi <= 2.0);
+            moving.push(nearest.is_some());
+            met_again.extend(nearest.map(|(_, other)| other));
         }
     }
     if moves {
@@ -365,7 +414,8 @@ fn brute_force(frame: &Frame, i: usize) -> [Option<f64>; 4] {
         (count > 0).then(|| hits.into_iter().filter(|hit| *hit).count() as f64 / count as f64)
     };
     let mean = (!distance.is_empty()).then(|| distance.iter().sum::<f64>() / distance.len() as f64);
-    [share(own), share(moving), share(others), mean]
+    let [shift, scatter] = joint(&detection, &met_again);
+    [share(own), share(moving), share(others), mean, shift, scatter]
 }
 
 proptest! {
@@ -390,11 +440,11 @@ proptest! {
         let memory = drive(vec![(front(), timed(own, 0)), (beside, timed(other, 20))]);
         with_frame(&memory, 0, 1, |frame| {
             let found = evidence::observe(frame, &Config::default());
-            let names = ["persistence_own", "persistence_moving", "persistence_others", "persistence_distance"];
-            let found = names.map(|name| column(&found, name));
+            let names = ["own", "moving", "others", "distance", "shift", "scatter"];
+            let found = names.map(|name| column(&found, &format!("persistence_{name}")));
             // Those far away lie at the very limit of what can be seen.
-            for (i, own) in found[0].iter().enumerate().take(frame.scan.len() - 13) {
-                close(&[*own, found[1][i], found[2][i], found[3][i]], &brute_force(frame, i));
+            for i in 0..frame.scan.len() - 13 {
+                close(&found.each_ref().map(|values| values[i]), &brute_force(frame, i));
             }
         });
     }

@@ -59,14 +59,33 @@ fn all_radars_scans_around_are_gathered_and_moved_into_the_frame() {
 }
 
 #[test]
+fn of_radars_that_detect_very_much_every_so_many_scans_are_taken() {
+    let (memory, mut config) = (memory(), Config::default());
+    // Of two rows each: the frame's radar has 24 scans around, the other one 24.
+    config.evidence.radar_detections = 20;
+    let frame =
+        FrameWindow::new(&memory, &memory.sequence.rig, &config).with_evidence().frame(1, 30).unwrap();
+    let found: Vec<(usize, i64)> = frame
+        .radar_window
+        .iter()
+        .map(|near| (near.radar, (near.scan.t_ns() - frame.scan.t_ns()) / MS))
+        .collect();
+    let own = (-12..=12).filter(|j| *j != 0 && j % 3 == 0).map(|j| (1, j * 50));
+    let other = (-9..=12).filter(|j| j % 3 == 0).map(|j| (0, j * 50 - 20));
+    let mut expected: Vec<(usize, i64)> = own.chain(other).collect();
+    expected.sort_by_key(|(_, ms)| *ms);
+    assert_eq!(found, expected);
+}
+
+#[test]
 fn the_lidar_scans_around_are_spread_and_shared() {
     let (memory, config) = (memory(), Config::default());
     let mut window = FrameWindow::new(&memory, &memory.sequence.rig, &config).with_evidence();
-    // Every second LiDAR scan is taken: those at 0.6, 0.8 ... 2.4 s around 1.4 or 1.6 s.
+    // Every fifth LiDAR scan is taken: those at 0.5, 1, 1.5, 2 and 2.5 s around 1.5 s.
     let frame = window.frame(0, 29).unwrap();
     let around = frame.lidar_window.clone().unwrap();
     let times: Vec<i64> = around.window.views.iter().map(|view| view.moment.t_ns / MS).collect();
-    assert_eq!(times, [400, 600, 800, 1000, 1200, 1400, 1600, 1800, 2000, 2200, 2400]);
+    assert_eq!(times, [500, 1000, 1500, 2000, 2500]);
     let own = frame.scan.detections[0].unwrap().position;
     for view in around.views() {
         assert!((view.all_points()[0] - own).norm() < 1e-4, "{:?}", view.all_points());

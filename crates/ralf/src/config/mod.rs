@@ -278,6 +278,8 @@ pub struct EvidenceConfig {
     pub radar_reach_ms: f64,
     /// At most so many scans of each radar, the nearest in time.
     pub radar_scans: usize,
+    /// About so many detections of each radar: where these scans hold more, one in two, three, ... of them is taken.
+    pub radar_detections: usize,
 }
 
 macro_rules! defaults {

@@ -90,6 +90,11 @@ impl<'a> Cloud<'a> {
         self.index.ids().iter().map(move |id| known(*id as usize))
     }
 
+    /// A detection by its place in the order of the index.
+    pub(super) fn spot(&self, place: usize) -> &Spot {
+        &self.spots[place]
+    }
+
     /// The detections' places, to be searched in metres.
     pub(super) fn index(&self) -> &NeighborIndex {
         &self.index

@@ -16,7 +16,7 @@ pub(super) struct Spot {
     /// xx, xy and yy, m^2.
     pub(super) horizontal: [f64; 3],
     /// xz, yz and zz, m^2.
-    vertical: [f64; 3],
+    pub(super) vertical: [f64; 3],
     /// No variance in a horizontal direction is larger, m^2.
     pub(super) variance: f64,
 }

@@ -2,6 +2,7 @@
 //! seconds around.
 
 use super::columns::{set, unobserved};
+use super::probe::Probe;
 use super::{Feature, Piece, Surroundings, Values};
 use crate::sensors::Elevation;
 use crate::space::Vector;
@@ -26,6 +27,18 @@ const FEATURES: &[Feature] = &[
         meaning: "height above the ground surface, in standard deviations of the detection's height",
     },
     Feature {
+        name: "ground_joint_height",
+        unit: "m",
+        group: "Ground",
+        meaning: "the same where the radar's own scans around that saw it again together place what stands still",
+    },
+    Feature {
+        name: "ground_joint_height_sigmas",
+        unit: "sigma",
+        group: "Ground",
+        meaning: "that height, in its own standard deviations",
+    },
+    Feature {
         name: "ground_step",
         unit: "m",
         group: "Ground",
@@ -45,18 +58,17 @@ fn observe(surroundings: &Surroundings) -> Vec<Values> {
     let Some(lidar) = &frame.lidar_window else { return columns };
     let Some(ground) = lidar.window.ground() else { return columns };
     let measured = frame.radar.elevation == Elevation::Measured;
-    for (i, detection) in frame.scan.detections.iter().enumerate() {
-        let Some(detection) = detection else { continue };
-        let p = lidar.to_window(&detection.position);
-        let height = ground.height(&p).filter(|_| measured);
-        let sigma = detection.sigma_along(&Vector::z()).hypot(SURFACE_SIGMA);
-        let values = [
-            height,
-            height.map(|height| height / sigma),
-            ground.step_at(p.x, p.y),
-            ground.unseen_at(p.x, p.y),
-        ];
-        set(&mut columns, i, values);
+    let heights = |probe: &Probe| {
+        let height = ground.height(&probe.detection.position).filter(|_| measured);
+        let sigma = probe.detection.sigma_along(&Vector::z()).hypot(SURFACE_SIGMA);
+        [height, height.map(|height| height / sigma)]
+    };
+    for (i, (probe, joint)) in surroundings.probes().iter().zip(surroundings.joint_probes()).enumerate() {
+        let (Some(probe), Some(joint)) = (probe, joint) else { continue };
+        let ([height, sigmas], [joint_height, joint_sigmas]) = (heights(probe), heights(joint));
+        let p = probe.detection.position;
+        let (step, unseen) = (ground.step_at(p.x, p.y), ground.unseen_at(p.x, p.y));
+        set(&mut columns, i, [height, sigmas, joint_height, joint_sigmas, step, unseen]);
     }
     columns
 }

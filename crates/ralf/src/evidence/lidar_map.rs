@@ -72,6 +72,31 @@ const FEATURES: &[Feature] = &[
         group: GROUP,
         meaning: "share of the eight directions in which something stands within 3 m",
     },
+    Feature {
+        name: "map_joint_distance",
+        unit: "m",
+        group: GROUP,
+        meaning: "distance from the nearest point of the static map where the radar's own scans around that saw it \
+                  again together place what stands still, at most 3",
+    },
+    Feature {
+        name: "map_joint_chi",
+        unit: "sigma",
+        group: GROUP,
+        meaning: "least Mahalanobis distance of that place from the points of the static map near by, at most 10",
+    },
+    Feature {
+        name: "map_joint_column_distance",
+        unit: "m",
+        group: GROUP,
+        meaning: "horizontal distance of that place from the nearest column in which something stands, at most 3",
+    },
+    Feature {
+        name: "map_joint_column_sigmas",
+        unit: "sigma",
+        group: GROUP,
+        meaning: "the same in standard deviations along it",
+    },
 ];
 
 fn observe(surroundings: &Surroundings) -> Vec<Values> {
@@ -81,34 +106,43 @@ fn observe(surroundings: &Surroundings) -> Vec<Values> {
     let map = lidar.window.map();
     let mut found = Vec::new();
     for (i, _) in surroundings.rows_by_place() {
-        let Some(probe) = &surroundings.probes()[i] else { continue };
-        let p = probe.detection.position;
-        if !ColumnGrid::covers(p.x, p.y) {
-            continue;
-        }
-        let around = Around::look(map, probe);
-        let (distance, chi) = match around.nearest {
-            Some(_) => nearest_point(map, probe, &mut found),
-            None => (AROUND, LARGEST_CHI),
+        let probe = |probes: &[Option<Probe>]| probes[i].filter(is_on_map);
+        let measured = probe(surroundings.probes()).map(|probe| (Around::look(map, &probe), probe));
+        let joint = probe(surroundings.joint_probes()).map(|probe| (Around::look(map, &probe), probe));
+        let mut distances = |known: &Option<(Around, Probe)>| match known {
+            Some((around, probe)) => around.distances(map, probe, &mut found).map(Some),
+            None => [None; 4],
         };
-        let near = around.nearest.map(|(_, column)| column).filter(|_| around.distance <= NEAR);
+        let ([distance, chi, column_distance, column_sigmas], joint) =
+            (distances(&measured), distances(&joint));
+        let around = measured.as_ref().map(|(around, _)| around);
+        let near = around.and_then(Around::near);
         let values = [
-            Some(distance),
-            Some(chi),
-            Some(around.distance),
-            Some(around.sigmas(probe)),
+            distance,
+            chi,
+            column_distance,
+            column_sigmas,
             near.map(|column| column.top),
             near.map(|column| column.bottom),
-            Some(f64::from(around.voxels).ln_1p()),
-            Some(f64::from(around.octants.count_ones()) / 8.0),
+            around.map(|around| f64::from(around.voxels).ln_1p()),
+            around.map(|around| f64::from(around.octants.count_ones()) / 8.0),
+            joint[0],
+            joint[1],
+            joint[2],
+            joint[3],
         ];
         set(&mut columns, i, values);
     }
     columns
 }
 
+fn is_on_map(probe: &Probe) -> bool {
+    let p = probe.detection.position;
+    ColumnGrid::covers(p.x, p.y)
+}
+
 /// The Euclidean distance from the nearest point, and the least Mahalanobis distance.
-fn nearest_point(map: &StaticMap, probe: &Probe, found: &mut Vec<Neighbor>) -> (f64, f64) {
+fn nearest_point(map: &StaticMap, probe: &Probe, found: &mut Vec<Neighbor>) -> [f64; 2] {
     let position = probe.detection.position.coords;
     map.index.nearest_within(position.cast::<f32>().into(), CANDIDATES, AROUND as f32, found);
     let nearest = found.first().map_or(AROUND, |neighbor| f64::from(neighbor.distance_squared).sqrt());
@@ -118,7 +152,7 @@ fn nearest_point(map: &StaticMap, probe: &Probe, found: &mut Vec<Neighbor>) -> (
         let h = Vector3::from(map.points[neighbor.id as usize].map(f64::from)) - position;
         least = least.min(h.dot(&(precision * h)));
     }
-    (nearest.min(AROUND), least.max(0.0).sqrt())
+    [nearest.min(AROUND), least.max(0.0).sqrt()]
 }
 
 /// The columns around a detection in which something stands.
@@ -150,6 +184,21 @@ impl Around {
             }
         }
         around
+    }
+
+    /// The column that stands near, if one does.
+    fn near(&self) -> Option<Column> {
+        self.nearest.map(|(_, column)| column).filter(|_| self.distance <= NEAR)
+    }
+
+    /// How far a detection lies from the map: from its nearest point, m; from its points, in standard deviations; from
+    /// the nearest column, m and in standard deviations. `found` is room for a search.
+    fn distances(&self, map: &StaticMap, probe: &Probe, found: &mut Vec<Neighbor>) -> [f64; 4] {
+        let [distance, chi] = match self.nearest {
+            Some(_) => nearest_point(map, probe, found),
+            None => [AROUND, LARGEST_CHI],
+        };
+        [distance, chi, self.distance, self.sigmas(probe)]
     }
 
     /// The distance in standard deviations along it.

@@ -19,18 +19,22 @@ pub(super) struct Meeting {
     /// The least difference of range rates from those of the detections there, in standard deviations; infinite where
     /// nothing is nearer than [`FARTHEST`].
     pub(super) rate_difference: f64,
+    /// Which detection that nearest one is, of those that were searched, where there is one.
+    pub(super) nearest: u32,
 }
 
 impl Meeting {
-    pub(super) const NOBODY: Self = Self { chi: f64::INFINITY, rate_difference: f64::INFINITY };
+    pub(super) const NOBODY: Self =
+        Self { chi: f64::INFINITY, rate_difference: f64::INFINITY, nearest: u32::MAX };
 
-    /// A detection at a distance `chi` from where this one would be; `difference` is that of their rates, in standard
-    /// deviations.
-    pub(super) fn meet(&mut self, chi: f64, difference: Option<f64>) {
+    /// A detection, by its place among those searched, at a distance `chi` from where this one would be; `difference`
+    /// is that of their rates, in standard deviations.
+    pub(super) fn meet(&mut self, at: usize, chi: f64, difference: Option<f64>) {
         let Some(difference) = difference else { return };
         self.rate_difference = self.rate_difference.min(difference);
-        if difference <= AGREEING {
-            self.chi = self.chi.min(chi);
+        if difference <= AGREEING && chi < self.chi {
+            self.chi = chi;
+            self.nearest = at as u32;
         }
     }
 }

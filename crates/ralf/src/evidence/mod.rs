@@ -20,6 +20,7 @@ mod echoes;
 mod geometry;
 mod going;
 mod ground;
+mod joint;
 mod lidar_map;
 mod lidar_rays;
 mod lidar_residual;

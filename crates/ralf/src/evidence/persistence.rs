@@ -55,6 +55,17 @@ pub(super) const PIECE: Piece = Piece {
              over how many would by chance, of those in which what stands still had moved on; high for side lobes and \
              for the vehicle itself",
         ),
+        feature(
+            "persistence_shift",
+            "sigma",
+            "distance from where the radar's own scans around that saw it again together place what stands still",
+        ),
+        feature(
+            "persistence_scatter",
+            "sigma",
+            "how far the places in these scans scatter about that joint place, root mean square along each axis; null \
+             where none saw it again",
+        ),
     ],
     observe,
 };
@@ -72,7 +83,7 @@ fn observe(surroundings: &Surroundings) -> Vec<Values> {
     let own_around = own_around(surroundings.neighbours());
     let mut columns = unobserved(PIECE.features, frame.scan.len());
     for (i, detection) in surroundings.rows_by_place() {
-        let Recurrence { seen, met } = &surroundings.recurrences()[i];
+        let Recurrence { seen, met, joint } = &surroundings.recurrences()[i];
         let own = || seen.iter().filter(|sighting| sighting.own);
         let others = seen.iter().filter(|sighting| !sighting.own);
         let values = [
@@ -83,6 +94,8 @@ fn observe(surroundings: &Surroundings) -> Vec<Values> {
             excess(&own_around, detection, seen),
             aspect(frame, &origins, detection, seen),
             unmoved.excess_at(detection),
+            joint.map(|joint| joint.shift),
+            joint.and_then(|joint| joint.scatter),
         ];
         set(&mut columns, i, values);
     }

@@ -33,13 +33,15 @@ impl Probe {
     }
 }
 
-/// The frame's detections in the frame of its LiDAR window; `None` for those without a position. Empty without a
+/// Detections of a frame's radar in the frame of its LiDAR window; `None` for those without a position. Empty without a
 /// window.
-pub(super) fn probes(frame: &Frame) -> Vec<Option<Probe>> {
+pub(super) fn probes<'d>(
+    frame: &Frame,
+    detections: impl Iterator<Item = Option<&'d Detection>>,
+) -> Vec<Option<Probe>> {
     let Some(lidar) = &frame.lidar_window else { return Vec::new() };
     let probing = Probing::new(frame, lidar);
-    let detections = frame.scan.detections.iter();
-    detections.map(|detection| detection.as_ref().map(|detection| probing.probe(detection))).collect()
+    detections.map(|detection| detection.map(|detection| probing.probe(detection))).collect()
 }
 
 /// What makes probes of detections.

@@ -138,7 +138,7 @@ impl<'a> Pursuit<'a> {
                 return;
             };
             if let Some(chi) = chi_within(FARTHEST, spot, other, self.level) {
-                met[place].meet(chi, going.rate_difference(&other.place, origin, rate));
+                met[place].meet(at, chi, going.rate_difference(&other.place, origin, rate));
             }
         });
         met

@@ -1,6 +1,8 @@
 //! Where the radars' scans around could have seen a detection again, and whether they did.
 
+use super::chance::SAME;
 use super::distance::{Spot, chi_within};
+use super::joint::Joint;
 use super::meeting::{FARTHEST, Meeting, REACH};
 use super::pursuit::{Other, Others, Pursuit};
 use super::rates::Rates;
@@ -32,6 +34,9 @@ pub(super) struct Recurrence {
     /// In the order of the scans; of a detection that moves as it would move by what fits best. None without a range
     /// rate.
     pub(super) met: Vec<Meeting>,
+    /// Where what stands still lies by all of the own scans that met it; of what moves, or has no range rate, where it
+    /// was measured. `None` without a place.
+    pub(super) joint: Option<Joint>,
 }
 
 /// What was seen again of each detection of a frame; nothing of a detection without a place. `rates` are those of the
@@ -65,8 +70,14 @@ pub(super) fn recurrences<'a>(
         });
         let still = search.still(i, &Spot::new(detection), &mut seen);
         let moving = pursuit.as_mut().and_then(|pursuit| pursuit.met(i, detection));
-        let met = moving.unwrap_or(still);
-        all[i] = Recurrence { seen, met };
+        let (met, joint) = match moving {
+            Some(moving) => (moving, Joint::alone(detection)),
+            None => {
+                let joint = search.joint(detection, &still);
+                (still, joint)
+            }
+        };
+        all[i] = Recurrence { seen, met, joint: Some(joint) };
     }
     all
 }
@@ -89,6 +100,8 @@ struct Search<'a> {
     /// Of each scan around: whether distances from its detections are horizontal, for either radar measures no
     /// elevation.
     level: Vec<bool>,
+    /// The same of the radar's own scans.
+    own_level: bool,
     /// Of each scan around, for the detection at hand: which of its sightings is that in this scan, or [`UNSEEN`].
     places: Vec<u32>,
 }
@@ -103,7 +116,8 @@ impl<'a> Search<'a> {
         let is_level = |radar: &Radar| radar.elevation == Elevation::None;
         let level =
             around.radars.iter().map(|radar| is_level(frame.radar) || is_level(&frame.rig.radars[*radar]));
-        Self { rates, others, level: level.collect(), places: vec![UNSEEN; around.radars.len()] }
+        let (level, own_level) = (level.collect(), is_level(frame.radar));
+        Self { rates, others, level, own_level, places: vec![UNSEEN; around.radars.len()] }
     }
 
     /// As if it stood still; what it met is that of one that does.
@@ -120,11 +134,19 @@ impl<'a> Search<'a> {
             let Some(chi) = chi_within(limit, spot, other, self.level[scan]) else { return };
             sighting.still = sighting.still.min(chi);
             if let Some(rates) = standing {
-                met[place].meet(chi, rates.difference(i, rate));
+                met[place].meet(at, chi, rates.difference(i, rate));
             }
         });
         let mut own = seen.iter().map(|sighting| sighting.own);
         met.retain(|_| own.next().unwrap_or_default());
         met
+    }
+
+    /// A detection with all that it met at its place.
+    fn joint(&self, detection: &Detection, met: &[Meeting]) -> Joint {
+        let again = met.iter().filter(|meeting| meeting.chi <= SAME);
+        let again: Vec<&Spot> =
+            again.map(|meeting| self.others.cloud.spot(meeting.nearest as usize)).collect();
+        Joint::new(detection, &again, self.own_level)
     }
 }

@@ -17,6 +17,7 @@ pub struct Surroundings<'a> {
     pub config: &'a Config,
     neighbours: OnceCell<NeighbouringDetections>,
     probes: OnceCell<Vec<Option<Probe>>>,
+    joint_probes: OnceCell<Vec<Option<Probe>>>,
     ways: OnceCell<Vec<Option<Way>>>,
     rates: OnceCell<Option<Rates>>,
     recurrences: OnceCell<Vec<Recurrence>>,
@@ -31,6 +32,7 @@ impl<'a> Surroundings<'a> {
             config,
             neighbours: OnceCell::new(),
             probes: OnceCell::new(),
+            joint_probes: OnceCell::new(),
             ways: OnceCell::new(),
             rates: OnceCell::new(),
             recurrences: OnceCell::new(),
@@ -46,7 +48,16 @@ impl<'a> Surroundings<'a> {
     /// The scan's detections in the vehicle frame of its LiDAR window, `None` for those without a position; no entry
     /// at all without a window.
     pub fn probes(&self) -> &[Option<Probe>] {
-        self.probes.get_or_init(|| probes(self.frame))
+        self.probes.get_or_init(|| probes(self.frame, self.frame.scan.detections.iter().map(Option::as_ref)))
+    }
+
+    /// The same where the radar's own scans around together place what stands still ([`Joint`](super::joint::Joint)).
+    pub(super) fn joint_probes(&self) -> &[Option<Probe>] {
+        self.joint_probes.get_or_init(|| {
+            let joint =
+                self.recurrences().iter().map(|known| known.joint.as_ref().map(|joint| &joint.detection));
+            probes(self.frame, joint)
+        })
     }
 
     /// What stands in the radar's way to each detection, as far as the LiDAR window's map reaches; no entry at all

@@ -1,8 +1,9 @@
 //! Distances from the static map, and what stands in the radar's way.
 
-use super::rays::wall;
+use super::rays::{before_wall, wall};
+use super::support::{MS, Memory, radar};
 use super::{close, column, observe};
-use ralf::sensors::Elevation;
+use ralf::sensors::{Elevation, Radar};
 
 #[test]
 fn before_a_wall_in_free_space_and_beyond_the_map() {
@@ -62,4 +63,21 @@ fn without_elevation_the_map_is_asked_at_a_supposed_height() {
     let found = observe(&wall(Elevation::None, vec![[17.0, 0.0, 0.0], [27.0, 0.0, 0.0]]), 0);
     close(column(&found, "map_distance")[0], 1.0, 0.02);
     close(column(&found, "sight_behind_surface")[1], 9.0, 0.35);
+}
+
+#[test]
+fn scans_that_saw_it_again_place_it_on_the_wall() {
+    // The radar tells the wall half a metre too near in the scan that is asked, and where it is in those around.
+    let fields = ["x", "y", "z", "doppler"].map(str::to_owned).to_vec();
+    let scan = |k: i64| {
+        let ahead = 20.0 - k as f32 - if k == 2 { 0.5 } else { 0.0 };
+        (k * 100 * MS, vec![[ahead, 0.0, 1.5, -10.0]])
+    };
+    let radar = Radar { fields, ..radar(Elevation::Measured) };
+    let memory = before_wall(Memory::new(10.0).measured(radar, (0..5).map(scan).collect()));
+    let found = observe(&memory, 2);
+    close(column(&found, "map_distance")[0], 0.5, 0.03);
+    // Of five scans that know it as well one is off.
+    close(column(&found, "map_joint_distance")[0], 0.1, 0.03);
+    close(column(&found, "persistence_shift")[0], 0.4 / 0.31623, 0.02);
 }

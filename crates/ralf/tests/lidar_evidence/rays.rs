@@ -13,6 +13,11 @@ use ralf::space::Spherical;
 /// A wall 20 m ahead of where the vehicle begins, 4 m high and 12 m wide, on a road that is seen up to 15 m; the
 /// vehicle drives 1 m from LiDAR scan to LiDAR scan, of which there are five, and the radar's scan is at the third.
 pub(super) fn wall(elevation: Elevation, detections: Vec<[f32; 3]>) -> Memory {
+    before_wall(Memory::new(10.0).radar(radar(elevation), vec![(200 * MS, Some(detections))]))
+}
+
+/// That wall before a vehicle with a radar of any kind.
+pub(super) fn before_wall(memory: Memory) -> Memory {
     let scan = |driven: f32| -> Vec<[f32; 3]> {
         let wall =
             (-60..=60).flat_map(|y| (0..40).map(move |z| [20.0, y as f32 * 0.1, z as f32 * 0.1 - 2.0]));
@@ -20,7 +25,7 @@ pub(super) fn wall(elevation: Elevation, detections: Vec<[f32; 3]>) -> Memory {
         wall.chain(road).map(|[x, y, z]| [x - driven, y, z]).collect()
     };
     let scans = (0..5).map(|k| (k * 100 * MS, scan(k as f32))).collect();
-    Memory::new(10.0).radar(radar(elevation), vec![(200 * MS, Some(detections))]).lidar(lidar(), scans)
+    memory.lidar(lidar(), scans)
 }
 
 const NAMES: [&str; 4] = ["in", "ground", "beyond", "before"];

@@ -1,8 +1,10 @@
 //! What the LiDARs' rays towards a detection say: do they end in it, on the ground there, before it, or do they pass
 //! through?
 //!
-//! Each scan of the LiDAR window votes, weighted towards the middle of the cone in which the detection can lie. *In
-//! free space*, *on a surface*, *occluded* and *not looked at* follow from the votes.
+//! Each scan of the LiDAR window votes, weighted towards the middle of the cone in which the detection can lie: the
+//! nearest scan on where it was measured, those of the window on where all scans of the radar that saw it again
+//! together place what stands still. *In free space*, *on a surface*, *occluded* and *not looked at* follow from the
+//! votes.
 
 mod moving;
 mod tally;
@@ -144,12 +146,13 @@ fn observe(surroundings: &Surroundings) -> Vec<Values> {
     let mut columns = unobserved(FEATURES, frame.scan.len());
     let Some(window) = &frame.lidar_window else { return columns };
     let window_from_vehicle = window.vehicle_from_window.inverse();
-    let probes = surroundings.probes();
-    let order = by_direction(probes);
     let nearest = frame.lidar.as_ref().map(|view| {
         let window_from_moment = window_from_vehicle * view.vehicle_from_moment;
-        vote(sweeps_of(&view.moment, window_from_moment, RAYS_NEAREST), probes, &order)
+        let probes = surroundings.probes();
+        vote(sweeps_of(&view.moment, window_from_moment, RAYS_NEAREST), probes, &by_direction(probes))
     });
+    let probes = surroundings.joint_probes();
+    let order = by_direction(probes);
     // Scan by scan, so that the rays of one stay at hand.
     let mut around = Vec::with_capacity(window.window.views.len());
     for view in &window.window.views {

@@ -23,17 +23,25 @@ impl FrameWindow<'_> {
         self
     }
 
-    /// All radars' scans around a time but the scan itself, in time order.
+    /// All radars' scans around a time but the scan itself, in time order; of a radar that detects very much in them
+    /// only every so many, counted from the one that is nearest in time.
     pub(super) fn radar_window(&mut self, radar: usize, scan: usize, t_ns: i64) -> Vec<NeighbouringScan> {
         let settings = &self.config.evidence;
-        let mut around = Vec::new();
+        let mut around: Vec<(i64, NeighbouringScan)> = Vec::new();
         for (other, times) in self.source.sequence().times.radars.iter().enumerate() {
             let near = sync::around(times, t_ns, nanoseconds(settings.radar_reach_ms), settings.radar_scans);
-            around.extend(near.map(|near| (times[near], other, near)));
+            let nearest = if other == radar { Some(scan) } else { sync::nearest(times, t_ns, i64::MAX) };
+            let mut of_radar = Vec::with_capacity(near.len());
+            for near in near.filter(|near| (other, *near) != (radar, scan)) {
+                let steps = near.abs_diff(nearest.unwrap_or(near));
+                of_radar.extend(self.neighbouring_scan(other, near, t_ns).map(|scan| (steps, scan)));
+            }
+            let stride = settings.stride_of(of_radar.iter().map(|(_, scan)| scan.scan.len()).sum());
+            let taken = of_radar.into_iter().filter(|(steps, _)| steps % stride == 0);
+            around.extend(taken.map(|(_, scan)| (scan.scan.t_ns(), scan)));
         }
-        around.retain(|(_, other, near)| (*other, *near) != (radar, scan));
-        around.sort_unstable();
-        around.into_iter().filter_map(|(_, radar, scan)| self.neighbouring_scan(radar, scan, t_ns)).collect()
+        around.sort_by_key(|(t_ns, scan)| (*t_ns, scan.radar));
+        around.into_iter().map(|(_, scan)| scan).collect()
     }
 
     /// The LiDAR scans around a time; `None` where there are none.
@@ -73,6 +81,11 @@ impl EvidenceConfig {
             |first: usize| times[first..].partition_point(|time| time.saturating_sub(times[first]) <= span);
         (0..times.len()).map(from).max().unwrap_or(0).min(self.radar_scans)
     }
+
+    /// One in how many scans of a radar is taken whose scans around have so many detections.
+    fn stride_of(&self, detections: usize) -> usize {
+        detections.div_ceil(self.radar_detections).max(1)
+    }
 }
 
 /// One in how many LiDAR scans is taken, so that no more than wanted lie around any of them.
@@ -105,5 +118,11 @@ mod tests {
         assert_eq!(config.radar_scans_at_most(&[0, 5_000_000, 6_000_000, 9_000_000]), 2);
         assert_eq!(config.radar_scans_at_most(&[0, 1, 2, 3, 4]), 3, "no more than the settings allow");
         assert_eq!(config.radar_scans_at_most(&[]), 0);
+    }
+
+    #[test]
+    fn scans_are_thinned_until_they_hold_no_more_than_wanted() {
+        let config = EvidenceConfig { radar_detections: 100, ..EvidenceConfig::default() };
+        assert_eq!([0, 100, 101, 200, 201].map(|detections| config.stride_of(detections)), [1, 1, 2, 2, 3]);
     }
 }
