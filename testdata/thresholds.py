@@ -21,7 +21,7 @@ TRIED = numpy.arange(0.02, 0.99, 0.02)
 
 def f1_by_threshold(dataset, out, thresholds):
     """F1 of a world at each threshold."""
-    features, _, _, truth, _ = judge_families.read_world(dataset, out, ["w"])
+    features, _, _, truth, *_ = judge_families.read_world(dataset, out, ["w"])
     return [judge_families.f1_of(features[:, 0] >= threshold, truth == 1) for threshold in thresholds]
 
 

@@ -81,11 +81,11 @@ fn of_radars_that_detect_very_much_every_so_many_scans_are_taken() {
 fn the_lidar_scans_around_are_spread_and_shared() {
     let (memory, config) = (memory(), Config::default());
     let mut window = FrameWindow::new(&memory, &memory.sequence.rig, &config).with_evidence();
-    // Every fifth LiDAR scan is taken: those at 0.5, 1, 1.5, 2 and 2.5 s around 1.5 s.
+    // Every fourth LiDAR scan is taken: those at 0.8, 1.2 ... 2.4 s around 1.6 s.
     let frame = window.frame(0, 29).unwrap();
     let around = frame.lidar_window.clone().unwrap();
     let times: Vec<i64> = around.window.views.iter().map(|view| view.moment.t_ns / MS).collect();
-    assert_eq!(times, [500, 1000, 1500, 2000, 2500]);
+    assert_eq!(times, [800, 1200, 1600, 2000, 2400]);
     let own = frame.scan.detections[0].unwrap().position;
     for view in around.views() {
         assert!((view.all_points()[0] - own).norm() < 1e-4, "{:?}", view.all_points());

@@ -10,7 +10,7 @@ use std::convert::Infallible;
 
 /// Rows of a cause from which it can be learned.
 const FEWEST: usize = 100;
-/// What a cause's forest is smaller by: there is one for each.
+/// Of so many trees and leaves a cause's forest has one: there is a forest for each cause.
 const PARTS: usize = 4;
 
 /// The forest of each cause that enough rows have, in the causes' order.
@@ -30,7 +30,7 @@ pub(super) fn cause_forests(
     let either_way = vec![0; table.features.len()];
     let parameters = Parameters {
         rounds: fitting.parameters.rounds.div_ceil(PARTS),
-        leaves: fitting.parameters.leaves.div_ceil(2).max(2),
+        leaves: fitting.parameters.leaves.div_ceil(PARTS).max(2),
         ..fitting.parameters.clone()
     };
     let Ok(forests) = side_by_side(&causes, fitting.jobs, |cause| {

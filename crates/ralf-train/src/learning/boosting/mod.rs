@@ -43,7 +43,7 @@ impl Default for Parameters {
     fn default() -> Self {
         Self {
             rounds: 220,
-            leaves: 31,
+            leaves: 63,
             rate: 0.1,
             feature_fraction: 0.5,
             bagging: 0.7,
