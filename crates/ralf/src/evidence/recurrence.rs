@@ -70,14 +70,11 @@ pub(super) fn recurrences<'a>(
         });
         let still = search.still(i, &Spot::new(detection), &mut seen);
         let moving = pursuit.as_mut().and_then(|pursuit| pursuit.met(i, detection));
-        let (met, joint) = match moving {
-            Some(moving) => (moving, Joint::alone(detection)),
-            None => {
-                let joint = search.joint(detection, &still);
-                (still, joint)
-            }
+        let joint = match moving {
+            Some(_) => Joint::alone(detection),
+            None => search.joint(detection, &still),
         };
-        all[i] = Recurrence { seen, met, joint: Some(joint) };
+        all[i] = Recurrence { seen, met: moving.unwrap_or(still), joint: Some(joint) };
     }
     all
 }

@@ -27,7 +27,7 @@ impl FrameWindow<'_> {
     /// only every so many, counted from the one that is nearest in time.
     pub(super) fn radar_window(&mut self, radar: usize, scan: usize, t_ns: i64) -> Vec<NeighbouringScan> {
         let settings = &self.config.evidence;
-        let mut around: Vec<(i64, NeighbouringScan)> = Vec::new();
+        let mut around: Vec<NeighbouringScan> = Vec::new();
         for (other, times) in self.source.sequence().times.radars.iter().enumerate() {
             let near = sync::around(times, t_ns, nanoseconds(settings.radar_reach_ms), settings.radar_scans);
             let nearest = if other == radar { Some(scan) } else { sync::nearest(times, t_ns, i64::MAX) };
@@ -38,10 +38,10 @@ impl FrameWindow<'_> {
             }
             let stride = settings.stride_of(of_radar.iter().map(|(_, scan)| scan.scan.len()).sum());
             let taken = of_radar.into_iter().filter(|(steps, _)| steps % stride == 0);
-            around.extend(taken.map(|(_, scan)| (scan.scan.t_ns(), scan)));
+            around.extend(taken.map(|(_, scan)| scan));
         }
-        around.sort_by_key(|(t_ns, scan)| (*t_ns, scan.radar));
-        around.into_iter().map(|(_, scan)| scan).collect()
+        around.sort_by_key(|near| (near.scan.t_ns(), near.radar));
+        around
     }
 
     /// The LiDAR scans around a time; `None` where there are none.
