@@ -86,12 +86,9 @@ fn observe(surroundings: &Surroundings) -> Vec<Values> {
 
 /// How many others of the scan lie near each detection; NaN for one without a place.
 fn crowd(surroundings: &Surroundings) -> Vec<f64> {
-    let mut crowd = Vec::with_capacity(surroundings.frame.scan.len());
-    for detection in &surroundings.frame.scan.detections {
-        let others = detection
-            .as_ref()
-            .map(|detection| surroundings.count_beside(&detection.position, CROWD) as f64 - 1.0);
-        crowd.push(others.unwrap_or(f64::NAN));
+    let mut crowd = vec![f64::NAN; surroundings.frame.scan.len()];
+    for (row, detection) in surroundings.rows_by_place() {
+        crowd[row] = surroundings.count_beside(&detection.position, CROWD) as f64 - 1.0;
     }
     crowd
 }
@@ -100,13 +97,10 @@ fn crowd(surroundings: &Surroundings) -> Vec<f64> {
 /// around.
 fn crowd_around(surroundings: &Surroundings) -> Vec<f64> {
     let around = surroundings.neighbours();
-    let mut crowd = Vec::with_capacity(surroundings.frame.scan.len());
-    for detection in &surroundings.frame.scan.detections {
-        let found = detection.as_ref().filter(|_| !around.radars.is_empty()).map(|detection| {
-            let place = [detection.position.x as f32, detection.position.y as f32];
-            around.index.count_beside(place, NEAR as f32) as f64
-        });
-        crowd.push(found.unwrap_or(f64::NAN));
+    let mut crowd = vec![f64::NAN; surroundings.frame.scan.len()];
+    for (row, detection) in surroundings.rows_by_place().filter(|_| !around.radars.is_empty()) {
+        let place = [detection.position.x as f32, detection.position.y as f32];
+        crowd[row] = around.index.count_beside(place, NEAR as f32) as f64;
     }
     crowd
 }

@@ -18,12 +18,30 @@ pub(super) struct Echoes<'a> {
     ranges: Vec<f64>,
     /// rad
     azimuths: Vec<f64>,
-    by_range: Ordered<usize>,
-    by_azimuth: Ordered<usize>,
+    by_range: Ordered<Echo>,
+    by_azimuth: Ordered<Reflector>,
     /// Standard deviation of a range, m.
     sigma_range: f64,
     /// Standard deviation of an azimuth, rad.
     sigma_azimuth: f64,
+}
+
+/// What is asked of an echo behind which others lie.
+struct Reflector {
+    /// m
+    range: f64,
+    /// dB
+    cross_section: f64,
+}
+
+/// What is asked of an echo beside others.
+struct Echo {
+    /// Its place in the scan.
+    detection: usize,
+    /// rad
+    azimuth: f64,
+    /// dB
+    power: f64,
 }
 
 /// Stronger echoes before a detection.
@@ -55,11 +73,18 @@ impl<'a> Echoes<'a> {
         let places = &frame.scan.measured.spherical;
         let ranges: Vec<f64> = places.iter().map(|place| place.range).collect();
         let azimuths: Vec<f64> = places.iter().map(|place| place.azimuth).collect();
+        let strength = frame.strength()?;
+        let reflectors = ranges.iter().zip(&strength.cross_section);
+        let reflectors = reflectors
+            .map(|(range, cross_section)| Reflector { range: *range, cross_section: *cross_section });
+        let echoes = azimuths.iter().zip(&strength.power).enumerate();
+        let echoes =
+            echoes.map(|(detection, (azimuth, power))| Echo { detection, azimuth: *azimuth, power: *power });
         Some(Self {
-            strength: frame.strength()?,
+            strength,
             rates: frame.doppler().map(|doppler| doppler.raw.as_slice()).zip(surroundings.rates()),
-            by_range: Ordered::new(ranges.iter().copied(), 0..),
-            by_azimuth: Ordered::new(azimuths.iter().copied(), 0..),
+            by_range: Ordered::new(ranges.iter().copied(), echoes),
+            by_azimuth: Ordered::new(azimuths.iter().copied(), reflectors),
             ranges,
             azimuths,
             sigma_range: frame.radar.sigma_range.hypot(ROOM),
@@ -75,13 +100,14 @@ impl<'a> Echoes<'a> {
         }
         let (mut count, mut last, mut bounce) = (0, f64::NEG_INFINITY, f64::INFINITY);
         let tolerance = SAME * SQRT_2 * self.sigma_azimuth;
-        for &j in self.by_azimuth.within(self.azimuths[i] - tolerance..=self.azimuths[i] + tolerance) {
-            let is_before = self.ranges[j] < range - SAME * SQRT_2 * self.sigma_range;
-            if is_before && self.strength.cross_section[j] > cross_section {
-                count += 1;
-                last = last.max(self.ranges[j]);
-                bounce = bounce.min((range - 2.0 * self.ranges[j]).abs());
-            }
+        let end = range - SAME * SQRT_2 * self.sigma_range;
+        for other in self.by_azimuth.within(self.azimuths[i] - tolerance..=self.azimuths[i] + tolerance) {
+            // Without a branch: nobody foresees it.
+            let counts = (other.range < end) & (other.cross_section > cross_section);
+            count += i32::from(counts);
+            last = if counts & (other.range > last) { other.range } else { last };
+            let off = (range - 2.0 * other.range).abs();
+            bounce = if counts & (off < bounce) { off } else { bounce };
         }
         // The variance of r_i - 2 r_j is five times that of a range.
         let found = |value: f64| Some(value).filter(|_| count > 0);
@@ -101,19 +127,18 @@ impl<'a> Echoes<'a> {
         let (mut less, mut others) = (0, 0);
         let (mut angle, mut side_lobe) = (f64::INFINITY, f64::NEG_INFINITY);
         let tolerance = SAME * SQRT_2 * self.sigma_range;
-        for &j in self.by_range.within(range - tolerance..=range + tolerance) {
-            let over = self.strength.power[j] - power;
-            if j == i || over.is_nan() {
+        for other in self.by_range.within(range - tolerance..=range + tolerance) {
+            let over = other.power - power;
+            if other.detection == i || over.is_nan() {
                 continue;
             }
             others += 1;
             less += i32::from(over < 0.0);
-            let away = (self.azimuths[j] - self.azimuths[i]).abs();
-            if over > 0.0 {
-                angle = angle.min(away);
-            }
-            if away > SAME * SQRT_2 * self.sigma_azimuth && self.at_same_rate(i, j) {
-                side_lobe = side_lobe.max(over);
+            let away = (other.azimuth - self.azimuths[i]).abs();
+            angle = if (over > 0.0) & (away < angle) { away } else { angle };
+            let is_stronger = over > side_lobe && away > SAME * SQRT_2 * self.sigma_azimuth;
+            if is_stronger && self.at_same_rate(i, other.detection) {
+                side_lobe = over;
             }
         }
         Beside {

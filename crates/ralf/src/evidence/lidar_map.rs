@@ -108,28 +108,32 @@ fn observe(surroundings: &Surroundings) -> Vec<Values> {
     for (i, _) in surroundings.rows_by_place() {
         let probe = |probes: &[Option<Probe>]| probes[i].filter(is_on_map);
         let measured = probe(surroundings.probes()).map(|probe| (Around::look(map, &probe), probe));
-        let joint = probe(surroundings.joint_probes()).map(|probe| (Around::look(map, &probe), probe));
         let mut distances = |known: &Option<(Around, Probe)>| match known {
             Some((around, probe)) => around.distances(map, probe, &mut found).map(Some),
             None => [None; 4],
         };
-        let ([distance, chi, column_distance, column_sigmas], joint) =
-            (distances(&measured), distances(&joint));
+        let at_measured = distances(&measured);
+        let at_joint = if surroundings.is_placed_jointly(i) {
+            let joint = probe(surroundings.joint_probes()).map(|probe| (Around::look(map, &probe), probe));
+            distances(&joint)
+        } else {
+            at_measured
+        };
         let around = measured.as_ref().map(|(around, _)| around);
         let near = around.and_then(Around::near);
         let values = [
-            distance,
-            chi,
-            column_distance,
-            column_sigmas,
+            at_measured[0],
+            at_measured[1],
+            at_measured[2],
+            at_measured[3],
             near.map(|column| column.top),
             near.map(|column| column.bottom),
             around.map(|around| f64::from(around.voxels).ln_1p()),
             around.map(|around| f64::from(around.octants.count_ones()) / 8.0),
-            joint[0],
-            joint[1],
-            joint[2],
-            joint[3],
+            at_joint[0],
+            at_joint[1],
+            at_joint[2],
+            at_joint[3],
         ];
         set(&mut columns, i, values);
     }

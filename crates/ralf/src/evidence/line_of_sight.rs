@@ -77,8 +77,8 @@ fn observe(surroundings: &Surroundings) -> Vec<Values> {
     let mut columns = unobserved(FEATURES, frame.scan.len());
     let Some(lidar) = &frame.lidar_window else { return columns };
     let map = lidar.window.map();
-    for (i, probe) in surroundings.probes().iter().enumerate() {
-        let (Some(probe), Some(way)) = (probe, surroundings.ways()[i]) else { continue };
+    for (i, _) in surroundings.rows_by_place() {
+        let (Some(probe), Some(way)) = (surroundings.probes()[i], surroundings.ways()[i]) else { continue };
         let (cars, tall) = footprint(map, &probe.detection.position);
         let wall = way.last_tall.and_then(|place| Wall::at(map, place));
         let values = [

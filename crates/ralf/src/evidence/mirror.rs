@@ -42,8 +42,8 @@ fn observe(surroundings: &Surroundings) -> Vec<Values> {
     let spots: Vec<Option<Spot>> =
         frame.scan.detections.iter().map(|detection| detection.as_ref().map(Spot::new)).collect();
     let mut near = Vec::new();
-    for (i, detection) in frame.scan.detections.iter().enumerate() {
-        let Some(moved) = detection.map(|detection| detection.moved(&window_from_vehicle)) else { continue };
+    for (i, detection) in surroundings.rows_by_place() {
+        let moved = detection.moved(&window_from_vehicle);
         let behind = surroundings.ways()[i].map_or(0.0, |way| way.behind_first_tall);
         let Some(mirror) = Mirror::before(map, &radar, &moved.position, behind) else { continue };
         let image = mirror.reflect(&moved).moved(&lidar.vehicle_from_window);

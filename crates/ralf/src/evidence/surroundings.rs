@@ -60,10 +60,15 @@ impl<'a> Surroundings<'a> {
         })
     }
 
+    /// Whether other scans have a say in where a detection of the scan lies, so that its joint probe is another one.
+    pub(super) fn is_placed_jointly(&self, row: usize) -> bool {
+        self.recurrences()[row].joint.is_some_and(|joint| joint.scatter.is_some())
+    }
+
     /// What stands in the radar's way to each detection, as far as the LiDAR window's map reaches; no entry at all
     /// without a window.
     pub(super) fn ways(&self) -> &[Option<Way>] {
-        self.ways.get_or_init(|| ways(self.frame, self.probes()))
+        self.ways.get_or_init(|| ways(self.frame, self.probes(), self.rows_by_place().map(|(row, _)| row)))
     }
 
     /// The compensated range rates of the scan; `None` where the radar measures none.

@@ -64,7 +64,7 @@ fn run(filled: u64, along: impl Iterator<Item = u32>) -> u32 {
 /// The line of the columns at hand, drawn anew through what lies along it.
 fn line_of(columns: &[([f64; 2], f64)]) -> Option<Line> {
     let places = || columns.iter().map(|(place, _)| *place);
-    let mut chosen: Vec<[f64; 2]> = places().filter(|[x, y]| x.hypot(*y) <= NEAR).collect();
+    let mut chosen: Vec<[f64; 2]> = places().filter(|[x, y]| x * x + y * y <= NEAR * NEAR).collect();
     if chosen.len() < COLUMNS {
         return None;
     }
@@ -104,9 +104,19 @@ impl Line {
             yy += y * y;
         }
         // The principal axes of the scatter: half the trace, more and less by this.
-        let (half, apart) = (0.5 * (xx + yy), (0.5 * (xx - yy)).hypot(xy));
-        let angle = 0.5 * (2.0 * xy).atan2(xx - yy);
-        Self { middle, normal: [-angle.sin(), angle.cos()], scatter: [half - apart, half + apart] }
+        let (half, difference) = (0.5 * (xx + yy), 0.5 * (xx - yy));
+        let apart = (difference * difference + xy * xy).sqrt();
+        // The larger coordinate of the direction first: half of the angle whose cosine is `difference / apart`.
+        let larger = (0.5 * (apart + difference.abs()) / apart).sqrt();
+        let smaller = 0.5 * xy / (apart * larger);
+        let [x, y] = if apart == 0.0 {
+            [1.0, 0.0]
+        } else if difference >= 0.0 {
+            [larger, smaller]
+        } else {
+            [smaller.abs(), larger.copysign(xy)]
+        };
+        Self { middle, normal: [-y, x], scatter: [half - apart, half + apart] }
     }
 
     /// Whether the places scatter across the line by no more than this share of how they scatter along it.
@@ -128,6 +138,7 @@ impl Line {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use proptest::prelude::*;
 
     #[test]
     fn a_line_by_hand() {
@@ -143,8 +154,27 @@ mod tests {
         assert!(line.is_thin(0.25));
         let upright: Vec<[f64; 2]> = (0..9).map(|k| [3.0, f64::from(k)]).collect();
         assert!((Line::through(&upright).normal[0].abs() - 1.0).abs() < 1e-12);
+        let post = Line::through(&[[1.0, 2.0], [1.0, 2.0]]);
+        assert_eq!((post.normal, post.scatter), ([0.0, 1.0], [0.0, 0.0]));
         let heap: Vec<[f64; 2]> = (0..9).map(|k| [f64::from(k % 3), f64::from(k / 3)]).collect();
         assert!(!Line::through(&heap).is_thin(0.25));
+    }
+
+    proptest! {
+        #[test]
+        fn a_line_leads_along_half_the_angle_of_its_scatter(
+            places in prop::collection::vec([-3f64..3.0, -3f64..3.0], 2..30),
+        ) {
+            let line = Line::through(&places);
+            let beside = |axis: usize| places.iter().map(move |place| place[axis] - line.middle[axis]);
+            let product = |a: usize, b: usize| beside(a).zip(beside(b)).map(|(a, b)| a * b).sum::<f64>();
+            let [xx, xy, yy] = [product(0, 0), product(0, 1), product(1, 1)];
+            let angle = 0.5 * (2.0 * xy).atan2(xx - yy);
+            // Of a round heap no direction is the principal one.
+            prop_assume!((xx - yy).hypot(xy) > 1e-6);
+            prop_assert!((line.normal[0] + angle.sin()).abs() < 1e-6, "{line:?} {angle}");
+            prop_assert!((line.normal[1] - angle.cos()).abs() < 1e-6, "{line:?} {angle}");
+        }
     }
 
     #[test]

@@ -16,19 +16,24 @@ const OWN: f64 = 1.0;
 
 /// The ways from the radar to each detection; `None` for those without a position and beyond the map. No entry at all
 /// without a window of LiDAR scans.
-pub(super) fn ways(frame: &Frame, probes: &[Option<Probe>]) -> Vec<Option<Way>> {
+/// `rows` are those with a position.
+pub(super) fn ways(
+    frame: &Frame,
+    probes: &[Option<Probe>],
+    rows: impl Iterator<Item = usize>,
+) -> Vec<Option<Way>> {
     let Some(lidar) = &frame.lidar_window else { return Vec::new() };
     let map = lidar.window.map();
     let radar = lidar.to_window(&Point::from(frame.radar.vehicle_from_radar.translation.vector));
-    let mut ways = Vec::with_capacity(probes.len());
-    for probe in probes {
-        let detection = probe.map(|probe| probe.detection);
+    let mut ways = vec![None; probes.len()];
+    for row in rows {
+        let detection = probes[row].map(|probe| probe.detection);
         let on_map = detection.filter(|known| ColumnGrid::covers(known.position.x, known.position.y));
-        ways.push(on_map.map(|detection| {
+        ways[row] = on_map.map(|detection| {
             let direction = (radar - detection.position).try_normalize(1e-6).unwrap_or_else(Vector::x);
             let slack = 2.0 * detection.sigma_along(&direction);
             Way::march(map, &radar, &detection.position, slack)
-        }));
+        });
     }
     ways
 }

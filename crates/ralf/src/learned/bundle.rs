@@ -7,8 +7,9 @@ use super::way::{PLAYERS, Way};
 use std::ops::Range;
 use wide::i32x4;
 
-/// Cases of a bundle at most: more of them would make fewer bundles, but tables that leave the cache.
-const MOST_CASES: usize = 512;
+/// Cases of a bundle at most, unless it is a leaf alone, on whose way each group has two outcomes: more of them would
+/// make fewer bundles, but tables that leave the cache.
+const MOST_CASES: usize = 1024;
 /// Cases that one digit can count.
 const MOST_OF_DIGIT: usize = 256;
 /// Leaves of a bundle at most, a bit each.
@@ -25,10 +26,8 @@ pub(super) struct Bundle {
     digits: [Vec<Term>; 2],
     /// Cases that the first digit counts.
     low: u16,
-    /// What each group adds in each case, in some unit; none where there are too many cases.
+    /// What each group adds in each case, in some unit.
     table: Vec<Sums>,
-    /// The way to the only leaf, where there is no table, with what makes of log odds that unit.
-    way: Option<(Way, f64)>,
 }
 
 /// What the questions of all groups can come to on the ways to some leaves.
@@ -121,11 +120,7 @@ impl Bundle {
         for player in &cases.players {
             digits[player.digit].extend(player.outcomes.terms(player.stride));
         }
-        let (table, way) = match ways {
-            [way] if cases.count() > MOST_CASES => (Vec::new(), Some((way.clone(), scale))),
-            _ => (table(cases, ways, scale), None),
-        };
-        Self { digits, low: cases.counts[0] as u16, table, way }
+        Self { digits, low: cases.counts[0] as u16, table: table(cases, ways, scale) }
     }
 
     /// The case of each row of a block. `masks` are those of the tree.
@@ -138,31 +133,17 @@ impl Bundle {
 /// Adds what each group adds to a tree's answer for each row of a block. `masks` are those of the tree, of which these
 /// are all bundles.
 pub(super) fn add(bundles: &[Bundle], masks: &[Mask], added: &mut [Sums; BLOCK]) {
-    let mut looked_up = Vec::with_capacity(bundles.len());
-    for bundle in bundles {
-        let cases = bundle.cases(masks);
-        match &bundle.way {
-            None => looked_up.push((bundle.table.as_slice(), cases)),
-            Some((way, scale)) => {
-                for (sums, case) in added.iter_mut().zip(cases) {
-                    add_shares(sums, &in_units(way, usize::from(case), *scale));
-                }
-            }
-        }
-    }
+    let looked_up: Vec<(&[Sums], [u16; BLOCK])> =
+        bundles.iter().map(|bundle| (bundle.table.as_slice(), bundle.cases(masks))).collect();
     // Row by row, so that sums are taken and put back once.
     for (row, added) in added.iter_mut().enumerate() {
         let mut sums = *added;
         for (table, cases) in &looked_up {
-            add_shares(&mut sums, &table[usize::from(cases[row])]);
+            for (sums, shares) in sums.iter_mut().zip(&table[usize::from(cases[row])]) {
+                *sums += *shares;
+            }
         }
         *added = sums;
-    }
-}
-
-fn add_shares(sums: &mut Sums, shares: &Sums) {
-    for (sums, shares) in sums.iter_mut().zip(shares) {
-        *sums += *shares;
     }
 }
 
@@ -196,13 +177,4 @@ fn table(cases: &Cases, ways: &[Way], scale: f64) -> Vec<Sums> {
     }
     let in_units = |sums: [f64; PLAYERS]| sums_of(&sums.map(|sum| (sum * scale).round() as i32));
     table.into_iter().map(in_units).collect()
-}
-
-/// What each group adds on the only way of a bundle: each player has two outcomes, so that a case is a bit for each.
-fn in_units(way: &Way, case: usize, scale: f64) -> Sums {
-    let mut added = [0; PLAYERS];
-    for (group, share) in way.shares(case) {
-        added[group] = (share * scale).round() as i32;
-    }
-    sums_of(&added)
 }

@@ -154,7 +154,7 @@ mod tests {
     }
 
     #[test]
-    fn a_leaf_behind_too_many_groups_for_a_table_gets_its_share_too() {
+    fn a_leaf_behind_more_groups_than_leaves_together_may_have_gets_its_share_too() {
         let mut random = rand_pcg::Pcg64::seed_from_u64(4);
         let no = |feature: u16| {
             [split(feature, 0.9, true), leaf(f32::from(feature) - 5.5, 1.0 + f32::from(feature))]

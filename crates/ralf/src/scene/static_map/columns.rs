@@ -76,20 +76,16 @@ impl ColumnGrid {
                 self.away[row / BLOCK * BLOCKS + column / BLOCK] = 0;
             }
         }
-        // There and back, as ways lead from block to block.
-        let mut pull = |row: usize, column: usize, [down, right]: [isize; 2]| {
-            let block = row * BLOCKS + column;
-            for [row_step, column_step] in [[0, right], [down, right], [down, 0], [down, -right]] {
-                let beside = row.checked_add_signed(row_step).zip(column.checked_add_signed(column_step));
-                if let Some((row, column)) = beside.filter(|(row, column)| *row.max(column) < BLOCKS) {
-                    let next = self.away[row * BLOCKS + column].saturating_add(1);
-                    self.away[block] = self.away[block].min(next);
-                }
-            }
-        };
-        let blocks = || (0..BLOCKS).flat_map(|row| (0..BLOCKS).map(move |column| (row, column)));
-        blocks().for_each(|(row, column)| pull(row, column, [-1, -1]));
-        blocks().rev().for_each(|(row, column)| pull(row, column, [1, 1]));
+        // There and back, as ways lead from block to block: backward is forward where the last block is the first.
+        for _ in 0..2 {
+            spread(&mut self.away);
+            self.away.reverse();
+        }
+    }
+
+    /// Whether anything stands in a column.
+    pub(super) fn is_filled(&self, cell: usize) -> bool {
+        self.filled[cell / CELLS * WORDS + cell % CELLS / 64] >> (cell % 64) & 1 != 0
     }
 
     /// What stands at a place, `None` beyond the map and where nothing stands; and how far a way goes on from there,
@@ -115,8 +111,8 @@ impl ColumnGrid {
     }
 
     fn in_cell(&self, row: usize, place: usize) -> Option<Column> {
-        let filled = self.filled[row * WORDS + place / 64] >> (place % 64) & 1;
-        (filled != 0).then(|| column(self.voxels[row * CELLS + place]))
+        let cell = row * CELLS + place;
+        self.is_filled(cell).then(|| column(self.voxels[cell]))
     }
 
     /// Whether the map reaches to a place.
@@ -137,6 +133,24 @@ impl ColumnGrid {
                 ([middle(place) - x, middle(row) - y], column(self.voxels[row * CELLS + place]))
             })
         })
+    }
+}
+
+/// Every block is at most one farther away than those before and above it.
+fn spread(away: &mut [u8]) {
+    // With a border from which nothing comes.
+    let mut above = [u8::MAX; BLOCKS + 2];
+    for row in away.chunks_exact_mut(BLOCKS) {
+        for (away, above) in row.iter_mut().zip(above.windows(3)) {
+            let next = above[0].min(above[1]).min(above[2]).saturating_add(1);
+            *away = next.min(*away);
+        }
+        let mut next = u8::MAX;
+        for away in row.iter_mut() {
+            *away = next.min(*away);
+            next = away.saturating_add(1);
+        }
+        above[1..=BLOCKS].copy_from_slice(row);
     }
 }
 

@@ -54,7 +54,7 @@ impl StaticMap {
         }
         columns.finish();
         let mut cells = cells.iter();
-        points.retain(|_| cells.next().is_none_or(|cell| moved.binary_search(cell).is_err()));
+        points.retain(|_| cells.next().is_none_or(|cell| columns.is_filled(*cell as usize)));
         let ids: Vec<u32> = (0..points.len() as u32).collect();
         Self { index: NeighborIndex::new(&points, &ids), points, columns }
     }
