@@ -24,6 +24,7 @@ import argparse
 import re
 import sys
 from pathlib import Path
+from typing import NamedTuple
 
 import lightgbm
 import numpy
@@ -112,25 +113,66 @@ def calibration_error(p, truth):
     return sum(abs((p - truth)[cell == i].sum()) for i in range(CELLS)) / len(truth)
 
 
-def out_of_fold(features, truth, family, holds, options):
-    """Scores of every row by trees that never saw its family; none of a mixture's. `holds` tells of each row which families
-    its world has parts of."""
-    scores = numpy.full(len(truth), numpy.nan)
-    for left_out in range(holds.shape[1]):
-        train = numpy.flatnonzero(~holds[:, left_out])
+class Worlds(NamedTuple):
+    """The rows of all worlds, one world after the other."""
+    families: list
+    features: numpy.ndarray
+    paper: numpy.ndarray
+    labels: numpy.ndarray
+    truth: numpy.ndarray
+    scan: numpy.ndarray
+    sequence: numpy.ndarray
+    # Of each row the place of its family, or MIXTURE, and which families its world has parts of.
+    family: numpy.ndarray
+    holds: numpy.ndarray
+
+
+def read_worlds(options, names):
+    """The worlds that the command names. Each is let go as soon as its rows are copied, so that none is held twice."""
+    worlds = [[name, *some_of(read_world(dataset, out, names), options.of_world, options.seed)]
+              for name, dataset, out in options.world]
+    families = sorted({world[0] for world in worlds if "+" not in world[0]})
+    if len(families) < 2:
+        sys.exit("two families or more, so that one can be left out")
+    lengths, parts = [len(world[4]) for world in worlds], [world[0].split("+") for world in worlds]
+    firsts = numpy.cumsum([0] + [world[5].max() + 1 for world in worlds])[:-1]
+    number = lambda part: families.index(part[0]) if len(part) == 1 else MIXTURE
+    features, paper, labels, truth, scan, sequence = (together(worlds, column) for column in range(1, 7))
+    return Worlds(
+        families, features, paper, labels, truth, scan + numpy.repeat(firsts, lengths), sequence,
+        family=numpy.repeat([number(part) for part in parts], lengths),
+        holds=numpy.repeat([[name in part for name in families] for part in parts], lengths, axis=0),
+    )
+
+
+def together(worlds, column):
+    """A column of all worlds, which is taken from them."""
+    rows, first = sum(len(world[column]) for world in worlds), worlds[0][column]
+    joined, end = numpy.empty((rows, *first.shape[1:]), first.dtype), 0
+    for world in worlds:
+        begin, end = end, end + len(world[column])
+        joined[begin:end], world[column] = world[column], world[column][:0].copy()
+    return joined
+
+
+def out_of_fold(features, worlds, options):
+    """Scores of every row by trees that never saw its family; none of a mixture's."""
+    scores = numpy.full(len(worlds.truth), numpy.nan)
+    for left_out in range(len(worlds.families)):
+        train = numpy.flatnonzero(~worlds.holds[:, left_out])
         if len(train) > options.rows:
             train = numpy.sort(numpy.random.default_rng(options.seed).choice(train, options.rows, replace=False))
-        data = lightgbm.Dataset(features[train], truth[train])
+        data = lightgbm.Dataset(features[train], worlds.truth[train])
         model = lightgbm.train(parameters(options), data, options.rounds)
-        here = family == left_out
+        here = worlds.family == left_out
         scores[here] = model.predict(features[here])
     return scores
 
 
-def judge(scores, truth, family):
+def judge(scores, worlds):
     """F1, average precision, accuracy and calibration error of each family, by what the others say."""
-    rows = []
-    for left_out in range(family.max() + 1):
+    truth, family, rows = worlds.truth, worlds.family, []
+    for left_out in range(len(worlds.families)):
         here, others = family == left_out, (family != left_out) & (family != MIXTURE)
         line = IsotonicRegression(out_of_bounds="clip").fit(scores[others], truth[others])
         p, labels = line.predict(scores[here]), scores[here] >= best_threshold(scores[others], truth[others])
@@ -140,15 +182,16 @@ def judge(scores, truth, family):
     return numpy.array(rows)
 
 
-def corrected(features, truth, family, holds, scan, sequence, options):
+def corrected(worlds, options):
     """Average precision and F1 (at even odds) of each family by a model of the others, with some scans of its own."""
+    features, truth, scan = worlds.features, worlds.truth, worlds.scan
     draw = numpy.random.default_rng(options.seed)
     known_half, drawn = draw.random(scan.max() + 1) < 0.5, draw.random(scan.max() + 1)
-    half = sequence % 2 == 0 if options.apart else known_half[scan]
+    half = worlds.sequence % 2 == 0 if options.apart else known_half[scan]
     rows = []
-    for left_out in range(family.max() + 1):
-        here = family == left_out
-        others, test = numpy.flatnonzero(~holds[:, left_out]), here & ~half
+    for left_out in range(len(worlds.families)):
+        here = worlds.family == left_out
+        others, test = numpy.flatnonzero(~worlds.holds[:, left_out]), here & ~half
         others = draw.choice(others, min(options.rows, len(others)), replace=False)
         some = numpy.flatnonzero(here & half & (drawn[scan] < 2 * options.corrected))
         row = []
@@ -161,7 +204,44 @@ def corrected(features, truth, family, holds, scan, sequence, options):
     return numpy.array(rows)
 
 
-def main():
+def print_corrected(worlds, options):
+    print("| family | none: AP | F1 | weight 1: AP | F1 | 5: AP | F1 | 20: AP | F1 | half of all scans: AP | F1 |")
+    print("| --- " * 11 + "|")
+    rows = corrected(worlds, options)
+    for name, row in zip([*worlds.families, "mean"], [*rows, rows.mean(0)]):
+        print(f"| {name} | {' | '.join(f'{value:.3f}' for value in row)} |")
+
+
+def print_families(worlds, every, of_paper):
+    """`every` is what judge() says of all evidence, `of_paper` what it says of the paper's columns."""
+    print("| family left out | detections | plausible | F1 | AP | accuracy | ECE | paper's columns: F1 | AP | paper's method: F1 | AP |")
+    print("| --- " * 11 + "|")
+    lines = []
+    for number, name in enumerate(worlds.families):
+        here = worlds.family == number
+        labels, truth, w = worlds.labels[here] == 1, worlds.truth[here], worlds.paper[here, -1]
+        method = [f1_of(labels, truth == 1), average_precision_score(truth, w)]
+        lines.append([*every[number], *of_paper[number, :2], *method])
+        told = " | ".join(f"{value:.3f}" for value in lines[-1])
+        print(f"| {name} | {here.sum()} | {truth.mean():.1%} | {told} |")
+    print(f"| mean | | | {' | '.join(f'{value:.3f}' for value in numpy.mean(lines, axis=0))} |", flush=True)
+
+
+def print_groups(worlds, groups, every, options):
+    """`groups` tells the group of each column of the features, `every` is what judge() says of all of them."""
+    print("\n| group left out | columns | F1 | change | AP | change |\n| --- | --- | --- | --- | --- | --- |")
+    of_column = numpy.array(list(groups.values()))
+    for group in dict.fromkeys(groups.values()):
+        kept = of_column != group
+        if not kept.any():
+            continue
+        rows = judge(out_of_fold(worlds.features[:, kept], worlds, options), worlds)
+        (f1, precision), change = rows[:, :2].mean(0), (rows - every)[:, :2].mean(0)
+        told = f"{f1:.3f} | {change[0]:+.3f} | {precision:.3f} | {change[1]:+.3f}"
+        print(f"| {group} | {(~kept).sum()} | {told} |", flush=True)
+
+
+def read_options():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--world", nargs=3, action="append", required=True, metavar=("FAMILY", "DATASET", "OUT"))
     parser.add_argument("--rounds", type=int, default=220, help="trees")
@@ -173,53 +253,22 @@ def main():
     parser.add_argument("--no-groups", action="store_true", help="leave out the table of groups")
     parser.add_argument("--corrected", type=float, metavar="SHARE", help="what corrections of so many scans bring")
     parser.add_argument("--apart", action="store_true", help="correct in every other sequence, and judge in those between")
-    options = parser.parse_args()
-    groups = groups_of_features()
-    names = list(groups)
-    read = lambda dataset, out: some_of(read_world(dataset, out, names), options.of_world, options.seed)
-    worlds = [(name, *read(dataset, out)) for name, dataset, out in options.world]
-    features, paper, labels, truth = (numpy.concatenate([world[i] for world in worlds]) for i in range(1, 5))
-    firsts = numpy.cumsum([0] + [world[5].max() + 1 for world in worlds])
-    scan = numpy.concatenate([world[5] + first for world, first in zip(worlds, firsts)])
-    sequence = numpy.concatenate([world[6] for world in worlds])
-    families = sorted({world[0] for world in worlds if "+" not in world[0]})
-    number = lambda name: families.index(name) if name in families else MIXTURE
-    family = numpy.concatenate([numpy.full(len(world[4]), number(world[0])) for world in worlds])
-    of_world = [[name in world[0].split("+") for name in families] for world in worlds]
-    holds = numpy.repeat(of_world, [len(world[4]) for world in worlds], axis=0)
-    if len(families) < 2:
-        sys.exit("two families or more, so that one can be left out")
+    return parser.parse_args()
+
+
+def main():
+    options, groups = read_options(), groups_of_features()
+    worlds = read_worlds(options, list(groups))
     if options.corrected:
-        print("| family | none: AP | F1 | weight 1: AP | F1 | 5: AP | F1 | 20: AP | F1 | half of all scans: AP | F1 |")
-        print("| --- " * 11 + "|")
-        rows = corrected(features, truth, family, holds, scan, sequence, options)
-        for name, row in zip([*families, "mean"], [*rows, rows.mean(0)]):
-            print(f"| {name} | {' | '.join(f'{value:.3f}' for value in row)} |")
+        print_corrected(worlds, options)
         return
-    every = judge(out_of_fold(features, truth, family, holds, options), truth, family)
-    of_paper = judge(out_of_fold(paper, truth, family, holds, options), truth, family)
-    print(f"{len(truth)} detections, {truth.mean():.1%} plausible, {len(names)} columns of evidence, seed {options.seed}\n")
-    print("| family left out | detections | plausible | F1 | AP | accuracy | ECE | paper's columns: F1 | AP | paper's method: F1 | AP |")
-    print("| --- " * 11 + "|")
-    lines = []
-    for number, name in enumerate(families):
-        here = family == number
-        method = [f1_of(labels[here] == 1, truth[here] == 1), average_precision_score(truth[here], paper[here, -1])]
-        lines.append([*every[number], *of_paper[number, :2], *method])
-        told = " | ".join(f"{value:.3f}" for value in lines[-1])
-        print(f"| {name} | {here.sum()} | {truth[here].mean():.1%} | {told} |")
-    print(f"| mean | | | {' | '.join(f'{value:.3f}' for value in numpy.mean(lines, axis=0))} |")
-    if options.no_groups:
-        return
-    print("\n| group left out | columns | F1 | change | AP | change |\n| --- | --- | --- | --- | --- | --- |")
-    for group in dict.fromkeys(groups.values()):
-        kept = [i for i, name in enumerate(names) if groups[name] != group]
-        if not kept:
-            continue
-        rows = judge(out_of_fold(features[:, kept], truth, family, holds, options), truth, family)
-        (f1, precision), change = rows[:, :2].mean(0), (rows - every)[:, :2].mean(0)
-        columns = len(names) - len(kept)
-        print(f"| {group} | {columns} | {f1:.3f} | {change[0]:+.3f} | {precision:.3f} | {change[1]:+.3f} |", flush=True)
+    every = judge(out_of_fold(worlds.features, worlds, options), worlds)
+    of_paper = judge(out_of_fold(worlds.paper, worlds, options), worlds)
+    rows, share = len(worlds.truth), worlds.truth.mean()
+    print(f"{rows} detections, {share:.1%} plausible, {len(groups)} columns of evidence, seed {options.seed}\n")
+    print_families(worlds, every, of_paper)
+    if not options.no_groups:
+        print_groups(worlds, groups, every, options)
 
 
 if __name__ == "__main__":
