@@ -69,10 +69,13 @@ fn line_of(columns: &[([f64; 2], f64)]) -> Option<Line> {
         return None;
     }
     let mut line = Line::through(&chosen);
+    let mut before = Vec::with_capacity(columns.len());
     for _ in 0..TIMES {
+        std::mem::swap(&mut chosen, &mut before);
         chosen.clear();
         chosen.extend(places().filter(|place| line.across(*place).abs() < THICK));
-        if chosen.len() < COLUMNS {
+        // Through the same columns leads the same line.
+        if chosen.len() < COLUMNS || chosen == before {
             break;
         }
         line = Line::through(&chosen);
