@@ -1,0 +1,58 @@
+#!/usr/bin/env python3
+"""What it costs to believe less what only the radar tells of (docs/learned.md), by why nobody else does.
+
+    unconfirmed.py --world FAMILY DATASET OUT [--world FAMILY DATASET OUT]... [further options of judge_families.py]
+
+Gradient-boosted trees that never saw a family of worlds label that family, as judge_families.py has it; then the odds of what
+is unconfirmed are multiplied by 0.03: of none, of what lies beyond the LiDAR's map, of where no ray goes, of what lies behind
+walls, of the last two, of all. Printed are means over the families left out, and of each kind how many there are and how many
+of them are plausible.
+
+Needs what judge_families.py needs.
+"""
+
+import numpy
+from judge_families import groups_of_features, judge, out_of_fold, read_options, read_worlds
+
+FACTOR = 0.03
+
+
+def kinds_of(features, names):
+    """Which rows are unconfirmed beyond the map, where no ray goes, and behind walls; the rule is that of
+    crates/ralf/src/learned/unconfirmed.rs, whose comparisons are false where something is absent, too."""
+    value = lambda name: features[:, names.index(name)]
+    unseen, away = value("lidar_unseen"), value("map_distance")
+    known = ~numpy.isnan(unseen) & ~((value("lidar_chi") < 3) | (value("lidar_moving_near") > 0))
+    beyond, no_ray = numpy.isnan(away), unseen >= 1
+    walled = (value("sight_wall_top") > 2.5) & (value("sight_wall_length") >= 4)
+    hidden = walled & (unseen + value("lidar_occluded") >= 0.999) & ~(value("lidar_window_chi_least") < 3)
+    out_of_sight = (beyond | no_ray) & ~(away < 3)
+    return known & out_of_sight & beyond, known & out_of_sight & ~beyond, known & hidden & ~out_of_sight
+
+
+def weighed(scores, unconfirmed):
+    odds = numpy.clip(scores, 1e-5, 1 - 1e-5)
+    odds = odds / (1 - odds) * numpy.where(unconfirmed, FACTOR, 1)
+    return odds / (1 + odds)
+
+
+def main():
+    options, names = read_options(), list(groups_of_features())
+    worlds = read_worlds(options, names)
+    scores = out_of_fold(worlds.features, worlds, options)
+    beyond, no_ray, walled = kinds_of(worlds.features, names)
+    nothing = numpy.zeros(len(scores), bool)
+    kinds = {
+        "nothing": nothing, "where no ray goes": no_ray, "behind walls": walled, "both": no_ray | walled,
+        "beyond the map": beyond, "all of it": beyond | no_ray | walled,
+    }
+    print("| believed less | of all | plausible of it | F1 | AP | accuracy | ECE |")
+    print("| --- " * 7 + "|")
+    for name, kind in kinds.items():
+        told = " | ".join(f"{value:.3f}" for value in judge(weighed(scores, kind), worlds).mean(0))
+        plausible = f"{(worlds.truth[kind] == 1).mean():.1%}" if kind.any() else ""
+        print(f"| {name} | {kind.mean():.1%} | {plausible} | {told} |", flush=True)
+
+
+if __name__ == "__main__":
+    main()
