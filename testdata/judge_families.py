@@ -241,8 +241,8 @@ def print_groups(worlds, groups, every, options):
         print(f"| {group} | {(~kept).sum()} | {told} |", flush=True)
 
 
-def read_options():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+def read_options(description):
+    parser = argparse.ArgumentParser(description=description, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--world", nargs=3, action="append", required=True, metavar=("FAMILY", "DATASET", "OUT"))
     parser.add_argument("--rounds", type=int, default=220, help="trees")
     parser.add_argument("--leaves", type=int, default=31, help="most leaves of a tree")
@@ -257,7 +257,7 @@ def read_options():
 
 
 def main():
-    options, groups = read_options(), groups_of_features()
+    options, groups = read_options(__doc__), groups_of_features()
     worlds = read_worlds(options, list(groups))
     if options.corrected:
         print_corrected(worlds, options)

@@ -37,7 +37,7 @@ def weighed(scores, unconfirmed):
 
 
 def main():
-    options, names = read_options(), list(groups_of_features())
+    options, names = read_options(__doc__), list(groups_of_features())
     worlds = read_worlds(options, names)
     scores = out_of_fold(worlds.features, worlds, options)
     beyond, no_ray, walled = kinds_of(worlds.features, names)

@@ -98,7 +98,10 @@ fn crowd(surroundings: &Surroundings) -> Vec<f64> {
 fn crowd_around(surroundings: &Surroundings) -> Vec<f64> {
     let around = surroundings.neighbours();
     let mut crowd = vec![f64::NAN; surroundings.frame.scan.len()];
-    for (row, detection) in surroundings.rows_by_place().filter(|_| !around.radars.is_empty()) {
+    if around.radars.is_empty() {
+        return crowd;
+    }
+    for (row, detection) in surroundings.rows_by_place() {
         let place = [detection.position.x as f32, detection.position.y as f32];
         crowd[row] = around.index.count_beside(place, NEAR as f32) as f64;
     }

@@ -25,6 +25,11 @@ pub(super) struct Joint {
 }
 
 impl Joint {
+    /// Whether other scans have a say in it.
+    pub(super) fn is_of_several(&self) -> bool {
+        self.scatter.is_some()
+    }
+
     /// Of a detection by itself.
     pub(super) fn alone(detection: &Detection) -> Self {
         Self { detection: *detection, shift: 0.0, scatter: None }

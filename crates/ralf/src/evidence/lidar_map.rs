@@ -106,16 +106,14 @@ fn observe(surroundings: &Surroundings) -> Vec<Values> {
     let map = lidar.window.map();
     let mut found = Vec::new();
     for (i, _) in surroundings.rows_by_place() {
-        let probe = |probes: &[Option<Probe>]| probes[i].filter(is_on_map);
-        let measured = probe(surroundings.probes()).map(|probe| (Around::look(map, &probe), probe));
+        let measured = look(map, surroundings.probes()[i]);
         let mut distances = |known: &Option<(Around, Probe)>| match known {
             Some((around, probe)) => around.distances(map, probe, &mut found).map(Some),
             None => [None; 4],
         };
         let at_measured = distances(&measured);
         let at_joint = if surroundings.is_placed_jointly(i) {
-            let joint = probe(surroundings.joint_probes()).map(|probe| (Around::look(map, &probe), probe));
-            distances(&joint)
+            distances(&look(map, surroundings.joint_probes()[i]))
         } else {
             at_measured
         };
@@ -140,9 +138,11 @@ fn observe(surroundings: &Surroundings) -> Vec<Values> {
     columns
 }
 
-fn is_on_map(probe: &Probe) -> bool {
+/// What stands around a detection that lies on the map.
+fn look(map: &StaticMap, probe: Option<Probe>) -> Option<(Around, Probe)> {
+    let probe = probe?;
     let p = probe.detection.position;
-    ColumnGrid::covers(p.x, p.y)
+    ColumnGrid::covers(p.x, p.y).then(|| (Around::look(map, &probe), probe))
 }
 
 /// The Euclidean distance from the nearest point, and the least Mahalanobis distance.

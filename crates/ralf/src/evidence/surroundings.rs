@@ -54,15 +54,18 @@ impl<'a> Surroundings<'a> {
     /// The same where the radar's own scans around together place what stands still ([`Joint`](super::joint::Joint)).
     pub(super) fn joint_probes(&self) -> &[Option<Probe>] {
         self.joint_probes.get_or_init(|| {
-            let joint =
-                self.recurrences().iter().map(|known| known.joint.as_ref().map(|joint| &joint.detection));
-            probes(self.frame, joint)
+            let of_several = self.recurrences().iter().map(|known| {
+                let joint = known.joint.as_ref().filter(|joint| joint.is_of_several());
+                joint.map(|joint| &joint.detection)
+            });
+            let joint = probes(self.frame, of_several);
+            self.probes().iter().zip(joint).map(|(alone, joint)| joint.or(*alone)).collect()
         })
     }
 
     /// Whether other scans have a say in where a detection of the scan lies, so that its joint probe is another one.
     pub(super) fn is_placed_jointly(&self, row: usize) -> bool {
-        self.recurrences()[row].joint.is_some_and(|joint| joint.scatter.is_some())
+        self.recurrences()[row].joint.is_some_and(|joint| joint.is_of_several())
     }
 
     /// What stands in the radar's way to each detection, as far as the LiDAR window's map reaches; no entry at all

@@ -7,7 +7,7 @@ use crate::evidence::GROUPS;
 pub(super) const PLAYERS: usize = GROUPS.len();
 
 /// The way to a leaf.
-#[derive(Debug, Clone)]
+#[derive(Debug)]
 pub(super) struct Way {
     /// The leaf's answer.
     pub(super) value: f64,

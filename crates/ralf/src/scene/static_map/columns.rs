@@ -59,13 +59,15 @@ impl ColumnGrid {
     /// Fills the voxel of a column at a level.
     pub(super) fn add(&mut self, cell: usize, level: i32) {
         self.voxels[cell] |= 1 << level;
-        self.filled[cell / CELLS * WORDS + cell % CELLS / 64] |= 1 << (cell % 64);
+        let (word, bit) = bit_of(cell);
+        self.filled[word] |= bit;
     }
 
     /// Empties a column.
     pub(super) fn clear(&mut self, cell: usize) {
         self.voxels[cell] = 0;
-        self.filled[cell / CELLS * WORDS + cell % CELLS / 64] &= !(1 << (cell % 64));
+        let (word, bit) = bit_of(cell);
+        self.filled[word] &= !bit;
     }
 
     /// To be called when nothing more is filled or emptied, before [`Self::at`].
@@ -85,7 +87,8 @@ impl ColumnGrid {
 
     /// Whether anything stands in a column.
     pub(super) fn is_filled(&self, cell: usize) -> bool {
-        self.filled[cell / CELLS * WORDS + cell % CELLS / 64] >> (cell % 64) & 1 != 0
+        let (word, bit) = bit_of(cell);
+        self.filled[word] & bit != 0
     }
 
     /// What stands at a place, `None` beyond the map and where nothing stands; and how far a way goes on from there,
@@ -97,7 +100,7 @@ impl ColumnGrid {
         let block = [place / BLOCK, row / BLOCK];
         let away = self.away[block[1] * BLOCKS + block[0]];
         if away == 0 {
-            return (self.in_cell(row, place), 0.0);
+            return (self.in_cell(cell), 0.0);
         }
         // The square of empty blocks around this one ends at that border to which the way comes first.
         let to_border = |v: f64, block: usize, length: f64| {
@@ -110,8 +113,7 @@ impl ColumnGrid {
         (None, (free - ROUNDING).max(0.0))
     }
 
-    fn in_cell(&self, row: usize, place: usize) -> Option<Column> {
-        let cell = row * CELLS + place;
+    fn in_cell(&self, cell: usize) -> Option<Column> {
         self.is_filled(cell).then(|| column(self.voxels[cell]))
     }
 
@@ -134,6 +136,12 @@ impl ColumnGrid {
             })
         })
     }
+}
+
+/// The word and the bit of a column in rows of bits.
+fn bit_of(cell: usize) -> (usize, u64) {
+    let (row, place) = (cell / CELLS, cell % CELLS);
+    (row * WORDS + place / 64, 1 << (place % 64))
 }
 
 /// Every block is at most one farther away than those before and above it.
