@@ -178,28 +178,61 @@ fn whole_scan(bencher: Bencher) {
     bencher.bench_local(|| observe(black_box(&frame), &CONFIG));
 }
 
-/// What the shipped model makes of the evidence, the paper's method with it; evidence is there. It is asked about all
-/// detections, though the street is unlike what it knows.
+/// The shipped model, whose limits let it answer for all detections, though the street is unlike what it knows.
+fn learned_config(reasons: bool) -> Config {
+    let mut config = Config::default();
+    config.learned.max_novelty = 1.0;
+    config.learned.reasons = reasons;
+    config
+}
+
+/// What the shipped model makes of the evidence, the paper's method with it; evidence is there.
 #[divan::bench(args = ["without reasons", "with reasons"])]
 fn learned(bencher: Bencher, reasons: &str) {
     let frame = frame();
     let columns = observe(&frame, &CONFIG);
-    let mut config = Config::default();
-    config.learned.max_novelty = 1.0;
-    config.learned.reasons = reasons == "with reasons";
+    let config = learned_config(reasons == "with reasons");
     let model = Model::shipped().expect("a model");
     let labeler = LearnedLabeler::new(&config, &model).expect("a model of this program");
     bencher.bench_local(|| labeler.label(black_box(&frame), &columns));
 }
 
-/// Twenty scans in a row with all that is made for them, LiDAR scans and windows too: twenty times what a scan costs.
-#[divan::bench(sample_count = 10)]
-fn twenty_scans(bencher: Bencher) {
-    bencher.bench_local(|| {
-        let mut window = FrameWindow::new(&*STREET, &STREET.sequence().rig, &CONFIG).with_evidence();
-        for scan in 8..28 {
-            let frame = window.frame(0, scan).expect("the street can be read");
-            black_box(observe(&frame, &CONFIG));
+const FIRST: usize = 8;
+const SCANS: usize = 20;
+
+/// What is asked of a frame.
+type Ask<'a> = &'a dyn Fn(&Frame);
+
+/// Twenty scans in a row in the midst of a drive, the one before them is there; with all that is made for them, new
+/// LiDAR scans and windows too.
+fn in_a_row(bencher: Bencher, config: &Config, ask: Ask) {
+    let before = || {
+        let mut window = FrameWindow::new(&*STREET, &STREET.sequence().rig, config).with_evidence();
+        ask(&window.frame(0, FIRST - 1).expect("the street can be read"));
+        window
+    };
+    bencher.with_inputs(before).bench_local_refs(|window| {
+        for scan in FIRST..FIRST + SCANS {
+            ask(&window.frame(0, scan).expect("the street can be read"));
         }
+    });
+}
+
+/// Evidence on [`in_a_row`]: twenty times what a scan costs.
+#[divan::bench(sample_count = 20)]
+fn twenty_scans(bencher: Bencher) {
+    in_a_row(bencher, &CONFIG, &|frame| {
+        black_box(observe(frame, &CONFIG));
+    });
+}
+
+/// The same with labels of the shipped model, and reasons.
+#[divan::bench(sample_count = 20)]
+fn twenty_scans_learned(bencher: Bencher) {
+    let config = learned_config(true);
+    let model = Model::shipped().expect("a model");
+    let labeler = LearnedLabeler::new(&config, &model).expect("a model of this program");
+    in_a_row(bencher, &config, &|frame| {
+        black_box(labeler.label(frame, &observe(frame, &config)));
     });
 }

@@ -5,19 +5,27 @@ use crate::scene::median;
 /// For each value which share of the others is less, in [0, 1]; equal ones count half. `None` where it is no number,
 /// and where there are no others.
 pub(super) fn ranks(values: &[f64]) -> Vec<Option<f64>> {
-    let sorted = sorted(values);
+    let numbers = values.iter().copied().enumerate().filter(|(_, value)| value.is_finite());
+    let mut sorted: Vec<(usize, f64)> = numbers.collect();
+    sorted.sort_unstable_by(|(_, a), (_, b)| a.total_cmp(b));
     let others = sorted.len().saturating_sub(1);
-    let rank = |value: &f64| {
-        let less = sorted.partition_point(|other| other < value);
-        let equal = sorted.partition_point(|other| other <= value) - less;
-        (value.is_finite() && others > 0).then(|| (less as f64 + 0.5 * (equal as f64 - 1.0)) / others as f64)
-    };
-    values.iter().map(rank).collect()
+    let mut ranks = vec![None; values.len()];
+    let mut less = 0;
+    for equal in sorted.chunk_by(|(_, a), (_, b)| a == b) {
+        let rank = (less as f64 + 0.5 * (equal.len() as f64 - 1.0)) / others as f64;
+        equal.iter().for_each(|(row, _)| ranks[*row] = Some(rank).filter(|_| others > 0));
+        less += equal.len();
+    }
+    ranks
 }
 
 /// The least value that at least this share of the values doesn't exceed; `None` where there is no number.
 pub(super) fn quantile(values: &[f64], share: f64) -> Option<f64> {
-    quantile_guessed(values, share, f64::INFINITY)
+    /// One in so many is asked first for twice the share, which is mostly a little more.
+    const FEW: usize = 16;
+    let few: Vec<f64> = values.iter().copied().step_by(FEW).collect();
+    let guess = quantile_guessed(&few, (2.0 * share).min(1.0), f64::INFINITY);
+    quantile_guessed(values, share, guess.unwrap_or(f64::INFINITY))
 }
 
 /// The same, told the sooner the fewer values lie at or below a guess that is no less than it.
@@ -47,12 +55,6 @@ fn at_most(values: &[f64], limit: f64) -> Vec<f64> {
 /// The median of those values that are numbers.
 pub(super) fn median_of(values: &[f64]) -> Option<f64> {
     median(values.iter().copied().filter(|value| value.is_finite()).collect())
-}
-
-fn sorted(values: &[f64]) -> Vec<f64> {
-    let mut finite: Vec<f64> = values.iter().copied().filter(|value| value.is_finite()).collect();
-    finite.sort_by(f64::total_cmp);
-    finite
 }
 
 #[cfg(test)]

@@ -155,21 +155,21 @@ pub(super) struct Directions {
 impl Directions {
     /// Some at a time, which the compiler turns into vector instructions.
     pub(super) fn of(points: &[[f32; 3]]) -> Self {
-        let room = || Vec::with_capacity(points.len().next_multiple_of(LANES));
+        let room = || vec![0.0; points.len().next_multiple_of(LANES)];
         let mut all = Self { azimuth: room(), elevation: room(), range: room() };
-        for points in points.chunks(LANES) {
+        let [azimuths, elevations, ranges] = [&mut all.azimuth, &mut all.elevation, &mut all.range]
+            .map(|column| column.as_chunks_mut::<LANES>().0.iter_mut());
+        let columns = azimuths.zip(elevations).zip(ranges);
+        for (points, ((azimuth, elevation), range)) in points.chunks(LANES).zip(columns) {
             let mut axes = [[0.0; LANES]; 3];
             for (lane, point) in points.iter().enumerate() {
                 [axes[0][lane], axes[1][lane], axes[2][lane]] = *point;
             }
             let [x, y, z] = axes;
             let across: [f32; LANES] = std::array::from_fn(|lane| across_squared(x[lane], y[lane]));
-            let azimuth: [f32; LANES] = std::array::from_fn(|lane| arc_tangent(y[lane], x[lane]));
-            let elevation: [f32; LANES] = std::array::from_fn(|lane| elevation_of(z[lane], across[lane]));
-            let range: [f32; LANES] = std::array::from_fn(|lane| range_of(z[lane], across[lane]));
-            all.azimuth.extend_from_slice(&azimuth);
-            all.elevation.extend_from_slice(&elevation);
-            all.range.extend_from_slice(&range);
+            *azimuth = std::array::from_fn(|lane| arc_tangent(y[lane], x[lane]));
+            *elevation = std::array::from_fn(|lane| elevation_of(z[lane], across[lane]));
+            *range = std::array::from_fn(|lane| range_of(z[lane], across[lane]));
         }
         for column in [&mut all.azimuth, &mut all.elevation, &mut all.range] {
             column.truncate(points.len());

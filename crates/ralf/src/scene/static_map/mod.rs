@@ -62,8 +62,7 @@ impl StaticMap {
 
 /// The first point of each voxel above the ground.
 struct Voxels {
-    /// A bit for each voxel above a place.
-    filled: Vec<u64>,
+    filled: Filled,
     points: Vec<[f32; 3]>,
     /// The column of each point.
     cells: Vec<u32>,
@@ -72,8 +71,12 @@ struct Voxels {
 
 impl Voxels {
     fn new() -> Self {
-        let filled = vec![0; VOXELS * VOXELS];
-        Self { filled, points: Vec::new(), cells: Vec::new(), columns: ColumnGrid::empty() }
+        Self {
+            filled: Filled::nothing(),
+            points: Vec::new(),
+            cells: Vec::new(),
+            columns: ColumnGrid::empty(),
+        }
     }
 
     fn add(&mut self, point: [f32; 3], height: f32) {
@@ -82,7 +85,7 @@ impl Voxels {
         if !(inside(column) && inside(row) && (LOWEST..HIGHEST).contains(&height)) {
             return;
         }
-        let filled = &mut self.filled[row as i32 as usize * VOXELS + column as i32 as usize];
+        let filled = self.filled.above(column as i32 as usize, row as i32 as usize);
         let level = ((height - LOWEST) / VOXEL) as i32;
         if *filled & (1 << level) != 0 {
             return;
@@ -93,6 +96,35 @@ impl Voxels {
             self.cells.push(cell as u32);
             self.columns.add(cell, level);
         }
+    }
+}
+
+/// A bit for each voxel above each place. Most places have none: there is room for those near one that has.
+struct Filled {
+    /// Of each block of places, row by row, whereabouts of `places` it begins, in blocks and one more; 0 of one in which
+    /// nothing is filled.
+    blocks: Vec<u32>,
+    places: Vec<[u64; BLOCK * BLOCK]>,
+}
+
+/// Places along the edge of a block.
+const BLOCK: usize = 8;
+/// Blocks along an edge of the map.
+const BLOCKS: usize = VOXELS.div_ceil(BLOCK);
+
+impl Filled {
+    fn nothing() -> Self {
+        Self { blocks: vec![0; BLOCKS * BLOCKS], places: Vec::new() }
+    }
+
+    /// The voxels above a place.
+    fn above(&mut self, column: usize, row: usize) -> &mut u64 {
+        let block = &mut self.blocks[row / BLOCK * BLOCKS + column / BLOCK];
+        if *block == 0 {
+            self.places.push([0; BLOCK * BLOCK]);
+            *block = self.places.len() as u32;
+        }
+        &mut self.places[*block as usize - 1][row % BLOCK * BLOCK + column % BLOCK]
     }
 }
 

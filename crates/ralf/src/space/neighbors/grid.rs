@@ -41,13 +41,20 @@ impl NeighborIndex {
 
     /// Where a query lies.
     pub(super) fn place_of(&self, x: f32, y: f32) -> GridPoint {
-        let place =
-            |value: f32, axis: usize| (value.clamp(-REACH, self.ends[axis]) - self.origin[axis]) / self.cell;
-        let [x, y] = [place(x, 0), place(y, 1)];
-        let cell_of = |place: f32, cells: usize| (place as i32).clamp(0, cells as i32 - 1) as usize;
+        let [x, y] = [self.place_along(x, 0), self.place_along(y, 1)];
         let cell = [cell_of(x, self.columns), cell_of(y, self.rows)];
         let is_inside = x >= 0.0 && y >= 0.0 && x <= self.columns as f32 && y <= self.rows as f32;
         GridPoint { x, y, cell, is_inside }
+    }
+
+    /// The column of a place along x, axis 0, or the row of one along y, axis 1.
+    pub(super) fn cell_along(&self, value: f32, axis: usize) -> usize {
+        cell_of(self.place_along(value, axis), [self.columns, self.rows][axis])
+    }
+
+    /// In cells.
+    fn place_along(&self, value: f32, axis: usize) -> f32 {
+        (value.clamp(-REACH, self.ends[axis]) - self.origin[axis]) / self.cell
     }
 
     /// The cell that each point lies in, as [`Self::place_of`] has it, in numbers that the compiler turns into vectors.
@@ -61,6 +68,11 @@ impl NeighborIndex {
             .map(|[x, y, _]| (along(*y, y0, last_row) * columns + along(*x, x0, last_column)) as u32)
             .collect()
     }
+}
+
+/// The nearest of so many cells.
+fn cell_of(place: f32, cells: usize) -> usize {
+    (place as i32).clamp(0, cells as i32 - 1) as usize
 }
 
 /// The least coordinates of the points, and how far they reach from there, m; clamped to [`REACH`].

@@ -29,6 +29,8 @@ const WIDE: usize = 24;
 const REACH: f32 = 256.0;
 /// Rounding may put a point that lies on a cell's border into the next one; bounds are loosened by this, m.
 const SLACK: f32 = 1e-3;
+/// Of a way that leads along y by less than this for each metre along x, a row holds about all that it leads past.
+const STEEP: f32 = 0.25;
 
 /// A point found by a search.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -267,19 +269,29 @@ impl NeighborIndex {
         let anywhere = !self.is_empty() && from.into_iter().chain(to).all(f32::is_finite) && radius >= 0.0;
         let wide = radius + SLACK;
         let [low, high] = [from[1].min(to[1]) - wide, from[1].max(to[1]) + wide];
-        let [bottom, top] = [low, high].map(|y| self.place_of(from[0], y).cell[1]);
+        let [bottom, top] = [low, high].map(|y| self.cell_along(y, 1));
         let rows = if anywhere { bottom..top + 1 } else { 0..0 };
         let [dx, dy] = [to[0] - from[0], to[1] - from[1]];
+        // A line along the way, for each metre of y; and how far along x what is near lies beside it.
+        let (lean, beside) = (dx / dy, wide * dx.hypot(dy) / dy.abs());
+        let is_steep = dy.abs() > STEEP * dx.abs();
         rows.map(move |row| {
             // Points beyond the grid lie in its border. A hair more, so that rounding never decides.
             let [below, above] = [row, row + 1].map(|row| self.origin[1] + row as f32 * self.cell);
-            let below = if row == 0 { f32::NEG_INFINITY } else { below - wide - SLACK };
-            let above = if row + 1 == self.rows { f32::INFINITY } else { above + wide + SLACK };
+            let below = if row == 0 { f32::NEG_INFINITY } else { below - SLACK };
+            let above = if row + 1 == self.rows { f32::INFINITY } else { above + SLACK };
             // The part of the way that is near the row; of a way along the row all of it.
-            let parts = [below, above].map(|y| ((y - from[1]) / dy).clamp(0.0, 1.0));
+            let parts = [below - wide, above + wide].map(|y| ((y - from[1]) / dy).clamp(0.0, 1.0));
             let [a, b] = if dy == 0.0 { [0.0, 1.0] } else { parts }.map(|part| from[0] + part * dx);
-            let [left, right] = [a.min(b) - wide, a.max(b) + wide].map(|x| self.place_of(x, from[1]).cell[0]);
-            self.cells(row, left, right)
+            let (mut left, mut right) = (a.min(b) - wide, a.max(b) + wide);
+            if is_steep {
+                let [a, b] = [below, above].map(|y| from[0] + (y - from[1]) * lean);
+                (left, right) = (left.max(a.min(b) - beside), right.min(a.max(b) + beside));
+            }
+            if left > right {
+                return 0..0;
+            }
+            self.cells(row, self.cell_along(left, 0), self.cell_along(right, 0))
         })
     }
 
