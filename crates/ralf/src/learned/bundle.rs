@@ -47,8 +47,8 @@ struct Asked {
 }
 
 /// The bundles of a tree, as large as they may be. `ways` are those to its leaves; log odds times `scale` are the unit
-/// of the tables.
-pub(super) fn bundles(part: &Part, ways: &[Way], scale: f64) -> Vec<Bundle> {
+/// of the tables. Takes their cases from the `room` that there is; `None` where that isn't enough.
+pub(super) fn bundles(part: &Part, ways: &[Way], scale: f64, room: &mut usize) -> Option<Vec<Bundle>> {
     let mut found = Vec::new();
     let mut leaves = 0..0;
     while leaves.end < ways.len() {
@@ -63,9 +63,11 @@ pub(super) fn bundles(part: &Part, ways: &[Way], scale: f64) -> Vec<Bundle> {
             }
             leaves = longer;
         }
-        found.push(Bundle::new(&Cases::of(part, &leaves), &ways[leaves.clone()], scale));
+        let cases = Cases::of(part, &leaves);
+        *room = room.checked_sub(cases.count())?;
+        found.push(Bundle::new(&cases, &ways[leaves.clone()], scale));
     }
-    found
+    Some(found)
 }
 
 /// How many outcomes each group has on the ways to some leaves; `counts` are those without the last leaf, whose way

@@ -79,13 +79,13 @@ impl<'a> LearnedLabeler<'a> {
     /// A labeler with this model and these settings.
     ///
     /// # Errors
-    /// A model that this program can't use.
+    /// A model that this program can't use, or whose reasons it can't tell.
     pub fn new(config: &'a Config, model: &'a Model) -> Result<Self, UseError> {
         let known: Vec<&'static Feature> = features().collect();
         let inputs: Vec<&'static Feature> = model.places()?.into_iter().map(|place| known[place]).collect();
         let group_of: Vec<usize> = inputs.iter().map(|feature| group_of(feature)).collect();
         let explain = config.learned.reasons;
-        let explainer = explain.then(|| Explainer::new(&model.plausible, &group_of));
+        let explainer = explain.then(|| Explainer::new(&model.plausible, &group_of)).transpose()?;
         let seen: Vec<Seen> = model.inputs.iter().map(|input| input.seen).collect();
         let telling = Telling::new(&inputs, &group_of, &seen);
         let weighing = Weighing::new(model, inputs.iter().map(|input| input.name), &config.learned);

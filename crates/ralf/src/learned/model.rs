@@ -79,6 +79,11 @@ pub enum UseError {
         /// How many there are.
         known: usize,
     },
+    /// Trees that ask so many groups of evidence in turn that what each adds can't be told.
+    #[error(
+        "the model's trees ask too many groups of evidence for reasons to be told: set learned.reasons = false"
+    )]
+    TooManyCases,
 }
 
 impl Model {

@@ -9,6 +9,7 @@
 use super::block::{BLOCK, Blocks};
 use super::bundle::{Bundle, Sums, add, bundles, of_groups};
 use super::forest::Forest;
+use super::model::UseError;
 use super::outcomes::Part;
 use super::tree::{Node, Tree};
 use super::walk::{Questions, Walk};
@@ -17,6 +18,9 @@ use super::way::{PLAYERS, Way};
 /// Blocks that a tree is asked about before the next one: the tables of one tree stay in a cache, those of all don't,
 /// and neither would the features of more blocks.
 const TOGETHER: usize = 32;
+/// Cases of all tables at most, 400 MB: the shipped model has a seventh of that, and a model from elsewhere might ask for
+/// all memory.
+const ROOM: usize = 8 << 20;
 
 /// A forest, prepared for telling what each group adds to its answers.
 #[derive(Debug, Clone)]
@@ -31,7 +35,15 @@ pub struct Explainer {
 impl Explainer {
     /// Prepares a forest whose feature `i` belongs to the group `group_of[i]`, a place in
     /// [`GROUPS`](crate::evidence::GROUPS).
-    pub fn new(forest: &Forest, group_of: &[usize]) -> Self {
+    ///
+    /// # Errors
+    /// A forest whose leaves lie behind so many groups that its tables would fill the memory.
+    pub fn new(forest: &Forest, group_of: &[usize]) -> Result<Self, UseError> {
+        Self::within(ROOM, forest, group_of)
+    }
+
+    /// The same with room for so many cases.
+    fn within(mut room: usize, forest: &Forest, group_of: &[usize]) -> Result<Self, UseError> {
         // No part of what a tree adds is more than twice its largest answer, so that no sum leaves half of the range.
         let most: f64 = forest.trees.iter().map(|tree| 2.0 * largest_answer(tree)).sum();
         let unit = most.max(1.0) / f64::from(i32::MAX / 2);
@@ -41,9 +53,10 @@ impl Explainer {
             let ways = Way::all(tree, group_of);
             expected += ways.iter().map(Way::expected).sum::<f64>();
             let walk = Walk::new(tree, &mut questions, |feature| group_of[usize::from(feature)]);
-            trees.push((walk, bundles(&Part::new(tree, group_of), &ways, unit.recip())));
+            let bundles = bundles(&Part::new(tree, group_of), &ways, unit.recip(), &mut room);
+            trees.push((walk, bundles.ok_or(UseError::TooManyCases)?));
         }
-        Self { expected, unit, questions, trees }
+        Ok(Self { expected, unit, questions, trees })
     }
 
     /// The forest's mean answer over its training rows, log odds: where the groups' shares begin.
@@ -125,7 +138,7 @@ mod tests {
     fn compare(random: &mut rand_pcg::Pcg64, nodes: Vec<Node>, groups: usize, rows: usize) {
         let group_of: Vec<usize> = (0..16).map(|feature| feature % groups).collect();
         let forest = Forest { base: 0.25, trees: vec![Tree::new(nodes).unwrap()] };
-        let explainer = Explainer::new(&forest, &group_of);
+        let explainer = Explainer::new(&forest, &group_of).unwrap();
         let mut rows = Rows::absent(rows, 16);
         for row in 0..rows.len() {
             for value in rows.row_mut(row) {
@@ -162,5 +175,14 @@ mod tests {
         let mut nodes: Vec<Node> = (0..11).flat_map(no).collect();
         nodes.push(leaf(3.0, 4.0));
         compare(&mut random, nodes, 11, 3);
+    }
+
+    #[test]
+    fn tables_that_would_fill_the_memory_are_refused() {
+        let tree = Tree::new(vec![split(0, 0.5, true), leaf(1.0, 1.0), leaf(-1.0, 1.0)]).unwrap();
+        let forest = Forest { base: 0.0, trees: vec![tree; 3] };
+        // Yes or no, three times.
+        assert!(Explainer::within(6, &forest, &[0]).is_ok());
+        assert_eq!(Explainer::within(5, &forest, &[0]).err(), Some(UseError::TooManyCases));
     }
 }

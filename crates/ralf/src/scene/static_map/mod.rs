@@ -101,8 +101,7 @@ impl Voxels {
 
 /// A bit for each voxel above each place. Most places have none: there is room for those near one that has.
 struct Filled {
-    /// Of each block of places, row by row, whereabouts of `places` it begins, in blocks and one more; 0 of one in which
-    /// nothing is filled.
+    /// Of each block of places, row by row, the number of its places, counted from 1; 0 where nothing is filled.
     blocks: Vec<u32>,
     places: Vec<[u64; BLOCK * BLOCK]>,
 }
