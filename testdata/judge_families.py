@@ -241,7 +241,8 @@ def print_groups(worlds, groups, every, options):
         print(f"| {group} | {(~kept).sum()} | {told} |", flush=True)
 
 
-def read_options(description):
+def parser_of(description):
+    """Understands which worlds there are, and how a learner learns from them."""
     parser = argparse.ArgumentParser(description=description, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--world", nargs=3, action="append", required=True, metavar=("FAMILY", "DATASET", "OUT"))
     parser.add_argument("--rounds", type=int, default=220, help="trees")
@@ -250,6 +251,11 @@ def read_options(description):
     parser.add_argument("--rows", type=int, default=200_000, help="most rows that a model is trained on")
     parser.add_argument("--of-world", type=int, metavar="N", help="most rows of each world, to learn from and to judge")
     parser.add_argument("--seed", type=int, default=0)
+    return parser
+
+
+def read_options():
+    parser = parser_of(__doc__)
     parser.add_argument("--no-groups", action="store_true", help="leave out the table of groups")
     parser.add_argument("--corrected", type=float, metavar="SHARE", help="what corrections of so many scans bring")
     parser.add_argument("--apart", action="store_true", help="correct in every other sequence, and judge in those between")
@@ -257,7 +263,7 @@ def read_options(description):
 
 
 def main():
-    options, groups = read_options(__doc__), groups_of_features()
+    options, groups = read_options(), groups_of_features()
     worlds = read_worlds(options, list(groups))
     if options.corrected:
         print_corrected(worlds, options)

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """What it costs to believe less what only the radar tells of (docs/learned.md), by why nobody else does.
 
-    unconfirmed.py --world FAMILY DATASET OUT [--world FAMILY DATASET OUT]... [further options of judge_families.py]
+    unconfirmed.py --world FAMILY DATASET OUT [--world FAMILY DATASET OUT]... [options of the learner]
 
 Gradient-boosted trees that never saw a family of worlds label that family, as judge_families.py has it; then the odds of what
 is unconfirmed are multiplied by 0.03: of none, of what lies beyond the LiDAR's map, of where no ray goes, of what lies behind
@@ -12,7 +12,7 @@ Needs what judge_families.py needs.
 """
 
 import numpy
-from judge_families import groups_of_features, judge, out_of_fold, read_options, read_worlds
+from judge_families import groups_of_features, judge, out_of_fold, parser_of, read_worlds
 
 FACTOR = 0.03
 
@@ -37,7 +37,7 @@ def weighed(scores, unconfirmed):
 
 
 def main():
-    options, names = read_options(__doc__), list(groups_of_features())
+    options, names = parser_of(__doc__).parse_args(), list(groups_of_features())
     worlds = read_worlds(options, names)
     scores = out_of_fold(worlds.features, worlds, options)
     beyond, no_ray, walled = kinds_of(worlds.features, names)

@@ -38,7 +38,7 @@ impl<'a> Cloud<'a> {
     pub(super) fn each_near(&self, spot: &Spot, limit: f64, most: f32, mut visit: impl FnMut(usize, &Spot)) {
         let reach = self.variances.farthest(spot, limit, most);
         let seeker = Seeker::new(spot, limit, reach);
-        for run in self.index.runs_around([spot.place.x as f32, spot.place.y as f32], reach) {
+        for run in self.index.runs_around(spot.in_plan(), reach) {
             self.visit_run(run, |begin| self.flat.meet(begin, &seeker), &mut visit);
         }
     }
@@ -59,7 +59,7 @@ impl<'a> Cloud<'a> {
         let farther = if to.place.xy().norm() > from.place.xy().norm() { &to } else { &from };
         let reach = self.variances.farthest(farther, limit, most) + SLACK as f32;
         let (seeker, drifting) = (Seeker::new(spot, limit, reach), Drifting::new(drift));
-        let way = [from, to].map(|end| [end.place.x as f32, end.place.y as f32]);
+        let way = [from, to].map(|end| end.in_plan());
         for run in self.index.runs_along(way, reach) {
             let meet = |begin| self.flat.meet_moving(begin, &seeker, &drifting, times);
             self.visit_run(run, meet, &mut visit);
@@ -121,7 +121,7 @@ impl Flat {
         let [mut x, mut y, mut xx, mut xy, mut yy] = [0; 5].map(|_| vec![0.0; spots.len() + LANES]);
         let numbers = x.iter_mut().zip(&mut y).zip(&mut xx).zip(&mut xy).zip(&mut yy);
         for (spot, ((((x, y), xx), xy), yy)) in spots.iter().zip(numbers) {
-            [*x, *y] = [spot.place.x as f32, spot.place.y as f32];
+            [*x, *y] = spot.in_plan();
             [*xx, *xy, *yy] = spot.horizontal.map(|number| number as f32);
         }
         Self { x, y, xx, xy, yy }
@@ -304,7 +304,7 @@ mod tests {
                 cloud.each_near(&seeker, limit, most, |at, _| found.push(cloud.index().ids()[at]));
                 found.sort_unstable();
                 prop_assert!(found.windows(2).all(|pair| pair[0] < pair[1]), "none twice");
-                cloud.index().beside([seeker.place.x as f32, seeker.place.y as f32], most, &mut beside);
+                cloud.index().beside(seeker.in_plan(), most, &mut beside);
                 prop_assert!(found.iter().all(|id| beside.contains(id)), "none farther than that");
                 for id in beside {
                     let spot = Spot::new(&detections[id as usize]);

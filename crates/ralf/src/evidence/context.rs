@@ -88,7 +88,7 @@ fn observe(surroundings: &Surroundings) -> Vec<Values> {
 fn crowd(surroundings: &Surroundings) -> Vec<f64> {
     let mut crowd = vec![f64::NAN; surroundings.frame.scan.len()];
     for (row, detection) in surroundings.rows_by_place() {
-        crowd[row] = surroundings.count_beside(&detection.position, CROWD) as f64 - 1.0;
+        crowd[row] = surroundings.count_beside(detection, CROWD) as f64 - 1.0;
     }
     crowd
 }
@@ -102,8 +102,7 @@ fn crowd_around(surroundings: &Surroundings) -> Vec<f64> {
         return crowd;
     }
     for (row, detection) in surroundings.rows_by_place() {
-        let place = [detection.position.x as f32, detection.position.y as f32];
-        crowd[row] = around.index.count_beside(place, NEAR as f32) as f64;
+        crowd[row] = around.index.count_beside(detection.in_plan(), NEAR as f32) as f64;
     }
     crowd
 }

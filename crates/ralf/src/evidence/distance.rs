@@ -34,6 +34,11 @@ impl Spot {
         }
     }
 
+    /// Where it lies, seen from above, m, as searches among many have it.
+    pub(super) fn in_plan(&self) -> [f32; 2] {
+        [self.place.x as f32, self.place.y as f32]
+    }
+
     /// The same elsewhere.
     pub(super) fn moved(mut self, way: &Vector) -> Self {
         self.place += way;

@@ -52,7 +52,7 @@ fn observe(surroundings: &Surroundings) -> Vec<Values> {
     for (i, detection) in detections.iter().enumerate() {
         let residual = rates.residual(i).filter(|_| detection.is_some());
         let agreement = detection.as_ref().map(|detection| {
-            surroundings.beside(&detection.position, NEAR, &mut near);
+            surroundings.beside(detection, NEAR, &mut near);
             Agreement::new(rates, i, &near)
         });
         let agreement = agreement.filter(|_| residual.is_some());

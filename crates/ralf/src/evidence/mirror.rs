@@ -48,7 +48,7 @@ fn observe(surroundings: &Surroundings) -> Vec<Values> {
         let Some(mirror) = Mirror::before(map, &radar, &moved.position, behind) else { continue };
         let image = mirror.reflect(&moved).moved(&lidar.vehicle_from_window);
         let image_spot = Spot::new(&image);
-        surroundings.beside(&image.position, REACH, &mut near);
+        surroundings.beside(&image, REACH, &mut near);
         let mut least: Option<f64> = None;
         for other in near.iter().map(|other| *other as usize) {
             let stronger = strength.cross_section[other] > strength.cross_section[i];

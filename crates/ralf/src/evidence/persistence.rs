@@ -127,8 +127,7 @@ fn excess(own_around: &NeighborIndex, detection: &Detection, seen: &[Sighting]) 
     if own == 0 {
         return None;
     }
-    let place = [detection.position.x as f32, detection.position.y as f32];
-    let near = own_around.count_beside(place, AROUND as f32);
+    let near = own_around.count_beside(detection.in_plan(), AROUND as f32);
     let hits = seen.iter().filter(|sighting| sighting.own && sighting.still <= SAME).count();
     Some(excess_of(hits, own, near, detection))
 }

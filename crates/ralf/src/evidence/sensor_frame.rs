@@ -72,8 +72,7 @@ impl Unmoved {
 
     /// How many detections of the scans in which it had moved on lie around a place.
     fn count_around(&self, detection: &Detection, known: &[Known]) -> usize {
-        let place = [detection.position.x as f32, detection.position.y as f32];
-        let (index, radius) = (self.cloud.index(), AROUND as f32);
+        let (place, index, radius) = (detection.in_plan(), self.cloud.index(), AROUND as f32);
         let is_left_out = |scan: &Known| !scan.moved_on;
         let Some(first) = known.iter().position(is_left_out) else {
             return index.count_beside(place, radius);

@@ -6,7 +6,7 @@ use super::recurrence::{Recurrence, recurrences};
 use super::way::{Way, ways};
 use crate::config::Config;
 use crate::scene::{Detection, Frame, NeighbouringDetections};
-use crate::space::{NeighborIndex, Point};
+use crate::space::NeighborIndex;
 use std::cell::OnceCell;
 
 /// A frame, the settings, and what several pieces of evidence need: worked out where a piece first asks for it.
@@ -94,22 +94,23 @@ impl<'a> Surroundings<'a> {
         rows.filter_map(|row| Some((row, self.frame.scan.detections[row].as_ref()?)))
     }
 
-    /// Finds the scan's own detections at most `radius`, m, from a point, seen from above.
-    pub(super) fn beside(&self, p: &Point, radius: f64, found: &mut Vec<u32>) {
-        self.own_index().beside([p.x as f32, p.y as f32], radius as f32, found);
+    /// Finds the scan's own detections at most `radius`, m, from one, seen from above.
+    pub(super) fn beside(&self, detection: &Detection, radius: f64, found: &mut Vec<u32>) {
+        self.own_index().beside(detection.in_plan(), radius as f32, found);
     }
 
     /// How many [`Self::beside`] finds.
-    pub(super) fn count_beside(&self, p: &Point, radius: f64) -> usize {
-        self.own_index().count_beside([p.x as f32, p.y as f32], radius as f32)
+    pub(super) fn count_beside(&self, detection: &Detection, radius: f64) -> usize {
+        self.own_index().count_beside(detection.in_plan(), radius as f32)
     }
 
     fn own_index(&self) -> &NeighborIndex {
         self.own_index.get_or_init(|| {
             let (mut places, mut rows) = (Vec::new(), Vec::new());
             for (row, detection) in (0u32..).zip(&self.frame.scan.detections) {
-                if let Some(Detection { position, .. }) = detection {
-                    places.push([position.x as f32, position.y as f32, 0.0]);
+                if let Some(detection) = detection {
+                    let [x, y] = detection.in_plan();
+                    places.push([x, y, 0.0]);
                     rows.push(row);
                 }
             }

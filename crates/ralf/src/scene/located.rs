@@ -29,6 +29,11 @@ impl Detection {
         Self { position: to_from_here * self.position, axes: rotation * self.axes }
     }
 
+    /// Where it lies, seen from above, m, as searches among many have it.
+    pub(crate) fn in_plan(&self) -> [f32; 2] {
+        [self.position.x as f32, self.position.y as f32]
+    }
+
     /// The covariance `Sigma_i`.
     pub fn spread(&self) -> Spread {
         Spread::Axes(self.axes)
