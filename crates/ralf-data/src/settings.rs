@@ -50,6 +50,7 @@ impl Settings {
         let method = Config::from_toml_beside(&OF_READERS, text, assignments)?;
         let OfReaders { topics, corrections, motion } = read_toml(text, assignments)?;
         check_topics(&topics)?;
+        check_numbers(&corrections, &motion)?;
         Ok(Self { method, topics, corrections, motion })
     }
 
@@ -77,9 +78,31 @@ impl TryFrom<Table> for Settings {
         let own = Value::Table(own).try_into::<OfReaders>();
         let OfReaders { topics, corrections, motion } =
             own.map_err(|error| ConfigError::Parse(error.to_string()))?;
+        check_numbers(&corrections, &motion)?;
         Ok(Self { method: Config::try_from(table)?, topics, corrections, motion })
     }
 }
+
+/// Refuses what is no number, or none that anything can be corrected by.
+fn check_numbers(
+    corrections: &BTreeMap<String, SensorCorrection>,
+    motion: &MotionSettings,
+) -> Result<(), ConfigError> {
+    let of_sensors = corrections.iter().flat_map(|(name, correction)| {
+        correction.numbers().map(move |(key, value)| (format!("corrections.{name}.{key}"), value))
+    });
+    let of_motion = motion.numbers().map(|(key, value)| (format!("motion.{key}"), value));
+    match of_sensors.chain(of_motion).find(|(_, value)| value.abs() > MOST || value.is_nan()) {
+        Some((key, found)) => Err(ConfigError::Value {
+            key,
+            expected: format!("a number from -{MOST:e} to {MOST:e}, found {found:e}"),
+        }),
+        None => Ok(()),
+    }
+}
+
+/// Nothing larger is in any use: a clock can be off by no more milliseconds, for times are told in nanoseconds.
+const MOST: f64 = 9e12;
 
 #[cfg(test)]
 mod tests {
@@ -99,6 +122,19 @@ mod tests {
         assert_eq!(Settings::from_toml(&settings.to_toml().unwrap(), &[]).unwrap(), settings);
         let json = serde_json::to_string(&settings).unwrap();
         assert_eq!(serde_json::from_str::<Settings>(&json).unwrap(), settings);
+    }
+
+    #[test]
+    fn what_is_no_number_corrects_nothing() {
+        for key in ["corrections.front.add_yaw_deg", "corrections.front.period_ms", "motion.speed_factor"] {
+            for value in ["nan", "inf", "-1e300"] {
+                let refused = Settings::from_toml("", &[&format!("{key}={value}")]).unwrap_err().to_string();
+                assert!(refused.contains(key) && refused.contains("found"), "{refused}");
+            }
+        }
+        let place = "corrections.front.add_translation=[0, nan, 0]";
+        assert!(Settings::from_toml("", &[place]).is_err());
+        assert!(Settings::from_toml("", &["corrections.front.tick_ms=1.7e12"]).is_ok(), "since 1970");
     }
 
     #[test]

@@ -19,7 +19,7 @@ pub(crate) struct Profile {
 /// Confusion matrices by metre of range and by 10 degrees of azimuth.
 #[derive(Debug, Default)]
 pub(crate) struct Profiles {
-    /// By whole metres.
+    /// By whole metres; what lies beyond [`FARTHEST`] counts there.
     range: BTreeMap<usize, Confusion>,
     farthest: f64,
     /// From -180 degrees.
@@ -32,9 +32,13 @@ const AZIMUTH_STEP: f64 = 10.0;
 /// How many there are all around.
 const AZIMUTH_BINS: usize = 36;
 
+/// No radar of a vehicle looks farther, m: a damaged number must not stretch the axis.
+const FARTHEST: f64 = 1000.0;
+
 impl Profiles {
     pub(crate) fn add(&mut self, scored: &Scored, truth: bool) {
-        let (range, azimuth) = (f64::from(scored.range), f64::from(scored.azimuth).to_degrees());
+        let (range, azimuth) =
+            (f64::from(scored.range).min(FARTHEST), f64::from(scored.azimuth).to_degrees());
         self.farthest = self.farthest.max(range);
         self.widest = self.widest.max(azimuth.abs());
         if range.is_finite() {
@@ -188,8 +192,16 @@ mod tests {
         let found = profiles.over_range();
         assert_eq!((found.step, found.bins.len()), (2.0, 20));
         assert_eq!((found.bins[0].tp, found.bins[1].tp, found.bins[19].tp), (2, 1, 2));
+        for range in [1e20, f32::MAX] {
+            profiles.add(&scored(range, 3.2, true, 10, 0), true);
+        }
+        assert_eq!(
+            (profiles.over_range().bins.len(), profiles.over_range().bins[19].tp),
+            (20, 2),
+            "no farther"
+        );
         // Beyond 180 degrees there is nothing.
-        assert_eq!((profiles.over_azimuth().first, profiles.over_azimuth().bins[35].tp), (-180.0, 5));
+        assert_eq!((profiles.over_azimuth().first, profiles.over_azimuth().bins[35].tp), (-180.0, 7));
     }
 
     #[test]

@@ -3,9 +3,11 @@
 mod changed;
 mod dataset;
 mod method;
+mod output;
 mod settings;
 
 pub(crate) use changed::ChangedArgs;
 pub(crate) use dataset::{DatasetArgs, the_only};
 pub(crate) use method::MethodArgs;
+pub(crate) use output::check_output;
 pub(crate) use settings::{SettingsArgs, threads};

@@ -8,9 +8,13 @@ use ralf_files::Kind;
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
+/// More threads than this are of no use anywhere, and a system has no room for ever more.
+const MOST_THREADS: usize = 1024;
+
 /// As many threads as asked for, or as there are processors.
 pub(crate) fn threads(jobs: Option<NonZeroUsize>) -> usize {
-    jobs.or_else(|| std::thread::available_parallelism().ok()).map_or(1, NonZeroUsize::get)
+    let wanted = jobs.or_else(|| std::thread::available_parallelism().ok());
+    wanted.map_or(1, NonZeroUsize::get).min(MOST_THREADS)
 }
 
 /// How the labeler is set.

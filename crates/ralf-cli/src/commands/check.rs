@@ -4,7 +4,7 @@ mod fixes;
 pub(crate) mod page;
 mod picture;
 
-use crate::arguments::{DatasetArgs, SettingsArgs};
+use crate::arguments::{DatasetArgs, SettingsArgs, check_output};
 use crate::outcome::Outcome;
 use crate::progress::say;
 use crate::text::print;
@@ -50,6 +50,11 @@ pub(crate) struct CheckArgs {
 
 /// Checks a recording.
 pub(crate) fn run(arguments: &CheckArgs) -> anyhow::Result<Outcome> {
+    for (argument, file) in [("--write", &arguments.write), ("--output", &arguments.output)] {
+        if let Some(file) = file {
+            check_output(argument, file, &[&arguments.dataset.dataset])?;
+        }
+    }
     let mut settings = arguments.settings.resolve()?;
     settings.topics = arguments.dataset.topics_or(&settings.topics)?;
     let recording = arguments.dataset.open_corrected(&settings)?;

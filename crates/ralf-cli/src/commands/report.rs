@@ -1,6 +1,6 @@
 //! `ralf report`: one page about a labelled recording.
 
-use crate::arguments::{ChangedArgs, DatasetArgs};
+use crate::arguments::{ChangedArgs, DatasetArgs, check_output};
 use crate::corrections::orphaned;
 use crate::outcome::Outcome;
 use crate::progress::{Progress, say};
@@ -35,6 +35,7 @@ pub(crate) struct ReportArgs {
 
 /// Writes the page.
 pub(crate) fn run(arguments: &ReportArgs) -> anyhow::Result<Outcome> {
+    check_output("--output", &arguments.output, &[&arguments.dataset.dataset, &arguments.labels])?;
     let recording = arguments.dataset.open_labelled(&arguments.labels, &arguments.changed)?;
     let report = Report {
         recording: &recording,

@@ -10,7 +10,7 @@ use ralf::config::{Config, Method};
 use ralf_data::{GroundTruth, Recording, SequenceEvidence, Settings, gather_evidence};
 use ralf_train::{EvidenceTable, Found, Objective, Search, TunedSettings};
 use std::num::NonZeroUsize;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// What is searched for, and how long.
 #[derive(Debug, Args)]
@@ -68,6 +68,11 @@ impl SearchArgs {
             return Err(UsageError(format!("--train and --test both name {both}: {reason}")));
         }
         Ok(())
+    }
+
+    /// What is only read.
+    pub(super) fn read_only(&self) -> Vec<&Path> {
+        [&self.dataset].into_iter().chain(&self.corrections).map(PathBuf::as_path).collect()
     }
 
     /// The settings to start from, which are those of the paper's method: a model is fitted and not searched for.

@@ -4,6 +4,7 @@ mod report;
 mod text;
 
 use super::search::{Parts, SearchArgs, name_what_is_left_out, tables};
+use crate::arguments::check_output;
 use crate::outcome::{Outcome, UsageError};
 use crate::progress::say;
 use crate::text::print;
@@ -66,11 +67,7 @@ impl TuneArgs {
         if self.cross_validate && self.search.train.len() < 2 {
             return Err(UsageError("--cross-validate: expected two sequences or more in --train".into()));
         }
-        if self.output.is_dir() {
-            let file = self.output.display();
-            return Err(UsageError(format!("--output: expected a file, found the folder {file}")));
-        }
-        Ok(())
+        check_output("--output", &self.output, &self.search.read_only())
     }
 
     fn tune(&self, base: &Config, Parts { train, test }: &Parts) -> anyhow::Result<Report> {

@@ -1,6 +1,6 @@
 //! What is no regular file, or far too large, is refused at once and costs no more than itself.
 
-use crate::support::{Dataset, Ran, program, ralf};
+use crate::support::{Dataset, Ran, program, ralf, tree};
 use std::fs::{self, File};
 use std::path::Path;
 use std::process::Command;
@@ -85,5 +85,34 @@ fn tables_settings_and_networks_that_are_no_files_are_refused() {
         make(Path::new(&settings));
         let ran = ralf(["label", &dataset.path, "-o", &dataset.out, "--config", &settings]).exits(1);
         ran.says(["settings.toml: expected "]);
+    }
+}
+
+#[test]
+fn nothing_that_is_read_is_written_over() {
+    let dataset = Dataset::new();
+    label(&dataset).exits(0);
+    let scan = dataset.file("radar_front/000000.bin").to_string_lossy().into_owned();
+    let run = dataset.result("../../run.json").to_string_lossy().into_owned();
+    let (recorded, labelled) = (tree(&dataset.path), tree(&dataset.out));
+    let (path, out) = (dataset.path.as_str(), dataset.out.as_str());
+    for place in [&scan, &run] {
+        ralf(["plot", path, out, "--scan", "1", "-o", place]).exits(2).says(["--output: expected a place"]);
+        ralf(["report", path, out, "-o", place]).exits(2).says(["--output: expected a place"]);
+    }
+    ralf(["check", path, "--write", &scan])
+        .exits(2)
+        .says(["--write: expected a place where nothing is lost"]);
+    ralf(["check", path, "-o", &scan]).exits(2).says(["--output: expected a place where nothing is lost"]);
+    let pipe_at = dataset.beside("pipe");
+    pipe(Path::new(&pipe_at));
+    ralf(["report", path, out, "-o", &pipe_at])
+        .exits(2)
+        .says(["expected a file, found what is no regular file"]);
+    assert!(tree(path) == recorded && tree(out) == labelled);
+    // A page beside the results may be drawn anew.
+    let page = format!("{out}/report.html");
+    for _ in 0..2 {
+        ralf(["report", path, out, "-o", &page]).exits(0);
     }
 }

@@ -103,7 +103,35 @@ impl Default for MotionSettings {
     }
 }
 
+impl MotionSettings {
+    /// All numbers, by their keys.
+    pub(crate) fn numbers(&self) -> impl Iterator<Item = (&'static str, f64)> + use<> {
+        [
+            ("speed_factor", self.speed_factor),
+            ("yaw_rate_factor", self.yaw_rate_factor),
+            ("time_offset_ms", self.time_offset_ms),
+        ]
+        .into_iter()
+    }
+}
+
 impl SensorCorrection {
+    /// All numbers, by their keys.
+    pub(crate) fn numbers(&self) -> impl Iterator<Item = (&'static str, f64)> + use<> {
+        let translation = self.add_translation.map(|value| ("add_translation", value));
+        let others = [
+            ("add_yaw_deg", self.add_yaw_deg),
+            ("add_pitch_deg", self.add_pitch_deg),
+            ("add_roll_deg", self.add_roll_deg),
+            ("time_offset_ms", self.time_offset_ms),
+            ("period_ms", self.period_ms),
+            ("tick_ms", self.tick_ms),
+            ("doppler_factor", self.doppler_factor),
+            ("position_factor", self.position_factor),
+        ];
+        others.into_iter().chain(translation)
+    }
+
     /// Corrects the mounting and the times of the sensor of this name. The error says which names there are.
     pub(crate) fn apply_to(&self, sequence: &mut Sequence, name: &str) -> Result<(), String> {
         let (rig, times) = (&mut sequence.rig, &mut sequence.times);

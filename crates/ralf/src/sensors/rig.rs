@@ -152,6 +152,9 @@ impl Lidar {
     /// Refuses, with what was expected and found, values that no LiDAR has.
     pub fn check(&self) -> Result<(), String> {
         at_least_zero("sigma_range_m", self.sigma_range)?;
+        if let Some(range) = self.max_range.filter(|range| !(range.is_finite() && *range > 0.0)) {
+            return Err(format!("`max_range_m` above 0, found {range}"));
+        }
         angle("lowest_beam_deg", self.lowest_beam, 90.0)
     }
 }

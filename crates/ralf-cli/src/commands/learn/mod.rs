@@ -4,9 +4,9 @@ mod own;
 mod text;
 mod worlds;
 
-use crate::arguments::{SettingsArgs, threads};
+use crate::arguments::{SettingsArgs, check_output, threads};
 use crate::corrections::merged_truth;
-use crate::outcome::{Outcome, UsageError};
+use crate::outcome::Outcome;
 use crate::progress::{Progress, Stages, say};
 use crate::text::print;
 use anyhow::Context;
@@ -18,7 +18,7 @@ use ralf_data::run::NotLabelled;
 use ralf_data::{TrainingGatherer, TrainingTruth, write_whole};
 use ralf_train::learning::{Fitting, Parameters, TrainingTable, fit};
 use std::num::NonZeroUsize;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use worlds::WorldArgs;
 
 /// Arguments of `ralf learn`.
@@ -76,10 +76,9 @@ pub(crate) struct LearnArgs {
 
 /// Gathers, fits, writes and prints what the model is worth.
 pub(crate) fn run(arguments: &LearnArgs) -> anyhow::Result<Outcome> {
-    if arguments.output.is_dir() {
-        let file = arguments.output.display();
-        return Err(UsageError(format!("--output: expected a file, found the folder {file}")).into());
-    }
+    let read_only: Vec<&Path> =
+        arguments.datasets.iter().chain(&arguments.from).map(PathBuf::as_path).collect();
+    check_output("--output", &arguments.output, &read_only)?;
     let settings = arguments.settings.resolve()?;
     let stages = Stages::default();
     let jobs = threads(arguments.jobs);

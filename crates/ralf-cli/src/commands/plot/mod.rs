@@ -2,7 +2,7 @@
 
 mod camera;
 
-use crate::arguments::{ChangedArgs, DatasetArgs, the_only};
+use crate::arguments::{ChangedArgs, DatasetArgs, check_output, the_only};
 use crate::outcome::Outcome;
 use crate::progress::say;
 use clap::Args;
@@ -65,6 +65,7 @@ pub(crate) struct PlotArgs {
 
 /// Draws a picture.
 pub(crate) fn run(arguments: &PlotArgs) -> anyhow::Result<Outcome> {
+    check_output("--output", &arguments.output, &[&arguments.dataset.dataset, &arguments.labels])?;
     let recording = arguments.dataset.open_labelled(&arguments.labels, &arguments.changed)?;
     let recording = match camera::depth_store(arguments)? {
         Some(store) => store.attach(recording),

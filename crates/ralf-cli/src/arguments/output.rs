@@ -1,0 +1,68 @@
+//! Files that a command writes: never over what it reads.
+
+use crate::outcome::UsageError;
+use std::path::Path;
+
+/// What people draw and read, and lay into a folder beside what belongs there.
+const PAGES: [&str; 2] = ["png", "html"];
+
+/// Refuses a place for a file, named by its argument, where something lies that is no regular file, such as a folder or
+/// a device; and where a file of one of the folders lies that are only read: a recording, results. Pictures and pages
+/// directly in such a folder are no part of it.
+pub(crate) fn check_output(argument: &str, file: &Path, read_only: &[&Path]) -> Result<(), UsageError> {
+    let Ok(found) = std::fs::metadata(file) else { return Ok(()) };
+    let refuse = |expected: &str, found: &str| {
+        UsageError(format!("{argument}: expected {expected}, found {found} {}", file.display()))
+    };
+    if found.is_dir() {
+        return Err(refuse("a file", "the folder"));
+    }
+    if !found.is_file() {
+        return Err(refuse("a file", "what is no regular file:"));
+    }
+    if read_only.iter().any(|place| is_part_of(file, place)) {
+        return Err(refuse("a place where nothing is lost", "a file of the recording or of its results:"));
+    }
+    Ok(())
+}
+
+/// What can't be looked up is not there.
+fn is_part_of(file: &Path, place: &Path) -> bool {
+    let (Ok(file), Ok(place)) = (file.canonicalize(), place.canonicalize()) else { return false };
+    let extension = file.extension().unwrap_or_default();
+    let is_page = PAGES.iter().any(|page| extension.eq_ignore_ascii_case(page));
+    file == place || file.starts_with(&place) && !(is_page && file.parent() == Some(&place))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::fs;
+
+    #[test]
+    fn what_is_read_is_not_written_over() {
+        let folder = tempfile::tempdir().unwrap();
+        let place = |name: &str| folder.path().join(name);
+        fs::create_dir_all(place("out/sequences")).unwrap();
+        for name in ["out/run.json", "out/sequences/a.png", "out/report.html", "out.toml", "bag"] {
+            fs::write(place(name), "x").unwrap();
+        }
+        let (out, bag) = (place("out"), place("bag"));
+        let check =
+            |name: &str| check_output("--output", &place(name), &[&out, &bag]).map_err(|error| error.0);
+        for name in ["out/new.png", "out/report.html", "out.toml", "elsewhere/new.html"] {
+            assert_eq!(check(name), Ok(()), "{name}");
+        }
+        for name in ["out/run.json", "out/sequences/a.png", "out/../out/run.json", "bag"] {
+            assert!(check(name).unwrap_err().contains("nothing is lost"), "{name}");
+        }
+        assert!(check("out").unwrap_err().contains("found the folder"));
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_device_is_no_place_for_a_file() {
+        let refused = check_output("--write", Path::new("/dev/null"), &[]).unwrap_err();
+        assert_eq!(refused.0, "--write: expected a file, found what is no regular file: /dev/null");
+    }
+}
