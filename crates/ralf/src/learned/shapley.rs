@@ -18,8 +18,8 @@ use super::way::{PLAYERS, Way};
 /// Blocks that a tree is asked about before the next one: the tables of one tree stay in a cache, those of all don't,
 /// and neither would the features of more blocks.
 const TOGETHER: usize = 32;
-/// Cases of all tables at most, 400 MB. The shipped model has a seventh of that, and one from elsewhere might ask for all
-/// memory.
+/// Cases of all tables at most, 400 MB. The shipped model has a seventh of that; a file from elsewhere might ask for
+/// all memory.
 const ROOM: usize = 8 << 20;
 
 /// A forest, prepared for telling what each group adds to its answers.
