@@ -37,11 +37,11 @@ const FARTHEST: f64 = 1000.0;
 
 impl Profiles {
     pub(crate) fn add(&mut self, scored: &Scored, truth: bool) {
-        let (range, azimuth) =
-            (f64::from(scored.range).min(FARTHEST), f64::from(scored.azimuth).to_degrees());
-        self.farthest = self.farthest.max(range);
+        let (range, azimuth) = (f64::from(scored.range), f64::from(scored.azimuth).to_degrees());
         self.widest = self.widest.max(azimuth.abs());
         if range.is_finite() {
+            let range = range.min(FARTHEST);
+            self.farthest = self.farthest.max(range);
             self.range.entry(range as usize).or_default().add(truth, scored.plausible);
         }
         if azimuth.is_finite() {
@@ -202,6 +202,17 @@ mod tests {
         );
         // Beyond 180 degrees there is nothing.
         assert_eq!((profiles.over_azimuth().first, profiles.over_azimuth().bins[35].tp), (-180.0, 7));
+    }
+
+    #[test]
+    fn what_has_no_place_stretches_no_axis() {
+        let mut profiles = Profiles::default();
+        for range in [9.5, f32::NAN, f32::INFINITY] {
+            profiles.add(&scored(range, 0.0, true, 10, 0), true);
+        }
+        let found = profiles.over_range();
+        assert_eq!((found.step, found.bins.len(), found.bins[9].tp), (1.0, 10, 1));
+        assert_eq!(found.bins.iter().map(Confusion::total).sum::<u64>(), 1);
     }
 
     #[test]

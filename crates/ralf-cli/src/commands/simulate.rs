@@ -2,7 +2,7 @@
 
 pub(super) mod compare;
 
-use crate::arguments::threads;
+use crate::arguments::{check_output, threads};
 use crate::outcome::{Outcome, UsageError};
 use crate::progress::{Progress, say};
 use anyhow::Context;
@@ -135,6 +135,10 @@ impl SimulateArgs {
     }
 
     fn compare_with(&self, real: &Path) -> anyhow::Result<Outcome> {
+        if let Some(page) = &self.output {
+            let read_only: Vec<&Path> = [real].into_iter().chain(self.with.as_deref()).collect();
+            check_output("--output", page, &read_only)?;
+        }
         let told = Told { page: self.output.as_deref(), json: self.json };
         let recording = ralf_data::open(real, None)?;
         let real = Named::opened(&recording);

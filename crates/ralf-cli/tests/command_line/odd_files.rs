@@ -104,6 +104,8 @@ fn nothing_that_is_read_is_written_over() {
         .exits(2)
         .says(["--write: expected a place where nothing is lost"]);
     ralf(["check", path, "-o", &scan]).exits(2).says(["--output: expected a place where nothing is lost"]);
+    let compared = ["simulate", "--compare", path, "--preset", "tiny", "-o", &scan];
+    ralf(compared).exits(2).says(["--output: expected a place where nothing is lost"]);
     let pipe_at = dataset.beside("pipe");
     pipe(Path::new(&pipe_at));
     ralf(["report", path, out, "-o", &pipe_at])
