@@ -5,6 +5,7 @@ use crate::disk::{files, images};
 use crate::error::DataError;
 use crate::read::recording::measurement;
 use ralf::sensors::{CameraImage, LidarScan, Sequence, SourceError};
+use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
 /// One list per sensor, in the rig's order; one file per measurement, in the order of time.
@@ -53,11 +54,36 @@ pub(crate) fn present<T>(
             found.push((what, file));
         }
     }
-    let missing = all - found.len();
+    warn_of_missing(sensor, all, found.len(), warnings);
+    Ok(found)
+}
+
+/// Those of a radar's listed files that its copy of the data set should have, in their order, with a warning of the
+/// others. Parts of a data set are published one by one: a folder of which not one listed file is there belongs to
+/// another part. Where some are there, the others are missing, and whoever asks for one is told.
+pub(crate) fn expected<T>(
+    radar: &str,
+    mut listed: Vec<(T, PathBuf)>,
+    folders: &mut Folders,
+    warnings: &mut Vec<String>,
+) -> Result<Vec<(T, PathBuf)>, DataError> {
+    let all = listed.len();
+    let mut copied: HashSet<PathBuf> = HashSet::new();
+    for (_, file) in &listed {
+        if folders.hold(file)? {
+            copied.extend(file.parent().map(Path::to_owned));
+        }
+    }
+    listed.retain(|(_, file)| file.parent().is_some_and(|folder| copied.contains(folder)));
+    warn_of_missing(radar, all, listed.len(), warnings);
+    Ok(listed)
+}
+
+fn warn_of_missing(sensor: &str, all: usize, found: usize, warnings: &mut Vec<String>) {
+    let missing = all - found;
     if missing > 0 {
         warnings.push(format!("{missing} of {all} files of {sensor} are not there and were left out"));
     }
-    Ok(found)
 }
 
 /// A LiDAR's scan from a file of float32 rows of `N`, at least four, which begin with x, y, z and intensity.

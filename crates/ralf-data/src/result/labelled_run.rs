@@ -119,15 +119,10 @@ impl LabelledRun {
                 };
                 // What lies elsewhere, such as depth beside the labels, may go once it was used.
                 let elsewhere = Path::new(&input.file).is_absolute();
-                let change = if !now.remove(&file) && elsewhere {
+                if !now.remove(&file) && elsewhere || input_is_unchanged(&file, input)? {
                     continue;
-                } else if !file.exists() {
-                    Change::Missing
-                } else if input_is_unchanged(&file, input)? {
-                    continue;
-                } else {
-                    Change::Content
-                };
+                }
+                let change = if file.exists() { Change::Content } else { Change::Missing };
                 changes.insert(ChangedInput { sequence: name.clone(), file, change });
             }
             let new = now.into_iter().map(|file| (file, Change::New));

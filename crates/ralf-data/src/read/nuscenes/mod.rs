@@ -10,7 +10,8 @@
 //!   published motion-corrected to the end of the revolution, which is the scan's time, and without times of their own:
 //!   `docs/recordings.md` tells how that is seen.
 //! - Measurements that the tables list but the disk lacks (parts of the data set are published one by one) are left out
-//!   of the timelines, with a warning.
+//!   of the timelines, with a warning. A radar's file that is missing while others of its scene are in the same folder
+//!   (`samples/RADAR_FRONT`, `sweeps/RADAR_FRONT`) is a scan that can't be read.
 
 mod can;
 mod raw;

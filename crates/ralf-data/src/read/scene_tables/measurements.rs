@@ -1,10 +1,11 @@
-//! Which of a scene's measurements lie on disk: parts of such data sets are published one by one.
+//! Which of a scene's measurements lie on disk: parts of such data sets are published one by one. A radar's file that
+//! is missing beside others of its folder is no such part: its scan keeps its place, and can't be read.
 
 use super::join::{Channel, Measurement};
 use super::raw::{Modality, Token};
 use crate::disk::files::Folders;
 use crate::error::DataError;
-use crate::read::measured_files::{MeasuredFiles, present};
+use crate::read::measured_files::{MeasuredFiles, expected, present};
 use ralf::sensors::Timelines;
 use std::path::Path;
 
@@ -24,7 +25,7 @@ impl TableOrigin {
     }
 }
 
-/// The measurements of a scene that are there, sensor by sensor.
+/// The measurements of a scene that are there, sensor by sensor, and radar scans that should be.
 #[derive(Default)]
 pub(crate) struct Measurements {
     pub(crate) times: Timelines,
@@ -35,7 +36,7 @@ pub(crate) struct Measurements {
 }
 
 impl Measurements {
-    /// Keeps what is on disk of what the tables list.
+    /// Keeps what is on disk of what the tables list, and radar scans whose files are missing there.
     pub(crate) fn find(
         dataset: &Path,
         channels: Vec<Channel>,
@@ -57,11 +58,15 @@ impl Measurements {
     fn add(&mut self, dataset: &Path, channel: Channel, folders: &mut Folders) -> Result<(), DataError> {
         let listed = channel.measurements.into_iter();
         let listed = listed.map(|Measurement { token, t_ns, file }| ((t_ns, token), dataset.join(&*file)));
-        let name = &channel.calibration.name;
-        let found = present(name, listed.collect(), folders, &mut self.warnings)?;
+        let (name, modality) = (&channel.calibration.name, channel.calibration.modality);
+        let listed = listed.collect();
+        let found = match modality {
+            Modality::Radar => expected(name, listed, folders, &mut self.warnings)?,
+            _ => present(name, listed, folders, &mut self.warnings)?,
+        };
         let (named, files): (Vec<_>, Vec<_>) = found.into_iter().unzip();
         let (times, tokens): (Vec<_>, Vec<_>) = named.into_iter().unzip();
-        let (timelines, place) = match channel.calibration.modality {
+        let (timelines, place) = match modality {
             Modality::Radar => {
                 self.radar_tokens.push(tokens);
                 (&mut self.times.radars, &mut self.files.radars)

@@ -37,6 +37,29 @@ fn tables_in_any_order_become_a_scene() {
 }
 
 #[test]
+fn a_radar_file_that_is_missing_beside_others_is_a_scan_that_can_not_be_read() {
+    let set = DataSet::new();
+    let whole = set.open().unwrap();
+    let file = set.0.path().join("sweeps/RADAR_FRONT/b.pcd");
+    fs::remove_file(&file).unwrap();
+    let scene = set.open().unwrap();
+    assert_eq!(scene.sequence().times, whole.sequence().times);
+    assert_eq!((scene.warnings(), scene.inputs()), (whole.warnings(), whole.inputs()));
+    let error = scene.radar_scan(0, 1).unwrap_err().to_string();
+    assert!(error.contains(file.to_str().unwrap()) && error.contains("found none of this name"), "{error}");
+    let tokens = |scene: &dyn SequenceReader| {
+        let origin = scene.origin().and_then(|origin| origin.downcast_ref::<TableOrigin>()).unwrap();
+        (0..3).map(|scan| origin.sample_data_token(0, scan).unwrap()).collect::<Vec<_>>()
+    };
+    assert_eq!(tokens(scene.as_ref()), tokens(whole.as_ref()));
+    // Without the last of a folder, that folder is a part that isn't there: nobody is told of each of its files.
+    fs::remove_file(set.0.path().join("sweeps/RADAR_FRONT/c.pcd")).unwrap();
+    let scene = set.open().unwrap();
+    assert_eq!(scene.sequence().times.radars[0].len(), 1);
+    assert_eq!(scene.warnings()[0], "2 of 3 files of RADAR_FRONT are not there and were left out");
+}
+
+#[test]
 fn measurements_are_read_to_the_last_field() {
     let set = DataSet::new();
     let scene = set.open().unwrap();

@@ -89,6 +89,18 @@ fn a_copy_without_sweeps_has_its_keyframes() {
 }
 
 #[test]
+fn a_radar_file_that_is_missing_beside_others_is_a_scan_that_can_not_be_read() {
+    let set = DataSet::new();
+    let file = set.file("sweeps", RADARS[0], 1);
+    fs::remove_file(&file).unwrap();
+    let scene = set.open().unwrap();
+    assert_eq!((scene.sequence().times.radars[0].len(), scene.warnings().len()), (3, 0));
+    let told = |scan: usize| scene.radar_scan(0, scan).map_err(|error| error.to_string());
+    let missing: Vec<String> = (0..3).filter_map(|scan| told(scan).err()).collect();
+    assert!(missing.len() == 1 && missing[0].contains(file.to_str().unwrap()), "{missing:?}");
+}
+
+#[test]
 fn without_a_cab_the_chassis_tells_the_speed() {
     let set = DataSet::new();
     fs::remove_file(set.0.path().join(VERSION).join("ego_motion_cabin.json")).unwrap();
