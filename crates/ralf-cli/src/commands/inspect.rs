@@ -64,7 +64,7 @@ pub(crate) fn run(arguments: &InspectArgs) -> anyhow::Result<Outcome> {
     }
     settings.topics = arguments.dataset.topics_or(&settings.topics)?;
     let opened = arguments.dataset.open_corrected(&settings);
-    if let (Err(_), Some(topics)) = (&opened, &topics) {
+    if let (Err(_), Some(topics), false) = (&opened, &topics, arguments.json) {
         // They tell why.
         print(&topics.page(&settings.topics)?)?;
     }
