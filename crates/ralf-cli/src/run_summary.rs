@@ -3,7 +3,7 @@
 use crate::text::{aligned, counted, grouped, percent};
 use ralf::label::flag;
 use ralf::scene::{Failure, ViewState};
-use ralf_data::run::{CameraRecord, RadarRecord, RunRecord};
+use ralf_data::run::{CameraRecord, NotLabelled, RadarRecord, RunRecord};
 
 /// So many cameras are named that were not matched.
 const SHOWN_CAMERAS: usize = 8;
@@ -17,6 +17,15 @@ pub(crate) fn run_summary(record: &RunRecord) -> String {
         rows.extend(sequence.radars.iter().map(|radar| radar_row(&sequence.name, radar)));
     }
     aligned(&rows) + &doubtful_radars(record) + &cameras(record) + &unused_cameras(record)
+}
+
+/// What could not be labelled, a line each: scans, and what may have held some.
+pub(crate) fn not_labelled(record: &RunRecord) -> impl Iterator<Item = String> {
+    let scans = record.not_labelled();
+    let scans = scans.map(|(sequence, NotLabelled { radar, scan, reason })| {
+        format!("{sequence} {radar} scan {scan}: {reason}")
+    });
+    scans.chain(record.lost().map(|(sequence, lost)| format!("{sequence}: {lost}")))
 }
 
 /// Names the radars that deliver no numbers, and those whose labels are unlike their sisters'.

@@ -72,7 +72,7 @@ fn the_way_there_and_back_keeps_what_both_can_hold() {
         let (recording, config) = converted(&reader, folder.path(), format);
         let back = recording.sequences[0].as_ref();
         let mut rig = back.sequence().rig.clone();
-        config.method.apply_to(&mut rig).unwrap();
+        config.method.apply_to(&mut rig, &[]).unwrap();
         same_rig(&rig, &reader.sequence().rig);
         assert_eq!(back.sequence().times, reader.sequence().times);
         assert_eq!(back.sequence().motion.odometry(), reader.sequence().motion.odometry());

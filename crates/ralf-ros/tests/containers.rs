@@ -78,7 +78,7 @@ fn what_is_written_is_read_back() {
     // Enough for several chunks.
     for bytes in own_files(20_000) {
         let container = place.open(&bytes).unwrap();
-        assert_eq!(container.losses(), [""; 0]);
+        assert_eq!(container.losses(), []);
         let topics: Vec<_> =
             container.topics().iter().map(|topic| (topic.name.as_str(), topic.count)).collect();
         assert_eq!(topics, [("/radar", 20_000), ("/tf_static", 1)]);
@@ -205,10 +205,89 @@ fn mcap_with_chunk(size: u64, compression: &str, stored: &[u8]) -> Vec<u8> {
     file
 }
 
+/// How many messages are there and can't be read.
+fn unreadable(container: &Container) -> usize {
+    container.messages().iter().filter(|message| container.read(message).is_err()).count()
+}
+
+#[test]
+fn nothing_lies_behind_a_cut() {
+    let place = Place::new();
+    let [bag, mcap, _] = own_files(3);
+    for bytes in [bag, mcap] {
+        let at = bytes.windows(4).position(|window| window == 2.0f32.to_le_bytes()).unwrap();
+        let container = place.open(&bytes[..at]).unwrap();
+        assert_eq!((container.messages().len(), unreadable(&container)), (3, 0));
+        assert!(container.losses().iter().all(|loss| !loss.hides_messages), "{:?}", container.losses());
+    }
+}
+
+/// A recorder that was killed wrote no index: damage before that is damage still.
+#[test]
+fn damage_in_a_file_without_its_end_may_hide_messages() {
+    let [mut bag, ..] = own_files(20_000);
+    let at = bag.windows(9).position(|window| window == b"index_pos").unwrap();
+    bag[at + 10..at + 18].fill(0);
+    let at = index_in_the_midst(&bag);
+    bag[at..at + 400].fill(0);
+    let container = Place::new().open(&bag).unwrap();
+    assert!(container.losses().iter().any(|loss| loss.hides_messages), "{:?}", container.losses());
+}
+
+#[test]
+fn damage_that_an_index_tells_of_hides_no_message() {
+    let place = Place::new();
+    let [_, mcap, _] = own_files(3);
+    let needle = 2.0f32.to_le_bytes();
+    let at = mcap.windows(4).position(|window| window == needle).unwrap();
+    let mut damaged = mcap;
+    damaged[at] ^= 1;
+    let container = place.open(&damaged).unwrap();
+    assert_eq!((container.losses(), container.messages().len(), unreadable(&container)), (&[][..], 4, 4));
+}
+
+#[test]
+fn damage_that_nothing_tells_of_may_hide_messages() {
+    let place = Place::new();
+    let hides = |bytes: &[u8], place_of: &str| {
+        let container = place.open(bytes).unwrap();
+        let hidden: Vec<_> = container.losses().iter().filter(|loss| loss.hides_messages).collect();
+        assert!(hidden.len() == 1 && hidden[0].sentence.contains(place_of), "{:?}", container.losses());
+    };
+    // A chunk without an index whose bytes have another checksum than the chunk tells.
+    let mut chunk = mcap_with_chunk(4, "", &[0; 4]);
+    chunk[41] = 1;
+    hides(&chunk, "chunk 0 (at byte 57): expected the checksum 0x00000001");
+    // Zeros in the place of an index, in a file that goes on after them.
+    let [bag, mcap, _] = own_files(20_000);
+    for mut bytes in [bag, mcap] {
+        let at = index_in_the_midst(&bytes);
+        bytes[at..at + 400].fill(0);
+        hides(&bytes, " bytes from there on are not read: byte ");
+    }
+}
+
+/// Where an index of a chunk begins, behind the middle of a file.
+fn index_in_the_midst(file: &[u8]) -> usize {
+    let is_index = |at: &usize| {
+        let at = *at;
+        let number = |from: usize, bytes: usize| {
+            file[from..from + bytes].iter().rev().fold(0, |n, b| n << 8 | u64::from(*b))
+        };
+        // An MCAP file: the record's kind and length, the channel, the length of the entries.
+        let mcap = file[at] == 7 && number(at + 11, 4) > 0 && number(at + 1, 8) == 6 + number(at + 11, 4);
+        mcap || file[at..].starts_with(b"op=\x04")
+    };
+    (file.len() / 2..file.len() - 15).find(is_index).unwrap()
+}
+
 #[test]
 fn bombs_are_refused_before_anything_is_allocated() {
     let place = Place::new();
-    let losses = |bytes: &[u8]| place.open(bytes).unwrap().losses().join("\n");
+    let losses = |bytes: &[u8]| {
+        let container = place.open(bytes).unwrap();
+        container.losses().iter().map(|loss| loss.sentence.as_str()).collect::<Vec<_>>().join("\n")
+    };
     // A chunk that claims a terabyte.
     let told = losses(&mcap_with_chunk(1 << 40, "zstd", &[0; 40]));
     assert!(told.contains("at most 1073741824 bytes, decompressed, found 1099511627776"), "{told}");

@@ -3,6 +3,7 @@
 use crate::arguments::{MethodArgs, SettingsArgs, threads};
 use crate::outcome::Outcome;
 use crate::progress::{Stages, say};
+use crate::run_summary::not_labelled;
 use crate::text::{grouped, print};
 use anyhow::{Context, bail};
 use clap::{Args, Subcommand};
@@ -196,12 +197,8 @@ fn assemble(arguments: &AssembleArgs) -> anyhow::Result<Outcome> {
                 recordings += 1;
                 let radars = done.record.radars().flat_map(|radar| &radar.detections);
                 detections += radars.map(|count| u64::from(*count)).sum::<u64>();
-                for (sequence, scan) in done.record.not_labelled() {
-                    let (radar, number, reason) = (&scan.radar, scan.scan, &scan.reason);
-                    say(&format!(
-                        "not labelled: {}: {sequence} {radar} scan {number}: {reason}",
-                        folder.display()
-                    ));
+                for line in not_labelled(&done.record) {
+                    say(&format!("not labelled: {}: {line}", folder.display()));
                     outcome = Outcome::Partial;
                 }
             }

@@ -6,7 +6,7 @@ use crate::arguments::{DatasetArgs, MethodArgs, SettingsArgs, threads};
 use crate::network::{DepthModelArgs, depth_for_labelling};
 use crate::outcome::Outcome;
 use crate::progress::{Stages, say};
-use crate::run_summary::run_summary;
+use crate::run_summary::{not_labelled, run_summary};
 use crate::spent::Work;
 use crate::text::{counted, grouped, print};
 use clap::Args;
@@ -123,8 +123,8 @@ fn told_of_scans(record: &RunRecord) -> Outcome {
         say(&format!("labelled without: {sequence} {sensor} scan {number}: {reason}"));
     }
     let mut outcome = Outcome::Done;
-    for (sequence, scan) in record.not_labelled() {
-        say(&format!("not labelled: {sequence} {} scan {}: {}", scan.radar, scan.scan, scan.reason));
+    for line in not_labelled(record) {
+        say(&format!("not labelled: {line}"));
         outcome = Outcome::Partial;
     }
     outcome

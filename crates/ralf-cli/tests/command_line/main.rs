@@ -12,6 +12,7 @@
 mod ablation;
 mod bad_files;
 mod bad_images;
+mod bad_messages;
 mod bad_recordings;
 mod camera_plot;
 mod check;

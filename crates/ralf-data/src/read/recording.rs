@@ -21,6 +21,18 @@ pub trait SequenceReader: Source {
         &[]
     }
 
+    /// What of the recording can't be read and may have held radar scans that nothing else tells of, a sentence each:
+    /// they have no place in the timelines, and get no labels. Radar scans whose times are known stand in the
+    /// timelines, and whoever asks for them is told why they can't be read.
+    fn lost(&self) -> &[String] {
+        &[]
+    }
+
+    /// Names of sensors of which nothing can be read: the rig lacks them, and settings may name them all the same.
+    fn absent(&self) -> &[String] {
+        &[]
+    }
+
     /// The file of a camera's image, to be copied as it is; `None` where an image has no file of its own.
     fn image_file(&self, _camera: usize, _image: usize) -> Option<PathBuf> {
         None
@@ -83,6 +95,16 @@ pub struct TruthLabels {
     /// Why each is an artifact: [`ralf::label::Cause`] as a number, 0 of what is plausible. No file that labelling
     /// reads; empty where [no causes](SequenceReader::causes) are told apart.
     pub causes: Vec<u8>,
+}
+
+/// Refuses to write a recording again of which a part can't be read: what is written would not tell what it lacks.
+pub(crate) fn check_nothing_lost(reader: &dyn SequenceReader) -> Result<(), DataError> {
+    let Some(reason) = reader.lost().first().cloned() else { return Ok(()) };
+    Err(DataError::Unsuitable {
+        file: reader.sequence().name.clone().into(),
+        place: "content".into(),
+        reason,
+    })
 }
 
 /// Refuses to write LiDAR scans that are not motion-corrected, for nothing that is written says so.

@@ -161,10 +161,12 @@ impl LabelledRun {
         };
         check_radars(&self.out, reader, record)?;
         let mut rig = reader.sequence().rig.clone();
-        self.record.settings.method.apply_to(&mut rig).map_err(|error| DataError::Unsuitable {
-            file: self.out.clone(),
-            place: format!("sequence {name}"),
-            reason: error.to_string(),
+        self.record.settings.method.apply_to(&mut rig, reader.absent()).map_err(|error| {
+            DataError::Unsuitable {
+                file: self.out.clone(),
+                place: format!("sequence {name}"),
+                reason: error.to_string(),
+            }
         })?;
         let file = self.table_file(record)?;
         let unlike = |found| DataError::content(&file, "columns", "those of the recording's radars", found);

@@ -165,6 +165,13 @@ impl RunRecord {
             .flat_map(|sequence| sequence.not_labelled.iter().map(|scan| (sequence.name.as_str(), scan)))
     }
 
+    /// What of the recording is lost and may have held scans, with its sequence.
+    pub fn lost(&self) -> impl Iterator<Item = (&str, &str)> {
+        self.sequences
+            .iter()
+            .flat_map(|sequence| sequence.lost.iter().map(|lost| (sequence.name.as_str(), lost.as_str())))
+    }
+
     /// LiDAR scans that labelling had to do without, for they can't be read, with their sequence.
     pub fn unreadable(&self) -> impl Iterator<Item = (&str, &UnreadableScan)> {
         self.sequences

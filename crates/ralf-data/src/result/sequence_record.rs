@@ -25,6 +25,9 @@ pub struct SequenceRecord {
     pub cameras: Vec<CameraRecord>,
     /// Scans that could not be labelled.
     pub not_labelled: Vec<NotLabelled>,
+    /// What of the recording can't be read and may have held scans that nothing else tells of, a sentence each.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub lost: Vec<String>,
     /// Radars whose plausible share is far from that of the others.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub unlike_sisters: Vec<UnlikeSisters>,

@@ -78,6 +78,7 @@ pub(super) fn assemble(
         radars,
         cameras: cameras(&task.rig.cameras, images),
         not_labelled,
+        lost: task.reader.lost().to_vec(),
         motion: task.reader.motion_source(),
         unreadable: unreadable.into_iter().collect(),
     })

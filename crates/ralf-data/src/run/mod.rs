@@ -317,7 +317,9 @@ pub(crate) fn rig_of(
     config: &Config,
 ) -> Result<Rig, DataError> {
     let mut rig = reader.sequence().rig.clone();
-    config.apply_to(&mut rig).map_err(|error| unsuitable(recording, reader, error.to_string()))?;
+    config
+        .apply_to(&mut rig, reader.absent())
+        .map_err(|error| unsuitable(recording, reader, error.to_string()))?;
     Ok(rig)
 }
 

@@ -167,6 +167,7 @@ mod tests {
             radars: vec![radar],
             cameras: Vec::new(),
             not_labelled: Vec::new(),
+            lost: Vec::new(),
             unlike_sisters: Vec::new(),
             without_numbers: Vec::new(),
             motion: Default::default(),

@@ -103,6 +103,14 @@ impl SequenceReader for WithStore {
         self.inner.warnings()
     }
 
+    fn lost(&self) -> &[String] {
+        self.inner.lost()
+    }
+
+    fn absent(&self) -> &[String] {
+        self.inner.absent()
+    }
+
     fn image_file(&self, camera: usize, image: usize) -> Option<PathBuf> {
         self.inner.image_file(camera, image)
     }

@@ -6,7 +6,7 @@ use crate::error::DataError;
 use crate::read::SequenceReader;
 use crate::read::layout::raw::{DepthToml, SequenceToml};
 use crate::read::layout::{GROUND_TRUTH, SEQUENCES, rig, tables};
-use crate::read::recording::check_motion_corrected;
+use crate::read::recording::{check_motion_corrected, check_nothing_lost};
 use crate::result::{Component, OutFolder, SequenceNames, WriterLock, checked, refuse_links_out};
 use ralf::sensors::{Sequence, SourceError, Timelines};
 use ralf_train::side_by_side;
@@ -34,6 +34,7 @@ pub fn write_sequence_with(
     progress: &(dyn Fn(usize) + Sync),
 ) -> Result<(), DataError> {
     let names = SequenceNames::new(reader.sequence())?;
+    check_nothing_lost(reader)?;
     check_motion_corrected(reader)?;
     let sequences = OutFolder::new(dataset).own(SEQUENCES);
     let folder = sequences.folder(&names.sequence);

@@ -158,7 +158,12 @@ fn states(camera: &CameraRecord) -> impl Iterator<Item = ViewState> {
 
 fn not_labelled(content: &Content) -> Markup {
     let found: Vec<_> = content.record.not_labelled().collect();
+    let lost: Vec<_> = content.record.lost().collect();
     html! {
+        @if !lost.is_empty() {
+            h3 { "What can't be read and may have held scans" }
+            ul { @for (sequence, lost) in lost { li { (sequence) ": " (lost) } } }
+        }
         @if !found.is_empty() {
             h3 { "Scans without labels" }
             ul { @for (sequence, scan) in found {

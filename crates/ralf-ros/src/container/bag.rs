@@ -26,9 +26,15 @@ impl Format for Bag {
         bytes.starts_with(MAGIC)
     }
 
+    fn index(&self, file: &mut RecordFile) -> Result<Option<u64>, Stop> {
+        let size = file.left();
+        let header = bag_header(file)?;
+        let index_position = ParsedFields::parse(&header)?.u64("index_pos")?;
+        Ok(Some(index_position).filter(|position| (1..size).contains(position)))
+    }
+
     fn walk(&self, file: &mut RecordFile, catalogue: &mut Catalogue) -> Result<(), Stop> {
-        file.skip(MAGIC.len() as u64)?;
-        let header = record_header(file)?;
+        let header = bag_header(file)?;
         let header = ParsedFields::parse(&header)?;
         if header.op()? != op::BAG_HEADER {
             return Err(Stop::Damaged(file.error("the record of the bag", "another one")));
@@ -166,6 +172,12 @@ fn add_connection(
     };
     catalogue.channels.insert(header.u32("conn")?, channel);
     Ok(())
+}
+
+/// The fields of the record that describes the whole bag.
+fn bag_header(file: &mut RecordFile) -> Result<Vec<u8>, Stop> {
+    file.skip(MAGIC.len() as u64)?;
+    record_header(file)
 }
 
 fn record_header(file: &mut RecordFile) -> Result<Vec<u8>, Stop> {

@@ -3,6 +3,7 @@
 use super::catalogue::{Catalogue, MessageRef, Place};
 use super::chunks::Chunks;
 use super::error::{ContainerError, Stop};
+use super::loss::Loss;
 use super::records::RecordFile;
 use crate::encoding::EncodingError;
 use ralf_files::Kind;
@@ -16,6 +17,10 @@ pub(super) trait Format: Debug + Send + Sync {
 
     /// Whether a file with this beginning is of this format.
     fn begins(&self, bytes: &[u8]) -> bool;
+
+    /// Where the index at the end of a file begins: all messages lie before it. `None` of a file that lacks it, for the
+    /// recorder was killed or the file is cut.
+    fn index(&self, file: &mut RecordFile) -> Result<Option<u64>, Stop>;
 
     /// Walks over the whole file, chunks unread.
     fn walk(&self, file: &mut RecordFile, catalogue: &mut Catalogue) -> Result<(), Stop>;
@@ -45,7 +50,7 @@ impl ChunkedFile {
     pub(super) fn open(
         path: &Path,
         format: &'static dyn Format,
-        losses: &mut Vec<String>,
+        losses: &mut Vec<Loss>,
     ) -> Result<(Self, Catalogue), ContainerError> {
         let mut catalogue = Catalogue::default();
         let open = || ralf_files::open(path, Kind::Stream).map_err(ContainerError::io(path));
@@ -54,8 +59,9 @@ impl ChunkedFile {
             Ok(()) => {}
             Err(Stop::Io(error)) => return Err(ContainerError::Io { file: path.to_owned(), error }),
             Err(Stop::Refused(error)) => return Err(ContainerError::inside(path, format.name(), error)),
-            Err(Stop::Damaged(error)) => {
-                losses.push(format!("{}: cut short or damaged, read up to there: {error}", path.display()));
+            Err(stop @ (Stop::Cut(_) | Stop::Damaged(_))) => {
+                let mut again = RecordFile::new(open()?).map_err(ContainerError::io(path))?;
+                losses.push(unread_end(path, &stop, &records, format.index(&mut again).ok().flatten()));
                 catalogue.forget_last_index();
             }
         }
@@ -97,26 +103,45 @@ impl ChunkedFile {
         }
     }
 
-    /// Looks into a chunk. One that can't be read is a loss, unless the system is to blame.
+    /// Looks into a chunk. One that can't be read is a loss, unless the system is to blame. Nothing lies behind a cut.
     fn scan(
         &self,
         chunk: usize,
         messages: bool,
         catalogue: &mut Catalogue,
-        losses: &mut Vec<String>,
+        losses: &mut Vec<Loss>,
     ) -> Result<(), ContainerError> {
+        let hides_messages = messages && !self.chunks.is_cut(chunk);
+        let mut lose = |error: ContainerError| {
+            losses.push(Loss { sentence: error.to_string(), hides_messages });
+        };
         let bytes = match self.chunks.chunk(chunk) {
             Ok(bytes) => bytes,
             Err(error @ ContainerError::Io { .. }) => return Err(error),
             Err(error) => {
-                losses.push(error.to_string());
+                lose(error);
                 return Ok(());
             }
         };
         if let Err(error) = self.format.scan(&bytes, chunk as u32, messages, catalogue) {
             let (path, part) = (self.chunks.path(), self.chunks.describe(chunk));
-            losses.push(ContainerError::inside(path, &part, error).to_string());
+            lose(ContainerError::inside(path, &part, error));
         }
         Ok(())
     }
+}
+
+/// What is said of a file that can be read no further than this. Before its index there may be messages, and where it
+/// has none behind damage, but not behind a cut.
+fn unread_end(path: &Path, stop: &Stop, records: &RecordFile, index: Option<u64>) -> Loss {
+    let is_damaged = matches!(stop, Stop::Damaged(_));
+    let end = index.unwrap_or(if is_damaged { records.position() + records.left() } else { 0 });
+    let (path, unread) = (path.display(), end.saturating_sub(records.position()));
+    if unread > 0 {
+        return Loss::hiding(format!(
+            "{path}: damaged, and {unread} bytes from there on are not read: {stop}"
+        ));
+    }
+    let sentence = format!("{path}: cut short or damaged, read up to there: {stop}");
+    Loss { sentence, hides_messages: false }
 }

@@ -2,11 +2,11 @@
 
 use super::decompress::{CHUNK_BYTES, Compression};
 use super::error::ContainerError;
-use std::collections::VecDeque;
+use std::collections::{BTreeMap, VecDeque};
 use std::fs::File;
 use std::io::{Read, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 /// Bytes of decompressed chunks that are kept; the last one always is.
 const CACHE_BYTES: usize = 64 << 20;
@@ -27,6 +27,10 @@ pub(super) struct ChunkPlace {
     pub(super) cut: bool,
 }
 
+/// Why a chunk can't be unpacked: what was expected and what was found.
+#[derive(Debug, Clone)]
+struct Broken(String, String);
+
 /// A file and its chunks. Any thread may ask for any chunk.
 #[derive(Debug)]
 pub(super) struct Chunks {
@@ -35,11 +39,13 @@ pub(super) struct Chunks {
     places: Vec<ChunkPlace>,
     /// The last used one last.
     cache: Mutex<VecDeque<(usize, Arc<[u8]>)>>,
+    /// Those that can't be unpacked, for each of their messages asks again.
+    broken: Mutex<BTreeMap<usize, Broken>>,
 }
 
 impl Chunks {
     pub(super) fn new(path: PathBuf, file: File, places: Vec<ChunkPlace>) -> Self {
-        Self { path, file: Mutex::new(file), places, cache: Mutex::default() }
+        Self { path, file: Mutex::new(file), places, cache: Mutex::default(), broken: Mutex::default() }
     }
 
     pub(super) fn path(&self) -> &Path {
@@ -48,6 +54,11 @@ impl Chunks {
 
     pub(super) fn len(&self) -> usize {
         self.places.len()
+    }
+
+    /// Whether the file ends before the chunk does.
+    pub(super) fn is_cut(&self, chunk: usize) -> bool {
+        self.places.get(chunk).is_some_and(|place| place.cut)
     }
 
     /// What an error in a chunk is said of.
@@ -66,26 +77,39 @@ impl Chunks {
         let place = *self.places.get(chunk).ok_or_else(|| {
             ContainerError::content(&self.path, "index", "a chunk of the file", format!("chunk {chunk}"))
         })?;
-        let wrong = |expected: String, found: String| {
-            Err(ContainerError::content(&self.path, self.describe(chunk), expected, found))
-        };
-        if place.size > CHUNK_BYTES {
-            return wrong(format!("at most {CHUNK_BYTES} bytes, decompressed"), format!("{}", place.size));
+        let known = self.broken().get(&chunk).cloned();
+        let unpacked = known.map_or_else(|| self.unpack(&place), |broken| Ok(Err(broken)))?;
+        unpacked.map(|bytes| self.keep(chunk, bytes.into())).map_err(|broken| {
+            self.broken().insert(chunk, broken.clone());
+            let Broken(expected, found) = broken;
+            ContainerError::content(&self.path, self.describe(chunk), expected, found)
+        })
+    }
+
+    /// The bytes of a chunk, or why it has none that are good.
+    fn unpack(&self, place: &ChunkPlace) -> Result<Result<Vec<u8>, Broken>, ContainerError> {
+        let ChunkPlace { position, stored, size, compression, crc, cut } = *place;
+        if size > CHUNK_BYTES {
+            return Ok(Err(Broken(format!("at most {CHUNK_BYTES} bytes, decompressed"), size.to_string())));
         }
-        let stored = self.bytes(place.position, place.stored)?;
-        let bytes = if place.cut {
-            place.compression.decompress_beginning(stored, place.size).0
-        } else {
-            match place.compression.decompress(stored, place.size) {
-                Ok(bytes) => bytes,
-                Err(found) => return wrong(format!("{} bytes, decompressed", place.size), found),
-            }
-        };
-        let crc = if place.crc == 0 || place.cut { place.crc } else { crc32fast::hash(&bytes) };
-        if crc != place.crc {
-            return wrong(format!("the checksum {:#010x}", place.crc), format!("{crc:#010x}"));
+        let stored = self.bytes(position, stored)?;
+        if cut {
+            return Ok(Ok(compression.decompress_beginning(stored, size).0));
         }
-        Ok(self.keep(chunk, bytes.into()))
+        let bytes = match compression.decompress(stored, size) {
+            Ok(bytes) => bytes,
+            Err(found) => return Ok(Err(Broken(format!("{size} bytes, decompressed"), found))),
+        };
+        let found = if crc == 0 { crc } else { crc32fast::hash(&bytes) };
+        if found == crc {
+            return Ok(Ok(bytes));
+        }
+        Ok(Err(Broken(format!("the checksum {crc:#010x}"), format!("{found:#010x}"))))
+    }
+
+    fn broken(&self) -> MutexGuard<'_, BTreeMap<usize, Broken>> {
+        // Nobody panics while it is held.
+        self.broken.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// Bytes of the file as they are.

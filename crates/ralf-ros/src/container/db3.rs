@@ -4,6 +4,7 @@ use super::Schema;
 use super::catalogue::{Catalogue, Channel, MessageRef};
 use super::decompress::{CHUNK_BYTES, Compression};
 use super::error::ContainerError;
+use super::loss::Loss;
 use rusqlite::{Connection, OpenFlags, Row};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
@@ -22,7 +23,7 @@ pub(super) struct Db3File {
 
 impl Db3File {
     /// Reads what the file holds, and says what is lost. In the messages the topic is still the number of the channel.
-    pub(super) fn open(path: &Path, losses: &mut Vec<String>) -> Result<(Self, Catalogue), ContainerError> {
+    pub(super) fn open(path: &Path, losses: &mut Vec<Loss>) -> Result<(Self, Catalogue), ContainerError> {
         let flags = OpenFlags::SQLITE_OPEN_READ_ONLY | OpenFlags::SQLITE_OPEN_NO_MUTEX;
         let connection = Connection::open_with_flags(path, flags).map_err(refused(path, "file"))?;
         let mut catalogue = Catalogue::default();
@@ -43,11 +44,11 @@ impl Db3File {
         });
         match read {
             Err(error) if messages.is_empty() => return Err(refused(path, "table `messages`")(error)),
-            Err(error) => losses.push(format!(
+            Err(error) => losses.push(Loss::hiding(format!(
                 "{}: damaged, read up to there: table `messages`: {error} after {} messages",
                 path.display(),
                 messages.len()
-            )),
+            ))),
             Ok(()) => {}
         }
         Ok((Self { path: path.to_owned(), connection: Mutex::new(connection) }, catalogue))

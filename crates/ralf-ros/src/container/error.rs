@@ -53,13 +53,19 @@ impl ContainerError {
 }
 
 /// Why a file is read no further.
-#[derive(Debug)]
+#[derive(Debug, Error)]
 pub(super) enum Stop {
     /// The system refused: nothing is known of the rest.
+    #[error("{0}")]
     Io(io::Error),
     /// What is there can't be read by this program: it would be wrong to go on without it.
+    #[error("{0}")]
     Refused(EncodingError),
-    /// The file is cut short or damaged here: what was found up to here is good.
+    /// The file ends before what was begun does: what was found up to here is good.
+    #[error("{0}")]
+    Cut(EncodingError),
+    /// The file is damaged here: what was found up to here is good.
+    #[error("{0}")]
     Damaged(EncodingError),
 }
 

@@ -1,6 +1,7 @@
 //! Folders that ROS 2 records into: `metadata.yaml` beside one or several files.
 
 use super::error::ContainerError;
+use super::loss::Loss;
 use ralf_files::Kind;
 use std::path::{Path, PathBuf};
 
@@ -8,7 +9,7 @@ use std::path::{Path, PathBuf};
 pub(super) const METADATA: &str = "metadata.yaml";
 
 /// The files that the folder's `metadata.yaml` lists, in its order; what it lists and the folder lacks is a loss.
-pub(super) fn files(folder: &Path, losses: &mut Vec<String>) -> Result<Vec<PathBuf>, ContainerError> {
+pub(super) fn files(folder: &Path, losses: &mut Vec<Loss>) -> Result<Vec<PathBuf>, ContainerError> {
     let metadata = folder.join(METADATA);
     let text = ralf_files::read_text(&metadata, Kind::Settings).map_err(ContainerError::io(&metadata))?;
     let names = listed(&text);
@@ -33,7 +34,7 @@ pub(super) fn files(folder: &Path, losses: &mut Vec<String>) -> Result<Vec<PathB
         if file.is_file() {
             files.push(file);
         } else {
-            losses.push(format!("{}: {} is not there", metadata.display(), file.display()));
+            losses.push(Loss::hiding(format!("{}: {} is not there", metadata.display(), file.display())));
         }
     }
     if files.is_empty() {
@@ -67,7 +68,7 @@ mod tests {
         fs::write(folder.path().join("drive_1.db3"), "").unwrap();
         let mut losses = Vec::new();
         assert_eq!(files(folder.path(), &mut losses).unwrap(), [folder.path().join("drive_1.db3")]);
-        assert!(losses.len() == 1 && losses[0].contains("drive_0.db3 is not there"), "{losses:?}");
+        assert!(losses.len() == 1 && losses[0].sentence.contains("drive_0.db3 is not there"), "{losses:?}");
     }
 
     #[test]

@@ -12,8 +12,14 @@ use crate::encoding::{Decoder, Encoding, EncodingError};
 use mcap::MAGIC;
 use mcap::records::op;
 
+/// The kind that no record has: zeros are no record.
+const NO_OP: u8 = 0;
+
 /// The kind of a record and its length.
 const PREFIX_BYTES: usize = 9;
+
+/// What the last record holds: where the summary begins, where a part of it begins, its checksum.
+const FOOTER_BYTES: u64 = 20;
 
 /// What the quality of service says of topics that are also for those who come later: as ROS 2 writes it, and wrote it.
 const LATCHED: [&str; 2] = ["durability: transient_local\n", "durability: 1\n"];
@@ -28,6 +34,16 @@ impl Format for Mcap {
 
     fn begins(&self, bytes: &[u8]) -> bool {
         bytes.starts_with(MAGIC)
+    }
+
+    fn index(&self, file: &mut RecordFile) -> Result<Option<u64>, Stop> {
+        let size = file.left();
+        file.skip(size.saturating_sub(FOOTER_BYTES + MAGIC.len() as u64))?;
+        let summary = u64::from_le_bytes(file.array()?);
+        file.skip(FOOTER_BYTES - 8)?;
+        let end: [u8; MAGIC.len()] = file.array()?;
+        // 0 is no summary.
+        Ok((end == MAGIC).then_some(if summary == 0 { size } else { summary }))
     }
 
     fn walk(&self, file: &mut RecordFile, catalogue: &mut Catalogue) -> Result<(), Stop> {
@@ -45,8 +61,8 @@ impl Format for Mcap {
                 op::MESSAGE => {
                     let head = file.bytes(length.min(MESSAGE_HEAD_BYTES))?;
                     let (channel, log_ns) = message_head(&head)?;
-                    catalogue.add_message(channel, log_ns, Place::File(start));
                     file.skip(length.saturating_sub(MESSAGE_HEAD_BYTES))?;
+                    catalogue.add_message(channel, log_ns, Place::File(start));
                 }
                 op::FOOTER => {
                     file.skip(length)?;
@@ -58,6 +74,7 @@ impl Format for Mcap {
                         Err(Stop::Damaged(file.error("the end of an MCAP file", "other bytes")))
                     };
                 }
+                NO_OP => return Err(Stop::Damaged(file.error("the kind of a record", "0"))),
                 _ => file.skip(length)?,
             }
         }
@@ -226,7 +243,7 @@ mod tests {
             std::fs::write(&file, [MAGIC, &[kind], &length, &body].concat()).unwrap();
             let container = Container::open(&file).unwrap();
             assert!(container.topics().is_empty());
-            let told = &container.losses()[0];
+            let told = &container.losses()[0].sentence;
             assert!(
                 told.contains("a list that fits into the 8 bytes left, found 4294967295 entries"),
                 "{told}"

@@ -15,6 +15,7 @@ mod db3;
 mod decompress;
 mod error;
 mod folder;
+mod loss;
 mod mcap_file;
 mod records;
 
@@ -24,6 +25,7 @@ use catalogue::{Catalogue, Channel};
 use chunked::{ChunkedFile, Format};
 use db3::Db3File;
 pub use error::ContainerError;
+pub use loss::Loss;
 use mcap_file::Mcap;
 use ralf_files::Kind;
 use std::collections::BTreeMap;
@@ -78,7 +80,7 @@ pub struct Container {
     parts: Vec<Part>,
     topics: Vec<Topic>,
     messages: Vec<MessageRef>,
-    losses: Vec<String>,
+    losses: Vec<Loss>,
 }
 
 #[derive(Debug)]
@@ -134,8 +136,8 @@ impl Container {
         &self.messages
     }
 
-    /// What could not be read, a sentence each, for people.
-    pub fn losses(&self) -> &[String] {
+    /// What could not be read.
+    pub fn losses(&self) -> &[Loss] {
         &self.losses
     }
 
@@ -182,8 +184,8 @@ impl Container {
         });
         if messages.len() < found {
             let (path, lost) = (self.files[file as usize].display(), found - messages.len());
-            self.losses
-                .push(format!("{path}: {lost} messages are of channels that the file doesn't describe"));
+            let sentence = format!("{path}: {lost} messages are of channels that the file doesn't describe");
+            self.losses.push(Loss::hiding(sentence));
         }
         self.messages.extend(messages);
     }

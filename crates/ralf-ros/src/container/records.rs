@@ -72,6 +72,6 @@ impl RecordFile {
             return Ok(());
         }
         let found = format!("the end of the file after {}", self.left());
-        Err(Stop::Damaged(self.error(format!("{length} more bytes"), found)))
+        Err(Stop::Cut(self.error(format!("{length} more bytes"), found)))
     }
 }

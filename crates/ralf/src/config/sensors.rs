@@ -35,9 +35,10 @@ pub struct SensorOverride {
 }
 
 impl super::Config {
-    /// Puts the overrides of `sensors` into a rig. Names that the rig lacks are refused.
-    pub fn apply_to(&self, rig: &mut Rig) -> Result<(), ConfigError> {
-        for (name, values) in &self.sensors {
+    /// Puts the overrides of `sensors` into a rig. Names that the rig lacks are refused, but those of sensors that are
+    /// `absent`: the recording has them, and nothing of them can be read.
+    pub fn apply_to(&self, rig: &mut Rig, absent: &[String]) -> Result<(), ConfigError> {
+        for (name, values) in self.sensors.iter().filter(|(name, _)| !absent.contains(name)) {
             if let Some(radar) = rig.radars.iter_mut().find(|radar| radar.name == *name) {
                 values.apply_to_radar(radar).map_err(|expected| invalid(name, expected))?;
             } else if let Some(lidar) = rig.lidars.iter_mut().find(|lidar| lidar.name == *name) {

@@ -54,7 +54,7 @@ fn with_sensors(
     path: &Path,
 ) -> Result<Corrected, DataError> {
     let mut sequence = inner.sequence().clone();
-    for (name, correction) in corrections {
+    for (name, correction) in corrections.iter().filter(|(name, _)| !inner.absent().contains(name)) {
         correction.apply_to(&mut sequence, name).map_err(|reason| unsuitable(path, &sequence, reason))?;
     }
     Ok(Corrected::new(inner, sequence, corrections))

@@ -123,6 +123,14 @@ impl SequenceReader for Corrected {
         &self.warnings
     }
 
+    fn lost(&self) -> &[String] {
+        self.inner.lost()
+    }
+
+    fn absent(&self) -> &[String] {
+        self.inner.absent()
+    }
+
     fn image_file(&self, camera: usize, image: usize) -> Option<PathBuf> {
         self.inner.image_file(camera, image)
     }

@@ -66,15 +66,14 @@ pub(super) fn lidar_scan(
     Ok(LidarScan { t_ns, points, times, intensity, classes: None })
 }
 
-/// How a LiDAR's points tell their times, after its first scan. The error is a sentence, of times in no unit.
+/// How a LiDAR's points tell their times, after its first scan. The error inside is a sentence, of times in no unit.
 pub(super) fn point_clock(
     messages: &Messages,
     message: &MessageRef,
     t_ns: i64,
-) -> Result<Option<PointClock>, String> {
-    let cloud: PointCloud2 = messages.decode(message).map_err(|error| error.to_string())?;
-    let table = table(messages, message, &cloud).map_err(|error| error.to_string())?;
-    PointClock::find(&table, t_ns)
+) -> Result<Result<Option<PointClock>, String>, DataError> {
+    let cloud: PointCloud2 = messages.decode(message)?;
+    Ok(PointClock::find(&table(messages, message, &cloud)?, t_ns))
 }
 
 impl Columns {

@@ -5,7 +5,7 @@ use super::messages::Messages;
 use super::topics::{TopicConfig, TopicKind, Topics};
 use super::{LABELLED, survey};
 use crate::error::DataError;
-use crate::read::models::{LIDARS, RADARS, named_in};
+use crate::read::models::{GENERIC, LIDARS, RADARS, named_in};
 use ralf_ros::container::{MessageRef, Topic};
 use ralf_ros::message::{CameraInfo, Message, PointCloud2, RadarScan};
 use serde::Serialize;
@@ -156,19 +156,22 @@ impl Guess {
     }
 }
 
-/// A radar, if it is one by type, name or fields; else a LiDAR.
+/// A radar, if it is one by type, name or fields; else a LiDAR. Where no scan can be read, a LiDAR if it is called one.
 fn cloud_entry(messages: &Messages, topic: &Topic, place: usize) -> TopicConfig {
-    let mut of_topic = messages.container().messages().iter().filter(|message| message.topic() == place);
-    let frame = of_topic.clone().next().map_or_else(String::new, |first| frame(messages, first));
+    let of_topic = messages.container().messages().iter().filter(|message| message.topic() == place);
+    // What can't be read is told by whoever reads all of it.
+    let frame = of_topic.clone().find_map(|message| frame(messages, message)).unwrap_or_default();
     let names = [topic.name.as_str(), &frame];
     let with_model = |kind, model: &str| TopicConfig {
         model: Some(model.to_owned()),
         ..TopicConfig::new(&topic.name, kind)
     };
+    let mut scans = of_topic.filter_map(|message| cloud::radar_columns(messages, message).ok()).peekable();
+    if scans.peek().is_none() && (topic.name.contains("lidar") || named_in(&names, &LIDARS) != GENERIC) {
+        return with_model(TopicKind::Lidar, named_in(&names, &LIDARS));
+    }
     let mut heights = Vec::new();
-    for message in of_topic.by_ref().take(FIRST_SCANS) {
-        // What can't be read is told by whoever reads all of it.
-        let Ok(Columns { names: fields, values }) = cloud::radar_columns(messages, message) else { continue };
+    for Columns { names: fields, values } in scans.take(FIRST_SCANS) {
         let has = |name: &&str| fields.iter().any(|known| known == name);
         if !topic.name.contains("radar") && has(&"x") && !RADAR_FIELDS.iter().any(has) {
             return with_model(TopicKind::Lidar, named_in(&names, &LIDARS));
@@ -181,12 +184,10 @@ fn cloud_entry(messages: &Messages, topic: &Topic, place: usize) -> TopicConfig 
     TopicConfig { elevation: Some(elevation), ..with_model(TopicKind::Radar, named_in(&names, &RADARS)) }
 }
 
-/// The frame of a message; empty where it can't be read, which is told by whoever reads all of it.
-fn frame(messages: &Messages, message: &MessageRef) -> String {
-    let bytes = messages.container().read(message).map_err(DataError::from);
-    bytes
-        .and_then(|bytes| messages.header(message, &bytes))
-        .map_or_else(|_| String::new(), |header| header.frame_id)
+/// The frame of a message; `None` where it can't be read.
+fn frame(messages: &Messages, message: &MessageRef) -> Option<String> {
+    let bytes = messages.container().read(message).ok()?;
+    messages.header(message, &bytes).ok().map(|header| header.frame_id)
 }
 
 /// The names above a topic's, from the nearest: `/a/b` and `/a` of `/a/b/c`.

@@ -4,6 +4,7 @@ use super::guess::{self, Guess};
 use super::messages::Messages;
 use super::survey;
 use super::topics::TopicKind;
+use super::unread::Unread;
 use crate::error::DataError;
 use ralf_ros::container::{Topic, recognises};
 use ralf_ros::message::{CameraInfo, Message};
@@ -51,7 +52,8 @@ pub fn inspect(path: &Path) -> Result<(RosInspection, Guess), DataError> {
     let messages = Messages::open(path)?;
     let topics = messages.container().topics();
     let mut seen: Vec<Seen> = topics.iter().map(Seen::new).collect();
-    let mut losses = messages.container().losses().to_vec();
+    let mut losses: Vec<String> = messages.container().losses().iter().map(ToString::to_string).collect();
+    let mut unread = Unread::default();
     for message in messages.container().messages() {
         let seen = &mut seen[message.topic()];
         seen.log_ns.push(message.log_ns);
@@ -69,14 +71,10 @@ pub fn inspect(path: &Path) -> Result<(RosInspection, Guess), DataError> {
                 seen.delays_ns.push(message.log_ns.saturating_sub(header.stamp_ns));
                 seen.frame.get_or_insert(header.frame_id);
             }
-            // One sentence for each topic is enough.
-            Err(error) if seen.unreadable == 0 => {
-                seen.unreadable = 1;
-                losses.push(error.to_string());
-            }
-            Err(_) => seen.unreadable += 1,
+            Err(error) => unread.add(message.topic(), &error),
         }
     }
+    losses.extend(unread.sentences(&messages, |_| true));
     let topics = topics.iter().zip(seen).map(|(topic, seen)| seen.inspection(topic)).collect();
     Ok((RosInspection { topics, losses }, guess::of_messages(&messages)))
 }
@@ -89,7 +87,6 @@ struct Seen {
     stamps_ns: Vec<i64>,
     delays_ns: Vec<i64>,
     frame: Option<String>,
-    unreadable: usize,
 }
 
 impl Seen {

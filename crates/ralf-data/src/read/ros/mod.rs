@@ -12,11 +12,14 @@ mod motion;
 mod mounting;
 mod pixels;
 mod point_clock;
+mod sensors;
 mod source;
 mod survey;
 #[cfg(test)]
 mod tests;
 mod topics;
+mod track;
+mod unread;
 
 use crate::error::DataError;
 use crate::read::Recording;
@@ -38,7 +41,7 @@ pub(crate) const LABELLED: &str = "/points_labelled";
 /// Opens a file or folder whose topics these are; a first guess is made where there are none.
 pub(crate) fn open(path: &Path, topics: &Topics) -> Result<Recording, DataError> {
     let messages = Messages::open(path)?;
-    let mut warnings = messages.container().losses().to_vec();
+    let mut warnings: Vec<String> = messages.container().losses().iter().map(ToString::to_string).collect();
     let topics = if topics.is_empty() {
         let Guess { topics, unused } = guess::of_messages(&messages);
         warnings.push(

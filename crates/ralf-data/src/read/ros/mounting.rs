@@ -42,7 +42,13 @@ pub(super) fn mounting(
             let place = format!("frame `{frame}`");
             let expected =
                 format!("a transform from `{vehicle}` in the topics of the kinds tf and tf_static");
-            DataError::content(messages.path(), place, expected, error.to_string())
+            let unread = survey.unread_frames(messages).into_iter().map(|sentence| format!("; {sentence}"));
+            DataError::content(
+                messages.path(),
+                place,
+                expected,
+                error.to_string() + &unread.collect::<String>(),
+            )
         })
     };
     let [first, last] = [at(span[0])?, at(span[1])?];

@@ -2,8 +2,10 @@
 
 use super::messages::Messages;
 use super::topics::{Stamps, TopicConfig, TopicKind, Topics};
+use super::track::Track;
+use super::unread::Unread;
 use crate::error::DataError;
-use ralf_ros::container::{ContainerError, MessageRef};
+use ralf_ros::container::MessageRef;
 use ralf_ros::message::{
     CameraInfo, CompressedImage, Definition, Image, Imu, Message, Odometry, PointCloud2, Pose, RadarScan,
     TfMessage, Twist, TwistStamped,
@@ -21,17 +23,8 @@ pub(super) struct Survey {
     pub(super) frames: TfTree,
     /// The calibration of each camera, by the place of its topic.
     pub(super) infos: BTreeMap<usize, (MessageRef, CameraInfo)>,
-    /// Messages that could not be read, a sentence for each topic.
-    pub(super) losses: Vec<String>,
-}
-
-/// When a sensor measured.
-#[derive(Default)]
-pub(super) struct Track {
-    /// The frame that its messages name.
-    pub(super) frame: String,
-    /// Time and message, in time order.
-    pub(super) measurements: Vec<(i64, MessageRef)>,
+    /// Messages that can't be read. Those of sensors stand in their tracks, too.
+    pub(super) unread: Unread,
 }
 
 /// What a topic tells of the vehicle's motion.
@@ -62,6 +55,20 @@ enum Role<'a> {
     Calibration,
 }
 
+/// Why a message tells nothing.
+enum Trouble {
+    /// It can't be read: what is lost is told, and the others are good.
+    Unreadable(DataError),
+    /// It contradicts those before it: the recording is refused.
+    Contradiction(DataError),
+}
+
+impl From<DataError> for Trouble {
+    fn from(error: DataError) -> Self {
+        Self::Unreadable(error)
+    }
+}
+
 /// The types that a topic of this kind may have.
 pub(super) fn types(kind: TopicKind) -> &'static [&'static Definition] {
     match kind {
@@ -85,23 +92,22 @@ pub(super) fn info_topic(messages: &Messages, name: &str, topic: &TopicConfig) -
 pub(super) fn survey(messages: &Messages, topics: &Topics) -> Result<Survey, DataError> {
     let roles = roles(messages, topics)?;
     let mut survey = Survey::default();
-    let mut unreadable: BTreeMap<usize, (usize, String)> = BTreeMap::new();
     for message in messages.container().messages() {
         let roles = &roles[message.topic()];
         if roles.is_empty() {
             continue;
         }
-        match messages.container().read(message) {
-            Ok(bytes) => roles.iter().try_for_each(|role| survey.look(messages, message, &bytes, *role))?,
-            Err(error @ ContainerError::Io { .. }) => return Err(error.into()),
-            Err(error) => unreadable.entry(message.topic()).or_insert((0, error.to_string())).0 += 1,
+        let found = match messages.container().read(message) {
+            Ok(bytes) => roles.iter().try_for_each(|role| survey.look(messages, message, &bytes, *role)),
+            Err(error) => Err(Trouble::Unreadable(error.into())),
+        };
+        match found {
+            Ok(()) => {}
+            Err(Trouble::Contradiction(error) | Trouble::Unreadable(error @ DataError::Io { .. })) => {
+                return Err(error);
+            }
+            Err(Trouble::Unreadable(error)) => survey.miss(message, roles, &error),
         }
-    }
-    for (topic, (count, first)) in unreadable {
-        let name = &messages.container().topics()[topic].name;
-        survey
-            .losses
-            .push(format!("{count} messages of {name} can't be read and were left out; the first: {first}"));
     }
     survey.check_complete(messages, topics)?;
     survey.sort(messages, topics)?;
@@ -142,23 +148,39 @@ fn roles<'a>(messages: &Messages, topics: &'a Topics) -> Result<Vec<Vec<Role<'a>
 impl Survey {
     /// When the first measurement of any sensor was made, ns.
     pub(super) fn first_time(&self) -> i64 {
-        let times = self.sensors.values().filter_map(|track| track.measurements.first());
-        times.map(|(t_ns, _)| *t_ns).min().unwrap_or_default()
+        let spans = self.sensors.values().filter_map(Track::span);
+        spans.map(|[first, _]| first).min().unwrap_or_default()
     }
 
+    /// What is said of the messages of the tree of frames that can't be read.
+    pub(super) fn unread_frames(&self, messages: &Messages) -> Vec<String> {
+        let topics = messages.container().topics();
+        self.unread.sentences(messages, |topic| TfMessage::DEFINITION.is(&topics[topic].type_name))
+    }
+
+    /// What is said of the messages that can't be read, but those of sensors: they are named one by one.
+    pub(super) fn losses(&self, messages: &Messages, topics: &Topics) -> Vec<String> {
+        let is_sensor = |name: &str| {
+            topics.iter().any(|(sensor, topic)| topic.topic == name && self.sensors.contains_key(sensor))
+        };
+        let topics = messages.container().topics();
+        self.unread.sentences(messages, |topic| !is_sensor(&topics[topic].name))
+    }
+
+    /// Takes what a message says.
     fn look(
         &mut self,
         messages: &Messages,
         message: &MessageRef,
         bytes: &[u8],
         role: Role<'_>,
-    ) -> Result<(), DataError> {
+    ) -> Result<(), Trouble> {
         match role {
             Role::Sensor(name, topic) => {
                 let header = messages.header(message, bytes)?;
                 let track = self.sensors.entry(name.to_owned()).or_default();
                 same_frame(messages, message, &mut track.frame, &header.frame_id)?;
-                track.measurements.push((time(topic, header.stamp_ns, message), *message));
+                track.readable.push((time(topic, header.stamp_ns, message), *message));
             }
             Role::Motion(name, topic) => {
                 let found = motion(messages, message, bytes)?;
@@ -173,7 +195,9 @@ impl Survey {
             Role::Frames(kind) => {
                 for transform in messages.decoded(message, bytes, TfMessage::from_bytes)?.transforms {
                     self.frames.add(&transform, kind).map_err(|error| {
-                        messages.error(message, "transforms", "a tree of frames", error.to_string())
+                        let error =
+                            messages.error(message, "transforms", "a tree of frames", error.to_string());
+                        Trouble::Contradiction(error)
                     })?;
                 }
             }
@@ -182,22 +206,28 @@ impl Survey {
         Ok(())
     }
 
+    /// Notes a message that can't be read.
+    fn miss(&mut self, message: &MessageRef, roles: &[Role<'_>], error: &DataError) {
+        self.unread.add(message.topic(), error);
+        for role in roles {
+            if let Role::Sensor(name, _) = role {
+                self.sensors.entry((*name).to_owned()).or_default().unreadable.push(*message);
+            }
+        }
+    }
+
     /// Keeps the first calibration; one that changes is refused, for the rig has one.
-    fn calibrate(
-        &mut self,
-        messages: &Messages,
-        message: &MessageRef,
-        bytes: &[u8],
-    ) -> Result<(), DataError> {
+    fn calibrate(&mut self, messages: &Messages, message: &MessageRef, bytes: &[u8]) -> Result<(), Trouble> {
         let info = messages.decoded(message, bytes, CameraInfo::from_bytes)?;
         let (_, known) = self.infos.entry(message.topic()).or_insert_with(|| (*message, info.clone()));
         if (CameraInfo { header: known.header.clone(), ..info }) == *known {
             return Ok(());
         }
-        Err(messages.error(message, "values", "the calibration of the messages before", "another one"))
+        let expected = "the calibration of the messages before";
+        Err(Trouble::Contradiction(messages.error(message, "values", expected, "another one")))
     }
 
-    /// Refuses a recording of which a sensor is left with nothing.
+    /// Refuses a recording of which nothing is left of a topic that tells of the motion.
     fn check_complete(&self, messages: &Messages, topics: &Topics) -> Result<(), DataError> {
         let is_read = |name: &String, topic: &TopicConfig| {
             matches!(topic.kind, TopicKind::Tf | TopicKind::TfStatic)
@@ -208,14 +238,16 @@ impl Survey {
         let Some((_, topic)) = topics.iter().find(|(name, topic)| !is_read(name, topic)) else {
             return Ok(());
         };
-        let found = self.losses.join("; ");
+        let known = messages.container().topics().iter().position(|known| known.name == topic.topic);
+        let reason = known.and_then(|place| self.unread.reason(place)).unwrap_or_default();
+        let found = format!("none; the first: {reason}");
         Err(DataError::content(messages.path(), &topic.topic, "a message that can be read", found))
     }
 
     fn sort(&mut self, messages: &Messages, topics: &Topics) -> Result<(), DataError> {
         for (name, track) in &mut self.sensors {
-            track.measurements.sort_by_key(|(t_ns, _)| *t_ns);
-            check_stamps(messages, name, topics, track.measurements.iter().map(|(t_ns, _)| *t_ns))?;
+            track.readable.sort_by_key(|(t_ns, _)| *t_ns);
+            check_stamps(messages, name, topics, track.readable.iter().map(|(t_ns, _)| *t_ns))?;
         }
         for (name, track) in &mut self.motion {
             track.samples.sort_by_key(|sample| sample.t_ns);
@@ -251,19 +283,15 @@ fn same_frame(
     message: &MessageRef,
     known: &mut String,
     found: &str,
-) -> Result<(), DataError> {
+) -> Result<(), Trouble> {
     if known.is_empty() {
         found.clone_into(known);
     }
     if known == found {
         return Ok(());
     }
-    Err(messages.error(
-        message,
-        "frame",
-        format!("`{known}` as in the messages before"),
-        format!("`{found}`"),
-    ))
+    let expected = format!("`{known}` as in the messages before");
+    Err(Trouble::Contradiction(messages.error(message, "frame", expected, format!("`{found}`"))))
 }
 
 /// What a message tells of the motion, as a track of one sample.

@@ -1,5 +1,6 @@
 //! On tiny recordings made by the tests themselves.
 
+mod damage;
 mod reading;
 mod refusals;
 
@@ -26,6 +27,7 @@ struct Drive {
     stamped: bool,
     camera_frame: &'static str,
     infos: Vec<f64>,
+    images: i64,
     mast_moves: bool,
     vehicle: &'static str,
     radar_fields: [&'static str; 2],
@@ -40,11 +42,23 @@ struct Drive {
 impl Default for Drive {
     fn default() -> Self {
         let (bag, stamped, mast_moves) = (false, true, false);
-        let (camera_frame, infos) = ("camera", vec![100.0]);
+        let (camera_frame, infos, images) = ("camera", vec![100.0], 1);
         let (vehicle, radar_fields) = ("base", ["vx", "vx"]);
         let (radar, parked) = ("radar", false);
         let lidar = (vec![[1.0, 2.0, 3.0, 0.0]], "other");
-        Self { bag, stamped, camera_frame, infos, mast_moves, vehicle, radar_fields, radar, parked, lidar }
+        Self {
+            bag,
+            stamped,
+            camera_frame,
+            infos,
+            images,
+            mast_moves,
+            vehicle,
+            radar_fields,
+            radar,
+            parked,
+            lidar,
+        }
     }
 }
 
@@ -154,11 +168,13 @@ impl Drive {
             to.write(&infos, T0 + 60 * MS, &info).unwrap();
         }
         let images: Topic<Image> = to.topic("/cam/image_raw", Delivery::Live).unwrap();
-        let header = self.header(50, self.camera_frame);
-        let (height, width, step, data) = (1, 2, 6, vec![1, 2, 3, 4, 5, 6]);
-        let image =
-            Image { header, height, width, step, encoding: "rgb8".to_owned(), data, is_bigendian: false };
-        to.write(&images, T0 + 60 * MS, &image).unwrap();
+        for ms in (0..self.images).map(|k| 50 + 10 * k) {
+            let header = self.header(ms, self.camera_frame);
+            let (height, width, step, data) = (1, 2, 6, vec![1, 2, 3, 4, 5, 6]);
+            let image =
+                Image { header, height, width, step, encoding: "rgb8".to_owned(), data, is_bigendian: false };
+            to.write(&images, T0 + (ms + 10) * MS, &image).unwrap();
+        }
     }
 }
 

@@ -32,7 +32,7 @@ use crate::disk::files;
 use crate::disk::files::{beside, remove};
 use crate::error::DataError;
 use crate::read::SequenceReader;
-use crate::read::recording::check_motion_corrected;
+use crate::read::recording::{check_motion_corrected, check_nothing_lost};
 use crate::result::{OutFolder, WriterLock};
 use foxglove::Layout;
 use ralf_ros::container::{Container, recognises};
@@ -133,6 +133,7 @@ pub fn write_ros(
     format: RosFormat,
     progress: &dyn Fn(usize),
 ) -> Result<Option<PathBuf>, DataError> {
+    check_nothing_lost(reader)?;
     check_motion_corrected(reader)?;
     let _lock = WriterLock::beside(file)?;
     let settings_file = settings_file(file);

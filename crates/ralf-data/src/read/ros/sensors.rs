@@ -1,0 +1,258 @@
+//! The sensors of a recording: what they are by their settings, their messages and the tree of frames, and when they
+//! measured.
+
+use super::camera::intrinsics;
+use super::cloud::{point_clock, radar_columns};
+use super::messages::Messages;
+use super::mounting::{mounting, sensor_frame};
+use super::point_clock::PointClock;
+use super::survey::{Survey, info_topic};
+use super::topics::{TopicConfig, TopicKind, Topics};
+use super::track::{MessagesPerSensor, Track};
+use super::unread::ByReason;
+use crate::error::DataError;
+use crate::read::models::{LIDARS, RADARS};
+use ralf::sensors::{Camera, Elevation, Radar, Rig, Timelines, check_fields};
+use ralf::space::Transform;
+use ralf_ros::container::MessageRef;
+
+/// All sensors, in the order of the rig.
+#[derive(Default)]
+pub(super) struct Sensors {
+    pub(super) rig: Rig,
+    pub(super) times: Timelines,
+    pub(super) radars: MessagesPerSensor,
+    pub(super) lidars: MessagesPerSensor,
+    pub(super) cameras: MessagesPerSensor,
+    pub(super) clocks: Vec<LidarClock>,
+    /// The frame of each radar.
+    pub(super) radar_frames: Vec<String>,
+    /// What is left out, and what is done with the points' times, a sentence each.
+    pub(super) warnings: Vec<String>,
+    /// Names of sensors none of whose messages can be read.
+    pub(super) absent: Vec<String>,
+    /// LiDARs and cameras none of whose messages can be read.
+    left_out: ByReason,
+    /// Radars none of whose scans can be read, a sentence each: nothing tells what they measure.
+    pub(super) lost: Vec<String>,
+}
+
+/// How a LiDAR's points tell when they were measured.
+pub(super) struct LidarClock {
+    pub(super) clock: Option<PointClock>,
+    /// Whether they lie where they were measured.
+    pub(super) is_rolling: bool,
+}
+
+/// A sensor that is asked for, with what is known of the recording.
+struct Asked<'a> {
+    messages: &'a Messages,
+    survey: &'a Survey,
+    vehicle: &'a str,
+    name: &'a str,
+    topic: &'a TopicConfig,
+    track: &'a Track,
+}
+
+impl Sensors {
+    /// The sensors of these topics on a vehicle, whose frame is named.
+    pub(super) fn of(
+        messages: &Messages,
+        topics: &Topics,
+        survey: &Survey,
+        vehicle: &str,
+    ) -> Result<Self, DataError> {
+        let mut sensors = Self::default();
+        for (name, topic) in topics {
+            let Some(track) = survey.sensors.get(name) else { continue };
+            let asked = Asked { messages, survey, vehicle, name, topic, track };
+            match topic.kind {
+                TopicKind::Radar => sensors.add_radar(&asked)?,
+                TopicKind::Lidar => sensors.add_lidar(&asked)?,
+                _ => sensors.add_camera(&asked),
+            }
+        }
+        let sentence = |names: &str, reason: &str| {
+            format!("left out, for none of their messages can be read: {names}; the first: {reason}")
+        };
+        sensors.warnings.extend(sensors.left_out.sentences(sentence));
+        Ok(sensors)
+    }
+
+    fn add_radar(&mut self, asked: &Asked) -> Result<(), DataError> {
+        let Some(vehicle_from_radar) = asked.vehicle_from_sensor()? else {
+            self.lose(asked, asked.unread());
+            return Ok(());
+        };
+        let first = asked.first(|_, message| Ok(radar_columns(asked.messages, message)?.names));
+        let (message, fields) = match first {
+            Ok(found) => found,
+            Err(error @ DataError::Io { .. }) => return Err(error),
+            Err(error) => {
+                self.lose(asked, &error.to_string());
+                return Ok(());
+            }
+        };
+        self.rig.radars.push(asked.radar(&message, &fields, vehicle_from_radar)?);
+        self.radar_frames.push(asked.frame().to_owned());
+        asked.track.keep(&mut self.times.radars, &mut self.radars);
+        Ok(())
+    }
+
+    /// Names a radar none of whose scans can be read.
+    fn lose(&mut self, asked: &Asked, reason: &str) {
+        self.lost.push(format!("{}: {}", asked.name, asked.nothing(reason)));
+        self.absent.push(asked.name.to_owned());
+    }
+
+    fn add_lidar(&mut self, asked: &Asked) -> Result<(), DataError> {
+        let Some(vehicle_from_lidar) = asked.vehicle_from_sensor()? else {
+            self.leave_out("LiDAR", asked);
+            return Ok(());
+        };
+        let model = asked.model(&LIDARS)?;
+        let clock = self.clock(asked)?;
+        self.clocks.push(clock);
+        self.rig.lidars.push(model.mounted(asked.name, vehicle_from_lidar));
+        asked.track.keep(&mut self.times.lidars, &mut self.lidars);
+        Ok(())
+    }
+
+    /// Labels need radars and LiDARs; without a camera they are labels still.
+    fn add_camera(&mut self, asked: &Asked) {
+        let mounted = match asked.vehicle_from_sensor() {
+            Ok(None) => return self.leave_out("camera", asked),
+            Ok(Some(vehicle_from_camera)) => asked.camera(vehicle_from_camera),
+            Err(error) => Err(error),
+        };
+        match mounted {
+            Ok(camera) => {
+                self.rig.cameras.push(camera);
+                asked.track.keep(&mut self.times.cameras, &mut self.cameras);
+            }
+            Err(error) => self.warnings.push(format!("the camera {} is left out: {error}", asked.name)),
+        }
+    }
+
+    /// Leaves out a sensor of which no message can be read: nothing tells its frame.
+    fn leave_out(&mut self, kind: &str, asked: &Asked) {
+        self.absent.push(asked.name.to_owned());
+        self.left_out.add(asked.unread(), format!("the {kind} {}", asked.name));
+    }
+
+    /// How a LiDAR's first scan tells times, with a warning of what is done with them.
+    fn clock(&mut self, asked: &Asked) -> Result<LidarClock, DataError> {
+        let Asked { messages, name, topic, .. } = *asked;
+        let found = match asked.first(|t_ns, message| point_clock(messages, message, t_ns)) {
+            Ok((_, found)) => found,
+            Err(error @ DataError::Io { .. }) => return Err(error),
+            Err(error) => Err(asked.nothing(&error.to_string())),
+        };
+        let clock = found.unwrap_or_else(|sentence| {
+            self.warnings.push(format!("{name}: {sentence}"));
+            None
+        });
+        let is_rolling = clock.is_some() && topic.motion_corrected != Some(true);
+        if let Some(PointClock { field, unit, .. }) =
+            clock.as_ref().filter(|_| topic.motion_corrected.is_none())
+        {
+            self.warnings.push(format!(
+                "{name}: points carry their times (`{field}`, {unit}) and are moved to the scan's with the vehicle's \
+                 motion; `topics.{name}.motion_corrected = true` if the recorder has done so, `false` if not"
+            ));
+        }
+        Ok(LidarClock { clock, is_rolling })
+    }
+}
+
+impl Asked<'_> {
+    fn frame(&self) -> &str {
+        sensor_frame(self.topic, &self.track.frame)
+    }
+
+    /// Where it is mounted; `None` where no message tells its frame and the times of its measurements.
+    fn vehicle_from_sensor(&self) -> Result<Option<Transform>, DataError> {
+        let Some(span) = self.track.span() else { return Ok(None) };
+        mounting(self.messages, self.survey, self.vehicle, self.frame(), span).map(Some)
+    }
+
+    /// What the first message tells that can be read, at its time; the error of the first one where none can.
+    fn first<T>(
+        &self,
+        read: impl Fn(i64, &MessageRef) -> Result<T, DataError>,
+    ) -> Result<(MessageRef, T), DataError> {
+        let mut failed = None;
+        for (t_ns, message) in self.track.timeline() {
+            match read(t_ns, &message) {
+                Ok(found) => return Ok((message, found)),
+                Err(error @ DataError::Io { .. }) => return Err(error),
+                Err(error) => drop(failed.get_or_insert(error)),
+            }
+        }
+        let none = || DataError::content(self.messages.path(), &self.topic.topic, "a message", "none");
+        Err(failed.unwrap_or_else(none))
+    }
+
+    /// Why the first message can't be read whose header can't.
+    fn unread(&self) -> &str {
+        let first = self.track.unreadable.first();
+        first.and_then(|message| self.survey.unread.reason(message.topic())).unwrap_or_default()
+    }
+
+    /// What is said of a sensor none of whose messages can be read.
+    fn nothing(&self, reason: &str) -> String {
+        let count = self.track.readable.len() + self.track.unreadable.len();
+        format!("none of its {count} messages can be read; the first: {reason}")
+    }
+
+    /// A radar with the fields of this message.
+    fn radar(
+        &self,
+        message: &MessageRef,
+        fields: &[String],
+        vehicle_from_radar: Transform,
+    ) -> Result<Radar, DataError> {
+        let Self { messages, name, topic, .. } = *self;
+        let mut radar = self.model(&RADARS)?.mounted(name, fields, vehicle_from_radar);
+        match topic.elevation {
+            Some(true) => radar.elevation = Elevation::Measured,
+            Some(false) => radar.elevation = Elevation::None,
+            None => {}
+        }
+        check_fields(&radar).map_err(|found| messages.error(message, "fields", "those of a radar", found))?;
+        radar.check().map_err(|expected| {
+            let found = format!("the model `{}`", topic.model.as_deref().unwrap_or_default());
+            DataError::content(messages.path(), format!("topics.{name}"), expected, found)
+        })?;
+        Ok(radar)
+    }
+
+    fn camera(&self, vehicle_from_camera: Transform) -> Result<Camera, DataError> {
+        let Self { messages, name, topic, .. } = *self;
+        let place = info_topic(messages, name, topic)?;
+        let (message, info) = self.survey.infos.get(&place).ok_or_else(|| {
+            let found = "none that can be read";
+            DataError::content(messages.path(), format!("topics.{name}.info"), "a calibration", found)
+        })?;
+        let intrinsics = intrinsics(info, topic.rectified.unwrap_or_default())
+            .map_err(|(expected, found)| messages.error(message, "calibration", expected, found))?;
+        Ok(Camera {
+            name: name.to_owned(),
+            vehicle_from_camera,
+            width: info.width as usize,
+            height: info.height as usize,
+            intrinsics,
+            views: Vec::new(),
+        })
+    }
+
+    fn model<M: Copy>(&self, models: &[(&str, M)]) -> Result<M, DataError> {
+        let wanted = self.topic.model.as_deref().unwrap_or_default();
+        models.iter().find(|(known, _)| *known == wanted).map(|(_, model)| *model).ok_or_else(|| {
+            let known: Vec<&str> = models.iter().map(|(known, _)| *known).collect();
+            let place = format!("topics.{}.model", self.name);
+            let expected = format!("one of the models {}", known.join(", "));
+            DataError::content(self.messages.path(), place, expected, format!("`{wanted}`"))
+        })
+    }
+}
