@@ -192,7 +192,8 @@ impl TfTree {
             }
         }
         if way.len() == 1 && !self.edges.values().any(|edge| edge.parent == frame) {
-            let known = self.frames().join(", ");
+            let frames = self.frames();
+            let known = if frames.is_empty() { "none".to_owned() } else { frames.join(", ") };
             return Err(TfError::Unknown { frame: frame.to_owned(), known });
         }
         Ok(way)
