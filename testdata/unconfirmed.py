@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What it costs to believe less what only the radar tells of (docs/learned.md), by why nobody else does.
+"""What it costs to believe less what only the radar tells of (docs/learned-tried.md), by why nobody else does.
 
     unconfirmed.py --world FAMILY DATASET OUT [--world FAMILY DATASET OUT]... [options of the learner]
 
