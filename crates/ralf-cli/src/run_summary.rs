@@ -3,19 +3,20 @@
 use crate::text::{aligned, counted, grouped, percent};
 use ralf::label::flag;
 use ralf::scene::{Failure, ViewState};
-use ralf_data::run::{CameraRecord, NotLabelled, RadarRecord, RunRecord};
+use ralf_data::run::{CameraRecord, NotLabelled, RadarRecord, RunRecord, SequenceRecord};
 
 /// So many cameras are named that were not matched.
 const SHOWN_CAMERAS: usize = 8;
+/// Of more sequences each sensor is summed up over all of them; `run.json` and the report tell them apart.
+const SHOWN_SEQUENCES: usize = 24;
 
 /// The tables of a run.
 pub(crate) fn run_summary(record: &RunRecord) -> String {
     let head =
         ["sequence", "radar", "scans", "detections", "plausible", "", "no LiDAR scan", "no neighbours"];
     let mut rows = vec![head.map(str::to_owned).to_vec()];
-    for sequence in &record.sequences {
-        rows.extend(sequence.radars.iter().map(|radar| radar_row(&sequence.name, radar)));
-    }
+    let radars = by_sensor(record, |sequence| &sequence.radars, |radar| &radar.name);
+    rows.extend(radars.iter().map(|(of, name, radars)| radar_row(of, name, radars)));
     aligned(&rows) + &doubtful_radars(record) + &cameras(record) + &unused_cameras(record)
 }
 
@@ -26,6 +27,30 @@ pub(crate) fn not_labelled(record: &RunRecord) -> impl Iterator<Item = String> {
         format!("{sequence} {radar} scan {scan}: {reason}")
     });
     scans.chain(record.lost().map(|(sequence, lost)| format!("{sequence}: {lost}")))
+}
+
+/// The records of each sensor with the sequence and the name that stand in its row: sequence by sequence, or all
+/// sequences together where they are many.
+fn by_sensor<R>(
+    record: &RunRecord,
+    sensors: fn(&SequenceRecord) -> &Vec<R>,
+    name: fn(&R) -> &String,
+) -> Vec<(String, &str, Vec<&R>)> {
+    let many = record.sequences.len() > SHOWN_SEQUENCES;
+    let mut found: Vec<(String, &str, Vec<&R>)> = Vec::new();
+    for sequence in &record.sequences {
+        for sensor in sensors(sequence) {
+            let name = name(sensor).as_str();
+            match found.iter_mut().find(|(_, known, _)| many && *known == name) {
+                Some((_, _, records)) => records.push(sensor),
+                None => found.push((sequence.name.clone(), name, vec![sensor])),
+            }
+        }
+    }
+    for (of, _, records) in found.iter_mut().filter(|_| many) {
+        *of = format!("({})", counted(records.len(), "sequence"));
+    }
+    found
 }
 
 /// Names the radars that deliver no numbers, and those whose labels are unlike their sisters'.
@@ -53,17 +78,20 @@ fn unused_cameras(record: &RunRecord) -> String {
     )
 }
 
-fn radar_row(sequence: &str, radar: &RadarRecord) -> Vec<String> {
-    let total = |counts: &[u32]| counts.iter().copied().map(u64::from).sum::<u64>();
-    let (detections, plausible) = (total(&radar.detections), total(&radar.plausible));
-    let flagged = |flag: u16| match radar.flags.iter().filter(|flags| **flags & flag != 0).count() {
+fn radar_row(sequence: &str, name: &str, radars: &[&RadarRecord]) -> Vec<String> {
+    let total = |counts: fn(&RadarRecord) -> &Vec<u32>| {
+        radars.iter().flat_map(|radar| counts(radar)).copied().map(u64::from).sum::<u64>()
+    };
+    let (detections, plausible) = (total(|radar| &radar.detections), total(|radar| &radar.plausible));
+    let all_flags = || radars.iter().flat_map(|radar| &radar.flags);
+    let flagged = |flag: u16| match all_flags().filter(|flags| **flags & flag != 0).count() {
         0 => "-".to_owned(),
         count => counted(count, "scan"),
     };
     vec![
         sequence.to_owned(),
-        radar.name.clone(),
-        grouped(radar.detections.len() as u64),
+        name.to_owned(),
+        grouped(radars.iter().map(|radar| radar.detections.len() as u64).sum()),
         grouped(detections),
         grouped(plausible),
         percent(plausible, detections),
@@ -74,11 +102,12 @@ fn radar_row(sequence: &str, radar: &RadarRecord) -> Vec<String> {
 
 /// Nothing where no camera was asked.
 fn cameras(record: &RunRecord) -> String {
-    let mut rows = Vec::new();
-    for sequence in &record.sequences {
-        let asked = sequence.cameras.iter().filter(|camera| !camera.images.is_empty());
-        rows.extend(asked.map(|camera| camera_row(&sequence.name, camera)));
+    let mut cameras = by_sensor(record, |sequence| &sequence.cameras, |camera| &camera.name);
+    for (_, _, records) in &mut cameras {
+        records.retain(|camera| !camera.images.is_empty());
     }
+    let asked = cameras.iter().filter(|(_, _, records)| !records.is_empty());
+    let mut rows: Vec<_> = asked.map(|(of, name, cameras)| camera_row(of, name, cameras)).collect();
     if rows.is_empty() {
         return String::new();
     }
@@ -87,20 +116,23 @@ fn cameras(record: &RunRecord) -> String {
     format!("\n{}", aligned(&rows))
 }
 
-fn camera_row(sequence: &str, camera: &CameraRecord) -> Vec<String> {
+fn camera_row(sequence: &str, name: &str, cameras: &[&CameraRecord]) -> Vec<String> {
+    let sum = |of: fn(&CameraRecord) -> usize| cameras.iter().map(|camera| of(camera) as u64).sum::<u64>();
+    let [images, views, failed] =
+        [sum(|camera| camera.images.len()), sum(|camera| camera.views), sum(|camera| camera.failed)];
     vec![
         sequence.to_owned(),
-        camera.name.clone(),
-        grouped(camera.images.len() as u64),
-        grouped(camera.views as u64),
-        grouped(camera.failed as u64),
-        percent(camera.failed as u64, camera.views as u64),
-        reasons(camera),
+        name.to_owned(),
+        grouped(images),
+        grouped(views),
+        grouped(failed),
+        percent(failed, views),
+        reasons(cameras),
     ]
 }
 
 /// How often each reason made a view fail.
-fn reasons(camera: &CameraRecord) -> String {
+fn reasons(cameras: &[&CameraRecord]) -> String {
     let all = [
         (Failure::Unusable, "unusable"),
         (Failure::NoScan, "no LiDAR scan"),
@@ -109,7 +141,8 @@ fn reasons(camera: &CameraRecord) -> String {
         (Failure::Residual, "residual"),
     ];
     let count = |failure: Failure| {
-        let views = camera.images.iter().flat_map(|image| &image.views);
+        let images = cameras.iter().flat_map(|camera| &camera.images);
+        let views = images.flat_map(|image| &image.views);
         views.filter(|view| view.state == ViewState::Failed(failure)).count()
     };
     let counted = all.map(|(failure, name)| (count(failure), name));

@@ -153,6 +153,44 @@ fn classes_of_the_lidar_are_counted_where_nothing_says_what_tells_them() {
 }
 
 #[test]
+fn of_very_many_sequences_the_worst_are_shown_and_the_others_folded_away() {
+    let tiny = Tiny::new();
+    tiny.add_truth();
+    let all = tiny.dataset().join("sequences");
+    for copy in 1..30 {
+        copy_folder(&all.join("00"), &all.join(format!("{copy:02}")));
+    }
+    // The last one's truth calls the stray plausible and the wall an artifact.
+    for (scan, ids) in [[1_u32, 1, 50], [1, 1, 50], [1, 1, 50]].iter().enumerate() {
+        let bytes: Vec<u8> = ids.iter().flat_map(|id| id.to_le_bytes()).collect();
+        fs::write(all.join(format!("29/ground_truth/front/{scan:06}.label")), bytes).unwrap();
+    }
+    let page = tiny.page();
+    let [at_once, folded] =
+        page.split_once("<summary>30 sequences</summary>").map(<[&str; 2]>::from).unwrap();
+    let named = |part: &str| (0..30).filter(|name| part.contains(&format!("\"row\">{name:02}</th>"))).count();
+    assert_eq!(named(at_once), 10);
+    assert!(
+        at_once.find("\"row\">29</th>").unwrap() < at_once.find("\"row\">00</th>").unwrap(),
+        "the worst first"
+    );
+    assert_eq!(named(folded.split_once("</details>").unwrap().0), 30);
+    assert!(page.contains("<summary>30 fingerprints</summary>"));
+}
+
+fn copy_folder(from: &Path, to: &Path) {
+    fs::create_dir_all(to).unwrap();
+    for entry in fs::read_dir(from).unwrap().map(Result::unwrap) {
+        let target = to.join(entry.file_name());
+        if entry.file_type().unwrap().is_dir() {
+            copy_folder(&entry.path(), &target);
+        } else {
+            fs::copy(entry.path(), target).unwrap();
+        }
+    }
+}
+
+#[test]
 fn the_page_tells_what_evaluate_prints() {
     let tiny = Tiny::new();
     tiny.add_truth();

@@ -3,6 +3,7 @@
 use super::changed::ChangedArgs;
 use super::settings;
 use crate::progress::say;
+use crate::text::{counted, grouped, listed};
 use anyhow::Context;
 use clap::Args;
 use ralf_data::read::ros::Topics;
@@ -66,8 +67,35 @@ impl DatasetArgs {
 
     fn read(&self, topics: &Topics) -> anyhow::Result<Recording> {
         let recording = ralf_data::open_with(&self.dataset, self.format.as_deref(), topics)?;
-        Ok(if self.sequences.is_empty() { recording } else { recording.select(&self.sequences)? })
+        Ok(if self.sequences.is_empty() { copied(recording) } else { recording.select(&self.sequences)? })
     }
+}
+
+/// So many sequences are named that are left out.
+const SHOWN: usize = 5;
+
+/// A recording without the sequences whose radars' files are all missing, which is said in one line: large data sets
+/// are published part by part, with tables of all of them.
+fn copied(recording: Recording) -> Recording {
+    let is_missing = |reader: &dyn SequenceReader| {
+        reader.sequence().times.radars.iter().all(Vec::is_empty) && !reader.warnings().is_empty()
+    };
+    let (missing, sequences): (Vec<_>, Vec<_>) =
+        recording.sequences.into_iter().partition(|reader| is_missing(reader.as_ref()));
+    if sequences.is_empty() {
+        return Recording { sequences: missing, ..recording };
+    }
+    if !missing.is_empty() {
+        let names: Vec<_> = missing.iter().map(|reader| reader.sequence().name.as_str()).collect();
+        let all = names.len() + sequences.len();
+        say(&format!(
+            "warning: {} of {} left out, for no file of their radars is there: {}",
+            grouped(names.len() as u64),
+            counted(all, "sequence"),
+            listed(&names, SHOWN)
+        ));
+    }
+    Recording { sequences, ..recording }
 }
 
 /// A recording, of which its readers' warnings are said.
@@ -89,6 +117,6 @@ pub(crate) fn the_only(recording: &Recording) -> anyhow::Result<&dyn SequenceRea
     anyhow::bail!(
         "expected one sequence, found {}: choose with --sequence ({})",
         names.len(),
-        names.join(", ")
+        listed(&names, 4 * SHOWN)
     )
 }

@@ -1,8 +1,9 @@
 //! Sequences that are labelled one after the other, into the same folder.
 
-use crate::support::{Dataset, Shape, ralf, tree, without_timings};
-use serde_json::Value;
+use crate::support::{Dataset, Shape, nuscenes, ralf, tree, without_timings};
+use serde_json::{Value, json};
 use std::fs;
+use std::path::Path;
 
 const OTHER: &str = "fusion.threshold=0.9";
 
@@ -35,6 +36,25 @@ fn one_after_the_other_is_the_same_as_all_at_once() {
         ralf(["label", &dataset.path, "-o", &dataset.out]).exits(0).says(["nothing to do"]);
         assert!(tree(&dataset.out) == before);
     }
+}
+
+#[test]
+fn radars_of_very_many_sequences_are_summed_up() {
+    const NAMES: &[&str] = &[
+        "00", "01", "02", "03", "04", "05", "06", "07", "08", "09", "10", "11", "12", "13", "14", "15", "16",
+        "17", "18", "19", "20", "21", "22", "23", "24",
+    ];
+    let rows = |sequences: &'static [&str]| {
+        let dataset = Dataset::of(&Shape { scans: 2, sequences, ..Shape::default() });
+        let ran = ralf(["label", &dataset.path, "-o", &dataset.out]).exits(0);
+        ran.stdout.lines().filter(|line| line.contains("radar_front")).map(str::to_owned).collect::<Vec<_>>()
+    };
+    assert_eq!(rows(&NAMES[..24]).len(), 24);
+    let [row] = <[String; 1]>::try_from(rows(NAMES)).unwrap();
+    assert_eq!(
+        row.split_whitespace().take(4).collect::<Vec<_>>(),
+        ["(25", "sequences)", "radar_front", "50"]
+    );
 }
 
 #[test]
@@ -85,4 +105,54 @@ fn only_scans_of_what_is_asked_for_count_as_not_labelled() {
     label("01").exits(0).says_nothing();
     label("01").exits(0).says(["nothing to do"]);
     assert_eq!(label("00").exits(3).says(["nothing to do"]).not_labelled().len(), 1);
+}
+
+/// Adds a scene to a data set of nuScenes whose files lie in another part of the data set.
+fn add_scene_elsewhere(folder: &Path, name: &str) {
+    let edit = |table: &str, add: &dyn Fn(&mut Vec<Value>)| {
+        let file = folder.join("v1.0-test").join(table);
+        let mut rows: Vec<Value> = serde_json::from_slice(&fs::read(&file).unwrap()).unwrap();
+        add(&mut rows);
+        fs::write(&file, json!(rows).to_string()).unwrap();
+    };
+    edit("scene.json", &|rows| {
+        rows.push(json!({"token": name, "log_token": "l", "name": name, "description": "elsewhere"}));
+    });
+    edit("sample.json", &|rows| rows.push(json!({"token": format!("x-{name}"), "scene_token": name})));
+    // Every scene has its own measurements and poses.
+    let copy = |rows: &mut Vec<Value>, own: &[&str]| {
+        for mut row in rows
+            .iter()
+            .filter(|row| !row["token"].as_str().unwrap().contains("scene"))
+            .cloned()
+            .collect::<Vec<_>>()
+        {
+            for key in own {
+                row[key] = json!(format!("{}-{name}", row[key].as_str().unwrap()));
+            }
+            rows.push(row);
+        }
+    };
+    edit("sample_data.json", &|rows| copy(rows, &["token", "filename", "sample_token", "ego_pose_token"]));
+    edit("ego_pose.json", &|rows| copy(rows, &["token"]));
+}
+
+#[test]
+fn scenes_of_another_part_of_the_data_set_are_left_out_in_one_line() {
+    let place = tempfile::tempdir().unwrap();
+    let [recording, out] =
+        ["recording", "out"].map(|name| place.path().join(name).to_str().unwrap().to_owned());
+    nuscenes(Path::new(&recording));
+    for number in 2..9 {
+        add_scene_elsewhere(Path::new(&recording), &format!("scene-000{number}"));
+    }
+    let ran = ralf(["label", &recording, "-o", &out]).exits(0);
+    let warnings: Vec<&str> = ran.stderr.lines().filter(|line| line.starts_with("warning: ")).collect();
+    let why = "for no file of their radars is there";
+    let named = "scene-0002, scene-0003, scene-0004, scene-0005, scene-0006 and 2 more";
+    assert_eq!(warnings, [format!("warning: 7 of 8 sequences left out, {why}: {named}")]);
+    assert!(!ran.stdout.contains("scene-0002"));
+    // Whoever asks for one is told of each of its sensors.
+    let warned = "scene-0002: 5 of 5 files of RADAR_FRONT are not there and were left out";
+    ralf(["inspect", &recording, "--sequence", "scene-0002"]).exits(0).says([warned]);
 }

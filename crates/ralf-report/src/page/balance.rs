@@ -1,5 +1,6 @@
 //! What the labels say by themselves: class balance and distinctiveness.
 
+use super::long::{folded, is_long};
 use super::{figure, heads, swatch};
 use crate::content::Content;
 use crate::number::{decimal, grouped, percent};
@@ -18,18 +19,29 @@ pub(super) fn balance(content: &Content) -> Result<Markup, ReportError> {
                 "These need no corrected labels. Distinctiveness is the mean plausibility w of what is labelled "
                 "plausible minus that of what is labelled artifact: 1 where the method is certain of everything."
             }
-            div.scroll { table.bars {
-                (heads(&["Sequence", "Detections", "Plausible", "", "Distinctiveness"]))
-                tbody {
-                    (row("Overall", &content.balance, "total"))
-                    @if content.sequences.len() > 1 {
-                        @for sequence in &content.sequences { (row(&sequence.name, &sequence.balance, "")) }
-                    }
-                }
-            } }
+            (table(&html! {
+                (row("Overall", &content.balance, "total"))
+                @if content.sequences.len() > 1 && !is_long(content.sequences.len()) { (sequences(content)) }
+            }))
+            @if is_long(content.sequences.len()) {
+                (folded(content.sequences.len(), "sequences", &table(&sequences(content))))
+            }
             (figure("Plausibility of all detections", histogram, caption))
         }
     })
+}
+
+fn table(rows: &Markup) -> Markup {
+    html! {
+        div.scroll { table.bars {
+            (heads(&["Sequence", "Detections", "Plausible", "", "Distinctiveness"]))
+            tbody { (rows) }
+        } }
+    }
+}
+
+fn sequences(content: &Content) -> Markup {
+    html! { @for sequence in &content.sequences { (row(&sequence.name, &sequence.balance, "")) } }
 }
 
 fn row(name: &str, balance: &Balance, class: &str) -> Markup {

@@ -1,6 +1,7 @@
 //! What was missing while the labels were made: flags, failed cameras, scans without labels.
 
 use super::heads;
+use super::long::folded;
 use crate::content::Content;
 use crate::number::{grouped, percent, ranges};
 use maud::{Markup, html};
@@ -111,17 +112,18 @@ fn scans_to_look_at(content: &Content) -> Markup {
         })
         .filter(|(_, _, scans, _)| !scans.is_empty())
         .collect();
+    let table = html! {
+        div.scroll { table.plain {
+            (heads(&["Sequence", "Radar", "Missing", "Scans"]))
+            tbody { @for (sequence, radar, scans, why) in &found {
+                tr { td { (sequence) } td { (radar) } td { (why) } td { (ranges(scans)) } }
+            } }
+        } }
+    };
     html! {
         h3 { "Scans for which a sensor was missing" }
         @if found.is_empty() { p.absent { "None." } }
-        @else {
-            div.scroll { table.plain {
-                (heads(&["Sequence", "Radar", "Missing", "Scans"]))
-                tbody { @for (sequence, radar, scans, why) in found {
-                    tr { td { (sequence) } td { (radar) } td { (why) } td { (ranges(&scans)) } }
-                } }
-            } }
-        }
+        @else { (folded(found.len(), "radars of sequences", &table)) }
     }
 }
 
@@ -132,22 +134,27 @@ fn cameras(content: &Content) -> Markup {
         .filter(|(_, camera)| !camera.images.is_empty())
         .collect();
     let columns = [&["Sequence", "Camera", "Images", "Views"][..], &FAILURES.map(|(_, name)| name)].concat();
+    let table = html! {
+        div.scroll { table.plain {
+            (heads(&columns))
+            tbody { @for (sequence, camera) in &found { (camera_row(sequence, camera)) } }
+        } }
+    };
     html! {
         h3 { "Cameras" }
         @if found.is_empty() { p.absent { "No camera was asked." } }
-        @else {
-            div.scroll { table.plain {
-                (heads(&columns))
-                tbody { @for (sequence, camera) in found {
-                    tr {
-                        td { (sequence) } td { (camera.name) }
-                        td { (camera.images.len()) } td { (states(camera).count()) }
-                        @for (failure, _) in FAILURES {
-                            td { (states(camera).filter(|state| *state == ViewState::Failed(failure)).count()) }
-                        }
-                    }
-                } }
-            } }
+        @else { (folded(found.len(), "cameras of sequences", &table)) }
+    }
+}
+
+fn camera_row(sequence: &str, camera: &CameraRecord) -> Markup {
+    html! {
+        tr {
+            td { (sequence) } td { (camera.name) }
+            td { (camera.images.len()) } td { (states(camera).count()) }
+            @for (failure, _) in FAILURES {
+                td { (states(camera).filter(|state| *state == ViewState::Failed(failure)).count()) }
+            }
         }
     }
 }

@@ -6,6 +6,7 @@ mod errors;
 mod evidence;
 mod header;
 mod health;
+mod long;
 mod pictures;
 mod provenance;
 mod realism;

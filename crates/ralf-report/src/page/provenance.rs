@@ -1,5 +1,6 @@
 //! What the labels were made with, so that they can be made again.
 
+use super::long::folded;
 use crate::content::Content;
 use crate::number::grouped;
 use maud::{Markup, html};
@@ -14,10 +15,12 @@ pub(super) fn provenance(content: &Content) -> Markup {
                 dt { "Program" } dd { "ralf " (record.version) }
                 dt { "Format" } dd { (record.format) }
                 dt { "Inputs" } dd { (grouped(record.inputs.len() as u64)) " files, " (grouped(bytes)) " bytes" }
+            }
+            (folded(record.sequences.len(), "fingerprints", &html! { dl.facts {
                 @for sequence in &record.sequences {
                     dt { "Fingerprint of " (sequence.name) } dd { code { (sequence.fingerprint) } }
                 }
-            }
+            } }))
             details {
                 summary { "All settings" }
                 pre { (format!("{:#?}", record.settings)) }

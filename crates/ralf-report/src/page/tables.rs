@@ -1,10 +1,11 @@
 //! Labels against corrected ones: the paper's tables 3 (metrics) and 4 (confusion matrix).
 
 use super::NO_TRUTH;
+use super::long::{folded, is_long};
 use crate::content::Content;
 use crate::number::{decimal, grouped, percent};
 use maud::{Markup, html};
-use ralf::metrics::{Confusion, Evaluation, Rates, Scores};
+use ralf::metrics::{Confusion, Evaluation, Rates, Scores, SequenceScores};
 use ralf_data::Comparison;
 
 const COLUMNS: [&str; 7] =
@@ -12,6 +13,8 @@ const COLUMNS: [&str; 7] =
 /// The first row of the paper's table 3: the mean of 2,704 scans.
 const PAPER: [f64; 7] = [0.873, 0.826, 0.779, 0.675, 0.682, 0.510, 0.854];
 const PAPER_SCANS: u64 = 2704;
+/// Of very many sequences those are shown at once that are labelled worst.
+const WORST: usize = 10;
 
 pub(super) fn agreement(content: &Content) -> Markup {
     html! {
@@ -49,13 +52,11 @@ fn compared(comparison: &Comparison) -> Markup {
 }
 
 fn table(evaluation: &Evaluation, title: &str, with_paper: bool, rates: fn(&Scores) -> Rates) -> Markup {
+    let worst = worst(evaluation, rates);
     html! {
         div.scroll { table.metrics {
-            caption { (title) }
-            thead { tr {
-                th scope="col" { "Sequence" } th scope="col" { "Scans" }
-                @for name in COLUMNS { th scope="col" { (name) } }
-            } }
+            caption { (title) @if !worst.is_empty() { ", and the " (WORST) " sequences with the least F1" } }
+            (head())
             tbody {
                 tr.total {
                     th scope="row" { "Overall" } td { (grouped(evaluation.scans() as u64)) }
@@ -67,15 +68,55 @@ fn table(evaluation: &Evaluation, title: &str, with_paper: bool, rates: fn(&Scor
                         @for value in PAPER { td { (decimal(Some(value))) } }
                     }
                 }
-                @for (name, sequence) in &evaluation.sequences {
-                    tr {
-                        th scope="row" { (name) } td { (grouped(sequence.scans as u64)) }
-                        (cells(rates(&sequence.scores)))
-                    }
-                }
+                @if worst.is_empty() { (rows(evaluation.sequences.iter(), rates)) }
+                @else { (rows(worst.into_iter(), rates)) }
             }
         } }
+        @if is_long(evaluation.sequences.len()) { (all_sequences(evaluation, rates)) }
     }
+}
+
+fn all_sequences(evaluation: &Evaluation, rates: fn(&Scores) -> Rates) -> Markup {
+    let sequences = &evaluation.sequences;
+    let table = html! {
+        div.scroll { table.metrics { (head()) tbody { (rows(sequences.iter(), rates)) } } }
+    };
+    folded(sequences.len(), "sequences", &table)
+}
+
+fn head() -> Markup {
+    html! {
+        thead { tr {
+            th scope="col" { "Sequence" } th scope="col" { "Scans" }
+            @for name in COLUMNS { th scope="col" { (name) } }
+        } }
+    }
+}
+
+fn rows<'a>(
+    sequences: impl Iterator<Item = (&'a String, &'a SequenceScores)>,
+    rates: fn(&Scores) -> Rates,
+) -> Markup {
+    html! {
+        @for (name, sequence) in sequences {
+            tr {
+                th scope="row" { (name) } td { (grouped(sequence.scans as u64)) }
+                (cells(rates(&sequence.scores)))
+            }
+        }
+    }
+}
+
+/// The sequences with the least F1 of very many; none where all are shown.
+fn worst(evaluation: &Evaluation, rates: fn(&Scores) -> Rates) -> Vec<(&String, &SequenceScores)> {
+    if !is_long(evaluation.sequences.len()) {
+        return Vec::new();
+    }
+    let mut all: Vec<_> = evaluation.sequences.iter().collect();
+    let f1 = |sequence: &SequenceScores| rates(&sequence.scores).f1_plausible.unwrap_or(1.0);
+    all.sort_by(|(_, a), (_, b)| f1(a).total_cmp(&f1(b)));
+    all.truncate(WORST);
+    all
 }
 
 fn cells(rates: Rates) -> Markup {
