@@ -31,7 +31,7 @@ fn sequence() -> (TempDir, PathBuf) {
 /// The sequence as a recording of this format, read back by the settings that were written beside it.
 fn converted(reader: &LayoutSequence, folder: &Path, format: RosFormat) -> (Recording, Settings) {
     let file = folder.join("street").with_extension(format.extension());
-    let settings = write_ros(reader, &file, format, &|_| {}).unwrap().unwrap();
+    let settings = write_ros(reader, &file, format, &|_| {}).unwrap().settings.unwrap();
     let config = Settings::from_toml(&fs::read_to_string(settings).unwrap(), &[]).unwrap();
     (open_with(&file, None, &config.topics).unwrap(), config)
 }

@@ -68,11 +68,15 @@ fn opened(arguments: &ConvertArgs) -> anyhow::Result<Recording> {
 fn as_ros(recording: &Recording, file: &Path, format: RosFormat) -> anyhow::Result<Outcome> {
     let reader = the_only(recording)?;
     let progress = shown(reader.sequence());
-    let settings = write_ros(reader, file, format, &|done| progress.reached(done as u64))?;
+    let written = write_ros(reader, file, format, &|done| progress.reached(done as u64))?;
     drop(progress);
     say(&format!("wrote {}", file.display()));
-    if let Some(settings) = settings {
+    if let Some(settings) = written.settings {
         say(&format!("wrote {}: the settings by which it is read back", settings.display()));
+    }
+    if !written.left_out.is_empty() {
+        let left_out = written.left_out.join(", ");
+        say(&format!("warning: {}: such a file has no place for {left_out}: left out", file.display()));
     }
     Ok(Outcome::Done)
 }

@@ -147,3 +147,30 @@ fn a_world_is_simulated_the_same_again_and_labelled() {
         .exits(2)
         .says(["expected one of 00"]);
 }
+
+#[test]
+fn converting_what_was_simulated_keeps_labels_and_causes() {
+    let dataset = Dataset::new();
+    let [made, copy, file] = ["made", "copy", "made.mcap"].map(|name| dataset.beside(name));
+    ralf(["simulate", "-o", &made, "--preset", "tiny", "--scans", "2", "-q"]).exits(0);
+    let made_tree = tree(&made);
+    let causes = made_tree.keys().filter(|name| name.ends_with(".cause")).count();
+    assert!(causes > 0 && made_tree.contains_key("sequences/tiny/ground_truth/causes.txt"));
+    let ran = ralf(["convert", &made, "-o", &copy, "-q"]).exits(0);
+    assert!(!ran.stderr.contains("warning: "), "{}", ran.stderr);
+    assert_eq!(made_tree, tree(&copy));
+
+    // A cause may stand without a label.
+    let bare = dataset.beside("bare");
+    let label = "sequences/tiny/ground_truth/radar_front/000000.label";
+    fs::remove_file(format!("{made}/{label}")).unwrap();
+    ralf(["convert", &made, "-o", &bare, "-q"]).exits(0);
+    assert_eq!(tree(&made), tree(&bare));
+
+    ralf(["convert", &made, "-o", &file])
+        .exits(0)
+        .says(["warning: ", "no place for corrected labels, their causes, depth images"]);
+    let plain = dataset.beside("plain.bag");
+    let ran = ralf(["convert", &dataset.path, "-o", &plain]).exits(0);
+    assert!(!ran.stderr.contains("warning: "), "{}", ran.stderr);
+}

@@ -48,6 +48,16 @@ pub trait SequenceReader: Source {
         None
     }
 
+    /// The `.cause` file of a radar's scan, to be copied as it is.
+    fn cause_file(&self, _radar: usize, _scan: usize) -> Option<PathBuf> {
+        None
+    }
+
+    /// The file that names the codes of these, to be copied as it is.
+    fn cause_names_file(&self) -> Option<PathBuf> {
+        None
+    }
+
     /// What only its own format knows of it, such as the names that the format's tables give to scans: an export into
     /// that format asks for the type that its reader hands out.
     fn origin(&self) -> Option<&dyn Any> {

@@ -7,11 +7,11 @@
 use super::known::KnownTruth;
 use crate::disk::files;
 use crate::error::DataError;
+use crate::read::layout::CAUSE_NAMES;
 use crate::truth::scan_id::ScanId;
 use ralf_files::Kind;
 use std::path::{Path, PathBuf};
 
-const NAMES: &str = "causes.txt";
 /// The name of code 0.
 const NONE: &str = "none";
 
@@ -37,7 +37,7 @@ impl Causes {
     /// # Errors
     /// An empty list or name, more names than codes, or a first name other than `none`.
     pub fn find(dataset: &Path, sequence: &str) -> Result<Option<Self>, DataError> {
-        let file = dataset.join("sequences").join(sequence).join("ground_truth").join(NAMES);
+        let file = dataset.join("sequences").join(sequence).join("ground_truth").join(CAUSE_NAMES);
         if !files::exists(&file)? {
             return Ok(None);
         }
@@ -94,7 +94,7 @@ impl Causes {
             return Err(DataError::content(&file, "number of codes", expected, codes.len().to_string()));
         }
         if let Some(row) = codes.iter().position(|code| usize::from(*code) >= self.names.len()) {
-            let expected = format!("a code below {}, as in {NAMES}", self.names.len());
+            let expected = format!("a code below {}, as in {CAUSE_NAMES}", self.names.len());
             return Err(DataError::content(&file, format!("byte {row}"), expected, codes[row].to_string()));
         }
         Ok(Some(codes))

@@ -158,4 +158,12 @@ impl SequenceReader for WithStore {
     fn truth_file(&self, radar: usize, scan: usize) -> Option<PathBuf> {
         self.inner.truth_file(radar, scan)
     }
+
+    fn cause_file(&self, radar: usize, scan: usize) -> Option<PathBuf> {
+        self.inner.cause_file(radar, scan)
+    }
+
+    fn cause_names_file(&self) -> Option<PathBuf> {
+        self.inner.cause_names_file()
+    }
 }

@@ -5,7 +5,7 @@ use crate::disk::{class_images, files, images, npy};
 use crate::error::DataError;
 use crate::read::SequenceReader;
 use crate::read::layout::raw::{DepthToml, SequenceToml};
-use crate::read::layout::{GROUND_TRUTH, SEQUENCES, rig, tables};
+use crate::read::layout::{CAUSE_NAMES, GROUND_TRUTH, SEQUENCES, rig, tables};
 use crate::read::recording::{check_motion_corrected, check_nothing_lost};
 use crate::result::{Component, OutFolder, SequenceNames, WriterLock, checked, refuse_links_out};
 use ralf::sensors::{Sequence, SourceError, Timelines};
@@ -16,8 +16,9 @@ use std::sync::{Mutex, PoisonError};
 
 /// Writes a sequence as `DATASET/sequences/NAME`, whole or not at all: it lies in a hidden folder until it is complete.
 ///
-/// Radar columns, LiDAR points, label, truth and image files are written as they are. `progress` is told how many
-/// measurements are done. An existing sequence is never overwritten, and a measurement that can't be read is an error.
+/// Radar columns, LiDAR points, label, truth, cause and image files are written as they are. `progress` is told how
+/// many measurements are done. An existing sequence is never overwritten, and a measurement that can't be read is an
+/// error.
 pub fn write_sequence(
     reader: &dyn SequenceReader,
     dataset: &Path,
@@ -157,14 +158,23 @@ impl Writer<'_> {
         let rows = columns.first().map_or(0, Vec::len);
         let values = (0..rows).flat_map(|row| columns.iter().map(move |column| column[row]));
         files::write_whole(&folder.file(&Component::numbered(scan, "bin")), &files::f32_bytes(values))?;
+        self.truth(radar, scan)
+    }
+
+    /// Labels and causes: as their files hold them, else as the format tells them.
+    fn truth(&self, radar: usize, scan: usize) -> Result<(), SourceError> {
         let truth = self.folder.own(GROUND_TRUTH).folder(&self.names.radars[radar]);
+        let cause_file = truth.file(&Component::numbered(scan, "cause"));
+        if let Some(causes) = self.reader.cause_file(radar, scan) {
+            files::write_whole(&cause_file, &files::read(&causes)?)?;
+        }
         let truth_file = truth.file(&Component::numbered(scan, "label"));
         if let Some(truth) = self.reader.truth_file(radar, scan) {
             files::write_whole(&truth_file, &files::read(&truth)?)?;
         } else if let Some(truth) = self.reader.truth(radar, scan)? {
             write_labels(&truth_file, &truth.labels)?;
             if !self.reader.causes().is_empty() {
-                files::write_whole(&truth_file.with_extension("cause"), &truth.causes)?;
+                files::write_whole(&cause_file, &truth.causes)?;
             }
         }
         Ok(())
@@ -172,11 +182,14 @@ impl Writer<'_> {
 
     /// `ground_truth/causes.txt` where causes are known: line n names the cause n.
     fn names_of_causes(&self) -> Result<(), DataError> {
+        let file = self.folder.own(GROUND_TRUTH).own_file(CAUSE_NAMES);
+        if let Some(names) = self.reader.cause_names_file() {
+            return files::write_whole(&file, &files::read(&names)?);
+        }
         let causes = self.reader.causes();
         if causes.is_empty() {
             return Ok(());
         }
-        let file = self.folder.own(GROUND_TRUTH).own_file("causes.txt");
         let names: String = causes.iter().map(|cause| format!("{}\n", cause.name())).collect();
         files::write_whole(&file, names.as_bytes())
     }

@@ -143,6 +143,14 @@ impl SequenceReader for Corrected {
         self.inner.truth_file(radar, scan)
     }
 
+    fn cause_file(&self, radar: usize, scan: usize) -> Option<PathBuf> {
+        self.inner.cause_file(radar, scan)
+    }
+
+    fn cause_names_file(&self) -> Option<PathBuf> {
+        self.inner.cause_names_file()
+    }
+
     fn origin(&self) -> Option<&dyn Any> {
         self.inner.origin()
     }

@@ -28,6 +28,8 @@ pub(crate) const SEQUENCES: &str = "sequences";
 pub(crate) const RECORD: &str = "run.json";
 /// The folder of a sequence that holds corrected labels.
 pub(crate) const GROUND_TRUTH: &str = "ground_truth";
+/// The file in it that names the causes of artifacts.
+pub(crate) const CAUSE_NAMES: &str = "causes.txt";
 
 /// Opens a dataset of the own layout: all sequences, with every check that needs no measurement.
 pub(crate) fn open(dataset: &Path) -> Result<Recording, DataError> {

@@ -2,7 +2,7 @@
 
 use super::listing::{Partner, SensorFiles};
 use super::raw::SequenceToml;
-use super::{GROUND_TRUTH, rig, tables};
+use super::{CAUSE_NAMES, GROUND_TRUTH, rig, tables};
 use crate::disk::label_file::read_labels;
 use crate::disk::{class_images, files, images, npy};
 use crate::error::DataError;
@@ -17,6 +17,8 @@ use std::path::{Path, PathBuf};
 
 /// Place of a radar's truth, a LiDAR's classes, a camera's depth among its partners.
 const FIRST: usize = 0;
+/// Place of a radar's causes among its partners.
+const CAUSES: usize = 1;
 /// Place of the times of a LiDAR's points among its partners.
 const POINT_TIMES: usize = 1;
 /// Place of a camera's segmentation among its partners.
@@ -31,6 +33,8 @@ pub struct LayoutSequence {
     cameras: Vec<SensorFiles>,
     /// `sequence.toml`, and what is there of `odometry.csv` and `poses.csv`.
     metadata: Vec<PathBuf>,
+    /// Where causes have names.
+    cause_names: Option<PathBuf>,
     warnings: Vec<String>,
 }
 
@@ -57,7 +61,8 @@ impl LayoutSequence {
             depth_output: toml.depth.output,
         };
         let metadata = [vec![toml_file], motion_files].concat();
-        Ok(Self { sequence, radars, lidars, cameras, metadata, warnings })
+        let cause_names = existing(folder.join(GROUND_TRUTH).join(CAUSE_NAMES))?;
+        Ok(Self { sequence, radars, lidars, cameras, metadata, cause_names, warnings })
     }
 }
 
@@ -87,7 +92,10 @@ fn list(folder: &Path, rig: &Rig, warnings: &mut Vec<String>) -> Result<[Vec<Sen
     let mut list = |name: &str, extensions: &[&str], partners: &[Partner]| {
         SensorFiles::list(&folder.join(name), extensions, partners, warnings)
     };
-    let truth = |name: &str| [label(folder.join(GROUND_TRUTH).join(name))];
+    let truth = |name: &str| {
+        let truth = folder.join(GROUND_TRUTH).join(name);
+        [label(truth.clone()), Partner { folder: truth, extension: "cause" }]
+    };
     let of_points = |name: &str| {
         let times = Partner { folder: folder.join(name), extension: "time" };
         [label(folder.join(name)), times]
@@ -210,6 +218,14 @@ impl SequenceReader for LayoutSequence {
 
     fn truth_file(&self, radar: usize, scan: usize) -> Option<PathBuf> {
         self.radars.get(radar)?.partner(FIRST, scan).cloned()
+    }
+
+    fn cause_file(&self, radar: usize, scan: usize) -> Option<PathBuf> {
+        self.radars.get(radar)?.partner(CAUSES, scan).cloned()
+    }
+
+    fn cause_names_file(&self) -> Option<PathBuf> {
+        self.cause_names.clone()
     }
 }
 

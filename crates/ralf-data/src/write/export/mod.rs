@@ -27,7 +27,7 @@ mod semantic_kitti;
 
 pub use formats::{ExportFormat, ExportOptions};
 pub use options::{Sensors, Split};
-pub use ros::{RosFormat, write_ros};
+pub use ros::{RosFormat, RosWritten, write_ros};
 
 use crate::error::DataError;
 use crate::read::Recording;

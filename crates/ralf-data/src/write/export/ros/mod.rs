@@ -19,6 +19,7 @@
 mod cloud;
 pub(super) mod foxglove;
 mod images;
+mod left_out;
 mod motion;
 mod names;
 mod originals;
@@ -120,10 +121,18 @@ impl Writer for Ros {
     }
 }
 
+/// What [`write_ros`] has written, and what not.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct RosWritten {
+    /// The file of the settings; `None` of a recording that was copied, for those of the original hold.
+    pub settings: Option<PathBuf>,
+    /// What the sequence has and such a file has no place for, a name each, for people.
+    pub left_out: Vec<&'static str>,
+}
+
 /// Writes all that the sensors of a sequence measured as one file, and beside it, with the ending `.toml`, the settings
 /// by which it is read back: which topic is which sensor, and the sensors' uncertainties. Each appears whole or not at
-/// all. `progress` is told how many measurements are done. Returns the file of the settings; `None` of a recording that
-/// was copied, for those of the original hold. What is lost is told in `docs/export.md`.
+/// all. `progress` is told how many measurements are done. `docs/export.md` tells what is left out.
 ///
 /// # Errors
 /// A file that is there already, a measurement that can't be read, times before 1970, what the system refuses.
@@ -132,7 +141,7 @@ pub fn write_ros(
     file: &Path,
     format: RosFormat,
     progress: &dyn Fn(usize),
-) -> Result<Option<PathBuf>, DataError> {
+) -> Result<RosWritten, DataError> {
     check_nothing_lost(reader)?;
     check_motion_corrected(reader)?;
     let _lock = WriterLock::beside(file)?;
@@ -149,11 +158,12 @@ pub fn write_ros(
         let recorder = Recorder::new(writer, file, reader, Sensors::ALL, false)?;
         let copies = recorder.copies();
         recorder.record(None, progress)?;
+        let left_out = if copies { Vec::new() } else { left_out::left_out(reader) };
         if !copies {
             files::write_whole(&settings_file, settings.as_bytes())?;
         }
         fs::rename(&part, file).map_err(DataError::io(file))?;
-        Ok((!copies).then_some(settings_file))
+        Ok(RosWritten { settings: (!copies).then_some(settings_file), left_out })
     });
     if written.is_err() {
         // The half-written file is of no use to anyone; the error that matters is the first one.
