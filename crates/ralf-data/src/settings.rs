@@ -54,11 +54,28 @@ impl Settings {
         Ok(Self { method, topics, corrections, motion })
     }
 
-    /// A recording as the tables `corrections` and `motion` have it. Where it knows no motion, that is taken from the
-    /// radars' range rates. Refused: names that no sensor has, files that hold no poses, and sequences whose motion
-    /// nobody knows.
+    /// A recording as the tables `sensors`, `corrections` and `motion` have it. Where it knows no motion, that is taken
+    /// from the radars' range rates. Refused: names that no sensor has, files that hold no poses, and sequences whose
+    /// motion nobody knows.
     pub fn correct(&self, recording: Recording) -> Result<Recording, DataError> {
-        corrected(recording, &self.corrections, &self.motion)
+        corrected(recording, &self.method, &self.corrections, &self.motion)
+    }
+
+    /// The text of several settings files as that of one: a later file wins over an earlier one, key by key. A single
+    /// text stays as it is.
+    pub fn joined(texts: &[String]) -> Result<String, ConfigError> {
+        let refused = |error: &dyn std::fmt::Display| ConfigError::Parse(error.to_string());
+        match texts {
+            [] => Ok(String::new()),
+            [text] => Ok(text.clone()),
+            texts => {
+                let mut table = Table::new();
+                for text in texts {
+                    put_over(&mut table, text.parse().map_err(|error| refused(&error))?);
+                }
+                toml::to_string(&table).map_err(|error| refused(&error))
+            }
+        }
     }
 
     /// All settings as TOML.
@@ -80,6 +97,16 @@ impl TryFrom<Table> for Settings {
             own.map_err(|error| ConfigError::Parse(error.to_string()))?;
         check_numbers(&corrections, &motion)?;
         Ok(Self { method: Config::try_from(table)?, topics, corrections, motion })
+    }
+}
+
+/// Puts one table's keys over those of another, table by table.
+fn put_over(below: &mut Table, above: Table) {
+    for (key, value) in above {
+        match (below.get_mut(&key), value) {
+            (Some(Value::Table(below)), Value::Table(above)) => put_over(below, above),
+            (_, value) => drop(below.insert(key, value)),
+        }
     }
 }
 
@@ -122,6 +149,18 @@ mod tests {
         assert_eq!(Settings::from_toml(&settings.to_toml().unwrap(), &[]).unwrap(), settings);
         let json = serde_json::to_string(&settings).unwrap();
         assert_eq!(serde_json::from_str::<Settings>(&json).unwrap(), settings);
+    }
+
+    #[test]
+    fn a_later_file_wins_key_by_key() {
+        let texts = [BOTH, "[fusion]\nthreshold = 0.5\n[topics.odom]\ntopic = \"/wheels\"\n", "seed = 9\n"];
+        let joined = Settings::joined(&texts.map(str::to_owned)).unwrap();
+        let settings = Settings::from_toml(&joined, &[]).unwrap();
+        let Config { seed, fusion, .. } = settings.method;
+        assert_eq!((seed, fusion.alpha, fusion.threshold), (9, 0.25, 0.5));
+        assert_eq!(settings.topics["odom"].topic, "/wheels");
+        assert_eq!(Settings::joined(&[BOTH.to_owned()]).unwrap(), BOTH);
+        assert_eq!(Settings::joined(&[]).unwrap(), "");
     }
 
     #[test]

@@ -20,9 +20,9 @@ pub(crate) fn threads(jobs: Option<NonZeroUsize>) -> usize {
 /// How the labeler is set.
 #[derive(Debug, Args)]
 pub(crate) struct SettingsArgs {
-    /// Settings file (TOML); every key is optional
+    /// Settings file (TOML); every key is optional. May be given several times, and a later one wins
     #[arg(long, value_name = "FILE")]
-    config: Option<PathBuf>,
+    config: Vec<PathBuf>,
     /// One setting, such as lidar.beta=0.5; wins over the file, may be given several times
     #[arg(long = "set", value_name = "KEY=VALUE")]
     assignments: Vec<String>,
@@ -37,11 +37,12 @@ pub(crate) struct SettingsArgs {
 impl SettingsArgs {
     /// The settings, resolved.
     pub(crate) fn resolve(&self) -> anyhow::Result<Settings> {
-        // The file by itself first, so that what is wrong with it is said of the file.
-        self.config.as_deref().map(read).transpose().context("--config")?;
+        // The files by themselves first, so that what is wrong with one is said of it.
+        self.config.iter().try_for_each(|file| read(file).map(drop)).context("--config")?;
         let trajectory = self.trajectory.as_deref();
         trajectory.map_or(Ok(()), is_there).context("--trajectory")?;
-        let text = self.config.as_deref().map_or_else(|| Ok(String::new()), text)?;
+        let texts = self.config.iter().map(|file| text(file)).collect::<anyhow::Result<Vec<_>>>()?;
+        let text = Settings::joined(&texts).context("--config")?;
         let assignments: Vec<&str> = self.assignments.iter().map(String::as_str).collect();
         let settings = Settings::from_toml(&text, &assignments);
         let mut settings = settings.map_err(|error| UsageError(format!("--set: {}", in_a_line(&error))))?;
@@ -52,7 +53,7 @@ impl SettingsArgs {
 
     /// Whether any was typed.
     pub(crate) fn are_given(&self) -> bool {
-        self.config.is_some() || !self.assignments.is_empty() || self.trajectory.is_some()
+        !self.config.is_empty() || !self.assignments.is_empty() || self.trajectory.is_some()
     }
 
     /// As they were typed, each after a space.

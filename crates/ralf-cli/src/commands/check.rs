@@ -23,6 +23,8 @@ Examples:
   ralf check recordings/city
   ralf check recordings/city -o check.png
   ralf check recordings/city --write fixes.toml && ralf label recordings/city -o out --config fixes.toml
+  ralf check city.mcap --config city.toml --write fixes.toml
+  ralf label city.mcap -o out --config city.toml --config fixes.toml
   ralf check drive --trajectory poses.tum --trajectory-frame lidar_top
 
 Exit status: 0 done, 1 failed, 2 wrong usage, and 3 with --strict where something is doubted.")]

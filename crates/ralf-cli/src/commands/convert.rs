@@ -16,7 +16,7 @@ use std::path::{Path, PathBuf};
 Each sequence appears whole or not at all, and one that is there already is never overwritten. A name that ends in \
 .mcap (ROS 2) or .bag (ROS 1) takes one sequence; beside it goes a .toml with the settings by which it is read back. \
 What such a file can't hold is in docs/export.md. With --config, --set or --trajectory the recording is written as \
-these correct it (tables `corrections` and `motion`), and needs no correction afterwards.
+these correct it (tables `sensors`, `corrections` and `motion`), and needs no correction afterwards.
 
 Examples:
   ralf convert nuscenes -o recordings/nuscenes --sequence scene-0061

@@ -1,6 +1,6 @@
 //! `ralf check`, and the same at the head of `ralf label`: faults are noticed, told and put right; motion comes from elsewhere.
 
-use crate::support::{Dataset, ralf};
+use crate::support::{Dataset, Ran, nuscenes, program, ralf};
 use std::fs;
 use std::path::Path;
 
@@ -58,6 +58,62 @@ fn a_turned_radar_is_noticed_told_and_put_right() {
     assert_eq!(doubt["subject"], "radar_front", "{doubt}");
     ralf(["label", &made, "-o", &fixed, "--config", &fixes, "--strict", "-q"]).exits(0).says_nothing();
     assert_eq!(record(&fixed)["check"][0]["doubts"].as_array().unwrap().len(), 0);
+}
+
+/// Of the recording with these arguments of its own: what is proposed, given to `label`, leaves nothing to be doubted.
+fn is_put_right_by_what_is_proposed(recording: &str, config: &[&str]) {
+    let [fixes, out] = [".fixes.toml", ".labels"].map(|ending| recording.to_owned() + ending);
+    let with = |command: &[&str], more: &[&str]| {
+        Ran::of(&program().args(command).args(config).args(more).output().unwrap())
+    };
+    with(&["check", recording, "--strict", "--write", &fixes], &[]).exits(3);
+    with(&["check", recording, "--strict"], &["--config", &fixes])
+        .exits(0)
+        .prints(["nothing speaks against"]);
+    let label = ["label", recording, "-o", &out, "--strict", "-q"];
+    with(&label, &["--config", &fixes]).exits(0).says_nothing();
+    assert!(!record(&out)["settings"]["sensors"]["radar_left"]["fov_azimuth_deg"].is_null());
+}
+
+#[test]
+fn what_is_proposed_for_a_field_of_view_puts_it_right_in_every_format() {
+    let dataset = Dataset::new();
+    let made = simulated(&dataset);
+    turn_the_front_radar(&made);
+    let [file, settings] = ["made.mcap", "made.toml"].map(|name| dataset.beside(name));
+    ralf(["convert", &made, "-o", &file, "-q"]).exits(0);
+    // The settings that were written beside it tell the fields of view.
+    let alone = ralf(["check", &file]).exits(0);
+    assert!(alone.stdout.contains("fov_azimuth_deg should rather be"), "{}", alone.stdout);
+    let told = ralf(["check", &file, "--config", &settings]).exits(0);
+    assert!(!told.stdout.contains("fov_azimuth_deg"), "{}", told.stdout);
+
+    let toml = sequence_file(&made, "sequence.toml");
+    let narrow = |text: &str| text.replace("fov_azimuth_deg = 160.0", "fov_azimuth_deg = 90.0");
+    fs::write(&toml, narrow(&fs::read_to_string(&toml).unwrap())).unwrap();
+    fs::write(&settings, narrow(&fs::read_to_string(&settings).unwrap())).unwrap();
+    is_put_right_by_what_is_proposed(&made, &[]);
+    is_put_right_by_what_is_proposed(&file, &["--config", &settings]);
+}
+
+#[test]
+fn a_recording_that_is_read_by_settings_is_written_as_they_have_it() {
+    let dataset = Dataset::new();
+    let [file, settings, back] = ["made.mcap", "made.toml", "back"].map(|name| dataset.beside(name));
+    ralf(["convert", &dataset.path, "-o", &file, "-q"]).exits(0);
+    ralf(["convert", &file, "-o", &back, "-q", "--config", &settings]).exits(0);
+    let text = fs::read_to_string(format!("{back}/sequences/made/sequence.toml")).unwrap();
+    for told in ["fov_azimuth_deg = 150.0", "sigma_azimuth_deg = 0.8", "lowest_beam_deg = 25.0"] {
+        assert!(text.contains(told), "expected {told} in\n{text}");
+    }
+    ralf(["check", &dataset.path, "--set", "sensors.radar_up.sigma_range_m=1"]).exits(1).says(["radar_up"]);
+
+    let tables = dataset.beside("nuscenes");
+    nuscenes(Path::new(&tables));
+    let told = |set: &str| ralf(["check", &tables, "-v", "--set", set]).exits(0).stdout;
+    let [given, narrow] = ["120", "1"].map(|fov| told(&format!("sensors.RADAR_FRONT.fov_azimuth_deg={fov}")));
+    assert!(!given.contains("fov_azimuth_deg should"), "{given}");
+    assert!(narrow.contains("fov_azimuth_deg should rather be"), "{narrow}");
 }
 
 #[test]

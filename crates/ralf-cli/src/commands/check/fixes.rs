@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 pub(crate) fn text(checks: &[SequenceCheck], refined: &[Refinement]) -> String {
     let mut text = String::from(
         "# What `ralf check` proposes. Each line is an offer: look at it, and take out what you know better.\n\
-         # Corrections are added to what the recording says; ralf label --config takes them.\n",
+         # Corrections are added to what the recording says; ralf label takes them with a --config of their own.\n",
     );
     let mut lines: BTreeMap<String, String> = BTreeMap::new();
     for check in checks {

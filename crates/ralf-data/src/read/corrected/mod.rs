@@ -1,5 +1,5 @@
-//! A recording as the settings correct it: mountings, clocks, units and signs of sensors, and where the vehicle's
-//! motion comes from.
+//! A recording as the settings correct it: mountings, clocks, units, signs and models of sensors, and where the
+//! vehicle's motion comes from.
 //!
 //! Nothing is corrected that the settings don't name, with one exception: where a recording knows no motion at all,
 //! it is taken from the radars' range rates, else from a LiDAR's scans, and this is warned of.
@@ -11,6 +11,7 @@ use crate::error::DataError;
 use crate::read::corrections::{MotionSettings, MotionSource, SensorCorrection};
 use crate::read::recording::{Recording, SequenceReader};
 use nalgebra::Translation3;
+use ralf::config::Config;
 use ralf::sensors::{Sequence, Source, SourceError};
 use ralf::space::{EgoMotion, OdometrySample, PoseSample, Transform};
 use ralf_check::doppler::from_doppler;
@@ -22,22 +23,24 @@ use std::path::Path;
 /// By sensor name.
 pub(crate) type Corrections = BTreeMap<String, SensorCorrection>;
 
-/// The recording with what the settings say of it. Refused: a name that no sensor has, a trajectory that is none, and a
-/// sequence whose motion nobody knows.
+/// The recording with what the settings say of it; of the method's settings those of the sensors. Refused: a name that
+/// no sensor has, a trajectory that is none, and a sequence whose motion nobody knows.
 pub(crate) fn corrected(
     recording: Recording,
+    method: &Config,
     corrections: &Corrections,
     motion: &MotionSettings,
 ) -> Result<Recording, DataError> {
     let Recording { path, format, sequences } = recording;
     let mut read = Vec::with_capacity(sequences.len());
+    let as_recorded =
+        method.sensors.is_empty() && corrections.is_empty() && *motion == MotionSettings::default();
     for inner in sequences {
-        let known = inner.sequence().motion.is_known();
-        if known && corrections.is_empty() && *motion == MotionSettings::default() {
+        if as_recorded && inner.sequence().motion.is_known() {
             read.push(inner);
             continue;
         }
-        let sensors = with_sensors(inner, corrections, &path)?;
+        let sensors = with_sensors(inner, method, corrections, &path)?;
         read.push(Box::new(with_motion(sensors, motion, &path)?));
     }
     Ok(Recording { path, format, sequences: read })
@@ -50,10 +53,13 @@ fn unsuitable(path: &Path, sequence: &Sequence, reason: String) -> DataError {
 /// The sensors first, for a motion from range rates needs them as they are.
 fn with_sensors(
     inner: Box<dyn SequenceReader>,
+    method: &Config,
     corrections: &Corrections,
     path: &Path,
 ) -> Result<Corrected, DataError> {
     let mut sequence = inner.sequence().clone();
+    let replaced = method.apply_to(&mut sequence.rig, inner.absent());
+    replaced.map_err(|error| unsuitable(path, &sequence, error.to_string()))?;
     for (name, correction) in corrections.iter().filter(|(name, _)| !inner.absent().contains(name)) {
         correction.apply_to(&mut sequence, name).map_err(|reason| unsuitable(path, &sequence, reason))?;
     }
