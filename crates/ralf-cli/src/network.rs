@@ -7,6 +7,7 @@ use clap::Args;
 use ralf::config::{Config, nanoseconds};
 use ralf::sensors::Sequence;
 use ralf::space::sync;
+use ralf_data::read::refuse_to_write_into;
 use ralf_data::views::{DepthStore, SegmentationStore, ViewObserver};
 use ralf_data::{DataError, Recording, SequenceReader};
 use ralf_depth::{DepthEstimator, OnnxModel, Runtime, SegmentationModel};
@@ -77,9 +78,21 @@ fn runtime() -> Runtime {
     Runtime::Rten
 }
 
+/// The folder for what a network says of a recording's images: the one that is named, else the recording's own.
+pub(crate) fn store_folder<'a>(
+    named: Option<&'a Path>,
+    recording: &'a Recording,
+) -> anyhow::Result<&'a Path> {
+    let Some(folder) = named else { return own_folder(recording) };
+    if folder != recording.path {
+        refuse_to_write_into(&recording.path, folder)?;
+    }
+    Ok(folder)
+}
+
 /// The folder of a recording that can keep what a network says of its images: one of the own layout, for others are
 /// only read.
-pub(crate) fn own_folder(recording: &Recording) -> anyhow::Result<&Path> {
+fn own_folder(recording: &Recording) -> anyhow::Result<&Path> {
     ensure!(
         recording.format == "ralf",
         UsageError(format!(

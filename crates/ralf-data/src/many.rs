@@ -10,7 +10,7 @@ use crate::error::DataError;
 use crate::read::{Recording, open_with};
 use crate::result::json::{read_json, write_json};
 use crate::result::{Component, NotLabelled};
-use crate::run::{LabelRun, Observer, Outcome, Stretch, refuse_to_write_into};
+use crate::run::{LabelRun, Observer, Outcome, Stretch, check_output_folder};
 use crate::settings::Settings;
 use crate::views::with_stored;
 use ralf::config::Method;
@@ -170,7 +170,7 @@ pub fn plan(
         depth: further(&job.depth)?,
         ..job.clone()
     };
-    refuse_to_write_into(&job.recording, &job.out)?;
+    check_output_folder(&job.recording, &job.out)?;
     write_json(&job.out.join(PLAN), &job)?;
     let stretches = job.with_run(jobs, |run| run.plan(scans, observer))?;
     Ok(stretches.into_iter().map(|stretch| Task { job: job.clone(), stretch }).collect())

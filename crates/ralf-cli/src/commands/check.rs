@@ -77,11 +77,11 @@ pub(crate) fn run(arguments: &CheckArgs) -> anyhow::Result<Outcome> {
         }
     }
     if let Some(file) = &arguments.write {
-        ralf_data::write_whole(file, fixes::text(&checks, &refined).as_bytes())?;
+        ralf_data::write_named(file, fixes::text(&checks, &refined).as_bytes())?;
         say(&format!("wrote {}", file.display()));
     }
     if let Some(file) = &arguments.output {
-        ralf_data::write_whole(file, &picture::png(&checks)?)?;
+        ralf_data::write_named(file, &picture::png(&checks)?)?;
         say(&format!("wrote {}", file.display()));
     }
     print(&if arguments.json {

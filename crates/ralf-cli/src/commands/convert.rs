@@ -6,6 +6,7 @@ use crate::progress::{Progress, say};
 use clap::Args;
 use ralf::sensors::Sequence;
 use ralf_data::Recording;
+use ralf_data::read::refuse_to_write_into;
 use ralf_data::write::export::{RosFormat, write_ros};
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
@@ -41,6 +42,7 @@ pub(crate) fn run(arguments: &ConvertArgs) -> anyhow::Result<Outcome> {
     if let Some(format) = RosFormat::of_file(&arguments.output) {
         return as_ros(&recording, &arguments.output, format);
     }
+    refuse_to_write_into(&recording.path, &arguments.output)?;
     let jobs = threads(arguments.jobs);
     for reader in &recording.sequences {
         let sequence = reader.sequence();

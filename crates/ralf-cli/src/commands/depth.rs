@@ -1,7 +1,7 @@
 //! `ralf depth`: the depth of every image, once for all; and how well it fits the LiDAR.
 
 use crate::arguments::{DatasetArgs, SettingsArgs, threads};
-use crate::network::{DepthModelArgs, all_images, fill_depth, own_folder};
+use crate::network::{DepthModelArgs, all_images, fill_depth, store_folder};
 use crate::outcome::{Outcome, UsageError};
 use crate::text::{aligned, grouped, print};
 use anyhow::{Context, ensure};
@@ -78,11 +78,9 @@ impl DepthArgs {
     /// Where depth goes. A dataset of the own layout says what its depth images hold, which the network must give.
     fn store(&self, recording: &Recording, model: &OnnxModel) -> anyhow::Result<DepthStore> {
         let output = model.output();
-        if let Some(folder) = &self.output {
-            return Ok(DepthStore::create(folder, output, model.fingerprint())?);
-        }
-        let folder = own_folder(recording)?;
-        for reader in &recording.sequences {
+        let folder = store_folder(self.output.as_deref(), recording)?;
+        let of_recording = if self.output.is_none() { recording.sequences.as_slice() } else { &[] };
+        for reader in of_recording {
             let declared = reader.sequence().depth_output;
             let file = recording.path.join("sequences").join(&reader.sequence().name).join("sequence.toml");
             ensure!(

@@ -11,7 +11,9 @@ use crate::spent::Work;
 use crate::text::{counted, grouped, print};
 use clap::Args;
 use ralf_data::Recording;
-use ralf_data::run::{CheckRecord, LabelRun, Outcome as RunOutcome, RunRecord, SequenceRecord, check_all};
+use ralf_data::run::{
+    CheckRecord, LabelRun, Outcome as RunOutcome, RunRecord, SequenceRecord, check_all, check_output_folder,
+};
 use ralf_data::views::with_stored;
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
@@ -82,7 +84,7 @@ pub(crate) fn run(arguments: &LabelArgs) -> anyhow::Result<Outcome> {
     let jobs = threads(arguments.jobs);
     settings.topics = arguments.dataset.topics_or(&settings.topics)?;
     let recording = arguments.dataset.open_corrected(&settings)?;
-    let checks = arguments.checks_before(&recording, jobs);
+    let checks = arguments.checks_before(&recording, jobs)?;
     if checks.iter().any(|check| !check.doubts.is_empty()) {
         say("nothing is labelled, for the recording is doubted (--strict)");
         return Ok(Outcome::Partial);
@@ -131,11 +133,13 @@ fn told_of_scans(record: &RunRecord) -> Outcome {
 }
 
 impl LabelArgs {
-    /// What is to be known before anything is labelled; doubts are told. Without `--strict` checks go on meanwhile.
-    fn checks_before(&self, recording: &Recording, jobs: usize) -> Vec<CheckRecord> {
+    /// What is to be known before anything is labelled: whether the results have a place, and doubts, which are told.
+    /// Without `--strict` checks go on meanwhile.
+    fn checks_before(&self, recording: &Recording, jobs: usize) -> anyhow::Result<Vec<CheckRecord>> {
+        check_output_folder(&recording.path, &self.output)?;
         let checks = if self.strict { check_all(recording, jobs) } else { Vec::new() };
         checks.iter().flat_map(doubts).for_each(|line| say(&line));
-        checks
+        Ok(checks)
     }
 }
 

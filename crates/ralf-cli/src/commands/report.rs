@@ -45,7 +45,7 @@ pub(crate) fn run(arguments: &ReportArgs) -> anyhow::Result<Outcome> {
     let progress = Progress::spinner();
     let page = report.page(&|step| progress.tell(step.to_owned()))?;
     drop(progress);
-    ralf_data::write_whole(&arguments.output, page.html.as_bytes())?;
+    ralf_data::write_named(&arguments.output, page.html.as_bytes())?;
     say(&format!("wrote {}", arguments.output.display()));
     page.orphaned.iter().for_each(|scan| say(&orphaned(scan)));
     for sequence in &page.without_labels {

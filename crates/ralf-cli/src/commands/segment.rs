@@ -1,7 +1,7 @@
 //! `ralf segment`: the class of every pixel of every image, once for all.
 
 use crate::arguments::{DatasetArgs, SettingsArgs, threads};
-use crate::network::{SegmentationModelArgs, fill_segmentation, own_folder};
+use crate::network::{SegmentationModelArgs, fill_segmentation, store_folder};
 use crate::outcome::Outcome;
 use clap::Args;
 use ralf_data::Recording;
@@ -54,7 +54,7 @@ pub(crate) fn run(arguments: &SegmentArgs) -> anyhow::Result<Outcome> {
 
 impl SegmentArgs {
     fn store(&self, recording: &Recording, model: &SegmentationModel) -> anyhow::Result<SegmentationStore> {
-        let folder = self.output.as_deref().map_or_else(|| own_folder(recording), Ok)?;
+        let folder = store_folder(self.output.as_deref(), recording)?;
         Ok(SegmentationStore::create(folder, model.fingerprint())?)
     }
 }

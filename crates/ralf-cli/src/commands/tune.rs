@@ -10,7 +10,7 @@ use crate::progress::say;
 use crate::text::print;
 use clap::Args;
 use ralf::config::Config;
-use ralf_data::{Settings, write_whole};
+use ralf_data::{Settings, write_named};
 use ralf_train::{EvidenceTable, Found, Search, TunedSettings, leave_one_out, settings_file};
 use report::{Part, Report};
 use std::path::PathBuf;
@@ -52,7 +52,7 @@ pub(crate) fn run(arguments: &TuneArgs) -> anyhow::Result<Outcome> {
     let comment = text::comment(&report, &arguments.command());
     let method = report.found.settings.applied_to(&base.method);
     let tuned = Settings { method, ..base };
-    write_whole(&arguments.output, settings_file(&comment, &tuned)?.as_bytes())?;
+    write_named(&arguments.output, settings_file(&comment, &tuned)?.as_bytes())?;
     print(&if search.json { serde_json::to_string_pretty(&report.json())? } else { text::page(&report) })?;
     if !search.objective.is_met(report.found.score) {
         say(&format!("warning: no settings that were tried keep the floor of {}", search.objective));

@@ -31,9 +31,32 @@ fn results_do_not_go_into_the_recording() {
     for inside in ["", "/sequences", "/sequences/00", "/sequences/new", "/sequences/../sequences/new/folder"]
     {
         let out = format!("{}{inside}", dataset.path);
-        ralf(["label", &dataset.path, "-o", &out]).exits(1).prints_nothing().says(["output folder", &out]);
+        ralf(["label", &dataset.path, "-o", &out])
+            .exits(1)
+            .prints_nothing()
+            .says(["outside the recording", &out]);
         assert!(tree(&dataset.path) == before, "{inside}");
     }
+}
+
+#[test]
+fn results_that_have_no_place_are_refused_before_anything_is_done() {
+    let dataset = Dataset::new();
+    for (name, folder) in [("run.json", true), ("sequences", false)] {
+        let out = dataset.beside(&format!("out of {name}"));
+        let taken = format!("{out}/{name}");
+        fs::create_dir(&out).unwrap();
+        if folder { fs::create_dir(&taken) } else { fs::write(&taken, "mine") }.unwrap();
+        let before = tree(&out);
+        let refused = ralf(["label", &dataset.path, "-o", &out]).exits(1).prints_nothing();
+        refused.says([&taken, "or none yet, found a f"]);
+        assert_eq!(tree(&out), before);
+    }
+    let file = dataset.beside("file");
+    fs::write(&file, "mine").unwrap();
+    ralf(["label", &dataset.path, "-o", &file])
+        .exits(1)
+        .says(["expected a folder, or none yet, found a file"]);
 }
 
 #[test]

@@ -109,6 +109,12 @@ fn a_conversion_overwrites_nothing() {
     ralf(["convert", &dataset.path, "-o", &copy])
         .exits(1)
         .says(["sequences/00", "expected none of this name yet"]);
-    ralf(["convert", &dataset.path, "-o", &dataset.path]).exits(1).says(["sequences/00"]);
+    let inside = format!("{}/sequences/new", dataset.path);
+    for place in [&dataset.path, &inside] {
+        ralf(["convert", &dataset.path, "-o", place])
+            .exits(1)
+            .says(["expected a place outside the recording"]);
+    }
+    ralf(["inspect", &dataset.path, "--quick"]).exits(0);
     assert!(tree(&copy) == before);
 }

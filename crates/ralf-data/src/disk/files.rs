@@ -1,6 +1,7 @@
 //! Bytes on disk: reading whole files, rows of float32, and writing so that a file appears whole or not at all.
 
 use super::alone::open_alone;
+use super::real_path::real_path;
 use crate::error::DataError;
 use ralf_files::Kind;
 use std::collections::HashMap;
@@ -156,7 +157,14 @@ pub fn write_whole(file: &Path, bytes: &[u8]) -> Result<(), DataError> {
     write_whole_with(file, |out| out.write_all(bytes))
 }
 
-/// The same with content that is made while it is written, so that it need not be in memory at once.
+/// The same of a file that a person has named: where a link of this name lies, what it leads to is written. All other
+/// files replace a link, for it may lead out of the folder that is written to.
+pub fn write_named(file: &Path, bytes: &[u8]) -> Result<(), DataError> {
+    let place = if file.is_symlink() { real_path(file) } else { file.to_owned() };
+    write_whole(&place, bytes)
+}
+
+/// The same as [`write_whole`] with content that is made while it is written, so that it need not be in memory at once.
 pub(crate) fn write_whole_with(
     file: &Path,
     content: impl FnOnce(&mut dyn Write) -> std::io::Result<()>,
@@ -225,6 +233,20 @@ mod tests {
             );
             fs::remove_file(&file).unwrap();
         }
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_link_that_a_person_named_stays_and_what_it_leads_to_is_written() {
+        let folder = tempfile::tempdir().unwrap();
+        let [link, target] = ["link", "there/target"].map(|name| folder.path().join(name));
+        fs::create_dir(folder.path().join("there")).unwrap();
+        std::os::unix::fs::symlink("there/target", &link).unwrap();
+        for content in ["new", "newer"] {
+            write_named(&link, content.as_bytes()).unwrap();
+            assert!(link.is_symlink() && fs::read(&target).unwrap() == content.as_bytes());
+        }
+        assert_eq!(names(&folder.path().join("there")).unwrap(), ["target"]);
     }
 
     /// Parts of a run may be done twice at the same time.

@@ -14,3 +14,4 @@ pub(crate) mod npy;
 pub(crate) mod number;
 pub(crate) mod parquet_table;
 pub(crate) mod pcd;
+pub(crate) mod real_path;

@@ -12,6 +12,7 @@ mod fingerprint;
 mod in_memory;
 mod inputs;
 mod output_folder;
+mod place;
 mod results;
 mod scan_log;
 mod sequences;
@@ -26,11 +27,12 @@ pub use crate::result::{
 };
 
 pub use checks::check_all;
+pub use place::check_output_folder;
 pub use stretch::Stretch;
 
 use crate::error::DataError;
 use crate::frames::{ScanIndex, all_scans, in_time, time_of};
-use crate::read::{Recording, SequenceReader, layout};
+use crate::read::{Recording, SequenceReader};
 use crate::result::{
     CLASS_FROM, OutFolder, Schema, SequenceNames, WriterLock, evidence_columns, learned_columns,
     refuse_links_out,
@@ -204,7 +206,7 @@ impl LabelRun<'_> {
 
     fn run(&self, observer: &dyn Observer, told: Option<&Checked<'_>>) -> Result<Outcome, DataError> {
         let begun = Instant::now();
-        refuse_to_write_into(&self.recording.path, self.out)?;
+        check_output_folder(&self.recording.path, self.out)?;
         let labeler = self.labeler()?;
         let tasks = self.tasks(labeler.as_ref())?;
         let _lock = self.lock()?;
@@ -300,16 +302,6 @@ impl LabelRun<'_> {
     }
 }
 
-/// Inputs are only read: results beside them would be taken for a part of the recording.
-pub(crate) fn refuse_to_write_into(recording: &Path, out: &Path) -> Result<(), DataError> {
-    let (place, recording) = (real_path(out), real_path(recording));
-    if place != recording && !place.starts_with(recording.join(layout::SEQUENCES)) {
-        return Ok(());
-    }
-    let expected = "another folder than the recording's own";
-    Err(DataError::content(out, "output folder", expected, "a part of the recording"))
-}
-
 /// The sensors of a sequence as the settings have them.
 pub(crate) fn rig_of(
     recording: &Recording,
@@ -326,16 +318,4 @@ pub(crate) fn rig_of(
 fn unsuitable(recording: &Recording, reader: &dyn SequenceReader, reason: String) -> DataError {
     let place = format!("sequence {}", reader.sequence().name);
     DataError::Unsuitable { file: recording.path.clone(), place, reason }
-}
-
-/// Where a path leads that need not exist yet: links in the part that does exist are resolved.
-fn real_path(path: &Path) -> PathBuf {
-    match (path.canonicalize(), path.parent(), path.file_name()) {
-        (Ok(real), _, _) => real,
-        (Err(_), Some(parent), Some(name)) if parent.as_os_str().is_empty() => {
-            real_path(Path::new(".")).join(name)
-        }
-        (Err(_), Some(parent), Some(name)) => real_path(parent).join(name),
-        _ => path.to_owned(),
-    }
 }

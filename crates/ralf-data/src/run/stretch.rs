@@ -8,7 +8,7 @@ use super::results::Results;
 use super::unfinished::Unfinished;
 use super::workers::Labelling;
 use super::workspace::Workspace;
-use super::{LOCK, LabelRun, Observer, Task, refuse_to_write_into};
+use super::{LOCK, LabelRun, Observer, Task, check_output_folder};
 use crate::error::DataError;
 use crate::frames::ScanIndex;
 use crate::result::{NotLabelled, OutFolder, RunRecord, SequenceNames, WriterLock, read_record};
@@ -45,7 +45,7 @@ impl LabelRun<'_> {
     /// # Errors
     /// Those of [`Self::execute`].
     pub fn plan(&self, scans: NonZeroUsize, observer: &dyn Observer) -> Result<Vec<Stretch>, DataError> {
-        refuse_to_write_into(&self.recording.path, self.out)?;
+        check_output_folder(&self.recording.path, self.out)?;
         let labeler = self.labeler()?;
         let tasks = self.tasks(labeler.as_ref())?;
         let _lock = self.lock()?;

@@ -15,7 +15,7 @@ use clap::builder::PossibleValuesParser;
 use ralf::config::Config;
 use ralf::learned::Origin;
 use ralf_data::run::NotLabelled;
-use ralf_data::{TrainingGatherer, TrainingTruth, write_whole};
+use ralf_data::{TrainingGatherer, TrainingTruth, write_named};
 use ralf_train::learning::{Fitting, Parameters, TrainingTable, fit};
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
@@ -97,7 +97,7 @@ pub(crate) fn run(arguments: &LearnArgs) -> anyhow::Result<Outcome> {
     let fitted =
         fit(&table, &fitting, arguments.origin(), &|done, of| progress.reached_of(done as u64, of as u64))?;
     drop(progress);
-    write_whole(&arguments.output, fitted.model.to_text().as_bytes())?;
+    write_named(&arguments.output, fitted.model.to_text().as_bytes())?;
     let before = if arguments.from.is_some() { own::before(&table, own, config)? } else { Vec::new() };
     print(&if arguments.json {
         text::json(&fitted, &before)?

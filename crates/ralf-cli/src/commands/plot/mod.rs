@@ -85,7 +85,7 @@ pub(crate) fn run(arguments: &PlotArgs) -> anyhow::Result<Outcome> {
         },
         (None, _) => pictures.overview(WIDTHS[1])?,
     };
-    ralf_data::write_whole(&arguments.output, &png)?;
+    ralf_data::write_named(&arguments.output, &png)?;
     say(&format!("wrote {}", arguments.output.display()));
     Ok(Outcome::Done)
 }

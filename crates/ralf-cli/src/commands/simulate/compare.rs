@@ -40,7 +40,7 @@ pub(super) fn compare(real: &Named, simulated: &Named, jobs: usize, told: &Told)
         say(&format!("left out: {reason}"));
     }
     if let Some(file) = told.page {
-        ralf_data::write_whole(file, page.html()?.as_bytes())?;
+        ralf_data::write_named(file, page.html()?.as_bytes())?;
         say(&format!("wrote {}", file.display()));
     }
     print(&if told.json {

@@ -48,6 +48,40 @@ fn a_file_is_replaced_like_a_folder() {
 }
 
 #[test]
+fn no_format_is_written_into_the_recording() {
+    let dataset = small();
+    let before = tree(&dataset.path);
+    for format in FORMATS {
+        for place in ["sequences/labels", "sequences/00/labels", "sequences/../sequences/labels"] {
+            let place = format!("{}/{place}", dataset.path);
+            run(&dataset, format, &place, &[]).exits(1).says(["expected a place outside the recording"]);
+        }
+    }
+    assert!(tree(&dataset.path) == before);
+}
+
+#[cfg(unix)]
+#[test]
+fn what_a_link_leads_to_is_written_and_the_link_stays() {
+    use std::os::unix::fs::symlink;
+    let dataset = small();
+    let [file, link, folder, to_folder] =
+        ["there.mcap", "link.mcap", "there", "link"].map(|name| dataset.beside(name));
+    for (format, target, link) in [("mcap", &file, &link), ("npz", &folder, &to_folder)] {
+        symlink(target, link).unwrap();
+        run(&dataset, format, link, &[]).exits(0);
+        run(&dataset, format, link, &["--force"]).exits(0);
+        assert!(fs::symlink_metadata(link).unwrap().is_symlink() && fs::exists(target).unwrap());
+    }
+    let [page, linked] = ["page.html", "linked.html"].map(|name| dataset.beside(name));
+    fs::write(&page, "an earlier one").unwrap();
+    symlink(&page, &linked).unwrap();
+    ralf(["report", &dataset.path, &dataset.out, "-o", &linked]).exits(0);
+    assert!(fs::symlink_metadata(&linked).unwrap().is_symlink());
+    assert!(fs::read_to_string(&page).unwrap().starts_with("<!DOCTYPE html>"));
+}
+
+#[test]
 fn a_layout_for_foxglove_lies_beside_mcap_files() {
     let dataset = small();
     let folder = export(&dataset, "mcap", "all", &["--sensors"]);
@@ -72,8 +106,9 @@ fn a_layout_for_foxglove_lies_beside_mcap_files() {
 fn nothing_else_is_ever_replaced() {
     let dataset = small();
     let recording = tree(&dataset.path);
-    for path in [&dataset.path, &dataset.out] {
-        run(&dataset, "npz", path, &["--force"]).exits(1).says([path, "expected an empty folder"]);
+    for (path, told) in [(&dataset.path, "outside the recording"), (&dataset.out, "expected an empty folder")]
+    {
+        run(&dataset, "npz", path, &["--force"]).exits(1).says([path, told]);
     }
     assert!(tree(&dataset.path) == recording);
     let file = dataset.beside("notes.mcap");

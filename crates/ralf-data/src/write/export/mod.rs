@@ -29,8 +29,9 @@ pub use formats::{ExportFormat, ExportOptions};
 pub use options::{Sensors, Split};
 pub use ros::{RosFormat, RosWritten, write_ros};
 
+use crate::disk::real_path::real_path;
 use crate::error::DataError;
-use crate::read::Recording;
+use crate::read::{Recording, refuse_to_write_into};
 use crate::result::{LabelledRun, OutFolder, SequenceNames};
 use crate::truth::Corrections;
 use labelled::{LabelledSequence, Tally};
@@ -80,13 +81,16 @@ impl Export<'_> {
         sequences.flat_map(|reader| &reader.sequence().times.radars).map(Vec::len).sum()
     }
 
-    /// Writes the export to `path`. `progress` is told after each scan how many are done.
+    /// Writes the export to `path`, or where a link of this name leads. `progress` is told after each scan how many are
+    /// done.
     ///
     /// # Errors
-    /// Anything at `path` but an empty folder, or an earlier export in this format where replacing it is asked for;
-    /// results that are not those of the recording, or of none of its sequences; what the system refuses. Nothing
-    /// half-written stays.
+    /// A part of the recording; anything at `path` but an empty folder, or an earlier export in this format where
+    /// replacing it is asked for; results that are not those of the recording, or of none of its sequences; what the
+    /// system refuses. Nothing half-written stays.
     pub fn write(&self, path: &Path, progress: &dyn Fn(usize)) -> Result<Exported, DataError> {
+        refuse_to_write_into(&self.recording.path, path)?;
+        let path = &if path.is_symlink() { real_path(path) } else { path.to_owned() };
         let run = LabelledRun::open(self.out)?;
         let corrections = Corrections::of_recording(self.out, self.recording)?;
         let orphaned = corrections.orphaned().iter().map(ToString::to_string).collect();
