@@ -49,14 +49,14 @@ fn results_that_have_no_place_are_refused_before_anything_is_done() {
         if folder { fs::create_dir(&taken) } else { fs::write(&taken, "mine") }.unwrap();
         let before = tree(&out);
         let refused = ralf(["label", &dataset.path, "-o", &out]).exits(1).prints_nothing();
-        refused.says([&taken, "or none yet, found a f"]);
+        refused.says([&taken, "or nothing yet, found a f"]);
         assert_eq!(tree(&out), before);
     }
     let file = dataset.beside("file");
     fs::write(&file, "mine").unwrap();
     ralf(["label", &dataset.path, "-o", &file])
         .exits(1)
-        .says(["expected a folder, or none yet, found a file"]);
+        .says(["expected a folder, or nothing yet, found a file"]);
 }
 
 #[test]

@@ -13,12 +13,12 @@ pub fn check_output_folder(recording: &Path, out: &Path) -> Result<(), DataError
     let place = OutFolder::new(out);
     for folder in [out, place.own("sequences").path()] {
         if files::exists(folder)? && !folder.is_dir() {
-            return Err(DataError::content(folder, "output", "a folder, or none yet", "a file"));
+            return Err(DataError::content(folder, "output", "a folder, or nothing yet", "a file"));
         }
     }
     let record = place.own_file(RECORD);
     if files::exists(&record)? && !record.is_file() {
-        return Err(DataError::content(&record, "output", "a file, or none yet", "a folder"));
+        return Err(DataError::content(&record, "output", "a file, or nothing yet", "a folder"));
     }
     Ok(())
 }
