@@ -115,17 +115,29 @@ fn check_numbers(
     corrections: &BTreeMap<String, SensorCorrection>,
     motion: &MotionSettings,
 ) -> Result<(), ConfigError> {
+    let refused = |key, expected: &str, found| ConfigError::Value {
+        key,
+        expected: format!("{expected}, found {found:e}"),
+    };
     let of_sensors = corrections.iter().flat_map(|(name, correction)| {
         correction.numbers().map(move |(key, value)| (format!("corrections.{name}.{key}"), value))
     });
     let of_motion = motion.numbers().map(|(key, value)| (format!("motion.{key}"), value));
-    match of_sensors.chain(of_motion).find(|(_, value)| value.abs() > MOST || value.is_nan()) {
-        Some((key, found)) => Err(ConfigError::Value {
-            key,
-            expected: format!("a number from -{MOST:e} to {MOST:e}, found {found:e}"),
-        }),
-        None => Ok(()),
+    if let Some((key, found)) =
+        of_sensors.chain(of_motion).find(|(_, value)| value.abs() > MOST || value.is_nan())
+    {
+        return Err(refused(key, &format!("a number from -{MOST:e} to {MOST:e}"), found));
     }
+    for (name, SensorCorrection { position_factor, doppler_factor, .. }) in corrections {
+        let key = |key: &str| format!("corrections.{name}.{key}");
+        if *position_factor <= 0.0 {
+            return Err(refused(key("position_factor"), "a number above 0", *position_factor));
+        }
+        if *doppler_factor == 0.0 {
+            return Err(refused(key("doppler_factor"), "a number other than 0", *doppler_factor));
+        }
+    }
+    Ok(())
 }
 
 /// Nothing larger is in any use: a clock can be off by no more milliseconds, for times are told in nanoseconds.
@@ -171,6 +183,11 @@ mod tests {
                 assert!(refused.contains(key) && refused.contains("found"), "{refused}");
             }
         }
+        for factor in ["position_factor=0", "position_factor=-1", "doppler_factor=0"] {
+            let refused = Settings::from_toml("", &[&format!("corrections.front.{factor}")]).unwrap_err();
+            assert!(refused.to_string().contains("_factor`: expected a number "), "{refused}");
+        }
+        assert!(Settings::from_toml("", &["corrections.front.doppler_factor=-1"]).is_ok(), "another sign");
         let place = "corrections.front.add_translation=[0, nan, 0]";
         assert!(Settings::from_toml("", &[place]).is_err());
         assert!(Settings::from_toml("", &["corrections.front.tick_ms=1.7e12"]).is_ok(), "since 1970");

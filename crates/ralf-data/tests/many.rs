@@ -176,7 +176,7 @@ fn what_nobody_planned_is_refused() {
     let nothing = assemble(&other, ONE, &Unwatched).unwrap_err().to_string();
     assert!(nothing.contains("plan.json"), "{nothing}");
     let beside = plan(&job(&drive, &drive), scans(5), ONE, &Unwatched).unwrap_err().to_string();
-    assert!(beside.contains("a part of the recording") && !drive.join("plan.json").exists(), "{beside}");
+    assert!(beside.contains("outside the recording") && !drive.join("plan.json").exists(), "{beside}");
 }
 
 /// The reason of a recording that can't be opened is told when it is planned, and again when all is put together.

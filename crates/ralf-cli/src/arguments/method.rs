@@ -1,5 +1,6 @@
 //! Which method answers, and by which model.
 
+use crate::outcome::UsageError;
 use anyhow::Context;
 use clap::{Args, ValueEnum};
 use ralf::config::{Config, Method};
@@ -33,6 +34,12 @@ impl MethodArgs {
             Some(TypedMethod::Paper) => config.method = Method::Paper,
             Some(TypedMethod::Learned) => config.method = Method::Learned,
             None => {}
+        }
+        if config.method == Method::Paper && self.model.is_some() {
+            let wanted = "--method learned, or method = \"learned\" in the settings";
+            return Err(
+                UsageError(format!("--model: expected the method that asks a model: {wanted}")).into()
+            );
         }
         ralf_data::many::model_of(config.method, self.model.as_deref()).context("--model")
     }

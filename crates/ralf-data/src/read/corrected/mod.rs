@@ -76,6 +76,7 @@ fn with_motion(mut reader: Corrected, wanted: &MotionSettings, path: &Path) -> R
     let found = match wanted.source {
         MotionSource::Radar => from_doppler(&reader).map(|motion| (motion, MotionSource::Radar)),
         MotionSource::Lidar => from_lidar(&reader).map(|motion| (motion, MotionSource::Lidar)),
+        MotionSource::Trajectory => Err("motion.source = \"trajectory\" without a file of poses".into()),
         _ if is_known => Ok((reader.sequence().motion.clone(), MotionSource::Recorded)),
         _ => seen(&reader),
     };

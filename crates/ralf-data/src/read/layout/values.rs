@@ -6,6 +6,9 @@ use nalgebra::UnitQuaternion;
 use ralf::space::{Transform, transform_from_parts};
 use std::path::Path;
 
+/// No sensor of a vehicle is farther from it, m.
+const FARTHEST: f64 = 1000.0;
+
 /// A table of the file, to be named in errors.
 pub(crate) struct Place<'a> {
     pub(super) file: &'a Path,
@@ -41,6 +44,9 @@ impl Place<'_> {
         quaternion_xyzw: [f64; 4],
     ) -> Result<Transform, DataError> {
         self.finite("translation", &translation)?;
+        if let Some(far) = translation.iter().find(|value| value.abs() > FARTHEST) {
+            return Err(self.error("translation", &format!("at most {FARTHEST} m from the vehicle"), far));
+        }
         transform_from_parts(translation, quaternion_xyzw)
             .ok_or_else(|| self.error("quaternion_xyzw", "a length of 1", format!("{quaternion_xyzw:?}")))
     }

@@ -103,6 +103,13 @@ impl ExportFormat {
         FORMATS.iter().find(|format| format.name == name).map(Self)
     }
 
+    /// The format of which a file of this name is a single file.
+    pub(super) fn of_file(path: &Path) -> Option<Self> {
+        let named =
+            |format: &&Format| format.single_file.as_ref().is_some_and(|single| single.is_named_by(path));
+        FORMATS.iter().find(named).map(Self)
+    }
+
     /// The name, as `--to` takes it.
     pub fn name(self) -> &'static str {
         self.0.name

@@ -1,8 +1,8 @@
 //! Where an export goes: it appears whole or not at all, and never takes the place of anything else.
 
-use super::ExportOptions;
 use super::formats::SingleFile;
 use super::ros::foxglove::FILE as LAYOUT;
+use super::{ExportFormat, ExportOptions};
 use crate::disk::files;
 use crate::error::DataError;
 use crate::result::{Component, OutFolder, WriterLock};
@@ -138,10 +138,17 @@ fn check_file(
     Err(DataError::content(path, "file", "none yet", "an earlier export, which only --force replaces"))
 }
 
+/// Refuses a name for a folder that is one of another format's file.
+fn refuse_ending(path: &Path, format: ExportFormat) -> Result<(), DataError> {
+    let Some(other) = ExportFormat::of_file(path) else { return Ok(()) };
+    let expected = format!("a place for the format {}", format.name());
+    Err(DataError::content(path, "name", expected, format!("the ending of a file of {}", other.name())))
+}
+
 /// Refuses a path where there is something that must not be replaced.
 fn check_folder(path: &Path, options: &ExportOptions) -> Result<(), DataError> {
     if !path.exists() {
-        return Ok(());
+        return refuse_ending(path, options.format);
     }
     if !path.is_dir() {
         return Err(DataError::content(path, "path", "a folder, or nothing yet", "a file"));
