@@ -23,9 +23,8 @@ use std::ffi::OsString;
 pub fn run(typed: impl IntoIterator<Item = OsString>) -> u8 {
     let cli = match cli::Cli::try_parse_from(typed) {
         Ok(cli) => cli,
-        // What was asked for by --help is no failure. Whoever reads it may have enough of it.
         Err(error) => {
-            let _ = error.print();
+            say_usage(&error);
             return u8::try_from(error.exit_code()).unwrap_or(2);
         }
     };
@@ -35,8 +34,30 @@ pub fn run(typed: impl IntoIterator<Item = OsString>) -> u8 {
         // Whoever reads our output has enough of it, as in `ralf inspect x | head`.
         Err(error) if text::is_broken_pipe(&error) => 0,
         Err(error) => {
-            progress::say(&format!("error: {error:#}"));
+            say_error(&error);
             if error.is::<UsageError>() { 2 } else { 1 }
         }
     }
+}
+
+/// What is wrong with what was typed: how it is used, and the error as the last line, as of all that fails.
+fn say_usage(error: &clap::Error) {
+    let text = error.render().to_string();
+    match text.split_once("\n\n").filter(|(head, _)| head.starts_with("error:")) {
+        Some((head, usage)) => {
+            progress::say(usage.trim_end());
+            progress::say(&text::in_a_line(head));
+        }
+        // What was asked for by --help is no failure. Whoever reads it may have enough of it.
+        None => drop(error.print()),
+    }
+}
+
+/// What failed: the lines of a file that a parser shows, then the error as one line.
+fn say_error(error: &anyhow::Error) {
+    let (shown, told) = text::without_shown_lines(&format!("{error:#}"));
+    if !shown.is_empty() {
+        progress::say(&shown);
+    }
+    progress::say(&format!("error: {told}"));
 }

@@ -17,6 +17,32 @@ pub(crate) fn is_broken_pipe(error: &anyhow::Error) -> bool {
     error.downcast_ref::<io::Error>().is_some_and(|error| error.kind() == io::ErrorKind::BrokenPipe)
 }
 
+/// What is said over several lines, as one.
+pub(crate) fn in_a_line(text: &str) -> String {
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+/// An error's text in two: the lines of a file that a parser shows, with their numbers, and all else as one line.
+pub(crate) fn without_shown_lines(text: &str) -> (String, String) {
+    let is_shown = |line: &&str| {
+        line.trim_start_matches(|character: char| character == ' ' || character.is_ascii_digit())
+            .starts_with('|')
+    };
+    let lines = text.lines().filter(|line| !line.trim().is_empty());
+    let (shown, told): (Vec<&str>, Vec<&str>) = lines.partition(is_shown);
+    let mut line = String::new();
+    for part in told {
+        let goes_on = line.ends_with([':', ',', ';', '.']) || part.starts_with("in `");
+        let between = match line.is_empty() || part.starts_with(':') {
+            true => "",
+            false if goes_on => " ",
+            false => ": ",
+        };
+        line = line + between + part.trim();
+    }
+    (shown.join("\n"), line)
+}
+
 /// A share in percent with one decimal, or a dash of nothing.
 pub(crate) fn percent(part: u64, whole: u64) -> String {
     if whole == 0 { "-".to_owned() } else { format!("{:.1} %", 100.0 * part as f64 / whole as f64) }
@@ -59,6 +85,16 @@ mod tests {
     fn so_many_are_listed() {
         assert_eq!(listed(&["a", "b"], 2), "a, b");
         assert_eq!(listed(&["a", "b", "c"], 2), "a, b and 1 more");
+    }
+
+    #[test]
+    fn an_error_ends_with_one_line() {
+        let text = "a.toml: TOML parse error at line 1, column 9\n  |\n1 | lidar = 3\n  |         ^\nno table\nin `lidar`\n";
+        let (shown, told) = without_shown_lines(text);
+        assert_eq!(shown, "  |\n1 | lidar = 3\n  |         ^");
+        assert_eq!(told, "a.toml: TOML parse error at line 1, column 9: no table in `lidar`");
+        assert_eq!(without_shown_lines("a: b").1, "a: b");
+        assert_eq!(without_shown_lines("a:\n b\n: c").1, "a: b: c");
     }
 
     #[test]

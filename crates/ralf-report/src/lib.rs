@@ -7,6 +7,7 @@
 
 mod breakdown;
 mod chart;
+mod choice;
 mod classes;
 mod content;
 mod curves;
@@ -22,6 +23,7 @@ mod scored;
 mod settings_map;
 mod told;
 
+pub use choice::{one_below, one_of};
 pub use error::ReportError;
 pub use number::{counted, grouped};
 pub use pictures::{Detections, Pictures, mark_label};

@@ -2,10 +2,11 @@
 //! LiDAR returns, the vehicle's path.
 
 use crate::ReportError;
+use crate::choice::{one_below, one_of};
 use ralf::sensors::{Radar, Sequence, is_return};
 use ralf::space::sync;
 use ralf::space::{Point, Transform, Vector};
-use ralf_data::result::{PlausibilityReader, RadarScanKey, Table};
+use ralf_data::result::{Group, Kind, PlausibilityReader, RadarScanKey, Table};
 use ralf_data::{DataError, SequenceReader};
 use ralf_plot::{
     Extent, Mark, MarkLabel, Marks, OverviewPicture, PlotError, RadarMount, ScanPicture, ValueScale,
@@ -48,7 +49,7 @@ impl Pictures<'_> {
         let radars = &self.sequence().rig.radars;
         radars.iter().position(|radar| self.shows(&radar.name)).ok_or_else(|| {
             let names: Vec<_> = radars.iter().map(|radar| radar.name.as_str()).collect();
-            let expected = format!("a radar of {}", names.join(", "));
+            let expected = one_of("radar", &names);
             ReportError::Unknown { expected, found: format!("{:?}", self.radar.unwrap_or_default()) }
         })
     }
@@ -62,7 +63,7 @@ impl Pictures<'_> {
         let times = &self.sequence().times.radars[radar];
         times.get(scan).copied().ok_or_else(|| {
             let name = &self.sequence().rig.radars[radar].name;
-            let expected = format!("a scan of {name} from 0 to {}", times.len().saturating_sub(1));
+            let expected = one_below("scan", name, times.len());
             ReportError::Unknown { expected, found: scan.to_string() }
         })
     }
@@ -90,6 +91,7 @@ impl Pictures<'_> {
     /// # Errors
     /// As [`Self::scan`], and no such column of numbers.
     pub fn scan_by(&self, scan: usize, column: &str, width: u32) -> Result<Vec<u8>, ReportError> {
+        self.refuse_other_columns(column)?;
         let t_ns = self.time_of(scan)?;
         let motion = &self.sequence().motion;
         let (mut marks, mut values) = (Vec::new(), Vec::new());
@@ -104,6 +106,25 @@ impl Pictures<'_> {
             mark.label = scale.mark(Some(value));
         }
         self.picture(scan, &marks, Some(scale), width)
+    }
+
+    /// Refuses what is no column of numbers of this run.
+    fn refuse_other_columns(&self, column: &str) -> Result<(), ReportError> {
+        let columns = self.tables.schema().columns();
+        let numbers: Vec<&str> = columns
+            .iter()
+            .filter(|column| column.kind == Kind::F32)
+            .map(|column| column.name.as_ref())
+            .collect();
+        if numbers.contains(&column) {
+            return Ok(());
+        }
+        let lacking = match columns.iter().any(|column| column.group == Group::Evidence) {
+            true => "",
+            false => "; `ralf label --evidence` adds pieces of evidence",
+        };
+        let expected = format!("a column of numbers of this run ({}{lacking})", numbers.join(", "));
+        Err(ReportError::Unknown { expected, found: format!("`{column}`") })
     }
 
     fn picture(

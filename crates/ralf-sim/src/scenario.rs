@@ -18,7 +18,7 @@ const FARTHEST: f64 = 1e5;
 #[derive(Debug, Error)]
 pub enum ScenarioError {
     /// The text is no scenario.
-    #[error("{0}")]
+    #[error(transparent)]
     Toml(#[from] toml::de::Error),
     /// A value that doesn't exist in the world.
     #[error("{key}: expected {expected}, found {found}")]

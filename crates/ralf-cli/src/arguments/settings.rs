@@ -1,6 +1,7 @@
 //! Settings from a file and from the command line.
 
 use crate::outcome::UsageError;
+use crate::text::in_a_line;
 use anyhow::Context;
 use clap::Args;
 use ralf_data::Settings;
@@ -45,7 +46,8 @@ impl SettingsArgs {
         let text = Settings::joined(&texts).context("--config")?;
         let assignments: Vec<&str> = self.assignments.iter().map(String::as_str).collect();
         let settings = Settings::from_toml(&text, &assignments);
-        let mut settings = settings.map_err(|error| UsageError(format!("--set: {}", in_a_line(&error))))?;
+        let mut settings =
+            settings.map_err(|error| UsageError(format!("--set: {}", in_a_line(&error.to_string()))))?;
         settings.motion.trajectory = self.trajectory.clone().or(settings.motion.trajectory);
         settings.motion.trajectory_frame = self.trajectory_frame.clone().or(settings.motion.trajectory_frame);
         Ok(settings)
@@ -69,11 +71,6 @@ impl SettingsArgs {
 /// The settings of a file.
 pub(super) fn read(file: &Path) -> anyhow::Result<Settings> {
     Settings::from_toml(&text(file)?, &[]).with_context(|| file.display().to_string())
-}
-
-/// What a parser says over several lines.
-fn in_a_line(error: &impl ToString) -> String {
-    error.to_string().split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
 /// Refuses what can't be a file of poses, before anything is read.

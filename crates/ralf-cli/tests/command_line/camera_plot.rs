@@ -36,8 +36,9 @@ fn what_is_not_there_is_named() {
     let dataset = labelled();
     let picture = dataset.beside("camera.png");
     let refused = |what: &[&str]| plot(&dataset, &picture, what).exits(1);
-    refused(&["--camera", "back"]).says(["expected a camera of camera_front, found back"]);
-    refused(&["--camera", "camera_front", "--view", "1"]).says(["from 0 to 0, found 1"]);
+    refused(&["--camera", "back"]).says(["expected the only camera, camera_front, found back"]);
+    refused(&["--camera", "camera_front", "--view", "1"])
+        .says(["expected view 0, the only one of camera_front, found 1"]);
     for network in ["a", "b"] {
         let folder = format!("{}/depth/{network}", dataset.out);
         fs::create_dir_all(&folder).unwrap();

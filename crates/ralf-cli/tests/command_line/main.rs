@@ -19,6 +19,7 @@ mod check;
 mod cluster;
 mod corrections;
 mod determinism;
+mod errors;
 mod evaluation;
 mod evidence;
 mod export;

@@ -16,7 +16,8 @@ pub(crate) fn read<T: DeserializeOwned>(file: &Path, kind: Kind, expected: &str)
 /// What is wrong with a file, and where.
 pub(crate) fn unreadable(file: &Path, expected: &str, error: &serde_json::Error) -> DataError {
     let place = format!("line {}, column {}", error.line(), error.column());
-    let told = in_words(&error.to_string());
+    // The parser of a part may say it over several lines.
+    let told = in_words(&error.to_string()).split_whitespace().collect::<Vec<_>>().join(" ");
     let found = told.split(" at line ").next().unwrap_or(&told);
     DataError::content(file, place, expected, found)
 }

@@ -1,6 +1,7 @@
 //! Records as JSON.
 
 use crate::disk::files::{read, write_whole_with};
+use crate::disk::json::unreadable;
 use crate::error::DataError;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -9,10 +10,8 @@ use std::path::Path;
 
 /// A record that [`write_json`] has written.
 pub(crate) fn read_json<T: DeserializeOwned>(file: &Path) -> Result<T, DataError> {
-    serde_json::from_slice(&read(file)?).map_err(|error| {
-        let place = format!("line {}, column {}", error.line(), error.column());
-        DataError::content(file, place, "a record of `ralf label`", error.to_string())
-    })
+    let record = serde_json::from_slice(&read(file)?);
+    record.map_err(|error| unreadable(file, "a record of `ralf label`", &error))
 }
 
 /// Writes a record, whole or not at all. It is put into words while it is written: that of a long run has megabytes.

@@ -90,7 +90,7 @@ pub enum Method {
 
 /// `learned`: the method that learns.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, expecting = "a table `learned`")]
 pub struct LearnedConfig {
     /// Where a larger share of the evidence is unlike what the model was trained on, the paper's method answers.
     pub max_novelty: f64,
@@ -104,7 +104,7 @@ pub struct LearnedConfig {
 
 /// `sync`: which measurements belong together.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, expecting = "a table `sync`")]
 pub struct SyncConfig {
     /// Largest time between a radar scan (or an image) and the LiDAR scan used with it, ms.
     pub lidar_tolerance_ms: f64,
@@ -130,7 +130,7 @@ pub enum GroundModel {
 
 /// `ground`: the ground, and what lies on it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, expecting = "a table `ground`")]
 pub struct GroundConfig {
     /// Which ground.
     pub model: GroundModel,
@@ -152,7 +152,7 @@ pub struct GroundConfig {
 
 /// `lidar`: LiDAR matching.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, expecting = "a table `lidar`")]
 pub struct LidarConfig {
     /// Whether the branch is used.
     pub enabled: bool,
@@ -186,7 +186,7 @@ pub enum DepthScaling {
 
 /// `camera`: camera matching.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, expecting = "a table `camera`")]
 pub struct CameraConfig {
     /// Whether the branch is used.
     pub enabled: bool,
@@ -228,7 +228,7 @@ pub enum TrackingSources {
 
 /// `tracking`: the neighbouring radar scans.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, expecting = "a table `tracking`")]
 pub struct TrackingConfig {
     /// Whether the branch is used.
     pub enabled: bool,
@@ -258,7 +258,7 @@ pub struct TrackingConfig {
 
 /// `fusion`: fusion and label.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, expecting = "a table `fusion`")]
 pub struct FusionConfig {
     /// `alpha`: the share of `w_opt`.
     pub alpha: f64,
@@ -268,7 +268,7 @@ pub struct FusionConfig {
 
 /// `evidence`: what evidence looks at around a radar scan, beyond what the paper's method does.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, expecting = "a table `evidence`")]
 pub struct EvidenceConfig {
     /// LiDAR scans so far before and after count, ms.
     pub lidar_reach_ms: f64,

@@ -7,6 +7,9 @@ use serde::de::DeserializeOwned;
 use toml::de::{DeTable, Deserializer};
 use toml::{Spanned, Table, Value};
 
+/// The table that has no defaults, for it is named after sensors.
+const OF_SENSORS: &str = "sensors";
+
 impl Config {
     /// Settings from a TOML text and assignments `key=value` that win over it; what neither names has its default.
     ///
@@ -23,6 +26,7 @@ impl Config {
     /// [`Self::from_toml`] for a file that holds other tables besides: those of these names are left to whom they
     /// belong to.
     pub fn from_toml_beside(others: &[&str], text: &str, assignments: &[&str]) -> Result<Self, ConfigError> {
+        refuse_unknown_in(text, others)?;
         // The text by itself first: its errors then point into its own lines.
         let mut config = spanned(text, |mut table| {
             for name in others {
@@ -33,6 +37,9 @@ impl Config {
         })?;
         if !assignments.is_empty() {
             let mut table = assigned(text, assignments)?;
+            if let Some(unknown) = table.keys().find(|name| !is_known(name, others)) {
+                return Err(unknown_key(unknown, others));
+            }
             for name in others {
                 table.remove(*name);
             }
@@ -78,6 +85,26 @@ fn spanned<'a, T>(
     })
 }
 
+/// Refuses keys of a text that are neither settings nor tables of others. A parser would leave those out of its list.
+fn refuse_unknown_in(text: &str, others: &[&str]) -> Result<(), ConfigError> {
+    let tables = spanned(text, Ok)?;
+    let Some(unknown) = tables.get_ref().keys().find(|name| !is_known(name.get_ref(), others)) else {
+        return Ok(());
+    };
+    let line = text[..unknown.span().start].matches('\n').count() + 1;
+    Err(ConfigError::Parse(format!("line {line}: {}", unknown_key(unknown.get_ref(), others))))
+}
+
+fn is_known(name: &str, others: &[&str]) -> bool {
+    page::DEFAULTS.contains_key(name) || name == OF_SENSORS || others.contains(&name)
+}
+
+fn unknown_key(name: &str, others: &[&str]) -> ConfigError {
+    let known = page::DEFAULTS.keys().map(String::as_str).chain([OF_SENSORS]).chain(others.iter().copied());
+    let known: Vec<String> = known.map(|name| format!("`{name}`")).collect();
+    ConfigError::Parse(format!("unknown field `{name}`, expected one of {}", known.join(", ")))
+}
+
 fn parse_error(error: &toml::de::Error) -> ConfigError {
     ConfigError::Parse(in_words(&error.to_string()))
 }
@@ -94,7 +121,11 @@ fn assigned(text: &str, assignments: &[&str]) -> Result<Table, ConfigError> {
 /// Puts `key=value` into the table. The value is TOML, or a number such as `.5`; what is neither is a string, so that
 /// quotes may be left out.
 fn assign(table: &mut Table, assignment: &str) -> Result<(), ConfigError> {
-    let refused = || ConfigError::Assignment(assignment.to_owned());
+    let refused = || ConfigError::Assignment(assignment.replace('\n', "\\n").replace('\r', "\\r"));
+    // Of several lines only the first would count.
+    if assignment.contains(['\n', '\r']) {
+        return Err(refused());
+    }
     let (key, text) = assignment.split_once('=').ok_or_else(refused)?;
     let value = format!("value = {text}").parse::<Table>().ok().and_then(|mut parsed| parsed.remove("value"));
     let value = value.or_else(|| bare_number(text.trim()).map(Value::Float));
@@ -132,11 +163,30 @@ mod tests {
     }
 
     #[test]
+    fn tables_of_others_are_told_and_those_of_the_method_by_their_names() {
+        let beside = |text: &str, assignments: &[&str]| {
+            Config::from_toml_beside(&["topics"], text, assignments).unwrap_err().to_string()
+        };
+        for told in [beside("seed = 1\n[lidarr]", &[]), beside("", &["lidarr.beta=1"])] {
+            assert!(
+                told.contains("unknown field `lidarr`") && told.ends_with("`sensors`, `topics`"),
+                "{told}"
+            );
+        }
+        assert!(beside("seed = 1\n[lidarr]", &[]).starts_with("line 2: "));
+        assert!(refusal("topics = 1", &[]).ends_with("`sensors`"));
+        assert!(refusal("lidar = 3", &[]).contains("expected a table `lidar`"));
+        assert!(refusal("", &["ground.model=3"]).contains("expected a name"));
+        assert!(refusal("", &["sensors.front=3"]).contains("expected a table"));
+    }
+
+    #[test]
     fn values_out_of_range_are_named() {
         assert!(refusal("[fusion]\nalpha = 1.5", &[]).contains("fusion.alpha"));
         assert!(refusal("", &["lidar.neighbours=0"]).contains("lidar.neighbours"));
         assert!(refusal("", &["lidar.beta=nan"]).contains("lidar.beta"));
         assert!(refusal("", &["lidar.beta"]).contains("KEY=VALUE"));
+        assert!(refusal("", &["seed=3\nlidar.beta=0.1"]).ends_with("found `seed=3\\nlidar.beta=0.1`"));
         assert!(refusal("", &["ground.model=round"]).contains("round"));
     }
 

@@ -11,7 +11,7 @@ use ralf::space::{Point, Transform, sync};
 use ralf_data::result::LabelledSequence;
 use ralf_data::views::DepthStore;
 use ralf_plot::{CameraPicture, MarkLabel, PixelDepth, ViewPicture, camera_picture};
-use ralf_report::{Pictures, mark_label};
+use ralf_report::{Pictures, mark_label, one_below, one_of};
 use std::path::PathBuf;
 
 /// The depth that is asked for, or that labelling left in its folder; of several networks one must be chosen.
@@ -78,8 +78,8 @@ impl Plot<'_> {
         let wanted = self.arguments.view;
         ensure!(
             wanted.is_none_or(|wanted| wanted < views.len()),
-            "expected a view of {name} from 0 to {}, found {}",
-            views.len().saturating_sub(1),
+            "expected {}, found {}",
+            one_below("view", name, views.len()),
             wanted.unwrap_or_default()
         );
         let drawn =
@@ -107,7 +107,7 @@ impl Plot<'_> {
         let cameras = &self.sequence().rig.cameras;
         let names: Vec<_> = cameras.iter().map(|camera| camera.name.as_str()).collect();
         let found = names.iter().position(|known| *known == name);
-        found.with_context(|| format!("expected a camera of {}, found {name}", names.join(", ")))
+        found.with_context(|| format!("expected {}, found {name}", one_of("camera", &names)))
     }
 
     fn shot(&self, camera: usize, image: usize, config: &Config) -> anyhow::Result<Shot<'_>> {

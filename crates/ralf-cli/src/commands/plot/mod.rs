@@ -46,7 +46,8 @@ pub(crate) struct PlotArgs {
     /// Draw this far around the vehicle, m; fitted to the detections if not given
     #[arg(long, value_name = "M", conflicts_with = "camera")]
     radius: Option<f64>,
-    /// Detections in the colours of this column of numbers: a piece of evidence, a mismatch, the plausibility w
+    /// Detections in the colours of this column of numbers: a mismatch, the plausibility w, a radar's field, or a piece
+    /// of evidence where it was labelled with --evidence
     #[arg(long, value_name = "COLUMN", requires = "scan", conflicts_with = "camera")]
     color_by: Option<String>,
     /// What this camera sees, beside its depth, with LiDAR and radar in it

@@ -52,6 +52,17 @@ impl Ran {
         self
     }
 
+    /// The last that it said is an error, in one line, with all these parts.
+    #[track_caller]
+    pub(crate) fn ends_with_error<const N: usize>(self, parts: [&str; N]) -> Self {
+        let last = self.stderr.lines().last().unwrap_or_default();
+        assert!(last.starts_with("error: "), "{}", self.stderr);
+        for part in parts {
+            assert!(last.contains(part), "expected `{part}` in\n{last}");
+        }
+        self
+    }
+
     /// It said nothing on standard error.
     #[track_caller]
     pub(crate) fn says_nothing(self) -> Self {

@@ -1,0 +1,120 @@
+//! Errors: the last line tells what is wrong, in the words of the people who read it.
+
+use crate::support::{Dataset, Shape, ralf};
+use std::fs;
+
+fn labelled() -> Dataset {
+    let dataset = Dataset::of(&Shape { scans: 2, ..Shape::default() });
+    ralf(["label", &dataset.path, "-o", &dataset.out, "-q"]).exits(0);
+    dataset
+}
+
+#[test]
+fn a_settings_file_is_shown_where_it_is_wrong_and_the_error_is_the_last_line() {
+    let dataset = Dataset::of(&Shape { scans: 1, ..Shape::default() });
+    let file = dataset.beside("a.toml");
+    let refused = |text: &str| {
+        fs::write(&file, text).unwrap();
+        ralf(["check", &dataset.path, "--config", &file]).exits(1)
+    };
+    let shown = refused("[lidar]\nbeta = \"much\"\n").says(["2 | beta = \"much\""]);
+    shown.ends_with_error(["a.toml: TOML parse error at line 2, column 8: ", "expected a number"]);
+    refused("lidar = 3\n").ends_with_error(["expected a table `lidar`"]);
+    refused("[a]\n[a]\n").says(["2 | [a]"]).ends_with_error(["a.toml", "line 2", "duplicate key"]);
+    let known = ["a.toml: line 1: unknown field `lidarr`", "`sensors`, `topics`, `corrections`, `motion`"];
+    refused("[lidarr]\n").ends_with_error(known);
+    let scenario = dataset.beside("made");
+    ralf(["simulate", "-o", &scenario, "--scenario", &file])
+        .exits(1)
+        .says(["1 | [lidarr]"])
+        .ends_with_error(["unknown field `lidarr`"]);
+}
+
+#[test]
+fn settings_that_are_typed_are_named_in_one_line() {
+    let dataset = Dataset::of(&Shape { scans: 1, ..Shape::default() });
+    let refused = |set: &str| ralf(["check", &dataset.path, "--set", set]).exits(2);
+    refused("seed=3\nlidar.beta=3").ends_with_error(["KEY=VALUE in one line", "`seed=3\\nlidar.beta=3`"]);
+    refused("lidarr.beta=3").ends_with_error(["`sensors`, `topics`, `corrections`, `motion`"]);
+    refused("lidar=3").ends_with_error(["expected a table `lidar`"]);
+    refused("motion=1").ends_with_error(["expected a table in `motion`"]);
+    refused("ground.model=3").ends_with_error(["expected a name in `ground.model`"]);
+    refused("corrections.radar_front.position_factor=0").ends_with_error(["position_factor", "above 0"]);
+    let alone = "motion.source=trajectory";
+    ralf(["check", &dataset.path, "--set", alone])
+        .exits(1)
+        .ends_with_error(["motion.source", "--trajectory"]);
+}
+
+#[test]
+fn wrong_usage_ends_with_the_error_too() {
+    ralf(["labl"]).exits(2).says(["tip: ", "--help"]).ends_with_error(["unrecognized subcommand 'labl'"]);
+    let dataset = labelled();
+    let [path, out] = [&dataset.path, &dataset.out];
+    ralf(["label", path])
+        .exits(2)
+        .says(["Usage: ralf label"])
+        .ends_with_error(["not provided: --output <OUT>"]);
+    let model = dataset.beside("model.txt");
+    ralf(["label", path, "-o", &dataset.beside("other"), "--model", &model])
+        .exits(2)
+        .ends_with_error(["--model", "--method learned"]);
+    // Where the settings ask a model, its file is read.
+    ralf(["label", path, "-o", &dataset.beside("other"), "--model", &model, "--set", "method=learned"])
+        .exits(1)
+        .ends_with_error(["model.txt"]);
+    for (format, file) in [("mcap", "a.bag"), ("rosbag1", "a.mcap"), ("npz", "a.mcap")] {
+        let file = dataset.beside(file);
+        ralf(["export", path, out, "--to", format, "-o", &file])
+            .exits(1)
+            .ends_with_error([&file, &format!("expected a place for the format {format}")]);
+        assert!(!fs::exists(&file).unwrap());
+    }
+}
+
+#[test]
+fn a_damaged_record_is_named_in_one_line() {
+    let dataset = labelled();
+    let file = format!("{}/run.json", dataset.out);
+    let text = fs::read_to_string(&file).unwrap();
+    let refused = |from: &str, to: &str| {
+        assert!(text.contains(from));
+        fs::write(&file, text.replacen(from, to, 1)).unwrap();
+        let page = dataset.beside("page.html");
+        let ran = ralf(["report", &dataset.path, &dataset.out, "-o", &page]).exits(1);
+        assert_eq!(ran.stderr.lines().count(), 1, "{}", ran.stderr);
+        ran
+    };
+    refused("\"lidar\": {", "\"lidar\": 3, \"x\": {").ends_with_error(["run.json", "expected a table"]);
+    refused("\"seed\": 0", "\"seed\": \"a\"").ends_with_error(["run.json: line ", "whole number"]);
+}
+
+#[test]
+fn what_can_be_chosen_is_told_whatever_its_number() {
+    let dataset = labelled();
+    let [path, out, picture] = [&dataset.path, &dataset.out, &dataset.beside("scan.png")];
+    let refused = |arguments: [&str; 2]| {
+        let [option, value] = arguments;
+        ralf(["plot", path, out, "--scan", "0", "-o", picture, option, value]).exits(1)
+    };
+    refused(["--camera", "front"]).ends_with_error(["expected a recording with a camera, found front"]);
+    for column in ["lidar_window_beyond", "label"] {
+        let told =
+            refused(["--color-by", column]).ends_with_error(["d_tr, ", "`ralf label --evidence`", column]);
+        assert!(!told.stderr.contains("flags"), "only numbers are drawn: {}", told.stderr);
+    }
+    ralf(["plot", path, out, "--scan", "2", "-o", picture])
+        .exits(1)
+        .ends_with_error(["from 0 to 1, found 2"]);
+}
+
+#[test]
+fn a_sensor_beyond_a_vehicle_is_refused() {
+    let dataset = Dataset::of(&Shape { scans: 1, ..Shape::default() });
+    let file = dataset.file("sequence.toml");
+    let text = fs::read_to_string(&file).unwrap().replacen("[3.6, 0.0, 0.5]", "[3.6, -1e9, 0.5]", 1);
+    fs::write(&file, text).unwrap();
+    ralf(["inspect", &dataset.path])
+        .exits(1)
+        .ends_with_error(["sequence.toml: [[radar]] radar_front: translation: expected at most 1000 m"]);
+}
