@@ -26,9 +26,8 @@ fn what_is_learned_labels_and_is_the_same_to_the_byte_whatever_the_number_of_job
     });
     let text = fs::read_to_string(&models[0]).unwrap();
     assert_eq!(text, fs::read_to_string(&models[1]).unwrap());
-    assert!(
-        text.starts_with("ralf model 1\nprogram ") && text.contains("\nforest ") && text.ends_with("\nend\n")
-    );
+    let end = format!("\nend {}\n", text.lines().count() - 1);
+    assert!(text.starts_with("ralf model 1\nprogram ") && text.contains("\nforest ") && text.ends_with(&end));
     let outs = ["1", "2"].map(|jobs| {
         let out = dataset.beside(&format!("out{jobs}"));
         let method = ["--method", "learned", "--model", &models[0]];
@@ -41,6 +40,12 @@ fn what_is_learned_labels_and_is_the_same_to_the_byte_whatever_the_number_of_job
     for name in ["novelty", "reason_doppler", "reason", "cause"] {
         assert!(columns.iter().any(|column| column.starts_with(&format!("{name}:"))), "{name}");
     }
+    let lacking = dataset.beside("lacking");
+    let (before, _) = text.rsplit_once("\ntree ").unwrap();
+    fs::write(&lacking, format!("{before}{end}")).unwrap();
+    ralf(["label", &town, "-o", &dataset.beside("none"), "--method", "learned", "--model", &lacking])
+        .exits(1)
+        .says(["lacking: model: line ", "so many lines are before it"]);
     ralf(["evaluate", &outs[0], "--truth", &town]).exits(0);
     ralf(["report", &town, &outs[0], "-o", &dataset.beside("report.html")]).exits(0);
     ralf(["export", &town, &outs[0], "--to", "npz", "-o", &dataset.beside("npz")]).exits(0);

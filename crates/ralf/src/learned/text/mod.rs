@@ -101,6 +101,22 @@ mod tests {
     }
 
     #[test]
+    fn a_line_that_is_lost_or_there_twice_is_refused_where_their_number_is_told() {
+        let text = model().to_text();
+        let lines: Vec<&str> = text.lines().collect();
+        for (at, line) in lines.iter().enumerate() {
+            let without = [&lines[..at], &lines[at + 1..]].concat().join("\n") + "\n";
+            let twice = text.replacen(line, &format!("{line}\n{line}"), 1);
+            assert!(Model::from_text(&without).is_err() && Model::from_text(&twice).is_err(), "{line}");
+        }
+        let tree = lines.iter().find(|line| line.starts_with("tree")).unwrap();
+        let error = Model::from_text(&text.replacen(&format!("{tree}\n"), "", 1)).unwrap_err().to_string();
+        assert!(error.contains("for so many lines are before it, found `end "), "{error}");
+        let older = text.replace(lines[lines.len() - 1], "end");
+        assert_eq!(Model::from_text(&older), Ok(model()));
+    }
+
+    #[test]
     fn what_is_wrong_is_named_with_its_line() {
         let refusal = |from: &str, to: &str| {
             let text = model().to_text();
@@ -115,7 +131,7 @@ mod tests {
             ("tree 1 0.1 y", "tree 1 inf y", "expected finite numbers"),
             ("tree 1 0.1 y", "tree 70000 0.1 y", "expected"),
             ("tree 1 0.1 y", "tree 1 0.1 y 1 0.1 n", "expected a whole tree"),
-            ("end", "end\nend", "expected no further line, found `end`"),
+            ("\nend", "\nend\nend", "expected no further line, found `end 14`"),
         ] {
             let found = refusal(from, to);
             assert!(found.contains(expected), "{from} -> {to}: {found}");

@@ -40,11 +40,7 @@ pub(super) fn model(text: &str) -> Result<Model, ReadError> {
     while let Some(cause) = reader.cause()? {
         causes.push(cause);
     }
-    let end = reader.next("end")?;
-    // The last line is whole only with its end.
-    if end.text != "end" || !text.ends_with('\n') {
-        return Err(end.refuse("another forest, or `end` as the last line"));
-    }
+    reader.end(text.ends_with('\n'))?;
     match reader.lines.next() {
         None => Ok(Model { origin, inputs, plausible, calibration, causes }),
         Some((at, text)) => Err(Line { at, key: "", text, rest: text }.refuse("no further line")),
@@ -83,6 +79,20 @@ impl<'a> Reader<'a> {
     fn with_key(&mut self, key: &str) -> Result<Line<'a>, ReadError> {
         let line = self.next(key)?;
         if line.key == key { Ok(line) } else { Err(line.refuse(format!("`{key}`"))) }
+    }
+
+    /// The last line, which tells how many are before it; the first models didn't tell.
+    fn end(&mut self, is_whole: bool) -> Result<(), ReadError> {
+        let end = self.next("end")?;
+        // It is whole only with its own end.
+        if end.key != "end" || !is_whole {
+            return Err(end.refuse("another forest, or `end` as the last line"));
+        }
+        match end.rest.parse::<usize>() {
+            Ok(lines) if lines == end.at => Ok(()),
+            Err(_) if end.text == "end" => Ok(()),
+            _ => Err(end.refuse(format!("`end {}`, for so many lines are before it", end.at))),
+        }
     }
 
     fn origin(&mut self) -> Result<Origin, ReadError> {

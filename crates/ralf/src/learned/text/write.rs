@@ -33,7 +33,10 @@ pub(super) fn text(model: &Model) -> String {
     for cause in causes {
         forest(&mut lines, &format!("cause {}", one_line(&cause.name)), &cause.forest);
     }
-    lines + "end\n"
+    // A reader sees by their number that one is lost or there twice.
+    let before = lines.lines().count();
+    line(&mut lines, format_args!("end {before}"));
+    lines
 }
 
 fn forest(lines: &mut String, name: &str, Forest { base, trees }: &Forest) {
