@@ -38,11 +38,10 @@ pub(crate) struct SettingsArgs {
 impl SettingsArgs {
     /// The settings, resolved.
     pub(crate) fn resolve(&self) -> anyhow::Result<Settings> {
-        // The files by themselves first, so that what is wrong with one is said of it.
-        self.config.iter().try_for_each(|file| read(file).map(drop)).context("--config")?;
+        let texts: anyhow::Result<Vec<_>> = self.config.iter().map(|file| checked(file)).collect();
+        let texts = texts.context("--config")?;
         let trajectory = self.trajectory.as_deref();
         trajectory.map_or(Ok(()), is_there).context("--trajectory")?;
-        let texts = self.config.iter().map(|file| text(file)).collect::<anyhow::Result<Vec<_>>>()?;
         let text = Settings::joined(&texts).context("--config")?;
         let assignments: Vec<&str> = self.assignments.iter().map(String::as_str).collect();
         let settings = Settings::from_toml(&text, &assignments);
@@ -70,7 +69,17 @@ impl SettingsArgs {
 
 /// The settings of a file.
 pub(super) fn read(file: &Path) -> anyhow::Result<Settings> {
-    Settings::from_toml(&text(file)?, &[]).with_context(|| file.display().to_string())
+    parsed(file, &text(file)?)
+}
+
+/// The text of a settings file, which by itself is one: what is wrong with it is said of it.
+fn checked(file: &Path) -> anyhow::Result<String> {
+    let text = text(file)?;
+    parsed(file, &text).map(|_| text)
+}
+
+fn parsed(file: &Path, text: &str) -> anyhow::Result<Settings> {
+    Settings::from_toml(text, &[]).with_context(|| file.display().to_string())
 }
 
 /// Refuses what can't be a file of poses, before anything is read.

@@ -1,7 +1,7 @@
 //! Bytes on disk: reading whole files, rows of float32, and writing so that a file appears whole or not at all.
 
 use super::alone::open_alone;
-use super::real_path::real_path;
+use super::real_path::through_link;
 use crate::error::DataError;
 use ralf_files::Kind;
 use std::collections::HashMap;
@@ -160,8 +160,7 @@ pub fn write_whole(file: &Path, bytes: &[u8]) -> Result<(), DataError> {
 /// The same of a file that a person has named: where a link of this name lies, what it leads to is written. All other
 /// files replace a link, for it may lead out of the folder that is written to.
 pub fn write_named(file: &Path, bytes: &[u8]) -> Result<(), DataError> {
-    let place = if file.is_symlink() { real_path(file) } else { file.to_owned() };
-    write_whole(&place, bytes)
+    write_whole(&through_link(file), bytes)
 }
 
 /// The same as [`write_whole`] with content that is made while it is written, so that it need not be in memory at once.

@@ -11,6 +11,11 @@ pub(crate) fn real_path(path: &Path) -> PathBuf {
     followed(path, MOST_LINKS)
 }
 
+/// The place to write to where a person names this one: what a link leads to, so that the link stays.
+pub(crate) fn through_link(named: &Path) -> PathBuf {
+    if named.is_symlink() { real_path(named) } else { named.to_owned() }
+}
+
 fn followed(path: &Path, links: u32) -> PathBuf {
     let (real, parent, name) = (path.canonicalize(), path.parent(), path.file_name());
     let (parent, name) = match (real, parent, name) {

@@ -1,7 +1,7 @@
 //! What was missing while the labels were made: flags, failed cameras, scans without labels.
 
 use super::heads;
-use super::long::folded;
+use super::long::folded_if_long;
 use crate::content::Content;
 use crate::number::{grouped, percent, ranges};
 use maud::{Markup, html};
@@ -123,7 +123,7 @@ fn scans_to_look_at(content: &Content) -> Markup {
     html! {
         h3 { "Scans for which a sensor was missing" }
         @if found.is_empty() { p.absent { "None." } }
-        @else { (folded(found.len(), "radars of sequences", &table)) }
+        @else { (folded_if_long(found.len(), "radars of sequences", table)) }
     }
 }
 
@@ -143,7 +143,7 @@ fn cameras(content: &Content) -> Markup {
     html! {
         h3 { "Cameras" }
         @if found.is_empty() { p.absent { "No camera was asked." } }
-        @else { (folded(found.len(), "cameras of sequences", &table)) }
+        @else { (folded_if_long(found.len(), "cameras of sequences", table)) }
     }
 }
 

@@ -11,11 +11,12 @@ pub(super) fn is_long(rows: usize) -> bool {
     rows > SHOWN
 }
 
-/// A part of the page with a row for each of so many things (`what` they are).
+/// A part of the page with a row for each of so many things (`what` they are), folded away.
 pub(super) fn folded(rows: usize, what: &str, part: &Markup) -> Markup {
-    html! {
-        @if is_long(rows) {
-            details { summary { (grouped(rows as u64)) " " (what) } (part) }
-        } @else { (part) }
-    }
+    html! { details { summary { (grouped(rows as u64)) " " (what) } (part) } }
+}
+
+/// The same where they are many, else as it is.
+pub(super) fn folded_if_long(rows: usize, what: &str, part: Markup) -> Markup {
+    if is_long(rows) { folded(rows, what, &part) } else { part }
 }

@@ -1,6 +1,6 @@
 //! What the labels were made with, so that they can be made again.
 
-use super::long::folded;
+use super::long::folded_if_long;
 use crate::content::Content;
 use crate::number::grouped;
 use maud::{Markup, html};
@@ -16,7 +16,7 @@ pub(super) fn provenance(content: &Content) -> Markup {
                 dt { "Format" } dd { (record.format) }
                 dt { "Inputs" } dd { (grouped(record.inputs.len() as u64)) " files, " (grouped(bytes)) " bytes" }
             }
-            (folded(record.sequences.len(), "fingerprints", &html! { dl.facts {
+            (folded_if_long(record.sequences.len(), "fingerprints", html! { dl.facts {
                 @for sequence in &record.sequences {
                     dt { "Fingerprint of " (sequence.name) } dd { code { (sequence.fingerprint) } }
                 }

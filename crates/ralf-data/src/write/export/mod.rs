@@ -29,7 +29,7 @@ pub use formats::{ExportFormat, ExportOptions};
 pub use options::{Sensors, Split};
 pub use ros::{RosFormat, RosWritten, write_ros};
 
-use crate::disk::real_path::real_path;
+use crate::disk::real_path::through_link;
 use crate::error::DataError;
 use crate::read::{Recording, refuse_to_write_into};
 use crate::result::{LabelledRun, OutFolder, SequenceNames};
@@ -90,7 +90,7 @@ impl Export<'_> {
     /// system refuses. Nothing half-written stays.
     pub fn write(&self, path: &Path, progress: &dyn Fn(usize)) -> Result<Exported, DataError> {
         refuse_to_write_into(&self.recording.path, path)?;
-        let path = &if path.is_symlink() { real_path(path) } else { path.to_owned() };
+        let path = &through_link(path);
         let run = LabelledRun::open(self.out)?;
         let corrections = Corrections::of_recording(self.out, self.recording)?;
         let orphaned = corrections.orphaned().iter().map(ToString::to_string).collect();

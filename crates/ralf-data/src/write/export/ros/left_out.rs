@@ -7,7 +7,8 @@ use ralf::sensors::{Intrinsics, Sequence};
 pub(super) fn left_out(reader: &dyn SequenceReader) -> Vec<&'static str> {
     let Sequence { rig, times, .. } = reader.sequence();
     let radar_scans = || scans(&times.radars);
-    let first_scans = || (0..rig.lidars.len()).filter_map(|lidar| reader.lidar_scan(lidar, 0).ok());
+    let first_scans: Vec<_> =
+        (0..rig.lidars.len()).filter_map(|lidar| reader.lidar_scan(lidar, 0).ok()).collect();
     let is_true = |(radar, scan)| {
         reader.truth_file(radar, scan).is_some() || matches!(reader.truth(radar, scan), Ok(Some(_)))
     };
@@ -16,8 +17,8 @@ pub(super) fn left_out(reader: &dyn SequenceReader) -> Vec<&'static str> {
     let all = [
         ("corrected labels", radar_scans().any(is_true)),
         ("their causes", has_causes || radar_scans().any(|(r, s)| reader.cause_file(r, s).is_some())),
-        ("labels of LiDAR points", first_scans().any(|scan| scan.classes.is_some())),
-        ("times of LiDAR points", first_scans().any(|scan| scan.times.is_some())),
+        ("labels of LiDAR points", first_scans.iter().any(|scan| scan.classes.is_some())),
+        ("times of LiDAR points", first_scans.iter().any(|scan| scan.times.is_some())),
         ("depth images", (0..cameras.len()).any(|camera| reader.has_depth(camera))),
         ("segmentations", reader.has_segmentation()),
         ("straight views", cameras.iter().any(|camera| !camera.views.is_empty())),
