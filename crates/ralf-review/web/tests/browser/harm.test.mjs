@@ -3,6 +3,8 @@ import assert from "node:assert/strict";
 import { spawnSync } from "node:child_process";
 import { after, before, test } from "node:test";
 import {
+  GONE,
+  REFUSED,
   anotherBrowser,
   clean,
   current,
@@ -23,8 +25,6 @@ import {
   status,
 } from "./support.mjs";
 
-const GONE = /ERR_CONNECTION|ERR_EMPTY_RESPONSE|ERR_SOCKET|net::ERR/;
-const REFUSED = /status of 409/;
 const BROKEN = /status of 500/;
 
 let browser;

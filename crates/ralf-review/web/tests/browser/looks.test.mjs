@@ -2,6 +2,7 @@
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
 import {
+  GONE,
   accept,
   clean,
   current,
@@ -17,6 +18,7 @@ import {
   scanOf,
   selected,
   settled,
+  status,
 } from "./support.mjs";
 import { faultsOf } from "./faults.mjs";
 
@@ -180,17 +182,19 @@ test("a column that the server adds is shown and can be coloured by, without any
 });
 
 test("what is not saved has a rim of another shape than anything else", async (context) => {
-  const { tab, page } = await opened(context, browser);
-  await page.route("**/strokes", () => undefined);
+  const { server, tab, page } = await opened(context, browser);
   await page.keyboard.press("d");
+  await says(page.locator(".work"), "1 detection selected");
+  await server.kill();
   await page.keyboard.press("a");
+  await says(status(page), "1 stroke not saved");
   await says(page.locator(".legend-rims"), "not saved yet");
   const styles = await page
     .locator(".legend-rims .swatch")
     .evaluateAll((all) => all.map((one) => getComputedStyle(one).borderTopStyle));
   assert.deepEqual(styles.filter((style) => style === "dashed").length, 1);
   await picture(page, "not-saved");
-  clean(tab);
+  clean(tab, GONE);
 });
 
 /** The table with one more column, of numbers in sigmas. */

@@ -2,6 +2,8 @@
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
 import {
+  GONE,
+  REFUSED,
   accept,
   anotherBrowser,
   clean,
@@ -25,10 +27,6 @@ import {
   serve,
   status,
 } from "./support.mjs";
-
-/** What Chromium itself logs while nobody answers, or of an answer 409. */
-const GONE = /ERR_CONNECTION|ERR_EMPTY_RESPONSE|ERR_SOCKET|net::ERR/;
-const REFUSED = /status of 409/;
 
 let browser;
 before(async () => {

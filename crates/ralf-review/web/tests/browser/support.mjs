@@ -139,6 +139,10 @@ export async function settled({ page, pending }) {
   for (let quiet = 0; quiet < 10; quiet = pending.size === 0 ? quiet + 1 : 0) await page.waitForTimeout(30);
 }
 
+/** What Chromium itself logs while nobody answers, or of an answer 409. */
+export const GONE = /ERR_CONNECTION|ERR_EMPTY_RESPONSE|ERR_SOCKET|net::ERR/;
+export const REFUSED = /status of 409/;
+
 export function clean({ complaints, strangers }, expected = /$^/) {
   assert.deepEqual(
     complaints.filter((text) => !expected.test(text)),
