@@ -50,6 +50,29 @@ def test_what_was_labelled_is_left_alone_and_found_again(drive, run):
     assert "plausible" in run._repr_html_()
 
 
+def test_what_a_damaged_recording_may_have_held_is_told(drive, run, cli, tmp_path):
+    assert run.lost == []
+    recording = tmp_path / "recording.mcap"
+    cli("convert", drive, "-o", recording, "--quiet")
+    written = bytearray(recording.read_bytes())
+    length = _last_chunk(written) + 1
+    written[length : length + 8] = bytes([255] * 8)
+    recording.write_bytes(written)
+    found = ralf.label(recording, tmp_path / "out", settings=tmp_path / "recording.toml")
+    [(sequence, what)] = found.lost
+    assert sequence == "recording"
+    assert "recording.mcap: damaged" in what
+
+
+def _last_chunk(mcap):
+    """Where the last chunk of an MCAP file begins. A record is its kind (a byte), its length (eight), its content."""
+    at, found = 8, None
+    while at < len(mcap) - 8:
+        found = at if mcap[at] == 6 else found
+        at += 9 + int.from_bytes(mcap[at + 1 : at + 9], "little")
+    return found
+
+
 def test_errors_say_file_place_expected_and_found(drive, tmp_path):
     with pytest.raises(ralf.RalfError) as raised:
         ralf.open(tmp_path / "nowhere")

@@ -114,6 +114,11 @@ class Run:
             for scan in sequence["not_labelled"]
         ]
 
+    @property
+    def lost(self) -> list[tuple[str, str]]:
+        """What of the recording can't be read and may have held scans that nothing else tells of: sequence, what."""
+        return [(sequence["name"], what) for sequence in self.record["sequences"] for what in sequence.get("lost", [])]
+
     def __getitem__(self, sequence: str) -> _ralf.Table:
         """All labelled detections of a sequence; Arrow libraries read them without a copy."""
         return _ralf.table(self.out, sequence)
