@@ -42,7 +42,10 @@ impl Number {
         match (self, bytes) {
             (Self::F32, &[a, b, c, d]) => f64::from(f32::from_le_bytes([a, b, c, d])),
             (Self::F64, &[a, b, c, d, e, f, g, h]) => f64::from_le_bytes([a, b, c, d, e, f, g, h]),
-            (_, bytes) => self.whole(bytes).map_or(f64::NAN, |whole| whole as f64),
+            // Of 128 bits only where 64 don't do: no processor has an instruction for it.
+            (_, bytes) => self
+                .whole(bytes)
+                .map_or(f64::NAN, |whole| i64::try_from(whole).map_or(whole as f64, |whole| whole as f64)),
         }
     }
 
@@ -82,5 +85,24 @@ impl Number {
             }
         }
         Some(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn whole_numbers_of_every_size_become_the_nearest_number() {
+        assert_eq!(Number::Signed(1).value(&[0xff]), -1.0);
+        assert_eq!(Number::Unsigned(1).value(&[0xff]), 255.0);
+        assert_eq!(Number::Signed(3).value(&[0, 0, 0x80]), -8_388_608.0);
+        assert_eq!(Number::Signed(8).value(&i64::MIN.to_le_bytes()), -(2.0_f64.powi(63)));
+        assert_eq!(Number::Unsigned(8).value(&u64::MAX.to_le_bytes()), 2.0_f64.powi(64));
+        // Halfway between two numbers it is the even one, below 63 bits and above.
+        assert_eq!(Number::Unsigned(8).value(&((1_u64 << 53) + 1).to_le_bytes()), 2.0_f64.powi(53));
+        let halfway = (1_u64 << 63) + (1 << 10);
+        assert_eq!(Number::Unsigned(8).value(&halfway.to_le_bytes()), 2.0_f64.powi(63));
+        assert!(Number::Signed(9).value(&[0; 17]).is_nan());
     }
 }
