@@ -1,6 +1,7 @@
 //! A scenario as its TOML text has it: what stands where, and how the vehicle drives.
 
 use super::kind::Kind;
+use ralf::config::exact;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
@@ -60,6 +61,7 @@ pub struct Scenario {
 #[serde(deny_unknown_fields)]
 pub struct Drive {
     /// x, y and heading.
+    #[serde(deserialize_with = "exact::array")]
     pub start: [f64; 3],
     /// Mean speed, above 0 and below 130 km/h.
     pub speed_kmh: f64,
@@ -110,6 +112,7 @@ pub struct CameraFailure {
 #[serde(deny_unknown_fields)]
 pub struct Ramp {
     /// A point at its foot.
+    #[serde(deserialize_with = "exact::array")]
     pub at: [f64; 2],
     /// Where it rises to.
     pub direction_deg: f64,
@@ -126,20 +129,22 @@ pub struct Thing {
     /// What it is.
     pub kind: Kind,
     /// Its centre on the ground.
+    #[serde(deserialize_with = "exact::array")]
     pub at: [f64; 2],
     /// Where its length points.
     #[serde(default)]
     pub yaw_deg: f64,
     /// Length, width, height, m; what is usual for its kind if not given.
+    #[serde(default, deserialize_with = "exact::optional")]
     pub size: Option<[f64; 3]>,
     /// How many.
     #[serde(default = "one")]
     pub count: usize,
     /// From one to the next.
-    #[serde(default)]
+    #[serde(default, deserialize_with = "exact::array")]
     pub step: [f64; 2],
     /// Speed of moving ones, m/s.
-    #[serde(default)]
+    #[serde(default, deserialize_with = "exact::array")]
     pub velocity: [f64; 2],
 }
 

@@ -1,6 +1,7 @@
 //! What a settings file may correct: the tables `corrections.NAME` and `motion`.
 
 use nalgebra::{Translation3, UnitQuaternion};
+use ralf::config::exact;
 use ralf::sensors::Sequence;
 use ralf::space::{Transform, Vector};
 use serde::{Deserialize, Serialize};
@@ -18,6 +19,7 @@ pub struct SensorCorrection {
     /// About its own x axis, degrees.
     pub add_roll_deg: f64,
     /// Vehicle frame, m.
+    #[serde(deserialize_with = "exact::array")]
     pub add_translation: [f64; 3],
     /// Added to its timestamps, ms.
     pub time_offset_ms: f64,

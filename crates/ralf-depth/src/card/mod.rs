@@ -8,6 +8,7 @@ mod segmentation;
 
 pub use segmentation::{OutputClass, SegmentationCard};
 
+use ralf::config::exact;
 use ralf::sensors::DepthOutput;
 use serde::{Deserialize, Serialize};
 
@@ -58,8 +59,10 @@ pub struct Feed {
     /// What 8-bit values are divided by first.
     pub divide_by: f32,
     /// Subtracted next, one per channel.
+    #[serde(deserialize_with = "exact::array")]
     pub mean: [f32; 3],
     /// Divided by last, one per channel.
+    #[serde(deserialize_with = "exact::array")]
     pub std: [f32; 3],
 }
 
@@ -110,7 +113,7 @@ pub enum Fit {
     Squares,
     /// The whole view, resized as far as it fits in its proportions, in the middle of an image of this colour (red,
     /// green, blue, 0 to 255).
-    Pad([f32; 3]),
+    Pad(#[serde(deserialize_with = "exact::array")] [f32; 3]),
 }
 
 /// Order of the colours in a network's input.

@@ -2,6 +2,7 @@
 //! default, unit and range; a new setting is its line there, its field here, and its use.
 
 mod error;
+pub mod exact;
 mod page;
 mod read;
 mod sensors;

@@ -1,6 +1,7 @@
 //! What a user knows better than the recording.
 
 use super::error::ConfigError;
+use super::exact;
 use crate::sensors::{Lidar, Radar, Reliability, Rig};
 use serde::{Deserialize, Serialize};
 
@@ -24,7 +25,7 @@ pub struct SensorOverride {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub fov_elevation_deg: Option<f64>,
     /// Radar: azimuth in degrees and value.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none", deserialize_with = "exact::optional_rows")]
     pub reliability: Option<Vec<[f64; 2]>>,
     /// LiDAR: depression of the lowest beam, degrees.
     #[serde(skip_serializing_if = "Option::is_none")]

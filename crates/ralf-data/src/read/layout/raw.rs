@@ -2,7 +2,7 @@
 
 use crate::disk::files;
 use crate::error::DataError;
-use ralf::config::in_words;
+use ralf::config::{exact, in_words};
 use ralf::sensors::DepthOutput;
 use ralf_files::Kind;
 use serde::{Deserialize, Serialize};
@@ -28,7 +28,9 @@ pub(crate) struct SequenceToml {
 pub(crate) struct RadarToml {
     pub(crate) name: String,
     pub(crate) fields: Vec<String>,
+    #[serde(deserialize_with = "exact::array")]
     pub(crate) translation: [f64; 3],
+    #[serde(deserialize_with = "exact::array")]
     pub(crate) quaternion_xyzw: [f64; 4],
     pub(crate) elevation: ElevationToml,
     pub(crate) fov_azimuth_deg: f64,
@@ -37,7 +39,7 @@ pub(crate) struct RadarToml {
     pub(crate) sigma_azimuth_deg: f64,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) sigma_elevation_deg: Option<f64>,
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[serde(default, skip_serializing_if = "Vec::is_empty", deserialize_with = "exact::rows")]
     pub(crate) reliability: Vec<[f64; 2]>,
 }
 
@@ -53,7 +55,9 @@ pub(crate) enum ElevationToml {
 #[derive(Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct LidarToml {
     pub(crate) name: String,
+    #[serde(deserialize_with = "exact::array")]
     pub(crate) translation: [f64; 3],
+    #[serde(deserialize_with = "exact::array")]
     pub(crate) quaternion_xyzw: [f64; 4],
     pub(crate) sigma_range_m: f64,
     pub(crate) lowest_beam_deg: f64,
@@ -65,7 +69,9 @@ pub(crate) struct LidarToml {
 #[derive(Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct CameraToml {
     pub(crate) name: String,
+    #[serde(deserialize_with = "exact::array")]
     pub(crate) translation: [f64; 3],
+    #[serde(deserialize_with = "exact::array")]
     pub(crate) quaternion_xyzw: [f64; 4],
     pub(crate) width: usize,
     pub(crate) height: usize,
@@ -84,9 +90,9 @@ pub(crate) struct CameraToml {
     pub(crate) polynomial: Vec<f64>,
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub(crate) inverse_polynomial: Vec<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none", deserialize_with = "exact::optional")]
     pub(crate) center: Option<[f64; 2]>,
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none", deserialize_with = "exact::optional")]
     pub(crate) affine: Option<[f64; 3]>,
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub(crate) view: Vec<ViewToml>,
@@ -187,6 +193,11 @@ mod tests {
                 "[1, 0, 1.9]",
                 "[1, 0]",
                 "line 6, [[lidar]]: expected an array of length 3, found invalid length 2",
+            ),
+            (
+                "[1, 0, 1.9]",
+                "[1, 0, 1.9, 0]",
+                "line 6, [[lidar]]: expected an array of length 3, found invalid length 4",
             ),
             ("0.03", "", "line 8, [[lidar]]: expected "),
             ("name = \"a\"", "", "expected the key `name`, found none"),
