@@ -5,7 +5,7 @@ use super::columns::{set, unobserved};
 use super::course::Course;
 use super::{Feature, Piece, Surroundings, Values};
 use crate::sensors::{Elevation, Radar};
-use crate::space::Spherical;
+use crate::space::{Spherical, Vector};
 
 pub(super) const PIECE: Piece = Piece {
     features: &[
@@ -18,8 +18,8 @@ pub(super) const PIECE: Piece = Piece {
         feature(
             "geometry_elevation",
             "1",
-            "angle above the radar's axis, as a share of half its vertical field of view; null for a radar without \
-             elevation",
+            "angle above the radar's axis, whichever way up the radar is mounted, as a share of half its vertical \
+             field of view; null for a radar without elevation",
         ),
         feature("geometry_sigma_across", "m", "standard deviation of the place across the ray, horizontally"),
         feature(
@@ -52,11 +52,17 @@ fn observe(surroundings: &Surroundings) -> Vec<Values> {
 
 /// What the radar's own frame tells.
 fn of_place(radar: &Radar, place: &Spherical) -> [Option<f64>; 4] {
-    let elevation = place.elevation / (0.5 * radar.fov_elevation);
+    let above = if is_upright(radar) { place.elevation } else { -place.elevation };
+    let elevation = above / (0.5 * radar.fov_elevation);
     [
         Some(place.range),
         Some(place.azimuth.abs() / (0.5 * radar.fov_azimuth)),
         Some(elevation).filter(|_| radar.elevation == Elevation::Measured),
         Some(place.range * place.elevation.cos() * radar.sigma_azimuth),
     ]
+}
+
+/// Whether the radar's upper side is the vehicle's: radars are mounted upside down as well.
+fn is_upright(radar: &Radar) -> bool {
+    (radar.vehicle_from_radar.rotation * Vector::z()).z >= 0.0
 }

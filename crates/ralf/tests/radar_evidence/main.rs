@@ -10,6 +10,7 @@ use ralf::config::Config;
 use ralf::evidence::{self, Column};
 use ralf::scene::{Frame, FrameWindow};
 use ralf::sensors::{Elevation, Radar};
+use ralf::space::{Transform, Vector};
 use support::{MS, Memory, lidar, radar};
 
 /// x, y, z, range rate and cross-section of each detection of a scan.
@@ -105,6 +106,21 @@ fn a_radar_that_measures_place_alone_has_geometry_and_no_amplitude_or_doppler() 
     close(&column(&found, "geometry_elevation"), &[None]);
     close(&column(&found, "geometry_sigma_across"), &[Some(0.05)]);
     close(&column(&found, "geometry_beside_course"), &[Some(4.0)]);
+}
+
+#[test]
+fn a_radar_upside_down_sees_the_same() {
+    let scan: Rows =
+        vec![[10.0, 3.0, 1.5, -9.4, 0.0], [12.0, -4.0, -0.4, -9.5, 5.0], [20.0, 0.5, 3.0, -10.0, 9.0]];
+    let turned = scan.iter().map(|&[x, y, z, rate, rcs]| [x, -y, -z, rate, rcs]).collect();
+    let mut hanging = front();
+    hanging.vehicle_from_radar *= Transform::rotation(Vector::x() * std::f64::consts::PI);
+    let upright = observe(&drive(vec![(front(), vec![(0, scan)])]), 0);
+    let found = observe(&drive(vec![(hanging, vec![(0, turned)])]), 0);
+    for (found, expected) in found.iter().zip(&upright) {
+        close(&found.values, &expected.values);
+    }
+    assert!(column(&found, "geometry_elevation")[0] > Some(0.0));
 }
 
 #[test]
