@@ -78,8 +78,8 @@ fn usable(rays: &[Vector], rates: &[f64], scan: usize) -> Option<VelocityFit> {
 /// The vehicle's motion from range rates alone, a sample per scan of the radar with the most scans: for recordings
 /// that have neither odometry nor poses. Where a moment tells nothing, the samples around it are held.
 ///
-/// The error says what is missing: range rates, or a lever arm from the rear axle that makes a turn visible, or it is
-/// what a scan could not be read for.
+/// The error says what is missing: range rates, or a lever arm from the rear axle that makes a turn visible. Scans that
+/// can't be read are left out: a damaged file among thousands must not decide where the motion comes from.
 pub fn from_doppler(source: &dyn Source) -> Result<EgoMotion, SourceError> {
     let sequence = source.sequence();
     let with_doppler: Vec<usize> = (0..sequence.rig.radars.len())
@@ -103,7 +103,7 @@ pub fn from_doppler(source: &dyn Source) -> Result<EgoMotion, SourceError> {
     let mut window = Window::new(source, with_doppler);
     let mut samples = Vec::new();
     for (scan, t_ns) in sequence.times.radars[first].iter().enumerate() {
-        let (rays, rates) = window.around(*t_ns)?;
+        let (rays, rates) = window.around(*t_ns);
         if let Some(fit) = usable(&rays, &rates, scan) {
             samples.push(OdometrySample { t_ns: *t_ns, velocity: fit.velocity.x, yaw_rate: fit.velocity.y });
         }
@@ -130,8 +130,8 @@ fn centred(samples: &[OdometrySample]) -> Vec<OdometrySample> {
 struct Window<'a> {
     source: &'a dyn Source,
     radars: Vec<usize>,
-    /// Per radar: number and content of the scan read last.
-    read: Vec<Option<(usize, RadarScan)>>,
+    /// Per radar: number and content of the scan read last, without content where it can't be read.
+    read: Vec<Option<(usize, Option<RadarScan>)>>,
 }
 
 impl<'a> Window<'a> {
@@ -141,7 +141,7 @@ impl<'a> Window<'a> {
     }
 
     /// Factors and range rates of all detections within [`TOGETHER_NS`].
-    fn around(&mut self, t_ns: i64) -> Result<(Vec<Vector>, Vec<f64>), SourceError> {
+    fn around(&mut self, t_ns: i64) -> (Vec<Vector>, Vec<f64>) {
         let sequence = self.source.sequence();
         let (mut rays, mut rates) = (Vec::new(), Vec::new());
         for (radar, read) in self.radars.iter().zip(&mut self.read) {
@@ -151,13 +151,13 @@ impl<'a> Window<'a> {
                 continue;
             }
             if read.as_ref().is_none_or(|(number, _)| *number != scan) {
-                *read = Some((scan, self.source.radar_scan(*radar, scan)?));
+                *read = Some((scan, self.source.radar_scan(*radar, scan).ok()));
             }
-            if let Some((_, scan)) = read {
+            if let Some((_, Some(scan))) = read {
                 add_detections(&sequence.rig.radars[*radar], scan, &mut rays, &mut rates);
             }
         }
-        Ok((rays, rates))
+        (rays, rates)
     }
 }
 

@@ -43,9 +43,13 @@ pub fn from_lidar(source: &dyn Source) -> Result<EgoMotion, SourceError> {
     let mount = source.sequence().rig.lidars[lidar].vehicle_from_lidar;
     let mut way = Way::default();
     for scan in 0..times[lidar].len() {
-        // What can't be read is left out; the next one finds its place as well.
+        // What can't be read is left out, and what nothing came back of; the next one finds its place as well.
         let Ok(read) = source.lidar_scan(lidar, scan) else { continue };
-        way.follow(read.t_ns, &points(&read, &mount)).map_err(|found| {
+        let points = points(&read, &mount);
+        if points.is_empty() {
+            continue;
+        }
+        way.follow(read.t_ns, &points).map_err(|found| {
             format!(
                 "no motion from a LiDAR: expected scan {scan} to lie on what those before it saw, with {:.0} % of its \
                  points near and {:.0} % of these on surfaces, found {:.0} % and {:.0} %",
