@@ -222,7 +222,10 @@ fn bad_measurements_are_named_when_they_are_read() {
     harm("lidar_top/000000.time", &floats(&[0.0; 3]));
     says(reader.lidar_scan(0, 0).map(drop), "000000.time: size: expected 2 float32, one per point, found 3");
     harm("lidar_top/000000.time", &floats(&[0.0, f32::NAN]));
-    says(reader.lidar_scan(0, 0).map(drop), "000000.time: byte 4: expected a finite time, found NaN");
+    says(reader.lidar_scan(0, 0).map(drop), "000000.time: byte 4: expected a time within 1 s of the scan's");
+    // Seconds since 1970, or milliseconds.
+    harm("lidar_top/000000.time", &floats(&[1.6e9, 0.0]));
+    says(reader.lidar_scan(0, 0).map(drop), "000000.time: byte 0: expected a time within 1 s of the scan's");
     let picture = fs::read(path.join("camera_front/000001.jpg")).unwrap();
     harm("camera_front/000001.jpg", &picture[..picture.len() - 2]);
     says(reader.image(0, 1).map(drop), "000001.jpg: content: expected a whole JPEG or PNG image");

@@ -124,12 +124,31 @@ fn told_of_scans(record: &RunRecord) -> Outcome {
         let (sensor, number, reason) = (&scan.sensor, scan.scan, &scan.reason);
         say(&format!("labelled without: {sequence} {sensor} scan {number}: {reason}"));
     }
+    unusable_images(record).for_each(|line| say(&line));
     let mut outcome = Outcome::Done;
     for line in not_labelled(record) {
         say(&format!("not labelled: {line}"));
         outcome = Outcome::Partial;
     }
     outcome
+}
+
+/// For each camera with images that can't be read, the first of them: mostly all are alike.
+fn unusable_images(record: &RunRecord) -> impl Iterator<Item = String> {
+    let cameras = record
+        .sequences
+        .iter()
+        .flat_map(|sequence| sequence.cameras.iter().map(move |camera| (&sequence.name, camera)));
+    cameras.filter_map(|(sequence, camera)| {
+        let mut images =
+            camera.images.iter().filter_map(|image| Some((image.image, image.problem.as_ref()?)));
+        let (first, reason) = images.next()?;
+        let others = match images.count() {
+            0 => String::new(),
+            others => format!(" and {}", counted(others, "other")),
+        };
+        Some(format!("labelled without: {sequence} {} image {first}{others}: {reason}", camera.name))
+    })
 }
 
 impl LabelArgs {

@@ -111,10 +111,10 @@ fn a_radar_that_never_saw_anything_is_fine() {
 }
 
 #[test]
-fn a_lidar_that_saw_nothing_says_nothing() {
+fn a_lidar_that_saw_nothing_says_nothing_and_is_named() {
     let dataset = Dataset::new();
     dataset.put("lidar_top/000002.bin", []);
-    label(&dataset).exits(0).says_nothing();
+    label(&dataset).exits(0).says(["labelled without: 00 lidar_top scan 2: expected returns, found none"]);
     for row in of_scan(&dataset, "radar_left", 2) {
         assert_eq!([row.decimal("d_lm"), row.decimal("w_lm")], [None; 2]);
         assert_eq!(row.decimal("w_opt"), None);

@@ -3,11 +3,12 @@
 use crate::support::{Dataset, ralf};
 use std::fs;
 
-/// Labels a recording with a camera after some harm was done to it: `run.json`, and what `ralf inspect OUT` then says.
-fn labelled(harm: impl Fn(&Dataset)) -> (String, String) {
+/// Labels a recording with a camera after some harm was done to it, of which it says this: `run.json`, and what `ralf
+/// inspect OUT` then says.
+fn labelled(told: &str, harm: impl Fn(&Dataset)) -> (String, String) {
     let dataset = Dataset::new().with_camera(3);
     harm(&dataset);
-    ralf(["label", &dataset.path, "-o", &dataset.out]).exits(0);
+    ralf(["label", &dataset.path, "-o", &dataset.out]).exits(0).says([told]);
     let inspected = ralf(["inspect", &dataset.out]).exits(0).says_nothing().prints(["radar_front"]);
     (fs::read_to_string(format!("{}/run.json", dataset.out)).unwrap(), inspected.stdout)
 }
@@ -22,7 +23,7 @@ fn replace(dataset: &Dataset, name: &str, part: &str, by: &str) {
 
 #[test]
 fn a_truncated_image_is_a_failed_view() {
-    let (record, inspected) = labelled(|dataset| {
+    let (record, inspected) = labelled("labelled without: 00 camera_front image 1: ", |dataset| {
         let image = dataset.file("camera_front/000001.png");
         let bytes = fs::read(&image).unwrap();
         fs::write(&image, &bytes[..bytes.len() / 2]).unwrap();
@@ -33,9 +34,10 @@ fn a_truncated_image_is_a_failed_view() {
 
 #[test]
 fn an_image_of_another_size_than_the_calibration_says_is_a_failed_view() {
-    let (record, inspected) = labelled(|dataset| {
-        replace(dataset, "sequence.toml", "width = 160", "width = 161");
-    });
+    let (record, inspected) =
+        labelled("labelled without: 00 camera_front image 0 and 2 others: ", |dataset| {
+            replace(dataset, "sequence.toml", "width = 160", "width = 161");
+        });
     assert!(
         record.contains("expected an image of (161, 120) px as calibrated, found (160, 120)"),
         "{record}"
@@ -45,7 +47,7 @@ fn an_image_of_another_size_than_the_calibration_says_is_a_failed_view() {
 
 #[test]
 fn depth_of_another_shape_is_a_failed_view() {
-    let (record, inspected) = labelled(|dataset| {
+    let (record, inspected) = labelled("labelled without: 00 camera_front image 2: ", |dataset| {
         replace(dataset, "camera_front/depth/000002.npy", "(120, 160)", "(160, 120)");
     });
     assert!(record.contains("a depth image of [160, 120] px for view 0, found [120, 160]"), "{record}");
@@ -54,7 +56,7 @@ fn depth_of_another_shape_is_a_failed_view() {
 
 #[test]
 fn without_depth_a_camera_is_absent_and_sets_no_flag() {
-    let (record, inspected) = labelled(|dataset| {
+    let (record, inspected) = labelled("", |dataset| {
         fs::remove_dir_all(dataset.file("camera_front/depth")).unwrap();
     });
     assert!(record.contains("\"images\": []"), "{record}");

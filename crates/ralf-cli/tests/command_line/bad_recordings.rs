@@ -69,6 +69,15 @@ fn a_name_that_leads_elsewhere() {
 }
 
 #[test]
+fn no_radar() {
+    let dataset = Dataset::new();
+    let text = fs::read_to_string(dataset.file("sequence.toml")).unwrap();
+    let [before, lidar] = [text.split("[[radar]]").next().unwrap(), text.split("[[lidar]]").nth(1).unwrap()];
+    dataset.put("sequence.toml", format!("{before}[[lidar]]{lidar}"));
+    refused(&dataset, ["radars: expected at least one scan to label, found none"]);
+}
+
+#[test]
 fn a_sensor_without_its_folder() {
     let dataset = Dataset::new();
     fs::rename(dataset.file("lidar_top"), dataset.file("lidar")).unwrap();

@@ -124,6 +124,12 @@ fn without_odometry_the_radars_tell_the_motion() {
     let out = dataset.beside("labels");
     ralf(["label", &made, "-o", &out, "-q"]).exits(0).says(["motion is taken from the radars' range rates"]);
     assert_eq!(record(&out)["sequences"][0]["motion"], "radar");
+    // A damaged scan costs itself, not the source of the motion.
+    let scan = sequence_file(&made, "radar_front/000003.bin");
+    let whole = fs::read(&scan).unwrap();
+    fs::write(&scan, &whole[..whole.len() - 7]).unwrap();
+    let said = ["motion is taken from the radars' range rates", "radar_front scan 3: "];
+    ralf(["label", &made, "-o", &dataset.beside("damaged"), "-q"]).exits(3).says(said);
 }
 
 #[test]

@@ -226,9 +226,24 @@ impl LabelRun<'_> {
 
     /// Every sequence, with the sensors as the settings have them.
     fn tasks<'a>(&'a self, labeler: Option<&'a LearnedLabeler<'a>>) -> Result<Vec<Task<'a>>, DataError> {
+        self.refuse_nothing()?;
         let names = SequenceNames::all(self.recording.sequences.iter().map(AsRef::as_ref))?;
         let tasks = self.recording.sequences.iter().zip(names);
         tasks.map(|(reader, names)| self.task(reader.as_ref(), names, labeler)).collect()
+    }
+
+    /// Without a radar scan in any sequence there is nothing to label, and whoever sees an end without error believes
+    /// otherwise. What is lost is told of when the others are labelled.
+    fn refuse_nothing(&self) -> Result<(), DataError> {
+        let readers = &self.recording.sequences;
+        let holds_some = |reader: &dyn SequenceReader| {
+            let measured = reader.sequence().times.radars.iter().any(|times| !times.is_empty());
+            measured || !reader.lost().is_empty() || !reader.absent().is_empty()
+        };
+        if readers.is_empty() || readers.iter().any(|reader| holds_some(reader.as_ref())) {
+            return Ok(());
+        }
+        Err(DataError::content(&self.recording.path, "radars", "at least one scan to label", "none"))
     }
 
     /// The right to write to the output folder, alone.

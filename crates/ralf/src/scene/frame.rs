@@ -47,7 +47,8 @@ pub struct Frame<'a> {
     pub segmented: Vec<SegmentedView>,
     /// The neighbouring radar scans, in time order.
     pub steps: Vec<ScanStep>,
-    /// LiDAR scans and segmentations that belong to it and can't be read: the scan is labelled without them.
+    /// LiDAR scans and segmentations that belong to it and can't be read, and LiDAR scans of which nothing came back:
+    /// the scan is labelled without them.
     pub unreadable: Vec<Unreadable>,
     /// Of the LiDAR's points, for a radar that measures no elevation: made where [`Self::lidar_cloud`] is first asked.
     pub(super) horizontal_index: OnceLock<NeighborIndex>,

@@ -99,6 +99,10 @@ impl Listed {
             rig.radars.push(Calibrated::find(file, calibration, name, "radar")?.radar()?);
             sensors[0].push(frames);
         }
+        let radars = calibration.iter().filter(|(_, sensor)| sensor.sensor_type == "radar");
+        for (name, _) in radars.filter(|(name, _)| !self.radars.contains_key(*name)) {
+            warnings.push(format!("{name}: a radar in {CALIBRATION} without a folder in {RADARS}: left out"));
+        }
         if !self.lidar.is_empty() {
             rig.lidars.push(Calibrated::only_lidar(file, calibration)?.lidar()?);
             sensors[1].push(&self.lidar);

@@ -8,6 +8,7 @@ use crate::disk::{class_images, files, images, npy};
 use crate::error::DataError;
 use crate::read::SequenceReader;
 use crate::read::measured_files::lidar_rows;
+use crate::read::point_times::LONGEST;
 use ralf::sensors::{
     Camera, CameraImage, ClassImage, DepthImage, Lidar, LidarScan, Radar, RadarScan, Rig, Sequence, Source,
     SourceError, Timelines,
@@ -236,10 +237,12 @@ fn point_times(file: &Path, points: usize) -> Result<Vec<f32>, DataError> {
         let expected = format!("{points} float32, one per point");
         return Err(DataError::content(file, "size", expected, times.len().to_string()));
     }
-    match times.iter().position(|time| !time.is_finite()) {
+    let is_near = |time: &f32| f64::from(time.abs()) <= LONGEST;
+    match times.iter().position(|time| !is_near(time)) {
         Some(row) => {
             let place = format!("byte {}", row * size_of::<f32>());
-            Err(DataError::content(file, place, "a finite time", times[row].to_string()))
+            let expected = format!("a time within {LONGEST} s of the scan's");
+            Err(DataError::content(file, place, expected, times[row].to_string()))
         }
         None => Ok(times),
     }

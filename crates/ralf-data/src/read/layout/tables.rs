@@ -19,6 +19,7 @@ const LATEST_NS: i64 = i64::MAX / 2;
 pub(crate) fn read_timestamps(file: &Path) -> Result<Vec<i64>, DataError> {
     let mut order = Order { file, latest: None };
     let text = files::read_text(file, Kind::Table)?;
+    let text = text.trim_start_matches('\u{feff}').trim_end();
     (1..).zip(text.lines()).map(|(line, text)| order.next(line, text)).collect()
 }
 
@@ -166,7 +167,7 @@ mod tests {
 
     #[test]
     fn line_ends_of_any_kind_and_equal_times_are_fine() {
-        for text in ["-5\n-5\n7\n", "-5\n-5\n7", "-5\r\n-5\r\n7\r\n"] {
+        for text in ["-5\n-5\n7\n", "-5\n-5\n7", "-5\r\n-5\r\n7\r\n", "\u{feff}-5\n-5\n7\n\n"] {
             assert_eq!(read_timestamps(file(text).path()).unwrap(), [-5, -5, 7]);
         }
         assert_eq!(timestamps_text(&[-5, 7]), "-5\n7\n");

@@ -12,7 +12,7 @@ use super::lidar_window::LidarWindow;
 use super::located::LocatedScan;
 use super::neighbouring::{NeighbouringScan, ScanStep};
 use crate::config::{Config, GroundModel, LidarConfig, TrackingSources, nanoseconds};
-use crate::sensors::{LidarScan, Rig, Source, SourceError};
+use crate::sensors::{LidarScan, Rig, Source, SourceError, is_return};
 use crate::space::{Recent, sync};
 use std::sync::{Arc, OnceLock};
 
@@ -33,6 +33,21 @@ struct NearLidars {
     scans: Vec<Key>,
     view: Option<LidarView>,
     unreadable: Vec<Unreadable>,
+}
+
+impl NearLidars {
+    /// Scans of which nothing came back: a copy that broke off leaves empty files. They are scans all the same.
+    fn without_returns(&self, rig: &Rig) -> Vec<Unreadable> {
+        let sweeps = self.view.iter().flat_map(|view| view.moment.sweeps());
+        let silent =
+            self.scans.iter().zip(sweeps).filter(|(_, sweep)| !sweep.scan.points.iter().any(is_return));
+        let named = |&(lidar, index): &Key| Unreadable {
+            sensor: rig.lidars[lidar].name.clone(),
+            index,
+            reason: "expected returns, found none".to_owned(),
+        };
+        silent.map(|(key, _)| named(key)).collect()
+    }
 }
 
 /// Gathers frames of one sequence. It remembers the last measurements, so that frames asked for in time order read each
@@ -99,7 +114,10 @@ impl<'a> FrameWindow<'a> {
         self.radar_scans.insert((radar, scan), Some(located.clone()));
         let t_ns = located.t_ns();
         self.forget_what_is_past(t_ns);
-        let NearLidars { scans, view: lidar, mut unreadable } = self.near_lidars(t_ns);
+        let near = self.near_lidars(t_ns);
+        let silent = near.without_returns(self.rig);
+        let NearLidars { scans, view: lidar, mut unreadable } = near;
+        unreadable.extend(silent);
         let lidar_neighbours = self.lidar_neighbours(scans, t_ns, &mut unreadable);
         let images = if self.config.camera.enabled { self.images(t_ns) } else { Vec::new() };
         let segmented = self.segmented(t_ns, &mut unreadable);
