@@ -26,10 +26,15 @@ const LONGEST_STEADY: f64 = 5.0;
 
 pub(super) fn judge(sequence: &Sequence) -> Vec<Verdict> {
     let motion = &sequence.motion;
-    let mut verdicts: Vec<Verdict> = coverage(sequence).into_iter().collect();
-    verdicts.extend(rates(motion));
+    let poses = Poses::of(motion.poses());
+    let scans: Vec<i64> = sequence.times.radars.iter().flatten().copied().collect();
+    let mut verdicts = Vec::new();
+    for told in [poses.told(), Told::by_odometry(motion)] {
+        verdicts.extend(coverage(&told, &scans));
+        verdicts.extend(rates(&told));
+    }
     verdicts.extend(stuck(motion));
-    verdicts.extend(jumps(motion.poses()));
+    verdicts.extend(poses.jumps());
     if verdicts.is_empty() {
         verdicts.push(Verdict::good(
             "motion",
@@ -44,32 +49,41 @@ fn doubt(evidence: String, remedy: Option<Remedy>) -> Verdict {
     Verdict::doubt("motion", Question::Bounds, evidence, remedy)
 }
 
-/// Times of what labels rest on.
-fn times(motion: &EgoMotion) -> Vec<i64> {
-    if motion.poses().is_empty() {
-        return motion.odometry().iter().map(|sample| sample.t_ns).collect();
-    }
-    motion.poses().iter().map(|pose| pose.t_ns).collect()
+/// What one kind of measurement tells of the motion.
+struct Told {
+    /// For people.
+    name: &'static str,
+    times: Vec<i64>,
+    /// Speeds and yaw rates, m/s and rad/s.
+    twists: Vec<[f64; 2]>,
+    /// Whether settings may change it: of odometry beside poses they would change the poses as well.
+    is_alone: bool,
 }
 
-/// Whether the motion is that of a parked vehicle, of which one sample says all.
-fn is_parked(motion: &EgoMotion) -> bool {
-    let stands = |sample: &OdometrySample| sample.velocity == 0.0 && sample.yaw_rate == 0.0;
-    motion.poses().is_empty() && matches!(motion.odometry(), [only] if stands(only))
+impl Told {
+    fn by_odometry(motion: &EgoMotion) -> Self {
+        let samples = motion.odometry();
+        let is_alone = motion.poses().is_empty();
+        // Of a parked vehicle one sample says all.
+        let is_parked = matches!(samples, [only] if only.velocity == 0.0 && only.yaw_rate == 0.0);
+        let times = samples.iter().filter(|_| !is_parked).map(|sample| sample.t_ns);
+        Self {
+            name: if is_alone { "it" } else { "odometry" },
+            times: times.collect(),
+            twists: samples.iter().map(|sample| [sample.velocity, sample.yaw_rate]).collect(),
+            is_alone,
+        }
+    }
 }
 
-fn coverage(sequence: &Sequence) -> Option<Verdict> {
-    if is_parked(&sequence.motion) {
-        return None;
-    }
-    let own = times(&sequence.motion);
-    let (first, last) = (own.first()?, own.last()?);
-    let scans: Vec<i64> = sequence.times.radars.iter().flatten().copied().collect();
-    let outside = |t: &&i64| **t < first - OUTSIDE_NS || **t > last + OUTSIDE_NS;
+fn coverage(told: &Told, scans: &[i64]) -> Option<Verdict> {
+    let Told { name, times, .. } = told;
+    let (first, last) = (times.first()?, times.last()?);
+    let outside = |t: &&i64| **t < first.saturating_sub(OUTSIDE_NS) || **t > last.saturating_add(OUTSIDE_NS);
     let lost = scans.iter().filter(outside).count();
     if lost > 0 {
         let evidence = format!(
-            "{lost} of {} radar scans lie more than {} ms before or after all samples of it",
+            "{lost} of {} radar scans lie more than {} ms before or after all samples of {name}",
             scans.len(),
             OUTSIDE_NS / 1_000_000
         );
@@ -80,18 +94,13 @@ fn coverage(sequence: &Sequence) -> Option<Verdict> {
     }
     let within =
         |pair: &&[i64]| pair[1] - pair[0] > GAP_NS && scans.iter().any(|t| pair[0] < *t && *t < pair[1]);
-    let gap = own.windows(2).filter(within).max_by_key(|pair| pair[1] - pair[0])?;
+    let gap = times.windows(2).filter(within).max_by_key(|pair| pair[1] - pair[0])?;
     let seconds = (gap[1] - gap[0]) as f64 * 1e-9;
-    Some(doubt(format!("nothing is known of it for {seconds:.1} s in which radars measured"), None))
+    Some(doubt(format!("nothing is known of {name} for {seconds:.1} s in which radars measured"), None))
 }
 
-fn rates(motion: &EgoMotion) -> Vec<Verdict> {
-    let steps = motion.poses().windows(2).filter_map(twist);
-    let twists: Vec<[f64; 2]> = if motion.poses().is_empty() {
-        motion.odometry().iter().map(|sample| [sample.velocity, sample.yaw_rate]).collect()
-    } else {
-        steps.collect()
-    };
+fn rates(told: &Told) -> Vec<Verdict> {
+    let Told { name, twists, is_alone, .. } = told;
     let most = |figure: fn(&[f64; 2]) -> f64| {
         quantile(&twists.iter().map(figure).collect::<Vec<_>>(), 0.95).unwrap_or(0.0)
     };
@@ -99,22 +108,16 @@ fn rates(motion: &EgoMotion) -> Vec<Verdict> {
     let sideways = most(|t| (t[0] * t[1]).abs());
     let mut found = Vec::new();
     if speed > FASTEST {
-        found.push(doubt(format!("it drives at {speed:.0} m/s"), Some(Remedy::Speed(0.01))));
+        let remedy = is_alone.then_some(Remedy::Speed(0.01));
+        found.push(doubt(format!("{name} drives at {speed:.0} m/s"), remedy));
     }
     if turn > YAW_RATE {
-        let remedy = (turn > DEGREES).then(|| Remedy::YawRate(1.0_f64.to_radians()));
-        found.push(doubt(format!("it turns at {turn:.1} rad/s"), remedy));
+        let remedy = (*is_alone && turn > DEGREES).then(|| Remedy::YawRate(1.0_f64.to_radians()));
+        found.push(doubt(format!("{name} turns at {turn:.1} rad/s"), remedy));
     } else if sideways > SIDEWAYS && speed <= FASTEST {
-        found.push(doubt(format!("its turns ask for {sideways:.0} m/s^2 sideways"), None));
+        found.push(doubt(format!("{name} turns as if it took {sideways:.0} m/s^2 sideways"), None));
     }
     found
-}
-
-/// Speed and yaw rate between two poses.
-fn twist(pair: &[PoseSample]) -> Option<[f64; 2]> {
-    let dt = (pair[1].t_ns - pair[0].t_ns) as f64 * 1e-9;
-    let step = pair[0].odom_from_vehicle.inv_mul(&pair[1].odom_from_vehicle);
-    (dt > 0.01).then(|| [step.translation.vector.norm() / dt, step.rotation.scaled_axis().z / dt])
 }
 
 fn stuck(motion: &EgoMotion) -> Option<Verdict> {
@@ -133,22 +136,54 @@ fn stuck(motion: &EgoMotion) -> Option<Verdict> {
     Some(doubt(evidence, Some(Remedy::LookInto("is its recorder stuck?"))))
 }
 
-fn jumps(poses: &[PoseSample]) -> Option<Verdict> {
-    let speeds: Vec<f64> = poses.windows(2).filter_map(|pair| twist(pair).map(|t| t[0])).collect();
-    let lengths: Vec<f64> = poses
-        .windows(2)
-        .filter(|pair| twist(pair).is_some())
-        .map(|pair| {
-            (pair[1].odom_from_vehicle.translation.vector - pair[0].odom_from_vehicle.translation.vector)
-                .norm()
-        })
-        .collect();
-    let jumped = |i: &usize| {
-        let around: Vec<f64> = speeds[i.saturating_sub(3)..(*i + 4).min(speeds.len())].to_vec();
-        lengths[*i] > JUMP.1 && median(&around).is_some_and(|usual| speeds[*i] > JUMP.0 * usual.max(1.0))
-    };
-    let found: Vec<usize> = (0..speeds.len()).filter(jumped).collect();
-    let largest = found.iter().map(|i| lengths[*i]).reduce(f64::max)?;
-    let evidence = format!("poses jump {} times, by up to {largest:.1} m", found.len());
-    Some(doubt(evidence, Some(Remedy::LookInto("split the sequence where they do"))))
+/// From one pose to the next.
+struct Step {
+    length: f64,
+    /// Speed and yaw rate.
+    twist: [f64; 2],
+    jumped: bool,
+}
+
+struct Poses<'a> {
+    poses: &'a [PoseSample],
+    steps: Vec<Step>,
+}
+
+impl<'a> Poses<'a> {
+    fn of(poses: &'a [PoseSample]) -> Self {
+        let mut steps: Vec<Step> = poses.windows(2).filter_map(step).collect();
+        let speeds: Vec<f64> = steps.iter().map(|step| step.twist[0]).collect();
+        for (i, step) in steps.iter_mut().enumerate() {
+            let around = &speeds[i.saturating_sub(3)..(i + 4).min(speeds.len())];
+            let is_faster = median(around).is_some_and(|usual| step.twist[0] > JUMP.0 * usual.max(1.0));
+            step.jumped = step.length > JUMP.1 && is_faster;
+        }
+        Self { poses, steps }
+    }
+
+    /// Speeds are those of steps that are none of the jumps: a jump is no speed, in whatever unit.
+    fn told(&self) -> Told {
+        Told {
+            name: "it",
+            times: self.poses.iter().map(|pose| pose.t_ns).collect(),
+            twists: self.steps.iter().filter(|step| !step.jumped).map(|step| step.twist).collect(),
+            is_alone: true,
+        }
+    }
+
+    fn jumps(&self) -> Option<Verdict> {
+        let found: Vec<f64> = self.steps.iter().filter(|step| step.jumped).map(|step| step.length).collect();
+        let largest = found.iter().copied().reduce(f64::max)?;
+        let evidence = format!("poses jump {} times, by up to {largest:.1} m", found.len());
+        Some(doubt(evidence, Some(Remedy::LookInto("split the sequence where they do"))))
+    }
+}
+
+/// The step between two poses; none between those that have all but the same time.
+fn step(pair: &[PoseSample]) -> Option<Step> {
+    let dt = (pair[1].t_ns - pair[0].t_ns) as f64 * 1e-9;
+    let step = pair[0].odom_from_vehicle.inv_mul(&pair[1].odom_from_vehicle);
+    let length = step.translation.vector.norm();
+    let twist = [length / dt, step.rotation.scaled_axis().z / dt];
+    (dt > 0.01).then_some(Step { length, twist, jumped: false })
 }
