@@ -145,7 +145,8 @@ impl MotionChange {
     }
 }
 
-/// The motion that labels rest on: 6-DoF poses where there are some, else wheel odometry.
+/// The motion that places rest on: 6-DoF poses where there are some, else wheel odometry. Odometry beside poses, which
+/// speeds rest on, is judged for itself.
 pub(crate) fn used_motion(motion: &EgoMotion) -> EgoMotion {
     let poses = EgoMotion::new(vec![], motion.poses().to_vec());
     poses.unwrap_or_else(|| motion.clone())

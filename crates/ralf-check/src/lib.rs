@@ -9,6 +9,7 @@
 //!   recorded and under changes. What fits clearly better is named.
 //! - `ground`: the plane that the LiDAR sees has to be the vehicle's z = 0.
 //! - `picture`: edges of images lie where the LiDAR sees things end.
+//! - `wheels`: odometry has to be the motion that poses beside it tell.
 //! - `bounds`: what no sensor gives and no vehicle does.
 //!
 //! And it tells how the vehicle moved where nobody recorded it: [`doppler::from_doppler`], [`odometry::from_lidar`].
@@ -29,6 +30,7 @@ mod remedy;
 mod sample;
 mod statistics;
 mod verdict;
+mod wheels;
 
 pub use change::{MotionChange, SensorChange};
 pub use judge::{Refinement, check, check_and_refine};

@@ -32,6 +32,8 @@ pub enum Remedy {
     YawRate(f64),
     /// Added to the motion's timestamps.
     MotionClock(f64),
+    /// This, of the odometry that is recorded beside poses. Settings change both alike, so none puts it right.
+    Odometry(Box<Self>),
     /// Something to look into that no setting puts right.
     LookInto(&'static str),
 }
@@ -63,6 +65,10 @@ impl Remedy {
             Self::YawRate(factor) if *factor < 1.0 => "yaw rate looks like deg/s".into(),
             Self::YawRate(factor) => format!("yaw rate fits better times {factor:.3}"),
             Self::MotionClock(ms) => lag(-ms),
+            Self::Odometry(remedy) if matches!(**remedy, Self::MotionClock(_)) => {
+                format!("odometry {}", remedy.words())
+            }
+            Self::Odometry(remedy) => format!("odometry's {}", remedy.words()),
             Self::LookInto(what) => (*what).to_owned(),
         }
     }
@@ -83,7 +89,7 @@ impl Remedy {
             Self::Speed(factor) => vec![of_motion("speed_factor", *factor)],
             Self::YawRate(factor) => vec![of_motion("yaw_rate_factor", *factor)],
             Self::MotionClock(ms) => vec![of_motion("time_offset_ms", *ms)],
-            Self::SwapWith(_) | Self::InDegrees(_) | Self::LookInto(_) => Vec::new(),
+            Self::SwapWith(_) | Self::InDegrees(_) | Self::Odometry(_) | Self::LookInto(_) => Vec::new(),
         }
     }
 }
@@ -206,5 +212,8 @@ mod tests {
         assert_eq!(Remedy::YawRate(1.0_f64.to_radians()).words(), "yaw rate looks like deg/s");
         assert_eq!(Remedy::Sensor(SensorChange::mirror()).words(), "y looks mirrored");
         assert_eq!(Remedy::MotionClock(200.0).words(), "runs ahead by 200 ms");
+        let of_odometry = Remedy::Odometry(Box::new(Remedy::Speed(1.0 / 3.6)));
+        assert_eq!(of_odometry.words(), "odometry's speed looks like km/h");
+        assert_eq!(of_odometry.settings("motion"), []);
     }
 }

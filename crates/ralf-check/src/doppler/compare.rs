@@ -7,10 +7,10 @@ use ralf::space::EgoMotion;
 use ralf::space::Transform;
 
 /// Below this speed a direction is noise, m/s.
-const MOVING: f64 = 1.0;
+pub(crate) const MOVING: f64 = 1.0;
 /// The vehicle stands below this, m/s; range rates say that it moves above [`CREEPING`].
-const STANDING: f64 = 0.1;
-const CREEPING: f64 = 1.5;
+pub(crate) const STANDING: f64 = 0.1;
+pub(crate) const CREEPING: f64 = 1.5;
 
 /// How a radar's range rates go with the vehicle's motion.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -6,7 +6,7 @@ pub(crate) mod fit;
 mod vehicle;
 
 pub(crate) use clock::{ClockFigures, clock};
-pub(crate) use compare::{DopplerFigures, compare, predicted};
+pub(crate) use compare::{CREEPING, DopplerFigures, MOVING, STANDING, compare, predicted};
 pub use fit::{VelocityFit, fit};
 pub use vehicle::from_doppler;
 pub(crate) use vehicle::{Turning, turning};

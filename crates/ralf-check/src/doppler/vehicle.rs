@@ -29,11 +29,11 @@ fn factors(mount: &Transform, ray: &Vector) -> Vector {
     Vector::new(u.x, u.y * t.x - u.x * t.y, 0.0)
 }
 
-/// What yaw rates the radars saw, beside the recorded ones.
+/// What yaw rates the radars, or poses, saw, beside the recorded ones.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Turning {
     /// Recorded and seen, rad/s.
-    pairs: Vec<[f64; 2]>,
+    pub(crate) pairs: Vec<[f64; 2]>,
 }
 
 impl Turning {

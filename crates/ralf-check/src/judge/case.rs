@@ -12,7 +12,7 @@ use ralf::space::Transform;
 /// A radar's Doppler is trusted when so many of its detections stand still.
 const INLIERS: f64 = 0.3;
 /// And in so many scans: the error of their median is then a third of a single one's.
-const SCANS: usize = 10;
+pub(super) const SCANS: usize = 10;
 
 /// A sequence under judgement.
 pub(super) struct Case<'a> {

@@ -17,7 +17,7 @@ const SIGMAS: f64 = 4.0;
 const COMMON_MS: f64 = 80.0;
 /// Odometry that is late by less moves nothing by a decimetre between two scans, for speeds change by some m/s per s:
 /// a fact. Some vehicles' buses lag by 200 ms.
-const HARMLESS_MS: f64 = 300.0;
+pub(super) const HARMLESS_MS: f64 = 300.0;
 
 /// Judges all clocks by range rates, and puts right what is found.
 pub(super) fn judge(case: &mut Case) -> Vec<Verdict> {
@@ -53,7 +53,8 @@ fn of_radar(case: &Case, radar: usize) -> Option<ClockFigures> {
     clock(&case.fits[radar], &case.motion, &mount, &figures)
 }
 
-fn is_clear(figures: &ClockFigures) -> bool {
+/// Whether an offset is more than a scan's length, and told by more than chance.
+pub(super) fn is_clear(figures: &ClockFigures) -> bool {
     figures.offset_ms.abs() > SMALL_MS && figures.sigmas > SIGMAS && figures.then < LEFT * figures.now
 }
 

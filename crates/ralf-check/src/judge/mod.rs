@@ -17,6 +17,7 @@ mod radar;
 mod refine;
 mod swapped;
 mod vertical;
+mod wheels;
 
 use crate::bounds;
 use crate::remedy::Remedy;
@@ -51,6 +52,7 @@ fn judge<'a>(sequence: &'a Sequence, sample: &'a Sample) -> (SequenceCheck, Case
     let mut case = Case::new(sequence, sample, unfit(&verdicts));
     verdicts.extend(motion::judge(&mut case));
     verdicts.extend(clocks::judge(&mut case));
+    verdicts.extend(wheels::judge(&case));
     verdicts.extend(lidar::judge(&mut case));
     verdicts.extend(radar::judge(&mut case));
     verdicts.extend(neighbours::judge(&mut case));

@@ -12,10 +12,10 @@ use crate::verdict::{Question, Verdict};
 use ralf::space::EgoMotion;
 
 /// What a yaw rate is mistaken for.
-const YAW_RATES: [f64; 3] = [-1.0, std::f64::consts::PI / 180.0, 180.0 / std::f64::consts::PI];
+pub(super) const YAW_RATES: [f64; 3] = [-1.0, std::f64::consts::PI / 180.0, 180.0 / std::f64::consts::PI];
 /// Another factor of the yaw rate is better when it leaves less than this share of the misfit, and takes away at
 /// least so many rad/s: 0.02 rad/s on a lever of 3 m are 0.06 m/s, what a scan's range rates just tell.
-const YAW_RATE_GAIN: (f64, f64) = (0.6, 0.02);
+pub(super) const YAW_RATE_GAIN: (f64, f64) = (0.6, 0.02);
 /// Of two motions, one is clearly better by so many standard errors.
 const CLEARLY: f64 = 2.0;
 /// A factor is a unit's within this share.
@@ -24,7 +24,8 @@ const UNIT: f64 = 0.4;
 /// Judges the motion, and puts right what is found for those who come after.
 pub(super) fn judge(case: &mut Case) -> Vec<Verdict> {
     let changes: Vec<MotionChange> = candidates().collect();
-    let explained: Vec<usize> = changes.iter().map(|change| count_explained(case, change)).collect();
+    let explained: Vec<usize> =
+        changes.iter().map(|change| count_explained(case, &change.of(&case.motion))).collect();
     let lidar: Vec<Tally> =
         changes.iter().map(|change| motion_overlap(&case.lidars, &change.of(&case.motion))).collect();
     let most = explained.iter().copied().max().unwrap_or(0);
@@ -48,10 +49,9 @@ fn candidates() -> impl Iterator<Item = MotionChange> {
     [MotionChange::default()].into_iter().chain(speeds).chain(YAW_RATES.map(MotionChange::yaw_rate))
 }
 
-/// How many radars a change of the motion leaves without a doubt.
-fn count_explained(case: &Case, change: &MotionChange) -> usize {
-    let motion = change.of(&case.motion);
-    let figures = case.radars().filter_map(|radar| case.doppler(radar, &motion, &case.mount(radar)));
+/// How many radars a motion leaves without a doubt.
+pub(super) fn count_explained(case: &Case, motion: &EgoMotion) -> usize {
+    let figures = case.radars().filter_map(|radar| case.doppler(radar, motion, &case.mount(radar)));
     figures.filter(is_explained).count()
 }
 

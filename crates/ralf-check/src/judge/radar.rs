@@ -19,7 +19,7 @@ const COMPENSATED: f64 = 0.2;
 /// A direction that is off by more is no mounting that slipped, degrees: it may be mirrored.
 const SLIPPED_DEG: f64 = 12.0;
 /// Scans of a standing vehicle whose world moves.
-const CREEPING: usize = 3;
+pub(super) const CREEPING: usize = 3;
 
 /// Judges each radar, and puts right what is found.
 pub(super) fn judge(case: &mut Case) -> Vec<Verdict> {

@@ -13,6 +13,7 @@ mod recording;
 mod refinement;
 mod sweep;
 mod table;
+mod wheels;
 mod worlds;
 
 use nalgebra::UnitQuaternion;

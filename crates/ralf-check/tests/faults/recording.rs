@@ -1,9 +1,12 @@
 //! A simulated recording in which faults are planted.
 
 use ralf::sensors::{CameraImage, DepthImage, LidarScan, RadarScan, Sequence, Source, SourceError};
-use ralf::space::{EgoMotion, OdometrySample};
+use ralf::space::{EgoMotion, OdometrySample, PoseSample};
 use ralf_sim::{Scenario, SimulatedSequence};
 use std::sync::{Arc, OnceLock};
+
+/// Between poses, ns.
+const POSE_NS: i64 = 50_000_000;
 
 /// What is simulated once and read by every check.
 pub struct Recording {
@@ -72,9 +75,31 @@ impl Planted {
 
     /// Changes every sample of the odometry.
     pub fn edit_odometry(&mut self, edit: impl Fn(&mut OdometrySample)) {
+        self.replace_odometry(|samples| samples.iter_mut().for_each(edit));
+    }
+
+    /// Changes the odometry as a whole.
+    pub fn replace_odometry(&mut self, edit: impl FnOnce(&mut Vec<OdometrySample>)) {
         let mut samples = self.sequence.motion.odometry().to_vec();
-        samples.iter_mut().for_each(edit);
-        self.sequence.motion = EgoMotion::new(samples, vec![]).unwrap();
+        edit(&mut samples);
+        self.sequence.motion = EgoMotion::new(samples, self.sequence.motion.poses().to_vec()).unwrap();
+    }
+
+    /// Adds true poses, twenty a second.
+    pub fn add_poses(&mut self) {
+        let times = self.sequence.times.radars.iter().flatten();
+        let (first, last) = (times.clone().min().unwrap(), times.max().unwrap());
+        let poses = (first - POSE_NS..=last + POSE_NS).step_by(POSE_NS as usize);
+        let true_pose = |t_ns: i64| PoseSample { t_ns, odom_from_vehicle: self.base.inner.true_pose(t_ns) };
+        let poses = poses.map(true_pose).collect();
+        self.sequence.motion = EgoMotion::new(self.sequence.motion.odometry().to_vec(), poses).unwrap();
+    }
+
+    /// Changes the poses as a whole.
+    pub fn replace_poses(&mut self, edit: impl FnOnce(&mut Vec<PoseSample>)) {
+        let mut poses = self.sequence.motion.poses().to_vec();
+        edit(&mut poses);
+        self.sequence.motion = EgoMotion::new(self.sequence.motion.odometry().to_vec(), poses).unwrap();
     }
 }
 
