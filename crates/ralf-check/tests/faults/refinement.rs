@@ -6,6 +6,7 @@ use crate::recording::{Planted, Recording};
 use crate::table::plant;
 use crate::{STRAIGHT, TURNING};
 use ralf_check::{Refinement, SensorChange, check_and_refine};
+use ralf_sim::presets;
 use std::sync::Arc;
 
 /// Labels with the corrections are as good as with the true calibration within this F1.
@@ -115,6 +116,17 @@ fn labels_with_corrections_are_those_of_the_true_calibration() {
     for deviations in outcomes.iter().flat_map(|outcome| &outcome.deviations) {
         let are_narrow = deviations.iter().zip(NARROW).all(|(deviation, most)| *deviation < most);
         assert!(are_narrow, "{deviations:?}");
+    }
+}
+
+#[test]
+fn nothing_is_proposed_of_recordings_that_are_right() {
+    // Short ones, in which chance alone had moved a radar by half a decimetre.
+    let sequence = &presets::find("tiny").unwrap().sequences[0];
+    for seed in [3, 4, 5] {
+        let (_, refined) = check_and_refine(&sequence.simulate(seed, 60).unwrap().without_cameras());
+        let proposed = refined.iter().filter(|refined| refined.proposed != SensorChange::default());
+        assert_eq!(proposed.count(), 0, "seed {seed}: {refined:?}");
     }
 }
 

@@ -140,6 +140,8 @@ fn odometry_is_right_where_the_poses_are_not() {
 fn a_jump_of_poses_is_no_speed() {
     let mut planted = with_poses(&Recording::of(STRAIGHT, 60, 1));
     planted.replace_poses(|poses| {
+        // Of so few steps the one is among the fastest twentieth.
+        *poses = poses.iter().step_by(8).copied().collect();
         let half = poses.len() / 2;
         poses[half..].iter_mut().for_each(|pose| pose.odom_from_vehicle.translation.x += 250.0);
     });

@@ -15,12 +15,14 @@ use crate::change::SensorChange;
 use crate::doppler::clock;
 use crate::overlap::Measure;
 use evidence::Evidence;
-use quantity::{QUANTITIES, Values};
-use search::{Open, deviations, likeliest};
+use quantity::{QUANTITIES, Quantity, Values};
+use search::{Deviations, Open, deviations, likeliest};
 use serde::Serialize;
 
 /// A correction is proposed when it is so many of the standard deviations that chance gives.
 const SIGMAS: f64 = 3.0;
+/// And so many of those that are told: what one recording in twenty shows that is right is no reason to change it.
+const TOLD_SIGMAS: f64 = 2.0;
 
 /// The correction of one sensor.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -33,8 +35,8 @@ pub struct Refinement {
     /// the others unknown, and with what more measurements would not take away. NaN of a sensor whose change was found
     /// and not refined.
     pub deviations: [f64; 4],
-    /// What is proposed: quantities that are three standard deviations of chance and more than labels notice, and the
-    /// likeliest of these with all others left alone.
+    /// What is proposed: quantities that are three standard deviations of chance, two of [`Self::deviations`], and more
+    /// than labels notice, and the likeliest of these with all others left alone.
     pub proposed: SensorChange,
 }
 
@@ -61,22 +63,32 @@ fn of_radar(case: &Case, radar: usize) -> Refinement {
     Refinement {
         name: case.name(radar).to_owned(),
         change: evidence.change(&values),
-        deviations: std::array::from_fn(|i| {
-            let measured = deviations.chance[i].hypot(deviations.contradiction[i]).min(1.0);
-            (measured * QUANTITIES[i].prior).hypot(QUANTITIES[i].systematic)
-        }),
-        proposed: evidence.change(&proposed(&evidence, values, &deviations.chance, open)),
+        deviations: std::array::from_fn(|i| told(&deviations, i)),
+        proposed: evidence.change(&proposed(&evidence, values, &deviations, open)),
     }
+}
+
+/// How well a quantity is known in its unit, with what more measurements would not take away.
+fn told(deviations: &Deviations, quantity: usize) -> f64 {
+    let measured = deviations.chance[quantity].hypot(deviations.contradiction[quantity]).min(1.0);
+    let Quantity { prior, systematic, .. } = QUANTITIES[quantity];
+    (measured * prior).hypot(systematic)
 }
 
 /// Quantities that say nothing are left alone, the least telling one first; what goes together with them is sought
 /// again without.
-fn proposed(evidence: &Evidence, likeliest_of_all: Values, deviations: &Values, mut open: Open) -> Values {
+fn proposed(
+    evidence: &Evidence,
+    likeliest_of_all: Values,
+    deviations: &Deviations,
+    mut open: Open,
+) -> Values {
     let mut values = likeliest_of_all;
     loop {
-        let in_sigmas = |i: &usize| values[*i].abs() / deviations[*i];
+        let in_sigmas = |i: &usize| values[*i].abs() / deviations.chance[*i];
         let is_idle = |i: &usize| {
-            in_sigmas(i) < SIGMAS || values[*i].abs() * QUANTITIES[*i].prior < QUANTITIES[*i].smallest
+            let least = QUANTITIES[*i].smallest.max(TOLD_SIGMAS * told(deviations, *i));
+            in_sigmas(i) < SIGMAS || values[*i].abs() * QUANTITIES[*i].prior < least
         };
         let idle = (0..4).filter(|i| open[*i]).filter(is_idle);
         let Some(least) = idle.min_by(|a, b| in_sigmas(a).total_cmp(&in_sigmas(b))) else {
