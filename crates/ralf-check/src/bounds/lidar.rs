@@ -41,10 +41,24 @@ pub(super) fn judge(lidar: &Lidar, looks: &[&LidarLook]) -> Vec<Verdict> {
             format!("{share:.0} % of the points lie more than 45 degrees above or below the sensor");
         verdicts.push(doubt(evidence, Some(Remedy::LookInto("its rows have another number of columns"))));
     }
-    let same = looks.windows(2).filter(|pair| pair[0].digest == pair[1].digest && points >= 50.0).count();
-    if same > 0 {
-        let evidence = format!("the same scan again in {same} of {} cases: it is stuck", looks.len() - 1);
-        verdicts.push(doubt(evidence, Some(Remedy::LookInto("leave out the scans that repeat"))));
-    }
+    verdicts.extend(broken(lidar, looks, points));
     verdicts
+}
+
+/// What a broken copy or a stuck sensor leaves; `points` are the usual number of a scan.
+fn broken(lidar: &Lidar, looks: &[&LidarLook], points: f64) -> impl Iterator<Item = Verdict> {
+    let doubt = |evidence: String, look_into| {
+        Verdict::doubt(&lidar.name, Question::Bounds, evidence, Some(Remedy::LookInto(look_into)))
+    };
+    let silent = looks.iter().filter(|look| look.shape.returns == 0.0).count();
+    let nothing = (silent > 0).then(|| {
+        let evidence = format!("nothing came back in {silent} of {} scans", looks.len());
+        doubt(evidence, "are its files empty, as of a copy that broke off?")
+    });
+    let same = looks.windows(2).filter(|pair| pair[0].digest == pair[1].digest && points >= 50.0).count();
+    let stuck = (same > 0).then(|| {
+        let evidence = format!("the same scan again in {same} of {} cases: it is stuck", looks.len() - 1);
+        doubt(evidence, "leave out the scans that repeat")
+    });
+    nothing.into_iter().chain(stuck)
 }

@@ -117,6 +117,23 @@ fn a_recording_that_is_read_by_settings_is_written_as_they_have_it() {
 }
 
 #[test]
+fn a_lidar_whose_files_are_empty_is_doubted() {
+    let dataset = Dataset::new();
+    let made = simulated(&dataset);
+    for file in fs::read_dir(sequence_file(&made, "lidar_top")).unwrap() {
+        let file = file.unwrap().path();
+        if file.extension().is_some_and(|kind| kind == "bin") {
+            fs::write(file, []).unwrap();
+        }
+    }
+    ralf(["check", &made, "--strict"]).exits(3).prints([
+        "lidar_top",
+        "nothing came back in",
+        "are its files empty",
+    ]);
+}
+
+#[test]
 fn without_odometry_the_radars_tell_the_motion() {
     let dataset = Dataset::new();
     let made = simulated(&dataset);
