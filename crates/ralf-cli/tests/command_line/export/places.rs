@@ -32,6 +32,36 @@ fn only_an_earlier_export_is_replaced_and_only_if_asked() {
     assert!(tree(&path) == before);
 }
 
+/// What a person put beside an export's files, or among them, is not the export's.
+#[test]
+fn an_export_with_somebodys_own_files_is_never_replaced() {
+    let dataset = small();
+    let path = export(&dataset, "npz", "labels", &[]);
+    for own in ["notes.md", "sequences/00/radar_front/mine.npz", "deep/folder/notes.md", "empty/"] {
+        let file = format!("{path}/{own}");
+        fs::create_dir_all(file.rsplit_once('/').unwrap().0).unwrap();
+        if !own.ends_with('/') {
+            fs::write(&file, "mine").unwrap();
+        }
+        let before = tree(&path);
+        run(&dataset, "npz", &path, &["--force"])
+            .exits(1)
+            .ends_with_error(["labels: folder: expected an export's own files", &format!("also `{own}`")]);
+        assert!(tree(&path) == before, "{own}");
+        fs::remove_dir_all(&path).unwrap();
+        export(&dataset, "npz", "labels", &[]);
+    }
+    run(&dataset, "npz", &path, &["--force"]).exits(0);
+    // One made before exports told which files are theirs.
+    let record = format!("{path}/_export.json");
+    let mut told: serde_json::Value = serde_json::from_slice(&fs::read(&record).unwrap()).unwrap();
+    assert!(told.as_object_mut().unwrap().remove("files").is_some());
+    fs::write(&record, told.to_string()).unwrap();
+    run(&dataset, "npz", &path, &["--force"])
+        .exits(1)
+        .ends_with_error(["_export.json", "an earlier version"]);
+}
+
 #[test]
 fn a_file_is_replaced_like_a_folder() {
     let dataset = small();

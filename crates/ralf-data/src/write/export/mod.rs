@@ -22,6 +22,7 @@ mod options;
 mod parquet;
 mod pcd;
 mod place;
+mod record;
 mod ros;
 mod semantic_kitti;
 

@@ -1,35 +1,20 @@
 //! Where an export goes: it appears whole or not at all, and never takes the place of anything else.
 
 use super::formats::SingleFile;
+use super::record::Record;
 use super::ros::foxglove::FILE as LAYOUT;
 use super::{ExportFormat, ExportOptions};
-use crate::disk::files;
 use crate::error::DataError;
 use crate::result::{Component, OutFolder, WriterLock};
-use ralf_files::Kind;
-use serde::{Deserialize, Serialize};
 use std::fs;
 use std::path::{Path, PathBuf};
-
-/// Tells that a folder is an export, and of what. Tools that search folders for data pass over names with an
-/// underscore.
-const RECORD: &str = "_export.json";
-
-/// The content of `_export.json`.
-#[derive(Debug, Serialize, Deserialize)]
-struct Record {
-    /// Version of the program.
-    version: String,
-    #[serde(flatten)]
-    options: ExportOptions,
-    /// Names of the sequences.
-    sequences: Vec<String>,
-}
 
 /// The folder of an export, or its only file; it is written beside its place.
 pub(super) struct Place {
     path: PathBuf,
     part: OutFolder,
+    /// What the folder tells of itself.
+    record: Record,
     /// An earlier export, while the new one takes its place.
     earlier: PathBuf,
     /// The name that the only file has in the folder that is written.
@@ -63,14 +48,11 @@ impl Place {
         };
         let hidden = |end: &str| parent.join(format!(".{}.{end}", name.to_string_lossy()));
         let (part, earlier) = (OutFolder::new(&hidden("part")), hidden("earlier"));
-        let place = Self { path: path.to_owned(), part, earlier, file, _lock: lock };
         // What a killed export left.
-        remove_folder(place.part.path())?;
-        let record = Record { version: env!("CARGO_PKG_VERSION").to_owned(), options: *options, sequences };
-        let file = place.part.own_file(RECORD);
-        let json = serde_json::to_string_pretty(&record).map_err(std::io::Error::from);
-        files::write_whole(&file, (json.map_err(DataError::io(&file))? + "\n").as_bytes())?;
-        Ok(place)
+        remove_folder(part.path())?;
+        fs::create_dir_all(part.path()).map_err(DataError::io(part.path()))?;
+        let record = Record::new(options, sequences);
+        Ok(Self { path: path.to_owned(), part, record, earlier, file, _lock: lock })
     }
 
     /// The folder to write to.
@@ -94,6 +76,9 @@ impl Place {
             fs::rename(self.part.file(file), &self.path).map_err(refused())?;
             return self.keep_layout();
         }
+        self.record.write(&self.part)?;
+        // Somebody may have put something there while the export was made.
+        check_folder(&self.path, &self.record.options)?;
         remove_folder(&self.earlier)?;
         if self.path.exists() {
             fs::rename(&self.path, &self.earlier).map_err(refused())?;
@@ -158,20 +143,16 @@ fn check_folder(path: &Path, options: &ExportOptions) -> Result<(), DataError> {
         return Ok(());
     }
     let format = options.format.name();
-    let is_like = |record: &Record| record.options.format == options.format;
-    if !read(path).as_ref().is_some_and(is_like) {
+    let earlier = Record::of(path).filter(|record| record.options.format == options.format);
+    let Some(earlier) = earlier else {
         let expected = format!("an empty folder, or an earlier export in the format {format}");
         return Err(DataError::content(path, "folder", expected, "other files"));
-    }
+    };
     if options.replace {
-        return Ok(());
+        return earlier.refuse_others(path);
     }
     let found = format!("an earlier export in the format {format}, which only --force replaces");
     Err(DataError::content(path, "folder", "an empty folder", found))
-}
-
-fn read(folder: &Path) -> Option<Record> {
-    serde_json::from_str(&files::read_text(&folder.join(RECORD), Kind::Settings).ok()?).ok()
 }
 
 fn remove_folder(folder: &Path) -> Result<(), DataError> {
