@@ -90,7 +90,7 @@ fn what_a_power_cut_spoiled_is_made_again() {
 #[test]
 fn a_sequence_that_was_finished_before_the_kill_is_kept() {
     let dataset = Dataset::of(&Shape { scans: 4, sequences: &["00", "01"], ..Shape::default() });
-    ralf(["label", "--no-check", &dataset.path, "-o", &dataset.out]).exits(0);
+    ralf(["label", &dataset.path, "-o", &dataset.out]).exits(0);
     let whole = without_timings(&dataset.out);
     // What is on disk between the last sequence and the record.
     let record: serde_json::Value =
@@ -110,9 +110,20 @@ fn a_sequence_that_was_finished_before_the_kill_is_kept() {
     fs::remove_file(format!("{}/run.json", dataset.out)).unwrap();
     let table = dataset.result("plausibility.parquet");
     let written = fs::metadata(&table).unwrap().modified().unwrap();
-    ralf(["label", "--no-check", &dataset.path, "-o", &dataset.out]).exits(0).says(["nothing to do"]);
+    ralf(["label", &dataset.path, "-o", &dataset.out]).exits(0).says(["nothing to do"]);
     assert_eq!(fs::metadata(&table).unwrap().modified().unwrap(), written);
     assert!(without_timings(&dataset.out) == whole);
+}
+
+#[test]
+fn a_run_that_has_not_checked_is_checked_later() {
+    let dataset = Dataset::new();
+    let whole = dataset.beside("whole");
+    ralf(["label", &dataset.path, "-o", &whole]).exits(0);
+    ralf(["label", "--no-check", &dataset.path, "-o", &dataset.out]).exits(0);
+    assert!(without_timings(&dataset.out) != without_timings(&whole));
+    ralf(["label", &dataset.path, "-o", &dataset.out]).exits(0).says(["nothing to do"]);
+    assert!(without_timings(&dataset.out) == without_timings(&whole));
 }
 
 #[test]

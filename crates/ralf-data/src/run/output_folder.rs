@@ -139,12 +139,14 @@ impl OutputFolder {
         timings: Timings,
         checks: &[CheckRecord],
     ) -> Result<(RunRecord, Vec<String>), DataError> {
-        if !finished.is_empty() {
-            let fingerprints: Vec<_> =
-                finished.iter().map(|(sequence, _)| sequence.fingerprint.clone()).collect();
-            self.record.add(finished);
+        let fingerprints: Vec<_> =
+            finished.iter().map(|(sequence, _)| sequence.fingerprint.clone()).collect();
+        let said_before = self.record.check.clone();
+        self.record.add(finished);
+        self.record.add_checks(checks);
+        // A run that was killed may have finished all sequences, and an earlier one may have checked none.
+        if !fingerprints.is_empty() || self.record.check != said_before {
             self.record.timings = timings;
-            self.record.add_checks(checks);
             self.write_record()?;
             self.unfinished.forget(fingerprints.iter().map(String::as_str))?;
         }
