@@ -43,6 +43,9 @@ impl DatasetArgs {
         let run = LabelledRun::open(out)?;
         let topics = self.topics_or(&run.settings().topics)?;
         let recording = told(run.settings().correct(self.read(&topics)?)?);
+        if self.sequences.is_empty() {
+            changed.check_sequences(out, Some(&run), &recording)?;
+        }
         changed.check(&run, &recording)?;
         Ok(recording)
     }

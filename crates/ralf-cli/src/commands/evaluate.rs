@@ -110,6 +110,8 @@ fn recording_of(args: &EvaluateArgs, dataset: &Path) -> anyhow::Result<Option<Re
     if recording.format != run.record().format {
         return Ok(None);
     }
+    // Sequences without truth are named later on, whatever the recording has.
+    args.changed.check_sequences(args.corrections.as_deref().unwrap_or(&args.out), None, &recording)?;
     recording.sequences.retain(|reader| run.holds(&reader.sequence().name));
     args.changed.check(&run, &recording)?;
     Ok(Some(recording))

@@ -29,6 +29,7 @@ mod full_disk;
 mod inputs;
 mod known_truth;
 mod learning;
+mod left_out;
 mod names;
 #[cfg(unix)]
 mod odd_files;

@@ -4,8 +4,10 @@
 use super::content::scan_content;
 use super::{Corrections, ScanId};
 use crate::error::DataError;
-use crate::read::Recording;
+use crate::read::{Recording, ros};
+use crate::result::LabelledRun;
 use ralf_corrections::ScanContent;
+use std::collections::BTreeSet;
 use std::path::Path;
 
 impl Corrections {
@@ -18,6 +20,28 @@ impl Corrections {
         let corrections = Self::open(out)?.of_sequences(recording);
         corrections.bound(|scan| Ok(content_now(recording, scan)))
     }
+}
+
+/// The sequences that were labelled, where a run is told, or of which people said something below an output folder,
+/// and which the recording doesn't have any more. A ROS recording is one sequence, and a folder may take the labels of
+/// several: of these nothing is lost.
+///
+/// # Errors
+/// A file that is no store of corrections, or one of another version of the program.
+pub fn lost_sequences(
+    out: &Path,
+    run: Option<&LabelledRun>,
+    recording: &Recording,
+) -> Result<BTreeSet<String>, DataError> {
+    if recording.format == ros::NAME {
+        return Ok(BTreeSet::new());
+    }
+    let corrections = Corrections::open(out)?;
+    let said = corrections.scans_ever().map(|scan| &scan.sequence);
+    let labelled = run.into_iter().flat_map(|run| run.record().sequences.iter().map(|found| &found.name));
+    let mut lost: BTreeSet<String> = said.chain(labelled).cloned().collect();
+    lost.retain(|name| recording.sequences.iter().all(|reader| reader.sequence().name != *name));
+    Ok(lost)
 }
 
 /// What a scan of a recording holds; `None` of one that isn't there or can't be read.

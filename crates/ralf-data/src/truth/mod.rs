@@ -9,6 +9,7 @@ mod ground_truth;
 mod known;
 mod scan_id;
 
+pub use bound::lost_sequences;
 pub use causes::Causes;
 pub use content::scan_content;
 pub use corrections::Corrections;

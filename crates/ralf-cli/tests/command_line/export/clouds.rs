@@ -84,7 +84,7 @@ fn numbered_sequences_of_one_radar_keep_their_numbers() {
     dataset.put("sequence.toml", [&toml[..begin], &toml[end..]].concat());
     std::fs::rename(dataset.file(""), format!("{}/sequences/08", dataset.path)).unwrap();
     crate::support::ralf(["label", &dataset.path, "-o", &dataset.out]).exits(0);
-    let path = export(&dataset, "semantickitti", "kitti", &[]);
+    let path = export(&dataset, "semantickitti", "kitti", &["--sequence", "08"]);
     assert!(std::fs::exists(format!("{path}/sequences/08/labels/000002.label")).unwrap());
     let table = std::fs::read_to_string(format!("{path}/sequences.csv")).unwrap();
     assert_eq!(table, "number,sequence,radar,scans\n08,08,radar_front,3\n");

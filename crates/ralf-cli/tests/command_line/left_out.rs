@@ -1,0 +1,56 @@
+//! What a command leaves out is named, and its exit status tells; what a person has made is not written over.
+
+use crate::support::{Dataset, Ran, Shape, program, ralf};
+use ralf_corrections::{FILE, ScanEdit, Store, Stroke, Who};
+use std::fs;
+use std::path::Path;
+
+/// A labelled recording of two sequences.
+fn two() -> Dataset {
+    let dataset = Dataset::of(&Shape { scans: 3, sequences: &["00", "01"], ..Shape::default() });
+    ralf(["label", &dataset.path, "-o", &dataset.out]).exits(0);
+    dataset
+}
+
+/// Somebody corrects a detection of the first scan of a sequence.
+fn correct(dataset: &Dataset, sequence: &str) {
+    let file = format!("{}/sequences/{sequence}/radar_front/000000.label", dataset.out);
+    let detections = fs::metadata(file).unwrap().len() as u32 / 4;
+    let radar = "radar_front".to_owned();
+    let edit = ScanEdit { radar, detections, points: vec![0], ..ScanEdit::default() };
+    let stroke = Stroke { label: Some(10), scans: vec![edit], ..Stroke::of_sequence(sequence) };
+    let mut store = Store::open(&Path::new(&dataset.out).join(FILE)).unwrap();
+    store.apply(&stroke, &Who::named("ada")).unwrap();
+}
+
+#[track_caller]
+fn run(arguments: &[&str], more: &[&str]) -> Ran {
+    Ran::of(&program().args(arguments).args(more).output().unwrap())
+}
+
+#[test]
+fn a_recording_that_lost_a_whole_sequence_is_refused_by_its_name() {
+    let dataset = two();
+    correct(&dataset, "01");
+    let sequence = format!("{}/sequences/01", dataset.path);
+    let away = dataset.beside("away");
+    fs::rename(&sequence, &away).unwrap();
+    let [path, out] = [&dataset.path, &dataset.out].map(String::as_str);
+    let [labels, page, chosen] = ["labels", "page.html", "chosen"].map(|name| dataset.beside(name));
+    let export = ["export", path, out, "--to", "npz", "-o", &labels];
+    for asked in [&export[..], &["report", path, out, "-o", &page], &["evaluate", out, "--truth", path]] {
+        run(asked, &[]).exits(1).prints_nothing().ends_with_error([
+            path,
+            "found none of 01",
+            "put them back",
+        ]);
+        run(asked, &["--changed-recording"]).exits(0).says(["warning: ", "found none of 01"]);
+    }
+    // Who has chosen knows what is left out.
+    run(&["export", path, out, "--to", "npz", "--sequence", "00", "-o", &chosen], &[]).exits(0);
+    // What was corrected is told of where it is not labelled any more, too.
+    ralf(["label", path, "-o", out, "--set", "fusion.threshold=0.9"]).exits(0);
+    run(&export, &["--force"]).exits(1).says(["found none of 01"]);
+    fs::rename(&away, &sequence).unwrap();
+    run(&export, &["--force"]).exits(3).says(["sequence 01 has no labels: left out"]);
+}
