@@ -66,6 +66,7 @@ mod review;
 mod sayings;
 mod schema;
 mod settled;
+mod standing;
 mod steps;
 mod store;
 mod tables;

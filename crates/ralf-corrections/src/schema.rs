@@ -3,6 +3,7 @@
 use crate::causes;
 use crate::error::{StoreError, WAIT_SECONDS, told};
 use crate::identity::journal;
+use crate::standing::check_corrections;
 use crate::tables::{self, APPLICATION, FIRST_VERSION, VERSION};
 use rusqlite::{Connection, ErrorCode, OpenFlags};
 use std::fs;
@@ -22,6 +23,7 @@ pub(crate) fn open(file: &Path) -> Result<Connection, StoreError> {
     let mut connection = Connection::open_with_flags(file, flags).map_err(told(file))?;
     let found = check(&connection, file)?;
     check_pages(&connection, file)?;
+    check_corrections(&connection, file)?;
     prepare(&connection).map_err(told(file))?;
     if found == FIRST_VERSION {
         tables::migrate(&mut connection).map_err(told(file))?;
@@ -69,6 +71,7 @@ pub(crate) fn open_read_only(file: &Path) -> Result<Connection, StoreError> {
     connection.busy_timeout(Duration::from_secs(WAIT_SECONDS)).map_err(told(file))?;
     let found = check(&connection, file)?;
     check_pages(&connection, file)?;
+    check_corrections(&connection, file)?;
     if found == VERSION { Ok(connection) } else { in_memory(&uri).map_err(told(file)) }
 }
 

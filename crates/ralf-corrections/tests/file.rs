@@ -5,6 +5,7 @@ use ralf_corrections::{
     ContentHash, Outcome, Reader, ScanContent, ScanEdit, ScanKey, ScanVersion, Store, StoreError, Stroke,
     Who, read_layer,
 };
+use rusqlite::Connection;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
@@ -127,6 +128,36 @@ fn damaged_pages_are_told_when_the_file_is_opened() {
     }
     fs::write(&folder.file, &whole[..whole.len() / 2]).unwrap();
     assert!(Store::open(&folder.file).is_err());
+}
+
+/// Its pages are whole, and its checks by the database say so.
+#[test]
+fn a_correction_that_no_stroke_has_given_is_told_when_the_file_is_opened() {
+    for (damage, told) in [
+        (
+            "UPDATE correction SET label = 103 WHERE point = 2",
+            "correction of detection 2: expected what the last stroke there says (99), found 103",
+        ),
+        (
+            "UPDATE change SET after = 98 WHERE point = 1",
+            "detection 1: expected what the last stroke there says (98), found 99",
+        ),
+        ("DELETE FROM correction WHERE point = 2", "(99), found none"),
+        (
+            "INSERT INTO correction VALUES (1, 7, 10)",
+            "scan 00/front/1, correction of detection 7: expected what the last stroke there says (none), found 10",
+        ),
+    ] {
+        let folder = Folder::new();
+        let mut store = Store::open(&folder.file).unwrap();
+        apply(&mut store, 1).unwrap();
+        drop(store);
+        drop(Store::open(&folder.file).unwrap());
+        Connection::open(&folder.file).unwrap().execute_batch(damage).unwrap();
+        let error = Store::open(&folder.file).unwrap_err().to_string();
+        assert!(error.contains(told), "{error}");
+        assert!(Reader::open(&folder.file).is_err() && read_layer(&folder.file).is_err(), "{damage}");
+    }
 }
 
 #[test]
