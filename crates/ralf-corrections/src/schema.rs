@@ -5,7 +5,7 @@ use crate::error::{StoreError, WAIT_SECONDS, told};
 use crate::identity::journal;
 use crate::standing::check_corrections;
 use crate::tables::{self, APPLICATION, FIRST_VERSION, VERSION};
-use rusqlite::{Connection, ErrorCode, OpenFlags};
+use rusqlite::{Connection, ErrorCode, MAIN_DB, OpenFlags};
 use std::fs;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
@@ -25,6 +25,7 @@ pub(crate) fn open(file: &Path) -> Result<Connection, StoreError> {
     check_pages(&connection, file)?;
     check_corrections(&connection, file)?;
     prepare(&connection).map_err(told(file))?;
+    check_writable(&connection, file)?;
     if found == FIRST_VERSION {
         tables::migrate(&mut connection).map_err(told(file))?;
     }
@@ -38,6 +39,27 @@ fn prepare(connection: &Connection) -> rusqlite::Result<()> {
     connection.busy_timeout(Duration::from_secs(WAIT_SECONDS))?;
     connection.pragma_update(None, "journal_mode", "WAL")?;
     connection.pragma_update(None, "synchronous", "FULL")
+}
+
+/// Refuses a store that can't be written. SQLite opens for reading what it may not write, and begins to write it as if
+/// to read; of a journal that it may not write it tells when writing begins. Who finds somebody else writing may do so
+/// later.
+fn check_writable(connection: &Connection, file: &Path) -> Result<(), StoreError> {
+    if connection.is_readonly(MAIN_DB).map_err(told(file))? {
+        return Err(StoreError::ReadOnly { file: file.to_owned() });
+    }
+    let wait = |time| connection.busy_timeout(time).map_err(told(file));
+    wait(Duration::ZERO)?;
+    let begun = connection.execute_batch("BEGIN IMMEDIATE; ROLLBACK");
+    wait(Duration::from_secs(WAIT_SECONDS))?;
+    match begun {
+        Err(error) if is_taken(&error) => Ok(()),
+        begun => begun.map_err(told(file)),
+    }
+}
+
+fn is_taken(error: &rusqlite::Error) -> bool {
+    matches!(error.sqlite_error_code(), Some(ErrorCode::DatabaseBusy | ErrorCode::DatabaseLocked))
 }
 
 /// Makes a store beside its place and moves it there, so that it is never there by half. Somebody else's that

@@ -153,11 +153,16 @@ fn an_out_that_can_only_be_read_is_shown_and_says_so() {
     }
     let dataset = labelled();
     let out = Path::new(&dataset.out);
-    for with_corrections in [false, true] {
-        if with_corrections {
+    for (with_corrections, with_journal) in [(false, false), (true, false), (true, true)] {
+        if with_corrections && !with_journal {
             let review = Review::start(&dataset, &[]);
             review.correct(0);
             assert!(review.end("-TERM"));
+        }
+        if with_journal {
+            // Whoever reads leaves a journal, for only who may write takes it away.
+            ralf(["evaluate", &dataset.out, "--progress"]).exits(0);
+            assert!(out.join("corrections.sqlite-shm").exists());
         }
         let permit = |mode: u32| fs::set_permissions(out, fs::Permissions::from_mode(mode)).unwrap();
         fs::set_permissions(out.parent().unwrap(), fs::Permissions::from_mode(0o755)).unwrap();
