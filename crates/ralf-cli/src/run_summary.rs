@@ -1,5 +1,7 @@
 //! What a run of `ralf label` made, as tables: a row per radar, and a row per camera whose images have depth.
 
+use crate::outcome::Outcome;
+use crate::progress::say;
 use crate::text::{aligned, counted, grouped, percent};
 use ralf::label::flag;
 use ralf::scene::{Failure, ViewState};
@@ -20,12 +22,24 @@ pub(crate) fn run_summary(record: &RunRecord) -> String {
     aligned(&rows) + &doubtful_radars(record) + &cameras(record) + &unused_cameras(record)
 }
 
+/// Says what could not be labelled, and how it ended by that.
+pub(crate) fn say_not_labelled(record: &RunRecord) -> Outcome {
+    let mut outcome = Outcome::Done;
+    for line in not_labelled(record) {
+        say(&format!("not labelled: {line}"));
+        outcome = Outcome::Partial;
+    }
+    outcome
+}
+
+/// A scan that could not be labelled, and why.
+pub(crate) fn not_labelled_scan(sequence: &str, NotLabelled { radar, scan, reason }: &NotLabelled) -> String {
+    format!("{sequence} {radar} scan {scan}: {reason}")
+}
+
 /// What could not be labelled, a line each: scans, and what may have held some.
 pub(crate) fn not_labelled(record: &RunRecord) -> impl Iterator<Item = String> {
-    let scans = record.not_labelled();
-    let scans = scans.map(|(sequence, NotLabelled { radar, scan, reason })| {
-        format!("{sequence} {radar} scan {scan}: {reason}")
-    });
+    let scans = record.not_labelled().map(|(sequence, scan)| not_labelled_scan(sequence, scan));
     scans.chain(record.lost().map(|(sequence, lost)| format!("{sequence}: {lost}")))
 }
 

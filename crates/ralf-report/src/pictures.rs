@@ -73,7 +73,8 @@ impl Pictures<'_> {
         self.radar.unwrap_or("all radars")
     }
 
-    fn shows(&self, radar: &str) -> bool {
+    /// Whether a radar is drawn.
+    pub fn shows(&self, radar: &str) -> bool {
         self.radar.is_none_or(|wanted| wanted == radar)
     }
 
@@ -181,17 +182,22 @@ impl Pictures<'_> {
     /// # Errors
     /// Labels that can't be read, or lack a column.
     pub fn scans_near(&self, t_ns: i64, columns: &[&str]) -> Result<Vec<(i64, Table)>, ReportError> {
-        let sequence = self.sequence();
         let schema = self.tables.schema().only(columns)?;
         let mut near = Vec::new();
-        for (radar, times) in sequence.rig.radars.iter().zip(&sequence.times.radars) {
-            let Some(scan) = sync::nearest(times, t_ns, i64::MAX).filter(|_| self.shows(&radar.name)) else {
-                continue;
-            };
-            let table = self.tables.table_of(&RadarScanKey::new(&radar.name, scan), &schema)?;
-            near.extend(table.map(|table| (times[scan], table)));
+        for (radar, scan) in self.drawn_at(t_ns) {
+            let Sequence { rig, times, .. } = self.sequence();
+            let table = self.tables.table_of(&RadarScanKey::new(&rig.radars[radar].name, scan), &schema)?;
+            near.extend(table.map(|table| (times.radars[radar][scan], table)));
         }
         Ok(near)
+    }
+
+    /// Each drawn radar's scan nearest to a time, in the rig's order: the radar's place there, and the scan's number.
+    pub fn drawn_at(&self, t_ns: i64) -> impl Iterator<Item = (usize, usize)> {
+        let Sequence { rig, times, .. } = self.sequence();
+        let drawn = rig.radars.iter().zip(&times.radars).enumerate();
+        let drawn = drawn.filter(|(_, (radar, _))| self.shows(&radar.name));
+        drawn.filter_map(move |(place, (_, times))| Some((place, sync::nearest(times, t_ns, i64::MAX)?)))
     }
 
     /// These detections in the vehicle frame at that time.

@@ -10,6 +10,7 @@ use crate::arguments::ChangedArgs;
 use crate::corrections::merged_truth;
 use crate::outcome::Outcome;
 use crate::progress::say;
+use crate::run_summary::say_not_labelled;
 use crate::text::print;
 use ralf_data::judge::QueueCurve;
 use ralf_data::result::LabelledRun;
@@ -121,7 +122,7 @@ fn recording_of(args: &EvaluateArgs, dataset: &Path) -> anyhow::Result<Option<Re
 fn balance(args: &EvaluateArgs) -> anyhow::Result<Outcome> {
     let balances = Balances::of_run(&args.out)?;
     print(&if args.json { serde_json::to_string_pretty(&balances)? } else { balance::table(&balances) })?;
-    Ok(Outcome::Done)
+    Ok(say_not_labelled(LabelledRun::open(&args.out)?.record()))
 }
 
 fn name_what_is_left_out(comparison: &Comparison, args: &EvaluateArgs) {

@@ -6,7 +6,7 @@ use crate::arguments::{DatasetArgs, MethodArgs, SettingsArgs, threads};
 use crate::network::{DepthModelArgs, depth_for_labelling};
 use crate::outcome::Outcome;
 use crate::progress::{Stages, say};
-use crate::run_summary::{not_labelled, run_summary};
+use crate::run_summary::{run_summary, say_not_labelled};
 use crate::spent::Work;
 use crate::text::{counted, grouped, print};
 use clap::Args;
@@ -125,12 +125,7 @@ fn told_of_scans(record: &RunRecord) -> Outcome {
         say(&format!("labelled without: {sequence} {sensor} scan {number}: {reason}"));
     }
     unusable_images(record).for_each(|line| say(&line));
-    let mut outcome = Outcome::Done;
-    for line in not_labelled(record) {
-        say(&format!("not labelled: {line}"));
-        outcome = Outcome::Partial;
-    }
-    outcome
+    say_not_labelled(record)
 }
 
 /// For each camera with images that can't be read, the first of them: mostly all are alike.

@@ -4,7 +4,9 @@ use crate::arguments::{ChangedArgs, DatasetArgs, check_output};
 use crate::corrections::orphaned;
 use crate::outcome::Outcome;
 use crate::progress::{Progress, say};
+use crate::run_summary::say_not_labelled;
 use clap::Args;
+use ralf_data::result::LabelledRun;
 use ralf_report::Report;
 use std::path::PathBuf;
 
@@ -51,5 +53,9 @@ pub(crate) fn run(arguments: &ReportArgs) -> anyhow::Result<Outcome> {
     for sequence in &page.without_labels {
         say(&format!("sequence {sequence} has no labels: left out"));
     }
-    Ok(if page.without_labels.is_empty() { Outcome::Done } else { Outcome::Partial })
+    let mut record = LabelledRun::open(&arguments.labels)?.record().clone();
+    let is_shown = |name: &str| recording.sequences.iter().any(|reader| reader.sequence().name == name);
+    record.sequences.retain(|labelled| is_shown(&labelled.name));
+    let outcome = say_not_labelled(&record);
+    Ok(if page.without_labels.is_empty() { outcome } else { Outcome::Partial })
 }

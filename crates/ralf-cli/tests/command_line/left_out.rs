@@ -54,3 +54,25 @@ fn a_recording_that_lost_a_whole_sequence_is_refused_by_its_name() {
     fs::rename(&away, &sequence).unwrap();
     run(&export, &["--force"]).exits(3).says(["sequence 01 has no labels: left out"]);
 }
+
+#[test]
+fn scans_that_could_not_be_labelled_are_named_and_not_drawn_as_if_nothing_were_plausible() {
+    let dataset = Dataset::of(&Shape { scans: 3, ..Shape::default() });
+    dataset.cut("radar_front/000001.bin", 3);
+    ralf(["label", &dataset.path, "-o", &dataset.out]).exits(3);
+    let [path, out] = [&dataset.path, &dataset.out].map(String::as_str);
+    let [picture, page] = ["scan.png", "page.html"].map(|name| dataset.beside(name));
+    let told = "not labelled: 00 radar_front scan 1: ";
+    let plot = ["plot", path, out, "-o", &picture];
+    run(&plot, &["--scan", "1", "--radar", "radar_front"]).exits(1).ends_with_error([told, "000001.bin"]);
+    assert!(!fs::exists(&picture).unwrap());
+    for more in [&["--scan", "1"][..], &["--all"], &["--all", "--radar", "radar_front"]] {
+        run(&plot, more).exits(3).says([told]);
+    }
+    for more in [&["--scan", "0"][..], &["--scan", "1", "--radar", "radar_left"]] {
+        let ran = run(&plot, more).exits(0);
+        assert!(!ran.stderr.contains("not labelled"), "{}", ran.stderr);
+    }
+    run(&["report", path, out, "-o", &page], &[]).exits(3).says([told, "wrote "]);
+    run(&["evaluate", out], &[]).exits(3).says([told]).prints(["overall"]);
+}
