@@ -14,8 +14,10 @@ pub enum PlotError {
         found: u32,
     },
     /// The radius of the view is no length.
-    #[error("expected a radius above 0 and up to {most} m, found {found} m")]
+    #[error("expected a radius of {least} to {most} m, found {found} m")]
     Radius {
+        /// Smallest radius, m.
+        least: f64,
         /// Largest radius, m.
         most: f64,
         /// The radius asked for, m.

@@ -32,6 +32,9 @@ const TAIL: f64 = 0.005;
 const MARGIN: f64 = 0.05;
 /// The smallest half length, m.
 const LEAST_HALF: f64 = 5.0;
+/// The smallest radius that can be asked for, m: what is drawn up to 1 km away, such as a sensor, has a place in pixels
+/// of the widest picture that 32 bits can hold.
+const LEAST_RADIUS: f64 = 0.01;
 /// Half length where there is nothing to show, m.
 const EMPTY_HALF: f64 = 20.0;
 
@@ -41,11 +44,11 @@ pub(crate) fn is_place(place: &[f64; 2]) -> bool {
 }
 
 impl Extent {
-    /// Refuses a radius that is no length.
+    /// Refuses a radius that is no length, or one in which nothing can be drawn.
     pub(crate) fn check(&self) -> Result<(), PlotError> {
         match *self {
-            Self::Radius(found) if !(found > 0.0 && found <= FARTHEST) => {
-                Err(PlotError::Radius { most: FARTHEST, found })
+            Self::Radius(found) if !(LEAST_RADIUS..=FARTHEST).contains(&found) => {
+                Err(PlotError::Radius { least: LEAST_RADIUS, most: FARTHEST, found })
             }
             _ => Ok(()),
         }
@@ -223,8 +226,9 @@ mod tests {
         let window = Extent::Radius(30.0).window(grid(), &[[10.0, 0.0], [20.0, 4.0]]);
         assert_eq!(window, Window { centre: [15.0, 2.0], half: [30.0; 2] });
         assert_eq!(Extent::Radius(30.0).window(grid(), &[]).centre, [500.0, -50.0]);
-        for bad in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        for bad in [0.0, -1.0, 1e-30, 1e-6, 0.009, f64::NAN, f64::INFINITY] {
             assert!(Extent::Radius(bad).check().is_err(), "{bad}");
         }
+        assert!(Extent::Radius(LEAST_RADIUS).check().is_ok() && Extent::Radius(FARTHEST).check().is_ok());
     }
 }

@@ -81,7 +81,7 @@ fn odd_data_are_drawn_all_the_same() {
         &[[1e8, -1e8], [-1e8, 1e8]],
     ];
     for places in cases {
-        for extent in [Extent::Fit, Extent::Radius(5.0), Extent::Radius(2000.0), Extent::Radius(1e-3)] {
+        for extent in [Extent::Fit, Extent::Radius(5.0), Extent::Radius(2000.0), Extent::Radius(0.01)] {
             let [scan, sequence] = both(places, extent, 300).unwrap();
             assert!(scan.height() < 700 && sequence.height() < 700, "{places:?} {extent:?}");
         }
@@ -94,6 +94,9 @@ fn what_cannot_be_drawn_is_refused() {
     assert_eq!(scan_picture(&narrow), Err(PlotError::Width { least: 200, most: 10_000, found: 20 }));
     let wide = OverviewPicture { half_width: 10_001, ..OverviewPicture::default() };
     assert!(matches!(overview_picture(&wide), Err(PlotError::Width { found: 10_001, .. })));
-    let flat = OverviewPicture { extent: Extent::Radius(0.0), ..OverviewPicture::default() };
-    assert!(matches!(overview_picture(&flat), Err(PlotError::Radius { .. })));
+    // A picture of a thousandth of a mm had made the rasteriser panic.
+    for radius in [0.0, 1e-30, 1e-6] {
+        let flat = OverviewPicture { extent: Extent::Radius(radius), ..OverviewPicture::default() };
+        assert!(matches!(overview_picture(&flat), Err(PlotError::Radius { .. })));
+    }
 }
