@@ -108,6 +108,6 @@ fn name_what_is_missing(exported: &Exported) -> Outcome {
     for sequence in &exported.without_labels {
         say(&format!("sequence {sequence} has no labels: left out"));
     }
-    let all = exported.not_labelled.is_empty() && exported.without_labels.is_empty();
-    if all { Outcome::Done } else { Outcome::Partial }
+    let left_out = [&exported.orphaned, &exported.not_labelled, &exported.without_labels];
+    if left_out.iter().all(|names| names.is_empty()) { Outcome::Done } else { Outcome::Partial }
 }

@@ -129,9 +129,10 @@ fn corrections_are_not_applied_to_another_content() {
         let both = ["--to", "semantickitti", "--sequence", "00"];
         let ran =
             ralf(["export", &dataset.path, &dataset.out, both[0], both[1], both[2], both[3], "-o", &path]);
-        (path, ran.exits(0))
+        (path, ran)
     };
     let (before, said) = export("before");
+    let said = said.exits(0);
     assert!(!said.stderr.contains("not applied"));
     // Two folders, for there are two radars.
     assert!(labels(&before, 2).iter().all(|label| *label == 30));
@@ -139,7 +140,7 @@ fn corrections_are_not_applied_to_another_content() {
     ralf(["label", &dataset.path, "-o", &dataset.out]).exits(0);
     let told = "corrections of 00/radar_front/000002 are kept and not applied";
     let (after, said) = export("after");
-    said.says([told]);
+    said.exits(3).says([told]);
     assert!(labels(&after, 1).iter().all(|label| *label == 30));
     assert!(labels(&after, 2).iter().all(|label| *label == 1 || *label == 99));
     ralf(["evaluate", &dataset.out, "--truth", &dataset.path]).exits(0).says([told]);
@@ -148,6 +149,7 @@ fn corrections_are_not_applied_to_another_content() {
     rotate(&dataset, "000002", labels(&before, 2).len() - 3);
     ralf(["label", &dataset.path, "-o", &dataset.out]).exits(0);
     let (again, said) = export("again");
+    let said = said.exits(0);
     assert!(!said.stderr.contains("not applied"));
     assert!(
         tree(again)
