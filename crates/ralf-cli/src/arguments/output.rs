@@ -1,14 +1,18 @@
 //! Files that a command writes: never over what it reads.
 
 use crate::outcome::UsageError;
+use std::fs::File;
+use std::io::Read;
 use std::path::Path;
 
 /// What people draw and read, and lay into a folder beside what belongs there.
 const PAGES: [&str; 2] = ["png", "html"];
+/// What an SQLite database begins with.
+const SQLITE: &[u8; 16] = b"SQLite format 3\0";
 
 /// Refuses a place for a file, named by its argument, where something lies that is no regular file, such as a folder or
-/// a device; and where a file of one of the folders lies that are only read: a recording, results. Pictures and pages
-/// directly in such a folder are no part of it.
+/// a device, or a database, which no command writes there; and where a file of one of the folders lies that are only
+/// read: a recording, results. Pictures and pages directly in such a folder are no part of it.
 pub(crate) fn check_output(argument: &str, file: &Path, read_only: &[&Path]) -> Result<(), UsageError> {
     let Ok(found) = std::fs::metadata(file) else { return Ok(()) };
     let refuse = |expected: &str, found: &str| {
@@ -20,10 +24,19 @@ pub(crate) fn check_output(argument: &str, file: &Path, read_only: &[&Path]) -> 
     if !found.is_file() {
         return Err(refuse("a file", "what is no regular file:"));
     }
+    if is_database(file) {
+        return Err(refuse("a place where nothing is lost", "a database, such as what people corrected:"));
+    }
     if read_only.iter().any(|place| is_part_of(file, place)) {
         return Err(refuse("a place where nothing is lost", "a file of the recording or of its results:"));
     }
     Ok(())
+}
+
+/// Whether a file begins as SQLite's do. What can't be read is replaced all the same where it may be.
+fn is_database(file: &Path) -> bool {
+    let mut head = [0; SQLITE.len()];
+    File::open(file).and_then(|mut file| file.read_exact(&mut head)).is_ok() && head == *SQLITE
 }
 
 /// What can't be looked up is not there.
@@ -57,6 +70,17 @@ mod tests {
             assert!(check(name).unwrap_err().contains("nothing is lost"), "{name}");
         }
         assert!(check("out").unwrap_err().contains("found the folder"));
+    }
+
+    #[test]
+    fn a_database_is_not_written_over_wherever_it_lies() {
+        let folder = tempfile::tempdir().unwrap();
+        let place = |name: &str| folder.path().join(name);
+        fs::write(place("corrections.sqlite"), b"SQLite format 3\0...").unwrap();
+        fs::write(place("notes.sqlite"), b"SQLite").unwrap();
+        let check = |name: &str| check_output("--output", &place(name), &[]).map_err(|error| error.0);
+        assert!(check("corrections.sqlite").unwrap_err().contains("found a database"));
+        assert_eq!((check("notes.sqlite"), check("new.sqlite")), (Ok(()), Ok(())));
     }
 
     #[cfg(unix)]

@@ -76,3 +76,22 @@ fn scans_that_could_not_be_labelled_are_named_and_not_drawn_as_if_nothing_were_p
     run(&["report", path, out, "-o", &page], &[]).exits(3).says([told, "wrote "]);
     run(&["evaluate", out], &[]).exits(3).says([told]).prints(["overall"]);
 }
+
+#[test]
+fn corrections_are_written_over_by_no_command() {
+    let dataset = two();
+    let other = dataset.beside("corrections.sqlite");
+    drop(Store::open(Path::new(&other)).unwrap());
+    let before = fs::read(&other).unwrap();
+    let [path, out] = [&dataset.path, &dataset.out].map(String::as_str);
+    for asked in [
+        &["tune", path, "--train", "00", "--test", "01", "--trials", "2", "-o", &other][..],
+        &["learn", path, "-o", &other],
+        &["report", path, out, "-o", &other],
+        &["check", path, "--write", &other],
+        &["simulate", "--compare", path, "-o", &other],
+    ] {
+        run(asked, &[]).exits(2).ends_with_error(["where nothing is lost, found a database", &other]);
+        assert!(fs::read(&other).unwrap() == before, "{asked:?}");
+    }
+}
