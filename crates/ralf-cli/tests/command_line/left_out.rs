@@ -95,3 +95,18 @@ fn corrections_are_written_over_by_no_command() {
         assert!(fs::read(&other).unwrap() == before, "{asked:?}");
     }
 }
+
+#[test]
+fn a_picture_is_no_file_of_another_format() {
+    let dataset = two();
+    let [photo, whole] = ["p.jpg", "p.PNG"].map(|name| dataset.beside(name));
+    let [path, out] = [&dataset.path, &dataset.out].map(String::as_str);
+    let plot = ["plot", path, out, "--sequence", "00", "--scan", "1"];
+    run(&plot, &["-o", &photo]).exits(2).ends_with_error(["expected a name that ends in .png", &photo]);
+    assert!(!fs::exists(&photo).unwrap());
+    run(&plot, &["-o", &whole, "--radius", "0.01"]).exits(0);
+    for radius in ["1e-6", "1e-30"] {
+        let told = ["expected a radius of 0.01 to 100000000 m, found 0.0000"];
+        run(&plot, &["-o", &whole, "--radius", radius]).exits(1).ends_with_error(told);
+    }
+}

@@ -3,7 +3,7 @@
 mod camera;
 
 use crate::arguments::{ChangedArgs, DatasetArgs, check_output, the_only};
-use crate::outcome::Outcome;
+use crate::outcome::{Outcome, UsageError};
 use crate::progress::say;
 use crate::run_summary::not_labelled_scan;
 use anyhow::bail;
@@ -13,7 +13,7 @@ use ralf_data::result::{LabelledRun, SequenceRecord};
 use ralf_plot::Extent;
 use ralf_report::{Detections, Pictures};
 use std::collections::BTreeSet;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Width of the picture of a scan, and of an overview's half, pixels.
 const WIDTHS: [u32; 2] = [1600, 1400];
@@ -71,6 +71,7 @@ pub(crate) struct PlotArgs {
 /// Draws a picture.
 pub(crate) fn run(arguments: &PlotArgs) -> anyhow::Result<Outcome> {
     check_output("--output", &arguments.output, &[&arguments.dataset.dataset, &arguments.labels])?;
+    refuse_other_endings(&arguments.output)?;
     let recording = arguments.dataset.open_labelled(&arguments.labels, &arguments.changed)?;
     let recording = match camera::depth_store(arguments)? {
         Some(store) => store.attach(recording),
@@ -94,6 +95,17 @@ pub(crate) fn run(arguments: &PlotArgs) -> anyhow::Result<Outcome> {
     ralf_data::write_named(&arguments.output, &png)?;
     say(&format!("wrote {}", arguments.output.display()));
     Ok(outcome)
+}
+
+/// Refuses a name that says that the picture is of another format.
+fn refuse_other_endings(file: &Path) -> Result<(), UsageError> {
+    match file.extension() {
+        Some(ending) if !ending.eq_ignore_ascii_case("png") => {
+            let found = file.display();
+            Err(UsageError(format!("--output: expected a name that ends in .png, found {found}")))
+        }
+        _ => Ok(()),
+    }
 }
 
 /// Names the scans of a picture that could not be labelled. One without any labels is not drawn: it would show that
