@@ -152,7 +152,10 @@ fn check_cause(cause: Option<&str>, label: Option<u16>) -> Result<(), ApiError> 
     }
     match label.and_then(truth_of) {
         Some(false) => Ok(()),
-        _ => Err(malformed(format!("label: expected an artifact's where a cause is said, found {label:?}"))),
+        _ => {
+            let found = label.map_or("none".to_owned(), |label| label.to_string());
+            Err(malformed(format!("label: expected an artifact's where a cause is said, found {found}")))
+        }
     }
 }
 

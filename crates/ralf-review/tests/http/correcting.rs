@@ -242,7 +242,7 @@ fn a_cause_is_said_with_an_artifact_and_goes_with_its_stroke() {
         json!({ "tool": "rule", "label": label, "cause": cause, "base": base, "points": points })
     };
     let plausible = server.edit("POST", "strokes", &stroke(99, "mirror", 0), "one");
-    assert!(plausible.refused(400).contains("expected an artifact's"));
+    assert!(plausible.refused(400).ends_with("expected an artifact's where a cause is said, found 99"));
     let unknown = server.edit("POST", "strokes", &stroke(1, "moonlight", 0), "one");
     assert!(unknown.refused(400).contains("`moonlight`"));
     let made = server.edit("POST", "strokes", &stroke(1, "mirror", 0), "one").json();
