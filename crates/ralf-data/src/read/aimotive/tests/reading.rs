@@ -245,3 +245,14 @@ fn the_genuine_frames() {
     let bounds = [times.iter().copied().fold(0.0, f32::min), times.iter().copied().fold(0.0, f32::max)];
     assert!((bounds[0] + 0.067_894).abs() < 1e-6 && (bounds[1] - 0.032_355).abs() < 1e-6, "{bounds:?}");
 }
+
+#[test]
+fn a_radar_without_its_folder_is_told() {
+    let (folder, _) = drive();
+    fs::remove_dir_all(folder.path().join("sensor/radar/B_LRR_C")).unwrap();
+    let drive = only(folder.path());
+    let told =
+        "B_LRR_C: a radar in sensor/calibration/calibration.json without a folder in sensor/radar: left out";
+    assert_eq!(drive.warnings(), [told]);
+    assert_eq!(drive.sequence().rig.radars.len(), 1);
+}
