@@ -18,7 +18,7 @@ use ralf::learned::Model;
 use ralf_files::Kind;
 use serde::{Deserialize, Serialize};
 use std::num::NonZeroUsize;
-use std::path::{Path, PathBuf, absolute};
+use std::path::{Path, PathBuf};
 
 /// In the output folder: the [`Job`] that was planned.
 const PLAN: &str = "plan.json";
@@ -103,6 +103,20 @@ impl Job {
         })
     }
 
+    /// The same, with paths that lead to the same places from every folder.
+    fn anywhere(&self) -> Self {
+        let further = |path: &Option<PathBuf>| path.as_deref().map(files::whole);
+        Self {
+            recording: files::whole(&self.recording),
+            out: files::whole(&self.out),
+            settings: self.settings.anywhere(),
+            model: further(&self.model),
+            depth: further(&self.depth),
+            segmentation: further(&self.segmentation),
+            ..self.clone()
+        }
+    }
+
     fn with_run<T>(
         &self,
         jobs: NonZeroUsize,
@@ -154,26 +168,23 @@ fn read_model(file: Option<&Path>) -> Result<Model, DataError> {
 /// machine that sees the same folders can do them, in any order.
 ///
 /// # Errors
-/// What [`LabelRun::plan`] refuses. [`assemble`] names the recording again.
+/// What [`LabelRun::plan`] refuses. [`assemble`] names the recording again, unless the folder has an earlier plan: that
+/// stays, as it does where others are at work on it.
 pub fn plan(
     job: &Job,
     scans: NonZeroUsize,
     jobs: NonZeroUsize,
     observer: &dyn Observer,
 ) -> Result<Vec<Task>, DataError> {
-    let whole = |path: &Path| absolute(path).map_err(DataError::io(path));
-    let further = |path: &Option<PathBuf>| path.as_deref().map(whole).transpose();
-    let job = Job {
-        recording: whole(&job.recording)?,
-        out: whole(&job.out)?,
-        model: further(&job.model)?,
-        depth: further(&job.depth)?,
-        ..job.clone()
-    };
+    let job = job.anywhere();
     check_output_folder(&job.recording, &job.out)?;
-    write_json(&job.out.join(PLAN), &job)?;
-    let stretches = job.with_run(jobs, |run| run.plan(scans, observer))?;
-    Ok(stretches.into_iter().map(|stretch| Task { job: job.clone(), stretch }).collect())
+    let file = job.out.join(PLAN);
+    let keep = || write_json(&file, &job);
+    let stretches = job.with_run(jobs, |run| run.plan_and(keep, scans, observer));
+    if stretches.is_err() && !files::exists(&file)? {
+        keep()?;
+    }
+    Ok(stretches?.into_iter().map(|stretch| Task { job: job.clone(), stretch }).collect())
 }
 
 /// Does a part of a job. Returns the scans that can't be labelled.

@@ -1,5 +1,6 @@
 //! A settings file: the method's settings, and which topic of a ROS recording is which sensor.
 
+use crate::disk::files;
 use crate::error::DataError;
 use crate::read::ros::{Topics, check_topics};
 use crate::read::{MotionSettings, Recording, SensorCorrection, corrected};
@@ -59,6 +60,13 @@ impl Settings {
     /// motion nobody knows.
     pub fn correct(&self, recording: Recording) -> Result<Recording, DataError> {
         corrected(recording, &self.method, &self.corrections, &self.motion)
+    }
+
+    /// The same, with paths that lead to the same files from every folder.
+    pub(crate) fn anywhere(&self) -> Self {
+        let mut settings = self.clone();
+        settings.motion.trajectory = self.motion.trajectory.as_deref().map(files::whole);
+        settings
     }
 
     /// The text of several settings files as that of one: a later file wins over an earlier one, key by key. A single

@@ -179,6 +179,30 @@ fn what_nobody_planned_is_refused() {
     assert!(beside.contains("outside the recording") && !drive.join("plan.json").exists(), "{beside}");
 }
 
+/// Plans the same recording with other settings while a part of it is labelled.
+struct Meanwhile<'a>(&'a Path, &'a Path);
+
+impl Observer for Meanwhile<'_> {
+    fn advance(&self, _: u64, _: u64) {
+        let before = fs::read(self.1.join("plan.json")).unwrap();
+        let other = Settings::from_toml("", &["lidar.beta=0.125"]).unwrap();
+        let job = Job { settings: other, ..job(self.0, self.1) };
+        let error = plan(&job, scans(5), ONE, &Unwatched).unwrap_err().to_string();
+        assert!(error.contains("another run"), "{error}");
+        assert_eq!(fs::read(self.1.join("plan.json")).unwrap(), before);
+    }
+}
+
+#[test]
+fn a_plan_that_is_refused_while_others_work_leaves_theirs_as_it_is() {
+    let root = tempfile::tempdir().unwrap();
+    let drive = recording(root.path(), 1);
+    let out = root.path().join("out");
+    let tasks = plan(&job(&drive, &out), scans(5), ONE, &Unwatched).unwrap();
+    assert_eq!(label_one(&tasks[0], ONE, &Meanwhile(&drive, &out)).unwrap(), []);
+    assert_eq!(assemble(&out, ONE, &Unwatched).unwrap().labelled.len(), 1);
+}
+
 /// The reason of a recording that can't be opened is told when it is planned, and again when all is put together.
 #[test]
 fn a_damaged_recording_is_named() {

@@ -6,8 +6,10 @@ use crate::labelling::to_json;
 use arrow_buffer::Buffer;
 use pyo3::prelude::*;
 use ralf::label::truth_of;
-use ralf_data::result::LabelledRun;
-use ralf_data::{Balances, Comparison, Corrections, DataError, GroundTruth, ScanId, open_with};
+use ralf_data::result::labelled_recording;
+use ralf_data::{
+    Balances, Comparison, Corrections, DataError, GroundTruth, Recording, ScanId, lost_sequences,
+};
 use std::path::{Path, PathBuf};
 
 /// As `ralf evaluate OUT --truth TRUTH --json` prints it; without a truth how balanced the labels are.
@@ -27,12 +29,9 @@ fn compare(out: &Path, dataset: &Path) -> Result<Comparison, DataError> {
 
 /// The truth of a dataset, with what people corrected of a run above it.
 fn corrected(out: &Path, dataset: &Path) -> Result<GroundTruth, DataError> {
-    let run = LabelledRun::open(out)?;
-    let recording = open_with(dataset, None, &run.settings().topics).ok();
-    // Labels of one format may be compared with truth that is kept in another.
-    let recording = recording.filter(|recording| recording.format == run.record().format);
-    let corrections = match recording {
-        Some(mut recording) => {
+    let corrections = match labelled_recording(out, dataset)? {
+        Some((run, mut recording)) => {
+            refuse_lost_sequences(out, &recording)?;
             recording.sequences.retain(|reader| run.holds(&reader.sequence().name));
             run.refuse_changes(&recording)?;
             Corrections::of_recording(out, &recording)?
@@ -43,6 +42,16 @@ fn corrected(out: &Path, dataset: &Path) -> Result<GroundTruth, DataError> {
         true => GroundTruth::open(dataset),
         false => GroundTruth::merged(dataset, corrections),
     }
+}
+
+/// Corrections of sequences that are gone would be left out.
+fn refuse_lost_sequences(out: &Path, recording: &Recording) -> Result<(), DataError> {
+    let lost = lost_sequences(out, None, recording)?;
+    if lost.is_empty() {
+        return Ok(());
+    }
+    let found = format!("none of {}", Vec::from_iter(lost).join(", "));
+    Err(DataError::content(&recording.path, "sequences", "all that were corrected", found))
 }
 
 /// What is true of a dataset's detections, as far as anybody says it.

@@ -13,7 +13,7 @@ use crate::progress::say;
 use crate::run_summary::say_not_labelled;
 use crate::text::print;
 use ralf_data::judge::QueueCurve;
-use ralf_data::result::LabelledRun;
+use ralf_data::result::{LabelledRun, labelled_recording};
 use ralf_data::{Balances, Comparison, Recording};
 use std::path::{Path, PathBuf};
 
@@ -100,17 +100,7 @@ fn compare(args: &EvaluateArgs, dataset: &Path) -> anyhow::Result<Outcome> {
 /// The recording that the truth lies in, once it is found to be what was labelled. Label files are enough, so that
 /// there need not be one.
 fn recording_of(args: &EvaluateArgs, dataset: &Path) -> anyhow::Result<Option<Recording>> {
-    if !args.out.join("run.json").exists() {
-        return Ok(None);
-    }
-    let run = LabelledRun::open(&args.out)?;
-    let Ok(mut recording) = ralf_data::open_with(dataset, None, &run.settings().topics) else {
-        return Ok(None);
-    };
-    // Labels of one format may be compared with truth that is kept in another.
-    if recording.format != run.record().format {
-        return Ok(None);
-    }
+    let Some((run, mut recording)) = labelled_recording(&args.out, dataset)? else { return Ok(None) };
     // Sequences without truth are named later on, whatever the recording has.
     args.changed.check_sequences(args.corrections.as_deref().unwrap_or(&args.out), None, &recording)?;
     recording.sequences.retain(|reader| run.holds(&reader.sequence().name));

@@ -1,6 +1,6 @@
 //! `ralf segment`, and labels with what it stored.
 
-use crate::support::{Dataset, Shape, ralf, schema};
+use crate::support::{Dataset, Ran, Shape, program, ralf, schema};
 use std::fs;
 
 #[allow(dead_code, reason = "the tests of the crate use all of it")]
@@ -61,4 +61,32 @@ fn what_is_wrong_with_network_card_and_store_is_named() {
     let refused = ralf(["segment", &dataset.path, "--model", &model, "-o", &store]).exits(1);
     refused
         .says(["segmentation.toml: network: expected segmentation of the network", "found that of another"]);
+}
+
+/// What is typed beside the recording is found from every other folder: by the commands that follow, and by a run that
+/// goes on.
+#[test]
+fn a_store_and_a_trajectory_that_are_named_from_their_folder_are_found_from_another() {
+    let dataset = Dataset::of(&Shape { scans: 3, ..Shape::default() }).with_camera(3);
+    let folder = dataset.beside("");
+    colours(&dataset);
+    fs::write(dataset.beside("poses.tum"), "1600000000 0 0 0 0 0 0 1\n1600000009 18 0 0 0 0 0 1\n").unwrap();
+    let here = |arguments: &str| {
+        Ran::of(&program().current_dir(&folder).args(arguments.split(' ')).output().unwrap())
+    };
+    here("segment dataset --model colours.onnx -o classes").exits(0);
+    here("label dataset -o out --segmentation classes --trajectory poses.tum").exits(0);
+    here("export dataset out --to npz -o near").exits(0);
+    let labels = dataset.result("plausibility.parquet");
+    let made = fs::metadata(&labels).unwrap().modified().unwrap();
+    let [poses, classes, far] = ["poses.tum", "classes", "far"].map(|name| dataset.beside(name));
+    let whole = ["--segmentation", &classes, "--trajectory", &poses];
+    ralf(["label", &dataset.path, "-o", &dataset.out, whole[0], whole[1], whole[2], whole[3]]).exits(0);
+    assert_eq!(fs::metadata(&labels).unwrap().modified().unwrap(), made, "nothing has changed");
+    fs::rename(&classes, dataset.beside("used")).unwrap();
+    ralf(["export", &dataset.path, &dataset.out, "--to", "npz", "-o", &far]).exits(0);
+    fs::write(&poses, "1600000000 0 0 0 0 0 0 1\n1600000009 9 0 0 0 0 0 1\n").unwrap();
+    let changed =
+        ralf(["export", &dataset.path, &dataset.out, "--to", "npz", "-o", &far, "--force"]).exits(1);
+    changed.says(["poses.tum: expected what was labelled"]);
 }

@@ -23,6 +23,12 @@ pub(crate) fn exists(file: &Path) -> Result<bool, DataError> {
     }
 }
 
+/// A path that leads to the same place from every folder. Where the system doesn't tell which one this is, it stays as
+/// it was given.
+pub(crate) fn whole(path: &Path) -> PathBuf {
+    std::path::absolute(path).unwrap_or_else(|_| path.to_owned())
+}
+
 /// Opens a file that is read piece by piece, of any size.
 pub(crate) fn open(file: &Path) -> Result<fs::File, DataError> {
     ralf_files::open(file, Kind::Stream).map_err(DataError::io(file))

@@ -2,17 +2,17 @@
 //! read.
 
 use super::content::{input_is_unchanged, table_is_whole};
-use super::record::{RunRecord, read_record};
+use super::record::{Input, RECORD, RunRecord, read_record};
 use super::sequence_record::SequenceRecord;
 use super::{Component, Places, PlausibilityReader, Schema};
 use crate::disk::files;
 use crate::disk::label_file::{Label, labels_of_bytes};
 use crate::error::DataError;
-use crate::read::{Recording, SequenceReader};
+use crate::read::{Recording, SequenceReader, open_with};
 use crate::settings::Settings;
 use ralf::config::Config;
 use ralf::sensors::Rig;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 /// An output folder of `ralf label`.
@@ -34,6 +34,22 @@ pub struct LabelledSequence {
     pub settings: Config,
     /// The labelled detections.
     pub tables: PlausibilityReader,
+}
+
+/// A run and the dataset that it labelled, as the truth about its labels may lie there: opened with the run's topics,
+/// and not yet compared with what was labelled. `None` where there are label files alone, where the dataset is no
+/// recording, and where it is one of another format: labels may be compared with truth that is kept in another.
+///
+/// # Errors
+/// A `run.json` that can't be read.
+pub fn labelled_recording(out: &Path, dataset: &Path) -> Result<Option<(LabelledRun, Recording)>, DataError> {
+    if !files::exists(&out.join(RECORD))? {
+        return Ok(None);
+    }
+    let run = LabelledRun::open(out)?;
+    let recording = open_with(dataset, None, &run.settings().topics).ok();
+    let recording = recording.filter(|recording| recording.format == run.record().format);
+    Ok(recording.map(|recording| (run, recording)))
 }
 
 /// A file that isn't what was labelled.
@@ -110,22 +126,22 @@ impl LabelledRun {
             if !self.holds(name) {
                 continue;
             }
-            let mut now: BTreeSet<PathBuf> = reader.inputs().into_iter().collect();
+            let named = |file: PathBuf| (Input::name(&file, &recording.path), file);
+            let mut now: BTreeMap<String, PathBuf> = reader.inputs().into_iter().map(named).collect();
             for input in self.record.inputs.iter().filter(|input| input.sequence == *name) {
-                // A recording that is one file has no name within itself.
-                let file = match input.file.is_empty() {
-                    true => recording.path.clone(),
-                    false => recording.path.join(&input.file),
-                };
+                let found = now.remove(&input.file);
                 // What lies elsewhere, such as depth beside the labels, may go once it was used.
-                let elsewhere = Path::new(&input.file).is_absolute();
-                if !now.remove(&file) && elsewhere || input_is_unchanged(&file, input)? {
+                if found.is_none() && Path::new(&input.file).is_absolute() {
+                    continue;
+                }
+                let file = found.unwrap_or_else(|| recording.path.join(&input.file));
+                if input_is_unchanged(&file, input)? {
                     continue;
                 }
                 let change = if file.exists() { Change::Content } else { Change::Missing };
                 changes.insert(ChangedInput { sequence: name.clone(), file, change });
             }
-            let new = now.into_iter().map(|file| (file, Change::New));
+            let new = now.into_values().map(|file| (file, Change::New));
             changes.extend(new.map(|(file, change)| ChangedInput { sequence: name.clone(), file, change }));
         }
         Ok(changes.into_iter().collect())

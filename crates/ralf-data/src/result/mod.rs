@@ -25,7 +25,7 @@ mod without_numbers;
 
 pub use check_record::{CheckLine, CheckRecord};
 pub use class_source::ClassSource;
-pub use labelled_run::{Change, ChangedInput, LabelledRun, LabelledSequence};
+pub use labelled_run::{Change, ChangedInput, LabelledRun, LabelledSequence, labelled_recording};
 pub use names::Component;
 pub use parquet_reader::PlausibilityReader;
 pub use parquet_writer::PlausibilityWriter;

@@ -3,6 +3,7 @@
 use super::check_record::CheckRecord;
 use super::json::read_json;
 use super::sequence_record::{CameraRecord, NotLabelled, RadarRecord, SequenceRecord, UnreadableScan};
+use crate::disk::files;
 use crate::error::DataError;
 use crate::read::Recording;
 use crate::settings::Settings;
@@ -49,7 +50,7 @@ pub struct RunRecord {
 pub struct Input {
     /// Name of the sequence that it was read for.
     pub sequence: String,
-    /// Relative to the recording.
+    /// Relative to the recording; a whole path where it lies elsewhere, as depth beside the labels does.
     pub file: String,
     /// Its size.
     pub bytes: u64,
@@ -58,6 +59,20 @@ pub struct Input {
     pub mtime_ns: Option<i64>,
     /// Of its content; empty where it can't be read.
     pub blake3: String,
+}
+
+impl Input {
+    /// What the record calls a file of the recording at `root`: the same from wherever the program is started.
+    pub(crate) fn name(file: &Path, root: &Path) -> String {
+        let name = match file.strip_prefix(root) {
+            Ok(within) => within.to_owned(),
+            Err(_) => {
+                let whole = files::whole(file);
+                whole.strip_prefix(files::whole(root)).map(Path::to_owned).unwrap_or(whole)
+            }
+        };
+        name.to_string_lossy().into_owned()
+    }
 }
 
 /// How long it took.
@@ -95,7 +110,7 @@ impl RunRecord {
             version: env!("CARGO_PKG_VERSION").to_owned(),
             program: env!("RALF_SOURCES").to_owned(),
             format: recording.format.to_owned(),
-            settings: settings.clone(),
+            settings: settings.anywhere(),
             evidence,
             model: model.map(|model| blake3::hash(model.to_text().as_bytes()).to_hex().to_string()),
             inputs: Vec::new(),

@@ -93,7 +93,7 @@ fn input(
     known: &HashMap<&str, &Input>,
     observer: &dyn Observer,
 ) -> Input {
-    let name = file.strip_prefix(root).unwrap_or(file).to_string_lossy().into_owned();
+    let name = Input::name(file, root);
     let Found { size, mtime_ns } = *found;
     let same =
         |known: &&&Input| mtime_ns.is_some() && (Some(known.bytes), known.mtime_ns) == (size, mtime_ns);

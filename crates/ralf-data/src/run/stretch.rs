@@ -45,10 +45,21 @@ impl LabelRun<'_> {
     /// # Errors
     /// Those of [`Self::execute`].
     pub fn plan(&self, scans: NonZeroUsize, observer: &dyn Observer) -> Result<Vec<Stretch>, DataError> {
+        self.plan_and(|| Ok(()), scans, observer)
+    }
+
+    /// The same, with something to keep as soon as nobody else writes to the output folder.
+    pub(crate) fn plan_and(
+        &self,
+        keep: impl FnOnce() -> Result<(), DataError>,
+        scans: NonZeroUsize,
+        observer: &dyn Observer,
+    ) -> Result<Vec<Stretch>, DataError> {
         check_output_folder(&self.recording.path, self.out)?;
         let labeler = self.labeler()?;
         let tasks = self.tasks(labeler.as_ref())?;
         let _lock = self.lock()?;
+        keep()?;
         let (folder, asked) = self.open_folder(observer)?;
         let mut stretches = Vec::new();
         for (task, identity) in tasks.iter().zip(&asked).filter(|(_, asked)| !folder.holds(&asked.name)) {
@@ -90,10 +101,12 @@ impl LabelRun<'_> {
         self.refuse_links()?;
         let run = self.record();
         let unfinished = Unfinished::of(&OutFolder::new(self.out), &run)?;
-        if !unfinished.is_planned(&stretch.fingerprint)? {
+        let is_planned = || unfinished.is_planned(&stretch.fingerprint);
+        let lock = is_planned()?.then(|| WriterLock::share(self.out.join(LOCK), self.out)).transpose()?;
+        // Until the lock was there, somebody may have put all together.
+        if lock.is_none() || !is_planned()? {
             return self.check_done(&run, stretch).map(|()| Vec::new());
         }
-        let _lock = WriterLock::share(self.out.join(LOCK), self.out)?;
         self.label_planned(&task, stretch, &unfinished, observer)
     }
 
