@@ -61,8 +61,8 @@ impl App {
     /// Opens all that is needed. Labels must be there; the store is made if it isn't.
     pub(crate) fn open(recording: Recording, out: &Path, options: &Options) -> Result<Self, ReviewError> {
         // Without labels there is nothing to review, and no store is made.
-        read_record(out)?;
-        let team = Team::open(out, options.second.clone())?;
+        let labelled = read_record(out)?.sequences;
+        let team = Team::open(out, &labelled, options.second.clone())?;
         Ok(Self {
             store: SharedStore::open(&team.store(out)?)?,
             team,

@@ -3,6 +3,7 @@
 use crate::error::ReviewError;
 use ralf_corrections::FILE;
 use ralf_data::DataError;
+use ralf_data::result::SequenceRecord;
 use ralf_data::team::{Assignment, second_file};
 use std::collections::BTreeSet;
 use std::fs;
@@ -16,8 +17,13 @@ pub(crate) struct Team {
 }
 
 impl Team {
-    pub(crate) fn open(out: &Path, second: Option<String>) -> Result<Self, ReviewError> {
-        Ok(Self { assignment: Assignment::open(out)?, second })
+    /// Of labelled sequences.
+    pub(crate) fn open(
+        out: &Path,
+        labelled: &[SequenceRecord],
+        second: Option<String>,
+    ) -> Result<Self, ReviewError> {
+        Ok(Self { assignment: Assignment::open(out, labelled)?, second })
     }
 
     /// Where edits are written. Nobody else's file is ever opened for who labels a second time.

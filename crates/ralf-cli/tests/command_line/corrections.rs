@@ -2,6 +2,7 @@
 
 use crate::support::{Dataset, Shape, ralf};
 use ralf_corrections::{Mark, Outcome, ScanEdit, ScanKey, Store, Stroke, Who};
+use ralf_data::result::read_record;
 use ralf_data::team::Assignment;
 use serde_json::{Value, json};
 use std::fs;
@@ -143,7 +144,8 @@ fn work_is_dealt_once_and_what_people_did_is_told() {
     deal("ada,bob", "2").exits(2).says(["expected a number from 0 to 1"]);
     // Two sequences of two radars with eight scans each: one for each person, and a quarter of the other's.
     deal("ada,bob", "0.25").exits(0).prints(["ada", "bob", "team.toml"]);
-    let dealt = Assignment::open(Path::new(&dataset.out)).unwrap().unwrap();
+    let labelled = read_record(Path::new(&dataset.out)).unwrap().sequences;
+    let dealt = Assignment::open(Path::new(&dataset.out), &labelled).unwrap().unwrap();
     for (name, own, other) in [("ada", "00", "01"), ("bob", "01", "00")] {
         let share = &dealt.0[name];
         assert_eq!(share.sequences, [own]);

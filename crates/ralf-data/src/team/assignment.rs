@@ -61,11 +61,12 @@ impl Assignment {
         Self(people.iter().map(|name| name.as_str().to_owned()).zip(shares).collect())
     }
 
-    /// Reads what was dealt below an output folder; `None` where nothing was.
+    /// Reads what was dealt of these labelled sequences below an output folder; `None` where nothing was.
     ///
     /// # Errors
-    /// A file that says something else.
-    pub fn open(out: &Path) -> Result<Option<Self>, DataError> {
+    /// A file that says something else, or names sequences or scans that aren't there: nobody would ever be asked for
+    /// them.
+    pub fn open(out: &Path, labelled: &[SequenceRecord]) -> Result<Option<Self>, DataError> {
         let file = Self::file(out);
         if !files::exists(&file)? {
             return Ok(None);
@@ -74,7 +75,30 @@ impl Assignment {
             let expected = "for each person `sequences` and `twice`";
             DataError::content(&file, "content", expected, error.message())
         };
-        toml::from_str(&files::read_text(&file, Kind::Settings)?).map(Some).map_err(refused)
+        let dealt: Self = toml::from_str(&files::read_text(&file, Kind::Settings)?).map_err(refused)?;
+        dealt.check(&file, labelled)?;
+        Ok(Some(dealt))
+    }
+
+    fn check(&self, file: &Path, labelled: &[SequenceRecord]) -> Result<(), DataError> {
+        let of = |name: &str| labelled.iter().find(|sequence| sequence.name == name);
+        // A scan that could not be labelled this time may be dealt all the same.
+        let exists = |scan: &ScanId| {
+            let mut radars = of(&scan.sequence).into_iter().flat_map(|sequence| &sequence.radars);
+            radars.any(|radar| radar.name == scan.radar && (scan.scan as usize) < radar.detections.len())
+        };
+        for (person, share) in &self.0 {
+            let refused = |key: &str, expected, found: String| {
+                Err(DataError::content(file, format!("[{person}], {key}"), expected, format!("`{found}`")))
+            };
+            if let Some(name) = share.sequences.iter().find(|name| of(name).is_none()) {
+                return refused("sequences", "labelled sequences", name.clone());
+            }
+            if let Some(scan) = share.twice.iter().find(|scan| !exists(scan)) {
+                return refused("twice", "scans of labelled sequences", scan.to_string());
+            }
+        }
+        Ok(())
     }
 
     /// Writes it below an output folder, and tells where.
@@ -207,10 +231,12 @@ mod tests {
     #[test]
     fn it_is_read_as_it_was_written_and_never_overwritten() {
         let out = tempfile::tempdir().unwrap();
-        assert_eq!(Assignment::open(out.path()).unwrap(), None);
-        let dealt = Assignment::deal(&[sequence("a b", &[1; 9])], &people(&["ada", "bob"]), 0.3, 0);
+        let labelled = [sequence("a b", &[1; 9])];
+        let open = || Assignment::open(out.path(), &labelled);
+        assert_eq!(open().unwrap(), None);
+        let dealt = Assignment::deal(&labelled, &people(&["ada", "bob"]), 0.3, 0);
         let file = dealt.write(out.path()).unwrap();
-        assert_eq!(Assignment::open(out.path()).unwrap(), Some(dealt.clone()));
+        assert_eq!(open().unwrap(), Some(dealt.clone()));
         assert!(dealt.write(out.path()).unwrap_err().to_string().contains("delete it to deal anew"));
         for wrong in [
             "ada = 3",
@@ -220,8 +246,29 @@ mod tests {
             "[",
         ] {
             std::fs::write(&file, wrong).unwrap();
-            let told = Assignment::open(out.path()).unwrap_err().to_string();
+            let told = open().unwrap_err().to_string();
             assert!(told.contains("team.toml: content: expected for each person"), "{told}");
+        }
+    }
+
+    #[test]
+    fn a_name_that_is_no_sequence_or_scan_is_told() {
+        let out = tempfile::tempdir().unwrap();
+        let labelled = [sequence("a", &[1; 9])];
+        for (text, expected) in [
+            ("[ada]\nsequences = [\"b\"]", "[ada], sequences: expected labelled sequences, found `b`"),
+            (
+                "[ada]\ntwice = [\"a/front/9\"]",
+                "[ada], twice: expected scans of labelled sequences, found `a/front/",
+            ),
+            (
+                "[ada]\ntwice = [\"a/rear/1\"]",
+                "[ada], twice: expected scans of labelled sequences, found `a/rear/",
+            ),
+        ] {
+            std::fs::write(out.path().join(FILE), text).unwrap();
+            let told = Assignment::open(out.path(), &labelled).unwrap_err().to_string();
+            assert!(told.contains(expected), "{told}");
         }
     }
 
