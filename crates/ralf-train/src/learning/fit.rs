@@ -13,6 +13,7 @@ use super::table::{Known, TrainingTable};
 use super::view::View;
 use crate::side_by_side;
 use ralf::learned::{Calibration, Input, Model, Origin, Rows, Seen, Unconfirmed, World};
+use std::collections::BTreeSet;
 use std::convert::Infallible;
 use thiserror::Error;
 
@@ -117,7 +118,8 @@ fn refuse_what_cannot_be_learned(table: &TrainingTable) -> Result<(), LearnError
     if plausible == 0 || artifacts == 0 {
         return Err(LearnError::OneClass { plausible, artifacts });
     }
-    let worlds = table.worlds.len();
+    // Of some nothing may be known: without rows, they are none.
+    let worlds = table.known.iter().map(|known| known.world).collect::<BTreeSet<_>>().len();
     if worlds < 2 { Err(LearnError::TooFewWorlds(worlds)) } else { Ok(()) }
 }
 
@@ -339,8 +341,9 @@ mod tests {
         one_class.known.iter_mut().for_each(|known| known.plausible = false);
         assert_eq!(fitted(&one_class, 1), Err(LearnError::OneClass { plausible: 0, artifacts: 100 }));
         let mut one_world = table(10, 10);
-        one_world.worlds.truncate(1);
         one_world.known.iter_mut().for_each(|known| known.world = 0);
+        assert_eq!(fitted(&one_world, 1), Err(LearnError::TooFewWorlds(1)), "others without rows are none");
+        one_world.worlds.truncate(1);
         assert_eq!(fitted(&one_world, 1), Err(LearnError::TooFewWorlds(1)));
     }
 }

@@ -45,9 +45,11 @@ impl Weighing {
 }
 
 /// What turns odds where so large a share is plausible into those where another is: Bayes' rule, with whatever makes
-/// plausible ones look as they do unchanged (label shift). 1 where either is not known, which 0 says.
+/// plausible ones look as they do unchanged (label shift). 1 where either is not known, which 0 says, and where a model
+/// has seen plausible ones alone, to whom no odds are known.
 fn expected(known: f64, wanted: f64) -> f64 {
-    if known * wanted > 0.0 { (wanted / (1.0 - wanted)) / (known / (1.0 - known)) } else { 1.0 }
+    let is_known = known > 0.0 && known < 1.0 && wanted > 0.0;
+    if is_known { (wanted / (1.0 - wanted)) / (known / (1.0 - known)) } else { 1.0 }
 }
 
 #[cfg(test)]
@@ -59,6 +61,6 @@ mod tests {
         for (known, wanted) in [(0.41, 0.2), (0.41, 0.41), (0.1, 0.6)] {
             assert!((with_odds(known, expected(known, wanted)) - wanted).abs() < 1e-12, "{known} {wanted}");
         }
-        assert_eq!([expected(0.41, 0.0), expected(0.0, 0.2)], [1.0, 1.0]);
+        assert_eq!([expected(0.41, 0.0), expected(0.0, 0.2), expected(1.0, 0.2)], [1.0; 3]);
     }
 }

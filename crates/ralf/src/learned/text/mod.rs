@@ -13,6 +13,16 @@ const HEAD: &str = "ralf model 1";
 /// What comes with the program.
 const SHIPPED: &str = include_str!("../../../models/shipped.txt");
 
+/// The CRC-32 of lines, eight hexadecimal digits; how they end doesn't count, for tools of other systems change that.
+fn checksum<'a>(lines: impl Iterator<Item = &'a str>) -> String {
+    let mut sum = crc32fast::Hasher::new();
+    for line in lines {
+        sum.update(line.as_bytes());
+        sum.update(b"\n");
+    }
+    format!("{:08x}", sum.finalize())
+}
+
 impl Model {
     /// The model that comes with this version of the program.
     ///
@@ -112,8 +122,24 @@ mod tests {
         let tree = lines.iter().find(|line| line.starts_with("tree")).unwrap();
         let error = Model::from_text(&text.replacen(&format!("{tree}\n"), "", 1)).unwrap_err().to_string();
         assert!(error.contains("for so many lines are before it, found `end "), "{error}");
-        let older = text.replace(lines[lines.len() - 1], "end");
-        assert_eq!(Model::from_text(&older), Ok(model()));
+        for older in ["end", &format!("end {}", lines.len() - 1)] {
+            let older = text.replace(lines[lines.len() - 1], older);
+            assert_eq!(Model::from_text(&older), Ok(model()));
+        }
+    }
+
+    #[test]
+    fn a_digit_that_is_another_is_refused_and_another_systems_ends_of_lines_are_not() {
+        let text = model().to_text();
+        for (at, digit) in text.char_indices().filter(|(_, char)| char.is_ascii_digit()) {
+            let other = if digit == '1' { "2" } else { "1" };
+            let mut changed = text.clone();
+            changed.replace_range(at..=at, other);
+            assert!(Model::from_text(&changed).is_err(), "{at}: {changed}");
+        }
+        let error = Model::from_text(&text.replacen("0.9123", "0.9124", 1)).unwrap_err().to_string();
+        assert!(error.contains("the checksum of the lines before it"), "{error}");
+        assert_eq!(Model::from_text(&text.replace('\n', "\r\n")), Ok(model()));
     }
 
     #[test]
@@ -126,12 +152,13 @@ mod tests {
         for (from, to, expected) in [
             ("ralf model 1", "ralf model 2", "line 1: expected `ralf model 1`, found `ralf model 2`"),
             ("seed 18", "seed x18", "line 4: expected seed and a whole number"),
+            ("world 9 4", "world 9 10", "line 5: expected world, a count, another of no more"),
             ("input lidar_residual_v", "inputs lidar_residual_v", "expected"),
             ("calibrated 0.1 0.7", "calibrated 0.1 1.7", "expected points of rising log odds"),
             ("tree 1 0.1 y", "tree 1 inf y", "expected finite numbers"),
             ("tree 1 0.1 y", "tree 70000 0.1 y", "expected"),
             ("tree 1 0.1 y", "tree 1 0.1 y 1 0.1 n", "expected a whole tree"),
-            ("\nend", "\nend\nend", "expected no further line, found `end 14`"),
+            ("\nend", "\nend\nend", "expected no further line, found `end 14 "),
         ] {
             let found = refusal(from, to);
             assert!(found.contains(expected), "{from} -> {to}: {found}");

@@ -5,7 +5,7 @@ use super::super::familiar::Seen;
 use super::super::forest::Forest;
 use super::super::model::{CauseForest, Input, Model, Origin, World};
 use super::super::tree::{Leaf, Node, Split, Tree};
-use super::HEAD;
+use super::{HEAD, checksum};
 use std::iter::Peekable;
 use std::str::{Lines, SplitWhitespace};
 use thiserror::Error;
@@ -40,7 +40,7 @@ pub(super) fn model(text: &str) -> Result<Model, ReadError> {
     while let Some(cause) = reader.cause()? {
         causes.push(cause);
     }
-    reader.end(text.ends_with('\n'))?;
+    reader.end(text)?;
     match reader.lines.next() {
         None => Ok(Model { origin, inputs, plausible, calibration, causes }),
         Some((at, text)) => Err(Line { at, key: "", text, rest: text }.refuse("no further line")),
@@ -81,18 +81,27 @@ impl<'a> Reader<'a> {
         if line.key == key { Ok(line) } else { Err(line.refuse(format!("`{key}`"))) }
     }
 
-    /// The last line, which tells how many are before it; the first models didn't tell.
-    fn end(&mut self, is_whole: bool) -> Result<(), ReadError> {
+    /// The last line of this text, which tells how many are before it, and their checksum. Models of earlier programs
+    /// tell neither or the first alone, and so may what people changed by hand.
+    fn end(&mut self, text: &str) -> Result<(), ReadError> {
         let end = self.next("end")?;
         // It is whole only with its own end.
-        if end.key != "end" || !is_whole {
+        if end.key != "end" || !text.ends_with('\n') {
             return Err(end.refuse("another forest, or `end` as the last line"));
         }
-        match end.rest.parse::<usize>() {
-            Ok(lines) if lines == end.at => Ok(()),
-            Err(_) if end.text == "end" => Ok(()),
-            _ => Err(end.refuse(format!("`end {}`, for so many lines are before it", end.at))),
+        let (lines, sum) = match end.rest.split_once(' ') {
+            Some((lines, sum)) => (lines, Some(sum)),
+            None => (end.rest, None),
+        };
+        if end.text != "end" && lines.parse() != Ok(end.at) {
+            return Err(end.refuse(format!("`end {}`, for so many lines are before it", end.at)));
         }
+        let expected = checksum(text.lines().take(end.at));
+        if sum.is_some_and(|sum| sum != expected) {
+            let why = "the checksum of the lines before it; without it, whatever they say is taken";
+            return Err(end.refuse(format!("`end {} {expected}`, {why}", end.at)));
+        }
+        Ok(())
     }
 
     fn origin(&mut self) -> Result<Origin, ReadError> {
@@ -102,9 +111,9 @@ impl<'a> Reader<'a> {
         let seed = line.rest.parse().map_err(|_| line.refuse("seed and a whole number"))?;
         let mut worlds = Vec::new();
         while let Some(line) = self.next_if("world")? {
-            worlds.push(
-                line.world().ok_or_else(|| line.refuse("world, two counts, a name, a colon and scores"))?,
-            );
+            worlds.push(line.world().ok_or_else(|| {
+                line.refuse("world, a count, another of no more, a name, a colon and scores")
+            })?);
         }
         Ok(Origin { program, command, seed, worlds })
     }
@@ -187,6 +196,9 @@ impl Line<'_> {
         let (head, told) = self.rest.split_once(':')?;
         let mut words = head.splitn(3, ' ');
         let (detections, plausible) = (words.next()?.parse().ok()?, words.next()?.parse().ok()?);
+        if plausible > detections {
+            return None;
+        }
         let name = words.next()?.to_owned();
         let words: Vec<&str> = told.split_whitespace().collect();
         if words.len() % 2 == 1 {

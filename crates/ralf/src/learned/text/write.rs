@@ -4,7 +4,7 @@ use super::super::familiar::Seen;
 use super::super::forest::Forest;
 use super::super::model::{Input, Model, World};
 use super::super::tree::{Leaf, Node, Split, Tree};
-use super::HEAD;
+use super::{HEAD, checksum};
 use std::fmt::Write;
 
 /// A model as text.
@@ -33,9 +33,9 @@ pub(super) fn text(model: &Model) -> String {
     for cause in causes {
         forest(&mut lines, &format!("cause {}", one_line(&cause.name)), &cause.forest);
     }
-    // A reader sees by their number that one is lost or there twice.
-    let before = lines.lines().count();
-    line(&mut lines, format_args!("end {before}"));
+    // A reader sees by their number that one is lost or there twice, and by their sum that one is another.
+    let (before, sum) = (lines.lines().count(), checksum(lines.lines()));
+    line(&mut lines, format_args!("end {before} {sum}"));
     lines
 }
 
