@@ -149,9 +149,8 @@ mod tests {
     use super::*;
 
     fn scored(range: f32, azimuth: f32, plausible: bool, class: u16, cause: u8) -> Scored {
-        let (w_opt, w_tr, w, gamma) = (1.0, 1.0, 1.0, 1.0);
         let truth = ralf::label::truth_of(class).map(|truth| (class, truth));
-        Scored { range, azimuth, w_opt, w_tr, w, gamma, plausible, flags: 0, truth, cause: Some(cause) }
+        Scored { range, azimuth, plausible, truth, cause: Some(cause), ..Scored::with(1.0) }
     }
 
     fn some() -> [Scored; 5] {

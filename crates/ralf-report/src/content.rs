@@ -8,7 +8,7 @@ use crate::scored::{COLUMNS, Origin, Scored};
 use crate::told::{self, Told};
 use crate::{Detections, Pictures, Report, ReportError};
 use ralf::metrics::Separation;
-use ralf_data::judge::is_uncertain;
+use ralf_data::judge::Certainty;
 use ralf_data::result::{LabelledRun, LabelledSequence, RunRecord};
 use ralf_data::{Balance, Causes, Comparison, Corrections, DataError, GroundTruth, SequenceReader};
 use ralf_plot::Extent;
@@ -147,8 +147,8 @@ impl Content {
 /// What is counted over the detections of one sequence.
 struct Counted {
     balance: Balance,
-    /// The scans of the first radar with uncertain detections ([`is_uncertain`]), those first that have the largest
-    /// share of them.
+    /// The scans of the first radar with uncertain detections ([`Certainty::is_uncertain`]), those first that have the
+    /// largest share of them.
     uncertain: Vec<usize>,
 }
 
@@ -165,10 +165,10 @@ impl Counted {
         let (dataset, sequence) = (&report.recording.path, &reader.sequence().name);
         let causes = truth.map_or_else(|| Causes::find(dataset, sequence), |truth| truth.causes(sequence))?;
         findings.groups.name_causes(causes.as_ref().map_or(&[], Causes::names));
-        let origin = Origin { sequence, rig: &labelled.rig, truth, causes: causes.as_ref() };
+        let certainty = Certainty::of(&labelled.settings);
+        let origin = Origin { sequence, rig: &labelled.rig, certainty, truth, causes: causes.as_ref() };
         let radar = first_radar(reader);
         let (mut balance, mut shares) = (Separation::default(), Vec::new());
-        let threshold = labelled.settings.fusion.threshold as f32;
         labelled.tables.each(&COLUMNS, |key, table| {
             let scan = origin.scored(key, table)?;
             findings.add(&scan, causes.as_ref());
@@ -177,7 +177,7 @@ impl Counted {
                 overall.add(scored.w.into(), scored.plausible);
             }
             if *key.radar == *radar {
-                shares.push((uncertain_share(&scan, threshold), key.scan));
+                shares.push((uncertain_share(&scan, &certainty), key.scan));
             }
             Ok::<_, ReportError>(())
         })?;
@@ -217,8 +217,8 @@ fn first_radar(reader: &dyn SequenceReader) -> String {
 }
 
 /// The share of a scan's detections that are uncertain.
-fn uncertain_share(scan: &[Scored], threshold: f32) -> f64 {
-    let uncertain = scan.iter().filter(|scored| is_uncertain(scored.w, scored.flags, threshold)).count();
+fn uncertain_share(scan: &[Scored], certainty: &Certainty) -> f64 {
+    let uncertain = scan.iter().filter(|scored| certainty.is_uncertain(scored.w, scored.flags)).count();
     uncertain as f64 / scan.len().max(1) as f64
 }
 
@@ -278,25 +278,19 @@ mod tests {
     /// A floor detection is decided, however near to the threshold.
     #[test]
     fn doubtful_detections_make_a_scan_uncertain() {
-        let scored = |w, flags| Scored {
-            range: 1.0,
-            azimuth: 0.0,
-            w_opt: w,
-            w_tr: w,
-            w,
-            gamma: 1.0,
-            plausible: true,
-            flags,
-            truth: None,
-            cause: None,
-        };
+        let scored = |w, flags| Scored { flags, ..Scored::with(w) };
         let scans = [
             vec![scored(0.9, 0), scored(0.55, 0)],
             vec![scored(0.45, 0), scored(0.55, 0)],
             vec![scored(0.5, flag::GROUND)],
             vec![],
         ];
-        let shares = scans.iter().enumerate().map(|(scan, scored)| (uncertain_share(scored, 0.5), scan));
-        assert_eq!(in_order(shares.collect()), [1, 0]);
+        let order = |calibrated| {
+            let certainty = Certainty { threshold: 0.5, calibrated };
+            let shares = scans.iter().enumerate();
+            in_order(shares.map(|(scan, scored)| (uncertain_share(scored, &certainty), scan)).collect())
+        };
+        assert_eq!(order(false), [1, 0]);
+        assert_eq!(order(true), [1, 2, 0], "a model isn't sure because something lies on the floor");
     }
 }

@@ -36,7 +36,7 @@ impl Bin {
     }
 }
 
-/// Detections with truth by their plausibility: floor detections and unobserved ones never pass, as in the method.
+/// Detections with truth by their plausibility: what is an artifact at any `w` never passes, as in the method.
 ///
 /// Counted in fine steps of `w`, so that memory doesn't grow with the detections: those in one step pass together, and
 /// a threshold is told to 1/65,536.
@@ -53,7 +53,7 @@ const W_STEPS: usize = 1 << 16;
 impl Ranked {
     pub(crate) fn add(&mut self, scored: &Scored, truth: bool) {
         self.positives += u64::from(truth);
-        if scored.may_be_plausible() {
+        if !scored.never_passes {
             self.steps.resize(W_STEPS, [0; 2]);
             // What is below 0 or no number lies in the first step.
             let step = (f64::from(scored.w) * W_STEPS as f64) as usize;
@@ -104,16 +104,12 @@ pub(crate) fn bin_of(w: f32) -> usize {
 mod tests {
     use super::*;
 
-    fn scored(w: f32, flags: u16) -> Scored {
-        let (range, azimuth, w_opt, w_tr, gamma) = (1.0, 0.0, w, w, 1.0);
-        Scored { range, azimuth, w_opt, w_tr, w, gamma, plausible: false, flags, truth: None, cause: None }
-    }
-
     /// By hand: 0.9 plausible, then two at 0.5 of which one is, a floor detection that never passes.
     #[test]
     fn ties_pass_together_and_floor_detections_never() {
-        let seen =
-            [(scored(0.9, 0), true), (scored(0.5, 0), false), (scored(0.5, 0), true), (scored(0.0, 1), true)];
+        let scored = Scored::with;
+        let floor = Scored { never_passes: true, ..scored(0.0) };
+        let seen = [(scored(0.9), true), (scored(0.5), false), (scored(0.5), true), (floor, true)];
         let ranked = |seen: &[(Scored, bool)]| {
             let mut ranked = Ranked::default();
             seen.iter().for_each(|(scored, truth)| ranked.add(scored, *truth));
@@ -124,7 +120,7 @@ mod tests {
         let expected = [(third, 1.0), (2.0 * third, 2.0 * third)];
         assert_eq!(found.iter().map(|p| (p.recall, p.precision)).collect::<Vec<_>>(), expected);
         assert!((average_precision(&found) - (third + third * 2.0 * third)).abs() < 1e-12);
-        assert!(ranked(&[(scored(0.9, 0), false)]).precision_recall().is_empty());
+        assert!(ranked(&[(scored(0.9), false)]).precision_recall().is_empty());
     }
 
     /// Both ends of `w` and what lies beyond them have their step, and a million detections take no more room than ten.
@@ -132,7 +128,7 @@ mod tests {
     fn the_curve_needs_no_more_memory_for_more_detections() {
         let mut ranked = Ranked::default();
         for w in [1.0, 2.0, f32::NAN, -1.0, 0.0].into_iter().cycle().take(1000) {
-            ranked.add(&scored(w, 0), w >= 1.0);
+            ranked.add(&Scored::with(w), w >= 1.0);
         }
         assert_eq!(ranked.steps.len(), W_STEPS);
         let found: Vec<_> = ranked.precision_recall().iter().map(|p| (p.recall, p.precision)).collect();

@@ -3,6 +3,7 @@
 use crate::ReportError;
 use ralf::label::{flag, truth_of};
 use ralf::sensors::Rig;
+use ralf_data::judge::Certainty;
 use ralf_data::result::{RadarScanKey, Table};
 use ralf_data::{Causes, DataError, GroundTruth, ScanId};
 
@@ -28,6 +29,8 @@ pub(crate) struct Scored {
     pub(crate) plausible: bool,
     /// Bits of [`flag`].
     pub(crate) flags: u16,
+    /// Whether its label is an artifact's at any `w`: it is unobserved, or [decided](Certainty::is_decided).
+    pub(crate) never_passes: bool,
     /// The class that the truth gives it, and whether that is a plausible one; `None` where the truth is silent.
     pub(crate) truth: Option<(u16, bool)>,
     /// The code of its cause; `None` where the scan tells no causes.
@@ -35,8 +38,8 @@ pub(crate) struct Scored {
 }
 
 impl Scored {
-    /// Whether it may be plausible at all: floor detections and unobserved ones are artifacts at any `w`.
-    pub(crate) fn may_be_plausible(&self) -> bool {
+    /// Whether the paper's method may call it plausible: floor detections and unobserved ones are artifacts at any `w`.
+    pub(crate) fn may_be_papers(&self) -> bool {
         self.flags & (flag::GROUND | flag::UNOBSERVED) == 0
     }
 }
@@ -48,6 +51,8 @@ pub(crate) struct Origin<'a> {
     pub(crate) sequence: &'a str,
     /// Its sensors with the settings of the run.
     pub(crate) rig: &'a Rig,
+    /// What the run is sure by.
+    pub(crate) certainty: Certainty,
     /// What people say.
     pub(crate) truth: Option<&'a GroundTruth>,
     /// Why artifacts are such.
@@ -83,6 +88,7 @@ impl Origin<'_> {
                 gamma: radar.map_or(1.0, |radar| radar.reliability.at(azimuth[row].into()) as f32),
                 plausible: label[row] == 1,
                 flags: flags[row],
+                never_passes: flags[row] & flag::UNOBSERVED != 0 || self.certainty.is_decided(flags[row]),
                 truth: class.and_then(|class| Some((class, truth_of(class)?))),
                 cause: codes.as_ref().map(|codes| codes[row]),
             }
@@ -103,5 +109,25 @@ impl Origin<'_> {
             return Err(DataError::content(&file, "number of labels", expected, found).into());
         }
         Ok(Some(labels.iter().map(|label| label.id).collect()))
+    }
+}
+
+#[cfg(test)]
+impl Scored {
+    /// One with this plausibility by every branch, of which nothing else is known.
+    pub(crate) fn with(w: f32) -> Self {
+        Self {
+            range: 1.0,
+            azimuth: 0.0,
+            w_opt: w,
+            w_tr: w,
+            w,
+            gamma: 1.0,
+            plausible: false,
+            flags: 0,
+            never_passes: false,
+            truth: None,
+            cause: None,
+        }
     }
 }

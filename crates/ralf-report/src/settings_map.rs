@@ -31,7 +31,7 @@ impl Passed {
     /// Fuses the branches' answers again, for each alpha.
     pub(crate) fn add(&mut self, scored: &Scored, truth: bool) {
         self.positives += usize::from(truth);
-        if !scored.may_be_plausible() {
+        if !scored.may_be_papers() {
             return;
         }
         let present = |w: f32| w.is_finite().then_some(f64::from(w));
@@ -82,8 +82,7 @@ mod tests {
     use super::*;
 
     fn scored(w_opt: f32, w_tr: f32, gamma: f32, flags: u16) -> Scored {
-        let (range, azimuth, w) = (10.0, 0.0, 0.0);
-        Scored { range, azimuth, w_opt, w_tr, w, gamma, plausible: false, flags, truth: None, cause: None }
+        Scored { w_opt, w_tr, gamma, flags, ..Scored::with(w_opt) }
     }
 
     /// By hand: an object seen by LiDAR alone, a ghost that tracking follows, a floor detection, one halved by the

@@ -33,20 +33,36 @@ impl Certainty {
     /// plausible and `p` elsewhere (with a threshold of 1/2 the smaller of the two); of the paper's plausibility,
     /// which is none, `max(0, 1 - |w - w0| / SURE)`, and nothing of a floor detection, which is decided.
     pub fn expected_error(&self, w: f32, flags: u16) -> f32 {
-        if self.calibrated && flags & flag::PAPER == 0 {
+        if self.is_probability(flags) {
             return if w >= self.threshold { 1.0 - w } else { w };
         }
-        if flags & flag::GROUND != 0 {
+        if self.is_decided(flags) {
             return 0.0;
         }
         (1.0 - (w - self.threshold).abs() / SURE).max(0.0)
+    }
+
+    /// Whether the label is an artifact's whatever `w` is: a floor detection's, where the paper's method answered. A
+    /// model knows of the floor, and may believe what is on it.
+    pub fn is_decided(&self, flags: u16) -> bool {
+        flags & flag::GROUND != 0 && !self.is_probability(flags)
+    }
+
+    /// Whether a plausibility `w` is within [`UNCERTAIN`] of the threshold, and the label not decided.
+    pub fn is_uncertain(&self, w: f32, flags: u16) -> bool {
+        !self.is_decided(flags) && (w - self.threshold).abs() <= UNCERTAIN
+    }
+
+    /// Whether a model answered for a detection with these flags.
+    fn is_probability(&self, flags: u16) -> bool {
+        self.calibrated && flags & flag::PAPER == 0
     }
 }
 
 /// The branches that may disagree.
 const BRANCHES: [&str; 3] = ["w_lm", "w_cm", "w_tr"];
 
-/// The doubtful detections of a scan. A floor detection is decided, whatever its branches say, and counts for neither.
+/// The doubtful detections of a scan. What is decided ([`Certainty::is_decided`]) counts for neither.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Doubts {
     /// How many detections it has.
@@ -74,24 +90,18 @@ impl Doubts {
         for (branch, name) in branches.iter_mut().zip(BRANCHES) {
             *branch = table.get(name)?;
         }
-        let threshold = certainty.threshold;
         let mut doubts = Self { detections: table.len(), ..Self::default() };
         for (row, flags) in flags.iter().enumerate() {
             doubts.expected_errors += f64::from(certainty.expected_error(score[row], *flags));
-            if flags & flag::GROUND != 0 {
+            if certainty.is_decided(*flags) {
                 continue;
             }
             let observed = branches.iter().map(|branch| branch[row]).filter(|w| !w.is_nan());
-            doubts.uncertain += usize::from(is_uncertain(score[row], *flags, threshold));
-            doubts.disagreeing += usize::from(disagree(observed, threshold));
+            doubts.uncertain += usize::from(certainty.is_uncertain(score[row], *flags));
+            doubts.disagreeing += usize::from(disagree(observed, certainty.threshold));
         }
         Ok(doubts)
     }
-}
-
-/// Whether a plausibility `w` is within [`UNCERTAIN`] of the threshold. A floor detection is decided.
-pub fn is_uncertain(w: f32, flags: u16, threshold: f32) -> bool {
-    flags & flag::GROUND == 0 && (w - threshold).abs() <= UNCERTAIN
 }
 
 /// Whether branches lie on either side of the threshold, far apart.
@@ -150,6 +160,9 @@ mod tests {
         for (found, expected) in found.into_iter().zip([0.1, 0.5, 0.2, 0.0, 0.0]) {
             assert!((found - expected).abs() < 1e-6, "{found} {expected}");
         }
+        let sure = [flag::GROUND, flag::GROUND | flag::PAPER, flag::PAPER].map(|of| certainty.is_decided(of));
+        assert_eq!(sure, [false, true, false]);
+        assert!(certainty.is_uncertain(0.55, flag::GROUND) && !certainty.is_uncertain(0.65, 0));
         // At another threshold the label may be the less likely one.
         let certainty = Certainty { threshold: 0.4, calibrated: true };
         assert!((certainty.expected_error(0.45, 0) - 0.55).abs() < 1e-6);

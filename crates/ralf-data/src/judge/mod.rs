@@ -11,7 +11,7 @@ pub use agreement::{
     Agreement, Difference, compare, disagreements, is_about_plausibility, kappa, kappa_of_names,
 };
 pub use balance::{Balance, Balances};
-pub use doubt::{Certainty, DISAGREEING, Doubts, SURE, UNCERTAIN, is_uncertain};
+pub use doubt::{Certainty, DISAGREEING, Doubts, SURE, UNCERTAIN};
 pub use evaluation::Comparison;
 pub use queue::{QueueCurve, TENTHS};
 pub use told::label_name;

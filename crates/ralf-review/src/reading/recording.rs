@@ -5,6 +5,7 @@ use crate::app::App;
 use crate::causes::sayable;
 use crate::http::{Answer, json};
 use crate::labelled::is_labelled;
+use ralf::config::Method;
 use ralf::label::{class_name, cluster_of, flag, truth_of};
 use ralf_data::SequenceReader;
 use ralf_data::result::ClassSource;
@@ -32,10 +33,14 @@ pub(crate) fn recording(app: &App) -> Answer {
         |path: &std::path::Path| path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned();
     let sequences: Vec<Value> =
         app.recording.sequences.iter().map(|reader| sequence(app, reader.as_ref())).collect();
-    let flags: Vec<Value> = FLAGS
-        .iter()
-        .map(|(bit, name)| json!({ "bit": bit, "name": name, "decided": *bit == flag::GROUND }))
-        .collect();
+    let settings = read_record(&app.out)?.settings.method;
+    // A model knows of the floor: there the label is settled where the paper's method answered in its place.
+    let decided = match settings.method {
+        Method::Paper => flag::GROUND,
+        Method::Learned => flag::GROUND | flag::PAPER,
+    };
+    let flag = |(bit, name): &(u16, &str)| json!({ "bit": bit, "name": name, "decided": bit & decided != 0 });
+    let flags: Vec<Value> = FLAGS.iter().map(flag).collect();
     json(&json!({
         "dataset": name(&app.recording.path),
         "out": name(&app.out),
@@ -44,7 +49,7 @@ pub(crate) fn recording(app: &App) -> Answer {
         "people": app.team.people(),
         "store": app.said(ralf_corrections::Reader::id)?,
         "read_only": app.store.read_only(),
-        "threshold": read_record(&app.out)?.settings.method.fusion.threshold,
+        "threshold": settings.fusion.threshold,
         "sequences": sequences,
         "classes": (0..=LAST_CLASS).filter_map(class).collect::<Vec<_>>(),
         "class_sources": class_sources(),

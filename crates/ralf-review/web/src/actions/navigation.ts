@@ -14,6 +14,8 @@ const LEAST_SHOWN = 150;
 
 export class Navigation {
   private playing = false;
+  /** Counts what was opened: an answer that comes after a later choice changes nothing. */
+  private opened = 0;
 
   constructor(
     private readonly world: World,
@@ -23,8 +25,10 @@ export class Navigation {
   /** Opens a sequence at a scan, or else at the one that needs a person most. */
   async open(sequence: string, at: Address["scan"] = null): Promise<void> {
     const { store, api } = this.world;
+    const opened = ++this.opened;
     try {
       const [queue, history] = await Promise.all([api.queue(sequence), api.history(sequence)]);
+      if (opened !== this.opened) return;
       const before = store.state;
       const { radar } = before.queueView;
       const known = queue.scans.some((scan) => scan.radar === radar);
@@ -47,6 +51,7 @@ export class Navigation {
       if (first === undefined) this.nothing(sequence);
       else await this.goTo(first);
     } catch (error) {
+      if (opened !== this.opened) return;
       store.set({ loading: false });
       complain(this.world, error);
     }

@@ -36,7 +36,7 @@ export interface LabelClass {
 export interface FlagInfo {
   readonly bit: number;
   readonly name: string;
-  /** What it says settles the label, whatever the branches say. */
+  /** Where all such flags are set, the label is settled, whatever the branches say. */
   readonly decided: boolean;
 }
 

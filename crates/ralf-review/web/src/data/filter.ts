@@ -58,9 +58,9 @@ export const everything: Filter = {
 /** Scores no farther from the threshold than this are uncertain, as in the queue. */
 export const UNCERTAIN_WITHIN = 0.1;
 
-/** Near the threshold, unless a flag settles the label whatever the score (`decided`: the bits of such flags). */
+/** Near the threshold, unless flags settle the label whatever the score (`decided`: the bits of these together). */
 export function isUncertain(score: number, flags: number, { threshold, decided }: Certainty): boolean {
-  return Math.abs(score - threshold) <= UNCERTAIN_WITHIN && (flags & decided) === 0;
+  return Math.abs(score - threshold) <= UNCERTAIN_WITHIN && (flags & decided) !== decided;
 }
 
 /** What the machine is sure by. */

@@ -133,6 +133,15 @@ test("a floor detection is decided, however near its score is to the threshold",
   assert.ok(!isUncertain(0.7, 0, certainty));
 });
 
+test("where a model answers, a floor detection is decided only if the paper's method stood in for it", () => {
+  const flags = [1, 64].map((bit) => ({ bit, name: `${bit}`, decided: true }));
+  const certainty = certaintyOf({ threshold: 0.5, flags });
+  assert.deepEqual(
+    [0, 1, 64, 65].map((bits) => isUncertain(0.45, bits, certainty)),
+    [true, true, true, false],
+  );
+});
+
 test("what was never on screen is counted until it was, and another scan begins unseen", () => {
   const cloud = buildCloud([made("front", 0, { x: [1, 2, 3, Number.NaN] }), made("rear", 0, { x: [9] })]);
   const sight = new Sight();
