@@ -141,6 +141,9 @@ pub struct GroundConfig {
     pub max_offset: f64,
     /// A point this close to the plane belongs to it, m.
     pub inlier_distance: f64,
+    /// How often the plane that was drawn may give way to the one fitted to its points, where that has more of them;
+    /// 0 is the paper's.
+    pub climbs: usize,
     /// LiDAR points lower than this above the ground are ground, m.
     pub lidar_margin: f64,
     /// Camera points lower than this above the ground are ground, m.

@@ -5,7 +5,11 @@ use crate::sensors::{
     SourceError, Timelines,
 };
 use crate::space::EgoMotion;
+use std::ops::RangeInclusive;
 use thiserror::Error;
+
+/// Times lie within 146 years of 0, so that the difference of two is a time as well.
+const KNOWN_NS: RangeInclusive<i64> = -i64::MAX / 2..=i64::MAX / 2;
 
 /// Why a sensor's measurements can't be part of a sequence.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
@@ -189,6 +193,11 @@ impl MemorySource {
             return Err(refused(name, "name", &reason));
         }
         let times: Vec<i64> = times.collect();
+        if let Some(n) = times.iter().position(|t_ns| !KNOWN_NS.contains(t_ns)) {
+            let (first, last) = KNOWN_NS.into_inner();
+            let reason = format!("expected a time from {first} to {last} ns, found {} ns", times[n]);
+            return Err(refused(name, &format!("measurement {n}"), &reason));
+        }
         match times.windows(2).position(|pair| pair[1] < pair[0]) {
             Some(n) => {
                 let reason =

@@ -104,9 +104,11 @@ impl EgoMotion {
         if last <= first {
             return (Vector3::zeros(), Vector3::zeros());
         }
-        let step = self.between(first, last);
+        // Both ends as the vehicle sees them at that time: seen from the first one, a turn leads the velocity astray.
+        let [begin, end] = [first, last].map(|end_ns| self.between(t_ns, end_ns));
         let dt = seconds(last - first);
-        (step.translation.vector / dt, step.rotation.scaled_axis() / dt)
+        let turned = begin.rotation.rotation_to(&end.rotation).scaled_axis();
+        ((end.translation.vector - begin.translation.vector) / dt, turned / dt)
     }
 
     fn sample_at(&self, t_ns: i64) -> usize {
@@ -225,6 +227,22 @@ mod tests {
         assert_eq!(motion.twist(SECOND).0.x, 99.0, "the wheels measure it");
         let (velocity, turn) = EgoMotion::new(vec![], motion.poses().to_vec()).unwrap().twist(SECOND);
         assert!((velocity.norm() - 2.0).abs() < 1e-3 && (turn.z - 0.5).abs() < 1e-9);
+    }
+
+    /// 15 m/s ahead and 0.6 rad/s to the left, of which poses tell every 10 ms: the vehicle never slides sideways.
+    #[test]
+    fn in_a_turn_the_velocity_of_poses_is_ahead() {
+        let driven = odometry(&[(0, 15.0, 0.6)]);
+        let pose = |i: i64| {
+            let t_ns = i * 10_000_000;
+            PoseSample { t_ns, odom_from_vehicle: driven.odom_from_vehicle(t_ns) }
+        };
+        let motion = EgoMotion::new(vec![], (0..=100).map(pose).collect()).unwrap();
+        for t_ns in [300_000_000, 505_000_000, 777_777_777] {
+            let (velocity, turn) = motion.twist(t_ns);
+            assert!((velocity - Vector3::new(15.0, 0.0, 0.0)).norm() < 2e-3, "{velocity}");
+            assert!((turn - Vector3::new(0.0, 0.0, 0.6)).norm() < 1e-9, "{turn}");
+        }
     }
 
     #[test]
