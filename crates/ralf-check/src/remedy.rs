@@ -41,7 +41,7 @@ pub enum Remedy {
 /// One setting: its key and value as TOML has them.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct Setting {
-    /// Dotted.
+    /// Dotted, as TOML has it.
     pub key: String,
     /// As TOML.
     pub value: String,
@@ -75,6 +75,7 @@ impl Remedy {
 
     /// As settings; none where settings can't put it right.
     pub fn settings(&self, subject: &str) -> Vec<Setting> {
+        let subject = toml_key(subject);
         let of_sensor =
             |key: &str, value: String| Setting { key: format!("corrections.{subject}.{key}"), value };
         let of_rig =
@@ -91,6 +92,15 @@ impl Remedy {
             Self::MotionClock(ms) => vec![of_motion("time_offset_ms", *ms)],
             Self::SwapWith(_) | Self::InDegrees(_) | Self::Odometry(_) | Self::LookInto(_) => Vec::new(),
         }
+    }
+}
+
+/// A sensor's name as a key of TOML: in quotes where it holds more than letters, digits, `-` and `_`.
+fn toml_key(name: &str) -> String {
+    let is_bare = |byte: u8| byte.is_ascii_alphanumeric() || byte == b'-' || byte == b'_';
+    match !name.is_empty() && name.bytes().all(is_bare) {
+        true => name.to_owned(),
+        false => toml::Value::from(name).to_string(),
     }
 }
 
@@ -215,5 +225,14 @@ mod tests {
         let of_odometry = Remedy::Odometry(Box::new(Remedy::Speed(1.0 / 3.6)));
         assert_eq!(of_odometry.words(), "odometry's speed looks like km/h");
         assert_eq!(of_odometry.settings("motion"), []);
+    }
+
+    #[test]
+    fn settings_of_a_sensor_of_any_name_are_read_back_as_its_own() {
+        for name in ["radar_left", "front left", "front.left", "vorn \"links\"", "größer", "a'b", "7"] {
+            let Setting { key, value } = &Remedy::Sensor(SensorChange::yaw(-4.8)).settings(name)[0];
+            let read: toml::Table = format!("{key} = {value}").parse().unwrap();
+            assert_eq!(read["corrections"][name]["add_yaw_deg"].as_float(), Some(-4.8), "{key}");
+        }
     }
 }

@@ -170,7 +170,9 @@ impl<'a> Task<'a> {
             TrainingTruth::Known => scans.retain(|place| {
                 is_chosen(place.scan, times.radars[place.radar].len(), self.gatherer.every.max(1))
             }),
-            TrainingTruth::Said(truth) => scans.retain(|scan| truth.scans().contains(&self.id(*scan))),
+            TrainingTruth::Said(truth) => {
+                scans.retain(|scan| truth.scans().binary_search(&self.id(*scan)).is_ok())
+            }
         }
         scans
     }

@@ -132,9 +132,10 @@ fn message_head(head: &[u8]) -> Result<(u32, i64), EncodingError> {
     Ok((u32::from(channel), time_ns(decoder.u64()?)?))
 }
 
+/// No later than half of what the type holds, so that the difference of two times is a time as well.
 fn time_ns(time: u64) -> Result<i64, EncodingError> {
-    i64::try_from(time)
-        .map_err(|_| EncodingError::new(0, "a time before the year 2262", format!("{time} ns")))
+    let known = i64::try_from(time).ok().filter(|time| *time <= i64::MAX / 2);
+    known.ok_or_else(|| EncodingError::new(0, "a time before the year 2116", format!("{time} ns")))
 }
 
 /// What a schema, a channel or an index says. Lengths are checked here: a library that takes them at their word asks

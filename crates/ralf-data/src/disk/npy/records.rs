@@ -84,11 +84,12 @@ fn fields(descr: &str) -> Result<(Vec<Field>, usize), String> {
     for entry in inside.split('(').skip(1) {
         let quoted: Vec<&str> = entry.split('\'').collect();
         let [_, name, _, kind, _] = quoted[..] else { return Err(format!("({entry}")) };
-        let (size, number) = number(kind).ok_or_else(|| format!("'{name}' of the type '{kind}'"))?;
+        let refused = || format!("'{name}' of the type '{kind}'");
+        let (size, number) = number(kind).ok_or_else(refused)?;
         if let Some(number) = number {
             fields.push(Field { name: name.to_owned(), offset, number });
         }
-        offset = offset.saturating_add(size);
+        offset = offset.checked_add(size).ok_or_else(refused)?;
     }
     if fields.is_empty() { Err("no field".to_owned()) } else { Ok((fields, offset)) }
 }
