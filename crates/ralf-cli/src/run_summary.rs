@@ -5,7 +5,8 @@ use crate::progress::say;
 use crate::text::{aligned, counted, grouped, percent};
 use ralf::label::flag;
 use ralf::scene::{Failure, ViewState};
-use ralf_data::run::{CameraRecord, NotLabelled, RadarRecord, RunRecord, SequenceRecord};
+use ralf_data::NotUsed;
+use ralf_data::run::{CameraRecord, NotLabelled, RadarRecord, RunRecord, SequenceRecord, UnreadableScan};
 
 /// So many cameras are named that were not matched.
 const SHOWN_CAMERAS: usize = 8;
@@ -30,6 +31,17 @@ pub(crate) fn say_not_labelled(record: &RunRecord) -> Outcome {
         outcome = Outcome::Partial;
     }
     outcome
+}
+
+/// Says what of a sequence could not be learned from, and how it ended by that.
+pub(crate) fn say_not_used(NotUsed { sequence, left_out, without }: &NotUsed) -> Outcome {
+    for UnreadableScan { sensor, scan, reason } in without {
+        say(&format!("matched without: {sequence} {sensor} scan {scan}: {reason}"));
+    }
+    for scan in left_out {
+        say(&format!("left out: {}", not_labelled_scan(sequence, scan)));
+    }
+    if left_out.is_empty() { Outcome::Done } else { Outcome::Partial }
 }
 
 /// A scan that could not be labelled, and why.

@@ -2,12 +2,13 @@
 
 use crate::error::DataError;
 use crate::frames::{Frames, ScanIndex};
+use crate::not_used::NotUsed;
 use crate::read::{Recording, SequenceReader};
 use crate::run::{NotLabelled, Observer, Stage, rig_of};
 use crate::truth::{GroundTruth, ScanId};
 use ralf::config::Config;
 use ralf::label::truth_of;
-use ralf::scene::FrameWindow;
+use ralf::scene::{FrameWindow, Unreadable};
 use ralf::sensors::Rig;
 use ralf_train::{EvidenceTable, Gatherer, Space};
 
@@ -18,8 +19,8 @@ pub struct SequenceEvidence {
     pub name: String,
     /// In the order of the truth's scans.
     pub table: EvidenceTable,
-    /// Scans with truth that can't be matched; they are left out.
-    pub left_out: Vec<NotLabelled>,
+    /// What it had to do without.
+    pub not_used: NotUsed,
 }
 
 /// Matches all scans with truth of all sequences of a recording, in its order, for every `K` and `n_b` around the
@@ -46,6 +47,9 @@ pub fn gather_evidence(
     let tasks = with_truth.collect::<Result<Vec<_>, _>>()?;
     tasks.iter().map(|task| task.gather(jobs)).collect()
 }
+
+/// What is known of a scan, with what belongs to it and can't be read; or why nothing is.
+type Matched = Result<(EvidenceTable, Vec<Unreadable>), NotLabelled>;
 
 /// One sequence.
 struct Task<'a> {
@@ -74,18 +78,17 @@ impl Task<'_> {
         let matched = frames.each(&there, jobs, |window, at| self.match_scan(window, ids[at], there[at]));
         self.observer.end();
         let mut matched = matched?.into_iter();
-        let (mut table, mut left_out) = (self.gatherer.table(), Vec::new());
+        let (mut table, mut not_used) = (self.gatherer.table(), NotUsed::of(&name));
         for (place, id) in places.iter().zip(&self.scans) {
-            match place.and_then(|_| matched.next()) {
-                Some(Ok(scan)) => table.append(scan),
-                Some(Err(reason)) => left_out.push(reason),
-                None => {
-                    let reason = "no such scan in the recording, though it has truth".to_owned();
-                    left_out.push(NotLabelled { radar: id.radar.clone(), scan: id.scan as usize, reason });
-                }
+            let found = place.and_then(|_| matched.next()).unwrap_or_else(|| {
+                let reason = "no such scan in the recording, though it has truth".to_owned();
+                Err(NotLabelled { radar: id.radar.clone(), scan: id.scan as usize, reason })
+            });
+            if let Some(scan) = not_used.sort(found) {
+                table.append(scan);
             }
         }
-        Ok(SequenceEvidence { name, table, left_out })
+        Ok(SequenceEvidence { name, table, not_used })
     }
 
     /// Radar and scan, where the recording holds them.
@@ -99,7 +102,7 @@ impl Task<'_> {
         window: &mut FrameWindow,
         id: &ScanId,
         ScanIndex { radar, scan }: ScanIndex,
-    ) -> Result<Result<EvidenceTable, NotLabelled>, DataError> {
+    ) -> Result<Matched, DataError> {
         let left_out = |reason| NotLabelled { radar: id.radar.clone(), scan, reason };
         let frame = match window.frame(radar, scan) {
             Ok(frame) => frame,
@@ -116,6 +119,6 @@ impl Task<'_> {
         let mut table = self.gatherer.table();
         self.gatherer.add(&mut table, &frame, &truth);
         self.observer.advance(1, detections as u64);
-        Ok(Ok(table))
+        Ok(Ok((table, frame.unreadable)))
     }
 }

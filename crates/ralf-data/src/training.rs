@@ -2,6 +2,7 @@
 
 use crate::error::DataError;
 use crate::frames::{Chosen, Frames, ScanIndex, all_scans, each_of};
+use crate::not_used::NotUsed;
 use crate::read::{Recording, SequenceReader};
 use crate::run::{NotLabelled, Observer, Stage, rig_of};
 use crate::truth::{Causes, GroundTruth, ScanId};
@@ -10,7 +11,7 @@ use ralf::evidence::{features, observe};
 use ralf::label::{Cause, truth_of};
 use ralf::learned::Rows;
 use ralf::paper::Labeler;
-use ralf::scene::{Frame, FrameWindow};
+use ralf::scene::{Frame, FrameWindow, Unreadable};
 use ralf::sensors::Rig;
 use ralf_train::learning::{Known, TrainingTable, View};
 
@@ -47,7 +48,7 @@ impl TrainingGatherer<'_> {
     }
 
     /// Adds all detections with truth of a recording to a table, as those of a world of this name; without one, every
-    /// sequence is a world. Scans that can't be read are left out, and told.
+    /// sequence is a world. Scans that can't be read are left out, and told, sequence by sequence.
     ///
     /// # Errors
     /// Truth that doesn't fit the recording, or settings that don't. The table then holds the sequences before.
@@ -57,17 +58,20 @@ impl TrainingGatherer<'_> {
         world: Option<&str>,
         recording: &Recording,
         truth: TrainingTruth,
-    ) -> Result<Vec<NotLabelled>, DataError> {
+    ) -> Result<Vec<NotUsed>, DataError> {
         let mut tasks = Vec::new();
         for reader in &recording.sequences {
             tasks.push(Task::new(self, recording, reader.as_ref(), truth)?);
         }
-        let mut left_out = Vec::new();
+        let mut not_used = Vec::new();
         self.gather(recording, &tasks, |task, gathered| {
-            let number = table.world(world.unwrap_or(&task.reader.sequence().name));
-            left_out.extend(append(table, number, gathered));
+            let name = &task.reader.sequence().name;
+            let number = table.world(world.unwrap_or(name));
+            let mut of_sequence = NotUsed::of(name);
+            append(table, number, gathered, &mut of_sequence);
+            not_used.extend(Some(of_sequence).filter(|found| !found.is_nothing()));
         })?;
-        Ok(left_out)
+        Ok(not_used)
     }
 
     /// Hands on what all scans of a sequence tell, sequence by sequence: none waits for those after it.
@@ -98,25 +102,18 @@ impl TrainingGatherer<'_> {
     }
 }
 
-/// Adds what the scans of a sequence tell to a table, as those of this world. Returns those that tell nothing.
-fn append(table: &mut TrainingTable, world: u16, gathered: Vec<Gathered>) -> Vec<NotLabelled> {
+/// Adds what the scans of a sequence tell to a table, as those of this world.
+fn append(table: &mut TrainingTable, world: u16, gathered: Vec<Gathered>, not_used: &mut NotUsed) {
     let first_scan = table.known.last().map_or(0, |known| known.scan + 1);
-    let mut left_out = Vec::new();
     for (scan, gathered) in (first_scan..).zip(gathered) {
-        match gathered {
-            Ok(parts) => {
-                for Part { rows, known } in parts {
-                    table.append(&rows, known.into_iter().map(|known| Known { world, scan, ..known }));
-                }
-            }
-            Err(reason) => left_out.push(reason),
+        for Part { rows, known } in not_used.sort(gathered).into_iter().flatten() {
+            table.append(&rows, known.into_iter().map(|known| Known { world, scan, ..known }));
         }
     }
-    left_out
 }
 
-/// What a scan tells, or why it tells nothing.
-type Gathered = Result<Vec<Part>, NotLabelled>;
+/// What a scan tells, with what belongs to it and can't be read; or why it tells nothing.
+type Gathered = Result<(Vec<Part>, Vec<Unreadable>), NotLabelled>;
 
 /// One sequence.
 struct Task<'a> {
@@ -193,7 +190,7 @@ impl<'a> Task<'a> {
             parts.push(self.part(&view.of(&frame), view, &truth));
         }
         self.gatherer.observer.advance(1, frame.scan.len() as u64);
-        Ok(Ok(parts))
+        Ok(Ok((parts, frame.unreadable)))
     }
 
     /// What is observed of the detections whose truth is known.

@@ -19,7 +19,7 @@ impl OnnxModel {
         Self::load_with(Runtime::default(), model, card)
     }
 
-    /// The same, run by the runtime given.
+    /// Loads a network with its card, which lies beside it unless it is given, to be run by this runtime.
     pub fn load_with(runtime: Runtime, model: &Path, card: Option<&Path>) -> Result<Self, NetworkError> {
         Loaded::new(runtime, model, card, Card::read, depth_output).map(Self)
     }

@@ -87,7 +87,8 @@ impl Pictures<'_> {
         self.picture(scan, &marks, None, width)
     }
 
-    /// The same, the detections in the colours of a column of numbers, such as a piece of evidence; PNG.
+    /// One scan as [`Self::scan`] draws it, the detections in the colours of a column of numbers, such as a piece of
+    /// evidence; PNG.
     ///
     /// # Errors
     /// As [`Self::scan`], and no such column of numbers.

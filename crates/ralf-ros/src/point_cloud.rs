@@ -105,7 +105,7 @@ impl<'a> PointTable<'a> {
         self.values(name, value)
     }
 
-    /// The same without rounding.
+    /// A column, row by row of the cloud, without rounding.
     pub fn wide_column(&self, name: &str) -> Option<Vec<f64>> {
         self.values(name, wide_value)
     }

@@ -3,7 +3,8 @@
 use crate::arguments::{DatasetArgs, SettingsArgs, threads};
 use crate::corrections::merged_truth;
 use crate::outcome::{Outcome, UsageError};
-use crate::progress::{Progress, Stages, say};
+use crate::progress::{Progress, Stages};
+use crate::run_summary::say_not_used;
 use clap::Args;
 use clap::builder::PossibleValuesParser;
 use ralf::config::{Config, Method};
@@ -148,14 +149,7 @@ impl SearchArgs {
     }
 }
 
-/// Names the scans that could not be matched.
+/// Names the scans that could not be matched, and those that others were matched without.
 pub(super) fn name_what_is_left_out(evidence: &[SequenceEvidence]) -> Outcome {
-    let mut outcome = Outcome::Done;
-    for sequence in evidence {
-        for scan in &sequence.left_out {
-            say(&format!("left out: {} {} scan {}: {}", sequence.name, scan.radar, scan.scan, scan.reason));
-            outcome = Outcome::Partial;
-        }
-    }
-    outcome
+    evidence.iter().map(|sequence| say_not_used(&sequence.not_used)).fold(Outcome::Done, Outcome::and)
 }

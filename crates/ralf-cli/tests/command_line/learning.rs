@@ -26,8 +26,8 @@ fn what_is_learned_labels_and_is_the_same_to_the_byte_whatever_the_number_of_job
     });
     let text = fs::read_to_string(&models[0]).unwrap();
     assert_eq!(text, fs::read_to_string(&models[1]).unwrap());
-    let end = format!("\nend {}\n", text.lines().count() - 1);
-    assert!(text.starts_with("ralf model 1\nprogram ") && text.contains("\nforest ") && text.ends_with(&end));
+    let end = format!("\nend {}", text.lines().count() - 1);
+    assert!(text.starts_with("ralf model 1\nprogram ") && text.contains("\nforest ") && text.contains(&end));
     let outs = ["1", "2"].map(|jobs| {
         let out = dataset.beside(&format!("out{jobs}"));
         let method = ["--method", "learned", "--model", &models[0]];
@@ -42,7 +42,7 @@ fn what_is_learned_labels_and_is_the_same_to_the_byte_whatever_the_number_of_job
     }
     let lacking = dataset.beside("lacking");
     let (before, _) = text.rsplit_once("\ntree ").unwrap();
-    fs::write(&lacking, format!("{before}{end}")).unwrap();
+    fs::write(&lacking, format!("{before}{end}\n")).unwrap();
     ralf(["label", &town, "-o", &dataset.beside("none"), "--method", "learned", "--model", &lacking])
         .exits(1)
         .says(["lacking: model: line ", "so many lines are before it"]);
@@ -58,7 +58,9 @@ fn what_is_learned_labels_and_is_the_same_to_the_byte_whatever_the_number_of_job
         serde_json::from_slice::<serde_json::Value>(&record).unwrap()["model"].as_str().unwrap().to_owned()
     };
     let before = model_of_run();
-    fs::write(&models[1], text.replacen("seed 0", "seed 1", 1)).unwrap();
+    // Changed by hand it has no checksum.
+    let (by_hand, _) = text.rsplit_once("\nend ").unwrap();
+    fs::write(&models[1], by_hand.replacen("seed 0", "seed 1", 1) + "\nend\n").unwrap();
     ralf(["label", &town, "-o", &outs[0], "--method", "learned", "--model", &models[1], "--no-check"])
         .exits(0);
     assert_ne!(model_of_run(), before);

@@ -165,6 +165,16 @@ fn scans_that_cannot_be_read_are_named_and_left_out() {
 }
 
 #[test]
+fn lidar_scans_that_cannot_be_read_are_named_once() {
+    let dataset = two_sequences();
+    dataset.cut("lidar_top/000002.bin", 1);
+    let file = dataset.beside("ralf.toml");
+    let ran = ralf(["tune", &dataset.path, "-o", &file, "--train", "00", "--test", "01", "--trials", "2"]);
+    let told = ran.exits(0).says(["matched without: 00 lidar_top scan 2", "000002.bin"]).stderr;
+    assert_eq!(told.matches("matched without").count(), 1, "{told}");
+}
+
+#[test]
 fn a_truth_of_another_size_is_named() {
     let dataset = two_sequences();
     dataset.cut("ground_truth/radar_left/000002.label", 4);

@@ -163,13 +163,14 @@ pub fn write_whole(file: &Path, bytes: &[u8]) -> Result<(), DataError> {
     write_whole_with(file, |out| out.write_all(bytes))
 }
 
-/// The same of a file that a person has named: where a link of this name lies, what it leads to is written. All other
-/// files replace a link, for it may lead out of the folder that is written to.
+/// Writes a file that a person has named, whole or not at all ([`write_whole`]): where a link of this name lies, what
+/// it leads to is written. All other files replace a link, for it may lead out of the folder that is written to.
 pub fn write_named(file: &Path, bytes: &[u8]) -> Result<(), DataError> {
     write_whole(&through_link(file), bytes)
 }
 
-/// The same as [`write_whole`] with content that is made while it is written, so that it need not be in memory at once.
+/// Writes a file as [`write_whole`] does, with content that is made while it is written, so that it need not be in
+/// memory at once.
 pub(crate) fn write_whole_with(
     file: &Path,
     content: impl FnOnce(&mut dyn Write) -> std::io::Result<()>,

@@ -116,7 +116,8 @@ pub fn open(path: &Path, format: Option<&str>) -> Result<Recording, DataError> {
     open_with(path, format, &Topics::new())
 }
 
-/// The same, where these topics of a ROS recording are its sensors; a first guess is made where there are none.
+/// Opens a recording as [`open`] does, where these topics of a ROS recording are its sensors; a first guess is made
+/// where there are none.
 pub fn open_with(path: &Path, format: Option<&str>, topics: &Topics) -> Result<Recording, DataError> {
     let expected = "the folder or the file of a recording";
     fs::metadata(path).map_err(|error| DataError::io(path)(ralf_files::absent(error, expected)))?;

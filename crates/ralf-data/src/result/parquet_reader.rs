@@ -125,7 +125,8 @@ impl PlausibilityReader {
         self.tables_with(group, &self.schema)
     }
 
-    /// The same with some columns alone ([`Schema::only`] of [`Self::schema`]).
+    /// The tables of all scans in a row group, in the order of its rows, with some columns alone ([`Schema::only`] of
+    /// [`Self::schema`]).
     ///
     /// # Errors
     /// A file that can't be read, or has its detections in another order.

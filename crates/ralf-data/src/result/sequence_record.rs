@@ -57,6 +57,12 @@ pub struct UnreadableScan {
     pub reason: String,
 }
 
+impl From<Unreadable> for UnreadableScan {
+    fn from(Unreadable { sensor, index, reason }: Unreadable) -> Self {
+        Self { sensor, scan: index, reason }
+    }
+}
+
 /// What is told of a labelled scan beside its detections.
 #[derive(Debug, Default, Serialize, Deserialize)]
 pub(crate) struct ScanNotes {
@@ -71,12 +77,7 @@ impl ScanNotes {
     pub(crate) fn new(frame: &Frame) -> Self {
         let name = |moment: &CalibratedImage| frame.rig.cameras[moment.id.camera].name.clone();
         let images = frame.images.iter().map(|view| (name(&view.moment), ImageRecord::of(&view.moment)));
-        let unreadable = frame.unreadable.iter().cloned();
-        let unreadable = unreadable.map(|Unreadable { sensor, index, reason }| UnreadableScan {
-            sensor,
-            scan: index,
-            reason,
-        });
+        let unreadable = frame.unreadable.iter().cloned().map(UnreadableScan::from);
         Self { images: images.collect(), unreadable: unreadable.collect() }
     }
 }

@@ -191,8 +191,8 @@ impl LabelRun<'_> {
         self.run(observer, None)
     }
 
-    /// The same, and checks all sequences meanwhile ([`ralf_check::check`]), which the record tells of in place of
-    /// `checks`. `told` hears of each as soon as it is known, from several threads.
+    /// Labels as [`Self::execute`] does, and checks all sequences meanwhile ([`ralf_check::check`]), which the record
+    /// tells of in place of `checks`. `told` hears of each as soon as it is known, from several threads.
     ///
     /// # Errors
     /// Those of [`Self::execute`].

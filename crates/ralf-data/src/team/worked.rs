@@ -35,7 +35,7 @@ impl Worked {
         Ok(store.workdays()?.into_iter().map(|on| Self { second, on }).collect())
     }
 
-    /// The same as docs/formats.md, section 3, writes it.
+    /// A day's work as `ralf evaluate --progress --json` prints it (docs/formats.md, section 3).
     pub fn json(&self) -> Value {
         let Workday { author, day, edits, detections, scans, worked_s } = &self.on;
         json!({ "author": author, "second": self.second, "day": day, "edits": edits, "detections": detections,

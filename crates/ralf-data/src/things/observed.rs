@@ -103,8 +103,8 @@ impl Observed {
         features().position(|feature| feature.name == name)
     }
 
-    /// Whether it serves at a time, too: as much was looked at before it and after it as half of what was looked at on
-    /// either side of the time that it is of, or all that there is.
+    /// Whether what was observed at one time serves at another, `t_ns`, as well: at least half as much was looked at
+    /// before and after that one as on either side of the own time, or all that there is.
     pub fn serves(&self, t_ns: i64) -> bool {
         self.serves.contains(&t_ns)
     }

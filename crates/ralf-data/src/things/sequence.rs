@@ -28,7 +28,7 @@ pub struct SequenceThings {
 const COLUMNS: [&str; 3] = ["w", "label", "flags"];
 
 impl SequenceThings {
-    /// Of a recording's sequence and its labels; `rig` is that with which it was labelled.
+    /// Gathers the things of a recording's sequence from its labels; `rig` is that with which it was labelled.
     ///
     /// # Errors
     /// A scan that can't be read, or labels of another number of detections than it has.

@@ -59,9 +59,9 @@ impl Corrections {
         Ok(Self { file, scans, orphaned: Vec::new() })
     }
 
-    /// The same, of what scans hold now: what was said of another content is [orphaned](Self::orphaned), and
-    /// counts no more. `content_of` tells what a scan holds (see [`scan_content`](crate::scan_content)), and
-    /// `None` of one that isn't there.
+    /// Keeps what was said of what the scans hold now: what was said of another content is [orphaned](Self::orphaned),
+    /// and counts no more. `content_of` tells what a scan holds (see [`scan_content`](crate::scan_content)), and `None`
+    /// of one that isn't there.
     ///
     /// # Errors
     /// Those of `content_of`.
@@ -90,8 +90,8 @@ impl Corrections {
         self
     }
 
-    /// Those of scans that are marked as reviewed alone: whoever labels them is through with these. Of a scan with
-    /// several contents that of what was marked is left.
+    /// Keeps the corrections of scans that are marked as reviewed: whoever labels them is through with these. Of a scan
+    /// with several contents that of what was marked is left.
     pub fn of_reviewed_scans(mut self) -> Self {
         self.scans.retain(|_, said| {
             said.retain(|layer| layer.accepted.is_some());

@@ -35,12 +35,14 @@ impl GroundTruth {
         Self::gather(dataset, None)
     }
 
-    /// The same with the corrections of a review above it; the dataset's folder need hold no truth of its own.
+    /// Finds all scans with truth below a dataset's folder, and puts the corrections of a review above it; the folder
+    /// need hold no truth of its own. None at all is an error.
     pub fn merged(dataset: &Path, corrections: Corrections) -> Result<Self, DataError> {
         Self::find_merged(dataset, corrections)?.ok_or_else(|| none(dataset))
     }
 
-    /// The same; `None` where neither says anything.
+    /// Finds the truth below a dataset's folder with the corrections of a review above it; `None` where neither says
+    /// anything.
     pub fn find_merged(dataset: &Path, corrections: Corrections) -> Result<Option<Self>, DataError> {
         Self::gather(dataset, Some(corrections))
     }

@@ -27,7 +27,8 @@ pub fn write_sequence(
     write_sequence_with(reader, dataset, 1, progress)
 }
 
-/// The same with so many threads. The files are the same to the byte whatever their number, and so is the error.
+/// Writes a sequence as [`write_sequence`] does, with so many threads. The files are the same to the byte whatever
+/// their number, and so is the error.
 pub fn write_sequence_with(
     reader: &dyn SequenceReader,
     dataset: &Path,

@@ -61,7 +61,7 @@ impl TrainingTable {
         self.known.extend(known);
     }
 
-    /// The same without the features of some groups.
+    /// A table of the same detections without the features of some groups.
     pub fn without_groups(&self, groups: &[String]) -> Self {
         let is_kept = |feature: &Feature| groups.iter().all(|group| group != feature.group);
         let kept: Vec<usize> =

@@ -39,7 +39,7 @@ where
     Vec::deserialize(from)?.into_iter().map(exactly).collect()
 }
 
-/// The same where there are any, with `#[serde(default)]`.
+/// Any number of lists of `N` values each, where there are any; for fields with `#[serde(default)]`.
 ///
 /// # Errors
 /// A list of fewer or more values among them.

@@ -20,7 +20,7 @@ use std::collections::BTreeMap;
 pub struct Config {
     /// Seed of every random choice.
     pub seed: u64,
-    /// Who answers.
+    /// Which method labels: the paper's, or a trained model.
     pub method: Method,
     /// Which measurements belong together.
     pub sync: SyncConfig,
@@ -79,7 +79,7 @@ impl From<Complete> for Config {
     }
 }
 
-/// Who answers.
+/// Which method labels.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Method {

@@ -33,7 +33,7 @@ impl Rows {
         &self.values[row * self.width..][..self.width]
     }
 
-    /// The same, to write to.
+    /// One detection's features, to write to.
     pub fn row_mut(&mut self, row: usize) -> &mut [f32] {
         &mut self.values[row * self.width..][..self.width]
     }

@@ -34,7 +34,7 @@ impl Confusion {
         self.tp + self.fp + self.tn + self.r#fn
     }
 
-    /// The same counts with artifact as positive.
+    /// These counts with artifact as positive.
     pub fn swapped(&self) -> Self {
         Self { tp: self.tn, fp: self.r#fn, tn: self.tp, r#fn: self.fp }
     }

@@ -8,25 +8,28 @@ use crate::label::flag;
 use crate::scene::{Frame, plausibility};
 
 /// What the method says of one detection. `None` is *not observed*, which is something else than implausible.
+///
+/// Mismatches `d` are distances in standard deviations of the measurements (equations 1 to 4), 0 where they meet.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct DetectionLabel {
-    /// Mean mismatch with the LiDAR's points.
+    /// Mean mismatch with the nearest LiDAR points, at most `lidar.max_mismatch`; `None` on the floor, too.
     pub d_lm: Option<f64>,
-    /// Mean mismatch with the cameras' points.
+    /// Mean mismatch with the nearest points of the cameras' scaled depth, at most `camera.max_mismatch`; `None` on the
+    /// floor, too.
     pub d_cm: Option<f64>,
-    /// Weighted mismatch with the neighbouring scans.
+    /// Weighted mismatch with the neighbouring radar scans, at most `tracking.max_mismatch`.
     pub d_tr: Option<f64>,
-    /// `exp(-beta_lm d_lm)`.
+    /// `exp(-beta_lm d_lm)`, in [0, 1]; 0 on the floor.
     pub w_lm: Option<f64>,
-    /// `exp(-beta_cm d_cm)`.
+    /// `exp(-beta_cm d_cm)`, in [0, 1]; 0 on the floor.
     pub w_cm: Option<f64>,
-    /// `exp(-beta_tr d_tr)`.
+    /// `exp(-beta_tr d_tr)`, in [0, 1].
     pub w_tr: Option<f64>,
-    /// What LiDAR and cameras say together.
+    /// What LiDAR and cameras say together, in [0, 1] (equation 6).
     pub w_opt: Option<f64>,
     /// The plausibility, in [0, 1]; 0 where nothing was observed.
     pub w: f64,
-    /// Whether the detection is plausible.
+    /// `w >= fusion.threshold`, and, where the paper's method answers, not on the floor.
     pub plausible: bool,
     /// Bits of [`flag`].
     pub flags: u16,
@@ -53,12 +56,12 @@ impl<'a> Labeler<'a> {
     pub fn label(&self, frame: &Frame) -> Vec<DetectionLabel> {
         let Config { ground, lidar, camera, tracking, fusion, .. } = self.config;
 
-        // The branches. Each gives the mean mismatch d (equations 1 to 4) of each detection with its nearest
-        // neighbours: I, LiDAR (algorithm 1): the points above the ground;
+        // Each branch gives the mismatch d (equations 1 to 4) of each detection with its nearest neighbours.
+        // Branch I, LiDAR matching (algorithm 1): LiDAR points above the ground.
         let lidar_matches = lidar::match_detections(frame, lidar);
-        // I, cameras (section 2.3, Camera matching): the pixels of the scaled depth images;
+        // Branch I, camera matching (section 2.3): pixels of the scaled depth images.
         let camera_matches = camera::match_detections(frame, camera);
-        // II, tracking (equations 7 and 8): the scans k - n_b .. k + n_b, the smallest mismatches counting most.
+        // Branch II, tracking (equations 7 and 8): detections of the scans k - n_b .. k + n_b.
         let tracking_mismatches = tracking::match_detections(frame, tracking);
 
         let no_lidar = flag::when(lidar.enabled && frame.lidar.is_none(), flag::NO_LIDAR);

@@ -2,7 +2,7 @@
 
 use crate::config::LidarConfig;
 use crate::label::UNLABELED;
-use crate::scene::{Frame, LidarCloud, LidarSearch};
+use crate::scene::{Detection, Frame, LidarCloud, LidarSearch, Mover};
 
 /// What the LiDAR says of one detection.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -16,10 +16,11 @@ pub struct LidarMatch {
 /// The mismatch of each detection with its `K` nearest LiDAR points above the ground. `None` for all where the branch
 /// is off or there is no such point, and for detections without a position.
 ///
-/// Two things the paper doesn't have. With `lidar.scans` these are points of several scans; what moves by its Doppler
-/// velocity was elsewhere in all but the nearest, so that it is compared with that one alone. With `lidar.dynamic` what
-/// moves is also compared with each point of all of them where its Doppler velocity takes it at the time of the point;
-/// the smaller mismatch counts. A detection that moves less in that time than its own range is uncertain by stands.
+/// Two settings are ours. With `lidar.scans` above 1 the points are those of several scans. What moves by its Doppler
+/// velocity was elsewhere in all but the nearest of them, and is compared with that one alone. With `lidar.dynamic` it
+/// is also compared with each point of all of them at the place where its velocity takes it by the time of that point,
+/// and the smaller mismatch counts. What moves by less than `sigma_r` between the radar scan and these points counts as
+/// standing.
 pub fn match_detections(frame: &Frame, config: &LidarConfig) -> Vec<Option<LidarMatch>> {
     let mut matches = vec![None; frame.scan.len()];
     let clouds = if config.enabled { frame.lidar_clouds() } else { Vec::new() };
@@ -33,19 +34,30 @@ pub fn match_detections(frame: &Frame, config: &LidarConfig) -> Vec<Option<Lidar
         let Some(detection) = detection else { continue };
         let mover = movers.get(i).and_then(Option::as_ref);
         let mover = mover.filter(|mover| search.farthest_move(mover, t_ns) > sigma_range);
-        let as_standing = if mover.is_some() { 1 } else { clouds.len() };
-        let d = search.mean_mismatch(detection, as_standing, config.max_mismatch);
-        let d = d.map_or(config.max_mismatch, |d| d.min(config.max_mismatch));
-        let mut found = LidarMatch { d, semantic: majority(search.classes()) };
-        if let Some(mover) = mover.filter(|_| config.dynamic) {
-            let d = search.mean_mismatch_of_mover(mover, t_ns);
-            if let Some(d) = d.filter(|d| *d < found.d) {
-                found = LidarMatch { d, semantic: majority(search.classes()) };
-            }
-        }
-        matches[i] = Some(found);
+        let scans = if mover.is_some() { 1 } else { clouds.len() };
+        let standing = as_standing(&mut search, detection, scans, config.max_mismatch);
+        let moving = mover.filter(|_| config.dynamic).and_then(|mover| as_moving(&mut search, mover, t_ns));
+        matches[i] = Some(moving.filter(|moving| moving.d < standing.d).unwrap_or(standing));
     }
     matches
+}
+
+/// Algorithm 1 for one detection: the mean of the mismatches with its `K` nearest points of the first so many clouds.
+fn as_standing(
+    search: &mut LidarSearch,
+    detection: &Detection,
+    clouds: usize,
+    max_mismatch: f64,
+) -> LidarMatch {
+    let d = search.mean_mismatch(detection, clouds, max_mismatch);
+    let d = d.map_or(max_mismatch, |d| d.min(max_mismatch));
+    LidarMatch { d, semantic: majority(search.classes()) }
+}
+
+/// The same with the detection taken along to the time of each point.
+fn as_moving(search: &mut LidarSearch, mover: &Mover, t_ns: i64) -> Option<LidarMatch> {
+    let d = search.mean_mismatch_of_mover(mover, t_ns)?;
+    Some(LidarMatch { d, semantic: majority(search.classes()) })
 }
 
 /// The class of most neighbours; of equally frequent ones the one that comes nearer. Unlabeled points don't vote.

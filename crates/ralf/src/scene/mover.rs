@@ -54,7 +54,8 @@ impl Mover {
         Detection { position, axes: self.detection.axes }
     }
 
-    /// The same, less certain across the ray the farther it went, for its motion there is not measured.
+    /// The detection so many seconds later: moved along its ray, and less certain across it the farther it went, for
+    /// its motion there is not measured.
     pub fn after(&self, seconds: f64) -> Detection {
         let mut moved = self.along_ray(seconds);
         let drift = ACROSS_PER_ALONG * self.rate() * seconds;

@@ -104,20 +104,22 @@ impl MemorySource {
         Self { sequence, radars: Vec::new(), lidars: Vec::new(), cameras: Vec::new() }
     }
 
-    /// The same with another title for people.
+    /// Gives the sequence another title for people.
     pub fn titled(mut self, title: &str) -> Self {
         self.sequence.title = title.to_owned();
         self
     }
 
-    /// The same with depth images of another meaning; [`DepthOutput::Depth`] if not said.
+    /// Says what depth images mean; [`DepthOutput::Depth`] if not said.
     pub fn with_depth_output(mut self, output: DepthOutput) -> Self {
         self.sequence.depth_output = output;
         self
     }
 
-    /// The same with another radar and its scans: a time (ns) and a column per field of the radar, each with a value
-    /// per detection.
+    /// Adds a radar and its scans: a time (ns) and a column per field of the radar, each with a value per detection.
+    ///
+    /// # Errors
+    /// A name that another sensor has, values that no radar has, columns that don't fit, times that go back.
     pub fn with_radar(mut self, radar: Radar, scans: Vec<(i64, Vec<Vec<f32>>)>) -> Result<Self, MemoryError> {
         radar.check().map_err(|reason| refused(&radar.name, "values", &reason))?;
         let mut read = Vec::with_capacity(scans.len());
@@ -132,8 +134,11 @@ impl MemorySource {
         Ok(self)
     }
 
-    /// The same with another LiDAR and its scans, motion-corrected ones: [`LidarScan::motion_corrected`] makes such of
-    /// points that were measured one after the other.
+    /// Adds a LiDAR and its scans, motion-corrected ones: [`LidarScan::motion_corrected`] makes such of points that
+    /// were measured one after the other.
+    ///
+    /// # Errors
+    /// A name that another sensor has, lists of different lengths in a scan, times that go back.
     pub fn with_lidar(mut self, lidar: Lidar, scans: Vec<LidarScan>) -> Result<Self, MemoryError> {
         lidar.check().map_err(|reason| refused(&lidar.name, "values", &reason))?;
         for (n, scan) in scans.iter().enumerate() {
@@ -156,7 +161,10 @@ impl MemorySource {
         Ok(self)
     }
 
-    /// The same with another camera and its images.
+    /// Adds a camera and its images.
+    ///
+    /// # Errors
+    /// A name that another sensor has, images of another size, depth of another number of views, times that go back.
     pub fn with_camera(mut self, camera: Camera, images: Vec<TimedImage>) -> Result<Self, MemoryError> {
         for (n, TimedImage { image, depth, .. }) in images.iter().enumerate() {
             let wrong = |reason: String| Err(refused(&camera.name, &format!("image {n}"), &reason));

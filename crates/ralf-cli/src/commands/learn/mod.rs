@@ -8,14 +8,14 @@ use crate::arguments::{SettingsArgs, check_output, threads};
 use crate::corrections::merged_truth;
 use crate::outcome::Outcome;
 use crate::progress::{Progress, Stages, say};
+use crate::run_summary::say_not_used;
 use crate::text::print;
 use anyhow::Context;
 use clap::Args;
 use clap::builder::PossibleValuesParser;
 use ralf::config::Config;
 use ralf::learned::Origin;
-use ralf_data::run::NotLabelled;
-use ralf_data::{TrainingGatherer, TrainingTruth, write_named};
+use ralf_data::{GroundTruth, Recording, TrainingGatherer, TrainingTruth, write_named};
 use ralf_train::learning::{Fitting, Parameters, TrainingTable, fit};
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
@@ -142,8 +142,12 @@ impl LearnArgs {
             let name = name.with_context(|| dataset.display().to_string())?;
             let one_world = from.is_none() && (self.datasets.len() > 1 || self.worlds.are_asked());
             let world = one_world.then_some(name.as_str());
-            let left_out = gatherer.add(table, world, &recording, TrainingTruth::Said(&truth))?;
-            outcome = outcome.and(named(&left_out));
+            let not_used = gatherer.add(table, world, &recording, TrainingTruth::Said(&truth))?;
+            outcome = not_used.iter().map(say_not_used).fold(outcome, Outcome::and);
+            // Of what people corrected, most sequences may say nothing.
+            if from.is_none() {
+                name_without_truth(&recording, &truth);
+            }
         }
         Ok(outcome)
     }
@@ -168,10 +172,9 @@ impl LearnArgs {
     }
 }
 
-/// Names the scans that were left out.
-fn named(left_out: &[NotLabelled]) -> Outcome {
-    for NotLabelled { radar, scan, reason } in left_out {
-        say(&format!("left out: {radar} scan {scan}: {reason}"));
-    }
-    if left_out.is_empty() { Outcome::Done } else { Outcome::Partial }
+/// Names the sequences of which nothing is learned.
+fn name_without_truth(recording: &Recording, truth: &GroundTruth) {
+    let names = recording.sequences.iter().map(|reader| &reader.sequence().name);
+    let said = |name: &String| truth.scans().iter().any(|scan| scan.sequence == *name);
+    names.filter(|name| !said(name)).for_each(|name| say(&format!("sequence {name} has no truth: left out")));
 }

@@ -1,7 +1,7 @@
 //! Worlds to learn in that are simulated on the way.
 
-use super::named;
 use crate::outcome::Outcome;
+use crate::run_summary::say_not_used;
 use clap::Args;
 use clap::builder::PossibleValuesParser;
 use ralf_data::{Recording, SequenceReader, TrainingGatherer, TrainingTruth};
@@ -68,8 +68,8 @@ impl WorldArgs {
         for family in FAMILIES.iter().filter(|family| !self.without.iter().any(|name| name == family.name)) {
             for seed in 0..self.seeds {
                 let recording = self.recording(family, seed)?;
-                let left_out = gatherer.add(table, Some(family.name), &recording, TrainingTruth::Known)?;
-                outcome = outcome.and(named(&left_out));
+                let not_used = gatherer.add(table, Some(family.name), &recording, TrainingTruth::Known)?;
+                outcome = not_used.iter().map(say_not_used).fold(outcome, Outcome::and);
             }
         }
         Ok(outcome)

@@ -42,9 +42,9 @@ pub struct Parameters {
 impl Default for Parameters {
     fn default() -> Self {
         Self {
-            rounds: 220,
+            rounds: 110,
             leaves: 63,
-            rate: 0.1,
+            rate: 0.2,
             feature_fraction: 0.5,
             bagging: 0.7,
             l2: 5.0,

@@ -98,7 +98,7 @@ impl SegmentedStraightView {
         self.lidar.around(place, half)
     }
 
-    /// The same for pixels of calibrated depth.
+    /// The pixels of calibrated depth, at most so many columns and rows, px, from a place in the view.
     pub fn by_depth(&self, place: [f64; 2], half: [f64; 2]) -> impl Iterator<Item = &ClassPixel> {
         self.depth.around(place, half)
     }
