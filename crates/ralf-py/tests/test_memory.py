@@ -209,7 +209,7 @@ def test_what_does_not_fit_is_refused():
         sequence.label()
     turned = ralf.Odometry([0, 2_000_000_000, 1_000_000_000], [5.0] * 3, [0.0] * 3)
     with pytest.raises(ralf.RalfError, match="odometry: 2: expected a time of 2000000000 ns or later, found 10"):
-        dataclasses.replace(street(1), motion=turned).label()
+        ralf.Sequence([ralf.Radar("left")], motion=turned).label()
     with pytest.raises(ValueError, match="expected a rotation"):
         ralf.Sequence(radars=[ralf.Radar("a", mounting=np.ones((4, 4)))]).label()
     with pytest.raises(ralf.RalfError, match="values"):

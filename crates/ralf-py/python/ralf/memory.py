@@ -11,6 +11,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ralf import _ralf
+from ralf._arrays import column, own, time_ns
+from ralf._arrays import points as points_of
 from ralf._jobs import Settings, job
 from ralf._progress import Progress, listener
 from ralf.run import Scan, scans_of
@@ -78,15 +80,13 @@ class Sequence:
         All other fields (`doppler`, `rcs`, ...) are kept as they are; every scan of a radar has the same ones.
         """
         sensor = _known(self._radars, radar, "radar")
-        columns = {name: _column(value) for name, value in fields.items()}
-        if xyz is not None:
-            points = np.asarray(xyz, dtype=np.float32).reshape(-1, 3)
-            columns = {name: _column(points[:, axis]) for axis, name in enumerate("xyz")} | columns
+        when = time_ns(t_ns, f"{radar}: t_ns")
+        columns = _radar_columns(radar, xyz, fields)
         names = list(columns)
         if sensor.measured and names != sensor.fields:
             raise ValueError(f"{radar}: expected the fields {sensor.fields}, found {names}")
         sensor.fields = names
-        sensor.measured.append((int(t_ns), list(columns.values())))
+        sensor.measured.append((when, list(columns.values())))
 
     def add_lidar_scan(
         self,
@@ -98,9 +98,12 @@ class Sequence:
     ) -> None:
         """Add a revolution: n x 3 points (m), intensities, and when each point was measured (s after `t_ns`)."""
         sensor = _known(self._lidars, lidar, "LiDAR")
-        rows = _own(points).reshape(-1, 3)
-        strengths = np.zeros(len(rows), np.float32) if intensity is None else _column(intensity)
-        sensor.measured.append((int(t_ns), rows, strengths, None if times is None else _column(times)))
+        when = time_ns(t_ns, f"{lidar}: t_ns")
+        rows = points_of(points, f"{lidar}: points")
+        n = len(rows)
+        strengths = np.zeros(n, np.float32) if intensity is None else column(intensity, f"{lidar}: intensity", n)
+        after = None if times is None else column(times, f"{lidar}: times", n)
+        sensor.measured.append((when, rows, strengths, after))
 
     def add_image(
         self, camera: str, t_ns: int, rgb: ArrayLike, depth: NDArray[Any] | Iterable[NDArray[Any]] | None = None
@@ -114,8 +117,8 @@ class Sequence:
         if pixels.dtype != np.uint8:
             raise TypeError(f"{camera}: expected an image of uint8, found {pixels.dtype}")
         views = [depth] if isinstance(depth, np.ndarray) and depth.ndim == 2 else depth
-        told = None if views is None else [_own(view) for view in views]
-        sensor.measured.append((int(t_ns), pixels.copy(), told))
+        told = None if views is None else [own(view, f"{camera}: depth") for view in views]
+        sensor.measured.append((time_ns(t_ns, f"{camera}: t_ns"), pixels.copy(), told))
 
     def label(
         self,
@@ -159,10 +162,15 @@ def _known(sensors: dict[str, _Sensor[Told]], name: str, kind: str) -> _Sensor[T
     return sensors[name]
 
 
-def _column(values: ArrayLike) -> NDArray[np.float32]:
-    return _own(values).ravel()
-
-
-def _own(values: ArrayLike) -> NDArray[np.float32]:
-    """A copy in one piece, whatever it is a view of."""
-    return np.array(values, dtype=np.float32, order="C")
+def _radar_columns(radar: str, xyz: ArrayLike | None, fields: dict[str, ArrayLike]) -> dict[str, NDArray[np.float32]]:
+    """The fields of a scan by name, a number for each detection."""
+    columns: dict[str, NDArray[np.float32]] = {}
+    if xyz is not None:
+        if twice := [name for name in "xyz" if name in fields]:
+            raise ValueError(f"{radar}: expected xyz or x, y and z, found xyz and {', '.join(twice)}")
+        rows = points_of(xyz, f"{radar}: xyz")
+        columns = {name: rows[:, axis].copy() for axis, name in enumerate("xyz")}
+    for name, values in fields.items():
+        detections = len(next(iter(columns.values()))) if columns else None
+        columns[name] = column(values, f"{radar}: {name}", detections)
+    return columns

@@ -11,6 +11,8 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ralf._arrays import finite, times_ns
+
 
 @dataclass(frozen=True)
 class Radar:
@@ -147,14 +149,27 @@ def motion_json(motion: Odometry | Poses | None) -> str:
     """How the vehicle moved; without a word of it, it stands."""
     told: dict[str, Any] = {"odometry": [], "poses": []}
     if isinstance(motion, Poses):
-        times = np.asarray(motion.t_ns, dtype=np.int64).tolist()
-        told["poses"] = [[t_ns, _pose(pose)] for t_ns, pose in zip(times, np.asarray(motion.poses), strict=True)]
+        times = _times(motion.t_ns, "poses")
+        poses = np.asarray(motion.poses, dtype=np.float64)
+        if poses.ndim == 0 or len(poses) != len(times):
+            found = "one number" if poses.ndim == 0 else str(len(poses))
+            raise ValueError(f"poses: expected {len(times)}, one for each time, found {found}")
+        placed = [_pose(pose, f"poses: row {n}") for n, pose in enumerate(poses)]
+        told["poses"] = list(zip(times, placed, strict=True))
     else:
         wheels = motion or Odometry([0], [0.0], [0.0])
-        times = np.asarray(wheels.t_ns, dtype=np.int64).tolist()
-        rates = [np.asarray(values, dtype=np.float64).tolist() for values in (wheels.velocity, wheels.yaw_rate)]
-        told["odometry"] = list(zip(times, *rates, strict=True))
+        times = _times(wheels.t_ns, "odometry")
+        velocities = finite(wheels.velocity, len(times), "odometry: velocity").tolist()
+        yaw_rates = finite(wheels.yaw_rate, len(times), "odometry: yaw_rate").tolist()
+        told["odometry"] = list(zip(times, velocities, yaw_rates, strict=True))
     return json.dumps(told)
+
+
+def _times(values: ArrayLike, place: str) -> list[int]:
+    times = times_ns(values, f"{place}: t_ns")
+    if times.ndim != 1:
+        raise ValueError(f"{place}: t_ns: expected n times, found {times.shape}")
+    return [int(t_ns) for t_ns in times]
 
 
 def _radar(radar: Radar, fields: list[str]) -> dict[str, Any]:
@@ -172,21 +187,41 @@ def _camera(camera: Camera) -> dict[str, Any]:
 
 def _mounted(sensor: Radar | Lidar | Camera) -> dict[str, Any]:
     told = dict(vars(sensor))
-    return told | _pose(told.pop("mounting"))
+    mounting = told.pop("mounting")
+    for key, value in told.items():
+        _refuse_no_number(value, f"{sensor.name}: {key}")
+    return told | _pose(mounting, f"{sensor.name}: mounting")
 
 
-def _pose(mounting: ArrayLike) -> dict[str, list[float]]:
+def _refuse_no_number(value: Any, place: str) -> None:
+    """Refuse NaN and infinity, which JSON has no word for, wherever they are in a sensor."""
+    if isinstance(value, float | np.floating) and not np.isfinite(value):
+        raise ValueError(f"{place}: expected a finite number, found {value}")
+    if isinstance(value, list | tuple | np.ndarray):
+        for item in value:
+            _refuse_no_number(item, place)
+    elif hasattr(value, "__dict__"):
+        for key, item in vars(value).items():
+            _refuse_no_number(item, f"{place}: {key}")
+
+
+def _pose(mounting: ArrayLike, place: str) -> dict[str, list[float]]:
     """A translation and a quaternion (x, y, z, w), of a 4 x 4 matrix, of both in a row, or of x, y, z."""
     given = np.asarray(mounting, dtype=np.float64)
+    if given.shape not in {(3,), (7,), (4, 4)}:
+        raise ValueError(f"{place}: expected a 4 x 4 matrix, or 3 or 7 numbers, found an array of shape {given.shape}")
+    if not np.all(np.isfinite(given)):
+        raise ValueError(f"{place}: expected finite numbers, found {given[~np.isfinite(given)][0]} among them")
     if given.shape == (3,):
         return {"translation": given.tolist(), "quaternion_xyzw": [0.0, 0.0, 0.0, 1.0]}
     if given.shape == (7,):
         return {"translation": given[:3].tolist(), "quaternion_xyzw": given[3:].tolist()}
-    if given.shape != (4, 4):
-        raise ValueError(f"expected a 4 x 4 matrix, or 3 or 7 numbers, found an array of shape {given.shape}")
     rotation = given[:3, :3]
     if not np.allclose(rotation @ rotation.T, np.eye(3), atol=1e-3) or np.linalg.det(rotation) < 0:
-        raise ValueError("expected a rotation in the upper left 3 x 3 of the matrix, found something else")
+        raise ValueError(f"{place}: expected a rotation in the upper left 3 x 3 of the matrix, found something else")
+    # A transposed matrix has its translation there, and none where it is looked for.
+    if not np.allclose(given[3], [0.0, 0.0, 0.0, 1.0], atol=1e-6):
+        raise ValueError(f"{place}: expected 0 0 0 1 in the last row of the matrix, found {given[3].tolist()}")
     return {"translation": given[:3, 3].tolist(), "quaternion_xyzw": _quaternion(rotation)}
 
 
