@@ -143,11 +143,15 @@ impl Job {
 /// The model that answers with a method: a file's, or the shipped one; `None` where none is asked.
 ///
 /// # Errors
-/// A file that can't be read or holds no model that this version can use.
+/// A file that can't be read or holds no model that this version can use, and a file for the method that asks none.
 pub fn model_of(method: Method, file: Option<&Path>) -> Result<Option<Model>, DataError> {
-    match method {
-        Method::Paper => Ok(None),
-        Method::Learned => read_model(file).map(Some),
+    match (method, file) {
+        (Method::Paper, None) => Ok(None),
+        (Method::Paper, Some(file)) => {
+            let expected = "the method that asks a model (method = \"learned\")";
+            Err(DataError::content(file, "model", expected, "the paper's"))
+        }
+        (Method::Learned, file) => read_model(file).map(Some),
     }
 }
 

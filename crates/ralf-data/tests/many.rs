@@ -43,6 +43,18 @@ fn scans(count: usize) -> NonZeroUsize {
     NonZeroUsize::new(count).unwrap()
 }
 
+#[test]
+fn a_model_is_refused_where_none_is_asked() {
+    let folder = tempfile::tempdir().unwrap();
+    let (dataset, out) = (recording(folder.path(), 1), folder.path().join("out"));
+    let job = Job { model: Some("nosuch.txt".into()), ..job(&dataset, &out) };
+    let error = job.label(ONE, &Unwatched).unwrap_err().to_string();
+    let told =
+        "nosuch.txt: model: expected the method that asks a model (method = \"learned\"), found the paper's";
+    assert_eq!(error, told);
+    assert!(!out.exists());
+}
+
 /// All files below a folder; of `run.json` all but the timings, and not the plan.
 fn content(out: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
     let mut found = BTreeMap::new();
