@@ -1,9 +1,13 @@
 //! Errors as Python sees them: one exception, with file, place, expected and found where they are known.
 
+mod details;
+
+use details::Details;
 use pyo3::exceptions::PyException;
 use pyo3::prelude::*;
 use ralf_data::DataError;
 use std::fmt::Display;
+use std::path::Path;
 
 pyo3::create_exception!(
     ralf._ralf,
@@ -12,46 +16,6 @@ pyo3::create_exception!(
     "What RALF refuses: `file`, `place`, `expected`, `found` say what is wrong where; None where that isn't known."
 );
 
-/// What is known of an error beside its sentence.
-#[derive(Default)]
-struct Details {
-    file: Option<String>,
-    place: Option<String>,
-    expected: Option<String>,
-    found: Option<String>,
-}
-
-impl Details {
-    fn of(error: &DataError) -> Self {
-        let text = |path: &std::path::Path| Some(path.display().to_string());
-        match error {
-            DataError::Io { file, error } => {
-                Self { file: text(file), found: Some(error.to_string()), ..Self::default() }
-            }
-            DataError::Content { file, place, expected, found } => Self {
-                file: text(file),
-                place: Some(place.clone()),
-                expected: Some(expected.clone()),
-                found: Some(found.clone()),
-            },
-            DataError::Unsuitable { file, place, reason } => Self {
-                file: text(file),
-                place: Some(place.clone()),
-                found: Some(reason.clone()),
-                ..Self::default()
-            },
-            DataError::UnknownSequence { name, known } | DataError::NoColumn { name, known } => Self {
-                expected: Some(format!("one of {known}")),
-                found: Some(name.clone()),
-                ..Self::default()
-            },
-            DataError::Busy { place } => Self { file: text(place), ..Self::default() },
-            DataError::Measurement { error, .. } => error.downcast_ref().map(Self::of).unwrap_or_default(),
-            _ => Self::default(),
-        }
-    }
-}
-
 /// An exception of what is wrong with data.
 pub(crate) fn data(error: DataError) -> PyErr {
     raise(&error, Details::of(&error))
@@ -59,7 +23,13 @@ pub(crate) fn data(error: DataError) -> PyErr {
 
 /// An exception of any other error.
 pub(crate) fn other(error: impl Display) -> PyErr {
-    raise(&error, Details::default())
+    raise(&error, Details::told(&error.to_string()))
+}
+
+/// The same of what a file holds.
+pub(crate) fn in_file(file: &Path, error: impl Display) -> PyErr {
+    let details = Details::told(&error.to_string());
+    raise(&format!("{}: {error}", file.display()), details.in_file(file))
 }
 
 fn raise(error: &impl Display, details: Details) -> PyErr {

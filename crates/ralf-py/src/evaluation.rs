@@ -10,7 +10,11 @@ use ralf_data::result::labelled_recording;
 use ralf_data::{
     Balances, Comparison, Corrections, DataError, GroundTruth, Recording, ScanId, lost_sequences,
 };
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
+
+/// So many sequences are named that labels were not made of.
+const SHOWN: usize = 5;
 
 /// As `ralf evaluate OUT --truth TRUTH --json` prints it; without a truth how balanced the labels are.
 #[pyfunction]
@@ -44,6 +48,19 @@ fn corrected(out: &Path, dataset: &Path) -> Result<GroundTruth, DataError> {
     }
 }
 
+/// Refuses truth that says nothing of what was labelled: all would be unknown.
+fn refuse_another(out: &Path, dataset: &Path, truth: GroundTruth) -> Result<GroundTruth, DataError> {
+    if truth.scans().iter().any(|scan| scan.label_file(out).exists()) {
+        return Ok(truth);
+    }
+    let sequences: BTreeSet<&str> = truth.scans().iter().map(|scan| scan.sequence.as_str()).collect();
+    let more = if sequences.len() > SHOWN { ", ..." } else { "" };
+    let names: Vec<&str> = sequences.into_iter().take(SHOWN).collect();
+    let found = format!("truth of {}{more} alone", names.join(", "));
+    let expected = format!("truth of scans that {} has labels of", out.display());
+    Err(DataError::content(dataset, "truth", expected, found))
+}
+
 /// Corrections of sequences that are gone would be left out.
 fn refuse_lost_sequences(out: &Path, recording: &Recording) -> Result<(), DataError> {
     let lost = lost_sequences(out, None, recording)?;
@@ -67,7 +84,7 @@ impl Truth {
     #[pyo3(signature = (dataset, out=None))]
     fn new(py: Python<'_>, dataset: PathBuf, out: Option<PathBuf>) -> PyResult<Self> {
         let open = || match &out {
-            Some(out) => corrected(out, &dataset),
+            Some(out) => corrected(out, &dataset).and_then(|truth| refuse_another(out, &dataset, truth)),
             None => GroundTruth::open(&dataset),
         };
         Ok(Self { truth: py.detach(open).map_err(data)? })

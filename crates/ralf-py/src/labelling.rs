@@ -1,6 +1,6 @@
 //! Labelling, on one machine and on many, and what it leaves.
 
-use crate::errors::{data, other};
+use crate::errors::{data, in_file, other};
 use crate::table::{Table, table_of};
 use crate::watch::watched;
 use pyo3::prelude::*;
@@ -8,10 +8,11 @@ use ralf_data::many::{self, Job, Task};
 use ralf_data::result::LabelledRun;
 use ralf_data::run::read_record;
 use ralf_data::{DataError, Settings};
+use ralf_files::Kind;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use std::num::NonZeroUsize;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::thread::available_parallelism;
 
 /// As many threads as asked for, or as there are processors.
@@ -27,11 +28,22 @@ pub(crate) fn from_json<T: DeserializeOwned>(text: &str) -> PyResult<T> {
     serde_json::from_str(text).map_err(other)
 }
 
-/// All settings, from a TOML text and assignments `key=value` that win over it; JSON.
+/// All settings, from a TOML file, if any, and assignments `key=value` that win over it; JSON.
 #[pyfunction]
-pub(crate) fn settings(text: &str, assignments: Vec<String>) -> PyResult<String> {
+pub(crate) fn settings(file: Option<PathBuf>, assignments: Vec<String>) -> PyResult<String> {
+    let text = match &file {
+        Some(file) => read_settings(file)?,
+        None => String::new(),
+    };
     let assignments: Vec<&str> = assignments.iter().map(String::as_str).collect();
-    to_json(&Settings::from_toml(text, &assignments).map_err(other)?)
+    to_json(&Settings::from_toml(&text, &assignments).map_err(other)?)
+}
+
+/// The text of a settings file, which by itself is one: what is wrong with it is said of it.
+fn read_settings(file: &Path) -> PyResult<String> {
+    let text = ralf_files::read_text(file, Kind::Settings).map_err(DataError::io(file)).map_err(data)?;
+    Settings::from_toml(&text, &[]).map_err(|error| in_file(file, error))?;
+    Ok(text)
 }
 
 /// Labels a recording by a job (JSON). Returns the sequences that this call has labelled.
@@ -90,7 +102,11 @@ pub(crate) fn assemble(
 /// The output folders for which something was planned.
 #[pyfunction]
 pub(crate) fn planned(out: PathBuf) -> PyResult<Vec<PathBuf>> {
-    many::planned(&out).map_err(data)
+    let folders = many::planned(&out).map_err(data)?;
+    if folders.is_empty() {
+        return Err(data(DataError::content(&out, "plan.json", "what `ralf.plan` wrote", "nothing")));
+    }
+    Ok(folders)
 }
 
 /// A folder in `out` for each recording.

@@ -77,7 +77,8 @@ def test_errors_say_file_place_expected_and_found(drive, tmp_path):
     with pytest.raises(ralf.RalfError) as raised:
         ralf.open(tmp_path / "nowhere")
     assert raised.value.file == str(tmp_path / "nowhere")
-    assert raised.value.expected is None
+    assert raised.value.expected == "the folder or the file of a recording"
+    assert raised.value.found == "none of this name"
     (tmp_path / "damaged/sequences/00").mkdir(parents=True)
     (tmp_path / "damaged/sequences/00/sequence.toml").write_text("[[")
     with pytest.raises(ralf.RalfError) as raised:

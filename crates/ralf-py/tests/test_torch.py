@@ -59,3 +59,11 @@ def test_truth_takes_the_place_of_labels(run, drive):
     assert right / known == pytest.approx(ralf.evaluate(run, truth=drive)["overall"]["pooled"]["accuracy"])
     with pytest.raises(ralf.RalfError, match="expected files of corrected labels"):
         ScanDataset(run, truth=run.out)
+
+
+def test_names_that_there_are_none_of_are_refused(run):
+    with pytest.raises(KeyError, match=f"expected a sequence of {run.sequences[0]}, found nosuch"):
+        ScanDataset(run, FEATURES, sequences=["nosuch"])
+    with pytest.raises(KeyError, match=r"expected a radar of .*, found nosuch"):
+        ScanDataset(run, FEATURES, radars=["nosuch"])
+    assert len(ScanDataset([run, run.out], FEATURES, radars=run.radars_of(run.sequences[0])[:1])) > 0

@@ -5,25 +5,25 @@ from __future__ import annotations
 import json
 import os
 from collections.abc import Mapping
-from pathlib import Path
 from typing import Any
 
 from ralf import _ralf
 
-Settings = Mapping[str, Any] | str | os.PathLike[str] | None
+Path_ = str | bytes | os.PathLike[str] | os.PathLike[bytes]
+Settings = Mapping[str, Any] | Path_ | None
 
 
 def settings_json(settings: Settings, method: str | None = None) -> Any:
     """All settings: of a TOML file, or of a mapping whose keys are `lidar.beta` or `lidar` with a mapping below it."""
-    text = ""
+    file: str | None = None
     assignments: list[str] = []
     if isinstance(settings, Mapping):
         assignments = [f"{key}={_toml(value)}" for key, value in _flat(settings)]
     elif settings is not None:
-        text = Path(settings).read_text(encoding="utf-8")
+        file = path(settings, "settings")
     if method is not None:
         assignments.append(f"method={_toml(method)}")
-    return json.loads(_ralf.settings(text, assignments))
+    return json.loads(_ralf.settings(file, assignments))
 
 
 def _flat(settings: Mapping[str, Any], before: str = "") -> list[tuple[str, Any]]:
@@ -44,38 +44,58 @@ def _toml(value: Any) -> str:
     if isinstance(value, list | tuple):
         return "[" + ", ".join(_toml(item) for item in value) + "]"
     if isinstance(value, str | os.PathLike):
-        return json.dumps(os.fspath(value))
+        return json.dumps(os.fspath(value), ensure_ascii=False)
     # NumPy's numbers are told as Python's.
     return repr(value.item() if hasattr(value, "item") else value)
 
 
+def path(value: Path_, what: str) -> str:
+    """A path as text: jobs and records are JSON, which has no word for other bytes than UTF-8."""
+    text = os.fsdecode(value)
+    try:
+        text.encode()
+    except UnicodeEncodeError:
+        raise ValueError(f"{what}: expected a path in UTF-8, found {os.fsencode(text)!r}") from None
+    return text
+
+
+def above_0(value: int | None, what: str) -> int | None:
+    """A number of something that there has to be one of, if it is given."""
+    if value is not None and value < 1:
+        raise ValueError(f"{what}: expected a number above 0, found {value}")
+    return value
+
+
 def job(
-    recording: str | os.PathLike[str],
-    out: str | os.PathLike[str],
+    recording: Path_,
+    out: Path_,
     *,
     settings: Settings = None,
     method: str | None = None,
-    model: str | os.PathLike[str] | None = None,
+    model: Path_ | None = None,
     format: str | None = None,  # noqa: A002
     sequences: list[str] | None = None,
-    depth: str | os.PathLike[str] | None = None,
-    segmentation: str | os.PathLike[str] | None = None,
+    depth: Path_ | None = None,
+    segmentation: Path_ | None = None,
     evidence: bool = False,
     check: bool = True,
 ) -> str:
     """A job, as JSON."""
+    resolved = settings_json(settings, method)
+    if model is not None and resolved["method"] != "learned":
+        raise ValueError(f'model: expected the method that asks one, method="learned", found {resolved["method"]!r}')
     told: dict[str, Any] = {
-        "recording": os.fspath(recording),
-        "out": os.fspath(out),
+        "recording": path(recording, "recording"),
+        "out": path(out, "out"),
         "format": format,
         "sequences": sequences or [],
-        "settings": settings_json(settings, method),
+        "settings": resolved,
         "evidence": evidence,
-        "model": None if model is None else os.fspath(model),
-        "depth": None if depth is None else os.fspath(depth),
+        "model": None if model is None else path(model, "model"),
+        "depth": None if depth is None else path(depth, "depth"),
         "check": check,
     }
     # A plan without one is told as those before there were any.
     if segmentation is not None:
-        told["segmentation"] = os.fspath(segmentation)
+        told["segmentation"] = path(segmentation, "segmentation")
     return json.dumps(told)

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ralf import _ralf
+from ralf._jobs import Path_
 from ralf.run import Run, Scan
 
 
@@ -35,23 +36,27 @@ def _told(value: object) -> str:
     return f"{value:.3f}" if isinstance(value, float) else str(value)
 
 
-def evaluate(run: Run | str | os.PathLike[str], truth: str | os.PathLike[str] | None = None) -> Evaluation:
+def evaluate(run: Run | Path_, truth: Path_ | None = None) -> Evaluation:
     """Compare labels with the corrected ones of a dataset, as `ralf evaluate`; without a truth, how balanced they are.
 
     Corrections of a review in the run's folder count above the dataset's.
     """
-    out = run.out if isinstance(run, Run) else run
-    return Evaluation(json.loads(_ralf.evaluate(out, truth)))
+    known = None if truth is None else os.fsdecode(truth)
+    return Evaluation(json.loads(_ralf.evaluate(_out(run), known)))
+
+
+def _out(run: Run | Path_) -> str:
+    return os.fsdecode(run.out if isinstance(run, Run) else run)
 
 
 class Truth:
     """What is true of a dataset's detections, as far as people, a simulator or its format say it.
 
-    With a `run`, what people corrected in its review counts above that.
+    With a `run`, what people corrected in its review counts above that; one of another recording is refused.
     """
 
-    def __init__(self, dataset: str | os.PathLike[str], run: Run | str | os.PathLike[str] | None = None) -> None:
-        self._told = (os.fspath(dataset), os.fspath(run.out) if isinstance(run, Run) else run)
+    def __init__(self, dataset: Path_, run: Run | Path_ | None = None) -> None:
+        self._told = (os.fsdecode(dataset), None if run is None else _out(run))
         self._truth = _ralf.Truth(*self._told)
 
     def labels(self, sequence: str, scan: Scan) -> NDArray[np.int8]:
@@ -75,8 +80,11 @@ class Picture:
         self.png = png
 
     def save(self, file: str | os.PathLike[str]) -> None:
-        """Write it to a file."""
-        Path(file).write_bytes(self.png)
+        """Write it to a file, whose name ends in `.png` if it has an ending."""
+        path = Path(file)
+        if path.suffix.lower() not in {"", ".png"}:
+            raise ValueError(f"expected a name that ends in .png, found {path}")
+        path.write_bytes(self.png)
 
     def _repr_png_(self) -> bytes:
         return self.png
@@ -90,7 +98,7 @@ def plot(
     radar: str | None = None,
     radius: float | None = None,
     color_by: str | None = None,
-    recording: str | os.PathLike[str] | None = None,
+    recording: Path_ | None = None,
     width: int = 1200,
 ) -> Picture:
     """Draw a labelled scan from above, or the whole sequence where no scan is given.
@@ -101,4 +109,4 @@ def plot(
     source = recording or run.recording
     if source is None:
         raise ValueError("expected a recording: plot(..., recording=...) or load(out, recording)")
-    return Picture(_ralf.plot(run.out, source, sequence, scan, radar, radius, color_by, width))
+    return Picture(_ralf.plot(run.out, os.fsdecode(source), sequence, scan, radar, radius, color_by, width))

@@ -16,11 +16,9 @@ from pathlib import Path
 from typing import Any
 
 from ralf import _ralf
-from ralf._jobs import Settings, job
+from ralf._jobs import Path_, Settings, above_0, job, path
 from ralf._progress import Progress, listener
 from ralf.run import Run
-
-Path_ = str | os.PathLike[str]
 
 SCANS = 2048
 """Radar scans of a task, if not said: some ten seconds of work for one core."""
@@ -94,7 +92,10 @@ def plan(
     that can't be opened is named in `failed`, and costs the others nothing.
     """
     found = Plan()
-    for recording, folder in zip(recordings, _ralf.folders(recordings, out), strict=True):
+    above_0(scans, "scans")
+    above_0(jobs, "jobs")
+    places = [path(recording, "recordings") for recording in recordings]
+    for recording, folder in zip(places, _ralf.folders(places, path(out, "out")), strict=True):
         told = job(
             recording,
             folder,
@@ -115,17 +116,19 @@ def plan(
 
 def label_one(task: str, *, jobs: int | None = 1, progress: Progress = None) -> list[dict[str, Any]]:
     """Label a task's scans, as far as nobody has. Returns the scans that can't be labelled, with the reason."""
-    failed: list[dict[str, Any]] = json.loads(_ralf.label_one(task, jobs, listener(progress)))
+    failed: list[dict[str, Any]] = json.loads(_ralf.label_one(task, above_0(jobs, "jobs"), listener(progress)))
     return failed
 
 
 def assemble(out: Path_, *, jobs: int | None = None, progress: Progress = None) -> Assembled:
     """Put together what tasks have labelled, recording by recording. Scans that nobody has labelled are labelled now.
 
-    A recording that can't be read is named in `failed`, and costs the others nothing.
+    A recording that can't be read is named in `failed`, and costs the others nothing. A folder that nothing was planned
+    for is refused.
     """
     found = Assembled()
-    for folder in _ralf.planned(out):
+    above_0(jobs, "jobs")
+    for folder in _ralf.planned(path(out, "out")):
         name = Path(folder).name
         try:
             labelled = _ralf.assemble(folder, jobs, listener(progress))
@@ -140,5 +143,5 @@ def assemble(out: Path_, *, jobs: int | None = None, progress: Progress = None) 
 
 def recording_of(out: Path_) -> str:
     """Where the recording lies that was planned for this folder."""
-    told: dict[str, Any] = json.loads((Path(out) / "plan.json").read_text(encoding="utf-8"))
+    told: dict[str, Any] = json.loads((Path(os.fsdecode(out)) / "plan.json").read_text(encoding="utf-8"))
     return str(told["recording"])

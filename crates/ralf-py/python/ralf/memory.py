@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from ralf import _ralf
 from ralf._arrays import column, own, time_ns
 from ralf._arrays import points as points_of
-from ralf._jobs import Settings, job
+from ralf._jobs import Path_, Settings, above_0, job
 from ralf._progress import Progress, listener
 from ralf.run import Scan, scans_of
 from ralf.sensors import Camera, DepthOutput, Lidar, Odometry, Poses, Radar, motion_json, sensors_json
@@ -24,12 +24,13 @@ Told = TypeVar("Told", Radar, Lidar, Camera)
 class Labels:
     """The labels of a sequence in memory: the table of a run, and its scans."""
 
-    def __init__(self, table: _ralf.Table) -> None:
+    def __init__(self, table: _ralf.Table, radars: Iterable[str]) -> None:
         self.table = table
+        self._radars = list(radars)
 
     def scans(self, radar: str | None = None) -> Iterator[Scan]:
         """The scans, radar by radar; of one radar, or of all. Columns are NumPy views."""
-        return scans_of(self.table, radar)
+        return scans_of(self.table, self._radars, radar)
 
     def __getitem__(self, column: str) -> NDArray[Any]:
         """A column of all detections."""
@@ -70,9 +71,9 @@ class Sequence:
         self.name = name
         self._motion = motion_json(motion)
         self._depth_output: DepthOutput = depth_output
-        self._radars = {radar.name: _Sensor(radar) for radar in radars}
-        self._lidars = {lidar.name: _Sensor(lidar) for lidar in lidars}
-        self._cameras = {camera.name: _Sensor(camera) for camera in cameras}
+        self._radars = _by_name(radars, "radars")
+        self._lidars = _by_name(lidars, "LiDARs")
+        self._cameras = _by_name(cameras, "cameras")
 
     def add_radar_scan(self, radar: str, t_ns: int, xyz: ArrayLike | None = None, **fields: ArrayLike) -> None:
         """Add a scan: `xyz` (n x 3, in the radar's frame, m), or `range`, `azimuth` and `elevation` (m, rad) each.
@@ -125,14 +126,15 @@ class Sequence:
         settings: Settings = None,
         *,
         method: str | None = None,
-        model: str | os.PathLike[str] | None = None,
+        model: Path_ | None = None,
         evidence: bool = False,
         jobs: int | None = None,
         progress: Progress = None,
     ) -> Labels:
         """Label all radar scans: what `ralf label` says of the same data."""
         told = job("", "", settings=settings, method=method, model=model, evidence=evidence)
-        return Labels(self._built().label(told, jobs, listener(progress)))
+        table = self._built().label(told, above_0(jobs, "jobs"), listener(progress))
+        return Labels(table, self._radars)
 
     def write(self, dataset: str | os.PathLike[str]) -> None:
         """Write the sequence in the project's own layout, which every command reads."""
@@ -154,6 +156,16 @@ class Sequence:
             [sensor.measured for sensor in lidars],
             [sensor.measured for sensor in cameras],
         )
+
+
+def _by_name(told: Iterable[Told], kind: str) -> dict[str, _Sensor[Told]]:
+    """The sensors by name, which tells them apart."""
+    sensors: dict[str, _Sensor[Told]] = {}
+    for sensor in told:
+        if sensor.name in sensors:
+            raise ValueError(f"expected {kind} of different names, found two of the name {sensor.name}")
+        sensors[sensor.name] = _Sensor(sensor)
+    return sensors
 
 
 def _known(sensors: dict[str, _Sensor[Told]], name: str, kind: str) -> _Sensor[Told]:

@@ -77,7 +77,13 @@ def _label_all(tasks: list[Task], told: Callable[[int, int], object]) -> dict[st
 def _assemble_all(out: Path, failed: dict[str, str]) -> Assembled:
     """Put all recordings together but those that have failed."""
     done = Assembled(failed=dict(failed))
-    folders = [Path(folder) for folder in ralf._ralf.planned(out)]
+    try:
+        folders = [Path(folder) for folder in ralf._ralf.planned(out)]
+    except ralf.RalfError:
+        # Where no recording could be planned, there is nothing to put together: each is named with its reason.
+        if failed:
+            return done
+        raise
     references = {folder: _assemble.remote(os.fspath(folder)) for folder in folders if folder.name not in failed}
     for folder, reference in references.items():
         try:

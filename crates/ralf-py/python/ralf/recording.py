@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ralf import _ralf
-from ralf._jobs import Settings, job
+from ralf._jobs import Path_, Settings, job
 
 
 @dataclass(frozen=True)
@@ -61,8 +61,8 @@ class SequenceInfo:
 class Recording:
     """A recording of any format. Its tables are read, its measurements are not until they are asked for."""
 
-    def __init__(self, path: str | os.PathLike[str], told: str) -> None:
-        self.path = os.fspath(path)
+    def __init__(self, path: Path_, told: str) -> None:
+        self.path = os.fsdecode(path)
         self._told = told
         self._recording = _ralf.Recording(told)
 
@@ -109,7 +109,7 @@ class Recording:
 
 
 def open(  # noqa: A001
-    path: str | os.PathLike[str],
+    path: Path_,
     *,
     format: str | None = None,  # noqa: A002
     sequences: list[str] | None = None,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ralf import _ralf
-from ralf._jobs import Settings, job
+from ralf._jobs import Path_, Settings, above_0, job
 from ralf._progress import Progress, listener
 from ralf.recording import Recording
 
@@ -76,19 +76,31 @@ class Scan:
         return found
 
 
-def scans_of(table: _ralf.Table, radar: str | None = None) -> Iterator[Scan]:
-    """The scans of a table, in its order; of one radar, or of all."""
-    for name, number, batch, first, rows in table.scans:
-        if radar is None or name == radar:
-            yield Scan(name, number, table, (batch, slice(first, first + rows)))
+def scans_of(table: _ralf.Table, radars: Iterable[str], radar: str | None = None) -> Iterator[Scan]:
+    """The scans of a table that has these radars, in its order; of one radar, or of all."""
+    if radar is not None:
+        refuse_unknown([radar], radars, "radar")
+    return (
+        Scan(name, number, table, (batch, slice(first, first + rows)))
+        for name, number, batch, first, rows in table.scans
+        if radar is None or name == radar
+    )
+
+
+def refuse_unknown(wanted: Iterable[str], known: Iterable[str], kind: str) -> None:
+    """Refuse names that there are none of: what is asked for by such a name would be empty without a word."""
+    names = list(dict.fromkeys(known))
+    for name in wanted:
+        if name not in names:
+            raise KeyError(f"expected a {kind} of {', '.join(names)}, found {name}")
 
 
 class Run:
     """What labelling left in a folder: a table per sequence, and a record."""
 
-    def __init__(self, out: str | os.PathLike[str], recording: str | os.PathLike[str] | None = None) -> None:
-        self.out = Path(out)
-        self.recording = None if recording is None else Path(recording)
+    def __init__(self, out: Path_, recording: Path_ | None = None) -> None:
+        self.out = Path(os.fsdecode(out))
+        self.recording = None if recording is None else Path(os.fsdecode(recording))
         """Where the recording lies, as far as it is known."""
         self.labelled: list[str] = []
         """Sequences that this call has labelled; the others were labelled before."""
@@ -119,6 +131,11 @@ class Run:
         """What of the recording can't be read and may have held scans that nothing else tells of: sequence, what."""
         return [(sequence["name"], what) for sequence in self.record["sequences"] for what in sequence.get("lost", [])]
 
+    def radars_of(self, sequence: str) -> list[str]:
+        """The names of a sequence's radars, those without any detection among them."""
+        told = (told for told in self.record["sequences"] if told["name"] == sequence)
+        return [radar["name"] for one in told for radar in one["radars"]]
+
     def __getitem__(self, sequence: str) -> _ralf.Table:
         """All labelled detections of a sequence; Arrow libraries read them without a copy."""
         return _ralf.table(self.out, sequence)
@@ -131,7 +148,7 @@ class Run:
 
     def scans(self, sequence: str, radar: str | None = None) -> Iterator[Scan]:
         """The scans of a sequence, radar by radar; of one radar, or of all."""
-        return scans_of(self[sequence], radar)
+        return scans_of(self[sequence], self.radars_of(sequence), radar)
 
     def __repr__(self) -> str:
         return f"Run({str(self.out)!r}, sequences={self.sequences})"
@@ -153,16 +170,16 @@ def _escaped(value: object) -> str:
 
 
 def label(
-    recording: Recording | str | os.PathLike[str],
-    out: str | os.PathLike[str],
+    recording: Recording | Path_,
+    out: Path_,
     *,
     settings: Settings = None,
     method: str | None = None,
-    model: str | os.PathLike[str] | None = None,
+    model: Path_ | None = None,
     format: str | None = None,  # noqa: A002
     sequences: list[str] | None = None,
-    depth: str | os.PathLike[str] | None = None,
-    segmentation: str | os.PathLike[str] | None = None,
+    depth: Path_ | None = None,
+    segmentation: Path_ | None = None,
     evidence: bool = False,
     check: bool = True,
     jobs: int | None = None,
@@ -170,9 +187,10 @@ def label(
 ) -> Run:
     """Label every radar detection of a recording, as `ralf label` does: the same bytes, and resumable like it.
 
-    `settings` is a mapping (`{"lidar.beta": 0.5}`) or a TOML file; `method` is "paper" or "learned"; `depth` a folder
-    of depth images, `segmentation` one of segmentations; `jobs` the number of threads, as many as there are processors
-    if not given. Ctrl-C stops it, and what is done is kept.
+    `settings` is a mapping (`{"lidar.beta": 0.5}`) or a TOML file. `method` is "paper" or "learned", which asks
+    `model`, the shipped one if not given. `depth` is a folder of depth images, `segmentation` one of segmentations.
+    `jobs` is the number of threads, as many as there are processors if not given. Ctrl-C stops it, and what is done is
+    kept.
     """
     path = recording.path if isinstance(recording, Recording) else recording
     if isinstance(recording, Recording):
@@ -191,12 +209,12 @@ def label(
         evidence=evidence,
         check=check,
     )
-    labelled = _ralf.label(told, jobs, listener(progress))
+    labelled = _ralf.label(told, above_0(jobs, "jobs"), listener(progress))
     run = Run(out, path)
     run.labelled = labelled
     return run
 
 
-def load(out: str | os.PathLike[str], recording: str | os.PathLike[str] | None = None) -> Run:
+def load(out: Path_, recording: Path_ | None = None) -> Run:
     """Open what `ralf label` wrote; `recording` is needed for pictures."""
     return Run(out, recording)

@@ -7,7 +7,10 @@ from datetime import datetime
 from pathlib import Path, PurePosixPath
 from typing import Any
 
-import fsspec
+try:
+    import fsspec
+except ImportError as error:
+    raise ImportError("ralf.storage: expected fsspec, found none: pip install ralf-radar[storage]") from error
 
 MARKER = "run.json"
 """Written last, and taken away first: who finds it finds all that it tells of."""

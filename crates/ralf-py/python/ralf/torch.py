@@ -17,7 +17,7 @@ import torch
 from torch.utils.data import Dataset, IterableDataset, get_worker_info
 
 from ralf.judging import Truth
-from ralf.run import Run, Scan, load
+from ralf.run import Run, Scan, load, refuse_unknown
 
 _Out = Run | str | os.PathLike[str]
 
@@ -60,11 +60,14 @@ class ScanDataset(Dataset[Sample]):
         self._scans: list[tuple[Path, str, list[int]]] = []
         self._ends: list[int] = []
         self._open: tuple[int, list[Scan]] | None = None
-        for run in [runs] if isinstance(runs, Run | str | os.PathLike) else runs:
-            opened = run if isinstance(run, Run) else load(run)
-            for sequence in opened.record["sequences"]:
-                if sequences is None or sequence["name"] in sequences:
-                    self._add(opened.out, sequence, radars)
+        given = [runs] if isinstance(runs, Run | str | os.PathLike) else runs
+        opened = [run if isinstance(run, Run) else load(run) for run in given]
+        held = [(run, sequence) for run in opened for sequence in run.record["sequences"]]
+        refuse_unknown(sequences or [], (sequence["name"] for _, sequence in held), "sequence")
+        chosen = [one for one in held if sequences is None or one[1]["name"] in sequences]
+        refuse_unknown(radars or [], (radar for run, one in chosen for radar in run.radars_of(one["name"])), "radar")
+        for run, sequence in chosen:
+            self._add(run.out, sequence, radars)
 
     def _add(self, out: Path, sequence: dict[str, object], radars: Sequence[str] | None) -> None:
         """Count a sequence's scans that hold detections, without reading its table."""

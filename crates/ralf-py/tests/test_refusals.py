@@ -1,0 +1,184 @@
+"""What makes no sense is refused, by name and with what there is to choose from, and never answered with nothing."""
+
+import importlib
+import json
+import shutil
+import sys
+
+import pytest
+
+import ralf
+from ralf import _ralf
+from ralf._jobs import job
+
+
+def one_scan():
+    sequence = ralf.Sequence(radars=[ralf.Radar("front")])
+    sequence.add_radar_scan("front", 0, xyz=[[9.0, 0.0, 0.0]])
+    return sequence
+
+
+def known(error):
+    return error.file, error.place, error.expected, error.found
+
+
+def test_a_model_is_refused_where_the_method_asks_none(drive, tmp_path):
+    refused = 'model: expected the method that asks one, method="learned", found'
+    with pytest.raises(ValueError, match=refused):
+        ralf.label(drive, tmp_path / "out", model="nosuch.txt")
+    with pytest.raises(ValueError, match=refused):
+        ralf.label(drive, tmp_path / "out", model="nosuch.txt", settings={"method": "paper"})
+    with pytest.raises(ValueError, match=refused):
+        ralf.plan([drive], tmp_path / "out", model="nosuch.txt")
+    with pytest.raises(ValueError, match=refused):
+        one_scan().label(model="nosuch.txt")
+    assert not (tmp_path / "out").exists()
+    # Whoever makes a job by hand hears it, too.
+    told = json.dumps(json.loads(job(drive, tmp_path / "out")) | {"model": "nosuch.txt"})
+    with pytest.raises(ralf.RalfError, match=r"nosuch\.txt: model: expected the method that asks a model"):
+        _ralf.label(told)
+
+
+def test_radars_that_there_are_none_of_are_refused(run):
+    (name,) = run.sequences
+    first = run.radars_of(name)[0]
+    with pytest.raises(KeyError, match=f"expected a radar of {first}.*, found nosuch"):
+        run.scans(name, radar="nosuch")
+    with pytest.raises(KeyError, match="expected a radar of front, found nosuch"):
+        one_scan().label().scans("nosuch")
+    assert len(list(run.scans(name, radar=first))) > 1
+    # One that has seen nothing is still one.
+    silent = ralf.Sequence(radars=[ralf.Radar("front"), ralf.Radar("rear")])
+    silent.add_radar_scan("front", 0, xyz=[[9.0, 0.0, 0.0]])
+    assert list(silent.label().scans("rear")) == []
+
+
+def test_two_sensors_of_one_name_are_refused():
+    with pytest.raises(ValueError, match="expected radars of different names, found two of the name front"):
+        ralf.Sequence(radars=[ralf.Radar("front"), ralf.Radar("front")])
+    with pytest.raises(ValueError, match="expected LiDARs of different names, found two of the name top"):
+        ralf.Sequence(radars=[ralf.Radar("front")], lidars=[ralf.Lidar("top"), ralf.Lidar("top")])
+
+
+def test_a_folder_that_nothing_was_planned_for_is_refused(tmp_path):
+    for folder in (tmp_path / "nosuch", tmp_path):
+        with pytest.raises(ralf.RalfError) as raised:
+            ralf.assemble(folder)
+        assert known(raised.value) == (str(folder), "plan.json", "what `ralf.plan` wrote", "nothing")
+
+
+def test_truth_of_another_recording_is_refused(drive, run, tmp_path):
+    (name,) = run.sequences
+    other = tmp_path / "other"
+    shutil.copytree(drive, other)
+    (other / "sequences" / name).rename(other / "sequences/elsewhere")
+    with pytest.raises(ralf.RalfError) as raised:
+        ralf.Truth(other, run)
+    assert known(raised.value) == (
+        str(other),
+        "truth",
+        f"truth of scans that {run.out} has labels of",
+        "truth of elsewhere alone",
+    )
+    assert ralf.Truth(drive, run)
+
+
+def test_errors_of_settings_say_file_place_expected_and_found(tmp_path):
+    file = tmp_path / "ralf.toml"
+
+    def refused(settings):
+        with pytest.raises(ralf.RalfError) as raised:
+            ralf.open("nosuch", settings=settings)
+        return raised.value
+
+    file.write_text("[lidar]\nbeta = -1\n")
+    error = refused(file)
+    assert str(error) == f"{file}: setting `lidar.beta`: expected more than 0 and up to 1000000, found -1"
+    assert known(error) == (str(file), "setting `lidar.beta`", "more than 0 and up to 1000000", "-1")
+    assert known(refused({"lidar.beta": -1})) == (None, *known(error)[1:])
+    file.write_text("[lidar]\ngamma = 1\n")
+    error = refused(str(file))
+    assert str(error).startswith(f"{file}: TOML parse error at line 2, column 1")
+    assert error.expected.startswith("one of `enabled`, `beta`")
+    assert known(error)[:2] == (str(file), "line 2, column 1")
+    assert error.found == "unknown field `gamma`"
+    error = refused({"lidar.beta": "a"})
+    assert known(error) == (None, "lidar.beta", "a number", 'invalid type: string "a"')
+    missing = tmp_path / "missing.toml"
+    assert known(refused(missing)) == (str(missing), None, "a regular file", "none of this name")
+    file.write_bytes(b"# \xff")
+    assert known(refused(file)) == (str(file), "byte 2", "UTF-8 text", "other bytes")
+
+
+def test_errors_of_models_say_file_place_expected_and_found(tmp_path):
+    model = tmp_path / "model.txt"
+
+    def refused():
+        with pytest.raises(ralf.RalfError) as raised:
+            one_scan().label(method="learned", model=model)
+        return known(raised.value)
+
+    assert refused() == (str(model), None, "a regular file", "none of this name")
+    model.write_text("a recipe\n")
+    assert refused() == (str(model), "model: line 1", "`ralf model 1`", "`a recipe`")
+
+
+def test_errors_of_arrays_say_place_expected_and_found():
+    sequence = one_scan()
+    sequence.add_radar_scan("front", -5, xyz=[[9.0, 0.0, 0.0]])
+    with pytest.raises(ralf.RalfError) as raised:
+        sequence.label()
+    file, place, expected, found = known(raised.value)
+    assert (file, expected, found) == (None, "a time of 0 ns or later", "-5 ns")
+    assert "front" in place
+
+
+@pytest.mark.parametrize("jobs", [0, -3])
+def test_no_threads_are_refused(drive, tmp_path, jobs):
+    refused = f"jobs: expected a number above 0, found {jobs}"
+    for call in (
+        lambda: ralf.label(drive, tmp_path / "out", jobs=jobs),
+        lambda: ralf.plan([drive], tmp_path / "out", jobs=jobs),
+        lambda: ralf.label_one("{}", jobs=jobs),
+        lambda: ralf.assemble(tmp_path, jobs=jobs),
+        lambda: one_scan().label(jobs=jobs),
+    ):
+        with pytest.raises(ValueError, match=refused):
+            call()
+    with pytest.raises(ValueError, match="scans: expected a number above 0, found 0"):
+        ralf.plan([drive], tmp_path / "out", scans=0)
+
+
+def test_paths_of_bytes_are_taken_and_others_than_utf8_refused(drive, tmp_path):
+    out = tmp_path / "out"
+    assert ralf.open(bytes(drive)).sequences == ralf.open(drive).sequences
+    run = ralf.label(bytes(drive), bytes(out))
+    assert (run.out, run.recording) == (out, drive)
+    assert ralf.load(bytes(out)).sequences == run.sequences
+    assert ralf.evaluate(bytes(out), bytes(drive)) == ralf.evaluate(run, drive)
+    scan = next(run.scans(run.sequences[0]))
+    assert len(ralf.Truth(bytes(drive), bytes(out)).labels(run.sequences[0], scan)) == len(scan)
+    wrong = b"caf\xe9"
+    for call in (
+        lambda: ralf.open(wrong),
+        lambda: ralf.label(wrong.decode(errors="surrogateescape"), out),
+        lambda: ralf.plan([wrong], out),
+    ):
+        with pytest.raises(ValueError, match=r"recordings?: expected a path in UTF-8, found b'caf\\xe9'"):
+            call()
+
+
+def test_pictures_of_another_name_are_refused(run, tmp_path):
+    picture = ralf.plot(run, run.sequences[0], scan=0, width=300)
+    with pytest.raises(ValueError, match=r"expected a name that ends in \.png, found .*x\.jpg"):
+        picture.save(tmp_path / "x.jpg")
+    for name in ("x.png", "x.PNG", "x"):
+        picture.save(tmp_path / name)
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["x", "x.PNG", "x.png"]
+
+
+def test_what_storage_lacks_is_named(monkeypatch):
+    monkeypatch.setitem(sys.modules, "fsspec", None)
+    monkeypatch.delitem(sys.modules, "ralf.storage", raising=False)
+    with pytest.raises(ImportError, match=r"expected fsspec, found none: pip install ralf-radar\[storage\]"):
+        importlib.import_module("ralf.storage")
