@@ -100,6 +100,19 @@ pub(crate) fn told(file: &Path) -> impl Fn(rusqlite::Error) -> StoreError {
 }
 
 impl StoreError {
+    /// The store, where it is one that is wrong and not what was asked for.
+    pub fn file(&self) -> Option<&Path> {
+        match self {
+            Self::Locked { file, .. }
+            | Self::ReadOnly { file }
+            | Self::Gone { file, .. }
+            | Self::Content { file, .. }
+            | Self::Io { file, .. }
+            | Self::Database { file, .. } => Some(file),
+            Self::Request { .. } => None,
+        }
+    }
+
     pub(crate) fn gone(file: &Path, found: &str) -> Self {
         Self::Gone { file: file.to_owned(), found: found.to_owned() }
     }

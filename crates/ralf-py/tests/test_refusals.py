@@ -123,6 +123,16 @@ def test_errors_of_models_say_file_place_expected_and_found(tmp_path):
     assert refused() == (str(model), "model: line 1", "`ralf model 1`", "`a recipe`")
 
 
+def test_errors_of_corrections_say_file_place_expected_and_found(drive, run, tmp_path):
+    shutil.copytree(run.out, tmp_path / "out")
+    store = tmp_path / "out/corrections.sqlite"
+    store.write_bytes(b"no database" * 100)
+    with pytest.raises(ralf.RalfError) as raised:
+        ralf.Truth(drive, tmp_path / "out")
+    told = ("file", "a whole SQLite database of corrections", "another file, or a damaged one")
+    assert known(raised.value) == (str(store), *told)
+
+
 def test_errors_of_arrays_say_place_expected_and_found():
     sequence = one_scan()
     sequence.add_radar_scan("front", -5, xyz=[[9.0, 0.0, 0.0]])
@@ -166,6 +176,21 @@ def test_paths_of_bytes_are_taken_and_others_than_utf8_refused(drive, tmp_path):
     ):
         with pytest.raises(ValueError, match=r"recordings?: expected a path in UTF-8, found b'caf\\xe9'"):
             call()
+
+
+def test_a_picture_of_a_named_sequence_wants_no_other(drive, tmp_path, cli):
+    """As with the command: what is gone of a recording is refused where the whole of it is asked for."""
+    (name,) = ralf.open(drive).sequences
+    recording, out = tmp_path / "drive", tmp_path / "out"
+    shutil.copytree(drive, recording)
+    shutil.copytree(recording / "sequences" / name, recording / "sequences/gone")
+    run = ralf.label(recording, out)
+    shutil.rmtree(recording / "sequences/gone")
+    cli("plot", recording, out, "--scan", 0, "-o", tmp_path / "any.png", status=1)
+    cli("plot", recording, out, "--sequence", name, "--scan", 0, "-o", tmp_path / "named.png")
+    assert ralf.plot(run, name, scan=0, width=1600).png == (tmp_path / "named.png").read_bytes()
+    with pytest.raises(ralf.RalfError, match="no sequence `gone`"):
+        ralf.plot(run, "gone", scan=0)
 
 
 def test_pictures_of_another_name_are_refused(run, tmp_path):

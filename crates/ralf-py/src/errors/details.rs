@@ -35,8 +35,16 @@ impl Details {
                 Some(error) => Self::of(error),
                 None => Self::told(&error.to_string()),
             },
+            DataError::Corrections(error) => Self::of_file(error.file(), &error.to_string()),
             error => Self::told(&error.to_string()),
         }
+    }
+
+    /// What a sentence says that begins with the file, if there is one.
+    fn of_file(file: Option<&Path>, sentence: &str) -> Self {
+        let Some(file) = file else { return Self::told(sentence) };
+        let name = format!("{}: ", file.display());
+        Self::told(sentence.strip_prefix(&name).unwrap_or(sentence)).in_file(file)
     }
 
     /// What a sentence says. All of ours have one form, `place: expected this, found that`, wherever they were made:
