@@ -10,7 +10,7 @@ use crate::stretches::{Stretches, needs};
 use ralf::config::Config;
 use ralf::scene::FrameWindow;
 use ralf::sensors::{Rig, Timelines};
-use ralf_train::work_off;
+use ralf_jobs::work_off;
 use std::collections::VecDeque;
 use std::sync::{Mutex, PoisonError};
 

@@ -41,9 +41,9 @@ pub(crate) struct App {
     pub(crate) clouds: Cache<(usize, usize, usize), (Stamp, Vec<u8>)>,
     /// The same of what several scans have seen.
     pub(crate) maps: Cache<(usize, usize, usize), (Stamp, Vec<u8>)>,
-    /// Rung when something was written.
+    /// Tells those who listen for news that something was written.
     pub(crate) news: watch::Sender<()>,
-    /// Rung when the server ends.
+    /// Tells those who listen that the server ends.
     pub(crate) closing: watch::Sender<bool>,
 }
 

@@ -18,7 +18,6 @@ mod objective;
 mod observed;
 mod search;
 mod settings;
-mod side_by_side;
 mod table;
 mod threshold;
 
@@ -30,7 +29,6 @@ pub use objective::{Objective, ObjectiveError};
 pub use observed::{Observed, Weights};
 pub use search::{Found, Search};
 pub use settings::{Branches, Space, TunedSettings};
-pub use side_by_side::{side_by_side, work_off};
 pub use table::EvidenceTable;
 
 use thiserror::Error;

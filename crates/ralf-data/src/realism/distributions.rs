@@ -5,7 +5,7 @@ use super::{Quantity, lidar, radar};
 use crate::frames::{Frames, ScanIndex};
 use crate::read::SequenceReader;
 use ralf::config::Config;
-use ralf_train::side_by_side;
+use ralf_jobs::side_by_side;
 use std::convert::Infallible;
 
 /// Radar scans that are looked at, of a recording.

@@ -11,7 +11,7 @@ use crate::result::{
     WithoutNumbers, written,
 };
 use ralf::sensors::Camera;
-use ralf_train::side_by_side;
+use ralf_jobs::side_by_side;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 use std::sync::{Mutex, PoisonError};

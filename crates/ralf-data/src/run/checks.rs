@@ -2,7 +2,7 @@
 
 use crate::read::{Recording, SequenceReader};
 use crate::result::CheckRecord;
-use ralf_train::side_by_side;
+use ralf_jobs::side_by_side;
 
 /// What [`ralf_check::check`] says of each sequence, in the recording's order, by so many threads.
 pub fn check_all(recording: &Recording, jobs: usize) -> Vec<CheckRecord> {

@@ -4,7 +4,7 @@ use super::{Observer, Stage, fingerprint};
 use crate::error::DataError;
 use crate::read::{Recording, SequenceReader};
 use crate::result::{Input, changed_ns, hash_file};
-use ralf_train::side_by_side;
+use ralf_jobs::side_by_side;
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 

@@ -14,7 +14,7 @@ use crate::error::DataError;
 use crate::frames::{OwnWindow, ScanIndex};
 use crate::result::{Input, NotLabelled};
 use crate::stretches::{Stretches, needs};
-use ralf_train::work_off;
+use ralf_jobs::work_off;
 use std::mem::take;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};

@@ -6,7 +6,7 @@ use crate::error::DataError;
 use crate::read::SequenceReader;
 use crate::result::SequenceNames;
 use ralf::sensors::{Camera, CameraImage, StraightView, UndistortMap};
-use ralf_train::side_by_side;
+use ralf_jobs::side_by_side;
 use std::sync::OnceLock;
 
 /// A network: what it says of a view with a focal length, px; or why it says nothing.

@@ -9,7 +9,7 @@ use crate::read::layout::{CAUSE_NAMES, GROUND_TRUTH, SEQUENCES, rig, tables};
 use crate::read::recording::{check_motion_corrected, check_nothing_lost};
 use crate::result::{Component, OutFolder, SequenceNames, WriterLock, checked, refuse_links_out};
 use ralf::sensors::{Sequence, SourceError, Timelines};
-use ralf_train::side_by_side;
+use ralf_jobs::side_by_side;
 use std::fs;
 use std::path::Path;
 use std::sync::{Mutex, PoisonError};

@@ -3,9 +3,9 @@
 use super::boosting::{Bins, Examples, Parameters, boost};
 use super::fitting::Fitting;
 use super::table::TrainingTable;
-use crate::side_by_side;
 use ralf::label::Cause;
 use ralf::learned::{CauseForest, Rows};
+use ralf_jobs::side_by_side;
 use std::convert::Infallible;
 
 /// Rows of a cause from which it can be learned.

@@ -1,8 +1,8 @@
 //! A second opinion on the labels of a sequence, once a person has said what some of them should be.
 
 use super::boosting::{Bins, Examples, Parameters, boost};
-use crate::side_by_side;
 use ralf::learned::{Rows, probability};
+use ralf_jobs::side_by_side;
 use std::convert::Infallible;
 
 /// What is believed of a detection before it is thought over.

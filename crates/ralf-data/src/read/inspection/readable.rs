@@ -1,7 +1,7 @@
 //! Which scans can't be read, found by reading each once.
 
 use crate::read::SequenceReader;
-use ralf_train::side_by_side;
+use ralf_jobs::side_by_side;
 use serde::Serialize;
 use std::convert::Infallible;
 

@@ -1,4 +1,9 @@
-//! Work on several items at a time.
+//! Work on several items at a time, whose results and errors don't depend on how many threads do it.
+//!
+//! ```
+//! let squares = ralf_jobs::side_by_side(&[1, 2, 3], 2, |item| Ok::<_, String>(item * item));
+//! assert_eq!(squares, Ok(vec![1, 4, 9]));
+//! ```
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -19,13 +24,13 @@ pub fn side_by_side<T: Sync, R: Send, E: Send>(
 /// What one worker did: results of the places it took, or the place that failed and why.
 type Worked<R, E> = Result<Vec<(usize, R)>, (usize, E)>;
 
-/// So many workers, but one at least, take one place of the work after the other, as `next` tells each by its number,
-/// until it tells of none; each begins with a state of its own. Results are those of places that have one, in their
-/// order.
+/// Lets workers, one at least, take places of the work until there are none. `begin` makes the state that a worker
+/// keeps, `next` tells the place that the worker of this number takes, or none, and `work` does it. Results are in the
+/// order of the places, of those that have one.
 ///
 /// # Errors
-/// An error ends the work: of several it is that of the first place, for what comes before a failure is still worked
-/// on, if `next` gives each worker places that ascend as long as he takes none that was another's before.
+/// An error ends the work. Of several it is that of the first place, where each worker's places ascend: what comes
+/// before a failure is still worked on.
 pub fn work_off<S, R: Send, E: Send>(
     workers: usize,
     begin: impl Fn() -> S + Sync,
