@@ -3,6 +3,7 @@
 use anyhow::Context;
 pub(crate) use ralf_report::{counted, grouped};
 use std::io::{self, Write};
+use std::path::Path;
 
 /// Prints a result to standard output.
 pub(crate) fn print(text: &str) -> anyhow::Result<()> {
@@ -41,6 +42,20 @@ pub(crate) fn without_shown_lines(text: &str) -> (String, String) {
         line = line + between + part.trim();
     }
     (shown.join("\n"), line)
+}
+
+/// A word of a command, so that a shell takes it back as it is.
+pub(crate) fn shell_word(word: &str) -> String {
+    let is_plain = |character: char| character.is_alphanumeric() || "_-./=:,+@%".contains(character);
+    if !word.is_empty() && word.chars().all(is_plain) {
+        return word.to_owned();
+    }
+    format!("'{}'", word.replace('\'', r"'\''"))
+}
+
+/// The same of a path.
+pub(crate) fn shell_path(path: &Path) -> String {
+    shell_word(&path.to_string_lossy())
 }
 
 /// A share in percent with one decimal, or a dash of nothing.

@@ -1,7 +1,7 @@
 //! Settings from a file and from the command line.
 
 use crate::outcome::UsageError;
-use crate::text::in_a_line;
+use crate::text::{in_a_line, shell_path, shell_word};
 use anyhow::Context;
 use clap::Args;
 use ralf_data::Settings;
@@ -59,10 +59,11 @@ impl SettingsArgs {
 
     /// As they were typed, each after a space.
     pub(crate) fn told(&self) -> String {
-        let config = self.config.iter().map(|file| format!(" --config {}", file.display()));
-        let set = self.assignments.iter().map(|assignment| format!(" --set {assignment}"));
-        let trajectory = self.trajectory.iter().map(|file| format!(" --trajectory {}", file.display()));
-        let frame = self.trajectory_frame.iter().map(|name| format!(" --trajectory-frame {name}"));
+        let config = self.config.iter().map(|file| format!(" --config {}", shell_path(file)));
+        let set = self.assignments.iter().map(|assignment| format!(" --set {}", shell_word(assignment)));
+        let trajectory = self.trajectory.iter().map(|file| format!(" --trajectory {}", shell_path(file)));
+        let frame =
+            self.trajectory_frame.iter().map(|name| format!(" --trajectory-frame {}", shell_word(name)));
         config.chain(set).chain(trajectory).chain(frame).collect()
     }
 }

@@ -3,7 +3,7 @@
 use super::{evaluate, label, report, simulate};
 use crate::outcome::Outcome;
 use crate::progress::say;
-use crate::text::print;
+use crate::text::{print, shell_word};
 use anyhow::Context;
 use clap::{Args, Command};
 use std::path::PathBuf;
@@ -38,6 +38,7 @@ pub(crate) fn run(arguments: &DemoArgs) -> anyhow::Result<Outcome> {
     }
     step(&["label", &recording, "-o", &labels], label::run)?;
     step(&["evaluate", &labels, "--truth", &recording], evaluate::run)?;
+    let [recording, labels, learned] = [recording, labels, learned].map(|path| shell_word(&path));
     say("\nThe method that learns: a probability, causes and reasons.");
     step(&["label", &recording, "-o", &learned, "--method", "learned"], label::run)?;
     step(&["evaluate", &learned, "--truth", &recording], evaluate::run)?;
@@ -55,7 +56,8 @@ pub(crate) fn run(arguments: &DemoArgs) -> anyhow::Result<Outcome> {
 
 /// Shows a command and runs it.
 fn step<A: Args>(words: &[&str], run: impl FnOnce(&A) -> anyhow::Result<Outcome>) -> anyhow::Result<Outcome> {
-    say(&format!("\n$ ralf {}", words.join(" ")));
+    let typed: Vec<String> = words.iter().map(|word| shell_word(word)).collect();
+    say(&format!("\n$ ralf {}", typed.join(" ")));
     let command = A::augment_args(Command::new("ralf"));
     let typed = command.try_get_matches_from(words).context("a command of the demonstration")?;
     run(&A::from_arg_matches(&typed).context("a command of the demonstration")?)

@@ -5,6 +5,7 @@ use crate::corrections::merged_truth;
 use crate::outcome::{Outcome, UsageError};
 use crate::progress::{Progress, Stages};
 use crate::run_summary::say_not_used;
+use crate::text::shell_path;
 use clap::Args;
 use clap::builder::PossibleValuesParser;
 use ralf::config::{Config, Method};
@@ -143,7 +144,7 @@ impl SearchArgs {
     pub(super) fn told(&self) -> String {
         let (objective, trials, seed) = (&self.objective, self.trials, self.seed);
         let held: String = self.held.iter().map(|key| format!(" --hold {key}")).collect();
-        let corrections = self.corrections.iter().map(|out| format!(" --corrections {}", out.display()));
+        let corrections = self.corrections.iter().map(|out| format!(" --corrections {}", shell_path(out)));
         let given = corrections.collect::<String>() + &self.settings.told();
         format!("--objective {objective} --trials {trials} --seed {seed}{held}{given}")
     }

@@ -7,7 +7,7 @@ use super::search::{Parts, SearchArgs, name_what_is_left_out, tables};
 use crate::arguments::check_output;
 use crate::outcome::{Outcome, UsageError};
 use crate::progress::say;
-use crate::text::print;
+use crate::text::{print, shell_path, shell_word};
 use clap::Args;
 use ralf::config::Config;
 use ralf_data::{Settings, write_named};
@@ -104,13 +104,16 @@ impl TuneArgs {
 
     /// The command that repeats this, without what doesn't change the result.
     fn command(&self) -> String {
-        let test =
-            if self.test.is_empty() { String::new() } else { format!(" --test {}", self.test.join(",")) };
+        let test = if self.test.is_empty() {
+            String::new()
+        } else {
+            format!(" --test {}", shell_word(&self.test.join(",")))
+        };
         let cross_validate = if self.cross_validate { " --cross-validate" } else { "" };
         format!(
             "ralf tune {} --train {}{test}{cross_validate} {}",
-            self.search.dataset.display(),
-            self.search.train.join(","),
+            shell_path(&self.search.dataset),
+            shell_word(&self.search.train.join(",")),
             self.search.told(),
         )
     }

@@ -118,3 +118,25 @@ fn a_sensor_beyond_a_vehicle_is_refused() {
         .exits(1)
         .ends_with_error(["sequence.toml: [[radar]] radar_front: translation: expected at most 1000 m"]);
 }
+
+#[test]
+fn a_command_that_is_told_can_be_typed_again() {
+    let dataset = Dataset::of(&Shape { scans: 3, sequences: &["00", "01"], ..Shape::default() });
+    let [recording, model, demo] = ["it's a town", "a model", "d m"].map(|name| dataset.beside(name));
+    fs::rename(&dataset.path, &recording).unwrap();
+    let few = ["--rounds", "2", "--leaves", "2"];
+    let [a, b, c, d] = few;
+    ralf(["learn", &recording, "-o", &model, a, b, c, d, "--without-group", "LiDAR rays", "-q"]).exits(0);
+    let text = fs::read_to_string(&model).unwrap();
+    let quoted = format!("'{}'", recording.replace('\'', r"'\''"));
+    let command = format!("command ralf learn {quoted} --rounds 2 --leaves 2 --without-group 'LiDAR rays' ");
+    assert!(text.contains(&command), "{:?}", text.lines().nth(2));
+    let file = dataset.beside("ralf.toml");
+    ralf(["tune", &recording, "-o", &file, "--train", "00", "--test", "01", "--trials", "1", "-q"]).exits(0);
+    let text = fs::read_to_string(&file).unwrap();
+    assert!(text.contains(&format!("ralf tune {quoted} --train 00 --test 01 ")), "{text}");
+    ralf(["demo", &demo])
+        .exits(0)
+        .says([&format!("$ ralf label '{demo}/recording' -o '{demo}/labels'")])
+        .prints([&format!("ralf plot '{demo}/recording' '{demo}/labels' --scan 6")]);
+}

@@ -9,7 +9,7 @@ use crate::corrections::merged_truth;
 use crate::outcome::Outcome;
 use crate::progress::{Progress, Stages, say};
 use crate::run_summary::say_not_used;
-use crate::text::print;
+use crate::text::{print, shell_path, shell_word};
 use anyhow::Context;
 use clap::Args;
 use clap::builder::PossibleValuesParser;
@@ -155,11 +155,14 @@ impl LearnArgs {
     /// Where the model comes from: the command without what doesn't change it.
     fn origin(&self) -> Origin {
         let datasets: String =
-            self.datasets.iter().map(|dataset| format!(" {}", dataset.display())).collect();
-        let mut without: String =
-            self.without_groups.iter().map(|group| format!(" --without-group '{group}'")).collect();
+            self.datasets.iter().map(|dataset| format!(" {}", shell_path(dataset))).collect();
+        let mut without: String = self
+            .without_groups
+            .iter()
+            .map(|group| format!(" --without-group {}", shell_word(group)))
+            .collect();
         without += if self.no_blanking { " --no-blanking" } else { "" };
-        let from: String = self.from.iter().map(|out| format!(" --from {}", out.display())).collect();
+        let from: String = self.from.iter().map(|out| format!(" --from {}", shell_path(out))).collect();
         let command = format!(
             "ralf learn{datasets}{from}{} --rounds {} --leaves {}{without} --seed {}{}",
             self.worlds.told(self.from.is_some()),
