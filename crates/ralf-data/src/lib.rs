@@ -40,7 +40,7 @@ pub mod truth;
 pub mod views;
 pub mod write;
 
-pub use disk::files::{write_named, write_whole};
+pub use disk::files::{check_writable, write_named, write_whole};
 pub use disk::images::png;
 pub use disk::label_file::{Label, read_labels, write_labels};
 pub use error::DataError;

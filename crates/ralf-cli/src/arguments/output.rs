@@ -1,6 +1,7 @@
 //! Files that a command writes: never over what it reads.
 
 use crate::outcome::UsageError;
+use anyhow::Context;
 use std::fs::File;
 use std::io::Read;
 use std::path::Path;
@@ -10,10 +11,17 @@ const PAGES: [&str; 2] = ["png", "html"];
 /// What an SQLite database begins with.
 const SQLITE: &[u8; 16] = b"SQLite format 3\0";
 
+/// Refuses, before the work that fills it, a place for a file that is [no good](refuse_place), and tells where none can
+/// be made.
+pub(crate) fn check_output(argument: &str, file: &Path, read_only: &[&Path]) -> anyhow::Result<()> {
+    refuse_place(argument, file, read_only)?;
+    ralf_data::check_writable(file).context(argument.to_owned())
+}
+
 /// Refuses a place for a file, named by its argument, where something lies that is no regular file, such as a folder or
 /// a device, or a database, which no command writes there; and where a file of one of the folders lies that are only
 /// read: a recording, results. Pictures and pages directly in such a folder are no part of it.
-pub(crate) fn check_output(argument: &str, file: &Path, read_only: &[&Path]) -> Result<(), UsageError> {
+fn refuse_place(argument: &str, file: &Path, read_only: &[&Path]) -> Result<(), UsageError> {
     let Ok(found) = std::fs::metadata(file) else { return Ok(()) };
     let refuse = |expected: &str, found: &str| {
         UsageError(format!("{argument}: expected {expected}, found {found} {}", file.display()))
@@ -62,7 +70,7 @@ mod tests {
         }
         let (out, bag) = (place("out"), place("bag"));
         let check =
-            |name: &str| check_output("--output", &place(name), &[&out, &bag]).map_err(|error| error.0);
+            |name: &str| refuse_place("--output", &place(name), &[&out, &bag]).map_err(|error| error.0);
         for name in ["out/new.png", "out/report.html", "out.toml", "elsewhere/new.html"] {
             assert_eq!(check(name), Ok(()), "{name}");
         }
@@ -78,7 +86,7 @@ mod tests {
         let place = |name: &str| folder.path().join(name);
         fs::write(place("corrections.sqlite"), b"SQLite format 3\0...").unwrap();
         fs::write(place("notes.sqlite"), b"SQLite").unwrap();
-        let check = |name: &str| check_output("--output", &place(name), &[]).map_err(|error| error.0);
+        let check = |name: &str| refuse_place("--output", &place(name), &[]).map_err(|error| error.0);
         assert!(check("corrections.sqlite").unwrap_err().contains("found a database"));
         assert_eq!((check("notes.sqlite"), check("new.sqlite")), (Ok(()), Ok(())));
     }
@@ -86,7 +94,7 @@ mod tests {
     #[cfg(unix)]
     #[test]
     fn a_device_is_no_place_for_a_file() {
-        let refused = check_output("--write", Path::new("/dev/null"), &[]).unwrap_err();
+        let refused = refuse_place("--write", Path::new("/dev/null"), &[]).unwrap_err();
         assert_eq!(refused.0, "--write: expected a file, found what is no regular file: /dev/null");
     }
 }

@@ -52,11 +52,7 @@ pub(crate) struct CheckArgs {
 
 /// Checks a recording.
 pub(crate) fn run(arguments: &CheckArgs) -> anyhow::Result<Outcome> {
-    for (argument, file) in [("--write", &arguments.write), ("--output", &arguments.output)] {
-        if let Some(file) = file {
-            check_output(argument, file, &[&arguments.dataset.dataset])?;
-        }
-    }
+    arguments.check_places()?;
     let mut settings = arguments.settings.resolve()?;
     settings.topics = arguments.dataset.topics_or(&settings.topics)?;
     let recording = arguments.dataset.open_corrected(&settings)?;
@@ -76,6 +72,12 @@ pub(crate) fn run(arguments: &CheckArgs) -> anyhow::Result<Outcome> {
             }
         }
     }
+    // First what was found: a disk that has become full takes no more than the files.
+    let printed = print(&if arguments.json {
+        serde_json::to_string_pretty(&checks)?
+    } else {
+        checks.iter().map(|check| page::page(check, arguments.verbose)).collect::<String>()
+    });
     if let Some(file) = &arguments.write {
         ralf_data::write_named(file, fixes::text(&checks, &refined).as_bytes())?;
         say(&format!("wrote {}", file.display()));
@@ -84,11 +86,19 @@ pub(crate) fn run(arguments: &CheckArgs) -> anyhow::Result<Outcome> {
         ralf_data::write_named(file, &picture::png(&checks)?)?;
         say(&format!("wrote {}", file.display()));
     }
-    print(&if arguments.json {
-        serde_json::to_string_pretty(&checks)?
-    } else {
-        checks.iter().map(|check| page::page(check, arguments.verbose)).collect::<String>()
-    })?;
+    printed?;
     let doubted = checks.iter().any(|check| check.doubts().next().is_some());
     Ok(if doubted && arguments.strict { Outcome::Partial } else { Outcome::Done })
+}
+
+impl CheckArgs {
+    /// Refuses places for files before the recording is read.
+    fn check_places(&self) -> anyhow::Result<()> {
+        for (argument, file) in [("--write", &self.write), ("--output", &self.output)] {
+            if let Some(file) = file {
+                check_output(argument, file, &[&self.dataset.dataset])?;
+            }
+        }
+        Ok(())
+    }
 }

@@ -5,7 +5,7 @@ mod ros;
 
 use super::check::page::page as check_page;
 use crate::arguments::{DatasetArgs, SettingsArgs, threads};
-use crate::outcome::{Outcome, UsageError};
+use crate::outcome::Outcome;
 use crate::progress::Progress;
 use crate::run_summary::run_summary;
 use crate::text::{aligned, counted, grouped, print};
@@ -57,11 +57,10 @@ pub(crate) fn run(arguments: &InspectArgs) -> anyhow::Result<Outcome> {
         return inspect_run(folder, arguments.json);
     }
     let mut settings = arguments.settings.resolve()?;
-    let topics = ros::Look::at(&arguments.dataset)?;
     if let Some(file) = &arguments.write_topics {
-        let topics = topics.ok_or_else(|| UsageError("--write-topics: expected a ROS recording".into()))?;
-        return topics.write(file);
+        return ros::write_topics(&arguments.dataset, file);
     }
+    let topics = ros::Look::at(&arguments.dataset)?;
     settings.topics = arguments.dataset.topics_or(&settings.topics)?;
     let opened = arguments.dataset.open_corrected(&settings);
     if let (Err(_), Some(topics), false) = (&opened, &topics, arguments.json) {

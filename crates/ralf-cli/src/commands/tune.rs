@@ -45,6 +45,7 @@ pub(crate) fn run(arguments: &TuneArgs) -> anyhow::Result<Outcome> {
     arguments.check()?;
     let search = &arguments.search;
     let base = search.base()?;
+    refuse_no_branch(&base.method)?;
     let (recording, truth) = search.open(&base, &arguments.test)?;
     let evidence = search.gather((&recording, &truth), &base.method)?;
     let outcome = name_what_is_left_out(&evidence);
@@ -52,20 +53,32 @@ pub(crate) fn run(arguments: &TuneArgs) -> anyhow::Result<Outcome> {
     let comment = text::comment(&report, &arguments.command());
     let method = report.found.settings.applied_to(&base.method);
     let tuned = Settings { method, ..base };
+    // First what was found: a disk that has become full takes no more than the file.
+    let printed =
+        print(&if search.json { serde_json::to_string_pretty(&report.json())? } else { text::page(&report) });
     write_named(&arguments.output, settings_file(&comment, &tuned)?.as_bytes())?;
-    print(&if search.json { serde_json::to_string_pretty(&report.json())? } else { text::page(&report) })?;
     if !search.objective.is_met(report.found.score) {
         say(&format!("warning: no settings that were tried keep the floor of {}", search.objective));
     }
-    Ok(outcome)
+    printed.map(|()| outcome)
+}
+
+/// Without a branch there is no plausibility, and whatever is tried is as good as anything else.
+fn refuse_no_branch(Config { lidar, camera, tracking, .. }: &Config) -> Result<(), UsageError> {
+    if lidar.enabled || camera.enabled || tracking.enabled {
+        return Ok(());
+    }
+    let found = "lidar.enabled, camera.enabled and tracking.enabled are all false";
+    Err(UsageError(format!("expected one branch or more whose settings are searched for, but {found}")))
 }
 
 impl TuneArgs {
     /// What can be told before anything is read.
-    fn check(&self) -> Result<(), UsageError> {
+    fn check(&self) -> anyhow::Result<()> {
         self.search.check(&self.test)?;
         if self.cross_validate && self.search.train.len() < 2 {
-            return Err(UsageError("--cross-validate: expected two sequences or more in --train".into()));
+            let expected = "--cross-validate: expected two sequences or more in --train";
+            return Err(UsageError(expected.into()).into());
         }
         check_output("--output", &self.output, &self.search.read_only())
     }

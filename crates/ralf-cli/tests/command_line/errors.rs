@@ -120,6 +120,33 @@ fn a_sensor_beyond_a_vehicle_is_refused() {
 }
 
 #[test]
+fn a_place_where_no_file_can_be_made_is_told_before_anything_is_read() {
+    let dataset = Dataset::of(&Shape { scans: 1, ..Shape::default() });
+    let taken = dataset.beside("taken");
+    fs::write(&taken, "mine").unwrap();
+    let place = format!("{taken}/new.png");
+    let refused = |arguments: &[&str]| {
+        let ran = crate::support::program().args(arguments).output().unwrap();
+        crate::support::Ran::of(&ran)
+            .exits(1)
+            .prints_nothing()
+            .ends_with_error([&place, "found a file in the place of a folder"]);
+    };
+    refused(&["learn", "nowhere", "-o", &place]);
+    refused(&["tune", "nowhere", "-o", &place, "--train", "00", "--test", "01"]);
+    refused(&["inspect", "nowhere", "--write-topics", &place]);
+    refused(&["check", "nowhere", "--write", &place]);
+    refused(&["plot", "nowhere", "out", "--scan", "0", "-o", &place]);
+    refused(&["report", "nowhere", "out", "-o", &place]);
+    refused(&["simulate", "--compare", "nowhere", "-o", &place]);
+    // And where one can be made, nothing is left by having tried it.
+    ralf(["learn", "nowhere", "-o", &dataset.beside("model")]).exits(1).ends_with_error(["nowhere"]);
+    assert!(
+        !fs::exists(dataset.beside("model")).unwrap() && !fs::exists(dataset.beside("model.part")).unwrap()
+    );
+}
+
+#[test]
 fn a_command_that_is_told_can_be_typed_again() {
     let dataset = Dataset::of(&Shape { scans: 3, sequences: &["00", "01"], ..Shape::default() });
     let [recording, model, demo] = ["it's a town", "a model", "d m"].map(|name| dataset.beside(name));

@@ -1,6 +1,6 @@
 //! A disk that is full: nothing half-written takes a result's place, and with space the run goes on.
 
-use crate::support::{Dataset, Ran, program, ralf, tree, without_timings};
+use crate::support::{Dataset, Ran, Shape, program, ralf, tree, without_timings};
 use std::process::Command;
 
 /// Runs `ralf` where no file may grow beyond so many KiB, which fails as on a full disk.
@@ -52,4 +52,28 @@ fn a_picture_appears_whole_or_not_at_all() {
     let plot = ["plot", &dataset.path, &dataset.out, "--scan", "0", "-o", &picture];
     with_files_up_to(1, &plot).exits(1).says([&picture, "File too large"]);
     assert!(!std::fs::exists(&picture).unwrap());
+}
+
+#[test]
+fn a_guess_of_topics_appears_whole_or_not_at_all_and_is_written_later() {
+    let dataset = Dataset::new();
+    let bag = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../testdata/ros/lz4.bag");
+    let topics = dataset.beside("topics.toml");
+    let inspect = ["inspect", bag.to_str().unwrap(), "--write-topics", &topics];
+    with_files_up_to(0, &inspect).exits(1).ends_with_error([&topics, "File too large"]);
+    assert!(!std::fs::exists(&topics).unwrap());
+    ralf(inspect).exits(0);
+}
+
+#[test]
+fn what_was_found_is_printed_before_its_file_is_written() {
+    let dataset = Dataset::of(&Shape { scans: 3, sequences: &["00", "01"], ..Shape::default() });
+    let file = dataset.beside("found");
+    let tune = ["tune", &dataset.path, "-o", &file, "--train", "00", "--test", "01", "--trials", "2"];
+    with_files_up_to(0, &tune).exits(1).prints(["fusion.alpha", "Accuracy"]).says([&file, "File too large"]);
+    let learn = ["learn", &dataset.path, "-o", &file, "--rounds", "2", "--leaves", "2"];
+    with_files_up_to(0, &learn).exits(1).prints(["mean"]).says([&file, "File too large"]);
+    let check = ["check", &dataset.path, "--write", &file, "--verbose"];
+    with_files_up_to(0, &check).exits(1).prints(["radar_front"]).says([&file, "File too large"]);
+    assert!(!std::fs::exists(&file).unwrap());
 }

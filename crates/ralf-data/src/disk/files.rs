@@ -169,6 +169,22 @@ pub fn write_named(file: &Path, bytes: &[u8]) -> Result<(), DataError> {
     write_whole(&through_link(file), bytes)
 }
 
+/// Tells early whether [`write_named`] can make this file, which takes longer to find out by the work that fills it: an
+/// empty one is made where it would be written, or as near as there is a folder, and removed again.
+pub fn check_writable(file: &Path) -> Result<(), DataError> {
+    let place = beside(&through_link(file));
+    let is_there = |folder: &&Path| folder.as_os_str().is_empty() || folder.exists();
+    let folder = place.ancestors().skip(1).find(is_there).unwrap_or(Path::new(""));
+    let tried = folder.join(place.file_name().unwrap_or_default());
+    if tried.symlink_metadata().is_ok() {
+        // Somebody's own, or of a writer at work or killed: not to be emptied by a question.
+        return Ok(());
+    }
+    // It stays open, and with it locked, until it is gone: whoever writes the same file waits.
+    let made = open_alone(&tried).and_then(|open| fs::remove_file(&tried).map(|()| drop(open)));
+    made.map_err(|error| DataError::io(file)(ralf_files::absent(error, "a place for a file")))
+}
+
 /// Writes a file as [`write_whole`] does, with content that is made while it is written, so that it need not be in
 /// memory at once.
 pub(crate) fn write_whole_with(
@@ -253,6 +269,26 @@ mod tests {
             assert!(link.is_symlink() && fs::read(&target).unwrap() == content.as_bytes());
         }
         assert_eq!(names(&folder.path().join("there")).unwrap(), ["target"]);
+    }
+
+    #[test]
+    fn whether_a_file_can_be_made_is_told_before_and_nothing_is_left() {
+        let folder = tempfile::tempdir().unwrap();
+        let place = |name: &str| folder.path().join(name);
+        fs::write(place("file"), "mine").unwrap();
+        for name in ["new", "file", "no/such/folder/new"] {
+            check_writable(&place(name)).unwrap();
+        }
+        for name in ["file/new".to_owned(), "file/no/such".to_owned(), "n".repeat(300)] {
+            let error = check_writable(&place(&name)).unwrap_err().to_string();
+            assert!(error.contains(&name), "{error}");
+        }
+        fs::write(place("other.part"), "mine").unwrap();
+        check_writable(&place("no/such/other")).unwrap();
+        assert_eq!(names(folder.path()).unwrap(), ["file", "other.part"]);
+        for name in ["file", "other.part"] {
+            assert_eq!(fs::read(place(name)).unwrap(), b"mine");
+        }
     }
 
     /// Parts of a run may be done twice at the same time.

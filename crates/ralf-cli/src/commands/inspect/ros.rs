@@ -1,12 +1,10 @@
 //! The topics of a ROS recording, and a first guess of which sensor each of them is.
 
-use crate::arguments::DatasetArgs;
+use crate::arguments::{DatasetArgs, check_output};
 use crate::outcome::{Outcome, UsageError};
 use crate::progress::say;
-use crate::text::{aligned, grouped};
+use crate::text::{aligned, grouped, shell_path};
 use ralf_data::read::ros::{Guess, RosInspection, TopicInspection, Topics, inspect, is_ros, topics_toml};
-use std::fs::File;
-use std::io::{ErrorKind, Write};
 use std::path::Path;
 
 /// What a look at all messages told.
@@ -40,23 +38,21 @@ impl Look {
         }
         Ok(page)
     }
+}
 
-    /// Writes the guess into a file that isn't there yet: it may hold what someone wrote with care.
-    pub(super) fn write(&self, file: &Path) -> anyhow::Result<Outcome> {
-        let text = topics_toml(&self.guess)?;
-        match File::create_new(file) {
-            Ok(mut open) => open.write_all(text.as_bytes())?,
-            Err(error) if error.kind() == ErrorKind::AlreadyExists => {
-                let file = file.display();
-                return Err(
-                    UsageError(format!("--write-topics: {file} is there already, and is kept")).into()
-                );
-            }
-            Err(error) => return Err(anyhow::Error::new(error).context(file.display().to_string())),
-        }
-        say(&format!("wrote {}: check it, then `ralf label --config {0}`", file.display()));
-        Ok(Outcome::Done)
+/// Writes the guess into a file that isn't there yet: it may hold what someone wrote with care. A link that leads
+/// nowhere is somebody's, too. Whether there is room for a file is asked before all messages are looked at.
+pub(super) fn write_topics(dataset: &DatasetArgs, file: &Path) -> anyhow::Result<Outcome> {
+    if file.symlink_metadata().is_ok() {
+        let file = file.display();
+        return Err(UsageError(format!("--write-topics: {file} is there already, and is kept")).into());
     }
+    check_output("--write-topics", file, &[])?;
+    let look = Look::at(dataset)?;
+    let look = look.ok_or_else(|| UsageError("--write-topics: expected a ROS recording".into()))?;
+    ralf_data::write_named(file, topics_toml(&look.guess)?.as_bytes())?;
+    say(&format!("wrote {}: check it, then `ralf label --config {}`", file.display(), shell_path(file)));
+    Ok(Outcome::Done)
 }
 
 fn row(topic: &TopicInspection) -> Vec<String> {

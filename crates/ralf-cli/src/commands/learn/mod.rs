@@ -97,14 +97,15 @@ pub(crate) fn run(arguments: &LearnArgs) -> anyhow::Result<Outcome> {
     let fitted =
         fit(&table, &fitting, arguments.origin(), &|done, of| progress.reached_of(done as u64, of as u64))?;
     drop(progress);
-    write_named(&arguments.output, fitted.model.to_text().as_bytes())?;
     let before = if arguments.from.is_some() { own::before(&table, own, config)? } else { Vec::new() };
-    print(&if arguments.json {
+    // First what it is worth: a disk that has become full takes no more than the file.
+    let printed = print(&if arguments.json {
         text::json(&fitted, &before)?
     } else {
         text::page(&fitted) + &own::told(&before)
-    })?;
-    Ok(outcome)
+    });
+    write_named(&arguments.output, fitted.model.to_text().as_bytes())?;
+    printed.map(|()| outcome)
 }
 
 impl LearnArgs {

@@ -32,18 +32,14 @@ pub(super) struct Told<'a> {
     pub(super) json: bool,
 }
 
-/// Compares, writes the page and prints the distances.
+/// Compares, prints the distances and writes the page.
 pub(super) fn compare(real: &Named, simulated: &Named, jobs: usize, told: &Told) -> anyhow::Result<()> {
     let gathered = |recording: &Named| (recording.name.clone(), gather(recording, jobs));
     let page = RealismPage::new(gathered(real), gathered(simulated));
     for reason in page.real.unreadable.iter().chain(&page.simulated.unreadable) {
         say(&format!("left out: {reason}"));
     }
-    if let Some(file) = told.page {
-        ralf_data::write_named(file, page.html()?.as_bytes())?;
-        say(&format!("wrote {}", file.display()));
-    }
-    print(&if told.json {
+    let printed = print(&if told.json {
         serde_json::to_string_pretty(&json!({
             "real": page.real_name,
             "simulated": page.simulated_name,
@@ -51,7 +47,12 @@ pub(super) fn compare(real: &Named, simulated: &Named, jobs: usize, told: &Told)
         }))?
     } else {
         table(&page)
-    })
+    });
+    if let Some(file) = told.page {
+        ralf_data::write_named(file, page.html()?.as_bytes())?;
+        say(&format!("wrote {}", file.display()));
+    }
+    printed
 }
 
 fn gather(recording: &Named, jobs: usize) -> Distributions {
