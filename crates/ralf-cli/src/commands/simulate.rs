@@ -20,6 +20,10 @@ use std::path::{Path, PathBuf};
 
 /// Scans of a scenario of one's own, where no number is given.
 const USUAL_SCANS: usize = 100;
+/// Most scans of each radar that can be asked for: hours of driving, and what is known of all scans before the first is
+/// made still lies in memory with ease.
+pub(super) const MOST_SCANS: i64 = 100_000;
+
 
 /// The preset whose sequences a seed draws.
 const WORLDS: &str = "worlds";
@@ -80,7 +84,7 @@ pub(crate) struct SimulateArgs {
     #[arg(long = "sequence", value_name = "NAME", conflicts_with = "scenario")]
     sequences: Vec<String>,
     /// Scans of each radar, over all sequences of the preset; all of them if not given
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=MOST_SCANS))]
     scans: Option<u32>,
     /// Of every random choice
     #[arg(long, default_value_t = 0, value_name = "S")]

@@ -147,6 +147,31 @@ fn a_place_where_no_file_can_be_made_is_told_before_anything_is_read() {
 }
 
 #[test]
+fn numbers_beyond_all_use_are_refused_before_any_work() {
+    let dataset = Dataset::of(&Shape { scans: 1, ..Shape::default() });
+    let made = dataset.beside("made");
+    for scans in ["0", "100001", "4294967295"] {
+        let told = [scans, "--scans", "1..=100000"];
+        ralf(["simulate", "-o", &made, "--scans", scans]).exits(2).ends_with_error(told);
+        ralf(["simulate", "--compare", &dataset.path, "--preset", "worlds", "--scans", scans])
+            .exits(2)
+            .ends_with_error(told);
+        ralf(["learn", "-o", &made, "--preset", "worlds", "--scans", scans]).exits(2).ends_with_error(told);
+    }
+    for (option, value, range) in [
+        ("--rounds", "0", "1..=10000"),
+        ("--rounds", "10001", "1..=10000"),
+        ("--leaves", "0", "2..=256"),
+        ("--leaves", "1", "2..=256"),
+        ("--leaves", "257", "2..=256"),
+    ] {
+        let ran = ralf(["learn", &dataset.path, "-o", &made, option, value]);
+        ran.exits(2).ends_with_error([option, value, range]);
+    }
+    assert!(!fs::exists(&made).unwrap());
+}
+
+#[test]
 fn a_command_that_is_told_can_be_typed_again() {
     let dataset = Dataset::of(&Shape { scans: 3, sequences: &["00", "01"], ..Shape::default() });
     let [recording, model, demo] = ["it's a town", "a model", "d m"].map(|name| dataset.beside(name));

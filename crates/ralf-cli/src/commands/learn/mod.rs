@@ -14,12 +14,15 @@ use anyhow::Context;
 use clap::Args;
 use clap::builder::PossibleValuesParser;
 use ralf::config::Config;
-use ralf::learned::Origin;
+use ralf::learned::{Origin, Tree};
 use ralf_data::{GroundTruth, Recording, TrainingGatherer, TrainingTruth, write_named};
 use ralf_train::learning::{Fitting, Parameters, TrainingTable, fit};
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use worlds::WorldArgs;
+
+/// Most trees that can be asked for: far beyond what any number of recordings makes use of.
+const MOST_ROUNDS: i64 = 10_000;
 
 /// Arguments of `ralf learn`.
 #[derive(Debug, Args)]
@@ -49,11 +52,13 @@ pub(crate) struct LearnArgs {
     #[command(flatten)]
     worlds: WorldArgs,
     /// Trees
-    #[arg(long, value_name = "N", default_value_t = Parameters::default().rounds)]
-    rounds: usize,
+    #[arg(long, value_name = "N", default_value_t = Parameters::default().rounds as u32,
+        value_parser = clap::value_parser!(u32).range(1..=MOST_ROUNDS))]
+    rounds: u32,
     /// Most leaves of a tree
-    #[arg(long, value_name = "N", default_value_t = Parameters::default().leaves)]
-    leaves: usize,
+    #[arg(long, value_name = "N", default_value_t = Parameters::default().leaves as u32,
+        value_parser = clap::value_parser!(u32).range(2..=Tree::MOST_LEAVES as i64))]
+    leaves: u32,
     /// Groups of evidence that the model doesn't read; may be given several times
     #[arg(long = "without-group", value_name = "GROUP",
         value_parser = PossibleValuesParser::new(ralf::evidence::GROUPS))]
@@ -112,8 +117,8 @@ impl LearnArgs {
     fn fitting(&self, config: &Config, jobs: usize) -> Fitting {
         Fitting {
             parameters: Parameters {
-                rounds: self.rounds,
-                leaves: self.leaves,
+                rounds: self.rounds as usize,
+                leaves: self.leaves as usize,
                 seed: self.seed,
                 ..Parameters::default()
             },

@@ -1,5 +1,6 @@
 //! Worlds to learn in that are simulated on the way.
 
+use crate::commands::simulate::MOST_SCANS;
 use crate::outcome::Outcome;
 use crate::run_summary::say_not_used;
 use clap::Args;
@@ -21,7 +22,7 @@ pub(super) struct WorldArgs {
     /// Scans of each radar in each world, over all of its four to six sequences: some 3 s each, so that evidence sees
     /// as much around a scan as in a real recording
     #[arg(long, value_name = "N", default_value_t = 200, requires = "preset",
-        value_parser = clap::value_parser!(u32).range(1..))]
+        value_parser = clap::value_parser!(u32).range(1..=MOST_SCANS))]
     scans: u32,
     /// Learn from one in so many of these
     #[arg(long, value_name = "N", default_value_t = 8, requires = "preset",
