@@ -74,10 +74,10 @@ pub(crate) struct SimulateArgs {
     #[arg(long, default_value = "paper", conflicts_with = "scenario",
         value_parser = PossibleValuesParser::new(presets::ALL.iter().map(|preset| preset.name).chain([WORLDS])))]
     preset: String,
-    /// The family of the worlds, by name or number, or three: SENSORS+WAVES+PLACES
-    #[arg(long, value_name = "FAMILY", default_value = "0", value_parser = family)]
-    family: Mixture,
-    /// A scenario of your own (TOML), as sequence 00
+    /// Of `--preset worlds`: their family, by name or number, or three: SENSORS+WAVES+PLACES; city if not given
+    #[arg(long, value_name = "FAMILY", value_parser = family)]
+    family: Option<Mixture>,
+    /// A scenario of your own (TOML; docs/scenario.md), as sequence 00
     #[arg(long, value_name = "FILE")]
     scenario: Option<PathBuf>,
     /// Only this sequence; may be given several times
@@ -102,6 +102,7 @@ pub(crate) struct SimulateArgs {
 
 /// Makes a recording, or compares one.
 pub(crate) fn run(arguments: &SimulateArgs) -> anyhow::Result<Outcome> {
+    arguments.check_family()?;
     match (&arguments.compare, &arguments.output) {
         (Some(real), _) => arguments.compare_with(real),
         (None, Some(output)) => arguments.write(output),
@@ -110,6 +111,24 @@ pub(crate) fn run(arguments: &SimulateArgs) -> anyhow::Result<Outcome> {
 }
 
 impl SimulateArgs {
+    /// A family says nothing of other sequences, and whoever gives one wants its worlds.
+    fn check_family(&self) -> Result<(), UsageError> {
+        let found = match &self.scenario {
+            _ if self.family.is_none() => return Ok(()),
+            Some(_) => "--scenario".to_owned(),
+            None if self.preset == WORLDS => return Ok(()),
+            None => format!("--preset {}", self.preset),
+        };
+        Err(UsageError(format!(
+            "--family: expected --preset {WORLDS}, whose families these are, found {found}"
+        )))
+    }
+
+    /// The family of the worlds.
+    fn family(&self) -> Mixture {
+        self.family.unwrap_or_else(|| (&FAMILIES[0]).into())
+    }
+
     fn sequences(&self) -> anyhow::Result<Vec<SimulatedSequence>> {
         match &self.scenario {
             Some(file) => Ok(vec![own(file, self)?]),
@@ -154,7 +173,7 @@ impl SimulateArgs {
         let made = self.sequences()?;
         let name = match &self.scenario {
             Some(file) => file.display().to_string(),
-            None if self.preset == WORLDS => format!("{}, seed {}", self.family, self.seed),
+            None if self.preset == WORLDS => format!("{}, seed {}", self.family(), self.seed),
             None => format!("{}, seed {}", self.preset, self.seed),
         };
         let sequences = made.iter().map(|sequence| sequence as &dyn SequenceReader).collect();
@@ -183,7 +202,7 @@ fn family(text: &str) -> Result<Mixture, String> {
 
 /// The sequences of a world that are asked for.
 fn world(arguments: &SimulateArgs) -> anyhow::Result<Vec<SimulatedSequence>> {
-    let recording = Recording::new(arguments.family, arguments.seed);
+    let recording = Recording::new(arguments.family(), arguments.seed);
     let names = recording.names();
     let spread = recording.spread(arguments.scans.map(|scans| scans as usize));
     let mut found = Vec::new();

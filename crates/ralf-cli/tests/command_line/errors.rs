@@ -172,6 +172,20 @@ fn numbers_beyond_all_use_are_refused_before_any_work() {
 }
 
 #[test]
+fn a_family_without_worlds_is_refused() {
+    let dataset = Dataset::of(&Shape { scans: 1, ..Shape::default() });
+    let made = dataset.beside("made");
+    let expected = "--family: expected --preset worlds";
+    let simulate = ["simulate", "-o", &made, "--family", "yard"];
+    let [a, b, c, d, e] = simulate;
+    ralf(simulate).exits(2).ends_with_error([expected, "found --preset paper"]);
+    ralf([a, b, c, d, e, "--preset", "tiny"]).exits(2).ends_with_error([expected, "found --preset tiny"]);
+    ralf([a, b, c, d, e, "--scenario", "a.toml"]).exits(2).ends_with_error([expected, "found --scenario"]);
+    ralf(["simulate", "--compare", &dataset.path, "--family", "yard"]).exits(2).ends_with_error([expected]);
+    assert!(!fs::exists(&made).unwrap());
+}
+
+#[test]
 fn a_command_that_is_told_can_be_typed_again() {
     let dataset = Dataset::of(&Shape { scans: 3, sequences: &["00", "01"], ..Shape::default() });
     let [recording, model, demo] = ["it's a town", "a model", "d m"].map(|name| dataset.beside(name));
