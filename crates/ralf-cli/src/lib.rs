@@ -11,6 +11,7 @@ mod network;
 mod outcome;
 mod progress;
 mod run_summary;
+mod sequences;
 mod spent;
 mod text;
 

@@ -53,4 +53,4 @@ pub use result::program;
 pub use settings::Settings;
 pub use training::{TrainingGatherer, TrainingTruth};
 pub use truth::{Causes, Corrections, GroundTruth, ScanId, lost_sequences, scan_content};
-pub use write::{write_sequence, write_sequence_with, write_simulated};
+pub use write::{has_sequence, write_sequence, write_sequence_with};

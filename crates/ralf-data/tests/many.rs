@@ -4,7 +4,7 @@
 
 use ralf_data::many::{Job, Task, assemble, folders, label_one, plan, planned};
 use ralf_data::run::{Observer, Unwatched};
-use ralf_data::{DataError, Settings, write_simulated};
+use ralf_data::{DataError, Settings, write_sequence};
 use std::collections::BTreeMap;
 use std::fs;
 use std::num::NonZeroUsize;
@@ -31,7 +31,7 @@ impl Observer for Impatient {
 fn recording(folder: &Path, seed: u64) -> PathBuf {
     let sequence = ralf_sim::presets::find("tiny").unwrap().sequences[0].simulate(seed, 3).unwrap();
     let dataset = folder.join(format!("drive-{seed}"));
-    write_simulated(&[sequence], &dataset, 1, &|_| ()).unwrap();
+    write_sequence(&sequence, &dataset, &|_| ()).unwrap();
     dataset
 }
 

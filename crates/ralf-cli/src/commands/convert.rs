@@ -3,8 +3,8 @@
 use crate::arguments::{DatasetArgs, SettingsArgs, the_only, threads};
 use crate::outcome::Outcome;
 use crate::progress::{Progress, say};
+use crate::sequences::write_missing;
 use clap::Args;
-use ralf::sensors::Sequence;
 use ralf_data::Recording;
 use ralf_data::read::refuse_to_write_into;
 use ralf_data::write::export::{RosFormat, write_ros};
@@ -14,7 +14,8 @@ use std::path::{Path, PathBuf};
 /// Arguments of `ralf convert`.
 #[derive(Debug, Args)]
 #[command(after_help = "\
-Each sequence appears whole or not at all, and one that is there already is never overwritten. A name that ends in \
+Each sequence appears whole or not at all, and one that is there already is never overwritten: the same command, typed \
+again, writes those that are missing. A name that ends in \
 .mcap (ROS 2) or .bag (ROS 1) takes one sequence; beside it goes a .toml with the settings by which it is read back. \
 What such a file can't hold is in docs/export.md. With --config, --set or --trajectory the recording is written as \
 these correct it (tables `sensors`, `corrections` and `motion`), and needs no correction afterwards.
@@ -43,16 +44,8 @@ pub(crate) fn run(arguments: &ConvertArgs) -> anyhow::Result<Outcome> {
         return as_ros(&recording, &arguments.output, format);
     }
     refuse_to_write_into(&recording.path, &arguments.output)?;
-    let jobs = threads(arguments.jobs);
-    for reader in &recording.sequences {
-        let sequence = reader.sequence();
-        let progress = shown(sequence);
-        ralf_data::write_sequence_with(reader.as_ref(), &arguments.output, jobs, &|done| {
-            progress.reached(done as u64);
-        })?;
-        drop(progress);
-        say(&format!("wrote {}", arguments.output.join("sequences").join(&sequence.name).display()));
-    }
+    let sequences: Vec<_> = recording.sequences.iter().map(|reader| reader.as_ref()).collect();
+    write_missing(&sequences, &arguments.output, threads(arguments.jobs), "converting")?;
     Ok(Outcome::Done)
 }
 
@@ -69,7 +62,9 @@ fn opened(arguments: &ConvertArgs) -> anyhow::Result<Recording> {
 /// Converts the only sequence of a recording into one file.
 fn as_ros(recording: &Recording, file: &Path, format: RosFormat) -> anyhow::Result<Outcome> {
     let reader = the_only(recording)?;
-    let progress = shown(reader.sequence());
+    let sequence = reader.sequence();
+    let progress =
+        Progress::of_steps(sequence.times.measurements() as u64, format!("converting {}", sequence.name));
     let written = write_ros(reader, file, format, &|done| progress.reached(done as u64))?;
     drop(progress);
     say(&format!("wrote {}", file.display()));
@@ -81,8 +76,4 @@ fn as_ros(recording: &Recording, file: &Path, format: RosFormat) -> anyhow::Resu
         say(&format!("warning: {}: such a file has no place for {left_out}: left out", file.display()));
     }
     Ok(Outcome::Done)
-}
-
-fn shown(sequence: &Sequence) -> Progress {
-    Progress::of_steps(sequence.times.measurements() as u64, format!("converting {}", sequence.name))
 }

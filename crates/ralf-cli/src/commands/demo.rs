@@ -31,18 +31,14 @@ pub(crate) fn run(arguments: &DemoArgs) -> anyhow::Result<Outcome> {
     };
     let [recording, labels, learned, report] = ["recording", "labels", "learned", "report.html"].map(place);
     let (recording, labels, learned, report) = (recording?, labels?, learned?, report?);
-    if arguments.folder.join("recording").exists() {
-        say(&format!("{recording} is there already"));
-    } else {
-        step(&["simulate", "-o", &recording, "--preset", "tiny"], simulate::run)?;
-    }
+    step(&["simulate", "-o", &recording, "--preset", "tiny"], simulate::run)?;
     step(&["label", &recording, "-o", &labels], label::run)?;
     step(&["evaluate", &labels, "--truth", &recording], evaluate::run)?;
-    let [recording, labels, learned] = [recording, labels, learned].map(|path| shell_word(&path));
     say("\nThe method that learns: a probability, causes and reasons.");
     step(&["label", &recording, "-o", &learned, "--method", "learned"], label::run)?;
     step(&["evaluate", &learned, "--truth", &recording], evaluate::run)?;
     step(&["report", &recording, &learned, "-o", &report], report::run)?;
+    let [recording, labels, learned] = [recording, labels, learned].map(|path| shell_word(&path));
     print(&format!(
         "\nOpen {report} in a browser. What to try next, once `cargo install --path crates/ralf-cli` has built \
          all of it:\n  \

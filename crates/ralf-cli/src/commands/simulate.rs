@@ -4,13 +4,12 @@ pub(super) mod compare;
 
 use crate::arguments::{check_output, threads};
 use crate::outcome::{Outcome, UsageError};
-use crate::progress::{Progress, say};
+use crate::sequences::write_missing;
 use anyhow::Context;
 use clap::Args;
 use clap::builder::PossibleValuesParser;
 use compare::{Named, Told, compare};
-use ralf::sensors::Source;
-use ralf_data::{SequenceReader, write_simulated};
+use ralf_data::SequenceReader;
 use ralf_files::Kind;
 use ralf_sim::presets::{self, Preset};
 use ralf_sim::world::{FAMILIES, Mixture, Recording};
@@ -20,10 +19,10 @@ use std::path::{Path, PathBuf};
 
 /// Scans of a scenario of one's own, where no number is given.
 const USUAL_SCANS: usize = 100;
+
 /// Most scans of each radar that can be asked for: hours of driving, and what is known of all scans before the first is
 /// made still lies in memory with ease.
 pub(super) const MOST_SCANS: i64 = 100_000;
-
 
 /// The preset whose sequences a seed draws.
 const WORLDS: &str = "worlds";
@@ -32,7 +31,8 @@ const WORLDS: &str = "worlds";
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Writes LiDAR, four radars, four fisheye cameras with depth, wheel odometry, and the truth of every detection, in \
-RALF's own layout. A sequence that is there already is never overwritten. The same preset, numbers and seed give the \
+RALF's own layout. A sequence that is there already is never overwritten: the same command, typed again, writes \
+those that are missing. The same preset, numbers and seed give the \
 same bytes.
 
 With `--preset worlds` a seed draws sensors, places and physics from a family of worlds (docs/worlds.md): radars and \
@@ -145,15 +145,8 @@ impl SimulateArgs {
         if self.segmentation {
             sequences = sequences.into_iter().map(SimulatedSequence::with_segmentation).collect();
         }
-        let steps: u64 =
-            sequences.iter().map(|sequence| sequence.sequence().times.measurements() as u64).sum();
-        let progress = Progress::of_steps(steps, "simulating");
-        write_simulated(&sequences, output, threads(self.jobs), &|done| progress.reached(done as u64))?;
-        drop(progress);
-        for sequence in &sequences {
-            let folder = output.join("sequences").join(&sequence.sequence().name);
-            say(&format!("wrote {}", folder.display()));
-        }
+        let sequences: Vec<_> = sequences.iter().map(|sequence| sequence as &dyn SequenceReader).collect();
+        write_missing(&sequences, output, threads(self.jobs), "simulating")?;
         Ok(Outcome::Done)
     }
 

@@ -77,3 +77,14 @@ fn what_was_found_is_printed_before_its_file_is_written() {
     with_files_up_to(0, &check).exits(1).prints(["radar_front"]).says([&file, "File too large"]);
     assert!(!std::fs::exists(&file).unwrap());
 }
+
+#[test]
+fn a_simulation_ends_with_the_first_sequence_that_has_no_room() {
+    let dataset = Dataset::new();
+    let made = dataset.beside("made");
+    let world = ["simulate", "-o", &made, "--preset", "worlds", "--scans", "4", "--no-images", "--jobs", "1"];
+    let ran =
+        with_files_up_to(4, &world).exits(1).ends_with_error(["/sequences/.00.part/", "File too large"]);
+    assert_eq!(ran.stderr.lines().count(), 1, "{}", ran.stderr);
+    assert!(!std::fs::exists(&made).unwrap());
+}

@@ -107,8 +107,15 @@ fn a_conversion_overwrites_nothing() {
     ralf(["convert", &dataset.path, "-o", &copy]).exits(0);
     let before = tree(&copy);
     ralf(["convert", &dataset.path, "-o", &copy])
-        .exits(1)
-        .says(["sequences/00", "expected none of this name yet"]);
+        .exits(0)
+        .says(["kept as it is, for it is there already", "sequences/00"]);
+    // Another sequence of this name is not taken for it.
+    let longer = Dataset::of(&Shape { scans: 2, ..Shape::default() });
+    ralf(["convert", &longer.path, "-o", &copy]).exits(1).ends_with_error([
+        "sequences/00: folder: expected none of this name yet",
+        "another one",
+        "differs",
+    ]);
     let inside = format!("{}/sequences/new", dataset.path);
     for place in [&dataset.path, &inside] {
         ralf(["convert", &dataset.path, "-o", place])

@@ -1,6 +1,6 @@
 //! A run that was killed goes on where it stopped; one with other settings replaces all of it.
 
-use crate::support::{Dataset, Shape, program, ralf, tree, without_timings};
+use crate::support::{Dataset, Ran, Shape, program, ralf, tree, without_timings};
 use std::fs;
 use std::path::Path;
 use std::thread::sleep;
@@ -194,4 +194,29 @@ fn labels_of_another_build_are_made_again() {
     ralf(["label", &dataset.path, "-o", &dataset.out]).exits(0).says_nothing();
     assert_ne!(fs::metadata(&table).unwrap().modified().unwrap(), written, "nothing was done");
     assert!(without_timings(&dataset.out) == whole);
+}
+
+#[test]
+fn a_conversion_or_simulation_that_was_ended_writes_what_is_missing_when_it_is_typed_again() {
+    let dataset = Dataset::of(&Shape { scans: 2, sequences: &["00", "01", "02"], ..Shape::default() });
+    let [copy, made] = ["copy", "made"].map(|name| dataset.beside(name));
+    let world = ["simulate", "-o", &made, "--preset", "worlds", "--scans", "4", "--no-images", "-q"];
+    for (command, place) in
+        [(vec!["convert", &dataset.path, "-o", &copy, "-q"], &copy), (world.to_vec(), &made)]
+    {
+        let run = || Ran::of(&program().args(&command).output().unwrap());
+        run().exits(0);
+        let whole = tree(place);
+        for lost in ["00", "02"] {
+            fs::remove_dir_all(format!("{place}/sequences/{lost}")).unwrap();
+        }
+        let ran = run().exits(0).prints_nothing();
+        let said: Vec<&str> = ran.stderr.lines().collect();
+        let [kept, first, second] = said[..] else { panic!("{}", ran.stderr) };
+        assert!(kept.starts_with("kept as it is") && kept.contains("sequences/01"), "{kept}");
+        for (line, name) in [(first, "00"), (second, "02")] {
+            assert_eq!(line, format!("wrote {place}/sequences/{name}"));
+        }
+        assert!(tree(place) == whole);
+    }
 }

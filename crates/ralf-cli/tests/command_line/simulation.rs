@@ -37,7 +37,9 @@ fn a_simulated_recording_is_labelled_evaluated_and_reported() {
     ralf(["simulate", "-o", &made, "--preset", "tiny", "--scans", "4"]).exits(0).prints_nothing();
     ralf(["simulate", "-o", &again, "--preset", "tiny", "--scans", "4"]).exits(0);
     assert_eq!(tree(&made), tree(&again), "the same seed gives the same bytes");
-    ralf(["simulate", "-o", &made, "--preset", "tiny"]).exits(1).says(["sequences"]);
+    ralf(["simulate", "-o", &made, "--preset", "tiny"]).exits(1).says(["sequences", "another one"]);
+    let other_seed = ["simulate", "-o", &made, "--preset", "tiny", "--scans", "4", "--seed", "1"];
+    ralf(other_seed).exits(1).says(["sequences", "another one"]);
 
     ralf(["label", &made, "-o", &out]).exits(0).prints(["radar_front", "camera_front"]);
     let scores = ralf(["evaluate", &out, "--truth", &made, "--json"]).exits(0).json();

@@ -1,14 +1,14 @@
 //! Writing any sequence in the own layout, without loss.
 
+use super::metadata::texts;
 use crate::disk::label_file::write_labels;
 use crate::disk::{class_images, files, images, npy};
 use crate::error::DataError;
 use crate::read::SequenceReader;
-use crate::read::layout::raw::{DepthToml, SequenceToml};
-use crate::read::layout::{CAUSE_NAMES, GROUND_TRUTH, SEQUENCES, rig, tables};
+use crate::read::layout::{CAUSE_NAMES, GROUND_TRUTH, SEQUENCES};
 use crate::read::recording::{check_motion_corrected, check_nothing_lost};
 use crate::result::{Component, OutFolder, SequenceNames, WriterLock, checked, refuse_links_out};
-use ralf::sensors::{Sequence, SourceError, Timelines};
+use ralf::sensors::{SourceError, Timelines};
 use ralf_jobs::side_by_side;
 use std::fs;
 use std::path::Path;
@@ -17,8 +17,8 @@ use std::sync::{Mutex, PoisonError};
 /// Writes a sequence as `DATASET/sequences/NAME`, whole or not at all: it lies in a hidden folder until it is complete.
 ///
 /// Radar columns, LiDAR points, label, truth, cause and image files are written as they are. `progress` is told how
-/// many measurements are done. An existing sequence is never overwritten, and a measurement that can't be read is an
-/// error.
+/// many measurements are done. An existing sequence is never overwritten ([`has_sequence`](super::has_sequence) tells
+/// whether it is this one), and a measurement that can't be read is an error.
 pub fn write_sequence(
     reader: &dyn SequenceReader,
     dataset: &Path,
@@ -94,10 +94,11 @@ struct Writer<'a> {
 
 impl Writer<'_> {
     fn write(&self, jobs: usize) -> Result<(), DataError> {
-        let Sequence { times, .. } = self.reader.sequence();
-        self.metadata()?;
-        self.timestamps()?;
-        side_by_side(&all_measurements(times), jobs, |measurement| {
+        let sequence = self.reader.sequence();
+        for (file, text) in texts(sequence, self.names, self.folder)? {
+            files::write_whole(&file, text.as_bytes())?;
+        }
+        side_by_side(&all_measurements(&sequence.times), jobs, |measurement| {
             self.measurement(*measurement)?;
             let mut done = self.done.lock().unwrap_or_else(PoisonError::into_inner);
             *done += 1;
@@ -105,41 +106,6 @@ impl Writer<'_> {
             Ok::<(), DataError>(())
         })?;
         self.names_of_causes()
-    }
-
-    /// `sequence.toml`, `odometry.csv` and `poses.csv`. The first is checked as if it were read.
-    fn metadata(&self) -> Result<(), DataError> {
-        let Sequence { title, rig, motion, depth_output, .. } = self.reader.sequence();
-        let (radar, lidar, camera) = rig::rig_toml(rig);
-        let depth = DepthToml { output: *depth_output };
-        let toml = SequenceToml { format: 1, name: title.clone(), radar, lidar, camera, depth };
-        let file = self.folder.own_file("sequence.toml");
-        rig::rig(&file, &toml)?;
-        let text = toml::to_string(&toml).map_err(|error| {
-            DataError::content(&file, "content", "values that TOML can hold", error.to_string())
-        })?;
-        files::write_whole(&file, text.as_bytes())?;
-        if !motion.odometry().is_empty() {
-            let text = tables::odometry_text(motion.odometry());
-            files::write_whole(&self.folder.own_file("odometry.csv"), text.as_bytes())?;
-        }
-        if !motion.poses().is_empty() {
-            let text = tables::poses_text(motion.poses());
-            files::write_whole(&self.folder.own_file("poses.csv"), text.as_bytes())?;
-        }
-        Ok(())
-    }
-
-    /// `timestamps.txt` of every sensor.
-    fn timestamps(&self) -> Result<(), DataError> {
-        let Sequence { times, .. } = self.reader.sequence();
-        let SequenceNames { radars, lidars, cameras, .. } = self.names;
-        let sensors = radars.iter().chain(lidars).chain(cameras);
-        for (sensor, times) in sensors.zip(times.radars.iter().chain(&times.lidars).chain(&times.cameras)) {
-            let file = self.folder.folder(sensor).own_file("timestamps.txt");
-            files::write_whole(&file, tables::timestamps_text(times).as_bytes())?;
-        }
-        Ok(())
     }
 
     /// One measurement, into its sensor's folder.

@@ -2,7 +2,8 @@
 
 mod dataset;
 pub mod export;
+mod metadata;
 mod simulated;
 
 pub use dataset::{write_sequence, write_sequence_with};
-pub use simulated::write_simulated;
+pub use metadata::has_sequence;

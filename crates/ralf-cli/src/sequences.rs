@@ -1,0 +1,39 @@
+//! Sequences written into a dataset, one after the other: the same command, typed again, writes what is missing.
+
+use crate::progress::{Progress, say};
+use ralf_data::{DataError, SequenceReader, has_sequence, write_sequence_with};
+use std::path::Path;
+
+/// Writes those of the sequences that the dataset doesn't have, and names each; `doing` is what is shown beside the
+/// progress. Those that are there already are named, too: what they hold was measured, or drawn, by an earlier run.
+///
+/// # Errors
+/// Another sequence has the name of one of them, before anything is written; or what ended the first that can't be
+/// written.
+pub(crate) fn write_missing(
+    sequences: &[&dyn SequenceReader],
+    dataset: &Path,
+    jobs: usize,
+    doing: &str,
+) -> Result<(), DataError> {
+    let place = |reader: &dyn SequenceReader| dataset.join("sequences").join(&reader.sequence().name);
+    let (mut missing, mut kept) = (Vec::new(), Vec::new());
+    for reader in sequences.iter().copied() {
+        match has_sequence(reader, dataset)? {
+            true => kept.push(place(reader).display().to_string()),
+            false => missing.push(reader),
+        }
+    }
+    if !kept.is_empty() {
+        say(&format!("kept as it is, for it is there already: {}", kept.join(", ")));
+    }
+    for reader in missing {
+        let sequence = reader.sequence();
+        let progress =
+            Progress::of_steps(sequence.times.measurements() as u64, format!("{doing} {}", sequence.name));
+        write_sequence_with(reader, dataset, jobs, &|done| progress.reached(done as u64))?;
+        drop(progress);
+        say(&format!("wrote {}", place(reader).display()));
+    }
+    Ok(())
+}

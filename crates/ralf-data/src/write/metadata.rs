@@ -1,0 +1,64 @@
+//! What a sequence of the own layout holds beside its measurements: sensors, motion, times.
+
+use crate::disk::files;
+use crate::error::DataError;
+use crate::read::SequenceReader;
+use crate::read::layout::raw::{DepthToml, SequenceToml};
+use crate::read::layout::{SEQUENCES, rig, tables};
+use crate::result::{OutFolder, SequenceNames};
+use ralf::sensors::Sequence;
+use std::path::{Path, PathBuf};
+
+/// Whether `DATASET/sequences/NAME` is there already, and is this sequence as far as sensors, motion and the times of
+/// all measurements tell: measurements themselves are not compared. A sequence is put in its place whole, so one that
+/// is there is finished.
+///
+/// # Errors
+/// Another sequence of this name, or anything else, lies there.
+pub fn has_sequence(reader: &dyn SequenceReader, dataset: &Path) -> Result<bool, DataError> {
+    let names = SequenceNames::new(reader.sequence())?;
+    let folder = OutFolder::new(dataset).own(SEQUENCES).folder(&names.sequence);
+    if !folder.path().exists() {
+        return Ok(false);
+    }
+    for (file, text) in texts(reader.sequence(), &names, &folder)? {
+        if !files::read(&file).is_ok_and(|found| found == text.as_bytes()) {
+            let inside = file.strip_prefix(folder.path()).unwrap_or(&file);
+            let expected = "none of this name yet, or the sequence that is to be written";
+            let found = format!("another one: its {} differs", inside.display());
+            return Err(DataError::content(folder.path(), "folder", expected, found));
+        }
+    }
+    Ok(true)
+}
+
+/// Files with their content: `sequence.toml`, `odometry.csv`, `poses.csv`, and `timestamps.txt` of every sensor. The
+/// first is checked as if it were read.
+pub(super) fn texts(
+    sequence: &Sequence,
+    names: &SequenceNames,
+    folder: &OutFolder,
+) -> Result<Vec<(PathBuf, String)>, DataError> {
+    let Sequence { title, rig, motion, times, depth_output, .. } = sequence;
+    let (radar, lidar, camera) = rig::rig_toml(rig);
+    let depth = DepthToml { output: *depth_output };
+    let toml = SequenceToml { format: 1, name: title.clone(), radar, lidar, camera, depth };
+    let file = folder.own_file("sequence.toml");
+    rig::rig(&file, &toml)?;
+    let text = toml::to_string(&toml).map_err(|error| {
+        DataError::content(&file, "content", "values that TOML can hold", error.to_string())
+    })?;
+    let mut texts = vec![(file, text)];
+    if !motion.odometry().is_empty() {
+        texts.push((folder.own_file("odometry.csv"), tables::odometry_text(motion.odometry())));
+    }
+    if !motion.poses().is_empty() {
+        texts.push((folder.own_file("poses.csv"), tables::poses_text(motion.poses())));
+    }
+    let SequenceNames { radars, lidars, cameras, .. } = names;
+    let sensors = radars.iter().chain(lidars).chain(cameras);
+    for (sensor, times) in sensors.zip(times.radars.iter().chain(&times.lidars).chain(&times.cameras)) {
+        texts.push((folder.folder(sensor).own_file("timestamps.txt"), tables::timestamps_text(times)));
+    }
+    Ok(texts)
+}
