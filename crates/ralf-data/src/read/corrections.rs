@@ -53,6 +53,11 @@ impl Default for SensorCorrection {
     }
 }
 
+// Kinds of sensors, as an error tells them.
+const RADAR: &str = "a radar";
+const LIDAR: &str = "a LiDAR";
+const CAMERA: &str = "a camera";
+
 /// Where the vehicle's motion comes from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
@@ -134,18 +139,24 @@ impl SensorCorrection {
         others.into_iter().chain(translation)
     }
 
-    /// Corrects the mounting and the times of the sensor of this name. The error says which names there are.
+    /// Corrects the mounting and the times of the sensor of this name. The error says which names there are, or what is
+    /// no correction of such a sensor.
     pub(crate) fn apply_to(&self, sequence: &mut Sequence, name: &str) -> Result<(), String> {
         let (rig, times) = (&mut sequence.rig, &mut sequence.times);
         let mut names = Vec::new();
         let radars =
-            rig.radars.iter_mut().map(|r| (&r.name, &mut r.vehicle_from_radar)).zip(&mut times.radars);
+            rig.radars.iter_mut().map(|r| (RADAR, &r.name, &mut r.vehicle_from_radar)).zip(&mut times.radars);
         let lidars =
-            rig.lidars.iter_mut().map(|l| (&l.name, &mut l.vehicle_from_lidar)).zip(&mut times.lidars);
-        let cameras =
-            rig.cameras.iter_mut().map(|c| (&c.name, &mut c.vehicle_from_camera)).zip(&mut times.cameras);
-        for ((own, mount), times) in radars.chain(lidars).chain(cameras) {
+            rig.lidars.iter_mut().map(|l| (LIDAR, &l.name, &mut l.vehicle_from_lidar)).zip(&mut times.lidars);
+        let cameras = rig
+            .cameras
+            .iter_mut()
+            .map(|c| (CAMERA, &c.name, &mut c.vehicle_from_camera))
+            .zip(&mut times.cameras);
+        for ((kind, own, mount), times) in radars.chain(lidars).chain(cameras) {
             if own == name {
+                self.refuse_idle(kind)
+                    .map_err(|(key, reason)| format!("corrections.{name}.{key}: {reason}"))?;
                 *mount = self.mount(mount);
                 times.iter_mut().for_each(|t| *t = self.time(*t));
                 return Ok(());
@@ -153,6 +164,19 @@ impl SensorCorrection {
             names.push(own.clone());
         }
         Err(format!("corrections.{name}: expected one of its sensors {}", names.join(", ")))
+    }
+
+    /// Refuses what would change nothing of a sensor of this kind: the key, and what was expected.
+    fn refuse_idle(&self, kind: &str) -> Result<(), (&'static str, String)> {
+        let keys = [
+            ("doppler_factor", self.doppler_factor != 1.0, &[RADAR][..]),
+            ("position_factor", self.position_factor != 1.0, &[RADAR, LIDAR]),
+            ("mirror_y", self.mirror_y, &[RADAR]),
+        ];
+        match keys.into_iter().find(|(_, given, kinds)| *given && !kinds.contains(&kind)) {
+            Some((key, _, kinds)) => Err((key, format!("expected {}, found {kind}", kinds.join(" or ")))),
+            None => Ok(()),
+        }
     }
 
     fn mount(&self, recorded: &Transform) -> Transform {
