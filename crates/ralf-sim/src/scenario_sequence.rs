@@ -75,7 +75,7 @@ impl ScenarioSequence {
             cameras: vec![optical(CAMERA_DELAY_NS); rig.cameras.len()],
         };
         let motion = EgoMotion::new(odometry::samples(&path, START_NS, seconds, seed), vec![]).ok_or(
-            ScenarioError::Value { key: "scans", expected: "at least one", found: scans.to_string() },
+            ScenarioError::Value { key: "scans", expected: "at least one".into(), found: scans.to_string() },
         )?;
         let sequence = Sequence {
             name: name.to_owned(),

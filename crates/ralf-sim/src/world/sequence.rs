@@ -102,7 +102,7 @@ impl WorldSequence {
         let terrain = Terrain::new(&plan.ramps, plan.patches, plan.base, seed);
         let motion = motion(&world, &ride, &terrain, seconds, seed).ok_or(ScenarioError::Value {
             key: "scans",
-            expected: "at least one",
+            expected: "at least one".into(),
             found: scans.to_string(),
         })?;
         let sequence = Sequence {

@@ -1,0 +1,171 @@
+//! Which values of a scenario exist in the world.
+
+use super::{CameraFailure, Drive, Scenario, ScenarioError, Thing};
+use crate::vehicle::rig;
+
+/// The vehicle stays below this, km/h. Those of the presets stay below 10 km/h, as in the paper.
+const MAX_SPEED_KMH: f64 = 130.0;
+
+/// No row of things is longer.
+const MOST: usize = 1000;
+/// What all things together may fill, by [`Thing::bulk`]: each m3 is some scatterers, and all are kept in memory.
+const LARGEST_BULK: f64 = 1e6;
+/// Nothing lies farther from the site's origin, m.
+const FARTHEST: f64 = 1e5;
+/// From here on a number is told by its power of ten, and not by hundreds of digits.
+const LARGE: f64 = 1e9;
+
+impl Thing {
+    /// How much room it takes, of a row all of it: volume, with what walls and edges count for, in m3 or so.
+    fn bulk(&self) -> f64 {
+        let [length, width, height] = self.size.unwrap_or([1.0; 3]);
+        self.count as f64 * (length * width * height.max(1.0) + 20.0 * (length + width))
+    }
+}
+
+impl Scenario {
+    /// Refuses values that don't exist in the world.
+    pub fn check(&self) -> Result<(), ScenarioError> {
+        self.check_drive()?;
+        self.failure.iter().try_for_each(CameraFailure::check)?;
+        self.check_things()?;
+        let slope = self.ramp.iter().find(|ramp| ramp.slope_deg.is_nan() || ramp.slope_deg.abs() > 30.0);
+        if let Some(ramp) = slope {
+            return refuse("ramp.slope_deg", "a slope of 30 degrees at most", ramp.slope_deg);
+        }
+        if let Some(ramp) = self.ramp.iter().find(|ramp| ramp.length.is_nan() || ramp.length <= 0.0) {
+            return refuse("ramp.length", "a length above 0 m", ramp.length);
+        }
+        match self.places().find(|(_, value)| value.is_nan() || value.abs() > FARTHEST) {
+            Some((key, value)) => refuse(key, "a number from -100000 to 100000", value),
+            None => Ok(()),
+        }
+    }
+
+    fn check_drive(&self) -> Result<(), ScenarioError> {
+        let Drive { speed_kmh, leg, .. } = &self.ego;
+        if !(self.plausible_share > 0.0 && self.plausible_share < 1.0) {
+            return refuse("plausible_share", "a share between 0 and 1", self.plausible_share);
+        }
+        if !(*speed_kmh > 0.0 && *speed_kmh < MAX_SPEED_KMH) {
+            return refuse("ego.speed_kmh", "a speed above 0 and below 130 km/h", *speed_kmh);
+        }
+        match leg.iter().find(|leg| !(leg.length > 0.0 && leg.length.is_finite())) {
+            Some(leg) => refuse("ego.leg.length", "a length above 0 m", leg.length),
+            None => Ok(()),
+        }
+    }
+
+    fn check_things(&self) -> Result<(), ScenarioError> {
+        let sizes = self.thing.iter().filter_map(|thing| thing.size).flatten();
+        if let Some(size) = sizes.into_iter().find(|size| !(*size > 0.0 && size.is_finite())) {
+            return refuse("thing.size", "lengths above 0 m", size);
+        }
+        if let Some(thing) = self.thing.iter().find(|thing| thing.count > MOST) {
+            return refuse("thing.count", "1000 at most", thing.count as f64);
+        }
+        let bulk: f64 = self.thing.iter().map(Thing::bulk).sum();
+        if bulk > LARGEST_BULK {
+            return refuse("thing.size", "things that fill a few streets, in all", bulk);
+        }
+        Ok(())
+    }
+
+    /// Every number that says where something is, or where it points, with its key.
+    fn places(&self) -> impl Iterator<Item = (&'static str, f64)> {
+        let pairs = self.thing.iter().flat_map(|thing| {
+            [("thing.at", thing.at), ("thing.step", thing.step), ("thing.velocity", thing.velocity)]
+        });
+        let pairs = pairs.chain(self.ramp.iter().map(|ramp| ("ramp.at", ramp.at)));
+        let yaws = self.thing.iter().map(|thing| ("thing.yaw_deg", thing.yaw_deg));
+        let turns = self.ego.leg.iter().map(|leg| ("ego.leg.turn_deg", leg.turn_deg));
+        let ramps = self
+            .ramp
+            .iter()
+            .flat_map(|ramp| [("ramp.direction_deg", ramp.direction_deg), ("ramp.length", ramp.length)]);
+        let start = self.ego.start.map(|value| ("ego.start", value));
+        let pairs = pairs.flat_map(|(key, pair)| pair.map(|value| (key, value)));
+        pairs.chain(yaws).chain(turns).chain(ramps).chain(start)
+    }
+}
+
+impl CameraFailure {
+    /// Refuses a failure that happens to no camera, or never.
+    fn check(&self) -> Result<(), ScenarioError> {
+        let names: Vec<String> = rig().cameras.into_iter().map(|camera| camera.name).collect();
+        if !names.contains(&self.camera) {
+            let expected = format!("one of {}", names.join(", "));
+            return Err(ScenarioError::Value { key: "failure.camera", expected, found: self.camera.clone() });
+        }
+        if self.from_s.is_nan() {
+            return refuse("failure.from_s", "a time, s after the start", self.from_s);
+        }
+        if self.until_s > self.from_s {
+            return Ok(());
+        }
+        let expected = format!("a time after failure.from_s, which is {}", short(self.from_s));
+        Err(ScenarioError::Value { key: "failure.until_s", expected, found: short(self.until_s) })
+    }
+}
+
+fn refuse(key: &'static str, expected: &str, found: f64) -> Result<(), ScenarioError> {
+    Err(ScenarioError::Value { key, expected: expected.to_owned(), found: short(found) })
+}
+
+fn short(value: f64) -> String {
+    if value.is_finite() && value.abs() >= LARGE { format!("{value:e}") } else { value.to_string() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[track_caller]
+    fn refused(ego: &str, rest: &str, told: &str) {
+        let text = format!("title = 'x'\n{rest}\nego = {{ start = [0, 0, 0], speed_kmh = 7{ego} }}");
+        let error = Scenario::from_toml(&text).unwrap_err().to_string();
+        assert_eq!(error, told);
+    }
+
+    #[test]
+    fn a_failure_of_no_camera_or_at_no_time_is_refused() {
+        let failure = |camera: &str, from: &str, until: &str| {
+            format!(
+                "failure = [{{ camera = '{camera}', kind = 'dark', from_s = {from}, until_s = {until} }}]"
+            )
+        };
+        let cameras = "camera_front, camera_left, camera_right, camera_rear";
+        refused(
+            "",
+            &failure("nosuch", "0", "1"),
+            &format!("failure.camera: expected one of {cameras}, found nosuch"),
+        );
+        for (from, until) in [("2", "1"), ("2", "2"), ("2", "nan")] {
+            let told = format!(
+                "failure.until_s: expected a time after failure.from_s, which is 2, found {}",
+                until.replace("nan", "NaN")
+            );
+            refused("", &failure("camera_front", from, until), &told);
+        }
+        let told = "failure.from_s: expected a time, s after the start, found NaN";
+        refused("", &failure("camera_front", "nan", "1"), told);
+    }
+
+    #[test]
+    fn a_place_far_off_is_named_by_its_key_in_few_digits() {
+        for (key, thing) in [
+            ("at", "at = [0, 1e300]"),
+            ("step", "at = [0, 0], step = [1e300, 0]"),
+            ("yaw_deg", "at = [0, 0], yaw_deg = 1e300"),
+        ] {
+            let told = format!("thing.{key}: expected a number from -100000 to 100000, found 1e300");
+            refused("", &format!("thing = [{{ kind = 'pole', {thing} }}]"), &told);
+        }
+        let far = ", leg = [{ length = 5, turn_deg = 100001 }]";
+        refused(far, "", "ego.leg.turn_deg: expected a number from -100000 to 100000, found 100001");
+        let ramp = "ramp = [{ at = [0, 0], direction_deg = 0, length = -3, slope_deg = 2 }]";
+        refused("", ramp, "ramp.length: expected a length above 0 m, found -3");
+        let ramp = "ramp = [{ at = [0, 0], direction_deg = nan, length = 3, slope_deg = 2 }]";
+        refused("", ramp, "ramp.direction_deg: expected a number from -100000 to 100000, found NaN");
+    }
+}
