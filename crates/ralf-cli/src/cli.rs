@@ -8,7 +8,7 @@ use crate::commands::{
 };
 #[cfg(feature = "depth")]
 use crate::commands::{depth, segment};
-use crate::outcome::Outcome;
+use crate::outcome::{Outcome, UsageError};
 use crate::progress;
 use crate::text::print;
 use clap::{CommandFactory, Parser, Subcommand};
@@ -102,6 +102,7 @@ impl Cli {
             Command::Inspect(arguments) => inspect::run(&arguments),
             Command::Check(arguments) => check::run(&arguments),
             Command::Label(arguments) => label::run(&arguments),
+        ralf_files::check_environment().map_err(|error| UsageError(error.to_string()))?;
             Command::Cluster(arguments) => cluster::run(&arguments),
             #[cfg(feature = "depth")]
             Command::Depth(arguments) => depth::run(&arguments),

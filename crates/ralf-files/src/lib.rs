@@ -40,24 +40,43 @@ pub enum Kind {
 
 impl Kind {
     /// The largest size, bytes; `None` where any will do.
-    pub fn limit(self) -> Option<u64> {
+    ///
+    /// # Errors
+    /// The environment asks for another limit, and not by a [number](check_environment).
+    pub fn limit(self) -> Result<Option<u64>> {
+        let raised = raised()?;
         let megabytes = match self {
             Self::Settings => 16,
             Self::Measurement => 512,
             Self::Table => 1024,
             Self::Network => 2048,
-            Self::Stream => return None,
+            Self::Stream => return Ok(None),
         };
-        Some((megabytes * MEGABYTE).max(raised()))
+        Ok(Some((megabytes * MEGABYTE).max(raised)))
     }
 }
 
-/// What the environment asks for, bytes; 0 where it asks for nothing or for what is no number.
-fn raised() -> u64 {
-    static RAISED: OnceLock<u64> = OnceLock::new();
-    *RAISED.get_or_init(|| {
-        let asked = std::env::var(LIMIT_VARIABLE).ok().and_then(|value| value.trim().parse::<u64>().ok());
-        asked.map_or(0, |megabytes| megabytes.saturating_mul(MEGABYTE))
+/// Refuses an environment whose [`LIMIT_VARIABLE`] is no number, before any file is opened: whoever sets it wants
+/// larger files read, and is not to find out by a file that is refused all the same.
+pub fn check_environment() -> Result<()> {
+    raised().map(drop)
+}
+
+/// What the environment asks for, bytes; 0 where it asks for nothing.
+fn raised() -> Result<u64> {
+    static RAISED: OnceLock<std::result::Result<u64, String>> = OnceLock::new();
+    let asked = || std::env::var_os(LIMIT_VARIABLE).map_or(Ok(0), |value| bytes_of(&value.to_string_lossy()));
+    RAISED.get_or_init(asked).clone().map_err(|found| Error::new(ErrorKind::InvalidInput, found))
+}
+
+/// A number of megabytes as bytes; 0 where nothing is said.
+fn bytes_of(value: &str) -> std::result::Result<u64, String> {
+    if value.trim().is_empty() {
+        return Ok(0);
+    }
+    let megabytes: std::result::Result<u64, _> = value.trim().parse();
+    megabytes.map(|megabytes| megabytes.saturating_mul(MEGABYTE)).map_err(|_| {
+        format!("{LIMIT_VARIABLE} in the environment: expected a whole number of megabytes, found `{value}`")
     })
 }
 
@@ -69,7 +88,7 @@ pub fn check(file: &Path, kind: Kind) -> Result<u64> {
         let found = special(found.file_type());
         return Err(Error::new(ErrorKind::InvalidInput, format!("expected a regular file, found {found}")));
     }
-    refuse_above(kind.limit(), found.len()).map(|()| found.len())
+    refuse_above(kind.limit()?, found.len()).map(|()| found.len())
 }
 
 /// Opens a file for reading.
@@ -83,12 +102,12 @@ pub fn read(file: &Path, kind: Kind) -> Result<Vec<u8>> {
     let size = check(file, kind)?;
     let mut bytes = Vec::with_capacity(usize::try_from(size).unwrap_or_default());
     let open = File::open(file)?;
-    match kind.limit() {
+    match kind.limit()? {
         // It may have grown since it was looked at.
         Some(limit) => open.take(limit.saturating_add(1)).read_to_end(&mut bytes)?,
         None => { open }.read_to_end(&mut bytes)?,
     };
-    refuse_above(kind.limit(), bytes.len() as u64).map(|()| bytes)
+    refuse_above(kind.limit()?, bytes.len() as u64).map(|()| bytes)
 }
 
 /// The whole file as UTF-8 text.
@@ -162,6 +181,14 @@ mod tests {
         assert_eq!(error.to_string(), "expected a regular file, found none of this name");
         let error = read(&file.join("b"), Kind::Stream).unwrap_err().to_string();
         assert_eq!(error, "expected a regular file, found a file in the place of a folder");
+    }
+
+    #[test]
+    fn a_limit_is_a_whole_number_of_megabytes() {
+        assert_eq!(bytes_of(" 4000 "), Ok(4_000_000_000));
+        assert_eq!((bytes_of(""), bytes_of("99999999999999999999").is_err()), (Ok(0), true));
+        let told = "RALF_MAX_FILE_MB in the environment: expected a whole number of megabytes, found `abc`";
+        assert_eq!(bytes_of("abc"), Err(told.to_owned()));
     }
 
     #[test]

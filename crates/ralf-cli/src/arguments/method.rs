@@ -1,5 +1,6 @@
 //! Which method answers, and by which model.
 
+use super::settings::SettingsArgs;
 use crate::outcome::UsageError;
 use anyhow::Context;
 use clap::{Args, ValueEnum};
@@ -10,7 +11,7 @@ use std::path::PathBuf;
 /// Who answers.
 #[derive(Debug, Args)]
 pub(crate) struct MethodArgs {
-    /// Who answers; as `method` of the settings if not given
+    /// Who answers, whatever a settings file says; as `method` of the settings if not given
     #[arg(long, value_enum, value_name = "METHOD")]
     method: Option<TypedMethod>,
     /// The model that answers with the method that learns, as `ralf learn` wrote it; the shipped one if not given
@@ -28,13 +29,22 @@ enum TypedMethod {
 }
 
 impl MethodArgs {
-    /// Puts the method into the settings. Returns the model, where one is asked.
-    pub(crate) fn apply(&self, config: &mut Config) -> anyhow::Result<Option<Model>> {
-        match self.method {
-            Some(TypedMethod::Paper) => config.method = Method::Paper,
-            Some(TypedMethod::Learned) => config.method = Method::Learned,
-            None => {}
+    /// Puts the method into the settings, which were resolved from these. Returns the model, where one is asked.
+    pub(crate) fn apply(
+        &self,
+        config: &mut Config,
+        settings: &SettingsArgs,
+    ) -> anyhow::Result<Option<Model>> {
+        let asked = match self.method {
+            Some(TypedMethod::Paper) => Method::Paper,
+            Some(TypedMethod::Learned) => Method::Learned,
+            None => config.method,
+        };
+        if asked != config.method && settings.has_set("method") {
+            let expected = "expected the method of --set method=..., or one of the two options alone";
+            return Err(UsageError(format!("--method: {expected}")).into());
         }
+        config.method = asked;
         if config.method == Method::Paper && self.model.is_some() {
             let wanted = "--method learned, or method = \"learned\" in the settings";
             return Err(

@@ -52,6 +52,12 @@ impl SettingsArgs {
         Ok(settings)
     }
 
+    /// Whether this key was typed with `--set`.
+    pub(super) fn has_set(&self, key: &str) -> bool {
+        let typed = self.assignments.iter().filter_map(|assignment| assignment.split_once('='));
+        typed.map(|(typed, _)| typed.trim()).any(|typed| typed == key)
+    }
+
     /// Whether any was typed.
     pub(crate) fn are_given(&self) -> bool {
         !self.config.is_empty() || !self.assignments.is_empty() || self.trajectory.is_some()

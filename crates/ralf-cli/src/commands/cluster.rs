@@ -128,7 +128,7 @@ pub(crate) fn run(arguments: &ClusterArgs) -> anyhow::Result<Outcome> {
 /// A recording that can't be planned is named, and costs the others nothing.
 fn plan(arguments: &PlanArgs) -> anyhow::Result<Outcome> {
     let mut settings = arguments.settings.resolve()?;
-    arguments.method.apply(&mut settings.method)?;
+    arguments.method.apply(&mut settings.method, &arguments.settings)?;
     let (mut tasks, mut outcome) = (Vec::new(), Outcome::Done);
     let folders = many::folders(&arguments.recordings, &arguments.output)?;
     for (recording, out) in arguments.recordings.iter().zip(&folders) {

@@ -80,7 +80,7 @@ pub(crate) struct LabelArgs {
 pub(crate) fn run(arguments: &LabelArgs) -> anyhow::Result<Outcome> {
     let begun = Instant::now();
     let mut settings = arguments.settings.resolve()?;
-    let model = arguments.method.apply(&mut settings.method)?;
+    let model = arguments.method.apply(&mut settings.method, &arguments.settings)?;
     let jobs = threads(arguments.jobs);
     settings.topics = arguments.dataset.topics_or(&settings.topics)?;
     let recording = arguments.dataset.open_corrected(&settings)?;

@@ -203,6 +203,31 @@ fn a_correction_that_changes_nothing_of_such_a_sensor_is_refused() {
 }
 
 #[test]
+fn what_contradicts_itself_is_refused_and_a_file_may_be_overruled() {
+    let dataset = Dataset::of(&Shape { scans: 1, ..Shape::default() });
+    let label = |method: &str, option: &str, value: &str| {
+        ralf(["label", &dataset.path, "-o", &dataset.out, "--no-check", "--method", method, option, value])
+    };
+    for [typed, set] in [["paper", "method=learned"], ["learned", "method=paper"]] {
+        label(typed, "--set", set).exits(2).ends_with_error(["--method", "--set method="]);
+    }
+    assert!(!fs::exists(&dataset.out).unwrap());
+    label("paper", "--set", "method=paper").exits(0);
+    let file = dataset.beside("a.toml");
+    fs::write(&file, "method = 'learned'\n").unwrap();
+    label("paper", "--config", &file).exits(0);
+}
+
+#[test]
+fn a_limit_in_the_environment_that_is_no_number_is_refused() {
+    let dataset = Dataset::of(&Shape { scans: 1, ..Shape::default() });
+    let mut command = crate::support::program();
+    command.env("RALF_MAX_FILE_MB", "abc").args(["inspect", &dataset.path]);
+    let ran = crate::support::Ran::of(&command.output().unwrap());
+    ran.exits(2).prints_nothing().ends_with_error(["RALF_MAX_FILE_MB", "megabytes", "`abc`"]);
+}
+
+#[test]
 fn a_command_that_is_told_can_be_typed_again() {
     let dataset = Dataset::of(&Shape { scans: 3, sequences: &["00", "01"], ..Shape::default() });
     let [recording, model, demo] = ["it's a town", "a model", "d m"].map(|name| dataset.beside(name));
