@@ -1,7 +1,7 @@
 //! `ralf convert`: another format into the project's own, or into a recording as ROS keeps it.
 
 use crate::arguments::{DatasetArgs, SettingsArgs, the_only, threads};
-use crate::outcome::Outcome;
+use crate::outcome::{Outcome, UsageError};
 use crate::progress::{Progress, say};
 use crate::sequences::write_missing;
 use clap::Args;
@@ -10,6 +10,12 @@ use ralf_data::read::refuse_to_write_into;
 use ralf_data::write::export::{RosFormat, write_ros};
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
+
+/// Endings of files that hold recordings, or something of them, and that aren't written here.
+const OTHER_FILES: [&str; 17] = [
+    "db3", "db", "sqlite", "zip", "tar", "gz", "tgz", "zst", "7z", "h5", "hdf5", "json", "npz", "parquet",
+    "pcap", "pcd", "toml",
+];
 
 /// Arguments of `ralf convert`.
 #[derive(Debug, Args)]
@@ -39,6 +45,7 @@ pub(crate) struct ConvertArgs {
 
 /// Converts a recording.
 pub(crate) fn run(arguments: &ConvertArgs) -> anyhow::Result<Outcome> {
+    refuse_other_files(&arguments.output)?;
     let recording = opened(arguments)?;
     if let Some(format) = RosFormat::of_file(&arguments.output) {
         return as_ros(&recording, &arguments.output, format);
@@ -47,6 +54,17 @@ pub(crate) fn run(arguments: &ConvertArgs) -> anyhow::Result<Outcome> {
     let sequences: Vec<_> = recording.sequences.iter().map(|reader| reader.as_ref()).collect();
     write_missing(&sequences, &arguments.output, threads(arguments.jobs), "converting")?;
     Ok(Outcome::Done)
+}
+
+/// Refuses a folder that is to have the name of a file of another kind: whoever types it expects that file.
+fn refuse_other_files(output: &Path) -> Result<(), UsageError> {
+    let ending = output.extension().unwrap_or_default();
+    let is_file = OTHER_FILES.iter().any(|other| ending.eq_ignore_ascii_case(other));
+    if output.is_dir() || !is_file {
+        return Ok(());
+    }
+    let expected = "a folder's name, or one that ends in .mcap or .bag, which are the files that are written";
+    Err(UsageError(format!("--output: expected {expected}, found {}", output.display())))
 }
 
 /// The recording, as the settings correct it where there are any.

@@ -63,8 +63,15 @@ pub(super) fn tables(sequences: &[(String, EvidenceTable)]) -> Vec<&EvidenceTabl
 }
 
 impl SearchArgs {
-    /// Sequences can't be trained on and judged by.
+    /// Sequences can't be trained on and judged by, and each has a name.
     pub(super) fn check(&self, test: &[String]) -> Result<(), UsageError> {
+        for (option, names) in [("--train", self.train.as_slice()), ("--test", test)] {
+            if names.iter().any(String::is_empty) {
+                let found = names.join(",");
+                let expected = "expected names with a comma between two of them, found an empty one";
+                return Err(UsageError(format!("{option}: {expected} in `{found}`")));
+            }
+        }
         if let Some(both) = self.train.iter().find(|name| test.contains(name)) {
             let reason = "a result is judged on sequences that the search did not see";
             return Err(UsageError(format!("--train and --test both name {both}: {reason}")));

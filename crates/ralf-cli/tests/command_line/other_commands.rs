@@ -125,3 +125,19 @@ fn a_conversion_overwrites_nothing() {
     ralf(["inspect", &dataset.path, "--quick"]).exits(0);
     assert!(tree(&copy) == before);
 }
+
+#[test]
+fn a_conversion_makes_the_file_that_its_name_says_or_refuses_it() {
+    let dataset = Dataset::of(&Shape { scans: 1, ..Shape::default() });
+    let path = |name: &str| dataset.beside(name);
+    for name in ["a.MCAP", "b.Bag"] {
+        ralf(["convert", &dataset.path, "-o", &path(name)]).exits(0);
+        assert!(fs::metadata(path(name)).unwrap().is_file(), "{name}");
+        ralf(["inspect", &path(name), "--quick"]).exits(0);
+    }
+    for name in ["c.db3", "c.DB3", "c.zip", "c.h5"] {
+        ralf(["convert", &dataset.path, "-o", &path(name)]).exits(2).ends_with_error([".mcap or .bag", name]);
+        assert!(!fs::exists(path(name)).unwrap());
+    }
+    ralf(["convert", &dataset.path, "-o", &path("nuscenes.v1")]).exits(0);
+}

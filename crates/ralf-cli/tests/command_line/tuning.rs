@@ -207,3 +207,24 @@ fn a_method_that_is_fitted_and_not_searched_for_is_refused_with_what_to_do_inste
     ralf(["ablate", &dataset.path, a, b, c, d, e, f]).exits(2).says(["--without-group"]);
     assert!(!fs::exists(&file).unwrap());
 }
+
+#[test]
+fn nothing_to_tune_and_names_that_are_empty_are_refused() {
+    let dataset = two_sequences();
+    let file = dataset.beside("ralf.toml");
+    let tune = |train: &str, test: &str, off: &[&str]| {
+        let mut command = crate::support::program();
+        command.args(["tune", &dataset.path, "-o", &file, "--train", train, "--test", test, "--trials", "2"]);
+        for branch in off {
+            command.args(["--set", &format!("{branch}.enabled=false")]);
+        }
+        crate::support::Ran::of(&command.output().unwrap())
+    };
+    tune("00,", "01", &[]).exits(2).ends_with_error(["--train: expected names", "an empty one in `00,`"]);
+    tune("00", ",01", &[]).exits(2).ends_with_error(["--test: expected names", "an empty one in `,01`"]);
+    tune("00", "01", &["lidar", "camera", "tracking"])
+        .exits(2)
+        .ends_with_error(["expected one branch or more", "are all false"]);
+    assert!(!fs::exists(&file).unwrap());
+    tune("00", "01", &["camera", "tracking"]).exits(0);
+}

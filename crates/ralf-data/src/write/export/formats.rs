@@ -132,10 +132,10 @@ impl ExportFormat {
 }
 
 impl SingleFile {
-    /// Whether a path ends as such a file does.
+    /// Whether a path ends as such a file does, in capitals or not.
     pub(super) fn is_named_by(&self, path: &Path) -> bool {
-        let found = path.extension().and_then(|found| found.to_str());
-        found.is_some() && found == self.ending.strip_prefix('.')
+        let ending = self.ending.trim_start_matches('.');
+        path.extension().is_some_and(|found| found.eq_ignore_ascii_case(ending))
     }
 }
 
@@ -189,7 +189,7 @@ mod tests {
     #[test]
     fn a_single_file_is_told_by_its_ending() {
         let mcap = ExportFormat::named("mcap").unwrap().single_file().unwrap();
-        assert!(mcap.is_named_by(Path::new("a/b.mcap")));
+        assert!(["a/b.mcap", "a/b.MCAP"].iter().all(|name| mcap.is_named_by(Path::new(name))));
         for other in ["a/b.bag", "a/mcap", "a/.mcap", "a/b.mcap.d"] {
             assert!(!mcap.is_named_by(Path::new(other)), "{other}");
         }

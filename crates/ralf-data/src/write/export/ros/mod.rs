@@ -57,10 +57,10 @@ pub enum RosFormat {
 type FileWriter = MessageWriter<BufWriter<File>>;
 
 impl RosFormat {
-    /// The kind that a file's name tells of.
+    /// The kind that a file's name tells of, in capitals or not.
     pub fn of_file(file: &Path) -> Option<Self> {
-        let found = file.extension()?.to_str()?;
-        [Self::Mcap, Self::Bag].into_iter().find(|format| format.extension() == found)
+        let found = file.extension()?;
+        [Self::Mcap, Self::Bag].into_iter().find(|format| found.eq_ignore_ascii_case(format.extension()))
     }
 
     /// How the names of files end, without the dot.
