@@ -13,13 +13,19 @@ use crate::progress;
 use crate::text::print;
 use clap::{CommandFactory, Parser, Subcommand};
 
+/// The example of a command that not every build has.
+const REVIEW: &str = match cfg!(feature = "review") {
+    true => "  ralf review recordings/city out           correct labels in the browser\n",
+    false => "",
+};
+
 /// Trustworthy labels for radar data: which detections are real, and which are artifacts?
 #[derive(Debug, Parser)]
 #[command(
     name = "ralf",
     version,
     max_term_width = 110,
-    after_help = "\
+    after_help = format!("\
 Examples:
   ralf demo                                 see it work
   ralf inspect recordings/city              what is in there, and what is missing
@@ -29,10 +35,9 @@ Examples:
   ralf evaluate out --truth recordings/city
   ralf tune recordings/city -o ralf.toml --train 00,01 --test 02
   ralf report recordings/city out -o report.html
-  ralf review recordings/city out           correct labels in the browser
-  ralf export recordings/city out --to semantickitti --sensors -o kitti
+{REVIEW}  ralf export recordings/city out --to semantickitti --sensors -o kitti
 
-Exit status: 0 done; 1 failed; 2 wrong usage; 3 done, but some scans are left out (each is named)."
+Exit status: 0 done; 1 failed; 2 wrong usage; 3 done, but some scans are left out (each is named).")
 )]
 pub(crate) struct Cli {
     #[command(subcommand)]
@@ -97,12 +102,12 @@ impl Cli {
         if self.quiet {
             progress::be_quiet();
         }
+        ralf_files::check_environment().map_err(|error| UsageError(error.to_string()))?;
         match self.command {
             Command::Demo(arguments) => demo::run(&arguments),
             Command::Inspect(arguments) => inspect::run(&arguments),
             Command::Check(arguments) => check::run(&arguments),
             Command::Label(arguments) => label::run(&arguments),
-        ralf_files::check_environment().map_err(|error| UsageError(error.to_string()))?;
             Command::Cluster(arguments) => cluster::run(&arguments),
             #[cfg(feature = "depth")]
             Command::Depth(arguments) => depth::run(&arguments),

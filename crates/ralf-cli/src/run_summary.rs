@@ -8,6 +8,12 @@ use ralf::scene::{Failure, ViewState};
 use ralf_data::NotUsed;
 use ralf_data::run::{CameraRecord, NotLabelled, RadarRecord, RunRecord, SequenceRecord, UnreadableScan};
 
+/// What to do where images have no depth.
+const MAKES_DEPTH: &str = match cfg!(feature = "depth") {
+    true => "--depth-model or `ralf depth` makes it",
+    false => "a build of ralf with the feature `depth` makes it",
+};
+
 /// So many cameras are named that were not matched.
 const SHOWN_CAMERAS: usize = 8;
 /// Of more sequences each sensor is summed up over all of them; `run.json` and the report tell them apart.
@@ -100,7 +106,7 @@ fn unused_cameras(record: &RunRecord) -> String {
     let more = if unused.len() > SHOWN_CAMERAS { ", ..." } else { "" };
     format!(
         "\n{cameras} camera(s) not matched, for no image near a radar scan has depth \
-         (--depth-model or `ralf depth` makes it): {shown}{more}\n"
+         ({MAKES_DEPTH}): {shown}{more}\n"
     )
 }
 

@@ -19,9 +19,20 @@ use std::num::NonZeroUsize;
 use std::path::PathBuf;
 use std::time::Instant;
 
+/// Examples with networks, which not every build has.
+const WITH_NETWORKS: &str = match cfg!(feature = "depth") {
+    true => {
+        "  \
+  ralf label nuscenes -o out --depth-model midas.onnx      cameras, too: depth is stored in OUT/depth
+  ralf label nuscenes -o out --segmentation classes        classes from images (`ralf segment nuscenes -o classes`)
+"
+    }
+    false => "",
+};
+
 /// Arguments of `ralf label`.
 #[derive(Debug, Args)]
-#[command(after_help = "\
+#[command(after_help = format!("\
 Writes OUT/run.json, OUT/sequences/NAME/plausibility.parquet and a .label file per scan. Killed and started again \
 with the same arguments it goes on where it stopped. Sequences may be labelled into the same OUT one after the other; \
 those that were labelled before are left as they are. All results in OUT have the same settings: those of other \
@@ -31,11 +42,9 @@ Examples:
   ralf label recordings/city -o out
   ralf label nuscenes -o out --sequence scene-0061 --set tracking.sources=all
   ralf label recordings/city -o out --config ralf.toml --set fusion.alpha=0.7 --jobs 4
-  ralf label nuscenes -o out --depth-model midas.onnx      cameras, too: depth is stored in OUT/depth
-  ralf label nuscenes -o out --segmentation classes        classes from images (`ralf segment nuscenes -o classes`)
-  ralf label recordings/city -o out --method learned       probabilities, with reasons (docs/learned.md)
+{WITH_NETWORKS}  ralf label recordings/city -o out --method learned       probabilities, with reasons (docs/learned.md)
   ralf label drive -o out --trajectory poses.tum --trajectory-frame lidar_top
-  ralf label drive -o out --config fixes.toml              with what `ralf check drive --write fixes.toml` found")]
+  ralf label drive -o out --config fixes.toml              with what `ralf check drive --write fixes.toml` found"))]
 pub(crate) struct LabelArgs {
     #[command(flatten)]
     dataset: DatasetArgs,

@@ -228,6 +228,19 @@ fn a_limit_in_the_environment_that_is_no_number_is_refused() {
 }
 
 #[test]
+fn help_tells_of_what_this_build_has() {
+    for (command, told, built) in [
+        (vec!["--help"], "ralf review recordings", cfg!(feature = "review")),
+        (vec!["label", "--help"], "--depth-model midas.onnx", cfg!(feature = "depth")),
+        (vec!["label", "--help"], "-o out --segmentation classes", cfg!(feature = "depth")),
+    ] {
+        let ran = crate::support::Ran::of(&crate::support::program().args(&command).output().unwrap());
+        let ran = ran.exits(0).prints(["Examples:"]);
+        assert_eq!(ran.stdout.contains(told), built, "{told}");
+    }
+}
+
+#[test]
 fn a_command_that_is_told_can_be_typed_again() {
     let dataset = Dataset::of(&Shape { scans: 3, sequences: &["00", "01"], ..Shape::default() });
     let [recording, model, demo] = ["it's a town", "a model", "d m"].map(|name| dataset.beside(name));

@@ -160,7 +160,7 @@ fn missing(reader: &dyn SequenceReader, sensors: &[SensorInspection], config: &C
             !times.cameras[camera].is_empty() && !reader.has_depth(camera),
             format!(
                 "{name}: no depth images, so nothing is matched with it: `ralf label --depth-model` or \
-                 `ralf depth` makes them"
+                 `ralf depth` makes them (where ralf is built with the feature `depth`)"
             ),
         );
     }
