@@ -177,3 +177,17 @@ fn converting_what_was_simulated_keeps_labels_and_causes() {
     let ran = ralf(["convert", &dataset.path, "-o", &plain]).exits(0);
     assert!(!ran.stderr.contains("warning: "), "{}", ran.stderr);
 }
+
+#[test]
+fn the_scenario_of_the_documentation_is_simulated() {
+    let page = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/scenario.md");
+    let page = fs::read_to_string(page).unwrap();
+    let (_, rest) = page.split_once("```toml\n").unwrap();
+    let (text, _) = rest.split_once("```").unwrap();
+    let dataset = Dataset::new();
+    let [file, made] = ["yard.toml", "made"].map(|name| dataset.beside(name));
+    fs::write(&file, text).unwrap();
+    ralf(["simulate", "-o", &made, "--scenario", &file, "--scans", "2"]).exits(0).prints_nothing();
+    let told = ralf(["inspect", &made, "--quick"]).exits(0);
+    told.prints(["A yard with a ramp", "radar_front", "camera_rear"]);
+}
