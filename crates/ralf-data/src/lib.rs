@@ -20,10 +20,10 @@
 
 mod disk;
 mod error;
-mod evidence;
 mod frames;
 pub mod judge;
 pub mod many;
+mod mismatches;
 mod not_used;
 pub mod read;
 pub mod realism;
@@ -44,8 +44,8 @@ pub use disk::files::{check_writable, write_named, write_whole};
 pub use disk::images::png;
 pub use disk::label_file::{Label, read_labels, write_labels};
 pub use error::DataError;
-pub use evidence::{SequenceEvidence, gather_evidence};
 pub use judge::{Balance, Balances, Comparison};
+pub use mismatches::{SequenceMismatches, gather_mismatches};
 pub use not_used::NotUsed;
 pub use ralf_corrections::ContentHash;
 pub use read::{LayoutSequence, Recording, SequenceReader, TruthLabels, formats, open, open_with};

@@ -2,7 +2,7 @@
 //! extensions besides; each is tuned on the same sequences as the paper's method, so that the comparison is fair, and
 //! judged on others.
 
-use super::{EvidenceTable, Found, Search, TuneError, TunedSettings};
+use super::{Found, MismatchTable, Search, TuneError, TunedSettings};
 use ralf::config::{Config, DepthScaling, GroundModel, TrackingSources};
 use ralf::metrics::{Confusion, Scores};
 
@@ -56,9 +56,9 @@ impl Variant {
         VARIANTS.into_iter().map(variant).collect()
     }
 
-    /// The settings with which its evidence is gathered. Equal ones need be gathered for once: branches that a variant
-    /// lacks are left out of account afterwards, and what is tuned doesn't change evidence.
-    pub fn evidence_config(&self) -> Config {
+    /// The settings with which its mismatches are gathered. Equal ones need be gathered for once: branches that a
+    /// variant lacks are left out of account afterwards, and what is tuned changes no mismatch.
+    pub fn matching_config(&self) -> Config {
         let mut config = self.config.clone();
         all_branches(&mut config);
         config
@@ -69,7 +69,7 @@ impl Variant {
     pub fn judge(
         &self,
         search: &Search,
-        (train, test): (&[&EvidenceTable], &[&EvidenceTable]),
+        (train, test): (&[&MismatchTable], &[&MismatchTable]),
         progress: &mut dyn FnMut(usize, &Found),
     ) -> Result<Judged, TuneError> {
         let (mut config, mut held) = (self.config.clone(), search.held.clone());
@@ -78,7 +78,7 @@ impl Variant {
             held.push("lidar.neighbours".to_owned());
         }
         let found = Search { base: &config, held, ..search.clone() }.run(train, progress)?;
-        let scores = |tables: &[&EvidenceTable]| scores(tables, &found.settings);
+        let scores = |tables: &[&MismatchTable]| scores(tables, &found.settings);
         Ok(Judged { name: self.name, found, train: scores(train)?, test: scores(test)? })
     }
 }
@@ -96,7 +96,7 @@ pub struct Judged {
     pub test: Scores,
 }
 
-fn scores(tables: &[&EvidenceTable], settings: &TunedSettings) -> Result<Scores, TuneError> {
+fn scores(tables: &[&MismatchTable], settings: &TunedSettings) -> Result<Scores, TuneError> {
     let scans = tables.iter().map(|table| table.confusions(settings));
     let scans: Vec<Vec<Confusion>> = scans.collect::<Result<_, _>>()?;
     Ok(Scores::from_scans(&scans.concat()))
@@ -154,11 +154,11 @@ mod tests {
     }
 
     #[test]
-    fn variants_that_lack_a_branch_share_the_papers_evidence_and_no_extension_does() {
+    fn variants_that_lack_a_branch_share_the_papers_mismatches_and_no_extension_does() {
         let variants = Variant::all(&Config::default());
-        let paper = variants[0].evidence_config();
+        let paper = variants[0].matching_config();
         for variant in &variants[1..] {
-            assert_eq!(variant.evidence_config() == paper, !variant.name.contains('='), "{}", variant.name);
+            assert_eq!(variant.matching_config() == paper, !variant.name.contains('='), "{}", variant.name);
         }
     }
 
@@ -175,7 +175,7 @@ mod tests {
     }
 
     #[test]
-    fn a_variant_without_a_branch_is_a_search_without_its_evidence() {
+    fn a_variant_without_a_branch_is_a_search_without_its_mismatches() {
         let config = Config::default();
         let without = judged(&config, "without camera", 60);
         let train = planted(1, 40);

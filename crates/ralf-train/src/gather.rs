@@ -2,7 +2,7 @@
 
 use super::observed::Observed;
 use super::settings::Space;
-use super::table::{EvidenceTable, Row};
+use super::table::{MismatchTable, Row};
 use ralf::config::{Config, LidarConfig, TrackingConfig};
 use ralf::paper::{camera, in_blind_spot, lidar, tracking};
 use ralf::scene::Frame;
@@ -41,13 +41,13 @@ impl Gatherer {
     }
 
     /// A table for its scans.
-    pub fn table(&self) -> EvidenceTable {
-        EvidenceTable::new(self.space.clone())
+    pub fn table(&self) -> MismatchTable {
+        MismatchTable::new(self.space.clone())
     }
 
     /// Adds a scan to a table. `truth` says of each detection whether it is plausible; those of which it says nothing
     /// stay out.
-    pub fn add(&self, table: &mut EvidenceTable, frame: &Frame, truth: &[Option<bool>]) {
+    pub fn add(&self, table: &mut MismatchTable, frame: &Frame, truth: &[Option<bool>]) {
         let camera = camera::match_detections(frame, &self.config.camera);
         let lidar: Vec<_> = self.lidar.iter().map(|config| lidar::match_detections(frame, config)).collect();
         let tracking: Vec<_> =

@@ -1,6 +1,6 @@
 //! Tuning: which settings come nearest to corrected labels (paper, section 2.4; docs/method.md, section 10)?
 //!
-//! No mismatch `d` depends on `alpha`, the three `beta` or `w0`. An [`EvidenceTable`] therefore keeps the mismatches of
+//! No mismatch `d` depends on `alpha`, the three `beta` or `w0`. A [`MismatchTable`] therefore keeps the mismatches of
 //! every detection that has a truth, `d_lm` for each `K` and `d_tr` for each `n_b` of a [`Space`], and a trial of a
 //! [`Search`] never touches a point cloud: it weighs the mismatches anew, and gives the labels that the labeler would
 //! give.
@@ -29,7 +29,7 @@ pub use objective::{Objective, ObjectiveError};
 pub use observed::{Observed, Weights};
 pub use search::{Found, Search};
 pub use settings::{Branches, Space, TunedSettings};
-pub use table::EvidenceTable;
+pub use table::MismatchTable;
 
 use thiserror::Error;
 
@@ -43,7 +43,7 @@ pub enum TuneError {
     #[error("cross-validation: expected two training sequences or more, found {0}")]
     TooFewSequences(usize),
     /// The table holds no mismatches for this setting.
-    #[error("no evidence was gathered for {key} = {value}")]
+    #[error("no mismatches were gathered for {key} = {value}")]
     NotGathered {
         /// Dotted name.
         key: &'static str,

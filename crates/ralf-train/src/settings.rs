@@ -7,7 +7,7 @@ use std::collections::BTreeSet;
 /// Values of `K` and of `n_b` worth a try.
 const COUNTS: [usize; 5] = [1, 2, 3, 5, 8];
 
-/// Which branches have a say. A table of evidence may hold more than these.
+/// Which branches have a say. A table of mismatches may hold those of more than these.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Branches {
     /// `w_lm`.
@@ -81,7 +81,7 @@ impl TunedSettings {
     }
 }
 
-/// For which `K` and `n_b` evidence is gathered: each list ascends and holds one value at least.
+/// For which `K` and `n_b` mismatches are gathered: each list ascends and holds one value at least.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Space {
     /// Values of `K`.

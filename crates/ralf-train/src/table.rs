@@ -1,11 +1,11 @@
-//! The evidence of many scans, in columns.
+//! The mismatches of many scans, in columns.
 
 use super::observed::Observed;
 use super::{Branches, Space, TuneError, TunedSettings};
 use ralf::metrics::Confusion;
 use std::ops::Range;
 
-/// Bits of [`EvidenceTable::marks`].
+/// Bits of [`MismatchTable::marks`].
 const ON_FLOOR: u8 = 1;
 const IN_BLIND_SPOT: u8 = 2;
 const PLAUSIBLE: u8 = 4;
@@ -13,7 +13,7 @@ const PLAUSIBLE: u8 = 4;
 /// Mismatches and truth of all detections with a truth, some hundred bytes each. Full precision is kept, so that a
 /// trial gives the labels that the labeler would give.
 #[derive(Debug, Clone, PartialEq)]
-pub struct EvidenceTable {
+pub struct MismatchTable {
     space: Space,
     /// Per `K`; NaN where absent, in the other columns, too.
     d_lm: Vec<Vec<f64>>,
@@ -39,7 +39,7 @@ pub(super) struct Row {
     pub(super) plausible: bool,
 }
 
-impl EvidenceTable {
+impl MismatchTable {
     /// Without scans.
     pub fn new(space: Space) -> Self {
         let (d_lm, d_tr) = (vec![Vec::new(); space.neighbours.len()], vec![Vec::new(); space.scans.len()]);
@@ -101,7 +101,7 @@ impl EvidenceTable {
         let count = |rows: Range<usize>| {
             let mut counts = Confusion::default();
             for row in rows {
-                counts.add(view.truth(row), view.evidence(row).is_plausible(&settings.weights));
+                counts.add(view.truth(row), view.observed(row).is_plausible(&settings.weights));
             }
             counts
         };
@@ -109,7 +109,7 @@ impl EvidenceTable {
         Ok(begins.zip(&self.ends).map(|(begin, end)| count(*begin..*end)).collect())
     }
 
-    /// The evidence that some settings look at: one `K`, one `n_b`, and the branches that have a say.
+    /// The mismatches that some settings look at: one `K`, one `n_b`, and the branches that have a say.
     pub(super) fn view(&self, settings: &TunedSettings) -> Result<View<'_>, TuneError> {
         let TunedSettings { neighbours, scans, branches, .. } = *settings;
         let place = |values: &[usize], key, value| {
@@ -125,7 +125,7 @@ impl EvidenceTable {
 /// A table for some settings.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct View<'a> {
-    table: &'a EvidenceTable,
+    table: &'a MismatchTable,
     d_lm: &'a [f64],
     d_tr: &'a [f64],
     branches: Branches,
@@ -133,7 +133,7 @@ pub(super) struct View<'a> {
 
 impl View<'_> {
     /// What is known of a detection.
-    pub(super) fn evidence(&self, row: usize) -> Observed {
+    pub(super) fn observed(&self, row: usize) -> Observed {
         let present = |has_a_say: bool, d: f64| (has_a_say && !d.is_nan()).then_some(d);
         let Branches { lidar, camera, tracking } = self.branches;
         let marks = self.table.marks[row];
@@ -154,6 +154,6 @@ impl View<'_> {
 
     /// Evidence and truth of all detections.
     pub(super) fn rows(&self) -> impl Iterator<Item = (Observed, bool)> {
-        (0..self.table.len()).map(|row| (self.evidence(row), self.truth(row)))
+        (0..self.table.len()).map(|row| (self.observed(row), self.truth(row)))
     }
 }

@@ -36,8 +36,8 @@ pub(crate) fn run(arguments: &AblateArgs) -> anyhow::Result<Outcome> {
     let (recording, truth) = search.open(&base, &arguments.test)?;
     let mut judged = Vec::with_capacity(variants.len());
     let mut outcome = Outcome::Done;
-    // Those that share their evidence follow each other, so that but one evidence need be remembered.
-    for group in variants.chunk_by(|a, b| a.evidence_config() == b.evidence_config()) {
+    // Those that share their mismatches follow each other, so that but those of one need be remembered.
+    for group in variants.chunk_by(|a, b| a.matching_config() == b.matching_config()) {
         let (of_group, its_outcome) = arguments.judge(group, (&recording, &truth), judged.is_empty())?;
         judged.extend(of_group);
         if matches!(its_outcome, Outcome::Partial) {
@@ -53,7 +53,7 @@ pub(crate) fn run(arguments: &AblateArgs) -> anyhow::Result<Outcome> {
 }
 
 impl AblateArgs {
-    /// Variants that share their evidence. Scans that can't be matched are the same ones each time: the first group
+    /// Variants that share their mismatches. Scans that can't be matched are the same ones each time: the first group
     /// names them.
     fn judge(
         &self,
@@ -62,10 +62,10 @@ impl AblateArgs {
         first: bool,
     ) -> anyhow::Result<(Vec<Judged>, Outcome)> {
         let Some(shared) = variants.first() else { return Ok((Vec::new(), Outcome::Done)) };
-        let config = shared.evidence_config();
-        let evidence = self.search.gather(recording, &config)?;
-        let outcome = if first { name_what_is_left_out(&evidence) } else { Outcome::Done };
-        let parts = self.search.parts(evidence);
+        let config = shared.matching_config();
+        let matched = self.search.gather(recording, &config)?;
+        let outcome = if first { name_what_is_left_out(&matched) } else { Outcome::Done };
+        let parts = self.search.parts(matched);
         let (train, test) = (tables(&parts.train), tables(&parts.test));
         let judge = |variant: &Variant| {
             let progress = self.search.progress(variant.name);

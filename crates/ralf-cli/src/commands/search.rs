@@ -9,8 +9,8 @@ use crate::text::shell_path;
 use clap::Args;
 use clap::builder::PossibleValuesParser;
 use ralf::config::{Config, Method};
-use ralf_data::{GroundTruth, Recording, SequenceEvidence, Settings, gather_evidence};
-use ralf_train::{EvidenceTable, Found, Objective, Search, TunedSettings};
+use ralf_data::{GroundTruth, Recording, SequenceMismatches, Settings, gather_mismatches};
+use ralf_train::{Found, MismatchTable, Objective, Search, TunedSettings};
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
@@ -51,14 +51,14 @@ pub(super) struct SearchArgs {
     pub(super) json: bool,
 }
 
-/// The evidence of the sequences to train on and of those to judge by, each with its name.
+/// The mismatches of the sequences to train on and of those to judge by, each with its name.
 pub(super) struct Parts {
-    pub(super) train: Vec<(String, EvidenceTable)>,
-    pub(super) test: Vec<(String, EvidenceTable)>,
+    pub(super) train: Vec<(String, MismatchTable)>,
+    pub(super) test: Vec<(String, MismatchTable)>,
 }
 
 /// The tables of named sequences.
-pub(super) fn tables(sequences: &[(String, EvidenceTable)]) -> Vec<&EvidenceTable> {
+pub(super) fn tables(sequences: &[(String, MismatchTable)]) -> Vec<&MismatchTable> {
     sequences.iter().map(|(_, table)| table).collect()
 }
 
@@ -114,13 +114,13 @@ impl SearchArgs {
         &self,
         (recording, truth): (&Recording, &GroundTruth),
         config: &Config,
-    ) -> anyhow::Result<Vec<SequenceEvidence>> {
-        Ok(gather_evidence(recording, truth, config, threads(self.jobs), &Stages::default())?)
+    ) -> anyhow::Result<Vec<SequenceMismatches>> {
+        Ok(gather_mismatches(recording, truth, config, threads(self.jobs), &Stages::default())?)
     }
 
-    /// Which evidence is for training, and which for judging.
-    pub(super) fn parts(&self, evidence: Vec<SequenceEvidence>) -> Parts {
-        let tables = evidence.into_iter().map(|sequence| (sequence.name, sequence.table));
+    /// Which sequences are for training, and which for judging.
+    pub(super) fn parts(&self, matched: Vec<SequenceMismatches>) -> Parts {
+        let tables = matched.into_iter().map(|sequence| (sequence.name, sequence.table));
         let (train, test) = tables.partition(|(name, _)| self.train.contains(name));
         Parts { train, test }
     }
@@ -158,6 +158,6 @@ impl SearchArgs {
 }
 
 /// Names the scans that could not be matched, and those that others were matched without.
-pub(super) fn name_what_is_left_out(evidence: &[SequenceEvidence]) -> Outcome {
-    evidence.iter().map(|sequence| say_not_used(&sequence.not_used)).fold(Outcome::Done, Outcome::and)
+pub(super) fn name_what_is_left_out(matched: &[SequenceMismatches]) -> Outcome {
+    matched.iter().map(|sequence| say_not_used(&sequence.not_used)).fold(Outcome::Done, Outcome::and)
 }

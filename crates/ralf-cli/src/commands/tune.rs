@@ -11,7 +11,7 @@ use crate::text::{print, shell_path, shell_word};
 use clap::Args;
 use ralf::config::Config;
 use ralf_data::{Settings, write_named};
-use ralf_train::{EvidenceTable, Found, Search, TunedSettings, leave_one_out, settings_file};
+use ralf_train::{Found, MismatchTable, Search, TunedSettings, leave_one_out, settings_file};
 use report::{Part, Report};
 use std::path::PathBuf;
 
@@ -47,9 +47,9 @@ pub(crate) fn run(arguments: &TuneArgs) -> anyhow::Result<Outcome> {
     let base = search.base()?;
     refuse_no_branch(&base.method)?;
     let (recording, truth) = search.open(&base, &arguments.test)?;
-    let evidence = search.gather((&recording, &truth), &base.method)?;
-    let outcome = name_what_is_left_out(&evidence);
-    let report = arguments.tune(&base.method, &search.parts(evidence))?;
+    let matched = search.gather((&recording, &truth), &base.method)?;
+    let outcome = name_what_is_left_out(&matched);
+    let report = arguments.tune(&base.method, &search.parts(matched))?;
     let comment = text::comment(&report, &arguments.command());
     let method = report.found.settings.applied_to(&base.method);
     let tuned = Settings { method, ..base };
@@ -105,7 +105,7 @@ impl TuneArgs {
     fn cross_validate(
         &self,
         search: &Search,
-        train: &[(String, EvidenceTable)],
+        train: &[(String, MismatchTable)],
     ) -> anyhow::Result<Vec<ralf_train::Fold>> {
         let progress = self.search.progress("cross-validation");
         let mut show = |left_out: &str, trial: usize, best: &Found| {

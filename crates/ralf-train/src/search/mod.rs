@@ -3,7 +3,7 @@
 mod thinned;
 
 use super::threshold::{Cut, Weighed};
-use super::{EvidenceTable, Objective, TuneError, TunedSettings};
+use super::{MismatchTable, Objective, TuneError, TunedSettings};
 use ralf::config::Config;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
@@ -45,7 +45,7 @@ impl Search<'_> {
     /// counted from 1, and of the best so far.
     pub fn run(
         &self,
-        tables: &[&EvidenceTable],
+        tables: &[&MismatchTable],
         progress: &mut dyn FnMut(usize, &Found),
     ) -> Result<Found, TuneError> {
         let base = TunedSettings::from_config(self.base);
@@ -72,13 +72,13 @@ impl Search<'_> {
     /// The settings with the `w0` that suits them best, unless it is held.
     fn with_best_threshold(
         &self,
-        tables: &[&EvidenceTable],
+        tables: &[&MismatchTable],
         mut settings: TunedSettings,
     ) -> Result<Found, TuneError> {
         let mut weighed = Weighed::with_capacity(tables.iter().map(|table| table.len()).sum());
         for table in tables {
-            for (evidence, plausible) in table.view(&settings)?.rows() {
-                weighed.add(evidence.plausibility(&settings.weights), plausible);
+            for (observed, plausible) in table.view(&settings)?.rows() {
+                weighed.add(observed.plausibility(&settings.weights), plausible);
             }
         }
         if !self.is_free("fusion.threshold") {
@@ -100,14 +100,14 @@ struct BranchesSeen {
 
 impl BranchesSeen {
     /// Looks through the tables, which must hold both classes.
-    fn new(tables: &[&EvidenceTable], base: &TunedSettings) -> Result<Self, TuneError> {
+    fn new(tables: &[&MismatchTable], base: &TunedSettings) -> Result<Self, TuneError> {
         let mut observed = Self { lidar: false, camera: false, tracking: false };
         let (mut plausible, mut artifact) = (false, false);
         for table in tables {
-            for (evidence, truth) in table.view(base)?.rows() {
-                observed.lidar |= evidence.d_lm.is_some();
-                observed.camera |= evidence.d_cm.is_some();
-                observed.tracking |= evidence.d_tr.is_some();
+            for (found, truth) in table.view(base)?.rows() {
+                observed.lidar |= found.d_lm.is_some();
+                observed.camera |= found.d_cm.is_some();
+                observed.tracking |= found.d_tr.is_some();
                 plausible |= truth;
                 artifact |= !truth;
             }
@@ -133,7 +133,7 @@ struct Dials {
 
 impl Dials {
     fn new(
-        tables: &[&EvidenceTable],
+        tables: &[&MismatchTable],
         base: &TunedSettings,
         observed: &BranchesSeen,
         is_free: &dyn Fn(&str) -> bool,

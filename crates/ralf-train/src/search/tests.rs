@@ -6,7 +6,7 @@ use crate::{Space, leave_one_out};
 const SCAN: usize = 20;
 
 /// Detections whose truth follows from planted weights, with `K` = 2 and `n_b` = 3; the other mismatches mean nothing.
-pub(crate) fn planted(seed: u64, scans: usize) -> EvidenceTable {
+pub(crate) fn planted(seed: u64, scans: usize) -> MismatchTable {
     let config = Config::from_toml(
         "",
         &[
@@ -19,7 +19,7 @@ pub(crate) fn planted(seed: u64, scans: usize) -> EvidenceTable {
     );
     let weights = Weights::from(&config.unwrap());
     let space = Space { neighbours: vec![2, 3], scans: vec![3, 5] };
-    let mut table = EvidenceTable::new(space);
+    let mut table = MismatchTable::new(space);
     let mut rng = Pcg64Mcg::seed_from_u64(seed);
     for _ in 0..scans {
         let rows: Vec<Row> = (0..SCAN).map(|_| row(&mut rng, &weights)).collect();
@@ -96,7 +96,7 @@ fn the_floor_of_precision_is_kept() {
 #[test]
 fn what_says_nothing_keeps_its_setting() {
     let space = Space { neighbours: vec![2, 3], scans: vec![3, 5] };
-    let mut table = EvidenceTable::new(space);
+    let mut table = MismatchTable::new(space);
     let rest = Observed::NOTHING;
     let row = |plausible: bool| {
         let d = if plausible { 1.0 } else { 9.0 };
@@ -133,8 +133,8 @@ fn what_is_held_stays_and_the_rest_is_searched() {
 fn one_class_alone_teaches_nothing() {
     let base = Config::default();
     let space = Space { neighbours: vec![3], scans: vec![5] };
-    let mut table = EvidenceTable::new(space);
-    let refused = |table: &EvidenceTable| search(&base, 1).run(&[table], &mut |_, _| {}).unwrap_err();
+    let mut table = MismatchTable::new(space);
+    let refused = |table: &MismatchTable| search(&base, 1).run(&[table], &mut |_, _| {}).unwrap_err();
     assert_eq!(refused(&table), TuneError::OneClass("plausible detections"));
     let mut rng = Pcg64Mcg::seed_from_u64(0);
     table.push_scan([Row { plausible: true, ..row(&mut rng, &Weights::from(&base)) }]);
@@ -142,10 +142,10 @@ fn one_class_alone_teaches_nothing() {
 }
 
 #[test]
-fn evidence_that_was_not_gathered_is_named() {
+fn mismatches_that_were_not_gathered_is_named() {
     let base = Config::from_toml("", &["tracking.scans=4"]).unwrap();
     let error = search(&base, 1).run(&[&planted(1, 1)], &mut |_, _| {}).unwrap_err();
-    assert_eq!(error.to_string(), "no evidence was gathered for tracking.scans = 4");
+    assert_eq!(error.to_string(), "no mismatches were gathered for tracking.scans = 4");
 }
 
 #[test]

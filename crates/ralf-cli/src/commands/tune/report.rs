@@ -2,7 +2,7 @@
 
 use ralf::config::Config;
 use ralf::metrics::{Confusion, Scores};
-use ralf_train::{EvidenceTable, Fold, Found, Objective, TuneError, TunedSettings};
+use ralf_train::{Fold, Found, MismatchTable, Objective, TuneError, TunedSettings};
 use serde::Serialize;
 use serde_json::{Map, Value, json};
 
@@ -30,7 +30,7 @@ pub(super) struct Part {
 
 impl Part {
     pub(super) fn of(
-        sequences: &[(String, EvidenceTable)],
+        sequences: &[(String, MismatchTable)],
         base: &Config,
         tuned: &TunedSettings,
     ) -> Result<Self, TuneError> {

@@ -1,4 +1,4 @@
-//! The evidence of all scans with truth: what tuning works on (docs/method.md, section 10).
+//! The mismatches of all scans with truth: what tuning works on (docs/method.md, section 10).
 
 use crate::error::DataError;
 use crate::frames::{Frames, ScanIndex};
@@ -10,15 +10,15 @@ use ralf::config::Config;
 use ralf::label::truth_of;
 use ralf::scene::{FrameWindow, Unreadable};
 use ralf::sensors::Rig;
-use ralf_train::{EvidenceTable, Gatherer, Space};
+use ralf_train::{Gatherer, MismatchTable, Space};
 
 /// What is known of one sequence's detections with truth.
 #[derive(Debug, Clone)]
-pub struct SequenceEvidence {
+pub struct SequenceMismatches {
     /// The sequence's name.
     pub name: String,
     /// In the order of the truth's scans.
-    pub table: EvidenceTable,
+    pub table: MismatchTable,
     /// What it had to do without.
     pub not_used: NotUsed,
 }
@@ -26,13 +26,13 @@ pub struct SequenceEvidence {
 /// Matches all scans with truth of all sequences of a recording, in its order, for every `K` and `n_b` around the
 /// settings' own. The result doesn't depend on the number of jobs. A sequence without truth is refused, and so is a
 /// truth of another size than its scan.
-pub fn gather_evidence(
+pub fn gather_mismatches(
     recording: &Recording,
     truth: &GroundTruth,
     config: &Config,
     jobs: usize,
     observer: &dyn Observer,
-) -> Result<Vec<SequenceEvidence>, DataError> {
+) -> Result<Vec<SequenceMismatches>, DataError> {
     let gatherer = Gatherer::new(config, Space::around(config));
     let with_truth = recording.sequences.iter().map(|reader| {
         let name = &reader.sequence().name;
@@ -49,7 +49,7 @@ pub fn gather_evidence(
 }
 
 /// What is known of a scan, with what belongs to it and can't be read; or why nothing is.
-type Matched = Result<(EvidenceTable, Vec<Unreadable>), NotLabelled>;
+type Matched = Result<(MismatchTable, Vec<Unreadable>), NotLabelled>;
 
 /// One sequence.
 struct Task<'a> {
@@ -62,7 +62,7 @@ struct Task<'a> {
 }
 
 impl Task<'_> {
-    fn gather(&self, jobs: usize) -> Result<SequenceEvidence, DataError> {
+    fn gather(&self, jobs: usize) -> Result<SequenceMismatches, DataError> {
         let name = self.reader.sequence().name.clone();
         self.observer.begin(Stage::Matching(&name), self.scans.len() as u64);
         let places: Vec<Option<ScanIndex>> = self.scans.iter().map(|id| self.place_of(id)).collect();
@@ -88,7 +88,7 @@ impl Task<'_> {
                 table.append(scan);
             }
         }
-        Ok(SequenceEvidence { name, table, not_used })
+        Ok(SequenceMismatches { name, table, not_used })
     }
 
     /// Radar and scan, where the recording holds them.
