@@ -123,7 +123,9 @@ fn measurements_that_are_not_there_and_worlds_that_cannot_be_are_refused() {
     let refused = |text: Result<Scenario, ScenarioError>| text.unwrap_err().to_string();
     assert!(refused(with("130", "")).contains("below 130 km/h, found 130"));
     assert!(refused(with("nan", "")).contains("speed_kmh"));
-    assert!(refused(with("7", "{ kind = 'car', at = [inf, 0] }")).contains("finite"));
+    assert!(
+        refused(with("7", "{ kind = 'car', at = [inf, 0] }")).contains("thing.at: expected a number from")
+    );
     assert!(refused(with("7", "{ kind = 'car', at = [1, 0], size = [0, 1, 1] }")).contains("above 0 m"));
     assert!(refused(with("7", "{ kind = 'car', at = [1, 0], count = 4294967296 }")).contains("thing.count"));
     assert!(
