@@ -71,7 +71,7 @@ impl Variant {
         search: &Search,
         (train, test): (&[&MismatchTable], &[&MismatchTable]),
         progress: &mut dyn FnMut(usize, &Found),
-    ) -> Result<Judged, TuneError> {
+    ) -> Result<JudgedVariant, TuneError> {
         let (mut config, mut held) = (self.config.clone(), search.held.clone());
         if self.name == BASELINE {
             config.lidar.neighbours = 1;
@@ -79,13 +79,13 @@ impl Variant {
         }
         let found = Search { base: &config, held, ..search.clone() }.run(train, progress)?;
         let scores = |tables: &[&MismatchTable]| scores(tables, &found.settings);
-        Ok(Judged { name: self.name, found, train: scores(train)?, test: scores(test)? })
+        Ok(JudgedVariant { name: self.name, found, train: scores(train)?, test: scores(test)? })
     }
 }
 
 /// What a variant reaches.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Judged {
+pub struct JudgedVariant {
     /// The variant's name.
     pub name: &'static str,
     /// The settings found for it.
@@ -124,7 +124,7 @@ mod tests {
     use crate::Objective;
     use crate::search::planted;
 
-    fn judged(config: &Config, name: &str, trials: usize) -> Judged {
+    fn judged(config: &Config, name: &str, trials: usize) -> JudgedVariant {
         let (train, test) = (planted(1, 40), planted(2, 40));
         let search = Search { base: config, objective: Objective::F1, trials, seed: 1, held: vec![] };
         let variant = Variant::all(config).into_iter().find(|variant| variant.name == name).unwrap();

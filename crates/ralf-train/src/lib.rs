@@ -21,7 +21,7 @@ mod settings;
 mod table;
 mod threshold;
 
-pub use ablation::{Judged, Variant};
+pub use ablation::{JudgedVariant, Variant};
 pub use cross_validation::{Fold, leave_one_out};
 pub use file::settings_file;
 pub use gather::Gatherer;

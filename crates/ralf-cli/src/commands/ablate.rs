@@ -6,7 +6,7 @@ use crate::text::{aligned, decimal, print};
 use clap::Args;
 use ralf::metrics::{Rates, Scores};
 use ralf_data::{GroundTruth, Recording};
-use ralf_train::{Judged, Variant};
+use ralf_train::{JudgedVariant, Variant};
 use serde_json::{Map, Value, json};
 
 /// Arguments of `ralf ablate`.
@@ -60,7 +60,7 @@ impl AblateArgs {
         variants: &[Variant],
         recording: (&Recording, &GroundTruth),
         first: bool,
-    ) -> anyhow::Result<(Vec<Judged>, Outcome)> {
+    ) -> anyhow::Result<(Vec<JudgedVariant>, Outcome)> {
         let Some(shared) = variants.first() else { return Ok((Vec::new(), Outcome::Done)) };
         let config = shared.matching_config();
         let matched = self.search.gather(recording, &config)?;
@@ -77,7 +77,7 @@ impl AblateArgs {
     }
 
     /// For people.
-    fn page(&self, judged: &[Judged]) -> String {
+    fn page(&self, judged: &[JudgedVariant]) -> String {
         let columns = ["Accuracy", "F1 plausible", "to the paper's", "Mean IoU", "MCC", "F1 where tuned"];
         let mut rows = vec![["Variant"].iter().chain(&columns).map(|&text| text.to_owned()).collect()];
         for variant in judged {
@@ -103,8 +103,8 @@ impl AblateArgs {
     }
 
     /// For machines.
-    fn json(&self, judged: &[Judged]) -> Value {
-        let variant = |variant: &Judged| {
+    fn json(&self, judged: &[JudgedVariant]) -> Value {
+        let variant = |variant: &JudgedVariant| {
             let settings =
                 variant.found.settings.entries().map(|(key, value)| (key.to_owned(), json!(value)));
             json!({
@@ -131,7 +131,7 @@ fn pooled(scores: &Scores) -> Rates {
 }
 
 /// How much better the F1 of plausible detections is than that of the paper's method, which is the first variant.
-fn difference(variant: &Judged, judged: &[Judged]) -> Option<f64> {
-    let f1 = |variant: &Judged| pooled(&variant.test).f1_plausible;
+fn difference(variant: &JudgedVariant, judged: &[JudgedVariant]) -> Option<f64> {
+    let f1 = |variant: &JudgedVariant| pooled(&variant.test).f1_plausible;
     Some(f1(variant)? - f1(judged.first()?)?)
 }

@@ -1,6 +1,6 @@
 //! What a model is worth where it was not asked yet: before somebody's own corrections are learned.
 
-use super::scores::{Judged, Scores};
+use super::scores::{Scored, Scores};
 use super::table::TrainingTable;
 use super::view::View;
 use ralf::config::Config;
@@ -18,7 +18,7 @@ pub fn worth_in(model: &Model, table: &TrainingTable, world: u16, config: &Confi
     let mut judged = Vec::with_capacity(here.len());
     for (at, log_odds) in model.plausible.log_odds(&rows).into_iter().enumerate() {
         let score = weighing.plausibility(rows.row(at), log_odds);
-        judged.push(Judged { score, plausible: table.known[here[at]].plausible });
+        judged.push(Scored { score, plausible: table.known[here[at]].plausible });
     }
     Some(Scores::new(&judged, config.fusion.threshold))
 }

@@ -7,7 +7,7 @@ use super::calibrate::{Answered, calibration};
 use super::causes::cause_forests;
 use super::fitting::Fitting;
 use super::monotone::direction;
-use super::scores::{Judged, Scores, best_threshold};
+use super::scores::{Scored, Scores, best_threshold};
 use super::suite::{SUITES, SuiteScores, suites_of};
 use super::table::{Known, TrainingTable};
 use super::view::View;
@@ -240,11 +240,11 @@ impl<'a> Stranger<'a> {
         }
     }
 
-    fn judged(&self, rows: &[usize]) -> Vec<Judged> {
+    fn judged(&self, rows: &[usize]) -> Vec<Scored> {
         let judge = |row: &usize| {
             let probability = self.line.probability(self.log_odds[*row]);
             let score = self.unconfirmed.weighed(self.table.rows.row(*row), probability, self.factor);
-            Judged { score, plausible: self.table.known[*row].plausible }
+            Scored { score, plausible: self.table.known[*row].plausible }
         };
         rows.iter().map(judge).collect()
     }
@@ -252,9 +252,9 @@ impl<'a> Stranger<'a> {
 
 /// What the paper's method is worth in some rows.
 fn paper(table: &TrainingTable, rows: &[usize]) -> Scores {
-    let judged = |score: fn(&Known) -> f64| -> Vec<Judged> {
+    let judged = |score: fn(&Known) -> f64| -> Vec<Scored> {
         let known = rows.iter().map(|row| &table.known[*row]);
-        known.map(|known| Judged { score: score(known), plausible: known.plausible }).collect()
+        known.map(|known| Scored { score: score(known), plausible: known.plausible }).collect()
     };
     let by_label = Scores::new(&judged(|known| if known.paper_label { 1.0 } else { 0.0 }), 0.5);
     let by_w = Scores::new(&judged(|known| known.paper.into()), 0.5);

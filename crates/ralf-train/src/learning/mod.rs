@@ -34,7 +34,7 @@ pub use fit::{Fitted, LearnError, LeftOut, fit};
 pub use fitting::Fitting;
 pub use monotone::direction;
 pub use opinion::{Believed, second_opinion};
-pub use scores::{Judged, Scores, best_threshold};
+pub use scores::{Scored, Scores, best_threshold};
 pub use suite::{SUITES, SuiteScores};
 pub use table::{Known, TrainingTable};
 pub use view::View;

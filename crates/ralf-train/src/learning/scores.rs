@@ -20,7 +20,7 @@ pub struct Scores {
 
 /// A score with what was true.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Judged {
+pub struct Scored {
     /// The larger the more plausible.
     pub score: f64,
     /// What is true.
@@ -29,7 +29,7 @@ pub struct Judged {
 
 impl Scores {
     /// What probabilities are worth whose threshold is known before.
-    pub fn new(judged: &[Judged], threshold: f64) -> Self {
+    pub fn new(judged: &[Scored], threshold: f64) -> Self {
         let counts = Counts::at(judged, threshold);
         let all = judged.len() as f64;
         let accuracy = (!judged.is_empty()).then(|| (all - counts.wrong()) / all);
@@ -84,7 +84,7 @@ struct Counts {
 }
 
 impl Counts {
-    fn at(judged: &[Judged], threshold: f64) -> Self {
+    fn at(judged: &[Scored], threshold: f64) -> Self {
         let mut counts = Self::default();
         for row in judged {
             match (row.score >= threshold, row.plausible) {
@@ -108,7 +108,7 @@ impl Counts {
 }
 
 /// The threshold at which F1 is largest; the highest of several. 0.5 where nothing is plausible.
-pub fn best_threshold(judged: &[Judged]) -> f64 {
+pub fn best_threshold(judged: &[Scored]) -> f64 {
     let all_missed = judged.iter().filter(|row| row.plausible).count() as f64;
     let mut counts = Counts { false_negative: all_missed, ..Counts::default() };
     let (mut best, mut threshold) = (0.0, 0.5);
@@ -129,7 +129,7 @@ pub fn best_threshold(judged: &[Judged]) -> f64 {
     threshold
 }
 
-fn average_precision(judged: &[Judged]) -> Option<f64> {
+fn average_precision(judged: &[Scored]) -> Option<f64> {
     let all = judged.iter().filter(|row| row.plausible).count() as f64;
     let (mut found, mut seen, mut sum) = (0.0, 0.0, 0.0);
     for group in by_falling_score(judged) {
@@ -141,7 +141,7 @@ fn average_precision(judged: &[Judged]) -> Option<f64> {
     (all > 0.0).then(|| sum / all)
 }
 
-fn calibration_error(judged: &[Judged]) -> f64 {
+fn calibration_error(judged: &[Scored]) -> f64 {
     let mut cells = [(0.0, 0.0); CELLS];
     for row in judged {
         let cell = ((row.score * CELLS as f64) as usize).min(CELLS - 1);
@@ -152,18 +152,18 @@ fn calibration_error(judged: &[Judged]) -> f64 {
 }
 
 /// Groups of one score, from high to low.
-fn by_falling_score(judged: &[Judged]) -> Vec<Vec<Judged>> {
+fn by_falling_score(judged: &[Scored]) -> Vec<Vec<Scored>> {
     let mut sorted = judged.to_vec();
     sorted.sort_by(|a, b| b.score.total_cmp(&a.score));
-    sorted.chunk_by(|a, b| a.score == b.score).map(<[Judged]>::to_vec).collect()
+    sorted.chunk_by(|a, b| a.score == b.score).map(<[Scored]>::to_vec).collect()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    fn judged(rows: &[(f64, bool)]) -> Vec<Judged> {
-        rows.iter().map(|(score, plausible)| Judged { score: *score, plausible: *plausible }).collect()
+    fn judged(rows: &[(f64, bool)]) -> Vec<Scored> {
+        rows.iter().map(|(score, plausible)| Scored { score: *score, plausible: *plausible }).collect()
     }
 
     #[test]
