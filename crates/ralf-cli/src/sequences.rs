@@ -1,6 +1,7 @@
 //! Sequences written into a dataset, one after the other: the same command, typed again, writes what is missing.
 
 use crate::progress::{Progress, say};
+use ralf::sensors::Sequence;
 use ralf_data::{DataError, SequenceReader, has_sequence, write_sequence_with};
 use std::path::Path;
 
@@ -28,12 +29,15 @@ pub(crate) fn write_missing(
         say(&format!("kept as it is, for it is there already: {}", kept.join(", ")));
     }
     for reader in missing {
-        let sequence = reader.sequence();
-        let progress =
-            Progress::of_steps(sequence.times.measurements() as u64, format!("{doing} {}", sequence.name));
+        let progress = shown(reader.sequence(), doing);
         write_sequence_with(reader, dataset, jobs, &|done| progress.reached(done as u64))?;
         drop(progress);
         say(&format!("wrote {}", place(reader).display()));
     }
     Ok(())
+}
+
+/// How far writing a sequence has got, in measurements.
+pub(crate) fn shown(sequence: &Sequence, doing: &str) -> Progress {
+    Progress::of_steps(sequence.times.measurements() as u64, format!("{doing} {}", sequence.name))
 }

@@ -2,8 +2,8 @@
 
 use crate::arguments::{DatasetArgs, SettingsArgs, the_only, threads};
 use crate::outcome::{Outcome, UsageError};
-use crate::progress::{Progress, say};
-use crate::sequences::write_missing;
+use crate::progress::say;
+use crate::sequences::{shown, write_missing};
 use clap::Args;
 use ralf_data::Recording;
 use ralf_data::read::refuse_to_write_into;
@@ -16,6 +16,9 @@ const OTHER_FILES: [&str; 17] = [
     "db3", "db", "sqlite", "zip", "tar", "gz", "tgz", "zst", "7z", "h5", "hdf5", "json", "npz", "parquet",
     "pcap", "pcd", "toml",
 ];
+
+/// What is shown beside the progress.
+const DOING: &str = "converting";
 
 /// Arguments of `ralf convert`.
 #[derive(Debug, Args)]
@@ -52,7 +55,7 @@ pub(crate) fn run(arguments: &ConvertArgs) -> anyhow::Result<Outcome> {
     }
     refuse_to_write_into(&recording.path, &arguments.output)?;
     let sequences: Vec<_> = recording.sequences.iter().map(|reader| reader.as_ref()).collect();
-    write_missing(&sequences, &arguments.output, threads(arguments.jobs), "converting")?;
+    write_missing(&sequences, &arguments.output, threads(arguments.jobs), DOING)?;
     Ok(Outcome::Done)
 }
 
@@ -80,9 +83,7 @@ fn opened(arguments: &ConvertArgs) -> anyhow::Result<Recording> {
 /// Converts the only sequence of a recording into one file.
 fn as_ros(recording: &Recording, file: &Path, format: RosFormat) -> anyhow::Result<Outcome> {
     let reader = the_only(recording)?;
-    let sequence = reader.sequence();
-    let progress =
-        Progress::of_steps(sequence.times.measurements() as u64, format!("converting {}", sequence.name));
+    let progress = shown(reader.sequence(), DOING);
     let written = write_ros(reader, file, format, &|done| progress.reached(done as u64))?;
     drop(progress);
     say(&format!("wrote {}", file.display()));
