@@ -5,8 +5,8 @@
 
 Gradient-boosted trees that never saw a family of worlds label that family, as judge_families.py has it; then the odds of what
 is unconfirmed are multiplied by 0.03: of none, of what lies beyond the LiDAR's map, of where no ray goes, of what lies behind
-walls, of the last two, of all. Printed are means over the families left out, and of each kind how many there are and how many
-of them are plausible.
+walls, of all three, which is the rule; and of what lies beyond the map and farther than the LiDAR sees, too, which is not.
+Printed are means over the families left out, and of each kind how many there are and how many of them are plausible.
 
 Needs what judge_families.py needs.
 """
@@ -18,16 +18,20 @@ FACTOR = 0.03
 
 
 def kinds_of(features, names):
-    """Which rows are unconfirmed beyond the map, where no ray goes, and behind walls; the rule is that of
-    crates/ralf/src/learned/unconfirmed.rs, whose comparisons are false where something is absent, too."""
+    """Which rows are unconfirmed beyond the map, where no ray goes, and behind walls, by the rule of
+    crates/ralf/src/learned/unconfirmed.rs, whose comparisons are false where something is absent, too; and which would be
+    beyond the map if it asked no LiDAR how far it sees."""
     value = lambda name: features[:, names.index(name)]
     unseen, away = value("lidar_unseen"), value("map_distance")
-    known = ~numpy.isnan(unseen) & ~((value("lidar_chi") < 3) | (value("lidar_moving_near") > 0))
+    known = ~numpy.isnan(unseen) & ~(value("lidar_moving_near") > 0)
     beyond, no_ray = numpy.isnan(away), unseen >= 1
     walled = (value("sight_wall_top") > 2.5) & (value("sight_wall_length") >= 4)
-    hidden = walled & (unseen + value("lidar_occluded") >= 0.999) & ~(value("lidar_window_chi_least") < 3)
-    out_of_sight = (beyond | no_ray) & ~(away < 3)
-    return known & out_of_sight & beyond, known & out_of_sight & ~beyond, known & hidden & ~out_of_sight
+    near_any = (value("lidar_chi") < 3) | (value("lidar_window_chi_least") < 3)
+    hidden = known & walled & (unseen + value("lidar_occluded") >= 0.999) & ~near_any
+    out_of_sight = known & (beyond | no_ray) & ~((value("lidar_distance") < 2.5) | (away < 3))
+    reached = value("lidar_reach") <= 1
+    seen = out_of_sight & reached
+    return seen & beyond, seen & ~beyond, hidden & ~seen, out_of_sight & ~reached
 
 
 def weighed(scores, unconfirmed):
@@ -40,11 +44,11 @@ def main():
     options, names = parser_of(__doc__).parse_args(), list(groups_of_features())
     worlds = read_worlds(options, names)
     scores = out_of_fold(worlds.features, worlds, options)
-    beyond, no_ray, walled = kinds_of(worlds.features, names)
-    nothing = numpy.zeros(len(scores), bool)
+    beyond, no_ray, walled, farther = kinds_of(worlds.features, names)
+    rule = beyond | no_ray | walled
     kinds = {
-        "nothing": nothing, "where no ray goes": no_ray, "behind walls": walled, "both": no_ray | walled,
-        "beyond the map": beyond, "all of it": beyond | no_ray | walled,
+        "nothing": numpy.zeros(len(scores), bool), "where no ray goes": no_ray, "behind walls": walled,
+        "beyond the map": beyond, "all of it": rule, "and what no LiDAR sees as far": rule | farther,
     }
     print("| believed less | of all | plausible of it | F1 | AP | accuracy | ECE |")
     print("| --- " * 7 + "|")

@@ -49,6 +49,8 @@ fn the_lidar_residual_by_hand() {
     // Vertical: h = -0.4. The radar's elevation knows height by 10 * 0.02 = 0.2; of the LiDAR's 0.04 m the ray has
     // 1.6 / 10.62121 = 0.150642 in height. -0.4 / sqrt(0.04 + 0.0000363 + 0.000001) = -1.99907.
     close(column(&found, "lidar_residual_vertical")[0], -1.99907);
+    // sqrt(0.5^2 + 0.4^2).
+    close(column(&found, "lidar_distance")[0], 0.640312);
     assert!(found.iter().all(|column| column.values.len() == 2 && column.values[1].is_none()));
 }
 
@@ -60,13 +62,17 @@ fn what_the_lidar_does_not_see_is_null() {
     let without_points = memory(Elevation::Measured, detections.clone(), vec![]);
     for memory in [without_scan, without_points] {
         let found = observe(&memory);
-        for name in ["lidar_residual_horizontal", "lidar_residual_vertical"] {
+        for name in ["lidar_distance", "lidar_residual_horizontal", "lidar_residual_vertical"] {
             assert_eq!(column(&found, name), [None]);
         }
     }
+    let far = observe(&memory(Elevation::Measured, detections.clone(), vec![[15.1, 0.0, -2.0]]));
+    assert_eq!(column(&far, "lidar_distance"), [None], "none is within 5 m");
     let level = observe(&memory(Elevation::None, detections, vec![[10.5, 0.0, -2.0]]));
     assert!(column(&level, "lidar_residual_horizontal")[0].is_some());
     assert_eq!(column(&level, "lidar_residual_vertical"), [None], "a radar without elevation has no height");
+    let above = observe(&memory(Elevation::None, vec![[10.0, 0.0, 0.0]], vec![[10.5, 0.0, -0.5]]));
+    close(column(&above, "lidar_distance")[0], 0.5);
 }
 
 proptest! {

@@ -16,6 +16,7 @@ const FOR: &[&str] = &[
 
 /// More of these never speaks for it.
 const AGAINST: &[&str] = &[
+    "lidar_distance",
     "lidar_residual_horizontal",
     "lidar_rays_beyond",
     "lidar_chi",

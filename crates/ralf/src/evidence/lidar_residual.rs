@@ -1,8 +1,10 @@
-//! How far a detection lies from the LiDAR's points in height and in the plane, each in its own standard deviations.
+//! How far a detection lies from the LiDAR's points: in metres from the nearest, and in height and in the plane, each
+//! in its own standard deviations.
 //!
 //! The paper's `d_lm` is one number for both. Real radars measure elevation much worse than range and azimuth, and
 //! ghosts below the road or above a wall are far off in height alone.
 
+use super::columns::{set, unobserved};
 use super::{Feature, Piece, Surroundings, Values};
 use crate::scene::mismatch;
 use crate::sensors::Elevation;
@@ -13,6 +15,13 @@ const NEAR: f64 = 5.0;
 
 pub(super) const PIECE: Piece = Piece {
     features: &[
+        Feature {
+            name: "lidar_distance",
+            unit: "m",
+            group: "LiDAR rays",
+            meaning: "distance from the nearest LiDAR point above the ground, of a radar without elevation the \
+                      horizontal one; null where none is within 5 m",
+        },
         Feature {
             name: "lidar_residual_horizontal",
             unit: "sigma",
@@ -35,28 +44,28 @@ pub(super) const PIECE: Piece = Piece {
 /// points. Floor detections have theirs, too.
 fn observe(surroundings: &Surroundings) -> Vec<Values> {
     let (frame, config) = (surroundings.frame, surroundings.config);
-    let mut horizontal = vec![None; frame.scan.len()];
-    let mut vertical = vec![None; frame.scan.len()];
-    let Some(cloud) = frame.lidar_cloud() else { return vec![horizontal, vertical] };
+    let mut columns = unobserved(PIECE.features, frame.scan.len());
+    let Some(cloud) = frame.lidar_cloud() else { return columns };
+    let is_level = frame.radar.elevation == Elevation::None;
     let mut association = cloud.association(config.lidar.neighbours);
     association.set_reach(NEAR);
     for (i, detection) in surroundings.rows_by_place() {
         let spread = detection.spread();
         let (mut across, mut up) = (0.0, 0.0);
-        let mut nearest = cloud.nearest(&mut association, detection);
-        if nearest.first().is_some_and(|first| (first.position - detection.position).norm() > NEAR) {
-            nearest.clear();
+        let nearest = cloud.nearest(&mut association, detection);
+        let Some(way) = nearest.first().map(|first| detection.position - first.position) else { continue };
+        if way.norm() > NEAR {
+            continue;
         }
         for reference in &nearest {
             let h = detection.position - reference.position;
             across += mismatch(&Vector::new(h.x, h.y, 0.0), &spread, &reference.spread);
             up += mismatch(&Vector::new(0.0, 0.0, h.z), &spread, &reference.spread).copysign(h.z);
         }
-        if !nearest.is_empty() {
-            horizontal[i] = Some(across / nearest.len() as f64);
-            vertical[i] =
-                Some(up / nearest.len() as f64).filter(|_| frame.radar.elevation == Elevation::Measured);
-        }
+        let distance = if is_level { way.xy().norm() } else { way.norm() };
+        let [horizontal, vertical] = [across, up].map(|sum| sum / nearest.len() as f64);
+        let vertical = Some(vertical).filter(|_| !is_level);
+        set(&mut columns, i, [Some(distance), Some(horizontal), vertical]);
     }
-    vec![horizontal, vertical]
+    columns
 }

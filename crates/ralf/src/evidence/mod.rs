@@ -23,6 +23,7 @@ mod ground;
 mod joint;
 mod lidar_map;
 mod lidar_rays;
+mod lidar_reach;
 mod lidar_residual;
 mod line_of_sight;
 mod meeting;
@@ -55,6 +56,7 @@ pub const PIECES: &[Piece] = &[
     ground::PIECE,
     lidar_rays::PIECE,
     lidar_rays::MOVING,
+    lidar_reach::PIECE,
     lidar_map::PIECE,
     line_of_sight::PIECE,
     terrain::PIECE,

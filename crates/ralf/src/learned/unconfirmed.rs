@@ -1,14 +1,19 @@
-//! What nobody but the radar tells of: beyond the reach of the LiDAR's map, where no ray goes, or behind a wall, and no
-//! LiDAR point near, neither where it would be if it stood still nor where its range rate takes it.
+//! What nobody but the radar tells of though a LiDAR sees as far: beyond the reach of the LiDAR's map, where no ray
+//! goes, or behind a wall, and no LiDAR point near, neither where it would be if it stood still nor where its range
+//! rate takes it.
 //!
 //! A world has as much clutter out there as somebody thought of, and a model believes a radar as far as that goes. On a
 //! real road nobody can check it. As the paper does, what no other sensor confirms counts less: the setting
-//! `learned.unconfirmed` says by how much.
+//! `learned.unconfirmed` says by how much. Where a radar hears farther than any LiDAR sees, silence says nothing, and
+//! the model keeps its word.
 
 use super::calibration::with_odds;
 
-/// A point of the nearest LiDAR scan so near confirms, sigmas.
-const NEAR: f32 = 3.0;
+/// A point of the nearest LiDAR scan so near confirms, m: a radar hears one end of a car and a LiDAR sees another, or
+/// either sees its middle.
+const NEAR: f32 = 2.5;
+/// Nor is a point behind a wall as near as this, sigmas.
+const NEAR_SIGMAS: f32 = 3.0;
 /// Nothing of the map is near, m: farther points are not told apart.
 const NOTHING_NEAR: f32 = 3.0;
 
@@ -22,6 +27,8 @@ const ALL: f32 = 0.999;
 #[derive(Debug, Clone, Copy)]
 pub struct Unconfirmed {
     unseen: Option<usize>,
+    reach: Option<usize>,
+    distance: Option<usize>,
     chi: Option<usize>,
     map: Option<usize>,
     moving: Option<usize>,
@@ -37,6 +44,8 @@ impl Unconfirmed {
         let place = |wanted: &str| names.clone().position(|name| name == wanted);
         Self {
             unseen: place("lidar_unseen"),
+            reach: place("lidar_reach"),
+            distance: place("lidar_distance"),
             chi: place("lidar_chi"),
             map: place("map_distance"),
             moving: place("lidar_moving_near"),
@@ -47,25 +56,25 @@ impl Unconfirmed {
         }
     }
 
-    /// Whether there is a LiDAR that can't speak of the place, and of its points none is near. It can't where the place
-    /// lies beyond its map or no ray of any scan around goes there: then none of the nearest scan may be within 3
-    /// sigmas and none of the map within 3 m. Nor can it where all rays end before the place and the last thing in the
+    /// Whether a LiDAR sees so far, but can't speak of the place, and of its points none is near. It can't where the
+    /// place lies beyond its map or no ray of any scan around goes there: then none of the nearest scan may be within
+    /// 2.5 m and none of the map within 3 m. Nor can it where all rays end before the place and the last thing in the
     /// radar's way is a wall, over 2.5 m high and at least 4 m long: then no scan around may have one within 3 sigmas.
     /// Nor may any scan around have one where its range rate takes the detection, if it moves.
     pub fn is(&self, row: &[f32]) -> bool {
         let value = |place: Option<usize>| place.map_or(f32::NAN, |place| row[place]);
-        let (unseen, chi, map) = (value(self.unseen), value(self.chi), value(self.map));
-        if unseen.is_nan() || self.chi.is_none() || self.map.is_none() {
+        let (unseen, map) = (value(self.unseen), value(self.map));
+        if unseen.is_nan() || self.chi.is_none() || self.map.is_none() || value(self.moving) > 0.0 {
             return false;
         }
-        // What is absent is no point near.
-        let near = chi < NEAR || value(self.moving) > 0.0;
-        let near_map = map < NOTHING_NEAR;
-        let near_any = value(self.chi_of_all) < NEAR;
-        let out_of_sight = map.is_nan() || unseen >= 1.0;
+        // What is absent is no point near. Models from before a column do as well as they can.
+        let [near_nearest, near_any] = [self.chi, self.chi_of_all].map(|chi| value(chi) < NEAR_SIGMAS);
+        let near = self.distance.map_or(near_nearest, |distance| row[distance] < NEAR) || map < NOTHING_NEAR;
+        let sees_as_far = self.reach.is_none_or(|reach| row[reach] <= 1.0);
+        let out_of_sight = sees_as_far && (map.is_nan() || unseen >= 1.0);
         let walled = value(self.wall_top) > WALL_TOP && value(self.wall_length) >= WALL_LENGTH;
         let hidden = walled && unseen + value(self.hidden) >= ALL;
-        !near && (out_of_sight && !near_map || hidden && !near_any)
+        out_of_sight && !near || hidden && !near_nearest && !near_any
     }
 
     /// The probability of a row; of one that is unconfirmed, with its odds multiplied by the factor.
@@ -78,47 +87,88 @@ impl Unconfirmed {
 mod tests {
     use super::*;
 
+    const ABSENT: f32 = f32::NAN;
+
     #[test]
     fn what_lidars_cannot_speak_of_is_unconfirmed_unless_a_point_is_near() {
-        let names = ["map_distance", "lidar_chi", "lidar_unseen", "lidar_moving_near"];
+        let names = [
+            "map_distance",
+            "lidar_distance",
+            "lidar_unseen",
+            "lidar_moving_near",
+            "lidar_reach",
+            "lidar_chi",
+        ];
         let unconfirmed = Unconfirmed::among(names.into_iter());
-        let absent = f32::NAN;
-        for (row, expected) in [
-            ([absent, 9.0, 0.5, absent], true),
-            ([absent, absent, 1.0, absent], true),
-            ([absent, 2.9, 0.5, absent], false),
-            ([absent, 9.0, 0.5, 0.0], true),
-            ([absent, 9.0, 0.5, 0.2], false),
-            ([3.0, 9.0, 0.5, absent], false),
-            ([3.0, absent, 1.0, absent], true),
-            ([3.0, absent, 1.0, 0.2], false),
-            ([3.0, absent, 0.9, absent], false),
-            ([2.9, absent, 1.0, absent], false),
-            ([absent; 4], false),
+        for ([map, distance, unseen, moving, reach], expected) in [
+            ([ABSENT, 2.6, 0.5, ABSENT, 0.9], true),
+            ([ABSENT, ABSENT, 1.0, ABSENT, 0.9], true),
+            ([ABSENT, 2.4, 0.5, ABSENT, 0.9], false),
+            ([ABSENT, 2.6, 0.5, 0.0, 0.9], true),
+            ([ABSENT, 2.6, 0.5, 0.2, 0.9], false),
+            ([3.0, 2.6, 0.5, ABSENT, 0.5], false),
+            ([3.0, ABSENT, 1.0, ABSENT, 0.5], true),
+            ([3.0, ABSENT, 1.0, 0.2, 0.5], false),
+            ([3.0, ABSENT, 0.9, ABSENT, 0.5], false),
+            ([2.9, ABSENT, 1.0, ABSENT, 0.5], false),
+            ([ABSENT; 5], false),
         ] {
+            // Standard deviations are nothing to go by so far away.
+            let row = [map, distance, unseen, moving, reach, 2.0];
             assert_eq!(unconfirmed.is(&row), expected, "{row:?}");
         }
+    }
+
+    #[test]
+    fn the_silence_of_a_lidar_that_does_not_see_as_far_says_nothing() {
+        let names = ["map_distance", "lidar_distance", "lidar_unseen", "lidar_reach", "lidar_chi"];
+        let unconfirmed = Unconfirmed::among(names.into_iter());
+        for (unseen, reach, expected) in
+            [(0.5, 1.0, true), (0.5, 1.1, false), (1.0, 1.0, true), (1.0, 1.1, false), (1.0, ABSENT, false)]
+        {
+            assert_eq!(
+                unconfirmed.is(&[ABSENT, ABSENT, unseen, reach, ABSENT]),
+                expected,
+                "{unseen} {reach}"
+            );
+        }
+    }
+
+    #[test]
+    fn what_lies_behind_walls_is_unconfirmed_unless_a_point_is_near() {
         let names = [
-            ["map_distance", "lidar_chi", "lidar_unseen", "lidar_moving_near"],
-            ["lidar_occluded", "lidar_window_chi_least", "sight_wall_top", "sight_wall_length"],
+            ["map_distance", "lidar_chi", "lidar_unseen", "lidar_moving_near", "lidar_reach"],
+            [
+                "lidar_occluded",
+                "lidar_window_chi_least",
+                "sight_wall_top",
+                "sight_wall_length",
+                "lidar_distance",
+            ],
         ];
         let unconfirmed = Unconfirmed::among(names.as_flattened().iter().copied());
-        for (row, expected) in [
-            ([0.6, 9.0, 0.0, 0.0, 1.0, 3.0, 2.6, 4.0], true),
-            ([0.6, 9.0, 0.25, absent, 0.75, absent, 5.9, 6.25], true),
-            ([0.6, 2.9, 0.0, 0.0, 1.0, 3.0, 2.6, 4.0], false),
-            ([0.6, 9.0, 0.0, 0.1, 1.0, 3.0, 2.6, 4.0], false),
-            ([0.6, 9.0, 0.0, 0.0, 0.9, 3.0, 2.6, 4.0], false),
-            ([0.6, 9.0, 0.0, 0.0, 1.0, 2.9, 2.6, 4.0], false),
-            ([0.6, 9.0, 0.0, 0.0, 1.0, 3.0, 2.4, 4.0], false),
-            ([0.6, 9.0, 0.0, 0.0, 1.0, 3.0, 2.6, 3.9], false),
-            ([0.6, 9.0, 0.0, 0.0, 1.0, 3.0, absent, absent], false),
+        for ([chi, unseen, moving, hidden, chi_of_all, top, length], expected) in [
+            ([9.0, 0.0, 0.0, 1.0, 3.0, 2.6, 4.0], true),
+            ([9.0, 0.25, ABSENT, 0.75, ABSENT, 5.9, 6.25], true),
+            ([2.9, 0.0, 0.0, 1.0, 3.0, 2.6, 4.0], false),
+            ([9.0, 0.0, 0.1, 1.0, 3.0, 2.6, 4.0], false),
+            ([9.0, 0.0, 0.0, 0.9, 3.0, 2.6, 4.0], false),
+            ([9.0, 0.0, 0.0, 1.0, 2.9, 2.6, 4.0], false),
+            ([9.0, 0.0, 0.0, 1.0, 3.0, 2.4, 4.0], false),
+            ([9.0, 0.0, 0.0, 1.0, 3.0, 2.6, 3.9], false),
+            ([9.0, 0.0, 0.0, 1.0, 3.0, ABSENT, ABSENT], false),
         ] {
+            let row = [0.6, chi, unseen, moving, 0.3, hidden, chi_of_all, top, length, 0.5];
             assert_eq!(unconfirmed.is(&row), expected, "{row:?}");
         }
-        assert!(
-            !Unconfirmed::among(["map_distance"].into_iter()).is(&[absent]),
-            "a model that reads none of it"
-        );
+    }
+
+    #[test]
+    fn a_model_that_reads_less_goes_by_what_it_reads() {
+        let unconfirmed = Unconfirmed::among(["map_distance", "lidar_unseen", "lidar_chi"].into_iter());
+        for (chi, expected) in [(2.9, false), (3.0, true), (ABSENT, true)] {
+            assert_eq!(unconfirmed.is(&[ABSENT, 0.5, chi]), expected, "{chi}");
+        }
+        assert!(!Unconfirmed::among(["map_distance"].into_iter()).is(&[ABSENT]), "nothing of it");
     }
 }

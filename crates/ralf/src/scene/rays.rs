@@ -18,6 +18,8 @@ pub struct RayTable {
     starts: Vec<u32>,
     /// Bin by bin.
     rays: Vec<TableRay>,
+    /// m
+    reach: f32,
 }
 
 /// A return as its LiDAR sees it. Its direction and range lie together, so that one load brings them, and no return
@@ -89,7 +91,14 @@ impl RayTable {
                 *next += 1;
             }
         }
-        Self { first_row, rows, starts, rays }
+        let reach = reach_of(rays.iter().map(|ray| ray.range));
+        Self { first_row, rows, starts, rays, reach }
+    }
+
+    /// How far the scan sees, m: so far away is the tenth farthest return, for a few are reflections of sun and lamps.
+    /// 0 where there are fewer.
+    pub fn reach(&self) -> f32 {
+        self.reach
     }
 
     /// All returns, bin by bin.
@@ -138,6 +147,19 @@ impl RayTable {
     pub fn is_empty(&self) -> bool {
         self.rays.is_empty()
     }
+}
+
+/// The tenth largest of some ranges, 0 where there are fewer.
+fn reach_of(ranges: impl Iterator<Item = f32>) -> f32 {
+    // The nearest of them first.
+    let mut farthest = [0.0f32; 10];
+    for range in ranges {
+        if range > farthest[0] {
+            farthest[0] = range;
+            farthest.sort_unstable_by(f32::total_cmp);
+        }
+    }
+    farthest[0]
 }
 
 /// The bin of what is no return.

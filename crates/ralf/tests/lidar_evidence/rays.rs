@@ -31,6 +31,29 @@ pub(super) fn before_wall(memory: Memory) -> Memory {
 const NAMES: [&str; 4] = ["in", "ground", "beyond", "before"];
 
 #[test]
+fn a_lidar_sees_as_far_as_its_tenth_farthest_return() {
+    // Nine reflections 90 m ahead are none that a reach could be told from. From the LiDAR, 2 m up, the tenth farthest
+    // return is 40 m away; 0.2 s later the LiDAR is 2 m farther on.
+    let scan =
+        || (0..9).map(|_| [90.0, 0.0, 0.0]).chain((0..30).map(|n| [11.0 + n as f32, 0.0, 0.0])).collect();
+    let memory = Memory::new(10.0)
+        .radar(
+            radar(Elevation::Measured),
+            vec![(0, Some(vec![[31.0, 0.0, 2.0], [0.0, 60.0, 2.0], [f32::NAN; 3]]))],
+        )
+        .lidar(lidar(), vec![(0, scan()), (200 * MS, scan())]);
+    let found = observe(&memory, 0);
+    let reach = column(&found, "lidar_reach");
+    close(reach[0], 29.0 / 40.0, 1e-6);
+    close(reach[1], 60.0 / 40.0, 1e-6);
+    assert_eq!(reach[2], None);
+    let few = Memory::new(10.0)
+        .radar(radar(Elevation::Measured), vec![(0, Some(vec![[31.0, 0.0, 2.0]]))])
+        .lidar(lidar(), vec![(0, vec![[40.0, 0.0, 0.0]; 9])]);
+    assert_eq!(column(&observe(&few, 0), "lidar_reach"), [None], "nine returns tell of no reach");
+}
+
+#[test]
 fn before_a_wall_on_it_behind_it_and_beside_it() {
     // Before, on and behind the wall, which is 18 m ahead by then; where no ray goes; on the road.
     let detections = vec![
