@@ -158,6 +158,10 @@ fn numbers_beyond_all_use_are_refused_before_any_work() {
             .ends_with_error(told);
         ralf(["learn", "-o", &made, "--preset", "worlds", "--scans", scans]).exits(2).ends_with_error(told);
     }
+    for seeds in ["0", "1001"] {
+        let ran = ralf(["learn", "-o", &made, "--preset", "worlds", "--seeds", seeds]);
+        ran.exits(2).ends_with_error([seeds, "--seeds", "1..=1000"]);
+    }
     for (option, value, range) in [
         ("--rounds", "0", "1..=10000"),
         ("--rounds", "10001", "1..=10000"),

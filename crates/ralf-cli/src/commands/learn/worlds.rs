@@ -10,6 +10,9 @@ use ralf_sim::world::{self, FAMILIES, Family};
 use ralf_train::learning::TrainingTable;
 use std::path::PathBuf;
 
+/// More would take weeks.
+const MOST_SEEDS: u64 = 1000;
+
 /// Which worlds.
 #[derive(Debug, Args)]
 pub(super) struct WorldArgs {
@@ -17,7 +20,8 @@ pub(super) struct WorldArgs {
     #[arg(long, value_parser = PossibleValuesParser::new(["worlds"]))]
     preset: Option<String>,
     /// Worlds of each family
-    #[arg(long, value_name = "N", default_value_t = 8, requires = "preset")]
+    #[arg(long, value_name = "N", default_value_t = 8, requires = "preset",
+        value_parser = clap::value_parser!(u64).range(1..=MOST_SEEDS))]
     seeds: u64,
     /// Scans of each radar in each world, over all of its four to six sequences: some 3 s each, so that evidence sees
     /// as much around a scan as in a real recording
