@@ -15,11 +15,9 @@ use ralf_train::{Gatherer, MismatchTable, Space};
 /// What is known of one sequence's detections with truth.
 #[derive(Debug, Clone)]
 pub struct SequenceMismatches {
-    /// The sequence's name.
-    pub name: String,
     /// In the order of the truth's scans.
     pub table: MismatchTable,
-    /// What it had to do without.
+    /// The sequence's name, and what it had to do without.
     pub not_used: NotUsed,
 }
 
@@ -63,8 +61,8 @@ struct Task<'a> {
 
 impl Task<'_> {
     fn gather(&self, jobs: usize) -> Result<SequenceMismatches, DataError> {
-        let name = self.reader.sequence().name.clone();
-        self.observer.begin(Stage::Matching(&name), self.scans.len() as u64);
+        let name = &self.reader.sequence().name;
+        self.observer.begin(Stage::Matching(name), self.scans.len() as u64);
         let places: Vec<Option<ScanIndex>> = self.scans.iter().map(|id| self.place_of(id)).collect();
         let (mut there, mut ids) = (Vec::new(), Vec::new());
         for (place, id) in places.iter().zip(&self.scans) {
@@ -78,7 +76,7 @@ impl Task<'_> {
         let matched = frames.each(&there, jobs, |window, at| self.match_scan(window, ids[at], there[at]));
         self.observer.end();
         let mut matched = matched?.into_iter();
-        let (mut table, mut not_used) = (self.gatherer.table(), NotUsed::of(&name));
+        let (mut table, mut not_used) = (self.gatherer.table(), NotUsed::of(name));
         for (place, id) in places.iter().zip(&self.scans) {
             let found = place.and_then(|_| matched.next()).unwrap_or_else(|| {
                 let reason = "no such scan in the recording, though it has truth".to_owned();
@@ -88,7 +86,7 @@ impl Task<'_> {
                 table.append(scan);
             }
         }
-        Ok(SequenceMismatches { name, table, not_used })
+        Ok(SequenceMismatches { table, not_used })
     }
 
     /// Radar and scan, where the recording holds them.

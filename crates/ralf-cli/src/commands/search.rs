@@ -120,7 +120,7 @@ impl SearchArgs {
 
     /// Which sequences are for training, and which for judging.
     pub(super) fn parts(&self, matched: Vec<SequenceMismatches>) -> Parts {
-        let tables = matched.into_iter().map(|sequence| (sequence.name, sequence.table));
+        let tables = matched.into_iter().map(|sequence| (sequence.not_used.sequence, sequence.table));
         let (train, test) = tables.partition(|(name, _)| self.train.contains(name));
         Parts { train, test }
     }
