@@ -50,6 +50,11 @@ pub(crate) fn say_not_used(NotUsed { sequence, left_out, without }: &NotUsed) ->
     if left_out.is_empty() { Outcome::Done } else { Outcome::Partial }
 }
 
+/// Says which sequences have no `what`, truth or labels, and are left out.
+pub(crate) fn say_without<'a>(what: &str, sequences: impl IntoIterator<Item = &'a String>) {
+    sequences.into_iter().for_each(|name| say(&format!("sequence {name} has no {what}: left out")));
+}
+
 /// A scan that could not be labelled, and why.
 pub(crate) fn not_labelled_scan(sequence: &str, NotLabelled { radar, scan, reason }: &NotLabelled) -> String {
     format!("{sequence} {radar} scan {scan}: {reason}")

@@ -10,7 +10,7 @@ use crate::arguments::ChangedArgs;
 use crate::corrections::merged_truth;
 use crate::outcome::Outcome;
 use crate::progress::say;
-use crate::run_summary::say_not_labelled;
+use crate::run_summary::{say_not_labelled, say_without};
 use crate::text::print;
 use ralf_data::judge::QueueCurve;
 use ralf_data::result::{LabelledRun, labelled_recording};
@@ -116,9 +116,7 @@ fn balance(args: &EvaluateArgs) -> anyhow::Result<Outcome> {
 }
 
 fn name_what_is_left_out(comparison: &Comparison, args: &EvaluateArgs) {
-    for sequence in &comparison.without_truth {
-        say(&format!("sequence {sequence} has no truth: left out"));
-    }
+    say_without("truth", &comparison.without_truth);
     for scan in &comparison.missing {
         let file = scan.label_file(&args.out);
         say(&format!("{}: no such file: left out, though it has truth", file.display()));

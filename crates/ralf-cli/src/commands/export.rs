@@ -4,6 +4,7 @@ use crate::arguments::{ChangedArgs, DatasetArgs};
 use crate::corrections::orphaned;
 use crate::outcome::{Outcome, UsageError};
 use crate::progress::{Progress, say};
+use crate::run_summary::say_without;
 use crate::text::counted;
 use clap::builder::PossibleValuesParser;
 use clap::{Args, ValueEnum};
@@ -105,9 +106,7 @@ fn name_what_is_missing(exported: &Exported) -> Outcome {
     for scan in &exported.not_labelled {
         say(&format!("not labelled: {scan}: exported without labels"));
     }
-    for sequence in &exported.without_labels {
-        say(&format!("sequence {sequence} has no labels: left out"));
-    }
+    say_without("labels", &exported.without_labels);
     let left_out = [&exported.orphaned, &exported.not_labelled, &exported.without_labels];
     if left_out.iter().all(|names| names.is_empty()) { Outcome::Done } else { Outcome::Partial }
 }

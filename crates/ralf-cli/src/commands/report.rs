@@ -4,7 +4,7 @@ use crate::arguments::{ChangedArgs, DatasetArgs, check_output};
 use crate::corrections::orphaned;
 use crate::outcome::Outcome;
 use crate::progress::{Progress, say};
-use crate::run_summary::say_not_labelled;
+use crate::run_summary::{say_not_labelled, say_without};
 use clap::Args;
 use ralf_data::result::LabelledRun;
 use ralf_report::Report;
@@ -50,9 +50,7 @@ pub(crate) fn run(arguments: &ReportArgs) -> anyhow::Result<Outcome> {
     ralf_data::write_named(&arguments.output, page.html.as_bytes())?;
     say(&format!("wrote {}", arguments.output.display()));
     page.orphaned.iter().for_each(|scan| say(&orphaned(scan)));
-    for sequence in &page.without_labels {
-        say(&format!("sequence {sequence} has no labels: left out"));
-    }
+    say_without("labels", &page.without_labels);
     let mut record = LabelledRun::open(&arguments.labels)?.record().clone();
     let is_shown = |name: &str| recording.sequences.iter().any(|reader| reader.sequence().name == name);
     record.sequences.retain(|labelled| is_shown(&labelled.name));

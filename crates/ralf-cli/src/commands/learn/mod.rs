@@ -7,8 +7,8 @@ mod worlds;
 use crate::arguments::{SettingsArgs, check_output, threads};
 use crate::corrections::merged_truth;
 use crate::outcome::Outcome;
-use crate::progress::{Progress, Stages, say};
-use crate::run_summary::say_not_used;
+use crate::progress::{Progress, Stages};
+use crate::run_summary::{say_not_used, say_without};
 use crate::text::{print, shell_path, shell_word};
 use anyhow::Context;
 use clap::Args;
@@ -185,5 +185,5 @@ impl LearnArgs {
 fn name_without_truth(recording: &Recording, truth: &GroundTruth) {
     let names = recording.sequences.iter().map(|reader| &reader.sequence().name);
     let said = |name: &String| truth.scans().iter().any(|scan| scan.sequence == *name);
-    names.filter(|name| !said(name)).for_each(|name| say(&format!("sequence {name} has no truth: left out")));
+    say_without("truth", names.filter(|name| !said(name)));
 }
