@@ -37,7 +37,7 @@ Examples:
   ralf report recordings/city out -o report.html
 {REVIEW}  ralf export recordings/city out --to semantickitti --sensors -o kitti
 
-Exit status: 0 done; 1 failed; 2 wrong usage; 3 done, but some scans are left out (each is named).")
+Exit status: 0 done; 1 failed; 2 wrong usage; 3 done, but some scans, or corrections, are left out (each is named).")
 )]
 pub(crate) struct Cli {
     #[command(subcommand)]

@@ -1,42 +1,48 @@
 //! The truth with what people corrected in a review.
 
+use crate::outcome::Outcome;
 use crate::progress::say;
 use crate::text::grouped;
 use anyhow::bail;
 use ralf_data::{Corrections, GroundTruth, Recording};
+use std::fmt::Display;
 use std::path::Path;
 
 /// The dataset's truth with the corrections of an output folder above it, which is said. Where they were asked for
 /// there must be some. Corrections of scans that hold something else now are named and left out, where the recording
-/// can be read.
+/// can be read; the outcome tells.
 pub(crate) fn merged_truth(
     dataset: &Path,
     recording: Option<&Recording>,
     out: Option<&Path>,
     asked: bool,
-) -> anyhow::Result<GroundTruth> {
-    let Some(out) = out else { return Ok(GroundTruth::open(dataset)?) };
+) -> anyhow::Result<(GroundTruth, Outcome)> {
+    let Some(out) = out else { return Ok((GroundTruth::open(dataset)?, Outcome::Done)) };
     let corrections = match recording {
         Some(recording) => Corrections::of_recording(out, recording)?,
         None => Corrections::open(out)?,
     };
-    corrections.orphaned().iter().for_each(|scan| say(&orphaned(scan)));
+    let outcome = say_orphaned(corrections.orphaned());
     let file = corrections.file().display();
     if corrections.is_empty() && asked {
         bail!("{file}: expected corrections, found none");
     }
     if corrections.is_empty() {
-        return Ok(GroundTruth::open(dataset)?);
+        return Ok((GroundTruth::open(dataset)?, outcome));
     }
     say(&format!(
         "{file}: {} corrected detections and {} reviewed scans are merged into the truth",
         grouped(corrections.corrected_detections() as u64),
         grouped(corrections.reviewed_scans() as u64)
     ));
-    Ok(GroundTruth::merged(dataset, corrections)?)
+    Ok((GroundTruth::merged(dataset, corrections)?, outcome))
 }
 
-/// The sentence about a scan whose corrections belong to another content.
-pub(crate) fn orphaned(scan: &impl std::fmt::Display) -> String {
-    format!("corrections of {scan} are kept and not applied: they were made when it held other detections")
+/// Names the scans whose corrections belong to another content, and tells how it ended by that.
+pub(crate) fn say_orphaned(scans: &[impl Display]) -> Outcome {
+    for scan in scans {
+        let why = "they were made when it held other detections";
+        say(&format!("corrections of {scan} are kept and not applied: {why}"));
+    }
+    if scans.is_empty() { Outcome::Done } else { Outcome::Partial }
 }

@@ -5,7 +5,7 @@
 pub(crate) enum Outcome {
     /// All of it.
     Done,
-    /// Some scans are left out; each was named.
+    /// Some scans, or corrections of some, are left out; each was named.
     Partial,
 }
 

@@ -33,16 +33,13 @@ pub(crate) fn run(arguments: &AblateArgs) -> anyhow::Result<Outcome> {
     search.check(&arguments.test)?;
     let base = search.base()?;
     let variants = Variant::all(&base.method);
-    let (recording, truth) = search.open(&base, &arguments.test)?;
+    let (recording, truth, mut outcome) = search.open(&base, &arguments.test)?;
     let mut judged = Vec::with_capacity(variants.len());
-    let mut outcome = Outcome::Done;
     // Those that share their mismatches follow each other, so that but those of one need be remembered.
     for group in variants.chunk_by(|a, b| a.matching_config() == b.matching_config()) {
         let (of_group, its_outcome) = arguments.judge(group, (&recording, &truth), judged.is_empty())?;
         judged.extend(of_group);
-        if matches!(its_outcome, Outcome::Partial) {
-            outcome = its_outcome;
-        }
+        outcome = outcome.and(its_outcome);
     }
     print(&if search.json {
         serde_json::to_string_pretty(&arguments.json(&judged))?

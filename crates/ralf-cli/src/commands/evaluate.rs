@@ -82,7 +82,7 @@ fn compare(args: &EvaluateArgs, dataset: &Path) -> anyhow::Result<Outcome> {
     let corrections = args.corrections.as_deref();
     let recording = recording_of(args, dataset)?;
     let out = corrections.or(Some(&args.out));
-    let truth = merged_truth(dataset, recording.as_ref(), out, corrections.is_some())?;
+    let (truth, outcome) = merged_truth(dataset, recording.as_ref(), out, corrections.is_some())?;
     let comparison = Comparison::new(&args.out, &truth)?;
     name_what_is_left_out(&comparison, args);
     let text = if args.queue {
@@ -94,7 +94,7 @@ fn compare(args: &EvaluateArgs, dataset: &Path) -> anyhow::Result<Outcome> {
         scans + &table::table(&comparison.evaluation())
     };
     print(&text)?;
-    Ok(if comparison.missing.is_empty() { Outcome::Done } else { Outcome::Partial })
+    Ok(if comparison.missing.is_empty() { outcome } else { Outcome::Partial })
 }
 
 /// The recording that the truth lies in, once it is found to be what was labelled. Label files are enough, so that

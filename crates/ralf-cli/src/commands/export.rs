@@ -1,7 +1,7 @@
 //! `ralf export`: labels in the formats of other tools.
 
 use crate::arguments::{ChangedArgs, DatasetArgs};
-use crate::corrections::orphaned;
+use crate::corrections::say_orphaned;
 use crate::outcome::{Outcome, UsageError};
 use crate::progress::{Progress, say};
 use crate::run_summary::say_without;
@@ -100,13 +100,11 @@ fn options(arguments: &ExportArgs) -> anyhow::Result<ExportOptions> {
 }
 
 fn name_what_is_missing(exported: &Exported) -> Outcome {
-    for scan in &exported.orphaned {
-        say(&orphaned(scan));
-    }
+    let outcome = say_orphaned(&exported.orphaned);
     for scan in &exported.not_labelled {
         say(&format!("not labelled: {scan}: exported without labels"));
     }
     say_without("labels", &exported.without_labels);
-    let left_out = [&exported.orphaned, &exported.not_labelled, &exported.without_labels];
-    if left_out.iter().all(|names| names.is_empty()) { Outcome::Done } else { Outcome::Partial }
+    let left_out = [&exported.not_labelled, &exported.without_labels];
+    if left_out.iter().all(|names| names.is_empty()) { outcome } else { Outcome::Partial }
 }

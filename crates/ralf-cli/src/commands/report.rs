@@ -1,7 +1,7 @@
 //! `ralf report`: one page about a labelled recording.
 
 use crate::arguments::{ChangedArgs, DatasetArgs, check_output};
-use crate::corrections::orphaned;
+use crate::corrections::say_orphaned;
 use crate::outcome::Outcome;
 use crate::progress::{Progress, say};
 use crate::run_summary::{say_not_labelled, say_without};
@@ -49,11 +49,11 @@ pub(crate) fn run(arguments: &ReportArgs) -> anyhow::Result<Outcome> {
     drop(progress);
     ralf_data::write_named(&arguments.output, page.html.as_bytes())?;
     say(&format!("wrote {}", arguments.output.display()));
-    page.orphaned.iter().for_each(|scan| say(&orphaned(scan)));
+    let outcome = say_orphaned(&page.orphaned);
     say_without("labels", &page.without_labels);
     let mut record = LabelledRun::open(&arguments.labels)?.record().clone();
     let is_shown = |name: &str| recording.sequences.iter().any(|reader| reader.sequence().name == name);
     record.sequences.retain(|labelled| is_shown(&labelled.name));
-    let outcome = say_not_labelled(&record);
+    let outcome = outcome.and(say_not_labelled(&record));
     Ok(if page.without_labels.is_empty() { outcome } else { Outcome::Partial })
 }

@@ -98,15 +98,20 @@ impl SearchArgs {
         }
     }
 
-    /// The recording of these sequences alone, and its truth.
-    pub(super) fn open(&self, base: &Settings, test: &[String]) -> anyhow::Result<(Recording, GroundTruth)> {
+    /// The recording of these sequences alone, its truth, and whether all corrections are part of that.
+    pub(super) fn open(
+        &self,
+        base: &Settings,
+        test: &[String],
+    ) -> anyhow::Result<(Recording, GroundTruth, Outcome)> {
         let sequences = [self.train.as_slice(), test].concat();
         let (dataset, format) = (self.dataset.clone(), self.format.clone());
         let dataset = DatasetArgs { dataset, format, sequences, topics: None };
         let corrections = self.corrections.as_deref();
         let recording = base.correct(dataset.open_with(&dataset.topics_or(&base.topics)?)?)?;
-        let truth = merged_truth(&self.dataset, Some(&recording), corrections, corrections.is_some())?;
-        Ok((recording, truth))
+        let (truth, outcome) =
+            merged_truth(&self.dataset, Some(&recording), corrections, corrections.is_some())?;
+        Ok((recording, truth, outcome))
     }
 
     /// Matches all scans of a recording that have truth.

@@ -46,9 +46,9 @@ pub(crate) fn run(arguments: &TuneArgs) -> anyhow::Result<Outcome> {
     let search = &arguments.search;
     let base = search.base()?;
     refuse_no_branch(&base.method)?;
-    let (recording, truth) = search.open(&base, &arguments.test)?;
+    let (recording, truth, outcome) = search.open(&base, &arguments.test)?;
     let matched = search.gather((&recording, &truth), &base.method)?;
-    let outcome = name_what_is_left_out(&matched);
+    let outcome = outcome.and(name_what_is_left_out(&matched));
     let report = arguments.tune(&base.method, &search.parts(matched))?;
     let comment = text::comment(&report, &arguments.command());
     let method = report.found.settings.applied_to(&base.method);

@@ -14,8 +14,13 @@ fn two() -> Dataset {
 
 /// Somebody corrects a detection of the first scan of a sequence.
 fn correct(dataset: &Dataset, sequence: &str) {
+    correct_one_of(dataset, sequence, 0);
+}
+
+/// The same, when the scan held so many detections more than now.
+fn correct_one_of(dataset: &Dataset, sequence: &str, more: u32) {
     let file = format!("{}/sequences/{sequence}/radar_front/000000.label", dataset.out);
-    let detections = fs::metadata(file).unwrap().len() as u32 / 4;
+    let detections = fs::metadata(file).unwrap().len() as u32 / 4 + more;
     let radar = "radar_front".to_owned();
     let edit = ScanEdit { radar, detections, points: vec![0], ..ScanEdit::default() };
     let stroke = Stroke { label: Some(10), scans: vec![edit], ..Stroke::of_sequence(sequence) };
@@ -53,6 +58,22 @@ fn a_recording_that_lost_a_whole_sequence_is_refused_by_its_name() {
     run(&export, &["--force"]).exits(1).says(["found none of 01"]);
     fs::rename(&away, &sequence).unwrap();
     run(&export, &["--force"]).exits(3).says(["sequence 01 has no labels: left out"]);
+}
+
+#[test]
+fn corrections_of_other_detections_are_left_out_of_what_is_searched_for() {
+    let dataset = two();
+    correct(&dataset, "00");
+    let [path, out] = [&dataset.path, &dataset.out].map(String::as_str);
+    let settings = dataset.beside("found.toml");
+    let sequences = [path, "--train", "00", "--test", "01", "--corrections", out, "--trials", "1"];
+    let tune = [&["tune", "-o", &settings][..], &sequences].concat();
+    let ablate = [&["ablate"][..], &sequences].concat();
+    run(&tune, &[]).exits(0);
+    correct_one_of(&dataset, "01", 1);
+    for asked in [tune, ablate] {
+        run(&asked, &[]).exits(3).says(["corrections of 01/radar_front/000000 are kept and not applied"]);
+    }
 }
 
 #[test]

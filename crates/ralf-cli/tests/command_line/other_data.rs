@@ -1,6 +1,6 @@
 //! Labels and corrections belong to the data that they were made from, and results to the run that wrote them.
 
-use crate::support::{Dataset, ralf, tree, without_timings};
+use crate::support::{Dataset, Ran, program, ralf, tree, without_timings};
 use ralf_corrections::{FILE, ScanEdit, Store, Stroke, Who};
 use ralf_data::scan_content;
 use std::fs;
@@ -143,8 +143,13 @@ fn corrections_are_not_applied_to_another_content() {
     said.exits(3).says([told]);
     assert!(labels(&after, 1).iter().all(|label| *label == 30));
     assert!(labels(&after, 2).iter().all(|label| *label == 1 || *label == 99));
-    ralf(["evaluate", &dataset.out, "--truth", &dataset.path]).exits(0).says([told]);
-    ralf(["report", &dataset.path, &dataset.out, "-o", &dataset.beside("report.html")]).exits(0).says([told]);
+    for asked in [
+        &["evaluate", &dataset.out, "--truth", &dataset.path][..],
+        &["evaluate", &dataset.out, "--truth", &dataset.path, "--agreement", &dataset.out],
+        &["report", &dataset.path, &dataset.out, "-o", &dataset.beside("report.html")],
+    ] {
+        Ran::of(&program().args(asked).output().unwrap()).exits(3).says([told]);
+    }
     // The recording as it was has them again.
     rotate(&dataset, "000002", labels(&before, 2).len() - 3);
     ralf(["label", &dataset.path, "-o", &dataset.out]).exits(0);

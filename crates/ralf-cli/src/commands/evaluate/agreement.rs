@@ -1,8 +1,7 @@
 //! How far two people agree, as text.
 
-use crate::corrections::orphaned;
+use crate::corrections::say_orphaned;
 use crate::outcome::Outcome;
-use crate::progress::say;
 use crate::text::{aligned, counted, decimal, grouped, print};
 use anyhow::bail;
 use ralf::metrics::Confusion;
@@ -17,16 +16,14 @@ const NAMED: usize = 20;
 pub(super) fn run(recording: &Recording, [out, other]: [&Path; 2], as_json: bool) -> anyhow::Result<Outcome> {
     let [first, second] = [out, other].map(|out| Corrections::of_recording(out, recording));
     let (first, second) = (first?, second?);
-    for said in [&first, &second] {
-        said.orphaned().iter().for_each(|scan| say(&orphaned(scan)));
-    }
+    let outcome = say_orphaned(first.orphaned()).and(say_orphaned(second.orphaned()));
     let agreement = Agreement::of(&first, &second)?;
     if agreement.scans.is_empty() {
         let (first, second) = (first.file().display(), second.file().display());
         bail!("{first}, {second}: expected detections of which both say something, found none");
     }
     print(&if as_json { serde_json::to_string_pretty(&agreement.json())? } else { table(&agreement) })?;
-    Ok(Outcome::Done)
+    Ok(outcome)
 }
 
 fn table(agreement: &Agreement) -> String {

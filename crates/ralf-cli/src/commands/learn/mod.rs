@@ -141,7 +141,7 @@ impl LearnArgs {
         for dataset in &self.datasets {
             let recording = settings.correct(ralf_data::open_with(dataset, None, &settings.topics)?)?;
             let from = self.from.as_deref();
-            let truth = merged_truth(&recording.path, Some(&recording), from, from.is_some())?;
+            let (truth, all_applied) = merged_truth(&recording.path, Some(&recording), from, from.is_some())?;
             let gatherer = &TrainingGatherer { weight: own::weight(from), ..*gatherer };
             let name = dataset.canonicalize().unwrap_or_else(|_| dataset.clone());
             let name = name.file_name().map(|name| name.to_string_lossy().into_owned());
@@ -149,7 +149,7 @@ impl LearnArgs {
             let one_world = from.is_none() && (self.datasets.len() > 1 || self.worlds.are_asked());
             let world = one_world.then_some(name.as_str());
             let not_used = gatherer.add(table, world, &recording, TrainingTruth::Said(&truth))?;
-            outcome = not_used.iter().map(say_not_used).fold(outcome, Outcome::and);
+            outcome = not_used.iter().map(say_not_used).fold(outcome.and(all_applied), Outcome::and);
             // Of what people corrected, most sequences may say nothing.
             if from.is_none() {
                 name_without_truth(&recording, &truth);
