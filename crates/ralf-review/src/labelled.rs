@@ -9,7 +9,8 @@ use ralf::scene::ViewState;
 use ralf::sensors::{Rig, Sequence};
 use ralf::space::sync;
 use ralf_data::result::{
-    CameraRecord, ImageRecord, LabelledRun, LabelledSequence, PlausibilityReader, RadarScanKey, Table,
+    CameraRecord, Component, ImageRecord, LabelledRun, LabelledSequence, Places, PlausibilityReader,
+    RadarScanKey, Table,
 };
 use ralf_data::things::{Extent, Observed, SequenceThings};
 use ralf_data::{DataError, SequenceReader};
@@ -62,7 +63,7 @@ impl SequenceLabels {
             let time = meta.modified().map_err(DataError::io(&file))?;
             Ok((file, meta.len(), time))
         };
-        [labels_file(out, sequence), out.join("run.json")].map(stamp).into_iter().collect()
+        files(out, sequence)?.map(stamp).into_iter().collect()
     }
 
     pub(crate) fn is_of(&self, stamp: &Stamp) -> bool {
@@ -178,13 +179,16 @@ impl SequenceLabels {
     }
 }
 
-fn labels_file(out: &Path, sequence: &str) -> PathBuf {
-    out.join("sequences").join(sequence).join("plausibility.parquet")
+/// Where the labels of a sequence lie, and the record of their run.
+fn files(out: &Path, sequence: &str) -> Result<[PathBuf; 2], ApiError> {
+    let refused = |found| ApiError::unknown("sequence", found, "a name that a folder can have");
+    let (places, sequence) = (Places::new(out), Component::new(sequence).map_err(refused)?);
+    Ok([places.plausibility_file(&sequence), places.record_file()])
 }
 
 /// Whether a sequence is labelled.
 pub(crate) fn is_labelled(out: &Path, sequence: &str) -> bool {
-    labels_file(out, sequence).is_file()
+    files(out, sequence).is_ok_and(|[labels, _]| labels.is_file())
 }
 
 fn asked_images(cameras: &[CameraRecord], name: &str) -> BTreeMap<usize, bool> {

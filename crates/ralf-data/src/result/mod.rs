@@ -29,6 +29,7 @@ pub use labelled_run::{Change, ChangedInput, LabelledRun, LabelledSequence, labe
 pub use names::Component;
 pub use parquet_reader::PlausibilityReader;
 pub use parquet_writer::PlausibilityWriter;
+pub use places::Places;
 pub use record::{Input, RunRecord, Timings, program, read_record};
 pub use scan_table::RadarScanKey;
 pub use schema::{Column, Group, Kind, Schema};
@@ -50,7 +51,6 @@ pub(crate) use lock::WriterLock;
 pub(crate) use names::{OutFolder, SequenceNames, checked};
 pub(crate) use parquet_columns::{EncodedGroup, GROUP_ROWS, Layout};
 pub(crate) use parquet_writer::{RowGroup, written};
-pub(crate) use places::Places;
 pub(crate) use record::RECORD;
 pub(crate) use row_bytes::{row_bytes, table_of_rows};
 pub(crate) use scan_table::ScanParts;

@@ -1,27 +1,33 @@
 //! Where the results of a run lie: the one place that knows.
 
+use super::record::RECORD;
 use super::{Component, OutFolder};
 use std::path::{Path, PathBuf};
 
-/// The folder `OUT/sequences`.
+/// An output folder of `ralf label`.
 #[derive(Debug, Clone)]
-pub(crate) struct Places {
-    sequences: OutFolder,
+pub struct Places {
+    out: OutFolder,
 }
 
 impl Places {
     /// Those in an output folder.
-    pub(crate) fn new(out: &Path) -> Self {
-        Self { sequences: OutFolder::new(out).own("sequences") }
+    pub fn new(out: &Path) -> Self {
+        Self { out: OutFolder::new(out) }
+    }
+
+    /// The record of the run.
+    pub fn record_file(&self) -> PathBuf {
+        self.out.own_file(RECORD)
     }
 
     /// The folder of a sequence.
     pub(crate) fn folder(&self, sequence: &Component) -> OutFolder {
-        self.sequences.folder(sequence)
+        self.out.own("sequences").folder(sequence)
     }
 
     /// The table of a sequence.
-    pub(crate) fn plausibility_file(&self, sequence: &Component) -> PathBuf {
+    pub fn plausibility_file(&self, sequence: &Component) -> PathBuf {
         self.folder(sequence).own_file("plausibility.parquet")
     }
 
