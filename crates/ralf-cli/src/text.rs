@@ -1,7 +1,7 @@
 //! Printing results, and numbers as people read them.
 
 use anyhow::Context;
-pub(crate) use ralf_report::{counted, grouped};
+pub(crate) use ralf_report::{counted, grouped, listed};
 use std::io::{self, Write};
 use std::path::Path;
 
@@ -68,14 +68,6 @@ pub(crate) fn decimal(value: Option<f64>) -> String {
     value.map_or("-".to_owned(), |value| format!("{value:.3}"))
 }
 
-/// Names with commas between them, and how many more there are than are named.
-pub(crate) fn listed(names: &[&str], most: usize) -> String {
-    match names.len().saturating_sub(most) {
-        0 => names.join(", "),
-        more => format!("{} and {} more", names[..most].join(", "), grouped(more as u64)),
-    }
-}
-
 /// Rows of cells as aligned columns: the first to the left, the others to the right. The first row is the head.
 pub(crate) fn aligned(rows: &[Vec<String>]) -> String {
     let columns = rows.iter().map(Vec::len).max().unwrap_or(0);
@@ -95,12 +87,6 @@ pub(crate) fn aligned(rows: &[Vec<String>]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn so_many_are_listed() {
-        assert_eq!(listed(&["a", "b"], 2), "a, b");
-        assert_eq!(listed(&["a", "b", "c"], 2), "a, b and 1 more");
-    }
 
     #[test]
     fn an_error_ends_with_one_line() {

@@ -10,10 +10,11 @@ use ralf_data::result::labelled_recording;
 use ralf_data::{
     Balances, Comparison, Corrections, DataError, GroundTruth, Recording, ScanId, lost_sequences,
 };
+use ralf_report::listed;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
-/// So many sequences are named that labels were not made of.
+/// So many sequences are named that labels were not made of, or that are gone.
 const SHOWN: usize = 5;
 
 /// As `ralf evaluate OUT --truth TRUTH --json` prints it; without a truth how balanced the labels are.
@@ -54,9 +55,7 @@ fn refuse_another(out: &Path, dataset: &Path, truth: GroundTruth) -> Result<Grou
         return Ok(truth);
     }
     let sequences: BTreeSet<&str> = truth.scans().iter().map(|scan| scan.sequence.as_str()).collect();
-    let more = if sequences.len() > SHOWN { ", ..." } else { "" };
-    let names: Vec<&str> = sequences.into_iter().take(SHOWN).collect();
-    let found = format!("truth of {}{more} alone", names.join(", "));
+    let found = format!("truth of {} alone", listed(&Vec::from_iter(sequences), SHOWN));
     let expected = format!("truth of scans that {} has labels of", out.display());
     Err(DataError::content(dataset, "truth", expected, found))
 }
@@ -67,7 +66,8 @@ fn refuse_lost_sequences(out: &Path, recording: &Recording) -> Result<(), DataEr
     if lost.is_empty() {
         return Ok(());
     }
-    let found = format!("none of {}", Vec::from_iter(lost).join(", "));
+    let names: Vec<&str> = lost.iter().map(String::as_str).collect();
+    let found = format!("none of {}", listed(&names, SHOWN));
     Err(DataError::content(&recording.path, "sequences", "all that were corrected", found))
 }
 

@@ -25,7 +25,7 @@ mod told;
 
 pub use choice::{one_below, one_of};
 pub use error::ReportError;
-pub use number::{counted, grouped};
+pub use number::{counted, grouped, listed};
 pub use pictures::{Detections, Pictures, mark_label};
 pub use realism::RealismPage;
 

@@ -1,4 +1,4 @@
-//! Numbers as people read them.
+//! Numbers and names as people read them.
 
 /// A whole number with its thousands apart: 1,263.
 pub fn grouped(number: u64) -> String {
@@ -17,6 +17,14 @@ pub fn grouped(number: u64) -> String {
 pub fn counted(number: usize, what: &str) -> String {
     let plural = if number == 1 { "" } else { "s" };
     format!("{} {what}{plural}", grouped(number as u64))
+}
+
+/// Names with commas between them, and how many more there are than `most`, which are named.
+pub fn listed(names: &[&str], most: usize) -> String {
+    match names.len().saturating_sub(most) {
+        0 => names.join(", "),
+        more => format!("{} and {} more", names[..most].join(", "), grouped(more as u64)),
+    }
 }
 
 /// Three decimals, as `ralf evaluate` prints them; a dash where there is no value.
@@ -50,5 +58,11 @@ mod tests {
         assert_eq!((percent(1, 8), percent(0, 0)), ("12.5 %".to_owned(), "–".to_owned()));
         assert_eq!(ranges(&[0, 1, 2, 7, 9, 10]), "0–2, 7, 9–10");
         assert_eq!(ranges(&[]), "");
+    }
+
+    #[test]
+    fn so_many_are_listed() {
+        assert_eq!(listed(&["a", "b"], 2), "a, b");
+        assert_eq!(listed(&["a", "b", "c"], 2), "a, b and 1 more");
     }
 }
