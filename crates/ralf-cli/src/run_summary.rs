@@ -6,7 +6,7 @@ use crate::text::{aligned, counted, grouped, percent};
 use ralf::label::flag;
 use ralf::scene::{Failure, ViewState};
 use ralf_data::NotUsed;
-use ralf_data::run::{CameraRecord, NotLabelled, RadarRecord, RunRecord, SequenceRecord, UnreadableScan};
+use ralf_data::run::{CameraRecord, RadarRecord, RunRecord, SequenceRecord, UnreadableScan};
 
 /// What to do where images have no depth.
 const MAKES_DEPTH: &str = match cfg!(feature = "depth") {
@@ -45,7 +45,7 @@ pub(crate) fn say_not_used(NotUsed { sequence, left_out, without }: &NotUsed) ->
         say(&format!("matched without: {sequence} {sensor} scan {scan}: {reason}"));
     }
     for scan in left_out {
-        say(&format!("left out: {}", not_labelled_scan(sequence, scan)));
+        say(&format!("left out: {}", scan.told(sequence)));
     }
     if left_out.is_empty() { Outcome::Done } else { Outcome::Partial }
 }
@@ -55,14 +55,9 @@ pub(crate) fn say_without<'a>(what: &str, sequences: impl IntoIterator<Item = &'
     sequences.into_iter().for_each(|name| say(&format!("sequence {name} has no {what}: left out")));
 }
 
-/// A scan that could not be labelled, and why.
-pub(crate) fn not_labelled_scan(sequence: &str, NotLabelled { radar, scan, reason }: &NotLabelled) -> String {
-    format!("{sequence} {radar} scan {scan}: {reason}")
-}
-
 /// What could not be labelled, a line each: scans, and what may have held some.
 pub(crate) fn not_labelled(record: &RunRecord) -> impl Iterator<Item = String> {
-    let scans = record.not_labelled().map(|(sequence, scan)| not_labelled_scan(sequence, scan));
+    let scans = record.not_labelled().map(|(sequence, scan)| scan.told(sequence));
     scans.chain(record.lost().map(|(sequence, lost)| format!("{sequence}: {lost}")))
 }
 

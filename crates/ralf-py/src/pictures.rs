@@ -18,7 +18,7 @@ struct Wish<'a> {
     width: u32,
 }
 
-/// A scan from above, or a whole sequence where no scan is named, as PNG.
+/// A scan from above, or a whole sequence where no scan is named, as PNG, and its scans that could not be labelled.
 #[pyfunction]
 #[pyo3(signature = (out, recording, sequence, scan=None, radar=None, radius=None, color_by=None, width=1200))]
 #[expect(clippy::too_many_arguments, reason = "Python names them")]
@@ -32,13 +32,13 @@ pub(crate) fn plot<'py>(
     radius: Option<f64>,
     color_by: Option<&str>,
     width: u32,
-) -> PyResult<Bound<'py, PyBytes>> {
+) -> PyResult<(Bound<'py, PyBytes>, Vec<String>)> {
     let wish = Wish { scan, radar, radius, color_by, width };
-    let png = py.detach(|| draw(&out, &recording, sequence, &wish))?;
-    Ok(PyBytes::new(py, &png))
+    let (png, missing) = py.detach(|| draw(&out, &recording, sequence, &wish))?;
+    Ok((PyBytes::new(py, &png), missing))
 }
 
-fn draw(out: &Path, recording: &Path, sequence: String, wish: &Wish<'_>) -> PyResult<Vec<u8>> {
+fn draw(out: &Path, recording: &Path, sequence: String, wish: &Wish<'_>) -> PyResult<(Vec<u8>, Vec<String>)> {
     let open = || {
         let run = LabelledRun::open(out)?;
         let recording = open_with(recording, None, &run.settings().topics)?;
@@ -52,12 +52,13 @@ fn draw(out: &Path, recording: &Path, sequence: String, wish: &Wish<'_>) -> PyRe
     let Wish { scan, radar, radius, color_by, width } = *wish;
     let extent = radius.map_or(Extent::Fit, Extent::Radius);
     let pictures = Pictures { reader: reader.as_ref(), tables: &labelled.tables, radar, extent };
-    let drawn = match (scan, color_by) {
+    let draw = || match (scan, color_by) {
         (Some(scan), Some(column)) => pictures.scan_by(scan, column, width),
         (Some(scan), None) => pictures.scan(scan, Detections::Labelled, width),
         (None, _) => pictures.overview(width),
     };
-    drawn.map_err(|error| match error {
+    let missing = pictures.missing(&labelled.record, scan);
+    missing.and_then(|missing| Ok((draw()?, missing))).map_err(|error| match error {
         ReportError::Data(error) => data(error),
         error => other(error),
     })

@@ -4,6 +4,7 @@ import importlib
 import json
 import shutil
 import sys
+import warnings
 
 import pytest
 
@@ -191,6 +192,25 @@ def test_a_picture_of_a_named_sequence_wants_no_other(drive, tmp_path, cli):
     assert ralf.plot(run, name, scan=0, width=1600).png == (tmp_path / "named.png").read_bytes()
     with pytest.raises(ralf.RalfError, match="no sequence `gone`"):
         ralf.plot(run, "gone", scan=0)
+
+
+def test_a_picture_of_what_could_not_be_labelled_is_refused_or_warned_of(drive, tmp_path):
+    """As with the command: alone it would show that nothing is plausible."""
+    (name,) = ralf.open(drive).sequences
+    recording = tmp_path / "drive"
+    shutil.copytree(drive, recording)
+    radar = next(iter(ralf.open(drive)[name].radars))
+    file = recording / "sequences" / name / radar / "000001.bin"
+    file.write_bytes(file.read_bytes()[:-3])
+    run = ralf.label(recording, tmp_path / "out")
+    told = rf"not labelled: {name} {radar} scan 1: .*000001\.bin"
+    with pytest.raises(ralf.RalfError, match=told):
+        ralf.plot(run, name, scan=1, radar=radar, width=300)
+    with pytest.warns(UserWarning, match=told):
+        ralf.plot(run, name, scan=None, radar=radar, width=300)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        ralf.plot(run, name, scan=0, radar=radar, width=300)
 
 
 def test_pictures_of_another_name_are_refused(run, tmp_path):

@@ -20,6 +20,9 @@ pub enum ReportError {
     /// A chart can't be drawn.
     #[error("chart: {0}")]
     Chart(String),
+    /// None of the scans of a picture could be labelled: the first, and why.
+    #[error("not labelled: {0}")]
+    NotLabelled(String),
     /// Something was asked for that the recording doesn't hold.
     #[error("expected {expected}, found {found}")]
     Unknown {

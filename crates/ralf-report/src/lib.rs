@@ -14,6 +14,7 @@ mod curves;
 mod error;
 mod evidence;
 mod findings;
+mod missing;
 mod number;
 mod page;
 mod pictures;

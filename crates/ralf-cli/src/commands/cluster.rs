@@ -175,10 +175,7 @@ fn label(arguments: &TaskArgs) -> anyhow::Result<Outcome> {
         serde_json::from_str(line).with_context(|| format!("{}, line {}", name(), arguments.task + 1))?;
     let failed = many::label_one(&task, arguments.jobs, &Unwatched)?;
     for scan in &failed {
-        say(&format!(
-            "not labelled: {} {} scan {}: {}",
-            task.stretch.sequence, scan.radar, scan.scan, scan.reason
-        ));
+        say(&format!("not labelled: {}", scan.told(&task.stretch.sequence)));
     }
     Ok(if failed.is_empty() { Outcome::Done } else { Outcome::Partial })
 }

@@ -144,6 +144,14 @@ pub struct NotLabelled {
     pub reason: String,
 }
 
+impl NotLabelled {
+    /// Which scan of a sequence it is and why, for people.
+    pub fn told(&self, sequence: &str) -> String {
+        let Self { radar, scan, reason } = self;
+        format!("{sequence} {radar} scan {scan}: {reason}")
+    }
+}
+
 impl ImageRecord {
     pub(crate) fn of(moment: &CalibratedImage) -> Self {
         let views = moment.views.iter().map(|view| view.report).collect();

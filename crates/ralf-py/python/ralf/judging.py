@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import warnings
 from pathlib import Path
 from typing import Any
 
@@ -104,9 +105,13 @@ def plot(
     """Draw a labelled scan from above, or the whole sequence where no scan is given.
 
     Without `radar` all radars are drawn: the first one's scan, and the others' nearest to it in time. `radius` is in m;
-    `color_by` names a column of numbers. The recording is the run's own if not given.
+    `color_by` names a column of numbers. The recording is the run's own if not given. Scans that could not be labelled
+    are a warning each; a picture of such scans alone is refused: it would show that nothing is plausible.
     """
     source = recording or run.recording
     if source is None:
         raise ValueError("expected a recording: plot(..., recording=...) or load(out, recording)")
-    return Picture(_ralf.plot(run.out, os.fsdecode(source), sequence, scan, radar, radius, color_by, width))
+    png, missing = _ralf.plot(run.out, os.fsdecode(source), sequence, scan, radar, radius, color_by, width)
+    for one in missing:
+        warnings.warn(f"not labelled: {one}", stacklevel=2)
+    return Picture(png)

@@ -5,14 +5,10 @@ mod camera;
 use crate::arguments::{ChangedArgs, DatasetArgs, check_output, the_only};
 use crate::outcome::{Outcome, UsageError};
 use crate::progress::say;
-use crate::run_summary::not_labelled_scan;
-use anyhow::bail;
 use clap::Args;
-use ralf::sensors::Sequence;
-use ralf_data::result::{LabelledRun, SequenceRecord};
+use ralf_data::result::LabelledRun;
 use ralf_plot::Extent;
 use ralf_report::{Detections, Pictures};
-use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 /// Width of the picture of a scan, and of an overview's half, pixels.
@@ -81,7 +77,8 @@ pub(crate) fn run(arguments: &PlotArgs) -> anyhow::Result<Outcome> {
     let labelled = LabelledRun::open(&arguments.labels)?.sequence(reader)?;
     let extent = arguments.radius.map_or(Extent::Fit, Extent::Radius);
     let pictures = Pictures { reader, tables: &labelled.tables, radar: arguments.radar.as_deref(), extent };
-    let outcome = name_what_is_missing(&pictures, &labelled.record, arguments.scan)?;
+    let missing = pictures.missing(&labelled.record, arguments.scan)?;
+    missing.iter().for_each(|scan| say(&format!("not labelled: {scan}")));
     let png = match (arguments.scan, &arguments.camera) {
         (Some(scan), Some(name)) => {
             camera::Plot { pictures, labelled: &labelled, arguments }.camera(scan, name)?
@@ -94,7 +91,7 @@ pub(crate) fn run(arguments: &PlotArgs) -> anyhow::Result<Outcome> {
     };
     ralf_data::write_named(&arguments.output, &png)?;
     say(&format!("wrote {}", arguments.output.display()));
-    Ok(outcome)
+    Ok(if missing.is_empty() { Outcome::Done } else { Outcome::Partial })
 }
 
 /// Refuses a name that says that the picture is of another format.
@@ -106,41 +103,4 @@ fn refuse_other_endings(file: &Path) -> Result<(), UsageError> {
         }
         _ => Ok(()),
     }
-}
-
-/// Names the scans of a picture that could not be labelled. One without any labels is not drawn: it would show that
-/// nothing is plausible.
-fn name_what_is_missing(
-    pictures: &Pictures,
-    record: &SequenceRecord,
-    scan: Option<usize>,
-) -> anyhow::Result<Outcome> {
-    let drawn = drawn(pictures, scan)?;
-    let missing = record.not_labelled.iter();
-    let missing: Vec<String> = missing
-        .filter(|missing| drawn.contains(&(missing.radar.as_str(), missing.scan)))
-        .map(|missing| format!("not labelled: {}", not_labelled_scan(&record.name, missing)))
-        .collect();
-    match missing.first() {
-        None => Ok(Outcome::Done),
-        Some(first) if missing.len() == drawn.len() => bail!("{first}"),
-        Some(_) => {
-            missing.iter().for_each(|line| say(line));
-            Ok(Outcome::Partial)
-        }
-    }
-}
-
-/// The scans that a picture shows, by radar and number: those around one scan, or all of a sequence.
-fn drawn<'a>(pictures: &Pictures<'a>, scan: Option<usize>) -> anyhow::Result<BTreeSet<(&'a str, usize)>> {
-    let Sequence { rig, times, .. } = pictures.reader.sequence();
-    let named = |(radar, scan): (usize, usize)| (rig.radars[radar].name.as_str(), scan);
-    if let Some(scan) = scan {
-        return Ok(pictures.drawn_at(pictures.time_of(scan)?).map(named).collect());
-    }
-    let shown = (0..rig.radars.len()).filter(|radar| pictures.shows(&rig.radars[*radar].name));
-    Ok(shown
-        .flat_map(|radar| (0..times.radars[radar].len()).map(move |scan| (radar, scan)))
-        .map(named)
-        .collect())
 }

@@ -1,0 +1,36 @@
+//! Which scans of a picture could not be labelled.
+
+use crate::{Pictures, ReportError};
+use ralf::sensors::Sequence;
+use ralf_data::result::SequenceRecord;
+use std::collections::BTreeSet;
+
+impl Pictures<'_> {
+    /// The scans that could not be labelled and the reasons, a sentence each, of a picture of what is around one scan,
+    /// or of a whole sequence.
+    ///
+    /// # Errors
+    /// No such radar or scan, and a picture without any labels: it would show that nothing is plausible.
+    pub fn missing(&self, record: &SequenceRecord, scan: Option<usize>) -> Result<Vec<String>, ReportError> {
+        let drawn = self.drawn(scan)?;
+        let missing = record.not_labelled.iter();
+        let missing = missing.filter(|missing| drawn.contains(&(missing.radar.as_str(), missing.scan)));
+        let missing: Vec<String> = missing.map(|missing| missing.told(&record.name)).collect();
+        match missing.first() {
+            Some(first) if missing.len() == drawn.len() => Err(ReportError::NotLabelled(first.clone())),
+            _ => Ok(missing),
+        }
+    }
+
+    /// The scans that a picture shows, by radar and number.
+    fn drawn(&self, scan: Option<usize>) -> Result<BTreeSet<(&str, usize)>, ReportError> {
+        let Sequence { rig, times, .. } = self.reader.sequence();
+        let named = |(radar, scan): (usize, usize)| (rig.radars[radar].name.as_str(), scan);
+        if let Some(scan) = scan {
+            return Ok(self.drawn_at(self.time_of(scan)?).map(named).collect());
+        }
+        let shown = (0..rig.radars.len()).filter(|radar| self.shows(&rig.radars[*radar].name));
+        let scans = shown.flat_map(|radar| (0..times.radars[radar].len()).map(move |scan| (radar, scan)));
+        Ok(scans.map(named).collect())
+    }
+}
