@@ -7,7 +7,7 @@ use ralf::learned::Model;
 use ralf_data::judge::Certainty;
 use ralf_data::result::{LabelledRun, LabelledSequence};
 use ralf_data::run::{LabelRun, Unwatched};
-use ralf_data::things::{Answer, Change, Extent, Observed, SequenceThings};
+use ralf_data::things::{Answer, Change, Extent, SequenceEvidence, SequenceThings};
 use ralf_data::{Recording, SequenceReader, Settings};
 use ralf_sim::{SimulatedSequence, presets, world};
 use std::path::PathBuf;
@@ -15,7 +15,7 @@ use std::path::PathBuf;
 /// A labelled sequence whose truth is known.
 struct Known {
     things: SequenceThings,
-    observed: Observed,
+    observed: SequenceEvidence,
     /// By detection; `None` of what has no truth.
     truth: Vec<Option<bool>>,
 }
@@ -45,7 +45,8 @@ impl Known {
         let things = SequenceThings::of(reader, &rig, &Certainty::of(&settings), &tables).unwrap();
         let model = Model::shipped().unwrap();
         let whole = Extent { t_ns: 0, scans: usize::MAX, detections: usize::MAX };
-        let observed = Observed::of(reader, (&rig, &settings), &model, &things, (whole, jobs)).unwrap();
+        let observed =
+            SequenceEvidence::of(reader, (&rig, &settings), &model, &things, (whole, jobs)).unwrap();
         let truth = truth(reader, &things);
         Self { things, observed, truth }
     }

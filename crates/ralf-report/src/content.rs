@@ -1,7 +1,7 @@
 //! Everything that the page tells, gathered.
 
 use crate::classes::{self, Classes};
-use crate::evidence::{self, Observed};
+use crate::evidence::{self, EvidenceColumn};
 use crate::findings::Findings;
 use crate::reasons::{self, Weight};
 use crate::scored::{COLUMNS, Origin, Scored};
@@ -29,7 +29,7 @@ pub(crate) struct Content {
     /// What is counted over the detections of all sequences.
     pub(crate) findings: Findings,
     /// What each column of evidence says, where evidence was gathered.
-    pub(crate) evidence: Vec<Observed>,
+    pub(crate) evidence: Vec<EvidenceColumn>,
     /// What a model tells in words, where one was asked.
     pub(crate) told: Vec<Told>,
     /// What weighs most in its answers.

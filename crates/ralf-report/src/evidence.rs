@@ -5,7 +5,7 @@ use ralf_data::result::{Column, Group, PlausibilityReader};
 
 /// A column of evidence over the detections of a run.
 #[derive(Debug, Clone)]
-pub(crate) struct Observed {
+pub(crate) struct EvidenceColumn {
     /// The column.
     pub(crate) column: Column,
     /// How many of the artifacts, and of the plausible ones, have a value.
@@ -13,7 +13,7 @@ pub(crate) struct Observed {
     sums: [f64; 2],
 }
 
-impl Observed {
+impl EvidenceColumn {
     /// The mean over what is labelled plausible, or over the artifacts; `None` where none has a value.
     pub(crate) fn mean(&self, plausible: bool) -> Option<f64> {
         let label = usize::from(plausible);
@@ -30,7 +30,10 @@ impl Observed {
 }
 
 /// Adds the evidence of a sequence, a column of which is there only where it was gathered.
-pub(crate) fn add(evidence: &mut Vec<Observed>, tables: &PlausibilityReader) -> Result<(), ReportError> {
+pub(crate) fn add(
+    evidence: &mut Vec<EvidenceColumn>,
+    tables: &PlausibilityReader,
+) -> Result<(), ReportError> {
     let columns = tables.schema().columns().iter().filter(|column| column.group == Group::Evidence);
     let columns: Vec<Column> = columns.cloned().collect();
     let names: Vec<&str> = columns.iter().map(|column| column.name.as_ref()).chain(["label"]).collect();
@@ -39,7 +42,7 @@ pub(crate) fn add(evidence: &mut Vec<Observed>, tables: &PlausibilityReader) -> 
     }
     for column in &columns {
         if evidence.iter().all(|known| known.column.name != column.name) {
-            evidence.push(Observed { column: column.clone(), counts: [0; 2], sums: [0.0; 2] });
+            evidence.push(EvidenceColumn { column: column.clone(), counts: [0; 2], sums: [0.0; 2] });
         }
     }
     tables.each(&names, |_, table| {
@@ -66,7 +69,7 @@ mod tests {
             meaning: "a distance",
             group: Group::Evidence,
         };
-        let mut observed = Observed { column, counts: [0; 2], sums: [0.0; 2] };
+        let mut observed = EvidenceColumn { column, counts: [0; 2], sums: [0.0; 2] };
         assert_eq!((observed.mean(true), observed.mean(false)), (None, None));
         observed.add(&[1.0, f32::NAN, 3.0, 8.0], &[1, 1, 1, 0]);
         observed.add(&[f32::NAN], &[0]);

@@ -12,7 +12,7 @@ use ralf_data::result::{
     CameraRecord, Component, ImageRecord, LabelledRun, LabelledSequence, Places, PlausibilityReader,
     RadarScanKey, Table,
 };
-use ralf_data::things::{Extent, Observed, SequenceThings};
+use ralf_data::things::{Extent, SequenceEvidence, SequenceThings};
 use ralf_data::{DataError, SequenceReader};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -41,7 +41,7 @@ pub(crate) struct SequenceLabels {
     not_labelled: BTreeMap<(String, usize), String>,
     needs: Cache<(), Vec<ScanNeed>>,
     things: Cache<(), SequenceThings>,
-    observed: Cache<(), Observed>,
+    observed: Cache<(), SequenceEvidence>,
 }
 
 /// What changes when a sequence is labelled again: sizes and times of the files.
@@ -135,11 +135,11 @@ impl SequenceLabels {
         reader: &dyn SequenceReader,
         things: &SequenceThings,
         (t_ns, jobs): (i64, usize),
-    ) -> Result<Arc<Observed>, ApiError> {
+    ) -> Result<Arc<SequenceEvidence>, ApiError> {
         let extent = Extent { t_ns, scans: MOST_SCANS, detections: MOST_DETECTIONS };
         let gather = || {
             let model = Model::shipped().map_err(|error| ApiError::Broken(error.to_string()))?;
-            Observed::of(reader, (&self.rig, &self.settings), &model, things, (extent, jobs))
+            SequenceEvidence::of(reader, (&self.rig, &self.settings), &model, things, (extent, jobs))
                 .map_err(|error| ApiError::Broken(error.to_string()))
         };
         self.observed.get((), |observed| observed.serves(t_ns), gather)

@@ -1,6 +1,6 @@
 //! From frames to mismatches: every one that a search may ask for.
 
-use super::observed::Observed;
+use super::mismatches::DetectionMismatches;
 use super::settings::Space;
 use super::table::{MismatchTable, Row};
 use ralf::config::{Config, LidarConfig, TrackingConfig};
@@ -55,7 +55,7 @@ impl Gatherer {
         let mut rows = Vec::new();
         for (i, (detection, plausible)) in frame.scan.detections.iter().zip(truth).enumerate() {
             let Some(plausible) = *plausible else { continue };
-            let mut rest = Observed::NOTHING;
+            let mut rest = DetectionMismatches::NOTHING;
             if let Some(detection) = detection {
                 rest.on_floor = frame.is_on_floor(detection, &self.config.ground);
                 rest.in_blind_spot = in_blind_spot(&frame.rig.lidars, &detection.position);

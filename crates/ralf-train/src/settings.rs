@@ -1,6 +1,6 @@
 //! What is tuned, and among which values.
 
-use super::observed::Weights;
+use super::mismatches::Weights;
 use ralf::config::Config;
 use std::collections::BTreeSet;
 

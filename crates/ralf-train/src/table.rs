@@ -1,6 +1,6 @@
 //! The mismatches of many scans, in columns.
 
-use super::observed::Observed;
+use super::mismatches::DetectionMismatches;
 use super::{Branches, Space, TuneError, TunedSettings};
 use ralf::metrics::Confusion;
 use std::ops::Range;
@@ -30,7 +30,7 @@ pub struct MismatchTable {
 #[derive(Debug, Clone)]
 pub(super) struct Row {
     /// Its `d_lm` and `d_tr` are not used.
-    pub(super) rest: Observed,
+    pub(super) rest: DetectionMismatches,
     /// Per `K`.
     pub(super) d_lm: Vec<Option<f64>>,
     /// Per `n_b`.
@@ -133,11 +133,11 @@ pub(super) struct View<'a> {
 
 impl View<'_> {
     /// What is known of a detection.
-    pub(super) fn observed(&self, row: usize) -> Observed {
+    pub(super) fn observed(&self, row: usize) -> DetectionMismatches {
         let present = |has_a_say: bool, d: f64| (has_a_say && !d.is_nan()).then_some(d);
         let Branches { lidar, camera, tracking } = self.branches;
         let marks = self.table.marks[row];
-        Observed {
+        DetectionMismatches {
             d_lm: present(lidar, self.d_lm[row]),
             d_cm: present(camera, self.table.d_cm[row]),
             d_tr: present(tracking, self.d_tr[row]),
@@ -153,7 +153,7 @@ impl View<'_> {
     }
 
     /// Evidence and truth of all detections.
-    pub(super) fn rows(&self) -> impl Iterator<Item = (Observed, bool)> {
+    pub(super) fn rows(&self) -> impl Iterator<Item = (DetectionMismatches, bool)> {
         (0..self.table.len()).map(|row| (self.observed(row), self.truth(row)))
     }
 }

@@ -7,7 +7,7 @@
 
 use super::heard::{Heard, Lesson, usual};
 use super::sign::{Sign, Signs};
-use super::{Answer, Observed, SequenceThings};
+use super::{Answer, SequenceEvidence, SequenceThings};
 use ralf::learned::probability;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::{self, Display};
@@ -87,7 +87,7 @@ impl SequenceThings {
     /// aren't asked about again.
     pub fn kinds(
         &self,
-        observed: &Observed,
+        observed: &SequenceEvidence,
         answers: &[Option<Answer>],
         passed: &BTreeSet<KindName>,
     ) -> Vec<Kind> {
@@ -116,7 +116,7 @@ impl SequenceThings {
 
     fn members_of_kinds(
         &self,
-        observed: &Observed,
+        observed: &SequenceEvidence,
         answers: &[Option<Answer>],
     ) -> BTreeMap<KindName, Members> {
         let signs = Signs::of(observed);
@@ -133,7 +133,7 @@ impl SequenceThings {
 }
 
 /// A question about detections by their places in what was observed.
-fn kind(name: KindName, open: &[usize], observed: &Observed, heard: &Heard) -> Kind {
+fn kind(name: KindName, open: &[usize], observed: &SequenceEvidence, heard: &Heard) -> Kind {
     let way = name.way();
     let contrary: Vec<f64> = open.iter().map(|at| way * observed.log_odds(*at)).collect();
     let (expected_errors, worth) = heard.worth(name.sign, way, &contrary);

@@ -6,18 +6,18 @@
 //! sequence whose evidence says the same against their label.
 
 mod doubtful;
+mod evidence;
 mod heard;
 mod kinds;
 mod moving;
-mod observed;
 mod opinion;
 mod sequence;
 mod sign;
 mod standing;
 
 pub use doubtful::{Answer, Doubtful, Thing};
+pub use evidence::{Extent, SequenceEvidence};
 pub use kinds::{Kind, KindName};
-pub use observed::{Extent, Observed};
 pub use opinion::Change;
 pub use sequence::SequenceThings;
 pub use sign::Sign;

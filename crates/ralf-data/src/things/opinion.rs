@@ -1,6 +1,6 @@
 //! What the labels of a sequence would be, after what people said of some of them.
 
-use super::{Answer, Observed, SequenceThings, Thing};
+use super::{Answer, SequenceEvidence, SequenceThings, Thing};
 use ralf_train::learning::{Believed, second_opinion};
 
 /// A thing whose label would be another one.
@@ -25,7 +25,7 @@ impl SequenceThings {
     /// The result doesn't depend on `jobs`.
     pub fn second_opinion(
         &self,
-        observed: &Observed,
+        observed: &SequenceEvidence,
         answers: &[Option<Answer>],
         jobs: usize,
     ) -> Vec<Change> {
@@ -57,7 +57,7 @@ impl SequenceThings {
     }
 
     /// How many detections people said something of, among those that were observed.
-    pub fn answered(&self, observed: &Observed, answers: &[Option<Answer>]) -> usize {
+    pub fn answered(&self, observed: &SequenceEvidence, answers: &[Option<Answer>]) -> usize {
         observed.of.iter().filter(|row| answers[**row].is_some()).count()
     }
 

@@ -1,6 +1,6 @@
 //! What can be measured of a detection that tells against its label, or for another, in a word.
 
-use super::Observed;
+use super::SequenceEvidence;
 use ralf::learned::Rows;
 
 /// What the detections of a kind have in common, by what can be measured of them.
@@ -65,7 +65,7 @@ pub(super) struct Signs {
 }
 
 impl Signs {
-    pub(super) fn of(observed: &Observed) -> Self {
+    pub(super) fn of(observed: &SequenceEvidence) -> Self {
         let place = |name: &str| observed.place_of(name);
         Self {
             moves: place("doppler_residual"),

@@ -2,7 +2,7 @@
 
 use super::heads;
 use crate::content::Content;
-use crate::evidence::Observed;
+use crate::evidence::EvidenceColumn;
 use crate::number::{decimal, grouped};
 use maud::{Markup, html};
 
@@ -21,7 +21,7 @@ pub(super) fn evidence(content: &Content) -> Markup {
     }
 }
 
-fn row(observed: &Observed) -> Markup {
+fn row(observed: &EvidenceColumn) -> Markup {
     html! {
         tr {
             th scope="row" { (observed.column.name) }

@@ -1,6 +1,6 @@
 use super::*;
 use crate::table::Row;
-use crate::{Observed, Weights};
+use crate::{DetectionMismatches, Weights};
 use crate::{Space, leave_one_out};
 
 const SCAN: usize = 20;
@@ -31,7 +31,7 @@ pub(crate) fn planted(seed: u64, scans: usize) -> MismatchTable {
 fn row(rng: &mut Pcg64Mcg, weights: &Weights) -> Row {
     let d = |rng: &mut Pcg64Mcg| rng.random_bool(0.9).then(|| rng.random_range(0.0..20.0));
     let [lm, other_lm, cm, tr, other_tr] = std::array::from_fn(|_| d(rng));
-    let rest = Observed {
+    let rest = DetectionMismatches {
         d_lm: lm,
         d_cm: cm,
         d_tr: tr,
@@ -97,7 +97,7 @@ fn the_floor_of_precision_is_kept() {
 fn what_says_nothing_keeps_its_setting() {
     let space = Space { neighbours: vec![2, 3], scans: vec![3, 5] };
     let mut table = MismatchTable::new(space);
-    let rest = Observed::NOTHING;
+    let rest = DetectionMismatches::NOTHING;
     let row = |plausible: bool| {
         let d = if plausible { 1.0 } else { 9.0 };
         Row { rest, d_lm: vec![None; 2], d_tr: vec![Some(d), Some(10.0 - d)], plausible }

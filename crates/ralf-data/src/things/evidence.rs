@@ -25,7 +25,7 @@ pub struct Extent {
 
 /// What was observed of the detections of a sequence, or of a part of it.
 #[derive(Debug, Clone)]
-pub struct Observed {
+pub struct SequenceEvidence {
     /// Which detections these are, by their places in the [`SequenceThings`], in rising order.
     pub(super) of: Vec<usize>,
     /// How many scans were looked at, and how many have detections.
@@ -43,7 +43,7 @@ pub struct Observed {
 /// No model is believed to be surer than this.
 const SUREST: f64 = 1e-3;
 
-impl Observed {
+impl SequenceEvidence {
     /// Gathers it from a recording, within an extent; `rig` and `config` are those with which it was labelled. Of a
     /// scan that can't be read nothing is observed. The result is the same for any `jobs`.
     ///

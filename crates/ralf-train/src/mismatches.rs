@@ -7,7 +7,7 @@ use ralf::scene::plausibility;
 
 /// What is known of a detection before any of the [`Weights`] comes in. `None` is *not observed*.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Observed {
+pub struct DetectionMismatches {
     /// Mean mismatch with the LiDAR's points.
     pub d_lm: Option<f64>,
     /// Mean mismatch with the cameras' points.
@@ -46,7 +46,7 @@ impl From<&Config> for Weights {
     }
 }
 
-impl Observed {
+impl DetectionMismatches {
     /// A detection without a position: whatever the weights, it is not plausible.
     pub const NOTHING: Self =
         Self { d_lm: None, d_cm: None, d_tr: None, on_floor: false, in_blind_spot: false, gamma_s: 1.0 };
@@ -90,13 +90,13 @@ mod tests {
             on_floor in any::<bool>(), in_blind_spot in any::<bool>(), gamma_s in 1.0..2.0,
             [beta_lm, beta_cm, beta_tr] in prop::array::uniform3(0.01..3.0), alpha in 0.0..=1.0,
         ) {
-            let observed = Observed { d_lm, d_cm, d_tr, on_floor, in_blind_spot, gamma_s };
+            let mismatches = DetectionMismatches { d_lm, d_cm, d_tr, on_floor, in_blind_spot, gamma_s };
             let weights = Weights { beta_lm, beta_cm, beta_tr, fusion: FusionConfig { alpha, threshold: 0.5 } };
             let weighed = |beta, d: Option<f64>| d.map(|d| plausibility(beta, d));
             let w_opt = optical(in_blind_spot, weighed(beta_lm, d_lm), weighed(beta_cm, d_cm));
             let w = prioritize(alpha, w_opt, weighed(beta_tr, d_tr), gamma_s).filter(|_| !on_floor);
-            prop_assert_eq!(observed.plausibility(&weights), w);
-            prop_assert_eq!(observed.is_plausible(&weights), w.is_some_and(|w| w >= 0.5));
+            prop_assert_eq!(mismatches.plausibility(&weights), w);
+            prop_assert_eq!(mismatches.is_plausible(&weights), w.is_some_and(|w| w >= 0.5));
         }
     }
 }
