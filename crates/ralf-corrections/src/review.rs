@@ -41,7 +41,7 @@ fn set(on: &Transaction, version: &ScanVersion, mark: &Mark, who: &Who) -> rusql
     }
     let before = review(on, scan)?;
     let made = if mark.reviewed || before.is_some() {
-        write(on, scan, mark, (before, &asked))?
+        write(on, scan, mark, before, &asked)?
     } else {
         Made { event: None, stroke: None, changed: 0 }
     };
@@ -52,7 +52,8 @@ fn write(
     on: &Connection,
     scan: i64,
     mark: &Mark,
-    (before, asked): (Option<Review>, &Asked),
+    before: Option<Review>,
+    asked: &Asked,
 ) -> rusqlite::Result<Made> {
     let event = log(on, asked.kind, asked.sequence, asked.who)?;
     let new = NewStroke { event, sequence: asked.sequence, tool: asked.kind, group: None, label: None };

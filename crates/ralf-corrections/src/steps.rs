@@ -96,7 +96,7 @@ fn step(on: &Transaction, way: Way, sequence: &str, who: &Who) -> rusqlite::Resu
     scans.sort_by(|a, b| a.key.cmp(&b.key));
     let event = log(on, way.name(), sequence, who)?;
     for stroke in &strokes {
-        if let Some(conflict) = move_stroke(on, way, stroke, (event, &who.author))? {
+        if let Some(conflict) = move_stroke(on, way, stroke, event, &who.author)? {
             return Ok(Attempt::Refused(Refusal { conflict, scans }));
         }
     }
@@ -127,7 +127,8 @@ fn move_stroke(
     on: &Connection,
     way: Way,
     done: &Done,
-    (event, author): (i64, &str),
+    event: i64,
+    author: &str,
 ) -> rusqlite::Result<Option<Conflict>> {
     if let Some(conflict) = overtaken(on, &done.stroke, author)? {
         return Ok(Some(conflict));

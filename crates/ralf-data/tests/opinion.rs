@@ -45,8 +45,7 @@ impl Known {
         let things = SequenceThings::of(reader, &rig, &Certainty::of(&settings), &tables).unwrap();
         let model = Model::shipped().unwrap();
         let whole = Extent { t_ns: 0, scans: usize::MAX, detections: usize::MAX };
-        let observed =
-            SequenceEvidence::of(reader, (&rig, &settings), &model, &things, (whole, jobs)).unwrap();
+        let observed = SequenceEvidence::of(reader, &rig, &settings, &model, &things, whole, jobs).unwrap();
         let truth = truth(reader, &things);
         Self { things, observed, truth }
     }

@@ -134,12 +134,13 @@ impl SequenceLabels {
         &self,
         reader: &dyn SequenceReader,
         things: &SequenceThings,
-        (t_ns, jobs): (i64, usize),
+        t_ns: i64,
+        jobs: usize,
     ) -> Result<Arc<SequenceEvidence>, ApiError> {
         let extent = Extent { t_ns, scans: MOST_SCANS, detections: MOST_DETECTIONS };
         let gather = || {
             let model = Model::shipped().map_err(|error| ApiError::Broken(error.to_string()))?;
-            SequenceEvidence::of(reader, (&self.rig, &self.settings), &model, things, (extent, jobs))
+            SequenceEvidence::of(reader, &self.rig, &self.settings, &model, things, extent, jobs)
                 .map_err(|error| ApiError::Broken(error.to_string()))
         };
         self.observed.get((), |observed| observed.serves(t_ns), gather)

@@ -69,7 +69,8 @@ impl Variant {
     pub fn judge(
         &self,
         search: &Search,
-        (train, test): (&[&MismatchTable], &[&MismatchTable]),
+        train: &[&MismatchTable],
+        test: &[&MismatchTable],
         progress: &mut dyn FnMut(usize, &Found),
     ) -> Result<JudgedVariant, TuneError> {
         let (mut config, mut held) = (self.config.clone(), search.held.clone());
@@ -128,7 +129,7 @@ mod tests {
         let (train, test) = (planted(1, 40), planted(2, 40));
         let search = Search { base: config, objective: Objective::F1, trials, seed: 1, held: vec![] };
         let variant = Variant::all(config).into_iter().find(|variant| variant.name == name).unwrap();
-        variant.judge(&search, (&[&train], &[&test]), &mut |_, _| {}).unwrap()
+        variant.judge(&search, &[&train], &[&test], &mut |_, _| {}).unwrap()
     }
 
     #[test]

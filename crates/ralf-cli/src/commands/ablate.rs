@@ -37,7 +37,7 @@ pub(crate) fn run(arguments: &AblateArgs) -> anyhow::Result<Outcome> {
     let mut judged = Vec::with_capacity(variants.len());
     // Those that share their mismatches follow each other, so that but those of one need be remembered.
     for group in variants.chunk_by(|a, b| a.matching_config() == b.matching_config()) {
-        let (of_group, its_outcome) = arguments.judge(group, (&recording, &truth), judged.is_empty())?;
+        let (of_group, its_outcome) = arguments.judge(group, &recording, &truth, judged.is_empty())?;
         judged.extend(of_group);
         outcome = outcome.and(its_outcome);
     }
@@ -55,19 +55,20 @@ impl AblateArgs {
     fn judge(
         &self,
         variants: &[Variant],
-        recording: (&Recording, &GroundTruth),
+        recording: &Recording,
+        truth: &GroundTruth,
         first: bool,
     ) -> anyhow::Result<(Vec<JudgedVariant>, Outcome)> {
         let Some(shared) = variants.first() else { return Ok((Vec::new(), Outcome::Done)) };
         let config = shared.matching_config();
-        let matched = self.search.gather(recording, &config)?;
+        let matched = self.search.gather(recording, truth, &config)?;
         let outcome = if first { name_what_is_left_out(&matched) } else { Outcome::Done };
         let parts = self.search.parts(matched);
         let (train, test) = (tables(&parts.train), tables(&parts.test));
         let judge = |variant: &Variant| {
             let progress = self.search.progress(variant.name);
             let mut show = |trial: usize, best: &_| self.search.show(&progress, trial, best);
-            let judged = variant.judge(&self.search.search(&config), (&train, &test), &mut show);
+            let judged = variant.judge(&self.search.search(&config), &train, &test, &mut show);
             Ok(judged?)
         };
         Ok((variants.iter().map(judge).collect::<anyhow::Result<_>>()?, outcome))

@@ -117,7 +117,8 @@ impl SearchArgs {
     /// Matches all scans of a recording that have truth.
     pub(super) fn gather(
         &self,
-        (recording, truth): (&Recording, &GroundTruth),
+        recording: &Recording,
+        truth: &GroundTruth,
         config: &Config,
     ) -> anyhow::Result<Vec<SequenceMismatches>> {
         Ok(gather_mismatches(recording, truth, config, threads(self.jobs), &Stages::default())?)

@@ -47,7 +47,7 @@ pub(crate) fn run(arguments: &TuneArgs) -> anyhow::Result<Outcome> {
     let base = search.base()?;
     refuse_no_branch(&base.method)?;
     let (recording, truth, outcome) = search.open(&base, &arguments.test)?;
-    let matched = search.gather((&recording, &truth), &base.method)?;
+    let matched = search.gather(&recording, &truth, &base.method)?;
     let outcome = outcome.and(name_what_is_left_out(&matched));
     let report = arguments.tune(&base.method, &search.parts(matched))?;
     let comment = text::comment(&report, &arguments.command());

@@ -100,7 +100,7 @@ impl LabelRun<'_> {
             [(only, _)] => only.reader.sequence().name.clone(),
             several => format!("{} sequences", several.len()),
         };
-        let queue = Queue::new(self, sequences, (folder, observer, told));
+        let queue = Queue::new(self, sequences, folder, observer, told);
         let stretches = Stretches::new(queue.alone.len(), &needs, gathers_evidence, self.jobs);
         if !needs.is_empty() {
             observer.begin(Stage::Labelling(&name), needs.iter().map(|scans| scans.len() as u64).sum());
@@ -131,7 +131,9 @@ impl<'a> Queue<'a> {
     fn new(
         run: &'a LabelRun<'a>,
         sequences: Vec<(&'a Task<'a>, Identity)>,
-        (folder, observer, told): (&'a OutputFolder, &'a dyn Observer, Option<&'a Checked<'a>>),
+        folder: &'a OutputFolder,
+        observer: &'a dyn Observer,
+        told: Option<&'a Checked<'a>>,
     ) -> Self {
         // A check takes longer than a scan: begun first, it is over first.
         let checks = (0..run.recording.sequences.len()).filter(|_| told.is_some()).map(Alone::Check);

@@ -28,8 +28,10 @@ pub struct Extent {
 pub struct SequenceEvidence {
     /// Which detections these are, by their places in the [`SequenceThings`], in rising order.
     pub(super) of: Vec<usize>,
-    /// How many scans were looked at, and how many have detections.
-    scans: (usize, usize),
+    /// How many scans were looked at.
+    pub scans_looked_at: usize,
+    /// How many scans of the sequence have detections.
+    pub scans_with_detections: usize,
     /// The times at which it serves, ns.
     serves: RangeInclusive<i64>,
     /// [`features`], what a model makes of them (log odds), and the plausibility that the run found.
@@ -51,20 +53,20 @@ impl SequenceEvidence {
     /// A model that this program can't use.
     pub fn of(
         reader: &dyn SequenceReader,
-        (rig, config): (&Rig, &Config),
+        rig: &Rig,
+        config: &Config,
         model: &Model,
         things: &SequenceThings,
-        (extent, jobs): (Extent, usize),
+        extent: Extent,
+        jobs: usize,
     ) -> Result<Self, UseError> {
         let columns = model.places()?;
         let (scans, serves) = looked_at(things, &extent);
-        let all = things.scans().iter().filter(|(radar, scan)| !things.rows_of(*radar, *scan).is_empty());
-        let counts = (scans.len(), all.count());
         let of: Vec<usize> = scans.iter().flat_map(|at| things.rows_of(at.radar, at.scan)).collect();
         let frames = Frames { reader, rig, config, evidence: true };
         let gathered = frames.each(&scans, jobs, |window, at| {
-            let ScanIndex { radar, scan } = scans[at];
-            Ok::<_, Infallible>(observed(window, (radar, scan), things.rows_of(radar, scan).len(), config))
+            let detections = things.rows_of(scans[at].radar, scans[at].scan).len();
+            Ok::<_, Infallible>(observed(window, scans[at], detections, config))
         });
         let gathered = gathered.unwrap_or_else(|never| match never {});
         let width = features().count();
@@ -84,12 +86,17 @@ impl SequenceEvidence {
             (to[width], to[width + 1]) = (log_odds as f32, things.sightings()[*at].w);
         }
         let monotone = features().map(|feature| direction(feature.name)).chain([1, 0]).collect();
-        Ok(Self { of, scans: counts, serves, rows, probability, monotone })
-    }
-
-    /// How many scans were looked at, and how many of the sequence have detections.
-    pub fn scans(&self) -> (usize, usize) {
-        self.scans
+        let with_detections =
+            things.scans().iter().filter(|(radar, scan)| !things.rows_of(*radar, *scan).is_empty());
+        Ok(Self {
+            of,
+            scans_looked_at: scans.len(),
+            scans_with_detections: with_detections.count(),
+            serves,
+            rows,
+            probability,
+            monotone,
+        })
     }
 
     /// The model's log odds that the detection of a row is plausible; never so sure that no answer could turn it.
@@ -153,7 +160,7 @@ fn nearest(scans: &[(i64, usize)], extent: &Extent) -> Vec<usize> {
 /// The evidence on one scan; nothing where it can't be gathered.
 fn observed(
     window: &mut FrameWindow,
-    (radar, scan): (usize, usize),
+    ScanIndex { radar, scan }: ScanIndex,
     detections: usize,
     config: &Config,
 ) -> Rows {

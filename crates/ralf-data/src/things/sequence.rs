@@ -47,7 +47,7 @@ impl SequenceThings {
             things: Vec::new(),
             count: 0,
         };
-        tables.each(&COLUMNS, |key, table| found.add(reader, rig, certainty, (key, table)))?;
+        tables.each(&COLUMNS, |key, table| found.add(reader, rig, certainty, key, table))?;
         found.things = group(&found.sightings);
         found.count = found.things.iter().max().map_or(0, |last| *last as usize + 1);
         Ok(found)
@@ -58,7 +58,8 @@ impl SequenceThings {
         reader: &dyn SequenceReader,
         rig: &Rig,
         certainty: &Certainty,
-        (key, table): (&RadarScanKey, &Table),
+        key: &RadarScanKey,
+        table: &Table,
     ) -> Result<(), DataError> {
         let Some(radar) = rig.radars.iter().position(|radar| radar.name == *key.radar) else { return Ok(()) };
         let failed = |error| DataError::Measurement { sensor: key.radar.to_string(), index: key.scan, error };

@@ -17,9 +17,22 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 /// What somebody said of a detection: the label, and why it is an artifact where that was said, too.
-type Said = (u16, Option<&'static str>);
-/// A thing that two people labelled differently: its number, what the first and the second said, and who the second is.
-type Key = (u32, Said, Said, String);
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+struct Said {
+    label: u16,
+    cause: Option<&'static str>,
+}
+
+/// What two people said of a thing that they labelled differently.
+#[derive(PartialEq, Eq, PartialOrd, Ord)]
+struct Dispute {
+    /// The thing's number.
+    thing: u32,
+    first: Said,
+    second: Said,
+    /// Who the second is.
+    by: String,
+}
 
 /// How far people agree who labelled scans of a sequence twice, and where they don't. Only scans that both are through
 /// with are told: nobody is influenced by what another said.
@@ -44,7 +57,7 @@ pub(crate) fn disagreements(app: &App, sequence: &str) -> Answer {
         told.push(json!({ "second": name, "scans": agreement.scans.len(), "agreement": agreement.json() }));
         gather(reader.sequence(), &known, &differences, &name, &mut found);
     }
-    let base = bases(app, (reader.sequence(), &known), found.values().flatten())?;
+    let base = bases(app, reader.sequence(), &known, found.values().flatten())?;
     let waiting = app.team.twice(sequence).map(|twice| {
         twice.iter().filter(|(radar, scan)| !both.contains(&((*radar).to_owned(), *scan))).count()
     });
@@ -77,18 +90,20 @@ fn gather(
     known: &SequenceThings,
     differences: &[Difference],
     name: &str,
-    found: &mut BTreeMap<Key, Vec<usize>>,
+    found: &mut BTreeMap<Dispute, Vec<usize>>,
 ) {
     for difference in differences {
         let Some((radar, scan)) = difference.scan.place_in(sequence) else { continue };
         let Some(row) = known.rows_of(radar, scan).nth(difference.point) else { continue };
-        let first = (difference.first, known_cause(difference.first_cause.as_deref()));
-        let second = (difference.second, known_cause(difference.second_cause.as_deref()));
+        let said = |label, cause: &Option<String>| Said { label, cause: known_cause(cause.as_deref()) };
+        let first = said(difference.first, &difference.first_cause);
+        let second = said(difference.second, &difference.second_cause);
         // Of a cause that this program doesn't know nothing can be said.
-        if first.0 == second.0 && (first.1.is_none() || second.1.is_none()) {
+        if first.label == second.label && (first.cause.is_none() || second.cause.is_none()) {
             continue;
         }
-        found.entry((known.things()[row], first, second, name.to_owned())).or_default().push(row);
+        let dispute = Dispute { thing: known.things()[row], first, second, by: name.to_owned() };
+        found.entry(dispute).or_default().push(row);
     }
 }
 
@@ -99,29 +114,33 @@ fn known_cause(name: Option<&str>) -> Option<&'static str> {
 
 /// Those first of which only one says that they are plausible, then those about labels, then those about causes alone;
 /// and of these the largest.
-fn rows(sequence: &Sequence, known: &SequenceThings, found: BTreeMap<Key, Vec<usize>>) -> Vec<Value> {
-    let mut order: Vec<(Key, Vec<usize>)> = found.into_iter().collect();
-    order.sort_by_key(|((_, (first, _), (second, _), _), rows)| {
-        (!is_about_plausibility(*first, *second), first == second, Reverse(rows.len()))
+fn rows(sequence: &Sequence, known: &SequenceThings, found: BTreeMap<Dispute, Vec<usize>>) -> Vec<Value> {
+    let mut order: Vec<(Dispute, Vec<usize>)> = found.into_iter().collect();
+    order.sort_by_key(|(Dispute { first, second, .. }, rows)| {
+        let is_about_plausibility = is_about_plausibility(first.label, second.label);
+        (!is_about_plausibility, first.label == second.label, Reverse(rows.len()))
     });
     let described = known.described();
-    let told = |(key, rows): (Key, Vec<usize>)| row((sequence, known), described(key.0), key, &rows);
-    order.into_iter().map(told).collect()
+    let told = |(dispute, rows): &(Dispute, Vec<usize>)| {
+        row(sequence, known, &described(dispute.thing), dispute, rows)
+    };
+    order.iter().map(told).collect()
 }
 
 fn row(
-    (sequence, known): (&Sequence, &SequenceThings),
-    thing: Thing,
-    (_, (first, first_cause), (second, second_cause), name): Key,
+    sequence: &Sequence,
+    known: &SequenceThings,
+    thing: &Thing,
+    Dispute { first, second, by, .. }: &Dispute,
     rows: &[usize],
 ) -> Value {
-    let mut row = things::row(sequence, &thing);
+    let mut row = things::row(sequence, thing);
     row["points"] = things::points(sequence, known, rows);
     // The thing itself may have been seen elsewhere only: what is in question is looked at.
     let (radar, scan, point) = known.place_of(rows[rows.len() / 2]);
     row["radar"] = json!(sequence.rig.radars[radar].name);
     (row["scan"], row["point"]) = (json!(scan), json!(point));
-    (row["first"], row["second"], row["by"]) = (json!(first), json!(second), json!(name));
-    (row["first_cause"], row["second_cause"]) = (json!(first_cause), json!(second_cause));
+    (row["first"], row["second"], row["by"]) = (json!(first.label), json!(second.label), json!(by));
+    (row["first_cause"], row["second_cause"]) = (json!(first.cause), json!(second.cause));
     row
 }

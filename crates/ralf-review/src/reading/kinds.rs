@@ -1,6 +1,6 @@
 //! Which detections all over a sequence one question can be about.
 
-use super::opinion::{bases, by_all_that_is_said, half_of_the_machine};
+use super::opinion::{bases, by_all_that_is_said, half_of_the_machine, looked_at};
 use super::said::Said;
 use super::{read_time, things};
 use crate::app::App;
@@ -31,17 +31,16 @@ pub(crate) fn kinds(app: &App, sequence: &str, asked: &AskedKinds) -> Answer {
     let (index, reader) = app.sequence(sequence)?;
     let labels = app.labels(index)?;
     let things = labels.things(reader)?;
-    let observed = labels.observed(reader, &things, (t_ns, half_of_the_machine()))?;
+    let observed = labels.observed(reader, &things, t_ns, half_of_the_machine())?;
     let said = || Said::of(app, index, reader)?.answers(app, &things);
     let question = by_all_that_is_said(said, |answers| {
         let found = things.kinds(&observed, answers, &passed);
         let rows = found.first().map(|kind| kind.rows.as_slice()).unwrap_or_default();
-        let (looked_at, all) = observed.scans();
         Ok(json!({
             "kinds": found.len(),
             "next": found.first().map(|kind| row(reader.sequence(), &things, kind)),
-            "base": bases(app, (reader.sequence(), &things), rows.iter())?,
-            "scans": { "looked_at": looked_at, "all": all },
+            "base": bases(app, reader.sequence(), &things, rows)?,
+            "scans": looked_at(&observed),
         }))
     });
     question.and_then(|question| json(&question))

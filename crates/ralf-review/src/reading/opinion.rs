@@ -8,7 +8,7 @@ use crate::labelled::SequenceLabels;
 use ralf::label::{ARTIFACT, PLAUSIBLE};
 use ralf::sensors::Sequence;
 use ralf_data::SequenceReader;
-use ralf_data::things::{self as data, Change, SequenceThings};
+use ralf_data::things::{self as data, Change, SequenceEvidence, SequenceThings};
 use serde::Deserialize;
 use serde_json::{Map, Value, json};
 use std::collections::BTreeSet;
@@ -33,8 +33,7 @@ pub(crate) fn opinion(app: &App, sequence: &str, asked: &Around) -> Answer {
     let labels = app.labels(index)?;
     let things = labels.things(reader)?;
     let said = || Said::of(app, index, reader)?.answers(app, &things);
-    let opinion =
-        by_all_that_is_said(said, |answers| learned(app, (reader, &labels, &things), t_ns, answers));
+    let opinion = by_all_that_is_said(said, |answers| learned(app, reader, &labels, &things, t_ns, answers));
     opinion.and_then(|opinion| json(&opinion))
 }
 
@@ -60,7 +59,9 @@ pub(super) fn by_all_that_is_said(
 /// What would change by these answers, and what strokes on those scans rest on.
 fn learned(
     app: &App,
-    (reader, labels, things): (&dyn SequenceReader, &SequenceLabels, &SequenceThings),
+    reader: &dyn SequenceReader,
+    labels: &SequenceLabels,
+    things: &SequenceThings,
     t_ns: i64,
     answers: &[Option<data::Answer>],
 ) -> Result<Value, ApiError> {
@@ -68,15 +69,18 @@ fn learned(
     if answers.iter().all(Option::is_none) {
         return Ok(json!({ "answered": 0, "changes": [], "base": [], "scans": null }));
     }
-    let observed = labels.observed(reader, things, (t_ns, jobs))?;
+    let observed = labels.observed(reader, things, t_ns, jobs)?;
     let answered = things.answered(&observed, answers);
     let changes = things.second_opinion(&observed, answers, jobs);
-    let (looked_at, all) = observed.scans();
     let sequence = reader.sequence();
-    let base = bases(app, (sequence, things), changes.iter().flat_map(|change| &change.rows))?;
+    let base = bases(app, sequence, things, changes.iter().flat_map(|change| &change.rows))?;
     let changes: Vec<Value> = changes.iter().map(|change| row(sequence, things, change)).collect();
-    let scans = json!({ "looked_at": looked_at, "all": all });
-    Ok(json!({ "answered": answered, "changes": changes, "base": base, "scans": scans }))
+    Ok(json!({ "answered": answered, "changes": changes, "base": base, "scans": looked_at(&observed) }))
+}
+
+/// How much of a sequence was learned from, of what could be.
+pub(super) fn looked_at(observed: &SequenceEvidence) -> Value {
+    json!({ "looked_at": observed.scans_looked_at, "all": observed.scans_with_detections })
 }
 
 /// So many threads: somebody goes on working meanwhile, and the other half is theirs.
@@ -87,10 +91,11 @@ pub(super) fn half_of_the_machine() -> usize {
 /// What strokes on the scans of these detections rest on.
 pub(super) fn bases<'a>(
     app: &App,
-    (sequence, things): (&Sequence, &SequenceThings),
-    rows: impl Iterator<Item = &'a usize>,
+    sequence: &Sequence,
+    things: &SequenceThings,
+    rows: impl IntoIterator<Item = &'a usize>,
 ) -> Result<Vec<Value>, ApiError> {
-    let scans: BTreeSet<(usize, usize)> = rows.map(|row| things.scan_of(*row)).collect();
+    let scans: BTreeSet<(usize, usize)> = rows.into_iter().map(|row| things.scan_of(*row)).collect();
     scans.into_iter().map(|scan| base(app, sequence, scan)).collect()
 }
 
