@@ -9,91 +9,99 @@ use std::any::Any;
 use std::path::PathBuf;
 
 /// One sequence of a recording, and the files it is read from.
+///
+/// A reader that changes part of what another one reads names that one as its [`inner`](Self::inner) reader: whatever
+/// it doesn't answer by itself, that one does.
 pub trait SequenceReader: Source {
+    /// The reader whose sequence this one changes.
+    fn inner(&self) -> Option<&dyn SequenceReader> {
+        None
+    }
+
     /// Every file that labelling reads, in a fixed order: what a run records with sizes and hashes. None of what has no
     /// files.
     fn inputs(&self) -> Vec<PathBuf> {
-        Vec::new()
+        self.inner().map_or_else(Vec::new, |inner| inner.inputs())
     }
 
     /// What was ignored or is missing, a sentence each, for people.
     fn warnings(&self) -> &[String] {
-        &[]
+        self.inner().map_or(&[], |inner| inner.warnings())
     }
 
     /// What of the recording can't be read and may have held radar scans that nothing else tells of, a sentence each:
     /// they have no place in the timelines, and get no labels. Radar scans whose times are known stand in the
     /// timelines, and whoever asks for them is told why they can't be read.
     fn lost(&self) -> &[String] {
-        &[]
+        self.inner().map_or(&[], |inner| inner.lost())
     }
 
     /// Names of sensors of which nothing can be read: the rig lacks them, and settings may name them all the same.
     fn absent(&self) -> &[String] {
-        &[]
+        self.inner().map_or(&[], |inner| inner.absent())
     }
 
     /// The file of a camera's image, to be copied as it is; `None` where an image has no file of its own.
-    fn image_file(&self, _camera: usize, _image: usize) -> Option<PathBuf> {
-        None
+    fn image_file(&self, camera: usize, image: usize) -> Option<PathBuf> {
+        self.inner().and_then(|inner| inner.image_file(camera, image))
     }
 
     /// The `.label` file of a LiDAR's scan, to be copied as it is: it also numbers instances.
-    fn lidar_label_file(&self, _lidar: usize, _scan: usize) -> Option<PathBuf> {
-        None
+    fn lidar_label_file(&self, lidar: usize, scan: usize) -> Option<PathBuf> {
+        self.inner().and_then(|inner| inner.lidar_label_file(lidar, scan))
     }
 
     /// The `.label` file with the corrected labels of a radar's scan.
-    fn truth_file(&self, _radar: usize, _scan: usize) -> Option<PathBuf> {
-        None
+    fn truth_file(&self, radar: usize, scan: usize) -> Option<PathBuf> {
+        self.inner().and_then(|inner| inner.truth_file(radar, scan))
     }
 
     /// The `.cause` file of a radar's scan, to be copied as it is.
-    fn cause_file(&self, _radar: usize, _scan: usize) -> Option<PathBuf> {
-        None
+    fn cause_file(&self, radar: usize, scan: usize) -> Option<PathBuf> {
+        self.inner().and_then(|inner| inner.cause_file(radar, scan))
     }
 
     /// The file that names the codes of these, to be copied as it is.
     fn cause_names_file(&self) -> Option<PathBuf> {
-        None
+        self.inner().and_then(|inner| inner.cause_names_file())
     }
 
     /// What only its own format knows of it, such as the names that the format's tables give to scans: an export into
     /// that format asks for the type that its reader hands out.
     fn origin(&self) -> Option<&dyn Any> {
-        None
+        self.inner().and_then(|inner| inner.origin())
     }
 
     /// Whether any image of a camera has depth: without it, labelling doesn't use the camera.
-    fn has_depth(&self, _camera: usize) -> bool {
-        false
+    fn has_depth(&self, camera: usize) -> bool {
+        self.inner().is_some_and(|inner| inner.has_depth(camera))
     }
 
     /// Whether any image of any camera has a segmentation.
     fn has_segmentation(&self) -> bool {
-        false
+        self.inner().is_some_and(|inner| inner.has_segmentation())
     }
 
     /// A LiDAR's scan with its points as they were measured, each at its own time, where the recording holds them so;
     /// `None` where it holds scans that are motion-corrected. [`Source::lidar_scan`] corrects them by the recording's
     /// own motion; whoever knows a better one corrects these.
-    fn rolling_scan(&self, _lidar: usize, _scan: usize) -> Result<Option<LidarScan>, SourceError> {
-        Ok(None)
+    fn rolling_scan(&self, lidar: usize, scan: usize) -> Result<Option<LidarScan>, SourceError> {
+        self.inner().map_or(Ok(None), |inner| inner.rolling_scan(lidar, scan))
     }
 
     /// Where the vehicle's motion comes from.
     fn motion_source(&self) -> MotionSource {
-        MotionSource::Recorded
+        self.inner().map_or(MotionSource::Recorded, |inner| inner.motion_source())
     }
 
     /// The truth of a radar's scan where it is known without a file.
-    fn truth(&self, _radar: usize, _scan: usize) -> Result<Option<TruthLabels>, SourceError> {
-        Ok(None)
+    fn truth(&self, radar: usize, scan: usize) -> Result<Option<TruthLabels>, SourceError> {
+        self.inner().map_or(Ok(None), |inner| inner.truth(radar, scan))
     }
 
     /// The causes of artifacts that this truth tells apart, by their numbers.
     fn causes(&self) -> &'static [Cause] {
-        &[]
+        self.inner().map_or(&[], |inner| inner.causes())
     }
 }
 

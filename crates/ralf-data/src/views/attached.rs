@@ -2,13 +2,11 @@
 
 use super::folder::ViewFolder;
 use crate::disk::{class_images, npy};
-use crate::read::{MotionSource, Recording, SequenceReader, TruthLabels};
+use crate::read::{Recording, SequenceReader};
 use crate::result::SequenceNames;
-use ralf::label::Cause;
 use ralf::sensors::{
     CameraImage, ClassImage, DepthImage, DepthOutput, LidarScan, RadarScan, Sequence, Source, SourceError,
 };
-use std::any::Any;
 use std::path::PathBuf;
 
 /// Any store.
@@ -92,31 +90,15 @@ impl Source for WithStore {
 }
 
 impl SequenceReader for WithStore {
+    fn inner(&self) -> Option<&dyn SequenceReader> {
+        Some(self.inner.as_ref())
+    }
+
     fn inputs(&self) -> Vec<PathBuf> {
         let cameras = self.sequence.times.cameras.iter().enumerate();
         let images = cameras.flat_map(|(camera, times)| (0..times.len()).map(move |image| (camera, image)));
         let stored = images.filter_map(|(camera, image)| self.file(camera, image));
         self.inner.inputs().into_iter().chain(stored).collect()
-    }
-
-    fn warnings(&self) -> &[String] {
-        self.inner.warnings()
-    }
-
-    fn lost(&self) -> &[String] {
-        self.inner.lost()
-    }
-
-    fn absent(&self) -> &[String] {
-        self.inner.absent()
-    }
-
-    fn image_file(&self, camera: usize, image: usize) -> Option<PathBuf> {
-        self.inner.image_file(camera, image)
-    }
-
-    fn lidar_label_file(&self, lidar: usize, scan: usize) -> Option<PathBuf> {
-        self.inner.lidar_label_file(lidar, scan)
     }
 
     fn has_depth(&self, camera: usize) -> bool {
@@ -133,37 +115,5 @@ impl SequenceReader for WithStore {
                 (0..self.sequence.rig.cameras.len()).any(|camera| self.has_file(camera))
             }
         }
-    }
-
-    fn origin(&self) -> Option<&dyn Any> {
-        self.inner.origin()
-    }
-
-    fn rolling_scan(&self, lidar: usize, scan: usize) -> Result<Option<LidarScan>, SourceError> {
-        self.inner.rolling_scan(lidar, scan)
-    }
-
-    fn motion_source(&self) -> MotionSource {
-        self.inner.motion_source()
-    }
-
-    fn truth(&self, radar: usize, scan: usize) -> Result<Option<TruthLabels>, SourceError> {
-        self.inner.truth(radar, scan)
-    }
-
-    fn causes(&self) -> &'static [Cause] {
-        self.inner.causes()
-    }
-
-    fn truth_file(&self, radar: usize, scan: usize) -> Option<PathBuf> {
-        self.inner.truth_file(radar, scan)
-    }
-
-    fn cause_file(&self, radar: usize, scan: usize) -> Option<PathBuf> {
-        self.inner.cause_file(radar, scan)
-    }
-
-    fn cause_names_file(&self) -> Option<PathBuf> {
-        self.inner.cause_names_file()
     }
 }

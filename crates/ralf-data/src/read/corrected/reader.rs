@@ -1,13 +1,11 @@
 //! A sequence that reads as corrected.
 
 use crate::read::corrections::{MotionSource, SensorCorrection};
-use crate::read::recording::{SequenceReader, TruthLabels};
-use ralf::label::Cause;
+use crate::read::recording::SequenceReader;
 use ralf::sensors::{
     CameraImage, ClassImage, DepthImage, LidarScan, RadarScan, Sequence, Source, SourceError,
 };
 use ralf::space::EgoMotion;
-use std::any::Any;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
@@ -115,60 +113,16 @@ fn factor(correction: &SensorCorrection, field: &str) -> f64 {
 }
 
 impl SequenceReader for Corrected {
+    fn inner(&self) -> Option<&dyn SequenceReader> {
+        Some(self.inner.as_ref())
+    }
+
     fn inputs(&self) -> Vec<PathBuf> {
         self.inner.inputs().into_iter().chain(self.trajectory.clone()).collect()
     }
 
     fn warnings(&self) -> &[String] {
         &self.warnings
-    }
-
-    fn lost(&self) -> &[String] {
-        self.inner.lost()
-    }
-
-    fn absent(&self) -> &[String] {
-        self.inner.absent()
-    }
-
-    fn image_file(&self, camera: usize, image: usize) -> Option<PathBuf> {
-        self.inner.image_file(camera, image)
-    }
-
-    fn lidar_label_file(&self, lidar: usize, scan: usize) -> Option<PathBuf> {
-        self.inner.lidar_label_file(lidar, scan)
-    }
-
-    fn truth_file(&self, radar: usize, scan: usize) -> Option<PathBuf> {
-        self.inner.truth_file(radar, scan)
-    }
-
-    fn cause_file(&self, radar: usize, scan: usize) -> Option<PathBuf> {
-        self.inner.cause_file(radar, scan)
-    }
-
-    fn cause_names_file(&self) -> Option<PathBuf> {
-        self.inner.cause_names_file()
-    }
-
-    fn origin(&self) -> Option<&dyn Any> {
-        self.inner.origin()
-    }
-
-    fn has_depth(&self, camera: usize) -> bool {
-        self.inner.has_depth(camera)
-    }
-
-    fn has_segmentation(&self) -> bool {
-        self.inner.has_segmentation()
-    }
-
-    fn truth(&self, radar: usize, scan: usize) -> Result<Option<TruthLabels>, SourceError> {
-        self.inner.truth(radar, scan)
-    }
-
-    fn causes(&self) -> &'static [Cause] {
-        self.inner.causes()
     }
 
     fn rolling_scan(&self, lidar: usize, scan: usize) -> Result<Option<LidarScan>, SourceError> {
