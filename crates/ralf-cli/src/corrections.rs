@@ -4,7 +4,7 @@ use crate::outcome::Outcome;
 use crate::progress::say;
 use crate::text::grouped;
 use anyhow::bail;
-use ralf_data::{Corrections, GroundTruth, Recording};
+use ralf_data::{Corrections, GroundTruth, Recording, told_orphaned};
 use std::fmt::Display;
 use std::path::Path;
 
@@ -40,9 +40,6 @@ pub(crate) fn merged_truth(
 
 /// Names the scans whose corrections belong to another content, and tells how it ended by that.
 pub(crate) fn say_orphaned(scans: &[impl Display]) -> Outcome {
-    for scan in scans {
-        let why = "they were made when it held other detections";
-        say(&format!("corrections of {scan} are kept and not applied: {why}"));
-    }
+    scans.iter().for_each(|scan| say(&told_orphaned(scan)));
     if scans.is_empty() { Outcome::Done } else { Outcome::Partial }
 }

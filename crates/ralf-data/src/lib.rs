@@ -52,5 +52,5 @@ pub use read::{LayoutSequence, Recording, SequenceReader, TruthLabels, formats, 
 pub use result::program;
 pub use settings::Settings;
 pub use training::{TrainingGatherer, TrainingTruth};
-pub use truth::{Causes, Corrections, GroundTruth, ScanId, lost_sequences, scan_content};
+pub use truth::{Causes, Corrections, GroundTruth, ScanId, lost_sequences, scan_content, told_orphaned};
 pub use write::{has_sequence, write_sequence, write_sequence_with};

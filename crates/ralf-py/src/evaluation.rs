@@ -9,6 +9,7 @@ use ralf::label::truth_of;
 use ralf_data::result::labelled_recording;
 use ralf_data::{
     Balances, Comparison, Corrections, DataError, GroundTruth, Recording, ScanId, lost_sequences,
+    told_orphaned,
 };
 use ralf_report::listed;
 use std::collections::BTreeSet;
@@ -17,23 +18,31 @@ use std::path::{Path, PathBuf};
 /// So many sequences are named that labels were not made of, or that are gone.
 const SHOWN: usize = 5;
 
-/// As `ralf evaluate OUT --truth TRUTH --json` prints it; without a truth how balanced the labels are.
+/// As `ralf evaluate OUT --truth TRUTH --json` prints it, and a sentence for each scan whose corrections don't count;
+/// without a truth how balanced the labels are.
 #[pyfunction]
 #[pyo3(signature = (out, truth=None))]
-pub(crate) fn evaluate(py: Python<'_>, out: PathBuf, truth: Option<PathBuf>) -> PyResult<String> {
-    match truth {
-        Some(truth) => to_json(&py.detach(|| compare(&out, &truth)).map_err(data)?.evaluation()),
-        None => to_json(&py.detach(|| Balances::of_run(&out)).map_err(data)?),
-    }
+pub(crate) fn evaluate(
+    py: Python<'_>,
+    out: PathBuf,
+    truth: Option<PathBuf>,
+) -> PyResult<(String, Vec<String>)> {
+    let Some(truth) = truth else {
+        return Ok((to_json(&py.detach(|| Balances::of_run(&out)).map_err(data)?)?, Vec::new()));
+    };
+    let (comparison, orphaned) = py.detach(|| compare(&out, &truth)).map_err(data)?;
+    Ok((to_json(&comparison.evaluation())?, orphaned))
 }
 
 /// Against the truth of a dataset, with what people corrected above it.
-fn compare(out: &Path, dataset: &Path) -> Result<Comparison, DataError> {
-    Comparison::new(out, &corrected(out, dataset)?)
+fn compare(out: &Path, dataset: &Path) -> Result<(Comparison, Vec<String>), DataError> {
+    let (truth, orphaned) = corrected(out, dataset)?;
+    Ok((Comparison::new(out, &truth)?, orphaned))
 }
 
-/// The truth of a dataset, with what people corrected of a run above it.
-fn corrected(out: &Path, dataset: &Path) -> Result<GroundTruth, DataError> {
+/// The truth of a dataset, with what people corrected of a run above it, and a sentence for each scan whose corrections
+/// don't count.
+fn corrected(out: &Path, dataset: &Path) -> Result<(GroundTruth, Vec<String>), DataError> {
     let corrections = match labelled_recording(out, dataset)? {
         Some((run, mut recording)) => {
             refuse_lost_sequences(out, &recording)?;
@@ -43,10 +52,12 @@ fn corrected(out: &Path, dataset: &Path) -> Result<GroundTruth, DataError> {
         }
         None => Corrections::open(out)?,
     };
-    match corrections.is_empty() {
-        true => GroundTruth::open(dataset),
-        false => GroundTruth::merged(dataset, corrections),
-    }
+    let orphaned = corrections.orphaned().iter().map(told_orphaned).collect();
+    let truth = match corrections.is_empty() {
+        true => GroundTruth::open(dataset)?,
+        false => GroundTruth::merged(dataset, corrections)?,
+    };
+    Ok((truth, orphaned))
 }
 
 /// Refuses truth that says nothing of what was labelled: all would be unknown.
@@ -75,6 +86,9 @@ fn refuse_lost_sequences(out: &Path, recording: &Recording) -> Result<(), DataEr
 #[pyclass(frozen, module = "ralf._ralf")]
 pub(crate) struct Truth {
     truth: GroundTruth,
+    /// A sentence for each scan whose corrections don't count.
+    #[pyo3(get)]
+    orphaned: Vec<String>,
 }
 
 #[pymethods]
@@ -84,10 +98,14 @@ impl Truth {
     #[pyo3(signature = (dataset, out=None))]
     fn new(py: Python<'_>, dataset: PathBuf, out: Option<PathBuf>) -> PyResult<Self> {
         let open = || match &out {
-            Some(out) => corrected(out, &dataset).and_then(|truth| refuse_another(out, &dataset, truth)),
-            None => GroundTruth::open(&dataset),
+            Some(out) => {
+                let (truth, orphaned) = corrected(out, &dataset)?;
+                Ok((refuse_another(out, &dataset, truth)?, orphaned))
+            }
+            None => Ok((GroundTruth::open(&dataset)?, Vec::new())),
         };
-        Ok(Self { truth: py.detach(open).map_err(data)? })
+        let (truth, orphaned) = py.detach(open).map_err(data)?;
+        Ok(Self { truth, orphaned })
     }
 
     /// Of each detection of a scan 1 plausible, 0 artifact, -1 unknown; `None` where nothing is known of the scan.

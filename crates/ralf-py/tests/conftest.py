@@ -16,6 +16,11 @@ def _command() -> list[str]:
 
 
 @pytest.fixture(scope="session")
+def command():
+    return _command()
+
+
+@pytest.fixture(scope="session")
 def cli():
     def run(*arguments, status=0):
         done = subprocess.run([*_command(), *map(str, arguments)], capture_output=True, text=True, check=False)

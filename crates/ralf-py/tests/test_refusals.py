@@ -3,9 +3,12 @@
 import importlib
 import json
 import shutil
+import subprocess
 import sys
 import warnings
+from pathlib import Path
 
+import numpy as np
 import pytest
 
 import ralf
@@ -132,6 +135,29 @@ def test_errors_of_corrections_say_file_place_expected_and_found(drive, run, tmp
         ralf.Truth(drive, tmp_path / "out")
     told = ("file", "a whole SQLite database of corrections", "another file, or a damaged one")
     assert known(raised.value) == (str(store), *told)
+
+
+def test_corrections_of_other_detections_are_warned_of(drive, tmp_path, command):
+    recording, out = tmp_path / "drive", tmp_path / "out"
+    shutil.copytree(drive, recording)
+    run = ralf.label(recording, out)
+    correct = Path(__file__).parents[3] / "testdata/correct_some.py"
+    subprocess.run([sys.executable, correct, recording, out, "1", "--ralf", *command], check=True, capture_output=True)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        ralf.evaluate(run, recording)
+        ralf.Truth(recording, run)
+    (name,) = ralf.open(recording).sequences
+    radar = next(iter(ralf.open(recording)[name].radars))
+    file = recording / "sequences" / name / radar / "000001.bin"
+    detections = np.fromfile(file, "<f4").reshape(-1, len(ralf.open(recording)[name].fields[radar]))
+    detections[::-1].tofile(file)
+    run = ralf.label(recording, out)
+    told = rf"corrections of {name}/{radar}/000001 are kept and not applied"
+    with pytest.warns(UserWarning, match=told):
+        ralf.evaluate(run, recording)
+    with pytest.warns(UserWarning, match=told):
+        ralf.Truth(recording, run)
 
 
 def test_errors_of_arrays_say_place_expected_and_found():

@@ -9,6 +9,7 @@ use crate::truth::scan_id::ScanId;
 use ralf::label::class_name;
 use ralf_corrections::{FILE, ScanContent, ScanKey, ScanLayer, read_layer};
 use std::collections::{BTreeMap, BTreeSet};
+use std::fmt::Display;
 use std::path::{Path, PathBuf};
 
 /// The corrections of one output folder, as they were at one moment.
@@ -19,6 +20,11 @@ pub struct Corrections {
     scans: BTreeMap<ScanId, Vec<ScanLayer>>,
     /// The scans of which something was said while they held something else.
     orphaned: Vec<ScanId>,
+}
+
+/// The sentence about a scan of which something was said while it held something else.
+pub fn told_orphaned(scan: &impl Display) -> String {
+    format!("corrections of {scan} are kept and not applied: they were made when it held other detections")
 }
 
 /// A scan as it was before anybody settled what others said of it.

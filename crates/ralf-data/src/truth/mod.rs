@@ -12,7 +12,7 @@ mod scan_id;
 pub use bound::lost_sequences;
 pub use causes::Causes;
 pub use content::scan_content;
-pub use corrections::Corrections;
+pub use corrections::{Corrections, told_orphaned};
 pub use effective::effective_labels;
 pub use ground_truth::GroundTruth;
 pub use scan_id::ScanId;

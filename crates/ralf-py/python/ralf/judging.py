@@ -40,10 +40,19 @@ def _told(value: object) -> str:
 def evaluate(run: Run | Path_, truth: Path_ | None = None) -> Evaluation:
     """Compare labels with the corrected ones of a dataset, as `ralf evaluate`; without a truth, how balanced they are.
 
-    Corrections of a review in the run's folder count above the dataset's.
+    Corrections of a review in the run's folder count above the dataset's. Those of scans that hold other detections now
+    don't: each such scan is a warning.
     """
     known = None if truth is None else os.fsdecode(truth)
-    return Evaluation(json.loads(_ralf.evaluate(_out(run), known)))
+    told, orphaned = _ralf.evaluate(_out(run), known)
+    _warn_of(orphaned)
+    return Evaluation(json.loads(told))
+
+
+def _warn_of(sentences: list[str]) -> None:
+    """Warn the caller's caller."""
+    for sentence in sentences:
+        warnings.warn(sentence, stacklevel=3)
 
 
 def _out(run: Run | Path_) -> str:
@@ -53,12 +62,14 @@ def _out(run: Run | Path_) -> str:
 class Truth:
     """What is true of a dataset's detections, as far as people, a simulator or its format say it.
 
-    With a `run`, what people corrected in its review counts above that; one of another recording is refused.
+    With a `run`, what people corrected in its review counts above that; one of another recording is refused. Each scan
+    whose corrections don't count, for it holds other detections now, is a warning.
     """
 
     def __init__(self, dataset: Path_, run: Run | Path_ | None = None) -> None:
         self._told = (os.fsdecode(dataset), None if run is None else _out(run))
         self._truth = _ralf.Truth(*self._told)
+        _warn_of(self._truth.orphaned)
 
     def labels(self, sequence: str, scan: Scan) -> NDArray[np.int8]:
         """Of each detection of a labelled scan: 1 plausible, 0 artifact, -1 unknown."""
@@ -112,6 +123,5 @@ def plot(
     if source is None:
         raise ValueError("expected a recording: plot(..., recording=...) or load(out, recording)")
     png, missing = _ralf.plot(run.out, os.fsdecode(source), sequence, scan, radar, radius, color_by, width)
-    for one in missing:
-        warnings.warn(f"not labelled: {one}", stacklevel=2)
+    _warn_of([f"not labelled: {one}" for one in missing])
     return Picture(png)
