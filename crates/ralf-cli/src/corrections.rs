@@ -41,5 +41,5 @@ pub(crate) fn merged_truth(
 /// Names the scans whose corrections belong to another content, and tells how it ended by that.
 pub(crate) fn say_orphaned(scans: &[impl Display]) -> Outcome {
     scans.iter().for_each(|scan| say(&told_orphaned(scan)));
-    if scans.is_empty() { Outcome::Done } else { Outcome::Partial }
+    Outcome::done_if(scans.is_empty())
 }

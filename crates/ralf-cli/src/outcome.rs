@@ -10,6 +10,11 @@ pub(crate) enum Outcome {
 }
 
 impl Outcome {
+    /// How it ended where nothing, or something, is left out.
+    pub(crate) fn done_if(complete: bool) -> Self {
+        if complete { Self::Done } else { Self::Partial }
+    }
+
     /// How both ended together.
     pub(crate) fn and(self, other: Self) -> Self {
         if self == Self::Done { other } else { self }

@@ -47,7 +47,7 @@ pub(crate) fn say_not_used(NotUsed { sequence, left_out, without }: &NotUsed) ->
     for scan in left_out {
         say(&format!("left out: {}", scan.told(sequence)));
     }
-    if left_out.is_empty() { Outcome::Done } else { Outcome::Partial }
+    Outcome::done_if(left_out.is_empty())
 }
 
 /// Says which sequences have no `what`, truth or labels, and are left out.

@@ -88,7 +88,7 @@ pub(crate) fn run(arguments: &CheckArgs) -> anyhow::Result<Outcome> {
     }
     printed?;
     let doubted = checks.iter().any(|check| check.doubts().next().is_some());
-    Ok(if doubted && arguments.strict { Outcome::Partial } else { Outcome::Done })
+    Ok(Outcome::done_if(!doubted || !arguments.strict))
 }
 
 impl CheckArgs {

@@ -177,7 +177,7 @@ fn label(arguments: &TaskArgs) -> anyhow::Result<Outcome> {
     for scan in &failed {
         say(&format!("not labelled: {}", scan.told(&task.stretch.sequence)));
     }
-    Ok(if failed.is_empty() { Outcome::Done } else { Outcome::Partial })
+    Ok(Outcome::done_if(failed.is_empty()))
 }
 
 /// A recording that can't be put together is named, and costs the others nothing.

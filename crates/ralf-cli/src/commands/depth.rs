@@ -57,9 +57,8 @@ pub(crate) fn run(arguments: &DepthArgs) -> anyhow::Result<Outcome> {
     if let Some(model) = model {
         let store = arguments.store(&recording, &model)?;
         let jobs = threads(arguments.jobs);
-        if fill_depth(&store, &recording, &model, all_images, jobs)? > 0 {
-            outcome = Outcome::Partial;
-        }
+        let without = fill_depth(&store, &recording, &model, all_images, jobs)?;
+        outcome = Outcome::done_if(without == 0);
         recording = store.attach(recording);
     }
     if arguments.check {

@@ -94,7 +94,7 @@ fn compare(args: &EvaluateArgs, dataset: &Path) -> anyhow::Result<Outcome> {
         scans + &table::table(&comparison.evaluation())
     };
     print(&text)?;
-    Ok(if comparison.missing.is_empty() { outcome } else { Outcome::Partial })
+    Ok(outcome.and(Outcome::done_if(comparison.missing.is_empty())))
 }
 
 /// The recording that the truth lies in, once it is found to be what was labelled. Label files are enough, so that

@@ -105,6 +105,6 @@ fn name_what_is_missing(exported: &Exported) -> Outcome {
         say(&format!("not labelled: {scan}: exported without labels"));
     }
     say_without("labels", &exported.without_labels);
-    let left_out = [&exported.not_labelled, &exported.without_labels];
-    if left_out.iter().all(|names| names.is_empty()) { outcome } else { Outcome::Partial }
+    let complete = exported.not_labelled.is_empty() && exported.without_labels.is_empty();
+    outcome.and(Outcome::done_if(complete))
 }

@@ -55,5 +55,5 @@ pub(crate) fn run(arguments: &ReportArgs) -> anyhow::Result<Outcome> {
     let is_shown = |name: &str| recording.sequences.iter().any(|reader| reader.sequence().name == name);
     record.sequences.retain(|labelled| is_shown(&labelled.name));
     let outcome = outcome.and(say_not_labelled(&record));
-    Ok(if page.without_labels.is_empty() { outcome } else { Outcome::Partial })
+    Ok(outcome.and(Outcome::done_if(page.without_labels.is_empty())))
 }

@@ -49,7 +49,7 @@ pub(crate) fn run(arguments: &SegmentArgs) -> anyhow::Result<Outcome> {
     let model = arguments.model.load()?;
     let store = arguments.store(&recording, &model)?;
     let without = fill_segmentation(&store, &recording, &model, threads(arguments.jobs))?;
-    Ok(if without > 0 { Outcome::Partial } else { Outcome::Done })
+    Ok(Outcome::done_if(without == 0))
 }
 
 impl SegmentArgs {

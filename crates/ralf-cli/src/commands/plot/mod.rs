@@ -91,7 +91,7 @@ pub(crate) fn run(arguments: &PlotArgs) -> anyhow::Result<Outcome> {
     };
     ralf_data::write_named(&arguments.output, &png)?;
     say(&format!("wrote {}", arguments.output.display()));
-    Ok(if missing.is_empty() { Outcome::Done } else { Outcome::Partial })
+    Ok(Outcome::done_if(missing.is_empty()))
 }
 
 /// Refuses a name that says that the picture is of another format.
