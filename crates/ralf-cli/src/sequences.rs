@@ -2,7 +2,7 @@
 
 use crate::progress::{Progress, say};
 use ralf::sensors::Sequence;
-use ralf_data::{DataError, SequenceReader, has_sequence, write_sequence_with};
+use ralf_data::{DataError, SequenceReader, has_sequence, sequence_folder, write_sequence_with};
 use std::path::Path;
 
 /// Writes those of the sequences that the dataset doesn't have, and names each; `doing` is what is shown beside the
@@ -17,7 +17,7 @@ pub(crate) fn write_missing(
     jobs: usize,
     doing: &str,
 ) -> Result<(), DataError> {
-    let place = |reader: &dyn SequenceReader| dataset.join("sequences").join(&reader.sequence().name);
+    let place = |reader: &dyn SequenceReader| sequence_folder(dataset, &reader.sequence().name);
     let (mut missing, mut kept) = (Vec::new(), Vec::new());
     for reader in sequences.iter().copied() {
         match has_sequence(reader, dataset)? {

@@ -36,6 +36,7 @@ pub mod team;
 mod testing;
 pub mod things;
 mod training;
+mod tree;
 pub mod truth;
 pub mod views;
 pub mod write;
@@ -52,5 +53,6 @@ pub use read::{LayoutSequence, Recording, SequenceReader, TruthLabels, formats, 
 pub use result::program;
 pub use settings::Settings;
 pub use training::{TrainingGatherer, TrainingTruth};
+pub use tree::{sensors_file, sequence_folder};
 pub use truth::{Causes, Corrections, GroundTruth, ScanId, lost_sequences, scan_content, told_orphaned};
 pub use write::{has_sequence, write_sequence, write_sequence_with};

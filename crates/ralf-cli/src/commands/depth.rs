@@ -6,8 +6,8 @@ use crate::outcome::{Outcome, UsageError};
 use crate::text::{aligned, grouped, print};
 use anyhow::{Context, ensure};
 use clap::Args;
-use ralf_data::Recording;
 use ralf_data::views::{CameraCheck, DepthStore, check_scalings};
+use ralf_data::{Recording, sensors_file};
 use ralf_depth::{DepthEstimator, OnnxModel};
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
@@ -81,7 +81,7 @@ impl DepthArgs {
         let of_recording = if self.output.is_none() { recording.sequences.as_slice() } else { &[] };
         for reader in of_recording {
             let declared = reader.sequence().depth_output;
-            let file = recording.path.join("sequences").join(&reader.sequence().name).join("sequence.toml");
+            let file = sensors_file(&recording.path, &reader.sequence().name);
             ensure!(
                 declared == output,
                 "{}: [depth] output: expected {output:?} as the network's card says, found {declared:?}",

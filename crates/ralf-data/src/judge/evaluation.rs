@@ -3,7 +3,8 @@
 use crate::disk::files;
 use crate::disk::label_file::Label;
 use crate::error::DataError;
-use crate::result::{LabelledRun, RECORD};
+use crate::result::LabelledRun;
+use crate::tree::{RECORD, SEQUENCES};
 use crate::truth::{GroundTruth, ScanId};
 use ralf::label::truth_of;
 use ralf::metrics::{Confusion, Evaluation};
@@ -33,7 +34,7 @@ impl Comparison {
                 None => missing.push(scan.clone()),
             }
         }
-        let sequences = out.join("sequences");
+        let sequences = out.join(SEQUENCES);
         if scans.is_empty() {
             let place = "*/*/NNNNNN.label";
             return Err(DataError::content(&sequences, place, "labels of scans that have truth", "none"));

@@ -6,6 +6,7 @@ use crate::read::{
     Recording, aimotive, layout, nuscenes, nvidia, radar_ghost, radar_scenes, ros, truckscenes,
     view_of_delft, zod,
 };
+use crate::tree::SEQUENCES;
 use std::fs;
 use std::path::Path;
 
@@ -36,7 +37,7 @@ const FORMATS: [Format; 10] = [
         name: layout::NAME,
         holds: "the folder `sequences`",
         knows_truth: false,
-        recognises: |path| path.join(layout::SEQUENCES).is_dir(),
+        recognises: |path| path.join(SEQUENCES).is_dir(),
         open: |path, _| layout::open(path),
     },
     Format {

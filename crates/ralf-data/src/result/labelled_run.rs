@@ -2,7 +2,7 @@
 //! read.
 
 use super::content::{input_is_unchanged, table_is_whole};
-use super::record::{Input, RECORD, RunRecord, read_record};
+use super::record::{Input, RunRecord, read_record};
 use super::sequence_record::SequenceRecord;
 use super::{Component, Places, PlausibilityReader, Schema};
 use crate::disk::files;
@@ -10,6 +10,7 @@ use crate::disk::label_file::{Label, labels_of_bytes};
 use crate::error::DataError;
 use crate::read::{Recording, SequenceReader, open_with};
 use crate::settings::Settings;
+use crate::tree::RECORD;
 use ralf::config::Config;
 use ralf::sensors::Rig;
 use std::collections::{BTreeMap, BTreeSet};

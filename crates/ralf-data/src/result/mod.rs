@@ -51,7 +51,6 @@ pub(crate) use lock::WriterLock;
 pub(crate) use names::{OutFolder, SequenceNames, checked};
 pub(crate) use parquet_columns::{EncodedGroup, GROUP_ROWS, Layout};
 pub(crate) use parquet_writer::{RowGroup, written};
-pub(crate) use record::RECORD;
 pub(crate) use row_bytes::{row_bytes, table_of_rows};
 pub(crate) use scan_table::ScanParts;
 pub(crate) use schema::{CLASS_FROM, evidence_columns};

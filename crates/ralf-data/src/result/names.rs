@@ -2,6 +2,7 @@
 
 use crate::error::DataError;
 use crate::read::SequenceReader;
+use crate::tree::{GROUND_TRUTH, ODOMETRY, POSES, SENSORS, TABLE};
 use ralf::sensors::Sequence;
 use std::path::{Component as PathPart, Path, PathBuf};
 
@@ -13,8 +14,7 @@ const DEVICES: [&str; 22] = [
     "lpt1", "lpt2", "lpt3", "lpt4", "lpt5", "lpt6", "lpt7", "lpt8", "lpt9",
 ];
 /// Names that something else has in the folders where sensors have theirs.
-const TAKEN: [&str; 5] =
-    ["plausibility.parquet", "ground_truth", "sequence.toml", "odometry.csv", "poses.csv"];
+const TAKEN: [&str; 5] = [TABLE, GROUND_TRUTH, SENSORS, ODOMETRY, POSES];
 /// How files end while they are written.
 const UNFINISHED: &str = ".part";
 

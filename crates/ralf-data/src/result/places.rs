@@ -1,7 +1,7 @@
 //! Where the results of a run lie: the one place that knows.
 
-use super::record::RECORD;
 use super::{Component, OutFolder};
+use crate::tree::{self, RECORD, SEQUENCES, TABLE};
 use std::path::{Path, PathBuf};
 
 /// An output folder of `ralf label`.
@@ -23,16 +23,16 @@ impl Places {
 
     /// The folder of a sequence.
     pub(crate) fn folder(&self, sequence: &Component) -> OutFolder {
-        self.out.own("sequences").folder(sequence)
+        self.out.own(SEQUENCES).folder(sequence)
     }
 
     /// The table of a sequence.
     pub fn plausibility_file(&self, sequence: &Component) -> PathBuf {
-        self.folder(sequence).own_file("plausibility.parquet")
+        self.folder(sequence).own_file(TABLE)
     }
 
     /// The labels of a scan.
     pub(crate) fn label_file(&self, sequence: &Component, radar: &Component, scan: usize) -> PathBuf {
-        self.folder(sequence).folder(radar).file(&Component::numbered(scan, "label"))
+        tree::label_file(self.out.path(), sequence.as_str(), radar.as_str(), scan)
     }
 }

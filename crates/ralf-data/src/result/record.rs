@@ -7,12 +7,11 @@ use crate::disk::files;
 use crate::error::DataError;
 use crate::read::Recording;
 use crate::settings::Settings;
+use crate::tree::RECORD;
 use ralf::learned::Model;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
 use std::path::Path;
-
-pub(crate) use crate::read::layout::RECORD;
 
 /// The content of `run.json`: sequences that were labelled by one version of the program with the same settings, be it
 /// at once or one after the other.

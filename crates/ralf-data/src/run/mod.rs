@@ -38,6 +38,7 @@ use crate::result::{
     refuse_links_out,
 };
 use crate::settings::Settings;
+use crate::tree::SEQUENCES;
 use inputs::Identity;
 use output_folder::OutputFolder;
 use ralf::config::{Config, Method};
@@ -253,7 +254,7 @@ impl LabelRun<'_> {
     }
 
     fn refuse_links(&self) -> Result<(), DataError> {
-        refuse_links_out(self.out, "sequences", 2)?;
+        refuse_links_out(self.out, SEQUENCES, 2)?;
         refuse_links_out(self.out, unfinished::FOLDER, 4)
     }
 

@@ -11,9 +11,10 @@ use crate::disk::files;
 use crate::error::DataError;
 use crate::result::json::write_json;
 use crate::result::{
-    CheckRecord, Component, OutFolder, RECORD, RunRecord, SequenceNames, SequenceRecord, Timings,
-    damaged_result, read_record,
+    CheckRecord, Component, OutFolder, RunRecord, SequenceNames, SequenceRecord, Timings, damaged_result,
+    read_record,
 };
+use crate::tree::RECORD;
 use std::path::{Path, PathBuf};
 
 /// The output folder of a run.

@@ -3,7 +3,8 @@
 use crate::disk::files;
 use crate::error::DataError;
 use crate::read::refuse_to_write_into;
-use crate::result::{OutFolder, RECORD};
+use crate::result::OutFolder;
+use crate::tree::{RECORD, SEQUENCES};
 use std::path::Path;
 
 /// Refuses a part of the recording, a file in the place of the folder or of the sequences' own, and what is no file in
@@ -11,7 +12,7 @@ use std::path::Path;
 pub fn check_output_folder(recording: &Path, out: &Path) -> Result<(), DataError> {
     refuse_to_write_into(recording, out)?;
     let place = OutFolder::new(out);
-    for folder in [out, place.own("sequences").path()] {
+    for folder in [out, place.own(SEQUENCES).path()] {
         if files::exists(folder)? && !folder.is_dir() {
             return Err(DataError::content(folder, "output", "a folder, or nothing yet", "a file"));
         }

@@ -7,7 +7,7 @@
 use super::known::KnownTruth;
 use crate::disk::files;
 use crate::error::DataError;
-use crate::read::layout::CAUSE_NAMES;
+use crate::tree::{CAUSE_NAMES, truth_folder};
 use crate::truth::scan_id::ScanId;
 use ralf_files::Kind;
 use std::path::{Path, PathBuf};
@@ -37,7 +37,7 @@ impl Causes {
     /// # Errors
     /// An empty list or name, more names than codes, or a first name other than `none`.
     pub fn find(dataset: &Path, sequence: &str) -> Result<Option<Self>, DataError> {
-        let file = dataset.join("sequences").join(sequence).join("ground_truth").join(CAUSE_NAMES);
+        let file = truth_folder(dataset, sequence).join(CAUSE_NAMES);
         if !files::exists(&file)? {
             return Ok(None);
         }

@@ -4,10 +4,11 @@
 use super::causes::Causes;
 use super::corrections::Corrections;
 use super::known::KnownTruth;
-use super::scan_id::{EXTENSION, ScanId, label_name};
+use super::scan_id::ScanId;
 use crate::disk::files;
 use crate::disk::label_file::{Label, read_labels};
 use crate::error::DataError;
+use crate::tree::{GROUND_TRUTH, LABELS, SEQUENCES, label_name, truth_folder};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
@@ -110,15 +111,14 @@ fn none(dataset: &Path) -> DataError {
         let expected = "a folder with corrected labels, or a recording whose truth is known";
         return DataError::io(dataset)(ralf_files::absent(error, expected));
     }
-    let place = format!("*/ground_truth/*/NNNNNN.{EXTENSION}");
-    DataError::content(&dataset.join("sequences"), place, "files of corrected labels", "none")
+    let place = format!("*/{GROUND_TRUTH}/*/NNNNNN.{LABELS}");
+    DataError::content(&dataset.join(SEQUENCES), place, "files of corrected labels", "none")
 }
 
 fn scans_with_files(dataset: &Path) -> Result<BTreeSet<ScanId>, DataError> {
-    let sequences = dataset.join("sequences");
     let mut scans = BTreeSet::new();
-    for sequence in files::folders(&sequences)? {
-        let truth = sequences.join(&sequence).join("ground_truth");
+    for sequence in files::folders(&dataset.join(SEQUENCES))? {
+        let truth = truth_folder(dataset, &sequence);
         for radar in files::folders(&truth)? {
             let numbers = scan_numbers(&truth.join(&radar))?;
             let id = |scan| ScanId { sequence: sequence.clone(), radar: radar.clone(), scan };
@@ -131,13 +131,12 @@ fn scans_with_files(dataset: &Path) -> Result<BTreeSet<ScanId>, DataError> {
 /// The numbers of a folder's label files, which must be named as the format says.
 fn scan_numbers(folder: &Path) -> Result<Vec<u32>, DataError> {
     let names = files::names(folder)?;
-    let labels =
-        names.iter().filter(|name| Path::new(name).extension().is_some_and(|found| found == EXTENSION));
+    let labels = names.iter().filter(|name| Path::new(name).extension().is_some_and(|found| found == LABELS));
     labels
         .map(|name| {
             let number = Path::new(name).file_stem().and_then(|stem| stem.to_str()?.parse().ok());
-            number.filter(|number| label_name(*number) == *name).ok_or_else(|| {
-                DataError::content(folder, "file names", format!("NNNNNN.{EXTENSION}"), format!("`{name}`"))
+            number.filter(|number: &u32| label_name(*number as usize) == *name).ok_or_else(|| {
+                DataError::content(folder, "file names", format!("NNNNNN.{LABELS}"), format!("`{name}`"))
             })
         })
         .collect()

@@ -1,11 +1,9 @@
 //! Which scan, and where its labels lie.
 
+use crate::tree;
 use ralf::sensors::Sequence;
 use std::fmt;
 use std::path::{Path, PathBuf};
-
-/// The ending of files of labels.
-pub(super) const EXTENSION: &str = "label";
 
 /// Which scan of which radar of which sequence. Ordered by these.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
@@ -21,7 +19,7 @@ pub struct ScanId {
 impl ScanId {
     /// Where the labels that a run gave this scan lie below its folder.
     pub fn label_file(&self, out: &Path) -> PathBuf {
-        out.join("sequences").join(&self.sequence).join(&self.radar).join(label_name(self.scan))
+        tree::label_file(out, &self.sequence, &self.radar, self.scan as usize)
     }
 
     /// The radar's place in the rig of its sequence and the scan's number; `None` where it isn't there.
@@ -33,8 +31,7 @@ impl ScanId {
 
     /// Where its corrected labels lie below the dataset's folder.
     pub fn truth_file(&self, dataset: &Path) -> PathBuf {
-        let sequence = dataset.join("sequences").join(&self.sequence);
-        sequence.join("ground_truth").join(&self.radar).join(label_name(self.scan))
+        tree::truth_file(dataset, &self.sequence, &self.radar, self.scan as usize)
     }
 }
 
@@ -42,9 +39,4 @@ impl fmt::Display for ScanId {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         write!(f, "{}/{}/{:06}", self.sequence, self.radar, self.scan)
     }
-}
-
-/// The name of a scan's file of labels.
-pub(super) fn label_name(scan: u32) -> String {
-    format!("{scan:06}.{EXTENSION}")
 }

@@ -4,6 +4,7 @@
 use crate::disk::files;
 use crate::error::DataError;
 use crate::result::{Component, OutFolder, WriterLock};
+use crate::tree::SEQUENCES;
 use ralf_files::Kind;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -64,7 +65,7 @@ impl ViewFolder {
 
     /// The file of an image's views.
     pub(super) fn file(&self, sequence: &Component, camera: &Component, image: usize) -> PathBuf {
-        let camera = OutFolder::new(&self.root).own("sequences").folder(sequence).folder(camera);
+        let camera = OutFolder::new(&self.root).own(SEQUENCES).folder(sequence).folder(camera);
         camera.own(self.kind.name).file(&Component::numbered(image, self.kind.extension))
     }
 

@@ -5,9 +5,9 @@ use crate::disk::label_file::write_labels;
 use crate::disk::{class_images, files, images, npy};
 use crate::error::DataError;
 use crate::read::SequenceReader;
-use crate::read::layout::{CAUSE_NAMES, GROUND_TRUTH, SEQUENCES};
 use crate::read::recording::{check_motion_corrected, check_nothing_lost};
 use crate::result::{Component, OutFolder, SequenceNames, WriterLock, checked, refuse_links_out};
+use crate::tree::{CAUSE_NAMES, GROUND_TRUTH, LABELS, SEQUENCES};
 use ralf::sensors::{SourceError, Timelines};
 use ralf_jobs::side_by_side;
 use std::fs;
@@ -135,7 +135,7 @@ impl Writer<'_> {
         if let Some(causes) = self.reader.cause_file(radar, scan) {
             files::write_whole(&cause_file, &files::read(&causes)?)?;
         }
-        let truth_file = truth.file(&Component::numbered(scan, "label"));
+        let truth_file = truth.file(&Component::numbered(scan, LABELS));
         if let Some(truth) = self.reader.truth_file(radar, scan) {
             files::write_whole(&truth_file, &files::read(&truth)?)?;
         } else if let Some(truth) = self.reader.truth(radar, scan)? {
@@ -176,7 +176,7 @@ impl Writer<'_> {
             (None, Some(classes)) => classes.iter().flat_map(|id| u32::from(*id).to_le_bytes()).collect(),
             (None, None) => return Ok(()),
         };
-        Ok(files::write_whole(&folder.file(&Component::numbered(scan, "label")), &labels)?)
+        Ok(files::write_whole(&folder.file(&Component::numbered(scan, LABELS)), &labels)?)
     }
 
     fn image(&self, camera: usize, image: usize) -> Result<(), SourceError> {

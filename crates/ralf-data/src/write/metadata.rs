@@ -4,8 +4,9 @@ use crate::disk::files;
 use crate::error::DataError;
 use crate::read::SequenceReader;
 use crate::read::layout::raw::{DepthToml, SequenceToml};
-use crate::read::layout::{SEQUENCES, rig, tables};
+use crate::read::layout::{rig, tables};
 use crate::result::{OutFolder, SequenceNames};
+use crate::tree::{ODOMETRY, POSES, SENSORS, SEQUENCES};
 use ralf::sensors::Sequence;
 use std::path::{Path, PathBuf};
 
@@ -43,17 +44,17 @@ pub(super) fn texts(
     let (radar, lidar, camera) = rig::rig_toml(rig);
     let depth = DepthToml { output: *depth_output };
     let toml = SequenceToml { format: 1, name: title.clone(), radar, lidar, camera, depth };
-    let file = folder.own_file("sequence.toml");
+    let file = folder.own_file(SENSORS);
     rig::rig(&file, &toml)?;
     let text = toml::to_string(&toml).map_err(|error| {
         DataError::content(&file, "content", "values that TOML can hold", error.to_string())
     })?;
     let mut texts = vec![(file, text)];
     if !motion.odometry().is_empty() {
-        texts.push((folder.own_file("odometry.csv"), tables::odometry_text(motion.odometry())));
+        texts.push((folder.own_file(ODOMETRY), tables::odometry_text(motion.odometry())));
     }
     if !motion.poses().is_empty() {
-        texts.push((folder.own_file("poses.csv"), tables::poses_text(motion.poses())));
+        texts.push((folder.own_file(POSES), tables::poses_text(motion.poses())));
     }
     let SequenceNames { radars, lidars, cameras, .. } = names;
     let sensors = radars.iter().chain(lidars).chain(cameras);

@@ -17,19 +17,12 @@ pub(crate) use values::degrees;
 use crate::disk::files;
 use crate::error::DataError;
 use crate::read::{Recording, SequenceReader};
+use crate::tree::{RECORD, SENSORS, SEQUENCES};
 use ralf::sensors::{DepthOutput, Rig};
 use std::path::{Path, PathBuf};
 
 /// The format's name.
 pub(crate) const NAME: &str = "ralf";
-/// The folder of a dataset that holds its sequences.
-pub(crate) const SEQUENCES: &str = "sequences";
-/// What lies beside the sequences in an output folder, and in no recording.
-pub(crate) const RECORD: &str = "run.json";
-/// The folder of a sequence that holds corrected labels.
-pub(crate) const GROUND_TRUTH: &str = "ground_truth";
-/// The file in it that names the causes of artifacts.
-pub(crate) const CAUSE_NAMES: &str = "causes.txt";
 
 /// Opens a dataset of the own layout: all sequences, with every check that needs no measurement.
 pub(crate) fn open(dataset: &Path) -> Result<Recording, DataError> {
@@ -48,7 +41,7 @@ pub(crate) fn open(dataset: &Path) -> Result<Recording, DataError> {
 /// # Errors
 /// What the file would be refused for; it is called `sequence.toml`.
 pub fn rig_from_json(told: &str) -> Result<(Rig, DepthOutput), DataError> {
-    let file = Path::new("sequence.toml");
+    let file = Path::new(SENSORS);
     let told: raw::SequenceToml = serde_json::from_str(told).map_err(|error| {
         DataError::content(file, "sensors", "the keys of docs/formats.md", error.to_string())
     })?;
@@ -60,7 +53,7 @@ fn refuse_results(dataset: &Path) -> Result<(), DataError> {
     let expected = "a recording";
     let found = "the labels of one, as `ralf label` wrote them";
     let is_result = dataset.join(RECORD).is_file()
-        && folders(&dataset.join(SEQUENCES))?.iter().all(|folder| !folder.join("sequence.toml").exists());
+        && folders(&dataset.join(SEQUENCES))?.iter().all(|folder| !folder.join(SENSORS).exists());
     if is_result { Err(DataError::content(dataset, "content", expected, found)) } else { Ok(()) }
 }
 

@@ -2,10 +2,11 @@
 //! here.
 
 use super::camera::{camera, camera_toml};
+use super::is_folder_name;
 use super::raw::{CameraToml, ElevationToml, LidarToml, RadarToml, SequenceToml};
 use super::values::{Place, degrees, pose_toml};
-use super::{GROUND_TRUTH, is_folder_name};
 use crate::error::DataError;
+use crate::tree::GROUND_TRUTH;
 use ralf::sensors::{Elevation, Lidar, Radar, Reliability, Rig, check_fields};
 use std::path::Path;
 

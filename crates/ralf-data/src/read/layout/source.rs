@@ -2,13 +2,14 @@
 
 use super::listing::{Partner, SensorFiles};
 use super::raw::SequenceToml;
-use super::{CAUSE_NAMES, GROUND_TRUTH, rig, tables};
+use super::{rig, tables};
 use crate::disk::label_file::read_labels;
 use crate::disk::{class_images, files, images, npy};
 use crate::error::DataError;
 use crate::read::SequenceReader;
 use crate::read::measured_files::lidar_rows;
 use crate::read::point_times::LONGEST;
+use crate::tree::{CAUSE_NAMES, GROUND_TRUTH, LABELS, ODOMETRY, POSES, SENSORS};
 use ralf::sensors::{
     Camera, CameraImage, ClassImage, DepthImage, Lidar, LidarScan, Radar, RadarScan, Rig, Sequence, Source,
     SourceError, Timelines,
@@ -45,7 +46,7 @@ impl LayoutSequence {
     pub fn open(folder: &Path) -> Result<Self, DataError> {
         let name = folder.file_name().and_then(|name| name.to_str());
         let name = name.ok_or_else(|| DataError::content(folder, "name", "UTF-8 text", "other bytes"))?;
-        let toml_file = folder.join("sequence.toml");
+        let toml_file = folder.join(SENSORS);
         let (toml, mut warnings) = SequenceToml::read(&toml_file)?;
         let rig = rig::rig(&toml_file, &toml)?;
         warnings.extend(odd_lenses(&toml_file, &rig));
@@ -89,7 +90,7 @@ fn measurement<'a>(
 
 /// The files of all radars, LiDARs and cameras.
 fn list(folder: &Path, rig: &Rig, warnings: &mut Vec<String>) -> Result<[Vec<SensorFiles>; 3], DataError> {
-    let label = |folder: PathBuf| Partner { folder, extension: "label" };
+    let label = |folder: PathBuf| Partner { folder, extension: LABELS };
     let mut list = |name: &str, extensions: &[&str], partners: &[Partner]| {
         SensorFiles::list(&folder.join(name), extensions, partners, warnings)
     };
@@ -125,8 +126,8 @@ fn motion(
     first_scan: i64,
     warnings: &mut Vec<String>,
 ) -> Result<(EgoMotion, Vec<PathBuf>), DataError> {
-    let odometry_file = existing(folder.join("odometry.csv"))?;
-    let poses_file = existing(folder.join("poses.csv"))?;
+    let odometry_file = existing(folder.join(ODOMETRY))?;
+    let poses_file = existing(folder.join(POSES))?;
     let mut odometry = odometry_file.as_deref().map_or(Ok(vec![]), tables::read_odometry)?;
     let poses = poses_file.as_deref().map_or(Ok(vec![]), tables::read_poses)?;
     let files: Vec<PathBuf> = [odometry_file, poses_file].into_iter().flatten().collect();
