@@ -5,9 +5,11 @@ mod dataset;
 mod method;
 mod output;
 mod settings;
+mod stored;
 
 pub(crate) use changed::ChangedArgs;
 pub(crate) use dataset::{DatasetArgs, the_only};
 pub(crate) use method::MethodArgs;
 pub(crate) use output::check_output;
 pub(crate) use settings::{SettingsArgs, threads};
+pub(crate) use stored::{STORED_CLASSES, STORED_DEPTH};

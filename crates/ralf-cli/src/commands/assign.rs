@@ -9,16 +9,22 @@ use ralf_data::team::{Assignment, Share};
 use std::collections::BTreeSet;
 use std::path::PathBuf;
 
+/// Where the second labels are given, by a command that not every build has.
+const SECOND: &str = match cfg!(feature = "review") {
+    true => "with `ralf review --second NAME`",
+    false => "in the review of a build of ralf that has it",
+};
+
 /// Arguments of `ralf assign`.
 #[derive(Debug, Args)]
-#[command(after_help = "\
+#[command(after_help = format!("\
 Each sequence goes to one person, the largest first, to whom has the fewest detections so far; of each, a share of \
-the scans to somebody else, who labels them with `ralf review --second NAME` without seeing the first labels. \
+the scans to somebody else, who labels them {SECOND} without seeing the first labels. \
 OUT/team.toml says who labels what, and is yours to change.
 
 Examples:
   ralf assign out --to ada,bob,cem
-  ralf assign out --to ada,bob --twice 0.1    a tenth of the scans twice: how far do they agree?")]
+  ralf assign out --to ada,bob --twice 0.1    a tenth of the scans twice: how far do they agree?"))]
 pub(crate) struct AssignArgs {
     /// What `ralf label` wrote
     #[arg(value_name = "OUT")]

@@ -1,6 +1,6 @@
 //! `ralf cluster`: many recordings on many machines, by three steps that anything can start.
 
-use crate::arguments::{MethodArgs, SettingsArgs, threads};
+use crate::arguments::{MethodArgs, STORED_CLASSES, STORED_DEPTH, SettingsArgs, threads};
 use crate::outcome::Outcome;
 use crate::progress::{Stages, say};
 use crate::run_summary::not_labelled;
@@ -64,11 +64,9 @@ struct PlanArgs {
     settings: SettingsArgs,
     #[command(flatten)]
     method: MethodArgs,
-    /// Take depth images from this folder, as `ralf depth -o` wrote them
-    #[arg(long, value_name = "FOLDER")]
+    #[arg(long, value_name = "FOLDER", help = STORED_DEPTH)]
     depth: Option<PathBuf>,
-    /// Take segmentations from this folder, as `ralf segment -o` wrote them
-    #[arg(long, value_name = "FOLDER")]
+    #[arg(long, value_name = "FOLDER", help = STORED_CLASSES)]
     segmentation: Option<PathBuf>,
     /// Gather what else is known of each detection (docs/evidence.md)
     #[arg(long)]

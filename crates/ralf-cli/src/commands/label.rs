@@ -1,7 +1,7 @@
 //! `ralf label`: a plausibility and a label for every detection.
 
 use super::check::page::doubts;
-use crate::arguments::{DatasetArgs, MethodArgs, SettingsArgs, threads};
+use crate::arguments::{DatasetArgs, MethodArgs, STORED_CLASSES, STORED_DEPTH, SettingsArgs, threads};
 #[cfg(feature = "depth")]
 use crate::network::{DepthModelArgs, depth_for_labelling};
 use crate::outcome::Outcome;
@@ -58,12 +58,10 @@ pub(crate) struct LabelArgs {
     #[cfg(feature = "depth")]
     #[command(flatten)]
     depth_model: DepthModelArgs,
-    /// Take depth images from this folder, as `ralf depth -o` wrote them
-    #[arg(long, value_name = "FOLDER")]
+    #[arg(long, value_name = "FOLDER", help = STORED_DEPTH)]
     #[cfg_attr(feature = "depth", arg(conflicts_with = "depth_model"))]
     depth: Option<PathBuf>,
-    /// Take segmentations from this folder, as `ralf segment -o` wrote them: they tell classes (column class_from)
-    #[arg(long, value_name = "FOLDER")]
+    #[arg(long, value_name = "FOLDER", help = STORED_CLASSES)]
     segmentation: Option<PathBuf>,
     /// Gather what else is known of each detection: a column of plausibility.parquet for each piece (docs/evidence.md)
     #[arg(long)]

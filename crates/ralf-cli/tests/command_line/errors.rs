@@ -237,6 +237,9 @@ fn help_tells_of_what_this_build_has() {
         (vec!["--help"], "ralf review recordings", cfg!(feature = "review")),
         (vec!["label", "--help"], "--depth-model midas.onnx", cfg!(feature = "depth")),
         (vec!["label", "--help"], "-o out --segmentation classes", cfg!(feature = "depth")),
+        (vec!["label", "--help"], "`ralf depth -o`", cfg!(feature = "depth")),
+        (vec!["cluster", "plan", "--help"], "`ralf segment -o`", cfg!(feature = "depth")),
+        (vec!["assign", "--help"], "`ralf review --second NAME`", cfg!(feature = "review")),
     ] {
         let ran = crate::support::Ran::of(&crate::support::program().args(&command).output().unwrap());
         let ran = ran.exits(0).prints(["Examples:"]);
