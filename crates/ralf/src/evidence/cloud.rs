@@ -3,7 +3,7 @@
 //! Most that are near in metres are far in standard deviations. Numbers of half the precision, some at a time, tell
 //! these apart; what they leave is for [`chi_within`](super::distance::chi_within) to decide.
 
-use super::distance::{ROOM, Spot, farthest_within};
+use super::distance::{DriftingSpot, ROOM, Spot, farthest_within};
 use crate::scene::Detection;
 use crate::space::NeighborIndex;
 use std::borrow::Cow;
@@ -43,25 +43,26 @@ impl<'a> Cloud<'a> {
         }
     }
 
-    /// The same around where a spot that drifts ([`Spot::after`]) is at the time of each detection: `times` are these,
-    /// s, in the order of the index, not a number of those that are out of the question. Of all times `span` is the
-    /// first and the last. Some may be a hair farther than `most`.
+    /// The same around where a drifting spot is at the time of each detection. Some may be a hair farther than `most`.
     pub(super) fn each_met(
         &self,
-        (spot, drift): (&Spot, &Spot),
-        (times, span): (&[f32], [f64; 2]),
-        (limit, most): (f64, f32),
+        seeker: &DriftingSpot,
+        times: &Times,
+        limit: f64,
+        most: f32,
         mut visit: impl FnMut(usize, &Spot),
     ) {
-        let longest = span[1].max(-span[0]);
-        let least_certain = spot.after(drift, longest);
-        let [from, to] = span.map(|time| least_certain.moved(&(drift.place * (time - longest))));
+        let DriftingSpot { spot, drift } = seeker;
+        let [first, last] = times.span;
+        let longest = last.max(-first);
+        let least_certain = seeker.after(longest);
+        let [from, to] = times.span.map(|time| least_certain.moved(&(drift.place * (time - longest))));
         let farther = if to.place.xy().norm() > from.place.xy().norm() { &to } else { &from };
         let reach = self.variances.farthest(farther, limit, most) + SLACK as f32;
         let (seeker, drifting) = (Seeker::new(spot, limit, reach), Drifting::new(drift));
         let way = [from, to].map(|end| end.in_plan());
         for run in self.index.runs_along(way, reach) {
-            let meet = |begin| self.flat.meet_moving(begin, &seeker, &drifting, times);
+            let meet = |begin| self.flat.meet_moving(begin, &seeker, &drifting, &times.each);
             self.visit_run(run, meet, &mut visit);
         }
     }
@@ -101,9 +102,20 @@ impl<'a> Cloud<'a> {
     }
 }
 
-/// Numbers with as many more as [`Cloud::each_met`] may look at.
-pub(super) fn padded(numbers: impl Iterator<Item = f32>) -> Vec<f32> {
-    numbers.chain(std::iter::repeat_n(f32::NAN, LANES)).collect()
+/// When the detections of a cloud were made.
+pub(super) struct Times {
+    /// s, in the order of the index, with as many more as are looked at together.
+    each: Vec<f32>,
+    /// The first and the last of them, s.
+    span: [f64; 2],
+}
+
+impl Times {
+    /// `each` is in the order of the index, s, and not a number of detections that are out of the question; `span` is
+    /// the first and the last.
+    pub(super) fn new(each: impl Iterator<Item = f32>, span: [f64; 2]) -> Self {
+        Self { each: each.chain(std::iter::repeat_n(f32::NAN, LANES)).collect(), span }
+    }
 }
 
 /// Places, m, and horizontal covariances, m^2, each number apart; with a few more at the end, so that some can be taken
@@ -324,20 +336,20 @@ mod tests {
         ) {
             let (detections, times): (Vec<Detection>, Vec<f64>) = timed.into_iter().unzip();
             let cloud = cloud(&detections);
-            let in_order = padded(cloud.in_order(|id| times[id] as f32));
+            let in_order = Times::new(cloud.in_order(|id| times[id] as f32), [-0.7, 0.7]);
             let [a, b, c, d] = growth;
             let axes = Matrix3::new(a, b, 0.0, c, d, 0.0, 0.0, 0.0, 0.0);
             let drift = Spot::new(&Detection { position: Point::new(velocity[0], velocity[1], 0.0), axes });
-            for seeker in seekers.iter().map(Spot::new) {
+            for seeker in seekers.iter().map(|seeker| DriftingSpot { spot: Spot::new(seeker), drift }) {
                 let mut found = Vec::new();
-                cloud.each_met((&seeker, &drift), (&in_order, [-0.7, 0.7]), (limit, most), |at, _| {
+                cloud.each_met(&seeker, &in_order, limit, most, |at, _| {
                     found.push(cloud.index().ids()[at] as usize);
                 });
                 found.sort_unstable();
                 prop_assert!(found.windows(2).all(|pair| pair[0] < pair[1]), "none twice");
                 prop_assert!(found.iter().all(|id| times[*id].is_finite()), "none that is out of the question");
                 for (id, detection) in detections.iter().enumerate().filter(|(id, _)| times[*id].is_finite()) {
-                    let (there, spot) = (seeker.after(&drift, times[id]), Spot::new(detection));
+                    let (there, spot) = (seeker.after(times[id]), Spot::new(detection));
                     let distance = (there.place - spot.place).xy().norm();
                     let is_near = chi_within(limit, &there, &spot, true).is_some() && distance <= f64::from(most);
                     prop_assert!(!is_near || found.binary_search(&id).is_ok(), "{there:?} {spot:?}");

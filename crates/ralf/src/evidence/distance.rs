@@ -44,18 +44,30 @@ impl Spot {
         self.place += way;
         self
     }
+}
 
-    /// The same so many seconds later. `drift` is what changes: its place is a velocity, m/s, and its covariance,
-    /// m^2/s^2, is what is added, times the square of the time.
-    pub(super) fn after(mut self, drift: &Self, seconds: f64) -> Self {
+/// A spot that goes on, and grows less certain.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct DriftingSpot {
+    /// At its own time.
+    pub(super) spot: Spot,
+    /// What changes: its place is a velocity, m/s, and its covariance, m^2/s^2, is what is added, times the square of
+    /// the time.
+    pub(super) drift: Spot,
+}
+
+impl DriftingSpot {
+    /// The spot so many seconds later.
+    pub(super) fn after(&self, seconds: f64) -> Spot {
+        let Self { mut spot, drift } = *self;
         let squared = seconds * seconds;
-        self.place += drift.place * seconds;
+        spot.place += drift.place * seconds;
         for entry in 0..3 {
-            self.horizontal[entry] += drift.horizontal[entry] * squared;
-            self.vertical[entry] += drift.vertical[entry] * squared;
+            spot.horizontal[entry] += drift.horizontal[entry] * squared;
+            spot.vertical[entry] += drift.vertical[entry] * squared;
         }
-        self.variance = self.horizontal[0] + self.horizontal[2];
-        self
+        spot.variance = spot.horizontal[0] + spot.horizontal[2];
+        spot
     }
 }
 

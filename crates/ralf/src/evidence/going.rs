@@ -3,7 +3,7 @@
 //! vehicle drives.
 
 use super::course::Course;
-use super::distance::Spot;
+use super::distance::{DriftingSpot, Spot};
 use super::rates::{Rates, difference};
 use crate::scene::{Detection, Frame, radar_velocity, rate_sigma};
 use crate::space::{Point, Vector};
@@ -110,11 +110,12 @@ pub(super) fn fit(again: usize, scans: usize, distance: f64) -> [f64; 2] {
 }
 
 impl Going {
-    /// Where it is at its own time, and how that drifts ([`Spot::after`]): as [`Self::after`] has it.
-    pub(super) fn drift(&self) -> (Spot, Spot) {
+    /// Where it is at its own time, and how that drifts: as [`Self::after`] has it.
+    pub(super) fn drift(&self) -> DriftingSpot {
         let [first, second] = self.axes.map(|axis| axis.direction * axis.growth.sqrt());
         let axes = Matrix3::from_columns(&[first, second, Vector::zeros()]);
-        (Spot::new(&self.detection), Spot::new(&Detection { position: Point::from(self.velocity), axes }))
+        let drift = Detection { position: Point::from(self.velocity), axes };
+        DriftingSpot { spot: Spot::new(&self.detection), drift: Spot::new(&drift) }
     }
 
     /// The detection so many seconds later: moved, and less certain the longer ago.
@@ -187,8 +188,7 @@ mod tests {
         assert!((difference - expected).abs() < 1e-9);
         assert_eq!(road.rate_difference(&place, &radar, f64::NAN), None);
         // A spot drifts to the same.
-        let (spot, drift) = road.drift();
-        let (drifted, there) = (spot.after(&drift, 0.5), Spot::new(&after));
+        let (drifted, there) = (road.drift().after(0.5), Spot::new(&after));
         assert!((drifted.place - there.place).norm() < 1e-12);
         for (a, b) in drifted.horizontal.iter().zip(&there.horizontal) {
             assert!((a - b).abs() < 1e-12, "{a} {b}");

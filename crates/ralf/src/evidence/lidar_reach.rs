@@ -24,19 +24,28 @@ fn observe(surroundings: &Surroundings) -> Vec<Values> {
     let lidars = lidars(&window.window.views);
     for (value, probe) in columns[0].iter_mut().zip(surroundings.probes()) {
         let Some(probe) = probe else { continue };
-        let shares = lidars.iter().map(|(place, reach)| (probe.detection.position - place).norm() / reach);
+        let position = probe.detection.position;
+        let shares = lidars.iter().map(|lidar| (position - lidar.place).norm() / lidar.reach);
         *value = shares.min_by(f64::total_cmp).filter(|share| share.is_finite());
     }
     columns
 }
 
-/// Where each LiDAR is in each of these scans, m, in the frame of their window, and how far it sees, m.
-fn lidars(views: &[LidarView]) -> Vec<(Point, f64)> {
+/// A LiDAR in one of its scans.
+struct Placed {
+    /// In the frame of the window, m.
+    place: Point,
+    /// How far it sees, m.
+    reach: f64,
+}
+
+/// Each LiDAR in each of these scans.
+fn lidars(views: &[LidarView]) -> Vec<Placed> {
     let mut lidars = Vec::new();
     for view in views {
         for sweep in view.moment.sweeps() {
             let place = view.vehicle_from_moment * sweep.moment_from_lidar * Point::origin();
-            lidars.push((place, f64::from(sweep.rays().reach())));
+            lidars.push(Placed { place, reach: f64::from(sweep.rays().reach()) });
         }
     }
     lidars

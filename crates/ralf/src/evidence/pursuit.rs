@@ -1,7 +1,7 @@
 //! Where the radar's own scans around would have seen again what moves, and what they saw there.
 
-use super::cloud::{Cloud, padded};
-use super::distance::{Spot, chi_within};
+use super::cloud::{Cloud, Times};
+use super::distance::{DriftingSpot, Spot, chi_within};
 use super::going::{Going, Goings};
 use super::meeting::{FARTHEST, Meeting, REACH, fit};
 use super::rates::Rates;
@@ -21,17 +21,21 @@ pub(super) struct Pursuit<'a> {
     /// Those of the own scans.
     sights: Sights<'a>,
     others: Rc<Others<'a>>,
-    /// When each of these was made, s after the frame's scan, in the order of the cloud.
-    times: Vec<f32>,
-    /// The first and the last of them.
-    span: [f64; 2],
+    /// When each of these was made, s after the frame's scan.
+    times: Times,
     /// Whether distances are horizontal, for the radar measures no elevation.
     level: bool,
     /// Of each scan around, for the way at hand: which of `there`, or [`UNSEEN`].
     places: Vec<u32>,
-    /// Where the detection at hand would be in each of the own scans that could have seen it there, and where the radar
-    /// was, m.
-    there: Vec<(Spot, Vector)>,
+    /// Of each of the own scans that could have seen the detection at hand where it would be.
+    there: Vec<There>,
+}
+
+/// Where the detection at hand would be in one of the radar's own scans.
+struct There {
+    spot: Spot,
+    /// Where the radar was, m.
+    origin: Vector,
 }
 
 /// One of the radar's own scans around.
@@ -95,16 +99,15 @@ impl<'a> Pursuit<'a> {
         let is_alone = around.own.iter().all(|own| *own);
         let others = if is_alone { Rc::clone(all) } else { Rc::new(Others::own(around)) };
         let seconds = |other: &Other| around.seconds[other.scan as usize];
-        let times = padded(others.known.iter().map(|other| seconds(other) as f32));
+        let each = others.known.iter().map(|other| seconds(other) as f32);
         let earliest = around.seconds.iter().copied().fold(0.0, f64::min);
         let latest = around.seconds.iter().copied().fold(0.0, f64::max);
         Self {
             goings: Goings::new(frame, rates),
             own: own_scans(frame, around),
             sights,
-            times,
+            times: Times::new(each, [earliest, latest]),
             others,
-            span: [earliest, latest],
             level: frame.radar.elevation == Elevation::None,
             places: vec![UNSEEN; around.radars.len()],
             there: Vec::new(),
@@ -126,17 +129,14 @@ impl<'a> Pursuit<'a> {
 
     /// What it met if it went this way.
     fn met_on(&mut self, going: &Going) -> Vec<Meeting> {
-        let (spot, drift) = going.drift();
-        self.go(&spot, &drift);
+        let drifting = going.drift();
+        self.go(&drifting);
         let mut met = vec![Meeting::NOBODY; self.there.len()];
-        let searched = (self.times.as_slice(), self.span);
-        self.others.cloud.each_met((&spot, &drift), searched, (FARTHEST, REACH), |at, other| {
+        self.others.cloud.each_met(&drifting, &self.times, FARTHEST, REACH, |at, other| {
             let Other { scan, rate } = self.others.known[at];
             let place = self.places[scan as usize] as usize;
-            let Some((spot, origin)) = self.there.get(place).filter(|(spot, _)| is_in_reach(spot, other))
-            else {
-                return;
-            };
+            let there = self.there.get(place).filter(|there| is_in_reach(&there.spot, other));
+            let Some(There { spot, origin }) = there else { return };
             if let Some(chi) = chi_within(FARTHEST, spot, other, self.level) {
                 met[place].meet(at, chi, going.rate_difference(&other.place, origin, rate));
             }
@@ -145,14 +145,14 @@ impl<'a> Pursuit<'a> {
     }
 
     /// To where it would be in each of the own scans that could have seen it there.
-    fn go(&mut self, spot: &Spot, drift: &Spot) {
+    fn go(&mut self, drifting: &DriftingSpot) {
         let Self { own, sights, there, places, .. } = self;
         there.clear();
-        sights.each(&spot.place.into(), &drift.place, |at, covered| {
+        sights.each(&drifting.spot.place.into(), &drifting.drift.place, |at, covered| {
             let Some(own) = own.get(at) else { return };
             places[own.scan] = if covered { there.len() as u32 } else { UNSEEN };
             if covered {
-                there.push((spot.after(drift, sights.seconds(at)), own.origin));
+                there.push(There { spot: drifting.after(sights.seconds(at)), origin: own.origin });
             }
         });
     }

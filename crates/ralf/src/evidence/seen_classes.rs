@@ -1,11 +1,28 @@
 //! Of what class the things are that cameras see where detections lie (docs/method.md, section 11).
 
 use super::sought::{ON, Sought, Window};
-use crate::scene::{ClassPixel, Detection, Frame, SegmentedImage};
+use crate::scene::{ClassPixel, Detection, Frame, SegmentedImage, SegmentedView};
 use crate::space::Transform;
 
-/// A class, and how likely the detection lies where a pixel of it shows something.
-type Vote = (u16, f64);
+/// What one pixel says.
+struct Vote {
+    class: u16,
+    /// How likely the detection lies where the pixel shows something.
+    weight: f64,
+}
+
+/// An image, and where its camera is.
+struct Placed<'a> {
+    image: &'a SegmentedImage,
+    camera_from_vehicle: Transform,
+}
+
+impl<'a> Placed<'a> {
+    fn new(view: &'a SegmentedView) -> Self {
+        let camera_from_vehicle = view.moment.camera_from_vehicle * view.vehicle_from_image.inverse();
+        Self { image: &view.moment, camera_from_vehicle }
+    }
+}
 
 /// The class of what the cameras see at each detection of a frame, by the segmentations of their images: that of most
 /// pixels around at whose depth the detection lies, each weighed by `exp(-m^2 / 2)`, with `m` its distance from the
@@ -15,11 +32,7 @@ type Vote = (u16, f64);
 ///
 /// `stride` is that of the depth's lattice, px: `camera.stride`.
 pub fn seen_classes(frame: &Frame, stride: usize, is_asked: impl Fn(usize) -> bool) -> Vec<Option<u16>> {
-    let images: Vec<(&SegmentedImage, Transform)> = frame
-        .segmented
-        .iter()
-        .map(|view| (&*view.moment, view.moment.camera_from_vehicle * view.vehicle_from_image.inverse()))
-        .collect();
+    let images: Vec<Placed> = frame.segmented.iter().map(Placed::new).collect();
     let mut classes = vec![None; frame.scan.len()];
     for (i, detection) in frame.scan.detections.iter().enumerate() {
         let Some(detection) = detection.as_ref().filter(|_| is_asked(i) && !images.is_empty()) else {
@@ -30,9 +43,9 @@ pub fn seen_classes(frame: &Frame, stride: usize, is_asked: impl Fn(usize) -> bo
     classes
 }
 
-fn seen_class(images: &[(&SegmentedImage, Transform)], detection: &Detection, stride: usize) -> Option<u16> {
+fn seen_class(images: &[Placed], detection: &Detection, stride: usize) -> Option<u16> {
     let (mut by_lidar, mut by_depth) = (Vec::new(), Vec::new());
-    for (image, camera_from_vehicle) in images {
+    for Placed { image, camera_from_vehicle } in images {
         let seen = detection.moved(camera_from_vehicle);
         for view in &image.views {
             let Some(window) = Window::new(&seen, &view.view, stride) else { continue };
@@ -49,7 +62,8 @@ fn add_votes<'a>(window: &Window, pixels: impl Iterator<Item = &'a ClassPixel>, 
         let behind = window.behind(*depth, *sigma);
         if behind.abs() <= ON {
             let [right, down] = window.beside(*pixel);
-            votes.push((*class, (-0.5 * (right * right + down * down + behind * behind)).exp()));
+            let weight = (-0.5 * (right * right + down * down + behind * behind)).exp();
+            votes.push(Vote { class: *class, weight });
         }
     }
 }
@@ -57,11 +71,11 @@ fn add_votes<'a>(window: &Window, pixels: impl Iterator<Item = &'a ClassPixel>, 
 /// The class of the greatest weight; of equal ones the first.
 fn most(votes: &[Vote]) -> Option<u16> {
     let mut sums: Vec<Vote> = Vec::new();
-    for (class, weight) in votes {
-        match sums.iter_mut().find(|(known, _)| known == class) {
-            Some((_, sum)) => *sum += weight,
-            None => sums.push((*class, *weight)),
+    for Vote { class, weight } in votes {
+        match sums.iter_mut().find(|sum| sum.class == *class) {
+            Some(sum) => sum.weight += weight,
+            None => sums.push(Vote { class: *class, weight: *weight }),
         }
     }
-    sums.iter().rev().max_by(|(_, a), (_, b)| a.total_cmp(b)).map(|(class, _)| *class)
+    sums.iter().rev().max_by(|a, b| a.weight.total_cmp(&b.weight)).map(|sum| sum.class)
 }

@@ -23,15 +23,26 @@ pub(super) struct Wall {
     pub(super) top: f64,
 }
 
+/// A column in which something tall stands.
+struct Upright {
+    /// From the place that is asked about, m.
+    place: [f64; 2],
+    /// m
+    top: f64,
+}
+
 impl Wall {
     /// The wall at a place, which may be no more than a post; `None` where too little stands to tell.
     pub(super) fn at(map: &StaticMap, [x, y]: [f64; 2]) -> Option<Self> {
         let columns = map.columns.around(x, y, REACH).filter(|(_, column)| column.top >= TALL);
-        let columns: Vec<([f64; 2], f64)> = columns.map(|(place, column)| (place, column.top)).collect();
+        let columns: Vec<Upright> =
+            columns.map(|(place, column)| Upright { place, top: column.top }).collect();
         let line = line_of(&columns)?;
         let foot = line.along([0.0, 0.0]);
         let (mut filled, mut top) = (0, 0.0_f64);
-        for (place, height) in columns.iter().filter(|(place, _)| line.across(*place).abs() < THICK) {
+        for Upright { place, top: height } in
+            columns.iter().filter(|column| line.across(column.place).abs() < THICK)
+        {
             let beside = ((line.along(*place) - foot) / ColumnGrid::CELL).round();
             filled |= 1_u64 << (beside + MIDDLE as f64).clamp(0.0, 2.0 * MIDDLE as f64) as u32;
             top = top.max(*height);
@@ -62,8 +73,8 @@ fn run(filled: u64, along: impl Iterator<Item = u32>) -> u32 {
 }
 
 /// The line of the columns at hand, drawn anew through what lies along it.
-fn line_of(columns: &[([f64; 2], f64)]) -> Option<Line> {
-    let places = || columns.iter().map(|(place, _)| *place);
+fn line_of(columns: &[Upright]) -> Option<Line> {
+    let places = || columns.iter().map(|column| column.place);
     let mut chosen: Vec<[f64; 2]> = places().filter(|[x, y]| x * x + y * y <= NEAR * NEAR).collect();
     if chosen.len() < COLUMNS {
         return None;

@@ -47,10 +47,10 @@ fn observe(surroundings: &Surroundings) -> Vec<Values> {
     let mut columns = columns::unobserved(FEATURES, frame.scan.len());
     let (Some(lidar), Some(rates)) = (&frame.lidar_window, surroundings.rates()) else { return columns };
     let goings = Goings::new(frame, rates);
-    let mut ways: Vec<(usize, Going)> = Vec::new();
+    let mut ways: Vec<Way> = Vec::new();
     for i in by_direction(surroundings.probes()) {
         let going = frame.scan.detections[i].map(|known| goings.of(i, &known, ACROSS_PER_ALONG));
-        ways.extend(going.into_iter().flatten().flatten().map(|going| (i, going)));
+        ways.extend(going.into_iter().flatten().flatten().map(|going| Way { row: i, going }));
     }
     let is_near = |view: &&LidarView| {
         let seconds = (view.moment.t_ns - frame.scan.t_ns()) as f64 * 1e-9;
@@ -62,10 +62,10 @@ fn observe(surroundings: &Surroundings) -> Vec<Values> {
         views.map(|view| Asked { frame, probing: &probing, view }.vote(&ways)).collect();
     let answered = |place: usize| Answers::of(around.iter().map(|votes| &votes[place]));
     let mut best: Vec<Option<Answers>> = vec![None; frame.scan.len()];
-    for (place, (i, _)) in ways.iter().enumerate() {
+    for (place, Way { row, .. }) in ways.iter().enumerate() {
         let answers = answered(place);
-        if best[*i].as_ref().is_none_or(|known| answers.fit() > known.fit()) {
-            best[*i] = Some(answers);
+        if best[*row].as_ref().is_none_or(|known| answers.fit() > known.fit()) {
+            best[*row] = Some(answers);
         }
     }
     for (i, answers) in best.into_iter().enumerate() {
@@ -74,6 +74,13 @@ fn observe(surroundings: &Surroundings) -> Vec<Values> {
         }
     }
     columns
+}
+
+/// A way to go, and whose it is.
+struct Way {
+    /// The detection's place in the scan.
+    row: usize,
+    going: Going,
 }
 
 /// What the scans say of one way to go.
@@ -115,11 +122,11 @@ struct Asked<'a> {
 
 impl Asked<'_> {
     /// The moment's votes on each of the ways.
-    fn vote(&self, ways: &[(usize, Going)]) -> Vec<Votes> {
+    fn vote(&self, ways: &[Way]) -> Vec<Votes> {
         let LidarView { moment, vehicle_from_moment, .. } = self.view;
         let mut sums = vec![Votes::default(); ways.len()];
         for (sweep, mut rays) in moment.sweeps().iter().zip(sweeps_of(moment, *vehicle_from_moment, RAYS)) {
-            for (sum, (_, going)) in sums.iter_mut().zip(ways) {
+            for (sum, Way { going, .. }) in sums.iter_mut().zip(ways) {
                 let there = self.at_time_of(sweep, &mut rays, going);
                 sum.add(&rays.vote(&there));
             }
