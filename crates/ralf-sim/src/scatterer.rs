@@ -47,22 +47,17 @@ pub(super) fn scatterers(kind: Kind, size: Vector, random: &mut Random) -> Vec<S
         }
         Kind::Container => outer_walls(l, w, height, random),
         Kind::Cyclist | Kind::Sign | Kind::Rail | Kind::Wall => slender(size, random),
-        Kind::Pedestrian => scattered(4, [l, w], [0.3, 0.9 * height], (0.0, 5.0), random),
+        Kind::Pedestrian => scattered(4, [l, w], [0.3, 0.9 * height], 0.0, 5.0, random),
         Kind::Tree => {
-            let trunk = scattered(4, [0.12, 0.12], [0.2, 0.4 * height], (1.0, 4.0), random);
-            let crown = scattered(
-                per(1.2, l * w * height),
-                [0.8 * l, 0.8 * w],
-                [0.35 * height, 0.7 * height],
-                (-5.0, 7.0),
-                random,
-            );
+            let trunk = scattered(4, [0.12, 0.12], [0.2, 0.4 * height], 1.0, 4.0, random);
+            let (leaves, sides) = (per(1.2, l * w * height), [0.8 * l, 0.8 * w]);
+            let crown = scattered(leaves, sides, [0.35 * height, 0.7 * height], -5.0, 7.0, random);
             [trunk, crown].concat()
         }
-        Kind::Hedge => scattered(per(7.0, length), [l, w], [0.2, height], (-3.0, 6.0), random),
-        Kind::Fence => scattered(per(6.0, length), [l, w], [0.15, height], (-1.0, 4.0), random),
+        Kind::Hedge => scattered(per(7.0, length), [l, w], [0.2, height], -3.0, 6.0, random),
+        Kind::Fence => scattered(per(6.0, length), [l, w], [0.15, height], -1.0, 4.0, random),
         Kind::Grass => {
-            scattered(per(0.5, length * width), [l, w], [0.03, height.max(0.22)], (-9.0, 6.0), random)
+            scattered(per(0.5, length * width), [l, w], [0.03, height.max(0.22)], -9.0, 6.0, random)
         }
         Kind::Sidewalk => kerb(per(0.6, length), l, w, height, random),
         Kind::Road | Kind::Marking => Vec::new(),
@@ -72,15 +67,16 @@ pub(super) fn scatterers(kind: Kind, size: Vector, random: &mut Random) -> Vec<S
 /// What stands by itself and is seen from everywhere.
 fn slender(size: Vector, random: &mut Random) -> Vec<Scatterer> {
     let count = (1.5 * size.x).ceil() as usize + 3;
-    scattered(count, [size.x / 2.0, size.y / 2.0], [0.3, 0.9 * size.z], (2.0, 4.0), random)
+    scattered(count, [size.x / 2.0, size.y / 2.0], [0.3, 0.9 * size.z], 2.0, 4.0, random)
 }
 
-/// Anywhere within a box, with a mean strength and a flicker.
+/// Anywhere within a box of half this length and width, between these heights, with a mean strength and a flicker.
 fn scattered(
     count: usize,
     [l, w]: [f64; 2],
     [low, high]: [f64; 2],
-    (strength_db, flicker_db): (f64, f64),
+    strength_db: f64,
+    flicker_db: f64,
     random: &mut Random,
 ) -> Vec<Scatterer> {
     let mut one = || {
@@ -115,7 +111,7 @@ fn car(l: f64, w: f64, height: f64, random: &mut Random) -> Vec<Scatterer> {
         let end = if random.chance(0.5) { 1.0 } else { -1.0 };
         outside(end * l, random.between(-0.85, 0.85) * w, random.between(0.3, 0.75), -2.0, random);
     }
-    found.extend(scattered(6, [0.8 * l, 0.7 * w], [0.35, 0.8 * height], (-3.0, 4.0), random));
+    found.extend(scattered(6, [0.8 * l, 0.7 * w], [0.35, 0.8 * height], -3.0, 4.0, random));
     found
 }
 

@@ -113,7 +113,7 @@ pub(super) fn echoes(view: &View<'_>, mirrors: &[Mirror], random: &mut Random) -
             };
             for scatterer in object.scatterers.iter().filter(strong) {
                 let p = poses[index] * scatterer.position;
-                let image = image(view, &placed, (index, &p, &object.velocity), scatterer.strength_db);
+                let image = image(view, &placed, index, &p, scatterer.strength_db);
                 found.extend(image.map(|echo| Echo {
                     level_db: echo.level_db + random.normal(scatterer.flicker_db),
                     ..echo
@@ -124,18 +124,15 @@ pub(super) fn echoes(view: &View<'_>, mirrors: &[Mirror], random: &mut Random) -
     found
 }
 
-fn image(
-    view: &View<'_>,
-    placed: &Placed,
-    (object, p, velocity): (usize, &Point, &Vector),
-    strength_db: f64,
-) -> Option<Echo> {
+/// The image of a scatterer of an object, which is at `p`.
+fn image(view: &View<'_>, placed: &Placed, object: usize, p: &Point, strength_db: f64) -> Option<Echo> {
     let at = placed.point_of_reflection(&view.origin(), p)?;
     let position = placed.image(p);
     let range = view.range_in_view(&position)?;
     let there_db = view.scene.radar_loss_db(&view.origin(), &at, Some(placed.object))?;
     let on_db = view.scene.radar_loss_db(&(at + placed.normal * 0.02), p, Some(object))?;
-    let mirrored = velocity - placed.normal * (2.0 * placed.normal.dot(velocity));
+    let velocity = view.scene.site.objects[object].velocity;
+    let mirrored = velocity - placed.normal * (2.0 * placed.normal.dot(&velocity));
     Some(Echo {
         position,
         range_rate: view.range_rate(&position, &mirrored),

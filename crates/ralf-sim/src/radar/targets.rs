@@ -20,7 +20,7 @@ pub(super) fn echoes(view: &View<'_>, random: &mut Random) -> Vec<Echo> {
         for scatterer in &object.scatterers {
             // Drawn for every scatterer, seen or not: what one hides doesn't change the others.
             let flicker_db = random.normal(scatterer.flicker_db);
-            if let Some(echo) = echo(view, (index, object, &pose), scatterer) {
+            if let Some(echo) = echo(view, index, &pose, scatterer) {
                 found.push(Echo { level_db: echo.level_db + flicker_db, ..echo });
             }
         }
@@ -28,33 +28,31 @@ pub(super) fn echoes(view: &View<'_>, random: &mut Random) -> Vec<Echo> {
     found
 }
 
-fn echo(
-    view: &View<'_>,
-    (index, object, pose): (usize, &Object, &Isometry3<f64>),
-    scatterer: &Scatterer,
-) -> Option<Echo> {
+/// The echo of a scatterer of an object, which is at `pose`.
+fn echo(view: &View<'_>, object: usize, pose: &Isometry3<f64>, scatterer: &Scatterer) -> Option<Echo> {
+    let Object { kind, velocity, .. } = &view.scene.site.objects[object];
     let position = pose * scatterer.position;
     let range = view.range_in_view(&position)?;
     let back = (view.origin() - position) / range;
     let away = scatterer.normal.is_some_and(|normal| (pose.rotation * normal).dot(&back) < 0.05);
-    let own_loss_db = match (away, object.kind) {
+    let own_loss_db = match (away, kind) {
         (false, _) => 0.0,
         (true, Kind::Car) => FAR_SIDE_LOSS_DB,
         (true, _) => return None,
     };
-    let loss_db = view.scene.radar_loss_db(&view.origin(), &position, Some(index))?;
-    let cause = match object.kind.class() {
+    let loss_db = view.scene.radar_loss_db(&view.origin(), &position, Some(object))?;
+    let cause = match kind.class() {
         1 => Cause::Road,
         _ if scatterer.behind_facade => Cause::InsideBuilding,
         _ => Cause::Plausible,
     };
     let truth = match cause {
-        Cause::Plausible => Truth { class: object.kind.class(), cause },
+        Cause::Plausible => Truth { class: kind.class(), cause },
         _ => Truth::artifact(cause),
     };
     Some(Echo {
         position,
-        range_rate: view.range_rate(&position, &object.velocity),
+        range_rate: view.range_rate(&position, velocity),
         level_db: scatterer.strength_db - distance_loss_db(range) - own_loss_db - loss_db,
         truth,
     })

@@ -1,7 +1,7 @@
 //! Cameras of worlds: none, one ahead, six around as in nuScenes, or four fisheyes as in the paper.
 
 use super::calibration::off;
-use super::family::CalibrationRanges;
+use super::family::{CalibrationRanges, Mount, mount};
 use super::scene::{Met, Moment};
 use super::span::one_of;
 use super::terrain::{Patch, Surface};
@@ -13,14 +13,27 @@ use ralf::sensors::{Camera, Intrinsics, View};
 use ralf::space::{Point, Transform};
 
 /// Images are small, so that they cost about as much as a LiDAR scan, px.
-const STRAIGHT: (usize, usize) = (320, 180);
-const FISHEYE: (usize, usize) = (200, 130);
+const STRAIGHT: [usize; 2] = [320, 180];
+const FISHEYE: [usize; 2] = [200, 130];
 const FISHEYE_FOCAL: f64 = 62.0;
 /// The straight view of a fisheye.
-const VIEW: (usize, usize) = (240, 150);
+const VIEW: [usize; 2] = [240, 150];
 
-/// Name, place in the vehicle's frame (m), yaw (degrees).
-type Mount = (&'static str, [f64; 3], f64);
+const AHEAD: &[Mount] = &[mount("camera_front", [1.6, 0.0, 1.35], 0.0)];
+const AROUND: &[Mount] = &[
+    mount("camera_front", [1.7, 0.0, 1.5], 0.0),
+    mount("camera_front_left", [1.5, 0.5, 1.5], 55.0),
+    mount("camera_front_right", [1.5, -0.5, 1.5], -55.0),
+    mount("camera_back_left", [1.0, 0.5, 1.55], 110.0),
+    mount("camera_back_right", [1.0, -0.5, 1.55], -110.0),
+    mount("camera_back", [0.0, 0.0, 1.55], 180.0),
+];
+const FISHEYES: &[Mount] = &[
+    mount("camera_front", [3.6, 0.0, 0.75], 0.0),
+    mount("camera_left", [1.9, 1.0, 1.1], 90.0),
+    mount("camera_right", [1.9, -1.0, 1.1], -90.0),
+    mount("camera_rear", [-0.9, 0.0, 1.0], 180.0),
+];
 
 /// Sets of cameras.
 #[derive(Debug, Clone, Copy)]
@@ -35,21 +48,9 @@ impl Layout {
     fn mounts(self) -> &'static [Mount] {
         match self {
             Self::None => &[],
-            Self::Ahead => &[("camera_front", [1.6, 0.0, 1.35], 0.0)],
-            Self::Around => &[
-                ("camera_front", [1.7, 0.0, 1.5], 0.0),
-                ("camera_front_left", [1.5, 0.5, 1.5], 55.0),
-                ("camera_front_right", [1.5, -0.5, 1.5], -55.0),
-                ("camera_back_left", [1.0, 0.5, 1.55], 110.0),
-                ("camera_back_right", [1.0, -0.5, 1.55], -110.0),
-                ("camera_back", [0.0, 0.0, 1.55], 180.0),
-            ],
-            Self::Fisheyes => &[
-                ("camera_front", [3.6, 0.0, 0.75], 0.0),
-                ("camera_left", [1.9, 1.0, 1.1], 90.0),
-                ("camera_right", [1.9, -1.0, 1.1], -90.0),
-                ("camera_rear", [-0.9, 0.0, 1.0], 180.0),
-            ],
+            Self::Ahead => AHEAD,
+            Self::Around => AROUND,
+            Self::Fisheyes => FISHEYES,
         }
     }
 }
@@ -80,7 +81,7 @@ pub(super) fn cameras(ranges: &CalibrationRanges, seed: u64) -> Vec<CameraModel>
     for mount in layout.mounts() {
         let vehicle_from_camera = mounted(mount, if fisheye(layout) { 12.0 } else { 0.0 }, random);
         let said = off(&vehicle_from_camera, angle, place, random);
-        let declared = if fisheye(layout) { wide(mount.0, said) } else { straight(mount.0, said, fov) };
+        let declared = if fisheye(layout) { wide(mount.name, said) } else { straight(mount.name, said, fov) };
         found.push(CameraModel { vehicle_from_camera, declared, period_ns, first_ns });
     }
     found
@@ -91,21 +92,21 @@ fn fisheye(layout: Layout) -> bool {
 }
 
 /// Looks about so many degrees down.
-fn mounted((_, place, yaw): &Mount, down_deg: f64, random: &mut Random) -> Transform {
-    camera_mounting(*place, *yaw, down_deg + random.between(-1.0, 1.0))
+fn mounted(mount: &Mount, down_deg: f64, random: &mut Random) -> Transform {
+    camera_mounting(mount.place, mount.yaw_deg, down_deg + random.between(-1.0, 1.0))
 }
 
-fn middle((width, height): (usize, usize)) -> [f64; 2] {
-    [(width as f64 - 1.0) / 2.0, (height as f64 - 1.0) / 2.0]
+fn middle(size: [usize; 2]) -> [f64; 2] {
+    size.map(|pixels| (pixels as f64 - 1.0) / 2.0)
 }
 
 fn straight(name: &str, vehicle_from_camera: Transform, fov: f64) -> Camera {
-    let focal = STRAIGHT.0 as f64 / 2.0 / (fov / 2.0).tan();
+    let focal = STRAIGHT[0] as f64 / 2.0 / (fov / 2.0).tan();
     Camera {
         name: name.to_owned(),
         vehicle_from_camera,
-        width: STRAIGHT.0,
-        height: STRAIGHT.1,
+        width: STRAIGHT[0],
+        height: STRAIGHT[1],
         intrinsics: Intrinsics::Pinhole { focal: [focal; 2], center: middle(STRAIGHT), distortion: [0.0; 5] },
         views: Vec::new(),
     }
@@ -116,14 +117,14 @@ fn wide(name: &str, vehicle_from_camera: Transform) -> Camera {
         yaw: 0.0,
         pitch: -8.0_f64.to_radians(),
         horizontal_fov: 110.0_f64.to_radians(),
-        width: VIEW.0,
-        height: VIEW.1,
+        width: VIEW[0],
+        height: VIEW[1],
     };
     Camera {
         name: name.to_owned(),
         vehicle_from_camera,
-        width: FISHEYE.0,
-        height: FISHEYE.1,
+        width: FISHEYE[0],
+        height: FISHEYE[1],
         intrinsics: Intrinsics::KannalaBrandt {
             focal: [FISHEYE_FOCAL; 2],
             center: middle(FISHEYE),
@@ -195,7 +196,7 @@ mod tests {
     fn depth_is_along_the_axis_and_grass_is_greener_than_grey() {
         let site = site();
         let random = &mut Random::new(1, Purpose::World, 0, 0);
-        let ahead = mounted(&("camera_front", [1.6, 0.0, 1.35], 0.0), 0.0, random);
+        let ahead = mounted(&mount("camera_front", [1.6, 0.0, 1.35], 0.0), 0.0, random);
         let camera = straight("camera_front", ahead, 1.2);
         let moment = camera::Moment { scene: site.at(0.0), camera: &camera, site_from_camera: ahead };
         let depth = &camera::true_depth(&moment)[0];

@@ -2,8 +2,8 @@
 
 use super::calibration::Calibration;
 use super::camera::{CameraModel, cameras};
-use super::family::{Family, Mount, PlaceKind, RadarRanges};
-use super::lidar::{LidarModel, Optics, Pattern};
+use super::family::{Family, Mount, MountedLidar, PlaceKind, RadarRanges};
+use super::lidar::{LidarModel, Optics};
 use super::mixture::Mixture;
 use super::radar::{Amplitude, Cell, Keeps, RadarModel, Spikiness, Waves, sensitivity_db};
 use super::span::{Span, one_of, span};
@@ -82,9 +82,9 @@ fn waves(family: &Family, random: &mut Random) -> Waves {
 }
 
 /// Nobody mounts exactly where another did.
-fn mounted((_, place, yaw): &Mount, slack: f64, pitch: f64, random: &mut Random) -> Transform {
-    let place = place.map(|value| value + random.between(-slack, slack));
-    let yaw = (yaw + random.between(-5.0, 5.0) * slack / 0.2).to_radians();
+fn mounted(mount: &Mount, slack: f64, pitch: f64, random: &mut Random) -> Transform {
+    let place = mount.place.map(|value| value + random.between(-slack, slack));
+    let yaw = (mount.yaw_deg + random.between(-5.0, 5.0) * slack / 0.2).to_radians();
     let rotation = UnitQuaternion::from_euler_angles(0.0, pitch.to_radians(), yaw);
     Transform::from_parts(Translation3::from(place), rotation)
 }
@@ -101,10 +101,10 @@ fn radars(family: &Family, random: &mut Random) -> Vec<RadarModel> {
     let turn_ns = along.period_ns / layout.len().max(1) as i64;
     let mut found = Vec::new();
     for (number, mount) in layout.iter().enumerate() {
-        let kind = if mount.2.abs() < 1.0 || mount.2.abs() > 179.0 { &along } else { &across };
+        let kind = if mount.yaw_deg.abs() < 1.0 || mount.yaw_deg.abs() > 179.0 { &along } else { &across };
         let pitch = random.between(-1.0, 1.0) - upward;
         found.push(RadarModel {
-            name: mount.0.to_owned(),
+            name: mount.name.to_owned(),
             vehicle_from_radar: mounted(mount, 0.1, pitch, random),
             first_ns: number as i64 * turn_ns,
             clock_ns: (random.between(-1.0, 1.0) * family.calibration.clock.draw(random) * 1e6) as i64,
@@ -153,10 +153,10 @@ fn radar(ranges: &RadarRanges, elevation: bool, random: &mut Random) -> RadarMod
 }
 
 /// Whether LiDARs look where each radar does: nobody records radars whose surroundings nothing else sees.
-fn look_along(layout: &[(Mount, Pattern)], radars: &[RadarModel]) -> bool {
-    let sees = |(mount, pattern): &(Mount, Pattern), radar: &RadarModel| {
+fn look_along(layout: &[MountedLidar], radars: &[RadarModel]) -> bool {
+    let sees = |MountedLidar { mount, pattern }: &MountedLidar, radar: &RadarModel| {
         let yaw = radar.vehicle_from_radar.rotation.euler_angles().2.to_degrees();
-        let aside = (yaw - mount.2 + 180.0).rem_euclid(360.0) - 180.0;
+        let aside = (yaw - mount.yaw_deg + 180.0).rem_euclid(360.0) - 180.0;
         aside.abs() <= pattern.width / 2.0
     };
     radars.iter().all(|radar| layout.iter().any(|lidar| sees(lidar, radar)))
@@ -181,9 +181,9 @@ fn lidars(family: &Family, seed: u64, radars: &[RadarModel], random: &mut Random
         seed,
     };
     let mut found = Vec::new();
-    for (mount, pattern) in layout {
+    for MountedLidar { mount, pattern } in layout {
         found.push(LidarModel {
-            name: mount.0.to_owned(),
+            name: mount.name.to_owned(),
             vehicle_from_lidar: mounted(mount, 0.15, random.between(-0.5, 0.5), random),
             pattern: *pattern,
             period_ns,

@@ -9,7 +9,9 @@ mod table;
 mod usual;
 
 pub use ranges::Family;
-pub(super) use ranges::{CalibrationRanges, MotionRanges, Mount, PlaceKind, RadarRanges};
+pub(super) use ranges::{
+    CalibrationRanges, MotionRanges, Mount, MountedLidar, PlaceKind, RadarRanges, mount,
+};
 pub use table::FAMILIES;
 
 impl Family {

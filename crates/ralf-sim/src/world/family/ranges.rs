@@ -20,8 +20,27 @@ pub struct Family {
     pub(crate) calibration: CalibrationRanges,
 }
 
-/// Where a sensor sits: name, place in the vehicle's frame (m), yaw (degrees).
-pub(crate) type Mount = (&'static str, [f64; 3], f64);
+/// Where a sensor sits.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Mount {
+    pub(crate) name: &'static str,
+    /// In the vehicle's frame, m.
+    pub(crate) place: [f64; 3],
+    /// About the vertical, degrees.
+    pub(crate) yaw_deg: f64,
+}
+
+/// A sensor of this name at a place in the vehicle's frame (m), turned by a yaw (degrees).
+pub(crate) const fn mount(name: &'static str, place: [f64; 3], yaw_deg: f64) -> Mount {
+    Mount { name, place, yaw_deg }
+}
+
+/// A LiDAR in its place.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct MountedLidar {
+    pub(crate) mount: Mount,
+    pub(crate) pattern: Pattern,
+}
 
 /// Radars.
 #[derive(Debug, Clone, Copy)]
@@ -122,8 +141,8 @@ pub(crate) struct WaveRanges {
 /// LiDARs.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct LidarRanges {
-    /// Sets of mountings, each with its pattern.
-    pub(crate) layouts: &'static [&'static [(Mount, Pattern)]],
+    /// Sets of LiDARs.
+    pub(crate) layouts: &'static [&'static [MountedLidar]],
     /// Revolutions per second.
     pub(crate) rate: Span,
     /// Standard deviation of a range, m.
