@@ -14,6 +14,12 @@ pub(crate) const SENSORS: &str = "sequence.toml";
 pub(crate) const ODOMETRY: &str = "odometry.csv";
 /// The file in a sequence's folder that tells poses.
 pub(crate) const POSES: &str = "poses.csv";
+/// The file in a sensor's folder that tells when it measured.
+pub(crate) const TIMES: &str = "timestamps.txt";
+/// The folder of a camera that holds the depth of its images.
+pub(crate) const DEPTH: &str = "depth";
+/// The folder of a camera that holds the classes that its images show.
+pub(crate) const SEGMENTATION: &str = "segmentation";
 /// The folder of a sequence that holds corrected labels.
 pub(crate) const GROUND_TRUTH: &str = "ground_truth";
 /// The file in it that names the causes of artifacts.

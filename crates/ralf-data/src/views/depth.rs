@@ -6,6 +6,7 @@ use super::store::Store;
 use super::stored_view::StoredView;
 use crate::disk::{files, npy};
 use crate::error::DataError;
+use crate::tree;
 use ralf::sensors::{DepthImage, DepthOutput};
 use serde::{Deserialize, Serialize};
 use std::path::Path;
@@ -31,7 +32,7 @@ impl DepthStore {
 impl StoredView for DepthImage {
     type Card = DepthToml;
 
-    const KIND: StoreKind = StoreKind { name: "depth", extension: "npy", verb: "depth" };
+    const KIND: StoreKind = StoreKind { name: tree::DEPTH, extension: "npy", verb: "depth" };
 
     fn network(card: &DepthToml) -> &str {
         &card.network

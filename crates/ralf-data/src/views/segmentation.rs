@@ -6,6 +6,7 @@ use super::store::Store;
 use super::stored_view::StoredView;
 use crate::disk::{class_images, files};
 use crate::error::DataError;
+use crate::tree;
 use ralf::sensors::ClassImage;
 use serde::{Deserialize, Serialize};
 use std::path::Path;
@@ -30,7 +31,7 @@ impl SegmentationStore {
 impl StoredView for ClassImage {
     type Card = SegmentationToml;
 
-    const KIND: StoreKind = StoreKind { name: "segmentation", extension: "png", verb: "segment" };
+    const KIND: StoreKind = StoreKind { name: tree::SEGMENTATION, extension: "png", verb: "segment" };
 
     fn network(card: &SegmentationToml) -> &str {
         &card.network

@@ -7,7 +7,7 @@ use crate::error::DataError;
 use crate::read::SequenceReader;
 use crate::read::recording::{check_motion_corrected, check_nothing_lost};
 use crate::result::{Component, OutFolder, SequenceNames, WriterLock, checked, refuse_links_out};
-use crate::tree::{CAUSE_NAMES, GROUND_TRUTH, LABELS, SEQUENCES};
+use crate::tree::{CAUSE_NAMES, DEPTH, GROUND_TRUTH, LABELS, SEGMENTATION, SEQUENCES};
 use ralf::sensors::{SourceError, Timelines};
 use ralf_jobs::side_by_side;
 use std::fs;
@@ -195,13 +195,13 @@ impl Writer<'_> {
         if let Some(depth) = self.reader.depth(camera, image)? {
             let depth = npy::depth_bytes(&depth)
                 .ok_or("depth images of different sizes, which one file can't hold")?;
-            let file = folder.own("depth").file(&Component::numbered(image, "npy"));
+            let file = folder.own(DEPTH).file(&Component::numbered(image, "npy"));
             files::write_whole(&file, &depth)?;
         }
         let Some(classes) = self.reader.classes(camera, image)? else { return Ok(()) };
         let png = class_images::bytes(&classes)
             .map_err(|(expected, found)| format!("segmentation: expected {expected}, found {found}"))?;
-        let file = folder.own("segmentation").file(&Component::numbered(image, "png"));
+        let file = folder.own(SEGMENTATION).file(&Component::numbered(image, "png"));
         Ok(files::write_whole(&file, &png)?)
     }
 }

@@ -6,7 +6,7 @@ use crate::read::SequenceReader;
 use crate::read::layout::raw::{DepthToml, SequenceToml};
 use crate::read::layout::{rig, tables};
 use crate::result::{OutFolder, SequenceNames};
-use crate::tree::{ODOMETRY, POSES, SENSORS, SEQUENCES};
+use crate::tree::{ODOMETRY, POSES, SENSORS, SEQUENCES, TIMES};
 use ralf::sensors::Sequence;
 use std::path::{Path, PathBuf};
 
@@ -59,7 +59,7 @@ pub(super) fn texts(
     let SequenceNames { radars, lidars, cameras, .. } = names;
     let sensors = radars.iter().chain(lidars).chain(cameras);
     for (sensor, times) in sensors.zip(times.radars.iter().chain(&times.lidars).chain(&times.cameras)) {
-        texts.push((folder.folder(sensor).own_file("timestamps.txt"), tables::timestamps_text(times)));
+        texts.push((folder.folder(sensor).own_file(TIMES), tables::timestamps_text(times)));
     }
     Ok(texts)
 }

@@ -3,6 +3,7 @@
 use super::tables;
 use crate::disk::files;
 use crate::error::DataError;
+use crate::tree::TIMES;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
@@ -37,7 +38,7 @@ impl SensorFiles {
         warnings: &mut Vec<String>,
     ) -> Result<Self, DataError> {
         let files = numbered(folder, extensions)?;
-        let timestamps = folder.join("timestamps.txt");
+        let timestamps = folder.join(TIMES);
         let times = tables::read_timestamps(&timestamps)?;
         if times.len() != files.len() {
             let expected = format!("a line for each of the {} files beside it", files.len());

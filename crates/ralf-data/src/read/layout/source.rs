@@ -9,7 +9,7 @@ use crate::error::DataError;
 use crate::read::SequenceReader;
 use crate::read::measured_files::lidar_rows;
 use crate::read::point_times::LONGEST;
-use crate::tree::{CAUSE_NAMES, GROUND_TRUTH, LABELS, ODOMETRY, POSES, SENSORS};
+use crate::tree::{self, CAUSE_NAMES, GROUND_TRUTH, LABELS, ODOMETRY, POSES, SENSORS};
 use ralf::sensors::{
     Camera, CameraImage, ClassImage, DepthImage, Lidar, LidarScan, Radar, RadarScan, Rig, Sequence, Source,
     SourceError, Timelines,
@@ -104,7 +104,7 @@ fn list(folder: &Path, rig: &Rig, warnings: &mut Vec<String>) -> Result<[Vec<Sen
     };
     let of_images = |name: &str| {
         let of = |kind, extension| Partner { folder: folder.join(name).join(kind), extension };
-        [of("depth", "npy"), of("segmentation", "png")]
+        [of(tree::DEPTH, "npy"), of(tree::SEGMENTATION, "png")]
     };
     let radars = rig.radars.iter().map(|Radar { name, .. }| list(name, &["bin"], &truth(name)));
     let radars = radars.collect::<Result<_, _>>()?;
