@@ -15,10 +15,12 @@ use std::collections::VecDeque;
 use std::sync::{Mutex, PoisonError};
 
 /// A scan of a radar, by their places in the rig and in the radar's timeline.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub(crate) struct ScanIndex {
-    pub(crate) radar: usize,
-    pub(crate) scan: usize,
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct ScanIndex {
+    /// The radar's place in the rig.
+    pub radar: usize,
+    /// The scan's number.
+    pub scan: usize,
 }
 
 /// What frames are made of.

@@ -45,6 +45,7 @@ pub use disk::files::{check_writable, write_named, write_whole};
 pub use disk::images::png;
 pub use disk::label_file::{Label, read_labels, write_labels};
 pub use error::DataError;
+pub use frames::ScanIndex;
 pub use judge::{Balance, Balances, Comparison};
 pub use mismatches::{SequenceMismatches, gather_mismatches};
 pub use not_used::NotUsed;

@@ -63,7 +63,8 @@ impl Task<'_> {
     fn gather(&self, jobs: usize) -> Result<SequenceMismatches, DataError> {
         let name = &self.reader.sequence().name;
         self.observer.begin(Stage::Matching(name), self.scans.len() as u64);
-        let places: Vec<Option<ScanIndex>> = self.scans.iter().map(|id| self.place_of(id)).collect();
+        let places: Vec<Option<ScanIndex>> =
+            self.scans.iter().map(|id| id.place_in(self.reader.sequence())).collect();
         let (mut there, mut ids) = (Vec::new(), Vec::new());
         for (place, id) in places.iter().zip(&self.scans) {
             if let Some(place) = place {
@@ -87,12 +88,6 @@ impl Task<'_> {
             }
         }
         Ok(SequenceMismatches { table, not_used })
-    }
-
-    /// Radar and scan, where the recording holds them.
-    fn place_of(&self, id: &ScanId) -> Option<ScanIndex> {
-        let (radar, scan) = id.place_in(self.reader.sequence())?;
-        Some(ScanIndex { radar, scan })
     }
 
     fn match_scan(

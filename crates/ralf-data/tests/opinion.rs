@@ -89,8 +89,8 @@ impl Known {
 
 fn truth(reader: &dyn SequenceReader, things: &SequenceThings) -> Vec<Option<bool>> {
     let mut all = Vec::new();
-    for (radar, scan) in things.scans() {
-        let labels = reader.truth(*radar, *scan).unwrap().unwrap().labels;
+    for at in things.scans() {
+        let labels = reader.truth(at.radar, at.scan).unwrap().unwrap().labels;
         all.extend(labels.iter().map(|label| truth_of(label.id)));
     }
     all

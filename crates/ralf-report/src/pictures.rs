@@ -7,7 +7,7 @@ use ralf::sensors::{Radar, Sequence, is_return};
 use ralf::space::sync;
 use ralf::space::{Point, Transform, Vector};
 use ralf_data::result::{Group, Kind, PlausibilityReader, RadarScanKey, Table};
-use ralf_data::{DataError, SequenceReader};
+use ralf_data::{DataError, ScanIndex, SequenceReader};
 use ralf_plot::{
     Extent, Mark, MarkLabel, Marks, OverviewPicture, PlotError, RadarMount, ScanPicture, ValueScale,
     overview_picture, scan_picture,
@@ -185,7 +185,7 @@ impl Pictures<'_> {
     pub fn scans_near(&self, t_ns: i64, columns: &[&str]) -> Result<Vec<(i64, Table)>, ReportError> {
         let schema = self.tables.schema().only(columns)?;
         let mut near = Vec::new();
-        for (radar, scan) in self.drawn_at(t_ns) {
+        for ScanIndex { radar, scan } in self.drawn_at(t_ns) {
             let Sequence { rig, times, .. } = self.sequence();
             let table = self.tables.table_of(&RadarScanKey::new(&rig.radars[radar].name, scan), &schema)?;
             near.extend(table.map(|table| (times.radars[radar][scan], table)));
@@ -193,12 +193,14 @@ impl Pictures<'_> {
         Ok(near)
     }
 
-    /// Each drawn radar's scan nearest to a time, in the rig's order: the radar's place there, and the scan's number.
-    pub fn drawn_at(&self, t_ns: i64) -> impl Iterator<Item = (usize, usize)> {
+    /// Each drawn radar's scan nearest to a time, in the rig's order.
+    pub fn drawn_at(&self, t_ns: i64) -> impl Iterator<Item = ScanIndex> {
         let Sequence { rig, times, .. } = self.sequence();
         let drawn = rig.radars.iter().zip(&times.radars).enumerate();
         let drawn = drawn.filter(|(_, (radar, _))| self.shows(&radar.name));
-        drawn.filter_map(move |(place, (_, times))| Some((place, sync::nearest(times, t_ns, i64::MAX)?)))
+        drawn.filter_map(move |(radar, (_, times))| {
+            Some(ScanIndex { radar, scan: sync::nearest(times, t_ns, i64::MAX)? })
+        })
     }
 
     /// These detections in the vehicle frame at that time.

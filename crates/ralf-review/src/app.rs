@@ -11,7 +11,7 @@ use crate::shared_store::SharedStore;
 use crate::team::Team;
 use ralf_corrections::{Outcome, Reader, ScanContent, ScanKey, ScanVersion, Store, StoreError, Who};
 use ralf_data::run::read_record;
-use ralf_data::{Recording, SequenceReader};
+use ralf_data::{Recording, ScanIndex, SequenceReader};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use tokio::sync::{Semaphore, watch};
@@ -51,8 +51,7 @@ pub(crate) struct App {
 pub(crate) struct ScanPlace<'a> {
     pub(crate) sequence: usize,
     pub(crate) reader: &'a dyn SequenceReader,
-    pub(crate) radar: usize,
-    pub(crate) scan: usize,
+    pub(crate) scan: ScanIndex,
     pub(crate) t_ns: i64,
     pub(crate) key: ScanKey,
 }
@@ -135,13 +134,13 @@ impl App {
 
     /// What a scan holds as it was read last, for answers about many scans.
     pub(crate) fn known_version(&self, place: ScanPlace) -> Result<ScanVersion, ApiError> {
-        let at = (place.sequence, place.radar, place.scan);
+        let at = (place.sequence, place.scan);
         let content = self.contents.known(place.reader, at).map_or_else(|| self.content(&place), Ok)?;
         Ok(ScanVersion { key: place.key, content })
     }
 
     pub(crate) fn content(&self, place: &ScanPlace) -> Result<ScanContent, ApiError> {
-        Ok(self.contents.read(place.reader, (place.sequence, place.radar, place.scan))?)
+        Ok(self.contents.read(place.reader, (place.sequence, place.scan))?)
     }
 
     /// A sequence by its name.
@@ -159,7 +158,7 @@ impl App {
         let (place, t_ns) = measurement("radar", names, times, radar, scan)?;
         let number = u32::try_from(scan).map_err(|error| ApiError::Malformed(error.to_string()))?;
         let key = ScanKey { sequence: sequence.to_owned(), radar: radar.to_owned(), scan: number };
-        Ok(ScanPlace { sequence: index, reader, radar: place, scan, t_ns, key })
+        Ok(ScanPlace { sequence: index, reader, scan: ScanIndex { radar: place, scan }, t_ns, key })
     }
 
     /// A sequence's labels, as they lie there now.

@@ -2,12 +2,12 @@
 
 use ralf::sensors::SourceError;
 use ralf_corrections::{ScanContent, ScanSummary};
-use ralf_data::{SequenceReader, scan_content};
+use ralf_data::{ScanIndex, SequenceReader, scan_content};
 use std::collections::BTreeMap;
 use std::sync::{Mutex, PoisonError};
 
 /// A sequence, a radar and a scan by their places.
-type Place = (usize, usize, usize);
+type Place = (usize, ScanIndex);
 
 /// The contents of scans, as they were read last; `None` of those that can't be read.
 #[derive(Default)]
@@ -16,7 +16,7 @@ pub(crate) struct Contents(Mutex<BTreeMap<Place, Option<ScanContent>>>);
 impl Contents {
     /// What a scan holds now.
     pub(crate) fn read(&self, reader: &dyn SequenceReader, place: Place) -> Result<ScanContent, SourceError> {
-        let (_, radar, scan) = place;
+        let (_, ScanIndex { radar, scan }) = place;
         let found = reader.radar_scan(radar, scan).map(|scan| {
             // A file of more detections than fit is refused when it is read.
             let detections = u32::try_from(scan.len()).unwrap_or(u32::MAX);

@@ -13,7 +13,7 @@ use ralf_data::result::{
     RadarScanKey, Table,
 };
 use ralf_data::things::{Extent, SequenceEvidence, SequenceThings};
-use ralf_data::{DataError, SequenceReader};
+use ralf_data::{DataError, ScanIndex, SequenceReader};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -38,7 +38,7 @@ pub(crate) struct SequenceLabels {
     /// By camera of the rig: images that were asked, and whether one of their views has failed.
     images: Vec<BTreeMap<usize, bool>>,
     /// Why scans could not be labelled, by radar and number.
-    not_labelled: BTreeMap<(String, usize), String>,
+    not_labelled: BTreeMap<RadarScanKey, String>,
     needs: Cache<(), Vec<ScanNeed>>,
     things: Cache<(), SequenceThings>,
     observed: Cache<(), SequenceEvidence>,
@@ -73,8 +73,9 @@ impl SequenceLabels {
     pub(crate) fn load(out: &Path, reader: &dyn SequenceReader, stamp: Stamp) -> Result<Self, ApiError> {
         let LabelledSequence { record, rig, settings, tables } = LabelledRun::open(out)?.sequence(reader)?;
         let not_labelled = record.not_labelled.iter();
-        let not_labelled =
-            not_labelled.map(|scan| ((scan.radar.clone(), scan.scan), scan.reason.clone())).collect();
+        let not_labelled = not_labelled
+            .map(|scan| (RadarScanKey::new(&scan.radar, scan.scan), scan.reason.clone()))
+            .collect();
         let images = rig.cameras.iter().map(|camera| asked_images(&record.cameras, &camera.name)).collect();
         Ok(Self {
             stamp,
@@ -107,7 +108,7 @@ impl SequenceLabels {
 
     /// Why a scan could not be labelled.
     pub(crate) fn reason(&self, radar: &str, scan: usize) -> Option<&str> {
-        self.not_labelled.get(&(radar.to_owned(), scan)).map(String::as_str)
+        self.not_labelled.get(&RadarScanKey::new(radar, scan)).map(String::as_str)
     }
 
     /// The cameras (by their place in the rig) whose image nearest to a time was asked, and of which a view has failed.
@@ -156,24 +157,25 @@ impl SequenceLabels {
         let mut needs = Vec::new();
         for (radar, times) in sequence.times.radars.iter().enumerate() {
             for (scan, t_ns) in times.iter().copied().enumerate() {
-                let name = (sequence.rig.radars[radar].name.clone(), scan);
-                if self.reason(&name.0, scan).is_some() {
+                let key = RadarScanKey::new(&sequence.rig.radars[radar].name, scan);
+                if self.not_labelled.contains_key(&key) {
                     continue;
                 }
-                let doubts = doubts.remove(&name).unwrap_or_default();
+                let doubts = doubts.remove(&key).unwrap_or_default();
                 let cameras_failed = self.failed_cameras_at(&sequence.times.cameras, t_ns).len();
-                needs.push(ScanNeed { radar, scan, t_ns, doubts, cameras_failed });
+                let scan = ScanIndex { radar, scan };
+                needs.push(ScanNeed { scan, t_ns, doubts, cameras_failed });
             }
         }
         Ok(needs)
     }
 
     /// The doubts of every scan that has detections; no more than one row group is in memory.
-    fn doubts(&self) -> Result<BTreeMap<(String, usize), Doubts>, DataError> {
+    fn doubts(&self) -> Result<BTreeMap<RadarScanKey, Doubts>, DataError> {
         let certainty = Certainty::of(&self.settings);
         let mut doubts = BTreeMap::new();
         self.reader.each(&Doubts::COLUMNS, |key, table| {
-            doubts.insert((key.radar.to_string(), key.scan), Doubts::of(table, &certainty)?);
+            doubts.insert(key.clone(), Doubts::of(table, &certainty)?);
             Ok::<_, DataError>(())
         })?;
         Ok(doubts)

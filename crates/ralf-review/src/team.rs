@@ -3,7 +3,7 @@
 use crate::error::ReviewError;
 use ralf_corrections::FILE;
 use ralf_data::DataError;
-use ralf_data::result::SequenceRecord;
+use ralf_data::result::{RadarScanKey, SequenceRecord};
 use ralf_data::team::{Assignment, second_file};
 use std::collections::BTreeSet;
 use std::fs;
@@ -46,22 +46,22 @@ impl Team {
         self.assignment.as_ref()?.of_sequence(name)
     }
 
-    /// The scans of a sequence, by radar and number, that the queue is about; `None`: all of them, as for who labels a
+    /// The scans of a sequence that the queue is about; `None`: all of them, as for who labels a
     /// second time and was dealt no scans in any sequence.
-    pub(crate) fn queued(&self, sequence: &str) -> Option<BTreeSet<(&str, usize)>> {
+    pub(crate) fn queued(&self, sequence: &str) -> Option<BTreeSet<RadarScanKey>> {
         let share = self.assignment.as_ref()?.0.get(self.second.as_ref()?)?;
         (!share.twice.is_empty()).then(|| scans(share.twice.iter(), sequence))
     }
 
     /// The scans of a sequence that somebody is to label a second time; `None` where none were dealt in any.
-    pub(crate) fn twice(&self, sequence: &str) -> Option<BTreeSet<(&str, usize)>> {
+    pub(crate) fn twice(&self, sequence: &str) -> Option<BTreeSet<RadarScanKey>> {
         let mut dealt = self.assignment.as_ref()?.0.values().flat_map(|share| &share.twice).peekable();
         dealt.peek()?;
         Some(scans(dealt, sequence))
     }
 }
 
-fn scans<'a>(all: impl Iterator<Item = &'a ralf_data::ScanId>, sequence: &str) -> BTreeSet<(&'a str, usize)> {
+fn scans<'a>(all: impl Iterator<Item = &'a ralf_data::ScanId>, sequence: &str) -> BTreeSet<RadarScanKey> {
     let own = all.filter(|scan| scan.sequence == sequence);
-    own.map(|scan| (scan.radar.as_str(), scan.scan as usize)).collect()
+    own.map(|scan| RadarScanKey::new(&scan.radar, scan.scan as usize)).collect()
 }

@@ -58,8 +58,8 @@ fn compare(
     scan: &ScanId,
 ) -> Result<Option<Confusion>, DataError> {
     let file = scan.label_file(out);
-    let names = (scan.sequence.as_str(), scan.radar.as_str(), scan.scan);
-    let Some(labels) = LabelledRun::labels_below(out, run, names)? else { return Ok(None) };
+    let labels = LabelledRun::labels_below(out, run, &scan.sequence, &scan.radar, scan.scan as usize)?;
+    let Some(labels) = labels else { return Ok(None) };
     let truths = truth.labels(scan)?;
     if labels.len() != truths.len() {
         let expected = format!("{} as in its ground truth", truths.len());

@@ -227,24 +227,25 @@ impl LabelledRun {
     pub(crate) fn labels_below(
         out: &Path,
         run: Option<&Self>,
-        scan: (&str, &str, u32),
+        sequence: &str,
+        radar: &str,
+        scan: usize,
     ) -> Result<Option<Vec<Label>>, DataError> {
-        let (sequence, radar, number) = (scan.0, scan.1, scan.2 as usize);
         // Who has a name that no folder can have was not labelled.
         let (Ok(sequence), Ok(radar)) = (Component::new(sequence), Component::new(radar)) else {
             return Ok(None);
         };
-        let file = Places::new(out).label_file(&sequence, &radar, number);
+        let file = Places::new(out).label_file(&sequence, &radar, scan);
         let record = run.and_then(|run| run.record.sequence(sequence.as_str()));
         let record =
             record.and_then(|record| record.radars.iter().find(|known| known.name == radar.as_str()));
         if !file.try_exists().map_err(DataError::io(&file))? {
             let written =
-                record.is_some_and(|record| record.labels.get(number).is_some_and(|hash| !hash.is_empty()));
+                record.is_some_and(|record| record.labels.get(scan).is_some_and(|hash| !hash.is_empty()));
             return if written { Err(damaged(&file)) } else { Ok(None) };
         }
         let bytes = files::read(&file)?;
-        if record.is_some_and(|record| !record.labels_match(number, &bytes)) {
+        if record.is_some_and(|record| !record.labels_match(scan, &bytes)) {
             return Err(damaged(&file));
         }
         labels_of_bytes(&file, &bytes).map(Some)

@@ -1,6 +1,7 @@
 //! Which things are worth an answer of a person.
 
 use super::SequenceThings;
+use crate::frames::ScanIndex;
 use std::collections::BTreeSet;
 
 /// How many answers the machine's own doubt is worth beside those of people about the same thing.
@@ -34,8 +35,8 @@ pub struct Thing {
     pub answered: usize,
     /// How many wrong labels are expected among those without an answer.
     pub expected_errors: f64,
-    /// A detection near the middle of its life: the radar's place in the rig, the scan, and its place in the scan.
-    pub seen: (usize, usize, usize),
+    /// A detection near the middle of its life: its scan, and its place in that.
+    pub seen: (ScanIndex, usize),
 }
 
 /// What wants an answer.
@@ -121,9 +122,8 @@ impl SequenceThings {
         };
         let mut by_time: Vec<usize> = rows.to_vec();
         by_time.sort_by_key(|row| (sightings[*row].t_ns, *row));
-        let scans: BTreeSet<(usize, usize)> = rows.iter().map(|row| self.scan_of(*row)).collect();
+        let scans: BTreeSet<ScanIndex> = rows.iter().map(|row| self.scan_of(*row)).collect();
         let middle = by_time[rows.len() / 2];
-        let (radar, scan) = self.scan_of(middle);
         Thing {
             number,
             place,
@@ -133,7 +133,7 @@ impl SequenceThings {
             plausible: rows.iter().filter(|row| sightings[**row].plausible).count(),
             answered: rows.iter().filter(|row| answers[**row].is_some()).count(),
             expected_errors,
-            seen: (radar, scan, middle - self.rows_of(radar, scan).start),
+            seen: self.place_of(middle),
         }
     }
 }

@@ -62,10 +62,10 @@ impl SequenceEvidence {
     ) -> Result<Self, UseError> {
         let columns = model.places()?;
         let (scans, serves) = looked_at(things, &extent);
-        let of: Vec<usize> = scans.iter().flat_map(|at| things.rows_of(at.radar, at.scan)).collect();
+        let of: Vec<usize> = scans.iter().flat_map(|at| things.rows_of(*at)).collect();
         let frames = Frames { reader, rig, config, evidence: true };
         let gathered = frames.each(&scans, jobs, |window, at| {
-            let detections = things.rows_of(scans[at].radar, scans[at].scan).len();
+            let detections = things.rows_of(scans[at]).len();
             Ok::<_, Infallible>(observed(window, scans[at], detections, config))
         });
         let gathered = gathered.unwrap_or_else(|never| match never {});
@@ -86,8 +86,7 @@ impl SequenceEvidence {
             (to[width], to[width + 1]) = (log_odds as f32, things.sightings()[*at].w);
         }
         let monotone = features().map(|feature| direction(feature.name)).chain([1, 0]).collect();
-        let with_detections =
-            things.scans().iter().filter(|(radar, scan)| !things.rows_of(*radar, *scan).is_empty());
+        let with_detections = things.scans().iter().filter(|scan| !things.rows_of(**scan).is_empty());
         Ok(Self {
             of,
             scans_looked_at: scans.len(),
@@ -119,10 +118,10 @@ impl SequenceEvidence {
 
 /// The scans of a sequence within an extent that have detections, in their order, and when they [serve](served).
 fn looked_at(things: &SequenceThings, extent: &Extent) -> (Vec<ScanIndex>, RangeInclusive<i64>) {
-    let measured = things.scans().iter().filter_map(|(radar, scan)| {
-        let rows = things.rows_of(*radar, *scan);
+    let measured = things.scans().iter().filter_map(|scan| {
+        let rows = things.rows_of(*scan);
         let t_ns = things.sightings()[rows.clone().next()?].t_ns;
-        Some((ScanIndex { radar: *radar, scan: *scan }, t_ns, rows.len()))
+        Some((*scan, t_ns, rows.len()))
     });
     let all: Vec<(ScanIndex, i64, usize)> = measured.collect();
     let sizes: Vec<(i64, usize)> = all.iter().map(|(_, t_ns, detections)| (*t_ns, *detections)).collect();

@@ -2,6 +2,7 @@
 
 use super::{Sighting, group};
 use crate::error::DataError;
+use crate::frames::ScanIndex;
 use crate::judge::Certainty;
 use crate::read::SequenceReader;
 use crate::result::{PlausibilityReader, RadarScanKey, Table};
@@ -13,9 +14,9 @@ use std::ops::Range;
 /// The detections of a sequence, and what belongs together.
 #[derive(Debug, Clone)]
 pub struct SequenceThings {
-    /// Radar and scan of each run of detections, in their order.
-    scans: Vec<(usize, usize)>,
-    rows: BTreeMap<(usize, usize), Range<usize>>,
+    /// The scan of each run of detections, in their order.
+    scans: Vec<ScanIndex>,
+    rows: BTreeMap<ScanIndex, Range<usize>>,
     /// Which of `scans` a detection belongs to.
     scan_of: Vec<u32>,
     sightings: Vec<Sighting>,
@@ -82,8 +83,9 @@ impl SequenceThings {
             self.doubt.push(certainty.expected_error(w[row], flags[row]));
             self.scan_of.push(self.scans.len() as u32);
         }
-        self.scans.push((radar, key.scan));
-        self.rows.insert((radar, key.scan), begin..self.sightings.len());
+        let at = ScanIndex { radar, scan: key.scan };
+        self.scans.push(at);
+        self.rows.insert(at, begin..self.sightings.len());
         Ok(())
     }
 
@@ -107,15 +109,15 @@ impl SequenceThings {
         &self.doubt
     }
 
-    /// Which of the detections are those of a scan, by the radar's place in the rig; none of one without labels.
-    pub fn rows_of(&self, radar: usize, scan: usize) -> Range<usize> {
-        self.rows.get(&(radar, scan)).cloned().unwrap_or_default()
+    /// Which of the detections are those of a scan; none of one without labels.
+    pub fn rows_of(&self, scan: ScanIndex) -> Range<usize> {
+        self.rows.get(&scan).cloned().unwrap_or_default()
     }
 
-    /// The radar, the scan and the place in it of a detection.
-    pub fn place_of(&self, row: usize) -> (usize, usize, usize) {
-        let (radar, scan) = self.scan_of(row);
-        (radar, scan, row - self.rows_of(radar, scan).start)
+    /// The scan of a detection, and its place in it.
+    pub fn place_of(&self, row: usize) -> (ScanIndex, usize) {
+        let scan = self.scan_of(row);
+        (scan, row - self.rows_of(scan).start)
     }
 
     /// The detections of a thing, in rising order.
@@ -123,13 +125,13 @@ impl SequenceThings {
         (0..self.things.len()).filter(move |row| self.things[*row] == thing)
     }
 
-    /// The radar's place and the scan's number of a detection.
-    pub fn scan_of(&self, row: usize) -> (usize, usize) {
+    /// The scan of a detection.
+    pub fn scan_of(&self, row: usize) -> ScanIndex {
         self.scans[self.scan_of[row] as usize]
     }
 
     /// The scans that have detections, in their order.
-    pub fn scans(&self) -> &[(usize, usize)] {
+    pub fn scans(&self) -> &[ScanIndex] {
         &self.scans
     }
 }

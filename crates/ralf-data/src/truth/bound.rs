@@ -47,8 +47,8 @@ pub fn lost_sequences(
 /// What a scan of a recording holds; `None` of one that isn't there or can't be read.
 fn content_now(recording: &Recording, scan: &ScanId) -> Option<ScanContent> {
     let reader = recording.sequences.iter().find(|reader| reader.sequence().name == scan.sequence)?;
-    let (radar, number) = scan.place_in(reader.sequence())?;
-    let measured = reader.radar_scan(radar, number).ok()?;
+    let at = scan.place_in(reader.sequence())?;
+    let measured = reader.radar_scan(at.radar, at.scan).ok()?;
     let detections = u32::try_from(measured.len()).ok()?;
     Some(ScanContent { detections, hash: Some(scan_content(&measured)) })
 }

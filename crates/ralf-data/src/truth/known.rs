@@ -2,6 +2,7 @@
 
 use super::scan_id::ScanId;
 use crate::error::DataError;
+use crate::frames::ScanIndex;
 use crate::read::open::{knows_truth, open};
 use crate::read::{Recording, SequenceReader, TruthLabels};
 use std::path::{Path, PathBuf};
@@ -38,7 +39,7 @@ impl KnownTruth {
     pub(super) fn of_scan(&self, scan: &ScanId) -> Result<Option<TruthLabels>, DataError> {
         let Some(reader) = self.reader(&scan.sequence) else { return Ok(None) };
         let place = scan.place_in(reader.sequence());
-        place.map_or(Ok(None), |(radar, scan)| truth(reader, radar, scan))
+        place.map_or(Ok(None), |at| truth(reader, at))
     }
 
     /// The names of a sequence's causes, by their numbers; empty where none are told apart.
@@ -59,7 +60,10 @@ impl KnownTruth {
     }
 }
 
-fn truth(reader: &dyn SequenceReader, radar: usize, scan: usize) -> Result<Option<TruthLabels>, DataError> {
+fn truth(
+    reader: &dyn SequenceReader,
+    ScanIndex { radar, scan }: ScanIndex,
+) -> Result<Option<TruthLabels>, DataError> {
     reader.truth(radar, scan).map_err(|error| {
         let sensor = reader.sequence().rig.radars[radar].name.clone();
         DataError::Measurement { sensor, index: scan, error }

@@ -1,5 +1,6 @@
 //! Which scan, and where its labels lie.
 
+use crate::frames::ScanIndex;
 use crate::tree;
 use ralf::sensors::Sequence;
 use std::fmt;
@@ -22,11 +23,11 @@ impl ScanId {
         tree::label_file(out, &self.sequence, &self.radar, self.scan as usize)
     }
 
-    /// The radar's place in the rig of its sequence and the scan's number; `None` where it isn't there.
-    pub fn place_in(&self, sequence: &Sequence) -> Option<(usize, usize)> {
+    /// Where it lies in its sequence; `None` where it isn't there.
+    pub fn place_in(&self, sequence: &Sequence) -> Option<ScanIndex> {
         let radar = sequence.rig.radars.iter().position(|radar| radar.name == self.radar)?;
         let (scan, times) = (self.scan as usize, sequence.times.radars.get(radar)?);
-        (self.sequence == sequence.name && scan < times.len()).then_some((radar, scan))
+        (self.sequence == sequence.name && scan < times.len()).then_some(ScanIndex { radar, scan })
     }
 
     /// Where its corrected labels lie below the dataset's folder.

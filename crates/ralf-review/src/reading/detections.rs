@@ -109,7 +109,7 @@ fn header(place: &ScanPlace, labels: &SequenceLabels, said: &ScanState) -> Map<S
         ("odom_from_vehicle".to_owned(), matrix(&sequence.motion.odom_from_vehicle(place.t_ns))),
         (
             "origin".to_owned(),
-            json!(labels.rig.radars[place.radar].vehicle_from_radar.translation.vector.as_slice()),
+            json!(labels.rig.radars[place.scan.radar].vehicle_from_radar.translation.vector.as_slice()),
         ),
         ("lidar".to_owned(), lidar_at(labels, sequence, place.t_ns)),
         ("cameras".to_owned(), cameras_at(sequence, place.t_ns)),

@@ -8,9 +8,10 @@ use crate::http::{Answer, ApiError, json};
 use ralf::sensors::Sequence;
 use ralf_corrections::{FILE, Reader};
 use ralf_data::judge::{Difference, compare, is_about_plausibility};
+use ralf_data::result::RadarScanKey;
 use ralf_data::team::second_labellers;
 use ralf_data::things::{SequenceThings, Thing};
-use ralf_data::{Corrections, ScanId, SequenceReader};
+use ralf_data::{Corrections, ScanId, ScanIndex, SequenceReader};
 use serde_json::{Value, json};
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet};
@@ -53,14 +54,12 @@ pub(crate) fn disagreements(app: &App, sequence: &str) -> Answer {
         // Of a scan without detections nobody labels anything, and people are through with it all the same.
         let theirs: BTreeSet<&ScanId> = second.scans().collect();
         let common = first.scans().filter(|scan| theirs.contains(scan));
-        both.extend(common.map(|scan| (scan.radar.clone(), scan.scan as usize)));
+        both.extend(common.map(|scan| RadarScanKey::new(&scan.radar, scan.scan as usize)));
         told.push(json!({ "second": name, "scans": agreement.scans.len(), "agreement": agreement.json() }));
         gather(reader.sequence(), &known, &differences, &name, &mut found);
     }
     let base = bases(app, reader.sequence(), &known, found.values().flatten())?;
-    let waiting = app.team.twice(sequence).map(|twice| {
-        twice.iter().filter(|(radar, scan)| !both.contains(&((*radar).to_owned(), *scan))).count()
-    });
+    let waiting = app.team.twice(sequence).map(|twice| twice.difference(&both).count());
     json(&json!({
         "people": told,
         "waiting": waiting,
@@ -78,7 +77,7 @@ fn through(
     let sequence = reader.sequence();
     let bound = Corrections::open(file)?.bound(|scan| {
         let there = scan.place_in(sequence);
-        Ok::<_, ApiError>(there.and_then(|(radar, scan)| app.contents.known(reader, (index, radar, scan))))
+        Ok::<_, ApiError>(there.and_then(|at| app.contents.known(reader, (index, at))))
     });
     // Who was through with what a scan held before may not be through with what it holds now.
     bound.map(Corrections::of_reviewed_scans)
@@ -93,8 +92,8 @@ fn gather(
     found: &mut BTreeMap<Dispute, Vec<usize>>,
 ) {
     for difference in differences {
-        let Some((radar, scan)) = difference.scan.place_in(sequence) else { continue };
-        let Some(row) = known.rows_of(radar, scan).nth(difference.point) else { continue };
+        let Some(scan) = difference.scan.place_in(sequence) else { continue };
+        let Some(row) = known.rows_of(scan).nth(difference.point) else { continue };
         let said = |label, cause: &Option<String>| Said { label, cause: known_cause(cause.as_deref()) };
         let first = said(difference.first, &difference.first_cause);
         let second = said(difference.second, &difference.second_cause);
@@ -137,7 +136,7 @@ fn row(
     let mut row = things::row(sequence, thing);
     row["points"] = things::points(sequence, known, rows);
     // The thing itself may have been seen elsewhere only: what is in question is looked at.
-    let (radar, scan, point) = known.place_of(rows[rows.len() / 2]);
+    let (ScanIndex { radar, scan }, point) = known.place_of(rows[rows.len() / 2]);
     row["radar"] = json!(sequence.rig.radars[radar].name);
     (row["scan"], row["point"]) = (json!(scan), json!(point));
     (row["first"], row["second"], row["by"]) = (json!(first.label), json!(second.label), json!(by));

@@ -7,6 +7,7 @@ use crate::app::App;
 use crate::http::{Answer, ApiError, json};
 use ralf::label::{ARTIFACT, PLAUSIBLE};
 use ralf::sensors::Sequence;
+use ralf_data::ScanIndex;
 use ralf_data::things::{Kind, KindName, SequenceThings};
 use serde::Deserialize;
 use serde_json::{Value, json};
@@ -60,7 +61,7 @@ fn row(sequence: &Sequence, known: &SequenceThings, kind: &Kind) -> Value {
     let of_things: BTreeSet<u32> = kind.rows.iter().map(|row| known.things()[*row]).collect();
     let mut by_time = kind.rows.clone();
     by_time.sort_by_key(|row| (known.sightings()[*row].t_ns, *row));
-    let (radar, scan) = known.scan_of(by_time[by_time.len() / 2]);
+    let ScanIndex { radar, scan } = known.scan_of(by_time[by_time.len() / 2]);
     json!({
         "kind": kind.name.to_string(),
         "sign": kind.name.sign.name(),

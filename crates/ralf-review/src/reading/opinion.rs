@@ -7,8 +7,8 @@ use crate::http::{Answer, ApiError, json};
 use crate::labelled::SequenceLabels;
 use ralf::label::{ARTIFACT, PLAUSIBLE};
 use ralf::sensors::Sequence;
-use ralf_data::SequenceReader;
 use ralf_data::things::{self as data, Change, SequenceEvidence, SequenceThings};
+use ralf_data::{ScanIndex, SequenceReader};
 use serde::Deserialize;
 use serde_json::{Map, Value, json};
 use std::collections::BTreeSet;
@@ -95,12 +95,12 @@ pub(super) fn bases<'a>(
     things: &SequenceThings,
     rows: impl IntoIterator<Item = &'a usize>,
 ) -> Result<Vec<Value>, ApiError> {
-    let scans: BTreeSet<(usize, usize)> = rows.into_iter().map(|row| things.scan_of(*row)).collect();
+    let scans: BTreeSet<ScanIndex> = rows.into_iter().map(|row| things.scan_of(*row)).collect();
     scans.into_iter().map(|scan| base(app, sequence, scan)).collect()
 }
 
 /// What a stroke on a scan rests on.
-fn base(app: &App, sequence: &Sequence, (radar, scan): (usize, usize)) -> Result<Value, ApiError> {
+fn base(app: &App, sequence: &Sequence, ScanIndex { radar, scan }: ScanIndex) -> Result<Value, ApiError> {
     let place = app.scan(&sequence.name, &sequence.rig.radars[radar].name, scan)?;
     let version = app.known_version(place)?;
     let revision = app.said(|store| store.scan(&version))?.revision;

@@ -3,6 +3,7 @@
 use crate::app::{App, ScanPlace};
 use crate::http::{Answer, ApiError, json};
 use ralf_corrections::{Reader, Saying, ScanVersion};
+use ralf_data::ScanIndex;
 use ralf_data::team::Worked;
 use serde::Deserialize;
 use serde_json::{Value, json};
@@ -42,14 +43,14 @@ fn one(point: usize) -> Result<BTreeSet<u32>, ApiError> {
 fn thing(app: &App, place: &ScanPlace, point: usize) -> Result<Vec<(ScanVersion, BTreeSet<u32>)>, ApiError> {
     let things = app.labels(place.sequence)?.things(place.reader)?;
     let numbers = things.things();
-    let of_point = things.rows_of(place.radar, place.scan).nth(point);
-    let mut scans: BTreeMap<(usize, usize), BTreeSet<u32>> = BTreeMap::new();
+    let of_point = things.rows_of(place.scan).nth(point);
+    let mut scans: BTreeMap<ScanIndex, BTreeSet<u32>> = BTreeMap::new();
     for row in of_point.into_iter().flat_map(|row| things.rows_of_thing(numbers[row])) {
-        let (radar, scan, point) = things.place_of(row);
-        scans.entry((radar, scan)).or_default().extend(u32::try_from(point).ok());
+        let (scan, point) = things.place_of(row);
+        scans.entry(scan).or_default().extend(u32::try_from(point).ok());
     }
     let sequence = place.reader.sequence();
-    let version = |((radar, scan), points): ((usize, usize), BTreeSet<u32>)| {
+    let version = |(ScanIndex { radar, scan }, points): (ScanIndex, BTreeSet<u32>)| {
         let place = app.scan(&sequence.name, &sequence.rig.radars[radar].name, scan)?;
         Ok((app.known_version(place)?, points))
     };

@@ -5,7 +5,7 @@ use crate::http::{Answer, ApiError, Table, content};
 use crate::labelled::SequenceLabels;
 use ralf::sensors::{Camera, is_return};
 use ralf::space::{EgoMotion, Point};
-use ralf_data::SequenceReader;
+use ralf_data::{ScanIndex, SequenceReader};
 use serde::Deserialize;
 use serde_json::{Map, Value, json};
 use std::sync::Arc;
@@ -125,7 +125,7 @@ pub(crate) fn thing_projection(app: &App, name: ImageName, thing: u32) -> Answer
     }
     let shot = scene.shot(name)?;
     let sees = shot.sees_in_world();
-    let mut scans: Vec<(usize, usize)> = Vec::new();
+    let mut scans: Vec<ScanIndex> = Vec::new();
     let (mut scan_of, mut points, mut seen) = (Vec::new(), Vec::new(), Vec::new());
     for row in things.rows_of_thing(thing) {
         let sighting = &things.sightings()[row];
@@ -133,17 +133,17 @@ pub(crate) fn thing_projection(app: &App, name: ImageName, thing: u32) -> Answer
         let Some(place) = sees(&Point::from(sighting.place)).filter(|_| is_near || !sighting.moves()) else {
             continue;
         };
-        let (radar, scan, point) = things.place_of(row);
-        if scans.last() != Some(&(radar, scan)) {
-            scans.push((radar, scan));
+        let (scan, point) = things.place_of(row);
+        if scans.last() != Some(&scan) {
+            scans.push(scan);
         }
         scan_of.push(scans.len() as u32 - 1);
         points.push(point as u32);
         seen.push(Some(place));
     }
     let radars = &scene.reader.sequence().rig.radars;
-    let scans: Value =
-        scans.iter().map(|(radar, scan)| json!({ "radar": radars[*radar].name, "scan": scan })).collect();
+    let told = |at: &ScanIndex| json!({ "radar": radars[at.radar].name, "scan": at.scan });
+    let scans: Value = scans.iter().map(told).collect();
     let mut table = pixels(&seen, Table::new(seen.len()));
     table.u32("scan", scan_of);
     table.u32("point", points);

@@ -5,7 +5,9 @@ use super::time;
 use crate::app::App;
 use crate::http::{Answer, ApiError, json};
 use crate::need::ScanNeed;
-use ralf_data::SequenceReader;
+use ralf::sensors::Sequence;
+use ralf_data::result::RadarScanKey;
+use ralf_data::{ScanIndex, SequenceReader};
 use serde_json::{Value, json};
 
 /// Every labelled radar scan of a sequence: those that nobody has reviewed first, and of these the ones with the most
@@ -22,29 +24,27 @@ pub(crate) fn queue(app: &App, sequence: &str) -> Answer {
     } else {
         let things = labels.things(reader)?;
         let errors = things.expected_errors(&said.answers(app, &things)?);
-        let of =
-            |need: &&ScanNeed| errors[things.rows_of(need.radar, need.scan)].iter().fold(0.0, |a, b| a + b);
+        let of = |need: &&ScanNeed| errors[things.rows_of(need.scan)].iter().fold(0.0, |a, b| a + b);
         needs.iter().map(of).collect()
     };
     let keys = keys(reader, &needs);
-    let mut order: Vec<(&ScanNeed, f64, &(String, usize))> =
+    let mut order: Vec<(&ScanNeed, f64, &RadarScanKey)> =
         needs.iter().zip(left).zip(&keys).map(|((need, left), key)| (*need, left, key)).collect();
     order.sort_by(|(a, a_left, a_key), (b, b_left, b_key)| {
-        let reviewed =
-            |key: &(String, usize)| said.holding.get(key).is_some_and(|said| said.reviewed.is_some());
-        let by_place = || (a.t_ns, a.radar, a.scan).cmp(&(b.t_ns, b.radar, b.scan));
+        let reviewed = |key: &RadarScanKey| said.holding.get(key).is_some_and(|said| said.reviewed.is_some());
+        let by_place = || (a.t_ns, a.scan).cmp(&(b.t_ns, b.scan));
         reviewed(a_key).cmp(&reviewed(b_key)).then(b_left.total_cmp(a_left)).then_with(by_place)
     });
     let scans: Vec<Value> = order.into_iter().map(|(need, left, key)| row(need, left, key, &said)).collect();
     json(&json!({ "scans": scans, "progress": said.progress(&keys) }))
 }
 
-fn row(need: &ScanNeed, left: f64, key: &(String, usize), said: &Said) -> Value {
+fn row(need: &ScanNeed, left: f64, key: &RadarScanKey, said: &Said) -> Value {
     let holding = said.holding.get(key);
     let reviewed = holding.and_then(|said| said.reviewed.as_ref());
     json!({
-        "radar": key.0,
-        "scan": need.scan,
+        "radar": *key.radar,
+        "scan": key.scan,
         "t_ns": time(need.t_ns),
         "detections": need.doubts.detections,
         "expected_errors": left,
@@ -65,19 +65,19 @@ pub(crate) fn progress(app: &App, sequence: &str) -> Result<Value, ApiError> {
     Ok(Said::of(app, index, reader)?.progress(&keys))
 }
 
-/// Scans by radar and number.
-fn keys(reader: &dyn SequenceReader, needs: &[&ScanNeed]) -> Vec<(String, usize)> {
-    let radars = &reader.sequence().rig.radars;
-    needs.iter().map(|need| (radars[need.radar].name.clone(), need.scan)).collect()
+fn key(sequence: &Sequence, ScanIndex { radar, scan }: ScanIndex) -> RadarScanKey {
+    RadarScanKey::new(&sequence.rig.radars[radar].name, scan)
+}
+
+fn keys(reader: &dyn SequenceReader, needs: &[&ScanNeed]) -> Vec<RadarScanKey> {
+    needs.iter().map(|need| key(reader.sequence(), need.scan)).collect()
 }
 
 /// The scans that the queue is about: all, but for somebody who labels some of them a second time.
 fn queued<'a>(app: &App, reader: &dyn SequenceReader, needs: &'a [ScanNeed]) -> Vec<&'a ScanNeed> {
     let sequence = reader.sequence();
     let wanted = app.team.queued(&sequence.name);
-    let is_wanted = |need: &&ScanNeed| {
-        let scan = (sequence.rig.radars[need.radar].name.as_str(), need.scan);
-        wanted.as_ref().is_none_or(|wanted| wanted.contains(&scan))
-    };
+    let is_wanted =
+        |need: &&ScanNeed| wanted.as_ref().is_none_or(|wanted| wanted.contains(&key(sequence, need.scan)));
     needs.iter().filter(is_wanted).collect()
 }

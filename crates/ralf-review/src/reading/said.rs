@@ -4,6 +4,7 @@ use crate::app::App;
 use crate::http::ApiError;
 use ralf::label::truth_of;
 use ralf_corrections::{ScanSummary, ScanVersion};
+use ralf_data::result::RadarScanKey;
 use ralf_data::things::{Answer, SequenceThings};
 use ralf_data::truth::effective_labels;
 use ralf_data::{Label, ScanId, SequenceReader};
@@ -13,10 +14,10 @@ use std::collections::BTreeMap;
 /// What people say of a sequence.
 #[derive(Default)]
 pub(super) struct Said {
-    /// By radar and scan: of what the scan holds now.
-    pub(super) holding: BTreeMap<(String, usize), ScanSummary>,
-    /// By radar and scan: corrected detections and marks of what it held before. They are kept, and count nowhere.
-    pub(super) orphaned: BTreeMap<(String, usize), u64>,
+    /// Of what the scan holds now.
+    pub(super) holding: BTreeMap<RadarScanKey, ScanSummary>,
+    /// Corrected detections and marks of what it held before. They are kept, and count nowhere.
+    pub(super) orphaned: BTreeMap<RadarScanKey, u64>,
 }
 
 impl Said {
@@ -25,8 +26,8 @@ impl Said {
         let mut said = Self::default();
         for summary in app.said(|store| store.summaries(&sequence.name))? {
             let there = ScanId::from(summary.key.clone()).place_in(sequence);
-            let key = (summary.key.radar.clone(), summary.key.scan as usize);
-            if app.contents.holds(reader, there.map(|(radar, scan)| (index, radar, scan)), &summary) {
+            let key = RadarScanKey::new(&summary.key.radar, summary.key.scan as usize);
+            if app.contents.holds(reader, there.map(|at| (index, at)), &summary) {
                 said.holding.insert(key, summary);
             } else {
                 *said.orphaned.entry(key).or_default() +=
@@ -37,9 +38,9 @@ impl Said {
     }
 
     /// How far these scans are, and what is corrected of all.
-    pub(super) fn progress(&self, scans: &[(String, usize)]) -> Value {
+    pub(super) fn progress(&self, scans: &[RadarScanKey]) -> Value {
         let is_reviewed =
-            |scan: &&(String, usize)| self.holding.get(*scan).is_some_and(|said| said.reviewed.is_some());
+            |scan: &&RadarScanKey| self.holding.get(*scan).is_some_and(|said| said.reviewed.is_some());
         json!({
             "scans": scans.len(),
             "reviewed": scans.iter().filter(is_reviewed).count(),
@@ -58,9 +59,10 @@ impl Said {
         for summary in self.holding.values() {
             let key = &summary.key;
             let place = app.scan(&key.sequence, &key.radar, key.scan as usize)?;
-            let at = (place.sequence, place.radar, place.scan);
-            let Some(content) = app.contents.known(place.reader, at) else { continue };
-            let rows = things.rows_of(place.radar, place.scan);
+            let Some(content) = app.contents.known(place.reader, (place.sequence, place.scan)) else {
+                continue;
+            };
+            let rows = things.rows_of(place.scan);
             let said = app.said(|store| store.scan(&ScanVersion { key: place.key, content }))?;
             let accepted = said.review.as_ref().map(|mark| mark.accepted.as_slice());
             let labels = effective_labels(vec![Label::default(); rows.len()], accepted, &said.corrections);

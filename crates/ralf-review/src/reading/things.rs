@@ -4,6 +4,7 @@ use super::said::Said;
 use crate::app::App;
 use crate::http::{self, ApiError, Table, content};
 use ralf::sensors::Sequence;
+use ralf_data::ScanIndex;
 use ralf_data::things::{SequenceThings, Thing};
 use serde_json::{Map, Value, json};
 use std::sync::Arc;
@@ -14,9 +15,9 @@ const MOST: usize = 500;
 /// The thing of every detection of a sequence, scan by scan, and the things with the most expected errors.
 pub(crate) fn things(app: &App, sequence: &str) -> http::Answer {
     let (sequence, known, mut header) = asked(app, sequence)?;
-    let scans = known.scans().iter().map(|(radar, scan)| {
-        let rows = known.rows_of(*radar, *scan).len();
-        json!({ "radar": sequence.rig.radars[*radar].name, "scan": scan, "rows": rows })
+    let scans = known.scans().iter().map(|at| {
+        let rows = known.rows_of(*at).len();
+        json!({ "radar": sequence.rig.radars[at.radar].name, "scan": at.scan, "rows": rows })
     });
     header.insert("scans".to_owned(), scans.collect());
     let mut table = Table::new(known.things().len());
@@ -50,15 +51,15 @@ fn asked<'a>(app: &'a App, name: &str) -> Result<Asked<'a>, ApiError> {
 /// Which detections these are, scan by scan.
 pub(super) fn points(sequence: &Sequence, known: &SequenceThings, rows: &[usize]) -> Value {
     let part = |rows: &[usize]| {
-        let (radar, scan, _) = known.place_of(rows[0]);
-        let points: Vec<usize> = rows.iter().map(|row| known.place_of(*row).2).collect();
+        let ScanIndex { radar, scan } = known.scan_of(rows[0]);
+        let points: Vec<usize> = rows.iter().map(|row| known.place_of(*row).1).collect();
         json!({ "radar": sequence.rig.radars[radar].name, "scan": scan, "points": points })
     };
     rows.chunk_by(|a, b| known.scan_of(*a) == known.scan_of(*b)).map(part).collect()
 }
 
 pub(super) fn row(sequence: &Sequence, thing: &Thing) -> Value {
-    let (radar, scan, point) = thing.seen;
+    let (ScanIndex { radar, scan }, point) = thing.seen;
     json!({
         "thing": thing.number,
         "place": thing.place.map(|metres| metres.is_finite().then_some(metres)),

@@ -30,7 +30,7 @@ pub(super) struct LabelledSequence<'a, 'p> {
     corrections: &'a Corrections,
     record: SequenceRecord,
     tables: Tables,
-    not_labelled: BTreeSet<(String, usize)>,
+    not_labelled: BTreeSet<RadarScanKey>,
     tally: &'a mut Tally<'p>,
 }
 
@@ -87,8 +87,11 @@ impl<'a, 'p> LabelledSequence<'a, 'p> {
     ) -> Result<Self, DataError> {
         let crate::result::LabelledSequence { record, tables, .. } = run.sequence(reader)?;
         let tables = Tables { reader: tables, held: BTreeMap::new() };
-        let not_labelled =
-            record.not_labelled.iter().map(|missing| (missing.radar.clone(), missing.scan)).collect();
+        let not_labelled = record
+            .not_labelled
+            .iter()
+            .map(|missing| RadarScanKey::new(&missing.radar, missing.scan))
+            .collect();
         let Export { out, options, .. } = export;
         let (split, sensors) = (options.split, options.sensors);
         Ok(Self { reader, split, sensors, names, out, corrections, record, tables, not_labelled, tally })
@@ -147,7 +150,7 @@ impl<'a, 'p> LabelledSequence<'a, 'p> {
         let sequence = self.reader.sequence();
         let (sensor, t_ns) = (&sequence.rig.radars[radar], sequence.times.radars[radar][index]);
         self.reader.radar_scan(radar, index).or_else(|error| {
-            if self.not_labelled.contains(&(sensor.name.clone(), index)) {
+            if self.not_labelled.contains(&RadarScanKey::new(&sensor.name, index)) {
                 let columns = vec![Vec::new(); sensor.fields.len()];
                 return Ok(RadarScan { t_ns, columns, positions: Vec::new(), spherical: Vec::new() });
             }
@@ -160,7 +163,7 @@ impl<'a, 'p> LabelledSequence<'a, 'p> {
         let sensor = &self.reader.sequence().rig.radars[radar];
         let detections = LocatedScan::new(sensor, self.measured(radar, id.scan as usize)?);
         let found = detections.len();
-        if self.not_labelled.contains(&(sensor.name.clone(), id.scan as usize)) {
+        if self.not_labelled.contains(&RadarScanKey::new(&sensor.name, id.scan as usize)) {
             self.tally.exported.not_labelled.push(id.to_string());
         } else if found > 0 {
             let expected = format!("{found} detections, as in the recording");
