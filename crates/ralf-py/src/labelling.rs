@@ -9,8 +9,8 @@ use ralf_data::result::LabelledRun;
 use ralf_data::run::read_record;
 use ralf_data::{DataError, Settings};
 use ralf_files::Kind;
-use serde::Serialize;
 use serde::de::DeserializeOwned;
+use serde::{Deserialize, Serialize};
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use std::thread::available_parallelism;
@@ -26,6 +26,36 @@ pub(crate) fn to_json(value: &impl Serialize) -> PyResult<String> {
 
 pub(crate) fn from_json<T: DeserializeOwned>(text: &str) -> PyResult<T> {
     serde_json::from_str(text).map_err(other)
+}
+
+/// A job as Python tells it. Its paths are of whatever bytes; JSON, which tells the rest, has no word for such.
+#[derive(FromPyObject)]
+pub(crate) struct ToldJob {
+    recording: PathBuf,
+    out: PathBuf,
+    model: Option<PathBuf>,
+    depth: Option<PathBuf>,
+    segmentation: Option<PathBuf>,
+    told: String,
+}
+
+/// The rest of a job.
+#[derive(Deserialize)]
+struct How {
+    format: Option<String>,
+    sequences: Vec<String>,
+    settings: Settings,
+    evidence: bool,
+    check: bool,
+}
+
+impl ToldJob {
+    /// The job.
+    pub(crate) fn resolve(self) -> PyResult<Job> {
+        let Self { recording, out, model, depth, segmentation, told } = self;
+        let How { format, sequences, settings, evidence, check } = from_json(&told)?;
+        Ok(Job { recording, out, format, sequences, settings, evidence, model, depth, segmentation, check })
+    }
 }
 
 /// All settings, from a TOML file, if any, and assignments `key=value` that win over it; JSON.
@@ -46,16 +76,16 @@ fn read_settings(file: &Path) -> PyResult<String> {
     Ok(text)
 }
 
-/// Labels a recording by a job (JSON). Returns the sequences that this call has labelled.
+/// Labels a recording by a job. Returns the sequences that this call has labelled.
 #[pyfunction]
 #[pyo3(signature = (job, jobs=None, progress=None))]
 pub(crate) fn label(
     py: Python<'_>,
-    job: &str,
+    job: ToldJob,
     jobs: Option<NonZeroUsize>,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Vec<String>> {
-    let job: Job = from_json(job)?;
+    let job = job.resolve()?;
     Ok(watched(py, progress.as_ref(), |watch| job.label(threads(jobs), watch))?.labelled)
 }
 
@@ -64,12 +94,12 @@ pub(crate) fn label(
 #[pyo3(signature = (job, scans, jobs=None, progress=None))]
 pub(crate) fn plan(
     py: Python<'_>,
-    job: &str,
+    job: ToldJob,
     scans: NonZeroUsize,
     jobs: Option<NonZeroUsize>,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Vec<String>> {
-    let job: Job = from_json(job)?;
+    let job = job.resolve()?;
     let tasks = watched(py, progress.as_ref(), |watch| many::plan(&job, scans, threads(jobs), watch))?;
     tasks.iter().map(to_json).collect()
 }

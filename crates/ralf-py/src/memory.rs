@@ -2,13 +2,13 @@
 
 use crate::arrays::{depth, image, numbers, rows};
 use crate::errors::{data, other};
-use crate::labelling::{from_json, threads};
+use crate::labelling::{ToldJob, from_json, threads};
 use crate::table::Table;
 use crate::watch::watched;
 use pyo3::prelude::*;
 use ralf::sensors::{LidarScan, MemorySource, Sequence, TimedImage};
 use ralf::space::{EgoMotion, OdometrySample, PoseSample, Transform, transform_from_parts};
-use ralf_data::many::{Job, model_of};
+use ralf_data::many::model_of;
 use ralf_data::read::rig_from_json;
 use ralf_data::result::{RadarScanKey, Table as ResultTable};
 use ralf_data::run::LabelRun;
@@ -94,16 +94,16 @@ impl MemorySequence {
         Ok(Self { recording: Recording { path, format, sequences: vec![Box::new(source)] } })
     }
 
-    /// Labels all scans, with the settings, evidence and model of a job (JSON) whose paths are not looked at.
+    /// Labels all scans, with the settings, evidence and model of a job whose recording and output are not looked at.
     #[pyo3(signature = (job, jobs=None, progress=None))]
     fn label(
         &self,
         py: Python<'_>,
-        job: &str,
+        job: ToldJob,
         jobs: Option<NonZeroUsize>,
         progress: Option<Py<PyAny>>,
     ) -> PyResult<Table> {
-        let job: Job = from_json(job)?;
+        let job = job.resolve()?;
         let tables = watched(py, progress.as_ref(), |watch| {
             let model = model_of(job.settings.method.method, job.model.as_deref())?;
             let run = LabelRun {

@@ -2,11 +2,10 @@
 
 use crate::arrays::Column;
 use crate::errors::{data, other};
-use crate::labelling::{from_json, to_json};
+use crate::labelling::{ToldJob, to_json};
 use arrow_buffer::Buffer;
 use pyo3::prelude::*;
 use ralf::sensors::Sequence;
-use ralf_data::many::Job;
 use ralf_data::{DataError, SequenceReader};
 use serde::Serialize;
 use std::sync::Arc;
@@ -46,10 +45,10 @@ type Image = (i64, Column, Option<Vec<Column>>);
 
 #[pymethods]
 impl Recording {
-    /// Opens the recording of a job (JSON).
+    /// Opens the recording of a job.
     #[new]
-    fn new(py: Python<'_>, job: &str) -> PyResult<Self> {
-        let job: Job = from_json(job)?;
+    fn new(py: Python<'_>, job: ToldJob) -> PyResult<Self> {
+        let job = job.resolve()?;
         let recording = py.detach(|| job.open()).map_err(data)?;
         Ok(Self { recording: Arc::new(recording) })
     }

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import os
 from collections.abc import Mapping
+from dataclasses import dataclass
 from typing import Any
 
 from ralf import _ralf
@@ -20,7 +21,7 @@ def settings_json(settings: Settings, method: str | None = None) -> Any:
     if isinstance(settings, Mapping):
         assignments = [f"{key}={_toml(value)}" for key, value in _flat(settings)]
     elif settings is not None:
-        file = path(settings, "settings")
+        file = os.fsdecode(settings)
     if method is not None:
         assignments.append(f"method={_toml(method)}")
     return json.loads(_ralf.settings(file, assignments))
@@ -49,8 +50,8 @@ def _toml(value: Any) -> str:
     return repr(value.item() if hasattr(value, "item") else value)
 
 
-def path(value: Path_, what: str) -> str:
-    """A path as text: jobs and records are JSON, which has no word for other bytes than UTF-8."""
+def utf8(value: Path_, what: str) -> str:
+    """A path as text: plans and tasks are JSON, which has no word for other bytes than UTF-8."""
     text = os.fsdecode(value)
     try:
         text.encode()
@@ -66,6 +67,18 @@ def above_0(value: int | None, what: str) -> int | None:
     return value
 
 
+@dataclass(frozen=True)
+class Job:
+    """What is labelled, how, and where to. Paths are as Python has them, of whatever bytes; all else is JSON."""
+
+    recording: str
+    out: str
+    model: str | None
+    depth: str | None
+    segmentation: str | None
+    told: str
+
+
 def job(
     recording: Path_,
     out: Path_,
@@ -79,23 +92,27 @@ def job(
     segmentation: Path_ | None = None,
     evidence: bool = False,
     check: bool = True,
-) -> str:
-    """A job, as JSON."""
+) -> Job:
+    """A job, with its settings resolved."""
     resolved = settings_json(settings, method)
     if model is not None and resolved["method"] != "learned":
         raise ValueError(f'model: expected the method that asks one, method="learned", found {resolved["method"]!r}')
-    told: dict[str, Any] = {
-        "recording": path(recording, "recording"),
-        "out": path(out, "out"),
+    told = {
         "format": format,
         "sequences": sequences or [],
         "settings": resolved,
         "evidence": evidence,
-        "model": None if model is None else path(model, "model"),
-        "depth": None if depth is None else path(depth, "depth"),
         "check": check,
     }
-    # A plan without one is told as those before there were any.
-    if segmentation is not None:
-        told["segmentation"] = path(segmentation, "segmentation")
-    return json.dumps(told)
+    return Job(
+        recording=os.fsdecode(recording),
+        out=os.fsdecode(out),
+        model=_decoded(model),
+        depth=_decoded(depth),
+        segmentation=_decoded(segmentation),
+        told=json.dumps(told),
+    )
+
+
+def _decoded(path: Path_ | None) -> str | None:
+    return None if path is None else os.fsdecode(path)

@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import Any
 
 from ralf import _ralf
-from ralf._jobs import Path_, Settings, above_0, job, path
+from ralf._jobs import Path_, Settings, above_0, job, utf8
 from ralf._progress import Progress, listener
 from ralf.run import Run
 
@@ -89,13 +89,17 @@ def plan(
 
     The results of a recording go to a folder of its name in `out`. `depth` and `segmentation` are folders that `ralf
     depth -o` and `ralf segment -o` wrote. Every file is read once, for its hash. A recording
-    that can't be opened is named in `failed`, and costs the others nothing.
+    that can't be opened is named in `failed`, and costs the others nothing. Plans and tasks tell paths as text, which
+    must be UTF-8.
     """
     found = Plan()
     above_0(scans, "scans")
     above_0(jobs, "jobs")
-    places = [path(recording, "recordings") for recording in recordings]
-    for recording, folder in zip(places, _ralf.folders(places, path(out, "out")), strict=True):
+    for name, place in (("model", model), ("depth", depth), ("segmentation", segmentation)):
+        if place is not None:
+            utf8(place, name)
+    places = [utf8(recording, "recordings") for recording in recordings]
+    for recording, folder in zip(places, _ralf.folders(places, utf8(out, "out")), strict=True):
         told = job(
             recording,
             folder,
@@ -128,7 +132,7 @@ def assemble(out: Path_, *, jobs: int | None = None, progress: Progress = None) 
     """
     found = Assembled()
     above_0(jobs, "jobs")
-    for folder in _ralf.planned(path(out, "out")):
+    for folder in _ralf.planned(os.fsdecode(out)):
         name = Path(folder).name
         try:
             labelled = _ralf.assemble(folder, jobs, listener(progress))

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import os
 import warnings
 from dataclasses import dataclass
 from typing import Any
@@ -12,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ralf import _ralf
-from ralf._jobs import Path_, Settings, job
+from ralf._jobs import Job, Path_, Settings, job
 
 
 @dataclass(frozen=True)
@@ -61,10 +60,10 @@ class SequenceInfo:
 class Recording:
     """A recording of any format. Its tables are read, its measurements are not until they are asked for."""
 
-    def __init__(self, path: Path_, told: str) -> None:
-        self.path = os.fsdecode(path)
-        self._told = told
-        self._recording = _ralf.Recording(told)
+    def __init__(self, job: Job) -> None:
+        self.path = job.recording
+        self._job = job
+        self._recording = _ralf.Recording(job)
 
     @property
     def format(self) -> str:
@@ -104,8 +103,8 @@ class Recording:
         return f"Recording({self.path!r}, format={self.format!r}, sequences={self.sequences})"
 
     # Where it lies is enough to open it again, in another process or on another machine.
-    def __reduce__(self) -> tuple[type[Recording], tuple[str, str]]:
-        return Recording, (self.path, self._told)
+    def __reduce__(self) -> tuple[type[Recording], tuple[Job]]:
+        return Recording, (self._job,)
 
 
 def open(  # noqa: A001
@@ -119,8 +118,7 @@ def open(  # noqa: A001
 
     What its reader ignored or misses is a warning each. `settings` may correct mountings, clocks and motion.
     """
-    told = job(path, "", format=format, sequences=sequences, settings=settings)
-    recording = Recording(path, told)
+    recording = Recording(job(path, "", format=format, sequences=sequences, settings=settings))
     for name in recording.sequences:
         for warning in recording[name].warnings:
             warnings.warn(f"{name}: {warning}", stacklevel=2)
