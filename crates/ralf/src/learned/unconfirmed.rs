@@ -1,11 +1,11 @@
-//! What nobody but the radar tells of though a LiDAR sees as far: beyond the reach of the LiDAR's map, where no ray
-//! goes, or behind a wall, and no LiDAR point near, neither where it would be if it stood still nor where its range
-//! rate takes it.
+//! What nobody but the radar tells of though a LiDAR sees as far: beyond the reach of the LiDAR's map, or behind a
+//! wall, and no LiDAR point near, neither where it would be if it stood still nor where its range rate takes it.
 //!
 //! A world has as much clutter out there as somebody thought of, and a model believes a radar as far as that goes. On a
-//! real road nobody can check it. As the paper does, what no other sensor confirms counts less: the setting
-//! `learned.unconfirmed` says by how much. Where a radar hears farther than any LiDAR sees, silence says nothing, and
-//! the model keeps its word.
+//! real road nobody can check it. As the paper does, what neither another sensor nor time confirms counts less: the
+//! setting `learned.unconfirmed` says by how much. Where a radar hears farther than any LiDAR sees, silence says
+//! nothing, and the model keeps its word. It does so, too, where the radar saw the place again in half of its scans and
+//! radars looked from elsewhere: far away a LiDAR hits a guard rail every few metres, and misses what a radar hears.
 
 use super::calibration::with_odds;
 
@@ -14,8 +14,8 @@ use super::calibration::with_odds;
 const NEAR: f32 = 2.5;
 /// Nor is a point behind a wall as near as this, sigmas.
 const NEAR_SIGMAS: f32 = 3.0;
-/// Nothing of the map is near, m: farther points are not told apart.
-const NOTHING_NEAR: f32 = 3.0;
+/// What the radar saw again in so large a share of the scans that could have seen it is confirmed by time.
+const AGAIN: f32 = 0.5;
 
 /// A wall is higher than cars and longer than what waves find their way around, m.
 const WALL_TOP: f32 = 2.5;
@@ -32,6 +32,8 @@ pub struct Unconfirmed {
     chi: Option<usize>,
     map: Option<usize>,
     moving: Option<usize>,
+    again: Option<usize>,
+    aspect: Option<usize>,
     hidden: Option<usize>,
     chi_of_all: Option<usize>,
     wall_top: Option<usize>,
@@ -49,6 +51,8 @@ impl Unconfirmed {
             chi: place("lidar_chi"),
             map: place("map_distance"),
             moving: place("lidar_moving_near"),
+            again: place("persistence_moving"),
+            aspect: place("persistence_aspect"),
             hidden: place("lidar_occluded"),
             chi_of_all: place("lidar_window_chi_least"),
             wall_top: place("sight_wall_top"),
@@ -57,24 +61,25 @@ impl Unconfirmed {
     }
 
     /// Whether a LiDAR sees so far, but can't speak of the place, and of its points none is near. It can't where the
-    /// place lies beyond its map or no ray of any scan around goes there: then none of the nearest scan may be within
-    /// 2.5 m and none of the map within 3 m. Nor can it where all rays end before the place and the last thing in the
-    /// radar's way is a wall, over 2.5 m high and at least 4 m long: then no scan around may have one within 3 sigmas.
-    /// Nor may any scan around have one where its range rate takes the detection, if it moves.
+    /// place lies beyond its map: then none of the nearest scan may be within 2.5 m, and the radar may not have seen it
+    /// again in half of its scans, if radars looked from elsewhere. Nor can it where all rays end before the place and
+    /// the last thing in the radar's way is a wall, over 2.5 m high and at least 4 m long: then no scan around may have
+    /// a point within 3 sigmas. Nor may any scan around have one where its range rate takes the detection, if it moves.
     pub fn is(&self, row: &[f32]) -> bool {
         let value = |place: Option<usize>| place.map_or(f32::NAN, |place| row[place]);
-        let (unseen, map) = (value(self.unseen), value(self.map));
+        let unseen = value(self.unseen);
         if unseen.is_nan() || self.chi.is_none() || self.map.is_none() || value(self.moving) > 0.0 {
             return false;
         }
         // What is absent is no point near. Models from before a column do as well as they can.
         let [near_nearest, near_any] = [self.chi, self.chi_of_all].map(|chi| value(chi) < NEAR_SIGMAS);
-        let near = self.distance.map_or(near_nearest, |distance| row[distance] < NEAR) || map < NOTHING_NEAR;
+        let near = self.distance.map_or(near_nearest, |distance| row[distance] < NEAR);
         let sees_as_far = self.reach.is_none_or(|reach| row[reach] <= 1.0);
-        let out_of_sight = sees_as_far && (map.is_nan() || unseen >= 1.0);
+        let seen_again = value(self.again) >= AGAIN && !value(self.aspect).is_nan();
+        let beyond = value(self.map).is_nan() && sees_as_far && !near && !seen_again;
         let walled = value(self.wall_top) > WALL_TOP && value(self.wall_length) >= WALL_LENGTH;
-        let hidden = walled && unseen + value(self.hidden) >= ALL;
-        out_of_sight && !near || hidden && !near_nearest && !near_any
+        let hidden = walled && unseen + value(self.hidden) >= ALL && !near_nearest && !near_any;
+        beyond || hidden
     }
 
     /// The probability of a row; of one that is unconfirmed, with its odds multiplied by the factor.
@@ -90,32 +95,39 @@ mod tests {
     const ABSENT: f32 = f32::NAN;
 
     #[test]
-    fn what_lidars_cannot_speak_of_is_unconfirmed_unless_a_point_is_near() {
+    fn what_lies_beyond_the_map_is_unconfirmed_unless_a_point_is_near() {
         let names = [
             "map_distance",
             "lidar_distance",
-            "lidar_unseen",
             "lidar_moving_near",
             "lidar_reach",
+            "lidar_unseen",
             "lidar_chi",
         ];
         let unconfirmed = Unconfirmed::among(names.into_iter());
-        for ([map, distance, unseen, moving, reach], expected) in [
-            ([ABSENT, 2.6, 0.5, ABSENT, 0.9], true),
-            ([ABSENT, ABSENT, 1.0, ABSENT, 0.9], true),
-            ([ABSENT, 2.4, 0.5, ABSENT, 0.9], false),
-            ([ABSENT, 2.6, 0.5, 0.0, 0.9], true),
-            ([ABSENT, 2.6, 0.5, 0.2, 0.9], false),
-            ([3.0, 2.6, 0.5, ABSENT, 0.5], false),
-            ([3.0, ABSENT, 1.0, ABSENT, 0.5], true),
-            ([3.0, ABSENT, 1.0, 0.2, 0.5], false),
-            ([3.0, ABSENT, 0.9, ABSENT, 0.5], false),
-            ([2.9, ABSENT, 1.0, ABSENT, 0.5], false),
+        for ([map, distance, moving, reach, unseen], expected) in [
+            ([ABSENT, 2.6, ABSENT, 0.9, 0.5], true),
+            ([ABSENT, ABSENT, ABSENT, 0.9, 1.0], true),
+            ([ABSENT, 2.4, ABSENT, 0.9, 0.5], false),
+            ([ABSENT, 2.6, 0.0, 0.9, 0.5], true),
+            ([ABSENT, 2.6, 0.2, 0.9, 0.5], false),
+            ([3.0, ABSENT, ABSENT, 0.5, 1.0], false),
             ([ABSENT; 5], false),
         ] {
             // Standard deviations are nothing to go by so far away.
-            let row = [map, distance, unseen, moving, reach, 2.0];
+            let row = [map, distance, moving, reach, unseen, 2.0];
             assert_eq!(unconfirmed.is(&row), expected, "{row:?}");
+        }
+    }
+
+    #[test]
+    fn time_confirms_what_radars_see_again_from_elsewhere() {
+        let names = ["map_distance", "lidar_unseen", "lidar_chi", "persistence_moving", "persistence_aspect"];
+        let unconfirmed = Unconfirmed::among(names.into_iter());
+        for (again, aspect, expected) in
+            [(0.5, 0.0, false), (0.4, 0.9, true), (0.9, ABSENT, true), (ABSENT, ABSENT, true)]
+        {
+            assert_eq!(unconfirmed.is(&[ABSENT, 0.5, ABSENT, again, aspect]), expected, "{again} {aspect}");
         }
     }
 
