@@ -56,5 +56,10 @@ pub(crate) fn truth_file(root: &Path, sequence: &str, radar: &str, scan: usize) 
 
 /// The name of a scan's file of labels.
 pub(crate) fn label_name(scan: usize) -> String {
-    format!("{scan:06}.{LABELS}")
+    numbered(scan, LABELS)
+}
+
+/// The name of a measurement's file: `000017.bin`.
+pub(crate) fn numbered(number: usize, ending: &str) -> String {
+    format!("{number:06}.{ending}")
 }

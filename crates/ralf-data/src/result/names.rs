@@ -2,7 +2,7 @@
 
 use crate::error::DataError;
 use crate::read::SequenceReader;
-use crate::tree::{GROUND_TRUTH, ODOMETRY, POSES, SENSORS, TABLE};
+use crate::tree::{self, GROUND_TRUTH, ODOMETRY, POSES, SENSORS, TABLE};
 use ralf::sensors::Sequence;
 use std::path::{Component as PathPart, Path, PathBuf};
 
@@ -63,7 +63,7 @@ impl Component {
 
     /// The name of a measurement's file: `000017.label`.
     pub(crate) fn numbered(number: usize, ending: &'static str) -> Self {
-        Self(format!("{number:06}.{ending}"))
+        Self(tree::numbered(number, ending))
     }
 
     /// The same with something of the program's own after it.
