@@ -2,6 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
+/// Thickness of a deck overhead, m.
+pub(super) const DECK: f64 = 0.6;
+
 /// What a surface belongs to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
@@ -38,6 +41,8 @@ pub enum Kind {
     Rail,
     /// A wall of concrete: a noise barrier, a median, a retaining wall.
     Wall,
+    /// A deck overhead, its top so high: a bridge, a gantry, a tunnel's ceiling.
+    Bridge,
     /// A container, a skip, a cabinet: a box of sheet metal.
     Container,
     /// A traffic sign on its pole, turned to +x.
@@ -58,7 +63,7 @@ impl Kind {
             Self::Fence | Self::Rail | Self::Wall => 51,
             Self::Truck => 18,
             Self::Cyclist => 31,
-            Self::Container => 52,
+            Self::Bridge | Self::Container => 52,
             Self::Sign => 81,
         }
     }
@@ -92,6 +97,7 @@ impl Kind {
             Self::Cyclist => [1.75, 0.5, 1.75],
             Self::Rail => [4.0, 0.15, 0.75],
             Self::Wall => [4.0, 0.3, 1.1],
+            Self::Bridge => [12.0, 10.0, 5.6],
             Self::Container => [6.1, 2.44, 2.6],
             Self::Sign => [0.08, 0.8, 2.6],
         }
@@ -106,7 +112,7 @@ impl Kind {
     /// Waves find their way around and under cars, and through leaves.
     pub(super) fn radar_loss_db(self) -> Option<f64> {
         match self {
-            Self::Building | Self::Garage | Self::Wall | Self::Container => None,
+            Self::Building | Self::Garage | Self::Wall | Self::Bridge | Self::Container => None,
             Self::Truck => Some(15.0),
             Self::Car => Some(9.0),
             Self::Tree | Self::Hedge | Self::Rail | Self::Sign => Some(4.0),

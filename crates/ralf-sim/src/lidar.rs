@@ -66,7 +66,7 @@ fn penetrates(kind: Kind, crossing: &Crossing, random: &mut Random) -> Option<f6
 fn reflectance(kind: Kind) -> f64 {
     match kind {
         Kind::Road => 0.15,
-        Kind::Sidewalk | Kind::Garage | Kind::Wall => 0.35,
+        Kind::Sidewalk | Kind::Garage | Kind::Wall | Kind::Bridge => 0.35,
         Kind::Marking => 0.8,
         Kind::Grass | Kind::Hedge | Kind::Tree => 0.4,
         Kind::Building => 0.5,

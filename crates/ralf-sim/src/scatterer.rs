@@ -1,6 +1,6 @@
 //! What reflects radar waves: points of objects that persist from scan to scan, each with its strength and its flicker.
 
-use super::kind::Kind;
+use super::kind::{DECK, Kind};
 use super::random::Random;
 use ralf::space::{Point, Vector};
 
@@ -55,6 +55,9 @@ pub(super) fn scatterers(kind: Kind, size: Vector, random: &mut Random) -> Vec<S
             [trunk, crown].concat()
         }
         Kind::Hedge => scattered(per(7.0, length), [l, w], [0.2, height], -3.0, 6.0, random),
+        Kind::Bridge => {
+            scattered(per(0.3, length * width), [l, w], [height - DECK, height], 0.0, 5.0, random)
+        }
         Kind::Fence => scattered(per(6.0, length), [l, w], [0.15, height], -1.0, 4.0, random),
         Kind::Grass => {
             scattered(per(0.5, length * width), [l, w], [0.03, height.max(0.22)], -9.0, 6.0, random)

@@ -1,13 +1,18 @@
 //! A scenario built up: the ground, the objects on it, and the bodies they are made of.
 
 use super::ground::Ground;
-use super::kind::Kind;
+use super::kind::{DECK, Kind};
 use super::random::{Purpose, Random};
 use super::scatterer::{Scatterer, scatterers};
 use super::scenario::{Scenario, Thing};
 use super::shape::Shape;
 use nalgebra::{Isometry3, Translation3, UnitQuaternion};
 use ralf::space::{Point, Vector};
+
+/// Radius of a tree's trunk, m.
+pub(super) const TRUNK: f64 = 0.16;
+/// From which share of its height a tree has a crown.
+pub(super) const CROWN: f64 = 0.3;
 
 /// One thing.
 #[derive(Debug, Clone)]
@@ -91,19 +96,21 @@ pub(super) fn bodies(kind: Kind, size: Vector) -> Vec<(Shape, Vector)> {
         (Shape::Box((high - low) / 2.0), nalgebra::center(&low, &high).coords)
     };
     let (l, w) = (length / 2.0, width / 2.0);
+    let crown = Vector::new(0.0, 0.0, 0.5 * (1.0 + CROWN) * height);
     match kind {
         Kind::Car => car(&block, l, w, height),
         Kind::Garage => garage(&block, l, w, height),
         Kind::Truck => truck(&block, l, w, height),
         Kind::Cyclist => cyclist(&block, l, w, height),
         Kind::Rail => vec![block([-l, l], [-w, w], [height - 0.31, height])],
+        Kind::Bridge => vec![block([-l, l], [-w, w], [height - DECK, height])],
         Kind::Sign => vec![
             block([-l, l], [-w, w], [height - 2.0 * w, height]),
             (Shape::Cylinder(0.04, height / 2.0), Vector::new(-l - 0.04, 0.0, height / 2.0)),
         ],
         Kind::Tree => vec![
-            (Shape::Cylinder(0.16, 0.25 * height), Vector::new(0.0, 0.0, 0.25 * height)),
-            (Shape::Ellipsoid(Vector::new(l, w, 0.35 * height)), Vector::new(0.0, 0.0, 0.65 * height)),
+            (Shape::Cylinder(TRUNK, 0.25 * height), Vector::new(0.0, 0.0, 0.25 * height)),
+            (Shape::Ellipsoid(Vector::new(l, w, 0.5 * (1.0 - CROWN) * height)), crown),
         ],
         Kind::Pole | Kind::Pedestrian => {
             vec![(Shape::Cylinder(l, height / 2.0), Vector::new(0.0, 0.0, height / 2.0))]

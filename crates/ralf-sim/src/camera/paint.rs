@@ -80,7 +80,7 @@ pub(crate) fn solid_colour(solid: &Solid, p: &Point, height: f64, normal: &Vecto
         Kind::Cyclist | Kind::Truck | Kind::Container | Kind::Sign => {
             mixed([210.0, 210.0, 214.0], [40.0, 80.0, 140.0], tint)
         }
-        Kind::Rail | Kind::Wall => [168.0, 168.0, 164.0],
+        Kind::Rail | Kind::Wall | Kind::Bridge => [168.0, 168.0, 164.0],
         Kind::Road => asphalt(p),
     }
 }

@@ -39,7 +39,7 @@ impl World {
         let mut random = Random::new(seed, Purpose::World, 0, 0);
         let random = &mut random;
         let sensors = mixture.sensors;
-        let waves = waves(mixture.waves, random);
+        let waves = waves(mixture.waves, seed, random);
         let radars = radars(sensors, random);
         let lidars = lidars(sensors, seed, &radars, random);
         let cameras = cameras(&sensors.calibration, seed);
@@ -54,8 +54,10 @@ impl World {
     }
 }
 
-fn waves(family: &Family, random: &mut Random) -> Waves {
+fn waves(family: &Family, seed: u64, random: &mut Random) -> Waves {
     let ranges = &family.waves;
+    // Of their own, so that all else of a seed's world stays as it was before there were these.
+    let growth = &mut Random::new(seed, Purpose::World, 1, 0);
     Waves {
         asphalt_db: ranges.asphalt.draw(random),
         texture_db: ranges.texture.draw(random),
@@ -64,7 +66,10 @@ fn waves(family: &Family, random: &mut Random) -> Waves {
             mean_db: ranges.spike_mean.draw(random),
             scale_db: ranges.spike_scale.draw(random),
             staying: ranges.spikes_stay.draw(random),
+            shadow: ranges.spikes_shadow.draw(growth),
+            on_grass: ranges.spikes_on_grass.draw(growth),
         },
+        grass_db: ranges.grass.draw(growth),
         mirror_loss_db: ranges.mirror_loss.draw(random),
         mirror_heights: ranges.mirror_heights.draw(random),
         aside_db: ranges.aside.draw(random),
@@ -146,7 +151,7 @@ fn radar(ranges: &RadarRanges, elevation: bool, random: &mut Random) -> RadarMod
         room: ranges.room.count(random),
         keeps: one_of(ranges.keeps, random).unwrap_or(Keeps::Clearest),
         least_rcs_db: ranges.least_rcs.draw(random),
-        false_alarms: ranges.false_alarms.draw(random),
+        false_alarms: ranges.false_alarms.ratio(random),
         rcs_offset_db: 0.0,
         amplitudes: one_of(&AMPLITUDES, random).unwrap_or_default().to_vec(),
     }

@@ -5,9 +5,12 @@ use super::terrain::Terrain;
 use crate::kind::Kind;
 use crate::random::Random;
 use crate::shape::Shape;
-use crate::site::bodies;
+use crate::site::{CROWN, TRUNK, bodies};
 use nalgebra::{Isometry3, Translation3, UnitQuaternion};
 use ralf::space::Vector;
+
+/// A vehicle passes below what is higher, m.
+const HEADROOM: f64 = 3.0;
 
 /// Where a thing starts and how it goes on.
 #[derive(Debug, Clone, Copy, Default)]
@@ -62,13 +65,23 @@ impl Item {
         self.course.speed != 0.0
     }
 
-    /// Whether a place on the ground lies within its outline at the start, widened by so much (m).
-    pub(super) fn is_within(&self, [x, y]: [f64; 2], wider: f64) -> bool {
+    /// Half its length and width where a vehicle would meet it, m; `None` where it would pass below.
+    fn outline(&self) -> Option<[f64; 2]> {
+        match self.kind {
+            Kind::Bridge => None,
+            Kind::Tree if CROWN * self.size.z > HEADROOM => Some([TRUNK; 2]),
+            _ => Some([self.size.x / 2.0, self.size.y / 2.0]),
+        }
+    }
+
+    /// Whether what drives over a place on the ground, half so wide (m), would run into it where it stands.
+    pub(super) fn is_in_the_way(&self, [x, y]: [f64; 2], wider: f64) -> bool {
         let [x0, y0, yaw] = self.course.start;
         let (sin, cos) = yaw.sin_cos();
         let [dx, dy] = [x - x0, y - y0];
-        (cos * dx + sin * dy).abs() < self.size.x / 2.0 + wider
-            && (cos * dy - sin * dx).abs() < self.size.y / 2.0 + wider
+        let [along, across] = [cos * dx + sin * dy, cos * dy - sin * dx];
+        let meets = |[l, w]: [f64; 2]| along.abs() < l + wider && across.abs() < w + wider;
+        !self.moves() && self.outline().is_some_and(meets)
     }
 
     /// Where it is after so many seconds: upright, with its foot on the ground.

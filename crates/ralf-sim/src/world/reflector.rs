@@ -4,7 +4,7 @@
 //! cars 0 to 20 with 10 in the middle (Suzuki et al. 2000; Kamel et al. 2017), lorries 15 to 35, people -8 with a
 //! spread of 5 (Fortuny-Guasch and Chareau 2013; ISO 19206-2), cyclists -3 to 5 (ISO 19206-4), poles 0 to 10.
 
-use crate::kind::Kind;
+use crate::kind::{DECK, Kind};
 use crate::random::Random;
 use ralf::space::{Point, Vector};
 
@@ -101,6 +101,7 @@ pub(super) fn reflectors(kind: Kind, size: Vector, random: &mut Random) -> Vec<R
         Kind::Tree | Kind::Hedge => leaves(kind, size, &mut parts),
         Kind::Pole | Kind::Sign => post(kind, [l, w], height, &mut parts),
         Kind::Fence | Kind::Rail | Kind::Wall => barrier(kind, l, w, height, &mut parts),
+        Kind::Bridge => deck(l, w, height, &mut parts),
         Kind::Grass | Kind::Sidewalk | Kind::Road | Kind::Marking => {}
     }
     parts.found
@@ -162,6 +163,18 @@ fn barrier(kind: Kind, l: f64, w: f64, height: f64, parts: &mut Parts<'_>) {
         }
         _ => parts.scatter(per(2.4, l), [l, w], [0.2, height], -6.0, 5.0),
     }
+}
+
+/// Its edges, and beams, lamps, pipes and signs below it: what hangs there is made of corners.
+fn deck(l: f64, w: f64, height: f64, parts: &mut Parts<'_>) {
+    for end in [1.0, -1.0] {
+        for _ in 0..per(1.6, w) {
+            let (y, z) = (parts.random.between(-w, w), height - DECK * parts.random.uniform());
+            parts.put([end * l, y, z], Some(Vector::new(end, 0.0, 0.0)), 0.0, 5.0);
+        }
+    }
+    let below = height - DECK;
+    parts.scatter(per(0.4, l * w), [l, w], [below - 0.4, below], -2.0, 5.0);
 }
 
 /// Corners and wheels shine, the rest less; waves also find what lies inside.

@@ -175,7 +175,7 @@ fn crossing(solid: &Solid, ray: &Ray, limit: f64) -> Option<Crossing> {
 /// What so many metres of a thing take, there and back, dB. Waves find their way around and under cars.
 fn through_db(kind: Kind, metres: f64, leaf_db: f64) -> Option<f64> {
     match kind {
-        Kind::Building | Kind::Garage | Kind::Container => None,
+        Kind::Building | Kind::Garage | Kind::Bridge | Kind::Container => None,
         // Over its top edge waves are bent.
         Kind::Wall => Some(25.0),
         Kind::Truck => Some(14.0),

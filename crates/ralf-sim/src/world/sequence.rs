@@ -198,7 +198,7 @@ fn clear_the_way(plan: &mut Plan, phase: f64) {
         let (sin, cos) = state.heading.sin_cos();
         way.extend(ALONG.map(|along| [state.x + along * cos, state.y + along * sin]));
     }
-    plan.items.retain(|item| item.moves() || !way.iter().any(|place| item.is_within(*place, HALF_WIDTH)));
+    plan.items.retain(|item| !way.iter().any(|place| item.is_in_the_way(*place, HALF_WIDTH)));
 }
 
 fn motion(world: &World, ride: &Ride, terrain: &Terrain, seconds: f64, seed: u64) -> Option<EgoMotion> {

@@ -21,6 +21,11 @@ impl Span {
         random.between(self.low, self.high)
     }
 
+    /// Evenly by its logarithm: of what spans decades.
+    pub(super) fn ratio(self, random: &mut Random) -> f64 {
+        random.between(self.low.ln(), self.high.ln()).exp()
+    }
+
     /// An integer, both ends included.
     pub(super) fn count(self, random: &mut Random) -> usize {
         (self.low + (self.high - self.low + 1.0) * random.uniform()).floor() as usize

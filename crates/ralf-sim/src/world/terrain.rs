@@ -42,16 +42,6 @@ impl Surface {
             _ => Truth::artifact(Cause::Road),
         }
     }
-
-    /// Backscatter beyond asphalt's, dB. Grass and gravel are rough for waves of 4 mm (Ulaby and Dobson 1989).
-    pub(super) fn roughness_db(self) -> f64 {
-        match self {
-            Self::Asphalt => 0.0,
-            Self::Pavement => 3.0,
-            Self::Gravel => 8.0,
-            Self::Grass => 7.0,
-        }
-    }
 }
 
 /// A rectangle of ground.

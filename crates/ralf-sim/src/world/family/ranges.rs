@@ -110,6 +110,12 @@ pub(crate) struct WaveRanges {
     pub(crate) spike_scale: Span,
     /// Share of the spikes that belong to the place.
     pub(crate) spikes_stay: Span,
+    /// From here on unevenness hides some of them, m.
+    pub(crate) spikes_shadow: Span,
+    /// Share of the spikes that are left on grass.
+    pub(crate) spikes_on_grass: Span,
+    /// Backscatter of grass beyond asphalt's, dB.
+    pub(crate) grass: Span,
     /// What a facade takes from a mirrored wave, one way, dB.
     pub(crate) mirror_loss: Span,
     /// Heights of mirrors, as a share of what is usual of their material.
@@ -164,6 +170,7 @@ pub(crate) enum PlaceKind {
     CarPark,
     Industrial,
     Motorway,
+    Tunnel,
     Country,
 }
 

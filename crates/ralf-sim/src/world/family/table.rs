@@ -19,7 +19,12 @@ pub const FAMILIES: [Family; 8] = [
         radars: RADARS,
         waves: WAVES,
         lidars: LIDARS,
-        places: &[(PlaceKind::Street, 2.0), (PlaceKind::Crossing, 2.0), (PlaceKind::Residential, 1.0)],
+        places: &[
+            (PlaceKind::Street, 2.0),
+            (PlaceKind::Crossing, 2.0),
+            (PlaceKind::Residential, 1.0),
+            (PlaceKind::Tunnel, 0.5),
+        ],
         motion: MOTION,
         calibration: CALIBRATION,
     },
@@ -48,13 +53,13 @@ pub const FAMILIES: [Family; 8] = [
             // Measured, nuScenes: 5 % of what stands still lies below -4.5 dBsm near by and below -2.5 beyond 100 m.
             keeps: &[(Keeps::Largest, 1.0)],
             least_rcs: span(-9.0, -2.0),
-            false_alarms: span(0.5, 6.0),
+            false_alarms: span(0.5, 30.0),
             side_lobe: span(13.0, 22.0),
             ..RADARS
         },
         waves: WaveRanges {
             asphalt: span(-28.0, -14.0),
-            spike_mean: span(-22.0, 0.0),
+            spike_mean: span(-36.0, 0.0),
             spike_scale: span(-1.0, 7.0),
             lumps: span(0.02, 0.1),
             mirror_loss: span(1.0, 6.0),
@@ -90,20 +95,20 @@ pub const FAMILIES: [Family; 8] = [
             keeps: &[(Keeps::Largest, 0.7), (Keeps::Clearest, 0.3)],
             // Measured, aiMotive: 5 % lie below -7 to -4 dBsm from 20 to 140 m.
             least_rcs: span(-16.0, -2.0),
-            false_alarms: span(0.5, 6.0),
+            false_alarms: span(0.5, 30.0),
             side_lobe: span(13.0, 22.0),
             ..RADARS
         },
         waves: WaveRanges {
             asphalt: span(-36.0, -24.0),
-            spike_mean: span(-25.0, 3.0),
+            spike_mean: span(-40.0, 3.0),
             spike_scale: span(-3.0, 8.0),
             mirror_loss: span(1.0, 6.0),
             interference: span(0.0, 0.1),
             ..WAVES
         },
         lidars: LidarRanges { layouts: &[ROOF_128, ROOF_64], rolling: 0.9, ..LIDARS },
-        places: &[(PlaceKind::Motorway, 4.0), (PlaceKind::Country, 1.0)],
+        places: &[(PlaceKind::Motorway, 4.0), (PlaceKind::Country, 1.0), (PlaceKind::Tunnel, 0.8)],
         motion: MotionRanges { speed: span(0.7, 1.1), standing: 0.03, reversing: 0.0, ..MOTION },
         calibration: CALIBRATION,
     },
@@ -127,7 +132,7 @@ pub const FAMILIES: [Family; 8] = [
         },
         waves: WaveRanges {
             asphalt: span(-26.0, -15.0),
-            spike_mean: span(-20.0, 3.0),
+            spike_mean: span(-38.0, 3.0),
             // Sheet metal of cars' sides, close by.
             mirror_loss: span(0.5, 4.0),
             bumper: span(1.0, 5.0),
@@ -163,12 +168,12 @@ pub const FAMILIES: [Family; 8] = [
             // Measured, View-of-Delft: 322 detections in a scan.
             room: span(250.0, 450.0),
             // A low threshold lets more of the noise pass.
-            false_alarms: span(1.0, 20.0),
+            false_alarms: span(1.0, 150.0),
             ..RADARS
         },
         waves: WaveRanges {
             asphalt: span(-27.0, -16.0),
-            spike_mean: span(-22.0, 1.0),
+            spike_mean: span(-38.0, 1.0),
             strength: span(-8.0, 0.0),
             ..WAVES
         },
@@ -218,7 +223,7 @@ pub const FAMILIES: [Family; 8] = [
         waves: WaveRanges {
             // Dry grass and soil: less than in town, or grass alone would be heard.
             asphalt: span(-36.0, -26.0),
-            spike_mean: span(-22.0, 1.0),
+            spike_mean: span(-38.0, 1.0),
             texture: span(5.0, 9.0),
             mirror_loss: span(1.0, 7.0),
             strength: span(-9.0, 1.0),
@@ -254,7 +259,7 @@ pub const FAMILIES: [Family; 8] = [
             room: span(50.0, 600.0),
             least_rcs: span(-60.0, -4.0),
             // A threshold of 9 to 10 dB above noise lets some tens of a hundred thousand cells pass.
-            false_alarms: span(0.5, 20.0),
+            false_alarms: span(0.5, 300.0),
             ..RADARS
         },
         waves: WaveRanges {
@@ -294,6 +299,7 @@ pub const FAMILIES: [Family; 8] = [
             (PlaceKind::Industrial, 1.0),
             (PlaceKind::Motorway, 1.0),
             (PlaceKind::Country, 1.0),
+            (PlaceKind::Tunnel, 1.0),
         ],
         motion: MotionRanges {
             speed: span(0.3, 1.3),

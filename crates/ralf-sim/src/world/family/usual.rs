@@ -54,8 +54,9 @@ pub(super) const RADARS: RadarRanges = RadarRanges {
     // Measured, View-of-Delft: 5 % lie below -24 dBsm from 15 to 60 m, and below -42 nearer than 10 m; nuScenes: -4.5.
     least_rcs: span(-36.0, -6.0),
     // Measured, nuScenes, View-of-Delft and aiMotive (`scripts/false_alarms.py`): 1 to 3 detections of a scan move, lie
-    // far from the LiDAR's points, are weak and never seen again: 1 to 2 % of all.
-    false_alarms: span(0.5, 12.0),
+    // far from the LiDAR's points, are weak and never seen again: 1 to 2 % of all. Radars that hand on what a low
+    // threshold lets pass have more: how many is chosen.
+    false_alarms: span(0.5, 150.0),
 };
 
 /// Waves in a town.
@@ -71,11 +72,18 @@ pub(super) const WAVES: WaveRanges = WaveRanges {
     // Measured above the sensor's threshold, where what stands still lies far from every LiDAR point: nuScenes -17 dB
     // (some 40 detections of a scan, 2 to 7 dBsm in a sector of 5,000 square metres), aiMotive -31 (3 of 5 dBsm in
     // 10,000). How much more lies below the threshold, and nearer than where LiDAR sees nothing else, is chosen: up to
-    // what leaves a fifth of the detections plausible, as in the paper's recordings.
-    spike_mean: span(-25.0, -1.0),
+    // what leaves a fifth of the detections plausible, as in the paper's recordings, and down to hardly any.
+    spike_mean: span(-40.0, -1.0),
     spike_scale: span(-7.0, 6.0),
     // Measured: what lies far from every LiDAR point is seen again in .11 (aiMotive) to .46 (nuScenes) of the scans.
     spikes_stay: span(0.0, 0.8),
+    // What is left falls with the range as the grazing angle does: the lower a wave comes, the more lies in shadow
+    // (Billingsley 2002). From where on is chosen: from a rough road to a smooth one with studs and joints.
+    spikes_shadow: span(15.0, 90.0),
+    // Blades are many in a cell, and even out; stalks, stones and tufts don't (chosen).
+    spikes_on_grass: span(0.02, 0.4),
+    // Grass is rough for waves of 4 mm (Ulaby and Dobson 1989), the more the higher and wetter it is.
+    grass: span(4.0, 14.0),
     // Reflection of facades at 77 GHz: glass and metal 0 to 3 dB, plaster and brick 5 to 12 (chosen).
     mirror_loss: span(1.0, 8.0),
     // Chosen: from panes and paint everywhere to what is usual.

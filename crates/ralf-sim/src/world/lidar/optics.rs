@@ -118,7 +118,7 @@ fn reflectance(solid: &Solid, seed: u64) -> f64 {
         // From black to white.
         Kind::Car | Kind::Truck => 0.05 + 0.75 * own * own,
         Kind::Building | Kind::Garage => 0.2 + 0.4 * own,
-        Kind::Wall => 0.2 + 0.2 * own,
+        Kind::Wall | Kind::Bridge => 0.2 + 0.2 * own,
         Kind::Container => 0.15 + 0.4 * own,
         Kind::Tree | Kind::Hedge => 0.3 + 0.25 * own,
         Kind::Pedestrian | Kind::Cyclist => 0.1 + 0.5 * own,

@@ -5,6 +5,7 @@ use crate::random::Random;
 use crate::scenario::{Leg, Ramp};
 use crate::world::family::MotionRanges;
 use crate::world::item::{Course, Item};
+use crate::world::span::span;
 use crate::world::terrain::{Patch, Surface};
 
 /// A place in the making, or made.
@@ -31,6 +32,8 @@ pub(in crate::world) struct DrivePlan {
     pub(in crate::world) swing: (f64, f64),
 }
 
+/// Length, width and height, m: radars hear it above a LiDAR's highest beam.
+const TALL_TREE: [f64; 3] = [6.0, 6.0, 13.0];
 /// The drive lasts no longer in the place than this, s.
 const LASTING: f64 = 14.0;
 
@@ -77,7 +80,8 @@ impl<'a> Builder<'a> {
 
     /// A usual size of a kind.
     pub(super) fn size(&mut self, kind: Kind) -> [f64; 3] {
-        let [length, width, height] = kind.usual_size();
+        let tall = kind == Kind::Tree && self.chance(0.5);
+        let [length, width, height] = if tall { TALL_TREE } else { kind.usual_size() };
         let (a, b, c) = match kind {
             Kind::Car => (0.2, 0.08, 0.2),
             Kind::Truck => (0.35, 0.04, 0.1),
@@ -114,7 +118,8 @@ impl<'a> Builder<'a> {
     /// A rectangle of ground along x: from where to where, along x and y.
     pub(super) fn cover(&mut self, surface: Surface, [x0, x1]: [f64; 2], [y0, y1]: [f64; 2], rise: f64) {
         let pile = match surface {
-            Surface::Grass => self.between(0.04, 0.35),
+            // From a lawn to a meadow.
+            Surface::Grass => span(0.01, 0.35).ratio(self.random),
             Surface::Gravel => self.between(0.01, 0.05),
             Surface::Asphalt | Surface::Pavement => 0.0,
         };

@@ -9,6 +9,7 @@ mod parking;
 mod residential;
 mod street;
 mod traffic;
+mod tunnel;
 
 pub(super) use builder::Plan;
 
@@ -26,6 +27,7 @@ pub(super) fn plan(kind: PlaceKind, motion: &MotionRanges, random: &mut Random) 
         PlaceKind::CarPark => parking::car_park(&mut builder),
         PlaceKind::Industrial => industrial::yard(&mut builder),
         PlaceKind::Motorway => motorway::motorway(&mut builder),
+        PlaceKind::Tunnel => tunnel::tunnel(&mut builder),
         PlaceKind::Country => country::country(&mut builder),
     }
     builder.plan

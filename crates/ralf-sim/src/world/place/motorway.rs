@@ -24,6 +24,7 @@ pub(super) fn motorway(builder: &mut Builder<'_>) {
     for side in [1.0, -1.0] {
         beside(builder, side, outer, reach);
     }
+    overhead(builder, outer, reach);
     let mut centers: Vec<f64> = (0..lanes).map(|lane| -center(lane)).collect();
     centers.extend((0..lanes).map(center));
     // Drivers of the inner lanes are faster; what is drawn per car is spread enough.
@@ -89,6 +90,26 @@ fn beside(builder: &mut Builder<'_>, side: f64, outer: f64, [from, to]: [f64; 2]
                 if side < 0.0 { 180.0 } else { 0.0 },
                 size,
             );
+        }
+    }
+}
+
+/// Bridges on their piers, and gantries with signs.
+fn overhead(builder: &mut Builder<'_>, outer: f64, [from, to]: [f64; 2]) {
+    let wide = 2.0 * (outer + 1.5);
+    for _ in 0..builder.random.poisson((to - from) / 600.0) {
+        let [x, length, top] =
+            [builder.between(from, to), builder.between(6.0, 16.0), builder.between(5.3, 7.0)];
+        builder.put(Kind::Bridge, [x, 0.0], 0.0, [length, wide + 10.0, top]);
+        for y in [-outer - 3.5, 0.0, outer + 3.5] {
+            builder.put(Kind::Wall, [x, y], 0.0, [0.6 * length, 0.8, top]);
+        }
+    }
+    for _ in 0..builder.random.poisson((to - from) / 800.0) {
+        let x = builder.between(from, to);
+        builder.put(Kind::Bridge, [x, 0.0], 0.0, [0.6, wide, 6.5]);
+        for side in [1.0, -1.0] {
+            builder.put(Kind::Pole, [x, side * wide / 2.0], 0.0, [0.5, 0.5, 6.4]);
         }
     }
 }

@@ -2,8 +2,11 @@
 
 use super::builder::Builder;
 use super::traffic::{Road, on_foot, on_road};
-use crate::kind::Kind;
+use crate::kind::{DECK, Kind};
 use crate::world::terrain::Surface;
+
+/// Clear height below a roof, m.
+const STOREY: f64 = 2.8;
 
 /// Rows of cars along the lane that is driven, and further ones.
 pub(super) fn car_park(builder: &mut Builder<'_>) {
@@ -12,18 +15,25 @@ pub(super) fn car_park(builder: &mut Builder<'_>) {
     let reach = builder.sight(way, [35.0, 100.0]);
     builder.hills(way);
     let [full, lane] = [builder.between(0.35, 0.95), builder.between(5.5, 7.5)];
+    let roofed = builder.chance(0.2);
     let mut y = lane / 2.0;
     for row in 0..3 {
         for side in [1.0, -1.0] {
             cars(builder, side * (y + 2.5), full, reach);
-            if row % 2 == 0 && builder.chance(0.5) {
+            if roofed {
+                pillars(builder, side * (y + 5.3), reach);
+            } else if row % 2 == 0 && builder.chance(0.5) {
                 strip(builder, side * (y + 5.6), reach);
             }
         }
         y += if row % 2 == 0 { 6.3 } else { 5.0 + lane };
     }
-    for side in [1.0, -1.0] {
-        edge(builder, side * (y + 3.0), reach);
+    if roofed {
+        shell(builder, y + 3.0, reach);
+    } else {
+        for side in [1.0, -1.0] {
+            edge(builder, side * (y + 3.0), reach);
+        }
     }
     manoeuvre(builder);
     let road = Road { reach, lanes: vec![-1.3, 1.3], speed: 3.0, cars: 10.0, trucks: 0.0 };
@@ -52,6 +62,26 @@ fn cars(builder: &mut Builder<'_>, y: f64, full: f64, [from, to]: [f64; 2]) {
         } else if builder.chance(0.04) {
             builder.put(Kind::Container, [x, y], 0.0, [1.0, 0.6, 1.0]);
         }
+    }
+}
+
+/// Of a car park with a roof: square ones of concrete, behind the cars.
+fn pillars(builder: &mut Builder<'_>, y: f64, [from, to]: [f64; 2]) {
+    let mut x = from;
+    while x < to {
+        x += 7.8;
+        builder.put(Kind::Wall, [x, y], 0.0, [0.5, 0.5, STOREY]);
+    }
+}
+
+/// Its ceiling and its outer walls.
+fn shell(builder: &mut Builder<'_>, half: f64, [from, to]: [f64; 2]) {
+    builder.line(Kind::Bridge, [from, to], 0.0, [8.0, 2.0 * half + 1.0, STOREY + DECK]);
+    for side in [1.0, -1.0] {
+        builder.line(Kind::Wall, [from, to], side * half, [6.0, 0.3, STOREY]);
+    }
+    for x in [from, to] {
+        builder.put(Kind::Wall, [x, 0.0], 0.0, [0.3, 2.0 * half, STOREY]);
     }
 }
 

@@ -56,7 +56,7 @@ fn piece(view: &View<'_>, [i, j]: [i64; 2], speckle: f64) -> Option<Echo> {
     let [often, strong_db] = view.waves.lumps;
     let lump = if patch.surface != Surface::Grass && share(3) < often { strong_db } else { 0.0 };
     let rcs = view.waves.asphalt_db
-        + patch.surface.roughness_db()
+        + view.waves.roughness_db(patch.surface)
         + 15.0 * (grazing / STATED).log10()
         + decibel(PIECE * PIECE)
         + texture

@@ -1,5 +1,6 @@
 //! A radar as it really is, and how waves meet the world.
 
+use crate::world::terrain::Surface;
 use ralf::space::Transform;
 
 /// A radar.
@@ -110,6 +111,10 @@ pub(crate) struct Spikiness {
     pub(crate) scale_db: f64,
     /// Share that belongs to the place.
     pub(crate) staying: f64,
+    /// From here on unevenness hides some of them, m.
+    pub(crate) shadow: f64,
+    /// Share that is left on grass.
+    pub(crate) on_grass: f64,
 }
 
 /// How waves meet a world.
@@ -117,7 +122,9 @@ pub(crate) struct Spikiness {
 pub(crate) struct Waves {
     /// Backscatter of asphalt at 10 degrees of grazing, dB.
     pub(crate) asphalt_db: f64,
-    /// Its spread from place to place, dB.
+    /// Backscatter of grass beyond asphalt's, dB.
+    pub(crate) grass_db: f64,
+    /// Spread of the ground's backscatter from place to place, dB.
     pub(crate) texture_db: f64,
     /// How often a square metre of road has a manhole, a joint or a stud in it, and what that is worth, dB.
     pub(crate) lumps: [f64; 2],
@@ -149,6 +156,18 @@ pub(crate) struct Waves {
     pub(crate) bumper: usize,
     /// Whether it rains.
     pub(crate) rain: bool,
+}
+
+impl Waves {
+    /// Backscatter of a surface beyond asphalt's, dB. Gravel is rough for waves of 4 mm (Ulaby and Dobson 1989).
+    pub(super) fn roughness_db(&self, surface: Surface) -> f64 {
+        match surface {
+            Surface::Asphalt => 0.0,
+            Surface::Pavement => 3.0,
+            Surface::Gravel => 8.0,
+            Surface::Grass => self.grass_db,
+        }
+    }
 }
 
 #[cfg(test)]
@@ -193,7 +212,8 @@ pub(super) mod tests {
             asphalt_db: -25.0,
             texture_db: 5.0,
             lumps: [0.01, 14.0],
-            spikes: Spikiness { mean_db: -99.0, scale_db: -10.0, staying: 0.5 },
+            spikes: Spikiness { mean_db: -99.0, scale_db: -10.0, staying: 0.5, shadow: 25.0, on_grass: 0.1 },
+            grass_db: 7.0,
             mirror_loss_db: 4.0,
             mirror_heights: 1.0,
             aside_db: 12.0,

@@ -24,11 +24,6 @@ const WEAKEST_STAYING: f64 = 0.01;
 const SQUARE: f64 = 2.0;
 /// Half the depth of a ring in which new ones are drawn, m.
 const HALF_RING: f64 = 2.5;
-/// From here on unevenness hides some of the ground, m: what is left falls with the range as the grazing angle does
-/// (the lower a wave comes, the more lies in shadow, Billingsley 2002; from where on is chosen).
-const SHADOW: f64 = 25.0;
-/// Blades are many in a cell, and even out: so many of the spikes are left on grass (chosen).
-const ON_GRASS: f64 = 0.08;
 
 /// Candidates on a square metre of a strength from `least` on: they lie as `1 / x`, and `exp(-x)` of them are kept.
 fn density(spikes: &Spikiness, least: f64) -> f64 {
@@ -64,7 +59,7 @@ pub(super) fn staying(view: &View<'_>, random: &mut Random) -> Vec<Echo> {
             let share = |k: i64| grain(seed, [i, j, 8 * number + k]);
             let Some(x) = strength(WEAKEST_STAYING, share(1), share(2)) else { continue };
             let x = x * random.exponential(1.0);
-            if x > least && share(6) * nearest <= SHADOW {
+            if x > least && share(6) * nearest <= spikes.shadow {
                 let place = [(i as f64 + share(3)) * SQUARE, (j as f64 + share(4)) * SQUARE];
                 found.extend(spike(view, place, x, [share(5), share(6)]));
             }
@@ -115,15 +110,16 @@ fn reach(view: &View<'_>) -> f64 {
 }
 
 fn spike(view: &View<'_>, [x, y]: [f64; 2], strength: f64, [green, hidden]: [f64; 2]) -> Option<Echo> {
+    let spikes = &view.waves.spikes;
     let terrain = &view.moment.site.terrain;
     let surface = terrain.patch(x, y).surface;
-    if surface == Surface::Grass && green > ON_GRASS {
+    if surface == Surface::Grass && green > spikes.on_grass {
         return None;
     }
-    let rcs = view.waves.spikes.scale_db + decibel(strength.max(1e-6));
+    let rcs = spikes.scale_db + decibel(strength.max(1e-6));
     let place = Point::new(x, y, terrain.height(x, y));
     let seen = view.seen(&place)?;
-    if hidden * seen.range > SHADOW {
+    if hidden * seen.range > spikes.shadow {
         return None;
     }
     let level = view.level_db(&seen, rcs)?;
@@ -138,7 +134,7 @@ mod tests {
 
     #[test]
     fn strengths_are_a_gamma_process_of_the_mean_that_is_asked_for() {
-        let spikes = Spikiness { mean_db: -10.0, scale_db: 0.0, staying: 0.5 };
+        let spikes = Spikiness { mean_db: -10.0, scale_db: 0.0, staying: 0.5, shadow: 25.0, on_grass: 0.1 };
         let random = &mut Random::new(1, Purpose::Radar, 0, 0);
         let (mut sum, mut squares) = (0.0, 0.0);
         let square_metres = 40_000.0;
