@@ -29,6 +29,7 @@ mod plan_field;
 mod remedy;
 mod sample;
 mod statistics;
+mod velocity_fit;
 mod verdict;
 mod wheels;
 

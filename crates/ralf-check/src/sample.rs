@@ -3,6 +3,7 @@
 use crate::ground::{self, GroundFit};
 use crate::picture::{CameraLook, DepthEdge, FEWEST_IMAGES, Moment, depth_edges};
 use crate::plan_field::PlanField;
+use crate::velocity_fit::{VelocityFit, fit};
 use ralf::sensors::Source;
 use ralf::sensors::{Elevation, Radar};
 use ralf::sensors::{LidarScan, RadarScan, is_return};
@@ -33,6 +34,10 @@ pub(crate) struct RadarLook {
     pub(crate) t_ns: i64,
     /// Detections with finite coordinates, radar frame, m.
     pub(crate) positions: Vec<Point>,
+    /// Those of them that stand still by the scan's own range rates; all of them where these tell no velocity.
+    pub(crate) standing: Vec<Point>,
+    /// The radar's own velocity by these.
+    pub(crate) fit: Option<VelocityFit>,
     /// Unit directions of detections with a finite range rate, radar frame.
     pub(crate) rays: Vec<Vector>,
     /// Their raw range rates, m/s.
@@ -186,28 +191,36 @@ impl RadarLook {
             rows: read.len(),
             not_finite: read.len() - positions.len(),
             numbers: read.columns.iter().map(|column| count_finite(column)).collect(),
+            standing: positions.clone(),
             positions,
+            fit: None,
             rays: Vec::new(),
             range_rates: Vec::new(),
             spherical: read.spherical.iter().map(|s| [s.range, s.azimuth, s.elevation]).collect(),
             digest: hasher.finish(),
         };
         if let Some(column) = radar.column("doppler") {
-            look.add_range_rates(radar.elevation, &read.positions, &read.columns[column]);
+            look.read_range_rates(radar.elevation, &read.positions, &read.columns[column]);
         }
         look
     }
 
-    fn add_range_rates(&mut self, elevation: Elevation, positions: &[Point], range_rates: &[f32]) {
-        for (position, rate) in positions.iter().zip(range_rates) {
+    fn read_range_rates(&mut self, elevation: Elevation, positions: &[Point], range_rates: &[f32]) {
+        let mut places = Vec::new();
+        for (position, rate) in positions.iter().zip(range_rates).filter(|(_, rate)| rate.is_finite()) {
             let flat = Vector::new(position.x, position.y, 0.0);
             let ray = if elevation == Elevation::Measured { position.coords } else { flat };
-            if let Some(ray) =
-                ray.try_normalize(1e-9).filter(|ray| ray.norm().is_finite() && rate.is_finite())
-            {
+            if let Some(ray) = ray.try_normalize(1e-9).filter(|ray| ray.norm().is_finite()) {
                 self.rays.push(ray);
                 self.range_rates.push(f64::from(*rate));
+                places.push(*position);
             }
+        }
+        self.fit = fit(&self.rays, &self.range_rates, self.scan as u64);
+        if let Some(fit) = self.fit {
+            let told = self.rays.iter().zip(&self.range_rates);
+            let standing = places.into_iter().zip(told).filter(|(_, (ray, rate))| fit.agrees(ray, **rate));
+            self.standing = standing.map(|(place, _)| place).collect();
         }
     }
 }
@@ -291,6 +304,8 @@ impl CloudShape {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use ralf::sensors::Reliability;
+    use ralf::space::Transform;
 
     #[test]
     fn scans_are_spread_from_the_first_to_the_last() {
@@ -320,6 +335,35 @@ mod tests {
             assert_eq!(blind(&ring(road + 2.0), &lidar, 2.0), 0.0);
             assert_eq!(blind(&[], &lidar, 2.0), f64::INFINITY);
         }
+    }
+
+    /// Things around a radar that drives at 30 m/s, and a lorry that follows it.
+    #[test]
+    fn what_moves_is_told_from_what_stands_by_the_scan_itself() {
+        let radar = Radar {
+            name: "radar_rear".into(),
+            vehicle_from_radar: Transform::identity(),
+            elevation: Elevation::None,
+            sigma_range: 0.1,
+            sigma_azimuth: 0.02,
+            sigma_elevation: 0.02,
+            fov_azimuth: 2.0,
+            fov_elevation: 0.3,
+            fields: ["range", "azimuth", "doppler"].map(str::to_owned).to_vec(),
+            reliability: Reliability::default(),
+        };
+        let azimuths: Vec<f32> = (-9..=9).map(|i| 0.1 * i as f32).collect();
+        let mut rates: Vec<f32> = azimuths.iter().map(|azimuth| -30.0 * azimuth.cos()).collect();
+        rates[8..11].fill(0.5);
+        let look = |rates: Vec<f32>| {
+            let columns = vec![vec![20.0; azimuths.len()], azimuths.clone(), rates];
+            RadarLook::of(&radar, 0, &RadarScan::new(&radar, 0, columns).unwrap())
+        };
+        let seen = look(rates);
+        assert_eq!(seen.positions.len(), 19);
+        assert_eq!(seen.standing, [&seen.positions[..8], &seen.positions[11..]].concat());
+        let silent = look(vec![f32::NAN; 19]);
+        assert_eq!(silent.standing, silent.positions, "range rates tell nothing");
     }
 
     #[test]

@@ -34,6 +34,13 @@ pub struct VelocityFit {
     pub vertical: (f64, f64),
 }
 
+impl VelocityFit {
+    /// Whether a detection of the scan stands still: its unit direction (radar's frame) and its range rate (m/s).
+    pub(crate) fn agrees(&self, ray: &Vector, range_rate: f64) -> bool {
+        agrees(&self.velocity, ray, range_rate)
+    }
+}
+
 /// The velocity that most detections agree with. `rays` are unit directions in the radar's frame, `range_rates` raw
 /// (m/s, positive when receding). `None` of scans with fewer than eight detections, and where the rays don't span the
 /// plane.

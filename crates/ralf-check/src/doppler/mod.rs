@@ -2,12 +2,11 @@
 
 mod clock;
 mod compare;
-pub(crate) mod fit;
 mod vehicle;
 
+pub use crate::velocity_fit::{VelocityFit, fit};
 pub(crate) use clock::{ClockFigures, clock};
 pub(crate) use compare::{CREEPING, DopplerFigures, MOVING, STANDING, compare, predicted};
-pub use fit::{VelocityFit, fit};
 pub use vehicle::from_doppler;
 pub(crate) use vehicle::{Turning, turning};
 
@@ -22,9 +21,5 @@ pub(crate) struct Timed {
 
 /// The velocities of a radar's scans.
 pub(crate) fn fits(looks: &[RadarLook]) -> Vec<Timed> {
-    let one = |look: &RadarLook| {
-        let fit = fit(&look.rays, &look.range_rates, look.scan as u64)?;
-        Some(Timed { t_ns: look.t_ns, fit })
-    };
-    looks.iter().filter_map(one).collect()
+    looks.iter().filter_map(|look| Some(Timed { t_ns: look.t_ns, fit: look.fit? })).collect()
 }

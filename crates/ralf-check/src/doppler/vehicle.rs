@@ -4,9 +4,9 @@
 //! t_x - u_x t_y) w)`: linear in speed `v` and yaw rate `w`, for a vehicle that doesn't slide sideways at its rear
 //! axle.
 
-use super::fit::{VelocityFit, fit};
 use crate::sample::{RadarLook, nearest};
 use crate::statistics::median;
+use crate::velocity_fit::{VelocityFit, fit};
 use ralf::sensors::RadarScan;
 use ralf::sensors::{Elevation, Radar};
 use ralf::sensors::{Source, SourceError};

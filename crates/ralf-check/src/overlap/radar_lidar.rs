@@ -88,7 +88,9 @@ fn count(
     measure: Measure,
 ) -> [f64; 2] {
     let mut found = [0.0; 2];
-    for position in &look.positions {
+    // What moves is elsewhere by the LiDAR's time, and a turning LiDAR draws it askew: a lorry that follows looks like
+    // a clock that lags.
+    for position in &look.standing {
         let range = position.coords.norm();
         if !(NEAREST..FARTHEST).contains(&range) {
             continue;
