@@ -4,8 +4,9 @@
     unconfirmed.py --world FAMILY DATASET OUT [--world FAMILY DATASET OUT]... [options of the learner]
 
 Gradient-boosted trees that never saw a family of worlds label that family, as judge_families.py has it; then the odds of what
-is unconfirmed are multiplied by 0.03: of none, of what lies beyond the LiDAR's map, of where no ray goes, of what lies behind
-walls, of all three, which is the rule; and of what lies beyond the map and farther than the LiDAR sees, too, which is not.
+is unconfirmed are multiplied by 0.03: of none, of what lies beyond the LiDAR's map, of what lies behind walls, of single scans
+where no ray goes within the map, of all three, which is the rule; and, one at a time, of what the rule leaves out: what time
+confirms beyond the map, where no ray goes and time was asked, and what lies farther than the LiDAR sees.
 Printed are means over the families left out, and of each kind how many there are and how many of them are plausible.
 
 Needs what judge_families.py needs.
@@ -18,20 +19,26 @@ FACTOR = 0.03
 
 
 def kinds_of(features, names):
-    """Which rows are unconfirmed beyond the map, where no ray goes, and behind walls, by the rule of
-    crates/ralf/src/learned/unconfirmed.rs, whose comparisons are false where something is absent, too; and which would be
-    beyond the map if it asked no LiDAR how far it sees."""
+    """Which rows are unconfirmed beyond the map, behind walls and where no ray goes, by the rule of
+    crates/ralf/src/learned/unconfirmed.rs, whose comparisons are false where something is absent, too; and which would be if
+    time confirmed nothing, if it asked about all places within the map where no ray goes, and if it asked no LiDAR how far it
+    sees."""
     value = lambda name: features[:, names.index(name)]
     unseen, away = value("lidar_unseen"), value("map_distance")
     known = ~numpy.isnan(unseen) & ~(value("lidar_moving_near") > 0)
-    beyond, no_ray = numpy.isnan(away), unseen >= 1
     walled = (value("sight_wall_top") > 2.5) & (value("sight_wall_length") >= 4)
     near_any = (value("lidar_chi") < 3) | (value("lidar_window_chi_least") < 3)
     hidden = known & walled & (unseen + value("lidar_occluded") >= 0.999) & ~near_any
-    out_of_sight = known & (beyond | no_ray) & ~((value("lidar_distance") < 2.5) | (away < 3))
+    silent = known & ~(value("lidar_distance") < 2.5)
     reached = value("lidar_reach") <= 1
-    seen = out_of_sight & reached
-    return seen & beyond, seen & ~beyond, hidden & ~seen, out_of_sight & ~reached
+    asked = ~numpy.isnan(value("persistence_moving"))
+    again = (value("persistence_moving") >= 0.5) & ~numpy.isnan(value("persistence_aspect"))
+    beyond = silent & numpy.isnan(away)
+    no_ray = silent & reached & (unseen >= 0.999) & (away >= 2.5)
+    return (
+        beyond & reached & ~again, hidden & ~beyond, no_ray & ~asked & ~hidden,
+        beyond & reached & again, no_ray & asked & ~hidden, beyond & ~reached & ~again,
+    )
 
 
 def weighed(scores, unconfirmed):
@@ -44,11 +51,12 @@ def main():
     options, names = parser_of(__doc__).parse_args(), list(groups_of_features())
     worlds = read_worlds(options, names)
     scores = out_of_fold(worlds.features, worlds, options)
-    beyond, no_ray, walled, farther = kinds_of(worlds.features, names)
-    rule = beyond | no_ray | walled
+    beyond, walled, once, again, no_ray, farther = kinds_of(worlds.features, names)
     kinds = {
-        "nothing": numpy.zeros(len(scores), bool), "where no ray goes": no_ray, "behind walls": walled,
-        "beyond the map": beyond, "all of it": rule, "and what no LiDAR sees as far": rule | farther,
+        "nothing": numpy.zeros(len(scores), bool), "behind walls": walled, "beyond the map": beyond,
+        "where no ray goes in a single scan": once, "all three": beyond | walled | once,
+        "only what time confirms": again, "only where no ray goes and time was asked": no_ray,
+        "only what no LiDAR sees as far": farther,
     }
     print("| believed less | of all | plausible of it | F1 | AP | accuracy | ECE |")
     print("| --- " * 7 + "|")

@@ -15,8 +15,8 @@ pub const NO_NEIGHBOURS: u16 = 16;
 pub const UNOBSERVED: u16 = 32;
 /// A model was asked for, and the paper's method answered: the evidence is unlike what the model was trained on.
 pub const PAPER: u16 = 64;
-/// A model was asked, and no other sensor confirms the radar, though a LiDAR sees as far: beyond the LiDAR's map or
-/// where no ray goes, with no LiDAR point near and nothing of the map, or behind a wall.
+/// A model was asked, and neither another sensor nor time confirms the radar, though a LiDAR sees as far: beyond the
+/// LiDAR's map, or where no ray goes in a single scan of the radar, with no LiDAR point near, or behind a wall.
 pub const UNCONFIRMED: u16 = 128;
 
 pub(crate) fn when(applies: bool, flag: u16) -> u16 {

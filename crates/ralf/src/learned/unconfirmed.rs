@@ -1,5 +1,6 @@
-//! What nobody but the radar tells of though a LiDAR sees as far: beyond the reach of the LiDAR's map, or behind a
-//! wall, and no LiDAR point near, neither where it would be if it stood still nor where its range rate takes it.
+//! What nobody but the radar tells of though a LiDAR sees as far: beyond the reach of the LiDAR's map, behind a wall,
+//! or where no ray goes and no other scan of a radar had a say; and no LiDAR point near, neither where it would be if
+//! it stood still nor where its range rate takes it.
 //!
 //! A world has as much clutter out there as somebody thought of, and a model believes a radar as far as that goes. On a
 //! real road nobody can check it. As the paper does, what neither another sensor nor time confirms counts less: the
@@ -61,10 +62,12 @@ impl Unconfirmed {
     }
 
     /// Whether a LiDAR sees so far, but can't speak of the place, and of its points none is near. It can't where the
-    /// place lies beyond its map: then none of the nearest scan may be within 2.5 m, and the radar may not have seen it
-    /// again in half of its scans, if radars looked from elsewhere. Nor can it where all rays end before the place and
-    /// the last thing in the radar's way is a wall, over 2.5 m high and at least 4 m long: then no scan around may have
-    /// a point within 3 sigmas. Nor may any scan around have one where its range rate takes the detection, if it moves.
+    /// place lies beyond its map: then none of the nearest scan may be within 2.5 m, and the radar may not have seen
+    /// it again in half of its scans, if radars looked from elsewhere. Nor can it where no ray goes: of that the
+    /// model judges by what time tells, so only what no other scan of the radar could have seen is meant. Nor can it
+    /// where all rays end before the place and the last thing in the radar's way is a wall, over 2.5 m high and at
+    /// least 4 m long: then no scan around may have a point within 3 sigmas. Nor may any scan around have one where
+    /// its range rate takes the detection, if it moves.
     pub fn is(&self, row: &[f32]) -> bool {
         let value = |place: Option<usize>| place.map_or(f32::NAN, |place| row[place]);
         let unseen = value(self.unseen);
@@ -76,10 +79,14 @@ impl Unconfirmed {
         let near = self.distance.map_or(near_nearest, |distance| row[distance] < NEAR);
         let sees_as_far = self.reach.is_none_or(|reach| row[reach] <= 1.0);
         let seen_again = value(self.again) >= AGAIN && !value(self.aspect).is_nan();
-        let beyond = value(self.map).is_nan() && sees_as_far && !near && !seen_again;
+        let silent = sees_as_far && !near;
+        let away = value(self.map);
+        let beyond = silent && away.is_nan() && !seen_again;
+        let seen_once = self.again.is_some_and(|again| row[again].is_nan());
+        let unlooked = silent && seen_once && unseen >= ALL && away >= NEAR;
         let walled = value(self.wall_top) > WALL_TOP && value(self.wall_length) >= WALL_LENGTH;
         let hidden = walled && unseen + value(self.hidden) >= ALL && !near_nearest && !near_any;
-        beyond || hidden
+        beyond || unlooked || hidden
     }
 
     /// The probability of a row; of one that is unconfirmed, with its odds multiplied by the factor.
@@ -129,6 +136,25 @@ mod tests {
         {
             assert_eq!(unconfirmed.is(&[ABSENT, 0.5, ABSENT, again, aspect]), expected, "{again} {aspect}");
         }
+    }
+
+    #[test]
+    fn where_no_ray_goes_a_single_scan_of_a_radar_is_unconfirmed() {
+        let names = ["map_distance", "lidar_distance", "lidar_unseen", "lidar_chi", "persistence_moving"];
+        let unconfirmed = Unconfirmed::among(names.into_iter());
+        for ([map, distance, unseen, again], expected) in [
+            ([3.0, ABSENT, 1.0, ABSENT], true),
+            ([3.0, 2.6, 1.0, ABSENT], true),
+            ([3.0, 2.4, 1.0, ABSENT], false),
+            ([2.4, ABSENT, 1.0, ABSENT], false),
+            ([3.0, ABSENT, 0.9, ABSENT], false),
+            ([3.0, ABSENT, 1.0, 0.0], false),
+        ] {
+            let row = [map, distance, unseen, 2.0, again];
+            assert_eq!(unconfirmed.is(&row), expected, "{row:?}");
+        }
+        let blind_to_time = Unconfirmed::among(names[..4].iter().copied());
+        assert!(!blind_to_time.is(&[3.0, ABSENT, 1.0, 2.0]));
     }
 
     #[test]
