@@ -3,7 +3,7 @@
 use crate::ground::{self, GroundFit};
 use crate::picture::{CameraLook, DepthEdge, FEWEST_IMAGES, Moment, depth_edges};
 use crate::plan_field::PlanField;
-use crate::velocity_fit::{VelocityFit, fit};
+use crate::velocity_fit::{TRUSTED, VelocityFit, fit};
 use ralf::sensors::Source;
 use ralf::sensors::{Elevation, Radar};
 use ralf::sensors::{LidarScan, RadarScan, is_return};
@@ -34,7 +34,8 @@ pub(crate) struct RadarLook {
     pub(crate) t_ns: i64,
     /// Detections with finite coordinates, radar frame, m.
     pub(crate) positions: Vec<Point>,
-    /// Those of them that stand still by the scan's own range rates; all of them where these tell no velocity.
+    /// Those of them that stand still by the scan's own range rates; all of them where these tell no
+    /// velocity that can be trusted.
     pub(crate) standing: Vec<Point>,
     /// The radar's own velocity by these.
     pub(crate) fit: Option<VelocityFit>,
@@ -217,7 +218,7 @@ impl RadarLook {
             }
         }
         self.fit = fit(&self.rays, &self.range_rates, self.scan as u64);
-        if let Some(fit) = self.fit {
+        if let Some(fit) = self.fit.filter(|fit| fit.inliers >= TRUSTED) {
             let told = self.rays.iter().zip(&self.range_rates);
             let standing = places.into_iter().zip(told).filter(|(_, (ray, rate))| fit.agrees(ray, **rate));
             self.standing = standing.map(|(place, _)| place).collect();

@@ -15,6 +15,8 @@ const TOLERANCE: (f64, f64) = (0.15, 0.02);
 const DRAWS: usize = 80;
 /// Below this many detections two unknowns are no finding.
 const FEWEST: usize = 8;
+/// A velocity is trusted when so large a share of the detections stands still.
+pub(crate) const TRUSTED: f64 = 0.3;
 /// Rays of a pair are at least this far apart (sine), or their noise is blown up.
 const APART: f64 = 0.15;
 

@@ -4,14 +4,13 @@ use crate::change::{SensorChange, used_motion};
 use crate::doppler::{DopplerFigures, Timed, compare, fits, predicted};
 use crate::overlap::{Measure, Setup, Tally, overlap};
 use crate::sample::{LidarLook, Sample};
+use crate::velocity_fit::TRUSTED;
 use crate::verdict::RadarFigures;
 use ralf::sensors::Sequence;
 use ralf::space::EgoMotion;
 use ralf::space::Transform;
 
-/// A radar's Doppler is trusted when so many of its detections stand still.
-const INLIERS: f64 = 0.3;
-/// And in so many scans: the error of their median is then a third of a single one's.
+/// A radar's Doppler is trusted in so many scans: the error of their median is then a third of a single one's.
 pub(super) const SCANS: usize = 10;
 
 /// A sequence under judgement.
@@ -72,7 +71,7 @@ impl<'a> Case<'a> {
         mount: &Transform,
     ) -> Option<DopplerFigures> {
         compare(&self.fits[radar], motion, mount)
-            .filter(|figures| figures.scans >= SCANS && figures.inliers >= INLIERS)
+            .filter(|figures| figures.scans >= SCANS && figures.inliers >= TRUSTED)
     }
 
     /// A radar's overlap with the LiDARs under a change, besides those that were found.
