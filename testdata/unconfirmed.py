@@ -19,8 +19,8 @@ FACTOR = 0.03
 
 
 def kinds_of(features, names):
-    """Which rows are unconfirmed beyond the map, behind walls and where no ray goes, by the rule of
-    crates/ralf/src/learned/unconfirmed.rs, whose comparisons are false where something is absent, too; and which would be if
+    """Which rows are believed less, by name: unconfirmed beyond the map, behind walls and where no ray goes, by the rule of
+    crates/ralf/src/learned/unconfirmed.rs, whose comparisons are false where something is absent, too; and what would be if
     time confirmed nothing, if it asked about all places within the map where no ray goes, and if it asked no LiDAR how far it
     sees."""
     value = lambda name: features[:, names.index(name)]
@@ -35,10 +35,14 @@ def kinds_of(features, names):
     again = (value("persistence_moving") >= 0.5) & ~numpy.isnan(value("persistence_aspect"))
     beyond = silent & numpy.isnan(away)
     no_ray = silent & reached & (unseen >= 0.999) & (away >= 2.5)
-    return (
-        beyond & reached & ~again, hidden & ~beyond, no_ray & ~asked & ~hidden,
-        beyond & reached & again, no_ray & asked & ~hidden, beyond & ~reached & ~again,
-    )
+    unheard, walled, once = beyond & reached & ~again, hidden & ~beyond, no_ray & ~asked & ~hidden
+    return {
+        "nothing": numpy.zeros(len(features), bool), "behind walls": walled, "beyond the map": unheard,
+        "where no ray goes in a single scan": once, "all three": unheard | walled | once,
+        "only what time confirms": beyond & reached & again,
+        "only where no ray goes and time was asked": no_ray & asked & ~hidden,
+        "only what no LiDAR sees as far": beyond & ~reached & ~again,
+    }
 
 
 def weighed(scores, unconfirmed):
@@ -51,16 +55,9 @@ def main():
     options, names = parser_of(__doc__).parse_args(), list(groups_of_features())
     worlds = read_worlds(options, names)
     scores = out_of_fold(worlds.features, worlds, options)
-    beyond, walled, once, again, no_ray, farther = kinds_of(worlds.features, names)
-    kinds = {
-        "nothing": numpy.zeros(len(scores), bool), "behind walls": walled, "beyond the map": beyond,
-        "where no ray goes in a single scan": once, "all three": beyond | walled | once,
-        "only what time confirms": again, "only where no ray goes and time was asked": no_ray,
-        "only what no LiDAR sees as far": farther,
-    }
     print("| believed less | of all | plausible of it | F1 | AP | accuracy | ECE |")
     print("| --- " * 7 + "|")
-    for name, kind in kinds.items():
+    for name, kind in kinds_of(worlds.features, names).items():
         told = " | ".join(f"{value:.3f}" for value in judge(weighed(scores, kind), worlds).mean(0))
         plausible = f"{(worlds.truth[kind] == 1).mean():.1%}" if kind.any() else ""
         print(f"| {name} | {kind.mean():.1%} | {plausible} | {told} |", flush=True)

@@ -3,9 +3,9 @@
 use crate::ground::{self, GroundFit};
 use crate::picture::{CameraLook, DepthEdge, FEWEST_IMAGES, Moment, depth_edges};
 use crate::plan_field::PlanField;
-use crate::velocity_fit::{TRUSTED, VelocityFit, fit};
+use crate::velocity_fit::{TRUSTED, VelocityFit, fit, told};
+use ralf::sensors::Radar;
 use ralf::sensors::Source;
-use ralf::sensors::{Elevation, Radar};
 use ralf::sensors::{LidarScan, RadarScan, is_return};
 use ralf::space::{Point, Vector};
 use std::collections::BTreeSet;
@@ -34,10 +34,9 @@ pub(crate) struct RadarLook {
     pub(crate) t_ns: i64,
     /// Detections with finite coordinates, radar frame, m.
     pub(crate) positions: Vec<Point>,
-    /// Those of them that stand still by the scan's own range rates; all of them where these tell no
-    /// velocity that can be trusted.
+    /// Those that stand still by the scan's own range rates; all where these tell no velocity to be trusted.
     pub(crate) standing: Vec<Point>,
-    /// The radar's own velocity by these.
+    /// The radar's own velocity by the range rates.
     pub(crate) fit: Option<VelocityFit>,
     /// Unit directions of detections with a finite range rate, radar frame.
     pub(crate) rays: Vec<Vector>,
@@ -186,42 +185,27 @@ impl RadarLook {
         read.columns.iter().flatten().for_each(|value| value.to_bits().hash(&mut hasher));
         let finite = |p: &Point| p.coords.iter().all(|v| v.is_finite());
         let positions: Vec<Point> = read.positions.iter().copied().filter(finite).collect();
-        let mut look = Self {
+        let told = told(radar, read);
+        let rays: Vec<Vector> = told.iter().map(|told| told.ray).collect();
+        let range_rates: Vec<f64> = told.iter().map(|told| told.range_rate).collect();
+        let fit = fit(&rays, &range_rates, scan as u64);
+        let standing = match fit.filter(|fit| fit.inliers >= TRUSTED) {
+            Some(fit) => told.iter().filter(|told| fit.agrees(told)).map(|told| told.place).collect(),
+            None => positions.clone(),
+        };
+        Self {
             scan,
             t_ns: read.t_ns,
             rows: read.len(),
             not_finite: read.len() - positions.len(),
             numbers: read.columns.iter().map(|column| count_finite(column)).collect(),
-            standing: positions.clone(),
+            standing,
             positions,
-            fit: None,
-            rays: Vec::new(),
-            range_rates: Vec::new(),
+            fit,
+            rays,
+            range_rates,
             spherical: read.spherical.iter().map(|s| [s.range, s.azimuth, s.elevation]).collect(),
             digest: hasher.finish(),
-        };
-        if let Some(column) = radar.column("doppler") {
-            look.read_range_rates(radar.elevation, &read.positions, &read.columns[column]);
-        }
-        look
-    }
-
-    fn read_range_rates(&mut self, elevation: Elevation, positions: &[Point], range_rates: &[f32]) {
-        let mut places = Vec::new();
-        for (position, rate) in positions.iter().zip(range_rates).filter(|(_, rate)| rate.is_finite()) {
-            let flat = Vector::new(position.x, position.y, 0.0);
-            let ray = if elevation == Elevation::Measured { position.coords } else { flat };
-            if let Some(ray) = ray.try_normalize(1e-9).filter(|ray| ray.norm().is_finite()) {
-                self.rays.push(ray);
-                self.range_rates.push(f64::from(*rate));
-                places.push(*position);
-            }
-        }
-        self.fit = fit(&self.rays, &self.range_rates, self.scan as u64);
-        if let Some(fit) = self.fit.filter(|fit| fit.inliers >= TRUSTED) {
-            let told = self.rays.iter().zip(&self.range_rates);
-            let standing = places.into_iter().zip(told).filter(|(_, (ray, rate))| fit.agrees(ray, **rate));
-            self.standing = standing.map(|(place, _)| place).collect();
         }
     }
 }
@@ -305,7 +289,7 @@ impl CloudShape {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use ralf::sensors::Reliability;
+    use ralf::sensors::{Elevation, Reliability};
     use ralf::space::Transform;
 
     #[test]

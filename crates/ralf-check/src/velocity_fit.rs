@@ -4,7 +4,8 @@
 //! detections, least squares over the inliers.
 
 use nalgebra::{Matrix2, Vector2};
-use ralf::space::Vector;
+use ralf::sensors::{Elevation, Radar, RadarScan};
+use ralf::space::{Point, Vector};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 
@@ -37,10 +38,33 @@ pub struct VelocityFit {
 }
 
 impl VelocityFit {
-    /// Whether a detection of the scan stands still: its unit direction (radar's frame) and its range rate (m/s).
-    pub(crate) fn agrees(&self, ray: &Vector, range_rate: f64) -> bool {
-        agrees(&self.velocity, ray, range_rate)
+    /// Whether a detection of the scan stands still.
+    pub(crate) fn agrees(&self, told: &Told) -> bool {
+        agrees(&self.velocity, &told.ray, told.range_rate)
     }
+}
+
+/// A detection whose direction and range rate are numbers.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Told {
+    /// Radar frame, m.
+    pub(crate) place: Point,
+    /// Unit direction in the radar's frame; in its plane, where it measures no elevation.
+    pub(crate) ray: Vector,
+    /// m/s.
+    pub(crate) range_rate: f64,
+}
+
+/// All such detections of a scan; none of a radar without range rates.
+pub(crate) fn told(radar: &Radar, scan: &RadarScan) -> Vec<Told> {
+    let Some(column) = radar.column("doppler") else { return Vec::new() };
+    let of = |(place, rate): (&Point, &f32)| {
+        let up = if radar.elevation == Elevation::Measured { place.z } else { 0.0 };
+        let ray = Vector::new(place.x, place.y, up).try_normalize(1e-9)?;
+        let is_number = ray.norm().is_finite() && rate.is_finite();
+        is_number.then_some(Told { place: *place, ray, range_rate: f64::from(*rate) })
+    };
+    scan.positions.iter().zip(&scan.columns[column]).filter_map(of).collect()
 }
 
 /// The velocity that most detections agree with. `rays` are unit directions in the radar's frame, `range_rates` raw

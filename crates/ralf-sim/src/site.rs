@@ -96,7 +96,6 @@ pub(super) fn bodies(kind: Kind, size: Vector) -> Vec<(Shape, Vector)> {
         (Shape::Box((high - low) / 2.0), nalgebra::center(&low, &high).coords)
     };
     let (l, w) = (length / 2.0, width / 2.0);
-    let crown = Vector::new(0.0, 0.0, 0.5 * (1.0 + CROWN) * height);
     match kind {
         Kind::Car => car(&block, l, w, height),
         Kind::Garage => garage(&block, l, w, height),
@@ -108,10 +107,7 @@ pub(super) fn bodies(kind: Kind, size: Vector) -> Vec<(Shape, Vector)> {
             block([-l, l], [-w, w], [height - 2.0 * w, height]),
             (Shape::Cylinder(0.04, height / 2.0), Vector::new(-l - 0.04, 0.0, height / 2.0)),
         ],
-        Kind::Tree => vec![
-            (Shape::Cylinder(TRUNK, 0.25 * height), Vector::new(0.0, 0.0, 0.25 * height)),
-            (Shape::Ellipsoid(Vector::new(l, w, 0.5 * (1.0 - CROWN) * height)), crown),
-        ],
+        Kind::Tree => tree(l, w, height),
         Kind::Pole | Kind::Pedestrian => {
             vec![(Shape::Cylinder(l, height / 2.0), Vector::new(0.0, 0.0, height / 2.0))]
         }
@@ -145,6 +141,15 @@ fn truck(block: &Block<'_>, l: f64, w: f64, height: f64) -> Vec<(Shape, Vector)>
         wheels(l - 1.2),
         wheels(0.3 * l),
         wheels(-0.7 * l),
+    ]
+}
+
+/// Trunk, and crown.
+fn tree(l: f64, w: f64, height: f64) -> Vec<(Shape, Vector)> {
+    let crown = Vector::new(l, w, 0.5 * (1.0 - CROWN) * height);
+    vec![
+        (Shape::Cylinder(TRUNK, 0.25 * height), Vector::new(0.0, 0.0, 0.25 * height)),
+        (Shape::Ellipsoid(crown), Vector::new(0.0, 0.0, 0.5 * (1.0 + CROWN) * height)),
     ]
 }
 

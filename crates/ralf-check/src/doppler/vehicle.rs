@@ -6,9 +6,9 @@
 
 use crate::sample::{RadarLook, nearest};
 use crate::statistics::median;
-use crate::velocity_fit::{VelocityFit, fit};
+use crate::velocity_fit::{VelocityFit, fit, told};
+use ralf::sensors::Radar;
 use ralf::sensors::RadarScan;
-use ralf::sensors::{Elevation, Radar};
 use ralf::sensors::{Source, SourceError};
 use ralf::space::{EgoMotion, OdometrySample};
 use ralf::space::{Transform, Vector};
@@ -162,14 +162,9 @@ impl<'a> Window<'a> {
 }
 
 fn add_detections(radar: &Radar, scan: &RadarScan, rays: &mut Vec<Vector>, rates: &mut Vec<f64>) {
-    let Some(column) = radar.column("doppler") else { return };
-    for (position, rate) in scan.positions.iter().zip(&scan.columns[column]) {
-        let up = if radar.elevation == Elevation::Measured { position.z } else { 0.0 };
-        let ray = Vector::new(position.x, position.y, up);
-        if let Some(ray) = ray.try_normalize(1e-9).filter(|ray| ray.norm().is_finite() && rate.is_finite()) {
-            rays.push(factors(&radar.vehicle_from_radar, &ray));
-            rates.push(f64::from(*rate));
-        }
+    for told in told(radar, scan) {
+        rays.push(factors(&radar.vehicle_from_radar, &told.ray));
+        rates.push(told.range_rate);
     }
 }
 

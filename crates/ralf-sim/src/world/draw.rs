@@ -56,7 +56,7 @@ impl World {
 
 fn waves(family: &Family, seed: u64, random: &mut Random) -> Waves {
     let ranges = &family.waves;
-    // Of their own, so that all else of a seed's world stays as it was before there were these.
+    // A stream of their own: one more of these leaves a seed's sensors as they are.
     let growth = &mut Random::new(seed, Purpose::World, 1, 0);
     Waves {
         asphalt_db: ranges.asphalt.draw(random),

@@ -76,12 +76,11 @@ impl Item {
 
     /// Whether what drives over a place on the ground, half so wide (m), would run into it where it stands.
     pub(super) fn is_in_the_way(&self, [x, y]: [f64; 2], wider: f64) -> bool {
+        let Some([l, w]) = self.outline().filter(|_| !self.moves()) else { return false };
         let [x0, y0, yaw] = self.course.start;
         let (sin, cos) = yaw.sin_cos();
         let [dx, dy] = [x - x0, y - y0];
-        let [along, across] = [cos * dx + sin * dy, cos * dy - sin * dx];
-        let meets = |[l, w]: [f64; 2]| along.abs() < l + wider && across.abs() < w + wider;
-        !self.moves() && self.outline().is_some_and(meets)
+        (cos * dx + sin * dy).abs() < l + wider && (cos * dy - sin * dx).abs() < w + wider
     }
 
     /// Where it is after so many seconds: upright, with its foot on the ground.

@@ -258,7 +258,7 @@ pub const FAMILIES: [Family; 8] = [
             angle_failure: span(0.02, 0.35),
             room: span(50.0, 600.0),
             least_rcs: span(-60.0, -4.0),
-            // A threshold of 9 to 10 dB above noise lets some tens of a hundred thousand cells pass.
+            // A threshold of 9 dB above noise lets 36 of a hundred thousand cells pass, and a scan may have a million.
             false_alarms: span(0.5, 300.0),
             ..RADARS
         },
