@@ -103,15 +103,23 @@ impl Cases {
         self.counts[0] * self.counts[1]
     }
 
-    /// The leaves that a player's questions lead to in each case, a bit each.
-    fn leads(&self, player: &Asked) -> Vec<u64> {
-        let stride = player.stride * if player.digit == 0 { 1 } else { self.counts[0] };
-        let in_turn = player.outcomes.leads().iter().flat_map(|leads| std::iter::repeat_n(*leads, stride));
-        let mut all: Vec<u64> = in_turn.collect();
-        while all.len() < self.count() {
-            all.extend_from_within(..);
+    /// In each case, which of the players of a leaf's way lead there: a bit for each, in their order.
+    fn leading(&self, leaf: usize, way: &Way) -> Vec<u16> {
+        let mut all = vec![0];
+        let of_digit = |digit: usize| self.players.iter().filter(move |player| player.digit == digit);
+        for player in of_digit(0).chain(of_digit(1)) {
+            let before = all.len();
+            for _ in 1..player.outcomes.count() {
+                all.extend_from_within(..before);
+            }
+            let Some(place) = way.players.iter().position(|asked| asked.group == player.group) else {
+                continue;
+            };
+            for (cases, leads) in all.chunks_exact_mut(before).zip(player.outcomes.leads()) {
+                let leads = (leads >> leaf & 1) as u16;
+                cases.iter_mut().for_each(|case| *case |= leads << place);
+            }
         }
-        all.truncate(self.count());
         all
     }
 }
@@ -163,20 +171,20 @@ fn sums_of(groups: &[i32; PLAYERS]) -> Sums {
 /// What each group adds in each case.
 fn table(cases: &Cases, ways: &[Way], scale: f64) -> Vec<Sums> {
     let mut table = vec![[0.0; PLAYERS]; cases.count()];
-    let leads: Vec<Vec<u64>> = cases.players.iter().map(|player| cases.leads(player)).collect();
     for (leaf, way) in ways.iter().enumerate() {
-        let shares: Vec<Vec<(usize, f64)>> =
-            (0..1 << way.players.len()).map(|leading| way.shares(leading).collect()).collect();
-        let asked = cases.players.iter().zip(&leads);
-        let of_way = |group: usize| way.players.iter().any(|player| player.group == group);
-        let leads: Vec<&Vec<u64>> =
-            asked.filter(|(asked, _)| of_way(asked.group)).map(|(_, leads)| leads).collect();
-        for (case, sums) in table.iter_mut().enumerate() {
-            let leading =
-                leads.iter().rev().fold(0, |bits, leads| bits << 1 | (leads[case] >> leaf & 1) as usize);
-            shares[leading].iter().for_each(|(group, share)| sums[*group] += share);
+        let shares = way.shares();
+        for (sums, leading) in table.iter_mut().zip(cases.leading(leaf, way)) {
+            for (sum, share) in sums.iter_mut().zip(&shares[usize::from(leading)]) {
+                *sum += share;
+            }
         }
     }
-    let in_units = |sums: [f64; PLAYERS]| sums_of(&sums.map(|sum| (sum * scale).round() as i32));
+    let in_units = |sums: [f64; PLAYERS]| sums_of(&sums.map(|sum| rounded(sum * scale)));
     table.into_iter().map(in_units).collect()
+}
+
+/// The nearest whole number, which is far below what an `i32` holds. `f64::round` is a call where processors of twenty
+/// years ago are built for.
+fn rounded(value: f64) -> i32 {
+    (value + 0.5_f64.copysign(value)) as i32
 }

@@ -50,11 +50,16 @@ impl Way {
         self.value * self.players.iter().map(|player| player.share).product::<f64>()
     }
 
-    /// What each player adds where the players of these bits are those whose questions lead here.
-    pub(super) fn shares(&self, leading: usize) -> impl Iterator<Item = (usize, f64)> {
-        let leads = move |player: usize| leading >> player & 1 == 1;
+    /// What each group adds, by which of the players' questions lead here: a bit for each player, in their order.
+    pub(super) fn shares(&self) -> Vec<[f64; PLAYERS]> {
         let weights = weights(self.players.len());
-        self.players.iter().enumerate().map(move |(own, player)| {
+        (0..1 << self.players.len()).map(|leading| self.shares_where(leading, &weights)).collect()
+    }
+
+    fn shares_where(&self, leading: usize, weights: &[f64; PLAYERS]) -> [f64; PLAYERS] {
+        let leads = |player: usize| leading >> player & 1 == 1;
+        let mut shares = [0.0; PLAYERS];
+        for (own, player) in self.players.iter().enumerate() {
             // By the number of the leading rivals that are asked: the sum of what the rest lets through.
             let (mut coefficients, mut asked, mut through) = ([0.0; PLAYERS + 1], 0, 1.0);
             coefficients[0] = 1.0;
@@ -69,11 +74,12 @@ impl Way {
                     coefficients[more] *= rival.share;
                 }
             }
-            let terms = coefficients.iter().zip(&weights).take(asked + 1);
+            let terms = coefficients.iter().zip(weights).take(asked + 1);
             let sum: f64 = terms.map(|(coefficient, weight)| coefficient * weight).sum();
             let lead = if leads(own) { 1.0 } else { 0.0 };
-            (player.group, self.value * (lead - player.share) * through * sum)
-        })
+            shares[player.group] = self.value * (lead - player.share) * through * sum;
+        }
+        shares
     }
 }
 
