@@ -1,5 +1,7 @@
 //! How far the nearest obstacle is from any place in plan: a grid, so that a question costs one look.
 
+use std::sync::LazyLock;
+
 /// Width of a cell, m.
 pub(crate) const CELL: f64 = 0.2;
 /// Cells from the centre to the border: 50 m.
@@ -7,7 +9,7 @@ const REACH: usize = 250;
 /// Cells of a side.
 const SIDE: usize = 2 * REACH + 1;
 /// Distances are known up to this many cells.
-const DISC: i64 = 5;
+const DISC: usize = 5;
 /// The distance of what is farther from every obstacle, m.
 pub(crate) const FAR: f64 = DISC as f64 * CELL;
 
@@ -53,39 +55,35 @@ impl PlanField {
                 }
             }
         }
-        let mut field = Self { tiles: vec![None; TILES * TILES] };
-        let disc = disc();
+        let mut canvas = Canvas::empty();
         for [column, row] in occupied {
-            field.paint([column, row], own[row * SIDE + column].unwrap_or_default(), &disc);
+            canvas.paint([column, row], own[row * SIDE + column].unwrap_or_default());
         }
-        field
-    }
-
-    fn paint(&mut self, [column, row]: [usize; 2], top: i8, disc: &[(i64, i64, u8)]) {
-        for (dx, dy, distance) in disc {
-            let (x, y) = (column as i64 + dx, row as i64 + dy);
-            if (0..SIDE as i64).contains(&x) && (0..SIDE as i64).contains(&y) {
-                let (tile, at) = place([x as usize, y as usize]);
-                let tile = self.tiles[tile].get_or_insert_with(Tile::far);
-                if *distance < tile.distance[at] {
-                    tile.distance[at] = *distance;
-                    tile.tops[at] = top;
-                }
-            }
-        }
+        Self { tiles: canvas.tiles() }
     }
 
     /// The distance at a place, in steps of [`STEP`], and the top of what is there; of what is far from every obstacle
     /// the largest number. `None` beyond 50 m.
     fn at(&self, x: f64, y: f64) -> Option<(u8, i8)> {
-        let (tile, at) = place(cell(x, y)?);
-        Some(self.tiles[tile].as_ref().map_or((u8::MAX, 0), |tile| (tile.distance[at], tile.tops[at])))
+        cell(x, y).map(|cell| self.of_cell(cell))
+    }
+
+    fn of_cell(&self, cell: [usize; 2]) -> (u8, i8) {
+        let (tile, at) = place(cell);
+        self.tiles[tile].as_ref().map_or((u8::MAX, 0), |tile| (tile.distance[at], tile.tops[at]))
+    }
+
+    /// Distance from a cell to the nearest obstacle, m, at most [`FAR`].
+    fn distance_of(&self, cell: [usize; 2]) -> f64 {
+        match self.of_cell(cell) {
+            (u8::MAX, _) => FAR,
+            (distance, _) => f64::from(distance) * STEP,
+        }
     }
 
     /// Distance from a place to the nearest obstacle, m, at most [`FAR`]; `None` beyond 50 m.
     pub(crate) fn distance(&self, x: f64, y: f64) -> Option<f64> {
-        let (distance, _) = self.at(x, y)?;
-        Some(if distance == u8::MAX { FAR } else { f64::from(distance) * STEP })
+        cell(x, y).map(|cell| self.distance_of(cell))
     }
 
     /// Whether there is an obstacle at a place.
@@ -95,11 +93,15 @@ impl PlanField {
 
     /// The distance from a place, linear between the middles of cells, so that small moves are felt.
     pub(crate) fn smooth_distance(&self, x: f64, y: f64) -> Option<f64> {
-        let [low_x, low_y] = [x, y].map(|value| (value / CELL).floor() * CELL);
-        let [right, up] = [(x - low_x) / CELL, (y - low_y) / CELL];
-        let at = |i: f64, j: f64| self.distance(low_x + i * CELL, low_y + j * CELL);
-        let lower = at(0.0, 0.0)? * (1.0 - right) + at(1.0, 0.0)? * right;
-        let upper = at(0.0, 1.0)? * (1.0 - right) + at(1.0, 1.0)? * right;
+        let [column, row] = [x, y].map(|value| value / CELL + REACH as f64);
+        let (low, right, up) = ([column.floor(), row.floor()], column.fract(), row.fract());
+        if !low.iter().all(|value| *value >= 0.0 && *value < (SIDE - 1) as f64) {
+            return None;
+        }
+        let [column, row] = low.map(|value| value as usize);
+        let at = |i: usize, j: usize| self.distance_of([column + i, row + j]);
+        let lower = at(0, 0) * (1.0 - right) + at(1, 0) * right;
+        let upper = at(0, 1) * (1.0 - right) + at(1, 1) * right;
         Some(lower * (1.0 - up) + upper * up)
     }
 
@@ -110,9 +112,62 @@ impl PlanField {
     }
 }
 
-impl Tile {
-    fn far() -> Box<Self> {
-        Box::new(Self { distance: [u8::MAX; TILE * TILE], tops: [0; TILE * TILE] })
+/// Cells painted at once: a disc's widest row, rounded up to what a vector register holds.
+const ROW: usize = 16;
+/// A canvas has room for a disc about every cell, and for whole rows of it.
+const WIDTH: usize = SIDE + ROW - 1;
+const HEIGHT: usize = SIDE + 2 * DISC;
+
+/// What a field is painted on: distances and tops as in a [`Tile`], [`DISC`] cells more to each side.
+struct Canvas {
+    distance: Vec<u8>,
+    tops: Vec<i8>,
+    /// The tiles that something was painted on.
+    painted: Vec<bool>,
+}
+
+impl Canvas {
+    fn empty() -> Self {
+        let cells = WIDTH * HEIGHT;
+        Self { distance: vec![u8::MAX; cells], tops: vec![0; cells], painted: vec![false; TILES * TILES] }
+    }
+
+    /// An obstacle in a cell: what was painted first stays where another one is as near.
+    fn paint(&mut self, [column, row]: [usize; 2], top: i8) {
+        for (dy, disc) in DISTANCES.iter().enumerate() {
+            let begin = (row + dy) * WIDTH + column;
+            let row = begin..begin + ROW;
+            let tops = &mut self.tops[row.clone()];
+            for ((distance, own), new) in self.distance[row].iter_mut().zip(tops).zip(disc) {
+                let is_nearer = new < distance;
+                *distance = if is_nearer { *new } else { *distance };
+                *own = if is_nearer { top } else { *own };
+            }
+        }
+        let ends = |cell: usize| [cell.saturating_sub(DISC), (cell + DISC).min(SIDE - 1)];
+        for row in ends(row) {
+            for column in ends(column) {
+                self.painted[place([column, row]).0] = true;
+            }
+        }
+    }
+
+    /// `None` for tiles that are far from every obstacle.
+    fn tiles(&self) -> Vec<Option<Box<Tile>>> {
+        let tiles = self.painted.iter().enumerate();
+        tiles.map(|(tile, painted)| painted.then(|| self.tile(tile % TILES, tile / TILES))).collect()
+    }
+
+    /// The tile in a column and row of tiles.
+    fn tile(&self, column: usize, row: usize) -> Box<Tile> {
+        let mut tile = Box::new(Tile { distance: [u8::MAX; TILE * TILE], tops: [0; TILE * TILE] });
+        let width = TILE.min(SIDE - column * TILE);
+        for y in 0..TILE.min(SIDE - row * TILE) {
+            let from = (row * TILE + y + DISC) * WIDTH + column * TILE + DISC;
+            tile.distance[y * TILE..][..width].copy_from_slice(&self.distance[from..][..width]);
+            tile.tops[y * TILE..][..width].copy_from_slice(&self.tops[from..][..width]);
+        }
+        tile
     }
 }
 
@@ -128,19 +183,16 @@ fn cell(x: f64, y: f64) -> Option<[usize; 2]> {
     (inside(column) && inside(row)).then_some([column as usize, row as usize])
 }
 
-/// Offsets of the cells about one, and their distances.
-fn disc() -> Vec<(i64, i64, u8)> {
-    let mut found = Vec::new();
-    for dy in -DISC..=DISC {
-        for dx in -DISC..=DISC {
-            let distance = ((dx * dx + dy * dy) as f64).sqrt() * CELL;
-            if distance < FAR {
-                found.push((dx, dy, (distance / STEP).round() as u8));
-            }
-        }
-    }
-    found
-}
+/// Distances from the cells about one, row by row; the largest number where they are not felt.
+static DISTANCES: LazyLock<[[u8; ROW]; 2 * DISC + 1]> = LazyLock::new(|| {
+    std::array::from_fn(|row| {
+        std::array::from_fn(|column| {
+            let [dx, dy] = [column, row].map(|at| (at as f64 - DISC as f64) * CELL);
+            let distance = dx.hypot(dy);
+            if distance < FAR { (distance / STEP).round() as u8 } else { u8::MAX }
+        })
+    })
+});
 
 #[cfg(test)]
 mod tests {

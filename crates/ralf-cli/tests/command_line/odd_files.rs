@@ -55,12 +55,20 @@ fn an_unreadable_file_costs_its_scan_and_not_the_run() {
 #[test]
 fn a_limit_is_raised_where_that_is_asked_for() {
     let dataset = Dataset::new();
-    sparse(&dataset.file("radar_front/000003.bin"));
-    let mut command = program();
-    command.env("RALF_MAX_FILE_MB", "4000").args(["label", &dataset.path, "-o", &dataset.out, "--quiet"]);
-    let ran = command.output().unwrap();
-    let told = String::from_utf8_lossy(&ran.stderr);
-    assert!(!told.contains("RALF_MAX_FILE_MB"), "{told}");
+    let settings = dataset.beside("settings.toml");
+    // More than settings may be: lines that say nothing.
+    fs::write(&settings, format!("#{}\n", " ".repeat(99)).repeat(170_000)).unwrap();
+    for (limit, is_refused) in [("", true), ("20", false)] {
+        let mut command = program();
+        command.env("RALF_MAX_FILE_MB", limit).args(["label", &dataset.path, "-o", &dataset.out, "--quiet"]);
+        let ran = command.args(["--config", &settings]).output().unwrap();
+        let told = String::from_utf8_lossy(&ran.stderr);
+        assert_eq!(
+            (ran.status.success(), told.contains("RALF_MAX_FILE_MB")),
+            (!is_refused, is_refused),
+            "{told}"
+        );
+    }
 }
 
 #[test]
