@@ -51,47 +51,65 @@ impl Way {
     }
 
     /// What each group adds, by which of the players' questions lead here: a bit for each player, in their order.
+    ///
+    /// Shapley's value is the mean over all orders in which players become known. As good as an order is a moment for
+    /// each player, drawn evenly from [0, 1]: of those before a player's own moment `t` counts whether they lead here,
+    /// of the others what they let through, and each is before it with probability `t`.
     pub(super) fn shares(&self) -> Vec<[f64; PLAYERS]> {
-        let weights = weights(self.players.len());
-        (0..1 << self.players.len()).map(|leading| self.shares_where(leading, &weights)).collect()
+        let mut all = vec![[0.0; PLAYERS]; 1 << self.players.len()];
+        for (own, player) in self.players.iter().enumerate() {
+            let others = self.mean_without(own);
+            let below = (1 << own) - 1;
+            for (leading, shares) in all.iter_mut().enumerate() {
+                let lead = (leading >> own & 1) as f64;
+                let rest = leading & below | leading >> 1 & !below;
+                shares[player.group] = self.value * (lead - player.share) * others[rest];
+            }
+        }
+        all
     }
 
-    fn shares_where(&self, leading: usize, weights: &[f64; PLAYERS]) -> [f64; PLAYERS] {
-        let leads = |player: usize| leading >> player & 1 == 1;
-        let mut shares = [0.0; PLAYERS];
-        for (own, player) in self.players.iter().enumerate() {
-            // By the number of the leading rivals that are asked: the sum of what the rest lets through.
-            let (mut coefficients, mut asked, mut through) = ([0.0; PLAYERS + 1], 0, 1.0);
-            coefficients[0] = 1.0;
-            for (other, rival) in self.players.iter().enumerate().filter(|(other, _)| *other != own) {
-                if !leads(other) {
-                    through *= rival.share;
-                    continue;
-                }
-                asked += 1;
-                for more in (0..asked).rev() {
-                    coefficients[more + 1] += coefficients[more];
-                    coefficients[more] *= rival.share;
-                }
+    /// What all players but one let through, the mean over the moments at which that one becomes known; by which of
+    /// them lead here.
+    fn mean_without(&self, own: usize) -> Vec<f64> {
+        let mut means = vec![0.0; 1 << (self.players.len() - 1)];
+        let mut through = Vec::with_capacity(means.len());
+        for (t, weight) in MOMENTS {
+            through.clear();
+            through.push(weight);
+            for (_, rival) in self.players.iter().enumerate().filter(|(other, _)| *other != own) {
+                let unknown = (1.0 - t) * rival.share;
+                let before = through.len();
+                through.extend_from_within(..);
+                let (elsewhere, here) = through.split_at_mut(before);
+                elsewhere.iter_mut().for_each(|through| *through *= unknown);
+                here.iter_mut().for_each(|through| *through *= t + unknown);
             }
-            let terms = coefficients.iter().zip(weights).take(asked + 1);
-            let sum: f64 = terms.map(|(coefficient, weight)| coefficient * weight).sum();
-            let lead = if leads(own) { 1.0 } else { 0.0 };
-            shares[player.group] = self.value * (lead - player.share) * through * sum;
+            means.iter_mut().zip(&through).for_each(|(mean, through)| *mean += through);
         }
-        shares
+        means
     }
 }
 
-/// Of so many players, how much each number of others that are asked before one of them counts: `k! (m - 1 - k)! / m!`.
-fn weights(players: usize) -> [f64; PLAYERS] {
-    let mut weights = [0.0; PLAYERS];
-    let mut weight = 1.0 / players as f64;
-    for (asked, known) in weights.iter_mut().enumerate().take(players) {
-        *known = weight;
-        weight *= (asked + 1) as f64 / (players - 1 - asked).max(1) as f64;
-    }
-    weights
+/// The mean over [0, 1] of a polynomial of a degree below [`PLAYERS`] is the sum over these moments of its values times
+/// their weights (Gauss and Legendre).
+const MOMENTS: [(f64, f64); 6] = {
+    const OFF_MIDDLE: [(f64, f64); 3] = [
+        (0.238_619_186_083_196_9, 0.467_913_934_572_691),
+        (0.661_209_386_466_264_5, 0.360_761_573_048_138_6),
+        (0.932_469_514_203_152, 0.171_324_492_379_170_4),
+    ];
+    let [near, middle, far] = OFF_MIDDLE;
+    [below(far), below(middle), below(near), above(near), above(middle), above(far)]
+};
+const _: () = assert!(PLAYERS <= 2 * MOMENTS.len(), "more groups need more moments");
+
+const fn below((off, weight): (f64, f64)) -> (f64, f64) {
+    (0.5 - 0.5 * off, 0.5 * weight)
+}
+
+const fn above((off, weight): (f64, f64)) -> (f64, f64) {
+    (0.5 + 0.5 * off, 0.5 * weight)
 }
 
 /// The players of a way that has one question more.
