@@ -24,17 +24,15 @@ pub(crate) fn merged_truth(
     };
     let outcome = say_orphaned(corrections.orphaned());
     let file = corrections.file().display();
-    if corrections.is_empty() && asked {
-        bail!("{file}: expected corrections, found none");
+    match corrections.is_empty() {
+        true if asked => bail!("{file}: expected corrections, found none"),
+        true => {}
+        false => say(&format!(
+            "{file}: {} corrected detections and {} reviewed scans are merged into the truth",
+            grouped(corrections.corrected_detections() as u64),
+            grouped(corrections.reviewed_scans() as u64)
+        )),
     }
-    if corrections.is_empty() {
-        return Ok((GroundTruth::open(dataset)?, outcome));
-    }
-    say(&format!(
-        "{file}: {} corrected detections and {} reviewed scans are merged into the truth",
-        grouped(corrections.corrected_detections() as u64),
-        grouped(corrections.reviewed_scans() as u64)
-    ));
     Ok((GroundTruth::merged(dataset, corrections)?, outcome))
 }
 

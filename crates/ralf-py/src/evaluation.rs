@@ -53,11 +53,7 @@ fn corrected(out: &Path, dataset: &Path) -> Result<(GroundTruth, Vec<String>), D
         None => Corrections::open(out)?,
     };
     let orphaned = corrections.orphaned().iter().map(told_orphaned).collect();
-    let truth = match corrections.is_empty() {
-        true => GroundTruth::open(dataset)?,
-        false => GroundTruth::merged(dataset, corrections)?,
-    };
-    Ok((truth, orphaned))
+    Ok((GroundTruth::merged(dataset, corrections)?, orphaned))
 }
 
 /// Refuses truth that says nothing of what was labelled: all would be unknown.
