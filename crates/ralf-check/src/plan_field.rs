@@ -187,8 +187,8 @@ fn cell(x: f64, y: f64) -> Option<[usize; 2]> {
 static DISTANCES: LazyLock<[[u8; ROW]; 2 * DISC + 1]> = LazyLock::new(|| {
     std::array::from_fn(|row| {
         std::array::from_fn(|column| {
-            let [dx, dy] = [column, row].map(|at| (at as f64 - DISC as f64) * CELL);
-            let distance = dx.hypot(dy);
+            let [dx, dy] = [column, row].map(|at| at as f64 - DISC as f64);
+            let distance = dx.hypot(dy) * CELL;
             if distance < FAR { (distance / STEP).round() as u8 } else { u8::MAX }
         })
     })
@@ -211,6 +211,11 @@ mod tests {
         assert_eq!(field.top(0.0, 0.0), None);
     }
 
+    /// Mostly near each other and near the border of what is known.
+    fn border() -> impl Strategy<Value = f64> {
+        prop_oneof![3 => 48.5..50.3_f64, 1 => -50.3..-48.5_f64, 1 => -1.0..1.0_f64]
+    }
+
     proptest! {
         #[test]
         fn distances_are_those_of_brute_force_within_a_cell(
@@ -223,6 +228,39 @@ mod tests {
             let smooth = field.smooth_distance(place.0, place.1).unwrap();
             prop_assert!((smooth - nearest).abs() <= 2.0 * CELL * 2.0_f64.sqrt(), "{smooth} {nearest}");
             prop_assert!((found - nearest).abs() <= CELL * 2.0_f64.sqrt() + STEP, "{found} {nearest}");
+        }
+
+        #[test]
+        fn every_cell_has_what_the_first_of_the_nearest_obstacles_gives_it(
+            obstacles in proptest::collection::vec((border(), border(), -3.0..12.0_f64), 1..20),
+            offset in (-1.2..1.2_f64, -1.2..1.2_f64),
+        ) {
+            let field = PlanField::new(obstacles.iter().map(|(x, y, z)| [*x, *y, *z]));
+            // What lies in one cell is as high as its highest point, and comes when its first one came.
+            let mut cells: Vec<([usize; 2], i8)> = Vec::new();
+            for (x, y, z) in &obstacles {
+                let (Some(cell), top) = (cell(*x, *y), (z * 10.0) as i8) else { continue };
+                match cells.iter_mut().find(|(known, _)| *known == cell) {
+                    Some((_, known)) => *known = top.max(*known),
+                    None => cells.push((cell, top)),
+                }
+            }
+            for (x, y, _) in &obstacles {
+                let place = (x + offset.0, y + offset.1);
+                let expected = cell(place.0, place.1).map(|[column, row]| {
+                    let mut nearest = (u8::MAX, 0);
+                    for ([own_column, own_row], top) in &cells {
+                        let (dx, dy) = (own_column.abs_diff(column), own_row.abs_diff(row));
+                        let distance = ((dx * dx + dy * dy) as f64).sqrt() * CELL;
+                        let steps = if distance < FAR { (distance / STEP).round() as u8 } else { u8::MAX };
+                        if steps < nearest.0 {
+                            nearest = (steps, *top);
+                        }
+                    }
+                    nearest
+                });
+                prop_assert_eq!(field.at(place.0, place.1), expected);
+            }
         }
     }
 }
