@@ -24,14 +24,15 @@ pub(crate) fn merged_truth(
     };
     let outcome = say_orphaned(corrections.orphaned());
     let file = corrections.file().display();
-    match corrections.is_empty() {
-        true if asked => bail!("{file}: expected corrections, found none"),
-        true => {}
-        false => say(&format!(
+    if corrections.is_empty() && asked {
+        bail!("{file}: expected corrections, found none");
+    }
+    if !corrections.is_empty() {
+        say(&format!(
             "{file}: {} corrected detections and {} reviewed scans are merged into the truth",
             grouped(corrections.corrected_detections() as u64),
             grouped(corrections.reviewed_scans() as u64)
-        )),
+        ));
     }
     Ok((GroundTruth::merged(dataset, corrections)?, outcome))
 }

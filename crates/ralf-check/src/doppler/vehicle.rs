@@ -7,11 +7,8 @@
 use crate::sample::{RadarLook, nearest};
 use crate::statistics::median;
 use crate::velocity_fit::{VelocityFit, fit, told};
-use ralf::sensors::Radar;
-use ralf::sensors::RadarScan;
-use ralf::sensors::{Source, SourceError};
-use ralf::space::{EgoMotion, OdometrySample};
-use ralf::space::{Transform, Vector};
+use ralf::sensors::{Radar, RadarScan, Source, SourceError};
+use ralf::space::{EgoMotion, OdometrySample, Transform, Vector};
 
 /// Scans of other radars count for a moment when they are this near, ns.
 const TOGETHER_NS: i64 = 50_000_000;
