@@ -1,5 +1,7 @@
 """Scans for training, where PyTorch is at hand."""
 
+import shutil
+
 import numpy as np
 import pytest
 
@@ -36,6 +38,16 @@ def test_every_scan_is_seen_once_whatever_the_workers(run, expected, workers):
     assert np.array_equal(in_order(streamed), in_order(expected))
 
 
+@pytest.mark.parametrize(("workers", "persistent"), [(0, False), (2, False), (2, True)])
+def test_every_epoch_has_another_order(run, workers, persistent):
+    torch.manual_seed(1)
+    stream = ScanStream(ScanDataset(run, FEATURES), shuffle=True)
+    loader = DataLoader(stream, batch_size=5, num_workers=workers, collate_fn=collate, persistent_workers=persistent)
+    first, second = all_rows(loader), all_rows(loader)
+    assert not np.array_equal(first, second)
+    assert np.array_equal(in_order(first), in_order(second))
+
+
 def test_a_batch_says_which_scan_a_row_belongs_to(run):
     data = ScanDataset(run.out, FEATURES, radars=[next(run.scans(run.sequences[0])).radar])
     batch = collate([data[0], data[-1]])
@@ -59,6 +71,16 @@ def test_truth_takes_the_place_of_labels(run, drive):
     assert right / known == pytest.approx(ralf.evaluate(run, truth=drive)["overall"]["pooled"]["accuracy"])
     with pytest.raises(ralf.RalfError, match="expected files of corrected labels"):
         ScanDataset(run, truth=run.out)
+
+
+def test_corrections_of_a_run_count_above_the_truth(run, drive, tmp_path):
+    import ralf
+
+    shutil.copytree(run.out, tmp_path / "out")
+    (tmp_path / "out/corrections.sqlite").write_bytes(b"no database" * 100)
+    with pytest.raises(ralf.RalfError, match="a whole SQLite database of corrections"):
+        ScanDataset(tmp_path / "out", FEATURES, truth=drive)
+    ScanDataset(tmp_path / "out", FEATURES, truth=ralf.Truth(drive))
 
 
 def test_names_that_there_are_none_of_are_refused(run):

@@ -43,7 +43,8 @@ class Batch(Sample):
 class ScanDataset(Dataset[Sample]):
     """The scans of runs, by number. Tables are read when they are first asked for, in each worker by itself.
 
-    `truth` is the dataset whose truth is taken in place of RALF's labels; a scan without it is all unknown.
+    `truth` is the dataset whose truth is taken in place of RALF's labels; what people corrected in a run's review
+    counts above it, as in `ralf.evaluate`. A `ralf.Truth` is taken as it is. A scan without truth is all unknown.
     """
 
     def __init__(
@@ -56,7 +57,7 @@ class ScanDataset(Dataset[Sample]):
         truth: Truth | str | os.PathLike[str] | None = None,
     ) -> None:
         self.features = list(features)
-        self._truth = truth if isinstance(truth, Truth | None) else Truth(truth)
+        self._truths: list[Truth | None] = []
         self._scans: list[tuple[Path, str, list[int]]] = []
         self._ends: list[int] = []
         self._open: tuple[int, list[Scan]] | None = None
@@ -66,7 +67,9 @@ class ScanDataset(Dataset[Sample]):
         refuse_unknown(sequences or [], (sequence["name"] for _, sequence in held), "sequence")
         chosen = [one for one in held if sequences is None or one[1]["name"] in sequences]
         refuse_unknown(radars or [], (radar for run, one in chosen for radar in run.radars_of(one["name"])), "radar")
+        truths = [truth if isinstance(truth, Truth | None) else Truth(truth, run) for run in opened]
         for run, sequence in chosen:
+            self._truths.append(truths[opened.index(run)])
             self._add(run.out, sequence, radars)
 
     def _add(self, out: Path, sequence: dict[str, object], radars: Sequence[str] | None) -> None:
@@ -104,7 +107,8 @@ class ScanDataset(Dataset[Sample]):
     def sample(self, part: int, scan: Scan) -> Sample:
         """A scan as tensors."""
         columns = [np.nan_to_num(scan[name], nan=0.0, posinf=0.0, neginf=0.0) for name in self.features]
-        label = scan.label if self._truth is None else self._truth.labels(self._scans[part][1], scan)
+        truth = self._truths[part]
+        label = scan.label if truth is None else truth.labels(self._scans[part][1], scan)
         features = np.stack(columns, axis=1).astype(np.float32)
         return {
             "features": torch.from_numpy(features),
@@ -125,19 +129,25 @@ class ScanDataset(Dataset[Sample]):
 class ScanStream(IterableDataset[Sample]):
     """The same scans in order, sequence by sequence: a table is read once, and workers share the sequences out.
 
-    With `shuffle` the sequences and the scans of each are in another order with every seed.
+    With `shuffle` the sequences and the scans of each are in another order with every seed, and every time that they
+    are gone through: in a loader's workers by what torch draws, so that `torch.manual_seed` makes a training the same
+    again.
     """
 
     def __init__(self, dataset: ScanDataset, *, shuffle: bool = False, seed: int = 0) -> None:
         self._dataset = dataset
         self._shuffle = shuffle
         self.seed = seed
+        self._times = 0
 
     def __iter__(self) -> Iterator[Sample]:
         worker = get_worker_info()
         number, of = (0, 1) if worker is None else (worker.id, worker.num_workers)
         parts = list(range(len(self._dataset.parts)))
-        chance = np.random.default_rng(self.seed)
+        # A loader's workers begin anew with every epoch unless they persist; all of them draw the same order.
+        drawn = 0 if worker is None else worker.seed - worker.id
+        chance = np.random.default_rng([self.seed, drawn, self._times])
+        self._times += 1
         if self._shuffle:
             chance.shuffle(parts)
         for part in parts[number::of]:
