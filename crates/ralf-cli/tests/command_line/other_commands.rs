@@ -116,6 +116,12 @@ fn a_conversion_overwrites_nothing() {
         "another one",
         "differs",
     ]);
+    // Nor is one of the same sensors and times, but other measurements.
+    let mirrored = ["--set", "corrections.radar_front.mirror_y=true"];
+    ralf(["convert", &dataset.path, "-o", &copy, mirrored[0], mirrored[1]])
+        .exits(1)
+        .ends_with_error(["another one: its radar_front/000000.bin differs"]);
+    assert!(tree(&copy) == before);
     let inside = format!("{}/sequences/new", dataset.path);
     for place in [&dataset.path, &inside] {
         ralf(["convert", &dataset.path, "-o", place])

@@ -1,37 +1,12 @@
 //! What a sequence of the own layout holds beside its measurements: sensors, motion, times.
 
-use crate::disk::files;
 use crate::error::DataError;
-use crate::read::SequenceReader;
 use crate::read::layout::raw::{DepthToml, SequenceToml};
 use crate::read::layout::{rig, tables};
 use crate::result::{OutFolder, SequenceNames};
-use crate::tree::{ODOMETRY, POSES, SENSORS, SEQUENCES, TIMES};
+use crate::tree::{ODOMETRY, POSES, SENSORS, TIMES};
 use ralf::sensors::Sequence;
-use std::path::{Path, PathBuf};
-
-/// Whether `DATASET/sequences/NAME` is there already, and is this sequence as far as sensors, motion and the times of
-/// all measurements tell: measurements themselves are not compared. A sequence is put in its place whole, so one that
-/// is there is finished.
-///
-/// # Errors
-/// Another sequence of this name, or anything else, lies there.
-pub fn has_sequence(reader: &dyn SequenceReader, dataset: &Path) -> Result<bool, DataError> {
-    let names = SequenceNames::new(reader.sequence())?;
-    let folder = OutFolder::new(dataset).own(SEQUENCES).folder(&names.sequence);
-    if !folder.path().exists() {
-        return Ok(false);
-    }
-    for (file, text) in texts(reader.sequence(), &names, &folder)? {
-        if !files::read(&file).is_ok_and(|found| found == text.as_bytes()) {
-            let inside = file.strip_prefix(folder.path()).unwrap_or(&file);
-            let expected = "none of this name yet, or the sequence that is to be written";
-            let found = format!("another one: its {} differs", inside.display());
-            return Err(DataError::content(folder.path(), "folder", expected, found));
-        }
-    }
-    Ok(true)
-}
+use std::path::PathBuf;
 
 /// Files with their content: `sequence.toml`, `odometry.csv`, `poses.csv`, and `timestamps.txt` of every sensor. The
 /// first is checked as if it were read.

@@ -2,8 +2,10 @@
 
 mod dataset;
 pub mod export;
+mod measurements;
 mod metadata;
+mod present;
 mod simulated;
 
 pub use dataset::{write_sequence, write_sequence_with};
-pub use metadata::has_sequence;
+pub use present::has_sequence;

@@ -1,0 +1,45 @@
+//! Whether a sequence was written before.
+
+use super::measurements::{Contents, Measurement};
+use super::metadata::texts;
+use crate::disk::files;
+use crate::error::DataError;
+use crate::read::SequenceReader;
+use crate::result::{OutFolder, SequenceNames};
+use crate::tree::SEQUENCES;
+use std::path::Path;
+
+/// Whether `DATASET/sequences/NAME` is there already, and is this sequence as far as sensors, motion, the times of all
+/// measurements, and some of these tell: the first, the middle and the last scan of each radar and LiDAR with their
+/// truth, and the first image of each camera with its depth and segmentation. A sequence is put in its place whole, so
+/// one that is there is finished.
+///
+/// # Errors
+/// Another sequence of this name, or anything else, lies there; or one of these measurements can't be read.
+pub fn has_sequence(reader: &dyn SequenceReader, dataset: &Path) -> Result<bool, DataError> {
+    let names = SequenceNames::new(reader.sequence())?;
+    let folder = OutFolder::new(dataset).own(SEQUENCES).folder(&names.sequence);
+    if !folder.path().exists() {
+        return Ok(false);
+    }
+    for (file, text) in texts(reader.sequence(), &names, &folder)? {
+        refuse_another(&folder, &file, text.as_bytes())?;
+    }
+    let contents = Contents { reader, names: &names, folder: &folder };
+    for measurement in Measurement::some(&reader.sequence().times) {
+        for (file, bytes) in contents.of(measurement)? {
+            refuse_another(&folder, &file, &bytes)?;
+        }
+    }
+    Ok(true)
+}
+
+fn refuse_another(folder: &OutFolder, file: &Path, bytes: &[u8]) -> Result<(), DataError> {
+    if files::read(file).is_ok_and(|found| found == bytes) {
+        return Ok(());
+    }
+    let inside = file.strip_prefix(folder.path()).unwrap_or(file);
+    let expected = "none of this name yet, or the sequence that is to be written";
+    let found = format!("another one: its {} differs", inside.display());
+    Err(DataError::content(folder.path(), "folder", expected, found))
+}
