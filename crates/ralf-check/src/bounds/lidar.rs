@@ -14,8 +14,12 @@ const STEEP: f64 = 0.3;
 /// Medians of distances lie within, m.
 const RANGES: std::ops::Range<f64> = 1.0..150.0;
 
+/// Sigmas of a range lie within, m: of the best and of the cheapest there are, and some more.
+const SIGMAS: std::ops::Range<f64> = 0.001..0.5;
+
 pub(super) fn judge(lidar: &Lidar, looks: &[&LidarLook]) -> Vec<Verdict> {
     let mut verdicts = mounting(&lidar.name, &lidar.vehicle_from_lidar);
+    verdicts.extend(sigma(lidar));
     let of = |figure: fn(&LidarLook) -> f64| {
         median(&looks.iter().map(|look| figure(look)).collect::<Vec<_>>()).unwrap_or(0.0)
     };
@@ -43,6 +47,18 @@ pub(super) fn judge(lidar: &Lidar, looks: &[&LidarLook]) -> Vec<Verdict> {
     }
     verdicts.extend(broken(lidar, looks, points));
     verdicts
+}
+
+/// A sigma of no LiDAR, and what cm or mm taken for m make of it.
+fn sigma(lidar: &Lidar) -> Option<Verdict> {
+    let (key, value) = ("sigma_range_m", lidar.sigma_range);
+    if SIGMAS.contains(&value) {
+        return None;
+    }
+    let other = [0.01, 0.001].map(|factor| value * factor).into_iter().find(|other| SIGMAS.contains(other));
+    let evidence = format!("{key} = {value} is out of reason ({} to {})", SIGMAS.start, SIGMAS.end);
+    let remedy = other.map(|value| Remedy::Value { key, value });
+    Some(Verdict::doubt(&lidar.name, Question::Bounds, evidence, remedy))
 }
 
 /// What a broken copy or a stuck sensor leaves; `points` are the usual number of a scan.

@@ -13,6 +13,7 @@ use ralf::sensors::Sequence;
 pub(crate) fn judge(sequence: &Sequence, sample: &Sample) -> Vec<Verdict> {
     let mut verdicts = motion::judge(sequence);
     let (rig, times) = (&sequence.rig, &sequence.times);
+    let radars = &times.radars;
     for ((radar, looks), times) in rig.radars.iter().zip(&sample.radars).zip(&times.radars) {
         let mut found = radar::judge(radar, looks);
         found.extend(timing::judge(&radar.name, times));
@@ -22,11 +23,13 @@ pub(crate) fn judge(sequence: &Sequence, sample: &Sample) -> Vec<Verdict> {
         let looks: Vec<_> = sample.lidars.iter().filter(|look| look.lidar == i).collect();
         let mut found = lidar::judge(lidar, &looks);
         found.extend(timing::judge(&lidar.name, times));
+        found.extend(timing::beside_radars(&lidar.name, times, radars));
         verdicts.extend(settled(&lidar.name, found));
     }
     for (camera, times) in rig.cameras.iter().zip(&times.cameras) {
         let mut found = mounting(&camera.name, &camera.vehicle_from_camera);
         found.extend(timing::judge(&camera.name, times));
+        found.extend(timing::beside_radars(&camera.name, times, radars));
         verdicts.extend(settled(&camera.name, found));
     }
     verdicts

@@ -12,6 +12,44 @@ pub(super) fn judge(name: &str, times: &[i64]) -> Vec<Verdict> {
     doubts.into_iter().flatten().collect()
 }
 
+/// A sensor of a recording starts and stops within this of the others, ns: recorders start their parts one after another.
+const TOGETHER_NS: i64 = 500_000_000;
+
+/// A LiDAR or camera whose clock is not the radars'.
+pub(super) fn beside_radars(name: &str, times: &[i64], radars: &[Vec<i64>]) -> Option<Verdict> {
+    let [first, last] = [*times.first()?, *times.last()?];
+    let begin = radars.iter().filter_map(|times| times.first()).min()?;
+    let end = radars.iter().filter_map(|times| times.last()).max()?;
+    let [late, later] = [first.saturating_sub(*begin), last.saturating_sub(*end)];
+    let seconds = |ns: i64| ns.unsigned_abs() as f64 * 1e-9;
+    let side = |ns: i64| if ns > 0 { "after" } else { "before" };
+    let evidence = if first.saturating_sub(*end) > TOGETHER_NS || begin.saturating_sub(last) > TOGETHER_NS {
+        format!(
+            "all its times lie {} those of the radars: it begins {:.1} s {0} them",
+            side(late),
+            seconds(late)
+        )
+    } else if is_shifted(late, later) {
+        let way = side(late);
+        format!(
+            "it begins {:.1} s {way} the radars, and ends {:.1} s {way} them",
+            seconds(late),
+            seconds(later)
+        )
+    } else {
+        return None;
+    };
+    let remedy = Remedy::LookInto("its clock may be another one, which its time_offset_ms puts right");
+    Some(Verdict::doubt(name, Question::Bounds, evidence, Some(remedy)))
+}
+
+/// Whether both ends lie as far to the same side: what is recorded for longer, or for a shorter time, is no clock's fault.
+fn is_shifted(begin: i64, end: i64) -> bool {
+    begin.signum() == end.signum()
+        && begin.unsigned_abs().min(end.unsigned_abs()) > TOGETHER_NS.unsigned_abs()
+        && begin.abs_diff(end) < TOGETHER_NS.unsigned_abs()
+}
+
 fn spacing(name: &str, times: &[i64]) -> Option<Verdict> {
     let steps: Vec<f64> =
         times.windows(2).map(|pair| pair[1].saturating_sub(pair[0]) as f64 * 1e-9).collect();

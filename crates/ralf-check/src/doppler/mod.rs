@@ -6,7 +6,7 @@ mod vehicle;
 
 pub use crate::velocity_fit::{VelocityFit, fit};
 pub(crate) use clock::{ClockFigures, clock};
-pub(crate) use compare::{CREEPING, DopplerFigures, MOVING, STANDING, compare, predicted};
+pub(crate) use compare::{CREEPING, DopplerFigures, MOVING, STANDING, compare, creeping, predicted};
 pub use vehicle::from_doppler;
 pub(crate) use vehicle::{Turning, turning};
 

@@ -14,6 +14,14 @@ const FAR_TURN: f64 = 45.0;
 /// So far to either side of a place that is the right one much less fits, degrees.
 const FOOT: f64 = 10.0;
 
+/// Turns by which a sensor looks at something else, degrees.
+const ELSEWHERE: [f64; 6] = [-150.0, -90.0, -30.0, 30.0, 90.0, 150.0];
+
+/// Turns by which a sensor looks at something else: what then lies beside points, does so by chance.
+pub(super) fn elsewhere() -> impl Iterator<Item = SensorChange> {
+    ELSEWHERE.into_iter().map(SensorChange::yaw)
+}
+
 /// Yaws that are tried.
 pub(super) fn yaws() -> impl Iterator<Item = SensorChange> {
     YAWS.into_iter().map(SensorChange::yaw)
@@ -56,10 +64,12 @@ pub(super) fn best(
     beating.max_by(|a, b| a.1.share().total_cmp(&b.1.share()))
 }
 
-/// Whether a turn that is large fits better than those to either side of it: among trees beside a road any does.
+/// Whether a large turn, or left for right, fits better than with some degrees more to either side: among trees beside
+/// a road any does, and what lies on a lawn comes to lie in the wood on the other side.
 fn is_peak(change: &SensorChange, then: &Tally, tally: impl Fn(&SensorChange) -> Tally) -> bool {
     let beats = |side: f64| tally(&change.and(&SensorChange::yaw(side))).is_beaten_by(then);
-    change.turn_deg[2].abs() < FAR_TURN || [-FOOT, FOOT].into_iter().all(beats)
+    let is_near = change.turn_deg[2].abs() < FAR_TURN && !change.mirrored;
+    is_near || [-FOOT, FOOT].into_iter().all(beats)
 }
 
 /// A change of one quantity made exact: the smooth score is climbed in steps that are halved until they matter no more.

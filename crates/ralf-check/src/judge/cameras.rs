@@ -116,18 +116,25 @@ fn exact(case: &Case, camera: usize, now: &[Option<f64>], found: SensorChange) -
     best
 }
 
-/// Cameras that see what they should in each other's mounting alone, each with the other.
+/// Cameras that see what they should in each other's mounting alone, each with the other: in no third one's nearly as
+/// well, for along a motorway ends of things lie on the edges of any image.
 fn swapped(case: &Case) -> Vec<(usize, usize, Compared)> {
     let count = case.sequence.rig.cameras.len();
-    let nothing = SensorChange::default();
-    let compared = |camera: usize, place: usize| {
-        Compared::of(&scores(case, camera, &nothing, camera), &scores(case, camera, &nothing, place))
+    let in_place = |camera: usize, place: usize| scores(case, camera, &SensorChange::default(), place);
+    let compared =
+        |camera: usize, place: usize| Compared::of(&in_place(camera, camera), &in_place(camera, place));
+    let is_alone = |camera: usize, place: usize| {
+        let there = in_place(camera, place);
+        let thirds = (0..count).filter(|third| *third != camera && *third != place);
+        let beaten = |third: usize| Compared::of(&in_place(camera, third), &there);
+        thirds.map(beaten).all(|third| third.images < FEWEST_IMAGES || third.is_clear())
     };
     let mut found = Vec::new();
     for first in 0..count {
         for second in first + 1..count {
             let [there, back] = [compared(first, second), compared(second, first)];
-            if there.is_clear() && back.is_clear() {
+            let is_clear = there.is_clear() && back.is_clear();
+            if is_clear && is_alone(first, second) && is_alone(second, first) {
                 found.push((first, second, there));
                 found.push((second, first, back));
             }

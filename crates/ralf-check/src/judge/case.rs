@@ -1,5 +1,6 @@
 //! What is known of a sequence while it is judged.
 
+use super::alternatives::elsewhere;
 use crate::change::{SensorChange, used_motion};
 use crate::doppler::{DopplerFigures, Timed, compare, fits, predicted};
 use crate::overlap::{Measure, Setup, Tally, overlap};
@@ -78,6 +79,12 @@ impl<'a> Case<'a> {
     pub(super) fn overlap(&self, radar: usize, change: &SensorChange, measure: Measure) -> Tally {
         let change = self.radar_changes[radar].and(change);
         overlap(&self.setup(), radar, &self.sample.radars[radar], &change, measure)
+    }
+
+    /// The same where the radar looks at something else.
+    pub(super) fn elsewhere(&self, radar: usize) -> Tally {
+        let turned = elsewhere().map(|turn| self.overlap(radar, &turn, Measure::Beside));
+        turned.fold(Tally::default(), Tally::joined)
     }
 
     pub(super) fn setup(&self) -> Setup<'_> {

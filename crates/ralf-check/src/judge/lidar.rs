@@ -1,32 +1,82 @@
 //! Whether a LiDAR is where and when it is said to be: what several radars ask for alike is its fault.
 
-use super::alternatives::{GAIN, best, clocks, exact, shifts, yaws};
+use super::alternatives::{GAIN, best, clocks, elsewhere, exact, shifts, yaws};
 use super::case::Case;
 use super::doppler::is_aligned;
 use crate::change::SensorChange;
-use crate::overlap::{Measure, Setup, Tally, overlap};
+use crate::overlap::{Measure, Setup, Tally, changed_motion_overlap, overlap};
 use crate::remedy::Remedy;
+use crate::sample::LidarLook;
 use crate::verdict::{Question, Verdict};
 
 /// A radar takes part when it gains so many standard errors.
 const TAKES_PART: f64 = 2.0;
 
+/// Turns that are tried by what stands still: every so many degrees.
+const STEP_DEG: i32 = 5;
+/// Another direction is the right one where so many times as much stands still, and this share of all at least.
+const STANDS_STILL: (f64, f64) = (1.5, 0.5);
+/// Of so few detections beside a LiDAR's points it doesn't see what the radars see.
+const APART: f64 = 0.02;
+
 /// Judges each LiDAR, and puts right what is found.
 pub(super) fn judge(case: &mut Case) -> Vec<Verdict> {
-    (0..case.sequence.rig.lidars.len()).filter_map(|lidar| one(case, lidar)).collect()
+    let mut verdicts = Vec::new();
+    for lidar in 0..case.sequence.rig.lidars.len() {
+        verdicts.extend(by_motion(case, lidar));
+        verdicts.extend(by_radars(case, lidar));
+    }
+    verdicts
 }
 
-fn one(case: &mut Case, lidar: usize) -> Option<Verdict> {
+/// What stands still passes a LiDAR against the vehicle's motion; one that is turned sees it pass another way.
+fn by_motion(case: &mut Case, lidar: usize) -> Option<Verdict> {
+    let recorded = case.sequence.rig.lidars[lidar].vehicle_from_lidar;
+    let own: Vec<&LidarLook> = case.lidars.iter().copied().filter(|look| look.lidar == lidar).collect();
+    let tally = |change: &SensorChange| changed_motion_overlap(&own, &recorded, change, &case.motion);
+    let now = tally(&SensorChange::default());
+    let turns = all_around().map(|change| (change, tally(&change)));
+    let better = turns.filter(|(_, then)| now.is_beaten_by_factor(then, STANDS_STILL.0));
+    let (found, _) = better.max_by(|a, b| a.1.share().total_cmp(&b.1.share()))?;
+    let change = exact(found, |change| tally(change).share());
+    let then = tally(&change);
+    if then.share() < STANDS_STILL.1 {
+        return None;
+    }
+    let evidence = format!(
+        "{:.0} % of what it saw lies on what it sees half a second later, and {:.0} % otherwise",
+        now.share() * 100.0,
+        then.share() * 100.0
+    );
+    case.lidar_changes[lidar] = change;
+    let name = &case.sequence.rig.lidars[lidar].name;
+    Some(Verdict::doubt(name, Question::Motion, evidence, Some(Remedy::Sensor(change))))
+}
+
+/// All turns, mirrored and, of equal ones the better, not.
+fn all_around() -> impl Iterator<Item = SensorChange> {
+    let half = 180 / STEP_DEG;
+    let turns = move || (1 - half..=half).map(|step| SensorChange::yaw(f64::from(step * STEP_DEG)));
+    turns().map(|turn| turn.and(&SensorChange::mirror())).chain(turns())
+}
+
+fn by_radars(case: &mut Case, lidar: usize) -> Option<Verdict> {
     let now = tallies(case, lidar, &SensorChange::default(), Measure::Beside);
     let name = &case.sequence.rig.lidars[lidar].name;
     let judged = now.iter().filter(|tally| tally.is_enough()).count();
     let changes = yaws().chain(shifts()).chain(clocks()).chain([SensorChange::mirror()]);
     let pooled = joined(now.clone());
+    if pooled.is_enough() && pooled.share() < APART {
+        return Some(apart(name, &pooled));
+    }
     if judged < 2 {
         return None;
     }
     let tally = |change: &SensorChange| joined(tallies(case, lidar, change, Measure::Beside));
     let (found, then) = best(&pooled, changes, |_| GAIN, tally)?;
+    if !then.is_above_chance(&joined(elsewhere().map(|turn| tally(&turn)).collect())) {
+        return None;
+    }
     let changed = tallies(case, lidar, &found, Measure::Beside);
     let gains =
         now.iter().zip(&changed).filter(|(now, then)| now.is_enough() && now.sigmas_to(then) > TAKES_PART);
@@ -42,8 +92,16 @@ fn one(case: &mut Case, lidar: usize) -> Option<Verdict> {
         then.share() * 100.0
     );
     let verdict = Verdict::doubt(name, Question::Lidar, evidence, Some(Remedy::Sensor(change)));
-    case.lidar_changes[lidar] = change;
+    case.lidar_changes[lidar] = case.lidar_changes[lidar].and(&change);
     Some(verdict)
+}
+
+/// Hardly any detection lies beside its points.
+fn apart(name: &str, now: &Tally) -> Verdict {
+    let share = now.share() * 100.0;
+    let evidence = format!("{share:.0} % of {:.0} detections lie beside its points", now.points());
+    let what = "does it see what the radars see? Its points may be another frame's or recording's";
+    Verdict::doubt(name, Question::Lidar, evidence, Some(Remedy::LookInto(what)))
 }
 
 /// A yaw that the radars' own range rates ask for as well is not the LiDAR's.

@@ -37,14 +37,14 @@ pub(super) fn judge(case: &mut Case) -> Vec<Verdict> {
 
 fn by_range_rates(case: &mut Case, radar: usize) -> Verdict {
     let name = case.name(radar);
+    let creeping = crate::doppler::creeping(&case.fits[radar], &case.motion, &case.mount(radar));
+    if creeping >= CREEPING {
+        let evidence = format!("the world moves in {creeping} scans in which the vehicle is said to stand");
+        return Verdict::doubt(name, Question::Doppler, evidence, None);
+    }
     let Some(figures) = case.doppler(radar, &case.motion, &case.mount(radar)) else {
         return Verdict::cannot_judge(name, Question::Doppler, missing(case, radar));
     };
-    if figures.creeping >= CREEPING {
-        let evidence =
-            format!("the world moves in {} scans in which the vehicle is said to stand", figures.creeping);
-        return Verdict::doubt(name, Question::Doppler, evidence, None);
-    }
     if is_explained(&figures) {
         return Verdict::good(name, Question::Doppler, in_words(&figures));
     }
@@ -89,10 +89,12 @@ fn remedy(case: &Case, radar: usize, figures: &DopplerFigures) -> Option<Remedy>
         return is_aligned(figures).then_some(factor.map(Remedy::Doppler)).flatten();
     }
     let turned = SensorChange::yaw((-angle.to_degrees() * 10.0).round() / 10.0);
-    if angle.abs().to_degrees() <= SLIPPED_DEG {
-        return Some(Remedy::Sensor(turned));
-    }
     let mirrored = Some(SensorChange::mirror()).filter(|_| mirror_explains(case, radar));
+    if angle.abs().to_degrees() <= SLIPPED_DEG {
+        // In turns a mirrored radar that looks ahead seems to look aside.
+        let found = mirrored.and_then(|mirrored| by_overlap(case, radar, [turned, mirrored]));
+        return Some(Remedy::Sensor(found.unwrap_or(turned)));
+    }
     let other_sign = wrapped(angle - PI).abs() < SLIPPED_DEG.to_radians();
     Some(of_large_angles(case, radar, [Some(turned), mirrored], other_sign))
 }
@@ -105,15 +107,24 @@ fn of_large_angles(
     changes: [Option<SensorChange>; 2],
     other_sign: bool,
 ) -> Remedy {
-    let tally = |change: &SensorChange| case.overlap(radar, change, Measure::Beside);
-    let now = tally(&SensorChange::default());
-    let found = best(&now, changes.into_iter().flatten(), gain_of_one, tally).map(|(change, _)| change);
+    let found = by_overlap(case, radar, changes.into_iter().flatten());
     match (found, other_sign, changes) {
         (Some(change), _, _) => Remedy::Sensor(change),
         (None, true, _) => Remedy::Doppler(-1.0),
         (None, false, [_, Some(mirrored)]) => Remedy::Sensor(mirrored),
         (None, false, [turned, None]) => Remedy::Sensor(turned.unwrap_or_default()),
     }
+}
+
+/// The change that the LiDAR asks for.
+fn by_overlap(
+    case: &Case,
+    radar: usize,
+    changes: impl IntoIterator<Item = SensorChange>,
+) -> Option<SensorChange> {
+    let tally = |change: &SensorChange| case.overlap(radar, change, Measure::Beside);
+    let now = tally(&SensorChange::default());
+    best(&now, changes.into_iter(), gain_of_one, tally).map(|(change, _)| change)
 }
 
 fn mirror_explains(case: &Case, radar: usize) -> bool {
@@ -137,14 +148,29 @@ fn by_lidar(case: &mut Case, radar: usize) -> Verdict {
         );
         return Verdict::cannot_judge(name, Question::Lidar, missing);
     }
-    let Some((found, then)) = best(&now, allowed(case, radar).into_iter(), gain_of_one, tally) else {
-        return Verdict::good(name, Question::Lidar, in_share(&now, None));
+    let elsewhere = case.elsewhere(radar);
+    let found = best(&now, allowed(case, radar).into_iter(), gain_of_one, tally);
+    let Some((found, then)) = found.filter(|(_, then)| then.is_above_chance(&elsewhere)) else {
+        return same_world(&now, &elsewhere, name);
     };
     let change = exact(found, |change| case.overlap(radar, change, Measure::Smooth).share());
     let verdict =
         Verdict::doubt(name, Question::Lidar, in_share(&now, Some(&then)), Some(Remedy::Sensor(change)));
     case.radar_changes[radar] = case.radar_changes[radar].and(&change);
     Verdict { state: State::Doubt, ..verdict }
+}
+
+/// As recorded, more has to lie beside LiDAR points than where the radar looks elsewhere.
+fn same_world(now: &Tally, elsewhere: &Tally, name: &str) -> Verdict {
+    let evidence = in_share(now, None);
+    if now.is_above_chance(elsewhere) {
+        return Verdict::good(name, Question::Lidar, evidence);
+    }
+    let chance = elsewhere.share() * 100.0;
+    let evidence = format!(
+        "{evidence}, and {chance:.0} % where it looks elsewhere: nothing tells one place from another"
+    );
+    Verdict::cannot_judge(name, Question::Lidar, evidence)
 }
 
 fn in_share(now: &Tally, then: Option<&Tally>) -> String {

@@ -6,7 +6,7 @@ mod neighbours;
 mod radar_lidar;
 mod tally;
 
-pub(crate) use motion::{motion_overlap, radar_motion_overlap};
+pub(crate) use motion::{changed_motion_overlap, motion_overlap, radar_motion_overlap};
 pub(crate) use neighbours::{LidarPair, RadarPair, Side};
 pub(crate) use radar_lidar::{Measure, Setup, overlap};
 pub(crate) use tally::Tally;

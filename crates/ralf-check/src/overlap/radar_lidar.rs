@@ -55,35 +55,51 @@ pub(crate) fn overlap(
     for lidar in setup.lidars {
         let Some(look) = nearest(&times, lidar.t_ns).map(|i| &looks[i]) else { continue };
         if look.t_ns.abs_diff(lidar.t_ns) <= TOGETHER_NS {
-            let place = setup.lidar_from_radar(radar, lidar, look.t_ns, change);
-            tally.moments.push(count(lidar, look, &place, change, measure));
+            let way = setup.lidar_from_radar(radar, lidar, look.t_ns, change);
+            tally.moments.push(count(lidar, look, &way, change, measure));
         }
     }
     tally
 }
 
 impl Setup<'_> {
-    /// From the radar's frame at its time to the vehicle frame as recorded at the LiDAR's time, in which its
-    /// obstacles lie.
+    /// From the radar's frame at its time to the vehicle frame as recorded at the LiDAR's.
     pub(crate) fn lidar_from_radar(
         &self,
         radar: usize,
         lidar: &LidarLook,
         t_ns: i64,
         change: &SensorChange,
-    ) -> Transform {
+    ) -> Way {
         let of_lidar = self.lidar_changes.get(lidar.lidar).copied().unwrap_or_default();
         let recorded = &self.rig.lidars[lidar.lidar].vehicle_from_lidar;
         let back = recorded * of_lidar.mount(recorded).inverse();
         let moved = self.motion.between(of_lidar.time(lidar.t_ns), change.time(t_ns));
-        back * moved * change.mount(&self.rig.radars[radar].vehicle_from_radar)
+        let rigid = back * moved * change.mount(&self.rig.radars[radar].vehicle_from_radar);
+        Way { rigid, mirrored: of_lidar.mirrored.then_some(*recorded) }
+    }
+}
+
+/// From a radar's frame to a vehicle frame as recorded, in which a LiDAR's obstacles lie.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Way {
+    rigid: Transform,
+    /// The mounting of a LiDAR that has left for right: what it should see lies on its other side.
+    mirrored: Option<Transform>,
+}
+
+impl Way {
+    /// Where a place comes to lie.
+    pub(crate) fn of(&self, p: &Point) -> Point {
+        let p = self.rigid * p;
+        self.mirrored.map_or(p, |mount| mount * SensorChange::mirror().place(&(mount.inverse() * p)))
     }
 }
 
 fn count(
     lidar: &LidarLook,
     look: &RadarLook,
-    place: &Transform,
+    way: &Way,
     change: &SensorChange,
     measure: Measure,
 ) -> [f64; 2] {
@@ -95,7 +111,7 @@ fn count(
         if !(NEAREST..FARTHEST).contains(&range) {
             continue;
         }
-        let p = place * change.place(position);
+        let p = way.of(&change.place(position));
         let Some(distance) = lidar.field.distance(p.x, p.y) else { continue };
         let counted = match measure {
             Measure::Beside => Some(f64::from(distance <= BESIDE)),

@@ -12,6 +12,10 @@ const FEWEST: f64 = 150.0;
 /// A share below this is that of things that don't see the same.
 const LEAST: f64 = 0.1;
 
+/// What sees the same lies on it more often than by chance by this factor: right recordings from 1.35 on, but for those
+/// most of whose detections lie on open ground.
+const ABOVE_CHANCE: f64 = 1.2;
+
 /// Counts per moment. Every moment weighs as much as it holds points.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(crate) struct Tally {
@@ -38,6 +42,11 @@ impl Tally {
     /// Whether there are enough points, and enough of them lie on something to tell one place from another.
     pub(crate) fn tells(&self) -> bool {
         self.is_enough() && self.share() > LEAST
+    }
+
+    /// Whether clearly more lies on something than of another tally, which tells chance.
+    pub(crate) fn is_above_chance(&self, chance: &Self) -> bool {
+        self.share() > ABOVE_CHANCE * chance.share()
     }
 
     /// By how many standard errors another tally of the same moments has the larger share: the smaller of what binomial

@@ -195,15 +195,15 @@ fn a_correction_that_changes_nothing_of_such_a_sensor_is_refused() {
     let label = |set: &str| ralf(["label", &dataset.path, "-o", &dataset.out, "--no-check", "--set", set]);
     for (sensor, key, kinds) in [
         ("lidar_top", "doppler_factor=2", "a radar, found a LiDAR"),
-        ("lidar_top", "mirror_y=true", "a radar, found a LiDAR"),
         ("camera_front", "doppler_factor=2", "a radar, found a camera"),
         ("camera_front", "position_factor=2", "a radar or a LiDAR, found a camera"),
-        ("camera_front", "mirror_y=true", "a radar, found a camera"),
+        ("camera_front", "mirror_y=true", "a radar or a LiDAR, found a camera"),
     ] {
         let named = format!("corrections.{sensor}.{}: expected {kinds}", key.split('=').next().unwrap());
         label(&format!("corrections.{sensor}.{key}")).exits(1).ends_with_error([&named]);
     }
     label("corrections.lidar_top.position_factor=1.01").exits(0);
+    label("corrections.lidar_top.mirror_y=true").exits(0);
 }
 
 #[test]

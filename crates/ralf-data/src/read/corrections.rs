@@ -32,7 +32,7 @@ pub struct SensorCorrection {
     pub doppler_factor: f64,
     /// Of its coordinates (radar, LiDAR).
     pub position_factor: f64,
-    /// Exchanges left and right (radar): of places, angles, and velocities in two components (`vy`, `vy_comp`).
+    /// Exchanges left and right (radar, LiDAR): of places, angles, and velocities in two components (`vy`, `vy_comp`).
     pub mirror_y: bool,
 }
 
@@ -171,7 +171,7 @@ impl SensorCorrection {
         let keys = [
             ("doppler_factor", self.doppler_factor != 1.0, &[RADAR][..]),
             ("position_factor", self.position_factor != 1.0, &[RADAR, LIDAR]),
-            ("mirror_y", self.mirror_y, &[RADAR]),
+            ("mirror_y", self.mirror_y, &[RADAR, LIDAR]),
         ];
         match keys.into_iter().find(|(_, given, kinds)| *given && !kinds.contains(&kind)) {
             Some((key, _, kinds)) => Err((key, format!("expected {}, found {kind}", kinds.join(" or ")))),

@@ -57,15 +57,15 @@ impl<'a> Beside<'a> {
             let together = |i: &usize| looks[*i].t_ns.abs_diff(lidar.t_ns) <= TOGETHER_NS;
             let seen = (0..looks.len()).filter(together).map(|i| {
                 let t_ns = looks[i].t_ns;
-                let place = setup.lidar_from_radar(radar, lidar, t_ns, change);
+                let way = setup.lidar_from_radar(radar, lidar, t_ns, change);
                 let is_seen_whole =
-                    |position: &Point| lidar.sees_down_to_the_foot(&(place * change.place(position)));
+                    |position: &Point| lidar.sees_down_to_the_foot(&way.of(&change.place(position)));
                 let again = seen_again(looks, i, &case.motion, &mount).into_iter();
                 let (positions, looked_over) = again.partition(is_seen_whole);
                 Seen { t_ns, positions, looked_over }
             });
-            let place = setup.lidar_from_radar(radar, lidar, lidar.t_ns, change);
-            let fronts = Fronts::of(&lidar.field, place.translation.vector);
+            let own_place = setup.lidar_from_radar(radar, lidar, lidar.t_ns, change).of(&Point::origin());
+            let fronts = Fronts::of(&lidar.field, own_place.coords);
             moments.push(Moment { lidar, fronts, seen: seen.collect() });
         }
         Self { moments }
@@ -87,9 +87,9 @@ impl<'a> Beside<'a> {
         for Moment { lidar, fronts, seen } in &self.moments {
             let mut sums = OnFronts { bands: [0.0; BANDS], looked_over: 0.0 };
             for scan in seen {
-                let place = setup.lidar_from_radar(radar, lidar, scan.t_ns, change);
+                let way = setup.lidar_from_radar(radar, lidar, scan.t_ns, change);
                 let at = |position: &Point| {
-                    let p = place * change.place(position);
+                    let p = way.of(&change.place(position));
                     fronts.at(p.x, p.y)
                 };
                 scan.positions.iter().for_each(|position| sums.bands[band(position)] += at(position));

@@ -51,21 +51,32 @@ pub(super) fn refine(case: &Case) -> Vec<Refinement> {
         deviations: [f64::NAN; 4],
         proposed: *change,
     });
-    let radars = case.radars().map(|radar| of_radar(case, radar));
+    let radars = case.radars().map(|radar| of_radar(case, radar).unwrap_or_else(|| as_found(case, radar)));
     found.chain(radars).collect()
 }
 
-fn of_radar(case: &Case, radar: usize) -> Refinement {
+/// A radar's change as it was found.
+fn as_found(case: &Case, radar: usize) -> Refinement {
+    let change = case.radar_changes[radar];
+    Refinement { name: case.name(radar).to_owned(), change, deviations: [f64::NAN; 4], proposed: change }
+}
+
+/// `None` where the LiDARs don't see what the radar sees: whatever would lay one onto the other is chance.
+fn of_radar(case: &Case, radar: usize) -> Option<Refinement> {
+    let beside = case.overlap(radar, &SensorChange::default(), Measure::Beside);
+    if beside.is_enough() && !beside.is_above_chance(&case.elsewhere(radar)) {
+        return None;
+    }
     let evidence = Evidence::of(case, radar);
     let open = judgeable(case, radar);
     let values = likeliest(&evidence, &evidence.start(), open);
     let deviations = deviations(&evidence, &values, open);
-    Refinement {
+    Some(Refinement {
         name: case.name(radar).to_owned(),
         change: evidence.change(&values),
         deviations: std::array::from_fn(|i| told(&deviations, i)),
         proposed: evidence.change(&proposed(&evidence, values, &deviations, open)),
-    }
+    })
 }
 
 /// How well a quantity is known in its unit, with what more measurements would not take away.

@@ -29,6 +29,12 @@ pub(super) fn faults() -> Vec<Fault> {
             },
             |r| clock_of(r).is_some_and(|ms| near(ms, -200.0, 60.0))
         ),
+        fault!("LiDAR clock +1 h", ["lidar_top"], true, |p| {
+            p.sequence.times.lidars[0].iter_mut().for_each(|t| *t += 3_600_000 * MS);
+        }),
+        fault!("LiDAR clock -2 s", ["lidar_top"], true, |p| {
+            p.sequence.times.lidars[0].iter_mut().for_each(|t| *t -= 2000 * MS);
+        }),
         fault!(
             "odometry clock +200 ms",
             ["motion"],

@@ -1,6 +1,6 @@
 //! Mountings of radars, LiDARs and cameras.
 
-use super::planting::{lidar_turned, shifted, swap, times, turned};
+use super::planting::{lidar_points, lidar_turned, shifted, swap, times, turned};
 use super::right::{near, yaw_of};
 use super::{ALL_RADARS, FRONT, Fault, LEFT, MS};
 use nalgebra::{Translation3, UnitQuaternion};
@@ -75,6 +75,16 @@ pub(super) fn lidars() -> Vec<Fault> {
             |p| lidar_turned(p, 0.0, 0.0, -90.0),
             |r| { yaw_of(r).is_some_and(|yaw| near(yaw, 90.0, 3.0)) }
         ),
+        fault!("LiDAR yaw +60 deg", ["lidar_top"], true, |p| lidar_turned(p, 0.0, 0.0, 60.0), |r| {
+            yaw_of(r).is_some_and(|yaw| near(yaw, -60.0, 2.0))
+        }),
+        fault!("LiDAR y mirrored", ["lidar_top"], true, |p| lidar_points(p, |[x, y, z]| [x, -y, z]), |r| {
+            matches!(r, Remedy::Sensor(c) if c.mirrored)
+        }),
+        fault!("LiDAR x and y exchanged", ["lidar_top"], true, |p| lidar_points(p, |[x, y, z]| [y, x, z])),
+        fault!("LiDAR points in another frame", ["lidar_top"], true, |p| {
+            lidar_points(p, |[x, y, z]| [x + 60.0, y + 80.0, z]);
+        }),
         fault!("LiDAR pitch +4 deg", ["lidar_top"], true, |p| lidar_turned(p, 0.0, 4.0, 0.0), |r| {
             matches!(r, Remedy::Sensor(c) if near(c.turn_deg[1], -4.0, 0.8))
         }),

@@ -34,6 +34,11 @@ pub(super) fn lidar_turned(p: &mut Planted, roll: f64, pitch: f64, yaw: f64) {
     mount.rotation *= UnitQuaternion::from_euler_angles(roll, pitch, yaw);
 }
 
+/// Changes where every point of the LiDAR lies, in its own frame.
+pub(super) fn lidar_points(p: &mut Planted, place: fn([f32; 3]) -> [f32; 3]) {
+    p.edit_lidar(move |scan| scan.points.iter_mut().for_each(|point| *point = place(*point)));
+}
+
 pub(super) fn radar_late(p: &mut Planted, radar: usize, ms: i64) {
     p.sequence.times.radars[radar].iter_mut().for_each(|t| *t += ms * MS);
 }

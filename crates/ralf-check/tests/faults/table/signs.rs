@@ -15,6 +15,7 @@ pub(super) fn faults() -> Vec<Fault> {
         fault!("speed sign", ["motion"], true, |p| p.edit_odometry(|s| s.velocity = -s.velocity), |r| {
             matches!(r, Remedy::Speed(f) if *f == -1.0)
         }),
+        fault!("speed always 0", ALL_RADARS, true, |p| p.edit_odometry(|s| s.velocity = 0.0)),
         fault!("yaw rate sign", ["motion"], false, |p| p.edit_odometry(|s| s.yaw_rate = -s.yaw_rate), |r| {
             matches!(r, Remedy::YawRate(f) if *f == -1.0)
         }),

@@ -31,6 +31,13 @@ fn of_lengths() -> Vec<Fault> {
             |p| p.sequence.rig.radars[FRONT].sigma_range *= 100.0,
             |r| { matches!(r, Remedy::Value { key: "sigma_range_m", value } if near(*value, 0.1, 0.01)) }
         ),
+        fault!(
+            "LiDAR's sigma in mm",
+            ["lidar_top"],
+            true,
+            |p| p.sequence.rig.lidars[0].sigma_range *= 1000.0,
+            |r| matches!(r, Remedy::Value { key: "sigma_range_m", value } if *value < 0.5)
+        ),
     ]
 }
 

@@ -87,13 +87,16 @@ impl Source for Corrected {
 }
 
 impl Corrected {
-    /// A LiDAR's scan with its time and its unit corrected.
+    /// A LiDAR's scan with its time, its unit and its sides corrected.
     fn with_lidar_corrected(&self, lidar: usize, mut read: LidarScan) -> LidarScan {
         let Some(correction) = self.lidars.get(lidar).copied().flatten() else { return read };
         read.t_ns = correction.time(read.t_ns);
         if correction.position_factor != 1.0 {
             let factor = correction.position_factor as f32;
             read.points.iter_mut().flatten().for_each(|value| *value *= factor);
+        }
+        if correction.mirror_y {
+            read.points.iter_mut().for_each(|[_, y, _]| *y = -*y);
         }
         read
     }
