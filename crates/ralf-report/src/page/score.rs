@@ -7,6 +7,7 @@ use crate::findings::Findings;
 use crate::number::decimal;
 use crate::{ReportError, chart};
 use maud::{Markup, html};
+use ralf::config::Method;
 use ralf::metrics::Rates;
 
 /// Points that a curve is drawn with.
@@ -51,6 +52,9 @@ fn reliability(content: &Content) -> Result<Markup, ReportError> {
 
 fn settings(content: &Content) -> Result<Markup, ReportError> {
     let heading = "F1 over α and w₀";
+    if content.record.settings.method.method == Method::Learned {
+        return Ok(html! { p.absent { "A model answers without α, so that there is nothing to choose." } });
+    }
     let Some(map) = content.findings.passed.map() else {
         return Ok(html! { p.absent { "Nothing is truly plausible, so that F1 has no value." } });
     };
@@ -61,7 +65,7 @@ fn settings(content: &Content) -> Result<Markup, ReportError> {
         "F1 of plausible detections, all together, for other branch weights α and thresholds w" sub { "0" } ". "
         "At α = 1 LiDAR and cameras decide alone, at α = 0 tracking does. Ring: this run (α = " (fusion.alpha)
         ", w" sub { "0" } " = " (fusion.threshold)
-        "). Cross: the best, α = " (format!("{alpha:.2}")) ", w" sub { "0" } " = "
+        "). Cross: the best of this grid, α = " (format!("{alpha:.2}")) ", w" sub { "0" } " = "
         (format!("{threshold:.2}")) ", with F1 = " (decimal(Some(f1)))
         ". A best setting found on the data it is judged by flatters itself."
     };

@@ -46,7 +46,22 @@ pub(super) fn table_columns(sequence: &LabelledSequence, scan: &LabelledScan) ->
     add_where(&mut columns, scan, |column| column.name == CLASS_FROM.name);
     add_group(&mut columns, scan, Group::Evidence);
     add_group(&mut columns, scan, Group::Words);
+    // `sequence` is how readers of a tree of tables call the part of its path.
+    let is_twice = |name: &str| columns.columns.iter().filter(|column| column.name == name).count() > 1;
+    refuse_fields(sequence, scan, |name| sequence.sensors.radar && (name == "sequence" || is_twice(name)))?;
     columns.table()
+}
+
+/// A field of the recording that is called like what the export adds could not be told from it.
+fn refuse_fields(
+    sequence: &LabelledSequence,
+    scan: &LabelledScan,
+    is_taken: impl Fn(&str) -> bool,
+) -> Result<(), DataError> {
+    let radar = &sequence.reader.sequence().rig.radars[scan.radar];
+    let Some(name) = radar.fields.iter().find(|name| is_taken(name)) else { return Ok(()) };
+    let reason = format!("expected fields of other names than those that the export adds, found `{name}`");
+    Err(DataError::Unsuitable { file: sequence.name().into(), place: radar.name.clone(), reason })
 }
 
 /// Answers of the method that a labelled cloud has, and what they are called there.
@@ -68,13 +83,7 @@ pub(super) fn cloud_columns(
 ) -> Result<Table, DataError> {
     let radar = &sequence.reader.sequence().rig.radars[scan.radar];
     let added = found_columns(scan, drawn)?;
-    let taken = |name: &&String| added.columns.iter().any(|column| column.name == **name);
-    if let Some(name) = radar.fields.iter().find(taken) {
-        let reason =
-            format!("expected fields of other names than those that the export adds, found `{name}`");
-        let (file, place) = (sequence.name().into(), radar.name.clone());
-        return Err(DataError::Unsuitable { file, place, reason });
-    }
+    refuse_fields(sequence, scan, |name| added.columns.iter().any(|column| column.name == name))?;
     let mut columns = Columns::default();
     for (axis, name) in ["x", "y", "z"].into_iter().enumerate() {
         columns.add(field(name), Values::F32(kept(scan, &place(radar, measured, axis, name))));
