@@ -156,7 +156,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 
     // In memory it is a recording as well: what labelling and exports take.
     let sequences: Vec<Box<dyn SequenceReader>> = vec![Box::new(drive)];
-    let recording = Recording { path: folder.clone(), format: "table", sequences };
+    let recording = Recording::new(&folder, "table", sequences);
     println!("{recording:?}");
     fs::remove_dir_all(folder)?;
     Ok(())

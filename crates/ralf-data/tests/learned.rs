@@ -10,14 +10,14 @@ use ralf_data::run::{LabelRun, Unwatched};
 use ralf_data::{Recording, SequenceReader, Settings, TrainingGatherer, TrainingTruth};
 use ralf_sim::SimulatedSequence;
 use ralf_train::learning::{Fitting, Parameters, TrainingTable, View, fit};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// A simulated recording of one short sequence.
 fn recording(seed: u64) -> Recording {
     let preset = ralf_sim::presets::find("tiny").unwrap();
     let sequence: SimulatedSequence = preset.sequences[0].simulate(seed, 3).unwrap();
     let sequences: Vec<Box<dyn SequenceReader>> = vec![Box::new(sequence)];
-    Recording { path: PathBuf::from(format!("simulated-{seed}")), format: "simulated", sequences }
+    Recording::new(Path::new(&format!("simulated-{seed}")), "simulated", sequences)
 }
 
 fn table(jobs: usize) -> TrainingTable {

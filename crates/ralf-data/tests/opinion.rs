@@ -10,7 +10,7 @@ use ralf_data::run::{LabelRun, Unwatched};
 use ralf_data::things::{Answer, Change, Extent, SequenceEvidence, SequenceThings};
 use ralf_data::{Recording, SequenceReader, Settings};
 use ralf_sim::{SimulatedSequence, presets, world};
-use std::path::PathBuf;
+use std::path::Path;
 
 /// A labelled sequence whose truth is known.
 struct Known {
@@ -22,11 +22,7 @@ struct Known {
 
 impl Known {
     fn new(sequence: SimulatedSequence, jobs: usize) -> Self {
-        let recording = Recording {
-            path: PathBuf::from("simulated"),
-            format: "simulated",
-            sequences: vec![Box::new(sequence)],
-        };
+        let recording = Recording::new(Path::new("simulated"), "simulated", vec![Box::new(sequence)]);
         let reader = recording.sequences[0].as_ref();
         let (settings, out) = (Settings::default(), tempfile::tempdir().unwrap());
         LabelRun {

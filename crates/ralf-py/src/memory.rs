@@ -90,8 +90,7 @@ impl MemorySequence {
             let images = images.into_iter().map(timed_image).collect::<PyResult<_>>()?;
             source = source.with_camera(camera, images).map_err(other)?;
         }
-        let (path, format) = (PathBuf::from("memory"), "memory");
-        Ok(Self { recording: Recording { path, format, sequences: vec![Box::new(source)] } })
+        Ok(Self { recording: Recording::new(Path::new("memory"), "memory", vec![Box::new(source)]) })
     }
 
     /// Labels all scans, with the settings, evidence and model of a job whose recording and output are not looked at.

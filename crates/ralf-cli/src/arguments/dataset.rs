@@ -6,9 +6,11 @@ use crate::progress::say;
 use crate::text::{counted, grouped, listed};
 use anyhow::Context;
 use clap::Args;
+use ralf_data::read::Incomplete;
 use ralf_data::read::ros::Topics;
 use ralf_data::result::LabelledRun;
 use ralf_data::{Recording, SequenceReader, Settings};
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 /// Which recording, and which part of it.
@@ -77,22 +79,27 @@ impl DatasetArgs {
 /// So many sequences are named that are left out.
 const SHOWN: usize = 5;
 
-/// A recording without the sequences whose radars' files are all missing, which is said in one line: large data sets
-/// are published part by part, with tables of all of them.
+/// A recording without the sequences whose radars' files are all missing, or of which nothing can be read. Each reason
+/// is said in one line: large data sets are published part by part, with tables of all of them.
 fn copied(recording: Recording) -> Recording {
     let is_missing = |reader: &dyn SequenceReader| {
         reader.sequence().times.radars.iter().all(Vec::is_empty) && !reader.warnings().is_empty()
     };
     let (missing, sequences): (Vec<_>, Vec<_>) =
         recording.sequences.into_iter().partition(|reader| is_missing(reader.as_ref()));
-    if sequences.is_empty() {
-        return Recording { sequences: missing, ..recording };
+    let (missing, sequences) = if sequences.is_empty() { (sequences, missing) } else { (missing, sequences) };
+    let all = missing.len() + sequences.len() + recording.incomplete.len();
+    let mut reasons = BTreeMap::<String, Vec<&str>>::new();
+    for reader in &missing {
+        let reason = "no file of their radars is there".to_owned();
+        reasons.entry(reason).or_default().push(&reader.sequence().name);
     }
-    if !missing.is_empty() {
-        let names: Vec<_> = missing.iter().map(|reader| reader.sequence().name.as_str()).collect();
-        let all = names.len() + sequences.len();
+    for Incomplete { name, missing } in &recording.incomplete {
+        reasons.entry(format!("{missing} is missing")).or_default().push(name);
+    }
+    for (reason, names) in reasons {
         say(&format!(
-            "warning: {} of {} left out, for no file of their radars is there: {}",
+            "warning: {} of {} left out, for {reason}: {}",
             grouped(names.len() as u64),
             counted(all, "sequence"),
             listed(&names, SHOWN)

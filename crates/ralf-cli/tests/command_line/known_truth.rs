@@ -43,3 +43,28 @@ fn without_a_lidar_tracking_labels_and_says_that_it_is_alone() {
         "the car in seven scans"
     );
 }
+
+#[test]
+fn a_sequence_that_lost_what_tells_its_scans_is_named_as_left_out() {
+    let folder = tempfile::tempdir().unwrap();
+    let [data, out, own] = ["scenes", "out", "own"].map(|name| folder.path().join(name));
+    radar_scenes::write_dataset(&data);
+    let sequence = |number: u32| data.join(format!("data/sequence_{number}"));
+    radar_scenes::write_sequence(&sequence(2), &radar_scenes::sequence(false));
+    radar_scenes::write_sequence(&sequence(3), &radar_scenes::sequence(false));
+    fs::remove_file(sequence(2).join("radar_data.h5")).unwrap();
+    fs::remove_file(sequence(3).join("scenes.json")).unwrap();
+    let [data, out, own] = [&data, &out, &own].map(|path| path.to_str().unwrap());
+    let told = [
+        "warning: 1 of 3 sequences left out, for radar_data.h5 is missing: sequence_2",
+        "warning: 1 of 3 sequences left out, for scenes.json is missing: sequence_3",
+    ];
+    ralf(["inspect", data]).exits(0).says(told);
+    ralf(["label", data, "-o", out]).exits(0).says(told);
+    ralf(["convert", data, "-o", own]).exits(0).says(told);
+    let chosen = |name| ralf(["inspect", data, "--sequence", name]);
+    assert!(!chosen("sequence_1").exits(0).stderr.contains("left out, for"));
+    chosen("sequence_2")
+        .exits(1)
+        .ends_with_error(["sequence sequence_2: expected `radar_data.h5`, found none"]);
+}

@@ -4,6 +4,7 @@ mod aimotive;
 mod corrected;
 mod corrections;
 mod file_sequence;
+mod incomplete;
 pub mod inspection;
 mod instances;
 mod last_read;
@@ -30,6 +31,7 @@ mod zod;
 
 pub(crate) use corrected::corrected;
 pub use corrections::{MotionSettings, MotionSource, SensorCorrection};
+pub use incomplete::Incomplete;
 pub use layout::{LayoutSequence, rig_from_json};
 pub use meanings::{Meanings, meanings};
 pub use open::{formats, open, open_with};

@@ -3,10 +3,11 @@
 use crate::disk::label_file::Label;
 use crate::error::DataError;
 use crate::read::corrections::MotionSource;
+use crate::read::incomplete::Incomplete;
 use ralf::label::Cause;
 use ralf::sensors::{LidarScan, Sequence, Source, SourceError};
 use std::any::Any;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// One sequence of a recording, and the files it is read from.
 ///
@@ -173,13 +174,26 @@ pub struct Recording {
     pub format: &'static str,
     /// In the order of their names.
     pub sequences: Vec<Box<dyn SequenceReader>>,
+    /// Those of which nothing can be read, in the order of their names.
+    pub incomplete: Vec<Incomplete>,
 }
 
 impl Recording {
+    /// A recording all of whose sequences can be read.
+    pub fn new(path: &Path, format: &'static str, sequences: Vec<Box<dyn SequenceReader>>) -> Self {
+        Self { path: path.to_owned(), format, sequences, incomplete: Vec::new() }
+    }
+
     /// Keeps the sequences of these names, in the recording's order; all of them where no name is given.
     pub fn select(mut self, names: &[String]) -> Result<Self, DataError> {
         let holds = |name: &String| self.sequences.iter().any(|sequence| sequence.sequence().name == *name);
         if let Some(unknown) = names.iter().find(|name| !holds(name)) {
+            if let Some(Incomplete { missing, .. }) =
+                self.incomplete.iter().find(|lost| lost.name == *unknown)
+            {
+                let place = format!("sequence {unknown}");
+                return Err(DataError::content(&self.path, place, format!("`{missing}`"), "none"));
+            }
             let known: Vec<&str> = self.sequences.iter().map(|s| s.sequence().name.as_str()).collect();
             return Err(DataError::UnknownSequence { name: unknown.clone(), known: known.join(", ") });
         }

@@ -8,7 +8,7 @@ use clap::builder::PossibleValuesParser;
 use ralf_data::{Recording, SequenceReader, TrainingGatherer, TrainingTruth};
 use ralf_sim::world::{self, FAMILIES, Family};
 use ralf_train::learning::TrainingTable;
-use std::path::PathBuf;
+use std::path::Path;
 
 /// More would take weeks.
 const MOST_SEEDS: u64 = 1000;
@@ -86,7 +86,7 @@ impl WorldArgs {
         for (index, scans) in world.spread(Some(self.scans as usize)).into_iter().enumerate() {
             sequences.push(Box::new(world.sequence(index, scans)?));
         }
-        let path = PathBuf::from(format!("{} {seed}", family.name));
-        Ok(Recording { path, format: "simulated", sequences })
+        let path = format!("{} {seed}", family.name);
+        Ok(Recording::new(Path::new(&path), "simulated", sequences))
     }
 }

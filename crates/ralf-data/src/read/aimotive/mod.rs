@@ -23,6 +23,7 @@ mod source;
 
 use crate::disk::files;
 use crate::error::DataError;
+use crate::read::incomplete::{none_whole, parted};
 use crate::read::{Recording, SequenceReader};
 use std::path::{Path, PathBuf};
 
@@ -32,6 +33,8 @@ pub(crate) const NAME: &str = "aimotive";
 const CALIBRATION: &str = "sensor/calibration/calibration.json";
 /// The folder of its radars' folders.
 const RADARS: &str = "sensor/radar";
+/// The folders in a sequence's folder.
+const PARTS: [&str; 2] = ["sensor", "dynamic"];
 
 /// Opens a sequence, the sequences of an environment, or all of them.
 ///
@@ -43,26 +46,37 @@ pub(crate) fn open(path: &Path) -> Result<Recording, DataError> {
         let found = pair[1].display().to_string();
         return Err(DataError::content(&pair[0], "name", "a name that no other sequence has", found));
     }
+    let (folders, incomplete) = parted(folders, missing);
     let mut sequences: Vec<Box<dyn SequenceReader>> = Vec::with_capacity(folders.len());
     for folder in &folders {
         sequences.push(Box::new(source::drive(folder)?));
     }
     if sequences.is_empty() {
-        return Err(DataError::content(path, "folders", format!("sequences with `{CALIBRATION}`"), "none"));
+        return Err(none_whole(path, format!("sequences with `{CALIBRATION}` and `{RADARS}`"), &incomplete));
     }
-    Ok(Recording { path: path.to_owned(), format: NAME, sequences })
+    Ok(Recording { incomplete, ..Recording::new(path, NAME, sequences) })
 }
 
 /// Whether a folder looks like aiMotive.
 pub(crate) fn recognises(path: &Path) -> bool {
-    sequence_folders(path).is_ok_and(|found| !found.is_empty())
+    sequence_folders(path).is_ok_and(|found| found.iter().any(|folder| missing(folder).is_none()))
 }
 
+/// What a folder lacks of a sequence.
+fn missing(folder: &Path) -> Option<&'static str> {
+    match (folder.join(CALIBRATION).is_file(), folder.join(RADARS).is_dir()) {
+        (false, _) => Some(CALIBRATION),
+        (true, false) => Some(RADARS),
+        (true, true) => None,
+    }
+}
+
+/// Whether a folder holds some of a sequence.
 fn is_sequence(folder: &Path) -> bool {
-    folder.join(CALIBRATION).is_file() && folder.join(RADARS).is_dir()
+    PARTS.iter().any(|part| folder.join(part).is_dir())
 }
 
-/// The folders of all sequences: `[data/][train/ | val/][ENVIRONMENT/]SEQUENCE`.
+/// The folders of all sequences, whole or in part: `[data/][train/ | val/][ENVIRONMENT/]SEQUENCE`.
 fn sequence_folders(path: &Path) -> Result<Vec<PathBuf>, DataError> {
     if is_sequence(path) {
         return Ok(vec![path.to_owned()]);

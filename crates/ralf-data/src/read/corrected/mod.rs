@@ -31,7 +31,7 @@ pub(crate) fn corrected(
     corrections: &Corrections,
     motion: &MotionSettings,
 ) -> Result<Recording, DataError> {
-    let Recording { path, format, sequences } = recording;
+    let Recording { path, format, sequences, incomplete } = recording;
     let mut read = Vec::with_capacity(sequences.len());
     let as_recorded =
         method.sensors.is_empty() && corrections.is_empty() && *motion == MotionSettings::default();
@@ -43,7 +43,7 @@ pub(crate) fn corrected(
         let sensors = with_sensors(inner, method, corrections, &path)?;
         read.push(Box::new(with_motion(sensors, motion, &path)?));
     }
-    Ok(Recording { path, format, sequences: read })
+    Ok(Recording { path, format, sequences: read, incomplete })
 }
 
 fn unsuitable(path: &Path, sequence: &Sequence, reason: String) -> DataError {

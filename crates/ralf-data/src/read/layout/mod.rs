@@ -33,7 +33,7 @@ pub(crate) fn open(dataset: &Path) -> Result<Recording, DataError> {
     if sequences.is_empty() {
         return Err(DataError::content(&folder, "folder", "a folder per sequence", "none"));
     }
-    Ok(Recording { path: dataset.to_owned(), format: NAME, sequences })
+    Ok(Recording::new(dataset, NAME, sequences))
 }
 
 /// Sensors, and what depth images mean, told as JSON with the keys of `sequence.toml`, and checked as that is.

@@ -47,7 +47,7 @@ pub(crate) fn open(path: &Path) -> Result<Recording, DataError> {
     for record in scenes(&version)?.finish(&version)? {
         sequences.push(Box::new(source::scene(path, &version, &tables, record, &mut folders)?));
     }
-    Ok(Recording { path: path.to_owned(), format: NAME, sequences })
+    Ok(Recording::new(path, NAME, sequences))
 }
 
 /// Whether a folder looks like nuScenes.

@@ -44,7 +44,7 @@ pub(crate) fn open(path: &Path) -> Result<Recording, DataError> {
     for (name, clip) in clips {
         sequences.push(Box::new(Drive::new(&name, &clip, &shared)?));
     }
-    Ok(Recording { path: path.to_owned(), format: NAME, sequences })
+    Ok(Recording::new(path, NAME, sequences))
 }
 
 /// Whether a folder looks like clips of this data set, zipped or not.

@@ -48,7 +48,7 @@ pub(crate) fn open(path: &Path) -> Result<Recording, DataError> {
     if sequences.is_empty() {
         return Err(DataError::content(path, "files", "sequences, `scenario-*.h5`", "none"));
     }
-    Ok(Recording { path: path.to_owned(), format: NAME, sequences })
+    Ok(Recording::new(path, NAME, sequences))
 }
 
 /// Whether a file is named like a sequence, or a folder holds such files.

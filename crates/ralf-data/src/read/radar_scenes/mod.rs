@@ -18,6 +18,7 @@ mod tables;
 
 use crate::disk::files;
 use crate::error::DataError;
+use crate::read::incomplete::{none_whole, parted};
 use crate::read::last_read::LastRead;
 use crate::read::{Recording, SequenceReader};
 use source::Drive;
@@ -35,27 +36,32 @@ const SCENES: &str = "scenes.json";
 ///
 /// Errors: no sequence, damaged or contradictory files.
 pub(crate) fn open(path: &Path) -> Result<Recording, DataError> {
-    let folders = sequence_folders(path)?;
+    let (folders, incomplete) = parted(sequence_folders(path)?, missing);
     if folders.is_empty() {
         let expected = format!("sequences with `{TABLES}` and `{SCENES}`");
-        return Err(DataError::content(path, "folders", expected, "none"));
+        return Err(none_whole(path, expected, &incomplete));
     }
     let tables = Arc::new(LastRead::new(tables::detections, 2));
     let mut sequences: Vec<Box<dyn SequenceReader>> = Vec::with_capacity(folders.len());
     for folder in &folders {
         sequences.push(Box::new(Drive::new(folder, tables.clone())?));
     }
-    Ok(Recording { path: path.to_owned(), format: NAME, sequences })
+    Ok(Recording { incomplete, ..Recording::new(path, NAME, sequences) })
 }
 
 /// Whether a folder looks like RadarScenes.
 pub(crate) fn recognises(path: &Path) -> bool {
-    sequence_folders(path).is_ok_and(|found| !found.is_empty())
+    sequence_folders(path).is_ok_and(|found| found.iter().any(|folder| missing(folder).is_none()))
 }
 
-/// The folders of all sequences: `[data/]SEQUENCE`.
+/// What a folder lacks of a sequence.
+fn missing(folder: &Path) -> Option<&'static str> {
+    [TABLES, SCENES].into_iter().find(|name| !folder.join(name).is_file())
+}
+
+/// The folders of all sequences, whole or in part: `[data/]SEQUENCE`.
 fn sequence_folders(path: &Path) -> Result<Vec<PathBuf>, DataError> {
-    let is_sequence = |folder: &PathBuf| folder.join(TABLES).is_file() && folder.join(SCENES).is_file();
+    let is_sequence = |folder: &PathBuf| [TABLES, SCENES].iter().any(|name| folder.join(name).is_file());
     let path = path.to_owned();
     if is_sequence(&path) {
         return Ok(vec![path]);

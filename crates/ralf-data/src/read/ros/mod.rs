@@ -54,7 +54,7 @@ pub(crate) fn open(path: &Path, topics: &Topics) -> Result<Recording, DataError>
         topics.clone()
     };
     let drive = Drive::new(messages, &topics, warnings)?;
-    Ok(Recording { path: path.to_owned(), format: NAME, sequences: vec![Box::new(drive)] })
+    Ok(Recording::new(path, NAME, vec![Box::new(drive)]))
 }
 
 impl From<ContainerError> for DataError {

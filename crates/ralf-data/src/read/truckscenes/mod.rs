@@ -44,7 +44,7 @@ pub(crate) fn open(path: &Path) -> Result<Recording, DataError> {
         let odometry = odometry.remove(&record.name).unwrap_or_default();
         sequences.push(Box::new(source::scene(path, &version, &tables, record, odometry, &mut folders)?));
     }
-    Ok(Recording { path: path.to_owned(), format: NAME, sequences })
+    Ok(Recording::new(path, NAME, sequences))
 }
 
 /// Whether a folder looks like MAN TruckScenes.

@@ -28,7 +28,7 @@ pub(crate) const NAME: &str = "view-of-delft";
 ///
 /// Errors: no frames, file names that are no numbers, calibrations or poses that are missing or no rigid transforms.
 pub(crate) fn open(path: &Path) -> Result<Recording, DataError> {
-    Ok(Recording { path: path.to_owned(), format: NAME, sequences: vec![Box::new(source::training(path)?)] })
+    Ok(Recording::new(path, NAME, vec![Box::new(source::training(path)?)]))
 }
 
 /// Whether a folder looks like View-of-Delft.

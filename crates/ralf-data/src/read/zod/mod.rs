@@ -51,7 +51,7 @@ pub(crate) fn open(path: &Path) -> Result<Recording, DataError> {
             "none",
         ));
     }
-    Ok(Recording { path: path.to_owned(), format: NAME, sequences })
+    Ok(Recording::new(path, NAME, sequences))
 }
 
 /// Whether a folder looks like ZOD's Sequences or Drives.

@@ -156,7 +156,7 @@ fn a_trajectory_corrects_points_where_the_recording_has_no_poses() {
     let mounting = corrected.sequence().rig.lidars[0].vehicle_from_lidar;
     assert_posts(&corrected.lidar_scan(0, 2).unwrap(), &mounting, 2);
     // Corrected once, however often it is asked to be.
-    let again = Recording { path: sequence, format: "aimotive", sequences: vec![corrected] };
+    let again = Recording::new(&sequence, "aimotive", vec![corrected]);
     let again = settings.correct(again).unwrap().sequences.remove(0);
     assert_posts(&again.lidar_scan(0, 2).unwrap(), &mounting, 2);
 }

@@ -170,3 +170,25 @@ fn a_damaged_laz_file_is_an_error_or_other_points_and_nothing_worse() {
         }
     }
 }
+
+#[test]
+fn a_sequence_that_lost_its_calibration_or_radars_is_named_and_makes_no_recording() {
+    let folder = tempfile::tempdir().unwrap();
+    let night = folder.path().join("train/night");
+    for (name, lost) in [("A", None), ("B", Some("calibration")), ("C", Some("radar")), ("D", Some(""))] {
+        write_sequence(&night.join(name));
+        if let Some(lost) = lost {
+            fs::remove_dir_all(night.join(name).join("sensor").join(lost)).unwrap();
+        }
+    }
+    fs::create_dir_all(night.join("notes")).unwrap();
+    let opened = crate::open(folder.path(), None).unwrap();
+    assert_eq!(opened.sequences.len(), 1);
+    let lost: Vec<_> = opened.incomplete.iter().map(|lost| (lost.name.as_str(), lost.missing)).collect();
+    assert_eq!(lost, [("B", CALIBRATION), ("C", "sensor/radar"), ("D", CALIBRATION)]);
+    fs::remove_dir_all(night.join("A")).unwrap();
+    let error = |format| crate::open(folder.path(), format).unwrap_err().to_string();
+    assert!(error(None).ends_with("found none of them"), "{}", error(None));
+    let told = error(Some("aimotive"));
+    assert!(told.ends_with("found none: B is without sensor/calibration/calibration.json"), "{told}");
+}
