@@ -8,6 +8,8 @@ use std::path::{Path, PathBuf};
 pub(crate) const SEQUENCES: &str = "sequences";
 /// What lies beside the sequences in an output folder, and in no recording.
 pub(crate) const RECORD: &str = "run.json";
+/// The folder beside the sequences that holds what a run keeps until the record tells of it.
+pub(crate) const UNFINISHED: &str = ".ralf-run";
 /// The file in a sequence's folder that tells its sensors.
 pub(crate) const SENSORS: &str = "sequence.toml";
 /// The file in a sequence's folder that tells speeds and yaw rates.

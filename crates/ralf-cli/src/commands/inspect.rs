@@ -15,7 +15,7 @@ use ralf::sensors::Timelines;
 use ralf_check::SequenceCheck;
 use ralf_data::read::inspection::{Inspection, SensorInspection, Unreadable};
 use ralf_data::read::meanings;
-use ralf_data::result::Places;
+use ralf_data::result::{Places, is_under_way};
 use ralf_data::run::{RunRecord, read_record};
 use ralf_data::{Recording, SequenceReader};
 use serde_json::json;
@@ -54,7 +54,7 @@ pub(crate) struct InspectArgs {
 /// Looks into a recording.
 pub(crate) fn run(arguments: &InspectArgs) -> anyhow::Result<Outcome> {
     let folder = &arguments.dataset.dataset;
-    if Places::new(folder).record_file().is_file() {
+    if Places::new(folder).record_file().is_file() || is_under_way(folder)? {
         return inspect_run(folder, arguments.json);
     }
     let mut settings = arguments.settings.resolve()?;

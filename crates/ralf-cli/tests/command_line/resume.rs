@@ -64,6 +64,35 @@ fn sequences_under_way_side_by_side_go_on_and_end_the_same() {
 }
 
 #[test]
+fn a_run_that_was_killed_is_judged_by_no_command() {
+    let dataset = Dataset::of(&Shape { scans: 60, ..Shape::default() });
+    kill_midway(&dataset, "1");
+    let (path, out) = (dataset.path.as_str(), dataset.out.as_str());
+    let told = [out, "run.json: expected the record of a finished `ralf label`, found an unfinished run"];
+    ralf(["evaluate", out, "--truth", path]).exits(1).prints_nothing().ends_with_error(told);
+    ralf(["evaluate", out]).exits(1).prints_nothing().ends_with_error(told);
+    ralf(["inspect", out]).exits(1).prints_nothing().ends_with_error(told);
+    ralf(["label", "--no-check", path, "-o", out]).exits(0);
+    ralf(["evaluate", out, "--truth", path]).exits(0);
+}
+
+#[test]
+fn a_sequence_that_was_begun_beside_finished_ones_is_not_judged() {
+    let dataset = Dataset::of(&Shape { scans: 4, sequences: &["00", "01"], ..Shape::default() });
+    let (path, out) = (dataset.path.as_str(), dataset.out.as_str());
+    ralf(["label", path, "-o", out, "--sequence", "00"]).exits(0);
+    // A folder in the place of the table lets the run fail when all scans are labelled.
+    let table = format!("{out}/sequences/01/plausibility.parquet");
+    fs::create_dir_all(format!("{table}/in-the-way")).unwrap();
+    ralf(["label", path, "-o", out, "--sequence", "01"]).exits(1);
+    let told = [out, "sequence 01: expected labels of all scans, found an unfinished run"];
+    ralf(["evaluate", out, "--truth", path]).exits(1).prints_nothing().ends_with_error(told);
+    fs::remove_dir_all(table).unwrap();
+    ralf(["label", path, "-o", out, "--sequence", "01"]).exits(0);
+    ralf(["evaluate", out, "--truth", path]).exits(0);
+}
+
+#[test]
 fn what_a_power_cut_spoiled_is_made_again() {
     let dataset = Dataset::of(&Shape { scans: 60, ..Shape::default() });
     let whole = dataset.beside("whole");

@@ -3,11 +3,12 @@
 use crate::disk::files;
 use crate::disk::label_file::Label;
 use crate::error::DataError;
-use crate::result::LabelledRun;
+use crate::result::{LabelledRun, under_way};
 use crate::tree::{RECORD, SEQUENCES};
 use crate::truth::{GroundTruth, ScanId};
 use ralf::label::truth_of;
 use ralf::metrics::{Confusion, Evaluation};
+use std::collections::BTreeSet;
 use std::path::Path;
 
 /// A run compared with the truth, scan by scan. Only counts are kept.
@@ -24,9 +25,10 @@ pub struct Comparison {
 impl Comparison {
     /// Compares what a run wrote to the folder `out` with the truth. Label files are enough; where there is a
     /// `run.json`, they have to be as it tells. Refused are scans of another size than their truth,
-    /// labels of 0 (unlabeled), and a run that labelled none of the scans with truth.
+    /// labels of 0 (unlabeled), a run that has not ended, and one that labelled none of the scans with truth.
     pub fn new(out: &Path, truth: &GroundTruth) -> Result<Self, DataError> {
-        let run = if out.join(RECORD).exists() { Some(LabelledRun::open(out)?) } else { None };
+        let run = run_of(out)?;
+        refuse_begun(out, run.as_ref(), truth)?;
         let (mut scans, mut missing) = (Vec::new(), Vec::new());
         for scan in truth.scans() {
             match compare(out, run.as_ref(), truth, scan)? {
@@ -48,6 +50,33 @@ impl Comparison {
     pub fn evaluation(&self) -> Evaluation {
         Evaluation::from_scans(self.scans.iter().map(|(scan, counts)| (scan.sequence.as_str(), *counts)))
     }
+}
+
+/// The run that wrote these labels; `None` where others have made them.
+fn run_of(out: &Path) -> Result<Option<LabelledRun>, DataError> {
+    if !files::exists(out)? {
+        let expected = "labels of `ralf label`, or files of labels";
+        return Err(DataError::content(out, "folder", expected, "no such folder"));
+    }
+    let is_of_ralf = files::exists(&out.join(RECORD))? || under_way::is_under_way(out)?;
+    is_of_ralf.then(|| LabelledRun::open(out)).transpose()
+}
+
+/// Refuses to judge sequences that a run has begun and not finished.
+fn refuse_begun(out: &Path, run: Option<&LabelledRun>, truth: &GroundTruth) -> Result<(), DataError> {
+    let Some(run) = run else { return Ok(()) };
+    let names: BTreeSet<&str> = truth.scans().iter().map(|scan| scan.sequence.as_str()).collect();
+    for name in names.into_iter().filter(|name| !run.holds(name)) {
+        if under_way::is_begun(out, name)? {
+            return Err(DataError::content(
+                out,
+                format!("sequence {name}"),
+                "labels of all scans",
+                under_way::FOUND,
+            ));
+        }
+    }
+    Ok(())
 }
 
 /// The confusion matrix of one scan; `None` where the run has no labels for it.

@@ -21,6 +21,7 @@ pub(crate) mod schema;
 mod sequence_record;
 mod sisters;
 mod table;
+pub(crate) mod under_way;
 mod without_numbers;
 
 pub use check_record::{CheckLine, CheckRecord};
@@ -40,6 +41,7 @@ pub use sequence_record::{
 pub(crate) use sisters::RadarCounts;
 pub use sisters::UnlikeSisters;
 pub use table::{Table, Value, Values};
+pub use under_way::is_under_way;
 pub(crate) use without_numbers::Numbers;
 pub use without_numbers::WithoutNumbers;
 

@@ -3,6 +3,7 @@
 use super::check_record::CheckRecord;
 use super::json::read_json;
 use super::sequence_record::{CameraRecord, NotLabelled, RadarRecord, SequenceRecord, UnreadableScan};
+use super::under_way;
 use crate::disk::files;
 use crate::error::DataError;
 use crate::read::Recording;
@@ -92,7 +93,12 @@ pub fn program() -> String {
 pub fn read_record(out: &Path) -> Result<RunRecord, DataError> {
     let file = out.join(RECORD);
     if !file.exists() {
-        return Err(DataError::content(out, RECORD, "the record of a finished `ralf label`", "no such file"));
+        let found = match out.exists() {
+            false => "no such folder",
+            true if under_way::is_under_way(out)? => under_way::FOUND,
+            true => "no such file",
+        };
+        return Err(DataError::content(out, RECORD, "the record of a finished `ralf label`", found));
     }
     read_json(&file)
 }

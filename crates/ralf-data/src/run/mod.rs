@@ -38,7 +38,7 @@ use crate::result::{
     refuse_links_out,
 };
 use crate::settings::Settings;
-use crate::tree::SEQUENCES;
+use crate::tree::{SEQUENCES, UNFINISHED};
 use inputs::Identity;
 use output_folder::OutputFolder;
 use ralf::config::{Config, Method};
@@ -255,7 +255,7 @@ impl LabelRun<'_> {
 
     fn refuse_links(&self) -> Result<(), DataError> {
         refuse_links_out(self.out, SEQUENCES, 2)?;
-        refuse_links_out(self.out, unfinished::FOLDER, 4)
+        refuse_links_out(self.out, UNFINISHED, 4)
     }
 
     /// The output folder, ready for the sequences that are asked for.

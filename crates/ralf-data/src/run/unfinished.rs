@@ -11,12 +11,11 @@ use crate::disk::files;
 use crate::error::DataError;
 use crate::result::json::{read_json, write_json};
 use crate::result::{Component, Input, OutFolder, RunRecord, SequenceRecord, checked};
+use crate::tree::UNFINISHED;
 use std::fs;
 use std::io::ErrorKind;
 use std::path::Path;
 
-/// Of all runs.
-pub(super) const FOLDER: &str = ".ralf-run";
 /// Of a sequence that is labelled in parts.
 const INPUTS: &str = "inputs.json";
 
@@ -33,7 +32,7 @@ pub(super) struct Unfinished {
 impl Unfinished {
     pub(super) fn of(out: &OutFolder, run: &RunRecord) -> Result<Self, DataError> {
         let run = checked("fingerprint of a run", &fingerprint::of_run(run))?;
-        Ok(Self { all: out.own(FOLDER), run })
+        Ok(Self { all: out.own(UNFINISHED), run })
     }
 
     fn folder(&self) -> OutFolder {
