@@ -144,6 +144,11 @@ fn a_picture_is_no_file_of_another_format() {
     run(&plot, &["-o", &photo]).exits(2).ends_with_error(["expected a name that ends in .png", &photo]);
     assert!(!fs::exists(&photo).unwrap());
     run(&plot, &["-o", &whole, "--radius", "0.01"]).exits(0);
+    // An overview has one colour for each class, and is seen from above.
+    let overview = ["plot", path, out, "--sequence", "00", "--all", "-o", &whole];
+    for chosen in [["--color-by", "doppler"], ["--camera", "front"]] {
+        run(&overview, &chosen).exits(2).ends_with_error(["--all", "cannot be used with", chosen[0]]);
+    }
     for radius in ["1e-6", "1e-30"] {
         let told = ["expected a radius of 0.01 to 100000000 m, found 0.0000"];
         run(&plot, &["-o", &whole, "--radius", radius]).exits(1).ends_with_error(told);

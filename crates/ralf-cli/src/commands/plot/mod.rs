@@ -48,10 +48,10 @@ pub(crate) struct PlotArgs {
     radius: Option<f64>,
     /// Detections in the colours of this column of numbers: a mismatch, the plausibility w, a radar's field, or a piece
     /// of evidence where it was labelled with --evidence
-    #[arg(long, value_name = "COLUMN", requires = "scan", conflicts_with = "camera")]
+    #[arg(long, value_name = "COLUMN", requires = "scan", conflicts_with_all = ["camera", "all"])]
     color_by: Option<String>,
     /// What this camera sees, beside its depth, with LiDAR and radar in it
-    #[arg(long, value_name = "NAME", requires = "scan")]
+    #[arg(long, value_name = "NAME", requires = "scan", conflicts_with = "all")]
     camera: Option<String>,
     /// Only this view of the camera, from 0
     #[arg(long, value_name = "V", requires = "camera")]
