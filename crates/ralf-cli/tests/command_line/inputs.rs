@@ -60,6 +60,38 @@ fn results_that_have_no_place_are_refused_before_anything_is_done() {
 }
 
 #[test]
+fn what_is_somebody_elses_is_not_replaced() {
+    let dataset = Dataset::new();
+    let out = dataset.beside("out of another");
+    fs::create_dir(&out).unwrap();
+    let record = format!("{out}/run.json");
+    for content in ["{\"wandb\": \"my run\"}", "{\"version\": \"1\"}", "[1]", "my notes", ""] {
+        fs::write(&record, content).unwrap();
+        let before = tree(&out);
+        let refused = ralf(["label", &dataset.path, "-o", &out]).exits(1).prints_nothing();
+        refused.ends_with_error([
+            &record,
+            "expected a record of `ralf label`, or nothing yet, found another file",
+        ]);
+        assert_eq!(tree(&out), before);
+    }
+    let other = Dataset::new();
+    let before = tree(&other.path);
+    let refused = ralf(["label", &dataset.path, "-o", &other.path]).exits(1).prints_nothing();
+    refused.ends_with_error([&other.path, "expected a folder of labels, or nothing yet, found a recording"]);
+    assert!(tree(&other.path) == before);
+    // A record of one's own may be damaged, and is made again.
+    ralf(["label", &dataset.path, "-o", &dataset.out]).exits(0);
+    let record = format!("{}/run.json", dataset.out);
+    let whole = fs::read(&record).unwrap();
+    for damaged in [&whole[..whole.len() / 2], &vec![0; whole.len()], b""] {
+        fs::write(&record, damaged).unwrap();
+        ralf(["label", &dataset.path, "-o", &dataset.out]).exits(0);
+        assert!(fs::read_to_string(&record).unwrap().starts_with("{\n  \"version\": "));
+    }
+}
+
+#[test]
 fn a_recording_that_can_not_be_written_is_labelled() {
     let dataset = Dataset::new();
     let all = tree(&dataset.path);
