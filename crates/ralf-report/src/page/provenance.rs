@@ -23,7 +23,7 @@ pub(super) fn provenance(content: &Content) -> Markup {
             } }))
             details {
                 summary { "All settings" }
-                pre { (format!("{:#?}", record.settings)) }
+                pre { (record.settings.to_toml().unwrap_or_else(|error| error.to_string())) }
             }
             footer { p { "Method: S. T. Isele et al., Radar Artifact Labeling Framework (RALF), VEHITS 2021." } }
         }
