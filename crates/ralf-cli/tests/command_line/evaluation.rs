@@ -1,7 +1,9 @@
 //! `ralf evaluate`, with ground truth and without.
 
-use crate::support::{Dataset, Shape, ralf, rows};
+use crate::support::{Dataset, Shape, nuscenes, ralf, rows};
 use serde_json::{Value, json};
+use std::fs;
+use std::path::Path;
 
 fn labelled(shape: &Shape) -> Dataset {
     let dataset = Dataset::of(shape);
@@ -80,8 +82,26 @@ fn truth_that_is_not_there_is_named() {
     let dataset = labelled(&Shape { scans: 1, ..Shape::default() });
     let nowhere = dataset.beside("nowhere");
     ralf(["evaluate", &dataset.out, "--truth", &nowhere]).exits(1).prints_nothing().says([&nowhere]);
-    ralf(["evaluate", &nowhere, "--truth", &dataset.path]).exits(1).prints_nothing().says([&nowhere]);
-    ralf(["evaluate", &nowhere]).exits(1).prints_nothing().says([&nowhere, "run.json"]);
+    let judged = ralf(["evaluate", &nowhere, "--truth", &dataset.path]).exits(1).prints_nothing();
+    judged.ends_with_error([&nowhere, "found no such folder"]);
+    let told = [&nowhere, "run.json", "found no such folder"];
+    ralf(["evaluate", &nowhere]).exits(1).prints_nothing().ends_with_error(told);
+    // Labels that others have made have no record.
+    let record = format!("{}/run.json", dataset.out);
+    fs::remove_file(record).unwrap();
+    ralf(["evaluate", &dataset.out, "--truth", &dataset.path]).exits(0);
+}
+
+#[test]
+fn a_recording_of_a_format_without_truth_is_told_so() {
+    let place = tempfile::tempdir().unwrap();
+    let [recording, out] =
+        ["recording", "out"].map(|name| place.path().join(name).to_str().unwrap().to_owned());
+    nuscenes(Path::new(&recording));
+    ralf(["label", &recording, "-o", &out]).exits(0);
+    let told =
+        [&recording, "truth: expected corrected labels", "a recording of the format nuscenes, without truth"];
+    ralf(["evaluate", &out, "--truth", &recording]).exits(1).prints_nothing().ends_with_error(told);
 }
 
 /// Worked out anew from the table.

@@ -140,9 +140,10 @@ pub fn open_with(path: &Path, format: Option<&str>, topics: &Topics) -> Result<R
     (found.open)(path, topics)
 }
 
-/// Whether a folder or file is of a format whose readers know the truth of detections.
-pub(crate) fn knows_truth(path: &Path) -> bool {
-    FORMATS.iter().find(|format| (format.recognises)(path)).is_some_and(|format| format.knows_truth)
+/// The format that a folder or file is recognised as, and whether its readers know the truth of detections.
+pub(crate) fn recognised(path: &Path) -> Option<(&'static str, bool)> {
+    let format = FORMATS.iter().find(|format| (format.recognises)(path))?;
+    Some((format.name, format.knows_truth))
 }
 
 #[cfg(test)]

@@ -8,6 +8,8 @@ use super::scan_id::ScanId;
 use crate::disk::files;
 use crate::disk::label_file::{Label, read_labels};
 use crate::error::DataError;
+use crate::read::layout;
+use crate::read::open::recognised;
 use crate::tree::{GROUND_TRUTH, LABELS, SEQUENCES, label_name, truth_folder};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -110,6 +112,11 @@ fn none(dataset: &Path) -> DataError {
     if let Err(error) = dataset.metadata() {
         let expected = "a folder with corrected labels, or a recording whose truth is known";
         return DataError::io(dataset)(ralf_files::absent(error, expected));
+    }
+    if let Some((format, _)) = recognised(dataset).filter(|(format, _)| *format != layout::NAME) {
+        let expected = "corrected labels, as the own layout or a review has them";
+        let found = format!("a recording of the format {format}, without truth");
+        return DataError::content(dataset, "truth", expected, found);
     }
     let place = format!("*/{GROUND_TRUTH}/*/NNNNNN.{LABELS}");
     DataError::content(&dataset.join(SEQUENCES), place, "files of corrected labels", "none")

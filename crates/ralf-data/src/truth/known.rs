@@ -3,7 +3,7 @@
 use super::scan_id::ScanId;
 use crate::error::DataError;
 use crate::frames::ScanIndex;
-use crate::read::open::{knows_truth, open};
+use crate::read::open::{open, recognised};
 use crate::read::{Recording, SequenceReader, TruthLabels};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -15,7 +15,7 @@ pub(super) struct KnownTruth(Arc<Recording>);
 impl KnownTruth {
     /// Opens a dataset of a format that has truth; `None` of any other.
     pub(super) fn find(dataset: &Path) -> Result<Option<Self>, DataError> {
-        if !knows_truth(dataset) {
+        if !recognised(dataset).is_some_and(|(_, knows_truth)| knows_truth) {
             return Ok(None);
         }
         Ok(Some(Self(Arc::new(open(dataset, None)?))))
