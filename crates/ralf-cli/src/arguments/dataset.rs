@@ -55,7 +55,7 @@ impl DatasetArgs {
     /// The topics of `--topics`, or else these.
     pub(crate) fn topics_or(&self, topics: &Topics) -> anyhow::Result<Topics> {
         match &self.topics {
-            Some(file) => Ok(settings::read(file).context("--topics")?.topics),
+            Some(file) => settings::topics(file).context("--topics"),
             None => Ok(topics.clone()),
         }
     }

@@ -5,6 +5,7 @@ use crate::text::{in_a_line, shell_path, shell_word};
 use anyhow::Context;
 use clap::Args;
 use ralf_data::Settings;
+use ralf_data::read::ros::Topics;
 use ralf_files::Kind;
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
@@ -74,9 +75,11 @@ impl SettingsArgs {
     }
 }
 
-/// The settings of a file.
-pub(super) fn read(file: &Path) -> anyhow::Result<Settings> {
-    parsed(file, &text(file)?)
+/// The table `topics` of a settings file, which has to be there.
+pub(super) fn topics(file: &Path) -> anyhow::Result<Topics> {
+    let topics = parsed(file, &text(file)?)?.topics;
+    anyhow::ensure!(!topics.is_empty(), "{}: expected the table `topics`, found none", file.display());
+    Ok(topics)
 }
 
 /// The text of a settings file, which by itself is one: what is wrong with it is said of it.

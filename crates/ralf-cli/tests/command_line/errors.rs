@@ -31,6 +31,17 @@ fn a_settings_file_is_shown_where_it_is_wrong_and_the_error_is_the_last_line() {
 }
 
 #[test]
+fn topics_that_are_asked_for_have_to_be_there() {
+    let dataset = Dataset::of(&Shape { scans: 1, ..Shape::default() });
+    let file = dataset.beside("topics.toml");
+    fs::write(&file, "[lidar]\nbeta = 0.5\n").unwrap();
+    let asked = ["label", &dataset.path, "-o", &dataset.out, "--topics", &file];
+    ralf(asked)
+        .exits(1)
+        .ends_with_error(["--topics", "topics.toml: expected the table `topics`, found none"]);
+}
+
+#[test]
 fn settings_that_are_typed_are_named_in_one_line() {
     let dataset = Dataset::of(&Shape { scans: 1, ..Shape::default() });
     let refused = |set: &str| ralf(["check", &dataset.path, "--set", set]).exits(2);

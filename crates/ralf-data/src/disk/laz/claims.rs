@@ -44,9 +44,13 @@ pub(super) fn check(file: &Path, bytes: &[u8]) -> Result<(), DataError> {
     }
     match claimed_chunks(bytes) {
         Some(chunks) if chunks as usize <= bytes.len() => Ok(()),
-        found => {
+        Some(chunks) => {
             let expected = format!("at most {} chunks, one per byte", bytes.len());
-            refused("chunk table", &expected, found.map_or("none".to_owned(), |chunks| chunks.to_string()))
+            refused("chunk table", &expected, chunks.to_string())
+        }
+        None => {
+            let found = format!("none in {} bytes: the file is cut short", bytes.len());
+            refused("chunk table", "the place of every chunk of points", found)
         }
     }
 }

@@ -54,7 +54,7 @@ impl FrameTimes {
         let found = if missing == 0 {
             Self::of_boxes(frames, &boxes)?
         } else {
-            Self::of_lidar(frames, lidar, missing)?
+            Self::of_lidar(folder, frames, lidar, missing)?
         };
         let mut pairs = found.times.iter().zip(found.times.iter().skip(1));
         match pairs.find(|((_, before), (_, after))| after <= before) {
@@ -80,12 +80,17 @@ impl FrameTimes {
         Ok(Self { times, boxes: used.into_iter().map(|(_, file)| file).collect(), warning: None })
     }
 
-    fn of_lidar(frames: &BTreeSet<u64>, lidar: &Frames, missing: usize) -> Result<Self, DataError> {
+    fn of_lidar(
+        folder: &Path,
+        frames: &BTreeSet<u64>,
+        lidar: &Frames,
+        missing: usize,
+    ) -> Result<Self, DataError> {
         let mut times = BTreeMap::new();
         for frame in frames {
             let untold = || {
                 let expected = "boxes of every frame, or a LiDAR file of every frame, to tell their times";
-                DataError::content(Path::new("dynamic"), format!("frame {frame}"), expected, "neither")
+                DataError::content(&folder.join("dynamic"), format!("frame {frame}"), expected, "neither")
             };
             let file = lidar.get(frame).ok_or_else(untold)?;
             let first = laz::read_first(file)?;

@@ -62,6 +62,7 @@ fn missing_and_strange_files_are_named() {
         harm(folder.path());
         let error = open(folder.path()).unwrap_err().to_string();
         assert!(words.iter().all(|word| error.contains(word)), "{error} lacks some of {words:?}");
+        assert!(error.starts_with(folder.path().to_str().unwrap()), "{error}");
     };
     refused(
         &|path| fs::remove_file(path.join(CALIBRATION)).unwrap(),
@@ -144,6 +145,11 @@ fn laz_files_that_claim_too_much_are_refused_before_memory_is_taken() {
     assert!(
         refused.contains("chunk table: expected at most") && refused.contains("found 4294967295"),
         "{refused}"
+    );
+    let cut = read(&good[..good.len() - 20]).unwrap_err();
+    assert!(
+        cut.ends_with(&format!("found none in {} bytes: the file is cut short", good.len() - 20)),
+        "{cut}"
     );
     let record = good.windows(14).position(|part| part == b"laszip encoded").unwrap() + 52;
     for (place, value) in [(0, 3_u16), (12, 0), (32, 0), (32, 9), (36, 21)] {
