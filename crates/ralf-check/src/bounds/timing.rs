@@ -12,7 +12,7 @@ pub(super) fn judge(name: &str, times: &[i64]) -> Vec<Verdict> {
     doubts.into_iter().flatten().collect()
 }
 
-/// A sensor of a recording starts and stops within this of the others, ns: recorders start their parts one after another.
+/// A sensor of a recording starts and stops within this of the others, ns: recorders start one part after another.
 const TOGETHER_NS: i64 = 500_000_000;
 
 /// A LiDAR or camera whose clock is not the radars'.
@@ -43,7 +43,7 @@ pub(super) fn beside_radars(name: &str, times: &[i64], radars: &[Vec<i64>]) -> O
     Some(Verdict::doubt(name, Question::Bounds, evidence, Some(remedy)))
 }
 
-/// Whether both ends lie as far to the same side: what is recorded for longer, or for a shorter time, is no clock's fault.
+/// Whether both ends lie as far to the same side: what is recorded for a longer or a shorter time has no wrong clock.
 fn is_shifted(begin: i64, end: i64) -> bool {
     begin.signum() == end.signum()
         && begin.unsigned_abs().min(end.unsigned_abs()) > TOGETHER_NS.unsigned_abs()
