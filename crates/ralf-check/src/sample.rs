@@ -4,7 +4,7 @@ use crate::ground::{self, GroundFit};
 use crate::picture::{CameraLook, DepthEdge, FEWEST_IMAGES, Moment, depth_edges};
 use crate::plan_field::PlanField;
 use crate::velocity_fit::{TRUSTED, VelocityFit, fit, told};
-use ralf::sensors::{LidarScan, Radar, RadarScan, Source, is_return};
+use ralf::sensors::{Elevation, LidarScan, Radar, RadarScan, Source, is_return};
 use ralf::space::{Point, Vector};
 use std::collections::BTreeSet;
 use std::hash::{DefaultHasher, Hash, Hasher};
@@ -42,6 +42,8 @@ pub(crate) struct RadarLook {
     pub(crate) range_rates: Vec<f64>,
     /// Ranges, azimuths and elevations as measured, m and rad.
     pub(crate) spherical: Vec<[f64; 3]>,
+    /// The same as the radar's own fields tell them, in whatever unit.
+    pub(crate) told: Vec<[f64; 3]>,
     /// Rows of the scan, and those among them without finite coordinates.
     pub(crate) rows: usize,
     pub(crate) not_finite: usize,
@@ -203,9 +205,22 @@ impl RadarLook {
             rays,
             range_rates,
             spherical: read.spherical.iter().map(|s| [s.range, s.azimuth, s.elevation]).collect(),
+            told: as_told(radar, read),
             digest: hasher.finish(),
         }
     }
+}
+
+/// Range, azimuth and elevation by the radar's fields of these names; of x, y and z what these make.
+fn as_told(radar: &Radar, read: &RadarScan) -> Vec<[f64; 3]> {
+    let is_used = |name: &&str| *name != "elevation" || radar.elevation == Elevation::Measured;
+    let column = |name: &str| radar.column(name).map(|column| &read.columns[column]);
+    let fields = ["range", "azimuth", "elevation"].map(|name| Some(name).filter(is_used).and_then(column));
+    let value =
+        |field: usize, row: usize, made: f64| fields[field].map_or(made, |column| f64::from(column[row]));
+    let rows = read.spherical.iter().enumerate();
+    rows.map(|(row, s)| [value(0, row, s.range), value(1, row, s.azimuth), value(2, row, s.elevation)])
+        .collect()
 }
 
 fn count_finite(values: &[f32]) -> usize {
@@ -287,7 +302,7 @@ impl CloudShape {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use ralf::sensors::{Elevation, Reliability};
+    use ralf::sensors::Reliability;
     use ralf::space::Transform;
 
     #[test]

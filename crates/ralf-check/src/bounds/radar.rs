@@ -33,11 +33,13 @@ pub(super) fn judge(radar: &Radar, looks: &[RadarLook]) -> Vec<Verdict> {
         verdicts.push(Verdict::cannot_judge(&radar.name, Question::Bounds, missing));
         return verdicts;
     }
-    let in_degrees = angles(&radar.name, &all);
+    let told: Vec<[f64; 3]> = looks.iter().flat_map(|look| &look.told).copied().collect();
+    let in_degrees = angles(&radar.name, &told);
     if in_degrees.is_empty() {
         verdicts.extend(field_of_view(radar, &all));
     }
     verdicts.extend(in_degrees);
+    verdicts.extend(negative(&radar.name, &told));
     verdicts.extend(ranges(&radar.name, &all));
     verdicts.extend(elevation(radar, &all));
     verdicts
@@ -87,10 +89,18 @@ fn without_numbers(radar: &Radar, looks: &[RadarLook]) -> Option<Verdict> {
     Some(doubt(&radar.name, evidence, Some(remedy)))
 }
 
-/// Angles that are no radians.
+/// Ranges that are none.
+fn negative(name: &str, told: &[[f64; 3]]) -> Option<Verdict> {
+    let negative = told.iter().filter(|row| row[0] < 0.0).count();
+    let share = 100.0 * negative as f64 / told.len() as f64;
+    let evidence = format!("{share:.1} % of the detections have a range below 0");
+    (negative > 0).then(|| doubt(name, evidence, Some(Remedy::LookInto("is `range` another field?"))))
+}
+
+/// Angles that are no radians: azimuths of 0 to 2 pi are.
 fn angles(name: &str, all: &[[f64; 3]]) -> Vec<Verdict> {
     let mut found = Vec::new();
-    for (column, field, largest) in [(1, "azimuth", PI), (2, "elevation", FRAC_PI_2)] {
+    for (column, field, largest) in [(1, "azimuth", 2.0 * PI), (2, "elevation", FRAC_PI_2)] {
         let beyond = all.iter().filter(|row| row[column].abs() > largest * 1.001).count();
         if beyond * 100 > all.len() {
             let share = 100.0 * beyond as f64 / all.len() as f64;

@@ -12,7 +12,7 @@ pub struct RadarScan {
     pub columns: Vec<Vec<f32>>,
     /// Where each detection lies in the radar's frame, m; not finite where it wasn't measured.
     pub positions: Vec<Point>,
-    /// The same as range, azimuth and elevation. Elevation is 0 where the radar measures none.
+    /// The same as range, azimuth (within half a turn) and elevation. Elevation is 0 where the radar measures none.
     pub spherical: Vec<Spherical>,
 }
 
@@ -91,11 +91,10 @@ impl Coordinates {
         let value = |column: usize| f64::from(columns[column][row]);
         match self {
             Self::Cartesian { .. } => Spherical::from_cartesian(position),
-            Self::Spherical { range, azimuth, elevation } => Spherical {
-                range: value(range),
-                azimuth: value(azimuth),
-                elevation: elevation.map_or(0.0, value),
-            },
+            Self::Spherical { range, azimuth, elevation } => {
+                let elevation = elevation.map_or(0.0, value);
+                Spherical { range: value(range), azimuth: value(azimuth), elevation }.principal(position)
+            }
         }
     }
 }

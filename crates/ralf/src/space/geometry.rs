@@ -1,6 +1,7 @@
 //! Transforms and spherical coordinates (docs/method.md, section 1); the parent says which frames there are.
 
 use nalgebra::{Isometry3, Matrix3, Point3, Quaternion, Translation3, UnitQuaternion, Vector3};
+use std::f64::consts::{FRAC_PI_2, PI};
 
 /// A rigid transform, named by its direction: `a_from_b` takes points of frame b to frame a.
 pub type Transform = Isometry3<f64>;
@@ -32,6 +33,15 @@ impl Spherical {
         let range = p.coords.norm();
         let elevation = if range > 0.0 { (p.z / range).clamp(-1.0, 1.0).asin() } else { 0.0 };
         Self { range, azimuth: p.y.atan2(p.x), elevation: if range.is_nan() { f64::NAN } else { elevation } }
+    }
+
+    /// The same place in angles of at most half a turn, and a quarter of one up and down: radars tell azimuths of 0 to
+    /// 2 pi, too. What is such already, or isn't finite, keeps its bits; `position` is the place.
+    pub(crate) fn principal(self, position: &Point) -> Self {
+        // Half a turn in 32 bits is a little more than half a turn.
+        let is_other =
+            self.range < 0.0 || self.azimuth.abs() > PI + 1e-6 || self.elevation.abs() > FRAC_PI_2 + 1e-6;
+        if is_other { Self::from_cartesian(position) } else { self }
     }
 
     /// The point in the sensor's frame.
@@ -92,6 +102,23 @@ mod tests {
             prop_assert!((back.range - s.range).abs() < 1e-9);
             prop_assert!((back.azimuth - s.azimuth).abs() < 1e-9);
             prop_assert!((back.elevation - s.elevation).abs() < 1e-7);
+        }
+
+        #[test]
+        fn another_turn_or_a_range_below_zero_is_the_same_place(s in spherical()) {
+            let (half, whole) = (PI, 2.0 * PI);
+            let others = [
+                Spherical { azimuth: s.azimuth + whole, ..s },
+                Spherical { azimuth: s.azimuth - whole, ..s },
+                Spherical { range: -s.range, azimuth: s.azimuth + half, elevation: -s.elevation },
+            ];
+            for other in others {
+                let found = other.principal(&other.to_cartesian());
+                prop_assert!((found.range - s.range).abs() < 1e-9);
+                prop_assert!((found.azimuth - s.azimuth).abs() < 1e-9);
+                prop_assert!((found.elevation - s.elevation).abs() < 1e-7);
+            }
+            prop_assert_eq!(s.principal(&s.to_cartesian()), s);
         }
 
         #[test]

@@ -137,3 +137,24 @@ fn sidecars_need_the_tokens_of_nuscenes() {
         .says(["00: sample_data tokens: only a recording that is read from nuScenes' own tables has them"]);
     assert!(!std::fs::exists(&path).unwrap());
 }
+
+#[test]
+fn a_field_that_is_called_like_a_column_of_the_export_is_refused() {
+    for name in ["plausible", "sequence"] {
+        let dataset = Dataset::of(&Shape { scans: 1, ..Shape::default() });
+        let file = format!("{}/sequences/00/sequence.toml", dataset.path);
+        let text = fs::read_to_string(&file).unwrap();
+        let renamed = text.replace("\"rcs\"", &format!("\"{name}\""));
+        assert_ne!(renamed, text);
+        fs::write(&file, renamed).unwrap();
+        ralf(["label", &dataset.path, "-o", &dataset.out, "--no-check"]).exits(0);
+        for format in ["parquet", "npz"] {
+            let place = dataset.beside(format);
+            let told =
+                format!("expected fields of other names than those that the export adds, found `{name}`");
+            run(&dataset, format, &place, &["--sensors"]).exits(1).ends_with_error([told.as_str()]);
+            assert!(!fs::exists(&place).unwrap());
+        }
+        export(&dataset, "parquet", "plain", &[]);
+    }
+}
