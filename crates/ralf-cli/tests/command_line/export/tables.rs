@@ -152,7 +152,7 @@ fn a_field_that_is_called_like_a_column_of_the_export_is_refused() {
             let place = dataset.beside(format);
             let told =
                 format!("expected fields of other names than those that the export adds, found `{name}`");
-            run(&dataset, format, &place, &["--sensors"]).exits(1).ends_with_error([told.as_str()]);
+            super::run(&dataset, format, &place, &["--sensors"]).exits(1).ends_with_error([told.as_str()]);
             assert!(!fs::exists(&place).unwrap());
         }
         export(&dataset, "parquet", "plain", &[]);
