@@ -207,6 +207,8 @@ mod tests {
     fn a_run_without_any_of_the_scans_is_refused() {
         let folders = Folders::new();
         folders.put("dataset/sequences/00/ground_truth/front/000000.label", &[99]);
+        assert!(folders.refusal().ends_with("found no such folder"), "{}", folders.refusal());
+        fs::create_dir(folders.0.path().join("out")).unwrap();
         let error = folders.refusal();
         assert!(error.ends_with("expected labels of scans that have truth, found none"), "{error}");
     }
