@@ -3,7 +3,7 @@
 use crate::causes;
 use crate::error::{StoreError, WAIT_SECONDS, told};
 use crate::identity::journal;
-use crate::standing::check_corrections;
+use crate::standing::check_standing;
 use crate::tables::{self, APPLICATION, FIRST_VERSION, VERSION};
 use rusqlite::{Connection, ErrorCode, MAIN_DB, OpenFlags};
 use std::fs;
@@ -23,7 +23,7 @@ pub(crate) fn open(file: &Path) -> Result<Connection, StoreError> {
     let mut connection = Connection::open_with_flags(file, flags).map_err(told(file))?;
     let found = check(&connection, file)?;
     check_pages(&connection, file)?;
-    check_corrections(&connection, file)?;
+    check_standing(&connection, file, found)?;
     prepare(&connection).map_err(told(file))?;
     check_writable(&connection, file)?;
     if found == FIRST_VERSION {
@@ -93,7 +93,7 @@ pub(crate) fn open_read_only(file: &Path) -> Result<Connection, StoreError> {
     connection.busy_timeout(Duration::from_secs(WAIT_SECONDS)).map_err(told(file))?;
     let found = check(&connection, file)?;
     check_pages(&connection, file)?;
-    check_corrections(&connection, file)?;
+    check_standing(&connection, file, found)?;
     if found == VERSION { Ok(connection) } else { in_memory(&uri).map_err(told(file)) }
 }
 

@@ -2,8 +2,8 @@
 #![expect(clippy::unwrap_used, reason = "helpers of tests fail as tests do")]
 
 use ralf_corrections::{
-    ContentHash, Outcome, Reader, ScanContent, ScanEdit, ScanKey, ScanVersion, Store, StoreError, Stroke,
-    Who, read_layer,
+    ContentHash, Mark, Outcome, Reader, ScanContent, ScanEdit, ScanKey, ScanVersion, Store, StoreError,
+    Stroke, Who, read_layer,
 };
 use rusqlite::Connection;
 use std::fs;
@@ -128,6 +128,74 @@ fn damaged_pages_are_told_when_the_file_is_opened() {
     }
     fs::write(&folder.file, &whole[..whole.len() / 2]).unwrap();
     assert!(Store::open(&folder.file).is_err());
+}
+
+/// Pages are whole in all of these, and most of what is read from them, too.
+#[test]
+fn rows_that_are_missing_and_marks_that_no_step_has_given_are_told_when_the_file_is_opened() {
+    let marked = |detections: u16| Mark {
+        key: version(1, hash(1)).key,
+        content: hash(1),
+        base: 1,
+        machine: vec![99; usize::from(detections)],
+        reviewed: true,
+    };
+    for (damage, told) in [
+        ("DELETE FROM scan", "expected that all rows of scan are there that it names, found one missing"),
+        ("DELETE FROM event", "expected that all rows of event are there that it names, found one missing"),
+        ("DELETE FROM author", "expected that all rows of author are there that it names, found one missing"),
+        ("DELETE FROM mark WHERE id < 3", "expected that all rows of mark are there that it names"),
+        ("DELETE FROM stroke WHERE id = 1", "expected that all rows of stroke are there that it names"),
+        ("UPDATE stroke SET label = 10", "stroke 1: expected changes to its label (10), found one to 99"),
+        (
+            "DELETE FROM review",
+            "scan 00/front/1, mark of review: expected what the last step there says (1), found none",
+        ),
+        ("DELETE FROM review; DELETE FROM mark_change", "mark of review 1: expected a scan that has it"),
+        (
+            "INSERT INTO review VALUES (2, 1)",
+            "scan 00/front/2, mark of review: expected what the last step there says (none), found 1",
+        ),
+    ] {
+        let folder = Folder::new();
+        let mut store = Store::open(&folder.file).unwrap();
+        apply(&mut store, 1).unwrap();
+        apply(&mut store, 2).unwrap();
+        store.mark(&marked(10), &Who::named("ada")).unwrap();
+        drop(store);
+        drop(Store::open(&folder.file).unwrap());
+        let on = Connection::open(&folder.file).unwrap();
+        on.execute_batch(&format!("PRAGMA foreign_keys = OFF; {damage}")).unwrap();
+        drop(on);
+        let error = Store::open(&folder.file).err().unwrap_or_else(|| panic!("{damage}")).to_string();
+        assert!(error.starts_with(&folder.file.display().to_string()) && error.contains(told), "{error}");
+        assert!(Reader::open(&folder.file).is_err() && read_layer(&folder.file).is_err(), "{damage}");
+    }
+}
+
+/// What steps that are taken back leave is as whole as the rest.
+#[test]
+fn marks_that_come_and_go_leave_a_whole_store() {
+    for first_version in [false, true] {
+        let folder = Folder::new();
+        if first_version {
+            Connection::open(&folder.file).unwrap().execute_batch(FIRST).unwrap();
+        }
+        let who = Who::named("ada");
+        let steps = [Some(true), None, Some(true), Some(false), None, None, Some(false), Some(true), None];
+        for reviewed in steps {
+            let mut store = Store::open(&folder.file).unwrap();
+            let ScanVersion { key, .. } = version(4, None);
+            match reviewed {
+                Some(reviewed) => {
+                    let machine = vec![99; DETECTIONS as usize];
+                    store.mark(&Mark { key, content: None, base: 0, machine, reviewed }, &who).unwrap()
+                }
+                None => store.undo("00", &who).unwrap(),
+            };
+        }
+        drop(Store::open(&folder.file).unwrap());
+    }
 }
 
 /// Its pages are whole, and its checks by the database say so.
