@@ -4,10 +4,11 @@ use crate::cache::Cache;
 use crate::causes::CauseNames;
 use crate::contents::Contents;
 use crate::error::ReviewError;
-use crate::http::{Answer, ApiError, EditId, Person};
+use crate::http::{Answer, ApiError, EditId, Person, Served};
 use crate::labelled::{SequenceLabels, Stamp};
 use crate::options::Options;
-use crate::shared_store::SharedStore;
+use crate::place::folder_name;
+use crate::shared_store::{SharedStore, identity};
 use crate::team::Team;
 use ralf_corrections::{Outcome, Reader, ScanContent, ScanKey, ScanVersion, Store, StoreError, Who};
 use ralf_data::run::read_record;
@@ -77,6 +78,16 @@ impl App {
             news: watch::Sender::new(()),
             closing: watch::Sender::new(false),
         })
+    }
+
+    /// Which corrections these are.
+    pub(crate) fn served(&self) -> Result<Served, StoreError> {
+        let out = folder_name(&self.out);
+        let name = match &self.team.second {
+            Some(second) => format!("`{out}`, second labels of {second}"),
+            None => format!("`{out}`"),
+        };
+        Ok(Served { identity: self.store.read(identity)?, name })
     }
 
     /// Does work that reads files on a thread of its own.

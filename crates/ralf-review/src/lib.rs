@@ -29,6 +29,7 @@ mod labelled;
 mod need;
 mod options;
 mod page;
+mod place;
 mod reading;
 mod routes;
 mod server;

@@ -46,7 +46,7 @@ impl Server {
         let token = Token::of(out, options.token_folder.as_deref())?;
         let named = addresses::reachable(&options.host, address);
         let urls = named.into_iter().map(|name| format!("http://{name}/?token={}", token.digits())).collect();
-        let guard = Guard::new(&options.host, address, token);
+        let guard = Guard::new(&options.host, address, token, app.served()?);
         let runtime = Builder::new_current_thread().enable_all().max_blocking_threads(READERS).build();
         let runtime = runtime.map_err(ReviewError::system("threads"))?;
         Ok(Self { app: Arc::new(app), guard: Arc::new(guard), listener, runtime, urls })

@@ -1,5 +1,6 @@
 //! The corrections, for many requests at once: one writes at a time, and nobody who reads waits for it.
 
+use crate::place;
 use ralf_corrections::{Outcome, Reader, Store, StoreError};
 use std::path::Path;
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -72,6 +73,11 @@ impl SharedStore {
             Writer::ReadOnly(_) => Ok(()),
         }
     }
+}
+
+/// What no other corrections have: the store's own name, and where it lies, for a folder may be copied with its store.
+pub(crate) fn identity(store: &Reader) -> Result<String, StoreError> {
+    Ok(format!("{}-{}", store.id()?, place::digits(store.file())))
 }
 
 /// What a mutex holds. Who panicked with it has written nothing: its transaction is rolled back.

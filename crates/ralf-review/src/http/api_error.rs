@@ -23,6 +23,8 @@ pub(crate) enum ApiError {
     Method,
     /// Somebody else's edit came first (409): the sentence, and what else is told.
     Conflict(String, Map<String, Value>),
+    /// It is for other corrections than those that are served (412).
+    Elsewhere(String),
     /// Its body is too large (413).
     TooLarge(String),
     /// A file can't be read or written (500).
@@ -43,6 +45,7 @@ impl ApiError {
             Self::Unknown(sentence) => (StatusCode::NOT_FOUND, sentence),
             Self::Method => (StatusCode::METHOD_NOT_ALLOWED, "the address knows no such method".to_owned()),
             Self::Conflict(sentence, more) => return (StatusCode::CONFLICT, sentence, more),
+            Self::Elsewhere(sentence) => (StatusCode::PRECONDITION_FAILED, sentence),
             Self::TooLarge(sentence) => (StatusCode::PAYLOAD_TOO_LARGE, sentence),
             Self::Broken(sentence) => (StatusCode::INTERNAL_SERVER_ERROR, sentence),
         };

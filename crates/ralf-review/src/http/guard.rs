@@ -1,5 +1,5 @@
-//! Who may ask: requests for another host, from another origin or without the token are refused; and the
-//! headers of every answer, which forbid the page to load anything but its own.
+//! Who may ask: requests for another host, from another origin, without the token or for other corrections are
+//! refused; and the headers of every answer, which forbid the page to load anything but its own.
 
 use super::{ApiError, Token};
 use axum::extract::{Request, State};
@@ -27,11 +27,20 @@ pub(crate) struct Guard {
     hosts: Option<Vec<String>>,
     /// Asked for by all but the page itself.
     token: Token,
+    served: Served,
+}
+
+/// The corrections that are served.
+pub(crate) struct Served {
+    /// What no others have.
+    pub(crate) identity: String,
+    /// For people.
+    pub(crate) name: String,
 }
 
 impl Guard {
     /// For a server that listens at `address`, which was asked for by the name `host`.
-    pub(crate) fn new(host: &str, address: SocketAddr, token: Token) -> Self {
+    pub(crate) fn new(host: &str, address: SocketAddr, token: Token, served: Served) -> Self {
         let ip = address.ip();
         let names: &[&str] = if ip.is_loopback() { &["localhost", "127.0.0.1", "[::1]"] } else { &[host] };
         let port = address.port();
@@ -41,7 +50,7 @@ impl Guard {
             // Browsers leave it out.
             hosts.extend(names.iter().map(|name| (*name).to_owned()));
         }
-        Self { hosts: (!ip.is_unspecified()).then_some(hosts), token }
+        Self { hosts: (!ip.is_unspecified()).then_some(hosts), token, served }
     }
 
     fn check(&self, path: &str, headers: &HeaderMap) -> Result<(), ApiError> {
@@ -69,13 +78,22 @@ impl Guard {
                 "Sec-Fetch-Site: expected same-origin, found `{found}`"
             )));
         }
-        if self.token.is_in(text(header::AUTHORIZATION).unwrap_or("")) {
+        if !self.token.is_in(text(header::AUTHORIZATION).unwrap_or("")) {
+            return Err(ApiError::Unauthorized(
+                "Authorization: expected `Bearer` and the token of the address that `ralf review` printed, found another"
+                    .into(),
+            ));
+        }
+        self.check_meant(text(HeaderName::from_static("x-ralf-store")))
+    }
+
+    /// Refuses who means other corrections: a page that was opened while another server was here.
+    fn check_meant(&self, meant: Option<&str>) -> Result<(), ApiError> {
+        if meant.is_none_or(|meant| meant == self.served.identity) {
             return Ok(());
         }
-        Err(ApiError::Unauthorized(
-            "Authorization: expected `Bearer` and the token of the address that `ralf review` printed, found another"
-                .into(),
-        ))
+        let name = &self.served.name;
+        Err(ApiError::Elsewhere(format!("corrections: expected those of the page, found those of {name}")))
     }
 }
 
@@ -105,7 +123,8 @@ mod tests {
     fn guard(host: &str, address: &str) -> (Guard, String) {
         let token = Token::new().unwrap();
         let bearer = format!("Bearer {}", token.digits());
-        (Guard::new(host, address.parse().unwrap(), token), bearer)
+        let served = Served { identity: "these".into(), name: "out".into() };
+        (Guard::new(host, address.parse().unwrap(), token, served), bearer)
     }
 
     fn passes(guard: &Guard, path: &str, pairs: &[(&'static str, &str)]) -> bool {
@@ -148,7 +167,12 @@ mod tests {
             assert!(passes(&guard, "/assets/page.js", &[host]));
             assert!(!passes(&guard, "/api/recording", &[host]));
             assert!(!passes(&guard, "/api/recording", &[host, ("authorization", "Bearer 0")]));
-            assert!(passes(&guard, "/api/recording", &[host, ("authorization", &bearer)]));
+            let with_token = [host, ("authorization", bearer.as_str())];
+            assert!(passes(&guard, "/api/recording", &with_token));
+            for (store, passed) in [("these", true), ("others", false), ("", false)] {
+                let asked = [&with_token[..], &[("x-ralf-store", store)]].concat();
+                assert_eq!(passes(&guard, "/api/recording", &asked), passed, "{store}");
+            }
         }
     }
 }

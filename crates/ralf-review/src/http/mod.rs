@@ -10,7 +10,7 @@ mod token;
 pub(crate) use api_error::ApiError;
 pub use extract::MAX_BODY;
 pub(crate) use extract::{Asked, Body, Place};
-pub(crate) use guard::{Guard, guard};
+pub(crate) use guard::{Guard, Served, guard};
 pub(crate) use person::{EditId, Person};
 pub(crate) use table::Table;
 pub(crate) use token::Token;

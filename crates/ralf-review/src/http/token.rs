@@ -1,6 +1,7 @@
 //! The secret that is asked for: others may work on the same machine, or reach it.
 
 use crate::error::ReviewError;
+use crate::place;
 use std::fmt::Write as _;
 use std::fs::{self, OpenOptions};
 use std::io::{self, Write as _};
@@ -18,9 +19,7 @@ impl Token {
     /// server is started again. A new one where there is none, and where none can be kept.
     pub(crate) fn of(out: &Path, folder: Option<&Path>) -> Result<Self, ReviewError> {
         let Some(folder) = folder else { return Self::new() };
-        let out = out.canonicalize().unwrap_or_else(|_| out.to_owned());
-        let name = blake3::hash(out.as_os_str().as_encoded_bytes()).to_hex();
-        let file = folder.join(&name[..DIGITS]);
+        let file = folder.join(place::digits(out));
         if let Some(kept) = fs::read_to_string(&file).ok().and_then(|text| Self::from_digits(text.trim())) {
             return Ok(kept);
         }

@@ -5,6 +5,8 @@ use crate::app::App;
 use crate::causes::sayable;
 use crate::http::{Answer, json};
 use crate::labelled::is_labelled;
+use crate::place::folder_name;
+use crate::shared_store;
 use ralf::config::Method;
 use ralf::label::{class_name, cluster_of, flag, truth_of};
 use ralf_data::SequenceReader;
@@ -29,8 +31,6 @@ const LAST_CLASS: u16 = 259;
 
 /// The recording's sequences with all that they can be asked for.
 pub(crate) fn recording(app: &App) -> Answer {
-    let name =
-        |path: &std::path::Path| path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned();
     let sequences: Vec<Value> =
         app.recording.sequences.iter().map(|reader| sequence(app, reader.as_ref())).collect();
     let settings = read_record(&app.out)?.settings.method;
@@ -42,12 +42,12 @@ pub(crate) fn recording(app: &App) -> Answer {
     let flag = |(bit, name): &(u16, &str)| json!({ "bit": bit, "name": name, "decided": bit & decided != 0 });
     let flags: Vec<Value> = FLAGS.iter().map(flag).collect();
     json(&json!({
-        "dataset": name(&app.recording.path),
-        "out": name(&app.out),
+        "dataset": folder_name(&app.recording.path),
+        "out": folder_name(&app.out),
         "author": app.author,
         "second": app.team.second,
         "people": app.team.people(),
-        "store": app.said(ralf_corrections::Reader::id)?,
+        "store": app.said(shared_store::identity)?,
         "read_only": app.store.read_only(),
         "threshold": settings.fusion.threshold,
         "sequences": sequences,

@@ -94,6 +94,43 @@ fn a_server_that_is_started_again_keeps_its_token() {
     assert_eq!(bind(), bind());
 }
 
+/// The name of the corrections that are served.
+fn store(server: &Serving) -> String {
+    server.get("/api/recording").json()["store"].as_str().unwrap().to_owned()
+}
+
+#[test]
+fn what_a_page_of_other_corrections_asks_for_is_refused() {
+    let out = Out::new();
+    let first = out.serve();
+    let own = store(&first);
+    first.stroke(1, 0, Some(99), &[0]).json();
+    first.end();
+    // The same folder once more: its corrections have the same name of their own.
+    let copied = Out::copy_of(out.path());
+    let others = [Serving::second(out.path(), "bob").unwrap(), copied.serve()];
+    let path = format!("/api/sequences/{SEQUENCE}/strokes");
+    for (server, name) in others.iter().zip(["second labels of bob", "`"]) {
+        assert_ne!(store(server), own);
+        let asked = |revision: u64, store: &str| {
+            let head = [("Content-Type", "application/json"), ("X-Ralf-Store", store)];
+            let body = stroke(1, revision, Some(99), &[1]).to_string();
+            server.ask("POST", &path, &head, body.as_bytes())
+        };
+        let revision = server.table(1).header["revision"].as_u64().unwrap();
+        let sentence = asked(revision, &own).refused(412);
+        assert!(
+            sentence.starts_with("corrections: expected those of the page, found those of `"),
+            "{sentence}"
+        );
+        assert!(sentence.ends_with(name), "{sentence}");
+        assert_eq!(server.ask("GET", "/api/recording", &[("X-Ralf-Store", &own)], &[]).status, 412);
+        assert_eq!(server.table(1).header["revision"], revision, "nothing was written");
+        asked(revision, &store(server)).json();
+    }
+    assert_eq!(store(&out.serve()), own, "served again, they are the same");
+}
+
 #[test]
 fn nothing_but_the_recording_can_be_read() {
     let out = Out::new();

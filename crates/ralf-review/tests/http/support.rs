@@ -59,8 +59,13 @@ pub(crate) struct Out {
 
 impl Out {
     pub(crate) fn new() -> Self {
+        Self::copy_of(&MADE.folder.path().join("out"))
+    }
+
+    /// All that lies in such a folder, in another one.
+    pub(crate) fn copy_of(out: &Path) -> Self {
         let folder = tempfile::tempdir().unwrap();
-        copy(&MADE.folder.path().join("out"), folder.path());
+        copy(out, folder.path());
         Self { folder }
     }
 

@@ -42,17 +42,18 @@ import { Viewport } from "./viewer/viewport.js";
 
 async function start(): Promise<void> {
   const session = openSession();
-  const api = new Api(session);
-  const recording = await api.recording();
+  const recording = await new Api(session, null).recording();
+  const api = new Api(session, recording.store);
   const store = new Store(initialState(recording, recording.second ?? session.name() ?? recording.author));
   keepPreferences(store);
   deriveAlways(store);
   const keeper = await openKeeper(recording.store, randomName).catch(keepNothing);
   const actions = actionsOn({ store, api, session, loader: new Loader(api) }, keeper);
   build({ store, actions });
-  document.title = `${recording.dataset} · RALF review`;
+  document.title = `${recording.dataset} · ${recording.out} · RALF review`;
   window.addEventListener("beforeunload", (event) => {
-    if (store.state.waiting.length > 0) event.preventDefault();
+    // What waits for other corrections than are served here is kept until those are back, whatever the page does.
+    if (store.state.waiting.length > 0 && store.state.link.kind !== "elsewhere") event.preventDefault();
   });
   // Who works with others is asked once who it is, before anything is opened: each has sequences of its own.
   if (recording.people.length > 0 && recording.second === null && session.name() === null) {

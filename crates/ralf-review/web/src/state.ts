@@ -13,6 +13,7 @@ import type {
   ScanId,
   Workday,
 } from "./api/types.js";
+import type { Link } from "./api/errors.js";
 import type { Kind } from "./api/kinds.js";
 import type { AreaKind, Home } from "./data/area.js";
 import type { CameraMoment } from "./data/camera-moment.js";
@@ -153,8 +154,7 @@ export interface State {
   readonly history: History;
   readonly outbox: OutboxStatus;
   readonly waiting: readonly Pending[];
-  /** False while nobody answers. */
-  readonly connected: boolean;
+  readonly link: Link;
   /** True while an undo, redo or mark is under way. */
   readonly busy: boolean;
   readonly notice: Notice | null;
@@ -182,7 +182,7 @@ const NOTHING_DONE = {
   history: NO_HISTORY,
   outbox: { kind: "idle" },
   waiting: [],
-  connected: true,
+  link: { kind: "fine" },
   busy: false,
   notice: null,
   dialog: "none",

@@ -162,7 +162,7 @@ export class Correcting {
 
   private saved({ sequence, stroke }: Pending, answer: StrokeAnswer): void {
     const { store } = this.world;
-    store.set({ connected: true });
+    store.set({ link: { kind: "fine" } });
     if (sequence === store.state.sequence) store.set({ history: answer.history });
     this.adopting.adopt(sequence, answer.scans).catch((error: unknown) => complain(this.world, error));
     const asked = stroke.points.reduce((sum, { points }) => sum + points.length, 0);
@@ -177,7 +177,7 @@ export class Correcting {
 
   private heed(status: OutboxStatus, waiting: readonly Pending[]): void {
     const { store } = this.world;
-    store.set({ outbox: status, waiting, connected: status.kind === "gone" ? false : store.state.connected });
+    store.set({ outbox: status, waiting, link: status.kind === "gone" ? status.link : store.state.link });
     if (status.kind === "conflict")
       this.meetConflict(status.pending, status).catch((error: unknown) => complain(this.world, error));
   }

@@ -1,6 +1,6 @@
 /** Hears of what others change, and of the server's coming and going. */
 
-import { ServerGone } from "../api/errors.js";
+import { Elsewhere, linkAfter, ServerGone } from "../api/errors.js";
 import type { Changes } from "../api/types.js";
 import { sameScan } from "../data/scan.js";
 import type { Adopting } from "./adopting.js";
@@ -37,7 +37,7 @@ export class Hearing {
     let since: number | null = null;
     while (!ended.aborted) {
       const poll = pollWhileSeen(ended);
-      let woken = false;
+      let [woken, answered] = [false, false];
       this.wake = () => {
         woken = true;
         poll.stop();
@@ -45,16 +45,16 @@ export class Hearing {
       try {
         await seen();
         const changes: Changes = await this.world.api.changes(sequence, since, { signal: poll.signal });
-        since = changes.counter;
+        [since, answered] = [changes.counter, true];
         await this.reconnected(sequence);
         await this.take(sequence, changes);
       } catch (error) {
         if (poll.signal.aborted) continue;
-        if (error instanceof ServerGone) {
-          since = null;
-          this.world.store.set({ connected: false });
-        } else {
+        if (answered && this.world.store.state.link.kind === "fine" && !isAway(error)) {
           complain(this.world, error);
+        } else {
+          since = null;
+          this.world.store.set({ link: linkAfter(error) });
         }
         await pause(PATIENCE_MS);
       } finally {
@@ -70,9 +70,9 @@ export class Hearing {
   /** The server is back: what others did meanwhile is read, and what wasn't saved is tried again. */
   private async reconnected(sequence: string): Promise<void> {
     const { store, api } = this.world;
-    if (store.state.connected) return;
+    if (store.state.link.kind === "fine") return;
     const [queue, history] = await Promise.all([api.queue(sequence), api.history(sequence)]);
-    store.set({ connected: true, scans: queue.scans, progress: queue.progress, history });
+    store.set({ link: { kind: "fine" }, scans: queue.scans, progress: queue.progress, history });
     await this.adopting.reread(sequence, store.state.cloud.scans);
     await this.correcting.retry();
   }
@@ -92,6 +92,11 @@ export class Hearing {
     if (here !== undefined)
       tell(this.world, `${here.author} changed this scan in another window; you see the newer state.`);
   }
+}
+
+/** Whether no server is there, or another one. */
+function isAway(error: unknown): boolean {
+  return error instanceof ServerGone || error instanceof Elsewhere;
 }
 
 /** A browser has few connections to a server for all of its tabs: one that isn't seen must not hold one. */

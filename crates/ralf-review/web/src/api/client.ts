@@ -1,6 +1,6 @@
 /** The server's interface, typed; every failure is one of `errors.ts` or an abort. */
 
-import { Conflict, Refused, ServerGone, TokenMissing } from "./errors.js";
+import { Conflict, Elsewhere, Refused, ServerGone, TokenMissing } from "./errors.js";
 import type { Kinds } from "./kinds.js";
 import type { Session } from "./session.js";
 import { decodeTable, type Table } from "./table.js";
@@ -40,7 +40,11 @@ export interface Near {
 }
 
 export class Api {
-  constructor(private readonly session: Session) {}
+  /** `store`: the corrections that are meant by all that is asked; `null` before it is known which are served. */
+  constructor(
+    private readonly session: Session,
+    private readonly store: string | null,
+  ) {}
 
   recording(): Promise<Recording> {
     return this.json("GET", "recording");
@@ -192,6 +196,7 @@ export class Api {
     const [token, name] = [this.session.token(), this.session.name()];
     if (token !== null) headers.set("Authorization", `Bearer ${token}`);
     if (name !== null) headers.set("X-Ralf-Name", encodeURIComponent(name));
+    if (this.store !== null) headers.set("X-Ralf-Store", this.store);
     if (body !== undefined) headers.set("Content-Type", "application/json");
     const request: RequestInit = { method, headers, cache: "no-store", signal: call?.signal ?? null };
     if (body !== undefined) request.body = JSON.stringify(body);
@@ -220,6 +225,7 @@ async function failure(answer: Response): Promise<Error> {
   const body = (await answer.json().catch(() => null)) as Partial<ConflictBody> | null;
   const message = body?.error ?? `the server answered ${answer.status}`;
   if (answer.status === 401) return new TokenMissing();
+  if (answer.status === 412) return new Elsewhere(message);
   if (answer.status !== 409) return new Refused(answer.status, message);
   const stale = body?.stale === true;
   return new Conflict({ error: message, conflict: body?.conflict ?? null, stale, scans: body?.scans ?? [] });

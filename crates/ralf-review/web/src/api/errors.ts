@@ -24,11 +24,31 @@ export class TokenMissing extends Refused {
   }
 }
 
+/** Other corrections are served here than those that the page was opened on: nothing was written. */
+export class Elsewhere extends Refused {
+  constructor(message: string) {
+    super(412, message);
+  }
+}
+
 /** Somebody else changed the same scan first; nothing was written. */
 export class Conflict extends Error {
   constructor(readonly body: ConflictBody) {
     super(body.error);
   }
+}
+
+/** Whether the server answers, and does so for the corrections of this page. */
+export type Link =
+  | { readonly kind: "fine" }
+  | { readonly kind: "gone" }
+  | { readonly kind: "elsewhere"; readonly message: string }
+  /** It can't read the corrections, so that nothing is saved any more. */
+  | { readonly kind: "broken"; readonly message: string };
+
+export function linkAfter(error: unknown): Link {
+  if (error instanceof ServerGone) return { kind: "gone" };
+  return { kind: error instanceof Elsewhere ? "elsewhere" : "broken", message: messageOf(error) };
 }
 
 export function messageOf(error: unknown): string {

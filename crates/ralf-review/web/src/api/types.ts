@@ -49,7 +49,7 @@ export interface Recording {
   readonly second: string | null;
   /** Who works on these labels, where somebody has said so. */
   readonly people: readonly string[];
-  /** Of the corrections: another store has another one. */
+  /** Of the corrections: another store has another one, and so has a copy of it. */
   readonly store: string;
   /** Why nothing can be corrected; `null` where it can. */
   readonly read_only: string | null;

@@ -9,8 +9,6 @@ import type { Pending } from "./outbox.js";
 const DATABASE = "ralf-review";
 const STROKES = "strokes";
 const WINDOW = "ralf-window";
-/** Where an earlier version kept them, as far as they fitted. */
-const BEFORE = "ralf-unsaved-strokes";
 
 interface Kept {
   /** The stroke's own name. */
@@ -31,11 +29,11 @@ export interface Keeper {
 
 export async function openKeeper(store: string, freshName: () => string): Promise<Keeper> {
   const own = ownWindow(freshName);
-  const [database, closed] = [await opened(), await closedWindows(own)];
+  const [database, closed] = [await opened(), await closedWindows(store, own)];
   const all = await answered<Kept[]>(database.transaction(STROKES).objectStore(STROKES).getAll());
   const mine = all.filter((kept) => kept.store === store && (kept.window === own || closed(kept.window)));
   mine.sort((a, b) => a.order - b.order);
-  const found = [...mine.map(({ pending }) => pending), ...fromBefore(freshName)];
+  const found = mine.map(({ pending }) => pending);
   const written = new Map(mine.map(({ id, order, pending }) => [id, { order, pending }]));
   let last = mine.at(-1)?.order ?? 0;
   const keep = async (waiting: readonly Pending[]): Promise<void> => {
@@ -56,7 +54,6 @@ export async function openKeeper(store: string, freshName: () => string): Promis
       written.set(id, { order, pending });
     }
     await ended(transaction);
-    sessionStorage.removeItem(BEFORE);
   };
   return { found, keep };
 }
@@ -76,23 +73,17 @@ function ownWindow(freshName: () => string): string {
 }
 
 /**
- * Which windows are closed; where the browser doesn't say (not on this machine's own address), none is taken for
+ * Which windows on these corrections are closed, or on others now; where the browser doesn't say (not on this machine's own address), none is taken for
  * closed.
  */
-async function closedWindows(own: string): Promise<(window: string) => boolean> {
+async function closedWindows(store: string, own: string): Promise<(window: string) => boolean> {
   if (navigator.locks === undefined) return () => false;
+  const lock = (window: string): string => `${WINDOW} ${store} ${window}`;
   // Held as long as the window is open.
-  void navigator.locks.request(`${WINDOW} ${own}`, () => new Promise(() => undefined));
+  void navigator.locks.request(lock(own), () => new Promise(() => undefined));
   const { held } = await navigator.locks.query();
   const open = new Set(held?.map(({ name }) => name));
-  return (window) => !open.has(`${WINDOW} ${window}`);
-}
-
-function fromBefore(freshName: () => string): readonly Pending[] {
-  const text = sessionStorage.getItem(BEFORE);
-  if (text === null) return [];
-  const kept = JSON.parse(text) as readonly Pending[];
-  return kept.map(({ sequence, stroke }) => ({ sequence, stroke: { ...stroke, id: stroke.id ?? freshName() } }));
+  return (window) => !open.has(lock(window));
 }
 
 function opened(): Promise<IDBDatabase> {

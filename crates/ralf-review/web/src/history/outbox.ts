@@ -5,7 +5,7 @@
  * is sent again.
  */
 
-import { Conflict, messageOf, ServerGone } from "../api/errors.js";
+import { Conflict, Elsewhere, type Link, linkAfter, messageOf, ServerGone } from "../api/errors.js";
 import type {
   BaseRevision,
   ConflictBody,
@@ -24,7 +24,8 @@ export interface Pending {
 export type OutboxStatus =
   | { readonly kind: "idle" }
   | { readonly kind: "saving" }
-  | { readonly kind: "gone" }
+  /** Nobody is there who could save it. */
+  | { readonly kind: "gone"; readonly link: Link }
   | { readonly kind: "refused"; readonly message: string }
   | { readonly kind: "conflict"; readonly body: ConflictBody; readonly pending: Pending };
 
@@ -46,7 +47,7 @@ export class Outbox {
     kept: readonly Pending[] = [],
   ) {
     this.waiting = kept;
-    this.say(kept.length === 0 ? { kind: "idle" } : { kind: "gone" });
+    this.say(kept.length === 0 ? { kind: "idle" } : { kind: "gone", link: { kind: "gone" } });
   }
 
   get idle(): boolean {
@@ -128,7 +129,7 @@ function together(first: Pending, other: Pending): boolean {
 
 function statusAfter(error: unknown, pending: Pending): OutboxStatus {
   if (error instanceof Conflict) return { kind: "conflict", body: error.body, pending };
-  if (error instanceof ServerGone) return { kind: "gone" };
+  if (error instanceof ServerGone || error instanceof Elsewhere) return { kind: "gone", link: linkAfter(error) };
   return { kind: "refused", message: messageOf(error) };
 }
 

@@ -9,30 +9,41 @@ import { keyButton } from "./buttons.js";
 
 export function banner({ store, actions }: Page): HTMLElement {
   const text = h("span", { class: "banner-text" });
+  const reload = keyButton("Load the page again", "", () => location.reload());
   const retry = keyButton("Try again", "", () => void actions.correct.retry());
   const drop = keyButton("Drop the stroke", "", () => void actions.correct.dropWaiting(), "quiet");
-  const bar = h("div", { class: "banner", role: "alert" }, text, retry, drop);
+  const bar = h("div", { class: "banner", role: "alert" }, text, reload, retry, drop);
   store.watch(
-    ({ outbox, waiting, connected, recording, progress }) => [outbox, waiting, connected, recording, progress],
+    ({ outbox, waiting, link, recording, progress }) => [outbox, waiting, link, recording, progress],
     () => {
+      const { link, waiting } = store.state;
       const said = trouble(store.state);
       bar.hidden = said === null;
-      bar.classList.toggle("quiet", store.state.connected && store.state.waiting.length === 0);
+      bar.classList.toggle("quiet", link.kind === "fine" && waiting.length === 0);
       say(text, said ?? "");
-      retry.hidden = store.state.waiting.length === 0;
-      drop.hidden = store.state.waiting.length === 0;
+      reload.hidden = link.kind !== "elsewhere";
+      retry.hidden = waiting.length === 0 || link.kind === "elsewhere";
+      drop.hidden = waiting.length === 0;
     },
   );
   return bar;
 }
 
-function trouble({ outbox, waiting, connected, recording, progress }: Readonly<State>): string | null {
+/** What is wrong, if anything is. */
+export function trouble({ outbox, waiting, link, recording, progress }: Readonly<State>): string | null {
+  const unsaved = counted(waiting.length, "stroke");
+  if (link.kind === "elsewhere") {
+    const kept =
+      waiting.length === 0 ? "" : ` ${unsaved} not saved; kept in this browser until theirs are served here again.`;
+    return `Another recording or output is served here now (${link.message}): nothing of this page is saved there.${kept}`;
+  }
   if (outbox.kind === "refused") return `The server refused a stroke: ${outbox.message}`;
-  if (outbox.kind !== "gone" && connected) return standing(recording, progress);
+  if (link.kind === "broken") return link.message;
+  if (outbox.kind !== "gone" && link.kind === "fine") return standing(recording, progress);
   const kept =
     waiting.length === 0
       ? "Nothing is unsaved."
-      : `${counted(waiting.length, "stroke")} not saved; kept in this window and sent when it is back.`;
+      : `${unsaved} not saved; kept in this window and sent when it is back.`;
   return `The server does not answer. ${kept} Is ralf review still running?`;
 }
 

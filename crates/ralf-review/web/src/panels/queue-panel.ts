@@ -165,7 +165,7 @@ function head({ store, actions }: Page): HTMLElement {
     { class: "brand", title: `${dataset}, labels in ${out}` },
     h("strong", {}, "RALF"),
     h("span", {}, "review"),
-    h("span", { class: "faint" }, dataset),
+    h("span", { class: "faint" }, `${dataset} · ${out}`),
   );
   return h("header", { class: "queue-head" }, brand, sequenceList({ store, actions }), bar, text);
 }

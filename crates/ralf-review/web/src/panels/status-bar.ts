@@ -26,7 +26,7 @@ export function statusBar(page: Page): HTMLElement {
 function saving({ store }: Page): HTMLElement {
   const saved = h("span", { class: "saved", role: "status", "aria-live": "polite" });
   store.watch(
-    ({ outbox, waiting, busy, history: past, connected }) => [outbox, waiting, busy, past, connected],
+    ({ outbox, waiting, busy, history: past, link }) => [outbox, waiting, busy, past, link],
     () => {
       const [text, look] = savedState(store.state);
       say(saved, text);
@@ -118,7 +118,7 @@ export function savedState({
   outbox,
   waiting,
   busy,
-  connected,
+  link,
   recording,
 }: Readonly<State>): readonly [text: string, look: string] {
   if (recording.read_only !== null) return ["read-only", "pending"];
@@ -126,7 +126,8 @@ export function savedState({
   if (outbox.kind === "gone" || outbox.kind === "refused")
     return [`${counted(waiting.length, "stroke")} not saved`, "alarm"];
   if (outbox.kind === "saving" || busy) return ["saving…", "pending"];
-  return connected ? ["saved", "fine"] : ["offline", "alarm"];
+  if (link.kind === "fine") return ["saved", "fine"];
+  return [link.kind === "gone" ? "offline" : "nothing is saved", "alarm"];
 }
 
 function workText({ selection, armed, labels, tool, cloud }: Readonly<State>): string {

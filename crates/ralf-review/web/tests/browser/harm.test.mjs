@@ -195,6 +195,36 @@ test("a store that is deleted is told, and nothing is called saved", async (cont
   clean(tab, BROKEN);
 });
 
+test("a page writes nothing into other corrections that are served in place of its own, and its strokes wait", async (context) => {
+  const [out, other] = [await freshOut(context), await freshOut(context)];
+  const server = await serve(context, out);
+  const own = await anotherBrowser(context, browser);
+  const tab = await open(context, browser, server, own);
+  const { page } = tab;
+  await server.kill("SIGKILL");
+  await pickAndSet(page, "a");
+  await says(status(page), "1 stroke not saved");
+  const second = await serve(context, out, { port: server.port, second: "bob" });
+  await says(page.locator(".banner"), "`out`, second labels of bob");
+  await pickAndSet(page, "a");
+  await says(status(page), "2 strokes not saved");
+  await second.kill("SIGKILL");
+  // Other labels have another token, with which a window of theirs comes.
+  const elsewhere = await serve(context, other, { port: server.port });
+  const theirs = await open(context, browser, elsewhere, own);
+  await says(theirs.page.locator(".brand"), "out");
+  await says(page.locator(".banner"), "Another recording or output is served here now");
+  await page.locator(".banner button", { hasText: "Load the page again" }).click();
+  await ready(page);
+  await says(status(page), /^saved$/);
+  assert.equal((await historyOf(elsewhere, page)).undo_depth, 0);
+  await elsewhere.kill("SIGKILL");
+  const back = await serve(context, out, { port: server.port });
+  const next = await open(context, browser, back, own);
+  await says(next.page.locator(".status-bar"), "undo 2");
+  clean(next, GONE);
+});
+
 /** Chooses a detection by keyboard, and gives it a label. */
 async function pickAndSet(page, key) {
   await page.keyboard.press("d");
