@@ -2,10 +2,16 @@
 
 import { type Cloud, gather } from "../data/cloud.js";
 import { type Certainty, isUncertain } from "../data/filter.js";
+import type { State } from "../state.js";
 
 export type Marks = Uint8Array;
 
 export const Mark = { plain: 0, uncertain: 1, corrected: 2, selected: 3, context: 4, hidden: 5, waiting: 6 } as const;
+
+/** What strokes may change; beside what a question or a disagreement is about everything else is faint. */
+export function nearOf({ kind, disputed, eligible, selection }: Readonly<State>): Uint8Array {
+  return kind === null && disputed === null ? eligible : selection;
+}
 
 /** One mark per detection; the strongest that holds. */
 export function marksOf(

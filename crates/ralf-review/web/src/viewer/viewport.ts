@@ -11,7 +11,7 @@ import { Surface } from "../selection/surface.js";
 import type { Gesture } from "../selection/tools.js";
 import { cleared, drawAreas, drawBrushCursor, drawGesture, drawHover } from "./drawing.js";
 import { certaintyOf } from "../data/filter.js";
-import { marksOf } from "./marks.js";
+import { marksOf, nearOf } from "./marks.js";
 import { navigate } from "./navigate.js";
 import { around, panned, type Rig } from "./rig.js";
 import { drawAxes, drawRingLabels, drawScaleBar } from "./scale.js";
@@ -98,19 +98,10 @@ export class Viewport {
       },
     );
     store.watch(
-      ({ cloud, shown, eligible, selection, waiting, kind }) => [
-        cloud,
-        shown,
-        eligible,
-        selection,
-        waiting,
-        kind === null,
-      ],
-      (cloud, shown, eligible, selection, strokes, nothingAsked) => {
+      (state) => [state.cloud, state.shown, nearOf(state), state.selection, state.waiting],
+      (cloud, shown, near, selection, strokes) => {
         if (shown.length !== cloud.count || selection.length !== cloud.count) return;
         const waiting = maskOf(cloud, pointsOf(strokes));
-        // Beside what is asked about everything else is faint.
-        const near = nothingAsked ? eligible : selection;
         view.radar.setMarks(marksOf(cloud, { shown, near, selection, waiting }, certaintyOf(store.state.recording)));
         this.changed();
       },

@@ -19,6 +19,7 @@ import { outlookOf } from "../../src/data/team.js";
 import { deriveAlways } from "../../src/derive.js";
 import { initialState, lookedAt, type State } from "../../src/state.js";
 import { Store } from "../../src/store.js";
+import { nearOf } from "../../src/viewer/marks.js";
 import { recordingOf, sequence } from "./recordings.js";
 import { made } from "./scans.js";
 
@@ -71,7 +72,7 @@ class Table {
       this.settled.push(points);
       return Promise.resolve(false);
     };
-    const correct = { settle, free: () => true } as unknown as Correcting;
+    const correct = { settle, free: () => Promise.resolve(true) } as unknown as Correcting;
     this.settling = new Settling(world, go, correct);
     this.selecting = new Selecting(world, correct, {} as Thinging, this.settling, {} as Kinding);
     this.ruling = new Ruling(world, go, this.selecting, correct);
@@ -168,6 +169,13 @@ test("a disagreement that is hidden when it comes is selected once it is shown",
   assert.equal(outlookOf(DISPUTED, table.store.state).unshown, 3);
   table.settling.showAll();
   assert.deepEqual([...table.store.state.selection], [1, 1, 0, 1, 0]);
+});
+
+test("beside a disagreement everything else is faint, as beside a question", async () => {
+  const { store } = await looking();
+  assert.deepEqual([...nearOf(store.state)], [1, 1, 0, 1, 0]);
+  store.set({ disputed: null });
+  assert.deepEqual([...nearOf(store.state)], [1, 1, 1, 1, 1]);
 });
 
 test("a disagreement is what is looked at, as a thing is", async () => {
