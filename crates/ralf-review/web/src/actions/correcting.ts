@@ -9,7 +9,7 @@ import type { ReplayPart } from "../data/replay.js";
 import type { Verdict } from "../data/rules.js";
 import { sameScan } from "../data/scan.js";
 import type { Keeper } from "../history/keep.js";
-import { Outbox, type OutboxStatus, type Pending } from "../history/outbox.js";
+import { type Errand, Outbox, type OutboxStatus, type Pending } from "../history/outbox.js";
 import { countOf } from "../selection/mask.js";
 import type { Adopting } from "./adopting.js";
 import type { Navigation } from "./navigation.js";
@@ -142,11 +142,31 @@ export class Correcting {
     return this.outbox.applyAnyway(protect);
   }
 
-  /** Whether nothing waits to be saved, which must come first. */
-  free(what: string): boolean {
-    if (this.outbox.idle) return true;
-    if (this.outbox.status.kind !== "saving") complain(this.world, `Before ${what}: some strokes are not saved yet.`);
-    return false;
+  /** Makes an edit of another kind in its turn; that it can't, for strokes before it can't be saved, is told. */
+  inTurn(what: string, errand: Omit<Errand, "refuse">): Promise<void> {
+    return new Promise((resolve) => {
+      const failed = (error: unknown): null => {
+        complain(this.world, error);
+        return null;
+      };
+      const run: Errand["run"] = (base) => errand.run(base).catch(failed).finally(resolve);
+      const refuse = (): void => {
+        complain(this.world, `Before ${what}: some strokes are not saved yet.`);
+        resolve();
+      };
+      void this.outbox.ask({ ...errand, run, refuse });
+    });
+  }
+
+  /** Waits until nothing is left to be saved, which must come first; false where it can't be. */
+  async free(what: string): Promise<boolean> {
+    let free = this.outbox.idle;
+    const run = (): Promise<null> => {
+      free = true;
+      return Promise.resolve(null);
+    };
+    if (!free) await this.inTurn(what, { sequence: this.world.store.state.sequence, base: [], run });
+    return free;
   }
 
   private strokeOf(mask: Uint8Array, label: Choice, tool: string, group?: string): Pending {

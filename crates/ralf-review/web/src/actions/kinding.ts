@@ -39,7 +39,8 @@ export class Kinding {
   /** To the kind that is worth most; the one that is looked at is passed over. */
   async next(): Promise<void> {
     const { store } = this.world;
-    if (store.state.thinking || store.state.current === null || !this.correcting.free("asking about kinds")) return;
+    if (store.state.current === null || !(await this.correcting.free("asking about kinds"))) return;
+    if (store.state.thinking) return;
     const passed = store.state.kind;
     if (passed !== null) this.passed.add(passed.kind);
     try {

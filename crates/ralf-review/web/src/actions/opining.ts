@@ -67,8 +67,9 @@ export class Opining {
 
   private async ask(): Promise<void> {
     const { store, api } = this.world;
-    const { sequence, current } = store.state;
-    if (current === null || !this.correcting.free("thinking it over")) return;
+    if (store.state.current === null || !(await this.correcting.free("thinking it over"))) return;
+    const { sequence, current, thinking } = store.state;
+    if (thinking || current === null) return;
     const selection = new Uint8Array(store.state.selection.length);
     store.set({ ...NOTHING_LOOKED_AT, thinking: true, selection });
     try {

@@ -33,7 +33,7 @@ export class Replaying {
     if (rule === undefined || rule.sets === null || readOnly(this.world)) return;
     if (rule.filter.areas.length > 0)
       return tell(this.world, `${name} asks for places, which are of one sequence: press its name there.`);
-    if (!this.correcting.free("a rule on all sequences")) return;
+    if (!(await this.correcting.free("a rule on all sequences"))) return;
     const { labels, recording } = store.state;
     const certainty = certaintyOf(recording);
     const asking = { ...rule, sets: rule.sets, labels, certainty, causes: recording.sayable_causes };
@@ -51,8 +51,9 @@ export class Replaying {
   /** Makes it so, in each sequence as one stroke. */
   async apply(): Promise<void> {
     const { store } = this.world;
+    if (!(await this.correcting.free("a rule on all sequences"))) return;
     const { replay } = store.state;
-    if (replay === null || replay.parts.length < replay.all || !this.correcting.free("a rule on all sequences")) return;
+    if (replay === null || replay.parts.length < replay.all) return;
     store.set({ dialog: "none" });
     const parts = replay.parts.filter(({ points }) => points.length > 0);
     await this.correcting.replay(parts, replay.sets).catch((error: unknown) => complain(this.world, error));

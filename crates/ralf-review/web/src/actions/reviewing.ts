@@ -1,7 +1,8 @@
 /** Marks of review. What nobody has looked at is not accepted by the way: it is counted first. */
 
+import type { BaseRevision, ReviewedAnswer } from "../api/types.js";
 import { withScans } from "../data/cloud.js";
-import type { Scan } from "../data/scan.js";
+import { sameScan, type Scan } from "../data/scan.js";
 import { Sight } from "../data/sight.js";
 import { withReviewed } from "../queue/queue.js";
 import type { Adopting } from "./adopting.js";
@@ -51,35 +52,39 @@ export class Reviewing {
       return store.set({ accepting: { ...unseen, goOn } });
     }
     this.cancel();
-    void this.mark(true).then((marked) => (marked && goOn ? this.navigation.nextNeedy() : undefined));
+    const { current } = store.state;
+    const isStill = (): boolean => sameScan(current, store.state.current);
+    void this.mark(true).then((marked) => (marked && goOn && isStill() ? this.navigation.nextNeedy() : undefined));
   }
 
   cancel(): void {
     if (this.world.store.state.accepting !== null) this.world.store.set({ accepting: null });
   }
 
+  /** Marks the scan on screen in its turn, wherever somebody has gone meanwhile. */
   private async mark(reviewed: boolean): Promise<boolean> {
-    const { store, api, loader } = this.world;
-    const { sequence, cloud, loading } = store.state;
-    const scan = cloud.scans[0];
+    const { sequence, cloud, loading } = this.world.store.state;
+    const seen = cloud.scans[0];
     // While another scan is coming, the one on screen isn't the one that is meant.
-    if (scan === undefined || loading || readOnly(this.world) || !this.correcting.free("mark")) return false;
+    if (seen === undefined || loading || readOnly(this.world)) return false;
+    let marked = false;
+    const { radar, scan, revision } = seen;
+    const run = async ([now]: readonly BaseRevision[]): Promise<null> => {
+      marked = await this.ask(sequence, { ...seen, revision: now.revision }, reviewed);
+      return null;
+    };
+    await this.correcting.inTurn("mark", { sequence, base: [{ radar, scan, revision }], run });
+    return marked;
+  }
+
+  private async ask(sequence: string, scan: Scan, reviewed: boolean): Promise<boolean> {
+    const { store, api } = this.world;
     store.set({ busy: true });
     try {
       const { revision } = scan;
       const { stamp } = scan.table.header;
       const answer = await askPatiently((id) => api.reviewed(sequence, scan, { id, reviewed, revision, stamp }));
-      const marked: Scan = { ...scan, reviewed: answer.reviewed };
-      loader.keep(sequence, marked);
-      const { cloud: now, scans } = store.state;
-      store.set({
-        cloud: withScans(now, [marked]),
-        scans: withReviewed(scans, scan, answer.reviewed),
-        progress: answer.progress,
-        history: answer.history,
-      });
-      // Without the mark the machine's labels count again, which may be others than those that were accepted.
-      if (!reviewed) await this.adopting.reread(sequence, [marked]);
+      await this.adopt(sequence, scan, answer);
       return true;
     } catch (error) {
       await this.adopting.refused("marked", error);
@@ -87,5 +92,23 @@ export class Reviewing {
     } finally {
       store.set({ busy: false });
     }
+  }
+
+  private async adopt(sequence: string, scan: Scan, answer: ReviewedAnswer): Promise<void> {
+    const { store, loader } = this.world;
+    loader.forget(sequence, scan);
+    if (sequence !== store.state.sequence) return;
+    const { cloud, scans } = store.state;
+    const now = cloud.scans.find((other) => sameScan(other, scan));
+    const marked = now === undefined ? [] : [{ ...now, reviewed: answer.reviewed }];
+    for (const one of marked) loader.keep(sequence, one);
+    store.set({
+      cloud: withScans(cloud, marked),
+      scans: withReviewed(scans, scan, answer.reviewed),
+      progress: answer.progress,
+      history: answer.history,
+    });
+    // Without the mark the machine's labels count again, which may be others than those that were accepted.
+    if (answer.reviewed === null) await this.adopting.reread(sequence, marked);
   }
 }

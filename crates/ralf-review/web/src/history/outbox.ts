@@ -37,8 +37,29 @@ export interface OutboxWorld {
   readonly status: (status: OutboxStatus, waiting: readonly Pending[]) => void;
 }
 
+/** What an edit rests on. */
+export interface Ground {
+  readonly sequence: string;
+  readonly base: readonly BaseRevision[];
+}
+
+/** Where an edit has led. */
+export interface Moved extends Ground {
+  readonly scans: readonly ScanCorrections[];
+}
+
+/** An edit of another kind: it comes after the strokes that were made before it, and before those made after it. */
+export interface Errand extends Ground {
+  /** `base`: as it is after the edits before it; `null`: nothing has moved. Never rejects. */
+  readonly run: (base: readonly BaseRevision[]) => Promise<Moved | null>;
+  /** The strokes before it can't be saved now: it is given up. */
+  readonly refuse: () => void;
+}
+
+type Item = Pending | Errand;
+
 export class Outbox {
-  private waiting: readonly Pending[];
+  private items: readonly Item[];
   private current: OutboxStatus = { kind: "idle" };
 
   /** `kept`: what an earlier life of the page left unsaved; it waits for `retry`. */
@@ -46,23 +67,27 @@ export class Outbox {
     private readonly world: OutboxWorld,
     kept: readonly Pending[] = [],
   ) {
-    this.waiting = kept;
+    this.items = kept;
     this.say(kept.length === 0 ? { kind: "idle" } : { kind: "gone", link: { kind: "gone" } });
   }
 
   get idle(): boolean {
-    return this.waiting.length === 0;
-  }
-
-  get status(): OutboxStatus {
-    return this.current;
+    return this.items.length === 0;
   }
 
   add(strokes: readonly Pending[]): Promise<void> {
-    this.waiting = [...this.waiting, ...strokes];
-    this.world.keep(this.waiting);
-    if (this.current.kind === "idle") return this.run();
-    this.say(this.current);
+    this.items = [...this.items, ...strokes];
+    this.keep();
+    return this.goOn();
+  }
+
+  /** Does something in its turn; where strokes wait for something else than their own turn, it is refused. */
+  ask(errand: Errand): Promise<void> {
+    if (this.current.kind === "idle" || this.current.kind === "saving") {
+      this.items = [...this.items, errand];
+      return this.goOn();
+    }
+    errand.refuse();
     return Promise.resolve();
   }
 
@@ -71,12 +96,12 @@ export class Outbox {
     return this.current.kind === "gone" || this.current.kind === "refused" ? this.run() : Promise.resolve();
   }
 
-  /** Gives the first waiting stroke up, with those of its group, because a person said so. */
+  /** Gives strokes up, because a person said so: see `givenUp`. */
   drop(): Promise<void> {
-    const [first] = this.waiting;
-    if (first === undefined || this.current.kind === "saving") return Promise.resolve();
-    this.waiting = this.waiting.filter((pending) => !together(first, pending));
-    this.world.keep(this.waiting);
+    const given = new Set<Item>(givenUp(this.current, this.waiting));
+    if (given.size === 0) return Promise.resolve();
+    this.items = this.items.filter((item) => !given.has(item));
+    this.keep();
     return this.run();
   }
 
@@ -85,36 +110,85 @@ export class Outbox {
     // What was chosen on other detections means nothing on these.
     if (this.current.kind !== "conflict" || this.current.body.stale) return Promise.resolve();
     const newest = rebased(this.waiting, this.current.body.scans);
-    this.waiting = newest.map((pending) =>
+    this.items = newest.map((pending) =>
       together(newest[0], pending) ? { ...pending, stroke: { ...pending.stroke, protect } } : pending,
     );
-    this.world.keep(this.waiting);
+    this.keep();
     return this.run();
   }
 
+  private get waiting(): readonly Pending[] {
+    return this.items.filter(isStroke);
+  }
+
+  private keep(): void {
+    this.world.keep(this.waiting);
+  }
+
+  private goOn(): Promise<void> {
+    if (this.current.kind === "idle") return this.run();
+    this.say(this.current);
+    return Promise.resolve();
+  }
+
   private async run(): Promise<void> {
-    while (this.waiting.length > 0) {
+    for (let next = this.items[0]; next !== undefined; next = this.items[0]) {
       this.say({ kind: "saving" });
-      const pending = this.waiting[0];
-      try {
-        this.finish(pending, await this.world.send(pending));
-      } catch (error) {
-        return this.say(statusAfter(error, pending));
-      }
+      const trouble = isStroke(next) ? await this.save(next) : await this.do(next);
+      if (trouble !== null) return this.stop(trouble);
     }
     this.say({ kind: "idle" });
   }
 
-  private finish(pending: Pending, answer: StrokeAnswer): void {
-    this.waiting = afterOwn(this.waiting.slice(1), pending, answer.scans);
-    this.world.keep(this.waiting);
-    this.world.saved(pending, answer);
+  private async save(pending: Pending): Promise<OutboxStatus | null> {
+    try {
+      const answer = await this.world.send(pending);
+      const { sequence, stroke } = pending;
+      this.finish({ sequence, base: stroke.base, scans: answer.scans });
+      this.keep();
+      this.world.saved(pending, answer);
+      return null;
+    } catch (error) {
+      return statusAfter(error, pending);
+    }
+  }
+
+  private async do({ base, run }: Errand): Promise<null> {
+    this.finish(await run(base));
+    return null;
+  }
+
+  /** Takes the first away; those behind it rest on what it led to. */
+  private finish(moved: Moved | null): void {
+    const behind = this.items.slice(1);
+    this.items = moved === null ? behind : behind.map((item) => afterOwn(item, moved));
+  }
+
+  private stop(trouble: OutboxStatus): void {
+    const given = this.items.flatMap((item) => (isStroke(item) ? [] : [item]));
+    this.items = this.waiting;
+    this.say(trouble);
+    for (const errand of given) errand.refuse();
   }
 
   private say(status: OutboxStatus): void {
     this.current = status;
     this.world.status(status, this.waiting);
   }
+}
+
+function isStroke(item: Item): item is Pending {
+  return "stroke" in item;
+}
+
+/**
+ * What a person gives up who drops a stroke now, with those of its group: the first one, which is refused or in
+ * conflict; where no server is there, the last one, for that is the one that somebody thinks better of.
+ */
+export function givenUp(status: OutboxStatus, waiting: readonly Pending[]): readonly Pending[] {
+  const one = status.kind === "gone" ? waiting.at(-1) : waiting[0];
+  if (one === undefined || status.kind === "saving") return [];
+  return waiting.filter((pending) => together(one, pending));
 }
 
 /** The detections of strokes, wherever they are. */
@@ -134,21 +208,16 @@ function statusAfter(error: unknown, pending: Pending): OutboxStatus {
 }
 
 /**
- * Strokes made while an own one was under way rest on the revision before it; once that is saved they rest on the
- * one after it. A stroke that rests on any other revision keeps it, so that another's change in between still shows.
+ * What was asked for while an own edit was under way rests on the revision before it; once that is saved it rests on
+ * the one after it. What rests on any other revision keeps it, so that another's change in between still shows.
  */
-export function afterOwn(
-  waiting: readonly Pending[],
-  own: Pending,
-  answered: readonly ScanCorrections[],
-): readonly Pending[] {
-  const was = new Map(own.stroke.base.map((base) => [`${base.radar}/${base.scan}`, base.revision]));
+export function afterOwn<Some extends Item>(item: Some, own: Moved): Some {
+  const was = new Map(own.base.map((base) => [`${base.radar}/${base.scan}`, base.revision]));
   const rests = (base: BaseRevision): boolean => was.get(`${base.radar}/${base.scan}`) === base.revision;
-  return waiting.map((pending) => {
-    if (pending.sequence !== own.sequence || !pending.stroke.base.some(rests)) return pending;
-    const base = pending.stroke.base.map((one) => (rests(one) ? atRevision(one, answered) : one));
-    return { ...pending, stroke: { ...pending.stroke, base } };
-  });
+  const before = isStroke(item) ? item.stroke.base : item.base;
+  if (item.sequence !== own.sequence || !before.some(rests)) return item;
+  const base = before.map((one) => (rests(one) ? atRevision(one, own.scans) : one));
+  return isStroke(item) ? { ...item, stroke: { ...item.stroke, base } } : { ...item, base };
 }
 
 /** The same strokes on the newest revisions. */

@@ -1,8 +1,10 @@
 /** What must not be overlooked: a server that is gone, a refused stroke, a message. */
 
 import type { Progress, Recording } from "../api/types.js";
+import { countOfPoints } from "../data/opinion.js";
 import { h, say } from "../dom.js";
 import { counted } from "../format.js";
+import { givenUp, pointsOf } from "../history/outbox.js";
 import type { Page } from "../page.js";
 import type { State } from "../state.js";
 import { keyButton } from "./buttons.js";
@@ -11,7 +13,8 @@ export function banner({ store, actions }: Page): HTMLElement {
   const text = h("span", { class: "banner-text" });
   const reload = keyButton("Load the page again", "", () => location.reload());
   const retry = keyButton("Try again", "", () => void actions.correct.retry());
-  const drop = keyButton("Drop the stroke", "", () => void actions.correct.dropWaiting(), "quiet");
+  const which = h("span", {});
+  const drop = keyButton(which, "", () => void actions.correct.dropWaiting(), "quiet");
   const bar = h("div", { class: "banner", role: "alert" }, text, reload, retry, drop);
   store.watch(
     ({ outbox, waiting, link, recording, progress }) => [outbox, waiting, link, recording, progress],
@@ -23,10 +26,21 @@ export function banner({ store, actions }: Page): HTMLElement {
       say(text, said ?? "");
       reload.hidden = link.kind !== "elsewhere";
       retry.hidden = waiting.length === 0 || link.kind === "elsewhere";
-      drop.hidden = waiting.length === 0;
+      const given = toDrop(store.state);
+      drop.hidden = given === null;
+      say(which, given ?? "");
     },
   );
   return bar;
+}
+
+/** Which stroke the button drops; `null`: none. */
+export function toDrop({ outbox, waiting, labels }: Readonly<State>): string | null {
+  const given = givenUp(outbox, waiting);
+  if (given.length === 0) return null;
+  const said = [...new Set(given.map(({ stroke }) => labels.choiceName(stroke.label)))].join(" and ");
+  const detections = countOfPoints(pointsOf(given));
+  return `Drop the ${outbox.kind === "gone" ? "last" : "refused"} stroke (${said}, ${counted(detections, "detection")})`;
 }
 
 /** What is wrong, if anything is. */

@@ -179,6 +179,34 @@ test("an answer that is lost makes neither a conflict nor a second stroke", asyn
   clean(tab, GONE);
 });
 
+test("keys that are pressed while a stroke is being saved act after it, in their order", async (context) => {
+  const { server, tab, page } = await opened(context, browser);
+  await page.keyboard.press("f");
+  await drawn(page);
+  const id = await current(page);
+  await page.route(/\/strokes$/, async (route) => {
+    await new Promise((resolve) => setTimeout(resolve, 500));
+    await route.continue();
+  });
+  await pickAndSet(page, "x");
+  await page.keyboard.press("Control+z");
+  await pickAndSet(page, "x");
+  await page.keyboard.press("Enter");
+  await says(page.locator(".queue-head"), "1 of");
+  const { corrected, header } = await scanOf(server, id);
+  assert.equal(
+    corrected.reduce((sum, one) => sum + one, 0),
+    1,
+  );
+  assert.equal(header.reviewed.author, "ada");
+  const { undo, undo_depth: depth } = await historyOf(server, page);
+  assert.deepEqual([undo.tool, depth], ["reviewed", 2]);
+  await page.keyboard.press("Control+z");
+  await page.keyboard.press("Control+z");
+  await says(page.locator(".status-bar"), "undo 0");
+  clean(tab);
+});
+
 test("a store that is deleted is told, and nothing is called saved", async (context) => {
   const out = await freshOut(context);
   const server = await serve(context, out);
@@ -192,6 +220,8 @@ test("a store that is deleted is told, and nothing is called saved", async (cont
   await page.keyboard.press("a");
   await says(page.locator(".banner"), "it was deleted; nothing is saved any more");
   await says(status(page), "1 stroke not saved");
+  await page.locator(".banner button", { hasText: "Drop the refused stroke (artifact, 1 detection)" }).click();
+  await says(status(page), "nothing is saved");
   clean(tab, BROKEN);
 });
 
@@ -202,11 +232,11 @@ test("a page writes nothing into other corrections that are served in place of i
   const tab = await open(context, browser, server, own);
   const { page } = tab;
   await server.kill("SIGKILL");
-  await pickAndSet(page, "a");
+  await pickAndSet(page, "x");
   await says(status(page), "1 stroke not saved");
   const second = await serve(context, out, { port: server.port, second: "bob" });
   await says(page.locator(".banner"), "`out`, second labels of bob");
-  await pickAndSet(page, "a");
+  for (const key of ["d", "d", "x"]) await page.keyboard.press(key);
   await says(status(page), "2 strokes not saved");
   await second.kill("SIGKILL");
   // Other labels have another token, with which a window of theirs comes.

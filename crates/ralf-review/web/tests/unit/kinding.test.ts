@@ -61,7 +61,7 @@ class Table {
       store.set({ kind: null, selection: new Uint8Array(store.state.cloud.count) });
       return Promise.resolve(true);
     };
-    const correct = { answerKind, free: () => true } as unknown as Correcting;
+    const correct = { answerKind, free: () => Promise.resolve(true) } as unknown as Correcting;
     this.kinding = new Kinding(world, { wholeSequence } as unknown as Navigation, correct);
     this.selecting = new Selecting(world, correct, {} as Thinging, {} as Settling, this.kinding);
     store.set({ sequence: "00", current: HERE, cloud: ALONE, scope: "shown" });

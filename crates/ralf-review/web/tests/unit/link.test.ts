@@ -2,7 +2,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { Elsewhere, type Link, linkAfter, Refused, ServerGone } from "../../src/api/errors.js";
 import type { Pending } from "../../src/history/outbox.js";
-import { trouble } from "../../src/panels/banner.js";
+import { toDrop, trouble } from "../../src/panels/banner.js";
 import { savedState } from "../../src/panels/status-bar.js";
 import { initialState, type State } from "../../src/state.js";
 import { recordingOf, sequence } from "./recordings.js";
@@ -32,4 +32,17 @@ test("of other corrections under the same address the page says whose they are, 
     assert.ok(said.includes(part), said);
   assert.deepEqual(savedState(state), ["1 stroke not saved", "alarm"]);
   assert.deepEqual(savedState(page(link)), ["nothing is saved", "alarm"]);
+});
+
+test("the stroke that would be dropped is named before it is", () => {
+  const points = [{ radar: "front", scan: 3, points: [1, 2] }];
+  const other: Pending = { ...STROKE, stroke: { ...STROKE.stroke, label: 1, points } };
+  const waiting = [other, STROKE];
+  const [gone, refused] = [
+    page({ kind: "gone" }, { waiting, outbox: { kind: "gone", link: { kind: "gone" } } }),
+    page({ kind: "fine" }, { waiting, outbox: { kind: "refused", message: "no" } }),
+  ];
+  assert.equal(toDrop(gone), "Drop the last stroke (plausible, 0 detections)");
+  assert.equal(toDrop(refused), "Drop the refused stroke (artifact, 2 detections)");
+  assert.equal(toDrop(page({ kind: "fine" }, { waiting, outbox: { kind: "saving" } })), null);
 });

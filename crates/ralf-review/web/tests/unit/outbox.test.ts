@@ -2,7 +2,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { Conflict, Refused, ServerGone } from "../../src/api/errors.js";
 import type { StrokeAnswer } from "../../src/api/types.js";
-import { afterOwn, Outbox, type OutboxStatus, type Pending } from "../../src/history/outbox.js";
+import { afterOwn, type Errand, Outbox, type OutboxStatus, type Pending } from "../../src/history/outbox.js";
 
 const HISTORY = { undo: null, redo: null, undo_depth: 0, redo_depth: 0 };
 
@@ -41,6 +41,19 @@ class FakeServer {
       this.said.push(status.kind);
     },
   });
+
+  /** Takes the last stroke back, in its turn. */
+  undo(): Promise<void> {
+    const run: Errand["run"] = async () => {
+      await Promise.resolve();
+      if (this.written.pop() === undefined) this.said.push("nothing to undo");
+      const base = [{ radar: "front", scan: 3, revision: this.revision }];
+      this.revision += 1;
+      const scans = [{ ...base[0], revision: this.revision, causes: [], corrections: [], reviewed: null }];
+      return { sequence: "00", base, scans };
+    };
+    return this.outbox.ask({ sequence: "00", base: [], run, refuse: () => this.said.push("refused") });
+  }
 
   private async take({ stroke: { id, base, points, label } }: Pending): Promise<StrokeAnswer> {
     await Promise.resolve();
@@ -133,6 +146,60 @@ test("halves of one step are dropped together", async () => {
   assert.deepEqual(server.written, [[3]]);
 });
 
+test("where the server is gone the last stroke is dropped, with its group, and not the first", async () => {
+  const server = new FakeServer();
+  server.trouble = new ServerGone();
+  await server.outbox.add([stroke([1], 0)]);
+  const half = (point: number): Pending => {
+    const whole = stroke([point], 0);
+    return { ...whole, stroke: { ...whole.stroke, group: "flip" } };
+  };
+  await server.outbox.add([half(2), half(3)]);
+  await server.outbox.drop();
+  assert.deepEqual(
+    server.kept.at(-1)?.map(({ stroke: { points } }) => points[0].points),
+    [[1]],
+  );
+  server.trouble = null;
+  await server.outbox.retry();
+  assert.deepEqual(server.written, [[1]]);
+});
+
+test("what is asked for while a stroke is being saved is done after it, and before strokes made later", async () => {
+  const server = new FakeServer();
+  const all = [server.outbox.add([stroke([1], 0)]), server.undo(), server.outbox.add([stroke([2], 0)]), server.undo()];
+  // It rests on what was on screen when it was drawn, and is no conflict with one's own undo.
+  all.push(server.outbox.add([stroke([3], 0)]));
+  await Promise.all(all);
+  assert.deepEqual([server.written, server.last.kind, server.revision], [[[3]], "idle", 5]);
+  assert.deepEqual(server.asked, ["stroke 1", "stroke 2", "stroke 3"]);
+});
+
+test("an edit rests on the revision that the strokes before it led to", async () => {
+  const server = new FakeServer();
+  let rested: number | undefined;
+  const saving = server.outbox.add([stroke([1], 0)]);
+  const run: Errand["run"] = ([{ revision }]) => {
+    rested = revision;
+    return Promise.resolve(null);
+  };
+  const base = [{ radar: "front", scan: 3, revision: 0 }];
+  await Promise.all([saving, server.outbox.ask({ sequence: "00", base, run, refuse: () => undefined })]);
+  assert.equal(rested, 1);
+});
+
+test("what is asked for behind a stroke that can't be saved is given up, and said to be", async () => {
+  const server = new FakeServer();
+  server.trouble = new ServerGone();
+  await Promise.all([server.outbox.add([stroke([1], 0)]), server.undo()]);
+  assert.deepEqual(server.said.slice(-2), ["gone", "refused"]);
+  await server.undo();
+  assert.equal(server.said.at(-1), "refused");
+  server.trouble = null;
+  await server.outbox.retry();
+  assert.deepEqual([server.written, server.last.kind], [[[1]], "idle"]);
+});
+
 test("a refusal says why and keeps the stroke", async () => {
   const server = new FakeServer();
   server.trouble = new Refused(500, "disk full");
@@ -163,7 +230,8 @@ test("a stroke on detections that aren't there any more can only be dropped", as
 test("strokes that wait are the same objects until they rest on another revision, so that each is kept once", () => {
   const [first, second, elsewhere] = [stroke([1], 0), stroke([2], 0), { ...stroke([3], 0), sequence: "01" }];
   const answered = [{ radar: "front", scan: 3, revision: 1, causes: [], corrections: [], reviewed: null }];
-  const after = afterOwn([second, elsewhere, stroke([4], 7)], first, answered);
+  const own = { sequence: "00", base: first.stroke.base, scans: answered };
+  const after = [second, elsewhere, stroke([4], 7)].map((waiting) => afterOwn(waiting, own));
   assert.deepEqual(
     after.map(({ stroke: { base } }) => base[0].revision),
     [1, 0, 7],

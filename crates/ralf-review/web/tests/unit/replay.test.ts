@@ -93,6 +93,7 @@ test("who closes the list has nothing read on, and nothing changed", async () =>
   keeping({ name: "far", filter: FAR, sets: { label: 1, cause: null } });
   const team = new Team();
   const reading = team.replaying.start("far");
+  while (team.store.state.dialog !== "replay") await Promise.resolve();
   team.store.set({ dialog: "none" });
   await reading;
   await team.replaying.apply();
