@@ -26,6 +26,7 @@ mod correcting;
 mod error;
 mod http;
 mod labelled;
+mod listening;
 mod need;
 mod options;
 mod page;

@@ -3,20 +3,17 @@
 use crate::app::App;
 use crate::error::ReviewError;
 use crate::http::{Guard, Token};
+use crate::listening::listen;
 use crate::options::Options;
 use crate::{addresses, routes};
 use ralf_data::Recording;
-use std::io::{self, ErrorKind};
-use std::net::{IpAddr, SocketAddr, TcpListener, ToSocketAddrs};
+use std::io;
+use std::net::TcpListener;
 use std::path::Path;
 use std::sync::Arc;
 use std::time::Duration;
 use tokio::runtime::{Builder, Runtime};
 
-/// Tried first where no port is asked for.
-const FIRST_PORT: u16 = 8642;
-/// How many ports are tried.
-const PORTS: u16 = 20;
 /// Files that are read at once.
 const READERS: usize = 8;
 /// Without an edit for so long, the journal is written back.
@@ -40,7 +37,7 @@ impl Server {
     /// No labels, a store that is none, an address that can't be listened on.
     pub fn bind(recording: Recording, out: &Path, options: &Options) -> Result<Self, ReviewError> {
         let app = App::open(recording, out, options)?;
-        let listener = listen(&options.host, options.port)?;
+        let listener = listen(app.store.file(), options)?;
         let address = listener.local_addr().map_err(ReviewError::system("local address"))?;
         listener.set_nonblocking(true).map_err(ReviewError::system("listening"))?;
         let token = Token::of(out, options.token_folder.as_deref())?;
@@ -149,31 +146,4 @@ async fn terminated() {
 #[cfg(not(unix))]
 async fn terminated() {
     std::future::pending().await
-}
-
-/// Listens where asked, or on the first free port from 8642 on.
-fn listen(host: &str, port: Option<u16>) -> Result<TcpListener, ReviewError> {
-    let ip = ip_of(host)?;
-    let ports = port.map_or(FIRST_PORT..=FIRST_PORT + PORTS, |port| port..=port);
-    let last = *ports.end();
-    for port in ports {
-        let address = SocketAddr::new(ip, port);
-        match TcpListener::bind(address) {
-            Ok(listener) => return Ok(listener),
-            Err(error) if error.kind() == ErrorKind::AddrInUse && port < last => {}
-            Err(error) if error.kind() == ErrorKind::AddrInUse => {
-                return Err(ReviewError::PortInUse { address });
-            }
-            Err(error) => return Err(ReviewError::Listen { address, error }),
-        }
-    }
-    Err(ReviewError::PortInUse { address: SocketAddr::new(ip, last) })
-}
-
-fn ip_of(host: &str) -> Result<IpAddr, ReviewError> {
-    let name = host.trim_start_matches('[').trim_end_matches(']');
-    let refused = |error| ReviewError::Host { host: host.to_owned(), error };
-    let mut found = (name, 0).to_socket_addrs().map_err(refused)?;
-    let none = || refused(io::Error::new(ErrorKind::NotFound, "no address"));
-    found.next().map(|address| address.ip()).ok_or_else(none)
 }

@@ -2,7 +2,7 @@
 
 use crate::place;
 use ralf_corrections::{Outcome, Reader, Store, StoreError};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 /// Requests that read at once without waiting for each other.
@@ -13,6 +13,7 @@ pub(crate) struct SharedStore {
     /// At least one. They are closed before the writer, which clears the journal away when it is the last.
     readers: Vec<Mutex<Reader>>,
     writer: Writer,
+    file: PathBuf,
 }
 
 enum Writer {
@@ -24,18 +25,19 @@ enum Writer {
 impl SharedStore {
     /// Opens a store; makes it if there is none. Where nothing can be written it is open for reading.
     pub(crate) fn open(file: &Path) -> Result<Self, StoreError> {
-        match Store::open(file) {
+        let (writer, readers) = match Store::open(file) {
             Ok(store) => {
                 let readers =
                     (0..READERS).map(|_| store.reader().map(Mutex::new)).collect::<Result<_, _>>()?;
-                Ok(Self { writer: Writer::Open(Box::new(Mutex::new(store))), readers })
+                (Writer::Open(Box::new(Mutex::new(store))), readers)
             }
             Err(error @ StoreError::ReadOnly { .. }) => {
                 let reader = if file.exists() { Reader::open(file)? } else { Reader::empty(file)? };
-                Ok(Self { writer: Writer::ReadOnly(error.to_string()), readers: vec![Mutex::new(reader)] })
+                (Writer::ReadOnly(error.to_string()), vec![Mutex::new(reader)])
             }
-            Err(error) => Err(error),
-        }
+            Err(error) => return Err(error),
+        };
+        Ok(Self { readers, writer, file: file.to_owned() })
     }
 
     /// Why nothing can be written.
@@ -44,6 +46,11 @@ impl SharedStore {
             Writer::Open(_) => None,
             Writer::ReadOnly(reason) => Some(reason),
         }
+    }
+
+    /// Where it lies.
+    pub(crate) fn file(&self) -> &Path {
+        &self.file
     }
 
     /// Asks something.

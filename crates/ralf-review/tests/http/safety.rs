@@ -94,6 +94,35 @@ fn a_server_that_is_started_again_keeps_its_token() {
     assert_eq!(bind(), bind());
 }
 
+#[test]
+fn a_server_that_is_started_again_is_where_it_was() {
+    let (out, other) = (Out::new(), Out::new());
+    let kept = tempfile::tempdir().unwrap();
+    let bind = |out: &Out, second: Option<&str>, port| {
+        let options = Options {
+            host: "127.0.0.1".into(),
+            port,
+            second: second.map(str::to_owned),
+            token_folder: Some(kept.path().to_owned()),
+            ..Options::default()
+        };
+        let server = Server::bind(recording(), out.path(), &options).unwrap();
+        let address = server.urls()[0].split("/?").next().unwrap().to_owned();
+        (server, address)
+    };
+    let (first, at) = bind(&out, None, Some(0));
+    // Taken now; and not remembered of other corrections.
+    assert_ne!(bind(&out, Some("bob"), None).1, at);
+    drop(first);
+    for (out, second) in [(&out, Some("bob")), (&other, None)] {
+        assert_ne!(bind(out, second, None).1, at);
+    }
+    let (again, address) = bind(&out, None, None);
+    assert_eq!(address, at);
+    assert_ne!(bind(&out, None, None).1, at, "somebody has it");
+    drop(again);
+}
+
 /// The name of the corrections that are served.
 fn store(server: &Serving) -> String {
     server.get("/api/recording").json()["store"].as_str().unwrap().to_owned()
