@@ -47,7 +47,8 @@ WITH last AS (
   SELECT scan, NULL, mark FROM review
   WHERE scan NOT IN (SELECT scan FROM said) AND mark IN (SELECT after FROM mark_change)
 )
-SELECT sequence || '/' || radar || '/' || scan.scan, said, found FROM unlike JOIN scan ON scan.id = unlike.scan LIMIT 1";
+SELECT sequence || '/' || radar || '/' || scan.scan, said, found FROM unlike JOIN scan ON scan.id = unlike.scan
+LIMIT 1";
 
 /// The first mark that no scan has, and that no step gave.
 const FIRST_LEFT: &str = "

@@ -80,7 +80,8 @@ impl Guard {
         }
         if !self.token.is_in(text(header::AUTHORIZATION).unwrap_or("")) {
             return Err(ApiError::Unauthorized(
-                "Authorization: expected `Bearer` and the token of the address that `ralf review` printed, found another"
+                "Authorization: expected `Bearer` and the token of the address that `ralf review` printed, \
+                 found another"
                     .into(),
             ));
         }

@@ -73,8 +73,8 @@ function ownWindow(freshName: () => string): string {
 }
 
 /**
- * Which windows on these corrections are closed, or on others now; where the browser doesn't say (not on this machine's own address), none is taken for
- * closed.
+ * Which windows on these corrections are closed, or on others now; where the browser doesn't say (not on this machine's
+ * own address), none is taken for closed.
  */
 async function closedWindows(store: string, own: string): Promise<(window: string) => boolean> {
   if (navigator.locks === undefined) return () => false;

@@ -40,7 +40,8 @@ export function toDrop({ outbox, waiting, labels }: Readonly<State>): string | n
   if (given.length === 0) return null;
   const said = [...new Set(given.map(({ stroke }) => labels.choiceName(stroke.label)))].join(" and ");
   const detections = countOfPoints(pointsOf(given));
-  return `Drop the ${outbox.kind === "gone" ? "last" : "refused"} stroke (${said}, ${counted(detections, "detection")})`;
+  const which = outbox.kind === "gone" ? "last" : "refused";
+  return `Drop the ${which} stroke (${said}, ${counted(detections, "detection")})`;
 }
 
 /** What is wrong, if anything is. */
@@ -49,7 +50,8 @@ export function trouble({ outbox, waiting, link, recording, progress }: Readonly
   if (link.kind === "elsewhere") {
     const kept =
       waiting.length === 0 ? "" : ` ${unsaved} not saved; kept in this browser until theirs are served here again.`;
-    return `Another recording or output is served here now (${link.message}): nothing of this page is saved there.${kept}`;
+    const served = `Another recording or output is served here now (${link.message})`;
+    return `${served}: nothing of this page is saved there.${kept}`;
   }
   if (outbox.kind === "refused") return `The server refused a stroke: ${outbox.message}`;
   if (link.kind === "broken") return link.message;
