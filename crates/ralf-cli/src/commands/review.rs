@@ -33,7 +33,7 @@ pub(crate) struct ReviewArgs {
     out: PathBuf,
     #[command(flatten)]
     changed: ChangedArgs,
-    /// Port to listen on, 0 for any free one; if not given that of the last time for OUT, else 8642 or the next free one
+    /// Port to listen on, 0 for any free one; the last one of OUT or, where that is not free, 8642 and on
     #[arg(long, value_name = "P")]
     port: Option<u16>,
     /// Address to listen on
