@@ -36,6 +36,11 @@ impl GroundFit {
     pub(crate) fn height(&self, p: &Point) -> f64 {
         self.ground.height(p)
     }
+
+    /// Whether a point lies on the plane.
+    pub(crate) fn is_on(&self, p: &Point) -> bool {
+        self.height(p).abs() < CLOSE
+    }
 }
 
 /// The plane with the most LiDAR points (vehicle frame, m) of a LiDAR at a place; `None` where none is found.

@@ -22,6 +22,7 @@ mod change;
 pub mod doppler;
 mod ground;
 mod judge;
+mod misread;
 pub mod odometry;
 mod overlap;
 mod picture;

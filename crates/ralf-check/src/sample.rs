@@ -1,6 +1,7 @@
 //! Which scans are looked at, and what is kept of them: enough to judge, far less than labelling reads.
 
 use crate::ground::{self, GroundFit};
+use crate::misread::{Misread, misread};
 use crate::picture::{CameraLook, DepthEdge, FEWEST_IMAGES, Moment, depth_edges};
 use crate::plan_field::PlanField;
 use crate::velocity_fit::{TRUSTED, VelocityFit, fit, told};
@@ -63,6 +64,8 @@ pub(crate) struct LidarLook {
     /// The same, all of them, by distance.
     pub(crate) field: PlanField,
     pub(crate) ground: Option<GroundFit>,
+    /// Where there is no ground: what the scan shows one as.
+    pub(crate) misread: Vec<Misread>,
     /// The LiDAR's place (vehicle frame as recorded), and the distance from it in plan, m, at which its steepest beams
     /// come down to where obstacles begin.
     blind: (Point, f64),
@@ -245,6 +248,7 @@ impl LidarLook {
             kept.map(|[x, y, z]| mount * Point::new((*x).into(), (*y).into(), (*z).into())).collect();
         let lidar_at: Point = mount.translation.vector.into();
         let ground = ground::fit(&points, &lidar_at);
+        let misread = if ground.is_some() { Vec::new() } else { misread(read, &mount) };
         let height = |p: &Point| ground.as_ref().map_or(p.z, |ground| ground.height(p));
         let obstacles: Vec<&Point> = points.iter().filter(|p| OBSTACLES.contains(&height(p))).collect();
         let images = source.sequence().times.cameras.iter().map(Vec::len).max().unwrap_or(0);
@@ -259,6 +263,7 @@ impl LidarLook {
             edges,
             blind: (lidar_at, blind(&points, &lidar_at, height(&lidar_at))),
             ground,
+            misread,
             shape: CloudShape::of(&read.points),
             digest: hasher.finish(),
         }

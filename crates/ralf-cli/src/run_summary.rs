@@ -10,8 +10,8 @@ use ralf_data::run::{CameraRecord, RadarRecord, RunRecord, SequenceRecord, Unrea
 
 /// What to do where images have no depth.
 const MAKES_DEPTH: &str = match cfg!(feature = "depth") {
-    true => "--depth-model or `ralf depth` makes it",
-    false => "a build of ralf with the feature `depth` makes it",
+    true => "--depth-model or `ralf depth` makes depth",
+    false => "a build of ralf with the feature `depth` makes depth",
 };
 
 /// So many cameras are named that were not matched.
@@ -105,7 +105,7 @@ fn unused_cameras(record: &RunRecord) -> String {
     let shown = unused.iter().take(SHOWN_CAMERAS).cloned().collect::<Vec<_>>().join(", ");
     let more = if unused.len() > SHOWN_CAMERAS { ", ..." } else { "" };
     format!(
-        "\n{cameras} camera(s) not matched, for no image near a radar scan has depth \
+        "\n{cameras} camera(s) not matched, for no image that has depth is near a radar scan \
          ({MAKES_DEPTH}): {shown}{more}\n"
     )
 }

@@ -126,3 +126,9 @@ impl DataError {
         Self::Content { file: file.to_owned(), place, expected, found }
     }
 }
+
+/// The halves of a sentence `expected X, found Y`.
+pub(crate) fn expected_and_found(reason: &str) -> (&str, &str) {
+    let (expected, found) = reason.split_once(", found ").unwrap_or((reason, "something else"));
+    (expected.strip_prefix("expected ").unwrap_or(expected), found)
+}

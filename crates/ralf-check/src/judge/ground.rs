@@ -4,6 +4,7 @@ use super::case::Case;
 use super::places::{PLACE, PLACES, by_place};
 use crate::change::SensorChange;
 use crate::ground::GroundFit;
+use crate::misread::Misread;
 use crate::remedy::Remedy;
 use crate::sample::LidarLook;
 use crate::statistics::{Estimate, estimate, median};
@@ -34,6 +35,13 @@ pub(super) fn judge(case: &Case) -> Vec<Verdict> {
 fn one(name: &str, looks: &[&LidarLook], motion: &EgoMotion) -> Verdict {
     let fits: Vec<&GroundFit> = looks.iter().filter_map(|look| look.ground.as_ref()).collect();
     let support = median(&fits.iter().map(|fit| fit.support).collect::<Vec<_>>()).unwrap_or(0.0);
+    if let Some(remedy) = misread(looks) {
+        let evidence = format!(
+            "its points show a road at z = 0 when they are read so, and none in {} scans",
+            looks.len()
+        );
+        return Verdict::doubt(name, Question::Ground, evidence, Some(Remedy::LookInto(remedy)));
+    }
     if fits.len() < FEWEST || support < SUPPORT {
         let missing = format!(
             "a plane in {} of {} scans, with {:.0} % of the points nearby on it: {FEWEST} scans and {:.0} % are needed",
@@ -55,6 +63,21 @@ fn one(name: &str, looks: &[&LidarLook], motion: &EgoMotion) -> Verdict {
         return Verdict::cannot_judge(name, Question::Ground, missing);
     }
     Verdict::doubt(name, Question::Ground, evidence, Some(Remedy::Sensor(seen.remedy())))
+}
+
+/// What most scans would show a road as, that show none.
+fn misread(looks: &[&LidarLook]) -> Option<&'static str> {
+    let as_what = [
+        (Misread::InVehicleFrame, "its points look as if they were in the vehicle's frame already"),
+        (Misread::Columns(3), "its rows look like three numbers each"),
+        (Misread::Columns(5), "its rows look like five numbers each"),
+        (Misread::Columns(6), "its rows look like six numbers each"),
+    ];
+    let is_most = |(what, _): &(Misread, &str)| {
+        let count = looks.iter().filter(|look| look.misread.contains(what)).count();
+        count >= FEWEST && 2 * count > looks.len()
+    };
+    as_what.into_iter().find(is_most).map(|(_, words)| words)
 }
 
 /// The plane as it was seen from several places.

@@ -35,9 +35,17 @@ fn by_motion(case: &mut Case, lidar: usize) -> Option<Verdict> {
     let own: Vec<&LidarLook> = case.lidars.iter().copied().filter(|look| look.lidar == lidar).collect();
     let tally = |change: &SensorChange| changed_motion_overlap(&own, &recorded, change, &case.motion);
     let now = tally(&SensorChange::default());
-    let turns = all_around().map(|change| (change, tally(&change)));
-    let better = turns.filter(|(_, then)| now.is_beaten_by_factor(then, STANDS_STILL.0));
-    let (found, _) = better.max_by(|a, b| a.1.share().total_cmp(&b.1.share()))?;
+    let most = |mirrored: bool| {
+        let turns =
+            all_around().map(|turn| SensorChange { mirrored, ..turn }).map(|turn| (turn, tally(&turn)));
+        turns.max_by(|a, b| a.1.share().total_cmp(&b.1.share()))
+    };
+    let (turned, mirrored) = (most(false)?, most(true)?);
+    // Where the vehicle doesn't turn both are the same.
+    let (found, then) = if turned.1.is_beaten_by(&mirrored.1) { mirrored } else { turned };
+    if !now.is_beaten_by_factor(&then, STANDS_STILL.0) {
+        return None;
+    }
     let change = exact(found, |change| tally(change).share());
     let then = tally(&change);
     if then.share() < STANDS_STILL.1 {
@@ -53,11 +61,10 @@ fn by_motion(case: &mut Case, lidar: usize) -> Option<Verdict> {
     Some(Verdict::doubt(name, Question::Motion, evidence, Some(Remedy::Sensor(change))))
 }
 
-/// All turns, mirrored and, of equal ones the better, not.
+/// All turns.
 fn all_around() -> impl Iterator<Item = SensorChange> {
     let half = 180 / STEP_DEG;
-    let turns = move || (1 - half..=half).map(|step| SensorChange::yaw(f64::from(step * STEP_DEG)));
-    turns().map(|turn| turn.and(&SensorChange::mirror())).chain(turns())
+    (1 - half..=half).map(|step| SensorChange::yaw(f64::from(step * STEP_DEG)))
 }
 
 fn by_radars(case: &mut Case, lidar: usize) -> Option<Verdict> {

@@ -61,7 +61,7 @@ fn without_depth_a_camera_is_absent_and_sets_no_flag() {
     });
     assert!(record.contains("\"images\": []"), "{record}");
     assert!(
-        inspected.contains("1 camera(s) not matched, for no image near a radar scan has depth"),
+        inspected.contains("1 camera(s) not matched, for no image that has depth is near a radar scan"),
         "{inspected}"
     );
 }

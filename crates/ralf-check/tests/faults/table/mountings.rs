@@ -85,6 +85,13 @@ pub(super) fn lidars() -> Vec<Fault> {
         fault!("LiDAR points in another frame", ["lidar_top"], true, |p| {
             lidar_points(p, |[x, y, z]| [x + 60.0, y + 80.0, z]);
         }),
+        fault!("LiDAR points in the vehicle's frame", ["lidar_top"], true, |p| {
+            let t = p.sequence.rig.lidars[0].vehicle_from_lidar.translation.vector;
+            let [x, y, z] = [t.x, t.y, t.z].map(|v| v as f32);
+            p.edit_lidar(move |scan| {
+                scan.points.iter_mut().for_each(|p| *p = [p[0] + x, p[1] + y, p[2] + z])
+            });
+        }),
         fault!("LiDAR pitch +4 deg", ["lidar_top"], true, |p| lidar_turned(p, 0.0, 4.0, 0.0), |r| {
             matches!(r, Remedy::Sensor(c) if near(c.turn_deg[1], -4.0, 0.8))
         }),

@@ -12,6 +12,13 @@ pub(super) fn faults() -> Vec<Fault> {
             let flat: Vec<f32> = rows.flat_map(|([x, y, z], i)| [*x, *y, *z, i]).collect();
             scan.points = flat.chunks_exact(5).map(|row| [row[0], row[1], row[2]]).collect();
         })),
+        fault!("LiDAR rows of 5 read as 4", ["lidar_top"], true, |p| p.edit_lidar(|scan| {
+            let rows = scan.points.iter().zip(&scan.intensity).enumerate();
+            let flat: Vec<f32> =
+                rows.flat_map(|(i, ([x, y, z], v))| [*x, *y, *z, *v, (i % 32) as f32]).collect();
+            scan.points = flat.chunks_exact(4).map(|row| [row[0], row[1], row[2]]).collect();
+            scan.intensity = flat.chunks_exact(4).map(|row| row[3]).collect();
+        })),
         fault!("LiDAR float64 read as float32", ["lidar_top"], true, |p| p.edit_lidar(|scan| {
             let halves = |v: &f32| f64::from(*v).to_le_bytes();
             let bytes: Vec<u8> = scan.points.iter().flatten().flat_map(halves).collect();

@@ -19,20 +19,20 @@ pub(super) struct WorldArgs {
     /// Simulate worlds to learn in, too
     #[arg(long, value_parser = PossibleValuesParser::new(["worlds"]))]
     preset: Option<String>,
-    /// Worlds of each family
+    /// With --preset: worlds of each family
     #[arg(long, value_name = "N", default_value_t = 8, requires = "preset",
         value_parser = clap::value_parser!(u64).range(1..=MOST_SEEDS))]
     seeds: u64,
-    /// Scans of each radar in each world, over all of its four to six sequences: some 3 s each, so that evidence sees
-    /// as much around a scan as in a real recording
+    /// With --preset: scans of each radar in each world, over all of its four to six sequences: some 3 s each, so that
+    /// evidence sees as much around a scan as in a real recording
     #[arg(long, value_name = "N", default_value_t = 200, requires = "preset",
         value_parser = clap::value_parser!(u32).range(1..=MOST_SCANS))]
     scans: u32,
-    /// Learn from one in so many of these
+    /// With --preset: learn from one in so many of these
     #[arg(long, value_name = "N", default_value_t = 8, requires = "preset",
         value_parser = clap::value_parser!(u32).range(1..))]
     every: u32,
-    /// Leave these families out, to judge the model in them
+    /// With --preset: leave these families out, to judge the model in them
     #[arg(long, value_name = "FAMILY,...", value_delimiter = ',', requires = "preset",
         value_parser = PossibleValuesParser::new(FAMILIES.iter().map(|family| family.name)))]
     without: Vec<String>,

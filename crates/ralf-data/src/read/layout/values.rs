@@ -1,7 +1,7 @@
 //! Values as `sequence.toml` has them: checked with the table they stand in, and written with the fewest decimals that
 //! are read back as the same.
 
-use crate::error::DataError;
+use crate::error::{DataError, expected_and_found};
 use nalgebra::UnitQuaternion;
 use ralf::space::{Transform, transform_from_parts};
 use std::path::Path;
@@ -25,8 +25,8 @@ impl Place<'_> {
 
     /// The same, from a sentence that says what was expected and found.
     pub(super) fn refused(&self, key: &str, reason: &str) -> DataError {
-        let (expected, found) = reason.split_once(", found ").unwrap_or((reason, "something else"));
-        self.error(key, expected.strip_prefix("expected ").unwrap_or(expected), found)
+        let (expected, found) = expected_and_found(reason);
+        self.error(key, expected, found)
     }
 
     /// `values`, unless one of them is no finite number.

@@ -1,6 +1,6 @@
 //! A recording's messages, decoded; errors name the topic and the time at which the message was recorded.
 
-use crate::error::DataError;
+use crate::error::{DataError, expected_and_found};
 use ralf_ros::container::{Container, MessageRef, Topic};
 use ralf_ros::encoding::{Encoding, EncodingError};
 use ralf_ros::message::{Definition, Header, Message, peek_header};
@@ -94,5 +94,11 @@ impl Messages {
     ) -> DataError {
         let place = format!("{} recorded at {} ns, {place}", self.topic(message).name, message.log_ns);
         DataError::content(&self.path, place, expected, found)
+    }
+
+    /// The same of a sentence `expected X, found Y`.
+    pub(super) fn refused(&self, message: &MessageRef, place: &str, reason: &str) -> DataError {
+        let (expected, found) = expected_and_found(reason);
+        self.error(message, place, expected, found)
     }
 }

@@ -219,7 +219,7 @@ impl Asked<'_> {
             Some(false) => radar.elevation = Elevation::None,
             None => {}
         }
-        check_fields(&radar).map_err(|found| messages.error(message, "fields", "those of a radar", found))?;
+        check_fields(&radar).map_err(|why| messages.refused(message, "fields", &why))?;
         radar.check().map_err(|expected| {
             let found = format!("the model `{}`", topic.model.as_deref().unwrap_or_default());
             DataError::content(messages.path(), format!("topics.{name}"), expected, found)

@@ -195,9 +195,10 @@ impl Survey {
             Role::Frames(kind) => {
                 for transform in messages.decoded(message, bytes, TfMessage::from_bytes)?.transforms {
                     self.frames.add(&transform, kind).map_err(|error| {
-                        let error =
-                            messages.error(message, "transforms", "a tree of frames", error.to_string());
-                        Trouble::Contradiction(error)
+                        let error = error.to_string();
+                        let (frame, reason) = error.split_once(": ").unwrap_or(("", &error));
+                        let place = ["transforms", frame].join(" ");
+                        Trouble::Contradiction(messages.refused(message, place.trim_end(), reason))
                     })?;
                 }
             }
