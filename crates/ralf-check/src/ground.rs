@@ -19,6 +19,13 @@ const UNDER: (f64, f64) = (0.3, 0.08);
 /// Only within this distance of the vehicle is the road a plane, m.
 const NEAR: f64 = 25.0;
 
+/// Roads are cambered by two degrees, and vehicles pitch by one: more is the mounting's, degrees.
+pub(crate) const TILT_DEG: f64 = 2.0;
+/// z = 0 is the road within, m: loaded vehicles sink by a decimetre.
+pub(crate) const OFFSET: f64 = 0.2;
+/// Less of what is nearby on the plane is no ground.
+pub(crate) const SUPPORT: f64 = 0.15;
+
 /// A plane through the ground.
 #[derive(Debug, Clone)]
 pub(crate) struct GroundFit {

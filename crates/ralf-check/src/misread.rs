@@ -1,6 +1,6 @@
 //! LiDAR scans that show no road: read as something else, they may show one.
 
-use crate::ground::{self, GroundFit};
+use crate::ground::{self, GroundFit, OFFSET, SUPPORT, TILT_DEG};
 use ralf::sensors::{LidarScan, is_return};
 use ralf::space::{Point, Transform};
 use std::collections::HashSet;
@@ -20,10 +20,6 @@ const COLUMNS: [usize; 3] = [3, 5, 6];
 const MOUNTED: f64 = 0.5;
 /// Points that are looked at.
 const POINTS: usize = 20_000;
-/// The road is z = 0 within this, m, and rises by no more, rad.
-const LEVEL: (f64, f64) = (0.2, 0.035);
-/// At least this share of the points nearby lies on it.
-const SUPPORT: f64 = 0.15;
 /// On a road points of one direction lie at so many distances, in whole metres, in half of the directions at least:
 /// what stands upright has one.
 const DISTANCES: usize = 4;
@@ -60,8 +56,8 @@ impl Misread {
 
 fn shows_road(points: &[Point], mount: &Transform) -> bool {
     let level = |fit: &GroundFit| {
-        fit.offset.abs() < LEVEL.0
-            && fit.slope.iter().all(|slope| slope.abs() < LEVEL.1)
+        fit.offset.abs() < OFFSET
+            && fit.slope.iter().all(|slope| slope.to_degrees().abs() < TILT_DEG)
             && fit.support > SUPPORT
     };
     let found = ground::fit(points, &mount.translation.vector.into());

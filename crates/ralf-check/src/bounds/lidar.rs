@@ -1,6 +1,6 @@
 //! A LiDAR's numbers: whether they were read as what they are.
 
-use super::mounting;
+use super::{mounting, out_of_reason};
 use crate::remedy::Remedy;
 use crate::sample::LidarLook;
 use crate::statistics::median;
@@ -51,14 +51,8 @@ pub(super) fn judge(lidar: &Lidar, looks: &[&LidarLook]) -> Vec<Verdict> {
 
 /// A sigma of no LiDAR, and what cm or mm taken for m make of it.
 fn sigma(lidar: &Lidar) -> Option<Verdict> {
-    let (key, value) = ("sigma_range_m", lidar.sigma_range);
-    if SIGMAS.contains(&value) {
-        return None;
-    }
-    let other = [0.01, 0.001].map(|factor| value * factor).into_iter().find(|other| SIGMAS.contains(other));
-    let evidence = format!("{key} = {value} is out of reason ({} to {})", SIGMAS.start, SIGMAS.end);
-    let remedy = other.map(|value| Remedy::Value { key, value });
-    Some(Verdict::doubt(&lidar.name, Question::Bounds, evidence, remedy))
+    let value = lidar.sigma_range;
+    out_of_reason(&lidar.name, ("sigma_range_m", value), &SIGMAS, [0.01, 0.001].map(|factor| value * factor))
 }
 
 /// What a broken copy or a stuck sensor leaves; `points` are the usual number of a scan.

@@ -5,9 +5,11 @@ mod motion;
 mod radar;
 mod timing;
 
+use crate::remedy::Remedy;
 use crate::sample::Sample;
 use crate::verdict::{Question, Verdict};
 use ralf::sensors::Sequence;
+use std::ops::Range;
 
 /// All questions about bounds. What is in order is said once per sensor.
 pub(crate) fn judge(sequence: &Sequence, sample: &Sample) -> Vec<Verdict> {
@@ -42,6 +44,22 @@ fn settled(name: &str, found: Vec<Verdict>) -> Vec<Verdict> {
     found
 }
 
+/// A value of the rig that no sensor has, and the first of some others that one has, as its remedy.
+fn out_of_reason(
+    name: &str,
+    (key, value): (&'static str, f64),
+    usual: &Range<f64>,
+    others: [f64; 2],
+) -> Option<Verdict> {
+    if usual.contains(&value) {
+        return None;
+    }
+    let other = others.into_iter().find(|other| usual.contains(other));
+    let evidence = format!("{key} = {value} is out of reason ({} to {})", usual.start, usual.end);
+    let remedy = other.map(|value| Remedy::Value { key, value });
+    Some(Verdict::doubt(name, Question::Bounds, evidence, remedy))
+}
+
 /// A sensor farther from the rear axle than this is on no vehicle, m.
 const FARTHEST_MOUNTING: f64 = 20.0;
 
@@ -53,6 +71,6 @@ fn mounting(name: &str, mount: &ralf::space::Transform) -> Vec<Verdict> {
     let evidence = format!(
         "mounted {distance:.0} m from the rear axle, on no vehicle farther than {FARTHEST_MOUNTING} m"
     );
-    let remedy = crate::remedy::Remedy::LookInto("the translation looks like cm");
+    let remedy = Remedy::LookInto("the translation looks like cm");
     vec![Verdict::doubt(name, Question::Bounds, evidence, Some(remedy))]
 }

@@ -1,6 +1,6 @@
 //! A radar's numbers.
 
-use super::mounting;
+use super::{mounting, out_of_reason};
 use crate::remedy::{LENGTHS, Remedy};
 use crate::sample::RadarLook;
 use crate::statistics::{median, quantile};
@@ -160,14 +160,8 @@ fn sigmas(radar: &Radar) -> Vec<Verdict> {
     let elevation = Some(("sigma_elevation_deg", radar.sigma_elevation.to_degrees(), 0.03..12.0, 57.3));
     let range = Some(("sigma_range_m", radar.sigma_range, 0.004..3.0, 0.01));
     let rows = [azimuth, elevation.filter(|_| measured), range];
-    let mut found = Vec::new();
-    for (key, value, usual, factor) in rows.into_iter().flatten() {
-        if usual.contains(&value) {
-            continue;
-        }
-        let other = [value * factor, value / factor].into_iter().find(|other| usual.contains(other));
-        let evidence = format!("{key} = {value} is out of reason ({} to {})", usual.start, usual.end);
-        found.push(doubt(&radar.name, evidence, other.map(|value| Remedy::Value { key, value })));
-    }
-    found
+    let doubts = rows.into_iter().flatten().filter_map(|(key, value, usual, factor)| {
+        out_of_reason(&radar.name, (key, value), &usual, [value * factor, value / factor])
+    });
+    doubts.collect()
 }

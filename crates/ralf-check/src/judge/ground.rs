@@ -3,7 +3,7 @@
 use super::case::Case;
 use super::places::{PLACE, PLACES, by_place};
 use crate::change::SensorChange;
-use crate::ground::GroundFit;
+use crate::ground::{GroundFit, OFFSET, SUPPORT, TILT_DEG};
 use crate::misread::Misread;
 use crate::remedy::Remedy;
 use crate::sample::LidarLook;
@@ -11,12 +11,6 @@ use crate::statistics::{Estimate, estimate, median};
 use crate::verdict::{Question, Verdict};
 use ralf::space::EgoMotion;
 
-/// Roads are cambered by two degrees, and vehicles pitch by one: a median beyond this is the mounting's, degrees.
-const TILT_DEG: f64 = 2.0;
-/// z = 0 is the road within, m: loaded vehicles sink by a decimetre.
-const OFFSET: f64 = 0.2;
-/// Less of what is nearby on the plane is no ground.
-const SUPPORT: f64 = 0.15;
 /// Scans that are needed: one may stand on a kerb.
 const FEWEST: usize = 3;
 /// No road is that steep, degrees, and no ramp that high, m: one place is enough.

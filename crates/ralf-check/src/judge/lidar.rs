@@ -35,6 +35,10 @@ fn by_motion(case: &mut Case, lidar: usize) -> Option<Verdict> {
     let own: Vec<&LidarLook> = case.lidars.iter().copied().filter(|look| look.lidar == lidar).collect();
     let tally = |change: &SensorChange| changed_motion_overlap(&own, &recorded, change, &case.motion);
     let now = tally(&SensorChange::default());
+    // No share is larger than all.
+    if !now.is_enough() || STANDS_STILL.0 * now.share() >= 1.0 {
+        return None;
+    }
     let most = |mirrored: bool| {
         let turns =
             all_around().map(|turn| SensorChange { mirrored, ..turn }).map(|turn| (turn, tally(&turn)));
