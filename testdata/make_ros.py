@@ -4,7 +4,7 @@
     pip install -r testdata/requirements.txt
     python3 testdata/make_ros.py
 
-crates/ralf-ros/tests/fixtures.rs knows what is in there. Clouds have padding of 0xEE, mixed types, fields out of order; the
+crates/ralf-ros/tests/all/fixtures.rs knows what is in there. Clouds have padding of 0xEE, mixed types, fields out of order; the
 second one is in big endian.
 """
 

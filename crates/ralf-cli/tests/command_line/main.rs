@@ -14,6 +14,7 @@ mod bad_files;
 mod bad_images;
 mod bad_messages;
 mod bad_recordings;
+mod browser;
 mod camera_plot;
 mod check;
 mod cluster;

@@ -1,0 +1,204 @@
+//! Single cases, worked out by hand.
+use ralf_corrections::{
+    Conflict, Edit, Mark, Outcome, ScanContent, ScanEdit, ScanKey, ScanVersion, Store, StoreError, Stroke,
+    Who, read_layer,
+};
+use std::fs;
+use std::path::PathBuf;
+
+struct Folder {
+    _folder: tempfile::TempDir,
+    file: PathBuf,
+}
+
+impl Folder {
+    fn new() -> Self {
+        let folder = tempfile::tempdir().unwrap();
+        let file = folder.path().join("corrections.sqlite");
+        Self { _folder: folder, file }
+    }
+
+    fn open(&self) -> Store {
+        Store::open(&self.file).unwrap()
+    }
+
+    fn refusal(&self) -> String {
+        Store::open(&self.file).unwrap_err().to_string()
+    }
+
+    fn sql(&self, text: &str) {
+        rusqlite::Connection::open(&self.file).unwrap().execute_batch(text).unwrap();
+    }
+}
+
+fn who(author: &str) -> Who {
+    Who { tab: Some(format!("{author}'s")), ..Who::named(author) }
+}
+
+fn key(scan: u32) -> ScanKey {
+    ScanKey { sequence: "00".into(), radar: "front".into(), scan }
+}
+
+fn version(scan: u32) -> ScanVersion {
+    ScanVersion { key: key(scan), content: ScanContent { detections: 10, hash: None } }
+}
+
+fn edit(scan: u32, base: u64, points: &[u32]) -> ScanEdit {
+    ScanEdit { radar: "front".into(), scan, detections: 10, content: None, base, points: points.to_vec() }
+}
+
+fn stroke(label: u16, scans: Vec<ScanEdit>) -> Stroke {
+    Stroke { tool: "lasso".into(), label: Some(label), scans, ..Stroke::of_sequence("00") }
+}
+
+fn done(outcome: Outcome) -> Edit {
+    match outcome {
+        Outcome::Done(edit) => edit,
+        Outcome::Conflict(conflict) => panic!("{conflict:?}"),
+    }
+}
+
+fn conflict(outcome: Outcome) -> Conflict {
+    match outcome {
+        Outcome::Done(edit) => panic!("{edit:?}"),
+        Outcome::Conflict(conflict) => conflict,
+    }
+}
+
+#[test]
+fn a_stale_base_is_told_whose_edit_it_missed_and_nothing_is_written() {
+    let folder = Folder::new();
+    let [mut here, mut there] = [folder.open(), folder.open()];
+    done(here.apply(&stroke(99, vec![edit(3, 0, &[1, 2])]), &who("ada")).unwrap());
+    let both = vec![edit(2, 0, &[0]), edit(3, 0, &[2])];
+    let found = conflict(there.apply(&stroke(1, both), &who("bob")).unwrap());
+    assert_eq!((found.author.as_str(), found.tool.as_str()), ("ada", "lasso"));
+    assert_eq!((found.radar.as_str(), found.scan), ("front", 3));
+    assert_eq!(found.at.len(), "2026-01-31T12:34:56.789Z".len());
+    let states: Vec<_> =
+        found.scans.iter().map(|s| (s.key.scan, s.revision, s.corrections.clone())).collect();
+    assert_eq!(states, [(2, 0, vec![]), (3, 1, vec![(1, 99), (2, 99)])]);
+    assert_eq!(here.scan(&version(2)).unwrap().corrections, []);
+    done(there.apply(&stroke(1, vec![edit(3, 1, &[2])]), &who("bob")).unwrap());
+    let found = conflict(here.undo("00", &who("ada")).unwrap());
+    assert_eq!((found.author.as_str(), found.scans[0].revision), ("bob", 2));
+    done(there.undo("00", &who("bob")).unwrap());
+    assert_eq!(done(here.undo("00", &who("ada")).unwrap()).changed, 2);
+    let found = conflict(there.apply(&stroke(1, vec![edit(3, 2, &[2])]), &who("bob")).unwrap());
+    assert_eq!((found.author.as_str(), found.tool.as_str()), ("ada", "undo"));
+}
+
+#[test]
+fn other_windows_hear_of_each_scan_once() {
+    let folder = Folder::new();
+    let mut store = folder.open();
+    assert_eq!(store.counter().unwrap(), 0);
+    done(store.apply(&stroke(99, vec![edit(3, 0, &[1]), edit(4, 0, &[1])]), &who("ada")).unwrap());
+    done(store.apply(&stroke(1, vec![edit(3, 1, &[1])]), &who("ada")).unwrap());
+    let heard = store.changes("00", 0, Some("bob's")).unwrap();
+    let scans: Vec<_> = heard.scans.iter().map(|s| (s.scan, s.revision, s.author.as_str())).collect();
+    assert_eq!((heard.counter, scans), (2, vec![(4, 1, "ada"), (3, 2, "ada")]));
+    assert_eq!(store.changes("00", 0, None).unwrap().scans.len(), 2);
+    assert_eq!(store.changes("00", 1, None).unwrap().scans.len(), 1);
+    for nothing in
+        [store.changes("00", 0, Some("ada's")), store.changes("01", 0, None), store.changes("00", 2, None)]
+    {
+        let nothing = nothing.unwrap();
+        assert_eq!((nothing.counter, nothing.scans), (2, vec![]));
+    }
+}
+
+#[test]
+fn a_mark_keeps_what_was_accepted_until_it_is_taken_away() {
+    let folder = Folder::new();
+    let mut store = folder.open();
+    let mark =
+        |reviewed, label| Mark { key: key(3), content: None, base: 0, machine: vec![label; 10], reviewed };
+    let marked = |outcome| done(outcome).scans.remove(0).review;
+    assert!(marked(store.mark(&mark(false, 99), &who("ada")).unwrap()).is_none());
+    assert_eq!(store.counter().unwrap(), 0, "nothing was done");
+    assert_eq!(marked(store.mark(&mark(true, 99), &who("ada")).unwrap()).unwrap().accepted, [99; 10]);
+    let again = marked(store.mark(&mark(true, 1), &who("bob")).unwrap()).unwrap();
+    assert_eq!((again.author.as_str(), again.accepted), ("bob", vec![99; 10]));
+    assert_eq!(store.scan(&version(3)).unwrap().revision, 0, "a mark is no correction");
+    assert_eq!(store.summaries("00").unwrap()[0].reviewed.as_ref().unwrap().0, "bob");
+    assert_eq!(read_layer(&folder.file).unwrap()[&key(3)][0].accepted, Some(vec![99; 10]));
+    assert!(marked(store.mark(&mark(false, 1), &who("ada")).unwrap()).is_none());
+    assert!(store.summaries("00").unwrap().is_empty() && read_layer(&folder.file).unwrap().is_empty());
+    assert_eq!(marked(store.mark(&mark(true, 1), &who("ada")).unwrap()).unwrap().accepted, [1; 10]);
+    done(store.apply(&stroke(99, vec![edit(3, 0, &[1])]), &who("bob")).unwrap());
+    assert!(
+        matches!(store.mark(&mark(true, 1), &who("ada")).unwrap(), Outcome::Conflict(c) if c.author == "bob")
+    );
+}
+
+#[test]
+fn what_makes_no_sense_is_refused() {
+    let folder = Folder::new();
+    let mut store = folder.open();
+    let mut refusal = |scans| store.apply(&stroke(99, scans), &who("ada")).unwrap_err().to_string();
+    let beyond = refusal(vec![edit(3, 0, &[10])]);
+    assert_eq!(beyond, "front scan 3: expected detections below 10, found 10");
+    let twice = refusal(vec![edit(3, 0, &[1]), edit(3, 0, &[2])]);
+    assert_eq!(twice, "front scan 3: expected each scan once, found this one twice");
+    done(store.apply(&stroke(99, vec![edit(3, 0, &[1])]), &who("ada")).unwrap());
+}
+
+#[test]
+fn other_files_and_other_versions_are_refused() {
+    let folder = Folder::new();
+    fs::write(&folder.file, "these are notes, and no database of any kind".repeat(40)).unwrap();
+    assert!(
+        folder.refusal().contains("expected a whole SQLite database of corrections"),
+        "{}",
+        folder.refusal()
+    );
+    assert!(read_layer(&folder.file).is_err());
+    let folder = Folder::new();
+    folder.sql("CREATE TABLE notes (text TEXT)");
+    let expected = "corrections.sqlite: application_id: expected 1380011078 (corrections), found 0";
+    assert!(folder.refusal().ends_with(expected), "{}", folder.refusal());
+    let folder = Folder::new();
+    drop(folder.open());
+    folder.sql("PRAGMA user_version = 3");
+    let expected = "user_version: expected 2, found 3, of another version of the program";
+    assert!(folder.refusal().ends_with(expected), "{}", folder.refusal());
+    let error = read_layer(&folder.file).unwrap_err().to_string();
+    assert!(error.ends_with(expected), "{error}");
+}
+
+#[test]
+fn another_program_that_holds_the_file_is_waited_for_and_then_told() {
+    let folder = Folder::new();
+    let mut store = folder.open();
+    let other = rusqlite::Connection::open(&folder.file).unwrap();
+    other.execute_batch("BEGIN IMMEDIATE").unwrap();
+    let error = store.apply(&stroke(99, vec![edit(3, 0, &[1])]), &who("ada")).unwrap_err();
+    assert!(
+        matches!(error, StoreError::Locked { .. }) && error.to_string().contains("locked by another"),
+        "{error}"
+    );
+    // Reading goes on meanwhile.
+    assert_eq!(store.scan(&version(3)).unwrap().revision, 0);
+    other.execute_batch("COMMIT").unwrap();
+    done(store.apply(&stroke(99, vec![edit(3, 0, &[1])]), &who("ada")).unwrap());
+}
+
+#[test]
+fn every_commit_reaches_the_disk() {
+    let folder = Folder::new();
+    let mut store = folder.open();
+    done(store.apply(&stroke(99, vec![edit(3, 0, &[1])]), &who("ada")).unwrap());
+    let journal: String = rusqlite::Connection::open(&folder.file)
+        .unwrap()
+        .pragma_query_value(None, "journal_mode", |row| row.get(0))
+        .unwrap();
+    assert_eq!(journal, "wal");
+    // As a kill leaves it: the journal is not written back yet.
+    let copy = Folder::new();
+    for suffix in ["", "-wal"] {
+        let of = |file: &PathBuf| PathBuf::from(format!("{}{suffix}", file.display()));
+        fs::copy(of(&folder.file), of(&copy.file)).unwrap();
+    }
+    assert_eq!(copy.open().scan(&version(3)).unwrap().corrections, [(1, 99)]);
+}

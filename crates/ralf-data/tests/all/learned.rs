@@ -1,0 +1,165 @@
+//! A model from simulated recordings, and labels by it.
+
+use ralf::config::{Config, Method};
+use ralf::label::flag;
+use ralf::learned::{Model, Origin};
+use ralf_data::result::{LabelledRun, Table};
+use ralf_data::run::{LabelRun, Unwatched};
+use ralf_data::{Recording, SequenceReader, Settings, TrainingGatherer, TrainingTruth};
+use ralf_sim::SimulatedSequence;
+use ralf_train::learning::{Fitting, Parameters, TrainingTable, View, fit};
+use std::path::Path;
+
+/// A simulated recording of one short sequence.
+fn recording(seed: u64) -> Recording {
+    let preset = ralf_sim::presets::find("tiny").unwrap();
+    let sequence: SimulatedSequence = preset.sequences[0].simulate(seed, 3).unwrap();
+    let sequences: Vec<Box<dyn SequenceReader>> = vec![Box::new(sequence)];
+    Recording::new(Path::new(&format!("simulated-{seed}")), "simulated", sequences)
+}
+
+fn table(jobs: usize) -> TrainingTable {
+    let config = Config::default();
+    let gatherer =
+        TrainingGatherer { config: &config, seed: 1, weight: 1.0, every: 1, jobs, observer: &Unwatched };
+    let mut table = gatherer.table();
+    for (world, seed) in [("one", 1), ("two", 2)] {
+        let left_out = gatherer.add(&mut table, Some(world), &recording(seed), TrainingTruth::Known).unwrap();
+        assert!(left_out.is_empty());
+    }
+    table
+}
+
+fn model(table: &TrainingTable) -> Model {
+    let parameters = Parameters { rounds: 20, leaves: 8, rows_per_leaf: 30, ..Parameters::default() };
+    let fitting =
+        Fitting { parameters, blanking: true, causes: true, threshold: 0.5, unconfirmed: 0.1, jobs: 2 };
+    fit(table, &fitting, Origin::default(), &|_, _| {}).unwrap().model
+}
+
+fn label(out: &Path, assignments: &[&str], model: Option<&Model>, jobs: usize) -> Result<Table, String> {
+    let mut settings = Settings::from_toml("", assignments).unwrap();
+    if model.is_some() {
+        settings.method.method = Method::Learned;
+    }
+    let recording = recording(3);
+    let run = LabelRun {
+        recording: &recording,
+        settings: &settings,
+        out,
+        jobs,
+        evidence: false,
+        checks: &[],
+        model,
+    };
+    run.execute(&Unwatched).map_err(|error| error.to_string())?;
+    let reader = recording.sequences[0].as_ref();
+    let sequence = LabelledRun::open(out).unwrap().sequence(reader).unwrap();
+    let mut scans = sequence.tables.tables(0).unwrap().into_iter().map(|(_, table)| table);
+    let first = scans.next().unwrap();
+    Ok(scans.fold(first, |mut all, more| {
+        all.append(&more).unwrap();
+        all
+    }))
+}
+
+/// What is gathered, with absence as one value.
+fn bits(table: &TrainingTable) -> Vec<u32> {
+    (0..table.len()).flat_map(|row| table.rows.row(row).iter().map(|value| value.to_bits())).collect()
+}
+
+#[test]
+fn what_is_gathered_does_not_depend_on_the_number_of_jobs_and_shows_less_in_some_scans() {
+    let one = table(1);
+    let four = table(4);
+    assert!(bits(&one) == bits(&four) && one.known == four.known);
+    assert_eq!(one.worlds, ["one", "two"]);
+    assert!(one.known.iter().any(|known| known.plausible) && one.known.iter().any(|known| known.cause > 0));
+    let single = one.known.iter().position(|known| known.view == View::SingleFrame).unwrap();
+    let persistence = one.features.iter().position(|feature| feature.name == "persistence_own").unwrap();
+    assert!(one.rows.row(single)[persistence].is_nan(), "a single frame has nothing to persist in");
+}
+
+#[test]
+fn a_model_labels_with_reasons_and_the_same_to_the_byte_whatever_the_number_of_jobs() {
+    let model = model(&table(2));
+    let [first, second, paper] = [(); 3].map(|()| tempfile::tempdir().unwrap());
+    let labelled = label(first.path(), &[], Some(&model), 1).unwrap();
+    label(second.path(), &[], Some(&model), 3).unwrap();
+    let file = "sequences/tiny/plausibility.parquet";
+    let bytes = |out: &Path| std::fs::read(out.join(file)).unwrap();
+    assert!(bytes(first.path()) == bytes(second.path()));
+    let by_paper = label(paper.path(), &[], None, 2).unwrap();
+    assert!(by_paper.get::<f32>("novelty").is_err(), "the paper's method says nothing of a model");
+    let (w, label) = (labelled.get::<f32>("w").unwrap(), labelled.get::<u8>("label").unwrap());
+    let threshold = Config::default().fusion.threshold;
+    let by_model = labelled.get::<u16>("flags").unwrap().iter().map(|flags| flags & flag::PAPER == 0);
+    for ((w, label), by_model) in w.iter().zip(label).zip(by_model) {
+        assert!(!by_model || (f64::from(*w) >= threshold) == (*label == 1), "{w} is {label}");
+    }
+    assert_ne!(w, by_paper.get::<f32>("w").unwrap());
+    assert_eq!(labelled.get::<f32>("d_lm").unwrap().len(), w.len());
+    let reasons = labelled.get::<std::sync::Arc<str>>("reason").unwrap();
+    assert!(reasons.iter().any(|reason| reason.contains("LiDAR")), "{:?}", &reasons[..3]);
+    let causes = labelled.get::<std::sync::Arc<str>>("cause").unwrap();
+    let flags = labelled.get::<u16>("flags").unwrap();
+    for (row, cause) in causes.iter().enumerate() {
+        let is_told = label[row] == 0 && flags[row] & flag::PAPER == 0;
+        assert_eq!(!cause.is_empty(), is_told, "{cause:?} of detection {row}");
+    }
+}
+
+#[test]
+fn as_many_are_plausible_as_are_said_to_be_expected() {
+    let model = model(&table(2));
+    // What the model has no business with the paper's method answers, whatever share is expected.
+    let answers = |assignments: &[&str]| -> Vec<(f32, bool)> {
+        let out = tempfile::tempdir().unwrap();
+        let table = label(out.path(), assignments, Some(&model), 2).unwrap();
+        let by_model = table.get::<u16>("flags").unwrap().iter().map(|flags| flags & flag::PAPER == 0);
+        table.get::<f32>("w").unwrap().iter().copied().zip(by_model).collect()
+    };
+    let odds = |share: f64| share / (1.0 - share);
+    let (as_trained, few) =
+        (answers(&["learned.unconfirmed=1"]), answers(&["learned.unconfirmed=1", "learned.share=0.1"]));
+    let factor = odds(0.1) / odds(model.share());
+    let mut moved = 0;
+    for ((before, by_model), (now, _)) in as_trained.iter().zip(&few) {
+        if *by_model && (0.01..0.99).contains(before) {
+            let expected = odds(f64::from(*before)) * factor;
+            assert!((odds(f64::from(*now)) / expected - 1.0).abs() < 1e-4, "{before} became {now}");
+            moved += 1;
+        }
+    }
+    assert!(moved > 100, "{moved} of {}", few.len());
+}
+
+#[test]
+fn what_is_unlike_anything_the_model_knows_is_answered_by_the_paper_and_says_so() {
+    let mut model = model(&table(2));
+    for input in &mut model.inputs {
+        (input.seen.low, input.seen.high, input.seen.absent) = (1e30, 1e30, 0.0);
+    }
+    let [learned, paper] = [(); 2].map(|()| tempfile::tempdir().unwrap());
+    let labelled = label(learned.path(), &[], Some(&model), 2).unwrap();
+    let by_paper = label(paper.path(), &[], None, 2).unwrap();
+    for column in ["w", "w_lm", "w_tr"] {
+        let same =
+            |table: &Table| table.get::<f32>(column).unwrap().iter().map(|w| w.to_bits()).collect::<Vec<_>>();
+        assert_eq!(same(&labelled), same(&by_paper), "{column}");
+    }
+    assert!(labelled.get::<u16>("flags").unwrap().iter().all(|flags| flags & flag::PAPER != 0));
+    assert!(labelled.get::<f32>("novelty").unwrap().iter().all(|novelty| (novelty - 1.0).abs() < 1e-6));
+}
+
+#[test]
+fn a_model_that_cannot_be_used_is_refused_before_anything_is_written() {
+    let mut model = model(&table(2));
+    model.inputs[0].name = "smell".to_owned();
+    let out = tempfile::tempdir().unwrap();
+    let refused = label(&out.path().join("labels"), &[], Some(&model), 1).unwrap_err();
+    assert!(refused.contains("`smell`"), "{refused}");
+    let refused = label(&out.path().join("labels"), &["method=learned"], None, 1).unwrap_err();
+    assert!(refused.contains("no model"), "{refused}");
+    assert!(!out.path().join("labels").exists());
+}

@@ -1,0 +1,131 @@
+//! What a frame holds of the scans around it where evidence is asked for.
+
+use crate::support::{MS, Memory, lidar, radar};
+use ralf::config::Config;
+use ralf::paper::Labeler;
+use ralf::scene::{FrameWindow, NeighbouringDetections};
+use ralf::sensors::{Camera, Elevation, Intrinsics};
+use ralf::space::Transform;
+
+const SCANS: i64 = 60;
+
+/// 10 m/s ahead; a wall's point 30 m ahead of where the vehicle begins, seen by two radars every 50 ms, the second
+/// 20 ms later, and by a LiDAR every 100 ms.
+fn memory() -> Memory {
+    let ahead = |t_ns: i64| 30.0 - 10.0 * (t_ns as f32 * 1e-9);
+    let radar_scans = |after: i64| -> Vec<_> {
+        let times = (0..SCANS).map(|scan| (scan * 50 + after) * MS);
+        times.map(|t_ns| (t_ns, Some(vec![[ahead(t_ns), 0.0, 1.0], [f32::NAN; 3]]))).collect()
+    };
+    let lidar_scans =
+        (0..SCANS / 2).map(|scan| (scan * 100 * MS, vec![[ahead(scan * 100 * MS), 0.0, -1.0]])).collect();
+    Memory::new(10.0)
+        .radar(radar(Elevation::Measured), radar_scans(0))
+        .radar(radar(Elevation::Measured), radar_scans(20))
+        .lidar(lidar(), lidar_scans)
+}
+
+#[test]
+fn all_radars_scans_around_are_gathered_and_moved_into_the_frame() {
+    let (memory, config) = (memory(), Config::default());
+    let frame =
+        FrameWindow::new(&memory, &memory.sequence.rig, &config).with_evidence().frame(1, 30).unwrap();
+    let around = NeighbouringDetections::around(&frame);
+    // 0.6 s at 50 ms is 12 scans to each side; the first radar has 12 before and 12 after, and one at -20 ms, which
+    // leaves it -620 ms out.
+    let expected: Vec<(usize, i64)> = {
+        let own = (-12..=12).filter(|j| *j != 0).map(|j| (1, j * 50));
+        let other = (-12..=12).map(|j| (0, j * 50 - 20)).filter(|(_, ms)| *ms >= -600);
+        let mut all: Vec<_> = own.chain(other).collect();
+        all.sort_by_key(|(_, ms)| *ms);
+        all
+    };
+    let found: Vec<(usize, i64)> = around
+        .radars
+        .iter()
+        .zip(&around.seconds)
+        .map(|(radar, s)| (*radar, (s * 1e3).round() as i64))
+        .collect();
+    assert_eq!(found, expected);
+    assert_eq!(around.len(), expected.len(), "those without a position are left out");
+    for (place, detection) in around.detections.iter().enumerate() {
+        assert!((detection.position - frame.scan.detections[0].unwrap().position).norm() < 1e-4);
+        assert_eq!((around.scans[place], around.rows[place]), (place as u32, 0));
+    }
+}
+
+#[test]
+fn of_radars_that_detect_very_much_every_so_many_scans_are_taken() {
+    let (memory, mut config) = (memory(), Config::default());
+    // Of two rows each: the frame's radar has 24 scans around, the other one 24.
+    config.evidence.radar_detections = 20;
+    let frame =
+        FrameWindow::new(&memory, &memory.sequence.rig, &config).with_evidence().frame(1, 30).unwrap();
+    let found: Vec<(usize, i64)> = frame
+        .radar_window
+        .iter()
+        .map(|near| (near.radar, (near.scan.t_ns() - frame.scan.t_ns()) / MS))
+        .collect();
+    let own = (-12..=12).filter(|j| *j != 0 && j % 3 == 0).map(|j| (1, j * 50));
+    let other = (-9..=12).filter(|j| j % 3 == 0).map(|j| (0, j * 50 - 20));
+    let mut expected: Vec<(usize, i64)> = own.chain(other).collect();
+    expected.sort_by_key(|(_, ms)| *ms);
+    assert_eq!(found, expected);
+}
+
+#[test]
+fn the_lidar_scans_around_are_spread_and_shared() {
+    let (memory, config) = (memory(), Config::default());
+    let mut window = FrameWindow::new(&memory, &memory.sequence.rig, &config).with_evidence();
+    // Every fourth LiDAR scan is taken: those at 0.8, 1.2 ... 2.4 s around 1.6 s.
+    let frame = window.frame(0, 29).unwrap();
+    let around = frame.lidar_window.clone().unwrap();
+    let times: Vec<i64> = around.window.views.iter().map(|view| view.moment.t_ns / MS).collect();
+    assert_eq!(times, [800, 1200, 1600, 2000, 2400]);
+    let own = frame.scan.detections[0].unwrap().position;
+    for view in around.views() {
+        assert!((view.all_points()[0] - own).norm() < 1e-4, "{:?}", view.all_points());
+    }
+    let next = window.frame(0, 30).unwrap().lidar_window.unwrap();
+    assert!(std::sync::Arc::ptr_eq(&around.window, &next.window));
+}
+
+fn camera() -> Camera {
+    Camera {
+        name: "camera".into(),
+        vehicle_from_camera: Transform::identity(),
+        width: 200,
+        height: 120,
+        intrinsics: Intrinsics::Pinhole { focal: [100.0; 2], center: [100.0, 60.0], distortion: [0.0; 5] },
+        views: Vec::new(),
+    }
+}
+
+#[test]
+fn moments_are_let_go_once_no_later_frame_asks_for_them() {
+    let (mut memory, config) = (memory(), Config::default());
+    // Cameras without images leave room for more moments than are needed.
+    memory.sequence.rig.cameras = vec![camera(); 4];
+    memory.sequence.times.cameras = vec![Vec::new(); 4];
+    let mut window = FrameWindow::new(&memory, &memory.sequence.rig, &config);
+    let mut moment = |scan| std::sync::Arc::downgrade(&window.frame(0, scan).unwrap().lidar.unwrap().moment);
+    let (first, same, second) = (moment(10), moment(10), moment(12));
+    assert!(first.ptr_eq(&same) && first.upgrade().is_none() && second.upgrade().is_some());
+    assert_eq!(moment(10).upgrade().unwrap().t_ns, 500 * MS, "whoever goes back gets it anew");
+}
+
+#[test]
+fn evidence_changes_nothing_for_the_papers_method() {
+    let memory = memory();
+    for sources in ["same", "all"] {
+        let config = Config::from_toml("", &[&format!("tracking.sources={sources}")]).unwrap();
+        let mut window = FrameWindow::new(&memory, &memory.sequence.rig, &config).with_evidence();
+        for scan in [0, 7, 59] {
+            let labels = Labeler::new(&config).label(&window.frame(1, scan).unwrap());
+            assert_eq!(labels, memory.label(&config, 1, scan));
+        }
+    }
+    let config = Config::default();
+    let frame = FrameWindow::new(&memory, &memory.sequence.rig, &config).frame(1, 30).unwrap();
+    assert!(frame.lidar_window.is_none() && frame.radar_window.is_empty(), "nobody asked for it");
+}
