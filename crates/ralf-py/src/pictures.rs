@@ -20,7 +20,7 @@ struct Wish<'a> {
 
 /// A scan from above, or a whole sequence where no scan is named, as PNG, and its scans that could not be labelled.
 #[pyfunction]
-#[pyo3(signature = (out, recording, sequence, scan=None, radar=None, radius=None, color_by=None, width=1200))]
+#[pyo3(signature = (out, recording, sequence, scan=None, radar=None, radius=None, color_by=None, width=1600))]
 #[expect(clippy::too_many_arguments, reason = "Python names them")]
 pub(crate) fn plot<'py>(
     py: Python<'py>,

@@ -95,6 +95,6 @@ def plot(
     radar: str | None = None,
     radius: float | None = None,
     color_by: str | None = None,
-    width: int = 1200,
+    width: int = 1600,
 ) -> tuple[bytes, list[str]]: ...
 def command(typed: Sequence[str]) -> int: ...

@@ -111,13 +111,14 @@ def plot(
     radius: float | None = None,
     color_by: str | None = None,
     recording: Path_ | None = None,
-    width: int = 1200,
+    width: int = 1600,
 ) -> Picture:
     """Draw a labelled scan from above, or the whole sequence where no scan is given.
 
-    Without `radar` all radars are drawn: the first one's scan, and the others' nearest to it in time. `radius` is in m;
-    `color_by` names a column of numbers. The recording is the run's own if not given. Scans that could not be labelled
-    are a warning each; a picture of such scans alone is refused: it would show that nothing is plausible.
+    Without `radar` all radars are drawn: the first one's scan, and the others' nearest to it in time. `radius` is in
+    m; `color_by` names a column of numbers. The picture is `width` pixels wide. The recording is the run's own if not
+    given. Scans that could not be labelled are a warning each; a picture of such scans alone is refused: it would
+    show that nothing is plausible.
     """
     source = recording or run.recording
     if source is None:
