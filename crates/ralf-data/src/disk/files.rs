@@ -78,7 +78,9 @@ pub(crate) fn f32_rows<'a, const N: usize>(
 
 /// The bytes of packed little-endian float32.
 pub(crate) fn f32_bytes(values: impl Iterator<Item = f32>) -> Vec<u8> {
-    values.flat_map(f32::to_le_bytes).collect()
+    let mut bytes = Vec::with_capacity(4 * values.size_hint().0);
+    values.for_each(|value| bytes.extend_from_slice(&value.to_le_bytes()));
+    bytes
 }
 
 fn check_f32_rows(file: &Path, size: usize, columns: usize) -> Result<(), DataError> {

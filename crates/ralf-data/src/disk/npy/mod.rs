@@ -51,8 +51,9 @@ pub(crate) fn depth_bytes(images: &[DepthImage]) -> Option<Vec<u8>> {
     }
     let views = if images.len() > 1 { format!("{}, ", images.len()) } else { String::new() };
     let mut bytes = header("<f4", &format!("{views}{height}, {width}"));
-    let values = images.iter().flat_map(|image| &image.values);
-    bytes.extend(values.flat_map(|value| value.to_le_bytes()));
+    for image in images {
+        bytes.extend(files::f32_bytes(image.values.iter().copied()));
+    }
     Some(bytes)
 }
 
