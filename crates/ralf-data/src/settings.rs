@@ -56,10 +56,21 @@ impl Settings {
     }
 
     /// A recording as the tables `sensors`, `corrections` and `motion` have it. Where it knows no motion, that is taken
-    /// from the radars' range rates. Refused: names that no sensor has, files that hold no poses, and sequences whose
-    /// motion nobody knows.
+    /// from the radars' range rates. Refused: names that no sensor has, files that hold no poses, one such file for
+    /// several sequences, and sequences whose motion nobody knows.
     pub fn correct(&self, recording: Recording) -> Result<Recording, DataError> {
-        corrected(recording, &self.method, &self.corrections, &self.motion)
+        self.correct_labelled(recording, |_| true)
+    }
+
+    /// The same with a recording of which these sequences were labelled with these settings. A trajectory was theirs,
+    /// and says nothing of others: those stay as they are.
+    pub fn correct_labelled(
+        &self,
+        recording: Recording,
+        is_labelled: impl Fn(&str) -> bool,
+    ) -> Result<Recording, DataError> {
+        let is_concerned = |name: &str| self.motion.trajectory.is_none() || is_labelled(name);
+        corrected(recording, &self.method, &self.corrections, &self.motion, &is_concerned)
     }
 
     /// The same, with paths that lead to the same files from every folder.

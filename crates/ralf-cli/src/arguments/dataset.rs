@@ -44,7 +44,8 @@ impl DatasetArgs {
             .with_context(|| self.dataset.display().to_string())?;
         let run = LabelledRun::open(out)?;
         let topics = self.topics_or(&run.settings().topics)?;
-        let recording = told(run.settings().correct(self.read(&topics)?)?);
+        let recording = run.settings().correct_labelled(self.read(&topics)?, |name| run.holds(name))?;
+        let recording = told(recording);
         if self.sequences.is_empty() {
             changed.check_sequences(out, Some(&run), &recording)?;
         }

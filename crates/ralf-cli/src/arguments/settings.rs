@@ -28,8 +28,9 @@ pub(crate) struct SettingsArgs {
     /// One setting, such as lidar.beta=0.5; wins over the file, may be given several times
     #[arg(long = "set", value_name = "KEY=VALUE")]
     assignments: Vec<String>,
-    /// Take the vehicle's motion from these poses: a TUM file, or a KITTI file in the order of the LiDAR's scans
-    #[arg(long, value_name = "FILE")]
+    /// Take the vehicle's motion from these poses: a TUM file, or a KITTI file in the order of the LiDAR's scans; of
+    /// several sequences a folder with a file for each, such as 00.tum
+    #[arg(long, value_name = "POSES")]
     trajectory: Option<PathBuf>,
     /// The sensor whose poses these are; `vehicle` if not given
     #[arg(long, value_name = "NAME", requires = "trajectory")]
@@ -92,8 +93,11 @@ fn parsed(file: &Path, text: &str) -> anyhow::Result<Settings> {
     Settings::from_toml(text, &[]).with_context(|| file.display().to_string())
 }
 
-/// Refuses what can't be a file of poses, before anything is read.
+/// Refuses what can't be a file of poses, or a folder of such, before anything is read.
 fn is_there(file: &Path) -> anyhow::Result<()> {
+    if file.is_dir() {
+        return Ok(());
+    }
     let found = ralf_files::check(file, Kind::Table).map(drop);
     found.with_context(|| file.display().to_string())
 }

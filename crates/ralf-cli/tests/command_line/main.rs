@@ -48,6 +48,7 @@ mod sequences;
 mod simulation;
 mod streams;
 mod support;
+mod trajectories;
 mod tuning;
 #[cfg(unix)]
 mod verbs;

@@ -79,7 +79,8 @@ pub enum MotionSource {
 pub struct MotionSettings {
     /// `recorded`, `radar` or `lidar`; a trajectory wins over all.
     pub source: MotionSource,
-    /// File of poses: TUM (`t x y z qx qy qz qw`) or KITTI (twelve numbers, row by row).
+    /// File of poses of the only sequence: TUM (`t x y z qx qy qz qw`) or KITTI (twelve numbers, row by row); or a
+    /// folder with such a file for each sequence, of its name and with the ending `tum`, `txt` or `kitti`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub trajectory: Option<PathBuf>,
     /// `vehicle`, or the sensor whose poses they are.

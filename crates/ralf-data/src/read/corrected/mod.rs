@@ -23,27 +23,39 @@ use std::path::Path;
 /// By sensor name.
 pub(crate) type Corrections = BTreeMap<String, SensorCorrection>;
 
-/// The recording with what the settings say of it; of the method's settings those of the sensors. Refused: a name that
-/// no sensor has, a trajectory that is none, and a sequence whose motion nobody knows.
+/// The recording with what the settings say of the sequences concerned; of the method's settings those of the sensors.
+/// Refused: a name that no sensor has, a trajectory that is none or of more than one sequence, and a sequence whose
+/// motion nobody knows.
 pub(crate) fn corrected(
     recording: Recording,
     method: &Config,
     corrections: &Corrections,
     motion: &MotionSettings,
+    is_concerned: &dyn Fn(&str) -> bool,
 ) -> Result<Recording, DataError> {
     let Recording { path, format, sequences, incomplete } = recording;
+    let count = sequences.iter().filter(|reader| is_concerned(&reader.sequence().name)).count();
     let mut read = Vec::with_capacity(sequences.len());
     let as_recorded =
         method.sensors.is_empty() && corrections.is_empty() && *motion == MotionSettings::default();
     for inner in sequences {
-        if as_recorded && inner.sequence().motion.is_known() {
+        let Sequence { name, motion: known, .. } = inner.sequence();
+        if !is_concerned(name) || as_recorded && known.is_known() {
             read.push(inner);
             continue;
         }
         let sensors = with_sensors(inner, method, corrections, &path)?;
-        read.push(Box::new(with_motion(sensors, motion, &path)?));
+        let own = motion_of(motion, &sensors.sequence().name, count)?;
+        read.push(Box::new(with_motion(sensors, &own, &path)?));
     }
     Ok(Recording { path, format, sequences: read, incomplete })
+}
+
+/// What the settings say of the motion of one of so many sequences: of a folder of trajectories its own.
+fn motion_of(wanted: &MotionSettings, sequence: &str, sequences: usize) -> Result<MotionSettings, DataError> {
+    let place = wanted.trajectory.as_deref();
+    let trajectory = place.map(|place| trajectory::file_of(place, sequence, sequences)).transpose()?;
+    Ok(MotionSettings { trajectory, ..wanted.clone() })
 }
 
 fn unsuitable(path: &Path, sequence: &Sequence, reason: String) -> DataError {

@@ -4,6 +4,8 @@
 //!   `#` are comments.
 //! - KITTI: a pose per line, the twelve numbers of a 3 x 4 matrix, row by row. It has no times: the n-th pose belongs
 //!   to the n-th measurement of a sensor.
+//!
+//! A file tells of one sequence; a folder of files, named as the sequences are, of several.
 
 use crate::disk::files;
 use crate::error::DataError;
@@ -12,13 +14,45 @@ use nalgebra::{Matrix3, Rotation3, Translation3, UnitQuaternion};
 use ralf::sensors::Sequence;
 use ralf::space::{EgoMotion, PoseSample, Transform, transform_from_parts};
 use ralf_files::Kind;
-use std::path::Path;
+use std::path::{Path, PathBuf};
+
+/// How the files of a folder of trajectories end.
+const ENDINGS: [&str; 3] = ["tum", "txt", "kitti"];
 
 /// A pose as it lies in a file, and its time where it has one, ns.
 struct Row {
     line: usize,
     t_ns: Option<i64>,
     pose: Transform,
+}
+
+/// The file that tells of one of so many sequences. A single file is never taken for that of several: their times may
+/// be the same, and nothing would tell.
+pub(super) fn file_of(place: &Path, sequence: &str, sequences: usize) -> Result<PathBuf, DataError> {
+    if !place.is_dir() {
+        if sequences > 1 {
+            let expected = "one sequence, or a folder with a file for each, such as";
+            let (expected, found) = (format!("{expected} {sequence}.tum"), format!("{sequences} sequences"));
+            return Err(DataError::content(place, "what it is the motion of", expected, found));
+        }
+        return Ok(place.to_owned());
+    }
+    let names = ENDINGS.map(|ending| format!("{sequence}.{ending}"));
+    let mut there = Vec::new();
+    for name in &names {
+        there.extend(Some(name).filter(|_| files::exists(&place.join(name)).unwrap_or(true)));
+    }
+    match there[..] {
+        [name] => Ok(place.join(name)),
+        _ => {
+            let found = match there[..] {
+                [one, other, ..] => format!("{one} and {other}"),
+                _ => "none of these".to_owned(),
+            };
+            let expected = format!("its poses in one of the files {}", names.join(", "));
+            Err(DataError::content(place, format!("sequence {sequence}"), expected, found))
+        }
+    }
 }
 
 /// The motion that a file tells of a sequence.
@@ -39,7 +73,7 @@ pub(super) fn read(
         poses.push(PoseSample { t_ns, odom_from_vehicle: row.pose * sensor_from_vehicle });
     }
     if let Some(i) = poses.windows(2).position(|pair| pair[1].t_ns <= pair[0].t_ns) {
-        let place = format!("line {}", rows[i + 1].line);
+        let place = format!("line {} (sequence {})", rows[i + 1].line, sequence.name);
         return Err(DataError::content(file, place, "a time after that of the line before", "none"));
     }
     EgoMotion::new(vec![], poses).ok_or_else(|| DataError::content(file, "content", "poses", "none"))
@@ -122,11 +156,12 @@ fn mounting(file: &Path, settings: &MotionSettings, sequence: &Sequence) -> Resu
     let lidars = rig.lidars.iter().map(|lidar| (&lidar.name, lidar.vehicle_from_lidar));
     let cameras = rig.cameras.iter().map(|camera| (&camera.name, camera.vehicle_from_camera));
     let found = radars.chain(lidars).chain(cameras).find(|(own, _)| *own == name);
-    found.map(|(_, mount)| mount).ok_or_else(|| no_sensor(file, "motion.trajectory_frame", name))
+    found.map(|(_, mount)| mount).ok_or_else(|| no_sensor(file, "motion.trajectory_frame", name, sequence))
 }
 
-fn no_sensor(file: &Path, key: &str, name: &str) -> DataError {
-    DataError::content(file, key, "`vehicle` or the name of a sensor", format!("`{name}`"))
+fn no_sensor(file: &Path, key: &str, name: &str, sequence: &Sequence) -> DataError {
+    let expected = format!("`vehicle` or the name of a sensor of sequence {}", sequence.name);
+    DataError::content(file, key, expected, format!("`{name}`"))
 }
 
 /// The times of poses that have none: those of the sensor that is named, else of the only LiDAR. `None` where they
@@ -139,15 +174,18 @@ fn order<'a>(
 ) -> Result<Option<&'a [i64]>, DataError> {
     let times = match &settings.trajectory_order {
         Some(name) => {
-            Some(times_of(sequence, name).ok_or_else(|| no_sensor(file, "motion.trajectory_order", name))?)
+            let times = times_of(sequence, name);
+            Some(times.ok_or_else(|| no_sensor(file, "motion.trajectory_order", name, sequence))?)
         }
         None if rows.iter().all(|row| row.t_ns.is_some()) => None,
         None => Some(sequence.times.lidars.first().map(Vec::as_slice).unwrap_or_default()),
     };
     match times {
         Some(times) if times.len() != rows.len() => {
-            let expected = format!("{} poses, one per measurement", times.len());
-            Err(DataError::content(file, "content", expected, format!("{} poses", rows.len())))
+            let of = settings.trajectory_order.as_deref().unwrap_or("the first LiDAR");
+            let place = format!("sequence {}", sequence.name);
+            let expected = format!("{} poses, one per measurement of {of}", times.len());
+            Err(DataError::content(file, place, expected, format!("{} poses", rows.len())))
         }
         times => Ok(times),
     }
