@@ -9,8 +9,8 @@ use std::fmt::Display;
 use std::path::Path;
 
 /// The dataset's truth with the corrections of an output folder above it, which is said. Where they were asked for
-/// there must be some. Corrections of scans that hold something else now are named and left out, where the recording
-/// can be read; the outcome tells.
+/// there must be some that fit the recording. Corrections of scans that hold something else now are named and left out,
+/// where the recording can be read; the outcome tells.
 pub(crate) fn merged_truth(
     dataset: &Path,
     recording: Option<&Recording>,
@@ -25,7 +25,9 @@ pub(crate) fn merged_truth(
     let outcome = say_orphaned(corrections.orphaned());
     let file = corrections.file().display();
     if corrections.is_empty() && asked {
-        bail!("{file}: expected corrections, found none");
+        let has_others = recording.is_some() && !Corrections::open(out)?.is_empty();
+        let fitting = if has_others { format!(" that fit {}", dataset.display()) } else { String::new() };
+        bail!("{file}: expected corrections, found none{fitting}");
     }
     if !corrections.is_empty() {
         say(&format!(

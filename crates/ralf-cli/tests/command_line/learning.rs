@@ -1,6 +1,6 @@
 //! `ralf learn`, and labels by what it writes.
 
-use crate::support::{Dataset, ralf, schema, without_timings};
+use crate::support::{Dataset, Ran, program, ralf, schema, without_timings};
 use std::fs;
 
 /// Two simulated recordings.
@@ -80,6 +80,30 @@ fn worlds_are_simulated_on_the_way_and_each_family_is_one() {
         "--preset worlds --seeds 2 --scans 12 --every 4 --without city,motorway,imaging,country,anything";
     assert!(text.contains(told), "{:?}", text.lines().nth(2));
     assert_eq!(text.lines().filter(|line| line.starts_with("world ")).count(), 3);
+}
+
+#[test]
+fn a_model_of_nothing_is_refused() {
+    let dataset = Dataset::new();
+    let [town, yard] = simulated(&dataset);
+    let model = dataset.beside("model");
+    let learn = |groups: &[&str]| {
+        let without = groups.iter().flat_map(|group| ["--without-group", group]);
+        let asked = ["learn", &town, &yard, "-o", &model, "--rounds", "2", "--leaves", "2", "-q"];
+        Ran::of(&program().args(asked).args(without).output().unwrap())
+    };
+    learn(&ralf::evidence::GROUPS).exits(2).ends_with_error(["no group of evidence is left to learn from"]);
+    // The simulated cameras of these recordings are gone, and nothing else is to be read.
+    for recording in [&town, &yard] {
+        let file = format!("{recording}/sequences/tiny/sequence.toml");
+        let text = fs::read_to_string(&file).unwrap();
+        fs::write(&file, text.split("[[camera]]").next().unwrap()).unwrap();
+    }
+    let all_but_camera = ralf::evidence::GROUPS.into_iter().filter(|group| *group != "Camera");
+    learn(&all_but_camera.collect::<Vec<_>>())
+        .exits(1)
+        .ends_with_error(["evidence that was observed", "none"]);
+    assert!(!fs::exists(&model).unwrap());
 }
 
 #[test]

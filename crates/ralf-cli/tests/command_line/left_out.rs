@@ -61,6 +61,17 @@ fn a_recording_that_lost_a_whole_sequence_is_refused_by_its_name() {
 }
 
 #[test]
+fn corrections_of_another_recording_are_told_apart_from_none() {
+    let (dataset, other) = (two(), Dataset::of(&Shape { scans: 3, sequences: &["07"], ..Shape::default() }));
+    let model = dataset.beside("model");
+    let [path, out, model] = [&dataset.path, &dataset.out, &model].map(String::as_str);
+    correct(&dataset, "00");
+    let learn = ["learn", path, &other.path, "--from", out, "-o", model, "-q"];
+    let told = format!("corrections.sqlite: expected corrections, found none that fit {}", other.path);
+    run(&learn, &[]).exits(1).ends_with_error([&told]);
+}
+
+#[test]
 fn corrections_of_other_detections_are_left_out_of_what_is_searched_for() {
     let dataset = two();
     correct(&dataset, "00");

@@ -61,6 +61,9 @@ pub enum LearnError {
         "expected recordings of two worlds or more, so that one can be left out and judged by; found {0}"
     )]
     TooFewWorlds(usize),
+    /// A model of nothing says the same of everything.
+    #[error("expected evidence that was observed of some detection, found none in the groups to learn from")]
+    NothingObserved,
 }
 
 /// What forests are grown of.
@@ -78,7 +81,7 @@ struct Ground<'a> {
 /// many forests of how many are grown.
 ///
 /// # Errors
-/// A table of one class, or of fewer than two worlds.
+/// A table of one class, of fewer than two worlds, or of which nothing was observed.
 pub fn fit(
     table: &TrainingTable,
     fitting: &Fitting,
@@ -120,7 +123,11 @@ fn refuse_what_cannot_be_learned(table: &TrainingTable) -> Result<(), LearnError
     }
     // Of some nothing may be known: without rows, they are none.
     let worlds = table.known.iter().map(|known| known.world).collect::<BTreeSet<_>>().len();
-    if worlds < 2 { Err(LearnError::TooFewWorlds(worlds)) } else { Ok(()) }
+    if worlds < 2 {
+        return Err(LearnError::TooFewWorlds(worlds));
+    }
+    let is_observed = |row: usize| table.rows.row(row).iter().any(|value| !value.is_nan());
+    if (0..table.len()).any(is_observed) { Ok(()) } else { Err(LearnError::NothingObserved) }
 }
 
 impl<'a> Ground<'a> {
@@ -320,6 +327,17 @@ mod tests {
         let texts = [1, 2, 5].map(|jobs| fitted(&table, jobs).unwrap().model.to_text());
         assert!(texts[0] == texts[1] && texts[1] == texts[2]);
         assert_eq!(Model::from_text(&texts[0]).unwrap().to_text(), texts[0]);
+    }
+
+    #[test]
+    fn nothing_is_learned_from_what_was_never_observed() {
+        let whole = table(30, 4);
+        let mut unseen = whole.clone();
+        unseen.rows = Rows::absent(whole.len(), whole.features.len());
+        let groups: Vec<String> = ralf::evidence::GROUPS.map(str::to_owned).to_vec();
+        for none in [unseen, whole.without_groups(&groups)] {
+            assert_eq!(fitted(&none, 1), Err(LearnError::NothingObserved));
+        }
     }
 
     #[test]

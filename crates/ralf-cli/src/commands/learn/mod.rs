@@ -6,7 +6,7 @@ mod worlds;
 
 use crate::arguments::{SettingsArgs, check_output, threads};
 use crate::corrections::merged_truth;
-use crate::outcome::Outcome;
+use crate::outcome::{Outcome, UsageError};
 use crate::progress::{Progress, Stages};
 use crate::run_summary::{say_not_used, say_without};
 use crate::text::{print, shell_path, shell_word};
@@ -14,8 +14,9 @@ use anyhow::Context;
 use clap::Args;
 use clap::builder::PossibleValuesParser;
 use ralf::config::Config;
+use ralf::evidence::GROUPS;
 use ralf::learned::{Origin, Tree};
-use ralf_data::{GroundTruth, Recording, TrainingGatherer, TrainingTruth, write_named};
+use ralf_data::{GroundTruth, Recording, Settings, TrainingGatherer, TrainingTruth, write_named};
 use ralf_train::learning::{Fitting, Parameters, TrainingTable, fit};
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
@@ -45,8 +46,8 @@ pub(crate) struct LearnArgs {
     /// The model's file
     #[arg(short, long = "output", visible_alias = "out", value_name = "MODEL")]
     output: PathBuf,
-    /// Learn the corrections of a review in OUT, too, beside worlds as of `--preset worlds`; every sequence of DATASET
-    /// is a world then
+    /// Learn the corrections of a review in OUT, too, beside worlds as of `--preset worlds`; every DATASET is one that
+    /// was reviewed there, and each of its sequences a world
     #[arg(long, value_name = "OUT", requires = "datasets")]
     from: Option<PathBuf>,
     #[command(flatten)]
@@ -61,7 +62,7 @@ pub(crate) struct LearnArgs {
     leaves: u32,
     /// Groups of evidence that the model doesn't read; may be given several times
     #[arg(long = "without-group", value_name = "GROUP",
-        value_parser = PossibleValuesParser::new(ralf::evidence::GROUPS))]
+        value_parser = PossibleValuesParser::new(GROUPS))]
     without_groups: Vec<String>,
     /// Leave no group of evidence out of any scan: a model that knows no missing sensor
     #[arg(long)]
@@ -85,6 +86,7 @@ pub(crate) fn run(arguments: &LearnArgs) -> anyhow::Result<Outcome> {
         arguments.datasets.iter().chain(&arguments.from).map(PathBuf::as_path).collect();
     check_output("--output", &arguments.output, &read_only)?;
     let settings = arguments.settings.resolve()?;
+    arguments.check(&settings)?;
     let stages = Stages::default();
     let jobs = threads(arguments.jobs);
     let (config, seed) = (&settings.method, arguments.seed);
@@ -114,6 +116,22 @@ pub(crate) fn run(arguments: &LearnArgs) -> anyhow::Result<Outcome> {
 }
 
 impl LearnArgs {
+    /// What can be told before anything is gathered.
+    fn check(&self, settings: &Settings) -> Result<(), UsageError> {
+        if GROUPS.iter().all(|group| self.without_groups.iter().any(|without| without == group)) {
+            return Err(UsageError("--without-group: no group of evidence is left to learn from".into()));
+        }
+        if settings.motion.trajectory.is_some() && self.datasets.len() != 1 {
+            let found = match self.datasets.len() {
+                0 => "simulated worlds alone".to_owned(),
+                several => several.to_string(),
+            };
+            let expected = "--trajectory (motion.trajectory): expected one DATASET, whose motion it tells";
+            return Err(UsageError(format!("{expected}, found {found}")));
+        }
+        Ok(())
+    }
+
     fn fitting(&self, config: &Config, jobs: usize) -> Fitting {
         Fitting {
             parameters: Parameters {
@@ -134,7 +152,7 @@ impl LearnArgs {
     fn gather(
         &self,
         gatherer: &TrainingGatherer,
-        settings: &ralf_data::Settings,
+        settings: &Settings,
         table: &mut TrainingTable,
     ) -> anyhow::Result<Outcome> {
         let mut outcome = Outcome::Done;
