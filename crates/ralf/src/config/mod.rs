@@ -276,7 +276,7 @@ pub struct FusionConfig {
 pub struct EvidenceConfig {
     /// LiDAR scans so far before and after count, ms.
     pub lidar_reach_ms: f64,
-    /// At most so many LiDAR scans, spread over that time.
+    /// At most so many LiDAR scans: one in as many as that takes, counted from the recording's begin.
     pub lidar_scans: usize,
     /// All radars' scans so far before and after count, ms.
     pub radar_reach_ms: f64,
