@@ -39,6 +39,12 @@ impl Typeface {
         Ok(Self { regular: load(notosans::REGULAR_TTF)?, bold: load(notosans::BOLD_TTF)? })
     }
 
+    /// Whether it has every character of a text.
+    #[cfg(test)]
+    pub(crate) fn has(&self, text: &str) -> bool {
+        text.chars().all(|character| self.regular.glyph_id(character).0 != 0)
+    }
+
     fn of(&self, style: Style) -> &FontRef<'static> {
         if style.bold { &self.bold } else { &self.regular }
     }

@@ -15,6 +15,8 @@ pub struct ValueScale<'a> {
     pub least: f64,
     /// The value of the brightest colour, which all larger ones have, too.
     pub largest: f64,
+    /// Whether there are smaller and larger values than these, which have their colours.
+    pub goes_beyond: [bool; 2],
 }
 
 impl<'a> ValueScale<'a> {
@@ -31,7 +33,12 @@ impl<'a> ValueScale<'a> {
         } else {
             (rank(0.0).unwrap_or(0.0), rank(1.0).unwrap_or(1.0))
         };
-        Self { name, least, largest: if least < largest { largest } else { least + 1.0 } }
+        let largest = if least < largest { largest } else { least + 1.0 };
+        let goes_beyond = [
+            sorted.first().is_some_and(|value| *value < least),
+            sorted.last().is_some_and(|value| *value > largest),
+        ];
+        Self { name, least, largest, goes_beyond }
     }
 
     /// How a detection of a value is drawn; one without is [`MarkLabel::Unlabelled`].
@@ -48,7 +55,13 @@ impl<'a> ValueScale<'a> {
             let share = f64::from(step) / f64::from(SHADES - 1);
             let value = self.least + share * (self.largest - self.least);
             let shade = MarkLabel::Valued((share * 255.0).round() as u8);
-            entries.push(Entry::new(Symbol::Mark(shade), number(value, self.largest - self.least)));
+            let sign = match self.goes_beyond {
+                [true, _] if step == 0 => "≤ ",
+                [_, true] if step == SHADES - 1 => "≥ ",
+                _ => "",
+            };
+            let text = format!("{sign}{}", number(value, self.largest - self.least));
+            entries.push(Entry::new(Symbol::Mark(shade), text));
         }
         entries
     }
@@ -69,10 +82,11 @@ fn number(value: f64, span: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::text::Typeface;
 
     #[test]
     fn values_have_the_colours_of_their_place_on_the_scale() {
-        let scale = ValueScale { name: "height, m", least: -1.0, largest: 3.0 };
+        let scale = ValueScale { name: "height, m", least: -1.0, largest: 3.0, goes_beyond: [false; 2] };
         for (value, expected) in [
             (Some(-1.0), MarkLabel::Valued(0)),
             (Some(-9.0), MarkLabel::Valued(0)),
@@ -85,6 +99,10 @@ mod tests {
         }
         let texts: Vec<String> = scale.entries().into_iter().map(|entry| entry.text).collect();
         assert_eq!(texts, ["height, m", "-1.00", "0.00", "1.00", "2.00", "3.00"]);
+        let beyond = ValueScale { goes_beyond: [true, true], ..scale }.entries();
+        assert_eq!((beyond[1].text.as_str(), beyond[5].text.as_str()), ("≤ -1.00", "≥ 3.00"));
+        let typeface = Typeface::load().unwrap();
+        assert!(["≤", "≥"].iter().all(|sign| typeface.has(sign)), "the signs are in the typeface");
     }
 
     #[test]
@@ -95,6 +113,8 @@ mod tests {
         };
         let many: Vec<f64> = (0..=100).map(f64::from).collect();
         assert_eq!(fitted(&many), (5.0, 95.0));
+        assert_eq!(ValueScale::fitting("", &many).goes_beyond, [true, true]);
+        assert_eq!(ValueScale::fitting("", &[1.0, 2.0]).goes_beyond, [false, false]);
         assert_eq!(fitted(&[]), (0.0, 1.0));
         assert_eq!(fitted(&[2.0, 2.0, f64::NAN]), (2.0, 3.0));
         let mut few = vec![0.0; 99];

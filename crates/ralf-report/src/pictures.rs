@@ -161,20 +161,31 @@ impl Pictures<'_> {
     pub fn overview(&self, half_width: u32) -> Result<Vec<u8>, ReportError> {
         self.first_radar()?;
         let sequence = self.sequence();
-        let times = &sequence.times.radars;
-        let mut moments: Vec<_> = times.iter().flatten().copied().collect();
+        let mut moments = self.moments();
         moments.sort_unstable();
         let place = |t_ns: &i64| sequence.motion.odom_from_vehicle(*t_ns).translation.vector;
         let path: Vec<_> = moments.iter().map(place).map(|place| [place.x, place.y]).collect();
         Ok(overview_picture(&OverviewPicture {
             title: &format!("{}: {}", sequence.name, sequence.title),
-            subtitle: &format!("{} scans accumulated", moments.len()),
+            subtitle: &self.overview_of(),
             half_width,
             extent: self.extent,
             lidar: &self.lidar_over_time()?,
             marks: self,
             path: &path,
         })?)
+    }
+
+    /// What an overview is of, for people: which radars, and how many scans.
+    pub fn overview_of(&self) -> String {
+        format!("{}, {} scans accumulated", self.who(), self.moments().len())
+    }
+
+    /// When the drawn radars measured, ns.
+    fn moments(&self) -> Vec<i64> {
+        let Sequence { rig, times, .. } = self.sequence();
+        let drawn = rig.radars.iter().zip(&times.radars).filter(|(radar, _)| self.shows(&radar.name));
+        drawn.flat_map(|(_, times)| times).copied().collect()
     }
 
     /// Each drawn radar's scan nearest to a time, in the rig's order: when it was made, ns, and its detections with

@@ -1,6 +1,9 @@
 //! `ralf inspect`, `ralf plot` and `ralf convert`.
 
 use crate::support::{Dataset, Shape, ralf, tree};
+use ralf_data::result::LabelledRun;
+use ralf_plot::Extent;
+use ralf_report::Pictures;
 use std::fs;
 
 fn labelled() -> Dataset {
@@ -146,4 +149,19 @@ fn a_conversion_makes_the_file_that_its_name_says_or_refuses_it() {
         assert!(!fs::exists(path(name)).unwrap());
     }
     ralf(["convert", &dataset.path, "-o", &path("nuscenes.v1")]).exits(0);
+}
+
+#[test]
+fn an_overview_of_one_radar_says_so_and_counts_its_scans() {
+    let dataset = Dataset::new();
+    ralf(["label", &dataset.path, "-o", &dataset.out]).exits(0);
+    let recording = ralf_data::open(dataset.path.as_ref(), None).unwrap();
+    let run = LabelledRun::open(dataset.out.as_ref()).unwrap();
+    let tables = run.table(&run.record().sequences[0]).unwrap();
+    let of = |radar| {
+        let reader = recording.sequences[0].as_ref();
+        Pictures { reader, tables: &tables, radar, extent: Extent::Fit }.overview_of()
+    };
+    assert_eq!(of(None), "all radars, 16 scans accumulated");
+    assert_eq!(of(Some("radar_left")), "radar_left, 8 scans accumulated");
 }
