@@ -54,6 +54,6 @@ pub use read::{LayoutSequence, Recording, SequenceReader, TruthLabels, formats, 
 pub use result::program;
 pub use settings::Settings;
 pub use training::{TrainingGatherer, TrainingTruth};
-pub use tree::{sensors_file, sequence_folder};
+pub use tree::{RECORD, SENSORS, SEQUENCES, sensors_file, sequence_folder};
 pub use truth::{Causes, Corrections, GroundTruth, ScanId, lost_sequences, scan_content, told_orphaned};
 pub use write::{has_sequence, write_sequence, write_sequence_with};

@@ -5,13 +5,13 @@
 use std::path::{Path, PathBuf};
 
 /// The folder of a recording, of results and of a store that holds sequences.
-pub(crate) const SEQUENCES: &str = "sequences";
+pub const SEQUENCES: &str = "sequences";
 /// What lies beside the sequences in an output folder, and in no recording.
-pub(crate) const RECORD: &str = "run.json";
+pub const RECORD: &str = "run.json";
 /// The folder beside the sequences that holds what a run keeps until the record tells of it.
 pub(crate) const UNFINISHED: &str = ".ralf-run";
 /// The file in a sequence's folder that tells its sensors.
-pub(crate) const SENSORS: &str = "sequence.toml";
+pub const SENSORS: &str = "sequence.toml";
 /// The file in a sequence's folder that tells speeds and yaw rates.
 pub(crate) const ODOMETRY: &str = "odometry.csv";
 /// The file in a sequence's folder that tells poses.

@@ -2,6 +2,7 @@
 
 use crate::outcome::UsageError;
 use anyhow::Context;
+use ralf_data::{RECORD, SENSORS, SEQUENCES};
 use std::fs::File;
 use std::io::Read;
 use std::path::Path;
@@ -20,7 +21,8 @@ pub(crate) fn check_output(argument: &str, file: &Path, read_only: &[&Path]) -> 
 
 /// Refuses a place for a file, named by its argument, where something lies that is no regular file, such as a folder or
 /// a device, or a database, which no command writes there; and where a file of one of the folders lies that are only
-/// read: a recording, results. Pictures and pages directly in such a folder are no part of it.
+/// read, a recording or results, or of any other recording in the own layout or results of `ralf label`. Pictures and
+/// pages directly in such a folder are no part of it.
 fn refuse_place(argument: &str, file: &Path, read_only: &[&Path]) -> Result<(), UsageError> {
     let Ok(found) = std::fs::metadata(file) else { return Ok(()) };
     let refuse = |expected: &str, found: &str| {
@@ -35,7 +37,7 @@ fn refuse_place(argument: &str, file: &Path, read_only: &[&Path]) -> Result<(), 
     if is_database(file) {
         return Err(refuse("a place where nothing is lost", "a database, such as what people corrected:"));
     }
-    if read_only.iter().any(|place| is_part_of(file, place)) {
+    if read_only.iter().any(|place| is_part_of(file, place)) || is_of_another(file) {
         return Err(refuse("a place where nothing is lost", "a file of the recording or of its results:"));
     }
     Ok(())
@@ -45,6 +47,16 @@ fn refuse_place(argument: &str, file: &Path, read_only: &[&Path]) -> Result<(), 
 fn is_database(file: &Path) -> bool {
     let mut head = [0; SQLITE.len()];
     File::open(file).and_then(|mut file| file.read_exact(&mut head)).is_ok() && head == *SQLITE
+}
+
+/// Whether a file belongs to a sequence of any recording in the own layout, or to results.
+fn is_of_another(file: &Path) -> bool {
+    let Ok(whole) = file.canonicalize() else { return false };
+    whole.ancestors().skip(1).any(|folder| {
+        let [record, sequences] = [RECORD, SEQUENCES].map(|name| folder.join(name));
+        let is_of_run = record.is_file() && (whole == record || is_part_of(file, &sequences));
+        is_of_run || folder.join(SENSORS).is_file() && is_part_of(file, folder)
+    })
 }
 
 /// What can't be looked up is not there.
@@ -78,6 +90,27 @@ mod tests {
             assert!(check(name).unwrap_err().contains("nothing is lost"), "{name}");
         }
         assert!(check("out").unwrap_err().contains("found the folder"));
+    }
+
+    #[test]
+    fn what_belongs_to_any_recording_or_results_is_not_written_over() {
+        let folder = tempfile::tempdir().unwrap();
+        let place = |name: &str| folder.path().join(name);
+        let [sequence, run] = ["city/sequences/00", "out"];
+        let files =
+            ["sequence.toml", "odometry.csv", "front/000000.png"].map(|name| format!("{sequence}/{name}"));
+        let results = ["run.json", "sequences/00/plausibility.parquet"].map(|name| format!("{run}/{name}"));
+        let own = ["ralf.toml", "city/ralf.toml", "city/sequences/00/scan.png", "out/found.toml"]
+            .map(str::to_owned);
+        for name in files.iter().chain(&results).chain(&own) {
+            fs::create_dir_all(place(name).parent().unwrap()).unwrap();
+            fs::write(place(name), "x").unwrap();
+        }
+        let check = |name: &str| refuse_place("--output", &place(name), &[]).map_err(|error| error.0);
+        for name in files.iter().chain(&results) {
+            assert!(check(name).is_err_and(|error| error.contains("nothing is lost")), "{name}");
+        }
+        own.iter().for_each(|name| assert_eq!(check(name), Ok(()), "{name}"));
     }
 
     #[test]

@@ -63,13 +63,19 @@ pub(super) fn tables(sequences: &[(String, MismatchTable)]) -> Vec<&MismatchTabl
 }
 
 impl SearchArgs {
-    /// Sequences can't be trained on and judged by, and each has a name.
+    /// Sequences can't be trained on and judged by, and each has a name and counts once.
     pub(super) fn check(&self, test: &[String]) -> Result<(), UsageError> {
         for (option, names) in [("--train", self.train.as_slice()), ("--test", test)] {
             if names.iter().any(String::is_empty) {
                 let found = names.join(",");
                 let expected = "expected names with a comma between two of them, found an empty one";
                 return Err(UsageError(format!("{option}: {expected} in `{found}`")));
+            }
+            let twice = names.iter().enumerate().find(|(at, name)| names[..*at].contains(name));
+            if let Some((_, twice)) = twice {
+                return Err(UsageError(format!(
+                    "{option}: expected each sequence once, found {twice} twice"
+                )));
             }
         }
         if let Some(both) = self.train.iter().find(|name| test.contains(name)) {

@@ -61,6 +61,34 @@ fn the_file_it_writes_labels_as_well_as_it_reports() {
 }
 
 #[test]
+fn a_sequence_counts_once_and_no_recording_is_written_over() {
+    let (dataset, other) = (two_sequences(), Dataset::new());
+    let file = dataset.beside("found.toml");
+    for (train, test) in [("00,00", "01"), ("00", "01,01")] {
+        ralf(["tune", &dataset.path, "-o", &file, "--train", train, "--test", test])
+            .exits(2)
+            .ends_with_error(["expected each sequence once, found 0", "twice"]);
+    }
+    let sensors = other.file("sequence.toml");
+    let before = fs::read(&sensors).unwrap();
+    ralf([
+        "tune",
+        &dataset.path,
+        "-o",
+        sensors.to_str().unwrap(),
+        "--train",
+        "00",
+        "--test",
+        "01",
+        "--trials",
+        "1",
+    ])
+    .exits(2)
+    .ends_with_error(["--output: expected a place where nothing is lost"]);
+    assert!(fs::read(&sensors).unwrap() == before);
+}
+
+#[test]
 fn a_seed_gives_the_same_bytes_whatever_the_number_of_jobs() {
     let dataset = two_sequences();
     let [one, other] = ["one.toml", "other.toml"].map(|name| dataset.beside(name));
