@@ -17,7 +17,7 @@ use std::path::PathBuf;
 #[command(after_help = "\
 Reads some hundred scans of each radar and some thirty of each LiDAR, and asks them about each other: range rates \
 about the motion, detections about LiDAR points, LiDAR points about those half a second later. `docs/check.md` tells \
-what is judged, and how. `ralf label` does the same before it begins.
+what is judged, and how. `ralf label` does the same while it labels, and with --strict before.
 
 Examples:
   ralf check recordings/city

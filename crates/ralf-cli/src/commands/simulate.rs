@@ -83,7 +83,7 @@ pub(crate) struct SimulateArgs {
     /// Only this sequence; may be given several times
     #[arg(long = "sequence", value_name = "NAME", conflicts_with = "scenario")]
     sequences: Vec<String>,
-    /// Scans of each radar, over all sequences of the preset; all of them if not given
+    /// Scans of each radar, over all sequences of the preset, at least one of each; all of them if not given
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=MOST_SCANS))]
     scans: Option<u32>,
     /// Of every random choice

@@ -8,6 +8,8 @@ const MAX_SPEED_KMH: f64 = 130.0;
 
 /// No row of things is longer.
 const MOST: usize = 1000;
+/// So many things of a row may lie over one another: that more are in one place is a mistake, and each ray meets all.
+const MOST_OVERLAPPING: f64 = 10.0;
 /// What all things together may fill, by [`Thing::bulk`]: each m3 is some scatterers, and all are kept in memory.
 const LARGEST_BULK: f64 = 1e6;
 /// Nothing lies farther from the site's origin, m.
@@ -20,6 +22,12 @@ impl Thing {
     fn bulk(&self) -> f64 {
         let [length, width, height] = self.size.unwrap_or([1.0; 3]);
         self.count as f64 * (length * width * height.max(1.0) + 20.0 * (length + width))
+    }
+
+    /// How far apart those of a row have to be at least, m, so that few lie over one another.
+    fn least_step(&self) -> f64 {
+        let [length, width, _] = self.size.unwrap_or_else(|| self.kind.usual_size());
+        if self.count as f64 > MOST_OVERLAPPING { length.max(width) / MOST_OVERLAPPING } else { 0.0 }
     }
 }
 
@@ -63,6 +71,12 @@ impl Scenario {
         }
         if let Some(thing) = self.thing.iter().find(|thing| thing.count > MOST) {
             return refuse("thing.count", "1000 at most", thing.count as f64);
+        }
+        let step = |thing: &Thing| thing.step[0].hypot(thing.step[1]);
+        if let Some(thing) = self.thing.iter().find(|thing| step(thing) < thing.least_step()) {
+            let expected =
+                format!("{:.3} m or more from one to the next of {}", thing.least_step(), thing.count);
+            return refuse("thing.step", &expected, step(thing));
         }
         let bulk: f64 = self.thing.iter().map(Thing::bulk).sum();
         if bulk > LARGEST_BULK {
@@ -149,6 +163,22 @@ mod tests {
         }
         let told = "failure.from_s: expected a time, s after the start, found NaN";
         refused("", &failure("camera_front", "nan", "1"), told);
+    }
+
+    #[test]
+    fn a_row_that_is_in_one_place_is_refused() {
+        let row = |count: usize, step: &str| {
+            format!("thing = [{{ kind = 'car', at = [5, 5], count = {count}{step} }}]")
+        };
+        let told = |count: usize, found: &str| {
+            format!("thing.step: expected 0.440 m or more from one to the next of {count}, found {found}")
+        };
+        refused("", &row(1000, ""), &told(1000, "0"));
+        refused("", &row(11, ", step = [0.3, 0.0]"), &told(11, "0.3"));
+        for fine in [row(10, ""), row(1000, ", step = [0.0, -0.5]")] {
+            let text = format!("title = 'x'\n{fine}\nego = {{ start = [0, 0, 0], speed_kmh = 7 }}");
+            Scenario::from_toml(&text).unwrap();
+        }
     }
 
     #[test]
