@@ -6,6 +6,7 @@ use crate::labelling::to_json;
 use arrow_buffer::Buffer;
 use pyo3::prelude::*;
 use ralf::label::truth_of;
+use ralf::metrics::Evaluation;
 use ralf_data::result::labelled_recording;
 use ralf_data::{
     Balances, Comparison, Corrections, DataError, GroundTruth, Recording, ScanId, lost_sequences,
@@ -30,14 +31,14 @@ pub(crate) fn evaluate(
     let Some(truth) = truth else {
         return Ok((to_json(&py.detach(|| Balances::of_run(&out)).map_err(data)?)?, Vec::new()));
     };
-    let (comparison, orphaned) = py.detach(|| compare(&out, &truth)).map_err(data)?;
-    Ok((to_json(&comparison.evaluation())?, orphaned))
+    let (evaluation, orphaned) = py.detach(|| compare(&out, &truth)).map_err(data)?;
+    Ok((to_json(&evaluation)?, orphaned))
 }
 
 /// Against the truth of a dataset, with what people corrected above it.
-fn compare(out: &Path, dataset: &Path) -> Result<(Comparison, Vec<String>), DataError> {
+fn compare(out: &Path, dataset: &Path) -> Result<(Evaluation, Vec<String>), DataError> {
     let (truth, orphaned) = corrected(out, dataset)?;
-    Ok((Comparison::new(out, &truth)?, orphaned))
+    Ok((Comparison::new(out, &truth)?.evaluation_of(out, &truth)?, orphaned))
 }
 
 /// The truth of a dataset, with what people corrected of a run above it, and a sentence for each scan whose corrections

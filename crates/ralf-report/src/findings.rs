@@ -1,10 +1,10 @@
 //! All that is counted over the detections of a run, while they pass: none of them stays in memory.
 
 use crate::breakdown::{Groups, Profiles};
-use crate::curves::{BINS, Bin, Ranked, bin_of};
+use crate::curves::{BINS, Bin, bin_of};
 use crate::scored::Scored;
 use crate::settings_map::Passed;
-use ralf::metrics::Confusion;
+use ralf::metrics::{Confusion, Ranked};
 use ralf_data::Causes;
 
 /// What the page tells of all detections together.
@@ -45,7 +45,7 @@ impl Findings {
             let Some((_, truth)) = scored.truth else { continue };
             self.truly[bin_of(scored.w)].add(truth);
             self.confusion.add(truth, scored.plausible);
-            self.ranked.add(scored, truth);
+            self.ranked.add(scored.w.into(), scored.never_passes, truth);
             self.passed.add(scored, truth);
             self.profiles.add(scored, truth);
         }

@@ -29,7 +29,7 @@ pub(crate) struct Scored {
     pub(crate) plausible: bool,
     /// Bits of [`flag`].
     pub(crate) flags: u16,
-    /// Whether its label is an artifact's at any `w`: it is unobserved, or [decided](Certainty::is_decided).
+    /// Whether its label is an artifact's at any `w`: see [`Certainty::never_passes`].
     pub(crate) never_passes: bool,
     /// The class that the truth gives it, and whether that is a plausible one; `None` where the truth is silent.
     pub(crate) truth: Option<(u16, bool)>,
@@ -88,7 +88,7 @@ impl Origin<'_> {
                 gamma: radar.map_or(1.0, |radar| radar.reliability.at(azimuth[row].into()) as f32),
                 plausible: label[row] == 1,
                 flags: flags[row],
-                never_passes: flags[row] & flag::UNOBSERVED != 0 || self.certainty.is_decided(flags[row]),
+                never_passes: self.certainty.never_passes(flags[row]),
                 truth: class.and_then(|class| Some((class, truth_of(class)?))),
                 cause: codes.as_ref().map(|codes| codes[row]),
             }

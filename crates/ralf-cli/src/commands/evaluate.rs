@@ -12,7 +12,7 @@ use crate::outcome::Outcome;
 use crate::progress::say;
 use crate::run_summary::{say_not_labelled, say_without};
 use crate::text::print;
-use ralf_data::judge::QueueCurve;
+use ralf_data::judge::{Missing, QueueCurve};
 use ralf_data::result::{LabelledRun, labelled_recording};
 use ralf_data::{Balances, Comparison, Recording};
 use std::path::{Path, PathBuf};
@@ -85,13 +85,14 @@ fn compare(args: &EvaluateArgs, dataset: &Path) -> anyhow::Result<Outcome> {
     let (truth, outcome) = merged_truth(dataset, recording.as_ref(), out, corrections.is_some())?;
     let comparison = Comparison::new(&args.out, &truth)?;
     name_what_is_left_out(&comparison, args);
+    let evaluation = || comparison.evaluation_of(&args.out, &truth);
     let text = if args.queue {
         queue::table(&QueueCurve::of_run(&args.out, &comparison)?)
     } else if args.json {
-        serde_json::to_string_pretty(&comparison.evaluation())?
+        serde_json::to_string_pretty(&evaluation()?)?
     } else {
         let scans = if args.scans { table::of_scans(&comparison) + "\n" } else { String::new() };
-        scans + &table::table(&comparison.evaluation())
+        scans + &table::table(&evaluation()?)
     };
     print(&text)?;
     Ok(outcome.and(Outcome::done_if(comparison.missing.is_empty())))
@@ -117,7 +118,12 @@ fn balance(args: &EvaluateArgs) -> anyhow::Result<Outcome> {
 
 fn name_what_is_left_out(comparison: &Comparison, args: &EvaluateArgs) {
     say_without("truth", &comparison.without_truth);
-    for scan in &comparison.missing {
+    let Missing { sequences, radars, scans } = comparison.missing_parts();
+    say_without("labels", sequences.iter().copied());
+    for (sequence, radar) in radars {
+        say(&format!("sequence {sequence} has no labels of {radar}: left out"));
+    }
+    for scan in scans {
         let file = scan.label_file(&args.out);
         say(&format!("{}: no such file: left out, though it has truth", file.display()));
     }

@@ -19,7 +19,8 @@ fn keys(value: &Value) -> Vec<&str> {
 fn json_has_exactly_the_keys_of_the_contract() {
     let dataset = labelled(&Shape { sequences: &["00", "01"], ..Shape::default() });
     let found = ralf(["evaluate", &dataset.out, "--truth", &dataset.path, "--json"]).exits(0).json();
-    assert_eq!(keys(&found), ["overall", "sequences"]);
+    assert_eq!(keys(&found), ["overall", "plausibility", "sequences"]);
+    assert_eq!(keys(&found["plausibility"]), ["average_precision", "calibration_error"]);
     assert_eq!(keys(&found["overall"]), ["pooled", "scan_mean"]);
     assert_eq!(keys(&found["sequences"]), ["00", "01"]);
     assert_eq!(keys(&found["sequences"]["01"]), ["pooled", "scan_mean", "scans"]);
@@ -44,6 +45,48 @@ fn json_has_exactly_the_keys_of_the_contract() {
     for scores in [&found["overall"], &found["sequences"]["00"]] {
         assert_eq!([keys(&scores["pooled"]), keys(&scores["scan_mean"])], [metrics, metrics]);
     }
+}
+
+/// Worked out anew from the table and the truth.
+#[test]
+fn what_plausibilities_are_worth_is_told() {
+    let dataset = labelled(&Shape::default());
+    let asked = ["evaluate", &dataset.out, "--truth", &dataset.path];
+    let found = ralf(["evaluate", &dataset.out, "--truth", &dataset.path, "--json"]).exits(0).json();
+    let mut seen: Vec<(f64, bool, bool)> = Vec::new();
+    for row in rows(dataset.result("plausibility.parquet")) {
+        let (scan, index) = (row.whole("scan").unwrap(), row.whole("point").unwrap() as usize);
+        let truth = fs::read(dataset.file(&format!("ground_truth/{}/{scan:06}.label", row.radar()))).unwrap();
+        let flags = row.whole("flags").unwrap() as u16;
+        let never = flags & (ralf::label::flag::GROUND | ralf::label::flag::UNOBSERVED) != 0;
+        seen.push((row.decimal("w").unwrap(), never, truth[4 * index] != 1));
+    }
+    let plausible = seen.iter().filter(|(_, _, plausible)| *plausible).count() as f64;
+    let mut sum = 0.0;
+    for (w, _, _) in seen.iter().filter(|(_, never, plausible)| *plausible && !never) {
+        let passing = |found: &&(f64, bool, bool)| !found.1 && found.0 >= *w;
+        let right = seen.iter().filter(passing).filter(|(_, _, plausible)| *plausible).count();
+        sum += right as f64 / seen.iter().filter(passing).count() as f64;
+    }
+    let told = found["plausibility"]["average_precision"].as_f64().unwrap();
+    assert!((told - sum / plausible).abs() < 1e-3 && plausible > 0.0, "{told} {}", sum / plausible);
+    let error = found["plausibility"]["calibration_error"].as_f64().unwrap();
+    ralf(asked)
+        .exits(0)
+        .prints([&format!("average precision {told:.3}, calibration error (ECE, 15 cells) {error:.3}")]);
+    // Labels that others have made have no plausibility.
+    fs::remove_file(format!("{}/run.json", dataset.out)).unwrap();
+    let without = ralf(["evaluate", &dataset.out, "--truth", &dataset.path, "--json"]).exits(0).json();
+    assert_eq!(keys(&without), ["overall", "sequences"]);
+    assert_eq!(without["overall"], found["overall"]);
+}
+
+#[test]
+fn sequences_and_radars_without_labels_are_named_once() {
+    let dataset = Dataset::of(&Shape { sequences: &["00", "01", "02"], ..Shape::default() });
+    ralf(["label", &dataset.path, "-o", &dataset.out, "--sequence", "01"]).exits(0);
+    let ran = ralf(["evaluate", &dataset.out, "--truth", &dataset.path]).exits(3);
+    assert_eq!(ran.stderr, "sequence 00 has no labels: left out\nsequence 02 has no labels: left out\n");
 }
 
 #[test]

@@ -48,6 +48,11 @@ impl Certainty {
         flags & flag::GROUND != 0 && !self.is_probability(flags)
     }
 
+    /// Whether no threshold calls it plausible: it is unobserved, or [decided](Self::is_decided).
+    pub fn never_passes(&self, flags: u16) -> bool {
+        flags & flag::UNOBSERVED != 0 || self.is_decided(flags)
+    }
+
     /// Whether a plausibility `w` is within [`UNCERTAIN`] of the threshold, and the label not decided.
     pub fn is_uncertain(&self, w: f32, flags: u16) -> bool {
         !self.is_decided(flags) && (w - self.threshold).abs() <= UNCERTAIN

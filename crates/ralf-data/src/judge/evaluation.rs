@@ -22,6 +22,17 @@ pub struct Comparison {
     pub without_truth: Vec<String>,
 }
 
+/// Scans with truth that a run gave no labels, summed up as far as that tells the same.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Missing<'a> {
+    /// Sequences of which no scan has labels.
+    pub sequences: Vec<&'a String>,
+    /// Of the others the radars of which no scan has any, by sequence and radar.
+    pub radars: Vec<(&'a str, &'a str)>,
+    /// All other scans.
+    pub scans: Vec<&'a ScanId>,
+}
+
 impl Comparison {
     /// Compares what a run wrote to the folder `out` with the truth. Label files are enough; where there is a
     /// `run.json`, they have to be as it tells. Refused are scans of another size than their truth,
@@ -44,6 +55,29 @@ impl Comparison {
         let mut without_truth = files::folders(&sequences)?;
         without_truth.retain(|name| truth.scans().iter().all(|scan| scan.sequence != *name));
         Ok(Self { scans, missing, without_truth })
+    }
+
+    /// What is missing: nobody asked for whole sequences or radars, which are told once.
+    pub fn missing_parts(&self) -> Missing<'_> {
+        let mut labelled = BTreeSet::new();
+        for (scan, _) in &self.scans {
+            let sequence = scan.sequence.as_str();
+            labelled.extend([(sequence, None), (sequence, Some(scan.radar.as_str()))]);
+        }
+        let mut missing = Missing::default();
+        for scan in &self.missing {
+            let (sequence, radar) = (scan.sequence.as_str(), scan.radar.as_str());
+            if !labelled.contains(&(sequence, None)) {
+                missing.sequences.push(&scan.sequence);
+            } else if !labelled.contains(&(sequence, Some(radar))) {
+                missing.radars.push((sequence, radar));
+            } else {
+                missing.scans.push(scan);
+            }
+        }
+        missing.sequences.dedup();
+        missing.radars.dedup();
+        missing
     }
 
     /// The metrics of all scans.
@@ -179,6 +213,9 @@ mod tests {
         let found = folders.compare().unwrap();
         assert_eq!(found.missing, [id("00", "front", 1), id("01", "rear", 0)]);
         assert_eq!(found.without_truth, ["02"]);
+        let Missing { sequences, radars, scans } = found.missing_parts();
+        assert_eq!((sequences, radars), (vec![&"01".to_owned()], vec![]), "nobody asked for it");
+        assert_eq!(scans, [&id("00", "front", 1)]);
         let evaluation = found.evaluation();
         assert_eq!(evaluation.sequences.keys().collect::<Vec<_>>(), ["00"]);
         assert_eq!(evaluation.overall.pooled.counts.total(), 1);

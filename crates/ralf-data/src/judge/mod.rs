@@ -6,12 +6,13 @@ mod doubt;
 mod evaluation;
 mod queue;
 mod told;
+mod worth;
 
 pub use agreement::{
     Agreement, Difference, compare, disagreements, is_about_plausibility, kappa, kappa_of_names,
 };
 pub use balance::{Balance, Balances};
 pub use doubt::{Certainty, DISAGREEING, Doubts, SURE, UNCERTAIN};
-pub use evaluation::Comparison;
+pub use evaluation::{Comparison, Missing};
 pub use queue::{QueueCurve, TENTHS};
 pub use told::label_name;

@@ -1,12 +1,12 @@
 //! Precision over recall.
 
 use super::*;
-use crate::curves::Point;
+use ralf::metrics::RankedPoint;
 
 /// The curve over the threshold, the label's own point, and what labelling everything plausible would give.
 pub(crate) fn precision_recall(
-    curve: &[Point],
-    used: Option<Point>,
+    curve: &[RankedPoint],
+    used: Option<RankedPoint>,
     base_rate: f64,
 ) -> Result<String, ReportError> {
     svg((560, 420), |area| {

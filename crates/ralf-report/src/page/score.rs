@@ -2,13 +2,13 @@
 
 use super::{NO_TRUTH, figure, swatch};
 use crate::content::Content;
-use crate::curves::{Point, average_precision, thinned};
+use crate::curves::thinned;
 use crate::findings::Findings;
 use crate::number::decimal;
 use crate::{ReportError, chart};
 use maud::{Markup, html};
 use ralf::config::Method;
-use ralf::metrics::Rates;
+use ralf::metrics::{RankedPoint, Rates, average_precision};
 
 /// Points that a curve is drawn with.
 const CURVE_POINTS: usize = 500;
@@ -29,14 +29,15 @@ fn curve(findings: &Findings) -> Result<Markup, ReportError> {
     let counts = &findings.confusion;
     let rates = Rates::new(counts);
     let used = rates.recall_plausible.zip(rates.precision_plausible);
-    let used = used.map(|(recall, precision)| Point { recall, precision });
+    let used = used.map(|(recall, precision)| RankedPoint { recall, precision });
     let base_rate = (counts.tp + counts.r#fn) as f64 / counts.total().max(1) as f64;
     let svg = chart::precision_recall(&thinned(&points, CURVE_POINTS), used, base_rate)?;
     let caption = html! {
         "Precision and recall of plausible detections as the threshold w" sub { "0" } " goes from 1 to 0. "
         (swatch("artifact round"))
         "the threshold of this run; dashed: everything labelled plausible. Average precision "
-        (decimal(Some(average_precision(&points)))) "."
+        (decimal(Some(average_precision(&points))))
+        ". What is an artifact at any w, such as a floor detection of the paper's method, never passes."
     };
     Ok(figure("Precision and recall", svg, caption))
 }

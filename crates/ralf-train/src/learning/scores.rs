@@ -1,16 +1,15 @@
 //! How good probabilities are, where the truth is known.
 
+use ralf::metrics::Reliability;
 use std::fmt;
-
-/// Cells of the reliability curve.
-const CELLS: usize = 15;
 
 /// What scores say of some detections; shares in [0, 1]. `None` where they have no meaning.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Scores {
     /// F1 of plausible detections.
     pub f1: Option<f64>,
-    /// The mean precision over all recalls (average precision).
+    /// The mean precision over all recalls (average precision) of the scores alone: what is labelled an artifact
+    /// whatever its score is, as floor detections by the paper's method, counts by its score like all others.
     pub average_precision: Option<f64>,
     /// The share that is labelled right.
     pub accuracy: Option<f64>,
@@ -33,7 +32,9 @@ impl Scores {
         let counts = Counts::at(judged, threshold);
         let all = judged.len() as f64;
         let accuracy = (!judged.is_empty()).then(|| (all - counts.wrong()) / all);
-        let calibration_error = (!judged.is_empty()).then(|| calibration_error(judged));
+        let mut reliability = Reliability::default();
+        judged.iter().for_each(|row| reliability.add(row.score, row.plausible));
+        let calibration_error = reliability.error();
         Self { f1: counts.f1(), average_precision: average_precision(judged), accuracy, calibration_error }
     }
 
@@ -139,16 +140,6 @@ fn average_precision(judged: &[Scored]) -> Option<f64> {
         sum += plausible * found / seen;
     }
     (all > 0.0).then(|| sum / all)
-}
-
-fn calibration_error(judged: &[Scored]) -> f64 {
-    let mut cells = [(0.0, 0.0); CELLS];
-    for row in judged {
-        let cell = ((row.score * CELLS as f64) as usize).min(CELLS - 1);
-        cells[cell].0 += row.score;
-        cells[cell].1 += if row.plausible { 1.0 } else { 0.0 };
-    }
-    cells.iter().map(|(said, was): &(f64, f64)| (said - was).abs()).sum::<f64>() / judged.len() as f64
 }
 
 /// Groups of one score, from high to low.

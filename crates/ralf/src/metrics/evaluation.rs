@@ -1,6 +1,6 @@
 //! Metrics of many scans: their mean, as the paper's table shows, and the metrics of the pooled counts.
 
-use super::{Confusion, Rates};
+use super::{Confusion, Rates, ScoreWorth};
 use serde::Serialize;
 use std::collections::BTreeMap;
 
@@ -68,6 +68,9 @@ pub struct Evaluation {
     pub overall: Scores,
     /// The scores of each sequence that has truth, by name.
     pub sequences: BTreeMap<String, SequenceScores>,
+    /// What plausibilities are worth, all detections together, where there are any beside the labels.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub plausibility: Option<ScoreWorth>,
 }
 
 impl Evaluation {
@@ -81,7 +84,8 @@ impl Evaluation {
         let scored = |(name, scans): (&str, Vec<Confusion>)| {
             (name.to_owned(), SequenceScores { scans: scans.len(), scores: Scores::from_scans(&scans) })
         };
-        Self { overall: Scores::from_scans(&all), sequences: by_sequence.into_iter().map(scored).collect() }
+        let sequences = by_sequence.into_iter().map(scored).collect();
+        Self { overall: Scores::from_scans(&all), sequences, plausibility: None }
     }
 
     /// How many scans were compared.

@@ -6,9 +6,11 @@
 mod confusion;
 mod evaluation;
 mod rates;
+mod score;
 mod separation;
 
 pub use confusion::Confusion;
 pub use evaluation::{Evaluation, Metrics, Scores, SequenceScores};
 pub use rates::Rates;
+pub use score::{Ranked, RankedPoint, Reliability, ScoreWorth, ScoredDetections, average_precision};
 pub use separation::Separation;

@@ -1,7 +1,7 @@
 //! An evaluation as text: the paper's tables 3 (metrics) and 4 (confusion matrix).
 
 use crate::text::{aligned, decimal};
-use ralf::metrics::{Confusion, Evaluation, Rates, Scores};
+use ralf::metrics::{Confusion, Evaluation, Rates, ScoreWorth, Scores};
 use ralf_data::Comparison;
 
 /// The paper's columns, after the row's name and its number of scans or detections.
@@ -19,7 +19,18 @@ pub(super) fn table(evaluation: &Evaluation) -> String {
         decimal(means.rates.mcc)
     );
     let note = "Precision, recall and mean IoU are means over the two classes.\n";
-    [by_scan, together, confusion(&sums.counts), mcc + note].join("\n")
+    let worth = evaluation.plausibility.as_ref().map(worth).unwrap_or_default();
+    [by_scan, together, confusion(&sums.counts), mcc + note + &worth].join("\n")
+}
+
+/// What plausibilities are worth.
+fn worth(worth: &ScoreWorth) -> String {
+    format!(
+        "Plausibility w: average precision {}, calibration error (ECE, 15 cells) {}; what is labelled artifact at any \
+         threshold, such as floor detections of the paper's method, is never found\n",
+        decimal(worth.average_precision),
+        decimal(worth.calibration_error)
+    )
 }
 
 /// One row for every scan.
@@ -89,7 +100,8 @@ mod tests {
     /// Worked out by hand: 00 is perfect, 01 holds no artifacts.
     #[test]
     fn the_whole_text() {
-        let evaluation = Evaluation::from_scans([("00", counts([1, 0, 1, 0])), ("01", counts([3, 0, 0, 1]))]);
+        let mut evaluation =
+            Evaluation::from_scans([("00", counts([1, 0, 1, 0])), ("01", counts([3, 0, 0, 1]))]);
         let expected = "\
 Mean over scans
 Sequence  Scans    Acc  Precision  Recall  F1 plausible  mean IoU  IoU plausible  IoU artifact
@@ -111,6 +123,11 @@ MCC: 0.632 over all detections together, 1.000 as the mean over scans
 Precision, recall and mean IoU are means over the two classes.
 ";
         assert_eq!(table(&evaluation), expected, "\n{}", table(&evaluation));
+        evaluation.plausibility = Some(ScoreWorth { average_precision: Some(0.75), calibration_error: None });
+        let text = table(&evaluation);
+        let (before, worth) = text.split_at(expected.len());
+        let told = "Plausibility w: average precision 0.750, calibration error (ECE, 15 cells) -; ";
+        assert!(before == expected && worth.starts_with(told), "{worth}");
     }
 
     #[test]

@@ -8,7 +8,9 @@ use std::fmt::Write;
 pub(super) fn page(fitted: &Fitted) -> String {
     let mut page = String::from(
         "Each world, judged by a model that was fitted to all the others; the paper's method beside it.\n\
-         F1 (plausible), average precision, accuracy and calibration error (ECE) of each:\n\n",
+         F1 (plausible), average precision (AP), accuracy and calibration error (ECE) of each. AP ranks by w alone,\n\
+         floor detections, too, which the paper's method calls plausible at no threshold: `ralf evaluate` and\n\
+         `ralf report` never find these.\n\n",
     );
     let rows = &fitted.left_out;
     let width = rows.iter().map(|world| world.world.len()).max().unwrap_or(0).max(12);
