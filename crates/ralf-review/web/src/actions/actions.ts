@@ -10,6 +10,7 @@ import { Moment } from "./moment.js";
 import { Opining } from "./opining.js";
 import { Navigation } from "./navigation.js";
 import { Picking } from "./picking.js";
+import { Queueing } from "./queueing.js";
 import { Reviewing } from "./reviewing.js";
 import { Recalling } from "./recalling.js";
 import { Replaying } from "./replaying.js";
@@ -42,7 +43,8 @@ export interface Actions {
 
 export function actionsOn(world: World, keeper: Keeper): Actions {
   const go = new Navigation(world, new Moment(world));
-  const adopting = new Adopting(world);
+  const queueing = new Queueing(world);
+  const adopting = new Adopting(world, queueing);
   const thing = new Thinging(world, go);
   const correct = new Correcting(world, go, adopting, keeper);
   const settle = new Settling(world, go, correct);
@@ -51,12 +53,12 @@ export function actionsOn(world: World, keeper: Keeper): Actions {
   return {
     go,
     correct,
-    review: new Reviewing(world, go, adopting, correct),
+    review: new Reviewing(world, go, adopting, correct, queueing),
     step: new Stepping(world, go, adopting, correct),
     select,
     pick: new Picking(world),
     view: new Viewing(world),
-    hear: new Hearing(world, adopting, correct),
+    hear: new Hearing(world, adopting, correct, queueing),
     hold: new Holding(world),
     thing,
     rule: new Ruling(world, go, select, correct),

@@ -5,10 +5,14 @@ import type { ScanCorrections } from "../api/types.js";
 import { withScans } from "../data/cloud.js";
 import { sameScan, type Scan, withCorrections } from "../data/scan.js";
 import { progressOf, withAnswers } from "../queue/queue.js";
+import type { Queueing } from "./queueing.js";
 import { complain, type World } from "./world.js";
 
 export class Adopting {
-  constructor(private readonly world: World) {}
+  constructor(
+    private readonly world: World,
+    private readonly queueing: Queueing,
+  ) {}
 
   /** Takes over what is said of some scans now. */
   async adopt(sequence: string, answered: readonly ScanCorrections[]): Promise<void> {
@@ -24,6 +28,7 @@ export class Adopting {
     for (const scan of changed) loader.keep(sequence, scan);
     const counted = withAnswers(scans, answered);
     store.set({ cloud: withScans(cloud, changed), scans: counted, progress: progressOf(counted, progress) });
+    if (answered.length > 0) this.queueing.soon();
     await this.reread(
       sequence,
       onScreen.filter(({ now }) => now === null).map(({ scan }) => scan),
@@ -40,12 +45,10 @@ export class Adopting {
 
   /** The labels are others than those on screen: everything that was read of them is read anew. */
   async readAllAnew(): Promise<void> {
-    const { store, loader, api } = this.world;
-    const { sequence } = store.state;
+    const { store, loader } = this.world;
     loader.forgetScans();
-    await this.reread(sequence, store.state.cloud.scans);
-    const queue = await api.queue(sequence);
-    store.set({ scans: queue.scans, progress: queue.progress });
+    await this.reread(store.state.sequence, store.state.cloud.scans);
+    await this.queueing.read();
   }
 
   /** Says why something was not done, and shows what is there in its place. */

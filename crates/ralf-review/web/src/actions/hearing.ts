@@ -1,10 +1,11 @@
 /** Hears of what others change, and of the server's coming and going. */
 
-import { Elsewhere, linkAfter, ServerGone } from "../api/errors.js";
+import { isAway, linkAfter } from "../api/errors.js";
 import type { Changes } from "../api/types.js";
 import { sameScan } from "../data/scan.js";
 import type { Adopting } from "./adopting.js";
 import type { Correcting } from "./correcting.js";
+import type { Queueing } from "./queueing.js";
 import { complain, tell, type World } from "./world.js";
 
 const PATIENCE_MS = 1500;
@@ -18,6 +19,7 @@ export class Hearing {
     private readonly world: World,
     private readonly adopting: Adopting,
     private readonly correcting: Correcting,
+    private readonly queueing: Queueing,
   ) {
     // A stroke got no answer: whether the server is there is asked at once, and not when the long wait ends.
     world.store.watch(
@@ -69,16 +71,27 @@ export class Hearing {
 
   /** The server is back: what others did meanwhile is read, and what wasn't saved is tried again. */
   private async reconnected(sequence: string): Promise<void> {
-    const { store, api } = this.world;
+    const { store } = this.world;
     if (store.state.link.kind === "fine") return;
-    const [queue, history] = await Promise.all([api.queue(sequence), api.history(sequence)]);
-    store.set({ link: { kind: "fine" }, scans: queue.scans, progress: queue.progress, history });
+    await Promise.all([this.queueing.read(), this.readHistory(sequence)]);
+    store.set({ link: { kind: "fine" } });
     await this.adopting.reread(sequence, store.state.cloud.scans);
     await this.correcting.retry();
   }
 
-  private async take(sequence: string, { scans }: Changes): Promise<void> {
+  /** What can be undone; read again where an own edit came between, whose answer may be the newer one. */
+  private async readHistory(sequence: string): Promise<void> {
     const { store, api } = this.world;
+    for (;;) {
+      const before = store.state.history;
+      const history = await api.history(sequence);
+      if (sequence !== store.state.sequence) return;
+      if (before === store.state.history) return store.set({ history });
+    }
+  }
+
+  private async take(sequence: string, { scans }: Changes): Promise<void> {
+    const { store } = this.world;
     if (scans.length === 0) return;
     const { cloud, current } = store.state;
     for (const change of scans) this.world.loader.forget(sequence, change);
@@ -86,17 +99,12 @@ export class Hearing {
       sequence,
       cloud.scans.filter((scan) => scans.some((change) => sameScan(change, scan))),
     );
-    const queue = await api.queue(sequence);
-    store.set({ scans: queue.scans, progress: queue.progress });
+    // Another window of this browser is the same person: what can be undone here is what was done there.
+    await Promise.all([this.queueing.read(), this.readHistory(sequence)]);
     const here = scans.find((change) => sameScan(change, current));
     if (here !== undefined)
       tell(this.world, `${here.author} changed this scan in another window; you see the newer state.`);
   }
-}
-
-/** Whether no server is there, or another one. */
-function isAway(error: unknown): boolean {
-  return error instanceof ServerGone || error instanceof Elsewhere;
 }
 
 /** A browser has few connections to a server for all of its tabs: one that isn't seen must not hold one. */

@@ -9,6 +9,7 @@ import type { Adopting } from "./adopting.js";
 import { askPatiently } from "./asking.js";
 import type { Correcting } from "./correcting.js";
 import type { Navigation } from "./navigation.js";
+import type { Queueing } from "./queueing.js";
 import { readOnly, type World } from "./world.js";
 
 export class Reviewing {
@@ -19,6 +20,7 @@ export class Reviewing {
     private readonly navigation: Navigation,
     private readonly adopting: Adopting,
     private readonly correcting: Correcting,
+    private readonly queueing: Queueing,
   ) {
     world.store.watch(
       ({ current }) => [current],
@@ -108,6 +110,7 @@ export class Reviewing {
       progress: answer.progress,
       history: answer.history,
     });
+    this.queueing.soon();
     // Without the mark the machine's labels count again, which may be others than those that were accepted.
     if (answer.reviewed === null) await this.adopting.reread(sequence, marked);
   }

@@ -8,7 +8,7 @@ import type { Adopting } from "./adopting.js";
 import { askPatiently } from "./asking.js";
 import type { Correcting } from "./correcting.js";
 import type { Navigation } from "./navigation.js";
-import { readOnly, type World } from "./world.js";
+import { readOnly, tell, type World } from "./world.js";
 
 export class Stepping {
   constructor(
@@ -35,17 +35,19 @@ export class Stepping {
 
   private async take(what: "undo" | "redo", sequence: string): Promise<Moved | null> {
     const { store, api } = this.world;
-    const { history, cloud } = store.state;
+    const { cloud } = store.state;
     const isHere = (): boolean => sequence === store.state.sequence;
-    if (isHere() && history[what] === null) return null;
     store.set({ busy: true });
     try {
       const answer = await askPatiently((id) => api[what](sequence, id));
       if (isHere()) store.set({ history: answer.history });
+      if (answer.changed === 0) tell(this.world, `Nothing is left to ${what} in sequence ${sequence}.`);
       await this.adopting.adopt(sequence, answer.scans);
       const elsewhere = answer.scans.every((scan) => !store.state.cloud.scans.some((other) => sameScan(other, scan)));
       if (isHere() && elsewhere && answer.scans.length > 0) await this.navigation.goTo(answer.scans[0]);
-      return isOfMarks(history[what]) ? null : { sequence, base: ownGround(cloud, answer.scans), scans: answer.scans };
+      // The other end of the history is what was just done: another window may have done more than was known here.
+      const taken = answer.history[what === "undo" ? "redo" : "undo"];
+      return isOfMarks(taken) ? null : { sequence, base: ownGround(cloud, answer.scans), scans: answer.scans };
     } catch (error) {
       await this.adopting.refused(what === "undo" ? "undone" : "redone", error);
       return null;

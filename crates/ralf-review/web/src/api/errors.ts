@@ -31,6 +31,11 @@ export class Elsewhere extends Refused {
   }
 }
 
+/** Whether no server is there, or another one. */
+export function isAway(error: unknown): boolean {
+  return error instanceof ServerGone || error instanceof Elsewhere;
+}
+
 /** Somebody else changed the same scan first; nothing was written. */
 export class Conflict extends Error {
   constructor(readonly body: ConflictBody) {

@@ -43,6 +43,29 @@ export function reasons({ uncertain, disagreeing, cameras_failed: failed }: Queu
   return said;
 }
 
+/** A scan's entry now, by which its place is kept. */
+export function keptPlace(scans: readonly QueueScan[], current: ScanId | null): QueueScan | null {
+  return scans.find((entry) => sameScan(entry, current)) ?? null;
+}
+
+/**
+ * Scans in the server's order, but for the one that is looked at: it stays where `place` was, as long as it is looked
+ * at, so that the next one is the next one, whatever is said of this one meanwhile.
+ */
+export function withPlaceKept(scans: readonly QueueScan[], place: QueueScan | null): readonly QueueScan[] {
+  const now = place === null ? undefined : scans.find((entry) => sameScan(entry, place));
+  if (place === null || now === undefined) return scans;
+  const others = scans.filter((entry) => entry !== now);
+  const behind = others.findIndex((entry) => inOrder(place, entry) < 0);
+  return behind < 0 ? [...others, now] : [...others.slice(0, behind), now, ...others.slice(behind)];
+}
+
+/** The server's order: what nobody reviewed first, then what has the most expected errors, then by time. */
+function inOrder(a: QueueScan, b: QueueScan): number {
+  const done = Number(a.reviewed !== null) - Number(b.reviewed !== null);
+  return done !== 0 ? done : b.expected_errors - a.expected_errors || byTime(a, b);
+}
+
 export function withAnswers(scans: readonly QueueScan[], answered: readonly ScanCorrections[]): readonly QueueScan[] {
   return scans.map((entry) => {
     const answer = answered.find((other) => sameScan(other, entry));

@@ -1,7 +1,16 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import type { QueueScan } from "../../src/api/types.js";
-import { listed, neighbour, nextNeedy, progressOf, reasons, withAnswers, withReviewed } from "../../src/queue/queue.js";
+import {
+  listed,
+  neighbour,
+  nextNeedy,
+  progressOf,
+  reasons,
+  withAnswers,
+  withPlaceKept,
+  withReviewed,
+} from "../../src/queue/queue.js";
 
 const ADA = { author: "ada", at: "2024-01-01T00:00:00Z" };
 
@@ -96,4 +105,18 @@ test("progress follows what is done", () => {
     { radar: "rear", scan: 2, revision: 0, reviewed: null, causes: [], corrections: [] },
   ]);
   assert.equal(progressOf(undone, before).reviewed, 1, "undo takes a mark back");
+});
+
+test("the scan that is looked at keeps its place, whatever is said of it, and the rest is in order", () => {
+  const needs = (scan: number, errors: number): QueueScan => entry("front", scan, { expected_errors: errors });
+  const before = [needs(1, 80), needs(2, 60), needs(3, 40)];
+  const numbers = (scans: readonly QueueScan[]): readonly number[] => scans.map(({ scan }) => scan);
+  const mended = [needs(3, 40), needs(2, 30), needs(1, 2)];
+  assert.deepEqual(numbers(withPlaceKept(mended, before[0])), [1, 3, 2]);
+  assert.deepEqual(numbers(withPlaceKept(mended, before[1])), [2, 3, 1]);
+  assert.deepEqual(numbers(withPlaceKept(mended, null)), [3, 2, 1]);
+  assert.deepEqual(numbers(withPlaceKept(mended, needs(9, 99))), [3, 2, 1]);
+  const reviewed = [...mended.slice(0, 2), entry("front", 1, { expected_errors: 0, reviewed: ADA })];
+  assert.deepEqual(numbers(withPlaceKept(reviewed, before[0])), [1, 3, 2]);
+  assert.equal(nextNeedy(withPlaceKept(reviewed, before[0]), before[0])?.scan, 3);
 });
