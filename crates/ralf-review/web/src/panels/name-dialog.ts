@@ -19,7 +19,9 @@ export function nameDialog(page: Page): HTMLDialogElement {
     actions.view.dialog("none");
   });
   const note =
-    "Others see it beside what you correct. Undo takes back what was done in this browser, whatever it is called.";
+    "Others see it beside what you correct. Undo takes back what was done in this browser, whatever it is called. " +
+    "Another name is also that of everything that was done in this browser before: where several people share a " +
+    "computer, each needs a browser profile of its own.";
   const dialog = h("dialog", { class: "name", "aria-label": "Your name" }, form, h("p", { class: "faint" }, note));
   openWith(page, dialog, "name", () => {
     name.value = store.state.name;
