@@ -23,6 +23,7 @@ import { nameDialog } from "./panels/name-dialog.js";
 import { settleBar } from "./panels/settle-bar.js";
 import { teamDialog } from "./panels/team-dialog.js";
 import { opinionBar } from "./panels/opinion-bar.js";
+import { drawn } from "./panels/drawers.js";
 import { filterPanel } from "./panels/filter-panel.js";
 import { keyTable, listenToKeys } from "./panels/keys.js";
 import { legendPanel } from "./panels/legend.js";
@@ -107,19 +108,27 @@ function build(page: Page): void {
     conflictDialog(page),
   );
   document.body.append(
-    h(
-      "div",
-      { class: "layout" },
-      h("aside", { class: "left", "aria-label": "Scans" }, new QueuePanel(page).element, filterPanel(page)),
-      h("main", { class: "centre-column" }, toolbar(page), scanBar(page), stage, new Timeline(page).element),
+    drawn(
+      page,
       h(
-        "aside",
-        { class: "right", "aria-label": "Cameras and numbers" },
-        cameras.element,
-        thingCrops(page),
-        detailsPanel(page),
+        "div",
+        { class: "layout" },
+        h(
+          "aside",
+          { class: "left", id: "scans", "aria-label": "Scans" },
+          new QueuePanel(page).element,
+          filterPanel(page),
+        ),
+        h("main", { class: "centre-column" }, toolbar(page), scanBar(page), stage, new Timeline(page).element),
+        h(
+          "aside",
+          { class: "right", id: "numbers", "aria-label": "Cameras and numbers" },
+          cameras.element,
+          thingCrops(page),
+          detailsPanel(page),
+        ),
+        statusBar(page),
       ),
-      statusBar(page),
     ),
     helpDialog(page, table),
     classesDialog(page),

@@ -36,6 +36,7 @@ export type ViewMode = "bird" | "free" | "camera";
 /** What a stroke may change: the scan under review alone, or everything shown. */
 export type Scope = "scan" | "shown";
 export type Dialog = "none" | "help" | "classes" | "name" | "team" | "replay";
+export type Drawer = "none" | "scans" | "numbers";
 
 /** Detections that would be accepted unseen; a second time accepts them. */
 export interface Accepting extends Unseen {
@@ -159,6 +160,8 @@ export interface State {
   readonly busy: boolean;
   readonly notice: Notice | null;
   readonly dialog: Dialog;
+  /** What is laid over the picture where the window has no room for it beside. */
+  readonly drawer: Drawer;
   /** From the change until the picture was drawn, ms: the graphics card's work is part of it. */
   readonly frameTime: number;
 }
@@ -186,6 +189,7 @@ const NOTHING_DONE = {
   busy: false,
   notice: null,
   dialog: "none",
+  drawer: "none",
   frameTime: 0,
 } as const satisfies Partial<State>;
 

@@ -3,7 +3,7 @@
 import { type AreaKind, areaOf } from "../data/area.js";
 import { everything, type Filter } from "../data/filter.js";
 import type { Point } from "../selection/geometry.js";
-import { type Dialog, homeOf, type ViewMode } from "../state.js";
+import { type Dialog, type Drawer, homeOf, type ViewMode } from "../state.js";
 import { type ColourMode, colourModes } from "../viewer/colours.js";
 import { tell, type World } from "./world.js";
 
@@ -118,6 +118,12 @@ export class Viewing {
 
   dialog(dialog: Dialog): void {
     this.world.store.set({ dialog });
+  }
+
+  /** Opens it, or closes it where it is open. */
+  drawer(name: Drawer): void {
+    const { store } = this.world;
+    store.set({ drawer: store.state.drawer === name ? "none" : name });
   }
 
   /** What the person is called from now on. */

@@ -23,7 +23,13 @@ export class QueuePanel {
     this.list.append(this.room);
     this.element = h("section", { class: "queue", "aria-label": "Queue" }, head(page), order(page), this.list);
     this.list.addEventListener("scroll", () => this.draw());
-    new ResizeObserver(() => this.draw()).observe(this.list);
+    let height = 0;
+    new ResizeObserver(() => {
+      // A list that was hidden could not be scrolled to the scan.
+      if (height === 0) this.reveal();
+      else this.draw();
+      height = this.list.clientHeight;
+    }).observe(this.list);
     const { store } = page;
     store.watch(
       ({ scans, queueView }) => [scans, queueView],

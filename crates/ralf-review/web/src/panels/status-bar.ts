@@ -5,12 +5,14 @@ import { counted, decimal } from "../format.js";
 import type { Page } from "../page.js";
 import type { Cloud } from "../data/cloud.js";
 import type { LabelBook } from "../data/labels.js";
+import { openers } from "./drawers.js";
 import { countOf } from "../selection/mask.js";
 import { isPress } from "../selection/tools.js";
 import type { State } from "../state.js";
 
 export function statusBar(page: Page): HTMLElement {
   const parts = [
+    ...openers(page),
     saving(page),
     author(page),
     team(page),

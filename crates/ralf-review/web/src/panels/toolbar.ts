@@ -50,7 +50,7 @@ function labelChip({ actions }: Page, choice: Choice, text: string, key: string,
       on: { click: () => actions.select.choose(choice) },
     },
     h("span", { class: "dot" }),
-    text,
+    h("span", { class: "chip-text" }, text),
     h("kbd", {}, key),
   );
 }
@@ -59,7 +59,7 @@ function labelGroup(page: Page): HTMLElement {
   const { store, actions } = page;
   const plausible = labelChip(page, PLAUSIBLE, "Plausible", "P", "plausible");
   const artifact = labelChip(page, ARTIFACT, "Artifact", "A", "artifact");
-  const className = h("span", {}, "Class…");
+  const className = h("span", { class: "chip-text" }, "Class…");
   const classes = h(
     "button",
     {

@@ -134,6 +134,49 @@ for (const [width, height] of [
   });
 }
 
+/** A laptop's window of 1280 x 800 that is magnified to 200 %, half of a screen, and a telephone. */
+for (const [width, height] of [
+  [800, 600],
+  [640, 400],
+  [390, 800],
+]) {
+  test(`on ${width} x ${height} the picture keeps its room, and what stands beside it is laid over it`, async (context) => {
+    const { tab, page } = await opened(context, browser, { width, height });
+    const room = await page.locator(".viewport").boundingBox();
+    assert.ok(room.width >= 240 && room.height >= 240, `${room.width} x ${room.height} px are left`);
+    assert.deepEqual(await covered(page), []);
+    await page.keyboard.press("d");
+    const numbers = page.locator(".right");
+    await page.locator(".opener.numbers").click();
+    await says(page.locator(".details"), "by machine");
+    const laid = await numbers.boundingBox();
+    assert.ok(laid.x >= 0 && laid.x + laid.width <= width && laid.width >= 240);
+    await faultsOf(page, "the numbers over the picture");
+    await page.locator(".opener.numbers").click();
+    await numbers.waitFor({ state: "hidden" });
+    const scans = page.locator(".opener.scans");
+    if (await scans.isVisible()) await scans.click();
+    const row = page.locator(".queue-row").nth(1);
+    const { radar, scan } = await current(page);
+    await row.click();
+    await page.waitForFunction((before) => !location.hash.endsWith(before), `/${radar}/${scan}`);
+    await picture(page, `page-${width}`);
+    clean(tab);
+  });
+}
+
+/** The buttons and lists above the picture that can't be pressed where they stand. */
+function covered(page) {
+  return page.locator(".toolbar button, .scan-bar button, .scan-bar select").evaluateAll((all) =>
+    all
+      .filter((one) => {
+        const { x, y, width, height } = one.getBoundingClientRect();
+        return !one.contains(document.elementFromPoint(x + width / 2, y + height / 2));
+      })
+      .map((one) => one.title || one.textContent),
+  );
+}
+
 test("single detections are chosen by keyboard, one after the other, and announced", async (context) => {
   const { server, tab, page } = await opened(context, browser);
   const scan = await scanOf(server, await current(page));
