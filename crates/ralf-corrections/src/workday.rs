@@ -14,9 +14,11 @@ pub struct Workday {
     pub day: String,
     /// Strokes, marks, undos and redos.
     pub edits: u64,
-    /// Detections that strokes of that day have labelled, as far as these hold; each once.
+    /// Detections that strokes of that day have labelled, as far as these hold and the detections still have a label
+    /// of a person; each once.
     pub detections: u64,
-    /// Scans that were marked as reviewed, as far as these marks were not taken back; each once.
+    /// Scans that were marked as reviewed, as far as these marks were not taken back and the scans still have one; each
+    /// once.
     pub scans: u64,
     /// The time between edits no more than [`PAUSE_S`] apart, s. What came before the first one of a stretch
     /// nobody knows.
@@ -38,10 +40,10 @@ pub(crate) fn workdays(on: &Connection) -> rusqlite::Result<Vec<Workday>> {
                   WHERE applied IS NOT NULL),
          labelled AS (SELECT name, day, count(*) AS detections
                       FROM (SELECT DISTINCT name, day, scan, point FROM held JOIN change ON change.stroke = held.id
-                            WHERE after IS NOT NULL) GROUP BY name, day),
+                            JOIN correction USING (scan, point) WHERE after IS NOT NULL) GROUP BY name, day),
          marked AS (SELECT name, day, count(*) AS scans
                     FROM (SELECT DISTINCT name, day, scan FROM held JOIN mark_change ON mark_change.stroke = held.id
-                          WHERE after IS NOT NULL) GROUP BY name, day)
+                          JOIN review USING (scan) WHERE after IS NOT NULL) GROUP BY name, day)
          SELECT name, day, edits, coalesce(detections, 0), coalesce(scans, 0), worked.s
          FROM worked LEFT JOIN labelled USING (name, day) LEFT JOIN marked USING (name, day) ORDER BY name, day",
     )?

@@ -334,22 +334,25 @@ fn compare_past(store: &Store, model: &Model) {
     compare_work(store, model);
 }
 
-/// All of it was done today, or at midnight; what holds is counted once for each person and day.
+/// All of it was done today, or at midnight; what holds, and still stands, is counted once for each person and day.
 fn compare_work(store: &Store, model: &Model) {
     let days = store.workdays().unwrap();
     if days.iter().any(|day| day.day != days[0].day) {
         return;
     }
+    let values = model.values();
     for (author, name) in ["ada", "bob"].into_iter().enumerate() {
         let own =
             || model.holding.iter().map(|(done, _)| done).filter(|done| usize::from(done.author) == author);
-        let labelled: BTreeSet<&Place> = own()
+        let mut labelled: BTreeSet<&Place> = own()
             .flat_map(|done| {
                 done.changes.iter().filter(|(_, (_, after))| after.is_some()).map(|(place, _)| place)
             })
             .collect();
-        let marked: BTreeSet<u32> =
+        labelled.retain(|place| values.contains_key(place));
+        let mut marked: BTreeSet<u32> =
             own().filter_map(|done| done.mark.and_then(|(scan, _, after)| after.map(|_| scan))).collect();
+        marked.retain(|scan| model.marks.contains_key(scan));
         let day = days.iter().find(|day| day.author == name);
         let told = day.map_or((0, 0), |day| (day.detections as usize, day.scans as usize));
         assert_eq!(told, (labelled.len(), marked.len()), "{name}");
