@@ -6,7 +6,7 @@ use axum::extract::{Request, State};
 use axum::http::{HeaderMap, HeaderName, HeaderValue, header};
 use axum::middleware::Next;
 use axum::response::{IntoResponse, Response};
-use std::net::SocketAddr;
+use std::net::{IpAddr, SocketAddr};
 use std::sync::Arc;
 
 /// The headers of every answer.
@@ -23,11 +23,57 @@ const HEADERS: [(HeaderName, &str); 4] = [
 
 /// What requests are measured by.
 pub(crate) struct Guard {
-    /// Names of this server as `Host` has them; `None` where it listens on all addresses, which have many names.
-    hosts: Option<Vec<String>>,
+    /// How requests name this server; `None` where it listens on all addresses, which have many names.
+    hosts: Option<Hosts>,
     /// Asked for by all but the page itself.
     token: Token,
     served: Served,
+}
+
+/// What a server is called in `Host`.
+struct Hosts {
+    names: Vec<String>,
+    /// `None`: any. Another port may be forwarded here (`ssh -L`), and browsers name that one. Nothing is lost by it: a
+    /// name that somebody rebinds to this machine is another name, a page on another port of this machine is another
+    /// origin, and all but the page itself asks for the token.
+    port: Option<u16>,
+}
+
+impl Hosts {
+    fn of(host: &str, address: SocketAddr) -> Self {
+        let ip = match address.ip() {
+            IpAddr::V4(ip) => ip.to_string(),
+            IpAddr::V6(ip) => format!("[{ip}]"),
+        };
+        let names: &[&str] =
+            if address.ip().is_loopback() { &["localhost", "127.0.0.1", "[::1]"] } else { &[host] };
+        let mut names: Vec<String> = names.iter().map(|name| (*name).to_owned()).collect();
+        if !names.contains(&ip) {
+            names.push(ip);
+        }
+        Self { names, port: (!address.ip().is_loopback()).then_some(address.port()) }
+    }
+
+    fn hold(&self, found: &str) -> bool {
+        // Browsers leave port 80 out.
+        let (name, port) = match found.rsplit_once(':') {
+            Some((name, port)) if port.bytes().all(|byte| byte.is_ascii_digit()) => {
+                (name, port.parse::<u16>().ok())
+            }
+            _ => (found, Some(80)),
+        };
+        let known = self.names.iter().any(|known| known.eq_ignore_ascii_case(name));
+        known && port.is_some_and(|port| self.port.is_none_or(|own| own == port))
+    }
+
+    /// For people.
+    fn told(&self) -> String {
+        let named = |name: &String| match self.port {
+            Some(port) => format!("{name}:{port}"),
+            None => name.clone(),
+        };
+        self.names.iter().map(named).collect::<Vec<_>>().join(" or ")
+    }
 }
 
 /// The corrections that are served.
@@ -41,28 +87,16 @@ pub(crate) struct Served {
 impl Guard {
     /// For a server that listens at `address`, which was asked for by the name `host`.
     pub(crate) fn new(host: &str, address: SocketAddr, token: Token, served: Served) -> Self {
-        let ip = address.ip();
-        let names: &[&str] = if ip.is_loopback() { &["localhost", "127.0.0.1", "[::1]"] } else { &[host] };
-        let port = address.port();
-        let mut hosts: Vec<String> = names.iter().map(|name| format!("{name}:{port}")).collect();
-        hosts.push(address.to_string());
-        if port == 80 {
-            // Browsers leave it out.
-            hosts.extend(names.iter().map(|name| (*name).to_owned()));
-        }
-        Self { hosts: (!ip.is_unspecified()).then_some(hosts), token, served }
+        let hosts = (!address.ip().is_unspecified()).then(|| Hosts::of(host, address));
+        Self { hosts, token, served }
     }
 
     fn check(&self, path: &str, headers: &HeaderMap) -> Result<(), ApiError> {
         let text = |name: HeaderName| headers.get(name).map(|value| value.to_str().unwrap_or("not ASCII"));
         let host = text(header::HOST).unwrap_or("");
-        let known = self
-            .hosts
-            .as_ref()
-            .is_none_or(|hosts| hosts.iter().any(|known| known.eq_ignore_ascii_case(host)));
+        let known = self.hosts.as_ref().is_none_or(|hosts| hosts.hold(host));
         if !known || host.is_empty() {
-            let expected =
-                self.hosts.as_ref().map_or("a name of this machine".into(), |hosts| hosts.join(" or "));
+            let expected = self.hosts.as_ref().map_or("a name of this machine".into(), Hosts::told);
             return Err(ApiError::Forbidden(format!("Host: expected {expected}, found `{host}`")));
         }
         let origin = format!("http://{host}");
@@ -139,10 +173,30 @@ mod tests {
         for host in ["127.0.0.1:8642", "localhost:8642", "LOCALHOST:8642", "[::1]:8642"] {
             assert!(passes(&guard, "/api/recording", &[("host", host), token]), "{host}");
         }
-        for host in ["", "127.0.0.1", "127.0.0.1:8643", "evil.example:8642", "localhost.evil.example:8642"] {
+        // Forwarded from another port, with `ssh -L`.
+        for host in ["127.0.0.1", "localhost:9999", "[::1]"] {
+            assert!(passes(&guard, "/api/recording", &[("host", host), token]), "{host}");
+            assert!(!passes(&guard, "/api/recording", &[("host", host)]), "{host} without the token");
+        }
+        for host in ["", ":", "localhost:", "localhost:99999", "localhost:8642:1", "evil.example:8642"] {
             assert!(!passes(&guard, "/", &[("host", host), token]), "{host}");
         }
+        assert!(!passes(&guard, "/", &[("host", "localhost.evil.example:8642")]));
         assert!(!passes(&guard, "/", &[]));
+    }
+
+    #[test]
+    fn on_an_address_that_others_reach_the_port_must_be_its_own() {
+        let (guard, _) = guard("radar-host", "192.0.2.7:8642");
+        for (host, passed) in [
+            ("192.0.2.7:8642", true),
+            ("Radar-Host:8642", true),
+            ("192.0.2.7:9999", false),
+            ("192.0.2.7", false),
+            ("localhost:8642", false),
+        ] {
+            assert_eq!(passes(&guard, "/", &[("host", host)]), passed, "{host}");
+        }
     }
 
     #[test]
@@ -152,6 +206,7 @@ mod tests {
             passes(&guard, path, &[("host", "localhost"), ("authorization", &bearer), (name, value)])
         };
         assert!(asked("/api/recording", "origin", "http://localhost"));
+        // A page of another program on another port of this machine says so here.
         for origin in ["null", "https://localhost", "http://localhost:8000", "http://127.0.0.1"] {
             assert!(!asked("/api/recording", "origin", origin), "{origin}");
         }
