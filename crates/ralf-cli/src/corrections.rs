@@ -18,6 +18,9 @@ pub(crate) fn merged_truth(
     asked: bool,
 ) -> anyhow::Result<(GroundTruth, Outcome)> {
     let Some(out) = out else { return Ok((GroundTruth::open(dataset)?, Outcome::Done)) };
+    if asked {
+        Corrections::check_there(out)?;
+    }
     let corrections = match recording {
         Some(recording) => Corrections::of_recording(out, recording)?,
         None => Corrections::open(out)?,

@@ -65,12 +65,12 @@ impl App {
         let team = Team::open(out, &labelled, options.second.clone())?;
         Ok(Self {
             store: SharedStore::open(&team.store(out)?)?,
+            author: team.second.as_ref().unwrap_or(&options.author).clone(),
             team,
             causes: CauseNames::of(&recording)?,
             contents: Contents::default(),
             recording,
             out: out.to_owned(),
-            author: options.second.as_ref().unwrap_or(&options.author).clone(),
             writing: Semaphore::new(1),
             labels: Cache::new(SEQUENCES_KEPT),
             clouds: Cache::new(CLOUDS_KEPT),

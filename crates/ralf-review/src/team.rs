@@ -1,10 +1,11 @@
 //! Who labels what, and in whose file it is written.
 
 use crate::error::ReviewError;
+use ralf::sensors::Sequence;
 use ralf_corrections::FILE;
-use ralf_data::DataError;
 use ralf_data::result::{RadarScanKey, SequenceRecord};
-use ralf_data::team::{Assignment, second_file};
+use ralf_data::team::{Assignment, Twice, second_file};
+use ralf_data::{DataError, ScanId, ScanIndex};
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -23,7 +24,13 @@ impl Team {
         labelled: &[SequenceRecord],
         second: Option<String>,
     ) -> Result<Self, ReviewError> {
-        Ok(Self { assignment: Assignment::open(out, labelled)?, second })
+        let assignment = Assignment::open(out, labelled)?;
+        // As people are called everywhere else; a name that no file can have is refused with its file.
+        let second = second.map(|name| name.trim().to_owned());
+        if let (Some(dealt), Some(name)) = (&assignment, &second) {
+            dealt.check_known(out, name)?;
+        }
+        Ok(Self { assignment, second })
     }
 
     /// Where edits are written. Nobody else's file is ever opened for who labels a second time.
@@ -46,11 +53,22 @@ impl Team {
         self.assignment.as_ref()?.of_sequence(name)
     }
 
-    /// The scans of a sequence that the queue is about; `None`: all of them, as for who labels a
-    /// second time and was dealt no scans in any sequence.
-    pub(crate) fn queued(&self, sequence: &str) -> Option<BTreeSet<RadarScanKey>> {
-        let share = self.assignment.as_ref()?.0.get(self.second.as_ref()?)?;
-        (!share.twice.is_empty()).then(|| scans(share.twice.iter(), sequence))
+    /// Which scans of a sequence somebody is asked about here: all, but for who labels a second time and was dealt
+    /// some.
+    pub(crate) fn asks<'a>(&'a self, sequence: &'a Sequence) -> impl Fn(ScanIndex) -> bool + 'a {
+        let twice = self.second.as_ref().and_then(|name| self.twice_of(name));
+        move |ScanIndex { radar, scan }| {
+            twice.as_ref().is_none_or(|twice| {
+                let radar = sequence.rig.radars[radar].name.clone();
+                let number = u32::try_from(scan);
+                number.is_ok_and(|scan| twice.holds(&ScanId { sequence: sequence.name.clone(), radar, scan }))
+            })
+        }
+    }
+
+    /// What somebody labels a second time; `None` where nobody has dealt anything to that name.
+    pub(crate) fn twice_of(&self, name: &str) -> Option<Twice<'_>> {
+        self.assignment.as_ref()?.twice_of(name)
     }
 
     /// The scans of a sequence that somebody is to label a second time; `None` where none were dealt in any.
@@ -61,7 +79,7 @@ impl Team {
     }
 }
 
-fn scans<'a>(all: impl Iterator<Item = &'a ralf_data::ScanId>, sequence: &str) -> BTreeSet<RadarScanKey> {
+fn scans<'a>(all: impl Iterator<Item = &'a ScanId>, sequence: &str) -> BTreeSet<RadarScanKey> {
     let own = all.filter(|scan| scan.sequence == sequence);
     own.map(|scan| RadarScanKey::new(&scan.radar, scan.scan as usize)).collect()
 }

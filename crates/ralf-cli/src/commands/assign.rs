@@ -5,8 +5,7 @@ use crate::text::{aligned, grouped, print};
 use anyhow::bail;
 use clap::Args;
 use ralf_data::result::{Component, SequenceRecord, read_record};
-use ralf_data::team::{Assignment, Share};
-use std::collections::BTreeSet;
+use ralf_data::team::{Assignment, Share, alike, person};
 use std::path::PathBuf;
 
 /// Where the second labels are given, by a command that not every build has.
@@ -29,7 +28,7 @@ pub(crate) struct AssignArgs {
     /// What `ralf label` wrote
     #[arg(value_name = "OUT")]
     out: PathBuf,
-    /// The people, by what they call themselves in the review
+    /// The people, by what they call themselves in the review; no two names that differ by case alone
     #[arg(long, value_name = "NAME,...", value_delimiter = ',', required = true, value_parser = name)]
     to: Vec<Component>,
     /// The share of each sequence's scans that somebody else labels, too
@@ -43,8 +42,8 @@ pub(crate) struct AssignArgs {
 /// Deals, and prints what everybody has.
 pub(crate) fn run(arguments: &AssignArgs) -> anyhow::Result<Outcome> {
     let people = &arguments.to;
-    if people.iter().collect::<BTreeSet<_>>().len() < people.len() {
-        bail!("--to: expected each name once, found one twice");
+    if let Some([one, other]) = alike(people.iter().map(Component::as_str)) {
+        bail!("--to: expected each name once, whatever the case, found `{one}` and `{other}`");
     }
     if people.len() < 2 && arguments.twice > 0.0 {
         bail!("--twice: expected two people or more, found one: nobody else could label its scans");
@@ -71,7 +70,7 @@ fn row(name: &str, share: &Share, sequences: &[SequenceRecord]) -> Vec<String> {
 }
 
 fn name(text: &str) -> Result<Component, String> {
-    Component::new(text).map_err(|found| format!("expected a name that a file can have, found {found}"))
+    person(text).map_err(|found| format!("expected a name that a file can have, found {found}"))
 }
 
 fn share(text: &str) -> Result<f64, String> {

@@ -53,7 +53,8 @@ pub(crate) struct EvaluateArgs {
     /// Print how soon the review's queue leads to wrong labels, in place of tables
     #[arg(long, conflicts_with_all = ["json", "scans"], requires = "truth")]
     queue: bool,
-    /// Print how far the corrections in OUT and those in this folder or file agree: Cohen's kappa, and where they don't
+    /// Print how far the corrections in OUT and those in this folder or file agree: Cohen's kappa, and where they
+    /// don't; of second labels those of scans that `ralf assign` dealt
     #[arg(long, value_name = "OTHER", conflicts_with_all = ["queue", "scans", "corrections"], requires = "truth")]
     agreement: Option<PathBuf>,
     /// Print what people have corrected and reviewed, day by day, and how fast

@@ -43,6 +43,7 @@ pub(crate) struct ReviewArgs {
     #[arg(long, value_name = "NAME", value_parser = clap::builder::NonEmptyStringValueParser::new())]
     author: Option<String>,
     /// Label a second time, in a file of your own, without seeing what others said; the scans that `ralf assign` dealt
+    /// to NAME, which is one of those in OUT/team.toml, where there is one
     #[arg(long, value_name = "NAME", conflicts_with = "author")]
     second: Option<String>,
     /// Open the page in the browser

@@ -77,7 +77,11 @@ fn a_correction_stands_above_the_datasets_truth() {
     let named = ["evaluate", &other, "--truth", &dataset.path, "--corrections", &dataset.out, "--json"];
     assert_eq!(evaluation(named), after);
     let none = ["evaluate", &dataset.out, "--truth", &dataset.path, "--corrections", &other];
-    ralf(none).exits(1).says(["corrections.sqlite: expected corrections, found none"]);
+    ralf(none).exits(1).says(["-other/corrections.sqlite: file: expected corrections, found no such file"]);
+    let nowhere = format!("{other}s");
+    let [command, out, truth, path, corrections, _] = none;
+    let found = format!("{nowhere}: file: expected corrections, found no such file");
+    ralf([command, out, truth, path, corrections, &nowhere]).exits(1).says([found.as_str()]);
 }
 
 #[test]
@@ -120,6 +124,8 @@ fn two_people_agree_as_far_as_it_is_by_hand() {
     fs::create_dir(&other).unwrap();
     say(&dataset.out, detections as u32, &[1, 1, 10, 99]);
     let asked = ["evaluate", &dataset.out, "--truth", &dataset.path, "--agreement", &other];
+    ralf(asked).exits(1).says(["other/corrections.sqlite: file: expected corrections, found no such file"]);
+    drop(store(&other));
     ralf(asked).exits(1).says(["expected detections of which both say something, found none"]);
     say(&other, detections as u32, &[1, 10, 10, 99, 99]);
     ralf(asked).exits(0).prints(["They disagree in 1 scan,", "00/radar_front/000000: 1 of 4", "car"]);
@@ -134,16 +140,50 @@ fn two_people_agree_as_far_as_it_is_by_hand() {
     assert_eq!(found["disagreements"], scan);
 }
 
+/// A stroke over a thing reaches scans that nobody drew, too.
+#[test]
+fn agreement_is_of_the_scans_alone_that_were_dealt() {
+    let dataset = labelled();
+    let detections =
+        ids(&Path::new(&dataset.out).join("sequences/00").join(RADAR).join("000000.label")).len();
+    say(&dataset.out, detections as u32, &[1, 99]);
+    let second = dataset.beside("second");
+    fs::create_dir(&second).unwrap();
+    say(&second, detections as u32, &[1, 99]);
+    let folder = Path::new(&dataset.out).join("second");
+    fs::create_dir(&folder).unwrap();
+    let file = folder.join("bob.sqlite");
+    fs::copy(Path::new(&second).join("corrections.sqlite"), &file).unwrap();
+    let file = file.to_str().unwrap();
+    let asked = ["evaluate", &dataset.out, "--truth", &dataset.path, "--agreement", file];
+    let deal = |team: String| fs::write(Path::new(&dataset.out).join("team.toml"), team).unwrap();
+    ralf(asked).exits(0).prints(["labelled by both"]);
+    deal(format!("[bob]\ntwice = [\"00/{RADAR}/000000\"]"));
+    ralf(asked).exits(0).prints(["labelled by both"]);
+    deal(format!("[bob]\ntwice = [\"00/{RADAR}/000001\"]"));
+    ralf(asked)
+        .exits(1)
+        .says(["1 scan not dealt to bob: left out", "of which both say something, found none"]);
+    deal("[bob]\nsequences = [\"00\"]".to_owned());
+    ralf(asked).exits(1).says(["1 scan not dealt to bob: left out"]);
+    let typo = file.replace("bob.", "bobb.");
+    let [command, out, truth, path, agreement, _] = asked;
+    let found = format!("{typo}: file: expected corrections, found no such file");
+    ralf([command, out, truth, path, agreement, &typo]).exits(1).says([found.as_str()]);
+}
+
 #[test]
 fn work_is_dealt_once_and_what_people_did_is_told() {
     let dataset = labelled();
     let deal = |people: &str, twice: &str| ralf(["assign", &dataset.out, "--to", people, "--twice", twice]);
     deal("ada", "0.5").exits(1).says(["--twice: expected two people or more"]);
     deal("ada,ada", "0").exits(1).says(["--to: expected each name once"]);
+    deal("ada,Ada", "0").exits(1).says(["whatever the case, found `ada` and `Ada`"]);
+    deal(&format!("ada,{}", "b".repeat(65)), "0").exits(2).says(["one of more than 64 characters"]);
     deal("ada,b/b", "0").exits(2).says(["one with a separator"]);
     deal("ada,bob", "2").exits(2).says(["expected a number from 0 to 1"]);
     // Two sequences of two radars with eight scans each: one for each person, and a quarter of the other's.
-    deal("ada,bob", "0.25").exits(0).prints(["ada", "bob", "team.toml"]);
+    deal("ada, bob", "0.25").exits(0).prints(["ada", "bob", "team.toml"]);
     let labelled = read_record(Path::new(&dataset.out)).unwrap().sequences;
     let dealt = Assignment::open(Path::new(&dataset.out), &labelled).unwrap().unwrap();
     for (name, own, other) in [("ada", "00", "01"), ("bob", "01", "00")] {

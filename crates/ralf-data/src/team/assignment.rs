@@ -1,5 +1,6 @@
 //! Who labels what: a file beside the labels, made once and then people's to change.
 
+use super::person::{alike, person};
 use crate::disk::files::{self, write_whole};
 use crate::error::DataError;
 use crate::result::{Component, SequenceRecord};
@@ -64,8 +65,8 @@ impl Assignment {
     /// Reads what was dealt of these labelled sequences below an output folder; `None` where nothing was.
     ///
     /// # Errors
-    /// A file that says something else, or names sequences or scans that aren't there: nobody would ever be asked for
-    /// them.
+    /// A file that says something else, names somebody as the review can't, or names sequences or scans that aren't
+    /// there: nobody would ever be asked for them.
     pub fn open(out: &Path, labelled: &[SequenceRecord]) -> Result<Option<Self>, DataError> {
         let file = Self::file(out);
         if !files::exists(&file)? {
@@ -76,8 +77,30 @@ impl Assignment {
             DataError::content(&file, "content", expected, error.message())
         };
         let dealt: Self = toml::from_str(&files::read_text(&file, Kind::Settings)?).map_err(refused)?;
+        dealt.check_names(&file)?;
         dealt.check(&file, labelled)?;
         Ok(Some(dealt))
+    }
+
+    fn check_names(&self, file: &Path) -> Result<(), DataError> {
+        let refused = |name: &str, expected, found: String| {
+            Err(DataError::content(file, format!("[{name:?}]"), expected, found))
+        };
+        for name in self.0.keys() {
+            match person(name) {
+                Err(found) => return refused(name, "a name that a file can have", found.to_owned()),
+                Ok(known) if known.as_str() != name => {
+                    return refused(name, "a name without spaces around it", "some".to_owned());
+                }
+                Ok(_) => {}
+            }
+        }
+        match alike(self.0.keys().map(String::as_str)) {
+            Some([one, other]) => {
+                refused(other, "names that differ by more than case", format!("`{one}` beside it"))
+            }
+            None => Ok(()),
+        }
     }
 
     fn check(&self, file: &Path, labelled: &[SequenceRecord]) -> Result<(), DataError> {
@@ -117,7 +140,7 @@ impl Assignment {
         Ok(file)
     }
 
-    fn file(out: &Path) -> PathBuf {
+    pub(super) fn file(out: &Path) -> PathBuf {
         out.join(FILE)
     }
 
@@ -256,6 +279,11 @@ mod tests {
         let out = tempfile::tempdir().unwrap();
         let labelled = [sequence("a", &[1; 9])];
         for (text, expected) in [
+            ("[\" bob\"]", "[\" bob\"]: expected a name without spaces around it, found some"),
+            (
+                "[bob]\n[Bob]",
+                "[\"bob\"]: expected names that differ by more than case, found `Bob` beside it",
+            ),
             ("[ada]\nsequences = [\"b\"]", "[ada], sequences: expected labelled sequences, found `b`"),
             (
                 "[ada]\ntwice = [\"a/front/9\"]",

@@ -4,9 +4,13 @@
 //! it, writes to a file of its own, `OUT/second/NAME.sqlite`: nobody's labels are read where another's are made.
 
 mod assignment;
+mod person;
 mod second;
+mod twice;
 mod worked;
 
 pub use assignment::{Assignment, Share};
+pub use person::{alike, person};
 pub use second::{second_file, second_labellers};
+pub use twice::Twice;
 pub use worked::Worked;

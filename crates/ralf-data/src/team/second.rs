@@ -1,8 +1,8 @@
 //! Where second labels lie.
 
+use super::person::person;
 use crate::disk::files;
 use crate::error::DataError;
-use crate::result::Component;
 use std::path::{Path, PathBuf};
 
 /// The folder below an output folder.
@@ -17,8 +17,8 @@ const ENDING: &str = ".sqlite";
 pub fn second_file(out: &Path, name: &str) -> Result<PathBuf, DataError> {
     let folder = out.join(FOLDER);
     let expected = "a name that a file can have";
-    let part = Component::new(name)
-        .map_err(|found| DataError::content(&folder, format!("`{name}`"), expected, found))?;
+    let part =
+        person(name).map_err(|found| DataError::content(&folder, format!("`{name}`"), expected, found))?;
     Ok(folder.join(format!("{}{ENDING}", part.as_str())))
 }
 

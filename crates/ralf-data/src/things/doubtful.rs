@@ -68,9 +68,18 @@ impl SequenceThings {
         .collect()
     }
 
-    /// The things of which something is left to ask, at most so many, those with the most expected errors first.
-    pub fn doubtful(&self, answers: &[Option<Answer>], most: usize) -> Doubtful {
-        let errors = self.expected_errors(answers);
+    /// The things of which something is left to ask in these scans, at most so many, those with the most expected
+    /// errors in them first.
+    pub fn doubtful(
+        &self,
+        answers: &[Option<Answer>],
+        most: usize,
+        asks: impl Fn(ScanIndex) -> bool,
+    ) -> Doubtful {
+        let mut errors = self.expected_errors(answers);
+        for scan in self.scans().iter().filter(|scan| !asks(**scan)) {
+            errors[self.rows_of(*scan)].fill(0.0);
+        }
         let mut left = vec![0.0; self.count()];
         for (thing, error) in self.things().iter().zip(&errors) {
             left[*thing as usize] += error;

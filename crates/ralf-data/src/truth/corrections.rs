@@ -56,13 +56,30 @@ impl Corrections {
     /// A file that is no store of corrections, or one of another version of the program; a label that nobody can have
     /// given.
     pub fn open(out: &Path) -> Result<Self, DataError> {
-        let file = if out.is_file() { out.to_owned() } else { out.join(FILE) };
+        let file = Self::file_of(out);
         let there = files::exists(&file)?;
         let scans = if there { read_layer(&file)? } else { BTreeMap::new() };
         let scans: BTreeMap<ScanId, Vec<ScanLayer>> =
             scans.into_iter().map(|(key, said)| (key.into(), said)).collect();
         scans.iter().try_for_each(|(scan, said)| check_labels(&file, scan, said))?;
         Ok(Self { file, scans, orphaned: Vec::new() })
+    }
+
+    /// Refuses a place that was named for its corrections, a folder or a file, where there are none.
+    ///
+    /// # Errors
+    /// What isn't there: the folder or file, or the store in the folder.
+    pub fn check_there(out: &Path) -> Result<(), DataError> {
+        let (there, file) = (files::exists(out)?, Self::file_of(out));
+        if there && files::exists(&file)? {
+            return Ok(());
+        }
+        let missing = if there { &file } else { out };
+        Err(DataError::content(missing, "file", "corrections", "no such file or folder"))
+    }
+
+    fn file_of(out: &Path) -> PathBuf {
+        if out.is_file() { out.to_owned() } else { out.join(FILE) }
     }
 
     /// Keeps what was said of what the scans hold now: what was said of another content is [orphaned](Self::orphaned),
@@ -103,6 +120,12 @@ impl Corrections {
             said.retain(|layer| layer.accepted.is_some());
             !said.is_empty()
         });
+        self
+    }
+
+    /// Those of these scans alone.
+    pub fn of_scans(mut self, wanted: impl Fn(&ScanId) -> bool) -> Self {
+        self.scans.retain(|scan, _| wanted(scan));
         self
     }
 

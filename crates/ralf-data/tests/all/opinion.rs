@@ -52,7 +52,7 @@ impl Known {
     /// have. `corrects`: nothing is said of those that have it.
     fn answered(&self, count: usize, corrects: bool) -> Vec<Option<Answer>> {
         let mut answers = vec![None; self.truth.len()];
-        let queue = self.things.doubtful(&answers, usize::MAX).things;
+        let queue = self.things.doubtful(&answers, usize::MAX, |_| true).things;
         let rows_of = |number: u32| -> Vec<usize> {
             (0..self.truth.len()).filter(|row| self.things.things()[*row] == number).collect()
         };

@@ -33,9 +33,11 @@ pub(crate) fn kinds(app: &App, sequence: &str, asked: &AskedKinds) -> Answer {
     let labels = app.labels(index)?;
     let things = labels.things(reader)?;
     let observed = labels.observed(reader, &things, t_ns, half_of_the_machine())?;
+    let asks = app.team.asks(reader.sequence());
     let said = || Said::of(app, index, reader)?.answers(app, &things);
     let question = by_all_that_is_said(said, |answers| {
-        let found = things.kinds(&observed, answers, &passed);
+        let mut found = things.kinds(&observed, answers, &passed);
+        found.retain(|kind| kind.rows.iter().any(|row| asks(things.scan_of(*row))));
         let rows = found.first().map(|kind| kind.rows.as_slice()).unwrap_or_default();
         Ok(json!({
             "kinds": found.len(),

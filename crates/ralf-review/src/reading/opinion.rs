@@ -71,8 +71,10 @@ fn learned(
     }
     let observed = labels.observed(reader, things, t_ns, jobs)?;
     let answered = things.answered(&observed, answers);
-    let changes = things.second_opinion(&observed, answers, jobs);
     let sequence = reader.sequence();
+    let asks = app.team.asks(sequence);
+    let mut changes = things.second_opinion(&observed, answers, jobs);
+    changes.retain(|change| change.rows.iter().any(|row| asks(things.scan_of(*row))));
     let base = bases(app, sequence, things, changes.iter().flat_map(|change| &change.rows))?;
     let changes: Vec<Value> = changes.iter().map(|change| row(sequence, things, change)).collect();
     Ok(json!({ "answered": answered, "changes": changes, "base": base, "scans": looked_at(&observed) }))

@@ -75,9 +75,6 @@ fn keys(reader: &dyn SequenceReader, needs: &[&ScanNeed]) -> Vec<RadarScanKey> {
 
 /// The scans that the queue is about: all, but for somebody who labels some of them a second time.
 fn queued<'a>(app: &App, reader: &dyn SequenceReader, needs: &'a [ScanNeed]) -> Vec<&'a ScanNeed> {
-    let sequence = reader.sequence();
-    let wanted = app.team.queued(&sequence.name);
-    let is_wanted =
-        |need: &&ScanNeed| wanted.as_ref().is_none_or(|wanted| wanted.contains(&key(sequence, need.scan)));
-    needs.iter().filter(is_wanted).collect()
+    let asks = app.team.asks(reader.sequence());
+    needs.iter().filter(|need| asks(need.scan)).collect()
 }

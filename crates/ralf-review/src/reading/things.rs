@@ -39,7 +39,7 @@ fn asked<'a>(app: &'a App, name: &str) -> Result<Asked<'a>, ApiError> {
     let things = app.labels(index)?.things(reader)?;
     let sequence = reader.sequence();
     let answers = Said::of(app, index, reader)?.answers(app, &things)?;
-    let doubtful = things.doubtful(&answers, MOST);
+    let doubtful = things.doubtful(&answers, MOST, app.team.asks(sequence));
     let header = Map::from_iter([
         ("doubtful".to_owned(), doubtful.things.iter().map(|thing| row(sequence, thing)).collect()),
         ("things".to_owned(), json!(things.count())),

@@ -2,6 +2,7 @@
 
 use crate::support::{Out, RADAR, SEQUENCE, Serving, stroke};
 use serde_json::{Value, json};
+use std::collections::BTreeSet;
 use std::fs;
 
 /// The stroke that takes a side of a disagreement, as the page sends it.
@@ -190,6 +191,39 @@ fn what_was_said_of_a_detection_and_of_its_thing_is_told_with_who_and_when() {
     assert!(said("100000/said").refused(404).contains("detection: expected a number below"));
 }
 
+/// A thing that was seen in none of the scans that were dealt is no question, and what was said beyond them by an answer
+/// about a thing is not compared.
+#[test]
+fn things_are_asked_about_and_agreement_counted_as_far_as_scans_were_dealt() {
+    let out = Out::new();
+    let team =
+        format!("[ada]\nsequences = [\"{SEQUENCE}\"]\n[bob]\ntwice = [\"{SEQUENCE}/{RADAR}/000001\"]\n");
+    fs::write(out.path().join("team.toml"), team).unwrap();
+    let (first, second) = (out.serve(), Serving::second(out.path(), "bob").unwrap());
+    let doubtful = |server: &Serving| {
+        let told = server.of_sequence("things/doubtful").json();
+        let things = told["doubtful"].as_array().unwrap().iter();
+        things.map(|thing| thing["thing"].as_u64().unwrap()).collect::<Vec<_>>()
+    };
+    let table = second.of_sequence("things").table();
+    let (mut at, mut seen) = (0, BTreeSet::new());
+    for scan in table.header["scans"].as_array().unwrap() {
+        let rows = at..at + scan["rows"].as_u64().unwrap() as usize;
+        at = rows.end;
+        if scan["radar"] == RADAR && scan["scan"] == 1 {
+            seen.extend(table.u32("thing")[rows].iter().map(|thing| u64::from(*thing)));
+        }
+    }
+    let asked = doubtful(&second);
+    assert!(!asked.is_empty() && asked.iter().all(|thing| seen.contains(thing)));
+    assert!(doubtful(&first).iter().any(|thing| !seen.contains(thing)));
+    for server in [&first, &second] {
+        (0..2).for_each(|scan| drop(server.accept(scan, 0).json()));
+    }
+    let told = first.of_sequence("disagreements").json();
+    assert_eq!((&told["people"][0]["scans"], &told["waiting"]), (&json!(1), &json!(0)));
+}
+
 #[test]
 fn who_labels_a_second_time_has_those_scans_in_the_queue_that_were_dealt() {
     let out = Out::new();
@@ -218,6 +252,16 @@ fn who_labels_a_second_time_has_those_scans_in_the_queue_that_were_dealt() {
         server.accept(1, 0).json();
     }
     assert_eq!(first.of_sequence("disagreements").json()["waiting"], 0);
+    for known in ["bob", " bob"] {
+        let server = Serving::second(out.path(), known).unwrap();
+        assert_eq!(server.get("/api/recording").json()["author"], "bob");
+    }
+    for unknown in ["bbo", "Bob"] {
+        let told = Serving::second(out.path(), unknown).err().unwrap().to_string();
+        assert!(told.contains("expected one of ada, bob, found `"), "{told}");
+    }
+    let own = Serving::second(out.path(), "ada").unwrap();
+    assert_eq!(own.of_sequence("queue").json()["scans"], json!([]), "the sequence is ada's own");
     let without = format!("[ada]\nsequences = [\"{SEQUENCE}\"]\n[bob]\n");
     fs::write(out.path().join("team.toml"), without).unwrap();
     let (first, second) = (out.serve(), Serving::second(out.path(), "bob").unwrap());

@@ -2,20 +2,24 @@
 
 use crate::corrections::say_orphaned;
 use crate::outcome::Outcome;
+use crate::progress::say;
 use crate::text::{aligned, counted, decimal, grouped, print};
 use anyhow::bail;
 use ralf::metrics::Confusion;
 use ralf_data::judge::{Agreement, disagreements, kappa, kappa_of_names, label_name};
+use ralf_data::result::read_record;
+use ralf_data::team::{Assignment, second_labellers};
 use ralf_data::{Corrections, Recording};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// The scans that are named, those with the most disagreements.
 const NAMED: usize = 20;
 
-/// Prints what two people's corrections of one recording have in common.
+/// Prints what two people's corrections of one recording have in common. Both must be there.
 pub(super) fn run(recording: &Recording, [out, other]: [&Path; 2], as_json: bool) -> anyhow::Result<Outcome> {
+    [out, other].into_iter().try_for_each(Corrections::check_there)?;
     let [first, second] = [out, other].map(|out| Corrections::of_recording(out, recording));
-    let (first, second) = (first?, second?);
+    let (first, second) = (first?, of_dealt(out, other, second?)?);
     let outcome = say_orphaned(first.orphaned()).and(say_orphaned(second.orphaned()));
     let agreement = Agreement::of(&first, &second)?;
     if agreement.scans.is_empty() {
@@ -24,6 +28,21 @@ pub(super) fn run(recording: &Recording, [out, other]: [&Path; 2], as_json: bool
     }
     print(&if as_json { serde_json::to_string_pretty(&agreement.json())? } else { table(&agreement) })?;
     Ok(outcome)
+}
+
+/// Second labels of the scans alone that were dealt to whoever gave them: others are of no random sample.
+fn of_dealt(out: &Path, other: &Path, second: Corrections) -> anyhow::Result<Corrections> {
+    let place = |file: &Path| file.canonicalize().ok();
+    let is_other = |(_, file): &(String, PathBuf)| place(file).is_some_and(|file| place(other) == Some(file));
+    let Some((name, _)) = second_labellers(out)?.into_iter().find(is_other) else { return Ok(second) };
+    let dealt = Assignment::open(out, &read_record(out)?.sequences)?;
+    let Some(twice) = dealt.as_ref().and_then(|dealt| dealt.twice_of(&name)) else { return Ok(second) };
+    let left_out = second.scans().filter(|scan| !twice.holds(scan)).count();
+    if left_out > 0 {
+        let file = second.file().display();
+        say(&format!("{file}: {} not dealt to {name}: left out", counted(left_out, "scan")));
+    }
+    Ok(second.of_scans(|scan| twice.holds(scan)))
 }
 
 fn table(agreement: &Agreement) -> String {
