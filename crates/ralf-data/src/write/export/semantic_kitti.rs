@@ -2,7 +2,8 @@
 //! `calib.txt`, `poses.txt` and `times.txt`, as semantic-kitti-api reads them.
 //!
 //! A sequence of this tree is one radar of one sequence of the recording: frame n is scan n, point i its detection i,
-//! and nothing is moved in time. `sequences.csv` tells which is which.
+//! and nothing is moved in time. A sequence that has a number and one radar keeps it; other radars get the numbers that
+//! are free. `sequences.csv` tells which is which.
 
 use super::labelled::{LabelledScan, LabelledSequence};
 use super::{Split, Writer, npy_array};
@@ -14,13 +15,15 @@ use crate::result::{Component, OutFolder, Values, checked};
 use crate::run::SequenceRecord;
 use ralf::sensors::{Radar, RadarScan};
 use ralf::space::Transform;
+use std::collections::BTreeSet;
 use std::fmt::Write;
 
 /// Writes the tree.
 pub(super) struct SemanticKitti {
-    /// Whether the recording's sequences are named by numbers and have one radar each, so that they can keep their
-    /// names.
-    keeps_names: bool,
+    /// Names of the recording's sequences that are numbers and have one radar, so that they can keep them.
+    kept: BTreeSet<String>,
+    /// Below this all numbers have been given, or are kept.
+    next: usize,
     /// Rows of `sequences.csv`.
     table: Vec<String>,
 }
@@ -28,9 +31,23 @@ pub(super) struct SemanticKitti {
 impl SemanticKitti {
     pub(super) fn new(sequences: &[(&dyn SequenceReader, &SequenceRecord)]) -> Self {
         let numbered = |name: &str| name.len() == 2 && name.bytes().all(|byte| byte.is_ascii_digit());
-        let keeps_names =
-            sequences.iter().all(|(_, record)| record.radars.len() == 1 && numbered(&record.name));
-        Self { keeps_names, table: Vec::new() }
+        let records = sequences.iter().map(|(_, record)| record);
+        let kept = records.filter(|record| record.radars.len() == 1 && numbered(&record.name));
+        Self { kept: kept.map(|record| record.name.clone()).collect(), next: 0, table: Vec::new() }
+    }
+
+    /// The number of a radar of this sequence: the sequence's own, or else the first that is free.
+    fn number(&mut self, sequence: &str) -> String {
+        if self.kept.contains(sequence) {
+            return sequence.to_owned();
+        }
+        loop {
+            let number = format!("{:02}", self.next);
+            self.next += 1;
+            if !self.kept.contains(&number) {
+                return number;
+            }
+        }
     }
 }
 
@@ -38,10 +55,7 @@ impl Writer for SemanticKitti {
     fn sequence(&mut self, folder: &OutFolder, sequence: &mut LabelledSequence) -> Result<(), DataError> {
         let all = sequence.reader.sequence();
         for (radar, Radar { name, .. }) in all.rig.radars.iter().enumerate() {
-            let number = match self.keeps_names {
-                true => sequence.name().to_owned(),
-                false => format!("{:02}", self.table.len()),
-            };
+            let number = self.number(sequence.name());
             let folder = folder.own("sequences").folder(&checked("sequence", &number)?);
             self.table.push(format!(
                 "{number},{},{},{}\n",
@@ -134,6 +148,14 @@ fn matrix(transform: &Transform) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn who_can_keep_a_number_keeps_it_and_others_get_the_free_ones() {
+        let kept = BTreeSet::from(["01".to_owned()]);
+        let mut writer = SemanticKitti { kept, next: 0, table: Vec::new() };
+        let numbers = ["00", "00", "01", "02", "02"].map(|sequence| writer.number(sequence));
+        assert_eq!(numbers, ["00", "02", "01", "03", "04"]);
+    }
 
     #[test]
     fn cells_are_quoted_where_they_have_to_be() {
