@@ -90,6 +90,13 @@ fn a_simulated_recording_is_compared_with_another_one() {
     assert!((0.005..0.4).contains(&distance), "another seed of the same world: {distance}");
     assert_eq!(figures["realism"]["quantities"][1]["name"], "range");
 
+    let file = format!("{made}/sequences/tiny/sequence.toml");
+    let sensors = fs::read_to_string(&file).unwrap();
+    fs::write(&file, sensors.replace("\"doppler\"", "\"speed\"")).unwrap();
+    let lacking = "made lacks some of: range rates, and the vehicle's motion where they are raw";
+    ralf(["simulate", "--compare", &made, "--with", &made]).exits(0).prints([lacking]);
+    fs::write(&file, sensors).unwrap();
+
     let alone = ralf(["inspect", &made, "--distributions", "--json"]).exits(0).json();
     assert_eq!(alone["quantities"][1]["summary"], figures["realism"]["quantities"][1]["real"]);
     ralf(["inspect", &made, "--distributions"]).exits(0).prints(["radar scans", "persistence, share"]);

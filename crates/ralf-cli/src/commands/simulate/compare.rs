@@ -108,7 +108,7 @@ fn lacking(page: &RealismPage) -> String {
     for Compared { quantity, name, real, simulated, .. } in &page.realism.quantities {
         for (recording, summary) in [(&page.real_name, real), (&page.simulated_name, simulated)] {
             if summary.is_none() {
-                text += &format!("{name}: {recording} lacks {}\n", quantity.description().needs);
+                text += &format!("{name}: {recording} lacks some of: {}\n", quantity.description().needs);
             }
         }
     }
