@@ -156,3 +156,18 @@ fn scenes_of_another_part_of_the_data_set_are_left_out_in_one_line() {
     let warned = "scene-0002: 5 of 5 files of RADAR_FRONT are not there and were left out";
     ralf(["inspect", &recording, "--sequence", "scene-0002"]).exits(0).says([warned]);
 }
+
+#[test]
+fn a_picture_is_of_a_sequence_that_has_labels() {
+    let dataset = Dataset::of(&Shape { scans: 3, sequences: &["00", "01", "02"], ..Shape::default() });
+    let picture = dataset.beside("scan.png");
+    let plot = || ralf(["plot", &dataset.path, &dataset.out, "--scan", "1", "-o", &picture]);
+    let label = |name: &str| {
+        ralf(["label", &dataset.path, "-o", &dataset.out, "--sequence", name, "--no-check"]).exits(0);
+    };
+    label("01");
+    plot().exits(0).says([&picture]);
+    label("02");
+    plot().exits(1).ends_with_error(["expected one sequence, found 2: choose with --sequence (01, 02)"]);
+    ralf(["plot", &dataset.path, &dataset.out, "--sequence", "00", "--scan", "1", "-o", &picture]).exits(1);
+}

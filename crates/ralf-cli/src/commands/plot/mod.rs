@@ -7,6 +7,7 @@ use crate::outcome::{Outcome, UsageError};
 use crate::progress::say;
 use clap::Args;
 use ralf_data::result::LabelledRun;
+use ralf_data::{Recording, SequenceReader};
 use ralf_plot::Extent;
 use ralf_report::{Detections, Pictures};
 use std::path::{Path, PathBuf};
@@ -68,13 +69,15 @@ pub(crate) struct PlotArgs {
 pub(crate) fn run(arguments: &PlotArgs) -> anyhow::Result<Outcome> {
     check_output("--output", &arguments.output, &[&arguments.dataset.dataset, &arguments.labels])?;
     refuse_other_endings(&arguments.output)?;
-    let recording = arguments.dataset.open_labelled(&arguments.labels, &arguments.changed)?;
+    let mut recording = arguments.dataset.open_labelled(&arguments.labels, &arguments.changed)?;
+    let run = LabelledRun::open(&arguments.labels)?;
+    leave_out_unlabelled(&mut recording, &run);
     let recording = match camera::depth_store(arguments)? {
         Some(store) => store.attach(recording),
         None => recording,
     };
     let reader = the_only(&recording)?;
-    let labelled = LabelledRun::open(&arguments.labels)?.sequence(reader)?;
+    let labelled = run.sequence(reader)?;
     let extent = arguments.radius.map_or(Extent::Fit, Extent::Radius);
     let pictures = Pictures { reader, tables: &labelled.tables, radar: arguments.radar.as_deref(), extent };
     let missing = pictures.missing(&labelled.record, arguments.scan)?;
@@ -92,6 +95,16 @@ pub(crate) fn run(arguments: &PlotArgs) -> anyhow::Result<Outcome> {
     ralf_data::write_named(&arguments.output, &png)?;
     say(&format!("wrote {}", arguments.output.display()));
     Ok(Outcome::done_if(missing.is_empty()))
+}
+
+/// Leaves out the sequences that have no labels, of which there is no picture, unless none has any.
+fn leave_out_unlabelled(recording: &mut Recording, run: &LabelledRun) {
+    let labelled = &run.record().sequences;
+    let is_labelled =
+        |reader: &dyn SequenceReader| labelled.iter().any(|found| found.name == reader.sequence().name);
+    if recording.sequences.iter().any(|reader| is_labelled(reader.as_ref())) {
+        recording.sequences.retain(|reader| is_labelled(reader.as_ref()));
+    }
 }
 
 /// Refuses a name that says that the picture is of another format.
