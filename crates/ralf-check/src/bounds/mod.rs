@@ -17,7 +17,7 @@ pub(crate) fn judge(sequence: &Sequence, sample: &Sample) -> Vec<Verdict> {
     let (rig, times) = (&sequence.rig, &sequence.times);
     let radars = &times.radars;
     for ((radar, looks), times) in rig.radars.iter().zip(&sample.radars).zip(&times.radars) {
-        let mut found = radar::judge(radar, looks);
+        let mut found = radar::judge(radar, looks, &sequence.motion);
         found.extend(timing::judge(&radar.name, times));
         verdicts.extend(settled(&radar.name, found));
     }

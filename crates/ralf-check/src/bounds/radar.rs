@@ -1,11 +1,13 @@
 //! A radar's numbers.
 
 use super::{mounting, out_of_reason};
+use crate::doppler::{STANDING, predicted};
 use crate::remedy::{LENGTHS, Remedy};
 use crate::sample::RadarLook;
 use crate::statistics::{median, quantile};
 use crate::verdict::{Question, State, Verdict};
 use ralf::sensors::{Elevation, Radar};
+use ralf::space::EgoMotion;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// Medians of ranges lie within, m: from parking to motorways.
@@ -21,12 +23,12 @@ const REPEATED: f64 = 0.05;
 /// Fewer detections than this tell nothing of a distribution.
 const FEWEST: usize = 30;
 
-pub(super) fn judge(radar: &Radar, looks: &[RadarLook]) -> Vec<Verdict> {
+pub(super) fn judge(radar: &Radar, looks: &[RadarLook], motion: &EgoMotion) -> Vec<Verdict> {
     let mut verdicts = mounting(&radar.name, &radar.vehicle_from_radar);
     let all: Vec<[f64; 3]> = looks.iter().flat_map(|look| &look.spherical).copied().collect();
     verdicts.extend(repeated(&radar.name, looks));
     verdicts.extend(not_finite(&radar.name, looks));
-    verdicts.extend(without_numbers(radar, looks));
+    verdicts.extend(without_numbers(radar, looks, motion));
     verdicts.extend(sigmas(radar));
     if all.len() < FEWEST {
         let missing = format!("{} detections in {} scans; {FEWEST} are needed", all.len(), looks.len());
@@ -74,11 +76,17 @@ fn not_finite(name: &str, looks: &[RadarLook]) -> Option<Verdict> {
     (share > NOT_FINITE.0).then(|| Verdict::new(name, Question::Bounds, State::Fact, evidence))
 }
 
-/// Fields that hold no number in any detection.
-fn without_numbers(radar: &Radar, looks: &[RadarLook]) -> Option<Verdict> {
+/// Fields that hold no number in any detection. While the vehicle stands, range rates without its motion are the
+/// measured ones, and some data sets have them once: as `doppler`.
+fn without_numbers(radar: &Radar, looks: &[RadarLook], motion: &EgoMotion) -> Option<Verdict> {
     let rows: usize = looks.iter().map(|look| look.rows).sum();
     let never = |column: usize| looks.iter().all(|look| look.numbers.get(column) == Some(&0));
-    let fields = radar.fields.iter().enumerate().filter(|(column, _)| never(*column));
+    let stands = |look: &RadarLook| predicted(motion, &radar.vehicle_from_radar, look.t_ns).norm() < STANDING;
+    let is_measured = |name: &str| radar.column(name).is_some_and(|column| !never(column));
+    let told_once = is_measured("doppler") && motion.is_known() && looks.iter().all(stands);
+    let fields = radar.fields.iter().enumerate();
+    let fields = fields.filter(|(_, name)| !(told_once && name.as_str() == "doppler_compensated"));
+    let fields = fields.filter(|(column, _)| never(*column));
     let names: Vec<String> = fields.map(|(_, name)| format!("`{name}`")).collect();
     if names.is_empty() || rows < FEWEST {
         return None;

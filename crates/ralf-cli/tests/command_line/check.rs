@@ -256,6 +256,28 @@ fn a_field_that_is_never_a_number_is_named_and_a_few_rows_are_not() {
     assert_eq!(record(&out)["sequences"][0].get("without_numbers"), None);
 }
 
+/// Some data sets have no range rates without the vehicle's motion while it stands: they are the measured ones.
+#[test]
+fn compensated_range_rates_may_be_missing_while_the_vehicle_stands() {
+    let dataset = Dataset::new();
+    let made = simulated(&dataset);
+    blank(&made, &[4], 0);
+    let file = sequence_file(&made, "sequence.toml");
+    let renamed = fs::read_to_string(&file).unwrap().replace("\"rcs\"", "\"doppler_compensated\"");
+    fs::write(&file, renamed).unwrap();
+    let doubt = "`doppler_compensated` is not a finite number in any of";
+    ralf(["check", &made]).exits(0).prints([doubt]);
+    let odometry = "t_ns,v_mps,yaw_rate_radps\n0,0,0\n";
+    fs::write(sequence_file(&made, "odometry.csv"), odometry).unwrap();
+    let _ = fs::remove_file(sequence_file(&made, "poses.csv"));
+    let standing = ralf(["check", &made]).exits(0);
+    assert!(!standing.stdout.contains(doubt), "{}", standing.stdout);
+    blank(&made, &[3], 0);
+    ralf(["check", &made])
+        .exits(0)
+        .prints(["`doppler`, `doppler_compensated` are not a finite number in any of"]);
+}
+
 #[test]
 fn scans_of_one_time_are_named() {
     let dataset = Dataset::new();
