@@ -169,6 +169,18 @@ mod tests {
         }
     }
 
+    /// Reading makes a quaternion's length 1, which rounds: of some rotations once more each time.
+    #[test]
+    fn what_is_written_of_a_rotation_is_read_as_the_same() {
+        for n in 0..2000 {
+            let angle = |step: f64| f64::from(n) * step;
+            let rotation =
+                nalgebra::UnitQuaternion::from_euler_angles(angle(0.7).sin(), angle(0.3).cos(), angle(0.011));
+            let back = transform_from_parts([0.0; 3], quaternion_xyzw(&rotation)).unwrap();
+            assert_eq!(back.rotation, rotation, "{n}");
+        }
+    }
+
     #[test]
     fn names_lead_nowhere_else() {
         for name in ["", ".", "..", "../a", "a/b", "/a", "a\\b", ".a", "C:", "a\nb", "a\0"] {

@@ -63,7 +63,17 @@ pub(crate) fn quaternion_xyzw(rotation: &UnitQuaternion<f64>) -> [f64; 4] {
     let same = |parts: &[f64; 4]| {
         transform_from_parts([0.0; 3], *parts).is_some_and(|transform| transform.rotation == *rotation)
     };
-    (0..=17).map(|decimals| exact.map(|value| rounded(value, decimals))).find(same).unwrap_or(exact)
+    let few = (0..=17).map(|decimals| exact.map(|value| rounded(value, decimals)));
+    // Reading makes its length 1 and rounds once more. Where that misses, a neighbour hits, or one of another length.
+    let neighbours = (1..3_usize.pow(4)).map(|which| neighbour(exact, which));
+    let lengths = (-16..=16).map(|step| exact.map(|value| value * (1.0 + f64::from(step) * 1e-12)));
+    few.chain(neighbours).chain(lengths).find(same).unwrap_or(exact)
+}
+
+/// One of the 81 quaternions whose parts are the next numbers up or down, or the same.
+fn neighbour(exact: [f64; 4], which: usize) -> [f64; 4] {
+    let steps = [f64::next_up, f64::next_down, |value: f64| value];
+    std::array::from_fn(|part| steps[which / 3_usize.pow(part as u32) % 3](exact[part]))
 }
 
 /// The degrees with the fewest decimals that are read as this angle.
