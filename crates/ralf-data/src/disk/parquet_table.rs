@@ -3,7 +3,7 @@
 use crate::disk::files;
 use crate::disk::guarded::guarded;
 use crate::error::DataError;
-use parquet::basic::Type as Physical;
+use parquet::basic::{Compression, Type as Physical};
 use parquet::column::reader::{ColumnReaderImpl, get_typed_column_reader};
 use parquet::data_type::{ByteArrayType, DataType, DoubleType, FloatType, Int32Type, Int64Type};
 use parquet::errors::ParquetError;
@@ -107,6 +107,7 @@ impl ParquetTable {
         absent: V,
     ) -> Result<Vec<V>, DataError> {
         let Some(place) = self.place(column) else { return Ok(Vec::new()) };
+        self.check_compression(column, place)?;
         let read = || {
             let mut found = Vec::new();
             for group in 0..self.reader.num_row_groups() {
@@ -120,6 +121,28 @@ impl ParquetTable {
             return Ok(found);
         }
         Err(self.error(column, &format!("{} rows", self.rows), found.len().to_string()))
+    }
+
+    /// Refuses a column that is compressed by what isn't read here.
+    fn check_compression(&self, column: &str, place: usize) -> Result<(), DataError> {
+        use Compression::{GZIP, LZ4, LZ4_RAW, SNAPPY, UNCOMPRESSED, ZSTD};
+        let groups = self.reader.metadata().row_groups().iter();
+        let mut columns = groups.filter_map(|group| group.columns().get(place));
+        let is_read =
+            |found: Compression| matches!(found, UNCOMPRESSED | SNAPPY | GZIP(_) | LZ4 | LZ4_RAW | ZSTD(_));
+        match columns.find(|found| !is_read(found.compression())) {
+            Some(found) => {
+                let codec = found.compression().to_string();
+                let name = codec.split('(').next().unwrap_or_default();
+                let expected = "values that are compressed by Snappy, gzip, LZ4 or zstd, or not at all";
+                Err(self.error(
+                    column,
+                    expected,
+                    format!("some that are compressed by {name}, which isn't read"),
+                ))
+            }
+            None => Ok(()),
+        }
     }
 
     fn error(&self, column: &str, expected: &str, found: String) -> DataError {

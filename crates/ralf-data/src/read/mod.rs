@@ -24,6 +24,7 @@ mod radial;
 pub(crate) mod recording;
 pub mod ros;
 mod rotation;
+mod row_scans;
 pub(crate) mod scene_tables;
 mod truckscenes;
 mod view_of_delft;

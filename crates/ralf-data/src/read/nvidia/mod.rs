@@ -2,9 +2,9 @@
 //!
 //! - The path is the data set's folder with the clip files unzipped where they lay (`radar/NAME/CLIP.NAME.parquet`), a
 //!   clip's folder (`radar/CLIP.NAME.parquet`), or what holds folders of clips. A clip is a sequence.
-//! - A scan is the rows of one `scan_index`, at their `timestamp`, us. Columns are as published: `distance` is `range`,
-//!   `radial_velocity` is `doppler`, the raw range rate; `exist_probb`, what the sensor itself believes, is kept. Rows
-//!   without a distance keep their place, as all do.
+//! - A scan is the rows of one `scan_index`, wherever they lie, at their `timestamp`, us. Columns are as published:
+//!   `distance` is `range`, `radial_velocity` is `doppler`, the raw range rate; `exist_probb`, what the sensor itself
+//!   believes, is kept. Rows without a distance keep their place, as all do.
 //! - Poses are those of `egomotion.offline`, else of `egomotion`: the vehicle's frame is RALF's.
 //! - The LiDAR is compressed with Draco, of which there is no decoder in Rust that could be relied on: it is left out.
 //!   So are the cameras: films behind f-theta lenses.
@@ -39,7 +39,7 @@ pub(crate) fn open(path: &Path) -> Result<Recording, DataError> {
     }
     let extrinsics = calibration::Extrinsics::default();
     let shared =
-        Shared { scans: Arc::new(LastRead::new(tables::scans, MOST_RADARS)), extrinsics: &extrinsics };
+        Shared { scans: Arc::new(LastRead::new(tables::table, MOST_RADARS)), extrinsics: &extrinsics };
     let mut sequences: Vec<Box<dyn SequenceReader>> = Vec::with_capacity(clips.len());
     for (name, clip) in clips {
         sequences.push(Box::new(Drive::new(&name, &clip, &shared)?));

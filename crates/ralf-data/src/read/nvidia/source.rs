@@ -8,11 +8,11 @@ use crate::read::SequenceReader;
 use crate::read::last_read::LastRead;
 use crate::read::models::{NVIDIA_RADAR, NVIDIA_RADAR_2D};
 use crate::read::recording::{measurement, no_measurement};
+use crate::read::row_scans::Scan;
 use ralf::sensors::{
     CameraImage, DepthImage, DepthOutput, LidarScan, RadarScan, Rig, Sequence, Source, SourceError, Timelines,
 };
 use ralf::space::EgoMotion;
-use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -31,7 +31,7 @@ pub(super) struct Drive {
     further: Vec<PathBuf>,
     tables: Arc<LastRead<Scans>>,
     /// The rows of each scan of each radar.
-    radars: Vec<Vec<Range<usize>>>,
+    radars: Vec<Vec<Scan>>,
     warnings: Vec<String>,
 }
 
@@ -85,8 +85,8 @@ impl Drive {
         let model = if table.has_elevation { NVIDIA_RADAR } else { NVIDIA_RADAR_2D };
         let fields = COLUMNS.map(|(_, field)| field);
         self.sequence.rig.radars.push(model.mounted(sensor, &fields, mounting));
-        self.sequence.times.radars.push(table.scans.iter().map(|(t_ns, _)| *t_ns).collect());
-        self.radars.push(table.scans.iter().map(|(_, rows)| rows.clone()).collect());
+        self.sequence.times.radars.push(table.scans.iter().map(|scan| scan.t_ns).collect());
+        self.radars.push(table.scans.clone());
         self.files.push(file.to_owned());
         Ok(())
     }
@@ -110,15 +110,14 @@ impl Source for Drive {
     }
 
     fn radar_scan(&self, radar: usize, scan: usize) -> Result<RadarScan, SourceError> {
-        let rows = measurement("radar", &self.radars, radar, scan)?;
+        let scan = measurement("radar", &self.radars, radar, scan)?;
         let file = &self.files[radar];
         let table = self.tables.of(file)?;
-        let values = |column: &Vec<f32>| column.get(rows.clone()).map(<[f32]>::to_vec);
-        let columns = table.columns.iter().map(values).collect::<Option<Vec<_>>>().ok_or_else(|| {
+        let columns = table.columns.iter().map(|column| scan.of(column)).collect::<Option<Vec<_>>>();
+        let columns = columns.ok_or_else(|| {
             DataError::content(file, "rows", "as many as when the file was opened", "fewer")
         })?;
-        let t_ns = self.sequence.times.radars[radar][scan];
-        Ok(RadarScan::new(&self.sequence.rig.radars[radar], t_ns, columns)?)
+        Ok(RadarScan::new(&self.sequence.rig.radars[radar], scan.t_ns, columns)?)
     }
 
     fn lidar_scan(&self, lidar: usize, scan: usize) -> Result<LidarScan, SourceError> {

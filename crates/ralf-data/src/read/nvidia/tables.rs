@@ -3,7 +3,7 @@
 use crate::disk::parquet_table::ParquetTable;
 use crate::error::DataError;
 use crate::read::point_times;
-use std::ops::Range;
+use crate::read::row_scans::{Scan, scans};
 use std::path::Path;
 
 /// The columns that are kept, and what they are called here.
@@ -22,37 +22,39 @@ pub(super) const COLUMNS: [(&str, &str); 8] = [
 pub(super) struct Scans {
     /// In the order of [`COLUMNS`].
     pub(super) columns: Vec<Vec<f32>>,
-    /// Time, ns, and rows of each scan, in the order of time.
-    pub(super) scans: Vec<(i64, Range<usize>)>,
+    /// In the order of time.
+    pub(super) scans: Vec<Scan>,
     /// Whether any detection has an elevation.
     pub(super) has_elevation: bool,
 }
 
 /// Reads a radar's table.
-pub(super) fn scans(file: &Path) -> Result<Scans, DataError> {
+pub(super) fn table(file: &Path) -> Result<Scans, DataError> {
     let table = ParquetTable::open(file)?;
     // What pandas calls an index that it has no name for.
     let index = if table.has("scan_index") { "scan_index" } else { "__index_level_0__" };
     let (indices, times) = (table.integers(index)?, table.integers("timestamp")?);
-    let mut scans: Vec<(i64, Range<usize>)> = Vec::new();
-    for (row, (scan, time)) in indices.iter().zip(&times).enumerate() {
-        let t_ns = nanoseconds(file, row, *time)?;
-        match scans.last_mut() {
-            Some((known, rows)) if indices[rows.start] == *scan => {
-                if *known != t_ns {
-                    let expected = format!("{} us, as of the scan's first row", *known / 1000);
-                    let place = format!("timestamp, row {row}");
-                    return Err(DataError::content(file, place, expected, time.to_string()));
-                }
-                rows.end = row + 1;
-            }
-            _ => scans.push((t_ns, row..row + 1)),
-        }
-    }
-    scans.sort_by_key(|(t_ns, rows)| (*t_ns, rows.start));
+    let of_rows = times.iter().enumerate().map(|(row, time)| nanoseconds(file, row, *time));
+    let scans =
+        of_one_time(file, scans(indices.into_iter(), &of_rows.collect::<Result<Vec<_>, _>>()?), &times)?;
     let columns = COLUMNS.iter().map(|(name, _)| table.floats(name)).collect::<Result<Vec<_>, _>>()?;
     let has_elevation = columns[1].iter().any(|elevation| elevation.is_finite() && *elevation != 0.0);
     Ok(Scans { columns, scans, has_elevation })
+}
+
+/// The scans, of which each has rows of one time.
+fn of_one_time(file: &Path, found: Vec<(i64, Scan)>, times_us: &[i64]) -> Result<Vec<Scan>, DataError> {
+    let mut scans: Vec<Scan> = found.into_iter().map(|(_, scan)| scan).collect();
+    scans.sort_by_key(|scan| (scan.t_ns, scan.rows().next()));
+    for scan in &scans {
+        let time_us = scan.t_ns / 1000;
+        if let Some(row) = scan.rows().find(|row| times_us[*row] != time_us) {
+            let expected = format!("{time_us} us, as of the scan's first row");
+            let place = format!("timestamp, row {row}");
+            return Err(DataError::content(file, place, expected, times_us[row].to_string()));
+        }
+    }
+    Ok(scans)
 }
 
 /// A time of a row as ns.

@@ -1,13 +1,13 @@
 //! A sequence as a source: measurements typed.
 
 use super::labels::label;
-use super::scans::Scan;
 use super::tables::{COLUMNS, Detections, Points, RADARS, detections, points};
 use crate::error::DataError;
 use crate::read::last_read::LastRead;
 use crate::read::models::{GHOST_LIDAR, GHOST_RADAR};
 use crate::read::recording::{measurement, no_measurement};
 use crate::read::rotation::turned;
+use crate::read::row_scans::Scan;
 use crate::read::{SequenceReader, TruthLabels};
 use ralf::label::Cause;
 use ralf::sensors::{

@@ -1,10 +1,11 @@
 //! The two tables of a file as they are needed.
 
 use super::labels::truth;
-use super::scans::{Scan, nanoseconds, scans, unit};
+use super::scans::{nanoseconds, unit};
 use crate::disk::hdf5::{Hdf5File, Table};
 use crate::error::DataError;
 use crate::read::instances::numbered;
+use crate::read::row_scans::{Scan, scans};
 use ralf::label::Cause;
 use std::path::Path;
 use std::sync::Arc;

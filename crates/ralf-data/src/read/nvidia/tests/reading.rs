@@ -1,9 +1,13 @@
 //! What is read of good clips.
 
-use super::recording::{CLIP, FRONT, REAR, extrinsics, radar, write, write_clip, write_unzipped};
+use super::recording::{
+    CLIP, FRONT, REAR, Values, egomotion, extrinsics, radar, write, write_clip, write_compressed,
+    write_unzipped,
+};
 use crate::read::Recording;
 use crate::read::nvidia::{open, recognises};
 use crate::testing::only;
+use parquet::basic::{Compression, GzipLevel};
 use ralf::sensors::Elevation;
 use ralf::space::Point;
 use std::fs;
@@ -84,8 +88,8 @@ fn mountings_and_poses_are_where_they_should_be() {
 #[test]
 fn what_is_better_is_preferred_and_what_is_left_out_is_told() {
     let (folder, _) = unzipped();
-    let mut better = super::recording::egomotion();
-    better[5].1 = super::recording::Values::Double(vec![3.0; 30]);
+    let mut better = egomotion();
+    better[5].1 = Values::Double(vec![3.0; 30]);
     write(&folder.path().join(format!("labels/egomotion.offline/{CLIP}.egomotion.offline.parquet")), &better);
     for name in ["lidar", "camera"] {
         fs::create_dir(folder.path().join(name)).unwrap();
@@ -110,5 +114,42 @@ fn other_names_of_the_index_and_other_chunks() {
     let calibration = folder.path().join("calibration/sensor_extrinsics");
     write(&calibration.join("sensor_extrinsics.chunk_0001.parquet"), &extrinsics(CLIP));
     write(&calibration.join("sensor_extrinsics.chunk_0000.parquet"), &extrinsics("another"));
+    assert_eq!(text(&open(folder.path()).unwrap()), text(&recording));
+}
+
+/// pandas and pyarrow take Snappy unless they are told otherwise.
+#[test]
+fn tables_are_read_however_they_are_compressed() {
+    let (folder, recording) = unzipped();
+    let gzip = Compression::GZIP(GzipLevel::default());
+    for compression in [Compression::SNAPPY, gzip, Compression::LZ4, Compression::LZ4_RAW] {
+        let motion = folder.path().join(format!("labels/egomotion/{CLIP}.egomotion.parquet"));
+        write_compressed(&motion, &egomotion(), compression);
+        let front = folder.path().join(format!("radar/{FRONT}/{CLIP}.{FRONT}.parquet"));
+        write_compressed(&front, &radar(true), compression);
+        assert_eq!(text(&open(folder.path()).unwrap()), text(&recording), "{compression}");
+    }
+}
+
+#[test]
+fn rows_of_a_scan_need_not_lie_together() {
+    let (folder, recording) = unzipped();
+    // Rows of the scans 7, 8, 9, 8, 7, 8, each scan's in their order.
+    let order = [0, 2, 5, 3, 1, 4];
+    fn picked<T: Copy>(values: &[T], order: &[usize]) -> Vec<T> {
+        order.iter().map(|row| values[*row]).collect()
+    }
+    let mut rows = radar(true);
+    for (_, values) in &mut rows {
+        match values {
+            Values::Byte(values) => *values = picked(values, &order),
+            Values::Long(values) => *values = picked(values, &order),
+            Values::Float(values) => *values = picked(values, &order),
+            Values::Double(values) => *values = picked(values, &order),
+            Values::Optional(values) => *values = picked(values, &order),
+            Values::Text(_) => {}
+        }
+    }
+    write(&folder.path().join(format!("radar/{FRONT}/{CLIP}.{FRONT}.parquet")), &rows);
     assert_eq!(text(&open(folder.path()).unwrap()), text(&recording));
 }

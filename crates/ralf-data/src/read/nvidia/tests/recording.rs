@@ -1,6 +1,6 @@
 //! Clips as the data set's tables have them.
 
-use parquet::basic::{LogicalType, Repetition, Type as Physical};
+use parquet::basic::{Compression, LogicalType, Repetition, Type as Physical};
 use parquet::data_type::{ByteArray, ByteArrayType, DoubleType, FloatType, Int32Type, Int64Type};
 use parquet::file::properties::WriterProperties;
 use parquet::file::writer::{SerializedFileWriter, SerializedRowGroupWriter};
@@ -113,10 +113,15 @@ pub(crate) fn write_clip(folder: &Path) {
 
 /// Writes a table, its rows in one group.
 pub(crate) fn write(file: &Path, columns: &Columns) {
+    write_compressed(file, columns, Compression::UNCOMPRESSED);
+}
+
+/// The same, compressed.
+pub(crate) fn write_compressed(file: &Path, columns: &Columns, compression: Compression) {
     fs::create_dir_all(file.parent().unwrap()).unwrap();
     let fields = columns.iter().map(|(name, values)| Arc::new(field(name, values))).collect();
     let schema = Type::group_type_builder("schema").with_fields(fields).build().unwrap();
-    let properties = Arc::new(WriterProperties::builder().build());
+    let properties = Arc::new(WriterProperties::builder().set_compression(compression).build());
     let mut writer =
         SerializedFileWriter::new(File::create(file).unwrap(), Arc::new(schema), properties).unwrap();
     let mut group = writer.next_row_group().unwrap();

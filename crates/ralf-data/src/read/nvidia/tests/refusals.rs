@@ -92,3 +92,25 @@ fn damaged_and_zipped_files_are_named() {
     let error = open(zipped.path()).map(drop).unwrap_err().to_string();
     assert!(error.ends_with("found zip files: unzip them where they lie"), "{error}");
 }
+
+/// No writer of such files is at hand: a file says so that isn't compressed.
+#[test]
+fn a_compression_that_is_not_read_is_named() {
+    let folder = tempfile::tempdir().unwrap();
+    write_unzipped(folder.path());
+    let file = folder.path().join(format!("{RADAR}/{CLIP}.{FRONT}.parquet"));
+    let mut bytes = fs::read(&file).unwrap();
+    // The path of a column, and then the field of its compression: 0 is none, 4 Brotli, both as zigzag numbers.
+    let told = b"\x19\x18\x03rcs\x15\x00";
+    let place = bytes.windows(told.len()).rposition(|window| window == told).unwrap();
+    bytes[place + told.len() - 1] = 8;
+    fs::write(&file, bytes).unwrap();
+    let error = open(folder.path()).map(drop).unwrap_err().to_string();
+    assert!(
+        error.ends_with(
+            "rcs: expected values that are compressed by Snappy, gzip, LZ4 or zstd, or not at all, \
+                             found some that are compressed by BROTLI, which isn't read"
+        ),
+        "{error}"
+    );
+}
