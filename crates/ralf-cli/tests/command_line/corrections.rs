@@ -195,6 +195,9 @@ fn work_is_dealt_once_and_what_people_did_is_told() {
 
     let asked = ["evaluate", &dataset.out, "--progress"];
     ralf(asked).exits(1).says(["expected corrections, found none"]);
+    let none = ralf(["evaluate", &dataset.out, "--progress", "--json"]).exits(0).says_nothing().json();
+    assert_eq!(none, json!([]));
+    ralf(["evaluate", "nowhere", "--progress", "--json"]).exits(1).says(["nowhere: expected corrections"]);
     say(&dataset.out, 9, &[1, 99, 10]);
     store(&dataset.out).undo("00", &who()).unwrap();
     let second = Path::new(&dataset.out).join("second");

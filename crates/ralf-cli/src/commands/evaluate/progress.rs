@@ -13,7 +13,8 @@ const LEAST_HOURS: f64 = 0.05;
 /// Prints what everybody has done, day by day, and how fast.
 pub(super) fn run(out: &Path, as_json: bool) -> anyhow::Result<Outcome> {
     let worked = Worked::below(out)?;
-    if worked.is_empty() {
+    // Who asks for a list gets one, of a folder that is there.
+    if worked.is_empty() && !(as_json && out.is_dir()) {
         bail!("{}: expected corrections, found none", out.display());
     }
     let page: Value = worked.iter().map(Worked::json).collect();
