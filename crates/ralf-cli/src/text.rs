@@ -58,6 +58,14 @@ pub(crate) fn shell_path(path: &Path) -> String {
     shell_word(&path.to_string_lossy())
 }
 
+/// That a file's times are later than the recording's, of a warning.
+pub(crate) fn delayed(delay_ns: i64) -> String {
+    let seconds = counted((delay_ns / 1_000_000_000) as usize, "second");
+    format!(
+        "all times are {seconds} later than in the recording, for some are before 1970, which ROS doesn't know"
+    )
+}
+
 /// A share in percent with one decimal, or a dash of nothing.
 pub(crate) fn percent(part: u64, whole: u64) -> String {
     if whole == 0 { "-".to_owned() } else { format!("{:.1} %", 100.0 * part as f64 / whole as f64) }

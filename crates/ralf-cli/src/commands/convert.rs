@@ -4,6 +4,7 @@ use crate::arguments::{DatasetArgs, SettingsArgs, the_only, threads};
 use crate::outcome::{Outcome, UsageError};
 use crate::progress::say;
 use crate::sequences::{shown, write_missing};
+use crate::text::delayed;
 use clap::Args;
 use ralf_data::Recording;
 use ralf_data::read::refuse_to_write_into;
@@ -89,6 +90,9 @@ fn as_ros(recording: &Recording, file: &Path, format: RosFormat) -> anyhow::Resu
     say(&format!("wrote {}", file.display()));
     if let Some(settings) = written.settings {
         say(&format!("wrote {}: the settings by which it is read back", settings.display()));
+    }
+    if written.delay_ns > 0 {
+        say(&format!("warning: {}: {}", file.display(), delayed(written.delay_ns)));
     }
     if !written.left_out.is_empty() {
         let left_out = written.left_out.join(", ");

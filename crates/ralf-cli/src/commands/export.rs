@@ -5,7 +5,7 @@ use crate::corrections::say_orphaned;
 use crate::outcome::{Outcome, UsageError};
 use crate::progress::{Progress, say};
 use crate::run_summary::say_without;
-use crate::text::counted;
+use crate::text::{counted, delayed};
 use clap::builder::PossibleValuesParser;
 use clap::{Args, ValueEnum};
 use ralf_data::write::export::{Export, ExportFormat, ExportOptions, Exported, Sensors, Split};
@@ -78,6 +78,9 @@ pub(crate) fn run(arguments: &ExportArgs) -> anyhow::Result<Outcome> {
     drop(progress);
     let (scans, detections) = (counted(exported.scans, "scan"), counted(exported.detections, "detection"));
     say(&format!("wrote {}: {scans}, {detections}", arguments.output.display()));
+    for (sequence, delay_ns) in &exported.delayed {
+        say(&format!("warning: {sequence}: {}", delayed(*delay_ns)));
+    }
     Ok(name_what_is_missing(&exported))
 }
 

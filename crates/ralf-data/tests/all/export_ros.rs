@@ -110,13 +110,57 @@ fn a_first_guess_finds_the_same_sensors() {
     assert_eq!((rig.lidars[0].name.as_str(), rig.cameras[0].name.as_str()), ("lidar_top", "camera_front"));
 }
 
+/// Clocks that count from the begin of a recording have such times, and what moves is the same a second later.
+#[test]
+fn times_before_1970_are_put_off_by_whole_seconds_and_it_is_told() {
+    for format in [RosFormat::Mcap, RosFormat::Bag] {
+        let (folder, path) = sequence();
+        write(&path.join("radar_rear/timestamps.txt"), "-1500000000\n30000000\n");
+        let reader = LayoutSequence::open(&path).unwrap();
+        let file = folder.path().join("street").with_extension(format.extension());
+        let written = write_ros(&reader, &file, format, &|_| {}).unwrap();
+        assert_eq!(written.delay_ns, 2_000_000_000);
+        let config = fs::read_to_string(written.settings.unwrap()).unwrap();
+        let config = Settings::from_toml(&config, &[]).unwrap();
+        let recording = open_with(&file, None, &config.topics).unwrap();
+        let [found, expected] = [recording.sequences[0].sequence(), reader.sequence()];
+        let later = |t_ns: &i64| t_ns + 2_000_000_000;
+        let all = |times: &[Vec<i64>]| {
+            times.iter().map(|own| own.iter().map(later).collect()).collect::<Vec<Vec<_>>>()
+        };
+        assert_eq!(found.times.radars, all(&expected.times.radars));
+        assert_eq!(found.times.lidars, all(&expected.times.lidars));
+        assert_eq!(found.times.cameras, all(&expected.times.cameras));
+        for (found, expected) in found.motion.poses().iter().zip(expected.motion.poses()) {
+            assert_eq!(found.t_ns, later(&expected.t_ns));
+            same_place(&found.odom_from_vehicle, &expected.odom_from_vehicle);
+        }
+    }
+}
+
+/// Poses and wheels that were measured at one time have the vehicle at one place.
+#[test]
+fn the_vehicle_is_shown_once_at_a_time() {
+    let (folder, path) = sequence();
+    let reader = LayoutSequence::open(&path).unwrap();
+    converted(&reader, folder.path(), RosFormat::Mcap);
+    let shown = messages(&folder.path().join("street.mcap"), |name| name == "/tf");
+    let mut times: Vec<i64> = shown.iter().map(|(_, _, t_ns, _)| *t_ns).collect();
+    let motion = &reader.sequence().motion;
+    let measured = motion.poses().len() + motion.odometry().len();
+    times.dedup();
+    assert!(times.len() == shown.len() && times.len() < measured, "{} of {measured}", times.len());
+}
+
 #[test]
 fn what_ros_can_not_hold_is_refused_and_nothing_stays() {
-    let (folder, path) = tiny();
+    let (folder, path) = sequence();
+    // Beyond 2106 there are no 32 bits for the seconds.
+    write(&path.join("radar_rear/timestamps.txt"), "7\n5000000000000000000\n");
     let reader = LayoutSequence::open(&path).unwrap();
-    let file = folder.path().join("street.mcap");
-    let error = write_ros(&reader, &file, RosFormat::Mcap, &|_| {}).unwrap_err().to_string();
-    assert!(error.contains("expected a log time from 1970 on, found -7 ns"), "{error}");
+    let file = folder.path().join("street.bag");
+    let error = write_ros(&reader, &file, RosFormat::Bag, &|_| {}).unwrap_err().to_string();
+    assert!(error.contains("2^32 - 1 s") || error.contains("from 1970 to 2106"), "{error}");
     let names: Vec<_> =
         fs::read_dir(folder.path()).unwrap().map(|entry| entry.unwrap().file_name()).collect();
     assert_eq!(names, ["sequences"]);

@@ -176,3 +176,27 @@ fn a_converted_recording_is_labelled_the_same_and_copied_beside_its_labels() {
     assert_eq!(of(&after, "points_labelled"), of(&before, "points"));
     assert_eq!(after["frames"]["/radar_left/points_labelled"], after["frames"]["/radar_left/points"]);
 }
+
+/// Motion from before the first scan, of a clock that counts from there.
+#[test]
+fn times_before_1970_are_put_off_with_a_warning() {
+    let dataset = Dataset::of(&Shape { scans: 3, ..Shape::default() });
+    let odometry = std::fs::read_to_string(dataset.file("odometry.csv")).unwrap();
+    dataset.put("odometry.csv", odometry.replacen('\n', "\n-200000000,0,0\n", 1));
+    ralf(["label", &dataset.path, "-o", &dataset.out, "--no-check"]).exits(0);
+    let warning = "all times are 1 second later than in the recording, for some are before 1970";
+    for (format, name) in KINDS {
+        let labels = run(&dataset, format, &dataset.beside(&format!("labels-{name}")), &[]).exits(0);
+        assert!(!labels.stderr.contains("warning"), "{}", labels.stderr);
+        let path = dataset.beside(name);
+        run(&dataset, format, &path, &["--sensors"]).exits(0).says(["warning: 00:", warning]);
+        let Some(read) = read_export(format, &path) else { return };
+        let times =
+            of_topic(&read, "radar_left", "points_labelled").into_iter().map(|row| row["t_ns"].as_i64());
+        let expected =
+            of_radar(&dataset, "radar_left").into_iter().map(|found| Some(found.t_ns + 1_000_000_000));
+        assert!(times.eq(expected), "{format}");
+        let copy = dataset.beside(&format!("copy-{name}"));
+        ralf(["convert", &dataset.path, "-o", &copy]).exits(0).says(["warning: ", warning]);
+    }
+}

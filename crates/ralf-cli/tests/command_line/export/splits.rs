@@ -1,7 +1,7 @@
 //! `--split`: a detection that is left out is in no file; where labels belong to other clouds, it is unlabeled.
 
-use super::{export, found, list, small};
-use crate::support::{read_export, tree};
+use super::{Found, export, found, list, run, small};
+use crate::support::{ralf, read_export, tree};
 use serde_json::Value;
 use std::fs;
 
@@ -59,4 +59,42 @@ fn clouds_of_one_kind_tell_which_points_they_are() {
     assert!(points.ends_with(&expected) && !expected.is_empty());
     let cloud = fs::read(format!("{path}/sequences/00/velodyne/000001.bin")).unwrap();
     assert_eq!(cloud.len(), expected.len() * 4);
+}
+
+/// Of a recording that isn't ROS, the radars' own clouds are written by RALF.
+#[test]
+fn the_clouds_of_radars_hold_one_kind_alone_and_copied_messages_are_refused() {
+    let dataset = small();
+    let artifacts: Vec<Found> = found(&dataset, "00").into_iter().filter(|found| found.label == 1).collect();
+    for (format, ending) in [("mcap", "mcap"), ("rosbag1", "bag")] {
+        for sensors in ["--sensors", "--sensors=radar"] {
+            let name = format!("{format}{}.{ending}", sensors.len());
+            let path = export(&dataset, format, &name, &["--split", "artifact", sensors]);
+            let Some(read) = read_export(format, &path) else { return };
+            for radar in ["radar_front", "radar_left"] {
+                let expected = artifacts.iter().filter(|found| found.radar == radar).count();
+                let of = |topic: &str| {
+                    list(&read).iter().filter(|row| row["sensor"] == radar && row["topic"] == topic).count()
+                };
+                assert_eq!(
+                    [of("points_labelled"), of("points")],
+                    [expected; 2],
+                    "{format} {sensors} {radar}"
+                );
+            }
+        }
+        // A recording of the same kind, whose messages are copied as they are.
+        let [file, settings, out] = [format!("own.{ending}"), "own.toml".to_owned(), format!("own-{ending}")]
+            .map(|name| dataset.beside(&name));
+        ralf(["convert", &dataset.path, "-o", &file]).exits(0);
+        ralf(["label", &file, "-o", &out, "--config", &settings]).exits(0);
+        let path = dataset.beside(&format!("copied-{ending}"));
+        let split =
+            |sensors| ["export", &file, &out, "--to", format, "-o", &path, "--split", "plausible", sensors];
+        ralf(split("--sensors")).exits(1).says(["split: expected all detections", "--sensors=lidar,camera"]);
+        assert!(!std::path::Path::new(&path).exists());
+        ralf(split("--sensors=lidar,camera")).exits(0);
+        fs::remove_file(&settings).unwrap();
+    }
+    run(&dataset, "mcap", &dataset.beside("all"), &["--split", "all", "--sensors"]).exits(0);
 }

@@ -191,6 +191,13 @@ impl<'a, 'p> LabelledSequence<'a, 'p> {
         Err(self.unlike(id, format!("{recorded} detections, as run.json says"), found.to_string()))
     }
 
+    /// Notes how much later than it was measured the sequence is written, ns.
+    pub(super) fn delayed(&mut self, delay_ns: i64) {
+        if delay_ns > 0 {
+            self.tally.exported.delayed.push((self.record.name.clone(), delay_ns));
+        }
+    }
+
     fn id(&self, radar: usize, scan: usize) -> ScanId {
         let sequence = self.reader.sequence();
         let radar = sequence.rig.radars[radar].name.clone();
@@ -209,5 +216,14 @@ impl LabelledScan {
         let mut labels = vec![Label::default(); self.labels.len()];
         self.kept.iter().for_each(|row| labels[*row] = self.labels[*row]);
         labels
+    }
+
+    /// What the radar measured of the detections of the split, a column for each of its fields.
+    pub(super) fn kept_of(&self, measured: RadarScan) -> Vec<Vec<f32>> {
+        if self.kept.len() == measured.len() {
+            return measured.columns;
+        }
+        let kept = |column: &Vec<f32>| self.kept.iter().map(|row| column[*row]).collect();
+        measured.columns.iter().map(kept).collect()
     }
 }

@@ -62,6 +62,9 @@ pub struct Exported {
     pub not_labelled: Vec<String>,
     /// Scans, named like these, of which people said something while they held something else: it is not applied.
     pub orphaned: Vec<String>,
+    /// Sequences whose times are later in the export than in the recording, and by how much, ns: those with times
+    /// before 1970, where the format has none.
+    pub delayed: Vec<(String, i64)>,
 }
 
 /// The writer of a format.

@@ -4,7 +4,7 @@ use crate::error::DataError;
 use crate::result::{Kind, Table};
 use crate::write::export::bytes;
 use crate::write::export::columns::decimals;
-use ralf::sensors::{LidarScan, Radar, RadarScan};
+use ralf::sensors::{LidarScan, Radar};
 use ralf_ros::message::{Datatype, Header, PointCloud2, PointField};
 
 /// A cloud with a field for each column.
@@ -38,9 +38,13 @@ pub(super) fn of_columns(header: Header, table: &Table) -> PointCloud2 {
     }
 }
 
-/// A radar's scan with its fields as they are.
-pub(super) fn of_radar(header: Header, radar: &Radar, scan: RadarScan) -> Result<PointCloud2, DataError> {
-    let columns = radar.fields.iter().map(String::as_str).zip(scan.columns);
+/// A radar's scan, or part of one, with the columns of its fields as they are.
+pub(super) fn of_radar(
+    header: Header,
+    radar: &Radar,
+    columns: Vec<Vec<f32>>,
+) -> Result<PointCloud2, DataError> {
+    let columns = radar.fields.iter().map(String::as_str).zip(columns);
     Ok(of_columns(header, &decimals(columns)?))
 }
 

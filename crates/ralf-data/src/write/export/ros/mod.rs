@@ -14,7 +14,8 @@
 //! sensors' data are asked for, and the labelled clouds are in the frames of the original ones.
 //!
 //! Else a sensor's frame has the sensor's name, the vehicle's is `base_link`, and it moves in `odom`. A message is
-//! recorded at the time of its measurement, so that they lie in order.
+//! recorded at the time of its measurement, so that they lie in order; where one is before 1970, which ROS doesn't
+//! know, all are put off by some whole seconds.
 
 mod cloud;
 pub(super) mod foxglove;
@@ -28,7 +29,7 @@ mod settings;
 
 use super::Writer;
 use super::labelled::LabelledSequence;
-use super::options::Sensors;
+use super::options::{Sensors, Split};
 use crate::disk::files;
 use crate::disk::files::{beside, remove};
 use crate::error::DataError;
@@ -109,8 +110,13 @@ impl Writer for Ros {
         // Of a copied recording the other topics have their own names.
         let shown =
             if recorder.copies() { Sensors { lidar: false, camera: false, ..sensors } } else { sensors };
+        if recorder.copies() && sequence.split != Split::All {
+            return Err(split_of_copies(sequence));
+        }
         self.layout.add(recorder.names(), shown);
-        recorder.record(Some(sequence), &|_| {})
+        let delay_ns = recorder.record(Some(&mut *sequence), &|_| {})?;
+        sequence.delayed(delay_ns);
+        Ok(())
     }
 
     fn finish(&mut self, folder: &OutFolder) -> Result<(), DataError> {
@@ -121,6 +127,14 @@ impl Writer for Ros {
     }
 }
 
+/// Messages that are copied byte for byte hold all detections, and some of them in types that nobody here knows.
+fn split_of_copies(sequence: &LabelledSequence) -> DataError {
+    let reason = "expected all detections (--split all) where all messages are copied as they are, found a part of \
+                  them: --sensors=lidar,camera leaves out the radars' own messages, and labelled clouds have all that \
+                  the radars measured";
+    DataError::Unsuitable { file: sequence.name().into(), place: "split".into(), reason: reason.into() }
+}
+
 /// What [`write_ros`] has written, and what not.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct RosWritten {
@@ -128,6 +142,9 @@ pub struct RosWritten {
     pub settings: Option<PathBuf>,
     /// What the sequence has and such a file has no place for, a name each, for people.
     pub left_out: Vec<&'static str>,
+    /// How much later than it was measured everything is written, ns: more than 0 where there are times before 1970,
+    /// which ROS doesn't know.
+    pub delay_ns: i64,
 }
 
 /// Writes all that the sensors of a sequence measured as one file, and beside it, with the ending `.toml`, the settings
@@ -135,7 +152,8 @@ pub struct RosWritten {
 /// all. `progress` is told how many measurements are done. `docs/export.md` tells what is left out.
 ///
 /// # Errors
-/// A file that is there already, a measurement that can't be read, times before 1970, what the system refuses.
+/// A file that is there already, a measurement that can't be read, times that ROS doesn't know, what the system
+/// refuses.
 pub fn write_ros(
     reader: &dyn SequenceReader,
     file: &Path,
@@ -157,13 +175,13 @@ pub fn write_ros(
     let written = format.create(&part).and_then(|writer| {
         let recorder = Recorder::new(writer, file, reader, Sensors::ALL, false)?;
         let copies = recorder.copies();
-        recorder.record(None, progress)?;
+        let delay_ns = recorder.record(None, progress)?;
         let left_out = if copies { Vec::new() } else { left_out::left_out(reader) };
         if !copies {
             files::write_whole(&settings_file, settings.as_bytes())?;
         }
         fs::rename(&part, file).map_err(DataError::io(file))?;
-        Ok(RosWritten { settings: (!copies).then_some(settings_file), left_out })
+        Ok(RosWritten { settings: (!copies).then_some(settings_file), left_out, delay_ns })
     });
     if written.is_err() {
         // The half-written file is of no use to anyone; the error that matters is the first one.

@@ -1,6 +1,6 @@
 //! One sequence as one file: all its messages in the order of their times.
 
-use super::motion::{header, mountings, odometry, twist, vehicle};
+use super::motion::{delay, header, mountings, odometry, twist, vehicle};
 use super::names::{self, Names};
 use super::originals::Originals;
 use super::{FileWriter, cloud, images, written};
@@ -27,6 +27,8 @@ pub(super) struct Recorder<'a> {
     topics: Topics,
     /// Where the sequence is read from such a file and all its data are asked for: its messages as they are.
     originals: Option<Originals<'a>>,
+    /// How much later than it was measured everything is written, ns.
+    delay_ns: i64,
 }
 
 /// The topics; lists are empty where nothing of the kind is recorded.
@@ -44,6 +46,8 @@ struct Motion {
     odometry: Option<Topic<Odometry>>,
     twist: Option<Topic<TwistStamped>>,
     tf: Topic<TfMessage>,
+    /// The time at which the vehicle was last shown, ns.
+    shown_ns: Option<i64>,
 }
 
 /// What a message is about; the order at equal times.
@@ -75,7 +79,7 @@ impl<'a> Recorder<'a> {
         let sensors = if originals.is_some() { None } else { Some(sensors) };
         let motion = &reader.sequence().motion;
         let topics = Topics::add(&mut writer, &names, motion, sensors, labelled).map_err(written(file))?;
-        Ok(Self { writer, file, reader, names, topics, originals })
+        Ok(Self { writer, file, reader, names, topics, originals, delay_ns: 0 })
     }
 
     /// What the sensors are called in the topics.
@@ -88,27 +92,32 @@ impl<'a> Recorder<'a> {
         self.originals.is_some()
     }
 
-    /// Writes all messages and ends the file. `progress` is told how many measurements are done.
+    /// Writes all messages and ends the file. `progress` is told how many measurements are done. Returns how much later
+    /// than it was measured everything is written, ns.
     pub(super) fn record(
         mut self,
         mut labelled: Option<&mut LabelledSequence>,
         progress: &dyn Fn(usize),
-    ) -> Result<(), DataError> {
+    ) -> Result<i64, DataError> {
         let sequence = self.reader.sequence();
         let events = self.events(sequence);
-        let begin = events.first().map_or(0, |(t_ns, _)| *t_ns);
+        let [begin, end] = [events.first(), events.last()].map(|event| event.map_or(0, |(t_ns, _)| *t_ns));
+        // What is copied keeps its times, which ROS knows.
+        self.delay_ns = if self.originals.is_some() { 0 } else { delay(begin, end) };
         if let Some(topic) = &self.topics.tf_static {
-            let mountings = mountings(begin, &sequence.rig, &self.names);
-            self.writer.write(topic, begin, &mountings).map_err(written(self.file))?;
+            let stamp_ns = begin + self.delay_ns;
+            let mountings = mountings(stamp_ns, &sequence.rig, &self.names);
+            self.writer.write(topic, stamp_ns, &mountings).map_err(written(self.file))?;
         }
         let mut done = 0;
         for (t_ns, event) in events {
+            let stamp_ns = t_ns + self.delay_ns;
             match event {
                 Event::Original(place) => self.original(place)?,
                 Event::Wheels(_) | Event::Pose(_) => self.motion(t_ns, event)?,
-                Event::Radar { radar, scan } => self.radar(t_ns, radar, scan, labelled.as_deref_mut())?,
-                Event::Lidar { lidar, scan } => self.lidar(t_ns, lidar, scan)?,
-                Event::Camera { camera, image } => self.camera(t_ns, camera, image)?,
+                Event::Radar { radar, scan } => self.radar(stamp_ns, radar, scan, labelled.as_deref_mut())?,
+                Event::Lidar { lidar, scan } => self.lidar(stamp_ns, lidar, scan)?,
+                Event::Camera { camera, image } => self.camera(stamp_ns, camera, image)?,
             }
             done += usize::from(matches!(
                 event,
@@ -117,7 +126,7 @@ impl<'a> Recorder<'a> {
             progress(done);
         }
         self.writer.finish().map_err(written(self.file))?;
-        Ok(())
+        Ok(self.delay_ns)
     }
 
     /// What is to be recorded, in time order.
@@ -160,30 +169,37 @@ impl<'a> Recorder<'a> {
 
     /// A sample as it was recorded, and for those who show frames where the vehicle is.
     fn motion(&mut self, t_ns: i64, event: Event) -> Result<(), DataError> {
-        let Some(topics) = &self.topics.motion else { return Ok(()) };
+        let Some(topics) = &mut self.topics.motion else { return Ok(()) };
         let motion = &self.reader.sequence().motion;
-        let refused = written(self.file);
+        let (stamp_ns, refused) = (t_ns + self.delay_ns, written(self.file));
         match (event, &topics.twist, &topics.odometry) {
             (Event::Wheels(at), Some(topic), _) => {
-                self.writer.write(topic, t_ns, &twist(&motion.odometry()[at])).map_err(&refused)?;
+                let twist = twist(stamp_ns, &motion.odometry()[at]);
+                self.writer.write(topic, stamp_ns, &twist).map_err(&refused)?;
             }
             (Event::Pose(at), _, Some(topic)) => {
-                self.writer.write(topic, t_ns, &odometry(&motion.poses()[at], motion)).map_err(&refused)?;
+                let odometry = odometry(stamp_ns, &motion.poses()[at], motion);
+                self.writer.write(topic, stamp_ns, &odometry).map_err(&refused)?;
             }
             _ => {}
         }
-        self.writer.write(&topics.tf, t_ns, &vehicle(t_ns, motion)).map_err(&refused)
+        // Poses and wheels of one time have the vehicle at one place.
+        if topics.shown_ns.replace(t_ns) == Some(t_ns) {
+            return Ok(());
+        }
+        let vehicle = vehicle(stamp_ns, &motion.odom_from_vehicle(t_ns));
+        self.writer.write(&topics.tf, stamp_ns, &vehicle).map_err(&refused)
     }
 
     fn radar(
         &mut self,
-        t_ns: i64,
+        stamp_ns: i64,
         radar: usize,
         scan: usize,
         labelled: Option<&mut LabelledSequence>,
     ) -> Result<(), DataError> {
         let frames = self.originals.as_ref().map_or(&self.names.radars[..], |found| found.radar_frames);
-        let header = header(t_ns, &frames[radar]);
+        let header = header(stamp_ns, &frames[radar]);
         let sensor = &self.reader.sequence().rig.radars[radar];
         let measured = match labelled {
             Some(sequence) => {
@@ -192,32 +208,32 @@ impl<'a> Recorder<'a> {
                 let columns = cloud_columns(sequence, &found, &measured, true)?;
                 let cloud = cloud::of_columns(header.clone(), &columns);
                 let topic = &self.topics.labelled[radar];
-                self.writer.write(topic, t_ns, &cloud).map_err(written(self.file))?;
-                measured
+                self.writer.write(topic, stamp_ns, &cloud).map_err(written(self.file))?;
+                found.kept_of(measured)
             }
-            None => self.reader.radar_scan(radar, scan).map_err(unread(&sensor.name, scan))?,
+            None => self.reader.radar_scan(radar, scan).map_err(unread(&sensor.name, scan))?.columns,
         };
         let Some(topic) = self.topics.radars.get(radar) else { return Ok(()) };
         let cloud = cloud::of_radar(header, sensor, measured)?;
-        self.writer.write(topic, t_ns, &cloud).map_err(written(self.file))
+        self.writer.write(topic, stamp_ns, &cloud).map_err(written(self.file))
     }
 
-    fn lidar(&mut self, t_ns: i64, lidar: usize, scan: usize) -> Result<(), DataError> {
+    fn lidar(&mut self, stamp_ns: i64, lidar: usize, scan: usize) -> Result<(), DataError> {
         let name = &self.reader.sequence().rig.lidars[lidar].name;
         let measured = self.reader.lidar_scan(lidar, scan).map_err(unread(name, scan))?;
-        let cloud = cloud::of_lidar(header(t_ns, &self.names.lidars[lidar]), measured)?;
-        self.writer.write(&self.topics.lidars[lidar], t_ns, &cloud).map_err(written(self.file))
+        let cloud = cloud::of_lidar(header(stamp_ns, &self.names.lidars[lidar]), measured)?;
+        self.writer.write(&self.topics.lidars[lidar], stamp_ns, &cloud).map_err(written(self.file))
     }
 
-    fn camera(&mut self, t_ns: i64, camera: usize, image: usize) -> Result<(), DataError> {
+    fn camera(&mut self, stamp_ns: i64, camera: usize, image: usize) -> Result<(), DataError> {
         let sensor = &self.reader.sequence().rig.cameras[camera];
-        let header = header(t_ns, &self.names.cameras[camera]);
+        let header = header(stamp_ns, &self.names.cameras[camera]);
         let (pixels, calibration) = &self.topics.cameras[camera];
         let found = images::image(header.clone(), self.reader, camera, image);
         let found = found.map_err(unread(&sensor.name, image))?;
-        self.writer.write(pixels, t_ns, &found).map_err(written(self.file))?;
+        self.writer.write(pixels, stamp_ns, &found).map_err(written(self.file))?;
         let Some(info) = images::camera_info(header, sensor) else { return Ok(()) };
-        self.writer.write(calibration, t_ns, &info).map_err(written(self.file))
+        self.writer.write(calibration, stamp_ns, &info).map_err(written(self.file))
     }
 }
 
@@ -260,6 +276,7 @@ impl Motion {
             odometry: poses.then(|| live(writer, names::ODOMETRY)).transpose()?,
             twist: wheels.then(|| live(writer, names::TWIST)).transpose()?,
             tf: live(writer, names::TF)?,
+            shown_ns: None,
         })
     }
 }
