@@ -5,6 +5,7 @@
 //! assert_eq!(squares, Ok(vec![1, 4, 9]));
 //! ```
 
+use std::sync::OnceLock;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Works on all items, several at a time. Results are in the items' order.
@@ -24,9 +25,9 @@ pub fn side_by_side<T: Sync, R: Send, E: Send>(
 /// What one worker did: results of the places it took, or the place that failed and why.
 type Worked<R, E> = Result<Vec<(usize, R)>, (usize, E)>;
 
-/// Lets workers, one at least, take places of the work until there are none. `begin` makes the state that a worker
-/// keeps, `next` tells the place that the worker of this number takes, or none, and `work` does it. Results are in the
-/// order of the places, of those that have one.
+/// Lets workers, one at least and no more than the system gives threads, take places of the work until there are none.
+/// `begin` makes the state that a worker keeps, `next` tells the place that the worker of this number takes, or none,
+/// and `work` does it. Results are in the order of the places, of those that have one.
 ///
 /// # Errors
 /// An error ends the work. Of several it is that of the first place, where each worker's places ascend: what comes
@@ -54,10 +55,15 @@ pub fn work_off<S, R: Send, E: Send>(
         }
         Ok(done)
     };
-    let work_off = &work_off;
+    let (work_off, at_most) = (&work_off, &OnceLock::new());
     let results: Vec<Worked<R, E>> = std::thread::scope(|scope| {
         // The thread that asks is one of the workers: memory that it has freed serves it again.
-        let others: Vec<_> = (1..workers).map(|worker| scope.spawn(move || work_off(worker))).collect();
+        let at_work = move |worker| if worker < *at_most.wait() { work_off(worker) } else { Ok(Vec::new()) };
+        let spawn = |worker| std::thread::Builder::new().spawn_scoped(scope, move || at_work(worker)).ok();
+        let others: Vec<_> = (1..workers).map_while(spawn).collect();
+        // Where the system gives no more threads it has little left for their work, too: half of them do all of it.
+        let started = others.len() + 1;
+        let _ = at_most.set(if started < workers { started.div_ceil(2) } else { workers });
         let own = work_off(0);
         let joined =
             others.into_iter().map(|w| w.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)));
