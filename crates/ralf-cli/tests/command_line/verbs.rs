@@ -172,3 +172,15 @@ fn what_is_converted_to_two_files_of_one_name_has_settings_for_each() {
     assert!(folder.join("t.toml").is_file());
     ralf(["convert", &dataset.path, "-o", &dataset.beside("t.bag")]).exits(1).says(["none of this name yet"]);
 }
+
+/// Between the two files a conversion may be killed.
+#[test]
+fn settings_that_a_killed_conversion_left_are_taken_over() {
+    let dataset = Dataset::new();
+    let convert = || ralf(["convert", "-q", &dataset.path, "-o", &dataset.beside("q.mcap")]).exits(0);
+    convert();
+    std::fs::remove_file(dataset.beside("q.mcap")).unwrap();
+    convert();
+    assert!(Path::new(&dataset.beside("q.toml")).is_file());
+    assert!(!Path::new(&dataset.beside("q.mcap.toml")).exists());
+}

@@ -32,6 +32,17 @@ fn only_an_earlier_export_is_replaced_and_only_if_asked() {
     assert!(tree(&path) == before);
 }
 
+/// An export that takes the place of an earlier one is away for a moment.
+#[test]
+fn an_earlier_export_comes_back_where_the_next_one_was_killed_before_it_was_in_its_place() {
+    let dataset = small();
+    let path = export(&dataset, "npz", "labels", &[]);
+    let before = tree(&path);
+    fs::rename(&path, dataset.beside(".labels.earlier")).unwrap();
+    run(&dataset, "pcd", &path, &[]).exits(1).says(["an earlier export in the format pcd", "other files"]);
+    assert!(tree(&path) == before);
+}
+
 /// What a person put beside an export's files, or among them, is not the export's.
 #[test]
 fn an_export_with_somebodys_own_files_is_never_replaced() {

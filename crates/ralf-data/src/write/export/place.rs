@@ -4,6 +4,7 @@ use super::formats::SingleFile;
 use super::record::Record;
 use super::ros::foxglove::FILE as LAYOUT;
 use super::{ExportFormat, ExportOptions};
+use crate::disk::files;
 use crate::error::DataError;
 use crate::result::{Component, OutFolder, WriterLock};
 use std::fs;
@@ -36,6 +37,12 @@ impl Place {
             return Err(DataError::content(path, "path", "one that ends in a name", "none"));
         };
         let lock = WriterLock::beside(path)?;
+        let hidden = |end: &str| parent.join(format!(".{}.{end}", name.to_string_lossy()));
+        let (part, earlier) = (OutFolder::new(&hidden("part")), hidden("earlier"));
+        // An export that was killed while it took the place of an earlier one has left that beside it.
+        if files::exists(&earlier)? && !files::exists(path)? {
+            fs::rename(&earlier, path).map_err(DataError::io(path))?;
+        }
         let file = match options.format.single_file() {
             Some(single) if single.is_named_by(path) && !path.is_dir() => {
                 check_file(path, single, options, &sequences)?;
@@ -46,8 +53,6 @@ impl Place {
                 None
             }
         };
-        let hidden = |end: &str| parent.join(format!(".{}.{end}", name.to_string_lossy()));
-        let (part, earlier) = (OutFolder::new(&hidden("part")), hidden("earlier"));
         // What a killed export left.
         remove_folder(part.path())?;
         fs::create_dir_all(part.path()).map_err(DataError::io(part.path()))?;

@@ -163,11 +163,14 @@ pub fn write_ros(
     check_nothing_lost(reader)?;
     check_motion_corrected(reader)?;
     let _lock = WriterLock::beside(file)?;
-    let settings_file = settings_file(file);
-    if let Some(there) = [file, &settings_file].into_iter().find(|file| file.exists()) {
+    let settings = settings::settings(&file.with_extension("toml"), reader)?;
+    let settings_file = settings_file(file, &settings);
+    let of_another = settings_file.exists() && !is_left(&settings_file, &settings);
+    if let Some(there) = [(file, file.exists()), (&settings_file, of_another)].into_iter().find(|(_, is)| *is)
+    {
+        let (there, _) = there;
         return Err(DataError::content(there, "file", "none of this name yet", "one"));
     }
-    let settings = settings::settings(&settings_file, reader)?;
     if let Some(folder) = file.parent() {
         fs::create_dir_all(folder).map_err(DataError::io(folder))?;
     }
@@ -192,14 +195,22 @@ pub fn write_ros(
 
 /// Where the settings of a recording go: `t.toml` beside `t.mcap`, and `t.bag.toml` beside `t.bag` where that is
 /// another's.
-fn settings_file(file: &Path) -> PathBuf {
+fn settings_file(file: &Path, settings: &str) -> PathBuf {
     let usual = file.with_extension("toml");
-    if !usual.exists() {
+    if !usual.exists() || is_left(&usual, settings) {
         return usual;
     }
     let mut name = file.as_os_str().to_owned();
     name.push(".toml");
     name.into()
+}
+
+/// Whether these settings lie here for a file that isn't there: a conversion that was killed at its very end leaves
+/// them.
+fn is_left(settings_file: &Path, settings: &str) -> bool {
+    let formats = [RosFormat::Mcap, RosFormat::Bag];
+    let is_used = formats.iter().any(|format| settings_file.with_extension(format.extension()).exists());
+    !is_used && fs::read(settings_file).is_ok_and(|found| found == settings.as_bytes())
 }
 
 /// The file could not be written: with all reasons, for libraries hide the system's behind their own.
