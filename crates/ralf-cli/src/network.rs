@@ -2,16 +2,15 @@
 
 use crate::outcome::UsageError;
 use crate::progress::{Progress, say};
+use crate::text::counted;
 use anyhow::{Context, ensure};
 use clap::Args;
-use ralf::config::{Config, nanoseconds};
+use ralf::config::Config;
 use ralf::sensors::Sequence;
-use ralf::space::sync;
 use ralf_data::read::refuse_to_write_into;
-use ralf_data::views::{DepthStore, SegmentationStore, ViewObserver};
+use ralf_data::views::{Computed, DepthStore, SegmentationStore, ViewObserver, images_of_scans};
 use ralf_data::{DataError, Recording, SequenceReader};
 use ralf_depth::{DepthEstimator, OnnxModel, Runtime, SegmentationModel};
-use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 /// Which network, and what runs it.
@@ -112,19 +111,6 @@ pub(crate) fn all_images(sequence: &Sequence) -> Images {
     cameras.flat_map(|(camera, times)| (0..times.len()).map(move |image| (camera, image))).collect()
 }
 
-/// The images that are nearest to some radar scan, within a tolerance in ms: those that labelling asks for.
-fn images_of_scans(sequence: &Sequence, tolerance_ms: f64) -> Images {
-    let tolerance = nanoseconds(tolerance_ms);
-    let cameras = sequence.times.cameras.iter().enumerate();
-    let of_camera = |(camera, times): (usize, &Vec<i64>)| {
-        let scans = sequence.times.radars.iter().flatten();
-        let images: BTreeSet<usize> =
-            scans.filter_map(|t_ns| sync::nearest(times, *t_ns, tolerance)).collect();
-        images.into_iter().map(move |image| (camera, image)).collect::<Vec<_>>()
-    };
-    cameras.flat_map(of_camera).collect()
-}
-
 /// The recording with the network's depth, computed now as far as labelling needs it and stored in `OUT/depth`.
 pub(crate) fn depth_for_labelling(
     recording: Recording,
@@ -168,9 +154,9 @@ pub(crate) fn fill_segmentation(
     })
 }
 
-/// Runs a network over these images of a sequence, and returns those that can't be used.
+/// Runs a network over these images of a sequence.
 type Compute<'a> =
-    dyn Fn(&dyn SequenceReader, &[(usize, usize)], &ViewObserver) -> Result<Vec<DataError>, DataError> + 'a;
+    dyn Fn(&dyn SequenceReader, &[(usize, usize)], &ViewObserver) -> Result<Computed, DataError> + 'a;
 
 /// Computes what a network says of a recording's images. Those that can't be used are named and counted.
 fn fill(
@@ -183,11 +169,18 @@ fn fill(
     for reader in &recording.sequences {
         let (name, images) = (&reader.sequence().name, images(reader.sequence()));
         let progress = Progress::of_steps(images.len() as u64, format!("{what} of {name}"));
-        let failed = compute(reader.as_ref(), &images, &|| progress.advance(1));
+        let computed = compute(reader.as_ref(), &images, &|| progress.advance(1));
         drop(progress);
-        let failed = failed.with_context(|| format!("{what} of {name}"))?;
-        failed.iter().for_each(|error| say(&format!("no {what}: {name}: {error}")));
-        without += failed.len();
+        let computed = computed.with_context(|| format!("{what} of {name}"))?;
+        if computed.again > 0 {
+            let images = counted(computed.again, "image");
+            say(&format!(
+                "{what} of {name}: computed again of {images}, for what was stored was not made of them as they are, \
+                 or isn't known to be"
+            ));
+        }
+        computed.without.iter().for_each(|error| say(&format!("no {what}: {name}: {error}")));
+        without += computed.without.len();
     }
     Ok(without)
 }

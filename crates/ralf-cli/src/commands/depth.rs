@@ -17,7 +17,8 @@ use std::path::PathBuf;
 #[command(after_help = "\
 Depth is stored as CAMERA/depth/000000.npy: in the dataset itself where it has RALF's own layout, else in the same \
 tree below the folder given with -o, where `ralf label --depth FOLDER` finds it. What is stored already is not \
-computed again.
+computed again, unless it was made of another image or of other views of it, or nothing beside it tells of which. \
+Where depth lies of which nothing tells whose it is (no depth.toml), none is added.
 
 Examples:
   ralf depth recordings/city --depth-model midas.onnx

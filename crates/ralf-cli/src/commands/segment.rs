@@ -15,7 +15,8 @@ use std::path::PathBuf;
 #[command(after_help = "\
 Segmentations are stored as CAMERA/segmentation/000000.png, 8 bits of grey that are SemanticKITTI ids: in the dataset \
 itself where it has RALF's own layout, else in the same tree below the folder given with -o, where `ralf label \
---segmentation FOLDER` finds them. What is stored already is not computed again. Labelling gives plausible detections \
+--segmentation FOLDER` finds them. What is stored already is not computed again, unless it was made of another image \
+or of other views of it, or nothing beside it tells of which. Labelling gives plausible detections \
 the class of what the cameras see there, where no labels of the LiDAR do.
 
 Of a network that was trained on Cityscapes a card needs three lines:

@@ -2,6 +2,7 @@
 
 use crate::support::{Dataset, Ran, Shape, program, ralf, schema};
 use std::fs;
+use std::path::Path;
 
 #[allow(dead_code, reason = "the tests of the crate use all of it")]
 #[path = "../../../ralf-depth/src/testing.rs"]
@@ -39,9 +40,41 @@ fn images_are_segmented_once_and_tell_where_classes_are_from() {
     ralf(["label", &dataset.path, "-o", &out, "--segmentation", &store]).exits(0);
     let told = schema(format!("{out}/sequences/00/plausibility.parquet"));
     assert!(told.iter().any(|column| column.contains("class_from")), "{told:?}");
+    // Of an image that has changed they are made again; a store that was not filled to its end is told of.
+    fs::remove_file(dataset.file("camera_front/000001.png")).unwrap();
+    dataset.put("camera_front/000001.png", grey(90));
+    let again = "segmentation of 00: computed again of 1 image, ";
+    ralf(["segment", &dataset.path, "--model", &model, "-o", &store]).exits(0).says([again]);
+    fs::remove_file(&first).unwrap();
+    let lacking = "no segmentation of 1 of 3 images of 00 camera_front, the first is 0";
+    ralf(["label", &dataset.path, "-o", &out, "--segmentation", &store]).exits(0).says([&store, lacking]);
+    let many = dataset.beside("many");
+    let plan = ralf(["cluster", "plan", "-q", &dataset.path, "-o", &many, "--segmentation", &store]);
+    plan.exits(0).says([lacking]);
     // Without -o they lie in the dataset itself, and labelling finds them there.
     ralf(["segment", &dataset.path, "--model", &model]).exits(0);
     assert!(dataset.file("camera_front/segmentation/000002.png").exists());
+}
+
+/// An image of one colour.
+fn grey(value: u8) -> Vec<u8> {
+    let mut pixels = tiny_skia::Pixmap::new(160, 120).unwrap();
+    pixels.fill(tiny_skia::Color::from_rgba8(value, value, value, 255));
+    pixels.encode_png().unwrap()
+}
+
+#[test]
+fn files_of_which_nothing_tells_whose_they_are_do_not_become_a_networks() {
+    let dataset = Dataset::of(&Shape { scans: 3, ..Shape::default() }).with_camera(3);
+    let model = colours(&dataset);
+    dataset.put("camera_front/segmentation/000001.png", grey(10));
+    let refused = ralf(["segment", &dataset.path, "--model", &model]).exits(1);
+    refused.says([
+        "segmentation.toml: network: expected",
+        "or another folder",
+        "camera_front/segmentation/000001.png",
+    ]);
+    assert!(!Path::new(&dataset.path).join("segmentation.toml").exists());
 }
 
 #[test]

@@ -30,17 +30,39 @@ pub struct ViewFolder {
 
 impl ViewFolder {
     pub(super) fn new(root: &Path, kind: StoreKind) -> Self {
-        Self { root: root.to_owned(), kind }
+        // What is wrong with its files is told in the same words from wherever the program is started.
+        Self { root: files::whole(root), kind }
     }
 
-    /// Writes what the store holds; where that is known, it has to be the same. `network` tells whose it is.
+    /// Where it lies.
+    pub(super) fn root(&self) -> &Path {
+        &self.root
+    }
+
+    /// What it holds, in a word.
+    pub(super) fn what(&self) -> &'static str {
+        self.kind.name
+    }
+
+    /// Whether it was begun.
+    pub(super) fn has_card(&self) -> bool {
+        self.card().is_file()
+    }
+
+    /// Writes what the store holds; where that is known, it has to be the same. `network` tells whose it is. Files of
+    /// which nobody knows whose they are don't become the network's.
     pub(super) fn claim<T: Serialize + DeserializeOwned + PartialEq>(
         &self,
         own: &T,
         network: fn(&T) -> &str,
     ) -> Result<(), DataError> {
         let file = self.card();
+        let expected = || format!("{} of the network {}, or another folder", self.kind.name, network(own));
         if !file.exists() {
+            if let Some(stray) = self.any_file()? {
+                let found = format!("{}, and nothing that tells which network made it", stray.display());
+                return Err(DataError::content(&file, "network", expected(), found));
+            }
             let text = toml::to_string(own);
             let text =
                 text.map_err(|error| DataError::content(&file, "content", "TOML", error.to_string()))?;
@@ -50,8 +72,23 @@ impl ViewFolder {
         if found == *own {
             return Ok(());
         }
-        let expected = format!("{} of the network {}, or another folder", self.kind.name, network(own));
-        Err(DataError::content(&file, "network", expected, format!("that of {}", network(&found))))
+        Err(DataError::content(&file, "network", expected(), format!("that of {}", network(&found))))
+    }
+
+    /// The first file in the store.
+    fn any_file(&self) -> Result<Option<PathBuf>, DataError> {
+        let sequences = self.root.join(SEQUENCES);
+        for sequence in files::folders(&sequences)? {
+            for camera in files::folders(&sequences.join(&sequence))? {
+                let folder = sequences.join(&sequence).join(camera).join(self.kind.name);
+                let of_kind =
+                    |name: &String| Path::new(name).extension().is_some_and(|it| it == self.kind.extension);
+                if let Some(name) = files::names(&folder)?.into_iter().find(of_kind) {
+                    return Ok(Some(folder.join(name)));
+                }
+            }
+        }
+        Ok(None)
     }
 
     /// What the store says that it holds.

@@ -6,13 +6,15 @@ mod check;
 mod compute;
 mod depth;
 mod folder;
+mod lacking;
 mod segmentation;
 mod store;
 mod stored_view;
 
 pub use check::{CameraCheck, SCALINGS, check_scalings};
-pub use compute::{Estimate, ViewObserver};
+pub use compute::{Computed, Estimate, ViewObserver};
 pub use depth::DepthStore;
+pub use lacking::{Lacking, images_of_scans, lacking};
 pub use segmentation::SegmentationStore;
 pub use store::Store;
 

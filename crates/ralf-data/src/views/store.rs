@@ -1,7 +1,7 @@
 //! A folder of what one network says of images: `ROOT/sequences/NAME/CAMERA/KIND/000000.EXTENSION`.
 
 use super::attached::attach;
-use super::compute::{Estimate, ViewObserver, compute_views};
+use super::compute::{Computed, Estimate, ViewObserver, compute_views};
 use super::folder::ViewFolder;
 use super::stored_view::StoredView;
 use crate::error::DataError;
@@ -36,11 +36,11 @@ impl<V: StoredView> Store<V> {
         self.folder.file(sequence, camera, image)
     }
 
-    /// Computes and stores what the network says of the images (camera, number) that the store doesn't hold yet,
-    /// several at a time.
+    /// Computes and stores what the network says of the images (camera, number) that the store doesn't hold yet, or
+    /// holds of another image or other views, several at a time.
     ///
-    /// Returns the images of which it says nothing for a reason of their own, which is named, in their order. What
-    /// can't be stored is an error, and so is another process that writes to the store.
+    /// # Errors
+    /// What can't be stored, and another process that writes to the store.
     pub fn compute(
         &self,
         reader: &dyn SequenceReader,
@@ -48,7 +48,7 @@ impl<V: StoredView> Store<V> {
         estimate: &Estimate<V>,
         jobs: usize,
         observer: &ViewObserver,
-    ) -> Result<Vec<DataError>, DataError> {
+    ) -> Result<Computed, DataError> {
         compute_views(reader, images, &self.folder, estimate, jobs, observer)
     }
 

@@ -3,7 +3,7 @@ use ralf::label::truth_of;
 use ralf::sensors::{ClassImage, Source};
 use ralf_data::result::{LabelledRun, Table};
 use ralf_data::run::{LabelRun, RunRecord, Unwatched};
-use ralf_data::views::SegmentationStore;
+use ralf_data::views::{Estimate, SegmentationStore};
 use ralf_data::{Recording, Settings, open, write_sequence};
 use ralf_sim::SimulatedSequence;
 use std::fs;
@@ -152,19 +152,34 @@ fn a_segmentation_that_cannot_be_read_is_named_and_left_out() {
 #[test]
 fn a_store_beside_the_recording_is_filled_once_and_attached() {
     let written = Written::of(&made());
-    let recording = written.recording();
-    let reader = recording.sequences[0].as_ref();
     let folder: &Path = &written.folder.path().join("classes");
     let store = SegmentationStore::create(folder, "a").unwrap();
     let images = [(0, 0), (0, 1)];
     let all_cars = |view: &ralf::sensors::CameraImage, _: f64| {
         Ok(ClassImage { width: view.width, height: view.height, ids: vec![10; view.width * view.height] })
     };
-    assert!(store.compute(reader, &images, &all_cars, 2, &|| ()).unwrap().is_empty());
+    let compute = |estimate: &Estimate<ClassImage>, images: &[(usize, usize)]| {
+        let recording = written.recording();
+        store.compute(recording.sequences[0].as_ref(), images, estimate, 2, &|| ()).unwrap()
+    };
+    assert!(compute(&all_cars, &images).without.is_empty());
     let none = |_: &ralf::sensors::CameraImage, _: f64| Err("asked again".to_owned());
-    assert!(store.compute(reader, &images, &none, 2, &|| ()).unwrap().is_empty(), "what is stored is kept");
-    let failed = store.compute(reader, &[(1, 0)], &none, 1, &|| ()).unwrap();
+    assert!(compute(&none, &images).without.is_empty(), "what is stored is kept");
+    let failed = compute(&none, &[(1, 0)]).without;
     assert!(failed[0].to_string().contains("asked again"), "{}", failed[0]);
+    // Another image, and another view of it: what was stored is made again, once.
+    let [first, second] = ["0", "1"].map(|number| written.file(&format!("camera_front/00000{number}.png")));
+    fs::copy(&second, &first).unwrap();
+    assert_eq!(compute(&all_cars, &images).again, 1);
+    let rig = written.file("sequence.toml");
+    let changed = fs::read_to_string(&rig).unwrap().replace("yaw_deg = 0.0", "yaw_deg = 1.0");
+    assert_ne!(changed, fs::read_to_string(&rig).unwrap());
+    fs::write(&rig, changed).unwrap();
+    assert_eq!(compute(&all_cars, &images).again, 2);
+    assert_eq!(compute(&none, &images).again, 0);
+    // Of what a store holds without a note nobody knows what it was made of.
+    fs::remove_file(folder.join("sequences/tiny/camera_front/segmentation/000000.from")).unwrap();
+    assert_eq!(compute(&all_cars, &images).again, 1);
     let attached = SegmentationStore::open(folder).unwrap().attach(written.recording());
     let reader = attached.sequences[0].as_ref();
     assert!(reader.has_segmentation() && reader.has_depth(0));
