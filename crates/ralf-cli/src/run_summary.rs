@@ -6,7 +6,15 @@ use crate::text::{aligned, counted, grouped, percent};
 use ralf::label::flag;
 use ralf::scene::{Failure, ViewState};
 use ralf_data::NotUsed;
-use ralf_data::run::{CameraRecord, RadarRecord, RunRecord, SequenceRecord, UnreadableScan};
+use ralf_data::run::{CameraRecord, Earlier, RadarRecord, RunRecord, SequenceRecord, UnreadableScan};
+use ralf_data::views::Lacking;
+
+/// Of sequences that this run has labelled.
+pub(crate) const AGAIN: &str = "is labelled again";
+
+/// Of earlier results that are gone.
+const REMOVED: &str = "removed, for they were made by another version, of a recording of another format or with other \
+                       settings";
 
 /// What to do where images have no depth.
 const MAKES_DEPTH: &str = match cfg!(feature = "depth") {
@@ -53,6 +61,74 @@ pub(crate) fn say_not_used(NotUsed { sequence, left_out, without }: &NotUsed) ->
 /// Says which sequences have no `what`, truth or labels, and are left out.
 pub(crate) fn say_without<'a>(what: &str, sequences: impl IntoIterator<Item = &'a String>) {
     sequences.into_iter().for_each(|name| say(&format!("sequence {name} has no {what}: left out")));
+}
+
+/// What became of earlier results of sequences, a line each. `again` says when those are labelled that have to be.
+pub(crate) fn told_of_earlier(earlier: &Earlier, again: &str) -> impl Iterator<Item = String> {
+    let removed = (!earlier.removed.is_empty()).then(|| format!("{REMOVED}: {}", earlier.removed.join(", ")));
+    let damaged = earlier.damaged.iter().map(move |(sequence, file)| {
+        format!("sequence {sequence} {again}: {} is not as it was written", file.display())
+    });
+    let without = earlier.without.iter().map(move |(sequence, scan)| {
+        let UnreadableScan { sensor, scan, .. } = scan;
+        format!(
+            "sequence {sequence} {again}, for it was labelled without {sensor} {scan}, which could not be \
+             read then"
+        )
+    });
+    removed.into_iter().chain(damaged).chain(without)
+}
+
+/// What is gone of runs that were not over.
+pub(crate) fn told_of_unfinished(earlier: &Earlier) -> Option<String> {
+    let names = earlier.unfinished.join(", ");
+    (!names.is_empty()).then(|| format!("{REMOVED}: what was labelled so far of {names}"))
+}
+
+/// What scans of all sequences were labelled without, a line each.
+pub(crate) fn all_labelled_without(record: &RunRecord) -> impl Iterator<Item = String> {
+    let sequences = &record.sequences;
+    let scans = sequences.iter().flat_map(|of| unreadable_scans(&of.name, &of.unreadable));
+    scans.chain(sequences.iter().flat_map(|of| unusable_images(&of.name, &of.cameras)))
+}
+
+/// The same of scans of one sequence.
+pub(crate) fn labelled_without(
+    sequence: &str,
+    unreadable: &[UnreadableScan],
+    cameras: &[CameraRecord],
+) -> impl Iterator<Item = String> {
+    unreadable_scans(sequence, unreadable).chain(unusable_images(sequence, cameras))
+}
+
+fn unreadable_scans(sequence: &str, unreadable: &[UnreadableScan]) -> impl Iterator<Item = String> {
+    unreadable.iter().map(move |UnreadableScan { sensor, scan, reason }| {
+        format!("labelled without: {sequence} {sensor} scan {scan}: {reason}")
+    })
+}
+
+/// For each camera with images that can't be read, the first of them: mostly all are alike.
+fn unusable_images(sequence: &str, cameras: &[CameraRecord]) -> impl Iterator<Item = String> {
+    cameras.iter().filter_map(move |camera| {
+        let mut images =
+            camera.images.iter().filter_map(|image| Some((image.image, image.problem.as_ref()?)));
+        let (first, reason) = images.next()?;
+        let others = match images.count() {
+            0 => String::new(),
+            others => format!(" and {}", counted(others, "other")),
+        };
+        Some(format!("labelled without: {sequence} {} image {first}{others}: {reason}", camera.name))
+    })
+}
+
+/// Says of which cameras a store holds some images, and not all.
+pub(crate) fn say_lacking(lacking: &[Lacking]) {
+    for Lacking { store, what, sequence, camera, missing, of, first } in lacking {
+        let file = store.display();
+        say(&format!(
+            "{file}: no {what} of {missing} of {of} images of {sequence} {camera}, the first is {first}"
+        ));
+    }
 }
 
 /// What could not be labelled, a line each: scans, and what may have held some.

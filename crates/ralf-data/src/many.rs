@@ -5,14 +5,20 @@
 //! three. Each may be done again after it was killed. What is assembled is what one machine would have written, to the
 //! byte, but for the timings in `run.json`.
 
+mod tasks;
+
+pub use tasks::{read_task, write_tasks};
+
 use crate::disk::files;
 use crate::error::DataError;
 use crate::read::{Recording, open_with};
+use crate::result::Component;
 use crate::result::json::{read_json, write_json};
-use crate::result::{Component, NotLabelled};
-use crate::run::{LabelRun, Observer, Outcome, Stretch, check_output_folder};
+use crate::run::{
+    Earlier, LabelRun, Observer, Outcome, Planned, Stretch, StretchOutcome, check_output_folder,
+};
 use crate::settings::Settings;
-use crate::views::with_stored;
+use crate::views::{Lacking, lacking, with_stored};
 use ralf::config::Method;
 use ralf::learned::Model;
 use ralf_files::Kind;
@@ -63,6 +69,17 @@ pub struct Task {
     pub job: Job,
     /// Which part.
     pub stretch: Stretch,
+}
+
+/// What is to be done of a job, and what to know before.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Plan {
+    /// Its parts that are not done yet.
+    pub tasks: Vec<Task>,
+    /// What became of results that lay in the output folder.
+    pub earlier: Earlier,
+    /// Cameras of whose images the stores hold some, and not all that labelling asks for.
+    pub lacking: Vec<Lacking>,
 }
 
 impl Job {
@@ -179,19 +196,25 @@ pub fn plan(
     scans: NonZeroUsize,
     jobs: NonZeroUsize,
     observer: &dyn Observer,
-) -> Result<Vec<Task>, DataError> {
+) -> Result<Plan, DataError> {
     let job = job.anywhere();
     check_output_folder(&job.recording, &job.out)?;
     let file = job.out.join(PLAN);
     let keep = || write_json(&file, &job);
-    let stretches = job.with_run(jobs, |run| run.plan_and(keep, scans, observer));
-    if stretches.is_err() && !files::exists(&file)? {
+    let planned = job.with_run(jobs, |run| {
+        let lacking =
+            lacking(run.recording, job.depth.as_deref(), job.segmentation.as_deref(), &run.settings.method)?;
+        Ok((run.plan_and(keep, scans, observer)?, lacking))
+    });
+    if planned.is_err() && !files::exists(&file)? {
         keep()?;
     }
-    Ok(stretches?.into_iter().map(|stretch| Task { job: job.clone(), stretch }).collect())
+    let (Planned { stretches, earlier }, lacking) = planned?;
+    let tasks = stretches.into_iter().map(|stretch| Task { job: job.clone(), stretch }).collect();
+    Ok(Plan { tasks, earlier, lacking })
 }
 
-/// Does a part of a job. Returns the scans that can't be labelled.
+/// Does a part of a job. Tells which scans can't be labelled, and what others were labelled without.
 ///
 /// # Errors
 /// What [`LabelRun::label_stretch`] refuses.
@@ -199,7 +222,7 @@ pub fn label_one(
     task: &Task,
     jobs: NonZeroUsize,
     observer: &dyn Observer,
-) -> Result<Vec<NotLabelled>, DataError> {
+) -> Result<StretchOutcome, DataError> {
     task.job.with_run(jobs, |run| run.label_stretch(&task.stretch, observer))
 }
 
@@ -232,7 +255,12 @@ pub fn assemble(out: &Path, jobs: NonZeroUsize, observer: &dyn Observer) -> Resu
 pub fn folders(recordings: &[PathBuf], out: &Path) -> Result<Vec<PathBuf>, DataError> {
     let mut found: Vec<PathBuf> = Vec::new();
     for recording in recordings {
-        let name = recording.file_name().unwrap_or_default().to_string_lossy();
+        // `.` and `..` have the name of the folder that they lead to.
+        let whole = match recording.file_name() {
+            Some(_) => recording.clone(),
+            None => recording.canonicalize().map_err(DataError::io(recording))?,
+        };
+        let name = whole.file_name().unwrap_or_default().to_string_lossy();
         let refused = |found| DataError::Name { kind: "recording".into(), name: name.to_string(), found };
         let folder = out.join(Component::new(&name).map_err(refused)?.as_str());
         if found.contains(&folder) {

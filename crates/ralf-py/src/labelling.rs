@@ -100,8 +100,8 @@ pub(crate) fn plan(
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Vec<String>> {
     let job = job.resolve()?;
-    let tasks = watched(py, progress.as_ref(), |watch| many::plan(&job, scans, threads(jobs), watch))?;
-    tasks.iter().map(to_json).collect()
+    let plan = watched(py, progress.as_ref(), |watch| many::plan(&job, scans, threads(jobs), watch))?;
+    plan.tasks.iter().map(to_json).collect()
 }
 
 /// Does a part of a job. Returns the scans that can't be labelled; JSON.
@@ -114,7 +114,8 @@ pub(crate) fn label_one(
     progress: Option<Py<PyAny>>,
 ) -> PyResult<String> {
     let task: Task = from_json(task)?;
-    to_json(&watched(py, progress.as_ref(), |watch| many::label_one(&task, threads(jobs), watch))?)
+    let done = watched(py, progress.as_ref(), |watch| many::label_one(&task, threads(jobs), watch))?;
+    to_json(&done.not_labelled)
 }
 
 /// Puts the parts of a job together. Returns the sequences that this call has finished.

@@ -3,18 +3,18 @@
 use crate::arguments::{MethodArgs, STORED_CLASSES, STORED_DEPTH, SettingsArgs, threads};
 use crate::outcome::Outcome;
 use crate::progress::{Stages, say};
-use crate::run_summary::not_labelled;
+use crate::run_summary::{
+    AGAIN, all_labelled_without, labelled_without, not_labelled, say_lacking, told_of_earlier,
+    told_of_unfinished,
+};
 use crate::text::{grouped, print};
-use anyhow::{Context, bail};
+use anyhow::bail;
 use clap::{Args, Subcommand};
-use ralf_data::many::{self, Job, Task};
+use ralf_data::Settings;
+use ralf_data::many::{self, Job};
 use ralf_data::run::Unwatched;
-use ralf_files::Kind;
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
-
-/// In the output folder: a task per line.
-const TASKS: &str = "tasks.jsonl";
 
 /// What `ralf cluster` takes.
 #[derive(Debug, Args)]
@@ -30,7 +30,7 @@ Examples:
 
 With Slurm:
   n=$(ralf cluster plan drives/* -o out)
-  sbatch --wait --array=0-$((n - 1)) --wrap 'ralf cluster label out --task $SLURM_ARRAY_TASK_ID'
+  [ $n = 0 ] || sbatch --wait --array=0-$((n - 1)) --wrap 'ralf cluster label out --task $SLURM_ARRAY_TASK_ID'
   ralf cluster assemble out")]
 pub(crate) struct ClusterArgs {
     #[command(subcommand)]
@@ -49,8 +49,11 @@ enum Step {
 
 #[derive(Debug, Args)]
 #[command(after_help = "\
+What OUT holds of these recordings with other settings is removed, and this is said. Tasks of other recordings stay as \
+they are, under the same numbers.
+
 Examples:
-  ralf cluster plan drives/* -o out                        prints how many tasks there are
+  ralf cluster plan drives/* -o out                        prints how many tasks there are; 0 where all is done
   ralf cluster plan drives/* -o out --scans 500            smaller tasks
   ralf cluster plan drives/* -o out --method learned --set fusion.threshold=0.5")]
 struct PlanArgs {
@@ -127,55 +130,55 @@ pub(crate) fn run(arguments: &ClusterArgs) -> anyhow::Result<Outcome> {
 fn plan(arguments: &PlanArgs) -> anyhow::Result<Outcome> {
     let mut settings = arguments.settings.resolve()?;
     arguments.method.apply(&mut settings.method, &arguments.settings)?;
-    let (mut tasks, mut outcome) = (Vec::new(), Outcome::Done);
+    let (mut planned, mut outcome) = (Vec::new(), Outcome::Done);
     let folders = many::folders(&arguments.recordings, &arguments.output)?;
     for (recording, out) in arguments.recordings.iter().zip(&folders) {
-        let job = Job {
-            settings: settings.clone(),
-            evidence: arguments.evidence,
-            model: arguments.method.model.clone(),
-            depth: arguments.depth.clone(),
-            segmentation: arguments.segmentation.clone(),
-            check: !arguments.no_check,
-            ..Job::new(recording, out)
-        };
         let jobs = NonZeroUsize::new(threads(arguments.jobs)).unwrap_or(NonZeroUsize::MIN);
-        match many::plan(&job, arguments.scans, jobs, &Stages::default()) {
-            Ok(found) => tasks.extend(found),
+        match many::plan(&arguments.job(recording, out, &settings), arguments.scans, jobs, &Stages::default())
+        {
+            Ok(plan) => {
+                let what = told_of_earlier(&plan.earlier, "is to be labelled again")
+                    .chain(told_of_unfinished(&plan.earlier));
+                what.for_each(|line| say(&format!("{}: {line}", out.display())));
+                say_lacking(&plan.lacking);
+                planned.push((out.as_path(), plan.tasks));
+            }
             Err(error) => {
                 say(&format!("not planned: {}: {error}", recording.display()));
                 outcome = Outcome::Partial;
             }
         }
     }
-    write_tasks(&arguments.output, &tasks)?;
-    print(&tasks.len().to_string())?;
+    print(&many::write_tasks(&arguments.output, &planned)?.to_string())?;
     Ok(outcome)
 }
 
-fn write_tasks(out: &Path, tasks: &[Task]) -> anyhow::Result<()> {
-    let mut text = String::new();
-    for task in tasks {
-        text += &serde_json::to_string(task)?;
-        text.push('\n');
+impl PlanArgs {
+    fn job(&self, recording: &Path, out: &Path, settings: &Settings) -> Job {
+        Job {
+            settings: settings.clone(),
+            evidence: self.evidence,
+            model: self.method.model.clone(),
+            depth: self.depth.clone(),
+            segmentation: self.segmentation.clone(),
+            check: !self.no_check,
+            ..Job::new(recording, out)
+        }
     }
-    Ok(ralf_data::write_whole(&out.join(TASKS), text.as_bytes())?)
 }
 
 fn label(arguments: &TaskArgs) -> anyhow::Result<Outcome> {
-    let file = arguments.out.join(TASKS);
-    let name = || file.display().to_string();
-    let text = ralf_files::read_text(&file, Kind::Stream).with_context(name)?;
-    let Some(line) = text.lines().nth(arguments.task) else {
-        bail!("{}: expected a task below {}, found {}", name(), text.lines().count(), arguments.task);
+    let Some(task) = many::read_task(&arguments.out, arguments.task)? else {
+        say(&format!("task {}: nothing to do, for its recording was planned anew", arguments.task));
+        return Ok(Outcome::Done);
     };
-    let task =
-        serde_json::from_str(line).with_context(|| format!("{}, line {}", name(), arguments.task + 1))?;
-    let failed = many::label_one(&task, arguments.jobs, &Unwatched)?;
-    for scan in &failed {
-        say(&format!("not labelled: {}", scan.told(&task.stretch.sequence)));
+    let done = many::label_one(&task, arguments.jobs, &Unwatched)?;
+    let sequence = &task.stretch.sequence;
+    labelled_without(sequence, &done.unreadable, &done.cameras).for_each(|line| say(&line));
+    for scan in &done.not_labelled {
+        say(&format!("not labelled: {}", scan.told(sequence)));
     }
-    Ok(Outcome::done_if(failed.is_empty()))
+    Ok(Outcome::done_if(done.not_labelled.is_empty()))
 }
 
 /// A recording that can't be put together is named, and costs the others nothing.
@@ -192,6 +195,8 @@ fn assemble(arguments: &AssembleArgs) -> anyhow::Result<Outcome> {
                 recordings += 1;
                 let radars = done.record.radars().flat_map(|radar| &radar.detections);
                 detections += radars.map(|count| u64::from(*count)).sum::<u64>();
+                let what = told_of_earlier(&done.earlier, AGAIN).chain(all_labelled_without(&done.record));
+                what.for_each(|line| say(&format!("{}: {line}", folder.display())));
                 for line in not_labelled(&done.record) {
                     say(&format!("not labelled: {}: {line}", folder.display()));
                     outcome = Outcome::Partial;

@@ -6,15 +6,18 @@ use crate::arguments::{DatasetArgs, MethodArgs, STORED_CLASSES, STORED_DEPTH, Se
 use crate::network::{DepthModelArgs, depth_for_labelling};
 use crate::outcome::Outcome;
 use crate::progress::{Stages, say};
-use crate::run_summary::{run_summary, say_not_labelled};
+use crate::run_summary::{
+    AGAIN, all_labelled_without, run_summary, say_lacking, say_not_labelled, told_of_earlier,
+};
 use crate::spent::Work;
 use crate::text::{counted, grouped, print};
 use clap::Args;
+use ralf::config::Config;
 use ralf_data::Recording;
 use ralf_data::run::{
-    CheckRecord, LabelRun, Outcome as RunOutcome, RunRecord, SequenceRecord, check_all, check_output_folder,
+    CheckRecord, LabelRun, Outcome as RunOutcome, SequenceRecord, check_all, check_output_folder,
 };
-use ralf_data::views::with_stored;
+use ralf_data::views::{lacking, with_stored};
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 use std::time::Instant;
@@ -96,12 +99,7 @@ pub(crate) fn run(arguments: &LabelArgs) -> anyhow::Result<Outcome> {
         say("nothing is labelled, for the recording is doubted (--strict)");
         return Ok(Outcome::Partial);
     }
-    let recording = with_stored(recording, arguments.depth.as_deref(), arguments.segmentation.as_deref())?;
-    #[cfg(feature = "depth")]
-    let recording = match arguments.depth_model.load()? {
-        Some(model) => depth_for_labelling(recording, &model, &arguments.output, &settings.method, jobs)?,
-        None => recording,
-    };
+    let recording = arguments.with_views(recording, &settings.method, jobs)?;
     let run = LabelRun {
         recording: &recording,
         settings: &settings,
@@ -117,43 +115,32 @@ pub(crate) fn run(arguments: &LabelArgs) -> anyhow::Result<Outcome> {
         true => run.execute(&stages)?,
         false => run.execute_and_check(&stages, &|check| doubts(check).for_each(|line| stages.say(&line)))?,
     };
-    say_what_changed(&done);
+    told_of_earlier(&done.earlier, AGAIN).for_each(|line| say(&line));
+    if done.labelled.is_empty() {
+        say("nothing to do: labelled before with the same program, settings and inputs");
+    }
     print(&if arguments.json { serde_json::to_string_pretty(&done.record)? } else { summary(&done) })?;
     if arguments.timings {
         say(&stages.spent.table());
     }
-    Ok(told_of_scans(&done.record))
-}
-
-/// Says which scans were left out, and how it ended by that.
-fn told_of_scans(record: &RunRecord) -> Outcome {
-    for (sequence, scan) in record.unreadable() {
-        let (sensor, number, reason) = (&scan.sensor, scan.scan, &scan.reason);
-        say(&format!("labelled without: {sequence} {sensor} scan {number}: {reason}"));
-    }
-    unusable_images(record).for_each(|line| say(&line));
-    say_not_labelled(record)
-}
-
-/// For each camera with images that can't be read, the first of them: mostly all are alike.
-fn unusable_images(record: &RunRecord) -> impl Iterator<Item = String> {
-    let cameras = record
-        .sequences
-        .iter()
-        .flat_map(|sequence| sequence.cameras.iter().map(move |camera| (&sequence.name, camera)));
-    cameras.filter_map(|(sequence, camera)| {
-        let mut images =
-            camera.images.iter().filter_map(|image| Some((image.image, image.problem.as_ref()?)));
-        let (first, reason) = images.next()?;
-        let others = match images.count() {
-            0 => String::new(),
-            others => format!(" and {}", counted(others, "other")),
-        };
-        Some(format!("labelled without: {sequence} {} image {first}{others}: {reason}", camera.name))
-    })
+    all_labelled_without(&done.record).for_each(|line| say(&line));
+    Ok(say_not_labelled(&done.record))
 }
 
 impl LabelArgs {
+    /// The recording with what networks say of its images, computed now or before.
+    fn with_views(&self, recording: Recording, config: &Config, jobs: usize) -> anyhow::Result<Recording> {
+        let (depth, classes) = (self.depth.as_deref(), self.segmentation.as_deref());
+        let recording = with_stored(recording, depth, classes)?;
+        #[cfg(feature = "depth")]
+        if let Some(model) = self.depth_model.load()? {
+            return depth_for_labelling(recording, &model, &self.output, config, jobs);
+        }
+        let _ = jobs;
+        say_lacking(&lacking(&recording, depth, classes, config)?);
+        Ok(recording)
+    }
+
     /// What is to be known before anything is labelled: whether the results have a place, and doubts, which are told.
     /// Without `--strict` checks go on meanwhile.
     fn checks_before(&self, recording: &Recording, jobs: usize) -> anyhow::Result<Vec<CheckRecord>> {
@@ -161,24 +148,6 @@ impl LabelArgs {
         let checks = if self.strict { check_all(recording, jobs) } else { Vec::new() };
         checks.iter().flat_map(doubts).for_each(|line| say(&line));
         Ok(checks)
-    }
-}
-
-/// What became of earlier results.
-fn say_what_changed(done: &RunOutcome) {
-    if !done.removed.is_empty() {
-        let names = done.removed.join(", ");
-        say(&format!(
-            "removed, for they were made by another version, of a recording of another format or with other settings: \
-             {names}"
-        ));
-    }
-    for (sequence, file) in &done.damaged {
-        let file = file.display();
-        say(&format!("sequence {sequence} is labelled again: {file} is not as it was written"));
-    }
-    if done.labelled.is_empty() {
-        say("nothing to do: labelled before with the same program, settings and inputs");
     }
 }
 

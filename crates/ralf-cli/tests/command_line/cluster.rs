@@ -1,7 +1,8 @@
 //! Many recordings in three steps: what comes out is what `ralf label` writes.
 
-use crate::support::{Dataset, Shape, ralf, without_timings};
+use crate::support::{Dataset, Ran, Shape, program, ralf, without_timings};
 use std::fs;
+use std::path::Path;
 
 #[test]
 fn three_steps_make_what_one_command_makes() {
@@ -35,4 +36,75 @@ fn a_folder_that_nobody_planned_is_refused() {
     ralf(["cluster", "assemble", &dataset.out]).exits(1).says(["expected what `ralf cluster plan` wrote"]);
     ralf(["cluster", "label", &dataset.out, "--task", "0"]).exits(1).says(["tasks.jsonl"]);
     ralf(["cluster", "plan", "-o", &dataset.out]).exits(2);
+}
+
+#[test]
+fn labels_of_other_settings_that_a_plan_removes_are_named() {
+    let dataset = Dataset::of(&Shape { sequences: &["00", "01"], scans: 2, ..Shape::default() });
+    let out = dataset.beside("many/dataset");
+    let many = dataset.beside("many");
+    let plan = |setting: &str| ralf(["cluster", "plan", "-q", &dataset.path, "-o", &many, "--set", setting]);
+    ralf(["label", "-q", &dataset.path, "-o", &out]).exits(0);
+    let told = "removed, for they were made by another version, of a recording of another format or with other settings";
+    plan("fusion.alpha=0.7").exits(0).prints(["2"]).says([&out, told, ": 00, 01"]);
+    ralf(["cluster", "label", &many, "--task", "1"]).exits(0).says_nothing();
+    plan("fusion.alpha=0.6").exits(0).says([&out, told, ": what was labelled so far of 01"]);
+    plan("fusion.alpha=0.6").exits(0).says_nothing();
+}
+
+/// Numbers of tasks that wait somewhere stay those of the same tasks.
+#[test]
+fn a_further_plan_leaves_the_tasks_of_other_recordings_and_of_busy_ones() {
+    let dataset = Dataset::of(&Shape { scans: 6, ..Shape::default() });
+    let [other, out] = ["other", "many"].map(|name| dataset.beside(name));
+    ralf(["convert", "-q", &dataset.path, "-o", &other]).exits(0);
+    let list = || -> Vec<String> {
+        let text = fs::read_to_string(Path::new(&out).join("tasks.jsonl")).unwrap();
+        text.lines().map(str::to_owned).collect()
+    };
+    let plan = |recording: &str| ralf(["cluster", "plan", "-q", recording, "-o", &out, "--scans", "4"]);
+    plan(&dataset.path).exits(0);
+    let first = list();
+    let planned = plan(&other).exits(0);
+    assert_eq!(planned.stdout.trim(), (2 * first.len()).to_string());
+    let both = list();
+    assert!(both.starts_with(&first) && both[first.len()..].iter().all(|line| line.contains("other")));
+    // Somebody is at work on the first one.
+    let mut lock = fs::File::options();
+    lock.create(true).truncate(false).write(true).read(true);
+    let lock = lock.open(Path::new(&out).join("dataset/.ralf-lock")).unwrap();
+    lock.lock_shared().unwrap();
+    plan(&dataset.path).exits(3).says(["not planned", "another run of ralf writes here"]);
+    assert_eq!(list(), both);
+    drop(lock);
+    ralf(["cluster", "assemble", "-q", &format!("{out}/dataset")]).exits(0);
+    plan(&dataset.path).exits(0);
+    assert!(
+        list()[..first.len()].iter().all(String::is_empty) && list()[first.len()..] == both[first.len()..]
+    );
+    ralf(["cluster", "label", &out, "--task", "0"]).exits(0).says(["task 0: nothing to do"]);
+    ralf(["cluster", "assemble", "-q", &out]).exits(0);
+    assert_eq!(plan(&other).exits(0).stdout.trim(), "0");
+}
+
+#[test]
+fn a_recording_that_is_typed_as_a_dot_has_the_name_of_its_folder() {
+    let dataset = Dataset::of(&Shape { scans: 2, ..Shape::default() });
+    let out = dataset.beside("many");
+    let plan = ["cluster", "plan", "-q", ".", "-o", &out];
+    Ran::of(&program().current_dir(&dataset.path).args(plan).output().unwrap()).exits(0).prints(["1"]);
+    assert!(Path::new(&out).join("dataset/plan.json").exists());
+}
+
+#[test]
+fn what_tasks_are_labelled_without_is_said() {
+    let dataset = Dataset::of(&Shape { scans: 6, ..Shape::default() });
+    dataset.cut("lidar_top/000003.bin", 4);
+    let out = dataset.beside("many");
+    ralf(["cluster", "plan", "-q", &dataset.path, "-o", &out]).exits(0).prints(["1"]);
+    let told = "labelled without: 00 lidar_top scan 3: sequences/00/lidar_top/000003.bin: byte ";
+    for _ in 0..2 {
+        ralf(["cluster", "label", &out, "--task", "0"]).exits(0).says([told]);
+    }
+    ralf(["cluster", "assemble", "-q", &out]).exits(0).says([told]);
 }

@@ -1,6 +1,6 @@
 //! The same recording and settings give the same bytes.
 
-use crate::support::{Dataset, Shape, ralf, tree, without_timings};
+use crate::support::{Dataset, Ran, Shape, program, ralf, tree, without_timings};
 use std::fs;
 use std::path::Path;
 
@@ -75,4 +75,19 @@ fn a_recording_that_changed_is_labelled_again() {
         tree(&dataset.out)["sequences/00/plausibility.parquet"]
             != before["sequences/00/plausibility.parquet"]
     );
+}
+
+/// Words about files that can't be read, too.
+#[test]
+fn the_folder_that_a_recording_is_typed_from_changes_no_byte() {
+    let dataset = Dataset::of(&Shape { scans: 6, ..Shape::default() }).with_camera(6);
+    for file in ["radar_left/000003.bin", "lidar_top/000002.bin"] {
+        dataset.cut(file, 1);
+    }
+    dataset.put("camera_front/000001.png", "no image");
+    let (beside, other) = (dataset.beside(""), dataset.beside("other"));
+    ralf(["label", "-q", &dataset.path, "-o", &dataset.out]).exits(3);
+    let here = ["label", "-q", "dataset", "-o", "other"];
+    Ran::of(&program().current_dir(beside).args(here).output().unwrap()).exits(3);
+    assert!(without_timings(&dataset.out) == without_timings(&other));
 }

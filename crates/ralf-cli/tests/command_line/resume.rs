@@ -116,15 +116,11 @@ fn what_a_power_cut_spoiled_is_made_again() {
     assert!(without_timings(&dataset.out) == without_timings(&whole));
 }
 
-#[test]
-fn a_sequence_that_was_finished_before_the_kill_is_kept() {
-    let dataset = Dataset::of(&Shape { scans: 4, sequences: &["00", "01"], ..Shape::default() });
-    ralf(["label", &dataset.path, "-o", &dataset.out]).exits(0);
-    let whole = without_timings(&dataset.out);
-    // What is on disk between the last sequence and the record.
+/// Leaves what is on disk between the last sequence and the record.
+fn killed_before_the_record(dataset: &Dataset) {
     let record: serde_json::Value =
         serde_json::from_slice(&fs::read(format!("{}/run.json", dataset.out)).unwrap()).unwrap();
-    let unfinished = format!("{}/.ralf-run/{}", dataset.out, run_folder(&dataset));
+    let unfinished = format!("{}/.ralf-run/{}", dataset.out, run_folder(dataset));
     fs::create_dir_all(&unfinished).unwrap();
     for sequence in record["sequences"].as_array().unwrap() {
         let inputs: Vec<_> = record["inputs"]
@@ -137,11 +133,30 @@ fn a_sequence_that_was_finished_before_the_kill_is_kept() {
         fs::write(file, serde_json::json!([sequence, inputs]).to_string()).unwrap();
     }
     fs::remove_file(format!("{}/run.json", dataset.out)).unwrap();
+}
+
+#[test]
+fn a_sequence_that_was_finished_before_the_kill_is_kept() {
+    let dataset = Dataset::of(&Shape { scans: 4, sequences: &["00", "01"], ..Shape::default() });
+    ralf(["label", &dataset.path, "-o", &dataset.out]).exits(0);
+    let whole = without_timings(&dataset.out);
+    killed_before_the_record(&dataset);
     let table = dataset.result("plausibility.parquet");
     let written = fs::metadata(&table).unwrap().modified().unwrap();
     ralf(["label", &dataset.path, "-o", &dataset.out]).exits(0).says(["nothing to do"]);
     assert_eq!(fs::metadata(&table).unwrap().modified().unwrap(), written);
     assert!(without_timings(&dataset.out) == whole);
+}
+
+#[test]
+fn finished_labels_of_a_killed_run_that_other_settings_remove_are_named() {
+    let dataset = Dataset::of(&Shape { scans: 2, sequences: &["00", "01"], ..Shape::default() });
+    ralf(["label", &dataset.path, "-o", &dataset.out]).exits(0);
+    killed_before_the_record(&dataset);
+    let other = ["--sequence", "01", "--set", "fusion.threshold=0.9"];
+    let ran = ralf(["label", &dataset.path, "-o", &dataset.out, other[0], other[1], other[2], other[3]]);
+    let ran = ran.exits(0).says(["removed, for they were made by another version", "settings: 00"]);
+    assert!(!ran.stderr.contains("01"), "{}", ran.stderr);
 }
 
 #[test]

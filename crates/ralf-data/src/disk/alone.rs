@@ -7,7 +7,7 @@ use std::path::Path;
 /// Opens an empty file to be written, and locks it until it is closed: others who open it so wait until then. What a
 /// kill left there is taken over; what is no regular file is removed first: through a link, what it leads to would be
 /// overwritten.
-pub(super) fn open_alone(path: &Path) -> Result<File, Error> {
+pub(crate) fn open_alone(path: &Path) -> Result<File, Error> {
     loop {
         let open = match options().create_new(true).open(path) {
             Err(error) if error.kind() == ErrorKind::AlreadyExists => open_existing(path)?,

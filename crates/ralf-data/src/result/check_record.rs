@@ -1,7 +1,9 @@
 //! What `run.json` tells of the check at the head of a run.
 
+use super::own_files::told_within;
 use ralf_check::{SequenceCheck, State, Verdict};
 use serde::{Deserialize, Serialize};
+use std::path::Path;
 
 /// What a check says of one sequence; what is in order is left out.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
@@ -29,11 +31,11 @@ pub struct CheckLine {
 }
 
 impl CheckRecord {
-    /// A check in short.
-    pub fn of(check: &SequenceCheck) -> Self {
+    /// A check in short, of a sequence of the recording at `root`.
+    pub fn of(check: &SequenceCheck, root: &Path) -> Self {
         let lines = |state: State| {
             let own = check.verdicts.iter().filter(|verdict| verdict.state == state);
-            own.map(CheckLine::of).collect()
+            own.map(|verdict| CheckLine::of(verdict, root)).collect()
         };
         Self {
             sequence: check.name.clone(),
@@ -45,10 +47,10 @@ impl CheckRecord {
 }
 
 impl CheckLine {
-    fn of(verdict: &Verdict) -> Self {
+    fn of(verdict: &Verdict, root: &Path) -> Self {
         Self {
             subject: verdict.subject.clone(),
-            evidence: verdict.evidence.clone(),
+            evidence: told_within(&verdict.evidence, root),
             remedy: verdict.remedy.as_ref().map(ralf_check::Remedy::words),
         }
     }

@@ -10,6 +10,7 @@ mod learned_columns;
 mod links;
 mod lock;
 mod names;
+mod own_files;
 mod parquet_columns;
 mod parquet_reader;
 mod parquet_writer;
@@ -36,7 +37,8 @@ pub use scan_table::RadarScanKey;
 pub use schema::{Column, Group, Kind, Schema};
 pub(crate) use sequence_record::ScanNotes;
 pub use sequence_record::{
-    CameraRecord, FileRecord, ImageRecord, NotLabelled, RadarRecord, SequenceRecord, UnreadableScan,
+    CameraRecord, FileRecord, ImageRecord, NotLabelled, RadarRecord, SequenceRecord, UnreadMeasurement,
+    UnreadableScan,
 };
 pub(crate) use sisters::RadarCounts;
 pub use sisters::UnlikeSisters;
@@ -51,6 +53,7 @@ pub use learned_columns::share_column;
 pub(crate) use links::refuse_links_out;
 pub(crate) use lock::WriterLock;
 pub(crate) use names::{OutFolder, SequenceNames, checked};
+pub(crate) use own_files::told_within;
 pub(crate) use parquet_columns::{EncodedGroup, GROUP_ROWS, Layout};
 pub(crate) use parquet_writer::{RowGroup, written};
 pub(crate) use row_bytes::{row_bytes, table_of_rows};

@@ -1,13 +1,16 @@
 //! What `run.json` tells of a sequence.
 
 use super::label_hash::hash_of_labels;
+use super::own_files::told_within;
 use super::{RadarCounts, Table, UnlikeSisters, WithoutNumbers};
 use crate::disk::label_file::label_bytes;
 use crate::error::DataError;
 use crate::read::MotionSource;
 use ralf::label::flag;
-use ralf::scene::{CalibratedImage, Frame, Unreadable, ViewReport, ViewState};
+use ralf::scene::{CalibratedImage, Frame, NotRead, SensorKind, Unreadable, ViewReport, ViewState};
+use ralf::sensors::Rig;
 use serde::{Deserialize, Serialize};
+use std::path::Path;
 
 /// One sequence.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -37,9 +40,13 @@ pub struct SequenceRecord {
     /// Where the vehicle's motion comes from, if not from the recording.
     #[serde(default, skip_serializing_if = "is_recorded")]
     pub motion: MotionSource,
-    /// LiDAR scans that can't be read: what lies near them in time was labelled without.
+    /// Scans and segmentations that can't be read: what lies near them in time was labelled without.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub unreadable: Vec<UnreadableScan>,
+    /// All that labelling wanted and could not read, but for the scans that are not labelled: the next run asks for
+    /// these again, and labels the sequence again where one of them is to be had.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub not_read: Vec<UnreadMeasurement>,
 }
 
 fn is_recorded(motion: &MotionSource) -> bool {
@@ -63,22 +70,60 @@ impl From<Unreadable> for UnreadableScan {
     }
 }
 
+/// A measurement that could not be read, or what is stored of it.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+pub struct UnreadMeasurement {
+    /// What the sensor is.
+    #[serde(with = "KindName")]
+    pub kind: SensorKind,
+    /// Which scan or image, and why.
+    #[serde(flatten)]
+    pub scan: UnreadableScan,
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(remote = "SensorKind", rename_all = "snake_case")]
+enum KindName {
+    Radar,
+    Lidar,
+    Camera,
+}
+
+impl UnreadMeasurement {
+    /// What a frame tells, whose recording lies at `root`.
+    fn of(NotRead { kind, sensor, index, reason }: &NotRead, rig: &Rig, root: &Path) -> Self {
+        let sensor = match kind {
+            SensorKind::Radar => &rig.radars[*sensor].name,
+            SensorKind::Lidar => &rig.lidars[*sensor].name,
+            SensorKind::Camera => &rig.cameras[*sensor].name,
+        };
+        let reason = told_within(reason, root);
+        Self { kind: *kind, scan: UnreadableScan { sensor: sensor.clone(), scan: *index, reason } }
+    }
+}
+
 /// What is told of a labelled scan beside its detections.
 #[derive(Debug, Default, Serialize, Deserialize)]
 pub(crate) struct ScanNotes {
     /// Images that were asked, with the names of their cameras.
     pub(crate) images: Vec<(String, ImageRecord)>,
-    /// LiDAR scans that it had to do without.
+    /// LiDAR scans and segmentations that it had to do without.
     pub(crate) unreadable: Vec<UnreadableScan>,
+    /// All that could not be read of it.
+    #[serde(default)]
+    pub(crate) not_read: Vec<UnreadMeasurement>,
 }
 
 impl ScanNotes {
-    /// What a frame tells.
-    pub(crate) fn new(frame: &Frame) -> Self {
+    /// What a frame tells, whose recording lies at `root`.
+    pub(crate) fn new(frame: &Frame, root: &Path) -> Self {
         let name = |moment: &CalibratedImage| frame.rig.cameras[moment.id.camera].name.clone();
-        let images = frame.images.iter().map(|view| (name(&view.moment), ImageRecord::of(&view.moment)));
-        let unreadable = frame.unreadable.iter().cloned().map(UnreadableScan::from);
-        Self { images: images.collect(), unreadable: unreadable.collect() }
+        let images =
+            frame.images.iter().map(|view| (name(&view.moment), ImageRecord::of(&view.moment, root)));
+        let mut unreadable: Vec<_> = frame.unreadable.iter().cloned().map(UnreadableScan::from).collect();
+        unreadable.iter_mut().for_each(|scan| scan.reason = told_within(&scan.reason, root));
+        let not_read = frame.not_read.iter().map(|found| UnreadMeasurement::of(found, frame.rig, root));
+        Self { images: images.collect(), unreadable, not_read: not_read.collect() }
     }
 }
 
@@ -153,9 +198,10 @@ impl NotLabelled {
 }
 
 impl ImageRecord {
-    pub(crate) fn of(moment: &CalibratedImage) -> Self {
+    fn of(moment: &CalibratedImage, root: &Path) -> Self {
         let views = moment.views.iter().map(|view| view.report).collect();
-        Self { image: moment.id.image, views, problem: moment.problem.clone() }
+        let problem = moment.problem.as_ref().map(|problem| told_within(problem, root));
+        Self { image: moment.id.image, views, problem }
     }
 }
 

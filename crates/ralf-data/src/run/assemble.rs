@@ -1,23 +1,19 @@
 //! Putting a sequence's labelled scans together, in the order of the rig: row groups of its table are read and encoded
 //! side by side, and written in their order.
 
+use super::without::Without;
 use super::workspace::Workspace;
 use super::{Observer, Stage, Task};
 use crate::error::DataError;
 use crate::frames::{ScanIndex, all_scans};
 use crate::result::{
-    CameraRecord, EncodedGroup, FileRecord, GROUP_ROWS, ImageRecord, Layout, NotLabelled, Numbers,
-    PlausibilityWriter, RadarRecord, RadarScanKey, RowGroup, SequenceRecord, UnlikeSisters, UnreadableScan,
-    WithoutNumbers, written,
+    EncodedGroup, FileRecord, GROUP_ROWS, Layout, NotLabelled, Numbers, PlausibilityWriter, RadarRecord,
+    RadarScanKey, RowGroup, SequenceRecord, UnlikeSisters, WithoutNumbers, told_within, written,
 };
-use ralf::sensors::Camera;
 use ralf_jobs::side_by_side;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 use std::sync::{Mutex, PoisonError};
-
-/// Images by camera and number; several scans may have asked about one.
-type Images = BTreeMap<String, BTreeMap<usize, ImageRecord>>;
 
 /// What is put together, and from what.
 struct Assembly<'a> {
@@ -37,8 +33,7 @@ struct Told {
     radars: Vec<RadarRecord>,
     /// What these delivered.
     numbers: Vec<Numbers>,
-    images: Images,
-    unreadable: BTreeSet<UnreadableScan>,
+    without: Without,
 }
 
 /// Writes `plausibility.parquet` of a sequence from its scans' tables, with so many threads.
@@ -68,7 +63,8 @@ pub(super) fn assemble(
     let table = Some(ordered.finish()?);
     observer.end();
     let (unlike_sisters, without_numbers) = (all.unlike_sisters(), all.without_numbers(task));
-    let Told { radars, images, unreadable, .. } = all;
+    let Told { radars, without, .. } = all;
+    let (unreadable, not_read) = without.named(&assembly.missing);
     Ok(SequenceRecord {
         name: sequence.name.clone(),
         fingerprint: fingerprint.to_owned(),
@@ -76,11 +72,12 @@ pub(super) fn assemble(
         unlike_sisters,
         without_numbers,
         radars,
-        cameras: cameras(&task.rig.cameras, images),
+        cameras: without.cameras(&task.rig.cameras),
         not_labelled,
-        lost: task.reader.lost().to_vec(),
+        lost: task.reader.lost().iter().map(|lost| told_within(lost, task.root)).collect(),
         motion: task.reader.motion_source(),
-        unreadable: unreadable.into_iter().collect(),
+        unreadable,
+        not_read,
     })
 }
 
@@ -121,10 +118,7 @@ impl Assembly<'_> {
                 return Err(DataError::Stopped);
             }
             let (table, notes) = self.workspace.scan(radar, scan, schema)?;
-            told.unreadable.extend(notes.unreadable);
-            for (camera, image) in notes.images {
-                told.images.entry(camera).or_default().insert(image.image, image);
-            }
+            told.without.add(notes);
             group.append(&RadarScanKey::new(&self.task.rig.radars[radar].name, scan), &table)?;
             told.radars[radar].push(Some(&table))?;
             told.numbers[radar].add(&self.task.rig.radars[radar], &table)?;
@@ -155,10 +149,7 @@ impl Told {
         for (numbers, more) in self.numbers.iter_mut().zip(&more.numbers) {
             numbers.append(more);
         }
-        for (camera, images) in more.images {
-            self.images.entry(camera).or_default().extend(images);
-        }
-        self.unreadable.extend(more.unreadable);
+        self.without.append(more.without);
     }
 
     /// Radars whose labels are unlike those of the others, among those that have places at all.
@@ -205,15 +196,6 @@ impl InOrder {
     fn finish(self) -> Result<FileRecord, DataError> {
         self.0.into_inner().unwrap_or_else(PoisonError::into_inner).writer.finish()
     }
-}
-
-/// What the monitor found about the images that were asked.
-fn cameras(rig: &[Camera], mut images: Images) -> Vec<CameraRecord> {
-    let record = |camera: &Camera| {
-        let images = images.remove(&camera.name).unwrap_or_default();
-        CameraRecord::new(&camera.name, images.into_values().collect())
-    };
-    rig.iter().map(record).collect()
 }
 
 #[cfg(test)]

@@ -95,8 +95,11 @@ fn input(
 ) -> Input {
     let name = Input::name(file, root);
     let Found { size, mtime_ns } = *found;
-    let same =
-        |known: &&&Input| mtime_ns.is_some() && (Some(known.bytes), known.mtime_ns) == (size, mtime_ns);
+    let same = |known: &&&Input| {
+        // One that could not be read when it was listed may be readable now.
+        let was_read = !known.blake3.is_empty();
+        was_read && mtime_ns.is_some() && (Some(known.bytes), known.mtime_ns) == (size, mtime_ns)
+    };
     if let Some(known) = known.get(name.as_str()).filter(same) {
         observer.advance(known.bytes, 0);
         return (*known).clone();

@@ -8,9 +8,11 @@
 
 mod assemble;
 mod checks;
+mod earlier;
 mod fingerprint;
 mod in_memory;
 mod inputs;
+mod not_read;
 mod output_folder;
 mod place;
 mod results;
@@ -18,17 +20,19 @@ mod scan_log;
 mod sequences;
 mod stretch;
 mod unfinished;
+mod without;
 mod workers;
 mod workspace;
 
 pub use crate::result::{
     CameraRecord, CheckLine, CheckRecord, ImageRecord, Input, NotLabelled, RadarRecord, RunRecord,
-    SequenceRecord, Timings, UnlikeSisters, UnreadableScan, WithoutNumbers, read_record,
+    SequenceRecord, Timings, UnlikeSisters, UnreadMeasurement, UnreadableScan, WithoutNumbers, read_record,
 };
 
 pub use checks::check_all;
+pub use earlier::Earlier;
 pub use place::check_output_folder;
-pub use stretch::Stretch;
+pub use stretch::{Planned, Stretch, StretchOutcome};
 
 use crate::error::DataError;
 use crate::frames::{ScanIndex, all_scans, in_time, time_of};
@@ -44,7 +48,7 @@ use output_folder::OutputFolder;
 use ralf::config::{Config, Method};
 use ralf::learned::{LearnedLabeler, Model};
 use ralf::sensors::{Rig, Timelines};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 use unfinished::Unfinished;
@@ -135,16 +139,15 @@ pub struct Outcome {
     /// Names of those that this run has labelled; the others were labelled before, with the same program, settings and
     /// inputs.
     pub labelled: Vec<String>,
-    /// Sequences that were labelled before and whose results were damaged since, with the first file that is: they are
-    /// labelled anew.
-    pub damaged: Vec<(String, PathBuf)>,
-    /// Names of sequences that were not asked for and whose results are gone, for they were made by another version of
-    /// the program or with other settings.
-    pub removed: Vec<String>,
+    /// What became of earlier results. Of those that are gone it names the sequences that were not asked for; the
+    /// others are labelled anew.
+    pub earlier: Earlier,
 }
 
 /// One sequence with the sensors as the settings have them.
 struct Task<'a> {
+    /// Where the recording lies.
+    root: &'a Path,
     reader: &'a dyn SequenceReader,
     /// Of the folders that its results go to.
     names: SequenceNames,
@@ -219,10 +222,10 @@ impl LabelRun<'_> {
         let checks = if told.is_some() { &checks } else { self.checks };
         let labelled = finished.iter().map(|(sequence, _)| sequence.name.clone()).collect();
         let timings = Timings { seconds: begun.elapsed().as_secs_f64(), jobs: self.jobs };
-        let damaged = folder.damaged().to_vec();
-        let (mut record, removed) = folder.finish(finished, timings, checks)?;
+        let earlier = folder.earlier().clone().without_removed(&names);
+        let mut record = folder.finish(finished, timings, checks)?;
         record.retain(|sequence| names.contains(&sequence.name));
-        Ok(Outcome { record, labelled, damaged, removed })
+        Ok(Outcome { record, labelled, earlier })
     }
 
     /// Every sequence, with the sensors as the settings have them.
@@ -264,7 +267,7 @@ impl LabelRun<'_> {
         let known = Unfinished::of(&OutFolder::new(self.out), &run)?.inputs()?;
         let asked =
             inputs::identify(self.recording, &fingerprint::of_run(&run), &known, self.jobs, observer)?;
-        Ok((OutputFolder::open(self.out, run, &asked)?, asked))
+        Ok((OutputFolder::open(self.out, run, self.recording, &asked)?, asked))
     }
 
     /// What `run.json` tells before a sequence is labelled.
@@ -295,7 +298,7 @@ impl LabelRun<'_> {
     }
 
     fn task<'a>(
-        &self,
+        &'a self,
         reader: &'a dyn SequenceReader,
         names: SequenceNames,
         labeler: Option<&'a LearnedLabeler<'a>>,
@@ -314,7 +317,8 @@ impl LabelRun<'_> {
         }
         let schema =
             Schema::of(&rig, &further).map_err(|reason| unsuitable(self.recording, reader, reason))?;
-        Ok(Task { reader, names, rig, schema: Arc::new(schema), evidence: self.evidence, labeler })
+        let root = &self.recording.path;
+        Ok(Task { root, reader, names, rig, schema: Arc::new(schema), evidence: self.evidence, labeler })
     }
 }
 

@@ -3,12 +3,15 @@
 //! Results go before the records that tell of them, and come before them, so that a kill in between leaves none that
 //! nobody knows of. `run.json` comes last: the sequences that it tells of are complete.
 
+use super::earlier::Earlier;
 use super::inputs::Identity;
+use super::not_read;
 use super::results::Results;
 use super::unfinished::{Finished, Unfinished};
 use super::workspace::Workspace;
 use crate::disk::files;
 use crate::error::DataError;
+use crate::read::Recording;
 use crate::result::json::write_json;
 use crate::result::{
     CheckRecord, Component, OutFolder, RunRecord, SequenceNames, SequenceRecord, Timings, damaged_result,
@@ -24,54 +27,54 @@ pub(super) struct OutputFolder {
     unfinished: Unfinished,
     /// The sequences that are complete.
     record: RunRecord,
-    /// Sequences that are not asked for and were made by another version, with other settings or of a recording of
-    /// another format.
-    removed: Vec<String>,
-    /// Sequences with results that are not as they were written, and the first such file.
-    damaged: Vec<(String, PathBuf)>,
+    earlier: Earlier,
 }
 
 impl OutputFolder {
     /// Makes the folder ready for a run, whose record is still empty. What has the same version and settings stays,
     /// unless it is asked for and was read from other inputs or is not whole; all other results are removed.
-    pub(super) fn open(out: &Path, run: RunRecord, asked: &[Identity]) -> Result<Self, DataError> {
+    pub(super) fn open(
+        out: &Path,
+        run: RunRecord,
+        recording: &Recording,
+        asked: &[Identity],
+    ) -> Result<Self, DataError> {
         let place = OutFolder::new(out);
         let mut folder = Self {
             record_file: place.own_file(RECORD),
             results: Results::new(out),
             unfinished: Unfinished::of(&place, &run)?,
             record: run,
-            removed: Vec::new(),
-            damaged: Vec::new(),
+            earlier: Earlier::default(),
         };
         // Of a record that this version can't read, nothing is known.
         match read_record(out) {
             Ok(found) if found.is_like(&folder.record) => folder.record = found,
-            Ok(other) => folder.remove_all(&other, asked)?,
+            Ok(other) => folder.remove_all(&other)?,
             Err(_) => {}
         }
-        folder.settle(asked)?;
-        folder.unfinished.remove_outdated(asked, &folder.results)?;
+        folder.settle(asked, recording)?;
+        let removed = folder.unfinished.remove_outdated(asked, &folder.results)?;
+        folder.earlier.add(removed);
         Ok(folder)
     }
 
     /// Removes the results of other settings.
-    fn remove_all(&mut self, other: &RunRecord, asked: &[Identity]) -> Result<(), DataError> {
+    fn remove_all(&mut self, other: &RunRecord) -> Result<(), DataError> {
         other.sequences.iter().try_for_each(|sequence| self.results.remove(sequence))?;
-        let names = other.sequences.iter().map(|sequence| &sequence.name);
-        self.removed = names.filter(|name| asked.iter().all(|asked| asked.name != **name)).cloned().collect();
+        self.earlier.removed.extend(other.sequences.iter().map(|sequence| sequence.name.clone()));
         files::remove(&self.record_file)
     }
 
     /// Adds what killed runs have finished to the record, and takes out of it what is to be labelled again.
-    fn settle(&mut self, asked: &[Identity]) -> Result<(), DataError> {
+    fn settle(&mut self, asked: &[Identity], recording: &Recording) -> Result<(), DataError> {
         let finished = self.unfinished.finished()?;
         let fingerprints: Vec<_> =
             finished.iter().map(|(sequence, _)| sequence.fingerprint.clone()).collect();
         let known = |finished: &Finished| self.record.sequence(&finished.0.name).is_some();
         let new: Vec<_> = finished.into_iter().filter(|finished| !known(finished)).collect();
         self.record.add(new);
-        let outdated = self.outdated(asked)?;
+        let outdated = self.outdated(asked, recording)?;
         if fingerprints.is_empty() && outdated.is_empty() {
             return Ok(());
         }
@@ -81,24 +84,32 @@ impl OutputFolder {
         self.unfinished.forget(fingerprints.iter().map(String::as_str))
     }
 
-    /// The sequences that are asked for and have to be labelled again: read from other inputs, or damaged.
-    fn outdated(&mut self, asked: &[Identity]) -> Result<Vec<SequenceRecord>, DataError> {
+    /// The sequences that are asked for and have to be labelled again: read from other inputs, damaged, or labelled
+    /// without something that is to be had by now.
+    fn outdated(
+        &mut self,
+        asked: &[Identity],
+        recording: &Recording,
+    ) -> Result<Vec<SequenceRecord>, DataError> {
         let mut outdated = Vec::new();
         for sequence in &self.record.sequences {
             let Some(asked) = asked.iter().find(|asked| asked.name == sequence.name) else { continue };
             if asked.fingerprint != sequence.fingerprint {
                 outdated.push(sequence.clone());
             } else if let Some(file) = damaged_result(self.results.places(), sequence)? {
-                self.damaged.push((sequence.name.clone(), file));
+                self.earlier.damaged.push((sequence.name.clone(), file));
+                outdated.push(sequence.clone());
+            } else if let Some(scan) = not_read::changed_since(sequence, recording) {
+                self.earlier.without.push((sequence.name.clone(), scan));
                 outdated.push(sequence.clone());
             }
         }
         Ok(outdated)
     }
 
-    /// Sequences with results that are not as they were written, and the first such file of each.
-    pub(super) fn damaged(&self) -> &[(String, PathBuf)] {
-        &self.damaged
+    /// What became of results that lay here.
+    pub(super) fn earlier(&self) -> &Earlier {
+        &self.earlier
     }
 
     fn write_record(&self) -> Result<(), DataError> {
@@ -133,13 +144,13 @@ impl OutputFolder {
         self.unfinished.finish(finished)
     }
 
-    /// All sequences are finished. Returns the record of the folder, and the names of the sequences that are gone.
+    /// All sequences are finished. Returns the record of the folder.
     pub(super) fn finish(
         mut self,
         finished: Vec<Finished>,
         timings: Timings,
         checks: &[CheckRecord],
-    ) -> Result<(RunRecord, Vec<String>), DataError> {
+    ) -> Result<RunRecord, DataError> {
         let fingerprints: Vec<_> =
             finished.iter().map(|(sequence, _)| sequence.fingerprint.clone()).collect();
         let said_before = self.record.check.clone();
@@ -151,6 +162,6 @@ impl OutputFolder {
             self.write_record()?;
             self.unfinished.forget(fingerprints.iter().map(String::as_str))?;
         }
-        Ok((self.record, self.removed))
+        Ok(self.record)
     }
 }

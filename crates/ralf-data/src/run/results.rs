@@ -39,17 +39,22 @@ impl Results {
         self.remove_folders(&sequence, &radars)
     }
 
-    /// Removes what was labelled of the sequences that are under way in a folder.
-    pub(super) fn remove_unfinished(&self, kept: &Path) -> Result<(), DataError> {
+    /// Removes what was labelled of the sequences that are under way in a folder. Returns their names, of those that
+    /// had labels.
+    pub(super) fn remove_unfinished(&self, kept: &Path) -> Result<Vec<String>, DataError> {
+        let mut removed = Vec::new();
         for sequence in components(kept)? {
             let mut radars = BTreeSet::new();
             for (radar, scan) in scans_in(&kept.join(sequence.as_str()))? {
                 self.remove_label(&sequence, &radar, scan)?;
                 radars.insert(radar);
             }
+            if !radars.is_empty() {
+                removed.push(sequence.as_str().to_owned());
+            }
             self.remove_folders(&sequence, &Vec::from_iter(radars))?;
         }
-        Ok(())
+        Ok(removed)
     }
 
     /// Removes a scan's labels, if there are some.

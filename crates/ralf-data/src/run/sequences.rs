@@ -164,8 +164,9 @@ impl<'a> Queue<'a> {
         if self.observer.stopped() {
             return Err(DataError::Stopped);
         }
-        let reader = self.run.recording.sequences[sequence].as_ref();
-        let check = timed(self.observer, Part::Checking, || check_one(reader));
+        let recording = self.run.recording;
+        let reader = recording.sequences[sequence].as_ref();
+        let check = timed(self.observer, Part::Checking, || check_one(reader, &recording.path));
         if let Some(told) = self.told {
             told(&check);
         }

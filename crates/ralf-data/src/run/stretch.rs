@@ -4,14 +4,18 @@
 //! that putting the parts together is nothing but to let the run go on: its results are those of one machine, to the
 //! byte, whatever became of single parts. Every part may be done twice, and by two machines at once.
 
+use super::earlier::Earlier;
 use super::results::Results;
 use super::unfinished::Unfinished;
+use super::without::Without;
 use super::workers::Labelling;
 use super::workspace::Workspace;
 use super::{LOCK, LabelRun, Observer, Task, check_output_folder};
 use crate::error::DataError;
 use crate::frames::ScanIndex;
-use crate::result::{NotLabelled, OutFolder, RunRecord, SequenceNames, WriterLock, read_record};
+use crate::result::{
+    CameraRecord, NotLabelled, OutFolder, RunRecord, SequenceNames, UnreadableScan, WriterLock, read_record,
+};
 use serde::{Deserialize, Serialize};
 use std::num::NonZeroUsize;
 
@@ -26,6 +30,26 @@ pub struct Stretch {
     pub of: usize,
     /// Of program, settings and the sequence's inputs when it was planned.
     fingerprint: String,
+}
+
+/// What is to be done, and what became of earlier results.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Planned {
+    /// In any order.
+    pub stretches: Vec<Stretch>,
+    /// What lay in the output folder already. What is gone is labelled by nobody before all is put together.
+    pub earlier: Earlier,
+}
+
+/// How a stretch ended.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct StretchOutcome {
+    /// Scans that can't be labelled.
+    pub not_labelled: Vec<NotLabelled>,
+    /// What others were labelled without, for it can't be read.
+    pub unreadable: Vec<UnreadableScan>,
+    /// The images that were asked, in the rig's order.
+    pub cameras: Vec<CameraRecord>,
 }
 
 impl Stretch {
@@ -44,7 +68,7 @@ impl LabelRun<'_> {
     ///
     /// # Errors
     /// Those of [`Self::execute`].
-    pub fn plan(&self, scans: NonZeroUsize, observer: &dyn Observer) -> Result<Vec<Stretch>, DataError> {
+    pub fn plan(&self, scans: NonZeroUsize, observer: &dyn Observer) -> Result<Planned, DataError> {
         self.plan_and(|| Ok(()), scans, observer)
     }
 
@@ -54,7 +78,7 @@ impl LabelRun<'_> {
         keep: impl FnOnce() -> Result<(), DataError>,
         scans: NonZeroUsize,
         observer: &dyn Observer,
-    ) -> Result<Vec<Stretch>, DataError> {
+    ) -> Result<Planned, DataError> {
         check_output_folder(&self.recording.path, self.out)?;
         let labeler = self.labeler()?;
         let tasks = self.tasks(labeler.as_ref())?;
@@ -72,12 +96,12 @@ impl LabelRun<'_> {
                 fingerprint: identity.fingerprint.clone(),
             }));
         }
-        Ok(stretches)
+        Ok(Planned { stretches, earlier: folder.earlier().clone() })
     }
 
     /// Labels the scans of a stretch that were not labelled before, and leaves them in the output folder. Others may
-    /// label stretches of the same run at the same time. Returns scans that can't be labelled; [`Self::execute`] names
-    /// them again.
+    /// label stretches of the same run at the same time. Scans that can't be labelled, and what others are labelled
+    /// without, are named; [`Self::execute`] names them again.
     ///
     /// # Errors
     /// A sequence that the recording doesn't hold; a stretch that was planned by another version of the program or with
@@ -87,7 +111,7 @@ impl LabelRun<'_> {
         &self,
         stretch: &Stretch,
         observer: &dyn Observer,
-    ) -> Result<Vec<NotLabelled>, DataError> {
+    ) -> Result<StretchOutcome, DataError> {
         let readers = &self.recording.sequences;
         let reader = readers.iter().find(|reader| reader.sequence().name == stretch.sequence);
         let known = || readers.iter().map(|reader| reader.sequence().name.as_str()).collect::<Vec<_>>();
@@ -105,7 +129,7 @@ impl LabelRun<'_> {
         let lock = is_planned()?.then(|| WriterLock::share(self.out.join(LOCK), self.out)).transpose()?;
         // Until the lock was there, somebody may have put all together.
         if lock.is_none() || !is_planned()? {
-            return self.check_done(&run, stretch).map(|()| Vec::new());
+            return self.check_done(&run, stretch).map(|()| StretchOutcome::default());
         }
         self.label_planned(&task, stretch, &unfinished, observer)
     }
@@ -116,12 +140,20 @@ impl LabelRun<'_> {
         stretch: &Stretch,
         unfinished: &Unfinished,
         observer: &dyn Observer,
-    ) -> Result<Vec<NotLabelled>, DataError> {
+    ) -> Result<StretchOutcome, DataError> {
         let results = Results::new(self.out);
         let folder = unfinished.scans(&stretch.fingerprint, &task.names.sequence)?;
         let workspace = Workspace::open(&task.names, folder, &results)?;
         let labelling = Labelling { task, config: &self.settings.method, observer };
-        labelling.label_scans(stretch.scans(&task.in_time()), &workspace, self.jobs)
+        let in_time = task.in_time();
+        let scans = stretch.scans(&in_time);
+        let not_labelled = labelling.label_scans(scans, &workspace, self.jobs)?;
+        let missing = not_labelled.iter().map(|scan| (scan.radar.as_str(), scan.scan)).collect();
+        let mut without = Without::default();
+        scans.iter().filter_map(|scan| workspace.notes(*scan)).for_each(|notes| without.add(notes));
+        let (unreadable, _) = without.named(&missing);
+        let cameras = without.cameras(&task.rig.cameras);
+        Ok(StretchOutcome { not_labelled, unreadable, cameras })
     }
 
     /// Refuses a stretch that nobody planned, unless its sequence is labelled already.

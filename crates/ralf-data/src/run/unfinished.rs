@@ -4,6 +4,7 @@
 //! fingerprints: of program and settings, and of the sequence. `FINGERPRINT/inputs.json` tells of a sequence that is
 //! labelled in parts what it was read from.
 
+use super::earlier::Earlier;
 use super::fingerprint;
 use super::inputs::Identity;
 use super::results::Results;
@@ -98,13 +99,19 @@ impl Unfinished {
     }
 
     /// Removes what is of no use any more, with its results: other settings, and what is asked for with other inputs.
-    pub(super) fn remove_outdated(&self, asked: &[Identity], results: &Results) -> Result<(), DataError> {
+    /// Returns what is gone of other settings.
+    pub(super) fn remove_outdated(
+        &self,
+        asked: &[Identity],
+        results: &Results,
+    ) -> Result<Earlier, DataError> {
+        let mut gone = Earlier::default();
         for run in files::folders(self.all.path())? {
             let folder = self.all.path().join(&run);
             for name in files::names(&folder)? {
                 let kept = folder.join(&name);
                 if run != self.run.as_str() {
-                    remove_with_results(&kept, results)?;
+                    gone.add(remove_with_results(&kept, results)?);
                 } else if kept.is_dir() && is_outdated(&kept, &name, asked)? {
                     results.remove_unfinished(&kept)?;
                     remove_folder(&kept)?;
@@ -114,7 +121,7 @@ impl Unfinished {
                 remove_folder(&folder)?;
             }
         }
-        Ok(())
+        Ok(gone)
     }
 }
 
@@ -124,13 +131,17 @@ fn is_outdated(kept: &Path, fingerprint: &str, asked: &[Identity]) -> Result<boo
     Ok(asked.iter().any(|asked| asked.fingerprint != fingerprint && names.contains(&asked.name)))
 }
 
-/// Removes the results that a finished sequence or one under way tells of.
-fn remove_with_results(kept: &Path, results: &Results) -> Result<(), DataError> {
+/// Removes the results that a finished sequence or one under way tells of, and tells whose they were.
+fn remove_with_results(kept: &Path, results: &Results) -> Result<Earlier, DataError> {
+    let mut gone = Earlier::default();
     if kept.is_dir() {
-        return results.remove_unfinished(kept);
+        gone.unfinished = results.remove_unfinished(kept)?;
+    } else if let Ok((sequence, _)) = read_json::<Finished>(kept) {
+        // Of a record that can't be read, nothing is known.
+        results.remove(&sequence)?;
+        gone.removed.push(sequence.name);
     }
-    // Of a record that can't be read, nothing is known.
-    read_json::<Finished>(kept).map_or(Ok(()), |(sequence, _)| results.remove(&sequence))
+    Ok(gone)
 }
 
 fn remove_folder(folder: &Path) -> Result<(), DataError> {

@@ -1,10 +1,10 @@
 //! Labelling scans, several at a time.
 
 use super::workspace::Workspace;
-use super::{Observer, Part, Stage, Task};
+use super::{Observer, Part, Stage, Task, not_read};
 use crate::error::DataError;
 use crate::frames::{Frames, ScanIndex};
-use crate::result::{NotLabelled, ScanNotes, ScanParts, Table};
+use crate::result::{NotLabelled, ScanNotes, ScanParts, Table, told_within};
 use ralf::config::Config;
 use ralf::evidence;
 use ralf::learned::LearnedScan;
@@ -79,7 +79,9 @@ impl<'a> Labelling<'a> {
         window: &mut FrameWindow,
         ScanIndex { radar, scan }: ScanIndex,
     ) -> Result<Result<u64, NotLabelled>, DataError> {
-        if workspace.has_kept(radar, scan, &self.task.schema) {
+        let Task { root, reader, schema, .. } = self.task;
+        let kept = workspace.kept(radar, scan, schema);
+        if kept.is_some_and(|notes| not_read::changed(&notes.not_read, *reader, root).is_none()) {
             return Ok(Ok(0));
         }
         let frame = match timed(self.observer, Part::Gathering, || window.frame(radar, scan)) {
@@ -87,11 +89,13 @@ impl<'a> Labelling<'a> {
             Err(error) => {
                 let name = self.task.rig.radars[radar].name.clone();
                 workspace.forget(radar, scan)?;
-                return Ok(Err(NotLabelled { radar: name, scan, reason: error.to_string() }));
+                let reason = told_within(&error.to_string(), root);
+                return Ok(Err(NotLabelled { radar: name, scan, reason }));
             }
         };
         let table = self.table(radar, &frame)?;
-        timed(self.observer, Part::Keeping, || workspace.keep(radar, scan, &ScanNotes::new(&frame), &table))?;
+        let notes = ScanNotes::new(&frame, root);
+        timed(self.observer, Part::Keeping, || workspace.keep(radar, scan, &notes, &table))?;
         Ok(Ok(table.len() as u64))
     }
 

@@ -2,12 +2,13 @@
 
 use super::results::Results;
 use super::scan_log::ScanLog;
-use crate::disk::label_file::write_labels;
+use crate::disk::files;
+use crate::disk::label_file::{label_bytes, write_labels};
 use crate::error::DataError;
 use crate::frames::ScanIndex;
 use crate::result::{OutFolder, ScanNotes, Schema, SequenceNames, Table, row_bytes, table_of_rows};
 use std::fs;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// The scans of a sequence.
@@ -47,11 +48,15 @@ impl<'a> Workspace<'a> {
         write_labels(&file, &table.labels()?)
     }
 
-    /// Whether a scan was labelled before, and all of it is whole: a power cut may leave empty files.
-    pub(super) fn has_kept(&self, radar: usize, scan: usize, schema: &Arc<Schema>) -> bool {
-        let Ok((table, _)) = self.scan(radar, scan, schema) else { return false };
-        let label = fs::metadata(self.label_file(radar, scan));
-        label.is_ok_and(|label| label.len() == 4 * table.len() as u64)
+    /// What is told of a scan that was labelled before; `None` where it was not, or not all of it is as it was written:
+    /// a power cut may leave empty files.
+    pub(super) fn kept(&self, radar: usize, scan: usize, schema: &Arc<Schema>) -> Option<ScanNotes> {
+        let (table, notes) = self.scan(radar, scan, schema).ok()?;
+        let labels = label_bytes(&table.labels().ok()?);
+        let file = self.label_file(radar, scan);
+        // What is of another length is not looked into.
+        let is_long = fs::metadata(&file).is_ok_and(|found| found.len() == labels.len() as u64);
+        (is_long && files::read(&file).is_ok_and(|found| found == labels)).then_some(notes)
     }
 
     /// How many detections a scan has that was labelled.
@@ -66,15 +71,28 @@ impl<'a> Workspace<'a> {
         scan: usize,
         schema: &Arc<Schema>,
     ) -> Result<(Table, ScanNotes), DataError> {
+        let (file, notes, rows) = self.parts(radar, scan)?;
+        Ok((table_of_rows(&file, &rows, schema)?, notes))
+    }
+
+    /// The file in which a scan lies, what is told of it, and the bytes of its rows.
+    fn parts(&self, radar: usize, scan: usize) -> Result<(Arc<Path>, ScanNotes, Vec<u8>), DataError> {
         let place = || format!("scan {scan} of {}", self.names.radars[radar].as_str());
         let lost =
             || DataError::content(self.log.folder(), place(), "what was labelled", "nothing that is whole");
-        let (file, body) = self.log.read(ScanIndex { radar, scan }).ok_or_else(lost)?;
+        let (file, mut body) = self.log.read(ScanIndex { radar, scan }).ok_or_else(lost)?;
         let (notes, rest) = body.split_first_chunk().ok_or_else(lost)?;
         let length = usize::try_from(u64::from_le_bytes(*notes)).map_err(|_| lost())?;
         let (notes, rows) = rest.split_at_checked(length).ok_or_else(lost)?;
         let notes = serde_json::from_slice(notes).map_err(|_| lost())?;
-        Ok((table_of_rows(&file, rows, schema)?, notes))
+        let before = body.len() - rows.len();
+        body.drain(..before);
+        Ok((file, notes, body))
+    }
+
+    /// What is told of a scan beside its detections; nothing of one that is not kept.
+    pub(super) fn notes(&self, ScanIndex { radar, scan }: ScanIndex) -> Option<ScanNotes> {
+        self.parts(radar, scan).ok().map(|(_, notes, _)| notes)
     }
 
     /// Removes the `.label` file that an earlier run made of a scan that can't be labelled now.

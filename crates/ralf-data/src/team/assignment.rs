@@ -219,6 +219,7 @@ mod tests {
             without_numbers: Vec::new(),
             motion: Default::default(),
             unreadable: Vec::new(),
+            not_read: Vec::new(),
         }
     }
 

@@ -84,7 +84,7 @@ fn parts_in_any_order_and_twice_make_what_one_machine_makes() {
     let drive = recording(root.path(), 1);
     let (whole, parts) = (root.path().join("whole"), root.path().join("parts"));
     job(&drive, &whole).label(ONE, &Unwatched).unwrap();
-    let mut tasks = plan(&job(&drive, &parts), scans(5), ONE, &Unwatched).unwrap();
+    let mut tasks = plan(&job(&drive, &parts), scans(5), ONE, &Unwatched).unwrap().tasks;
     assert!(tasks.len() > 1, "{}", tasks.len());
     tasks.reverse();
     // They cross to other machines as text.
@@ -93,7 +93,8 @@ fn parts_in_any_order_and_twice_make_what_one_machine_makes() {
     std::thread::scope(|scope| {
         for half in [&tasks[..], &tasks[tasks.len() / 2..]] {
             scope.spawn(move || {
-                half.iter().for_each(|task| assert_eq!(label_one(task, ONE, &Unwatched).unwrap(), []))
+                half.iter()
+                    .for_each(|task| assert_eq!(label_one(task, ONE, &Unwatched).unwrap().not_labelled, []))
             });
         }
     });
@@ -102,8 +103,8 @@ fn parts_in_any_order_and_twice_make_what_one_machine_makes() {
     assert_eq!(done.labelled.len(), 1);
     assert!(content(&parts) == content(&whole));
     // What is done is not planned again, and a task that comes late does nothing.
-    assert_eq!(plan(&job(&drive, &parts), scans(5), ONE, &Unwatched).unwrap(), []);
-    assert_eq!(label_one(&tasks[0], ONE, &Unwatched).unwrap(), []);
+    assert_eq!(plan(&job(&drive, &parts), scans(5), ONE, &Unwatched).unwrap().tasks, []);
+    assert_eq!(label_one(&tasks[0], ONE, &Unwatched).unwrap().not_labelled, []);
     assert!(content(&parts) == content(&whole));
 }
 
@@ -113,7 +114,7 @@ fn a_part_that_was_lost_is_labelled_when_all_is_put_together() {
     let drive = recording(root.path(), 1);
     let (whole, parts) = (root.path().join("whole"), root.path().join("parts"));
     job(&drive, &whole).label(ONE, &Unwatched).unwrap();
-    let tasks = plan(&job(&drive, &parts), scans(5), ONE, &Unwatched).unwrap();
+    let tasks = plan(&job(&drive, &parts), scans(5), ONE, &Unwatched).unwrap().tasks;
     let stopped = label_one(&tasks[0], ONE, &Impatient(AtomicUsize::new(2))).unwrap_err();
     assert!(matches!(stopped, DataError::Stopped), "{stopped}");
     let kept = content(&parts).into_keys().filter(|name| name.extension().is_some_and(|end| end == "label"));
@@ -141,7 +142,7 @@ fn a_recording_that_changes_after_its_plan_is_labelled_as_it_is() {
     let root = tempfile::tempdir().unwrap();
     let drive = recording(root.path(), 1);
     let parts = root.path().join("parts");
-    let tasks = plan(&job(&drive, &parts), scans(1000), ONE, &Unwatched).unwrap();
+    let tasks = plan(&job(&drive, &parts), scans(1000), ONE, &Unwatched).unwrap().tasks;
     label_one(&tasks[0], ONE, &Unwatched).unwrap();
     let file = first_radar_file(&drive);
     let bytes = fs::read(&file).unwrap();
@@ -170,7 +171,7 @@ fn what_nobody_planned_is_refused() {
     let root = tempfile::tempdir().unwrap();
     let drive = recording(root.path(), 1);
     let [parts, other] = ["parts", "other"].map(|name| root.path().join(name));
-    let tasks = plan(&job(&drive, &parts), scans(5), ONE, &Unwatched).unwrap();
+    let tasks = plan(&job(&drive, &parts), scans(5), ONE, &Unwatched).unwrap().tasks;
     let with = |change: &dyn Fn(&mut Task)| {
         let mut task = tasks[0].clone();
         change(&mut task);
@@ -208,8 +209,8 @@ fn a_plan_that_is_refused_while_others_work_leaves_theirs_as_it_is() {
     let root = tempfile::tempdir().unwrap();
     let drive = recording(root.path(), 1);
     let out = root.path().join("out");
-    let tasks = plan(&job(&drive, &out), scans(5), ONE, &Unwatched).unwrap();
-    assert_eq!(label_one(&tasks[0], ONE, &Meanwhile(&drive, &out)).unwrap(), []);
+    let tasks = plan(&job(&drive, &out), scans(5), ONE, &Unwatched).unwrap().tasks;
+    assert_eq!(label_one(&tasks[0], ONE, &Meanwhile(&drive, &out)).unwrap().not_labelled, []);
     assert_eq!(assemble(&out, ONE, &Unwatched).unwrap().labelled.len(), 1);
 }
 

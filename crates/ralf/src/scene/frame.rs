@@ -50,6 +50,9 @@ pub struct Frame<'a> {
     /// LiDAR scans and segmentations that belong to it and can't be read, and LiDAR scans of which nothing came back:
     /// the scan is labelled without them.
     pub unreadable: Vec<Unreadable>,
+    /// All measurements of which it wanted something that could not be read, be it only just then: another time it may
+    /// be another frame. Sorted, each but once.
+    pub not_read: Vec<NotRead>,
     /// Of the LiDAR's points, for a radar that measures no elevation: made where [`Self::lidar_cloud`] is first asked.
     pub(super) horizontal_index: OnceLock<NeighborIndex>,
 }
@@ -63,6 +66,30 @@ pub struct Unreadable {
     pub index: usize,
     /// File, place, expected, found.
     pub reason: String,
+}
+
+/// A measurement of any sensor that could not be read.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
+pub struct NotRead {
+    /// Which list of the rig the sensor is in.
+    pub kind: SensorKind,
+    /// Its place in that list.
+    pub sensor: usize,
+    /// The measurement's place in the sensor's timeline, from 0.
+    pub index: usize,
+    /// File, place, expected, found.
+    pub reason: String,
+}
+
+/// The kinds of sensors that a rig tells apart.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum SensorKind {
+    /// Its measurements are scans.
+    Radar,
+    /// Its measurements are scans.
+    Lidar,
+    /// Its measurements are images, with their depth and segmentation.
+    Camera,
 }
 
 impl Frame<'_> {

@@ -35,7 +35,7 @@ pub use camera::{
 };
 pub use doppler::{Doppler, radar_velocity};
 pub use floor::LocalGround;
-pub use frame::{Frame, Unreadable};
+pub use frame::{Frame, NotRead, SensorKind, Unreadable};
 pub use ground::{Ground, GroundSurface, Plane};
 pub use lidar::{LidarRay, LidarSnapshot, LidarSweep, LidarView};
 pub use lidar_cloud::LidarCloud;

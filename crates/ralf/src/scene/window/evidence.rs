@@ -57,19 +57,26 @@ impl FrameWindow<'_> {
         let middle = sync::nearest(&chosen, t_ns, reach)?;
         let middle_time = chosen[middle];
         let vehicle_from_window = self.source.sequence().motion.between(t_ns, middle_time);
-        if let Some(window) = self.lidar_windows.get(&(lidar, middle)) {
-            return Some(LidarWindowView { window, vehicle_from_window });
-        }
+        let known = self.lidar_windows.get(&(lidar, middle));
+        let window = known.unwrap_or_else(|| {
+            let window = self.noting(|all| Arc::new(all.lidar_window_around(&chosen, middle_time)));
+            self.lidar_windows.insert((lidar, middle), window.clone());
+            window
+        });
+        Some(LidarWindowView { window: self.noted(window), vehicle_from_window })
+    }
+
+    /// The LiDAR scans around one of the chosen times.
+    fn lidar_window_around(&mut self, chosen: &[i64], middle_time: i64) -> LidarWindow {
+        let reach = nanoseconds(self.config.evidence.lidar_reach_ms);
         let mut views = Vec::new();
-        for near in sync::around(&chosen, middle_time, reach, self.config.evidence.lidar_scans) {
+        for near in sync::around(chosen, middle_time, reach, self.config.evidence.lidar_scans) {
             let NearLidars { view, .. } = self.near_lidars(chosen[near]);
             let Some(mut view) = view else { continue };
             view.vehicle_from_moment = self.source.sequence().motion.between(middle_time, view.moment.t_ns);
             views.push(view);
         }
-        let window = Arc::new(LidarWindow::new(middle_time, views));
-        self.lidar_windows.insert((lidar, middle), window.clone());
-        Some(LidarWindowView { window, vehicle_from_window })
+        LidarWindow::new(middle_time, views)
     }
 }
 

@@ -2,11 +2,12 @@
 
 mod evidence;
 mod forgetting;
+mod not_read;
 mod segmentation;
 
 use super::camera::{CalibratedImage, Calibration, ImageId, ImageView, SegmentedImage};
 use super::floor::LocalGround;
-use super::frame::{Frame, Unreadable};
+use super::frame::{Frame, NotRead, SensorKind, Unreadable};
 use super::lidar::{LidarSnapshot, LidarView};
 use super::lidar_window::LidarWindow;
 use super::located::LocatedScan;
@@ -14,6 +15,8 @@ use super::neighbouring::{NeighbouringScan, ScanStep};
 use crate::config::{Config, GroundModel, LidarConfig, TrackingSources, nanoseconds};
 use crate::sensors::{LidarScan, Rig, Source, SourceError, is_return};
 use crate::space::{Recent, sync};
+use not_read::Noted;
+use std::collections::BTreeSet;
 use std::sync::{Arc, OnceLock};
 
 /// Moments of the LiDARs that may be the nearest ones of radar scans that are asked for in turn.
@@ -71,15 +74,18 @@ pub struct FrameWindow<'a> {
     rig: &'a Rig,
     /// Whether what evidence looks at is gathered, too.
     evidence: bool,
-    radar_scans: Recent<Key, Option<Arc<LocatedScan>>>,
+    /// With the reason where one can't be read.
+    radar_scans: Recent<Key, Result<Arc<LocatedScan>, String>>,
     /// With the reason where one can't be read.
     lidar_scans: Recent<Key, Result<Arc<LidarScan>, String>>,
     moments: Recent<(i64, Vec<Key>), Arc<LidarSnapshot>>,
     /// By the scan of the leading LiDAR in their middle.
-    lidar_windows: Recent<Key, Arc<LidarWindow>>,
-    images: Recent<Key, Option<Arc<CalibratedImage>>>,
+    lidar_windows: Recent<Key, Noted<Arc<LidarWindow>>>,
+    images: Recent<Key, Noted<Option<Arc<CalibratedImage>>>>,
     /// With the reason where one can't be read.
-    segmented: Recent<Key, Result<Option<Arc<SegmentedImage>>, String>>,
+    segmented: Recent<Key, Noted<Result<Option<Arc<SegmentedImage>>, String>>>,
+    /// What could not be read of the frame in the making.
+    not_read: BTreeSet<NotRead>,
 }
 
 impl<'a> FrameWindow<'a> {
@@ -101,6 +107,7 @@ impl<'a> FrameWindow<'a> {
             lidar_windows: Recent::new(MOMENTS),
             images: Recent::new(2 * rig.cameras.len()),
             segmented: Recent::new(2 * rig.cameras.len()),
+            not_read: BTreeSet::new(),
         }
     }
 
@@ -108,10 +115,11 @@ impl<'a> FrameWindow<'a> {
     /// left out and named in the frame; neighbouring radar scans are left out of the batch.
     pub fn frame(&mut self, radar: usize, scan: usize) -> Result<Frame<'a>, SourceError> {
         let located = match self.radar_scans.get(&(radar, scan)) {
-            Some(Some(known)) => known,
+            Some(Ok(known)) => known,
             _ => Arc::new(self.locate(radar, scan)?),
         };
-        self.radar_scans.insert((radar, scan), Some(located.clone()));
+        self.radar_scans.insert((radar, scan), Ok(located.clone()));
+        self.not_read.clear();
         let t_ns = located.t_ns();
         self.forget_what_is_past(t_ns);
         let near = self.near_lidars(t_ns);
@@ -121,7 +129,7 @@ impl<'a> FrameWindow<'a> {
         let lidar_neighbours = self.lidar_neighbours(scans, t_ns, &mut unreadable);
         let images = if self.config.camera.enabled { self.images(t_ns) } else { Vec::new() };
         let segmented = self.segmented(t_ns, &mut unreadable);
-        Ok(Frame {
+        let mut frame = Frame {
             rig: self.rig,
             radar: &self.rig.radars[radar],
             motion: &self.source.sequence().motion,
@@ -135,8 +143,11 @@ impl<'a> FrameWindow<'a> {
             steps: if self.config.tracking.enabled { self.steps(radar, scan, t_ns) } else { Vec::new() },
             scan: located,
             unreadable,
+            not_read: Vec::new(),
             horizontal_index: OnceLock::new(),
-        })
+        };
+        frame.not_read.extend(std::mem::take(&mut self.not_read));
+        Ok(frame)
     }
 
     fn locate(&self, radar: usize, scan: usize) -> Result<LocatedScan, SourceError> {
@@ -145,14 +156,13 @@ impl<'a> FrameWindow<'a> {
 
     /// A neighbouring scan as seen at a time; `None` where it can't be read.
     fn neighbouring_scan(&mut self, radar: usize, scan: usize, t_ns: i64) -> Option<NeighbouringScan> {
-        let located = match self.radar_scans.get(&(radar, scan)) {
-            Some(known) => known?,
-            None => {
-                let read = self.locate(radar, scan).ok().map(Arc::new);
-                self.radar_scans.insert((radar, scan), read.clone());
-                read?
-            }
-        };
+        let known = self.radar_scans.get(&(radar, scan));
+        let located = known.unwrap_or_else(|| {
+            let read = self.locate(radar, scan).map(Arc::new).map_err(|error| error.to_string());
+            self.radar_scans.insert((radar, scan), read.clone());
+            read
+        });
+        let located = located.map_err(|reason| self.note(SensorKind::Radar, (radar, scan), &reason)).ok()?;
         let vehicle_from_scan = self.source.sequence().motion.between(t_ns, located.t_ns());
         Some(NeighbouringScan { radar, scan: located, vehicle_from_scan })
     }
@@ -302,15 +312,19 @@ impl<'a> FrameWindow<'a> {
     /// An image with its views calibrated by the LiDAR scans nearest to it; `None` where there is no depth. What of it
     /// can't be read makes its views fail.
     pub fn image(&mut self, camera: usize, image: usize) -> Option<Arc<CalibratedImage>> {
-        if let Some(known) = self.images.get(&(camera, image)) {
-            return known;
-        }
+        let known = self.images.get(&(camera, image));
+        let found = known.unwrap_or_else(|| {
+            let found = self.noting(|window| window.calibrated(camera, image));
+            self.images.insert((camera, image), found.clone());
+            found
+        });
+        self.noted(found)
+    }
+
+    fn calibrated(&mut self, camera: usize, image: usize) -> Option<Arc<CalibratedImage>> {
         let t_ns = self.source.sequence().times.cameras[camera][image];
         let content = match self.source.depth(camera, image) {
-            Ok(None) => {
-                self.images.insert((camera, image), None);
-                return None;
-            }
+            Ok(None) => return None,
             Ok(Some(depth)) => self.source.image(camera, image).map(|pixels| (pixels, depth)),
             Err(error) => Err(error),
         };
@@ -325,18 +339,18 @@ impl<'a> FrameWindow<'a> {
             ground: &self.config.ground,
         };
         let content = content.map_err(|error| error.to_string());
+        let content = content.inspect_err(|reason| self.note(SensorKind::Camera, (camera, image), reason));
         let id = ImageId { camera, image, t_ns };
-        let moment = Arc::new(CalibratedImage::new(&self.rig.cameras[camera], id, content, &calibration));
-        self.images.insert((camera, image), Some(moment.clone()));
-        Some(moment)
+        Some(Arc::new(CalibratedImage::new(&self.rig.cameras[camera], id, content, &calibration)))
     }
 
     fn lidar_scan(&mut self, key: Key) -> Result<Arc<LidarScan>, String> {
-        if let Some(known) = self.lidar_scans.get(&key) {
-            return known;
-        }
-        let read = self.source.lidar_scan(key.0, key.1).map(Arc::new).map_err(|error| error.to_string());
-        self.lidar_scans.insert(key, read.clone());
-        read
+        let known = self.lidar_scans.get(&key);
+        let read = known.unwrap_or_else(|| {
+            let read = self.source.lidar_scan(key.0, key.1).map(Arc::new).map_err(|error| error.to_string());
+            self.lidar_scans.insert(key, read.clone());
+            read
+        });
+        read.inspect_err(|reason| self.note(SensorKind::Lidar, key, reason))
     }
 }

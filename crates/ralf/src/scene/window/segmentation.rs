@@ -1,7 +1,7 @@
 //! The segmentations of the images around a radar scan.
 
 use super::super::camera::{ImageId, SegmentedImage, SegmentedView};
-use super::super::frame::Unreadable;
+use super::super::frame::{SensorKind, Unreadable};
 use super::super::lidar::LidarView;
 use super::{FrameWindow, Key};
 use std::sync::Arc;
@@ -29,18 +29,19 @@ impl FrameWindow<'_> {
     }
 
     fn segmentation(&mut self, key: Key) -> Result<Option<Arc<SegmentedImage>>, String> {
-        if let Some(known) = self.segmented.get(&key) {
-            return known;
-        }
-        let found = self.read_segmentation(key).map(|found| found.map(Arc::new));
-        self.segmented.insert(key, found.clone());
-        found
+        let known = self.segmented.get(&key);
+        let found = known.unwrap_or_else(|| {
+            let found = self.noting(|window| window.read_segmentation(key).map(|found| found.map(Arc::new)));
+            self.segmented.insert(key, found.clone());
+            found
+        });
+        self.noted(found)
     }
 
     fn read_segmentation(&mut self, (camera, image): Key) -> Result<Option<SegmentedImage>, String> {
-        let Some(classes) = self.source.classes(camera, image).map_err(|error| error.to_string())? else {
-            return Ok(None);
-        };
+        let classes = self.source.classes(camera, image).map_err(|error| error.to_string());
+        let classes = classes.inspect_err(|reason| self.note(SensorKind::Camera, (camera, image), reason))?;
+        let Some(classes) = classes else { return Ok(None) };
         let t_ns = self.source.sequence().times.cameras[camera][image];
         let points = self.near_lidars(t_ns).view.as_ref().map(LidarView::all_points).unwrap_or_default();
         let calibrated = self.image(camera, image);

@@ -1,0 +1,40 @@
+//! What becomes of results that lie in the output folder already.
+
+use crate::result::UnreadableScan;
+use std::path::PathBuf;
+
+/// What became of the results that lay in the output folder, by sequence.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Earlier {
+    /// Their labels are gone, for they were made by another version of the program, with other settings or of a
+    /// recording of another format.
+    pub removed: Vec<String>,
+    /// The same of labels that a run has made which isn't over: of some scans, maybe not of all.
+    pub unfinished: Vec<String>,
+    /// They are to be labelled again, for this file, the first such, is not as it was written.
+    pub damaged: Vec<(String, PathBuf)>,
+    /// They are to be labelled again, for they were labelled without this, which can be read now or can't for another
+    /// reason.
+    pub without: Vec<(String, UnreadableScan)>,
+}
+
+impl Earlier {
+    /// What is gone, too; each is named once.
+    pub(super) fn add(&mut self, more: Self) {
+        self.removed.extend(more.removed);
+        self.unfinished.extend(more.unfinished);
+        for names in [&mut self.removed, &mut self.unfinished] {
+            names.sort();
+            names.dedup();
+        }
+        self.unfinished.retain(|name| !self.removed.contains(name));
+    }
+
+    /// Without the sequences of these names among those that are gone: they are labelled at once.
+    pub(super) fn without_removed(mut self, names: &[String]) -> Self {
+        for gone in [&mut self.removed, &mut self.unfinished] {
+            gone.retain(|name| !names.contains(name));
+        }
+        self
+    }
+}
