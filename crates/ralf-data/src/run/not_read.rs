@@ -22,8 +22,8 @@ pub(super) fn changed<'a>(
 
 /// The same of all that a labelled sequence of a recording lacks, with sensor and number.
 pub(super) fn changed_since(record: &SequenceRecord, recording: &Recording) -> Option<UnreadableScan> {
-    let named = |reader: &&Box<dyn SequenceReader>| reader.sequence().name == record.name;
-    let reader = recording.sequences.iter().find(named)?.as_ref();
+    let mut readers = recording.sequences.iter().map(AsRef::as_ref);
+    let reader = readers.find(|reader| reader.sequence().name == record.name)?;
     let radar = |NotLabelled { radar, scan, reason }: &NotLabelled| UnreadMeasurement {
         kind: SensorKind::Radar,
         scan: UnreadableScan { sensor: radar.clone(), scan: *scan, reason: reason.clone() },

@@ -31,7 +31,7 @@ enum Alone {
 enum Done {
     Checked(CheckRecord),
     /// That scan was the last of the sequence of this number.
-    Finished(usize, Finished),
+    Finished(usize, Box<Finished>),
 }
 
 /// What all workers share.
@@ -119,7 +119,7 @@ impl LabelRun<'_> {
         for done in done? {
             match done {
                 Done::Checked(check) => checks.push(check),
-                Done::Finished(number, sequence) => finished.push((number, sequence)),
+                Done::Finished(number, sequence) => finished.push((number, *sequence)),
             }
         }
         finished.sort_by_key(|(number, _)| *number);
@@ -193,7 +193,8 @@ impl<'a> Queue<'a> {
     fn put_together(&self, number: usize, ended: Ended) -> Result<Done, DataError> {
         let is_last = self.left.fetch_sub(1, Ordering::Relaxed) == 1;
         let finish = || self.finish(&self.sequences[number], ended, is_last);
-        Ok(Done::Finished(number, timed(self.observer, Part::Writing, finish)?))
+        let sequence = timed(self.observer, Part::Writing, finish)?;
+        Ok(Done::Finished(number, Box::new(sequence)))
     }
 
     fn finish(

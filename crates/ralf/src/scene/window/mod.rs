@@ -5,7 +5,7 @@ mod forgetting;
 mod not_read;
 mod segmentation;
 
-use super::camera::{CalibratedImage, Calibration, ImageId, ImageView, SegmentedImage};
+use super::camera::{CalibratedImage, Calibration, ImageId, ImageView};
 use super::floor::LocalGround;
 use super::frame::{Frame, NotRead, SensorKind, Unreadable};
 use super::lidar::{LidarSnapshot, LidarView};
@@ -16,6 +16,7 @@ use crate::config::{Config, GroundModel, LidarConfig, TrackingSources, nanosecon
 use crate::sensors::{LidarScan, Rig, Source, SourceError, is_return};
 use crate::space::{Recent, sync};
 use not_read::Noted;
+use segmentation::Segmented;
 use std::collections::BTreeSet;
 use std::sync::{Arc, OnceLock};
 
@@ -82,8 +83,7 @@ pub struct FrameWindow<'a> {
     /// By the scan of the leading LiDAR in their middle.
     lidar_windows: Recent<Key, Noted<Arc<LidarWindow>>>,
     images: Recent<Key, Noted<Option<Arc<CalibratedImage>>>>,
-    /// With the reason where one can't be read.
-    segmented: Recent<Key, Noted<Result<Option<Arc<SegmentedImage>>, String>>>,
+    segmented: Recent<Key, Noted<Segmented>>,
     /// What could not be read of the frame in the making.
     not_read: BTreeSet<NotRead>,
 }

@@ -6,6 +6,9 @@ use super::super::lidar::LidarView;
 use super::{FrameWindow, Key};
 use std::sync::Arc;
 
+/// An image's segmentation if it has one, and the reason where it can't be read.
+pub(super) type Segmented = Result<Option<Arc<SegmentedImage>>, String>;
+
 impl FrameWindow<'_> {
     /// The images nearest to a time with their segmentations; those without one are absent, and those whose can't be
     /// read are named.
@@ -28,7 +31,7 @@ impl FrameWindow<'_> {
         views
     }
 
-    fn segmentation(&mut self, key: Key) -> Result<Option<Arc<SegmentedImage>>, String> {
+    fn segmentation(&mut self, key: Key) -> Segmented {
         let known = self.segmented.get(&key);
         let found = known.unwrap_or_else(|| {
             let found = self.noting(|window| window.read_segmentation(key).map(|found| found.map(Arc::new)));
