@@ -1,6 +1,6 @@
 //! ROS recordings: from a first look to labels. The small files are of other programs (`testdata/make_ros.py`).
 
-use crate::support::{ROS_TOPICS, ralf};
+use crate::support::{Dataset, ROS_TOPICS, ralf, rows};
 use std::fs;
 use std::path::Path;
 
@@ -83,5 +83,34 @@ fn a_table_that_asks_for_what_is_not_there_is_refused() {
         fs::write(&table, text).unwrap();
         let out = beside(&folder, "out");
         ralf(["label", &fixture("plain.mcap"), "-o", &out, "--config", &table]).exits(1).says([told]);
+    }
+}
+
+/// A radar that was off: its topic is there, and nothing in it.
+#[test]
+fn a_sensor_without_measurements_is_read_back() {
+    let dataset = Dataset::new();
+    for sensor in ["radar_left", "lidar_top"] {
+        fs::remove_dir_all(dataset.file(sensor)).unwrap();
+        fs::create_dir(dataset.file(sensor)).unwrap();
+        dataset.put(&format!("{sensor}/timestamps.txt"), "");
+    }
+    fs::remove_dir_all(dataset.file("ground_truth/radar_left")).unwrap();
+    for ending in ["bag", "mcap"] {
+        let [file, out, again] =
+            ["", "out_", "own_"].map(|what| dataset.beside(&format!("{what}drive.{ending}")));
+        let settings = dataset.beside("drive.toml");
+        ralf(["convert", &dataset.path, "-o", &file, "-q"]).exits(0);
+        ralf(["label", &file, "-o", &out, "--config", &settings, "--no-check"]).exits(0).says([
+            "radar_left: no messages of /radar_left/points",
+            "lidar_top: no messages of /lidar_top/points",
+        ]);
+        let table = Path::new(&out).join("sequences/drive/plausibility.parquet");
+        assert!(rows(table).iter().all(|row| row.radar() == "radar_front"));
+        let again = again.replace('.', "_");
+        ralf(["convert", &file, "-o", &again, "--config", &settings, "-q"]).exits(0);
+        let toml = fs::read_to_string(Path::new(&again).join("sequences/drive/sequence.toml")).unwrap();
+        assert!(toml.contains("name = \"radar_left\"") && toml.contains("name = \"lidar_top\""), "{toml}");
+        fs::remove_file(settings).unwrap();
     }
 }

@@ -1,7 +1,7 @@
 //! Radar and LiDAR scans from messages, by the names of their fields.
 
 use super::messages::Messages;
-use super::point_clock::PointClock;
+use super::point_clock::{PointClock, Told};
 use crate::error::DataError;
 use crate::read::radial::radial;
 use ralf::sensors::LidarScan;
@@ -13,6 +13,8 @@ use ralf_ros::point_cloud::{PointCloudError, PointTable};
 pub(super) struct Columns {
     pub(super) names: Vec<String>,
     pub(super) values: Vec<Vec<f32>>,
+    /// How long they are; there may be none of them.
+    pub(super) rows: usize,
 }
 
 /// What is derived where a cloud has the two components of a velocity and no range rate of this name.
@@ -28,7 +30,7 @@ pub(super) fn radar_columns(messages: &Messages, message: &MessageRef) -> Result
     let table = table(messages, message, &cloud)?;
     let names: Vec<String> = table.names().map(str::to_owned).collect();
     let values = names.iter().filter_map(|name| table.column(name)).collect();
-    let mut columns = Columns { names, values };
+    let mut columns = Columns { names, values, rows: table.len() };
     for (name, components) in DERIVED {
         if let (None, [Some(vx), Some(vy)], [Some(x), Some(y)]) =
             (columns.get(name), columns.pair(components), columns.pair(["x", "y"]))
@@ -50,6 +52,11 @@ pub(super) fn lidar_scan(
 ) -> Result<LidarScan, DataError> {
     let cloud: PointCloud2 = messages.decode(message)?;
     let table = table(messages, message, &cloud)?;
+    if table.is_empty() {
+        // Some drivers leave the fields out then.
+        let times = clock.map(|_| Vec::new());
+        return Ok(LidarScan { t_ns, points: Vec::new(), times, intensity: Vec::new(), classes: None });
+    }
     let column = |name: &str| {
         table.column(name).ok_or_else(|| {
             let found = table.names().collect::<Vec<_>>().join(", ");
@@ -66,12 +73,8 @@ pub(super) fn lidar_scan(
     Ok(LidarScan { t_ns, points, times, intensity, classes: None })
 }
 
-/// How a LiDAR's points tell their times, after its first scan. The error inside is a sentence, of times in no unit.
-pub(super) fn point_clock(
-    messages: &Messages,
-    message: &MessageRef,
-    t_ns: i64,
-) -> Result<Result<Option<PointClock>, String>, DataError> {
+/// What one scan of a LiDAR says of how its points tell their times.
+pub(super) fn point_clock(messages: &Messages, message: &MessageRef, t_ns: i64) -> Result<Told, DataError> {
     let cloud: PointCloud2 = messages.decode(message)?;
     Ok(PointClock::find(&table(messages, message, &cloud)?, t_ns))
 }
@@ -91,7 +94,8 @@ impl Columns {
 fn scan_columns(scan: &RadarScan) -> Columns {
     let names = RadarReturn::FIELDS.map(|name| if name == "doppler_velocity" { "doppler" } else { name });
     let column = |field: usize| scan.returns.iter().map(|detection| detection.values()[field]).collect();
-    Columns { names: names.map(str::to_owned).into(), values: (0..names.len()).map(column).collect() }
+    let values = (0..names.len()).map(column).collect();
+    Columns { names: names.map(str::to_owned).into(), values, rows: scan.returns.len() }
 }
 
 pub(super) fn table<'a>(

@@ -3,7 +3,7 @@
 use super::cloud::{self, Columns};
 use super::messages::Messages;
 use super::topics::{TopicConfig, TopicKind, Topics};
-use super::{LABELLED, survey};
+use super::{LABELLED, survey, vehicle};
 use crate::error::DataError;
 use crate::read::models::{GENERIC, LIDARS, RADARS, named_in};
 use ralf_ros::container::{MessageRef, Topic};
@@ -11,13 +11,13 @@ use ralf_ros::message::{CameraInfo, Message, PointCloud2, RadarScan};
 use serde::Serialize;
 use std::path::Path;
 
-/// A guess, and what it leaves out.
+/// A guess, and what is to be said of it.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Guess {
     /// By name.
     pub topics: Topics,
-    /// Topics of types that are known, and why they are not used, a sentence each.
-    pub unused: Vec<String>,
+    /// What it rests on where nothing tells it, and topics of types that are known and not used, a sentence each.
+    pub remarks: Vec<String>,
 }
 
 /// Fields that only radars have.
@@ -54,7 +54,7 @@ const PLAIN_NAMES: [&str; 14] = [
     "compressed",
 ];
 
-/// So many scans of a topic are looked at.
+/// So many scans with detections of a topic are looked at.
 const FIRST_SCANS: usize = 10;
 
 /// A guess of the table `topics` of a recording.
@@ -63,12 +63,12 @@ pub fn guess(path: &Path) -> Result<Guess, DataError> {
 }
 
 pub(super) fn of_messages(messages: &Messages) -> Guess {
-    let mut guess = Guess { topics: Topics::new(), unused: Vec::new() };
+    let mut guess = Guess { topics: Topics::new(), remarks: Vec::new() };
     let topics = messages.container().topics();
     let usable = |topic: &Topic| topic.count > 0 && topic.known_encoding().is_some();
     for (place, topic) in topics.iter().enumerate().filter(|(_, topic)| usable(topic)) {
         if topic.name.ends_with(LABELLED) {
-            guess.unused.push(format!("{} is not used: it holds what `ralf label` found", topic.name));
+            guess.remarks.push(format!("{} is not used: it holds what `ralf label` found", topic.name));
         } else if PointCloud2::DEFINITION.is(&topic.type_name) || RadarScan::DEFINITION.is(&topic.type_name) {
             guess.add(cloud_entry(messages, topic, place));
         } else if survey::types(TopicKind::Camera).iter().any(|known| known.is(&topic.type_name)) {
@@ -82,6 +82,7 @@ pub(super) fn of_messages(messages: &Messages) -> Guess {
         }
     }
     guess.add_motion(topics);
+    guess.remarks.extend(vehicle::add(&mut guess.topics, messages));
     guess
 }
 
@@ -99,7 +100,7 @@ impl Guess {
     /// One topic of a camera: the first of its names, in which rectified images come before raw ones.
     fn add_camera(&mut self, topics: &[Topic], topic: &Topic) {
         let refuse =
-            |guess: &mut Self, why: &str| guess.unused.push(format!("{} is not used: {why}", topic.name));
+            |guess: &mut Self, why: &str| guess.remarks.push(format!("{} is not used: {why}", topic.name));
         let info = namespaces(&topic.name).map(|space| format!("{space}/camera_info")).find(|info| {
             topics.iter().any(|known| known.name == *info && CameraInfo::DEFINITION.is(&known.type_name))
         });
@@ -116,7 +117,7 @@ impl Guess {
         match self.topics.values_mut().find(|known| known.info == entry.info) {
             Some(known) if rectified && known.rectified.is_none() => {
                 let raw = std::mem::replace(known, entry);
-                self.unused
+                self.remarks
                     .push(format!("{} is not used: the same camera's rectified images are", raw.topic));
             }
             Some(known) => {
@@ -127,7 +128,7 @@ impl Guess {
         }
     }
 
-    /// The odometry with the most messages, or else a twist, with an IMU where that is all there is of turning.
+    /// The odometry with the most messages, or else a twist. An IMU tells no velocity.
     fn add_motion(&mut self, topics: &[Topic]) {
         // One without messages is a vehicle's that stands still.
         let most = |kind: TopicKind| {
@@ -147,7 +148,7 @@ impl Guess {
                     Some(chosen) => format!("{} tells the motion", chosen.topic),
                     None => "it tells no velocity".to_owned(),
                 };
-                self.unused.push(format!("{} is not used: {why}", topic.name));
+                self.remarks.push(format!("{} is not used: {why}", topic.name));
             }
         }
         if let Some(chosen) = chosen {
@@ -166,22 +167,61 @@ fn cloud_entry(messages: &Messages, topic: &Topic, place: usize) -> TopicConfig 
         model: Some(model.to_owned()),
         ..TopicConfig::new(&topic.name, kind)
     };
-    let mut scans = of_topic.filter_map(|message| cloud::radar_columns(messages, message).ok()).peekable();
-    if scans.peek().is_none() && (topic.name.contains("lidar") || named_in(&names, &LIDARS) != GENERIC) {
+    let scans = of_topic.filter_map(|message| cloud::radar_columns(messages, message).ok());
+    let is_lidar = |fields: &[String]| {
+        let has = |name: &&str| fields.iter().any(|known| known == name);
+        !topic.name.contains("radar") && has(&"x") && !RADAR_FIELDS.iter().any(has)
+    };
+    let Some(Scans { fields, heights }) = Scans::of(scans, is_lidar) else {
+        return with_model(TopicKind::Lidar, named_in(&names, &LIDARS));
+    };
+    let is_called_lidar = topic.name.contains("lidar") || named_in(&names, &LIDARS) != GENERIC;
+    if fields.is_empty() && is_called_lidar {
         return with_model(TopicKind::Lidar, named_in(&names, &LIDARS));
     }
-    let mut heights = Vec::new();
-    for Columns { names: fields, values } in scans.take(FIRST_SCANS) {
-        let has = |name: &&str| fields.iter().any(|known| known == name);
-        if !topic.name.contains("radar") && has(&"x") && !RADAR_FIELDS.iter().any(has) {
-            return with_model(TopicKind::Lidar, named_in(&names, &LIDARS));
+    let has_third = fields.is_empty() || third(&fields).is_some();
+    // One that measures no elevation has none to tell, or the same for all detections. One height tells nothing.
+    let elevation = match heights.as_slice() {
+        [] | [_] if has_third => None,
+        heights => Some(heights.iter().any(|height| *height != heights[0])),
+    };
+    TopicConfig { elevation, ..with_model(TopicKind::Radar, named_in(&names, &RADARS)) }
+}
+
+/// What the first scans of a radar with detections tell.
+#[derive(Default)]
+struct Scans {
+    /// Those of the scans with detections, or else of the empty ones; none where no scan names any.
+    fields: Vec<String>,
+    /// The third coordinate of all detections.
+    heights: Vec<f32>,
+}
+
+impl Scans {
+    /// Looks at scans; `None` where they are a LiDAR's by their fields.
+    fn of(scans: impl Iterator<Item = Columns>, is_lidar: impl Fn(&[String]) -> bool) -> Option<Self> {
+        let (mut found, mut looked_at) = (Self::default(), 0);
+        for Columns { names, values, rows } in scans {
+            if rows > 0 && is_lidar(&names) {
+                return None;
+            }
+            if rows > 0 || found.fields.is_empty() {
+                let third = third(&names).and_then(|third| values.get(third));
+                found.heights.extend(third.into_iter().flatten());
+                found.fields = names;
+            }
+            looked_at += usize::from(rows > 0);
+            if looked_at == FIRST_SCANS {
+                break;
+            }
         }
-        let third = fields.iter().position(|name| ["z", "elevation"].contains(&name.as_str()));
-        heights.extend(third.into_iter().flat_map(|third| values[third].iter().copied()));
+        Some(found).filter(|found| !is_lidar(&found.fields))
     }
-    // One that measures no elevation has none to tell, or the same for all detections.
-    let elevation = heights.iter().any(|height| *height != heights[0]);
-    TopicConfig { elevation: Some(elevation), ..with_model(TopicKind::Radar, named_in(&names, &RADARS)) }
+}
+
+/// The place of the third coordinate.
+fn third(fields: &[String]) -> Option<usize> {
+    fields.iter().position(|name| ["z", "elevation"].contains(&name.as_str()))
 }
 
 /// The frame of a message; `None` where it can't be read.
@@ -208,7 +248,7 @@ fn name(topic: &str) -> String {
     parts.join("_")
 }
 
-/// The table as it stands in a settings file, with what the guess leaves out as comments.
+/// The table as it stands in a settings file, with what is to be said of the guess as comments.
 pub fn topics_toml(guess: &Guess) -> Result<String, DataError> {
     // A struct, for a table would sort its keys.
     #[derive(Serialize)]
@@ -218,11 +258,11 @@ pub fn topics_toml(guess: &Guess) -> Result<String, DataError> {
     let text = toml::to_string(&Settings { topics: &guess.topics }).map_err(|error| {
         DataError::content(Path::new("topics"), "names", "what TOML can hold", error.to_string())
     })?;
-    let unused: String = guess.unused.iter().map(|sentence| format!("# {sentence}\n")).collect();
+    let remarks: String = guess.remarks.iter().map(|sentence| format!("# {sentence}\n")).collect();
     let head = "# Which topic is which sensor: a first guess. Say what the sensors are: `model` gives their \
                 uncertainties\n\
                 # and fields of view, and the tables `sensors` replace them one by one.\n";
-    Ok(format!("{head}{unused}\n{text}"))
+    Ok(format!("{head}{remarks}\n{text}"))
 }
 
 #[cfg(test)]

@@ -49,10 +49,13 @@ impl Messages {
         if topic.known_encoding().is_none() {
             return Err(refused(format!("`{name}` in the encoding ros1 or cdr"), topic.encoding.clone()));
         }
-        if topic.count == 0 {
-            return Err(refused(format!("messages of `{name}`"), "none".to_owned()));
-        }
         Ok(*place)
+    }
+
+    /// Whether a topic is there and has no messages.
+    pub(super) fn is_silent(&self, name: &str) -> bool {
+        let mut named = self.container.topics().iter().filter(|topic| topic.name == name).peekable();
+        named.peek().is_some() && named.all(|topic| topic.count == 0)
     }
 
     pub(super) fn topic(&self, message: &MessageRef) -> &Topic {

@@ -20,6 +20,7 @@ mod tests;
 mod topics;
 mod track;
 mod unread;
+mod vehicle;
 
 use crate::error::DataError;
 use crate::read::Recording;
@@ -43,12 +44,12 @@ pub(crate) fn open(path: &Path, topics: &Topics) -> Result<Recording, DataError>
     let messages = Messages::open(path)?;
     let mut warnings: Vec<String> = messages.container().losses().iter().map(ToString::to_string).collect();
     let topics = if topics.is_empty() {
-        let Guess { topics, unused } = guess::of_messages(&messages);
+        let Guess { topics, remarks } = guess::of_messages(&messages);
         warnings.push(
             "no table `topics` in the settings: a first guess of it is used; `ralf inspect` shows it"
                 .to_owned(),
         );
-        warnings.extend(unused);
+        warnings.extend(remarks);
         topics
     } else {
         topics.clone()

@@ -7,6 +7,9 @@ use super::topics::{TopicConfig, TopicKind, Topics};
 use crate::error::DataError;
 use ralf::space::{EgoMotion, OdometrySample, PoseSample, Transform, Vector, transform_from_parts};
 
+/// A vehicle whose poses lie this far from the first has moved, m: those of a parked one wander less.
+const MOVED: f64 = 2.0;
+
 /// A topic of the motion: its settings, what it holds, and `vehicle_from_child` of its frame.
 struct Part<'a> {
     track: &'a MotionTrack,
@@ -27,14 +30,16 @@ pub(super) fn motion(
     let imu = part(messages, topics, survey, vehicle, TopicKind::Imu)?;
     let poses = odometry.as_ref().map_or_else(|| Ok(Vec::new()), |part| part.poses(messages))?;
     let moving = twist.or(odometry);
-    let mut wheels = moving.map_or_else(Vec::new, |part| part.twists());
+    let mut wheels = moving.as_ref().map_or_else(Vec::new, |part| part.velocities(&poses, warnings));
+    let idle = topics.iter().filter(|(name, topic)| topic.kind == TopicKind::Imu && !survey.tells(name));
+    warnings.extend(idle.map(|(_, topic)| format!("{}: no messages", topic.topic)));
     if let Some(imu) = imu {
         let rates = imu.twists();
         for sample in &mut wheels {
             sample.yaw_rate = yaw_rate(&rates, sample.t_ns);
         }
     }
-    if let (true, true, Some(topic)) = (wheels.is_empty(), poses.is_empty(), silent(topics)) {
+    if let (None, true, Some(topic)) = (moving, poses.is_empty(), silent(topics)) {
         warnings.push(format!("{}: no messages: the vehicle is taken to stand still", topic.topic));
         wheels.push(OdometrySample { t_ns: survey.first_time(), velocity: 0.0, yaw_rate: 0.0 });
     }
@@ -90,6 +95,28 @@ impl Part<'_> {
         self.track.samples.iter().map(pose).collect()
     }
 
+    /// The twists that are numbers. Programs that estimate poses alone leave theirs at zero or NaN: where the poses
+    /// move and no velocity does, there are none, so that the poses tell it.
+    fn velocities(&self, poses: &[PoseSample], warnings: &mut Vec<String>) -> Vec<OdometrySample> {
+        let mut told = self.twists();
+        let (name, all) = (&self.topic.topic, told.len());
+        told.retain(|sample| sample.velocity.is_finite() && sample.yaw_rate.is_finite());
+        if told.len() < all {
+            warnings
+                .push(format!("{name}: {} of {all} twists are no numbers, and not used", all - told.len()));
+        }
+        let is_zero = |sample: &MotionSample| sample.twist.linear.iter().all(|v| *v == 0.0 || !v.is_finite());
+        let metres = farthest(poses);
+        if !told.is_empty() && metres >= MOVED && self.track.samples.iter().all(is_zero) {
+            warnings.push(format!(
+                "{name}: all its velocities are 0 while the poses move by {metres:.0} m: they are not used, and the \
+                 poses tell how fast the vehicle is"
+            ));
+            told.clear();
+        }
+        told
+    }
+
     /// Along the vehicle's x and about its z: at the vehicle's origin, whatever frame was measured in.
     fn twists(&self) -> Vec<OdometrySample> {
         let (rotation, lever) =
@@ -102,6 +129,13 @@ impl Part<'_> {
         };
         self.track.samples.iter().map(twist).collect()
     }
+}
+
+/// How far from the first the farthest pose lies, m.
+fn farthest(poses: &[PoseSample]) -> f64 {
+    let place = |pose: &PoseSample| pose.odom_from_vehicle.translation.vector;
+    let first = poses.first().map(place).unwrap_or_default();
+    poses.iter().map(|pose| (place(pose) - first).norm()).fold(0.0, f64::max)
 }
 
 /// Linear between two samples, held outside of them.

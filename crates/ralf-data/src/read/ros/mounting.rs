@@ -21,7 +21,8 @@ pub(super) fn vehicle_frame(
     };
     let known = of_kind(TopicKind::Odometry).or_else(|| of_kind(TopicKind::Twist));
     known.filter(|frame| !frame.is_empty()).ok_or_else(|| {
-        let expected = "`vehicle_frame` with the odometry, twist or IMU, or messages that name it";
+        let expected = "`vehicle_frame` with one of the topics (`topics.tf_static.vehicle_frame = \"base_link\"`), or \
+                        odometry or a twist whose messages name it";
         DataError::content(messages.path(), "topics", expected, "neither")
     })
 }

@@ -1,8 +1,8 @@
 //! When the points of a LiDAR's clouds were measured: drivers agree neither on the field nor on its unit.
 //!
-//! The first scan tells the unit. Times are either on the header's clock, and lie within a second of its stamp in one
-//! unit, or relative to the stamp, and then their spread tells it: no scan is shorter than a millisecond or longer than
-//! a second, and units are a thousand apart.
+//! The first scan whose times differ tells the unit. Times are either on the header's clock, and lie within a second of
+//! its stamp in one unit, or relative to the stamp, and then their spread tells it: no scan is shorter than a
+//! millisecond or longer than a second, and units are a thousand apart.
 
 use crate::read::point_times::LONGEST;
 use ralf::sensors::is_return;
@@ -14,6 +14,19 @@ const FIELDS: [&str; 5] = ["t", "time", "timestamp", "time_stamp", "offset_time"
 const UNITS: [(&str, f64); 4] = [("s", 1.0), ("ms", 1e-3), ("us", 1e-6), ("ns", 1e-9)];
 /// No LiDAR scans faster, s.
 const SHORTEST: f64 = 1e-3;
+
+/// What a scan says of how its points tell their times.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Told {
+    /// Points without a time.
+    NoTimes,
+    /// No points, or all of one time in the field that is named: another scan may tell more.
+    Nothing(Option<&'static str>),
+    /// How.
+    Clock(PointClock),
+    /// A sentence: times in no unit.
+    Strange(String),
+}
 
 /// A field of times.
 #[derive(Debug, Clone, PartialEq)]
@@ -27,17 +40,17 @@ pub(super) struct PointClock {
 }
 
 impl PointClock {
-    /// The field of a cloud that tells its points' times; `None` where there is none, or all times are the same.
-    /// The error is a sentence, of a field in no unit.
-    pub(super) fn find(table: &PointTable, t_ns: i64) -> Result<Option<Self>, String> {
+    /// The field of a cloud that tells its points' times.
+    pub(super) fn find(table: &PointTable, t_ns: i64) -> Told {
         let Some(field) = FIELDS.into_iter().find(|field| table.names().any(|name| name == *field)) else {
-            return Ok(None);
+            // Some drivers leave the fields out where there are no points.
+            return if table.is_empty() { Told::Nothing(None) } else { Told::NoTimes };
         };
         let times = table.wide_column(field).unwrap_or_default();
         let times: Vec<f64> = times.into_iter().filter(|time| time.is_finite()).collect();
         let (first, last) = times.iter().fold((f64::MAX, f64::MIN), |(a, b), t| (a.min(*t), b.max(*t)));
         if first >= last {
-            return Ok(None);
+            return Told::Nothing(Some(field));
         }
         let stamp = t_ns as f64 * 1e-9;
         let fits = |(seconds, is_absolute): (f64, bool)| {
@@ -48,9 +61,10 @@ impl PointClock {
             let unit = UNITS.into_iter().find(|(_, seconds)| fits((*seconds, is_absolute)));
             unit.map(|(unit, seconds)| Self { field, unit, seconds, is_absolute })
         };
-        clock(false).or_else(|| clock(true)).map(Some).ok_or_else(|| {
+        let strange = || {
             format!("`{field}` from {first} to {last} is a time of points in no known unit, and is not used")
-        })
+        };
+        clock(false).or_else(|| clock(true)).map_or_else(|| Told::Strange(strange()), Told::Clock)
     }
 
     /// Seconds after the scan's time, point by point; 0 of what is no return. The error is a point whose time lies more
@@ -124,7 +138,7 @@ mod tests {
         ] {
             let cloud = cloud(field, datatype, &times);
             let table = PointTable::new(&cloud).unwrap();
-            let clock = PointClock::find(&table, T_NS).unwrap().unwrap();
+            let Told::Clock(clock) = PointClock::find(&table, T_NS) else { panic!("{driver}") };
             assert_eq!(clock.unit, unit, "{driver}");
             let found = clock.times(&table, &[[1.0; 3]; 2], T_NS).unwrap();
             assert!(
@@ -140,17 +154,21 @@ mod tests {
             let cloud = cloud(field, Datatype::Float64, times);
             PointClock::find(&PointTable::new(&cloud).unwrap(), T_NS)
         };
-        assert_eq!(find("t", &[0.0, 0.0]), Ok(None));
-        assert_eq!(find("t", &[f64::NAN]), Ok(None));
-        assert_eq!(find("ring", &[0.0, 0.1]), Ok(None));
-        let error = find("time", &[1.0e9, 1.0e9 + 0.1]).unwrap_err();
-        assert!(error.contains("`time` from 1000000000 to"), "{error}");
+        assert_eq!(find("t", &[0.0, 0.0]), Told::Nothing(Some("t")));
+        assert_eq!(find("t", &[f64::NAN]), Told::Nothing(Some("t")));
+        assert_eq!(find("t", &[]), Told::Nothing(Some("t")));
+        assert_eq!(find("ring", &[]), Told::Nothing(None));
+        assert_eq!(find("ring", &[0.0, 0.1]), Told::NoTimes);
+        let Told::Strange(sentence) = find("time", &[1.0e9, 1.0e9 + 0.1]) else { panic!("a unit") };
+        assert!(sentence.contains("`time` from 1000000000 to"), "{sentence}");
     }
 
     #[test]
     fn a_point_of_another_day_is_refused_unless_it_is_no_return() {
         let first = cloud("time", Datatype::Float64, &[0.0, 0.1]);
-        let clock = PointClock::find(&PointTable::new(&first).unwrap(), T_NS).unwrap().unwrap();
+        let Told::Clock(clock) = PointClock::find(&PointTable::new(&first).unwrap(), T_NS) else {
+            panic!("no clock")
+        };
         let later = cloud("time", Datatype::Float64, &[0.05, 7.0]);
         let table = PointTable::new(&later).unwrap();
         assert_eq!(clock.times(&table, &[[1.0; 3], [0.0; 3]], T_NS).unwrap(), [0.05, 0.0]);

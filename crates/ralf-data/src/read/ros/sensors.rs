@@ -2,10 +2,10 @@
 //! measured.
 
 use super::camera::intrinsics;
-use super::cloud::{point_clock, radar_columns};
+use super::cloud::{Columns, point_clock, radar_columns};
 use super::messages::Messages;
 use super::mounting::{mounting, sensor_frame};
-use super::point_clock::PointClock;
+use super::point_clock::{PointClock, Told};
 use super::survey::{Survey, info_topic};
 use super::topics::{TopicConfig, TopicKind, Topics};
 use super::track::{MessagesPerSensor, Track};
@@ -44,6 +44,9 @@ pub(super) struct LidarClock {
     pub(super) is_rolling: bool,
 }
 
+/// What a radar measures none of whose scans tell it.
+const UNTOLD: [&str; 3] = ["x", "y", "z"];
+
 /// A sensor that is asked for, with what is known of the recording.
 struct Asked<'a> {
     messages: &'a Messages,
@@ -62,14 +65,12 @@ impl Sensors {
         survey: &Survey,
         vehicle: &str,
     ) -> Result<Self, DataError> {
-        let mut sensors = Self::default();
+        let (mut sensors, silent) = (Self::default(), Track::default());
         for (name, topic) in topics {
-            let Some(track) = survey.sensors.get(name) else { continue };
+            let track = survey.sensors.get(name).unwrap_or(&silent);
             let asked = Asked { messages, survey, vehicle, name, topic, track };
-            match topic.kind {
-                TopicKind::Radar => sensors.add_radar(&asked)?,
-                TopicKind::Lidar => sensors.add_lidar(&asked)?,
-                _ => sensors.add_camera(&asked),
+            if topic.kind.is_sensor() && !sensors.leave_out_silent(&asked) {
+                sensors.add(&asked)?;
             }
         }
         let sentence = |names: &str, reason: &str| {
@@ -79,13 +80,38 @@ impl Sensors {
         Ok(sensors)
     }
 
+    fn add(&mut self, asked: &Asked) -> Result<(), DataError> {
+        match asked.topic.kind {
+            TopicKind::Radar => self.add_radar(asked)?,
+            TopicKind::Lidar => self.add_lidar(asked)?,
+            _ => self.add_camera(asked),
+        }
+        Ok(())
+    }
+
+    /// Says of a sensor without messages that it has none. Without a frame it has no place either, and is left out.
+    fn leave_out_silent(&mut self, asked: &Asked) -> bool {
+        let Asked { name, topic, track, .. } = *asked;
+        if !track.is_silent() {
+            return false;
+        }
+        let none = format!("{name}: no messages of {}", topic.topic);
+        if topic.frame.is_some() {
+            self.warnings.push(none);
+            return false;
+        }
+        let why = format!("nothing tells its frame (`topics.{name}.frame` would): left out");
+        self.warnings.push(format!("{none}, and {why}"));
+        self.absent.push(name.to_owned());
+        true
+    }
+
     fn add_radar(&mut self, asked: &Asked) -> Result<(), DataError> {
         let Some(vehicle_from_radar) = asked.vehicle_from_sensor()? else {
             self.lose(asked, asked.unread());
             return Ok(());
         };
-        let first = asked.first(|_, message| Ok(radar_columns(asked.messages, message)?.names));
-        let (message, fields) = match first {
+        let fields = match asked.radar_fields() {
             Ok(found) => found,
             Err(error @ DataError::Io { .. }) => return Err(error),
             Err(error) => {
@@ -93,7 +119,7 @@ impl Sensors {
                 return Ok(());
             }
         };
-        self.rig.radars.push(asked.radar(&message, &fields, vehicle_from_radar)?);
+        self.rig.radars.push(asked.radar(fields, vehicle_from_radar)?);
         self.radar_frames.push(asked.frame().to_owned());
         asked.track.keep(&mut self.times.radars, &mut self.radars);
         Ok(())
@@ -140,11 +166,11 @@ impl Sensors {
         self.left_out.add(asked.unread(), format!("the {kind} {}", asked.name));
     }
 
-    /// How a LiDAR's first scan tells times, with a warning of what is done with them.
+    /// How a LiDAR's scans tell times, with a warning of what is done with them.
     fn clock(&mut self, asked: &Asked) -> Result<LidarClock, DataError> {
-        let Asked { messages, name, topic, .. } = *asked;
-        let found = match asked.first(|t_ns, message| point_clock(messages, message, t_ns)) {
-            Ok((_, found)) => found,
+        let Asked { name, topic, .. } = *asked;
+        let found = match asked.point_clock() {
+            Ok(found) => found,
             Err(error @ DataError::Io { .. }) => return Err(error),
             Err(error) => Err(asked.nothing(&error.to_string())),
         };
@@ -172,25 +198,64 @@ impl Asked<'_> {
 
     /// Where it is mounted; `None` where no message tells its frame and the times of its measurements.
     fn vehicle_from_sensor(&self) -> Result<Option<Transform>, DataError> {
-        let Some(span) = self.track.span() else { return Ok(None) };
+        let silent = || self.track.is_silent().then(|| [self.survey.first_time(); 2]);
+        let Some(span) = self.track.span().or_else(silent) else { return Ok(None) };
         mounting(self.messages, self.survey, self.vehicle, self.frame(), span).map(Some)
     }
 
-    /// What the first message tells that can be read, at its time; the error of the first one where none can.
+    /// What the first message tells that tells anything, at its time; the error of the first one where none can be
+    /// read.
     fn first<T>(
         &self,
-        read: impl Fn(i64, &MessageRef) -> Result<T, DataError>,
-    ) -> Result<(MessageRef, T), DataError> {
-        let mut failed = None;
+        mut read: impl FnMut(i64, &MessageRef) -> Result<Option<T>, DataError>,
+    ) -> Result<Option<T>, DataError> {
+        let (mut failed, mut is_read) = (None, false);
         for (t_ns, message) in self.track.timeline() {
             match read(t_ns, &message) {
-                Ok(found) => return Ok((message, found)),
+                Ok(None) => is_read = true,
                 Err(error @ DataError::Io { .. }) => return Err(error),
                 Err(error) => drop(failed.get_or_insert(error)),
+                found => return found,
             }
         }
-        let none = || DataError::content(self.messages.path(), &self.topic.topic, "a message", "none");
-        Err(failed.unwrap_or_else(none))
+        failed.filter(|_| !is_read).map_or(Ok(None), Err)
+    }
+
+    /// The fields of the first scan with detections, and the message that tells them; where there is none, of the first
+    /// scan that names any.
+    fn radar_fields(&self) -> Result<Option<(MessageRef, Vec<String>)>, DataError> {
+        let mut of_empty = None;
+        let found = self.first(|_, message| {
+            let Columns { names, rows, .. } = radar_columns(self.messages, message)?;
+            if rows > 0 {
+                return Ok(Some((*message, names)));
+            }
+            if !names.is_empty() {
+                of_empty.get_or_insert((*message, names));
+            }
+            Ok(None)
+        })?;
+        Ok(found.or(of_empty))
+    }
+
+    /// How a LiDAR's points tell times, by the first scan whose times differ. The error inside is a sentence, of times
+    /// that are not used.
+    fn point_clock(&self) -> Result<Result<Option<PointClock>, String>, DataError> {
+        let mut idle = None;
+        let found = self.first(|t_ns, message| {
+            Ok(match point_clock(self.messages, message, t_ns)? {
+                Told::NoTimes => Some(Ok(None)),
+                Told::Clock(clock) => Some(Ok(Some(clock))),
+                Told::Strange(sentence) => Some(Err(sentence)),
+                Told::Nothing(field) => {
+                    idle = idle.or(field);
+                    None
+                }
+            })
+        })?;
+        let idle = idle.filter(|_| self.topic.motion_corrected != Some(true));
+        let unused = |field| format!("`{field}` is the same for all points of each scan, and is not used");
+        Ok(found.unwrap_or_else(|| idle.map_or(Ok(None), |field| Err(unused(field)))))
     }
 
     /// Why the first message can't be read whose header can't.
@@ -205,21 +270,26 @@ impl Asked<'_> {
         format!("none of its {count} messages can be read; the first: {reason}")
     }
 
-    /// A radar with the fields of this message.
+    /// A radar with the fields of this message; with those that every radar may have where no message tells them.
     fn radar(
         &self,
-        message: &MessageRef,
-        fields: &[String],
+        told: Option<(MessageRef, Vec<String>)>,
         vehicle_from_radar: Transform,
     ) -> Result<Radar, DataError> {
         let Self { messages, name, topic, .. } = *self;
-        let mut radar = self.model(&RADARS)?.mounted(name, fields, vehicle_from_radar);
+        let (message, fields) = told.map_or_else(
+            || (None, UNTOLD.map(str::to_owned).to_vec()),
+            |(message, fields)| (Some(message), fields),
+        );
+        let mut radar = self.model(&RADARS)?.mounted(name, &fields, vehicle_from_radar);
         match topic.elevation {
             Some(true) => radar.elevation = Elevation::Measured,
             Some(false) => radar.elevation = Elevation::None,
             None => {}
         }
-        check_fields(&radar).map_err(|why| messages.refused(message, "fields", &why))?;
+        if let Some(message) = message {
+            check_fields(&radar).map_err(|why| messages.refused(&message, "fields", &why))?;
+        }
         radar.check().map_err(|expected| {
             let found = format!("the model `{}`", topic.model.as_deref().unwrap_or_default());
             DataError::content(messages.path(), format!("topics.{name}"), expected, found)

@@ -90,12 +90,16 @@ impl Source for Drive {
         let message = measurement("radar", &self.radars, radar, scan)?;
         let model = &self.sequence.rig.radars[radar];
         let columns = radar_columns(&self.origin.messages, message)?;
+        let t_ns = self.sequence.times.radars[radar][scan];
+        if columns.rows == 0 {
+            // Some drivers leave the fields out where nothing was detected.
+            return Ok(RadarScan::new(model, t_ns, vec![Vec::new(); model.fields.len()])?);
+        }
         if columns.names != model.fields {
             let (expected, found) = (model.fields.join(", "), columns.names.join(", "));
             let expected = format!("those of the first scan, {expected}");
             return Err(self.origin.messages.error(message, "fields", expected, found).into());
         }
-        let t_ns = self.sequence.times.radars[radar][scan];
         let scan = RadarScan::new(model, t_ns, columns.values);
         Ok(scan
             .map_err(|found| self.origin.messages.error(message, "columns", "those of the radar", found))?)

@@ -114,18 +114,10 @@ pub(super) fn survey(messages: &Messages, topics: &Topics) -> Result<Survey, Dat
     Ok(survey)
 }
 
-/// Whether a topic that tells of the motion has no messages: those of a vehicle that stands still.
-fn is_silent(messages: &Messages, topic: &TopicConfig) -> bool {
-    let mut named = messages.container().topics().iter().filter(|known| known.name == topic.topic).peekable();
-    matches!(topic.kind, TopicKind::Odometry | TopicKind::Twist)
-        && named.peek().is_some()
-        && named.all(|known| known.count == 0)
-}
-
 fn roles<'a>(messages: &Messages, topics: &'a Topics) -> Result<Vec<Vec<Role<'a>>>, DataError> {
     let mut roles: Vec<Vec<Role<'_>>> = vec![Vec::new(); messages.container().topics().len()];
     for (name, topic) in topics {
-        if is_silent(messages, topic) {
+        if messages.is_silent(&topic.topic) {
             continue;
         }
         let place = messages.resolve(&format!("topics.{name}"), &topic.topic, types(topic.kind))?;
@@ -150,6 +142,11 @@ impl Survey {
     pub(super) fn first_time(&self) -> i64 {
         let spans = self.sensors.values().filter_map(Track::span);
         spans.map(|[first, _]| first).min().unwrap_or_default()
+    }
+
+    /// Whether a topic tells of the motion.
+    pub(super) fn tells(&self, name: &str) -> bool {
+        self.motion.contains_key(name)
     }
 
     /// What is said of the messages of the tree of frames that can't be read.
@@ -232,9 +229,9 @@ impl Survey {
     fn check_complete(&self, messages: &Messages, topics: &Topics) -> Result<(), DataError> {
         let is_read = |name: &String, topic: &TopicConfig| {
             matches!(topic.kind, TopicKind::Tf | TopicKind::TfStatic)
-                || is_silent(messages, topic)
+                || messages.is_silent(&topic.topic)
                 || self.sensors.contains_key(name)
-                || self.motion.contains_key(name)
+                || self.tells(name)
         };
         let Some((_, topic)) = topics.iter().find(|(name, topic)| !is_read(name, topic)) else {
             return Ok(());
@@ -296,7 +293,11 @@ fn same_frame(
 }
 
 /// What a message tells of the motion, as a track of one sample.
-fn motion(messages: &Messages, message: &MessageRef, bytes: &[u8]) -> Result<MotionTrack, DataError> {
+pub(super) fn motion(
+    messages: &Messages,
+    message: &MessageRef,
+    bytes: &[u8],
+) -> Result<MotionTrack, DataError> {
     let type_name = &messages.topic(message).type_name;
     let (header, frame, pose, twist) = if Odometry::DEFINITION.is(type_name) {
         let found = messages.decoded(message, bytes, Odometry::from_bytes)?;

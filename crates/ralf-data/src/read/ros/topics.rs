@@ -33,7 +33,7 @@ pub struct TopicConfig {
     /// Sensor: its frame; that of the messages, if not given.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub frame: Option<String>,
-    /// Odometry, twist or IMU: the vehicle's frame; that of the motion's own messages, if not given.
+    /// The vehicle's frame, of whichever topic it is told; that of the motion's own messages, if not given.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub vehicle_frame: Option<String>,
     /// Where times come from; the header, if not given.
@@ -61,6 +61,13 @@ pub enum TopicKind {
     Tf,
     /// `tf2_msgs/TFMessage`: frames that don't.
     TfStatic,
+}
+
+impl TopicKind {
+    /// Whether it is a radar, a LiDAR or a camera.
+    pub(super) fn is_sensor(self) -> bool {
+        matches!(self, Self::Radar | Self::Lidar | Self::Camera)
+    }
 }
 
 /// Where the time of a measurement comes from.
@@ -92,7 +99,7 @@ impl TopicConfig {
 
     /// Keys that are given and have no meaning for this kind.
     fn out_of_place(&self) -> Option<&'static str> {
-        use TopicKind::{Camera, Imu, Lidar, Odometry, Radar, Tf, TfStatic, Twist};
+        use TopicKind::{Camera, Imu, Lidar, Radar, Tf, TfStatic};
         let given = [
             ("model", self.model.is_some(), [Radar, Lidar].as_slice()),
             ("elevation", self.elevation.is_some(), &[Radar]),
@@ -100,7 +107,6 @@ impl TopicConfig {
             ("rectified", self.rectified.is_some(), &[Camera]),
             ("motion_corrected", self.motion_corrected.is_some(), &[Lidar]),
             ("frame", self.frame.is_some(), &[Radar, Lidar, Camera, Imu]),
-            ("vehicle_frame", self.vehicle_frame.is_some(), &[Odometry, Twist, Imu]),
         ];
         let stamps = ("stamps", self.stamps.is_some() && matches!(self.kind, Tf | TfStatic), [].as_slice());
         let all = given.into_iter().chain([stamps]);

@@ -17,6 +17,11 @@ pub(super) struct Track {
 }
 
 impl Track {
+    /// Whether there are no messages at all.
+    pub(super) fn is_silent(&self) -> bool {
+        self.readable.is_empty() && self.unreadable.is_empty()
+    }
+
     /// The first and the last time that is known; `None` where no message can be read.
     pub(super) fn span(&self) -> Option<[i64; 2]> {
         let (first, last) = self.readable.first().zip(self.readable.last())?;

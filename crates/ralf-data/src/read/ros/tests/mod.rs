@@ -3,6 +3,7 @@
 mod damage;
 mod reading;
 mod refusals;
+mod sparse;
 
 use super::*;
 use crate::read::SequenceReader;

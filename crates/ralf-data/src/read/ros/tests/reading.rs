@@ -73,7 +73,7 @@ fn the_imu_turns_what_the_odometry_moves() {
 #[test]
 fn odometry_without_a_frame_is_the_vehicles() {
     let drive = Drive { vehicle: "", ..Drive::default() };
-    assert!(error(&drive, TABLE).contains("`vehicle_frame` with the odometry"));
+    assert!(error(&drive, TABLE).contains("expected `vehicle_frame` with one of the topics"));
     let (_folder, path) = drive.write();
     let text = TABLE.replace("'odometry' }", "'odometry', vehicle_frame = 'base' }");
     assert_eq!(open_file(&path, &text).unwrap().sequence().motion.poses().len(), 8);
@@ -97,7 +97,7 @@ fn without_a_table_a_guess_is_made_and_said() {
     found.get_mut("rear").unwrap().elevation = None;
     // Its fields make the roof's cloud a LiDAR's.
     assert_eq!(found, expected, "{text}");
-    assert_eq!(guess.unused, ["/imu is not used: /odom tells the motion"]);
+    assert_eq!(guess.remarks, ["/imu is not used: /odom tells the motion"]);
     let drive = crate::read::open(&path, None).unwrap().sequences.remove(0);
     assert!(drive.warnings()[0].contains("a first guess of it is used"), "{:?}", drive.warnings());
     assert_eq!(drive.sequence().rig.radars.len(), 2);

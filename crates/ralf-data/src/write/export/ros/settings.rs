@@ -25,13 +25,15 @@ pub(super) fn settings(file: &Path, reader: &dyn SequenceReader) -> Result<Strin
     let unlike = |found| DataError::content(file, "sensors", "names that differ in ROS, too", found);
     let names = Names::of(&sequence.rig).map_err(unlike)?;
     let mut settings = Settings { topics: motion(reader), sensors: BTreeMap::new() };
-    for (radar, name) in sequence.rig.radars.iter().zip(&names.radars) {
+    for ((radar, name), times) in sequence.rig.radars.iter().zip(&names.radars).zip(&sequence.times.radars) {
         let elevation = Some(radar.elevation == Elevation::Measured);
-        settings.add(&radar.name, TopicConfig { elevation, ..cloud(name, TopicKind::Radar) });
+        let frame = frame(name, times);
+        settings.add(&radar.name, TopicConfig { elevation, frame, ..cloud(name, TopicKind::Radar) });
         settings.sensors.insert(radar.name.clone(), of_radar(radar));
     }
-    for (lidar, name) in sequence.rig.lidars.iter().zip(&names.lidars) {
-        settings.add(&lidar.name, cloud(name, TopicKind::Lidar));
+    for ((lidar, name), times) in sequence.rig.lidars.iter().zip(&names.lidars).zip(&sequence.times.lidars) {
+        let frame = frame(name, times);
+        settings.add(&lidar.name, TopicConfig { frame, ..cloud(name, TopicKind::Lidar) });
         settings.sensors.insert(lidar.name.clone(), of_lidar(lidar));
     }
     for (camera, name) in sequence.rig.cameras.iter().zip(&names.cameras) {
@@ -49,6 +51,11 @@ impl Settings {
     fn add(&mut self, name: &str, topic: TopicConfig) {
         self.topics.insert(name.to_owned(), topic);
     }
+}
+
+/// The frame of a sensor none of whose messages tells it, for it measured nothing.
+fn frame(name: &str, times: &[i64]) -> Option<String> {
+    times.is_empty().then(|| name.to_owned())
 }
 
 fn cloud(name: &str, kind: TopicKind) -> TopicConfig {

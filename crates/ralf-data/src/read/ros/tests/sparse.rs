@@ -1,0 +1,226 @@
+//! Scans without a point, topics without a message, and motion of which little is told.
+
+use super::*;
+use ralf_ros::message::Message;
+
+/// A recording of a LiDAR, a radar and a tree of frames, and what else is filled in.
+fn recording(fill: impl FnOnce(&Drive, &mut MessageWriter<File>)) -> (TempDir, PathBuf) {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("drive.mcap");
+    let mut to = MessageWriter::mcap(File::create(&path).unwrap(), Compression::None).unwrap();
+    let drive = Drive::default();
+    let frames: Topic<TfMessage> = to.topic("/tf_static", Delivery::Latched).unwrap();
+    to.write(&frames, T0, &drive.transform(0, ["base", "radar"], [3.0, 0.0, 0.5])).unwrap();
+    to.write(&frames, T0, &drive.transform(0, ["base", "lidar"], [0.0, 0.0, 2.0])).unwrap();
+    fill(&drive, &mut to);
+    to.finish().unwrap();
+    (folder, path)
+}
+
+/// Writes messages of a topic, each at its time, ms.
+fn write<M: Message>(
+    to: &mut MessageWriter<File>,
+    topic: &str,
+    messages: impl IntoIterator<Item = (i64, M)>,
+) {
+    let topic: Topic<M> = to.topic(topic, Delivery::Live).unwrap();
+    messages.into_iter().for_each(|(ms, message)| to.write(&topic, T0 + ms * MS, &message).unwrap());
+}
+
+fn odometry(drive: &Drive, to: &mut MessageWriter<File>) {
+    write(to, "/odom", (0..8).map(|k| (100 * k, drive.odometry(100 * k))));
+}
+
+/// A radar's scan with detections at these heights.
+fn scan(drive: &Drive, ms: i64, heights: &[f32]) -> (i64, PointCloud2) {
+    let detections: Vec<[f32; 5]> = heights.iter().map(|z| [8.0, 1.0, *z, 1.0, 0.0]).collect();
+    (ms, drive.cloud(ms, &detections, "vx"))
+}
+
+/// One without detections, whose driver leaves the fields out then.
+fn nothing(drive: &Drive, ms: i64) -> (i64, PointCloud2) {
+    (ms, PointCloud2 { fields: Vec::new(), point_step: 0, ..scan(drive, ms, &[]).1 })
+}
+
+/// A LiDAR's scan, two metres from point to point, with the time of each, s.
+fn revolution(drive: &Drive, ms: i64, times: &[f32]) -> (i64, PointCloud2) {
+    let points: Vec<[f32; 5]> =
+        times.iter().enumerate().map(|(k, t)| [10.0 + 2.0 * k as f32, 0.0, 0.0, *t, 0.0]).collect();
+    (ms, PointCloud2 { header: drive.header(ms, "lidar"), ..drive.cloud(ms, &points, "time") })
+}
+
+const SPARSE: &str = "
+[topics]
+tf_static = { topic = '/tf_static', kind = 'tf_static' }
+front = { topic = '/front', kind = 'radar', model = 'generic' }
+roof = { topic = '/roof', kind = 'lidar', model = 'generic' }
+odom = { topic = '/odom', kind = 'odometry' }
+";
+
+fn without(name: &str) -> String {
+    SPARSE.lines().filter(|line| !line.starts_with(name)).fold(String::new(), |text, line| text + line + "\n")
+}
+
+#[test]
+fn the_first_scan_whose_times_differ_tells_how_points_tell_theirs() {
+    let spread = [-0.04, 0.04];
+    for first in [&[][..], &[0.0], &[0.0, 0.0], &[f32::NAN, 0.1]] {
+        let (_folder, path) = recording(|drive, to| {
+            odometry(drive, to);
+            let roof = [(100, first), (200, &spread), (300, &[])];
+            write(to, "/roof", roof.map(|(ms, times)| revolution(drive, ms, times)));
+        });
+        let drive = open_file(&path, &without("front")).unwrap();
+        assert!(
+            drive.warnings()[0].contains("points carry their times (`time`, s)"),
+            "{:?}",
+            drive.warnings()
+        );
+        assert_eq!(drive.lidar_scan(0, 1).unwrap().times.unwrap(), spread);
+        assert_eq!(drive.rolling_scan(0, 2).unwrap().unwrap().times, Some(vec![]));
+    }
+}
+
+#[test]
+fn times_that_never_differ_are_told_and_not_used() {
+    let (_folder, path) = recording(|drive, to| {
+        odometry(drive, to);
+        let roof = [&[][..], &[0.0, 0.0], &[0.5, 0.5]].into_iter().zip([100, 200, 300]);
+        write(to, "/roof", roof.map(|(times, ms)| revolution(drive, ms, times)));
+    });
+    let drive = open_file(&path, &without("front")).unwrap();
+    let told = "roof: `time` is the same for all points of each scan, and is not used";
+    assert_eq!(drive.warnings(), [told]);
+    assert!(drive.lidar_scan(0, 1).unwrap().times.is_none());
+    // Whoever says that points are of one time needs no word of it.
+    let done = without("front").replace("kind = 'lidar'", "kind = 'lidar', motion_corrected = true");
+    assert_eq!(open_file(&path, &done).unwrap().warnings(), [""; 0]);
+}
+
+#[test]
+fn a_scan_without_detections_needs_no_fields() {
+    let (_folder, path) = recording(|drive, to| {
+        odometry(drive, to);
+        let with = |ms| scan(drive, ms, &[0.0, 0.5]);
+        write(to, "/front", [nothing(drive, 0), with(100), nothing(drive, 200), with(300)]);
+        write(to, "/roof", [(0, PointCloud2 { header: drive.header(0, "lidar"), ..nothing(drive, 0).1 })]);
+        write(to, "/rear", [nothing(drive, 0), nothing(drive, 100)]);
+    });
+    let rear = "rear = { topic = '/rear', kind = 'radar', model = 'generic' }\n";
+    let drive = open_file(&path, &(SPARSE.to_owned() + rear)).unwrap();
+    let radars = &drive.sequence().rig.radars;
+    assert_eq!(radars[0].fields, ["x", "y", "z", "vx", "vy", "doppler"]);
+    let lengths = |radar: usize, scans: usize| -> Vec<usize> {
+        (0..scans).map(|scan| drive.radar_scan(radar, scan).unwrap().len()).collect()
+    };
+    assert_eq!((lengths(0, 4), lengths(1, 2)), (vec![0, 2, 0, 2], vec![0, 0]));
+    assert_eq!(radars[1].fields, ["x", "y", "z"], "nothing tells any");
+    assert_eq!(drive.lidar_scan(0, 0).unwrap().points, [[0.0; 3]; 0]);
+    assert_eq!(guess(&path).unwrap().topics["front"].elevation, Some(true));
+}
+
+#[test]
+fn a_guess_of_elevation_takes_scans_with_detections() {
+    let elevation = |heights: &[&[f32]]| {
+        let (_folder, path) = recording(|drive, to| {
+            let late = heights.iter().zip(12..).map(|(heights, k)| scan(drive, 100 * k, heights));
+            write(to, "/radar", (0..12).map(|k| scan(drive, 100 * k, &[])).chain(late).collect::<Vec<_>>());
+        });
+        let guess = guess(&path).unwrap();
+        assert_eq!(guess.topics["radar"].kind, TopicKind::Radar);
+        guess.topics["radar"].elevation
+    };
+    assert_eq!(elevation(&[&[0.5], &[0.75, 1.0]]), Some(true));
+    assert_eq!(elevation(&[&[0.0, 0.0]]), Some(false));
+    assert_eq!(elevation(&[&[0.5]]), None, "the model tells it");
+    assert_eq!(elevation(&[]), None);
+}
+
+#[test]
+fn a_topic_without_messages_is_a_sensor_without_measurements() {
+    let (_folder, path) = recording(|drive, to| {
+        odometry(drive, to);
+        write(to, "/front", [scan(drive, 0, &[0.5])]);
+        write::<PointCloud2>(to, "/rear", []);
+        write::<PointCloud2>(to, "/roof", []);
+        write::<Image>(to, "/cam", []);
+        write::<CameraInfo>(to, "/info", []);
+        write::<Imu>(to, "/imu", []);
+    });
+    let more = "rear = { topic = '/rear', kind = 'radar', model = 'generic', frame = 'radar' }
+                imu = { topic = '/imu', kind = 'imu' }
+                cam = { topic = '/cam', kind = 'camera', info = '/info' }";
+    let drive = open_file(&path, &(SPARSE.to_owned() + more)).unwrap();
+    let sequence = drive.sequence();
+    let names: Vec<&str> = sequence.rig.radars.iter().map(|radar| radar.name.as_str()).collect();
+    assert_eq!((names, &sequence.times.radars), (vec!["front", "rear"], &vec![vec![T0], vec![]]));
+    assert_eq!(sequence.rig.radars[1].vehicle_from_radar.translation.x, 3.0);
+    // What has no frame has no place.
+    assert_eq!((sequence.rig.lidars.len(), drive.absent()), (0, &["cam".to_owned(), "roof".to_owned()][..]));
+    let left_out = "nothing tells its frame";
+    let told = [
+        "/imu: no messages",
+        &format!("cam: no messages of /cam, and {left_out} (`topics.cam.frame` would): left out"),
+        "rear: no messages of /rear",
+        &format!("roof: no messages of /roof, and {left_out} (`topics.roof.frame` would): left out"),
+    ];
+    assert_eq!((drive.warnings(), drive.lost()), (&told.map(str::to_owned)[..], &[][..]));
+}
+
+#[test]
+fn without_a_word_of_motion_the_vehicle_is_known_by_the_tree_or_the_settings() {
+    let (_folder, path) = recording(|drive, to| {
+        write(to, "/front", [scan(drive, 0, &[0.5])]);
+        write(to, "/roof", [revolution(drive, 0, &[])]);
+        write(to, "/imu", [(0, Imu { header: drive.header(0, "imu"), ..Imu::default() })]);
+    });
+    let guess = guess(&path).unwrap();
+    let of_tree = "neither odometry nor a twist names the vehicle's frame: by the tree of frames `base` is taken for it";
+    assert_eq!(guess.remarks, ["/imu is not used: it tells no velocity", of_tree]);
+    assert_eq!(guess.topics["tf_static"].vehicle_frame.as_deref(), Some("base"));
+    assert!(topics_toml(&guess).unwrap().contains("\nvehicle_frame = \"base\"\n"));
+    let named = without("odom").replace("'tf_static' }", "'tf_static', vehicle_frame = 'base' }");
+    for drive in
+        [crate::read::open(&path, None).unwrap().sequences.remove(0), open_file(&path, &named).unwrap()]
+    {
+        let sequence = drive.sequence();
+        assert!(!sequence.motion.is_known());
+        assert_eq!(sequence.rig.radars[0].vehicle_from_radar.translation.x, 3.0);
+    }
+    let refused = open_file(&path, &without("odom")).err().unwrap().to_string();
+    assert!(refused.contains("`topics.tf_static.vehicle_frame = \"base_link\"`"), "{refused}");
+}
+
+/// Programs that estimate poses leave the twist at zero, or at NaN.
+#[test]
+fn velocities_that_are_none_are_not_taken() {
+    let velocities = |speed: fn(i64) -> f64, metres: f64| {
+        let (_folder, path) = recording(|drive, to| {
+            write(to, "/front", [scan(drive, 0, &[0.5])]);
+            let message = |k: i64| {
+                let twist = Twist { linear: [speed(k), 0.0, 0.0], angular: [0.0; 3] };
+                let pose = Pose { position: [metres * k as f64, 0.0, 0.0], ..Pose::default() };
+                (100 * k, Odometry { pose, twist, ..drive.odometry(100 * k) })
+            };
+            write(to, "/odom", (0..8).map(message));
+        });
+        let drive = open_file(&path, &without("roof")).unwrap();
+        let motion = &drive.sequence().motion;
+        assert_eq!(motion.poses().len(), 8);
+        (motion.odometry().len(), motion.twist(T0 + 350 * MS).0.x.round(), drive.warnings().concat())
+    };
+    let (samples, speed, told) = velocities(|_| 0.0, 0.8);
+    assert_eq!((samples, speed), (0, 8.0), "the poses tell it");
+    assert!(told.starts_with("/odom: all its velocities are 0 while the poses move by 6 m: "), "{told}");
+    let (samples, speed, told) = velocities(|_| f64::NAN, 0.8);
+    assert_eq!(
+        (samples, speed, told.as_str()),
+        (0, 8.0, "/odom: 8 of 8 twists are no numbers, and not used")
+    );
+    let (samples, speed, told) = velocities(|k| if k == 2 { f64::NAN } else { 7.0 }, 0.8);
+    assert_eq!(
+        (samples, speed, told.as_str()),
+        (7, 7.0, "/odom: 1 of 8 twists are no numbers, and not used")
+    );
+    assert_eq!(velocities(|_| 0.0, 0.01), (8, 0.0, String::new()), "a parked vehicle");
+}
