@@ -7,6 +7,7 @@ use crate::text::{counted, grouped, listed};
 use anyhow::Context;
 use clap::Args;
 use ralf_data::read::Incomplete;
+use ralf_data::read::inspection::held_motion;
 use ralf_data::read::ros::Topics;
 use ralf_data::result::LabelledRun;
 use ralf_data::{Recording, SequenceReader, Settings};
@@ -117,6 +118,17 @@ fn told(recording: Recording) -> Recording {
         }
     }
     recording
+}
+
+/// Says, of a recording that is to be labelled or converted, which measurements lie outside of what is known of its
+/// motion.
+pub(crate) fn tell_held_motion(recording: &Recording) {
+    for reader in &recording.sequences {
+        let sequence = reader.sequence();
+        if let Some(sentence) = held_motion(sequence) {
+            say(&format!("warning: {}: {sentence}", sequence.name));
+        }
+    }
 }
 
 /// The only sequence of a recording.

@@ -8,7 +8,7 @@ mod settings;
 mod stored;
 
 pub(crate) use changed::ChangedArgs;
-pub(crate) use dataset::{DatasetArgs, the_only};
+pub(crate) use dataset::{DatasetArgs, tell_held_motion, the_only};
 pub(crate) use method::MethodArgs;
 pub(crate) use output::check_output;
 pub(crate) use settings::{SettingsArgs, threads};

@@ -1,6 +1,6 @@
 //! `ralf convert`: another format into the project's own, or into a recording as ROS keeps it.
 
-use crate::arguments::{DatasetArgs, SettingsArgs, the_only, threads};
+use crate::arguments::{DatasetArgs, SettingsArgs, tell_held_motion, the_only, threads};
 use crate::outcome::{Outcome, UsageError};
 use crate::progress::say;
 use crate::sequences::{shown, write_missing};
@@ -51,6 +51,7 @@ pub(crate) struct ConvertArgs {
 pub(crate) fn run(arguments: &ConvertArgs) -> anyhow::Result<Outcome> {
     refuse_other_files(&arguments.output)?;
     let recording = opened(arguments)?;
+    tell_held_motion(&recording);
     if let Some(format) = RosFormat::of_file(&arguments.output) {
         return as_ros(&recording, &arguments.output, format);
     }

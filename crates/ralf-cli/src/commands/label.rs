@@ -1,7 +1,9 @@
 //! `ralf label`: a plausibility and a label for every detection.
 
 use super::check::page::doubts;
-use crate::arguments::{DatasetArgs, MethodArgs, STORED_CLASSES, STORED_DEPTH, SettingsArgs, threads};
+use crate::arguments::{
+    DatasetArgs, MethodArgs, STORED_CLASSES, STORED_DEPTH, SettingsArgs, tell_held_motion, threads,
+};
 #[cfg(feature = "depth")]
 use crate::network::{DepthModelArgs, depth_for_labelling};
 use crate::outcome::Outcome;
@@ -145,6 +147,7 @@ impl LabelArgs {
     /// Without `--strict` checks go on meanwhile.
     fn checks_before(&self, recording: &Recording, jobs: usize) -> anyhow::Result<Vec<CheckRecord>> {
         check_output_folder(&recording.path, &self.output)?;
+        tell_held_motion(recording);
         let checks = if self.strict { check_all(recording, jobs) } else { Vec::new() };
         checks.iter().flat_map(doubts).for_each(|line| say(&line));
         Ok(checks)

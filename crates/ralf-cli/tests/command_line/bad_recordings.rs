@@ -115,6 +115,22 @@ fn a_radar_with_another_clock_is_named_at_once() {
 }
 
 #[test]
+fn poses_that_end_before_the_sensors() {
+    let dataset = Dataset::new();
+    let pose = |ms: i64| {
+        format!("{},{},0,0,0,0,0,1\n", 1_700_000_000_000_000_000 + ms * 1_000_000, ms as f64 * 0.01)
+    };
+    dataset.put("poses.csv", format!("t_ns,x,y,z,qx,qy,qz,qw\n{}{}", pose(0), pose(300)));
+    let told = "5 of 16 radar scans and 3 of 8 LiDAR scans lie more than 200 ms before or after all poses, by up to 0.4 s";
+    ralf(["inspect", &dataset.path]).exits(0).prints([told, "0.7 s, 3 m"]);
+    let unknown = ralf(["inspect", &dataset.path, "--quick", "--json"]).exits(0).json();
+    let seconds = unknown["sequences"][0]["motion_unknown_s"].as_f64().unwrap();
+    assert!((seconds - 0.237).abs() < 1e-9, "{seconds}");
+    ralf(["label", &dataset.path, "-o", &dataset.out, "--no-check"]).exits(0).says(["warning: 00: ", told]);
+    ralf(["convert", &dataset.path, "-o", &dataset.beside("own")]).exits(0).says([told]);
+}
+
+#[test]
 fn a_motion_that_is_not_finite() {
     let dataset = Dataset::new();
     let rows = "t_ns,v_mps,yaw_rate_radps\n1,2,0\n2,NaN,0\n";

@@ -60,6 +60,12 @@ impl EgoMotion {
         !self.odometry.is_empty() || !self.poses.is_empty()
     }
 
+    /// Whether all that is known is that the vehicle stands still.
+    pub fn stands_still(&self) -> bool {
+        let stands = |sample: &OdometrySample| sample.velocity == 0.0 && sample.yaw_rate == 0.0;
+        self.is_known() && self.poses.is_empty() && self.odometry.iter().all(stands)
+    }
+
     /// The wheel odometry, as recorded.
     pub fn odometry(&self) -> &[OdometrySample] {
         &self.odometry
@@ -249,7 +255,11 @@ mod tests {
     fn no_samples_is_no_motion() {
         assert!(EgoMotion::new(vec![], vec![]).is_none());
         let unknown = EgoMotion::unknown();
-        assert!(!unknown.is_known() && unknown.between(SECOND, 0) == Transform::identity());
+        assert!(
+            !unknown.is_known()
+                && !unknown.stands_still()
+                && unknown.between(SECOND, 0) == Transform::identity()
+        );
         assert_eq!(unknown.twist(0), (Vector3::zeros(), Vector3::zeros()));
     }
 }

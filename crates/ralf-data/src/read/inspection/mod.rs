@@ -1,10 +1,12 @@
 //! What a recording holds, how regularly, and what is missing: from its times, and by reading its scans once.
 
 mod clocks;
+mod held;
 mod path;
 mod readable;
 
 use crate::read::SequenceReader;
+pub use held::held_motion;
 use path::Path;
 pub use readable::Unreadable;
 
@@ -27,7 +29,7 @@ pub struct Inspection {
     pub seconds: f64,
     /// Length of the vehicle's path between these, m, as far as its motion is known.
     pub path_m: f64,
-    /// How long the motion isn't known between these, for odometry and poses pause, s.
+    /// How long the motion isn't known between these, for odometry and poses pause or lie within a shorter time, s.
     pub motion_unknown_s: f64,
     /// Samples of wheel odometry.
     pub odometry_samples: usize,
@@ -88,7 +90,13 @@ impl Inspection {
             motion_unknown_s: path.unknown_s,
             odometry_samples: sequence.motion.odometry().len(),
             poses: sequence.motion.poses().len(),
-            missing: [missing(reader, &sensors, config), path.missing(), clocks::strange(sequence)].concat(),
+            missing: [
+                missing(reader, &sensors, config),
+                path.missing(),
+                held_motion(sequence).into_iter().collect(),
+                clocks::strange(sequence),
+            ]
+            .concat(),
             sensors,
             unreadable: Vec::new(),
         }

@@ -1,6 +1,7 @@
 //! How far the vehicle drove, as far as its motion is known.
 
-use ralf::space::{EgoMotion, OdometrySample};
+use super::held::A_LITTLE_NS;
+use ralf::space::EgoMotion;
 
 /// The path is measured in steps of this length.
 const STEP_NS: i64 = 100_000_000;
@@ -28,7 +29,7 @@ impl Path {
     pub(super) fn new(motion: &EgoMotion, [first, last]: [i64; 2]) -> Self {
         let span_s = seconds(first, last);
         let mut path = Self { metres: 0.0, unknown_s: span_s, span_s, jumps: 0 };
-        if motion.poses().is_empty() && motion.odometry().iter().all(stands_still) {
+        if motion.stands_still() || !motion.is_known() {
             return Self { unknown_s: 0.0, ..path };
         }
         for [begin, end] in stretches(motion) {
@@ -66,8 +67,8 @@ impl Path {
         if self.unknown_s > seconds(0, PAUSE_NS) {
             let Self { unknown_s, span_s, .. } = self;
             missing.push(format!(
-                "the motion is not known for {unknown_s:.1} of {span_s:.1} s, where odometry and poses pause: the \
-                 path is that of the rest"
+                "the motion is not known for {unknown_s:.1} of {span_s:.1} s, where odometry and poses pause or are \
+                 missing: the path is that of the rest"
             ));
         }
         if self.jumps > 0 {
@@ -78,11 +79,14 @@ impl Path {
 }
 
 /// Spans in which the motion is known, in time order: from the first sample to the last, without the pauses. At both
-/// ends the nearest sample holds for as long as it would before a pause.
+/// ends the nearest sample holds on: a velocity for as long as it would before a pause, a pose for a little.
 fn stretches(motion: &EgoMotion) -> Vec<[i64; 2]> {
     let poses = motion.poses().iter().map(|pose| pose.t_ns);
     let wheels = motion.odometry().iter().map(|sample| sample.t_ns);
-    let times: Vec<i64> = if motion.poses().is_empty() { wheels.collect() } else { poses.collect() };
+    let (times, holds): (Vec<i64>, i64) = match motion.poses().is_empty() {
+        true => (wheels.collect(), PAUSE_NS),
+        false => (poses.collect(), A_LITTLE_NS),
+    };
     let mut stretches: Vec<[i64; 2]> = Vec::new();
     for t_ns in times {
         match stretches.last_mut() {
@@ -91,16 +95,12 @@ fn stretches(motion: &EgoMotion) -> Vec<[i64; 2]> {
         }
     }
     if let Some([begin, _]) = stretches.first_mut() {
-        *begin = begin.saturating_sub(PAUSE_NS);
+        *begin = begin.saturating_sub(holds);
     }
     if let Some([_, end]) = stretches.last_mut() {
-        *end = end.saturating_add(PAUSE_NS);
+        *end = end.saturating_add(holds);
     }
     stretches
-}
-
-fn stands_still(sample: &OdometrySample) -> bool {
-    sample.velocity == 0.0 && sample.yaw_rate == 0.0
 }
 
 fn seconds(from_ns: i64, to_ns: i64) -> f64 {
@@ -110,7 +110,7 @@ fn seconds(from_ns: i64, to_ns: i64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use ralf::space::{PoseSample, transform_from_parts};
+    use ralf::space::{OdometrySample, PoseSample, transform_from_parts};
 
     const SECOND: i64 = 1_000_000_000;
 
@@ -133,6 +133,14 @@ mod tests {
         let motion = EgoMotion::new(vec![], vec![pose(0, 0.0), pose(SECOND / 10, 51.0)]).unwrap();
         let path = Path::new(&motion, [0, SECOND / 10]);
         assert_eq!((path.metres, path.jumps, path.missing().len()), (0.0, 1, 1));
+    }
+
+    #[test]
+    fn a_pose_tells_nothing_of_a_second_later() {
+        let motion = EgoMotion::new(vec![], vec![pose(SECOND, 0.0), pose(2 * SECOND, 8.0)]).unwrap();
+        let path = Path::new(&motion, [0, 2 * SECOND + SECOND / 10]);
+        assert!((path.metres - 8.0).abs() < 1e-9 && (path.unknown_s - 0.8).abs() < 1e-9, "{path:?}");
+        assert!(path.missing().is_empty(), "it is told by what was measured then");
     }
 
     #[test]
