@@ -15,6 +15,11 @@ pub(crate) trait FileFormat: Send + Sync {
         false
     }
 
+    /// What is said where no file tells the vehicle's motion: [`SequenceReader::warning_of_motion`].
+    fn warning_of_motion(&self) -> Option<&'static str> {
+        None
+    }
+
     /// The columns of a radar's scan, out of its file.
     fn radar_columns(&self, file: &Path, radar: usize, scan: usize) -> Result<Vec<Vec<f32>>, DataError>;
 
@@ -89,6 +94,10 @@ impl<F: FileFormat> SequenceReader for FileSequence<F> {
 
     fn warnings(&self) -> &[String] {
         &self.warnings
+    }
+
+    fn warning_of_motion(&self) -> Option<&'static str> {
+        self.format.warning_of_motion()
     }
 
     fn image_file(&self, camera: usize, image: usize) -> Option<PathBuf> {

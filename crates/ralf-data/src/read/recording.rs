@@ -30,6 +30,12 @@ pub trait SequenceReader: Source {
         self.inner().map_or(&[], |inner| inner.warnings())
     }
 
+    /// Which of the warnings says that the recording doesn't tell the vehicle's motion: no news to whoever was told
+    /// where else to take it from.
+    fn warning_of_motion(&self) -> Option<&'static str> {
+        self.inner().and_then(|inner| inner.warning_of_motion())
+    }
+
     /// What of the recording can't be read and may have held radar scans that nothing else tells of, a sentence each:
     /// they have no place in the timelines, and get no labels. Radar scans whose times are known stand in the
     /// timelines, and whoever asks for them is told why they can't be read.

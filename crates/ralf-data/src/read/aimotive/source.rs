@@ -16,6 +16,10 @@ use ralf_files::Kind;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
+/// What is said where no file of a sequence tells the vehicle's motion.
+const NO_POSES: &str = "no poses (sensor/gnssins/egomotion.json): the vehicle's motion has to come from a trajectory \
+                        or from range rates, and only with it are LiDAR points motion-corrected";
+
 /// How the files of a sequence are read.
 pub(super) struct Drive;
 
@@ -38,11 +42,7 @@ pub(super) fn drive(folder: &Path) -> Result<FileSequence<Drive>, DataError> {
     let (times, files) = timelines(&rig, &sensors, &told.times, &mut warnings);
     let poses = motion::read(folder, &told.times)?;
     if poses.is_none() {
-        warnings.push(
-            "no poses (sensor/gnssins/egomotion.json): the vehicle's motion has to come from a \
-             trajectory or from range rates, and only with it are LiDAR points motion-corrected"
-                .into(),
-        );
+        warnings.push(NO_POSES.into());
     }
     let (motion, pose_file) =
         poses.map_or((EgoMotion::unknown(), None), |(motion, file)| (motion, Some(file)));
@@ -180,6 +180,10 @@ fn columns(file: &Path) -> Result<Vec<Vec<f32>>, DataError> {
 impl FileFormat for Drive {
     fn is_rolling(&self) -> bool {
         true
+    }
+
+    fn warning_of_motion(&self) -> Option<&'static str> {
+        Some(NO_POSES)
     }
 
     fn radar_columns(&self, file: &Path, _: usize, _: usize) -> Result<Vec<Vec<f32>>, DataError> {

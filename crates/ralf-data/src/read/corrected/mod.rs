@@ -82,6 +82,7 @@ fn with_motion(mut reader: Corrected, wanted: &MotionSettings, path: &Path) -> R
     if let Some(file) = &wanted.trajectory {
         let motion = trajectory::read(file, wanted, reader.sequence())?;
         reader.set_motion(scaled(&motion, wanted), MotionSource::Trajectory, Some(file.clone()));
+        reader.motion_was_named();
         return Ok(reader);
     }
     let is_known = reader.sequence().motion.is_known();
@@ -100,7 +101,9 @@ fn with_motion(mut reader: Corrected, wanted: &MotionSettings, path: &Path) -> R
         MotionSource::Radar => "the radars' range rates",
         _ => "the LiDAR's scans",
     };
-    if source != MotionSource::Recorded && wanted.source != source {
+    if wanted.source == source {
+        reader.motion_was_named();
+    } else if source != MotionSource::Recorded {
         reader.warn(format!("neither odometry nor poses: the vehicle's motion is taken from {from}"));
     }
     reader.set_motion(scaled(&motion, wanted), source, None);

@@ -38,6 +38,12 @@ impl Corrected {
         self.warnings.push(warning);
     }
 
+    /// Takes back the warning that the recording tells no motion, for the settings say where to take it from.
+    pub(super) fn motion_was_named(&mut self) {
+        let known = self.inner.warning_of_motion();
+        self.warnings.retain(|warning| Some(warning.as_str()) != known);
+    }
+
     pub(super) fn set_motion(&mut self, motion: EgoMotion, source: MotionSource, file: Option<PathBuf>) {
         self.sequence.motion = motion;
         self.source = source;

@@ -16,6 +16,9 @@ use ralf::space::EgoMotion;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+/// What is said where a clip doesn't tell the vehicle's motion.
+const NO_EGOMOTION: &str = "no egomotion: the motion has to come from a trajectory or from range rates";
+
 /// What the clips of a recording have in common.
 pub(super) struct Shared<'a> {
     pub(super) scans: Arc<LastRead<Scans>>,
@@ -48,9 +51,7 @@ impl Drive {
                 motion
             }
             None => {
-                warnings.push(
-                    "no egomotion: the motion has to come from a trajectory or from range rates".to_owned(),
-                );
+                warnings.push(NO_EGOMOTION.to_owned());
                 EgoMotion::unknown()
             }
         };
@@ -140,5 +141,9 @@ impl SequenceReader for Drive {
 
     fn warnings(&self) -> &[String] {
         &self.warnings
+    }
+
+    fn warning_of_motion(&self) -> Option<&'static str> {
+        Some(NO_EGOMOTION)
     }
 }

@@ -152,7 +152,7 @@ fn a_trajectory_corrects_points_where_the_recording_has_no_poses() {
     let mut settings = Settings::default();
     settings.motion.trajectory = Some(poses);
     let corrected = settings.correct(open(&sequence).unwrap()).unwrap().sequences.remove(0);
-    assert_eq!(corrected.motion_source(), MotionSource::Trajectory);
+    assert_eq!((corrected.motion_source(), corrected.warnings()), (MotionSource::Trajectory, &[][..]));
     let mounting = corrected.sequence().rig.lidars[0].vehicle_from_lidar;
     assert_posts(&corrected.lidar_scan(0, 2).unwrap(), &mounting, 2);
     // Corrected once, however often it is asked to be.
