@@ -13,6 +13,7 @@ mod lorry;
 mod many;
 mod opinion;
 mod program_identity;
+mod read_again;
 mod realism;
 mod rolling;
 mod ros_real;

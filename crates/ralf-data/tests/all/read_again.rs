@@ -1,7 +1,5 @@
 //! What could not be read for a moment is read again by the next run, whoever failed to.
 
-#![allow(clippy::unwrap_used, reason = "of tests alone")]
-
 use ralf::sensors::{CameraImage, DepthImage, LidarScan, RadarScan, Sequence, Source, SourceError};
 use ralf_data::run::{LabelRun, Outcome, Unwatched};
 use ralf_data::{Recording, SequenceReader, Settings, open, write_sequence};
