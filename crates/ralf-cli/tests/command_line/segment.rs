@@ -67,6 +67,7 @@ fn grey(value: u8) -> Vec<u8> {
 fn files_of_which_nothing_tells_whose_they_are_do_not_become_a_networks() {
     let dataset = Dataset::of(&Shape { scans: 3, ..Shape::default() }).with_camera(3);
     let model = colours(&dataset);
+    fs::create_dir(dataset.file("camera_front/segmentation")).unwrap();
     dataset.put("camera_front/segmentation/000001.png", grey(10));
     let refused = ralf(["segment", &dataset.path, "--model", &model]).exits(1);
     refused.says([
