@@ -172,12 +172,13 @@ mod tests {
     /// Reading makes a quaternion's length 1, which rounds: of some rotations once more each time.
     #[test]
     fn what_is_written_of_a_rotation_is_read_as_the_same() {
+        let read = |parts| transform_from_parts([0.0; 3], parts).unwrap().rotation;
         for n in 0..2000 {
             let angle = |step: f64| f64::from(n) * step;
-            let rotation =
+            let drawn =
                 nalgebra::UnitQuaternion::from_euler_angles(angle(0.7).sin(), angle(0.3).cos(), angle(0.011));
-            let back = transform_from_parts([0.0; 3], quaternion_xyzw(&rotation)).unwrap();
-            assert_eq!(back.rotation, rotation, "{n}");
+            let once = read(drawn.coords.into());
+            assert_eq!(read(quaternion_xyzw(&once)), once, "{n}");
         }
     }
 
