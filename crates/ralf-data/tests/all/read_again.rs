@@ -74,7 +74,7 @@ struct Written(tempfile::TempDir);
 impl Written {
     fn new() -> Self {
         let folder = tempfile::tempdir().unwrap();
-        let sequence = ralf_sim::presets::find("tiny").unwrap().sequences[0].simulate(1, 3).unwrap();
+        let sequence = ralf_sim::presets::find("tiny").unwrap().sequences[0].simulate(1, 2).unwrap();
         write_sequence(&sequence, &folder.path().join("recording"), &|_| ()).unwrap();
         Self(folder)
     }
@@ -105,7 +105,15 @@ impl Written {
 
 fn with_run<T>(recording: &Recording, out: &Path, work: impl FnOnce(&LabelRun) -> T) -> T {
     let settings = Settings::from_toml("", &[]).unwrap();
-    work(&LabelRun { recording, settings: &settings, out, jobs: 1, evidence: true, checks: &[], model: None })
+    work(&LabelRun {
+        recording,
+        settings: &settings,
+        out,
+        jobs: 1,
+        evidence: false,
+        checks: &[],
+        model: None,
+    })
 }
 
 /// All files below a folder; of `run.json` all but the timings.
