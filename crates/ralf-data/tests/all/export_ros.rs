@@ -156,7 +156,7 @@ fn the_vehicle_is_shown_once_at_a_time() {
 fn what_ros_can_not_hold_is_refused_and_nothing_stays() {
     let (folder, path) = sequence();
     // Beyond 2106 there are no 32 bits for the seconds.
-    write(&path.join("radar_rear/timestamps.txt"), "7\n5000000000000000000\n");
+    write(&path.join("radar_rear/timestamps.txt"), "7\n4500000000000000000\n");
     let reader = LayoutSequence::open(&path).unwrap();
     let file = folder.path().join("street.bag");
     let error = write_ros(&reader, &file, RosFormat::Bag, &|_| {}).unwrap_err().to_string();

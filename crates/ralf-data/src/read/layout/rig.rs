@@ -163,7 +163,9 @@ mod tests {
         for written in [160.0, 0.6, 1.2, -80.0, 25.0, 0.1, 179.999, 1e-3, 12.345678901234] {
             assert_eq!(degrees(f64::to_radians(written)), written);
         }
-        for written in [[-0.5, 0.5, -0.5, 0.5], [0.0, 0.0, 0.38268343, 0.92387953], [0.1, 0.2, 0.3, 0.927]] {
+        let back = [0.0, 0.0, 1.0, 6.123233995736766e-17];
+        let others = [[-0.5, 0.5, -0.5, 0.5], [0.0, 0.0, 0.38268343, 0.92387953], [0.1, 0.2, 0.3, 0.927]];
+        for written in others.into_iter().chain([back]) {
             let pose = transform_from_parts([0.0; 3], written).unwrap();
             assert_eq!(quaternion_xyzw(&pose.rotation), written);
         }

@@ -67,7 +67,7 @@ pub(crate) fn quaternion_xyzw(rotation: &UnitQuaternion<f64>) -> [f64; 4] {
     // Reading makes its length 1 and rounds once more. Where that misses, a neighbour hits, or one of another length.
     let neighbours = (1..3_usize.pow(4)).map(|which| neighbour(exact, which));
     let lengths = (-2048..=2048).map(|step| exact.map(|value| value * (1.0 + f64::from(step) * 1e-12)));
-    few.chain(neighbours).chain(lengths).find(same).unwrap_or(exact)
+    few.chain([exact]).chain(neighbours).chain(lengths).find(same).unwrap_or(exact)
 }
 
 /// One of the 81 quaternions whose parts are the next numbers up or down, or the same.
