@@ -12,6 +12,7 @@ import {
   WebGLRenderer,
   Matrix4,
 } from "three";
+import { hasSmoothEdges } from "./graphics.js";
 import { ground } from "./ground.js";
 import { LidarCloud } from "./lidar-cloud.js";
 import { projectAll } from "./project.js";
@@ -43,7 +44,8 @@ export class SceneView {
     private readonly drawOver: () => void,
     private readonly timed: (milliseconds: number) => void,
   ) {
-    this.renderer = new WebGLRenderer({ canvas, antialias: true, powerPreference: "high-performance" });
+    const antialias = hasSmoothEdges();
+    this.renderer = new WebGLRenderer({ canvas, antialias, powerPreference: "high-performance" });
     this.renderer.setPixelRatio(this.pixelRatio);
     this.scene.background = new Color(BACKGROUND);
     this.scene.add(ground(), this.lidar.points, this.radar.points);

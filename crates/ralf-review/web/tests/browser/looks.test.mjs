@@ -4,9 +4,12 @@ import { after, before, test } from "node:test";
 import {
   GONE,
   accept,
+  anotherBrowser,
+  atEnd,
   clean,
   current,
   drag,
+  freshOut,
   historyOf,
   launch,
   open,
@@ -17,6 +20,7 @@ import {
   says,
   scanOf,
   selected,
+  serve,
   settled,
   status,
 } from "./support.mjs";
@@ -222,6 +226,15 @@ test("a column that the server adds is shown and can be coloured by, without any
   await page.locator(".scan-bar select").selectOption({ label: "lidar_vertical" });
   await says(page.locator(".legend"), "lidar_vertical");
   clean(tab);
+});
+
+test("a browser without WebGL is told what helps", async (context) => {
+  const without = await launch("--disable-3d-apis");
+  atEnd(context, () => without.close());
+  const page = await (await anotherBrowser(context, without)).newPage();
+  await page.goto((await serve(context, await freshOut(context))).url);
+  await says(page.locator(".failure"), "no WebGL, which the picture needs. Turn on graphics acceleration");
+  await picture(page, "without-webgl");
 });
 
 test("what is not saved has a rim of another shape than anything else", async (context) => {

@@ -22,17 +22,21 @@ const CHROMIUM = [
   "--disable-sync",
   "--use-angle=swiftshader",
   "--enable-unsafe-swiftshader",
-  // Without a graphics card, what only looks like one draws text and boxes more slowly than the processor itself.
+  // Without a graphics card, what only looks like one draws text and boxes, and puts them together, more slowly than the
+  // processor itself.
   "--disable-gpu-rasterization",
+  "--disable-gpu-compositing",
 ];
+/** What Chromium then says of itself: the picture is read back. */
+const READ_BACK = /GPU stall due to ReadPixels/;
 
 /** Sees the page as a person would: RALF_PICTURES names a folder for pictures of it. */
 export async function picture(page, name) {
   if (process.env.RALF_PICTURES) await page.screenshot({ path: `${process.env.RALF_PICTURES}/${name}.png` });
 }
 
-export function launch() {
-  return chromium.launch({ executablePath: RALF_CHROMIUM, args: CHROMIUM });
+export function launch(...more) {
+  return chromium.launch({ executablePath: RALF_CHROMIUM, args: [...CHROMIUM, ...more] });
 }
 
 /** Runs the program to its end. */
@@ -89,7 +93,7 @@ export async function serve(context, out, { author = "ada", second, port = 0, da
 }
 
 /** A browser of its own: another person. */
-export async function anotherBrowser(context, browser, viewport = { width: 1600, height: 1000 }) {
+export async function anotherBrowser(context, browser, viewport = { width: 1280, height: 800 }) {
   const own = await browser.newContext({ viewport });
   atEnd(context, async () => {
     // A request that a test answers itself may be under way.
@@ -108,6 +112,7 @@ export async function open(context, browser, server, own) {
   const told = { page, complaints: [], strangers: [], pending: new Set() };
   const { origin } = new URL(server.url);
   page.on("console", (message) => {
+    if (READ_BACK.test(message.text())) return;
     if (message.type() === "error" || message.type() === "warning") told.complaints.push(message.text());
   });
   page.on("pageerror", (error) => told.complaints.push(String(error)));
