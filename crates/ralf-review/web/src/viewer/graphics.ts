@@ -1,8 +1,8 @@
 /** What draws the picture: a graphics card, the processor in its place, or nothing. */
 
 const NOTHING =
-  "this browser draws no WebGL, which the picture needs. Turn on graphics acceleration in its settings; where there is no " +
-  "graphics card, use Firefox, or start Chromium or Chrome with --enable-unsafe-swiftshader";
+  "this browser draws no WebGL, which the picture needs. Turn on graphics acceleration in its settings; where " +
+  "there is no graphics card, use Firefox, or start Chromium or Chrome with --enable-unsafe-swiftshader";
 
 /**
  * Whether edges are to be smooth. Where the processor draws, a frame takes two to three times as long with them.
