@@ -93,12 +93,14 @@ impl PlanField {
 
     /// The distance from a place, linear between the middles of cells, so that small moves are felt.
     pub(crate) fn smooth_distance(&self, x: f64, y: f64) -> Option<f64> {
-        let [column, row] = [x, y].map(|value| value / CELL + REACH as f64);
-        let (low, right, up) = ([column.floor(), row.floor()], column.fract(), row.fract());
-        if !low.iter().all(|value| *value >= 0.0 && *value < (SIDE - 1) as f64) {
+        let along = |value: f64| value / CELL + REACH as f64;
+        let inside = |low: f64| low >= 0.0 && low < (SIDE - 1) as f64;
+        let (column, row) = (along(x), along(y));
+        if !inside(column.floor()) || !inside(row.floor()) {
             return None;
         }
-        let [column, row] = low.map(|value| value as usize);
+        let (right, up) = (column.fract(), row.fract());
+        let (column, row) = (column as usize, row as usize);
         let at = |i: usize, j: usize| self.distance_of([column + i, row + j]);
         let lower = at(0, 0) * (1.0 - right) + at(1, 0) * right;
         let upper = at(0, 1) * (1.0 - right) + at(1, 1) * right;
@@ -178,8 +180,9 @@ fn place([column, row]: [usize; 2]) -> (usize, usize) {
 
 /// Column and row of a place; `None` beyond 50 m.
 fn cell(x: f64, y: f64) -> Option<[usize; 2]> {
-    let [column, row] = [x, y].map(|value| (value / CELL).round() + REACH as f64);
+    let along = |value: f64| (value / CELL).round() + REACH as f64;
     let inside = |value: f64| value >= 0.0 && value < SIDE as f64;
+    let (column, row) = (along(x), along(y));
     (inside(column) && inside(row)).then_some([column as usize, row as usize])
 }
 

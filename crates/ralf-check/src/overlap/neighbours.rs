@@ -6,6 +6,7 @@ use crate::plan_field::PlanField;
 use crate::sample::{LidarLook, RadarLook, nearest};
 use ralf::sensors::Rig;
 use ralf::space::{EgoMotion, Transform};
+use std::cell::OnceCell;
 
 /// Beside: in plan, m. Radars smear by their azimuth, LiDARs by the width of a thing that both see from two sides.
 const BESIDE: f64 = 0.4;
@@ -22,6 +23,7 @@ const SCANS: usize = 60;
 pub(crate) struct RadarPair<'a> {
     motion: &'a EgoMotion,
     mount: Transform,
+    neighbour: Side<'a>,
     neighbour_mount: Transform,
     half_view: f64,
     moments: Vec<(&'a RadarLook, Seen)>,
@@ -30,7 +32,8 @@ pub(crate) struct RadarPair<'a> {
 /// What the neighbour saw about a time: distances in the vehicle frame at that time.
 struct Seen {
     t_ns: i64,
-    field: PlanField,
+    /// Made once it's asked: most radars look elsewhere than most others.
+    field: OnceCell<PlanField>,
 }
 
 /// A radar with the scans that were read of it.
@@ -42,7 +45,7 @@ pub(crate) struct Side<'a> {
 }
 
 impl<'a> RadarPair<'a> {
-    pub(crate) fn new(rig: &'a Rig, motion: &'a EgoMotion, asked: Side<'a>, neighbour: Side<'_>) -> Self {
+    pub(crate) fn new(rig: &'a Rig, motion: &'a EgoMotion, asked: Side<'a>, neighbour: Side<'a>) -> Self {
         let neighbour_mount = neighbour.change.mount(&rig.radars[neighbour.radar].vehicle_from_radar);
         let times: Vec<i64> = neighbour.looks.iter().map(|look| neighbour.change.time(look.t_ns)).collect();
         let step = asked.looks.len().div_ceil(SCANS).max(1);
@@ -52,13 +55,13 @@ impl<'a> RadarPair<'a> {
                 continue;
             };
             if t_ns.abs_diff(asked.change.time(look.t_ns)) <= TOGETHER_NS {
-                let field = laid_over(&neighbour, &neighbour_mount, motion, t_ns);
-                moments.push((look, Seen { t_ns, field }));
+                moments.push((look, Seen { t_ns, field: OnceCell::new() }));
             }
         }
         Self {
             motion,
             mount: rig.radars[asked.radar].vehicle_from_radar,
+            neighbour,
             neighbour_mount,
             half_view: rig.radars[neighbour.radar].fov_azimuth / 2.0,
             moments,
@@ -78,7 +81,11 @@ impl<'a> RadarPair<'a> {
                 let own = radar_from_vehicle * p;
                 let is_seen =
                     RANGES.contains(&own.coords.norm()) && own.y.atan2(own.x).abs() < self.half_view;
-                if let Some(distance) = seen.field.distance(p.x, p.y).filter(|_| is_seen) {
+                if !is_seen {
+                    continue;
+                }
+                let field = seen.field.get_or_init(|| self.laid_over(seen.t_ns));
+                if let Some(distance) = field.distance(p.x, p.y) {
                     found[0] += f64::from(distance <= BESIDE);
                     found[1] += 1.0;
                 }
@@ -87,18 +94,19 @@ impl<'a> RadarPair<'a> {
         }
         tally
     }
-}
 
-fn laid_over(side: &Side, mount: &Transform, motion: &EgoMotion, t_ns: i64) -> PlanField {
-    let mut places = Vec::new();
-    for look in side.looks {
-        let own_ns = side.change.time(look.t_ns);
-        if own_ns.abs_diff(t_ns) <= LAID_OVER_NS {
-            let place = motion.between(t_ns, own_ns) * mount;
-            places.extend(look.positions.iter().map(|position| place * side.change.place(position)));
+    /// What the neighbour saw about a time, in the vehicle frame then.
+    fn laid_over(&self, t_ns: i64) -> PlanField {
+        let mut places = Vec::new();
+        for look in self.neighbour.looks {
+            let own_ns = self.neighbour.change.time(look.t_ns);
+            if own_ns.abs_diff(t_ns) <= LAID_OVER_NS {
+                let place = self.motion.between(t_ns, own_ns) * self.neighbour_mount;
+                places.extend(look.positions.iter().map(|p| place * self.neighbour.change.place(p)));
+            }
         }
+        PlanField::new(places.iter().map(|p| [p.x, p.y, p.z]))
     }
-    PlanField::new(places.iter().map(|p| [p.x, p.y, p.z]))
 }
 
 /// Two LiDARs of a rig, with changes of each: the first one's obstacles are sought among the second's.

@@ -39,11 +39,11 @@ pub(super) enum Heights {
 impl RayFan {
     /// `None` where there is no ray.
     pub(super) fn new(view: &LidarView) -> Option<Self> {
-        let mut rays = view.rays().peekable();
-        let origin = rays.peek()?.origin;
+        let rays = view.rays();
+        let origin = rays.first()?.origin;
         let mut sectors: Vec<Vec<Ray>> = (0..SECTORS).map(|_| Vec::new()).collect();
         // Those of one LiDAR come one after the other.
-        for ray in rays.take_while(|ray| ray.origin == origin) {
+        for ray in rays.iter().take_while(|ray| ray.origin == origin) {
             let level = ray.direction.xy().norm();
             if level > 1e-6 {
                 let place = sector(ray.direction.x, ray.direction.y);

@@ -15,7 +15,6 @@ mod opinion;
 mod program_identity;
 mod read_again;
 mod realism;
-mod rolling;
 mod ros_real;
 mod same_scene;
 mod segmentation;

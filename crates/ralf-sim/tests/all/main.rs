@@ -2,9 +2,10 @@
 //!
 //! One program for all: each of its own would be compiled and linked anew.
 
-#![allow(clippy::unwrap_used, reason = "these are tests")]
+#![allow(clippy::print_stdout, clippy::unwrap_used, reason = "these are tests")]
 
 mod movers_and_slopes;
+mod rolling;
 mod sim_cameras;
 mod simulation;
 mod worlds;

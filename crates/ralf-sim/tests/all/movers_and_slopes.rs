@@ -72,7 +72,7 @@ fn left_of_the_road(model: &str) -> f64 {
     let config = Config::from_toml("", &[&format!("ground.model={model}")]).unwrap();
     let mut window = FrameWindow::new(&sequence, &sequence.sequence().rig, &config);
     let view = window.lidar_view(sequence.sequence().times.lidars[0][0]).unwrap().unwrap();
-    view.moment.index().len() as f64 / view.rays().count() as f64
+    view.moment.index().len() as f64 / view.rays().len() as f64
 }
 
 #[test]

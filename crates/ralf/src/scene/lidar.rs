@@ -74,17 +74,19 @@ impl LidarView {
     }
 
     /// The rays of all LiDARs that came back, in the vehicle frame at hand, in the order of the points.
-    pub fn rays(&self) -> impl Iterator<Item = LidarRay> {
-        self.moment.sweeps.iter().flat_map(|sweep| {
+    pub fn rays(&self) -> Vec<LidarRay> {
+        let mut rays = Vec::new();
+        for sweep in &self.moment.sweeps {
             let vehicle_from_lidar = self.vehicle_from_moment * sweep.moment_from_lidar;
             let origin = Point::from(vehicle_from_lidar.translation.vector);
             let returns = sweep.scan.points.iter().filter(|point| is_return(point));
-            returns.map(move |point| {
+            rays.extend(returns.map(|point| {
                 let ray = Vector::from(point.map(f64::from));
                 let range = ray.norm();
                 LidarRay { origin, direction: vehicle_from_lidar.rotation * (ray / range), range }
-            })
-        })
+            }));
+        }
+        rays
     }
 }
 
@@ -307,7 +309,7 @@ mod tests {
         let view = LidarView { moment, vehicle_from_moment: Transform::translation(-10.0, 0.0, 0.0) };
         // The LiDAR looks to the left: its (3, 4) is the vehicle's (-4, 3). The second and the third point are no
         // returns.
-        let rays: Vec<LidarRay> = view.rays().collect();
+        let rays = view.rays();
         assert_eq!(rays.len(), 2);
         for (ray, range, end) in
             [(rays[0], 5.0, Point::new(-3.0, 3.0, 2.0)), (rays[1], 2.0, Point::new(1.0, 0.0, 0.0))]

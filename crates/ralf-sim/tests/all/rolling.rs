@@ -1,6 +1,6 @@
 //! What bringing LiDAR points to one time is worth: labels in a turn, of revolutions as a LiDAR measures them.
 //!
-//!     cargo test -p ralf-data --test all rolling -- --nocapture
+//!     cargo test -p ralf-sim --test all rolling -- --nocapture
 
 use ralf::config::Config;
 use ralf::label::truth_of;
