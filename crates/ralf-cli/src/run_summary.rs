@@ -6,15 +6,11 @@ use crate::text::{aligned, counted, grouped, percent};
 use ralf::label::flag;
 use ralf::scene::{Failure, ViewState};
 use ralf_data::NotUsed;
-use ralf_data::run::{CameraRecord, Earlier, RadarRecord, RunRecord, SequenceRecord, UnreadableScan};
+use ralf_data::run::{CameraRecord, RadarRecord, RunRecord, SequenceRecord, UnreadableScan};
 use ralf_data::views::Lacking;
 
 /// Of sequences that this run has labelled.
 pub(crate) const AGAIN: &str = "is labelled again";
-
-/// Of earlier results that are gone.
-const REMOVED: &str = "removed, for they were made by another version, of a recording of another format or with other \
-                       settings";
 
 /// What to do where images have no depth.
 const MAKES_DEPTH: &str = match cfg!(feature = "depth") {
@@ -61,28 +57,6 @@ pub(crate) fn say_not_used(NotUsed { sequence, left_out, without }: &NotUsed) ->
 /// Says which sequences have no `what`, truth or labels, and are left out.
 pub(crate) fn say_without<'a>(what: &str, sequences: impl IntoIterator<Item = &'a String>) {
     sequences.into_iter().for_each(|name| say(&format!("sequence {name} has no {what}: left out")));
-}
-
-/// What became of earlier results of sequences, a line each. `again` says when those are labelled that have to be.
-pub(crate) fn told_of_earlier(earlier: &Earlier, again: &str) -> impl Iterator<Item = String> {
-    let removed = (!earlier.removed.is_empty()).then(|| format!("{REMOVED}: {}", earlier.removed.join(", ")));
-    let damaged = earlier.damaged.iter().map(move |(sequence, file)| {
-        format!("sequence {sequence} {again}: {} is not as it was written", file.display())
-    });
-    let without = earlier.without.iter().map(move |(sequence, scan)| {
-        let UnreadableScan { sensor, scan, .. } = scan;
-        format!(
-            "sequence {sequence} {again}, for it was labelled without {sensor} {scan}, which could not be \
-             read then"
-        )
-    });
-    removed.into_iter().chain(damaged).chain(without)
-}
-
-/// What is gone of runs that were not over.
-pub(crate) fn told_of_unfinished(earlier: &Earlier) -> Option<String> {
-    let names = earlier.unfinished.join(", ");
-    (!names.is_empty()).then(|| format!("{REMOVED}: what was labelled so far of {names}"))
 }
 
 /// What scans of all sequences were labelled without, a line each.

@@ -76,7 +76,10 @@ fn read_settings(file: &Path) -> PyResult<String> {
     Ok(text)
 }
 
-/// Labels a recording by a job. Returns the sequences that this call has labelled.
+/// How it is said that something is labelled anew.
+const AGAIN: &str = "is labelled again";
+
+/// Labels a recording by a job. Returns the sequences that this call has labelled, and what became of earlier results.
 #[pyfunction]
 #[pyo3(signature = (job, jobs=None, progress=None))]
 pub(crate) fn label(
@@ -84,12 +87,13 @@ pub(crate) fn label(
     job: ToldJob,
     jobs: Option<NonZeroUsize>,
     progress: Option<Py<PyAny>>,
-) -> PyResult<Vec<String>> {
+) -> PyResult<(Vec<String>, Vec<String>)> {
     let job = job.resolve()?;
-    Ok(watched(py, progress.as_ref(), |watch| job.label(threads(jobs), watch))?.labelled)
+    let done = watched(py, progress.as_ref(), |watch| job.label(threads(jobs), watch))?;
+    Ok((done.labelled, done.earlier.told(AGAIN)))
 }
 
-/// The parts of a job, of so many scans at most; JSON each.
+/// The parts of a job, of so many scans at most, JSON each; and what became of earlier results.
 #[pyfunction]
 #[pyo3(signature = (job, scans, jobs=None, progress=None))]
 pub(crate) fn plan(
@@ -98,10 +102,11 @@ pub(crate) fn plan(
     scans: NonZeroUsize,
     jobs: Option<NonZeroUsize>,
     progress: Option<Py<PyAny>>,
-) -> PyResult<Vec<String>> {
+) -> PyResult<(Vec<String>, Vec<String>)> {
     let job = job.resolve()?;
     let plan = watched(py, progress.as_ref(), |watch| many::plan(&job, scans, threads(jobs), watch))?;
-    plan.tasks.iter().map(to_json).collect()
+    let tasks = plan.tasks.iter().map(to_json).collect::<PyResult<_>>()?;
+    Ok((tasks, plan.earlier.told("is to be labelled again")))
 }
 
 /// Does a part of a job. Returns the scans that can't be labelled; JSON.
@@ -118,7 +123,8 @@ pub(crate) fn label_one(
     to_json(&done.not_labelled)
 }
 
-/// Puts the parts of a job together. Returns the sequences that this call has finished.
+/// Puts the parts of a job together. Returns the sequences that this call has finished, and what became of earlier
+/// results.
 #[pyfunction]
 #[pyo3(signature = (out, jobs=None, progress=None))]
 pub(crate) fn assemble(
@@ -126,8 +132,9 @@ pub(crate) fn assemble(
     out: PathBuf,
     jobs: Option<NonZeroUsize>,
     progress: Option<Py<PyAny>>,
-) -> PyResult<Vec<String>> {
-    Ok(watched(py, progress.as_ref(), |watch| many::assemble(&out, threads(jobs), watch))?.labelled)
+) -> PyResult<(Vec<String>, Vec<String>)> {
+    let done = watched(py, progress.as_ref(), |watch| many::assemble(&out, threads(jobs), watch))?;
+    Ok((done.labelled, done.earlier.told(AGAIN)))
 }
 
 /// The output folders for which something was planned.

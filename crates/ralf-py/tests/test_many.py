@@ -63,6 +63,17 @@ def test_a_plan_takes_segmentations_as_the_command_does(cli, tmp_path):
     assert "class_from" not in ralf.label(drive, tmp_path / "without")["tiny"].columns
 
 
+def test_labels_of_other_settings_that_are_removed_are_a_warning(drive, tmp_path):
+    ralf.label(drive, tmp_path / "drive")
+    removed = r"drive: removed, for they were made .* with other settings: "
+    with pytest.warns(UserWarning, match=removed):
+        tasks = ralf.plan([drive], tmp_path, settings={"lidar.beta": 0.5}, scans=6)
+    assert len(tasks) > 1
+    ralf.label_one(tasks[0])
+    with pytest.warns(UserWarning, match=removed + "what was labelled so far of"):
+        ralf.plan([drive], tmp_path)
+
+
 def test_two_recordings_of_one_name_are_refused(drive, tmp_path):
     with pytest.raises(ralf.RalfError, match="another recording"):
         ralf.plan([drive, drive], tmp_path)

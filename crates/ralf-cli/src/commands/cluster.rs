@@ -3,10 +3,7 @@
 use crate::arguments::{MethodArgs, STORED_CLASSES, STORED_DEPTH, SettingsArgs, threads};
 use crate::outcome::Outcome;
 use crate::progress::{Stages, say};
-use crate::run_summary::{
-    AGAIN, all_labelled_without, labelled_without, not_labelled, say_lacking, told_of_earlier,
-    told_of_unfinished,
-};
+use crate::run_summary::{AGAIN, all_labelled_without, labelled_without, not_labelled, say_lacking};
 use crate::text::{grouped, print};
 use anyhow::bail;
 use clap::{Args, Subcommand};
@@ -137,9 +134,8 @@ fn plan(arguments: &PlanArgs) -> anyhow::Result<Outcome> {
         match many::plan(&arguments.job(recording, out, &settings), arguments.scans, jobs, &Stages::default())
         {
             Ok(plan) => {
-                let what = told_of_earlier(&plan.earlier, "is to be labelled again")
-                    .chain(told_of_unfinished(&plan.earlier));
-                what.for_each(|line| say(&format!("{}: {line}", out.display())));
+                let what = plan.earlier.told("is to be labelled again");
+                what.iter().for_each(|line| say(&format!("{}: {line}", out.display())));
                 say_lacking(&plan.lacking);
                 planned.push((out.as_path(), plan.tasks));
             }
@@ -195,7 +191,7 @@ fn assemble(arguments: &AssembleArgs) -> anyhow::Result<Outcome> {
                 recordings += 1;
                 let radars = done.record.radars().flat_map(|radar| &radar.detections);
                 detections += radars.map(|count| u64::from(*count)).sum::<u64>();
-                let what = told_of_earlier(&done.earlier, AGAIN).chain(all_labelled_without(&done.record));
+                let what = done.earlier.told(AGAIN).into_iter().chain(all_labelled_without(&done.record));
                 what.for_each(|line| say(&format!("{}: {line}", folder.display())));
                 for line in not_labelled(&done.record) {
                     say(&format!("not labelled: {}: {line}", folder.display()));

@@ -202,12 +202,13 @@ fn other_settings_replace_what_a_killed_run_left() {
     fs::write(dataset.result("radar_front/000000.label.part"), "half").unwrap();
     fs::write(dataset.result("plausibility.parquet.part"), "half").unwrap();
     let fresh = dataset.beside("fresh");
-    for out in [&dataset.out, &fresh] {
+    let labelled = |out: &str| {
         let other = ["--sequence", "01", "--set", "fusion.threshold=0.9"];
         ralf(["label", "--no-check", &dataset.path, "-o", out, other[0], other[1], other[2], other[3]])
             .exits(0)
-            .says_nothing();
-    }
+    };
+    labelled(&dataset.out).says(["removed", "what was labelled so far of 00"]);
+    labelled(&fresh).says_nothing();
     assert!(without_timings(&dataset.out) == without_timings(&fresh));
 }
 

@@ -3,6 +3,10 @@
 use crate::result::UnreadableScan;
 use std::path::PathBuf;
 
+/// Of results that are gone.
+const REMOVED: &str = "removed, for they were made by another version, of a recording of another format or with other \
+                       settings";
+
 /// What became of the results that lay in the output folder, by sequence.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Earlier {
@@ -19,6 +23,25 @@ pub struct Earlier {
 }
 
 impl Earlier {
+    /// What became of them, for people: a sentence each, what is gone first. `again` says when sequences are labelled
+    /// that have to be, as in `sequence 00 is labelled again`.
+    pub fn told(&self, again: &str) -> Vec<String> {
+        let gone = |what: &str, names: &[String]| {
+            (!names.is_empty()).then(|| format!("{REMOVED}: {what}{}", names.join(", ")))
+        };
+        let damaged = self.damaged.iter().map(|(sequence, file)| {
+            format!("sequence {sequence} {again}: {} is not as it was written", file.display())
+        });
+        let without = self.without.iter().map(|(sequence, UnreadableScan { sensor, scan, .. })| {
+            format!(
+                "sequence {sequence} {again}, for it was labelled without {sensor} {scan}, which could not be \
+                 read then"
+            )
+        });
+        let unfinished = gone("what was labelled so far of ", &self.unfinished);
+        gone("", &self.removed).into_iter().chain(unfinished).chain(damaged).chain(without).collect()
+    }
+
     /// What is gone, too; each is named once.
     pub(super) fn add(&mut self, more: Self) {
         self.removed.extend(more.removed);

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import os
-import warnings
 from pathlib import Path
 from typing import Any
 
@@ -13,6 +12,7 @@ from numpy.typing import NDArray
 
 from ralf import _ralf
 from ralf._jobs import Path_
+from ralf._warnings import warn_of
 from ralf.run import Run, Scan
 
 
@@ -45,14 +45,8 @@ def evaluate(run: Run | Path_, truth: Path_ | None = None) -> Evaluation:
     """
     known = None if truth is None else os.fsdecode(truth)
     told, orphaned = _ralf.evaluate(_out(run), known)
-    _warn_of(orphaned)
+    warn_of(orphaned)
     return Evaluation(json.loads(told))
-
-
-def _warn_of(sentences: list[str]) -> None:
-    """Warn the caller's caller."""
-    for sentence in sentences:
-        warnings.warn(sentence, stacklevel=3)
 
 
 def _out(run: Run | Path_) -> str:
@@ -69,7 +63,7 @@ class Truth:
     def __init__(self, dataset: Path_, run: Run | Path_ | None = None) -> None:
         self._told = (os.fsdecode(dataset), None if run is None else _out(run))
         self._truth = _ralf.Truth(*self._told)
-        _warn_of(self._truth.orphaned)
+        warn_of(self._truth.orphaned)
 
     def labels(self, sequence: str, scan: Scan) -> NDArray[np.int8]:
         """Of each detection of a labelled scan: 1 plausible, 0 artifact, -1 unknown."""
@@ -124,5 +118,5 @@ def plot(
     if source is None:
         raise ValueError("expected a recording: plot(..., recording=...) or load(out, recording)")
     png, missing = _ralf.plot(run.out, os.fsdecode(source), sequence, scan, radar, radius, color_by, width)
-    _warn_of([f"not labelled: {one}" for one in missing])
+    warn_of([f"not labelled: {one}" for one in missing])
     return Picture(png)

@@ -18,6 +18,7 @@ from typing import Any
 from ralf import _ralf
 from ralf._jobs import Path_, Settings, above_0, job, utf8
 from ralf._progress import Progress, listener
+from ralf._warnings import warn_of
 from ralf.run import Run
 
 SCANS = 2048
@@ -89,8 +90,8 @@ def plan(
 
     The results of a recording go to a folder of its name in `out`. `depth` and `segmentation` are folders that `ralf
     depth -o` and `ralf segment -o` wrote. Every file is read once, for its hash. A recording
-    that can't be opened is named in `failed`, and costs the others nothing. Plans and tasks tell paths as text, which
-    must be UTF-8.
+    that can't be opened is named in `failed`, and costs the others nothing. What `out` holds of a recording with other
+    settings is removed, which is a warning. Plans and tasks tell paths as text, which must be UTF-8.
     """
     found = Plan()
     above_0(scans, "scans")
@@ -111,10 +112,14 @@ def plan(
             evidence=evidence,
             check=check,
         )
+        name = Path(folder).name
         try:
-            found.tasks += [Task(task) for task in _ralf.plan(told, scans, jobs, listener(progress))]
+            tasks, earlier = _ralf.plan(told, scans, jobs, listener(progress))
         except _ralf.RalfError as error:
-            found.failed[Path(folder).name] = str(error)
+            found.failed[name] = str(error)
+            continue
+        found.tasks += map(Task, tasks)
+        warn_of([f"{name}: {what}" for what in earlier])
     return found
 
 
@@ -135,10 +140,11 @@ def assemble(out: Path_, *, jobs: int | None = None, progress: Progress = None) 
     for folder in _ralf.planned(os.fsdecode(out)):
         name = Path(folder).name
         try:
-            labelled = _ralf.assemble(folder, jobs, listener(progress))
+            labelled, earlier = _ralf.assemble(folder, jobs, listener(progress))
         except _ralf.RalfError as error:
             found.failed[name] = str(error)
             continue
+        warn_of([f"{name}: {what}" for what in earlier])
         run = Run(folder, recording_of(folder))
         run.labelled = labelled
         found.runs[name] = run

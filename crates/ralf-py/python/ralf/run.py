@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from ralf import _ralf
 from ralf._jobs import Path_, Settings, above_0, job
 from ralf._progress import Progress, listener
+from ralf._warnings import warn_of
 from ralf.recording import Recording
 
 
@@ -190,7 +191,7 @@ def label(
     `settings` is a mapping (`{"lidar.beta": 0.5}`) or a TOML file. `method` is "paper" or "learned", which asks
     `model`, the shipped one if not given. `depth` is a folder of depth images, `segmentation` one of segmentations.
     `jobs` is the number of threads, as many as there are processors if not given. Ctrl-C stops it, and what is done is
-    kept.
+    kept. What becomes of earlier results in `out`, those of other settings that are removed among them, is a warning.
     """
     path = recording.path if isinstance(recording, Recording) else recording
     if isinstance(recording, Recording):
@@ -209,7 +210,8 @@ def label(
         evidence=evidence,
         check=check,
     )
-    labelled = _ralf.label(told, above_0(jobs, "jobs"), listener(progress))
+    labelled, earlier = _ralf.label(told, above_0(jobs, "jobs"), listener(progress))
+    warn_of(earlier)
     run = Run(out, path)
     run.labelled = labelled
     return run

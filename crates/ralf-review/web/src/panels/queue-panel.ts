@@ -16,6 +16,8 @@ export class QueuePanel {
   private readonly list = h("div", { class: "queue-list", role: "listbox", "aria-label": "Scans", tabindex: "0" });
   private readonly room = h("div", { class: "queue-room" });
   private rows: readonly QueueScan[] = [];
+  /** The row that the pointer was pressed on, and where. */
+  private pressed: { readonly entry: QueueScan | undefined; readonly place: number } | null = null;
   /** The most errors that are expected of any scan. */
   private most = 1;
 
@@ -23,6 +25,7 @@ export class QueuePanel {
     this.list.append(this.room);
     this.element = h("section", { class: "queue", "aria-label": "Queue" }, head(page), order(page), this.list);
     this.list.addEventListener("scroll", () => this.draw());
+    this.listen();
     let height = 0;
     new ResizeObserver(() => {
       // A list that was hidden could not be scrolled to the scan.
@@ -44,6 +47,33 @@ export class QueuePanel {
       ({ current }) => [current],
       () => this.reveal(),
     );
+  }
+
+  private place(event: MouseEvent): number {
+    return Math.floor((event.clientY - this.room.getBoundingClientRect().top) / ROW);
+  }
+
+  /** A press counts though rows are drawn anew before it ends: the row that it began on then gets no click. */
+  private listen(): void {
+    this.room.addEventListener("pointerdown", (event) => {
+      const place = this.place(event);
+      this.pressed = event.button === 0 ? { entry: this.rows[place], place } : null;
+    });
+    window.addEventListener("pointerup", (event) => {
+      const { pressed } = this;
+      this.pressed = null;
+      const inside = event.target instanceof Node && this.room.contains(event.target);
+      if (inside && pressed?.place === this.place(event)) this.open(pressed.entry);
+    });
+    // A screen reader's click has no pointer, and names the row.
+    this.room.addEventListener("click", ({ target, detail }) => {
+      const row = target instanceof Element ? target.closest<HTMLElement>(".queue-row") : null;
+      if (detail === 0) this.open(this.rows[Number(row?.dataset["place"])]);
+    });
+  }
+
+  private open(entry: QueueScan | undefined): void {
+    if (entry !== undefined) void this.page.actions.go.goTo(entry);
   }
 
   private reveal(): void {
@@ -75,7 +105,7 @@ export class QueuePanel {
         role: "option",
         "aria-selected": String(current),
         title: tooltip(entry),
-        on: { click: () => void this.page.actions.go.goTo(entry) },
+        "data-place": String(place),
       },
       h(
         "span",

@@ -54,6 +54,32 @@ test("hovering a detection shows its numbers", async (context) => {
   clean(tab);
 });
 
+test("a press on a scan counts though the list is drawn anew before it ends", async (context) => {
+  const { tab, page } = await opened(context, browser);
+  const row = page.locator(".queue-row").nth(2);
+  const [radar, scan] = await row.locator(".queue-name > *").allTextContents();
+  const box = await row.boundingBox();
+  await page.mouse.move(box.x + 40, box.y + box.height / 2);
+  await page.mouse.down();
+  await page.locator(".queue-list").evaluate((list) => list.dispatchEvent(new Event("scroll")));
+  await page.mouse.up();
+  await page.waitForFunction(([radar, scan]) => location.hash.endsWith(`${radar}/${scan}`), [radar, scan]);
+  const there = await current(page);
+  await page.mouse.move(box.x + 40, box.y + box.height / 2);
+  await page.mouse.down();
+  await page.mouse.move(box.x + 40, box.y - box.height / 2);
+  await page.mouse.up();
+  assert.deepEqual(await current(page), there, "a press that ended on another row");
+  // A screen reader's press has no place.
+  await page
+    .locator(".queue-row")
+    .nth(1)
+    .evaluate((other) => other.click());
+  const chosen = await page.locator(".queue-row").nth(1).locator(".queue-name > *").allTextContents();
+  await page.waitForFunction((name) => location.hash.endsWith(name.join("/")), chosen);
+  clean(tab);
+});
+
 test("a lasso corrects, undo takes it back, redo sets it again, and a reload knows it all", async (context) => {
   const { server, tab, page } = await opened(context, browser);
   const id = await current(page);

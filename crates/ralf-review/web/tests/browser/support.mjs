@@ -30,6 +30,9 @@ const CHROMIUM = [
 /** What Chromium then says of itself: the picture is read back. */
 const READ_BACK = /GPU stall due to ReadPixels/;
 
+/** Where a machine is shared and draws without a graphics card, a frame may take a second. */
+const PATIENCE_MS = 60_000;
+
 /** Sees the page as a person would: RALF_PICTURES names a folder for pictures of it. */
 export async function picture(page, name) {
   if (process.env.RALF_PICTURES) await page.screenshot({ path: `${process.env.RALF_PICTURES}/${name}.png` });
@@ -95,6 +98,7 @@ export async function serve(context, out, { author = "ada", second, port = 0, da
 /** A browser of its own: another person. */
 export async function anotherBrowser(context, browser, viewport = { width: 1280, height: 800 }) {
   const own = await browser.newContext({ viewport });
+  own.setDefaultTimeout(PATIENCE_MS);
   atEnd(context, async () => {
     // A request that a test answers itself may be under way.
     for (const page of own.pages()) await page.unrouteAll({ behavior: "ignoreErrors" });
@@ -258,12 +262,9 @@ export function status(page) {
   return page.locator(".saved");
 }
 
-/** Where a machine is shared and draws without a graphics card, a frame may take a second. */
-const PATIENCE_MS = 60_000;
-
 export async function says(locator, text) {
   try {
-    await locator.filter({ hasText: text }).waitFor({ timeout: PATIENCE_MS });
+    await locator.filter({ hasText: text }).waitFor();
   } catch (cause) {
     const found = await locator.allTextContents();
     const notices = await locator.page().locator(".notice").allTextContents();
