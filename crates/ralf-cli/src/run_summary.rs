@@ -9,9 +9,6 @@ use ralf_data::NotUsed;
 use ralf_data::run::{CameraRecord, RadarRecord, RunRecord, SequenceRecord, UnreadableScan};
 use ralf_data::views::Lacking;
 
-/// Of sequences that this run has labelled.
-pub(crate) const AGAIN: &str = "is labelled again";
-
 /// What to do where images have no depth.
 const MAKES_DEPTH: &str = match cfg!(feature = "depth") {
     true => "--depth-model or `ralf depth` makes depth",

@@ -6,7 +6,7 @@ use crate::watch::watched;
 use pyo3::prelude::*;
 use ralf_data::many::{self, Job, Task};
 use ralf_data::result::LabelledRun;
-use ralf_data::run::read_record;
+use ralf_data::run::{Earlier, read_record};
 use ralf_data::{DataError, Settings};
 use ralf_files::Kind;
 use serde::de::DeserializeOwned;
@@ -76,9 +76,6 @@ fn read_settings(file: &Path) -> PyResult<String> {
     Ok(text)
 }
 
-/// How it is said that something is labelled anew.
-const AGAIN: &str = "is labelled again";
-
 /// Labels a recording by a job. Returns the sequences that this call has labelled, and what became of earlier results.
 #[pyfunction]
 #[pyo3(signature = (job, jobs=None, progress=None))]
@@ -90,7 +87,7 @@ pub(crate) fn label(
 ) -> PyResult<(Vec<String>, Vec<String>)> {
     let job = job.resolve()?;
     let done = watched(py, progress.as_ref(), |watch| job.label(threads(jobs), watch))?;
-    Ok((done.labelled, done.earlier.told(AGAIN)))
+    Ok((done.labelled, done.earlier.told(Earlier::NOW)))
 }
 
 /// The parts of a job, of so many scans at most, JSON each; and what became of earlier results.
@@ -106,7 +103,7 @@ pub(crate) fn plan(
     let job = job.resolve()?;
     let plan = watched(py, progress.as_ref(), |watch| many::plan(&job, scans, threads(jobs), watch))?;
     let tasks = plan.tasks.iter().map(to_json).collect::<PyResult<_>>()?;
-    Ok((tasks, plan.earlier.told("is to be labelled again")))
+    Ok((tasks, plan.earlier.told(Earlier::PLANNED)))
 }
 
 /// Does a part of a job. Returns the scans that can't be labelled; JSON.
@@ -134,7 +131,7 @@ pub(crate) fn assemble(
     progress: Option<Py<PyAny>>,
 ) -> PyResult<(Vec<String>, Vec<String>)> {
     let done = watched(py, progress.as_ref(), |watch| many::assemble(&out, threads(jobs), watch))?;
-    Ok((done.labelled, done.earlier.told(AGAIN)))
+    Ok((done.labelled, done.earlier.told(Earlier::NOW)))
 }
 
 /// The output folders for which something was planned.

@@ -3,13 +3,13 @@
 use crate::arguments::{MethodArgs, STORED_CLASSES, STORED_DEPTH, SettingsArgs, threads};
 use crate::outcome::Outcome;
 use crate::progress::{Stages, say};
-use crate::run_summary::{AGAIN, all_labelled_without, labelled_without, not_labelled, say_lacking};
+use crate::run_summary::{all_labelled_without, labelled_without, not_labelled, say_lacking};
 use crate::text::{grouped, print};
 use anyhow::bail;
 use clap::{Args, Subcommand};
 use ralf_data::Settings;
 use ralf_data::many::{self, Job};
-use ralf_data::run::Unwatched;
+use ralf_data::run::{Earlier, Unwatched};
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
@@ -134,7 +134,7 @@ fn plan(arguments: &PlanArgs) -> anyhow::Result<Outcome> {
         match many::plan(&arguments.job(recording, out, &settings), arguments.scans, jobs, &Stages::default())
         {
             Ok(plan) => {
-                let what = plan.earlier.told("is to be labelled again");
+                let what = plan.earlier.told(Earlier::PLANNED);
                 what.iter().for_each(|line| say(&format!("{}: {line}", out.display())));
                 say_lacking(&plan.lacking);
                 planned.push((out.as_path(), plan.tasks));
@@ -191,7 +191,8 @@ fn assemble(arguments: &AssembleArgs) -> anyhow::Result<Outcome> {
                 recordings += 1;
                 let radars = done.record.radars().flat_map(|radar| &radar.detections);
                 detections += radars.map(|count| u64::from(*count)).sum::<u64>();
-                let what = done.earlier.told(AGAIN).into_iter().chain(all_labelled_without(&done.record));
+                let what =
+                    done.earlier.told(Earlier::NOW).into_iter().chain(all_labelled_without(&done.record));
                 what.for_each(|line| say(&format!("{}: {line}", folder.display())));
                 for line in not_labelled(&done.record) {
                     say(&format!("not labelled: {}: {line}", folder.display()));

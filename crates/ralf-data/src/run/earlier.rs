@@ -23,8 +23,13 @@ pub struct Earlier {
 }
 
 impl Earlier {
-    /// What became of them, for people: a sentence each, what is gone first. `again` says when sequences are labelled
-    /// that have to be, as in `sequence 00 is labelled again`.
+    /// A sequence that has to be is labelled at once, in the words of [`told`](Self::told).
+    pub const NOW: &str = "is labelled again";
+    /// It is planned to be.
+    pub const PLANNED: &str = "is to be labelled again";
+
+    /// What became of them, for people: a sentence each, what is gone first. `again` is [`NOW`](Self::NOW) or
+    /// [`PLANNED`](Self::PLANNED).
     pub fn told(&self, again: &str) -> Vec<String> {
         let gone = |what: &str, names: &[String]| {
             (!names.is_empty()).then(|| format!("{REMOVED}: {what}{}", names.join(", ")))

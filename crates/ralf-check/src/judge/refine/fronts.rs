@@ -60,8 +60,8 @@ impl Fronts {
         }
         let azimuth = y.atan2(x).rem_euclid(TAU) * RAYS as f64 / TAU;
         let along = |ray: usize| {
-            let near = ray % RAYS * STEPS + range as usize;
-            let (near, far) = (f64::from(self.values[near]), f64::from(self.values[near + 1]));
+            let first = ray % RAYS * STEPS + range as usize;
+            let (near, far) = (f64::from(self.values[first]), f64::from(self.values[first + 1]));
             near + (far - near) * range.fract()
         };
         let (right, left) = (along(azimuth as usize), along(azimuth as usize + 1));

@@ -17,7 +17,7 @@ export class QueuePanel {
   private readonly room = h("div", { class: "queue-room" });
   private rows: readonly QueueScan[] = [];
   /** The row that the pointer was pressed on, and where. */
-  private pressed: { readonly entry: QueueScan | undefined; readonly place: number } | null = null;
+  private press: { readonly entry: QueueScan | undefined; readonly place: number } | null = null;
   /** The most errors that are expected of any scan. */
   private most = 1;
 
@@ -57,13 +57,13 @@ export class QueuePanel {
   private listen(): void {
     this.room.addEventListener("pointerdown", (event) => {
       const place = this.place(event);
-      this.pressed = event.button === 0 ? { entry: this.rows[place], place } : null;
+      this.press = event.button === 0 ? { entry: this.rows[place], place } : null;
     });
     window.addEventListener("pointerup", (event) => {
-      const { pressed } = this;
-      this.pressed = null;
+      const { press } = this;
+      this.press = null;
       const inside = event.target instanceof Node && this.room.contains(event.target);
-      if (inside && pressed?.place === this.place(event)) this.open(pressed.entry);
+      if (inside && press?.place === this.place(event)) this.open(press.entry);
     });
     // A screen reader's click has no pointer, and names the row.
     this.room.addEventListener("click", ({ target, detail }) => {
