@@ -1,13 +1,19 @@
 //! `ralf check`, and the same at the head of `ralf label`: faults are noticed, told and put right; motion comes from elsewhere.
 
-use crate::support::{Dataset, Ran, nuscenes, program, ralf};
+use crate::support::{Dataset, Ran, Tree, nuscenes, program, put, ralf, tree};
 use std::fs;
 use std::path::Path;
+use std::sync::OnceLock;
 
-/// A good recording, small.
+/// A good recording, small: simulated once, for each test to spoil its own.
 fn simulated(dataset: &Dataset) -> String {
+    static SIMULATED: OnceLock<Tree> = OnceLock::new();
     let made = dataset.beside("made");
-    ralf(["simulate", "-o", &made, "--preset", "tiny", "-q"]).exits(0);
+    let files = SIMULATED.get_or_init(|| {
+        ralf(["simulate", "-o", &made, "--preset", "tiny", "-q"]).exits(0);
+        tree(&made)
+    });
+    put(files, &made);
     made
 }
 

@@ -261,7 +261,7 @@ fn help_tells_of_what_this_build_has() {
 #[test]
 fn a_command_that_is_told_can_be_typed_again() {
     let dataset = Dataset::of(&Shape { scans: 3, sequences: &["00", "01"], ..Shape::default() });
-    let [recording, model, demo] = ["it's a town", "a model", "d m"].map(|name| dataset.beside(name));
+    let [recording, model] = ["it's a town", "a model"].map(|name| dataset.beside(name));
     fs::rename(&dataset.path, &recording).unwrap();
     let few = ["--rounds", "2", "--leaves", "2"];
     let [a, b, c, d] = few;
@@ -274,8 +274,4 @@ fn a_command_that_is_told_can_be_typed_again() {
     ralf(["tune", &recording, "-o", &file, "--train", "00", "--test", "01", "--trials", "1", "-q"]).exits(0);
     let text = fs::read_to_string(&file).unwrap();
     assert!(text.contains(&format!("ralf tune {quoted} --train 00 --test 01 ")), "{text}");
-    ralf(["demo", &demo])
-        .exits(0)
-        .says([&format!("$ ralf label '{demo}/recording' -o '{demo}/labels'")])
-        .prints([&format!("ralf plot '{demo}/recording' '{demo}/labels' --scan 6")]);
 }

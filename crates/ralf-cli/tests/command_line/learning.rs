@@ -72,12 +72,12 @@ fn worlds_are_simulated_on_the_way_and_each_family_is_one() {
     let model = dataset.beside("model");
     let worlds = ["--preset=worlds", "--without=city,motorway,imaging,country,anything", "--seeds=2"];
     let [a, b, c] = worlds;
-    let few = ["--scans=12", "--every=4", "--rounds=8", "--leaves=4"];
+    let few = ["--scans=8", "--every=4", "--rounds=8", "--leaves=4"];
     let [d, e, f, g] = few;
     ralf(["learn", a, b, c, d, e, f, g, "-o", &model]).exits(0).prints(["survey", "carpark", "yard"]);
     let text = fs::read_to_string(&model).unwrap();
     let told =
-        "--preset worlds --seeds 2 --scans 12 --every 4 --without city,motorway,imaging,country,anything";
+        "--preset worlds --seeds 2 --scans 8 --every 4 --without city,motorway,imaging,country,anything";
     assert!(text.contains(told), "{:?}", text.lines().nth(2));
     assert_eq!(text.lines().filter(|line| line.starts_with("world ")).count(), 3);
 }

@@ -7,9 +7,12 @@ use std::fs;
 
 #[test]
 fn the_demonstration_shows_its_commands_a_table_and_a_page() {
-    let folder = Dataset::new().beside("demo");
-    let first = ralf(["demo", &folder]).exits(0).says(["$ ralf simulate", "$ ralf label", "$ ralf report"]);
-    first.prints(["F1 plausible", "report.html in a browser"]);
+    // What is told can be typed, though the name has a space.
+    let folder = Dataset::new().beside("d m");
+    let labelled = format!("$ ralf label '{folder}/recording' -o '{folder}/labels'");
+    let first = ralf(["demo", &folder]).exits(0).says(["$ ralf simulate", &labelled, "$ ralf report"]);
+    let plotted = format!("ralf plot '{folder}/recording' '{folder}/labels' --scan 6");
+    first.prints(["F1 plausible", "report.html in a browser", &plotted]);
     let page = fs::read_to_string(format!("{folder}/report.html")).unwrap();
     for told in [
         "Labels of",
@@ -83,7 +86,8 @@ fn a_simulated_recording_is_compared_with_another_one() {
         assert!(!html.contains(loaded), "the page needs a network: {loaded}");
     }
 
-    let other = ["simulate", "--compare", &made, "--preset", "tiny", "--seed", "4", "--json"];
+    let other =
+        ["simulate", "--compare", &made, "--preset", "tiny", "--seed", "4", "--scans", "10", "--json"];
     let figures = ralf(other).exits(0).json();
     assert_eq!(figures["simulated"], "tiny, seed 4");
     let distance = figures["realism"]["mean_ks"].as_f64().unwrap();

@@ -9,6 +9,7 @@ use ralf_data::{Recording, SequenceReader, Settings, TrainingGatherer, TrainingT
 use ralf_sim::SimulatedSequence;
 use ralf_train::learning::{Fitting, Parameters, TrainingTable, View, fit};
 use std::path::Path;
+use std::sync::LazyLock;
 
 /// A simulated recording of one short sequence.
 fn recording(seed: u64) -> Recording {
@@ -30,11 +31,15 @@ fn table(jobs: usize) -> TrainingTable {
     table
 }
 
-fn model(table: &TrainingTable) -> Model {
-    let parameters = Parameters { rounds: 20, leaves: 8, rows_per_leaf: 30, ..Parameters::default() };
-    let fitting =
-        Fitting { parameters, blanking: true, causes: true, threshold: 0.5, unconfirmed: 0.1, jobs: 2 };
-    fit(table, &fitting, Origin::default(), &|_, _| {}).unwrap().model
+/// A model, learned once, for each test to change its own.
+fn model() -> Model {
+    static MODEL: LazyLock<Model> = LazyLock::new(|| {
+        let parameters = Parameters { rounds: 20, leaves: 8, rows_per_leaf: 30, ..Parameters::default() };
+        let fitting =
+            Fitting { parameters, blanking: true, causes: true, threshold: 0.5, unconfirmed: 0.1, jobs: 2 };
+        fit(&table(2), &fitting, Origin::default(), &|_, _| {}).unwrap().model
+    });
+    MODEL.clone()
 }
 
 fn label(out: &Path, assignments: &[&str], model: Option<&Model>, jobs: usize) -> Result<Table, String> {
@@ -82,7 +87,7 @@ fn what_is_gathered_does_not_depend_on_the_number_of_jobs_and_shows_less_in_some
 
 #[test]
 fn a_model_labels_with_reasons_and_the_same_to_the_byte_whatever_the_number_of_jobs() {
-    let model = model(&table(2));
+    let model = model();
     let [first, second, paper] = [(); 3].map(|()| tempfile::tempdir().unwrap());
     let labelled = label(first.path(), &[], Some(&model), 1).unwrap();
     label(second.path(), &[], Some(&model), 3).unwrap();
@@ -111,7 +116,7 @@ fn a_model_labels_with_reasons_and_the_same_to_the_byte_whatever_the_number_of_j
 
 #[test]
 fn as_many_are_plausible_as_are_said_to_be_expected() {
-    let model = model(&table(2));
+    let model = model();
     // What the model has no business with the paper's method answers, whatever share is expected.
     let answers = |assignments: &[&str]| -> Vec<(f32, bool)> {
         let out = tempfile::tempdir().unwrap();
@@ -136,7 +141,7 @@ fn as_many_are_plausible_as_are_said_to_be_expected() {
 
 #[test]
 fn what_is_unlike_anything_the_model_knows_is_answered_by_the_paper_and_says_so() {
-    let mut model = model(&table(2));
+    let mut model = model();
     for input in &mut model.inputs {
         (input.seen.low, input.seen.high, input.seen.absent) = (1e30, 1e30, 0.0);
     }
@@ -154,7 +159,7 @@ fn what_is_unlike_anything_the_model_knows_is_answered_by_the_paper_and_says_so(
 
 #[test]
 fn a_model_that_cannot_be_used_is_refused_before_anything_is_written() {
-    let mut model = model(&table(2));
+    let mut model = model();
     model.inputs[0].name = "smell".to_owned();
     let out = tempfile::tempdir().unwrap();
     let refused = label(&out.path().join("labels"), &[], Some(&model), 1).unwrap_err();

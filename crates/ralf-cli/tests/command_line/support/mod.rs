@@ -24,5 +24,5 @@ pub(crate) use program::{Ran, program, ralf};
 pub(crate) use python::read_export;
 pub(crate) use ros_topics::ROS_TOPICS;
 pub(crate) use table::{Row, rows, schema};
-pub(crate) use tree::{tree, without_timings};
+pub(crate) use tree::{Tree, put, tree, without_timings};
 pub(crate) use world::{ARTIFACT, CAR, WALL};

@@ -24,6 +24,20 @@ pub(crate) fn without_timings(out: impl AsRef<Path>) -> Tree {
     found
 }
 
+/// Writes all of it into a folder.
+pub(crate) fn put(files: &Tree, folder: impl AsRef<Path>) {
+    for (name, content) in files {
+        let path = folder.as_ref().join(name);
+        match content {
+            Some(bytes) => {
+                fs::create_dir_all(path.parent().unwrap()).unwrap();
+                fs::write(path, bytes).unwrap();
+            }
+            None => fs::create_dir_all(path).unwrap(),
+        }
+    }
+}
+
 fn add(folder: &Path, prefix: &str, found: &mut Tree) {
     for entry in fs::read_dir(folder).unwrap() {
         let entry = entry.unwrap();
