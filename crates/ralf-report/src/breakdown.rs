@@ -89,6 +89,9 @@ pub(crate) struct Group {
     pub(crate) kept: u64,
 }
 
+/// What files of causes call that of what is plausible.
+const NO_CAUSE: &str = "none";
+
 /// Counts by class and by cause.
 #[derive(Debug, Default)]
 pub(crate) struct Groups {
@@ -111,7 +114,8 @@ impl Groups {
     pub(crate) fn add(&mut self, scored: &Scored, cause: Option<&str>) {
         let Some((class, plausible)) = scored.truth else { return };
         count(self.classes.entry((class, plausible)).or_default(), scored);
-        let cause = cause.filter(|_| !plausible);
+        // Where people have corrected the truth it has artifacts of which no file tells a cause.
+        let cause = cause.filter(|cause| !plausible && *cause != NO_CAUSE);
         let known = cause.and_then(|cause| self.causes.iter_mut().find(|(name, _)| name == cause));
         if let Some((_, counts)) = known {
             count(counts, scored);
@@ -223,7 +227,11 @@ mod tests {
         for scored in some() {
             groups.add(&scored, scored.cause.map(|code| names[usize::from(code)].as_str()));
         }
-        assert_eq!(groups.by_class(), [group("outlier", false, 2, 1), group("car", true, 2, 1)]);
+        // Somebody has called it an artifact whose file says nothing of a cause; the class has another number.
+        let corrected = Scored { truth: Some((40, false)), ..scored(1.0, 0.0, false, 40, 0) };
+        groups.add(&corrected, Some("none"));
+        let road = group("road", false, 1, 0);
+        assert_eq!(groups.by_class(), [group("outlier", false, 2, 1), group("car", true, 2, 1), road]);
         assert_eq!(groups.by_cause(), [group("clutter", false, 1, 1), group("mirror", false, 1, 0)]);
         assert_eq!(Groups::default().by_cause(), []);
     }

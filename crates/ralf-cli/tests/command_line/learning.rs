@@ -118,6 +118,10 @@ fn what_cannot_be_learned_or_asked_is_refused_and_nothing_is_written() {
         ("", "ralf model 1"),
         ("ralf model 2\n", "ralf model 1"),
         (
+            "ralf model 1\nprogram x\ncommand y\nseed 0\ncalibrated 0 0.5\nforest 0 plausible\nend\n",
+            "names no evidence",
+        ),
+        (
             "ralf model 1\nprogram x\ncommand y\nseed 0\ninput smell 0 1 0 1\ncalibrated 0 0.5\nforest 0 plausible\nend\n",
             "smell",
         ),

@@ -57,6 +57,10 @@ impl Balances {
         let mut sums = Sums::default();
         for record in &run.record().sequences {
             sums.sequences.entry(record.name.clone()).or_default();
+            // One that has seen nothing has no row in the table.
+            for radar in &record.radars {
+                sums.radars.entry(radar.name.clone()).or_default();
+            }
             run.table(record)?
                 .each(&["w", "label"], |scan, table| sums.add(&record.name, &scan.radar, table))?;
         }

@@ -59,6 +59,17 @@ impl QueueCurve {
         };
         Ok(Self::new(&comparison.scans.iter().map(of_scan).collect::<Vec<_>>()))
     }
+
+    /// The share of the scans that the first tenth is, the first two tenths and so on: whole scans, rounded up. Who
+    /// looks at them in no order finds this share of the wrong labels. 0 without scans.
+    pub fn looked_at(&self) -> [f64; TENTHS] {
+        std::array::from_fn(|tenth| first_scans(tenth, self.scans) as f64 / self.scans.max(1) as f64)
+    }
+}
+
+/// How many scans the first tenths are, one for the number 0.
+fn first_scans(tenth: usize, scans: usize) -> usize {
+    ((tenth + 1) * scans).div_ceil(TENTHS)
 }
 
 /// The share of all errors after each tenth of the scans, rounded up.
@@ -67,10 +78,11 @@ fn shares(in_turn: impl Iterator<Item = u64>, scans: usize, all: u64) -> [f64; T
     for errors in in_turn {
         sums.push(sums[sums.len() - 1] + errors);
     }
-    std::array::from_fn(|tenth| {
-        let first = ((tenth + 1) * scans).div_ceil(TENTHS);
-        if all == 0 { 0.0 } else { sums[first] as f64 / all as f64 }
-    })
+    std::array::from_fn(
+        |tenth| {
+            if all == 0 { 0.0 } else { sums[first_scans(tenth, scans)] as f64 / all as f64 }
+        },
+    )
 }
 
 /// Pearson's.
@@ -98,6 +110,15 @@ mod tests {
         assert_eq!(curve.found[..4], [0.0, 0.375, 0.75, 1.0]);
         assert_eq!(curve.ideal[..4], [0.375, 0.75, 1.0, 1.0]);
         assert_eq!((curve.found[9], curve.ideal[9]), (1.0, 1.0));
+        assert_eq!(curve.looked_at()[..3], [0.1, 0.2, 0.3]);
+    }
+
+    #[test]
+    fn tenths_of_few_scans_are_the_scans_that_are_looked_at() {
+        let curve = QueueCurve::new(&[(3.0, 6), (2.0, 3), (1.0, 3)]);
+        assert_eq!((curve.found[0], curve.looked_at()[0]), (0.5, 1.0 / 3.0));
+        assert_eq!((curve.found[3], curve.looked_at()[3], curve.looked_at()[9]), (0.75, 2.0 / 3.0, 1.0));
+        assert_eq!(QueueCurve::new(&[]).looked_at(), [0.0; TENTHS]);
     }
 
     #[test]

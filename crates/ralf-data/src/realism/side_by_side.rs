@@ -49,7 +49,8 @@ pub struct Compared {
 /// How far a simulated recording is from a real one.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Realism {
-    /// Mean Kolmogorov-Smirnov distance over the quantities that both have; `None` where they share none.
+    /// Mean Kolmogorov-Smirnov distance over the quantities that both have, and whose halves have a distance where any
+    /// have one; `None` where they share none.
     pub mean_ks: Option<f64>,
     /// The same between the halves of the real recording, over the same quantities.
     pub mean_ks_within_real: Option<f64>,
@@ -73,7 +74,10 @@ impl Realism {
                 within_real: distance(first, second),
             }
         });
-        let both = || compared.iter().filter(|compared| compared.distance.is_some());
+        // A short recording has halves of some quantities only, and a mean over others says nothing beside theirs.
+        let has_halves = compared.iter().any(|c| c.distance.and(c.within_real).is_some());
+        let counts = |c: &&Compared| c.distance.is_some() && (!has_halves || c.within_real.is_some());
+        let both = || compared.iter().filter(counts);
         Self {
             mean_ks: mean(both().filter_map(|compared| compared.distance)),
             mean_ks_within_real: mean(both().filter_map(|compared| compared.within_real)),

@@ -30,13 +30,14 @@ fn curve(findings: &Findings) -> Result<Markup, ReportError> {
     let rates = Rates::new(counts);
     let used = rates.recall_plausible.zip(rates.precision_plausible);
     let used = used.map(|(recall, precision)| RankedPoint { recall, precision });
-    let base_rate = (counts.tp + counts.r#fn) as f64 / counts.total().max(1) as f64;
+    let positives = counts.tp + counts.r#fn;
+    let base_rate = positives as f64 / counts.total().max(1) as f64;
     let svg = chart::precision_recall(&thinned(&points, CURVE_POINTS), used, base_rate)?;
     let caption = html! {
         "Precision and recall of plausible detections as the threshold w" sub { "0" } " goes from 1 to 0. "
         (swatch("artifact round"))
         "the threshold of this run; dashed: everything labelled plausible. Average precision "
-        (decimal(Some(average_precision(&points))))
+        (decimal((positives > 0).then(|| average_precision(&points))))
         ". What is an artifact at any w, such as a floor detection of the paper's method, never passes."
     };
     Ok(figure("Precision and recall", svg, caption))

@@ -69,3 +69,26 @@ export function select(label: string, options: readonly Option[], chosen: (value
 export function setOptions(list: HTMLSelectElement, options: readonly Option[]): void {
   list.replaceChildren(...options.map(({ value, text, meaning = "" }) => h("option", { value, title: meaning }, text)));
 }
+
+/** Keeps a child for each item. One whose key stays is the same element: focus and a press that has begun stay. */
+export function childrenOf<T>(
+  parent: HTMLElement,
+  keyOf: (item: T) => unknown,
+  make: (item: T) => HTMLElement,
+  show: (child: HTMLElement, item: T) => void = () => undefined,
+): (items: readonly T[]) => void {
+  let known = new Map<unknown, HTMLElement>();
+  return (items) => {
+    const now = new Map(items.map((item) => [keyOf(item), known.get(keyOf(item)) ?? make(item)] as const));
+    for (const [key, child] of known) if (!now.has(key)) child.remove();
+    let next = parent.firstElementChild;
+    for (const item of items) {
+      const child = now.get(keyOf(item));
+      if (child === undefined) continue;
+      if (child === next) next = next.nextElementSibling;
+      else parent.insertBefore(child, next);
+      show(child, item);
+    }
+    known = now;
+  };
+}

@@ -79,6 +79,9 @@ pub enum UseError {
         /// How many there are.
         known: usize,
     },
+    /// A model that reads nothing says the same of everything.
+    #[error("the model names no evidence that it reads")]
+    NoInputs,
     /// Trees that ask so many groups of evidence in turn that what each adds can't be told.
     #[error(
         "the model's trees ask too many groups of evidence for reasons to be told: set learned.reasons = false"
@@ -90,7 +93,7 @@ impl Model {
     /// Whether this program can use it: it observes every feature that the model reads, and no tree asks for another.
     ///
     /// # Errors
-    /// The first feature that is not known, or not named.
+    /// The first feature that is not known, or not named; a model that reads none.
     pub fn check(&self) -> Result<(), UseError> {
         self.places().map(drop)
     }
@@ -112,6 +115,9 @@ impl Model {
     pub fn places(&self) -> Result<Vec<usize>, UseError> {
         let places = self.places_among(features().map(|feature| feature.name))?;
         let known = self.inputs.len();
+        if known == 0 {
+            return Err(UseError::NoInputs);
+        }
         for forest in self.causes.iter().map(|cause| &cause.forest).chain([&self.plausible]) {
             let width = forest.width();
             if width > known {

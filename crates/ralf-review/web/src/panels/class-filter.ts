@@ -3,7 +3,7 @@
 import { allSources, present, sourceName } from "../data/classes.js";
 import type { Filter } from "../data/filter.js";
 import { isClass } from "../data/labels.js";
-import { h, pressed, say } from "../dom.js";
+import { childrenOf, h, pressed, say } from "../dom.js";
 import type { Page } from "../page.js";
 import { labelColour } from "../viewer/colours.js";
 import { cssColour } from "../viewer/palette.js";
@@ -21,46 +21,52 @@ export function classFilter(page: Page): HTMLElement {
   return h("details", {}, h("summary", { title }, "Classes ", chosen), classes(page), sources(page));
 }
 
+/** In place of a class where there is none on screen. */
+const NONE = -1;
+
 /** Those of the detections on screen, and those that are asked for. */
 function classes(page: Page): HTMLElement {
   const row = h("div", { class: "row wrap", role: "group", "aria-label": "Only of these classes" });
   const { labels } = page.store.state;
+  const put = childrenOf<number>(
+    row,
+    (id) => id,
+    (id) => {
+      if (id === NONE) return h("span", { class: "faint" }, "none on screen");
+      const button = choice(page, "classes", id, labels.name(id), "swatched");
+      button.style.setProperty("--colour", cssColour(labelColour(id, labels)));
+      return button;
+    },
+    (button, id) => id !== NONE && pressed(button, page.store.state.filter.classes.has(id)),
+  );
   page.store.watch(
     ({ cloud, filter }) => [cloud.label, filter.classes],
     (label, asked) => {
       const known = present([...label, ...asked]).filter(isClass);
-      const chips = known.map((id) => {
-        const button = choice(page, "classes", id, labels.name(id), "swatched");
-        button.style.setProperty("--colour", cssColour(labelColour(id, labels)));
-        return button;
-      });
-      row.replaceChildren(...(chips.length > 0 ? chips : [h("span", { class: "faint" }, "none on screen")]));
+      put(known.length > 0 ? known : [NONE]);
     },
   );
   return row;
 }
 
 function sources(page: Page): HTMLElement {
-  const row = h("div", { class: "row wrap tellers", role: "group", "aria-label": "Only where told by" });
   const { recording } = page.store.state;
-  page.store.watch(
-    ({ filter }) => [filter.classFrom],
-    () => {
-      const chips = allSources(recording).map((one) =>
-        choice(page, "classFrom", one, sourceName(one, recording), "flag"),
-      );
-      row.replaceChildren(h("span", { class: "faint" }, "told by"), ...chips);
-    },
-  );
-  return row;
+  const chips = allSources(recording).map((one) => {
+    const button = choice(page, "classFrom", one, sourceName(one, recording), "flag");
+    page.store.watch(
+      ({ filter }) => [filter.classFrom],
+      (asked) => pressed(button, asked.has(one)),
+    );
+    return button;
+  });
+  const label = h("span", { class: "faint" }, "told by");
+  return h("div", { class: "row wrap tellers", role: "group", "aria-label": "Only where told by" }, label, ...chips);
 }
 
 function choice({ store, actions }: Page, asked: Asked, value: number, text: string, look: string): HTMLButtonElement {
-  const button = chip(text, look, () => {
+  return chip(text, look, () => {
     const now = new Set(store.state.filter[asked]);
     if (!now.delete(value)) now.add(value);
     actions.view.filter({ [asked]: now } as Partial<Filter>);
   });
-  pressed(button, store.state.filter[asked].has(value));
-  return button;
 }

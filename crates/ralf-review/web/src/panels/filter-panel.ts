@@ -1,7 +1,7 @@
 /** Which detections are shown: by label, origin, score, range, height, class, flags and radar. */
 
 import { everything, type Filter, hides, type Origin, type Span } from "../data/filter.js";
-import { h, pressed, say, select } from "../dom.js";
+import { childrenOf, h, pressed, say, select } from "../dom.js";
 import { shortName } from "../format.js";
 import type { Page } from "../page.js";
 import { chip } from "./buttons.js";
@@ -133,18 +133,16 @@ function flags({ store, actions }: Page): HTMLElement {
 
 function radars({ store, actions }: Page): HTMLElement {
   const row = h("div", { class: "row wrap", role: "group", "aria-label": "Radars shown" });
+  const put = childrenOf<string>(
+    row,
+    (name) => name,
+    (name) => chip(shortName(name), "radar", () => actions.view.toggleRadar(name)),
+    (button, name) => pressed(button, !store.state.filter.hiddenRadars.has(name)),
+  );
   store.watch(
     ({ recording, sequence, filter }) => [recording, sequence, filter.hiddenRadars],
-    (recording, sequence, hidden) => {
-      const names = recording.sequences.find(({ name }) => name === sequence)?.radars.map(({ name }) => name) ?? [];
-      row.replaceChildren(
-        ...names.map((name) => {
-          const button = chip(shortName(name), "radar", () => actions.view.toggleRadar(name));
-          pressed(button, !hidden.has(name));
-          return button;
-        }),
-      );
-    },
+    (recording, sequence) =>
+      put(recording.sequences.find(({ name }) => name === sequence)?.radars.map(({ name }) => name) ?? []),
   );
   return row;
 }

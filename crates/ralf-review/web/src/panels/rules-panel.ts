@@ -4,8 +4,8 @@ import { AREAS, type Area, type AreaKind } from "../data/area.js";
 import { columnsOf } from "../data/cloud.js";
 import type { ColumnSpan } from "../data/filter.js";
 import { ARTIFACT, isClass, PLAUSIBLE } from "../data/labels.js";
-import { type Verdict, verdictOf, verdictText } from "../data/rules.js";
-import { h, type Option, pressed, say, select, setOptions } from "../dom.js";
+import { type Rule, type Verdict, verdictOf, verdictText } from "../data/rules.js";
+import { childrenOf, h, type Option, pressed, say, select, setOptions } from "../dom.js";
 import type { Page } from "../page.js";
 import type { State } from "../state.js";
 
@@ -47,47 +47,44 @@ function named(name: string, unit: string): string {
   return unit === "" ? name : `${name} / ${unit}`;
 }
 
-function spans({ store, actions }: Page): HTMLElement {
+function spans(page: Page): HTMLElement {
   const rows = h("div", {});
-  const set = (name: string, span: ColumnSpan["span"] | null): void => {
-    const others = store.state.filter.columns.flatMap((one) =>
-      one.name !== name ? [one] : span === null ? [] : [{ name, span }],
-    );
-    actions.view.filter({ columns: others });
-  };
-  store.watch(
+  const put = childrenOf<ColumnSpan>(
+    rows,
+    ({ name }) => name,
+    ({ name }) => columnRow(page, name),
+    (row, { span }) => {
+      row
+        .querySelectorAll("input")
+        .forEach((field, i) => (field.value = Number.isFinite(span[i]) ? String(span[i]) : ""));
+    },
+  );
+  page.store.watch(
     ({ filter }) => [filter.columns],
-    (columns) => rows.replaceChildren(...columns.map((column) => row(column, (span) => set(column.name, span)))),
+    (columns) => put(columns),
   );
   return rows;
 }
 
-function row({ name, span }: ColumnSpan, set: (span: ColumnSpan["span"] | null) => void): HTMLElement {
+function columnRow({ store, actions }: Page, name: string): HTMLElement {
+  const set = (change: (one: ColumnSpan) => readonly ColumnSpan[]): void => {
+    const { columns } = store.state.filter;
+    actions.view.filter({ columns: columns.flatMap((one) => (one.name === name ? change(one) : [one])) });
+  };
   const end = (index: 0 | 1, label: string): HTMLInputElement => {
-    const field = h("input", {
-      type: "number",
-      step: "any",
-      "aria-label": `${name}: ${label}`,
-      placeholder: label,
-      value: Number.isFinite(span[index]) ? String(span[index]) : "",
-      on: {
-        change: () => {
-          const open = index === 0 ? -Infinity : Infinity;
-          const now: [number, number] = [...span];
-          now[index] = Number.isNaN(field.valueAsNumber) ? open : field.valueAsNumber;
-          set(now);
-        },
-      },
-    });
+    const change = (): void =>
+      set(({ span }) => {
+        const now: [number, number] = [...span];
+        const open = index === 0 ? -Infinity : Infinity;
+        now[index] = Number.isNaN(field.valueAsNumber) ? open : field.valueAsNumber;
+        return [{ name, span: now }];
+      });
+    const attributes = { type: "number", step: "any", "aria-label": `${name}: ${label}`, placeholder: label };
+    const field = h("input", { ...attributes, on: { change } });
     return field;
   };
-  const away = h("button", {
-    class: "link",
-    type: "button",
-    title: `Ask nothing of ${name}`,
-    on: { click: () => set(null) },
-  });
-  away.append("×");
+  const title = `Ask nothing of ${name}`;
+  const away = h("button", { class: "link", type: "button", title, on: { click: () => set(() => []) } }, "×");
   return h("div", { class: "row rule" }, h("span", { class: "faint" }, name), end(0, "least"), end(1, "most"), away);
 }
 
@@ -121,22 +118,19 @@ function areas({ store, actions }: Page): HTMLElement {
   const rows = h("div", {});
   const without = (area: Area): void =>
     actions.view.filter({ areas: store.state.filter.areas.filter((other) => other !== area) });
+  const put = childrenOf<Area>(
+    rows,
+    (area) => area,
+    (area) => {
+      const text = `${DRAWN[area.kind][0].toLowerCase()} in ${area.sequence}`;
+      const title = `Ask nothing of the place ${text}`;
+      const away = h("button", { class: "link", type: "button", title, on: { click: () => without(area) } }, "×");
+      return h("div", { class: "row" }, h("span", { class: "faint" }, text), away);
+    },
+  );
   store.watch(
     ({ filter }) => [filter.areas],
-    (now) =>
-      rows.replaceChildren(
-        ...now.map((area) => {
-          const text = `${DRAWN[area.kind][0].toLowerCase()} in ${area.sequence}`;
-          const away = h("button", {
-            class: "link",
-            type: "button",
-            title: `Ask nothing of the place ${text}`,
-            on: { click: () => without(area) },
-          });
-          away.append("×");
-          return h("div", { class: "row" }, h("span", { class: "faint" }, text), away);
-        }),
-      ),
+    (now) => put(now),
   );
   return rows;
 }
@@ -168,38 +162,30 @@ function verdicts({ labels, recording }: Readonly<State>): readonly Option[] {
 }
 
 /** The rules that were kept: each can be asked of the sequence on screen. */
-function kept({ store, actions }: Page): HTMLElement {
+function kept(page: Page): HTMLElement {
   const list = h("div", { class: "row wrap", role: "group", "aria-label": "Rules" });
-  store.watch(
+  const put = childrenOf<Rule>(
+    list,
+    (rule) => rule,
+    (rule) => ruleRow(page, rule),
+  );
+  page.store.watch(
     ({ rules }) => [rules],
-    (rules) =>
-      list.replaceChildren(
-        ...rules.map(({ name, sets }) => {
-          const title = `Select what ${name} lets through in the whole sequence`;
-          const use = h("button", {
-            class: "chip small",
-            type: "button",
-            title,
-            on: { click: () => void actions.rule.choose(name) },
-          });
-          use.append(name);
-          const away = h("button", {
-            class: "link",
-            type: "button",
-            title: `Forget ${name}`,
-            on: { click: () => actions.rule.forget(name) },
-          });
-          away.append("×");
-          const everywhere = h("button", {
-            class: "link",
-            type: "button",
-            title: `What ${name} would change in all of your sequences`,
-            on: { click: () => void actions.replay.start(name) },
-          });
-          everywhere.append("all");
-          return h("span", { class: "row" }, use, sets === null ? null : everywhere, away);
-        }),
-      ),
+    (rules) => put(rules),
   );
   return list;
+}
+
+function ruleRow({ actions }: Page, { name, sets }: Rule): HTMLElement {
+  const button = (look: string, title: string, text: string, run: () => void): HTMLButtonElement =>
+    h("button", { class: look, type: "button", title, on: { click: run } }, text);
+  const use = `Select what ${name} lets through in the whole sequence`;
+  const everywhere = `What ${name} would change in all of your sequences`;
+  return h(
+    "span",
+    { class: "row" },
+    button("chip small", use, name, () => void actions.rule.choose(name)),
+    sets === null ? null : button("link", everywhere, "all", () => void actions.replay.start(name)),
+    button("link", `Forget ${name}`, "×", () => actions.rule.forget(name)),
+  );
 }

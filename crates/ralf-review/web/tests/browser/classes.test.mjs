@@ -108,6 +108,16 @@ test("classes are coloured, filtered and told with what gave them, and a person'
   const one = all.find(({ current, from }) => current && from === 2).label;
   await filters.getByRole("button", { name: nameOf.get(one), exact: true }).click();
   await count(shown((label, from) => label === one && from === 2));
+  // A button that is pressed by key keeps the focus, whatever the filter then shows.
+  await filters.getByRole("button", { name: nameOf.get(one), exact: true }).focus();
+  const focused = () =>
+    page.evaluate(() => document.activeElement.getAttribute("aria-label") ?? document.activeElement.textContent);
+  await page.keyboard.press("Space");
+  await count(byCamera);
+  assert.equal(await focused(), nameOf.get(one));
+  await page.keyboard.press("Space");
+  await count(shown((label, from) => label === one && from === 2));
+  assert.equal(await focused(), nameOf.get(one));
   await faultsOf(page, "a filter of classes");
   await settled(tab);
   await picture(page, "class-filter");
@@ -146,5 +156,14 @@ test("classes are coloured, filtered and told with what gave them, and a person'
   const [button, row] = [await keep.boundingBox(), await page.locator(".queue-row").first().boundingBox()];
   assert.ok(button.y + button.height < 720 && button.y > row.y + row.height, JSON.stringify([button, row]));
   await picture(page, "filters-open");
+  // Who types one end of a column goes on to the other.
+  await page.getByLabel("Column to filter by").selectOption("d_lm");
+  await page.getByLabel("d_lm: least").focus();
+  await page.keyboard.type("0.5");
+  await page.keyboard.press("Tab");
+  assert.equal(await focused(), "d_lm: most");
+  assert.equal(await page.getByLabel("d_lm: least").inputValue(), "0.5");
+  await page.getByTitle("Ask nothing of d_lm").click();
+  await page.getByLabel("d_lm: most").waitFor({ state: "detached" });
   clean(tab);
 });
