@@ -1,9 +1,9 @@
 //! A recording with what a store holds of its images.
 
 use super::folder::ViewFolder;
+use super::image_files::ImageFiles;
 use crate::disk::{class_images, npy};
 use crate::read::{Recording, SequenceReader};
-use crate::result::SequenceNames;
 use ralf::sensors::{
     CameraImage, ClassImage, DepthImage, DepthOutput, LidarScan, RadarScan, Sequence, Source, SourceError,
 };
@@ -24,8 +24,9 @@ pub(super) fn attach(recording: Recording, store: &Stored) -> Recording {
             sequence.depth_output = *output;
         }
         // A store holds nothing of what can't have a folder in it.
-        let names = SequenceNames::new(&sequence).ok();
-        Box::new(WithStore { inner, sequence, names, store: store.clone() }) as Box<dyn SequenceReader>
+        let (Stored::Depth(folder, _) | Stored::Segmentation(folder)) = store;
+        let files = ImageFiles::new(folder, inner.as_ref()).ok();
+        Box::new(WithStore { inner, sequence, files, store: store.clone() }) as Box<dyn SequenceReader>
     };
     Recording { sequences: recording.sequences.into_iter().map(attach).collect(), ..recording }
 }
@@ -34,16 +35,14 @@ pub(super) fn attach(recording: Recording, store: &Stored) -> Recording {
 struct WithStore {
     inner: Box<dyn SequenceReader>,
     sequence: Sequence,
-    names: Option<SequenceNames>,
+    files: Option<ImageFiles>,
     store: Stored,
 }
 
 impl WithStore {
     fn file(&self, camera: usize, image: usize) -> Option<PathBuf> {
-        let names = self.names.as_ref()?;
-        let camera = names.cameras.get(camera)?;
-        let (Stored::Depth(folder, _) | Stored::Segmentation(folder)) = &self.store;
-        Some(folder.file(&names.sequence, camera, image)).filter(|file| file.exists())
+        let file = self.files.as_ref()?.file(self.inner.as_ref(), camera, image);
+        file.filter(|file| file.exists())
     }
 
     fn has_file(&self, camera: usize) -> bool {

@@ -1,11 +1,12 @@
 //! Running a network over the straight views of a sequence's images.
 
 use super::folder::ViewFolder;
+use super::image_files::ImageFiles;
 use super::stored_view::StoredView;
 use crate::disk::files;
 use crate::error::DataError;
 use crate::read::SequenceReader;
-use crate::result::{SequenceNames, hash_file};
+use crate::result::hash_file;
 use ralf::sensors::{Camera, CameraImage, SourceError, StraightView, UndistortMap};
 use ralf_files::Kind;
 use ralf_jobs::side_by_side;
@@ -49,13 +50,14 @@ pub(super) fn compute_views<V: StoredView>(
     jobs: usize,
     observer: &ViewObserver,
 ) -> Result<Computed, DataError> {
-    let names = SequenceNames::new(reader.sequence())?;
+    let files = ImageFiles::new(store, reader)?;
     let _lock = store.lock()?;
     let cameras = reader.sequence().rig.cameras.iter();
     let cameras: Vec<_> = cameras.map(|camera| Straightening { camera, views: OnceLock::new() }).collect();
     let done = side_by_side(images, jobs, |&(camera, image)| {
+        let missing = || DataError::NoMeasurement { kind: "camera", sensor: camera, index: image };
+        let file = files.file(reader, camera, image).ok_or_else(missing)?;
         let straightening = &cameras[camera];
-        let file = store.file(&names.sequence, &names.cameras[camera], image);
         let came_of_it = straightening.fill::<V>(reader, (camera, image), &file, estimate)?;
         observer();
         Ok::<_, DataError>(((camera, image), came_of_it))

@@ -100,10 +100,15 @@ impl ViewFolder {
         toml::from_str(&files::read_text(&file, Kind::Settings)?).map_err(refused)
     }
 
-    /// The file of an image's views.
-    pub(super) fn file(&self, sequence: &Component, camera: &Component, image: usize) -> PathBuf {
-        let camera = OutFolder::new(&self.root).own(SEQUENCES).folder(sequence).folder(camera);
-        camera.own(self.kind.name).file(&Component::numbered(image, self.kind.extension))
+    /// The folder of a camera, in which that of the store's files lies.
+    pub(super) fn of_camera(&self, sequence: &Component, camera: &Component) -> OutFolder {
+        OutFolder::new(&self.root).own(SEQUENCES).folder(sequence).folder(camera)
+    }
+
+    /// The file of this number.
+    pub(super) fn file(&self, sequence: &Component, camera: &Component, number: usize) -> PathBuf {
+        let camera = self.of_camera(sequence, camera);
+        camera.own(self.kind.name).file(&Component::numbered(number, self.kind.extension))
     }
 
     /// The right to write to it; another process may have that.

@@ -1,10 +1,10 @@
 //! Images of which a store holds nothing: whoever filled it was stopped, or had no such images.
 
 use super::folder::ViewFolder;
+use super::image_files::ImageFiles;
 use super::stored_view::StoredView;
 use crate::error::DataError;
 use crate::read::{Recording, SequenceReader};
-use crate::result::SequenceNames;
 use ralf::config::{Config, nanoseconds};
 use ralf::sensors::{ClassImage, DepthImage, Sequence};
 use ralf::space::sync;
@@ -77,13 +77,13 @@ fn of_sequence(
     tolerance_ms: f64,
 ) -> Result<Vec<Lacking>, DataError> {
     let sequence = reader.sequence();
-    let names = SequenceNames::new(sequence)?;
+    let files = ImageFiles::new(store, reader)?;
     let asked = images_of_scans(sequence, tolerance_ms);
     let mut found = Vec::new();
     for (place, camera) in sequence.rig.cameras.iter().enumerate() {
         let images: Vec<usize> =
             asked.iter().filter(|(camera, _)| *camera == place).map(|(_, image)| *image).collect();
-        let lacks = |image: &&usize| !store.file(&names.sequence, &names.cameras[place], **image).exists();
+        let lacks = |image: &&usize| !files.file(reader, place, **image).is_some_and(|file| file.exists());
         let missing: Vec<usize> = images.iter().filter(lacks).copied().collect();
         let Some(first) = missing.first().copied().filter(|_| missing.len() < images.len()) else { continue };
         found.push(Lacking {

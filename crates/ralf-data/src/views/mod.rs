@@ -6,6 +6,7 @@ mod check;
 mod compute;
 mod depth;
 mod folder;
+mod image_files;
 mod lacking;
 mod segmentation;
 mod store;

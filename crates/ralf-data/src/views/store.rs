@@ -31,9 +31,10 @@ impl<V: StoredView> Store<V> {
         Ok(Self { folder, card })
     }
 
-    /// The file of an image's views.
-    pub fn file(&self, sequence: &Component, camera: &Component, image: usize) -> PathBuf {
-        self.folder.file(sequence, camera, image)
+    /// The file of this number of a camera: that of the image at this place in its timeline, or, where the store is a
+    /// recording of the own layout, of the image whose own file has this number.
+    pub fn file(&self, sequence: &Component, camera: &Component, number: usize) -> PathBuf {
+        self.folder.file(sequence, camera, number)
     }
 
     /// Computes and stores what the network says of the images (camera, number) that the store doesn't hold yet, or

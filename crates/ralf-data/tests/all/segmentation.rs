@@ -190,3 +190,41 @@ fn a_store_beside_the_recording_is_filled_once_and_attached() {
     let cars = told(&tables).into_iter().filter(|(_, class, _)| *class == Some(10)).count();
     assert!(cars > 0 && told(&tables).iter().all(|(_, class, _)| class.is_none_or(|class| class == 10)));
 }
+
+/// Beside the images what is stored has the numbers of their files, which needn't be their places.
+#[test]
+fn what_is_stored_beside_images_belongs_to_the_image_of_the_same_number() {
+    let written = Written::of(&made());
+    let ids = [10_u8, 30];
+    assert_eq!(written.recording().sequences[0].sequence().times.cameras[0].len(), ids.len());
+    for number in (0..ids.len()).rev() {
+        let [from, to] = [number, number + 1].map(|n| written.file(&format!("camera_front/{n:06}.png")));
+        fs::rename(from, to).unwrap();
+    }
+    let beside = written.folder.path().join("recording");
+    let elsewhere = written.folder.path().join("classes");
+    for folder in [&beside, &elsewhere] {
+        let store = SegmentationStore::create(folder, "a").unwrap();
+        for (image, id) in ids.into_iter().enumerate() {
+            let one_class = |view: &ralf::sensors::CameraImage, _: f64| {
+                let (width, height) = (view.width, view.height);
+                Ok(ClassImage { width, height, ids: vec![id; width * height] })
+            };
+            let recording = written.recording();
+            let reader = recording.sequences[0].as_ref();
+            let done = store.compute(reader, &[(0, image)], &one_class, 1, &|| ()).unwrap();
+            assert!(done.without.is_empty(), "{done:?}");
+        }
+    }
+    assert!(written.file("camera_front/segmentation/000002.png").exists());
+    assert!(!written.file("camera_front/segmentation/000000.png").exists());
+    let attached = |folder| SegmentationStore::open(folder).unwrap().attach(written.recording());
+    for recording in [written.recording(), attached(&beside), attached(&elsewhere)] {
+        let reader = recording.sequences[0].as_ref();
+        for (image, id) in ids.into_iter().enumerate() {
+            assert_eq!(reader.classes(0, image).unwrap().unwrap()[0].ids[0], id, "image {image}");
+        }
+    }
+    let config = &Settings::from_toml("", &[]).unwrap().method;
+    assert_eq!(ralf_data::views::lacking(&written.recording(), None, None, config).unwrap(), []);
+}
