@@ -49,6 +49,10 @@ pub(crate) struct DepthArgs {
 pub(crate) fn run(arguments: &DepthArgs) -> anyhow::Result<Outcome> {
     let settings = arguments.settings.resolve()?;
     let mut recording = arguments.dataset.open_with(&arguments.dataset.topics_or(&settings.topics)?)?;
+    if arguments.check {
+        // Networks see images alone; where the LiDAR lies on them is what is corrected.
+        recording = settings.correct(recording)?;
+    }
     let model = arguments.model.load()?;
     ensure!(
         model.is_some() || arguments.check,

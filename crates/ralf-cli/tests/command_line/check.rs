@@ -305,3 +305,18 @@ fn scans_of_one_time_are_named() {
     fs::write(&file, times.join("\n") + "\n").unwrap();
     ralf(["check", &made]).exits(1).says(["timestamps.txt: line 5", "as in the line above"]);
 }
+
+/// Depth is laid on the LiDAR where settings have the sensors, as labelling lays it.
+#[cfg(feature = "depth")]
+#[test]
+fn depth_is_checked_as_settings_correct_the_recording() {
+    let dataset = Dataset::new();
+    let made = simulated(&dataset);
+    let fixes = dataset.beside("fixes.toml");
+    let recorded = ralf(["depth", &made, "--check", "--json"]).exits(0).json();
+    let corrected = || ralf(["depth", &made, "--check", "--json", "--config", &fixes]);
+    fs::write(&fixes, "[corrections.camera_front]\nadd_yaw_deg = 20.0\n").unwrap();
+    assert_ne!(corrected().exits(0).json(), recorded);
+    fs::write(&fixes, "[corrections.no_such]\nadd_yaw_deg = 20.0\n").unwrap();
+    corrected().exits(1).says(["corrections.no_such: expected one of its sensors"]);
+}
