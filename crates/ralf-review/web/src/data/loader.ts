@@ -79,7 +79,9 @@ export class Loader {
   }
 
   image(sequence: string, camera: string, image: number): Promise<ImageBitmap> {
-    const read = async (): Promise<ImageBitmap> => createImageBitmap(await this.api.image(sequence, camera, image));
+    // Pixels as they lie in the file, as labels have them: no orientation of EXIF turns them.
+    const read = async (): Promise<ImageBitmap> =>
+      createImageBitmap(await this.api.image(sequence, camera, image), { imageOrientation: "none" });
     return this.images.get(key(sequence, camera, image), read);
   }
 
