@@ -2,7 +2,7 @@
 
 use crate::ground::{self, GroundFit};
 use crate::misread::{Misread, misread};
-use crate::picture::{CameraLook, DepthEdge, FEWEST_IMAGES, Moment, depth_edges};
+use crate::picture::{DepthEdge, FEWEST_IMAGES, Moment, Pictures, depth_edges};
 use crate::plan_field::PlanField;
 use crate::velocity_fit::{TRUSTED, VelocityFit, fit, told};
 use ralf::sensors::{Elevation, LidarScan, Radar, RadarScan, Source, is_return};
@@ -97,8 +97,8 @@ pub(crate) struct Sample {
     pub(crate) radars: Vec<Vec<RadarLook>>,
     /// Of all LiDARs, in the order of the rig and of time.
     pub(crate) lidars: Vec<LidarLook>,
-    /// Of all cameras, in the order of the rig and of time.
-    pub(crate) cameras: Vec<CameraLook>,
+    /// What was seen of images.
+    pub(crate) pictures: Pictures,
     /// Why a scan could not be read, a sentence each.
     pub(crate) unreadable: Vec<String>,
 }
@@ -137,7 +137,7 @@ impl Sample {
         }
         let first = sample.lidars.iter().filter(|look| look.lidar == 0);
         let moments: Vec<Moment> = first.map(|look| Moment { lidar: look.lidar, t_ns: look.t_ns }).collect();
-        sample.cameras = crate::picture::read(source, &moments);
+        sample.pictures = crate::picture::read(source, &moments);
         sample
     }
 

@@ -2,7 +2,7 @@
 
 use super::case::Case;
 use crate::change::SensorChange;
-use crate::picture::{CameraLook, FEWEST_IMAGES};
+use crate::picture::{CameraLook, FEWEST_IMAGES, OddSize};
 use crate::remedy::Remedy;
 use crate::statistics::paired_sigmas;
 use crate::verdict::{Question, State, Verdict};
@@ -24,9 +24,8 @@ pub(super) fn judge(case: &Case, known: &[Verdict]) -> Vec<Verdict> {
     let cameras = 0..case.sequence.rig.cameras.len();
     if is_lidar_doubted(case, known) {
         let missing = "the LiDAR's own height, tilt or numbers are doubted: they have to be put right before";
-        return cameras
-            .map(|camera| Verdict::cannot_judge(name(case, camera), Question::Camera, missing))
-            .collect();
+        let cannot = |camera| Verdict::cannot_judge(name(case, camera), Question::Camera, missing);
+        return cameras.map(|camera| odd_size(case, camera).unwrap_or_else(|| cannot(camera))).collect();
     }
     let swapped = swapped(case);
     let mut verdicts = Vec::new();
@@ -37,7 +36,7 @@ pub(super) fn judge(case: &Case, known: &[Verdict]) -> Vec<Verdict> {
                 let (subject, evidence) = (name(case, camera), scores.in_words());
                 verdicts.push(Verdict::doubt(subject, Question::Camera, evidence, Some(remedy)));
             }
-            None => verdicts.push(one(case, camera)),
+            None => verdicts.push(odd_size(case, camera).unwrap_or_else(|| one(case, camera))),
         }
     }
     verdicts
@@ -55,6 +54,15 @@ fn is_lidar_doubted(case: &Case, known: &[Verdict]) -> bool {
 
 fn name<'a>(case: &'a Case, camera: usize) -> &'a str {
     &case.sequence.rig.cameras[camera].name
+}
+
+/// Images that the calibration isn't of. Nothing tells whether they were scaled or cut, and so no remedy.
+fn odd_size(case: &Case, camera: usize) -> Option<Verdict> {
+    let mut odd = case.sample.pictures.odd_sizes.iter();
+    let OddSize { size: [width, height], .. } = odd.find(|odd| odd.camera == camera)?;
+    let own = &case.sequence.rig.cameras[camera];
+    let evidence = format!("images are {width} x {height}, calibrated for {} x {}", own.width, own.height);
+    Some(Verdict::doubt(&own.name, Question::Camera, evidence, None))
 }
 
 fn one(case: &Case, camera: usize) -> Verdict {
@@ -147,7 +155,7 @@ fn swapped(case: &Case) -> Vec<(usize, usize, Compared)> {
 fn scores(case: &Case, camera: usize, change: &SensorChange, place: usize) -> Vec<Option<f64>> {
     let rig = &case.sequence.rig;
     let mount = change.mount(&rig.cameras[place].vehicle_from_camera);
-    let looks = case.sample.cameras.iter().filter(|look| look.camera == camera);
+    let looks = case.sample.pictures.looks.iter().filter(|look| look.camera == camera);
     looks.map(|look| score(case, look, &mount, change)).collect()
 }
 

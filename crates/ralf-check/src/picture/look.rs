@@ -31,31 +31,59 @@ pub(crate) struct Moment {
     pub(crate) t_ns: i64,
 }
 
-/// Reads images beside the LiDAR's scans, evenly spread; those that can't be read are left out.
-pub(crate) fn read(source: &dyn Source, moments: &[Moment]) -> Vec<CameraLook> {
+/// A camera none of whose images has the size that it is calibrated for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct OddSize {
+    pub(crate) camera: usize,
+    /// Width and height of its first image, px.
+    pub(crate) size: [usize; 2],
+}
+
+/// What was seen of images.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Pictures {
+    /// Of all cameras, in the order of the rig and of time.
+    pub(crate) looks: Vec<CameraLook>,
+    pub(crate) odd_sizes: Vec<OddSize>,
+}
+
+/// Reads images beside the LiDAR's scans, evenly spread. Left out are those that can't be read, and those of another
+/// size than the calibration's: nothing tells where in them a point lies.
+pub(crate) fn read(source: &dyn Source, moments: &[Moment]) -> Pictures {
     let sequence = source.sequence();
-    let mut looks = Vec::new();
+    let mut found = Pictures::default();
     for (camera, times) in sequence.times.cameras.iter().enumerate() {
-        let mut beside: Vec<(usize, Moment)> = Vec::new();
-        for moment in moments {
-            let distance = |image: &usize| times[*image].abs_diff(moment.t_ns);
-            let image = (0..times.len()).min_by_key(distance).filter(|i| distance(i) <= TOGETHER_NS);
-            beside.extend(image.map(|image| (image, *moment)));
-        }
-        if beside.len() < FEWEST_IMAGES {
-            continue;
-        }
-        let step = beside.len().div_ceil(IMAGES).max(1);
-        for (image, moment) in beside.into_iter().step_by(step) {
-            let own = &sequence.rig.cameras[camera];
-            let read = source.image(camera, image).ok();
-            if let Some(edges) = read.and_then(|image| EdgeMap::new(own, &image)) {
-                let Moment { lidar, t_ns: lidar_ns } = moment;
-                looks.push(CameraLook { camera, t_ns: times[image], lidar_ns, lidar, edges });
+        let own = &sequence.rig.cameras[camera];
+        let (mut odd, mut fits) = (None, false);
+        for (image, Moment { lidar, t_ns: lidar_ns }) in beside(times, moments) {
+            let Ok(read) = source.image(camera, image) else { continue };
+            if (read.width, read.height) != (own.width, own.height) {
+                odd = odd.or(Some([read.width, read.height]));
+                continue;
+            }
+            fits = true;
+            if let Some(edges) = EdgeMap::new(own, &read) {
+                found.looks.push(CameraLook { camera, t_ns: times[image], lidar_ns, lidar, edges });
             }
         }
+        found.odd_sizes.extend(odd.filter(|_| !fits).map(|size| OddSize { camera, size }));
     }
-    looks
+    found
+}
+
+/// The images that are looked at, each with the LiDAR's scan beside it; none where they are too few.
+fn beside(times: &[i64], moments: &[Moment]) -> Vec<(usize, Moment)> {
+    let nearest = |moment: &Moment| {
+        let distance = |image: &usize| times[*image].abs_diff(moment.t_ns);
+        let image = (0..times.len()).min_by_key(distance).filter(|i| distance(i) <= TOGETHER_NS);
+        image.map(|image| (image, *moment))
+    };
+    let beside: Vec<_> = moments.iter().filter_map(nearest).collect();
+    if beside.len() < FEWEST_IMAGES {
+        return Vec::new();
+    }
+    let step = beside.len().div_ceil(IMAGES).max(1);
+    beside.into_iter().step_by(step).collect()
 }
 
 impl CameraLook {

@@ -5,4 +5,4 @@ mod edge_map;
 mod look;
 
 pub(crate) use depth_edges::{DepthEdge, depth_edges};
-pub(crate) use look::{CameraLook, FEWEST_IMAGES, Moment, read};
+pub(crate) use look::{CameraLook, FEWEST_IMAGES, Moment, OddSize, Pictures, read};

@@ -1,6 +1,6 @@
 //! `ralf check`, and the same at the head of `ralf label`: faults are noticed, told and put right; motion comes from elsewhere.
 
-use crate::support::{Dataset, Ran, Tree, nuscenes, program, put, ralf, tree};
+use crate::support::{Dataset, Ran, Shape, Tree, nuscenes, program, put, ralf, tree};
 use std::fs;
 use std::path::Path;
 use std::sync::OnceLock;
@@ -304,6 +304,24 @@ fn scans_of_one_time_are_named() {
     times.swap(3, 4);
     fs::write(&file, times.join("\n") + "\n").unwrap();
     ralf(["check", &made]).exits(1).says(["timestamps.txt: line 5", "as in the line above"]);
+}
+
+/// Where the calibration is of images of another size, nothing is made out of where their edges lie.
+#[test]
+fn images_of_another_size_than_the_calibrations_are_told_and_not_judged() {
+    let dataset = Dataset::of(&Shape { scans: 16, ..Shape::default() }).with_camera(16);
+    let text = fs::read_to_string(dataset.file("sequence.toml")).unwrap();
+    let (before, camera) = text.split_once("[[camera]]").unwrap();
+    let halved = camera.replacen("width = 160", "width = 80", 1).replacen("height = 120", "height = 60", 1);
+    assert_ne!(camera, halved);
+    dataset.put("sequence.toml", format!("{before}[[camera]]{halved}"));
+    let found = ralf(["check", &dataset.path, "--json"]).exits(0).json();
+    let verdicts = found[0]["verdicts"].as_array().unwrap().clone();
+    let own: Vec<_> = verdicts.iter().filter(|verdict| verdict["question"] == "camera").collect();
+    assert_eq!(own.len(), 1, "{own:?}");
+    assert_eq!(own[0]["state"], "doubt", "{own:?}");
+    assert_eq!(own[0]["evidence"], "images are 160 x 120, calibrated for 80 x 60");
+    assert!(own[0].get("remedy").is_none(), "{own:?}");
 }
 
 /// Depth is laid on the LiDAR where settings have the sensors, as labelling lays it.
