@@ -156,6 +156,12 @@ const WRONG_SETTINGS: &[(&str, &str, &str)] = &[
     ("fx = 3.3", "fx = 0", "fx, fy: expected values above 0, found 0"),
     ("\"kannala-brandt\"", "\"scaramuzza\"", "inverse_polynomial: expected coefficients, found none"),
     ("width = 4", "width = 0", "expected at least 1 x 1 pixels, found 0 x 2"),
+    ("width = 4", "width = 16385", "width, height: expected at most 16384 x 16384 pixels, found 16385 x 2"),
+    (
+        "horizontal_fov_deg = 100.0\nwidth = 2",
+        "horizontal_fov_deg = 100.0\nwidth = 4000000",
+        "view: width, height: expected at most 16384 x 16384 pixels, found 4000000 x 2",
+    ),
     ("horizontal_fov_deg = 100.0", "horizontal_fov_deg = 180", "expected an angle above 0 and below 180"),
 ];
 

@@ -5,6 +5,9 @@ use super::values::{Place, degrees, pose_toml};
 use crate::error::DataError;
 use ralf::sensors::{Camera, Intrinsics, View};
 
+/// The most pixels a side of an image or a view has: memory is asked for by what a file says here.
+const LARGEST: usize = 16_384;
+
 /// A camera, checked.
 pub(super) fn camera(place: &Place<'_>, raw: &CameraToml) -> Result<Camera, DataError> {
     size(place, "width, height", raw.width, raw.height)?;
@@ -147,8 +150,12 @@ fn view_toml(view: &View) -> ViewToml {
 }
 
 fn size(place: &Place<'_>, key: &str, width: usize, height: usize) -> Result<(), DataError> {
-    if width > 0 && height > 0 {
+    let expected = if width == 0 || height == 0 {
+        "at least 1 x 1 pixels".to_owned()
+    } else if width > LARGEST || height > LARGEST {
+        format!("at most {LARGEST} x {LARGEST} pixels")
+    } else {
         return Ok(());
-    }
-    Err(place.error(key, "at least 1 x 1 pixels", format!("{width} x {height}")))
+    };
+    Err(place.error(key, &expected, format!("{width} x {height}")))
 }
