@@ -89,9 +89,6 @@ pub(crate) struct Group {
     pub(crate) kept: u64,
 }
 
-/// What files of causes call that of what is plausible.
-const NO_CAUSE: &str = "none";
-
 /// Counts by class and by cause.
 #[derive(Debug, Default)]
 pub(crate) struct Groups {
@@ -102,9 +99,10 @@ pub(crate) struct Groups {
 }
 
 impl Groups {
-    /// A sequence with these causes follows.
+    /// A sequence with these causes follows. The first is none: where people have corrected the truth it has artifacts
+    /// of which no file tells a cause.
     pub(crate) fn name_causes(&mut self, names: &[String]) {
-        for name in names {
+        for name in names.iter().skip(1) {
             if self.causes.iter().all(|(known, _)| known != name) {
                 self.causes.push((name.clone(), [0; 2]));
             }
@@ -114,8 +112,7 @@ impl Groups {
     pub(crate) fn add(&mut self, scored: &Scored, cause: Option<&str>) {
         let Some((class, plausible)) = scored.truth else { return };
         count(self.classes.entry((class, plausible)).or_default(), scored);
-        // Where people have corrected the truth it has artifacts of which no file tells a cause.
-        let cause = cause.filter(|cause| !plausible && *cause != NO_CAUSE);
+        let cause = cause.filter(|_| !plausible);
         let known = cause.and_then(|cause| self.causes.iter_mut().find(|(name, _)| name == cause));
         if let Some((_, counts)) = known {
             count(counts, scored);

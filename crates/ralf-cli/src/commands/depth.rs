@@ -47,12 +47,13 @@ pub(crate) struct DepthArgs {
 
 /// Computes depth, or checks it.
 pub(crate) fn run(arguments: &DepthArgs) -> anyhow::Result<Outcome> {
-    let settings = arguments.settings.resolve()?;
-    let mut recording = arguments.dataset.open_with(&arguments.dataset.topics_or(&settings.topics)?)?;
-    if arguments.check {
-        // Networks see images alone; where the LiDAR lies on them is what is corrected.
-        recording = settings.correct(recording)?;
-    }
+    let mut settings = arguments.settings.resolve()?;
+    settings.topics = arguments.dataset.topics_or(&settings.topics)?;
+    // Networks see images alone; where the LiDAR lies on them is what is corrected.
+    let mut recording = match arguments.check {
+        true => arguments.dataset.open_corrected(&settings)?,
+        false => arguments.dataset.open_with(&settings.topics)?,
+    };
     let model = arguments.model.load()?;
     ensure!(
         model.is_some() || arguments.check,

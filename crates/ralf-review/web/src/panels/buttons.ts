@@ -20,3 +20,8 @@ export function keyButton(text: HTMLElement | string, key: string, run: () => vo
   const shown = key === "" ? [] : [" ", h("kbd", {}, key)];
   return h("button", { class: `button ${look}`.trim(), type: "button", on: { click: run } }, text, ...shown);
 }
+
+/** A button with words, and more of them in its title. */
+export function textButton(look: string, title: string, text: string, run: () => void): HTMLButtonElement {
+  return h("button", { class: look, type: "button", title, on: { click: run } }, text);
+}

@@ -8,6 +8,7 @@ import { type Rule, type Verdict, verdictOf, verdictText } from "../data/rules.j
 import { childrenOf, h, type Option, pressed, say, select, setOptions } from "../dom.js";
 import type { Page } from "../page.js";
 import type { State } from "../state.js";
+import { textButton } from "./buttons.js";
 
 export function rulesPanel(page: Page): HTMLElement {
   const count = h("span", { class: "faint" });
@@ -83,8 +84,7 @@ function columnRow({ store, actions }: Page, name: string): HTMLElement {
     const field = h("input", { ...attributes, on: { change } });
     return field;
   };
-  const title = `Ask nothing of ${name}`;
-  const away = h("button", { class: "link", type: "button", title, on: { click: () => set(() => []) } }, "×");
+  const away = textButton("link", `Ask nothing of ${name}`, "×", () => set(() => []));
   return h("div", { class: "row rule" }, h("span", { class: "faint" }, name), end(0, "least"), end(1, "most"), away);
 }
 
@@ -98,14 +98,7 @@ const DRAWN: Readonly<Record<AreaKind, readonly [text: string, title: string]>> 
 function drawing({ store, actions }: Page): HTMLElement {
   const chips = AREAS.map((kind) => {
     const [text, title] = DRAWN[kind];
-    const chip = h("button", {
-      class: "chip small",
-      type: "button",
-      title,
-      on: { click: () => actions.view.draw(kind) },
-    });
-    chip.append(text);
-    return chip;
+    return textButton("chip small", title, text, () => actions.view.draw(kind));
   });
   store.watch(
     ({ drawing: now }) => [now],
@@ -123,8 +116,7 @@ function areas({ store, actions }: Page): HTMLElement {
     (area) => area,
     (area) => {
       const text = `${DRAWN[area.kind][0].toLowerCase()} in ${area.sequence}`;
-      const title = `Ask nothing of the place ${text}`;
-      const away = h("button", { class: "link", type: "button", title, on: { click: () => without(area) } }, "×");
+      const away = textButton("link", `Ask nothing of the place ${text}`, "×", () => without(area));
       return h("div", { class: "row" }, h("span", { class: "faint" }, text), away);
     },
   );
@@ -177,15 +169,13 @@ function kept(page: Page): HTMLElement {
 }
 
 function ruleRow({ actions }: Page, { name, sets }: Rule): HTMLElement {
-  const button = (look: string, title: string, text: string, run: () => void): HTMLButtonElement =>
-    h("button", { class: look, type: "button", title, on: { click: run } }, text);
   const use = `Select what ${name} lets through in the whole sequence`;
   const everywhere = `What ${name} would change in all of your sequences`;
   return h(
     "span",
     { class: "row" },
-    button("chip small", use, name, () => void actions.rule.choose(name)),
-    sets === null ? null : button("link", everywhere, "all", () => void actions.replay.start(name)),
-    button("link", `Forget ${name}`, "×", () => actions.rule.forget(name)),
+    textButton("chip small", use, name, () => void actions.rule.choose(name)),
+    sets === null ? null : textButton("link", everywhere, "all", () => void actions.replay.start(name)),
+    textButton("link", `Forget ${name}`, "×", () => actions.rule.forget(name)),
   );
 }
