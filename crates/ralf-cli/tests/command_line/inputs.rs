@@ -1,6 +1,6 @@
 //! Inputs are only read.
 
-use crate::support::{Dataset, Ran, program, ralf, tree};
+use crate::support::{Dataset, Ran, Shape, nuscenes, program, ralf, tree};
 use std::fs;
 use std::os::unix::fs::PermissionsExt;
 use std::path::Path;
@@ -89,6 +89,36 @@ fn what_is_somebody_elses_is_not_replaced() {
         ralf(["label", &dataset.path, "-o", &dataset.out]).exits(0);
         assert!(fs::read_to_string(&record).unwrap().starts_with("{\n  \"version\": "));
     }
+}
+
+#[test]
+fn recordings_do_not_go_among_labels_nor_into_those_of_other_formats() {
+    let dataset = Dataset::of(&Shape { scans: 2, ..Shape::default() });
+    ralf(["label", &dataset.path, "-o", &dataset.out]).exits(0);
+    let [begun, corrected, foreign, made] =
+        ["begun", "corrected", "foreign", "made"].map(|name| dataset.beside(name));
+    fs::create_dir_all(format!("{begun}/.ralf-run")).unwrap();
+    fs::create_dir_all(format!("{corrected}/sequences/00")).unwrap();
+    fs::write(format!("{corrected}/corrections.sqlite"), "").unwrap();
+    nuscenes(Path::new(&foreign));
+    for (place, found) in [
+        (&dataset.out, "labels, with run.json"),
+        (&begun, "labels, with .ralf-run"),
+        (&corrected, "labels, with corrections.sqlite"),
+        (&foreign, "a recording of the format nuscenes"),
+    ] {
+        let before = tree(place);
+        let told = [place, "expected a recording in the own layout, or nothing yet", found];
+        ralf(["simulate", "--preset", "tiny", "--scans", "1", "-o", place]).exits(1).ends_with_error(told);
+        ralf(["convert", &dataset.path, "-o", place]).exits(1).ends_with_error(told);
+        assert!(tree(place) == before, "{place}");
+    }
+    // What one of them has made, the other may go on with.
+    ralf(["convert", &dataset.path, "-o", &made]).exits(0);
+    for _ in 0..2 {
+        ralf(["simulate", "--preset", "tiny", "--scans", "1", "-o", &made]).exits(0);
+    }
+    ralf(["convert", &dataset.path, "-o", &made]).exits(0).says(["kept as it is"]);
 }
 
 #[test]

@@ -2,6 +2,7 @@
 
 use super::measurements::{Contents, Measurement};
 use super::metadata::texts;
+use super::target::refuse_other_folder;
 use crate::disk::files;
 use crate::error::DataError;
 use crate::read::SequenceReader;
@@ -18,6 +19,10 @@ use std::sync::{Mutex, PoisonError};
 /// Radar columns, LiDAR points, label, truth, cause and image files are written as they are. `progress` is told how
 /// many measurements are done. An existing sequence is never overwritten ([`has_sequence`](super::has_sequence) tells
 /// whether it is this one), and a measurement that can't be read is an error.
+///
+/// # Errors
+/// `DATASET` holds labels or is a recording of another format, a sequence of this name is there, one of its names leads
+/// elsewhere, or something of it can't be read or written.
 pub fn write_sequence(
     reader: &dyn SequenceReader,
     dataset: &Path,
@@ -34,6 +39,7 @@ pub fn write_sequence_with(
     jobs: usize,
     progress: &(dyn Fn(usize) + Sync),
 ) -> Result<(), DataError> {
+    refuse_other_folder(dataset)?;
     let names = SequenceNames::new(reader.sequence())?;
     check_nothing_lost(reader)?;
     check_motion_corrected(reader)?;

@@ -6,6 +6,7 @@ mod measurements;
 mod metadata;
 mod present;
 mod simulated;
+mod target;
 
 pub use dataset::{write_sequence, write_sequence_with};
 pub use present::has_sequence;

@@ -2,6 +2,7 @@
 
 use super::measurements::{Contents, Measurement};
 use super::metadata::texts;
+use super::target::refuse_other_folder;
 use crate::disk::files;
 use crate::error::DataError;
 use crate::read::SequenceReader;
@@ -15,8 +16,10 @@ use std::path::Path;
 /// one that is there is finished.
 ///
 /// # Errors
-/// Another sequence of this name, or anything else, lies there; or one of these measurements can't be read.
+/// Another sequence of this name, or anything else, lies there; `DATASET` holds labels or is a recording of another
+/// format; or one of these measurements can't be read.
 pub fn has_sequence(reader: &dyn SequenceReader, dataset: &Path) -> Result<bool, DataError> {
+    refuse_other_folder(dataset)?;
     let names = SequenceNames::new(reader.sequence())?;
     let folder = OutFolder::new(dataset).own(SEQUENCES).folder(&names.sequence);
     if !folder.path().exists() {

@@ -2,7 +2,7 @@
 
 use crate::dataset::{SEQUENCE_TOML, floats, tiny, write};
 use ralf::sensors::{DepthOutput, Intrinsics, Source};
-use ralf_data::{LayoutSequence, SequenceReader, write_sequence};
+use ralf_data::{LayoutSequence, SequenceReader, has_sequence, write_sequence};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
@@ -90,6 +90,21 @@ fn a_conversion_is_whole_or_not_there_and_overwrites_nothing() {
     assert!(!out.path().join("sequences/00/old").exists());
     let error = write_sequence(&reader, out.path(), &|_| ()).unwrap_err().to_string();
     assert!(error.contains("sequences/00: folder: expected none of this name yet"), "{error}");
+}
+
+#[test]
+fn a_folder_of_labels_takes_no_sequence() {
+    let (_folder, path) = tiny();
+    let reader = LayoutSequence::open(&path).unwrap();
+    let out = tempfile::tempdir().unwrap();
+    write(&out.path().join("run.json"), "{}");
+    let error = write_sequence(&reader, out.path(), &|_| ()).unwrap_err().to_string();
+    assert!(
+        error.contains("output: expected a recording in the own layout") && error.contains("run.json"),
+        "{error}"
+    );
+    assert!(has_sequence(&reader, out.path()).is_err());
+    assert!(!out.path().join("sequences").exists());
 }
 
 #[test]

@@ -1,0 +1,30 @@
+//! Whether a folder can take sequences: among labels, or in another format's recording, they would hide what was there.
+
+use crate::disk::files;
+use crate::error::DataError;
+use crate::read::layout;
+use crate::read::open::recognised;
+use crate::tree::{RECORD, UNFINISHED};
+use std::path::Path;
+
+/// What labels have beside their sequences, and no recording has. Labels look like a recording in the own layout, so
+/// these are asked for first.
+const MARKS_OF_LABELS: [&str; 3] = [RECORD, UNFINISHED, ralf_corrections::FILE];
+
+/// Refuses a folder of labels, and what is a recording of another format than the own layout: with `sequences` in it,
+/// it would be taken for one in the own layout.
+pub(super) fn refuse_other_folder(dataset: &Path) -> Result<(), DataError> {
+    let refuse = |found: String| {
+        let expected = "a recording in the own layout, or nothing yet";
+        Err(DataError::content(dataset, "output", expected, found))
+    };
+    for mark in MARKS_OF_LABELS {
+        if files::exists(&dataset.join(mark))? {
+            return refuse(format!("labels, with {mark}"));
+        }
+    }
+    match recognised(dataset) {
+        Some((format, _)) if format != layout::NAME => refuse(format!("a recording of the format {format}")),
+        _ => Ok(()),
+    }
+}
