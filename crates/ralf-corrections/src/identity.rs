@@ -2,6 +2,7 @@
 //! every edit, and nobody ever reads it again.
 
 use crate::error::StoreError;
+use ralf_files::database::log;
 use std::io;
 use std::path::{Path, PathBuf};
 
@@ -19,9 +20,9 @@ impl Identity {
     pub(crate) fn of_store(file: &Path) -> Result<Self, StoreError> {
         let id = file_id(file).map_err(|_| StoreError::gone(file, "that it was deleted"))?;
         let mut files = vec![(file.to_owned(), id)];
-        let journal = journal(file);
-        if let Ok(id) = file_id(&journal) {
-            files.push((journal, id));
+        let log = log(file);
+        if let Ok(id) = file_id(&log) {
+            files.push((log, id));
         }
         Ok(Self { files })
     }
@@ -40,13 +41,6 @@ impl Identity {
         }
         Ok(())
     }
-}
-
-/// Where edits lie that were not written back to the file itself.
-pub(crate) fn journal(file: &Path) -> PathBuf {
-    let mut name = file.as_os_str().to_owned();
-    name.push("-wal");
-    name.into()
 }
 
 /// Device and number of a file.

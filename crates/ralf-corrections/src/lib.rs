@@ -53,6 +53,7 @@ mod apply;
 mod causes;
 mod changes;
 mod conflict;
+mod connect;
 mod content;
 mod error;
 mod history;

@@ -1,16 +1,20 @@
 //! Opening a file that has the tables, and making one.
 
 use crate::causes;
+use crate::connect;
 use crate::error::{StoreError, WAIT_SECONDS, told};
-use crate::identity::journal;
 use crate::standing::check_standing;
 use crate::tables::{self, APPLICATION, FIRST_VERSION, VERSION};
-use rusqlite::{Connection, ErrorCode, MAIN_DB, OpenFlags};
+use ralf_files::database::{log, uri};
+use rusqlite::{Connection, ErrorCode, MAIN_DB};
 use std::fs;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU32, Ordering};
 use std::time::Duration;
+
+/// Reading beside others who write.
+const READ: &str = "mode=ro";
 
 /// Opens a store for writing; makes it where there is no file yet. Another program's file, and a damaged one,
 /// is left as it is.
@@ -18,9 +22,8 @@ pub(crate) fn open(file: &Path) -> Result<Connection, StoreError> {
     if !file.try_exists().map_err(StoreError::io(file))? {
         make(file)?;
     }
-    let flags = OpenFlags::SQLITE_OPEN_READ_WRITE | OpenFlags::SQLITE_OPEN_NO_MUTEX;
     refuse_empty(file)?;
-    let mut connection = Connection::open_with_flags(file, flags).map_err(told(file))?;
+    let mut connection = connect::for_writing(file)?;
     let found = check(&connection, file)?;
     check_pages(&connection, file)?;
     check_standing(&connection, file, found)?;
@@ -88,48 +91,39 @@ fn suffixed(file: &Path, suffix: &str) -> PathBuf {
 /// Opens a store that exists, for reading. One of the first version is read into memory as if it were of this one.
 pub(crate) fn open_read_only(file: &Path) -> Result<Connection, StoreError> {
     refuse_empty(file)?;
-    let uri = if is_unchanging(file)? { uri(file, "immutable=1") } else { uri(file, "mode=ro") };
-    let connection = Connection::open_with_flags(&uri, read_flags()).map_err(told(file))?;
+    let option = if is_unchanging(file)? { "immutable=1" } else { READ };
+    let connection = connect::for_reading(file, option)?;
     connection.busy_timeout(Duration::from_secs(WAIT_SECONDS)).map_err(told(file))?;
     let found = check(&connection, file)?;
     check_pages(&connection, file)?;
     check_standing(&connection, file, found)?;
-    if found == VERSION { Ok(connection) } else { in_memory(&uri).map_err(told(file)) }
+    if found == VERSION { Ok(connection) } else { in_memory(&uri(file, option)).map_err(told(file)) }
 }
 
 /// A further connection to a store that is open already, for reading.
 pub(crate) fn open_again(file: &Path) -> Result<Connection, StoreError> {
-    let connection = Connection::open_with_flags(uri(file, "mode=ro"), read_flags()).map_err(told(file))?;
+    let connection = connect::for_reading(file, READ)?;
     connection.busy_timeout(Duration::from_secs(WAIT_SECONDS)).map_err(told(file))?;
     Ok(connection)
 }
 
 /// A store that holds nothing and lies nowhere.
 pub(crate) fn nowhere() -> rusqlite::Result<Connection> {
-    let connection = Connection::open_in_memory()?;
+    let connection = connect::in_memory()?;
     tables::create(&connection).map(|()| connection)
 }
 
 fn in_memory(first: &str) -> rusqlite::Result<Connection> {
-    let connection = Connection::open_in_memory()?;
+    let connection = connect::in_memory()?;
     connection.execute("ATTACH DATABASE ? AS first", [first])?;
     tables::take_over(&connection)?;
     connection.execute_batch("DETACH DATABASE first")?;
     Ok(connection)
 }
 
-fn read_flags() -> OpenFlags {
-    OpenFlags::SQLITE_OPEN_READ_ONLY | OpenFlags::SQLITE_OPEN_URI | OpenFlags::SQLITE_OPEN_NO_MUTEX
-}
-
-fn uri(file: &Path, option: &str) -> String {
-    let escaped = file.to_string_lossy().replace('%', "%25").replace('?', "%3f").replace('#', "%23");
-    format!("file:{escaped}?{option}")
-}
-
 /// Whether nobody can write to the store: SQLite wants to lay a file beside it even for reading, and can't there.
 fn is_unchanging(file: &Path) -> Result<bool, StoreError> {
-    let connection = Connection::open_with_flags(uri(file, "mode=ro"), read_flags()).map_err(told(file))?;
+    let connection = connect::for_reading(file, READ)?;
     match tables::application(&connection) {
         Err(error) if cannot_lay_files(&error) => Ok(!has_journal(file)),
         _ => Ok(false),
@@ -142,7 +136,7 @@ fn cannot_lay_files(error: &rusqlite::Error) -> bool {
 
 /// Whether there are edits that were not written back to the file itself.
 fn has_journal(file: &Path) -> bool {
-    journal(file).metadata().is_ok_and(|journal| journal.len() > 0)
+    log(file).metadata().is_ok_and(|journal| journal.len() > 0)
 }
 
 /// An empty file is no store: SQLite would take it for a new one, and what it held would be forgotten silently.
@@ -160,7 +154,7 @@ fn refuse_empty(file: &Path) -> Result<(), StoreError> {
     ))
 }
 
-/// Refuses other programs' databases, and those of another version; returns the version.
+/// Refuses other programs' databases, those of another version, and those with programs in them; returns the version.
 fn check(connection: &Connection, file: &Path) -> Result<i32, StoreError> {
     let application = tables::application(connection).map_err(told(file))?;
     if application != APPLICATION {
@@ -172,6 +166,7 @@ fn check(connection: &Connection, file: &Path) -> Result<i32, StoreError> {
         let found = format!("{version}, of another version of the program");
         return Err(StoreError::content(file, "user_version", VERSION.to_string(), found));
     }
+    connect::refuse_programs(connection, file)?;
     Ok(version)
 }
 
@@ -200,7 +195,7 @@ mod tests {
         let file = folder.path().join("50% #1?.sqlite");
         drop(open(&file).unwrap());
         assert!(!has_journal(&file));
-        let connection = Connection::open_with_flags(uri(&file, "immutable=1"), read_flags()).unwrap();
+        let connection = connect::for_reading(&file, "immutable=1").unwrap();
         check(&connection, &file).unwrap();
         assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
     }

@@ -13,6 +13,8 @@
 //! # }
 //! ```
 
+pub mod database;
+
 use std::fs::{self, File, FileType};
 use std::io::{Error, ErrorKind, Read, Result};
 use std::path::Path;
@@ -152,13 +154,18 @@ fn special(found: FileType) -> &'static str {
         () if found.is_dir() => "a folder",
         () if found.is_fifo() => "a named pipe",
         () if found.is_socket() => "a socket",
+        () if found.is_symlink() => "a link",
         () => "a device",
     }
 }
 
 #[cfg(not(unix))]
 fn special(found: FileType) -> &'static str {
-    if found.is_dir() { "a folder" } else { "a device" }
+    match () {
+        () if found.is_dir() => "a folder",
+        () if found.is_symlink() => "a link",
+        () => "a device",
+    }
 }
 
 #[cfg(test)]

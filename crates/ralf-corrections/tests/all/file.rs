@@ -99,6 +99,65 @@ fn an_empty_file_is_no_new_store() {
     assert_eq!(folder.names(), ["corrections.sqlite"]);
 }
 
+#[test]
+fn a_store_with_triggers_or_views_is_refused_and_named() {
+    for (program, told) in [
+        (
+            "CREATE TRIGGER undoes AFTER INSERT ON correction BEGIN DELETE FROM correction; END",
+            "found the trigger `undoes`",
+        ),
+        (
+            "CREATE VIEW endless AS WITH RECURSIVE n(i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM n) SELECT i FROM n",
+            "found the view `endless`",
+        ),
+        (
+            "DROP TABLE correction; CREATE VIEW correction AS SELECT 1 scan, 1 point, 1 label",
+            "found the view `correction`",
+        ),
+    ] {
+        let folder = Folder::new();
+        apply(&mut Store::open(&folder.file).unwrap(), 1).unwrap();
+        Connection::open(&folder.file).unwrap().execute_batch(program).unwrap();
+        let before = fs::read(&folder.file).unwrap();
+        for error in [
+            Store::open(&folder.file).err(),
+            Reader::open(&folder.file).err(),
+            read_layer(&folder.file).err(),
+        ] {
+            let error = error.unwrap_or_else(|| panic!("{told}")).to_string();
+            assert!(error.starts_with(&folder.file.display().to_string()) && error.contains(told), "{error}");
+        }
+        assert!(fs::read(&folder.file).unwrap() == before);
+    }
+}
+
+#[test]
+fn a_trigger_that_another_program_makes_meanwhile_is_never_run() {
+    let folder = Folder::new();
+    let mut store = Store::open(&folder.file).unwrap();
+    apply(&mut store, 1).unwrap();
+    let trigger = "CREATE TRIGGER undoes AFTER INSERT ON correction BEGIN DELETE FROM correction; END";
+    Connection::open(&folder.file).unwrap().execute_batch(trigger).unwrap();
+    apply(&mut store, 2).unwrap();
+    assert_eq!(store.scan(&version(2, hash(1))).unwrap().corrections, [(1, 99), (2, 99)]);
+}
+
+#[cfg(unix)]
+#[test]
+fn a_pipe_in_the_place_of_a_journal_is_named() {
+    for ending in ["-wal", "-journal", "-shm"] {
+        let folder = Folder::new();
+        drop(Store::open(&folder.file).unwrap());
+        let pipe = format!("{}{ending}", folder.file.display());
+        assert!(std::process::Command::new("mkfifo").arg(&pipe).status().unwrap().success());
+        for error in [Store::open(&folder.file).err(), Reader::open(&folder.file).err()] {
+            let error = error.unwrap().to_string();
+            let told = format!("corrections.sqlite{ending}, found a named pipe");
+            assert!(error.contains("expected a regular file") && error.contains(&told), "{error}");
+        }
+    }
+}
+
 /// A store of some pages, with nothing left in its journal.
 fn filled(file: &Path) {
     let mut store = Store::open(file).unwrap();

@@ -2,10 +2,11 @@
 
 use super::Schema;
 use super::catalogue::{Catalogue, Channel, MessageRef};
+use super::database::{self, refused};
 use super::decompress::{CHUNK_BYTES, Compression};
 use super::error::ContainerError;
 use super::loss::Loss;
-use rusqlite::{Connection, OpenFlags, Row};
+use rusqlite::{Connection, Row};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
@@ -24,8 +25,7 @@ pub(super) struct Db3File {
 impl Db3File {
     /// Reads what the file holds, and says what is lost. In the messages the topic is still the number of the channel.
     pub(super) fn open(path: &Path, losses: &mut Vec<Loss>) -> Result<(Self, Catalogue), ContainerError> {
-        let flags = OpenFlags::SQLITE_OPEN_READ_ONLY | OpenFlags::SQLITE_OPEN_NO_MUTEX;
-        let connection = Connection::open_with_flags(path, flags).map_err(refused(path, "file"))?;
+        let connection = database::open(path)?;
         let mut catalogue = Catalogue::default();
         let topics = "SELECT id, name, type, serialization_format FROM topics";
         for_each_row(&connection, topics, |row| {
@@ -91,9 +91,4 @@ fn for_each_row(
         row(next)?;
     }
     Ok(())
-}
-
-fn refused(path: &Path, place: &str) -> impl FnOnce(rusqlite::Error) -> ContainerError {
-    let (path, place) = (path.to_owned(), place.to_owned());
-    move |error| ContainerError::content(&path, place, "a recording of ROS 2 in SQLite", error.to_string())
 }

@@ -11,6 +11,7 @@ mod bag;
 mod catalogue;
 mod chunked;
 mod chunks;
+mod database;
 mod db3;
 mod decompress;
 mod error;
