@@ -119,9 +119,7 @@ pub(crate) fn depth_for_labelling(
     config: &Config,
     jobs: usize,
 ) -> anyhow::Result<Recording> {
-    let network = model.fingerprint();
-    let folder = out.join("depth").join(&network[..network.len().min(12)]);
-    let store = DepthStore::create(&folder, model.output(), network)?;
+    let store = DepthStore::among_labels(out, model.output(), model.fingerprint())?;
     let tolerance = config.sync.camera_tolerance_ms;
     fill_depth(&store, &recording, model, |sequence| images_of_scans(sequence, tolerance), jobs)?;
     Ok(store.attach(recording))

@@ -1,6 +1,6 @@
 //! `ralf segment`, and labels with what it stored.
 
-use crate::support::{Dataset, Ran, Shape, program, ralf, schema};
+use crate::support::{Dataset, Ran, Shape, program, ralf, schema, tree};
 use std::fs;
 use std::path::Path;
 
@@ -61,6 +61,37 @@ fn grey(value: u8) -> Vec<u8> {
     let mut pixels = tiny_skia::Pixmap::new(160, 120).unwrap();
     pixels.fill(tiny_skia::Color::from_rgba8(value, value, value, 255));
     pixels.encode_png().unwrap()
+}
+
+/// What somebody has linked into a store, or into the recording that takes it, is not written to; what is only read may
+/// be linked from anywhere.
+#[cfg(unix)]
+#[test]
+fn nothing_is_written_through_a_link_that_leads_out() {
+    use std::os::unix::fs::symlink;
+    let dataset = Dataset::of(&Shape { scans: 2, ..Shape::default() }).with_camera(2);
+    let (model, victim) = (colours(&dataset), dataset.beside("victim"));
+    fs::create_dir(&victim).unwrap();
+    let [classes, camera] = ["camera_front/segmentation", "camera_front"];
+    for (link, target) in [(classes, "victim"), (classes, "nowhere"), (camera, "moved")] {
+        let link = dataset.file(link);
+        if target == "moved" {
+            fs::rename(&link, dataset.beside(target)).unwrap();
+        }
+        symlink(dataset.beside(target), &link).unwrap();
+        let target = dataset.beside(target);
+        let is_there = Path::new(&target).exists();
+        let before = is_there.then(|| tree(&target));
+        let refused = ralf(["segment", &dataset.path, "--model", &model]).exits(1);
+        refused.says(["camera_front", "link: expected a folder", "found a link to"]);
+        assert!(Path::new(&target).exists() == is_there && is_there.then(|| tree(&target)) == before);
+        if link.ends_with("segmentation") {
+            fs::remove_file(link).unwrap();
+        }
+    }
+    // Whose camera lies on another disk is read, and what belongs to it is written elsewhere.
+    ralf(["segment", &dataset.path, "--model", &model, "-o", &dataset.beside("classes")]).exits(0);
+    ralf(["label", &dataset.path, "-o", &dataset.out]).exits(0);
 }
 
 #[test]

@@ -50,7 +50,7 @@ pub use without_numbers::WithoutNumbers;
 pub(crate) use content::{changed_ns, damaged_result, hash_file};
 pub(crate) use learned_columns::learned_columns;
 pub use learned_columns::share_column;
-pub(crate) use links::refuse_links_out;
+pub(crate) use links::{refuse_links_on_way, refuse_links_out};
 pub(crate) use lock::WriterLock;
 pub(crate) use names::{OutFolder, SequenceNames, checked};
 pub(crate) use own_files::told_within;

@@ -3,6 +3,7 @@
 use super::person::person;
 use crate::disk::files;
 use crate::error::DataError;
+use crate::result::refuse_links_on_way;
 use std::path::{Path, PathBuf};
 
 /// The folder below an output folder.
@@ -10,11 +11,12 @@ const FOLDER: &str = "second";
 /// The ending of files in it.
 const ENDING: &str = ".sqlite";
 
-/// Where somebody's second labels lie, whether there are some or not.
+/// Where somebody's second labels lie, whether there are some or not, to be written.
 ///
 /// # Errors
-/// A name that can't be a file's.
+/// A name that can't be a file's, or a link that leads out of the output folder.
 pub fn second_file(out: &Path, name: &str) -> Result<PathBuf, DataError> {
+    refuse_links_on_way(out, &[FOLDER])?;
     let folder = out.join(FOLDER);
     let expected = "a name that a file can have";
     let part =
@@ -37,6 +39,27 @@ pub fn second_labellers(out: &Path) -> Result<Vec<(String, PathBuf)>, DataError>
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[cfg(unix)]
+    #[test]
+    fn a_folder_that_leads_elsewhere_takes_no_labels() {
+        let place = tempfile::tempdir().unwrap();
+        let out = place.path().join("out");
+        std::fs::create_dir(&out).unwrap();
+        for target in ["victim", "nowhere"] {
+            if target == "victim" {
+                std::fs::create_dir(place.path().join(target)).unwrap();
+            }
+            std::os::unix::fs::symlink(place.path().join(target), out.join(FOLDER)).unwrap();
+            let told = second_file(&out, "bob").unwrap_err().to_string();
+            assert!(
+                told.contains("second: link: expected a folder") && told.contains("found a link to"),
+                "{told}"
+            );
+            assert_eq!(second_labellers(&out).unwrap(), [], "they are read from wherever they lie");
+            std::fs::remove_file(out.join(FOLDER)).unwrap();
+        }
+    }
 
     #[test]
     fn only_stores_with_names_are_found_and_no_name_leads_elsewhere() {

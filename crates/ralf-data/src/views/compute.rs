@@ -51,7 +51,7 @@ pub(super) fn compute_views<V: StoredView>(
     observer: &ViewObserver,
 ) -> Result<Computed, DataError> {
     let files = ImageFiles::new(store, reader)?;
-    let _lock = store.lock()?;
+    let _lock = files.lock()?;
     let cameras = reader.sequence().rig.cameras.iter();
     let cameras: Vec<_> = cameras.map(|camera| Straightening { camera, views: OnceLock::new() }).collect();
     let done = side_by_side(images, jobs, |&(camera, image)| {

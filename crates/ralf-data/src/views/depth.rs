@@ -6,6 +6,7 @@ use super::store::Store;
 use super::stored_view::StoredView;
 use crate::disk::{files, npy};
 use crate::error::DataError;
+use crate::result::refuse_links_on_way;
 use crate::tree;
 use ralf::sensors::{DepthImage, DepthOutput};
 use serde::{Deserialize, Serialize};
@@ -13,6 +14,9 @@ use std::path::Path;
 
 /// A folder of depth images of one network.
 pub type DepthStore = Store<DepthImage>;
+
+/// Letters of a network's fingerprint that tell it from others.
+const SHORT: usize = 12;
 
 /// `depth.toml`: what the values of a store mean, and which network gave them.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
@@ -26,6 +30,16 @@ impl DepthStore {
     /// The store of a network in a folder, begun if there is none. A store of another network is refused.
     pub fn create(root: &Path, output: DepthOutput, network: &str) -> Result<Self, DataError> {
         Self::begin(root, DepthToml { output, network: network.to_owned() })
+    }
+
+    /// The store of a network among labels, `OUT/depth/NETWORK`, begun if there is none.
+    ///
+    /// # Errors
+    /// Those of [`create`](Self::create), and a link out of `OUT`.
+    pub fn among_labels(out: &Path, output: DepthOutput, network: &str) -> Result<Self, DataError> {
+        let way = [tree::DEPTH, network.get(..SHORT).unwrap_or(network)];
+        refuse_links_on_way(out, &way)?;
+        Self::create(&out.join(way.join("/")), output, network)
     }
 }
 
@@ -77,5 +91,25 @@ mod tests {
         let wider = DepthImage { width: 3, height: 1, values: vec![1.0; 3] };
         let error = DepthImage::write(&file, &[view(1.0), wider]).unwrap_err().to_string();
         assert!(error.contains("one size"), "{error}");
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_store_among_labels_lies_among_them() {
+        let place = tempfile::tempdir().unwrap();
+        let [out, victim] = ["out", "victim"].map(|name| place.path().join(name));
+        let begin = || DepthStore::among_labels(&out, DepthOutput::Metric, "0123456789abcdef");
+        begin().unwrap();
+        assert!(out.join("depth/0123456789ab/depth.toml").is_file());
+        std::fs::create_dir(&victim).unwrap();
+        for link in ["depth/0123456789ab", "depth"] {
+            std::fs::remove_dir_all(out.join(link)).unwrap();
+            std::os::unix::fs::symlink(&victim, out.join(link)).unwrap();
+            let told = begin().unwrap_err().to_string();
+            assert!(told.contains(link) && told.contains("link: expected a folder"), "{told}");
+            std::fs::remove_file(out.join(link)).unwrap();
+            std::fs::create_dir_all(out.join(link)).unwrap();
+        }
+        assert_eq!(std::fs::read_dir(victim).unwrap().count(), 0);
     }
 }

@@ -3,7 +3,7 @@
 
 use crate::disk::files;
 use crate::error::DataError;
-use crate::result::{Component, OutFolder, WriterLock};
+use crate::result::{Component, OutFolder, SequenceNames, WriterLock, refuse_links_on_way};
 use crate::tree::SEQUENCES;
 use ralf_files::Kind;
 use serde::Serialize;
@@ -111,8 +111,15 @@ impl ViewFolder {
         camera.own(self.kind.name).file(&Component::numbered(number, self.kind.extension))
     }
 
-    /// The right to write to it; another process may have that.
-    pub(super) fn lock(&self) -> Result<WriterLock, DataError> {
+    /// The right to write what belongs to a sequence's images; another process may have that.
+    ///
+    /// # Errors
+    /// Another process writes, or a folder that would be written to is a link out of the store.
+    pub(super) fn lock(&self, names: &SequenceNames) -> Result<WriterLock, DataError> {
+        for camera in &names.cameras {
+            let way = [SEQUENCES, names.sequence.as_str(), camera.as_str(), self.kind.name];
+            refuse_links_on_way(&self.root, &way)?;
+        }
         WriterLock::take(self.root.join(format!(".{}-lock", self.kind.name)), &self.root)
     }
 

@@ -4,7 +4,7 @@ use super::folder::ViewFolder;
 use crate::disk::real_path::real_path;
 use crate::error::DataError;
 use crate::read::SequenceReader;
-use crate::result::SequenceNames;
+use crate::result::{SequenceNames, WriterLock};
 use std::path::{Path, PathBuf};
 
 /// The files of a sequence's images in a store. Beside the images, in a recording of the own layout, they have the
@@ -31,6 +31,11 @@ impl ImageFiles {
         };
         let is_beside = names.cameras.iter().enumerate().map(is_beside).collect();
         Ok(Self { store: store.clone(), names, is_beside })
+    }
+
+    /// The right to write them; see [`ViewFolder::lock`].
+    pub(super) fn lock(&self) -> Result<WriterLock, DataError> {
+        self.store.lock(&self.names)
     }
 
     /// The file of an image's views; `None` of a camera that isn't there. It need not exist.
