@@ -184,3 +184,14 @@ fn settings_that_a_killed_conversion_left_are_taken_over() {
     assert!(Path::new(&dataset.beside("q.toml")).is_file());
     assert!(!Path::new(&dataset.beside("q.mcap.toml")).exists());
 }
+
+#[cfg(unix)]
+#[test]
+fn a_pipe_in_the_place_of_settings_is_left_alone() {
+    let dataset = Dataset::new();
+    let pipe = dataset.beside("q.toml");
+    assert!(std::process::Command::new("mkfifo").arg(&pipe).status().unwrap().success());
+    ralf(["convert", "-q", &dataset.path, "-o", &dataset.beside("q.mcap")]).exits(0);
+    assert!(Path::new(&dataset.beside("q.mcap.toml")).is_file());
+    assert!(!Path::new(&pipe).is_file());
+}

@@ -37,6 +37,7 @@ use crate::read::SequenceReader;
 use crate::read::recording::{check_motion_corrected, check_nothing_lost};
 use crate::result::{OutFolder, WriterLock};
 use foxglove::Layout;
+use ralf_files::Kind;
 use ralf_ros::container::{Container, recognises};
 use ralf_ros::writer::{Compression, MessageWriter, WriteError};
 use recorder::Recorder;
@@ -210,7 +211,7 @@ fn settings_file(file: &Path, settings: &str) -> PathBuf {
 fn is_left(settings_file: &Path, settings: &str) -> bool {
     let formats = [RosFormat::Mcap, RosFormat::Bag];
     let is_used = formats.iter().any(|format| settings_file.with_extension(format.extension()).exists());
-    !is_used && fs::read(settings_file).is_ok_and(|found| found == settings.as_bytes())
+    !is_used && files::read_text(settings_file, Kind::Settings).is_ok_and(|found| found == settings)
 }
 
 /// The file could not be written: with all reasons, for libraries hide the system's behind their own.
