@@ -33,6 +33,14 @@ impl Writer for Npz {
     }
 }
 
+/// A column's name as that of a file which no program that unpacks the archive puts elsewhere: a separator or a control
+/// character stands as `%` and two hex digits for each of its bytes.
+fn member(column: &str) -> String {
+    let plain = |c: char| !c.is_control() && !"/\\:".contains(c);
+    let escaped = |c: char| c.to_string().bytes().map(|byte| format!("%{byte:02X}")).collect();
+    column.chars().map(|c| if plain(c) { c.to_string() } else { escaped(c) }).collect()
+}
+
 /// The bytes of an archive, uncompressed as `numpy.savez` leaves them. It is told no time, so that it is always the
 /// same.
 fn archive(table: &Table) -> Result<Vec<u8>, ZipError> {
@@ -42,8 +50,25 @@ fn archive(table: &Table) -> Result<Vec<u8>, ZipError> {
         .last_modified_time(DateTime::default());
     // The long sentences would take most of the archive; the numbers that they put into words are there.
     for (column, values) in table.columns().filter(|(column, _)| column.name != "reason") {
-        zip.start_file(format!("{}.npy", column.name), options)?;
+        zip.start_file(format!("{}.npy", member(&column.name)), options)?;
         zip.write_all(&npy_array::of_column(values))?;
     }
     Ok(zip.finish()?.into_inner())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_member_leads_elsewhere() {
+        for (column, expected) in [
+            ("RCS [dBsm]", "RCS [dBsm]"),
+            ("..", ".."),
+            ("../../x", "..%2F..%2Fx"),
+            ("C:\\x\u{1b}\u{85}", "C%3A%5Cx%1B%C2%85"),
+        ] {
+            assert_eq!(member(column), expected);
+        }
+    }
 }
