@@ -11,6 +11,7 @@ mod links;
 mod lock;
 mod names;
 mod own_files;
+pub(crate) mod own_folder;
 mod parquet_columns;
 mod parquet_reader;
 mod parquet_writer;

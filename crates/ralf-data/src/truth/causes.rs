@@ -15,6 +15,28 @@ use std::path::{Path, PathBuf};
 /// The name of code 0.
 const NONE: &str = "none";
 
+/// The names in a file that lists them, whose text this is.
+///
+/// # Errors
+/// An empty list or name, more names than codes, or a first name other than `none`.
+pub(crate) fn names_of_causes(file: &Path, text: &str) -> Result<Vec<String>, DataError> {
+    let names: Vec<String> = text.lines().map(|name| name.trim().to_owned()).collect();
+    let refuse = |line: usize, expected: &str, found: &str| {
+        Err(DataError::content(file, format!("line {line}"), expected, format!("`{found}`")))
+    };
+    match names.first() {
+        Some(first) if first == NONE => {}
+        first => return refuse(1, "`none`, the name of code 0", first.map_or("", String::as_str)),
+    }
+    if let Some(empty) = names.iter().position(String::is_empty) {
+        return refuse(empty + 1, "the name of a cause", "");
+    }
+    if let Some(name) = names.get(usize::from(u8::MAX) + 1) {
+        return refuse(257, "at most 256 names", name);
+    }
+    Ok(names)
+}
+
 /// The causes of one sequence's artifacts.
 #[derive(Debug, Clone)]
 pub struct Causes {
@@ -35,27 +57,13 @@ impl Causes {
     /// Reads the names of a sequence's causes; `None` where it has none.
     ///
     /// # Errors
-    /// An empty list or name, more names than codes, or a first name other than `none`.
+    /// Those of [`names_of_causes`], or a file that can't be read.
     pub fn find(dataset: &Path, sequence: &str) -> Result<Option<Self>, DataError> {
         let file = truth_folder(dataset, sequence).join(CAUSE_NAMES);
         if !files::exists(&file)? {
             return Ok(None);
         }
-        let names: Vec<String> =
-            files::read_text(&file, Kind::Settings)?.lines().map(|name| name.trim().to_owned()).collect();
-        let refuse = |line: usize, expected: &str, found: &str| {
-            Err(DataError::content(&file, format!("line {line}"), expected, format!("`{found}`")))
-        };
-        match names.first() {
-            Some(first) if first == NONE => {}
-            first => return refuse(1, "`none`, the name of code 0", first.map_or("", String::as_str)),
-        }
-        if let Some(empty) = names.iter().position(String::is_empty) {
-            return refuse(empty + 1, "the name of a cause", "");
-        }
-        if let Some(name) = names.get(usize::from(u8::MAX) + 1) {
-            return refuse(257, "at most 256 names", name);
-        }
+        let names = names_of_causes(&file, &files::read_text(&file, Kind::Settings)?)?;
         Ok(Some(Self { told: Told::Files(dataset.to_owned()), names }))
     }
 

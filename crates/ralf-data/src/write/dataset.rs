@@ -7,8 +7,10 @@ use crate::disk::files;
 use crate::error::DataError;
 use crate::read::SequenceReader;
 use crate::read::recording::{check_motion_corrected, check_nothing_lost};
-use crate::result::{OutFolder, SequenceNames, WriterLock, refuse_links_out};
+use crate::result::{OutFolder, SequenceNames, WriterLock, own_folder, refuse_links_out};
 use crate::tree::{CAUSE_NAMES, GROUND_TRUTH, SEQUENCES};
+use crate::truth::names_of_causes;
+use ralf_files::Kind;
 use ralf_jobs::side_by_side;
 use std::fs;
 use std::path::Path;
@@ -52,13 +54,9 @@ pub fn write_sequence_with(
     refuse_links_out(dataset, SEQUENCES, 0)?;
     let _lock = WriterLock::beside(folder)?;
     let part = sequences.folder(&names.sequence.hidden(".part"));
-    // What a killed conversion left.
-    if part.path().exists() {
-        fs::remove_dir_all(part.path()).map_err(DataError::io(part.path()))?;
-    }
+    own_folder::begin(&part)?;
     let writer = Writer { reader, names: &names, folder: &part, done: Mutex::new(0), progress };
-    let written =
-        writer.write(jobs).and_then(|()| fs::rename(part.path(), folder).map_err(DataError::io(folder)));
+    let written = writer.write(jobs).and_then(|()| own_folder::finish(&part, folder));
     if written.is_err() {
         // The unfinished folder is of no use to anyone; the error that matters is the first one.
         let _ = fs::remove_dir_all(part.path());
@@ -97,7 +95,10 @@ impl Writer<'_> {
     fn names_of_causes(&self) -> Result<(), DataError> {
         let file = self.folder.own(GROUND_TRUTH).own_file(CAUSE_NAMES);
         if let Some(names) = self.reader.cause_names_file() {
-            return files::write_whole(&file, &files::read(&names)?);
+            let text = files::read_text(&names, Kind::Settings)?;
+            // It may be a link to anything, and what is none of the recording's goes nowhere.
+            names_of_causes(&names, &text)?;
+            return files::write_whole(&file, text.as_bytes());
         }
         let causes = self.reader.causes();
         if causes.is_empty() {

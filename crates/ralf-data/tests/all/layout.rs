@@ -78,6 +78,7 @@ fn a_conversion_is_whole_or_not_there_and_overwrites_nothing() {
     let out = tempfile::tempdir().unwrap();
     write(&path.join("lidar_top/000001.bin"), [0; 15]);
     // Left by a conversion that was killed.
+    write(&out.path().join("sequences/.00.part/.ralf-unfinished"), "");
     write(&out.path().join("sequences/.00.part/old"), "");
     let error = write_sequence(&reader, out.path(), &|_| ()).unwrap_err().to_string();
     assert!(
@@ -87,9 +88,51 @@ fn a_conversion_is_whole_or_not_there_and_overwrites_nothing() {
     assert_eq!(fs::read_dir(out.path().join("sequences")).unwrap().count(), 0);
     write(&path.join("lidar_top/000001.bin"), [0; 16]);
     write_sequence(&reader, out.path(), &|_| ()).unwrap();
-    assert!(!out.path().join("sequences/00/old").exists());
+    let copy = out.path().join("sequences/00");
+    assert!(!copy.join("old").exists() && !copy.join(".ralf-unfinished").exists());
     let error = write_sequence(&reader, out.path(), &|_| ()).unwrap_err().to_string();
     assert!(error.contains("sequences/00: folder: expected none of this name yet"), "{error}");
+}
+
+#[test]
+fn what_lies_in_the_place_of_an_unfinished_sequence_and_is_none_is_kept() {
+    let (_folder, path) = tiny();
+    let reader = LayoutSequence::open(&path).unwrap();
+    let out = tempfile::tempdir().unwrap();
+    let mine = out.path().join("sequences/.00.part/mine");
+    write(&mine, "mine");
+    let error = write_sequence(&reader, out.path(), &|_| ()).unwrap_err().to_string();
+    assert!(
+        error.contains("/.00.part: folder: expected nothing of this name") && error.contains("move it away"),
+        "{error}"
+    );
+    assert_eq!(fs::read(&mine).unwrap(), b"mine");
+    // An empty folder is no loss.
+    fs::remove_file(&mine).unwrap();
+    write_sequence(&reader, out.path(), &|_| ()).unwrap();
+    assert!(!mine.parent().unwrap().exists());
+}
+
+#[cfg(unix)]
+#[test]
+fn a_list_of_causes_that_leads_to_another_file_is_not_copied() {
+    let (folder, path) = tiny();
+    let secret = folder.path().join("secret");
+    fs::write(&secret, "-----BEGIN KEY-----").unwrap();
+    let list = path.join("ground_truth/causes.txt");
+    let _none_yet = fs::remove_file(&list);
+    std::os::unix::fs::symlink(&secret, &list).unwrap();
+    let copied = || {
+        let out = tempfile::tempdir().unwrap();
+        write_sequence(&LayoutSequence::open(&path).unwrap(), out.path(), &|_| ()).map(|()| out)
+    };
+    let error = copied().unwrap_err().to_string();
+    assert!(error.contains("causes.txt: line 1: expected `none`"), "{error}");
+    fs::write(&secret, "none\nclutter\n").unwrap();
+    assert!(
+        fs::read(copied().unwrap().path().join("sequences/00/ground_truth/causes.txt")).unwrap()
+            == b"none\nclutter\n"
+    );
 }
 
 #[test]

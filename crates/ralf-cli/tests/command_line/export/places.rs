@@ -175,10 +175,28 @@ fn nothing_else_is_ever_replaced() {
 fn what_a_killed_export_left_is_gone_after_the_next_one() {
     let dataset = small();
     fs::create_dir(dataset.beside(".labels.part")).unwrap();
-    fs::write(dataset.beside(".labels.part/half"), "half").unwrap();
+    for file in ["_export.json", "half"] {
+        fs::write(dataset.beside(&format!(".labels.part/{file}")), "half").unwrap();
+    }
     let path = export(&dataset, "npz", "labels", &[]);
     assert!(!fs::exists(dataset.beside(".labels.part")).unwrap());
     assert!(tree(path).into_keys().all(|name| name != "half"));
+}
+
+#[test]
+fn what_has_the_names_of_what_a_killed_export_leaves_and_is_none_is_kept() {
+    let dataset = small();
+    for name in [".labels.part", ".labels.earlier"] {
+        let folder = dataset.beside(name);
+        fs::create_dir(&folder).unwrap();
+        fs::write(format!("{folder}/mine"), "mine").unwrap();
+        let told = [name, "folder: expected nothing of this name", "move it away"];
+        run(&dataset, "npz", &dataset.beside("labels"), &[]).exits(1).ends_with_error(told);
+        run(&dataset, "mcap", &dataset.beside("labels"), &[]).exits(1).ends_with_error(told);
+        assert_eq!(fs::read(format!("{folder}/mine")).unwrap(), b"mine");
+        fs::remove_dir_all(folder).unwrap();
+    }
+    export(&dataset, "npz", "labels", &[]);
 }
 
 #[test]

@@ -1,11 +1,12 @@
 //! Where an export goes: it appears whole or not at all, and never takes the place of anything else.
 
 use super::formats::SingleFile;
-use super::record::Record;
+use super::record::{RECORD, Record};
 use super::ros::foxglove::FILE as LAYOUT;
 use super::{ExportFormat, ExportOptions};
 use crate::disk::files;
 use crate::error::DataError;
+use crate::result::own_folder::{refuse_others, remove_own};
 use crate::result::{Component, OutFolder, WriterLock};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -40,6 +41,7 @@ impl Place {
         let hidden = |end: &str| parent.join(format!(".{}.{end}", name.to_string_lossy()));
         let (part, earlier) = (OutFolder::new(&hidden("part")), hidden("earlier"));
         // An export that was killed while it took the place of an earlier one has left that beside it.
+        refuse_others(&earlier, RECORD)?;
         if files::exists(&earlier)? && !files::exists(path)? {
             fs::rename(&earlier, path).map_err(DataError::io(path))?;
         }
@@ -54,9 +56,9 @@ impl Place {
             }
         };
         // What a killed export left.
-        remove_folder(part.path())?;
-        fs::create_dir_all(part.path()).map_err(DataError::io(part.path()))?;
+        remove_own(part.path(), RECORD)?;
         let record = Record::new(options, sequences);
+        record.begin(&part)?;
         Ok(Self { path: path.to_owned(), part, record, earlier, file, _lock: lock })
     }
 
@@ -84,7 +86,7 @@ impl Place {
         self.record.write(&self.part)?;
         // Somebody may have put something there while the export was made.
         check_folder(&self.path, &self.record.options)?;
-        remove_folder(&self.earlier)?;
+        remove_own(&self.earlier, RECORD)?;
         if self.path.exists() {
             fs::rename(&self.path, &self.earlier).map_err(refused())?;
         }
@@ -93,14 +95,14 @@ impl Place {
             let _ = fs::rename(&self.earlier, &self.path);
             return Err(refused()(error));
         }
-        remove_folder(&self.earlier)
+        remove_own(&self.earlier, RECORD)
     }
 }
 
 impl Drop for Place {
     /// A half-written export is of no use to anyone. Of a finished one nothing is left beside its place.
     fn drop(&mut self) {
-        let _ = remove_folder(self.part.path());
+        let _ = remove_own(self.part.path(), RECORD);
     }
 }
 
@@ -158,11 +160,4 @@ fn check_folder(path: &Path, options: &ExportOptions) -> Result<(), DataError> {
     }
     let found = format!("an earlier export in the format {format}, which only --force replaces");
     Err(DataError::content(path, "folder", "an empty folder", found))
-}
-
-fn remove_folder(folder: &Path) -> Result<(), DataError> {
-    match fs::remove_dir_all(folder) {
-        Err(error) if error.kind() != std::io::ErrorKind::NotFound => Err(DataError::io(folder)(error)),
-        _ => Ok(()),
-    }
 }

@@ -11,7 +11,7 @@ use std::collections::BTreeSet;
 use std::path::Path;
 
 /// Tools that search folders for data pass over names with an underscore.
-const RECORD: &str = "_export.json";
+pub(super) const RECORD: &str = "_export.json";
 
 /// The content of `_export.json`.
 #[derive(Debug, Clone, Serialize, Deserialize)]
@@ -38,10 +38,16 @@ impl Record {
         serde_json::from_str(&files::read_text(&folder.join(RECORD), Kind::Table).ok()?).ok()
     }
 
+    /// Writes it into a new folder, which is known by it as an export's from then on.
+    pub(super) fn begin(&self, folder: &OutFolder) -> Result<(), DataError> {
+        write_json(&folder.own_file(RECORD), self)
+    }
+
     /// Writes it into a folder, all of whose files are the export's.
     pub(super) fn write(&self, folder: &OutFolder) -> Result<(), DataError> {
         let mut found = BTreeSet::new();
         entries(folder.path(), "", &mut found)?;
+        found.remove(RECORD);
         let whole = Self { files: Some(found), ..self.clone() };
         write_json(&folder.own_file(RECORD), &whole)
     }

@@ -1,0 +1,56 @@
+//! Folders in the making, hidden beside their places: only those that carry a mark of ours are ever removed.
+
+use super::names::OutFolder;
+use crate::disk::files;
+use crate::error::DataError;
+use std::fs;
+use std::path::Path;
+
+/// The file that a folder has until it is finished.
+const MARK: &str = ".ralf-unfinished";
+
+/// Begins a folder: what a killed program left of it goes.
+///
+/// # Errors
+/// Those of [`remove_own`], and the system's.
+pub(crate) fn begin(folder: &OutFolder) -> Result<(), DataError> {
+    remove_own(folder.path(), MARK)?;
+    files::write_whole(&folder.own_file(MARK), b"")
+}
+
+/// Puts a folder that was begun in its place, finished.
+pub(crate) fn finish(folder: &OutFolder, place: &Path) -> Result<(), DataError> {
+    files::remove(&folder.own_file(MARK))?;
+    fs::rename(folder.path(), place).map_err(DataError::io(place))
+}
+
+/// Removes a folder, if it is there, with all that is in it, and that has to be a file of the name `mark`, by which it
+/// is known as ours; or nothing.
+///
+/// # Errors
+/// [`refuse_others`] refuses it, or the system does.
+pub(crate) fn remove_own(folder: &Path, mark: &str) -> Result<(), DataError> {
+    refuse_others(folder, mark)?;
+    match fs::remove_dir_all(folder) {
+        Err(error) if error.kind() != std::io::ErrorKind::NotFound => Err(DataError::io(folder)(error)),
+        _ => Ok(()),
+    }
+}
+
+/// Refuses all but a folder with a file of the name `mark`, an empty one, and nothing: it may be somebody else's.
+pub(crate) fn refuse_others(folder: &Path, mark: &str) -> Result<(), DataError> {
+    let is_ours = match fs::symlink_metadata(folder) {
+        Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(()),
+        Ok(found) if found.is_dir() => {
+            files::exists(&folder.join(mark))?
+                || fs::read_dir(folder).map_err(DataError::io(folder))?.next().is_none()
+        }
+        found => found.map_err(DataError::io(folder)).map(|_| false)?,
+    };
+    if is_ours {
+        return Ok(());
+    }
+    let expected = "nothing of this name, or what ralf has left here";
+    let found = format!("something else, without a file {mark}, which would be lost: move it away");
+    Err(DataError::content(folder, "folder", expected, found))
+}
