@@ -1,7 +1,7 @@
 //! How far the work has got: a bar with rate and remaining time where standard error is a terminal.
 
 use crate::spent::{Spent, Work};
-use crate::text::grouped;
+use crate::text::{grouped, tamed};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use ralf_data::run::{Observer, Part, Stage};
 use std::io::Write;
@@ -11,7 +11,7 @@ use std::time::{Duration, Instant};
 
 /// Says something to people, on standard error. Nobody has to listen.
 pub(crate) fn say(message: &str) {
-    let _ = writeln!(std::io::stderr(), "{message}");
+    let _ = writeln!(std::io::stderr(), "{}", tamed(message));
 }
 
 /// Whether no work is shown, whoever does it.
@@ -43,7 +43,11 @@ impl Progress {
 
     fn with_template(steps: u64, template: &str, name: String) -> Self {
         let style = ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar());
-        Self::shown(ProgressBar::new(steps).with_style(style.progress_chars("=> ")).with_prefix(name))
+        Self::shown(
+            ProgressBar::new(steps)
+                .with_style(style.progress_chars("=> "))
+                .with_prefix(tamed(&name).into_owned()),
+        )
     }
 
     fn shown(bar: ProgressBar) -> Self {
@@ -71,13 +75,13 @@ impl Progress {
 
     /// What the work is at.
     pub(crate) fn tell(&self, message: String) {
-        self.bar.set_message(message);
+        self.bar.set_message(tamed(&message).into_owned());
         self.bar.tick();
     }
 
     /// What is worked on.
     pub(crate) fn name(&self, name: String) {
-        self.bar.set_prefix(name);
+        self.bar.set_prefix(tamed(&name).into_owned());
     }
 
     fn seconds(&self) -> f64 {

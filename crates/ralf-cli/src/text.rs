@@ -2,11 +2,27 @@
 
 use anyhow::Context;
 pub(crate) use ralf_report::{counted, grouped, listed};
+use std::borrow::Cow;
 use std::io::{self, Write};
 use std::path::Path;
 
+/// What may go to a terminal: names and files of others could do anything to it by control characters. These stand as
+/// JSON writes them, so that JSON stays what it is; lines and tabs stay.
+pub(crate) fn tamed(text: &str) -> Cow<'_, str> {
+    let is_wild = |character: char| character.is_control() && !"\n\t".contains(character);
+    if !text.contains(is_wild) {
+        return text.into();
+    }
+    let tame = |character: char| match is_wild(character) {
+        true => format!("\\u{:04x}", u32::from(character)),
+        false => character.to_string(),
+    };
+    text.chars().map(tame).collect()
+}
+
 /// Prints a result to standard output.
 pub(crate) fn print(text: &str) -> anyhow::Result<()> {
+    let text = tamed(text);
     let end = if text.ends_with('\n') { "" } else { "\n" };
     let mut stdout = io::stdout().lock();
     let printed = stdout.write_all(text.as_bytes()).and_then(|()| stdout.write_all(end.as_bytes()));
@@ -104,6 +120,14 @@ mod tests {
         assert_eq!(told, "a.toml: TOML parse error at line 1, column 9: no table in `lidar`");
         assert_eq!(without_shown_lines("a: b").1, "a: b");
         assert_eq!(without_shown_lines("a:\n b\n: c").1, "a: b: c");
+    }
+
+    #[test]
+    fn control_characters_are_shown_as_json_has_them() {
+        assert_eq!(tamed("a\tb\nc\u{e9}"), "a\tb\nc\u{e9}");
+        assert_eq!(tamed("\u{1b}[2J\r\u{7}\u{9b}m\u{7f}"), "\\u001b[2J\\u000d\\u0007\\u009bm\\u007f");
+        let told = tamed("\"\u{9b}\"");
+        assert_eq!(serde_json::from_str::<String>(&told).unwrap(), "\u{9b}");
     }
 
     #[test]

@@ -196,3 +196,16 @@ fn an_edited_record_removes_nothing_elsewhere() {
     ralf(["label", &dataset.path, "-o", &dataset.out, "--set", "fusion.threshold=0.9"]).exits(0);
     assert!(tree(&victim) == before);
 }
+
+/// What a name tells a terminal to do is shown, and not done; files and JSON keep it as it is.
+#[test]
+fn control_characters_of_a_recording_never_reach_a_terminal() {
+    let dataset = Dataset::new();
+    dataset.edit("sequence.toml", "\"a street\"", "\"a \\u001b[31m\\u009b2Jstreet\"");
+    ralf(["inspect", &dataset.path]).exits(0).prints(["a \\u001b[31m\\u009b2Jstreet"]);
+    let told = ralf(["inspect", &dataset.path, "--json"]).exits(0);
+    assert!(!told.stdout.contains(|c: char| c.is_control() && c != '\n'), "{}", told.stdout);
+    assert!(told.json().to_string().contains("\u{9b}2Jstreet"));
+    dataset.edit("sequence.toml", "elevation = \"none\"", "elevation = \"\\u001b]0;x\\u0007\"");
+    ralf(["inspect", &dataset.path]).exits(1).ends_with_error(["unknown variant `\\u001b]0;x\\u0007`"]);
+}
