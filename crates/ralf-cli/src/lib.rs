@@ -3,6 +3,8 @@
 //! It is a library so that the Python package carries the same command.
 
 mod arguments;
+#[cfg(feature = "review")]
+mod browser;
 mod cli;
 mod commands;
 mod corrections;

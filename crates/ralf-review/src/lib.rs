@@ -21,6 +21,7 @@ mod app;
 mod cache;
 mod causes;
 mod columns;
+mod connections;
 mod contents;
 mod correcting;
 mod error;

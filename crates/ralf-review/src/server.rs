@@ -5,7 +5,7 @@ use crate::error::ReviewError;
 use crate::http::{Guard, Token};
 use crate::listening::listen;
 use crate::options::Options;
-use crate::{addresses, routes};
+use crate::{addresses, connections, routes};
 use ralf_data::Recording;
 use std::io;
 use std::net::TcpListener;
@@ -100,13 +100,12 @@ async fn serve(
         tokio::time::sleep(PATIENCE).await;
     };
     let settling = tokio::spawn(settle(app.clone()));
-    let serving = axum::serve(listener, routes::router(app, guard)).with_graceful_shutdown(ending);
-    let served = tokio::select! {
-        served = serving.into_future() => served,
-        () = too_long => Ok(()),
-    };
+    tokio::select! {
+        () = connections::serve(listener, routes::router(app, guard), ending) => {}
+        () = too_long => {}
+    }
     settling.abort();
-    served
+    Ok(())
 }
 
 /// Writes the store's journal back whenever nobody has edited for a moment, so that a copy of the file alone

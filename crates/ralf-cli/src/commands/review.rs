@@ -1,13 +1,13 @@
 //! `ralf review`: the page where people correct labels.
 
 use crate::arguments::{ChangedArgs, DatasetArgs};
+use crate::browser::Detour;
 use crate::outcome::Outcome;
 use crate::progress::say;
 use crate::text::print;
 use clap::Args;
 use ralf_review::{Options, Server};
 use std::path::PathBuf;
-use std::process::{Command, Stdio};
 
 /// Where the system keeps the user's name.
 const NAMES: [&str; 2] = ["USER", "USERNAME"];
@@ -75,9 +75,8 @@ pub(crate) fn run(arguments: &ReviewArgs) -> anyhow::Result<Outcome> {
         }
         None => say("Ctrl-C ends the review; every edit is on disk when the page shows it as saved"),
     }
-    if let Some(url) = server.urls().first().filter(|_| arguments.open) {
-        open_browser(url);
-    }
+    // It may be opened as long as the review goes on.
+    let _detour = server.urls().first().filter(|_| arguments.open).and_then(|url| open_browser(url));
     server.run()?;
     Ok(Outcome::Done)
 }
@@ -97,15 +96,11 @@ fn token_folder() -> Option<PathBuf> {
     Some(state?.join("ralf").join("review"))
 }
 
-/// Asks the system to open an address. The review goes on where it can't.
-fn open_browser(url: &str) {
-    let mut command = match std::env::consts::OS {
-        "macos" => Command::new("open"),
-        "windows" => Command::new("explorer"),
-        _ => Command::new("xdg-open"),
-    };
-    let command = command.arg(url).stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null());
-    if let Err(error) = command.spawn() {
-        say(&format!("no browser could be opened ({error}): open {url} yourself"));
-    }
+/// Asks the system to open an address, by a page that leads there and that is no longer needed when the review ends.
+/// The review goes on where it can't.
+fn open_browser(url: &str) -> Option<Detour> {
+    let opened = Detour::to(url).and_then(|detour| detour.open().map(|()| detour));
+    opened
+        .inspect_err(|error| say(&format!("no browser could be opened ({error}): open {url} yourself")))
+        .ok()
 }

@@ -192,3 +192,35 @@ fn what_can_not_be_reviewed_is_told() {
         .says(["expected the record of a finished `ralf label`"]);
     ralf(["review", &dataset.path]).exits(2).says(["<OUT>"]);
 }
+
+/// Everybody on the machine sees what programs are started with.
+#[cfg(target_os = "linux")]
+#[test]
+fn the_browser_is_started_without_the_token_and_led_to_it() {
+    use std::os::unix::fs::PermissionsExt;
+    let dataset = labelled();
+    let [programs, seen, page] = ["programs", "seen", "page"].map(|name| dataset.beside(name));
+    fs::create_dir(&programs).unwrap();
+    let browser = format!("{programs}/xdg-open");
+    let script = format!(
+        "#!/bin/sh\ncp \"$1\" {page}\nstat -c %a \"$1\" > {seen}.part\necho \"$@\" >> {seen}.part\nmv {seen}.part {seen}\n"
+    );
+    fs::write(&browser, script).unwrap();
+    fs::set_permissions(&browser, PermissionsExt::from_mode(0o755)).unwrap();
+    let mut command = program();
+    command.env("PATH", format!("{programs}:{}", std::env::var("PATH").unwrap()));
+    let review = Review::start_with(command, &dataset, &["--open"]);
+    let begun = std::time::Instant::now();
+    while !Path::new(&seen).exists() {
+        assert!(begun.elapsed().as_secs() < 60, "no browser was opened");
+        std::thread::sleep(std::time::Duration::from_millis(20));
+    }
+    let seen = fs::read_to_string(&seen).unwrap();
+    let (mode, file) = seen.trim().split_once('\n').unwrap();
+    assert!(mode == "600" && !seen.contains(&review.token), "{seen}");
+    let address = format!("url=http://{}/?token={}\"", review.address, review.token);
+    assert!(fs::read_to_string(page).unwrap().contains(&address));
+    assert!(Path::new(file).exists());
+    assert!(review.end("-INT"));
+    assert!(!Path::new(file).exists());
+}

@@ -1,7 +1,7 @@
 //! The end of the server.
 
 use crate::support::{Out, SEQUENCE};
-use std::io::Write;
+use std::io::{Read, Write};
 use std::net::TcpStream;
 use std::time::{Duration, Instant};
 
@@ -21,7 +21,7 @@ fn requests_that_wait_are_answered_when_the_server_ends() {
     let begin = Instant::now();
     server.end();
     let mut answer = String::new();
-    std::io::Read::read_to_string(&mut stream, &mut answer).unwrap();
+    stream.read_to_string(&mut answer).unwrap();
     assert!(
         answer.starts_with("HTTP/1.1 200") && answer.ends_with("{\"counter\":0,\"scans\":[]}"),
         "{answer}"
@@ -37,4 +37,32 @@ fn a_connection_that_says_nothing_does_not_keep_it() {
     let begin = Instant::now();
     server.end();
     assert!(begin.elapsed() < Duration::from_secs(8), "{:?}", begin.elapsed());
+}
+
+/// So many connections are let in at a time.
+const CONNECTIONS: usize = 128;
+
+#[test]
+fn connections_that_say_nothing_or_half_a_request_are_closed_and_keep_nobody_out_for_long() {
+    let out = Out::new();
+    let server = out.serve();
+    let connect = || TcpStream::connect(("127.0.0.1", server.port())).unwrap();
+    let mut held: Vec<TcpStream> = (0..CONNECTIONS).map(|_| connect()).collect();
+    for stream in held.iter_mut().step_by(2) {
+        stream.write_all(b"GET / HTTP/1.1\r\nHost: ").unwrap();
+    }
+    let mut waiting = connect();
+    let host = format!("Host: 127.0.0.1:{}", server.port());
+    waiting.write_all(format!("GET / HTTP/1.1\r\n{host}\r\nConnection: close\r\n\r\n").as_bytes()).unwrap();
+    let mut answer = Vec::new();
+    waiting.set_read_timeout(Some(Duration::from_secs(2))).unwrap();
+    assert!(waiting.read_to_end(&mut answer).is_err() && answer.is_empty(), "there is no place yet");
+    waiting.set_read_timeout(Some(Duration::from_secs(30))).unwrap();
+    waiting.read_to_end(&mut answer).unwrap();
+    assert!(answer.starts_with(b"HTTP/1.1 200"), "{}", String::from_utf8_lossy(&answer));
+    for stream in &mut held {
+        stream.set_read_timeout(Some(Duration::from_secs(30))).unwrap();
+        let mut rest = Vec::new();
+        stream.read_to_end(&mut rest).unwrap();
+    }
 }
