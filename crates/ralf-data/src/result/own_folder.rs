@@ -6,22 +6,17 @@ use crate::error::DataError;
 use std::fs;
 use std::path::Path;
 
-/// The file that a folder has until it is finished.
-const MARK: &str = ".ralf-unfinished";
-
-/// Begins a folder: what a killed program left of it goes.
+/// Begins a folder with an empty file of the name `mark`: what a killed program left of it goes.
 ///
 /// # Errors
 /// Those of [`remove_own`], and the system's.
-pub(crate) fn begin(folder: &OutFolder) -> Result<(), DataError> {
-    remove_own(folder.path(), MARK)?;
-    files::write_whole(&folder.own_file(MARK), b"")
-}
-
-/// Puts a folder that was begun in its place, finished.
-pub(crate) fn finish(folder: &OutFolder, place: &Path) -> Result<(), DataError> {
-    files::remove(&folder.own_file(MARK))?;
-    fs::rename(folder.path(), place).map_err(DataError::io(place))
+pub(crate) fn begin(folder: &OutFolder, mark: &'static str) -> Result<(), DataError> {
+    remove_own(folder.path(), mark)?;
+    let file = folder.own_file(mark);
+    fs::create_dir_all(folder.path()).map_err(DataError::io(folder.path()))?;
+    // Not beside its place, as all other files are written: what a kill leaves is to be known by it.
+    let marked = fs::write(&file, "").inspect_err(|_| drop(fs::remove_dir(folder.path())));
+    marked.map_err(DataError::io(&file))
 }
 
 /// Removes a folder, if it is there, with all that is in it, and that has to be a file of the name `mark`, by which it

@@ -16,6 +16,9 @@ use std::fs;
 use std::path::Path;
 use std::sync::{Mutex, PoisonError};
 
+/// The file by which a sequence that is not whole yet is known as ours.
+const MARK: &str = ".ralf-unfinished";
+
 /// Writes a sequence as `DATASET/sequences/NAME`, whole or not at all: it lies in a hidden folder until it is complete.
 ///
 /// Radar columns, LiDAR points, label, truth, cause and image files are written as they are. `progress` is told how
@@ -54,9 +57,12 @@ pub fn write_sequence_with(
     refuse_links_out(dataset, SEQUENCES, 0)?;
     let _lock = WriterLock::beside(folder)?;
     let part = sequences.folder(&names.sequence.hidden(".part"));
-    own_folder::begin(&part)?;
+    own_folder::begin(&part, MARK)?;
     let writer = Writer { reader, names: &names, folder: &part, done: Mutex::new(0), progress };
-    let written = writer.write(jobs).and_then(|()| own_folder::finish(&part, folder));
+    let written = writer.write(jobs).and_then(|()| {
+        files::remove(&part.own_file(MARK))?;
+        fs::rename(part.path(), folder).map_err(DataError::io(folder))
+    });
     if written.is_err() {
         // The unfinished folder is of no use to anyone; the error that matters is the first one.
         let _ = fs::remove_dir_all(part.path());

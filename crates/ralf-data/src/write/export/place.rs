@@ -6,7 +6,7 @@ use super::ros::foxglove::FILE as LAYOUT;
 use super::{ExportFormat, ExportOptions};
 use crate::disk::files;
 use crate::error::DataError;
-use crate::result::own_folder::{refuse_others, remove_own};
+use crate::result::own_folder::{self, refuse_others, remove_own};
 use crate::result::{Component, OutFolder, WriterLock};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -55,10 +55,8 @@ impl Place {
                 None
             }
         };
-        // What a killed export left.
-        remove_own(part.path(), RECORD)?;
+        own_folder::begin(&part, RECORD)?;
         let record = Record::new(options, sequences);
-        record.begin(&part)?;
         Ok(Self { path: path.to_owned(), part, record, earlier, file, _lock: lock })
     }
 

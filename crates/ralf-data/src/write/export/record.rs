@@ -38,11 +38,6 @@ impl Record {
         serde_json::from_str(&files::read_text(&folder.join(RECORD), Kind::Table).ok()?).ok()
     }
 
-    /// Writes it into a new folder, which is known by it as an export's from then on.
-    pub(super) fn begin(&self, folder: &OutFolder) -> Result<(), DataError> {
-        write_json(&folder.own_file(RECORD), self)
-    }
-
     /// Writes it into a folder, all of whose files are the export's.
     pub(super) fn write(&self, folder: &OutFolder) -> Result<(), DataError> {
         let mut found = BTreeSet::new();
