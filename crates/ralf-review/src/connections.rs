@@ -1,5 +1,6 @@
 //! Connections: so many at a time, each of which has to say before long what it wants.
 
+use crate::patient_stream::PatientStream;
 use axum::Router;
 use hyper::server::conn::http1;
 use hyper_util::rt::{TokioIo, TokioTimer};
@@ -12,7 +13,8 @@ use tokio::sync::{Semaphore, watch};
 
 /// Connections at a time, of which a browser has up to six. Who comes later waits until one ends.
 const CONNECTIONS: u32 = 128;
-/// How long a connection may take until the head of its first or next request has arrived.
+/// How long a connection may take until the head of its first or next request has arrived, and to take anything more of
+/// an answer.
 const PATIENCE: Duration = Duration::from_secs(10);
 /// How long nobody is let in after the system could let nobody in, as where too many files are open.
 const PAUSE: Duration = Duration::from_millis(500);
@@ -51,7 +53,10 @@ async fn answer(stream: TcpStream, router: Router, mut ended: watch::Receiver<bo
     let _sooner = stream.set_nodelay(true);
     let mut http = http1::Builder::new();
     http.timer(TokioTimer::new()).header_read_timeout(PATIENCE);
-    let mut connection = pin!(http.serve_connection(TokioIo::new(stream), TowerToHyperService::new(router)));
+    let mut connection = pin!(http.serve_connection(
+        TokioIo::new(PatientStream::new(stream, PATIENCE)),
+        TowerToHyperService::new(router)
+    ));
     tokio::select! {
         answered = connection.as_mut() => return answered,
         _ = ended.wait_for(|ended| *ended) => connection.as_mut().graceful_shutdown(),

@@ -31,6 +31,7 @@ mod listening;
 mod need;
 mod options;
 mod page;
+mod patient_stream;
 mod place;
 mod reading;
 mod routes;
