@@ -125,6 +125,18 @@ fn a_deleted_store_is_told_and_nothing_is_called_saved() {
 }
 
 #[test]
+fn second_labels_go_through_no_link_that_leads_out() {
+    let dataset = labelled();
+    let victim = dataset.beside("victim");
+    fs::create_dir(&victim).unwrap();
+    std::os::unix::fs::symlink(&victim, format!("{}/second", dataset.out)).unwrap();
+    ralf(["review", &dataset.path, &dataset.out, "--port", "0", "--second", "bob"])
+        .exits(1)
+        .ends_with_error(["out/second: link: expected a folder", "victim"]);
+    assert_eq!(fs::read_dir(victim).unwrap().count(), 0);
+}
+
+#[test]
 fn addresses_of_all_interfaces_can_be_opened() {
     let dataset = labelled();
     let review = Review::start(&dataset, &["--host", "0.0.0.0"]);

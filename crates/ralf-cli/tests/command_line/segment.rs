@@ -94,6 +94,30 @@ fn nothing_is_written_through_a_link_that_leads_out() {
     ralf(["label", &dataset.path, "-o", &dataset.out]).exits(0);
 }
 
+#[cfg(unix)]
+#[test]
+fn depth_among_labels_goes_through_no_link_that_leads_out() {
+    use network::{FLOAT, conv, onnx, weights};
+    let dataset = Dataset::of(&Shape { scans: 2, ..Shape::default() }).with_camera(2);
+    let (model, victim) = (dataset.beside("depth.onnx"), dataset.beside("victim"));
+    let [image, depth] = [("image", FLOAT, &[1, 3, 0, 0][..]), ("depth", FLOAT, &[1, 1, 0, 0][..])];
+    let red = weights("w", &[1, 3, 1, 1], &[1.0, 0.0, 0.0]);
+    fs::write(&model, onnx(&[conv("depth", 0)], &[red], &[image], &[depth])).unwrap();
+    let card = CARD.split("classes").next().unwrap().to_owned() + "output = \"depth\"\n";
+    fs::write(dataset.beside("depth.toml"), card).unwrap();
+    let label = || ralf(["label", &dataset.path, "-o", &dataset.out, "--depth-model", &model]);
+    for folder in [&victim, &dataset.out] {
+        fs::create_dir(folder).unwrap();
+    }
+    let link = format!("{}/depth", dataset.out);
+    std::os::unix::fs::symlink(&victim, &link).unwrap();
+    label().exits(1).ends_with_error(["out/depth: link: expected a folder", "victim"]);
+    assert_eq!(fs::read_dir(&victim).unwrap().count(), 0);
+    fs::remove_file(&link).unwrap();
+    label().exits(0);
+    assert_eq!(fs::read_dir(&link).unwrap().count(), 1);
+}
+
 #[test]
 fn files_of_which_nothing_tells_whose_they_are_do_not_become_a_networks() {
     let dataset = Dataset::of(&Shape { scans: 3, ..Shape::default() }).with_camera(3);
