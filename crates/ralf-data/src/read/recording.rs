@@ -20,7 +20,7 @@ pub trait SequenceReader: Source {
     }
 
     /// Every file that labelling reads, in a fixed order: what a run records with sizes and hashes. None of what has no
-    /// files.
+    /// files: nothing then tells two of its name apart, and a run labels it anew each time.
     fn inputs(&self) -> Vec<PathBuf> {
         self.inner().map_or_else(Vec::new, |inner| inner.inputs())
     }

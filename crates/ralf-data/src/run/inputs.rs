@@ -16,6 +16,8 @@ pub(super) struct Identity {
     pub(super) fingerprint: String,
     /// What it is read from, by name.
     pub(super) inputs: Vec<Input>,
+    /// Whether these tell its content: what lies in memory may be another under the same name.
+    pub(super) is_told: bool,
 }
 
 /// What the system tells of a file; nothing of one that isn't there.
@@ -50,9 +52,14 @@ pub(super) fn identify(
         let hashes = files.iter().filter_map(|file| hashes.get(file.as_path()));
         let inputs: Vec<_> = hashes.map(|input| Input { sequence: name.clone(), ..input.clone() }).collect();
         let fingerprint = fingerprint::of_sequence(run, &name, &inputs);
-        Identity { name, fingerprint, inputs }
+        Identity { name, fingerprint, inputs, is_told: is_told(reader) }
     };
     Ok(readers().zip(&lists).map(identity).collect())
+}
+
+/// Whether the innermost reader has files: those that change what it reads may have some of their own.
+fn is_told(reader: &dyn SequenceReader) -> bool {
+    reader.inner().map_or_else(|| !reader.inputs().is_empty(), is_told)
 }
 
 /// Files by name, each but once. A sensor's follow each other already, which sorting makes use of.

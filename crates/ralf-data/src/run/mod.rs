@@ -4,7 +4,8 @@
 //! Every scan's label depends on the recording and the settings alone, so that scans may be labelled in any order.
 //! Their tables are kept in files that only grow until a sequence is complete, and then put together in the order of
 //! the rig. A run that was killed finds them again by a fingerprint of program, settings and the sequence's inputs, and
-//! a sequence that was labelled before is left as it is.
+//! a sequence that was labelled before is left as it is. One that has no files can't be told from another of its name,
+//! and is always labelled anew.
 
 mod assemble;
 mod checks;
@@ -188,9 +189,10 @@ impl Task<'_> {
 }
 
 impl LabelRun<'_> {
-    /// Labels every scan of every radar of the sequences that were not labelled before. Scans that can't be labelled
-    /// are named in the record, and the run goes on; settings that don't fit the recording, and results that can't be
-    /// written, end it, and so does another run that writes to the same folder ([`DataError::Busy`]).
+    /// Labels every scan of every radar of the sequences that were not labelled before; those without files, always.
+    /// Scans that can't be labelled are named in the record, and the run goes on; settings that don't fit the recording,
+    /// and results that can't be written, end it, and so does another run that writes to the same folder
+    /// ([`DataError::Busy`]).
     pub fn execute(&self, observer: &dyn Observer) -> Result<Outcome, DataError> {
         self.run(observer, None)
     }

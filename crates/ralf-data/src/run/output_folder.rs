@@ -32,7 +32,8 @@ pub(super) struct OutputFolder {
 
 impl OutputFolder {
     /// Makes the folder ready for a run, whose record is still empty. What has the same version and settings stays,
-    /// unless it is asked for and was read from other inputs or is not whole; all other results are removed.
+    /// unless it is asked for and was read from other inputs, or from none, or is not whole; all other results are
+    /// removed.
     pub(super) fn open(
         out: &Path,
         run: RunRecord,
@@ -84,8 +85,8 @@ impl OutputFolder {
         self.unfinished.forget(fingerprints.iter().map(String::as_str))
     }
 
-    /// The sequences that are asked for and have to be labelled again: read from other inputs, damaged, or labelled
-    /// without something that is to be had by now.
+    /// The sequences that are asked for and have to be labelled again: read from other inputs or from none, damaged, or
+    /// labelled without something that is to be had by now.
     fn outdated(
         &mut self,
         asked: &[Identity],
@@ -94,7 +95,7 @@ impl OutputFolder {
         let mut outdated = Vec::new();
         for sequence in &self.record.sequences {
             let Some(asked) = asked.iter().find(|asked| asked.name == sequence.name) else { continue };
-            if asked.fingerprint != sequence.fingerprint {
+            if !asked.is_told || asked.fingerprint != sequence.fingerprint {
                 outdated.push(sequence.clone());
             } else if let Some(file) = damaged_result(self.results.places(), sequence)? {
                 self.earlier.damaged.push((sequence.name.clone(), file));

@@ -125,10 +125,11 @@ impl Unfinished {
     }
 }
 
-/// Whether a sequence under way is asked for, but with other inputs.
+/// Whether a sequence under way is asked for, but with other inputs, or with none that would tell its content.
 fn is_outdated(kept: &Path, fingerprint: &str, asked: &[Identity]) -> Result<bool, DataError> {
     let names = files::folders(kept)?;
-    Ok(asked.iter().any(|asked| asked.fingerprint != fingerprint && names.contains(&asked.name)))
+    let is_other = |asked: &Identity| !asked.is_told || asked.fingerprint != fingerprint;
+    Ok(asked.iter().any(|asked| is_other(asked) && names.contains(&asked.name)))
 }
 
 /// Removes the results that a finished sequence or one under way tells of, and tells whose they were.

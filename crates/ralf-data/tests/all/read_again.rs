@@ -194,3 +194,28 @@ fn what_one_machine_could_not_read_another_one_labels_again() {
         assert!(content(&out) == content(&written.out("whole")), "{of:?}");
     }
 }
+
+/// Another street of the same name: nothing but its content tells it from the first.
+#[test]
+fn what_lies_in_memory_is_labelled_anew() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = |name: &str| folder.path().join(name);
+    let [first, second] = [1, 2].map(|seed| {
+        let sequence = ralf_sim::presets::find("tiny").unwrap().sequences[0].simulate(seed, 2).unwrap();
+        Recording::new(Path::new("in memory"), "memory", vec![Box::new(sequence)])
+    });
+    let label = |recording, name| with_run(recording, &out(name), |run| run.execute(&Unwatched).unwrap());
+    label(&second, "second");
+    label(&first, "out");
+    assert!(content(&out("out")) != content(&out("second")));
+    assert_eq!(label(&second, "out").labelled, ["tiny"]);
+    assert!(content(&out("out")) == content(&out("second")));
+    // Scans that a run has left which isn't over.
+    let scans = NonZeroUsize::new(1000).unwrap();
+    let planned = with_run(&first, &out("parts"), |run| run.plan(scans, &Unwatched).unwrap());
+    for stretch in &planned.stretches {
+        with_run(&first, &out("parts"), |run| run.label_stretch(stretch, &Unwatched).unwrap());
+    }
+    label(&second, "parts");
+    assert!(content(&out("parts")) == content(&out("second")));
+}
