@@ -1,5 +1,6 @@
 //! What can be wrong with a file: every error names the file, the place in it, what was expected and what was found.
 
+use ralf::config::ConfigError;
 use ralf::sensors::SourceError;
 use ralf_corrections::StoreError;
 use std::path::{Path, PathBuf};
@@ -113,6 +114,12 @@ impl DataError {
     pub fn io(file: impl Into<PathBuf>) -> impl FnOnce(std::io::Error) -> Self {
         let file = file.into();
         move |error| Self::Io { file, error }
+    }
+
+    /// Settings that no recording can be read with.
+    pub(crate) fn settings(recording: &Path, error: &ConfigError) -> Self {
+        let (file, place) = (recording.to_owned(), "settings".to_owned());
+        Self::Unsuitable { file, place, reason: error.to_string() }
     }
 
     /// The file holds something else than it should.

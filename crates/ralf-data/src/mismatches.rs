@@ -32,6 +32,7 @@ pub fn gather_mismatches(
     observer: &dyn Observer,
 ) -> Result<Vec<SequenceMismatches>, DataError> {
     let gatherer = Gatherer::new(config, Space::around(config));
+    let gatherer = gatherer.map_err(|error| DataError::settings(&recording.path, &error))?;
     let with_truth = recording.sequences.iter().map(|reader| {
         let name = &reader.sequence().name;
         let scans: Vec<&ScanId> = truth.scans().iter().filter(|scan| scan.sequence == *name).collect();

@@ -122,6 +122,7 @@ struct Task<'a> {
     rig: Rig,
     truth: TrainingTruth<'a>,
     causes: Option<Causes>,
+    labeler: Labeler<'a>,
 }
 
 /// The detections with truth of one scan, seen in one way.
@@ -156,7 +157,9 @@ impl<'a> Task<'a> {
             TrainingTruth::Known => None,
             TrainingTruth::Said(truth) => truth.causes(&reader.sequence().name)?,
         };
-        Ok(Self { gatherer, reader, rig, truth, causes })
+        let labeler = Labeler::new(gatherer.config);
+        let labeler = labeler.map_err(|error| DataError::settings(&recording.path, &error))?;
+        Ok(Self { gatherer, reader, rig, truth, causes, labeler })
     }
 
     /// Those that are learned from, and may have truth.
@@ -196,7 +199,7 @@ impl<'a> Task<'a> {
     /// What is observed of the detections whose truth is known.
     fn part(&self, frame: &Frame, view: View, truth: &[True]) -> Part {
         let config = self.gatherer.config;
-        let labels = Labeler::new(config).label(frame);
+        let labels = self.labeler.label(frame);
         let columns = observe(frame, config);
         let mut rows = Rows::absent(frame.scan.len(), columns.len());
         for (place, column) in columns.iter().enumerate() {

@@ -76,7 +76,7 @@ impl MemorySequence {
         cameras: Vec<Images<'_>>,
     ) -> PyResult<Self> {
         let (rig, depth_output) = rig_from_json(sensors).map_err(data)?;
-        let source = MemorySource::new(name, motion_of(from_json(motion)?)?);
+        let source = MemorySource::new(name, motion_of(from_json(motion)?)?).map_err(other)?;
         let mut source = source.with_depth_output(depth_output);
         for (radar, scans) in rig.radars.into_iter().zip(radars) {
             let scans = scans.iter().map(radar_scan).collect::<PyResult<_>>()?;
@@ -140,23 +140,12 @@ fn together(scans: Vec<(RadarScanKey, ResultTable)>) -> PyResult<Table> {
 }
 
 fn motion_of(told: MotionTold) -> PyResult<EgoMotion> {
-    in_order("odometry", told.odometry.iter().map(|(t_ns, ..)| *t_ns))?;
-    in_order("poses", told.poses.iter().map(|(t_ns, _)| *t_ns))?;
     let odometry = told.odometry.into_iter();
     let odometry = odometry.map(|(t_ns, velocity, yaw_rate)| OdometrySample { t_ns, velocity, yaw_rate });
     let pose = |(t_ns, pose): (i64, Pose)| Ok(PoseSample { t_ns, odom_from_vehicle: pose.transform()? });
     let poses = told.poses.into_iter().map(pose).collect::<PyResult<_>>()?;
     EgoMotion::new(odometry.collect(), poses)
         .ok_or_else(|| other("motion: expected odometry or poses, found neither"))
-}
-
-/// Refuses times that go back: a place between them would be found at random.
-fn in_order(what: &str, times: impl Iterator<Item = i64>) -> PyResult<()> {
-    let times: Vec<i64> = times.collect();
-    let Some(n) = times.windows(2).position(|pair| pair[1] < pair[0]) else { return Ok(()) };
-    let (before, found) = (times[n], times[n + 1]);
-    let place = n + 1;
-    Err(other(format!("{what}: {place}: expected a time of {before} ns or later, found {found} ns")))
 }
 
 fn radar_scan((t_ns, fields): &(i64, Vec<Bound<'_, PyAny>>)) -> PyResult<(i64, Vec<Vec<f32>>)> {

@@ -50,7 +50,7 @@ fn first_of(family: &str) -> SimulatedSequence {
 /// All measurements but the cameras'.
 fn in_memory(simulated: &SimulatedSequence) -> MemorySource {
     let sequence = simulated.sequence();
-    let mut held = MemorySource::new(&sequence.name, sequence.motion.clone());
+    let mut held = MemorySource::new(&sequence.name, sequence.motion.clone()).expect("a motion");
     for (radar, sensor) in sequence.rig.radars.iter().enumerate() {
         let scan = |scan| simulated.radar_scan(radar, scan).expect("a scan");
         let scans = (0..sequence.times.radars[radar].len()).map(scan).map(|scan| (scan.t_ns, scan.columns));
@@ -78,7 +78,7 @@ fn paper(bencher: Bencher, load: &str) {
         for scan in LABELLED {
             for radar in 0..source.sequence().rig.radars.len() {
                 let frame = window.frame(radar, scan).expect("a scan");
-                black_box(Labeler::new(&CONFIG).label(&frame));
+                black_box(Labeler::new(&CONFIG).expect("settings in range").label(&frame));
             }
         }
     });

@@ -3,7 +3,7 @@
 use super::mismatches::DetectionMismatches;
 use super::settings::Space;
 use super::table::{MismatchTable, Row};
-use ralf::config::{Config, LidarConfig, TrackingConfig};
+use ralf::config::{Config, ConfigError, LidarConfig, TrackingConfig};
 use ralf::paper::{camera, in_blind_spot, lidar, tracking};
 use ralf::scene::Frame;
 
@@ -21,7 +21,11 @@ pub struct Gatherer {
 
 impl Gatherer {
     /// A gatherer for all settings but those that are tuned.
-    pub fn new(config: &Config, space: Space) -> Self {
+    ///
+    /// # Errors
+    /// A setting, or a value of the space, out of its range ([`Config::check`]).
+    pub fn new(config: &Config, space: Space) -> Result<Self, ConfigError> {
+        check(config, &space)?;
         let mut lidar = Vec::with_capacity(space.neighbours.len());
         for neighbours in space.neighbours.iter().copied() {
             lidar.push(LidarConfig { neighbours, ..config.lidar.clone() });
@@ -32,7 +36,7 @@ impl Gatherer {
         }
         let mut config = config.clone();
         config.tracking.scans = space.scans.iter().copied().max().unwrap_or(config.tracking.scans);
-        Self { space, config, lidar, tracking }
+        Ok(Self { space, config, lidar, tracking })
     }
 
     /// The settings with which frames must be gathered.
@@ -68,4 +72,19 @@ impl Gatherer {
         }
         table.push_scan(rows);
     }
+}
+
+/// Refuses what the settings must not have, with every value of a space in them.
+fn check(config: &Config, space: &Space) -> Result<(), ConfigError> {
+    let mut config = config.clone();
+    config.check()?;
+    for neighbours in space.neighbours.iter().copied() {
+        config.lidar.neighbours = neighbours;
+        config.check()?;
+    }
+    for scans in space.scans.iter().copied() {
+        config.tracking.scans = scans;
+        config.check()?;
+    }
+    Ok(())
 }

@@ -31,6 +31,7 @@ pub use search::{Found, Search};
 pub use settings::{Branches, Space, TunedSettings};
 pub use table::MismatchTable;
 
+use ralf::config::ConfigError;
 use thiserror::Error;
 
 /// Why settings can't be tuned.
@@ -53,4 +54,7 @@ pub enum TuneError {
     /// The optimiser refused.
     #[error("optimiser: {0}")]
     Optimiser(String),
+    /// A setting out of its range.
+    #[error(transparent)]
+    Config(#[from] ConfigError),
 }

@@ -110,7 +110,7 @@ fn lidar() -> Lidar {
 fn street() -> MemorySource {
     let odometry = OdometrySample { t_ns: 0, velocity: SPEED, yaw_rate: 0.0 };
     let motion = EgoMotion::new(vec![odometry], vec![]).expect("there is odometry");
-    let street = MemorySource::new("street", motion);
+    let street = MemorySource::new("street", motion).expect("a motion");
     let street = street.with_radar(radar(), (0..RADAR_SCANS).map(radar_scan).collect());
     let lidar_scans = (0..LIDAR_SCANS).map(lidar_scan).collect();
     street.and_then(|street| street.with_lidar(lidar(), lidar_scans)).expect("scans in order")

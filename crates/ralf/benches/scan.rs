@@ -277,7 +277,7 @@ fn whole_scan_with_four_views(bencher: Bencher) {
         let view = LidarView { moment, vehicle_from_moment: Transform::identity() };
         frame.images = images(&view.all_points());
         frame.lidar = Some(view);
-        let labels = Labeler::new(&CONFIG).label(&frame);
+        let labels = Labeler::new(&CONFIG).expect("settings in range").label(&frame);
         assert!(labels.iter().any(|label| label.w_cm.is_some()));
         labels
     });
@@ -294,6 +294,6 @@ fn whole_scan(bencher: Bencher) {
         let parts = vec![(lidar, scan.clone(), Transform::identity())];
         let moment = LidarSnapshot::new(scan.t_ns, parts, &CONFIG.ground, CONFIG.seed);
         frame.lidar.as_mut().expect("a LiDAR scan").moment = Arc::new(moment);
-        Labeler::new(&CONFIG).label(&frame)
+        Labeler::new(&CONFIG).expect("settings in range").label(&frame)
     });
 }

@@ -56,10 +56,10 @@ fn main() -> Result<(), SourceError> {
     // The noise isn't there the second time.
     let scans = vec![(0, columns(&DETECTIONS)), (60_000_000, columns(&DETECTIONS[..2]))];
     let street =
-        MemorySource::new("street", motion).with_radar(radar(), scans)?.with_lidar(lidar(), vec![wall()])?;
+        MemorySource::new("street", motion)?.with_radar(radar(), scans)?.with_lidar(lidar(), vec![wall()])?;
     let config = Config::from_toml("", &["ground.model=flat"])?;
     let mut window = FrameWindow::new(&street, &street.sequence().rig, &config);
-    let labels = Labeler::new(&config).label(&window.frame(0, 0)?);
+    let labels = Labeler::new(&config)?.label(&window.frame(0, 0)?);
     let mut out = std::io::stdout();
     for ([x, y, z], label) in DETECTIONS.iter().zip(&labels) {
         let class = if label.plausible { "plausible" } else { "artifact" };

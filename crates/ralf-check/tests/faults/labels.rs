@@ -21,7 +21,7 @@ pub fn labels(recording: &Planted, base: &Recording) -> Vec<(bool, bool)> {
     let mut found = Vec::new();
     for (radar, times) in recording.sequence().times.radars.iter().enumerate() {
         for scan in (0..times.len()).step_by(STEP) {
-            let labels = Labeler::new(&config).label(&window.frame(radar, scan).unwrap());
+            let labels = Labeler::new(&config).unwrap().label(&window.frame(radar, scan).unwrap());
             let called = labels.iter().map(|label| label.plausible);
             found.extend(base.plausible(radar, scan).into_iter().zip(called));
         }

@@ -74,7 +74,7 @@ fn what_a_check_costs_beside_labelling() {
             let mut window = FrameWindow::new(&planted, &sequence.rig, &config);
             for (radar, times) in sequence.times.radars.iter().enumerate() {
                 for scan in 0..times.len() {
-                    Labeler::new(&config).label(&window.frame(radar, scan).unwrap());
+                    Labeler::new(&config).unwrap().label(&window.frame(radar, scan).unwrap());
                 }
             }
             let labelled = begun.elapsed().as_secs_f64();

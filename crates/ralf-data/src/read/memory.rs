@@ -31,6 +31,7 @@ mod tests {
         let columns = vec![vec![9.0, f32::NAN], vec![1.0, 2.0], vec![0.5, 0.25], vec![-3.0, -2.5]];
         let radar = ZF_FRGEN21.mounted("front", &["x", "y", "z", "doppler"], Transform::identity());
         let source = MemorySource::new("00", EgoMotion::new(odometry, vec![]).unwrap())
+            .unwrap()
             .with_radar(radar, vec![(30, columns)])
             .and_then(|source| {
                 source.with_lidar(HDL_32E.mounted("top", Transform::identity()), vec![revolution])

@@ -14,7 +14,7 @@ impl LabelRun<'_> {
     /// Those of [`Self::execute`], but a scan that can't be labelled ends it.
     pub fn tables(&self, observer: &dyn Observer) -> Result<Vec<Vec<(RadarScanKey, Table)>>, DataError> {
         let labeler = self.labeler()?;
-        let tasks = self.tasks(labeler.as_ref())?;
+        let tasks = self.tasks(&labeler)?;
         let of_sequence = |task| {
             let labelling = Labelling { task, config: &self.settings.method, observer };
             labelling.each(&all_scans(&task.reader.sequence().times), self.jobs, |window, at| {

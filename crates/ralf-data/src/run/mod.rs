@@ -7,6 +7,7 @@
 //! a sequence that was labelled before is left as it is. One that has no files can't be told from another of its name,
 //! and is always labelled anew.
 
+mod any_labeler;
 mod assemble;
 mod checks;
 mod earlier;
@@ -44,10 +45,11 @@ use crate::result::{
 };
 use crate::settings::Settings;
 use crate::tree::{SEQUENCES, UNFINISHED};
+use any_labeler::AnyLabeler;
 use inputs::Identity;
 use output_folder::OutputFolder;
 use ralf::config::{Config, Method};
-use ralf::learned::{LearnedLabeler, Model};
+use ralf::learned::Model;
 use ralf::sensors::{Rig, Timelines};
 use std::path::Path;
 use std::sync::Arc;
@@ -156,8 +158,7 @@ struct Task<'a> {
     schema: Arc<Schema>,
     /// Whether evidence is kept.
     evidence: bool,
-    /// Asks a model; `None` where the paper's method answers.
-    labeler: Option<&'a LearnedLabeler<'a>>,
+    labeler: &'a AnyLabeler<'a>,
 }
 
 impl Task<'_> {
@@ -184,14 +185,14 @@ impl Task<'_> {
 
     /// Whether evidence is gathered: to be kept, or for a model.
     fn gathers_evidence(&self) -> bool {
-        self.evidence || self.labeler.is_some()
+        self.evidence || self.labeler.asks_model()
     }
 }
 
 impl LabelRun<'_> {
     /// Labels every scan of every radar of the sequences that were not labelled before; those without files, always.
-    /// Scans that can't be labelled are named in the record, and the run goes on; settings that don't fit the recording,
-    /// and results that can't be written, end it, and so does another run that writes to the same folder
+    /// Scans that can't be labelled are named in the record, and the run goes on; settings that don't fit the
+    /// recording, and results that can't be written, end it, and so does another run that writes to the same folder
     /// ([`DataError::Busy`]).
     pub fn execute(&self, observer: &dyn Observer) -> Result<Outcome, DataError> {
         self.run(observer, None)
@@ -214,7 +215,7 @@ impl LabelRun<'_> {
         let begun = Instant::now();
         check_output_folder(&self.recording.path, self.out)?;
         let labeler = self.labeler()?;
-        let tasks = self.tasks(labeler.as_ref())?;
+        let tasks = self.tasks(&labeler)?;
         let _lock = self.lock()?;
         let (folder, asked) = self.open_folder(observer)?;
         let names: Vec<String> = asked.iter().map(|asked| asked.name.clone()).collect();
@@ -231,7 +232,7 @@ impl LabelRun<'_> {
     }
 
     /// Every sequence, with the sensors as the settings have them.
-    fn tasks<'a>(&'a self, labeler: Option<&'a LearnedLabeler<'a>>) -> Result<Vec<Task<'a>>, DataError> {
+    fn tasks<'a>(&'a self, labeler: &'a AnyLabeler<'a>) -> Result<Vec<Task<'a>>, DataError> {
         self.refuse_nothing()?;
         let names = SequenceNames::all(self.recording.sequences.iter().map(AsRef::as_ref))?;
         let tasks = self.recording.sequences.iter().zip(names);
@@ -282,28 +283,20 @@ impl LabelRun<'_> {
         self.model.filter(|_| self.settings.method.method == Method::Learned)
     }
 
-    /// What asks the model; `None` where the paper's method answers.
-    fn labeler(&self) -> Result<Option<LearnedLabeler<'_>>, DataError> {
-        let config = &self.settings.method;
-        let unsuitable = |reason| DataError::Unsuitable {
+    /// What answers with these settings.
+    fn labeler(&self) -> Result<AnyLabeler<'_>, DataError> {
+        AnyLabeler::new(&self.settings.method, self.model).map_err(|(place, reason)| DataError::Unsuitable {
             file: self.recording.path.clone(),
-            place: "method = \"learned\"".to_owned(),
+            place: place.to_owned(),
             reason,
-        };
-        match (config.method, self.model) {
-            (Method::Paper, _) => Ok(None),
-            (Method::Learned, None) => Err(unsuitable("no model was given".to_owned())),
-            (Method::Learned, Some(model)) => {
-                LearnedLabeler::new(config, model).map(Some).map_err(|error| unsuitable(error.to_string()))
-            }
-        }
+        })
     }
 
     fn task<'a>(
         &'a self,
         reader: &'a dyn SequenceReader,
         names: SequenceNames,
-        labeler: Option<&'a LearnedLabeler<'a>>,
+        labeler: &'a AnyLabeler<'a>,
     ) -> Result<Task<'a>, DataError> {
         if !reader.sequence().motion.is_known() {
             let reason = "the vehicle's motion is not known: odometry, poses or a trajectory is needed";
@@ -311,7 +304,7 @@ impl LabelRun<'_> {
         }
         let rig = rig_of(self.recording, reader, &self.settings.method)?;
         let mut further = if self.evidence { evidence_columns() } else { Vec::new() };
-        if labeler.is_some() {
+        if labeler.asks_model() {
             further.extend(learned_columns());
         }
         if reader.has_segmentation() {

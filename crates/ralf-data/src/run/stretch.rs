@@ -81,7 +81,7 @@ impl LabelRun<'_> {
     ) -> Result<Planned, DataError> {
         check_output_folder(&self.recording.path, self.out)?;
         let labeler = self.labeler()?;
-        let tasks = self.tasks(labeler.as_ref())?;
+        let tasks = self.tasks(&labeler)?;
         let _lock = self.lock()?;
         keep()?;
         let (folder, asked) = self.open_folder(observer)?;
@@ -121,7 +121,7 @@ impl LabelRun<'_> {
         })?;
         let labeler = self.labeler()?;
         let names = SequenceNames::new(reader.sequence())?;
-        let task = self.task(reader.as_ref(), names, labeler.as_ref())?;
+        let task = self.task(reader.as_ref(), names, &labeler)?;
         self.refuse_links()?;
         let run = self.record();
         let unfinished = Unfinished::of(&OutFolder::new(self.out), &run)?;

@@ -1,5 +1,6 @@
 //! Labelling scans, several at a time.
 
+use super::any_labeler::AnyLabeler;
 use super::workspace::Workspace;
 use super::{Observer, Part, Stage, Task, not_read};
 use crate::error::DataError;
@@ -8,7 +9,6 @@ use crate::result::{NotLabelled, ScanNotes, ScanParts, Table, told_within};
 use ralf::config::Config;
 use ralf::evidence;
 use ralf::learned::LearnedScan;
-use ralf::paper::Labeler;
 use ralf::scene::{Frame, FrameWindow};
 use std::time::Instant;
 
@@ -107,8 +107,10 @@ impl<'a> Labelling<'a> {
         let evidence = timed(self.observer, Part::Evidence, observe);
         let (LearnedScan { labels, answers }, seen) = timed(self.observer, Part::Labelling, || {
             let said = match labeler {
-                Some(labeler) => labeler.label(frame, &evidence),
-                None => LearnedScan { labels: Labeler::new(self.config).label(frame), answers: Vec::new() },
+                AnyLabeler::Learned(labeler) => labeler.label(frame, &evidence),
+                AnyLabeler::Paper(labeler) => {
+                    LearnedScan { labels: labeler.label(frame), answers: Vec::new() }
+                }
             };
             let without_class = |i: usize| said.labels[i].plausible && said.labels[i].semantic.is_none();
             let seen = evidence::seen_classes(frame, self.config.camera.stride, without_class);

@@ -50,7 +50,7 @@ impl SequenceEvidence {
     /// scan that can't be read nothing is observed. The result is the same for any `jobs`.
     ///
     /// # Errors
-    /// A model that this program can't use.
+    /// A model that this program can't use, and settings out of their ranges.
     pub fn of(
         reader: &dyn SequenceReader,
         rig: &Rig,
@@ -60,6 +60,7 @@ impl SequenceEvidence {
         extent: Extent,
         jobs: usize,
     ) -> Result<Self, UseError> {
+        config.check()?;
         let columns = model.places()?;
         let (scans, serves) = looked_at(things, &extent);
         let of: Vec<usize> = scans.iter().flat_map(|at| things.rows_of(*at)).collect();

@@ -36,6 +36,7 @@ pub fn check_scalings(reader: &dyn SequenceReader, config: &Config) -> Result<Ve
         for (place, scaling) in SCALINGS.into_iter().enumerate() {
             let mut config = config.clone();
             config.camera.scaling = scaling;
+            config.check()?;
             let mut window = FrameWindow::new(reader, &sequence.rig, &config);
             let mut residuals = Vec::new();
             check.samples = 0;

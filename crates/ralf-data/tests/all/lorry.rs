@@ -21,7 +21,7 @@ fn rates(reader: &dyn SequenceReader, rig: &Rig) -> Rates {
         let mut window = FrameWindow::new(reader, rig, &config);
         for scan in 0..SHAPE.scans {
             let frame = window.frame(radar, scan as usize).unwrap();
-            let labels = Labeler::new(&config).label(&frame);
+            let labels = Labeler::new(&config).unwrap().label(&frame);
             let truth = truth(radar, scan, &SHAPE);
             assert_eq!(labels.len(), truth.len(), "no detection is dropped");
             for (label, is_real) in labels.iter().zip(truth) {

@@ -154,7 +154,8 @@ fn labels(source: &dyn Source) -> Vec<Vec<DetectionLabel>> {
     let mut all = Vec::new();
     for (radar, times) in source.sequence().times.radars.iter().enumerate() {
         all.extend(
-            (0..times.len()).map(|scan| Labeler::new(&config).label(&window.frame(radar, scan).unwrap())),
+            (0..times.len())
+                .map(|scan| Labeler::new(&config).unwrap().label(&window.frame(radar, scan).unwrap())),
         );
     }
     all

@@ -43,7 +43,7 @@ impl Told {
             for scan in 0..times.len() {
                 let frame = window.frame(radar, scan).unwrap();
                 let evidence = observe(&frame, &config);
-                let by_paper = Labeler::new(&config).label(&frame);
+                let by_paper = Labeler::new(&config).unwrap().label(&frame);
                 let by_model = learned.label(&frame, &evidence).labels;
                 let of = |row: usize| {
                     let seen = evidence.iter().map(|column| column.values[row]);

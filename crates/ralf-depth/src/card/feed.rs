@@ -3,6 +3,7 @@
 use super::keys::Keys;
 use super::{Feed, Fit, InputSize};
 use crate::NetworkError;
+use ralf::sensors::MOST_PIXELS;
 
 /// They have no default.
 pub(super) const FEED: [&str; 6] = ["input", "fit", "channels", "divide_by", "mean", "std"];
@@ -10,8 +11,6 @@ pub(super) const FEED: [&str; 6] = ["input", "fit", "channels", "divide_by", "me
 const SIZE: &str =
     "{ width, height } or { size, multiple_of, side = \"short\" | \"long\" }, of whole numbers above 0";
 const FIT: &str = "\"stretch\", \"squares\" or { pad = [red, green, blue] }, of 0 to 255";
-/// The widest image that a network is fed, px.
-const WIDEST: usize = 16_384;
 pub(super) const POSITIVE: &str = "a number above 0";
 
 impl Feed {
@@ -39,8 +38,12 @@ impl Feed {
             InputSize::Fixed { width, height } => [width, height],
             InputSize::Scaled { size, multiple_of, .. } => [size, multiple_of],
         };
-        if let Some(size) = sizes.iter().find(|size| **size > WIDEST) {
-            return Err(keys.error("input", &format!("sizes of at most {WIDEST} px"), &size.to_string()));
+        if let Some(size) = sizes.iter().find(|size| **size > MOST_PIXELS) {
+            return Err(keys.error(
+                "input",
+                &format!("sizes of at most {MOST_PIXELS} px"),
+                &size.to_string(),
+            ));
         }
         if sizes.contains(&0) {
             return Err(keys.error("input", SIZE, &format!("{} and {}", sizes[0], sizes[1])));

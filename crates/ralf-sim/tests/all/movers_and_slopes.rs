@@ -36,7 +36,7 @@ fn labelled(sequence: &SimulatedSequence, assignments: &[&str]) -> Shares {
     let mut window = FrameWindow::new(sequence, &sequence.sequence().rig, &config);
     let (mut cars, mut found_cars, mut found, mut right) = (0, 0, 0, 0);
     for (radar, scan) in [0, 3].into_iter().flat_map(|radar| (2..12).map(move |scan| (radar, scan))) {
-        let labels = Labeler::new(&config).label(&window.frame(radar, scan).unwrap());
+        let labels = Labeler::new(&config).unwrap().label(&window.frame(radar, scan).unwrap());
         for (label, truth) in labels.iter().zip(sequence.truth(radar, scan).unwrap()) {
             let real = truth.cause == Cause::Plausible;
             let car = real && truth.class == CAR;

@@ -111,7 +111,7 @@ fn f1(points: Points) -> f64 {
     for radar in 0..sequence.rig.radars.len() {
         let mut window = FrameWindow::new(&source, &sequence.rig, &config);
         for scan in 0..sequence.times.radars[radar].len() {
-            let labels = Labeler::new(&config).label(&window.frame(radar, scan).unwrap());
+            let labels = Labeler::new(&config).unwrap().label(&window.frame(radar, scan).unwrap());
             let truth = source.made.truth(radar, scan).unwrap();
             for (label, truth) in labels.iter().zip(truth) {
                 if let Some(is_plausible) = truth_of(truth.class) {

@@ -48,6 +48,7 @@ impl Search<'_> {
         tables: &[&MismatchTable],
         progress: &mut dyn FnMut(usize, &Found),
     ) -> Result<Found, TuneError> {
+        self.base.check()?;
         let base = TunedSettings::from_config(self.base);
         let observed = BranchesSeen::new(tables, &base)?;
         let mut dials = Dials::new(tables, &base, &observed, &|key| self.is_free(key))?;
@@ -143,7 +144,7 @@ impl Dials {
             |key, applies: bool, range| (applies && is_free(key)).then(|| Dial::number(range)).transpose();
         let choice = |key, applies: bool, values: Vec<usize>| {
             let applies = applies && is_free(key) && values.len() > 1;
-            applies.then(|| Ok((Dial::choice(values.len())?, values))).transpose()
+            applies.then(|| Ok::<_, TuneError>((Dial::choice(values.len())?, values))).transpose()
         };
         let space = tables.first().map(|table| table.space());
         let neighbours = space.map_or(vec![base.neighbours], |space| space.neighbours.clone());

@@ -66,7 +66,7 @@ proptest! {
     ) {
         let ground = if flat { "ground.model=flat" } else { "ground.model=none" };
         let base = Config::from_toml("", &[ground]).unwrap();
-        let gatherer = Gatherer::new(&base, Space { neighbours: vec![1, 2, 3, 4], scans: vec![1, 2, 3, 4] });
+        let gatherer = Gatherer::new(&base, Space { neighbours: vec![1, 2, 3, 4], scans: vec![1, 2, 3, 4] }).unwrap();
         let config = tuned.applied_to(&base);
         let (mut table, mut expected) = (gatherer.table(), Vec::new());
         let mut window = FrameWindow::new(&memory, &memory.sequence.rig, gatherer.frame_config());

@@ -40,7 +40,7 @@ fn type_in_words(text: &str) -> Option<(&'static str, &str)> {
 }
 
 /// Settings that are refused.
-#[derive(Debug, Error, PartialEq)]
+#[derive(Debug, Clone, Error, PartialEq, Eq)]
 pub enum ConfigError {
     /// No TOML, an unknown key, a value of another type: the parser's message with the place.
     #[error("{0}")]

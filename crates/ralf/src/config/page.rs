@@ -1,7 +1,7 @@
 //! The page of settings, `config/default.toml`: the one place of defaults and ranges.
 
-use super::Config;
 use super::error::ConfigError;
+use super::{Complete, Config};
 use std::fmt;
 use std::sync::LazyLock;
 use toml::de::{DeTable, DeValue};
@@ -15,8 +15,9 @@ pub(super) static DEFAULTS: LazyLock<Table> = LazyLock::new(|| parsed("tables", 
 /// The same as values with a place in the text, for what is merged with a text of its own.
 static PARTS: LazyLock<Spanned<DeTable<'static>>> = LazyLock::new(|| parsed("tables", DeTable::parse(PAGE)));
 /// The built-in settings.
-pub(super) static CONFIG: LazyLock<Config> =
-    LazyLock::new(|| parsed("settings", Config::try_from(DEFAULTS.clone())));
+pub(super) static CONFIG: LazyLock<Config> = LazyLock::new(|| {
+    parsed("settings", DEFAULTS.clone().try_into().map(|complete: Complete| complete.into()))
+});
 /// Every number's range, by the setting's dotted name.
 static RANGES: LazyLock<Vec<(String, Range)>> = LazyLock::new(|| ranges(PAGE));
 

@@ -43,10 +43,19 @@ impl Config {
             for name in others {
                 table.remove(*name);
             }
-            config = Self::try_from(table)?;
+            config = completed(table)?;
         }
-        page::check(&config)?;
+        config.check()?;
         Ok(config)
+    }
+
+    /// Refuses numbers out of the ranges that `config/default.toml` gives: what was read is in them, what a program has
+    /// put together may not be.
+    ///
+    /// # Errors
+    /// [`ConfigError::Value`] names the first such setting, its range and what was found.
+    pub fn check(&self) -> Result<(), ConfigError> {
+        page::check(self)
     }
 
     /// All settings as TOML.
@@ -58,11 +67,18 @@ impl Config {
 impl TryFrom<Table> for Config {
     type Error = ConfigError;
 
-    /// What the table lacks has its default. Ranges are not looked at.
-    fn try_from(mut table: Table) -> Result<Self, ConfigError> {
-        page::complete(&mut table);
-        table.try_into().map(|complete: Complete| complete.into()).map_err(|error| parse_error(&error))
+    /// What the table lacks has its default; numbers out of their ranges are refused.
+    fn try_from(table: Table) -> Result<Self, ConfigError> {
+        let config = completed(table)?;
+        config.check()?;
+        Ok(config)
     }
+}
+
+/// Settings of a table, and the default of what it lacks. Ranges are not looked at.
+fn completed(mut table: Table) -> Result<Config, ConfigError> {
+    page::complete(&mut table);
+    table.try_into().map(|complete: Complete| complete.into()).map_err(|error| parse_error(&error))
 }
 
 /// Reads another part of a settings file: whatever a text and the assignments that win over it hold of `T`.

@@ -36,9 +36,20 @@ pub struct SensorOverride {
 }
 
 impl super::Config {
-    /// Puts the overrides of `sensors` into a rig. Names that the rig lacks are refused, but those of sensors that are
-    /// `absent`: the recording has them, and nothing of them can be read.
+    /// Puts the overrides of `sensors` into a rig, all or none. Names that the rig lacks are refused, but those of
+    /// sensors that are `absent`: the recording has them, and nothing of them can be read.
+    ///
+    /// # Errors
+    /// Such a name, values that the sensor can't have, and settings that [`Self::check`] refuses.
     pub fn apply_to(&self, rig: &mut Rig, absent: &[String]) -> Result<(), ConfigError> {
+        self.check()?;
+        let mut changed = rig.clone();
+        self.change(&mut changed, absent)?;
+        *rig = changed;
+        Ok(())
+    }
+
+    fn change(&self, rig: &mut Rig, absent: &[String]) -> Result<(), ConfigError> {
         for (name, values) in self.sensors.iter().filter(|(name, _)| !absent.contains(name)) {
             if let Some(radar) = rig.radars.iter_mut().find(|radar| radar.name == *name) {
                 values.apply_to_radar(radar).map_err(|expected| invalid(name, expected))?;

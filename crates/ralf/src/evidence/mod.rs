@@ -124,7 +124,8 @@ pub fn features() -> impl Iterator<Item = &'static Feature> {
     PIECES.iter().flat_map(|piece| piece.features)
 }
 
-/// Every piece of evidence on a frame: one column per entry of [`features`], in that order.
+/// Every piece of evidence on a frame: one column per entry of [`features`], in that order. The settings are those of
+/// its `FrameWindow`, which refuses what is out of range.
 ///
 /// ```
 /// use ralf::{config::Config, evidence, scene::Frame};

@@ -19,6 +19,7 @@ use crate::scene::Frame;
 #[derive(Debug, Clone)]
 pub struct LearnedLabeler<'a> {
     config: &'a Config,
+    paper: Labeler<'a>,
     model: &'a Model,
     /// What the model reads, in its order.
     inputs: Vec<&'static Feature>,
@@ -79,8 +80,9 @@ impl<'a> LearnedLabeler<'a> {
     /// A labeler with this model and these settings.
     ///
     /// # Errors
-    /// A model that this program can't use, or whose reasons it can't tell.
+    /// A model that this program can't use, or whose reasons it can't tell; a setting out of its range.
     pub fn new(config: &'a Config, model: &'a Model) -> Result<Self, UseError> {
+        let paper = Labeler::new(config)?;
         let known: Vec<&'static Feature> = features().collect();
         let inputs: Vec<&'static Feature> = model.places()?.into_iter().map(|place| known[place]).collect();
         let group_of: Vec<usize> = inputs.iter().map(|feature| group_of(feature)).collect();
@@ -91,6 +93,7 @@ impl<'a> LearnedLabeler<'a> {
         let weighing = Weighing::new(model, inputs.iter().map(|input| input.name), &config.learned);
         Ok(Self {
             config,
+            paper,
             model,
             inputs,
             group_of,
@@ -110,7 +113,7 @@ impl<'a> LearnedLabeler<'a> {
     /// [`flag::PAPER`]. What nobody but the radar tells of counts less (`learned.unconfirmed`): flag
     /// [`flag::UNCONFIRMED`].
     pub fn label(&self, frame: &Frame, evidence: &[Column]) -> LearnedScan {
-        let mut labels = Labeler::new(self.config).label(frame);
+        let mut labels = self.paper.label(frame);
         let mut answers = vec![Answer::default(); labels.len()];
         let rows = self.rows(frame.scan.len(), evidence);
         let novelties: Vec<f64> = (0..rows.len()).map(|row| novelty(&self.seen, rows.row(row))).collect();

@@ -3,6 +3,7 @@
 use super::calibration::Calibration;
 use super::familiar::Seen;
 use super::forest::Forest;
+use crate::config::ConfigError;
 use crate::evidence::features;
 use thiserror::Error;
 
@@ -87,6 +88,9 @@ pub enum UseError {
         "the model's trees ask too many groups of evidence for reasons to be told: set learned.reasons = false"
     )]
     TooManyCases,
+    /// A setting out of its range.
+    #[error(transparent)]
+    Config(#[from] ConfigError),
 }
 
 impl Model {

@@ -3,7 +3,7 @@
 use super::blind_spot::in_blind_spot;
 use super::fusion::{optical, prioritize};
 use super::{camera, lidar, tracking};
-use crate::config::Config;
+use crate::config::{Config, ConfigError};
 use crate::label::flag;
 use crate::scene::{Frame, plausibility};
 
@@ -38,15 +38,19 @@ pub struct DetectionLabel {
 }
 
 /// Labels radar scans with one set of settings.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Copy)]
 pub struct Labeler<'a> {
     config: &'a Config,
 }
 
 impl<'a> Labeler<'a> {
     /// A labeler with these settings.
-    pub fn new(config: &'a Config) -> Self {
-        Self { config }
+    ///
+    /// # Errors
+    /// A setting out of its range ([`Config::check`]).
+    pub fn new(config: &'a Config) -> Result<Self, ConfigError> {
+        config.check()?;
+        Ok(Self { config })
     }
 
     /// The plausibility and label of every detection of a frame, in the scan's order.

@@ -1,5 +1,6 @@
 //! A camera of the vehicle.
 
+use super::bounds::check_size;
 use super::intrinsics::Intrinsics;
 use super::view::{StraightView, View};
 use crate::space::Transform;
@@ -22,6 +23,15 @@ pub struct Camera {
 }
 
 impl Camera {
+    /// Refuses, with what was expected and found, values that no camera has: sizes, a lens whose numbers are none,
+    /// views that see nothing. A lens that folds back is one: depth that is there already doesn't need it
+    /// ([`Intrinsics::check`]).
+    pub fn check(&self) -> Result<(), String> {
+        check_size("an image", self.width, self.height)?;
+        self.intrinsics.check_numbers()?;
+        self.views.iter().try_for_each(View::check)
+    }
+
     /// The straight views; where none is configured one along the axis, of the image's size, with
     /// [`Intrinsics::focal_on_axis`].
     pub fn straight_views(&self) -> Vec<StraightView> {

@@ -1,21 +1,17 @@
 //! A sequence whose measurements lie in memory: for whoever has decoded them already.
 
 use crate::sensors::{
-    Camera, CameraImage, DepthImage, DepthOutput, Lidar, LidarScan, Radar, RadarScan, Rig, Sequence, Source,
-    SourceError, Timelines,
+    Camera, CameraImage, DepthImage, DepthOutput, KNOWN_NS, Lidar, LidarScan, Radar, RadarScan, Rig,
+    Sequence, Source, SourceError, Timelines, check_mounting,
 };
-use crate::space::EgoMotion;
-use std::ops::RangeInclusive;
+use crate::space::{EgoMotion, Transform};
 use thiserror::Error;
 
-/// Times lie within 146 years of 0, so that the difference of two is a time as well.
-const KNOWN_NS: RangeInclusive<i64> = -i64::MAX / 2..=i64::MAX / 2;
-
-/// Why a sensor's measurements can't be part of a sequence.
+/// Why a sensor's measurements, or a motion, can't be part of a sequence.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error("{sensor}: {place}: expected {expected}, found {found}")]
 pub struct MemoryError {
-    /// The sensor's name.
+    /// The sensor's name, or `motion`.
     pub sensor: String,
     /// Its measurement, from 0, or what else of it.
     pub place: String,
@@ -72,13 +68,13 @@ pub struct TimedImage {
 /// let points: Vec<[f32; 3]> = wall.collect();
 /// let revolution = LidarScan { intensity: vec![0.0; points.len()], points, ..LidarScan::default() };
 /// let columns = vec![vec![16.4, 9.0], vec![0.05, -0.3], vec![0.02, 0.05], vec![0.0, 0.0]];
-/// let street = MemorySource::new("street", motion)
+/// let street = MemorySource::new("street", motion)?
 ///     .with_radar(radar, vec![(10_000_000, columns)])?
 ///     .with_lidar(lidar, vec![revolution])?;
 ///
 /// let config = Config::from_toml("ground.model = \"flat\"", &[])?;
 /// let mut window = FrameWindow::new(&street, &street.sequence().rig, &config);
-/// let labels = Labeler::new(&config).label(&window.frame(0, 0)?);
+/// let labels = Labeler::new(&config)?.label(&window.frame(0, 0)?);
 /// assert!(labels[0].plausible && !labels[1].plausible);
 /// # Ok::<(), Box<dyn std::error::Error + Send + Sync>>(())
 /// ```
@@ -92,7 +88,11 @@ pub struct MemorySource {
 
 impl MemorySource {
     /// A sequence without sensors of a vehicle that moves so. [`EgoMotion::unknown`] is a vehicle that stands still.
-    pub fn new(name: &str, motion: EgoMotion) -> Self {
+    ///
+    /// # Errors
+    /// A motion that [`EgoMotion::check`] refuses.
+    pub fn new(name: &str, motion: EgoMotion) -> Result<Self, MemoryError> {
+        motion.check().map_err(|(place, reason)| refused("motion", &place, &reason))?;
         let sequence = Sequence {
             name: name.to_owned(),
             title: name.to_owned(),
@@ -101,7 +101,7 @@ impl MemorySource {
             motion,
             depth_output: DepthOutput::default(),
         };
-        Self { sequence, radars: Vec::new(), lidars: Vec::new(), cameras: Vec::new() }
+        Ok(Self { sequence, radars: Vec::new(), lidars: Vec::new(), cameras: Vec::new() })
     }
 
     /// Gives the sequence another title for people.
@@ -119,8 +119,10 @@ impl MemorySource {
     /// Adds a radar and its scans: a time (ns) and a column per field of the radar, each with a value per detection.
     ///
     /// # Errors
-    /// A name that another sensor has, values that no radar has, columns that don't fit, times that go back.
+    /// A name that another sensor has, values or a mounting that no radar has, columns that don't fit, times that go
+    /// back.
     pub fn with_radar(mut self, radar: Radar, scans: Vec<(i64, Vec<Vec<f32>>)>) -> Result<Self, MemoryError> {
+        mounted(&radar.name, &radar.vehicle_from_radar)?;
         radar.check().map_err(|reason| refused(&radar.name, "values", &reason))?;
         let mut read = Vec::with_capacity(scans.len());
         for (n, (t_ns, columns)) in scans.into_iter().enumerate() {
@@ -138,8 +140,10 @@ impl MemorySource {
     /// were measured one after the other.
     ///
     /// # Errors
-    /// A name that another sensor has, lists of different lengths in a scan, times that go back.
+    /// A name that another sensor has, values or a mounting that no LiDAR has, lists of different lengths in a scan,
+    /// times that go back.
     pub fn with_lidar(mut self, lidar: Lidar, scans: Vec<LidarScan>) -> Result<Self, MemoryError> {
+        mounted(&lidar.name, &lidar.vehicle_from_lidar)?;
         lidar.check().map_err(|reason| refused(&lidar.name, "values", &reason))?;
         for (n, scan) in scans.iter().enumerate() {
             let points = scan.points.len();
@@ -164,8 +168,11 @@ impl MemorySource {
     /// Adds a camera and its images.
     ///
     /// # Errors
-    /// A name that another sensor has, images of another size, depth of another number of views, times that go back.
+    /// A name that another sensor has, values or a mounting that no camera has, images of another size, depth of
+    /// another number of views, times that go back.
     pub fn with_camera(mut self, camera: Camera, images: Vec<TimedImage>) -> Result<Self, MemoryError> {
+        mounted(&camera.name, &camera.vehicle_from_camera)?;
+        camera.check().map_err(|reason| refused(&camera.name, "values", &reason))?;
         for (n, TimedImage { image, depth, .. }) in images.iter().enumerate() {
             let wrong = |reason: String| Err(refused(&camera.name, &format!("image {n}"), &reason));
             let (width, height, pixels) = (image.width, image.height, image.rgb.len());
@@ -217,6 +224,10 @@ impl MemorySource {
     }
 }
 
+fn mounted(sensor: &str, vehicle_from_sensor: &Transform) -> Result<(), MemoryError> {
+    check_mounting(vehicle_from_sensor).map_err(|reason| refused(sensor, "mounting", &reason))
+}
+
 /// From a sentence that says what was expected and found.
 fn refused(sensor: &str, place: &str, reason: &str) -> MemoryError {
     let (expected, found) = reason.split_once(", found ").unwrap_or((reason, "something else"));
@@ -264,8 +275,8 @@ impl Source for MemorySource {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sensors::{Elevation, Intrinsics, Reliability};
-    use crate::space::Transform;
+    use crate::sensors::{Elevation, Intrinsics, Reliability, View};
+    use crate::space::{OdometrySample, PoseSample};
 
     fn radar(name: &str) -> Radar {
         Radar {
@@ -298,7 +309,7 @@ mod tests {
     }
 
     fn empty() -> MemorySource {
-        MemorySource::new("a", EgoMotion::unknown())
+        MemorySource::new("a", EgoMotion::unknown()).unwrap()
     }
 
     fn one(t_ns: i64) -> (i64, Vec<Vec<f32>>) {
@@ -382,10 +393,59 @@ mod tests {
             empty().with_camera(camera(), vec![image(0, Some(vec![]))]),
             "eye: image 0: expected depth of 1 views, found 0",
         );
+        let apart = Transform::translation(f64::NAN, 0.0, 0.0);
+        says(
+            empty().with_lidar(Lidar { vehicle_from_lidar: apart, ..lidar() }, vec![]),
+            "top: mounting: expected finite numbers, found NaN",
+        );
+        let quaternion = nalgebra::Quaternion::new(2.0, 0.0, 0.0, 0.0);
+        let mut long = Transform::identity();
+        long.rotation = nalgebra::UnitQuaternion::new_unchecked(quaternion);
+        says(
+            empty().with_radar(Radar { vehicle_from_radar: long, ..radar("front") }, vec![]),
+            "front: mounting: expected a rotation of length 1, found 2",
+        );
+        says(
+            empty().with_camera(Camera { width: 0, ..camera() }, vec![]),
+            "eye: values: expected an image of 1 x 1 to 16384 x 16384 pixels, found 0 x 1",
+        );
+        let intrinsics =
+            Intrinsics::Pinhole { focal: [2.0, f64::NAN], center: [0.5; 2], distortion: [0.0; 5] };
+        says(
+            empty().with_camera(Camera { intrinsics, ..camera() }, vec![]),
+            "eye: values: expected finite camera parameters, found NaN",
+        );
+        let view = View { yaw: 0.0, pitch: 0.0, horizontal_fov: 4.0, width: 2, height: 1 };
+        says(
+            empty().with_camera(Camera { views: vec![view], ..camera() }, vec![]),
+            "eye: values: expected a view's horizontal field above 0 and below 180 deg, found 229.1831180523293",
+        );
         let cut = DepthImage { width: 2, height: 1, values: vec![1.0] };
         says(
             empty().with_camera(camera(), vec![image(0, Some(vec![cut]))]),
             "eye: image 0: expected 2 x 1 values of depth, found 1",
+        );
+    }
+    #[test]
+    fn a_motion_that_no_vehicle_makes_is_refused() {
+        let says = |odometry: &[(i64, f64)], expected: &str| {
+            let sample = |&(t_ns, velocity): &(i64, f64)| OdometrySample { t_ns, velocity, yaw_rate: 0.0 };
+            let motion = EgoMotion::new(odometry.iter().map(sample).collect(), vec![]).unwrap();
+            assert_eq!(MemorySource::new("a", motion).unwrap_err().to_string(), expected);
+        };
+        says(&[(5, 0.0), (4, 0.0)], "motion: odometry: 1: expected a time of 5 ns or later, found 4 ns");
+        says(&[(5, f64::NAN)], "motion: odometry: 0: expected finite numbers, found NaN");
+        says(
+            &[(i64::MIN, 0.0), (i64::MAX, 1.0)],
+            "motion: odometry: 0: expected a time within 146 years of 0, found -9223372036854775808 ns",
+        );
+        let mut odom_from_vehicle = Transform::identity();
+        odom_from_vehicle.rotation =
+            nalgebra::UnitQuaternion::new_unchecked(nalgebra::Quaternion::new(0.0, 0.0, 0.0, 0.0));
+        let motion = EgoMotion::new(vec![], vec![PoseSample { t_ns: 0, odom_from_vehicle }]).unwrap();
+        assert_eq!(
+            MemorySource::new("a", motion).unwrap_err().to_string(),
+            "motion: poses: 0: expected a rotation of length 1, found 0"
         );
     }
 }

@@ -2,6 +2,10 @@
 
 use crate::sensors::{CameraImage, ClassImage, DepthImage, DepthOutput, LidarScan, RadarScan, Rig};
 use crate::space::EgoMotion;
+use std::ops::RangeInclusive;
+
+/// Times (ns) lie within 146 years of 0, so that the difference of two is a time as well.
+pub const KNOWN_NS: RangeInclusive<i64> = -i64::MAX / 2..=i64::MAX / 2;
 
 /// Why a measurement could not be had. It names the file, the place in it, what was expected and what was found.
 pub type SourceError = Box<dyn std::error::Error + Send + Sync>;
@@ -23,7 +27,10 @@ pub struct Sequence {
     pub depth_output: DepthOutput,
 }
 
-/// Times (ns, ascending) of all measurements: one list per sensor, in the rig's order.
+/// Times (ns) of all measurements: one list per sensor, in the rig's order.
+///
+/// All are of one clock and in [`KNOWN_NS`]. Each list ascends; several measurements of a sensor
+/// may have one time, and keep their order.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Timelines {
     /// Times of each radar's scans.
@@ -45,7 +52,9 @@ impl Timelines {
 /// One sequence of a recording. Readers are indexed by the sensor's place in the rig and the measurement's in its
 /// timeline.
 ///
-/// Any measurement may be asked for at any time and from any thread, and asking twice gives the same.
+/// Any measurement may be asked for at any time and from any thread, and asking twice gives the same. The `t_ns` of a
+/// scan is the one that its sensor's timeline gives it: a `FrameWindow`, and so every run, refuses a scan of
+/// another time, and a sequence whose timelines don't ascend.
 pub trait Source: Send + Sync {
     /// Sensors, times and motion.
     fn sequence(&self) -> &Sequence;

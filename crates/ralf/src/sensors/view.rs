@@ -1,7 +1,9 @@
 //! Straight (pinhole) views cut out of a camera's image (docs/method.md, section 5), and how points are seen in them.
 
+use super::bounds::check_size;
 use crate::space::{Point, Vector};
 use nalgebra::UnitQuaternion;
+use std::f64::consts::PI;
 
 /// A straight (pinhole) view, as configured: finite angles, a field of view below pi, at least one pixel.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -40,6 +42,21 @@ pub struct ViewPoint {
     pub pixel: [f64; 2],
     /// `Z`: along the view's optical axis, m, above 0.
     pub depth: f64,
+}
+
+impl View {
+    /// Refuses, with what was expected and found, a view that shows nothing.
+    pub(super) fn check(&self) -> Result<(), String> {
+        check_size("a view", self.width, self.height)?;
+        if let Some(found) = [self.yaw, self.pitch].iter().find(|angle| !angle.is_finite()) {
+            return Err(format!("finite angles of a view, found {found}"));
+        }
+        if self.horizontal_fov > 0.0 && self.horizontal_fov < PI {
+            return Ok(());
+        }
+        let found = self.horizontal_fov.to_degrees();
+        Err(format!("a view's horizontal field above 0 and below 180 deg, found {found}"))
+    }
 }
 
 impl From<&View> for StraightView {

@@ -70,13 +70,31 @@ impl Spherical {
     }
 }
 
+/// Refuses, with what was expected and found, a transform that isn't rigid: numbers that aren't finite, and rotations
+/// whose quaternion's length isn't within 1 % of 1.
+pub fn check_rigid(transform: &Transform) -> Result<(), String> {
+    let length = transform.rotation.quaternion().norm();
+    let numbers = transform.translation.vector.iter().chain([&length]);
+    if let Some(found) = numbers.into_iter().find(|value| !value.is_finite()) {
+        return Err(format!("finite numbers, found {found}"));
+    }
+    if (length - 1.0).abs() < LENGTH_WITHIN {
+        Ok(())
+    } else {
+        Err(format!("a rotation of length 1, found {length}"))
+    }
+}
+
+/// A quaternion that was written with few decimals is a rotation all the same.
+const LENGTH_WITHIN: f64 = 0.01;
+
 /// A transform from a translation (m) and a quaternion in the order x, y, z, w.
 ///
 /// `None` unless all numbers are finite and the quaternion's length is within 1 % of 1; it is then normalised.
 pub fn transform_from_parts(translation: [f64; 3], quaternion_xyzw: [f64; 4]) -> Option<Transform> {
     let [x, y, z, w] = quaternion_xyzw;
     let quaternion = Quaternion::new(w, x, y, z);
-    let usable = translation.iter().all(|v| v.is_finite()) && (quaternion.norm() - 1.0).abs() < 0.01;
+    let usable = translation.iter().all(|v| v.is_finite()) && (quaternion.norm() - 1.0).abs() < LENGTH_WITHIN;
     usable.then(|| {
         Transform::from_parts(Translation3::from(translation), UnitQuaternion::from_quaternion(quaternion))
     })

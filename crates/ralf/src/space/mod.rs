@@ -18,7 +18,7 @@ mod neighbors;
 mod recent;
 pub mod sync;
 
-pub use geometry::{Point, Spherical, Transform, Vector, transform_from_parts};
+pub use geometry::{Point, Spherical, Transform, Vector, check_rigid, transform_from_parts};
 pub(crate) use many_transforms::{LANES, ManyTransforms};
 pub use motion::{EgoMotion, OdometrySample, PoseSample};
 pub use neighbors::{Neighbor, NeighborIndex};

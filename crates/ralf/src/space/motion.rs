@@ -1,7 +1,7 @@
 //! How the vehicle moved (paper, equation 7; docs/method.md, section 2): where the vehicle was in the odom frame at any
 //! time.
 
-use crate::space::Transform;
+use crate::space::{Transform, check_rigid};
 use nalgebra::{Translation3, UnitQuaternion, Vector3};
 
 /// A sample of wheel odometry.
@@ -48,6 +48,18 @@ impl EgoMotion {
             planar.push(pose);
         }
         Some(Self { odometry, planar, poses })
+    }
+
+    /// Refuses, with the place and what was expected and found there, samples that no file may hold either: numbers
+    /// that aren't finite, poses that aren't rigid, times that go back or are out of all reach.
+    pub fn check(&self) -> Result<(), (String, String)> {
+        let odometry = self.odometry.iter().map(|OdometrySample { t_ns, velocity, yaw_rate }| {
+            let odd = [velocity, yaw_rate].into_iter().find(|value| !value.is_finite());
+            (*t_ns, odd.map_or(Ok(()), |found| Err(format!("finite numbers, found {found}"))))
+        });
+        let poses = self.poses.iter().map(|pose| (pose.t_ns, check_rigid(&pose.odom_from_vehicle)));
+        check_samples("odometry", odometry)?;
+        check_samples("poses", poses)
     }
 
     /// A vehicle of whose motion nothing is known. Until something is, it stands still.
@@ -145,9 +157,31 @@ impl EgoMotion {
     }
 }
 
+/// Samples with their times and what is wrong with their numbers.
+fn check_samples(
+    what: &str,
+    samples: impl Iterator<Item = (i64, Result<(), String>)>,
+) -> Result<(), (String, String)> {
+    let mut before = i64::MIN;
+    for (n, (t_ns, numbers)) in samples.enumerate() {
+        let refused = |reason| Err((format!("{what}: {n}"), reason));
+        if t_ns.unsigned_abs() > i64::MAX.unsigned_abs() / 2 {
+            return refused(format!("a time within 146 years of 0, found {t_ns} ns"));
+        }
+        if t_ns < before {
+            return refused(format!("a time of {before} ns or later, found {t_ns} ns"));
+        }
+        if let Err(reason) = numbers {
+            return refused(reason);
+        }
+        before = t_ns;
+    }
+    Ok(())
+}
+
 /// The planar pose at `t_ns`, from the pose at `sample`, along the exact arc of constant velocity and yaw rate.
 fn advance([x, y, psi]: [f64; 3], sample: &OdometrySample, t_ns: i64) -> [f64; 3] {
-    let dt = seconds(t_ns - sample.t_ns);
+    let dt = seconds(t_ns.saturating_sub(sample.t_ns));
     let dpsi = sample.yaw_rate * dt;
     let (along, across) = if dpsi.abs() < 1e-6 {
         (1.0 - dpsi * dpsi / 6.0, dpsi / 2.0)

@@ -83,7 +83,7 @@ proptest! {
         let config = config();
         let mut window = FrameWindow::new(&memory, &memory.sequence.rig, &config);
         let frame = window.frame(0, 0).unwrap();
-        let d_lm = Labeler::new(&config).label(&frame)[0].d_lm.unwrap();
+        let d_lm = Labeler::new(&config).unwrap().label(&frame)[0].d_lm.unwrap();
         let found = evidence::observe(&frame, &config);
         let [horizontal, vertical] =
             ["lidar_residual_horizontal", "lidar_residual_vertical"].map(|name| column(&found, name)[0].unwrap());

@@ -2,6 +2,8 @@
 
 use crate::support::{MS, Memory, lidar, radar};
 use ralf::config::Config;
+use ralf::paper::Labeler;
+use ralf::scene::FrameWindow;
 use ralf::sensors::Elevation;
 
 /// A few scans, of which each branch but the cameras' says something.
@@ -63,4 +65,38 @@ fn counts_that_would_fill_the_memory_are_refused_by_name() {
     {
         assert!(Config::from_toml("", &[&format!("{key}={value}")]).is_err(), "{key}");
     }
+}
+
+/// Whoever doesn't come by RALF's own reader: by serde, or by fields.
+#[test]
+fn numbers_out_of_range_are_refused_wherever_settings_go_in() {
+    for (text, named) in [
+        ("[lidar]\nneighbours = 0", "setting `lidar.neighbours`: expected 1 to 1000, found 0"),
+        ("[camera]\nstride = 0", "setting `camera.stride`: expected 1 to "),
+        ("[fusion]\nalpha = nan", "setting `fusion.alpha`: expected 0 to 1, found NaN"),
+    ] {
+        let error = toml::from_str::<Config>(text).unwrap_err().to_string();
+        assert!(error.contains(named), "{error}");
+    }
+    let mut config = Config::default();
+    config.lidar.neighbours = 0;
+    config.lidar.scans = 0;
+    let refused = "setting `lidar.neighbours`: expected 1 to 1000, found 0";
+    assert_eq!(Labeler::new(&config).unwrap_err().to_string(), refused);
+    let memory = memory();
+    let mut window = FrameWindow::new(&memory, &memory.sequence.rig, &config).with_evidence();
+    assert_eq!(window.frame(0, 0).unwrap_err().to_string(), refused);
+    assert_eq!(window.lidar_view(0).unwrap_err().to_string(), refused);
+    let mut rig = memory.sequence.rig.clone();
+    assert_eq!(config.apply_to(&mut rig, &[]).unwrap_err().to_string(), refused);
+}
+
+#[test]
+fn a_rig_is_changed_as_a_whole_or_not_at_all() {
+    let assignments = ["sensors.lidar.sigma_range_m=0.5", "sensors.radar.sigma_range_m=-1"];
+    let config = Config::from_toml("", &assignments).unwrap();
+    let mut rig = memory().sequence.rig;
+    let error = config.apply_to(&mut rig, &[]).unwrap_err().to_string();
+    assert!(error.contains("sensors.radar") && error.contains("found -1"), "{error}");
+    assert_eq!((rig.lidars[0].sigma_range, rig.radars[0].sigma_range), (0.04, 0.3));
 }

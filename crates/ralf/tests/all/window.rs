@@ -3,8 +3,11 @@
 use crate::support::{MS, Memory, lidar, radar};
 use ralf::config::Config;
 use ralf::paper::Labeler;
-use ralf::scene::{FrameWindow, NeighbouringDetections};
-use ralf::sensors::{Camera, Elevation, Intrinsics};
+use ralf::scene::{Frame, FrameWindow, NeighbouringDetections};
+use ralf::sensors::{
+    Camera, CameraImage, DepthImage, Elevation, Intrinsics, LidarScan, RadarScan, Rig, Sequence, Source,
+    SourceError,
+};
 use ralf::space::Transform;
 
 const SCANS: i64 = 60;
@@ -121,11 +124,77 @@ fn evidence_changes_nothing_for_the_papers_method() {
         let config = Config::from_toml("", &[&format!("tracking.sources={sources}")]).unwrap();
         let mut window = FrameWindow::new(&memory, &memory.sequence.rig, &config).with_evidence();
         for scan in [0, 7, 59] {
-            let labels = Labeler::new(&config).label(&window.frame(1, scan).unwrap());
+            let labels = Labeler::new(&config).unwrap().label(&window.frame(1, scan).unwrap());
             assert_eq!(labels, memory.label(&config, 1, scan));
         }
     }
     let config = Config::default();
     let frame = FrameWindow::new(&memory, &memory.sequence.rig, &config).frame(1, 30).unwrap();
     assert!(frame.lidar_window.is_none() && frame.radar_window.is_empty(), "nobody asked for it");
+}
+
+#[test]
+fn what_is_not_there_and_sequences_that_contradict_themselves_are_refused() {
+    let (config, asked) = (Config::default(), memory());
+    let mut window = FrameWindow::new(&asked, &asked.sequence.rig, &config);
+    let says = |found: Result<Frame, SourceError>, expected: &str| {
+        assert_eq!(found.unwrap_err().to_string(), expected);
+    };
+    says(window.frame(0, 60), "radar 0 has no measurement 60");
+    says(window.frame(2, 0), "radar 2 has no measurement 0");
+    assert!(window.image(0, 0).is_none());
+    let mut back = memory();
+    back.sequence.times.radars[0].swap(3, 4);
+    says(
+        FrameWindow::new(&back, &back.sequence.rig, &config).frame(0, 0),
+        "sequence memory: radar 0, time 4: expected 200000000 ns or later, found 150000000 ns",
+    );
+    let rig = Rig { lidars: Vec::new(), ..asked.sequence.rig.clone() };
+    says(
+        FrameWindow::new(&asked, &rig, &config).frame(0, 0),
+        "sequence memory: expected a LiDAR timeline per sensor, 0, found 1",
+    );
+}
+
+/// A source whose timelines tell other times than its scans.
+struct Late(Memory, Sequence);
+
+impl Source for Late {
+    fn sequence(&self) -> &Sequence {
+        &self.1
+    }
+
+    fn radar_scan(&self, radar: usize, scan: usize) -> Result<RadarScan, SourceError> {
+        self.0.radar_scan(radar, scan)
+    }
+
+    fn lidar_scan(&self, lidar: usize, scan: usize) -> Result<LidarScan, SourceError> {
+        self.0.lidar_scan(lidar, scan)
+    }
+
+    fn image(&self, camera: usize, image: usize) -> Result<CameraImage, SourceError> {
+        self.0.image(camera, image)
+    }
+
+    fn depth(&self, camera: usize, image: usize) -> Result<Option<Vec<DepthImage>>, SourceError> {
+        self.0.depth(camera, image)
+    }
+}
+
+#[test]
+fn a_scan_of_another_time_than_its_timelines_is_refused() {
+    let (memory, config) = (memory(), Config::default());
+    let mut told = memory.sequence.clone();
+    told.times.radars[0][10] += 1;
+    told.times.lidars[0].iter_mut().for_each(|t_ns| *t_ns += 1);
+    let late = Late(memory, told);
+    let mut window = FrameWindow::new(&late, &late.1.rig, &config);
+    assert_eq!(
+        window.frame(0, 10).unwrap_err().to_string(),
+        "expected the timeline's time, 500000001 ns, found 500000000 ns"
+    );
+    let frame = window.frame(1, 10).unwrap();
+    assert!(frame.lidar.is_none());
+    let reason = &frame.unreadable[0].reason;
+    assert!(reason.contains("expected the timeline's time"), "{reason}");
 }

@@ -37,7 +37,7 @@ impl Part {
         let scores = |settings: &TunedSettings| {
             let scans = sequences.iter().map(|(_, table)| table.confusions(settings));
             let scans: Vec<Vec<Confusion>> = scans.collect::<Result<_, _>>()?;
-            Ok(Scores::from_scans(&scans.concat()))
+            Ok::<_, TuneError>(Scores::from_scans(&scans.concat()))
         };
         Ok(Self {
             sequences: sequences.iter().map(|(name, _)| name.clone()).collect(),

@@ -3,10 +3,7 @@
 use super::raw::{CameraToml, ModelToml, ViewToml};
 use super::values::{Place, degrees, pose_toml};
 use crate::error::DataError;
-use ralf::sensors::{Camera, Intrinsics, View};
-
-/// The most pixels a side of an image or a view has: memory is asked for by what a file says here.
-const LARGEST: usize = 16_384;
+use ralf::sensors::{Camera, Intrinsics, MOST_PIXELS, View};
 
 /// A camera, checked.
 pub(super) fn camera(place: &Place<'_>, raw: &CameraToml) -> Result<Camera, DataError> {
@@ -152,8 +149,8 @@ fn view_toml(view: &View) -> ViewToml {
 fn size(place: &Place<'_>, key: &str, width: usize, height: usize) -> Result<(), DataError> {
     let expected = if width == 0 || height == 0 {
         "at least 1 x 1 pixels".to_owned()
-    } else if width > LARGEST || height > LARGEST {
-        format!("at most {LARGEST} x {LARGEST} pixels")
+    } else if width > MOST_PIXELS || height > MOST_PIXELS {
+        format!("at most {MOST_PIXELS} x {MOST_PIXELS} pixels")
     } else {
         return Ok(());
     };

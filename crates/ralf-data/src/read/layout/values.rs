@@ -3,11 +3,9 @@
 
 use crate::error::{DataError, expected_and_found};
 use nalgebra::UnitQuaternion;
+use ralf::sensors::FARTHEST;
 use ralf::space::{Transform, transform_from_parts};
 use std::path::Path;
-
-/// No sensor of a vehicle is farther from it, m.
-const FARTHEST: f64 = 1000.0;
 
 /// A table of the file, to be named in errors.
 pub(crate) struct Place<'a> {

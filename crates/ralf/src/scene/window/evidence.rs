@@ -13,6 +13,9 @@ impl FrameWindow<'_> {
     /// paper's method nothing changes.
     pub fn with_evidence(mut self) -> Self {
         self.evidence = true;
+        if self.usable().is_err() {
+            return self;
+        }
         let settings = &self.config.evidence;
         let times = &self.source.sequence().times;
         let scans: usize = times.radars.iter().map(|times| settings.radar_scans_at_most(times)).sum();

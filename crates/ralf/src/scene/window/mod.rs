@@ -1,5 +1,6 @@
 //! Frames of one sequence, gathered in bounded memory.
 
+mod checked;
 mod evidence;
 mod forgetting;
 mod not_read;
@@ -25,7 +26,7 @@ const MOMENTS: usize = 2;
 
 /// Moments of the LiDARs that are held at once: those, and what `lidar.scans` adds to the nearest one.
 fn moments_at_once(config: &Config) -> usize {
-    MOMENTS + config.lidar.scans - 1
+    config.lidar.scans.saturating_sub(1).saturating_add(MOMENTS)
 }
 
 /// Names a measurement: sensor and number.
@@ -65,7 +66,7 @@ impl NearLidars {
 /// fn plausible(source: &dyn Source, radar: usize) -> Result<usize, SourceError> {
 ///     let config = Config::default();
 ///     let mut window = FrameWindow::new(source, &source.sequence().rig, &config);
-///     let labels = Labeler::new(&config).label(&window.frame(radar, 0)?);
+///     let labels = Labeler::new(&config)?.label(&window.frame(radar, 0)?);
 ///     Ok(labels.iter().filter(|label| label.plausible).count())
 /// }
 /// ```
@@ -86,10 +87,15 @@ pub struct FrameWindow<'a> {
     segmented: Recent<Key, Noted<Segmented>>,
     /// What could not be read of the frame in the making.
     not_read: BTreeSet<NotRead>,
+    /// Why no frame can be gathered.
+    refused: Option<String>,
 }
 
 impl<'a> FrameWindow<'a> {
     /// A window over a sequence. `rig` is the sequence's, with the user's overrides in it.
+    ///
+    /// Settings out of their ranges ([`Config::check`]), a rig of other sensors than the sequence has timelines for,
+    /// and timelines that don't ascend are refused by whatever is asked of it.
     pub fn new(source: &'a dyn Source, rig: &'a Rig, config: &'a Config) -> Self {
         let batch = config.tracking.scans.saturating_mul(2).saturating_add(2);
         // A batch can't be longer than the sequence.
@@ -108,12 +114,17 @@ impl<'a> FrameWindow<'a> {
             images: Recent::new(2 * rig.cameras.len()),
             segmented: Recent::new(2 * rig.cameras.len()),
             not_read: BTreeSet::new(),
+            refused: checked::refusal(source.sequence(), rig, config),
         }
     }
 
-    /// All that belongs to one scan of one radar. Fails where that scan can't be read. A LiDAR scan that can't be is
-    /// left out and named in the frame; neighbouring radar scans are left out of the batch.
+    /// All that belongs to one scan of one radar. A LiDAR scan that can't be read is left out and named in the frame;
+    /// neighbouring radar scans are left out of the batch.
+    ///
+    /// # Errors
+    /// A scan that isn't there or can't be read, and what [`Self::new`] names.
     pub fn frame(&mut self, radar: usize, scan: usize) -> Result<Frame<'a>, SourceError> {
+        self.usable()?;
         let located = match self.radar_scans.get(&(radar, scan)) {
             Some(Ok(known)) => known,
             _ => Arc::new(self.locate(radar, scan)?),
@@ -151,7 +162,11 @@ impl<'a> FrameWindow<'a> {
     }
 
     fn locate(&self, radar: usize, scan: usize) -> Result<LocatedScan, SourceError> {
-        Ok(LocatedScan::new(&self.rig.radars[radar], self.source.radar_scan(radar, scan)?))
+        let times = &self.source.sequence().times.radars;
+        let t_ns = checked::time("radar", times, (radar, scan))?;
+        let read = self.source.radar_scan(radar, scan)?;
+        checked::same_time(t_ns, read.t_ns)?;
+        Ok(LocatedScan::new(&self.rig.radars[radar], read))
     }
 
     /// A neighbouring scan as seen at a time; `None` where it can't be read.
@@ -189,9 +204,12 @@ impl<'a> FrameWindow<'a> {
         steps
     }
 
-    /// The LiDAR scans nearest to a time, with their ground; `None` where there is none within the tolerance. Fails
-    /// where one of them can't be read.
+    /// The LiDAR scans nearest to a time (ns), with their ground; `None` where there is none within the tolerance.
+    ///
+    /// # Errors
+    /// One of them that can't be read, and what [`Self::new`] names.
     pub fn lidar_view(&mut self, t_ns: i64) -> Result<Option<LidarView>, SourceError> {
+        self.usable()?;
         let NearLidars { view, unreadable, .. } = self.near_lidars(t_ns);
         match unreadable.into_iter().next() {
             Some(Unreadable { reason, .. }) => Err(reason.into()),
@@ -309,9 +327,11 @@ impl<'a> FrameWindow<'a> {
         times.filter_map(|(camera, times)| Some((camera, sync::nearest(times, t_ns, tolerance)?))).collect()
     }
 
-    /// An image with its views calibrated by the LiDAR scans nearest to it; `None` where there is no depth. What of it
-    /// can't be read makes its views fail.
+    /// An image with its views calibrated by the LiDAR scans nearest to it; `None` where there is no depth or no such
+    /// image, and of a window that gives no frames. What of it can't be read makes its views fail.
     pub fn image(&mut self, camera: usize, image: usize) -> Option<Arc<CalibratedImage>> {
+        let there = checked::time("camera", &self.source.sequence().times.cameras, (camera, image));
+        self.usable().and(there).ok()?;
         let known = self.images.get(&(camera, image));
         let found = known.unwrap_or_else(|| {
             let found = self.noting(|window| window.calibrated(camera, image));
@@ -344,10 +364,17 @@ impl<'a> FrameWindow<'a> {
         Some(Arc::new(CalibratedImage::new(&self.rig.cameras[camera], id, content, &calibration)))
     }
 
+    fn read_lidar_scan(&self, (lidar, scan): Key) -> Result<LidarScan, SourceError> {
+        let t_ns = checked::time("LiDAR", &self.source.sequence().times.lidars, (lidar, scan))?;
+        let read = self.source.lidar_scan(lidar, scan)?;
+        checked::same_time(t_ns, read.t_ns)?;
+        Ok(read)
+    }
+
     fn lidar_scan(&mut self, key: Key) -> Result<Arc<LidarScan>, String> {
         let known = self.lidar_scans.get(&key);
         let read = known.unwrap_or_else(|| {
-            let read = self.source.lidar_scan(key.0, key.1).map(Arc::new).map_err(|error| error.to_string());
+            let read = self.read_lidar_scan(key).map(Arc::new).map_err(|error| error.to_string());
             self.lidar_scans.insert(key, read.clone());
             read
         });

@@ -12,17 +12,8 @@ impl Intrinsics {
         if width < 2 || height < 2 {
             return Err(format!("an image of at least 2 x 2 px, found {width} x {height}"));
         }
-        if let Some(found) = self.parameters().iter().find(|value| !value.is_finite()) {
-            return Err(format!("finite camera parameters, found {found}"));
-        }
-        match self {
-            Self::Pinhole { focal, .. } | Self::KannalaBrandt { focal, .. } => {
-                if let Some(found) = focal.iter().find(|value| **value <= 0.0) {
-                    return Err(format!("focal lengths above 0, found {found}"));
-                }
-            }
-            Self::Scaramuzza { .. } => self.scaramuzza().map_or(Ok(()), check_scaramuzza)?,
-        }
+        self.check_numbers()?;
+        self.scaramuzza().map_or(Ok(()), check_scaramuzza)?;
         let [u, v] = self.nearest_border(width, height);
         match self.back_project([u, v]) {
             Some(_) => Ok(()),
@@ -31,6 +22,20 @@ impl Intrinsics {
                  column {u} and row {v} of an image of {width} x {height} px",
                 self.limit().to_degrees()
             )),
+        }
+    }
+
+    /// Refuses, with what was expected and found, numbers that aren't finite, and focal lengths that aren't above 0.
+    pub(in crate::sensors) fn check_numbers(&self) -> Result<(), String> {
+        if let Some(found) = self.parameters().iter().find(|value| !value.is_finite()) {
+            return Err(format!("finite camera parameters, found {found}"));
+        }
+        match self {
+            Self::Pinhole { focal, .. } | Self::KannalaBrandt { focal, .. } => {
+                let odd = focal.iter().find(|value| **value <= 0.0);
+                odd.map_or(Ok(()), |found| Err(format!("focal lengths above 0, found {found}")))
+            }
+            Self::Scaramuzza { .. } => Ok(()),
         }
     }
 

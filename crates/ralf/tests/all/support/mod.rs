@@ -98,7 +98,7 @@ impl Memory {
     pub(crate) fn label(&self, config: &Config, radar: usize, scan: usize) -> Vec<DetectionLabel> {
         let mut window = FrameWindow::new(self, &self.sequence.rig, config);
         let frame = window.frame(radar, scan).unwrap();
-        Labeler::new(config).label(&frame)
+        Labeler::new(config).unwrap().label(&frame)
     }
 }
 
