@@ -64,9 +64,13 @@ impl View {
             seen.radar_window.clear();
         }
         match self {
-            Self::SingleFrame => seen.lidar_window = this_moment(frame),
+            Self::SingleFrame => {
+                seen.lidar_neighbours.clear();
+                seen.lidar_window = this_moment(frame);
+            }
             Self::NoLidar => {
                 seen.lidar = None;
+                seen.lidar_neighbours.clear();
                 seen.lidar_window = None;
                 seen.ground = None;
                 // Depth is scaled by the LiDAR.
@@ -76,6 +80,7 @@ impl View {
             Self::HalfSecond => {
                 seen.steps.retain(|step| is_in_half_second(frame, step.t_ns));
                 seen.radar_window.retain(|neighbour| is_in_half_second(frame, neighbour.scan.t_ns()));
+                seen.lidar_neighbours.retain(|view| is_in_half_second(frame, view.moment.t_ns));
                 seen.lidar_window = half_second(frame).or_else(|| this_moment(frame));
             }
             Self::Whole | Self::OneRadarScan => {}

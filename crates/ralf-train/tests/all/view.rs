@@ -2,6 +2,7 @@
 
 use ralf::config::Config;
 use ralf::evidence;
+use ralf::paper::Labeler;
 use ralf::scene::{Frame, FrameWindow};
 use ralf::sensors::Source;
 use ralf_sim::SimulatedSequence;
@@ -9,11 +10,14 @@ use ralf_train::learning::View;
 
 /// The middle one of a second and a half.
 fn with_frame<R>(look: impl FnOnce(&Frame) -> R) -> R {
+    with_frame_of(&Config::default(), look)
+}
+
+fn with_frame_of<R>(config: &Config, look: impl FnOnce(&Frame) -> R) -> R {
     let preset = ralf_sim::presets::find("tiny").unwrap();
     let sequence: SimulatedSequence = preset.sequences[0].simulate(1, 30).unwrap();
-    let config = Config::default();
     let rig = &Source::sequence(&sequence).rig;
-    let mut window = FrameWindow::new(&sequence, rig, &config).with_evidence();
+    let mut window = FrameWindow::new(&sequence, rig, config).with_evidence();
     look(&window.frame(0, 15).unwrap())
 }
 
@@ -62,5 +66,25 @@ fn a_single_frame_has_one_moment_and_the_whole_is_as_it_was() {
         assert_eq!((radars.len(), lidars.len()), (0, 1));
         assert_eq!(apart(&View::Whole.of(frame)), apart(frame));
         assert!(View::NoLidar.of(frame).lidar_window.is_none());
+    });
+}
+
+/// With `lidar.scans` above 1 a frame has further LiDAR scans, which are as little there.
+#[test]
+fn what_lacks_the_lidar_lacks_all_of_its_scans() {
+    let config = Config::from_toml("", &["lidar.scans=9", "lidar.reach_ms=1000"]).unwrap();
+    let labeler = Labeler::new(&config).unwrap();
+    with_frame_of(&config, |frame| {
+        let apart = |view: View| -> Vec<u64> {
+            let seen = view.of(frame);
+            seen.lidar_neighbours.iter().map(|view| view.moment.t_ns.abs_diff(frame.scan.t_ns())).collect()
+        };
+        let (all, near) = (apart(View::Whole), apart(View::HalfSecond));
+        assert_eq!(near, all.iter().copied().filter(|ns| *ns <= 250_000_000).collect::<Vec<_>>());
+        assert!(!near.is_empty() && near.len() < all.len(), "{all:?}");
+        assert!(apart(View::SingleFrame).is_empty());
+        assert!(labeler.label(frame).iter().any(|label| label.d_lm.is_some()));
+        let blind = labeler.label(&View::NoLidar.of(frame));
+        assert!(blind.iter().all(|label| label.d_lm.is_none()));
     });
 }
