@@ -8,7 +8,7 @@ use clap::Args;
 use ralf::config::Config;
 use ralf::sensors::Sequence;
 use ralf_data::read::refuse_to_write_into;
-use ralf_data::views::{Computed, DepthStore, SegmentationStore, ViewObserver, images_of_scans};
+use ralf_data::views::{Computed, DepthStore, SegmentationStore, Unusable, ViewObserver, images_of_scans};
 use ralf_data::{DataError, Recording, SequenceReader};
 use ralf_depth::{DepthEstimator, OnnxModel, Runtime, SegmentationModel};
 use std::path::{Path, PathBuf};
@@ -121,8 +121,9 @@ pub(crate) fn depth_for_labelling(
 ) -> anyhow::Result<Recording> {
     let store = DepthStore::among_labels(out, model.output(), model.fingerprint())?;
     let tolerance = config.sync.camera_tolerance_ms;
-    fill_depth(&store, &recording, model, |sequence| images_of_scans(sequence, tolerance), jobs)?;
-    Ok(store.attach(recording))
+    let asked = |sequence: &Sequence| images_of_scans(sequence, tolerance);
+    let without = fill_depth(&store, &recording, model, asked, jobs)?;
+    Ok(store.attach_but(recording, without))
 }
 
 /// Computes what a store lacks of a recording's depth. Images that can't be used are named, and have no depth.
@@ -132,7 +133,7 @@ pub(crate) fn fill_depth(
     model: &OnnxModel,
     images: impl Fn(&Sequence) -> Images,
     jobs: usize,
-) -> anyhow::Result<usize> {
+) -> anyhow::Result<Vec<Vec<Unusable>>> {
     let estimate = |view: &_, focal| model.estimate(view, focal).map_err(|error| error.to_string());
     fill("depth", recording, images, &|reader, images, observer| {
         store.compute(reader, images, &estimate, jobs, observer)
@@ -145,7 +146,7 @@ pub(crate) fn fill_segmentation(
     recording: &Recording,
     model: &SegmentationModel,
     jobs: usize,
-) -> anyhow::Result<usize> {
+) -> anyhow::Result<Vec<Vec<Unusable>>> {
     let estimate = |view: &_, _| model.segment(view).map_err(|error| error.to_string());
     fill("segmentation", recording, all_images, &|reader, images, observer| {
         store.compute(reader, images, &estimate, jobs, observer)
@@ -156,14 +157,15 @@ pub(crate) fn fill_segmentation(
 type Compute<'a> =
     dyn Fn(&dyn SequenceReader, &[(usize, usize)], &ViewObserver) -> Result<Computed, DataError> + 'a;
 
-/// Computes what a network says of a recording's images. Those that can't be used are named and counted.
+/// Computes what a network says of a recording's images. Those that can't be used are named, and returned sequence by
+/// sequence.
 fn fill(
     what: &str,
     recording: &Recording,
     images: impl Fn(&Sequence) -> Images,
     compute: &Compute,
-) -> anyhow::Result<usize> {
-    let mut without = 0;
+) -> anyhow::Result<Vec<Vec<Unusable>>> {
+    let mut without = Vec::new();
     for reader in &recording.sequences {
         let (name, images) = (&reader.sequence().name, images(reader.sequence()));
         let progress = Progress::of_steps(images.len() as u64, format!("{what} of {name}"));
@@ -177,8 +179,8 @@ fn fill(
                  or isn't known to be"
             ));
         }
-        computed.without.iter().for_each(|error| say(&format!("no {what}: {name}: {error}")));
-        without += computed.without.len();
+        computed.without.iter().for_each(|image| say(&format!("no {what}: {name}: {image}")));
+        without.push(computed.without);
     }
     Ok(without)
 }

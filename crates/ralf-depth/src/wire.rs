@@ -26,6 +26,21 @@ enum Message {
 }
 
 impl Message {
+    /// For people.
+    fn words(self) -> &'static str {
+        match self {
+            Self::Model => "the network",
+            Self::Graph => "a graph",
+            Self::Node => "a node",
+            Self::Attribute => "an attribute of a node",
+            Self::Value => "an input or output",
+            Self::Type => "a type",
+            Self::Tensor => "a tensor",
+            Self::Shape => "a shape",
+            Self::Plain => "a text or a list of numbers",
+        }
+    }
+
     /// The message in a field, where there is one.
     fn field(self, number: u64) -> Option<Self> {
         use Message::{Attribute, Graph, Model, Node, Plain, Shape, Tensor, Type, Value};
@@ -64,7 +79,7 @@ fn message(mut bytes: &[u8], kind: Message, depth: usize) -> Result<(), String> 
     let mut widths: Vec<u64> = Vec::new();
     let mut name: &[u8] = &[];
     while !bytes.is_empty() {
-        let (field, rest) = next(bytes).ok_or_else(|| format!("a {kind:?} is cut short or damaged"))?;
+        let (field, rest) = next(bytes).ok_or_else(|| format!("{} is cut short or damaged", kind.words()))?;
         if let Some((content, inner)) = field.content.zip(kind.field(field.number)) {
             message(content, inner, depth + 1)?;
         }
@@ -143,7 +158,7 @@ mod tests {
         let whole = channel_sum([0.5; 3]);
         // A string of 2^56 bytes: field 2 (the producer's name) with its length.
         let huge = [&[0x12, 0xff, 0xff, 0xff, 0xff, 0xff, 0xff, 0xff, 0x7f], whole.as_slice()].concat();
-        assert!(check(&huge).unwrap_err().contains("Model is cut short"));
+        assert!(check(&huge).unwrap_err().contains("the network is cut short"));
         for cut in 1..whole.len() {
             // What ends between two fields of the model is whole by itself.
             let _ = check(&whole[..cut]);

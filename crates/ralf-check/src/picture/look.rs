@@ -57,7 +57,7 @@ pub(crate) fn read(source: &dyn Source, moments: &[Moment]) -> Pictures {
         let (mut odd, mut fits) = (None, false);
         for (image, Moment { lidar, t_ns: lidar_ns }) in beside(times, moments) {
             let Ok(read) = source.image(camera, image) else { continue };
-            if (read.width, read.height) != (own.width, own.height) {
+            if own.check_image(&read).is_err() {
                 odd = odd.or(Some([read.width, read.height]));
                 continue;
             }

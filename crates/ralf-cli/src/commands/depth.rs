@@ -64,7 +64,7 @@ pub(crate) fn run(arguments: &DepthArgs) -> anyhow::Result<Outcome> {
         let store = arguments.store(&recording, &model)?;
         let jobs = threads(arguments.jobs);
         let without = fill_depth(&store, &recording, &model, all_images, jobs)?;
-        outcome = Outcome::done_if(without == 0);
+        outcome = Outcome::done_if(without.iter().all(Vec::is_empty));
         recording = store.attach(recording);
     }
     if arguments.check {
@@ -90,7 +90,7 @@ impl DepthArgs {
             let file = sensors_file(&recording.path, &reader.sequence().name);
             ensure!(
                 declared == output,
-                "{}: [depth] output: expected {output:?} as the network's card says, found {declared:?}",
+                "{}: [depth] output: expected `{output}` as the network's card says, found `{declared}`",
                 file.display()
             );
         }

@@ -50,7 +50,7 @@ pub(crate) fn run(arguments: &SegmentArgs) -> anyhow::Result<Outcome> {
     let model = arguments.model.load()?;
     let store = arguments.store(&recording, &model)?;
     let without = fill_segmentation(&store, &recording, &model, threads(arguments.jobs))?;
-    Ok(Outcome::done_if(without == 0))
+    Ok(Outcome::done_if(without.iter().all(Vec::is_empty)))
 }
 
 impl SegmentArgs {

@@ -39,7 +39,7 @@ fn an_image_of_another_size_than_the_calibration_says_is_a_failed_view() {
             replace(dataset, "sequence.toml", "width = 160", "width = 161");
         });
     assert!(
-        record.contains("expected an image of (161, 120) px as calibrated, found (160, 120)"),
+        record.contains("expected an image of 161 x 120 px as calibrated, found 160 x 120 px"),
         "{record}"
     );
     assert!(inspected.contains("3 unusable"), "{inspected}");
@@ -50,7 +50,7 @@ fn depth_of_another_shape_is_a_failed_view() {
     let (record, inspected) = labelled("labelled without: 00 camera_front image 2: ", |dataset| {
         replace(dataset, "camera_front/depth/000002.npy", "(120, 160)", "(160, 120)");
     });
-    assert!(record.contains("a depth image of [160, 120] px for view 0, found [120, 160]"), "{record}");
+    assert!(record.contains("a depth image of 160 x 120 px for view 0, found 120 x 160 px"), "{record}");
     assert!(inspected.contains("1 unusable"), "{inspected}");
 }
 

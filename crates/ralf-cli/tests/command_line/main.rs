@@ -19,6 +19,8 @@ mod camera_plot;
 mod check;
 mod cluster;
 mod corrections;
+#[cfg(feature = "depth")]
+mod depth;
 mod determinism;
 mod errors;
 mod evaluation;

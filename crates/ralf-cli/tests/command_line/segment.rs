@@ -1,12 +1,8 @@
 //! `ralf segment`, and labels with what it stored.
 
-use crate::support::{Dataset, Ran, Shape, program, ralf, schema, tree};
+use crate::support::{Dataset, Ran, Shape, network, program, ralf, schema, tree};
 use std::fs;
 use std::path::Path;
-
-#[allow(dead_code, reason = "the tests of the crate use all of it")]
-#[path = "../../../ralf-depth/src/testing.rs"]
-mod network;
 
 const CARD: &str = "input = { width = 32, height = 16 }\nfit = \"stretch\"\nchannels = \"rgb\"\ndivide_by = 255\n\
                     mean = [0, 0, 0]\nstd = [1, 1, 1]\nclasses = [{ name = \"sky\", id = 0 }, \

@@ -62,7 +62,9 @@ fn ids(file: &Path, width: usize) -> Result<Vec<u8>, DataError> {
     let decoded = ImageReader::with_format(Cursor::new(bytes), ImageFormat::Png).decode();
     let decoded = decoded.map_err(|error| whole(error.to_string()))?;
     let DynamicImage::ImageLuma8(grey) = decoded else {
-        let found = format!("{:?}", decoded.color());
+        let colour = decoded.color();
+        let (channels, bits) = (colour.channel_count(), colour.bits_per_pixel());
+        let found = format!("{channels} channels of {} bits", bits / u16::from(channels.max(1)));
         return Err(DataError::content(file, "pixels", "8 bits of grey, a SemanticKITTI id each", found));
     };
     let ids = grey.into_raw();
@@ -120,7 +122,10 @@ mod tests {
         unknown[1].ids[2] = 7;
         says(&bytes(&unknown).unwrap(), &["row 2, column 2: expected a SemanticKITTI id, found 7"]);
         let colour = ralf::sensors::CameraImage { width: 3, height: 3, rgb: vec![[10; 3]; 9] };
-        says(&images::png(&colour).unwrap(), &["pixels: expected 8 bits of grey", "found Rgb8"]);
+        says(
+            &images::png(&colour).unwrap(),
+            &["pixels: expected 8 bits of grey", "found 3 channels of 8 bits"],
+        );
         let whole = bytes(&views()).unwrap();
         // The last 12 bytes are the end marker, which decoders don't wait for.
         for length in 0..whole.len() - 12 {

@@ -28,6 +28,7 @@ mod row_scans;
 pub(crate) mod scene_tables;
 mod truckscenes;
 mod view_of_delft;
+pub(crate) mod view_origin;
 mod zod;
 
 pub(crate) use corrected::corrected;

@@ -4,31 +4,17 @@ use super::record::Input;
 use super::sequence_record::{FileRecord, RadarRecord, SequenceRecord};
 use super::{Component, Places};
 use crate::disk::files;
+use crate::disk::hash::hash;
 use crate::error::DataError;
 use std::fs;
-use std::io::{ErrorKind, Read};
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use std::time::UNIX_EPOCH;
 
-/// Bytes that are read at a time.
-const CHUNK: usize = 1 << 20;
-
 /// Hashes a file. `advance` is told how many bytes more are done.
 pub(crate) fn hash_file(file: &Path, advance: &dyn Fn(u64)) -> Result<FileRecord, DataError> {
-    let (mut open, length) = files::open_input(file)?;
-    let mut hasher = blake3::Hasher::new();
-    // Most files are far smaller than a chunk; one byte more, for they end with a read that finds nothing.
-    let mut buffer = vec![0; usize::try_from(length).map_or(CHUNK, |length| CHUNK.min(length + 1))];
-    let mut bytes = 0;
-    loop {
-        let read = open.read(&mut buffer).map_err(DataError::io(file))?;
-        if read == 0 {
-            return Ok(FileRecord { bytes, blake3: hasher.finalize().to_hex().to_string() });
-        }
-        hasher.update(&buffer[..read]);
-        bytes += read as u64;
-        advance(read as u64);
-    }
+    let (bytes, blake3) = hash(file, advance)?;
+    Ok(FileRecord { bytes, blake3 })
 }
 
 /// When a file was changed last, ns since 1970; `None` where the system doesn't tell.

@@ -10,7 +10,7 @@ use crate::disk::label_file::{Label, labels_of_bytes};
 use crate::error::DataError;
 use crate::read::{Recording, SequenceReader, open_with};
 use crate::settings::Settings;
-use crate::tree::RECORD;
+use crate::tree::{DEPTH, RECORD, SEQUENCES};
 use ralf::config::Config;
 use ralf::sensors::Rig;
 use std::collections::{BTreeMap, BTreeSet};
@@ -113,6 +113,23 @@ impl LabelledRun {
     /// Whether a sequence of this name is labelled.
     pub fn holds(&self, sequence: &str) -> bool {
         self.record.sequence(sequence).is_some()
+    }
+
+    /// The folders of depth images that sequences were labelled with, apart from a recording's own; of those that are
+    /// still there.
+    pub fn depth_stores(&self, recording: &Path) -> Vec<PathBuf> {
+        // STORE/sequences/NAME/CAMERA/depth/000000.npy
+        let root = |file: &str| {
+            let file = Path::new(file);
+            let is_depth =
+                file.parent()?.file_name()? == DEPTH && file.ancestors().nth(4)?.ends_with(SEQUENCES);
+            file.ancestors().nth(5).filter(|_| is_depth).map(|root| recording.join(root))
+        };
+        let roots: BTreeSet<PathBuf> =
+            self.record.inputs.iter().filter_map(|input| root(&input.file)).collect();
+        let is_other =
+            |root: &PathBuf| *root != recording.join("") && root.join(DEPTH).with_extension("toml").is_file();
+        roots.into_iter().filter(is_other).collect()
     }
 
     /// The files of a recording that are not what was labelled, in the order of their names; of the sequences that were

@@ -7,6 +7,7 @@ use super::known::KnownTruth;
 use super::scan_id::ScanId;
 use crate::disk::files;
 use crate::disk::label_file::{Label, read_labels};
+use crate::disk::numbered::number_of;
 use crate::error::DataError;
 use crate::read::layout;
 use crate::read::open::recognised;
@@ -141,8 +142,8 @@ fn scan_numbers(folder: &Path) -> Result<Vec<u32>, DataError> {
     let labels = names.iter().filter(|name| Path::new(name).extension().is_some_and(|found| found == LABELS));
     labels
         .map(|name| {
-            let number = Path::new(name).file_stem().and_then(|stem| stem.to_str()?.parse().ok());
-            number.filter(|number: &u32| label_name(*number as usize) == *name).ok_or_else(|| {
+            let number = number_of(Path::new(name)).and_then(|number| u32::try_from(number).ok());
+            number.filter(|number| label_name(*number as usize) == *name).ok_or_else(|| {
                 DataError::content(folder, "file names", format!("NNNNNN.{LABELS}"), format!("`{name}`"))
             })
         })

@@ -3,11 +3,15 @@
 use super::folder::ViewFolder;
 use super::image_files::ImageFiles;
 use crate::disk::{class_images, npy};
+use crate::error::DataError;
+use crate::read::view_origin::{refuse_other, refuse_other_pixels};
 use crate::read::{Recording, SequenceReader};
 use ralf::sensors::{
-    CameraImage, ClassImage, DepthImage, DepthOutput, LidarScan, RadarScan, Sequence, Source, SourceError,
+    Camera, CameraImage, ClassImage, DepthImage, DepthOutput, LidarScan, RadarScan, Sequence, Source,
+    SourceError,
 };
-use std::path::PathBuf;
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
 
 /// Any store.
 #[derive(Debug, Clone)]
@@ -16,8 +20,13 @@ pub enum Stored {
     Segmentation(ViewFolder),
 }
 
-/// A recording with what a store holds in place of its own.
-pub(super) fn attach(recording: Recording, store: &Stored) -> Recording {
+/// Why nothing is stored of images: by camera and number.
+pub(super) type Reasons = BTreeMap<(usize, usize), String>;
+
+/// A recording with what a store holds in place of its own, and with why it holds nothing of these images, sequence by
+/// sequence.
+pub(super) fn attach(recording: Recording, store: &Stored, without: Vec<Reasons>) -> Recording {
+    let mut without = without.into_iter();
     let attach = |inner: Box<dyn SequenceReader>| {
         let mut sequence = inner.sequence().clone();
         if let Stored::Depth(_, output) = store {
@@ -26,7 +35,9 @@ pub(super) fn attach(recording: Recording, store: &Stored) -> Recording {
         // A store holds nothing of what can't have a folder in it.
         let (Stored::Depth(folder, _) | Stored::Segmentation(folder)) = store;
         let files = ImageFiles::new(folder, inner.as_ref()).ok();
-        Box::new(WithStore { inner, sequence, files, store: store.clone() }) as Box<dyn SequenceReader>
+        let without = without.next().unwrap_or_default();
+        let store = store.clone();
+        Box::new(WithStore { inner, sequence, files, store, without }) as Box<dyn SequenceReader>
     };
     Recording { sequences: recording.sequences.into_iter().map(attach).collect(), ..recording }
 }
@@ -37,9 +48,28 @@ struct WithStore {
     sequence: Sequence,
     files: Option<ImageFiles>,
     store: Stored,
+    /// Why nothing is stored of an image.
+    without: Reasons,
 }
 
 impl WithStore {
+    /// What is stored of an image, read: nothing where nothing is, for whatever reason is not known.
+    fn stored<T>(
+        &self,
+        (camera, image): (usize, usize),
+        read: impl Fn(&Path, &Camera) -> Result<T, DataError>,
+    ) -> Result<Option<T>, SourceError> {
+        if let Some(reason) = self.without.get(&(camera, image)) {
+            return Err(reason.clone().into());
+        }
+        let Some(file) = self.file(camera, image) else { return Ok(None) };
+        let sensor = &self.sequence.rig.cameras[camera];
+        if let Some(image) = self.inner.image_file(camera, image) {
+            refuse_other(&file, sensor, &image)?;
+        }
+        Ok(Some(read(&file, sensor)?))
+    }
+
     fn file(&self, camera: usize, image: usize) -> Option<PathBuf> {
         let file = self.files.as_ref()?.file(self.inner.as_ref(), camera, image);
         file.filter(|file| file.exists())
@@ -65,14 +95,19 @@ impl Source for WithStore {
     }
 
     fn image(&self, camera: usize, image: usize) -> Result<CameraImage, SourceError> {
-        self.inner.image(camera, image)
+        let read = self.inner.image(camera, image)?;
+        // Where images have files, those are compared before what is stored is read.
+        if self.inner.image_file(camera, image).is_none()
+            && let Some(file) = self.file(camera, image)
+        {
+            refuse_other_pixels(&file, &self.sequence.rig.cameras[camera], &read)?;
+        }
+        Ok(read)
     }
 
     fn depth(&self, camera: usize, image: usize) -> Result<Option<Vec<DepthImage>>, SourceError> {
         match &self.store {
-            Stored::Depth(..) => {
-                Ok(self.file(camera, image).map(|file| npy::read_depth(&file)).transpose()?)
-            }
+            Stored::Depth(..) => self.stored((camera, image), |file, _| npy::read_depth(file)),
             Stored::Segmentation(_) => self.inner.depth(camera, image),
         }
     }
@@ -80,10 +115,7 @@ impl Source for WithStore {
     fn classes(&self, camera: usize, image: usize) -> Result<Option<Vec<ClassImage>>, SourceError> {
         match &self.store {
             Stored::Depth(..) => self.inner.classes(camera, image),
-            Stored::Segmentation(_) => {
-                let read = |file: PathBuf| class_images::read(&file, &self.sequence.rig.cameras[camera]);
-                Ok(self.file(camera, image).map(read).transpose()?)
-            }
+            Stored::Segmentation(_) => self.stored((camera, image), class_images::read),
         }
     }
 }

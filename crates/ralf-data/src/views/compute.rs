@@ -6,15 +6,13 @@ use super::stored_view::StoredView;
 use crate::disk::files;
 use crate::error::DataError;
 use crate::read::SequenceReader;
-use crate::result::hash_file;
+use crate::read::view_origin::{note_of, of_file, of_pixels};
 use ralf::sensors::{Camera, CameraImage, SourceError, StraightView, UndistortMap};
 use ralf_files::Kind;
 use ralf_jobs::side_by_side;
+use std::fmt;
 use std::path::Path;
-use std::sync::OnceLock;
-
-/// How the file ends that tells what another of the same name was made of.
-const ORIGIN: &str = "from";
+use std::sync::{Mutex, OnceLock, PoisonError};
 
 /// A network: what it says of a view with a focal length, px; or why it says nothing.
 pub type Estimate<'a, T> = dyn Fn(&CameraImage, f64) -> Result<T, String> + Sync + 'a;
@@ -28,11 +26,30 @@ struct Straightening<'a> {
     views: OnceLock<Vec<(StraightView, UndistortMap)>>,
 }
 
+/// An image of which a network says nothing.
+#[derive(Debug)]
+pub struct Unusable {
+    /// The camera's place in the rig.
+    pub camera: usize,
+    /// The image's place in the camera's timeline.
+    pub image: usize,
+    /// The camera's name.
+    pub name: String,
+    /// Why.
+    pub error: SourceError,
+}
+
+impl fmt::Display for Unusable {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}, measurement {}: {}", self.name, self.image, self.error)
+    }
+}
+
 /// What came of a computation.
 #[derive(Debug, Default)]
 pub struct Computed {
-    /// The images of which the network says nothing for a reason of their own, which is named, in their order.
-    pub without: Vec<DataError>,
+    /// The images of which the network says nothing for a reason of their own, in their order.
+    pub without: Vec<Unusable>,
     /// Of so many images the store held something that was made of another image or of other views, or of which isn't
     /// known what it was made of: what they show now took its place.
     pub again: usize,
@@ -41,16 +58,27 @@ pub struct Computed {
 /// Computes and stores what a network says of the images (camera, number) that the store doesn't hold yet, several at a
 /// time. Beside each file lies what it was made of (`000000.from`): what was made of something else is made again.
 ///
-/// What can't be stored is an error, and so is another process that writes to the store.
+/// What can't be stored is an error, and so is another process that writes to the store. The store becomes the
+/// network's with the first image of which it says something.
 pub(super) fn compute_views<V: StoredView>(
     reader: &dyn SequenceReader,
     images: &[(usize, usize)],
-    store: &ViewFolder,
+    (store, card): (&ViewFolder, &V::Card),
     estimate: &Estimate<V>,
     jobs: usize,
     observer: &ViewObserver,
 ) -> Result<Computed, DataError> {
     let files = ImageFiles::new(store, reader)?;
+    refuse_unlike_views::<V>(reader, images, &files)?;
+    let is_claimed = Mutex::new(false);
+    let claim_once = || {
+        let mut is_claimed = is_claimed.lock().unwrap_or_else(PoisonError::into_inner);
+        if !*is_claimed {
+            store.claim(card, V::network)?;
+            *is_claimed = true;
+        }
+        Ok(())
+    };
     let _lock = files.lock()?;
     let cameras = reader.sequence().rig.cameras.iter();
     let cameras: Vec<_> = cameras.map(|camera| Straightening { camera, views: OnceLock::new() }).collect();
@@ -58,21 +86,40 @@ pub(super) fn compute_views<V: StoredView>(
         let missing = || DataError::NoMeasurement { kind: "camera", sensor: camera, index: image };
         let file = files.file(reader, camera, image).ok_or_else(missing)?;
         let straightening = &cameras[camera];
-        let came_of_it = straightening.fill::<V>(reader, (camera, image), &file, estimate)?;
+        let came_of_it = straightening.fill::<V>(reader, (camera, image), &file, (estimate, &claim_once))?;
         observer();
         Ok::<_, DataError>(((camera, image), came_of_it))
     })?;
     let mut computed = Computed::default();
-    let mut without = Vec::new();
-    for (key, came_of_it) in done {
+    for ((camera, image), came_of_it) in done {
+        let name = || cameras[camera].camera.name.clone();
         match came_of_it {
             Ok(again) => computed.again += usize::from(again),
-            Err(error) => without.push((key, error)),
+            Err(error) => computed.without.push(Unusable { camera, image, name: name(), error }),
         }
     }
-    without.sort_by_key(|(image, _)| *image);
-    computed.without = without.into_iter().map(|(_, error)| error).collect();
+    computed.without.sort_by_key(|found| (found.camera, found.image));
     Ok(computed)
+}
+
+/// Views that one file can't hold: asked before a network works on the first of them.
+fn refuse_unlike_views<V: StoredView>(
+    reader: &dyn SequenceReader,
+    images: &[(usize, usize)],
+    files: &ImageFiles,
+) -> Result<(), DataError> {
+    for (place, camera) in reader.sequence().rig.cameras.iter().enumerate() {
+        let Some(first) = images.iter().find(|(camera, _)| *camera == place) else { continue };
+        let views = camera.straight_views();
+        let sizes: Vec<[usize; 2]> = views.iter().map(|view| V::stacked([view.width, view.height])).collect();
+        if let Some(other) = sizes.iter().find(|size| **size != sizes[0]) {
+            let file = files.file(reader, place, first.1).unwrap_or_default();
+            let [a, b] = [sizes[0], *other].map(|[width, height]| format!("{width} x {height}"));
+            let expected = format!("views of {} that are alike, for one file holds them", camera.name);
+            return Err(DataError::content(&file, "views", expected, format!("{a} and {b} px")));
+        }
+    }
+    Ok(())
 }
 
 impl Straightening<'_> {
@@ -83,15 +130,13 @@ impl Straightening<'_> {
         reader: &dyn SequenceReader,
         (camera, image): (usize, usize),
         file: &Path,
-        estimate: &Estimate<V>,
-    ) -> Result<Result<bool, DataError>, DataError> {
-        let unusable =
-            |error| DataError::Measurement { sensor: self.camera.name.clone(), index: image, error };
-        let origin = match self.origin(reader, (camera, image)) {
+        (estimate, claim): (&Estimate<V>, &dyn Fn() -> Result<(), DataError>),
+    ) -> Result<Result<bool, SourceError>, DataError> {
+        let origin = match origin(self.camera, reader, (camera, image)) {
             Ok(origin) => origin,
-            Err(error) => return Ok(Err(unusable(error))),
+            Err(error) => return Ok(Err(error)),
         };
-        let note = file.with_extension(ORIGIN);
+        let note = note_of(file);
         let is_there = files::exists(file)?;
         if is_there && files::read_text(&note, Kind::Settings).is_ok_and(|known| known == origin) {
             return Ok(Ok(false));
@@ -100,34 +145,13 @@ impl Straightening<'_> {
         files::remove(&note)?;
         match self.estimated(reader, (camera, image), estimate) {
             Ok(views) => {
+                claim()?;
                 V::write(file, &views)?;
                 files::write_whole(&note, origin.as_bytes())?;
                 Ok(Ok(is_there))
             }
-            Err(error) => files::remove(file).map(|()| Err(unusable(error))),
+            Err(error) => files::remove(file).map(|()| Err(error)),
         }
-    }
-
-    /// What the views of an image are made of, in short: equal where the image and how it is seen are.
-    fn origin(
-        &self,
-        reader: &dyn SequenceReader,
-        (camera, image): (usize, usize),
-    ) -> Result<String, SourceError> {
-        let Camera { intrinsics, width, height, .. } = self.camera;
-        let mut hasher = blake3::Hasher::new();
-        // Debug shows every digit.
-        hasher.update(
-            format!("{intrinsics:?} {width} {height} {:?}\n", self.camera.straight_views()).as_bytes(),
-        );
-        match reader.image_file(camera, image) {
-            Some(file) => hasher.update(hash_file(&file, &|_| {})?.blake3.as_bytes()),
-            None => {
-                let CameraImage { width, height, rgb } = reader.image(camera, image)?;
-                hasher.update(format!("{width} {height}\n").as_bytes()).update(rgb.as_flattened())
-            }
-        };
-        Ok(format!("{}\n", hasher.finalize().to_hex()))
     }
 
     fn estimated<T>(
@@ -153,5 +177,17 @@ impl Straightening<'_> {
             let straighten = |view| (view, UndistortMap::new(intrinsics, *width, *height, &view));
             self.camera.straight_views().into_iter().map(straighten).collect()
         })
+    }
+}
+
+/// What the views of an image are made of. Where images have no files of their own, it is decoded.
+fn origin(
+    camera: &Camera,
+    reader: &dyn SequenceReader,
+    (place, image): (usize, usize),
+) -> Result<String, SourceError> {
+    match reader.image_file(place, image) {
+        Some(file) => Ok(of_file(camera, &file)?),
+        None => Ok(of_pixels(camera, &reader.image(place, image)?)),
     }
 }

@@ -56,6 +56,10 @@ impl StoredView for DepthImage {
         Stored::Depth(folder, card.output)
     }
 
+    fn stacked(size: [usize; 2]) -> [usize; 2] {
+        size
+    }
+
     fn write(file: &Path, views: &[Self]) -> Result<(), DataError> {
         let bytes = npy::depth_bytes(views).ok_or_else(|| {
             DataError::content(
@@ -78,6 +82,8 @@ mod tests {
     fn what_is_stored_is_read_back() {
         let folder = tempfile::tempdir().unwrap();
         let store = DepthStore::create(folder.path(), DepthOutput::Disparity, "a").unwrap();
+        assert!(DepthStore::open(folder.path()).is_err(), "nothing was stored yet");
+        let store = store.begun().unwrap();
         assert_eq!(DepthStore::open(folder.path()).unwrap(), store);
         let other = DepthStore::create(folder.path(), DepthOutput::Disparity, "b").unwrap_err().to_string();
         assert!(other.contains("depth.toml") && other.contains("found that of a"), "{other}");

@@ -49,30 +49,41 @@ impl ViewFolder {
         self.card().is_file()
     }
 
-    /// Writes what the store holds; where that is known, it has to be the same. `network` tells whose it is. Files of
-    /// which nobody knows whose they are don't become the network's.
+    /// Refuses a store of another network, and files of which nobody knows whose they are: they don't become the
+    /// network's. `network` tells whose a store is. Returns whether it was begun.
+    pub(super) fn refuse_other<T: DeserializeOwned + PartialEq>(
+        &self,
+        own: &T,
+        network: fn(&T) -> &str,
+    ) -> Result<bool, DataError> {
+        let file = self.card();
+        let found = if files::exists(&file)? {
+            let found: T = self.read_card()?;
+            if found == *own {
+                return Ok(true);
+            }
+            format!("that of {}", network(&found))
+        } else {
+            let Some(stray) = self.any_file()? else { return Ok(false) };
+            format!("{}, and nothing that tells which network made it", stray.display())
+        };
+        let expected = format!("{} of the network {}, or another folder", self.kind.name, network(own));
+        Err(DataError::content(&file, "network", expected, found))
+    }
+
+    /// Writes what the store holds, where nothing tells it; where that is known, it has to be the same.
     pub(super) fn claim<T: Serialize + DeserializeOwned + PartialEq>(
         &self,
         own: &T,
         network: fn(&T) -> &str,
     ) -> Result<(), DataError> {
-        let file = self.card();
-        let expected = || format!("{} of the network {}, or another folder", self.kind.name, network(own));
-        if !file.exists() {
-            if let Some(stray) = self.any_file()? {
-                let found = format!("{}, and nothing that tells which network made it", stray.display());
-                return Err(DataError::content(&file, "network", expected(), found));
-            }
-            let text = toml::to_string(own);
-            let text =
-                text.map_err(|error| DataError::content(&file, "content", "TOML", error.to_string()))?;
-            return files::write_whole(&file, text.as_bytes());
-        }
-        let found: T = self.read_card()?;
-        if found == *own {
+        if self.refuse_other(own, network)? {
             return Ok(());
         }
-        Err(DataError::content(&file, "network", expected(), format!("that of {}", network(&found))))
+        let file = self.card();
+        let text = toml::to_string(own);
+        let text = text.map_err(|error| DataError::content(&file, "content", "TOML", error.to_string()))?;
+        files::write_whole(&file, text.as_bytes())
     }
 
     /// The first file in the store.

@@ -1,6 +1,7 @@
 //! Where a store keeps what belongs to the images of a sequence.
 
 use super::folder::ViewFolder;
+use crate::disk::numbered::number_of;
 use crate::disk::real_path::real_path;
 use crate::error::DataError;
 use crate::read::SequenceReader;
@@ -48,5 +49,5 @@ impl ImageFiles {
 
 /// The number that is the name of an image's file.
 fn own_number(reader: &dyn SequenceReader, camera: usize, image: usize) -> Option<usize> {
-    reader.image_file(camera, image)?.file_stem()?.to_str()?.parse().ok()
+    number_of(&reader.image_file(camera, image)?).and_then(|number| usize::try_from(number).ok())
 }

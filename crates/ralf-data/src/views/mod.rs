@@ -13,7 +13,7 @@ mod store;
 mod stored_view;
 
 pub use check::{CameraCheck, SCALINGS, check_scalings};
-pub use compute::{Computed, Estimate, ViewObserver};
+pub use compute::{Computed, Estimate, Unusable, ViewObserver};
 pub use depth::DepthStore;
 pub use lacking::{Lacking, images_of_scans, lacking};
 pub use segmentation::SegmentationStore;

@@ -41,6 +41,11 @@ impl StoredView for ClassImage {
         Stored::Segmentation(folder)
     }
 
+    fn stacked([width, _]: [usize; 2]) -> [usize; 2] {
+        // They stand one below the other.
+        [width, 0]
+    }
+
     fn write(file: &Path, views: &[Self]) -> Result<(), DataError> {
         let bytes = class_images::bytes(views)
             .map_err(|(expected, found)| DataError::content(file, "views", expected, found))?;
@@ -55,7 +60,7 @@ mod tests {
     #[test]
     fn a_store_of_another_network_is_refused() {
         let folder = tempfile::tempdir().unwrap();
-        let store = SegmentationStore::create(folder.path(), "a").unwrap();
+        let store = SegmentationStore::create(folder.path(), "a").and_then(SegmentationStore::begun).unwrap();
         assert_eq!(SegmentationStore::open(folder.path()).unwrap(), store);
         let other = SegmentationStore::create(folder.path(), "b").unwrap_err().to_string();
         let parts = ["segmentation.toml", "expected segmentation of the network b", "found that of a"];

@@ -1,7 +1,7 @@
 //! A folder of what one network says of images: `ROOT/sequences/NAME/CAMERA/KIND/000000.EXTENSION`.
 
 use super::attached::attach;
-use super::compute::{Computed, Estimate, ViewObserver, compute_views};
+use super::compute::{Computed, Estimate, Unusable, ViewObserver, compute_views};
 use super::folder::ViewFolder;
 use super::stored_view::StoredView;
 use crate::error::DataError;
@@ -17,11 +17,17 @@ pub struct Store<V: StoredView> {
 }
 
 impl<V: StoredView> Store<V> {
-    /// The store that a card tells of, begun if there is none. One of another card is refused.
+    /// The store that a card tells of; the first image that is stored begins it. One of another card is refused.
     pub(super) fn begin(root: &Path, card: V::Card) -> Result<Self, DataError> {
         let folder = ViewFolder::new(root, V::KIND);
-        folder.claim(&card, V::network)?;
+        folder.refuse_other(&card, V::network)?;
         Ok(Self { folder, card })
+    }
+
+    /// The store as it is once something was stored.
+    #[cfg(test)]
+    pub(super) fn begun(self) -> Result<Self, DataError> {
+        self.folder.claim(&self.card, V::network).map(|()| self)
     }
 
     /// A store that was made before.
@@ -50,11 +56,19 @@ impl<V: StoredView> Store<V> {
         jobs: usize,
         observer: &ViewObserver,
     ) -> Result<Computed, DataError> {
-        compute_views(reader, images, &self.folder, estimate, jobs, observer)
+        compute_views(reader, images, (&self.folder, &self.card), estimate, jobs, observer)
     }
 
     /// A recording with what this store holds in place of its own.
     pub fn attach(&self, recording: Recording) -> Recording {
-        attach(recording, &V::stored(self.folder.clone(), &self.card))
+        self.attach_but(recording, Vec::new())
+    }
+
+    /// The same, where these images of each sequence, in the recording's order, have nothing for a reason that whoever
+    /// asks for it is told, as it is told where an image can't be read.
+    pub fn attach_but(&self, recording: Recording, without: Vec<Vec<Unusable>>) -> Recording {
+        let reason = |found: Unusable| ((found.camera, found.image), found.error.to_string());
+        let without = without.into_iter().map(|found| found.into_iter().map(reason).collect());
+        attach(recording, &V::stored(self.folder.clone(), &self.card), without.collect())
     }
 }

@@ -1,6 +1,7 @@
 //! A camera of the vehicle.
 
 use super::bounds::check_size;
+use super::image::CameraImage;
 use super::intrinsics::Intrinsics;
 use super::view::{StraightView, View};
 use crate::space::Transform;
@@ -30,6 +31,22 @@ impl Camera {
         check_size("an image", self.width, self.height)?;
         self.intrinsics.check_numbers()?;
         self.views.iter().try_for_each(View::check)
+    }
+
+    /// Refuses, with what was expected and found, an image of another size than the calibration's: nothing tells where
+    /// in it a point lies.
+    pub fn check_image(&self, image: &CameraImage) -> Result<(), String> {
+        let ([width, height], pixels) = ([image.width, image.height], image.rgb.len());
+        if [width, height] != [self.width, self.height] {
+            let (own_width, own_height) = (self.width, self.height);
+            return Err(format!(
+                "an image of {own_width} x {own_height} px as calibrated, found {width} x {height} px"
+            ));
+        }
+        if pixels != width * height {
+            return Err(format!("{width} x {height} pixels, found {pixels}"));
+        }
+        Ok(())
     }
 
     /// The straight views; where none is configured one along the axis, of the image's size, with

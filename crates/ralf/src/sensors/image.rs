@@ -1,6 +1,7 @@
 //! Images, as a camera and as networks deliver them.
 
 use serde::{Deserialize, Serialize};
+use std::fmt;
 
 /// An 8-bit colour image.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -47,4 +48,15 @@ pub enum DepthOutput {
     Disparity,
     /// Depth in metres.
     Metric,
+}
+
+impl fmt::Display for DepthOutput {
+    /// As `sequence.toml` and cards of networks have it.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Depth => "depth",
+            Self::Disparity => "disparity",
+            Self::Metric => "metric",
+        })
+    }
 }

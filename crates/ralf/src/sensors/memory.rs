@@ -175,10 +175,8 @@ impl MemorySource {
         camera.check().map_err(|reason| refused(&camera.name, "values", &reason))?;
         for (n, TimedImage { image, depth, .. }) in images.iter().enumerate() {
             let wrong = |reason: String| Err(refused(&camera.name, &format!("image {n}"), &reason));
-            let (width, height, pixels) = (image.width, image.height, image.rgb.len());
-            if (width, height, pixels) != (camera.width, camera.height, camera.width * camera.height) {
-                let expected = format!("{} x {} px", camera.width, camera.height);
-                return wrong(format!("expected {expected}, found {width} x {height} px, {pixels} pixels"));
+            if let Err(reason) = camera.check_image(image) {
+                return wrong(reason);
             }
             let Some(depth) = depth else { continue };
             let views = camera.views.len().max(1);
@@ -387,7 +385,7 @@ mod tests {
         );
         says(
             empty().with_camera(Camera { width: 3, ..camera() }, vec![image(0, None)]),
-            "eye: image 0: expected 3 x 1 px, found 2 x 1 px, 2 pixels",
+            "eye: image 0: expected an image of 3 x 1 px as calibrated, found 2 x 1 px",
         );
         says(
             empty().with_camera(camera(), vec![image(0, Some(vec![]))]),

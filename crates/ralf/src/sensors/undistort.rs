@@ -62,8 +62,10 @@ impl UndistortMap {
     pub fn apply(&self, image: &CameraImage) -> Result<CameraImage, String> {
         let [width, height] = self.source;
         if [image.width, image.height] != self.source || image.rgb.len() != width * height {
-            let (found, pixels) = ([image.width, image.height], image.rgb.len());
-            return Err(format!("an image of {width} x {height} px, found {found:?} with {pixels} pixels"));
+            let ([found_width, found_height], pixels) = ([image.width, image.height], image.rgb.len());
+            return Err(format!(
+                "an image of {width} x {height} px, found {found_width} x {found_height} px with {pixels} pixels"
+            ));
         }
         let rows = Rows::new(image.rgb.as_flattened(), 3 * width);
         let mut rgb = self.taps.iter().map(|taps| rows.sample(taps)).collect::<Vec<_>>().into_flattened();

@@ -8,19 +8,28 @@ use ralf::scene::{
 };
 use ralf::sensors::{Camera, CameraImage, Sequence, StraightView, UndistortMap};
 use ralf::space::{Point, Transform, sync};
-use ralf_data::result::LabelledSequence;
+use ralf_data::Recording;
+use ralf_data::result::{LabelledRun, LabelledSequence};
 use ralf_data::views::DepthStore;
 use ralf_plot::{CameraPicture, MarkLabel, PixelDepth, ViewPicture, camera_picture};
 use ralf_report::{Pictures, mark_label, one_below, one_of};
 use std::path::PathBuf;
 
-/// The depth that is asked for, or that labelling left in its folder; of several networks one must be chosen.
-pub(super) fn depth_store(arguments: &PlotArgs) -> anyhow::Result<Option<DepthStore>> {
+/// The depth that is asked for, or that the labels were made with, or that labelling left in its folder; of several
+/// networks one must be chosen.
+pub(super) fn depth_store(
+    arguments: &PlotArgs,
+    recording: &Recording,
+    run: &LabelledRun,
+) -> anyhow::Result<Option<DepthStore>> {
     if arguments.camera.is_none() {
         return Ok(None);
     }
     if let Some(folder) = &arguments.depth {
         return Ok(Some(DepthStore::open(folder)?));
+    }
+    if let [only] = run.depth_stores(&recording.path).as_slice() {
+        return Ok(Some(DepthStore::open(only)?));
     }
     let all = arguments.labels.join("depth");
     let mut stores: Vec<PathBuf> = Vec::new();
@@ -94,12 +103,13 @@ impl Plot<'_> {
         })?)
     }
 
-    /// Those that the labels were made with, except that every pixel which has a depth is calibrated.
+    /// Those that the labels were made with, except that every pixel which has a depth is calibrated: the ends of the
+    /// settings' ranges.
     fn settings(&self) -> Config {
         let mut config = self.labelled.settings.clone();
         config.camera.stride = 1;
-        config.camera.max_depth = f64::INFINITY;
-        config.ground.camera_margin = f64::NEG_INFINITY;
+        config.camera.max_depth = 1e6;
+        config.ground.camera_margin = -1000.0;
         config
     }
 

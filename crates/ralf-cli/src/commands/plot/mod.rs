@@ -57,7 +57,7 @@ pub(crate) struct PlotArgs {
     /// Only this view of the camera, from 0
     #[arg(long, value_name = "V", requires = "camera")]
     view: Option<usize>,
-    /// Take depth images from this folder; OUT/depth if not given, or the recording's own
+    /// Take depth images from this folder; if not given, from where the labels were made with them
     #[arg(long, value_name = "FOLDER", requires = "camera")]
     depth: Option<PathBuf>,
     /// The picture (PNG)
@@ -72,7 +72,7 @@ pub(crate) fn run(arguments: &PlotArgs) -> anyhow::Result<Outcome> {
     let mut recording = arguments.dataset.open_labelled(&arguments.labels, &arguments.changed)?;
     let run = LabelledRun::open(&arguments.labels)?;
     leave_out_unlabelled(&mut recording, &run);
-    let recording = match camera::depth_store(arguments)? {
+    let recording = match camera::depth_store(arguments, &recording, &run)? {
         Some(store) => store.attach(recording),
         None => recording,
     };

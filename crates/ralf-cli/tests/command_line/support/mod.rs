@@ -5,6 +5,10 @@ mod foreign;
 #[path = "../../../../ralf-data/src/disk/hdf5/writing.rs"]
 #[allow(dead_code, reason = "the tests of the reader use all of it")]
 mod hdf5;
+#[cfg(feature = "depth")]
+#[allow(dead_code, reason = "the tests of its crate use all of it")]
+#[path = "../../../../ralf-depth/src/testing.rs"]
+pub(crate) mod network;
 mod program;
 mod python;
 #[path = "../../../../ralf-data/src/read/radar_ghost/tests/recording.rs"]

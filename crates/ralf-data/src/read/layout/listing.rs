@@ -2,6 +2,7 @@
 
 use super::tables;
 use crate::disk::files;
+use crate::disk::numbered::number_of;
 use crate::error::DataError;
 use crate::tree::TIMES;
 use std::collections::BTreeMap;
@@ -82,8 +83,7 @@ fn numbered(folder: &Path, extensions: &[&str]) -> Result<BTreeMap<u64, PathBuf>
     for entry in files::entries(folder, "a folder of measurements")? {
         let file = entry.map_err(DataError::io(folder))?.path();
         let Some(stem) = stem(&file, extensions) else { continue };
-        let number = Some(stem).filter(|stem| stem.bytes().all(|b| b.is_ascii_digit()));
-        let Some(number) = number.and_then(|stem| stem.parse().ok()) else {
+        let Some(number) = number_of(&file) else {
             return Err(DataError::content(&file, "name", "a number such as 000000", format!("`{stem}`")));
         };
         if let Some(other) = files.insert(number, file.clone()) {

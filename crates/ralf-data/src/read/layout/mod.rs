@@ -4,6 +4,7 @@
 //! reads measurements on demand.
 
 mod camera;
+mod depth_card;
 mod listing;
 pub(crate) mod raw;
 pub(crate) mod rig;

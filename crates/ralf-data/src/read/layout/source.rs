@@ -1,5 +1,6 @@
 //! A sequence of the own layout, read on demand.
 
+use super::depth_card::contradicted;
 use super::listing::{Partner, SensorFiles};
 use super::raw::SequenceToml;
 use super::{rig, tables};
@@ -9,6 +10,7 @@ use crate::error::DataError;
 use crate::read::SequenceReader;
 use crate::read::measured_files::lidar_rows;
 use crate::read::point_times::LONGEST;
+use crate::read::view_origin::refuse_other;
 use crate::tree::{self, CAUSE_NAMES, GROUND_TRUTH, LABELS, ODOMETRY, POSES, SENSORS};
 use ralf::sensors::{
     Camera, CameraImage, ClassImage, DepthImage, Lidar, LidarScan, Radar, RadarScan, Rig, Sequence, Source,
@@ -51,6 +53,9 @@ impl LayoutSequence {
         let rig = rig::rig(&toml_file, &toml)?;
         warnings.extend(odd_lenses(&toml_file, &rig));
         let [radars, lidars, cameras] = list(folder, &rig, &mut warnings)?;
+        if cameras.iter().any(|files| files.has_partners(FIRST)) {
+            warnings.extend(contradicted(&toml_file, toml.depth.output));
+        }
         let (motion, motion_files) = motion(folder, first_scan(&radars), &mut warnings)?;
         let times = |sensors: &[SensorFiles]| sensors.iter().map(|sensor| sensor.times.clone()).collect();
         let times = Timelines { radars: times(&radars), lidars: times(&lidars), cameras: times(&cameras) };
@@ -65,6 +70,16 @@ impl LayoutSequence {
         let metadata = [vec![toml_file], motion_files].concat();
         let cause_names = existing(folder.join(GROUND_TRUTH).join(CAUSE_NAMES))?;
         Ok(Self { sequence, radars, lidars, cameras, metadata, cause_names, warnings })
+    }
+}
+
+impl LayoutSequence {
+    /// What a network said of an image's views, of this kind of partner; refused where it said it of another image.
+    fn of_views(&self, kind: usize, camera: usize, image: usize) -> Result<Option<&PathBuf>, DataError> {
+        let (sensor, image_file) = measurement("camera", &self.cameras, camera, image)?;
+        let Some(file) = sensor.partner(kind, image) else { return Ok(None) };
+        refuse_other(file, &self.sequence.rig.cameras[camera], image_file)?;
+        Ok(Some(file))
     }
 }
 
@@ -173,8 +188,7 @@ impl Source for LayoutSequence {
     }
 
     fn depth(&self, camera: usize, image: usize) -> Result<Option<Vec<DepthImage>>, SourceError> {
-        let (sensor, _) = measurement("camera", &self.cameras, camera, image)?;
-        let Some(file) = sensor.partner(FIRST, image) else { return Ok(None) };
+        let Some(file) = self.of_views(FIRST, camera, image)? else { return Ok(None) };
         let depth = npy::read_depth(file)?;
         let views = self.sequence.rig.cameras[camera].views.len().max(1);
         if depth.len() != views {
@@ -185,9 +199,8 @@ impl Source for LayoutSequence {
     }
 
     fn classes(&self, camera: usize, image: usize) -> Result<Option<Vec<ClassImage>>, SourceError> {
-        let (sensor, _) = measurement("camera", &self.cameras, camera, image)?;
         let read = |file: &PathBuf| class_images::read(file, &self.sequence.rig.cameras[camera]);
-        Ok(sensor.partner(SEGMENTATION, image).map(read).transpose()?)
+        Ok(self.of_views(SEGMENTATION, camera, image)?.map(read).transpose()?)
     }
 }
 

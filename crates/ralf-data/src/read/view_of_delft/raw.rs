@@ -1,6 +1,7 @@
 //! Calibration and pose files, and the numbering of frames, as they lie on disk.
 
 use crate::disk::files;
+use crate::disk::numbered::number_of;
 use crate::error::DataError;
 use ralf_files::Kind;
 use serde::Deserialize;
@@ -22,8 +23,9 @@ pub(super) fn frames(folder: &Path) -> Result<Vec<Frame>, DataError> {
             continue;
         }
         let stem = file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        let number = number_of(&file).and_then(|number| u32::try_from(number).ok());
         let number =
-            stem.parse().map_err(|_| DataError::content(&file, "file name", "a frame's number", &stem))?;
+            number.ok_or_else(|| DataError::content(&file, "file name", "a frame's number", &stem))?;
         frames.push(Frame { number, stem });
     }
     frames.sort();

@@ -128,12 +128,11 @@ fn check(views: &[StraightView], depth: &[DepthImage]) -> Result<(), String> {
         return Err(format!("{} depth images, one per view, found {}", views.len(), depth.len()));
     }
     for (index, (view, image)) in views.iter().zip(depth).enumerate() {
-        let expected = [view.width, view.height];
-        let found = [image.width, image.height];
-        if found != expected || image.values.len() != view.width * view.height {
-            let values = image.values.len();
+        let ([width, height], values) = ([view.width, view.height], image.values.len());
+        if [image.width, image.height] != [width, height] || values != width * height {
             return Err(format!(
-                "a depth image of {expected:?} px for view {index}, found {found:?} with {values} values"
+                "a depth image of {width} x {height} px for view {index}, found {} x {} px with {values} values",
+                image.width, image.height
             ));
         }
     }

@@ -116,10 +116,7 @@ fn calibrated(
     calibration: &Calibration,
 ) -> Result<Vec<CalibratedView>, String> {
     let (image, depth) = content?;
-    if (image.width, image.height) != (camera.width, camera.height) {
-        let (found, expected) = ((image.width, image.height), (camera.width, camera.height));
-        return Err(format!("expected an image of {expected:?} px as calibrated, found {found:?}"));
-    }
+    camera.check_image(&image).map_err(|reason| format!("expected {reason}"))?;
     calibrate(camera, views, &depth, luminance(&image), calibration)
         .map_err(|error| format!("expected {error}"))
 }

@@ -147,11 +147,11 @@ fn check(views: &[StraightView], classes: &[ClassImage]) -> Result<(), String> {
         return Err(format!("expected {} class images, one per view, found {}", views.len(), classes.len()));
     }
     for (index, (view, image)) in views.iter().zip(classes).enumerate() {
-        let (expected, found) = ([view.width, view.height], [image.width, image.height]);
-        if found != expected || image.ids.len() != view.width * view.height {
-            let ids = image.ids.len();
+        let ([width, height], ids) = ([view.width, view.height], image.ids.len());
+        if [image.width, image.height] != [width, height] || ids != width * height {
             return Err(format!(
-                "expected a class image of {expected:?} px for view {index}, found {found:?} with {ids} ids"
+                "expected a class image of {width} x {height} px for view {index}, found {} x {} px with {ids} ids",
+                image.width, image.height
             ));
         }
     }
