@@ -43,6 +43,10 @@ const VARIANTS: [(&str, Change); 15] = [
     ("camera.scaling=huber", |config| config.camera.scaling = DepthScaling::Huber),
 ];
 
+/// Those that differ from others by what cameras see.
+const OF_CAMERAS: [&str; 4] =
+    ["without camera", "camera alone", "camera.scaling=ransac", "camera.scaling=huber"];
+
 impl Variant {
     /// The paper's method and all that it is compared with, the paper's first. Of the settings everything stays that
     /// doesn't go beyond the paper.
@@ -54,6 +58,11 @@ impl Variant {
             Self { name, config }
         };
         VARIANTS.into_iter().map(variant).collect()
+    }
+
+    /// Whether it says something of cameras alone: without any it is the paper's method again, or nothing.
+    pub fn is_of_cameras(&self) -> bool {
+        OF_CAMERAS.contains(&self.name)
     }
 
     /// The settings with which its mismatches are gathered. Equal ones need be gathered for once: branches that a

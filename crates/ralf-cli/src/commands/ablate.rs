@@ -32,8 +32,13 @@ pub(crate) fn run(arguments: &AblateArgs) -> anyhow::Result<Outcome> {
     let search = &arguments.search;
     search.check(&arguments.test)?;
     let base = search.base()?;
-    let variants = Variant::all(&base.method);
     let (recording, truth, mut outcome) = search.open(&base, &arguments.test)?;
+    let mut variants = Variant::all(&base.method);
+    let has_depth = recording
+        .sequences
+        .iter()
+        .any(|reader| (0..reader.sequence().rig.cameras.len()).any(|camera| reader.has_depth(camera)));
+    variants.retain(|variant| has_depth || !variant.is_of_cameras());
     let mut judged = Vec::with_capacity(variants.len());
     // Those that share their mismatches follow each other, so that but those of one need be remembered.
     for group in variants.chunk_by(|a, b| a.matching_config() == b.matching_config()) {
@@ -44,7 +49,7 @@ pub(crate) fn run(arguments: &AblateArgs) -> anyhow::Result<Outcome> {
     print(&if search.json {
         serde_json::to_string_pretty(&arguments.json(&judged))?
     } else {
-        arguments.page(&judged)
+        arguments.page(&judged, has_depth)
     })?;
     Ok(outcome)
 }
@@ -75,7 +80,7 @@ impl AblateArgs {
     }
 
     /// For people.
-    fn page(&self, judged: &[JudgedVariant]) -> String {
+    fn page(&self, judged: &[JudgedVariant], has_depth: bool) -> String {
         let columns = ["Accuracy", "F1 plausible", "to the paper's", "Mean IoU", "MCC", "F1 where tuned"];
         let mut rows = vec![["Variant"].iter().chain(&columns).map(|&text| text.to_owned()).collect()];
         for variant in judged {
@@ -91,8 +96,9 @@ impl AblateArgs {
             ];
             rows.push([variant.name.to_owned()].into_iter().chain(cells).collect());
         }
+        let cameras = if has_depth { "" } else { "\nNo camera has depth: nothing is told of cameras\n" };
         format!(
-            "Each variant tuned on {} ({}) and judged on {}, all detections together\n\n{}",
+            "Each variant tuned on {} ({}) and judged on {}, all detections together\n{cameras}\n{}",
             self.search.train.join(", "),
             self.search.told(),
             self.test.join(", "),

@@ -114,7 +114,7 @@ impl SearchArgs {
         let (dataset, format) = (self.dataset.clone(), self.format.clone());
         let dataset = DatasetArgs { dataset, format, sequences, topics: None };
         let corrections = self.corrections.as_deref();
-        let recording = base.correct(dataset.open_with(&dataset.topics_or(&base.topics)?)?)?;
+        let recording = dataset.open_corrected(base)?;
         let (truth, outcome) =
             merged_truth(&self.dataset, Some(&recording), corrections, corrections.is_some())?;
         Ok((recording, truth, outcome))

@@ -45,3 +45,18 @@ fn variants_are_tuned_and_judged_alike() {
     ralf(["ablate", &dataset.path, "--train", "00", "--test", "00"]).exits(2).says(["both name 00"]);
     ralf(["ablate", &dataset.path, "--train", "00"]).exits(2).says(["--test"]);
 }
+
+#[test]
+fn without_a_camera_nothing_is_told_of_cameras() {
+    let dataset = Dataset::of(&Shape { sequences: &["00", "01"], ..Shape::default() });
+    let names = |found: &Value| -> Vec<String> {
+        let variants = found["variants"].as_array().unwrap();
+        variants.iter().map(|variant| variant["name"].as_str().unwrap().to_owned()).collect()
+    };
+    let without = names(&ablate(&dataset, "2"));
+    assert!(without.iter().all(|name| !name.contains("camera")), "{without:?}");
+    let arguments = ["ablate", &dataset.path, "--train", "00", "--test", "01", "--trials", "2", "--quiet"];
+    ralf(arguments).exits(0).prints(["No camera has depth"]);
+    let with = names(&ablate(&dataset.with_camera(3), "2"));
+    assert_eq!(with.len(), without.len() + 4, "{with:?}");
+}

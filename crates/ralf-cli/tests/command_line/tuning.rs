@@ -1,6 +1,6 @@
 //! `ralf tune`: what it reports is what labelling with its settings reaches, and nothing it is judged on is trained on.
 
-use crate::support::{Dataset, Shape, ralf};
+use crate::support::{Dataset, Ran, Shape, program, ralf};
 use serde_json::{Value, json};
 use std::fs;
 
@@ -255,4 +255,22 @@ fn nothing_to_tune_and_names_that_are_empty_are_refused() {
         .ends_with_error(["expected one branch or more", "are all false"]);
     assert!(!fs::exists(&file).unwrap());
     tune("00", "01", &["camera", "tracking"]).exits(0);
+}
+
+#[test]
+fn what_correcting_a_recording_warns_of_is_told() {
+    let dataset = two_sequences();
+    for name in ["00", "01"] {
+        fs::remove_file(format!("{}/sequences/{name}/odometry.csv", dataset.path)).unwrap();
+    }
+    let arguments = ["--train", "00", "--test", "01", "--trials", "1"];
+    for command in ["tune", "ablate"] {
+        let file = dataset.beside("found.toml");
+        let mut run = program();
+        run.args([command, &dataset.path]).args(arguments);
+        if command == "tune" {
+            run.args(["-o", &file]);
+        }
+        Ran::of(&run.output().unwrap()).says(["warning: 00: neither odometry nor poses", "range rates"]);
+    }
 }
