@@ -21,7 +21,8 @@ pub(super) const PIECE: Piece = Piece {
         feature(
             "amplitude_over_ring",
             "dB",
-            "cross-section above the median of the scan's detections within 5 m of range",
+            "cross-section above the median of the scan's detections within 5 m of the whole metre nearest to its \
+             range",
         ),
         feature(
             "amplitude_over_floor",
@@ -31,8 +32,8 @@ pub(super) const PIECE: Piece = Piece {
         feature(
             "amplitude_over_ring_floor",
             "dB",
-            "power above the floor at this range, which 5 % of the radar's detections within 5 m of range in the scans \
-             around lie below",
+            "power above the floor at this range, which 5 % of the radar's detections in the scans around lie below, \
+             of those within 5 m of the whole metre nearest to its range",
         ),
     ],
     observe,
