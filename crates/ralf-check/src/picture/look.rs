@@ -2,7 +2,7 @@
 
 use super::DepthEdge;
 use super::edge_map::EdgeMap;
-use ralf::sensors::{Camera, Source};
+use ralf::sensors::{Camera, ImageSizeError, Source};
 use ralf::space::Transform;
 
 /// Images of a camera that are looked at, and how few tell nothing: those are not read.
@@ -56,11 +56,17 @@ pub(crate) fn read(source: &dyn Source, moments: &[Moment]) -> Pictures {
         let own = &sequence.rig.cameras[camera];
         let (mut odd, mut fits) = (None, false);
         for (image, Moment { lidar, t_ns: lidar_ns }) in beside(times, moments) {
-            let Ok(read) = source.image(camera, image) else { continue };
-            if own.check_image(&read).is_err() {
-                odd = odd.or(Some([read.width, read.height]));
-                continue;
-            }
+            let read = match source.image(camera, image) {
+                Ok(read) if own.check_image(&read).is_ok() => read,
+                Ok(read) => {
+                    odd = odd.or(Some([read.width, read.height]));
+                    continue;
+                }
+                Err(error) => {
+                    odd = odd.or(error.downcast_ref::<ImageSizeError>().map(|size| size.found));
+                    continue;
+                }
+            };
             fits = true;
             if let Some(edges) = EdgeMap::new(own, &read) {
                 found.looks.push(CameraLook { camera, t_ns: times[image], lidar_ns, lidar, edges });

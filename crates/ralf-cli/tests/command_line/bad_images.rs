@@ -39,7 +39,7 @@ fn an_image_of_another_size_than_the_calibration_says_is_a_failed_view() {
             replace(dataset, "sequence.toml", "width = 160", "width = 161");
         });
     assert!(
-        record.contains("expected an image of 161 x 120 px as calibrated, found 160 x 120 px"),
+        record.contains("image size: expected 161 x 120 px, as the camera has, found 160 x 120 px"),
         "{record}"
     );
     assert!(inspected.contains("3 unusable"), "{inspected}");

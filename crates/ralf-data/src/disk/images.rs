@@ -3,27 +3,47 @@
 use crate::disk::files;
 use crate::error::DataError;
 use image::{ColorType, ImageFormat, ImageReader};
-use ralf::sensors::CameraImage;
+use ralf::sensors::{Camera, CameraImage, ImageSizeError, SourceError};
 use std::io::{BufReader, Cursor};
 use std::path::Path;
 
 /// How the names of image files end that can be read.
 pub(crate) const EXTENSIONS: [&str; 3] = ["jpg", "jpeg", "png"];
 
-/// An image file as 8-bit colour.
-pub(crate) fn read(file: &Path) -> Result<CameraImage, DataError> {
-    decode(&files::read(file)?).map_err(|found| unreadable(file, found))
+/// An image file as 8-bit colour, refused unless it has the camera's size in pixels. The file's header tells its size:
+/// a small file may hold an image of any.
+pub(crate) fn read(file: &Path, camera: &Camera) -> Result<CameraImage, SourceError> {
+    let bytes = files::read(file)?;
+    check_size(&bytes, camera, |place, expected, found| DataError::content(file, place, expected, found))?;
+    Ok(decode(&bytes).map_err(|found| unreadable(file, found))?)
 }
 
-/// The same, refused unless it has the camera's size in pixels.
-pub(crate) fn read_of_size(file: &Path, width: usize, height: usize) -> Result<CameraImage, DataError> {
-    let image = read(file)?;
-    if (image.width, image.height) == (width, height) {
-        return Ok(image);
-    }
-    let expected = format!("{width} x {height} px, as the camera has");
-    let found = format!("{} x {} px", image.width, image.height);
-    Err(DataError::content(file, "image size", expected, found))
+/// Refuses an image of another size than the camera's, with an error as `error` makes it. What is no image is not known
+/// by its size.
+pub(crate) fn check_size(
+    bytes: &[u8],
+    camera: &Camera,
+    error: impl FnOnce(&'static str, String, String) -> DataError,
+) -> Result<(), ImageSizeError> {
+    let reader = ImageReader::new(Cursor::new(bytes)).with_guessed_format();
+    let Some((width, height)) = reader.ok().and_then(|reader| reader.into_dimensions().ok()) else {
+        return Ok(());
+    };
+    size_error([width as usize, height as usize], camera, error).map_or(Ok(()), Err)
+}
+
+/// The error of an image of this size, px, unless it is the camera's.
+pub(crate) fn size_error(
+    found: [usize; 2],
+    camera: &Camera,
+    error: impl FnOnce(&'static str, String, String) -> DataError,
+) -> Option<ImageSizeError> {
+    let told = |[width, height]: [usize; 2]| format!("{width} x {height} px");
+    let own = [camera.width, camera.height];
+    (found != own).then(|| {
+        let reason = error("image size", told(own) + ", as the camera has", told(found)).to_string();
+        ImageSizeError { found, reason }
+    })
 }
 
 /// Width and height in pixels, without decoding.
@@ -74,6 +94,8 @@ fn is_whole_jpeg(bytes: &[u8]) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use ralf::sensors::Intrinsics;
+    use ralf::space::Transform;
 
     fn image() -> CameraImage {
         let rgb = (0..64u8 * 2).map(|i| [i, 255 - i, i / 2]).collect();
@@ -92,6 +114,33 @@ mod tests {
     fn png_keeps_every_pixel() {
         assert_eq!(decode(&png(&image()).unwrap()).unwrap(), image());
         assert!(png(&CameraImage { width: 3, ..image() }).is_err());
+    }
+
+    #[test]
+    fn an_image_of_another_size_is_not_decoded() {
+        let folder = tempfile::tempdir().unwrap();
+        let file = folder.path().join("000000.png");
+        // A header that asks for a gigabyte.
+        let mut claims = png(&image()).unwrap();
+        claims[16..24].copy_from_slice(&[0, 0, 0x40, 0, 0, 0, 0x40, 0]);
+        let sum = crc32fast::hash(&claims[12..29]);
+        claims[29..33].copy_from_slice(&sum.to_be_bytes());
+        std::fs::write(&file, &claims).unwrap();
+        let camera = Camera {
+            name: "eye".into(),
+            vehicle_from_camera: Transform::identity(),
+            width: 16,
+            height: 8,
+            intrinsics: Intrinsics::Pinhole { focal: [9.0; 2], center: [7.5, 3.5], distortion: [0.0; 5] },
+            views: vec![],
+        };
+        let error = read(&file, &camera).unwrap_err();
+        let size = error.downcast_ref::<ImageSizeError>().unwrap();
+        assert_eq!(size.found, [16384, 16384]);
+        let told = "000000.png: image size: expected 16 x 8 px, as the camera has, found 16384 x 16384 px";
+        assert!(error.to_string().ends_with(told), "{error}");
+        std::fs::write(&file, png(&image()).unwrap()).unwrap();
+        assert_eq!(read(&file, &camera).unwrap(), image());
     }
 
     #[test]

@@ -5,15 +5,15 @@ use crate::disk::guarded::guarded;
 use crate::error::DataError;
 use parquet::basic::{Compression, Type as Physical};
 use parquet::column::reader::{ColumnReaderImpl, get_typed_column_reader};
-use parquet::data_type::{ByteArrayType, DataType, DoubleType, FloatType, Int32Type, Int64Type};
+use parquet::data_type::{ByteArray, ByteArrayType, DataType, DoubleType, FloatType, Int32Type, Int64Type};
 use parquet::errors::ParquetError;
 use parquet::file::reader::{FileReader, RowGroupReader, SerializedFileReader};
 use std::fs::File;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// The most rows that a file can have. A damaged file claims any number.
-const MOST_ROWS: i64 = 1 << 26;
+/// The longest text of a table, bytes: a small file may give each of its rows the same.
+const LONGEST_TEXT: usize = 1024;
 /// Values that are decoded at once, so that a claim of many takes no memory for them.
 const BATCH: usize = 1 << 16;
 
@@ -25,13 +25,14 @@ pub(crate) struct ParquetTable {
 }
 
 impl ParquetTable {
-    /// Opens a file, and reads what it says of its columns.
-    pub(crate) fn open(file: &Path) -> Result<Self, DataError> {
+    /// Opens a file of at most so many rows, and reads what it says of its columns. A small file may hold any number of
+    /// rows that are alike.
+    pub(crate) fn open(file: &Path, most_rows: usize) -> Result<Self, DataError> {
         let open = files::open(file)?;
         let reader = guarded(file, "content", "a Parquet file", || SerializedFileReader::new(open))?;
         let rows = reader.metadata().file_metadata().num_rows();
-        let within = (0..=MOST_ROWS).contains(&rows).then_some(rows as usize);
-        let expected = format!("at most {MOST_ROWS} rows");
+        let within = usize::try_from(rows).ok().filter(|rows| *rows <= most_rows);
+        let expected = format!("at most {most_rows} rows");
         let rows = within.ok_or_else(|| DataError::content(file, "rows", expected, rows.to_string()))?;
         Ok(Self { file: file.to_owned(), reader, rows })
     }
@@ -65,7 +66,7 @@ impl ParquetTable {
             Physical::INT64 => self.values::<Int64Type, _>(column, |value| Some(*value), None)?,
             other => return Err(self.error(column, "whole numbers", other.to_string())),
         };
-        self.all(column, values)
+        self.all(column, "a value in every row", values)
     }
 
     /// A column of texts, of which none is absent.
@@ -73,15 +74,19 @@ impl ParquetTable {
         let Physical::BYTE_ARRAY = self.physical(column)? else {
             return Err(self.error(column, "texts", self.physical(column)?.to_string()));
         };
-        let text = |value: &parquet::data_type::ByteArray| value.as_utf8().ok().map(Arc::from);
+        let text = |value: &ByteArray| {
+            let text = value.as_utf8().ok().filter(|text| text.len() <= LONGEST_TEXT);
+            text.map(Arc::from)
+        };
         let values = self.values::<ByteArrayType, _>(column, text, None)?;
-        self.all(column, values)
+        let expected = format!("a text of at most {LONGEST_TEXT} bytes in every row");
+        self.all(column, &expected, values)
     }
 
-    fn all<T>(&self, column: &str, values: Vec<Option<T>>) -> Result<Vec<T>, DataError> {
+    fn all<T>(&self, column: &str, expected: &str, values: Vec<Option<T>>) -> Result<Vec<T>, DataError> {
         let found = || format!("none in row {}", values.iter().position(Option::is_none).unwrap_or_default());
         if values.iter().any(Option::is_none) {
-            return Err(self.error(column, "a value in every row", found()));
+            return Err(self.error(column, expected, found()));
         }
         Ok(values.into_iter().flatten().collect())
     }

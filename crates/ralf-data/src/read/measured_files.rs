@@ -30,8 +30,7 @@ impl MeasuredFiles {
         image: usize,
     ) -> Result<CameraImage, SourceError> {
         let file = self.image_file(camera, image)?;
-        let model = &of.rig.cameras[camera];
-        Ok(images::read_of_size(file, model.width, model.height)?)
+        images::read(file, &of.rig.cameras[camera])
     }
 
     /// The file of a camera's image.

@@ -49,9 +49,12 @@ impl<'a> Workspace<'a> {
     }
 
     /// What is told of a scan that was labelled before; `None` where it was not, or not all of it is as it was written:
-    /// a power cut may leave empty files.
+    /// a power cut may leave empty files. By its number of rows, which counts here, too, memory is asked for later.
     pub(super) fn kept(&self, radar: usize, scan: usize, schema: &Arc<Schema>) -> Option<ScanNotes> {
         let (table, notes) = self.scan(radar, scan, schema).ok()?;
+        if table.len() != self.rows(ScanIndex { radar, scan }) {
+            return None;
+        }
         let labels = label_bytes(&table.labels().ok()?);
         let file = self.label_file(radar, scan);
         // What is of another length is not looked into.
@@ -103,5 +106,42 @@ impl<'a> Workspace<'a> {
     /// The labels of a scan.
     pub(super) fn label_file(&self, radar: usize, scan: usize) -> PathBuf {
         self.results.places().label_file(&self.names.sequence, &self.names.radars[radar], scan)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::read::models::ZF_FRGEN21;
+    use crate::result::{Kind, Values};
+    use ralf::sensors::{MemorySource, Rig, Source};
+    use ralf::space::{EgoMotion, Transform};
+
+    #[test]
+    fn a_scan_that_claims_other_rows_than_it_has_is_labelled_again() {
+        let out = tempfile::tempdir().unwrap();
+        let radar = ZF_FRGEN21.mounted("front", &["x", "y", "z"], Transform::identity());
+        let source = MemorySource::new("00", EgoMotion::unknown()).unwrap();
+        let source = source.with_radar(radar, vec![(0, vec![vec![1.0]; 3])]).unwrap();
+        let names = SequenceNames::new(source.sequence()).unwrap();
+        let (results, folder) = (Results::new(out.path()), OutFolder::new(out.path()).own("kept"));
+        let workspace = Workspace::open(&names, folder, &results).unwrap();
+        let schema: Arc<Schema> = Schema::of(&Rig::default(), &[]).unwrap().into();
+        let value = |kind| match kind {
+            Kind::I64 => Values::I64(vec![0]),
+            Kind::F32 => Values::F32(vec![0.0]),
+            Kind::U8 => Values::U8(vec![1]),
+            Kind::U16 => Values::U16(vec![0]),
+            Kind::Class => Values::Class(vec![None]),
+            _ => Values::U32(vec![0]),
+        };
+        let values = schema.columns().iter().map(|column| value(column.kind)).collect();
+        let table = Table::new(schema.clone(), values).unwrap();
+        workspace.keep(0, 0, &ScanNotes::default(), &table).unwrap();
+        assert!(workspace.kept(0, 0, &schema).is_some());
+        let scan = ScanIndex { radar: 0, scan: 0 };
+        let (_, body) = workspace.log.read(scan).unwrap();
+        workspace.log.append(scan, u32::MAX as usize, &body).unwrap();
+        assert!(workspace.kept(0, 0, &schema).is_none());
     }
 }

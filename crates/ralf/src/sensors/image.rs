@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 use std::fmt;
+use thiserror::Error;
 
 /// An 8-bit colour image.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -12,6 +13,16 @@ pub struct CameraImage {
     pub height: usize,
     /// Red, green, blue, row by row from the top.
     pub rgb: Vec<[u8; 3]>,
+}
+
+/// An image of another size than its camera is calibrated for, which a source refuses before it decodes it.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[error("{reason}")]
+pub struct ImageSizeError {
+    /// Its width and height, px.
+    pub found: [usize; 2],
+    /// File, place, expected, found.
+    pub reason: String,
 }
 
 /// What a depth network gave for one view.

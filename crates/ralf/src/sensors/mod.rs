@@ -16,7 +16,7 @@ mod view;
 pub use amplitude::{AmplitudeField, AmplitudeKind};
 pub use bounds::{FARTHEST, MOST_PIXELS, check_mounting};
 pub use camera::Camera;
-pub use image::{CameraImage, ClassImage, DepthImage, DepthOutput};
+pub use image::{CameraImage, ClassImage, DepthImage, DepthOutput, ImageSizeError};
 pub use intrinsics::Intrinsics;
 pub use measurement::{LidarScan, RadarScan, check_fields, is_return};
 pub use memory::{MemoryError, MemorySource, TimedImage};

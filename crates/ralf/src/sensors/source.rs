@@ -65,7 +65,8 @@ pub trait Source: Send + Sync {
     /// A LiDAR's scan.
     fn lidar_scan(&self, lidar: usize, scan: usize) -> Result<LidarScan, SourceError>;
 
-    /// A camera's image, decoded.
+    /// A camera's image, decoded. One of another size than the camera's is refused by an
+    /// [`ImageSizeError`](super::ImageSizeError).
     fn image(&self, camera: usize, image: usize) -> Result<CameraImage, SourceError>;
 
     /// What a depth network gave for each view of an image; `None` where nothing is stored.

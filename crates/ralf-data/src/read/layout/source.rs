@@ -184,7 +184,7 @@ impl Source for LayoutSequence {
 
     fn image(&self, camera: usize, image: usize) -> Result<CameraImage, SourceError> {
         let (_, file) = measurement("camera", &self.cameras, camera, image)?;
-        Ok(images::read(file)?)
+        images::read(file, &self.sequence.rig.cameras[camera])
     }
 
     fn depth(&self, camera: usize, image: usize) -> Result<Option<Vec<DepthImage>>, SourceError> {

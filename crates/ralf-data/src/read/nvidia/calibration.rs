@@ -40,9 +40,14 @@ impl Extrinsics {
     }
 }
 
+/// The most sensors of all clips of a table.
+const MOST_MOUNTINGS: usize = 1 << 17;
+/// The most poses of a clip.
+const MOST_POSES: usize = 1 << 20;
+
 /// All mountings of a table; those of one that names no clips are of `clip`.
 fn mountings(file: &Path, clip: &str) -> Result<Vec<([String; 2], Transform)>, DataError> {
-    let table = ParquetTable::open(file)?;
+    let table = ParquetTable::open(file, MOST_MOUNTINGS)?;
     let poses = poses(file, &table)?;
     let sensors = table.texts("sensor_name")?;
     let clips = if table.has("clip_id") { table.texts("clip_id")? } else { vec![clip.into(); sensors.len()] };
@@ -66,7 +71,7 @@ fn poses(file: &Path, table: &ParquetTable) -> Result<Vec<Transform>, DataError>
 
 /// The vehicle's poses in the frame that it has at the clip's begin.
 pub(super) fn motion(file: &Path) -> Result<EgoMotion, DataError> {
-    let table = ParquetTable::open(file)?;
+    let table = ParquetTable::open(file, MOST_POSES)?;
     let times = table.integers("timestamp")?;
     let mut samples: Vec<PoseSample> = Vec::with_capacity(times.len());
     for (row, (time, odom_from_vehicle)) in times.into_iter().zip(poses(file, &table)?).enumerate() {

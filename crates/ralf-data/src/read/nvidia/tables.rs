@@ -18,6 +18,9 @@ pub(super) const COLUMNS: [(&str, &str); 8] = [
     ("doppler_ambiguity", "doppler_ambiguity"),
 ];
 
+/// The most detections of a radar in a clip: ten thousand in each of its scans.
+const MOST_DETECTIONS: usize = 1 << 22;
+
 /// All scans of a radar.
 pub(super) struct Scans {
     /// In the order of [`COLUMNS`].
@@ -30,7 +33,7 @@ pub(super) struct Scans {
 
 /// Reads a radar's table.
 pub(super) fn table(file: &Path) -> Result<Scans, DataError> {
-    let table = ParquetTable::open(file)?;
+    let table = ParquetTable::open(file, MOST_DETECTIONS)?;
     // What pandas calls an index that it has no name for.
     let index = if table.has("scan_index") { "scan_index" } else { "__index_level_0__" };
     let (indices, times) = (table.integers(index)?, table.integers("timestamp")?);

@@ -2,20 +2,29 @@
 
 use super::messages::Messages;
 use crate::disk::images;
-use crate::error::DataError;
-use ralf::sensors::CameraImage;
+use ralf::sensors::{Camera, CameraImage, SourceError};
 use ralf_ros::container::MessageRef;
 use ralf_ros::message::{CompressedImage, Image, Message};
 
-/// An image as 8-bit colour.
-pub(super) fn image(messages: &Messages, message: &MessageRef) -> Result<CameraImage, DataError> {
+/// An image of a camera as 8-bit colour, refused unless it has the camera's size.
+pub(super) fn image(
+    messages: &Messages,
+    message: &MessageRef,
+    camera: &Camera,
+) -> Result<CameraImage, SourceError> {
+    let odd_size = |place: &'static str, expected, found| messages.error(message, place, expected, found);
     if CompressedImage::DEFINITION.is(&messages.topic(message).type_name) {
         let image: CompressedImage = messages.decode(message)?;
         let expected = format!("a whole JPEG or PNG image, as `{}` says", image.format);
-        return images::decode(&image.data).map_err(|found| messages.error(message, "data", expected, found));
+        images::check_size(&image.data, camera, odd_size)?;
+        let decoded = images::decode(&image.data);
+        return Ok(decoded.map_err(|found| messages.error(message, "data", expected, found))?);
     }
     let image: Image = messages.decode(message)?;
-    raw(&image).map_err(|(expected, found)| messages.error(message, "data", expected, found))
+    if let Some(error) = images::size_error([image.width as usize, image.height as usize], camera, odd_size) {
+        return Err(error.into());
+    }
+    Ok(raw(&image).map_err(|(expected, found)| messages.error(message, "data", expected, found))?)
 }
 
 /// Rows of pixels as they lie, with what each encoding makes of its bytes.

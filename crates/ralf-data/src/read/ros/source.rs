@@ -117,14 +117,7 @@ impl Source for Drive {
 
     fn image(&self, camera: usize, image: usize) -> Result<CameraImage, SourceError> {
         let message = measurement("camera", &self.cameras, camera, image)?;
-        let model = &self.sequence.rig.cameras[camera];
-        let image = pixels::image(&self.origin.messages, message)?;
-        if (image.width, image.height) == (model.width, model.height) {
-            return Ok(image);
-        }
-        let expected = format!("{} x {} px, as the camera has", model.width, model.height);
-        let found = format!("{} x {} px", image.width, image.height);
-        Err(self.origin.messages.error(message, "image size", expected, found).into())
+        pixels::image(&self.origin.messages, message, &self.sequence.rig.cameras[camera])
     }
 
     fn depth(&self, camera: usize, image: usize) -> Result<Option<Vec<DepthImage>>, SourceError> {

@@ -76,6 +76,27 @@ fn tables_that_do_not_fit_are_named() {
     }
 }
 
+/// Rows that are alike take no room in a file, and much in memory.
+#[test]
+fn more_rows_than_there_can_be_are_refused() {
+    let front = format!("{RADAR}/{CLIP}.{FRONT}.parquet");
+    let rows = |count: usize| -> Columns { vec![("timestamp", Values::Long(vec![0; count]))] };
+    for (file, most) in [
+        (front.as_str(), 1 << 22),
+        (CHUNK, 1 << 17),
+        (&format!("labels/egomotion/{CLIP}.egomotion.parquet"), 1 << 20),
+    ] {
+        let error = refused(file, &rows(most + 1));
+        assert!(
+            error.contains(&format!("rows: expected at most {most} rows, found {}", most + 1)),
+            "{error}"
+        );
+    }
+    let long = Values::Text(vec!["a".repeat(1025); 2]);
+    let error = refused(CHUNK, &changed(extrinsics(CLIP), "sensor_name", long));
+    assert!(error.contains("sensor_name: expected a text of at most 1024 bytes in every row"), "{error}");
+}
+
 #[test]
 fn damaged_and_zipped_files_are_named() {
     let folder = tempfile::tempdir().unwrap();

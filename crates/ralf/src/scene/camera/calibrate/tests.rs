@@ -166,5 +166,5 @@ fn depth_images_of_other_views_are_refused() {
     assert!(error.contains("2 depth images") && error.contains("found 1"), "{error}");
     depth[1].width = 64;
     let error = refusal(&depth);
-    assert!(error.contains("[96, 64] px for view 1, found [64, 64]"), "{error}");
+    assert!(error.contains("96 x 64 px for view 1, found 64 x 64 px"), "{error}");
 }
