@@ -60,6 +60,7 @@ fn observe(elevation: Elevation, detections: Vec<[f32; 3]>) -> Vec<Column> {
     let (config, camera) = (config(), camera());
     let mut memory = Memory::new(0.0).radar(radar(elevation), vec![(0, Some(detections))]);
     memory.sequence.rig.cameras.push(camera.clone());
+    memory.sequence.times.cameras.push(Vec::new());
     let mut window = FrameWindow::new(&memory, &memory.sequence.rig, &config).with_evidence();
     let mut frame = window.frame(0, 0).unwrap();
     frame.images = vec![image(&camera, &config)];
