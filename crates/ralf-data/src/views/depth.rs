@@ -105,7 +105,7 @@ mod tests {
         let place = tempfile::tempdir().unwrap();
         let [out, victim] = ["out", "victim"].map(|name| place.path().join(name));
         let begin = || DepthStore::among_labels(&out, DepthOutput::Metric, "0123456789abcdef");
-        begin().unwrap();
+        begin().unwrap().begun().unwrap();
         assert!(out.join("depth/0123456789ab/depth.toml").is_file());
         std::fs::create_dir(&victim).unwrap();
         for link in ["depth/0123456789ab", "depth"] {
