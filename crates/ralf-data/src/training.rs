@@ -208,7 +208,9 @@ impl<'a> Task<'a> {
         let (mut kept, mut known) = (Vec::new(), Vec::new());
         for (row, (truth, label)) in truth.iter().zip(&labels).enumerate() {
             // A detection without a place has no evidence.
-            let (Some(plausible), Some(_)) = (truth.plausible, &frame.scan.detections[row]) else { continue };
+            let (Some(plausible), Some(detection)) = (truth.plausible, &frame.scan.detections[row]) else {
+                continue;
+            };
             kept.push(row);
             known.push(Known {
                 world: 0,
@@ -219,6 +221,7 @@ impl<'a> Task<'a> {
                 paper: label.w as f32,
                 paper_label: label.plausible,
                 weight: self.gatherer.weight,
+                place: detection.place(),
             });
         }
         Part { rows: rows.pick(kept.into_iter()), known }

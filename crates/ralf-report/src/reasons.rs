@@ -2,6 +2,7 @@
 
 use crate::ReportError;
 use ralf::evidence::GROUPS;
+use ralf::learned::NEIGHBOURS;
 use ralf_data::result::{PlausibilityReader, Table, share_column};
 use std::sync::Arc;
 
@@ -31,23 +32,27 @@ impl Weight {
 
 /// Adds the reasons of a sequence, where a model gave some.
 pub(crate) fn add(weights: &mut Vec<Weight>, tables: &PlausibilityReader) -> Result<(), ReportError> {
-    let shares = GROUPS.map(share_column);
+    let groups = GROUPS.into_iter().chain([NEIGHBOURS]);
     let is_there = |name: &String| tables.schema().columns().iter().any(|column| column.name == **name);
-    if !shares.iter().all(is_there) {
+    // Programs before this one told of no neighbours.
+    let shares: Vec<(usize, String)> =
+        groups.clone().map(share_column).enumerate().filter(|(_, name)| is_there(name)).collect();
+    if shares.is_empty() {
         return Ok(());
     }
     if weights.is_empty() {
-        weights.extend(GROUPS.map(Weight::none));
+        weights.extend(groups.map(Weight::none));
     }
-    let names: Vec<&str> = shares.iter().map(String::as_str).chain(["label", "reason"]).collect();
+    let names: Vec<&str> = shares.iter().map(|(_, name)| name.as_str()).chain(["label", "reason"]).collect();
     tables.each(&names, |_, table| add_scan(weights, &shares, table))
 }
 
-fn add_scan(weights: &mut [Weight], shares: &[String], table: &Table) -> Result<(), ReportError> {
-    let columns = shares.iter().map(|name| table.get::<f32>(name)).collect::<Result<Vec<_>, _>>()?;
+fn add_scan(weights: &mut [Weight], shares: &[(usize, String)], table: &Table) -> Result<(), ReportError> {
+    let column = |(group, name): &(usize, String)| table.get::<f32>(name).map(|column| (*group, column));
+    let columns = shares.iter().map(column).collect::<Result<Vec<_>, _>>()?;
     let (labels, words) = (table.get::<u8>("label")?, table.get::<Arc<str>>("reason")?);
     for (row, (label, words)) in labels.iter().zip(words).enumerate() {
-        let sizes = columns.iter().map(|column| column[row].abs()).enumerate();
+        let sizes = columns.iter().map(|(group, column)| (*group, column[row].abs()));
         // What the paper's method answered has none.
         let largest = sizes.filter(|(_, size)| !size.is_nan()).max_by(|a, b| a.1.total_cmp(&b.1));
         if let Some((group, size)) = largest {

@@ -2,7 +2,7 @@
 
 use super::schema::{Column, Group, Kind};
 use ralf::evidence::GROUPS;
-use ralf::learned::Answer;
+use ralf::learned::{Answer, NEIGHBOURS};
 use std::sync::Arc;
 
 const NOVELTY: &str = "novelty";
@@ -32,6 +32,9 @@ pub(crate) fn learned_columns() -> Vec<Column> {
         let meaning = "What the evidence of this group adds to the log odds that the detection is plausible.";
         columns.push(number(share_column(group), "log odds", meaning));
     }
+    let meaning =
+        "What a net adds to these log odds that hears of the detections around; null of a model without one.";
+    columns.push(number(share_column(NEIGHBOURS), "log odds", meaning));
     let meaning = "The share of the cause among all causes.";
     columns.push(number(CAUSE_PROBABILITY.to_owned(), "1", meaning));
     columns.extend(words_told());
@@ -67,7 +70,8 @@ pub fn share_column(group: &str) -> String {
 pub(crate) fn numbers(name: &str, answers: &[Answer]) -> Option<Vec<f32>> {
     // This is asked of every column of every scan: names are made only where one of them can be meant.
     let is_share = name.starts_with(SHARE);
-    let group = GROUPS.iter().position(|group| is_share && share_column(group) == name);
+    let mut all = GROUPS.into_iter().chain([NEIGHBOURS]);
+    let group = all.position(|group| is_share && share_column(group) == name);
     if group.is_none() && name != NOVELTY && name != CAUSE_PROBABILITY {
         return None;
     }

@@ -1,7 +1,8 @@
 //! What a model is worth where it was not asked yet: before somebody's own corrections are learned.
 
+use super::asked;
 use super::scores::{Scored, Scores};
-use super::table::TrainingTable;
+use super::table::{Known, TrainingTable};
 use super::view::View;
 use ralf::config::Config;
 use ralf::learned::{Model, Weighing};
@@ -15,17 +16,19 @@ pub fn worth_in(model: &Model, table: &TrainingTable, world: u16, config: &Confi
     let rows = table.rows.pick(here.iter().copied()).pick_columns(&columns);
     let weighing =
         Weighing::new(model, model.inputs.iter().map(|input| input.name.as_str()), &config.learned);
+    let known: Vec<Known> = here.iter().map(|row| table.known[*row]).collect();
+    let log_odds = asked::log_odds(&model.plausible, model.net.as_ref(), &rows, &known);
     let mut judged = Vec::with_capacity(here.len());
-    for (at, log_odds) in model.plausible.log_odds(&rows).into_iter().enumerate() {
+    for (at, log_odds) in log_odds.into_iter().enumerate() {
         let score = weighing.plausibility(rows.row(at), log_odds);
-        judged.push(Scored { score, plausible: table.known[here[at]].plausible });
+        judged.push(Scored { score, plausible: known[at].plausible });
     }
     Some(Scores::new(&judged, config.fusion.threshold))
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::testing::table;
+    use super::super::testing::{small, table};
     use super::super::{Fitting, Parameters, fit};
     use super::*;
     use ralf::learned::Origin;
@@ -34,8 +37,15 @@ mod tests {
     fn a_model_is_judged_by_the_columns_that_it_reads_whatever_their_order() {
         let (config, whole) = (Config::default(), table(120, 10));
         let parameters = Parameters { rounds: 20, rows_per_leaf: 20, ..Parameters::default() };
-        let fitting =
-            Fitting { parameters, blanking: false, causes: false, threshold: 0.5, unconfirmed: 0.1, jobs: 2 };
+        let fitting = Fitting {
+            parameters,
+            net: Some(small()),
+            blanking: false,
+            causes: false,
+            threshold: 0.5,
+            unconfirmed: 0.1,
+            jobs: 2,
+        };
         let model = fit(&whole, &fitting, Origin::default(), &|_, _| {}).unwrap().model;
         let found = worth_in(&model, &whole, 0, &config).unwrap();
         assert!(found.average_precision.unwrap() > 0.9, "{found:?}");

@@ -1,17 +1,18 @@
 //! From a table to a model: cross-fitted, judged and calibrated world by world.
 
+use super::asked;
 use super::balance::weights;
 use super::blanking::blanked;
-use super::boosting::{Bins, Examples, Grown, Parameters, boost};
-use super::calibrate::{Answered, calibration};
+use super::boosting::{Bins, Examples, Grown, boost};
+use super::calibrate::calibration;
 use super::causes::cause_forests;
 use super::fitting::Fitting;
+use super::judge::{LeftOut, answered, judge};
 use super::monotone::direction;
-use super::scores::{Scored, Scores, best_threshold};
-use super::suite::{SUITES, SuiteScores, suites_of};
+use super::net::{Scans, fit_net};
 use super::table::{Known, TrainingTable};
-use super::view::View;
-use ralf::learned::{Calibration, Input, Model, Origin, Rows, Seen, Unconfirmed, World};
+use ralf::learned::net::Net;
+use ralf::learned::{Input, Model, Origin, Rows, Seen};
 use ralf_jobs::side_by_side;
 use std::collections::BTreeSet;
 use std::convert::Infallible;
@@ -24,25 +25,6 @@ pub struct Fitted {
     pub model: Model,
     /// How well models do that never saw a world, by world.
     pub left_out: Vec<LeftOut>,
-}
-
-/// How well a model labels a world that it was not fitted to.
-#[derive(Debug, Clone, PartialEq)]
-pub struct LeftOut {
-    /// The world.
-    pub world: String,
-    /// Detections.
-    pub detections: usize,
-    /// Plausible ones.
-    pub plausible: usize,
-    /// What the model is worth at the threshold that is best in the other worlds, with all evidence.
-    pub learned: Scores,
-    /// The same at the threshold of the settings.
-    pub at_threshold: Scores,
-    /// What the paper's method is worth, with its settings.
-    pub paper: Scores,
-    /// What the model and the paper's method are worth where less can be observed, and by sensors.
-    pub suites: Vec<SuiteScores>,
 }
 
 /// Why no model can be fitted.
@@ -66,7 +48,16 @@ pub enum LearnError {
     NothingObserved,
 }
 
-/// What forests are grown of.
+/// The share of scans that lack a group of evidence, for a net: as many as for trees, in the mean.
+const BLANKED: f64 = 0.1;
+
+/// What is fitted without a world, or to all of them.
+struct Fold {
+    grown: Grown,
+    net: Option<Net>,
+}
+
+/// What forests are grown of, and nets fitted to.
 struct Ground<'a> {
     table: &'a TrainingTable,
     /// As they are fitted to: with groups blanked.
@@ -78,7 +69,7 @@ struct Ground<'a> {
 }
 
 /// Fits a model to a table. `origin` names where it comes from; its worlds are filled in here. `progress` is told how
-/// many forests of how many are grown.
+/// many forests of how many are grown, each with its net.
 ///
 /// # Errors
 /// A table of one class, of fewer than two worlds, or of which nothing was observed.
@@ -91,16 +82,16 @@ pub fn fit(
     refuse_what_cannot_be_learned(table)?;
     let ground = Ground::new(table, fitting);
     let worlds = table.worlds.len();
-    // One forest without each world, and the last with all.
+    // One without each world, and the last with all.
     let left_out: Vec<Option<u16>> = (0..worlds).map(|world| Some(world as u16)).chain([None]).collect();
     let done = std::sync::atomic::AtomicUsize::new(0);
-    let Ok(mut grown) = side_by_side(&left_out, fitting.jobs, |left_out| {
-        let grown = ground.grow(*left_out, &fitting.parameters);
+    let Ok(mut folds) = side_by_side(&left_out, fitting.jobs, |left_out| {
+        let fold = Fold { grown: ground.grow(*left_out, fitting), net: ground.fit_net(*left_out, fitting) };
         progress(done.fetch_add(1, std::sync::atomic::Ordering::Relaxed) + 1, worlds + 1);
-        Ok::<_, Infallible>(grown)
+        Ok::<_, Infallible>(fold)
     });
-    let Some(whole) = grown.pop() else { return Err(LearnError::TooFewWorlds(0)) };
-    let log_odds = out_of_fold(table, &grown);
+    let Some(Fold { grown: whole, net }) = folds.pop() else { return Err(LearnError::TooFewWorlds(0)) };
+    let log_odds = out_of_fold(table, &folds);
     let left_out = judge(table, &log_odds, fitting);
     let everywhere = calibration(&answered(table, &log_odds, |_| true));
     let causes =
@@ -109,6 +100,7 @@ pub fn fit(
         origin: Origin { worlds: left_out.iter().map(LeftOut::told).collect(), ..origin },
         inputs: inputs(table, &whole.gains),
         plausible: whole.forest,
+        net,
         calibration: everywhere,
         causes,
     };
@@ -145,7 +137,7 @@ impl<'a> Ground<'a> {
         }
     }
 
-    fn grow(&self, left_out: Option<u16>, parameters: &Parameters) -> Grown {
+    fn grow(&self, left_out: Option<u16>, fitting: &Fitting) -> Grown {
         let known = self.table.known.iter().enumerate();
         let train: Vec<u32> =
             known.filter(|(_, known)| Some(known.world) != left_out).map(|(row, _)| row as u32).collect();
@@ -156,130 +148,35 @@ impl<'a> Ground<'a> {
             weights: &self.weights,
             monotone: &self.monotone,
         };
-        boost(&examples, &train, parameters)
+        boost(&examples, &train, &fitting.parameters)
+    }
+
+    /// The net beside the forest, where one is asked for. Groups of evidence lack in other scans of every step.
+    fn fit_net(&self, left_out: Option<u16>, fitting: &Fitting) -> Option<Net> {
+        let parameters = fitting.net.as_ref()?;
+        let all = 0..self.table.worlds.len() as u16;
+        let worlds: Vec<u16> = all.filter(|world| Some(*world) != left_out).collect();
+        let blanked = if fitting.blanking { BLANKED } else { 0.0 };
+        let scans = Scans::new(self.table, &self.weights);
+        Some(fit_net(&scans, &worlds, parameters, blanked, fitting.parameters.seed))
     }
 }
 
-/// The log odds of every row by the forest that was grown without its world; of what was observed, nothing blanked.
-fn out_of_fold(table: &TrainingTable, grown: &[Grown]) -> Vec<f64> {
+/// The log odds of every row by what was fitted without its world; of what was observed, nothing blanked.
+fn out_of_fold(table: &TrainingTable, folds: &[Fold]) -> Vec<f64> {
     let mut log_odds = vec![0.0; table.len()];
-    for (world, grown) in grown.iter().enumerate() {
-        let places: Vec<usize> =
-            (0..table.len()).filter(|row| usize::from(table.known[*row].world) == world).collect();
-        let answers = grown.forest.log_odds(&table.rows.pick(places.iter().copied()));
-        for (row, answer) in places.into_iter().zip(answers) {
+    for (world, Fold { grown, net }) in folds.iter().enumerate() {
+        let is_here = |row: &usize| usize::from(table.known[*row].world) == world;
+        let places: Vec<usize> = (0..table.len()).filter(is_here).collect();
+        let known: Vec<Known> = places.iter().map(|row| table.known[*row]).collect();
+        let rows = table.rows.pick(places.iter().copied());
+        for (row, answer) in
+            places.into_iter().zip(asked::log_odds(&grown.forest, net.as_ref(), &rows, &known))
+        {
             log_odds[row] = answer;
         }
     }
     log_odds
-}
-
-/// Rows of some worlds, in which every world counts the same.
-fn answered(table: &TrainingTable, log_odds: &[f64], of: impl Fn(u16) -> bool) -> Vec<Answered> {
-    let mut rows = vec![0.0; table.worlds.len()];
-    for known in &table.known {
-        rows[usize::from(known.world)] += 1.0;
-    }
-    let worlds = rows.iter().filter(|rows| **rows > 0.0).count() as f64;
-    let mut found = Vec::new();
-    for (known, log_odds) in table.known.iter().zip(log_odds).filter(|(known, _)| of(known.world)) {
-        let weight = table.len() as f64 / (worlds * rows[usize::from(known.world)]);
-        found.push(Answered { log_odds: *log_odds, plausible: known.plausible, weight });
-    }
-    found
-}
-
-/// Every world by the others' calibration and threshold.
-fn judge(table: &TrainingTable, log_odds: &[f64], fitting: &Fitting) -> Vec<LeftOut> {
-    let suites_of = suites_of(table);
-    let whole: Vec<usize> = (0..table.len()).filter(|row| table.known[*row].view == View::Whole).collect();
-    let mut all = Vec::new();
-    for (number, name) in table.worlds.iter().enumerate() {
-        let is_here = |row: &usize| usize::from(table.known[*row].world) == number;
-        let (here, others): (Vec<usize>, Vec<usize>) = whole.iter().copied().partition(is_here);
-        let stranger = Stranger::new(table, log_odds, number as u16, fitting);
-        let elsewhere = best_threshold(&stranger.judged(&others));
-        let mut suites = Vec::new();
-        for (bit, name) in SUITES.into_iter().enumerate() {
-            let is_of = |row: &usize| is_here(row) && suites_of[*row] >> bit & 1 == 1;
-            let rows: Vec<usize> = (0..table.len()).filter(is_of).collect();
-            if !rows.is_empty() {
-                let learned = Scores::new(&stranger.judged(&rows), elsewhere);
-                suites.push(SuiteScores {
-                    name,
-                    detections: rows.len(),
-                    learned,
-                    paper: paper(table, &rows),
-                });
-            }
-        }
-        let judged = stranger.judged(&here);
-        all.push(LeftOut {
-            world: name.clone(),
-            detections: here.len(),
-            plausible: judged.iter().filter(|row| row.plausible).count(),
-            learned: Scores::new(&judged, elsewhere),
-            at_threshold: Scores::new(&judged, fitting.threshold),
-            paper: paper(table, &here),
-            suites,
-        });
-    }
-    all
-}
-
-/// What is said of rows by models and a calibration that know nothing of a world.
-struct Stranger<'a> {
-    table: &'a TrainingTable,
-    log_odds: &'a [f64],
-    line: Calibration,
-    unconfirmed: Unconfirmed,
-    factor: f64,
-}
-
-impl<'a> Stranger<'a> {
-    fn new(table: &'a TrainingTable, log_odds: &'a [f64], world: u16, fitting: &Fitting) -> Self {
-        Self {
-            table,
-            log_odds,
-            line: calibration(&answered(table, log_odds, |other| other != world)),
-            unconfirmed: Unconfirmed::among(table.features.iter().map(|feature| feature.name)),
-            factor: fitting.unconfirmed,
-        }
-    }
-
-    fn judged(&self, rows: &[usize]) -> Vec<Scored> {
-        let judge = |row: &usize| {
-            let probability = self.line.probability(self.log_odds[*row]);
-            let score = self.unconfirmed.weighed(self.table.rows.row(*row), probability, self.factor);
-            Scored { score, plausible: self.table.known[*row].plausible }
-        };
-        rows.iter().map(judge).collect()
-    }
-}
-
-/// What the paper's method is worth in some rows.
-fn paper(table: &TrainingTable, rows: &[usize]) -> Scores {
-    let judged = |score: fn(&Known) -> f64| -> Vec<Scored> {
-        let known = rows.iter().map(|row| &table.known[*row]);
-        known.map(|known| Scored { score: score(known), plausible: known.plausible }).collect()
-    };
-    let by_label = Scores::new(&judged(|known| if known.paper_label { 1.0 } else { 0.0 }), 0.5);
-    let by_w = Scores::new(&judged(|known| known.paper.into()), 0.5);
-    Scores { f1: by_label.f1, accuracy: by_label.accuracy, ..by_w }
-}
-
-impl LeftOut {
-    /// For the model's file.
-    fn told(&self) -> World {
-        let mut scores = Vec::new();
-        for (of, measured) in [("", &self.learned), ("paper_", &self.paper)] {
-            for (name, value) in measured.named() {
-                scores.extend(value.map(|value| (format!("{of}{name}"), format!("{value:.4}"))));
-            }
-        }
-        let (detections, plausible) = (self.detections as u64, self.plausible as u64);
-        World { name: self.world.clone(), detections, plausible, scores }
-    }
 }
 
 /// What each feature was like, as far as it was observed at all.
@@ -309,12 +206,21 @@ fn inputs(table: &TrainingTable, gains: &[f64]) -> Vec<Input> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::testing::table;
+    use super::super::boosting::Parameters;
+    use super::super::testing::{small, table};
     use super::*;
 
     fn fitting(jobs: usize) -> Fitting {
         let parameters = Parameters { rounds: 30, rows_per_leaf: 20, ..Parameters::default() };
-        Fitting { parameters, blanking: true, causes: true, threshold: 0.5, unconfirmed: 0.1, jobs }
+        Fitting {
+            parameters,
+            net: Some(small()),
+            blanking: true,
+            causes: true,
+            threshold: 0.5,
+            unconfirmed: 0.1,
+            jobs,
+        }
     }
 
     fn fitted(table: &TrainingTable, jobs: usize) -> Result<Fitted, LearnError> {

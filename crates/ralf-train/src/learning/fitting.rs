@@ -1,12 +1,15 @@
 //! How a model is fitted.
 
 use super::boosting::Parameters;
+use super::net::NetParameters;
 
 /// How a model is fitted.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Fitting {
     /// Of the trees.
     pub parameters: Parameters,
+    /// Of the net beside them; `None` where there is to be none.
+    pub net: Option<NetParameters>,
     /// Whether whole groups of evidence lack in some scans of the training.
     pub blanking: bool,
     /// Whether causes are learned, too.

@@ -4,12 +4,14 @@
 //!    be observed ([`View`]).
 //! 2. [`fit`] grows a forest without each world, judges it there, calibrates by what all of them say of the worlds that
 //!    they never saw, and grows the one that stays on everything.
-//! 3. [`boost`] grows a forest.
+//! 3. [`boost`] grows a forest; where it is asked for, a net that hears of the detections around is fitted beside it
+//!    ([`NetParameters`]).
 //!
 //! [`second_opinion`] learns within a sequence, from what a person said of some of its detections.
 //!
 //! The same table and seed give the same model to the byte.
 
+mod asked;
 mod balance;
 mod before;
 mod blanking;
@@ -18,7 +20,9 @@ mod calibrate;
 mod causes;
 mod fit;
 mod fitting;
+mod judge;
 mod monotone;
+mod net;
 mod opinion;
 mod random;
 mod scores;
@@ -30,9 +34,11 @@ mod view;
 
 pub use before::worth_in;
 pub use boosting::{Bins, Examples, Grown, Parameters, boost};
-pub use fit::{Fitted, LearnError, LeftOut, fit};
+pub use fit::{Fitted, LearnError, fit};
 pub use fitting::Fitting;
+pub use judge::LeftOut;
 pub use monotone::direction;
+pub use net::NetParameters;
 pub use opinion::{Believed, second_opinion};
 pub use scores::{Scored, Scores, best_threshold};
 pub use suite::{SUITES, SuiteScores};

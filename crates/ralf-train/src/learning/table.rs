@@ -36,6 +36,8 @@ pub struct Known {
     pub paper_label: bool,
     /// How much it counts; above 0.
     pub weight: f32,
+    /// Where it lies in the vehicle frame at the scan's time, m.
+    pub place: [f32; 3],
 }
 
 impl TrainingTable {

@@ -1,5 +1,6 @@
 //! A table for tests.
 
+use super::net::NetParameters;
 use super::table::{Known, TrainingTable};
 use super::view::View;
 use ralf::evidence::features;
@@ -31,9 +32,15 @@ pub(super) fn table(scans: u32, detections: usize) -> TrainingTable {
                 paper: random.random(),
                 paper_label: random.random(),
                 weight: 1.0,
+                place: [row as f32, (row * row % 7) as f32, 0.0],
             });
         }
         table.append(&rows, known);
     }
     table
+}
+
+/// A net that is fitted in a moment.
+pub(super) fn small() -> NetParameters {
+    NetParameters { width: 8, layers: 1, nearest: 2, passes: 5.0, rate: 1e-2 }
 }

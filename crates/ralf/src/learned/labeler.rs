@@ -4,6 +4,7 @@ use super::block::Blocks;
 use super::familiar::{Seen, novelty};
 use super::forest::{Inference, probability};
 use super::model::{Model, UseError};
+use super::net::{Around, Net, with_trees};
 use super::reason::Telling;
 use super::rows::Rows;
 use super::shapley::Explainer;
@@ -13,7 +14,7 @@ use crate::config::Config;
 use crate::evidence::{Column, Feature, GROUPS, features};
 use crate::label::flag;
 use crate::paper::{DetectionLabel, Labeler};
-use crate::scene::Frame;
+use crate::scene::{Detection, Frame};
 
 /// Labels radar scans with a model and one set of settings.
 #[derive(Debug, Clone)]
@@ -50,7 +51,8 @@ pub struct Answer {
     /// The share of the evidence, by its worth to the model, that is unlike what the model was trained on, in [0, 1];
     /// `None` of a detection without a place.
     pub novelty: Option<f64>,
-    /// What each of [`GROUPS`] adds to the log odds; empty where reasons are not wanted or the model was not asked.
+    /// What each of [`GROUPS`] adds to the log odds, and behind them, of a model with a net, what this adds that hears
+    /// of the detections around; empty where reasons are not wanted or the model was not asked.
     pub shares: Vec<f64>,
     /// The largest of these in words.
     pub reason: String,
@@ -130,14 +132,17 @@ impl<'a> LearnedLabeler<'a> {
         }
         let rows = rows.pick(asked.iter().copied());
         let blocks = Blocks::of(&rows);
-        for (at, log_odds) in self.plausible.log_odds(&blocks).into_iter().enumerate() {
+        let log_odds = self.plausible.log_odds(&blocks);
+        let heard = self.model.net.as_ref().map(|net| heard(net, &rows, &log_odds, &places(frame, &asked)));
+        for (at, log_odds) in log_odds.into_iter().enumerate() {
             let (label, row) = (&mut labels[asked[at]], rows.row(at));
-            label.w = self.weighing.plausibility(row, log_odds);
+            let heard = heard.as_ref().map_or(0.0, |heard| heard[at]);
+            label.w = self.weighing.plausibility(row, log_odds + heard);
             label.plausible = label.w >= self.config.fusion.threshold;
             label.flags |= flag::when(self.weighing.is_unconfirmed(row), flag::UNCONFIRMED);
             label.flags &= !flag::UNOBSERVED;
         }
-        self.explain(&rows, &blocks, &asked, &mut answers);
+        self.explain(&rows, &blocks, heard.as_deref(), &asked, &mut answers);
         self.tell_causes(&rows, &asked, &labels, &mut answers);
         LearnedScan { labels, answers }
     }
@@ -163,12 +168,20 @@ impl<'a> LearnedLabeler<'a> {
         (0..GROUPS.len()).filter(|group| read[*group] && !observed[*group]).collect()
     }
 
-    fn explain(&self, rows: &Rows, blocks: &Blocks, asked: &[usize], answers: &mut [Answer]) {
+    fn explain(
+        &self,
+        rows: &Rows,
+        blocks: &Blocks,
+        heard: Option<&[f64]>,
+        asked: &[usize],
+        answers: &mut [Answer],
+    ) {
         let Some(explainer) = &self.explainer else { return };
         for (at, shares) in explainer.explain(blocks).into_iter().enumerate() {
             let answer = &mut answers[asked[at]];
-            answer.reason = self.telling.reason(&shares, rows.row(at));
             answer.shares = shares.to_vec();
+            answer.shares.extend(heard.map(|heard| heard[at]));
+            answer.reason = self.telling.reason(&answer.shares, rows.row(at));
         }
     }
 
@@ -198,6 +211,18 @@ impl<'a> LearnedLabeler<'a> {
         let name = if probability >= CLEAR { self.model.causes[best].name.as_str() } else { UNCLEAR };
         ToldCause { name: name.to_owned(), probability }
     }
+}
+
+/// What a net adds to the log odds of trees.
+fn heard(net: &Net, rows: &Rows, trees: &[f64], places: &[[f32; 3]]) -> Vec<f64> {
+    let said = net.log_odds(rows, &Around::of(places, net.nearest));
+    trees.iter().zip(said).map(|(trees, said)| with_trees(*trees, said)).collect()
+}
+
+/// Where the detections of some rows lie, which have a place.
+fn places(frame: &Frame, rows: &[usize]) -> Vec<[f32; 3]> {
+    let detections = rows.iter().filter_map(|row| frame.scan.detections[*row].as_ref());
+    detections.map(Detection::place).collect()
 }
 
 /// The place of a feature's group in [`GROUPS`]; the last of one that is in none.

@@ -3,7 +3,8 @@
 //!
 //! A model is decision trees ([`Forest`]) over [evidence](crate::evidence), trained where the truth is known; `ralf
 //! learn` makes one, and it is a text of its own format ([`Model::from_text`]). Evidence that was not observed is
-//! ordinary: every question knows where absence leads. What lies outside of all that a model was trained on
+//! ordinary: every question knows where absence leads. A small [`net`](net::Net) that hears of the detections around may
+//! stand beside the trees. What lies outside of all that a model was trained on
 //! ([`novelty`]) is left to the paper's method.
 
 mod block;
@@ -13,6 +14,7 @@ mod familiar;
 mod forest;
 mod labeler;
 mod model;
+pub mod net;
 mod outcomes;
 mod reason;
 mod rows;
@@ -31,6 +33,7 @@ pub use familiar::{Seen, novelty};
 pub use forest::{Forest, Inference, probability};
 pub use labeler::{Answer, LearnedLabeler, LearnedScan, ToldCause, UNCLEAR};
 pub use model::{CauseForest, Input, Model, Origin, UseError, World};
+pub use reason::NEIGHBOURS;
 pub use rows::Rows;
 pub use shapley::Explainer;
 pub use text::ReadError;

@@ -3,6 +3,7 @@
 use super::calibration::Calibration;
 use super::familiar::Seen;
 use super::forest::Forest;
+use super::net::Net;
 use crate::config::ConfigError;
 use crate::evidence::features;
 use thiserror::Error;
@@ -16,7 +17,10 @@ pub struct Model {
     pub inputs: Vec<Input>,
     /// Log odds that a detection is plausible.
     pub plausible: Forest,
-    /// What these log odds mean.
+    /// What is asked about the detections around, too; what both say together is the mean
+    /// ([`with_trees`](super::net::with_trees)).
+    pub net: Option<Net>,
+    /// What the log odds of both together mean.
     pub calibration: Calibration,
     /// Log odds of each cause, of artifacts.
     pub causes: Vec<CauseForest>,
@@ -80,6 +84,14 @@ pub enum UseError {
         /// How many there are.
         known: usize,
     },
+    /// A net that reads another number of features than the model names.
+    #[error("the model's net reads {read} features of {known}")]
+    OtherInputs {
+        /// How many it reads.
+        read: usize,
+        /// How many there are.
+        known: usize,
+    },
     /// A model that reads nothing says the same of everything.
     #[error("the model names no evidence that it reads")]
     NoInputs,
@@ -128,7 +140,10 @@ impl Model {
                 return Err(UseError::NoSuchFeature { asked: width - 1, known });
             }
         }
-        Ok(places)
+        match self.net.as_ref().map(|net| net.shape().inputs) {
+            Some(read) if read != known => Err(UseError::OtherInputs { read, known }),
+            _ => Ok(places),
+        }
     }
 
     /// Where each feature that the model reads stands among some, by their names.

@@ -4,6 +4,8 @@ use super::familiar::Seen;
 use crate::evidence::{Feature, GROUPS};
 use std::fmt::Write;
 
+/// What the share of the detections around is called, which stands behind those of [`GROUPS`].
+pub const NEIGHBOURS: &str = "Neighbours";
 /// Groups that a reason names.
 const MOST: usize = 3;
 /// Characters that a reason seldom exceeds.
@@ -41,7 +43,8 @@ impl Telling {
         for group in order.into_iter().take(MOST) {
             words.push_str(if words.is_empty() { "" } else { "; " });
             // Writing to a text never fails.
-            _ = write!(words, "{} {:+.2}", GROUPS[group], shares[group]);
+            let name = GROUPS.get(group).copied().unwrap_or(NEIGHBOURS);
+            _ = write!(words, "{name} {:+.2}", shares[group]);
             if let Some(place) = self.most_telling(group, row) {
                 let value = row[place];
                 _ = write!(words, " ({} {value:.*})", self.inputs[place].name, digits(value));
@@ -52,7 +55,7 @@ impl Telling {
 
     /// The feature of a group that was observed and is worth most to the model.
     fn most_telling(&self, group: usize, row: &[f32]) -> Option<usize> {
-        self.by_group[group].iter().copied().find(|place| !row[*place].is_nan())
+        self.by_group.get(group)?.iter().copied().find(|place| !row[*place].is_nan())
     }
 }
 
@@ -85,5 +88,7 @@ mod tests {
         assert_eq!(words, "Doppler +2.00 (speed 123); LiDAR rays -0.50 (rays_beyond 0.93)");
         let words = telling.reason(&shares, &[0.25, f32::NAN, f32::NAN]);
         assert_eq!(words, "Doppler +2.00; LiDAR rays -0.50 (rays_in 0.25)");
+        let words = telling.reason(&[&shares[..], &[-9.0]].concat(), &[0.25, 0.93, 123.4]);
+        assert!(words.starts_with("Neighbours -9.00; Doppler +2.00"), "{words}");
     }
 }

@@ -34,6 +34,11 @@ impl Detection {
         [self.position.x as f32, self.position.y as f32]
     }
 
+    /// Where it lies, m, as nets have it.
+    pub fn place(&self) -> [f32; 3] {
+        self.position.coords.map(|metres| metres as f32).into()
+    }
+
     /// The covariance `Sigma_i`.
     pub fn spread(&self) -> Spread {
         Spread::Axes(self.axes)

@@ -17,7 +17,7 @@ use ralf::config::Config;
 use ralf::evidence::GROUPS;
 use ralf::learned::{Origin, Tree};
 use ralf_data::{GroundTruth, Recording, Settings, TrainingGatherer, TrainingTruth, write_named};
-use ralf_train::learning::{Fitting, Parameters, TrainingTable, fit};
+use ralf_train::learning::{Fitting, NetParameters, Parameters, TrainingTable, fit};
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use worlds::WorldArgs;
@@ -60,6 +60,9 @@ pub(crate) struct LearnArgs {
     #[arg(long, value_name = "N", default_value_t = Parameters::default().leaves as u32,
         value_parser = clap::value_parser!(u32).range(2..=Tree::MOST_LEAVES as i64))]
     leaves: u32,
+    /// Beside the trees a small net that hears of the detections around each one: it takes longer to learn and to ask
+    #[arg(long)]
+    neighbours: bool,
     /// Groups of evidence that the model doesn't read; may be given several times
     #[arg(long = "without-group", value_name = "GROUP",
         value_parser = PossibleValuesParser::new(GROUPS))]
@@ -140,6 +143,7 @@ impl LearnArgs {
                 seed: self.seed,
                 ..Parameters::default()
             },
+            net: self.neighbours.then(NetParameters::default),
             blanking: !self.no_blanking,
             causes: true,
             threshold: config.fusion.threshold,
@@ -180,6 +184,7 @@ impl LearnArgs {
     fn origin(&self) -> Origin {
         let datasets: String =
             self.datasets.iter().map(|dataset| format!(" {}", shell_path(dataset))).collect();
+        let neighbours = if self.neighbours { " --neighbours" } else { "" };
         let mut without: String = self
             .without_groups
             .iter()
@@ -188,7 +193,7 @@ impl LearnArgs {
         without += if self.no_blanking { " --no-blanking" } else { "" };
         let from: String = self.from.iter().map(|out| format!(" --from {}", shell_path(out))).collect();
         let command = format!(
-            "ralf learn{datasets}{from}{} --rounds {} --leaves {}{without} --seed {}{}",
+            "ralf learn{datasets}{from}{} --rounds {} --leaves {}{neighbours}{without} --seed {}{}",
             self.worlds.told(self.from.is_some()),
             self.rounds,
             self.leaves,

@@ -1,5 +1,6 @@
 //! A model as text, line by line (docs/learned.md): what differs between two models shows where they differ.
 
+mod net;
 mod read;
 mod write;
 
@@ -52,6 +53,7 @@ mod tests {
     use super::super::familiar::Seen;
     use super::super::forest::Forest;
     use super::super::model::{CauseForest, Input, Origin, World};
+    use super::super::net::tests::net;
     use super::super::tree::Tree;
     use super::super::tree::tests::{leaf, split};
     use super::*;
@@ -76,6 +78,7 @@ mod tests {
                 base: -1.0 / 3.0,
                 trees: vec![tree.clone(), Tree::new(vec![leaf(0.5, 1.0)]).unwrap()],
             },
+            net: Some(net(2)),
             calibration: Calibration::new(vec![(-2.5, 0.01), (0.1, 0.7)]).unwrap(),
             causes: vec![CauseForest {
                 name: "side lobe".to_owned(),
@@ -87,7 +90,7 @@ mod tests {
     #[test]
     fn what_is_written_is_read_back_to_the_bit() {
         assert_eq!(Model::from_text(&model().to_text()), Ok(model()));
-        let bare = Model { causes: vec![], origin: Origin::default(), ..model() };
+        let bare = Model { causes: vec![], net: None, origin: Origin::default(), ..model() };
         assert_eq!(Model::from_text(&bare.to_text()), Ok(bare));
         assert_eq!(model().check(), Ok(()));
     }
@@ -158,7 +161,11 @@ mod tests {
             ("tree 1 0.1 y", "tree 1 inf y", "expected finite numbers"),
             ("tree 1 0.1 y", "tree 70000 0.1 y", "expected"),
             ("tree 1 0.1 y", "tree 1 0.1 y 1 0.1 n", "expected a whole tree"),
-            ("\nend", "\nend\nend", "expected no further line, found `end 14 "),
+            ("net 2 4", "net 2 0", "expected net and four numbers"),
+            ("net 2 4", "net 3 4", "expected `scale`, found `weights "),
+            ("scale -1.0 -1.5", "scale -1.0 9.5", "expected pairs of finite numbers whose first rises"),
+            ("weights ", "weights 1.0 ", "expected weights and 16 finite numbers"),
+            ("\nend", "\nend\nend", "expected no further line, found `end "),
         ] {
             let found = refusal(from, to);
             assert!(found.contains(expected), "{from} -> {to}: {found}");
@@ -173,5 +180,7 @@ mod tests {
         let mut narrow = model();
         narrow.inputs.pop();
         assert!(narrow.check().unwrap_err().to_string().contains("feature 1 of 1"));
+        let wide = Model { net: Some(net(3)), ..model() };
+        assert_eq!(wide.check().unwrap_err().to_string(), "the model's net reads 3 features of 2");
     }
 }

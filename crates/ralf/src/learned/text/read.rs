@@ -40,23 +40,24 @@ pub(super) fn model(text: &str) -> Result<Model, ReadError> {
     while let Some(cause) = reader.cause()? {
         causes.push(cause);
     }
+    let net = reader.net()?;
     reader.end(text)?;
     match reader.lines.next() {
-        None => Ok(Model { origin, inputs, plausible, calibration, causes }),
+        None => Ok(Model { origin, inputs, plausible, net, calibration, causes }),
         Some((at, text)) => Err(Line { at, key: "", text, rest: text }.refuse("no further line")),
     }
 }
 
 /// A line: its key, and what follows.
 #[derive(Debug, Clone, Copy)]
-struct Line<'a> {
+pub(super) struct Line<'a> {
     at: usize,
     key: &'a str,
     text: &'a str,
-    rest: &'a str,
+    pub(super) rest: &'a str,
 }
 
-struct Reader<'a> {
+pub(super) struct Reader<'a> {
     lines: Peekable<std::iter::Enumerate<Lines<'a>>>,
 }
 
@@ -71,12 +72,12 @@ impl<'a> Reader<'a> {
     }
 
     /// The next line, if it has this key.
-    fn next_if(&mut self, key: &str) -> Result<Option<Line<'a>>, ReadError> {
+    pub(super) fn next_if(&mut self, key: &str) -> Result<Option<Line<'a>>, ReadError> {
         let has = self.lines.peek().is_some_and(|(_, text)| text.split(' ').next() == Some(key));
         if has { self.next(key).map(Some) } else { Ok(None) }
     }
 
-    fn with_key(&mut self, key: &str) -> Result<Line<'a>, ReadError> {
+    pub(super) fn with_key(&mut self, key: &str) -> Result<Line<'a>, ReadError> {
         let line = self.next(key)?;
         if line.key == key { Ok(line) } else { Err(line.refuse(format!("`{key}`"))) }
     }
@@ -87,7 +88,7 @@ impl<'a> Reader<'a> {
         let end = self.next("end")?;
         // It is whole only with its own end.
         if end.key != "end" || !text.ends_with('\n') {
-            return Err(end.refuse("another forest, or `end` as the last line"));
+            return Err(end.refuse("another forest, a net, or `end` as the last line"));
         }
         let (lines, sum) = match end.rest.split_once(' ') {
             Some((lines, sum)) => (lines, Some(sum)),
@@ -182,7 +183,7 @@ fn number(words: &mut SplitWhitespace) -> Option<f32> {
 }
 
 impl Line<'_> {
-    fn refuse(&self, expected: impl ToString) -> ReadError {
+    pub(super) fn refuse(&self, expected: impl ToString) -> ReadError {
         // A tree's line may be long.
         let mut found: String = self.text.chars().take(60).collect();
         if found.len() < self.text.len() {

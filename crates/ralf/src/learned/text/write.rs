@@ -3,13 +3,14 @@
 use super::super::familiar::Seen;
 use super::super::forest::Forest;
 use super::super::model::{Input, Model, World};
+use super::super::net::{Net, Shape};
 use super::super::tree::{Leaf, Node, Split, Tree};
 use super::{HEAD, checksum};
 use std::fmt::Write;
 
 /// A model as text.
 pub(super) fn text(model: &Model) -> String {
-    let Model { origin, inputs, plausible, calibration, causes } = model;
+    let Model { origin, inputs, plausible, net, calibration, causes } = model;
     let mut lines =
         format!("{HEAD}\nprogram {}\ncommand {}\n", one_line(&origin.program), one_line(&origin.command));
     line(&mut lines, format_args!("seed {}", origin.seed));
@@ -32,6 +33,9 @@ pub(super) fn text(model: &Model) -> String {
     forest(&mut lines, "plausible", plausible);
     for cause in causes {
         forest(&mut lines, &format!("cause {}", one_line(&cause.name)), &cause.forest);
+    }
+    if let Some(net) = net {
+        of_net(&mut lines, net);
     }
     // A reader sees by their number that one is lost or there twice, and by their sum that one is another.
     let (before, sum) = (lines.lines().count(), checksum(lines.lines()));
@@ -59,6 +63,26 @@ fn nodes(lines: &mut String, tree: &Tree) {
         };
         *lines += &text;
     }
+}
+
+/// Its shape; `VALUE SCORE` of each point of each feature's scale; its weights, matrix by matrix.
+fn of_net(lines: &mut String, net: &Net) {
+    let Shape { inputs, width, layers, nearest } = net.shape();
+    line(lines, format_args!("net {inputs} {width} {layers} {nearest}"));
+    for scale in &net.scales {
+        numbers(lines, "scale", scale.points().iter().flat_map(|(value, score)| [*value, *score]));
+    }
+    for weights in net.weights() {
+        numbers(lines, "weights", weights.iter().copied());
+    }
+}
+
+fn numbers(lines: &mut String, key: &str, numbers: impl Iterator<Item = f32>) {
+    *lines += key;
+    for number in numbers {
+        *lines += &format!(" {number:?}");
+    }
+    lines.push('\n');
 }
 
 fn line(lines: &mut String, line: std::fmt::Arguments) {

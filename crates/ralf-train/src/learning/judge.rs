@@ -1,0 +1,136 @@
+//! How good models are in worlds that they never saw.
+
+use super::calibrate::{Answered, calibration};
+use super::fitting::Fitting;
+use super::scores::{Scored, Scores, best_threshold};
+use super::suite::{SUITES, SuiteScores, suites_of};
+use super::table::{Known, TrainingTable};
+use super::view::View;
+use ralf::learned::{Calibration, Unconfirmed, World};
+
+/// How well a model labels a world that it was not fitted to.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LeftOut {
+    /// The world.
+    pub world: String,
+    /// Detections.
+    pub detections: usize,
+    /// Plausible ones.
+    pub plausible: usize,
+    /// What the model is worth at the threshold that is best in the other worlds, with all evidence.
+    pub learned: Scores,
+    /// The same at the threshold of the settings.
+    pub at_threshold: Scores,
+    /// What the paper's method is worth, with its settings.
+    pub paper: Scores,
+    /// What the model and the paper's method are worth where less can be observed, and by sensors.
+    pub suites: Vec<SuiteScores>,
+}
+
+/// Rows of some worlds, in which every world counts the same.
+pub(super) fn answered(table: &TrainingTable, log_odds: &[f64], of: impl Fn(u16) -> bool) -> Vec<Answered> {
+    let mut rows = vec![0.0; table.worlds.len()];
+    for known in &table.known {
+        rows[usize::from(known.world)] += 1.0;
+    }
+    let worlds = rows.iter().filter(|rows| **rows > 0.0).count() as f64;
+    let mut found = Vec::new();
+    for (known, log_odds) in table.known.iter().zip(log_odds).filter(|(known, _)| of(known.world)) {
+        let weight = table.len() as f64 / (worlds * rows[usize::from(known.world)]);
+        found.push(Answered { log_odds: *log_odds, plausible: known.plausible, weight });
+    }
+    found
+}
+
+/// Every world by the others' calibration and threshold.
+pub(super) fn judge(table: &TrainingTable, log_odds: &[f64], fitting: &Fitting) -> Vec<LeftOut> {
+    let suites_of = suites_of(table);
+    let whole: Vec<usize> = (0..table.len()).filter(|row| table.known[*row].view == View::Whole).collect();
+    let mut all = Vec::new();
+    for (number, name) in table.worlds.iter().enumerate() {
+        let is_here = |row: &usize| usize::from(table.known[*row].world) == number;
+        let (here, others): (Vec<usize>, Vec<usize>) = whole.iter().copied().partition(is_here);
+        let stranger = Stranger::new(table, log_odds, number as u16, fitting);
+        let elsewhere = best_threshold(&stranger.judged(&others));
+        let mut suites = Vec::new();
+        for (bit, name) in SUITES.into_iter().enumerate() {
+            let is_of = |row: &usize| is_here(row) && suites_of[*row] >> bit & 1 == 1;
+            let rows: Vec<usize> = (0..table.len()).filter(is_of).collect();
+            if !rows.is_empty() {
+                let learned = Scores::new(&stranger.judged(&rows), elsewhere);
+                suites.push(SuiteScores {
+                    name,
+                    detections: rows.len(),
+                    learned,
+                    paper: paper(table, &rows),
+                });
+            }
+        }
+        let judged = stranger.judged(&here);
+        all.push(LeftOut {
+            world: name.clone(),
+            detections: here.len(),
+            plausible: judged.iter().filter(|row| row.plausible).count(),
+            learned: Scores::new(&judged, elsewhere),
+            at_threshold: Scores::new(&judged, fitting.threshold),
+            paper: paper(table, &here),
+            suites,
+        });
+    }
+    all
+}
+
+/// What is said of rows by models and a calibration that know nothing of a world.
+struct Stranger<'a> {
+    table: &'a TrainingTable,
+    log_odds: &'a [f64],
+    line: Calibration,
+    unconfirmed: Unconfirmed,
+    factor: f64,
+}
+
+impl<'a> Stranger<'a> {
+    fn new(table: &'a TrainingTable, log_odds: &'a [f64], world: u16, fitting: &Fitting) -> Self {
+        Self {
+            table,
+            log_odds,
+            line: calibration(&answered(table, log_odds, |other| other != world)),
+            unconfirmed: Unconfirmed::among(table.features.iter().map(|feature| feature.name)),
+            factor: fitting.unconfirmed,
+        }
+    }
+
+    fn judged(&self, rows: &[usize]) -> Vec<Scored> {
+        let judge = |row: &usize| {
+            let probability = self.line.probability(self.log_odds[*row]);
+            let score = self.unconfirmed.weighed(self.table.rows.row(*row), probability, self.factor);
+            Scored { score, plausible: self.table.known[*row].plausible }
+        };
+        rows.iter().map(judge).collect()
+    }
+}
+
+/// What the paper's method is worth in some rows.
+fn paper(table: &TrainingTable, rows: &[usize]) -> Scores {
+    let judged = |score: fn(&Known) -> f64| -> Vec<Scored> {
+        let known = rows.iter().map(|row| &table.known[*row]);
+        known.map(|known| Scored { score: score(known), plausible: known.plausible }).collect()
+    };
+    let by_label = Scores::new(&judged(|known| if known.paper_label { 1.0 } else { 0.0 }), 0.5);
+    let by_w = Scores::new(&judged(|known| known.paper.into()), 0.5);
+    Scores { f1: by_label.f1, accuracy: by_label.accuracy, ..by_w }
+}
+
+impl LeftOut {
+    /// For the model's file.
+    pub(super) fn told(&self) -> World {
+        let mut scores = Vec::new();
+        for (of, measured) in [("", &self.learned), ("paper_", &self.paper)] {
+            for (name, value) in measured.named() {
+                scores.extend(value.map(|value| (format!("{of}{name}"), format!("{value:.4}"))));
+            }
+        }
+        let (detections, plausible) = (self.detections as u64, self.plausible as u64);
+        World { name: self.world.clone(), detections, plausible, scores }
+    }
+}

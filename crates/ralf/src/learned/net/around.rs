@@ -1,0 +1,131 @@
+//! Which detections of a scan lie around each, and where.
+
+use super::matrix::Matrix;
+use crate::space::NeighborIndex;
+
+/// Numbers that tell where a detection lies, seen from another: along and across the line of sight, and above, each as
+/// `asinh` of metres; and how far away, seen from above, as `ln(1 + m)`.
+pub const WAYS: usize = 4;
+
+/// The detections around each one of a scan, or of several, one after the other.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Around {
+    /// How many each detection has.
+    nearest: usize,
+    /// The places of those of each detection, side by side; its own where there are fewer in its scan.
+    of: Vec<u32>,
+    /// Where each of them lies.
+    ways: Matrix,
+}
+
+impl Around {
+    /// The nearest ones of each detection of a scan, seen from above, of places in the vehicle frame, m, which are
+    /// finite.
+    pub fn of(places: &[[f32; 3]], nearest: usize) -> Self {
+        let mut around = Self {
+            nearest,
+            of: Vec::with_capacity(places.len() * nearest),
+            ways: Matrix::zeros(places.len() * nearest, WAYS),
+        };
+        let in_plan: Vec<[f32; 3]> = places.iter().map(|[x, y, _]| [*x, *y, 0.0]).collect();
+        let ids: Vec<u32> = (0..places.len() as u32).collect();
+        let index = NeighborIndex::new(&in_plan, &ids);
+        let mut found = Vec::new();
+        for (id, from) in (0_u32..).zip(&in_plan) {
+            // One more, for it finds itself; where many lie at one place, perhaps it doesn't.
+            index.nearest(*from, nearest + 1, &mut found);
+            let others = found.iter().map(|neighbour| neighbour.id).filter(|other| *other != id);
+            let others = others.chain(std::iter::repeat(id)).take(nearest);
+            for other in others {
+                let way = way(places[id as usize], places[other as usize]);
+                around.ways.row_mut(around.of.len()).copy_from_slice(&way);
+                around.of.push(other);
+            }
+        }
+        around
+    }
+
+    /// Those of several scans, whose detections come one after the other.
+    pub fn joined<'a>(scans: impl IntoIterator<Item = &'a Self> + Clone, nearest: usize) -> Self {
+        let pairs = scans.clone().into_iter().map(|scan| scan.of.len()).sum();
+        let mut joined = Self { nearest, of: Vec::with_capacity(pairs), ways: Matrix::zeros(pairs, WAYS) };
+        for scan in scans {
+            let pairs = joined.of.len();
+            let before = (pairs / nearest) as u32;
+            joined.of.extend(scan.of.iter().map(|other| before + other));
+            joined.ways.values_mut()[pairs * WAYS..][..scan.ways.values().len()]
+                .copy_from_slice(scan.ways.values());
+        }
+        joined
+    }
+
+    /// The places of those around a detection.
+    pub fn of_one(&self, row: usize) -> &[u32] {
+        &self.of[row * self.nearest..][..self.nearest]
+    }
+
+    /// How many each detection has.
+    pub fn nearest(&self) -> usize {
+        self.nearest
+    }
+
+    /// Where each of them lies: [`WAYS`] numbers a row, as many rows for each detection as it has others.
+    pub fn ways(&self) -> &Matrix {
+        &self.ways
+    }
+}
+
+/// Where one detection lies, seen from another.
+fn way([x, y, z]: [f32; 3], to: [f32; 3]) -> [f32; WAYS] {
+    let [dx, dy, dz] = [to[0] - x, to[1] - y, to[2] - z];
+    let range = x.hypot(y).max(f32::MIN_POSITIVE);
+    let (along, across) = ((dx * x + dy * y) / range, (dy * x - dx * y) / range);
+    [along.asinh(), across.asinh(), dz.asinh(), dx.hypot(dy).ln_1p()]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::tests::scan;
+    use super::*;
+
+    #[test]
+    fn those_around_are_the_nearest_of_all() {
+        for count in [1, 3, 4, 90] {
+            let (_, mut places) = scan(count, 1);
+            // Some lie at one place.
+            let last = count - 1;
+            places[last] = places[0];
+            let around = Around::of(&places, 3);
+            for (row, from) in places.iter().enumerate() {
+                let far = |other: usize| (from[0] - places[other][0]).hypot(from[1] - places[other][1]);
+                let mut others: Vec<f32> = (0..count).filter(|other| *other != row).map(far).collect();
+                others.sort_by(f32::total_cmp);
+                let found: Vec<usize> = around.of_one(row).iter().map(|other| *other as usize).collect();
+                for (place, other) in found.iter().enumerate() {
+                    match others.get(place) {
+                        Some(expected) => assert!(*other != row && (far(*other) - expected).abs() < 1e-4),
+                        None => assert_eq!(*other, row),
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_way_is_told_along_the_line_of_sight() {
+        // 3 m behind and 4 m to the left of what lies ahead, on the left.
+        let found = way([0.0, 10.0, 1.0], [-4.0, 13.0, 1.5]).map(|number| (number * 1e3).round() / 1e3);
+        let expected = [3.0_f32.asinh(), 4.0_f32.asinh(), 0.5_f32.asinh(), 6.0_f32.ln()];
+        assert_eq!(found, expected.map(|number| (number * 1e3).round() / 1e3));
+        assert_eq!(way([0.0; 3], [0.0; 3]), [0.0; WAYS]);
+    }
+
+    #[test]
+    fn several_scans_keep_to_themselves() {
+        let scans: Vec<Around> = [5, 1, 7].map(|count| Around::of(&scan(count, 1).1, 2)).to_vec();
+        let joined = Around::joined(&scans, 2);
+        assert_eq!(joined.of_one(5), [5, 5], "one alone");
+        assert!((6..13).all(|row| joined.of_one(row).iter().all(|other| (6..13).contains(other))));
+        assert_eq!(joined.ways().row(2 * 6), scans[2].ways().row(0));
+    }
+}

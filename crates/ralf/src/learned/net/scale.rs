@@ -1,0 +1,61 @@
+//! From a feature's value to a score: evidence has units, long tails and values that many share; scores have neither.
+
+use thiserror::Error;
+
+/// A rising line through points of a feature's value and its score; level beyond its ends.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Scale {
+    points: Vec<(f32, f32)>,
+}
+
+/// Why points are no scale.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
+#[error("expected pairs of finite numbers whose first rises and whose second never falls")]
+pub struct ScaleError;
+
+impl Scale {
+    /// A line through points. Of none, every score is 0.
+    ///
+    /// # Errors
+    /// Numbers that are not finite, values that don't rise, scores that fall.
+    pub fn new(points: Vec<(f32, f32)>) -> Result<Self, ScaleError> {
+        let is_finite = |(value, score): &(f32, f32)| value.is_finite() && score.is_finite();
+        let rises = points.windows(2).all(|pair| pair[0].0 < pair[1].0 && pair[0].1 <= pair[1].1);
+        if rises && points.iter().all(is_finite) { Ok(Self { points }) } else { Err(ScaleError) }
+    }
+
+    /// The points.
+    pub fn points(&self) -> &[(f32, f32)] {
+        &self.points
+    }
+
+    /// The score of a value, which is not NaN.
+    pub fn score(&self, value: f32) -> f32 {
+        let above = self.points.partition_point(|(point, _)| *point <= value);
+        match (above.checked_sub(1).map(|below| self.points[below]), self.points.get(above)) {
+            (Some((from, low)), Some((to, high))) => low + (high - low) * ((value - from) / (to - from)),
+            (Some((_, score)), None) | (None, Some(&(_, score))) => score,
+            (None, None) => 0.0,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn scores_lie_on_the_line_and_no_farther_than_its_ends() {
+        let scale = Scale::new(vec![(0.0, -1.0), (2.0, 1.0), (10.0, 1.5)]).unwrap();
+        let found = [-5.0, 0.0, 0.5, 2.0, 6.0, 99.0, f32::INFINITY].map(|value| scale.score(value));
+        assert_eq!(found, [-1.0, -1.0, -0.5, 1.0, 1.25, 1.5, 1.5]);
+        assert_eq!(Scale::new(vec![]).unwrap().score(3.0), 0.0);
+    }
+
+    #[test]
+    fn what_does_not_rise_is_refused() {
+        for points in [[(0.0, 0.0), (0.0, 1.0)], [(0.0, 1.0), (1.0, 0.0)], [(0.0, 0.0), (f32::NAN, 1.0)]] {
+            assert_eq!(Scale::new(points.to_vec()), Err(ScaleError));
+        }
+    }
+}
