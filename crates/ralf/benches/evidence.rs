@@ -198,7 +198,8 @@ fn learned(bencher: Bencher, reasons: &str) {
     bencher.bench_local(|| labeler.label(black_box(&frame), &columns));
 }
 
-/// The same without reasons, of the shipped model with a net beside its trees, as large as `ralf learn --neighbours` fits.
+/// The same without reasons, of the shipped model with a net beside its trees, as large as `ralf learn --neighbours`
+/// fits.
 #[divan::bench]
 fn learned_with_neighbours(bencher: Bencher) {
     let frame = frame();

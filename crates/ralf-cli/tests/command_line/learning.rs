@@ -19,8 +19,9 @@ fn what_is_learned_labels_and_is_the_same_to_the_byte_whatever_the_number_of_job
     let [town, yard] = simulated(&dataset);
     let models = ["1", "3"].map(|jobs| {
         let model = dataset.beside(&format!("model{jobs}"));
-        let done =
-            ralf(["learn", &town, &yard, "-o", &model, "--rounds", "15", "--leaves", "6", "--jobs", jobs]);
+        let trees = ["--rounds", "15", "--leaves", "6", "--neighbours"];
+        let [a, b, c, d, e] = trees;
+        let done = ralf(["learn", &town, &yard, "-o", &model, a, b, c, d, e, "--jobs", jobs]);
         done.exits(0).prints(["town", "yard", "mean"]);
         model
     });
@@ -28,6 +29,7 @@ fn what_is_learned_labels_and_is_the_same_to_the_byte_whatever_the_number_of_job
     assert_eq!(text, fs::read_to_string(&models[1]).unwrap());
     let end = format!("\nend {}", text.lines().count() - 1);
     assert!(text.starts_with("ralf model 1\nprogram ") && text.contains("\nforest ") && text.contains(&end));
+    assert!(text.contains(" --leaves 6 --neighbours --seed 0\n") && text.contains("\nnet "), "{:.300}", text);
     let outs = ["1", "2"].map(|jobs| {
         let out = dataset.beside(&format!("out{jobs}"));
         let method = ["--method", "learned", "--model", &models[0]];
@@ -37,7 +39,7 @@ fn what_is_learned_labels_and_is_the_same_to_the_byte_whatever_the_number_of_job
     });
     assert!(without_timings(&outs[0]) == without_timings(&outs[1]));
     let columns = schema(format!("{}/sequences/tiny/plausibility.parquet", outs[0]));
-    for name in ["novelty", "reason_doppler", "reason", "cause"] {
+    for name in ["novelty", "reason_doppler", "reason_neighbours", "reason", "cause"] {
         assert!(columns.iter().any(|column| column.starts_with(&format!("{name}:"))), "{name}");
     }
     let lacking = dataset.beside("lacking");

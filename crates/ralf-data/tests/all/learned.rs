@@ -7,7 +7,7 @@ use ralf_data::result::{LabelledRun, Table};
 use ralf_data::run::{LabelRun, Unwatched};
 use ralf_data::{Recording, SequenceReader, Settings, TrainingGatherer, TrainingTruth};
 use ralf_sim::SimulatedSequence;
-use ralf_train::learning::{Fitting, Parameters, TrainingTable, View, fit};
+use ralf_train::learning::{Fitting, NetParameters, Parameters, TrainingTable, View, fit};
 use std::path::Path;
 use std::sync::LazyLock;
 
@@ -35,8 +35,17 @@ fn table(jobs: usize) -> TrainingTable {
 fn model() -> Model {
     static MODEL: LazyLock<Model> = LazyLock::new(|| {
         let parameters = Parameters { rounds: 20, leaves: 8, rows_per_leaf: 30, ..Parameters::default() };
-        let fitting =
-            Fitting { parameters, blanking: true, causes: true, threshold: 0.5, unconfirmed: 0.1, jobs: 2 };
+        let net = NetParameters { width: 8, layers: 1, passes: 2.0, ..NetParameters::default() };
+        let fitting = Fitting {
+            parameters,
+            net: Some(net),
+            expects: None,
+            blanking: true,
+            causes: true,
+            threshold: 0.5,
+            unconfirmed: 0.1,
+            jobs: 2,
+        };
         fit(&table(2), &fitting, Origin::default(), &|_, _| {}).unwrap().model
     });
     MODEL.clone()
@@ -106,11 +115,13 @@ fn a_model_labels_with_reasons_and_the_same_to_the_byte_whatever_the_number_of_j
     assert_eq!(labelled.get::<f32>("d_lm").unwrap().len(), w.len());
     let reasons = labelled.get::<std::sync::Arc<str>>("reason").unwrap();
     assert!(reasons.iter().any(|reason| reason.contains("LiDAR")), "{:?}", &reasons[..3]);
+    let neighbours = labelled.get::<f32>("reason_neighbours").unwrap();
     let causes = labelled.get::<std::sync::Arc<str>>("cause").unwrap();
     let flags = labelled.get::<u16>("flags").unwrap();
     for (row, cause) in causes.iter().enumerate() {
         let is_told = label[row] == 0 && flags[row] & flag::PAPER == 0;
         assert_eq!(!cause.is_empty(), is_told, "{cause:?} of detection {row}");
+        assert_eq!(neighbours[row].is_nan(), flags[row] & flag::PAPER != 0, "{}", neighbours[row]);
     }
 }
 

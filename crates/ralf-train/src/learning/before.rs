@@ -40,6 +40,7 @@ mod tests {
         let fitting = Fitting {
             parameters,
             net: Some(small()),
+            expects: None,
             blanking: false,
             causes: false,
             threshold: 0.5,

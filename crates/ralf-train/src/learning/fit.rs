@@ -98,6 +98,7 @@ pub fn fit(
         if fitting.causes { cause_forests(table, &ground.rows, &ground.bins, fitting) } else { Vec::new() };
     let model = Model {
         origin: Origin { worlds: left_out.iter().map(LeftOut::told).collect(), ..origin },
+        expects: fitting.expects,
         inputs: inputs(table, &whole.gains),
         plausible: whole.forest,
         net,
@@ -215,6 +216,7 @@ mod tests {
         Fitting {
             parameters,
             net: Some(small()),
+            expects: None,
             blanking: true,
             causes: true,
             threshold: 0.5,

@@ -10,6 +10,8 @@ pub struct Fitting {
     pub parameters: Parameters,
     /// Of the net beside them; `None` where there is to be none.
     pub net: Option<NetParameters>,
+    /// The share of plausible detections that the model expects where nobody says another; `None`: that of its worlds.
+    pub expects: Option<f64>,
     /// Whether whole groups of evidence lack in some scans of the training.
     pub blanking: bool,
     /// Whether causes are learned, too.

@@ -3,8 +3,8 @@
 //!
 //! A model is decision trees ([`Forest`]) over [evidence](crate::evidence), trained where the truth is known; `ralf
 //! learn` makes one, and it is a text of its own format ([`Model::from_text`]). Evidence that was not observed is
-//! ordinary: every question knows where absence leads. A small [`net`](net::Net) that hears of the detections around may
-//! stand beside the trees. What lies outside of all that a model was trained on
+//! ordinary: every question knows where absence leads. A small [`net`](net::Net) that hears of the detections around
+//! may stand beside the trees. What lies outside of all that a model was trained on
 //! ([`novelty`]) is left to the paper's method.
 
 mod block;

@@ -13,6 +13,9 @@ use thiserror::Error;
 pub struct Model {
     /// Where it comes from.
     pub origin: Origin,
+    /// The share of plausible detections to expect where nobody says another, in (0, 1); `None`: as where it was
+    /// trained ([`Self::share`]).
+    pub expects: Option<f64>,
     /// What it reads, in the order of its rows.
     pub inputs: Vec<Input>,
     /// Log odds that a detection is plausible.

@@ -26,7 +26,7 @@ impl Weighing {
     ) -> Self {
         Self {
             calibration: model.calibration.clone(),
-            expected: expected(model.share(), config.share),
+            expected: expected(model.share(), wanted(model, config)),
             unconfirmed: Unconfirmed::among(names),
             factor: config.unconfirmed,
         }
@@ -44,6 +44,11 @@ impl Weighing {
     }
 }
 
+/// The share of plausible detections that the settings expect, or else the model; 0 where neither does.
+fn wanted(model: &Model, config: &LearnedConfig) -> f64 {
+    if config.share > 0.0 { config.share } else { model.expects.unwrap_or(0.0) }
+}
+
 /// What turns odds where so large a share is plausible into those where another is: Bayes' rule, with whatever makes
 /// plausible ones look as they do unchanged (label shift). 1 where either is not known, which 0 says, and where a model
 /// has seen plausible ones alone, to whom no odds are known.
@@ -55,6 +60,16 @@ fn expected(known: f64, wanted: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn settings_say_more_of_the_share_than_the_model() {
+        let (mut model, mut config) = (Model::shipped().unwrap(), LearnedConfig::default());
+        assert_eq!((model.expects, wanted(&model, &config)), (Some(0.3), 0.3));
+        config.share = 0.2;
+        assert_eq!(wanted(&model, &config), 0.2);
+        (model.expects, config.share) = (None, 0.0);
+        assert_eq!(wanted(&model, &config), 0.0);
+    }
 
     #[test]
     fn of_what_says_nothing_as_many_are_plausible_as_expected() {

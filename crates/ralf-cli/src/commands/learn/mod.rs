@@ -25,6 +25,10 @@ use worlds::WorldArgs;
 /// Most trees that can be asked for: far beyond what any number of recordings makes use of.
 const MOST_ROUNDS: i64 = 10_000;
 
+/// The share of plausible detections that a model of simulated worlds alone expects: halfway, by the logarithm of the
+/// odds, from what is plausible in these (0.44) to the one in five that is said of real radars (docs/learned.md).
+const EXPECTED: f64 = 0.3;
+
 /// Arguments of `ralf learn`.
 #[derive(Debug, Args)]
 #[command(after_help = "\
@@ -37,6 +41,7 @@ Examples:
   ralf learn town motorway yard -o model.txt           recordings in RALF's layout, with ground_truth
   ralf learn --preset worlds -o model.txt              simulated on the way, eight of each family
   ralf learn --preset worlds --seeds 1 --scans 40 -o quick.txt
+  ralf learn --preset worlds --neighbours -o around.txt   with a net that looks around
   ralf learn recordings/city --from out -o own.txt     worlds, and what people corrected in the review of out
   ralf label recordings/city -o out --method learned --model model.txt")]
 pub(crate) struct LearnArgs {
@@ -143,6 +148,7 @@ impl LearnArgs {
                 seed: self.seed,
                 ..Parameters::default()
             },
+            expects: self.expects(),
             net: self.neighbours.then(NetParameters::default),
             blanking: !self.no_blanking,
             causes: true,
@@ -150,6 +156,11 @@ impl LearnArgs {
             unconfirmed: config.learned.unconfirmed,
             jobs,
         }
+    }
+
+    /// Simulated worlds alone hold more plausible detections than recordings do.
+    fn expects(&self) -> Option<f64> {
+        self.datasets.is_empty().then_some(EXPECTED)
     }
 
     /// Adds what the recordings hold.

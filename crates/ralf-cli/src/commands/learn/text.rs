@@ -28,7 +28,9 @@ pub(super) fn page(fitted: &Fitted) -> String {
     let (learned, paper) = (mean(|world| world.learned), mean(|world| world.paper));
     line(&mut page, width, "mean", &format!("{:38}{learned}          {}", "", three(&paper)));
     let at_threshold = mean(|world| world.at_threshold);
-    page += &format!("\nAt the threshold of the settings: {at_threshold}\n");
+    page += &format!(
+        "\nAt the threshold of the settings, where as many are plausible as in these worlds: {at_threshold}\n"
+    );
     page += &suites(rows);
     page + &worth(fitted)
 }

@@ -180,7 +180,7 @@ mod tests {
         let pass = Pass::new(&net, scores.clone(), &around);
         let by = gradient(&net, &pass, &around, &factors);
         for block in 0..net.weights().len() {
-            // Along a direction of one matrix' weights. Where numbers become 0 on the way, steps of any size are off a little.
+            // Along a direction of one matrix' weights. Where a number becomes 0 on the way, a step is off a little.
             let length = net.weights()[block].len();
             let direction: Vec<f32> = (0..length).map(|_| random.random_range(-1.0..1.0)).collect();
             let moved = |step: f32| {

@@ -1,7 +1,7 @@
 //! Fitting a [`Net`]: whole scans are drawn, worlds as likely as each other, and its weights follow the gradient.
 //!
-//! Everything is added up in the order of the rows, on one thread: the same table, parameters and seed give the same net,
-//! whatever else runs beside. Several nets are fitted side by side by whoever needs several.
+//! Everything is added up in the order of the rows, on one thread: the same table, parameters and seed give the same
+//! net, whatever else runs beside. Several nets are fitted side by side by whoever needs several.
 
 mod adam;
 mod back;
@@ -45,7 +45,8 @@ impl Default for NetParameters {
     }
 }
 
-/// Fits a net to the scans of some worlds. `blanked` is the share of scans that lack a group of evidence, for each group.
+/// Fits a net to the scans of some worlds. `blanked` is the share of scans that lack a group of evidence, for each
+/// group.
 pub(super) fn fit_net(
     scans: &Scans,
     worlds: &[u16],
@@ -71,7 +72,7 @@ pub(super) fn fit_net(
     net
 }
 
-/// How far each log odds is from the truth: the derivative of the logistic loss, of which the batch's mean is taken.
+/// How far each log odds is from the truth: the derivative of the mean logistic loss of a batch.
 fn wrong(batch: &Batch, log_odds: &[f32]) -> Vec<f32> {
     let all: f32 = batch.weights.iter().sum();
     let truth = batch.plausible.iter().zip(&batch.weights);
@@ -82,7 +83,7 @@ fn wrong(batch: &Batch, log_odds: &[f32]) -> Vec<f32> {
     log_odds.iter().zip(truth).map(one).collect()
 }
 
-/// How fast the weights go in a step, of the fastest: faster in the first tenth, then slower and slower (half a cosine).
+/// How fast the weights go in a step, of the fastest: faster in the first tenth, then slower (half a cosine).
 fn pace(step: usize, steps: usize) -> f64 {
     let (step, steps) = (step as f64 + 0.5, steps.max(1) as f64);
     let begins = steps / 10.0;

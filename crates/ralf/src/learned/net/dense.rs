@@ -2,6 +2,9 @@
 
 use super::matrix::Matrix;
 
+/// Outputs that are added up side by side, in registers.
+const LANES: usize = 16;
+
 /// `y = x W + b` of each row.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Dense {
@@ -31,16 +34,31 @@ impl Dense {
     pub fn of(&self, x: &Matrix) -> Matrix {
         let mut made = Matrix::zeros(x.len(), self.outputs());
         for row in 0..x.len() {
-            let sums = made.row_mut(row);
-            sums.copy_from_slice(&self.bias);
-            for (input, value) in x.row(row).iter().enumerate() {
-                // Of what was observed nothing is absent, and about half of all numbers were below 0.
-                if *value != 0.0 {
-                    add_scaled(sums, *value, self.of_input(input));
-                }
+            let (lanes, rest) = made.row_mut(row).as_chunks_mut::<LANES>();
+            let alone = lanes.len() * LANES;
+            for (at, sums) in lanes.iter_mut().enumerate() {
+                *sums = self.sums(x.row(row), at * LANES);
+            }
+            for (at, sum) in rest.iter_mut().enumerate() {
+                [*sum] = self.sums(x.row(row), alone + at);
             }
         }
         made
+    }
+
+    /// Some of the outputs, side by side, from the one at `first` on.
+    fn sums<const OUTPUTS: usize>(&self, x: &[f32], first: usize) -> [f32; OUTPUTS] {
+        let mut sums = std::array::from_fn(|at| self.bias[first + at]);
+        for (value, weights) in x.iter().zip(self.by_input.chunks_exact(self.outputs())) {
+            // Of what was observed nothing is absent, and about half of all numbers were below 0.
+            if *value != 0.0 {
+                let weights = &weights[first..][..OUTPUTS];
+                for (sum, weight) in sums.iter_mut().zip(weights) {
+                    *sum += value * weight;
+                }
+            }
+        }
+        sums
     }
 
     pub(super) fn weights(&self) -> [&[f32]; 2] {
@@ -49,13 +67,6 @@ impl Dense {
 
     pub(super) fn weights_mut(&mut self) -> [&mut [f32]; 2] {
         [&mut self.by_input, &mut self.bias]
-    }
-}
-
-/// Adds so many times some numbers to sums.
-fn add_scaled(sums: &mut [f32], factor: f32, numbers: &[f32]) {
-    for (sum, number) in sums.iter_mut().zip(numbers) {
-        *sum += factor * number;
     }
 }
 
@@ -70,5 +81,18 @@ mod tests {
         x.row_mut(0).copy_from_slice(&[1.0, 0.0, 2.0]);
         x.row_mut(1).copy_from_slice(&[0.0, -1.0, 0.0]);
         assert_eq!(dense.of(&x).values(), [201.5, 401.5, -9.5, -20.5]);
+    }
+
+    #[test]
+    fn any_number_of_outputs_is_made() {
+        let mut x = Matrix::zeros(1, 2);
+        x.row_mut(0).copy_from_slice(&[2.0, 3.0]);
+        for outputs in [1, 15, 16, 17, 33] {
+            let by_input = (0..2 * outputs).map(|weight| weight as f32).collect();
+            let dense = Dense { by_input, bias: vec![0.5; outputs] };
+            let expected: Vec<f32> =
+                (0..outputs).map(|at| (2 * at + 3 * (outputs + at)) as f32 + 0.5).collect();
+            assert_eq!(dense.of(&x).values(), expected);
+        }
     }
 }

@@ -1,5 +1,5 @@
-//! A small net that looks around: of each detection it hears what those nearest to it in its scan are like, which trees,
-//! who see one detection at a time, can't.
+//! A small net that looks around: of each detection it hears what those nearest to it in its scan are like. Trees, who
+//! see one detection at a time, can't.
 //!
 //! ```text
 //! x    evidence as scores, and what is absent           Scale, one per feature
@@ -9,8 +9,9 @@
 //! log odds = out(relu(hidden(n)))
 //! ```
 //!
-//! Message passing over nearest points as in PointNet++ (Qi et al., NIPS 2017) and DGCNN (Wang et al., 2019). Alone, such
-//! a net learns a simulator by heart; beside trees ([`with_trees`]) it is better than either in worlds of others.
+//! Message passing over nearest points as in PointNet++ (Qi et al., NIPS 2017) and DGCNN (Wang et al., 2019). Alone, a
+//! large one learns a simulator by heart; a small one beside trees ([`with_trees`]) is better than either in worlds of
+//! others.
 
 mod around;
 mod dense;
@@ -129,13 +130,15 @@ impl Net {
         weights
     }
 
-    /// The log odds of the detections of a scan, of which this evidence was observed, and which lie so around each other.
+    /// The log odds of the detections of a scan, of which this evidence was observed, and which lie so around each
+    /// other.
     pub fn log_odds(&self, rows: &Rows, around: &Around) -> Vec<f64> {
         let pass = Pass::new(self, self.scores(rows), around);
         pass.log_odds.iter().map(|log_odds| f64::from(*log_odds)).collect()
     }
 
-    /// What the net reads of rows: the score of each feature, 0 where it is absent, and behind them 1 for what is absent.
+    /// What the net reads of rows: the score of each feature, 0 where it is absent, and behind them 1 for what is
+    /// absent.
     pub fn scores(&self, rows: &Rows) -> Matrix {
         let inputs = self.scales.len();
         let mut scores = Matrix::zeros(rows.len(), 2 * inputs);

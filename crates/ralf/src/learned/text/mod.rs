@@ -73,6 +73,7 @@ mod tests {
                 seed: u64::MAX,
                 worlds: vec![world],
             },
+            expects: Some(0.25),
             inputs: vec![input("lidar_residual_horizontal"), input("lidar_residual_vertical")],
             plausible: Forest {
                 base: -1.0 / 3.0,
@@ -90,7 +91,7 @@ mod tests {
     #[test]
     fn what_is_written_is_read_back_to_the_bit() {
         assert_eq!(Model::from_text(&model().to_text()), Ok(model()));
-        let bare = Model { causes: vec![], net: None, origin: Origin::default(), ..model() };
+        let bare = Model { causes: vec![], net: None, expects: None, origin: Origin::default(), ..model() };
         assert_eq!(Model::from_text(&bare.to_text()), Ok(bare));
         assert_eq!(model().check(), Ok(()));
     }
@@ -161,6 +162,7 @@ mod tests {
             ("tree 1 0.1 y", "tree 1 inf y", "expected finite numbers"),
             ("tree 1 0.1 y", "tree 70000 0.1 y", "expected"),
             ("tree 1 0.1 y", "tree 1 0.1 y 1 0.1 n", "expected a whole tree"),
+            ("expects 0.25", "expects 1", "line 6: expected expects and a share between 0 and 1"),
             ("net 2 4", "net 2 0", "expected net and four numbers"),
             ("net 2 4", "net 3 4", "expected `scale`, found `weights "),
             ("scale -1.0 -1.5", "scale -1.0 9.5", "expected pairs of finite numbers whose first rises"),

@@ -30,6 +30,7 @@ pub(super) fn model(text: &str) -> Result<Model, ReadError> {
         return Err(head.refuse(format!("`{HEAD}`")));
     }
     let origin = reader.origin()?;
+    let expects = reader.next_if("expects")?.map(|line| line.share()).transpose()?;
     let mut inputs = Vec::new();
     while let Some(line) = reader.next_if("input")? {
         inputs.push(line.input()?);
@@ -43,7 +44,7 @@ pub(super) fn model(text: &str) -> Result<Model, ReadError> {
     let net = reader.net()?;
     reader.end(text)?;
     match reader.lines.next() {
-        None => Ok(Model { origin, inputs, plausible, net, calibration, causes }),
+        None => Ok(Model { origin, expects, inputs, plausible, net, calibration, causes }),
         Some((at, text)) => Err(Line { at, key: "", text, rest: text }.refuse("no further line")),
     }
 }
@@ -207,6 +208,11 @@ impl Line<'_> {
         }
         let scores = words.chunks(2).map(|pair| (pair[0].to_owned(), pair[1].to_owned())).collect();
         Some(World { name, detections, plausible, scores })
+    }
+
+    fn share(&self) -> Result<f64, ReadError> {
+        let share = self.rest.parse().ok().filter(|share: &f64| *share > 0.0 && *share < 1.0);
+        share.ok_or_else(|| self.refuse("expects and a share between 0 and 1"))
     }
 
     fn input(&self) -> Result<Input, ReadError> {

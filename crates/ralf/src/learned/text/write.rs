@@ -10,7 +10,7 @@ use std::fmt::Write;
 
 /// A model as text.
 pub(super) fn text(model: &Model) -> String {
-    let Model { origin, inputs, plausible, net, calibration, causes } = model;
+    let Model { origin, expects, inputs, plausible, net, calibration, causes } = model;
     let mut lines =
         format!("{HEAD}\nprogram {}\ncommand {}\n", one_line(&origin.program), one_line(&origin.command));
     line(&mut lines, format_args!("seed {}", origin.seed));
@@ -23,6 +23,9 @@ pub(super) fn text(model: &Model) -> String {
             &mut lines,
             format_args!("world {detections} {plausible} {}:{told}", one_line(name).replace(':', ";")),
         );
+    }
+    if let Some(share) = expects {
+        line(&mut lines, format_args!("expects {share:?}"));
     }
     for Input { name, seen: Seen { low, high, absent, gain } } in inputs {
         line(&mut lines, format_args!("input {name} {low:?} {high:?} {absent:?} {gain:?}"));
