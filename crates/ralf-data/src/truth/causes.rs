@@ -57,7 +57,7 @@ impl Causes {
     /// Reads the names of a sequence's causes; `None` where it has none.
     ///
     /// # Errors
-    /// Those of [`names_of_causes`], or a file that can't be read.
+    /// An empty list or name, more names than codes, a first name other than `none`, or a file that can't be read.
     pub fn find(dataset: &Path, sequence: &str) -> Result<Option<Self>, DataError> {
         let file = truth_folder(dataset, sequence).join(CAUSE_NAMES);
         if !files::exists(&file)? {
