@@ -184,7 +184,8 @@ def test_cameras_that_do_not_fit_are_refused():
     assert len(with_image(eye, image[::-1], np.ones((48, 64)))) == 1
     with pytest.raises(TypeError, match="expected an image of uint8, found float64"):
         with_image(eye, image / 255)
-    with pytest.raises(ralf.RalfError, match="eye: image 0: expected an image of 64 x 48 px as calibrated, found 48 x 64 px"):
+    found = "expected an image of 64 x 48 px as calibrated, found 48 x 64 px"
+    with pytest.raises(ralf.RalfError, match=f"eye: image 0: {found}"):
         with_image(eye, image.transpose(1, 0, 2))
     with pytest.raises(ValueError, match="expected an image of height x width x 3"):
         with_image(eye, image[..., 0])
