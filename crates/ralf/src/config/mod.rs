@@ -97,7 +97,8 @@ pub struct LearnedConfig {
     pub max_novelty: f64,
     /// The odds of what only the radar tells of are multiplied by this.
     pub unconfirmed: f64,
-    /// The share of detections that is plausible in recordings like these, in (0, 1); 0 is that of the model's worlds.
+    /// The share of detections that is plausible in recordings like these, in (0, 1); 0 is what the model expects
+    /// ([`Model::expects`](crate::learned::Model::expects)).
     pub share: f64,
     /// Whether it is told what each group of evidence adds.
     pub reasons: bool,
