@@ -19,13 +19,18 @@ pub(super) fn blanked(table: &TrainingTable, seed: u64) -> Rows {
     for (row, known) in table.known.iter().enumerate() {
         let lacks = |group: usize| uniform(drawn(seed, known.scan.into(), group as u64)) < shares[group];
         let lacking: Vec<bool> = (0..GROUPS.len()).map(lacks).collect();
-        for (value, group) in rows.row_mut(row).iter_mut().zip(&group_of) {
-            if lacking[*group] {
-                *value = f32::NAN;
-            }
-        }
+        blank(rows.row_mut(row), &group_of, &lacking);
     }
     rows
+}
+
+/// Takes groups of evidence away from a row.
+pub(super) fn blank(row: &mut [f32], group_of: &[usize], lacking: &[bool]) {
+    for (value, group) in row.iter_mut().zip(group_of) {
+        if lacking[*group] {
+            *value = f32::NAN;
+        }
+    }
 }
 
 impl TrainingTable {

@@ -159,9 +159,7 @@ impl<'a> Ground<'a> {
         let worlds: Vec<u16> = all.filter(|world| Some(*world) != left_out).collect();
         let blanked = if fitting.blanking { BLANKED } else { 0.0 };
         // What a scan holds tells a net which movers are real: weighed as for trees it is worse (learned-tried.md).
-        let weights: Vec<f32> = self.table.known.iter().map(|known| known.weight).collect();
-        let scans = Scans::new(self.table, &weights);
-        Some(fit_net(&scans, &worlds, parameters, blanked, fitting.parameters.seed))
+        Some(fit_net(&Scans::new(self.table), &worlds, parameters, blanked, fitting.parameters.seed))
     }
 }
 

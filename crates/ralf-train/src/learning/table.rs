@@ -3,6 +3,7 @@
 use super::view::View;
 use ralf::evidence::Feature;
 use ralf::learned::Rows;
+use std::ops::Range;
 
 /// Evidence and truth, a row per detection.
 #[derive(Debug, Clone, PartialEq)]
@@ -38,6 +39,20 @@ pub struct Known {
     pub weight: f32,
     /// Where it lies in the vehicle frame at the scan's time, m.
     pub place: [f32; 3],
+}
+
+/// The places of the rows of each scan, seen in one way: they lie side by side.
+pub(super) fn scans_of(known: &[Known]) -> impl Iterator<Item = Range<usize>> {
+    let mut begin = 0;
+    known.chunk_by(|a, b| (a.scan, a.view) == (b.scan, b.view)).map(move |scan| {
+        begin += scan.len();
+        begin - scan.len()..begin
+    })
+}
+
+/// Where the detections of some rows lie.
+pub(super) fn places(known: &[Known]) -> Vec<[f32; 3]> {
+    known.iter().map(|known| known.place).collect()
 }
 
 impl TrainingTable {

@@ -4,7 +4,6 @@ use super::block::Blocks;
 use super::familiar::{Seen, novelty};
 use super::forest::{Inference, probability};
 use super::model::{Model, UseError};
-use super::net::{Around, Net, with_trees};
 use super::reason::Telling;
 use super::rows::Rows;
 use super::shapley::Explainer;
@@ -133,7 +132,7 @@ impl<'a> LearnedLabeler<'a> {
         let rows = rows.pick(asked.iter().copied());
         let blocks = Blocks::of(&rows);
         let log_odds = self.plausible.log_odds(&blocks);
-        let heard = self.model.net.as_ref().map(|net| heard(net, &rows, &log_odds, &places(frame, &asked)));
+        let heard = self.model.net.as_ref().map(|net| net.heard(&log_odds, &rows, &places(frame, &asked)));
         for (at, log_odds) in log_odds.into_iter().enumerate() {
             let (label, row) = (&mut labels[asked[at]], rows.row(at));
             let heard = heard.as_ref().map_or(0.0, |heard| heard[at]);
@@ -211,12 +210,6 @@ impl<'a> LearnedLabeler<'a> {
         let name = if probability >= CLEAR { self.model.causes[best].name.as_str() } else { UNCLEAR };
         ToldCause { name: name.to_owned(), probability }
     }
-}
-
-/// What a net adds to the log odds of trees.
-fn heard(net: &Net, rows: &Rows, trees: &[f64], places: &[[f32; 3]]) -> Vec<f64> {
-    let said = net.log_odds(rows, &Around::of(places, net.nearest));
-    trees.iter().zip(said).map(|(trees, said)| with_trees(*trees, said)).collect()
 }
 
 /// Where the detections of some rows lie, which have a place.

@@ -21,7 +21,7 @@ pub struct Model {
     /// Log odds that a detection is plausible.
     pub plausible: Forest,
     /// What is asked about the detections around, too; what both say together is the mean
-    /// ([`with_trees`](super::net::with_trees)).
+    /// ([`Net::heard`]).
     pub net: Option<Net>,
     /// What the log odds of both together mean.
     pub calibration: Calibration,

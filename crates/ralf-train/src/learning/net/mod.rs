@@ -96,6 +96,7 @@ fn pace(step: usize, steps: usize) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use super::super::table::places;
     use super::super::testing::table;
     use super::*;
     use ralf::learned::net::Around;
@@ -110,12 +111,11 @@ mod tests {
             table.known[row].place = [far % 1000.0, far / 1000.0 * 50.0 + (row % 2) as f32, 0.0];
             table.known[row].plausible = table.rows.row(other)[0] > 0.0;
         }
-        let weights = vec![1.0; table.len()];
-        let scans = Scans::new(&table, &weights);
+        let scans = Scans::new(&table);
         let parameters = NetParameters { width: 8, layers: 1, nearest: 1, passes: 60.0, rate: 2e-2 };
         let net = fit_net(&scans, &[0, 1], &parameters, 0.0, 7);
         let right = scans.of_world(2).iter().flat_map(|scan| {
-            let around = Around::of(&scans.places(scan), net.nearest);
+            let around = Around::of(&places(&table.known[scan.clone()]), net.nearest);
             let said = net.log_odds(&table.rows.pick(scan.clone()), &around);
             scan.clone().zip(said).map(|(row, said)| (said > 0.0) == table.known[row].plausible)
         });

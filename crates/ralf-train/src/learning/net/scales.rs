@@ -25,13 +25,9 @@ pub(super) fn of(scans: &Scans, worlds: &[u16]) -> Vec<Scale> {
         let mut values: Vec<f32> = values.filter(|value| value.is_finite()).collect();
         values.sort_unstable_by(f32::total_cmp);
         // Values rise and so do their ranks; where they don't, there is nothing to tell.
-        scales.push(Scale::new(points(&values)).unwrap_or_else(|_| nothing()));
+        scales.push(Scale::new(points(&values)).unwrap_or_default());
     }
     scales
-}
-
-fn nothing() -> Scale {
-    Scale::new(Vec::new()).unwrap_or_else(|_| unreachable!("no points are no wrong ones"))
 }
 
 /// Points of sorted values: values that many share have the middle of their ranks.

@@ -10,7 +10,7 @@
 //! ```
 //!
 //! Message passing over nearest points as in PointNet++ (Qi et al., NIPS 2017) and DGCNN (Wang et al., 2019). Alone, a
-//! large one learns a simulator by heart; a small one beside trees ([`with_trees`]) is better than either in worlds of
+//! large one learns a simulator by heart; a small one beside trees ([`Net::heard`]) is better than either in worlds of
 //! others.
 
 mod around;
@@ -137,6 +137,13 @@ impl Net {
         pass.log_odds.iter().map(|log_odds| f64::from(*log_odds)).collect()
     }
 
+    /// What the net adds to the log odds of trees, of detections of a scan that lie at these places: together they say
+    /// the mean of both.
+    pub fn heard(&self, trees: &[f64], rows: &Rows, places: &[[f32; 3]]) -> Vec<f64> {
+        let said = self.log_odds(rows, &Around::of(places, self.nearest));
+        trees.iter().zip(said).map(|(trees, said)| (said - trees) / 2.0).collect()
+    }
+
     /// What the net reads of rows: the score of each feature, 0 where it is absent, and behind them 1 for what is
     /// absent.
     pub fn scores(&self, rows: &Rows) -> Matrix {
@@ -156,11 +163,6 @@ impl Net {
         }
         scores
     }
-}
-
-/// What a net adds to the log odds of trees: together they say the mean of both.
-pub fn with_trees(trees: f64, net: f64) -> f64 {
-    (net - trees) / 2.0
 }
 
 #[cfg(test)]
@@ -229,6 +231,10 @@ pub(in crate::learned) mod tests {
 
     #[test]
     fn together_they_say_the_mean() {
-        assert_eq!(2.0 + with_trees(2.0, -1.0), 0.5);
+        let (net, (rows, places)) = (net(5), scan(4, 5));
+        let said = net.log_odds(&rows, &Around::of(&places, net.nearest));
+        for (heard, said) in net.heard(&[2.0; 4], &rows, &places).into_iter().zip(said) {
+            assert_eq!(2.0 + heard, 2.0 + (said - 2.0) / 2.0);
+        }
     }
 }

@@ -3,7 +3,7 @@
 use thiserror::Error;
 
 /// A rising line through points of a feature's value and its score; level beyond its ends.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct Scale {
     points: Vec<(f32, f32)>,
 }
