@@ -57,8 +57,9 @@ impl Path {
         let steps = (seconds / STEP).ceil() as usize + 1;
         let states = (0..steps).map(|step| {
             state.speed = speed(step as f64 * STEP);
-            state.yaw_rate = state.speed * curvature(legs, travelled);
-            travelled += state.speed.abs() * STEP;
+            let way = state.speed.abs() * STEP;
+            state.yaw_rate = state.speed * curvature(legs, travelled, way);
+            travelled += way;
             let now = state;
             state = state.advanced(STEP);
             now
@@ -79,14 +80,19 @@ impl Path {
     }
 }
 
-/// 1/m, after so many metres.
-fn curvature(legs: &[Leg], travelled: f64) -> f64 {
-    let mut end = 0.0;
-    let leg = legs.iter().find(|leg| {
-        end += leg.length;
-        travelled < end
-    });
-    leg.map_or(0.0, |leg| leg.turn_deg.to_radians() / leg.length)
+/// 1/m, after so many metres, of the `way` that follows, m: the mean where legs end within it, so that none is lost.
+fn curvature(legs: &[Leg], travelled: f64, way: f64) -> f64 {
+    let of = |leg: &Leg| leg.turn_deg.to_radians() / leg.length;
+    let (mut begin, mut turned) = (0.0, 0.0);
+    for leg in legs {
+        let end = begin + leg.length;
+        if begin <= travelled && travelled + way <= end && travelled < end {
+            return of(leg);
+        }
+        turned += of(leg) * ((travelled + way).min(end) - travelled.max(begin)).max(0.0);
+        begin = end;
+    }
+    if way > 0.0 { turned / way } else { 0.0 }
 }
 
 #[cfg(test)]
@@ -103,5 +109,16 @@ mod tests {
         let end = at_the_end.unwrap();
         assert!((end.x + 9.0).abs() < 0.7 && (end.heading.to_degrees() - 180.0).abs() < 5.0, "{end:?}");
         assert!(path.states.iter().all(|state| state.speed < 10.1 / 3.6));
+    }
+
+    #[test]
+    fn legs_shorter_than_a_step_turn_the_vehicle_too() {
+        // 0.3 m a step, and a corner of 0.1 m between two of them.
+        let leg = |length, turn_deg| Leg { length, turn_deg };
+        let corner = [leg(1.0, 0.0), leg(0.1, 40.0), leg(2.0, 0.0), leg(0.05, -10.0), leg(50.0, 0.0)];
+        for way in [1.0, -1.0] {
+            let path = Path::along([0.0; 3], &corner, 1.0, |_| 30.0 * way);
+            assert!((path.state(0.9).heading - way * 30_f64.to_radians()).abs() < 1e-9);
+        }
     }
 }

@@ -34,12 +34,7 @@ pub(super) fn scatterers(kind: Kind, size: Vector, random: &mut Random) -> Vec<S
     match kind {
         Kind::Car | Kind::Truck => car(l, w, height, random),
         Kind::Building => facades(l, w, height, 1.0, random),
-        // Seen from its inside, too.
-        Kind::Garage => {
-            let outside = facades(l, w, height, 1.0, random);
-            let inside = facades(l - 0.25, w - 0.25, height, -1.0, random);
-            outside.into_iter().chain(inside).filter(|scatterer| !scatterer.behind_facade).collect()
-        }
+        Kind::Garage => garage(l, w, height, random),
         Kind::Pole => {
             let count = (height / 0.7).clamp(2.0, 5.0) as usize;
             let step = (height / count as f64).min(0.7);
@@ -144,6 +139,17 @@ fn facades(l: f64, w: f64, height: f64, side: f64, random: &mut Random) -> Vec<S
             let depth = 0.5 + 6.5 * (i as f64 + 0.5) / count as f64;
             one(depth, 3.0 - 0.6 * depth, 5.0, true);
         });
+    }
+    found
+}
+
+/// Three walls that are seen from their inside, too: the front is open.
+fn garage(l: f64, w: f64, height: f64, random: &mut Random) -> Vec<Scatterer> {
+    let mut found = Vec::new();
+    for (side, within) in [(1.0, 0.0), (-1.0, 0.25)] {
+        let walls = facades(l - within, w - within, height, side, random);
+        let is_front = |wall: &Scatterer| wall.normal.is_some_and(|normal| side * normal.x > 0.5);
+        found.extend(walls.into_iter().filter(|wall| !wall.behind_facade && !is_front(wall)));
     }
     found
 }

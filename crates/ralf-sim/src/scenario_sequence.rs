@@ -231,7 +231,8 @@ mod tests {
                 assert!((found.elevation - origin.elevation).abs() < 6.0 * sensor.sigma_elevation);
                 let p = site_from_radar * detection.origin;
                 let on = |object: &crate::site::Object| {
-                    let own = object.pose(seconds(scan.t_ns)).inverse_transform_point(&p);
+                    let own =
+                        object.pose(&sequence.site.ground, seconds(scan.t_ns)).inverse_transform_point(&p);
                     let half = object.size / 2.0;
                     own.x.abs() < half.x + 0.2 && own.y.abs() < half.y + 0.2 && own.z < object.size.z + 0.3
                 };

@@ -5,6 +5,7 @@ use super::kind::Kind;
 use super::shape::{Crossing, Ray};
 use super::site::Site;
 use super::solid::Solid;
+use nalgebra::Isometry3;
 use ralf::space::{Point, Vector};
 
 /// Where a ray ends.
@@ -28,8 +29,10 @@ impl Hit<'_> {
 #[derive(Debug)]
 pub(super) struct Scene<'a> {
     pub(super) site: &'a Site,
-    /// Since the start.
-    pub(super) seconds: f64,
+    /// Where each object is.
+    pub(super) poses: Vec<Isometry3<f64>>,
+    /// How each object moves, m/s.
+    pub(super) velocities: Vec<Vector>,
     solids: Vec<Solid>,
     tree: Tree,
 }
@@ -37,12 +40,14 @@ pub(super) struct Scene<'a> {
 impl<'a> Scene<'a> {
     /// After so many seconds.
     pub(super) fn new(site: &'a Site, seconds: f64) -> Self {
-        let solids: Vec<Solid> = site
-            .objects
+        let (ground, objects) = (&site.ground, &site.objects);
+        let poses: Vec<Isometry3<f64>> = objects.iter().map(|object| object.pose(ground, seconds)).collect();
+        let velocities = objects.iter().map(|object| object.velocity(ground, seconds)).collect();
+        let solids: Vec<Solid> = objects
             .iter()
+            .zip(&poses)
             .enumerate()
-            .flat_map(|(index, object)| {
-                let pose = object.pose(seconds);
+            .flat_map(|(index, (object, pose))| {
                 let (sin, cos) = pose.rotation.euler_angles().2.sin_cos();
                 object.bodies.iter().enumerate().map(move |(part, (shape, center))| Solid {
                     kind: object.kind,
@@ -56,7 +61,7 @@ impl<'a> Scene<'a> {
             })
             .collect();
         let bounds: Vec<Bounds> = solids.iter().map(Solid::bounds).collect();
-        Self { site, seconds, tree: Tree::new(&bounds), solids }
+        Self { site, poses, velocities, tree: Tree::new(&bounds), solids }
     }
 
     /// The first surface that a ray meets within `limit`.
@@ -97,14 +102,18 @@ impl<'a> Scene<'a> {
         })
     }
 
-    /// What lies between two points takes from a radar wave, dB; `None` where nothing comes through. The bodies of
-    /// `own` don't count, nor does the ground.
+    /// What lies between two points takes from a radar wave, dB; `None` where nothing comes through, as through the
+    /// ground. The bodies of the object at the way's end, `own`, don't count, unless one looks into it.
     pub(super) fn radar_loss_db(&self, from: &Point, to: &Point, own: Option<usize>) -> Option<f64> {
         let way = to - from;
         let length = way.norm();
         if length < 1e-6 {
             return Some(0.0);
         }
+        if self.site.ground.hides(from, to) {
+            return None;
+        }
+        let own = own.filter(|own| self.site.objects[*own].kind != Kind::Garage);
         let ray = Ray { origin: *from, direction: way / length };
         let mut loss = Some(0.0);
         self.tree.visit(&ray, length, |index, limit| {

@@ -22,8 +22,8 @@ pub(super) struct Object {
     pub(super) site_from_object: Isometry3<f64>,
     /// Length, width, height, m.
     pub(super) size: Vector,
-    /// In the site's frame, m/s.
-    pub(super) velocity: Vector,
+    /// Along x and y of the site's frame, m/s.
+    pub(super) level_velocity: Vector,
     /// In its own frame.
     pub(super) bodies: Vec<(Shape, Vector)>,
     /// In its own frame.
@@ -31,9 +31,20 @@ pub(super) struct Object {
 }
 
 impl Object {
-    /// Where it is after so many seconds.
-    pub(super) fn pose(&self, seconds: f64) -> Isometry3<f64> {
-        Translation3::from(self.velocity * seconds) * self.site_from_object
+    /// Where it is after so many seconds: upright, with its foot as high above the ground as at the start.
+    pub(super) fn pose(&self, ground: &Ground, seconds: f64) -> Isometry3<f64> {
+        let start = self.site_from_object.translation.vector;
+        let mut way = self.level_velocity * seconds;
+        way.z = ground.height(start.x + way.x, start.y + way.y) - ground.height(start.x, start.y);
+        Translation3::from(way) * self.site_from_object
+    }
+
+    /// After so many seconds, in the site's frame, m/s.
+    pub(super) fn velocity(&self, ground: &Ground, seconds: f64) -> Vector {
+        let place = self.pose(ground, seconds).translation.vector;
+        let up = ground.normal(place.x, place.y);
+        let rise = -self.level_velocity.dot(&up) / up.z;
+        self.level_velocity + Vector::z() * rise
     }
 }
 
@@ -81,7 +92,7 @@ fn object(ground: &Ground, thing: &Thing, member: usize, random: &mut Random) ->
             UnitQuaternion::from_axis_angle(&Vector::z_axis(), yaw),
         ),
         size,
-        velocity: Vector::new(thing.velocity[0], thing.velocity[1], 0.0),
+        level_velocity: Vector::new(thing.velocity[0], thing.velocity[1], 0.0),
         bodies: bodies(kind, size),
         scatterers: Vec::new(),
     }
@@ -171,4 +182,30 @@ fn garage(block: &Block<'_>, l: f64, w: f64, height: f64) -> Vec<(Shape, Vector)
         block([-l, wall - l], [-w, w], [0.0, height]),
         block([-l, l], [-w, w], [height - wall, height]),
     ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_drives_up_a_ramp_stays_on_the_ground() {
+        let ramp = "
+        title = 'A ramp'
+        ego = { start = [0, 0, 0], speed_kmh = 7 }
+        ramp = [{ at = [10, 0], direction_deg = 30, length = 30, slope_deg = 8 }]
+        thing = [{ kind = 'truck', at = [5, 3], velocity = [10, 0] }]";
+        let site = Site::new(&Scenario::from_toml(ramp).unwrap(), 1);
+        let (truck, ground) = (&site.objects[0], &site.ground);
+        let height = |seconds: f64| truck.pose(ground, seconds).translation.z;
+        for (seconds, rises) in
+            [(0.0, 0.0), (1.5, 10.0 * 30_f64.to_radians().cos() * 8_f64.to_radians().tan())]
+        {
+            let place = truck.pose(ground, seconds).translation;
+            assert!((place.z - ground.height(place.x, place.y)).abs() < 1e-9);
+            let velocity = truck.velocity(ground, seconds);
+            assert!((velocity - Vector::new(10.0, 0.0, rises)).norm() < 1e-9, "{velocity}");
+        }
+        assert!(height(3.0) > 1.5 && (height(9.0) - height(8.0)).abs() < 1e-9);
+    }
 }

@@ -99,8 +99,7 @@ impl Placed {
 
 /// The images of all strong scatterers in all mirrors.
 pub(super) fn echoes(view: &View<'_>, mirrors: &[Mirror], random: &mut Random) -> Vec<Echo> {
-    let objects = &view.scene.site.objects;
-    let poses: Vec<Isometry3<f64>> = objects.iter().map(|object| object.pose(view.scene.seconds)).collect();
+    let (objects, poses) = (&view.scene.site.objects, &view.scene.poses);
     let mut found = Vec::new();
     for placed in mirrors.iter().filter_map(|mirror| Placed::new(view, mirror, &poses[mirror.object])) {
         for (index, object) in objects.iter().enumerate().filter(|(index, _)| *index != placed.object) {
@@ -131,8 +130,8 @@ fn image(view: &View<'_>, placed: &Placed, object: usize, p: &Point, strength_db
     let range = view.range_in_view(&position)?;
     let there_db = view.scene.radar_loss_db(&view.origin(), &at, Some(placed.object))?;
     let on_db = view.scene.radar_loss_db(&(at + placed.normal * 0.02), p, Some(object))?;
-    let velocity = view.scene.site.objects[object].velocity;
-    let mirrored = velocity - placed.normal * (2.0 * placed.normal.dot(&velocity));
+    let [original, mirror] = [object, placed.object].map(|object| view.scene.velocities[object]);
+    let mirrored = original - placed.normal * (2.0 * placed.normal.dot(&(original - mirror)));
     Some(Echo {
         position,
         range_rate: view.range_rate(&position, &mirrored),

@@ -4,9 +4,7 @@ use super::{Echo, View, distance_loss_db};
 use crate::kind::Kind;
 use crate::random::Random;
 use crate::scatterer::Scatterer;
-use crate::site::Object;
 use crate::truth::Truth;
-use nalgebra::Isometry3;
 use ralf::label::Cause;
 
 /// What a car's own body takes from what lies on its far side, dB.
@@ -16,11 +14,10 @@ const FAR_SIDE_LOSS_DB: f64 = 8.0;
 pub(super) fn echoes(view: &View<'_>, random: &mut Random) -> Vec<Echo> {
     let mut found = Vec::new();
     for (index, object) in view.scene.site.objects.iter().enumerate() {
-        let pose = object.pose(view.scene.seconds);
         for scatterer in &object.scatterers {
             // Drawn for every scatterer, seen or not: what one hides doesn't change the others.
             let flicker_db = random.normal(scatterer.flicker_db);
-            if let Some(echo) = echo(view, index, &pose, scatterer) {
+            if let Some(echo) = echo(view, index, scatterer) {
                 found.push(Echo { level_db: echo.level_db + flicker_db, ..echo });
             }
         }
@@ -28,9 +25,9 @@ pub(super) fn echoes(view: &View<'_>, random: &mut Random) -> Vec<Echo> {
     found
 }
 
-/// The echo of a scatterer of an object, which is at `pose`.
-fn echo(view: &View<'_>, object: usize, pose: &Isometry3<f64>, scatterer: &Scatterer) -> Option<Echo> {
-    let Object { kind, velocity, .. } = &view.scene.site.objects[object];
+/// The echo of a scatterer of an object.
+fn echo(view: &View<'_>, object: usize, scatterer: &Scatterer) -> Option<Echo> {
+    let (kind, pose) = (view.scene.site.objects[object].kind, &view.scene.poses[object]);
     let position = pose * scatterer.position;
     let range = view.range_in_view(&position)?;
     let back = (view.origin() - position) / range;
@@ -52,7 +49,7 @@ fn echo(view: &View<'_>, object: usize, pose: &Isometry3<f64>, scatterer: &Scatt
     };
     Some(Echo {
         position,
-        range_rate: view.range_rate(&position, velocity),
+        range_rate: view.range_rate(&position, &view.scene.velocities[object]),
         level_db: scatterer.strength_db - distance_loss_db(range) - own_loss_db - loss_db,
         truth,
     })

@@ -131,13 +131,16 @@ impl Moment<'_> {
         })
     }
 
-    /// What lies between two points takes from a radar wave, there and back, dB; `None` where nothing comes through.
-    /// The bodies of `own` don't count, nor does the ground.
+    /// What lies between two points takes from a radar wave, there and back, dB; `None` where nothing comes through, as
+    /// through the ground. The bodies of `own` don't count.
     pub(super) fn loss_db(&self, from: &Point, to: &Point, own: &[usize], leaf_db: f64) -> Option<f64> {
         let way = to - from;
         let length = way.norm();
         if length < 1e-6 {
             return Some(0.0);
+        }
+        if self.site.terrain.hides(from, to) {
+            return None;
         }
         let ray = Ray { origin: *from, direction: way / length };
         let mut loss = Some(0.0);
@@ -185,5 +188,25 @@ fn through_db(kind: Kind, metres: f64, leaf_db: f64) -> Option<f64> {
         Kind::Pedestrian => Some(5.0),
         Kind::Pole => Some(1.0),
         Kind::Grass | Kind::Sidewalk | Kind::Road | Kind::Marking => Some(0.0),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scenario::Ramp;
+    use crate::world::terrain::{Patch, Surface};
+
+    #[test]
+    fn nothing_is_heard_through_a_crest() {
+        let ramp = |x: f64, slope_deg| Ramp { at: [x, 0.0], direction_deg: 0.0, length: 20.0, slope_deg };
+        let base = Patch::base(Surface::Asphalt, 0.2);
+        let terrain = Terrain::new(&[ramp(10.0, 6.0), ramp(30.0, -6.0)], Vec::new(), base, 1);
+        let site = Site::new(terrain, Vec::new(), 1);
+        let loss = |height: f64| {
+            let [from, to] = [Point::new(0.0, 0.0, 0.6), Point::new(60.0, 0.0, height)];
+            site.at(0.0).loss_db(&from, &to, &[], 1.0)
+        };
+        assert_eq!([loss(0.5), loss(5.0)], [None, Some(0.0)]);
     }
 }

@@ -137,6 +137,11 @@ impl Terrain {
         [-up.x / up.z, -up.y / up.z]
     }
 
+    /// Whether the ground, kerbs aside, lies between two places.
+    pub(super) fn hides(&self, from: &Point, to: &Point) -> bool {
+        self.ground.hides(from, to)
+    }
+
     /// The pose of a vehicle that stands on it.
     pub(super) fn pose(&self, place: [f64; 3]) -> Transform {
         self.ground.pose(place)

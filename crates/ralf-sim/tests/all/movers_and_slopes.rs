@@ -81,3 +81,39 @@ fn a_ramp_is_ground_for_the_local_model_where_one_plane_takes_it_for_a_wall() {
     assert!(plane > 0.1, "of one plane {plane}");
     assert!(local < 0.02, "of a surface {local}");
 }
+
+/// Where plausible detections of the front radar lie in the vehicle frame, m, of a world with one garage from 7 to 21 m
+/// ahead that is turned so.
+fn heard_of_a_garage(yaw_deg: f64) -> Vec<[f64; 2]> {
+    let garage = format!(
+        "title = 'A garage'
+        ego = {{ start = [0, 0, 0], speed_kmh = 1 }}
+        thing = [{{ kind = 'garage', at = [14, 0], yaw_deg = {yaw_deg}, size = [14, 9, 3.2] }}]"
+    );
+    let sequence = SimulatedSequence::new("00", &Scenario::from_toml(&garage).unwrap(), 3, 12).unwrap();
+    let config = Config::from_toml("camera.enabled = false", &[]).unwrap();
+    let mut window = FrameWindow::new(&sequence, &sequence.sequence().rig, &config);
+    let mut heard = Vec::new();
+    for scan in 0..12 {
+        let frame = window.frame(0, scan).unwrap();
+        let truth = sequence.truth(0, scan).unwrap();
+        let found = frame.scan.detections.iter().zip(truth);
+        let real = found.filter(|(_, truth)| truth.cause == Cause::Plausible);
+        heard.extend(
+            real.filter_map(|(found, _)| found.as_ref()).map(|found| [found.position.x, found.position.y]),
+        );
+    }
+    assert!(heard.len() > 50, "{}", heard.len());
+    heard
+}
+
+#[test]
+fn radars_look_into_a_garage_by_its_open_front_alone() {
+    let from_behind = heard_of_a_garage(0.0);
+    assert!(from_behind.iter().all(|[x, _]| (*x - 7.0).abs() < 1.0), "{from_behind:?}");
+    let from_before = heard_of_a_garage(180.0);
+    // Nothing hangs in the front, and the back wall shows its inside.
+    let is_in_front = |[x, y]: &[f64; 2]| (x - 7.0).abs() < 0.5 && y.abs() < 3.0;
+    assert!(!from_before.iter().any(is_in_front), "{from_before:?}");
+    assert!(from_before.iter().any(|[x, _]| (*x - 20.75).abs() < 1.0));
+}
