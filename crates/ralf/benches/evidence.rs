@@ -7,7 +7,6 @@
 use divan::{Bencher, black_box};
 use ralf::config::Config;
 use ralf::evidence::{PIECES, Surroundings, observe};
-use ralf::learned::net::{Net, Scale, Shape};
 use ralf::learned::{LearnedLabeler, Model};
 use ralf::scene::{Frame, FrameWindow, LidarSnapshot, LidarWindow};
 use ralf::sensors::{Elevation, Lidar, LidarScan, MemorySource, Radar, Reliability, Source};
@@ -198,23 +197,14 @@ fn learned(bencher: Bencher, reasons: &str) {
     bencher.bench_local(|| labeler.label(black_box(&frame), &columns));
 }
 
-/// The same without reasons, of the shipped model with a net beside its trees, as large as `ralf learn --neighbours`
-/// fits.
+/// The same without reasons, of the shipped model's trees alone.
 #[divan::bench]
-fn learned_with_neighbours(bencher: Bencher) {
+fn learned_trees_alone(bencher: Bencher) {
     let frame = frame();
     let columns = observe(&frame, &CONFIG);
     let config = learned_config(false);
     let mut model = Model::shipped().expect("a model");
-    let inputs = model.inputs.len();
-    let scale =
-        || Scale::new(vec![(-1.0, -1.0), (0.0, 0.1), (0.5, 0.4), (1.0, 0.9), (9.0, 1.5)]).expect("a scale");
-    let shape = Shape { inputs, width: 32, layers: 2, nearest: 8 };
-    let mut net = Net::zeros(shape, (0..inputs).map(|_| scale()).collect());
-    for weights in net.weights_mut() {
-        (0_u32..).zip(weights).for_each(|(i, weight)| *weight = (i as f32).sin() / 8.0);
-    }
-    model.net = Some(net);
+    model.net = None;
     let labeler = LearnedLabeler::new(&config, &model).expect("a model of this program");
     bencher.bench_local(|| labeler.label(black_box(&frame), &columns));
 }

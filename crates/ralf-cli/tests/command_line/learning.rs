@@ -19,9 +19,9 @@ fn what_is_learned_labels_and_is_the_same_to_the_byte_whatever_the_number_of_job
     let [town, yard] = simulated(&dataset);
     let models = ["1", "3"].map(|jobs| {
         let model = dataset.beside(&format!("model{jobs}"));
-        let trees = ["--rounds", "15", "--leaves", "6", "--neighbours"];
-        let [a, b, c, d, e] = trees;
-        let done = ralf(["learn", &town, &yard, "-o", &model, a, b, c, d, e, "--jobs", jobs]);
+        let trees = ["--rounds", "15", "--leaves", "6"];
+        let [a, b, c, d] = trees;
+        let done = ralf(["learn", &town, &yard, "-o", &model, a, b, c, d, "--jobs", jobs]);
         done.exits(0).prints(["town", "yard", "mean"]);
         model
     });
@@ -29,7 +29,7 @@ fn what_is_learned_labels_and_is_the_same_to_the_byte_whatever_the_number_of_job
     assert_eq!(text, fs::read_to_string(&models[1]).unwrap());
     let end = format!("\nend {}", text.lines().count() - 1);
     assert!(text.starts_with("ralf model 1\nprogram ") && text.contains("\nforest ") && text.contains(&end));
-    assert!(text.contains(" --leaves 6 --neighbours --seed 0\n") && text.contains("\nnet "), "{:.300}", text);
+    assert!(text.contains(" --leaves 6 --seed 0\n") && text.contains("\nnet "), "{:.300}", text);
     let outs = ["1", "2"].map(|jobs| {
         let out = dataset.beside(&format!("out{jobs}"));
         let method = ["--method", "learned", "--model", &models[0]];
@@ -74,13 +74,14 @@ fn worlds_are_simulated_on_the_way_and_each_family_is_one() {
     let model = dataset.beside("model");
     let worlds = ["--preset=worlds", "--without=city,motorway,imaging,country,anything", "--seeds=2"];
     let [a, b, c] = worlds;
-    let few = ["--scans=8", "--every=4", "--rounds=8", "--leaves=4"];
-    let [d, e, f, g] = few;
-    ralf(["learn", a, b, c, d, e, f, g, "-o", &model]).exits(0).prints(["survey", "carpark", "yard"]);
+    let few = ["--scans=8", "--every=4", "--rounds=8", "--leaves=4", "--no-neighbours"];
+    let [d, e, f, g, h] = few;
+    ralf(["learn", a, b, c, d, e, f, g, h, "-o", &model]).exits(0).prints(["survey", "carpark", "yard"]);
     let text = fs::read_to_string(&model).unwrap();
     let told =
         "--preset worlds --seeds 2 --scans 8 --every 4 --without city,motorway,imaging,country,anything";
     assert!(text.contains(told), "{:?}", text.lines().nth(2));
+    assert!(text.contains(" --leaves 4 --no-neighbours --seed 0\n") && !text.contains("\nnet "));
     assert_eq!(text.lines().filter(|line| line.starts_with("world ")).count(), 3);
 }
 

@@ -10,8 +10,8 @@ use std::convert::Infallible;
 
 /// Rows of a cause from which it can be learned.
 const FEWEST: usize = 100;
-/// Of so many trees and leaves a cause's forest has one: there is a forest for each cause.
-const PARTS: usize = 4;
+/// Of so many trees, and of so many leaves, a cause's forest has one: there is a forest for each cause.
+const PARTS: [usize; 2] = [2, 4];
 
 /// The forest of each cause that enough rows have, in the causes' order.
 pub(super) fn cause_forests(
@@ -29,8 +29,8 @@ pub(super) fn cause_forests(
     let weights: Vec<f32> = table.known.iter().map(|known| known.weight).collect();
     let either_way = vec![0; table.features.len()];
     let parameters = Parameters {
-        rounds: fitting.parameters.rounds.div_ceil(PARTS),
-        leaves: fitting.parameters.leaves.div_ceil(PARTS).max(2),
+        rounds: fitting.parameters.rounds.div_ceil(PARTS[0]),
+        leaves: fitting.parameters.leaves.div_ceil(PARTS[1]).max(2),
         ..fitting.parameters.clone()
     };
     let Ok(forests) = side_by_side(&causes, fitting.jobs, |cause| {

@@ -32,16 +32,16 @@ const EXPECTED: f64 = 0.3;
 /// Arguments of `ralf learn`.
 #[derive(Debug, Args)]
 #[command(after_help = "\
-Fits gradient-boosted trees to all evidence of detections whose truth is known (docs/learned.md). Recordings of one \
-DATASET are a world; of a single DATASET every sequence is one. A model is judged in each world by one that was fitted \
-to all the others, and that is what is printed and stands in the model's file. The same recordings, settings and seed \
-give the same file.
+Fits gradient-boosted trees, and beside them a small net that hears of the detections around each one, to all \
+evidence of detections whose truth is known (docs/learned.md). Recordings of one DATASET are a world; of a single \
+DATASET every sequence is one. A model is judged in each world by one that was fitted to all the others, and that is \
+what is printed and stands in the model's file. The same recordings, settings and seed give the same file.
 
 Examples:
   ralf learn town motorway yard -o model.txt           recordings in RALF's layout, with ground_truth
   ralf learn --preset worlds -o model.txt              simulated on the way, eight of each family
   ralf learn --preset worlds --seeds 1 --scans 40 -o quick.txt
-  ralf learn --preset worlds --neighbours -o around.txt   with a net that looks around
+  ralf learn --preset worlds --no-neighbours -o trees.txt   trees alone: a third less to ask
   ralf learn recordings/city --from out -o own.txt     worlds, and what people corrected in the review of out
   ralf label recordings/city -o out --method learned --model model.txt")]
 pub(crate) struct LearnArgs {
@@ -65,9 +65,9 @@ pub(crate) struct LearnArgs {
     #[arg(long, value_name = "N", default_value_t = Parameters::default().leaves as u32,
         value_parser = clap::value_parser!(u32).range(2..=Tree::MOST_LEAVES as i64))]
     leaves: u32,
-    /// Beside the trees a small net that hears of the detections around each one: it takes longer to learn and to ask
+    /// Trees alone, without the net that hears of the detections around each one: quicker to learn and to ask
     #[arg(long)]
-    neighbours: bool,
+    no_neighbours: bool,
     /// Groups of evidence that the model doesn't read; may be given several times
     #[arg(long = "without-group", value_name = "GROUP",
         value_parser = PossibleValuesParser::new(GROUPS))]
@@ -149,7 +149,7 @@ impl LearnArgs {
                 ..Parameters::default()
             },
             expects: self.expects(),
-            net: self.neighbours.then(NetParameters::default),
+            net: (!self.no_neighbours).then(NetParameters::default),
             blanking: !self.no_blanking,
             causes: true,
             threshold: config.fusion.threshold,
@@ -195,7 +195,7 @@ impl LearnArgs {
     fn origin(&self) -> Origin {
         let datasets: String =
             self.datasets.iter().map(|dataset| format!(" {}", shell_path(dataset))).collect();
-        let neighbours = if self.neighbours { " --neighbours" } else { "" };
+        let neighbours = if self.no_neighbours { " --no-neighbours" } else { "" };
         let mut without: String = self
             .without_groups
             .iter()

@@ -42,7 +42,7 @@ pub struct Parameters {
 impl Default for Parameters {
     fn default() -> Self {
         Self {
-            rounds: 110,
+            rounds: 64,
             leaves: 63,
             rate: 0.2,
             feature_fraction: 0.5,

@@ -1,6 +1,6 @@
 //! The gradient of a loss by all weights of a net: the chain rule, from the log odds back to the evidence.
 
-use ralf::learned::net::{Around, Dense, Layer, Matrix, Net, Norm, Pairs, Pass, Said};
+use ralf::learned::net::{Around, Dense, Ends, Layer, Matrix, Net, Norm, Pass, Said};
 
 /// Lanes of a sum that are added up side by side.
 const LANES: usize = 8;
@@ -34,42 +34,44 @@ fn through_layer(
     by: &mut Layer,
 ) -> Matrix {
     let d = through_dense(&layer.heard, &said.mean_and_most, d, &mut by.heard);
-    let pairs = through_pairs(&said.pairs, around, &d);
-    add_weights(around.ways(), &pairs.way, &mut by.way);
-    let mut d = through_dense(&layer.own, &said.normed, &pairs.own, &mut by.own);
-    d.add(&through_dense(&layer.other, &said.normed, &pairs.other, &mut by.other));
+    let ends = through_pairs(layer, &said.ends, around, &d, &mut by.way);
+    let mut d = through_dense(&layer.own, &said.normed, &ends.own, &mut by.own);
+    d.add(&through_dense(&layer.other, &said.normed, &ends.other, &mut by.other));
     through_norm(&layer.norm, h, &d, &mut by.norm)
 }
 
-/// Derivatives by what is said of pairs, from those by its mean and its largest.
-fn through_pairs(pairs: &Pairs, around: &Around, d: &Matrix) -> Pairs {
-    let width = pairs.own.width();
+/// Derivatives by what both ends of pairs bring, from those by the mean and the largest of what is said; adds those by
+/// the weights of the ways.
+fn through_pairs(layer: &Layer, ends: &Ends, around: &Around, d: &Matrix, by_way: &mut Dense) -> Ends {
+    let width = ends.own.width();
     let zeros = |like: &Matrix| Matrix::zeros(like.len(), like.width());
-    let mut by = Pairs { own: zeros(&pairs.own), other: zeros(&pairs.other), way: zeros(&pairs.way) };
-    let mut said = vec![0.0; width];
-    for row in 0..pairs.own.len() {
+    let mut by = Ends { own: zeros(&ends.own), other: zeros(&ends.other) };
+    let (mut said, mut d_said) = (vec![0.0; width], vec![0.0; width]);
+    for row in 0..ends.own.len() {
         let (d_mean, d_most) = d.row(row).split_at(width);
-        let most = largest(pairs, around, row);
-        for (pair, other) in (row * around.nearest()..).zip(around.of_one(row)) {
-            pairs.said(row, pair, *other, &mut said);
+        let most = largest(layer, ends, around, row);
+        for (pair, other) in around.pairs_of(row) {
+            layer.said_of(ends, around, [row, pair], other, &mut said);
+            d_said.fill(0.0);
             for at in (0..width).filter(|at| said[*at] > 0.0) {
                 let from_most = if most[at].0 == pair { d_most[at] } else { 0.0 };
                 let d = d_mean[at] / around.nearest() as f32 + from_most;
                 by.own.row_mut(row)[at] += d;
-                by.other.row_mut(*other as usize)[at] += d;
-                by.way.row_mut(pair)[at] = d;
+                by.other.row_mut(other as usize)[at] += d;
+                d_said[at] = d;
             }
+            add_weights_of_row(around.ways().row(pair), &d_said, by_way);
         }
     }
     by
 }
 
 /// The pair of a detection of which the largest is said, number by number, and how large; the first of equal ones.
-fn largest(pairs: &Pairs, around: &Around, row: usize) -> Vec<(usize, f32)> {
-    let mut said = vec![0.0; pairs.own.width()];
+fn largest(layer: &Layer, ends: &Ends, around: &Around, row: usize) -> Vec<(usize, f32)> {
+    let mut said = vec![0.0; ends.own.width()];
     let mut most = vec![(usize::MAX, 0.0); said.len()];
-    for (pair, other) in (row * around.nearest()..).zip(around.of_one(row)) {
-        pairs.said(row, pair, *other, &mut said);
+    for (pair, other) in around.pairs_of(row) {
+        layer.said_of(ends, around, [row, pair], other, &mut said);
         for (most, said) in most.iter_mut().zip(&said) {
             if *said > most.1 {
                 *most = (pair, *said);
@@ -101,14 +103,17 @@ fn through_dense(dense: &Dense, x: &Matrix, d: &Matrix, by: &mut Dense) -> Matri
 
 /// Adds the derivatives by the weights of a step.
 fn add_weights(x: &Matrix, d: &Matrix, by: &mut Dense) {
-    let outputs = by.outputs();
     for row in 0..x.len() {
-        let d = d.row(row);
-        by.bias.iter_mut().zip(d).for_each(|(sum, d)| *sum += d);
-        for (sums, value) in by.by_input.chunks_exact_mut(outputs).zip(x.row(row)) {
-            if *value != 0.0 {
-                sums.iter_mut().zip(d).for_each(|(sum, d)| *sum += value * d);
-            }
+        add_weights_of_row(x.row(row), d.row(row), by);
+    }
+}
+
+fn add_weights_of_row(x: &[f32], d: &[f32], by: &mut Dense) {
+    let outputs = by.outputs();
+    by.bias.iter_mut().zip(d).for_each(|(sum, d)| *sum += d);
+    for (sums, value) in by.by_input.chunks_exact_mut(outputs).zip(x) {
+        if *value != 0.0 {
+            sums.iter_mut().zip(d).for_each(|(sum, d)| *sum += value * d);
         }
     }
 }

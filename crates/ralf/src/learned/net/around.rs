@@ -64,6 +64,11 @@ impl Around {
         &self.of[row * self.nearest..][..self.nearest]
     }
 
+    /// The same, each behind the number of the pair: its row of [`Self::ways`].
+    pub fn pairs_of(&self, row: usize) -> impl Iterator<Item = (usize, u32)> + '_ {
+        (row * self.nearest..).zip(self.of_one(row).iter().copied())
+    }
+
     /// How many each detection has.
     pub fn nearest(&self) -> usize {
         self.nearest

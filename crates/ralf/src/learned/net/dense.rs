@@ -34,16 +34,21 @@ impl Dense {
     pub fn of(&self, x: &Matrix) -> Matrix {
         let mut made = Matrix::zeros(x.len(), self.outputs());
         for row in 0..x.len() {
-            let (lanes, rest) = made.row_mut(row).as_chunks_mut::<LANES>();
-            let alone = lanes.len() * LANES;
-            for (at, sums) in lanes.iter_mut().enumerate() {
-                *sums = self.sums(x.row(row), at * LANES);
-            }
-            for (at, sum) in rest.iter_mut().enumerate() {
-                [*sum] = self.sums(x.row(row), alone + at);
-            }
+            self.of_row(x.row(row), made.row_mut(row));
         }
         made
+    }
+
+    /// What it makes of one row.
+    pub fn of_row(&self, x: &[f32], made: &mut [f32]) {
+        let (lanes, rest) = made.as_chunks_mut::<LANES>();
+        let alone = lanes.len() * LANES;
+        for (at, sums) in lanes.iter_mut().enumerate() {
+            *sums = self.sums(x, at * LANES);
+        }
+        for (at, sum) in rest.iter_mut().enumerate() {
+            [*sum] = self.sums(x, alone + at);
+        }
     }
 
     /// Some of the outputs, side by side, from the one at `first` on.

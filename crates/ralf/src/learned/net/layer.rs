@@ -25,21 +25,19 @@ pub struct Layer {
 pub struct Said {
     /// What stands for each detection, normalised.
     pub normed: Matrix,
-    /// What of that is said of pairs.
-    pub pairs: Pairs,
+    /// What of that both ends of pairs bring.
+    pub ends: Ends,
     /// The mean over a detection's pairs, and behind it the largest.
     pub mean_and_most: Matrix,
 }
 
-/// What is said of pairs, before it is put together.
+/// What both ends of pairs bring to what is said of them.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Pairs {
-    /// Of each detection as one that hears.
+pub struct Ends {
+    /// Each detection as one that hears.
     pub own: Matrix,
-    /// Of each as one that is heard of.
+    /// Each as one that is heard of.
     pub other: Matrix,
-    /// Of each way between two, in the order of [`Around::ways`].
-    pub way: Matrix,
 }
 
 impl Layer {
@@ -56,10 +54,42 @@ impl Layer {
     /// What is said, of what stands for each detection.
     pub(super) fn said(&self, h: &Matrix, around: &Around) -> Said {
         let normed = self.norm.of(h);
-        let (own, other) = (self.own.of(&normed), self.other.of(&normed));
-        let pairs = Pairs { own, other, way: self.way.of(around.ways()) };
-        let mean_and_most = pairs.mean_and_most(around);
-        Said { normed, pairs, mean_and_most }
+        let ends = Ends { own: self.own.of(&normed), other: self.other.of(&normed) };
+        let mean_and_most = self.mean_and_most(&ends, around);
+        Said { normed, ends, mean_and_most }
+    }
+
+    /// What is said of a pair, by its number and that of the detection of which `row` hears: at least 0. It is worked
+    /// out anew wherever it is asked for: kept, what is said of all pairs would be most of a net's memory.
+    pub fn said_of(
+        &self,
+        ends: &Ends,
+        around: &Around,
+        [row, pair]: [usize; 2],
+        other: u32,
+        said: &mut [f32],
+    ) {
+        self.way.of_row(around.ways().row(pair), said);
+        for ((said, own), other) in said.iter_mut().zip(ends.own.row(row)).zip(ends.other.row(other as usize))
+        {
+            *said = (own + other + *said).max(0.0);
+        }
+    }
+
+    fn mean_and_most(&self, ends: &Ends, around: &Around) -> Matrix {
+        let width = ends.own.width();
+        let mut told = Matrix::zeros(ends.own.len(), 2 * width);
+        let mut said = vec![0.0; width];
+        for row in 0..told.len() {
+            let (mean, most) = told.row_mut(row).split_at_mut(width);
+            for (pair, other) in around.pairs_of(row) {
+                self.said_of(ends, around, [row, pair], other, &mut said);
+                mean.iter_mut().zip(&said).for_each(|(sum, said)| *sum += said);
+                most.iter_mut().zip(&said).for_each(|(most, said)| *most = most.max(*said));
+            }
+            mean.iter_mut().for_each(|sum| *sum /= around.nearest() as f32);
+        }
+        told
     }
 
     pub(super) fn weights(&self) -> [&[f32]; 10] {
@@ -74,32 +104,5 @@ impl Layer {
         let ([a, b], [c, d]) = (self.own.weights_mut(), self.other.weights_mut());
         let ([e, f], [g, h]) = (self.way.weights_mut(), self.heard.weights_mut());
         [gain, shift, a, b, c, d, e, f, g, h]
-    }
-}
-
-impl Pairs {
-    /// What is said of a pair, by its number and that of the detection of which `row` hears: at least 0.
-    pub fn said(&self, row: usize, pair: usize, other: u32, said: &mut [f32]) {
-        let (own, other) = (self.own.row(row), self.other.row(other as usize));
-        let parts = own.iter().zip(other).zip(self.way.row(pair));
-        for (said, ((own, other), way)) in said.iter_mut().zip(parts) {
-            *said = (own + other + way).max(0.0);
-        }
-    }
-
-    fn mean_and_most(&self, around: &Around) -> Matrix {
-        let width = self.own.width();
-        let mut told = Matrix::zeros(self.own.len(), 2 * width);
-        let mut said = vec![0.0; width];
-        for row in 0..told.len() {
-            let (mean, most) = told.row_mut(row).split_at_mut(width);
-            for (pair, other) in (row * around.nearest()..).zip(around.of_one(row)) {
-                self.said(row, pair, *other, &mut said);
-                mean.iter_mut().zip(&said).for_each(|(sum, said)| *sum += said);
-                most.iter_mut().zip(&said).for_each(|(most, said)| *most = most.max(*said));
-            }
-            mean.iter_mut().for_each(|sum| *sum /= around.nearest() as f32);
-        }
-        told
     }
 }

@@ -23,7 +23,7 @@ mod scale;
 
 pub use around::{Around, WAYS};
 pub use dense::Dense;
-pub use layer::{Layer, Pairs, Said};
+pub use layer::{Ends, Layer, Said};
 pub use matrix::Matrix;
 pub use norm::Norm;
 pub use pass::Pass;
