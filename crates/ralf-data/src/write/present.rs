@@ -28,7 +28,7 @@ pub fn has_sequence(reader: &dyn SequenceReader, dataset: &Path) -> Result<bool,
     for (file, text) in texts(reader.sequence(), &names, &folder)? {
         refuse_another(&folder, &file, text.as_bytes())?;
     }
-    let contents = Contents { reader, names: &names, folder: &folder };
+    let contents = Contents::new(reader, &names, &folder)?;
     for measurement in Measurement::some(&reader.sequence().times) {
         for (file, bytes) in contents.of(measurement)? {
             refuse_another(&folder, &file, &bytes)?;
