@@ -330,8 +330,10 @@ impl LabelRun<'_> {
         if reader.has_segmentation() {
             further.push(CLASS_FROM);
         }
-        let schema =
-            Schema::of(&rig, &further).map_err(|reason| unsuitable(self.recording, reader, reason))?;
+        // A recording that one method can label the others can, too.
+        let any = [evidence_columns(), learned_columns(), vec![CLASS_FROM]].concat();
+        let schema = Schema::of(&rig, &any).and_then(|_| Schema::of(&rig, &further));
+        let schema = schema.map_err(|reason| unsuitable(self.recording, reader, reason))?;
         let root = &self.recording.path;
         Ok(Task { root, reader, names, rig, schema: Arc::new(schema), evidence: self.evidence, labeler })
     }
