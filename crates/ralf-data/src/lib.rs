@@ -41,6 +41,7 @@ pub mod truth;
 pub mod views;
 pub mod write;
 
+pub use disk::edited::{refuse_edited, write_editable};
 pub use disk::files::{check_writable, write_named, write_whole};
 pub use disk::images::png;
 pub use disk::label_file::{Label, read_labels, write_labels};
