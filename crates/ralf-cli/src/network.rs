@@ -77,6 +77,10 @@ fn runtime() -> Runtime {
     Runtime::Rten
 }
 
+/// What is wanted where a camera's folder lies elsewhere, as on another disk.
+pub(crate) const ELSEWHERE: &str =
+    "expected -o FOLDER, for nothing is written through a link out of the recording";
+
 /// The folder for what a network says of a recording's images: the one that is named, else the recording's own.
 pub(crate) fn store_folder<'a>(
     named: Option<&'a Path>,

@@ -3,6 +3,7 @@
 use ralf::config::ConfigError;
 use ralf::sensors::SourceError;
 use ralf_corrections::StoreError;
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
@@ -114,6 +115,12 @@ impl DataError {
     pub fn io(file: impl Into<PathBuf>) -> impl FnOnce(std::io::Error) -> Self {
         let file = file.into();
         move |error| Self::Io { file, error }
+    }
+
+    /// Whether the system lets nobody, or not this user, write there.
+    pub(crate) fn is_of_permission(&self) -> bool {
+        let kinds = [ErrorKind::PermissionDenied, ErrorKind::ReadOnlyFilesystem];
+        matches!(self, Self::Io { error, .. } if kinds.contains(&error.kind()))
     }
 
     /// Settings that no recording can be read with.

@@ -41,6 +41,7 @@ pub mod truth;
 pub mod views;
 pub mod write;
 
+pub use disk::edited::{refuse_edited, write_editable};
 pub use disk::files::{check_writable, write_named, write_whole};
 pub use disk::images::png;
 pub use disk::label_file::{Label, read_labels, write_labels};
@@ -56,4 +57,4 @@ pub use settings::Settings;
 pub use training::{TrainingGatherer, TrainingTruth};
 pub use tree::{RECORD, SENSORS, SEQUENCES, sensors_file, sequence_folder};
 pub use truth::{Causes, Corrections, GroundTruth, ScanId, lost_sequences, scan_content, told_orphaned};
-pub use write::{has_sequence, write_sequence, write_sequence_with};
+pub use write::{has_sequence, has_whole_sequence, write_sequence, write_sequence_with};

@@ -8,6 +8,7 @@ use pyo3::prelude::*;
 use ralf::label::truth_of;
 use ralf::metrics::Evaluation;
 use ralf_data::result::labelled_recording;
+use ralf_data::run::read_record;
 use ralf_data::{
     Balances, Comparison, Corrections, DataError, GroundTruth, Recording, ScanId, lost_sequences,
     told_orphaned,
@@ -83,6 +84,8 @@ fn refuse_lost_sequences(out: &Path, recording: &Recording) -> Result<(), DataEr
 #[pyclass(frozen, module = "ralf._ralf")]
 pub(crate) struct Truth {
     truth: GroundTruth,
+    /// The names of the dataset's sequences, and of those that were labelled.
+    sequences: BTreeSet<String>,
     /// A sentence for each scan whose corrections don't count.
     #[pyo3(get)]
     orphaned: Vec<String>,
@@ -102,11 +105,21 @@ impl Truth {
             None => Ok((GroundTruth::open(&dataset)?, Vec::new())),
         };
         let (truth, orphaned) = py.detach(open).map_err(data)?;
-        Ok(Self { truth, orphaned })
+        let mut sequences = truth.sequences().map_err(data)?;
+        // Label files alone have no record.
+        if let Some(Ok(record)) = out.as_deref().map(read_record) {
+            sequences.extend(record.sequences.into_iter().map(|sequence| sequence.name));
+        }
+        Ok(Self { truth, sequences, orphaned })
     }
 
-    /// Of each detection of a scan 1 plausible, 0 artifact, -1 unknown; `None` where nothing is known of the scan.
+    /// Of each detection of a scan 1 plausible, 0 artifact, -1 unknown; `None` where nothing is known of the scan. A
+    /// sequence that isn't there is an error.
     fn labels(&self, py: Python<'_>, sequence: String, radar: String, scan: u32) -> PyResult<Option<Column>> {
+        if !self.sequences.contains(&sequence) {
+            let known = Vec::from_iter(self.sequences.iter().map(String::as_str)).join(", ");
+            return Err(data(DataError::UnknownSequence { name: sequence, known }));
+        }
         let scan = ScanId { sequence, radar, scan };
         if self.truth.scans().binary_search(&scan).is_err() {
             return Ok(None);

@@ -198,12 +198,15 @@ def test_truth_is_what_evaluation_goes_by(drive, run, tmp_path):
     with pytest.raises(ralf.RalfError, match="expected files of corrected labels"):
         ralf.Truth(run.out)
     scan = next(run.scans(name))
-    assert set(truth.labels("elsewhere", scan)) == {-1}
+    with pytest.raises(ralf.RalfError, match=f"no sequence `elsewhere` in the recording, which holds {name}"):
+        truth.labels("elsewhere", scan)
     file = tmp_path / f"sequences/{name}/ground_truth/{scan.radar}/{scan.number:06}.label"
     file.parent.mkdir(parents=True)
+    (tmp_path / "sequences/without").mkdir()
     file.write_bytes(bytes(4))
     with pytest.raises(ValueError, match=f"scan 0: expected the truth of {len(scan)} detections, found 1"):
         ralf.Truth(tmp_path).labels(name, scan)
+    assert set(ralf.Truth(tmp_path).labels("without", scan)) == {-1}
 
 
 def test_the_wheel_carries_the_command():

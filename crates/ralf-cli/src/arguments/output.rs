@@ -2,7 +2,7 @@
 
 use crate::outcome::UsageError;
 use anyhow::Context;
-use ralf_data::{RECORD, SENSORS, SEQUENCES};
+use ralf_data::{DataError, RECORD, SENSORS, SEQUENCES};
 use std::fs::File;
 use std::io::Read;
 use std::path::Path;
@@ -17,6 +17,13 @@ const SQLITE: &[u8; 16] = b"SQLite format 3\0";
 pub(crate) fn check_output(argument: &str, file: &Path, read_only: &[&Path]) -> anyhow::Result<()> {
     refuse_place(argument, file, read_only)?;
     ralf_data::check_writable(file).context(argument.to_owned())
+}
+
+/// The same of a text that people edit: what they made of it is kept ([`ralf_data::write_editable`]).
+pub(crate) fn check_editable(argument: &str, file: &Path, read_only: &[&Path]) -> anyhow::Result<()> {
+    check_output(argument, file, read_only)?;
+    let edited = |error: DataError| UsageError(format!("{argument}: {error}"));
+    Ok(ralf_data::refuse_edited(file).map_err(edited)?)
 }
 
 /// Refuses a place for a file, named by its argument, where something lies that is no regular file, such as a folder or

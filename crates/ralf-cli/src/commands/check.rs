@@ -4,13 +4,13 @@ mod fixes;
 pub(crate) mod page;
 mod picture;
 
-use crate::arguments::{DatasetArgs, SettingsArgs, check_output};
+use crate::arguments::{DatasetArgs, SettingsArgs, check_editable, check_output};
 use crate::outcome::Outcome;
 use crate::progress::say;
 use crate::text::print;
 use clap::Args;
 use ralf_check::{Refinement, SequenceCheck, check, check_and_refine};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Arguments of `ralf check`.
 #[derive(Debug, Args)]
@@ -36,7 +36,8 @@ pub(crate) struct CheckArgs {
     /// End with status 3 where something is doubted
     #[arg(long)]
     strict: bool,
-    /// Write corrections as settings that `ralf label --config` takes; nothing is corrected before
+    /// Write corrections as settings that `ralf label --config` takes; nothing is corrected before. A file that was
+    /// edited is not replaced
     #[arg(long, value_name = "FILE")]
     write: Option<PathBuf>,
     /// Draw velocities and overlaps of each radar (PNG)
@@ -79,7 +80,7 @@ pub(crate) fn run(arguments: &CheckArgs) -> anyhow::Result<Outcome> {
         checks.iter().map(|check| page::page(check, arguments.verbose)).collect::<String>()
     });
     if let Some(file) = &arguments.write {
-        ralf_data::write_named(file, fixes::text(&checks, &refined).as_bytes())?;
+        ralf_data::write_editable(file, &fixes::text(&checks, &refined))?;
         say(&format!("wrote {}", file.display()));
     }
     if let Some(file) = &arguments.output {
@@ -94,11 +95,10 @@ pub(crate) fn run(arguments: &CheckArgs) -> anyhow::Result<Outcome> {
 impl CheckArgs {
     /// Refuses places for files before the recording is read.
     fn check_places(&self) -> anyhow::Result<()> {
-        for (argument, file) in [("--write", &self.write), ("--output", &self.output)] {
-            if let Some(file) = file {
-                check_output(argument, file, &[&self.dataset.dataset])?;
-            }
+        let recording: &Path = &self.dataset.dataset;
+        if let Some(file) = &self.write {
+            check_editable("--write", file, &[recording])?;
         }
-        Ok(())
+        self.output.as_deref().map_or(Ok(()), |file| check_output("--output", file, &[recording]))
     }
 }

@@ -9,7 +9,7 @@ use anyhow::Context;
 use clap::Args;
 use clap::builder::PossibleValuesParser;
 use compare::{Named, Told, compare};
-use ralf_data::SequenceReader;
+use ralf_data::{SequenceReader, has_whole_sequence};
 use ralf_files::Kind;
 use ralf_sim::presets::{self, Preset};
 use ralf_sim::world::{FAMILIES, Mixture, Recording};
@@ -32,8 +32,8 @@ const WORLDS: &str = "worlds";
 #[command(after_help = "\
 Writes LiDAR, four radars, four fisheye cameras with depth, wheel odometry, and the truth of every detection, in \
 RALF's own layout. A sequence that is there already is never overwritten: the same command, typed again, writes \
-those that are missing. The same preset, numbers and seed give the \
-same bytes.
+those that are missing. Another sequence of that name, such as that of a scenario before it was edited, is refused. \
+The same preset, numbers and seed give the same bytes.
 
 With `--preset worlds` a seed draws sensors, places and physics from a family of worlds (docs/worlds.md): radars and \
 LiDARs of other kinds, cameras or none, and four to six sequences of 40 scans. Families, by number: city, survey, \
@@ -146,7 +146,14 @@ impl SimulateArgs {
             sequences = sequences.into_iter().map(SimulatedSequence::with_segmentation).collect();
         }
         let sequences: Vec<_> = sequences.iter().map(|sequence| sequence as &dyn SequenceReader).collect();
-        write_missing(&sequences, output, threads(self.jobs), "simulating")?;
+        let jobs = threads(self.jobs);
+        if self.scenario.is_some() {
+            // Any line of it may have been edited since, and may show in a few measurements alone.
+            for sequence in &sequences {
+                has_whole_sequence(*sequence, output, jobs)?;
+            }
+        }
+        write_missing(&sequences, output, jobs, "simulating")?;
         Ok(Outcome::Done)
     }
 

@@ -4,13 +4,13 @@ mod report;
 mod text;
 
 use super::search::{Parts, SearchArgs, name_what_is_left_out, tables};
-use crate::arguments::check_output;
+use crate::arguments::check_editable;
 use crate::outcome::{Outcome, UsageError};
 use crate::progress::say;
 use crate::text::{print, shell_path, shell_word};
 use clap::Args;
 use ralf::config::Config;
-use ralf_data::{Settings, write_named};
+use ralf_data::{Settings, write_editable};
 use ralf_train::{Found, MismatchTable, Search, TunedSettings, leave_one_out, settings_file};
 use report::{Part, Report};
 use std::path::PathBuf;
@@ -35,7 +35,7 @@ pub(crate) struct TuneArgs {
     /// Also leave out one training sequence in turn, and judge the settings found on the others by it
     #[arg(long)]
     cross_validate: bool,
-    /// Settings file to write
+    /// Settings file to write; one that was edited is not replaced
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
 }
@@ -56,7 +56,7 @@ pub(crate) fn run(arguments: &TuneArgs) -> anyhow::Result<Outcome> {
     // First what was found: a disk that has become full takes no more than the file.
     let printed =
         print(&if search.json { serde_json::to_string_pretty(&report.json())? } else { text::page(&report) });
-    write_named(&arguments.output, settings_file(&comment, &tuned)?.as_bytes())?;
+    write_editable(&arguments.output, &settings_file(&comment, &tuned)?)?;
     if !search.objective.is_met(report.found.score) {
         say(&format!("warning: no settings that were tried keep the floor of {}", search.objective));
     }
@@ -80,7 +80,7 @@ impl TuneArgs {
             let expected = "--cross-validate: expected two sequences or more in --train";
             return Err(UsageError(expected.into()).into());
         }
-        check_output("--output", &self.output, &self.search.read_only())
+        check_editable("--output", &self.output, &self.search.read_only())
     }
 
     fn tune(&self, base: &Config, Parts { train, test }: &Parts) -> anyhow::Result<Report> {

@@ -206,3 +206,15 @@ fn what_is_not_there_is_named_with_what_it_was_needed_for() {
         .exits(1)
         .says([&nowhere, "expected a folder with corrected labels"]);
 }
+
+/// What one method can label the others can: it is told at once that the learned one writes a column of this name, or
+/// that evidence has it.
+#[test]
+fn fields_with_the_name_of_a_column_that_another_method_writes() {
+    for name in ["cause", "novelty", "reason_lidar_rays", "class_from", "sight_wall_length"] {
+        let dataset = Dataset::new();
+        dataset.edit("sequence.toml", "\"rcs\"]", &format!("\"{name}\"]"));
+        let told = format!("field `{name}` of radar_front has the name of a column of the result");
+        refused(&dataset, ["sequence 00", &told]);
+    }
+}

@@ -108,3 +108,39 @@ fn what_tasks_are_labelled_without_is_said() {
     }
     ralf(["cluster", "assemble", "-q", &out]).exits(0).says([told]);
 }
+
+/// What a plan remembers of the inputs is what the record will tell of them.
+#[test]
+fn hashes_that_are_damaged_between_the_steps_are_made_again() {
+    let dataset = Dataset::of(&Shape { scans: 4, ..Shape::default() });
+    let many = dataset.beside("many");
+    let out = format!("{many}/dataset");
+    ralf(["label", "-q", &dataset.path, "-o", &dataset.out]).exits(0);
+    for damage in [flip_digit, cut_in_half] {
+        ralf(["cluster", "plan", "-q", &dataset.path, "-o", &many]).exits(0).prints(["1"]);
+        ralf(["cluster", "label", &many, "--task", "0"]).exits(0);
+        let mut inputs = Path::new(&out).join(".ralf-run");
+        for _ in 0..2 {
+            inputs = fs::read_dir(&inputs).unwrap().next().unwrap().unwrap().path();
+        }
+        damage(&inputs.join("inputs.json"));
+        ralf(["cluster", "assemble", "-q", &many]).exits(0);
+        let mut found = without_timings(&out);
+        found.remove("plan.json");
+        assert!(found == without_timings(&dataset.out));
+        fs::remove_dir_all(&out).unwrap();
+    }
+}
+
+/// Another digit in the first hash.
+fn flip_digit(file: &Path) {
+    let text = fs::read_to_string(file).unwrap();
+    let at = text.find("\"blake3\": \"").unwrap() + 11;
+    let digit = if &text[at..=at] == "0" { "1" } else { "0" };
+    fs::write(file, [&text[..at], digit, &text[at + 1..]].concat()).unwrap();
+}
+
+fn cut_in_half(file: &Path) {
+    let bytes = fs::read(file).unwrap();
+    fs::write(file, &bytes[..bytes.len() / 2]).unwrap();
+}

@@ -161,6 +161,26 @@ fn a_results_folder_without_permission_is_named() {
     Ran::of(&ran).exits(1).says(["locked/out", "Permission denied"]);
 }
 
+#[test]
+fn results_that_nobody_may_write_are_complete_all_the_same() {
+    let dataset = Dataset::new();
+    ralf(["label", &dataset.path, "-o", &dataset.out]).exits(0);
+    let Some(nobody) = as_nobody(&dataset) else { return println!("skipped: root without setpriv") };
+    let allow = |mode| fs::set_permissions(&dataset.out, fs::Permissions::from_mode(mode)).unwrap();
+    let before = tree(&dataset.out);
+    allow(0o555);
+    let run = |further: &[&str]| {
+        let mut label = Command::new(nobody.get_program());
+        label.args(nobody.get_args()).args(["label", &dataset.path, "-o", &dataset.out]).args(further);
+        Ran::of(&label.output().unwrap())
+    };
+    run(&[]).exits(0).says(["nothing to do"]);
+    // What would have to be written is named.
+    run(&["--set", "fusion.threshold=0.9"]).exits(1).says([&dataset.out, "Permission denied"]);
+    allow(0o755);
+    assert!(tree(&dataset.out) == before);
+}
+
 /// The program as somebody whom permissions bind, which root is not; they may write beside the recording.
 fn as_nobody(dataset: &Dataset) -> Option<Command> {
     let everyone = |path: &Path, mode| fs::set_permissions(path, fs::Permissions::from_mode(mode)).unwrap();

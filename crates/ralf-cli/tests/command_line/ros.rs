@@ -75,7 +75,10 @@ fn a_table_that_asks_for_what_is_not_there_is_refused() {
     let folder = tempfile::tempdir().unwrap();
     let table = beside(&folder, "ralf.toml");
     for (text, told) in [
-        (ROS_TOPICS.replace("/odom", "/nowhere"), "topics.odom: expected one of the topics"),
+        (
+            ROS_TOPICS.replace("/odom", "/nowhere"),
+            "topics.odom: expected one of the topics of the type nav_msgs/Odometry: /odom, found `/nowhere`",
+        ),
         (ROS_TOPICS.replace("ars408-21", "ars"), "expected one of the models generic"),
         (ROS_TOPICS.replace("kind = 'odometry'", "kind = 'odometer'"), "odometer"),
         (ROS_TOPICS.replace("model =", "modell ="), "modell"),
@@ -84,6 +87,18 @@ fn a_table_that_asks_for_what_is_not_there_is_refused() {
         let out = beside(&folder, "out");
         ralf(["label", &fixture("plain.mcap"), "-o", &out, "--config", &table]).exits(1).says([told]);
     }
+}
+
+#[test]
+fn a_topic_of_a_type_that_no_topic_has() {
+    let dataset = Dataset::new();
+    let [file, settings] = ["drive.mcap", "drive.toml"].map(|name| dataset.beside(name));
+    ralf(["convert", &dataset.path, "-o", &file, "-q"]).exits(0);
+    let text = fs::read_to_string(&settings).unwrap();
+    fs::write(&settings, text + "\n[topics.gyro]\ntopic = '/gyro'\nkind = 'imu'\n").unwrap();
+    let told =
+        "topics.gyro: expected a topic of the type sensor_msgs/Imu, of which there is none, found `/gyro`";
+    ralf(["label", &file, "-o", &dataset.out, "--config", &settings]).exits(1).ends_with_error([told]);
 }
 
 /// A radar that was off: its topic is there, and nothing in it.

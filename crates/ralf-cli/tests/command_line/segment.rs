@@ -79,7 +79,7 @@ fn nothing_is_written_through_a_link_that_leads_out() {
         let is_there = Path::new(&target).exists();
         let before = is_there.then(|| tree(&target));
         let refused = ralf(["segment", &dataset.path, "--model", &model]).exits(1);
-        refused.says(["camera_front", "link: expected a folder", "found a link to"]);
+        refused.says(["expected -o FOLDER", "camera_front", "link: expected a folder", "found a link to"]);
         assert!(Path::new(&target).exists() == is_there && is_there.then(|| tree(&target)) == before);
         if link.ends_with("segmentation") {
             fs::remove_file(link).unwrap();
@@ -112,6 +112,17 @@ fn depth_among_labels_goes_through_no_link_that_leads_out() {
     fs::remove_file(&link).unwrap();
     label().exits(0);
     assert_eq!(fs::read_dir(&link).unwrap().count(), 1);
+    // Nor does that of the recording itself: another place is asked for.
+    let own = dataset.file("camera_front/depth");
+    fs::remove_dir_all(&own).unwrap();
+    std::os::unix::fs::symlink(&victim, own).unwrap();
+    let depth = ralf(["depth", &dataset.path, "--depth-model", &model]).exits(1);
+    depth.ends_with_error([
+        "expected -o FOLDER, for ",
+        "camera_front/depth: link: expected a folder",
+        "victim",
+    ]);
+    assert_eq!(fs::read_dir(&victim).unwrap().count(), 0);
 }
 
 #[test]

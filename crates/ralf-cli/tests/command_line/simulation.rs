@@ -202,3 +202,30 @@ fn the_scenario_of_the_documentation_is_simulated() {
     let told = ralf(["inspect", &made, "--quick"]).exits(0);
     told.prints(["A yard with a ramp", "radar_front", "camera_rear"]);
 }
+
+#[test]
+fn an_edited_scenario_is_not_taken_for_the_one_that_lies_there() {
+    let dataset = Dataset::new();
+    let [file, made] = ["yard.toml", "made"].map(|name| dataset.beside(name));
+    let simulate = |text: &str, scans: &str| {
+        fs::write(&file, text).unwrap();
+        ralf(["simulate", "-o", &made, "--scenario", &file, "--scans", scans])
+    };
+    let yard = "title = \"Yard\"\nplausible_share = 0.25\n\
+                ego = { start = [-12, 0, 0], speed_kmh = 7, leg = [{ length = 15 }] }\n\
+                thing = [{ kind = \"building\", at = [4, 12] }, { kind = \"car\", at = [-8, 5] }]\n";
+    let dark = "failure = [{ camera = \"camera_rear\", kind = \"dark\", from_s = 0.2, until_s = 0.3 }]\n";
+    simulate(&[yard, dark].concat(), "8").exits(0);
+    let before = tree(&made);
+    simulate(&[yard, dark].concat(), "8").exits(0).says(["kept as it is"]);
+    // What differs is one image, neither the first nor the last; then when measurements end, then the sensors.
+    let refused = |text: &str, scans: &str, differs: &str| {
+        let told = ["none of this name yet", "found another one: its", differs];
+        simulate(text, scans).exits(1).ends_with_error(told);
+        assert!(tree(&made) == before);
+    };
+    refused(yard, "8", "camera_rear/");
+    refused(&[yard, dark].concat(), "4", "differs");
+    ralf(["simulate", "-o", &made, "--scenario", &file, "--scans", "8", "--no-images"]).exits(1);
+    assert!(tree(&made) == before);
+}

@@ -226,6 +226,31 @@ fn the_comment_repeats_the_settings_that_were_given() {
 }
 
 #[test]
+fn settings_that_somebody_has_edited_are_kept() {
+    let dataset = two_sequences();
+    let file = dataset.beside("ralf.toml");
+    let tune =
+        || ralf(["tune", &dataset.path, "-o", &file, "--train", "00", "--test", "01", "--trials", "1", "-q"]);
+    tune().exits(0);
+    tune().exits(0);
+    let edited = fs::read_to_string(&file).unwrap().replacen("alpha", "# As we had it in May.\nalpha", 1);
+    fs::write(&file, &edited).unwrap();
+    let told = ["--output: ", &file, "found another text, which would be lost"];
+    tune().exits(2).ends_with_error(told);
+    ralf(["check", &dataset.path, "--write", &file]).exits(2).ends_with_error([
+        "--write: ",
+        told[1],
+        told[2],
+    ]);
+    assert_eq!(fs::read_to_string(&file).unwrap(), edited);
+    ralf(["label", &dataset.path, "-o", &dataset.out, "--config", &file]).exits(0);
+    fs::remove_file(&file).unwrap();
+    for _ in 0..2 {
+        ralf(["check", &dataset.path, "--write", &file]).exits(0);
+    }
+}
+
+#[test]
 fn a_method_that_is_fitted_and_not_searched_for_is_refused_with_what_to_do_instead() {
     let dataset = two_sequences();
     let file = dataset.beside("ralf.toml");

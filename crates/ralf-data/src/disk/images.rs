@@ -54,6 +54,16 @@ pub(crate) fn size(file: &Path) -> Result<[usize; 2], DataError> {
     Ok([width as usize, height as usize])
 }
 
+/// The bytes of a JPEG or PNG as they are, refused unless the header is one: a name, or a link, may lead to anything.
+pub(crate) fn read_bytes(file: &Path) -> Result<Vec<u8>, DataError> {
+    let bytes = files::read(file)?;
+    let reader = ImageReader::new(Cursor::new(&bytes)).with_guessed_format().map_err(DataError::io(file))?;
+    match reader.into_dimensions() {
+        Ok(_) => Ok(bytes),
+        Err(error) => Err(unreadable(file, error.to_string())),
+    }
+}
+
 fn unreadable(file: &Path, found: String) -> DataError {
     DataError::content(file, "content", "a whole JPEG or PNG image", found)
 }

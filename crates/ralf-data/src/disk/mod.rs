@@ -2,6 +2,7 @@
 
 pub(crate) mod alone;
 pub(crate) mod class_images;
+pub(crate) mod edited;
 pub(crate) mod files;
 mod guarded;
 pub(crate) mod hash;

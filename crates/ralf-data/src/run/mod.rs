@@ -216,8 +216,7 @@ impl LabelRun<'_> {
         check_output_folder(&self.recording.path, self.out)?;
         let labeler = self.labeler()?;
         let tasks = self.tasks(&labeler)?;
-        let _lock = self.lock()?;
-        let (folder, asked) = self.open_folder(observer)?;
+        let (_lock, folder, asked) = self.enter(observer)?;
         let names: Vec<String> = asked.iter().map(|asked| asked.name.clone()).collect();
         let pending: Vec<_> =
             tasks.iter().zip(asked).filter(|(_, asked)| !folder.holds(&asked.name)).collect();
@@ -262,6 +261,27 @@ impl LabelRun<'_> {
     fn refuse_links(&self) -> Result<(), DataError> {
         refuse_links_out(self.out, SEQUENCES, 2)?;
         refuse_links_out(self.out, UNFINISHED, 4)
+    }
+
+    /// The output folder, and the right to write there; where nothing is to be done nobody needs that.
+    fn enter(
+        &self,
+        observer: &dyn Observer,
+    ) -> Result<(Option<WriterLock>, OutputFolder, Vec<Identity>), DataError> {
+        let refused = match self.lock() {
+            Ok(lock) => {
+                let (folder, asked) = self.open_folder(observer)?;
+                return Ok((Some(lock), folder, asked));
+            }
+            Err(refused) => refused,
+        };
+        if !refused.is_of_permission() {
+            return Err(refused);
+        }
+        let run = self.record();
+        let asked = inputs::identify(self.recording, &fingerprint::of_run(&run), &[], self.jobs, observer)?;
+        let folder = OutputFolder::finished(self.out, run, self.recording, &asked)?.ok_or(refused)?;
+        Ok((None, folder, asked))
     }
 
     /// The output folder, ready for the sequences that are asked for.
@@ -310,8 +330,10 @@ impl LabelRun<'_> {
         if reader.has_segmentation() {
             further.push(CLASS_FROM);
         }
-        let schema =
-            Schema::of(&rig, &further).map_err(|reason| unsuitable(self.recording, reader, reason))?;
+        // A recording that one method can label the others can, too.
+        let any = [evidence_columns(), learned_columns(), vec![CLASS_FROM]].concat();
+        let schema = Schema::of(&rig, &any).and_then(|_| Schema::of(&rig, &further));
+        let schema = schema.map_err(|reason| unsuitable(self.recording, reader, reason))?;
         let root = &self.recording.path;
         Ok(Task { root, reader, names, rig, schema: Arc::new(schema), evidence: self.evidence, labeler })
     }

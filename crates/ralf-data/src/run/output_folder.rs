@@ -40,14 +40,7 @@ impl OutputFolder {
         recording: &Recording,
         asked: &[Identity],
     ) -> Result<Self, DataError> {
-        let place = OutFolder::new(out);
-        let mut folder = Self {
-            record_file: place.own_file(RECORD),
-            results: Results::new(out),
-            unfinished: Unfinished::of(&place, &run)?,
-            record: run,
-            earlier: Earlier::default(),
-        };
+        let mut folder = Self::empty(out, run)?;
         // Of a record that this version can't read, nothing is known.
         match read_record(out) {
             Ok(found) if found.is_like(&folder.record) => folder.record = found,
@@ -58,6 +51,36 @@ impl OutputFolder {
         let removed = folder.unfinished.remove_outdated(asked, &folder.results)?;
         folder.earlier.add(removed);
         Ok(folder)
+    }
+
+    /// The folder where all that is asked for was labelled before, and nothing has to be written; `None` elsewhere.
+    /// Nothing is touched.
+    pub(super) fn finished(
+        out: &Path,
+        run: RunRecord,
+        recording: &Recording,
+        asked: &[Identity],
+    ) -> Result<Option<Self>, DataError> {
+        let mut folder = Self::empty(out, run)?;
+        match read_record(out) {
+            Ok(found) if found.is_like(&folder.record) => folder.record = found,
+            _ => return Ok(None),
+        }
+        let is_finished = asked.iter().all(|asked| folder.holds(&asked.name))
+            && folder.unfinished.finished()?.is_empty()
+            && folder.outdated(asked, recording)?.is_empty();
+        Ok(is_finished.then_some(folder))
+    }
+
+    fn empty(out: &Path, run: RunRecord) -> Result<Self, DataError> {
+        let place = OutFolder::new(out);
+        Ok(Self {
+            record_file: place.own_file(RECORD),
+            results: Results::new(out),
+            unfinished: Unfinished::of(&place, &run)?,
+            record: run,
+            earlier: Earlier::default(),
+        })
     }
 
     /// Removes the results of other settings.

@@ -61,21 +61,37 @@ impl Unfinished {
         files::exists(&self.sequence(fingerprint)?.own_file(INPUTS))
     }
 
-    /// All inputs that are remembered; a list that is not whole is none.
+    /// All inputs that are remembered; a list that is not whole is none, and so is one whose hashes don't make the
+    /// fingerprint that it lies under: what it told would become the record's.
     pub(super) fn inputs(&self) -> Result<Vec<Input>, DataError> {
         let folder = self.folder();
-        let lists = files::folders(folder.path())?.into_iter();
-        let lists = lists.filter_map(|name| read_json(&folder.path().join(name).join(INPUTS)).ok());
-        Ok(lists.flat_map(|inputs: Vec<Input>| inputs).collect())
+        let names = files::folders(folder.path())?;
+        let lists = names.iter().filter_map(|name| {
+            let inputs: Vec<Input> = read_json(&folder.path().join(name).join(INPUTS)).ok()?;
+            let sequence = &inputs.first()?.sequence;
+            self.is_of(name, sequence, &inputs).then_some(inputs)
+        });
+        Ok(lists.flatten().collect())
     }
 
-    /// Sequences that were finished by runs which were killed later; a record that is not whole is none.
+    /// Sequences that were finished by runs which were killed later; a record that is not whole is none, as is one of
+    /// another sequence or other inputs than its name tells.
     pub(super) fn finished(&self) -> Result<Vec<Finished>, DataError> {
         let folder = self.folder();
-        let names = files::names(folder.path())?.into_iter().filter(|name| name.ends_with(".json"));
-        let records = names.filter_map(|name| read_json(&folder.path().join(name)).ok());
-        // A record that somebody has edited leads nowhere else.
-        Ok(records.filter(|(sequence, _): &Finished| Component::new(&sequence.fingerprint).is_ok()).collect())
+        let names = files::names(folder.path())?;
+        let records = names.iter().filter_map(|name| {
+            let fingerprint = name.strip_suffix(".json")?;
+            let (sequence, inputs): Finished = read_json(&folder.path().join(name)).ok()?;
+            let is_whole =
+                sequence.fingerprint == fingerprint && self.is_of(fingerprint, &sequence.name, &inputs);
+            is_whole.then_some((sequence, inputs))
+        });
+        Ok(records.collect())
+    }
+
+    /// Whether this is the fingerprint of a sequence with these inputs.
+    fn is_of(&self, found: &str, sequence: &str, inputs: &[Input]) -> bool {
+        fingerprint::of_sequence(self.run.as_str(), sequence, inputs) == found
     }
 
     /// Keeps a finished sequence, whose scans are not needed any more.

@@ -15,10 +15,18 @@ use std::path::{Path, PathBuf};
 /// The name of code 0.
 const NONE: &str = "none";
 
+/// The names in a file that lists them.
+///
+/// # Errors
+/// An empty list or name, more names than codes, a first name other than `none`, or a file that can't be read.
+pub(crate) fn cause_names(file: &Path) -> Result<Vec<String>, DataError> {
+    names_of_causes(file, &files::read_text(file, Kind::Settings)?)
+}
+
 /// The names in a file that lists them, whose text this is.
 ///
 /// # Errors
-/// An empty list or name, more names than codes, or a first name other than `none`.
+/// Those of [`cause_names`], but for reading.
 pub(crate) fn names_of_causes(file: &Path, text: &str) -> Result<Vec<String>, DataError> {
     let names: Vec<String> = text.lines().map(|name| name.trim().to_owned()).collect();
     let refuse = |line: usize, expected: &str, found: &str| {
@@ -63,7 +71,7 @@ impl Causes {
         if !files::exists(&file)? {
             return Ok(None);
         }
-        let names = names_of_causes(&file, &files::read_text(&file, Kind::Settings)?)?;
+        let names = cause_names(&file)?;
         Ok(Some(Self { told: Told::Files(dataset.to_owned()), names }))
     }
 
@@ -97,16 +105,25 @@ impl Causes {
                 (known.file(&scan.sequence), truth.causes)
             }
         };
-        if codes.len() != detections {
-            let expected = format!("{detections} as in its ground truth");
-            return Err(DataError::content(&file, "number of codes", expected, codes.len().to_string()));
-        }
-        if let Some(row) = codes.iter().position(|code| usize::from(*code) >= self.names.len()) {
-            let expected = format!("a code below {}, as in {CAUSE_NAMES}", self.names.len());
-            return Err(DataError::content(&file, format!("byte {row}"), expected, codes[row].to_string()));
-        }
+        check_codes(&file, &codes, detections, self.names.len())?;
         Ok(Some(codes))
     }
+}
+
+/// Refuses another number of codes than there are detections, and a code without one of so many names.
+pub(crate) fn check_codes(
+    file: &Path,
+    codes: &[u8],
+    detections: usize,
+    names: usize,
+) -> Result<(), DataError> {
+    if codes.len() != detections {
+        let expected = format!("{detections} as in its ground truth");
+        return Err(DataError::content(file, "number of codes", expected, codes.len().to_string()));
+    }
+    let Some(row) = codes.iter().position(|code| usize::from(*code) >= names) else { return Ok(()) };
+    let expected = format!("a code below {names}, as in {CAUSE_NAMES}");
+    Err(DataError::content(file, format!("byte {row}"), expected, codes[row].to_string()))
 }
 
 #[cfg(test)]

@@ -75,6 +75,18 @@ impl GroundTruth {
         &self.scans
     }
 
+    /// The names of the dataset's sequences, with truth or without, and of those with corrections.
+    ///
+    /// # Errors
+    /// The dataset's folder can't be read.
+    pub fn sequences(&self) -> Result<BTreeSet<String>, DataError> {
+        let held = match &self.known {
+            Some(known) => known.sequences(),
+            None => files::folders(&self.dataset.join(SEQUENCES))?,
+        };
+        Ok(held.into_iter().chain(self.scans.iter().map(|scan| scan.sequence.clone())).collect())
+    }
+
     /// What people say of a scan, one label per detection: its correction, else what its file says, else what was
     /// accepted when it was marked as reviewed, else 0 (unlabeled).
     pub fn labels(&self, scan: &ScanId) -> Result<Vec<Label>, DataError> {
@@ -198,6 +210,8 @@ mod tests {
         let truth = GroundTruth::find(folder.path()).unwrap().unwrap();
         let narrowed = truth.clone().of_sequences(&["01", "02"]).unwrap();
         assert_eq!(narrowed.scans(), &truth.scans()[1..]);
+        fs::create_dir_all(folder.path().join("sequences/02")).unwrap();
+        assert_eq!(narrowed.sequences().unwrap().into_iter().collect::<Vec<_>>(), ["00", "01", "02"]);
         assert!(truth.of_sequences(&["02"]).is_none());
     }
 

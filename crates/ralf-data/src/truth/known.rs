@@ -35,6 +35,11 @@ impl KnownTruth {
         scans
     }
 
+    /// The names of all sequences.
+    pub(super) fn sequences(&self) -> Vec<String> {
+        self.0.sequences.iter().map(|reader| reader.sequence().name.clone()).collect()
+    }
+
     /// What is true of a scan's detections; `None` of a scan that the recording doesn't have.
     pub(super) fn of_scan(&self, scan: &ScanId) -> Result<Option<TruthLabels>, DataError> {
         let Some(reader) = self.reader(&scan.sequence) else { return Ok(None) };

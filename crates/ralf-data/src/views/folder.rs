@@ -127,11 +127,16 @@ impl ViewFolder {
     /// # Errors
     /// Another process writes, or a folder that would be written to is a link out of the store.
     pub(super) fn lock(&self, names: &SequenceNames) -> Result<WriterLock, DataError> {
-        for camera in &names.cameras {
-            let way = [SEQUENCES, names.sequence.as_str(), camera.as_str(), self.kind.name];
-            refuse_links_on_way(&self.root, &way)?;
-        }
+        self.refuse_links(names)?;
         WriterLock::take(self.root.join(format!(".{}-lock", self.kind.name)), &self.root)
+    }
+
+    /// Refuses a folder of a sequence's cameras that would be written to and is a link out of the store.
+    pub(super) fn refuse_links(&self, names: &SequenceNames) -> Result<(), DataError> {
+        names.cameras.iter().try_for_each(|camera| {
+            let way = [SEQUENCES, names.sequence.as_str(), camera.as_str(), self.kind.name];
+            refuse_links_on_way(&self.root, &way)
+        })
     }
 
     fn card(&self) -> PathBuf {

@@ -6,7 +6,7 @@ use super::folder::ViewFolder;
 use super::stored_view::StoredView;
 use crate::error::DataError;
 use crate::read::{Recording, SequenceReader};
-use crate::result::Component;
+use crate::result::{Component, SequenceNames};
 use std::path::{Path, PathBuf};
 
 /// A folder of what one network says of images.
@@ -41,6 +41,18 @@ impl<V: StoredView> Store<V> {
     /// recording of the own layout, of the image whose own file has this number.
     pub fn file(&self, sequence: &Component, camera: &Component, number: usize) -> PathBuf {
         self.folder.file(sequence, camera, number)
+    }
+
+    /// Refuses a recording for whose images the store has no place of its own: a folder in it is a link that leads out,
+    /// as to images on another disk. [`compute`](Self::compute) refuses it, too, sequence by sequence.
+    ///
+    /// # Errors
+    /// The first such link by name, and where it leads; a name that can't be a folder's.
+    pub fn refuse_links(&self, recording: &Recording) -> Result<(), DataError> {
+        recording
+            .sequences
+            .iter()
+            .try_for_each(|reader| self.folder.refuse_links(&SequenceNames::new(reader.sequence())?))
     }
 
     /// Computes and stores what the network says of the images (camera, number) that the store doesn't hold yet, or

@@ -84,7 +84,7 @@ impl Writer<'_> {
         for (file, text) in texts(sequence, self.names, self.folder)? {
             files::write_whole(&file, text.as_bytes())?;
         }
-        let contents = Contents { reader: self.reader, names: self.names, folder: self.folder };
+        let contents = Contents::new(self.reader, self.names, self.folder)?;
         side_by_side(&Measurement::all(&sequence.times), jobs, |measurement| {
             for (file, bytes) in contents.of(*measurement)? {
                 files::write_whole(&file, &bytes)?;

@@ -1,13 +1,14 @@
 //! The files of each measurement in the own layout.
 
-use crate::disk::label_file::label_bytes;
+use crate::disk::label_file::{label_bytes, labels_of_bytes};
 use crate::disk::{class_images, files, images, npy};
 use crate::error::DataError;
 use crate::read::SequenceReader;
 use crate::result::{Component, OutFolder, SequenceNames, checked};
 use crate::tree::{DEPTH, GROUND_TRUTH, LABELS, SEGMENTATION};
+use crate::truth::{cause_names, check_codes};
 use ralf::sensors::{SourceError, Timelines};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// A measurement: its sensor's place in the rig, and its own in the sensor's timeline.
 #[derive(Clone, Copy)]
@@ -58,14 +59,28 @@ impl Measurement {
 /// A file and what it holds.
 pub(super) type Content = (PathBuf, Vec<u8>);
 
-/// What the files of a sequence hold that lies in a folder.
+/// What the files of a sequence hold that lies in a folder. Files that are copied may be links to anything, and what is
+/// none of the recording's goes nowhere: each is read as what it has to be.
 pub(super) struct Contents<'a> {
-    pub(super) reader: &'a dyn SequenceReader,
-    pub(super) names: &'a SequenceNames,
-    pub(super) folder: &'a OutFolder,
+    reader: &'a dyn SequenceReader,
+    names: &'a SequenceNames,
+    folder: &'a OutFolder,
+    /// How many causes have names.
+    causes: usize,
 }
 
-impl Contents<'_> {
+impl<'a> Contents<'a> {
+    /// # Errors
+    /// The names of causes can't be read.
+    pub(super) fn new(
+        reader: &'a dyn SequenceReader,
+        names: &'a SequenceNames,
+        folder: &'a OutFolder,
+    ) -> Result<Self, DataError> {
+        let list = reader.cause_names_file().map(|file| cause_names(&file)).transpose()?;
+        Ok(Self { reader, names, folder, causes: list.map_or(0, |names| names.len()) })
+    }
+
     /// Of one measurement, in its sensor's folder and beside it.
     ///
     /// # Errors
@@ -86,20 +101,22 @@ impl Contents<'_> {
         let rows = columns.first().map_or(0, Vec::len);
         let values = (0..rows).flat_map(|row| columns.iter().map(move |column| column[row]));
         let scan_file = (folder.file(&Component::numbered(scan, "bin")), files::f32_bytes(values));
-        Ok([scan_file].into_iter().chain(self.truth(radar, scan)?).collect())
+        Ok([scan_file].into_iter().chain(self.truth(radar, scan, rows)?).collect())
     }
 
-    /// Labels and causes: as their files hold them, else as the format tells them.
-    fn truth(&self, radar: usize, scan: usize) -> Result<Vec<Content>, SourceError> {
+    /// Labels and causes of so many detections: as their files hold them, else as the format tells them.
+    fn truth(&self, radar: usize, scan: usize, rows: usize) -> Result<Vec<Content>, SourceError> {
         let truth = self.folder.own(GROUND_TRUTH).folder(&self.names.radars[radar]);
         let cause_file = truth.file(&Component::numbered(scan, "cause"));
         let mut found = Vec::new();
-        if let Some(causes) = self.reader.cause_file(radar, scan) {
-            found.push((cause_file.clone(), files::read(&causes)?));
+        if let Some(file) = self.reader.cause_file(radar, scan) {
+            let codes = files::read(&file)?;
+            check_codes(&file, &codes, rows, self.causes)?;
+            found.push((cause_file.clone(), codes));
         }
         let truth_file = truth.file(&Component::numbered(scan, LABELS));
-        if let Some(truth) = self.reader.truth_file(radar, scan) {
-            found.push((truth_file, files::read(&truth)?));
+        if let Some(file) = self.reader.truth_file(radar, scan) {
+            found.push((truth_file, truth_bytes(&file, rows)?));
         } else if let Some(truth) = self.reader.truth(radar, scan)? {
             found.push((truth_file, label_bytes(&truth.labels)));
             if !self.reader.causes().is_empty() {
@@ -134,7 +151,7 @@ impl Contents<'_> {
             Some(original) => {
                 let extension = original.extension().unwrap_or_default().to_ascii_lowercase();
                 let name = checked("image", &format!("{image:06}.{}", extension.to_string_lossy()))?;
-                (folder.file(&name), files::read(&original)?)
+                (folder.file(&name), images::read_bytes(&original)?)
             }
             None => {
                 let png = images::png(&self.reader.image(camera, image)?)?;
@@ -155,4 +172,14 @@ impl Contents<'_> {
         found.push((file, png));
         Ok(found)
     }
+}
+
+/// The bytes of a file of labels as they are, refused unless there is one of each of so many detections.
+fn truth_bytes(file: &Path, rows: usize) -> Result<Vec<u8>, DataError> {
+    let bytes = files::read(file)?;
+    let found = labels_of_bytes(file, &bytes)?.len();
+    if found == rows {
+        return Ok(bytes);
+    }
+    Err(DataError::content(file, "size", format!("{rows} uint32, one per detection"), found.to_string()))
 }

@@ -9,4 +9,4 @@ mod simulated;
 mod target;
 
 pub use dataset::{write_sequence, write_sequence_with};
-pub use present::has_sequence;
+pub use present::{has_sequence, has_whole_sequence};

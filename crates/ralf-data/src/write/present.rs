@@ -8,6 +8,7 @@ use crate::error::DataError;
 use crate::read::SequenceReader;
 use crate::result::{OutFolder, SequenceNames};
 use crate::tree::SEQUENCES;
+use ralf_jobs::side_by_side;
 use std::path::Path;
 
 /// Whether `DATASET/sequences/NAME` is there already, and is this sequence as far as sensors, motion, the times of all
@@ -19,6 +20,28 @@ use std::path::Path;
 /// Another sequence of this name, or anything else, lies there; `DATASET` holds labels or is a recording of another
 /// format; or one of these measurements can't be read.
 pub fn has_sequence(reader: &dyn SequenceReader, dataset: &Path) -> Result<bool, DataError> {
+    has(reader, dataset, &Measurement::some(&reader.sequence().times), 1)
+}
+
+/// Whether `DATASET/sequences/NAME` is there already, as [`has_sequence`] tells it, and holds every measurement of this
+/// sequence with its truth as it would be written; compared by so many threads. This takes as long as writing does.
+///
+/// # Errors
+/// Those of [`has_sequence`].
+pub fn has_whole_sequence(
+    reader: &dyn SequenceReader,
+    dataset: &Path,
+    jobs: usize,
+) -> Result<bool, DataError> {
+    has(reader, dataset, &Measurement::all(&reader.sequence().times), jobs)
+}
+
+fn has(
+    reader: &dyn SequenceReader,
+    dataset: &Path,
+    measurements: &[Measurement],
+    jobs: usize,
+) -> Result<bool, DataError> {
     refuse_other_folder(dataset)?;
     let names = SequenceNames::new(reader.sequence())?;
     let folder = OutFolder::new(dataset).own(SEQUENCES).folder(&names.sequence);
@@ -28,12 +51,11 @@ pub fn has_sequence(reader: &dyn SequenceReader, dataset: &Path) -> Result<bool,
     for (file, text) in texts(reader.sequence(), &names, &folder)? {
         refuse_another(&folder, &file, text.as_bytes())?;
     }
-    let contents = Contents { reader, names: &names, folder: &folder };
-    for measurement in Measurement::some(&reader.sequence().times) {
-        for (file, bytes) in contents.of(measurement)? {
-            refuse_another(&folder, &file, &bytes)?;
-        }
-    }
+    let contents = Contents::new(reader, &names, &folder)?;
+    side_by_side(measurements, jobs, |measurement| {
+        let files = contents.of(*measurement)?;
+        files.iter().try_for_each(|(file, bytes)| refuse_another(&folder, file, bytes))
+    })?;
     Ok(true)
 }
 

@@ -113,28 +113,6 @@ fn what_lies_in_the_place_of_an_unfinished_sequence_and_is_none_is_kept() {
     assert!(!mine.parent().unwrap().exists());
 }
 
-#[cfg(unix)]
-#[test]
-fn a_list_of_causes_that_leads_to_another_file_is_not_copied() {
-    let (folder, path) = tiny();
-    let secret = folder.path().join("secret");
-    fs::write(&secret, "-----BEGIN KEY-----").unwrap();
-    let list = path.join("ground_truth/causes.txt");
-    let _none_yet = fs::remove_file(&list);
-    std::os::unix::fs::symlink(&secret, &list).unwrap();
-    let copied = || {
-        let out = tempfile::tempdir().unwrap();
-        write_sequence(&LayoutSequence::open(&path).unwrap(), out.path(), &|_| ()).map(|()| out)
-    };
-    let error = copied().unwrap_err().to_string();
-    assert!(error.contains("causes.txt: line 1: expected `none`"), "{error}");
-    fs::write(&secret, "none\nclutter\n").unwrap();
-    assert!(
-        fs::read(copied().unwrap().path().join("sequences/00/ground_truth/causes.txt")).unwrap()
-            == b"none\nclutter\n"
-    );
-}
-
 #[test]
 fn a_folder_of_labels_takes_no_sequence() {
     let (_folder, path) = tiny();

@@ -9,6 +9,8 @@ mod dataset;
 mod export_ros;
 mod layout;
 mod learned;
+#[cfg(unix)]
+mod linked;
 mod lorry;
 mod many;
 mod opinion;

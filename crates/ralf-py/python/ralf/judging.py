@@ -66,7 +66,10 @@ class Truth:
         warn_of(self._truth.orphaned)
 
     def labels(self, sequence: str, scan: Scan) -> NDArray[np.int8]:
-        """Of each detection of a labelled scan: 1 plausible, 0 artifact, -1 unknown."""
+        """Of each detection of a labelled scan: 1 plausible, 0 artifact, -1 unknown.
+
+        A sequence that neither the dataset nor the run has is refused.
+        """
         column = self._truth.labels(sequence, scan.radar, scan.number)
         if column is None:
             return np.full(len(scan), -1, np.int8)

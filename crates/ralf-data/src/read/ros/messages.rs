@@ -34,17 +34,20 @@ impl Messages {
         let refused =
             |expected: String, found: String| DataError::content(&self.path, asked_by, expected, found);
         let topics = self.container.topics();
-        let mut named = topics.iter().enumerate().filter(|(_, topic)| topic.name == name).peekable();
-        if named.peek().is_none() {
-            let known: Vec<&str> = topics.iter().map(|topic| topic.name.as_str()).collect();
-            return Err(refused(format!("one of the topics {}", known.join(", ")), format!("`{name}`")));
-        }
         let fits = |topic: &Topic| types.iter().any(|definition| definition.is(&topic.type_name));
-        let all: Vec<_> = named.collect();
+        let wanted = types.iter().map(|definition| definition.name).collect::<Vec<_>>().join(" or ");
+        let all: Vec<_> = topics.iter().enumerate().filter(|(_, topic)| topic.name == name).collect();
+        if all.is_empty() {
+            let fitting = topics.iter().filter(|topic| fits(topic));
+            let expected = match fitting.map(|topic| topic.name.as_str()).collect::<Vec<_>>().as_slice() {
+                [] => format!("a topic of the type {wanted}, of which there is none"),
+                known => format!("one of the topics of the type {wanted}: {}", known.join(", ")),
+            };
+            return Err(refused(expected, format!("`{name}`")));
+        }
         let Some((place, topic)) = all.iter().find(|(_, topic)| fits(topic)) else {
-            let expected: Vec<&str> = types.iter().map(|definition| definition.name).collect();
             let found: Vec<&str> = all.iter().map(|(_, topic)| topic.type_name.as_str()).collect();
-            return Err(refused(format!("`{name}` of the type {}", expected.join(" or ")), found.join(", ")));
+            return Err(refused(format!("`{name}` of the type {wanted}"), found.join(", ")));
         };
         if topic.known_encoding().is_none() {
             return Err(refused(format!("`{name}` in the encoding ros1 or cdr"), topic.encoding.clone()));

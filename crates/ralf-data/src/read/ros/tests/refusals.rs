@@ -6,7 +6,11 @@ use super::*;
 fn what_a_table_asks_for_and_the_file_lacks_is_named() {
     let with = |from: &str, to: &str| error(&Drive::default(), &TABLE.replace(from, to));
     let missing = with("'/front/points'", "'/side/points'");
-    assert!(missing.contains("topics.front: expected one of the topics /cam/camera_info,"), "{missing}");
+    assert!(missing.contains("topics.front: expected one of the topics of the type "), "{missing}");
+    assert!(
+        missing.contains("RadarScan: /front/points, ") && missing.ends_with("found `/side/points`"),
+        "{missing}"
+    );
     assert!(
         with("'/rear/scan', kind = 'radar'", "'/rear/scan', kind = 'lidar'")
             .contains("sensor_msgs/PointCloud2, found radar_msgs")

@@ -1,6 +1,6 @@
 //! Images as `sensor_msgs/CompressedImage`, calibrations as `sensor_msgs/CameraInfo`.
 
-use crate::disk::{files, images};
+use crate::disk::images;
 use crate::read::SequenceReader;
 use ralf::sensors::{Camera, Intrinsics, SourceError};
 use ralf_ros::message::{CameraInfo, CompressedImage, Header};
@@ -18,7 +18,7 @@ pub(super) fn image(
     };
     let extension = file.extension().unwrap_or_default().to_ascii_lowercase();
     let format = if extension == "png" { "png" } else { "jpeg" };
-    Ok(CompressedImage { header, format: format.to_owned(), data: files::read(&file)? })
+    Ok(CompressedImage { header, format: format.to_owned(), data: images::read_bytes(&file)? })
 }
 
 /// A camera's calibration; `None` of a model that ROS doesn't have.
