@@ -8,7 +8,7 @@ the chosen scans is labelled through its page's interface (docs/review-api.md). 
 sequence. With --judge nothing is corrected: of each output folder LABELS plausible F1, average precision and accuracy are
 printed, over the scans that would not be chosen.
 
-RALF is a build with the feature `review` (ralf in the path, if not given). --judge needs numpy, pyarrow and scikit-learn.
+RALF is a build with the feature `review` (ralf in the path, if not given). --judge needs numpy, pandas, pyarrow and scikit-learn.
 """
 
 import argparse
