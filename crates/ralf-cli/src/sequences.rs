@@ -2,8 +2,11 @@
 
 use crate::progress::{Progress, say};
 use ralf::sensors::Sequence;
-use ralf_data::{DataError, SequenceReader, has_sequence, sequence_folder, write_sequence_with};
+use ralf_data::{DataError, SequenceReader, sequence_folder, write_sequence_with};
 use std::path::Path;
+
+/// Whether the dataset has a sequence already; another of its name is an error.
+pub(crate) type IsThere<'a> = &'a dyn Fn(&dyn SequenceReader) -> Result<bool, DataError>;
 
 /// Writes those of the sequences that the dataset doesn't have, and names each; `doing` is what is shown beside the
 /// progress. Those that are there already are named, too: what they hold was measured, or drawn, by an earlier run.
@@ -14,13 +17,14 @@ use std::path::Path;
 pub(crate) fn write_missing(
     sequences: &[&dyn SequenceReader],
     dataset: &Path,
+    is_there: IsThere,
     jobs: usize,
     doing: &str,
 ) -> Result<(), DataError> {
     let place = |reader: &dyn SequenceReader| sequence_folder(dataset, &reader.sequence().name);
     let (mut missing, mut kept) = (Vec::new(), Vec::new());
     for reader in sequences.iter().copied() {
-        match has_sequence(reader, dataset)? {
+        match is_there(reader)? {
             true => kept.push(place(reader).display().to_string()),
             false => missing.push(reader),
         }

@@ -42,9 +42,9 @@ impl Object {
     /// After so many seconds, in the site's frame, m/s.
     pub(super) fn velocity(&self, ground: &Ground, seconds: f64) -> Vector {
         let place = self.pose(ground, seconds).translation.vector;
-        let up = ground.normal(place.x, place.y);
-        let rise = -self.level_velocity.dot(&up) / up.z;
-        self.level_velocity + Vector::z() * rise
+        let [rise_x, rise_y] = ground.gradient(place.x, place.y);
+        let level = self.level_velocity;
+        Vector::new(level.x, level.y, rise_x * level.x + rise_y * level.y)
     }
 }
 

@@ -6,9 +6,9 @@ use crate::progress::say;
 use crate::sequences::{shown, write_missing};
 use crate::text::delayed;
 use clap::Args;
-use ralf_data::Recording;
 use ralf_data::read::refuse_to_write_into;
 use ralf_data::write::export::{RosFormat, write_ros};
+use ralf_data::{Recording, SequenceReader, has_sequence};
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
@@ -57,7 +57,8 @@ pub(crate) fn run(arguments: &ConvertArgs) -> anyhow::Result<Outcome> {
     }
     refuse_to_write_into(&recording.path, &arguments.output)?;
     let sequences: Vec<_> = recording.sequences.iter().map(|reader| reader.as_ref()).collect();
-    write_missing(&sequences, &arguments.output, threads(arguments.jobs), DOING)?;
+    let is_there = |reader: &dyn SequenceReader| has_sequence(reader, &arguments.output);
+    write_missing(&sequences, &arguments.output, &is_there, threads(arguments.jobs), DOING)?;
     Ok(Outcome::Done)
 }
 

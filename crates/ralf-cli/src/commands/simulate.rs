@@ -4,12 +4,12 @@ pub(super) mod compare;
 
 use crate::arguments::{check_output, threads};
 use crate::outcome::{Outcome, UsageError};
-use crate::sequences::write_missing;
+use crate::sequences::{IsThere, write_missing};
 use anyhow::Context;
 use clap::Args;
 use clap::builder::PossibleValuesParser;
 use compare::{Named, Told, compare};
-use ralf_data::{SequenceReader, has_whole_sequence};
+use ralf_data::{SequenceReader, has_sequence, has_whole_sequence};
 use ralf_files::Kind;
 use ralf_sim::presets::{self, Preset};
 use ralf_sim::world::{FAMILIES, Mixture, Recording};
@@ -147,13 +147,11 @@ impl SimulateArgs {
         }
         let sequences: Vec<_> = sequences.iter().map(|sequence| sequence as &dyn SequenceReader).collect();
         let jobs = threads(self.jobs);
-        if self.scenario.is_some() {
-            // Any line of it may have been edited since, and may show in a few measurements alone.
-            for sequence in &sequences {
-                has_whole_sequence(*sequence, output, jobs)?;
-            }
-        }
-        write_missing(&sequences, output, jobs, "simulating")?;
+        let whole = |reader: &dyn SequenceReader| has_whole_sequence(reader, output, jobs);
+        let by_some = |reader: &dyn SequenceReader| has_sequence(reader, output);
+        // Any line of a scenario may have been edited since, and may show in a few measurements alone.
+        let is_there: IsThere = if self.scenario.is_some() { &whole } else { &by_some };
+        write_missing(&sequences, output, is_there, jobs, "simulating")?;
         Ok(Outcome::Done)
     }
 

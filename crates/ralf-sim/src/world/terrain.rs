@@ -133,8 +133,7 @@ impl Terrain {
 
     /// How much it rises per metre along x and y.
     pub(super) fn gradient(&self, x: f64, y: f64) -> [f64; 2] {
-        let up = self.ground.normal(x, y);
-        [-up.x / up.z, -up.y / up.z]
+        self.ground.gradient(x, y)
     }
 
     /// Whether the ground, kerbs aside, lies between two places.
