@@ -71,20 +71,20 @@ impl SequenceEvidence {
         });
         let gathered = gathered.unwrap_or_else(|never| match never {});
         let width = features().count();
-        let mut evidence = Rows::absent(0, width);
-        for rows in &gathered {
-            evidence.append(rows);
-        }
-        let log_odds = model.plausible.log_odds(&evidence.pick_columns(&columns));
-        let names: Vec<&str> = features().map(|feature| feature.name).collect();
-        let weighing = Weighing::new(model, names.iter().copied(), &config.learned);
-        let mut rows = Rows::absent(evidence.len(), width + 2);
-        let mut probability = Vec::with_capacity(evidence.len());
-        for (row, (log_odds, at)) in log_odds.into_iter().zip(&of).enumerate() {
-            probability.push(weighing.plausibility(evidence.row(row), log_odds));
-            let to = rows.row_mut(row);
-            to[..width].copy_from_slice(evidence.row(row));
-            (to[width], to[width + 1]) = (log_odds as f32, things.sightings()[*at].w);
+        let names = model.inputs.iter().map(|input| input.name.as_str());
+        let weighing = Weighing::new(model, names, &config.learned);
+        let mut rows = Rows::absent(of.len(), width + 2);
+        let mut probability = Vec::with_capacity(of.len());
+        for Observed { rows: observed, places } in &gathered {
+            let read = observed.pick_columns(&columns);
+            let log_odds = log_odds(model, &read, places);
+            for (row, log_odds) in log_odds.iter().enumerate() {
+                let at = probability.len() + row;
+                let to = rows.row_mut(at);
+                to[..width].copy_from_slice(observed.row(row));
+                (to[width], to[width + 1]) = (*log_odds as f32, things.sightings()[of[at]].w);
+            }
+            probability.extend(weighing.plausibilities(&read, &log_odds));
         }
         let monotone = features().map(|feature| direction(feature.name)).chain([1, 0]).collect();
         let with_detections = things.scans().iter().filter(|scan| !things.rows_of(**scan).is_empty());
@@ -157,26 +157,77 @@ fn nearest(scans: &[(i64, usize)], extent: &Extent) -> Vec<usize> {
     near
 }
 
-/// The evidence on one scan; nothing where it can't be gathered.
+/// What is known of the detections of a scan.
+struct Observed {
+    /// [`features`], a row for each; nothing of any where they can't be gathered.
+    rows: Rows,
+    /// Where each that has a place lies, with its row, in the vehicle frame, m.
+    places: Vec<(usize, [f32; 3])>,
+}
+
+/// What a model makes of the detections of a scan, log odds; of those without a place its trees alone.
+fn log_odds(model: &Model, rows: &Rows, places: &[(usize, [f32; 3])]) -> Vec<f64> {
+    let mut log_odds = model.plausible.log_odds(rows);
+    if let Some(net) = &model.net {
+        let (of, places): (Vec<usize>, Vec<[f32; 3]>) = places.iter().copied().unzip();
+        let trees: Vec<f64> = of.iter().map(|row| log_odds[*row]).collect();
+        let heard = net.heard(&trees, &rows.pick(of.iter().copied()), &places);
+        of.into_iter().zip(heard).for_each(|(row, heard)| log_odds[row] += heard);
+    }
+    log_odds
+}
+
+/// The evidence on one scan.
 fn observed(
     window: &mut FrameWindow,
     ScanIndex { radar, scan }: ScanIndex,
     detections: usize,
     config: &Config,
-) -> Rows {
-    let mut rows = Rows::absent(detections, features().count());
+) -> Observed {
+    let mut found = Observed { rows: Rows::absent(detections, features().count()), places: Vec::new() };
     if let Ok(frame) = window.frame(radar, scan) {
         for (place, column) in observe(&frame, config).iter().enumerate() {
-            rows.set_column(place, &column.values);
+            found.rows.set_column(place, &column.values);
         }
+        let detections = frame.scan.detections.iter().enumerate();
+        found.places = detections.filter_map(|(row, known)| Some((row, known.as_ref()?.place()))).collect();
     }
-    rows
+    found
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::judge::Certainty;
+    use crate::result::{LabelledRun, LabelledSequence};
+    use crate::run::{LabelRun, Unwatched};
+    use crate::{Recording, Settings};
     use proptest::prelude::*;
+    use std::path::Path;
+
+    #[test]
+    fn a_probability_is_the_plausibility_of_a_run_with_the_model() {
+        let sequence = ralf_sim::presets::find("tiny").unwrap().sequences[0].simulate(3, 4).unwrap();
+        let recording = Recording::new(Path::new("simulated"), "simulated", vec![Box::new(sequence)]);
+        let reader = recording.sequences[0].as_ref();
+        // So that the model answers for all.
+        let settings = Settings::from_toml("", &["method=learned", "learned.max_novelty=1"]).unwrap();
+        let (model, out) = (Model::shipped().unwrap(), tempfile::tempdir().unwrap());
+        let (recording, settings, out) = (&recording, &settings, out.path());
+        LabelRun { recording, settings, out, jobs: 2, evidence: false, checks: &[], model: Some(&model) }
+            .execute(&Unwatched)
+            .unwrap();
+        let LabelledSequence { rig, tables, settings, .. } =
+            LabelledRun::open(out).unwrap().sequence(reader).unwrap();
+        let things = SequenceThings::of(reader, &rig, &Certainty::of(&settings), &tables).unwrap();
+        let whole = Extent { t_ns: 0, scans: usize::MAX, detections: usize::MAX };
+        let found = SequenceEvidence::of(reader, &rig, &settings, &model, &things, whole, 2).unwrap();
+        for (at, probability) in found.of.iter().zip(&found.probability) {
+            let w = f64::from(things.sightings()[*at].w);
+            assert!((w - probability).abs() < 1e-6, "{w} and {probability}");
+        }
+        assert!(found.of.len() > 100, "{}", found.of.len());
+    }
 
     #[test]
     fn a_short_sequence_is_looked_at_as_a_whole_and_of_a_long_one_what_is_near() {

@@ -44,6 +44,7 @@ fn model() -> Model {
             causes: true,
             threshold: 0.5,
             unconfirmed: 0.1,
+            movers: true,
             jobs: 2,
         };
         fit(&table(2), &fitting, Origin::default(), &|_, _| {}).unwrap().model
@@ -51,7 +52,23 @@ fn model() -> Model {
     MODEL.clone()
 }
 
+/// What is said of the first radar's detections.
 fn label(out: &Path, assignments: &[&str], model: Option<&Model>, jobs: usize) -> Result<Table, String> {
+    let mut scans = label_scans(out, assignments, model, jobs)?.into_iter();
+    let first = scans.next().unwrap();
+    Ok(scans.fold(first, |mut all, more| {
+        all.append(&more).unwrap();
+        all
+    }))
+}
+
+/// The same, scan by scan.
+fn label_scans(
+    out: &Path,
+    assignments: &[&str],
+    model: Option<&Model>,
+    jobs: usize,
+) -> Result<Vec<Table>, String> {
     let mut settings = Settings::from_toml("", assignments).unwrap();
     if model.is_some() {
         settings.method.method = Method::Learned;
@@ -69,12 +86,7 @@ fn label(out: &Path, assignments: &[&str], model: Option<&Model>, jobs: usize) -
     run.execute(&Unwatched).map_err(|error| error.to_string())?;
     let reader = recording.sequences[0].as_ref();
     let sequence = LabelledRun::open(out).unwrap().sequence(reader).unwrap();
-    let mut scans = sequence.tables.tables(0).unwrap().into_iter().map(|(_, table)| table);
-    let first = scans.next().unwrap();
-    Ok(scans.fold(first, |mut all, more| {
-        all.append(&more).unwrap();
-        all
-    }))
+    Ok(sequence.tables.tables(0).unwrap().into_iter().map(|(_, table)| table).collect())
 }
 
 /// What is gathered, with absence as one value.
@@ -128,26 +140,51 @@ fn a_model_labels_with_reasons_and_the_same_to_the_byte_whatever_the_number_of_j
 #[test]
 fn as_many_are_plausible_as_are_said_to_be_expected() {
     let model = model();
-    // What the model has no business with the paper's method answers, whatever share is expected.
-    let answers = |assignments: &[&str]| -> Vec<(f32, bool)> {
-        let out = tempfile::tempdir().unwrap();
-        let table = label(out.path(), assignments, Some(&model), 2).unwrap();
-        let by_model = table.get::<u16>("flags").unwrap().iter().map(|flags| flags & flag::PAPER == 0);
-        table.get::<f32>("w").unwrap().iter().copied().zip(by_model).collect()
-    };
-    let odds = |share: f64| share / (1.0 - share);
-    let (as_trained, few) =
-        (answers(&["learned.unconfirmed=1"]), answers(&["learned.unconfirmed=1", "learned.share=0.1"]));
-    let factor = odds(0.1) / odds(model.share());
-    let mut moved = 0;
-    for ((before, by_model), (now, _)) in as_trained.iter().zip(&few) {
-        if *by_model && (0.01..0.99).contains(before) {
-            let expected = odds(f64::from(*before)) * factor;
-            assert!((odds(f64::from(*now)) / expected - 1.0).abs() < 1e-4, "{before} became {now}");
-            moved += 1;
+    let as_trained = ["learned.unconfirmed=1", "learned.movers=false"];
+    let few = [&as_trained[..], &["learned.share=0.1"]].concat();
+    let expected = odds(0.1) / odds(model.share());
+    let factors = factors(&model, &as_trained, &few).concat();
+    assert!(factors.iter().all(|factor| (factor / expected - 1.0).abs() < 1e-4), "{expected} {factors:?}");
+    assert!(factors.len() > 100, "{}", factors.len());
+}
+
+#[test]
+fn each_scan_tells_how_many_of_its_movers_are_real() {
+    let is = |factor: f64, expected: f64| (factor / expected - 1.0).abs() < 1e-3;
+    let mut changed = Vec::new();
+    for factors in factors(&model(), &["learned.movers=false"], &[]) {
+        if let Some(of_movers) = factors.iter().copied().find(|factor| !is(*factor, 1.0)) {
+            assert!(factors.iter().all(|factor| is(*factor, 1.0) || is(*factor, of_movers)), "{factors:?}");
+            assert!(factors.iter().any(|factor| is(*factor, 1.0)), "not all moves");
+            changed.push(of_movers);
         }
     }
-    assert!(moved > 100, "{moved} of {}", few.len());
+    changed.sort_by(f64::total_cmp);
+    assert!(
+        changed.len() > 1 && !is(changed[0], changed[changed.len() - 1]),
+        "each scan its own: {changed:?}"
+    );
+}
+
+fn odds(share: f64) -> f64 {
+    share / (1.0 - share)
+}
+
+/// By how much the odds of each detection change from some settings to others, scan by scan. The paper's method answers
+/// where the model has no business, whatever the settings are: those are left out, and what is too sure to tell.
+fn factors(model: &Model, before: &[&str], now: &[&str]) -> Vec<Vec<f64>> {
+    let [before, now] = [before, now].map(|assignments| {
+        let out = tempfile::tempdir().unwrap();
+        label_scans(out.path(), assignments, Some(model), 2).unwrap()
+    });
+    let of_scan = |(before, now): (&Table, &Table)| {
+        let [from, to] = [before, now].map(|table| table.get::<f32>("w").unwrap());
+        let flags = now.get::<u16>("flags").unwrap();
+        let is_told = |row: &usize| flags[*row] & flag::PAPER == 0 && (0.01..0.99).contains(&from[*row]);
+        let factor = |row: usize| odds(f64::from(to[row])) / odds(f64::from(from[row]));
+        (0..from.len()).filter(is_told).map(factor).collect()
+    };
+    before.iter().zip(&now).map(of_scan).collect()
 }
 
 #[test]

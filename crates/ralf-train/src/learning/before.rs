@@ -1,8 +1,8 @@
 //! What a model is worth where it was not asked yet: before somebody's own corrections are learned.
 
 use super::asked;
-use super::scores::{Scored, Scores};
-use super::table::{Known, TrainingTable};
+use super::scores::{Scores, scored};
+use super::table::{Known, TrainingTable, scans_of};
 use super::view::View;
 use ralf::config::Config;
 use ralf::learned::{Model, Weighing};
@@ -19,9 +19,9 @@ pub fn worth_in(model: &Model, table: &TrainingTable, world: u16, config: &Confi
     let known: Vec<Known> = here.iter().map(|row| table.known[*row]).collect();
     let log_odds = asked::log_odds(&model.plausible, model.net.as_ref(), &rows, &known);
     let mut judged = Vec::with_capacity(here.len());
-    for (at, log_odds) in log_odds.into_iter().enumerate() {
-        let score = weighing.plausibility(rows.row(at), log_odds);
-        judged.push(Scored { score, plausible: known[at].plausible });
+    for scan in scans_of(&known) {
+        let scores = weighing.plausibilities(&rows.pick(scan.clone()), &log_odds[scan.clone()]);
+        judged.extend(scored(scores, &known[scan]));
     }
     Some(Scores::new(&judged, config.fusion.threshold))
 }
@@ -45,6 +45,7 @@ mod tests {
             causes: false,
             threshold: 0.5,
             unconfirmed: 0.1,
+            movers: true,
             jobs: 2,
         };
         let model = fit(&whole, &fitting, Origin::default(), &|_, _| {}).unwrap().model;

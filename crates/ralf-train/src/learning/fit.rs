@@ -221,6 +221,7 @@ mod tests {
             causes: true,
             threshold: 0.5,
             unconfirmed: 0.1,
+            movers: true,
             jobs,
         }
     }

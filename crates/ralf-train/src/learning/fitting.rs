@@ -20,6 +20,8 @@ pub struct Fitting {
     pub threshold: f64,
     /// What the odds of detections that only the radar tells of are multiplied by, as `learned.unconfirmed` says.
     pub unconfirmed: f64,
+    /// Whether each scan tells how many of its movers are real, as `learned.movers` says.
+    pub movers: bool,
     /// Forests grown side by side; the result doesn't depend on it.
     pub jobs: usize,
 }

@@ -2,11 +2,11 @@
 
 use super::calibrate::{Answered, calibration};
 use super::fitting::Fitting;
-use super::scores::{Scored, Scores, best_threshold};
+use super::scores::{Scored, Scores, best_threshold, scored};
 use super::suite::{SUITES, SuiteScores, suites_of};
-use super::table::{Known, TrainingTable};
+use super::table::{Known, TrainingTable, scans_of};
 use super::view::View;
-use ralf::learned::{Calibration, Unconfirmed, World};
+use ralf::learned::{Calibration, Movers, Unconfirmed, World};
 
 /// How well a model labels a world that it was not fitted to.
 #[derive(Debug, Clone, PartialEq)]
@@ -87,27 +87,53 @@ struct Stranger<'a> {
     line: Calibration,
     unconfirmed: Unconfirmed,
     factor: f64,
+    movers: Option<Movers>,
 }
 
 impl<'a> Stranger<'a> {
     fn new(table: &'a TrainingTable, log_odds: &'a [f64], world: u16, fitting: &Fitting) -> Self {
+        let others = answered(table, log_odds, |other| other != world);
+        let names = table.features.iter().map(|feature| feature.name);
         Self {
             table,
             log_odds,
-            line: calibration(&answered(table, log_odds, |other| other != world)),
-            unconfirmed: Unconfirmed::among(table.features.iter().map(|feature| feature.name)),
+            line: calibration(&others),
+            unconfirmed: Unconfirmed::among(names.clone()),
             factor: fitting.unconfirmed,
+            movers: fitting.movers.then(|| Movers::among(names, share(&others))),
         }
     }
 
+    /// Of rows in rising order: those of a scan are all that are judged of it.
     fn judged(&self, rows: &[usize]) -> Vec<Scored> {
-        let judge = |row: &usize| {
-            let probability = self.line.probability(self.log_odds[*row]);
-            let score = self.unconfirmed.weighed(self.table.rows.row(*row), probability, self.factor);
-            Scored { score, plausible: self.table.known[*row].plausible }
-        };
-        rows.iter().map(judge).collect()
+        let known: Vec<Known> = rows.iter().map(|row| self.table.known[*row]).collect();
+        let mut judged = Vec::with_capacity(rows.len());
+        for scan in scans_of(&known) {
+            let scores = self.of_scan(&rows[scan.clone()]);
+            judged.extend(scored(scores, &known[scan]));
+        }
+        judged
     }
+
+    fn of_scan(&self, scan: &[usize]) -> Vec<f64> {
+        let rows = self.table.rows.pick(scan.iter().copied());
+        let mut scores = Vec::with_capacity(scan.len());
+        for (at, row) in scan.iter().enumerate() {
+            let probability = self.line.probability(self.log_odds[*row]);
+            scores.push(self.unconfirmed.weighed(rows.row(at), probability, self.factor));
+        }
+        if let Some(movers) = &self.movers {
+            movers.weigh(&rows, &mut scores);
+        }
+        scores
+    }
+}
+
+/// The share that is plausible where a calibration comes from.
+fn share(answered: &[Answered]) -> f64 {
+    let of =
+        |is: fn(&Answered) -> bool| answered.iter().filter(|row| is(row)).map(|row| row.weight).sum::<f64>();
+    of(|row| row.plausible) / of(|_| true).max(f64::MIN_POSITIVE)
 }
 
 /// What the paper's method is worth in some rows.

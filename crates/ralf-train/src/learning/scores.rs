@@ -1,5 +1,6 @@
 //! How good probabilities are, where the truth is known.
 
+use super::table::Known;
 use ralf::metrics::Reliability;
 use std::fmt;
 
@@ -24,6 +25,12 @@ pub struct Scored {
     pub score: f64,
     /// What is true.
     pub plausible: bool,
+}
+
+/// Each score with what is known to be true.
+pub(super) fn scored(scores: Vec<f64>, known: &[Known]) -> impl Iterator<Item = Scored> {
+    let with_truth = |(score, known): (f64, &Known)| Scored { score, plausible: known.plausible };
+    scores.into_iter().zip(known).map(with_truth)
 }
 
 impl Scores {

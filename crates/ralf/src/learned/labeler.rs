@@ -109,7 +109,8 @@ impl<'a> LearnedLabeler<'a> {
 
     /// What the model says of a frame, of which this evidence was gathered.
     ///
-    /// `w` is the probability that a detection is plausible, where as many are as `learned.share` says. Where the
+    /// `w` is the probability that a detection is plausible, where as many are as `learned.share` says, and of what
+    /// moves as many as the scan itself tells (`learned.movers`, [`Movers`](super::Movers)). Where the
     /// evidence is too unlike what the model was trained on (`learned.max_novelty`), the paper's method answers: flag
     /// [`flag::PAPER`]. What nobody but the radar tells of counts less (`learned.unconfirmed`): flag
     /// [`flag::UNCONFIRMED`].
@@ -133,12 +134,15 @@ impl<'a> LearnedLabeler<'a> {
         let blocks = Blocks::of(&rows);
         let log_odds = self.plausible.log_odds(&blocks);
         let heard = self.model.net.as_ref().map(|net| net.heard(&log_odds, &rows, &places(frame, &asked)));
-        for (at, log_odds) in log_odds.into_iter().enumerate() {
-            let (label, row) = (&mut labels[asked[at]], rows.row(at));
-            let heard = heard.as_ref().map_or(0.0, |heard| heard[at]);
-            label.w = self.weighing.plausibility(row, log_odds + heard);
+        let of_both: Vec<f64> = match &heard {
+            Some(heard) => log_odds.iter().zip(heard).map(|(trees, heard)| trees + heard).collect(),
+            None => log_odds,
+        };
+        for (at, w) in self.weighing.plausibilities(&rows, &of_both).into_iter().enumerate() {
+            let label = &mut labels[asked[at]];
+            label.w = w;
             label.plausible = label.w >= self.config.fusion.threshold;
-            label.flags |= flag::when(self.weighing.is_unconfirmed(row), flag::UNCONFIRMED);
+            label.flags |= flag::when(self.weighing.is_unconfirmed(rows.row(at)), flag::UNCONFIRMED);
             label.flags &= !flag::UNOBSERVED;
         }
         self.explain(&rows, &blocks, heard.as_deref(), &asked, &mut answers);
@@ -178,7 +182,8 @@ impl<'a> LearnedLabeler<'a> {
         let Some(explainer) = &self.explainer else { return };
         for (at, shares) in explainer.explain(blocks).into_iter().enumerate() {
             let answer = &mut answers[asked[at]];
-            answer.shares = shares.to_vec();
+            answer.shares = Vec::with_capacity(shares.len() + 1);
+            answer.shares.extend(shares);
             answer.shares.extend(heard.map(|heard| heard[at]));
             answer.reason = self.telling.reason(&answer.shares, rows.row(at));
         }

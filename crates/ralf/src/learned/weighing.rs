@@ -1,8 +1,10 @@
-//! From a model's log odds to the plausibility of a detection: calibrated, for as many plausible ones as are expected,
-//! and less where nobody but the radar speaks.
+//! From a model's log odds to the plausibility of a scan's detections: calibrated, for as many plausible ones as are
+//! expected, less where nobody but the radar speaks, and for as many real movers as the scan tells of.
 
 use super::calibration::{Calibration, with_odds};
 use super::model::Model;
+use super::movers::Movers;
+use super::rows::Rows;
 use super::unconfirmed::Unconfirmed;
 use crate::config::LearnedConfig;
 
@@ -15,6 +17,8 @@ pub struct Weighing {
     unconfirmed: Unconfirmed,
     /// What those of an unconfirmed one are multiplied by besides.
     factor: f64,
+    /// `None` where the settings don't ask for it.
+    movers: Option<Movers>,
 }
 
 impl Weighing {
@@ -24,11 +28,14 @@ impl Weighing {
         names: impl Iterator<Item = &'a str> + Clone,
         config: &LearnedConfig,
     ) -> Self {
+        let (known, wanted) = (model.share(), wanted(model, config));
+        let share = if turns(known, wanted) { wanted } else { known };
         Self {
             calibration: model.calibration.clone(),
-            expected: expected(model.share(), wanted(model, config)),
-            unconfirmed: Unconfirmed::among(names),
+            expected: expected(known, wanted),
+            unconfirmed: Unconfirmed::among(names.clone()),
             factor: config.unconfirmed,
+            movers: config.movers.then(|| Movers::among(names, share)),
         }
     }
 
@@ -37,10 +44,17 @@ impl Weighing {
         self.unconfirmed.is(row)
     }
 
-    /// The plausibility of the detection of a row whose log odds the model says.
-    pub fn plausibility(&self, row: &[f32], log_odds: f64) -> f64 {
-        let calibrated = self.calibration.probability(log_odds);
-        self.unconfirmed.weighed(row, with_odds(calibrated, self.expected), self.factor)
+    /// The plausibility of each of a scan's detections, whose log odds the model says.
+    pub fn plausibilities(&self, rows: &Rows, log_odds: &[f64]) -> Vec<f64> {
+        let mut weighed = Vec::with_capacity(rows.len());
+        for (row, log_odds) in log_odds.iter().enumerate() {
+            let calibrated = with_odds(self.calibration.probability(*log_odds), self.expected);
+            weighed.push(self.unconfirmed.weighed(rows.row(row), calibrated, self.factor));
+        }
+        if let Some(movers) = &self.movers {
+            movers.weigh(rows, &mut weighed);
+        }
+        weighed
     }
 }
 
@@ -53,8 +67,12 @@ fn wanted(model: &Model, config: &LearnedConfig) -> f64 {
 /// plausible ones look as they do unchanged (label shift). 1 where either is not known, which 0 says, and where a model
 /// has seen plausible ones alone, to whom no odds are known.
 fn expected(known: f64, wanted: f64) -> f64 {
-    let is_known = known > 0.0 && known < 1.0 && wanted > 0.0;
-    if is_known { (wanted / (1.0 - wanted)) / (known / (1.0 - known)) } else { 1.0 }
+    if turns(known, wanted) { (wanted / (1.0 - wanted)) / (known / (1.0 - known)) } else { 1.0 }
+}
+
+/// Whether both shares are known, so that one can be turned into the other.
+fn turns(known: f64, wanted: f64) -> bool {
+    known > 0.0 && known < 1.0 && wanted > 0.0
 }
 
 #[cfg(test)]

@@ -154,6 +154,7 @@ impl LearnArgs {
             causes: true,
             threshold: config.fusion.threshold,
             unconfirmed: config.learned.unconfirmed,
+            movers: config.learned.movers,
             jobs,
         }
     }

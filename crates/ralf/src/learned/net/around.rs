@@ -32,12 +32,13 @@ impl Around {
         let index = NeighborIndex::new(&in_plan, &ids);
         let mut found = Vec::new();
         for (id, from) in (0_u32..).zip(&in_plan) {
+            let seat = Seat::at(places[id as usize]);
             // One more, for it finds itself; where many lie at one place, perhaps it doesn't.
             index.nearest(*from, nearest + 1, &mut found);
             let others = found.iter().map(|neighbour| neighbour.id).filter(|other| *other != id);
             let others = others.chain(std::iter::repeat(id)).take(nearest);
             for other in others {
-                let way = way(places[id as usize], places[other as usize]);
+                let way = seat.way_to(places[other as usize]);
                 around.ways.row_mut(around.of.len()).copy_from_slice(&way);
                 around.of.push(other);
             }
@@ -80,12 +81,45 @@ impl Around {
     }
 }
 
-/// Where one detection lies, seen from another.
-fn way([x, y, z]: [f32; 3], to: [f32; 3]) -> [f32; WAYS] {
-    let [dx, dy, dz] = [to[0] - x, to[1] - y, to[2] - z];
-    let range = x.hypot(y).max(f32::MIN_POSITIVE);
-    let (along, across) = ((dx * x + dy * y) / range, (dy * x - dx * y) / range);
-    [along.asinh(), across.asinh(), dz.asinh(), dx.hypot(dy).ln_1p()]
+/// A detection from which others are seen.
+struct Seat {
+    place: [f32; 3],
+    /// From the radar to it, seen from above, of length 1; 0 at the frame's origin.
+    ahead: [f32; 2],
+}
+
+impl Seat {
+    fn at(place: [f32; 3]) -> Self {
+        let [x, y, _] = place;
+        let range = (x * x + y * y).sqrt().max(f32::MIN_POSITIVE);
+        Self { place, ahead: [x / range, y / range] }
+    }
+
+    /// Where another detection lies.
+    fn way_to(&self, other: [f32; 3]) -> [f32; WAYS] {
+        let [dx, dy, dz]: [f32; 3] = std::array::from_fn(|axis| other[axis] - self.place[axis]);
+        let [x, y] = self.ahead;
+        let (along, across) = (dx * x + dy * y, dy * x - dx * y);
+        let apart = (dx * dx + dy * dy).sqrt();
+        // asinh v is ln (|v| + sqrt(v^2 + 1)), with the sign of v.
+        let above_one = |v: f32| v.abs() + (v * v + 1.0).sqrt();
+        let [near, aside, above, away] =
+            [above_one(along), above_one(across), above_one(dz), 1.0 + apart].map(logarithm);
+        [near.copysign(along), aside.copysign(across), above.copysign(dz), away]
+    }
+}
+
+/// The natural logarithm of a number from 1 on, within 1e-6 of it: the same bits on every machine, and side by side.
+fn logarithm(number: f32) -> f32 {
+    const MANTISSA: u32 = f32::MANTISSA_DIGITS - 1;
+    // So that what is left of the number lies between sqrt(1/2) and sqrt(2).
+    let twos = (number.to_bits() - std::f32::consts::FRAC_1_SQRT_2.to_bits()) >> MANTISSA;
+    let left = f32::from_bits(number.to_bits() - (twos << MANTISSA));
+    // ln m = 2 (s + s^3 / 3 + s^5 / 5 + ...) with s = (m - 1) / (m + 1).
+    let s = (left - 1.0) / (left + 1.0);
+    let squared = s * s;
+    let series = 1.0 + squared * (1.0 / 3.0 + squared * (0.2 + squared * (1.0 / 7.0 + squared / 9.0)));
+    twos as f32 * std::f32::consts::LN_2 + 2.0 * s * series
 }
 
 #[cfg(test)]
@@ -119,10 +153,22 @@ mod tests {
     #[test]
     fn a_way_is_told_along_the_line_of_sight() {
         // 3 m behind and 4 m to the left of what lies ahead, on the left.
-        let found = way([0.0, 10.0, 1.0], [-4.0, 13.0, 1.5]).map(|number| (number * 1e3).round() / 1e3);
+        let seat = Seat::at([0.0, 10.0, 1.0]);
+        let found = seat.way_to([-4.0, 13.0, 1.5]).map(|number| (number * 1e3).round() / 1e3);
         let expected = [3.0_f32.asinh(), 4.0_f32.asinh(), 0.5_f32.asinh(), 6.0_f32.ln()];
         assert_eq!(found, expected.map(|number| (number * 1e3).round() / 1e3));
-        assert_eq!(way([0.0; 3], [0.0; 3]), [0.0; WAYS]);
+        assert_eq!(Seat::at([0.0; 3]).way_to([0.0; 3]), [0.0; WAYS]);
+    }
+
+    #[test]
+    fn a_logarithm_is_that_of_the_library() {
+        for step in 0..4000 {
+            let number = (0.02 * step as f32).exp();
+            let expected = number.ln();
+            assert!((logarithm(number) - expected).abs() <= 1e-6 * expected.max(1.0), "{number}");
+        }
+        assert_eq!(logarithm(1.0), 0.0);
+        assert!(logarithm(f32::INFINITY).is_finite() && logarithm(f32::NAN).is_finite());
     }
 
     #[test]

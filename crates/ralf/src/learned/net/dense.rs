@@ -3,7 +3,7 @@
 use super::matrix::Matrix;
 
 /// Outputs that are added up side by side, in registers.
-const LANES: usize = 16;
+const LANES: usize = 32;
 
 /// `y = x W + b` of each row.
 #[derive(Debug, Clone, PartialEq)]

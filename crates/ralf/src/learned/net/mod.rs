@@ -133,7 +133,8 @@ impl Net {
     /// The log odds of the detections of a scan, of which this evidence was observed, and which lie so around each
     /// other.
     pub fn log_odds(&self, rows: &Rows, around: &Around) -> Vec<f64> {
-        let pass = Pass::new(self, self.scores(rows), around);
+        // Scores are most of a net's memory, and nobody asks for them again.
+        let pass = Pass::behind_first(self, Matrix::default(), self.first_step(rows), around);
         pass.log_odds.iter().map(|log_odds| f64::from(*log_odds)).collect()
     }
 
@@ -147,21 +148,30 @@ impl Net {
     /// What the net reads of rows: the score of each feature, 0 where it is absent, and behind them 1 for what is
     /// absent.
     pub fn scores(&self, rows: &Rows) -> Matrix {
-        let inputs = self.scales.len();
-        let mut scores = Matrix::zeros(rows.len(), 2 * inputs);
+        let mut scores = Matrix::zeros(rows.len(), 2 * self.scales.len());
         for row in 0..rows.len() {
-            let (told, absent) = scores.row_mut(row).split_at_mut(inputs);
-            for (((told, absent), scale), value) in
-                told.iter_mut().zip(absent).zip(&self.scales).zip(rows.row(row))
-            {
-                if value.is_nan() {
-                    *absent = 1.0;
-                } else {
-                    *told = scale.score(*value);
-                }
-            }
+            self.score(rows.row(row), scores.row_mut(row));
         }
         scores
+    }
+
+    /// What the first step makes of rows, at least 0.
+    fn first_step(&self, rows: &Rows) -> Matrix {
+        let mut first = Matrix::zeros(rows.len(), self.first.outputs());
+        let mut scores = vec![0.0; 2 * self.scales.len()];
+        for row in 0..rows.len() {
+            self.score(rows.row(row), &mut scores);
+            self.first.of_row(&scores, first.row_mut(row));
+        }
+        first.relu()
+    }
+
+    /// The scores of one row.
+    fn score(&self, row: &[f32], scores: &mut [f32]) {
+        let (told, absent) = scores.split_at_mut(self.scales.len());
+        for (((told, absent), scale), value) in told.iter_mut().zip(absent).zip(&self.scales).zip(row) {
+            [*told, *absent] = if value.is_nan() { [0.0, 1.0] } else { [scale.score(*value), 0.0] };
+        }
     }
 }
 

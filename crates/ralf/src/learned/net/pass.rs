@@ -28,6 +28,11 @@ impl Pass {
     /// Goes through a net.
     pub fn new(net: &Net, scores: Matrix, around: &Around) -> Self {
         let first = net.first.of(&scores).relu();
+        Self::behind_first(net, scores, first, around)
+    }
+
+    /// The same where the first step is known.
+    pub(super) fn behind_first(net: &Net, scores: Matrix, first: Matrix, around: &Around) -> Self {
         let mut h = vec![net.second.of(&first)];
         let mut said = Vec::with_capacity(net.layers.len());
         for (at, layer) in net.layers.iter().enumerate() {
