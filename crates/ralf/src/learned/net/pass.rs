@@ -8,7 +8,7 @@ use super::matrix::Matrix;
 /// What a net works out of a scan, or of several, step by step.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Pass {
-    /// What it reads: [`Net::scores`].
+    /// What it reads: [`Net::scores`]; nothing where nobody goes back through it.
     pub scores: Matrix,
     /// What the first step makes of that, at least 0.
     pub first: Matrix,

@@ -6,7 +6,12 @@ use thiserror::Error;
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Scale {
     points: Vec<(f32, f32)>,
+    /// The points' values, looked at side by side; what fills up the last of them is infinite.
+    values: Vec<[f32; LANES]>,
 }
+
+/// Values that are looked at side by side: of some thirty points that is quicker than halving them.
+const LANES: usize = 8;
 
 /// Why points are no scale.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
@@ -21,7 +26,13 @@ impl Scale {
     pub fn new(points: Vec<(f32, f32)>) -> Result<Self, ScaleError> {
         let is_finite = |(value, score): &(f32, f32)| value.is_finite() && score.is_finite();
         let rises = points.windows(2).all(|pair| pair[0].0 < pair[1].0 && pair[0].1 <= pair[1].1);
-        if rises && points.iter().all(is_finite) { Ok(Self { points }) } else { Err(ScaleError) }
+        if !(rises && points.iter().all(is_finite)) {
+            return Err(ScaleError);
+        }
+        let value_at = |at: usize| points.get(at).map_or(f32::INFINITY, |(value, _)| *value);
+        let values = (0..points.len()).step_by(LANES);
+        let values = values.map(|begin| std::array::from_fn(|lane| value_at(begin + lane))).collect();
+        Ok(Self { points, values })
     }
 
     /// The points.
@@ -31,7 +42,8 @@ impl Scale {
 
     /// The score of a value, which is not NaN.
     pub fn score(&self, value: f32) -> f32 {
-        let above = self.points.partition_point(|(point, _)| *point <= value);
+        let below = |few: &[f32; LANES]| few.iter().map(|point| u32::from(*point <= value)).sum::<u32>();
+        let above = (self.values.iter().map(below).sum::<u32>() as usize).min(self.points.len());
         match (above.checked_sub(1).map(|below| self.points[below]), self.points.get(above)) {
             (Some((from, low)), Some((to, high))) => low + (high - low) * ((value - from) / (to - from)),
             (Some((_, score)), None) | (None, Some(&(_, score))) => score,
