@@ -4,7 +4,7 @@ use crate::ground::{self, GroundFit};
 use crate::misread::{Misread, misread};
 use crate::picture::{DepthEdge, FEWEST_IMAGES, Moment, Pictures, depth_edges};
 use crate::plan_field::PlanField;
-use crate::velocity_fit::{TRUSTED, VelocityFit, fit, told};
+use crate::velocity_fit::{COMPENSATED, RAW, TRUSTED, Told, VelocityFit, fit, told};
 use ralf::sensors::{Elevation, LidarScan, Radar, RadarScan, Source, is_return};
 use ralf::space::{Point, Vector};
 use std::collections::BTreeSet;
@@ -37,6 +37,8 @@ pub(crate) struct RadarLook {
     pub(crate) standing: Vec<Point>,
     /// The radar's own velocity by the range rates.
     pub(crate) fit: Option<VelocityFit>,
+    /// The same by range rates that are said to be without the vehicle's motion: none, where they are.
+    pub(crate) compensated: Option<VelocityFit>,
     /// Unit directions of detections with a finite range rate, radar frame.
     pub(crate) rays: Vec<Vector>,
     /// Their raw range rates, m/s.
@@ -188,10 +190,11 @@ impl RadarLook {
         read.columns.iter().flatten().for_each(|value| value.to_bits().hash(&mut hasher));
         let finite = |p: &Point| p.coords.iter().all(|v| v.is_finite());
         let positions: Vec<Point> = read.positions.iter().copied().filter(finite).collect();
-        let told = told(radar, read);
-        let rays: Vec<Vector> = told.iter().map(|told| told.ray).collect();
-        let range_rates: Vec<f64> = told.iter().map(|told| told.range_rate).collect();
-        let fit = fit(&rays, &range_rates, scan as u64);
+        let (without, rates_without) = rays_and_rates(&told(radar, read, COMPENSATED));
+        let told = told(radar, read, RAW);
+        let (rays, range_rates) = rays_and_rates(&told);
+        let fit_of = |rays: &[Vector], rates: &[f64]| fit(rays, rates, scan as u64);
+        let fit = fit_of(&rays, &range_rates);
         let standing = match fit.filter(|fit| fit.inliers >= TRUSTED) {
             Some(fit) => told.iter().filter(|told| fit.agrees(told)).map(|told| told.place).collect(),
             None => positions.clone(),
@@ -205,6 +208,7 @@ impl RadarLook {
             standing,
             positions,
             fit,
+            compensated: fit_of(&without, &rates_without),
             rays,
             range_rates,
             spherical: read.spherical.iter().map(|s| [s.range, s.azimuth, s.elevation]).collect(),
@@ -212,6 +216,10 @@ impl RadarLook {
             digest: hasher.finish(),
         }
     }
+}
+
+fn rays_and_rates(told: &[Told]) -> (Vec<Vector>, Vec<f64>) {
+    told.iter().map(|told| (told.ray, told.range_rate)).unzip()
 }
 
 /// Range, azimuth and elevation by the radar's fields of these names; of x, y and z what these make.

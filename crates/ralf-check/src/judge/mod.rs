@@ -7,6 +7,7 @@ mod alternatives;
 mod cameras;
 mod case;
 mod clocks;
+mod compensated;
 mod doppler;
 mod ground;
 mod lidar;
@@ -55,6 +56,7 @@ fn judge<'a>(sequence: &'a Sequence, sample: &'a Sample) -> (SequenceCheck, Case
     verdicts.extend(wheels::judge(&case));
     verdicts.extend(lidar::judge(&mut case));
     verdicts.extend(radar::judge(&mut case));
+    verdicts.extend(compensated::judge(&case));
     verdicts.extend(neighbours::judge(&mut case));
     verdicts.extend(vertical::judge(&case));
     verdicts.extend(ground::judge(&case));

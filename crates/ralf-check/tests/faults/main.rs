@@ -6,6 +6,7 @@
     reason = "tests fail as tests do, and print a table for people"
 )]
 
+mod compensated;
 mod cut;
 mod labels;
 mod odometry;
