@@ -8,6 +8,7 @@ mod cameras;
 mod case;
 mod clocks;
 mod compensated;
+mod depth;
 mod doppler;
 mod ground;
 mod lidar;
@@ -60,7 +61,8 @@ fn judge<'a>(sequence: &'a Sequence, sample: &'a Sample) -> (SequenceCheck, Case
     verdicts.extend(neighbours::judge(&mut case));
     verdicts.extend(vertical::judge(&case));
     verdicts.extend(ground::judge(&case));
-    verdicts.extend(cameras::judge(&case, &verdicts));
+    let of_pictures = [cameras::judge(&case, &verdicts), depth::judge(&case, &verdicts)];
+    verdicts.extend(of_pictures.into_iter().flatten());
     let figures = case.figures();
     let rank = |verdict: &Verdict| case.rank(&verdict.subject);
     verdicts.sort_by_key(|verdict| (rank(verdict), verdict.question));

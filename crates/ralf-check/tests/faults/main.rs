@@ -8,6 +8,7 @@
 
 mod compensated;
 mod cut;
+mod depth;
 mod labels;
 mod odometry;
 mod recording;
