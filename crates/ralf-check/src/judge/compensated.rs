@@ -1,7 +1,7 @@
 //! Whether range rates that are said to be without the vehicle's motion are: things that stand still have none then.
 
 use super::case::{Case, is_trusted};
-use super::doppler::{COMPENSATED, in_words, is_explained};
+use super::doppler::{COMPENSATED, is_explained};
 use crate::doppler::{Timed, compare};
 use crate::remedy::Remedy;
 use crate::velocity_fit;
@@ -30,7 +30,13 @@ fn one(case: &Case, radar: usize) -> Verdict {
         );
         return Verdict::cannot_judge(name, question, missing);
     };
-    let evidence = format!("as `{}`, {}", velocity_fit::COMPENSATED, in_words(&figures));
+    let evidence = format!(
+        "`{}` of {} scans has {:.2} of the vehicle's speed in it ({:.0} % of the detections agree)",
+        velocity_fit::COMPENSATED,
+        figures.scans,
+        figures.ratio.value,
+        figures.inliers * 100.0
+    );
     if is_explained(&figures) {
         let remedy =
             Remedy::LookInto("`doppler_compensated` has the vehicle's motion in it: it looks like `doppler`");
