@@ -41,14 +41,12 @@ fn depth_that_tells_nothing_or_the_wrong_way_round_is_doubted() {
             inside_out(depth);
         }),
     ];
-    for base in [Recording::of(STRAIGHT, 120, 1), Recording::of(TURNING, 120, 2)] {
-        for (says, output, edit) in faults {
-            for verdict in of_depth(&base, output, edit) {
-                let is_right =
-                    |remedy: &Remedy| matches!(remedy, Remedy::LookInto(what) if what.contains(says));
-                assert_eq!(verdict.state, State::Doubt, "{says}: {verdict:?}");
-                assert!(verdict.remedy.as_ref().is_some_and(is_right), "{says}: {verdict:?}");
-            }
+    let base = Recording::of(TURNING, 120, 2);
+    for (says, output, edit) in faults {
+        for verdict in of_depth(&base, output, edit) {
+            let is_right = |remedy: &Remedy| matches!(remedy, Remedy::LookInto(what) if what.contains(says));
+            assert_eq!(verdict.state, State::Doubt, "{says}: {verdict:?}");
+            assert!(verdict.remedy.as_ref().is_some_and(is_right), "{says}: {verdict:?}");
         }
     }
 }
