@@ -44,6 +44,11 @@ impl SensorChange {
         Self { mirrored: true, ..Self::default() }
     }
 
+    /// x for y and nothing else: left for right, and a quarter of a turn.
+    pub(crate) fn exchange() -> Self {
+        Self { mirrored: true, ..Self::yaw(90.0) }
+    }
+
     /// Both changes.
     pub(crate) fn and(&self, other: &Self) -> Self {
         let sum = |a: [f64; 3], b: [f64; 3]| [a[0] + b[0], a[1] + b[1], a[2] + b[2]];
@@ -163,6 +168,13 @@ mod tests {
         assert!((changed * Point::new(2.0, 0.0, 0.0) - Point::new(3.0, 2.0, 0.5)).norm() < 1e-12);
         let shifted = SensorChange::shift(0.5, -1.0).mount(&mount);
         assert_eq!(shifted.translation.vector, Vector::new(3.5, -1.0, 0.5));
+    }
+
+    #[test]
+    fn what_x_and_y_were_exchanged_of_comes_back() {
+        let change = SensorChange::exchange();
+        let place = change.mount(&Transform::identity()) * change.place(&Point::new(3.0, 8.0, 0.5));
+        assert!((place - Point::new(8.0, 3.0, 0.5)).norm() < 1e-12);
     }
 
     #[test]

@@ -8,7 +8,7 @@
 //! - `overlap`: detections lie where LiDAR points do, and LiDAR points where they lie half a second later, as
 //!   recorded and under changes. What fits clearly better is named.
 //! - `ground`: the plane that the LiDAR sees has to be the vehicle's z = 0.
-//! - `picture`: edges of images lie where the LiDAR sees things end.
+//! - `picture`: edges of images lie where the LiDAR sees things end, and stored depth grows with the LiDAR's.
 //! - `wheels`: odometry has to be the motion that poses beside it tell.
 //! - `bounds`: what no sensor gives and no vehicle does.
 //!

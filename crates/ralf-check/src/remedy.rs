@@ -13,6 +13,8 @@ pub enum Remedy {
     Camera(SensorChange),
     /// Its mounting is that of this sensor, and the other way round.
     SwapWith(String),
+    /// x and y stand in each other's place. No setting puts it right: its field of view would lie aside.
+    Exchanged,
     /// Range rates times this.
     Doppler(f64),
     /// Positions times this.
@@ -54,6 +56,7 @@ impl Remedy {
             Self::Sensor(change) => change_in_words(change),
             Self::Camera(change) => camera_in_words(change),
             Self::SwapWith(other) => format!("looks swapped with {other}"),
+            Self::Exchanged => "x and y look exchanged".into(),
             Self::Doppler(factor) if *factor == -1.0 => "range rate has the other sign".into(),
             Self::Doppler(factor) => format!("range rate looks like {}", unit_of_speed(*factor)),
             Self::Positions(factor) => format!("positions look like {}", unit_of_length(*factor)),
@@ -90,7 +93,11 @@ impl Remedy {
             Self::Speed(factor) => vec![of_motion("speed_factor", *factor)],
             Self::YawRate(factor) => vec![of_motion("yaw_rate_factor", *factor)],
             Self::MotionClock(ms) => vec![of_motion("time_offset_ms", *ms)],
-            Self::SwapWith(_) | Self::InDegrees(_) | Self::Odometry(_) | Self::LookInto(_) => Vec::new(),
+            Self::SwapWith(_)
+            | Self::Exchanged
+            | Self::InDegrees(_)
+            | Self::Odometry(_)
+            | Self::LookInto(_) => Vec::new(),
         }
     }
 }

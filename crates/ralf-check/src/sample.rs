@@ -4,7 +4,7 @@ use crate::ground::{self, GroundFit};
 use crate::misread::{Misread, misread};
 use crate::picture::{DepthEdge, FEWEST_IMAGES, Moment, Pictures, depth_edges};
 use crate::plan_field::PlanField;
-use crate::velocity_fit::{TRUSTED, VelocityFit, fit, told};
+use crate::velocity_fit::{COMPENSATED, RAW, TRUSTED, Told, VelocityFit, fit, told};
 use ralf::sensors::{Elevation, LidarScan, Radar, RadarScan, Source, is_return};
 use ralf::space::{Point, Vector};
 use std::collections::BTreeSet;
@@ -22,6 +22,8 @@ const LIDAR_POINTS: usize = 60_000;
 const OBSTACLES: std::ops::Range<f64> = 0.4..3.0;
 /// Which quantile of the beams' slopes counts as the steepest, so that a few odd points don't; of about so many points.
 const STEEPEST: (f64, usize) = (0.98, 2000);
+/// Points kept to be sought in images.
+const SEEN: usize = 6000;
 /// Obstacles kept to be sought in another scan.
 const PROBES: usize = 800;
 
@@ -37,6 +39,8 @@ pub(crate) struct RadarLook {
     pub(crate) standing: Vec<Point>,
     /// The radar's own velocity by the range rates.
     pub(crate) fit: Option<VelocityFit>,
+    /// The same by range rates that are said to be without the vehicle's motion: none, where they are.
+    pub(crate) compensated: Option<VelocityFit>,
     /// Unit directions of detections with a finite range rate, radar frame.
     pub(crate) rays: Vec<Vector>,
     /// Their raw range rates, m/s.
@@ -71,6 +75,8 @@ pub(crate) struct LidarLook {
     blind: (Point, f64),
     /// Where things end, for images; empty where there are too few of them.
     pub(crate) edges: Vec<DepthEdge>,
+    /// Some of all points, vehicle frame as recorded, m, for stored depth; none where there are too few images.
+    seen: Vec<Point>,
     /// Figures of its numbers, which a wrong data type gives away.
     pub(crate) shape: CloudShape,
     pub(crate) digest: u64,
@@ -136,7 +142,7 @@ impl Sample {
             sample.radars.push(looks);
         }
         let first = sample.lidars.iter().filter(|look| look.lidar == 0);
-        let moments: Vec<Moment> = first.map(|look| Moment { lidar: look.lidar, t_ns: look.t_ns }).collect();
+        let moments: Vec<Moment> = first.map(LidarLook::moment).collect();
         sample.pictures = crate::picture::read(source, &moments);
         sample
     }
@@ -188,10 +194,11 @@ impl RadarLook {
         read.columns.iter().flatten().for_each(|value| value.to_bits().hash(&mut hasher));
         let finite = |p: &Point| p.coords.iter().all(|v| v.is_finite());
         let positions: Vec<Point> = read.positions.iter().copied().filter(finite).collect();
-        let told = told(radar, read);
-        let rays: Vec<Vector> = told.iter().map(|told| told.ray).collect();
-        let range_rates: Vec<f64> = told.iter().map(|told| told.range_rate).collect();
-        let fit = fit(&rays, &range_rates, scan as u64);
+        let (without, rates_without) = rays_and_rates(&told(radar, read, COMPENSATED));
+        let told = told(radar, read, RAW);
+        let (rays, range_rates) = rays_and_rates(&told);
+        let fit_of = |rays: &[Vector], rates: &[f64]| fit(rays, rates, scan as u64);
+        let fit = fit_of(&rays, &range_rates);
         let standing = match fit.filter(|fit| fit.inliers >= TRUSTED) {
             Some(fit) => told.iter().filter(|told| fit.agrees(told)).map(|told| told.place).collect(),
             None => positions.clone(),
@@ -205,6 +212,7 @@ impl RadarLook {
             standing,
             positions,
             fit,
+            compensated: fit_of(&without, &rates_without),
             rays,
             range_rates,
             spherical: read.spherical.iter().map(|s| [s.range, s.azimuth, s.elevation]).collect(),
@@ -212,6 +220,10 @@ impl RadarLook {
             digest: hasher.finish(),
         }
     }
+}
+
+fn rays_and_rates(told: &[Told]) -> (Vec<Vector>, Vec<f64>) {
+    told.iter().map(|told| (told.ray, told.range_rate)).unzip()
 }
 
 /// Range, azimuth and elevation by the radar's fields of these names; of x, y and z what these make.
@@ -238,6 +250,10 @@ impl LidarLook {
         (place - lidar).xy().norm() > *blind
     }
 
+    fn moment(&self) -> Moment<'_> {
+        Moment { lidar: self.lidar, t_ns: self.t_ns, points: &self.seen }
+    }
+
     fn of(source: &dyn Source, lidar: usize, read: &LidarScan) -> Self {
         let mut hasher = DefaultHasher::new();
         read.points.iter().flatten().for_each(|value| value.to_bits().hash(&mut hasher));
@@ -253,7 +269,10 @@ impl LidarLook {
         let obstacles: Vec<&Point> = points.iter().filter(|p| OBSTACLES.contains(&height(p))).collect();
         let images = source.sequence().times.cameras.iter().map(Vec::len).max().unwrap_or(0);
         let stands = |p: &Point| height(p) > OBSTACLES.start;
-        let edges = if images >= FEWEST_IMAGES { depth_edges(&points, &mount, stands) } else { Vec::new() };
+        let (edges, seen) = match images >= FEWEST_IMAGES {
+            true => (depth_edges(&points, &mount, stands), every_so_many(&points, SEEN)),
+            false => (Vec::new(), Vec::new()),
+        };
         let step = obstacles.len().div_ceil(PROBES).max(1);
         Self {
             lidar,
@@ -261,6 +280,7 @@ impl LidarLook {
             probes: obstacles.iter().step_by(step).map(|p| **p).collect(),
             field: PlanField::new(obstacles.iter().map(|p| [p.x, p.y, p.z])),
             edges,
+            seen,
             blind: (lidar_at, blind(&points, &lidar_at, height(&lidar_at))),
             ground,
             misread,
@@ -270,12 +290,17 @@ impl LidarLook {
     }
 }
 
+/// About so many of the points, evenly. Rows of beams are powers of two: an odd step meets all of them.
+fn every_so_many(points: &[Point], count: usize) -> Vec<Point> {
+    points.iter().step_by(points.len().div_ceil(count) | 1).copied().collect()
+}
+
 /// The distance at which the steepest beams of a LiDAR so high above the ground come down to where obstacles begin, m:
 /// 0 where no beam looks down, for nothing is looked over then.
 fn blind(points: &[Point], lidar: &Point, height: f64) -> f64 {
-    // Rows of beams are powers of two: an odd step meets all of them.
-    let looked = points.iter().step_by(points.len().div_ceil(STEEPEST.1) | 1);
-    let slopes: Vec<f64> = looked.map(|p| (lidar.z - p.z) / (p - lidar).xy().norm().max(1e-3)).collect();
+    let looked = every_so_many(points, STEEPEST.1);
+    let slopes: Vec<f64> =
+        looked.iter().map(|p| (lidar.z - p.z) / (p - lidar).xy().norm().max(1e-3)).collect();
     match crate::statistics::quantile(&slopes, STEEPEST.0) {
         None => f64::INFINITY,
         Some(steepest) if steepest > 0.0 => (height - OBSTACLES.start).max(0.0) / steepest,

@@ -41,6 +41,29 @@ pub(crate) fn paired_sigmas(differences: &[f64]) -> f64 {
     if variance > 0.0 { mean / (variance / n).sqrt() } else { mean.signum() * f64::from(mean != 0.0) * 1e3 }
 }
 
+/// Spearman's rank correlation of pairs, equal values having their mean rank; 0 where either side is one value.
+pub(crate) fn rank_correlation(pairs: &[[f64; 2]]) -> f64 {
+    let [own, other] = [0, 1].map(|side| ranks(pairs.iter().map(|pair| pair[side])));
+    let middle = (pairs.len() as f64 - 1.0) / 2.0;
+    let sum = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| (a - middle) * (b - middle)).sum::<f64>();
+    let spread = (sum(&own, &own) * sum(&other, &other)).sqrt();
+    if spread > 0.0 { sum(&own, &other) / spread } else { 0.0 }
+}
+
+fn ranks(values: impl Iterator<Item = f64>) -> Vec<f64> {
+    let values: Vec<f64> = values.collect();
+    let mut order: Vec<usize> = (0..values.len()).collect();
+    order.sort_by(|a, b| values[*a].total_cmp(&values[*b]));
+    let mut ranks = vec![0.0; values.len()];
+    let mut first = 0;
+    for alike in order.chunk_by(|a, b| values[*a] == values[*b]) {
+        let rank = first as f64 + (alike.len() as f64 - 1.0) / 2.0;
+        alike.iter().for_each(|place| ranks[*place] = rank);
+        first += alike.len();
+    }
+    ranks
+}
+
 /// An angle brought into -pi..pi.
 pub(crate) fn wrapped(angle: f64) -> f64 {
     angle.sin().atan2(angle.cos())
@@ -79,5 +102,18 @@ mod tests {
         assert!(paired_sigmas(&[0.5; 9]) > 100.0);
         assert_eq!(paired_sigmas(&[0.0; 9]), 0.0);
         assert_eq!(paired_sigmas(&[1.0, 2.0]), 0.0);
+    }
+
+    #[test]
+    fn ranks_tell_order_alone_and_equal_values_share_theirs() {
+        let of = |values: &[f64]| {
+            let pairs: Vec<[f64; 2]> = values.iter().enumerate().map(|(i, v)| [*v, i as f64]).collect();
+            rank_correlation(&pairs)
+        };
+        assert!((of(&[1.0, 2.0, 900.0, 901.0]) - 1.0).abs() < 1e-12);
+        assert!((of(&[9.0, 3.0, -2.0]) + 1.0).abs() < 1e-12);
+        // Ranks 0.5, 0.5, 2 beside 0, 1, 2: 1.5 / sqrt(1.5 * 2).
+        assert!((of(&[4.0, 4.0, 7.0]) - 1.5 / 3.0_f64.sqrt()).abs() < 1e-12);
+        assert_eq!((of(&[5.0; 4]), of(&[])), (0.0, 0.0));
     }
 }

@@ -9,6 +9,9 @@ use ralf::space::{Point, Vector};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 
+/// Fields of range rates, and of those without the vehicle's motion.
+pub(crate) const RAW: &str = "doppler";
+pub(crate) const COMPENSATED: &str = "doppler_compensated";
 /// A detection belongs to the standing world within this and a share of the speed: noise of the range rate, m/s, and
 /// what an azimuth that is off by a degree makes of it.
 const TOLERANCE: (f64, f64) = (0.15, 0.02);
@@ -55,9 +58,9 @@ pub(crate) struct Told {
     pub(crate) range_rate: f64,
 }
 
-/// All such detections of a scan; none of a radar without range rates.
-pub(crate) fn told(radar: &Radar, scan: &RadarScan) -> Vec<Told> {
-    let Some(column) = radar.column("doppler") else { return Vec::new() };
+/// All such detections of a scan, by a field of range rates; none of a radar that lacks it.
+pub(crate) fn told(radar: &Radar, scan: &RadarScan, field: &str) -> Vec<Told> {
+    let Some(column) = radar.column(field) else { return Vec::new() };
     let of = |(place, rate): (&Point, &f32)| {
         let up = if radar.elevation == Elevation::Measured { place.z } else { 0.0 };
         let ray = Vector::new(place.x, place.y, up).try_normalize(1e-9)?;

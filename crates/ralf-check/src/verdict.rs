@@ -19,6 +19,8 @@ pub enum Question {
     Neighbours,
     /// Do edges of images lie where the LiDAR sees things end?
     Camera,
+    /// Does stored depth grow with the distances that the LiDAR measures?
+    Depth,
     /// Do things lie where the motion takes them?
     Motion,
     /// Is the ground level?

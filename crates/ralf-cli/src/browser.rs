@@ -1,10 +1,22 @@
 //! Opening an address with a secret in it: what a program is started with, everybody on the machine can read.
 
+use std::ffi::OsStr;
 use std::fs::OpenOptions;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use tempfile::{Builder, TempDir};
+
+/// Asks the system to open something in the browser.
+pub(crate) fn open(what: &OsStr) -> io::Result<()> {
+    let mut command = match std::env::consts::OS {
+        "macos" => Command::new("open"),
+        "windows" => Command::new("explorer"),
+        _ => Command::new("xdg-open"),
+    };
+    let command = command.arg(what).stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null());
+    command.spawn().map(drop)
+}
 
 /// A page that leads to an address, for this user's eyes alone, until it is dropped.
 pub(crate) struct Detour {
@@ -27,18 +39,8 @@ impl Detour {
         Ok(detour)
     }
 
-    /// Asks the system to open the page in the browser.
-    pub(crate) fn open(&self) -> io::Result<()> {
-        let mut command = match std::env::consts::OS {
-            "macos" => Command::new("open"),
-            "windows" => Command::new("explorer"),
-            _ => Command::new("xdg-open"),
-        };
-        let command = command.arg(self.page());
-        command.stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null()).spawn().map(drop)
-    }
-
-    fn page(&self) -> PathBuf {
+    /// Where it lies.
+    pub(crate) fn page(&self) -> PathBuf {
         Path::join(self.folder.path(), "open.html")
     }
 }

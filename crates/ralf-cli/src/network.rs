@@ -8,7 +8,9 @@ use clap::Args;
 use ralf::config::Config;
 use ralf::sensors::Sequence;
 use ralf_data::read::refuse_to_write_into;
-use ralf_data::views::{Computed, DepthStore, SegmentationStore, Unusable, ViewObserver, images_of_scans};
+use ralf_data::views::{
+    Computed, DepthStore, SegmentationStore, Store, StoredView, Unusable, ViewObserver, images_of_scans,
+};
 use ralf_data::{DataError, Recording, SequenceReader};
 use ralf_depth::{DepthEstimator, OnnxModel, Runtime, SegmentationModel};
 use std::path::{Path, PathBuf};
@@ -77,10 +79,6 @@ fn runtime() -> Runtime {
     Runtime::Rten
 }
 
-/// What is wanted where a camera's folder lies elsewhere, as on another disk.
-pub(crate) const ELSEWHERE: &str =
-    "expected -o FOLDER, for nothing is written through a link out of the recording";
-
 /// The folder for what a network says of a recording's images: the one that is named, else the recording's own.
 pub(crate) fn store_folder<'a>(
     named: Option<&'a Path>,
@@ -104,6 +102,20 @@ fn own_folder(recording: &Recording) -> anyhow::Result<&Path> {
         ))
     );
     Ok(&recording.path)
+}
+
+/// A store in the folder that is named, else in the recording's own: there no camera's folder may lie elsewhere, as on
+/// another disk.
+pub(crate) fn without_links<V: StoredView>(
+    store: Store<V>,
+    named: Option<&Path>,
+    recording: &Recording,
+) -> anyhow::Result<Store<V>> {
+    if named.is_none() {
+        let wanted = "expected -o FOLDER, for nothing is written through a link out of the recording";
+        store.refuse_links(recording).context(wanted)?;
+    }
+    Ok(store)
 }
 
 /// Images of one sequence: camera and number.

@@ -1,8 +1,12 @@
 //! Connections: so many at a time, each of which has to say before long what it wants.
 
+use crate::http::Ends;
 use crate::patient_stream::PatientStream;
 use axum::Router;
+use hyper::body::Incoming;
 use hyper::server::conn::http1;
+use hyper::service::{Service, service_fn};
+use hyper::{Request, Result};
 use hyper_util::rt::{TokioIo, TokioTimer};
 use hyper_util::service::TowerToHyperService;
 use std::pin::pin;
@@ -48,15 +52,20 @@ pub(crate) async fn serve(listener: TcpListener, router: Router, end: impl Futur
 }
 
 /// Answers the requests of one connection.
-async fn answer(stream: TcpStream, router: Router, mut ended: watch::Receiver<bool>) -> hyper::Result<()> {
+async fn answer(stream: TcpStream, router: Router, mut ended: watch::Receiver<bool>) -> Result<()> {
+    // Who has gone has no ends, and gets no answer.
+    let Ok(ends) = Ends::of(&stream) else { return Ok(()) };
+    let router = TowerToHyperService::new(router);
+    let with_ends = service_fn(move |mut request: Request<Incoming>| {
+        request.extensions_mut().insert(ends);
+        router.call(request)
+    });
     // Answers are sent at once; where the system knows no such wish, they come later.
     let _sooner = stream.set_nodelay(true);
     let mut http = http1::Builder::new();
     http.timer(TokioTimer::new()).header_read_timeout(PATIENCE);
-    let mut connection = pin!(http.serve_connection(
-        TokioIo::new(PatientStream::new(stream, PATIENCE)),
-        TowerToHyperService::new(router)
-    ));
+    let mut connection =
+        pin!(http.serve_connection(TokioIo::new(PatientStream::new(stream, PATIENCE)), with_ends));
     tokio::select! {
         answered = connection.as_mut() => return answered,
         _ = ended.wait_for(|ended| *ended) => connection.as_mut().graceful_shutdown(),

@@ -2,15 +2,15 @@
 
 use crate::app::App;
 use crate::correcting::{self, MarkRequest, Since, StepRequest, StrokeRequest};
-use crate::http::{Answer, ApiError, Asked, Body, Guard, MAX_BODY, Person, Place, guard, json};
+use crate::http::{Answer, ApiError, Asked, Body, Ends, Guard, MAX_BODY, OPEN, Person, Place, guard, json};
 use crate::page;
 use crate::reading::{self, About, Around, AskedKinds, LidarProjection, Moment, Near, Projection};
-use axum::Router;
 use axum::extract::{DefaultBodyLimit, State};
 use axum::http::Uri;
 use axum::middleware::from_fn_with_state;
-use axum::response::{IntoResponse, Response};
+use axum::response::{IntoResponse, Redirect, Response};
 use axum::routing::{get, post, put};
+use axum::{Extension, Router};
 use std::sync::Arc;
 
 type Shared = State<Arc<App>>;
@@ -41,7 +41,9 @@ pub(crate) fn router(app: Arc<App>, guarded_by: Arc<Guard>) -> Router {
         .route("/redo", post(redo))
         .route("/history", get(history))
         .route("/changes", get(changes));
+    let doors = Router::new().route(&format!("{OPEN}{{code}}"), get(admit)).with_state(guarded_by.clone());
     Router::new()
+        .merge(doors)
         .route("/api/recording", get(recording))
         .route("/api/people", get(people))
         .nest("/api/sequences/{sequence}", sequence)
@@ -59,6 +61,14 @@ async fn elsewhere(uri: Uri) -> Response {
     }
     let unknown = || ApiError::unknown("address", path, "one of the page's files").into_response();
     page::file(path).unwrap_or_else(unknown)
+}
+
+async fn admit(
+    State(guard): State<Arc<Guard>>,
+    Extension(ends): Extension<Ends>,
+    Place(code): Place<String>,
+) -> Answer {
+    Ok(Redirect::to(&guard.admit(&code, ends)?).into_response())
 }
 
 async fn recording(State(app): Shared) -> Answer {

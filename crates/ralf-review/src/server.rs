@@ -27,7 +27,7 @@ pub struct Server {
     guard: Arc<Guard>,
     listener: TcpListener,
     runtime: Runtime,
-    urls: Vec<String>,
+    origins: Vec<String>,
 }
 
 impl Server {
@@ -42,16 +42,28 @@ impl Server {
         listener.set_nonblocking(true).map_err(ReviewError::system("listening"))?;
         let token = Token::of(out, options.token_folder.as_deref())?;
         let named = addresses::reachable(&options.host, address);
-        let urls = named.into_iter().map(|name| format!("http://{name}/?token={}", token.digits())).collect();
         let guard = Guard::new(&options.host, address, token, app.served()?);
+        let origins = named.into_iter().map(|name| format!("http://{name}")).collect();
         let runtime = Builder::new_current_thread().enable_all().max_blocking_threads(READERS).build();
         let runtime = runtime.map_err(ReviewError::system("threads"))?;
-        Ok(Self { app: Arc::new(app), guard: Arc::new(guard), listener, runtime, urls })
+        Ok(Self { app: Arc::new(app), guard: Arc::new(guard), listener, runtime, origins })
     }
 
     /// What to type in a browser: on this machine the first one, on others those behind it. Each holds the token.
-    pub fn urls(&self) -> &[String] {
-        &self.urls
+    pub fn urls(&self) -> Vec<String> {
+        let page = self.guard.page();
+        self.origins.iter().map(|origin| format!("{origin}{page}")).collect()
+    }
+
+    /// What to start a browser with on this machine: it holds no token, leads to the page once, within two minutes, and
+    /// lets nobody in but the user who runs this, for everybody on the machine can see what programs are started with.
+    /// The one before is worth nothing any more. `None` where the system (other than Linux) doesn't tell who asks.
+    ///
+    /// # Errors
+    /// No random numbers.
+    pub fn invitation(&self) -> Result<Option<String>, ReviewError> {
+        let path = self.guard.invite()?;
+        Ok(self.origins.first().zip(path).map(|(origin, path)| format!("{origin}{path}")))
     }
 
     /// Why nothing can be corrected here; `None` where it can.

@@ -4,7 +4,7 @@ use super::{mounting, out_of_reason};
 use crate::doppler::{STANDING, predicted};
 use crate::remedy::{LENGTHS, Remedy};
 use crate::sample::RadarLook;
-use crate::statistics::{median, quantile};
+use crate::statistics::{median, quantile, wrapped};
 use crate::verdict::{Question, State, Verdict};
 use ralf::sensors::{Elevation, Radar};
 use ralf::space::EgoMotion;
@@ -126,20 +126,35 @@ fn field_of_view(radar: &Radar, all: &[[f64; 3]]) -> Vec<Verdict> {
     let axes = [Some(azimuth), Some(elevation).filter(|_| measured)];
     let mut found = Vec::new();
     for (column, key, full, sigma) in axes.into_iter().flatten() {
-        let angles: Vec<f64> = all.iter().map(|row| row[column].abs()).collect();
+        let angles: Vec<f64> = all.iter().map(|row| row[column]).collect();
         let room = full / 2.0 + 2.0 * sigma.min(0.1);
-        let outside = angles.iter().filter(|angle| **angle > room).count() as f64 / all.len() as f64;
+        let outside = outside(&angles, room);
         if outside > OUTSIDE {
-            let value = 2.0 * quantile(&angles, 0.99).unwrap_or(0.0).to_degrees();
             let evidence = format!(
                 "{:.0} % of the detections lie outside {key} = {:.1}",
                 outside * 100.0,
                 full.to_degrees()
             );
-            found.push(doubt(&radar.name, evidence, Some(Remedy::Value { key, value })));
+            found.push(doubt(&radar.name, evidence, Some(wider(key, &angles, room))));
         }
     }
     found
+}
+
+/// The share of angles beyond a limit to either side, rad.
+fn outside(angles: &[f64], limit: f64) -> f64 {
+    angles.iter().filter(|angle| angle.abs() > limit).count() as f64 / angles.len() as f64
+}
+
+/// A field of view that holds the detections; where all lie aside of it, their axes are others.
+fn wider(key: &'static str, angles: &[f64], room: f64) -> Remedy {
+    let aside = |side: f64| angles.iter().map(|angle| wrapped(angle - side)).collect::<Vec<f64>>();
+    let is_aside = [FRAC_PI_2, -FRAC_PI_2].into_iter().any(|side| outside(&aside(side), room) <= OUTSIDE);
+    if is_aside && key == "fov_azimuth_deg" {
+        return Remedy::LookInto("x and y look exchanged, or turned by 90 degrees");
+    }
+    let angles: Vec<f64> = angles.iter().map(|angle| angle.abs()).collect();
+    Remedy::Value { key, value: 2.0 * quantile(&angles, 0.99).unwrap_or(0.0).to_degrees() }
 }
 
 fn ranges(name: &str, all: &[[f64; 3]]) -> Option<Verdict> {

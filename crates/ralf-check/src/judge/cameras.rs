@@ -43,7 +43,7 @@ pub(super) fn judge(case: &Case, known: &[Verdict]) -> Vec<Verdict> {
 }
 
 /// Whether something of a LiDAR is doubted that is not put right for the questions that follow.
-fn is_lidar_doubted(case: &Case, known: &[Verdict]) -> bool {
+pub(super) fn is_lidar_doubted(case: &Case, known: &[Verdict]) -> bool {
     let is_lidar = |name: &str| case.sequence.rig.lidars.iter().any(|lidar| lidar.name == name);
     known.iter().any(|verdict| {
         verdict.state == State::Doubt

@@ -14,6 +14,11 @@ use ralf::space::Transform;
 /// A radar's Doppler is trusted in so many scans: the error of their median is then a third of a single one's.
 pub(super) const SCANS: usize = 10;
 
+/// Whether so many scans tell so much.
+pub(super) fn is_trusted(figures: &DopplerFigures) -> bool {
+    figures.scans >= SCANS && figures.inliers >= TRUSTED
+}
+
 /// A sequence under judgement.
 pub(super) struct Case<'a> {
     pub(super) sequence: &'a Sequence,
@@ -55,6 +60,11 @@ impl<'a> Case<'a> {
         (0..self.sequence.rig.radars.len()).filter(is_fit)
     }
 
+    /// Nothing else is asked of a radar whose positions can't be used, and that no setting puts right.
+    pub(super) fn leave_out(&mut self, radar: usize) {
+        self.unfit.push(self.name(radar).to_owned());
+    }
+
     pub(super) fn name(&self, radar: usize) -> &'a str {
         &self.sequence.rig.radars[radar].name
     }
@@ -71,8 +81,7 @@ impl<'a> Case<'a> {
         motion: &EgoMotion,
         mount: &Transform,
     ) -> Option<DopplerFigures> {
-        compare(&self.fits[radar], motion, mount)
-            .filter(|figures| figures.scans >= SCANS && figures.inliers >= TRUSTED)
+        compare(&self.fits[radar], motion, mount).filter(is_trusted)
     }
 
     /// A radar's overlap with the LiDARs under a change, besides those that were found.

@@ -4,6 +4,8 @@ use crate::doppler::DopplerFigures;
 
 /// Speeds within.
 pub(super) const RATIO: std::ops::Range<f64> = 0.9..1.1;
+/// A radar whose velocity is this share of the vehicle's or less has range rates without the vehicle's motion.
+pub(super) const COMPENSATED: f64 = 0.2;
 /// Directions within, degrees: good recordings stay below 1.2.
 pub(super) const ANGLE_DEG: f64 = 1.5;
 /// And a larger angle has to be so many standard errors.

@@ -2,7 +2,7 @@
 
 use super::alternatives::{best, clocks, exact, gain_of_one, shifts, yaws};
 use super::case::Case;
-use super::doppler::{RATIO, in_words, is_aligned, is_explained};
+use super::doppler::{COMPENSATED, RATIO, in_words, is_aligned, is_explained};
 use super::motion::correct_range_rates;
 use super::swapped;
 use crate::change::SensorChange;
@@ -14,10 +14,10 @@ use crate::verdict::{Question, State, Verdict};
 use nalgebra::Vector2;
 use std::f64::consts::PI;
 
-/// A radar whose velocity is this share of the vehicle's or less has range rates without the vehicle's motion.
-const COMPENSATED: f64 = 0.2;
 /// A direction that is off by more is no mounting that slipped, degrees: it may be mirrored.
 const SLIPPED_DEG: f64 = 12.0;
+/// Exchanged axes leave less than this share of what is left with another yaw.
+const EXCHANGED_GAIN: f64 = 0.6;
 /// Scans of a standing vehicle whose world moves.
 pub(super) const CREEPING: usize = 3;
 
@@ -29,7 +29,9 @@ pub(super) fn judge(case: &mut Case) -> Vec<Verdict> {
     for radar in radars {
         if !swapped.iter().any(|name| name == case.name(radar)) {
             verdicts.push(by_range_rates(case, radar));
-            verdicts.push(by_lidar(case, radar));
+            if case.radars().any(|fit| fit == radar) {
+                verdicts.push(by_lidar(case, radar));
+            }
         }
     }
     verdicts
@@ -52,6 +54,7 @@ fn by_range_rates(case: &mut Case, radar: usize) -> Verdict {
     match &remedy {
         Some(Remedy::Doppler(factor)) => correct_range_rates(&mut case.fits[radar], *factor),
         Some(Remedy::Sensor(change)) => case.radar_changes[radar] = case.radar_changes[radar].and(change),
+        Some(Remedy::Exchanged) => case.leave_out(radar),
         _ => {}
     }
     Verdict::doubt(name, Question::Doppler, in_words(&figures), remedy)
@@ -89,31 +92,48 @@ fn remedy(case: &Case, radar: usize, figures: &DopplerFigures) -> Option<Remedy>
         return is_aligned(figures).then_some(factor.map(Remedy::Doppler)).flatten();
     }
     let turned = SensorChange::yaw((-angle.to_degrees() * 10.0).round() / 10.0);
-    let mirrored = Some(SensorChange::mirror()).filter(|_| mirror_explains(case, radar));
+    let mirrored = Some(SensorChange::mirror()).filter(|_| misfit(case, radar, with_mirror).is_some());
+    let exchanged = Some(SensorChange::exchange()).filter(|_| misfit(case, radar, with_exchange).is_some());
     if angle.abs().to_degrees() <= SLIPPED_DEG {
         // In turns a mirrored radar that looks ahead seems to look aside.
-        let found = mirrored.and_then(|mirrored| by_overlap(case, radar, [turned, mirrored]));
-        return Some(Remedy::Sensor(found.unwrap_or(turned)));
+        let is_open = mirrored.is_some() || exchanged.is_some();
+        let all = [Some(turned), mirrored, exchanged].into_iter().flatten();
+        let found = is_open.then(|| by_overlap(case, radar, all)).flatten();
+        return Some(of_change(found.unwrap_or(turned)));
     }
     let other_sign = wrapped(angle - PI).abs() < SLIPPED_DEG.to_radians();
-    Some(of_large_angles(case, radar, [Some(turned), mirrored], other_sign))
+    Some(of_large_angles(case, radar, [Some(turned), mirrored, exchanged], other_sign))
 }
 
-/// A direction that is far off: turned, mirrored, or the range rates have the other sign. The LiDAR tells, where it
-/// can.
+/// A direction that is far off: turned, mirrored, x and y exchanged, or the range rates have the other sign. The LiDAR
+/// tells, where it can.
 fn of_large_angles(
     case: &Case,
     radar: usize,
-    changes: [Option<SensorChange>; 2],
+    changes: [Option<SensorChange>; 3],
     other_sign: bool,
 ) -> Remedy {
     let found = by_overlap(case, radar, changes.into_iter().flatten());
     match (found, other_sign, changes) {
-        (Some(change), _, _) => Remedy::Sensor(change),
+        (Some(change), _, _) => of_change(change),
         (None, true, _) => Remedy::Doppler(-1.0),
-        (None, false, [_, Some(mirrored)]) => Remedy::Sensor(mirrored),
-        (None, false, [turned, None]) => Remedy::Sensor(turned.unwrap_or_default()),
+        (None, false, [_, Some(mirrored), _]) => Remedy::Sensor(mirrored),
+        (None, false, [Some(turned), _, Some(_)]) if is_rather_exchanged(case, radar, &turned) => {
+            Remedy::Exchanged
+        }
+        (None, false, [turned, ..]) => Remedy::Sensor(turned.unwrap_or_default()),
     }
+}
+
+fn of_change(change: SensorChange) -> Remedy {
+    if change == SensorChange::exchange() { Remedy::Exchanged } else { Remedy::Sensor(change) }
+}
+
+/// Whether range rates alone tell that x and y are exchanged and the radar isn't turned: in turns of the vehicle.
+fn is_rather_exchanged(case: &Case, radar: usize, turned: &SensorChange) -> bool {
+    let turned = case.doppler(radar, &case.motion, &turned.mount(&case.mount(radar)));
+    let misfit = misfit(case, radar, with_exchange);
+    misfit.zip(turned).is_some_and(|(misfit, turned)| misfit < EXCHANGED_GAIN * turned.off)
 }
 
 /// The change that the LiDAR asks for.
@@ -127,14 +147,25 @@ fn by_overlap(
     best(&now, changes.into_iter(), gain_of_one, tally).map(|(change, _)| change)
 }
 
-fn mirror_explains(case: &Case, radar: usize) -> bool {
-    let mirrored = |timed: &Timed| {
+/// What is left of range rates, m/s, where velocities in the radar's frame are read otherwise; `None` where that
+/// doesn't explain them.
+fn misfit(case: &Case, radar: usize, read: fn(Vector2<f64>) -> Vector2<f64>) -> Option<f64> {
+    let otherwise = |timed: &Timed| {
         let mut timed = *timed;
-        timed.fit.velocity = Vector2::new(timed.fit.velocity.x, -timed.fit.velocity.y);
+        timed.fit.velocity = read(timed.fit.velocity);
         timed
     };
-    let fits: Vec<Timed> = case.fits[radar].iter().map(mirrored).collect();
-    crate::doppler::compare(&fits, &case.motion, &case.mount(radar)).as_ref().is_some_and(is_explained)
+    let fits: Vec<Timed> = case.fits[radar].iter().map(otherwise).collect();
+    let figures = crate::doppler::compare(&fits, &case.motion, &case.mount(radar));
+    figures.filter(is_explained).map(|figures| figures.off)
+}
+
+fn with_mirror(velocity: Vector2<f64>) -> Vector2<f64> {
+    Vector2::new(velocity.x, -velocity.y)
+}
+
+fn with_exchange(velocity: Vector2<f64>) -> Vector2<f64> {
+    velocity.yx()
 }
 
 fn by_lidar(case: &mut Case, radar: usize) -> Verdict {
@@ -153,6 +184,10 @@ fn by_lidar(case: &mut Case, radar: usize) -> Verdict {
     let Some((found, then)) = found.filter(|(_, then)| then.is_above_chance(&elsewhere)) else {
         return same_world(&now, &elsewhere, name);
     };
+    if found == SensorChange::exchange() {
+        case.leave_out(radar);
+        return Verdict::doubt(name, Question::Lidar, in_share(&now, Some(&then)), Some(Remedy::Exchanged));
+    }
     let change = exact(found, |change| case.overlap(radar, change, Measure::Smooth).share());
     let verdict =
         Verdict::doubt(name, Question::Lidar, in_share(&now, Some(&then)), Some(Remedy::Sensor(change)));
@@ -190,6 +225,9 @@ fn allowed(case: &Case, radar: usize) -> Vec<SensorChange> {
     let mut changes: Vec<SensorChange> = shifts().chain([SensorChange::mirror()]).collect();
     if !known_yaw {
         changes.extend(yaws());
+    }
+    if !known_yaw || misfit(case, radar, with_exchange).is_some() {
+        changes.push(SensorChange::exchange());
     }
     if !known_clock {
         changes.extend(clocks());

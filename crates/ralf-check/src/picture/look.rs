@@ -1,7 +1,8 @@
 //! Which images are looked at, and how well a LiDAR's edges lie on theirs.
 
-use super::DepthEdge;
+use super::depth_look::{DepthLook, depth_looks};
 use super::edge_map::EdgeMap;
+use super::{DepthEdge, Moment};
 use ralf::sensors::{Camera, ImageSizeError, Source};
 use ralf::space::Transform;
 
@@ -24,13 +25,6 @@ pub(crate) struct CameraLook {
     edges: EdgeMap,
 }
 
-/// A LiDAR's scan whose edges are known.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Moment {
-    pub(crate) lidar: usize,
-    pub(crate) t_ns: i64,
-}
-
 /// A camera none of whose images has the size that it is calibrated for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct OddSize {
@@ -45,6 +39,8 @@ pub(crate) struct Pictures {
     /// Of all cameras, in the order of the rig and of time.
     pub(crate) looks: Vec<CameraLook>,
     pub(crate) odd_sizes: Vec<OddSize>,
+    /// Of the stored depth of the same images.
+    pub(crate) depths: Vec<DepthLook>,
 }
 
 /// Reads images beside the LiDAR's scans, evenly spread. Left out are those that can't be read, and those of another
@@ -55,7 +51,7 @@ pub(crate) fn read(source: &dyn Source, moments: &[Moment]) -> Pictures {
     for (camera, times) in sequence.times.cameras.iter().enumerate() {
         let own = &sequence.rig.cameras[camera];
         let (mut odd, mut fits) = (None, false);
-        for (image, Moment { lidar, t_ns: lidar_ns }) in beside(times, moments) {
+        for (image, moment) in beside(times, moments) {
             let read = match source.image(camera, image) {
                 Ok(read) if own.check_image(&read).is_ok() => read,
                 Ok(read) => {
@@ -69,8 +65,10 @@ pub(crate) fn read(source: &dyn Source, moments: &[Moment]) -> Pictures {
             };
             fits = true;
             if let Some(edges) = EdgeMap::new(own, &read) {
+                let (lidar, lidar_ns) = (moment.lidar, moment.t_ns);
                 found.looks.push(CameraLook { camera, t_ns: times[image], lidar_ns, lidar, edges });
             }
+            found.depths.extend(depth_looks(source, [camera, image], &moment));
         }
         found.odd_sizes.extend(odd.filter(|_| !fits).map(|size| OddSize { camera, size }));
     }
@@ -78,8 +76,8 @@ pub(crate) fn read(source: &dyn Source, moments: &[Moment]) -> Pictures {
 }
 
 /// The images that are looked at, each with the LiDAR's scan beside it; none where they are too few.
-fn beside(times: &[i64], moments: &[Moment]) -> Vec<(usize, Moment)> {
-    let nearest = |moment: &Moment| {
+fn beside<'a>(times: &[i64], moments: &[Moment<'a>]) -> Vec<(usize, Moment<'a>)> {
+    let nearest = |moment: &Moment<'a>| {
         let distance = |image: &usize| times[*image].abs_diff(moment.t_ns);
         let image = (0..times.len()).min_by_key(distance).filter(|i| distance(i) <= TOGETHER_NS);
         image.map(|image| (image, *moment))

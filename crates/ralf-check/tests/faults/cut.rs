@@ -48,7 +48,7 @@ impl Source for Cut<'_> {
         self.whole.image(camera, self.firsts[2][camera] + image)
     }
 
-    fn depth(&self, _: usize, _: usize) -> Result<Option<Vec<DepthImage>>, SourceError> {
-        Ok(None)
+    fn depth(&self, camera: usize, image: usize) -> Result<Option<Vec<DepthImage>>, SourceError> {
+        self.whole.depth(camera, self.firsts[2][camera] + image)
     }
 }

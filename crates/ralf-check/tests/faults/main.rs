@@ -6,7 +6,9 @@
     reason = "tests fail as tests do, and print a table for people"
 )]
 
+mod compensated;
 mod cut;
+mod depth;
 mod labels;
 mod odometry;
 mod recording;

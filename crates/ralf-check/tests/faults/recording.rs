@@ -47,12 +47,16 @@ type RadarEdit = Box<dyn Fn(usize, usize, &mut Vec<Vec<f32>>) + Send + Sync>;
 /// Changes the points of a LiDAR's scan.
 type LidarEdit = Box<dyn Fn(&mut LidarScan) + Send + Sync>;
 
+/// Changes the depth images of an image.
+type DepthEdit = Box<dyn Fn(&mut [DepthImage]) + Send + Sync>;
+
 /// A recording with a fault.
 pub struct Planted {
     base: Arc<Recording>,
     pub sequence: Sequence,
     radar: Option<RadarEdit>,
     lidar: Option<LidarEdit>,
+    depth: Option<DepthEdit>,
     /// The radar and the LiDAR whose first scan comes again and again.
     pub stuck_radar: Option<usize>,
     pub stuck_lidar: bool,
@@ -61,7 +65,8 @@ pub struct Planted {
 impl Planted {
     pub fn new(base: &Arc<Recording>) -> Self {
         let sequence = base.inner.sequence().clone();
-        Self { base: base.clone(), sequence, radar: None, lidar: None, stuck_radar: None, stuck_lidar: false }
+        let (base, stuck_radar, stuck_lidar) = (base.clone(), None, false);
+        Self { base, sequence, radar: None, lidar: None, depth: None, stuck_radar, stuck_lidar }
     }
 
     /// Changes scans of radars: their number, the scan's, its columns.
@@ -71,6 +76,11 @@ impl Planted {
 
     pub fn edit_lidar(&mut self, edit: impl Fn(&mut LidarScan) + Send + Sync + 'static) {
         self.lidar = Some(Box::new(edit));
+    }
+
+    /// Has depth, which a recording lacks otherwise, and changes it.
+    pub fn with_depth(&mut self, edit: impl Fn(&mut [DepthImage]) + Send + Sync + 'static) {
+        self.depth = Some(Box::new(edit));
     }
 
     /// Changes every sample of the odometry.
@@ -135,7 +145,10 @@ impl Source for Planted {
         Ok(self.base.images[camera][image].get_or_init(rendered).clone())
     }
 
-    fn depth(&self, _: usize, _: usize) -> Result<Option<Vec<DepthImage>>, SourceError> {
-        Ok(None)
+    fn depth(&self, camera: usize, image: usize) -> Result<Option<Vec<DepthImage>>, SourceError> {
+        let Some(edit) = &self.depth else { return Ok(None) };
+        let mut found = self.base.inner.depth(camera, image)?;
+        found.iter_mut().for_each(|views| edit(views));
+        Ok(found)
     }
 }

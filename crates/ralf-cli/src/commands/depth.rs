@@ -1,7 +1,7 @@
 //! `ralf depth`: the depth of every image, once for all; and how well it fits the LiDAR.
 
 use crate::arguments::{DatasetArgs, SettingsArgs, threads};
-use crate::network::{DepthModelArgs, ELSEWHERE, all_images, fill_depth, store_folder};
+use crate::network::{DepthModelArgs, all_images, fill_depth, store_folder, without_links};
 use crate::outcome::{Outcome, UsageError};
 use crate::text::{aligned, grouped, print};
 use anyhow::{Context, ensure};
@@ -95,10 +95,7 @@ impl DepthArgs {
             );
         }
         let store = DepthStore::create(folder, output, model.fingerprint())?;
-        if self.output.is_none() {
-            store.refuse_links(recording).context(ELSEWHERE)?;
-        }
-        Ok(store)
+        without_links(store, self.output.as_deref(), recording)
     }
 }
 

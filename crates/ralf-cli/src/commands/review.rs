@@ -1,7 +1,7 @@
 //! `ralf review`: the page where people correct labels.
 
 use crate::arguments::{ChangedArgs, DatasetArgs};
-use crate::browser::Detour;
+use crate::browser::{self, Detour};
 use crate::outcome::Outcome;
 use crate::progress::say;
 use crate::text::print;
@@ -62,10 +62,11 @@ pub(crate) fn run(arguments: &ReviewArgs) -> anyhow::Result<Outcome> {
         token_folder: token_folder(),
     };
     let server = Server::bind(recording, &arguments.out, &options)?;
-    for url in server.urls() {
+    let urls = server.urls();
+    for url in &urls {
         print(url)?;
     }
-    if server.urls().len() > 1 {
+    if urls.len() > 1 {
         say("the first address is for this machine, the others are for other machines that can reach it");
     }
     match server.read_only() {
@@ -75,8 +76,9 @@ pub(crate) fn run(arguments: &ReviewArgs) -> anyhow::Result<Outcome> {
         }
         None => say("Ctrl-C ends the review; every edit is on disk when the page shows it as saved"),
     }
+    let invitation = arguments.open.then(|| server.invitation()).transpose()?.flatten();
     // It may be opened as long as the review goes on.
-    let _detour = server.urls().first().filter(|_| arguments.open).and_then(|url| open_browser(url));
+    let _detour = urls.first().filter(|_| arguments.open).and_then(|url| open_browser(url, invitation));
     server.run()?;
     Ok(Outcome::Done)
 }
@@ -96,11 +98,17 @@ fn token_folder() -> Option<PathBuf> {
     Some(state?.join("ralf").join("review"))
 }
 
-/// Asks the system to open an address, by a page that leads there and that is no longer needed when the review ends.
-/// The review goes on where it can't.
-fn open_browser(url: &str) -> Option<Detour> {
-    let opened = Detour::to(url).and_then(|detour| detour.open().map(|()| detour));
+/// Asks the system to open an address: by an invitation, else by a page that leads there and that is no longer needed
+/// when the review ends. Browsers in a sandbox can't read such a page. The review goes on where nothing can be opened.
+fn open_browser(url: &str, invitation: Option<String>) -> Option<Detour> {
+    let opened = match invitation {
+        Some(invitation) => browser::open(invitation.as_ref()).map(|()| None),
+        None => {
+            Detour::to(url).and_then(|detour| browser::open(detour.page().as_ref()).map(|()| Some(detour)))
+        }
+    };
     opened
         .inspect_err(|error| say(&format!("no browser could be opened ({error}): open {url} yourself")))
         .ok()
+        .flatten()
 }

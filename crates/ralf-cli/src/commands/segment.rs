@@ -1,9 +1,8 @@
 //! `ralf segment`: the class of every pixel of every image, once for all.
 
 use crate::arguments::{DatasetArgs, SettingsArgs, threads};
-use crate::network::{ELSEWHERE, SegmentationModelArgs, fill_segmentation, store_folder};
+use crate::network::{SegmentationModelArgs, fill_segmentation, store_folder, without_links};
 use crate::outcome::Outcome;
-use anyhow::Context;
 use clap::Args;
 use ralf_data::Recording;
 use ralf_data::views::SegmentationStore;
@@ -58,9 +57,6 @@ impl SegmentArgs {
     fn store(&self, recording: &Recording, model: &SegmentationModel) -> anyhow::Result<SegmentationStore> {
         let folder = store_folder(self.output.as_deref(), recording)?;
         let store = SegmentationStore::create(folder, model.fingerprint())?;
-        if self.output.is_none() {
-            store.refuse_links(recording).context(ELSEWHERE)?;
-        }
-        Ok(store)
+        without_links(store, self.output.as_deref(), recording)
     }
 }

@@ -128,3 +128,35 @@ fn a_plot_finds_the_depth_that_the_labels_were_made_with() {
     fs::remove_dir_all(&store).unwrap();
     assert!(plot(&[]) != named, "without depth");
 }
+
+#[cfg(unix)]
+#[test]
+fn what_is_complete_asks_for_no_right_to_write() {
+    use crate::support::{as_nobody, tree};
+    use std::os::unix::fs::PermissionsExt;
+    let dataset = dataset();
+    let model = brightness(&dataset, "net", 1.0, "depth");
+    let arguments = ["label", &dataset.path, "-o", &dataset.out, "--depth-model", &model];
+    ralf(arguments).exits(0);
+    let Some(mut nobody) = as_nobody(&dataset) else { return println!("skipped: root without setpriv") };
+    let folders: Vec<String> =
+        tree(&dataset.out).into_iter().filter_map(|(name, file)| file.is_none().then_some(name)).collect();
+    let allow = |mode| {
+        let all = folders.iter().map(|name| Path::new(&dataset.out).join(name));
+        let all = all.chain([Path::new(&dataset.out).to_owned()]);
+        all.for_each(|folder| fs::set_permissions(folder, fs::Permissions::from_mode(mode)).unwrap());
+    };
+    let before = tree(&dataset.out);
+    nobody.args(arguments);
+    let mut label = || Ran::of(&nobody.output().unwrap());
+    allow(0o555);
+    label().exits(0).says(["nothing to do"]);
+    allow(0o755);
+    assert!(tree(&dataset.out) == before);
+    // What would have to be written is named.
+    let missing = before.keys().find(|name| name.ends_with("000001.npy")).unwrap();
+    fs::remove_file(Path::new(&dataset.out).join(missing)).unwrap();
+    allow(0o555);
+    label().exits(1).says(["depth of 00", "Permission denied"]);
+    allow(0o755);
+}

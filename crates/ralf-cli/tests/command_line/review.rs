@@ -205,34 +205,81 @@ fn what_can_not_be_reviewed_is_told() {
     ralf(["review", &dataset.path]).exits(2).says(["<OUT>"]);
 }
 
-/// Everybody on the machine sees what programs are started with.
+/// What `ralf review --open` starts a browser with.
 #[cfg(target_os = "linux")]
-#[test]
-fn the_browser_is_started_without_the_token_and_led_to_it() {
+fn browser_of(dataset: &Dataset) -> (Review, String) {
     use std::os::unix::fs::PermissionsExt;
-    let dataset = labelled();
-    let [programs, seen, page] = ["programs", "seen", "page"].map(|name| dataset.beside(name));
+    let [programs, seen] = ["programs", "seen"].map(|name| dataset.beside(name));
     fs::create_dir(&programs).unwrap();
     let browser = format!("{programs}/xdg-open");
-    let script = format!(
-        "#!/bin/sh\ncp \"$1\" {page}\nstat -c %a \"$1\" > {seen}.part\necho \"$@\" >> {seen}.part\nmv {seen}.part {seen}\n"
-    );
-    fs::write(&browser, script).unwrap();
+    fs::write(&browser, format!("#!/bin/sh\necho \"$@\" > {seen}.part\nmv {seen}.part {seen}\n")).unwrap();
     fs::set_permissions(&browser, PermissionsExt::from_mode(0o755)).unwrap();
     let mut command = program();
     command.env("PATH", format!("{programs}:{}", std::env::var("PATH").unwrap()));
-    let review = Review::start_with(command, &dataset, &["--open"]);
+    let review = Review::start_with(command, dataset, &["--open"]);
     let begun = std::time::Instant::now();
     while !Path::new(&seen).exists() {
         assert!(begun.elapsed().as_secs() < 60, "no browser was opened");
         std::thread::sleep(std::time::Duration::from_millis(20));
     }
-    let seen = fs::read_to_string(&seen).unwrap();
-    let (mode, file) = seen.trim().split_once('\n').unwrap();
-    assert!(mode == "600" && !seen.contains(&review.token), "{seen}");
-    let address = format!("url=http://{}/?token={}\"", review.address, review.token);
-    assert!(fs::read_to_string(page).unwrap().contains(&address));
-    assert!(Path::new(file).exists());
+    let seen = fs::read_to_string(seen).unwrap().trim().to_owned();
+    (review, seen)
+}
+
+/// Everybody on the machine sees what programs are started with.
+#[cfg(target_os = "linux")]
+#[test]
+fn the_browser_is_started_without_the_token_and_led_to_it_once() {
+    let dataset = labelled();
+    let (review, opened) = browser_of(&dataset);
+    assert!(!opened.contains(&review.token), "{opened}");
+    let path = opened.strip_prefix(&format!("http://{}/", review.address)).unwrap();
+    let ask = |path: &str| {
+        let mut stream = TcpStream::connect(&review.address).unwrap();
+        let address = &review.address;
+        write!(stream, "GET /{path} HTTP/1.1\r\nHost: {address}\r\nConnection: close\r\n\r\n").unwrap();
+        let mut answer = String::new();
+        stream.read_to_string(&mut answer).unwrap();
+        answer
+    };
+    let wrong = ask(&format!("open/{}", review.token));
+    assert!(wrong.starts_with("HTTP/1.1 401"), "{wrong}");
+    let answer = ask(path);
+    let led = format!("location: /?token={}\r\n", review.token);
+    assert!(answer.starts_with("HTTP/1.1 303") && answer.contains(&led), "{answer}");
+    assert!(answer.contains("cache-control: no-store\r\n"), "{answer}");
+    let again = ask(path);
+    assert!(again.starts_with("HTTP/1.1 401") && again.contains("open the address that"), "{again}");
+    assert!(!again.contains(&review.token));
     assert!(review.end("-INT"));
-    assert!(!Path::new(file).exists());
+}
+
+/// Whoever sees what the browser is started with may be faster than it.
+#[cfg(target_os = "linux")]
+#[test]
+fn what_the_browser_is_started_with_lets_nobody_else_in() {
+    let other = |script: &str| {
+        let mut command = Command::new("setpriv");
+        command.args(["--reuid=54321", "--regid=54321", "--clear-groups", "bash", "-c", script]);
+        command.output().ok().filter(|ran| ran.status.success())
+    };
+    if other("true").is_none() {
+        return println!("skipped: nobody else can be asked without root, setpriv and bash");
+    }
+    let dataset = labelled();
+    let (review, opened) = browser_of(&dataset);
+    let (host, port) = review.address.split_once(':').unwrap();
+    let path = opened.strip_prefix(&format!("http://{}", review.address)).unwrap();
+    let ask = format!(
+        "exec 3<>/dev/tcp/{host}/{port}\n\
+         printf 'GET {path} HTTP/1.1\\r\\nHost: {host}:{port}\\r\\nConnection: close\\r\\n\\r\\n' >&3\ncat <&3"
+    );
+    let answer = String::from_utf8(other(&ask).unwrap().stdout).unwrap();
+    assert!(answer.starts_with("HTTP/1.1 401") && !answer.contains(&review.token), "{answer}");
+    let own = Command::new("bash").args(["-c", &ask]).output().unwrap();
+    assert!(
+        String::from_utf8(own.stdout).unwrap().starts_with("HTTP/1.1 303"),
+        "it is good for its user yet"
+    );
+    assert!(review.end("-INT"));
 }

@@ -131,6 +131,29 @@ fn without_images_or_with_other_numbers_of_jobs_all_other_files_are_the_same() {
 }
 
 #[test]
+fn what_was_simulated_with_segmentations_is_another_recording_than_without() {
+    let dataset = Dataset::new();
+    let [with, without] = ["with", "without"].map(|name| dataset.beside(name));
+    let plain = |to: &str| ralf(["simulate", "-o", to, "--preset", "tiny", "--scans", "2"]);
+    let segmented =
+        |to: &str| ralf(["simulate", "-o", to, "--preset", "tiny", "--scans", "2", "--segmentation"]);
+    segmented(&with).exits(0);
+    let before = tree(&with);
+    let file = "sequences/tiny/camera_front/segmentation/000000.png";
+    plain(&with).exits(1).ends_with_error(["found another one: its", "segmentation/000000.png is no part"]);
+    assert!(tree(&with) == before);
+    segmented(&with).exits(0).says(["kept as it is"]);
+    plain(&without).exits(0);
+    segmented(&without).exits(1).ends_with_error(["found another one: its", "differs"]);
+    // What a network made later, which `ralf segment` leaves a note of, is nobody else's recording.
+    let place = format!("{without}/{file}");
+    fs::create_dir(format!("{without}/sequences/tiny/camera_front/segmentation")).unwrap();
+    fs::copy(format!("{with}/{file}"), &place).unwrap();
+    fs::write(place.replace(".png", ".from"), "of this image\n").unwrap();
+    plain(&without).exits(0).says(["kept as it is"]);
+}
+
+#[test]
 fn a_world_is_simulated_the_same_again_and_labelled() {
     let dataset = Dataset::new();
     let [made, again, out] = ["world", "world_again", "labels"].map(|name| dataset.beside(name));

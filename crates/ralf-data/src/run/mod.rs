@@ -11,10 +11,12 @@ mod any_labeler;
 mod assemble;
 mod checks;
 mod earlier;
+mod entering;
 mod fingerprint;
 mod in_memory;
 mod inputs;
 mod not_read;
+mod observer;
 mod output_folder;
 mod place;
 mod results;
@@ -33,31 +35,22 @@ pub use crate::result::{
 
 pub use checks::check_all;
 pub use earlier::Earlier;
+pub use observer::{Observer, Part, Stage, Unwatched};
 pub use place::check_output_folder;
 pub use stretch::{Planned, Stretch, StretchOutcome};
 
 use crate::error::DataError;
 use crate::frames::{ScanIndex, all_scans, in_time, time_of};
 use crate::read::{Recording, SequenceReader};
-use crate::result::{
-    CLASS_FROM, OutFolder, Schema, SequenceNames, WriterLock, evidence_columns, learned_columns,
-    refuse_links_out,
-};
+use crate::result::{CLASS_FROM, Schema, SequenceNames, evidence_columns, learned_columns};
 use crate::settings::Settings;
-use crate::tree::{SEQUENCES, UNFINISHED};
 use any_labeler::AnyLabeler;
-use inputs::Identity;
-use output_folder::OutputFolder;
 use ralf::config::{Config, Method};
 use ralf::learned::Model;
 use ralf::sensors::{Rig, Timelines};
 use std::path::Path;
 use std::sync::Arc;
-use std::time::{Duration, Instant};
-use unfinished::Unfinished;
-
-/// In the output folder while a run writes to it.
-const LOCK: &str = ".ralf-lock";
+use std::time::Instant;
 
 /// A labelling run.
 pub struct LabelRun<'a> {
@@ -76,60 +69,6 @@ pub struct LabelRun<'a> {
     /// The model that answers where the settings' method is [`Method::Learned`].
     pub model: Option<&'a Model>,
 }
-
-/// Part of the work, for a progress display.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Stage<'a> {
-    /// Hashing the input files; counted in bytes.
-    Inputs,
-    /// Matching a sequence's scans for tuning; counted in scans.
-    Matching(&'a str),
-    /// Gathering a sequence's evidence for learning; counted in scans.
-    Gathering(&'a str),
-    /// Labelling a sequence, or several, which this then tells; counted in scans.
-    Labelling(&'a str),
-    /// Writing a sequence's result when all are labelled; counted in scans.
-    Writing(&'a str),
-}
-
-/// Part of what a worker does for a scan or a sequence, for whoever counts where time goes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Part {
-    /// Checking a sequence: told once for each.
-    Checking,
-    /// Reading what belongs to a scan, with what scans share: the ground, calibrated images.
-    Gathering,
-    /// Gathering its evidence, where that is asked for.
-    Evidence,
-    /// Labelling it.
-    Labelling,
-    /// Keeping its table until the sequence is complete.
-    Keeping,
-    /// Putting a sequence's scans together: told once for each sequence.
-    Writing,
-}
-
-/// Is told how a run gets on. Called from several threads.
-pub trait Observer: Sync {
-    /// A stage of so many steps begins.
-    fn begin(&self, _stage: Stage, _steps: u64) {}
-    /// Some more steps of the stage are done, with so many detections in them.
-    fn advance(&self, _steps: u64, _detections: u64) {}
-    /// The stage is over.
-    fn end(&self) {}
-    /// A worker was so long at a part of a scan.
-    fn spent(&self, _part: Part, _time: Duration) {}
-    /// Whether somebody wants the work to end: it then ends with [`DataError::Stopped`], and what is done is kept.
-    fn stopped(&self) -> bool {
-        false
-    }
-}
-
-/// Is told, and tells nobody.
-#[derive(Debug, Clone, Copy)]
-pub struct Unwatched;
-
-impl Observer for Unwatched {}
 
 /// Is told what a check says of a sequence.
 pub type Checked<'a> = dyn Fn(&CheckRecord) + Sync + 'a;
@@ -250,47 +189,6 @@ impl LabelRun<'_> {
             return Ok(());
         }
         Err(DataError::content(&self.recording.path, "radars", "at least one scan to label", "none"))
-    }
-
-    /// The right to write to the output folder, alone.
-    fn lock(&self) -> Result<WriterLock, DataError> {
-        self.refuse_links()?;
-        WriterLock::take(self.out.join(LOCK), self.out)
-    }
-
-    fn refuse_links(&self) -> Result<(), DataError> {
-        refuse_links_out(self.out, SEQUENCES, 2)?;
-        refuse_links_out(self.out, UNFINISHED, 4)
-    }
-
-    /// The output folder, and the right to write there; where nothing is to be done nobody needs that.
-    fn enter(
-        &self,
-        observer: &dyn Observer,
-    ) -> Result<(Option<WriterLock>, OutputFolder, Vec<Identity>), DataError> {
-        let refused = match self.lock() {
-            Ok(lock) => {
-                let (folder, asked) = self.open_folder(observer)?;
-                return Ok((Some(lock), folder, asked));
-            }
-            Err(refused) => refused,
-        };
-        if !refused.is_of_permission() {
-            return Err(refused);
-        }
-        let run = self.record();
-        let asked = inputs::identify(self.recording, &fingerprint::of_run(&run), &[], self.jobs, observer)?;
-        let folder = OutputFolder::finished(self.out, run, self.recording, &asked)?.ok_or(refused)?;
-        Ok((None, folder, asked))
-    }
-
-    /// The output folder, ready for the sequences that are asked for.
-    fn open_folder(&self, observer: &dyn Observer) -> Result<(OutputFolder, Vec<Identity>), DataError> {
-        let run = self.record();
-        let known = Unfinished::of(&OutFolder::new(self.out), &run)?.inputs()?;
-        let asked =
-            inputs::identify(self.recording, &fingerprint::of_run(&run), &known, self.jobs, observer)?;
-        Ok((OutputFolder::open(self.out, run, self.recording, &asked)?, asked))
     }
 
     /// What `run.json` tells before a sequence is labelled.

@@ -10,11 +10,11 @@ use super::unfinished::Unfinished;
 use super::without::Without;
 use super::workers::Labelling;
 use super::workspace::Workspace;
-use super::{LOCK, LabelRun, Observer, Task, check_output_folder};
+use super::{LabelRun, Observer, Task, check_output_folder};
 use crate::error::DataError;
 use crate::frames::ScanIndex;
 use crate::result::{
-    CameraRecord, NotLabelled, OutFolder, RunRecord, SequenceNames, UnreadableScan, WriterLock, read_record,
+    CameraRecord, NotLabelled, OutFolder, RunRecord, SequenceNames, UnreadableScan, read_record,
 };
 use serde::{Deserialize, Serialize};
 use std::num::NonZeroUsize;
@@ -126,7 +126,7 @@ impl LabelRun<'_> {
         let run = self.record();
         let unfinished = Unfinished::of(&OutFolder::new(self.out), &run)?;
         let is_planned = || unfinished.is_planned(&stretch.fingerprint);
-        let lock = is_planned()?.then(|| WriterLock::share(self.out.join(LOCK), self.out)).transpose()?;
+        let lock = is_planned()?.then(|| self.lock_shared()).transpose()?;
         // Until the lock was there, somebody may have put all together.
         if lock.is_none() || !is_planned()? {
             return self.check_done(&run, stretch).map(|()| StretchOutcome::default());

@@ -7,6 +7,7 @@ use crate::disk::files;
 use crate::error::DataError;
 use crate::read::SequenceReader;
 use crate::read::view_origin::{note_of, of_file, of_pixels};
+use crate::result::WriterLock;
 use ralf::sensors::{Camera, CameraImage, SourceError, StraightView, UndistortMap};
 use ralf_files::Kind;
 use ralf_jobs::side_by_side;
@@ -70,6 +71,7 @@ pub(super) fn compute_views<V: StoredView>(
 ) -> Result<Computed, DataError> {
     let files = ImageFiles::new(store, reader)?;
     refuse_unlike_views::<V>(reader, images, &files)?;
+    let right = RightToWrite::new(&files)?;
     let is_claimed = Mutex::new(false);
     let claim_once = || {
         let mut is_claimed = is_claimed.lock().unwrap_or_else(PoisonError::into_inner);
@@ -79,14 +81,14 @@ pub(super) fn compute_views<V: StoredView>(
         }
         Ok(())
     };
-    let _lock = files.lock()?;
     let cameras = reader.sequence().rig.cameras.iter();
     let cameras: Vec<_> = cameras.map(|camera| Straightening { camera, views: OnceLock::new() }).collect();
     let done = side_by_side(images, jobs, |&(camera, image)| {
         let missing = || DataError::NoMeasurement { kind: "camera", sensor: camera, index: image };
         let file = files.file(reader, camera, image).ok_or_else(missing)?;
         let straightening = &cameras[camera];
-        let came_of_it = straightening.fill::<V>(reader, (camera, image), &file, (estimate, &claim_once))?;
+        let filling = Filling { estimate, right: &right, claim: &claim_once };
+        let came_of_it = straightening.fill::<V>(reader, (camera, image), &file, &filling)?;
         observer();
         Ok::<_, DataError>(((camera, image), came_of_it))
     })?;
@@ -100,6 +102,39 @@ pub(super) fn compute_views<V: StoredView>(
     }
     computed.without.sort_by_key(|found| (found.camera, found.image));
     Ok(computed)
+}
+
+/// The right to write to a store. Where the system grants none, that is an error only once there is something to write:
+/// a store that can only be read may be complete.
+struct RightToWrite<'a> {
+    files: &'a ImageFiles,
+    lock: Mutex<Option<WriterLock>>,
+}
+
+impl<'a> RightToWrite<'a> {
+    fn new(files: &'a ImageFiles) -> Result<Self, DataError> {
+        let lock = match files.lock() {
+            Err(refused) if refused.is_of_permission() => None,
+            lock => Some(lock?),
+        };
+        Ok(Self { files, lock: Mutex::new(lock) })
+    }
+
+    fn take(&self) -> Result<(), DataError> {
+        let mut lock = self.lock.lock().unwrap_or_else(PoisonError::into_inner);
+        if lock.is_none() {
+            *lock = Some(self.files.lock()?);
+        }
+        Ok(())
+    }
+}
+
+/// What an image's file is made with.
+struct Filling<'a, V> {
+    estimate: &'a Estimate<'a, V>,
+    right: &'a RightToWrite<'a>,
+    /// Makes the store the network's.
+    claim: &'a dyn Fn() -> Result<(), DataError>,
 }
 
 /// Views that one file can't hold: asked before a network works on the first of them.
@@ -130,7 +165,7 @@ impl Straightening<'_> {
         reader: &dyn SequenceReader,
         (camera, image): (usize, usize),
         file: &Path,
-        (estimate, claim): (&Estimate<V>, &dyn Fn() -> Result<(), DataError>),
+        filling: &Filling<V>,
     ) -> Result<Result<bool, SourceError>, DataError> {
         let origin = match origin(self.camera, reader, (camera, image)) {
             Ok(origin) => origin,
@@ -141,16 +176,21 @@ impl Straightening<'_> {
         if is_there && files::read_text(&note, Kind::Settings).is_ok_and(|known| known == origin) {
             return Ok(Ok(false));
         }
-        // Should the work end in between, nobody takes the one for made of the other.
-        files::remove(&note)?;
-        match self.estimated(reader, (camera, image), estimate) {
+        if is_there || files::exists(&note)? {
+            filling.right.take()?;
+            // Should the work end in between, nobody takes the one for made of the other.
+            files::remove(&note)?;
+        }
+        match self.estimated(reader, (camera, image), filling.estimate) {
             Ok(views) => {
-                claim()?;
+                filling.right.take()?;
+                (filling.claim)()?;
                 V::write(file, &views)?;
                 files::write_whole(&note, origin.as_bytes())?;
                 Ok(Ok(is_there))
             }
-            Err(error) => files::remove(file).map(|()| Err(error)),
+            Err(error) if is_there => files::remove(file).map(|()| Err(error)),
+            Err(error) => Ok(Err(error)),
         }
     }
 

@@ -18,6 +18,7 @@ pub use depth::DepthStore;
 pub use lacking::{Lacking, images_of_scans, lacking};
 pub use segmentation::SegmentationStore;
 pub use store::Store;
+pub use stored_view::StoredView;
 
 use crate::error::DataError;
 use crate::read::Recording;

@@ -4,6 +4,7 @@ use crate::disk::label_file::{label_bytes, labels_of_bytes};
 use crate::disk::{class_images, files, images, npy};
 use crate::error::DataError;
 use crate::read::SequenceReader;
+use crate::read::view_origin::note_of;
 use crate::result::{Component, OutFolder, SequenceNames, checked};
 use crate::tree::{DEPTH, GROUND_TRUTH, LABELS, SEGMENTATION};
 use crate::truth::{cause_names, check_codes};
@@ -93,6 +94,17 @@ impl<'a> Contents<'a> {
             Measurement::Camera(camera, image) => (&cameras[camera], image, self.image(camera, image)),
         };
         files.map_err(|error| DataError::Measurement { sensor: sensor.as_str().to_owned(), index, error })
+    }
+
+    /// What lies beside an image that is no part of the sequence: depth or a segmentation, other than what a network
+    /// made of the image later and left a note of.
+    pub(super) fn not_of(&self, measurement: Measurement, own: &[Content]) -> Option<PathBuf> {
+        let Measurement::Camera(camera, image) = measurement else { return None };
+        let folder = self.folder.folder(&self.names.cameras[camera]);
+        let views = [(DEPTH, "npy"), (SEGMENTATION, "png")];
+        let files = views.map(|(kind, ending)| folder.own(kind).file(&Component::numbered(image, ending)));
+        let is_other = |file: &PathBuf| own.iter().all(|(known, _)| known != file) && !note_of(file).exists();
+        files.into_iter().find(|file| file.exists() && is_other(file))
     }
 
     fn radar_scan(&self, radar: usize, scan: usize) -> Result<Vec<Content>, SourceError> {

@@ -13,8 +13,8 @@ use std::path::Path;
 
 /// Whether `DATASET/sequences/NAME` is there already, and is this sequence as far as sensors, motion, the times of all
 /// measurements, and some of these tell: the first, the middle and the last scan of each radar and LiDAR with their
-/// truth, and the first image of each camera with its depth and segmentation. A sequence is put in its place whole, so
-/// one that is there is finished.
+/// truth, and the first image of each camera with its depth and segmentation, or without. A sequence is put in its
+/// place whole, so one that is there is finished.
 ///
 /// # Errors
 /// Another sequence of this name, or anything else, lies there; `DATASET` holds labels or is a recording of another
@@ -54,7 +54,11 @@ fn has(
     let contents = Contents::new(reader, &names, &folder)?;
     side_by_side(measurements, jobs, |measurement| {
         let files = contents.of(*measurement)?;
-        files.iter().try_for_each(|(file, bytes)| refuse_another(&folder, file, bytes))
+        files.iter().try_for_each(|(file, bytes)| refuse_another(&folder, file, bytes))?;
+        match contents.not_of(*measurement, &files) {
+            Some(file) => Err(another(&folder, &file, "is no part of it")),
+            None => Ok(()),
+        }
     })?;
     Ok(true)
 }
@@ -63,8 +67,16 @@ fn refuse_another(folder: &OutFolder, file: &Path, bytes: &[u8]) -> Result<(), D
     if files::read(file).is_ok_and(|found| found == bytes) {
         return Ok(());
     }
+    Err(another(folder, file, "differs"))
+}
+
+fn another(folder: &OutFolder, file: &Path, how: &str) -> DataError {
     let inside = file.strip_prefix(folder.path()).unwrap_or(file);
     let expected = "none of this name yet, or the sequence that is to be written";
-    let found = format!("another one: its {} differs", inside.display());
-    Err(DataError::content(folder.path(), "folder", expected, found))
+    DataError::content(
+        folder.path(),
+        "folder",
+        expected,
+        format!("another one: its {} {how}", inside.display()),
+    )
 }

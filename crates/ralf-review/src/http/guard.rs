@@ -1,13 +1,15 @@
 //! Who may ask: requests for another host, from another origin, without the token or for other corrections are
 //! refused; and the headers of every answer, which forbid the page to load anything but its own.
 
-use super::{ApiError, Token};
+use super::{ApiError, Ends, Invitation, Token};
+use crate::error::ReviewError;
 use axum::extract::{Request, State};
 use axum::http::{HeaderMap, HeaderName, HeaderValue, header};
 use axum::middleware::Next;
 use axum::response::{IntoResponse, Response};
 use std::net::{IpAddr, SocketAddr};
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::Instant;
 
 /// The headers of every answer.
 const HEADERS: [(HeaderName, &str); 4] = [
@@ -27,6 +29,8 @@ pub(crate) struct Guard {
     hosts: Option<Hosts>,
     /// Asked for by all but the page itself.
     token: Token,
+    /// What the browser is let in by that was started with it; `None` where none was, or it was used.
+    invited: Mutex<Option<Invitation>>,
     served: Served,
 }
 
@@ -88,7 +92,39 @@ impl Guard {
     /// For a server that listens at `address`, which was asked for by the name `host`.
     pub(crate) fn new(host: &str, address: SocketAddr, token: Token, served: Served) -> Self {
         let hosts = (!address.ip().is_unspecified()).then(|| Hosts::of(host, address));
-        Self { hosts, token, served }
+        Self { hosts, token, invited: Mutex::default(), served }
+    }
+
+    /// A path that leads the user's own browser to the page with its token, once and soon; `None` where the system
+    /// doesn't tell whose browser it is that asks.
+    pub(crate) fn invite(&self) -> Result<Option<String>, ReviewError> {
+        if !Ends::are_told() {
+            return Ok(None);
+        }
+        let invitation = Invitation::new(Instant::now())?;
+        let path = invitation.path();
+        *self.invited.lock().unwrap_or_else(PoisonError::into_inner) = Some(invitation);
+        Ok(Some(path))
+    }
+
+    /// The path of the page with its token, for who was invited: that takes the invitation.
+    pub(crate) fn admit(&self, code: &str, ends: Ends) -> Result<String, ApiError> {
+        let mut invited = self.invited.lock().unwrap_or_else(PoisonError::into_inner);
+        let is_meant = |invitation: &Invitation| invitation.is(code, Instant::now());
+        if invited.as_ref().is_some_and(is_meant) && ends.are_of_one_user() {
+            *invited = None;
+            return Ok(self.page());
+        }
+        Err(ApiError::Unauthorized(
+            "address: expected one that `ralf review --open` gave to a browser of yours just now, found one that was \
+             used, is too old or is for somebody else: open the address that `ralf review` printed"
+                .into(),
+        ))
+    }
+
+    /// The path of the page with its token.
+    pub(crate) fn page(&self) -> String {
+        format!("/?token={}", self.token.digits())
     }
 
     fn check(&self, path: &str, headers: &HeaderMap) -> Result<(), ApiError> {

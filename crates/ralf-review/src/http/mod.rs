@@ -1,16 +1,20 @@
 //! What every request has in common: who may ask, what is taken from it, and how answers look.
 
 mod api_error;
+mod ends;
 mod extract;
 mod guard;
+mod invitation;
 mod person;
 mod table;
 mod token;
 
 pub(crate) use api_error::ApiError;
+pub(crate) use ends::Ends;
 pub use extract::MAX_BODY;
 pub(crate) use extract::{Asked, Body, Place};
 pub(crate) use guard::{Guard, Served, guard};
+pub(crate) use invitation::{Invitation, OPEN};
 pub(crate) use person::{EditId, Person};
 pub(crate) use table::Table;
 pub(crate) use token::Token;

@@ -50,15 +50,19 @@ pub(crate) fn disagreements(app: &App, sequence: &str) -> Answer {
     let (mut told, mut found, mut both) = (Vec::new(), BTreeMap::new(), BTreeSet::new());
     for (name, file) in second_labellers(&app.out)? {
         let mut second = through(app, (index, reader), &file)?;
+        let all = second.scans().count();
         if let Some(dealt) = app.team.twice_of(&name) {
             second = second.of_scans(|scan| dealt.holds(scan));
         }
+        let left_out = all - second.scans().count();
         let (agreement, differences) = compare(&first, &second)?;
         // Of a scan without detections nobody labels anything, and people are through with it all the same.
         let theirs: BTreeSet<&ScanId> = second.scans().collect();
         let common = first.scans().filter(|scan| theirs.contains(scan));
         both.extend(common.map(|scan| RadarScanKey::new(&scan.radar, scan.scan as usize)));
-        told.push(json!({ "second": name, "scans": agreement.scans.len(), "agreement": agreement.json() }));
+        let scans = agreement.scans.len();
+        let agreement = agreement.json();
+        told.push(json!({ "second": name, "scans": scans, "left_out": left_out, "agreement": agreement }));
         gather(reader.sequence(), &known, &differences, &name, &mut found);
     }
     let base = bases(app, reader.sequence(), &known, found.values().flatten())?;

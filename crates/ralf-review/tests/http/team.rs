@@ -222,6 +222,7 @@ fn things_are_asked_about_and_agreement_counted_as_far_as_scans_were_dealt() {
     }
     let told = first.of_sequence("disagreements").json();
     assert_eq!((&told["people"][0]["scans"], &told["waiting"]), (&json!(1), &json!(0)));
+    assert_eq!(told["people"][0]["left_out"], 1, "who was not asked is told that it doesn't count");
 }
 
 #[test]

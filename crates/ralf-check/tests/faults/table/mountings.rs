@@ -1,6 +1,6 @@
 //! Mountings of radars, LiDARs and cameras.
 
-use super::planting::{lidar_points, lidar_turned, shifted, swap, times, turned};
+use super::planting::{exchanged, lidar_points, lidar_turned, shifted, swap, times, turned};
 use super::right::{near, yaw_of};
 use super::{ALL_RADARS, FRONT, Fault, LEFT, MS};
 use nalgebra::{Translation3, UnitQuaternion};
@@ -52,6 +52,15 @@ pub(super) fn radars() -> Vec<Fault> {
         }),
         fault!("y mirrored, all radars", ALL_RADARS, true, |p| times(p, None, &[1], -1.0), |r| {
             matches!(r, Remedy::Sensor(c) if c.mirrored)
+        }),
+        fault!("x and y exchanged, one radar", ["radar_front"], true, |p| exchanged(p, Some(FRONT)), |r| {
+            *r == Remedy::Exchanged
+        }),
+        fault!("x and y exchanged, side radar", ["radar_left"], true, |p| exchanged(p, Some(LEFT)), |r| {
+            *r == Remedy::Exchanged
+        }),
+        fault!("x and y exchanged, all radars", ALL_RADARS, true, |p| exchanged(p, None), |r| {
+            *r == Remedy::Exchanged
         }),
         fault!("quaternion read as w x y z", ["radar_left"], true, |p| {
             // (0, 0, s, c) taken for w, x, y, z.

@@ -67,6 +67,15 @@ pub(super) fn times(p: &mut Planted, radar: Option<usize>, columns: &'static [us
     });
 }
 
+/// x for y, of one radar or of all.
+pub(super) fn exchanged(p: &mut Planted, radar: Option<usize>) {
+    p.edit_radars(move |own, _, columns| {
+        if radar.is_none_or(|radar| radar == own) {
+            columns.swap(0, 1);
+        }
+    });
+}
+
 pub(super) fn swap(p: &mut Planted, a: usize, b: usize) {
     let radars = &mut p.sequence.rig.radars;
     (radars[a].vehicle_from_radar, radars[b].vehicle_from_radar) =

@@ -45,6 +45,7 @@ fn question(question: Question) -> &'static str {
         Question::Lidar => "LiDAR",
         Question::Neighbours => "neighbours",
         Question::Camera => "picture",
+        Question::Depth => "depth",
         Question::Motion => "motion",
         Question::Ground => "ground",
     }

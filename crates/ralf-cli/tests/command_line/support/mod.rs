@@ -9,6 +9,8 @@ mod hdf5;
 #[allow(dead_code, reason = "the tests of its crate use all of it")]
 #[path = "../../../../ralf-depth/src/testing.rs"]
 pub(crate) mod network;
+#[cfg(unix)]
+mod nobody;
 mod program;
 mod python;
 #[path = "../../../../ralf-data/src/read/radar_ghost/tests/recording.rs"]
@@ -24,6 +26,8 @@ mod world;
 
 pub(crate) use dataset::{Dataset, Shape};
 pub(crate) use foreign::{nuscenes, nuscenes_named, view_of_delft};
+#[cfg(unix)]
+pub(crate) use nobody::as_nobody;
 pub(crate) use program::{Ran, program, ralf};
 pub(crate) use python::read_export;
 pub(crate) use ros_topics::ROS_TOPICS;

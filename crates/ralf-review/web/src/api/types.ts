@@ -159,6 +159,8 @@ export interface Agreed {
 export interface Agreement {
   readonly second: string;
   readonly scans: number;
+  /** Scans that the second is through with and that were not dealt to this person: they don't count. */
+  readonly left_out: number;
   readonly agreement: {
     readonly overall: Agreed;
     readonly radars: Readonly<Record<string, Agreed>>;

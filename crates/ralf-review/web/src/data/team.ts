@@ -1,7 +1,8 @@
 /** What people who label together have done, and where they disagree. */
 
-import type { Disagreement, Saying, Workday } from "../api/types.js";
+import type { Agreement, Disagreement, Saying, Workday } from "../api/types.js";
 import { type Cloud, findScan, maskOf } from "./cloud.js";
+import { counted } from "../format.js";
 import { countOfPoints, keptPoints } from "./opinion.js";
 
 /** What tells one disagreement from all others of the sequence. */
@@ -87,6 +88,12 @@ export function peopleOf(days: readonly Workday[]): readonly Person[] {
     });
   }
   return [...people.values()];
+}
+
+/** Whose scans an agreement is about, with those that don't count. */
+export function comparedScans(first: string, { second, scans, left_out: others }: Agreement): string {
+  const left = others === 0 ? "" : `; ${counted(others, "scan")} not dealt to ${second} left out`;
+  return `${first} and ${second}, ${counted(scans, "scan")}${left}`;
 }
 
 /** What was done in less says nothing of an hour, h. */

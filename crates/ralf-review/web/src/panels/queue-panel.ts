@@ -2,7 +2,7 @@
 
 import type { QueueScan } from "../api/types.js";
 import { sameScan } from "../data/scan.js";
-import { h, pressed, say, select, setOptions } from "../dom.js";
+import { childrenOf, h, pressed, say, select, setOptions } from "../dom.js";
 import { counted, shortName } from "../format.js";
 import type { Page } from "../page.js";
 import { listed, type QueueOrder, reasons } from "../queue/queue.js";
@@ -11,13 +11,26 @@ const ROW = 54;
 /** Rows drawn above and below what is seen, so that scrolling shows no gaps. */
 const SPARE = 6;
 
+/** A scan and its place in the list. */
+interface Row {
+  readonly entry: QueueScan;
+  readonly place: number;
+}
+
 export class QueuePanel {
   readonly element: HTMLElement;
   private readonly list = h("div", { class: "queue-list", role: "listbox", "aria-label": "Scans", tabindex: "0" });
   private readonly room = h("div", { class: "queue-room" });
   private rows: readonly QueueScan[] = [];
-  /** The row that the pointer was pressed on, and where. */
-  private press: { readonly entry: QueueScan | undefined; readonly place: number } | null = null;
+  private readonly put = childrenOf<Row>(
+    this.room,
+    ({ entry: { radar, scan } }) => `${radar}/${scan}`,
+    ({ entry: { radar, scan } }) => {
+      const open = (): void => void this.page.actions.go.goTo({ radar, scan });
+      return h("div", { role: "option", on: { click: open } });
+    },
+    (row, item) => this.show(row, item),
+  );
   /** The most errors that are expected of any scan. */
   private most = 1;
 
@@ -25,7 +38,6 @@ export class QueuePanel {
     this.list.append(this.room);
     this.element = h("section", { class: "queue", "aria-label": "Queue" }, head(page), order(page), this.list);
     this.list.addEventListener("scroll", () => this.draw());
-    this.listen();
     let height = 0;
     new ResizeObserver(() => {
       // A list that was hidden could not be scrolled to the scan.
@@ -49,33 +61,6 @@ export class QueuePanel {
     );
   }
 
-  private place(event: MouseEvent): number {
-    return Math.floor((event.clientY - this.room.getBoundingClientRect().top) / ROW);
-  }
-
-  /** A press counts though rows are drawn anew before it ends: the row that it began on then gets no click. */
-  private listen(): void {
-    this.room.addEventListener("pointerdown", (event) => {
-      const place = this.place(event);
-      this.press = event.button === 0 ? { entry: this.rows[place], place } : null;
-    });
-    window.addEventListener("pointerup", (event) => {
-      const { press } = this;
-      this.press = null;
-      const inside = event.target instanceof Node && this.room.contains(event.target);
-      if (inside && press?.place === this.place(event)) this.open(press.entry);
-    });
-    // A screen reader's click has no pointer, and names the row.
-    this.room.addEventListener("click", ({ target, detail }) => {
-      const row = target instanceof Element ? target.closest<HTMLElement>(".queue-row") : null;
-      if (detail === 0) this.open(this.rows[Number(row?.dataset["place"])]);
-    });
-  }
-
-  private open(entry: QueueScan | undefined): void {
-    if (entry !== undefined) void this.page.actions.go.goTo(entry);
-  }
-
   private reveal(): void {
     const at = this.rows.findIndex((entry) => sameScan(entry, this.page.store.state.current));
     const [top, height] = [at * ROW, this.list.clientHeight];
@@ -88,25 +73,20 @@ export class QueuePanel {
   private draw(): void {
     const first = Math.max(Math.floor(this.list.scrollTop / ROW) - SPARE, 0);
     const last = Math.ceil((this.list.scrollTop + this.list.clientHeight) / ROW) + SPARE;
-    this.room.replaceChildren(...this.rows.slice(first, last).map((entry, i) => this.row(entry, first + i)));
+    this.put(this.rows.slice(first, last).map((entry, i) => ({ entry, place: first + i })));
   }
 
-  private row(entry: QueueScan, place: number): HTMLElement {
-    const current = sameScan(entry, this.page.store.state.current);
+  private show(row: HTMLElement, { entry, place }: Row): void {
+    row.className = entry.reviewed === null ? "queue-row" : "queue-row done";
+    row.setAttribute("aria-selected", String(sameScan(entry, this.page.store.state.current)));
+    row.title = tooltip(entry);
+    row.style.setProperty("top", `${place * ROW}px`);
     const bar = h("span", { class: "need-bar" }, h("span"));
     (bar.firstElementChild as HTMLElement).style.setProperty(
       "width",
       `${Math.round((100 * entry.expected_errors) / this.most)}%`,
     );
-    const row = h(
-      "div",
-      {
-        class: entry.reviewed === null ? "queue-row" : "queue-row done",
-        role: "option",
-        "aria-selected": String(current),
-        title: tooltip(entry),
-        "data-place": String(place),
-      },
+    row.replaceChildren(
       h(
         "span",
         { class: "queue-name" },
@@ -116,8 +96,6 @@ export class QueuePanel {
       h("span", { class: "queue-need" }, bar, h("b", { class: "number" }, entry.expected_errors.toFixed(1))),
       h("span", { class: "queue-reasons" }, ...said(entry)),
     );
-    row.style.setProperty("top", `${place * ROW}px`);
-    return row;
   }
 }
 
@@ -125,22 +103,16 @@ function said(entry: QueueScan): HTMLElement[] {
   const parts = reasons(entry).map((reason) =>
     h("span", { class: reason.includes("failed") ? "reason alarm" : "reason" }, reason),
   );
-  if (entry.orphaned > 0)
-    parts.push(
-      h(
-        "span",
-        { class: "reason alarm", title: "Corrections of other detections: kept, not applied" },
-        `${entry.orphaned} orphaned`,
-      ),
-    );
+  if (entry.orphaned > 0) parts.push(h("span", { class: "reason alarm" }, `${entry.orphaned} orphaned`));
   if (entry.corrected > 0) parts.unshift(h("span", { class: "reason corrected" }, `${entry.corrected} corrected`));
   if (entry.reviewed !== null) parts.unshift(h("span", { class: "reason reviewed" }, "✓ reviewed"));
   return parts;
 }
 
-function tooltip({ detections, reviewed, expected_errors: errors }: QueueScan): string {
+function tooltip({ detections, reviewed, orphaned, expected_errors: errors }: QueueScan): string {
   const by = reviewed === null ? "" : `, reviewed by ${reviewed.author}`;
-  return `${counted(detections, "detection")}, ${errors.toFixed(1)} expected to be wrong${by}`;
+  const lost = orphaned === 0 ? "" : `; orphaned are corrections of other detections: kept, not applied`;
+  return `${counted(detections, "detection")}, ${errors.toFixed(1)} expected to be wrong${by}${lost}`;
 }
 
 /** The list of sequences; how far each is stands there once somebody looks into it. */

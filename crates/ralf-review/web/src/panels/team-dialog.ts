@@ -1,7 +1,7 @@
 /** Who has done how much, how far people agree, and the way to where they don't. */
 
 import type { Agreement, Disagreements } from "../api/types.js";
-import { peopleOf, perHour, type Person } from "../data/team.js";
+import { comparedScans, peopleOf, perHour, type Person } from "../data/team.js";
 import { h } from "../dom.js";
 import { counted, decimal } from "../format.js";
 import type { Page } from "../page.js";
@@ -40,8 +40,8 @@ function agreements({ people, waiting, changes }: Disagreements, first: string):
 }
 
 /** Kappa first of all, then by radar and by label. */
-function agreed({ second, scans, agreement }: Agreement, first: string): HTMLElement {
-  const { overall, radars, classes } = agreement;
+function agreed(told: Agreement, first: string): HTMLElement {
+  const { overall, radars, classes } = told.agreement;
   const rows = [["plausible or not", overall] as const, ...Object.entries(radars)].map(([name, counts]) => [
     name,
     whole(counts.labelled_by_both),
@@ -55,7 +55,7 @@ function agreed({ second, scans, agreement }: Agreement, first: string): HTMLEle
     decimal2(kappa),
   ]);
   const kappa = h("strong", { class: "kappa" }, `κ ${decimal2(overall.kappa)}`);
-  const title = h("p", {}, kappa, ` ${first} and ${second}, ${counted(scans, "scan")}`);
+  const title = h("p", {}, kappa, ` ${comparedScans(first, told)}`);
   return h("div", {}, title, table(["", "detections", "differ", "κ"], [...rows, ...labels]));
 }
 

@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import type { Disagreement, Saying, Workday } from "../../src/api/types.js";
-import { keyOf, nextDisagreement, peopleOf, perHour, withMarksTogether } from "../../src/data/team.js";
+import type { Agreement, Disagreement, Saying, Workday } from "../../src/api/types.js";
+import { comparedScans, keyOf, nextDisagreement, peopleOf, perHour, withMarksTogether } from "../../src/data/team.js";
 
 function disagreement(thing: number, by = "bob"): Disagreement {
   const counts = { detections: 9, scans: 2, plausible: 9, answered: 0, expected_errors: 1 };
@@ -25,6 +25,14 @@ test("disagreements are looked at one after the other, and those that were passe
     [1, "bob"],
   ]);
   assert.equal(nextDisagreement([], seen), null);
+});
+
+test("scans that were not dealt are told beside those that count", () => {
+  const counts = { labelled_by_both: 9, disagree: 0, kappa: 1 } as Agreement["agreement"]["overall"];
+  const agreement = { overall: counts, radars: {}, classes: {} };
+  const told = (left_out: number): string => comparedScans("ada", { second: "bob", scans: 1, left_out, agreement });
+  assert.equal(told(0), "ada and bob, 1 scan");
+  assert.equal(told(2), "ada and bob, 1 scan; 2 scans not dealt to bob left out");
 });
 
 test("a person's days are summed up, first and second labels apart", () => {

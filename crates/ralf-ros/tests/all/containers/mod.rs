@@ -1,0 +1,120 @@
+//! What the writers write is read back; what is cut short is read up to the cut and the loss is said; what is damaged
+//! is refused, or told.
+
+mod cuts;
+mod damage;
+mod databases;
+
+use damage::mcap_with_chunk;
+use ralf_ros::container::{Container, ContainerError};
+use ralf_ros::message::{Header, Message, RadarReturn, RadarScan, TfMessage};
+use ralf_ros::writer::{Compression, Delivery, MessageWriter, WriteError};
+use std::io::{Cursor, Seek, Write};
+use std::path::{Path, PathBuf};
+
+const FIXTURES: [&str; 7] =
+    ["plain.bag", "bz2.bag", "lz4.bag", "plain.mcap", "lz4.mcap", "zstd.mcap", "ros1.mcap"];
+
+fn fixture(name: &str) -> Vec<u8> {
+    std::fs::read(Path::new(env!("CARGO_MANIFEST_DIR")).join("../../testdata/ros").join(name)).unwrap()
+}
+
+fn scan(k: i64) -> RadarScan {
+    let header = Header { stamp_ns: k * 1000, frame_id: "radar".to_owned(), ..Header::default() };
+    RadarScan { header, returns: vec![RadarReturn { range: k as f32, ..RadarReturn::default() }; 3] }
+}
+
+/// Two topics, `count` messages of the one, one of the other.
+fn write<W: Write + Seek>(mut writer: MessageWriter<W>, count: i64) -> Result<W, WriteError> {
+    let scans = writer.topic::<RadarScan>("/radar", Delivery::Live)?;
+    let frames = writer.topic::<TfMessage>("/tf_static", Delivery::Latched)?;
+    writer.write(&frames, 1, &TfMessage::default())?;
+    (0..count).try_for_each(|k| writer.write(&scans, k * 1000 + 5, &scan(k)))?;
+    writer.finish()
+}
+
+fn own_files(count: i64) -> [Vec<u8>; 3] {
+    let file = || Cursor::new(Vec::new());
+    [
+        write(MessageWriter::bag(file()).unwrap(), count),
+        write(MessageWriter::mcap(file(), Compression::None).unwrap(), count),
+        write(MessageWriter::mcap(file(), Compression::Zstd).unwrap(), count),
+    ]
+    .map(|written| written.unwrap().into_inner())
+}
+
+/// A place for one file at a time.
+struct Place {
+    file: PathBuf,
+    /// Removed with it.
+    _folder: tempfile::TempDir,
+}
+
+impl Place {
+    fn new() -> Self {
+        let folder = tempfile::tempdir().unwrap();
+        let file = folder.path().join("recording");
+        Self { file, _folder: folder }
+    }
+
+    fn open(&self, bytes: &[u8]) -> Result<Container, ContainerError> {
+        std::fs::write(&self.file, bytes).unwrap();
+        Container::open(&self.file)
+    }
+}
+
+#[test]
+fn what_is_written_is_read_back() {
+    let place = Place::new();
+    // Enough for several chunks.
+    for bytes in own_files(20_000) {
+        let container = place.open(&bytes).unwrap();
+        assert_eq!(container.losses(), []);
+        let topics: Vec<_> =
+            container.topics().iter().map(|topic| (topic.name.as_str(), topic.count)).collect();
+        assert_eq!(topics, [("/radar", 20_000), ("/tf_static", 1)]);
+        let encoding = container.topics()[0].known_encoding().unwrap();
+        let scans = container.messages().iter().filter(|message| message.topic() == 0);
+        for (k, message) in (0..).zip(scans) {
+            assert_eq!(message.log_ns, k * 1000 + 5);
+            let read = RadarScan::from_bytes(encoding, &container.read(message).unwrap()).unwrap();
+            assert_eq!(read.returns, scan(k).returns);
+        }
+    }
+}
+
+#[test]
+fn the_same_messages_give_the_same_bytes() {
+    assert_eq!(own_files(50), own_files(50));
+}
+
+#[test]
+fn what_cannot_be_read_is_refused_with_its_name() {
+    let place = Place::new();
+    let error = |bytes: &[u8]| place.open(bytes).unwrap_err().to_string();
+    assert!(error(b"RIFF").contains("expected a ROS 1 bag 2.0, an MCAP file or an SQLite file"));
+    assert!(error(&mcap_with_chunk(1, "snappy", &[0])).contains("none, lz4 or zstd, found `snappy`"));
+    let bag = fixture("plain.bag");
+    let at = bag.windows(16).position(|window| window == b"compression=none").unwrap();
+    let mut other = bag.clone();
+    other[at + 12..at + 16].copy_from_slice(b"zlib");
+    assert!(error(&other).contains("none, bz2 or lz4, found `zlib`"));
+    assert!(matches!(Container::open(Path::new("nowhere")).unwrap_err(), ContainerError::Io { .. }));
+}
+
+#[test]
+fn names_that_are_not_utf8_are_told() {
+    let place = Place::new();
+    for (bytes, name) in [(fixture("plain.bag"), "topic=/odom"), (fixture("plain.mcap"), "/odom")] {
+        let mut bytes = bytes;
+        let mut from = 0;
+        while let Some(at) = bytes[from..].windows(name.len()).position(|window| window == name.as_bytes()) {
+            from += at + name.len();
+            bytes[from - 1] = 0xff;
+        }
+        match place.open(&bytes) {
+            Ok(container) => assert!(!container.losses().is_empty() || container.topics().len() < 9),
+            Err(error) => assert!(error.to_string().contains("UTF-8"), "{error}"),
+        }
+    }
+}
