@@ -23,8 +23,6 @@ pub struct LearnedLabeler<'a> {
     model: &'a Model,
     /// What the model reads, in its order.
     inputs: Vec<&'static Feature>,
-    /// The group of each, as a place in [`GROUPS`].
-    group_of: Vec<usize>,
     seen: Vec<Seen>,
     telling: Telling,
     weighing: Weighing,
@@ -97,7 +95,6 @@ impl<'a> LearnedLabeler<'a> {
             paper,
             model,
             inputs,
-            group_of,
             seen,
             telling,
             weighing,
@@ -126,7 +123,7 @@ impl<'a> LearnedLabeler<'a> {
         for (row, detection) in frame.scan.detections.iter().enumerate() {
             answers[row].novelty = detection.as_ref().map(|_| novelties[row]);
             answers[row].visibility = detection.as_ref().map(|_| seen_as[row]);
-            answers[row].lacking = self.lacking(rows.row(row));
+            answers[row].lacking = self.telling.lacking(rows.row(row));
             labels[row].flags |= flag::when(detection.is_some() && !is_asked(row), flag::PAPER);
         }
         let rows = rows.pick(asked.iter().copied());
@@ -158,16 +155,6 @@ impl<'a> LearnedLabeler<'a> {
             }
         }
         rows
-    }
-
-    /// The groups that the model reads and of which a row holds nothing.
-    fn lacking(&self, row: &[f32]) -> Vec<usize> {
-        let (mut read, mut observed) = ([false; GROUPS.len()], [false; GROUPS.len()]);
-        for (group, value) in self.group_of.iter().zip(row) {
-            read[*group] = true;
-            observed[*group] |= !value.is_nan();
-        }
-        (0..GROUPS.len()).filter(|group| read[*group] && !observed[*group]).collect()
     }
 
     fn explain(

@@ -53,6 +53,13 @@ impl Telling {
         words
     }
 
+    /// The groups that the model reads and of which a row holds nothing, as places in [`GROUPS`].
+    pub(super) fn lacking(&self, row: &[f32]) -> Vec<usize> {
+        let is_lacking =
+            |group: &usize| !self.by_group[*group].is_empty() && self.most_telling(*group, row).is_none();
+        (0..GROUPS.len()).filter(is_lacking).collect()
+    }
+
     /// The feature of a group that was observed and is worth most to the model.
     fn most_telling(&self, group: usize, row: &[f32]) -> Option<usize> {
         self.by_group.get(group)?.iter().copied().find(|place| !row[*place].is_nan())

@@ -65,7 +65,8 @@ impl Rows {
     /// Sets the features of a column; what is `None` is absent.
     pub fn set_column(&mut self, column: usize, values: &[Option<f64>]) {
         for (row, value) in values.iter().enumerate().take(self.len()) {
-            self.row_mut(row)[column] = value.map_or(f32::NAN, |value| value as f32);
+            // Without a branch, which is hard to foretell.
+            self.row_mut(row)[column] = value.unwrap_or(f64::NAN) as f32;
         }
     }
 }
