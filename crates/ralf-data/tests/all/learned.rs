@@ -43,8 +43,7 @@ fn model() -> Model {
             blanking: true,
             causes: true,
             threshold: 0.5,
-            unconfirmed: 0.1,
-            movers: true,
+            learned: Config::default().learned,
             jobs: 2,
         };
         fit(&table(2), &fitting, Origin::default(), &|_, _| {}).unwrap().model

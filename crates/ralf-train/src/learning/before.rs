@@ -44,8 +44,7 @@ mod tests {
             blanking: false,
             causes: false,
             threshold: 0.5,
-            unconfirmed: 0.1,
-            movers: true,
+            learned: Config::default().learned,
             jobs: 2,
         };
         let model = fit(&whole, &fitting, Origin::default(), &|_, _| {}).unwrap().model;

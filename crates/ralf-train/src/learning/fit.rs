@@ -210,6 +210,7 @@ mod tests {
     use super::super::boosting::Parameters;
     use super::super::testing::{small, table};
     use super::*;
+    use ralf::config::Config;
 
     fn fitting(jobs: usize) -> Fitting {
         let parameters = Parameters { rounds: 30, rows_per_leaf: 20, ..Parameters::default() };
@@ -220,8 +221,7 @@ mod tests {
             blanking: true,
             causes: true,
             threshold: 0.5,
-            unconfirmed: 0.1,
-            movers: true,
+            learned: Config::default().learned,
             jobs,
         }
     }

@@ -2,6 +2,7 @@
 
 use super::boosting::Parameters;
 use super::net::NetParameters;
+use ralf::config::LearnedConfig;
 
 /// How a model is fitted.
 #[derive(Debug, Clone, PartialEq)]
@@ -18,10 +19,8 @@ pub struct Fitting {
     pub causes: bool,
     /// `w0`: what is labelled plausible.
     pub threshold: f64,
-    /// What the odds of detections that only the radar tells of are multiplied by, as `learned.unconfirmed` says.
-    pub unconfirmed: f64,
-    /// Whether each scan tells how many of its movers are real, as `learned.movers` says.
-    pub movers: bool,
+    /// How models' answers are weighed where they are judged.
+    pub learned: LearnedConfig,
     /// Forests grown side by side; the result doesn't depend on it.
     pub jobs: usize,
 }

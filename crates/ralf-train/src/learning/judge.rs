@@ -6,7 +6,7 @@ use super::scores::{Scored, Scores, best_threshold, scored};
 use super::suite::{SUITES, SuiteScores, suites_of};
 use super::table::{Known, TrainingTable, scans_of};
 use super::view::View;
-use ralf::learned::{Calibration, Movers, Unconfirmed, World};
+use ralf::learned::{Weighing, World};
 
 /// How well a model labels a world that it was not fitted to.
 #[derive(Debug, Clone, PartialEq)]
@@ -84,24 +84,16 @@ pub(super) fn judge(table: &TrainingTable, log_odds: &[f64], fitting: &Fitting) 
 struct Stranger<'a> {
     table: &'a TrainingTable,
     log_odds: &'a [f64],
-    line: Calibration,
-    unconfirmed: Unconfirmed,
-    factor: f64,
-    movers: Option<Movers>,
+    weighing: Weighing,
 }
 
 impl<'a> Stranger<'a> {
     fn new(table: &'a TrainingTable, log_odds: &'a [f64], world: u16, fitting: &Fitting) -> Self {
         let others = answered(table, log_odds, |other| other != world);
         let names = table.features.iter().map(|feature| feature.name);
-        Self {
-            table,
-            log_odds,
-            line: calibration(&others),
-            unconfirmed: Unconfirmed::among(names.clone()),
-            factor: fitting.unconfirmed,
-            movers: fitting.movers.then(|| Movers::among(names, share(&others))),
-        }
+        let line = calibration(&others);
+        let weighing = Weighing::as_calibrated(line, share(&others), names, &fitting.learned);
+        Self { table, log_odds, weighing }
     }
 
     /// Of rows in rising order: those of a scan are all that are judged of it.
@@ -109,23 +101,12 @@ impl<'a> Stranger<'a> {
         let known: Vec<Known> = rows.iter().map(|row| self.table.known[*row]).collect();
         let mut judged = Vec::with_capacity(rows.len());
         for scan in scans_of(&known) {
-            let scores = self.of_scan(&rows[scan.clone()]);
-            judged.extend(scored(scores, &known[scan]));
+            let of = &rows[scan.clone()];
+            let log_odds: Vec<f64> = of.iter().map(|row| self.log_odds[*row]).collect();
+            let rows = self.table.rows.pick(of.iter().copied());
+            judged.extend(scored(self.weighing.plausibilities(&rows, &log_odds), &known[scan]));
         }
         judged
-    }
-
-    fn of_scan(&self, scan: &[usize]) -> Vec<f64> {
-        let rows = self.table.rows.pick(scan.iter().copied());
-        let mut scores = Vec::with_capacity(scan.len());
-        for (at, row) in scan.iter().enumerate() {
-            let probability = self.line.probability(self.log_odds[*row]);
-            scores.push(self.unconfirmed.weighed(rows.row(at), probability, self.factor));
-        }
-        if let Some(movers) = &self.movers {
-            movers.weigh(&rows, &mut scores);
-        }
-        scores
     }
 }
 

@@ -100,7 +100,7 @@ pub struct LearnedConfig {
     /// The share of detections that is plausible in recordings like these, in (0, 1); 0 is what the model expects
     /// ([`Model::expects`](crate::learned::Model::expects)).
     pub share: f64,
-    /// Whether each scan tells how many of its movers are real ([`Movers`](crate::learned::Movers)).
+    /// Whether each scan tells how many of its movers are real (docs/learned.md).
     pub movers: bool,
     /// Whether it is told what each group of evidence adds.
     pub reasons: bool,

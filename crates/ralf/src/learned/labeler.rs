@@ -107,7 +107,7 @@ impl<'a> LearnedLabeler<'a> {
     /// What the model says of a frame, of which this evidence was gathered.
     ///
     /// `w` is the probability that a detection is plausible, where as many are as `learned.share` says, and of what
-    /// moves as many as the scan itself tells (`learned.movers`, [`Movers`](super::Movers)). Where the evidence is too
+    /// moves as many as the scan itself tells (`learned.movers`). Where the evidence is too
     /// unlike what the model was trained on (`learned.max_novelty`), the paper's method answers: flag [`flag::PAPER`].
     /// What nobody but the radar tells of counts less (`learned.unconfirmed`): flag [`flag::UNCONFIRMED`].
     pub fn label(&self, frame: &Frame, evidence: &[Column]) -> LearnedScan {

@@ -20,7 +20,7 @@ const ROUNDS: usize = 50;
 
 /// Where to look in a row of evidence, and what is expected.
 #[derive(Debug, Clone, Copy)]
-pub struct Movers {
+pub(super) struct Movers {
     moves: Option<usize>,
     /// The share of plausible ones that probabilities come from.
     share: f64,
@@ -29,14 +29,14 @@ pub struct Movers {
 impl Movers {
     /// For rows of features of these names, and for probabilities that expect so large a share of plausible ones.
     /// Where that is not in (0, 1) nothing is expected, and nothing changes.
-    pub fn among<'a>(mut names: impl Iterator<Item = &'a str>, share: f64) -> Self {
+    pub(super) fn among<'a>(mut names: impl Iterator<Item = &'a str>, share: f64) -> Self {
         let is_known = share > 0.0 && share < 1.0;
         Self { moves: names.position(|name| name == MOVES.0).filter(|_| is_known), share }
     }
 
     /// The probabilities of a scan's rows, with the odds of those that move multiplied by one factor: as many are
     /// plausible as they themselves say.
-    pub fn weigh(&self, rows: &Rows, probabilities: &mut [f64]) {
+    pub(super) fn weigh(&self, rows: &Rows, probabilities: &mut [f64]) {
         let Some(moves) = self.moves else { return };
         let is_mover = |row: usize| rows.row(row)[moves].abs() > MOVES.1;
         let movers: Vec<usize> = (0..rows.len()).filter(|row| is_mover(*row)).collect();

@@ -26,7 +26,7 @@ const ALL: f32 = 0.999;
 
 /// Where to look in a row of evidence.
 #[derive(Debug, Clone, Copy)]
-pub struct Unconfirmed {
+pub(super) struct Unconfirmed {
     unseen: Option<usize>,
     reach: Option<usize>,
     distance: Option<usize>,
@@ -43,7 +43,7 @@ pub struct Unconfirmed {
 
 impl Unconfirmed {
     /// For rows of features of these names.
-    pub fn among<'a>(names: impl Iterator<Item = &'a str> + Clone) -> Self {
+    pub(super) fn among<'a>(names: impl Iterator<Item = &'a str> + Clone) -> Self {
         let place = |wanted: &str| names.clone().position(|name| name == wanted);
         Self {
             unseen: place("lidar_unseen"),
@@ -68,7 +68,7 @@ impl Unconfirmed {
     /// where all rays end before the place and the last thing in the radar's way is a wall, over 2.5 m high and at
     /// least 4 m long: then no scan around may have a point within 3 sigmas. Nor may any scan around have one where
     /// its range rate takes the detection, if it moves.
-    pub fn is(&self, row: &[f32]) -> bool {
+    pub(super) fn is(&self, row: &[f32]) -> bool {
         let value = |place: Option<usize>| place.map_or(f32::NAN, |place| row[place]);
         let unseen = value(self.unseen);
         if unseen.is_nan() || self.chi.is_none() || self.map.is_none() || value(self.moving) > 0.0 {
@@ -90,7 +90,7 @@ impl Unconfirmed {
     }
 
     /// The probability of a row; of one that is unconfirmed, with its odds multiplied by the factor.
-    pub fn weighed(&self, row: &[f32], probability: f64, factor: f64) -> f64 {
+    pub(super) fn weighed(&self, row: &[f32], probability: f64, factor: f64) -> f64 {
         if self.is(row) { with_odds(probability, factor) } else { probability }
     }
 }

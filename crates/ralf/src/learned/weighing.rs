@@ -30,9 +30,20 @@ impl Weighing {
     ) -> Self {
         let (known, wanted) = (model.share(), wanted(model, config));
         let share = if turns(known, wanted) { wanted } else { known };
+        let as_expected = Self::as_calibrated(model.calibration.clone(), share, names, config);
+        Self { expected: expected(known, wanted), ..as_expected }
+    }
+
+    /// By a calibration whose probabilities expect so large a share of plausible ones; no other is expected.
+    pub fn as_calibrated<'a>(
+        calibration: Calibration,
+        share: f64,
+        names: impl Iterator<Item = &'a str> + Clone,
+        config: &LearnedConfig,
+    ) -> Self {
         Self {
-            calibration: model.calibration.clone(),
-            expected: expected(known, wanted),
+            calibration,
+            expected: 1.0,
             unconfirmed: Unconfirmed::among(names.clone()),
             factor: config.unconfirmed,
             movers: config.movers.then(|| Movers::among(names, share)),

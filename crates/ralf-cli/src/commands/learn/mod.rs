@@ -153,8 +153,7 @@ impl LearnArgs {
             blanking: !self.no_blanking,
             causes: true,
             threshold: config.fusion.threshold,
-            unconfirmed: config.learned.unconfirmed,
-            movers: config.learned.movers,
+            learned: config.learned.clone(),
             jobs,
         }
     }
