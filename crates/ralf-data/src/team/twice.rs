@@ -2,7 +2,7 @@
 
 use super::assignment::Assignment;
 use crate::error::DataError;
-use crate::truth::ScanId;
+use crate::truth::{Corrections, ScanId};
 use std::collections::BTreeSet;
 use std::path::Path;
 
@@ -18,6 +18,13 @@ impl Twice<'_> {
     /// Whether the scan is one of them.
     pub fn holds(&self, scan: &ScanId) -> bool {
         !self.own.contains(&scan.sequence) && (self.dealt.is_empty() || self.dealt.contains(scan))
+    }
+
+    /// Somebody's second labels of these scans alone, and of how many others they said something: those are of no
+    /// random sample.
+    pub fn among(&self, second: Corrections) -> (Corrections, usize) {
+        let others = second.scans().filter(|scan| !self.holds(scan)).count();
+        (second.of_scans(|scan| self.holds(scan)), others)
     }
 }
 

@@ -49,12 +49,11 @@ pub(crate) fn disagreements(app: &App, sequence: &str) -> Answer {
     let first = through(app, (index, reader), &app.out.join(FILE))?;
     let (mut told, mut found, mut both) = (Vec::new(), BTreeMap::new(), BTreeSet::new());
     for (name, file) in second_labellers(&app.out)? {
-        let mut second = through(app, (index, reader), &file)?;
-        let all = second.scans().count();
-        if let Some(dealt) = app.team.twice_of(&name) {
-            second = second.of_scans(|scan| dealt.holds(scan));
-        }
-        let left_out = all - second.scans().count();
+        let second = through(app, (index, reader), &file)?;
+        let (second, left_out) = match app.team.twice_of(&name) {
+            Some(dealt) => dealt.among(second),
+            None => (second, 0),
+        };
         let (agreement, differences) = compare(&first, &second)?;
         // Of a scan without detections nobody labels anything, and people are through with it all the same.
         let theirs: BTreeSet<&ScanId> = second.scans().collect();

@@ -30,8 +30,8 @@ impl Weighing {
     ) -> Self {
         let (known, wanted) = (model.share(), wanted(model, config));
         let share = if turns(known, wanted) { wanted } else { known };
-        let as_expected = Self::as_calibrated(model.calibration.clone(), share, names, config);
-        Self { expected: expected(known, wanted), ..as_expected }
+        let as_calibrated = Self::as_calibrated(model.calibration.clone(), share, names, config);
+        Self { expected: expected(known, wanted), ..as_calibrated }
     }
 
     /// By a calibration whose probabilities expect so large a share of plausible ones; no other is expected.

@@ -37,12 +37,12 @@ fn of_dealt(out: &Path, other: &Path, second: Corrections) -> anyhow::Result<Cor
     let Some((name, _)) = second_labellers(out)?.into_iter().find(is_other) else { return Ok(second) };
     let dealt = Assignment::open(out, &read_record(out)?.sequences)?;
     let Some(twice) = dealt.as_ref().and_then(|dealt| dealt.twice_of(&name)) else { return Ok(second) };
-    let left_out = second.scans().filter(|scan| !twice.holds(scan)).count();
+    let (second, left_out) = twice.among(second);
     if left_out > 0 {
         let file = second.file().display();
         say(&format!("{file}: {} not dealt to {name}: left out", counted(left_out, "scan")));
     }
-    Ok(second.of_scans(|scan| twice.holds(scan)))
+    Ok(second)
 }
 
 fn table(agreement: &Agreement) -> String {

@@ -84,7 +84,7 @@ impl Around {
 /// A detection from which others are seen.
 struct Seat {
     place: [f32; 3],
-    /// From the radar to it, seen from above, of length 1; 0 at the frame's origin.
+    /// From the frame's origin to it, seen from above, of length 1; 0 at the origin.
     ahead: [f32; 2],
 }
 
