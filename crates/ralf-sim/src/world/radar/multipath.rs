@@ -186,6 +186,32 @@ mod tests {
     }
 
     #[test]
+    fn an_image_moves_as_its_places_say_whatever_moves() {
+        const STEP: f64 = 1e-4;
+        let (thing, drives) = (Point::new(14.0, 2.0, 1.2), Vector::new(-9.0, 1.5, 0.3));
+        for (velocity, normal) in [
+            (Vector::zeros(), -Vector::y()),
+            (Vector::new(12.0, -2.0, 0.0), -Vector::y()),
+            (Vector::new(4.0, 7.0, 0.0), Vector::new(-0.6, -0.8, 0.0)),
+        ] {
+            let at = |seconds: f64| Mirror {
+                item: 0,
+                center: Point::new(8.0, 6.0, 1.0) + velocity * seconds,
+                normal,
+                half: [100.0, 2.0],
+                loss_db: 3.0,
+                roughness: 0.0,
+                bulge: [0.0; 2],
+                distance: 6.0,
+                velocity,
+            };
+            let image = |seconds: f64| at(seconds).image(&(thing + drives * seconds));
+            let slope = (image(STEP) - image(-STEP)) / (2.0 * STEP);
+            assert!((slope - at(0.0).mirrored(&drives)).norm() < 1e-6, "{slope}");
+        }
+    }
+
+    #[test]
     fn a_smooth_flat_mirror_takes_what_its_material_does() {
         for aside in [0.0, 5.0, 30.0] {
             assert!((taken_db(0.0, [0.0; 2], aside) - 3.0).abs() < 1e-9);
