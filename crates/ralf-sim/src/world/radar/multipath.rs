@@ -166,19 +166,24 @@ fn truth(original: &Echo, seen: &Spherical) -> Truth {
 mod tests {
     use super::*;
 
-    /// What an upright mirror at x = 10 m takes from a wave that leaves it as steeply as it came.
-    fn taken_db(roughness: f64, bulge: [f64; 2], aside: f64) -> f64 {
-        let mirror = Mirror {
+    /// A smooth, flat, upright mirror at x = 10 m.
+    fn mirror() -> Mirror {
+        Mirror {
             item: 0,
             center: Point::new(10.0, 0.0, 0.0),
             normal: -Vector::x(),
             half: [100.0, 2.0],
             loss_db: 3.0,
-            roughness,
-            bulge,
+            roughness: 0.0,
+            bulge: [0.0; 2],
             distance: 10.0,
             velocity: Vector::zeros(),
-        };
+        }
+    }
+
+    /// What it takes from a wave that leaves it as steeply as it came.
+    fn taken_db(roughness: f64, bulge: [f64; 2], aside: f64) -> f64 {
+        let mirror = Mirror { roughness, bulge, ..mirror() };
         let (origin, other) = (Point::origin(), Point::new(0.0, 2.0 * aside, 0.0));
         let at = mirror.point_of_reflection(&origin, &other).unwrap();
         assert!((at - Point::new(10.0, aside, 0.0)).norm() < 1e-9);
@@ -194,17 +199,9 @@ mod tests {
             (Vector::new(12.0, -2.0, 0.0), -Vector::y()),
             (Vector::new(4.0, 7.0, 0.0), Vector::new(-0.6, -0.8, 0.0)),
         ] {
-            let at = |seconds: f64| Mirror {
-                item: 0,
-                center: Point::new(8.0, 6.0, 1.0) + velocity * seconds,
-                normal,
-                half: [100.0, 2.0],
-                loss_db: 3.0,
-                roughness: 0.0,
-                bulge: [0.0; 2],
-                distance: 6.0,
-                velocity,
-            };
+            let center = Point::new(8.0, 6.0, 1.0);
+            let at =
+                |seconds: f64| Mirror { center: center + velocity * seconds, normal, velocity, ..mirror() };
             let image = |seconds: f64| at(seconds).image(&(thing + drives * seconds));
             let slope = (image(STEP) - image(-STEP)) / (2.0 * STEP);
             assert!((slope - at(0.0).mirrored(&drives)).norm() < 1e-6, "{slope}");
