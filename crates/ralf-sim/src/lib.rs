@@ -15,15 +15,17 @@
 //! echo, and never from what LiDAR or cameras see. Each artifact has a [`Cause`](ralf::label::Cause).
 //!
 //! [`world`] has another kind of sequences: worlds that a seed draws, each with sensors and physics of its own, whose
-//! radars follow the radar equation.
+//! radars follow the radar equation. [`sketch`] has a third, of which the second knows nothing.
 //!
 //! Every measurement follows from (seed, sensor, number) alone: the same seed gives the same bytes in any order.
 
 mod bvh;
 mod camera;
+mod drawn;
 mod ground;
 mod kind;
 mod lidar;
+mod mounting;
 mod odometry;
 mod path;
 pub mod presets;
@@ -37,11 +39,13 @@ mod shape;
 mod simulated;
 mod simulation;
 mod site;
+pub mod sketch;
 mod solid;
 mod truth;
 mod vehicle;
 pub mod world;
 
+pub use drawn::{DrawnRecording, Worlds};
 pub use kind::Kind;
 pub use scenario::{CameraFailure, Drive, FailureKind, Leg, Ramp, Scenario, ScenarioError, Thing};
 pub use simulated::SimulatedSequence;

@@ -12,8 +12,8 @@ use compare::{Named, Told, compare};
 use ralf_data::{SequenceReader, has_sequence, has_whole_sequence};
 use ralf_files::Kind;
 use ralf_sim::presets::{self, Preset};
-use ralf_sim::world::{FAMILIES, Mixture, Recording};
-use ralf_sim::{Scenario, SimulatedSequence};
+use ralf_sim::world::FAMILIES;
+use ralf_sim::{Scenario, SimulatedSequence, Worlds};
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
@@ -38,7 +38,7 @@ The same preset, numbers and seed give the same bytes.
 With `--preset worlds` a seed draws sensors, places and physics from a family of worlds (docs/worlds.md): radars and \
 LiDARs of other kinds, cameras or none, and four to six sequences of 40 scans. Families, by number: city, survey, \
 motorway, carpark, imaging, yard, country, anything. A+B+C has the sensors of A at the places of C, where waves behave \
-as in B.
+as in B. Worlds of another make, sketched: quay, ring, lane, gardens (no cameras).
 
 Examples:
   ralf simulate -o recordings/sim --scans 300         the paper's eleven sequences, each shorter
@@ -76,7 +76,7 @@ pub(crate) struct SimulateArgs {
     preset: String,
     /// Of `--preset worlds`: their family, by name or number, or three: SENSORS+WAVES+PLACES; city if not given
     #[arg(long, value_name = "FAMILY", value_parser = family)]
-    family: Option<Mixture>,
+    family: Option<Worlds>,
     /// A scenario of your own (TOML; docs/scenario.md), as sequence 00
     #[arg(long, value_name = "FILE")]
     scenario: Option<PathBuf>,
@@ -125,8 +125,8 @@ impl SimulateArgs {
     }
 
     /// The family of the worlds.
-    fn family(&self) -> Mixture {
-        self.family.unwrap_or_else(|| (&FAMILIES[0]).into())
+    fn family(&self) -> Worlds {
+        self.family.unwrap_or_else(|| Worlds::Family((&FAMILIES[0]).into()))
     }
 
     fn sequences(&self) -> anyhow::Result<Vec<SimulatedSequence>> {
@@ -190,17 +190,18 @@ fn own(file: &Path, arguments: &SimulateArgs) -> anyhow::Result<SimulatedSequenc
 }
 
 /// What `--family` names.
-fn family(text: &str) -> Result<Mixture, String> {
-    let known: Vec<&str> = FAMILIES.iter().map(|family| family.name).collect();
-    Mixture::find(text).ok_or_else(|| {
-        let [known, count] = [known.join(", "), known.len().to_string()];
-        format!("expected one of {known}, a number below {count}, or three of them as A+B+C")
+fn family(text: &str) -> Result<Worlds, String> {
+    let count = FAMILIES.len();
+    Worlds::find(text).ok_or_else(|| {
+        let known: Vec<&str> = Worlds::all().map(|(name, _)| name).collect();
+        let known = known.join(", ");
+        format!("expected one of {known}, a number below {count}, or three of the first {count} as A+B+C")
     })
 }
 
 /// The sequences of a world that are asked for.
 fn world(arguments: &SimulateArgs) -> anyhow::Result<Vec<SimulatedSequence>> {
-    let recording = Recording::new(arguments.family(), arguments.seed);
+    let recording = arguments.family().recording(arguments.seed);
     let names = recording.names();
     let spread = recording.spread(arguments.scans.map(|scans| scans as usize));
     let mut found = Vec::new();

@@ -1,11 +1,11 @@
 //! Cameras of worlds: none, one ahead, six around as in nuScenes, or four fisheyes as in the paper.
 
-use super::calibration::off;
 use super::family::{CalibrationRanges, Mount, mount};
 use super::scene::{Met, Moment};
 use super::span::one_of;
 use super::terrain::{Patch, Surface};
 use crate::camera::{self, Painted, Visible};
+use crate::mounting::off;
 use crate::random::{Purpose, Random, grain};
 use crate::shape::Ray;
 use crate::vehicle::camera_mounting;

@@ -6,7 +6,7 @@ use crate::run_summary::say_not_used;
 use clap::Args;
 use clap::builder::PossibleValuesParser;
 use ralf_data::{Recording, SequenceReader, TrainingGatherer, TrainingTruth};
-use ralf_sim::world::{self, FAMILIES, Family};
+use ralf_sim::Worlds;
 use ralf_train::learning::TrainingTable;
 use std::path::Path;
 
@@ -34,7 +34,7 @@ pub(super) struct WorldArgs {
     every: u32,
     /// With --preset: leave these families out, to judge the model in them
     #[arg(long, value_name = "FAMILY,...", value_delimiter = ',', requires = "preset",
-        value_parser = PossibleValuesParser::new(FAMILIES.iter().map(|family| family.name)))]
+        value_parser = PossibleValuesParser::new(Worlds::all().map(|(name, _)| name)))]
     without: Vec<String>,
 }
 
@@ -70,23 +70,24 @@ impl WorldArgs {
         table: &mut TrainingTable,
     ) -> anyhow::Result<Outcome> {
         let mut outcome = Outcome::Done;
-        for family in FAMILIES.iter().filter(|family| !self.without.iter().any(|name| name == family.name)) {
+        for (name, worlds) in Worlds::all().filter(|(name, _)| !self.without.iter().any(|left| left == name))
+        {
             for seed in 0..self.seeds {
-                let recording = self.recording(family, seed)?;
-                let not_used = gatherer.add(table, Some(family.name), &recording, TrainingTruth::Known)?;
+                let recording = self.recording(worlds, seed)?;
+                let not_used = gatherer.add(table, Some(name), &recording, TrainingTruth::Known)?;
                 outcome = not_used.iter().map(say_not_used).fold(outcome, Outcome::and);
             }
         }
         Ok(outcome)
     }
 
-    fn recording(&self, family: &'static Family, seed: u64) -> anyhow::Result<Recording> {
-        let world = world::Recording::new(family, seed);
+    fn recording(&self, worlds: Worlds, seed: u64) -> anyhow::Result<Recording> {
+        let world = worlds.recording(seed);
         let mut sequences: Vec<Box<dyn SequenceReader>> = Vec::new();
         for (index, scans) in world.spread(Some(self.scans as usize)).into_iter().enumerate() {
             sequences.push(Box::new(world.sequence(index, scans)?));
         }
-        let path = format!("{} {seed}", family.name);
+        let path = format!("{worlds} {seed}");
         Ok(Recording::new(Path::new(&path), "simulated", sequences))
     }
 }

@@ -185,6 +185,8 @@ pub(crate) struct MotionRanges {
     pub(crate) reversing: f64,
     /// Share of the usual number of moving things.
     pub(crate) traffic: Span,
+    /// People on foot and on bicycles, of what is usual for the place.
+    pub(crate) crowd: Span,
     /// Steepest slope, degrees.
     pub(crate) slope: Span,
 }

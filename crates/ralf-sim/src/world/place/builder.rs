@@ -42,6 +42,8 @@ pub(super) struct Builder<'a> {
     pub(super) plan: Plan,
     pub(super) motion: &'a MotionRanges,
     pub(super) random: &'a mut Random,
+    /// How many people are about, of what is usual for the place.
+    crowd: f64,
 }
 
 impl<'a> Builder<'a> {
@@ -50,7 +52,8 @@ impl<'a> Builder<'a> {
         let base = Patch::base(Surface::Asphalt, reflectance);
         let drive = DrivePlan { start: [0.0; 3], legs: Vec::new(), speed: 5.0, swing: (0.0, 7.0) };
         let plan = Plan { title: "", items: Vec::new(), patches: Vec::new(), base, ramps: Vec::new(), drive };
-        Self { plan, motion, random }
+        let crowd = motion.crowd.ratio(random);
+        Self { plan, motion, random, crowd }
     }
 
     pub(super) fn between(&mut self, low: f64, high: f64) -> f64 {
@@ -178,6 +181,12 @@ impl<'a> Builder<'a> {
     /// From where to where along x a place goes on about a drive of so many metres: until it bends away or ends.
     pub(super) fn sight(&mut self, way: f64, [near, far]: [f64; 2]) -> [f64; 2] {
         [-self.between(near, far), way + self.between(near, far)]
+    }
+
+    /// How many people of what is usual for a place: streets differ in them more than in cars.
+    pub(super) fn people(&mut self, usual: f64) -> usize {
+        let mean = usual * self.crowd;
+        self.random.poisson(mean)
     }
 
     /// How many of what is usual for a place.

@@ -20,6 +20,9 @@ pub(super) struct Road {
 /// Free of others at the start: about the own vehicle, m.
 const FREE: f64 = 14.0;
 
+/// How often somebody on foot has company (chosen).
+const TOGETHER: f64 = 0.3;
+
 /// Cars and lorries in the lanes, behind one another.
 pub(super) fn on_road(builder: &mut Builder<'_>, road: &Road) {
     let [own_x, own_y, _] = builder.plan.drive.start;
@@ -53,7 +56,7 @@ fn per_kilometre(usual: f64, [from, to]: [f64; 2]) -> f64 {
 
 /// People on foot along x, or across it: so many on a kilometre.
 pub(super) fn on_foot(builder: &mut Builder<'_>, usual: f64, [from, to]: [f64; 2], y: f64) {
-    for _ in 0..builder.traffic(per_kilometre(usual, [from, to])) {
+    for _ in 0..builder.people(per_kilometre(usual, [from, to])) {
         let side = if builder.chance(0.5) { 1.0 } else { -1.0 };
         let at = [builder.between(from, to), side * y + builder.normal(0.5)];
         let across = builder.chance(0.2);
@@ -69,12 +72,16 @@ pub(super) fn on_foot(builder: &mut Builder<'_>, usual: f64, [from, to]: [f64; 2
         let speed = if builder.chance(0.2) { 0.0 } else { builder.between(0.7, 1.7) };
         let speed = if builder.chance(0.08) { speed * 2.0 } else { speed };
         builder.send(Kind::Pedestrian, at, yaw, speed, 0.0);
+        if builder.chance(TOGETHER) {
+            let beside = [at[0] + builder.normal(0.4), at[1] + builder.normal(0.6)];
+            builder.send(Kind::Pedestrian, beside, yaw, speed, 0.0);
+        }
     }
 }
 
 /// Cyclists along x: so many on a kilometre.
 pub(super) fn on_bicycles(builder: &mut Builder<'_>, usual: f64, [from, to]: [f64; 2], y: f64) {
-    for _ in 0..builder.traffic(per_kilometre(usual, [from, to])) {
+    for _ in 0..builder.people(per_kilometre(usual, [from, to])) {
         let along = builder.chance(0.5);
         let at = [builder.between(from, to), if along { -y } else { y }];
         let yaw = if along { 0.0 } else { 180.0 } + builder.normal(2.0);

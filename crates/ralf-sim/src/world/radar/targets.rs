@@ -115,12 +115,17 @@ impl Thing<'_> {
             - if part.inside { view.waves.window_loss_db } else { 0.0 };
         let level = view.level_db(&seen, rcs)?;
         let loss = view.loss_db(&place, &[self.index])?;
-        let swing =
-            if part.swings { self.item.course.speed * random.between(-1.0, 1.0) * own.x } else { 0.0 };
-        let range_rate = view.range_rate(&place, &self.velocity) + swing;
+        let range_rate = view.range_rate(&place, &self.velocity) + self.swing(part, own.x, random);
         let echo = Echo::new(seen, range_rate, level - loss, self.truth(part.inside));
         let facing = part.facing.map(|facing| self.pose.rotation * facing);
         Some(self.target(echo, place, facing, false))
+    }
+
+    /// How much faster than the thing a part goes towards or away, m/s, where the radar lies so far ahead of the thing.
+    fn swing(&self, part: &Reflector, ahead: f64, random: &mut Random) -> f64 {
+        let along = if part.swing > 0.0 { random.between(-part.swing, part.swing) } else { 0.0 };
+        let by_itself = if part.sway > 0.0 { random.normal(part.sway) } else { 0.0 };
+        self.item.course.speed * along * ahead + by_itself
     }
 
     /// A smooth wall shows the radar to itself at the foot of its perpendicular: the cross-section of a large plate is

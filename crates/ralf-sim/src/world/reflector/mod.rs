@@ -4,6 +4,11 @@
 //! cars 0 to 20 with 10 in the middle (Suzuki et al. 2000; Kamel et al. 2017), lorries 15 to 35, people -8 with a
 //! spread of 5 (Fortuny-Guasch and Chareau 2013; ISO 19206-2), cyclists -3 to 5 (ISO 19206-4), poles 0 to 10.
 
+mod people;
+mod walls;
+
+pub(super) use walls::{Wall, walls};
+
 use crate::kind::{DECK, Kind};
 use crate::random::Random;
 use ralf::space::{Point, Vector};
@@ -21,26 +26,10 @@ pub(super) struct Reflector {
     pub(super) spread_db: f64,
     /// Behind a facade: an artifact by the paper's policy.
     pub(super) inside: bool,
-    /// Turns or swings with the thing's motion: a wheel, a leg.
-    pub(super) swings: bool,
-}
-
-/// An upright rectangle that is smooth for waves of 4 mm.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Wall {
-    /// In the thing's frame.
-    pub(super) center: Point,
-    pub(super) normal: Vector,
-    /// Half its width and height.
-    pub(super) half: [f64; 2],
-    /// What it takes beyond a facade, dB; below 0 it reflects better.
-    pub(super) loss_db: f64,
-    /// Standard deviation of its heights, m.
-    pub(super) roughness: f64,
-    /// How it is bent outward along and upward, 1/m; 0 is flat.
-    pub(super) bulge: [f64; 2],
-    /// What roughness leaves of the flash at right angles, dB.
-    pub(super) flash_db: f64,
+    /// How fast it turns or swings along with the thing's motion, as a share of it: a wheel, a leg.
+    pub(super) swing: f64,
+    /// How fast it moves by itself, m/s: nobody stands still.
+    pub(super) sway: f64,
 }
 
 /// A heap of parts in the making.
@@ -64,7 +53,8 @@ impl Parts<'_> {
             strength_db,
             spread_db,
             inside: false,
-            swings: false,
+            swing: 0.0,
+            sway: 0.0,
         });
         let last = self.found.len() - 1;
         &mut self.found[last]
@@ -97,7 +87,8 @@ pub(super) fn reflectors(kind: Kind, size: Vector, random: &mut Random) -> Vec<R
         Kind::Truck => truck(l, w, height, &mut parts),
         Kind::Building | Kind::Garage => building(l, w, height, &mut parts),
         Kind::Container => box_of_metal(l, w, height, &mut parts),
-        Kind::Pedestrian | Kind::Cyclist => person(kind, l, w, height, &mut parts),
+        Kind::Pedestrian => people::on_foot(w, height, &mut parts),
+        Kind::Cyclist => people::on_bicycle(l, w, height, &mut parts),
         Kind::Tree | Kind::Hedge => leaves(kind, size, &mut parts),
         Kind::Pole | Kind::Sign => post(kind, [l, w], height, &mut parts),
         Kind::Fence | Kind::Rail | Kind::Wall => barrier(kind, l, w, height, &mut parts),
@@ -110,20 +101,6 @@ pub(super) fn reflectors(kind: Kind, size: Vector, random: &mut Random) -> Vec<R
 /// So many on a stretch or in a room.
 fn per(density: f64, extent: f64) -> usize {
     (density * extent).ceil() as usize
-}
-
-/// A trunk, and limbs that swing; a cyclist's wheels.
-fn person(kind: Kind, l: f64, w: f64, height: f64, parts: &mut Parts<'_>) {
-    if kind == Kind::Cyclist {
-        parts.scatter(4, [0.3, w], [0.6, 0.9 * height], -9.0, 4.0);
-        for x in [-0.55, 0.55] {
-            parts.put([x, 0.0, 0.33], None, -7.0, 4.0).swings = true;
-        }
-        return;
-    }
-    parts.scatter(3, [l, w], [0.6, 0.9 * height], -13.0, 4.0);
-    parts.scatter(2, [l, w], [0.1, 0.6], -15.0, 4.0);
-    parts.found.iter_mut().skip(3).for_each(|leg| leg.swings = true);
 }
 
 fn leaves(kind: Kind, size: Vector, parts: &mut Parts<'_>) {
@@ -183,7 +160,7 @@ fn car(l: f64, w: f64, height: f64, parts: &mut Parts<'_>) {
     for (sx, sy) in [(1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)] {
         let (x, y) = (sx * l, sy * 0.9 * w);
         parts.put([x, y, 0.5], outward(x, y), 5.0, 4.0);
-        parts.put([sx * 0.62 * l, sy * w, 0.3], outward(0.0, sy * w), 1.0, 4.0).swings = true;
+        parts.put([sx * 0.62 * l, sy * w, 0.3], outward(0.0, sy * w), 1.0, 4.0).swing = 1.0;
         parts.put([sx * 0.25 * l, sy * w, 0.7], outward(0.0, sy * w), -3.0, 5.0);
         parts.put([0.3 * l, sy * w, 0.95], outward(0.0, sy * w), -4.0, 5.0);
     }
@@ -211,7 +188,7 @@ fn truck(l: f64, w: f64, height: f64, parts: &mut Parts<'_>) {
             parts.put([sx * l, sy * w, z], Some(facing), 9.0, 5.0);
         }
         for x in [0.3, 0.7] {
-            parts.put([sx * x * l, sy * w, 0.5], Some(Vector::new(0.0, sy, 0.0)), 5.0, 5.0).swings = true;
+            parts.put([sx * x * l, sy * w, 0.5], Some(Vector::new(0.0, sy, 0.0)), 5.0, 5.0).swing = 1.0;
         }
     }
     for _ in 0..(3.0 * l) as usize {
@@ -266,58 +243,5 @@ fn box_of_metal(l: f64, w: f64, height: f64, parts: &mut Parts<'_>) {
             let place = outward * distance + along * end;
             parts.put([place.x, place.y, 0.15], Some(outward), 7.0, 5.0);
         }
-    }
-}
-
-/// The smooth upright sides of a thing.
-pub(super) fn walls(kind: Kind, size: Vector, random: &mut Random) -> Vec<Wall> {
-    let [l, w] = [size.x / 2.0, size.y / 2.0];
-    // From where to where it is smooth, what it takes more than a facade, what is left of a flash.
-    let ([low, high], loss_db, flash_db) = match kind {
-        Kind::Building | Kind::Garage => ([0.3, size.z], random.normal(1.5), random.between(-32.0, -18.0)),
-        // A third of a corrugated sheet lies in its outer plane: half of its amplitude.
-        Kind::Container => ([0.1, size.z], 6.0, random.between(-22.0, -10.0)),
-        Kind::Truck => ([0.9, size.z], 0.0, random.between(-24.0, -12.0)),
-        Kind::Car => ([0.25, 0.58 * size.z], 1.0, random.between(-30.0, -20.0)),
-        Kind::Wall => ([0.0, size.z], 2.0, random.between(-34.0, -22.0)),
-        Kind::Rail => ([size.z - 0.31, size.z], 1.0, random.between(-26.0, -16.0)),
-        // Wires and posts fill a tenth of it.
-        Kind::Fence => ([0.1, size.z], 10.0, random.between(-40.0, -28.0)),
-        _ => return Vec::new(),
-    };
-    let (roughness, bulge) = (roughness(kind, random), bulge(kind, random));
-    let wall = |(normal, distance, half): (Vector, f64, f64)| Wall {
-        center: Point::from(normal * distance + Vector::z() * low.midpoint(high)),
-        normal,
-        half: [half, (high - low) / 2.0],
-        loss_db,
-        roughness,
-        bulge,
-        flash_db,
-    };
-    sides(l, w).into_iter().filter(|(_, _, half)| *half > 0.4).map(wall).collect()
-}
-
-/// Standard deviation of a wall's heights, m (chosen): glass and sheet metal 0.05 mm, plaster and concrete 0.2 to 1,
-/// bricks with their joints more.
-fn roughness(kind: Kind, random: &mut Random) -> f64 {
-    let [smooth, rough]: [f64; 2] = match kind {
-        Kind::Building | Kind::Garage => [0.05e-3, 2e-3],
-        Kind::Wall => [0.2e-3, 2e-3],
-        Kind::Truck => [0.05e-3, 0.4e-3],
-        _ => [0.05e-3, 0.1e-3],
-    };
-    random.between(smooth.ln(), rough.ln()).exp()
-}
-
-/// How a wall is bent outward along and upward, 1/m (chosen): a car's side as a circle of 8 to 30 m seen from above and
-/// of 1.5 to 6 m seen from ahead, a lorry's curtain five times as much, a wave of a guard rail as a tube of 10 cm.
-fn bulge(kind: Kind, random: &mut Random) -> [f64; 2] {
-    let bent = [random.between(1.0 / 30.0, 1.0 / 8.0), random.between(1.0 / 6.0, 1.0 / 1.5)];
-    match kind {
-        Kind::Car => bent,
-        Kind::Truck => bent.map(|bend| bend / 5.0),
-        Kind::Rail => [0.0, 10.0],
-        _ => [0.0; 2],
     }
 }
