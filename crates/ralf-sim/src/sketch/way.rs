@@ -40,8 +40,24 @@ impl Way {
         Self { places: (0..((BEFORE + length) / STEP) as usize).map(place).collect() }
     }
 
-    /// x, y (m) and heading (rad) so far along it and so far to its left, m.
+    /// x, y (m) and heading (rad) so far along it and so far to its left, m; beyond its ends it goes straight on.
     pub(super) fn at(&self, along: f64, left: f64) -> [f64; 3] {
+        let [end, beyond] = self.until(along);
+        let [x, y, heading] = self.within(end, left);
+        if beyond == 0.0 {
+            return [x, y, heading];
+        }
+        let (sin, cos) = heading.sin_cos();
+        [x + beyond * cos, y + beyond * sin, heading]
+    }
+
+    /// A length along it as far as it is known, and what lies beyond, m.
+    fn until(&self, along: f64) -> [f64; 2] {
+        let end = along.clamp(-BEFORE, (self.places.len() - 2) as f64 * STEP - BEFORE);
+        [end, along - end]
+    }
+
+    fn within(&self, along: f64, left: f64) -> [f64; 3] {
         let place = ((along + BEFORE) / STEP).clamp(0.0, (self.places.len() - 2) as f64);
         let (index, share) = (place as usize, place.fract());
         let [a, b] = [self.places[index], self.places[index + 1]];
@@ -84,6 +100,11 @@ mod tests {
             assert!(((to[0] - from[0]).hypot(to[1] - from[1]) - 1.0).abs() < 1e-3);
         }
         let bend = Way::new(&[Leg { length: 20.0, turn_deg: 40.0 }], 100.0);
+        // It never ends: who drives on for minutes drives straight on.
+        for far in [-400.0, 97.0, 700.0] {
+            let [from, to] = [bend.at(far, -2.0), bend.at(far + 6.0, -2.0)];
+            assert!(((to[0] - from[0]).hypot(to[1] - from[1]) - 6.0).abs() < 1e-6, "{far}");
+        }
         assert!((bend.curvature(10.0) - 40_f64.to_radians() / 20.0).abs() < 1e-6);
         assert!((bend.at(60.0, 0.0)[2].to_degrees() - 40.0).abs() < 0.6);
     }
