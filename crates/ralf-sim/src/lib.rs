@@ -41,6 +41,7 @@ mod simulation;
 mod site;
 pub mod sketch;
 mod solid;
+mod spread;
 mod truth;
 mod vehicle;
 pub mod world;

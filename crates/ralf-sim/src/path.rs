@@ -23,16 +23,18 @@ pub(super) struct State {
 impl State {
     /// After `dt` along an arc.
     fn advanced(self, dt: f64) -> Self {
-        let half_turn = self.yaw_rate * dt / 2.0;
-        let chord = self.speed * dt * if half_turn.abs() < 1e-9 { 1.0 } else { half_turn.sin() / half_turn };
-        let (sin, cos) = (self.heading + half_turn).sin_cos();
-        Self {
-            x: self.x + chord * cos,
-            y: self.y + chord * sin,
-            heading: self.heading + 2.0 * half_turn,
-            ..self
-        }
+        let from = [self.x, self.y, self.heading];
+        let [x, y, heading] = on_arc(from, self.speed * dt, self.yaw_rate * dt);
+        Self { x, y, heading, ..self }
     }
+}
+
+/// x, y (m) and heading (rad) after a way (m) along an arc on which so much (rad) is turned.
+pub(super) fn on_arc([x, y, heading]: [f64; 3], way: f64, turned: f64) -> [f64; 3] {
+    let half_turn = turned / 2.0;
+    let chord = way * if half_turn.abs() < 1e-9 { 1.0 } else { half_turn.sin() / half_turn };
+    let (sin, cos) = (heading + half_turn).sin_cos();
+    [x + chord * cos, y + chord * sin, heading + turned]
 }
 
 /// The states of a drive.

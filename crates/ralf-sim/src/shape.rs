@@ -10,6 +10,15 @@ pub(super) struct Ray {
     pub(super) direction: Vector,
 }
 
+impl Ray {
+    /// Whether it passes a ball; one behind its origin isn't passed.
+    pub(super) fn passes(&self, center: &Point, radius: f64) -> bool {
+        let way = center - self.origin;
+        let along = way.dot(&self.direction);
+        along > -radius && way.norm_squared() - along * along < radius * radius
+    }
+}
+
 /// Where a ray enters and leaves a body.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Crossing {

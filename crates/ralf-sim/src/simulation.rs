@@ -5,6 +5,7 @@ use ralf::label::Cause;
 use ralf::sensors::{ClassImage, DepthImage, Source, SourceError};
 use ralf::space::Transform;
 use std::fmt::Debug;
+use std::sync::{Arc, Mutex};
 
 /// A source whose truth is known.
 pub(super) trait Simulation: Source + Debug {
@@ -34,4 +35,38 @@ pub(super) trait Simulation: Source + Debug {
 pub(super) fn time(kind: &str, times: &[Vec<i64>], sensor: usize, index: usize) -> Result<i64, SourceError> {
     let found = times.get(sensor).and_then(|times| times.get(index)).copied();
     found.ok_or_else(|| format!("{kind} {sensor} has no measurement {index}").into())
+}
+
+/// Radar, scan, and what it found.
+type Asked<T> = (usize, usize, Arc<Vec<T>>);
+
+/// What was asked for last: who writes a scan asks for its truth, too.
+#[derive(Debug)]
+pub(super) struct Last<T>(Mutex<Option<Asked<T>>>);
+
+impl<T> Default for Last<T> {
+    fn default() -> Self {
+        Self(Mutex::new(None))
+    }
+}
+
+impl<T> Last<T> {
+    /// A scan of a radar as it was made last, or made now.
+    pub(super) fn or_made(
+        &self,
+        radar: usize,
+        scan: usize,
+        make: impl FnOnce() -> Result<Vec<T>, SourceError>,
+    ) -> Result<Arc<Vec<T>>, SourceError> {
+        if let Ok(last) = self.0.lock()
+            && let Some((.., found)) = last.as_ref().filter(|last| (last.0, last.1) == (radar, scan))
+        {
+            return Ok(found.clone());
+        }
+        let found = Arc::new(make()?);
+        if let Ok(mut last) = self.0.lock() {
+            *last = Some((radar, scan, found.clone()));
+        }
+        Ok(found)
+    }
 }

@@ -2,6 +2,7 @@
 
 use super::scene::{Body, Scene, Thing};
 use crate::bvh::{Bounds, Tree};
+use crate::path::on_arc;
 use crate::random::Random;
 use crate::shape::{Crossing, Ray};
 use nalgebra::{Isometry3, Translation3, UnitQuaternion};
@@ -42,13 +43,7 @@ pub(super) struct Pose {
 
 impl Pose {
     fn of(thing: &Thing, scene: &Scene, seconds: f64) -> Self {
-        let [x, y, heading] = thing.start;
-        let half_turn = thing.turn_rate * seconds / 2.0;
-        let chord =
-            thing.speed * seconds * if half_turn.abs() < 1e-9 { 1.0 } else { half_turn.sin() / half_turn };
-        let (sin, cos) = (heading + half_turn).sin_cos();
-        let [x, y] = [x + chord * cos, y + chord * sin];
-        let heading = heading + 2.0 * half_turn;
+        let [x, y, heading] = on_arc(thing.start, thing.speed * seconds, thing.turn_rate * seconds);
         let place = Translation3::new(x, y, scene.relief.height(x, y));
         let turn = UnitQuaternion::from_axis_angle(&Vector::z_axis(), heading);
         Self {
@@ -96,9 +91,7 @@ impl Placed {
 
     /// Whether a ray passes the ball around it.
     fn is_near(&self, ray: &Ray, later: f64) -> bool {
-        let to = self.center() + self.velocity * later - ray.origin;
-        let along = to.dot(&ray.direction);
-        along > -self.radius && to.norm_squared() - along * along < self.radius * self.radius
+        ray.passes(&(self.center() + self.velocity * later), self.radius)
     }
 }
 
@@ -171,7 +164,7 @@ impl Moment<'_> {
         &self.stage.scene
     }
 
-    /// All bodies that may be near a ray.
+    /// All bodies, in their places.
     fn bodies(&self) -> impl Iterator<Item = &Placed> {
         self.stage.standing.iter().chain(&self.moving)
     }

@@ -6,10 +6,9 @@ use super::sequence::SketchSequence;
 use crate::random::{Purpose, Random};
 use crate::scenario::ScenarioError;
 use crate::simulated::SimulatedSequence;
+use crate::spread::{names, spread};
 use std::sync::Arc;
 
-/// Scans of each radar in a sequence, where no number is given: some 3 s.
-const USUAL_SCANS: usize = 40;
 /// Sequences.
 const COUNT: usize = 4;
 
@@ -42,14 +41,12 @@ impl Recording {
 
     /// The sequences' names: `00` to `03`.
     pub fn names(&self) -> Vec<String> {
-        (0..COUNT).map(|index| format!("{index:02}")).collect()
+        names(COUNT)
     }
 
     /// So many scans of each radar, spread over the sequences; as many as is usual if none are given.
     pub fn spread(&self, scans: Option<usize>) -> Vec<usize> {
-        let all = scans.unwrap_or(USUAL_SCANS * COUNT);
-        let share = |index: usize| all / COUNT + usize::from(index < all % COUNT);
-        (0..COUNT).map(|index| share(index).max(1)).collect()
+        spread(scans, COUNT)
     }
 
     /// A sequence of so many scans of each radar. What it is like doesn't depend on how long it is.

@@ -9,7 +9,7 @@ use super::rig::Sensors;
 use super::scene::Scene;
 use crate::random::{Purpose, Random};
 use crate::scenario::ScenarioError;
-use crate::simulation::{Simulation, time};
+use crate::simulation::{Last, Simulation, time};
 use crate::truth::Truth;
 use ralf::label::Cause;
 use ralf::sensors::{
@@ -17,7 +17,7 @@ use ralf::sensors::{
     Timelines,
 };
 use ralf::space::Transform;
-use std::sync::{Arc, Mutex};
+use std::sync::Arc;
 
 /// Time of the start, ns.
 const START_NS: i64 = 1_710_000_000_000_000_000;
@@ -32,9 +32,6 @@ const BURST: f64 = 0.4;
 /// What is lower or higher than this is driven over or under, m.
 const IN_THE_WAY: [f64; 2] = [0.3, 1.9];
 
-/// Radar, scan and its echoes.
-type Asked = (usize, usize, Arc<Vec<Echo>>);
-
 /// A sequence.
 #[derive(Debug)]
 pub(super) struct SketchSequence {
@@ -45,8 +42,7 @@ pub(super) struct SketchSequence {
     /// x, y (m) and strength (dBsm).
     ground: Vec<[f64; 3]>,
     rains: bool,
-    /// What was asked for last: who writes a scan asks for its truth, too.
-    last: Mutex<Option<Asked>>,
+    last: Last<Echo>,
     seed: u64,
 }
 
@@ -83,20 +79,11 @@ impl SketchSequence {
             motion,
             depth_output: DepthOutput::Depth,
         };
-        Ok(Self { sequence, sensors, stage, ride, ground, rains, last: Mutex::new(None), seed })
+        Ok(Self { sequence, sensors, stage, ride, ground, rains, last: Last::default(), seed })
     }
 
     fn echoes(&self, radar: usize, scan: usize) -> Result<Arc<Vec<Echo>>, SourceError> {
-        if let Ok(last) = self.last.lock()
-            && let Some((.., found)) = last.as_ref().filter(|last| (last.0, last.1) == (radar, scan))
-        {
-            return Ok(found.clone());
-        }
-        let found = Arc::new(self.measured(radar, scan)?);
-        if let Ok(mut last) = self.last.lock() {
-            *last = Some((radar, scan, found.clone()));
-        }
-        Ok(found)
+        self.last.or_made(radar, scan, || self.measured(radar, scan))
     }
 
     fn measured(&self, radar: usize, scan: usize) -> Result<Vec<Echo>, SourceError> {
@@ -154,7 +141,6 @@ fn clear_the_way(scene: &mut Scene, ride: &Ride) {
         }
         let [x, y, heading] = thing.start;
         let (sin, cos) = heading.sin_cos();
-        // The nearest place of the body's outline to the vehicle's axis decides.
         for [own_x, own_y, own_heading] in &way {
             for along in [-behind, 0.0, ahead / 2.0, ahead] {
                 let [px, py] = [own_x + along * own_heading.cos() - x, own_y + along * own_heading.sin() - y];

@@ -1,5 +1,6 @@
 //! The line along which a place is built and driven through.
 
+use crate::path::on_arc;
 use crate::scenario::Leg;
 
 /// Between places that are kept, m.
@@ -33,9 +34,7 @@ impl Way {
     pub(super) fn circle(curvature: f64, length: f64) -> Self {
         let place = |step: usize| {
             let along = step as f64 * STEP - BEFORE;
-            let turned = along * curvature;
-            let chord = along * if turned.abs() < 1e-9 { 1.0 } else { (turned / 2.0).sin() / (turned / 2.0) };
-            [chord * (turned / 2.0).cos(), chord * (turned / 2.0).sin(), turned]
+            on_arc([0.0; 3], along, along * curvature)
         };
         Self { places: (0..((BEFORE + length) / STEP) as usize).map(place).collect() }
     }

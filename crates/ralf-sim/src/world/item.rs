@@ -3,6 +3,7 @@
 use super::reflector::{Reflector, Wall, reflectors, walls};
 use super::terrain::Terrain;
 use crate::kind::Kind;
+use crate::path::on_arc;
 use crate::random::Random;
 use crate::shape::Shape;
 use crate::site::{CROWN, TRUNK, bodies};
@@ -26,12 +27,7 @@ pub(super) struct Course {
 impl Course {
     /// x, y and yaw after so many seconds.
     fn at(&self, seconds: f64) -> [f64; 3] {
-        let [x, y, yaw] = self.start;
-        let half_turn = self.turn_rate * seconds / 2.0;
-        let chord =
-            self.speed * seconds * if half_turn.abs() < 1e-9 { 1.0 } else { half_turn.sin() / half_turn };
-        let (sin, cos) = (yaw + half_turn).sin_cos();
-        [x + chord * cos, y + chord * sin, yaw + 2.0 * half_turn]
+        on_arc(self.start, self.speed * seconds, self.turn_rate * seconds)
     }
 }
 

@@ -6,10 +6,8 @@ use super::sequence::WorldSequence;
 use crate::random::{Purpose, Random};
 use crate::scenario::ScenarioError;
 use crate::simulated::SimulatedSequence;
+use crate::spread::{names, spread};
 use std::sync::Arc;
-
-/// Scans of each radar in a sequence, where no number is given: some 3 s.
-const USUAL_SCANS: usize = 40;
 
 /// A world that a seed drew from a family or from parts of several, with its sequences.
 ///
@@ -40,14 +38,12 @@ impl Recording {
 
     /// The sequences' names: `00`, `01` and so on, four to six of them.
     pub fn names(&self) -> Vec<String> {
-        (0..self.count).map(|index| format!("{index:02}")).collect()
+        names(self.count)
     }
 
     /// So many scans of each radar, spread over the sequences; as many as is usual if none are given.
     pub fn spread(&self, scans: Option<usize>) -> Vec<usize> {
-        let all = scans.unwrap_or(USUAL_SCANS * self.count);
-        let share = |index: usize| all / self.count + usize::from(index < all % self.count);
-        (0..self.count).map(|index| share(index).max(1)).collect()
+        spread(scans, self.count)
     }
 
     /// A sequence of so many scans of each radar. What it is like doesn't depend on how long it is.

@@ -164,10 +164,7 @@ impl Moment<'_> {
 
 impl Moving {
     fn is_near(&self, ray: &Ray) -> bool {
-        let way = self.solid.center - ray.origin;
-        let along = way.dot(&ray.direction);
-        let aside = way.norm_squared() - along * along;
-        along > -self.radius && aside < self.radius * self.radius
+        ray.passes(&self.solid.center, self.radius)
     }
 }
 

@@ -10,7 +10,7 @@ use crate::camera;
 use crate::path::Path;
 use crate::random::{Purpose, Random};
 use crate::scenario::ScenarioError;
-use crate::simulation::{Simulation, time};
+use crate::simulation::{Last, Simulation, time};
 use crate::truth::Truth;
 use nalgebra::UnitQuaternion;
 use ralf::label::Cause;
@@ -20,7 +20,7 @@ use ralf::sensors::{
 };
 use ralf::space::{EgoMotion, Transform, Vector};
 use std::f64::consts::TAU;
-use std::sync::{Arc, Mutex, OnceLock};
+use std::sync::{Arc, OnceLock};
 
 /// Time of the start, ns.
 const START_NS: i64 = 1_700_000_000_000_000_000;
@@ -34,9 +34,6 @@ const STEP: f64 = 0.1;
 const ALONG: [f64; 4] = [-0.8, 0.7, 2.2, 3.6];
 const HALF_WIDTH: f64 = 1.15;
 
-/// Radar, scan and its detections.
-type Asked = (usize, usize, Arc<Vec<Detection>>);
-
 /// A sequence of a world.
 #[derive(Debug)]
 pub(super) struct WorldSequence {
@@ -47,8 +44,7 @@ pub(super) struct WorldSequence {
     waves: Waves,
     /// Where each pixel of each camera looks, once it is known.
     rays: Vec<OnceLock<camera::Rays>>,
-    /// What was asked for last: who writes a scan asks for its truth, too.
-    last: Mutex<Option<Asked>>,
+    last: Last<Detection>,
     /// Share of a LiDAR's rays that meet a drop.
     rain: f64,
     seed: u64,
@@ -123,7 +119,7 @@ impl WorldSequence {
             ride,
             waves,
             rays,
-            last: Mutex::new(None),
+            last: Last::default(),
             rain,
             seed,
         })
@@ -142,16 +138,7 @@ impl WorldSequence {
     }
 
     fn detections(&self, radar: usize, scan: usize) -> Result<Arc<Vec<Detection>>, SourceError> {
-        if let Ok(last) = self.last.lock()
-            && let Some((.., found)) = last.as_ref().filter(|last| (last.0, last.1) == (radar, scan))
-        {
-            return Ok(found.clone());
-        }
-        let found = Arc::new(self.measured(radar, scan)?);
-        if let Ok(mut last) = self.last.lock() {
-            *last = Some((radar, scan, found.clone()));
-        }
-        Ok(found)
+        self.last.or_made(radar, scan, || self.measured(radar, scan))
     }
 
     fn measured(&self, radar: usize, scan: usize) -> Result<Vec<Detection>, SourceError> {
