@@ -62,19 +62,27 @@ pub(crate) fn last_edit(on: &Connection, scan: i64, about: About) -> rusqlite::R
     found.map_or_else(|| on.query_row(nobody, [scan], conflict), Ok)
 }
 
-/// The last stroke that another author set on one of this stroke's detections since it was set or taken back
-/// itself. The author's own later ones are no conflict: they are taken back before it, and set again after it.
+/// The other strokes with a change to a detection that a stroke changed, or to a scan's mark that it changed.
+const MET: &str = "
+  SELECT scan, other.stroke FROM change AS own JOIN change AS other USING (scan, point)
+  WHERE own.stroke = ?1 AND other.stroke <> own.stroke
+  UNION ALL
+  SELECT scan, other.stroke FROM mark_change AS own JOIN mark_change AS other USING (scan)
+  WHERE own.stroke = ?1 AND other.stroke <> own.stroke";
+
+/// The last stroke that another author set on one of this stroke's detections, or on one of its marks, since it was set
+/// or taken back itself. What is there may be what the stroke left all the same: nothing, twice. The author's own later
+/// ones are no conflict: they are taken back before it, and set again after it.
 pub(crate) fn overtaken(
     on: &Connection,
     stroke: &Placed,
     author: &str,
 ) -> rusqlite::Result<Option<Conflict>> {
     let later = format!(
-        "SELECT {NAMED} FROM change AS own
-         JOIN change AS other ON other.scan = own.scan AND other.point = own.point AND other.stroke <> own.stroke
-         JOIN stroke ON stroke.id = other.stroke JOIN event ON event.id = stroke.applied
-         JOIN scan ON scan.id = own.scan JOIN author ON author.id = event.author
-         WHERE own.stroke = ?1 AND stroke.applied > ?2 AND stroke.author <> ?3
+        "SELECT {NAMED} FROM ({MET}) AS met
+         JOIN stroke ON stroke.id = met.stroke JOIN event ON event.id = stroke.applied
+         JOIN scan ON scan.id = met.scan JOIN author ON author.id = event.author
+         WHERE stroke.applied > ?2 AND stroke.author <> ?3
          ORDER BY stroke.applied DESC, stroke.id DESC LIMIT 1"
     );
     on.prepare_cached(&later)?.query_row(params![stroke.id, stroke.moved, author], conflict).optional()

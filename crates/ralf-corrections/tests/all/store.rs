@@ -132,6 +132,30 @@ fn a_mark_keeps_what_was_accepted_until_it_is_taken_away() {
     );
 }
 
+/// There is no mark after the second step, nor after the fourth: what is there does not tell which of them came last.
+#[test]
+fn a_mark_that_another_set_and_took_away_since_is_in_the_way() {
+    let folder = Folder::new();
+    let mut store = folder.open();
+    let mark = |reviewed| Mark { key: key(3), content: None, base: 0, machine: vec![99; 10], reviewed };
+    for (reviewed, author) in [(true, "ada"), (false, "bob"), (true, "ada"), (false, "ada")] {
+        done(store.mark(&mark(reviewed), &who(author)).unwrap());
+    }
+    let found = conflict(store.undo("00", &who("bob")).unwrap());
+    assert_eq!((found.author.as_str(), found.tool.as_str(), found.scan), ("ada", "unreviewed", 3));
+    drop(store);
+    let mut store = folder.open();
+    assert!(store.scan(&version(3)).unwrap().review.is_none());
+    for author in ["ada", "ada", "bob", "ada"] {
+        done(store.undo("00", &who(author)).unwrap());
+    }
+    done(store.mark(&mark(true), &who("bob")).unwrap());
+    done(store.mark(&mark(false), &who("bob")).unwrap());
+    assert_eq!(conflict(store.redo("00", &who("ada")).unwrap()).author, "bob");
+    drop(store);
+    folder.open();
+}
+
 #[test]
 fn what_makes_no_sense_is_refused() {
     let folder = Folder::new();

@@ -102,7 +102,7 @@ fn op() -> impl Strategy<Value = Op> {
     let stroke = (points, how, group, proptest::bool::weighted(0.1));
     prop_oneof![
         5 => stroke.prop_map(|(points, how, group, stale)| Op::Stroke { points, how, group, stale }),
-        1 => (0..2u32, any::<bool>()).prop_map(|(scan, reviewed)| Op::Mark { scan, reviewed }),
+        3 => (0..2u32, any::<bool>()).prop_map(|(scan, reviewed)| Op::Mark { scan, reviewed }),
         4 => Just(Op::Undo),
         3 => Just(Op::Redo),
         1 => Just(Op::Reopen),

@@ -197,9 +197,11 @@ impl Model {
     }
 }
 
-/// Whether two strokes are of different people and share a detection.
+/// Whether two strokes are of different people and share a detection, or the mark of a scan.
 fn meets(a: &Done, b: &Done) -> bool {
-    a.author != b.author && a.changes.keys().any(|place| b.changes.contains_key(place))
+    let marked = |done: &Done| done.mark.map(|(scan, _, _)| scan);
+    let shared = a.changes.keys().any(|place| b.changes.contains_key(place));
+    a.author != b.author && (shared || marked(a).is_some_and(|scan| marked(b) == Some(scan)))
 }
 
 fn set(values: &mut Values, stroke: &Done, to: impl Fn(&(Option<u16>, Option<u16>)) -> Option<u16>) {
