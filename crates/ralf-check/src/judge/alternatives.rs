@@ -13,6 +13,8 @@ const SHIFTS: [f64; 4] = [-1.0, -0.5, 0.5, 1.0];
 const FAR_TURN: f64 = 45.0;
 /// So far to either side of a place that is the right one much less fits, degrees.
 const FOOT: f64 = 10.0;
+/// So much later than a time that is the right one much less fits, or as much earlier, ms.
+const FOOT_MS: f64 = 300.0;
 
 /// Turns by which a sensor looks at something else, degrees.
 const ELSEWHERE: [f64; 6] = [-150.0, -90.0, -30.0, 30.0, 90.0, 150.0];
@@ -64,12 +66,18 @@ pub(super) fn best(
     beating.max_by(|a, b| a.1.share().total_cmp(&b.1.share()))
 }
 
-/// Whether a large turn, or left for right, fits better than with some degrees more to either side: among trees beside
-/// a road any does, and what lies on a lawn comes to lie in the wood on the other side.
+/// Whether a change fits better than more of it.
+///
+/// Of a large turn, or left for right, some degrees to either side: among trees beside a road any fits, and what lies
+/// on a lawn comes to lie in the wood on the other side. Of a clock farther away from the recorded time: between walls
+/// along the road the nearer a detection is brought to the LiDAR, the more points lie beside it.
 fn is_peak(change: &SensorChange, then: &Tally, tally: impl Fn(&SensorChange) -> Tally) -> bool {
-    let beats = |side: f64| tally(&change.and(&SensorChange::yaw(side))).is_beaten_by(then);
+    let beats = |more: SensorChange| tally(&change.and(&more)).is_beaten_by(then);
+    if change.clock_ms != 0.0 {
+        return beats(SensorChange::clock(FOOT_MS.copysign(change.clock_ms)));
+    }
     let is_near = change.turn_deg[2].abs() < FAR_TURN && !change.mirrored;
-    is_near || [-FOOT, FOOT].into_iter().all(beats)
+    is_near || [-FOOT, FOOT].into_iter().all(|side| beats(SensorChange::yaw(side)))
 }
 
 /// A change of one quantity made exact: the smooth score is climbed in steps that are halved until they matter no more.
@@ -121,6 +129,17 @@ mod tests {
         };
         assert_eq!(best_of(62.0), None, "as much of it at 80 and at 100 degrees");
         assert_eq!(best_of(30.0).map(|(change, _)| change), Some(SensorChange::yaw(90.0)));
+    }
+
+    #[test]
+    fn a_clock_is_a_peak_and_no_slope() {
+        let best_of = |share: fn(f64) -> f64| {
+            let tally = |change: &SensorChange| percent(share(change.clock_ms));
+            best(&percent(28.0), clocks(), gain_of_one, tally)
+        };
+        assert_eq!(best_of(|ms| 28.0 - ms / 30.0), None, "the earlier, the nearer to the LiDAR");
+        let peak = best_of(|ms| 40.0 - (ms + 200.0).abs() / 20.0);
+        assert_eq!(peak.map(|(change, _)| change), Some(SensorChange::clock(-200.0)));
     }
 
     #[test]
