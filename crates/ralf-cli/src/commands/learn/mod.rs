@@ -104,7 +104,7 @@ pub(crate) fn run(arguments: &LearnArgs) -> anyhow::Result<Outcome> {
     let mut outcome = arguments.gather(&gatherer, &settings, &mut table)?;
     let own = 0..table.worlds.len() as u16;
     if arguments.from.is_some() || arguments.worlds.are_asked() {
-        outcome = outcome.and(arguments.worlds.gather(&gatherer, &mut table)?);
+        outcome = outcome.and(arguments.worlds.gather(&gatherer, &stages, &mut table)?);
     }
     let table = table.without_groups(&arguments.without_groups);
     let fitting = arguments.fitting(config, jobs);

@@ -2,6 +2,7 @@
 
 use crate::commands::simulate::MOST_SCANS;
 use crate::outcome::Outcome;
+use crate::progress::Stages;
 use crate::run_summary::say_not_used;
 use clap::Args;
 use clap::builder::PossibleValuesParser;
@@ -67,12 +68,17 @@ impl WorldArgs {
     pub(super) fn gather(
         &self,
         gatherer: &TrainingGatherer,
+        stages: &Stages,
         table: &mut TrainingTable,
     ) -> anyhow::Result<Outcome> {
         let mut outcome = Outcome::Done;
-        for (name, worlds) in Worlds::all().filter(|(name, _)| !self.without.iter().any(|left| left == name))
-        {
+        let is_asked = |name: &&str| !self.without.iter().any(|left| left == name);
+        let families: Vec<_> = Worlds::all().filter(|(name, _)| is_asked(name)).collect();
+        let all = families.len() as u64 * self.seeds;
+        for (kind, (name, worlds)) in (0..).zip(families) {
             for seed in 0..self.seeds {
+                let world = kind * self.seeds + seed + 1;
+                stages.name_recording(&format!("{name} {seed}, world {world} of {all}"));
                 let recording = self.recording(worlds, seed)?;
                 let not_used = gatherer.add(table, Some(name), &recording, TrainingTruth::Known)?;
                 outcome = not_used.iter().map(say_not_used).fold(outcome, Outcome::and);

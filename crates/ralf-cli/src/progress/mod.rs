@@ -1,8 +1,12 @@
-//! How far the work has got: a bar with rate and remaining time where standard error is a terminal.
+//! How far the work has got: a bar with rate and remaining time where standard error is a terminal, and a line a minute
+//! where it is not.
+
+mod lines;
 
 use crate::spent::{Spent, Work};
 use crate::text::{grouped, tamed};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use lines::{Reached, is_due};
 use ralf_data::run::{Observer, Part, Stage};
 use std::io::Write;
 use std::sync::Mutex;
@@ -28,6 +32,8 @@ const BYTES: &str = "{prefix} [{bar:30}] {bytes}/{total_bytes}  {binary_bytes_pe
 /// One piece of work on the screen, until it is dropped.
 pub(crate) struct Progress {
     bar: ProgressBar,
+    /// Whether there is no terminal to draw it on, and nobody asked for quiet.
+    in_lines: bool,
 }
 
 impl Progress {
@@ -51,26 +57,38 @@ impl Progress {
     }
 
     fn shown(bar: ProgressBar) -> Self {
-        if QUIET.load(Ordering::Relaxed) {
+        let quiet = QUIET.load(Ordering::Relaxed);
+        let in_lines = bar.is_hidden() && !quiet;
+        if quiet {
             bar.set_draw_target(ProgressDrawTarget::hidden());
         }
-        Self { bar }
+        Self { bar, in_lines }
+    }
+
+    /// Says how far it is, where nobody sees the bar and a minute went by.
+    fn say_in_lines(&self) {
+        if self.in_lines && is_due() {
+            let (done, all) = (self.bar.position(), self.bar.length());
+            say(&Reached { name: &self.bar.prefix(), done, all, seconds: self.seconds() }.line());
+        }
     }
 
     /// So many steps are done.
     pub(crate) fn reached(&self, steps: u64) {
         self.bar.set_position(steps);
+        self.say_in_lines();
     }
 
     /// So many steps of so many are done.
     pub(crate) fn reached_of(&self, steps: u64, all: u64) {
         self.bar.set_length(all);
-        self.bar.set_position(steps);
+        self.reached(steps);
     }
 
     /// So many more steps are done.
     pub(crate) fn advance(&self, steps: u64) {
         self.bar.inc(steps);
+        self.say_in_lines();
     }
 
     /// What the work is at.
@@ -99,6 +117,8 @@ impl Drop for Progress {
 #[derive(Default)]
 pub(crate) struct Stages {
     current: Mutex<Option<Progress>>,
+    /// The recording that is worked on, where there are many.
+    within: Mutex<String>,
     detections: AtomicU64,
     /// Work whose end is told, since when.
     under_way: Mutex<Option<(Work, Instant)>>,
@@ -125,6 +145,13 @@ impl Stages {
         }
     }
 
+    /// Names the recording that is worked on from now on.
+    pub(crate) fn name_recording(&self, name: &str) {
+        if let Ok(mut within) = self.within.lock() {
+            *within = format!("{name}: ");
+        }
+    }
+
     fn show(&self, progress: Option<Progress>) {
         if let Ok(mut current) = self.current.lock() {
             *current = progress;
@@ -136,12 +163,14 @@ impl Observer for Stages {
     fn begin(&self, stage: Stage, steps: u64) {
         self.begin_work((stage == Stage::Inputs).then_some(Work::Hashing));
         self.detections.store(0, Ordering::Relaxed);
+        let within = self.within.lock().map(|within| within.clone()).unwrap_or_default();
+        let of_steps = |what: String| Progress::of_steps(steps, within + &what);
         self.show(Some(match stage {
             Stage::Inputs => Progress::with_template(steps, BYTES, "hashing inputs".into()),
-            Stage::Matching(sequence) => Progress::of_steps(steps, format!("matching {sequence}")),
-            Stage::Gathering(sequence) => Progress::of_steps(steps, format!("gathering {sequence}")),
-            Stage::Labelling(sequence) => Progress::of_steps(steps, format!("labelling {sequence}")),
-            Stage::Writing(sequence) => Progress::of_steps(steps, format!("writing {sequence}")),
+            Stage::Matching(sequence) => of_steps(format!("matching {sequence}")),
+            Stage::Gathering(sequence) => of_steps(format!("gathering {sequence}")),
+            Stage::Labelling(sequence) => of_steps(format!("labelling {sequence}")),
+            Stage::Writing(sequence) => of_steps(format!("writing {sequence}")),
         }));
     }
 
