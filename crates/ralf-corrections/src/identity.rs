@@ -1,30 +1,53 @@
 //! Whether the file that is open is still the one that lies there. A file that was deleted or replaced takes
-//! every edit, and nobody ever reads it again.
+//! every edit, and nobody ever reads it again; of one that was written over, half would be of the one, half of the
+//! other.
 
+use crate::alone::Held;
 use crate::error::StoreError;
 use ralf_files::database::log;
 use std::io;
 use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::thread::sleep;
+use std::time::{Duration, SystemTime};
+
+/// Another program may be writing its journal back: what is read meanwhile may be half of it.
+const TRIES: usize = 10;
+const BETWEEN_TRIES: Duration = Duration::from_millis(50);
 
 /// The files of an open store, as they were when it was opened.
 #[derive(Debug, Clone)]
 pub(crate) struct Identity {
     files: Vec<(PathBuf, FileId)>,
+    /// What the store's file held by itself when anybody looked into it last.
+    known: Arc<Mutex<Known>>,
 }
 
 type FileId = (u64, u64);
+
+/// A file's last change and length: while both are the same, nobody wrote to it.
+type Stamp = (Option<SystemTime>, u64);
+
+#[derive(Debug, Clone)]
+struct Known {
+    stamp: Stamp,
+    /// `None` where nothing could be told.
+    held: Option<Held>,
+}
 
 impl Identity {
     /// The store's file, and its journal, which lies there as long as anybody has the store open; some file
     /// systems know none.
     pub(crate) fn of_store(file: &Path) -> Result<Self, StoreError> {
-        let id = file_id(file).map_err(|_| StoreError::gone(file, "that it was deleted"))?;
+        let deleted = |_| StoreError::gone(file, "that it was deleted");
+        let id = file_id(file).map_err(deleted)?;
+        let known = Known { stamp: stamp(file).map_err(deleted)?, held: Held::alone(file) };
         let mut files = vec![(file.to_owned(), id)];
         let log = log(file);
         if let Ok(id) = file_id(&log) {
             files.push((log, id));
         }
-        Ok(Self { files })
+        Ok(Self { files, known: Arc::new(Mutex::new(known)) })
     }
 
     /// Refuses to go on where one of them is not there any more, or is another file.
@@ -39,8 +62,36 @@ impl Identity {
                 Err(error) => return Err(StoreError::gone(file, &error.to_string())),
             }
         }
-        Ok(())
+        self.files.first().map_or(Ok(()), |(file, _)| self.check_held(file))
     }
+
+    /// Refuses a file that holds another store than before, or less. Only journals that are written back change it.
+    fn check_held(&self, file: &Path) -> Result<(), StoreError> {
+        let mut known = self.known.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut found = None;
+        for _ in 0..TRIES {
+            let now = stamp(file).map_err(|error| StoreError::gone(file, &error.to_string()))?;
+            if now == known.stamp {
+                return Ok(());
+            }
+            found = Held::alone(file);
+            match (&known.held, &found) {
+                (Some(before), Some(held)) if !before.precedes(held) => sleep(BETWEEN_TRIES),
+                (Some(_), None) => sleep(BETWEEN_TRIES),
+                _ => {
+                    *known = Known { stamp: now, held: found };
+                    return Ok(());
+                }
+            }
+        }
+        // Of what can't be read the database itself tells.
+        let over = found.map(|_| "another store, or an older state of it, written over it");
+        over.map_or(Ok(()), |over| Err(StoreError::gone(file, over)))
+    }
+}
+
+fn stamp(file: &Path) -> io::Result<Stamp> {
+    file.metadata().map(|found| (found.modified().ok(), found.len()))
 }
 
 /// Device and number of a file.

@@ -20,8 +20,8 @@
 //!   of the tool [`SETTLE`] in the store that counts say which of both is right; what was said before them is
 //!   never lost ([`ScanLayer::before_settling`]), so that agreement can be told for ever.
 //! - **The file** is made and moved to its place whole. One that is empty, damaged or another program's is
-//!   refused; one that is deleted or replaced while it is open is noticed with the next question, and nothing
-//!   counts as saved any more.
+//!   refused, and so is one with another one's journal beside it; one that is deleted, replaced or written over
+//!   while it is open is noticed with the next question, and nothing counts as saved any more.
 //!
 //! What is said of a detection is, in this order: its correction; the label accepted when its scan was marked
 //! reviewed; nothing.
@@ -48,6 +48,7 @@
 //! # }
 //! ```
 
+mod alone;
 mod answered;
 mod apply;
 mod causes;

@@ -1,11 +1,12 @@
 //! Opening a file that has the tables, and making one.
 
+use crate::alone::{has_journal, or_the_journal, refuse_foreign_journal};
 use crate::causes;
 use crate::connect;
 use crate::error::{StoreError, WAIT_SECONDS, told};
 use crate::standing::check_standing;
 use crate::tables::{self, APPLICATION, FIRST_VERSION, VERSION};
-use ralf_files::database::{log, uri};
+use ralf_files::database::uri;
 use rusqlite::{Connection, ErrorCode, MAIN_DB};
 use std::fs;
 use std::io::ErrorKind;
@@ -23,10 +24,12 @@ pub(crate) fn open(file: &Path) -> Result<Connection, StoreError> {
         make(file)?;
     }
     refuse_empty(file)?;
+    if has_journal(file) {
+        // Who may write and goes away again has the journal in the file, whatever was refused.
+        check(&connect::for_reading(file, READ)?, file)?;
+    }
     let mut connection = connect::for_writing(file)?;
     let found = check(&connection, file)?;
-    check_pages(&connection, file)?;
-    check_standing(&connection, file, found)?;
     prepare(&connection).map_err(told(file))?;
     check_writable(&connection, file)?;
     if found == FIRST_VERSION {
@@ -95,8 +98,6 @@ pub(crate) fn open_read_only(file: &Path) -> Result<Connection, StoreError> {
     let connection = connect::for_reading(file, option)?;
     connection.busy_timeout(Duration::from_secs(WAIT_SECONDS)).map_err(told(file))?;
     let found = check(&connection, file)?;
-    check_pages(&connection, file)?;
-    check_standing(&connection, file, found)?;
     if found == VERSION { Ok(connection) } else { in_memory(&uri(file, option)).map_err(told(file)) }
 }
 
@@ -134,11 +135,6 @@ fn cannot_lay_files(error: &rusqlite::Error) -> bool {
     matches!(error.sqlite_error_code(), Some(ErrorCode::CannotOpen | ErrorCode::ReadOnly))
 }
 
-/// Whether there are edits that were not written back to the file itself.
-fn has_journal(file: &Path) -> bool {
-    log(file).metadata().is_ok_and(|journal| journal.len() > 0)
-}
-
 /// An empty file is no store: SQLite would take it for a new one, and what it held would be forgotten silently.
 fn refuse_empty(file: &Path) -> Result<(), StoreError> {
     let length = file.metadata().map_err(StoreError::io(file))?.len();
@@ -154,8 +150,17 @@ fn refuse_empty(file: &Path) -> Result<(), StoreError> {
     ))
 }
 
-/// Refuses other programs' databases, those of another version, and those with programs in them; returns the version.
+/// Refuses what is no store, and one that is damaged or lies below another one's journal; returns its version.
 fn check(connection: &Connection, file: &Path) -> Result<i32, StoreError> {
+    let found = check_kind(connection, file)?;
+    refuse_foreign_journal(connection, file)?;
+    let pages = check_pages(connection, file);
+    pages.and_then(|()| check_standing(connection, file, found)).map_err(or_the_journal(file))?;
+    Ok(found)
+}
+
+/// Refuses other programs' databases, those of another version, and those with programs in them; returns the version.
+fn check_kind(connection: &Connection, file: &Path) -> Result<i32, StoreError> {
     let application = tables::application(connection).map_err(told(file))?;
     if application != APPLICATION {
         let (expected, found) = (format!("{APPLICATION} (corrections)"), application.to_string());

@@ -1,14 +1,16 @@
 //! The open store, to be written to.
 
 use crate::conflict::Attempt;
-use crate::error::{StoreError, told};
+use crate::error::{StoreError, WAIT_SECONDS, told};
 use crate::identity::Identity;
 use crate::outcome::Outcome;
 use crate::reader::Reader;
 use crate::schema;
+use rusqlite::config::DbConfig;
 use rusqlite::{Connection, Transaction, TransactionBehavior};
 use std::ops::Deref;
 use std::path::Path;
+use std::time::Duration;
 
 /// The corrections of one output folder. Several programs may have it open at once. It is a [`Reader`], too.
 #[derive(Debug)]
@@ -19,6 +21,16 @@ impl Deref for Store {
 
     fn deref(&self) -> &Reader {
         &self.0
+    }
+}
+
+/// What is closed last writes its journal back, into whatever lies there.
+impl Drop for Store {
+    fn drop(&mut self) {
+        if self.0.check_there().is_err() {
+            let _journal_stays =
+                self.0.connection.set_db_config(DbConfig::SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, true);
+        }
     }
 }
 
@@ -47,14 +59,21 @@ impl Store {
         reader.check_there().map(|()| reader)
     }
 
-    /// Writes the journal back, so that the file alone holds everything. Where others read at the moment, as
-    /// far as they let.
+    /// Writes the journal back and empties it, so that the file alone holds everything, and what is put in its place is
+    /// what is read. Where others read at the moment, as far as they let.
     ///
     /// # Errors
-    /// A file that can't be written any more.
+    /// A file that can't be written any more, or is not the one that was opened.
     pub fn write_back(&self) -> Result<(), StoreError> {
-        let file = self.file();
-        self.0.connection.query_row("PRAGMA wal_checkpoint(PASSIVE)", [], |_| Ok(())).map_err(told(file))
+        self.0.check_there()?;
+        let (file, connection) = (self.file(), &self.0.connection);
+        // Nobody is waited for: who reads for long doesn't hold up those who edit.
+        connection.busy_timeout(Duration::ZERO).map_err(told(file))?;
+        let written = connection.query_row("PRAGMA wal_checkpoint(TRUNCATE)", [], |_| Ok(()));
+        connection.busy_timeout(Duration::from_secs(WAIT_SECONDS)).map_err(told(file))?;
+        written.map_err(told(file))?;
+        // What the file holds from now on is known, so that an older state is known for what it is.
+        self.0.check_there()
     }
 
     /// Writes all of it, or nothing where it is refused.

@@ -24,6 +24,8 @@ pub(crate) fn scan_id(on: &Connection, version: &ScanVersion) -> rusqlite::Resul
 /// Notes that something is done, with the time.
 pub(crate) fn log(on: &Connection, kind: &str, sequence: &str, who: &Who) -> rusqlite::Result<i64> {
     know_author(on, who)?;
+    // A journal holds the pages that changed: so it says whose it is (alone.rs).
+    on.prepare_cached("UPDATE store SET rowid = 3 - rowid")?.execute([])?;
     on.prepare_cached("INSERT INTO event (kind, sequence, author, tab) VALUES (?, ?, ?, ?)")?
         .execute(params![kind, sequence, who.author, who.tab])?;
     Ok(on.last_insert_rowid())

@@ -1,6 +1,7 @@
 //! What may happen to the file, and is noticed.
 
 mod damage;
+mod journal;
 mod versions;
 
 use ralf_corrections::{
