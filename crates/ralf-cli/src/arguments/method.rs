@@ -2,11 +2,15 @@
 
 use super::settings::SettingsArgs;
 use crate::outcome::UsageError;
+use crate::progress::say;
 use anyhow::Context;
 use clap::{Args, ValueEnum};
 use ralf::config::{Config, Method};
 use ralf::learned::Model;
 use std::path::PathBuf;
+
+const NO_BRANCH: &str = "warning: lidar.enabled, camera.enabled and tracking.enabled are all false: every detection is \
+                         an artifact";
 
 /// Who answers.
 #[derive(Debug, Args)]
@@ -29,7 +33,8 @@ enum TypedMethod {
 }
 
 impl MethodArgs {
-    /// Puts the method into the settings, which were resolved from these. Returns the model, where one is asked.
+    /// Puts the method into the settings, which were resolved from these, and warns where nothing is left to ask. Returns
+    /// the model, where one is asked.
     pub(crate) fn apply(
         &self,
         config: &mut Config,
@@ -50,6 +55,9 @@ impl MethodArgs {
             return Err(
                 UsageError(format!("--model: expected the method that asks a model: {wanted}")).into()
             );
+        }
+        if config.method == Method::Paper && !config.has_branch() {
+            say(NO_BRANCH);
         }
         ralf_data::many::model_of(config.method, self.model.as_deref()).context("--model")
     }

@@ -39,7 +39,7 @@ const WITH_NETWORKS: &str = match cfg!(feature = "depth") {
 Writes OUT/run.json, OUT/sequences/NAME/plausibility.parquet and a .label file per scan. Killed and started again \
 with the same arguments it goes on where it stopped. Sequences may be labelled into the same OUT one after the other; \
 those that were labelled before are left as they are. All results in OUT have the same settings: those of other \
-settings are removed, and this is said.
+settings are removed or made again, and this is said.
 
 Examples:
   ralf label recordings/city -o out

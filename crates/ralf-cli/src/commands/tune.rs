@@ -64,8 +64,8 @@ pub(crate) fn run(arguments: &TuneArgs) -> anyhow::Result<Outcome> {
 }
 
 /// Without a branch there is no plausibility, and whatever is tried is as good as anything else.
-fn refuse_no_branch(Config { lidar, camera, tracking, .. }: &Config) -> Result<(), UsageError> {
-    if lidar.enabled || camera.enabled || tracking.enabled {
+fn refuse_no_branch(config: &Config) -> Result<(), UsageError> {
+    if config.has_branch() {
         return Ok(());
     }
     let found = "lidar.enabled, camera.enabled and tracking.enabled are all false";

@@ -1,6 +1,6 @@
 //! Inputs are only read.
 
-use crate::support::{Dataset, Ran, Shape, as_nobody, nuscenes, ralf, tree};
+use crate::support::{Dataset, Ran, Shape, as_nobody, nuscenes, program, ralf, tree};
 use std::fs;
 use std::os::unix::fs::PermissionsExt;
 use std::path::Path;
@@ -84,6 +84,53 @@ fn what_is_somebody_elses_is_not_replaced() {
         ralf(["label", &dataset.path, "-o", &dataset.out]).exits(0);
         assert!(fs::read_to_string(&record).unwrap().starts_with("{\n  \"version\": "));
     }
+}
+
+fn run(arguments: &[&str]) -> Ran {
+    Ran::of(&program().args(arguments).output().unwrap())
+}
+
+#[test]
+fn labels_that_people_have_made_and_recordings_of_other_formats_take_no_labels() {
+    let dataset = Dataset::of(&Shape { scans: 2, ..Shape::default() });
+    let [made, foreign, lost] = ["made", "foreign", "lost"].map(|name| dataset.beside(name));
+    fs::create_dir_all(format!("{made}/sequences/00/radar_front")).unwrap();
+    let label = format!("{made}/sequences/00/radar_front/000000.label");
+    fs::write(&label, 99_u32.to_le_bytes()).unwrap();
+    nuscenes(Path::new(&foreign));
+    for (place, found) in [
+        (&made, format!("found {label} without a table, which would be lost")),
+        (&foreign, "found a recording of the format nuscenes".to_owned()),
+    ] {
+        let before = tree(place);
+        let refused = ralf(["label", &dataset.path, "-o", place]).exits(1).prints_nothing();
+        refused.ends_with_error([place.as_str(), &found]);
+        assert!(tree(place) == before, "{place}");
+    }
+    // Labels of ours whose record is lost are made again.
+    ralf(["label", &dataset.path, "-o", &lost]).exits(0);
+    fs::remove_file(format!("{lost}/run.json")).unwrap();
+    ralf(["label", &dataset.path, "-o", &lost]).exits(0);
+}
+
+#[test]
+fn nothing_is_written_among_the_sequences_of_a_recording() {
+    let dataset = Dataset::of(&Shape { scans: 2, ..Shape::default() });
+    let other = Dataset::of(&Shape { scans: 1, ..Shape::default() });
+    let before = tree(&other.path);
+    for place in ["sequences", "sequences/05", "sequences/00/radar_front/out"] {
+        let place = format!("{}/{place}", other.path);
+        for command in [
+            &["label", &dataset.path, "-o", &place][..],
+            &["convert", &dataset.path, "-o", &place],
+            &["simulate", "--preset", "tiny", "--scans", "1", "-o", &place],
+        ] {
+            let refused = run(command).exits(1).prints_nothing();
+            refused.ends_with_error([place.as_str(), "expected a place outside recordings, found a part of"]);
+        }
+        assert!(tree(&other.path) == before, "{place}");
+    }
+    ralf(["label", &dataset.path, "-o", &format!("{}/out", other.path)]).exits(0);
 }
 
 #[test]

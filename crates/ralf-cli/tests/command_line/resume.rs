@@ -155,8 +155,30 @@ fn finished_labels_of_a_killed_run_that_other_settings_remove_are_named() {
     killed_before_the_record(&dataset);
     let other = ["--sequence", "01", "--set", "fusion.threshold=0.9"];
     let ran = ralf(["label", &dataset.path, "-o", &dataset.out, other[0], other[1], other[2], other[3]]);
-    let ran = ran.exits(0).says(["removed, for they were made by another version", "settings: 00"]);
-    assert!(!ran.stderr.contains("01"), "{}", ran.stderr);
+    let ran = ran.exits(0).says(["removed, for they were made by another version"]);
+    let lines: Vec<&str> = ran.stderr.lines().filter(|line| line.contains("another version")).collect();
+    assert!(lines[0].ends_with("settings: 00") && lines[1].ends_with("settings: 01"), "{}", ran.stderr);
+    assert!(lines[1].starts_with("labelled again, for they were made by another version"), "{}", ran.stderr);
+}
+
+#[test]
+fn labels_of_other_settings_or_inputs_that_are_made_again_are_named() {
+    let dataset = Dataset::of(&Shape { scans: 2, sequences: &["00", "01"], ..Shape::default() });
+    let other = Dataset::of(&Shape { scans: 3, sequences: &["00"], ..Shape::default() });
+    ralf(["label", &dataset.path, "-o", &dataset.out]).exits(0).says_nothing();
+    let ran = ralf(["label", &dataset.path, "-o", &dataset.out, "--set", "fusion.threshold=0.9"]);
+    ran.exits(0).says(["labelled again, for they were made by another version", "settings: 00, 01"]);
+    let ran = ralf(["label", &other.path, "-o", &dataset.out, "--set", "fusion.threshold=0.9"]);
+    ran.exits(0).says(["sequence 00 is labelled again: it is read from other inputs than before"]);
+}
+
+#[test]
+fn without_a_branch_it_is_said_that_all_are_artifacts() {
+    let dataset = Dataset::of(&Shape { scans: 2, ..Shape::default() });
+    let off = ["lidar", "camera", "tracking"].map(|branch| format!("{branch}.enabled=false"));
+    let off = off.iter().flat_map(|setting| ["--set", setting]);
+    let ran = program().args(["label", &dataset.path, "-o", &dataset.out]).args(off).output().unwrap();
+    Ran::of(&ran).exits(0).says(["are all false: every detection is an artifact"]);
 }
 
 #[test]
@@ -186,11 +208,11 @@ fn other_settings_replace_everything() {
     let dataset = Dataset::new();
     let fresh = dataset.beside("fresh");
     ralf(["label", "--no-check", &dataset.path, "-o", &dataset.out]).exits(0);
-    for out in [&dataset.out, &fresh] {
-        ralf(["label", "--no-check", &dataset.path, "-o", out, "--set", "fusion.threshold=0.9"])
-            .exits(0)
-            .says_nothing();
-    }
+    let label = |out| {
+        ralf(["label", "--no-check", &dataset.path, "-o", out, "--set", "fusion.threshold=0.9"]).exits(0)
+    };
+    label(&dataset.out).says(["labelled again, for they were made by another version", "settings: 00"]);
+    label(&fresh).says_nothing();
     assert!(without_timings(&dataset.out) == without_timings(&fresh));
 }
 
@@ -236,7 +258,8 @@ fn labels_of_another_build_are_made_again() {
     fs::write(&file, record.to_string()).unwrap();
     let table = dataset.result("plausibility.parquet");
     let written = fs::metadata(&table).unwrap().modified().unwrap();
-    ralf(["label", &dataset.path, "-o", &dataset.out]).exits(0).says_nothing();
+    let told = "labelled again, for they were made by another version";
+    ralf(["label", &dataset.path, "-o", &dataset.out]).exits(0).says([told]);
     assert_ne!(fs::metadata(&table).unwrap().modified().unwrap(), written, "nothing was done");
     assert!(without_timings(&dataset.out) == whole);
 }

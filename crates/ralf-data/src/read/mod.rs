@@ -16,7 +16,7 @@ pub(crate) mod models;
 mod nuscenes;
 mod nvidia;
 pub(crate) mod open;
-mod outside;
+pub(crate) mod outside;
 mod point_times;
 mod radar_ghost;
 mod radar_scenes;

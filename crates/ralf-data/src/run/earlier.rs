@@ -3,9 +3,8 @@
 use crate::result::UnreadableScan;
 use std::path::PathBuf;
 
-/// Of results that are gone.
-const REMOVED: &str = "removed, for they were made by another version, of a recording of another format or with other \
-                       settings";
+/// Why results are gone.
+const OTHERS: &str = "made by another version, of a recording of another format or with other settings";
 
 /// What became of the results that lay in the output folder, by sequence.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
@@ -15,6 +14,11 @@ pub struct Earlier {
     pub removed: Vec<String>,
     /// The same of labels that a run has made which isn't over: of some scans, maybe not of all.
     pub unfinished: Vec<String>,
+    /// The labels of these are gone for the reason of [`removed`](Self::removed), and the run that found them has
+    /// labelled the sequences again.
+    pub replaced: Vec<String>,
+    /// They are to be labelled again, for what they are read from is not what it was.
+    pub changed: Vec<String>,
     /// They are to be labelled again, for this file, the first such, is not as it was written.
     pub damaged: Vec<(String, PathBuf)>,
     /// They are to be labelled again, for they were labelled without this, which can be read now or can't for another
@@ -32,8 +36,15 @@ impl Earlier {
     /// [`PLANNED`](Self::PLANNED).
     pub fn told(&self, again: &str) -> Vec<String> {
         let gone = |what: &str, names: &[String]| {
-            (!names.is_empty()).then(|| format!("{REMOVED}: {what}{}", names.join(", ")))
+            (!names.is_empty())
+                .then(|| format!("removed, for they were {OTHERS}: {what}{}", names.join(", ")))
         };
+        let replaced = (!self.replaced.is_empty())
+            .then(|| format!("labelled again, for they were {OTHERS}: {}", self.replaced.join(", ")));
+        let changed = self
+            .changed
+            .iter()
+            .map(|sequence| format!("sequence {sequence} {again}: it is read from other inputs than before"));
         let damaged = self.damaged.iter().map(|(sequence, file)| {
             format!("sequence {sequence} {again}: {} is not as it was written", file.display())
         });
@@ -44,7 +55,8 @@ impl Earlier {
             )
         });
         let unfinished = gone("what was labelled so far of ", &self.unfinished);
-        gone("", &self.removed).into_iter().chain(unfinished).chain(damaged).chain(without).collect()
+        let gone = gone("", &self.removed).into_iter().chain(unfinished).chain(replaced);
+        gone.chain(changed).chain(damaged).chain(without).collect()
     }
 
     /// What is gone, too; each is named once.
@@ -58,11 +70,11 @@ impl Earlier {
         self.unfinished.retain(|name| !self.removed.contains(name));
     }
 
-    /// Without the sequences of these names among those that are gone: they are labelled at once.
-    pub(super) fn without_removed(mut self, names: &[String]) -> Self {
-        for gone in [&mut self.removed, &mut self.unfinished] {
-            gone.retain(|name| !names.contains(name));
-        }
+    /// The same where the sequences of these names are labelled at once.
+    pub(super) fn and_labelled(mut self, names: &[String]) -> Self {
+        let is_labelled = |name: &mut String| names.contains(name);
+        self.replaced.extend(self.removed.extract_if(.., is_labelled));
+        self.unfinished.retain(|name| !names.contains(name));
         self
     }
 }

@@ -163,7 +163,7 @@ impl LabelRun<'_> {
         let checks = if told.is_some() { &checks } else { self.checks };
         let labelled = finished.iter().map(|(sequence, _)| sequence.name.clone()).collect();
         let timings = Timings { seconds: begun.elapsed().as_secs_f64(), jobs: self.jobs };
-        let earlier = folder.earlier().clone().without_removed(&names);
+        let earlier = folder.earlier().clone().and_labelled(&names);
         let mut record = folder.finish(finished, timings, checks)?;
         record.retain(|sequence| names.contains(&sequence.name));
         Ok(Outcome { record, labelled, earlier })

@@ -118,7 +118,10 @@ impl OutputFolder {
         let mut outdated = Vec::new();
         for sequence in &self.record.sequences {
             let Some(asked) = asked.iter().find(|asked| asked.name == sequence.name) else { continue };
-            if !asked.is_told || asked.fingerprint != sequence.fingerprint {
+            if !asked.is_told {
+                outdated.push(sequence.clone());
+            } else if asked.fingerprint != sequence.fingerprint {
+                self.earlier.changed.push(sequence.name.clone());
                 outdated.push(sequence.clone());
             } else if let Some(file) = damaged_result(self.results.places(), sequence)? {
                 self.earlier.damaged.push((sequence.name.clone(), file));

@@ -2,15 +2,16 @@
 
 use crate::disk::files;
 use crate::error::DataError;
-use crate::read::refuse_to_write_into;
+use crate::read::open::recognised;
+use crate::read::{layout, refuse_to_write_into};
 use crate::result::{OutFolder, is_under_way};
-use crate::tree::{RECORD, SEQUENCES, TABLE, sensors_file, sequence_folder};
+use crate::tree::{LABELS, RECORD, SEQUENCES, TABLE, sensors_file, sequence_folder};
 use serde::Deserialize;
 use serde::de::IgnoredAny;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
-/// Refuses a part of the recording, any other recording, a file in the place of the folder or of the sequences' own,
-/// and what is no file, or somebody else's, in that of the record.
+/// Refuses a part of a recording, any other recording, a file in the place of the folder or of the sequences' own, what
+/// is no file, or somebody else's, in that of the record, and labels that no run has made.
 pub fn check_output_folder(recording: &Path, out: &Path) -> Result<(), DataError> {
     refuse_to_write_into(recording, out)?;
     let place = OutFolder::new(out);
@@ -29,13 +30,16 @@ pub fn check_output_folder(recording: &Path, out: &Path) -> Result<(), DataError
 
 /// Labels among measurements would be taken for a part of them.
 fn refuse_recording(out: &Path) -> Result<(), DataError> {
+    let refuse =
+        |found: String| Err(DataError::content(out, "output", "a folder of labels, or nothing yet", found));
     let sequences = files::folders(&out.join(SEQUENCES))?;
-    match sequences.iter().map(|name| sensors_file(out, name)).find(|file| file.is_file()) {
-        None => Ok(()),
-        Some(file) => {
-            let found = format!("a recording, with {}", file.display());
-            Err(DataError::content(out, "output", "a folder of labels, or nothing yet", found))
-        }
+    if let Some(file) = sequences.iter().map(|name| sensors_file(out, name)).find(|file| file.is_file()) {
+        return refuse(format!("a recording, with {}", file.display()));
+    }
+    match recognised(out) {
+        // What has `sequences` looks like one in the own layout.
+        Some((format, _)) if format != layout::NAME => refuse(format!("a recording of the format {format}")),
+        _ => Ok(()),
     }
 }
 
@@ -54,7 +58,7 @@ struct Marks {
 /// results beside it.
 fn refuse_other_record(out: &Path, record: &Path) -> Result<(), DataError> {
     if !record.is_file() {
-        return Ok(());
+        return refuse_other_labels(out);
     }
     let marks = serde_json::from_slice::<Marks>(&files::read(record)?);
     let is_ours = match marks {
@@ -66,6 +70,44 @@ fn refuse_other_record(out: &Path, record: &Path) -> Result<(), DataError> {
     }
     let expected = "a record of `ralf label`, or nothing yet";
     Err(DataError::content(record, "output", expected, "another file, which would be lost"))
+}
+
+/// Refuses labels without a table: people make such, too, and ours have one, though their record may be lost.
+fn refuse_other_labels(out: &Path) -> Result<(), DataError> {
+    if is_under_way(out)? {
+        return Ok(());
+    }
+    for sequence in real_folders(&out.join(SEQUENCES))? {
+        if let Some(file) = labels_alone(&sequence)? {
+            let expected = "labels of `ralf label`, or nothing yet";
+            let found = format!("{} without a table, which would be lost", file.display());
+            return Err(DataError::content(out, "output", expected, found));
+        }
+    }
+    Ok(())
+}
+
+/// The first labels in a sequence's folder that has no table.
+fn labels_alone(sequence: &Path) -> Result<Option<PathBuf>, DataError> {
+    if sequence.join(TABLE).is_file() {
+        return Ok(None);
+    }
+    for radar in real_folders(sequence)? {
+        let mut files = files::names(&radar)?.into_iter().map(|name| radar.join(name));
+        if let Some(file) = files.find(|file| file.extension().is_some_and(|ending| ending == LABELS)) {
+            return Ok(Some(file));
+        }
+    }
+    Ok(None)
+}
+
+/// The folders in a folder, links left out: who would write through one is refused.
+fn real_folders(folder: &Path) -> Result<Vec<PathBuf>, DataError> {
+    if folder.is_symlink() {
+        return Ok(Vec::new());
+    }
+    let folders = files::folders(folder)?.into_iter().map(|name| folder.join(name));
+    Ok(folders.filter(|folder| !folder.is_symlink()).collect())
 }
 
 fn has_results(out: &Path) -> Result<bool, DataError> {

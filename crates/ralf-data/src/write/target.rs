@@ -4,6 +4,7 @@ use crate::disk::files;
 use crate::error::DataError;
 use crate::read::layout;
 use crate::read::open::recognised;
+use crate::read::outside::refuse_among_sequences;
 use crate::tree::{RECORD, UNFINISHED};
 use std::path::Path;
 
@@ -11,13 +12,14 @@ use std::path::Path;
 /// these are asked for first.
 const MARKS_OF_LABELS: [&str; 3] = [RECORD, UNFINISHED, ralf_corrections::FILE];
 
-/// Refuses a folder of labels, and what is a recording of another format than the own layout: with `sequences` in it,
-/// it would be taken for one in the own layout.
+/// Refuses a part of a recording, a folder of labels, and what is a recording of another format than the own layout:
+/// with `sequences` in it, it would be taken for one in the own layout.
 pub(super) fn refuse_other_folder(dataset: &Path) -> Result<(), DataError> {
     let refuse = |found: String| {
         let expected = "a recording in the own layout, or nothing yet";
         Err(DataError::content(dataset, "output", expected, found))
     };
+    refuse_among_sequences(dataset)?;
     for mark in MARKS_OF_LABELS {
         if files::exists(&dataset.join(mark))? {
             return refuse(format!("labels, with {mark}"));

@@ -58,6 +58,12 @@ impl Config {
         page::check(self)
     }
 
+    /// Whether the LiDAR, the cameras or tracking are asked: without any of them the paper's method calls every
+    /// detection an artifact.
+    pub fn has_branch(&self) -> bool {
+        self.lidar.enabled || self.camera.enabled || self.tracking.enabled
+    }
+
     /// All settings as TOML.
     pub fn to_toml(&self) -> Result<String, ConfigError> {
         toml::to_string(self).map_err(|error| ConfigError::Parse(error.to_string()))

@@ -78,7 +78,7 @@ impl WorldArgs {
         for (kind, (name, worlds)) in (0..).zip(families) {
             for seed in 0..self.seeds {
                 let world = kind * self.seeds + seed + 1;
-                stages.name_recording(&format!("{name} {seed}, world {world} of {all}"));
+                stages.name_recording(&format!("world {world} of {all}"));
                 let recording = self.recording(worlds, seed)?;
                 let not_used = gatherer.add(table, Some(name), &recording, TrainingTruth::Known)?;
                 outcome = not_used.iter().map(say_not_used).fold(outcome, Outcome::and);
