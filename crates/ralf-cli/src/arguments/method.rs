@@ -33,8 +33,8 @@ enum TypedMethod {
 }
 
 impl MethodArgs {
-    /// Puts the method into the settings, which were resolved from these, and warns where nothing is left to ask. Returns
-    /// the model, where one is asked.
+    /// Puts the method into the settings, which were resolved from these, and warns where nothing is left to ask.
+    /// Returns the model, where one is asked.
     pub(crate) fn apply(
         &self,
         config: &mut Config,
