@@ -43,9 +43,10 @@ pub(crate) fn has_journal(file: &Path) -> bool {
 
 /// Refuses a file whose journal is another store's, or was begun before what the file holds. `on` reads both.
 pub(crate) fn refuse_foreign_journal(on: &Connection, file: &Path) -> Result<(), StoreError> {
-    // Of what can't be read, whoever asks next tells.
+    // The file first: who edits meanwhile adds to what both hold. Of what can't be read, whoever asks next tells.
+    let alone = Held::alone(file);
     let both = Held::of(on).ok().flatten();
-    match both.zip(Held::alone(file)) {
+    match both.zip(alone) {
         Some((both, alone)) if !alone.precedes(&both) => {
             let expected = format!("that of store {}, of which the file is", alone.store);
             let found = format!("one of store {} up to edit {}{}", both.store, both.event, remedy(file));

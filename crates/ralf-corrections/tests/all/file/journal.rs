@@ -128,3 +128,23 @@ fn what_another_program_writes_back_is_no_replacement() {
     assert_eq!(here.summaries("00").unwrap().len(), 20);
     assert_eq!(here.scan(&version(19, hash(1))).unwrap().corrections.len(), 2);
 }
+
+/// Who opens a store sees the file, and then the journal; somebody writes to both meanwhile.
+#[test]
+fn who_opens_a_store_while_another_writes_back_is_never_refused() {
+    let folder = Folder::new();
+    let mut store = Store::open(&folder.file).unwrap();
+    std::thread::scope(|scope| {
+        let file = &folder.file;
+        let reading = scope.spawn(move || {
+            (0..60).for_each(|_| drop(read_layer(file).unwrap()));
+        });
+        let mut scan = 0;
+        while !reading.is_finished() {
+            apply(&mut store, scan).unwrap();
+            store.write_back().unwrap();
+            scan += 1;
+        }
+        reading.join().unwrap();
+    });
+}
