@@ -51,7 +51,9 @@ pub use judge::{Balance, Balances, Comparison};
 pub use mismatches::{SequenceMismatches, gather_mismatches};
 pub use not_used::NotUsed;
 pub use ralf_corrections::ContentHash;
-pub use read::{LayoutSequence, Recording, SequenceReader, TruthLabels, formats, open, open_with};
+pub use read::{
+    LayoutSequence, Recording, SequenceReader, TruthLabels, formats, open, open_selected, open_with,
+};
 pub use result::program;
 pub use settings::Settings;
 pub use training::{TrainingGatherer, TrainingTruth};

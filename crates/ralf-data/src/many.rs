@@ -11,7 +11,7 @@ pub use tasks::{read_task, write_tasks};
 
 use crate::disk::files;
 use crate::error::DataError;
-use crate::read::{Recording, open_with};
+use crate::read::{Recording, open_selected};
 use crate::result::Component;
 use crate::result::json::{read_json, write_json};
 use crate::run::{
@@ -104,8 +104,9 @@ impl Job {
     /// # Errors
     /// What can't be read, and sequences that aren't there.
     pub fn open(&self) -> Result<Recording, DataError> {
-        let recording = open_with(&self.recording, self.format.as_deref(), &self.settings.topics)?;
-        let recording = self.settings.correct(recording.select(&self.sequences)?)?;
+        let (format, topics) = (self.format.as_deref(), &self.settings.topics);
+        let recording = open_selected(&self.recording, format, topics, &self.sequences)?;
+        let recording = self.settings.correct(recording)?;
         with_stored(recording, self.depth.as_deref(), self.segmentation.as_deref())
     }
 

@@ -4,7 +4,7 @@ use crate::errors::{data, other};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 use ralf_data::result::LabelledRun;
-use ralf_data::{DataError, open_with};
+use ralf_data::{DataError, open_selected};
 use ralf_plot::Extent;
 use ralf_report::{Detections, Pictures, ReportError};
 use std::path::{Path, PathBuf};
@@ -41,8 +41,8 @@ pub(crate) fn plot<'py>(
 fn draw(out: &Path, recording: &Path, sequence: String, wish: &Wish<'_>) -> PyResult<(Vec<u8>, Vec<String>)> {
     let open = || {
         let run = LabelledRun::open(out)?;
-        let recording = open_with(recording, None, &run.settings().topics)?;
-        let recording = run.settings().correct(recording.select(&[sequence])?)?;
+        let recording = open_selected(recording, None, &run.settings().topics, &[sequence])?;
+        let recording = run.settings().correct(recording)?;
         run.refuse_changes(&recording)?;
         Ok::<_, DataError>((run, recording))
     };

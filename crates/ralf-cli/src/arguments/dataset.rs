@@ -10,7 +10,7 @@ use ralf_data::read::Incomplete;
 use ralf_data::read::inspection::held_motion;
 use ralf_data::read::ros::Topics;
 use ralf_data::result::LabelledRun;
-use ralf_data::{Recording, SequenceReader, Settings};
+use ralf_data::{Recording, SequenceReader, Settings, open_selected};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
@@ -73,8 +73,8 @@ impl DatasetArgs {
     }
 
     fn read(&self, topics: &Topics) -> anyhow::Result<Recording> {
-        let recording = ralf_data::open_with(&self.dataset, self.format.as_deref(), topics)?;
-        Ok(if self.sequences.is_empty() { copied(recording) } else { recording.select(&self.sequences)? })
+        let recording = open_selected(&self.dataset, self.format.as_deref(), topics, &self.sequences)?;
+        Ok(if self.sequences.is_empty() { copied(recording) } else { recording })
     }
 }
 

@@ -99,6 +99,19 @@ fn a_sequence_that_changed_leaves_the_others_alone() {
 }
 
 #[test]
+fn a_damaged_sequence_is_in_nobodys_way_who_asks_for_another() {
+    let dataset = two();
+    let odometry = format!("{}/sequences/01/odometry.csv", dataset.path);
+    fs::write(&odometry, "no odometry").unwrap();
+    let told = |command: &str| ralf([command, &dataset.path, "--sequence", "01"]).exits(1).says([&odometry]);
+    told("inspect");
+    told("check");
+    ralf(["inspect", &dataset.path]).exits(1).says([&odometry]);
+    ralf(["inspect", &dataset.path, "--sequence", "00"]).exits(0);
+    ralf(["label", &dataset.path, "-o", &dataset.out, "--sequence", "00"]).exits(0);
+}
+
+#[test]
 fn only_scans_of_what_is_asked_for_count_as_not_labelled() {
     let dataset = two();
     dataset.cut("radar_front/000003.bin", 1);

@@ -36,6 +36,6 @@ pub use corrections::{MotionSettings, MotionSource, SensorCorrection};
 pub use incomplete::Incomplete;
 pub use layout::{LayoutSequence, rig_from_json};
 pub use meanings::{Meanings, meanings};
-pub use open::{formats, open, open_with};
+pub use open::{formats, open, open_selected, open_with};
 pub use outside::refuse_to_write_into;
 pub use recording::{Recording, SequenceReader, TruthLabels};

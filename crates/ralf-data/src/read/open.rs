@@ -20,8 +20,9 @@ struct Format {
     knows_truth: bool,
     /// Whether it is one.
     recognises: fn(&Path) -> bool,
-    /// Reads it. The topics are of those formats that have some.
-    open: fn(&Path, &Topics) -> Result<Recording, DataError>,
+    /// Reads it. The topics are of those formats that have some. Of the sequences those of these names are wanted, all
+    /// where none is named; a format may open others, too.
+    open: fn(&Path, &Topics, &[String]) -> Result<Recording, DataError>,
 }
 
 /// In the order in which they are tried.
@@ -31,70 +32,70 @@ const FORMATS: [Format; 10] = [
         holds: "the lists `trainval-sequences-*.json` or `trainval-drives-*.json`",
         knows_truth: false,
         recognises: zod::recognises,
-        open: |path, _| zod::open(path),
+        open: |path, _, _| zod::open(path),
     },
     Format {
         name: layout::NAME,
         holds: "the folder `sequences`",
         knows_truth: false,
         recognises: |path| path.join(SEQUENCES).is_dir(),
-        open: |path, _| layout::open(path),
+        open: |path, _, names| layout::open(path, names),
     },
     Format {
         name: truckscenes::NAME,
         holds: "a folder `v1.2-*` (or an earlier version) with `ego_motion_chassis.json`",
         knows_truth: false,
         recognises: truckscenes::recognises,
-        open: |path, _| truckscenes::open(path),
+        open: |path, _, _| truckscenes::open(path),
     },
     Format {
         name: nuscenes::NAME,
         holds: "a folder `v1.0-*` with `sample_data.json`",
         knows_truth: false,
         recognises: nuscenes::recognises,
-        open: |path, _| nuscenes::open(path),
+        open: |path, _, _| nuscenes::open(path),
     },
     Format {
         name: view_of_delft::NAME,
         holds: "the folders `radar/training/velodyne` and `radar/training/calib`",
         knows_truth: false,
         recognises: view_of_delft::recognises,
-        open: |path, _| view_of_delft::open(path),
+        open: |path, _, _| view_of_delft::open(path),
     },
     Format {
         name: aimotive::NAME,
         holds: "a sequence's `sensor/calibration/calibration.json` and `sensor/radar`, or folders of such sequences",
         knows_truth: false,
         recognises: aimotive::recognises,
-        open: |path, _| aimotive::open(path),
+        open: |path, _, _| aimotive::open(path),
     },
     Format {
         name: radar_ghost::NAME,
         holds: "HDF5 files `scenario-*.h5`, or the folders `original` or `virtual` with such files",
         knows_truth: true,
         recognises: radar_ghost::recognises,
-        open: |path, _| radar_ghost::open(path),
+        open: |path, _, _| radar_ghost::open(path),
     },
     Format {
         name: radar_scenes::NAME,
         holds: "folders with `radar_data.h5` and `scenes.json`",
         knows_truth: true,
         recognises: radar_scenes::recognises,
-        open: |path, _| radar_scenes::open(path),
+        open: |path, _, _| radar_scenes::open(path),
     },
     Format {
         name: nvidia::NAME,
         holds: "radars' tables `radar/NAME/CLIP.NAME.parquet`, or folders of clips with such",
         knows_truth: false,
         recognises: nvidia::recognises,
-        open: |path, _| nvidia::open(path),
+        open: |path, _, _| nvidia::open(path),
     },
     Format {
         name: ros::NAME,
         holds: "a ROS 1 bag, an MCAP file, an SQLite file of ROS 2, or a folder with `metadata.yaml`",
         knows_truth: false,
         recognises: ralf_ros::container::recognises,
-        open: ros::open,
+        open: |path, topics, _| ros::open(path, topics),
     },
 ];
 
@@ -120,6 +121,19 @@ pub fn open(path: &Path, format: Option<&str>) -> Result<Recording, DataError> {
 /// Opens a recording as [`open`] does, where these topics of a ROS recording are its sensors; a first guess is made
 /// where there are none.
 pub fn open_with(path: &Path, format: Option<&str>, topics: &Topics) -> Result<Recording, DataError> {
+    open_selected(path, format, topics, &[])
+}
+
+/// Opens the sequences of these names of a recording, all where none is named. In the own layout others may be damaged.
+///
+/// # Errors
+/// Those of [`open`]; a name that no sequence has.
+pub fn open_selected(
+    path: &Path,
+    format: Option<&str>,
+    topics: &Topics,
+    names: &[String],
+) -> Result<Recording, DataError> {
     let expected = "the folder or the file of a recording";
     fs::metadata(path).map_err(|error| DataError::io(path)(ralf_files::absent(error, expected)))?;
     let found = match format {
@@ -137,7 +151,7 @@ pub fn open_with(path: &Path, format: Option<&str>, topics: &Topics) -> Result<R
             DataError::content(path, "content", expected, "none of them")
         }),
     }?;
-    (found.open)(path, topics)
+    (found.open)(path, topics, names)?.select(names)
 }
 
 /// The format that a folder or file is recognised as, and whether its readers know the truth of detections.

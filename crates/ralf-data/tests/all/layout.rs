@@ -2,6 +2,7 @@
 
 use crate::dataset::{SEQUENCE_TOML, floats, tiny, write};
 use ralf::sensors::{DepthOutput, Intrinsics, Source};
+use ralf_data::read::ros::Topics;
 use ralf_data::{LayoutSequence, SequenceReader, has_sequence, write_sequence};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -141,6 +142,21 @@ fn wanted_sequences_are_kept_and_unknown_ones_are_named() {
     assert_eq!(names(&["01", "00"]).unwrap(), ["00", "01"]);
     assert_eq!(names(&[]).unwrap(), ["00", "01"]);
     assert_eq!(names(&["07"]).unwrap_err(), "no sequence `07` in the recording, which holds 00, 01");
+}
+
+#[test]
+fn a_damaged_sequence_is_in_nobodys_way_who_asks_for_another() {
+    let (folder, _) = tiny();
+    fs::write(folder.path().join("sequences/00/sequence.toml"), "format = ").unwrap();
+    let open = |wanted: &[&str]| {
+        let wanted: Vec<String> = wanted.iter().map(|name| (*name).to_owned()).collect();
+        let opened = ralf_data::open_selected(folder.path(), None, &Topics::new(), &wanted);
+        opened.map(|opened| opened.sequences.len()).map_err(|error| error.to_string())
+    };
+    assert_eq!(open(&["01"]), Ok(1));
+    for wanted in [&["00"][..], &["01", "00"], &["07"], &[]] {
+        assert!(open(wanted).unwrap_err().contains("sequences/00/sequence.toml"), "{wanted:?}");
+    }
 }
 
 /// What of the sequence's settings is replaced, by what, and what is said of it.

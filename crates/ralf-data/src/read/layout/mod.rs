@@ -25,12 +25,17 @@ use std::path::{Path, PathBuf};
 /// The format's name.
 pub(crate) const NAME: &str = "ralf";
 
-/// Opens a dataset of the own layout: all sequences, with every check that needs no measurement.
-pub(crate) fn open(dataset: &Path) -> Result<Recording, DataError> {
+/// Opens a dataset of the own layout, with every check that needs no measurement: the sequences of these names, or all
+/// where none is named, or one that isn't there.
+pub(crate) fn open(dataset: &Path, names: &[String]) -> Result<Recording, DataError> {
     let folder = dataset.join(SEQUENCES);
     refuse_results(dataset)?;
     let open = |folder: &PathBuf| Ok(Box::new(LayoutSequence::open(folder)?) as Box<dyn SequenceReader>);
-    let sequences = folders(&folder)?.iter().map(open).collect::<Result<Vec<_>, DataError>>()?;
+    let mut folders = folders(&folder)?;
+    if !names.is_empty() && names.iter().all(|name| folders.contains(&folder.join(name))) {
+        folders.retain(|of| names.iter().any(|name| *of == folder.join(name)));
+    }
+    let sequences = folders.iter().map(open).collect::<Result<Vec<_>, DataError>>()?;
     if sequences.is_empty() {
         return Err(DataError::content(&folder, "folder", "a folder per sequence", "none"));
     }
